@@ -1,7 +1,7 @@
 //! Patterns of one input at several λ and sizes of patches, to choose from.
 //!
-//! [`explore`] tries them from the surface that is nearest to the input to the plainest one, and with smaller
-//! patches before larger ones. So the first plan with few enough sheets is the finest ([`finest`]).
+//! [`explore`] begins with the largest λ, whose surface is nearest to the input, and the smallest patches. So the
+//! first plan with few enough sheets has the most detail ([`finest`]).
 //!
 //! ```
 //! use developable::explore::{ExploreOptions, explore, finest};
@@ -38,30 +38,30 @@ use crate::shape::analysis::Deviation;
 use crate::shape::patches::{PatchOptions, Patches};
 use web_time::Instant;
 
-/// λ to try by default: half-decades from a surface near to the input to a plain one.
+/// Default λ to try, two per decade: from a surface near to the input to one of little detail.
 const LAMBDAS: [f64; 6] = [1e7, 3e6, 1e6, 3e5, 1e5, 3e4];
 
-/// Minimum sizes of patches to try by default, as shares of all vertices: a factor of four from one to the next.
+/// Default minimum sizes of patches to try, as shares of all vertices.
 const SMALLEST: [f64; 3] = [0.005, 0.02, 0.08];
 
-/// λ to try of a mesh by default, as shares of the λ that its noise asks for.
+/// Default λ to try for a mesh, as multiples of the λ that suits its noise.
 const MESH_LAMBDA_SHARES: [f64; 4] = [1.0, 0.3, 0.1, 0.03];
 
-/// What is tried, and how.
+/// Options of [`explore`].
 #[derive(Debug, Clone, PartialEq)]
 pub struct ExploreOptions {
     /// λ to try, in any order. Default: 1e7, 3e6, 1e6, 3e5, 1e5 and 3e4.
     pub lambdas: Vec<f64>,
-    /// [Sizes that patches have at least](PatchOptions::smallest) to try, in any order. Default: 0.005, 0.02 and 0.08.
+    /// [Minimum sizes of patches](PatchOptions::smallest) to try, in any order. Default: 0.005, 0.02 and 0.08.
     pub smallest: Vec<f64>,
-    /// Options of the solves, whose λ is replaced. Default: [`Options::paper`], whose nuclear norm makes few large
+    /// Options of the solves; their λ is ignored. Default: [`Options::paper`], whose nuclear norm makes few large
     /// sheets.
     pub solver: Options,
-    /// Of the patches; their smallest size does not count.
+    /// Options of the patches; their minimum size is ignored.
     pub patches: PatchOptions,
-    /// Of the sheets.
+    /// Options of the pattern.
     pub pattern: PatternOptions,
-    /// Of the drawings.
+    /// Options of the drawing.
     pub drawing: DrawingOptions,
 }
 
@@ -79,7 +79,7 @@ impl Default for ExploreOptions {
 }
 
 impl ExploreOptions {
-    /// Default options for a mesh, from the λ that its noise asks for.
+    /// Default options for a mesh; `lambda` is the λ that suits its noise.
     pub fn for_mesh(lambda: f64) -> Self {
         ExploreOptions {
             lambdas: MESH_LAMBDA_SHARES.map(|share| share * lambda).into(),
@@ -87,7 +87,7 @@ impl ExploreOptions {
         }
     }
 
-    /// These options with what is tried in order: larger λ, and smaller patches, first.
+    /// Sorts what is tried: larger λ, and smaller patches, first.
     pub fn in_order(mut self) -> Self {
         self.lambdas.sort_by(|a, b| b.total_cmp(a));
         self.smallest.sort_by(f64::total_cmp);
@@ -95,42 +95,42 @@ impl ExploreOptions {
     }
 }
 
-/// One way to make a pattern of an input.
+/// Attempt to make a pattern of an input, with one λ and one minimum size of patches.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub struct Plan {
-    /// The surface's λ.
+    /// λ of the solve that the surface comes from.
     pub lambda: f64,
-    /// The size that patches have at least, as a share of all vertices.
+    /// Minimum size of patches, as a share of all vertices.
     pub smallest: f64,
-    /// Of the surface from the input: root of the mean square, in the input's units.
+    /// Root mean square distance of the surface from the input, in the input's units.
     pub distance: f64,
-    /// What solve and pattern took, in seconds; the solve counts for each plan of its λ.
+    /// Time that solve and pattern took, in seconds; each plan includes the whole solve of its λ.
     pub seconds: f64,
-    /// The pattern, or [`Error::NotFlat`]: a part that no cut lays flat within the limits, and where it is.
+    /// The pattern, or [`Error::NotFlat`] with the place of a part that no cut lays flat within the limits.
     pub outcome: Result<Found>,
 }
 
-/// The pattern of a plan.
+/// Pattern of a plan, with its drawing.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub struct Found {
-    /// Its sheets.
+    /// Sheets of the pattern.
     pub pattern: Pattern,
-    /// As it is drawn; its `summary` has sheets, folds, lengths of cuts and strain.
+    /// Drawing of the sheets; its `summary` has the number of sheets and folds, the length of cuts and the strain.
     pub drawing: Drawing,
 }
 
 impl Plan {
-    /// How many sheets it takes, if it lies flat.
+    /// Number of sheets, or `None` if the plan has no pattern.
     pub fn sheets(&self) -> Option<usize> {
         let found = self.outcome.as_ref().ok()?;
         Some(found.pattern.sheets.len())
     }
 }
 
-/// The plans of an input: those nearest to it first. Each is made when it is asked for, so that who calls may
-/// stop at any of them. After an error there is none.
+/// Iterator over the plans of an input, those nearest to it first. Each plan is computed when it is asked for, so
+/// that a caller may stop at any of them. After an error there are no further plans.
 #[derive(Debug, Clone)]
 pub struct Plans {
     input: Heightfield,
@@ -138,7 +138,7 @@ pub struct Plans {
     options: ExploreOptions,
     lambdas: IntoIter<f64>,
     smallest: IntoIter<f64>,
-    /// The surface that patterns are made of at present.
+    /// Surface of the current λ.
     surface: Option<Fitted>,
 }
 
@@ -150,14 +150,14 @@ struct Fitted {
     seconds: f64,
 }
 
-/// Makes patterns of an input at several λ and sizes of patches: with smaller λ, and with larger patches, later.
+/// Makes patterns of an input for each pair of λ and minimum patch size; larger λ, and smaller patches, come first.
 ///
-/// Costs one solve for each λ, which starts from the last one, and a [`pattern`] for each plan.
+/// Cost: one solve for each λ, with a warm start from the one before, and a [`pattern`] for each plan.
 ///
 /// # Errors
-/// [`Error::Option`] if an option is out of range or nothing is to be tried, and what [`Solver::new`] has to say. The plans'
-/// errors are those of [`Solver::advance`], [`Patches::new`], [`pattern`], except for what no cut makes flat, and
-/// [`Drawing::new`].
+/// [`Error::Option`] if an option is out of range or a list of what to try is empty, and the errors of
+/// [`Solver::new`]. A plan's errors are those of [`Solver::advance`], [`Patches::new`], [`pattern`] and
+/// [`Drawing::new`]; [`Error::NotFlat`] is its outcome instead.
 pub fn explore(input: impl Into<Input>, options: &ExploreOptions) -> Result<Plans> {
     let options = options.clone().in_order();
     let empty = |name| {
@@ -184,11 +184,11 @@ pub fn explore(input: impl Into<Input>, options: &ExploreOptions) -> Result<Plan
     })
 }
 
-/// The first of some plans with at most as many sheets: of those that [`explore`] makes the one nearest to the
-/// input. Makes none after it.
+/// First plan with at most `sheets` sheets: of the plans of [`explore`] the one nearest to the input. Later plans are
+/// not computed; `None` if no plan has so few.
 ///
 /// # Errors
-/// The first error among the plans before.
+/// The first error among the plans up to it.
 pub fn finest(
     plans: impl IntoIterator<Item = Result<Plan>>,
     sheets: usize,
@@ -228,7 +228,7 @@ impl Plans {
         }))
     }
 
-    /// The surface of another λ, from the one before.
+    /// Solves for another λ, with a warm start from the surface before.
     fn solve(&mut self, lambda: f64) -> Result<()> {
         let begun = Instant::now();
         self.solver.restart(&self.options.solver.lambda(lambda))?;

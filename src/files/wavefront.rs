@@ -19,8 +19,8 @@ pub fn write_obj(surface: &Heightfield) -> Result<Vec<u8>> {
     write_obj_in(surface, &Frame::default())
 }
 
-/// An OBJ file of a surface over what was seen of a mesh, turned back to the mesh's own axes: as
-/// [`write_obj`], with `x`, `y` and `z` along the axes of the frame.
+/// Writes an OBJ file of a surface in the axes of the mesh that it was sampled from: as [`write_obj`], with `x`, `y`
+/// and `z` along the axes of the frame.
 ///
 /// # Errors
 /// As [`write_obj`].
@@ -115,7 +115,7 @@ fn write(file: &mut Buffer, mesh: &Mesh, colored: bool) -> io::Result<()> {
         (None, None) => |i| format!("{i}"),
     };
     for triangle in mesh.triangles() {
-        // Counted from 1.
+        // OBJ counts vertices from 1.
         let [a, b, c] = triangle.map(|i| corner(i + 1));
         writeln!(file, "f {a} {b} {c}")?;
     }

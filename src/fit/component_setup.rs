@@ -23,14 +23,14 @@ use crate::error::{Error, Result};
 use crate::heights::heightfield::Heightfield;
 use crate::lattice::domain::Domain;
 
-/// Requested gap from which on a surface is a preview, so that the thin plate of an earlier solve is good
-/// enough a start for it.
+/// Minimum requested duality gap at which a surface counts as a preview, for which the thin plate of an earlier solve
+/// is a good enough initial guess.
 const PREVIEW_GAP: f64 = 0.05;
 
 /// Minimum number of interior vertices of a coarse lattice of the multigrid hierarchy.
 const COARSEST_GRID: usize = 20;
 
-/// The set-up of one component under way, which ends with its [`Multilevel`] solve.
+/// Set-up of one component in steps, which ends with its [`Multilevel`] solve.
 #[derive(Debug, Clone)]
 pub(crate) enum ComponentSetup {
     Lattices(Box<Lattices>),
@@ -53,7 +53,7 @@ pub(crate) struct Lattices {
     problem: Problem,
     /// The first iterate on the finest lattice, if there is a warm start.
     warm: Option<Iterate>,
-    /// How the heights of free vertices are guessed first.
+    /// Initial guess for the heights of free vertices.
     guess: InitialGuess,
     /// The domains of all lattices so far, the finest first.
     domains: Vec<Arc<Domain>>,
@@ -65,16 +65,16 @@ pub(crate) struct Lattices {
 /// The next step of the set-up.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Next {
-    /// One more lattice.
+    /// Coarsen once more.
     Coarsen,
-    /// Heights of free vertices, for which the lattices are needed.
+    /// Compute heights of free vertices, for which the coarse lattices are needed.
     Fill,
-    /// The lattices once more, with these heights.
+    /// Coarsen again, with the heights of free vertices.
     CoarsenAgain,
     Done,
 }
 
-/// The first level, all but its first certificate.
+/// Iterate and solver of the first level, without its first certificate.
 #[derive(Debug, Clone)]
 pub(crate) struct FirstLevel {
     options: Options,
@@ -203,9 +203,9 @@ impl Lattices {
         Ok(true)
     }
 
-    /// Adds the next coarser lattice and tells whether it is of use: it has enough stencils, and each stands
-    /// for four of the finer ones, within a factor of 2. Where holes take most of them away, or close, the
-    /// coarse lattice says little about the fine one.
+    /// Adds the next coarser lattice and returns whether it is useful: it has enough stencils, and their number is a
+    /// quarter of the finer lattice's within a factor of 2. Where holes take most of them away, or close, the coarse
+    /// lattice says little about the fine one.
     fn coarsen(&mut self) -> Result<bool> {
         let finer = &self.domains[self.domains.len() - 1];
         let next = coarsen(self.coarse.last().unwrap_or(&self.input), finer)?;

@@ -31,7 +31,7 @@ pub enum Status {
     Stopped(StopReason),
 }
 
-/// An input that can be solved: its small holes are bridged, and each of its components is held in place.
+/// Input that determines a surface: small holes are bridged, and every component has enough given heights.
 #[derive(Debug, Clone)]
 pub(super) struct PreparedInput {
     pub input: Input,
@@ -51,21 +51,21 @@ impl PreparedInput {
     }
 }
 
-/// A solve of all components under way.
+/// Solve of all components, one after the other, which can be interrupted.
 #[derive(Debug, Clone)]
 pub(super) struct ComponentSolver {
     input: Input,
-    /// The options, without anything left to be chosen.
+    /// Options of the solve, with λ and penalty chosen.
     options: Options,
     /// Factor from the input's units to normalised coordinates.
     scale: f64,
     domain: Arc<Domain>,
     components: Components,
-    /// The results of the components that are done.
+    /// Results of the finished components.
     answers: Vec<Answer>,
-    /// The set-up of the component under way, before its first iteration.
+    /// Set-up of the current component, before its first iteration.
     preparing: Option<ComponentSetup>,
-    /// The solve of the component under way, after its set-up.
+    /// Solve of the current component, after its set-up.
     running: Option<Multilevel>,
     /// Energy `P(z̃)` of the input in each component, if there are several.
     energies: Vec<f64>,
@@ -76,17 +76,17 @@ pub(super) struct ComponentSolver {
     setup: f64,
 }
 
-/// When a solve begins with its first component.
+/// When a solver starts its first component.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum StartMode {
-    /// When it is made.
+    /// On construction.
     Immediate,
-    /// When its options are known.
+    /// On [`ComponentSolver::begin_with`], when the options have been chosen.
     Deferred,
 }
 
 impl ComponentSolver {
-    /// A solve of a prepared input. `started` is when the caller's wait began.
+    /// Makes a solver for a prepared input. `started` is the time from which the report counts seconds.
     ///
     /// # Errors
     /// [`Error::Overflow`], [`Error::Underflow`], [`Error::OutOfMemory`].
@@ -194,7 +194,7 @@ impl ComponentSolver {
         Ok(())
     }
 
-    /// Goes on from the set-up of a component to its solve.
+    /// Continues from the set-up of a component to its solve.
     fn begin(&mut self, part: Multilevel) -> Result<()> {
         match part.reason() {
             Some(reason) => {
@@ -214,8 +214,8 @@ impl ComponentSolver {
         (next < self.components.list.len()).then_some(next)
     }
 
-    /// The worst of the reasons why components stopped. Rounding errors of some components may be too large for
-    /// the gap of all.
+    /// The least successful of the reasons why components stopped. If rounding errors of some components exceed the
+    /// gap of all together, the reason is not [`StopReason::Gap`].
     fn reason(&self) -> StopReason {
         let mut total = Totals::default();
         for answer in &self.answers {

@@ -7,14 +7,14 @@ use crate::heights::heightfield::Heightfield;
 use crate::heights::occlusions::Occlusions;
 use crate::lattice::domain::Domain;
 
-/// Minimum confidence: double precision carries it beside the maximum, but no smaller one.
+/// Minimum positive confidence: double precision resolves it beside the maximum, but no smaller one.
 const MIN_CONFIDENCE: f64 = 1e-6;
 
 /// Maximum confidence.
 const MAX_CONFIDENCE: f64 = 1e6;
 
-/// A heightfield with everything that a solve may know besides: the confidence of each height, heights that
-/// must be met exactly, and where the surface is torn. A plain [`Heightfield`] is an input as well.
+/// A heightfield with all that may be known besides its heights: the confidence of each, constraints, and occlusions.
+/// A plain [`Heightfield`] converts to an input.
 ///
 /// ```
 /// use developable::{Heightfield, Input, Lattice, Options, fit};
@@ -34,12 +34,12 @@ const MAX_CONFIDENCE: f64 = 1e6;
 #[derive(Debug, Clone, PartialEq)]
 pub struct Input {
     pub(crate) field: Heightfield,
-    /// Weights of the fidelity term; empty for 1 everywhere.
+    /// Confidence of each vertex; empty for 1 everywhere.
     pub(crate) confidence: Vec<f64>,
     /// Whether each vertex keeps its height; empty if none does.
     pub(crate) constrained: Vec<bool>,
     pub(crate) occlusions: Option<Occlusions>,
-    /// Whether each vertex is outside of the surface, whatever its neighbours are; empty if none is.
+    /// Whether each vertex is outside of the surface, so that no hole is bridged there; empty if none is.
     outside: Vec<bool>,
     bridging: Bridging,
     /// Number of vertices whose height bridges a hole.
@@ -47,8 +47,8 @@ pub struct Input {
 }
 
 impl Input {
-    /// An input of heights to stay close to, with the same confidence everywhere; small holes among them are
-    /// [bridged](Bridging).
+    /// An input of measured heights, all of the same confidence; small holes are [bridged](Bridging) when the solve
+    /// is set up.
     pub fn new(field: Heightfield) -> Self {
         Input {
             field,
@@ -61,9 +61,9 @@ impl Input {
         }
     }
 
-    /// The heights of an image, as [`HeightImage::to_lattice`](crate::HeightImage::to_lattice)
-    /// samples them, where holes are bridged already: no others are on the lattice. How far a vertex
-    /// is to be trusted is sampled likewise.
+    /// An input from a height image whose holes are bridged, sampled on the lattice as by
+    /// [`HeightImage::to_lattice`](crate::HeightImage::to_lattice), with its confidence. No further holes are
+    /// bridged.
     ///
     /// # Errors
     /// As [`HeightImage::to_lattice`](crate::HeightImage::to_lattice).
@@ -80,7 +80,7 @@ impl Input {
         }
     }
 
-    /// The input with a number of vertices that bridge holes already, so that no others are bridged.
+    /// Marks the input as bridged at a number of vertices, so that no further holes are bridged.
     pub(crate) fn already_bridged(self, bridged: usize) -> Self {
         Input {
             bridging: Bridging::Off,
@@ -89,9 +89,9 @@ impl Input {
         }
     }
 
-    /// Nothing but hard constraints (paper, Sec. 5.3): the surface passes
-    /// through every height of `constraints` and is free where that is NaN. Its
-    /// outline is the whole lattice, or the vertices where `shape` is not 0.
+    /// A design, which has constraints alone (paper, Sec. 5.3): the surface passes through every height of
+    /// `constraints` and is free where that is NaN. It covers the whole lattice, or the vertices where `shape` is not
+    /// 0.
     ///
     /// # Errors
     /// [`Error::Shape`] if `shape` is not one value for each vertex.
@@ -107,9 +107,8 @@ impl Input {
             .with_constraints(constraints.into_heights())
     }
 
-    /// How far each height is to be trusted: factors of its fidelity term, 1
-    /// being the default and 0 no fidelity at all. They range from 10⁻⁶ to 10⁶;
-    /// smaller ones count as 0.
+    /// Sets the confidence of each height: the factor of its fidelity term. 1 is the default and 0 discards the
+    /// height. The range is 10⁻⁶ to 10⁶; smaller ones count as 0.
     ///
     /// # Errors
     /// [`Error::Shape`] if there is not one for each vertex,
@@ -132,9 +131,9 @@ impl Input {
         Ok(self)
     }
 
-    /// Heights that must be met exactly (paper, Sec. 5.3); NaN is no constraint.
-    /// A constraint takes the place of the height that is there. Where there is
-    /// none, the vertex is outside of the surface and its constraint is ignored.
+    /// Sets constraints: heights that are met exactly (paper, Sec. 5.3); NaN is no constraint. A constraint replaces
+    /// the input height of its vertex. A constraint at a vertex without an input height is ignored, as the vertex is
+    /// outside of the surface.
     ///
     /// # Errors
     /// [`Error::Shape`] if there is not one value for each vertex,
@@ -156,7 +155,7 @@ impl Input {
         Ok(self)
     }
 
-    /// Where the surface is torn: no Hessian is taken there.
+    /// Sets the occlusions, where the surface is torn: no Hessian is taken there.
     ///
     /// # Errors
     /// [`Error::Shape`] if they are not of the same lattice.
@@ -166,8 +165,8 @@ impl Input {
         Ok(self)
     }
 
-    /// Which holes are bridged when the solve is set up; by default those of up to 4 vertices across.
-    /// In a design there is nothing to bridge.
+    /// Sets which holes are bridged when the solve is set up; default: those of up to 4 vertices across. A design has
+    /// no holes to bridge.
     ///
     /// # Errors
     /// [`Error::Option`] for a width out of range.
@@ -177,7 +176,7 @@ impl Input {
         Ok(self)
     }
 
-    /// The part of the surface where `keep` is not 0. No hole is bridged elsewhere.
+    /// Restricts the surface to the vertices where `keep` is not 0. No hole is bridged elsewhere.
     ///
     /// # Errors
     /// [`Error::Shape`] if `keep` is not one value for each vertex.
@@ -190,7 +189,7 @@ impl Input {
         Ok(self)
     }
 
-    /// The domain of its vertices; occluded ones have no Hessian.
+    /// Domain of the input's vertices; occluded ones have no Hessian.
     pub(crate) fn domain(&self) -> Result<Domain> {
         Domain::with_occlusions(&self.field, |vertex| self.is_occluded(vertex))
     }
@@ -223,7 +222,7 @@ impl Input {
         Ok(self)
     }
 
-    /// The heights; those of constraints among them.
+    /// Heights of the input, those of constraints included.
     pub fn field(&self) -> &Heightfield {
         &self.field
     }
@@ -238,7 +237,7 @@ impl Input {
         self.constrained.get(vertex) == Some(&true)
     }
 
-    /// The weight of a vertex's fidelity term, relative to λ.
+    /// Confidence of a vertex: the weight of its fidelity term, relative to λ.
     pub(crate) fn weight(&self, vertex: usize) -> f64 {
         self.confidence.get(vertex).copied().unwrap_or(1.0)
     }

@@ -17,18 +17,18 @@ use super::report::{LevelReport, Seconds, StopReason};
 use crate::error::Result;
 use crate::lattice::domain::Domain;
 
-/// Cost of one step of setting a level up, in conjugate-gradient iterations on it.
+/// Cost of one step of the set-up of a level, in conjugate-gradient iterations on it.
 pub(crate) const SET_UP: usize = 10;
 
-/// The solve of one component under way.
+/// Solve of one connected component, level by level, which can be interrupted.
 #[derive(Debug, Clone)]
 pub(crate) struct Multilevel {
-    /// The level under way, and the finest one at the end.
+    /// ADMM on the current level.
     level: AdmmSolver,
     /// The problems of the finer levels, the finest first.
     finer: Vec<Problem>,
-    /// The first iterate of the next finer level once the level under way is done, and then the solver of its
-    /// z-steps as well.
+    /// First iterate of the next finer level, from the end of the current level until that one begins; the solver of
+    /// its z-steps joins it when it is set up.
     carried: Option<(Iterate, Option<ConjugateGradients>)>,
     /// The domains of all lattices, the finest first.
     domains: Vec<Arc<Domain>>,
@@ -39,20 +39,19 @@ pub(crate) struct Multilevel {
     passes: usize,
     /// Maximum number of reweighting passes still to come.
     passes_left: usize,
-    /// Radius of bend below which a vertex is on a crease, for passes at creases; `None` for passes that
-    /// reweight all vertices.
+    /// Crease radius, if passes are crease passes; `None` if they reweight all stencils.
     crease_radius: Option<f64>,
-    /// Bend radius of a border that is to be loaded with moments, until that is done.
+    /// Bend radius by which the border is to be loaded with moments; `None` if it is not, or once that is done.
     loads_within: Option<f64>,
     /// Creases of the last pass.
     creases: Creases,
-    /// Whether the rank reduction has begun, after which nothing follows.
+    /// Whether rank reduction, which is the last step, has begun.
     ends: bool,
     seconds: Seconds,
     reason: Option<StopReason>,
 }
 
-/// The result of a component that is done: its surface, and the iterate to start another solve from.
+/// Result of a component: its surface, and the iterate for a warm start of another solve.
 #[derive(Debug, Clone)]
 pub(crate) struct Answer {
     pub problem: Problem,
@@ -68,7 +67,7 @@ pub(crate) struct Answer {
 }
 
 impl Multilevel {
-    /// Starts with the first level, which may have a reason to stop at once.
+    /// Starts on the first level, where ADMM may stop at once.
     pub(crate) fn new(
         level: AdmmSolver,
         reason: Option<StopReason>,
@@ -129,8 +128,8 @@ impl Multilevel {
         Ok(self.reason)
     }
 
-    /// Goes on to the finer level, which is set up in steps of its own, or to further passes until one of them
-    /// has something to do.
+    /// Continues after a level has stopped for a reason: with the next finer level, which is set up in steps of its
+    /// own, or on the finest with further passes.
     fn finish_level(&mut self, mut reason: StopReason) -> Result<()> {
         if let Some(fine) = self.finer.last() {
             let rho = refined_rho(self.level.admm.iterate.rho, fine);
@@ -160,7 +159,7 @@ impl Multilevel {
                         break;
                     }
                     let next = self.level.begin_pass_at_creases(loaded)?;
-                    // A pass for the border alone is none at creases.
+                    // A pass for the border's load alone is not counted as a crease pass.
                     if creases.is_worth() {
                         self.creases = creases;
                         self.passes += 1;
@@ -192,7 +191,7 @@ impl Multilevel {
         }
     }
 
-    /// Begins with the next finer level.
+    /// Starts on the next finer level.
     fn enter_level(&mut self, iterate: Iterate, cg: ConjugateGradients) -> Result<()> {
         let Some(fine) = self.finer.pop() else {
             return Ok(());
@@ -201,7 +200,7 @@ impl Multilevel {
         self.seconds = self.seconds + self.level.admm.seconds;
         let done = self.coarser.iter().map(|level| level.iterations).sum();
         let parameters = self.parameters.on_level(!self.finer.is_empty(), done);
-        // Levels take about as many iterations as the one before.
+        // A level takes about as many iterations as the one before.
         let next_climb = 2 * self.level.report().iterations / 3;
         let may_be_affine = self.level.admm.incumbent.is_affine;
         let (level, stop) =
@@ -223,7 +222,7 @@ impl Multilevel {
         self.finer.len()
     }
 
-    /// The level under way.
+    /// ADMM on the current level.
     pub(crate) fn level(&self) -> &AdmmSolver {
         &self.level
     }
@@ -233,7 +232,7 @@ impl Multilevel {
         self.finer.first().unwrap_or(&self.level.admm.problem)
     }
 
-    /// The levels that were worked on, the coarsest first.
+    /// Reports of all levels so far, the coarsest first.
     pub(crate) fn levels(&self) -> Vec<LevelReport> {
         let mut levels = self.coarser.clone();
         levels.push(self.level.report());

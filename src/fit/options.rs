@@ -5,22 +5,23 @@ use std::str::FromStr;
 use crate::error::{Error, Result};
 use crate::heights::normalization::Normalization;
 
-/// Least and largest λ: beyond these even double precision sees only one of the energy's two terms.
+/// Range of λ: outside of it one of the energy's two terms vanishes beside the other, even in double precision.
 const LAMBDA_RANGE: std::ops::RangeInclusive<f64> = 1e-12..=1e15;
 
-/// Least and largest radius in normalised coordinates: from far below a spacing to far beyond any surface.
+/// Range of bend and crease radius, in normalised coordinates: from far below a spacing to far beyond any surface.
 const RADIUS_RANGE: std::ops::RangeInclusive<f64> = 1e-6..=1e6;
 
-/// Maximum number of reweighting or crease passes; more of them change nothing.
+/// Maximum number of reweighting or crease passes that an option may ask for; passes after that do not change the
+/// surface.
 const MAX_PASSES: usize = 20;
 
-/// Certified relative duality gap to stop at, unless one is given.
+/// Default of [`Options::gap`].
 const DEFAULT_GAP: f64 = 0.01;
 
-/// Weight of the thin plate at free vertices, unless one is given.
+/// Default of [`Options::tie_break`].
 const DEFAULT_TIE_BREAK: f64 = 0.01;
 
-/// Maximum number of crease passes, unless one is given.
+/// Default of [`Options::crease_passes`].
 pub(crate) const DEFAULT_CREASE_PASSES: usize = 2;
 
 /// Weight λ of the fidelity term, stated for coordinates normalised to the
@@ -32,21 +33,20 @@ pub enum Lambda {
     Small,
     /// 10⁶.
     Medium,
-    /// 10⁷: for input that is developable but for small artefacts.
+    /// 10⁷: for input that is developable except for small artefacts.
     Big,
     /// Any number from 10⁻¹² to 10¹⁵.
     Value(f64),
-    /// From the noise of the input: a first λ from the size of the noise, then the λ that predicts
-    /// held-out heights best (cross-validation on a lattice of twice the spacing). With
-    /// [`Energy::Huber`] the parameters of the penalty are chosen the same way. An input whose noise
-    /// cannot be measured, such as a [design](crate::Input::design), gets [`Lambda::Medium`].
-    /// [`Report::lambda_choice`](crate::Report::lambda_choice) tells what was found.
+    /// Chosen from the input: an initial λ from the size of its noise, then the λ that predicts held-out heights best
+    /// (cross-validation on a lattice of twice the spacing). With [`Energy::Huber`] the parameters of the penalty are
+    /// chosen the same way. An input whose noise cannot be measured, such as a [design](crate::Input::design), gets
+    /// [`Lambda::Medium`]. [`Report::lambda_choice`](crate::Report::lambda_choice) reports the choice.
     #[default]
     Auto,
 }
 
 impl Lambda {
-    /// The weight with the name `small`, `medium`, `big` or `auto`, in any case of letters.
+    /// Weight with the name `small`, `medium`, `big` or `auto`, in upper or lower case; `None` for any other name.
     pub fn named(name: &str) -> Option<Self> {
         match name.to_ascii_lowercase().as_str() {
             "small" => Some(Lambda::Small),
@@ -57,8 +57,7 @@ impl Lambda {
         }
     }
 
-    /// The number that stands in the energy. [`Lambda::Auto`] has none before a solve and counts as
-    /// [`Lambda::Medium`].
+    /// Value of λ in the energy. [`Lambda::Auto`] has none before a solve and counts as [`Lambda::Medium`].
     pub fn value(self) -> f64 {
         match self {
             Lambda::Small => 1e5,
@@ -84,7 +83,7 @@ impl<'de> serde::Deserialize<'de> for Lambda {
     }
 }
 
-/// Reads a number, or the name of one.
+/// Visitor that reads λ as a number or the name of a preset.
 #[cfg(feature = "serde")]
 struct LambdaVisitor;
 
@@ -129,7 +128,7 @@ impl FromStr for Lambda {
     }
 }
 
-/// How the iterations are run and when they stop.
+/// Schedule: how ADMM iterations run and when they stop.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 #[cfg_attr(
     feature = "serde",
@@ -138,14 +137,12 @@ impl FromStr for Lambda {
 )]
 #[non_exhaustive]
 pub enum Schedule {
-    /// A fixed handful of conjugate-gradient iterations in each z-step,
-    /// over-relaxation, balancing of the relative residuals; stops at the
-    /// certified relative gap [`Options::gap`].
+    /// A small fixed number of conjugate-gradient iterations in each z-step, over-relaxation and balancing of the
+    /// relative residuals; stops at the certified relative duality gap [`Options::gap`].
     #[default]
     Default,
-    /// The paper's (Sec. 4.1): z-steps solved tightly, residual balancing after
-    /// Boyd et al. with the loosened trigger, stops on the residuals. The gap
-    /// is reported all the same.
+    /// The paper's schedule (Sec. 4.1): z-steps solved to a tight tolerance, residual balancing after Boyd et al.
+    /// with the paper's looser trigger; stops on the residuals. The duality gap is reported all the same.
     Paper,
 }
 
@@ -162,7 +159,7 @@ impl FromStr for Schedule {
     }
 }
 
-/// What is minimised besides the fidelity term.
+/// Penalty of the Hessian `H` that is minimised together with the fidelity term.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 #[cfg_attr(
     feature = "serde",
@@ -174,22 +171,21 @@ pub enum Energy {
     /// `Σ ‖H‖_*`, the nuclear norm of the Hessian: piecewise developable (paper, Eq. 15). The default
     /// of a [design](crate::Input::design).
     Nuclear,
-    /// `Σ ‖H‖_F`: smooth where it should crease (Fig. 21).
+    /// `Σ ‖H‖_F`, the Frobenius norm: rounds off creases (Fig. 21).
     Frobenius,
-    /// `Σ ‖H‖_*²`: likewise (Fig. 21).
+    /// `Σ ‖H‖_*²`, the squared nuclear norm: rounds off creases (Fig. 21).
     SquaredNuclear,
     /// `Σ n₃ ‖H‖_*`, the nuclear norm of the second fundamental form, with the factor
     /// `n₃ = (1 + |∇z|²)^-½` taken from the input once: convex (Fig. 7, right).
     SecondFormOfInput,
-    /// The same with the factor of the surface itself, updated in each iteration: not convex
-    /// (Fig. 7, centre right). What is certified is the energy with the last factor kept.
+    /// `Σ n₃ ‖H‖_*` with the factor `n₃` of the surface itself, updated in each iteration: not convex (Fig. 7, centre
+    /// right). The duality gap is certified for the energy with the last factor kept.
     SecondForm,
-    /// `Σ φ(‖H‖_*)`, where `φ` is quadratic for small bends and linear for large ones, with the slope
-    /// `min(α + s/δ, 1)` at the size `s`: the surface stays smooth where it bends smoothly, without the
-    /// flat strips of the nuclear norm, and is still creased and developable. Up to
-    /// [`Options::crease_passes`] further solves lower the cost of bends tighter than
-    /// [`Options::crease_radius`], so that creases keep their angle. The figures of the report belong
-    /// to the last solve's energy. The default of everything but a design.
+    /// Huber penalty `Σ φ(‖H‖_*)`: `φ` is quadratic for small bends and linear for large ones, with the slope `min(α
+    /// + s/δ, 1)` at the size `s`. The surface stays smooth where it bends smoothly, without the flat strips of the
+    /// nuclear norm, and can still crease and stay developable. Up to [`Options::crease_passes`] further solves lower
+    /// the cost of bends tighter than [`Options::crease_radius`], so that creases keep their angle. Objective and
+    /// duality gap of the report belong to the last solve's energy. The default of every input that is not a design.
     #[default]
     Huber,
 }
@@ -215,20 +211,19 @@ impl FromStr for Energy {
     }
 }
 
-/// What the surface has beyond its border, under [`Energy::Huber`].
+/// Condition at the border of the surface, under [`Energy::Huber`].
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 #[non_exhaustive]
 pub enum Border {
-    /// Nothing. A free border bears no bending moment, so that least energy straightens a bent sheet
-    /// along it.
+    /// No bending moment at the border. The surface of least energy is then too straight along it.
     Free,
-    /// What it has inside: in the passes after the first the border bears the moments there, as far as
-    /// they would not fold the sheet.
+    /// The bending moments found inside the surface in the pass before, continued to its border where they would not
+    /// fold it. The first pass has a free border.
     #[default]
     Loaded,
 }
 
-/// The three numbers of [`Energy::Huber`].
+/// Parameters of the Huber penalty, [`Energy::Huber`].
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Bending {
     pub bend_radius: f64,
@@ -237,21 +232,22 @@ pub(crate) struct Bending {
 }
 
 impl Bending {
-    /// For smooth bends, and creases that are much sharper: the default.
+    /// Parameters for smooth bends, and creases that are much sharper: the default.
     pub(crate) const SMOOTH: Bending = Bending {
         bend_radius: 0.1,
         flatness: 0.3,
         crease_radius: 0.1,
     };
 
-    /// Where it cannot be told what there is: not far from the best for any of them.
+    /// Parameters for a surface of unknown kind: near the best for smooth bends, for creases and for flat facets.
     pub(crate) const ANY: Bending = Bending {
         bend_radius: 0.2,
         flatness: 0.5,
         crease_radius: 0.1,
     };
 
-    /// The nuclear norm: no bend costs its square, and nothing is a crease.
+    /// Parameters that make the Huber penalty the nuclear norm: no bend has a quadratic cost, and none counts as a
+    /// crease.
     pub(crate) const NUCLEAR: Bending = Bending {
         bend_radius: 0.1,
         flatness: 1.0,
@@ -266,7 +262,7 @@ impl Bending {
         }
     }
 
-    /// With what the options give in place of its own.
+    /// Parameters with those that `options` give in place of their own.
     pub(crate) fn within(self, options: &Options) -> Self {
         Bending {
             bend_radius: options.bend_radius.unwrap_or(self.bend_radius),
@@ -275,7 +271,7 @@ impl Bending {
         }
     }
 
-    /// The options with these.
+    /// Options with these parameters, whatever was given before.
     pub(crate) fn of(self, options: &Options) -> Options {
         options
             .bend_radius(self.bend_radius)
@@ -338,13 +334,13 @@ impl Default for Options {
 }
 
 impl Options {
-    /// The paper's setting: [`Energy::Nuclear`] at [`Lambda::Medium`]. Everything else is as by
-    /// default; [`Schedule::Paper`] is a choice of its own.
+    /// The paper's energy and weight: [`Energy::Nuclear`] at [`Lambda::Medium`]. Every other option has its default,
+    /// [`Schedule::Default`] included.
     pub fn paper() -> Self {
         Options::default().or_paper()
     }
 
-    /// These options with the [paper's setting](Options::paper) for what is not given.
+    /// Fills in energy and λ by the [paper's](Options::paper) where none are given.
     pub fn or_paper(mut self) -> Self {
         self.lambda.get_or_insert(Lambda::Medium);
         self.energy.get_or_insert(Energy::Nuclear);
@@ -357,7 +353,7 @@ impl Options {
         self
     }
 
-    /// Default [`Schedule::Default`].
+    /// Schedule of the ADMM iterations; default [`Schedule::Default`].
     pub fn schedule(mut self, schedule: Schedule) -> Self {
         self.schedule = schedule;
         self
@@ -370,13 +366,13 @@ impl Options {
         self
     }
 
-    /// Most ADMM iterations, at least 1; default 20 000.
+    /// Maximum number of ADMM iterations, at least 1; default 20 000.
     pub fn max_iterations(mut self, max_iterations: usize) -> Self {
         self.max_iterations = max_iterations;
         self
     }
 
-    /// Default [`Normalization::UnitSquare`].
+    /// Normalisation of the coordinates in which λ is stated; default [`Normalization::UnitSquare`].
     pub fn normalization(mut self, normalization: Normalization) -> Self {
         self.normalization = normalization;
         self
@@ -389,50 +385,50 @@ impl Options {
         self
     }
 
-    /// Number of reweighting passes, at most 20; default 0. Each pass solves again with the penalty of
-    /// every vertex divided by its size around there in the solution before (iteratively reweighted
-    /// nuclear norm), which undoes a part of the shrinkage of large curvatures. It pays where λ is
-    /// small for the noise (`benches/choices.md`). The figures of the report belong to the
-    /// last pass's weighted energy. Not for [`Energy::Huber`], which has crease passes.
+    /// Number of reweighting passes, at most 20; default 0. Each pass solves again with each vertex's penalty divided
+    /// by the mean size of the Hessians around it in the solution before (iteratively reweighted nuclear norm), which
+    /// undoes a part of the shrinkage of large curvatures. It pays where λ is small for the noise
+    /// (`benches/choices.md`). Objective and duality gap of the report belong to the last pass's weighted energy. Not
+    /// for [`Energy::Huber`], which has crease passes.
     pub fn reweighting(mut self, passes: usize) -> Self {
         self.reweighting = passes;
         self
     }
 
-    /// Weight, in place of λ, that ties free vertices to the thin plate through the constraints;
-    /// default 0.01. Without it minimisers need not be unique. Next to vertices with a fidelity term
-    /// at most λ counts. Refused where no vertex is free.
+    /// Weight, in place of λ, that ties free vertices to the thin plate through the constraints; default 0.01.
+    /// Without it minimisers need not be unique. It is limited to λ next to vertices with a fidelity term. An error
+    /// where no vertex is free.
     pub fn tie_break(mut self, weight: f64) -> Self {
         self.tie_break = Some(weight);
         self
     }
 
-    /// Bend radius `1/δ` of [`Energy::Huber`], in normalised coordinates: tighter bends cost their
-    /// size, wider ones their square. Default: chosen with λ by [`Lambda::Auto`], else 0.1. The larger,
-    /// the more the energy is like the nuclear norm.
+    /// Bend radius `1/δ` of [`Energy::Huber`], in normalised coordinates: the cost of tighter bends is linear, that
+    /// of wider ones quadratic. Default: chosen with λ by [`Lambda::Auto`], else 0.1. The larger, the more the energy
+    /// is like the nuclear norm.
     pub fn bend_radius(mut self, radius: f64) -> Self {
         self.bend_radius = Some(radius);
         self
     }
 
-    /// Slope `α` that the cost of bends begins with under [`Energy::Huber`], from 0 (nothing is quite
-    /// flat) to 1 (the nuclear norm). Default: chosen with λ by [`Lambda::Auto`], else 0.3, and more
-    /// where λ is large for the noise of the input.
+    /// Flatness `α` of [`Energy::Huber`]: the slope of the penalty at 0, from 0 (nothing is exactly flat) to 1 (the
+    /// nuclear norm). Default: chosen with λ by [`Lambda::Auto`], else 0.3, and more where λ is large for the noise
+    /// of the input.
     pub fn flatness(mut self, slope: f64) -> Self {
         self.flatness = Some(slope);
         self
     }
 
-    /// Crease radius `1/T` of [`Energy::Huber`], in normalised coordinates: tighter bends are creases.
+    /// Crease radius `1/T` of [`Energy::Huber`], in normalised coordinates: bends of a smaller radius are creases.
     /// Default: chosen with λ by [`Lambda::Auto`], else 0.1.
     pub fn crease_radius(mut self, radius: f64) -> Self {
         self.crease_radius = Some(radius);
         self
     }
 
-    /// Maximum number of crease passes of [`Energy::Huber`] after the first solve, at most 20.
-    /// Default: 2, or 0 where λ is large for the noise of the input, whose passes would make
-    /// creases of noise. Passes end early where they change next to nothing.
+    /// Maximum number of crease passes of [`Energy::Huber`] after the first solve, at most 20. Default: 2, or 0 where
+    /// λ is so large for the noise of the input that passes would make creases of noise. Passes end early where they
+    /// hardly change the surface.
     pub fn crease_passes(mut self, passes: usize) -> Self {
         self.crease_passes = Some(passes);
         self
@@ -475,7 +471,8 @@ impl Options {
         self.border.unwrap_or_default()
     }
 
-    /// The options with the default energy of an input filled in.
+    /// Fills in the default energy where none is given: [`Energy::Nuclear`] for a design, [`Energy::Huber`]
+    /// otherwise.
     pub(crate) fn with_energy_for(mut self, is_design: bool) -> Self {
         let default = match is_design {
             true => Energy::Nuclear,
@@ -485,10 +482,10 @@ impl Options {
         self
     }
 
-    /// Whether every option is within its range and has an effect beside the others that are given.
+    /// Checks that every option is within its range and has an effect beside the others that are given.
     ///
     /// # Errors
-    /// [`Error::Option`] with the name of the first that is not.
+    /// [`Error::Option`] with the name of the first option that fails.
     pub fn validate(&self) -> Result<()> {
         self.check_ranges()?;
         self.check_effects()
@@ -560,7 +557,7 @@ impl Options {
         Ok(())
     }
 
-    /// Refuses options that the others leave without effect.
+    /// Returns an error for an option that has no effect beside the others.
     fn check_effects(&self) -> Result<()> {
         if let (Schedule::Paper, Some(gap)) = (self.schedule, self.gap) {
             return Err(Error::option(
@@ -590,7 +587,7 @@ impl Options {
         ))
     }
 
-    /// Refuses parameters of [`Energy::Huber`] beside another energy.
+    /// Returns an error with `requirement` as its message if a parameter of [`Energy::Huber`] is given.
     fn check_huber(&self, requirement: &'static str) -> Result<()> {
         let radii_and_slope = [
             ("bend_radius", self.bend_radius),
@@ -608,8 +605,8 @@ impl Options {
         Ok(())
     }
 
-    /// Refuses options that have no effect on this input: [`Options::tie_break`] where no vertex is
-    /// free, and parameters that belong to another energy than its default one.
+    /// Returns an error for an option that has no effect on this input: [`Options::tie_break`] where no vertex is
+    /// free, and parameters of another energy than the input's default where none is given.
     pub(crate) fn check_effects_on(&self, is_design: bool, has_free_vertices: bool) -> Result<()> {
         if let (Some(weight), false) = (self.tie_break, has_free_vertices) {
             return Err(Error::option(

@@ -1,8 +1,8 @@
 //! Prolongation: the first iterate on a level from the last one of the next coarser level.
 //!
-//! The dual is bounded by 1 at every resolution, so `Y` and `H` are carried over as they are. `z` is
-//! interpolated linearly, which keeps creases; `Y` by the smoother rules of Loop's subdivision surfaces,
-//! because every kink of it is a residual.
+//! The dual is bounded by 1 at every resolution, so `Y` and `H` are carried over unscaled. `z` is interpolated
+//! linearly, which keeps creases; `Y` by the smoother weights of Loop's subdivision surfaces, because every kink of
+//! `Y` would be a residual.
 
 use super::heightfields::{Iterate, Problem};
 use crate::error::Result;
@@ -73,7 +73,7 @@ struct Sources {
     /// Coarse cell of the first parent of the first vertex of the row, counted as if the coarse box were wide
     /// enough.
     first: isize,
-    /// Column of that cell.
+    /// Column of the cell [`Self::first`].
     col: isize,
     /// Offset from the first parent to the second one.
     other: isize,

@@ -15,8 +15,8 @@ pub enum StopReason {
     Gap,
     /// The residuals of [`Schedule::Paper`](crate::Schedule::Paper) fell below its tolerances.
     Residuals,
-    /// Objective and bound differ by no more than the rounding errors of the heights: the surface is optimal as
-    /// far as double precision can tell. The surface of an affine input is affine.
+    /// Objective and dual bound differ by no more than rounding errors: the surface is optimal as far as double
+    /// precision can tell. So it is for an affine input.
     Rounding,
     /// [`Options::max_iterations`](crate::Options::max_iterations) was reached.
     MaxIterations,
@@ -49,7 +49,7 @@ pub struct Progress {
     pub iteration: usize,
     /// Conjugate-gradient iterations so far, over all z-steps.
     pub cg_iterations: usize,
-    /// Objective of the best iterate so far; that of the start before the first check.
+    /// Objective of the best surface so far; before the first check, that of the initial surface.
     pub objective: f64,
     /// Best lower bound of the optimum so far.
     pub dual_bound: f64,
@@ -77,7 +77,7 @@ pub struct Seconds {
     pub h_step: f64,
     /// Objective, dual bound and residuals.
     pub certificate: f64,
-    /// Everything, from making the solver to the surface; pauses between steps included.
+    /// Total, from the solver's construction to the surface, pauses between steps included.
     pub total: f64,
 }
 
@@ -122,12 +122,12 @@ pub struct LevelReport {
 )]
 #[non_exhaustive]
 pub enum LambdaReason {
-    /// It predicts held-out heights best.
+    /// This λ predicts held-out heights best (cross-validation).
     Prediction,
-    /// It follows from the size and the correlation length of the noise: there are too few heights to hold some out, or
-    /// their noise is alike from one to the next, so that it would predict itself.
+    /// λ follows from size and correlation length of the noise, without cross-validation: there are too few heights
+    /// to hold some out, or their noise is correlated, so that held-out noise could be predicted.
     Noise,
-    /// The heights have no noise to speak of: λ is [`Lambda::Big`](crate::Lambda::Big).
+    /// The heights have hardly any noise: λ is [`Lambda::Big`](crate::Lambda::Big).
     NoNoise,
     /// There are too few heights to estimate their noise: λ is [`Lambda::Medium`](crate::Lambda::Medium).
     Unknown,
@@ -144,23 +144,22 @@ pub enum LambdaReason {
 pub struct LambdaChoice {
     /// Reason for this λ.
     pub reason: LambdaReason,
-    /// Standard deviation of the heights' noise, in the input's units; none if it cannot be told.
+    /// Standard deviation σ of the heights' noise, in the input's units; `None` if it cannot be measured.
     pub sigma: Option<f64>,
-    /// The step of quantised heights, in the input's units, where that is what their noise comes
-    /// from.
+    /// Quantisation step of the heights, in the input's units; `None` unless their noise is rounding to such steps.
     pub step: Option<f64>,
-    /// Standard deviation of the Gaussian blur that makes noise like that of the heights of white noise, in the
-    /// input's units; 0 for noise that is independent from vertex to vertex.
+    /// Correlation length of the noise, in the input's units: the standard deviation of the Gaussian blur that turns
+    /// white noise into noise like it. 0 for noise that is independent from vertex to vertex.
     pub correlation_length: f64,
-    /// Whether the noise is alike over distances at which the shape bends, too, so that they could not be told apart:
-    /// σ and λ are uncertain.
+    /// Whether the noise is correlated over distances at which the shape bends, too, so that noise and shape could
+    /// not be told apart: σ and λ are uncertain.
     pub ambiguous: bool,
-    /// Noise is independent from vertex to vertex on the lattice of `2^merged` times the spacing.
+    /// Number of times that the spacing is doubled until noise is independent from vertex to vertex; 0 for white
+    /// noise.
     pub merged: usize,
-    /// How many ways were compared, each by up to three solves, and their ADMM iterations, which the
-    /// report does not count.
+    /// Number of candidates for λ and penalty that were compared, each by up to three solves.
     pub solves: usize,
-    /// See [`LambdaChoice::solves`].
+    /// Number of ADMM iterations of these solves, which [`Report::iterations`] does not include.
     pub iterations: usize,
 }
 
@@ -179,7 +178,7 @@ pub struct HuberReport {
     pub flatness: f64,
     /// See [`Options::crease_radius`](crate::Options::crease_radius).
     pub crease_radius: f64,
-    /// Passes at creases that were made after the first solve.
+    /// Number of crease passes after the first solve.
     pub crease_passes: usize,
     /// Interior vertices on a crease, where the last pass weighs bends less.
     pub creases: usize,
@@ -217,27 +216,27 @@ pub struct Report {
     pub iterations: usize,
     /// Conjugate-gradient iterations over all z-steps on all levels.
     pub cg_iterations: usize,
-    /// The levels that were worked on, the coarsest first.
+    /// Work on each level, the coarsest first.
     pub levels: Vec<LevelReport>,
-    /// What was minimised besides the fidelity term.
+    /// Energy whose penalty was minimised.
     pub energy: Energy,
-    /// Reweighted passes that were made after the first solve.
+    /// Number of reweighting passes after the first solve.
     pub reweighting: usize,
     /// Parameters of [`Energy::Huber`] and its creases; `None` for other energies.
     #[cfg_attr(feature = "serde", serde(skip_serializing_if = "Option::is_none"))]
     pub huber: Option<HuberReport>,
     /// Energy of the returned surface; always finite.
     pub objective: f64,
-    /// Fidelity `λ Σ (z − z̃)²`; with [`Border::Loaded`](crate::Border::Loaded) less the work of the border's
-    /// moments.
+    /// Fidelity `λ Σ (z − z̃)²`; with [`Border::Loaded`](crate::Border::Loaded) the work of the border's moments is
+    /// subtracted.
     pub fidelity: f64,
     /// Penalty of the Hessians: `Σ ‖H‖_*`, or that of another energy.
     pub nuclear_norm: f64,
     /// Certified lower bound of the optimum; always finite, and 0 where nothing better is known.
     pub dual_bound: f64,
-    /// Relative duality gap `(objective − dual_bound) / objective`: the largest share by which the result can
-    /// miss the optimum. `None` for [`StopReason::Rounding`], and where the objective itself is no more than a
-    /// rounding error, of which a share says nothing.
+    /// Relative duality gap `(objective − dual_bound) / objective`: the result exceeds the optimum by at most this
+    /// share of the objective. `None` for [`StopReason::Rounding`], and where the objective itself is a rounding
+    /// error.
     pub gap: Option<f64>,
     /// λ as a number.
     pub lambda: f64,
@@ -255,7 +254,7 @@ pub struct Report {
 }
 
 impl Report {
-    /// Whether the surface is certified to be within this share of the optimum.
+    /// Whether the surface is certified to a relative duality gap of at most `gap`.
     ///
     /// ```
     /// use developable::{Heightfield, Lattice, Options, fit};

@@ -32,15 +32,15 @@ use crate::error::Result;
 /// ```
 #[derive(Debug, Clone)]
 pub struct Solver {
-    /// What λ is chosen by, while it is, and what has come of it.
+    /// Search for λ and the Huber parameters, until it is finished.
     search: Option<Search>,
     choice: Option<LambdaChoice>,
     solve: ComponentSolver,
 }
 
 impl Solver {
-    /// Sets up a solve, all but what the first calls of [`Solver::advance`] do. Memory: about 180 bytes for each vertex of the valid
-    /// vertices' bounding box.
+    /// Sets up a solve; the first calls of [`Solver::advance`] do the costly part. Memory: about 180 bytes for each
+    /// vertex of the valid vertices' bounding box.
     ///
     /// # Errors
     /// [`Error::Option`](crate::Error::Option) for an option out of range, [`Error::NoInterior`](crate::Error::NoInterior) if
@@ -89,9 +89,8 @@ impl Solver {
         })
     }
 
-    /// Solves the same input again with other options, from the last answer if
-    /// that is close enough: for a slider. A solve that is overtaken before its
-    /// end leaves nothing behind. On an error nothing has changed.
+    /// Restarts with other options on the same input, as for a slider, with a warm start from the last surface if
+    /// that is close enough. A solve that is interrupted by a restart is discarded. On an error nothing has changed.
     ///
     /// # Errors
     /// As [`Solver::new`].
@@ -99,10 +98,8 @@ impl Solver {
         self.restart_with(self.solve.input().clone(), options)
     }
 
-    /// Solves another input, on a lattice of the same shape, from the last
-    /// answer if that is close enough: slightly other heights, another mask. On
-    /// a lattice of another shape it starts from nothing. On an error nothing
-    /// has changed.
+    /// Restarts with another input, such as slightly different heights or another mask. On a lattice of the same
+    /// shape it has a warm start from the last surface if that is close enough. On an error nothing has changed.
     ///
     /// # Errors
     /// As [`Solver::new`].
@@ -131,7 +128,7 @@ impl Solver {
         self.solve.advance(&mut left)
     }
 
-    /// Ends the search and begins with the solve.
+    /// Ends the search and starts the solve with the chosen options.
     fn take_choice(&mut self) -> Result<()> {
         match (self.search.take(), &mut self.choice) {
             (Some(search), Some(choice)) => self.solve.begin_with(&search.found(choice)),
@@ -139,11 +136,10 @@ impl Solver {
         }
     }
 
-    /// Figures of the last check. Before the first one, and while λ is [looked for](Lambda::Auto), they
-    /// are the input's, on a level above 0; iterations of the search go on being counted. While a coarse level is under way, its
-    /// objective and bound are scaled by the number of vertices: estimates of
-    /// the finest level's, which alone certifies. Components of the surface that are
-    /// still to come count as they are in the input, with 0 as their bound.
+    /// Progress at the last check. Before the first one, and while λ is [chosen](Lambda::Auto), the figures are the
+    /// input's, on a level above 0; iterations of the search are counted. On a coarse level objective and bound are
+    /// scaled by the number of vertices: they estimate those of the finest level, which alone certifies. Components
+    /// not yet solved count with the input's objective and the bound 0.
     pub fn progress(&self) -> Progress {
         let mut progress = self.solve.progress();
         match &self.search {
@@ -162,11 +158,10 @@ impl Solver {
         self.solve.cancel();
     }
 
-    /// The best surface so far, in the input's units, omitted vertices
-    /// restored. While the solve is running it is reported as cancelled; from a
-    /// coarse level it is carried to the finest one, and certified there; before the first iteration
-    /// it is the input; parts that are still to come are as in the input, without the free vertices
-    /// that have no height there.
+    /// The best surface so far, in the input's units, omitted vertices extrapolated. A solve that is still running is
+    /// reported as cancelled; its surface is prolonged from a coarse level to the finest lattice and certified there.
+    /// Before the first iteration it is the input. Components not yet solved are as in the input, without free
+    /// vertices.
     ///
     /// # Errors
     /// [`Error::OutOfMemory`](crate::Error::OutOfMemory).
@@ -177,7 +172,7 @@ impl Solver {
     }
 }
 
-/// Solves to the end.
+/// Solves for the surface of an input.
 ///
 /// # Errors
 /// As [`Solver::new`].
@@ -185,9 +180,8 @@ pub fn fit(input: impl Into<Input>, options: &Options) -> Result<Surface> {
     fit_with(input, options, |_| ControlFlow::Continue(()))
 }
 
-/// Solves to the end, unless `on_progress` breaks off: it is called every few
-/// conjugate-gradient iterations, and after a break the best surface so far
-/// comes back, marked [`StopReason::Cancelled`](crate::StopReason::Cancelled).
+/// Solves for the surface of an input, and calls `on_progress` every few conjugate-gradient iterations. If that
+/// breaks, the best surface so far is returned, marked [`StopReason::Cancelled`](crate::StopReason::Cancelled).
 ///
 /// # Errors
 /// As [`Solver::new`].

@@ -13,11 +13,11 @@ use crate::lattice::domain::Domain;
 /// Initial guess of the thin plate at free vertices, which also says how exact the plate has to be.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum InitialGuess {
-    /// The plane that normalised coordinates have taken away. Each pass ends at a share of its own first
+    /// Height 0 in normalised coordinates, which is the best-fit plane. Each pass ends at a share of its own first
     /// residual, because the last digits count where few heights are given.
     Plane,
-    /// The plate of an earlier solve, which is in `z̃`: for surfaces that are changed while they are watched
-    /// and need not be exact. There is one pass, which ends at a share of the residual of the plane.
+    /// Thin plate of an earlier solve, taken from `z̃`: for previews, which need not be exact. There is one pass,
+    /// which ends at a share of the residual of the plane.
     Earlier,
 }
 

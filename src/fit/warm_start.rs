@@ -75,7 +75,7 @@ impl WarmStart {
         if !alike || !WARM_START_LAMBDA_RATIOS.contains(&ratio) {
             return Ok(None);
         }
-        // The last penalty is one for ending a solve, not for beginning it.
+        // The last ρ suits the end of a solve, not its beginning.
         let rho = first.initial_rho;
         let mut iterate = Iterate::new(problem, rho)?;
         let mut found = 0;
@@ -100,7 +100,7 @@ impl WarmStart {
                 && interior(&answer.problem.operator.domain, old)
             {
                 let (dual, hessian) = answer.iterate.matrices(&answer.problem, old);
-                // Hessians scale as one over lengths.
+                // Hessians are inversely proportional to lengths.
                 iterate.set_matrices(cell, dual, hessian.scale(from.scale / to.scale));
             }
         }
@@ -114,7 +114,7 @@ impl WarmStart {
         Ok(Some(iterate))
     }
 
-    /// The answer that has a vertex of the whole lattice, and the vertex's cell there.
+    /// Answer of the component that a vertex of the whole lattice is in, and the vertex's cell there.
     fn find(&self, (row, col): (usize, usize)) -> Option<(&Answer, usize)> {
         let cell = self.domain.cell((row as isize, col as isize))?;
         if !self.domain.roles()[cell].is_active() {

@@ -68,7 +68,7 @@ impl Heightfield {
         self.heights
     }
 
-    /// The height of one vertex; NaN if it has none.
+    /// Height of a vertex; NaN if it has none.
     ///
     /// # Panics
     /// If the lattice has no such vertex.

@@ -42,7 +42,7 @@ impl Occlusions {
         let threshold = positive("occlusion_threshold", threshold)?;
         let lattice = field.lattice();
         let map = HessianMap::new(lattice.spacing());
-        // Second derivatives shrink as lengths grow.
+        // Second derivatives are inversely proportional to lengths.
         let limit = threshold * normalization.factor(field);
         let height = |(row, col)| match lattice.contains(row, col) {
             true => field.height(row as usize, col as usize),
@@ -113,7 +113,7 @@ impl Occlusions {
         Ok(Occlusions::of_edges(both))
     }
 
-    /// The occlusions of two sets together.
+    /// Union of two sets of occlusions.
     ///
     /// # Errors
     /// [`Error::Shape`](crate::Error::Shape) if they are of different lattices.
@@ -144,14 +144,14 @@ impl Occlusions {
         self.vertices.iter().filter(|v| **v != 0).count()
     }
 
-    /// Whether the surface is nowhere torn.
+    /// Whether there are no occlusions.
     pub fn is_empty(&self) -> bool {
         self.len() == 0
     }
 }
 
-/// The triangles of which a vertex is the top, and the left end of the upper
-/// side; corners in the order opposite the sides along W–E, NW–SE and NE–SW.
+/// The two triangles below a vertex: the one whose top it is, and the one whose upper left corner it is. Corners are
+/// in the order opposite the sides along W–E, NW–SE and NE–SW.
 fn triangles_below((row, col): (isize, isize)) -> [[(isize, isize); 3]; 2] {
     let at = (row, col);
     let [sw, se, e] =

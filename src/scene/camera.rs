@@ -2,15 +2,14 @@
 
 use crate::error::{Error, Result, positive};
 
-/// The meaning of a depth image's values.
+/// Kind of distance that the values of a depth image measure.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
 #[non_exhaustive]
 pub enum Depth {
-    /// The distance along the camera's axis, as depth cameras and depth buffers
-    /// mostly give it.
+    /// Distance along the camera's axis, as most depth cameras and depth buffers give it.
     #[default]
     Planar,
-    /// The distance from the camera's centre, along the pixel's own ray.
+    /// Distance from the camera's centre, along the pixel's own ray.
     Ray,
 }
 
@@ -67,10 +66,9 @@ impl Distortion {
 
 /// A pinhole camera, in pixels.
 ///
-/// The centre of the top left pixel is at `(0, 0)`, columns count to the right
-/// and rows down, as in OpenCV and the files of most cameras: a point `x` to the
-/// right of the axis, `y` below it and `z` ahead is seen at
-/// `(fx·x/z + cx, fy·y/z + cy)`, but for the lens's distortion.
+/// The centre of the top left pixel is at `(0, 0)`, columns count to the right and rows down, as in OpenCV and the
+/// files of most cameras: a point `x` to the right of the axis, `y` below it and `z` ahead is seen at `(fx·x/z + cx,
+/// fy·y/z + cy)`, apart from lens distortion.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Intrinsics {
     /// Focal length, in widths of a pixel.
@@ -81,17 +79,17 @@ pub struct Intrinsics {
     pub cx: f64,
     /// Row of the camera's axis.
     pub cy: f64,
-    /// Width and height of the images that these numbers are for; images of other sizes show the same, finer or
-    /// coarser. `None`: any image.
+    /// Width and height, in pixels, of the images that the intrinsics are for; an image of another size is taken for
+    /// the same view, finer or coarser. `None`: any image.
     pub size: Option<[usize; 2]>,
     /// Distortion by the lens.
     pub distortion: Distortion,
     /// Length of one step of a depth image's values: 0.001 makes metres of millimetres.
     pub depth_scale: f64,
-    /// The meaning of a depth image's values.
+    /// Kind of distance that the values of a depth image measure.
     pub depth: Depth,
     /// Number of pixels of a depth image that are discarded on both sides of a jump, where sensors give depths
-    /// between the two that belong to nothing (flying pixels). Default 2.
+    /// between the two surfaces that belong to neither (flying pixels). Default 2.
     pub margin: usize,
 }
 
@@ -127,7 +125,7 @@ impl Intrinsics {
         Ok(camera)
     }
 
-    /// The camera for images of another size that show the same: `cx' + ½ = (cx + ½)·s`.
+    /// The camera for images of another size that show the same view: `cx' + ½ = (cx + ½)·s`.
     ///
     /// # Errors
     /// [`Error::Option`] for a number that is out of range or a centre outside the image,
@@ -176,8 +174,8 @@ impl Intrinsics {
         Some([self.fx * u + self.cx, self.fy * v + self.cy])
     }
 
-    /// The point in space that a pixel shows at a depth, in the same axes; `None` where the lens cannot have
-    /// shown it.
+    /// The point in space that a pixel shows at a depth, in the axes of [`Intrinsics::project`]; `None` where the
+    /// lens cannot have shown it.
     pub(super) fn point(&self, col: f64, row: f64, value: f64) -> Option<[f64; 3]> {
         let seen = [(col - self.cx) / self.fx, (row - self.cy) / self.fy];
         let [x, y] = self.distortion.undistorted(seen)?;
@@ -249,9 +247,9 @@ impl Default for Pose {
 /// A camera that takes photos, beside the camera of the depths or at the same position.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Camera {
-    /// Its intrinsics. The photo may have another size than these are for.
+    /// Intrinsics of the camera. The photo may have another size than they are for.
     pub intrinsics: Intrinsics,
-    /// Its position relative to the camera of the depths.
+    /// Position and rotation relative to the camera of the depths.
     pub pose: Pose,
 }
 
@@ -269,10 +267,10 @@ impl Camera {
         Camera { pose, ..self }
     }
 
-    /// The same camera for photos of a size.
+    /// The camera for photos of another size that show the same view.
     ///
     /// # Errors
-    /// Those of [`Intrinsics::for_size`]; [`Error::Option`] for a pose whose rotation is none.
+    /// Those of [`Intrinsics::for_size`]; [`Error::Option`] if the pose's matrix is no rotation.
     pub fn for_size(&self, size: [usize; 2]) -> Result<Self> {
         let [a, b, c] = self.pose.rotation;
         let dot = |p: [f64; 3], q: [f64; 3]| p[0] * q[0] + p[1] * q[1] + p[2] * q[2];
@@ -304,8 +302,8 @@ impl Camera {
         })
     }
 
-    /// Where a point in space is seen, as [`Intrinsics::project`] says; the point is in the axes of the
-    /// camera of the depths.
+    /// Column and row at which a point in space is seen, as [`Intrinsics::project`] gives them; the point is in the
+    /// axes of the camera of the depths.
     pub fn project(&self, point: [f64; 3]) -> Option<[f64; 2]> {
         self.intrinsics.project(self.seen_from(point))
     }

@@ -12,20 +12,19 @@ use crate::math::lanes;
 const MAX_DEPTH_SLOPE: f64 = 10.0;
 
 impl Intrinsics {
-    /// What the camera has seen, as a mesh: each pixel is a vertex, by the same
-    /// index, and neighbouring ones are joined by triangles.
+    /// Back-projects a depth image to a mesh: each pixel is a vertex of the same index, and neighbouring ones are
+    /// joined by triangles.
     ///
     /// The axes are those of the camera as [`Frame`](crate::Frame)s have them:
     /// x to the right, y up, z towards the viewer, the origin at the camera's
     /// centre. So looking along `-z` is looking along the camera's axis.
     ///
-    /// A depth that is NaN, 0 or below is none: its vertex lies at the origin,
-    /// and no triangle uses it. Two pixels are not joined where one point lies
-    /// behind the other by more than ten times their distance across the line of
-    /// sight, for that is a jump: a surface that steep (seen at less than 5.7°)
-    /// is lost. Pixels beside such a jump, also if it takes up to three pixels, are taken away, as
-    /// many as [`margin`](Intrinsics::margin) says. Of the two ways to cut a square of pixels the one with the
-    /// shorter diagonal is taken, unless it leaves fewer triangles.
+    /// A depth that is NaN, 0 or negative counts as missing: its vertex lies at the origin, and no triangle uses it.
+    /// Two pixels are not joined across a jump, where one point lies behind the other by more than ten times their
+    /// distance across the line of sight; a surface that steep (seen at less than 5.7°) is lost. Pixels beside a jump
+    /// are discarded, as many as [`margin`](Intrinsics::margin) says; the jump may extend over up to three pixels. Of
+    /// the two ways to cut a square of pixels the one with the shorter diagonal is taken, unless it leaves fewer
+    /// triangles.
     ///
     /// The pixels have texture coordinates for a picture with the same outline.
     /// The image's own pixel size does not matter. Costs `O(pixels)`.
@@ -39,9 +38,9 @@ impl Intrinsics {
         self.project_back(depths, None)
     }
 
-    /// The same of those pixels alone whose flag is not 0, as of [`Intrinsics::within`]. What is beside them
-    /// still shows where a jump is: depths that are masked first lose the wall behind a page, and what is
-    /// left of the jump to it, mixtures of both, would bend the page's border.
+    /// Back-projects the pixels alone whose flag in `keep` is not 0, as [`Intrinsics::within`] gives them. The other
+    /// depths still show where jumps are. If depths are masked before instead, the background of a page is lost, and
+    /// depths that mix page and background stay and bend the page's border.
     ///
     /// # Errors
     /// Those of [`Intrinsics::back_project`]; [`Error::Shape`] if there is not a flag for each pixel.
@@ -142,7 +141,7 @@ struct Line<'a> {
 const WIDEST_JUMP: usize = 3;
 
 impl Line<'_> {
-    /// Distance ahead of the camera, if there is a point.
+    /// Distance of a pixel's point ahead of the camera; `None` where there is no depth.
     fn ahead(&self, i: usize) -> Option<f64> {
         let depth = -self.points.get(self.start + i * self.step)?[2];
         (i < self.length && depth > 0.0).then_some(depth)
@@ -152,7 +151,7 @@ impl Line<'_> {
         for from in 0..self.length {
             for wide in 1..=WIDEST_JUMP {
                 if self.jumps(from, wide, focal) {
-                    // Those within the jump count.
+                    // Pixels within the jump count, too.
                     let beyond = if wide == 1 { margin } else { margin - 1 };
                     let first = (from + 1).saturating_sub(beyond);
                     for i in first..(from + wide + beyond).min(self.length) {

@@ -12,22 +12,23 @@ use crate::math::statistics::median;
 use crate::math::union_find::UnionFind;
 use crate::scene::half_edges::{half_edge_ends, twin_half_edges};
 
-/// Least and largest threshold between the angles of facets and those of creases, in radians: flat facets of a round
-/// shape fold by less than the largest, and what is left of noise by less than the least.
+/// Range, in radians, of the threshold between the angles of facets and those of creases: flat facets that
+/// approximate a round shape fold by less than the maximum, and the remaining noise by less than the minimum.
 const CREASE_ANGLE_RANGE: [f64; 2] = [0.035, 0.35];
 
-/// Largest angle by which the strips on either side of a crease bend that noise has made blunt, in radians.
+/// Maximum angle, in radians, between a strip of triangles that noise has made of a crease and the strips on either
+/// side of it.
 const MAX_BLUNT_CREASE_ANGLE: f64 = 1.0;
 
-/// Rounding error of angles between facets, in radians, and of heights: what is flat up to it bends by nothing.
+/// Tolerance for rounding errors of angles between facets, in radians, and of heights: smaller bends count as flat.
 const FLATNESS_TOLERANCE: f64 = 1e-6;
 
-/// Triangles with the angles along their edges.
+/// Triangles of a surface, with the angle at each edge.
 pub(crate) struct Facets {
     pub places: Vec<Vector3<f64>>,
     pub triangles: Vec<[u32; 3]>,
     pub twins: Vec<u32>,
-    /// Angle along each half-edge, and its length.
+    /// Angle between the triangles on both sides of each half-edge, in radians.
     pub angles: Vec<f64>,
     pub lengths: Vec<f64>,
     pub areas: Vec<f64>,
@@ -78,13 +79,14 @@ impl Facets {
             .clamp(CREASE_ANGLE_RANGE[0], CREASE_ANGLE_RANGE[1])
     }
 
-    /// Segments the surface into smooth parts, given by the label of each triangle: none is smaller than a
-    /// share of the area, and none folds by less than half of `bend`, or less than `fold`, towards its
-    /// neighbour on average.
+    /// Segments the surface into smooth parts; returns the label of each triangle. Each part has at least a share
+    /// `share` of the area, and folds towards each neighbour by at least `fold`, and half of `bend`, on average, in
+    /// radians.
     ///
-    /// Watersheds (Mangan and Whitaker 1999): the height of each triangle is the angle by which the surface
-    /// bends around it, and basins flood until they meet. So a blunt crease, which is a strip of triangles
-    /// between its sides, is no part of its own, and no part leaks into another across a weak one.
+    /// The segmentation is by watersheds (Mangan and Whitaker 1999): the height of a triangle is the angle by which
+    /// the surface bends around it, and basins are flooded until they meet. So a blunt crease, which is a strip of
+    /// triangles between its sides, becomes no part of its own, and no part leaks into another one across a weak
+    /// crease.
     pub fn parted(&self, bend: f64, share: f64, fold: f64) -> Result<Vec<u32>> {
         let fold = fold.max(0.5 * bend);
         let heights = self.heights();
@@ -108,15 +110,15 @@ impl Facets {
         (0..self.triangles.len()).map(of).collect()
     }
 
-    /// The basin of each triangle: where water gathers that does not pass sharper edges; all other triangles by
-    /// where water runs from them.
+    /// Basin of each triangle: the minimum that water reaches from it without passing edges sharper than `bend`; the
+    /// other triangles follow from where water runs from them.
     fn basins(&self, heights: &[f64], bend: f64) -> Result<Vec<u32>> {
         let mut sets = UnionFind::new("patches", heights.len())?;
         let around = |t: usize| {
             let sides = (3 * t..3 * t + 3).filter(|side| self.twins[*side] != NO_INDEX);
             sides.map(|side| (side, self.twins[side] as usize / 3))
         };
-        // Vertices without a sharper edge: where there are none beside it, a strip is what it is.
+        // Vertices all of whose edges are at most `bend`; a strip that has none beside it is a part of its own.
         let count = 1 + self
             .triangles
             .as_flattened()
@@ -135,7 +137,7 @@ impl Facets {
                 let runs = self.angles[side] <= bend
                     || (self.angles[side] <= MAX_BLUNT_CREASE_ANGLE
                         && self.triangles[other].iter().any(|v| smooth[*v as usize]));
-                // Up to rounding, which flat parts differ by.
+                // Flat parts differ by rounding errors only.
                 runs && heights[other] < heights[t] - FLATNESS_TOLERANCE
             });
         }
@@ -154,9 +156,9 @@ impl Facets {
 
     /// Gives open triangles the label of a neighbour, across the flattest edges first.
     fn flood(&self, labels: &mut [u32], mut open: Vec<bool>, way: impl Fn(usize) -> f64) {
-        // Positive numbers are in order as their bits are.
+        // The bits of positive floats have their order.
         let mut queue = BinaryHeap::new();
-        // Only to where nothing has been yet: mostly that is next to nowhere.
+        // Only triangles without a label are queued, which are few.
         let ways = |t: usize, open: &[bool], queue: &mut BinaryHeap<_>| {
             for side in 3 * t..3 * t + 3 {
                 let twin = self.twins[side];

@@ -9,8 +9,8 @@ use nalgebra::{Vector2, Vector3};
 use crate::math::least_squares::LeastSquares;
 use crate::math::planar::polygon_contains;
 
-/// Radius around a corner in which depths tell where it is in space, as a share of the distance to the opposite corner: small,
-/// since a page may bend strongly there.
+/// Radius around a corner, in the photo, within which depths determine its position in space, as a share of the
+/// distance to the opposite corner: small, since a page may bend strongly there.
 const CORNER_RADIUS_SHARE: f64 = 0.05;
 
 /// Minimum number of depths around a corner that determine it.
@@ -19,7 +19,8 @@ const MIN_CORNER_DEPTHS: usize = 6;
 /// Ridge of the fit of points in space over places in the photo: decides only what the depths leave open.
 const CORNER_FIT_RIDGE: f64 = 1e-9;
 
-/// Maximum distance of a page's points from the plane of its corners, as a share of its diagonal: beyond is something else.
+/// Maximum distance of a page's points from the plane of its corners, as a share of its diagonal: points further away
+/// belong to something else.
 const MAX_HEIGHT_SHARE: f64 = 0.6;
 
 /// The prism over a page's corners.
@@ -78,7 +79,7 @@ impl Footprint {
         height.abs() <= self.max_height && polygon_contains(&self.corners, self.place(point).into())
     }
 
-    /// A point as seen along the normal.
+    /// Coordinates of a point in the plane of the corners, along their normal.
     fn place(&self, point: &Vector3<f64>) -> Vector2<f64> {
         let off = point - self.origin;
         Vector2::new(off.dot(&self.axes[0]), off.dot(&self.axes[1]))

@@ -2,7 +2,7 @@
 
 use crate::error::{Error, Result, check_count};
 
-/// Triangles in space, in the user's units and axes; or points alone.
+/// A triangle mesh in space, in the user's units and axes, or a point cloud.
 ///
 /// The triangles may be open, intersect, overlap, be degenerate and face either way.
 #[derive(Debug, Clone, PartialEq)]
@@ -78,12 +78,12 @@ impl Mesh {
         })
     }
 
-    /// Whether there are points alone.
+    /// Whether the mesh is a point cloud.
     pub fn is_cloud(&self) -> bool {
         self.triangles.is_empty()
     }
 
-    /// The mesh with a normal of length 1 for each vertex. Files that are read give none.
+    /// The mesh with a unit normal for each vertex. Meshes read from files have none.
     ///
     /// # Errors
     /// [`Error::Shape`] if there is not one for each vertex.

@@ -4,13 +4,13 @@ use super::mesh::Mesh;
 use crate::error::{Result, try_filled};
 use crate::math::union_find::UnionFind;
 
-/// Number of triangles below which a component is a scrap, as a share of the largest component's.
+/// Maximum number of triangles of a scrap, as a share of the largest component's.
 const MAX_SCRAP_SHARE: f64 = 0.25;
 
 impl Mesh {
-    /// The mesh without scraps: connected parts with less than a quarter of the largest one's triangles. Of
-    /// depths within some corners they are mostly what is seen behind, beside a bent edge. Vertices stay as
-    /// they are. Linear cost.
+    /// The mesh without scraps: connected components with less than a quarter of the largest one's triangles. In
+    /// depths cropped to a page, scraps are mostly background seen beside a bent edge. Vertices keep their indices.
+    /// Linear cost.
     ///
     /// # Errors
     /// [`Error::OutOfMemory`](crate::Error::OutOfMemory).

@@ -8,14 +8,14 @@ use crate::heights::heightfield::HeightImage;
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 #[non_exhaustive]
 pub enum Turn {
-    /// Not at all.
+    /// No rotation.
     #[default]
     None,
-    /// By 90 degrees: what was on its left is on top.
+    /// By 90 degrees clockwise: the left side becomes the top.
     Quarter,
     /// By 180 degrees.
     Half,
-    /// By 270 degrees: what was on its right is on top.
+    /// By 270 degrees clockwise: the right side becomes the top.
     ThreeQuarters,
 }
 
@@ -65,7 +65,7 @@ impl Turn {
         HeightImage::new(width, height, values)?.with_pixel_size(image.pixel_size())
     }
 
-    /// The camera of a rotated image; `size` is that of its images if the camera does not say it.
+    /// The camera of a rotated image; `size` is the size of its images if the intrinsics have none.
     pub fn camera(self, camera: &Intrinsics, size: [usize; 2]) -> Intrinsics {
         let mut camera = *camera;
         for _ in 0..self.quarters() {
@@ -77,7 +77,7 @@ impl Turn {
                 cx: height as f64 - 1.0 - camera.cy,
                 cy: camera.cx,
                 size: Some([height, width]),
-                // Right becomes down, down left.
+                // The direction to the right becomes down, and down becomes left.
                 distortion: Distortion {
                     k1,
                     k2,

@@ -8,15 +8,15 @@ use crate::error::{Error, Result, check_count, try_filled};
 use crate::heights::heightfield::HeightImage;
 use crate::math::planar::polygon_contains;
 
-/// A part of a photo that shows what the depths show.
+/// Region of a photo: the part that shows the object of interest.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub enum Region<'a> {
-    /// The pixels, of an image of a width and height, that are not 0.
+    /// The pixels whose value is not 0, in an image of this width and height.
     Mask([usize; 2], &'a [u8]),
-    /// What lies within some corners, in pixels of a photo of a width and height: `[0, 0]` is the centre of
-    /// the upper left one. Four corners are those of a page, whose edges may be bent: the region is then seen along the
-    /// normal of the plane through the corners, if there are depths around each.
+    /// The polygon between these corners, in pixels of a photo of this width and height: `[0, 0]` is the centre of
+    /// the upper left pixel. Four corners are taken for those of a page, whose edges may be bent: the region is then
+    /// seen along the normal of the plane through the corners, if there are depths around each.
     Polygon([usize; 2], &'a [[f64; 2]]),
 }
 
@@ -61,8 +61,8 @@ pub(crate) fn check_crop(polygon: &[[f64; 2]]) -> Result<()> {
 }
 
 impl Intrinsics {
-    /// For each of the depths 1 if it shows the region, else 0: a mask for [`HeightImage::masked`]. The photo was taken by another camera, or from the same place with the
-    /// same outline. Costs `O(pixels · corners)`.
+    /// Mask of the depths for [`HeightImage::masked`]: 1 where a depth shows the region, else 0. The photo was taken
+    /// by `camera`, or from the same place with the same outline. Costs `O(pixels · corners)`.
     ///
     /// # Errors
     /// Those of [`Intrinsics::for_size`] and [`Camera::for_size`]; [`Error::Shape`] for a mask of another
@@ -119,8 +119,8 @@ impl Intrinsics {
     }
 }
 
-/// Values at the pixels of an image for those of another that shows the same, finer or coarser: the
-/// nearest ones.
+/// Resamples values at the pixels of an image, by the nearest pixel, to an image of another size that shows the same
+/// view.
 ///
 /// # Errors
 /// [`Error::Shape`] if there are not as many as the size says, [`Error::Empty`],
@@ -142,7 +142,7 @@ pub fn resampled<T: Copy>(
     Ok(out)
 }
 
-/// Pixels of one image for each of another that shows the same.
+/// Index, along one axis, of the nearest pixel of one image for each pixel of another one that shows the same view.
 fn stretch(what: &'static str, from: [usize; 2], to: [usize; 2]) -> Result<[f64; 2]> {
     if from.contains(&0) || to.contains(&0) {
         return Err(Error::Empty { what });

@@ -22,12 +22,12 @@ pub enum Resolution {
     Across(usize),
     /// Distance between neighbours on the lattice, in the mesh's units.
     Spacing(f64),
-    /// 200 vertices across; of a point cloud fewer, where that leaves less than
-    /// four points for each vertex of the box around them.
+    /// 200 vertices along the longer side; for a point cloud fewer, if there would be less than four points for each
+    /// vertex of the box around them.
     Auto,
 }
 
-/// Number of vertices along the longer side for [`Resolution::Auto`], where nothing else decides.
+/// Maximum number of vertices along the longer side for [`Resolution::Auto`].
 const AUTO_RESOLUTION: usize = 200;
 const POINTS_FOR_EACH: f64 = 4.0;
 
@@ -53,17 +53,15 @@ pub struct Samples {
     weights: Vec<[f32; 3]>,
 }
 
-/// Looks at a mesh through every vertex of a lattice that covers it.
+/// Samples a mesh by a ray through every vertex of a lattice that covers it.
 ///
-/// Triangles are hit from either side. Those seen edge-on and degenerate ones
-/// are not seen. Of several at the same height the first one counts. A vertex
-/// whose ray hits nothing has no height (NaN).
+/// Triangles are hit from either side. Those seen edge-on and degenerate ones are never hit. Of several hits at the
+/// same height the first triangle counts. A vertex whose ray hits nothing has no height (NaN).
 ///
-/// Of a **point cloud** a vertex sees the points within one spacing of it, but
-/// for those more than three spacings behind the foremost. Its height is that of
-/// the plane that fits them best, near ones more than others. Where they all lie
-/// to one side it has none. So the spacing should be no less than the distance
-/// between points, and better some times that.
+/// In a **point cloud** a vertex sees the points within one spacing of it, except those more than three spacings
+/// behind the foremost. Its height is that of the plane fitted to them by least squares, in which near points have
+/// larger weights. Where all of them lie to one side it has none. So the spacing should be at least the distance
+/// between points, and better several times that.
 ///
 /// Costs `O(vertices + triangles + hits)`: some tens of milliseconds for a million triangles.
 ///
@@ -165,7 +163,7 @@ impl Samples {
         &self.field
     }
 
-    /// The heights, without the rest.
+    /// The heights, without frame and hits.
     pub fn into_heightfield(self) -> Heightfield {
         self.field
     }
@@ -267,7 +265,7 @@ impl Buffer {
         let first = a.down.min(b.down).min(c.down).ceil().max(0.0);
         let last = a.down.max(b.down).max(c.down).floor();
         let last = last.min((self.lattice.rows() - 1) as f64);
-        // Casts saturate: where last is below first, the range is empty.
+        // Casts saturate, so that the range is empty where `last` is below `first`.
         for row in first as isize..=last as isize {
             if let Some((left, right)) = interval(&corners, row as f64) {
                 self.fill(triangle, &corners, row as usize, left, right);

@@ -1,11 +1,11 @@
 //! Sampling of a point cloud as seen from a view: at each lattice vertex the points in front that lie around
 //! it.
 //!
-//! A vertex sees the points within one spacing of it. Those more than three spacings below the highest of them
-//! are hidden: a surface steeper than 56° loses points by that. The height is that of the plane fitted to the
-//! others by least squares, in which near points weigh more, so that a tilt is no bias. Where they lie to one
-//! side of the vertex (their weighted centroid is more than half a spacing away) there is no height: holes stay
-//! holes, and the outline grows by less than half a spacing.
+//! A vertex sees the points within one spacing of it. Those more than three spacings below the highest of them are
+//! hidden, so that a surface steeper than 56° loses points. The height is that of the plane fitted to the others by
+//! least squares, in which near points have larger weights, so that a tilt causes no bias. Where they lie to one side
+//! of the vertex (their weighted centroid is more than half a spacing away) there is no height: holes stay holes, and
+//! the outline grows by less than half a spacing.
 
 use nalgebra::{Matrix3, Vector3};
 
@@ -37,7 +37,7 @@ pub(crate) fn splat(
     let mut nearest = try_filled("point cloud", vertices, (miss, f64::INFINITY))?;
     for (i, point) in points.enumerate() {
         around(lattice, point, |vertex, [dx, dy]| {
-            // In spacings, so that the sums are of one size.
+            // Offsets are in spacings, so that all sums have about the same magnitude.
             let below = (highest[vertex] - point[2]) / lattice.spacing();
             if below > SPLAT_DEPTH_SPACINGS {
                 return;
@@ -88,7 +88,7 @@ fn around(lattice: &Lattice, [x, y, _]: [f64; 3], mut visit: impl FnMut(usize, [
     }
 }
 
-/// The whole numbers from one value to another that are below `count`.
+/// Integers from `from` to `to` that are at least 0 and below `count`.
 fn range(from: f64, to: f64, count: usize) -> std::ops::Range<usize> {
     // Casts saturate.
     from.ceil().max(0.0) as usize..(to.floor() + 1.0).max(0.0).min(count as f64) as usize

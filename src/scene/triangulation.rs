@@ -8,13 +8,11 @@ use crate::lattice::hexagonal::{Lattice, Towards};
 use crate::math::index::NO_INDEX;
 use crate::math::lanes;
 
-/// The lattice's triangles as a mesh, and which lattice vertex each of its vertices is.
+/// Triangulation of a heightfield as a mesh, with the lattice vertex that each of its vertices comes from.
 ///
-/// Every triangle of the lattice whose three vertices have heights is in it,
-/// counter-clockwise seen from above (from where the heights point) and in the
-/// order of their upper left vertex, and only the vertices that these use, in
-/// the lattice's row-major order. Each has a normal: the mean of those of the
-/// triangles around it, weighted by area.
+/// It has every triangle of the lattice whose three vertices have heights, counter-clockwise as seen from above (from
+/// where the heights point), ordered by upper left vertex; and the vertices that these use, in the lattice's
+/// row-major order. The normal of a vertex is the mean of those of its triangles, weighted by area.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Triangulation {
     lattice: Lattice,
@@ -23,9 +21,8 @@ pub struct Triangulation {
 }
 
 impl Triangulation {
-    /// The triangles of a heightfield over the plane of a frame:
-    /// [`Frame::default`] gives positions `x y z` as in the lattice, the frame
-    /// of [`Samples`](crate::Samples) those of the mesh that was seen.
+    /// Triangulates a heightfield over the plane of a frame: [`Frame::default`] gives positions `x y z` as in the
+    /// lattice, the frame of [`Samples`](crate::Samples) positions in the axes of the sampled mesh.
     ///
     /// Costs `O(vertices)`.
     ///
@@ -126,7 +123,7 @@ impl Triangulation {
         &self.mesh
     }
 
-    /// The mesh, without the rest.
+    /// The mesh, without the lattice indices of its vertices.
     pub fn into_mesh(self) -> Mesh {
         self.mesh
     }
@@ -136,8 +133,8 @@ impl Triangulation {
         normal(self.mesh.corners(triangle), self.lattice.spacing())
     }
 
-    /// Values at the mesh's vertices from those at the lattice's. Where there is none, as where a hole was
-    /// bridged, it is the mean of its neighbours', from the hole's rim inwards, or else 0.
+    /// Values at the mesh's vertices from those at the lattice's. A missing value, as in a bridged hole, becomes the
+    /// mean of its neighbours', from the hole's rim inwards, or 0 if it has none.
     pub(crate) fn picked<const N: usize>(
         &self,
         what: &'static str,

@@ -14,20 +14,17 @@ pub enum View {
     /// Along a vector of any length: `[0.0, 0.0, -1.0]` looks down the z axis,
     /// so that what has the largest z is in front. By name, `"-z"`.
     Along([f64; 3]),
-    /// Straight at the plane that fits the triangles best (their principal
-    /// axes, weighted by area), from the side that more of their area faces. Of
-    /// a point cloud the points are fitted, and its larger axis is towards the
-    /// viewer.
+    /// Along the normal of the plane that fits the triangles best (their principal axes, weighted by area), from the
+    /// side that more of their area faces. For a point cloud the plane fits the points, and the viewer is on the
+    /// positive side of the normal's largest coordinate.
     BestFit,
 }
 
 /// A right-handed orthonormal frame: the axes of the image in those of the mesh.
 ///
-/// A point `p` of the mesh lies at `(p·right, p·up, p·towards)` in the image:
-/// both have the same origin and unit. `up` is as close to `+y` as it can be;
-/// where one looks along the y axis itself it is what it becomes on the way
-/// there from looking along `-z`, so `-z` for looking along `-y` and `+z` for
-/// looking along `+y`. The six axes give
+/// A point `p` of the mesh lies at `(p·right, p·up, p·towards)` in the image: both have the same origin and unit.
+/// `up` is as close to `+y` as possible. For a view along the y axis itself `up` is `-z` (looking along `-y`) or `+z`
+/// (looking along `+y`): the limit of tilting the view there from `-z`. The frames of the six axes are
 ///
 /// | along | right | up | towards the viewer |
 /// |---|---|---|---|

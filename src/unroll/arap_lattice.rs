@@ -12,10 +12,10 @@ use crate::math::lanes;
 /// in the next step's right-hand side.
 const CG_ITERATIONS: usize = 2;
 
-/// A layout is given up while its energy is above this multiple of the one that is wanted.
+/// Minimum ratio of a layout's energy to the wanted one at which a layout that stalls is given up.
 const HOPELESS_ENERGY_FACTOR: f64 = 2.5;
 
-/// A layout is given up if a step changes its energy by less than this share.
+/// Relative change of the energy in a step below which a layout stalls.
 const STALLED_RELATIVE_CHANGE: f64 = 0.01;
 
 /// Number of steps that are made before a layout may be given up.

@@ -20,7 +20,7 @@ const MAX_CG_ITERATIONS: usize = 16;
 /// Factor by which conjugate gradients reduce the residual in each global step.
 const CG_RESIDUAL_REDUCTION: f64 = 1e-3;
 
-/// A mesh stalls if a step changes its energy by less than this share.
+/// Relative change of the energy in a step below which a mesh stalls.
 const STALLED_RELATIVE_CHANGE: f64 = 0.02;
 
 /// Number of steps that are made before a mesh may be given up.

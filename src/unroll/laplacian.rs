@@ -19,7 +19,7 @@ pub(super) struct Laplacian {
     south_west: Vec<f32>,
     south_east: Vec<f32>,
     diagonal: Vec<f32>,
-    /// One over the diagonal, 0 where no edge ends.
+    /// Inverse of the diagonal; 0 at vertices without edges.
     pub inverse: Vec<f32>,
     /// Upper bound of the eigenvalues of the matrix over its diagonal.
     pub largest: f32,

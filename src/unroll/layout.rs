@@ -42,7 +42,7 @@ pub(crate) fn unroll_mesh(
     let limits = Limits {
         tolerance: positive("tolerance", options.tolerance)?,
         max_iterations: options.max_iterations,
-        // Of the two principal strains the energy has the sum of the squares.
+        // The energy is the sum of both squared principal strains.
         wanted_energy: limit.map_or(f64::INFINITY, |limit| 2.0 * limit * limit),
     };
     let lattice = *mesh.lattice();
@@ -56,7 +56,7 @@ pub(crate) fn unroll_mesh(
     for (v, [_, _, z]) in mesh.vertices().iter().zip(mesh.positions()) {
         heights[cell(*v)] = z / spacing;
     }
-    // A triangle by its upper left corner, and whether it lies below that or beside it.
+    // Each triangle is marked at its upper left corner, by whether it lies below that corner or beside it.
     let mut wanted = try_filled("unrolling", grid.cells(), [false; 2])?;
     for [a, b, _] in mesh.triangles() {
         let [first, second] = [a, b].map(|v| cell(mesh.vertices()[*v as usize]));

@@ -156,7 +156,7 @@ impl MultigridLevel {
         for (x, (d, b)) in self.spare.iter_mut().zip(inverse) {
             *x = first * d * b;
         }
-        // Padding too, where interpolation may have left something.
+        // Clears the padding, too, where interpolation may have written.
         self.solution[k].fill(0.0);
         self.matrix
             .smooth(second, &self.right[k], &self.spare, &mut self.solution[k]);

@@ -45,7 +45,7 @@ pub(super) fn unflip_triangles(triangles: &LatticeTriangles, places: &mut [Point
             .collect();
         for _ in 0..SWEEPS_PER_ROUND {
             for cell in &cells {
-                // Each neighbour is in two of the triangles around.
+                // Each neighbour is counted twice, as it belongs to two of the triangles around the vertex.
                 let (mut sum, mut count) = (Point::default(), 0.0);
                 for corner in triangles.around(*cell).flat_map(|id| triangles.corners(id)) {
                     if corner != *cell {

@@ -24,7 +24,7 @@ pub struct UnrollReport {
     pub area: f64,
     /// Strain of the layout: 0 for a developable surface.
     pub distortion: Distortion,
-    /// Strain of the view from above, as a measure of how far from flat the surface was.
+    /// Strain of the view from above: a measure of how far from flat the surface is.
     pub plan: Distortion,
     /// Number of pairs of border edges of the layout that cross: 0 if it does not cover itself.
     pub crossings: usize,

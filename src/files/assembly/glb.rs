@@ -18,11 +18,11 @@ const STEP_SECONDS: f64 = 1.5;
 /// Duration of the pause between two steps, in seconds.
 const PAUSE_SECONDS: f64 = 0.5;
 
-/// A GLB file of sheets that lie flat beside the surface and move to their places one after the other, bending
-/// as they do, in the order of an assembly. It is in metres, `scale` being the millimetres of a unit, with +y
-/// up, as viewers have it. The animation is called `Assembly`; at its end the surface is built.
+/// Writes a GLB file of the assembly: sheets that lie flat beside the surface move to their places one after the
+/// other, in the assembly's order, and bend as they move. It is in metres, `scale` being the millimetres of a unit,
+/// with +y up, as viewers expect. The animation is called `Assembly`; at its end the surface is built.
 ///
-/// Half way a sheet is between its two shapes and not quite its size, because the bending is linear.
+/// Halfway a sheet's shape and size are between those at both ends, because morph targets are linear.
 ///
 /// # Errors
 /// [`Error::Empty`] without a sheet, [`Error::Option`] for a scale that is not positive and finite,
@@ -74,7 +74,7 @@ fn in_millimetres(sheets: &[Sheet], scale: f64) -> Vec<Vec<Vec<[f64; 2]>>> {
     sheets.iter().map(lines).collect()
 }
 
-/// Positions of the flat sheets: to the left of the surface, as high as its lowest point.
+/// Place of the flat sheets: to the left of the surface, at the height of its lowest point.
 struct Ground {
     corner: [f64; 2],
     height: f64,

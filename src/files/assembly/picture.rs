@@ -28,8 +28,8 @@ const NUMBER_FONT_SIZE: f64 = 28.0;
 /// Font size of edge letters, in units of the picture.
 const LETTER_FONT_SIZE: f64 = 16.0;
 
-/// An SVG file of the surface that sheets make, seen from above: the patches' numbers and the seams' letters
-/// are those of the drawing, folds are dashed. What faces away from the viewer is left out.
+/// Writes an SVG file of the assembled surface, seen from above. Numbers of patches and letters of seams are those of
+/// the drawing; folds are dashed. Triangles that face away from the viewer are left out.
 ///
 /// # Errors
 /// [`Error::Empty`] without a sheet, [`Error::Unsupported`] for vertices that are not finite.
@@ -220,7 +220,7 @@ fn borders(faces: &Faces) -> Vec<Vec<u32>> {
             *edges.entry((to, from)).or_default() -= 1;
         }
     }
-    // In an order of their own, so that files are the same each time.
+    // Sorted, so that files are the same each time.
     let mut left: Vec<(u32, u32)> = edges.into_iter().filter(|e| e.1 > 0).map(|e| e.0).collect();
     left.sort_unstable();
     let mut next: HashMap<u32, Vec<u32>> = HashMap::new();

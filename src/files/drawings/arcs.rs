@@ -35,8 +35,8 @@ pub(super) fn arcs(curve: &Curve) -> Vec<Corner> {
     out
 }
 
-/// Approximates a part of a curve by two arcs with its tangents at its ends and a common one where they meet,
-/// or each half of it in the same way.
+/// Approximates a part of a curve by two arcs that have its tangents at the ends and a common tangent where they
+/// meet, or recursively by halves.
 fn halved(piece: &Piece, [from, to]: [f64; 2], left: u32, out: &mut Vec<Corner>) {
     let ends = [from, to].map(|t| (piece.at(t), tangent(piece, t)));
     let middle = 0.5 * (from + to);
@@ -66,7 +66,7 @@ fn tangent(piece: &Piece, t: f64) -> [f64; 2] {
     /// Half the parameter difference over which a tangent is taken.
     const TANGENT_STEP: f64 = 1e-4;
     let (a, b) = ((t - TANGENT_STEP).max(0.0), (t + TANGENT_STEP).min(1.0));
-    // At an end the difference is that of the place beside it: taken twice as far out, it is not.
+    // At an end of the curve the difference is the tangent at a point half a step inside, so that it is extrapolated.
     let slope = |a: f64, b: f64| {
         let (p, q) = (piece.at(a), piece.at(b));
         [0, 1].map(|k| (q[k] - p[k]) / (b - a))

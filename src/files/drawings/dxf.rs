@@ -1,8 +1,9 @@
 //! Drawing Exchange Format, for cutters.
 //!
-//! A DXF file is pairs of lines: a group code, which says what is meant, and its value. Written is
-//! the format of AutoCAD release 12, which knows polylines with arcs and texts, needs no object handles
-//! and is read by every program for cutters. (It has no splines, and many cutters run no more than arcs.) (Autodesk, DXF Reference, "ENTITIES Section".)
+//! A DXF file is pairs of lines: a group code, which states the meaning, and its value. The files are in the format
+//! of AutoCAD release 12, which has polylines with arcs and texts, needs no object handles and is read by every
+//! program for cutters. (It has no splines, and many cutters support no more than arcs.) (Autodesk, DXF Reference,
+//! "ENTITIES Section".)
 
 use std::fmt::Display;
 use std::io::{self, Write};
@@ -127,7 +128,7 @@ impl Pairs {
         };
         self.pair(0, "POLYLINE")?;
         self.pair(8, layer)?;
-        // Its vertices follow.
+        // Flag: vertices follow.
         self.pair(66, 1)?;
         self.point(10, [0.0, 0.0])?;
         self.pair(70, u8::from(closed))?;

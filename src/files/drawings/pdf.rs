@@ -162,7 +162,7 @@ fn grey(out: &mut Content) {
 }
 
 fn text(out: &mut Content, label: &Label) {
-    // In Windows' encoding; what it lacks is not written here.
+    // In Latin-1, which agrees with PDF's Windows encoding; other characters become `?`.
     let bytes: Vec<u8> = (label.text.chars())
         .map(|c| u8::try_from(c).unwrap_or(b'?'))
         .collect();

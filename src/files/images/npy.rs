@@ -118,10 +118,10 @@ pub(super) fn describe(bytes: &[u8]) -> Result<(Vec<u64>, String)> {
     Ok((header.shape().to_vec(), data_type))
 }
 
-/// Offset of the data, once the header is known to be harmless to parse.
+/// Checks that the header is safe to parse. Returns the offset of the data.
 ///
-/// The parser allocates what the header's length claims, multiplies the sizes in it unchecked and recurses on
-/// brackets: files must not be able to abuse that.
+/// The parser allocates as much as the header states, multiplies sizes unchecked and recurses on brackets; crafted
+/// files must not exploit that.
 fn check_header(bytes: &[u8]) -> Result<usize> {
     let cut = || damaged("it is cut short within its header".into());
     let at = |i: usize| bytes.get(i).copied().map(usize::from).ok_or_else(cut);

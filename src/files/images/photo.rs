@@ -16,8 +16,8 @@ pub struct PhotoFile {
     pub height: usize,
     /// Red, green, blue and alpha of each pixel, row by row, top row first.
     pub rgba: Vec<u8>,
-    /// Focal length of the camera, in millimetres as for a film of 36 by 24 mm, where the file's Exif data have
-    /// it and have the photo's proportions; `None` for a photo that was cropped.
+    /// Focal length of the camera, in millimetres for a film of 36 by 24 mm, from the file's Exif data. `None` if
+    /// they have none, or if the photo's proportions differ from theirs, as after cropping.
     pub film35: Option<f64>,
     /// Orientation that the file's Exif data state, from 1 (upright) to 8; the pixels are upright already.
     pub orientation: u16,
@@ -67,7 +67,7 @@ fn decode_png(bytes: &[u8]) -> Result<PhotoFile> {
             }
             rgba
         }
-        // The transformations leave nothing but these two.
+        // After the transformations only these two colour types remain.
         _ => samples,
     };
     Ok(PhotoFile {

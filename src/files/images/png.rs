@@ -68,7 +68,7 @@ impl<'a> Pixels<'a> {
             .ok_or_else(|| damaged(DecodingError::LimitsExceeded))?;
         let mut samples = try_filled("PNG image", size, 0u8)?;
         reader.next_frame(&mut samples).map_err(damaged)?;
-        // Text may follow the pixels; and a file without its end has been cut short.
+        // Reads to the end of the file: text may follow the pixels, and a truncated file must be an error.
         reader.finish().map_err(damaged)?;
         Ok(Pixels {
             reader,
@@ -201,7 +201,7 @@ pub fn write_png(image: &HeightImage) -> Result<Vec<u8>> {
     let mut samples = try_filled("PNG image", 2 * image.values().len(), 0u8)?;
     for (sample, z) in samples.chunks_exact_mut(2).zip(image.values()) {
         if z.is_finite() {
-            // Halved, so that the difference of two finite numbers is finite.
+            // Both are halved, so that the difference of two finite numbers is finite.
             let level = (0.5 * z - 0.5 * offset) / (0.5 * scale);
             let level = level.round().clamp(MIN_HEIGHT_LEVEL, MAX_HEIGHT_LEVEL);
             sample.copy_from_slice(&(level as u16).to_be_bytes());
@@ -248,7 +248,7 @@ fn quantisation(values: &[f64]) -> (f64, f64) {
         return (1.0, -MIN_HEIGHT_LEVEL); // no heights at all, or all 0
     }
     let scale = if low < high {
-        // Divided first, because the difference of two finite numbers may not be finite.
+        // Both are divided first, because the difference of two finite numbers may not be finite.
         let steps = MAX_HEIGHT_LEVEL - MIN_HEIGHT_LEVEL;
         high / steps - low / steps
     } else {

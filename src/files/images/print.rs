@@ -23,8 +23,8 @@ pub struct PhotoOptions {
     /// Number of pixels per millimetre of the surface in the photo. `None` (the default): not known, so that
     /// PNG and JPEG files do not state it, and no PDF can be made.
     pub dots_per_millimetre: Option<f64>,
-    /// Quality of JPEG, and of the picture in a PDF: from 1 to 100, by default 90. Colours are as fine
-    /// as brightness from 90 on, and half as fine below.
+    /// Quality of JPEG, and of the picture in a PDF: from 1 to 100; default 90. Colour has the full resolution from
+    /// 90 on, and half of it below.
     pub quality: u8,
 }
 
@@ -38,7 +38,7 @@ impl Default for PhotoOptions {
 }
 
 impl PhotoOptions {
-    /// These options with so many pixels for each millimetre of what the photo shows.
+    /// These options with another number of pixels per millimetre of the surface in the photo.
     pub fn dots_per_millimetre(self, dots: f64) -> Self {
         PhotoOptions {
             dots_per_millimetre: Some(dots),
@@ -98,7 +98,7 @@ pub fn write_photo(photo: &impl PhotoRows, options: &PhotoOptions) -> Result<Vec
         ColorType::Rgba
     });
     encoder.set_depth(BitDepth::Eight);
-    // A photo's noise leaves little to gain by trying harder, at ten times the cost.
+    // Higher compression would hardly shrink a photo, because of its noise, at ten times the cost.
     encoder.set_deflate_compression(DeflateCompression::Level(2));
     encoder.set_filter(Prediction::Adaptive);
     let per_metre = dots.map_or(0.0, |dots| (1000.0 * dots).round());

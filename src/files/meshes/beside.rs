@@ -12,7 +12,7 @@ pub struct Texture {
     pub bytes: Vec<u8>,
 }
 
-/// Files beside the mesh's own one by their names, and the names that were not found.
+/// Lookup of the files beside the mesh's own file by name; keeps the names that were not found.
 pub(super) struct Beside<'a> {
     files: &'a [(&'a str, &'a [u8])],
     missing: RefCell<Vec<String>>,
@@ -26,8 +26,8 @@ impl<'a> Beside<'a> {
         }
     }
 
-    /// The file of this name, or else one with the same name without folders: the paths that programs write are
-    /// often those of another machine.
+    /// The file of this name, or one whose name agrees without folders: programs often write paths of another
+    /// machine.
     pub(super) fn find(&self, name: &str) -> Option<(&'a str, &'a [u8])> {
         let same = |of: fn(&str) -> &str| {
             let matches = |known: &str| of(known).eq_ignore_ascii_case(of(name));

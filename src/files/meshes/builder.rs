@@ -25,7 +25,7 @@ pub(super) struct MeshBuilder {
     /// The texture of each triangle; shorter where the last ones have none.
     pub(super) textures: Vec<i32>,
     pub(super) pictures: Vec<Texture>,
-    /// Number of bytes that further pictures may have: together no more than the files have.
+    /// Number of bytes left for further pictures; all pictures together may not exceed the files' size.
     pub(super) room: usize,
 }
 
@@ -47,13 +47,13 @@ impl MeshBuilder {
             .try_for_each(|edge| self.triangle([*first, edge[0], edge[1]]))
     }
 
-    /// Gives all vertices from one on the same colour.
+    /// Sets the colour of all vertices from `start` on.
     pub(super) fn material(&mut self, start: usize, color: [f32; 3]) {
         let vertices = self.positions.len() - start;
         self.colors.extend(std::iter::repeat_n(color, vertices));
     }
 
-    /// Notes that the last vertices have no texture coordinates, which others may have.
+    /// Marks the last vertices as having no texture coordinates, while others may have some.
     pub(super) fn no_uvs(&mut self) {
         self.uvs.resize(self.positions.len(), NO_UV);
     }
@@ -64,7 +64,7 @@ impl MeshBuilder {
         if let Some(number) = known {
             return Ok(number as i32);
         }
-        // The same bytes may go by any number of names.
+        // Several names may refer to the same bytes.
         self.room = (self.room.checked_sub(bytes.len()))
             .ok_or_else(|| damaged("textures", "together they are larger than their files"))?;
         self.pictures.push(Texture {
@@ -127,7 +127,7 @@ fn push<T>(list: &mut Vec<T>, value: T, limit: usize) -> Result<()> {
             limit,
         });
     }
-    // Asked only where the list has to grow, for that alone costs anything.
+    // Memory is checked only where the list has to grow, because only that takes time.
     if list.len() == list.capacity() {
         list.try_reserve(1).map_err(|_| Error::OutOfMemory {
             what: "mesh",

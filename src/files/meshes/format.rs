@@ -34,8 +34,8 @@ impl MeshFormat {
         }
     }
 
-    /// The format that a file seems to have. OBJ has nothing that it must begin with: a line that begins with
-    /// `v` and a blank is taken for one.
+    /// Format detected from the contents of a file. OBJ has no signature: a line that begins with `v` and a blank is
+    /// taken for OBJ.
     pub fn detect(bytes: &[u8]) -> Option<MeshFormat> {
         if bytes.starts_with(b"ply\n") || bytes.starts_with(b"ply\r") {
             return Some(MeshFormat::Ply);

@@ -50,7 +50,7 @@ pub fn write_glb(mesh: &Mesh, texture: Option<&[u8]>) -> Result<Vec<u8>> {
     file.finish(primitive, origin)
 }
 
-/// A texture with its type, if the mesh can have one.
+/// Checks a texture and returns it with its media type; an error if the mesh has no texture coordinates.
 fn checked<'a>(image: &'a [u8], mesh: &Mesh) -> Result<(&'a [u8], &'static str)> {
     if mesh.uvs().is_none() {
         let reason = "a texture needs texture coordinates, and the mesh has none";
@@ -135,12 +135,12 @@ impl File {
             add(Semantic::Normals, self.floats(normals, Type::Vec3)?);
         }
         if let Some(uvs) = mesh.uvs() {
-            // Counted from the top here.
+            // glTF counts texture coordinates from the top.
             let uvs: Vec<_> = uvs.iter().map(|[u, v]| [*u, 1.0 - v]).collect();
             add(Semantic::TexCoords(0), self.floats(&uvs, Type::Vec2)?);
         }
         if let Some(colors) = mesh.colors().filter(|_| !textured) {
-            // With an alpha, for every element has to begin at a multiple of four bytes.
+            // Colours have an alpha, because every element must begin at a multiple of four bytes.
             let bytes = colors.iter().map(|c| {
                 let [r, g, b] = c.map(byte);
                 [r, g, b, u8::MAX]

@@ -34,12 +34,12 @@ pub struct MeshFile {
     pub mesh: Mesh,
     /// The pictures, each once, in the order of their numbers.
     pub textures: Vec<Texture>,
-    /// Names of materials and textures that were not given: without them the mesh has fewer colours.
+    /// Names of material and texture files that were not given, whose colours the mesh lacks.
     pub missing: Vec<String>,
 }
 
-/// The mesh in a file; of a format that is not given, the one it seems to have. As
-/// [`read_mesh_beside`], without other files.
+/// Reads the mesh in a file of the given format (`None`: the detected one), without other files; see
+/// [`read_mesh_beside`].
 ///
 /// # Errors
 /// As [`read_mesh_beside`].
@@ -47,8 +47,8 @@ pub fn read_mesh(bytes: &[u8], format: Option<MeshFormat>) -> Result<Mesh> {
     Ok(read_mesh_beside(bytes, format, &[])?.mesh)
 }
 
-/// The mesh in a file, with the materials, textures and buffers that the file names: `files` are
-/// what may lie beside it, by name. A name is looked for as it is and then without its folders.
+/// Reads the mesh in a file, with the materials, textures and buffers that the file names: `files` are the files
+/// beside it, by name. Each name is looked up as it is and then without its folders.
 ///
 /// Where there are points but no faces, they are a point cloud
 /// ([`Mesh::is_cloud`]). Polygons are cut into fans. Colours and texture coordinates are kept where

@@ -27,11 +27,11 @@ pub(super) fn narrowed(what: &'static str, mesh: &Mesh, origin: [f64; 3]) -> Res
 /// thousandth of the spacing of a mesh 4096 vertices across.
 const MAX_ORIGIN_DISTANCE_RATIO: f64 = 8.0;
 
-/// An origin near a mesh, in each coordinate in which its own is far away: 32 bits hold the
-/// differences from there, but not the fine detail of, say, coordinates on a map.
+/// An origin near a mesh, in each coordinate in which the mesh is far from 0: 32-bit floats resolve the differences
+/// from there, but not the fine detail of, for example, map coordinates.
 ///
-/// It is a number that 32-bit floats and a few decimal digits both hold exactly, so that all
-/// readers agree on it.
+/// Each coordinate is a number that both 32-bit floats and a few decimal digits hold exactly, so that all readers
+/// agree on it.
 pub(super) fn near_origin(mesh: &Mesh) -> [f64; 3] {
     let ends = |k: usize| {
         let (low, high) = (f64::INFINITY, f64::NEG_INFINITY);
@@ -64,7 +64,7 @@ fn rounded(value: f64) -> f64 {
 
 /// A colour from 0 to 1 as a byte.
 pub(super) fn byte(color: f32) -> u8 {
-    // Casts saturate, and make 0 of NaN.
+    // Casts saturate; NaN becomes 0.
     (color * 255.0).round() as u8
 }
 

@@ -79,7 +79,7 @@ fn looks(bytes: &[u8]) -> Option<String> {
         let words = line.split_whitespace().count();
         let second = line.split_whitespace().nth(1);
         match line.split_whitespace().next() {
-            // By a spectrum, or by its place in a colour space: no colour that is known here.
+            // A colour given as a spectrum or in another colour space is not supported.
             Some("Kd") if matches!(second, Some("spectral" | "xyz")) => {}
             Some("Kd") if words == 2 => {
                 let grey = second.unwrap_or_default();
@@ -149,7 +149,7 @@ fn check_indices(text: &str) -> Result<()> {
     Ok(())
 }
 
-/// Value of the leading digits of a number; what follows them is refused later.
+/// Value of the leading digits of a number; anything after them is refused later.
 fn whole(text: &str) -> usize {
     let digits = text.bytes().filter(u8::is_ascii_digit);
     digits.fold(0, |n, digit| {

@@ -22,7 +22,7 @@ pub(super) fn read(bytes: &[u8], beside: &Beside, parts: &mut MeshBuilder) -> Re
         .read_header(&mut reader)
         .map_err(|error| damaged("PLY", error))?;
     for element in header.elements.values() {
-        // Each takes a byte at least, unless it is made of nothing.
+        // Each element takes at least a byte, unless it has no properties.
         if element.count > bytes.len() || element.properties.is_empty() && element.count > 0 {
             return Err(damaged(
                 "PLY",
@@ -68,7 +68,7 @@ pub(super) fn read(bytes: &[u8], beside: &Beside, parts: &mut MeshBuilder) -> Re
             }
         }
     }
-    // Several of them would be told apart by a number at each face, for which there is no one name.
+    // Several textures would need a number at each face, for which there is no standard name.
     let mut names = (header.comments.iter()).filter_map(|c| c.trim().strip_prefix("TextureFile"));
     if let (Some(name), None) = (names.next().map(str::trim), names.next())
         && let Some((name, bytes)) = beside.find(name)

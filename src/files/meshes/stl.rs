@@ -70,7 +70,7 @@ fn ascii(bytes: &[u8], parts: &mut MeshBuilder) -> Result<()> {
         let end = starts.get(i + 1).copied().unwrap_or(bytes.len());
         let solid = &bytes[*start..end];
         let line = solid.iter().position(|b| *b == b'\n');
-        // A name need not follow, and may be in any encoding, but `stl_io` wants a blank.
+        // A name is optional and may be in any encoding, but `stl_io` requires a blank.
         let mut file = b"solid \n".to_vec();
         file.extend_from_slice(&solid[line.map_or(solid.len(), |at| at + 1)..]);
         collect(&file, parts)?;

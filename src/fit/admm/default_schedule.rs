@@ -56,15 +56,15 @@ const FREQUENT_CHECK_ITERATIONS: usize = 5;
 /// Number of iterations at the start of a level in which checks are more frequent.
 const FREQUENT_CHECKS_END: usize = 30;
 
-/// Maximum gap, in requested ones, from which dual ascent is tried.
+/// Maximum ratio of the current gap to the requested one at which dual ascent is tried.
 const MAX_ASCENT_GAP_RATIO: f64 = 100.0;
 
-/// Maximum gap, in requested ones, from which dual ascent is tried without V-cycles: a mesh has no coarser
-/// levels to start from, and ascents from larger gaps only cost time.
+/// Maximum ratio of the current gap to the requested one at which dual ascent is tried without V-cycles: a mesh has
+/// no coarser levels to start from, and ascents from larger gaps only cost time.
 const MAX_ASCENT_GAP_RATIO_WITHOUT_V_CYCLES: f64 = 10.0;
 
-/// Minimum requested gap at which the surface's Hessians are brought to rank one: those of a smaller gap have
-/// it.
+/// Minimum requested gap at which rank reduction is applied; surfaces solved to a smaller gap have Hessians of rank
+/// one already.
 const MIN_RANK_REDUCTION_GAP: f64 = 2e-3;
 
 /// The default schedule on one level.
@@ -73,22 +73,22 @@ pub(super) struct DefaultSchedule<O: SolvableOperator> {
     phase: Phase<O>,
     ascent_timer: AscentTimer,
     rho_changes: GrowingInterval,
-    /// Memory of the last dual ascent, for the next one.
+    /// Buffers of the last dual ascent, to be used again.
     idle_ascent: Option<Box<DualAscent<O>>>,
 }
 
-/// What is under way.
+/// Current work of the schedule.
 #[derive(Debug, Clone)]
 enum Phase<O: SolvableOperator> {
-    /// A z-step.
+    /// An iteration, in its z-step.
     Iteration,
-    /// Dual ascent from the iterate of a check; then its outcome decides how to go on.
+    /// Dual ascent from the iterate of a check, whose outcome decides how to continue.
     DualAscent {
         ascent: Box<DualAscent<O>>,
         certificate: Certificate,
         change: f64,
     },
-    /// Rank reduction of the final surface, and why the iterations have stopped before.
+    /// Rank reduction of the final surface, with the reason why the iterations stopped.
     RankReduction {
         reduction: RankReduction,
         reason: StopReason,
@@ -96,7 +96,7 @@ enum Phase<O: SolvableOperator> {
 }
 
 impl<O: SolvableOperator> DefaultSchedule<O> {
-    /// The schedule of a level on which dual ascent is not worth it before an iteration.
+    /// A schedule in which dual ascent is not tried before an iteration.
     pub(super) fn new(first_ascent_iteration: usize) -> Self {
         DefaultSchedule {
             phase: Phase::Iteration,
@@ -193,7 +193,7 @@ impl<O: SolvableOperator> DefaultSchedule<O> {
         self.ascend_or_decide(admm, certificate, change)
     }
 
-    /// Begins dual ascent if that is worth it, and decides how to go on if not.
+    /// Begins dual ascent if it may reach the requested gap; otherwise decides whether to stop.
     fn ascend_or_decide(
         &mut self,
         admm: &mut Admm<O>,
@@ -320,7 +320,7 @@ impl<O: SolvableOperator> DefaultSchedule<O> {
     }
 }
 
-/// The accuracy of the z-step under way.
+/// Accuracy of the current z-step.
 fn z_step_accuracy<O: SolvableOperator>(admm: &Admm<O>) -> ZStepAccuracy {
     let is_weak = admm.problem.has_weak_fidelity;
     let max_iterations = if is_weak {
@@ -353,9 +353,9 @@ fn is_check<O: SolvableOperator>(admm: &Admm<O>) -> bool {
     admm.iteration.is_multiple_of(every) || admm.is_last()
 }
 
-/// The over-relaxation. It leaves nearly all of the highest frequencies of a residual, with the opposite sign.
-/// Iterations without it take them away, where the start is full of them, where the bound is to be taken, and
-/// where iterates have diverged.
+/// Over-relaxation of the current iteration. Over-relaxation leaves nearly all of the highest frequencies of a
+/// residual, with the opposite sign; so it is off at the start, where the iterate is full of them, where the bound is
+/// evaluated, and after a divergence.
 fn relaxation<O: SolvableOperator>(admm: &Admm<O>) -> f64 {
     let is_plain =
         admm.iteration <= UNRELAXED_ITERATIONS || is_check(admm) || admm.divergence.has_restarted();
@@ -379,8 +379,8 @@ fn is_ascent_useful<O: SolvableOperator>(admm: &Admm<O>) -> bool {
     has_rank_one_optimum(&admm.problem) && gap > requested && gap < ratio * requested
 }
 
-/// The reason to stop after a check: the requested gap is certified. For an affine surface on a coarse level a
-/// larger one is enough, because it is worth a try on the next lattice before this one has proved it.
+/// Reason to stop after a check: the requested gap is certified. For an affine surface on a coarse level a larger gap
+/// is enough, because the next lattice may certify it sooner.
 fn stop_reason<O: SolvableOperator>(admm: &Admm<O>) -> Option<StopReason> {
     let incumbent = &admm.incumbent;
     let gap = if incumbent.is_affine && admm.parameters.is_coarse {

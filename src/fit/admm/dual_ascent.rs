@@ -32,8 +32,8 @@ const MIN_EVALUATIONS: usize = 2;
 /// Maximum number of evaluations of the bound in one ascent.
 const MAX_EVALUATIONS: usize = 8;
 
-/// Factor by which the missing gap may exceed the last gain of the bound for the ascent to go on: each
-/// evaluation finds about half of what the last one did.
+/// Maximum ratio of the gain that is still missing to the last gain of the bound at which the ascent continues: each
+/// evaluation gains about half of what the one before did.
 const EXTRAPOLATION_FACTOR: f64 = 1.5;
 
 /// Minimum momentum, as a share of the last step: on a scan, ten steps come furthest with it.
@@ -62,7 +62,7 @@ struct AscentProgress {
     evaluations: usize,
 }
 
-/// Dual ascent from the dual of an iterate, and its memory.
+/// Dual ascent from the dual of an iterate, with its buffers.
 #[derive(Debug, Clone)]
 pub(super) struct DualAscent<O: SolvableOperator> {
     progress: AscentProgress,
@@ -79,7 +79,7 @@ pub(super) struct DualAscent<O: SolvableOperator> {
     /// The energy's `ω`.
     weight: PerCell<f32>,
     scratch: O::Scratch<f32>,
-    /// Room for one run in double precision.
+    /// Buffer for one run in double precision.
     row: Matrices<f64>,
 }
 
@@ -117,7 +117,7 @@ fn run_of<T>(matrices: &mut Matrices<T>, Run { start, end }: Run) -> [&mut [T]; 
 }
 
 impl<O: SolvableOperator> DualAscent<O> {
-    /// Memory for ascents on a problem.
+    /// Allocates the buffers for ascents on a problem.
     ///
     /// # Errors
     /// Out of memory.
@@ -149,8 +149,8 @@ impl<O: SolvableOperator> DualAscent<O> {
         })
     }
 
-    /// Begins an ascent from the iterate's dual. It ends when the bound reaches the `goal`, or is not going to.
-    /// `bound` is the largest one so far.
+    /// Begins an ascent from the iterate's dual. It ends when the bound reaches the `goal`, or is predicted not to.
+    /// `bound` is the largest bound so far.
     ///
     /// # Errors
     /// Out of memory.
@@ -314,7 +314,7 @@ impl<O: SolvableOperator> DualAscent<O> {
                 let [mean, diff, off] = wide;
                 for i in 0..n {
                     let (mean, diff, off) = (mean[i], diff[i], off[i]);
-                    // Single precision may have ended just outside.
+                    // Rounding to single precision may have left the dual just infeasible.
                     let dual = NuclearNorm.dual(Sym2 { mean, diff, off }, weight[i]);
                     matrices.set(i, dual.coordinates());
                     if costs {

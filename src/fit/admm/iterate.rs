@@ -202,7 +202,7 @@ impl<O: SolvableOperator> Iterate<O> {
             PenaltyKind::Huber(bends) => {
                 self.update_under::<false>(bends.penalty(self.rho), problem, relaxation, solver)
             }
-            // One kernel for all the others: less code, and measuring costs little.
+            // One kernel serves all other cases: less code, and measuring costs little.
             _ => self.update_and_measure(problem, relaxation, solver),
         };
     }

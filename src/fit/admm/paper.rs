@@ -108,7 +108,7 @@ pub(super) fn advance<O: SolvableOperator>(
     Ok(None)
 }
 
-/// The accuracy of z-steps: rounding errors, or nearly so.
+/// Accuracy of z-steps: nearly down to rounding errors.
 fn accuracy<O: SolvableOperator>(admm: &Admm<O>) -> ZStepAccuracy {
     ZStepAccuracy {
         max_iterations: MAX_CG_ITERATIONS * admm.divergence.accuracy_factor(),

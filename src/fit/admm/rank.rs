@@ -1,17 +1,16 @@
 //! Rank reduction: brings the Hessians of the final surface to the rank of ADMM's `H`.
 //!
-//! ADMM's `H` has rank one almost everywhere long before its `z` has: what is left of the smaller
-//! eigenvalues in `Cz` is primal residual. Heights whose Hessians have rank one are what alternating
-//! projections find (Cadzow, Signal Enhancement: A Composite Property Mapping Algorithm, 1988): the
-//! part `N` of `Cz` that is too much is taken away where that is possible, in the norm of the z-step,
+//! ADMM's `H` has rank one almost everywhere long before the Hessians `Cz` of its heights have: the smaller
+//! eigenvalues left in `Cz` are primal residual. Heights whose Hessians have rank one are found by alternating
+//! projections (Cadzow, Signal Enhancement: A Composite Property Mapping Algorithm, 1988): the excess part `N` of
+//! `Cz` is removed as far as heights allow, in the norm of the z-step,
 //!
 //! ```text
 //! z ← z − A⁻¹ Cᵀ ρN,   A = 2λw + ρCᵀC,
 //! ```
 //!
-//! with the solver that is there for it, and with momentum. Where a smaller eigenvalue is large, as where
-//! creases meet, it is no residual: beyond a limit, which comes down with each step, it counts the less
-//! the larger it is.
+//! with the z-step's solver and with momentum. A large smaller eigenvalue, as where creases meet, is no residual:
+//! beyond a limit, which is lowered with each step, its weight falls with its size.
 
 use super::iterate::Iterate;
 use crate::error::{Result, try_filled};
@@ -37,7 +36,7 @@ const RANK_OVER_RELAXATION: f64 = 2.0;
 /// Stride between the stencils that the median is taken of.
 const MEDIAN_SAMPLE_STRIDE: usize = 7;
 
-/// Rank reduction under way.
+/// State of a rank reduction.
 #[derive(Debug, Clone)]
 pub(super) struct RankReduction {
     /// The surface extrapolated by the momentum, from which the next step starts.
@@ -94,7 +93,7 @@ impl RankReduction {
         iterate.reduce_rank(problem, &self.start, self.limit, solver);
         solver.step(&problem.operator);
         solver.correct(&problem.operator, &mut self.start);
-        // Nesterov's.
+        // Nesterov's momentum.
         let momentum = self.steps as f64 / (self.steps as f64 + 3.0);
         for (start, z) in self.start.iter_mut().zip(&mut self.z) {
             let before = std::mem::replace(z, *start);

@@ -15,7 +15,7 @@ use crate::fit::linear::z_step_solver::SolvableOperator;
 use crate::fit::options::Schedule;
 use crate::fit::report::{LevelReport, StopReason};
 
-/// Number of iterations in which a surface follows the load on its border.
+/// Number of iterations that a surface takes to adapt to a load on its border.
 const LOAD_WARMUP_ITERATIONS: usize = 10;
 
 /// ADMM on one level, with the schedule that it follows.
@@ -25,7 +25,7 @@ pub(crate) struct AdmmSolver<O: SolvableOperator> {
     schedule: ScheduleState<O>,
 }
 
-/// How far the schedule has come; that of the paper has nothing to remember.
+/// State of the schedule; the paper's schedule has none.
 #[derive(Debug, Clone)]
 enum ScheduleState<O: SolvableOperator> {
     Paper,
@@ -45,8 +45,8 @@ pub(crate) fn initial_rho<O: SolvableOperator>(
 
 impl<O: SolvableOperator> AdmmSolver<O> {
     /// Starts from an iterate, with the solver of its z-steps, or from the affine surface of least squares if it
-    /// `may_be_affine`. The default schedule tries dual ascent from an iteration on. A reason to stop at once
-    /// comes with it.
+    /// `may_be_affine`. The default schedule tries dual ascent from the given iteration on. Also returns a reason to
+    /// stop at once, if there is one.
     ///
     /// # Errors
     /// Out of memory.
@@ -72,7 +72,7 @@ impl<O: SolvableOperator> AdmmSolver<O> {
         Ok((AdmmSolver { admm, schedule }, reason))
     }
 
-    /// The work on this level so far.
+    /// Report of the work on this level so far.
     pub(crate) fn report(&self) -> LevelReport {
         let operator = &self.admm.problem.operator;
         LevelReport {
@@ -95,14 +95,14 @@ impl<O: SolvableOperator> AdmmSolver<O> {
         }
     }
 
-    /// Begins another pass, in which every stencil's norm is weighted by one over its size in the incumbent. A
-    /// reason to stop at once comes with it.
+    /// Begins another pass, in which every stencil's norm is weighted by one over its size in the incumbent. Returns
+    /// a reason to stop at once, if there is one.
     pub(crate) fn reweight(&mut self) -> Result<Option<StopReason>> {
         self.admm.problem.reweight(&self.admm.incumbent.z)?;
         self.begin_pass()
     }
 
-    /// Makes creases cost less, if enough of them change by that.
+    /// Reduces the weights of stencils on creases, if enough weights change.
     pub(crate) fn reweight_creases(&mut self, radius: f64) -> Result<Creases> {
         let Admm {
             problem, incumbent, ..
@@ -110,8 +110,8 @@ impl<O: SolvableOperator> AdmmSolver<O> {
         problem.reweight_creases(&incumbent.z, radius)
     }
 
-    /// Begins another pass after the weights at creases have changed, or the border was `loaded`. A reason to
-    /// stop at once comes with it.
+    /// Begins another pass after the weights at creases have changed, or the border was `loaded`. Returns a reason to
+    /// stop at once, if there is one.
     pub(crate) fn begin_pass_at_creases(&mut self, loaded: bool) -> Result<Option<StopReason>> {
         let reason = self.begin_pass()?;
         if loaded {
@@ -121,7 +121,7 @@ impl<O: SolvableOperator> AdmmSolver<O> {
         Ok(reason)
     }
 
-    /// Makes the surface follow a load on its border for a number of iterations, before which it does not stop.
+    /// Lets the surface adapt to a load on its border for a number of iterations, before which it does not stop.
     pub(crate) fn follow_load(&mut self, iterations: usize) {
         self.admm.warmup.start(self.admm.iteration, iterations);
     }

@@ -15,11 +15,10 @@ use crate::fit::energy::problem::Problem;
 use crate::fit::linear::z_step_solver::{SolvableOperator, ZStepSolver};
 use crate::fit::report::{Seconds, StopReason};
 
-/// Minimum number of iterations between two times that the dual is balanced, each of which costs about as much
-/// as that.
+/// Minimum number of iterations between two balancings of the dual, each of which costs about as much as they do.
 const BALANCE_ITERATIONS: usize = 20;
 
-/// ADMM on one level without a schedule: the problem, the iterate, and what has been found so far.
+/// ADMM on one level without a schedule: the problem, the iterate and the incumbent.
 #[derive(Debug, Clone)]
 pub(crate) struct Admm<O: SolvableOperator> {
     pub problem: Problem<O>,
@@ -56,7 +55,7 @@ impl<O: SolvableOperator> Admm<O> {
         parameters: AdmmParameters,
     ) -> (Self, Certificate) {
         let certificate = iterate.certify(&problem);
-        // A start from a coarser level need not be better than the input.
+        // An iterate from a coarser level may be worse than the input.
         let mut incumbent = Incumbent::from_input(&problem);
         incumbent.update(&iterate.z, &certificate);
         let admm = Admm {

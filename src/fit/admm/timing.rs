@@ -1,21 +1,21 @@
 //! Iterations at which a check does more than check: balancing the dual, changing ρ, and dual ascent.
 
-/// Something that is done again after a quarter more iterations than the last time.
+/// Minimum interval between two times that something is done: a quarter of the iterations so far.
 ///
-/// For changes of ρ this makes it settle in the end, without which ADMM need not converge (Boyd et al.,
-/// Sec. 3.4.1); for costly work it bounds the share of the time.
+/// Growing intervals make ρ settle in the end, without which ADMM need not converge (Boyd et al., Sec. 3.4.1), and
+/// bound the share of the time that costly work takes.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct GrowingInterval {
     last: usize,
 }
 
 impl GrowingInterval {
-    /// Whether it may be done at this iteration, `extra` iterations being added to the interval.
+    /// Whether the interval, with `extra` iterations added to it, has passed at this iteration.
     pub(super) fn has_passed(&self, iteration: usize, extra: usize) -> bool {
         iteration >= self.last + self.last / 4 + extra
     }
 
-    /// Notes that it was done at this iteration.
+    /// Starts the next interval at this iteration.
     pub(super) fn restart(&mut self, iteration: usize) {
         self.last = iteration;
     }
@@ -29,7 +29,7 @@ pub(super) struct LoadWarmup {
 }
 
 impl LoadWarmup {
-    /// Begins after this iteration and lasts for a number of iterations.
+    /// Starts the warm-up after this iteration; it lasts for a number of iterations.
     pub(super) fn start(&mut self, iteration: usize, iterations: usize) {
         self.last_iteration = iteration + iterations;
     }
@@ -45,7 +45,7 @@ impl LoadWarmup {
     }
 }
 
-/// When dual ascent is worth its time again.
+/// Timer that decides when dual ascent is tried again.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct AscentTimer {
     next_iteration: usize,
@@ -54,7 +54,7 @@ pub(super) struct AscentTimer {
 }
 
 impl AscentTimer {
-    /// The timer of a solve in which no ascent is worth it before `first_iteration`.
+    /// A timer that allows no ascent before `first_iteration`.
     pub(super) fn new(first_iteration: usize) -> Self {
         AscentTimer {
             next_iteration: first_iteration,
@@ -63,7 +63,7 @@ impl AscentTimer {
         }
     }
 
-    /// Begins another pass, with other weights, at this iteration.
+    /// Resets the timer for another pass, with other weights, at this iteration.
     pub(super) fn begin_pass(&mut self, iteration: usize) {
         *self = AscentTimer {
             next_iteration: iteration,
@@ -72,8 +72,8 @@ impl AscentTimer {
         };
     }
 
-    /// Takes note of an objective that no longer falls: all that is left to find is a bound, which is looked
-    /// for at once the first time, however long coarser levels have taken.
+    /// Records that the objective no longer falls, so that only the bound can improve. The first time, dual ascent is
+    /// due at once, however long coarser levels have taken.
     pub(super) fn note_settled(&mut self, iteration: usize) {
         if !self.has_settled {
             self.has_settled = true;
@@ -81,13 +81,13 @@ impl AscentTimer {
         }
     }
 
-    /// Whether an ascent is worth it at this iteration.
+    /// Whether dual ascent is due at this iteration.
     pub(super) fn is_due(&self, iteration: usize) -> bool {
         iteration >= self.next_iteration
     }
 
-    /// Takes note of an ascent that left a gap, as a multiple of the requested one: gaps hardly fall faster
-    /// than with the square of the iterations.
+    /// Records the gap that an ascent has left, as a multiple of the requested one: gaps hardly fall faster than with
+    /// the square of the iterations.
     pub(super) fn note_ascent(&mut self, iteration: usize, gap_ratio: f64) {
         let iterations = (iteration - self.pass_start) as f64;
         self.next_iteration = self.pass_start + (iterations * gap_ratio.sqrt()) as usize;

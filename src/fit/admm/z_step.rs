@@ -4,20 +4,19 @@ use super::iterate::Iterate;
 use crate::fit::energy::problem::Problem;
 use crate::fit::linear::z_step_solver::{SolvableOperator, ZStepSolver};
 
-/// How exactly a z-step is solved.
+/// Accuracy to which a z-step is solved.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct ZStepAccuracy {
     /// Maximum number of conjugate-gradient iterations, over all rounds.
     pub max_iterations: usize,
     /// Squared residual, relative to that at the start of a round, at which the round ends.
     pub reduction: f64,
-    /// Residual relative to `2λ z̃` at which the z-step ends. Single precision does not reach it at once:
-    /// rounds follow each other, each with the residual made anew in double precision. Without a tolerance
-    /// there is one round.
+    /// Residual relative to `2λ z̃` at which the z-step ends. Single precision needs several rounds to reach it, each
+    /// with the residual computed anew in double precision. `None`: there is one round.
     pub tolerance: Option<f64>,
 }
 
-/// How far a z-step has come.
+/// Progress of a z-step.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct ZStep {
     /// Conjugate-gradient iterations so far, and those of the current round.

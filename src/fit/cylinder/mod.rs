@@ -313,7 +313,7 @@ fn select_profile(points: &[WeightedHeight], axes: &ProfileAxes) -> Result<Profi
     }
     for point in points {
         let [across, along] = axes.place(point.at);
-        // In bins, so that penalties have no unit.
+        // Heights are in units of bins, so that penalties have no unit.
         let height = point.height / axes.unit;
         parts[axes.stretch(along, CROSS_VALIDATION_FOLDS)].add(across, along, height, point.weight);
     }

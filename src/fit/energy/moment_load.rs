@@ -16,8 +16,8 @@ use crate::math::sym2::Sym2;
 /// Distance from the border beyond which moments are those inside, in lengths over which a border straightens.
 const BORDER_REACH_LENGTHS: f64 = 2.3;
 
-/// Maximum moment of a load, as a share of the largest that a stencil bears, `ω`: a larger one would fold the
-/// sheet along its border without end.
+/// Maximum moment of a load, as a share of the largest that a stencil can bear, `ω`: a larger one would fold the
+/// sheet along its border without limit.
 const MAX_LOAD_MOMENT: f64 = 0.6;
 
 /// Vertices near the border in rings: those without a stencil, their neighbours, and so on.
@@ -68,8 +68,8 @@ impl Rings {
         self.depth.get(vertex).is_some_and(|depth| *depth <= rings)
     }
 
-    /// Smooths the values inside until no noise is left of them and continues them to the border along the
-    /// shortest paths; tells whether any vertex is inside.
+    /// Smooths the values inside until hardly any noise is left, and continues them to the border along the shortest
+    /// paths; returns whether any vertex is inside.
     ///
     /// # Errors
     /// Out of memory.
@@ -82,14 +82,14 @@ impl Rings {
         M: Copy + Default + Add<Output = M> + Mul<f64, Output = M>,
         I: Iterator<Item = usize>,
     {
-        // Over the neighbours in some rings, and so often the vertex itself.
+        // Mean over the neighbours in a range of rings and `own` copies of the vertex itself.
         let mean = |values: &[M], vertex: usize, rings: Range<u32>, own: f64| {
             let start = (values[vertex] * own, own);
             let others = around(vertex).filter(|other| rings.contains(&self.depth[*other]));
             let (sum, count) = others.fold(start, |(sum, count), other| {
                 (sum + values[other], count + 1.0)
             });
-            // No way leads inside from a part that is too narrow.
+            // In a part that is too narrow no path leads inside.
             if count > 0.0 {
                 sum * (1.0 / count)
             } else {

@@ -11,8 +11,8 @@ use crate::lattice::per_cell::PerCell;
 /// of the reweighting.
 const NEGLIGIBLE_NORM_SHARE: f64 = 0.3;
 
-/// Fidelity, in units of `λh⁴`, from which on a vertex is pinned to its height: it moves by next to nothing,
-/// and pinning it costs less than a tenth, because the norm of one Hessian is of order 1 to 1/h.
+/// Minimum fidelity, in units of `λh⁴`, at which a vertex is pinned to its height: it would hardly move, and pinning
+/// it costs less than a tenth, because the norm of one Hessian is of order 1 to 1/h.
 const PINNED_FIDELITY: f64 = 1e3;
 
 /// Fidelity of a vertex, as a share of the largest, below which it counts as weak.
@@ -110,7 +110,7 @@ impl<O: Operator> Problem<O> {
         if alike && !constrained {
             return Ok(());
         }
-        // Beside given heights a tie break weighs no more than these.
+        // Next to given heights, the tie break weighs at most as much as their fidelity.
         let mixed = self.free.len() + self.constrained.len() < vertices.len();
         let most = if mixed { 1.0 } else { f64::INFINITY };
         let tie_break = (tie_break / self.lambda).min(most);
@@ -129,8 +129,7 @@ impl<O: Operator> Problem<O> {
         let weak = |vertex: usize| fidelity[vertex] < WEAK_FIDELITY_SHARE * largest;
         self.has_weak_fidelity = !self.free.is_empty() || vertices.cells().any(weak);
         if self.has_weak_fidelity {
-            // Beside them, what is held firmly would drown everything else in its rounding errors.
-            // Its share of the bound stays.
+            // The rounding errors of firmly held vertices would exceed all else. Their share of the bound stays.
             let firm = PINNED_FIDELITY / (self.lambda * self.operator.spacing().powi(4));
             let firm = |vertex: &usize| fidelity[*vertex] >= firm && inverse[*vertex] > 0.0;
             let firm = vertices.cells().filter(firm);
@@ -142,8 +141,8 @@ impl<O: Operator> Problem<O> {
         Ok(())
     }
 
-    /// Whether constraints alone hold the surface: at its worst, the fidelity is next to nothing beside the
-    /// penalty of the input.
+    /// Whether constraints alone hold the surface: the largest possible fidelity is small beside the penalty of the
+    /// input.
     fn is_held_by_constraints(&self) -> bool {
         let vertices = self.operator.vertices().cells();
         let squares = vertices.map(|v| self.fidelity.at(v) * self.target[v].powi(2));
@@ -239,7 +238,7 @@ impl<O: Operator> Problem<O> {
 
     /// Calls `visit` with each stencil and its term of the penalty.
     pub(crate) fn each_cost(&self, z: &[f64], mut visit: impl FnMut(usize, f64)) {
-        // For values, which do not depend on ρ.
+        // The penalty's values do not depend on ρ.
         let penalty = AnyPenalty::new(self.kind, f64::NAN);
         self.operator.hessians(z, |stencil, hessian| {
             let value = penalty.value(hessian, self.weight.at(stencil));

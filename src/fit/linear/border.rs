@@ -32,7 +32,7 @@ struct Average {
     interior: u8,
 }
 
-/// Of a direction in [`NEIGHBOUR_DIRECTIONS`].
+/// Directions of neighbours are bits in the order of [`NEIGHBOUR_DIRECTIONS`].
 impl Averages {
     pub(super) fn new(domain: &Domain) -> Self {
         let boundary = |cell: &usize| domain.roles()[*cell] == Role::Boundary;
@@ -65,7 +65,7 @@ impl Averages {
         self.of.iter().map(|average| average.cell as usize)
     }
 
-    /// Adds to `A from`, which has the vertices themselves at boundary cells, what is missing there.
+    /// Completes `A from` at boundary cells, where it has the vertices themselves only.
     pub(super) fn complete(&self, domain: &Domain, from: &[f32], to: &mut [f32]) {
         for average in &self.of {
             let cell = average.cell as usize;
@@ -77,8 +77,7 @@ impl Averages {
         }
     }
 
-    /// Adds to `Aᵀ from`, which has at interior cells what a symmetric matrix would give, what is missing
-    /// there.
+    /// Completes `Aᵀ from` at interior cells, where it has only what a symmetric matrix would give.
     pub(super) fn complete_transposed(&self, domain: &Domain, from: &[f32], to: &mut [f32]) {
         for average in &self.of {
             let cell = average.cell as usize;
@@ -166,7 +165,7 @@ impl Extension {
         }
     }
 
-    /// Adds to `scale Lᵀ from`, which has half of `from` at each parent, what is missing.
+    /// Completes `scale Lᵀ from` at these vertices, where it has only half of `from` at each parent.
     pub(super) fn extend_transposed(&self, from: &[f32], to: &mut [f32], scale: f32) {
         for (fine, parent) in &self.single {
             to[*parent as usize] -= 0.5 * scale * from[*fine as usize];

@@ -91,7 +91,7 @@ impl Grid {
         }
         let roles = self.domain.roles();
         let interior = |cell: usize| roles[cell] == Role::Interior;
-        // Where all stencils count the same, it is enough to know how many there are.
+        // If all stencils have the same weight, their number is enough.
         let same = match &self.stencils {
             PerCell::Same(values) => Some(lanes::double(values[0])),
             PerCell::Each(_) => None,

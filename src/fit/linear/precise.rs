@@ -72,7 +72,7 @@ impl Precise {
             if self.distance(problem, multigrid) <= goal {
                 return step;
             }
-            // Of unit size, so that nothing leaves the range of single precision.
+            // The residual is scaled to unit size, so that it stays in the range of single precision.
             for cell in cells() {
                 self.single[cell] = lanes::single(self.residual[cell] / size);
             }

@@ -1,9 +1,9 @@
 //! Transfer of corrections between a lattice and the one of twice the spacing.
 //!
-//! Prolongation is Loop's subdivision, `P = A L`: linear interpolation `L` from the coarse vertices, then the
-//! average `A` of each vertex (weight 2) with its neighbours (weight 1). Linear interpolation alone will not do
-//! for a fourth-order operator, because its kinks cost more energy than the correction saves.
-//! [`border`](super::border) has both factors at the border of a lattice. Restriction is `Pᵀ`.
+//! Prolongation is Loop's subdivision, `P = A L`: linear interpolation `L` from the coarse vertices, then the average
+//! `A` of each vertex (weight 2) with its neighbours (weight 1). Linear interpolation alone fails for a fourth-order
+//! operator, because its kinks cost more energy than the correction saves. [`border`](super::border) has both at the
+//! border.
 
 use super::border::{Averages, Extension};
 use crate::lattice::domain::Domain;

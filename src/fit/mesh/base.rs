@@ -3,11 +3,11 @@
 use super::geometry::{Frame, Point, across, normals, smooth, unfold};
 use super::input::MeshInput;
 
-/// Number of smoothing steps after which the base takes the positions of vertices across the rays.
+/// Number of smoothing steps that determine the positions of base vertices across the rays.
 const BASE_PLACE_STEPS: usize = 3;
 
-/// Number of smoothing steps after which the base takes the positions of vertices along the rays, the steps for
-/// those across included.
+/// Number of smoothing steps that determine the positions of base vertices along the rays; includes
+/// [`BASE_PLACE_STEPS`].
 const BASE_SURFACE_STEPS: usize = 10;
 
 /// The smoothed mesh and its frames. Across the rays, vertices are where fewer smoothing steps leave them.

@@ -12,8 +12,8 @@ const INNER_SEARCH_RINGS: usize = 3;
 /// Weight of a second-ring vertex relative to a first-ring vertex, where first-ring vertices are missing.
 const SECOND_RING_WEIGHT: f64 = 0.3;
 
-/// Maximum noise amplification of a quadratic that a surface is continued by, relative to a hexagonal ring: one
-/// that amplifies more says nothing beyond its vertices.
+/// Maximum noise amplification of a quadratic that the surface is extrapolated by, relative to a hexagonal ring; a
+/// quadratic that amplifies more is not used.
 const MAX_CONTINUATION_AMPLIFICATION: f64 = 100.0;
 
 /// Extrapolates each border vertex from the quadratics fitted at its interior neighbours, on the same side of
@@ -45,7 +45,7 @@ pub(super) fn extrapolate_border(
         }
         let (mut sum, mut count) = (Point::zeros(), 0.0);
         for inner in ring.into_iter().map(|other| other as usize) {
-            // Where sides meet, the border is on all of them.
+            // A border vertex where regions meet belongs to all of them.
             let own = sides.filter(|sides| !sides.is_on_crease(vertex));
             let inside = |other: usize| {
                 let fits = own.is_none_or(|sides| sides.region[other] == sides.region[vertex]);
@@ -58,7 +58,7 @@ pub(super) fn extrapolate_border(
             if let Some((rise, up)) =
                 continue_surface(topology, &old, frame, inner, inside, old[vertex])
             {
-                // Along the normal of the vertex inside, as far as that one's surface is above.
+                // The border vertex moves along the normal of the interior vertex, by the height of its quadratic.
                 sum += frame.normal * (rise / up.dot(&frame.normal));
                 count += 1.0;
             }

@@ -18,7 +18,7 @@ impl BoundingSphere {
         let (mut sum, mut weight) = (Point::zeros(), 0.0);
         for triangle in mesh.triangles() {
             let [a, b, c] = corners(triangle);
-            // Never nothing at all, for triangles without any area have a place, too.
+            // The weight is never 0, so that triangles without area have a position, too.
             let area = (b - a).cross(&(c - a)).norm() + f64::MIN_POSITIVE;
             sum += area / 3.0 * (a + b + c);
             weight += area;

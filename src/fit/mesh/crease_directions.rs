@@ -1,7 +1,7 @@
 //! Directions in which vertices on creases move besides that of their normal.
 //!
-//! The surface has two normals on a crease, and three in a corner. Along one ray alone a vertex cannot be on
-//! all of these sides, and its distance from them would stay a dent in both.
+//! The surface has two normals on a crease, and three in a corner. A vertex that moves along one ray alone cannot lie
+//! on all these sides; what it misses them by would stay as a dent.
 
 use super::geometry::{Frame, Point};
 use super::input::MeshInput;

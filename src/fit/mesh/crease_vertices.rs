@@ -1,8 +1,8 @@
 //! Vertices on creases, moved to the intersection of the surfaces on either side.
 //!
-//! The fit about a vertex next to a crease straddles it, and blunts it by a part of an edge's length. So each
-//! vertex on a crease is moved, by the smallest step, to where the continuations of both sides intersect (or of
-//! all three in a corner), each found from vertices on its side alone.
+//! A quadratic fitted about a vertex next to a crease uses vertices on both sides, and blunts the crease by a part of
+//! an edge's length. So each vertex on a crease is moved, by the smallest step, to the intersection of the
+//! continuations of both sides (of all three in a corner), each found from vertices on its side alone.
 
 use super::border_extrapolation::continue_surface;
 use super::geometry::{Frame, Point, faces_away, normals};
@@ -15,7 +15,8 @@ use nalgebra::Matrix3;
 /// Maximum step of a vertex on a crease, as a share of the mean length of the edges around it.
 const MAX_SHARPENING_SHARE: f64 = 0.7;
 
-/// Moves the vertices on creases, where `sides` meet; `rays` are their frames so far.
+/// Moves the vertices on creases, where regions of `sides` meet, to the intersection of the sides; `rays` are the
+/// frames before.
 pub(super) fn move_crease_vertices(
     given: &MeshInput,
     sides: &SmoothRegions,
@@ -52,7 +53,7 @@ pub(super) fn move_crease_vertices(
             continue;
         }
         x[vertex] = before[vertex] + step;
-        // Nothing folds over that did not.
+        // A step that folds a triangle over is not made.
         let folds = |x: &[Point], t: &u32| faces_away(x, &up, &topology.triangles[*t as usize]);
         let own = sides.vertex_fans.around(vertex);
         if own.iter().any(|t| folds(x, t) && !folds(&before, t)) {
@@ -73,7 +74,7 @@ fn plane(
     let mut second = Vec::new();
     let own = |other: &&u32| of[**other as usize] == label && topology.inside[**other as usize];
     topology.second_ring(vertex, &mut second);
-    // The more of them, the less of what noise is left.
+    // Noise decreases with the number of neighbours.
     let near = topology.around(vertex).iter().chain(&second).filter(own);
     let usable = |other: usize| of[other] == label;
     let (mut rise, mut normal, mut count) = (0.0, Point::zeros(), 0.0);
@@ -99,7 +100,7 @@ fn intersect_planes(planes: &[(f64, Point)]) -> Option<Point> {
         right += normal * *rise;
     }
     let values = symmetric_eigen3(matrix);
-    // Two planes at an angle have 1 ± cos, and none along their line.
+    // Two planes at an angle have the eigenvalues 1 ± cos, and 0 along their line.
     let least = 1.0 - MIN_FOLD_ANGLE_RADIANS.cos();
     let known = values
         .iter()

@@ -16,9 +16,8 @@ use crate::math::sym2::Sym2;
 /// that its stencils reach. Further inside equal moments cancel.
 const LOAD_REACH_RINGS: u32 = 3;
 
-/// Loads the border, and the creases whose stencils are `known`, with the `moments` of the stencils inside;
-/// tells whether there are any. A moment smaller than the `flatness` is none of a bend: noise leaves so much on
-/// flat faces.
+/// Loads the border, and the creases whose stencils are `known`, with the `moments` of the stencils inside; returns
+/// whether there are any. Moments smaller than `flatness` are ignored: they are noise on flat faces.
 ///
 /// # Errors
 /// Out of memory.
@@ -40,7 +39,7 @@ pub(super) fn load_border(
     });
     let reach = linear.problem.reach(options.bend_radius);
     let rings = Rings::new(outermost.collect(), topology.len(), around, reach)?;
-    // In space, where the frames of neighbours have something in common.
+    // Moments are averaged in space, because neighbours have different frames.
     let mut spatial = try_filled("moments", topology.len(), Matrix3::zeros())?;
     for (vertex, moment) in linear.centres.iter().zip(moments) {
         let vertex = *vertex as usize;

@@ -56,7 +56,7 @@ fn fairing_step(
     let scale: f64 = (beside.iter())
         .map(|other| (x[*other as usize] - x[vertex]).norm())
         .sum();
-    // The vertex itself, which is at 0.
+    // The vertex itself, at the curve parameter 0.
     let mut quadratic = LeastSquares::<3, 3>::with_ridge([1.0, 0.0, 0.0]);
     for (first, sign) in beside.into_iter().zip([-1.0, 1.0]) {
         let (mut before, mut here, mut along) = (vertex, first as usize, 0.0);

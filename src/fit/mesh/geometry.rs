@@ -6,11 +6,11 @@ use super::topology::Topology;
 
 pub(crate) type Point = Vector3<f64>;
 
-/// Share of the way to the mean of its neighbours that a vertex moves in one smoothing step: with 1, some
-/// meshes alternate for ever.
+/// Share of the way to the mean of its neighbours that a vertex moves in one smoothing step; at 1, smoothing
+/// oscillates on some meshes.
 const SMOOTHING_STEP_SHARE: f64 = 0.7;
 
-/// Squared length of a hint across a normal below which it gives no direction of a tangent.
+/// Minimum squared length of a hint's component across a normal; a shorter one gives no tangent direction.
 const MIN_HINT_SQUARE: f64 = 1e-6;
 
 /// An orthonormal frame at a vertex: its normal and two tangents.
@@ -134,7 +134,7 @@ pub(super) fn unfold(topology: &Topology, x: &mut [Point], up: &[Point], held: &
         folded.fill(false);
         let mut any = false;
         for triangle in &topology.triangles {
-            // Those that stayed face as they did.
+            // Triangles whose vertices stayed face as before.
             let may = triangle.iter().any(|i| moved[*i as usize]);
             if may && faces_away(x, up, triangle) {
                 any = true;
@@ -149,7 +149,7 @@ pub(super) fn unfold(topology: &Topology, x: &mut [Point], up: &[Point], held: &
         moved.copy_from_slice(&folded);
         for vertex in 0..x.len() {
             let ring = topology.around(vertex);
-            // A vertex with one triangle only goes to the other side of its neighbours.
+            // A vertex with one triangle only moves to the other side of its neighbours.
             let share = match (topology.inside[vertex], ring.len()) {
                 (true, _) => 0.5,
                 (false, 2) => 1.5,

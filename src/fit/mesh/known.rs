@@ -14,7 +14,7 @@ pub struct MeshKnown {
 }
 
 impl MeshKnown {
-    /// Sets the confidence of each vertex, 1 being usual: the weight of its fidelity.
+    /// Sets the confidence of each vertex: the weight of its fidelity; default 1.
     ///
     /// # Errors
     /// [`Error::NotFinite`](crate::Error::NotFinite) if one is no finite number from 0 on.

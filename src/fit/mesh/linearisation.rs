@@ -20,7 +20,7 @@ use crate::math::sym2::Sym2;
 
 pub(super) type Problem = problem::Problem<SparseOperator>;
 
-/// Minimum area of a vertex, relative to the mean.
+/// Minimum area of a vertex, relative to the mean; smaller ones are raised to it.
 const MIN_AREA_SHARE: f64 = 0.1;
 
 /// Maximum noise amplification of a quadratic over the first ring, relative to a hexagonal one; above it the
@@ -52,7 +52,8 @@ pub(super) struct Linearisation {
     pub about: Vec<u32>,
     /// Factor from each unknown to a distance along the ray.
     pub scales: Vec<f64>,
-    /// Further directions of vertices on creases; their unknowns follow those of the vertices and the constant.
+    /// Directions across the rays in which vertices on creases move; their unknowns follow those of the vertices and
+    /// the constant.
     pub directions: CreaseDirections,
     /// Spacing of a hexagonal lattice with vertices of the same mean area.
     pub spacing: f64,

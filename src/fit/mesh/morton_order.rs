@@ -20,7 +20,7 @@ pub(super) fn order(places: impl Iterator<Item = [f64; 3]> + Clone) -> Vec<u32> 
         .zip(places)
         .map(|(number, place)| {
             let key = (0..3).map(|k| {
-                // What is no number becomes 0.
+                // NaN becomes 0.
                 let step = ((place[k] - low[k]) / size * steps) as u64;
                 spread(step) << k
             });

@@ -45,7 +45,7 @@ pub(super) fn noise(
             let q = Vector6::new(1.0, x, y, x * x, x * y, y * y);
             quadratic.add(&q, [off(other)], 1.0);
         }
-        // The variance of the prediction is that entry of the inverse, in units of the noise's.
+        // The variance of the prediction, in units of the noise's, is the constant term's entry of the inverse.
         let Some(inverse) = quadratic.factor().map(|factor| factor.inverse()) else {
             continue;
         };

@@ -40,8 +40,8 @@ impl Default for MeshOptions {
 }
 
 impl MeshOptions {
-    /// Weight of the fidelity term, stated for a mesh in a ball of the diameter 1; by default
-    /// [`Lambda::Auto`], which is `6.4/σh` for noise of the size `σ` on a mesh of the spacing `h`.
+    /// Weight of the fidelity term, in coordinates in which the bounding sphere of the mesh has the diameter 1.
+    /// Default [`Lambda::Auto`], which is `6.4/σh` for noise of standard deviation `σ` and a spacing `h`.
     pub fn lambda(mut self, lambda: impl Into<Lambda>) -> Self {
         self.lambda = lambda.into();
         self
@@ -59,20 +59,20 @@ impl MeshOptions {
         self
     }
 
-    /// Radius below which bends cost their size, and above which they cost their square, in the
-    /// same coordinates; default 0.1.
+    /// Bend radius `1/δ`, in the coordinates of [`MeshOptions::lambda`]: the cost of tighter bends is linear, that of
+    /// wider ones quadratic; default 0.1.
     pub fn bend_radius(mut self, radius: f64) -> Self {
         self.bend_radius = radius;
         self
     }
 
-    /// The slope that the cost of bends begins with, from 0 to 1; default 0.3.
+    /// Flatness `α`: the slope of the penalty at 0, from 0 to 1; default 0.3.
     pub fn flatness(mut self, slope: f64) -> Self {
         self.flatness = slope;
         self
     }
 
-    /// What bends more tightly than this radius is a crease, in the same coordinates;
+    /// Crease radius `1/T`, in the coordinates of [`MeshOptions::lambda`]: bends of a smaller radius are creases;
     /// default 0.1.
     pub fn crease_radius(mut self, radius: f64) -> Self {
         self.crease_radius = radius;
@@ -91,7 +91,8 @@ impl MeshOptions {
         self.crease_passes.unwrap_or(DEFAULT_CREASE_PASSES)
     }
 
-    /// Share of a dual, from 0 to 1, that bears a bend: next to flat, its direction is arbitrary.
+    /// Share, from 0 to 1, of a stencil's dual that counts as the moment of a bend: 0 where the surface is nearly
+    /// flat, because the dual's direction is arbitrary there.
     pub(super) fn bend_share(&self, dual: Sym2) -> f64 {
         ((dual.spectral_norm() - self.flatness) / CLEAR_BEND_EXCESS).clamp(0.0, 1.0)
     }

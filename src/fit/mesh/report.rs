@@ -7,13 +7,13 @@ use crate::fit::report::{Seconds, StopReason};
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[non_exhaustive]
 pub struct Repairs {
-    /// Vertices at the position of another one, with which they move.
+    /// Number of vertices at the same position as another one, with which they move.
     pub joined: usize,
     /// Triangles with two corners at one place.
     pub degenerate: usize,
     /// Triangles that repeat another one.
     pub repeated: usize,
-    /// Triangles that faced the other side than their neighbours.
+    /// Number of triangles that faced the other side than their neighbours and were reversed.
     pub turned: usize,
     /// Vertices of no triangle, which stay where they are.
     pub unused: usize,
@@ -57,13 +57,13 @@ pub struct MeshPass {
 )]
 #[non_exhaustive]
 pub struct MeshReport {
-    /// Vertices of the solve: those of the input, at most one at each position.
+    /// Number of vertices of the solve: of the input's vertices, one at each position.
     pub vertices: usize,
-    /// Vertices with triangles all around, where the surface bends.
+    /// Number of interior vertices, which have triangles all around.
     pub interior: usize,
     /// Vertices on the border, which are extrapolated from the surface inside.
     pub border: usize,
-    /// Vertices where parts of the surface touch in a point.
+    /// Number of vertices at which parts of the surface touch in a point.
     pub pinched: usize,
     /// Connected components.
     pub components: usize,

@@ -1,8 +1,8 @@
 //! Shares of ρ at creases.
 //!
-//! One ρ fits all stencils whose dual and Hessian have about the same ratio. Where smooth regions of the
-//! surface meet, the Hessian is large and its cost next to nothing: the usual ρ would hold on to the last
-//! Hessian there, and the fold would take many iterations to move.
+//! One ρ suits all stencils with about the same ratio of dual and Hessian. Where smooth regions of the surface meet,
+//! the Hessian is large and its cost is small: the usual ρ would hold the Hessian of the iteration before there, and
+//! the fold would take many iterations to move.
 
 use super::linearisation::Problem;
 use crate::fit::energy::spectral_penalty::PenaltyKind;

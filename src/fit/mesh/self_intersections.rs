@@ -1,15 +1,15 @@
 //! Self-intersections: triangles that cross others near them, or are folded over, are separated.
 //!
-//! Where the rays of vertices converge, as they do along creases in coarse noise, vertices can pass each other,
-//! and the triangles between them turn over together, so that their normals do not tell. Parts of a surface
-//! that intersect far from each other along it, as those of bodies put through each other, stay.
+//! Vertices can pass each other where their rays converge, as along creases in coarse noise. The triangles between
+//! them then turn over together, so that their normals do not show it. Parts of a surface that intersect far from
+//! each other along it, as two bodies that overlap, are left as they are.
 
 use super::geometry::{Point, twice_area};
 use super::topology::Topology;
 use super::vertex_fans::VertexFans;
 
-/// Cosine of the angle between a triangle's normal and its vertex's normal above which no triangles there
-/// cross.
+/// Minimum cosine of the angle between the normals of a triangle and of its vertex at which the triangles there are
+/// assumed not to cross.
 const MIN_NORMAL_COSINE: f64 = 0.5;
 
 /// Number of rings around a vertex whose triangles are tested for crossing.
@@ -112,8 +112,8 @@ fn mean_beside(
     Some(along.unwrap_or_else(|| mean_of(&|_| true)).0)
 }
 
-/// Triangles at these vertices that cross one near them, those that they cross, and those that face away from
-/// the normals of their corners.
+/// Triangles at these vertices that cross a triangle near them, the triangles that they cross, and those that face
+/// away from the normals of their corners.
 fn entangled_triangles(
     topology: &Topology,
     vertex_fans: &VertexFans,

@@ -46,11 +46,11 @@ const FIRST_SOLVE_GAP: f64 = 0.03;
 /// noise.
 const MAX_FAIRING_NOISE_RATIO: f64 = 1.5;
 
-/// Minimum noise that λ is chosen by, in spacings: a smaller one cannot be told from none.
+/// Minimum standard deviation of noise that λ is chosen by, in spacings; smaller noise counts as none.
 const MIN_NOISE_SPACINGS: f64 = 1e-4;
 
-/// Maximum λ, relative to the one that the noise asks for, at which creases are looked for: with a larger one,
-/// noise is taken for creases.
+/// Maximum ratio of λ to the value that suits the noise at which creases are looked for; with a larger one, noise
+/// would be taken for creases.
 const MAX_CREASE_LAMBDA_RATIO: f64 = 4.0;
 
 /// The fitted mesh and its report.
@@ -103,13 +103,13 @@ pub struct MeshSolver {
 /// Moves the vertices of a mesh so that it is piecewise developable, whatever its shape: closed,
 /// overhanging, with borders or in parts.
 ///
-/// The surface minimises `λ Σ w s² + Σ w φ(‖II‖_*)`, `s` being how far a vertex goes from where it was
-/// given, along the normal, `w` its share of the area, `II` the second fundamental form, and `φ` the
-/// cost of bends of [`Energy::Huber`](crate::Energy::Huber). It is linearised about a smoothed base and
-/// solved as over a lattice, and then once more about the result, where vertices on creases move across these
-/// as well. At the end they are moved to where the continuations of both sides meet, and borders and creases
-/// become smooth curves, unless there were to be no crease passes. Where triangles cross
-/// others near them or are folded over after that, their vertices go towards the mean of their neighbours.
+/// The surface minimises `λ Σ w s² + Σ w φ(‖II‖_*)`, where `s` is the distance of a vertex from its input position
+/// along the normal, `w` its share of the area, `II` the second fundamental form, and `φ` the Huber penalty of
+/// [`Energy::Huber`](crate::Energy::Huber). The energy is linearised about a smoothed base and solved as on a
+/// lattice, and once more about the result, where vertices on creases also move across their rays. Unless
+/// `crease_passes` is 0, they are then moved to where the continuations of both sides meet, and borders and creases
+/// become smooth curves. Last, self-intersections and folded triangles are removed by moving their vertices towards
+/// the mean of their neighbours.
 ///
 /// # Errors
 /// [`Error::Topology`](crate::Error::Topology) if the mesh is no surface and cannot safely be made one, and
@@ -199,7 +199,7 @@ impl MeshSolver {
             };
             if let Some(reason) = level.advance(&mut left)? {
                 self.finish(reason)?;
-                // Another linearisation is as much work as an advance.
+                // A further linearisation takes as much work as one call.
                 left = 0;
             }
         }
@@ -286,7 +286,7 @@ impl MeshSolver {
         let problem = self.linear.problem.clone();
         let solver = JacobiGradients::new(&problem, iterate.rho)?;
         let (mut level, reason) = AdmmSolver::new(problem, iterate, solver, parameters, 0, false)?;
-        // One round between checks is enough: the base is near already.
+        // One round between checks is enough, since the base is near the solution.
         let reason = match loaded {
             true => {
                 level.follow_load(1);
@@ -349,7 +349,7 @@ impl MeshSolver {
                     held,
                 );
             }
-            // Normals beside creases are others now.
+            // Normals beside creases have changed.
             let up = normals(topology, surface, Some(&old));
             unfold(topology, surface, &up, held);
             separate_self_intersections(topology, &sides.vertex_fans, surface, held, &|v| {
@@ -391,7 +391,7 @@ impl MeshSolver {
     pub fn surface(&self) -> Result<MeshSurface> {
         let topology = &self.given.topology;
         let mut positions = self.mesh.positions().to_vec();
-        // What no triangle has stays exactly where it is.
+        // Vertices without a triangle stay exactly where they are.
         for corner in self.mesh.triangles().as_flattened() {
             let joined = topology.joined[*corner as usize];
             if !self.given.held[joined as usize] {

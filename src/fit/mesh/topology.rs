@@ -10,7 +10,7 @@ use super::morton_order;
 use super::report::Repairs;
 use crate::scene::half_edges::{next_half_edge, twin_half_edges};
 
-/// The triangles of a mesh as a surface: joined where its vertices coincide, and all facing the same side.
+/// Connectivity of a mesh as a surface: vertices at one position are joined, and all triangles face the same side.
 #[derive(Debug, Clone)]
 pub(crate) struct Topology {
     /// Vertex of the topology that each vertex of the mesh is.
@@ -24,7 +24,7 @@ pub(crate) struct Topology {
     first: Vec<u32>,
     /// The neighbours of all vertices, one vertex after the other.
     around: Vec<u32>,
-    /// Whether the edge to each of these neighbours has one triangle only.
+    /// Whether the edge to each neighbour in `around` is on the border: it has one triangle only.
     rim: Vec<bool>,
     /// Whether triangles go once all around a vertex.
     pub inside: Vec<bool>,
@@ -255,7 +255,7 @@ impl Topology {
                     }
                 }
             }
-            // As most of its triangles face.
+            // The whole component faces as most of its triangles did.
             let over = members
                 .iter()
                 .filter(|t| turned[**t as usize] == Some(true))
@@ -271,7 +271,7 @@ impl Topology {
         Ok(())
     }
 
-    /// Finds the vertices where one fan of triangles closes.
+    /// Finds the interior vertices, at which the triangles form one closed fan.
     fn find_inside(&mut self) {
         let twins = twin_half_edges(&self.triangles);
         let mut count = vec![0u32; self.len()];
@@ -338,7 +338,7 @@ fn join_vertices(mesh: &Mesh) -> Result<(Vec<u32>, Vec<u32>)> {
     let mut source = Vec::new();
     let mut found = HashMap::with_capacity(positions.len());
     for (vertex, position) in positions.iter().enumerate() {
-        // Without the sign of 0.
+        // Makes 0 of -0.
         let key = position.map(|x| (x + 0.0).to_bits());
         joined[vertex] = *found.entry(key).or_insert_with(|| {
             source.push(vertex as u32);

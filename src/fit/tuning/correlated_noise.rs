@@ -6,21 +6,21 @@
 
 use super::curvature_scales::{CurvatureScale, Disc};
 
-/// Least ratio of smaller to larger curvature of noise. Isotropic noise has 0.30 to 0.34 at every scale; a developable
-/// shape that shows beside it lowers the ratio.
+/// Minimum ratio of the smaller to the larger median curvature of noise. Isotropic noise has 0.30 to 0.34 at every
+/// scale; a developable shape beside the noise lowers the ratio.
 const MIN_NOISE_RATIO: f64 = 0.22;
 
-/// Least ratio of noise that is as large in all directions, as far as can be told.
+/// Minimum ratio of the smaller to the larger median curvature of isotropic noise without a visible shape beside it.
 const MIN_ISOTROPIC_RATIO: f64 = 0.28;
 
-/// Least ratio of noise that is rougher in one direction than in another, as that of scan lines. It counts as noise only
-/// where its Hessians are incoherent.
+/// Minimum ratio of the smaller to the larger median curvature of noise that is rougher in one direction, such as
+/// that of scan lines. It counts as noise only where its Hessians are incoherent.
 const MIN_ANISOTROPIC_RATIO: f64 = 0.1;
 
 /// Largest coherence of neighbouring Hessians at which they are incoherent.
 const MAX_NOISE_COHERENCE: f64 = 0.15;
 
-/// Least coherence that shows a shape beside noise.
+/// Minimum coherence of neighbouring Hessians that shows a shape beside noise.
 const MIN_SHAPE_COHERENCE: f64 = 0.05;
 
 /// Largest radius, in spacings, of discs in which incoherence is a sign of noise: in larger ones bends and creases of a shape
@@ -30,28 +30,28 @@ const MAX_INCOHERENCE_RADIUS: f64 = 12.0;
 /// Largest radius, in spacings, of the smallest discs that show noise. What shows in larger discs only is a shape.
 const MAX_FIRST_RADIUS: f64 = 4.0;
 
-/// Least number of discs whose medians count.
+/// Minimum number of discs at a scale; the medians of fewer are not used.
 const MIN_DISCS: usize = 100;
 
 /// Number of scales, up to the largest one that is used, to which a covariance is fitted.
 const FITTED_SCALES: usize = 3;
 
-/// Largest ratio of the whole noise to what discs show of it. Where more is hidden, the covariance that is fitted is
-/// uncertain.
+/// Maximum ratio of the noise's standard deviation over large areas to what the largest disc shows of it. Above it
+/// the fitted covariance is too uncertain to be used.
 const MAX_HIDDEN_RATIO: f64 = 6.0;
 
 /// Largest ratio of the noise in larger discs to what the fitted covariance predicts there. Creases in the discs raise it,
 /// smooth noise behind rough noise raises it more.
 const MAX_PREDICTION_RATIO: f64 = 2.2;
 
-/// Largest ratio of the noise of a covariance to the least one, at which the one of smaller discs is taken: these tell the
-/// correlation length.
+/// Maximum ratio of a covariance's spectral root to the least one among the candidates. Of those below it the one
+/// fitted to the smallest discs is taken, as these determine the correlation length best.
 const MAX_LEAST_NOISE_RATIO: f64 = 1.25;
 
 /// Number of correlation lengths that are tried.
 const LENGTH_TRIALS: u32 = 40;
 
-/// Shortest correlation length that is tried but 0, in radii of the largest disc that is used.
+/// Shortest positive correlation length that is tried, in radii of the largest disc that is used. 0 is tried, too.
 const MIN_LENGTH_RADII: f64 = 0.02;
 
 /// Longest correlation length that is tried, in radii of the largest disc that is used.
@@ -70,7 +70,7 @@ pub(super) struct CorrelatedNoise {
     pub length: f64,
     /// Number of vertices that share one value of the noise: the sum of its correlations.
     pub shared_vertices: f64,
-    /// Whether its scale is so large that most of it could not be told from the shape.
+    /// Whether no fitted covariance explains all scales, so that most of the noise may be shape.
     pub ambiguous: bool,
 }
 
@@ -111,7 +111,7 @@ impl CorrelatedNoise {
     }
 }
 
-/// Whether noise makes the curvatures of a scale, at least for the most part.
+/// Whether the curvatures of a scale are mostly noise.
 fn is_noise(scale: &CurvatureScale) -> bool {
     let bends_both_ways = scale.ratio > MIN_NOISE_RATIO;
     let incoherent = scale.coherence < MAX_NOISE_COHERENCE
@@ -120,7 +120,7 @@ fn is_noise(scale: &CurvatureScale) -> bool {
     scale.count >= MIN_DISCS && (bends_both_ways || incoherent)
 }
 
-/// Whether noise alone makes them.
+/// Whether the curvatures of a scale are isotropic noise alone, with no shape beside it.
 fn is_plain_noise(scale: &CurvatureScale) -> bool {
     scale.ratio > MIN_ISOTROPIC_RATIO && scale.coherence < MAX_NOISE_COHERENCE
 }
@@ -135,7 +135,8 @@ struct Covariance {
 }
 
 impl Covariance {
-    /// Least squares of the logarithms.
+    /// Fits a covariance by least squares of the logarithms of the white equivalents, over a grid of correlation
+    /// lengths.
     fn fit(scales: &[CurvatureScale], discs: &[Disc]) -> Self {
         let largest = scales.last().map_or(0.0, CurvatureScale::radius);
         let [shortest, longest] = [MIN_LENGTH_RADII, MAX_LENGTH_RADII].map(|radii| radii * largest);
@@ -167,8 +168,8 @@ impl Covariance {
         }
     }
 
-    /// Whether the covariance holds for the first of some scales, the largest that it was fitted to, and for all larger
-    /// ones at which there is noise alone.
+    /// Whether the covariance explains the first of `scales`, the largest it was fitted to, and predicts all larger
+    /// ones that show noise alone.
     fn explains(&self, scales: &[CurvatureScale], discs: &[Disc]) -> bool {
         let Some((last, larger)) = scales.split_first() else {
             return false;

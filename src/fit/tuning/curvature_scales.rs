@@ -23,22 +23,23 @@ const MAX_LATTICES: usize = 5;
 /// medians hardly more exact.
 const MAX_CENTRE_ROWS: usize = 80;
 
-/// Least confidence of a disc on average, as a share of the largest confidence of the input.
+/// Minimum mean confidence of the heights in a disc, as a share of the largest confidence of the input.
 const MIN_DISC_CONFIDENCE: f64 = 0.5;
 
-/// Ratio of the median of the smaller absolute eigenvalue of a Hessian to the standard deviation of its diagonal
-/// entries, where all of it is white noise. Found by simulation; it is the same for both discs within 1 %.
+/// Ratio of the median of the smaller absolute eigenvalue of a Hessian to the standard deviation of its entry `xx`,
+/// for white noise. Found by simulation; both discs have the same ratio within 1 %.
 const SMALLER_CURVATURE_RATIO: f64 = 0.411;
 
-/// Vertices of a disc, and the coefficients by which their heights give the fitted Hessian.
+/// Stencil of a disc: the offsets of its vertices, and the coefficients that give the Hessian of the quadratic fitted
+/// to their heights.
 #[derive(Debug, Clone)]
 pub(super) struct Disc {
     radius: usize,
-    /// Rows and half columns from the centre.
+    /// Offset of each vertex from the centre, in rows and half columns.
     offsets: Vec<(isize, isize)>,
-    /// Coefficients of `xx`, `xy` and `yy`, for a spacing of 1.
+    /// Coefficients of each vertex's height in the entries `xx`, `xy` and `yy` of the Hessian, for a spacing of 1.
     pub hessian: Vec<[f64; 3]>,
-    /// Standard deviation of `xx` for white noise of standard deviation 1.
+    /// Standard deviation of the Hessian's entry `xx` for white noise of standard deviation 1.
     pub deviation: f64,
 }
 
@@ -76,7 +77,7 @@ impl Disc {
         })
     }
 
-    /// Places of the vertices, the centre being the origin of a lattice of spacing 1.
+    /// Positions of the vertices relative to the centre, in spacings.
     pub(super) fn positions(&self) -> Vec<[f64; 2]> {
         self.offsets
             .iter()
@@ -141,7 +142,7 @@ pub(super) fn curvature_scales(input: &Input, discs: &[Disc]) -> Result<Vec<Curv
     Ok(scales)
 }
 
-/// Medians over the discs of one size.
+/// Medians of the absolute principal curvatures, and the coherence, over the discs of one size.
 struct Measured {
     count: usize,
     larger: f64,
@@ -183,7 +184,7 @@ impl MeanHeights {
         })
     }
 
-    /// Means over four vertices each, on the lattice of twice the spacing. White noise stays white by that.
+    /// Mean heights on the lattice of twice the spacing, over four vertices each. White noise stays white.
     fn coarser(&self) -> Result<Self> {
         let lattice = coarse_lattice(&self.lattice)?;
         let mut heights = try_filled("mean heights", lattice.len(), f64::NAN)?;
@@ -243,7 +244,8 @@ impl MeanHeights {
         })
     }
 
-    /// The Hessian at a vertex, for a spacing of 1; `None` where a height of the disc is missing.
+    /// Hessian of the quadratic fitted in the disc about a vertex, for a spacing of 1; `None` where a height of the
+    /// disc is missing or the disc's mean confidence is too small.
     fn hessian(&self, disc: &Disc, row: isize, col: isize) -> Option<Sym2> {
         let mut entries = [0.0; 3];
         let mut confidence = 0.0;
@@ -268,7 +270,7 @@ impl MeanHeights {
     }
 }
 
-/// Row and column of the vertex at an offset, in rows and half columns, from another one.
+/// Row and column of the vertex at an offset, in rows and half columns, from the vertex at `row` and `col`.
 fn stepped(row: isize, col: isize, (rows, half): (isize, isize)) -> (isize, isize) {
     let odd = |row: isize| row.rem_euclid(2);
     let target = row + rows;

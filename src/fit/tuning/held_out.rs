@@ -1,37 +1,39 @@
 //! Cross-validation: some heights are held out, and the solve that predicts them best is the best one.
 //!
-//! What is between a held-out height and its prediction is the noise of both, and how far the
-//! prediction is from the truth; so the smallest mean square belongs to the surface next to the truth,
-//! whatever it minimises. That takes noise which is independent from vertex to vertex.
+//! The difference between a held-out height and its prediction is the sum of the height's noise and the prediction's
+//! error. If the two are independent, the expected square is smallest for the surface nearest to the truth, whatever
+//! energy it minimises. They are independent only if noise is independent from vertex to vertex.
 
 use crate::error::{Result, try_filled};
 use crate::fit::input::Input;
 use crate::heights::heightfield::Heightfield;
 
-/// Number of classes of vertices, none of which has two that are neighbours; one is held out at a time.
+/// Number of classes that the vertices are divided into; one class is held out at a time. No class has two
+/// neighbouring vertices.
 pub(crate) const HELD_OUT_CLASSES: usize = 3;
 
-/// Least number of held-out heights that say anything.
+/// Minimum number of held-out heights of one class; with fewer it is not used.
 const MIN_HELD_OUT_SAMPLES: usize = 60;
 
-/// Confidence of what takes a held-out height's place, the mean of those around: enough for the
-/// speed of a solve, and too little to count. Only what is trusted far more is held out. Both are
-/// shares of the largest confidence.
+/// Confidence of the mean of the six neighbours that replaces a held-out height, as a share of the largest
+/// confidence: large enough that the solve converges fast, too small to change its surface.
 const MADE_UP: f64 = 0.01;
 
-/// Least confidence of a held-out height, as a share of the largest.
+/// Minimum confidence of a held-out height, as a share of the largest: far above [`MADE_UP`].
 const MIN_HELD_OUT_CONFIDENCE: f64 = 0.1;
 
-/// An input without some of its heights, and these.
+/// Input with one class of heights held out, and the held-out heights.
 #[derive(Debug, Clone)]
 pub(crate) struct HeldOut {
     pub input: Input,
-    /// Vertices, their heights and confidence.
+    /// Vertex, height and confidence of each held-out height.
     samples: Vec<(usize, f64, f64)>,
 }
 
 impl HeldOut {
-    /// Without one of the [`HELD_OUT_CLASSES`]; nothing if that has too few.
+    /// Holds out the heights of one class, from 0 to [`HELD_OUT_CLASSES`] − 1; `None` if fewer than
+    /// [`MIN_HELD_OUT_SAMPLES`] of its vertices qualify. A vertex qualifies if it is known, confident enough and
+    /// unconstrained, and has six known neighbours.
     pub(crate) fn of(input: &Input, class: usize) -> Result<Option<Self>> {
         let lattice = *input.field.lattice();
         let mut heights = try_filled("held-out heights", lattice.len(), 0.0)?;
@@ -71,12 +73,12 @@ impl HeldOut {
         Ok(Some(HeldOut { input, samples }))
     }
 
-    /// How many heights are held out.
+    /// Number of held-out heights.
     pub(crate) fn len(&self) -> usize {
         self.samples.len()
     }
 
-    /// The squares of what a surface misses them by, by confidence.
+    /// Squared differences between a surface and each held-out height, times the height's confidence.
     pub(crate) fn misses(&self, surface: &Heightfield) -> Vec<f64> {
         let squares = self.samples.iter().map(|(vertex, height, weight)| {
             let miss = surface.heights()[*vertex] - height;
@@ -86,12 +88,13 @@ impl HeldOut {
     }
 }
 
-/// Steps to the east and to the two neighbours below go on to the next class, or the one after it.
+/// Class of a vertex. It changes from a vertex to each of its neighbours.
 fn class_of(row: usize, col: usize) -> usize {
     (row / 2 + row + col) % HELD_OUT_CLASSES
 }
 
-/// By how many standard errors of the mean difference `others` are smaller than `misses`.
+/// Mean of `misses − others`, in standard errors of that mean: positive where `others` are smaller. 0 if the mean is
+/// 0 or NaN.
 pub(crate) fn advantage(misses: &[f64], others: &[f64]) -> f64 {
     let count = misses.len() as f64;
     let differences = || misses.iter().zip(others).map(|(a, b)| a - b);

@@ -1,6 +1,6 @@
 //! Four vertices as one: the lattice of twice the spacing with half of the noise, which stays as
-//! independent from vertex to vertex as it was. For what noise is like, and for trying; a solve
-//! itself coarsens otherwise (`coarsen`).
+//! independent from vertex to vertex as it was. The measurement of noise and cross-validation use it; a solve itself
+//! coarsens by `coarsen`.
 
 use crate::error::{Result, try_filled};
 use crate::fit::input::Input;
@@ -9,8 +9,12 @@ use crate::heights::occlusions::Occlusions;
 use crate::lattice::coarsening::coarse_lattice;
 use crate::lattice::hexagonal::Lattice;
 
-/// The input on the lattice of twice the spacing: each vertex is the mean of four that form a rhombus,
-/// where all are there. A constraint is data like any other.
+/// Averages an input to the lattice of twice the spacing: each coarse height is the mean of the four fine ones of a
+/// rhombus, NaN where one of them is missing. Constraints become ordinary heights. A coarse vertex is on an occlusion
+/// where one of the four is.
+///
+/// # Errors
+/// Out of memory.
 pub(crate) fn merge(input: &Input) -> Result<Input> {
     let fine = input.field.lattice();
     let lattice = coarse_lattice(fine)?;
@@ -24,7 +28,7 @@ pub(crate) fn merge(input: &Input) -> Result<Input> {
             };
             let vertex = lattice.index(row, col);
             heights[vertex] = 0.25 * four.map(|v| input.field.heights()[v]).iter().sum::<f64>();
-            // One over the variance of the mean.
+            // Confidence is taken as the inverse of a variance: that of the mean is a quarter of the mean variance.
             let variance = |v: usize| 1.0 / input.trust(v);
             confidence[vertex] = 4.0 / four.map(variance).iter().sum::<f64>();
             torn[vertex] = u8::from(four.iter().any(|v| input.is_occluded(*v)));
@@ -40,7 +44,7 @@ pub(crate) fn merge(input: &Input) -> Result<Input> {
     Ok(merged)
 }
 
-/// The vertices of the fine lattice that a coarse one stands for.
+/// Indices of the four fine vertices averaged to one coarse vertex; `None` if one is outside of the fine lattice.
 pub(super) fn rhombus(fine: &Lattice, row: usize, col: usize) -> Option<[usize; 4]> {
     let left = (2 * col).checked_sub(row % 2)?;
     let (bottom, right) = (2 * row + 1, left + 1);

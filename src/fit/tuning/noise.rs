@@ -6,7 +6,7 @@ use crate::error::Result;
 use crate::fit::input::Input;
 use crate::math::statistics::{MAD_TO_SIGMA, median};
 
-/// Least number of samples that say anything about noise.
+/// Minimum number of rings from which noise is measured; with fewer there is no result.
 const MIN_NOISE_SAMPLES: usize = 50;
 
 /// Least ratio of the noise of large discs to that of rings of six neighbours at which noise is correlated. Resampling and
@@ -27,14 +27,17 @@ pub(crate) struct Noise {
     /// Standard deviation of the Gaussian blur that makes such noise of white noise, in the user's units; 0 for noise
     /// that is independent from vertex to vertex.
     pub correlation_length: f64,
-    /// Number of times that four vertices are averaged to one until noise is independent from vertex to vertex.
+    /// Number of coarsenings, each of four vertices to their mean, until noise is independent from vertex to vertex;
+    /// 0 for white noise.
     pub merged: usize,
-    /// `σ h √A`, in the user's units squared, times the confidence of what it was measured at, where `A` vertices share a
-    /// value of the noise. In normalised coordinates `8` over it is about the best λ.
+    /// Product `σ h √A` times the largest confidence, in the user's units squared; `A` vertices share one value of
+    /// the noise. In normalised coordinates the best λ is about `8 / product`.
     pub product: f64,
-    /// The step of quantised heights, if noise is no larger than what that makes.
+    /// Quantisation step of the heights, in the user's units; `None` if they are not quantised, or their noise
+    /// exceeds the rounding error of such a step, `step/√12`.
     pub step: Option<f64>,
-    /// Whether the noise is alike over distances at which the shape bends, so that the two could not be told apart.
+    /// Whether the noise is correlated over distances at which the shape bends, too, so that the two could not be
+    /// told apart.
     pub ambiguous: bool,
 }
 
@@ -60,7 +63,8 @@ impl Noise {
         };
         let mut shared = 1.0;
         if let Some(step) = step {
-            // Heights that are rounded alike have errors that are alike. The square root is by experience.
+            // Neighbours that are rounded to one height have correlated errors. The square root was found by
+            // experiment.
             let width = plateau(input, step);
             shared = width.sqrt();
             noise.merged = width.log2().round() as usize;
@@ -76,7 +80,8 @@ impl Noise {
     }
 }
 
-/// Noise that is alike from one vertex to the next; `None` where it is hardly more than the white noise of the rings.
+/// Correlated noise of an input; `None` where it is hardly larger than the white noise measured from rings of
+/// neighbours.
 fn correlated_noise(input: &Input, white: f64) -> Result<Option<CorrelatedNoise>> {
     let discs: Vec<Disc> = DISC_RADII.into_iter().filter_map(Disc::new).collect();
     let scales = curvature_scales(input, &discs)?;
@@ -85,8 +90,9 @@ fn correlated_noise(input: &Input, white: f64) -> Result<Option<CorrelatedNoise>
         .filter(|noise| noise.sigma * noise.shared_vertices.sqrt() >= MIN_CORRELATED_RATIO * white))
 }
 
-/// Standard deviation of white noise, by the rings of six neighbours: the sum of a ring's heights with alternating signs
-/// vanishes for every quadratic. The median is over all rings, so that creases do not count.
+/// Standard deviation of white noise, measured from rings of six neighbours: the sum of a ring's heights with
+/// alternating signs is 0 for every quadratic. The median over all rings discards creases. `None` if there are fewer
+/// than [`MIN_NOISE_SAMPLES`] rings.
 fn ring_noise(input: &Input) -> Option<f64> {
     let lattice = input.field.lattice();
     let least = MIN_SAMPLE_CONFIDENCE * largest_trust(input);
@@ -113,7 +119,7 @@ fn ring_noise(input: &Input) -> Option<f64> {
     Some(MAD_TO_SIGMA * median(&mut samples)? / 6f64.sqrt())
 }
 
-/// Least confidence of a sample, as a share of the largest: bridged vertices have less.
+/// Minimum confidence of a height that noise is measured from, as a share of the largest: discards bridged vertices.
 const MIN_SAMPLE_CONFIDENCE: f64 = 0.5;
 
 /// Largest confidence of a height that is not constrained.
@@ -127,7 +133,7 @@ fn largest_trust(input: &Input) -> f64 {
     }
 }
 
-/// The height of a vertex; NaN where it has less than the least confidence, or is constrained.
+/// Height of a vertex; NaN where its confidence is below `least` or 0, or the vertex is constrained.
 fn sample(input: &Input, vertex: usize, least: f64) -> f64 {
     let weight = input.weight(vertex);
     if input.is_constrained(vertex) || weight < least || weight == 0.0 {
@@ -136,7 +142,8 @@ fn sample(input: &Input, vertex: usize, least: f64) -> f64 {
     input.field.heights()[vertex]
 }
 
-/// The step of quantised heights: all differences of heights are multiples of it. `None` if too few heights are equal.
+/// Quantisation step of the heights: the smallest difference between two, of which all other differences are
+/// multiples. `None` if too few heights are equal or there is no such step.
 fn step(input: &Input) -> Option<f64> {
     let least = MIN_SAMPLE_CONFIDENCE * largest_trust(input);
     let samples = (0..input.field.lattice().len()).map(|v| sample(input, v, least));
@@ -156,7 +163,7 @@ fn step(input: &Input) -> Option<f64> {
     gaps.into_iter().all(multiple).then_some(step)
 }
 
-/// Mean number of vertices in a row that are rounded to the same height.
+/// Mean length of a run of vertices along a row that are rounded to one height, in vertices; at least 1.
 fn plateau(input: &Input, step: f64) -> f64 {
     let lattice = input.field.lattice();
     let least = MIN_SAMPLE_CONFIDENCE * largest_trust(input);

@@ -16,14 +16,17 @@ use crate::fit::options::{Bending, Border, Energy, Lambda, Options};
 use crate::fit::report::{LambdaChoice, LambdaReason};
 use crate::fit::warm_start::WarmStart;
 
-/// Product `λ σh` at about the best λ, in normalised coordinates, with which the search begins.
+/// Product `λ σ h` of the first λ of a search under white noise, in normalised coordinates: σ is the noise's standard
+/// deviation, h the spacing. The best λ is about there.
 const FIRST_LAMBDA_NOISE: f64 = 8.0;
 
-/// Product `λ σh √A` under noise that is alike from one vertex to the next: more than under white noise, since a shape
-/// beside such noise makes it look larger than it is (`benches/scenes.md`).
+/// Product `λ σ h √A` of the first λ of a search under correlated noise, of which `A` vertices share a value, in
+/// normalised coordinates. It is larger than under white noise, since a shape beside such noise makes the noise look
+/// larger than it is (`benches/scenes.md`).
 const CORRELATED_LAMBDA_NOISE: f64 = 14.0;
 
-/// Largest λ of the search: where noise asks for more there is none to speak of, and λ is this preset.
+/// Maximum λ that a search begins with. An input whose noise is so small that it asks for a larger one counts as free
+/// of noise and gets [`WITHOUT_NOISE`].
 const MAX_SEARCH_LAMBDA: f64 = 1e9;
 const WITHOUT_NOISE: Lambda = Lambda::Big;
 
@@ -42,37 +45,37 @@ const SEARCH_GAP: f64 = 0.02;
 /// Largest number of iterations of a solve that is compared.
 const MAX_SEARCH_ITERATIONS: usize = 500;
 
-/// Least number of vertices with a stencil of a coarse lattice that the search may use: usually, and where
-/// noise is correlated on any finer one.
+/// Minimum number of interior vertices of a coarse lattice that a search may use: first of the lattice of twice the
+/// spacing, then of a lattice coarsened until correlated noise is white there.
 const MIN_SEARCH_VERTICES: [usize; 2] = [1500, 400];
 
-/// Number of held-out heights that tells small differences; where there are fewer, further ones are held out
-/// in further solves.
+/// Minimum number of held-out heights that resolves small differences between candidates. Where one class of vertices
+/// has fewer, further classes are held out, each in a solve of its own.
 const MIN_HELD_OUT_HEIGHTS: usize = 1500;
 
-/// Number of standard errors by which predictions must be better with a smaller and with a larger λ. Bendings
-/// have hurdles of their own.
+/// Number of standard errors by which a candidate with a smaller, and with a larger, λ than the best one's must
+/// predict held-out heights better to replace it. A candidate with another penalty has the threshold of its
+/// [`Choice`].
 const LAMBDA_HURDLES: [f64; 2] = [-0.5, 2.0];
 
-/// Ratio of `λ σh` to [`FIRST_LAMBDA_NOISE`] from which on noise would come back in passes at creases.
+/// Ratio of `λ σ h` to [`FIRST_LAMBDA_NOISE`] above which there are no crease passes, since these would make creases
+/// of noise.
 const LOUD_NOISE_RATIO: f64 = 2.0;
 
-/// Shares by which the mean squares of what predictions miss must be less for another bending where noise is
-/// alike from one vertex to the next: a surface that bends, or creases, more easily follows such noise, and
-/// so predicts heights that have it, too.
+/// Minimum relative reduction of the mean squared prediction error for another penalty under correlated noise: for
+/// one of smaller flatness, then for one of larger crease radius. A surface that bends or creases more easily follows
+/// such noise, and so predicts held-out heights better without being nearer to the truth.
 const CORRELATED_BENDING_GAINS: [f64; 2] = [0.15, 0.045];
 
-/// Share by which they must be less for creases where noise is alike on finer lattices only, on which creases
-/// follow it.
+/// Minimum relative reduction of the mean squared prediction error for a penalty of larger crease radius where noise
+/// is correlated on the input's lattice but white on the coarse one that is searched: creases follow it there, too.
 const FINER_CREASE_GAIN: f64 = 0.021;
 
-/// Number of standard errors by which predictions must be better besides.
+/// Minimum advantage of another penalty under correlated noise, in standard errors, besides the relative reduction.
 const BENDING_HURDLE: f64 = 1.0;
 
-/// Bendings to be compared: the steps from the first λ to those that may suit each, and by how many standard
-/// errors it must predict better than those before it. What there is no reason to leave; for smooth bends,
-/// for creases among these, and for flat facets; for smooth bends alone, which has no cost of flat parts to
-/// lean on.
+/// Parameters of the Huber penalty that are compared, in order: the nuclear norm as the starting point, smooth bends,
+/// smooth bends with creases, flat facets, and smooth bends without flatness.
 const BENDING_CHOICES: [Choice; 5] = [
     (Bending::NUCLEAR, &[0], 0.0),
     (Bending::SMOOTH, &[0, -1], 0.0),
@@ -81,8 +84,7 @@ const BENDING_CHOICES: [Choice; 5] = [
     (Bending::new(0.1, 0.0, 0.3), &[-1], 1.0),
 ];
 
-/// What is known about an input before a solve: the factor from the user's units to the energy's, and
-/// its noise.
+/// Noise and scale of an input, known before its solve.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Known {
     pub scale: f64,
@@ -104,8 +106,8 @@ impl Known {
     }
 }
 
-/// Options for an input without noise, for one whose noise cannot be told, and those to begin the
-/// search with; then what has been chosen, and why.
+/// Initial options, with the initial λ and the reason for it: a λ from the size of the noise, [`WITHOUT_NOISE`] for
+/// an input without noise, or [`Lambda::Medium`] where the noise cannot be measured.
 pub(crate) fn first(
     options: &Options,
     noise: Option<Noise>,
@@ -141,7 +143,8 @@ pub(crate) fn first(
     (options.lambda(lambda), choice)
 }
 
-/// The options with what is not given filled in.
+/// Options with the default Huber parameters filled in where none are given, kept from following noise where λ is
+/// large for it.
 pub(crate) fn guarded(options: &Options, noise: Option<Noise>, scale: f64) -> Options {
     let loudness = noise.map_or(0.0, |noise| {
         options.lambda_or_default().value() * noise.product * scale * scale / FIRST_LAMBDA_NOISE
@@ -149,8 +152,8 @@ pub(crate) fn guarded(options: &Options, noise: Option<Noise>, scale: f64) -> Op
     at_loudness(options, Bending::SMOOTH, loudness)
 }
 
-/// The options that [`first`] gives, where there can be no search. Under noise that is alike from one vertex to the
-/// next, anything but the nuclear norm would follow it.
+/// Fallback options where a search is impossible: those of [`first`] with fixed Huber parameters. Under correlated
+/// noise these are the nuclear norm's, as any other penalty would follow the noise.
 pub(crate) fn without_search(first: &Options, noise: Option<Noise>) -> Options {
     match noise.is_some_and(|noise| noise.merged > 0) {
         true => at_loudness(first, Bending::NUCLEAR, f64::INFINITY),
@@ -158,9 +161,9 @@ pub(crate) fn without_search(first: &Options, noise: Option<Noise>) -> Options {
     }
 }
 
-/// The options with what is not given as in `bending`, but without what would make a surface of noise:
-/// with λ so many times too large for that, flat parts must cost more, up to what they do under the
-/// nuclear norm, and there are no passes at creases.
+/// Options with the parameters of `bending` where none are given, restrained so that the surface does not follow
+/// noise. `loudness` is the ratio of λ to the λ that suits the noise: flatness grows in proportion to it, up to 1
+/// (the nuclear norm), and above [`LOUD_NOISE_RATIO`] there are no crease passes.
 fn at_loudness(options: &Options, bending: Bending, loudness: f64) -> Options {
     let quiet = Bending {
         flatness: (Bending::SMOOTH.flatness * loudness).clamp(bending.flatness, 1.0),
@@ -173,8 +176,7 @@ fn at_loudness(options: &Options, bending: Bending, loudness: f64) -> Options {
     out
 }
 
-/// The input on the lattice that a search is made on, and whether its noise is alike from one vertex to
-/// the next there.
+/// The input on the lattice of a search, and whether its noise is correlated there, too.
 fn searchable(input: &Input, noise: Noise) -> Result<(Input, bool)> {
     let [enough, least] = MIN_SEARCH_VERTICES;
     let halved = |input: &Input| -> Result<(Input, usize)> {
@@ -182,7 +184,7 @@ fn searchable(input: &Input, noise: Noise) -> Result<(Input, bool)> {
         let size = merged.domain().map_or(0, |domain| domain.interior_len());
         Ok((merged, size))
     };
-    // What is rounded alike predicts itself, on any lattice.
+    // Rounding errors of quantised heights are correlated on every lattice.
     if noise.step.is_none() && (1..=MAX_MERGES).contains(&noise.merged) {
         let mut coarse = input.clone();
         let mut size = usize::MAX;
@@ -198,33 +200,38 @@ fn searchable(input: &Input, noise: Noise) -> Result<(Input, bool)> {
     Ok((searched, noise.merged > 0))
 }
 
-/// What is to be tried: which of the bendings, and how many factors above the first λ.
+/// Candidate of a search: index of its penalty among [`Search::bendings`], and the exponent of [`LAMBDA_STEP_FACTOR`]
+/// by which its λ differs from the first.
 type Candidate = (usize, i32);
 
-/// A bending, the steps that may suit it, and its hurdle.
+/// Huber parameters to compare, the exponents of [`LAMBDA_STEP_FACTOR`] to try with them, and the number of standard
+/// errors by which they must predict better.
 type Choice = (Bending, &'static [i32], f64);
 
-/// A search under way.
+/// Cross-validation in progress: compares candidates for λ and Huber parameters by how well they predict held-out
+/// heights.
 #[derive(Debug, Clone)]
 pub(crate) struct Search {
-    /// One class of vertices or several, each for a solve of its own.
+    /// Inputs with held-out heights: one solve per candidate for each of them.
     held_out: Vec<HeldOut>,
-    /// Most steps to smaller and larger λ: no larger where noise may be predictable after all.
+    /// Exponents of [`LAMBDA_STEP_FACTOR`] at the smallest and the largest λ to try. The largest is 0, the first λ,
+    /// where noise is quantised or correlated on the input's lattice.
     steps: [i32; 2],
-    /// Whether noise is predictable, so that λ must not be chosen by that, and bendings with care.
+    /// Whether noise is correlated on the lattice of the search, so that held-out noise can be predicted. Then λ
+    /// stays the first one, and another penalty needs a minimum reduction of the prediction error.
     dependent: bool,
     known: Known,
-    /// The options that were asked for.
+    /// Options of the caller.
     asked: Options,
-    /// The options of the solves that are compared, with the first λ.
+    /// Options that all compared solves share, with the first λ.
     options: Options,
     bendings: Vec<Choice>,
-    /// What has been tried, the best of it, and by how much that missed.
+    /// Candidates that have been tried.
     tried: Vec<Candidate>,
     best: Candidate,
     misses: Vec<f64>,
     now: Candidate,
-    /// The same of the one under way, as far as its solves are done, and how many are.
+    /// Squared prediction errors of the current candidate in its finished solves.
     missed: Vec<f64>,
     solved: usize,
     solve: Box<ComponentSolver>,
@@ -232,9 +239,12 @@ pub(crate) struct Search {
 }
 
 impl Search {
-    /// About the options that [`first`] gives; nothing where there are too few vertices to search
-    /// with. Where noise is alike from one vertex to the next on any lattice that has enough of them,
-    /// only bendings are compared.
+    /// Starts a search around the options that [`first`] gives; `None` where too few heights can be held out, or
+    /// noise is correlated on every lattice large enough. Quantised heights are searched all the same, for the
+    /// penalty alone.
+    ///
+    /// # Errors
+    /// Out of memory, and errors of the solver.
     pub(crate) fn new(
         input: &Input,
         asked: &Options,
@@ -251,7 +261,7 @@ impl Search {
         let Some(class) = HeldOut::of(&input, 0)? else {
             return Ok(None);
         };
-        // More of what is predictable anyway would only be surer of it.
+        // Further held-out heights would not help: their noise is as predictable.
         let solves = match dependent {
             true => 1,
             false => MIN_HELD_OUT_HEIGHTS
@@ -303,7 +313,7 @@ impl Search {
         }))
     }
 
-    /// Goes on until `left` conjugate-gradient iterations are used up; tells whether it is over.
+    /// Continues until `left` conjugate-gradient iterations are used up; returns whether the search has finished.
     pub(crate) fn advance(&mut self, left: &mut usize) -> Result<bool> {
         while *left > 0 {
             let before = self.solve.progress().cg_iterations;
@@ -338,7 +348,7 @@ impl Search {
         Ok(false)
     }
 
-    /// Begins with the next solve of the present candidate.
+    /// Starts the next solve of the current candidate, from the surface of the solve before.
     fn begin(&mut self) -> Result<()> {
         let held_out = &self.held_out[self.solved];
         let options = of(&self.options, &self.bendings, self.now);
@@ -347,7 +357,7 @@ impl Search {
         Ok(())
     }
 
-    /// Whether the present candidate is better than the best so far.
+    /// Whether the current candidate replaces the best one so far; `misses` are its squared prediction errors.
     fn is_better(&self, misses: &[f64]) -> bool {
         let [smaller, larger] = LAMBDA_HURDLES;
         let [(new, _, other), (old, ..)] =
@@ -371,8 +381,9 @@ impl Search {
         (least == 0.0 || enough) && advantage(&self.misses, misses) > hurdle
     }
 
-    /// From bending to bending, then from λ to λ as long as that is better. Above the first λ there are
-    /// no passes at creases, nor are flat parts cheap, so that only the nuclear norm is tried there.
+    /// The next candidate: first every penalty with each of its λ, then λ next to the best one's until neither
+    /// neighbour is better. Only the nuclear norm is tried above the first λ, where other penalties would follow
+    /// noise.
     fn next(&self) -> Option<Candidate> {
         let missing = |candidate: &Candidate| !self.tried.contains(candidate);
         let (bending, step) = self.best;
@@ -388,12 +399,13 @@ impl Search {
         others.chain(beside).find(missing)
     }
 
-    /// Iterations so far.
+    /// Number of ADMM iterations so far, of all solves.
     pub(crate) fn iterations(&self) -> usize {
         self.iterations + self.solve.progress().iteration
     }
 
-    /// The options that the search has come to.
+    /// Options of the best candidate, with the caller's in all that was given; writes the reason and the cost into
+    /// `choice`.
     pub(crate) fn found(&self, choice: &mut LambdaChoice) -> Options {
         if !self.dependent {
             choice.reason = LambdaReason::Prediction;
@@ -412,14 +424,14 @@ impl Search {
     }
 }
 
-/// The options of a candidate.
+/// Options of a candidate.
 fn of(first: &Options, bendings: &[Choice], (bending, step): Candidate) -> Options {
     let factor = LAMBDA_STEP_FACTOR.powi(step);
     let options = first.lambda(first.lambda_or_default().value() * factor);
     at_loudness(&options, bendings[bending].0, factor)
 }
 
-/// A solve of what is not held out.
+/// Starts a solve of the heights that are not held out.
 fn trial(
     held_out: &HeldOut,
     options: &Options,
@@ -439,8 +451,8 @@ fn trial(
     )
 }
 
-/// The options of solves that are only compared with each other. Energy and coordinates are the ones that were
-/// asked for; no other option changes what λ is found. A load at the border changes less than their gap.
+/// Options of the compared solves: the energy and normalisation that were asked for, a coarse duality gap and a free
+/// border. The other options hardly change which candidate is best.
 fn compared(asked: &Options, first: Lambda) -> Options {
     Options {
         energy: asked.energy,

@@ -17,8 +17,8 @@ const MAX_SLOPE_JUMP_DEVIATIONS: f64 = 4.0;
 /// Difference between slopes below which they count as equal whatever the noise, so that rounding is no jump.
 const NEGLIGIBLE_SLOPE_DIFFERENCE: f64 = 0.05;
 
-/// Maximum difference between slopes that a crease within the hole explains, as a share of their spread: a
-/// crease off the hole's middle leaves one.
+/// Maximum difference between slopes that a crease within the hole explains, as a share of their spread: a crease
+/// beside the middle of the hole makes them differ.
 const MAX_CREASE_SLOPE_SHARE: f64 = 0.7;
 
 /// Maximum distance of a height from the plane around a hole, relative to the typical one, where there are no
@@ -44,11 +44,11 @@ pub(super) struct Crossing {
     pub confidence: f64,
     /// Number of steps from the cell within which there are heights on all sides of it.
     pub distance: f64,
-    /// Difference between the slope across the hole and those beside it, in height per step.
+    /// Difference between the slope across the hole and those beside it, in height units per step.
     difference: f64,
-    /// Square of that difference, in variances of one height.
+    /// Square of `difference`, in units of the variance of one height.
     evidence: f64,
-    /// Sum of squares of the differences among slopes beside the hole, and their number.
+    /// Sum of squares of the differences between slopes beside the hole, and their number.
     spread: f64,
     terms: f64,
     /// Whether slopes beside the hole are known in all directions.
@@ -102,7 +102,7 @@ impl<'a> Crossings<'a> {
         }
     }
 
-    /// The cells across which the surface continues, without those next to one where it does not.
+    /// The given cells across which the surface continues, without those next to a cell across which it does not.
     pub(super) fn sound(&self, cells: &[usize]) -> Result<Vec<Crossing>> {
         let mut scratch = Scratch::default();
         let at = |cell: &usize| self.at(*cell, &mut scratch);
@@ -125,7 +125,8 @@ impl<'a> Crossings<'a> {
         Ok(found.into_iter().flatten().filter(sound).collect())
     }
 
-    /// The surroundings of a cell: as far as there are heights on all sides of it, and two steps further.
+    /// Fits a plane to the surroundings of a cell: out to where there are heights on all sides of it, and two steps
+    /// further.
     fn at(&self, cell: usize, scratch: &mut Scratch) -> Option<Crossing> {
         let sites = &self.sites[usize::from(self.raster.is_odd(cell))];
         scratch.found.clear();
@@ -167,7 +168,7 @@ impl<'a> Crossings<'a> {
     ) -> Option<Crossing> {
         let mut plane = LeastSquares::<3>::new();
         let mut confidence = 0.0;
-        // Heights above one of them: nothing is lost far from 0.
+        // Heights are relative to one of them, so that no digits are lost far from 0.
         let first = residuals[*found.first()?];
         for i in &*found {
             let row = sites[*i].place.push(1.0);
@@ -218,7 +219,7 @@ impl<'a> Crossings<'a> {
             evidence: right.dot(&variance.cholesky()?.solve(right)),
             spread: (squares - right.dot(&difference)).max(0.0),
             terms,
-            // A pair along each of two directions has an eigenvalue of at least a half.
+            // Pairs along two directions give an eigenvalue of at least a half.
             sees: least > 0.25,
             stray: (strays / n).sqrt(),
             reach: sites.last()?.place.norm(),
@@ -226,11 +227,11 @@ impl<'a> Crossings<'a> {
     }
 }
 
-/// Medians over all holes.
+/// Medians over all holes: the typical noise.
 struct Typical {
-    /// What the spread of slopes has for each term.
+    /// Median of the spread of slopes, per difference.
     spread: f64,
-    /// How far heights are from the plane, where slopes beside are not known.
+    /// Median distance of heights from the plane, where slopes beside the hole are not known.
     stray: f64,
 }
 

@@ -3,16 +3,16 @@
 use super::raster::Raster;
 use crate::error::{Result, try_filled};
 
-/// The cells without a height that are in no empty hexagon of `width + 1` across (morphological closing; beyond
-/// the data all is empty). For an even width such a hexagon is a cell with all cells up to `width / 2` steps
-/// around it, for an odd one a triangle with those around it; on pixels likewise an octagon about one pixel or
-/// four.
+/// The cells of narrow holes: those without a height that are in no empty hexagon of `width + 1` across
+/// (morphological closing; beyond the data everything counts as empty). For an even width such a hexagon is a cell
+/// with all cells up to `width / 2` steps around it, for an odd one a triangle with the cells around it. On pixels it
+/// is an octagon about one pixel, or about four.
 pub(super) fn narrow(raster: &Raster, heights: &[f64], width: usize) -> Result<Vec<usize>> {
     let radius = width / 2;
     let filled: Vec<usize> = (0..raster.cells())
         .filter(|c| !heights[*c].is_nan())
         .collect();
-    // Wide: further than that from all heights.
+    // Centres of wide holes: cells further than that from all heights.
     let near = reached(raster, filled, radius)?;
     let is_wide = |cell: usize| !near[cell];
     let offsets = [false, true].map(|odd| raster.pairs(odd));
@@ -41,7 +41,7 @@ fn reached(raster: &Raster, seeds: Vec<usize>, steps: usize) -> Result<Vec<bool>
         let offsets = raster.step_offsets(k);
         let mut next = Vec::new();
         for cell in front {
-            // The margin's own border leads nowhere.
+            // Cells at the outer border of the margin have no further neighbours.
             let (row, col) = (cell / raster.stride, cell % raster.stride);
             if row == 0 || row + 1 == raster.height || col == 0 || col + 1 == raster.stride {
                 continue;

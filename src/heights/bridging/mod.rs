@@ -17,17 +17,15 @@ use raster::Raster;
 
 /// Which holes in the data are bridged.
 ///
-/// What counts is how **wide** a hole is, not how long: a row or column that is missing altogether,
-/// a slot that is open to the border and the narrow end of a notch are bridged like a single dead
-/// pixel, and so is speckle that leaves no two neighbours next to each other. A hole, or a part of
-/// it, is wider than `n` if a regular hexagon of `n + 1` vertices across fits in (in an image, an
-/// octagon of `n + 1` pixels across). Nothing is continued beyond the data's outline, of which such a
-/// hexagon follows every corner.
+/// Only the **width** of a hole counts, not its length: a missing row or column, a slot that is open to the border
+/// and the narrow end of a notch are bridged like a single dead pixel, and so is speckle that leaves no two
+/// neighbours next to each other. A hole, or a part of it, is wider than `n` if a regular hexagon of `n + 1` vertices
+/// across fits into it (in an image, an octagon of `n + 1` pixels across). Nothing is added outside of the data's
+/// outline, as such a hexagon fits into every corner of it.
 ///
-/// A hole is not bridged where the surface on one side of it does not go on to the other side: where
-/// the slope that leads across differs, by more than noise and bends explain, from the slopes beside
-/// it. So a gap between two levels of depth stays a gap. Nor is it next to an occlusion that is
-/// known, nor where a mask says that there is no surface.
+/// A hole is not bridged where the surface on one side does not continue the other side: where the slope across the
+/// hole differs from the slopes beside it by more than noise and bends explain. So a hole between two levels of depth
+/// stays a hole. Nor is a hole bridged next to a known occlusion, or where a mask excludes the surface.
 ///
 /// Bridged vertices are part of the surface. They start from the plane that fits the data around
 /// best, and have a small confidence: a fifth of the data's next to it, less further away.
@@ -49,14 +47,14 @@ const MAX_BRIDGE_WIDTH_VERTICES: usize = 16;
 const BRIDGE_CONFIDENCE: f64 = 0.2;
 
 impl Default for Bridging {
-    /// Up to 4 across.
+    /// Bridges holes of up to 4 vertices across.
     fn default() -> Self {
         Bridging::UpTo(4)
     }
 }
 
 impl Bridging {
-    /// The widest hole that is bridged: 0 for none.
+    /// Maximum width of a bridged hole, in vertices or pixels; 0 for none.
     ///
     /// # Errors
     /// [`Error::Option`] for a width out of range.
@@ -112,7 +110,7 @@ impl Surroundings<'_> {
         let heights = raster.padded(self.heights, f64::NAN)?;
         let mut holes = narrow(&raster, &heights, width)?;
         holes.retain(|cell| self.may_be_bridged(&raster, *cell));
-        // Heights of no confidence are part of the surface, but say nothing about it.
+        // Heights of confidence 0 are part of the surface, but carry no information about it.
         let mut given = heights;
         let mut confidence = Vec::new();
         if !self.confidence.is_empty() {
@@ -141,7 +139,7 @@ impl Surroundings<'_> {
     }
 }
 
-/// A height image whose small holes are bridged, and how far each pixel is to be trusted.
+/// A height image whose small holes are bridged, with a confidence for each pixel.
 ///
 /// ```
 /// use developable::{Bridging, HeightImage, Input, Options, fit};
@@ -164,7 +162,7 @@ pub struct BridgedImage {
     image: HeightImage,
     /// The image before it was bridged.
     original: HeightImage,
-    /// Confidence of each pixel, unless all heights count alike.
+    /// Confidence of each pixel; `None` if all are equal.
     confidence: Option<HeightImage>,
     bridged: usize,
 }

@@ -50,8 +50,8 @@ impl HeightImage {
         self.sampled_on(&lattice)
     }
 
-    /// Samples the image at the vertices of any lattice, as [`HeightImage::to_lattice`] does on
-    /// its own: for another image of the same scene, such as one of confidences.
+    /// Samples the image at the vertices of a given lattice, by the rules of [`HeightImage::to_lattice`]: for another
+    /// image of the same scene, such as one of confidences.
     ///
     /// # Errors
     /// [`Error::OutOfMemory`](crate::Error::OutOfMemory).
@@ -105,7 +105,7 @@ impl Heightfield {
             }
         }
 
-        // From pixels beside one that has no height, which are few: those at the lattice's border.
+        // The search starts at pixels next to one without a height, which are few: those at the lattice's border.
         let beside = |i: &usize| neighbours(like, *i).filter(|k| sources[*k] == PIXEL_IN_TRIANGLE);
         let mut border: Vec<usize> = missing.iter().flat_map(beside).collect();
         border.sort_unstable();
@@ -132,7 +132,8 @@ impl Heightfield {
         }
 
         for i in missing.into_iter().filter(|i| sources[*i] == NO_SOURCE) {
-            // Not connected to a whole triangle: perhaps a corner of its own triangle has a plane.
+            // No path leads to a triangle with three heights; a corner of the pixel's own triangle may still have a
+            // plane.
             let p = like.position(i / width, i % width);
             values[i] = triangle_of(i)
                 .and_then(|t| self.continued(self.heaviest(&t), p, reach))
@@ -178,7 +179,7 @@ impl Heightfield {
         }
     }
 
-    /// The vertex with a height that is nearest to the point of a triangle.
+    /// The triangle's vertex that is nearest to the point, among those with a height.
     fn heaviest(&self, triangle: &Located) -> u32 {
         (triangle.vertices.into_iter().zip(triangle.weights))
             .filter(|(v, _)| self.height_or_nan(*v).is_finite())

@@ -51,7 +51,7 @@ impl Curvatures {
             fields.kappa1[i] = kappa1;
             fields.kappa2[i] = kappa2;
             fields.nuclear_norm[i] = hessian.nuclear_norm();
-            // All six are there, the domain's interior being defined by that.
+            // Interior vertices have all six neighbours.
             let ring = lattice.neighbours(row, col).map(|n| {
                 n.map_or(f64::NAN, |(r, c)| {
                     surface.height(r, c) - surface.height(row, col)

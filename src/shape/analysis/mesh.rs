@@ -63,7 +63,7 @@ impl MeshCurvatures {
                 continue;
             }
             if topology.source[vertex] as usize != i {
-                // Its place was here before.
+                // An earlier vertex had this position.
                 let first = topology.source[vertex] as usize;
                 fields.copy(first, i);
                 continue;
@@ -100,9 +100,9 @@ impl MeshCurvatures {
         self.rulings[to] = self.rulings[from];
     }
 
-    /// Statistics of the curvatures, in coordinates in which the ball around the mesh has the diameter 1, as λ of
-    /// meshes: [`Summary::size`] is that diameter. Nuclear norms are summed by area, in units of the mean lumped area of a
-    /// vertex.
+    /// Statistics of the curvatures, in coordinates in which the bounding sphere of the mesh has the diameter 1, as
+    /// for λ of meshes; [`Summary::size`] is that diameter. Nuclear norms are summed by area, in units of the mean
+    /// lumped area of a vertex.
     ///
     /// # Errors
     /// [`Error::Option`](crate::Error::Option) unless the threshold is positive and finite,

@@ -30,7 +30,7 @@ pub struct Summary {
     pub threshold: f64,
     /// Share of the vertices with `|K|` above the threshold, from 0 to 1.
     pub gaussian_above: f64,
-    /// Median of `|K|`; 0 if no vertex has curvatures, as all figures are then.
+    /// Median of `|K|`; 0 if no vertex has curvatures, like all other figures.
     pub median_gaussian: f64,
     /// Median of `|κ₂|`; 0 if no vertex has curvatures.
     pub median_kappa2: f64,

@@ -43,7 +43,7 @@ impl BendAngles {
         let domain = Domain::new(surface)?;
         for cell in domain.interior().cells() {
             let (row, col) = domain.lattice_vertex(cell);
-            // All six are there, the interior being defined by that.
+            // Interior vertices have all six neighbours.
             let ring = lattice
                 .neighbours(row, col)
                 .map(|n| n.map_or(f64::NAN, |(r, c)| surface.height(r, c)));

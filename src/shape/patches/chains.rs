@@ -23,7 +23,7 @@ pub(crate) fn chains(edges: &[[u32; 2]], end: impl Fn(u32) -> bool) -> Vec<Chain
     let mut found = Vec::new();
     let ending = at.iter().filter(|(v, edges)| edges.len() != 2 || end(**v));
     let starts: Vec<u32> = ending.map(|(vertex, _)| *vertex).collect();
-    // All that is left after the lines with ends is closed.
+    // The edges left after all lines with ends form closed polylines.
     for start in starts.into_iter().chain(edges.iter().map(|[a, _]| *a)) {
         while let Some(first) = at[&start].iter().copied().find(|edge| !used[*edge]) {
             let mut chain = Chain {

@@ -91,7 +91,7 @@ impl AdjacencyGraph {
                 if b == NO_PATCH || a == b {
                     continue;
                 }
-                // Where nothing can be measured there is no reason to merge.
+                // Patches whose fold angle cannot be measured are not merged.
                 if let Some(angle) = bend.fold_angle(lattice, labels, [i, k]) {
                     for (one, other) in [(a, b), (b, a)] {
                         let sums = graph.neighbours[one as usize].entry(other).or_default();
@@ -116,7 +116,7 @@ impl AdjacencyGraph {
             if f64::from_bits(sharpness) >= 1.0 {
                 break;
             }
-            // Borders that have changed since were put in the queue again.
+            // A border that has changed was queued again with its new angle.
             let sums = self.neighbours[a as usize].get(&b);
             if sums.is_some_and(|sums| self.sharpness(a, b, *sums) == sharpness) {
                 merged = true;

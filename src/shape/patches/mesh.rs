@@ -76,8 +76,8 @@ impl MeshPatches {
         &self.creases
     }
 
-    /// Angle, in radians from one triangle to the next, above which an edge counted as crease; half of it does
-    /// beside an edge that reaches it.
+    /// Angle between neighbouring triangles, in radians, above which an edge counts as crease; next to such an edge,
+    /// half of it is enough.
     pub fn bend(&self) -> f64 {
         self.bend
     }

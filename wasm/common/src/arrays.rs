@@ -7,7 +7,7 @@ use super::Result;
 use developable::Error;
 use developable::checks::try_filled;
 
-/// Groups of `N` numbers; nothing for what is no array.
+/// Reads an array of groups of `N` numbers; `None` if the value is not a `Float32Array`.
 pub fn groups<const N: usize>(values: &JsValue) -> Result<Option<Vec<[f32; N]>>> {
     let Some(values) = values.dyn_ref::<Float32Array>() else {
         return Ok(None);
@@ -17,7 +17,8 @@ pub fn groups<const N: usize>(values: &JsValue) -> Result<Option<Vec<[f32; N]>>>
     Ok(Some(list))
 }
 
-/// Room for `length` numbers in groups, of which all have to be whole.
+/// Array of groups of `N` numbers, `length` numbers in all and each of them `value`. `length` must be a
+/// multiple of `N`.
 pub fn filled<T: Copy, const N: usize>(length: u32, value: T) -> Result<Vec<[T; N]>> {
     let length = length as usize;
     if !length.is_multiple_of(N) {

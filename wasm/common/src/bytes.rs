@@ -5,7 +5,7 @@ use js_sys::Uint8Array;
 use super::Result;
 use developable::checks::try_filled;
 
-/// The bytes in the wasm's own memory.
+/// Copies bytes to the wasm module's memory.
 pub fn copied(bytes: &Uint8Array) -> Result<Vec<u8>> {
     let mut own = try_filled("input", bytes.length() as usize, 0)?;
     bytes.copy_to(&mut own);

@@ -12,7 +12,7 @@ use developable::Heightfield;
 use developable::Lattice;
 use developable::checks::{check_shape, try_filled};
 
-/// `HeightImage` of `types.d.ts`, without what only a solve wants to know.
+/// Fields of `HeightImage` in `types.d.ts` that every call reads; a solve reads further ones.
 #[derive(Deserialize)]
 #[serde(rename_all = "camelCase")]
 pub struct ImageInput {
@@ -32,7 +32,7 @@ impl ImageInput {
         self.heights("height image", &self.data)
     }
 
-    /// Heights at the pixels, in units of length, within the mask.
+    /// Heights at the pixels, in units of length; NaN outside of the mask.
     pub fn heights(&self, what: &'static str, data: &JsValue) -> Result<HeightImage> {
         let values = values(what, self.height, self.width, data, self.no_data)?;
         Ok(self
@@ -40,7 +40,7 @@ impl ImageInput {
             .scaled(self.height_scale.unwrap_or(1.0))?)
     }
 
-    /// Any values at the pixels, within the mask.
+    /// Values of any kind at the pixels; NaN outside of the mask.
     pub fn image(&self, what: &'static str, values: Vec<f64>) -> Result<HeightImage> {
         let image = HeightImage::new(self.width, self.height, values)
             .and_then(|image| image.with_pixel_size(self.pixel_size.unwrap_or(1.0)))
@@ -52,7 +52,7 @@ impl ImageInput {
     }
 }
 
-/// `Heightfield` of `types.d.ts`, without what only a solve wants to know.
+/// Fields of `Heightfield` in `types.d.ts` that every call reads; a solve reads further ones.
 #[derive(Deserialize)]
 #[serde(rename_all = "camelCase")]
 pub struct LatticeInput {
@@ -72,7 +72,7 @@ impl LatticeInput {
         self.heights("heightfield", &self.heights)
     }
 
-    /// Heights at the vertices, within the mask.
+    /// Heights at the vertices; NaN outside of the mask.
     pub fn heights(&self, what: &'static str, data: &JsValue) -> Result<Heightfield> {
         self.field(
             what,
@@ -80,7 +80,7 @@ impl LatticeInput {
         )
     }
 
-    /// Any values at the vertices, within the mask.
+    /// Values of any kind at the vertices; NaN outside of the mask.
     pub fn field(&self, what: &'static str, values: Vec<f64>) -> Result<Heightfield> {
         let lattice = Lattice::new(self.rows, self.cols, self.spacing)?
             .with_origin(self.origin.unwrap_or_default())?;
@@ -92,7 +92,7 @@ impl LatticeInput {
     }
 }
 
-/// The same error about something that has a name of its own.
+/// Replaces the name in an error by the name that the caller knows the thing by.
 fn about(name: &'static str, mut error: Error) -> Error {
     if let Error::NotFinite { what, .. } = &mut error {
         *what = name;
@@ -100,9 +100,8 @@ fn about(name: &'static str, mut error: Error) -> Error {
     error
 }
 
-/// A copy of a typed array of any kind, with NaN for `no_data` (as the array
-/// can hold it: -9999.9 is another number in 32 bits). The size is checked
-/// before anything is allocated.
+/// Copies a typed array of any kind, with NaN in place of `no_data`. That value is rounded to the array's type first,
+/// since -9999.9 is another number in 32 bits. The size is checked before anything is allocated.
 pub fn values(
     what: &'static str,
     rows: usize,

@@ -32,7 +32,7 @@ impl ReadOptions {
         Ok(read)
     }
 
-    /// For files that have no arrays by name.
+    /// Returns an error if an array is named, for formats without named arrays.
     pub fn without_array(&self) -> Result<()> {
         match self.array {
             Some(_) => Err(Failure::option(

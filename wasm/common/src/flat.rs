@@ -9,10 +9,10 @@ use super::options::{Given, renamed};
 use developable::checks::try_filled;
 use developable::dewarp::{Photo, WarpGrid, WarpMap};
 
-/// Rows of the flat image that are made at a time.
+/// Number of rows of the flat image that are computed at a time.
 const BAND: usize = 64;
 
-/// The flat image in JavaScript's memory, without a copy of it here.
+/// Computes the flat image into JavaScript's memory, a band of rows at a time, so that the wasm module holds no copy.
 pub fn flat_image(map: &WarpMap, photo: &Photo<'_>) -> Result<Uint8ClampedArray> {
     let line = 4 * map.width();
     let image = Uint8ClampedArray::new_with_length((line * map.height()) as u32);
@@ -28,17 +28,18 @@ pub fn flat_image(map: &WarpMap, photo: &Photo<'_>) -> Result<Uint8ClampedArray>
     Ok(image)
 }
 
-/// What of the warp map is wanted besides the image.
+/// Options of a call that returns a warp map besides the flat image.
 pub struct MapOptions {
     map: bool,
-    /// The largest error between nodes, if a grid is wanted.
+    /// Maximum interpolation error between nodes of the warp grid, in pixels of the photo; `None` if no grid is
+    /// wanted.
     grid: Option<f64>,
 }
 
-/// Largest error between nodes of a grid, unless one is given: in pixels of the photo.
+/// Default of the maximum interpolation error between nodes of a warp grid, in pixels of the photo.
 const DEFAULT_GRID_TOLERANCE: f64 = 0.25;
 
-/// Most nodes of a grid.
+/// Maximum number of nodes of a warp grid.
 const NODES: usize = 40_000;
 
 impl MapOptions {
@@ -53,7 +54,7 @@ impl MapOptions {
         }
     }
 
-    /// The places of all pixels, if they are wanted.
+    /// Warp map at all pixels of the flat image; empty unless it is wanted.
     pub fn places(&self, map: &WarpMap) -> Float32Array {
         let places = if self.map { map.places() } else { &[] };
         places.as_flattened().into()

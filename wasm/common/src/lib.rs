@@ -1,7 +1,7 @@
 //! The library as JavaScript sees it, behind `pkg/direct.js`: plain objects and
 //! typed arrays in and out, errors with a `code`. Nothing is computed here.
 //!
-//! This crate has what the others in `wasm/` share; each of those becomes one wasm file.
+//! This crate has what the other crates in `wasm/` share; each of those becomes one wasm file.
 
 pub mod arrays;
 pub mod bytes;
@@ -20,11 +20,10 @@ use developable::Error;
 use js_sys::Reflect;
 use wasm_bindgen::prelude::*;
 
-/// What every function exported to JavaScript gives.
+/// Result of every function exported to JavaScript.
 pub type Result<T> = std::result::Result<T, Failure>;
 
-/// Turns panics into JS exceptions that say what happened. The caller has to
-/// give the instance up after one.
+/// Turns panics into JS exceptions with the panic's message. The caller must discard the wasm instance after one.
 #[wasm_bindgen(js_name = reportPanics)]
 pub fn report_panics() {
     std::panic::set_hook(Box::new(|panic| {
@@ -32,16 +31,16 @@ pub fn report_panics() {
     }));
 }
 
-/// What becomes a JS `Error` with a `code`.
+/// Error that becomes a JS `Error` with a `code`.
 pub struct Failure {
-    /// Of `ErrorCode` in `errors.d.ts`.
+    /// One of `ErrorCode` in `errors.d.ts`.
     pub code: &'static str,
-    /// What was wrong, where, and what to do.
+    /// Message: what is wrong, where, and what to do.
     pub message: String,
 }
 
 impl Failure {
-    /// An option is wrong, or there is none of that name.
+    /// Error about an option that has a wrong value or an unknown name.
     pub fn option(message: impl Into<String>) -> Self {
         Failure {
             code: "OPTION",
@@ -73,7 +72,7 @@ fn in_js(name: &str) -> String {
     let mut js = String::with_capacity(name.len());
     for letter in name.chars() {
         if letter != '_' {
-            // Of ASCII only: the tables of Unicode would cost each wasm file 10 kB.
+            // ASCII only: the tables of Unicode would add 10 kB to each wasm file.
             js.push(if after_underscore {
                 letter.to_ascii_uppercase()
             } else {
@@ -85,7 +84,7 @@ fn in_js(name: &str) -> String {
     js
 }
 
-/// Something that JS should not have let through.
+/// An object of the wrong shape, which the checks in JavaScript should have refused.
 impl From<serde_wasm_bindgen::Error> for Failure {
     fn from(error: serde_wasm_bindgen::Error) -> Self {
         Failure {

@@ -24,13 +24,13 @@ pub struct MeshInput {
     uvs: JsValue,
     #[serde(default, with = "preserve")]
     texture_of: JsValue,
-    /// A `Float32Array`, if there is one.
+    /// Confidence of each vertex as a `Float32Array`, or `undefined`.
     #[serde(default, with = "preserve")]
     pub confidence: JsValue,
 }
 
 impl MeshInput {
-    /// Its arrays, copied.
+    /// Copies the arrays to a [`Mesh`].
     pub fn into_mesh(self) -> Result<Mesh> {
         let mut positions = filled(self.positions.length(), 0.0)?;
         self.positions.copy_to(positions.as_flattened_mut());

@@ -10,8 +10,8 @@ use wasm_bindgen::prelude::*;
 use super::{Failure, Result};
 use developable::Error;
 
-/// The options of a call, to be read into one or more structures whose fields have their names. Ranges and kinds of values
-/// that JavaScript tells apart are checked there, by `pkg/schema/`.
+/// Options of a call, which can be read into several structures; each takes the options that its fields are named
+/// after. JavaScript has checked ranges and types before, in `pkg/schema/`.
 pub struct Given {
     options: Object,
     /// Names of options that have been read.
@@ -31,16 +31,16 @@ impl Given {
         }
     }
 
-    /// A structure with what is given of its fields; the others have their defaults.
+    /// Reads a structure from the options; fields that are not given have their defaults.
     pub fn read<T: DeserializeOwned>(&mut self) -> Result<T> {
         let mut names: &[&str] = &[];
-        // Fails by design: all that is wanted are the names.
+        // Always fails, which is not an error: it is called for the field names alone.
         let _ = T::deserialize(FieldNames(&mut names));
         self.known.extend(names);
         Ok(from_value(self.options.clone().into())?)
     }
 
-    /// The value of one option, `undefined` where it is not given.
+    /// Value of one option; `undefined` if it is not given.
     pub fn value(&mut self, name: &'static str) -> JsValue {
         self.known.push(name);
         // Cannot fail: `options.js` has made the object, without getters.
@@ -57,7 +57,7 @@ impl Given {
         self.value(name).as_bool()
     }
 
-    /// Refuses options that nothing has read.
+    /// Returns an error if an option is left that nothing has read.
     pub fn finish(self) -> Result<()> {
         let names = Object::keys(&self.options);
         let mut names = names.iter().map(|name| String::from(JsString::from(name)));
@@ -68,7 +68,7 @@ impl Given {
     }
 }
 
-/// All options of a call that are the fields of one structure.
+/// Reads all options of a call into one structure; an option that is not one of its fields is an error.
 pub fn read<T: DeserializeOwned>(options: &JsValue) -> Result<T> {
     let mut given = Given::new(options)?;
     let found = given.read()?;
@@ -76,7 +76,7 @@ pub fn read<T: DeserializeOwned>(options: &JsValue) -> Result<T> {
     Ok(found)
 }
 
-/// A deserialiser that keeps the names of a structure's fields, and has no values.
+/// Deserialiser that records the field names of a structure and yields no values.
 struct FieldNames<'a>(&'a mut &'static [&'static str]);
 
 impl<'de> Deserializer<'de> for FieldNames<'_> {
@@ -102,7 +102,8 @@ impl<'de> Deserializer<'de> for FieldNames<'_> {
     }
 }
 
-/// What an options object says, without what is undefined in it, for options whose values need checks of their own.
+/// Names and values of an options object, without those that are `undefined`, for options whose values need checks of
+/// their own.
 pub fn entries(options: &JsValue) -> Result<Vec<(String, JsValue)>> {
     let Given { options, .. } = Given::new(options)?;
     Ok(Object::entries(&options)
@@ -120,7 +121,7 @@ pub fn option<T: DeserializeOwned>(
     requirement: &'static str,
 ) -> Result<T> {
     from_value(value.clone()).map_err(|_| {
-        // JSON has no infinity and no NaN; and of `undefined`, functions and symbols there is none: then this is no string.
+        // JSON has no infinity and no NaN. For `undefined`, functions and symbols, `stringify` returns no string.
         if let Some(number) = value.as_f64() {
             return Failure::from(Error::option(name, number, requirement));
         }
@@ -134,7 +135,7 @@ pub fn option<T: DeserializeOwned>(
     })
 }
 
-/// The error of a Rust option as one of the JS option that it stands for, where that has another name.
+/// Renames the option in an error from its Rust name to its JS name, where these differ.
 pub fn renamed(mut error: Error, rust: &str, js: &'static str) -> Failure {
     if let Error::Option { name, .. } = &mut error
         && *name == rust

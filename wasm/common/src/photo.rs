@@ -20,7 +20,7 @@ struct PhotoInput {
     data: Uint8Array,
 }
 
-/// A photo's pixels, in wasm's own memory.
+/// Pixels of a photo, copied to the wasm module's memory.
 pub struct Pixels {
     width: usize,
     height: usize,

@@ -10,25 +10,25 @@ use developable::Error;
 use developable::Heightfield;
 use developable::dewarp::Extent;
 
-/// Heights to be looked at, and what a photo of them shows.
+/// Heights, and the part of the plane that a photo of them shows.
 pub struct Scene {
     pub surface: Heightfield,
-    /// What a photo shows, where there may be one.
+    /// Part of the plane that the photo shows, if there is a photo.
     pub extent: Extent,
 }
 
-/// An image or heights on the lattice, as `input.js` marks them.
+/// Mark by which `input.js` tells a height image from a heightfield.
 #[derive(Deserialize)]
 struct Kind {
     kind: String,
 }
 
-/// Whether a field has pixels, which a spacing can be about.
+/// Whether a field is a height image, for which the option `spacing` is allowed.
 pub fn is_image(field: &JsValue) -> Result<bool> {
     Ok(!field.is_undefined() && from_value::<Kind>(field.clone())?.kind == "image")
 }
 
-/// A spacing is for images: a lattice has its own.
+/// Returns an error if a spacing is given for a heightfield, whose lattice has its own.
 pub fn check_spacing(spacing: Option<f64>, images: bool) -> Result<()> {
     match spacing {
         Some(spacing) if !images => {

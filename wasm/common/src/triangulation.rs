@@ -13,7 +13,7 @@ use super::mesh::MeshInput;
 use developable::Mesh;
 use developable::Triangulation;
 
-/// What a `Heightfield` of `types.d.ts` may have for its mesh.
+/// Optional fields of `Heightfield` in `types.d.ts` that its mesh takes over.
 #[derive(Deserialize)]
 struct Extras {
     frame: Option<FrameFields>,
@@ -23,7 +23,7 @@ struct Extras {
     uvs: JsValue,
 }
 
-/// The mesh of a `Heightfield`, in the axes of its frame, or a `Mesh` itself.
+/// Triangulates a `Heightfield`, in the axes of its frame; a `Mesh` is returned as it is.
 pub fn mesh_of(field: JsValue) -> Result<Mesh> {
     if Reflect::has(&field, &"positions".into()).unwrap_or(false) {
         return from_value::<MeshInput>(field)?.into_mesh();

@@ -54,7 +54,7 @@ pub fn write_png_file(image: JsValue) -> Result<Uint8Array> {
     Ok(write_png(&image)?.as_slice().into())
 }
 
-/// OBJ mesh of lattice heights, in the axes of their frame, and the file of its material, if any.
+/// OBJ file of lattice heights, in the axes of their frame, with the name of its material file, if any.
 #[wasm_bindgen(js_name = writeObj)]
 pub fn write_obj_file(field: JsValue, options: JsValue) -> Result<Uint8Array> {
     let mut material = None;
@@ -82,8 +82,8 @@ pub fn read_photo(bytes: &Uint8Array) -> Result<JsValue> {
     photo_output(&decode_photo_basic(&file, announced(&file, None)?)?)
 }
 
-/// Texture coordinates of a lattice's vertices in a photo of a part of the plane: left, bottom,
-/// right and top; nothing for what the vertices cover.
+/// Texture coordinates of a lattice's vertices in a photo that shows a rectangle of the plane: `extent` has its left,
+/// bottom, right and top side; `undefined` for the rectangle that the vertices cover.
 #[wasm_bindgen(js_name = planeUvs)]
 pub fn plane_uvs(field: JsValue, extent: JsValue) -> Result<Float32Array> {
     let field = from_value::<LatticeInput>(field)?.into_heightfield()?;
@@ -95,7 +95,7 @@ pub fn plane_uvs(field: JsValue, extent: JsValue) -> Result<Float32Array> {
     Ok(uvs.as_flattened().into())
 }
 
-/// Colours for those vertices whose texture has the number (of all, where there are no numbers).
+/// Colours, from one photo, of the vertices whose texture has its number; of all vertices if there are no numbers.
 #[wasm_bindgen]
 pub fn paint(
     colors: &Float32Array,
@@ -117,7 +117,7 @@ pub fn paint(
     Ok(painted.as_flattened().into())
 }
 
-/// A photo where it is in JavaScript's memory: copied row by row, for there may not be room for two.
+/// Photo in JavaScript's memory, copied row by row, since there may not be memory for two.
 struct Rows<'a> {
     size: [usize; 2],
     rgba: &'a Uint8Array,
@@ -159,7 +159,7 @@ pub fn write_photo_file(
             _ => return Err(unknown(&name, "format, quality and dotsPerMillimetre")),
         }
     }
-    // As many bytes as it should have, and some.
+    // Checks that the photo has the right number of bytes, and at least one.
     check_shape("photo", height, width, rgba.length() as usize / 4)?;
     if width == 0 || height == 0 {
         return Err(Error::Empty { what: "photo" }.into());

@@ -14,7 +14,7 @@ use developable_wasm::bytes::copied;
 use developable_wasm::mesh::MeshInput;
 use developable_wasm::options::{Given, read};
 
-/// What `MeshSurface` of `types.d.ts` has besides its mesh.
+/// Fields of `MeshSurface` in `types.d.ts` other than its mesh.
 #[derive(Serialize)]
 struct Output<'a> {
     #[serde(with = "preserve")]
@@ -30,7 +30,7 @@ pub struct MeshSolver {
 
 #[wasm_bindgen]
 impl MeshSolver {
-    /// A solver on a mesh, all of it.
+    /// Makes a solver for a whole mesh.
     #[wasm_bindgen(js_name = onMesh)]
     pub fn on_mesh(mesh: JsValue, options: JsValue) -> Result<MeshSolver> {
         let mesh = from_value::<MeshInput>(mesh)?;
@@ -53,17 +53,17 @@ impl MeshSolver {
         })
     }
 
-    /// Runs about `work` conjugate-gradient iterations; whether to go on.
+    /// Runs about `work` conjugate-gradient iterations; returns whether the solve is still running.
     pub fn advance(&mut self, work: usize) -> Result<bool> {
         Ok(self.solver.advance(work)? == Status::Running)
     }
 
-    /// Figures of the linearisation under way.
+    /// Progress of the current linearisation.
     pub fn progress(&self) -> Result<JsValue> {
         Ok(to_value(&self.solver.progress())?)
     }
 
-    /// Stops.
+    /// Stops a running solve; its surface is the best one so far.
     pub fn cancel(&mut self) {
         self.solver.cancel();
     }

@@ -13,7 +13,7 @@ use developable_wasm::bytes::copied;
 use developable_wasm::fields::ImageInput;
 use developable_wasm::file::{ReadOptions, output, photo_output};
 
-/// Decodes any height image but PNG and NPY.
+/// Decodes a height image of any format except PNG and NPY.
 #[wasm_bindgen(js_name = readImage)]
 pub fn read_image(bytes: &Uint8Array, options: JsValue) -> Result<JsValue> {
     let options = ReadOptions::new(&options)?;
@@ -39,7 +39,7 @@ pub fn read_image_photo(bytes: &Uint8Array) -> Result<JsValue> {
 #[serde(rename_all = "camelCase")]
 struct ArrayOutput {
     name: String,
-    /// As floats, for 64-bit integers would become what JavaScript calls a `BigInt`.
+    /// Shape as floats, since 64-bit integers would become a `BigInt` in JavaScript.
     shape: Vec<f64>,
     data_type: String,
 }

@@ -16,13 +16,13 @@ use developable_wasm::fields::{ImageInput, LatticeInput, values};
 use developable_wasm::frame::FrameFields;
 use developable_wasm::options::{entries, option, unknown};
 
-/// What a depth camera has seen, as a mesh.
+/// Back-projects a depth image to a mesh.
 #[wasm_bindgen(js_name = backProject)]
 pub fn back_project(image: JsValue, camera: JsValue, options: JsValue) -> Result<JsValue> {
     let camera = intrinsics(&camera)?;
     let image = from_value::<ImageInput>(image)?;
     let what = "depth image";
-    // The camera's own scale counts, not the image's.
+    // The depth scale of the camera counts, not the height scale of the image.
     let depths = values(what, image.height, image.width, &image.data, image.no_data)?;
     let depths = image.image(what, depths)?;
     let known = Known::read(&options)?;
@@ -63,8 +63,8 @@ pub fn back_project(image: JsValue, camera: JsValue, options: JsValue) -> Result
     })?)
 }
 
-/// Texture coordinates of a `Heightfield` of `types.d.ts` in a photo of so many pixels, by the camera that
-/// took it.
+/// Texture coordinates of a `Heightfield` of `types.d.ts` in a photo of a width and height, by the camera that took
+/// it.
 #[wasm_bindgen(js_name = cameraUvs)]
 pub fn camera_uvs(
     field: JsValue,
@@ -83,14 +83,14 @@ pub fn camera_uvs(
     Ok(uvs.as_flattened().into())
 }
 
-/// The mesh, and the camera as it is turned.
+/// Mesh of a depth image, and the intrinsics of its camera after the quarter turn.
 #[derive(Serialize)]
 struct BackProjected {
     mesh: MeshOutput,
     camera: Seen,
 }
 
-/// The numbers of a camera that a turn changes.
+/// Intrinsics that a quarter turn changes.
 #[derive(Serialize)]
 struct Seen {
     fx: f64,
@@ -204,7 +204,7 @@ impl Known {
         Ok(known)
     }
 
-    /// What the depths are to be within.
+    /// Masks of the depths: 1 where a depth shows the region that is wanted.
     fn masks(
         &self,
         camera: &Intrinsics,
@@ -214,8 +214,8 @@ impl Known {
         let mut found = Vec::new();
         let photo = self.camera.as_ref();
         if let Some(Sized { size, data }) = &self.mask {
-            // One at the depths' own size is about them, whatever the photo's camera has seen, and is turned
-            // as they are.
+            // A mask of the depths' own size applies to the depths, whatever the photo's camera has seen, and is
+            // turned with them.
             let own = *size == stored;
             let photo = photo.filter(|_| !own);
             let turn = if own { self.turn } else { Turn::None };

@@ -64,7 +64,7 @@ struct SampledOutput {
     confidence: JsValue,
 }
 
-/// Decodes a mesh file; `files` are pairs of a name and the bytes of what lies beside it.
+/// Decodes a mesh file; `files` are pairs of name and bytes of the files that it refers to.
 #[wasm_bindgen(js_name = readMesh)]
 pub fn read_mesh_file(bytes: &Uint8Array, files: &Array, options: JsValue) -> Result<JsValue> {
     let mut format = None;
@@ -118,7 +118,7 @@ impl MeshOutput {
     }
 }
 
-/// What is seen of a mesh.
+/// Samples a mesh from a view.
 #[wasm_bindgen(js_name = sampleMesh)]
 pub fn sample_mesh(mesh: JsValue, options: JsValue) -> Result<JsValue> {
     let mesh = from_value::<MeshInput>(mesh)?;

@@ -16,13 +16,13 @@ pub fn write_ply_file(field: JsValue) -> Result<Uint8Array> {
     Ok(write_ply(&mesh_of(field)?)?.as_slice().into())
 }
 
-/// STL file likewise.
+/// STL file of lattice heights, in the axes of their frame.
 #[wasm_bindgen(js_name = writeStl)]
 pub fn write_stl_file(field: JsValue) -> Result<Uint8Array> {
     Ok(write_stl(&mesh_of(field)?)?.as_slice().into())
 }
 
-/// GLB file likewise, with a texture if there is one.
+/// GLB file of lattice heights, in the axes of their frame, with a texture if there is one.
 #[wasm_bindgen(js_name = writeGlb)]
 pub fn write_glb_file(field: JsValue, options: JsValue) -> Result<Uint8Array> {
     let mut texture = None;

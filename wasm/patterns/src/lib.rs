@@ -18,7 +18,7 @@ use developable_wasm::options::{Given, read};
 use developable_wasm::scene::{Scene, check_spacing, is_image};
 use developable_wasm::{Failure, Result};
 
-/// What is asked for of a pattern.
+/// Options of a pattern and of its drawing.
 #[derive(Default)]
 struct Wanted {
     patches: PatchOptions,
@@ -44,7 +44,7 @@ impl Wanted {
         let assembled = given.flag("assembly").unwrap_or_default();
         let spacing = given.number("spacing");
         given.finish()?;
-        // 0 is none.
+        // 0 means no tabs, or no marks.
         drawing.tabs = drawing.tabs.filter(|depth| *depth != 0.0);
         drawing.marks = drawing.marks.filter(|distance| *distance != 0.0);
         if let Some(bending) = metal? {
@@ -93,7 +93,7 @@ pub fn draw_pattern(field: JsValue, options: JsValue) -> Result<JsValue> {
     wanted.draw(&found.sheets, &found.missing)
 }
 
-/// What is told of plans to try: λ and sizes, or the λ that a mesh's noise asks for.
+/// Arguments of an exploration: lists of λ and patch sizes, or the λ that suits a mesh's noise.
 #[derive(Default, Deserialize)]
 #[serde(default, rename_all = "camelCase")]
 struct TrialsInput {
@@ -125,7 +125,7 @@ pub fn trials(given: JsValue) -> Result<JsValue> {
     Ok(to_value(&TrialsOutput { lambdas, smallest })?)
 }
 
-/// The same of a mesh as it is.
+/// The drawing of a whole mesh's pattern.
 #[wasm_bindgen(js_name = patternMesh)]
 pub fn draw_pattern_of_mesh(mesh: JsValue, options: JsValue) -> Result<JsValue> {
     let wanted = Wanted::of(&options)?;
@@ -159,7 +159,7 @@ struct UnrollingReport {
     gap: f64,
 }
 
-/// A mesh as it is laid flat: in sheets, one to the right of the other.
+/// Unrolls a mesh: its sheets lie side by side.
 #[wasm_bindgen(js_name = unrollMesh)]
 pub fn unroll_mesh(mesh: JsValue, options: JsValue) -> Result<JsValue> {
     let wanted = Wanted::of(&options)?;
@@ -206,7 +206,7 @@ fn sheets_of(mesh: JsValue, wanted: &Wanted) -> Result<(MeshPatches, MeshPattern
     Ok((patches, found))
 }
 
-/// How metal is bent, if a thickness was given.
+/// Bending parameters of sheet metal, if a thickness is given.
 fn bending(
     thickness: Option<f64>,
     radius: Option<f64>,

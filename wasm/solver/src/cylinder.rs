@@ -22,7 +22,7 @@ struct CylinderOutput {
     report: CylinderReport,
 }
 
-/// The cylinder next to heights on the lattice.
+/// Fits a cylinder to heights on the lattice.
 #[wasm_bindgen(js_name = fitCylinder)]
 pub fn cylinder(field: JsValue) -> Result<JsValue> {
     let settings = Settings::default();

@@ -37,7 +37,7 @@ impl Settings {
         Ok(settings)
     }
 
-    /// Whether they are right, as far as that does not depend on the input.
+    /// Checks the options, as far as that does not depend on the input.
     fn check(&self) -> Result<()> {
         self.options.validate()?;
         self.bridging.width()?;
@@ -50,7 +50,7 @@ impl Settings {
         Ok(())
     }
 
-    /// Whether what is solved stays the same with these in the place of others.
+    /// Whether the input of the solve stays the same if these options replace `other`.
     pub fn leave_input(&self, other: &Settings) -> bool {
         self.spacing == other.spacing
             && self.occlusion_threshold == other.occlusion_threshold
@@ -59,13 +59,13 @@ impl Settings {
     }
 }
 
-/// Refuses options that no solve would take: before arrays are handed over to one.
+/// Returns an error for options that every solve would refuse; called before arrays are transferred.
 #[wasm_bindgen(js_name = checkOptions)]
 pub fn check_options(options: JsValue) -> Result<()> {
     Settings::new(&options)?.check()
 }
 
-/// A width; `true` for the default one, `false` for none.
+/// Reads the option `bridging`: a width, `true` for the default width, `false` for none.
 fn bridging(value: JsValue) -> Result<Bridging> {
     if value.is_undefined() {
         return Ok(Bridging::default());

@@ -9,12 +9,12 @@ use super::source::Source;
 use developable::{HeightImage, Status};
 use developable_wasm::Result;
 
-/// A solver and what it is about, for other options and for the way back to an image.
+/// Solver with its source, which is kept for restarts and for resampling the surface to the image.
 #[wasm_bindgen]
 pub struct Solver {
     solver: developable::Solver,
     source: Source,
-    /// The image to bring surfaces back to, small holes bridged.
+    /// Height image that surfaces are resampled to, with small holes bridged.
     pixels: Option<HeightImage>,
     settings: Settings,
 }
@@ -44,7 +44,7 @@ impl Solver {
         })
     }
 
-    /// Solves the same again with other options, from where it stands.
+    /// Restarts with other options on the same input, with a warm start from the last surface.
     pub fn restart(&mut self, options: JsValue) -> Result<()> {
         let settings = Settings::new(&options)?;
         if settings.leave_input(&self.settings) {
@@ -58,13 +58,13 @@ impl Solver {
         Ok(())
     }
 
-    /// Solves another image from where it stands.
+    /// Restarts with another height image, with a warm start from the last surface.
     #[wasm_bindgen(js_name = restartWithImage)]
     pub fn restart_with_image(&mut self, image: JsValue, options: JsValue) -> Result<()> {
         self.restart_with(Source::image(image)?, &options)
     }
 
-    /// Solves other heights on the lattice from where it stands.
+    /// Restarts with other heights on the lattice, with a warm start from the last surface.
     #[wasm_bindgen(js_name = restartWithLattice)]
     pub fn restart_with_lattice(&mut self, field: JsValue, options: JsValue) -> Result<()> {
         self.restart_with(Source::lattice(field)?, &options)
@@ -80,7 +80,7 @@ impl Solver {
         Ok(())
     }
 
-    /// Runs about `work` conjugate-gradient iterations; whether to go on.
+    /// Runs about `work` conjugate-gradient iterations; returns whether the solve is still running.
     pub fn advance(&mut self, work: usize) -> Result<bool> {
         Ok(self.solver.advance(work)? == Status::Running)
     }
@@ -90,7 +90,7 @@ impl Solver {
         Ok(to_value(&self.solver.progress())?)
     }
 
-    /// Stops.
+    /// Stops a running solve; its surface is the best one so far.
     pub fn cancel(&mut self) {
         self.solver.cancel();
     }

@@ -12,8 +12,7 @@ use developable::{Bridging, HeightImage, Heightfield, Input, Occlusions};
 use developable_wasm::fields::{ImageInput, LatticeInput, bytes, values};
 use developable_wasm::{Failure, Result};
 
-/// What may be known besides the heights: the rest of `HeightImage` and
-/// `Heightfield` of `types.d.ts`.
+/// Optional fields of `HeightImage` and `Heightfield` in `types.d.ts` besides the heights.
 #[derive(Deserialize)]
 #[serde(rename_all = "camelCase")]
 struct Known {
@@ -32,9 +31,9 @@ pub enum Source {
     Lattice(Parts),
 }
 
-/// All at the pixels of one image.
+/// Source on the pixels of an image.
 pub struct Image {
-    /// Of a design: its outline.
+    /// Input heights; of a design, its outline.
     heights: HeightImage,
     design: bool,
     mask: Option<Vec<u8>>,
@@ -43,10 +42,10 @@ pub struct Image {
     occlusions: Option<Vec<u8>>,
 }
 
-/// All at the vertices of one lattice.
+/// Source on the vertices of a lattice.
 #[derive(Clone)]
 pub struct Parts {
-    /// Of a design: its outline.
+    /// Input heights; of a design, its outline.
     heights: Heightfield,
     design: bool,
     mask: Option<Vec<u8>>,
@@ -124,7 +123,7 @@ impl Source {
         }
     }
 
-    /// The input of a solve, and the image to bring its surface back to.
+    /// Makes the input of a solve, and the image that its surface is resampled to.
     pub fn input(&self, settings: &Settings) -> Result<(Input, Option<HeightImage>)> {
         match self {
             Source::Image(image) => {
@@ -150,7 +149,7 @@ impl Source {
     }
 }
 
-/// A spacing is for images.
+/// Returns an error if a spacing is given for a lattice.
 fn check_spacing(settings: &Settings) -> Result<()> {
     match settings.spacing {
         None => Ok(()),
@@ -217,7 +216,7 @@ fn with_known(
     occlusions: Option<Occlusions>,
     settings: &Settings,
 ) -> Result<Input> {
-    // In the heights that were given: a design has none, and constraints are no measurements.
+    // Occlusions are detected in measured heights only: a design has none, and constraints are no measurements.
     let detected = match settings.occlusion_threshold.filter(|_| !design) {
         Some(threshold) => {
             let normalization = settings.normalization;
@@ -240,12 +239,12 @@ fn with_known(
     }
 }
 
-/// What is there at all.
+/// The value, or `None` if it is `undefined`.
 fn given(value: &JsValue) -> Option<&JsValue> {
     Some(value).filter(|value| !value.is_undefined())
 }
 
-/// One for each height; NaN where there is none, so that it does not count in between.
+/// Confidence of each height; NaN where there is none, so that interpolation ignores it.
 fn confidence(value: &JsValue, (rows, cols): (usize, usize), heights: &[f64]) -> Result<Vec<f64>> {
     let mut confidence = values("confidence", rows, cols, value, None)?;
     check_confidence(&confidence, heights, cols)?;

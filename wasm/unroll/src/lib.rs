@@ -52,14 +52,14 @@ fn spacing_of(mut given: Given) -> Result<Option<f64>> {
     Ok(spacing)
 }
 
-/// Heights to be looked at, resampled as the last options of a call say.
+/// Reads a surface, resampled as the remaining options say.
 fn surface_of(field: JsValue, given: Given) -> Result<Heightfield> {
     let spacing = spacing_of(given)?;
     check_spacing(spacing, is_image(&field)?)?;
     Ok(Scene::new(field, spacing)?.surface)
 }
 
-/// Curvatures of a surface, what they come to, and how far it is from another one.
+/// Curvatures of a surface, their statistics, and its deviation from a reference surface.
 #[wasm_bindgen]
 pub fn analyze(field: JsValue, reference: JsValue, options: JsValue) -> Result<JsValue> {
     let mut given = Given::new(&options)?;
@@ -119,7 +119,7 @@ struct UnrollingOutput {
     report: UnrollReport,
 }
 
-/// A surface laid flat.
+/// Unrolls a surface.
 #[wasm_bindgen(js_name = unroll)]
 pub fn unroll_surface(field: JsValue, options: JsValue) -> Result<JsValue> {
     let mut given = Given::new(&options)?;
@@ -180,12 +180,12 @@ struct DewarpInput {
     uvs: JsValue,
 }
 
-/// A value that is there.
+/// The value, or `None` if it is `undefined`.
 fn some(value: JsValue) -> Option<JsValue> {
     (!value.is_undefined()).then_some(value)
 }
 
-/// A photo of a surface, made flat.
+/// Dewarps a photo of a surface.
 #[wasm_bindgen]
 pub fn dewarp(field: JsValue, photo: JsValue, options: JsValue) -> Result<JsValue> {
     let mut given = Given::new(&options)?;
@@ -263,7 +263,7 @@ pub fn patches(field: JsValue, options: JsValue) -> Result<JsValue> {
     let wanted: PatchOptions = given.read()?;
     let surface = surface_of(field, given)?;
     let found = Patches::new(&surface, &wanted)?;
-    // No patch is −1 there.
+    // In JavaScript the label of no patch is −1.
     let mut labels = try_filled("patches", found.labels().len(), -1)?;
     for (out, label) in labels.iter_mut().zip(found.labels()) {
         *out = *label as i32;

@@ -18,12 +18,12 @@ use developable_wasm::{Failure, Result};
 /// The edges of one page and its lines of text, as `asEdges` makes them.
 #[derive(Deserialize)]
 struct EdgesInput {
-    /// Whether two edges are the left and the right one.
+    /// Whether the two edges given are the left and the right one.
     sideways: bool,
-    /// Two edges, or the upper, lower, left and right one; then the lines.
+    /// Traced edges: two, or the upper, lower, left and right one; then the text lines.
     traces: Vec<TraceInput>,
     edges: usize,
-    /// Whether nothing is said of lines.
+    /// Whether text lines were not given, so that they are searched for.
     open: bool,
 }
 
@@ -99,11 +99,11 @@ struct PageOutput {
     size: [f64; 2],
     unit: &'static str,
     mesh: MeshOutput,
-    /// Lines of text that were found, by page.
+    /// Text lines that were found, for each page.
     lines: Vec<Vec<Vec<[f64; 2]>>>,
     verdict: PageVerdict,
     report: PageReport,
-    /// What was found in the photo, if no edges were given.
+    /// Outlines found in the photo, if no edges were given.
     #[serde(skip_serializing_if = "Option::is_none")]
     outline: Option<OutlinesOutput>,
 }
@@ -179,7 +179,7 @@ pub fn find_page(photo: JsValue) -> Result<JsValue> {
     Ok(to_value(&OutlinesOutput::from(&report))?)
 }
 
-/// A photo of a page, or of a spread, made flat by the page's edges; without edges by those that are found in it.
+/// Dewarps a photo of a page, or of a spread, by the page's edges; without edges, by those found in the photo.
 #[wasm_bindgen(js_name = dewarpPage)]
 pub fn dewarp_page(photo: JsValue, edges: JsValue, options: JsValue) -> Result<JsValue> {
     let (mut wanted, mut known) = (DewarpOptions::default(), PageOptions::default());

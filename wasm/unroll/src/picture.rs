@@ -18,7 +18,7 @@ use developable_wasm::{Failure, Result};
 
 use super::{some, spacing_of};
 
-/// A surface as pixels: an `ImageData` where there are such, else a plain object that says the same.
+/// Draws a surface to pixels: an `ImageData` where the platform has it, else a plain object with the same fields.
 #[wasm_bindgen]
 pub fn picture(field: JsValue, options: JsValue) -> Result<JsValue> {
     let picture = drawn(field, options)?;
@@ -37,7 +37,7 @@ pub fn picture(field: JsValue, options: JsValue) -> Result<JsValue> {
     Ok(plain.into())
 }
 
-/// The same on a canvas, which becomes as large as the picture.
+/// Draws a surface to a canvas, which is resized to the picture.
 #[wasm_bindgen]
 pub fn draw(canvas: JsValue, field: JsValue, options: JsValue) -> Result<()> {
     let canvas = Canvas::new(canvas)?;
@@ -57,7 +57,7 @@ struct PictureInput {
     extent: JsValue,
 }
 
-/// The picture that options ask for.
+/// Draws the picture that the options ask for.
 fn drawn(field: JsValue, options: JsValue) -> Result<Picture> {
     let mut given = Given::new(&options)?;
     let patching: PatchOptions = given.read()?;
@@ -102,7 +102,7 @@ fn image_data(picture: &Picture) -> Result<ImageData> {
     ImageData::new_with_js_u8_clamped_array_and_sh(&data, width, height).map_err(refused)
 }
 
-/// A canvas that can be drawn to, of a page or of none.
+/// Canvas: an element of a page, or an offscreen one.
 enum Canvas {
     Element(HtmlCanvasElement, CanvasRenderingContext2d),
     Offscreen(OffscreenCanvas, OffscreenCanvasRenderingContext2d),
@@ -147,7 +147,7 @@ impl Canvas {
     }
 }
 
-/// A canvas has a context of one kind only, and none once it was handed over.
+/// Context of a canvas, or an error: it has contexts of one kind only, and none once control was transferred.
 fn context<T: JsCast>(found: std::result::Result<Option<Object>, JsValue>) -> Result<T> {
     (found.ok().flatten())
         .and_then(|context| context.dyn_into().ok())
@@ -159,7 +159,7 @@ fn context<T: JsCast>(found: std::result::Result<Option<Object>, JsValue>) -> Re
         })
 }
 
-/// What the browser says no to.
+/// Error that the browser threw.
 fn refused(error: JsValue) -> Failure {
     let message = error.dyn_ref::<js_sys::Error>().map(js_sys::Error::message);
     let message = message.map_or_else(|| format!("{error:?}"), String::from);

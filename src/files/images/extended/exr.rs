@@ -159,7 +159,7 @@ fn choose(layers: &[Header]) -> Result<(usize, &Header, Chosen)> {
             },
         ));
     };
-    // The decoder takes the lines of subsampled channels for longer than they are.
+    // The decoder assumes longer lines than subsampled channels have.
     if header
         .channels
         .list
@@ -175,7 +175,7 @@ fn choose(layers: &[Header]) -> Result<(usize, &Header, Chosen)> {
 }
 
 fn heights_among(channels: &[ChannelDescription]) -> Option<Chosen> {
-    // In one layer of several the names begin with the layer's own.
+    // In a file of several layers, names of channels begin with the layer's name.
     let names: Vec<(String, String)> = channels
         .iter()
         .map(|channel| {

@@ -43,8 +43,8 @@ pub(super) fn decode_photo(bytes: &[u8]) -> Result<PhotoFile> {
     let mut file = Opened::new(bytes)?;
     let rgba = match file.stored {
         (ColorSpace::RGB, _) => {
-            // In its own place, for photos are large. (The decoder's own RGBA is wrong in places
-            // where it has no SIMD, as in wasm.)
+            // Converted in place, since photos are large. (The decoder's own RGBA is wrong in places without SIMD, as
+            // in wasm.)
             let mut rgba = try_filled("JPEG image", file.len, [0; 4])?;
             let samples = rgba.as_flattened_mut();
             file.decode(ColorSpace::RGB, &mut samples[..3 * file.len])?;
@@ -81,7 +81,7 @@ struct Opened<'a> {
 
 impl<'a> Opened<'a> {
     fn new(bytes: &'a [u8]) -> Result<Self> {
-        // The decoder makes up what is missing at the end.
+        // The decoder fills in missing data at the end.
         if !ends(bytes) {
             return Err(damaged(Format::Jpeg, "it is cut short"));
         }
@@ -130,8 +130,7 @@ impl<'a> Opened<'a> {
         exif::Reader::new().read_raw(exif.to_vec()).ok()
     }
 
-    /// Orientation of the camera, as TIFF numbers it. An invalid number counts as none, because it is not part
-    /// of the picture.
+    /// Orientation of the camera, as TIFF numbers it, from 1 to 8; 1 without Exif data.
     fn orientation(&self) -> u16 {
         self.exif().as_ref().map_or(1, orientation)
     }
@@ -141,8 +140,8 @@ fn failed(error: DecodeErrors) -> Error {
     damaged(Format::Jpeg, format!("{error:?}"))
 }
 
-/// Which way up the camera was, as TIFF numbers it. What is no sound number is as good as none: it
-/// is no part of the picture.
+/// Orientation of the camera, as TIFF numbers it, from 1 to 8. An invalid number counts as 1, since damaged metadata
+/// need not mean a damaged picture.
 fn orientation(exif: &Exif) -> u16 {
     match number(exif, Tag::Orientation) {
         Some(number @ 1..=8) => number as u16,
@@ -169,7 +168,7 @@ fn number(exif: &Exif, tag: Tag) -> Option<u32> {
     exif.get_field(tag, In::PRIMARY)?.value.get_uint(0)
 }
 
-/// Whether the end of the image is marked, apart from pictures within the metadata.
+/// Whether the file has the marker of the image's end, outside of the pictures within its metadata.
 fn ends(bytes: &[u8]) -> bool {
     let mut rest = &bytes[2..];
     while let [0xff, marker, high, low, ..] = *rest {

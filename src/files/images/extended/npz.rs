@@ -61,8 +61,8 @@ pub fn npz_arrays(bytes: &[u8]) -> Result<Vec<NpzArray>> {
         .collect()
 }
 
-/// Decodes one array of an NPZ file as [`decode`](crate::files::images::decode) does an
-/// NPY file: the one of this name, or the only one there is.
+/// Decodes one array of an NPZ file, by the rules of [`decode`](crate::files::images::decode) for NPY files: the
+/// array of this name, or the only one.
 ///
 /// # Errors
 /// As `decode`, and [`Error::Unsupported`] if there is no such array, or none is
@@ -97,7 +97,7 @@ pub fn decode_npz(bytes: &[u8], array: Option<&str>) -> Result<Decoded> {
     }
     check_length(Format::Npz, bytes, size, DEFLATE_RATIO)?;
     let mut file = room("NPZ array", size)?;
-    // Never more than was announced, and the archive's checksum says whether it is that.
+    // The decoder never returns more than the header states, and the archive's checksum verifies it.
     let read = entry.take(size as u64 + 1).read_to_end(&mut file);
     read.map_err(|e| damaged(Format::Npz, e))?;
     let decoded = crate::files::images::format::announced(&file, Some(Format::Npy))

@@ -110,7 +110,7 @@ fn channels(file: &mut File, color: ColorType) -> Result<(usize, usize, Channels
 }
 
 fn number(kind: DecodingSampleType, bytes: &[u8]) -> f64 {
-    /// The number that these bytes are in the machine's own order.
+    /// Number from bytes in the machine's byte order.
     macro_rules! ne {
         ($type:ty) => {{
             let mut own = [0; std::mem::size_of::<$type>()];

@@ -91,7 +91,7 @@ fn pixel_size(file: &mut File) -> Result<(f64, Option<Unit>)> {
         return Ok((1.0, None));
     };
     let per = match unsigned(file, Tag::ResolutionUnit)?.unwrap_or(PER_INCH) {
-        // Then it tells the proportions of a pixel only.
+        // Without a unit, resolutions state the proportions of a pixel only.
         NO_UNIT => return square(1.0 / x, 1.0 / y).map(|_| (1.0, None)),
         PER_INCH => INCH_MM,
         PER_CENTIMETRE => CENTIMETRE_MM,
@@ -169,7 +169,7 @@ fn no_data(file: &mut File, data_type: &str) -> Result<Option<f64>> {
             format!("its tag GDAL_NODATA is `{text}`, no number"),
         )
     })?;
-    // As the file can store it: -9999.9 is another number in 32 bits.
+    // Rounded as the file stores it: -9999.9 is another number in 32 bits.
     Ok(Some(match data_type {
         "f32" => f64::from(value as f32),
         _ => value,
@@ -189,7 +189,7 @@ pub(super) fn oriented<T: Copy + Default>(
     if orientation == 1 {
         return Ok((values, (width, height)));
     }
-    // From 5 on, what is stored as a row is seen as a column.
+    // In orientations from 5 on, stored rows are displayed as columns.
     let turned = orientation >= 5;
     let (cols, rows) = if turned {
         (height, width)

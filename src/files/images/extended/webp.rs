@@ -28,7 +28,7 @@ pub(super) fn decode_photo(bytes: &[u8]) -> Result<PhotoFile> {
 
 /// The samples, their number per pixel, and width and height.
 fn pixels(bytes: &[u8]) -> Result<(Vec<u8>, usize, (usize, usize))> {
-    // The decoder makes up what is missing at the end; the length is in the header.
+    // The decoder fills in missing data at the end; the header has the length.
     let length = bytes.get(4..8).map_or(0, |length| {
         u32::from_le_bytes([length[0], length[1], length[2], length[3]])
     });

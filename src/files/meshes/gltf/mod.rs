@@ -19,7 +19,7 @@ use crate::error::{Error, Result};
 pub(super) fn read(bytes: &[u8], beside: &Beside, parts: &mut MeshBuilder) -> Result<()> {
     let binary = bytes.starts_with(b"glTF");
     let (json, bin) = if binary {
-        // `gltf` takes the header's own length off what that says.
+        // `gltf` subtracts the header's own length from the stated length.
         let length = bytes.get(8..12).and_then(|length| length.try_into().ok());
         if length.is_none_or(|length| u32::from_le_bytes(length) < 12) {
             return Err(damaged(
@@ -44,7 +44,7 @@ pub(super) fn read(bytes: &[u8], beside: &Beside, parts: &mut MeshBuilder) -> Re
             ),
         ));
     }
-    // Its validation looks them up unchecked.
+    // The crate's validation looks indices up unchecked.
     let attributes = |mesh: &gltf::json::Mesh| {
         let primitives = mesh.primitives.iter();
         primitives

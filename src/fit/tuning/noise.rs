@@ -9,9 +9,10 @@ use crate::math::statistics::{MAD_TO_SIGMA, median};
 /// Minimum number of rings from which noise is measured; with fewer there is no result.
 const MIN_NOISE_SAMPLES: usize = 50;
 
-/// Least ratio of the noise of large discs to that of rings of six neighbours at which noise is correlated. Resampling and
-/// bends of the shape beside white noise make it larger than 1, too.
-const MIN_CORRELATED_RATIO: f64 = 2.5;
+/// Minimum ratio of the noise of large discs to that of rings of six neighbours at which noise is correlated. White noise
+/// of square pixels has about 1.8 after resampling, and bends of the shape beside it raise that to 2.5; a blur by one
+/// spacing makes it 13.
+const MIN_CORRELATED_RATIO: f64 = 4.0;
 
 /// Largest share of different heights among all at which steps of quantisation are looked for.
 const MAX_DISTINCT_HEIGHTS: f64 = 0.25;

@@ -1080,7 +1080,7 @@ export interface PageReport {
 }
 
 /** A flat page, or both of a spread beside each other. */
-export interface DewarpedPage extends Omit<Dewarped, 'verdict' | 'report' | 'unit'> {
+export interface DewarpedPage extends Omit<Dewarped, 'verdict' | 'report' | 'unit' | 'loss'> {
   /** Width and height of the flat page, or of both together. */
   size: [number, number];
   /** The unit of all lengths: millimetres where a format or a ruler is given, else a page's width. */

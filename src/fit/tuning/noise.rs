@@ -9,12 +9,9 @@ use crate::math::statistics::{MAD_TO_SIGMA, median};
 /// Minimum number of rings from which noise is measured; with fewer there is no result.
 const MIN_NOISE_SAMPLES: usize = 50;
 
-/// Minimum ratio of the noise of large discs to that of rings of six neighbours at which the discs' noise counts. Bends of a
-/// shape beside white noise raise it to 1.8.
-const MIN_DISC_NOISE_RATIO: f64 = 2.0;
-
-/// Minimum such ratio at which noise is correlated, so that it would predict held-out heights. White noise of square
-/// pixels has 1.8 to 2.5 after resampling; a blur by one spacing makes it 13.
+/// Minimum ratio of the noise of large discs to that of rings of six neighbours at which noise is correlated. White noise
+/// of square pixels has about 1.8 after resampling, and bends of the shape beside it raise that to 2.5; a blur by one
+/// spacing makes it 13.
 const MIN_CORRELATED_RATIO: f64 = 4.0;
 
 /// Largest share of different heights among all at which steps of quantisation are looked for.
@@ -76,13 +73,8 @@ impl Noise {
             shared = found.shared_vertices.sqrt();
             noise.sigma = found.sigma;
             noise.correlation_length = found.length * spacing;
-            let is_correlated = found.sigma * shared >= MIN_CORRELATED_RATIO * white;
-            noise.merged = if is_correlated {
-                shared.log2().round() as usize
-            } else {
-                0
-            };
-            noise.ambiguous = found.ambiguous && is_correlated;
+            noise.merged = shared.log2().round() as usize;
+            noise.ambiguous = found.ambiguous;
         }
         noise.product = trust * noise.sigma * spacing * shared;
         Ok(Some(noise))
@@ -96,7 +88,7 @@ fn correlated_noise(input: &Input, white: f64) -> Result<Option<CorrelatedNoise>
     let scales = curvature_scales(input, &discs)?;
     let found = CorrelatedNoise::from_scales(&scales, &discs);
     Ok(found
-        .filter(|noise| noise.sigma * noise.shared_vertices.sqrt() >= MIN_DISC_NOISE_RATIO * white))
+        .filter(|noise| noise.sigma * noise.shared_vertices.sqrt() >= MIN_CORRELATED_RATIO * white))
 }
 
 /// Standard deviation of white noise, measured from rings of six neighbours: the sum of a ring's heights with

@@ -124,7 +124,7 @@ pub(crate) fn first(
         iterations: 0,
     };
     let lambda = match noise.map(|noise| {
-        let product = match noise.merged > 0 && noise.step.is_none() {
+        let product = match noise.correlation_length > 0.0 {
             true => CORRELATED_LAMBDA_NOISE,
             false => FIRST_LAMBDA_NOISE,
         };

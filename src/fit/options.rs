@@ -181,10 +181,10 @@ pub enum Energy {
     /// `Σ n₃ ‖H‖_*` with the factor `n₃` of the surface itself, updated in each iteration: not convex (Fig. 7, centre
     /// right). The duality gap is certified for the energy with the last factor kept.
     SecondForm,
-    /// Huber penalty `Σ φ(‖H‖_*)`: `φ` is quadratic for small bends and linear for large ones, with the slope `min(α
-    /// + s/δ, 1)` at the size `s`. The surface stays smooth where it bends smoothly, without the flat strips of the
-    /// nuclear norm, and can still crease and stay developable. Up to [`Options::crease_passes`] further solves lower
-    /// the cost of bends tighter than [`Options::crease_radius`], so that creases keep their angle. Objective and
+    /// Huber penalty `Σ φ(‖H‖_*)`: `φ` is quadratic for small bends and linear for large ones, with the slope
+    /// `min(α + s/δ, 1)` at the size `s`. The surface stays smooth where it bends smoothly, without the flat strips of
+    /// the nuclear norm, and can still crease and stay developable. Up to [`Options::crease_passes`] further solves
+    /// lower the cost of bends tighter than [`Options::crease_radius`], so that creases keep their angle. Objective and
     /// duality gap of the report belong to the last solve's energy. The default of every input that is not a design.
     #[default]
     Huber,

@@ -11,7 +11,7 @@ mod scan;
 use std::error::Error;
 
 use developable::dewarp::Extent;
-use developable::{Energy, Heightfield, Lambda, Lattice, Options, fit};
+use developable::{Heightfield, Lattice, Options, fit};
 use serde::Serialize;
 
 use measure::{Truth, measure};

@@ -9,10 +9,13 @@ use crate::math::statistics::{MAD_TO_SIGMA, median};
 /// Minimum number of rings from which noise is measured; with fewer there is no result.
 const MIN_NOISE_SAMPLES: usize = 50;
 
-/// Minimum ratio of the noise of large discs to that of rings of six neighbours at which noise is correlated. White noise
-/// of square pixels has about 1.8 after resampling, and bends of the shape beside it raise that to 2.5; a blur by one
-/// spacing makes it 13.
-const MIN_CORRELATED_RATIO: f64 = 4.0;
+/// Minimum ratio of the noise of large discs to that of rings of six neighbours at which noise is correlated. Bends of the
+/// shape beside white noise raise it to 1.8.
+const MIN_CORRELATED_RATIO: f64 = 2.5;
+
+/// Minimum correlation length of correlated noise, in spacings. White noise of square pixels has 0.5 to 0.6 after
+/// resampling to the lattice, and its held-out heights are not predicted by their neighbours.
+const MIN_CORRELATION_LENGTH: f64 = 0.8;
 
 /// Largest share of different heights among all at which steps of quantisation are looked for.
 const MAX_DISTINCT_HEIGHTS: f64 = 0.25;
@@ -87,8 +90,11 @@ fn correlated_noise(input: &Input, white: f64) -> Result<Option<CorrelatedNoise>
     let discs: Vec<Disc> = DISC_RADII.into_iter().filter_map(Disc::new).collect();
     let scales = curvature_scales(input, &discs)?;
     let found = CorrelatedNoise::from_scales(&scales, &discs);
-    Ok(found
-        .filter(|noise| noise.sigma * noise.shared_vertices.sqrt() >= MIN_CORRELATED_RATIO * white))
+    let is_correlated = |noise: &CorrelatedNoise| {
+        let root = noise.sigma * noise.shared_vertices.sqrt();
+        root >= MIN_CORRELATED_RATIO * white && noise.length >= MIN_CORRELATION_LENGTH
+    };
+    Ok(found.filter(is_correlated))
 }
 
 /// Standard deviation of white noise, measured from rings of six neighbours: the sum of a ring's heights with

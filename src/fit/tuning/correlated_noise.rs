@@ -144,13 +144,11 @@ impl Covariance {
         let lengths = (0..LENGTH_TRIALS).map(|trial| shortest * step.powi(trial as i32));
         let mut best = (f64::INFINITY, 0.0, 0.0);
         for length in [0.0].into_iter().chain(lengths) {
-            let logs = || {
-                (scales.iter())
-                    .map(|scale| (scale.white_equivalent / response(scale, discs, length)).ln())
-            };
-            let count = scales.len() as f64;
-            let mean = logs().sum::<f64>() / count;
-            let misfit = logs().map(|log| (log - mean).powi(2)).sum::<f64>();
+            let logs: Vec<f64> = (scales.iter())
+                .map(|scale| (scale.white_equivalent / response(scale, discs, length)).ln())
+                .collect();
+            let mean = logs.iter().sum::<f64>() / logs.len() as f64;
+            let misfit = logs.iter().map(|log| (log - mean).powi(2)).sum::<f64>();
             if misfit < best.0 {
                 best = (misfit, length, mean.exp());
             }
@@ -199,29 +197,18 @@ impl Covariance {
 
 /// White equivalent of noise of standard deviation 1 and a correlation length, in spacings, at a scale.
 fn response(scale: &CurvatureScale, discs: &[Disc], length: f64) -> f64 {
-    let spacing = f64::from(1u32 << scale.lattice);
-    // Means over cells are blurred by the cell, and have less variance by that.
-    let cell = CELL_VARIANCE * (1.0 - 1.0 / (spacing * spacing));
-    let squared = (length / spacing).powi(2) + cell;
-    let variance = match squared > 0.0 && scale.lattice > 0 {
-        true => (length / spacing).powi(2) / squared,
-        false => 1.0,
-    };
     if length == 0.0 {
         return 1.0;
     }
-    let disc = &discs[scale.disc];
-    let positions = disc.positions();
-    let norm = |[xx, xy, yy]: [f64; 3], [uu, uv, vv]: [f64; 3]| xx * uu + 2.0 * xy * uv + yy * vv;
-    let (mut sum, mut white) = (0.0, 0.0);
-    for (a, p) in disc.hessian.iter().zip(&positions) {
-        white += norm(*a, *a);
-        for (b, q) in disc.hessian.iter().zip(&positions) {
-            let distance = (p[0] - q[0]).powi(2) + (p[1] - q[1]).powi(2);
-            sum += norm(*a, *b) * (-distance / (4.0 * squared)).exp();
-        }
-    }
-    spacing * (variance * sum / white).sqrt()
+    let spacing = f64::from(1u32 << scale.lattice);
+    let own = (length / spacing).powi(2);
+    // Means over cells are blurred by the cell, and have less variance by that.
+    let blurred = own + CELL_VARIANCE * (1.0 - 1.0 / (spacing * spacing));
+    let pairs = discs[scale.disc].autocorrelation.iter();
+    let sum: f64 = pairs
+        .map(|(distance, product)| product * (-distance / (4.0 * blurred)).exp())
+        .sum();
+    spacing * (own / blurred * sum).sqrt()
 }
 
 /// Sum of the correlations of a vertex's noise with that of all vertices.

@@ -4,6 +4,8 @@
 //! point, while noise bends both ways at every scale, whatever its correlation: the medians of the smaller and the
 //! larger absolute principal curvature have a ratio of about 0.32 for isotropic noise.
 
+use std::collections::BTreeMap;
+
 use crate::error::{Result, try_filled};
 use crate::fit::input::Input;
 use crate::lattice::coarsening::coarse_lattice;
@@ -38,7 +40,11 @@ pub(super) struct Disc {
     /// Offset of each vertex from the centre, in rows and half columns.
     offsets: Vec<(isize, isize)>,
     /// Coefficients of each vertex's height in the entries `xx`, `xy` and `yy` of the Hessian, for a spacing of 1.
-    pub hessian: Vec<[f64; 3]>,
+    hessian: Vec<[f64; 3]>,
+    /// Squared distances between the disc's vertices, for a spacing of 1, and the Frobenius product of the coefficients
+    /// of two vertices, summed over all pairs at that distance, as a share of the sum at distance 0. The Hessian of
+    /// noise with a covariance that depends on the distance has the sum of both's products as its variance.
+    pub autocorrelation: Vec<(f64, f64)>,
     /// Standard deviation of the Hessian's entry `xx` for white noise of standard deviation 1.
     pub deviation: f64,
 }
@@ -71,19 +77,27 @@ impl Disc {
         let squares: f64 = hessian.iter().map(|[xx, ..]| xx * xx).sum();
         Some(Disc {
             radius,
+            autocorrelation: autocorrelation(&offsets, &hessian),
             offsets,
             hessian,
             deviation: squares.sqrt(),
         })
     }
+}
 
-    /// Positions of the vertices relative to the centre, in spacings.
-    pub(super) fn positions(&self) -> Vec<[f64; 2]> {
-        self.offsets
-            .iter()
-            .map(|offset| position(*offset))
-            .collect()
+/// See [`Disc::autocorrelation`].
+fn autocorrelation(offsets: &[(isize, isize)], hessian: &[[f64; 3]]) -> Vec<(f64, f64)> {
+    let mut sums = BTreeMap::new();
+    for (p, a) in offsets.iter().zip(hessian) {
+        for (q, b) in offsets.iter().zip(hessian) {
+            // Four times the squared distance, which is a whole number.
+            let distance = 3 * (p.0 - q.0).pow(2) + (p.1 - q.1).pow(2);
+            *sums.entry(distance).or_insert(0.0) += a[0] * b[0] + 2.0 * a[1] * b[1] + a[2] * b[2];
+        }
     }
+    let own = sums.get(&0).copied().unwrap_or(1.0);
+    let relative = |(distance, sum): (isize, f64)| (0.25 * distance as f64, sum / own);
+    sums.into_iter().map(relative).collect()
 }
 
 fn position((row, half): (isize, isize)) -> [f64; 2] {

@@ -88,12 +88,7 @@ impl CurledPage {
     /// image of more than [`MAX_CELLS`](crate::MAX_CELLS) pixels, [`Error::OutOfMemory`].
     pub fn warp_map(&self, options: &DewarpOptions) -> Result<WarpMap> {
         let size = self.flat_size();
-        let resolution = match options.dots {
-            Some(dots) => positive("dots", dots)?,
-            None => (self.seen_area() / (size[0] * size[1])).sqrt(),
-        };
-        let [width, height] = size.map(|side| (side * resolution).round().max(1.0) as usize);
-        checked_cells("flat image", height, width)?;
+        let (resolution, [width, height]) = flat_image_size(size, options, || self.seen_area())?;
         let mut places = try_filled("flat image", width * height, [f32::NAN; 2])?;
         let curve = self.cylinder.curve();
         let along = if self.sideways { height } else { width };
@@ -170,7 +165,6 @@ impl CurledPage {
         let mut positions = try_filled("mesh", cols * rows, [0.0; 3])?;
         let mut uvs = try_filled("mesh", cols * rows, [0f32; 2])?;
         let curve = self.cylinder.curve();
-        let [width, height] = self.photo.map(|n| n as f64);
         for i in 0..cols * rows {
             let share = [
                 (i % cols) as f64 / (cols - 1) as f64,
@@ -185,19 +179,49 @@ impl CurledPage {
                 .cylinder
                 .project(on, down)
                 .ok_or(Error::Empty { what: "page" })?;
-            uvs[i] = [(x + 0.5) / width, 1.0 - (y + 0.5) / height].map(lanes::single);
+            uvs[i] = texture_coordinates([x, y], self.photo);
         }
-        let mut triangles = Vec::new();
-        for row in 1..rows {
-            for col in 1..cols {
-                let last = (row * cols + col) as u32;
-                let [above, before] = [last - cols as u32, last - 1];
-                let first = above - 1;
-                triangles.extend([[first, before, last], [first, last, above]]);
-            }
-        }
-        Mesh::new(positions, triangles)?.with_uvs(uvs)
+        grid_mesh(positions, uvs, cols)
     }
+}
+
+/// Pixels of a flat image per unit of length, and its width and height in pixels: as `options` say, or so many that it has
+/// as many pixels as the photo has of the page, `seen_area`.
+///
+/// # Errors
+/// [`Error::Option`] for a resolution that is not positive and finite, [`Error::TooLarge`].
+pub(super) fn flat_image_size(
+    size: [f64; 2],
+    options: &DewarpOptions,
+    seen_area: impl Fn() -> f64,
+) -> Result<(f64, [usize; 2])> {
+    let resolution = match options.dots {
+        Some(dots) => positive("dots", dots)?,
+        None => (seen_area() / (size[0] * size[1])).sqrt(),
+    };
+    let [width, height] = size.map(|side| (side * resolution).round().max(1.0) as usize);
+    checked_cells("flat image", height, width)?;
+    Ok((resolution, [width, height]))
+}
+
+/// Texture coordinates of a place in a photo of some width and height, all in pixels.
+pub(super) fn texture_coordinates([x, y]: [f64; 2], photo: [usize; 2]) -> [f32; 2] {
+    let [width, height] = photo.map(|n| n as f64);
+    [(x + 0.5) / width, 1.0 - (y + 0.5) / height].map(lanes::single)
+}
+
+/// The mesh of a grid of vertices in rows of `cols`, from the upper left corner.
+pub(super) fn grid_mesh(positions: Vec<[f64; 3]>, uvs: Vec<[f32; 2]>, cols: usize) -> Result<Mesh> {
+    let mut triangles = Vec::new();
+    for row in 1..positions.len() / cols {
+        for col in 1..cols {
+            let last = (row * cols + col) as u32;
+            let [above, before] = [last - cols as u32, last - 1];
+            let first = above - 1;
+            triangles.extend([[first, before, last], [first, last, above]]);
+        }
+    }
+    Mesh::new(positions, triangles)?.with_uvs(uvs)
 }
 
 /// The place on a flat page, in shares of its sides, that the photo shows at a pixel: Newton's method from the nearest of a

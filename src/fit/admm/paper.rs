@@ -34,7 +34,7 @@ const F32_CG_REDUCTION: f64 = 1e-6;
 const MAX_CG_ITERATIONS: usize = 5000;
 
 /// Over-relaxation of `Cz` in Eq. 18 and 19: none.
-const RELAXATION: f64 = 1.0;
+const PAPER_OVER_RELAXATION: f64 = 1.0;
 
 /// Number of iterations from one check of convergence and ρ to the next, as in the authors' code.
 const CHECK_ITERATIONS: usize = 10;
@@ -83,7 +83,7 @@ pub(super) fn advance<O: SolvableOperator>(
         // H ← argmin ‖H‖_* + ρ/2 ‖Cz − H + U‖²                                                    (18)
         // u ← u + Cz − h                                                                          (19)
         let is_check = admm.iteration.is_multiple_of(CHECK_ITERATIONS) || admm.is_last();
-        let change = admm.update_hessians_and_dual(RELAXATION, is_check)?;
+        let change = admm.update_hessians_and_dual(PAPER_OVER_RELAXATION, is_check)?;
         if !is_check {
             continue;
         }

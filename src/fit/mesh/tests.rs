@@ -53,7 +53,7 @@ fn noisy(mesh: &Mesh, sigma: f64) -> Mesh {
     with_positions(mesh, &x)
 }
 
-const BENDS: HuberParameters = HuberParameters {
+const HUBER_PENALTY: HuberParameters = HuberParameters {
     flatness: 0.3,
     delta: 10.0,
 };
@@ -76,7 +76,15 @@ fn linearise(mesh: &Mesh) -> Linearisation {
         .into_iter()
         .map(|n| Frame::from_normal(n, Point::x()))
         .collect();
-    Linearisation::new(&given, given.noisy.clone(), frames, BENDS, |_| 1e4, None).unwrap()
+    Linearisation::new(
+        &given,
+        given.noisy.clone(),
+        frames,
+        HUBER_PENALTY,
+        |_| 1e4,
+        None,
+    )
+    .unwrap()
 }
 
 #[test]

@@ -4,8 +4,6 @@
 //! point, while noise bends both ways at every scale, whatever its correlation: the medians of the smaller and the
 //! larger absolute principal curvature have a ratio of about 0.32 for isotropic noise.
 
-use std::collections::BTreeMap;
-
 use crate::error::{Result, try_filled};
 use crate::fit::input::Input;
 use crate::lattice::coarsening::coarse_lattice;
@@ -87,17 +85,21 @@ impl Disc {
 
 /// See [`Disc::autocorrelation`].
 fn autocorrelation(offsets: &[(isize, isize)], hessian: &[[f64; 3]]) -> Vec<(f64, f64)> {
-    let mut sums = BTreeMap::new();
+    let mut sums: Vec<(f64, f64)> = Vec::new();
     for (p, a) in offsets.iter().zip(hessian) {
         for (q, b) in offsets.iter().zip(hessian) {
-            // Four times the squared distance, which is a whole number.
-            let distance = 3 * (p.0 - q.0).pow(2) + (p.1 - q.1).pow(2);
-            *sums.entry(distance).or_insert(0.0) += a[0] * b[0] + 2.0 * a[1] * b[1] + a[2] * b[2];
+            let distance = 0.25 * (3 * (p.0 - q.0).pow(2) + (p.1 - q.1).pow(2)) as f64;
+            let product = a[0] * b[0] + 2.0 * a[1] * b[1] + a[2] * b[2];
+            match sums.iter_mut().find(|(other, _)| *other == distance) {
+                Some((_, sum)) => *sum += product,
+                None => sums.push((distance, product)),
+            }
         }
     }
-    let own = sums.get(&0).copied().unwrap_or(1.0);
-    let relative = |(distance, sum): (isize, f64)| (0.25 * distance as f64, sum / own);
-    sums.into_iter().map(relative).collect()
+    // The first pair is a vertex with itself.
+    let own = sums[0].1;
+    sums.iter_mut().for_each(|(_, sum)| *sum /= own);
+    sums
 }
 
 fn position((row, half): (isize, isize)) -> [f64; 2] {

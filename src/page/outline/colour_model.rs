@@ -5,7 +5,7 @@ use super::planes::Planes;
 use crate::page::text::ranking::ranked;
 
 /// Number of bins for lightness, and for each of the two differences of colour.
-const BINS: [usize; 3] = [24, 16, 16];
+const BINS_PER_COMPONENT: [usize; 3] = [24, 16, 16];
 
 /// Minimum width of a bin, in logarithms: about twice the noise of a reduced photo.
 const MIN_BIN_WIDTH: f32 = 0.02;
@@ -17,7 +17,7 @@ const BIN_RANGE_TRIM: f64 = 0.01;
 const SAMPLE_STEP: usize = 7;
 
 /// Number of times that both histograms are counted anew with the mask of the round before.
-const REFINEMENTS: usize = 4;
+const HISTOGRAM_ROUNDS: usize = 4;
 
 /// Radius, in pixels of half the reduced size, of the square over which likelihood ratios are averaged.
 const SMOOTHING_RADIUS: usize = 2;
@@ -45,7 +45,7 @@ impl ColourModel {
             .map(|i| opponent_axes([r[i], g[i], b[i]]))
             .collect();
         let mut bins = vec![0_u16; axes.len()];
-        for (axis, &count) in BINS.iter().enumerate() {
+        for (axis, &count) in BINS_PER_COMPONENT.iter().enumerate() {
             let sample: Vec<f64> = (axes.iter().step_by(SAMPLE_STEP))
                 .map(|colour| f64::from(colour[axis]))
                 .collect();
@@ -67,7 +67,7 @@ impl ColourModel {
 
     /// Relative frequencies of the colours at some pixels, smoothed over neighbouring bins.
     fn histogram(&self, pixels: impl Iterator<Item = usize>) -> Vec<f32> {
-        let [n, m, k] = BINS;
+        let [n, m, k] = BINS_PER_COMPONENT;
         let mut counts = vec![0.0_f32; n * m * k];
         pixels.for_each(|i| counts[usize::from(self.bins[i])] += 1.0);
         for (stride, length) in [(m * k, n), (k, m), (1, k)] {
@@ -107,7 +107,7 @@ impl ColourModel {
 
     /// Refines a mask: counts the colours inside and outside of it, classifies all pixels by them, and repeats that.
     pub fn refine(&self, mut mask: Vec<bool>) -> Vec<bool> {
-        for _ in 0..REFINEMENTS {
+        for _ in 0..HISTOGRAM_ROUNDS {
             let pixels = |inside: bool| {
                 let mask = &mask;
                 (0..mask.len()).filter(move |i| mask[*i] == inside)

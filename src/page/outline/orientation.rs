@@ -3,10 +3,10 @@
 use super::planes::Planes;
 
 /// Number of samples along each side of the page.
-const SAMPLES: usize = 320;
+const SAMPLES_PER_SIDE: usize = 320;
 
 /// Number of strips across the page in which rows of print are looked for, so that lines may be bent.
-const STRIPS: usize = 10;
+const PRINT_STRIPS: usize = 10;
 
 /// Share of the page at each of its edges that is left out, because of shadows.
 const MARGIN_SHARE: f64 = 0.05;
@@ -20,11 +20,11 @@ const MIN_PRINT: f64 = 0.003;
 /// Sum of the squared differences of neighbouring values of profiles across strips of `print`; `at` is the place of a sample
 /// of a strip in it.
 fn profile_energy(print: &[f32], at: impl Fn(usize, usize) -> usize) -> f64 {
-    let width = SAMPLES / STRIPS;
+    let width = SAMPLES_PER_SIDE / PRINT_STRIPS;
     let mut energy = 0.0;
-    for strip in 0..STRIPS {
+    for strip in 0..PRINT_STRIPS {
         let mut before = None;
-        for row in 0..SAMPLES {
+        for row in 0..SAMPLES_PER_SIDE {
             let sum: f32 = (0..width).map(|k| print[at(row, strip * width + k)]).sum();
             if let Some(last) = before {
                 energy += f64::from(sum - last).powi(2);
@@ -39,12 +39,13 @@ fn profile_energy(print: &[f32], at: impl Fn(usize, usize) -> usize) -> f64 {
 /// if the print does not tell. Corners are clockwise, in pixels of a reduced photo as it is and without print.
 pub(super) fn quarter_turns(raw: &Planes, clean: &Planes, corners: &[[f64; 2]; 4]) -> usize {
     let [a, b, c, d] = corners;
-    let share =
-        |i: usize| MARGIN_SHARE + (1.0 - 2.0 * MARGIN_SHARE) * (i as f64 + 0.5) / SAMPLES as f64;
-    let mut print = vec![0.0_f32; SAMPLES * SAMPLES];
+    let share = |i: usize| {
+        MARGIN_SHARE + (1.0 - 2.0 * MARGIN_SHARE) * (i as f64 + 0.5) / SAMPLES_PER_SIDE as f64
+    };
+    let mut print = vec![0.0_f32; SAMPLES_PER_SIDE * SAMPLES_PER_SIDE];
     let (mut total, mut right) = (0.0, 0.0);
     for (i, value) in print.iter_mut().enumerate() {
-        let (u, v) = (share(i % SAMPLES), share(i / SAMPLES));
+        let (u, v) = (share(i % SAMPLES_PER_SIDE), share(i / SAMPLES_PER_SIDE));
         let [x, y] = [0, 1]
             .map(|k| (1.0 - v) * ((1.0 - u) * a[k] + u * b[k]) + v * ((1.0 - u) * d[k] + u * c[k]));
         let pixel = |at: f64, size: usize| at.round().clamp(0.0, size as f64 - 1.0) as usize;
@@ -56,8 +57,8 @@ pub(super) fn quarter_turns(raw: &Planes, clean: &Planes, corners: &[[f64; 2]; 4
     if total < MIN_PRINT * print.len() as f64 {
         return 0;
     }
-    let rows = profile_energy(&print, |row, col| row * SAMPLES + col);
-    let cols = profile_energy(&print, |row, col| col * SAMPLES + row);
+    let rows = profile_energy(&print, |row, col| row * SAMPLES_PER_SIDE + col);
+    let cols = profile_energy(&print, |row, col| col * SAMPLES_PER_SIDE + row);
     if cols < MIN_ENERGY_RATIO * rows {
         return 0;
     }

@@ -84,7 +84,7 @@ fn without_holes(pixels: &[usize], len: usize, width: usize) -> Region {
 impl Region {
     /// The pixels along the border in order, clockwise as seen in the image (Moore's tracing).
     pub fn border(&self, width: usize) -> Vec<[i32; 2]> {
-        const AROUND: [[i32; 2]; 8] = [
+        const NEIGHBOUR_OFFSETS: [[i32; 2]; 8] = [
             [1, 0],
             [1, 1],
             [0, 1],
@@ -110,9 +110,12 @@ impl Region {
         let (mut at, mut way, mut first_way) = (start, 0, None);
         while border.len() < 4 * self.mask.len() {
             // From the pixel to the left of the way back, clockwise.
-            let step = (0..8)
-                .map(|k| (way + 6 + k) % 8)
-                .find(|k| has([at[0] + AROUND[*k][0], at[1] + AROUND[*k][1]]));
+            let step = (0..8).map(|k| (way + 6 + k) % 8).find(|k| {
+                has([
+                    at[0] + NEIGHBOUR_OFFSETS[*k][0],
+                    at[1] + NEIGHBOUR_OFFSETS[*k][1],
+                ])
+            });
             let Some(step) = step else { break };
             if at == start && first_way == Some(step) {
                 border.pop();
@@ -120,7 +123,10 @@ impl Region {
             }
             first_way = first_way.or(Some(step));
             way = step;
-            at = [at[0] + AROUND[way][0], at[1] + AROUND[way][1]];
+            at = [
+                at[0] + NEIGHBOUR_OFFSETS[way][0],
+                at[1] + NEIGHBOUR_OFFSETS[way][1],
+            ];
             border.push(at);
         }
         border

@@ -9,7 +9,7 @@ use crate::math::statistics::median;
 use crate::page::text::ranking::ranked;
 
 /// Number of directions of lines: one for each degree.
-const DIRECTIONS: usize = 180;
+const LINE_DIRECTIONS: usize = 180;
 
 /// Minimum number of votes of a line.
 const MIN_LINE_VOTES: f32 = 8.0;
@@ -216,8 +216,8 @@ fn find_lines(gradients: &Gradients) -> Vec<Line> {
     let diagonal = (gradients.width as f64).hypot(gradients.height as f64);
     let offsets = 2 * diagonal as usize + 3;
     let middle = diagonal as usize + 1;
-    let mut votes = vec![0.0_f32; DIRECTIONS * offsets];
-    let turns: Vec<[f32; 2]> = (0..DIRECTIONS)
+    let mut votes = vec![0.0_f32; LINE_DIRECTIONS * offsets];
+    let turns: Vec<[f32; 2]> = (0..LINE_DIRECTIONS)
         .map(|k| {
             let (sin, cos) = (k as f64).to_radians().sin_cos();
             [cos as f32, sin as f32]
@@ -235,9 +235,9 @@ fn find_lines(gradients: &Gradients) -> Vec<Line> {
         };
         let (x, y) = ((i % gradients.width) as f32, (i / gradients.width) as f32);
         let angle = f64::from(*gy).atan2(f64::from(*gx)).to_degrees();
-        let degrees = (angle + 180.5) as usize % DIRECTIONS;
+        let degrees = (angle + 180.5) as usize % LINE_DIRECTIONS;
         for k in 0..=2 * VOTED_DIRECTIONS {
-            let direction = (degrees + DIRECTIONS + k - VOTED_DIRECTIONS) % DIRECTIONS;
+            let direction = (degrees + LINE_DIRECTIONS + k - VOTED_DIRECTIONS) % LINE_DIRECTIONS;
             let [cos, sin] = turns[direction];
             let offset = (x * cos + y * sin + middle as f32 + 0.5) as usize;
             votes[direction * offsets + offset] += vote;
@@ -254,8 +254,8 @@ fn find_lines(gradients: &Gradients) -> Vec<Line> {
         let same = |(other, at): &(usize, usize)| {
             let turn = direction.abs_diff(*other);
             // A line turned by 180 degrees has the opposite offset.
-            let (turn, at) = if turn > DIRECTIONS / 2 {
-                (DIRECTIONS - turn, 2 * middle - at)
+            let (turn, at) = if turn > LINE_DIRECTIONS / 2 {
+                (LINE_DIRECTIONS - turn, 2 * middle - at)
             } else {
                 (turn, *at)
             };

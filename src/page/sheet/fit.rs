@@ -22,7 +22,7 @@ const DAMPING_DECREASE: f64 = 0.1;
 const DAMPING_INCREASE: f64 = 5.0;
 
 /// Number of unknowns of camera and proportions.
-const GLOBALS: usize = 4;
+const CAMERA_UNKNOWNS: usize = 4;
 
 /// A sheet with the levels of its lines.
 #[derive(Debug, Clone)]
@@ -95,7 +95,7 @@ impl SheetProblem {
     ) -> Option<(BorderedSystem, f64)> {
         let grid = &sheet.grid;
         let half_width = 3 * 2 * grid.cols + 2;
-        let border = GLOBALS + sheet.levels.len();
+        let border = CAMERA_UNKNOWNS + sheet.levels.len();
         let mut system = BorderedSystem::new(3 * grid.nodes.len(), half_width, border);
         let mut cost = 0.0;
         let (mut banded, mut bordered) = (Vec::new(), Vec::new());
@@ -125,7 +125,7 @@ fn unknowns(row: &ResidualRow, banded: &mut Vec<(usize, f64)>, bordered: &mut Ve
         }
     }
     if let Some((line, derivative)) = row.level {
-        bordered.push((GLOBALS + line, derivative));
+        bordered.push((CAMERA_UNKNOWNS + line, derivative));
     }
 }
 
@@ -140,7 +140,7 @@ fn moved(sheet: &FittedSheet, banded: &[f64], bordered: &[f64]) -> FittedSheet {
     camera.centre[0] += bordered[1];
     camera.centre[1] += bordered[2];
     moved.grid.log_ratio += bordered[3];
-    for (level, step) in moved.levels.iter_mut().zip(&bordered[GLOBALS..]) {
+    for (level, step) in moved.levels.iter_mut().zip(&bordered[CAMERA_UNKNOWNS..]) {
         *level = (*level + step).clamp(0.0, 1.0);
     }
     moved

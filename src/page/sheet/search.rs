@@ -39,7 +39,7 @@ const MAX_STEPS: usize = 15;
 const COST_TOLERANCE: f64 = 0.01;
 
 /// Weights of a sheet of paper, firm against strain.
-const FIRM: SheetWeights = SheetWeights {
+const FIRM_PAPER_WEIGHTS: SheetWeights = SheetWeights {
     isometry: 300.0,
     bending: 1.5,
     outline: 350.0,
@@ -48,10 +48,10 @@ const FIRM: SheetWeights = SheetWeights {
 };
 
 /// Weights of a crumpled sheet, whose wrinkles between nodes shorten it.
-const SOFT: SheetWeights = SheetWeights {
+const CRUMPLED_PAPER_WEIGHTS: SheetWeights = SheetWeights {
     isometry: 40.0,
     bending: 3.5,
-    ..FIRM
+    ..FIRM_PAPER_WEIGHTS
 };
 
 /// Factor of the weight of isometry in the first fit: a stiff sheet would stay in the plane.
@@ -91,19 +91,19 @@ pub(super) fn find_sheet(
         ratio: prior.ratio(apparent),
         depth: start.nodes.iter().map(|p| p.z).sum::<f64>() / start.nodes.len() as f64,
         weights: SheetWeights {
-            isometry: INITIAL_ISOMETRY_FACTOR * FIRM.isometry,
-            bending: INITIAL_BENDING_FACTOR * FIRM.bending,
-            ..FIRM
+            isometry: INITIAL_ISOMETRY_FACTOR * FIRM_PAPER_WEIGHTS.isometry,
+            bending: INITIAL_BENDING_FACTOR * FIRM_PAPER_WEIGHTS.bending,
+            ..FIRM_PAPER_WEIGHTS
         },
     };
     let coarse = problem.solve(FittedSheet::new(start), MAX_STEPS, COST_TOLERANCE)?;
-    problem.weights = FIRM;
+    problem.weights = FIRM_PAPER_WEIGHTS;
     let coarse = problem.refined(coarse, &COARSE_GRIDS)?;
     let (mut sheet, mut figures) = problem.with_lines(coarse.clone(), view, photo)?;
     let mut model = PageModel::Sheet;
     if figures.curvature > MAX_FIRM_CURVATURE {
         let mut crumpled = problem.clone();
-        crumpled.weights = SOFT;
+        crumpled.weights = CRUMPLED_PAPER_WEIGHTS;
         crumpled.lines.clear();
         let refined = crumpled.refined(coarse, &COARSE_GRIDS);
         if let Some(found) = refined.and_then(|coarse| crumpled.with_lines(coarse, view, photo)) {

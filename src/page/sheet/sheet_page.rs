@@ -9,13 +9,13 @@ use super::polyline::Polyline;
 use super::search::{FoundSheet, find_sheet};
 use super::view::PhotoView;
 use crate::dewarp::{DewarpOptions, Photo, WarpMap};
-use crate::error::{Error, Result, checked_cells, positive, try_filled};
+use crate::error::{Error, Result, positive, try_filled};
 use crate::math::lanes;
 use crate::page::curled_page::MAX_CENTRE_DIAGONALS;
 use crate::page::edges::{Edges, Trace};
 use crate::page::known_sizes::{Sides, focal_length, sides};
 use crate::page::options::{Format, PageOptions};
-use crate::page::output::back_project;
+use crate::page::output::{back_project, flat_image_size, grid_mesh, texture_coordinates};
 use crate::page::read_traces::read_traces;
 use crate::page::report::{PageModel, PageReport, PageVerdict};
 use crate::page::traced_line::{TracedLine, distance};
@@ -175,12 +175,7 @@ impl SheetPage {
     /// Those of [`CurledPage::warp_map`](super::super::CurledPage::warp_map).
     pub fn warp_map(&self, options: &DewarpOptions) -> Result<WarpMap> {
         let size = self.flat_size();
-        let resolution = match options.dots {
-            Some(dots) => positive("dots", dots)?,
-            None => (self.table.area() / (size[0] * size[1])).sqrt(),
-        };
-        let [width, height] = size.map(|side| (side * resolution).round().max(1.0) as usize);
-        checked_cells("flat image", height, width)?;
+        let (resolution, [width, height]) = flat_image_size(size, options, || self.table.area())?;
         let mut places = try_filled("flat image", width * height, [f32::NAN; 2])?;
         for (i, place) in places.iter_mut().enumerate() {
             let share = [
@@ -205,7 +200,6 @@ impl SheetPage {
     /// [`Error::OutOfMemory`].
     pub fn mesh(&self) -> Result<Mesh> {
         let (cols, rows) = (self.grid.cols, self.grid.rows);
-        let [width, height] = self.photo.map(|n| n as f64);
         let positions = (self.grid.nodes.iter())
             .map(|node| [node.x, -node.y, -node.z].map(|v| v * self.unit))
             .collect();
@@ -215,20 +209,10 @@ impl SheetPage {
                     (i % cols) as f64 / (cols - 1) as f64,
                     (i / cols) as f64 / (rows - 1) as f64,
                 ];
-                let [x, y] = self.table.at(share);
-                [(x + 0.5) / width, 1.0 - (y + 0.5) / height].map(lanes::single)
+                texture_coordinates(self.table.at(share), self.photo)
             })
             .collect();
-        let mut triangles = Vec::new();
-        for row in 1..rows {
-            for col in 1..cols {
-                let last = (row * cols + col) as u32;
-                let [above, before] = [last - cols as u32, last - 1];
-                let first = above - 1;
-                triangles.extend([[first, before, last], [first, last, above]]);
-            }
-        }
-        Mesh::new(positions, triangles)?.with_uvs(uvs)
+        grid_mesh(positions, uvs, cols)
     }
 
     /// Sets the unit of length, by the sides of the format in millimetres, or by a ruler.

@@ -113,10 +113,10 @@ fn print([x, y]: [f64; 2]) -> f64 {
 /// The photo of a page, with or without print.
 fn photo(shape: Shape, printed: bool) -> Vec<u8> {
     let mut sums = vec![[0.0; 2]; PHOTO[0] * PHOTO[1]];
-    const SAMPLES: [usize; 2] = [1300, 1900];
-    for i in 0..SAMPLES[0] * SAMPLES[1] {
-        let at = [i % SAMPLES[0], i / SAMPLES[0]];
-        let share = [0, 1].map(|k| (at[k] as f64 + 0.5) / SAMPLES[k] as f64);
+    const SHEET_SAMPLES: [usize; 2] = [1300, 1900];
+    for i in 0..SHEET_SAMPLES[0] * SHEET_SAMPLES[1] {
+        let at = [i % SHEET_SAMPLES[0], i / SHEET_SAMPLES[0]];
+        let share = [0, 1].map(|k| (at[k] as f64 + 0.5) / SHEET_SAMPLES[k] as f64);
         let [x, y] = seen(shape, share).map(|v| v.round() as usize);
         let sum = &mut sums[y * PHOTO[0] + x];
         sum[0] += if printed { print(share) } else { 225.0 };

@@ -15,7 +15,7 @@ const exploration = {
   lambdas: { kind: several }, smallest: { kind: several }, sheets: { kind: whole }, signal: { kind: signal }, onPlan: { kind: callback },
 };
 
-/** What each call takes. @satisfies {Record<string, import('./schema/kinds.js').Options>} */
+/** The options of each call, by name. @satisfies {Record<string, import('./schema/kinds.js').Options>} */
 export const OPTIONS = {
   solver: fit.solver,
   directFit: { ...fit.solver, ...progress },

@@ -240,7 +240,7 @@ function shape(values, lattice) {
   return wanted;
 }
 
-/** What a fit over a whole mesh takes. */
+/** Options of a fit over a whole mesh. */
 const wholeFlags = ['surface', 'output', 'force', 'report', ...flagNames(meshSolver)];
 
 /** What else commands take that go on with it. @satisfies {Record<string, readonly Flag[]>} */
@@ -524,7 +524,7 @@ function choice(name, value, choices) {
 }
 
 /**
- * What flags say of some options: each as its kind reads a text, unless a reader is given.
+ * The options that flags give, each read from its text by the kind of the option, unless a reader is given.
  * @template {import('../schema/kinds.js').Options} O
  * @param {O} options
  * @param {Values} values

@@ -7,7 +7,7 @@ import { anything, choice, either, number, numbers, text, whole } from './kinds.
 export const read = {
   /** Taken from the bytes where it is not given. */
   format: { kind: choice('png', 'npy', 'tiff', 'exr', 'pfm', 'npz', 'jpeg', 'webp'), type: 'Format' },
-  /** Of an NPZ file, the name of the array; may be left out where there is only one. */
+  /** Name of the array to read from an NPZ file; needed only where the file holds several. */
   array: { kind: text },
 };
 
@@ -16,7 +16,7 @@ export const readMesh = {
   /** Taken from the bytes where it is not given. */
   format: { kind: choice('obj', 'ply', 'stl', 'gltf', 'glb') },
   /**
-   * What lies beside the file, by name: the materials (MTL) and textures of an OBJ, the texture of a
+   * Files beside the mesh's, by name: the materials (MTL) and textures of an OBJ, the texture of a
    * PLY, the buffers and textures of a glTF. A name is looked for as it is and then without its
    * folders; what is not there is listed in the mesh's `missing`, but a glTF needs its buffers.
    */

@@ -13,7 +13,7 @@ export const resampling = {
 export const solver = {
   /**
    * The paper's setting, `lambda: 'medium'` and `energy: 'nuclear'`, for what is not given otherwise.
-   * It suits shapes that are to be approximated by few large sheets; the smaller `lambda`, the fewer.
+   * This setting approximates a shape by few large sheets; a smaller `lambda` makes fewer.
    */
   paper: {
     kind: flag,
@@ -43,7 +43,7 @@ export const solver = {
         'the input, and medium where it has none, as a design (default: auto)',
     },
   },
-  /** What is minimised besides the fidelity term. For a design the default is `'nuclear'`. */
+  /** The penalty that is minimised besides the fidelity term. For a design the default is `'nuclear'`. */
   energy: {
     kind: choice('nuclear', 'frobenius', 'squaredNuclear', 'secondFormOfInput', 'secondForm', 'huber'),
     type: 'Energy',
@@ -214,7 +214,7 @@ export const meshSolver = {
   bendRadius: { kind: number, default: 0.1, flag: solver.bendRadius.flag },
   /** The slope that the cost of bends begins with, from 0 (nothing is quite flat) to 1. */
   flatness: { kind: number, default: 0.3, flag: solver.flatness.flag },
-  /** What bends more tightly is a crease. */
+  /** Radius below which a bend is a crease. */
   creaseRadius: { kind: number, default: 0.1, flag: solver.creaseRadius.flag },
   /** Number of crease passes, each of another linearisation. Default: 2, or 0 where lambda is large for the noise. */
   creasePasses: { kind: whole, flag: solver.creasePasses.flag },

@@ -63,7 +63,7 @@ impl Solver {
         let Known { scale, noise } = known;
         let (mut options, mut choice, mut search) = (asked, None, None);
         if asked.lambda_or_default() == Lambda::Auto {
-            let (first, found) = tuning::first(&asked, noise, scale);
+            let (first, found) = tuning::initial_options(&asked, noise, scale);
             if found.reason == LambdaReason::Noise {
                 search = Search::new(&prepared.input, &asked, &first, known)?;
             }
@@ -75,7 +75,7 @@ impl Solver {
             };
             choice = Some(found);
         }
-        let options = tuning::guarded(&options, noise, scale);
+        let options = tuning::with_huber_defaults(&options, noise, scale);
         let start_mode = match search {
             Some(_) => StartMode::Deferred,
             None => StartMode::Immediate,

@@ -45,27 +45,37 @@ const SEARCH_GAP: f64 = 0.02;
 /// Largest number of iterations of a solve that is compared.
 const MAX_SEARCH_ITERATIONS: usize = 500;
 
-/// Minimum number of interior vertices of a coarse lattice that a search may use: first of the lattice of twice the
-/// spacing, then of a lattice coarsened until correlated noise is white there.
-const MIN_SEARCH_VERTICES: [usize; 2] = [1500, 400];
+/// Minimum number of interior vertices of the lattice of twice the spacing at which a search is made there.
+const MIN_DOUBLED_VERTICES: usize = 1500;
+
+/// Minimum number of interior vertices of a lattice, coarsened until correlated noise is white, at which a search is made
+/// there.
+const MIN_WHITENED_VERTICES: usize = 400;
 
 /// Minimum number of held-out heights that resolves small differences between candidates. Where one class of vertices
 /// has fewer, further classes are held out, each in a solve of its own.
 const MIN_HELD_OUT_HEIGHTS: usize = 1500;
 
-/// Number of standard errors by which a candidate with a smaller, and with a larger, λ than the best one's must
-/// predict held-out heights better to replace it. A candidate with another penalty has the threshold of its
-/// [`Choice`].
-const LAMBDA_HURDLES: [f64; 2] = [-0.5, 2.0];
+/// Number of standard errors by which a candidate with a smaller λ must predict held-out heights better to replace the best
+/// one: it may be a little worse. A candidate with another penalty has the threshold of its [`Choice`].
+const SMALLER_LAMBDA_HURDLE: f64 = -0.5;
+
+/// Number of standard errors by which a candidate with a larger λ must predict held-out heights better to replace the best
+/// one.
+const LARGER_LAMBDA_HURDLE: f64 = 2.0;
 
 /// Ratio of `λ σ h` to [`FIRST_LAMBDA_NOISE`] above which there are no crease passes, since these would make creases
 /// of noise.
 const LOUD_NOISE_RATIO: f64 = 2.0;
 
-/// Minimum relative reduction of the mean squared prediction error for another penalty under correlated noise: for
-/// one of smaller flatness, then for one of larger crease radius. A surface that bends or creases more easily follows
-/// such noise, and so predicts held-out heights better without being nearer to the truth.
-const CORRELATED_BENDING_GAINS: [f64; 2] = [0.15, 0.045];
+/// Minimum relative reduction of the mean squared prediction error for a penalty of smaller flatness under correlated
+/// noise. A surface that bends more easily follows such noise, and so predicts held-out heights better without being
+/// nearer to the truth.
+const CORRELATED_FLATNESS_GAIN: f64 = 0.15;
+
+/// Minimum relative reduction of the mean squared prediction error for a penalty of larger crease radius under
+/// correlated noise.
+const CORRELATED_CREASE_GAIN: f64 = 0.045;
 
 /// Minimum relative reduction of the mean squared prediction error for a penalty of larger crease radius where noise
 /// is correlated on the input's lattice but white on the coarse one that is searched: creases follow it there, too.
@@ -108,7 +118,7 @@ impl Known {
 
 /// Initial options, with the initial λ and the reason for it: a λ from the size of the noise, [`WITHOUT_NOISE`] for
 /// an input without noise, or [`Lambda::Medium`] where the noise cannot be measured.
-pub(crate) fn first(
+pub(crate) fn initial_options(
     options: &Options,
     noise: Option<Noise>,
     scale: f64,
@@ -145,14 +155,14 @@ pub(crate) fn first(
 
 /// Options with the default Huber parameters filled in where none are given, kept from following noise where λ is
 /// large for it.
-pub(crate) fn guarded(options: &Options, noise: Option<Noise>, scale: f64) -> Options {
+pub(crate) fn with_huber_defaults(options: &Options, noise: Option<Noise>, scale: f64) -> Options {
     let loudness = noise.map_or(0.0, |noise| {
         options.lambda_or_default().value() * noise.product * scale * scale / FIRST_LAMBDA_NOISE
     });
     at_loudness(options, Bending::SMOOTH, loudness)
 }
 
-/// Fallback options where a search is impossible: those of [`first`] with fixed Huber parameters. Under correlated
+/// Fallback options where a search is impossible: those of [`initial_options`] with fixed Huber parameters. Under correlated
 /// noise these are the nuclear norm's, as any other penalty would follow the noise.
 pub(crate) fn without_search(first: &Options, noise: Option<Noise>) -> Options {
     match noise.is_some_and(|noise| noise.merged > 0) {
@@ -178,7 +188,6 @@ fn at_loudness(options: &Options, bending: Bending, loudness: f64) -> Options {
 
 /// The input on the lattice of a search, and whether its noise is correlated there, too.
 fn searchable(input: &Input, noise: Noise) -> Result<(Input, bool)> {
-    let [enough, least] = MIN_SEARCH_VERTICES;
     let halved = |input: &Input| -> Result<(Input, usize)> {
         let merged = merge(input)?;
         let size = merged.domain().map_or(0, |domain| domain.interior_len());
@@ -191,12 +200,16 @@ fn searchable(input: &Input, noise: Noise) -> Result<(Input, bool)> {
         for _ in 0..noise.merged {
             (coarse, size) = halved(&coarse)?;
         }
-        if size >= least {
+        if size >= MIN_WHITENED_VERTICES {
             return Ok((coarse, false));
         }
     }
     let (coarse, size) = halved(input)?;
-    let searched = if size < enough { input.clone() } else { coarse };
+    let searched = if size < MIN_DOUBLED_VERTICES {
+        input.clone()
+    } else {
+        coarse
+    };
     Ok((searched, noise.merged > 0))
 }
 
@@ -239,7 +252,7 @@ pub(crate) struct Search {
 }
 
 impl Search {
-    /// Starts a search around the options that [`first`] gives; `None` where too few heights can be held out, or
+    /// Starts a search around the options that [`initial_options`] gives; `None` where too few heights can be held out, or
     /// noise is correlated on every lattice large enough. Quantised heights are searched all the same, for the
     /// penalty alone.
     ///
@@ -286,7 +299,7 @@ impl Search {
         }
         let now = (0, 0);
         let compared = compared(asked, first.lambda_or_default());
-        let options = of(&compared, &bendings, now);
+        let options = candidate_options(&compared, &bendings, now);
         let solve = trial(&held_out[0], &options, known, None)?;
         Ok(Some(Search {
             held_out,
@@ -351,7 +364,7 @@ impl Search {
     /// Starts the next solve of the current candidate, from the surface of the solve before.
     fn begin(&mut self) -> Result<()> {
         let held_out = &self.held_out[self.solved];
-        let options = of(&self.options, &self.bendings, self.now);
+        let options = candidate_options(&self.options, &self.bendings, self.now);
         let memory = self.solve.warm_start(held_out.input.field.lattice());
         *self.solve = trial(held_out, &options, self.known, memory)?;
         Ok(())
@@ -359,20 +372,18 @@ impl Search {
 
     /// Whether the current candidate replaces the best one so far; `misses` are its squared prediction errors.
     fn is_better(&self, misses: &[f64]) -> bool {
-        let [smaller, larger] = LAMBDA_HURDLES;
         let [(new, _, other), (old, ..)] =
             [self.now, self.best].map(|(bending, _)| self.bendings[bending]);
         let hurdle = match (self.now.0 == self.best.0, self.now.1 < self.best.1) {
             (false, _) => other,
-            (true, true) => smaller,
-            (true, false) => larger,
+            (true, true) => SMALLER_LAMBDA_HURDLE,
+            (true, false) => LARGER_LAMBDA_HURDLE,
         };
-        let [bends, creases] = CORRELATED_BENDING_GAINS;
         let sharp = old.crease_radius.max(Bending::SMOOTH.crease_radius);
         let correlated = self.known.noise.is_some_and(|noise| noise.merged > 0);
         let least = match (self.dependent, correlated && new.crease_radius > sharp) {
-            (true, _) if new.flatness < old.flatness => bends,
-            (true, true) => creases,
+            (true, _) if new.flatness < old.flatness => CORRELATED_FLATNESS_GAIN,
+            (true, true) => CORRELATED_CREASE_GAIN,
             (false, true) => FINER_CREASE_GAIN,
             _ => 0.0,
         };
@@ -412,7 +423,7 @@ impl Search {
         }
         choice.solves = self.tried.len();
         choice.iterations = self.iterations;
-        let found = of(&self.options, &self.bendings, self.best);
+        let found = candidate_options(&self.options, &self.bendings, self.best);
         Options {
             lambda: found.lambda,
             bend_radius: self.asked.bend_radius.or(found.bend_radius),
@@ -425,7 +436,7 @@ impl Search {
 }
 
 /// Options of a candidate.
-fn of(first: &Options, bendings: &[Choice], (bending, step): Candidate) -> Options {
+fn candidate_options(first: &Options, bendings: &[Choice], (bending, step): Candidate) -> Options {
     let factor = LAMBDA_STEP_FACTOR.powi(step);
     let options = first.lambda(first.lambda_or_default().value() * factor);
     at_loudness(&options, bendings[bending].0, factor)
@@ -440,7 +451,7 @@ fn trial(
 ) -> Result<ComponentSolver> {
     let started = Instant::now();
     let solvable = PreparedInput::new(held_out.input.clone())?;
-    let options = guarded(options, noise, scale);
+    let options = with_huber_defaults(options, noise, scale);
     ComponentSolver::new(
         solvable,
         &options,
@@ -500,7 +511,7 @@ mod tests {
     #[test]
     fn candidates_are_guarded() {
         let first = Options::default().energy(Energy::Huber).lambda(1e4);
-        let at = |step| of(&first, &BENDING_CHOICES, (1, step));
+        let at = |step| candidate_options(&first, &BENDING_CHOICES, (1, step));
         assert_eq!((at(0).flatness, at(0).crease_passes), (Some(0.3), None));
         assert_eq!((at(-1).flatness, at(-1).crease_passes), (Some(0.3), None));
         assert!((at(1).flatness.unwrap() - 0.9).abs() < 1e-12 && at(1).crease_passes == Some(0));

@@ -11,6 +11,14 @@ async function looks(page) {
   return Promise.all(VIEWS.map(async (view) => (await look(page, view)).hash));
 }
 
+/**
+ * By how many pixels the page is wider than its window.
+ * @param {import('playwright-core').Page} page
+ */
+function excess(page) {
+  return page.evaluate(() => document.documentElement.scrollWidth - window.innerWidth);
+}
+
 pageTest('dragging on one surface moves the light on both', async (page) => {
   for (const view of VIEWS) {
     const before = await looks(page);
@@ -99,7 +107,7 @@ pageTest('what has the focus can be seen to have it', async (page) => {
   }
 });
 
-pageTest('every control has a name', async (page) => {
+pageTest('every control has a name, and nothing sticks out at any width', async (page) => {
   const nameless = await page.evaluate(() =>
     [...document.querySelectorAll('button, input:not([type="file"]), select, progress, canvas:not([aria-hidden])')]
       .filter((control) => {
@@ -108,46 +116,38 @@ pageTest('every control has a name', async (page) => {
       })
       .map((control) => control.outerHTML));
   assert.deepEqual(nameless, []);
-});
-
-for (const width of [360, 768, 1280, 1920]) {
-  pageTest(`nothing sticks out at ${width} pixels`, async (page) => {
-    const excess = await page.evaluate(() => document.documentElement.scrollWidth - window.innerWidth);
-    assert.ok(excess <= 0, `${excess} pixels`);
+  for (const width of [360, 768, 1280, 1920]) {
+    await page.setViewportSize({ width, height: 800 });
+    await painted(page);
+    assert.ok(await excess(page) <= 0, `${await excess(page)} pixels at ${width}`);
     const [input, result] = await Promise.all(VIEWS.map((view) => page.locator(view).boundingBox()));
     assert.ok(input && result);
     // On a phone both are pinned above, and have half of it each.
-    assert.ok(result.x >= input.x + input.width, 'side by side');
-    for (const view of VIEWS) assert.ok((await look(page, view)).covered > 0.1, view);
-  }, { viewport: { width, height: 800 }, deviceScaleFactor: width < 600 ? 3 : 1 });
-}
+    assert.ok(result.x >= input.x + input.width, `side by side at ${width}`);
+    for (const view of VIEWS) assert.ok((await look(page, view)).covered > 0.1, `${view} at ${width}`);
+  }
+});
 
-for (const colorScheme of /** @type {const} */ (['light', 'dark'])) {
-  pageTest(`every view fits on a phone, ${colorScheme}`, async (page) => {
-    if (!(await page.locator('#drawer').isVisible())) await page.locator('#certificate').click();
+pageTest('every view fits on a phone, light and dark, with the pixels of the device', async (page) => {
+  const sizes = await page.locator('canvas:visible').evaluateAll((canvases) =>
+    canvases.map((canvas) => [/** @type {HTMLCanvasElement} */ (canvas).width, canvas.clientWidth]));
+  for (const [pixels, width] of sizes) assert.equal(pixels, 2 * width);
+  if (!(await page.locator('#drawer').isVisible())) await page.locator('#certificate').click();
+  for (const colorScheme of /** @type {const} */ (['light', 'dark'])) {
+    await page.emulateMedia({ colorScheme });
     for (const radio of await page.locator('input[name="view"]').all()) {
       await choose(radio);
       await page.locator('#analysis[aria-busy="false"]').waitFor({ state: 'attached' });
       await painted(page);
-      const excess = await page.evaluate(() => document.documentElement.scrollWidth - window.innerWidth);
-      assert.ok(excess <= 0, `${await radio.inputValue()}: ${excess} pixels`);
+      assert.ok(await excess(page) <= 0, `${await radio.inputValue()}: ${await excess(page)} pixels, ${colorScheme}`);
     }
-  }, { viewport: { width: 360, height: 740 }, deviceScaleFactor: 2, colorScheme });
-}
-
-pageTest('the canvases have the pixels of the device', async (page) => {
-  const sizes = await page.locator('canvas:visible').evaluateAll((canvases) =>
-    canvases.map((canvas) => [/** @type {HTMLCanvasElement} */ (canvas).width, canvas.clientWidth]));
-  for (const [pixels, width] of sizes) assert.equal(pixels, 2 * width);
-}, { deviceScaleFactor: 2 });
-
-pageTest('the dark scheme is dark', async (page) => {
+  }
   const [paper, ink] = await page.evaluate(() => {
     const { backgroundColor, color } = getComputedStyle(document.body);
     return [backgroundColor, color].map((text) => (text.match(/\d+/g) ?? []).slice(0, 3).map(Number));
   });
   assert.ok(Math.max(...paper) < 64 && Math.min(...ink) > 192, `${ink} on ${paper}`);
-}, { colorScheme: 'dark' });
+}, { viewport: { width: 360, height: 740 }, deviceScaleFactor: 2 });
 
 pageTest('a tap moves the light, too', async (page) => {
   const canvas = page.locator('#result-canvas');

@@ -158,31 +158,28 @@ const broken = [
   { what: 'an empty file', name: 'nothing.png', bytes: Buffer.alloc(0), says: /empty|PNG|NPY|no bytes/i },
 ];
 
-for (const { what, name, bytes, says } of broken) {
-  pageTest(`${what} gets a message, and the previous result stays`, async (page) => {
-    const before = {
-      verdict: await page.locator('#verdict').innerText(),
-      gap: await reported(page, 'Gap'),
-      input: (await look(page, '#input-canvas')).hash,
-      result: (await look(page, '#result-canvas')).hash,
-    };
-    // Wherever the page is scrolled to.
-    await page.evaluate(() => window.scrollTo(0, document.documentElement.scrollHeight));
-    await drop(page, name, bytes);
-    const message = await page.getByRole('alert').innerText();
-    const { top, bottom } = await page.getByRole('alert').evaluate((alert) => alert.getBoundingClientRect());
-    assert.ok(top >= 0 && bottom <= (page.viewportSize()?.height ?? 0), `the message is from ${top} to ${bottom}`);
-    assert.ok(message.includes(name), message);
-    assert.match(message, says);
-    assert.deepEqual({
-      verdict: await page.locator('#verdict').innerText(),
-      gap: await reported(page, 'Gap'),
-      input: (await look(page, '#input-canvas')).hash,
-      result: (await look(page, '#result-canvas')).hash,
-    }, before);
-    assert.ok(await page.locator('#end-file').isEnabled());
+pageTest('what cannot be read gets a message each, and the previous result stays', async (page) => {
+  const shown = async () => ({
+    verdict: await page.locator('#verdict').innerText(),
+    gap: await reported(page, 'Gap'),
+    input: (await look(page, '#input-canvas')).hash,
+    result: (await look(page, '#result-canvas')).hash,
   });
-}
+  const before = await shown();
+  // Wherever the page is scrolled to.
+  await page.evaluate(() => window.scrollTo(0, document.documentElement.scrollHeight));
+  for (const { what, name, bytes, says } of broken) {
+    await drop(page, name, bytes);
+    // The message of the file before gives way to this one.
+    const alert = page.getByRole('alert').filter({ hasText: name });
+    const message = await alert.innerText();
+    const { top, bottom } = await alert.evaluate((element) => element.getBoundingClientRect());
+    assert.ok(top >= 0 && bottom <= (page.viewportSize()?.height ?? 0), `${what}: the message is from ${top} to ${bottom}`);
+    assert.match(message, says, what);
+    assert.deepEqual(await shown(), before, what);
+    assert.ok(await page.locator('#end-file').isEnabled(), what);
+  }
+});
 
 pageTest('PNG and OBJ are what they are called', async (page) => {
   const [, width, height] = /(\d+) × (\d+)/.exec(await page.locator('#input-caption').innerText()) ?? [];

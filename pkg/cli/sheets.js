@@ -1,5 +1,6 @@
 /** `developable unroll`, `developable pattern` and `developable dewarp`. */
 import * as developable from '../index.js';
+import { solver } from '../schema/fit.js';
 import { readCamera } from './camera.js';
 import { checkPlaces, readBytes, writeWhole } from './files.js';
 import { solve } from './fit.js';
@@ -367,10 +368,20 @@ export async function flattened(task, signal, check = () => {}) {
   return { surface: cylinder ?? await solve(task, input, { signal }), options: {} };
 }
 
-/** The defaults of a fit, which say nothing about the energy when they are given. @type {Record<string, unknown>} */
-const DEFAULTS = {
-  lambda: 'auto', energy: 'huber', schedule: 'default', gap: 0.01, maxIterations: 20000, normalize: true, reweighting: 0, bridge: 4,
-};
+/**
+ * Whether an option asks for another energy, λ or stop than the defaults do.
+ * @param {[name: string, value: unknown]} option
+ */
+function asksForAnotherFit([name, value]) {
+  /** @type {import('../schema/kinds.js').Options} */
+  const options = solver;
+  // `true` stands for the default number of pixels.
+  const standard = name === 'bridge' ? DEFAULT_BRIDGE_PIXELS : options[name]?.default;
+  return value !== undefined && value !== standard;
+}
+
+/** Default of `--bridge`, in pixels. */
+const DEFAULT_BRIDGE_PIXELS = 4;
 
 /**
  * The cylinder that is to be laid flat, if it is one.
@@ -382,7 +393,7 @@ async function cylinderFor({ shape, lattice, options }, input) {
   const field = /** @type {import('../types.js').Heightfield} */ (input);
   if (shape === 'cylinder') return developable.fitCylinder(field);
   // What is said about the energy is about a surface that is fitted by it.
-  const said = Object.entries(options).some(([name, value]) => value !== undefined && value !== DEFAULTS[name]);
+  const said = Object.entries(options).some(asksForAnotherFit);
   if (said || lattice !== 'mesh' || field.constraints !== undefined || field.occlusions !== undefined) return undefined;
   try {
     const found = await developable.fitCylinder(field);

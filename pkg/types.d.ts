@@ -725,9 +725,10 @@ export interface UnrollReport {
 /**
  * Whether a flat layout is to be trusted: the surface was flat to begin with, and faced the viewer
  * (`'flat'`); it was bent, and lengths are right (`'unrolled'`); or it cannot be laid flat without
- * stretching, or more than 0.3 % of it overlapping (`'stretched'`).
+ * stretching, or more than 0.3 % of it overlapping (`'stretched'`). A flat image is `'doubtful'` where what was cropped is
+ * hardly the page: more than 5 % of it are missing, or the crop reaches beyond the page that the photo shows.
  */
-export type Verdict = 'flat' | 'unrolled' | 'stretched';
+export type Verdict = 'flat' | 'unrolled' | 'stretched' | 'doubtful';
 
 /** A surface laid flat: its triangles, and where their corners lie on the plane. */
 export interface Unrolling {
@@ -1003,6 +1004,11 @@ export interface Dewarped extends DecodedPhoto {
    * image does not show. 0 otherwise.
    */
   loss: number;
+  /**
+   * How far a `crop` with four corners reaches beyond the one page that was found in the photo, as a share of the page's side:
+   * above 0.02 the flat image shows what lies beside it, and is `'doubtful'`. 0 where no page is found without doubt.
+   */
+  overreach: number;
   verdict: Verdict;
   report: UnrollReport;
 }
@@ -1080,7 +1086,7 @@ export interface PageReport {
 }
 
 /** A flat page, or both of a spread beside each other. */
-export interface DewarpedPage extends Omit<Dewarped, 'verdict' | 'report' | 'unit' | 'loss'> {
+export interface DewarpedPage extends Omit<Dewarped, 'verdict' | 'report' | 'unit' | 'loss' | 'overreach'> {
   /** Width and height of the flat page, or of both together. */
   size: [number, number];
   /** The unit of all lengths: millimetres where a format or a ruler is given, else a page's width. */

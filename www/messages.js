@@ -51,6 +51,7 @@ export const VERDICTS = {
   flat: 'It was flat to begin with.',
   unrolled: 'Unrolled: lengths on the flat sheet are those on the surface.',
   stretched: 'It cannot be laid flat without stretching or overlapping: mind the figures.',
+  doubtful: 'It may be wrong: mind the figures.',
 };
 
 /** What came of making a photo flat. @type {Record<Verdict, string>} */
@@ -58,6 +59,7 @@ export const FLATTENED = {
   flat: 'The page was flat to begin with: the photo can be used as it is.',
   unrolled: 'Made flat: lengths are those on the page.',
   stretched: 'Made flat with strain, for as a whole it cannot be laid flat: mind the figures.',
+  doubtful: 'The corners are hardly those of the page: a part of it is missing, or something beside it is shown. Move them onto the page.',
 };
 
 /** Of a page that is bent about parallel rulings. */

@@ -277,6 +277,12 @@ export async function dewarp(task, signal) {
   if (crop?.length === 4 && flat.loss > MAX_UNMENTIONED_LOSS) {
     process.stderr.write(`developable: warning: ${percent(flat.loss, 2)} of the page between the corners of --crop is missing: there are no depths of it\n`);
   }
+  if (flat.verdict === 'doubtful' && flat.overreach > 0) {
+    process.stderr.write(
+      `developable: warning: --crop reaches beyond the page that the photo shows, by up to ${percent(flat.overreach, 2)} of its side: the flat ` +
+        'image may show what lies beside the page, and be bent by it; place the corners on the page\n',
+    );
+  }
   if (flat.verdict === 'flat') {
     process.stderr.write('developable: the photo shows the page flat to begin with, and can be used as it is\n');
   } else if (flat.verdict === 'stretched') {
@@ -417,10 +423,10 @@ export function spacing(task) {
 
 /**
  * @param {SheetTask} task
- * @param {{ report: import('../types.js').UnrollReport, verdict: import('../types.js').Verdict, loss?: number }} result
+ * @param {{ report: import('../types.js').UnrollReport, verdict: import('../types.js').Verdict, loss?: number, overreach?: number }} result
  */
-function reported({ report: path }, { report, verdict, loss }) {
-  return path === undefined ? [] : [{ path, bytes: json({ verdict, loss, ...report }) }];
+function reported({ report: path }, { report, verdict, loss, overreach }) {
+  return path === undefined ? [] : [{ path, bytes: json({ verdict, loss, overreach, ...report }) }];
 }
 
 /** @param {unknown} value */

@@ -77,12 +77,12 @@ impl WarpMap {
                 let [rows, cols] = map.upright_rectangle(outline);
                 if !rows.is_empty() && !cols.is_empty() {
                     map.crop_to(rows, cols)?;
-                    map.set_loss(wanted);
+                    map.set_page_loss(wanted);
                     return Ok(map);
                 }
             }
             map.clear_outside(&outline);
-            map.set_loss(wanted);
+            map.set_page_loss(wanted);
         } else {
             for place in map.places_mut() {
                 if !polygon_contains(polygon, place.map(f64::from)) {

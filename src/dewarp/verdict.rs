@@ -9,6 +9,10 @@ const MAX_FLAT_STRAIN: f64 = 0.002;
 /// Maximum root mean square strain of a layout that is called unrolled: lengths are wrong by 1 %, 2 mm on a page of A4.
 const MAX_UNROLLED_STRAIN: f64 = 0.01;
 
+/// Maximum distance by which a crop may reach beyond the page, as a share of the page's side. Of simulated phone captures all
+/// crops along the page's edges are below, see `benches/verdicts.md`.
+const MAX_CROP_OVERREACH: f64 = 0.02;
+
 /// Verdict on a flat image: whether it can be trusted.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[cfg_attr(
@@ -25,6 +29,9 @@ pub enum Verdict {
     /// The surface cannot be laid flat without stretching it, or its sheet lies on itself: some
     /// lengths are wrong.
     Stretched,
+    /// What was cropped is hardly the page: depths of a part of it are missing, or the crop reaches beyond the page that the
+    /// photo shows.
+    Doubtful,
 }
 
 impl Verdict {
@@ -37,6 +44,24 @@ impl Verdict {
             Verdict::Flat
         } else {
             Verdict::Unrolled
+        }
+    }
+
+    /// The verdict where the crop reaches beyond the page by a share of its side, as
+    /// [`PageOutline::overreach`](crate::page::PageOutline::overreach) measures it: doubtful above 2 %, unless stretched.
+    pub fn with_overreach(self, overreach: f64) -> Self {
+        if overreach > MAX_CROP_OVERREACH {
+            self.or_doubtful()
+        } else {
+            self
+        }
+    }
+
+    /// Doubtful, unless what is known to be worse.
+    pub(super) fn or_doubtful(self) -> Self {
+        match self {
+            Verdict::Stretched => Verdict::Stretched,
+            _ => Verdict::Doubtful,
         }
     }
 

@@ -21,6 +21,8 @@ pub struct WarpMap {
     corner: [f64; 2],
     places: Vec<[f32; 2]>,
     loss: f64,
+    /// Whether the loss is that of a page between four corners.
+    page_cropped: bool,
     /// Share of the sheet that covers another part of it.
     overlap: f64,
 }
@@ -28,6 +30,10 @@ pub struct WarpMap {
 /// Maximum share of a sheet that covers another part of it where the sheet is not called stretched: a strip of 0.2 mm along
 /// the outline of a page of A4, as where a ragged border crosses itself.
 const MAX_OVERLAP_SHARE: f64 = 0.003;
+
+/// Maximum share of a page between four corners that may be lost where the flat image is not called doubtful. Of simulated
+/// phone captures with corners on the page nothing above 1 % was lost, see `benches/verdicts.md`.
+const MAX_PAGE_LOSS: f64 = 0.05;
 
 /// Maximum displacement, as [`WarpMap::displacement`] measures it, of a photo that is called flat: 0.2 % is half a millimetre
 /// on a page of A4.
@@ -104,6 +110,7 @@ impl WarpMap {
             corner,
             places,
             loss: 0.0,
+            page_cropped: false,
             overlap: 0.0,
         }
     }
@@ -120,8 +127,14 @@ impl WarpMap {
         self.loss
     }
 
+    /// Sets the loss to the share of the page's pixels that are not known.
+    pub(super) fn set_page_loss(&mut self, wanted: f64) {
+        self.page_cropped = true;
+        self.set_loss(wanted);
+    }
+
     /// Sets the loss by the number of pixels that were wanted.
-    pub(super) fn set_loss(&mut self, wanted: f64) {
+    fn set_loss(&mut self, wanted: f64) {
         let known = self.places.iter().filter(|place| !place[0].is_nan());
         self.loss = (1.0 - known.count() as f64 / wanted).max(0.0);
     }
@@ -197,8 +210,18 @@ impl WarpMap {
 
     /// Verdict on the flat image: stretched if the sheet is, see
     /// [`Verdict::from_report`], but not for an overlap of less than 0.3 % of it; flat if [`WarpMap::displacement`] is below
-    /// 0.2 %; else unrolled.
+    /// 0.2 %; else unrolled. A page of which more than 5 % are lost is doubtful instead of flat or unrolled.
     pub fn verdict(&self, sheet: &UnrollReport) -> Verdict {
+        let verdict = self.verdict_on_known(sheet);
+        if self.page_cropped && self.loss > MAX_PAGE_LOSS {
+            verdict.or_doubtful()
+        } else {
+            verdict
+        }
+    }
+
+    /// Verdict on what the flat image shows, whatever is lost.
+    fn verdict_on_known(&self, sheet: &UnrollReport) -> Verdict {
         match Verdict::from_report(sheet) {
             Verdict::Stretched
                 if Verdict::has_large_strain(sheet) || self.overlap > MAX_OVERLAP_SHARE =>

@@ -504,6 +504,9 @@ fn the_share_of_a_page_that_is_missing_is_told() {
             page.loss(),
             hole(0.06)
         );
+        // Far more is lost than a page may lack; what is there is right, as the map of the whole sheet says.
+        assert_eq!(map.verdict(sheet.report()), Verdict::Unrolled);
+        assert_eq!(page.verdict(sheet.report()), Verdict::Doubtful, "{trim}");
         let size = [page.width(), page.height()].map(|n| n as f64 / page.resolution());
         assert!(
             (0..2).all(|k| (size[k] / PAGE[k] - 1.0).abs() < 0.02),

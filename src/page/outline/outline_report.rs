@@ -1,6 +1,7 @@
 //! The result of a search for pages: outlines with corners and edges, a verdict, and the reasons for it.
 
 use crate::error::{Error, Result};
+use crate::math::planar::{distance_to_segment, polygon_area, polygon_contains};
 use crate::page::edges::{Edges, Trace};
 
 /// Verdict of a search for the outline of a page.
@@ -63,6 +64,22 @@ impl PageOutline {
             left: reversed(left),
             right: Trace::Points(right.clone()),
         }
+    }
+
+    /// Distance by which a polygon in the photo reaches beyond the page: the largest distance of one of its corners from the
+    /// page, as a share of the square root of the page's area in the photo. 0 for a polygon within the page.
+    pub fn overreach(&self, polygon: &[[f64; 2]]) -> f64 {
+        let outline: Vec<[f64; 2]> = self.edges.concat();
+        let distance = |point: [f64; 2]| {
+            (0..outline.len())
+                .map(|k| distance_to_segment(point, [outline[k], outline[(k + 1) % outline.len()]]))
+                .fold(f64::INFINITY, f64::min)
+        };
+        let outside = |point: &&[f64; 2]| !polygon_contains(&outline, **point);
+        let farthest = (polygon.iter().filter(outside))
+            .map(|point| distance(*point))
+            .fold(0.0, f64::max);
+        farthest / polygon_area(&outline).abs().sqrt()
     }
 
     /// The same outline with another corner first: `turns` quarter turns of the page clockwise.

@@ -1,6 +1,6 @@
 //! Outlines of pages in rendered photos, whose corners are known.
 
-use developable::dewarp::Photo;
+use developable::dewarp::{Photo, Verdict};
 use developable::page::{OutlineReason, OutlineReport, OutlineVerdict, PageOutline, find_outline};
 use oorandom::Rand64;
 
@@ -206,6 +206,48 @@ fn a_page_is_found_on_any_ground_and_under_hard_shadows() {
         "print to the border",
         &photo(pages(&[PAGE], poster, grey(120.0)), even),
         &PAGE,
+    );
+}
+
+/// Corners moved towards the middle of the page, or away from it, by a factor.
+fn scaled(corners: &Corners, factor: f64) -> Corners {
+    let middle = [0, 1].map(|k| corners.iter().map(|corner| corner[k]).sum::<f64>() / 4.0);
+    corners.map(|corner| [0, 1].map(|k| middle[k] + factor * (corner[k] - middle[k])))
+}
+
+#[test]
+fn a_crop_that_reaches_beyond_the_page_is_told_by_how_much() {
+    let report = found(&photo(pages(&[PAGE], letter, wood), even));
+    let page = &report.pages[0];
+    // Within the page, and on its corners to a pixel or two of some 670.
+    assert_eq!(page.overreach(&scaled(&PAGE, 0.9)), 0.0);
+    assert!(page.overreach(&PAGE) < 0.005, "{}", page.overreach(&PAGE));
+    // One corner straight to the left of a side that is nearly upright: its distance is known.
+    let (a, d) = (PAGE[0], PAGE[3]);
+    let side = (d[0] - a[0]).hypot(d[1] - a[1]);
+    let middle = [0, 1].map(|k| 0.5 * (a[k] + d[k]));
+    let outwards = [(a[1] - d[1]) / side, (d[0] - a[0]) / side];
+    let beside = [0, 1].map(|k| middle[k] + 40.0 * outwards[k]);
+    let area = (0..4)
+        .map(|k| PAGE[k][0] * PAGE[(k + 1) % 4][1] - PAGE[(k + 1) % 4][0] * PAGE[k][1])
+        .sum::<f64>()
+        / 2.0;
+    let (overreach, truth) = (page.overreach(&[beside]), 40.0 / area.sqrt());
+    assert!(
+        (overreach / truth - 1.0).abs() < 0.05,
+        "{overreach} {truth}"
+    );
+    assert_eq!(
+        Verdict::Unrolled.with_overreach(overreach),
+        Verdict::Doubtful
+    );
+    assert_eq!(
+        Verdict::Stretched.with_overreach(overreach),
+        Verdict::Stretched
+    );
+    assert_eq!(
+        Verdict::Unrolled.with_overreach(page.overreach(&PAGE)),
+        Verdict::Unrolled
     );
 }
 

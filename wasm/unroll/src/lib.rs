@@ -10,7 +10,8 @@ use wasm_bindgen::prelude::*;
 
 use developable::analysis::{Curvatures, DEFAULT_GAUSSIAN_THRESHOLD, Deviation, Summary};
 use developable::checks::try_filled;
-use developable::dewarp::{DewarpOptions, Registration, Verdict, WarpMap};
+use developable::dewarp::{DewarpOptions, Photo, Registration, Verdict, WarpMap};
+use developable::page::{OutlineVerdict, find_outline};
 use developable::patches::{Crease, Patch, PatchOptions, Patches};
 use developable::rulings::{Ruling, Rulings, TraceOptions};
 use developable::unroll::{UnrollOptions, UnrollReport, Unrolling, unroll};
@@ -158,6 +159,7 @@ struct DewarpedOutput {
     #[serde(skip_serializing_if = "Option::is_none")]
     grid: Option<GridOutput>,
     loss: f64,
+    overreach: f64,
     verdict: Verdict,
     report: UnrollReport,
 }
@@ -228,6 +230,7 @@ pub fn dewarp(field: JsValue, photo: JsValue, options: JsValue) -> Result<JsValu
         &wanted,
     )?;
     let map = map.cut(crop.as_deref(), deskew, trim)?;
+    let overreach = overreach(&photo, crop.as_deref());
     Ok(to_value(&DewarpedOutput {
         width: map.width(),
         height: map.height(),
@@ -237,9 +240,23 @@ pub fn dewarp(field: JsValue, photo: JsValue, options: JsValue) -> Result<JsValu
         map: maps.places(&map),
         grid: maps.grid(&map)?,
         loss: map.loss(),
-        verdict: map.verdict(sheet.report()),
+        overreach,
+        verdict: map.verdict(sheet.report()).with_overreach(overreach),
         report: *sheet.report(),
     })?)
+}
+
+/// Distance by which four corners of a page reach beyond the one page that the photo shows, as a share of the page's side. 0
+/// where no page is found without doubt.
+fn overreach(photo: &Photo, crop: Option<&[[f64; 2]]>) -> f64 {
+    let Some(corners) = crop.filter(|crop| crop.len() == 4) else {
+        return 0.0;
+    };
+    let found = find_outline(photo);
+    match (found.verdict, found.pages.first()) {
+        (OutlineVerdict::Found, Some(page)) => page.overreach(corners),
+        _ => 0.0,
+    }
 }
 
 /// `PatchMap` of `types.d.ts`.

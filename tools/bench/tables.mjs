@@ -13,6 +13,7 @@ import { photoAlone } from './comparisons/photo-alone.mjs';
 import { restarts } from './comparisons/restarts.mjs';
 import { schedules } from './comparisons/schedules.mjs';
 import { sizes } from './comparisons/sizes.mjs';
+import { verdicts } from './comparisons/verdicts.mjs';
 
 /** @type {Record<string, (bench: import('./bench.mjs').Bench) => Promise<import('./text.mjs').Table>>} */
 export const tables = {
@@ -30,4 +31,5 @@ export const tables = {
   phone,
   'photo-alone': photoAlone,
   'phone-command': phoneCommand,
+  verdicts,
 };

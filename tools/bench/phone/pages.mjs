@@ -10,21 +10,21 @@
  * @property {(u: number, v: number) => Point} point where a place on the page is, from its upper left corner
  */
 
-const A4 = /** @type {const} */ ([0.21, 0.297]);
+export const A4 = /** @type {const} */ ([0.21, 0.297]);
 /** Both pages of a book of format A5. */
-const SPREAD = /** @type {const} */ ([0.297, 0.21]);
+export const SPREAD = /** @type {const} */ ([0.297, 0.21]);
 
 const STEP = 1e-4;
 
 /**
- * Bent in one direction only.
+ * A page that is bent in one direction only.
  * @param {string} name
  * @param {readonly [number, number]} size
  * @param {number} direction of the bend, against the page's width
  * @param {(p: number) => number} slope the angle to the plane, by the length in that direction from the middle
  * @returns {Page}
  */
-function profile(name, [width, height], direction, slope) {
+export function profile(name, [width, height], direction, slope) {
   const half = Math.hypot(width, height) / 2;
   const count = Math.ceil((2 * half) / STEP) + 2;
   const [across, up] = [new Float64Array(count), new Float64Array(count)];
@@ -52,13 +52,14 @@ function profile(name, [width, height], direction, slope) {
 const zigzag = (t) => Math.abs(t - 2 * Math.round(t / 2));
 
 /**
- * Crumpled into facets: Miura's fold, partly folded, as in `benches/src/bin/dewarping/page.rs`.
+ * A page of A4 crumpled into facets: Miura's fold, partly folded, as in `benches/src/bin/dewarping/page.rs`.
  * @param {number} fold the facets' angle to the plane
+ * @param {readonly [number, number]} [facet] sides of a facet, in widths of the page
  * @returns {Page}
  */
-function crumpled(fold) {
+export function crumpled(fold, facet = [0.31, 0.37]) {
   const [width, height] = A4;
-  const [a, b, corner] = [0.31 * width, 0.37 * width, 1.25];
+  const [a, b, corner] = [facet[0] * width, facet[1] * width, 1.25];
   const spread = Math.sqrt(1 + (Math.cos(fold) * Math.tan(corner)) ** 2);
   const folded = [
     (b * Math.cos(fold) * Math.tan(corner)) / spread,

@@ -74,13 +74,14 @@ export function smoothNoise(width, height, deviation, next) {
  * @param {Camera} camera
  * @param {number} noise standard deviation, in millimetres
  * @param {number} [seed] of the noise
+ * @param {number} [smooth] standard deviation of the kernel that the noise is smooth by, in pixels
  */
-export function sensed(page, pose, camera, noise, seed = 0) {
+export function sensed(page, pose, camera, noise, seed = 0, smooth = SMOOTH) {
   const { width, height } = camera;
   const close = finer(camera, FINE);
   const [fine, behind] = [view(page, pose, close), background(page, pose, close)];
   const next = normal(1 + Math.round(10 * noise) + 100 * seed);
-  const error = smoothNoise(width, height, SMOOTH, next);
+  const error = smoothNoise(width, height, smooth, next);
   const around = FINE / 2;
   const data = new Float64Array(width * height);
   for (let i = 0; i < data.length; i += 1) {

@@ -7,7 +7,7 @@ import { measure, placesOf } from './truth.mjs';
  * @typedef {ReturnType<typeof sampleMesh>} Field
  * @typedef {import('../../../pkg/types.js').Photo} Photo
  * @typedef {{ page: import('./pages.mjs').Page, seen: import('./camera.mjs').View, photo: Photo, crop: [number, number][] }} Scene
- * @typedef {Photo & { map: Float32Array }} Flat
+ * @typedef {Photo & Pick<import('../../../pkg/types.js').Dewarped, 'map'> & Partial<Pick<import('../../../pkg/types.js').Dewarped, 'verdict'>>} Flat
  * @typedef {{ flat: Flat, truth: import('./truth.mjs').Truth }} Result
  */
 

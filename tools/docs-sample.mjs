@@ -29,20 +29,32 @@ await main(async () => {
 });
 
 function options() {
-  const { values } = parseArgs({
-    options: {
-      count: { type: 'string', default: '60' },
-      seed: { type: 'string', default: '1' },
-      under: { type: 'string', multiple: true, default: ['src', 'wasm'] },
-      where: { type: 'boolean', default: false },
-      constants: { type: 'boolean', default: false },
-      all: { type: 'boolean', default: false },
-    },
-  });
+  const values = parsed();
   const [count, seed] = [Number(values.count), Number(values.seed)];
   if (!Number.isInteger(count) || count < 1) throw new Problem(`--count must be a whole number above 0.`);
   if (!Number.isInteger(seed)) throw new Problem(`--seed must be a whole number.`);
   return { ...values, count, seed };
+}
+
+function parsed() {
+  try {
+    return parseArgs({
+      options: {
+        count: { type: 'string', default: '60' },
+        seed: { type: 'string', default: '1' },
+        under: { type: 'string', multiple: true, default: ['src', 'wasm'] },
+        where: { type: 'boolean', default: false },
+        constants: { type: 'boolean', default: false },
+        all: { type: 'boolean', default: false },
+      },
+    }).values;
+  } catch (problem) {
+    throw new Problem(
+      `${problem instanceof Error ? problem.message : problem}\n`
+        + 'Usage: node tools/docs-sample.mjs [--count 60] [--seed 1] [--under FOLDER] [--where]\n'
+        + '       node tools/docs-sample.mjs --constants [--all] [--under FOLDER]',
+    );
+  }
 }
 
 /**

@@ -41,7 +41,8 @@ export function itemsOf(path, text) {
     }
     if (attribute || line.startsWith('#[')) {
       if (/^#\[cfg\((all\()?test\b/.test(line)) tests = true;
-      attribute = !line.endsWith(']');
+      // A comment may follow on the same line.
+      attribute = !line.replace(/\s*\/\/.*$/, '').endsWith(']');
       return;
     }
     while (owners.length > 0 && indent <= owners[owners.length - 1].indent) owners.pop();

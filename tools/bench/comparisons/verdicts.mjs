@@ -4,11 +4,15 @@ import { depthCamera, finer, view } from '../phone/camera.mjs';
 import { capture } from '../phone/captures.mjs';
 import { photograph } from '../phone/sensor.mjs';
 import { sampled, ways } from '../phone/surfaces.mjs';
+import { placesOf } from '../phone/truth.mjs';
 
 const photoCamera = finer(depthCamera, 4);
 
 /** Displacement above which a flat image is wrong, in widths of the page. */
 const MAX_RIGHT_DISPLACEMENT = 0.01;
+
+/** Share of a flat image beside the page above which it is wrong. */
+const MAX_RIGHT_SHARE_BESIDE = 0.05;
 
 /** Lines of print on a page, with a margin; the photo's outline is found by the paper. */
 function print() {
@@ -21,6 +25,22 @@ function print() {
   return { width, height, data };
 }
 
+/**
+ * The share of a flat image that shows what is no page.
+ * @param {import('../phone/truth.mjs').Mapped} flat
+ * @param {import('../phone/camera.mjs').View} seen
+ */
+function shareBeside(flat, seen) {
+  const places = placesOf(flat, seen);
+  let [shown, beside] = [0, 0];
+  for (let i = 0; i < places.length; i += 2) {
+    if (Number.isNaN(flat.map[i])) continue;
+    shown += 1;
+    beside += Number(Number.isNaN(places[i]));
+  }
+  return beside / shown;
+}
+
 /** @typedef {{ number: number, kind: string, crop: string, verdict: string, wrong: boolean, rms: number }} Outcome */
 
 /** @param {number} number @param {ReturnType<typeof print>} paper @returns {Outcome} */
@@ -31,7 +51,8 @@ function outcome(number, paper) {
   const found = { number, kind: page.name, crop };
   try {
     const { flat, truth } = ways['as the command does'](sampled(depths, depthCamera, scene), scene);
-    return { ...found, verdict: flat.verdict ?? '', wrong: truth.rms > MAX_RIGHT_DISPLACEMENT, rms: truth.rms };
+    const wrong = truth.rms > MAX_RIGHT_DISPLACEMENT || shareBeside(flat, seen) > MAX_RIGHT_SHARE_BESIDE;
+    return { ...found, verdict: flat.verdict ?? '', wrong, rms: truth.rms };
   } catch (problem) {
     if (!(problem instanceof DevelopableError)) throw problem;
     return { ...found, verdict: 'refused', wrong: true, rms: NaN };
@@ -63,7 +84,8 @@ export async function verdicts({ quick }) {
     title: "Verdicts on pages from a phone's depth",
     text: 'Pages at random (flat, curled, folded, crumpled, on a cone, and spreads of books) at random poses before a wall or on a table, seen by '
       + 'a simulated phone as above, with noise of 0.5 to 4 mm that is smooth over 0.7 to 3 pixels; crops of 32 points on the outline, exact and up to 6 '
-      + 'pixels off, of four corners, and of corners 5 to 15 % within the page and 3 to 13 % beside it. An image is wrong where its displacement is more than 1 % of the page. '
+      + 'pixels off, of four corners, and of corners 5 to 15 % within the page and 3 to 13 % beside it. An image is wrong where its displacement is more than 1 % of the page, '
+      + 'or more than 5 % of it show what is beside the page. '
       + 'False trust: wrong, and called `flat` or `unrolled`. False alarm: right, and called something else.',
     columns: ['crop', 'captures', 'wrong', 'flat', 'unrolled', 'stretched', 'doubtful', 'refused', 'false trust', 'false alarm'],
     rows: [...crops.map((name) => row(name, outcomes.filter(({ crop }) => crop === name))), row('all', outcomes)],

@@ -192,7 +192,6 @@ pub fn explore(input: impl Into<Input>, options: &ExploreOptions) -> Result<Plan
 /// plans are not computed; `None` if no plan has so few sheets.
 ///
 /// # Errors
-///
 /// The first error among the plans up to that one.
 pub fn finest(
     plans: impl IntoIterator<Item = Result<Plan>>,

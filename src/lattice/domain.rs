@@ -60,7 +60,6 @@ impl Domain {
     /// `occluded` whether an occlusion tears the surface there, so that it has no Hessian (paper, Fig. 9).
     ///
     /// # Errors
-    ///
     /// [`Error::NoInterior`] if no vertex has all six neighbours valid.
     pub(crate) fn from_validity(
         lattice: Lattice,

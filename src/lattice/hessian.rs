@@ -33,7 +33,6 @@ impl<'a> HessianOperator<'a> {
     /// domain may be NaN. Linear cost.
     ///
     /// # Panics
-    ///
     /// If `heights` does not have `lattice.len()` values.
     pub fn apply(&self, heights: &[f64]) -> Vec<Sym2> {
         let domain = self.domain;
@@ -54,7 +53,6 @@ impl<'a> HessianOperator<'a> {
     /// Returns one value for each lattice vertex, zero outside the domain. Linear cost.
     ///
     /// # Panics
-    ///
     /// If there is not one matrix for each interior vertex.
     pub fn adjoint(&self, matrices: &[Sym2]) -> Vec<f64> {
         let domain = self.domain;

@@ -45,7 +45,6 @@ impl Lattice {
     /// Makes a lattice whose vertex `(0, 0)` lies at the origin of the plane; `spacing` is the distance of neighbours.
     ///
     /// # Errors
-    ///
     /// [`Error::Empty`] without rows or columns, [`Error::Option`] if `spacing` is not positive and finite,
     /// [`Error::TooLarge`] above [`MAX_CELLS`](crate::MAX_CELLS) vertices.
     pub fn new(rows: usize, cols: usize, spacing: f64) -> Result<Self> {
@@ -64,7 +63,6 @@ impl Lattice {
     /// Moves the lattice so that vertex `(0, 0)` lies at `origin`.
     ///
     /// # Errors
-    ///
     /// [`Error::Option`] if `origin` is not finite.
     pub fn with_origin(self, origin: [f64; 2]) -> Result<Self> {
         if !origin.iter().all(|v| v.is_finite()) {
@@ -77,7 +75,6 @@ impl Lattice {
     /// vertices reach every point of the box from inside it: no vertex lies more than one cell beyond it.
     ///
     /// # Errors
-    ///
     /// As [`Lattice::new`]; the size is checked before anything is allocated.
     pub fn covering(min: [f64; 2], max: [f64; 2], spacing: f64) -> Result<Self> {
         let h = positive("spacing", spacing)?;

@@ -43,7 +43,6 @@ impl PerCell<f64> {
     /// Copies the values in single precision to `to`.
     ///
     /// # Errors
-    ///
     /// [`Error::OutOfMemory`](crate::Error::OutOfMemory).
     pub(crate) fn narrow_into(&self, to: &mut PerCell<f32>) -> Result<()> {
         match (self, &mut *to) {

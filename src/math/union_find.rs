@@ -14,7 +14,6 @@ impl UnionFind {
     /// Makes the sets `{0}` to `{count − 1}` of one number each.
     ///
     /// # Errors
-    ///
     /// [`Error::OutOfMemory`](crate::Error::OutOfMemory), which names `what`.
     pub(crate) fn new(what: &'static str, count: usize) -> Result<Self> {
         let mut parents = try_filled(what, count, 0)?;

@@ -22,7 +22,7 @@ const STIFF_SCREENING_LENGTH: f64 = 10.0;
 /// residual.
 const DUAL_TOLERANCE: f64 = 1e-4;
 
-/// Residual of the linear system for the affine surface's dual at which conjugate gradients stop where most vertices
+/// Residual of the linear system for the affine surface's dual at which conjugate gradients stop where some vertices
 /// have hardly any fidelity weight, relative to the first: what is left of the residual costs the dual bound more
 /// there.
 const DUAL_TOLERANCE_WEAK_FIDELITY: f64 = 1e-9;

@@ -19,7 +19,7 @@ const RHO_FACTOR: f64 = 2.0;
 /// removes them.
 const RESIDUAL_BALANCE_RATIO: f64 = 0.025;
 
-/// Ratio of the relative primal to the relative dual residual that changes of ρ aim at where most vertices have hardly
+/// Ratio of the relative primal to the relative dual residual that changes of ρ aim at where some vertices have hardly
 /// any fidelity weight: there the dual residual is the change of the Hessians.
 const RESIDUAL_BALANCE_RATIO_WEAK_FIDELITY: f64 = 10.0;
 

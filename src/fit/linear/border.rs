@@ -13,8 +13,8 @@ use crate::lattice::domain::{Domain, Role};
 use crate::lattice::hexagonal::{NEIGHBOUR_DIRECTIONS, OPPOSITE_DIRECTION};
 use crate::lattice::per_cell::PerCell;
 
-/// Weight of a neighbour in the averages of multigrid prolongation, beside ¼ for the vertex itself and ⅛ for each of
-/// six neighbours.
+/// Weight of each neighbour in the averages of multigrid prolongation; the vertex itself has the rest of the weight, at
+/// least ¼.
 const NEIGHBOUR_WEIGHT: f32 = 0.125;
 
 /// Averages of multigrid prolongation at boundary vertices: each vertex is averaged with those pairs of opposite

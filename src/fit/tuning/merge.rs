@@ -1,4 +1,4 @@
-//! Four vertices as one: the lattice of twice the spacing with half of the noise, which stays as
+//! Averaging of four vertices to one: the lattice of twice the spacing with half of the noise, which stays as
 //! independent from vertex to vertex as it was. The measurement of noise and cross-validation use it; a solve itself
 //! coarsens by `coarsen`.
 
@@ -60,7 +60,7 @@ pub(super) fn rhombus(fine: &Lattice, row: usize, col: usize) -> Option<[usize; 
 }
 
 impl Input {
-    /// The confidence of a height, and 1 for a constraint.
+    /// Returns the confidence of a height, and 1 for a constraint.
     pub(super) fn trust(&self, vertex: usize) -> f64 {
         if self.is_constrained(vertex) {
             1.0

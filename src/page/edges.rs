@@ -1,4 +1,4 @@
-//! The edges of a page as they were traced.
+//! Traced edges of a page and lines of text: points or Bézier curves in a photo's pixels.
 
 /// A traced edge of a page, from one corner to the next, or a traced line of text, in the photo's
 /// pixels: `[0, 0]` is the centre of the upper left one.

@@ -1,4 +1,4 @@
-//! Flat pages from one photo and the traces of their bent edges.
+//! Flat pages from one photo of a curled page and the traces of its bent edges.
 //!
 //! A page that is curled one way (a book's page, a letter that was rolled up) is a cylinder over
 //! some curve: its rulings are straight, parallel, and normal to the two edges that are bent. So

@@ -1,26 +1,26 @@
-//! Figures of a fitted sheet: how well it meets outline and lines, how much it is strained and bent.
+//! Measures of a fitted sheet: distances from outline and lines in the photo, strain and curvature.
 
 use super::fit::FittedSheet;
 use super::problem::{ResidualRow, RobustWeights, SheetProblem, SheetWeights};
 
-/// Misfits and shape of a sheet, in widths of the page. Outliers count less.
+/// Misfit and shape of a fitted sheet. Lengths are in widths of the page; outliers count less.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct SheetFigures {
-    /// Root mean square distance of the border from the outline.
+    /// Root mean square distance between the sheet's projected border and the page's outline in the photo.
     pub outline: f64,
-    /// Root mean square distance of the lines from level ones; 0 without lines.
+    /// Root mean square distance between lines of print in the photo and the sheet's level lines; 0 without lines.
     pub lines: f64,
-    /// Root mean square relative change of length.
+    /// Root mean square strain (relative change of length) of the sheet.
     pub strain: f64,
-    /// Root mean square curvature.
+    /// Root mean square curvature of the sheet, in reciprocal widths of the page.
     pub curvature: f64,
 }
 
-/// Number of rounds of refining the lines' levels on a given sheet.
+/// Number of Gauss-Newton steps for the levels of lines on a given sheet.
 const LEVEL_ROUNDS: usize = 3;
 
 impl SheetProblem {
-    /// Figures of a sheet; None if it is not in front of the camera.
+    /// Computes the measures of a sheet; None if it is not in front of the camera.
     pub fn figures(&self, sheet: &FittedSheet) -> Option<SheetFigures> {
         let grid = &sheet.grid;
         let mut unit = self.clone();
@@ -57,7 +57,8 @@ impl SheetProblem {
         })
     }
 
-    /// A sheet with its lines' levels where they are nearest to the lines.
+    /// Returns the sheet with each line of print at the level (share of the page's height or width) where it fits the
+    /// line in the photo best. None if the sheet is not in front of the camera.
     pub fn with_levels(&self, sheet: &FittedSheet) -> Option<FittedSheet> {
         let mut sheet = sheet.clone();
         sheet.levels = self.lines.iter().map(|line| line.level).collect();

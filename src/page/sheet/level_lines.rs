@@ -1,4 +1,4 @@
-//! Lines of text, rules and left margins in the flat picture of a sheet.
+//! Detection of lines of text, rules and left margins in a photo flattened by a sheet.
 
 use super::place_table::PlaceTable;
 use super::problem::LevelLine;
@@ -6,13 +6,15 @@ use super::view::PhotoView;
 use crate::dewarp::Photo;
 use crate::page::text::{PageView, find_on_view};
 
-/// Maximum number of points of a line.
+/// Maximum number of points of one detected line that are used.
 const MAX_LINE_POINTS: usize = 16;
 
-/// Maximum number of lines in each direction: more cost time and add nothing.
+/// Maximum number of detected lines in each direction (across or down the page) that are used: more cost time and add
+/// nothing.
 const MAX_LINES: usize = 40;
 
-/// Lines across and down the page that a flattened picture shows.
+/// Detects the lines across and down the page in the photo as flattened by a sheet. `table` gives the photo's places of
+/// the flat page, `ratio` is the page's height over its width.
 pub(super) fn find_level_lines(
     table: &PlaceTable,
     view: &PhotoView,

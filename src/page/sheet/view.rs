@@ -1,6 +1,6 @@
-//! Normalised coordinates of a photo.
+//! Normalised image coordinates of a photo: pixels relative to a nominal principal point, in nominal focal lengths.
 
-/// The nominal camera of a photo: pixels to normalised coordinates and back.
+/// Nominal camera of a photo, which converts pixels to normalised image coordinates and back.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct PhotoView {
     /// Nominal focal length, in pixels.
@@ -10,12 +10,12 @@ pub(super) struct PhotoView {
 }
 
 impl PhotoView {
-    /// Normalised coordinates of a place in the photo.
+    /// Converts a place in the photo from pixels to normalised image coordinates.
     pub fn to_normalised(self, pixel: [f64; 2]) -> [f64; 2] {
         [0, 1].map(|k| (pixel[k] - self.centre[k]) / self.focal)
     }
 
-    /// Place in the photo of normalised coordinates, in pixels.
+    /// Converts a place in the photo from normalised image coordinates to pixels.
     pub fn to_pixels(self, at: [f64; 2]) -> [f64; 2] {
         [0, 1].map(|k| at[k] * self.focal + self.centre[k])
     }

@@ -7,7 +7,7 @@ pub use readable::{Readable, rounded};
 use readable::count;
 use thiserror::Error;
 
-/// The crate's result type.
+/// Result type of this library, with [`Error`] as its error.
 pub type Result<T> = std::result::Result<T, Error>;
 
 /// An error of this library: what was wrong, where, and what to do about it.
@@ -140,7 +140,7 @@ pub enum Error {
     Topology {
         /// What is wrong with the mesh, and where.
         reason: String,
-        /// What to do about it.
+        /// What to do about the fault in the mesh.
         advice: &'static str,
     },
 

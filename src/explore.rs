@@ -48,7 +48,7 @@ const DEFAULT_MIN_PATCH_SHARES: [f64; 3] = [0.005, 0.02, 0.08];
 /// Default values of λ to try for a mesh, as multiples of the λ that suits its noise.
 const MESH_LAMBDA_SHARES: [f64; 4] = [1.0, 0.3, 0.1, 0.03];
 
-/// Options of [`explore`].
+/// Options of [`explore`]: what to try, and the options of solve, patches, pattern and drawing.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ExploreOptions {
     /// Values of λ, the weight of the fidelity, to try, in any order. Default: 1e7, 3e6, 1e6, 3e5, 1e5 and 3e4.
@@ -106,9 +106,9 @@ pub struct Plan {
     pub lambda: f64,
     /// Minimum size of the plan's patches, as a share of all vertices.
     pub smallest: f64,
-    /// Root mean square distance of the surface from the input, in the input's units.
+    /// Root mean square distance of the plan's surface from the input, in the input's unit of height.
     pub distance: f64,
-    /// Time that solve and pattern took, in seconds; each plan includes the whole solve of its λ.
+    /// Time for the solve and the pattern, in seconds; each plan includes the whole solve of its λ.
     pub seconds: f64,
     /// The pattern, or [`Error::NotFlat`] with the place of a part that no cut lays flat within the strain limits.
     pub outcome: Result<Found>,

@@ -128,14 +128,14 @@ pub use scene::triangulation::Triangulation;
 pub use scene::view::{Frame, View};
 pub use shape::{analysis, patches, rulings};
 
-/// How the library checks what it is given: for the bindings in `wasm/`, which do as it does.
+/// Checks of arguments, for the bindings in `wasm/`, which make the same checks as the library.
 #[doc(hidden)]
 pub mod checks {
     pub use crate::error::{check_count, check_shape, positive, try_filled};
     pub use crate::fit::input::check_confidence;
 }
 
-/// The README's example.
+/// The README, whose example is compiled and run as a test.
 #[cfg(doctest)]
 #[doc = include_str!("../README.md")]
 struct Readme;

@@ -61,7 +61,7 @@ pub(super) struct ComponentSolver {
     scale: f64,
     domain: Arc<Domain>,
     components: Components,
-    /// Results of the finished components.
+    /// Results of the finished components, in the order of the components.
     answers: Vec<Answer>,
     /// Set-up of the current component, before its first iteration.
     preparing: Option<ComponentSetup>,

@@ -23,13 +23,12 @@ const MAX_MAGNITUDE: f64 = 1e130;
 const MAX_SPACING: f64 = 1e50;
 
 impl Problem {
-    /// The problem of an input on a domain, in normalised coordinates.
+    /// Makes the problem of an input on a domain, in normalised coordinates.
     pub(crate) fn new(
         input: &Input,
         domain: Arc<Domain>,
         coordinates: &Coordinates,
         options: &Options,
-    /// Makes the problem of an input on a domain, in normalised coordinates.
     ) -> Result<Self> {
         let mut target = try_filled("input heights", domain.cells(), 0.0)?;
         let mut largest = 0.0f64;

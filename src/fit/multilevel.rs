@@ -32,7 +32,7 @@ pub(crate) struct Multilevel {
     carried: Option<(Iterate, Option<ConjugateGradients>)>,
     /// Domains of all lattices, the finest first.
     domains: Vec<Arc<Domain>>,
-    /// Reports of the coarser levels, the coarsest first.
+    /// Reports of the finished coarser levels, the coarsest first.
     coarser: Vec<LevelReport>,
     parameters: AdmmParameters,
     /// Number of reweighting passes so far.

@@ -143,8 +143,9 @@ pub enum Schedule {
     /// relative residuals; stops at the certified relative duality gap [`Options::gap`].
     #[default]
     Default,
-    /// The paper's schedule (Sec. 4.1): z-steps solved to a tight tolerance, residual balancing after Boyd et al. with
-    /// the paper's looser trigger; stops on the residuals. The duality gap is reported all the same.
+    /// The paper's schedule (Sec. 4.1): z-steps solved to a tight tolerance, residual balancing after Boyd et al. that
+    /// changes ρ at a larger ratio of the residuals; stops when the residuals are small. The duality gap is reported
+    /// all the same.
     Paper,
 }
 
@@ -589,7 +590,7 @@ impl Options {
         ))
     }
 
-    /// Returns an error with `requirement` as its message if a parameter of [`Energy::Huber`] is given.
+    /// Returns an error with `requirement` as its message if an option is given that only [`Energy::Huber`] has.
     fn check_huber(&self, requirement: &'static str) -> Result<()> {
         let radii_and_slope = [
             ("bend_radius", self.bend_radius),

@@ -34,7 +34,7 @@ pub(crate) fn relative_gap(objective: f64, dual_bound: f64, rounding: f64) -> Op
     known.then(|| ((objective - dual_bound) / objective).max(0.0))
 }
 
-/// Progress of a running solve: the figures of its last check.
+/// Progress of a running solve: the figures of its last check, in which objective and dual bound are computed.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(
     feature = "serde",
@@ -123,8 +123,8 @@ pub struct LevelReport {
 pub enum LambdaReason {
     /// This λ predicts held-out heights best (cross-validation).
     Prediction,
-    /// λ follows from size and correlation length of the noise, without cross-validation: there are too few heights
-    /// to hold some out, or their noise is correlated, so that held-out noise could be predicted.
+    /// λ follows from size and correlation length of the noise, without cross-validation: there are too few heights to
+    /// hold some out, or their noise is correlated, so that the noise of held-out heights could be predicted.
     Noise,
     /// The heights have hardly any noise: λ is [`Lambda::Big`](crate::Lambda::Big).
     NoNoise,
@@ -154,8 +154,8 @@ pub struct LambdaChoice {
     /// Whether the noise is correlated over distances at which the shape bends, too, so that noise and shape could
     /// not be told apart: σ and λ are uncertain.
     pub ambiguous: bool,
-    /// Number of times that the spacing is doubled until noise is independent from vertex to vertex; 0 for white
-    /// noise.
+    /// Number of times that the lattice's spacing has to be doubled, by averages of four heights, until the noise is
+    /// independent from vertex to vertex; 0 for white noise.
     pub merged: usize,
     /// Number of candidates for λ and penalty parameters that were compared, each by up to three solves.
     pub solves: usize,

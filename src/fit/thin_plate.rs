@@ -34,17 +34,14 @@ const TIE_BREAK_PASSES: usize = 3;
 /// Maximum number of conjugate-gradient iterations in a pass for the thin plate.
 const MAX_PASS_ITERATIONS: usize = 200;
 
-/// Sets `z̃` at the free vertices to the thin plate through the given heights, the minimiser of `λ Σ w(z − z̃)²
-/// + ρ/2 Σ ‖H‖_F²`: ties are broken towards it, and the solve starts from it. It is the z-step with both `H`
-/// and `Y` zero, solved to the end. Returns the number of conjugate-gradient iterations.
+/// Sets the target heights `z̃` of free vertices to the thin plate through the given heights, the minimiser of `λ Σ w(z
+/// − z̃)² + ρ/2 Σ ‖H‖_F²`: the tie-break weight pulls towards it, and the solve starts from it. It is the z-step with
+/// Hessians and dual 0, solved to the end. Returns the number of conjugate-gradient iterations.
 pub(crate) fn fill(
     problem: &mut Problem,
     domains: &[Arc<Domain>],
     parameters: &AdmmParameters,
     guess: InitialGuess,
-/// Sets the target heights `z̃` of free vertices to the thin plate through the given heights, the minimiser of `λ Σ w(z
-/// − z̃)² + ρ/2 Σ ‖H‖_F²`: the tie-break weight pulls towards it, and the solve starts from it. It is the z-step with
-/// Hessians and dual 0, solved to the end. Returns the number of conjugate-gradient iterations.
 ) -> Result<usize> {
     let rho = initial_rho(parameters, problem);
     let mut multigrid = Multigrid::new(problem, domains, rho)?;

@@ -267,10 +267,9 @@ fn neighbour_offsets(row: usize, stride: usize) -> [isize; 6] {
     })
 }
 
-/// First (an even row) and last valid vertex in each direction.
+/// Returns the first and the last row and column of the bounding box of all valid vertices, its first row made
+/// even; `None` if no vertex is valid.
 fn bounding_box(
-    /// Returns the first and the last row and column of the bounding box of all valid vertices, its first row made
-    /// even; `None` if no vertex is valid.
     lattice: &Lattice,
     valid: impl Fn(usize, usize) -> bool,
 ) -> Option<((usize, usize), (usize, usize))> {

@@ -20,7 +20,7 @@ impl<T: Copy> PerCell<T> {
         PerCell::Same(vec![value; longest])
     }
 
-    /// Returns the values of the cells of a run.
+    /// Returns the values at a run of consecutive cells, as a slice of the run's length.
     #[inline(always)]
     pub(crate) fn run(&self, run: Run) -> &[T] {
         let n = run.end - run.start;

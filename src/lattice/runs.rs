@@ -41,7 +41,7 @@ impl RowRuns {
         RowRuns { first, runs, len }
     }
 
-    /// Number of cells in all runs.
+    /// Number of cells in all runs together.
     pub(crate) fn len(&self) -> usize {
         self.len
     }

@@ -84,7 +84,7 @@ pub(crate) fn line_intersection<P: Planar>(
     Some(P::from_xy([x + u[0] * t, y + u[1] * t]))
 }
 
-/// Distance of a point from a segment.
+/// Shortest distance from a point to a segment.
 pub(crate) fn distance_to_segment<P: Planar>(point: P, [a, b]: [P; 2]) -> f64 {
     let (u, v) = (difference(a, b), difference(a, point));
     let t = nearest_parameter(u, v);

@@ -58,10 +58,9 @@ impl Sym2 {
         2.0 * larger(self.mean.abs(), self.radius())
     }
 
-    /// Largest absolute eigenvalue.
+    /// Spectral norm: the largest absolute eigenvalue.
     #[inline(always)]
     pub(crate) fn spectral_norm(self) -> f64 {
-        /// Spectral norm: the largest absolute eigenvalue.
         self.mean.abs() + self.radius()
     }
 

@@ -14,8 +14,8 @@ use crate::fit::linear::z_step_solver::{CgCriteria, SolvableOperator, ZStepSolve
 /// optimal surface bends.
 pub(super) const MAX_AFFINE_GAP: f64 = 0.1;
 
-/// Screening length `(κ/2λ)^¼`, in sizes of the domain, at which a surface of stiffness `κ` counts as rigid: its bends
-/// are then a millionth of what they could be.
+/// Screening length `(κ/2λ)^¼` (distance over which a stiffness `κ` smooths), in sizes of the domain, at which the
+/// surface counts as rigid: its bends are then a millionth of what they could be.
 const STIFF_SCREENING_LENGTH: f64 = 10.0;
 
 /// Residual of the linear system for the affine surface's dual at which conjugate gradients stop, relative to the first

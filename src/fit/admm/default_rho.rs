@@ -33,11 +33,12 @@ const DUAL_COST_SHARE_HIGH: f64 = 0.7;
 /// Ratio of ρ at the start of a multigrid level to ρ at the end of the next coarser one.
 const RHO_REFINEMENT_FACTOR: f64 = 0.5;
 
-/// Maximum screening length `(ρ/2λ)^¼` of the z-step, in sizes of the domain: a longer one is of no use.
+/// Maximum screening length `(ρ/2λ)^¼` of the z-step (distance over which it smooths), in sizes of the domain: a longer
+/// one is of no use.
 const MAX_SCREENING_LENGTH_SIZES: f64 = 0.1;
 
-/// Maximum screening length `(ρ/2λ)^¼` of the z-step, in lattice spacings: its fourth power is the condition number. A
-/// longer one moves the surface faster and its dual bound more slowly.
+/// Maximum screening length `(ρ/2λ)^¼` of the z-step (distance over which it smooths), in lattice spacings: its fourth
+/// power is the condition number. A longer one moves the surface faster and its dual bound more slowly.
 const MAX_SCREENING_LENGTH_CELLS: f64 = 10.0;
 
 /// Maximum of ρ, in sizes of the domain, where some vertices have hardly any fidelity weight and the screening length

@@ -40,9 +40,9 @@ const MEDIAN_SAMPLE_STRIDE: usize = 7;
 /// State of a rank reduction between two steps.
 #[derive(Debug, Clone)]
 pub(super) struct RankReduction {
-    /// Surface extrapolated by the momentum, from which the next step starts.
+    /// Heights of the surface extrapolated by the momentum, from which the next step starts.
     start: Vec<f64>,
-    /// Surface after the last step.
+    /// Heights of the surface after the last step of the rank reduction.
     z: Vec<f64>,
     /// Absolute value of a Hessian's smaller eigenvalue beyond which the eigenvalue is removed the less the larger it
     /// is.

@@ -22,7 +22,7 @@ pub(super) struct ZStep {
     /// Number of conjugate-gradient iterations so far.
     iterations: usize,
     round_iterations: usize,
-    /// Squared residual at the start of the current round.
+    /// Squared residual at the start of the current round of conjugate gradients.
     initial_energy: f64,
 }
 

@@ -39,7 +39,7 @@ pub enum CylinderVerdict {
 )]
 #[non_exhaustive]
 pub struct CylinderReport {
-    /// Whether the surface is a cylinder.
+    /// Verdict on whether the surface is a cylinder.
     pub verdict: CylinderVerdict,
     /// Direction of the rulings: a unit vector (x, y, height) in the axes of the heights.
     pub rulings: [f64; 3],
@@ -60,7 +60,8 @@ pub struct Cylinder {
 }
 
 impl Cylinder {
-    /// Heights of the cylinder wherever the input has one, and where small holes are [bridged](crate::Bridging).
+    /// Returns the heights of the cylinder, wherever the input has a height or a small hole is
+    /// [bridged](crate::Bridging).
     pub fn heightfield(&self) -> &Heightfield {
         &self.heightfield
     }
@@ -149,7 +150,7 @@ impl ProfileAxes {
         [across.max(0.0), self.cos * at[1] - self.sin * at[0]]
     }
 
-    /// Returns which stretch of the rulings, of `of` equal ones, a position `along` them is on, counted from 0.
+    /// Returns the index of the stretch that a position `along` the rulings is on, of `of` equal stretches.
     fn stretch(&self, along: f64, of: usize) -> usize {
         let share = (along - self.first) / (self.last - self.first).max(f64::MIN_POSITIVE);
         ((share * of as f64) as usize).min(of - 1)

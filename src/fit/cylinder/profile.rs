@@ -11,9 +11,9 @@ pub(super) struct ProfileEquations {
     own: Vec<f64>,
     /// Secondary diagonal of the normal matrix: sums of products of neighbouring hat functions.
     next: Vec<f64>,
-    /// Sums of hat functions times heights.
+    /// Right-hand side of the normal equations: weighted sums of hat functions times heights.
     heights: Vec<f64>,
-    /// Sums of hat functions times positions along the rulings.
+    /// Weighted sums of hat functions times positions along the rulings.
     places: Vec<f64>,
     /// Sum of the squares of heights.
     square: f64,

@@ -15,7 +15,7 @@ pub(crate) trait SolvableOperator: Operator {
 /// Stopping criteria of conjugate gradients in double precision.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct CgCriteria {
-    /// Residual at which they stop, relative to the first residual.
+    /// Residual, relative to the first residual, at which conjugate gradients stop.
     pub tolerance: f64,
     pub max_iterations: usize,
 }
@@ -48,7 +48,7 @@ pub(crate) trait ZStepSolver<O: Operator>: Clone + Debug {
     /// Adds the correction `δ` found so far to the heights `z`.
     fn correct(&mut self, operator: &O, z: &mut [f64]);
 
-    /// Solves the system in double precision: improves `x` until the residual, which is given for `x`, meets the
+    /// Solves the system in double precision: improves `x` until its `residual`, which the caller provides, meets the
     /// criteria relative to its first value. Returns the number of iterations; the residual is of no use afterwards.
     ///
     /// # Errors

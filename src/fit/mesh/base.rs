@@ -3,11 +3,12 @@
 use super::geometry::{Frame, Point, across, normals, smooth, unfold};
 use super::input::MeshInput;
 
-/// Number of smoothing steps that determine where base vertices are across the rays (vertex normals).
+/// Number of smoothing steps of the input mesh that determine where the vertices of the base (the smoothed mesh) are
+/// across their normals.
 const BASE_PLACE_STEPS: usize = 3;
 
-/// Number of smoothing steps that determine where base vertices are along the rays (vertex normals); includes
-/// [`BASE_PLACE_STEPS`].
+/// Number of smoothing steps of the input mesh that determine where the vertices of the base (the smoothed mesh) are
+/// along their normals; includes [`BASE_PLACE_STEPS`].
 const BASE_SURFACE_STEPS: usize = 10;
 
 /// Smooths the input mesh, and returns the positions and frames of its vertices, about which the energy is first

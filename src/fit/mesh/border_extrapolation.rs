@@ -69,8 +69,9 @@ pub(super) fn extrapolate_border(
     }
 }
 
-/// Continues the surface to a point by the quadratic fitted at an inner vertex to those of its neighbours that
-/// are `usable`. Returns how far the quadratic is above the point along its normal there, and that normal.
+/// Continues the surface to the point `at` by the quadratic fitted at the vertex `inner` to those of its neighbours
+/// that are `usable`. Returns how far the quadratic is above the point along the quadratic's normal there, and that
+/// normal.
 pub(super) fn continue_surface(
     topology: &Topology,
     x: &[Point],
@@ -79,9 +80,6 @@ pub(super) fn continue_surface(
     usable: impl Fn(usize) -> bool,
     at: Point,
 ) -> Option<(f64, Point)> {
-    /// Continues the surface to the point `at` by the quadratic fitted at the vertex `inner` to those of its neighbours
-    /// that are `usable`. Returns how far the quadratic is above the point along the quadratic's normal there, and that
-    /// normal.
     let mut second = Vec::new();
     topology.second_ring(inner, &mut second);
     let near = topology.around(inner).iter().map(|other| (other, 1.0));

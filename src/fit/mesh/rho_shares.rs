@@ -16,9 +16,9 @@ pub(super) fn set_rho_shares(problem: &mut Problem) {
     }
 }
 
-/// Returns the factor of ρ for a stencil of penalty weight ω. The dual is at most ω, and the weight was one over the
-/// Hessian, so that their ratio falls with ω². Where ω exceeds the slope of the penalty at 0, the dual would depend on
-/// ρ, and the factor is 1.
+/// Returns the factor of ADMM's penalty parameter ρ for a stencil of penalty weight ω. The dual is at most ω, and ω was
+/// chosen as one over the Hessian's size, so that the ratio of dual and Hessian falls with ω². Where ω exceeds the
+/// slope of the penalty at 0 (`flatness`), the dual would depend on ρ, and the factor is 1.
 fn share(weight: f64, flatness: f64) -> f64 {
     let least = weight / flatness.min(1.0);
     if least < 1.0 { least * least } else { 1.0 }

@@ -210,7 +210,7 @@ impl MeshSolver {
         })
     }
 
-    /// Stops a running fit; its surface is the best one so far.
+    /// Stops a running fit as cancelled; its surface is the best one so far.
     pub fn cancel(&mut self) {
         self.reason.get_or_insert(StopReason::Cancelled);
     }

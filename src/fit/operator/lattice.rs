@@ -20,7 +20,7 @@ const SCALED_OPERATOR_NORM: f32 = 256.0 / 9.0;
 #[derive(Debug, Clone)]
 pub(crate) struct LatticeOperator {
     pub domain: Arc<Domain>,
-    /// Normalised coordinates of the domain's heights.
+    /// Normalised coordinates: their scale, and the plane that heights are relative to.
     pub coordinates: Coordinates,
     pub map: HessianMap,
     /// Spacing of the lattice in normalised coordinates.
@@ -167,7 +167,8 @@ impl Operator for LatticeOperator {
         );
     }
 
-    /// Sweeps down the rows: the Hessians of a row follow as soon as the heights around it are there.
+    /// Computes `CᵀY` and the Hessians of heights made of it in one pass down the rows: the Hessians of a row follow as
+    /// soon as the heights around it are there.
     #[inline(always)]
     fn sweep_back<S: ?Sized>(
         &self,
@@ -209,8 +210,8 @@ impl Operator for LatticeOperator {
         follow(state, heights, domain.rows());
     }
 
-    /// Writes the upward component of the unit normal at each stencil, of the surface itself: heights are relative to a
-    /// plane.
+    /// Writes the upward component of the surface's unit normal at each stencil; heights are relative to a plane, whose
+    /// slope is added.
     fn normals(&self, z: &[f64], to: &mut [f64]) {
         let domain = &self.domain;
         for row in 1..=domain.rows() {

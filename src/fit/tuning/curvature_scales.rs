@@ -117,12 +117,12 @@ pub(super) struct CurvatureScale {
     pub disc: usize,
     /// Number of discs that were measured.
     pub count: usize,
-    /// Ratio of the medians of the smaller and the larger absolute principal curvature.
+    /// Ratio of the median of the smaller absolute principal curvature to the median of the larger one.
     pub ratio: f64,
     /// Standard deviation of white noise on the input's lattice whose smaller principal curvature has the same median.
     pub white_equivalent: f64,
-    /// Mean cosine between the Hessians of discs side by side, along the direction in which it is least. It is about 0
-    /// for noise and 1 for a shape.
+    /// Mean cosine between the Hessians (as vectors of their entries) of discs side by side, along the direction in
+    /// which it is least. It is about 0 for noise and 1 for a shape.
     pub coherence: f64,
 }
 

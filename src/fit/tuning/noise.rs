@@ -40,8 +40,8 @@ pub(crate) struct Noise {
     /// Quantisation step of the heights, in the user's units; `None` if they are not quantised, or their noise
     /// exceeds the rounding error of such a step, `step/√12`.
     pub step: Option<f64>,
-    /// Whether the noise is correlated over distances at which the shape bends, too, so that the two could not be
-    /// told apart.
+    /// Whether the noise is correlated over distances at which the shape bends, too, so that noise and shape could not
+    /// be told apart.
     pub ambiguous: bool,
 }
 

@@ -240,10 +240,10 @@ pub(crate) struct Search {
     known: Known,
     /// Options that the caller asked for.
     asked: Options,
-    /// Options that all compared solves share, with the first λ.
+    /// Options that all solves of the cross-validation share, with the first λ.
     options: Options,
     bendings: Vec<Choice>,
-    /// Candidates that have been tried.
+    /// Candidates for λ and Huber parameters that have been compared so far.
     tried: Vec<Candidate>,
     best: Candidate,
     misses: Vec<f64>,
@@ -256,12 +256,12 @@ pub(crate) struct Search {
 }
 
 impl Search {
-    /// Starts a search around the options that [`initial_options`] gives; `None` where too few heights can be held out, or
-    /// noise is correlated on every lattice large enough. Quantised heights are searched all the same, for the
-    /// penalty alone.
+    /// Starts a search for λ and Huber parameters around the options that [`initial_options`] gives; `None` where too
+    /// few heights can be held out, or noise is correlated on every lattice large enough. Quantised heights are
+    /// searched all the same, for the Huber parameters alone.
     ///
     /// # Errors
-    /// Out of memory, and errors of the solver.
+    /// [`Error::OutOfMemory`](crate::Error::OutOfMemory), and errors of the solver.
     pub(crate) fn new(
         input: &Input,
         asked: &Options,
@@ -446,7 +446,7 @@ fn candidate_options(first: &Options, bendings: &[Choice], (bending, step): Cand
     at_loudness(&options, bendings[bending].0, factor)
 }
 
-/// Starts a solve of the heights that are not held out.
+/// Starts a candidate's solve, of an input without the held-out heights.
 fn trial(
     held_out: &HeldOut,
     options: &Options,

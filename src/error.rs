@@ -73,7 +73,8 @@ pub enum Error {
         valid: usize,
     },
 
-    /// A connected part of the surface can tilt or move, because fewer than three of its heights off a line are given.
+    /// A connected part of the surface can tilt or move, because it has no three given heights that are not on one
+    /// line.
     #[error(
         "the part of the surface around row {row}, column {col} ({vertices} vertices) is not held \
          in place: it needs heights at three vertices that are not on a line, as constraints or \

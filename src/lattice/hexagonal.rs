@@ -99,7 +99,7 @@ impl Lattice {
         Lattice::new(rows as usize, cols as usize, h)?.with_origin([min[0], max[1]])
     }
 
-    /// Number of rows.
+    /// Number of rows of the lattice.
     pub fn rows(&self) -> usize {
         self.rows
     }

@@ -17,7 +17,7 @@ pub(crate) trait Real:
 {
     /// The number ½.
     const HALF: Self;
-    /// A vector of four numbers, for loops that do not vectorise by themselves.
+    /// SIMD vector of four numbers, for loops that do not vectorise by themselves.
     type Four: Copy + Add<Output = Self::Four> + Mul<Output = Self::Four>;
     fn sqrt(self) -> Self;
     fn four(lanes: [Self; 4]) -> Self::Four;

@@ -31,7 +31,8 @@ pub(super) struct Balanced {
     q: Vec<f64>,
 }
 
-/// Balances the iterate's dual about the surface `z`, with a z-step `solver` whose ρ is set to `stiffness`.
+/// Balances the iterate's dual: corrects it so that it satisfies the optimality condition of the surface `z`, by a
+/// linear solve with a z-step `solver` whose ρ is set to `stiffness`, and computes its dual bound.
 pub(super) fn balanced_bound<O: SolvableOperator>(
     iterate: &mut Iterate<O>,
     problem: &Problem<O>,

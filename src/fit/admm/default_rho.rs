@@ -15,8 +15,8 @@ const RESIDUAL_RATIO: f64 = 3.0;
 const RHO_FACTOR: f64 = 2.0;
 
 /// Ratio of the relative primal to the relative dual residual that changes of ρ aim at. The dual residual is measured
-/// behind `Cᵀ`, which weighs its highest frequencies most, and those cost the dual bound least, because dual ascent
-/// removes them.
+/// after multiplication by `Cᵀ`, which weighs its highest frequencies most, and those cost the dual bound least,
+/// because dual ascent removes them.
 const RESIDUAL_BALANCE_RATIO: f64 = 0.025;
 
 /// Ratio of the relative primal to the relative dual residual that changes of ρ aim at where some vertices have hardly

@@ -137,7 +137,7 @@ impl<O: SolvableOperator> Iterate<O> {
         })
     }
 
-    /// Restarts the iterate from other heights `z`, with Hessians and dual 0.
+    /// Restarts ADMM's iterate from other heights `z`, with Hessians and dual 0.
     pub(super) fn reset(&mut self, z: &[f64]) {
         self.z.copy_from_slice(z);
         let MatrixField { mean, diff, off } = &mut self.v;

@@ -96,7 +96,7 @@ fn block_sums(
 }
 
 /// Returns the ratio of the residuals' variances over long and over short stretches of the rulings, by the differences
-/// between the halves of each stretch. `few` is the weight below which so many blocks are discarded.
+/// between the halves of each stretch. `few` gives the minimum weight that a number of blocks needs in order to count.
 fn variance_ratio(
     blocks: &[[BlockSum; BLOCKS_PER_STRIPE]; STRIPE_COUNT],
     few: impl Fn(usize) -> f64,
@@ -121,8 +121,8 @@ fn variance_ratio(
 }
 
 /// Returns the mean ratio of the squared correlations between parts of the rulings to those expected by chance (G. E.
-/// P. Box, D. A. Pierce, *Distribution of residual autocorrelations*, 1970). `few` is the weight below which so many
-/// blocks are discarded.
+/// P. Box, D. A. Pierce, *Distribution of residual autocorrelations*, 1970). `few` gives the minimum weight that a
+/// number of blocks needs in order to count.
 fn correlation_ratio(
     blocks: &[[BlockSum; BLOCKS_PER_STRIPE]; STRIPE_COUNT],
     few: impl Fn(usize) -> f64,

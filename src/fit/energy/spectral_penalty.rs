@@ -223,7 +223,7 @@ impl SpectralPenalty for HuberPenalty {
         let bent = smaller(s, (weight - least) * delta);
         least * bent + 0.5 * bent * (bent / delta) + weight * (s - bent)
     }
-    /// Returns the size of a dual, and at least 1, because `(ωf)*(tY) ≤ t² (ωf)*(Y)` for `t ≤ 1` only.
+    /// Returns the size of a dual in the dual norm, and at least 1, because `(ωf)*(tY) ≤ t² (ωf)*(Y)` for `t ≤ 1` only.
     #[inline(always)]
     fn size(self, dual: Sym2, weight: f64) -> f64 {
         larger(dual.spectral_norm() / weight, 1.0)

@@ -117,7 +117,7 @@ fn neighbours(domain: &Domain, cell: usize) -> impl Iterator<Item = (usize, usiz
 #[derive(Debug, Clone)]
 pub(super) struct Extension {
     terms: Vec<Term>,
-    /// Fine vertices beside one coarse vertex alone, each with that coarse vertex.
+    /// Fine vertices that lie between two coarse vertices of which only one is in the domain, each with that one.
     single: Vec<(u32, u32)>,
 }
 

@@ -1,4 +1,4 @@
-//! Moving of a mesh's vertices on creases to the intersection of the surfaces on either side.
+//! Moves a mesh's vertices on creases to the intersection of the surfaces on either side.
 //!
 //! A quadratic fitted about a vertex next to a crease uses vertices on both sides, and blunts the crease by a part of
 //! an edge's length. So each vertex on a crease is moved, by the smallest step, to the intersection of the

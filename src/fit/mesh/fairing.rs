@@ -1,4 +1,4 @@
-//! Fairing: moving of a mesh's vertices on borders and creases to smooth curves.
+//! Fairing: moves a mesh's vertices on borders and creases to smooth curves.
 
 use nalgebra::Vector3;
 

@@ -14,10 +14,10 @@ pub struct MeshKnown {
 }
 
 impl MeshKnown {
-    /// Sets the confidence of each vertex: the weight of its fidelity; default 1.
+    /// Sets the confidence of each vertex: the weight of its fidelity term; default 1.
     ///
     /// # Errors
-    /// [`Error::NotFinite`](crate::Error::NotFinite) if one is no finite number from 0 on.
+    /// [`Error::NotFinite`](crate::Error::NotFinite) if a confidence is no finite number from 0 on.
     pub fn with_confidence(mut self, confidence: Vec<f64>) -> Result<Self> {
         check_confidence(&confidence, confidence.len())?;
         self.confidence = confidence;

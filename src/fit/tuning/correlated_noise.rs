@@ -6,16 +6,17 @@
 
 use super::curvature_scales::{CurvatureScale, Disc};
 
-/// Minimum ratio of the medians of the smaller and the larger principal curvature at which a scale is noise. Isotropic
-/// noise has 0.30 to 0.34 at every scale; a developable shape beside the noise lowers the ratio.
+/// Minimum ratio of the medians of the smaller and the larger principal curvature, in discs of one size, at which they
+/// count as curvatures of noise. Isotropic noise has 0.30 to 0.34 at every scale; a developable shape beside the noise
+/// lowers the ratio.
 const MIN_NOISE_RATIO: f64 = 0.22;
 
-/// Minimum ratio of the medians of the smaller and the larger principal curvature of isotropic noise without a visible
-/// shape beside it.
+/// Minimum ratio of the medians of the smaller and the larger principal curvature, in discs of one size, at which they
+/// count as curvatures of isotropic noise without a visible shape beside it.
 const MIN_ISOTROPIC_RATIO: f64 = 0.28;
 
-/// Minimum ratio of the medians of the smaller and the larger principal curvature of noise that is rougher in one
-/// direction, such as that of scan lines. It counts as noise only where its Hessians are incoherent.
+/// Minimum ratio of the medians of the smaller and the larger principal curvature, in discs of one size, of noise that
+/// is rougher in one direction, such as that of scan lines. It counts as noise only where its Hessians are incoherent.
 const MIN_ANISOTROPIC_RATIO: f64 = 0.1;
 
 /// Maximum coherence (mean cosine) of neighbouring discs' Hessians at which they count as incoherent.

@@ -40,9 +40,10 @@ pub(super) struct Disc {
     offsets: Vec<(isize, isize)>,
     /// Coefficients of each vertex's height in the entries `xx`, `xy` and `yy` of the Hessian, for a spacing of 1.
     hessian: Vec<[f64; 3]>,
-    /// Squared distances between the disc's vertices, for a spacing of 1, and the Frobenius product of the coefficients
-    /// of two vertices, summed over all pairs at that distance, as a share of the sum at distance 0. The Hessian of
-    /// noise with a covariance that depends on the distance has the sum of both's products as its variance.
+    /// Autocorrelation of the Hessian's coefficients: for each squared distance between vertices of the disc, at a
+    /// spacing of 1, the Frobenius product of two vertices' coefficients, summed over all pairs at that distance, as a
+    /// share of the sum at distance 0. For noise whose correlation depends on the distance alone, the sum of these
+    /// shares times the correlations is the Hessian's variance relative to white noise.
     pub autocorrelation: Vec<(f64, f64)>,
     /// Standard deviation of the Hessian's entry `xx` for white noise of standard deviation 1, at a spacing of 1.
     pub deviation: f64,

@@ -94,7 +94,7 @@ impl WarpMap {
         if trim { map.trimmed() } else { Ok(map) }
     }
 
-    /// Discards the places of all pixels outside of a polygon on the flat image; pixels whose centres are on its sides stay.
+    /// Clears all pixels of the flat image outside of a polygon on it; pixels whose centres are on its sides stay.
     fn clear_outside(&mut self, corners: &[[f64; 2]]) {
         let middle =
             [0, 1].map(|k| corners.iter().map(|p| p[k]).sum::<f64>() / corners.len() as f64);
@@ -110,7 +110,7 @@ impl WarpMap {
         }
     }
 
-    /// The map without empty rows and columns around the sheet.
+    /// Removes empty rows and columns around the sheet from the flat image.
     fn tight(mut self) -> Result<Self> {
         let width = self.width();
         let there = |i: usize| !self.places()[i][0].is_nan();
@@ -129,7 +129,7 @@ impl WarpMap {
         Ok(self)
     }
 
-    /// Rows and columns of the flat image with places inside a polygon in the photo.
+    /// Finds the rows and columns of the flat image that show places inside a polygon in the photo.
     fn bounds(&self, polygon: &[[f64; 2]]) -> Result<[Range<usize>; 2]> {
         let (mut first, mut last) = ([usize::MAX; 2], [0; 2]);
         for (row, line) in self.places().chunks_exact(self.width()).enumerate() {
@@ -153,7 +153,7 @@ impl WarpMap {
         Ok([0, 1].map(|k| first[k]..last[k]))
     }
 
-    /// The pixel of the flat image whose place is nearest to one in the photo.
+    /// Finds the pixel of the flat image whose place in the photo is nearest to the place `wanted`.
     fn nearest_pixel(&self, wanted: [f64; 2]) -> [f64; 2] {
         let mut best = (f64::INFINITY, [0.0; 2]);
         for (row, line) in self.places().chunks_exact(self.width()).enumerate() {
@@ -168,8 +168,9 @@ impl WarpMap {
         best.1
     }
 
-    /// The pixel of the flat image that shows a place in the photo: the nearest one, and from there to a place that is not on
-    /// the sheet by the derivative of the quadratic that fits the map within `window` pixels.
+    /// Position on the flat image, in pixels, that shows the place `wanted` of the photo: the nearest pixel, corrected
+    /// to the exact place by the derivative of the quadratic that fits the map within `window` pixels. So it may lie
+    /// beyond the sheet.
     fn pixel_of(&self, wanted: [f64; 2], window: f64) -> [f64; 2] {
         let nearest = self.nearest_pixel(wanted);
         let Some(fit) = LocalQuadratic::new(self, nearest, window) else {
@@ -193,8 +194,8 @@ impl WarpMap {
         }
     }
 
-    /// Rows and columns of the upright rectangle of a quadrilateral on the flat image: each side passes through the midpoint
-    /// of the two corners that lie farthest to that side.
+    /// Rows and columns of the upright rectangle that replaces a quadrilateral on the flat image: each side passes
+    /// through the midpoint of the two corners that lie farthest to that side.
     fn upright_rectangle(&self, corners: [[f64; 2]; 4]) -> [Range<usize>; 2] {
         [(1, self.height()), (0, self.width())].map(|(k, end)| {
             let mut at = corners.map(|corner| corner[k]);

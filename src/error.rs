@@ -7,7 +7,7 @@ pub use readable::{Readable, rounded};
 use readable::count;
 use thiserror::Error;
 
-/// Result type of this library, with [`Error`] as its error.
+/// Result type of this library, whose error is an [`enum@Error`].
 pub type Result<T> = std::result::Result<T, Error>;
 
 /// An error of this library: what was wrong, where, and what to do about it.

@@ -3,8 +3,8 @@
 use nalgebra::{Cholesky, Const, SMatrix, SVector};
 
 /// Normal equations `(Σ w a aᵀ + R) x = Σ w a b` of the weighted least-squares problem
-/// `min Σ w |aᵀ x − b|² + xᵀ R x`, where each observation has a row `a` of coefficients, a right-hand side of `K` values
-/// `b` and a weight `w`, and `R` is an optional diagonal (a ridge) that regularises what observations leave open.
+/// `min Σ w |aᵀ x − b|² + xᵀ R x`, where each observation has a row `a` of coefficients, a right-hand side of `K`
+/// values `b` and a weight `w`, and `R` is an optional diagonal (a ridge) that regularises what observations leave open.
 #[derive(Debug, Clone)]
 pub(crate) struct LeastSquares<const N: usize, const K: usize = 1> {
     pub matrix: SMatrix<f64, N, N>,

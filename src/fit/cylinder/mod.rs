@@ -1,5 +1,5 @@
-//! Fits of cylinders: surfaces whose rulings are all parallel, as pages of books, curled sheets and sheets with parallel
-//! folds.
+//! Fits of cylinders: surfaces whose rulings are all parallel, as pages of books, curled sheets and sheets with
+//! parallel folds.
 //!
 //! A piecewise developable surface is straight along its rulings, but their direction may change from place to place,
 //! so that noise is averaged over a neighbourhood only. A cylinder has one

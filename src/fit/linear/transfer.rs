@@ -121,8 +121,7 @@ impl Transfer {
     }
 
     /// Computes the average `A from` of each vertex of the fine domain with its neighbours, to be stored or added by
-    /// `store`. At boundary vertices it is the vertex's own value, which [`Averages`](super::border::Averages)
-    /// complete.
+    /// `store`. At boundary vertices it is the vertex's own value, which [`Averages`] completes.
     #[inline(always)]
     fn average(
         &self,

@@ -7,8 +7,8 @@ use crate::math::sym2::Sym2;
 /// Excess of a dual's size over the flatness at which the bend there counts in full towards the border's moments.
 const CLEAR_BEND_EXCESS: f64 = 0.1;
 
-/// Options of [`fit_mesh`](super::fit_mesh), with the names that they have in [`Options`](crate::Options). The energy
-/// is [`Energy::Huber`](crate::Energy::Huber).
+/// Options of [`fit_mesh`](super::fit_mesh), with the names that they have in [`Options`]. The energy is
+/// [`Energy::Huber`].
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(
     feature = "serde",

@@ -1,8 +1,9 @@
 //! Standard deviation and correlation length of noise, from the curvatures that it has at several scales.
 //!
-//! The covariance of the noise is taken to be Gaussian, as that of white noise after a Gaussian blur: `σ² exp(−d²/4ℓ²)` at
-//! the distance `d`, where `ℓ` is the blur's standard deviation. The curvature that such noise has in discs of some radius
-//! follows from the coefficients of the least-squares fit, so that `σ` and `ℓ` can be fitted to what was measured.
+//! The covariance of the noise is taken to be Gaussian, as that of white noise after a Gaussian blur:
+//! `σ² exp(−d²/4ℓ²)` at the distance `d`, where `ℓ` is the blur's standard deviation. The curvature that such noise has
+//! in discs of some radius follows from the coefficients of the least-squares fit, so that `σ` and `ℓ` can be fitted to
+//! what was measured.
 
 use super::curvature_scales::{CurvatureScale, Disc};
 

@@ -13,7 +13,7 @@ use crate::heights::heightfield::Heightfield;
 use crate::lattice::hexagonal::{Lattice, ROW_SPACING, shift};
 use crate::math::lanes;
 
-/// Resolution of the lattice over a mesh.
+/// Resolution of the lattice on which a mesh is sampled.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub enum Resolution {
@@ -27,24 +27,24 @@ pub enum Resolution {
     Auto,
 }
 
-/// Maximum number of vertices along the longer side for [`Resolution::Auto`].
+/// Number of lattice vertices along the longer side of the view for [`Resolution::Auto`].
 const AUTO_RESOLUTION: usize = 200;
 const POINTS_FOR_EACH: f64 = 4.0;
 
-/// The first hit of a ray with the mesh.
+/// The first hit of a view ray with a mesh: the triangle or point, and the position in it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub struct Hit {
-    /// Index of the triangle; in a point cloud, of the nearest visible point.
+    /// Index of the triangle that is hit; in a point cloud, of the nearest visible point.
     pub index: usize,
-    /// Barycentric coordinates in the triangle: none negative, their sum 1.
+    /// Barycentric coordinates of the hit in the triangle: none negative, their sum 1.
     pub weights: [f32; 3],
 }
 
-/// Mark of a lattice vertex whose ray hits no triangle.
+/// Marks a lattice vertex whose ray hits no triangle.
 const NO_TRIANGLE: u32 = u32::MAX;
 
-/// A mesh sampled on a lattice in the frame of a view.
+/// A mesh sampled on a lattice in the frame of a view: heights, and what each ray hits.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Samples {
     field: Heightfield,
@@ -139,7 +139,7 @@ fn nothing_seen() -> Error {
     }
 }
 
-/// Bounding box of all triangles or points in the image's plane.
+/// Bounding box of all triangles or points in the plane of the view: lower left and upper right corner.
 fn seen(mesh: &Mesh, frame: &Frame) -> ([f64; 2], [f64; 2]) {
     let (mut min, mut max) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
     let mut include = |point| {
@@ -158,22 +158,23 @@ fn seen(mesh: &Mesh, frame: &Frame) -> ([f64; 2], [f64; 2]) {
 }
 
 impl Samples {
-    /// The heights: `x` to the right, `y` up, `z` towards the viewer.
+    /// Sampled heights of the mesh: `x` to the right, `y` up, `z` towards the viewer.
     pub fn heightfield(&self) -> &Heightfield {
         &self.field
     }
 
-    /// The heights, without frame and hits.
+    /// Returns the sampled heights, without the frame of the view and the hits.
     pub fn into_heightfield(self) -> Heightfield {
         self.field
     }
 
-    /// The axes of the image in those of the mesh.
+    /// Frame of the view: the axes of the image in those of the mesh.
     pub fn frame(&self) -> &Frame {
         &self.frame
     }
 
-    /// The first hit of the ray through a lattice vertex, given by its row-major index.
+    /// The first hit of the ray through a lattice vertex, which is given by its row-major index; `None` if nothing is
+    /// hit.
     pub fn hit(&self, index: usize) -> Option<Hit> {
         let found = self.indices[index];
         (found != NO_TRIANGLE).then(|| Hit {
@@ -182,8 +183,8 @@ impl Samples {
         })
     }
 
-    /// Interpolates values at the mesh's vertices to the lattice's: linear in each triangle, the nearest
-    /// point's in a cloud, NaN where nothing was hit. For colours, texture coordinates and other attributes of
+    /// Transfers values from the mesh's vertices to the lattice's vertices: interpolated linearly in each triangle, the
+    /// nearest point's in a cloud, NaN where nothing was hit. For colours, texture coordinates and other attributes of
     /// the mesh that was sampled.
     ///
     /// # Errors
@@ -207,7 +208,7 @@ impl Samples {
         Ok(carried)
     }
 
-    /// Number of the texture that was hit through each lattice vertex: -1 where there is none. Without
+    /// Texture number at each lattice vertex, of the triangle that its ray hits: -1 where it hits none. Without
     /// [`Mesh::textures`] all triangles have number 0.
     ///
     /// # Errors
@@ -230,7 +231,7 @@ struct Buffer {
     weights: Vec<[f32; 3]>,
 }
 
-/// A corner of a triangle on the lattice: `along` a row in spacings, `down` in rows.
+/// A corner of a triangle in lattice coordinates: `along` a row in spacings, `down` in rows.
 #[derive(Clone, Copy, PartialEq, PartialOrd)]
 struct Corner {
     down: f64,
@@ -238,7 +239,8 @@ struct Corner {
     height: f64,
 }
 
-/// Intersection of a row with an edge of a triangle: `share` of the way from corner `from` to corner `to`.
+/// Intersection of a lattice row with an edge of a triangle: at the share `share` of the way from corner `from` to
+/// corner `to`.
 #[derive(Clone, Copy)]
 struct Crossing {
     along: f64,
@@ -309,7 +311,7 @@ impl Buffer {
 }
 
 impl Crossing {
-    /// Barycentric coordinates.
+    /// Barycentric coordinates of the intersection in the triangle.
     fn weights(&self) -> [f64; 3] {
         let mut weights = [0.0; 3];
         weights[self.from] += 1.0 - self.share;
@@ -318,7 +320,7 @@ impl Crossing {
     }
 }
 
-/// Intersections of a row with the border of a triangle, where it enters and leaves.
+/// Finds where a lattice row enters and leaves a triangle; `None` if it does not meet the triangle.
 fn interval(corners: &[Corner; 3], row: f64) -> Option<(Crossing, Crossing)> {
     let mut found: Option<(Crossing, Crossing)> = None;
     for (from, to) in [(0, 1), (1, 2), (2, 0)] {
@@ -334,8 +336,8 @@ fn interval(corners: &[Corner; 3], row: f64) -> Option<(Crossing, Crossing)> {
     found
 }
 
-/// Intersections of an edge with a row: one, both of its ends if it lies on the row, or none. They are the same
-/// for an edge and its reverse, to the last bit.
+/// Finds the intersections of a triangle's edge with a lattice row: one, both of its ends if it lies on the row, or
+/// none. They are equal to the last bit for an edge and its reverse.
 fn crossings(corners: &[Corner; 3], from: usize, to: usize, row: f64) -> [Option<Crossing>; 2] {
     let key = |i: usize| (corners[i].down, corners[i].along);
     let (from, to) = if key(to) < key(from) {

@@ -6,12 +6,12 @@ use crate::heights::heightfield::{HeightImage, Heightfield};
 use crate::lattice::hexagonal::Lattice;
 
 impl HeightImage {
-    /// Hard constraints of the pixels at the vertices of a surface that have a height. Each pixel with a
-    /// constraint constrains the vertex nearest to it, so that a point stays a point and a line a line; in an
-    /// area of such pixels all vertices between them are constrained. The height is bilinear between those of
-    /// the four pixels around the vertex that have one: a lone pixel's own, and along a line and within an area
-    /// exact on a slope. On a lattice so coarse that there is none of them around, it is the mean of the pixels
-    /// that constrain the vertex.
+    /// Transfers hard constraints from the pixels of this image to the vertices of a surface that have a height. Each
+    /// pixel with a constraint constrains the vertex nearest to it, so that a point stays a point and a line a line; in
+    /// an area of such pixels all vertices between them are constrained. The height is bilinear between those of the
+    /// four pixels around the vertex that have one: a lone pixel's own, and along a line and within an area exact on a
+    /// slope. On a lattice so coarse that none of these four has one, it is the mean of the pixels that constrain the
+    /// vertex.
     ///
     /// # Errors
     /// [`Error::OutOfMemory`](crate::Error::OutOfMemory).
@@ -42,7 +42,7 @@ impl HeightImage {
         Heightfield::new(*lattice, heights)
     }
 
-    /// Flags of the pixels at the vertices of a lattice: each vertex has those of its nearest pixel.
+    /// Transfers flags from the pixels to the vertices of a lattice: each vertex gets the flag of its nearest pixel.
     ///
     /// # Errors
     /// [`Error::Shape`](crate::Error::Shape) if there is not one for each pixel, [`Error::OutOfMemory`](crate::Error::OutOfMemory).
@@ -56,8 +56,8 @@ impl HeightImage {
         Ok(out)
     }
 
-    /// Flags of a lattice's vertices at the pixels: each pixel with a height has those of its nearest vertex,
-    /// the others 0.
+    /// Transfers flags from a lattice's vertices to the pixels: each pixel with a height gets the flag of its nearest
+    /// vertex, the others 0.
     ///
     /// # Errors
     /// [`Error::Shape`](crate::Error::Shape) if there is not one for each vertex, [`Error::OutOfMemory`](crate::Error::OutOfMemory).
@@ -74,13 +74,14 @@ impl HeightImage {
     }
 }
 
-/// Index of the pixel around a point; on the border of two the right or lower one's.
+/// Index of the pixel that contains a point; on the border of two pixels the right or lower one. None outside of the
+/// image.
 fn nearest_pixel(image: &HeightImage, p: [f64; 2]) -> Option<usize> {
     let [u, v] = in_pixels(image, p).map(|w| (w + 0.5 + ON_GRID).floor());
     pixel_at(image, v, u)
 }
 
-/// Index of the vertex nearest to a point among the corners of its triangle that count.
+/// Index of the vertex nearest to a point, among the corners of the point's lattice triangle that satisfy `counts`.
 fn nearest_vertex(lattice: &Lattice, p: [f64; 2], counts: impl Fn(usize) -> bool) -> Option<usize> {
     // In an equilateral triangle the nearest corner is the one of the largest weight.
     let triangle = lattice.locate(p);
@@ -92,7 +93,7 @@ fn nearest_vertex(lattice: &Lattice, p: [f64; 2], counts: impl Fn(usize) -> bool
         .map(|(vertex, _)| vertex)
 }
 
-/// The bilinear mean of the corners that have a height, and their share of the weights.
+/// Bilinear mean of those of the four pixels around a point that have a height, and the sum of their weights.
 fn mean(cell: &Cell) -> (f64, f64) {
     let weights = bilinear_weights(cell.fx, cell.fy);
     let (sum, share) = (cell.corners.iter().zip(weights))

@@ -50,9 +50,9 @@ pub enum Error {
         what: &'static str,
         /// The first value that is not finite: an infinity or NaN.
         value: f64,
-        /// Row of that value, counted from 0 at the top.
+        /// Row of the value that is not finite, counted from 0 at the top.
         row: usize,
-        /// Column of that value, counted from 0 at the left.
+        /// Column of the value that is not finite, counted from 0 at the left.
         col: usize,
         /// What the user can give instead, as the end of the message.
         advice: &'static str,

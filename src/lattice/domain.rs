@@ -135,7 +135,7 @@ impl Domain {
         })
     }
 
-    /// The lattice whose vertices have the roles.
+    /// The lattice that the domain is a part of.
     pub fn lattice(&self) -> &Lattice {
         &self.lattice
     }

@@ -13,10 +13,12 @@ const BLOCKS_PER_STRIPE: usize = 48;
 /// Share of the rulings at either end whose residuals are left out: depths are biased at outlines.
 const END_SHARE: f64 = 0.04;
 
-/// Number of blocks in half a long stretch of the rulings, for each of the lengths whose variance is tested.
+/// Number of blocks of residuals in half of a long stretch of the rulings, for each length of stretches whose variance
+/// is tested.
 const LONG_HALF_BLOCKS: [usize; 3] = [24, 12, 6];
 
-/// Number of blocks in half of the short stretch that long stretches are compared with.
+/// Number of blocks of residuals in half of a short stretch of the rulings, whose variance that of long stretches is
+/// compared with.
 const SHORT_HALF_BLOCKS: usize = 3;
 
 /// Number of parts of the rulings whose mean residuals are tested for correlation.
@@ -25,8 +27,8 @@ const CORRELATED_PARTS: usize = 12;
 /// Maximum distance, in parts, of two parts of the rulings that are tested for correlation.
 const MAX_LAG_PARTS: usize = 6;
 
-/// Product of both tests' ratios for the noise of depth images, which is correlated over a part of the short stretch:
-/// noise smoothed by a Gaussian of 2 pixels, on pages half as large as the image.
+/// Product of the ratios that [`variance_ratio`] and [`correlation_ratio`] find for the noise of depth images, by which
+/// their product is divided: noise smoothed by a Gaussian of 2 pixels, on pages half as large as the image.
 const DEPTH_NOISE_PRODUCT: f64 = 4.7;
 
 /// Maximum excess of the residuals' correlation at which a surface counts as a cylinder. Chosen on the pages of
@@ -48,7 +50,7 @@ pub(super) struct FitResidual {
 /// Sums over a block of residuals: of weight times residual, and of weights.
 type BlockSum = [f64; 2];
 
-/// Adds up the sums of several blocks.
+/// Adds up the sums of several blocks of residuals.
 fn sum(blocks: &[BlockSum]) -> BlockSum {
     let add = |[value, weight]: BlockSum, block: &BlockSum| [value + block[0], weight + block[1]];
     blocks.iter().fold([0.0; 2], add)

@@ -28,7 +28,7 @@ pub(crate) struct Rings {
     rings: Vec<Vec<u32>>,
     /// Number of the ring that each vertex is in, or `u32::MAX` if it is in none.
     depth: Vec<u32>,
-    /// Number of rings from the border to where moments are undisturbed by it.
+    /// Number of rings from the border to the vertices whose bending moments the border does not disturb.
     reach: u32,
 }
 
@@ -125,8 +125,8 @@ impl Rings {
 }
 
 impl<O: Operator> Problem<O> {
-    /// Returns the number of rings from the border to where its moments no longer disturb those inside. `bend_radius`
-    /// is `1/δ`.
+    /// Returns the number of rings from the border to the vertices whose bending moments the border does not disturb.
+    /// `bend_radius` is `1/δ`.
     pub(crate) fn reach(&self, bend_radius: f64) -> u32 {
         let length = (2.0 * bend_radius / self.lambda).powf(0.25);
         ((BORDER_REACH_LENGTHS * length / self.operator.spacing()).ceil()).clamp(2.0, 1e6) as u32

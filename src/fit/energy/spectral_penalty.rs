@@ -174,15 +174,16 @@ impl HuberParameters {
     }
 }
 
-/// Dual step of [`HuberPenalty`] for one ρ: with `c = ρδ`, `Y` is `V` with its eigenvalues clamped to `±φ′(‖H‖_*)`,
-/// which follows from the sum over the eigenvalues that are left, both or one, as for [`SquaredNuclearNorm`].
+/// Step from `V = Y + ρH` to the dual `Y` of [`HuberPenalty`] for one ρ: with `c = ρδ`, `Y` is `V` with its eigenvalues
+/// clamped to `±φ′(‖H‖_*)`, where `‖H‖_*` follows from the sum over the eigenvalues of `V` beyond that limit, both or
+/// one.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct HuberStep<T> {
     flatness: T,
     c: T,
-    /// Factor `2/(2 + c)` of the step where both eigenvalues are left.
+    /// Factor `2/(2 + c)` of the step where both eigenvalues are beyond the limit that they are clamped to.
     both: T,
-    /// Factor `1/(1 + c)` of the step where one eigenvalue is left.
+    /// Factor `1/(1 + c)` of the step where one eigenvalue is beyond the limit that they are clamped to.
     one: T,
 }
 

@@ -29,9 +29,9 @@ pub(super) struct Averages {
 #[derive(Debug, Clone, Copy)]
 struct Average {
     cell: u32,
-    /// Neighbours that the vertex is averaged with, as bits.
+    /// Directions of the neighbours that the vertex is averaged with, one bit for each of the six.
     pairs: u8,
-    /// Neighbours that are interior, and whose own averages include this vertex, as bits.
+    /// Directions of the interior neighbours, whose own averages include this vertex, one bit for each of the six.
     interior: u8,
 }
 

@@ -66,7 +66,8 @@ struct Floor {
     /// Cholesky factor of the matrix on the coarsest lattice of a cycle, where Chebyshev's iteration would take too
     /// long.
     direct: Option<Cholesky<f32, Dyn>>,
-    /// Right-hand side; the next three fields are solution, last step of the smoother, and residual.
+    /// Right-hand side of the lattice's linear system; the fields `x`, `step` and `residual` are its solution, the
+    /// smoother's last step, and its residual.
     b: Vec<f32>,
     x: Vec<f32>,
     step: Vec<f32>,

@@ -74,7 +74,7 @@ pub(super) struct CorrelatedNoise {
     pub length: f64,
     /// Number of vertices that share one independent value of the noise: the sum of its correlations over the lattice.
     pub shared_vertices: f64,
-    /// Whether no fitted covariance explains all scales, so that most of the noise may be shape.
+    /// Whether no fitted covariance explains the curvatures at all scales, so that most of the noise may be shape.
     pub ambiguous: bool,
 }
 
@@ -194,15 +194,14 @@ impl Covariance {
         self.sigma * self.shared_vertices.sqrt()
     }
 
-    /// Predicts the white equivalent that this noise has at a scale: the standard deviation of white noise with the
-    /// same curvatures.
+    /// Predicts the standard deviation of white noise that has the same curvatures at a scale as this noise.
     fn predict(&self, scale: &CurvatureScale, discs: &[Disc]) -> f64 {
         self.sigma * response(scale, discs, self.length)
     }
 }
 
-/// Returns the white equivalent, at a scale, of noise of standard deviation 1 and a correlation length in spacings: the
-/// standard deviation of white noise with the same curvatures.
+/// Returns the standard deviation of white noise that has, at a scale, the same curvatures as noise of standard
+/// deviation 1 with this correlation length in spacings.
 fn response(scale: &CurvatureScale, discs: &[Disc], length: f64) -> f64 {
     if length == 0.0 {
         return 1.0;

@@ -120,7 +120,8 @@ pub(super) struct CurvatureScale {
     pub count: usize,
     /// Ratio of the median of the smaller absolute principal curvature to the median of the larger one.
     pub ratio: f64,
-    /// Standard deviation of white noise on the input's lattice whose smaller principal curvature has the same median.
+    /// Standard deviation of white noise on the input's lattice for which the smaller principal curvature has the same
+    /// median.
     pub white_equivalent: f64,
     /// Mean cosine between the Hessians (as vectors of their entries) of discs side by side, along the direction in
     /// which it is least. It is about 0 for noise and 1 for a shape.

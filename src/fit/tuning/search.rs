@@ -79,8 +79,8 @@ const CORRELATED_FLATNESS_GAIN: f64 = 0.15;
 const CORRELATED_CREASE_GAIN: f64 = 0.045;
 
 /// Minimum relative reduction of the mean squared prediction error at which a penalty of larger crease radius is chosen
-/// where noise is correlated on the input's lattice but white on the coarse one that is searched: creases follow it
-/// there, too.
+/// where noise is correlated on the input's lattice but white on the coarse lattice of the search: on the input's
+/// lattice creases would follow the noise.
 const FINER_CREASE_GAIN: f64 = 0.021;
 
 /// Number of standard errors by which another penalty must predict held-out heights better under correlated noise,

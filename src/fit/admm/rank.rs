@@ -183,7 +183,7 @@ mod tests {
             prop_assert_eq!(part.eigenvalues(), [0.5 * value; 2]);
         }
 
-        /// Within the limit all of the smaller eigenvalue, beyond it the less the larger it is.
+        /// The part that is removed has all of the smaller eigenvalue within the limit, and less of a larger one.
         #[test]
         fn what_is_left_has_the_larger_eigenvalue_alone(
             xx in -5.0..5.0f64, xy in -5.0..5.0f64, yy in -5.0..5.0f64, limit in 0.01..8.0f64,

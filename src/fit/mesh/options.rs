@@ -40,8 +40,8 @@ impl Default for MeshOptions {
 }
 
 impl MeshOptions {
-    /// Sets the weight λ of the fidelity term, in coordinates in which the bounding sphere of the mesh has the diameter
-    /// 1. Default [`Lambda::Auto`], which is `6.4/σh` for noise of standard deviation `σ` and a spacing `h`.
+    /// Sets the weight λ of the fidelity term, in coordinates in which the mesh's bounding sphere has the diameter 1.
+    /// Default [`Lambda::Auto`], which is `6.4/σh` for noise of standard deviation `σ` and a spacing `h`.
     pub fn lambda(mut self, lambda: impl Into<Lambda>) -> Self {
         self.lambda = lambda.into();
         self

@@ -511,7 +511,7 @@ mod tests {
         }
     }
 
-    /// Candidates with λ too large for the noise have neither cheap flat parts nor passes.
+    /// Candidates whose λ is too large for the noise have a large flatness and no crease passes.
     #[test]
     fn candidates_are_guarded() {
         let first = Options::default().energy(Energy::Huber).lambda(1e4);
@@ -522,7 +522,7 @@ mod tests {
         assert_eq!(at(2).flatness, Some(1.0));
     }
 
-    /// A lattice without a hole, four times as wide as what the search needs.
+    /// The input is a lattice without holes, large enough for a search on the lattice of twice the spacing.
     #[test]
     fn the_search_goes_on_to_the_best_bending_and_then_to_the_best_lambda() {
         let lattice = Lattice::new(90, 90, 1.0).unwrap();

@@ -312,7 +312,7 @@ fn sample(&Cell { corners, fx, fy }: &Cell) -> f64 {
     bilinear(snap(fx), snap(fy))
 }
 
-/// Rounds a weight to 0 or 1 if it differs by rounding errors alone.
+/// Rounds an interpolation weight to 0 or 1 if it differs from that by rounding errors only.
 fn snap(weight: f64) -> f64 {
     if weight.abs() < ON_GRID {
         0.0
@@ -323,7 +323,7 @@ fn snap(weight: f64) -> f64 {
     }
 }
 
-/// Indices of the up to eight pixels around pixel `i`.
+/// Indices of the up to eight pixels around pixel `i` of an image.
 fn neighbours(image: &HeightImage, i: usize) -> impl Iterator<Item = usize> {
     let (width, height) = (image.width(), image.height());
     let (row, col) = (i / width, i % width);

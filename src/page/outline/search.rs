@@ -51,7 +51,7 @@ fn are_same(one: &[[f64; 2]; 4], other: &[[f64; 2]; 4], tolerance: f64) -> bool 
     (0..4).any(|turn| (0..4).all(|k| distance(one[k], other[(k + turn) % 4]) <= tolerance))
 }
 
-/// Whether two quadrilaterals are disjoint: neither contains a corner or the middle of the other one.
+/// Whether two quadrilaterals are disjoint: neither contains a corner or the centre of the other one; they may touch.
 fn are_apart(one: &[[f64; 2]; 4], other: &[[f64; 2]; 4]) -> bool {
     let free = |a: &[[f64; 2]; 4], b: &[[f64; 2]; 4]| {
         let middle = [0, 1].map(|j| b.iter().map(|p| 0.25 * p[j]).sum());
@@ -64,7 +64,8 @@ fn are_apart(one: &[[f64; 2]; 4], other: &[[f64; 2]; 4]) -> bool {
     free(one, other) && free(other, one)
 }
 
-/// Turns an outline so that its upper edge is that of the page as it is read, or that of the photo if the print does not tell.
+/// Rotates an outline's lists of corners and edges so that the upper edge of the page as it is read comes first, or the
+/// photo's upper edge if the print does not tell.
 fn upright(outline: PageOutline, views: &Views) -> PageOutline {
     let first = (0..4).min_by(|a, b| {
         let height = |k: &usize| {

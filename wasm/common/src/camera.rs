@@ -1,4 +1,4 @@
-//! Cameras in.
+//! Cameras read from JavaScript objects.
 
 use wasm_bindgen::prelude::*;
 
@@ -6,7 +6,8 @@ use super::options::{entries, option, unknown};
 use super::{Failure, Result};
 use developable::{Camera, Depth, Error, Intrinsics, Pose};
 
-/// `Intrinsics` of `types.d.ts`.
+/// Reads the intrinsics of a depth camera from JavaScript's `Intrinsics` object; a pose (`rotation` or `translation`)
+/// is an error.
 pub fn intrinsics(camera: &JsValue) -> Result<Intrinsics> {
     let Camera { intrinsics, pose } = read(camera)?;
     if pose == Pose::default() {
@@ -17,7 +18,7 @@ pub fn intrinsics(camera: &JsValue) -> Result<Intrinsics> {
     ))
 }
 
-/// `PhotoCamera` of `types.d.ts`.
+/// Reads a camera that takes photos, with its pose, from JavaScript's `PhotoCamera` object.
 pub fn photo_camera(camera: &JsValue) -> Result<Camera> {
     read(camera)
 }

@@ -1,8 +1,8 @@
 //! Texture coordinates across the seams of charts.
 //!
-//! A scanner's texture is an atlas: charts lie beside each other in any order. A triangle of the sheet whose corners are in
-//! different charts must not interpolate between them, or it shows what lies in between. Each point of it is mapped by its
-//! nearest corner's chart instead.
+//! A scanner's texture is an atlas: charts lie beside each other in any order. A triangle of the sheet whose corners
+//! are in different charts must not interpolate between them, or it shows what lies in between. Each point of it is
+//! mapped by its nearest corner's chart instead.
 
 use nalgebra::{Matrix2, Vector2};
 

@@ -11,16 +11,16 @@ use crate::error::{Error, Result};
 use crate::math::planar::{polygon_area, polygon_contains};
 use crate::scene::region::check_crop;
 
-/// Maximum distance by which the sheet is continued beyond its border, as a share of the longer side of the cropped image.
-/// Limits how much of a flat image is extrapolated.
+/// Maximum distance by which the sheet is continued beyond its border, as a share of the longer side of the cropped
+/// image. Limits how much of a flat image is extrapolated.
 const MAX_CONTINUATION_SHARE: f64 = 0.06;
 
 impl WarpMap {
-    /// Crops the map to a polygon in the photo, given by its corners in pixels, `[0, 0]`
-    /// the centre of the upper left one. The sheet is continued to the polygon's sides, by up to 6 % of
-    /// the cropped image's longer side, and the flat image ends there, with straight edges; it is the smallest one that
-    /// holds the polygon. Four corners are those of a page: its edges are straight on the sheet, however bent they are in the
-    /// photo. Costs `O(pixels · corners)`.
+    /// Crops the map to a polygon in the photo, given by its corners in pixels, `[0, 0]` the centre of the upper left
+    /// one. The sheet is continued to the polygon's sides, by up to 6 % of the cropped image's longer side, and the
+    /// flat image ends there, with straight edges; it is the smallest one that holds the polygon. Four corners are
+    /// those of a page: its edges are straight on the sheet, however bent they are in the photo. Costs `O(pixels ·
+    /// corners)`.
     ///
     /// # Errors
     /// [`Error::Option`] for fewer than three corners or one that is not finite,
@@ -29,14 +29,15 @@ impl WarpMap {
         self.cut(Some(polygon), false, false)
     }
 
-    /// [Crops](WarpMap::crop) the map, turns it upright (`deskew`), and cuts it to a rectangle without margins (`trim`).
+    /// [Crops](WarpMap::crop) the map, turns it upright (`deskew`), and cuts it to a rectangle without margins
+    /// (`trim`).
     ///
-    /// Deskewing turns the sides of the polygon upright, on average, or without a polygon the smallest rectangle around the
-    /// sheet; [`corner`](WarpMap::corner) is then in axes turned about the sheet's origin. Trimming to a polygon with four
-    /// corners, such as those of a page, gives the rectangle whose sides pass
-    /// through the midpoints between two corners, whether its edges are seen straight
-    /// or bent; what is not known of the page, and farther from the sheet than that is continued, stays transparent. Otherwise
-    /// it gives the largest upright rectangle within the sheet.
+    /// Deskewing turns the sides of the polygon upright, on average, or without a polygon the smallest rectangle around
+    /// the sheet; [`corner`](WarpMap::corner) is then in axes turned about the sheet's origin. Trimming to a polygon
+    /// with four corners, such as those of a page, gives the rectangle whose sides pass through the midpoints between
+    /// two corners, whether its edges are seen straight or bent; what is not known of the page, and farther from the
+    /// sheet than that is continued, stays transparent. Otherwise it gives the largest upright rectangle within the
+    /// sheet.
     ///
     /// [`loss`](WarpMap::loss) then tells how much of the sheet or page the image leaves out.
     ///

@@ -7,9 +7,9 @@ use crate::math::lanes;
 
 /// A warp map at the nodes of a grid over the flat image.
 ///
-/// Node `[i, j]` is at the pixel `[i · step, j · step]`, `[0, 0]` being the centre of the upper left
-/// pixel and the last node that of the lower right one; places in between are bilinear. The grid applies to flat images of
-/// any size, by shares of the way from the first node to the last one.
+/// Node `[i, j]` is at the pixel `[i · step, j · step]`, `[0, 0]` being the centre of the upper left pixel and the last
+/// node that of the lower right one; places in between are bilinear. The grid applies to flat images of any size, by
+/// shares of the way from the first node to the last one.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub struct WarpGrid {

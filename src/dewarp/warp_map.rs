@@ -37,14 +37,13 @@ const MAX_FLAT_DISPLACEMENT: f64 = 0.002;
 const NO_PLACE: [f32; 2] = [f32::NAN; 2];
 
 impl WarpMap {
-    /// The map of an unrolled surface for a photo of `photo` (width and height) pixels. The registration tells where the
-    /// photo shows the surface's points: by an [`Extent`](super::Extent) of the plane, a camera, or texture
+    /// The map of an unrolled surface for a photo of `photo` (width and height) pixels. The registration tells where
+    /// the photo shows the surface's points: by an [`Extent`](super::Extent) of the plane, a camera, or texture
     /// coordinates.
     ///
-    /// Within each triangle of the sheet points of the surface are interpolated linearly, and so are places in
-    /// the photo but for a camera's perspective. Where components of the sheet overlap, the map shows the larger one; where
-    /// one overlaps itself, the upper left triangle of the
-    /// surface. Costs `O(pixels + triangles)`.
+    /// Within each triangle of the sheet points of the surface are interpolated linearly, and so are places in the
+    /// photo but for a camera's perspective. Where components of the sheet overlap, the map shows the larger one; where
+    /// one overlaps itself, the upper left triangle of the surface. Costs `O(pixels + triangles)`.
     ///
     /// # Errors
     /// [`Error::Option`] for a resolution that is not positive and finite, [`Error::Empty`] for an

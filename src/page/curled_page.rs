@@ -92,11 +92,11 @@ impl CurledPage {
         Self::with_lines(edges, &[], photo, options)
     }
 
-    /// Finds a page by its traced edges and by lines of text, which are traced like edges but from their beginning to their
-    /// end, for each page in the order of `edges`. Lines of text are level on the flat page. If the
-    /// bent edges are those above and below the text, each line is a further cross-section; if they are
-    /// those beside it, each line is a ruling, and straight. Lines of text show whether a page is folded or bent both ways
-    /// between its edges, and check pages whose edges do not check each other.
+    /// Finds a page by its traced edges and by lines of text, which are traced like edges but from their beginning to
+    /// their end, for each page in the order of `edges`. Lines of text are level on the flat page. If the bent edges
+    /// are those above and below the text, each line is a further cross-section; if they are those beside it, each line
+    /// is a ruling, and straight. Lines of text show whether a page is folded or bent both ways between its edges, and
+    /// check pages whose edges do not check each other.
     ///
     /// The print may be turned on its page by about half a degree. At most 800 points of all lines are
     /// used, and at most 24 of one line.

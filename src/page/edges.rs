@@ -12,8 +12,8 @@ pub enum Trace {
     Beziers(Vec<[f64; 2]>),
 }
 
-/// The traced edges of a page: the two that are bent, or all four. Each runs from left to right, or from top to bottom; if
-/// all run the other way, they are reversed.
+/// The traced edges of a page: the two that are bent, or all four. Each runs from left to right, or from top to bottom;
+/// if all run the other way, they are reversed.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub enum Edges {
@@ -31,8 +31,8 @@ pub enum Edges {
         /// The right edge.
         right: Trace,
     },
-    /// All four edges, of which two opposite ones are bent and the others straight; which ones are bent is found out. The
-    /// straight ones check the page: they show a fold along the bent ones.
+    /// All four edges, of which two opposite ones are bent and the others straight; which ones are bent is found out.
+    /// The straight ones check the page: they show a fold along the bent ones.
     All {
         /// The upper edge, as the page is read.
         top: Trace,

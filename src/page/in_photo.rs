@@ -19,11 +19,11 @@ impl CurledPage {
     ///
     /// Lines that agree with the edges make the page more exact. Lines that do not are not used for the page, but
     /// change the verdict: the page is folded, crumpled or bent both ways. Handwriting, pictures and blank pages have
-    /// no lines. [`CurledPage::text`] has the lines that were found, [`PageReport::lines_found`](super::PageReport) their
-    /// number.
+    /// no lines. [`CurledPage::text`] has the lines that were found, [`PageReport::lines_found`](super::PageReport)
+    /// their number.
     ///
-    /// Costs about ten times as much as [`CurledPage::new`], and `O(pixels of the page)`, of which there are at most about
-    /// four million.
+    /// Costs about ten times as much as [`CurledPage::new`], and `O(pixels of the page)`, of which there are at most
+    /// about four million.
     ///
     /// # Errors
     /// Those of [`CurledPage::with_lines`].

@@ -11,8 +11,8 @@ pub enum FocalLength {
     Pixels(f64),
     /// Field of view along the photo's longer side, in degrees.
     FieldOfView(f64),
-    /// Focal length in millimetres of a camera for 35 mm film (36 by 24 mm) with the same diagonal field of view: Exif's
-    /// `FocalLengthIn35mmFilm`. Its standard deviation is taken to be 2 %.
+    /// Focal length in millimetres of a camera for 35 mm film (36 by 24 mm) with the same diagonal field of view:
+    /// Exif's `FocalLengthIn35mmFilm`. Its standard deviation is taken to be 2 %.
     Film35(f64),
 }
 

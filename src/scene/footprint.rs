@@ -1,8 +1,8 @@
 //! The part of the depths that shows a page with four known corners, however its edges are bent.
 //!
-//! Seen by a camera, the edge of a bent page is no straight line between two corners. Seen along the normal of the plane
-//! through its corners it nearly is: an edge bends out of that plane. So a depth belongs to the page if its point, moved along
-//! that normal, lies between the corners.
+//! Seen by a camera, the edge of a bent page is no straight line between two corners. Seen along the normal of the
+//! plane through its corners it nearly is: an edge bends out of that plane. So a depth belongs to the page if its
+//! point, moved along that normal, lies between the corners.
 
 use nalgebra::{Vector2, Vector3};
 

@@ -45,7 +45,8 @@ impl HeightImage {
     /// Transfers flags from the pixels to the vertices of a lattice: each vertex gets the flag of its nearest pixel.
     ///
     /// # Errors
-    /// [`Error::Shape`](crate::Error::Shape) if there is not one for each pixel, [`Error::OutOfMemory`](crate::Error::OutOfMemory).
+    /// [`Error::Shape`](crate::Error::Shape) if there is not one for each pixel,
+    /// [`Error::OutOfMemory`](crate::Error::OutOfMemory).
     pub fn flags_on(&self, lattice: &Lattice, flags: &[u8]) -> Result<Vec<u8>> {
         check_shape("occlusions", self.height(), self.width(), flags.len())?;
         let mut out = try_filled("flags", lattice.len(), 0)?;
@@ -60,7 +61,8 @@ impl HeightImage {
     /// vertex, the others 0.
     ///
     /// # Errors
-    /// [`Error::Shape`](crate::Error::Shape) if there is not one for each vertex, [`Error::OutOfMemory`](crate::Error::OutOfMemory).
+    /// [`Error::Shape`](crate::Error::Shape) if there is not one for each vertex,
+    /// [`Error::OutOfMemory`](crate::Error::OutOfMemory).
     pub fn flags_from(&self, lattice: &Lattice, flags: &[u8]) -> Result<Vec<u8>> {
         check_shape("occlusions", lattice.rows(), lattice.cols(), flags.len())?;
         let mut out = try_filled("flags", self.values().len(), 0)?;

@@ -21,7 +21,7 @@ pub struct WarpMap {
     corner: [f64; 2],
     places: Vec<[f32; 2]>,
     loss: f64,
-    /// Share of the sheet's area that covers another part of the sheet.
+    /// Share of the area of the flat sheet that overlaps another part of it.
     overlap: f64,
 }
 

@@ -140,7 +140,7 @@ impl Occlusions {
         &self.edges
     }
 
-    /// Number of vertices where no Hessian is taken.
+    /// Number of vertices at occlusions, where no Hessian is taken.
     pub fn len(&self) -> usize {
         self.vertices.iter().filter(|v| **v != 0).count()
     }

@@ -303,7 +303,7 @@ impl CrossSections {
         Some(())
     }
 
-    /// Returns the weighted sum of squares of all lines' residuals, in pixels².
+    /// Returns the weighted sum of squares of the residuals of all lines' points, in pixels².
     pub fn squares(&self, off: &[LineResiduals]) -> f64 {
         (self.list.iter().zip(off))
             .map(|(cross, own)| {

@@ -27,7 +27,7 @@ pub(super) struct Cylinder {
     pub origin: Vector3<f64>,
     /// Length of the rulings, in widths of the first page.
     pub length: f64,
-    /// Curve of each page across the rulings.
+    /// Each page's curve across the rulings: the cylinder's cross-section.
     pub pages: Vec<CurveSeries>,
     /// Angle by which the print is rotated on each page, in radians; empty if there are no lines of text.
     pub skews: Vec<f64>,

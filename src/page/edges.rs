@@ -21,14 +21,14 @@ pub enum Edges {
     TopBottom {
         /// The upper edge, as the page is read.
         top: Trace,
-        /// The lower edge.
+        /// The lower edge of the page.
         bottom: Trace,
     },
     /// The left and the right edge, of a page whose rulings run from left to right.
     LeftRight {
         /// The left edge, as the page is read.
         left: Trace,
-        /// The right edge.
+        /// The right edge of the page.
         right: Trace,
     },
     /// All four edges, of which two opposite ones are bent and the others straight; which ones are bent is found out.
@@ -36,11 +36,11 @@ pub enum Edges {
     All {
         /// The upper edge, as the page is read.
         top: Trace,
-        /// The lower edge.
+        /// The lower edge of the page.
         bottom: Trace,
         /// The left edge.
         left: Trace,
-        /// The right edge.
+        /// The right edge of the page.
         right: Trace,
     },
 }

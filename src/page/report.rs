@@ -45,7 +45,7 @@ pub enum PageModel {
     Plane,
     /// A cylinder over any curve: a page that is curled in one direction.
     Cylinder,
-    /// An isometric sheet of any shape: a page that is folded, or bent both ways.
+    /// An isometric sheet of any shape, bent without strain: a page that is folded, or bent both ways.
     Sheet,
     /// A sheet that is slightly strained: a crumpled page, whose wrinkles are too small to be visible in its outline.
     SoftSheet,
@@ -62,7 +62,7 @@ pub enum PageModel {
 pub struct PageReport {
     /// Whether the flat page can be trusted.
     pub verdict: PageVerdict,
-    /// Model of the page's shape.
+    /// Model that was fitted to the page's shape: plane, cylinder or sheet.
     pub model: PageModel,
     /// Expected displacement of points on the flat page: the root mean square after the best
     /// similarity, in % of a page's width.

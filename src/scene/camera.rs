@@ -2,7 +2,7 @@
 
 use crate::error::{Error, Result, positive};
 
-/// Kind of distance that the values of a depth image are.
+/// What the values of a depth image measure: the distance along the camera's axis or along the line of sight.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
 #[non_exhaustive]
 pub enum Depth {

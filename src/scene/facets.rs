@@ -93,7 +93,7 @@ impl Facets {
         let heights = self.heights();
         let mut labels = self.basins(&heights, 0.5 * bend)?;
         self.merge(&mut labels, fold)?;
-        self.give_away(&mut labels, share);
+        self.dissolve_small_parts(&mut labels, share);
         self.merge(&mut labels, fold)?;
         Ok(labels)
     }
@@ -185,7 +185,7 @@ impl Facets {
 
     /// Dissolves small parts: those below the share `share` of the area give each triangle to the neighbouring part
     /// towards which it bends least.
-    fn give_away(&self, labels: &mut [u32], share: f64) {
+    fn dissolve_small_parts(&self, labels: &mut [u32], share: f64) {
         let mut areas = vec![0.0; labels.len()];
         for (label, area) in labels.iter().zip(&self.areas) {
             areas[*label as usize] += area;
@@ -213,7 +213,7 @@ impl Facets {
             }
         }
         for a in 0..labels.len() as u32 {
-            regions.wait(a);
+            regions.enqueue_borders(a);
         }
         while let Some((a, b)) = regions.next() {
             sets.union(a, b);
@@ -262,7 +262,7 @@ impl Regions {
     }
 
     /// Adds a part's borders with higher-numbered neighbours to the queue.
-    fn wait(&mut self, a: u32) {
+    fn enqueue_borders(&mut self, a: u32) {
         for b in self.around[a as usize].iter().filter(|b| **b > a) {
             if let Some(angle) = self.angle(a, *b) {
                 self.queue.push(Reverse((angle, a, *b)));

@@ -20,7 +20,7 @@ pub enum Resolution {
     /// Number of vertices along the longer side of the view, at least 2: the spacing is that side over one
     /// less.
     Across(usize),
-    /// Distance between neighbours on the lattice, in the mesh's units.
+    /// Distance between neighbouring vertices of the lattice, in the mesh's units.
     Spacing(f64),
     /// 200 vertices along the longer side; for a point cloud fewer, if there would be less than four points for each
     /// vertex of the box around them.

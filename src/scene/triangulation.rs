@@ -118,7 +118,7 @@ impl Triangulation {
         self.mesh.triangles()
     }
 
-    /// The triangle mesh.
+    /// The heightfield's triangle mesh.
     pub fn mesh(&self) -> &Mesh {
         &self.mesh
     }

@@ -68,14 +68,14 @@ pub(super) struct Crossings<'a> {
     confidence: &'a [f64],
     /// Distance between neighbouring cells, in units of height.
     spacing: f64,
-    /// Sites around a cell in an even row, and around one in an odd row.
+    /// Sites (relative positions of further cells) around a cell in an even row, and around one in an odd row.
     sites: [Sites; 2],
 }
 
 /// Buffers for the heights around a cell, used again for each cell.
 #[derive(Default)]
 struct Scratch {
-    /// Indices of the sites that have a height.
+    /// Indices of those sites around the cell that have a height.
     found: Vec<usize>,
     /// Height of each site, and later its distance from the plane; NaN where there is none.
     residuals: Vec<f64>,
@@ -230,7 +230,7 @@ impl<'a> Crossings<'a> {
     }
 }
 
-/// Typical noise around holes: medians over all holes.
+/// Typical noise of the heights around holes: medians over all holes.
 struct Typical {
     /// Median over all holes of the mean squared difference between slopes beside a hole.
     spread: f64,

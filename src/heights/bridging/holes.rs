@@ -30,7 +30,8 @@ pub(super) fn narrow(raster: &Raster, heights: &[f64], width: usize) -> Result<V
         .collect())
 }
 
-/// Marks the cells that are at most `steps` steps from one of the `seeds`.
+/// Returns for each cell of the raster whether it can be reached from one of the `seeds` by at most `steps` steps
+/// between neighbouring cells.
 fn reached(raster: &Raster, seeds: Vec<usize>, steps: usize) -> Result<Vec<bool>> {
     let mut reached = try_filled("bridged holes", raster.cells(), false)?;
     for cell in &seeds {

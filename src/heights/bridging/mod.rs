@@ -172,7 +172,7 @@ pub struct BridgedImage {
 pub(crate) struct OnLattice {
     pub heights: Heightfield,
     pub confidence: Option<Vec<f64>>,
-    /// Number of vertices that have a height only because of bridged pixels.
+    /// Number of lattice vertices that have a height only because a hole in the image was bridged.
     pub bridges: usize,
 }
 
@@ -275,12 +275,12 @@ impl BridgedImage {
         })
     }
 
-    /// Number of pixels that were bridged.
+    /// Number of pixels in holes that were bridged, that is filled with a height.
     pub fn len(&self) -> usize {
         self.bridged
     }
 
-    /// Whether no pixel was bridged.
+    /// Whether no hole was bridged.
     pub fn is_empty(&self) -> bool {
         self.bridged == 0
     }

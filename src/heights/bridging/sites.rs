@@ -14,7 +14,7 @@ pub(super) struct Sites {
 pub(super) struct Site {
     pub offset: isize,
     pub place: Vector2<f64>,
-    /// Number of the site's sector of directions, of twelve.
+    /// Number of the sector of directions that the site lies in, of twelve around the cell.
     pub sector: u32,
     /// Indices of half of the site's neighbours, so that each pair of neighbours occurs once.
     pub next: Vec<usize>,

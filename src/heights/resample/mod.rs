@@ -16,7 +16,7 @@ const ON_GRID: f64 = 1e-9;
 /// of lattice spacing and pixel size.
 const EXTRAPOLATION_REACH: f64 = 3.0;
 
-/// Marks a pixel to which no vertex's plane has been extended.
+/// Marks a pixel to which the plane fitted around a lattice vertex has not been extended.
 const NO_SOURCE: u32 = u32::MAX;
 
 /// Marks a pixel that lies within a lattice triangle, so that its height is interpolated.

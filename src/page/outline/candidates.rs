@@ -14,7 +14,7 @@ const MIDDLE_SHARE: f64 = 0.25;
 /// Variance of noise that is added to the variance of each colour component of a reduced photo.
 const COLOUR_NOISE_VARIANCE: f64 = 1e-4;
 
-/// Number of levels to which values are rounded for finding thresholds.
+/// Number of levels to which pixel values are rounded when Otsu's thresholds are computed.
 const THRESHOLD_LEVELS: usize = 128;
 
 /// Two masks: whether each pixel is in the strip along the photo's rim, and whether it is in the central rectangle.

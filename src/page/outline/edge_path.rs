@@ -34,7 +34,7 @@ const MIN_BORDER_POINTS: usize = 24;
 
 /// An edge of a page in the reduced photo: its points, and how clearly it is visible.
 pub(super) struct EdgePath {
-    /// Points about one pixel apart, in the order of the region's border.
+    /// Points of the page's edge, about one pixel apart, in the order of the region's border.
     pub points: Vec<[f64; 2]>,
     /// Share of the points with visible contrast, among those with page and background in the photo.
     pub support: f64,

@@ -86,12 +86,12 @@ impl Planes {
         }
     }
 
-    /// Number of pixels.
+    /// Number of pixels of the reduced photo.
     pub fn len(&self) -> usize {
         self.width * self.height
     }
 
-    /// Length of the longer side, in pixels.
+    /// Length of the reduced photo's longer side, in pixels.
     pub fn longer_side(&self) -> f64 {
         self.width.max(self.height) as f64
     }
@@ -112,12 +112,12 @@ impl Planes {
         })
     }
 
-    /// The point here of a point in the photo's pixels.
+    /// Converts a point from the photo's pixels to the reduced photo's pixels.
     pub fn reduced_point(&self, point: [f64; 2]) -> [f64; 2] {
         point.map(|at| (at + 0.5) / self.scale - 0.5)
     }
 
-    /// The point in the photo's pixels of a point here.
+    /// Converts a point from the reduced photo's pixels to the photo's pixels.
     pub fn to_photo(&self, point: [f64; 2]) -> [f64; 2] {
         point.map(|at| (at + 0.5) * self.scale - 0.5)
     }

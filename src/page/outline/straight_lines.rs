@@ -55,7 +55,7 @@ const PRINT_RADIUS: usize = 10;
 /// along an edge.
 const MIN_PRINT_DENSITY: f32 = 0.15;
 
-/// Minimum share of each of a quadrilateral's sides that edge pixels support.
+/// Minimum share of the length of each of a quadrilateral's sides along which there are edge pixels.
 const MIN_SIDE_SUPPORT: f64 = 0.45;
 
 /// Length beyond a corner over which it is measured whether a side continues, as a share of the side.

@@ -16,11 +16,12 @@ pub(super) struct SheetFigures {
     pub curvature: f64,
 }
 
-/// Number of Gauss-Newton steps for the levels of lines on a given sheet.
+/// Number of Gauss-Newton steps by which the positions of lines of print on the page are fitted to a sheet that is
+/// held.
 const LEVEL_ROUNDS: usize = 3;
 
 impl SheetProblem {
-    /// Computes the measures of a sheet; None if it is not in front of the camera.
+    /// Computes the misfits, strain and curvature of a sheet; None if it is not in front of the camera.
     pub fn figures(&self, sheet: &FittedSheet) -> Option<SheetFigures> {
         let grid = &sheet.grid;
         let mut unit = self.clone();

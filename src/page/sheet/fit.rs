@@ -36,7 +36,7 @@ pub(super) struct FittedSheet {
 }
 
 impl FittedSheet {
-    /// Makes a sheet without lines of print.
+    /// Makes a sheet of a grid in space, without lines of print.
     pub fn new(grid: SheetGrid) -> Self {
         FittedSheet {
             grid,

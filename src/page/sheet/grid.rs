@@ -65,7 +65,7 @@ impl SheetGrid {
         self.sum(&self.place(share).nodes, &self.place(share).weights)
     }
 
-    /// Weighted sum of the positions of four nodes.
+    /// Weighted sum of the positions in space of four nodes of the sheet's grid.
     pub fn sum(&self, nodes: &[usize; 4], weights: &[f64; 4]) -> Vector3<f64> {
         (nodes.iter().zip(weights))
             .map(|(node, weight)| self.nodes[*node] * *weight)

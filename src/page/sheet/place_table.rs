@@ -17,7 +17,7 @@ pub(super) struct PlaceTable {
 }
 
 impl PlaceTable {
-    /// Projects a sheet to the photo at the nodes of the table.
+    /// Makes the table by projecting a sheet in space to the photo at each of the table's nodes.
     ///
     /// # Errors
     /// [`Error::Empty`] for a sheet that is not in front of the camera.

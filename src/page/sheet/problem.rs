@@ -80,7 +80,7 @@ const OUTLINE_OUTLIER_DISTANCE: f64 = 0.01;
 const LINE_OUTLIER_DISTANCE: f64 = 0.004;
 
 impl RobustWeights {
-    /// Starts another pass over the residuals with the same weights.
+    /// Starts another pass over the residuals with the robust weights of the first pass.
     pub fn hold(&mut self) {
         self.next = 0;
         self.held = true;

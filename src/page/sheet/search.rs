@@ -28,7 +28,7 @@ pub(super) struct FoundSheet {
 /// few steps.
 const COARSE_GRIDS: [usize; 2] = [9, 13];
 
-/// Number of grid columns for the fits to lines of print.
+/// Number of columns of a sheet's grid when it is fitted to lines of print.
 const FINE_GRID: usize = 25;
 
 /// Number of times that lines of print are detected in the flattened photo and the sheet is fitted to them.

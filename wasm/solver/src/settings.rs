@@ -37,7 +37,7 @@ impl Settings {
         Ok(settings)
     }
 
-    /// Returns an error if an option's value is wrong whatever the input.
+    /// Returns an error if the value of an option is out of its range, as far as that does not depend on the input.
     fn check(&self) -> Result<()> {
         self.options.validate()?;
         self.bridging.width()?;

@@ -7,7 +7,8 @@ use super::prior::Prior;
 use super::traced_line::TracedLine;
 use super::traces::{Residuals, Traces};
 
-/// Degrees of the Legendre series of the curve's direction that are tried, each from the solution for the previous one.
+/// Degrees of the polynomial series for the direction of a page's curve that are tried in turn, each from the solution
+/// for the previous one.
 const CURVE_DEGREES: [usize; 11] = [0, 1, 2, 3, 4, 5, 6, 8, 10, 12, 14];
 
 /// Smallest and largest typical focal length, as multiples of the photo's longer side. A focal length that cannot be
@@ -24,20 +25,22 @@ const MAX_FOCAL_UNCERTAINTY: f64 = 10.0;
 /// Standard deviation of the logarithm of a focal length that is held fixed in a fit.
 const HELD_FOCAL_DEVIATION: f64 = 1e-3;
 
-/// Number of successive degrees of the curve that may be worse than the best one before the search ends.
+/// Number of successive degrees of the page's curve that may be worse than the best degree before the search ends.
 const MAX_WORSE_DEGREES: usize = 3;
 
-/// Degree of the curve at which the search starts again from the closed-form solution.
+/// Degree of the page's curve at which the search starts once more from the initial guess in closed form, beside the
+/// solution for the previous degree.
 const CLOSED_FORM_DEGREE: usize = 4;
 
 /// Standard deviation of traced points, in pixels, that is added to the residuals in the information criterion, so that
 /// exact traces do not call for ever higher degrees.
 const MIN_CRITERION_ERROR: f64 = 0.05;
 
-/// Minimum number of observations in excess of parameters, in the correction of Akaike's criterion for few points.
+/// Minimum number of observations in excess of parameters that is assumed in Akaike's information criterion, whose
+/// correction for few observations divides by it.
 const MIN_CRITERION_SPARE: f64 = 0.2;
 
-/// Minimum number of observations in excess of parameters for a degree of the curve to be tried.
+/// Minimum number of observations in excess of parameters for which a degree of the page's curve is tried.
 const MIN_SPARE_DISTANCES: f64 = 2.0;
 
 /// Whether a focal length, in pixels, is within the range from which a search starts; `longer` is the longer side of
@@ -46,7 +49,7 @@ pub(super) fn is_searched(focal: f64, longer: f64) -> bool {
     (FOCAL_SEARCH_RATIOS[0] * longer..=FOCAL_SEARCH_RATIOS[1] * longer).contains(&focal)
 }
 
-/// Search for the cylinder that fits the traces of a page best.
+/// Search for the cylinder that fits the traced edges and lines of a page best.
 pub(super) struct CylinderSearch<'a> {
     pub pages: &'a [[TracedLine; 2]],
     pub traces: &'a Traces,

@@ -23,14 +23,15 @@ struct TracedPoint {
     weight: f64,
 }
 
-/// All traces of a photo, thinned out and weighted: the observations of the least-squares problem.
+/// All traced edges and lines of text of a photo, thinned out and weighted: the observations to which a page's cylinder
+/// is fitted.
 #[derive(Debug, Clone)]
 pub(super) struct Traces {
     points: Vec<TracedPoint>,
     crosses: CrossSections,
 }
 
-/// Residuals of a cylinder: distances in the photo between the traces and its projection.
+/// Residuals of a page's cylinder: distances in the photo between the traced points and the cylinder's projection.
 #[derive(Debug, Clone)]
 pub(super) struct Residuals {
     /// Residual of each traced point of a bent edge.
@@ -44,7 +45,7 @@ pub(super) struct Residuals {
 /// Residual of a traced point of a bent edge.
 #[derive(Debug, Clone, Copy)]
 struct EdgeResidual {
-    /// Position of the nearest point on the cylinder's edge, as a share of the page's width.
+    /// Position of the nearest point along the cylinder's edge, as a share of the page's width.
     share: f64,
     /// Unit normal of the projected edge at the nearest point.
     normal: [f64; 2],
@@ -102,13 +103,13 @@ impl Traces {
         self.crosses.text
     }
 
-    /// Number of independent observations: the sum of their weights.
+    /// Number of independent observations in all traces: the sum of their weights.
     pub fn count(&self) -> f64 {
         let own = |p: &TracedPoint| p.weight * if p.corner.is_some() { 2.0 } else { 1.0 };
         self.points.iter().map(own).sum::<f64>() + self.crosses.count()
     }
 
-    /// Computes the residuals of a cylinder. None if part of it is not in front of the camera.
+    /// Computes the residuals of a page's cylinder. None if part of it is not in front of the camera.
     pub fn residuals(&self, cylinder: &Cylinder, prior: &Prior) -> Option<Residuals> {
         let curve = cylinder.curve();
         let edges = self.edges(cylinder, &curve)?;
@@ -160,8 +161,8 @@ impl Traces {
     }
 
     /// Computes the Jacobian of the weighted residuals by the cylinder's parameters (central differences), and these
-    /// residuals; the rows of prior knowledge come last. Nearest points are held, because moving along the edge changes
-    /// no distance.
+    /// residuals; the rows of prior knowledge come last. Nearest points on the edges stay the same, because moving
+    /// along an edge changes no distance.
     pub fn jacobian(
         &self,
         cylinder: &Cylinder,
@@ -336,7 +337,8 @@ impl Traces {
             .fold(1.0, f64::max)
     }
 
-    /// Projects the nodes of both bent edges of each page to pixels. None if a node is not in front of the camera.
+    /// Projects the nodes of both bent edges of each page's cylinder to pixels. None if a node is not in front of the
+    /// camera.
     fn edges(&self, cylinder: &Cylinder, curve: &SampledCurve) -> Option<Vec<[Vec<[f64; 2]>; 2]>> {
         let edge = |page: usize, down: f64| -> Option<Vec<[f64; 2]>> {
             (0..=CURVE_PIECES)
@@ -348,7 +350,8 @@ impl Traces {
             .collect()
     }
 
-    /// Projects the point on a traced point's edge at a share of the page's width to pixels.
+    /// Projects a point of the cylinder to pixels: on the edge to which the traced point `point` belongs, at a share of
+    /// the page's width. None if it is not in front of the camera.
     fn project(
         &self,
         of: &Cylinder,

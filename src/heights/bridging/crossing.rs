@@ -32,8 +32,8 @@ const FOLD_HEIGHT_PER_DISTANCE: f64 = 0.35;
 /// Minimum number of heights around a hole's cell to which a plane is fitted.
 const MIN_PLANE_SAMPLES: usize = 6;
 
-/// Weight of the noise that is typical of all holes relative to the noise around one hole, as a number of differences
-/// between slopes.
+/// Weight of the noise that is typical of all holes in the estimate of the noise around one hole, as an equivalent
+/// number of slopes.
 const TYPICAL_NOISE_WEIGHT: f64 = 6.0;
 
 /// A cell (vertex or pixel) in a hole, with the plane fitted to the heights around it.
@@ -49,7 +49,8 @@ pub(super) struct Crossing {
     difference: f64,
     /// Significance of `difference`: its square in units of the variance of one height.
     evidence: f64,
-    /// Sum of squares of the differences between slopes beside the hole; `terms` is their number.
+    /// Sum of squared deviations, from their mean, of the slopes between neighbouring heights beside the hole; `terms`
+    /// is their number.
     spread: f64,
     terms: f64,
     /// Whether slopes beside the hole are known in all directions.
@@ -232,7 +233,7 @@ impl<'a> Crossings<'a> {
 
 /// Typical noise of the heights around holes: medians over all holes.
 struct Typical {
-    /// Median over all holes of the mean squared difference between slopes beside a hole.
+    /// Median over all holes of the variance of the slopes between neighbouring heights beside a hole.
     spread: f64,
     /// Median distance of heights from the plane around a hole, over holes beside which slopes are unknown.
     stray: f64,

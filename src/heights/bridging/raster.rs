@@ -104,8 +104,9 @@ impl Raster {
         }
     }
 
-    /// Index offsets of the `k`-th step outwards, counted from 1, for even and for odd rows. On pixels every other step
-    /// goes along rows and columns only: eight corners are rounder than four.
+    /// Index offsets from a cell to the cells one step further outwards, when a region grows by its `k`-th step (from
+    /// 1): for even and for odd rows. On pixels every other step goes along rows and columns only: eight corners are
+    /// rounder than four.
     pub(super) fn step_offsets(&self, k: usize) -> [Vec<isize>; 2] {
         [false, true].map(|odd| {
             let straight =

@@ -25,8 +25,8 @@ const MAX_EXTRAPOLATION: f64 = 0.6;
 /// Minimum sine of the angle at which two edges are intersected in a corner.
 const MIN_CORNER_SINE: f64 = 0.3;
 
-/// Fits a least-squares line to the share `share` of an edge's points at its start, and returns two points on it. None
-/// if the points are too few.
+/// Fits a straight line to the first points of an edge, which are the share `share` of all of them, without the worn
+/// ones at the end; returns two points on it. None if the points are too few.
 fn end_line(edge: &[[f64; 2]], share: f64) -> Option<[[f64; 2]; 2]> {
     let n = edge.len();
     let skip = (n as f64 * WORN_END_SHARE) as usize;
@@ -68,8 +68,8 @@ pub(super) fn is_outside(point: [f64; 2], size: [usize; 2], distance: f64) -> bo
     (0..2).any(|k| point[k] < -distance || point[k] > size[k] as f64 - 1.0 + distance)
 }
 
-/// Intersects the lines through the shares `end` of two edges at their starts; None if the intersection is further from
-/// either edge than the share `shift` of its length.
+/// Intersects two edges' extensions: straight lines fitted to the first share `end` of their points. None if the
+/// intersection is further from either edge's start than the share `shift` of its length.
 fn meeting(one: &[[f64; 2]], other: &[[f64; 2]], end: f64, shift: f64) -> Option<[f64; 2]> {
     let point = line_intersection(end_line(one, end)?, end_line(other, end)?, MIN_CORNER_SINE)?;
     let near = |edge: &[[f64; 2]]| distance(edge[0], point) <= shift * polyline_length(edge);

@@ -3,8 +3,8 @@
 
 use nalgebra::{DMatrix, DVector};
 
-/// Normal equations `JᵀJ x = −Jᵀr` whose first unknowns couple only within a band; the others, the border, couple with
-/// all.
+/// Normal equations `JᵀJ x = −Jᵀr` of a banded matrix with a dense border: the first unknowns couple only within a
+/// band, the last ones, which form the border, with all unknowns.
 pub(super) struct BorderedSystem {
     size: usize,
     half_width: usize,

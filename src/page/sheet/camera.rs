@@ -6,7 +6,7 @@ use nalgebra::Vector3;
 /// nominal focal length.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct SheetCamera {
-    /// Logarithm of the focal length divided by the nominal one.
+    /// Logarithm of the ratio of the focal length to the nominal one.
     pub log_scale: f64,
     /// Principal point relative to the nominal one, divided by the nominal focal length.
     pub centre: [f64; 2],
@@ -16,7 +16,8 @@ pub(super) struct SheetCamera {
 const MIN_DEPTH: f64 = 0.05;
 
 impl SheetCamera {
-    /// Projects a point in the camera's axes to normalised image coordinates; None if it is not in front of the camera.
+    /// Projects a point in the camera's axes to normalised image coordinates (pixels from the nominal principal point,
+    /// over the nominal focal length); None if it is not in front of the camera.
     pub fn project(&self, point: Vector3<f64>) -> Option<[f64; 2]> {
         let scale = self.log_scale.exp();
         (point.z > MIN_DEPTH).then(|| {

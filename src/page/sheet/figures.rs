@@ -6,9 +6,11 @@ use super::problem::{ResidualRow, RobustWeights, SheetProblem, SheetWeights};
 /// Misfit and shape of a fitted sheet. Lengths are in widths of the page; outliers count less.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct SheetFigures {
-    /// Root mean square distance between the sheet's projected border and the page's outline in the photo.
+    /// Root mean square distance between the sheet's projected border and the page's outline in the photo, in widths of
+    /// the page.
     pub outline: f64,
-    /// Root mean square distance between lines of print in the photo and the sheet's level lines; 0 without lines.
+    /// Root mean square distance between lines of print in the photo and the lines on the sheet that they belong to, in
+    /// widths of the page; 0 without lines.
     pub lines: f64,
     /// Root mean square strain (relative change of length) of the sheet.
     pub strain: f64,

@@ -25,8 +25,8 @@ const DAMPING_INCREASE: f64 = 5.0;
 /// of the page's sides.
 const CAMERA_UNKNOWNS: usize = 4;
 
-/// A sheet in space that was fitted to a photo, with the level (share of the page's height or width) of each line of
-/// print.
+/// A sheet in space that was fitted to a photo of a page, with the position on the page (share of its height or width)
+/// of each line of print.
 #[derive(Debug, Clone)]
 pub(super) struct FittedSheet {
     pub grid: SheetGrid,

@@ -8,17 +8,18 @@ use super::grid::SheetGrid;
 /// Prior knowledge about the camera and the ratio of a page's sides.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct CameraPrior {
-    /// Expected logarithm of the focal length divided by the nominal one.
+    /// Expected logarithm of the ratio of the camera's focal length to the nominal one.
     pub log_scale: f64,
-    /// Standard deviation of the logarithm of the focal length.
+    /// Standard deviation of the logarithm of the camera's focal length.
     pub scale_deviation: f64,
-    /// Standard deviation of the principal point's coordinates, divided by the nominal focal length.
+    /// Standard deviation of the coordinates of the camera's principal point, divided by the nominal focal length.
     pub centre_deviation: f64,
     /// Logarithm of the page's height over its width and its standard deviation, if the format is known.
     pub log_ratio: Option<[f64; 2]>,
 }
 
-/// Homography from shares of a flat page's width and height to normalised image coordinates.
+/// Homography that maps a flat page, in shares of its width and height, to normalised image coordinates (pixels from
+/// the nominal principal point, over the nominal focal length).
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Homography {
     matrix: SMatrix<f64, 3, 3>,
@@ -35,7 +36,8 @@ const UNKNOWN_RATIO_DEVIATION: f64 = 0.5;
 /// Logarithm of √2, which is the ratio of longer to shorter side of most paper formats.
 const COMMON_LOG_RATIO: f64 = 0.346_573_590_279_972_64;
 
-/// Number of Gauss-Newton steps for the camera that makes a page a rectangle.
+/// Number of Gauss-Newton steps by which the camera is found for which four corners in the photo are those of a
+/// rectangle.
 const CAMERA_STEPS: usize = 12;
 
 impl CameraPrior {

@@ -10,7 +10,8 @@ use super::polyline::Polyline;
 /// A line of the print that is horizontal or vertical on the flat page: a line of text, a rule or a margin.
 #[derive(Debug, Clone)]
 pub(super) struct LevelLine {
-    /// Points of the line in the photo, in normalised image coordinates.
+    /// Points of the line in the photo, in normalised image coordinates (pixels from the principal point, over the
+    /// focal length).
     pub points: Vec<[f64; 2]>,
     /// Whether the line runs down the page; otherwise it runs across.
     pub vertical: bool,
@@ -34,7 +35,8 @@ pub(super) struct SheetWeights {
 /// Data of a sheet's least-squares problem: the page's edges and lines in the photo, prior knowledge, and weights.
 #[derive(Debug, Clone)]
 pub(super) struct SheetProblem {
-    /// Upper, lower, left and right edge in the photo, in normalised image coordinates.
+    /// Upper, lower, left and right edge of the page in the photo, in normalised image coordinates (pixels from the
+    /// principal point, over the focal length).
     pub edges: [Polyline; 4],
     pub lines: Vec<LevelLine>,
     pub prior: CameraPrior,
@@ -143,7 +145,7 @@ impl SheetProblem {
         Some(())
     }
 
-    /// Mean side of a grid cell on the flat page, in widths of the page.
+    /// Mean side length of a cell of the sheet's grid on the flat page, in widths of the page.
     fn cell(grid: &SheetGrid) -> f64 {
         let [across, down] = grid.steps();
         (across * down).sqrt()

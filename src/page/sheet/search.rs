@@ -18,7 +18,8 @@ pub(super) struct FoundSheet {
     pub sheet: FittedSheet,
     pub model: PageModel,
     pub figures: SheetFigures,
-    /// Lines of print in the photo that were used, in normalised image coordinates.
+    /// Lines of print in the photo to which the sheet was fitted, in normalised image coordinates (pixels from the
+    /// principal point, over the focal length).
     pub lines: Vec<Vec<[f64; 2]>>,
     /// Mean depth of the initial plane, in widths of the page.
     pub depth: f64,
@@ -34,13 +35,13 @@ const FINE_GRID: usize = 25;
 /// Number of times that lines of print are detected in the flattened photo and the sheet is fitted to them.
 const LINE_ROUNDS: usize = 2;
 
-/// Maximum number of Levenberg–Marquardt steps of each fit of a sheet.
+/// Maximum number of Levenberg–Marquardt steps in one fit of a sheet to a photo.
 const MAX_STEPS: usize = 15;
 
 /// Relative decrease of the cost by one step below which the fit of a sheet has converged.
 const COST_TOLERANCE: f64 = 0.01;
 
-/// Weights of the residuals for smooth paper, firm against strain.
+/// Weights of the residuals in the fit of a sheet of smooth paper, which is firm against strain.
 const FIRM_PAPER_WEIGHTS: SheetWeights = SheetWeights {
     isometry: 300.0,
     bending: 1.5,
@@ -49,17 +50,18 @@ const FIRM_PAPER_WEIGHTS: SheetWeights = SheetWeights {
     lines: 400.0,
 };
 
-/// Weights of the residuals for crumpled paper, which wrinkles between the grid's nodes shorten.
+/// Weights of the residuals in the fit of a sheet of crumpled paper, which wrinkles finer than the sheet's grid
+/// shorten.
 const CRUMPLED_PAPER_WEIGHTS: SheetWeights = SheetWeights {
     isometry: 40.0,
     bending: 3.5,
     ..FIRM_PAPER_WEIGHTS
 };
 
-/// Factor of the isometry weight in the first fit: a stiffer sheet would stay in the initial plane.
+/// Factor of the isometry weight in the first fit of a sheet: a stiffer sheet would stay in the initial plane.
 const INITIAL_ISOMETRY_FACTOR: f64 = 0.25;
 
-/// Factor of the bending weight in the first fit: a limper sheet would end in ripples.
+/// Factor of the bending weight in the first fit of a sheet: a limper sheet would end in ripples.
 const INITIAL_BENDING_FACTOR: f64 = 4.0;
 
 /// Root mean square curvature, in reciprocal widths of the page, above which a sheet is fitted again with the weights
@@ -70,11 +72,12 @@ const MAX_FIRM_CURVATURE: f64 = 1.3;
 /// flat page lifts off its support by a millimetre on A4.
 const MAX_PLANE_OUTLINE_MISFIT: f64 = 0.004;
 
-/// Distance between lines of print and a plane's level lines, in widths of the page, up to which the plane is always
-/// accepted.
+/// Distance between lines of print and the lines on a plane that they belong to, in widths of the page, up to which a
+/// plane is always accepted as the page's model.
 const MAX_PLANE_LINE_MISFIT: f64 = 0.0012;
 
-/// Ratio of the lines' misfit on the plane to that on the bent sheet up to which the plane is accepted.
+/// Ratio of the misfit of lines of print on a plane to that on a bent sheet, up to which the plane is accepted as the
+/// page's model.
 const MAX_PLANE_LINE_RATIO: f64 = 1.5;
 
 /// Finds the plainest model of a page that explains its four edges (upper, lower, left, right) in normalised image

@@ -3,17 +3,19 @@
 use super::ink::InkImage;
 use super::ranking::ranked;
 
-/// Mean darkness of each row of pixels in each of the vertical strips into which a page is divided.
+/// Ink of a page by strips: mean darkness of each row of pixels in each of the vertical strips into which the page is
+/// divided.
 pub(super) struct StripProfiles {
-    /// Width of a strip, in pixels.
+    /// Width of a vertical strip, in pixels of the ink image.
     pub step: f64,
     profiles: Vec<Vec<f32>>,
 }
 
-/// Strip profiles of ink smoothed along the columns by a Gaussian.
+/// Mean darkness of each row in each vertical strip of a page, smoothed along the columns by a Gaussian.
 pub(super) struct SmoothedProfiles(pub Vec<Vec<f32>>);
 
-/// The centre line of a band of ink: for each of its strips the strip's number and the row.
+/// Centre line of a band of ink, which may be a line of text: for each vertical strip that it crosses, the strip's
+/// number and the row.
 pub(super) type Band = Vec<(usize, f64)>;
 
 /// Number of vertical strips into which a page is divided: each is about two letters of body text on A4 wide.
@@ -22,23 +24,25 @@ const STRIPS_ACROSS: usize = 48;
 /// Minimum width of a vertical strip, in pixels of the ink image.
 const MIN_STRIP_PIXELS: usize = 6;
 
-/// Minimum number of strips in which a band of ink is found.
+/// Minimum number of vertical strips that a band of ink has to cross to be a line of text.
 pub(super) const MIN_BAND_STRIPS: usize = 8;
 
-/// Maximum number of consecutive strips in which a band of ink may be missing.
+/// Maximum number of consecutive vertical strips in which a band of ink may be interrupted.
 const MAX_MISSING_STRIPS: usize = 2;
 
-/// Minimum contrast of a band of ink: negative second derivative of the darkness across it, times the squared scale.
+/// Minimum contrast of a band of ink: negative second derivative of the darkness across it, times the square of half
+/// the searched x-height.
 const MIN_BAND_CONTRAST: f32 = 0.03;
 
-/// Maximum distance between a band's row in the next strip and the extrapolated one, as a multiple of the scale.
+/// Maximum distance between a band of ink in the next vertical strip and its extrapolation there, as a multiple of half
+/// the searched x-height.
 const MAX_BAND_OFFSET: f64 = 1.0;
 
 /// Maximum slope of a band of ink, in rows per column.
 const MAX_BAND_SLOPE: f64 = 0.25;
 
 impl StripProfiles {
-    /// Computes the strip profiles of an ink image.
+    /// Computes the mean darkness of each row in each vertical strip of an ink image.
     pub fn new(ink: &InkImage) -> Self {
         let count = STRIPS_ACROSS.min(ink.width / MIN_STRIP_PIXELS).max(1);
         let step = ink.width as f64 / count as f64;
@@ -68,7 +72,7 @@ impl StripProfiles {
         StripProfiles { step, profiles }
     }
 
-    /// Smooths the profiles along the columns by a Gaussian with standard deviation `sigma`, in pixels.
+    /// Smooths the darkness along the columns by a Gaussian with standard deviation `sigma`, in pixels.
     pub fn smoothed(&self, sigma: f64) -> SmoothedProfiles {
         let reach = (3.0 * sigma).ceil() as usize;
         let kernel: Vec<f32> = (0..=2 * reach)
@@ -96,8 +100,8 @@ impl StripProfiles {
 }
 
 impl SmoothedProfiles {
-    /// Finds the rows where strip number `strip` has a band of ink of scale `sigma`: maxima of the profile's negative
-    /// second derivative.
+    /// Finds the rows where the vertical strip number `strip` crosses a line of text with half x-height `sigma`: maxima
+    /// of the darkness's negative second derivative.
     fn peaks(&self, strip: usize, sigma: f64) -> Vec<f64> {
         let p = &self.0[strip];
         let scale = (sigma * sigma) as f32;
@@ -111,7 +115,8 @@ impl SmoothedProfiles {
             .collect()
     }
 
-    /// Tracks bands of ink of scale `sigma`, in pixels, from strip to strip; `step` is the width of a strip in pixels.
+    /// Tracks bands of ink with half x-height `sigma`, in pixels, from one vertical strip to the next; `step` is the
+    /// width of a strip in pixels.
     pub fn bands(&self, sigma: f64, step: f64) -> Vec<Band> {
         struct OpenBand {
             band: Band,
@@ -168,8 +173,8 @@ impl SmoothedProfiles {
         found
     }
 
-    /// Finds the row of a band's lower edge in one strip, where the ink decreases most steeply. `row` is the band's
-    /// middle, `sigma` its scale. None if there is no such row nearby.
+    /// Finds the row of the lower edge of a band of ink in one vertical strip, where the darkness decreases most
+    /// steeply. `row` is the band's middle, `sigma` half the x-height. None if there is no such row nearby.
     pub fn baseline(&self, strip: usize, row: f64, sigma: f64) -> Option<f64> {
         let p = &self.0[strip];
         let [from, to] = [0.1, 2.4].map(|k| (row + k * sigma).round());

@@ -12,18 +12,19 @@ pub(super) struct Baseline {
     pub points: Vec<[f64; 2]>,
     /// Half the x-height of the line's letters, in pixels.
     pub sigma: f64,
-    /// Mean row of the baseline, in pixels.
+    /// Mean row of the baseline, in pixels of the ink image.
     pub level: f64,
 }
 
-/// Minimum share of a band's strips in which the band's lower edge lies on the baseline.
+/// Minimum share of the vertical strips of a band of ink in which its lower edge lies on the fitted baseline.
 const MIN_INLIER_SHARE: f64 = 0.6;
 
-/// Maximum scatter of a band's lower edges about its baseline, in pixels of the ink image; [`MAX_SCATTER_SCALES`] adds
-/// a share of the letters' height. Letters of print stand on a line; handwriting and pictures do not.
+/// Maximum scatter of the lower edges of a band of ink about its fitted baseline, in pixels of the ink image;
+/// [`MAX_SCATTER_SCALES`] adds a share of the letters' height. Letters of print stand on a line; handwriting and
+/// pictures do not.
 const MAX_SCATTER_PIXELS: f64 = 0.3;
 
-/// Addition to the maximum scatter about a baseline, as a share of half the x-height.
+/// Addition to the maximum scatter of lower edges about a baseline, as a share of half the x-height.
 const MAX_SCATTER_SCALES: f64 = 0.05;
 
 /// Minimum number of parallel lines of text on a page: fewer may be parallel by chance.
@@ -35,19 +36,20 @@ const MAX_NEIGHBOUR_DISTANCE: f64 = 25.0;
 /// Number of nearest lines with which a line is compared for being parallel.
 const COMPARED_NEIGHBOURS: usize = 4;
 
-/// Maximum standard deviation of the distance between parallel lines along them, in pixels of the ink image;
-/// [`MAX_NON_PARALLEL_SCALES`] adds a share of the letters' height.
+/// Maximum variation (standard deviation) of the distance between two lines of text that count as parallel, in pixels
+/// of the ink image; [`MAX_NON_PARALLEL_SCALES`] adds a share of the letters' height.
 const MAX_NON_PARALLEL_PIXELS: f64 = 0.5;
 
-/// Addition to the maximum standard deviation of the distance between parallel lines, as a share of half the x-height.
+/// Addition to the maximum variation of the distance between parallel lines of text, as a share of half the x-height.
 const MAX_NON_PARALLEL_SCALES: f64 = 0.08;
 
-/// Minimum share of all candidate lines that are parallel to their neighbours: below it the page has no print.
+/// Minimum share of all candidate lines of text that are parallel to their neighbours: below it the page is assumed to
+/// have no print.
 const MIN_PARALLEL_SHARE: f64 = 0.65;
 
 impl Baseline {
-    /// Fits the baseline of a band of ink: a polynomial through its strips' lower edges. `step` is the width of a strip
-    /// in pixels. None if the edges scatter too much.
+    /// Fits the baseline of a band of ink: a polynomial through the band's lower edges in each vertical strip, `step`
+    /// pixels wide. None if the edges scatter too much.
     pub fn new(band: &Band, fine: &SmoothedProfiles, sigma: f64, step: f64) -> Option<Self> {
         let all: Vec<[f64; 2]> = (band.iter())
             .filter_map(|(strip, row)| {
@@ -86,8 +88,8 @@ impl Baseline {
         both >= 3
     }
 
-    /// Standard deviation of the distance between two lines along them, in pixels; None if they have too few strips in
-    /// common.
+    /// Variation (standard deviation), along the lines, of the distance between two lines of text, in pixels; None if
+    /// they have too few strips in common.
     fn distance_change(&self, other: &Baseline) -> Option<f64> {
         let gaps: Vec<f64> = (self.points.iter())
             .filter_map(|p| {

@@ -29,15 +29,16 @@ const PAPER_BLOCKS_ACROSS: usize = 40;
 /// Quantile of the brightness of a block's pixels that is taken for the paper's brightness.
 const PAPER_QUANTILE: f64 = 0.85;
 
-/// Width of the margin along the page's edges that is left out of the ink image, as a share of the page: edges are
-/// traced with errors.
+/// Width of the margin along the page's edges that is left out of the ink image, as a share of the page's sides: edges
+/// are traced with errors.
 const MARGIN_SHARE: f64 = 0.015;
 
 /// Maximum number of samples of the photo along each side of a pixel of the ink image.
 const MAX_SAMPLES_PER_SIDE: f64 = 4.0;
 
 impl<'a> PageView<'a> {
-    /// Views a curled page; `number` selects one of the two pages of a spread.
+    /// Makes the view of a curled page, or of page `number` of a spread, by which places on the page are projected to
+    /// the photo.
     pub fn new(page: &'a CurledPage, number: usize) -> Self {
         let curve = page.cylinder.curve();
         Self::from_places(move |share| {
@@ -47,7 +48,7 @@ impl<'a> PageView<'a> {
         })
     }
 
-    /// Views a page whose projection to the photo's pixels is the function `place`.
+    /// Makes the view of a page whose places are projected to the photo's pixels by the function `place`.
     pub fn from_places(place: impl Fn([f64; 2]) -> Option<[f64; 2]> + 'a) -> Self {
         PageView {
             place: Box::new(place),

@@ -8,7 +8,7 @@ use crate::dewarp::Photo;
 use crate::page::curled_page::CurledPage;
 use crate::page::edges::Trace;
 
-/// Scales at which lines of text are searched: half the x-height of their letters, in pixels of the ink image.
+/// Half x-heights of the letters for which lines of text are searched, in pixels of the ink image.
 const X_HEIGHT_SCALES: [f64; 6] = [1.5, 2.2, 3.2, 4.7, 6.8, 10.0];
 
 /// Approximate maximum number of lines of text of one page.

@@ -66,17 +66,17 @@ type LinePoint = ([f64; 2], f64);
 /// Maximum number of traced lines of text in one photo; more are an error.
 const MAX_TEXT_LINES: usize = 500;
 
-/// Maximum number of points of one traced line of text, or straight edge, that the fit uses.
+/// Maximum number of points of one traced line of text, or straight edge, to which the page's cylinder is fitted.
 const MAX_POINTS_PER_LINE: usize = 24;
 
-/// Maximum number of points of all traced lines of text together that the fit uses.
+/// Maximum number of points of all traced lines of text together to which the page's cylinder is fitted.
 const MAX_TEXT_POINTS: usize = 800;
 
-/// Maximum number of points of one line of text detected in the photo that the fit uses. Fewer than of a traced line,
-/// for they are more exact.
+/// Maximum number of points of one line of text detected in the photo to which the page's cylinder is fitted. Fewer
+/// than of a traced line, for they are more exact.
 const MAX_POINTS_PER_FOUND_LINE: usize = 12;
 
-/// Maximum number of points of all lines of text detected in the photo together that the fit uses.
+/// Maximum number of points of all lines of text detected in the photo together to which the page's cylinder is fitted.
 const MAX_FOUND_POINTS: usize = 400;
 
 /// Maximum number of independent points that one line of text counts as: errors of tracing are correlated along a line.

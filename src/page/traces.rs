@@ -363,7 +363,8 @@ impl Traces {
     }
 }
 
-/// Minimum covariance of neighbouring lines' residuals that is significant, in its standard deviations.
+/// Minimum covariance between the residuals of neighbouring lines of text that counts as significant, in standard
+/// deviations of this covariance.
 const MIN_COVARIANCE_DEVIATIONS: f64 = 3.0;
 
 /// Minimum number of independent points for the covariance of neighbouring lines' residuals to be significant.

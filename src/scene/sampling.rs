@@ -13,7 +13,7 @@ use crate::heights::heightfield::Heightfield;
 use crate::lattice::hexagonal::{Lattice, ROW_SPACING, shift};
 use crate::math::lanes;
 
-/// Resolution of the lattice on which a mesh is sampled.
+/// Resolution of the lattice on which a mesh is sampled: a number of vertices, or their distance.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub enum Resolution {

@@ -128,7 +128,7 @@ impl Triangulation {
         self.mesh
     }
 
-    /// Normal of a triangle whose length is twice the triangle's area, in units of the lattice spacing.
+    /// Normal vector of a triangle, with twice the triangle's area as its length, in units of the lattice spacing.
     pub(crate) fn normal(&self, triangle: [u32; 3]) -> [f64; 3] {
         normal(self.mesh.corners(triangle), self.lattice.spacing())
     }
@@ -225,8 +225,8 @@ fn normals(mesh: &Mesh, spacing: f64) -> Result<Vec<[f32; 3]>> {
     Ok(normals)
 }
 
-/// Normal of a triangle whose length is twice the triangle's area, with lengths in units of the lattice spacing, so
-/// that it neither over- nor underflows.
+/// Normal vector of a triangle, with twice the triangle's area as its length. Lengths are in units of the lattice
+/// spacing, so that nothing over- or underflows.
 fn normal(corners: [[f64; 3]; 3], spacing: f64) -> [f64; 3] {
     let [a, b, c] = corners.map(|corner| corner.map(|coordinate| coordinate / spacing));
     let edge = |to: [f64; 3]| [to[0] - a[0], to[1] - a[1], to[2] - a[2]];

@@ -105,8 +105,8 @@ impl<'a> Crossings<'a> {
         }
     }
 
-    /// Returns those of the given cells in holes across which the surface continues, without cells next to one across
-    /// which it does not.
+    /// Returns those of the given cells (vertices or pixels in holes) where the surface continues across the hole,
+    /// without the neighbours of cells where it does not.
     pub(super) fn sound(&self, cells: &[usize]) -> Result<Vec<Crossing>> {
         let mut scratch = Scratch::default();
         let at = |cell: &usize| self.at(*cell, &mut scratch);

@@ -4,8 +4,8 @@ use nalgebra::Vector2;
 
 use super::raster::Raster;
 
-/// Sites around a cell, sorted by their number of steps from it: those `k` steps away are `sites[rings[k -
-/// 1]..rings[k]]`.
+/// Sites around a cell (the relative positions of further cells), sorted by their number of steps from it: those `k`
+/// steps away are `sites[rings[k - 1]..rings[k]]`.
 pub(super) struct Sites {
     pub sites: Vec<Site>,
     pub rings: Vec<usize>,
@@ -16,7 +16,7 @@ pub(super) struct Site {
     pub place: Vector2<f64>,
     /// Number of the sector of directions that the site lies in, of twelve around the cell.
     pub sector: u32,
-    /// Indices of half of the site's neighbours, so that each pair of neighbours occurs once.
+    /// Indices of half of this site's neighbours in the list of sites, so that each pair of neighbours occurs once.
     pub next: Vec<usize>,
 }
 

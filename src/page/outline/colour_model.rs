@@ -28,7 +28,7 @@ const SMOOTHING_RADIUS: usize = 2;
 /// nothing.
 const UNIFORM_SHARE: f32 = 0.02;
 
-/// Histogram bin of each pixel's colour, from which page and background are told apart.
+/// Colours of a photo's pixels as numbers of histogram bins, by which page and background are told apart.
 pub(super) struct ColourModel {
     bins: Vec<u16>,
     width: usize,

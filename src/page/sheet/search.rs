@@ -166,7 +166,8 @@ impl SheetProblem {
     }
 }
 
-/// Makes a fine planar sheet of a homography, with the levels of the lines of print on it, and its measures.
+/// Makes a sheet in the plane of a homography, with the positions of the lines of print on it, and its misfits and
+/// curvature. None if it is not in front of the camera.
 fn plane(
     problem: &SheetProblem,
     homography: Homography,

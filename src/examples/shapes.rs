@@ -26,11 +26,11 @@ impl Shape {
                 height: roof,
             },
             Example::Oloid => Shape {
-                extent: [1.0, 2.1 / OLOID_LENGTH],
+                extent: [1.0, 2.1 / OLOID_IMAGE_WIDTH],
                 height: oloid,
             },
             Example::Page => Shape {
-                extent: [1.04 * A4_WIDTH / PAGE_HEIGHT, 1.0],
+                extent: [1.04 * A4_WIDTH / PAGE_IMAGE_HEIGHT, 1.0],
                 height: page,
             },
             Example::House => Shape {
@@ -60,11 +60,13 @@ fn cylinder(x: f64, y: f64) -> f64 {
 }
 
 fn cone(x: f64, y: f64) -> f64 {
-    const BASE_RADIUS: f64 = 0.48;
+    /// Radius of the cone's base, in widths of the image.
+    const CONE_BASE_RADIUS: f64 = 0.48;
+    /// Slope of the cone: height over distance from the base's circle.
     const CONE_SLOPE: f64 = 0.8;
     let r = x.hypot(y);
-    if r <= BASE_RADIUS {
-        CONE_SLOPE * (BASE_RADIUS - r)
+    if r <= CONE_BASE_RADIUS {
+        CONE_SLOPE * (CONE_BASE_RADIUS - r)
     } else {
         f64::NAN
     }
@@ -96,10 +98,10 @@ fn house(x: f64, y: f64) -> f64 {
 }
 
 /// Width of the oloid's image in units of the radius of its circles: the oloid's length 3 plus a margin.
-const OLOID_LENGTH: f64 = 3.1;
+const OLOID_IMAGE_WIDTH: f64 = 3.1;
 
 fn oloid(x: f64, y: f64) -> f64 {
-    unit_oloid(y * OLOID_LENGTH, x * OLOID_LENGTH) / OLOID_LENGTH
+    unit_oloid(y * OLOID_IMAGE_WIDTH, x * OLOID_IMAGE_WIDTH) / OLOID_IMAGE_WIDTH
 }
 
 /// Height of the upper half of the oloid of the circles `x² + (y + ½)² = 1, z = 0` and `(y − ½)² + z² = 1, x = 0`; NaN
@@ -158,10 +160,13 @@ fn unit_oloid(x: f64, y: f64) -> f64 {
 const A4_WIDTH: f64 = 210.0 / 297.0;
 
 /// Height of the example page's image, in heights of the sheet.
-const PAGE_HEIGHT: f64 = 1.04;
+const PAGE_IMAGE_HEIGHT: f64 = 1.04;
 
 fn page(x: f64, y: f64) -> f64 {
-    unit_page(x * PAGE_HEIGHT + 0.5 * A4_WIDTH, y * PAGE_HEIGHT + 0.5) / PAGE_HEIGHT
+    unit_page(
+        x * PAGE_IMAGE_HEIGHT + 0.5 * A4_WIDTH,
+        y * PAGE_IMAGE_HEIGHT + 0.5,
+    ) / PAGE_IMAGE_HEIGHT
 }
 
 /// Height of a sheet `[0, A4_WIDTH] × [0, 1]` that is flat up to a slanting line and rolled onto a cylinder beyond it,
@@ -170,19 +175,19 @@ fn unit_page(x: f64, y: f64) -> f64 {
     /// Cosine and sine of 15°, the angle between the image's rows and the direction across the roll's rulings.
     const ROLL_DIRECTION: [f64; 2] = [0.965_925_826_289_068_3, 0.258_819_045_102_520_74];
     /// Distance of the line at which the roll begins from the sheet's corner, in heights of the sheet.
-    const ROLL_START: f64 = 0.45;
+    const ROLL_START_DISTANCE: f64 = 0.45;
     /// Radius of the roll, in heights of the sheet.
     const ROLL_RADIUS: f64 = 0.42;
 
     let across = ROLL_DIRECTION[0] * x + ROLL_DIRECTION[1] * y;
     let along = ROLL_DIRECTION[0] * y - ROLL_DIRECTION[1] * x;
-    let sine = ((across - ROLL_START) / ROLL_RADIUS).max(0.0);
+    let sine = ((across - ROLL_START_DISTANCE) / ROLL_RADIUS).max(0.0);
     if sine >= 1.0 {
         return f64::NAN;
     }
     // Distance across the rulings on the sheet itself: arc length instead of plan length.
     let unrolled = if sine > 0.0 {
-        ROLL_START + ROLL_RADIUS * sine.asin()
+        ROLL_START_DISTANCE + ROLL_RADIUS * sine.asin()
     } else {
         across
     };

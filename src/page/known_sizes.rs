@@ -8,13 +8,13 @@ use crate::scene::camera::focal_length_of;
 const FILM_DIAGONAL_MM: f64 = 43.266_615;
 
 /// Assumed relative standard deviation of a focal length that is given in pixels, as from a calibration.
-const PIXELS_DEVIATION: f64 = 0.003;
+const FOCAL_PIXELS_DEVIATION: f64 = 0.003;
 
 /// Assumed relative standard deviation of a focal length that is given as a field of view.
 const FIELD_OF_VIEW_DEVIATION: f64 = 0.01;
 
 /// Assumed relative standard deviation of a focal length that is given for 35 mm film: Exif rounds it to millimetres.
-const FILM35_DEVIATION: f64 = 0.02;
+const FOCAL_FILM35_DEVIATION: f64 = 0.02;
 
 /// Minimum focal length that is accepted, as a multiple of the photo's longer side.
 const MIN_FOCAL_RATIO: f64 = 0.05;
@@ -37,7 +37,7 @@ pub(super) fn focal_length(
 ) -> Result<Option<[f64; 2]>> {
     let (name, value, found, deviation) = match given {
         FocalLength::Unknown => return Ok(None),
-        FocalLength::Pixels(pixels) => ("focal_length", pixels, pixels, PIXELS_DEVIATION),
+        FocalLength::Pixels(pixels) => ("focal_length", pixels, pixels, FOCAL_PIXELS_DEVIATION),
         FocalLength::FieldOfView(degrees) => {
             let pixels = focal_length_of(degrees, longer)?;
             ("field_of_view", degrees, pixels, FIELD_OF_VIEW_DEVIATION)
@@ -46,7 +46,7 @@ pub(super) fn focal_length(
             "film35",
             length,
             length * diagonal / FILM_DIAGONAL_MM,
-            FILM35_DEVIATION,
+            FOCAL_FILM35_DEVIATION,
         ),
     };
     positive(name, value)?;

@@ -30,11 +30,11 @@ const MIN_VERTEX_WEIGHT: f64 = 0.5 - 1e-9;
 
 /// Distance beyond its outermost vertices up to which a surface is extrapolated in a picture, in units of the larger of
 /// lattice spacing and pixel size.
-const CONTINUATION_REACH: f64 = 0.5 + 1e-9;
+const MAX_CONTINUATION_STEPS: f64 = 0.5 + 1e-9;
 
 /// Distance beyond the lattice's first and last row up to which a surface is extrapolated in a picture, in units of the
 /// larger of lattice spacing and pixel size: a height image may end a row and half a pixel beyond them.
-const ROW_REACH: f64 = 1.5;
+const MAX_ROW_CONTINUATION_STEPS: f64 = 1.5;
 
 /// What a picture shows of a surface.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -325,7 +325,9 @@ impl<'a> Frame<'a> {
         let row = y.max(bottom).min(top);
         let inside = [x.max(min[0]).min(max[0]), row.max(min[1]).min(max[1])];
         let beyond = (x - inside[0]).abs().max((row - inside[1]).abs());
-        if (y - row).abs() > ROW_REACH * unit || beyond > CONTINUATION_REACH * unit {
+        if (y - row).abs() > MAX_ROW_CONTINUATION_STEPS * unit
+            || beyond > MAX_CONTINUATION_STEPS * unit
+        {
             return None;
         }
         let triangle = lattice.locate(inside);

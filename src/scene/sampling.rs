@@ -27,9 +27,10 @@ pub enum Resolution {
     Auto,
 }
 
-/// Number of lattice vertices along the longer side of the view for [`Resolution::Auto`].
-const AUTO_RESOLUTION: usize = 200;
-const POINTS_FOR_EACH: f64 = 4.0;
+/// Maximum number of lattice vertices along the longer side of the view for [`Resolution::Auto`].
+const MAX_AUTO_SIDE_VERTICES: usize = 200;
+/// Minimum mean number of a cloud's points for each lattice vertex for [`Resolution::Auto`].
+const MIN_POINTS_PER_VERTEX: f64 = 4.0;
 
 /// The first hit of a view ray with a mesh: the triangle or point, and the position in it.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -80,10 +81,10 @@ pub fn sample(mesh: &Mesh, view: View, resolution: Resolution) -> Result<Samples
         Resolution::Auto if mesh.is_cloud() => {
             let points = mesh.positions().len() as f64;
             // Each vertex has an area of ROW_SPACING times the spacing squared.
-            let each = (POINTS_FOR_EACH / (points * ROW_SPACING)).sqrt();
-            across(AUTO_RESOLUTION).max(each * width.sqrt() * height.sqrt())
+            let each = (MIN_POINTS_PER_VERTEX / (points * ROW_SPACING)).sqrt();
+            across(MAX_AUTO_SIDE_VERTICES).max(each * width.sqrt() * height.sqrt())
         }
-        Resolution::Auto => across(AUTO_RESOLUTION),
+        Resolution::Auto => across(MAX_AUTO_SIDE_VERTICES),
         Resolution::Across(vertices) => {
             return Err(Error::option("resolution", vertices, "must be at least 2"));
         }

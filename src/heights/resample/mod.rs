@@ -10,11 +10,11 @@ use crate::lattice::hexagonal::{Lattice, Located};
 
 /// Distance from a row or column of pixels or vertices, in grid steps, below which a point lies on it: far above
 /// rounding errors, far below anything visible.
-const ON_GRID: f64 = 1e-9;
+const ON_GRID_TOLERANCE: f64 = 1e-9;
 
 /// Maximum distance beyond the lattice's outermost vertices at which heights are extrapolated, in units of the larger
 /// of lattice spacing and pixel size.
-const EXTRAPOLATION_REACH: f64 = 3.0;
+const MAX_EXTRAPOLATION_STEPS: f64 = 3.0;
 
 /// Marks a pixel to which the plane fitted around a lattice vertex has not been extended.
 const NO_SOURCE: u32 = u32::MAX;
@@ -84,7 +84,7 @@ impl Heightfield {
     /// [`Error::OutOfMemory`](crate::Error::OutOfMemory) if the image cannot be allocated.
     pub fn to_image(&self, like: &HeightImage) -> Result<HeightImage> {
         let (width, pixels) = (like.width(), like.values().len());
-        let reach = EXTRAPOLATION_REACH * self.lattice().spacing().max(like.pixel_size());
+        let reach = MAX_EXTRAPOLATION_STEPS * self.lattice().spacing().max(like.pixel_size());
         let mut values = try_filled("height image", pixels, f64::NAN)?;
         let mut sources = try_filled("height image", pixels, NO_SOURCE)?;
         let triangle_of = |i: usize| self.triangle_at(like.position(i / width, i % width));
@@ -302,7 +302,7 @@ fn sample(&Cell { corners, fx, fy }: &Cell) -> f64 {
             let dx = if k & 1 == 1 { fx } else { 1.0 - fx };
             let dy = if k & 2 == 2 { fy } else { 1.0 - fy };
             let rest = 1.0 - dx - dy;
-            if rest >= -ON_GRID {
+            if rest >= -ON_GRID_TOLERANCE {
                 return rest * corners[k ^ 3] + dx * corners[k ^ 2] + dy * corners[k ^ 1];
             }
         }
@@ -314,9 +314,9 @@ fn sample(&Cell { corners, fx, fy }: &Cell) -> f64 {
 
 /// Rounds an interpolation weight to 0 or 1 if it differs from that by rounding errors only.
 fn snap(weight: f64) -> f64 {
-    if weight.abs() < ON_GRID {
+    if weight.abs() < ON_GRID_TOLERANCE {
         0.0
-    } else if (1.0 - weight).abs() < ON_GRID {
+    } else if (1.0 - weight).abs() < ON_GRID_TOLERANCE {
         1.0
     } else {
         weight

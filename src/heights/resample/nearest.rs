@@ -1,6 +1,6 @@
 //! Resampling by the nearest pixel or vertex, for hard constraints and flags, which must not be interpolated.
 
-use super::{Cell, ON_GRID, bilinear_weights, in_pixels, pixel_at};
+use super::{Cell, ON_GRID_TOLERANCE, bilinear_weights, in_pixels, pixel_at};
 use crate::error::{Result, check_shape, try_filled};
 use crate::heights::heightfield::{HeightImage, Heightfield};
 use crate::lattice::hexagonal::Lattice;
@@ -33,7 +33,7 @@ impl HeightImage {
             let p = lattice.position(vertex / lattice.cols(), vertex % lattice.cols());
             let (mean, share) = mean(&Cell::around(self, p));
             *z = match claims[vertex] {
-                0 if share > 1.0 - ON_GRID && within(vertex) => mean,
+                0 if share > 1.0 - ON_GRID_TOLERANCE && within(vertex) => mean,
                 0 => f64::NAN,
                 number if share == 0.0 => *z / f64::from(number),
                 _ => mean,
@@ -79,7 +79,7 @@ impl HeightImage {
 /// Index of the pixel that contains a point; on the border of two pixels the right or lower one. None outside of the
 /// image.
 fn nearest_pixel(image: &HeightImage, p: [f64; 2]) -> Option<usize> {
-    let [u, v] = in_pixels(image, p).map(|w| (w + 0.5 + ON_GRID).floor());
+    let [u, v] = in_pixels(image, p).map(|w| (w + 0.5 + ON_GRID_TOLERANCE).floor());
     pixel_at(image, v, u)
 }
 

@@ -15,7 +15,7 @@ const MIN_BIN_WIDTH: f32 = 0.02;
 const BIN_RANGE_TRIM: f64 = 0.01;
 
 /// Distance, in the list of pixels, between those from which the range of a colour component is measured.
-const SAMPLE_STEP: usize = 7;
+const COLOUR_SAMPLE_STEP: usize = 7;
 
 /// Maximum number of times that the histograms of page and background are counted anew with the latest mask of the
 /// page.
@@ -50,7 +50,7 @@ impl ColourModel {
             .collect();
         let mut bins = vec![0_u16; axes.len()];
         for (axis, &count) in BINS_PER_COMPONENT.iter().enumerate() {
-            let sample: Vec<f64> = (axes.iter().step_by(SAMPLE_STEP))
+            let sample: Vec<f64> = (axes.iter().step_by(COLOUR_SAMPLE_STEP))
                 .map(|colour| f64::from(colour[axis]))
                 .collect();
             let order = ranked(&sample);

@@ -15,7 +15,7 @@ const MARGIN_SHARE: f64 = 0.05;
 const MIN_ENERGY_RATIO: f64 = 1.6;
 
 /// Minimum mean darkness of the print, in logarithmic colour, for a page to have an orientation.
-const MIN_PRINT: f64 = 0.003;
+const MIN_MEAN_PRINT: f64 = 0.003;
 
 /// Contrast energy of print in one direction: the sum, over parallel strips of the image `print`, of squared
 /// differences between neighbouring values of the strip's profile. `at` gives the index of a sample in `print` by its
@@ -56,7 +56,7 @@ pub(super) fn quarter_turns(raw: &Planes, clean: &Planes, corners: &[[f64; 2]; 4
         total += f64::from(*value);
         right += f64::from(*value) * u;
     }
-    if total < MIN_PRINT * print.len() as f64 {
+    if total < MIN_MEAN_PRINT * print.len() as f64 {
         return 0;
     }
     let rows = profile_energy(&print, |row, col| row * SAMPLES_PER_SIDE + col);

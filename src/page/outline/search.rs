@@ -18,7 +18,7 @@ use crate::page::text::ranking::ranked;
 const PRINT_WIDTH_SHARE: f64 = 0.03;
 
 /// Minimum length of a photo's shorter side, in pixels: in a smaller one a page's edges have too few pixels.
-const MIN_PHOTO_SIDE: usize = 64;
+const MIN_PHOTO_SIDE_PIXELS: usize = 64;
 
 /// Minimum share of the photo's area that a page covers.
 const MIN_PAGE_SHARE: f64 = 0.05;
@@ -84,7 +84,7 @@ fn upright(outline: PageOutline, views: &Views) -> PageOutline {
 /// Finds the outline of the page in a photo: its corners and edges, with a verdict.
 pub fn find_outline(photo: &Photo<'_>) -> OutlineReport {
     let raw = Planes::from_photo(photo);
-    if raw.width.min(raw.height) < MIN_PHOTO_SIDE {
+    if raw.width.min(raw.height) < MIN_PHOTO_SIDE_PIXELS {
         return report(Vec::new());
     }
     let clean = closed(&raw, (0.5 * PRINT_WIDTH_SHARE * raw.longer_side()) as usize);

@@ -25,7 +25,7 @@ const SAME_LINE_DEGREES: usize = 4;
 const SAME_LINE_DISTANCE: usize = 5;
 
 /// Maximum number of lines that are combined to quadrilaterals; the cost is the fourth power of this.
-const MAX_LINES: usize = 64;
+const MAX_COMBINED_LINES: usize = 64;
 
 /// Minimum gradient of an edge pixel, as a multiple of the image's median gradient.
 const MIN_GRADIENT_RATIO: f64 = 3.0;
@@ -59,11 +59,11 @@ const MIN_PRINT_DENSITY: f32 = 0.15;
 const MIN_SIDE_SUPPORT: f64 = 0.45;
 
 /// Length beyond a corner over which it is measured whether a side continues, as a share of the side.
-const BEYOND_SHARE: f64 = 0.12;
+const BEYOND_CORNER_SHARE: f64 = 0.12;
 
 /// Penalty of a side that continues with full support beyond a corner, as do joints of tiles and folds of a page; from
 /// 0 to 1.
-const BEYOND_WEIGHT: f64 = 0.8;
+const BEYOND_CORNER_PENALTY: f64 = 0.8;
 
 /// Minimum sine of the angle between neighbouring sides of a page's quadrilateral.
 const MIN_SIDE_SINE: f64 = 0.75;
@@ -280,7 +280,7 @@ fn find_lines(gradients: &Gradients) -> Vec<Line> {
             direction,
             offset as f64 - middle as f64,
         ));
-        if lines.len() == MAX_LINES {
+        if lines.len() == MAX_COMBINED_LINES {
             break;
         }
     }
@@ -343,12 +343,12 @@ pub(super) fn best_line_quadrilateral(
                 let line = &lines[sides[k]];
                 let (from, to) = (line.place(corners[k]), line.place(corners[(k + 1) % 4]));
                 let own = line.support(from, to);
-                let reach = BEYOND_SHARE * (to - from);
+                let reach = BEYOND_CORNER_SHARE * (to - from);
                 let beyond = line
                     .support(from - reach, from)
                     .max(line.support(to, to + reach));
                 least = least.min(own);
-                worth *= own * (1.0 - BEYOND_WEIGHT * beyond);
+                worth *= own * (1.0 - BEYOND_CORNER_PENALTY * beyond);
             }
             if least < MIN_SIDE_SUPPORT {
                 continue;

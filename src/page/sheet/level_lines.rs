@@ -11,7 +11,7 @@ const MAX_LINE_POINTS: usize = 16;
 
 /// Maximum number of detected lines in each direction (across or down the page) that are used: more cost time and add
 /// nothing.
-const MAX_LINES: usize = 40;
+const MAX_LINES_PER_DIRECTION: usize = 40;
 
 /// Detects the lines across and down the page in the photo as flattened by a sheet. `table` gives the photo's places of
 /// the flat page, `ratio` is the page's height over its width.
@@ -27,7 +27,7 @@ pub(super) fn find_level_lines(
         let turned = |[x, y]: [f64; 2]| if vertical { [1.0 - y, x] } else { [x, y] };
         let turned_view = PageView::from_places(|share| Some(table.at(turned(share))));
         let found = find_on_view(&turned_view, photo, false).unwrap_or_default();
-        let step = found.len().div_ceil(MAX_LINES).max(1);
+        let step = found.len().div_ceil(MAX_LINES_PER_DIRECTION).max(1);
         for line in found.iter().step_by(step) {
             let thin = line.len().div_ceil(MAX_LINE_POINTS).max(1);
             let shares: Vec<_> = line.iter().step_by(thin).map(|p| turned(*p)).collect();

@@ -89,7 +89,7 @@ impl Polyline {
         let inner = &self.points[count / 20..count - count / 20];
         let mut weights = vec![1.0; inner.len()];
         let mut found = ([0.0; 2], [1.0, 0.0]);
-        for _ in 0..LINE_ROUNDS {
+        for _ in 0..LINE_FIT_ROUNDS {
             let total: f64 = weights.iter().sum();
             let mean = [0, 1].map(|k| {
                 (inner.iter().zip(&weights))
@@ -119,4 +119,4 @@ impl Polyline {
 }
 
 /// Number of rounds of reweighted least squares for fitting a straight line to a polyline.
-const LINE_ROUNDS: usize = 4;
+const LINE_FIT_ROUNDS: usize = 4;

@@ -27,16 +27,16 @@ pub(super) struct FoundSheet {
 
 /// Numbers of grid columns for the first fits, before lines of print are known; coarse grids find the large bends in
 /// few steps.
-const COARSE_GRIDS: [usize; 2] = [9, 13];
+const COARSE_GRID_COLS: [usize; 2] = [9, 13];
 
 /// Number of columns of a sheet's grid when it is fitted to lines of print.
-const FINE_GRID: usize = 25;
+const FINE_GRID_COLS: usize = 25;
 
 /// Number of times that lines of print are detected in the flattened photo and the sheet is fitted to them.
-const LINE_ROUNDS: usize = 2;
+const LINE_DETECTION_ROUNDS: usize = 2;
 
 /// Maximum number of Levenberg–Marquardt steps in one fit of a sheet to a photo.
-const MAX_STEPS: usize = 15;
+const MAX_FIT_STEPS: usize = 15;
 
 /// Relative decrease of the cost by one step below which the fit of a sheet has converged.
 const COST_TOLERANCE: f64 = 0.01;
@@ -90,7 +90,7 @@ pub(super) fn find_sheet(
 ) -> Option<FoundSheet> {
     let apparent = apparent_ratio(edges);
     let homography = Homography::new(corners(edges))?;
-    let start = homography.sheet(COARSE_GRIDS[0], &prior, apparent)?;
+    let start = homography.sheet(COARSE_GRID_COLS[0], &prior, apparent)?;
     let mut problem = SheetProblem {
         edges: edges.clone(),
         lines: Vec::new(),
@@ -103,16 +103,16 @@ pub(super) fn find_sheet(
             ..FIRM_PAPER_WEIGHTS
         },
     };
-    let coarse = problem.solve(FittedSheet::new(start), MAX_STEPS, COST_TOLERANCE)?;
+    let coarse = problem.solve(FittedSheet::new(start), MAX_FIT_STEPS, COST_TOLERANCE)?;
     problem.weights = FIRM_PAPER_WEIGHTS;
-    let coarse = problem.refined(coarse, &COARSE_GRIDS)?;
+    let coarse = problem.refined(coarse, &COARSE_GRID_COLS)?;
     let (mut sheet, mut figures) = problem.with_lines(coarse.clone(), view, photo)?;
     let mut model = PageModel::Sheet;
     if figures.curvature > MAX_FIRM_CURVATURE {
         let mut crumpled = problem.clone();
         crumpled.weights = CRUMPLED_PAPER_WEIGHTS;
         crumpled.lines.clear();
-        let refined = crumpled.refined(coarse, &COARSE_GRIDS);
+        let refined = crumpled.refined(coarse, &COARSE_GRID_COLS);
         if let Some(found) = refined.and_then(|coarse| crumpled.with_lines(coarse, view, photo)) {
             (sheet, figures) = found;
             (problem, model) = (crumpled, PageModel::SoftSheet);
@@ -142,7 +142,7 @@ impl SheetProblem {
         for cols in grids {
             let rows = grid_rows(*cols, sheet.grid.ratio());
             sheet.grid = sheet.grid.resampled([*cols, rows]);
-            sheet = self.solve(sheet, MAX_STEPS, COST_TOLERANCE)?;
+            sheet = self.solve(sheet, MAX_FIT_STEPS, COST_TOLERANCE)?;
         }
         Some(sheet)
     }
@@ -155,11 +155,11 @@ impl SheetProblem {
         view: &PhotoView,
         photo: &Photo<'_>,
     ) -> Option<(FittedSheet, SheetFigures)> {
-        for _ in 0..LINE_ROUNDS {
+        for _ in 0..LINE_DETECTION_ROUNDS {
             let table = PlaceTable::new(&sheet.grid, view).ok()?;
             self.lines = find_level_lines(&table, view, photo, sheet.grid.ratio());
             sheet.levels = self.lines.iter().map(|line| line.level).collect();
-            sheet = self.refined(sheet, &[FINE_GRID])?;
+            sheet = self.refined(sheet, &[FINE_GRID_COLS])?;
         }
         let figures = self.figures(&sheet)?;
         Some((sheet, figures))
@@ -173,7 +173,7 @@ fn plane(
     homography: Homography,
     apparent: f64,
 ) -> Option<(FittedSheet, SheetFigures)> {
-    let grid = homography.sheet(FINE_GRID, &problem.prior, apparent)?;
+    let grid = homography.sheet(FINE_GRID_COLS, &problem.prior, apparent)?;
     let sheet = problem.with_levels(&FittedSheet::new(grid))?;
     let figures = problem.figures(&sheet)?;
     Some((sheet, figures))

@@ -28,7 +28,7 @@ const MAX_SCATTER_PIXELS: f64 = 0.3;
 const MAX_SCATTER_SCALES: f64 = 0.05;
 
 /// Minimum number of parallel lines of text on a page: fewer may be parallel by chance.
-const MIN_LINES: usize = 4;
+const MIN_TEXT_LINES: usize = 4;
 
 /// Maximum distance between lines that are compared for being parallel, as a multiple of half the x-height.
 const MAX_NEIGHBOUR_DISTANCE: f64 = 25.0;
@@ -136,7 +136,7 @@ pub(super) fn parallel_lines(mut lines: Vec<Baseline>) -> Vec<Baseline> {
             .filter(|(i, line)| line.is_parallel(&lines, *i))
             .map(|(_, line)| line.clone())
             .collect();
-        if kept.len() < MIN_LINES || (kept.len() as f64) < MIN_PARALLEL_SHARE * all as f64 {
+        if kept.len() < MIN_TEXT_LINES || (kept.len() as f64) < MIN_PARALLEL_SHARE * all as f64 {
             return Vec::new();
         }
         if kept.len() == lines.len() {

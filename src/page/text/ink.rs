@@ -64,10 +64,10 @@ impl<'a> PageView<'a> {
     /// in front of the camera.
     fn size(&self) -> Option<[f64; 2]> {
         /// Number of segments by which the page's width and height in the photo are measured.
-        const SIZE_STEPS: usize = 16;
+        const PAGE_SIZE_SEGMENTS: usize = 16;
         let length = |along: fn(f64) -> [f64; 2]| -> Option<f64> {
-            let seen: Option<Vec<_>> = (0..=SIZE_STEPS)
-                .map(|i| self.project(along(i as f64 / SIZE_STEPS as f64)))
+            let seen: Option<Vec<_>> = (0..=PAGE_SIZE_SEGMENTS)
+                .map(|i| self.project(along(i as f64 / PAGE_SIZE_SEGMENTS as f64)))
                 .collect();
             Some(
                 (seen?.windows(2))

@@ -120,7 +120,8 @@ impl Seen {
     }
 }
 
-const TURNS: &str = "must be 0, 90, 180 or 270 degrees";
+/// Requirement of the option `turn`, for its error.
+const TURN_REQUIREMENT: &str = "must be 0, 90, 180 or 270 degrees";
 
 /// Values at the pixels of an image, with its width and height.
 struct Sized<T> {
@@ -189,12 +190,12 @@ impl Known {
                 }
                 "camera" => known.camera = Some(photo_camera(&value)?),
                 "turn" => {
-                    known.turn = match option::<u32>("turn", value.clone(), TURNS)? {
+                    known.turn = match option::<u32>("turn", value.clone(), TURN_REQUIREMENT)? {
                         0 => Turn::None,
                         90 => Turn::Quarter,
                         180 => Turn::Half,
                         270 => Turn::ThreeQuarters,
-                        other => return Err(Error::option("turn", other, TURNS).into()),
+                        other => return Err(Error::option("turn", other, TURN_REQUIREMENT).into()),
                     }
                 }
                 _ => {

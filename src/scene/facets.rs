@@ -112,9 +112,8 @@ impl Facets {
         (0..self.triangles.len()).map(of).collect()
     }
 
-    /// Finds the watershed basin of each triangle, as a label: the minimum of `heights` that water reaches from it
-    /// without crossing edges sharper than `bend`; triangles that water cannot reach so follow from where water runs
-    /// from them.
+    /// Labels the watershed basin of each triangle: each local minimum of `heights`, connected across edges of at most
+    /// `bend`, is a basin, and the other triangles are flooded from the basins, across the lowest edges first.
     fn basins(&self, heights: &[f64], bend: f64) -> Result<Vec<u32>> {
         let mut sets = UnionFind::new("patches", heights.len())?;
         let around = |t: usize| {
@@ -280,7 +279,7 @@ impl Regions {
         None
     }
 
-    /// Merges two parts: the one with fewer neighbours into the other.
+    /// Merges two neighbouring parts of the mesh: the one with fewer neighbours into the other.
     fn join(&mut self, a: u32, b: u32) {
         let size = |region: u32| self.around[region as usize].len();
         let (to, from) = if size(a) < size(b) { (b, a) } else { (a, b) };

@@ -20,7 +20,7 @@ pub(super) struct Site {
     pub next: Vec<usize>,
 }
 
-/// Number of sectors of directions by which it is decided whether sites surround a cell.
+/// Number of sectors of directions by which it is decided whether heights surround a cell in a hole.
 const DIRECTION_SECTORS: u32 = 12;
 
 /// Angle, in full turns, added so that directions on the border of two sectors fall into the same one despite rounding.

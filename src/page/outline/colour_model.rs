@@ -21,7 +21,8 @@ const COLOUR_SAMPLE_STEP: usize = 7;
 /// page.
 const HISTOGRAM_ROUNDS: usize = 4;
 
-/// Radius, in pixels, of the square over which the probability of being page is averaged.
+/// Radius, in pixels of the reduced photo at half resolution, of the square over which the probability of being page is
+/// averaged.
 const SMOOTHING_RADIUS: usize = 2;
 
 /// Count added to each histogram bin, as a share of a uniform histogram, so that colours that were not observed decide

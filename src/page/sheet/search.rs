@@ -36,7 +36,7 @@ const FINE_GRID_COLS: usize = 25;
 const LINE_DETECTION_ROUNDS: usize = 2;
 
 /// Maximum number of Levenberg–Marquardt steps in one fit of a sheet to a photo.
-const MAX_FIT_STEPS: usize = 15;
+const MAX_SHEET_FIT_STEPS: usize = 15;
 
 /// Relative decrease of the cost by one step below which the fit of a sheet has converged.
 const COST_TOLERANCE: f64 = 0.01;
@@ -103,7 +103,7 @@ pub(super) fn find_sheet(
             ..FIRM_PAPER_WEIGHTS
         },
     };
-    let coarse = problem.solve(FittedSheet::new(start), MAX_FIT_STEPS, COST_TOLERANCE)?;
+    let coarse = problem.solve(FittedSheet::new(start), MAX_SHEET_FIT_STEPS, COST_TOLERANCE)?;
     problem.weights = FIRM_PAPER_WEIGHTS;
     let coarse = problem.refined(coarse, &COARSE_GRID_COLS)?;
     let (mut sheet, mut figures) = problem.with_lines(coarse.clone(), view, photo)?;
@@ -142,7 +142,7 @@ impl SheetProblem {
         for cols in grids {
             let rows = grid_rows(*cols, sheet.grid.ratio());
             sheet.grid = sheet.grid.resampled([*cols, rows]);
-            sheet = self.solve(sheet, MAX_FIT_STEPS, COST_TOLERANCE)?;
+            sheet = self.solve(sheet, MAX_SHEET_FIT_STEPS, COST_TOLERANCE)?;
         }
         Some(sheet)
     }

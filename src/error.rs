@@ -7,128 +7,128 @@ pub use readable::{Readable, rounded};
 use readable::count;
 use thiserror::Error;
 
-/// The crate's result type.
+/// Result type of this library, whose error is an [`enum@Error`].
 pub type Result<T> = std::result::Result<T, Error>;
 
-/// What was wrong, where, and what to do about it.
+/// An error of this library: what was wrong, where, and what to do about it.
 ///
-/// An optimisation that was cancelled or ran out of iterations is no error: it
-/// is a [`StopReason`](crate::StopReason) of its report. [`Error::code`] gives
-/// each variant a name that stays the same across versions.
+/// An optimisation that was cancelled or ran out of iterations is no error: it is a [`StopReason`](crate::StopReason)
+/// of its report. [`Error::code`] gives each variant a name that stays the same across versions.
 #[derive(Debug, Clone, PartialEq, Error)]
 #[non_exhaustive]
 pub enum Error {
-    /// There are no values at all.
+    /// An input array has no values at all.
     #[error("{what} is empty: it needs at least one row and one column")]
     Empty {
-        /// What was being read, for example `"height image"`.
+        /// Name of the array that was being read, for example `"height image"`.
         what: &'static str,
     },
 
-    /// The number of values does not match the stated shape, or rows differ in length.
+    /// The number of an input array's values does not match its stated shape, or its rows differ in length.
     #[error(
         "{what}: there are {found} values, and its shape of {} × {} (rows × columns) needs {}; \
          every row must be equally long and the shape must match the data",
         count(*.rows), count(*.cols), count(*.expected)
     )]
     Shape {
-        /// What was being read.
+        /// Name of the array that was being read, for example `"height image"`.
         what: &'static str,
-        /// Rows stated or found.
+        /// Number of rows, as stated or as found.
         rows: usize,
-        /// Columns stated, or the length of the first row.
+        /// Number of columns as stated, or the length of the first row.
         cols: usize,
-        /// Values that the shape needs.
+        /// Number of values that an array of that shape has.
         expected: usize,
-        /// Values there are.
+        /// Number of values that were given.
         found: usize,
     },
 
-    /// A value that must be finite is not.
+    /// A value of an input array that must be finite is infinite or NaN.
     #[error("{what} is {} at row {row}, column {col}; {advice}", .value.readable())]
     NotFinite {
-        /// What was being read.
+        /// Name of the array that was being read, for example `"height image"`.
         what: &'static str,
-        /// The offending value: an infinity or NaN.
+        /// The first value that is not finite: an infinity or NaN.
         value: f64,
-        /// Row, counted from 0 at the top.
+        /// Row of the value that is not finite, counted from 0 at the top.
         row: usize,
-        /// Column, counted from 0 at the left.
+        /// Column of the value that is not finite, counted from 0 at the left.
         col: usize,
-        /// What to do instead.
+        /// What the user can give instead, as the end of the message.
         advice: &'static str,
     },
 
-    /// No vertex has a height and six neighbours with heights, so there is nothing to solve.
+    /// No vertex has both a height and six neighbours with heights, so that there is no surface to solve for.
     #[error(
         "no interior vertex: of {valid} valid vertices on a lattice of {rows} rows by {cols} \
          columns none has all six neighbours valid and no occlusion; use a finer spacing, a larger \
          input, a mask with fewer holes or a higher threshold for occlusions"
     )]
     NoInterior {
-        /// Rows of the lattice.
+        /// Number of rows of the lattice.
         rows: usize,
-        /// Columns of the lattice.
+        /// Number of columns of the lattice.
         cols: usize,
-        /// Vertices with a height.
+        /// Number of vertices with a height.
         valid: usize,
     },
 
-    /// A connected part of the surface that its constraints and fidelity do not hold in place.
+    /// A connected part of the surface can tilt or move, because it has no three given heights that are not on one
+    /// line.
     #[error(
         "the part of the surface around row {row}, column {col} ({vertices} vertices) is not held \
          in place: it needs heights at three vertices that are not on a line, as constraints or \
          with a confidence above 0; add some, or mask the part out"
     )]
     Underdetermined {
-        /// Row of its first vertex.
+        /// Lattice row of the part's first vertex.
         row: usize,
-        /// Column of its first vertex.
+        /// Lattice column of the part's first vertex.
         col: usize,
-        /// Number of its vertices.
+        /// Number of the part's vertices.
         vertices: usize,
     },
 
-    /// Two things that must be of one surface are of two.
+    /// Two arguments that must belong to one surface, such as a surface and its patches, belong to two.
     #[error(
         "{what} are those of another surface: they differ at row {row}, column {col}; take those of \
          this very surface"
     )]
     Mismatch {
-        /// What belongs to another surface, for example `"patches"`.
+        /// Name of the argument that belongs to another surface, for example `"patches"`.
         what: &'static str,
-        /// Row of the first vertex where that shows.
+        /// Lattice row of the first vertex at which the two differ.
         row: usize,
-        /// Column of it.
+        /// Lattice column of the first vertex at which the two differ.
         col: usize,
     },
 
-    /// An option is outside its range.
+    /// An option's value is outside its range.
     #[error("option `{name}` is {value}, but {requirement}")]
     Option {
-        /// The option's name, as in Rust and JS.
+        /// The option's name, as in Rust and JavaScript.
         name: &'static str,
-        /// The value given.
+        /// The value that was given, as text.
         value: String,
-        /// What it must be.
+        /// What the value has to be, for example `"must be a finite number above zero"`.
         requirement: &'static str,
     },
 
-    /// Traced edges that cannot be those of a page.
+    /// Edges traced in a photo cannot be the edges of one page.
     #[error("these edges are no page's: {reason}")]
     Edges {
-        /// What is wrong with them, and what to do.
+        /// What is wrong with the edges, and what to do about it.
         reason: String,
     },
 
-    /// No page can be told from its ground in a photo.
+    /// No page can be told from the background in a photo.
     #[error(
         "no page was found in the photo; trace its edges, or take the photo anew, with the whole \
          page on a ground of another colour"
     )]
     NoPage,
 
-    /// The focal length of a photo is not known and cannot be found.
+    /// The focal length of a photo is not known, and its page shows too little perspective to find it.
     #[error(
         "the camera's focal length cannot be found from these edges, for they show too little \
          perspective; give it in pixels, as Exif's focal length in 35 mm film, or as a field of \
@@ -136,99 +136,99 @@ pub enum Error {
     )]
     FocalLength,
 
-    /// Triangles that make no surface, or one with nothing inside.
+    /// The triangles of a mesh make no surface that can be fitted, or one without interior vertices.
     #[error("this mesh is no surface that can be fitted: {reason}; {advice}")]
     Topology {
-        /// What is wrong with it, and where.
+        /// What is wrong with the mesh, and where.
         reason: String,
-        /// What to do about it.
+        /// What to do about the fault in the mesh.
         advice: &'static str,
     },
 
-    /// A part of the surface that no cut makes flat within the limits that were asked for.
+    /// A part of a surface stays strained too much however it is cut, within the limits that the options set.
     #[error(
         "the part of the surface around row {row}, column {col} ({vertices} vertices) cannot be laid \
          flat: {reason}; smooth the surface more (a smaller lambda), take larger patches or allow \
          more strain"
     )]
     NotFlat {
-        /// Row of a vertex in its middle.
+        /// Lattice row of a vertex in the part's middle.
         row: usize,
-        /// Column of it.
+        /// Lattice column of a vertex in the part's middle.
         col: usize,
-        /// Number of its vertices.
+        /// Number of the part's vertices.
         vertices: usize,
-        /// What cannot be met, and by how much.
+        /// The limit that is not met, and by how much.
         reason: String,
     },
 
-    /// The energy of the input is not a finite number.
+    /// The energy of the input is not a finite number, because its heights are too large for the lattice's spacing.
     #[error(
         "the energy overflows: the heights are too large for a lattice spacing of {}; \
          check the units of the heights and of the spacing",
         .spacing.readable()
     )]
     Overflow {
-        /// The lattice spacing, in the input's units.
+        /// Distance between neighbouring lattice vertices, in the input's unit of length.
         spacing: f64,
     },
 
-    /// The energy of the input is so small that its squares would be lost.
+    /// The energy of the input is so small that squared values would round to zero.
     #[error(
         "the energy underflows: the heights are too small for a lattice spacing of {}; \
          check the units of the heights and of the spacing",
         .spacing.readable()
     )]
     Underflow {
-        /// The lattice spacing, in the input's units.
+        /// Distance between neighbouring lattice vertices, in the input's unit of length.
         spacing: f64,
     },
 
-    /// More memory would be needed than the limit allows or the machine has.
-    /// Raised before anything of that size is allocated.
+    /// An array would have more cells than [`MAX_CELLS`], or than the machine has memory for; raised before it is
+    /// allocated.
     #[error(
         "{what} needs {} cells, more than the limit of {}; use a coarser spacing, a lower resolution or a smaller input",
         count(*.requested), count(*.limit)
     )]
     TooLarge {
-        /// What would have been allocated.
+        /// Name of the array that would have been allocated.
         what: &'static str,
-        /// Cells (vertices or pixels) asked for.
+        /// Number of cells (vertices or pixels) that were asked for.
         requested: usize,
-        /// Cells allowed.
+        /// Maximum number of cells that one array may have.
         limit: usize,
     },
 
-    /// The machine could not provide the memory, though it is within the limit.
+    /// The machine could not provide the memory for an array, though its size is within the limit.
     #[error("out of memory while allocating {} bytes for {what}; use a coarser spacing", count(*.bytes))]
     OutOfMemory {
-        /// What was being allocated.
+        /// Name of the array that was being allocated.
         what: &'static str,
-        /// Its size in bytes.
+        /// Size of the array in bytes.
         bytes: usize,
     },
 
-    /// A file is damaged, cut short or not what its name says.
+    /// A file is damaged, cut short or not of the format that it was read as.
     #[error("cannot read this as {format}: {reason}")]
     Format {
-        /// The format that was tried.
+        /// Name of the file format that was tried, for example `"PNG"`.
         format: &'static str,
-        /// What the decoder found.
+        /// What the decoder found wrong with the bytes.
         reason: String,
     },
 
-    /// A well-formed file that holds something this library does not read or write.
+    /// A well-formed file holds something that this library does not read or write.
     #[error("{format}: {reason}")]
     Unsupported {
-        /// The format.
+        /// Name of the file format, for example `"PNG"`.
         format: &'static str,
-        /// What is not supported, and what is.
+        /// What of the format is not supported, and what is.
         reason: String,
     },
 }
 
 impl Error {
-    /// A stable, upper-case name for the variant: the `code` of the JS error.
+    /// Returns a stable, upper-case name for the variant, such as `"NO_PAGE"`: the `code` of the JavaScript error.
     pub fn code(&self) -> &'static str {
         match self {
             Error::Empty { .. } => "EMPTY",
@@ -252,14 +252,15 @@ impl Error {
         }
     }
 
-    /// Edges that are no page's.
+    /// Makes an [`Error::Edges`] with the reason why traced edges cannot be a page's.
     pub(crate) fn edges(reason: &str) -> Self {
         Error::Edges {
             reason: reason.to_string(),
         }
     }
 
-    /// A mesh whose size, in the unit of its coordinates, is 0 or cannot be computed with.
+    /// Makes the [`Error::Topology`] of a mesh whose size (in the unit of its coordinates) is 0, not finite or too
+    /// small.
     pub(crate) fn mesh_size(size: f64) -> Self {
         let reason = match size == 0.0 {
             true => "all its vertices are in one place",
@@ -271,7 +272,7 @@ impl Error {
         }
     }
 
-    /// An option out of its range, by its name.
+    /// Makes an [`Error::Option`] from the option's name, the value given, and what it has to be.
     pub fn option(name: &'static str, value: impl Readable, requirement: &'static str) -> Self {
         Error::Option {
             name,
@@ -281,12 +282,12 @@ impl Error {
     }
 }
 
-/// Most cells (lattice vertices or pixels) that one input may have: 5 · 2²², room for an image of
-/// 4096 × 4096 pixels and for its lattice, which has 2/√3 times as many vertices. The solver holds
-/// them in less than the 4 GiB that a wasm32 memory can grow to.
+/// Maximum number of cells (lattice vertices or pixels) of one input: 5 · 2²², room for an image of 4096 × 4096 pixels
+/// and for its lattice, which has 2/√3 times as many vertices. The solver holds them in less than the 4 GiB that a
+/// wasm32 memory can grow to.
 pub const MAX_CELLS: usize = 5 << 22;
 
-/// `rows · cols`, if neither overflows nor exceeds [`MAX_CELLS`].
+/// Returns `rows · cols`, or [`Error::TooLarge`] if that exceeds [`MAX_CELLS`]. `what` names the array.
 pub(crate) fn checked_cells(what: &'static str, rows: usize, cols: usize) -> Result<usize> {
     let requested = rows.saturating_mul(cols);
     if requested > MAX_CELLS {
@@ -299,13 +300,15 @@ pub(crate) fn checked_cells(what: &'static str, rows: usize, cols: usize) -> Res
     Ok(requested)
 }
 
-/// Whether `found` values fill a shape within [`MAX_CELLS`].
+/// Checks that an array has `rows · cols` values and at most [`MAX_CELLS`] of them. `what` names the array, `found` is
+/// the number of values it has.
 pub fn check_shape(what: &'static str, rows: usize, cols: usize, found: usize) -> Result<()> {
     checked_cells(what, rows, cols)?;
     check_count(what, rows, cols, found)
 }
 
-/// Whether `found` values fill a shape of any size.
+/// Checks that an array has `rows · cols` values, without a limit to their number. `what` names the array, `found` is
+/// the number of values it has.
 pub fn check_count(what: &'static str, rows: usize, cols: usize, found: usize) -> Result<()> {
     let expected = rows.saturating_mul(cols);
     if found == expected {
@@ -320,7 +323,8 @@ pub fn check_count(what: &'static str, rows: usize, cols: usize, found: usize) -
     })
 }
 
-/// A vector of `len` copies of `value`, with a failed allocation as an error.
+/// Makes a vector of `len` copies of `value`, or returns [`Error::OutOfMemory`] if it cannot be allocated. `what` names
+/// the array.
 pub fn try_filled<T: Clone>(what: &'static str, len: usize, value: T) -> Result<Vec<T>> {
     let mut out = Vec::new();
     out.try_reserve_exact(len).map_err(|_| Error::OutOfMemory {
@@ -331,7 +335,7 @@ pub fn try_filled<T: Clone>(what: &'static str, len: usize, value: T) -> Result<
     Ok(out)
 }
 
-/// `value` itself if it is finite and above zero.
+/// Returns an option's value if it is finite and above zero, or [`Error::Option`]. `name` is the option's.
 pub fn positive(name: &'static str, value: f64) -> Result<f64> {
     if value.is_finite() && value > 0.0 {
         Ok(value)

@@ -38,38 +38,40 @@ use crate::shape::analysis::Deviation;
 use crate::shape::patches::{PatchOptions, Patches};
 use web_time::Instant;
 
-/// Default λ to try, two per decade: from a surface near to the input to one of little detail.
-const LAMBDAS: [f64; 6] = [1e7, 3e6, 1e6, 3e5, 1e5, 3e4];
+/// Default values of λ, the weight of the fidelity, to try: two per decade, from a surface near to the input to one
+/// with little detail.
+const DEFAULT_LAMBDAS: [f64; 6] = [1e7, 3e6, 1e6, 3e5, 1e5, 3e4];
 
 /// Default minimum sizes of patches to try, as shares of all vertices.
-const SMALLEST: [f64; 3] = [0.005, 0.02, 0.08];
+const DEFAULT_MIN_PATCH_SHARES: [f64; 3] = [0.005, 0.02, 0.08];
 
-/// Default λ to try for a mesh, as multiples of the λ that suits its noise.
+/// Default values of λ to try for a mesh, as multiples of the λ that suits its noise.
 const MESH_LAMBDA_SHARES: [f64; 4] = [1.0, 0.3, 0.1, 0.03];
 
-/// Options of [`explore`].
+/// Options of [`explore`]: what to try, and the options of solve, patches, pattern and drawing.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ExploreOptions {
-    /// λ to try, in any order. Default: 1e7, 3e6, 1e6, 3e5, 1e5 and 3e4.
+    /// Values of λ, the weight of the fidelity, to try, in any order. Default: 1e7, 3e6, 1e6, 3e5, 1e5 and 3e4.
     pub lambdas: Vec<f64>,
-    /// [Minimum sizes of patches](PatchOptions::smallest) to try, in any order. Default: 0.005, 0.02 and 0.08.
+    /// [Minimum sizes of patches](PatchOptions::smallest) to try, as shares of all vertices, in any order. Default:
+    /// 0.005, 0.02 and 0.08.
     pub smallest: Vec<f64>,
-    /// Options of the solves; their λ is ignored. Default: [`Options::paper`], whose nuclear norm makes few large
-    /// sheets.
+    /// Options of the solves that fit surfaces to the input; their λ is ignored. Default: [`Options::paper`], whose
+    /// nuclear norm makes few large sheets.
     pub solver: Options,
-    /// Options of the patches; their minimum size is ignored.
+    /// Options of the segmentation of a surface into patches; their minimum size is ignored.
     pub patches: PatchOptions,
-    /// Options of the pattern.
+    /// Options of the pattern, which cuts a surface into flat sheets.
     pub pattern: PatternOptions,
-    /// Options of the drawing.
+    /// Options of the drawing of the sheets.
     pub drawing: DrawingOptions,
 }
 
 impl Default for ExploreOptions {
     fn default() -> Self {
         ExploreOptions {
-            lambdas: LAMBDAS.into(),
-            smallest: SMALLEST.into(),
+            lambdas: DEFAULT_LAMBDAS.into(),
+            smallest: DEFAULT_MIN_PATCH_SHARES.into(),
             solver: Options::paper(),
             patches: PatchOptions::default(),
             pattern: PatternOptions::default(),
@@ -79,7 +81,7 @@ impl Default for ExploreOptions {
 }
 
 impl ExploreOptions {
-    /// Default options for a mesh; `lambda` is the λ that suits its noise.
+    /// Makes the default options for a mesh; `lambda` is the λ that suits its noise.
     pub fn for_mesh(lambda: f64) -> Self {
         ExploreOptions {
             lambdas: MESH_LAMBDA_SHARES.map(|share| share * lambda).into(),
@@ -87,7 +89,8 @@ impl ExploreOptions {
         }
     }
 
-    /// Sorts what is tried: larger λ, and smaller patches, first.
+    /// Sorts the values of λ to try from the largest to the smallest, and the minimum patch sizes from the smallest to
+    /// the largest.
     pub fn in_order(mut self) -> Self {
         self.lambdas.sort_by(|a, b| b.total_cmp(a));
         self.smallest.sort_by(f64::total_cmp);
@@ -95,42 +98,43 @@ impl ExploreOptions {
     }
 }
 
-/// Attempt to make a pattern of an input, with one λ and one minimum size of patches.
+/// Attempt to make a pattern (flat sheets) of an input, with one λ and one minimum size of patches.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub struct Plan {
-    /// λ of the solve that the surface comes from.
+    /// λ, the weight of the fidelity, of the solve that made the plan's surface.
     pub lambda: f64,
-    /// Minimum size of patches, as a share of all vertices.
+    /// Minimum size of the plan's patches, as a share of all vertices.
     pub smallest: f64,
-    /// Root mean square distance of the surface from the input, in the input's units.
+    /// Root mean square distance of the plan's surface from the input, in the input's unit of height.
     pub distance: f64,
-    /// Time that solve and pattern took, in seconds; each plan includes the whole solve of its λ.
+    /// Time for the solve and the pattern, in seconds; each plan includes the whole solve of its λ.
     pub seconds: f64,
-    /// The pattern, or [`Error::NotFlat`] with the place of a part that no cut lays flat within the limits.
+    /// The pattern, or [`Error::NotFlat`] with the place of a part that no cut lays flat within the strain limits.
     pub outcome: Result<Found>,
 }
 
-/// Pattern of a plan, with its drawing.
+/// Pattern of a plan, with the drawing of its sheets.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub struct Found {
-    /// Sheets of the pattern.
+    /// Pattern: the flat sheets that the surface is cut into.
     pub pattern: Pattern,
     /// Drawing of the sheets; its `summary` has the number of sheets and folds, the length of cuts and the strain.
     pub drawing: Drawing,
 }
 
 impl Plan {
-    /// Number of sheets, or `None` if the plan has no pattern.
+    /// Number of sheets of the plan's pattern, or `None` if the plan has no pattern.
     pub fn sheets(&self) -> Option<usize> {
         let found = self.outcome.as_ref().ok()?;
         Some(found.pattern.sheets.len())
     }
 }
 
-/// Iterator over the plans of an input, those nearest to it first. Each plan is computed when it is asked for, so
-/// that a caller may stop at any of them. After an error there are no further plans.
+/// Iterator over the patterns of an input at several λ and minimum patch sizes, those nearest to the input first. Each
+/// plan is computed when it is asked for, so that a caller may stop at any of them. After an error there are no further
+/// plans.
 #[derive(Debug, Clone)]
 pub struct Plans {
     input: Heightfield,
@@ -138,7 +142,7 @@ pub struct Plans {
     options: ExploreOptions,
     lambdas: IntoIter<f64>,
     smallest: IntoIter<f64>,
-    /// Surface of the current λ.
+    /// Surface fitted with the current λ; `None` before the first solve.
     surface: Option<Fitted>,
 }
 
@@ -184,11 +188,11 @@ pub fn explore(input: impl Into<Input>, options: &ExploreOptions) -> Result<Plan
     })
 }
 
-/// First plan with at most `sheets` sheets: of the plans of [`explore`] the one nearest to the input. Later plans are
-/// not computed; `None` if no plan has so few.
+/// Returns the first plan with at most `sheets` sheets: of the plans of [`explore`] the one nearest to the input. Later
+/// plans are not computed; `None` if no plan has so few sheets.
 ///
 /// # Errors
-/// The first error among the plans up to it.
+/// The first error among the plans up to that one.
 pub fn finest(
     plans: impl IntoIterator<Item = Result<Plan>>,
     sheets: usize,
@@ -228,7 +232,8 @@ impl Plans {
         }))
     }
 
-    /// Solves for another λ, with a warm start from the surface before.
+    /// Fits the surface of another λ, with a warm start from the surface before, and starts again with the first patch
+    /// size.
     fn solve(&mut self, lambda: f64) -> Result<()> {
         let begun = Instant::now();
         self.solver.restart(&self.options.solver.lambda(lambda))?;

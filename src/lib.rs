@@ -30,18 +30,18 @@
 //! # }
 //! ```
 //!
-//! # The way of the data
+//! # From input to result
 //!
-//! [`HeightImage`] (square pixels) → [`HeightImage::to_lattice`] → [`Heightfield`] (on a
-//! [`Lattice`]) → [`fit`], or a [`Solver`] that runs in steps → [`Surface`] with its [`Report`] →
-//! [`Heightfield::to_image`], or [`files`]; [`analysis`], [`patches`] and
-//! [`rulings`] for what it is like and [`picture`] for what it looks like, [`unroll`](mod@unroll) and [`dewarp`] for the surface and photos
-//! laid flat ([`page`] without any heights, by a page's edges), and [`pattern`], [`drawing`] and
-//! [`assembly`] for sheets to cut out, fold and put together.
+//! A [`HeightImage`] (heights on square pixels) becomes a [`Heightfield`] on a hexagonal [`Lattice`] by
+//! [`HeightImage::to_lattice`]. [`fit()`], or a [`Solver`] that runs in steps, fits a [`Surface`] to it, with a
+//! [`Report`]. [`Heightfield::to_image`] makes a height image of the result, and [`files`] write it.
 //!
-//! What is no heightfield yet, a [`Mesh`], a point cloud or what a depth camera has seen
-//! ([`Intrinsics::back_project`]), is looked at along a [`View`] by [`sample`], which gives a
-//! heightfield; [`Triangulation`] is the way back to a mesh.
+//! [`analysis`], [`patches`] and [`rulings`] describe the surface's shape, [`picture`] draws it,
+//! [`unroll`](mod@unroll) lays it flat and [`dewarp`] makes a photo of it flat ([`page`] does that by a page's edges,
+//! without any heights). [`pattern`], [`drawing`] and [`assembly`] make sheets to cut out, fold and put together.
+//!
+//! A [`Mesh`], a point cloud or the depths of a camera ([`Intrinsics::back_project`]) are sampled along a [`View`] by
+//! [`sample`], which gives a heightfield; [`Triangulation`] makes a mesh of a heightfield.
 //!
 //! An [`Input`] may say more than heights: how far each is to be trusted, which must be met
 //! exactly, where the surface is torn ([`Occlusions`]). A [`Solver`] that has stopped can be
@@ -128,14 +128,14 @@ pub use scene::triangulation::Triangulation;
 pub use scene::view::{Frame, View};
 pub use shape::{analysis, patches, rulings};
 
-/// How the library checks what it is given: for the bindings in `wasm/`, which do as it does.
+/// Checks of arguments, for the bindings in `wasm/`, which make the same checks as the library.
 #[doc(hidden)]
 pub mod checks {
     pub use crate::error::{check_count, check_shape, positive, try_filled};
     pub use crate::fit::input::check_confidence;
 }
 
-/// The README's example.
+/// The README, whose example is compiled and run as a test.
 #[cfg(doctest)]
 #[doc = include_str!("../README.md")]
 struct Readme;

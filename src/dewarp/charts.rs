@@ -1,8 +1,8 @@
 //! Texture coordinates across the seams of charts.
 //!
-//! A scanner's texture is an atlas: charts lie beside each other in any order. A triangle of the sheet whose corners are in
-//! different charts must not interpolate between them, or it shows what lies in between. Each point of it is mapped by its
-//! nearest corner's chart instead.
+//! A scanner's texture is an atlas: charts lie beside each other in any order. A triangle of the sheet whose corners
+//! are in different charts must not interpolate between them, or it shows what lies in between. Each point of it is
+//! mapped by its nearest corner's chart instead.
 
 use nalgebra::{Matrix2, Vector2};
 
@@ -11,20 +11,22 @@ use crate::error::{Result, try_filled};
 use crate::math::statistics::median;
 use crate::unroll::Unrolling;
 
-/// Maximum ratio of a triangle's largest or smallest scale in the texture to the median one, either way, within one chart.
+/// Maximum factor by which a triangle's largest or smallest scale in the texture may differ from the median one, in
+/// either direction, within one chart.
 const MAX_SCALE_RATIO: f64 = 2.5;
 
-/// Which triangles of a sheet cross from one chart to another, and the charts' maps at the vertices.
+/// Seams between a texture's charts on a sheet: which triangles cross them, and the charts' linear maps at the
+/// vertices.
 pub(super) struct ChartSeams {
     crossing: Vec<bool>,
-    /// At each vertex the derivative of texture coordinates by the place on the sheet, the mean over the triangles within its
-    /// chart.
+    /// Derivative of the texture coordinates by the place on the sheet at each vertex: the mean over the vertex's
+    /// triangles that lie within one chart.
     derivatives: Vec<Matrix2<f64>>,
 }
 
 impl ChartSeams {
-    /// The seams of a sheet's texture coordinates. None without texture coordinates or seams. Costs `O(n log n)` for `n`
-    /// triangles.
+    /// Finds the triangles of an unrolled sheet that cross from one chart of the texture to another. None without
+    /// texture coordinates, or if no triangle does. Costs `O(n log n)` for `n` triangles.
     ///
     /// # Errors
     /// [`Error::OutOfMemory`](crate::Error::OutOfMemory).
@@ -102,12 +104,13 @@ impl ChartSeams {
         }))
     }
 
-    /// Whether a triangle crosses a seam.
+    /// Whether the triangle with this number crosses a seam between charts.
     pub(super) fn crosses(&self, triangle: usize) -> bool {
         self.crossing[triangle]
     }
 
-    /// Texture coordinates at a point of the sheet, `way` from a vertex with coordinates `uv`, by that vertex's chart.
+    /// Extrapolates texture coordinates from a vertex, with coordinates `uv`, to the point of the sheet at the offset
+    /// `way` from that vertex, by the vertex's chart.
     pub(super) fn extrapolate(&self, vertex: u32, uv: [f64; 3], way: [f64; 2]) -> [f64; 3] {
         let step = self.derivatives[vertex as usize] * Vector2::from(way);
         [uv[0] + step.x, uv[1] + step.y, uv[2]]

@@ -6,17 +6,18 @@ use crate::error::{Result, checked_cells, try_filled};
 use crate::math::index::NO_INDEX;
 use crate::math::lanes;
 
-/// Minimum side, in pixels, of the cells whose pixels are extrapolated by one quadratic.
+/// Minimum side, in pixels, of the square cells of border pixels from which the map is extrapolated by one common
+/// quadratic.
 const MIN_CELL_PIXELS: usize = 8;
 
-/// Minimum half side, in pixels, of the window that a quadratic is fitted to.
+/// Minimum half side, in pixels, of the window to which a quadratic is fitted for extrapolating the map.
 const MIN_WINDOW_PIXELS: usize = 16;
 
 impl WarpMap {
-    /// Adds `margin` pixels on each side and extrapolates the sheet to all pixels within that distance:
-    /// holes and bays are filled, and a saw-toothed border can be cut
-    /// straight. Each new pixel is extrapolated from the sheet's nearest one, by the least-squares quadratic of the map
-    /// around that. Costs `O(pixels)`.
+    /// Adds `margin` pixels on each side of the flat image and extrapolates the sheet to all pixels within that
+    /// distance: holes and bays are filled, and a saw-toothed border can be cut straight. Each new pixel is
+    /// extrapolated from the sheet's nearest one, by the least-squares quadratic of the map around that one. Costs
+    /// `O(pixels)`.
     ///
     /// # Errors
     /// [`Error::TooLarge`](crate::Error::TooLarge), [`Error::OutOfMemory`](crate::Error::OutOfMemory).
@@ -58,7 +59,7 @@ impl WarpMap {
         Ok(map)
     }
 
-    /// The map with empty margins.
+    /// Adds empty margins of `margin` pixels on each side of the flat image.
     fn padded(self, margin: usize) -> Result<Self> {
         let [width, height] = [self.width(), self.height()].map(|n| n + 2 * margin);
         checked_cells("flat image", height, width)?;
@@ -76,8 +77,9 @@ impl WarpMap {
     }
 }
 
-/// Distance transform: for each pixel the number of the sheet's (nearly) nearest pixel, itself on the sheet; [`NO_INDEX`]
-/// without a sheet. Two sweeps (P.-E. Danielsson, *Euclidean distance mapping*, 1980).
+/// Finds for each pixel of the flat image the (nearly) nearest pixel that shows the sheet, by a distance transform;
+/// returns pixel numbers, or [`NO_INDEX`] if there is no sheet. Two sweeps (P.-E. Danielsson, *Euclidean distance
+/// mapping*, 1980).
 fn nearest_sheet_pixels(map: &WarpMap) -> Result<Vec<u32>> {
     let (width, height) = (map.width(), map.height());
     let mut nearest = try_filled("flat image", width * height, NO_INDEX)?;

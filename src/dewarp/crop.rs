@@ -11,16 +11,16 @@ use crate::error::{Error, Result};
 use crate::math::planar::{polygon_area, polygon_contains};
 use crate::scene::region::check_crop;
 
-/// Maximum distance by which the sheet is continued beyond its border, as a share of the longer side of the cropped image.
-/// Limits how much of a flat image is extrapolated.
+/// Maximum distance by which the sheet is continued beyond its border, as a share of the longer side of the cropped
+/// image. Limits how much of a flat image is extrapolated.
 const MAX_CONTINUATION_SHARE: f64 = 0.06;
 
 impl WarpMap {
-    /// Crops the map to a polygon in the photo, given by its corners in pixels, `[0, 0]`
-    /// the centre of the upper left one. The sheet is continued to the polygon's sides, by up to 6 % of
-    /// the cropped image's longer side, and the flat image ends there, with straight edges; it is the smallest one that
-    /// holds the polygon. Four corners are those of a page: its edges are straight on the sheet, however bent they are in the
-    /// photo. Costs `O(pixels · corners)`.
+    /// Crops the map to a polygon in the photo, given by its corners in pixels, `[0, 0]` the centre of the upper left
+    /// one. The sheet is continued to the polygon's sides, by up to 6 % of the cropped image's longer side, and the
+    /// flat image ends there, with straight edges; it is the smallest one that holds the polygon. Four corners are
+    /// those of a page: its edges are straight on the sheet, however bent they are in the photo. Costs `O(pixels ·
+    /// corners)`.
     ///
     /// # Errors
     /// [`Error::Option`] for fewer than three corners or one that is not finite,
@@ -29,14 +29,15 @@ impl WarpMap {
         self.cut(Some(polygon), false, false)
     }
 
-    /// [Crops](WarpMap::crop) the map, turns it upright (`deskew`), and cuts it to a rectangle without margins (`trim`).
+    /// [Crops](WarpMap::crop) the map, turns it upright (`deskew`), and cuts it to a rectangle without margins
+    /// (`trim`).
     ///
-    /// Deskewing turns the sides of the polygon upright, on average, or without a polygon the smallest rectangle around the
-    /// sheet; [`corner`](WarpMap::corner) is then in axes turned about the sheet's origin. Trimming to a polygon with four
-    /// corners, such as those of a page, gives the rectangle whose sides pass
-    /// through the midpoints between two corners, whether its edges are seen straight
-    /// or bent; what is not known of the page, and farther from the sheet than that is continued, stays transparent. Otherwise
-    /// it gives the largest upright rectangle within the sheet.
+    /// Deskewing turns the sides of the polygon upright, on average, or without a polygon the smallest rectangle around
+    /// the sheet; [`corner`](WarpMap::corner) is then in axes turned about the sheet's origin. Trimming to a polygon
+    /// with four corners, such as those of a page, gives the rectangle whose sides pass through the midpoints between
+    /// two corners, whether its edges are seen straight or bent; what is not known of the page, and farther from the
+    /// sheet than that is continued, stays transparent. Otherwise it gives the largest upright rectangle within the
+    /// sheet.
     ///
     /// [`loss`](WarpMap::loss) then tells how much of the sheet or page the image leaves out.
     ///
@@ -94,7 +95,7 @@ impl WarpMap {
         if trim { map.trimmed() } else { Ok(map) }
     }
 
-    /// Discards the places of all pixels outside of a polygon on the flat image; pixels whose centres are on its sides stay.
+    /// Clears all pixels of the flat image outside of a polygon on it; pixels whose centres are on its sides stay.
     fn clear_outside(&mut self, corners: &[[f64; 2]]) {
         let middle =
             [0, 1].map(|k| corners.iter().map(|p| p[k]).sum::<f64>() / corners.len() as f64);
@@ -110,7 +111,7 @@ impl WarpMap {
         }
     }
 
-    /// The map without empty rows and columns around the sheet.
+    /// Removes empty rows and columns around the sheet from the flat image.
     fn tight(mut self) -> Result<Self> {
         let width = self.width();
         let there = |i: usize| !self.places()[i][0].is_nan();
@@ -129,7 +130,7 @@ impl WarpMap {
         Ok(self)
     }
 
-    /// Rows and columns of the flat image with places inside a polygon in the photo.
+    /// Finds the rows and columns of the flat image that show places inside a polygon in the photo.
     fn bounds(&self, polygon: &[[f64; 2]]) -> Result<[Range<usize>; 2]> {
         let (mut first, mut last) = ([usize::MAX; 2], [0; 2]);
         for (row, line) in self.places().chunks_exact(self.width()).enumerate() {
@@ -153,7 +154,7 @@ impl WarpMap {
         Ok([0, 1].map(|k| first[k]..last[k]))
     }
 
-    /// The pixel of the flat image whose place is nearest to one in the photo.
+    /// Finds the pixel of the flat image whose place in the photo is nearest to the place `wanted`.
     fn nearest_pixel(&self, wanted: [f64; 2]) -> [f64; 2] {
         let mut best = (f64::INFINITY, [0.0; 2]);
         for (row, line) in self.places().chunks_exact(self.width()).enumerate() {
@@ -168,8 +169,9 @@ impl WarpMap {
         best.1
     }
 
-    /// The pixel of the flat image that shows a place in the photo: the nearest one, and from there to a place that is not on
-    /// the sheet by the derivative of the quadratic that fits the map within `window` pixels.
+    /// Position on the flat image, in pixels, that shows the place `wanted` of the photo: the nearest pixel, corrected
+    /// to the exact place by the derivative of the quadratic that fits the map within `window` pixels. So it may lie
+    /// beyond the sheet.
     fn pixel_of(&self, wanted: [f64; 2], window: f64) -> [f64; 2] {
         let nearest = self.nearest_pixel(wanted);
         let Some(fit) = LocalQuadratic::new(self, nearest, window) else {
@@ -193,8 +195,8 @@ impl WarpMap {
         }
     }
 
-    /// Rows and columns of the upright rectangle of a quadrilateral on the flat image: each side passes through the midpoint
-    /// of the two corners that lie farthest to that side.
+    /// Rows and columns of the upright rectangle that replaces a quadrilateral on the flat image: each side passes
+    /// through the midpoint of the two corners that lie farthest to that side.
     fn upright_rectangle(&self, corners: [[f64; 2]; 4]) -> [Range<usize>; 2] {
         [(1, self.height()), (0, self.width())].map(|(k, end)| {
             let mut at = corners.map(|corner| corner[k]);

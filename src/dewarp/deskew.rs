@@ -1,12 +1,12 @@
-//! Rotation of a flat image to upright.
+//! Rotation of a flat image, so that the sheet stands upright in it.
 
 use super::WarpMap;
 use crate::error::{Result, checked_cells, try_filled};
 use crate::math::lanes;
 
 impl WarpMap {
-    /// The map rotated counter-clockwise by an angle in radians, on a larger image that holds it. Places are interpolated
-    /// bilinearly, so that up to a pixel of the border is lost.
+    /// Rotates the map counter-clockwise by an angle in radians, on a larger image that holds it. Places are
+    /// interpolated bilinearly, so that up to a pixel of the border is lost.
     ///
     /// # Errors
     /// [`Error::TooLarge`](crate::Error::TooLarge), [`Error::OutOfMemory`](crate::Error::OutOfMemory).
@@ -80,8 +80,8 @@ impl WarpMap {
     }
 }
 
-/// Angle, in radians, by which a polygon, with y up, has to be rotated for its sides to be upright and level on average:
-/// the circular mean of their directions modulo 90°, weighted by length.
+/// Angle, in radians, by which a polygon (y up) has to be rotated for its sides to be horizontal and vertical on
+/// average: the circular mean of their directions modulo 90°, weighted by length.
 pub(super) fn polygon_skew(polygon: &[[f64; 2]]) -> f64 {
     let mut sum = [0.0; 2];
     for (from, to) in polygon.iter().zip(polygon.iter().cycle().skip(1)) {
@@ -92,13 +92,14 @@ pub(super) fn polygon_skew(polygon: &[[f64; 2]]) -> f64 {
     -sum[1].atan2(sum[0]) / 4.0
 }
 
-/// An angle modulo 90°, from −45° to 45°, in radians.
+/// Reduces an angle in radians modulo 90°, to the range from −45° to 45°.
 fn modulo_right_angle(angle: f64) -> f64 {
     use std::f64::consts::FRAC_PI_2;
     angle - (angle / FRAC_PI_2).round() * FRAC_PI_2
 }
 
-/// The convex hull of points (A. M. Andrew, *Another efficient algorithm for convex hulls in two dimensions*, 1979).
+/// Computes the convex hull of points (A. M. Andrew, *Another efficient algorithm for convex hulls in two dimensions*,
+/// 1979).
 fn convex_hull(mut points: Vec<[f64; 2]>) -> Vec<[f64; 2]> {
     points.sort_by(|a, b| a[0].total_cmp(&b[0]).then(a[1].total_cmp(&b[1])));
     points.dedup();

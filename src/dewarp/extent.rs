@@ -1,4 +1,4 @@
-//! The part of the plane that a photo from straight above shows.
+//! Extent of a photo taken from straight above: the rectangle of the plane that it shows.
 
 use crate::error::{Error, Result, try_filled};
 use crate::heights::heightfield::{HeightImage, Heightfield};
@@ -8,14 +8,15 @@ use crate::math::lanes;
 /// The rectangle of the plane that a photo from straight above shows, in the surface's units.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Extent {
-    /// Lower left corner.
+    /// Lower left corner of the rectangle, in the surface's units.
     pub min: [f64; 2],
-    /// Upper right corner.
+    /// Upper right corner of the rectangle, in the surface's units.
     pub max: [f64; 2],
 }
 
 impl Extent {
-    /// The extent of a height image. The photo may have another number of pixels.
+    /// Returns the extent of a height image, for a photo that shows the same area. The photo may have another number of
+    /// pixels.
     pub fn from_image(image: &HeightImage) -> Self {
         let [width, height] = [image.width(), image.height()].map(|n| n as f64);
         Extent {
@@ -24,7 +25,7 @@ impl Extent {
         }
     }
 
-    /// The extent of a heightfield's vertices.
+    /// Returns the extent of a heightfield's vertices, for a photo that shows the same area.
     pub fn from_heightfield(field: &Heightfield) -> Self {
         let lattice = field.lattice();
         let [left, top] = lattice.origin();
@@ -38,8 +39,8 @@ impl Extent {
         }
     }
 
-    /// Texture coordinates of each vertex of a lattice: its place in the photo, as shares from the
-    /// left and from the bottom. Vertices outside of the extent have the nearest place in it.
+    /// Computes texture coordinates of each vertex of a lattice: its place in the photo, in shares of the width from
+    /// the left and of the height from the bottom. Vertices outside of the extent get the nearest place in it.
     ///
     /// # Errors
     /// [`Error::Empty`] for an extent without area, [`Error::OutOfMemory`].
@@ -54,7 +55,7 @@ impl Extent {
         Ok(uvs)
     }
 
-    /// Width and height, in the surface's units.
+    /// Width and height of the extent, in the surface's units.
     ///
     /// # Errors
     /// [`Error::Empty`] without an area.

@@ -1,12 +1,12 @@
-//! The largest upright rectangle within a shape of pixels.
+//! Largest upright rectangle within a set of pixels.
 
 use std::ops::Range;
 
 use crate::error::{Result, try_filled};
 
-/// Rows and columns of the largest rectangle whose pixels are all inside; the first one of several.
-/// Costs `O(width · height)`, by the largest rectangle under the histogram of each row, whose bars tell how far up the shape
-/// reaches.
+/// Finds the rows and columns of the largest rectangle of an image whose pixels all satisfy `inside`; the first one of
+/// several. Costs `O(width · height)`: for each row it finds the largest rectangle under a histogram, whose bars tell
+/// how many pixels upwards are inside.
 ///
 /// # Errors
 /// [`Error::OutOfMemory`](crate::Error::OutOfMemory).

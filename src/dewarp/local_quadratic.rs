@@ -1,4 +1,4 @@
-//! The least-squares quadratic of a warp map around a pixel.
+//! Least-squares quadratic of a warp map around a pixel, for extrapolating the map.
 
 use nalgebra::SVector;
 
@@ -8,25 +8,25 @@ use crate::math::least_squares::LeastSquares;
 /// Number of coefficients of a quadratic in two variables.
 const QUADRATIC_TERMS: usize = 6;
 
-/// Maximum number of samples along each side of the window that the quadratic is fitted to.
+/// Maximum number of sampled pixels along each side of the window to which a quadratic is fitted.
 const MAX_SAMPLES_PER_SIDE: usize = 24;
 
-/// Ridge weight of each coefficient, relative to the number of samples: so small that it decides only what the samples leave
-/// open. Curvature is given up first.
+/// Ridge weight of each coefficient of the quadratic, relative to the number of samples: so small that it decides only
+/// what the samples leave undetermined. Curvature is given up first.
 const RIDGE_WEIGHTS: [f64; QUADRATIC_TERMS] = [1e-9, 1e-8, 1e-8, 1e-5, 1e-5, 1e-5];
 
-/// The least-squares quadratic of a warp map's places over a square window.
+/// Quadratic that fits a warp map over a square window: from pixels of the flat image to places in the photo.
 pub(super) struct LocalQuadratic {
     centre: [f64; 2],
     /// Half the side of the window, in pixels.
     radius: f64,
-    /// Coefficients for x and for y.
+    /// Coefficients of the quadratic for x and for y in the photo.
     coefficients: [SVector<f64, QUADRATIC_TERMS>; 2],
 }
 
 impl LocalQuadratic {
-    /// Fits a quadratic to a square window around a pixel, `radius` pixels to each side; a plane where the samples do not
-    /// determine a quadratic. None if there is no sheet in the window.
+    /// Fits a quadratic to the map in a square window around the pixel `centre`, `radius` pixels to each side; a plane
+    /// where the samples do not determine a quadratic. None if the window shows no sheet.
     pub(super) fn new(map: &WarpMap, centre: [f64; 2], radius: f64) -> Option<Self> {
         let size = [map.width(), map.height()];
         let [first, last] = [-1.0, 1.0].map(|side| {
@@ -69,14 +69,14 @@ impl LocalQuadratic {
         })
     }
 
-    /// Extrapolated place in the photo of a pixel.
+    /// Evaluates the quadratic: the place in the photo of a pixel of the flat image.
     pub(super) fn at(&self, pixel: [f64; 2]) -> [f64; 2] {
         let terms = terms(pixel, self.centre, self.radius);
         [0, 1].map(|k| self.coefficients[k].dot(&terms))
     }
 }
 
-/// Monomials of a quadratic, in coordinates scaled to the window.
+/// Monomials of a quadratic at a pixel, in coordinates relative to the window's centre and scaled by its radius.
 fn terms(at: [f64; 2], centre: [f64; 2], radius: f64) -> SVector<f64, QUADRATIC_TERMS> {
     let [x, y] = [0, 1].map(|k| (at[k] - centre[k]) / radius);
     SVector::from([1.0, x, y, x * x, x * y, y * y])

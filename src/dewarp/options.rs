@@ -1,4 +1,4 @@
-//! Options of dewarping.
+//! Options of dewarping: resolution and margins of the flat image.
 
 /// Options of dewarping: resolution and margins of the flat image.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -6,12 +6,12 @@
 pub struct DewarpOptions {
     /// Resolution of the flat image, in pixels per unit of length. `None`: the mean resolution of the photo.
     pub dots: Option<f64>,
-    /// Crop the flat image to the largest upright rectangle within the sheet. Default false.
+    /// Whether the flat image is cropped to the largest upright rectangle within the sheet. Default false.
     pub trim: bool,
 }
 
 impl DewarpOptions {
-    /// These options with another resolution, in pixels per unit of length.
+    /// Returns these options with another resolution of the flat image, in pixels per unit of length.
     pub fn dots(self, dots: f64) -> Self {
         DewarpOptions {
             dots: Some(dots),
@@ -19,7 +19,7 @@ impl DewarpOptions {
         }
     }
 
-    /// These options with or without cropping of the margins.
+    /// Returns these options with or without cropping the flat image to the largest rectangle within the sheet.
     pub fn trim(self, trim: bool) -> Self {
         DewarpOptions { trim, ..self }
     }

@@ -1,4 +1,4 @@
-//! A photo and its resampling.
+//! Photos as RGBA bytes, and their resampling.
 
 use crate::error::{Error, Result, check_shape};
 
@@ -10,14 +10,16 @@ pub struct Photo<'a> {
     rgba: &'a [u8],
 }
 
-/// Maximum number of samples along each side of a pixel of the flat image. Limits the cost where the photo is much finer.
+/// Maximum number of samples of the photo along each side of a pixel of the flat image. Limits the cost where the photo
+/// is much finer.
 const MAX_SAMPLES_PER_PIXEL_SIDE: f32 = 8.0;
 
-/// Square of the longest side, in pixels of the photo, of a pixel of the flat image that takes a single sample along it.
+/// Square of the side length, in pixels of the photo, below which a pixel of the flat image takes a single sample along
+/// that side.
 const MAX_SINGLE_SAMPLE_SQUARED_SIDE: f32 = 2.25;
 
 impl<'a> Photo<'a> {
-    /// A photo from its bytes, four for each pixel.
+    /// Makes a photo from its bytes, four for each pixel (red, green, blue, alpha), row by row.
     ///
     /// # Errors
     /// [`Error::Empty`] without pixels, [`Error::Shape`] if there are not `4 · width · height`
@@ -43,24 +45,24 @@ impl<'a> Photo<'a> {
         })
     }
 
-    /// Number of columns.
+    /// Number of columns of the photo.
     pub fn width(&self) -> usize {
         self.width
     }
 
-    /// Number of rows.
+    /// Number of rows of the photo.
     pub fn height(&self) -> usize {
         self.height
     }
 
-    /// The bytes, row by row.
+    /// RGBA bytes of the photo, row by row from the top.
     pub fn rgba(&self) -> &'a [u8] {
         self.rgba
     }
 
-    /// Colour, from 0 to 1, at texture coordinates, which count from the left and from the bottom. The photo repeats
-    /// beyond 0 and 1; colours between pixels are bilinear. None where the photo is
-    /// transparent or a coordinate is not finite.
+    /// Interpolates the colour, from 0 to 1, at texture coordinates, which are shares of the width from the left and of
+    /// the height from the bottom. The photo repeats beyond 0 and 1; colours between pixels are bilinear. None where
+    /// the photo is transparent or a coordinate is not finite.
     pub fn color(&self, uv: [f32; 2]) -> Option<[f32; 3]> {
         let within = |v: f32| {
             if (0.0..=1.0).contains(&v) {
@@ -75,8 +77,9 @@ impl<'a> Photo<'a> {
         (a > 0.0).then(|| [r, g, b].map(|value| value / a / 255.0))
     }
 
-    /// Mean colour, as RGBA bytes, of the parallelogram around a place that two steps span, in pixels; `[0, 0]`
-    /// is the centre of the upper left pixel. Transparent outside of the photo.
+    /// Averages the colour, as RGBA bytes, of the parallelogram around a place in the photo whose sides are the vectors
+    /// `across` and `down`, all in pixels; `[0, 0]` is the centre of the upper left pixel. Transparent outside of the
+    /// photo.
     pub(super) fn sample(&self, [x, y]: [f32; 2], [across, down]: [[f32; 2]; 2]) -> [u8; 4] {
         let samples = |[dx, dy]: [f32; 2]| {
             let square = dx * dx + dy * dy;
@@ -104,8 +107,8 @@ impl<'a> Photo<'a> {
         to_bytes(sum, m * n)
     }
 
-    /// Bilinear colour at a place, premultiplied by alpha, which is from 0 to 255. Up to half a pixel
-    /// beyond the outermost centres the photo has the colour at its border.
+    /// Interpolates the colour at a place in the photo bilinearly, premultiplied by alpha, which is from 0 to 255. Up
+    /// to half a pixel beyond the outermost pixel centres the photo has the colour at its border.
     fn bilinear(&self, [x, y]: [f32; 2]) -> [f32; 4] {
         let [right, bottom] = [self.width, self.height].map(|n| n as f32 - 0.5);
         if !((-0.5..=right).contains(&x) && (-0.5..=bottom).contains(&y)) {
@@ -137,7 +140,7 @@ impl<'a> Photo<'a> {
     }
 }
 
-/// RGBA bytes of premultiplied colours that were summed over some samples.
+/// Converts a sum of premultiplied colours over some number of samples to the RGBA bytes of their mean.
 fn to_bytes([r, g, b, a]: [f32; 4], samples: f32) -> [u8; 4] {
     if a <= 0.0 {
         return [0; 4];
@@ -147,7 +150,7 @@ fn to_bytes([r, g, b, a]: [f32; 4], samples: f32) -> [u8; 4] {
     [byte(r / a), byte(g / a), byte(b / a), byte(a / samples)]
 }
 
-/// Colours vertices by their texture coordinates in a photo. Colours of vertices stay where the photo is
+/// Colours vertices by their texture coordinates in a photo. Vertices keep their colours where the photo is
 /// transparent, and where `wanted` is false.
 ///
 /// # Panics

@@ -5,27 +5,29 @@ use super::registration::PhotoProjection;
 use crate::error::{Result, try_filled};
 use crate::unroll::Unrolling;
 
-/// A corner of a triangle that is rasterised.
+/// A corner of a triangle that is rasterised into the flat image.
 #[derive(Clone, Copy)]
 struct RasterCorner {
     /// Position in the flat image, in pixels.
     at: [f64; 2],
-    /// Attributes that are interpolated linearly and give the place in the photo.
+    /// Attributes that are interpolated linearly over the triangle; [`PhotoProjection::project`] makes the place in the
+    /// photo of them.
     from: [f64; 3],
 }
 
-/// Position and size of the flat image on the sheet.
+/// Frame of the flat image: its size in pixels and its position on the sheet.
 pub(super) struct Canvas {
-    /// Width and height, in pixels.
+    /// Width and height of the flat image, in pixels.
     pub size: [usize; 2],
-    /// Pixels per unit of length.
+    /// Pixels of the flat image per unit of length.
     pub resolution: f64,
-    /// Upper left corner on the sheet, in the surface's units.
+    /// Position of the flat image's upper left corner on the sheet, in the surface's units.
     pub corner: [f64; 2],
 }
 
-/// Writes the places in the photo of all pixels on the sheet that have none yet. Where components overlap, pixels show the
-/// larger one. Costs `O(pixels + n log n)` for `n` triangles.
+/// Rasterises the sheet's triangles: writes to `places`, for each pixel of the flat image that has no place yet, its
+/// place in the photo. Where components of the sheet overlap, pixels show the larger one. Costs `O(pixels + n log n)`
+/// for `n` triangles.
 ///
 /// # Errors
 /// [`Error::OutOfMemory`](crate::Error::OutOfMemory).
@@ -69,8 +71,8 @@ pub(super) fn rasterise(
     Ok(())
 }
 
-/// A triangle that crosses from one chart to another, cut into pieces: each is nearest to one corner, and mapped by that
-/// corner's chart.
+/// Cuts a triangle that crosses from one chart of the texture to another into six pieces: the points of each are
+/// nearest to one corner, and mapped by that corner's chart.
 fn nearest_pieces(
     seams: &ChartSeams,
     canvas: &Canvas,
@@ -100,12 +102,12 @@ fn nearest_pieces(
     })
 }
 
-/// Twice the signed area of a triangle.
+/// Twice the signed area of the triangle with corners `p`, `q` and `r`.
 fn doubled_area(p: [f64; 2], q: [f64; 2], r: [f64; 2]) -> f64 {
     (q[0] - p[0]) * (r[1] - p[1]) - (q[1] - p[1]) * (r[0] - p[0])
 }
 
-/// Writes the places in the photo of the pixels in a triangle.
+/// Writes the places in the photo of the flat image's pixels in one triangle, where there is none yet.
 fn rasterise_triangle(
     corners: &[RasterCorner; 3],
     projection: &PhotoProjection,
@@ -168,7 +170,7 @@ fn rasterise_triangle(
     }
 }
 
-/// Interpolates the attributes of the corners by barycentric weights.
+/// Interpolates the attributes of a triangle's corners with barycentric weights.
 fn interpolate(corners: &[RasterCorner; 3], weights: [f64; 3]) -> [f64; 3] {
     [0, 1, 2].map(|k| {
         let parts = corners.iter().zip(weights);

@@ -1,4 +1,4 @@
-//! Registration of a photo to a surface.
+//! Registration of a photo to a surface: where the photo shows each of the surface's points.
 
 use super::extent::Extent;
 use crate::error::{Error, Result, check_count, try_filled};
@@ -13,12 +13,11 @@ use crate::scene::view::Frame;
 #[expect(clippy::large_enum_variant, reason = "there is one for each photo")]
 #[non_exhaustive]
 pub enum Registration<'a> {
-    /// Photo and heights were taken straight from above: a point's place in the photo is its share of the
-    /// extent.
+    /// Photo and heights were both taken from straight above: a point's place in the photo is given by its position in
+    /// this rectangle.
     Extent(Extent),
-    /// A camera took the photo, and shows each point of the *fitted* surface by perspective projection.
-    /// The frame is that of the surface, in the axes of the camera that saw the
-    /// depths (as [`Samples::frame`](crate::Samples::frame)).
+    /// A camera took the photo, and shows each point of the *fitted* surface by perspective projection. The frame maps
+    /// the surface to the axes of the camera that measured the depths (as [`Samples::frame`](crate::Samples::frame)).
     Camera(Camera, Frame),
     /// Texture coordinates at each vertex of the surface's lattice, as shares from the left and from
     /// the bottom; NaN where there are none, as in a bridged hole. A textured scan has them by
@@ -44,8 +43,8 @@ impl Registration<'_> {
     /// [`Camera::for_size`] for a camera of other images than the photo; [`Error::Shape`] if there are not as many
     /// coordinates as vertices; [`Error::OutOfMemory`].
     pub fn uvs(&self, surface: &Heightfield, photo: [usize; 2]) -> Result<Vec<[f32; 2]>> {
-        /// Maximum distance outside of the photo, as a share of its side, of a point that has texture coordinates: more than
-        /// half a pixel of depths.
+        /// Maximum distance outside of the photo, as a share of its side, at which a point still gets texture
+        /// coordinates, those of the photo's border: more than half a pixel of a depth image.
         const MAX_OUTSIDE_SHARE: f64 = 0.01;
         let lattice = surface.lattice();
         let (camera, frame) = match self {
@@ -76,21 +75,24 @@ impl Registration<'_> {
     }
 }
 
-/// A registration for a photo of a given size: the map from attributes, which are linear on each triangle of the surface, to
-/// pixels of the photo.
+/// Projection of a surface to a photo of known size: maps attributes, which are linear on each triangle of the surface,
+/// to pixels of the photo.
 pub(super) enum PhotoProjection {
-    /// Pixels per unit across and up, and the upper left corner.
+    /// Photo from straight above: its pixels per unit of length to the right and upwards, and the position of its upper
+    /// left corner.
     Plane([f64; 2], [f64; 2]),
-    /// A camera, and the surface's frame.
+    /// Photo by a camera with lens distortion, and the frame that maps the surface to the camera's axes.
     Camera(Camera, Frame),
-    /// A camera without lens distortion: focal lengths and centre, in pixels, first.
+    /// Photo by a camera without lens distortion: focal lengths and principal point `[fx, fy, cx, cy]` in pixels, the
+    /// camera itself, and the frame that maps the surface to its axes.
     Pinhole([f64; 4], Camera, Frame),
-    /// Texture coordinates at the vertices of the mesh, and the size of the photo in pixels.
+    /// Photo with texture coordinates: those of each vertex of the mesh, and the photo's width and height in pixels.
     Uvs(Vec<[f32; 2]>, [f64; 2]),
 }
 
 impl PhotoProjection {
-    /// The projection of a registration for a photo of `photo` (width and height) pixels.
+    /// Makes the projection for a registration and a photo of `photo` (width and height) pixels. `mesh` is the
+    /// triangulated surface.
     ///
     /// # Errors
     /// Those of [`Registration::uvs`].
@@ -129,8 +131,8 @@ impl PhotoProjection {
         }
     }
 
-    /// Attributes of a vertex of the mesh at a point. They are linear on triangles, as places in a
-    /// camera's photo are not.
+    /// Returns the attributes of a vertex of the mesh at position `point`, which are interpolated linearly on triangles
+    /// (places in a camera's photo are not linear).
     pub(super) fn attributes(&self, vertex: usize, point: [f64; 3]) -> [f64; 3] {
         match self {
             PhotoProjection::Plane(..) => point,
@@ -141,8 +143,8 @@ impl PhotoProjection {
         }
     }
 
-    /// Place in the photo, in pixels, of interpolated attributes; `[0, 0]` is the centre of the upper left pixel. None behind
-    /// the camera and without texture coordinates.
+    /// Projects interpolated attributes to the photo, in pixels; `[0, 0]` is the centre of the upper left pixel. None
+    /// behind the camera and without texture coordinates.
     pub(super) fn project(&self, [x, y, z]: [f64; 3]) -> Option<[f32; 2]> {
         let place = match self {
             PhotoProjection::Plane([across, up], [left, top]) => {

@@ -1,12 +1,13 @@
-//! Verdicts on flat images.
+//! Verdict on a flat image: flat, unrolled or stretched, by the sheet's strain.
 
 use crate::unroll::UnrollReport;
 
-/// Maximum root mean square strain of the view from above for a surface that is called flat: 0.2 % is half a millimetre on a
-/// page of A4.
+/// Maximum root mean square strain between a surface and its view from straight above for the verdict `Flat`: 0.2 % is
+/// half a millimetre on a page of A4.
 const MAX_FLAT_STRAIN: f64 = 0.002;
 
-/// Maximum root mean square strain of a layout that is called unrolled: lengths are wrong by 1 %, 2 mm on a page of A4.
+/// Maximum root mean square strain of the sheet for the verdict `Unrolled`: lengths are wrong by 1 %, 2 mm on a page of
+/// A4.
 const MAX_UNROLLED_STRAIN: f64 = 0.01;
 
 /// Maximum distance by which a crop may reach beyond the page, as a share of the page's side. Of simulated phone captures all
@@ -26,8 +27,7 @@ pub enum Verdict {
     Flat,
     /// The page was bent and is flat now, with lengths as on the page.
     Unrolled,
-    /// The surface cannot be laid flat without stretching it, or its sheet lies on itself: some
-    /// lengths are wrong.
+    /// The surface cannot be laid flat without stretching, or its sheet overlaps itself: some lengths are wrong.
     Stretched,
     /// What was cropped is hardly the page: depths of a part of it are missing, or the crop reaches beyond the page that the
     /// photo shows.
@@ -35,8 +35,9 @@ pub enum Verdict {
 }
 
 impl Verdict {
-    /// Verdict by the strain of an unrolled surface: stretched above a root mean square strain of 1 %, and if the layout
-    /// overlaps or has flipped triangles; flat if the view from above has a strain below 0.2 %; else unrolled.
+    /// Derives the verdict from the report on an unrolled surface: stretched above a root mean square strain of 1 %,
+    /// and if the layout overlaps or has flipped triangles; flat if the view from above has a strain below 0.2 %; else
+    /// unrolled.
     pub fn from_report(report: &UnrollReport) -> Self {
         if Self::has_large_strain(report) || report.distortion.flipped > 0 || report.crossings > 0 {
             Verdict::Stretched
@@ -65,7 +66,7 @@ impl Verdict {
         }
     }
 
-    /// Whether lengths on the layout are wrong by more than an unrolled page's may be.
+    /// Whether the layout's root mean square strain is too large for the verdict `Unrolled`.
     pub(super) fn has_large_strain(report: &UnrollReport) -> bool {
         report.distortion.rms > MAX_UNROLLED_STRAIN
     }

@@ -1,4 +1,4 @@
-//! Warp maps reduced to the nodes of a grid, bilinear in between.
+//! Warp maps reduced to the nodes of a coarser grid, interpolated bilinearly in between.
 
 use super::WarpMap;
 use super::local_quadratic::LocalQuadratic;
@@ -7,45 +7,44 @@ use crate::math::lanes;
 
 /// A warp map at the nodes of a grid over the flat image.
 ///
-/// Node `[i, j]` is at the pixel `[i · step, j · step]`, `[0, 0]` being the centre of the upper left
-/// pixel and the last node that of the lower right one; places in between are bilinear. The grid applies to flat images of
-/// any size, by shares of the way from the first node to the last one.
+/// Node `[i, j]` is at the pixel `[i · step, j · step]`, `[0, 0]` being the centre of the upper left pixel and the last
+/// node that of the lower right one; places in between are bilinear. The grid applies to flat images of any size, by
+/// shares of the way from the first node to the last one.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub struct WarpGrid {
-    /// Number of nodes in each row.
+    /// Number of nodes in each row of the grid.
     pub columns: usize,
-    /// Number of rows of nodes.
+    /// Number of rows of the grid.
     pub rows: usize,
     /// Pixels of the flat image from one node to the next, along rows and along columns.
     pub step: [f64; 2],
     /// Places of the nodes in the photo, in pixels, row by row; NaN for nodes with no sheet around them. Nodes just
-    /// beside the sheet have an extrapolated place, so that all of the sheet lies between nodes
-    /// with places.
+    /// beside the sheet have an extrapolated place, so that all of the sheet lies between nodes with places.
     pub places: Vec<[f32; 2]>,
-    /// Root mean square of the distances between the grid's places and the map's, in pixels of the photo, over
-    /// all pixels of the sheet.
+    /// Root mean square error of the interpolated places against the full map, in pixels of the photo, over all pixels
+    /// of the sheet.
     pub rms: f64,
-    /// Maximum distance between the grid's places and the map's, in pixels of the photo.
+    /// Maximum error of the interpolated places against the full map, in pixels of the photo.
     pub maximum: f64,
 }
 
-/// Number of cells along the longer side of the coarsest grid that is tried.
+/// Number of cells along the longer side of the coarsest grid that is tried for a warp map.
 const COARSEST_GRID_CELLS: f64 = 16.0;
 
-/// Ratio of the numbers of cells along a side of one grid that is tried and the one before.
+/// Factor from one grid that is tried for a warp map to the next finer one, in the number of cells along a side.
 const GRID_REFINEMENT_FACTOR: f64 = 1.4;
 
-/// Maximum number of pixels by which the error of a grid that is tried is measured.
+/// Maximum number of pixels at which the interpolation error of a tried grid is measured.
 const MAX_MEASURED_PIXELS: usize = 200_000;
 
-/// Distance, in nodes or pixels, and weight up to which rounding errors of interpolation are ignored.
+/// Tolerance for rounding errors of bilinear interpolation: distance outside of the grid, in nodes or pixels, and
+/// weight of a missing value.
 const INTERPOLATION_TOLERANCE: f64 = 1e-6;
 
 impl WarpMap {
-    /// Reduces the map to the coarsest grid whose places are right to `tolerance`, in pixels of the
-    /// photo, or else to the finest one that has no more than `most` nodes: sheets with creases need many.
-    /// Costs `O(pixels + nodes)`.
+    /// Reduces the map to the coarsest grid that is exact to `tolerance`, in pixels of the photo, or else to the finest
+    /// one with at most `most` nodes: sheets with creases need many. Costs `O(pixels + nodes)`.
     ///
     /// # Errors
     /// [`Error::Option`] for a tolerance that is not positive and finite or less than 4 nodes,
@@ -82,7 +81,7 @@ impl WarpMap {
         Ok(grid)
     }
 
-    /// Samples the map at the nodes of a grid of given size; errors are not measured yet.
+    /// Samples the map at the nodes of a grid of given numbers of columns and rows; errors are not measured yet.
     fn sampled(&self, [columns, rows]: [usize; 2]) -> Result<WarpGrid> {
         let sides = [self.width(), self.height()].map(|n| (n - 1) as f64);
         let step = [
@@ -110,13 +109,15 @@ impl WarpMap {
         })
     }
 
-    /// Bilinear interpolation of the place between pixels; None unless all of them have one.
+    /// Interpolates the place in the photo bilinearly between pixels of the flat image; None unless all pixels with a
+    /// weight have a place.
     pub(super) fn interpolate(&self, [x, y]: [f64; 2]) -> Option<[f64; 2]> {
         let [width, height] = [self.width(), self.height()];
         bilinear([x, y], [width, height], |i| self.places()[i].map(f64::from))
     }
 
-    /// Extrapolated place of a node; None if there is no sheet in the cells around it.
+    /// Extrapolates the place in the photo of a node beside the sheet, by a local quadratic; None if there is no sheet
+    /// in the grid's cells around the node.
     fn extrapolate(&self, node: [f64; 2], step: [f64; 2]) -> Option<[f32; 2]> {
         let reach = step[0].max(step[1]);
         // Pixels in the four cells around the node.
@@ -144,7 +145,8 @@ impl WarpMap {
 }
 
 impl WarpGrid {
-    /// Place in the photo of a pixel of the flat image, or of a point between pixels; None where there is no sheet near.
+    /// Interpolates the place in the photo of a pixel of the flat image, or of a point between pixels; None where there
+    /// is no sheet nearby.
     pub fn at(&self, [x, y]: [f64; 2]) -> Option<[f64; 2]> {
         // A side of one pixel has nodes that coincide.
         let share = |v: f64, step: f64| if step > 0.0 { v / step } else { 0.0 };
@@ -154,7 +156,7 @@ impl WarpGrid {
         })
     }
 
-    /// Measures the error of the grid by every `stride`-th pixel of each row.
+    /// Measures the grid's interpolation error against the full map at every `stride`-th pixel of each row.
     fn measure(&mut self, map: &WarpMap, stride: usize) {
         let (mut squares, mut maximum, mut count) = (0.0, 0.0f64, 0.0);
         for (row, places) in map.places().chunks_exact(map.width()).enumerate() {
@@ -180,7 +182,8 @@ impl WarpGrid {
     }
 }
 
-/// Bilinear interpolation of a field; None outside of it, and where a value is NaN.
+/// Interpolates the values of a grid of `columns` by `rows` nodes bilinearly at `[x, y]`, in nodes from the first one;
+/// None outside of the grid, and where a value is NaN.
 fn bilinear(
     [x, y]: [f64; 2],
     [columns, rows]: [usize; 2],

@@ -12,7 +12,7 @@ use crate::error::{Error, Result, checked_cells, positive, try_filled};
 use crate::math::planar::polygon_area;
 use crate::unroll::{UnrollReport, Unrolling};
 
-/// The place in the photo of every pixel of a flat image.
+/// A warp map: for each pixel of a flat image its place in the photo.
 #[derive(Debug, Clone, PartialEq)]
 pub struct WarpMap {
     width: usize,
@@ -23,34 +23,33 @@ pub struct WarpMap {
     loss: f64,
     /// Whether the loss is that of a page between four corners.
     page_cropped: bool,
-    /// Share of the sheet that covers another part of it.
+    /// Share of the area of the flat sheet that overlaps another part of it.
     overlap: f64,
 }
 
-/// Maximum share of a sheet that covers another part of it where the sheet is not called stretched: a strip of 0.2 mm along
-/// the outline of a page of A4, as where a ragged border crosses itself.
+/// Maximum share of a sheet's area that covers another part of it for a verdict other than `Stretched`: a strip of 0.2
+/// mm along the outline of a page of A4, as where a ragged border crosses itself.
 const MAX_OVERLAP_SHARE: f64 = 0.003;
 
 /// Maximum share of a page between four corners that may be lost where the flat image is not called doubtful. Of simulated
 /// phone captures with corners on the page nothing above 1 % was lost, see `benches/verdicts.md`.
 const MAX_PAGE_LOSS: f64 = 0.05;
 
-/// Maximum displacement, as [`WarpMap::displacement`] measures it, of a photo that is called flat: 0.2 % is half a millimetre
+/// Maximum displacement, as [`WarpMap::displacement`] measures it, for the verdict `Flat`: 0.2 % is half a millimetre
 /// on a page of A4.
 const MAX_FLAT_DISPLACEMENT: f64 = 0.002;
 
-/// Place of a pixel where there is no sheet.
+/// Place in the photo of a pixel of the flat image that shows no sheet: not a number.
 const NO_PLACE: [f32; 2] = [f32::NAN; 2];
 
 impl WarpMap {
-    /// The map of an unrolled surface for a photo of `photo` (width and height) pixels. The registration tells where the
-    /// photo shows the surface's points: by an [`Extent`](super::Extent) of the plane, a camera, or texture
+    /// The map of an unrolled surface for a photo of `photo` (width and height) pixels. The registration tells where
+    /// the photo shows the surface's points: by an [`Extent`](super::Extent) of the plane, a camera, or texture
     /// coordinates.
     ///
-    /// Within each triangle of the sheet points of the surface are interpolated linearly, and so are places in
-    /// the photo but for a camera's perspective. Where components of the sheet overlap, the map shows the larger one; where
-    /// one overlaps itself, the upper left triangle of the
-    /// surface. Costs `O(pixels + triangles)`.
+    /// Within each triangle of the sheet points of the surface are interpolated linearly, and so are places in the
+    /// photo but for a camera's perspective. Where components of the sheet overlap, the map shows the larger one; where
+    /// one overlaps itself, the upper left triangle of the surface. Costs `O(pixels + triangles)`.
     ///
     /// # Errors
     /// [`Error::Option`] for a resolution that is not positive and finite, [`Error::Empty`] for an
@@ -95,7 +94,8 @@ impl WarpMap {
         if options.trim { map.trimmed() } else { Ok(map) }
     }
 
-    /// A map from its places, row by row.
+    /// Makes a map from its places in the photo, one for each pixel of the flat image, row by row. `corner` is the
+    /// position of its upper left corner on the sheet.
     pub(crate) fn from_places(
         [width, height]: [usize; 2],
         resolution: f64,
@@ -115,14 +115,14 @@ impl WarpMap {
         }
     }
 
-    /// Sets the overlap to that of another map of the same sheet.
+    /// Returns this map with the overlap that was measured for another map of the same sheet.
     pub(super) fn with_overlap_of(mut self, other: &WarpMap) -> Self {
         self.overlap = other.overlap;
         self
     }
 
-    /// Share of the sheet that trimming left out; after a crop to four corners, the share of the page between them that the
-    /// flat image does not show. 0 otherwise.
+    /// Share of the sheet that trimming left out; after a crop to four corners, the share of the page between them that
+    /// the flat image does not show. 0 without trimming or cropping.
     pub fn loss(&self) -> f64 {
         self.loss
     }
@@ -133,7 +133,7 @@ impl WarpMap {
         self.set_loss(wanted);
     }
 
-    /// Sets the loss by the number of pixels that were wanted.
+    /// Sets the loss: the share of `wanted`, the number of pixels that were to be shown, that the map does not have.
     fn set_loss(&mut self, wanted: f64) {
         let known = self.places.iter().filter(|place| !place[0].is_nan());
         self.loss = (1.0 - known.count() as f64 / wanted).max(0.0);
@@ -149,7 +149,7 @@ impl WarpMap {
         self.height
     }
 
-    /// Resolution of the flat image, in pixels per unit of length.
+    /// Resolution of the flat image, in pixels per unit of length of the surface.
     pub fn resolution(&self) -> f64 {
         self.resolution
     }
@@ -165,9 +165,9 @@ impl WarpMap {
         &self.places
     }
 
-    /// Displacement between the photo and the flat image: the root mean square of the distances between places after the best
-    /// similarity (rotation, scaling and translation), as a share of the square root of the sheet's area. Measures how much
-    /// dewarping changes the photo.
+    /// Measures how much dewarping changes the photo: root mean square distance between the places in the photo and the
+    /// pixels of the flat image, after the best similarity (rotation, scaling and translation), as a share of the
+    /// square root of the sheet's area.
     pub fn displacement(&self) -> f64 {
         // The least squares of |p - (a q + b)|² over complex a and b, with p and q relative to about the middle.
         let middle = [self.width, self.height].map(|n| 0.5 * n as f64);
@@ -208,9 +208,9 @@ impl WarpMap {
         (rest / count).sqrt() / count.sqrt()
     }
 
-    /// Verdict on the flat image: stretched if the sheet is, see
-    /// [`Verdict::from_report`], but not for an overlap of less than 0.3 % of it; flat if [`WarpMap::displacement`] is below
-    /// 0.2 %; else unrolled. A page of which more than 5 % are lost is doubtful instead of flat or unrolled.
+    /// Derives the verdict on the flat image: stretched if the sheet is, by [`Verdict::from_report`], except for an
+    /// overlap of less than 0.3 % of its area; flat if [`WarpMap::displacement`] is below 0.2 %; else unrolled. A page of which more than
+    /// 5 % are lost is doubtful instead of flat or unrolled.
     pub fn verdict(&self, sheet: &UnrollReport) -> Verdict {
         let verdict = self.verdict_on_known(sheet);
         if self.page_cropped && self.loss > MAX_PAGE_LOSS {
@@ -233,7 +233,8 @@ impl WarpMap {
         }
     }
 
-    /// Resamples a photo to the flat image: RGBA bytes, row by row, transparent where there is no sheet or no photo.
+    /// Resamples a photo to the flat image: returns RGBA bytes, row by row, transparent where there is no sheet or no
+    /// photo.
     ///
     /// Bilinear, and the mean of several samples for each pixel where the photo is finer than the
     /// flat image. Colours are mixed by their alpha.
@@ -246,8 +247,8 @@ impl WarpMap {
         Ok(out)
     }
 
-    /// Resamples a photo to some rows of the [flat image](WarpMap::image). `rgba` holds these rows alone and is transparent
-    /// before.
+    /// Resamples a photo to some rows of the [flat image](WarpMap::image). `rgba` holds the bytes of these rows alone
+    /// and is transparent before the call.
     ///
     /// # Panics
     /// If there are not four bytes for each pixel of these rows, or not as many rows.
@@ -279,7 +280,8 @@ impl WarpMap {
         }
     }
 
-    /// Step of the place in the photo from a pixel to the next one, or from the one before, in pixels of the photo.
+    /// Difference of the places in the photo, in pixels, between a pixel and its next neighbour along a row or column,
+    /// or its previous one if the next has no place; 0 if neither has.
     fn step(&self, i: usize, next: Option<usize>, previous: Option<usize>) -> [f32; 2] {
         let way = |from: usize, to: usize| {
             let (from, to) = (self.places[from], self.places[to]);
@@ -304,12 +306,12 @@ impl WarpMap {
         Ok(self)
     }
 
-    /// Places in the photo, to be changed.
+    /// Places in the photo, one for each pixel of the flat image, row by row, to be changed.
     pub(super) fn places_mut(&mut self) -> &mut [[f32; 2]] {
         &mut self.places
     }
 
-    /// Crops the map to some rows and columns.
+    /// Crops the flat image to ranges of its rows and columns.
     pub(super) fn crop_to(&mut self, rows: Range<usize>, cols: Range<usize>) -> Result<()> {
         let mut places = try_filled("flat image", rows.len() * cols.len(), NO_PLACE)?;
         for (out, row) in places.chunks_exact_mut(cols.len()).zip(rows.clone()) {
@@ -325,14 +327,14 @@ impl WarpMap {
     }
 }
 
-/// Area of all triangles of a sheet, folded ones included, in the surface's units.
+/// Area of all triangles of a sheet, folded ones included, in squared units of the surface.
 fn sheet_area(sheet: &Unrolling) -> f64 {
     let corners = sheet.mesh().triangles().iter();
     let corners = corners.map(|t| t.map(|v| sheet.places()[v as usize]));
     corners.map(|places| polygon_area(&places).abs()).sum()
 }
 
-/// Mean resolution of the photo over the sheet, in pixels per unit of length.
+/// Mean resolution of the photo over the sheet, in pixels per unit of length: the default resolution of the flat image.
 ///
 /// # Errors
 /// [`Error::Unsupported`] if nothing of the surface is in the photo.
@@ -367,7 +369,7 @@ fn photo_resolution(sheet: &Unrolling, projection: &PhotoProjection) -> Result<f
     })
 }
 
-/// Lower left and upper right corner of the box around points.
+/// Lower left and upper right corner of the bounding box of points.
 fn bounds(places: &[[f64; 2]]) -> ([f64; 2], [f64; 2]) {
     let (mut min, mut max) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
     for place in places {

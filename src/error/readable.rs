@@ -1,21 +1,21 @@
-//! Values in messages, as people write them.
+//! Values in error messages, as people write them.
 
-/// A value that a message can show.
+/// A value that can be written into an error message.
 pub trait Readable {
-    /// The value as a person would write it: 0.5, 1e300 or infinity.
+    /// Returns the value as a person would write it: 0.5, 1e300 or infinity.
     fn readable(&self) -> String;
 }
 
-/// Magnitudes of the numbers that are written without an exponent.
+/// Range of absolute values that messages write without an exponent.
 const PLAIN_MAGNITUDES: std::ops::Range<f64> = 1e-5..1e16;
 
-/// Maximum number of items of a list that are shown.
+/// Maximum number of items of a list that a message shows; the rest is an ellipsis.
 const MAX_SHOWN_ITEMS: usize = 6;
 
-/// Maximum number of letters of a text that are shown.
+/// Maximum number of letters of a text that a message shows; the rest is an ellipsis.
 const MAX_SHOWN_LETTERS: usize = 80;
 
-/// Decimals of a rounded number's mantissa.
+/// Number of decimals of a computed number's mantissa in messages: four significant digits in all.
 const ROUNDED_DECIMALS: i32 = 3;
 
 impl Readable for f64 {
@@ -102,7 +102,7 @@ impl<T: Readable + ?Sized> Readable for &T {
     }
 }
 
-/// A number that was computed, to about four significant digits; to one if it is very large or small.
+/// Writes a computed number with about four significant digits, or with one if it is very large or small.
 pub fn rounded(value: f64) -> String {
     if !PLAIN_MAGNITUDES.contains(&value.abs()) {
         return match value.is_normal() {
@@ -119,7 +119,7 @@ pub fn rounded(value: f64) -> String {
     .readable()
 }
 
-/// A count with a comma before every three digits; what a `usize` of 32 bits cannot hold is "billions of".
+/// Writes a count with a comma before every three digits, or as "billions of" if it does not fit into 32 bits.
 pub(super) fn count(value: usize) -> String {
     if value >= u32::MAX as usize {
         return "billions of".into();

@@ -1,4 +1,4 @@
-//! The examples by name.
+//! Example surfaces by name: cylinder, cone, roof, oloid, page and house.
 
 use std::str::FromStr;
 
@@ -8,12 +8,12 @@ use crate::error::{Error, Result};
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum Example {
-    /// Part of a circular cylinder over a square, its axis turned 25° from the rows.
+    /// Part of a circular cylinder over a square, with its axis turned 25° from the image's rows.
     Cylinder,
-    /// A circular cone seen from above, without data beyond its base.
+    /// A circular cone seen from above, without data outside of its base.
     Cone,
-    /// Two barrel vaults that cross and a cone over their crossing, as in
-    /// [the paper's](crate#references) Fig. 22: five developable patches between creases.
+    /// Two barrel vaults that cross, and a cone over their crossing, as in [the paper's](crate#references) Fig. 22:
+    /// five developable patches between creases.
     Roof,
     /// The upper half of an oloid, the convex hull of two unit circles in perpendicular
     /// planes, each through the other's centre, seen face-on to one of them: a crease along
@@ -28,7 +28,7 @@ pub enum Example {
 }
 
 impl Example {
-    /// All examples.
+    /// List of all examples.
     pub const ALL: [Example; 6] = [
         Example::Cylinder,
         Example::Cone,
@@ -38,7 +38,7 @@ impl Example {
         Example::House,
     ];
 
-    /// The name in lower case: `"cylinder"`, `"cone"`, `"roof"`, `"oloid"`, `"page"`, `"house"`.
+    /// Name of the example in lower case: `"cylinder"`, `"cone"`, `"roof"`, `"oloid"`, `"page"`, `"house"`.
     pub fn name(self) -> &'static str {
         match self {
             Example::Cylinder => "cylinder",
@@ -54,7 +54,7 @@ impl Example {
 impl FromStr for Example {
     type Err = Error;
 
-    /// From [`Example::name`].
+    /// Finds an example by its [name](Example::name).
     fn from_str(name: &str) -> Result<Self> {
         Example::ALL
             .into_iter()

@@ -65,11 +65,11 @@ impl Example {
     serde(default, rename_all = "camelCase", deny_unknown_fields)
 )]
 pub struct ExampleOptions {
-    /// Pixels along the longer side, 8 to 4096. Default 200.
+    /// Number of pixels along the image's longer side, 8 to 4096. Default 200.
     pub size: usize,
     /// Standard deviation of the noise, as a share of the example's height range. Default 0.02.
     pub noise: f64,
-    /// Seed of the noise. Default 1.
+    /// Seed of the random numbers for the noise. Default 1.
     pub seed: u32,
 }
 
@@ -83,23 +83,24 @@ impl Default for ExampleOptions {
     }
 }
 
-/// A generated [`Example`]. Its longer side is 1 in the unit of pixel size and heights.
+/// Heights of a generated [`Example`]: with noise, and exact. The longer side of the images is 1 in the unit of pixel
+/// size and heights.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub struct Sample {
-    /// The noisy heights; NaN beyond the shape.
+    /// Noisy heights; NaN outside of the shape.
     pub input: HeightImage,
-    /// The true heights at the same pixels.
+    /// Exact heights at the same pixels.
     pub truth: HeightImage,
 }
 
-/// Range of the values that are not NaN: maximum minus minimum.
+/// Range of the values without NaN: maximum minus minimum.
 fn range(values: &[f64]) -> f64 {
     let valid = || values.iter().copied().filter(|z| !z.is_nan());
     valid().fold(f64::NEG_INFINITY, f64::max) - valid().fold(f64::INFINITY, f64::min)
 }
 
-/// Normally distributed numbers, by the Box–Muller transform of a PCG generator's.
+/// Generator of normally distributed random numbers: Box–Muller transform of uniform numbers from a PCG generator.
 struct Gauss {
     random: oorandom::Rand32,
     spare: Option<f64>,

@@ -1,11 +1,11 @@
-//! The examples' exact heights. `x` runs to the right and `y` up from the
-//! middle of the box, whose longer side is 1; NaN is beyond the shape.
+//! Exact heights of the examples. `x` runs to the right and `y` up from the centre of the image, whose longer side is
+//! 1; NaN is outside of the shape.
 
 use super::example::Example;
 
-/// A box and the surface over it.
+/// An example surface: the size of its image, and a function for its heights.
 pub(super) struct Shape {
-    /// Width and height of the box.
+    /// Width and height of the image.
     pub extent: [f64; 2],
     pub height: fn(f64, f64) -> f64,
 }
@@ -26,11 +26,11 @@ impl Shape {
                 height: roof,
             },
             Example::Oloid => Shape {
-                extent: [1.0, 2.1 / OLOID_LENGTH],
+                extent: [1.0, 2.1 / OLOID_IMAGE_WIDTH],
                 height: oloid,
             },
             Example::Page => Shape {
-                extent: [1.04 * A4_WIDTH / PAGE_HEIGHT, 1.0],
+                extent: [1.04 * A4_WIDTH / PAGE_IMAGE_HEIGHT, 1.0],
                 height: page,
             },
             Example::House => Shape {
@@ -41,12 +41,12 @@ impl Shape {
     }
 }
 
-/// An upright circle arc of a given radius over the chord from `-half` to `half`.
+/// Height at `offset` of an upright circular arc with a given radius over the chord from `-half` to `half`.
 fn arc(offset: f64, radius: f64, half: f64) -> f64 {
     (radius * radius - offset * offset).sqrt() - (radius * radius - half * half).sqrt()
 }
 
-/// Sine and cosine of 25°, the angle of the cylinder's rulings.
+/// Sine and cosine of 25°, the angle between the cylinder's rulings and the image's rows.
 const RULING_DIRECTION: [f64; 2] = [0.422_618_261_740_699_4, 0.906_307_787_036_65];
 
 fn cylinder(x: f64, y: f64) -> f64 {
@@ -60,11 +60,13 @@ fn cylinder(x: f64, y: f64) -> f64 {
 }
 
 fn cone(x: f64, y: f64) -> f64 {
-    const BASE_RADIUS: f64 = 0.48;
+    /// Radius of the cone's base, in widths of the image.
+    const CONE_BASE_RADIUS: f64 = 0.48;
+    /// Slope of the cone: height over distance from the base's circle.
     const CONE_SLOPE: f64 = 0.8;
     let r = x.hypot(y);
-    if r <= BASE_RADIUS {
-        CONE_SLOPE * (BASE_RADIUS - r)
+    if r <= CONE_BASE_RADIUS {
+        CONE_SLOPE * (CONE_BASE_RADIUS - r)
     } else {
         f64::NAN
     }
@@ -76,15 +78,15 @@ fn roof(x: f64, y: f64) -> f64 {
     along_x.max(along_y).max(tower)
 }
 
-/// Depth of the house in plan, relative to its width.
+/// Depth of the house in plan, where its width is 1.
 const HOUSE_DEPTH: f64 = 0.75;
 
 fn house(x: f64, y: f64) -> f64 {
-    /// Slope of the roof's planes: rise over horizontal distance from the eaves.
+    /// Slope of the house's roof planes: rise over horizontal distance from the eaves.
     const ROOF_PITCH: f64 = 0.8;
-    /// Radius of the vaults.
+    /// Radius of the house's barrel vaults, where its width is 1.
     const VAULT_RADIUS: f64 = 0.36;
-    /// Half the width of the vaults at the eaves.
+    /// Half the width of the house's barrel vaults at the eaves, where its width is 1.
     const VAULT_HALF_WIDTH: f64 = 0.3;
     let roof = ROOF_PITCH * (0.5 * HOUSE_DEPTH - y.abs()).min(0.5 - x.abs());
     let vault = if x.abs() < VAULT_HALF_WIDTH {
@@ -95,15 +97,15 @@ fn house(x: f64, y: f64) -> f64 {
     roof.max(vault)
 }
 
-/// Width of the oloid's image in units of its circles' radius: the oloid's length 3 plus a margin.
-const OLOID_LENGTH: f64 = 3.1;
+/// Width of the oloid's image in units of the radius of its circles: the oloid's length 3 plus a margin.
+const OLOID_IMAGE_WIDTH: f64 = 3.1;
 
 fn oloid(x: f64, y: f64) -> f64 {
-    unit_oloid(y * OLOID_LENGTH, x * OLOID_LENGTH) / OLOID_LENGTH
+    unit_oloid(y * OLOID_IMAGE_WIDTH, x * OLOID_IMAGE_WIDTH) / OLOID_IMAGE_WIDTH
 }
 
-/// Upper half of the oloid of the circles `x² + (y + ½)² = 1, z = 0` and
-/// `(y − ½)² + z² = 1, x = 0`.
+/// Height of the upper half of the oloid of the circles `x² + (y + ½)² = 1, z = 0` and `(y − ½)² + z² = 1, x = 0`; NaN
+/// outside of it.
 ///
 /// With `u = tan(t/2)`, `0 ≤ u ≤ √3`, the ruling of parameter `t` leads from
 /// `(sin t, −½ − cos t, 0)` on the first circle to `(0, u²/2, √((3 − u²)(1 + u²))/2)`
@@ -157,32 +159,35 @@ fn unit_oloid(x: f64, y: f64) -> f64 {
 /// Width of an A4 sheet of height 1.
 const A4_WIDTH: f64 = 210.0 / 297.0;
 
-/// Height of the page's image, in heights of the sheet.
-const PAGE_HEIGHT: f64 = 1.04;
+/// Height of the example page's image, in heights of the sheet.
+const PAGE_IMAGE_HEIGHT: f64 = 1.04;
 
 fn page(x: f64, y: f64) -> f64 {
-    unit_page(x * PAGE_HEIGHT + 0.5 * A4_WIDTH, y * PAGE_HEIGHT + 0.5) / PAGE_HEIGHT
+    unit_page(
+        x * PAGE_IMAGE_HEIGHT + 0.5 * A4_WIDTH,
+        y * PAGE_IMAGE_HEIGHT + 0.5,
+    ) / PAGE_IMAGE_HEIGHT
 }
 
-/// The sheet `[0, A4_WIDTH] × [0, 1]`, flat up to a slanting line and rolled
-/// onto a cylinder beyond it, which changes only distances across that line in plan.
+/// Height of a sheet `[0, A4_WIDTH] × [0, 1]` that is flat up to a slanting line and rolled onto a cylinder beyond it,
+/// at a point in plan; NaN outside of the sheet.
 fn unit_page(x: f64, y: f64) -> f64 {
-    /// Direction across the rulings: 15° above the rows.
+    /// Cosine and sine of 15°, the angle between the image's rows and the direction across the roll's rulings.
     const ROLL_DIRECTION: [f64; 2] = [0.965_925_826_289_068_3, 0.258_819_045_102_520_74];
-    /// Distance from the corner at which the roll begins.
-    const ROLL_START: f64 = 0.45;
-    /// Radius of the roll.
+    /// Distance of the line at which the roll begins from the sheet's corner, in heights of the sheet.
+    const ROLL_START_DISTANCE: f64 = 0.45;
+    /// Radius of the roll, in heights of the sheet.
     const ROLL_RADIUS: f64 = 0.42;
 
     let across = ROLL_DIRECTION[0] * x + ROLL_DIRECTION[1] * y;
     let along = ROLL_DIRECTION[0] * y - ROLL_DIRECTION[1] * x;
-    let sine = ((across - ROLL_START) / ROLL_RADIUS).max(0.0);
+    let sine = ((across - ROLL_START_DISTANCE) / ROLL_RADIUS).max(0.0);
     if sine >= 1.0 {
         return f64::NAN;
     }
     // Distance across the rulings on the sheet itself: arc length instead of plan length.
     let unrolled = if sine > 0.0 {
-        ROLL_START + ROLL_RADIUS * sine.asin()
+        ROLL_START_DISTANCE + ROLL_RADIUS * sine.asin()
     } else {
         across
     };

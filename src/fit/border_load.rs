@@ -1,4 +1,4 @@
-//! The load on the border of a heightfield: the moments of the vertices inside (see
+//! Load of bending moments on the border of a heightfield, continued from the vertices inside (see
 //! [`energy::moment_load`](crate::fit::energy::moment_load)).
 
 use super::energy::moment_load::{Rings, bearing};
@@ -7,10 +7,11 @@ use crate::error::{Result, try_filled};
 use crate::lattice::domain::Role;
 use crate::math::sym2::Sym2;
 
-/// Loads the border with the moments inside, and tells whether there are any.
+/// Loads the border with the bending moments of the vertices inside, and returns whether there are any. `bend_radius`
+/// is that of the Huber penalty, in normalised coordinates.
 ///
 /// # Errors
-/// Out of memory.
+/// [`Error::OutOfMemory`](crate::Error::OutOfMemory).
 pub(super) fn load_border(
     problem: &mut Problem,
     iterate: &Iterate,

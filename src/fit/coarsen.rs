@@ -1,5 +1,5 @@
-//! Coarsening: the input of a solve on the lattice of twice the spacing. λ stays the same, because both terms
-//! of the energy are plain sums over vertices.
+//! Coarsening of a solve's input to the lattice of twice the spacing. λ stays the same, because both terms of the
+//! energy are plain sums over vertices.
 
 use nalgebra::{Matrix3, Vector3};
 
@@ -11,7 +11,7 @@ use crate::lattice::coarsening::{coarse_lattice, fine_vertex};
 use crate::lattice::domain::{Domain, Role};
 use crate::lattice::hexagonal::{NEIGHBOUR_DIRECTIONS, ROW_SPACING};
 
-/// Offsets to the neighbours W, E, NW, NE, SW and SE, in spacings.
+/// Offsets (x, y) from a lattice vertex to its neighbours W, E, NW, NE, SW and SE, in spacings.
 const NEIGHBOUR_OFFSETS: [[f64; 2]; 6] = [
     [-1.0, 0.0],
     [1.0, 0.0],
@@ -21,19 +21,19 @@ const NEIGHBOUR_OFFSETS: [[f64; 2]; 6] = [
     [0.5, -ROW_SPACING],
 ];
 
-/// Half of the number of fine vertices that a coarse vertex stands for: itself, and half of each of its six
-/// neighbours.
+/// Half of the number of fine vertices that a coarse vertex stands for: the one at its position, and half of each of
+/// that one's six neighbours.
 const HALF_COARSE_WEIGHT: f64 = 2.0;
 
-/// The input on the lattice of twice the spacing. `domain` has the roles of the fine vertices.
+/// Coarsens an input to the lattice of twice the spacing. `domain` has the roles of the fine vertices.
 ///
-/// Whether a coarse vertex is valid depends on the seven fine vertices around it, so that a hole of one vertex,
-/// or a row of them, does not become a hole of four or vanish, depending on where the coarse lattice lies. A
-/// coarse vertex is valid where its fine vertex is, or at least half of what it stands for. It has a stencil if
-/// at least half of the fine ones have one, and if neither its own surroundings nor those of a neighbour are
-/// torn.
+/// Whether a coarse vertex is valid depends on seven fine vertices: the one at its position and its neighbours. So a
+/// hole of one vertex, or a row of them, does not become a hole of four or vanish, depending on where the coarse
+/// lattice lies. A coarse vertex is valid where its fine vertex is, or at least half of what it stands for. It has a
+/// stencil if at least half of the fine vertices have one, and if no occlusion tears the surface at these vertices or
+/// at those of a neighbour.
 ///
-/// Its height is the mean, by confidence, over pairs of opposite neighbours, which keeps planes and halves the
+/// Its height is the mean, weighted by confidence, over pairs of opposite neighbours, which keeps planes and halves the
 /// noise. It is constrained if its fine vertex is, or else to the mean of its constrained neighbours.
 pub(crate) fn coarsen(input: &Input, domain: &Domain) -> Result<Input> {
     let fine = input.field.lattice();
@@ -85,7 +85,7 @@ pub(crate) fn coarsen(input: &Input, domain: &Domain) -> Result<Input> {
     coarse.with_occlusions(Occlusions::from_vertices(&lattice, &torn)?)
 }
 
-/// A coarse vertex, as made of fine ones.
+/// Height, confidence and constraint of a coarse vertex, merged from fine vertices.
 struct Merged {
     height: f64,
     confidence: f64,
@@ -103,8 +103,8 @@ impl Default for Merged {
 }
 
 impl Input {
-    /// Merges a vertex and its neighbours, those of them that are valid: at least the vertex itself or two
-    /// opposite neighbours.
+    /// Merges a fine vertex and those of its neighbours that are valid: at least the vertex itself or two opposite
+    /// neighbours.
     fn merged(&self, own: Option<usize>, ring: [Option<usize>; 6]) -> Merged {
         let heights = self.field.heights();
         // Weights 2 and 1: those of linear interpolation, transposed.
@@ -144,8 +144,8 @@ impl Input {
         }
     }
 
-    /// Height at the origin of the plane that fits the heights of vertices at given places best, weighted by
-    /// their shares and confidence, with the weight of that height; `None` if the weights vanish.
+    /// Fits a plane to the heights of vertices at given offsets, weighted by their shares and confidence; returns its
+    /// height at the origin and the weight of that height, or `None` if all weights vanish.
     fn plane(&self, terms: &[([f64; 2], f64, usize)]) -> Option<(f64, f64)> {
         let (mut normal, mut right) = (Matrix3::zeros(), Vector3::zeros());
         let first = self.field.heights()[terms.first()?.2];

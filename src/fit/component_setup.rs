@@ -1,4 +1,4 @@
-//! Set-up of one component in steps, before its first iteration: the energy, the coarser lattices, and the
+//! Set-up of one component's solve in steps, before its first iteration: the energy, the coarser lattices, and the
 //! solver of the first z-step.
 
 use std::mem;
@@ -23,27 +23,27 @@ use crate::error::{Error, Result};
 use crate::heights::heightfield::Heightfield;
 use crate::lattice::domain::Domain;
 
-/// Minimum requested duality gap at which a surface counts as a preview, for which the thin plate of an earlier solve
-/// is a good enough initial guess.
+/// Minimum requested duality gap at which a solve counts as a preview, for which the thin plate of an earlier solve is
+/// a good enough initial guess.
 const PREVIEW_GAP: f64 = 0.05;
 
 /// Minimum number of interior vertices of a coarse lattice of the multigrid hierarchy.
-const COARSEST_GRID: usize = 20;
+const MIN_COARSE_GRID_VERTICES: usize = 20;
 
-/// Set-up of one component in steps, which ends with its [`Multilevel`] solve.
+/// Set-up of one component's solve in steps, which ends with its [`Multilevel`] solve.
 #[derive(Debug, Clone)]
 pub(crate) enum ComponentSetup {
     Lattices(Box<Lattices>),
     FirstLevel(Box<FirstLevel>),
 }
 
-/// Outcome of one step of the set-up.
+/// Outcome of one step of a component's set-up.
 pub(crate) enum SetupStep {
     Partly(ComponentSetup),
     Fully(Box<Multilevel>),
 }
 
-/// The problem on the finest lattice, and the coarser lattices made so far.
+/// First part of the set-up: the problem on the finest lattice, and the coarser lattices made so far.
 #[derive(Debug, Clone)]
 pub(crate) struct Lattices {
     input: Input,
@@ -51,30 +51,30 @@ pub(crate) struct Lattices {
     coordinates: Coordinates,
     parameters: AdmmParameters,
     problem: Problem,
-    /// The first iterate on the finest lattice, if there is a warm start.
+    /// First iterate on the finest lattice, if there is a warm start.
     warm: Option<Iterate>,
-    /// Initial guess for the heights of free vertices.
+    /// Initial guess for the thin plate's heights at free vertices.
     guess: InitialGuess,
-    /// The domains of all lattices so far, the finest first.
+    /// Domains of all lattices so far, the finest first.
     domains: Vec<Arc<Domain>>,
-    /// The inputs of the coarser lattices.
+    /// Inputs on the coarser lattices.
     coarse: Vec<Input>,
     next: Next,
 }
 
-/// The next step of the set-up.
+/// The next step of the set-up's first part.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Next {
-    /// Coarsen once more.
+    /// Coarsen the input once more.
     Coarsen,
     /// Compute heights of free vertices, for which the coarse lattices are needed.
     Fill,
-    /// Coarsen again, with the heights of free vertices.
+    /// Coarsen the input again, with the heights of free vertices.
     CoarsenAgain,
     Done,
 }
 
-/// Iterate and solver of the first level, without its first certificate.
+/// Second part of the set-up: iterate and solver of the first level, without its first certificate.
 #[derive(Debug, Clone)]
 pub(crate) struct FirstLevel {
     options: Options,
@@ -82,14 +82,14 @@ pub(crate) struct FirstLevel {
     problem: Problem,
     iterate: Iterate,
     cg: ConjugateGradients,
-    /// The problems of the finer levels, the finest first.
+    /// Problems on the finer levels, the finest first.
     finer: Vec<Problem>,
     domains: Vec<Arc<Domain>>,
 }
 
 impl ComponentSetup {
-    /// Begins the set-up of a component. A `warm_start` is an earlier solve, with the vertex of the whole
-    /// lattice that is `(0, 0)` of the component's.
+    /// Begins the set-up of a component. A `warm_start` is an earlier solve, with the vertex of the whole lattice that
+    /// is vertex `(0, 0)` of the component's lattice.
     pub(crate) fn new(
         input: Input,
         domain: Arc<Domain>,
@@ -131,7 +131,8 @@ impl ComponentSetup {
         })))
     }
 
-    /// Takes one step, which costs about [`SET_UP`](super::multilevel::SET_UP) conjugate-gradient iterations.
+    /// Takes one step of the set-up, which costs about
+    /// [`SET_UP_CG_ITERATIONS`](super::multilevel::SET_UP_CG_ITERATIONS) conjugate-gradient iterations.
     pub(crate) fn step(self) -> Result<SetupStep> {
         Ok(match self {
             ComponentSetup::Lattices(mut lattices) => SetupStep::Partly(match lattices.step()? {
@@ -144,7 +145,7 @@ impl ComponentSetup {
         })
     }
 
-    /// The problem on the finest lattice.
+    /// Returns the problem on the finest lattice.
     pub(crate) fn problem(&self) -> &Problem {
         match self {
             ComponentSetup::Lattices(lattices) => &lattices.problem,
@@ -152,7 +153,7 @@ impl ComponentSetup {
         }
     }
 
-    /// The input as the result of a solve that was cancelled before its first iteration.
+    /// Returns the input as the result of a solve that was cancelled before its first iteration.
     pub(crate) fn answer(&self) -> Result<Answer> {
         let parameters = match self {
             ComponentSetup::Lattices(lattices) => &lattices.parameters,
@@ -175,7 +176,7 @@ impl ComponentSetup {
 }
 
 impl Lattices {
-    /// Takes one step; tells whether there is another one.
+    /// Takes one step of the first part of the set-up; returns whether there is another one.
     fn step(&mut self) -> Result<bool> {
         match self.next {
             Next::Coarsen | Next::CoarsenAgain => {
@@ -204,8 +205,8 @@ impl Lattices {
     }
 
     /// Adds the next coarser lattice and returns whether it is useful: it has enough stencils, and their number is a
-    /// quarter of the finer lattice's within a factor of 2. Where holes take most of them away, or close, the coarse
-    /// lattice says little about the fine one.
+    /// quarter of the finer lattice's within a factor of 2. Where holes take most of the stencils away, or close, the
+    /// coarse lattice says little about the fine one.
     fn coarsen(&mut self) -> Result<bool> {
         let finer = &self.domains[self.domains.len() - 1];
         let next = coarsen(self.coarse.last().unwrap_or(&self.input), finer)?;
@@ -213,7 +214,8 @@ impl Lattices {
             return Ok(false);
         };
         let (fine, coarse) = (finer.interior_len(), domain.interior_len());
-        let is_of_use = coarse >= COARSEST_GRID && (fine / 8..=3 * fine / 8).contains(&coarse);
+        let is_of_use =
+            coarse >= MIN_COARSE_GRID_VERTICES && (fine / 8..=3 * fine / 8).contains(&coarse);
         if is_of_use {
             self.domains.push(Arc::new(domain));
             self.coarse.push(next);
@@ -221,7 +223,7 @@ impl Lattices {
         Ok(is_of_use)
     }
 
-    /// The first level: the coarsest lattice that is worth a level of its own, or the finest one with a warm
+    /// Sets up the first level: the coarsest lattice that is worth a level of its own, or the finest one with a warm
     /// start.
     fn into_level(self) -> Result<FirstLevel> {
         let Lattices {
@@ -274,7 +276,7 @@ impl FirstLevel {
     }
 }
 
-/// Writes the heights that were found for free vertices into the input.
+/// Writes the heights that were found for the problem's free vertices into the input.
 fn give_back(input: &mut Input, problem: &Problem) -> Result<()> {
     let domain = &problem.operator.domain;
     let lattice = *input.field.lattice();

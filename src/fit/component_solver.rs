@@ -1,4 +1,4 @@
-//! A solve whose options are known, one connected component of the surface after the other.
+//! Solver with known options, which solves one connected component of the surface after the other.
 
 use std::sync::Arc;
 
@@ -10,7 +10,7 @@ use super::coordinates::Coordinates;
 use super::extrapolate_omitted::extrapolate_omitted;
 use super::heightfields::Problem;
 use super::input::Input;
-use super::multilevel::{Answer, Multilevel, SET_UP};
+use super::multilevel::{Answer, Multilevel, SET_UP_CG_ITERATIONS};
 use super::options::{Bending, Energy, Options};
 use super::report::{HuberReport, LevelReport, Progress, Report, Seconds, StopReason};
 use super::surface::Surface;
@@ -21,17 +21,17 @@ use crate::heights::heightfield::Heightfield;
 use crate::lattice::domain::Domain;
 use crate::lattice::hexagonal::Lattice;
 
-/// Whether a [`Solver`](crate::Solver) has more to do.
+/// Status of a [`Solver`](crate::Solver): whether it has more to do.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Status {
-    /// [`Solver::advance`](crate::Solver::advance) should be called again.
+    /// The solve is not finished: [`Solver::advance`](crate::Solver::advance) should be called again.
     Running,
-    /// The solve is done; further calls change nothing.
+    /// The solve is finished, for the given reason; further calls change nothing.
     Stopped(StopReason),
 }
 
-/// Input that determines a surface: small holes are bridged, and every component has enough given heights.
+/// Input that determines a surface: its small holes are bridged, and every component has enough given heights.
 #[derive(Debug, Clone)]
 pub(super) struct PreparedInput {
     pub input: Input,
@@ -39,7 +39,7 @@ pub(super) struct PreparedInput {
 }
 
 impl PreparedInput {
-    /// Bridges small holes of the input and checks that it determines a surface.
+    /// Bridges small holes of an input and checks that it determines a surface.
     ///
     /// # Errors
     /// [`Error::NoInterior`], [`Error::Underdetermined`], [`Error::OutOfMemory`].
@@ -51,17 +51,17 @@ impl PreparedInput {
     }
 }
 
-/// Solve of all components, one after the other, which can be interrupted.
+/// Solver of all components of a surface, one after the other, which can be interrupted.
 #[derive(Debug, Clone)]
 pub(super) struct ComponentSolver {
     input: Input,
-    /// Options of the solve, with λ and penalty chosen.
+    /// Options of the solve, with λ and the penalty's parameters chosen.
     options: Options,
     /// Factor from the input's units to normalised coordinates.
     scale: f64,
     domain: Arc<Domain>,
     components: Components,
-    /// Results of the finished components.
+    /// Results of the finished components, in the order of the components.
     answers: Vec<Answer>,
     /// Set-up of the current component, before its first iteration.
     preparing: Option<ComponentSetup>,
@@ -69,24 +69,25 @@ pub(super) struct ComponentSolver {
     running: Option<Multilevel>,
     /// Energy `P(z̃)` of the input in each component, if there are several.
     energies: Vec<f64>,
-    /// The last answer, from which components to come and the next restart may start.
+    /// Result of the last finished solve, from which further components and the next restart may start.
     warm_start: Option<Arc<WarmStart>>,
     status: Status,
     started: Instant,
     setup: f64,
 }
 
-/// When a solver starts its first component.
+/// When a [`ComponentSolver`] starts its first component.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum StartMode {
-    /// On construction.
+    /// The first component starts when the solver is made.
     Immediate,
-    /// On [`ComponentSolver::begin_with`], when the options have been chosen.
+    /// The first component starts with [`ComponentSolver::begin_with`], when the options have been chosen.
     Deferred,
 }
 
 impl ComponentSolver {
-    /// Makes a solver for a prepared input. `started` is the time from which the report counts seconds.
+    /// Makes a solver for a prepared input. `scale` is the factor to normalised coordinates, `started` the time from
+    /// which the report counts seconds.
     ///
     /// # Errors
     /// [`Error::Overflow`], [`Error::Underflow`], [`Error::OutOfMemory`].
@@ -143,7 +144,7 @@ impl ComponentSolver {
         self.next_part()
     }
 
-    /// The warm start for another solve on a lattice of the same shape; `None` for another shape.
+    /// Returns the warm start for another solve on a lattice of the same shape; `None` for another shape.
     pub(super) fn warm_start(&self, lattice: &Lattice) -> Option<Arc<WarmStart>> {
         let shape = |lattice: &Lattice| [lattice.rows(), lattice.cols()];
         if shape(lattice) != shape(self.input.field.lattice()) {
@@ -169,7 +170,7 @@ impl ComponentSolver {
         self.status
     }
 
-    /// Begins with the next component, if there is one left.
+    /// Begins with the next component, if there is one left, or ends the solve.
     fn next_part(&mut self) -> Result<()> {
         let Some(number) = self.next_number() else {
             self.warm_start = None;
@@ -194,7 +195,7 @@ impl ComponentSolver {
         Ok(())
     }
 
-    /// Continues from the set-up of a component to its solve.
+    /// Continues with the solve of a component that has been set up.
     fn begin(&mut self, part: Multilevel) -> Result<()> {
         match part.reason() {
             Some(reason) => {
@@ -208,14 +209,14 @@ impl ComponentSolver {
         }
     }
 
-    /// Number of the component under way; `None` when all are done.
+    /// Returns the number of the current component; `None` when all are done.
     fn next_number(&self) -> Option<usize> {
         let next = self.answers.len();
         (next < self.components.list.len()).then_some(next)
     }
 
-    /// The least successful of the reasons why components stopped. If rounding errors of some components exceed the
-    /// gap of all together, the reason is not [`StopReason::Gap`].
+    /// Returns the least successful of the reasons why components stopped. If rounding errors of some components exceed
+    /// the duality gap of all together, the reason is not [`StopReason::Gap`].
     fn reason(&self) -> StopReason {
         let mut total = Totals::default();
         for answer in &self.answers {
@@ -238,15 +239,15 @@ impl ComponentSolver {
         .unwrap_or(StopReason::Rounding)
     }
 
-    /// Continues until `left` conjugate-gradient iterations are used up.
+    /// Continues the solve until `left` conjugate-gradient iterations are used up.
     ///
     /// # Errors
-    /// [`Error::OutOfMemory`] on the way to the first level or a finer one.
+    /// [`Error::OutOfMemory`] in the set-up of a component or a level.
     pub(super) fn advance(&mut self, left: &mut usize) -> Result<Status> {
         while *left > 0 && self.status == Status::Running {
             if let Some(preparing) = self.preparing.take() {
                 let start = Instant::now();
-                *left = left.saturating_sub(SET_UP);
+                *left = left.saturating_sub(SET_UP_CG_ITERATIONS);
                 let prepared = preparing.step()?;
                 self.setup += start.elapsed().as_secs_f64();
                 match prepared {
@@ -269,7 +270,7 @@ impl ComponentSolver {
         Ok(self.status)
     }
 
-    /// Figures of the last check. Before the first one they are those of the input, on a level above 0.
+    /// Returns the figures of the last check. Before the first one they are those of the input, on a level above 0.
     pub(super) fn progress(&self) -> Progress {
         let mut total = Totals::default();
         for answer in &self.answers {
@@ -308,27 +309,28 @@ impl ComponentSolver {
         }
     }
 
-    /// The relative duality gap of all components; `None` where rounding errors are all that is left of it.
+    /// Returns the relative duality gap of all components together; `None` where rounding errors are all that is left
+    /// of it.
     fn known_gap(&self, total: &Totals) -> Option<f64> {
         let rounding = self.status == Status::Stopped(StopReason::Rounding);
         total.gap().filter(|_| !rounding)
     }
 
-    /// ρ of the largest component.
+    /// Returns ADMM's penalty parameter ρ for the largest component.
     fn rho(&self) -> f64 {
         let running = || self.running.as_ref().map(|c| c.level().admm.iterate.rho);
         let first = self.answers.first().map(|answer| answer.iterate.rho);
         first.or_else(running).unwrap_or(0.0)
     }
 
-    /// Stops a running solve.
+    /// Stops a running solve as cancelled.
     pub(super) fn cancel(&mut self) {
         if self.status == Status::Running {
             self.status = Status::Stopped(StopReason::Cancelled);
         }
     }
 
-    /// The best surface so far, without how λ was chosen.
+    /// Returns the best surface so far; its report does not say how λ was chosen.
     ///
     /// # Errors
     /// [`Error::OutOfMemory`].

@@ -1,4 +1,4 @@
-//! The connected components of a domain. The energy of one does not depend on the others, so each is solved by
+//! The connected components of a domain. The energy of a component does not depend on the others, so each is solved by
 //! itself and none slows the others down.
 
 use super::input::Input;
@@ -9,29 +9,30 @@ use crate::lattice::domain::Domain;
 use crate::lattice::hexagonal::Lattice;
 use crate::math::union_find::UnionFind;
 
-/// One connected component: vertices that are connected by stencils.
+/// One connected component of a domain: the box that its vertices are in.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Part {
-    /// First row and column of its box in the lattice; the row is even, so that shifted rows stay shifted.
+    /// Lattice row and column of the box's first vertex; the row is even, so that odd rows of the box are the shifted
+    /// ones of the lattice.
     pub corner: (usize, usize),
     rows: usize,
     cols: usize,
 }
 
-/// All connected components of a domain.
+/// All connected components of a domain: vertices are connected if a stencil has both.
 #[derive(Debug, Clone)]
 pub(crate) struct Components {
-    /// Number of the component of each cell, or [`NO_COMPONENT`]; empty if there is only one component.
+    /// Number of the component that each vertex belongs to, or [`NO_COMPONENT`]; empty if there is only one component.
     labels: Vec<u32>,
-    /// The components, the largest first and the others about in reading order.
+    /// Boxes of the components, the largest component first and the others about in reading order.
     pub list: Vec<Part>,
 }
 
-/// Mark of a vertex that belongs to no component.
+/// Label of a vertex that belongs to no component.
 const NO_COMPONENT: u32 = u32::MAX;
 
 impl Components {
-    /// Finds the components, in time linear in the number of cells.
+    /// Finds the connected components of a domain, in time linear in the number of its vertices.
     pub(crate) fn new(domain: &Domain) -> Result<Self> {
         let mut sets = UnionFind::new("components", domain.cells())?;
         let stride = domain.stride();
@@ -100,13 +101,14 @@ impl Components {
         Ok(Components { labels, list })
     }
 
-    /// Number of the component of an active cell of the whole domain.
+    /// Returns the number of the component that an active vertex belongs to; the vertex is given by its cell of the
+    /// whole domain.
     pub(crate) fn component(&self, cell: usize) -> usize {
         self.labels.get(cell).map_or(0, |label| *label as usize)
     }
 
-    /// Vertex of the whole lattice that is `(0, 0)` of a component's; that of the whole lattice where there is
-    /// only one component.
+    /// Returns row and column of the vertex of the whole lattice that is vertex `(0, 0)` of a component's lattice;
+    /// where there is only one component, its lattice is the whole one.
     pub(crate) fn corner(&self, number: usize) -> (usize, usize) {
         match self.list.len() {
             1 => (0, 0),
@@ -114,7 +116,7 @@ impl Components {
         }
     }
 
-    /// The input of one of several components, on a lattice of its own.
+    /// Cuts the input of one of several components out of the whole input, onto a lattice of its own.
     pub(crate) fn crop(&self, input: &Input, domain: &Domain, number: usize) -> Result<Input> {
         let part = &self.list[number];
         let whole = domain.lattice();
@@ -150,12 +152,12 @@ impl Components {
     }
 }
 
-/// Checks that the given heights hold every component in place: an affine function that vanishes at all of them
-/// must vanish everywhere. Every set of interior vertices that are connected by edges of the lattice is checked
-/// (a component may consist of several, with hinges between them).
+/// Checks that the given heights hold every component in place, so that it cannot tilt or move: an affine function that
+/// vanishes at all of them must vanish everywhere. Every set of interior vertices that are connected by edges of the
+/// lattice is checked (a component may consist of several, with hinges between them).
 ///
 /// # Errors
-/// [`Error::Underdetermined`] for the first that is not held.
+/// [`Error::Underdetermined`] for the first component that is not held.
 pub(crate) fn check_held(input: &Input, domain: &Domain) -> Result<()> {
     let given = |cell: usize| input.is_given(domain.lattice_index(cell));
     if input.confidence.is_empty() || domain.active().cells().all(given) {
@@ -194,7 +196,7 @@ pub(crate) fn check_held(input: &Input, domain: &Domain) -> Result<()> {
     Ok(())
 }
 
-/// Points of the lattice, and whether three of them are not on one line, so that heights given there hold a surface in
+/// Positions of given heights, and whether three of them are not on one line, so that these heights hold a surface in
 /// place: without three such heights it could tilt.
 #[derive(Default)]
 struct Hold {

@@ -1,4 +1,4 @@
-//! Normalised coordinates: the way from the user's heights to those of the energy, and back.
+//! Normalised coordinates: the conversion of the user's heights to the heights in the energy, and back.
 
 use nalgebra::Vector3;
 
@@ -6,7 +6,7 @@ use super::input::Input;
 use crate::lattice::domain::Domain;
 use crate::math::least_squares::LeastSquares;
 
-/// Normalised coordinates: lengths times `scale`, heights above the best-fit plane of a component. The energy
+/// Normalised coordinates of a component: lengths times `scale`, heights relative to the best-fit plane. The energy
 /// does not depend on affine functions, and without them less is lost to rounding.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Coordinates {
@@ -15,7 +15,7 @@ pub(crate) struct Coordinates {
     plane: Plane,
 }
 
-/// An affine function of the position.
+/// A plane: height as an affine function of the position.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Plane {
     centre: [f64; 2],
@@ -24,7 +24,7 @@ pub(crate) struct Plane {
 }
 
 impl Plane {
-    /// The best-fit plane of weighted points, by least squares.
+    /// Fits a plane to weighted points (x, y, height) by least squares.
     pub(crate) fn fit(points: impl Iterator<Item = ([f64; 3], f64)> + Clone) -> Self {
         let total: f64 = points.clone().map(|(_, weight)| weight).sum();
         let points = points.map(|(point, weight)| (point, weight / total));
@@ -62,7 +62,7 @@ impl Plane {
 }
 
 impl Coordinates {
-    /// Coordinates about the best-fit plane of the heights in `I ∪ ∂I`, weighted by confidence.
+    /// Makes coordinates relative to the best-fit plane of the heights of all active vertices, weighted by confidence.
     pub(crate) fn new(input: &Input, domain: &Domain, scale: f64) -> Self {
         let field = input.field();
         let vertices = domain.vertices(domain.active());
@@ -82,17 +82,17 @@ impl Coordinates {
         Coordinates { scale, plane }
     }
 
-    /// Slope of the plane, in both directions.
+    /// Slope of the best-fit plane in the x and the y direction.
     pub(crate) fn slope(&self) -> [f64; 2] {
         self.plane.slope
     }
 
-    /// Normalised height of a height at a position, both in the user's units.
+    /// Converts a height at a position, both in the user's units, to a normalised height.
     pub(crate) fn inward(&self, position: [f64; 2], height: f64) -> f64 {
         self.scale * (height - self.plane.at(position))
     }
 
-    /// Height in the user's units of a normalised one, at a position in the user's units.
+    /// Converts a normalised height `z`, at a position in the user's units, to a height in the user's units.
     pub(crate) fn outward(&self, position: [f64; 2], z: f64) -> f64 {
         z / self.scale + self.plane.at(position)
     }

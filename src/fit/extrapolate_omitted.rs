@@ -1,4 +1,4 @@
-//! Heights of omitted vertices, which no stencil touches, by extrapolation (paper, Sec. 4.1 and Fig. 9).
+//! Extrapolated heights of omitted vertices, which are not part of the solve (paper, Sec. 4.1 and Fig. 9).
 
 use std::collections::VecDeque;
 
@@ -6,10 +6,10 @@ use super::input::Input;
 use crate::lattice::domain::{Domain, Role};
 use crate::lattice::stencil::Quadratic;
 
-/// Gives every omitted vertex the value of the best-fit quadratic of an interior vertex near it: the nearest
-/// one among those that its neighbours have taken, in a search that spreads from the interior over valid
-/// vertices. Where none is within reach, as on an island without interior vertices or far out on a thin strip,
-/// the input's own height stays, if there is one. The cost is linear in the number of vertices.
+/// Gives every omitted vertex the value of the best-fit quadratic of an interior vertex near it: the nearest one among
+/// those that its neighbours have taken, in a search that spreads from the interior over valid vertices. Where none is
+/// within reach, as on an island without interior vertices or far out on a thin strip, the input's own height stays, if
+/// there is one. Linear cost.
 pub(crate) fn extrapolate_omitted(domain: &Domain, input: &Input, heights: &mut [f64]) {
     if domain.omitted_len() == 0 {
         return;
@@ -27,10 +27,10 @@ pub(crate) fn extrapolate_omitted(domain: &Domain, input: &Input, heights: &mut 
         (ax - bx).powi(2) + (ay - by).powi(2)
     };
 
-    /// Mark of a vertex that no quadratic has reached.
+    /// Marks a vertex that no quadratic has reached.
     const NO_SOURCE: usize = usize::MAX;
-    /// Maximum distance at which a quadratic is evaluated, in spacings: further out its error exceeds that of
-    /// the input's own height.
+    /// Maximum distance from its vertex at which a quadratic is evaluated, in spacings: further out its error exceeds
+    /// that of the input's own height.
     const QUADRATIC_REACH_SPACINGS: f64 = 4.0;
     let reach = QUADRATIC_REACH_SPACINGS * QUADRATIC_REACH_SPACINGS;
     let mut source = vec![NO_SOURCE; domain.cells()];

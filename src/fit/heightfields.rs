@@ -1,4 +1,4 @@
-//! The problem of a heightfield: the energy under the operator of the lattice.
+//! The optimisation problem of a heightfield: the energy under the operator of its lattice.
 
 use std::sync::Arc;
 
@@ -16,14 +16,14 @@ pub(crate) type Problem = problem::Problem<LatticeOperator>;
 pub(crate) type Iterate = iterate::Iterate<LatticeOperator>;
 pub(crate) type AdmmSolver = solver::AdmmSolver<LatticeOperator>;
 
-/// Maximum magnitude of heights and Hessians, whose squares are summed and multiplied by λ.
+/// Maximum absolute value of heights and Hessians, whose squares are summed and multiplied by λ.
 const MAX_MAGNITUDE: f64 = 1e130;
 
-/// Maximum spacing; the minimum is one over it.
+/// Maximum spacing of a lattice in normalised coordinates; the minimum is one over it.
 const MAX_SPACING: f64 = 1e50;
 
 impl Problem {
-    /// The problem of an input on a domain, in normalised coordinates.
+    /// Makes the problem of an input on a domain, in normalised coordinates.
     pub(crate) fn new(
         input: &Input,
         domain: Arc<Domain>,
@@ -57,14 +57,16 @@ impl Problem {
         Ok(problem)
     }
 
-    /// The penalty `Σ ω f(H)` of the input, summed separately for each part that cells belong to.
+    /// Computes the penalty `Σ ω f(H)` of the input, summed separately for each of several `parts`; `part` gives the
+    /// number of the part that a vertex's cell belongs to.
     pub(crate) fn smoothness_by(&self, parts: usize, part: impl Fn(usize) -> usize) -> Vec<f64> {
         let mut sums = vec![0.0; parts];
         self.each_cost(&self.target, |cell, cost| sums[part(cell)] += cost);
         sums
     }
 
-    /// Calls `write` with each vertex of `I ∪ ∂I` and its height in the user's units.
+    /// Calls `write` with row and column of each active vertex and its height in the user's units, which is converted
+    /// from `z`.
     pub(crate) fn write_heights(&self, z: &[f64], mut write: impl FnMut((usize, usize), f64)) {
         let LatticeOperator {
             domain,
@@ -78,8 +80,9 @@ impl Problem {
     }
 }
 
-/// Checks that the squares of heights and Hessians, summed and times any λ, are neither rounding errors nor
-/// infinite. Heights that differ from a plane by rounding errors only are accepted.
+/// Checks that squares of heights and Hessians, summed and times any λ, are neither rounded to 0 nor infinite. Heights
+/// that differ from a plane by rounding errors only are accepted. `target` has the heights in normalised coordinates,
+/// `largest` is the largest without the plane subtracted, `h` the normalised spacing.
 ///
 /// # Errors
 /// [`Error::Overflow`] or [`Error::Underflow`].

@@ -1,4 +1,4 @@
-//! The input of a solve: heights, and what is known about them.
+//! The input of a solve: heights, and what is known about them: confidence, constraints, occlusions.
 
 use crate::error::try_filled;
 use crate::error::{Error, Readable, Result, check_shape};
@@ -7,10 +7,10 @@ use crate::heights::heightfield::Heightfield;
 use crate::heights::occlusions::Occlusions;
 use crate::lattice::domain::Domain;
 
-/// Minimum positive confidence: double precision resolves it beside the maximum, but no smaller one.
+/// Minimum positive confidence of a height: double precision resolves it beside the maximum, but no smaller one.
 const MIN_CONFIDENCE: f64 = 1e-6;
 
-/// Maximum confidence.
+/// Maximum confidence of a height.
 const MAX_CONFIDENCE: f64 = 1e6;
 
 /// A heightfield with all that may be known besides its heights: the confidence of each, constraints, and occlusions.
@@ -34,21 +34,21 @@ const MAX_CONFIDENCE: f64 = 1e6;
 #[derive(Debug, Clone, PartialEq)]
 pub struct Input {
     pub(crate) field: Heightfield,
-    /// Confidence of each vertex; empty for 1 everywhere.
+    /// Confidence of each vertex's height; empty if each is 1.
     pub(crate) confidence: Vec<f64>,
-    /// Whether each vertex keeps its height; empty if none does.
+    /// Whether each vertex keeps its height exactly; empty if none does.
     pub(crate) constrained: Vec<bool>,
     pub(crate) occlusions: Option<Occlusions>,
     /// Whether each vertex is outside of the surface, so that no hole is bridged there; empty if none is.
     outside: Vec<bool>,
     bridging: Bridging,
-    /// Number of vertices whose height bridges a hole.
+    /// Number of vertices whose heights were filled in to bridge a hole.
     pub(crate) bridged: usize,
 }
 
 impl Input {
-    /// An input of measured heights, all of the same confidence; small holes are [bridged](Bridging) when the solve
-    /// is set up.
+    /// Makes an input of measured heights, all of confidence 1; small holes are [bridged](Bridging) when the solve is
+    /// set up.
     pub fn new(field: Heightfield) -> Self {
         Input {
             field,
@@ -61,9 +61,9 @@ impl Input {
         }
     }
 
-    /// An input from a height image whose holes are bridged, sampled on the lattice as by
-    /// [`HeightImage::to_lattice`](crate::HeightImage::to_lattice), with its confidence. No further holes are
-    /// bridged.
+    /// Makes an input from a height image whose holes are bridged, sampled on the lattice as by
+    /// [`HeightImage::to_lattice`](crate::HeightImage::to_lattice), with the confidence that the bridging has given. No
+    /// further holes are bridged.
     ///
     /// # Errors
     /// As [`HeightImage::to_lattice`](crate::HeightImage::to_lattice).
@@ -89,9 +89,9 @@ impl Input {
         }
     }
 
-    /// A design, which has constraints alone (paper, Sec. 5.3): the surface passes through every height of
-    /// `constraints` and is free where that is NaN. It covers the whole lattice, or the vertices where `shape` is not
-    /// 0.
+    /// Makes the input of a design, which has constraints alone (paper, Sec. 5.3): the surface passes through every
+    /// height of `constraints` and is free where that is NaN. It covers the whole lattice, or the vertices where
+    /// `shape` is not 0.
     ///
     /// # Errors
     /// [`Error::Shape`] if `shape` is not one value for each vertex.
@@ -107,13 +107,12 @@ impl Input {
             .with_constraints(constraints.into_heights())
     }
 
-    /// Sets the confidence of each height: the factor of its fidelity term. 1 is the default and 0 discards the
-    /// height. The range is 10⁻⁶ to 10⁶; smaller ones count as 0.
+    /// Sets the confidence of each height: the factor of its fidelity term. 1 is the default and 0 discards the height.
+    /// The range is 10⁻⁶ to 10⁶; smaller values count as 0.
     ///
     /// # Errors
-    /// [`Error::Shape`] if there is not one for each vertex,
-    /// [`Error::NotFinite`] or [`Error::Option`] if one is not finite, below 0
-    /// or above 10⁶ where there is a height.
+    /// [`Error::Shape`] if there is not one value for each vertex, [`Error::NotFinite`] or [`Error::Option`] if a value
+    /// is not finite, below 0 or above 10⁶ where there is a height.
     pub fn with_confidence(mut self, mut confidence: Vec<f64>) -> Result<Self> {
         self.check_length("confidence", confidence.len())?;
         check_confidence(
@@ -155,10 +154,10 @@ impl Input {
         Ok(self)
     }
 
-    /// Sets the occlusions, where the surface is torn: no Hessian is taken there.
+    /// Sets the occlusions, where the surface is torn: no Hessian is evaluated there.
     ///
     /// # Errors
-    /// [`Error::Shape`] if they are not of the same lattice.
+    /// [`Error::Shape`] if the occlusions are not of the same lattice.
     pub fn with_occlusions(mut self, occlusions: Occlusions) -> Result<Self> {
         self.check_length("occlusions", occlusions.vertices().len())?;
         self.occlusions = Some(occlusions);
@@ -169,7 +168,7 @@ impl Input {
     /// no holes to bridge.
     ///
     /// # Errors
-    /// [`Error::Option`] for a width out of range.
+    /// [`Error::Option`] if the bridging's width is out of range.
     pub fn with_bridging(mut self, bridging: Bridging) -> Result<Self> {
         bridging.width()?;
         self.bridging = bridging;
@@ -189,12 +188,12 @@ impl Input {
         Ok(self)
     }
 
-    /// Domain of the input's vertices; occluded ones have no Hessian.
+    /// Finds the domain of a solve: the roles of the input's vertices; occluded vertices have no Hessian.
     pub(crate) fn domain(&self) -> Result<Domain> {
         Domain::with_occlusions(&self.field, |vertex| self.is_occluded(vertex))
     }
 
-    /// The input with its small holes bridged.
+    /// Returns the input with its small holes bridged, which fills their heights in.
     pub(crate) fn bridge(mut self) -> Result<Self> {
         let width = self.bridging.width()?;
         let surroundings = Surroundings {
@@ -222,7 +221,7 @@ impl Input {
         Ok(self)
     }
 
-    /// Heights of the input, those of constraints included.
+    /// Heights of the input, with those of constraints.
     pub fn field(&self) -> &Heightfield {
         &self.field
     }
@@ -232,24 +231,25 @@ impl Input {
         check_shape(what, lattice.rows(), lattice.cols(), found)
     }
 
-    /// Whether the height of a vertex is a hard constraint.
+    /// Returns whether the height of a vertex is a constraint, which the surface meets exactly.
     pub(crate) fn is_constrained(&self, vertex: usize) -> bool {
         self.constrained.get(vertex) == Some(&true)
     }
 
-    /// Confidence of a vertex: the weight of its fidelity term, relative to λ.
+    /// Confidence of a vertex's height: the weight of its fidelity term, relative to λ.
     pub(crate) fn weight(&self, vertex: usize) -> f64 {
         self.confidence.get(vertex).copied().unwrap_or(1.0)
     }
 
-    /// Whether no height of the surface has a fidelity term: there are constraints and free vertices alone.
+    /// Returns whether no height of the surface has a fidelity term, so that there are constraints and free vertices
+    /// alone.
     pub(crate) fn is_design(&self) -> bool {
         let valid = |vertex: &usize| !self.field.heights()[*vertex].is_nan();
         let mut vertices = (0..self.field.heights().len()).filter(valid);
         vertices.all(|vertex| self.is_constrained(vertex) || self.weight(vertex) == 0.0)
     }
 
-    /// Whether the height of some vertex of the surface has neither a fidelity term nor a constraint.
+    /// Returns whether the height of some vertex of the surface has neither a fidelity term nor a constraint.
     pub(crate) fn has_free_vertices(&self) -> bool {
         let heights = self.field.heights().iter().enumerate();
         heights
@@ -257,12 +257,12 @@ impl Input {
             .any(|(vertex, _)| !self.is_given(vertex))
     }
 
-    /// Whether a vertex has a height that counts: with confidence, or as a constraint.
+    /// Returns whether a vertex has a height that counts: with confidence, or as a constraint.
     pub(crate) fn is_given(&self, vertex: usize) -> bool {
         self.weight(vertex) > 0.0 || self.is_constrained(vertex)
     }
 
-    /// Whether a vertex has no Hessian because of an occlusion.
+    /// Returns whether a vertex has no Hessian because of an occlusion.
     pub(crate) fn is_occluded(&self, vertex: usize) -> bool {
         self.occlusions
             .as_ref()
@@ -270,7 +270,7 @@ impl Input {
     }
 }
 
-/// Checks that every height, in rows of `cols`, has a confidence within its range.
+/// Checks that the confidence of every height, in rows of `cols`, is within its range.
 pub fn check_confidence(confidence: &[f64], heights: &[f64], cols: usize) -> Result<()> {
     for (i, (weight, height)) in confidence.iter().zip(heights).enumerate() {
         if height.is_nan() {

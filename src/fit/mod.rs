@@ -1,5 +1,5 @@
-//! From heights to the surface that minimises the energy (paper, Sec. 4), with a certified
-//! duality gap.
+//! The solve: from heights or meshes to the surface that minimises the energy (paper, Sec. 4), with a certified duality
+//! gap.
 
 mod admm;
 mod border_load;

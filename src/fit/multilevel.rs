@@ -1,5 +1,5 @@
-//! The solve of one connected component: from its coarsest level to its finest, and through the reweighting
-//! passes there.
+//! The multilevel solve of one connected component: from its coarsest lattice to its finest, and through the
+//! reweighting passes there.
 
 use std::sync::Arc;
 
@@ -17,47 +17,47 @@ use super::report::{LevelReport, Seconds, StopReason};
 use crate::error::Result;
 use crate::lattice::domain::Domain;
 
-/// Cost of one step of the set-up of a level, in conjugate-gradient iterations on it.
-pub(crate) const SET_UP: usize = 10;
+/// Cost of one step of the set-up of a multigrid level, in conjugate-gradient iterations on that level.
+pub(crate) const SET_UP_CG_ITERATIONS: usize = 10;
 
-/// Solve of one connected component, level by level, which can be interrupted.
+/// Solve of one connected component, level by level from the coarsest, which can be interrupted.
 #[derive(Debug, Clone)]
 pub(crate) struct Multilevel {
     /// ADMM on the current level.
     level: AdmmSolver,
-    /// The problems of the finer levels, the finest first.
+    /// Problems on the finer levels, the finest first.
     finer: Vec<Problem>,
-    /// First iterate of the next finer level, from the end of the current level until that one begins; the solver of
-    /// its z-steps joins it when it is set up.
+    /// First iterate of the next finer level, from the end of the current level until the next one begins; the solver
+    /// of its z-steps joins it when that is set up.
     carried: Option<(Iterate, Option<ConjugateGradients>)>,
-    /// The domains of all lattices, the finest first.
+    /// Domains of all lattices, the finest first.
     domains: Vec<Arc<Domain>>,
-    /// Reports of the coarser levels, the coarsest first.
+    /// Reports of the finished coarser levels, the coarsest first.
     coarser: Vec<LevelReport>,
     parameters: AdmmParameters,
     /// Number of reweighting passes so far.
     passes: usize,
     /// Maximum number of reweighting passes still to come.
     passes_left: usize,
-    /// Crease radius, if passes are crease passes; `None` if they reweight all stencils.
+    /// Crease radius, if the passes are crease passes; `None` if they reweight all stencils.
     crease_radius: Option<f64>,
-    /// Bend radius by which the border is to be loaded with moments; `None` if it is not, or once that is done.
+    /// Bend radius by which the border is to be loaded with moments; `None` if it is not to be loaded, or is already.
     loads_within: Option<f64>,
-    /// Creases of the last pass.
+    /// Counts of the stencils on creases in the last pass.
     creases: Creases,
-    /// Whether rank reduction, which is the last step, has begun.
+    /// Whether rank reduction, the last step of the solve, has begun.
     ends: bool,
     seconds: Seconds,
     reason: Option<StopReason>,
 }
 
-/// Result of a component: its surface, and the iterate for a warm start of another solve.
+/// Result of a component's solve: its surface, and the iterate for a warm start of another solve.
 #[derive(Debug, Clone)]
 pub(crate) struct Answer {
     pub problem: Problem,
     pub iterate: Iterate,
     pub incumbent: Incumbent,
-    /// ρ at the start of the finest level.
+    /// Value of ρ at the start of the finest level.
     pub initial_rho: f64,
     pub reason: StopReason,
     pub levels: Vec<LevelReport>,
@@ -67,7 +67,8 @@ pub(crate) struct Answer {
 }
 
 impl Multilevel {
-    /// Starts on the first level, where ADMM may stop at once.
+    /// Starts the solve with ADMM on its first `level`, which may have stopped at once for a `reason`. `finer` are the
+    /// problems on the finer levels.
     pub(crate) fn new(
         level: AdmmSolver,
         reason: Option<StopReason>,
@@ -106,12 +107,12 @@ impl Multilevel {
         Ok(multilevel)
     }
 
-    /// Continues until `left` conjugate-gradient iterations are used up, or until the solve is done; then
-    /// returns the reason.
+    /// Continues until `left` conjugate-gradient iterations are used up, or until the solve is finished; then returns
+    /// the reason why it stopped.
     pub(crate) fn advance(&mut self, left: &mut usize) -> Result<Option<StopReason>> {
         while *left > 0 && self.reason.is_none() {
             if let Some((iterate, cg)) = self.carried.take() {
-                *left = left.saturating_sub(SET_UP);
+                *left = left.saturating_sub(SET_UP_CG_ITERATIONS);
                 match (cg, self.finer.last()) {
                     (None, Some(fine)) => {
                         let domains = &self.domains[self.finer.len() - 1..];
@@ -128,8 +129,8 @@ impl Multilevel {
         Ok(self.reason)
     }
 
-    /// Continues after a level has stopped for a reason: with the next finer level, which is set up in steps of its
-    /// own, or on the finest with further passes.
+    /// Continues after ADMM has stopped on a level for a reason: with the next finer level, which is set up in steps of
+    /// its own, or on the finest level with further passes.
     fn finish_level(&mut self, mut reason: StopReason) -> Result<()> {
         if let Some(fine) = self.finer.last() {
             let rho = refined_rho(self.level.admm.iterate.rho, fine);
@@ -180,7 +181,7 @@ impl Multilevel {
         Ok(())
     }
 
-    /// Loads the border with moments, once; tells whether there are any.
+    /// Loads the border with bending moments, if it is to be loaded and is not yet; returns whether there are any.
     fn load_border(&mut self) -> Result<bool> {
         let Admm {
             problem, iterate, ..
@@ -191,7 +192,7 @@ impl Multilevel {
         }
     }
 
-    /// Starts on the next finer level.
+    /// Starts ADMM on the next finer level.
     fn enter_level(&mut self, iterate: Iterate, cg: ConjugateGradients) -> Result<()> {
         let Some(fine) = self.finer.pop() else {
             return Ok(());
@@ -212,7 +213,7 @@ impl Multilevel {
         }
     }
 
-    /// The reason why the solve stopped; `None` while it runs.
+    /// Returns the reason why the solve stopped; `None` while it runs.
     pub(crate) fn reason(&self) -> Option<StopReason> {
         self.reason
     }
@@ -222,24 +223,24 @@ impl Multilevel {
         self.finer.len()
     }
 
-    /// ADMM on the current level.
+    /// Returns ADMM on the current level.
     pub(crate) fn level(&self) -> &AdmmSolver {
         &self.level
     }
 
-    /// The problem on the finest lattice.
+    /// Returns the problem on the finest lattice.
     pub(crate) fn problem(&self) -> &Problem {
         self.finer.first().unwrap_or(&self.level.admm.problem)
     }
 
-    /// Reports of all levels so far, the coarsest first.
+    /// Returns the reports of all levels so far, the coarsest first.
     pub(crate) fn levels(&self) -> Vec<LevelReport> {
         let mut levels = self.coarser.clone();
         levels.push(self.level.report());
         levels
     }
 
-    /// The result so far, whether the solve is done or not. From a coarse level it is prolonged to the finest
+    /// Returns the result so far, whether the solve is finished or not. On a coarse level it is prolonged to the finest
     /// lattice and certified there.
     pub(crate) fn answer(&self) -> Result<Answer> {
         let carried = self.carry_to_finest()?;
@@ -260,7 +261,7 @@ impl Multilevel {
         })
     }
 
-    /// The result of a solve that is done.
+    /// Returns the result of a finished solve, which stopped for a reason.
     pub(crate) fn into_answer(self, reason: StopReason) -> Answer {
         let levels = self.levels();
         Answer {
@@ -276,8 +277,8 @@ impl Multilevel {
         }
     }
 
-    /// The iterate of a coarse level prolonged to the finest lattice, with the input as the incumbent where
-    /// that is better or where there was no iteration yet; `None` on the finest level.
+    /// Prolongs the iterate of a coarse level to the finest lattice, with the input as the incumbent where its
+    /// objective is smaller or where there was no iteration yet; `None` on the finest level.
     fn carry_to_finest(&self) -> Result<Option<(Iterate, Incumbent)>> {
         if let Some(finest) = self.finer.first()
             && self.coarser.is_empty()

@@ -1,52 +1,54 @@
-//! What may be chosen about a solve, with its defaults.
+//! Options of a solve, with their defaults and ranges.
 
 use std::str::FromStr;
 
 use crate::error::{Error, Result};
 use crate::heights::normalization::Normalization;
 
-/// Range of λ: outside of it one of the energy's two terms vanishes beside the other, even in double precision.
+/// Range of the fidelity weight λ: outside of it one of the energy's two terms vanishes beside the other, even in
+/// double precision.
 const LAMBDA_RANGE: std::ops::RangeInclusive<f64> = 1e-12..=1e15;
 
-/// Range of bend and crease radius, in normalised coordinates: from far below a spacing to far beyond any surface.
+/// Range of the Huber penalty's bend radius and crease radius, in normalised coordinates: from far below a spacing to
+/// far beyond any surface.
 const RADIUS_RANGE: std::ops::RangeInclusive<f64> = 1e-6..=1e6;
 
-/// Maximum number of reweighting or crease passes that an option may ask for; passes after that do not change the
-/// surface.
+/// Maximum number of reweighting or crease passes that an option may ask for; further passes do not change the surface.
 const MAX_PASSES: usize = 20;
 
-/// Default of [`Options::gap`].
+/// Default of [`Options::gap`], the relative duality gap at which a solve stops.
 const DEFAULT_GAP: f64 = 0.01;
 
-/// Default of [`Options::tie_break`].
+/// Default of [`Options::tie_break`], the weight that holds free vertices.
 const DEFAULT_TIE_BREAK: f64 = 0.01;
 
-/// Default of [`Options::crease_passes`].
+/// Default of [`Options::crease_passes`], the maximum number of crease passes.
 pub(crate) const DEFAULT_CREASE_PASSES: usize = 2;
 
-/// Weight λ of the fidelity term, stated for coordinates normalised to the
-/// unit square. The presets are the paper's (Sec. 5).
+/// Weight λ of the fidelity term in the energy, for coordinates normalised to the unit square. The presets are the
+/// paper's (Sec. 5).
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 #[non_exhaustive]
 pub enum Lambda {
-    /// 10⁵: for heavy, widespread noise, or for few large patches.
+    /// λ = 10⁵: for heavy, widespread noise, or for few large patches.
     Small,
-    /// 10⁶.
+    /// λ = 10⁶: the weight of [`Options::paper`].
     Medium,
-    /// 10⁷: for input that is developable except for small artefacts.
+    /// λ = 10⁷: for input that is developable except for small artefacts.
     Big,
-    /// Any number from 10⁻¹² to 10¹⁵.
+    /// Any λ from 10⁻¹² to 10¹⁵.
     Value(f64),
-    /// Chosen from the input: an initial λ from the size of its noise, then the λ that predicts held-out heights best
+    /// λ chosen from the input: an initial λ from the size of its noise, then the λ that predicts held-out heights best
     /// (cross-validation on a lattice of twice the spacing). With [`Energy::Huber`] the parameters of the penalty are
-    /// chosen the same way. An input whose noise cannot be measured, such as a [design](crate::Input::design), gets
+    /// chosen in the same way. An input whose noise cannot be measured, such as a [design](crate::Input::design), gets
     /// [`Lambda::Medium`]. [`Report::lambda_choice`](crate::Report::lambda_choice) reports the choice.
     #[default]
     Auto,
 }
 
 impl Lambda {
-    /// Weight with the name `small`, `medium`, `big` or `auto`, in upper or lower case; `None` for any other name.
+    /// Returns the preset with the name `small`, `medium`, `big` or `auto`, in upper or lower case; `None` for any
+    /// other name.
     pub fn named(name: &str) -> Option<Self> {
         match name.to_ascii_lowercase().as_str() {
             "small" => Some(Lambda::Small),
@@ -57,7 +59,7 @@ impl Lambda {
         }
     }
 
-    /// Value of λ in the energy. [`Lambda::Auto`] has none before a solve and counts as [`Lambda::Medium`].
+    /// Returns λ as a number. [`Lambda::Auto`] has none before a solve and counts as [`Lambda::Medium`].
     pub fn value(self) -> f64 {
         match self {
             Lambda::Small => 1e5,
@@ -83,7 +85,7 @@ impl<'de> serde::Deserialize<'de> for Lambda {
     }
 }
 
-/// Visitor that reads λ as a number or the name of a preset.
+/// Deserialisation visitor that reads λ as a number or the name of a preset.
 #[cfg(feature = "serde")]
 struct LambdaVisitor;
 
@@ -115,7 +117,7 @@ impl serde::de::Visitor<'_> for LambdaVisitor {
 impl FromStr for Lambda {
     type Err = Error;
 
-    /// Reads `small`, `medium`, `big`, `auto` or a number.
+    /// Reads λ from text: `small`, `medium`, `big`, `auto` or a number.
     fn from_str(text: &str) -> Result<Self> {
         let number = || text.parse().ok().map(Lambda::Value);
         Lambda::named(text).or_else(number).ok_or_else(|| {
@@ -128,7 +130,7 @@ impl FromStr for Lambda {
     }
 }
 
-/// Schedule: how ADMM iterations run and when they stop.
+/// Schedule of a solve: how ADMM's iterations run and when they stop.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 #[cfg_attr(
     feature = "serde",
@@ -137,19 +139,20 @@ impl FromStr for Lambda {
 )]
 #[non_exhaustive]
 pub enum Schedule {
-    /// A small fixed number of conjugate-gradient iterations in each z-step, over-relaxation and balancing of the
+    /// Default schedule: few conjugate-gradient iterations in each z-step, over-relaxation and balancing of the
     /// relative residuals; stops at the certified relative duality gap [`Options::gap`].
     #[default]
     Default,
-    /// The paper's schedule (Sec. 4.1): z-steps solved to a tight tolerance, residual balancing after Boyd et al.
-    /// with the paper's looser trigger; stops on the residuals. The duality gap is reported all the same.
+    /// The paper's schedule (Sec. 4.1): z-steps solved to a tight tolerance, residual balancing after Boyd et al. that
+    /// changes ρ at a larger ratio of the residuals; stops when the residuals are small. The duality gap is reported
+    /// all the same.
     Paper,
 }
 
 impl FromStr for Schedule {
     type Err = Error;
 
-    /// Reads `default` and `paper`.
+    /// Reads a schedule from its name, `default` or `paper`.
     fn from_str(text: &str) -> Result<Self> {
         match text {
             "default" => Ok(Schedule::Default),
@@ -159,7 +162,7 @@ impl FromStr for Schedule {
     }
 }
 
-/// Penalty of the Hessian `H` that is minimised together with the fidelity term.
+/// Penalty of the Hessian `H` of heights, which is minimised together with the fidelity term.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 #[cfg_attr(
     feature = "serde",
@@ -168,23 +171,23 @@ impl FromStr for Schedule {
 )]
 #[non_exhaustive]
 pub enum Energy {
-    /// `Σ ‖H‖_*`, the nuclear norm of the Hessian: piecewise developable (paper, Eq. 15). The default
+    /// Penalty `Σ ‖H‖_*`, the nuclear norm of the Hessian: piecewise developable surfaces (paper, Eq. 15). The default
     /// of a [design](crate::Input::design).
     Nuclear,
-    /// `Σ ‖H‖_F`, the Frobenius norm: rounds off creases (Fig. 21).
+    /// Penalty `Σ ‖H‖_F`, the Frobenius norm of the Hessian: rounds off creases (paper, Fig. 21).
     Frobenius,
-    /// `Σ ‖H‖_*²`, the squared nuclear norm: rounds off creases (Fig. 21).
+    /// Penalty `Σ ‖H‖_*²`, the squared nuclear norm of the Hessian: rounds off creases (paper, Fig. 21).
     SquaredNuclear,
-    /// `Σ n₃ ‖H‖_*`, the nuclear norm of the second fundamental form, with the factor
-    /// `n₃ = (1 + |∇z|²)^-½` taken from the input once: convex (Fig. 7, right).
+    /// Penalty `Σ n₃ ‖H‖_*`, the nuclear norm of the second fundamental form, with the factor `n₃ = (1 + |∇z|²)^-½`
+    /// computed from the input once: convex (paper, Fig. 7, right).
     SecondFormOfInput,
-    /// `Σ n₃ ‖H‖_*` with the factor `n₃` of the surface itself, updated in each iteration: not convex (Fig. 7, centre
-    /// right). The duality gap is certified for the energy with the last factor kept.
+    /// Penalty `Σ n₃ ‖H‖_*` with the factor `n₃ = (1 + |∇z|²)^-½` of the surface itself, updated in each iteration: not
+    /// convex (paper, Fig. 7, centre right). The duality gap is certified for the energy with the last factor kept.
     SecondForm,
-    /// Huber penalty `Σ φ(‖H‖_*)`: `φ` is quadratic for small bends and linear for large ones, with the slope
-    /// `min(α + s/δ, 1)` at the size `s`. The surface stays smooth where it bends smoothly, without the flat strips of
-    /// the nuclear norm, and can still crease and stay developable. Up to [`Options::crease_passes`] further solves
-    /// lower the cost of bends tighter than [`Options::crease_radius`], so that creases keep their angle. Objective and
+    /// Huber penalty `Σ φ(‖H‖_*)`: `φ` is quadratic for small bends and linear for large ones, with the slope `min(α +
+    /// s/δ, 1)` at the size `s`. The surface stays smooth where it bends smoothly, without the flat strips of the
+    /// nuclear norm, and can still crease and stay developable. Up to [`Options::crease_passes`] further solves lower
+    /// the cost of bends tighter than [`Options::crease_radius`], so that creases keep their angle. Objective and
     /// duality gap of the report belong to the last solve's energy. The default of every input that is not a design.
     #[default]
     Huber,
@@ -193,7 +196,8 @@ pub enum Energy {
 impl FromStr for Energy {
     type Err = Error;
 
-    /// Reads `nuclear`, `frobenius`, `squaredNuclear`, `secondFormOfInput`, `secondForm` and `huber`.
+    /// Reads an energy from its name: `nuclear`, `frobenius`, `squaredNuclear`, `secondFormOfInput`, `secondForm` or
+    /// `huber`.
     fn from_str(text: &str) -> Result<Self> {
         match text {
             "nuclear" => Ok(Energy::Nuclear),
@@ -211,19 +215,19 @@ impl FromStr for Energy {
     }
 }
 
-/// Condition at the border of the surface, under [`Energy::Huber`].
+/// Boundary condition at the border of the surface, under [`Energy::Huber`].
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 #[non_exhaustive]
 pub enum Border {
-    /// No bending moment at the border. The surface of least energy is then too straight along it.
+    /// Free border, without bending moment. The surface of least energy is then too straight along it.
     Free,
-    /// The bending moments found inside the surface in the pass before, continued to its border where they would not
-    /// fold it. The first pass has a free border.
+    /// Border loaded with the bending moments found inside the surface in the pass before, continued to the border
+    /// where they would not fold it. The first pass has a free border.
     #[default]
     Loaded,
 }
 
-/// Parameters of the Huber penalty, [`Energy::Huber`].
+/// Parameters of the Huber penalty ([`Energy::Huber`]): bend radius, flatness and crease radius.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Bending {
     pub bend_radius: f64,
@@ -232,21 +236,21 @@ pub(crate) struct Bending {
 }
 
 impl Bending {
-    /// Parameters for smooth bends, and creases that are much sharper: the default.
+    /// Default Huber parameters, for smooth bends, and creases that are much sharper.
     pub(crate) const SMOOTH: Bending = Bending {
         bend_radius: 0.1,
         flatness: 0.3,
         crease_radius: 0.1,
     };
 
-    /// Parameters for a surface of unknown kind: near the best for smooth bends, for creases and for flat facets.
+    /// Huber parameters for a surface of unknown kind: near the best for smooth bends, for creases and for flat facets.
     pub(crate) const ANY: Bending = Bending {
         bend_radius: 0.2,
         flatness: 0.5,
         crease_radius: 0.1,
     };
 
-    /// Parameters that make the Huber penalty the nuclear norm: no bend has a quadratic cost, and none counts as a
+    /// Huber parameters that make the penalty the nuclear norm: no bend has a quadratic cost, and none counts as a
     /// crease.
     pub(crate) const NUCLEAR: Bending = Bending {
         bend_radius: 0.1,
@@ -262,7 +266,7 @@ impl Bending {
         }
     }
 
-    /// Parameters with those that `options` give in place of their own.
+    /// Returns these parameters, each replaced by the value that `options` give, if they give one.
     pub(crate) fn within(self, options: &Options) -> Self {
         Bending {
             bend_radius: options.bend_radius.unwrap_or(self.bend_radius),
@@ -271,7 +275,7 @@ impl Bending {
         }
     }
 
-    /// Options with these parameters, whatever was given before.
+    /// Returns the options with these Huber parameters, in place of any that were given.
     pub(crate) fn of(self, options: &Options) -> Options {
         options
             .bend_radius(self.bend_radius)
@@ -334,60 +338,60 @@ impl Default for Options {
 }
 
 impl Options {
-    /// The paper's energy and weight: [`Energy::Nuclear`] at [`Lambda::Medium`]. Every other option has its default,
-    /// [`Schedule::Default`] included.
+    /// Returns options with the paper's energy and weight: [`Energy::Nuclear`] at [`Lambda::Medium`]. Every other
+    /// option has its default, [`Schedule::Default`] included.
     pub fn paper() -> Self {
         Options::default().or_paper()
     }
 
-    /// Fills in energy and λ by the [paper's](Options::paper) where none are given.
+    /// Sets energy and λ to those of [`Options::paper`] where none are given.
     pub fn or_paper(mut self) -> Self {
         self.lambda.get_or_insert(Lambda::Medium);
         self.energy.get_or_insert(Energy::Nuclear);
         self
     }
 
-    /// Weight of the fidelity term; default [`Lambda::Auto`].
+    /// Sets the weight λ of the fidelity term; default [`Lambda::Auto`].
     pub fn lambda(mut self, lambda: impl Into<Lambda>) -> Self {
         self.lambda = Some(lambda.into());
         self
     }
 
-    /// Schedule of the ADMM iterations; default [`Schedule::Default`].
+    /// Sets the schedule of the ADMM iterations; default [`Schedule::Default`].
     pub fn schedule(mut self, schedule: Schedule) -> Self {
         self.schedule = schedule;
         self
     }
 
-    /// Certified relative duality gap `(P − D)/P` at which [`Schedule::Default`] stops, between 0 and
-    /// 1; default 0.01. The objective is then at most `1/(1 − gap)` times the optimum.
+    /// Sets the certified relative duality gap `(P − D)/P` at which [`Schedule::Default`] stops, between 0 and 1;
+    /// default 0.01. The objective is then at most `1/(1 − gap)` times the optimum.
     pub fn gap(mut self, gap: f64) -> Self {
         self.gap = Some(gap);
         self
     }
 
-    /// Maximum number of ADMM iterations, at least 1; default 20 000.
+    /// Sets the maximum number of ADMM iterations, at least 1; default 20 000.
     pub fn max_iterations(mut self, max_iterations: usize) -> Self {
         self.max_iterations = max_iterations;
         self
     }
 
-    /// Normalisation of the coordinates in which λ is stated; default [`Normalization::UnitSquare`].
+    /// Sets the normalisation of the coordinates in which λ is stated; default [`Normalization::UnitSquare`].
     pub fn normalization(mut self, normalization: Normalization) -> Self {
         self.normalization = normalization;
         self
     }
 
-    /// Penalty of the Hessian; default [`Energy::Huber`], for a
-    /// [design](crate::Input::design) [`Energy::Nuclear`].
+    /// Sets the penalty of the Hessian; default [`Energy::Huber`], for a [design](crate::Input::design)
+    /// [`Energy::Nuclear`].
     pub fn energy(mut self, energy: Energy) -> Self {
         self.energy = Some(energy);
         self
     }
 
-    /// Number of reweighting passes, at most 20; default 0. Each pass solves again with each vertex's penalty divided
-    /// by the mean size of the Hessians around it in the solution before (iteratively reweighted nuclear norm), which
-    /// undoes a part of the shrinkage of large curvatures. It pays where λ is small for the noise
+    /// Sets the number of reweighting passes, at most 20; default 0. Each pass solves again with each vertex's penalty
+    /// divided by the mean size of the Hessians around it in the solution before (iteratively reweighted nuclear norm),
+    /// which undoes a part of the shrinkage of large curvatures. It pays where λ is small for the noise
     /// (`benches/choices.md`). Objective and duality gap of the report belong to the last pass's weighted energy. Not
     /// for [`Energy::Huber`], which has crease passes.
     pub fn reweighting(mut self, passes: usize) -> Self {
@@ -395,84 +399,83 @@ impl Options {
         self
     }
 
-    /// Weight, in place of λ, that ties free vertices to the thin plate through the constraints; default 0.01.
-    /// Without it minimisers need not be unique. It is limited to λ next to vertices with a fidelity term. An error
-    /// where no vertex is free.
+    /// Sets the weight, in place of λ, that pulls free vertices to the thin plate through the constraints; default
+    /// 0.01. Without it minimisers need not be unique. It is limited to λ next to vertices with a fidelity term. An
+    /// error where no vertex is free.
     pub fn tie_break(mut self, weight: f64) -> Self {
         self.tie_break = Some(weight);
         self
     }
 
-    /// Bend radius `1/δ` of [`Energy::Huber`], in normalised coordinates: the cost of tighter bends is linear, that
-    /// of wider ones quadratic. Default: chosen with λ by [`Lambda::Auto`], else 0.1. The larger, the more the energy
-    /// is like the nuclear norm.
+    /// Sets the bend radius `1/δ` of [`Energy::Huber`], in normalised coordinates: the cost of tighter bends is linear,
+    /// that of wider ones quadratic. Default: chosen with λ by [`Lambda::Auto`], else 0.1. The larger, the more the
+    /// energy is like the nuclear norm.
     pub fn bend_radius(mut self, radius: f64) -> Self {
         self.bend_radius = Some(radius);
         self
     }
 
-    /// Flatness `α` of [`Energy::Huber`]: the slope of the penalty at 0, from 0 (nothing is exactly flat) to 1 (the
-    /// nuclear norm). Default: chosen with λ by [`Lambda::Auto`], else 0.3, and more where λ is large for the noise
-    /// of the input.
+    /// Sets the flatness `α` of [`Energy::Huber`]: the slope of the penalty at 0, from 0 (nothing is exactly flat) to 1
+    /// (the nuclear norm). Default: chosen with λ by [`Lambda::Auto`], else 0.3, and more where λ is large for the
+    /// noise of the input.
     pub fn flatness(mut self, slope: f64) -> Self {
         self.flatness = Some(slope);
         self
     }
 
-    /// Crease radius `1/T` of [`Energy::Huber`], in normalised coordinates: bends of a smaller radius are creases.
-    /// Default: chosen with λ by [`Lambda::Auto`], else 0.1.
+    /// Sets the crease radius `1/T` of [`Energy::Huber`], in normalised coordinates: bends of a smaller radius are
+    /// creases. Default: chosen with λ by [`Lambda::Auto`], else 0.1.
     pub fn crease_radius(mut self, radius: f64) -> Self {
         self.crease_radius = Some(radius);
         self
     }
 
-    /// Maximum number of crease passes of [`Energy::Huber`] after the first solve, at most 20. Default: 2, or 0 where
-    /// λ is so large for the noise of the input that passes would make creases of noise. Passes end early where they
-    /// hardly change the surface.
+    /// Sets the maximum number of crease passes of [`Energy::Huber`] after the first solve, at most 20: solves that
+    /// penalise sharp bends less. Default: 2, or 0 where λ is so large for the noise of the input that passes would
+    /// make creases of noise. Passes end early where they hardly change the surface.
     pub fn crease_passes(mut self, passes: usize) -> Self {
         self.crease_passes = Some(passes);
         self
     }
 
-    /// Condition at the border under [`Energy::Huber`]; default [`Border::Loaded`], which takes one of
-    /// the [`Options::crease_passes`].
+    /// Sets the boundary condition at the border under [`Energy::Huber`]; default [`Border::Loaded`], which takes one
+    /// of the [`Options::crease_passes`].
     pub fn border(mut self, border: Border) -> Self {
         self.border = Some(border);
         self
     }
 
-    /// The weight of the fidelity term: the given one or the default.
+    /// Weight λ of the fidelity term: the given one or the default.
     pub(crate) fn lambda_or_default(&self) -> Lambda {
         self.lambda.unwrap_or_default()
     }
 
-    /// The certified gap to stop at: the given one or the default.
+    /// Certified relative duality gap to stop at: the given one or the default.
     pub(crate) fn gap_or_default(&self) -> f64 {
         self.gap.unwrap_or(DEFAULT_GAP)
     }
 
-    /// The energy to minimise: the given one or the default.
+    /// Energy to minimise: the given one or the default.
     pub(crate) fn energy_or_default(&self) -> Energy {
         self.energy.unwrap_or_default()
     }
 
-    /// The weight that ties free vertices to the thin plate: the given one or the default.
+    /// Weight that pulls free vertices to the thin plate: the given one or the default.
     pub(crate) fn tie_break_or_default(&self) -> f64 {
         self.tie_break.unwrap_or(DEFAULT_TIE_BREAK)
     }
 
-    /// The maximum number of crease passes: the given one or the default.
+    /// Maximum number of crease passes: the given one or the default.
     pub(crate) fn crease_passes_or_default(&self) -> usize {
         self.crease_passes.unwrap_or(DEFAULT_CREASE_PASSES)
     }
 
-    /// The condition at the border: the given one or the default.
+    /// Boundary condition at the border: the given one or the default.
     pub(crate) fn border_or_default(&self) -> Border {
         self.border.unwrap_or_default()
     }
 
-    /// Fills in the default energy where none is given: [`Energy::Nuclear`] for a design, [`Energy::Huber`]
-    /// otherwise.
+    /// Fills in the default energy where none is given: [`Energy::Nuclear`] for a design, [`Energy::Huber`] otherwise.
     pub(crate) fn with_energy_for(mut self, is_design: bool) -> Self {
         let default = match is_design {
             true => Energy::Nuclear,
@@ -482,7 +485,7 @@ impl Options {
         self
     }
 
-    /// Checks that every option is within its range and has an effect beside the others that are given.
+    /// Checks that every option is within its range and has an effect beside the other options that are given.
     ///
     /// # Errors
     /// [`Error::Option`] with the name of the first option that fails.
@@ -557,7 +560,7 @@ impl Options {
         Ok(())
     }
 
-    /// Returns an error for an option that has no effect beside the others.
+    /// Returns an error for an option that has no effect beside the other options that are given.
     fn check_effects(&self) -> Result<()> {
         if let (Schedule::Paper, Some(gap)) = (self.schedule, self.gap) {
             return Err(Error::option(
@@ -587,7 +590,7 @@ impl Options {
         ))
     }
 
-    /// Returns an error with `requirement` as its message if a parameter of [`Energy::Huber`] is given.
+    /// Returns an error with `requirement` as its message if an option is given that only [`Energy::Huber`] has.
     fn check_huber(&self, requirement: &'static str) -> Result<()> {
         let radii_and_slope = [
             ("bend_radius", self.bend_radius),
@@ -605,8 +608,8 @@ impl Options {
         Ok(())
     }
 
-    /// Returns an error for an option that has no effect on this input: [`Options::tie_break`] where no vertex is
-    /// free, and parameters of another energy than the input's default where none is given.
+    /// Returns an error for an option that has no effect on an input: [`Options::tie_break`] where no vertex is free,
+    /// and parameters of another energy than the input's default where none is given.
     pub(crate) fn check_effects_on(&self, is_design: bool, has_free_vertices: bool) -> Result<()> {
         if let (Some(weight), false) = (self.tie_break, has_free_vertices) {
             return Err(Error::option(

@@ -1,4 +1,4 @@
-//! Prolongation: the first iterate on a level from the last one of the next coarser level.
+//! Prolongation: the first iterate on a multigrid level from the last one of the next coarser level.
 //!
 //! The dual is bounded by 1 at every resolution, so `Y` and `H` are carried over unscaled. `z` is interpolated
 //! linearly, which keeps creases; `Y` by the smoother weights of Loop's subdivision surfaces, because every kink of
@@ -11,9 +11,8 @@ use crate::lattice::domain::{Domain, Role};
 use crate::lattice::hexagonal::{NEIGHBOUR_DIRECTIONS, Towards};
 use crate::math::sym2::Sym2;
 
-/// The iterate on the fine lattice that is interpolated from one on the coarse lattice. A fine vertex without
-/// coarse vertices to interpolate, as on islands and between holes too small for the coarse lattice, starts
-/// from the input.
+/// Makes an iterate on the fine lattice by interpolation of one on the coarse lattice. A fine vertex without coarse
+/// vertices to interpolate, as on islands and between holes too small for the coarse lattice, starts from the input.
 pub(crate) fn prolong(
     coarse: &Problem,
     from: &Iterate,
@@ -67,17 +66,17 @@ pub(crate) fn prolong(
     Ok(iterate)
 }
 
-/// Coarse cells from which every other fine vertex of a row is interpolated, as offsets that are alike for all
-/// of them.
+/// Coarse cells from which every other fine vertex of a row is interpolated, as offsets that are the same for all of
+/// them.
 struct Sources {
-    /// Coarse cell of the first parent of the first vertex of the row, counted as if the coarse box were wide
-    /// enough.
+    /// Coarse cell of the first parent of the first vertex of the row, counted as if the coarse box were wide enough.
+    /// (Parents of a fine vertex are the two coarse vertices that it lies between.)
     first: isize,
-    /// Column of the cell [`Self::first`].
+    /// Column of the coarse cell [`Self::first`] in the padded coarse box.
     col: isize,
-    /// Offset from the first parent to the second one.
+    /// Offset from the first parent to the second one, in coarse cells.
     other: isize,
-    /// Offsets from the first parent to all coarse cells that `V` is interpolated from, with their weights.
+    /// Offsets from the first parent to all coarse cells that `V = Y + ρH` is interpolated from, with their weights.
     weights: Vec<(isize, f64)>,
 }
 
@@ -99,8 +98,8 @@ impl Sources {
         }
     }
 
-    /// The coarse cell at an offset from the first parent of the `k`-th vertex, if it is in the coarse box.
-    /// Offsets lead no further than to a neighbour, so that those out of the box end in its padding.
+    /// Returns the coarse cell at an offset from the first parent of the row's `k`-th vertex, if it is in the coarse
+    /// box. Offsets lead no further than to a neighbour, so that those out of the box end in its padding.
     fn cell(&self, k: usize, offset: isize, coarse: &Domain) -> Option<usize> {
         let inside = (0..coarse.stride() as isize).contains(&(self.col + k as isize));
         let cell = usize::try_from(self.first + k as isize + offset).ok()?;
@@ -108,8 +107,8 @@ impl Sources {
     }
 }
 
-/// Coarse vertices and weights of Loop's subdivision (1987) for the fine vertex between `a` and `b`: a coarse
-/// vertex itself and its neighbours, or the ends of an edge and the vertices opposite.
+/// Returns coarse vertices and weights of Loop's subdivision (1987) for the fine vertex between `a` and `b`: a coarse
+/// vertex itself and its neighbours if both are the same, else the ends of an edge and the vertices opposite.
 fn loop_weights(
     a: (isize, isize),
     b: (isize, isize),

@@ -1,8 +1,8 @@
-//! Reports of a solve, while it runs and afterwards.
+//! Reports of a solve: its progress while it runs, and its figures afterwards.
 
 use super::options::Energy;
 
-/// Why a solve stopped.
+/// Reason why a solve stopped.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[cfg_attr(
     feature = "serde",
@@ -11,30 +11,30 @@ use super::options::Energy;
 )]
 #[non_exhaustive]
 pub enum StopReason {
-    /// The certified relative gap reached [`Options::gap`](crate::Options::gap).
+    /// The certified relative duality gap reached [`Options::gap`](crate::Options::gap).
     Gap,
     /// The residuals of [`Schedule::Paper`](crate::Schedule::Paper) fell below its tolerances.
     Residuals,
     /// Objective and dual bound differ by no more than rounding errors: the surface is optimal as far as double
-    /// precision can tell. So it is for an affine input.
+    /// precision can tell. This is the reason for an affine input.
     Rounding,
-    /// [`Options::max_iterations`](crate::Options::max_iterations) was reached.
+    /// The number of iterations reached [`Options::max_iterations`](crate::Options::max_iterations).
     MaxIterations,
-    /// The callback, or [`Solver::cancel`](crate::Solver::cancel), asked to stop.
+    /// The progress callback, or [`Solver::cancel`](crate::Solver::cancel), asked to stop.
     Cancelled,
-    /// The iterates diverged, and did so again with more exact steps. The surface is the best one from before,
-    /// and its bound holds.
+    /// ADMM's iterates diverged, and did so again with more accurate z-steps. The surface is the best one from before,
+    /// and its dual bound holds.
     Diverged,
 }
 
-/// Relative duality gap: the largest share by which an objective may exceed the optimum. `None` if objective or
-/// bound is not known, or if the objective is a rounding error.
+/// Computes the relative duality gap: the largest share by which an objective may exceed the optimum. `None` if
+/// objective or dual bound is not known, or if the objective is no more than `rounding`.
 pub(crate) fn relative_gap(objective: f64, dual_bound: f64, rounding: f64) -> Option<f64> {
     let known = objective.is_finite() && dual_bound.is_finite() && objective > rounding;
     known.then(|| ((objective - dual_bound) / objective).max(0.0))
 }
 
-/// Progress of a running solve: the figures of its last check.
+/// Progress of a running solve: the figures of its last check, in which objective and dual bound are computed.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(
     feature = "serde",
@@ -43,41 +43,40 @@ pub(crate) fn relative_gap(objective: f64, dual_bound: f64, rounding: f64) -> Op
 )]
 #[non_exhaustive]
 pub struct Progress {
-    /// Number of finer levels still to come; 0 on the finest one.
+    /// Number of finer multigrid levels still to come; 0 on the finest one.
     pub level: usize,
-    /// ADMM iterations so far, on all levels.
+    /// Number of ADMM iterations so far, on all levels.
     pub iteration: usize,
-    /// Conjugate-gradient iterations so far, over all z-steps.
+    /// Number of conjugate-gradient iterations so far, over all z-steps.
     pub cg_iterations: usize,
     /// Objective of the best surface so far; before the first check, that of the initial surface.
     pub objective: f64,
-    /// Best lower bound of the optimum so far.
+    /// Best lower bound of the optimal objective so far.
     pub dual_bound: f64,
-    /// Relative duality gap `(objective − dual_bound) / objective`; `None` where the objective is a rounding
-    /// error.
+    /// Relative duality gap `(objective − dual_bound) / objective`; `None` where the objective is a rounding error.
     pub gap: Option<f64>,
-    /// ADMM penalty ρ.
+    /// Current penalty parameter ρ of ADMM.
     pub rho: f64,
-    /// Seconds since the solver was made.
+    /// Time since the solver was made, in seconds.
     pub elapsed: f64,
 }
 
-/// Seconds spent in each phase of a solve.
+/// Time spent in each phase of a solve, in seconds.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[non_exhaustive]
 pub struct Seconds {
-    /// Domain, normalisation, allocation.
+    /// Time for the set-up: domain, normalisation, allocation, in seconds.
     pub setup: f64,
-    /// Conjugate gradients.
+    /// Time for z-steps, that is for conjugate gradients, in seconds.
     #[cfg_attr(feature = "serde", serde(rename = "zStep"))]
     pub z_step: f64,
-    /// Hessians, their soft threshold, the dual update.
+    /// Time for the Hessians, their soft threshold and the dual update, in seconds.
     #[cfg_attr(feature = "serde", serde(rename = "hStep"))]
     pub h_step: f64,
-    /// Objective, dual bound and residuals.
+    /// Time for objective, dual bound and residuals, in seconds.
     pub certificate: f64,
-    /// Total, from the solver's construction to the surface, pauses between steps included.
+    /// Total time in seconds, from the solver's construction to the surface, pauses between calls included.
     pub total: f64,
 }
 
@@ -94,7 +93,7 @@ impl std::ops::Add for Seconds {
     }
 }
 
-/// The work on one level.
+/// Work of a solve on one multigrid level.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(
     feature = "serde",
@@ -103,13 +102,13 @@ impl std::ops::Add for Seconds {
 )]
 #[non_exhaustive]
 pub struct LevelReport {
-    /// Lattice spacing, in normalised coordinates.
+    /// Spacing of the level's lattice, in normalised coordinates.
     pub spacing: f64,
-    /// Interior vertices.
+    /// Number of interior vertices of the level's lattice.
     pub interior: usize,
-    /// ADMM iterations.
+    /// Number of ADMM iterations on the level.
     pub iterations: usize,
-    /// Conjugate-gradient iterations over all z-steps.
+    /// Number of conjugate-gradient iterations on the level, over all z-steps.
     pub cg_iterations: usize,
 }
 
@@ -124,8 +123,8 @@ pub struct LevelReport {
 pub enum LambdaReason {
     /// This λ predicts held-out heights best (cross-validation).
     Prediction,
-    /// λ follows from size and correlation length of the noise, without cross-validation: there are too few heights
-    /// to hold some out, or their noise is correlated, so that held-out noise could be predicted.
+    /// λ follows from size and correlation length of the noise, without cross-validation: there are too few heights to
+    /// hold some out, or their noise is correlated, so that the noise of held-out heights could be predicted.
     Noise,
     /// The heights have hardly any noise: λ is [`Lambda::Big`](crate::Lambda::Big).
     NoNoise,
@@ -133,7 +132,7 @@ pub enum LambdaReason {
     Unknown,
 }
 
-/// How [`Lambda::Auto`](crate::Lambda::Auto) has chosen λ.
+/// Choice of λ by [`Lambda::Auto`](crate::Lambda::Auto): its reason, what it found out about the noise, and its cost.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(
     feature = "serde",
@@ -142,11 +141,12 @@ pub enum LambdaReason {
 )]
 #[non_exhaustive]
 pub struct LambdaChoice {
-    /// Reason for this λ.
+    /// Reason for the chosen λ.
     pub reason: LambdaReason,
     /// Standard deviation σ of the heights' noise, in the input's units; `None` if it cannot be measured.
     pub sigma: Option<f64>,
-    /// Quantisation step of the heights, in the input's units; `None` unless their noise is rounding to such steps.
+    /// Quantisation step of the heights, in the input's units; `None` unless their noise is rounding to multiples of
+    /// such a step.
     pub step: Option<f64>,
     /// Correlation length of the noise, in the input's units: the standard deviation of the Gaussian blur that turns
     /// white noise into noise like it. 0 for noise that is independent from vertex to vertex.
@@ -154,16 +154,16 @@ pub struct LambdaChoice {
     /// Whether the noise is correlated over distances at which the shape bends, too, so that noise and shape could
     /// not be told apart: σ and λ are uncertain.
     pub ambiguous: bool,
-    /// Number of times that the spacing is doubled until noise is independent from vertex to vertex; 0 for white
-    /// noise.
+    /// Number of times that the lattice's spacing has to be doubled, by averages of four heights, until the noise is
+    /// independent from vertex to vertex; 0 for white noise.
     pub merged: usize,
-    /// Number of candidates for λ and penalty that were compared, each by up to three solves.
+    /// Number of candidates for λ and penalty parameters that were compared, each by up to three solves.
     pub solves: usize,
-    /// Number of ADMM iterations of these solves, which [`Report::iterations`] does not include.
+    /// Number of ADMM iterations of the compared solves, which [`Report::iterations`] does not include.
     pub iterations: usize,
 }
 
-/// Parameters of [`Energy::Huber`] as they were used, whether given or chosen.
+/// Parameters of [`Energy::Huber`] that a solve has used, whether given or chosen.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(
     feature = "serde",
@@ -172,19 +172,19 @@ pub struct LambdaChoice {
 )]
 #[non_exhaustive]
 pub struct HuberReport {
-    /// See [`Options::bend_radius`](crate::Options::bend_radius).
+    /// Bend radius in normalised coordinates: see [`Options::bend_radius`](crate::Options::bend_radius).
     pub bend_radius: f64,
-    /// See [`Options::flatness`](crate::Options::flatness).
+    /// Flatness, from 0 to 1: see [`Options::flatness`](crate::Options::flatness).
     pub flatness: f64,
-    /// See [`Options::crease_radius`](crate::Options::crease_radius).
+    /// Crease radius in normalised coordinates: see [`Options::crease_radius`](crate::Options::crease_radius).
     pub crease_radius: f64,
     /// Number of crease passes after the first solve.
     pub crease_passes: usize,
-    /// Interior vertices on a crease, where the last pass weighs bends less.
+    /// Number of interior vertices on a crease, where the last crease pass weighs bends less.
     pub creases: usize,
 }
 
-/// The report of a solve: what was solved, how well, and at what cost.
+/// Report of a solve: what was solved, how well, and at what cost.
 ///
 /// Energies are in normalised coordinates (see [`Normalization`](crate::Normalization)).
 #[derive(Debug, Clone, PartialEq)]
@@ -195,61 +195,60 @@ pub struct HuberReport {
 )]
 #[non_exhaustive]
 pub struct Report {
-    /// Vertices where the Hessian is evaluated: the set `I`.
+    /// Number of interior vertices, where the Hessian is evaluated: the paper's set `I`.
     pub interior: usize,
-    /// Valid vertices touched by a stencil without being interior: `∂I`.
+    /// Number of boundary vertices, which are neighbours of interior vertices but not interior: the paper's set `∂I`.
     pub boundary: usize,
-    /// Valid vertices that no stencil touches: left out of the solve and extrapolated afterwards.
+    /// Number of omitted vertices, which have heights but neither are nor touch interior vertices: left out of the
+    /// solve and extrapolated afterwards.
     pub omitted: usize,
-    /// Vertices where no Hessian was taken because of an occlusion.
+    /// Number of vertices where no Hessian was evaluated because of an occlusion.
     pub occluded: usize,
-    /// Vertices without data whose hole was [bridged](crate::Bridging): they have heights in the
-    /// surface.
+    /// Number of vertices without data in holes that were [bridged](crate::Bridging): they have heights in the surface.
     pub bridged: usize,
-    /// Vertices whose height is a hard constraint.
+    /// Number of vertices whose height is a constraint, which the surface meets exactly.
     pub constrained: usize,
-    /// Vertices of the solve with neither a constraint nor a fidelity term of their own.
+    /// Number of free vertices in the solve, with neither a constraint nor a fidelity term.
     pub free: usize,
-    /// Connected components, each of which was solved by itself.
+    /// Number of connected components, each of which was solved by itself.
     pub components: usize,
-    /// ADMM iterations on all levels.
+    /// Number of ADMM iterations on all levels.
     pub iterations: usize,
-    /// Conjugate-gradient iterations over all z-steps on all levels.
+    /// Number of conjugate-gradient iterations over all z-steps on all levels.
     pub cg_iterations: usize,
-    /// Work on each level, the coarsest first.
+    /// Work on each multigrid level, the coarsest first.
     pub levels: Vec<LevelReport>,
     /// Energy whose penalty was minimised.
     pub energy: Energy,
     /// Number of reweighting passes after the first solve.
     pub reweighting: usize,
-    /// Parameters of [`Energy::Huber`] and its creases; `None` for other energies.
+    /// Parameters of [`Energy::Huber`] and the number of its creases; `None` for other energies.
     #[cfg_attr(feature = "serde", serde(skip_serializing_if = "Option::is_none"))]
     pub huber: Option<HuberReport>,
-    /// Energy of the returned surface; always finite.
+    /// Objective (fidelity plus penalty) of the returned surface; always finite.
     pub objective: f64,
-    /// Fidelity `λ Σ (z − z̃)²`; with [`Border::Loaded`](crate::Border::Loaded) the work of the border's moments is
-    /// subtracted.
+    /// Fidelity term `λ Σ (z − z̃)²` of the objective; with [`Border::Loaded`](crate::Border::Loaded) the work of the
+    /// border's moments is subtracted.
     pub fidelity: f64,
-    /// Penalty of the Hessians: `Σ ‖H‖_*`, or that of another energy.
+    /// Penalty term of the objective: `Σ ‖H‖_*`, or the penalty of another energy.
     pub nuclear_norm: f64,
-    /// Certified lower bound of the optimum; always finite, and 0 where nothing better is known.
+    /// Certified lower bound of the optimal objective; always finite, and 0 where nothing better is known.
     pub dual_bound: f64,
-    /// Relative duality gap `(objective − dual_bound) / objective`: the result exceeds the optimum by at most this
-    /// share of the objective. `None` for [`StopReason::Rounding`], and where the objective itself is a rounding
-    /// error.
+    /// Relative duality gap `(objective − dual_bound) / objective`: the objective exceeds the optimum by at most this
+    /// share of itself. `None` for [`StopReason::Rounding`], and where the objective is a rounding error.
     pub gap: Option<f64>,
-    /// λ as a number.
+    /// Weight λ of the fidelity term, as a number.
     pub lambda: f64,
-    /// How λ was chosen, for [`Lambda::Auto`](crate::Lambda::Auto).
+    /// How λ was chosen; `None` unless it was [`Lambda::Auto`](crate::Lambda::Auto).
     #[cfg_attr(feature = "serde", serde(skip_serializing_if = "Option::is_none"))]
     pub lambda_choice: Option<LambdaChoice>,
-    /// Last ADMM penalty ρ.
+    /// Penalty parameter ρ of ADMM in the last iteration.
     pub rho: f64,
     /// Factor from the input's units to normalised coordinates.
     pub scale: f64,
-    /// Why the solve stopped.
+    /// Reason why the solve stopped.
     pub stop_reason: StopReason,
-    /// Seconds per phase.
+    /// Time spent in each phase of the solve, in seconds.
     pub seconds: Seconds,
 }
 

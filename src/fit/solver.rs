@@ -1,4 +1,4 @@
-//! The solver, as it is called: λ is looked for where that is asked, then the surface.
+//! The public solver of heightfields: chooses λ where that is asked, then solves for the surface.
 
 use std::ops::ControlFlow;
 use std::sync::Arc;
@@ -32,7 +32,7 @@ use crate::error::Result;
 /// ```
 #[derive(Debug, Clone)]
 pub struct Solver {
-    /// Search for λ and the Huber parameters, until it is finished.
+    /// Search for λ and the Huber parameters, until it is finished; `None` if there is none.
     search: Option<Search>,
     choice: Option<LambdaChoice>,
     solve: ComponentSolver,
@@ -43,11 +43,11 @@ impl Solver {
     /// vertex of the valid vertices' bounding box.
     ///
     /// # Errors
-    /// [`Error::Option`](crate::Error::Option) for an option out of range, [`Error::NoInterior`](crate::Error::NoInterior) if
-    /// there is nothing to solve, [`Error::Underdetermined`](crate::Error::Underdetermined) if a part of the
-    /// surface is not held in place, [`Error::Overflow`](crate::Error::Overflow) or [`Error::Underflow`](crate::Error::Underflow) if
-    /// the heights are too large or too small for their energy to be computed,
-    /// [`Error::OutOfMemory`](crate::Error::OutOfMemory).
+    /// [`Error::Option`](crate::Error::Option) for an option out of range,
+    /// [`Error::NoInterior`](crate::Error::NoInterior) if there is nothing to solve,
+    /// [`Error::Underdetermined`](crate::Error::Underdetermined) if a part of the surface is not held in place,
+    /// [`Error::Overflow`](crate::Error::Overflow) or [`Error::Underflow`](crate::Error::Underflow) if the heights are
+    /// too large or too small for their energy to be computed, [`Error::OutOfMemory`](crate::Error::OutOfMemory).
     pub fn new(input: impl Into<Input>, options: &Options) -> Result<Self> {
         Solver::set_up(input.into(), options, None)
     }
@@ -89,8 +89,8 @@ impl Solver {
         })
     }
 
-    /// Restarts with other options on the same input, as for a slider, with a warm start from the last surface if
-    /// that is close enough. A solve that is interrupted by a restart is discarded. On an error nothing has changed.
+    /// Restarts the solve with other options on the same input, with a warm start from the last surface if that is
+    /// close enough. A solve that is interrupted by a restart is discarded. On an error nothing has changed.
     ///
     /// # Errors
     /// As [`Solver::new`].
@@ -98,8 +98,8 @@ impl Solver {
         self.restart_with(self.solve.input().clone(), options)
     }
 
-    /// Restarts with another input, such as slightly different heights or another mask. On a lattice of the same
-    /// shape it has a warm start from the last surface if that is close enough. On an error nothing has changed.
+    /// Restarts the solve with another input, such as slightly different heights or another mask. On a lattice of the
+    /// same shape it has a warm start from the last surface if that is close enough. On an error nothing has changed.
     ///
     /// # Errors
     /// As [`Solver::new`].
@@ -110,11 +110,11 @@ impl Solver {
         Ok(())
     }
 
-    /// Runs about `work` conjugate-gradient iterations, at least one. Results
-    /// do not depend on how the work is divided.
+    /// Continues the solve for about `work` conjugate-gradient iterations, at least one. Results do not depend on how
+    /// the work is divided.
     ///
     /// # Errors
-    /// [`Error::OutOfMemory`](crate::Error::OutOfMemory) on the way to the first level or a finer one.
+    /// [`Error::OutOfMemory`](crate::Error::OutOfMemory) in the set-up of a component or a level.
     pub fn advance(&mut self, work: usize) -> Result<Status> {
         let mut left = work.max(1);
         while let Some(search) = &mut self.search
@@ -128,7 +128,7 @@ impl Solver {
         self.solve.advance(&mut left)
     }
 
-    /// Ends the search and starts the solve with the chosen options.
+    /// Ends the search for λ and starts the solve with the options that it has chosen.
     fn take_choice(&mut self) -> Result<()> {
         match (self.search.take(), &mut self.choice) {
             (Some(search), Some(choice)) => self.solve.begin_with(&search.found(choice)),
@@ -136,10 +136,10 @@ impl Solver {
         }
     }
 
-    /// Progress at the last check. Before the first one, and while λ is [chosen](Lambda::Auto), the figures are the
-    /// input's, on a level above 0; iterations of the search are counted. On a coarse level objective and bound are
-    /// scaled by the number of vertices: they estimate those of the finest level, which alone certifies. Components
-    /// not yet solved count with the input's objective and the bound 0.
+    /// Returns the progress at the last check. Before the first one, and while λ is [chosen](Lambda::Auto), the figures
+    /// are those of the input, on a level above 0; iterations of the search are counted. On a coarse level objective
+    /// and dual bound are scaled by the number of vertices: they estimate those of the finest level, which alone
+    /// certifies. Components not yet solved count with the input's objective and the bound 0.
     pub fn progress(&self) -> Progress {
         let mut progress = self.solve.progress();
         match &self.search {
@@ -158,10 +158,10 @@ impl Solver {
         self.solve.cancel();
     }
 
-    /// The best surface so far, in the input's units, omitted vertices extrapolated. A solve that is still running is
-    /// reported as cancelled; its surface is prolonged from a coarse level to the finest lattice and certified there.
-    /// Before the first iteration it is the input. Components not yet solved are as in the input, without free
-    /// vertices.
+    /// Returns the best surface so far, in the input's units, with extrapolated heights at omitted vertices. A solve
+    /// that is still running is reported as cancelled; its surface is prolonged from a coarse level to the finest
+    /// lattice and certified there. Before the first iteration it is the input. Components not yet solved are as in the
+    /// input, without free vertices.
     ///
     /// # Errors
     /// [`Error::OutOfMemory`](crate::Error::OutOfMemory).
@@ -172,7 +172,7 @@ impl Solver {
     }
 }
 
-/// Solves for the surface of an input.
+/// Fits the surface of least energy to an input: sets up a [`Solver`] and runs it to its end.
 ///
 /// # Errors
 /// As [`Solver::new`].
@@ -180,8 +180,8 @@ pub fn fit(input: impl Into<Input>, options: &Options) -> Result<Surface> {
     fit_with(input, options, |_| ControlFlow::Continue(()))
 }
 
-/// Solves for the surface of an input, and calls `on_progress` every few conjugate-gradient iterations. If that
-/// breaks, the best surface so far is returned, marked [`StopReason::Cancelled`](crate::StopReason::Cancelled).
+/// Fits a surface to an input as [`fit`] does, and calls `on_progress` every few conjugate-gradient iterations.
+/// If that breaks, the best surface so far is returned, marked [`StopReason::Cancelled`](crate::StopReason::Cancelled).
 ///
 /// # Errors
 /// As [`Solver::new`].
@@ -190,7 +190,8 @@ pub fn fit_with(
     options: &Options,
     mut on_progress: impl FnMut(&Progress) -> ControlFlow<()>,
 ) -> Result<Surface> {
-    /// Amount of work between two reports: about ten iterations of the default schedule.
+    /// Number of conjugate-gradient iterations between two calls of the progress callback: about ten iterations of
+    /// ADMM.
     const ADVANCE_WORK: usize = 20;
     let mut solver = Solver::new(input, options)?;
     while solver.advance(ADVANCE_WORK)? == Status::Running {

@@ -3,7 +3,7 @@
 use super::report::Report;
 use crate::heights::heightfield::Heightfield;
 
-/// A solved surface.
+/// Result of a solve: the surface's heights, and the report.
 ///
 /// It has a height wherever the input had one, omitted vertices included.
 #[derive(Debug, Clone, PartialEq)]
@@ -13,17 +13,17 @@ pub struct Surface {
 }
 
 impl Surface {
-    /// The heights, in the input's units.
+    /// Returns the heights of the surface, in the input's units.
     pub fn heightfield(&self) -> &Heightfield {
         &self.heightfield
     }
 
-    /// The heights, in the input's units.
+    /// Returns the heights of the surface, in the input's units.
     pub fn into_heightfield(self) -> Heightfield {
         self.heightfield
     }
 
-    /// The report of the solve: what was solved, how well, and at what cost.
+    /// Report of the solve: what was solved, how well, and at what cost.
     pub fn report(&self) -> &Report {
         &self.report
     }

@@ -1,4 +1,4 @@
-//! Heights of free vertices before the solve: those of the thin plate through the given heights.
+//! Initial heights of free vertices: those of the thin plate through the given heights.
 
 use std::sync::Arc;
 
@@ -10,33 +10,33 @@ use super::linear::precise::Precise;
 use crate::error::Result;
 use crate::lattice::domain::Domain;
 
-/// Initial guess of the thin plate at free vertices, which also says how exact the plate has to be.
+/// Initial guess for the thin plate's heights at free vertices, which also says how accurate the plate has to be.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum InitialGuess {
     /// Height 0 in normalised coordinates, which is the best-fit plane. Each pass ends at a share of its own first
     /// residual, because the last digits count where few heights are given.
     Plane,
-    /// Thin plate of an earlier solve, taken from `z̃`: for previews, which need not be exact. There is one pass,
-    /// which ends at a share of the residual of the plane.
+    /// Thin plate of an earlier solve, which the target heights `z̃` hold: for previews, which need not be accurate.
+    /// There is one pass, which ends at a share of the best-fit plane's residual.
     Earlier,
 }
 
-/// Residual at which a pass ends, relative to its first one.
+/// Residual at which a pass of conjugate gradients for the thin plate ends, relative to the pass's first residual.
 const PASS_RESIDUAL: f64 = 1e-10;
 
-/// Residual at which the pass from an earlier plate ends, relative to that of the plane.
+/// Residual at which the pass from an earlier thin plate ends, relative to that of the best-fit plane.
 const PLANE_RESIDUAL: f64 = 1e-7;
 
-/// Number of passes in which the tie break pulls towards the plate of the pass before: after that it has no
-/// influence.
+/// Number of passes for the thin plate. In each the tie-break weight pulls free vertices towards the plate of the pass
+/// before: after this many it has no influence.
 const TIE_BREAK_PASSES: usize = 3;
 
-/// Maximum number of conjugate-gradient iterations in a pass.
+/// Maximum number of conjugate-gradient iterations in a pass for the thin plate.
 const MAX_PASS_ITERATIONS: usize = 200;
 
-/// Sets `z̃` at the free vertices to the thin plate through the given heights, the minimiser of `λ Σ w(z − z̃)²
-/// + ρ/2 Σ ‖H‖_F²`: ties are broken towards it, and the solve starts from it. It is the z-step with both `H`
-/// and `Y` zero, solved to the end. Returns the number of conjugate-gradient iterations.
+/// Sets the target heights `z̃` of free vertices to the thin plate through the given heights, the minimiser of `λ Σ w(z
+/// − z̃)² + ρ/2 Σ ‖H‖_F²`: the tie-break weight pulls towards it, and the solve starts from it. It is the z-step with
+/// Hessians and dual 0, solved to the end. Returns the number of conjugate-gradient iterations.
 pub(crate) fn fill(
     problem: &mut Problem,
     domains: &[Arc<Domain>],

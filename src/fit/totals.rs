@@ -1,9 +1,9 @@
-//! Energies and work, summed over all components.
+//! Totals over all components: energies, dual bounds and work.
 
 use super::admm::incumbent::Incumbent;
 use super::report::{LevelReport, relative_gap};
 
-/// Sums over components.
+/// Sums of energies, dual bounds and work over the components of a surface.
 #[derive(Default)]
 pub(super) struct Totals {
     pub fidelity: f64,
@@ -15,7 +15,7 @@ pub(super) struct Totals {
 }
 
 impl Totals {
-    /// Adds the energies of an incumbent, times a share.
+    /// Adds the energies and the dual bound of a component's incumbent, times a share.
     pub(super) fn add(&mut self, incumbent: &Incumbent, share: f64) {
         self.fidelity += share * incumbent.fidelity;
         self.nuclear_norm += share * incumbent.nuclear_norm;
@@ -40,7 +40,7 @@ impl Totals {
     }
 }
 
-/// Adds the work on one component's levels to that of the others on the lattices of the same spacing.
+/// Adds the work on one component's multigrid levels to that of the other components on lattices of the same spacing.
 pub(super) fn add_levels(levels: &mut Vec<LevelReport>, part: &[LevelReport]) {
     let missing = part.len().saturating_sub(levels.len());
     levels.splice(0..0, part[..missing].iter().copied());

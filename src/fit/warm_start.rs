@@ -1,4 +1,4 @@
-//! Warm starts: the answers of an earlier solve, from which another one starts.
+//! Warm starts: the results of an earlier solve, from which another one starts.
 
 use std::mem::discriminant;
 use std::ops::RangeInclusive;
@@ -13,11 +13,11 @@ use super::thin_plate::InitialGuess;
 use crate::error::Result;
 use crate::lattice::domain::{Domain, Role};
 
-/// Range of the ratio of the new λ to the earlier one in which the earlier answer may be a better start than a
-/// coarse lattice.
+/// Range of the ratio of the new λ to the earlier one in which the earlier result may be a better start than a coarse
+/// lattice.
 const WARM_START_LAMBDA_RATIOS: RangeInclusive<f64> = 0.4..=3.0;
 
-/// The answers of the last solve that ran to its end.
+/// Results of the last finished solve, from which another one may start.
 #[derive(Debug, Clone)]
 pub(super) struct WarmStart {
     pub domain: Arc<Domain>,
@@ -27,8 +27,8 @@ pub(super) struct WarmStart {
 }
 
 impl WarmStart {
-    /// Sets `z̃` at the free vertices of a problem to what it was in the earlier solve, if it is known for each
-    /// of them. `corner` is as in [`iterate`](Self::iterate).
+    /// Sets the target heights of a problem's free vertices to the thin plate of the earlier solve, if it is known for
+    /// each of them; otherwise returns the plane as the initial guess. `corner` is as in [`iterate`](Self::iterate).
     pub(super) fn thin_plate(&self, problem: &mut Problem, corner: (usize, usize)) -> InitialGuess {
         let domain = &problem.operator.domain;
         let known = problem.free.iter().map(|cell| {
@@ -59,8 +59,8 @@ impl WarmStart {
         }
     }
 
-    /// The first iterate of a problem, or `None` where a coarse lattice is a better start. `corner` is the
-    /// vertex of the whole lattice that is `(0, 0)` of the problem's.
+    /// Makes the first iterate of a problem from the earlier solve, or `None` where a coarse lattice is a better start.
+    /// `corner` is row and column of the vertex of the whole lattice that is vertex `(0, 0)` of the problem's.
     pub(super) fn iterate(
         &self,
         problem: &Problem,
@@ -114,7 +114,8 @@ impl WarmStart {
         Ok(Some(iterate))
     }
 
-    /// Answer of the component that a vertex of the whole lattice is in, and the vertex's cell there.
+    /// Returns the result of the component that a vertex of the whole lattice is in, and the vertex's cell in that
+    /// component's domain.
     fn find(&self, (row, col): (usize, usize)) -> Option<(&Answer, usize)> {
         let cell = self.domain.cell((row as isize, col as isize))?;
         if !self.domain.roles()[cell].is_active() {

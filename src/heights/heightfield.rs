@@ -14,7 +14,7 @@ pub struct Heightfield {
 }
 
 impl Heightfield {
-    /// Heights in row-major order, one for each vertex.
+    /// Makes a heightfield from the heights of a lattice's vertices, row by row.
     ///
     /// # Errors
     /// [`Error::Shape`] if their number is not `lattice.len()`,
@@ -24,7 +24,7 @@ impl Heightfield {
         Ok(Heightfield { lattice, heights })
     }
 
-    /// Heights from a function of the vertex position `(x, y)`.
+    /// Makes a heightfield from a function of the vertex position `(x, y)`.
     ///
     /// # Errors
     /// As [`Heightfield::new`].
@@ -39,7 +39,7 @@ impl Heightfield {
         Heightfield::new(lattice, heights)
     }
 
-    /// The heights without those where `keep` is 0.
+    /// Returns the heightfield with NaN at the vertices where `keep` is 0.
     ///
     /// # Errors
     /// [`Error::Shape`] if `keep` is not one value for each vertex.
@@ -53,22 +53,22 @@ impl Heightfield {
         Ok(self)
     }
 
-    /// The lattice.
+    /// The lattice whose vertices have the heights.
     pub fn lattice(&self) -> &Lattice {
         &self.lattice
     }
 
-    /// The heights, row by row; NaN where there is none.
+    /// Heights of the vertices, row by row; NaN where there is none.
     pub fn heights(&self) -> &[f64] {
         &self.heights
     }
 
-    /// The heights, row by row; NaN where there is none.
+    /// Returns the heights of the vertices, row by row; NaN where there is none.
     pub fn into_heights(self) -> Vec<f64> {
         self.heights
     }
 
-    /// Height of a vertex; NaN if it has none.
+    /// Height of the vertex in a row and column of the lattice; NaN if it has none.
     ///
     /// # Panics
     /// If the lattice has no such vertex.
@@ -96,7 +96,7 @@ pub struct HeightImage {
 }
 
 impl HeightImage {
-    /// An image of pixel size 1 from its values in row-major order.
+    /// Makes an image with pixels of size 1 from its heights, row by row from the top.
     ///
     /// # Errors
     /// [`Error::Empty`], [`Error::TooLarge`], [`Error::Shape`] if there are not
@@ -116,7 +116,7 @@ impl HeightImage {
         })
     }
 
-    /// An image from its rows, top row first.
+    /// Makes an image with pixels of size 1 from rows of heights, top row first.
     ///
     /// # Errors
     /// As [`HeightImage::new`]; [`Error::Shape`] also when the rows differ in length.
@@ -135,7 +135,7 @@ impl HeightImage {
         HeightImage::new(width, rows.len(), values)
     }
 
-    /// The image with another side length of its pixels.
+    /// Returns the image with another side length of its pixels, in units of height.
     ///
     /// # Errors
     /// [`Error::Option`] unless it is positive and finite.
@@ -146,7 +146,7 @@ impl HeightImage {
         })
     }
 
-    /// The image with all values times `scale`: from grey steps to units of height.
+    /// Returns the image with all heights multiplied by `scale`: converts grey levels to units of height.
     ///
     /// # Errors
     /// [`Error::Option`] if `scale` is 0, is not finite or makes a value infinite.
@@ -166,7 +166,7 @@ impl HeightImage {
         }
     }
 
-    /// The image without the pixels where `keep` is 0.
+    /// Returns the image with NaN at the pixels where `keep` is 0.
     ///
     /// # Errors
     /// [`Error::Shape`] if `keep` is not one value for each pixel.
@@ -175,7 +175,7 @@ impl HeightImage {
         Ok(self)
     }
 
-    /// The image without the pixels equal to `no_data`.
+    /// Returns the image with NaN at the pixels whose value is `no_data`.
     pub fn without(mut self, no_data: f64) -> Self {
         for v in &mut self.values {
             if *v == no_data {
@@ -185,32 +185,32 @@ impl HeightImage {
         self
     }
 
-    /// Number of columns.
+    /// Number of columns of the image.
     pub fn width(&self) -> usize {
         self.width
     }
 
-    /// Number of rows.
+    /// Number of rows of the image.
     pub fn height(&self) -> usize {
         self.height
     }
 
-    /// Side length of a pixel.
+    /// Side length of a pixel, in units of height.
     pub fn pixel_size(&self) -> f64 {
         self.pixel_size
     }
 
-    /// The values, row by row, top row first; NaN where there is none.
+    /// Heights of the pixels, row by row from the top; NaN where there is none.
     pub fn values(&self) -> &[f64] {
         &self.values
     }
 
-    /// The values, row by row, top row first; NaN where there is none.
+    /// Returns the heights of the pixels, row by row from the top; NaN where there is none.
     pub fn into_values(self) -> Vec<f64> {
         self.values
     }
 
-    /// Position of the centre of pixel `(row, col)`.
+    /// Position `[x, y]` of the centre of a pixel; x runs to the right and y up from the image's lower left corner.
     pub fn position(&self, row: usize, col: usize) -> [f64; 2] {
         [
             (col as f64 + 0.5) * self.pixel_size,
@@ -244,7 +244,7 @@ fn apply_mask(rows: usize, cols: usize, values: &mut [f64], keep: &[u8]) -> Resu
 }
 
 impl Domain {
-    /// The domain of a heightfield; a vertex is valid where its height is not NaN.
+    /// Makes the domain of a solve from a heightfield: a vertex is valid where its height is not NaN.
     ///
     /// # Errors
     /// [`Error::NoInterior`] if no vertex has all six neighbours valid.
@@ -252,7 +252,8 @@ impl Domain {
         Domain::with_occlusions(field, |_| false)
     }
 
-    /// The domain of a heightfield of which some vertices, given by their index, are occluded.
+    /// Makes the domain of a solve from a heightfield; `occluded` tells for a vertex's index whether no Hessian is
+    /// taken there.
     pub(crate) fn with_occlusions(
         field: &Heightfield,
         occluded: impl Fn(usize) -> bool,

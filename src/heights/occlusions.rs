@@ -1,5 +1,5 @@
-//! Occlusions: where a heightfield jumps, as a scan does at the edge of what
-//! hides something behind it (paper, Sec. 4.1 and Fig. 9).
+//! Occlusions: edges of the lattice across which a heightfield jumps, as a scan does where one thing hides another
+//! behind it (paper, Sec. 4.1 and Fig. 9).
 
 use super::heightfield::Heightfield;
 use crate::error::{Result, check_shape, positive};
@@ -15,20 +15,21 @@ use crate::lattice::stencil::HessianMap;
 /// solve.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Occlusions {
-    /// For each vertex, bit `k` is set if the edge to neighbour `k` is broken.
+    /// For each vertex six bits: bit `k` is set if the edge to neighbour `k` is broken.
     edges: Vec<u8>,
-    /// 1 at the vertices where no Hessian is to be taken.
+    /// For each vertex 1 if no Hessian is to be taken there, else 0.
     vertices: Vec<u8>,
 }
 
-/// Bend above which an edge counts as an occlusion, in normalised coordinates: the paper's value.
+/// Curvature above which an edge of the lattice counts as an occlusion, in coordinates normalised to the unit square:
+/// the paper's value.
 pub const OCCLUSION_THRESHOLD: f64 = 4e4;
 
 impl Occlusions {
-    /// Detects occlusions: the edges next to which the surface bends by more than `threshold`. The exact
-    /// quadratic through the six vertices of a triangle of side `2h` has an eigenvalue of larger magnitude
-    /// there; the edges are those of the triangle's inner triangle. The threshold is meant for coordinates as
-    /// `normalization` makes them; [`OCCLUSION_THRESHOLD`] is the paper's.
+    /// Detects occlusions: marks the edges next to which the surface has a second derivative above `threshold`, in
+    /// coordinates scaled by `normalization`. It is measured by the exact quadratic through the six vertices of a
+    /// triangle of side `2h`; the edges are those of the triangle in its middle. [`OCCLUSION_THRESHOLD`] is the
+    /// paper's.
     ///
     /// Linear cost.
     ///
@@ -75,13 +76,13 @@ impl Occlusions {
         Ok(Occlusions::of_edges(edges))
     }
 
-    /// Occlusions of broken edges, both ends of which have no Hessian.
+    /// Makes occlusions from the broken edges of each vertex, as six bits; both ends of a broken edge have no Hessian.
     fn of_edges(edges: Vec<u8>) -> Self {
         let vertices = edges.iter().map(|bits| u8::from(*bits != 0)).collect();
         Occlusions { edges, vertices }
     }
 
-    /// Occlusions at the vertices where `mask` is not 0, which have no Hessian.
+    /// Makes occlusions from vertices: where `mask` is not 0, no Hessian is taken.
     ///
     /// # Errors
     /// [`Error::Shape`](crate::Error::Shape) if there is not one value for each vertex.
@@ -93,8 +94,8 @@ impl Occlusions {
         })
     }
 
-    /// Occlusions across broken edges: bit `k` of a vertex's byte stands for the edge to its neighbour `k` in
-    /// the order W, E, NW, NE, SW, SE. An edge is broken if either of its ends says so.
+    /// Makes occlusions from broken edges: bit `k` of a vertex's byte stands for the edge to its neighbour `k` in the
+    /// order W, E, NW, NE, SW, SE. An edge is broken if either of its ends says so.
     ///
     /// # Errors
     /// [`Error::Shape`](crate::Error::Shape) if there is not one byte for each vertex.
@@ -113,7 +114,7 @@ impl Occlusions {
         Ok(Occlusions::of_edges(both))
     }
 
-    /// Union of two sets of occlusions.
+    /// Returns the union of two sets of occlusions.
     ///
     /// # Errors
     /// [`Error::Shape`](crate::Error::Shape) if they are of different lattices.
@@ -128,18 +129,18 @@ impl Occlusions {
         Ok(self)
     }
 
-    /// 1 for each vertex where no Hessian is taken, 0 for the others, row by row.
+    /// For each vertex, row by row, 1 if no Hessian is taken there, else 0.
     pub fn vertices(&self) -> &[u8] {
         &self.vertices
     }
 
-    /// Broken edges, six bits for each vertex as in [`Occlusions::from_edges`];
-    /// both ends of an edge say so.
+    /// Broken edges as six bits for each vertex, in the order of [`Occlusions::from_edges`]; each broken edge is set at
+    /// both of its ends.
     pub fn edges(&self) -> &[u8] {
         &self.edges
     }
 
-    /// Number of vertices where no Hessian is taken.
+    /// Number of vertices at occlusions, where no Hessian is taken.
     pub fn len(&self) -> usize {
         self.vertices.iter().filter(|v| **v != 0).count()
     }
@@ -150,8 +151,8 @@ impl Occlusions {
     }
 }
 
-/// The two triangles below a vertex: the one whose top it is, and the one whose upper left corner it is. Corners are
-/// in the order opposite the sides along W–E, NW–SE and NE–SW.
+/// The two triangles of the lattice that have a vertex as their top or as their upper left corner. Corners are in the
+/// order opposite the sides along W–E, NW–SE and NE–SW.
 fn triangles_below((row, col): (isize, isize)) -> [[(isize, isize); 3]; 2] {
     let at = (row, col);
     let [sw, se, e] =
@@ -159,7 +160,7 @@ fn triangles_below((row, col): (isize, isize)) -> [[(isize, isize); 3]; 2] {
     [[at, sw, se], [se, e, at]]
 }
 
-/// Marks the edges from `vertex` to the other corners of its triangle.
+/// Marks the edges from a vertex to the other `corners` of a triangle as broken.
 fn mark(
     lattice: &Lattice,
     edges: &mut [u8],

@@ -1,15 +1,16 @@
-//! The lattice of twice the spacing: the sublattice whose vertex `(r, c)` is fine vertex `(2r, 2c − (r odd))`.
+//! The coarse lattice of twice the spacing: a sublattice whose vertex `(r, c)` is fine vertex `(2r, 2c − (r odd))`.
 //! Every other fine vertex is the midpoint of a coarse edge.
 
 use super::hexagonal::{Lattice, NEIGHBOUR_DIRECTIONS, Towards};
 use crate::error::Result;
 
-/// The fine vertex at the position of a coarse vertex.
+/// Returns the row and column of the fine vertex that has the position of a coarse vertex.
 pub(crate) fn fine_vertex(row: usize, col: usize) -> (isize, isize) {
     (2 * row as isize, 2 * col as isize - (row % 2) as isize)
 }
 
-/// The one or two coarse vertices at whose position, or at whose midpoint, a fine vertex is.
+/// Returns the coarse vertices (row, column) that a fine vertex is interpolated from: both ends of the coarse edge
+/// whose midpoint it is, or twice the coarse vertex at its own position.
 pub(crate) fn parents(row: usize, col: usize) -> [(isize, isize); 2] {
     let (r, c) = (row as isize, col as isize);
     let coarse = |(r, c): (isize, isize)| {
@@ -29,7 +30,7 @@ pub(crate) fn parents(row: usize, col: usize) -> [(isize, isize); 2] {
     }
 }
 
-/// The lattice of twice the spacing.
+/// Makes the lattice of twice the spacing that covers the fine one.
 pub(crate) fn coarse_lattice(fine: &Lattice) -> Result<Lattice> {
     Lattice::new(
         fine.rows().div_ceil(2),

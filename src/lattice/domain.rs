@@ -5,25 +5,25 @@ use super::hexagonal::{Lattice, NEIGHBOUR_DIRECTIONS};
 use super::runs::RowRuns;
 use crate::error::{Error, Result, try_filled};
 
-/// The role of a vertex in a solve (paper, Sec. 3.1 and Fig. 9).
+/// Role of a lattice vertex in a solve: without height, omitted, boundary or interior (paper, Sec. 3.1 and Fig. 9).
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 #[non_exhaustive]
 pub enum Role {
     /// The vertex has no height.
     #[default]
     Empty,
-    /// The vertex has a height, but no stencil touches it: it is left out of the solve and extrapolated
-    /// afterwards.
+    /// The vertex has a height, but neither itself nor a neighbour is interior: it is left out of the solve and
+    /// extrapolated afterwards.
     Omitted,
-    /// The vertex is touched by a stencil without having one of its own: the set `∂I`.
+    /// The vertex is not interior, but a neighbour of an interior one: the paper's set `∂I`.
     Boundary,
-    /// The vertex and its six neighbours have heights, and no occlusion is there, so that the Hessian is
-    /// evaluated: the set `I`.
+    /// The vertex and its six neighbours have heights, and no occlusion tears the surface there, so that it has a
+    /// Hessian: the paper's set `I`.
     Interior,
 }
 
 impl Role {
-    /// Whether the height of the vertex is an unknown of the solve, in `I ∪ ∂I`.
+    /// Returns whether the height of a vertex of this role is an unknown of the solve: interior and boundary vertices.
     pub fn is_active(self) -> bool {
         self >= Role::Boundary
     }
@@ -35,15 +35,16 @@ impl PartialOrd for Role {
     }
 }
 
-/// The vertices of a heightfield by their [`Role`], over any shape: with holes, islands, and single interior
-/// vertices.
+/// The vertices of a lattice by their [`Role`] in a solve, for heightfields of any shape: with holes, islands, and
+/// single interior vertices.
 ///
-/// Fields over a domain are stored on the bounding box of the valid vertices with one cell of padding all
-/// around, so that every vertex of the box has six neighbours at offsets that are constant along a row.
+/// Arrays over a domain cover the bounding box of the vertices with heights, and one cell of padding all around, so
+/// that every vertex of the box has six neighbours at offsets that are constant along a row.
 #[derive(Debug, Clone)]
 pub struct Domain {
     lattice: Lattice,
-    /// First row and column of the box; the row is even, so that shifted rows stay shifted.
+    /// Lattice row and column of the bounding box's first vertex; the row is even, so that odd rows of the box are the
+    /// shifted ones of the lattice.
     corner: (usize, usize),
     rows: usize,
     stride: usize,
@@ -55,8 +56,8 @@ pub struct Domain {
 }
 
 impl Domain {
-    /// The domain of a lattice's vertices, each given by its index: whether it is valid, and whether it is
-    /// occluded, so that it has no Hessian (paper, Fig. 9).
+    /// Finds the role of each lattice vertex. `valid` says of a vertex, by its index, whether it has a height;
+    /// `occluded` whether an occlusion tears the surface there, so that it has no Hessian (paper, Fig. 9).
     ///
     /// # Errors
     /// [`Error::NoInterior`] if no vertex has all six neighbours valid.
@@ -134,12 +135,12 @@ impl Domain {
         })
     }
 
-    /// The whole lattice that the domain is a part of.
+    /// The lattice that the domain is a part of.
     pub fn lattice(&self) -> &Lattice {
         &self.lattice
     }
 
-    /// The role of lattice vertex `(row, col)`; empty beyond the lattice.
+    /// Returns the role of lattice vertex `(row, col)`, or [`Role::Empty`] if the lattice has no such vertex.
     pub fn role(&self, row: usize, col: usize) -> Role {
         self.cell((row as isize, col as isize))
             .map_or(Role::Empty, |cell| self.roles[cell])
@@ -155,33 +156,33 @@ impl Domain {
         self.active.len() - self.interior.len()
     }
 
-    /// Number of valid vertices that no stencil touches.
+    /// Number of vertices that have heights but are left out of the solve, because neither they nor a neighbour are
+    /// interior.
     pub fn omitted_len(&self) -> usize {
         self.omitted
     }
 
-    /// Number of vertices that would be interior were it not for an occlusion.
+    /// Number of vertices that would be interior if no occlusion tore the surface there.
     pub fn occluded_len(&self) -> usize {
         self.occluded
     }
 
-    /// First row and column of the lattice in the padded box, at row and column 1 of the latter; the row is
-    /// even.
+    /// Lattice row and column of the vertex that stands in row 1, column 1 of the padded bounding box; the row is even.
     pub(crate) fn corner(&self) -> (usize, usize) {
         self.corner
     }
 
-    /// Number of rows of the box without its padding; they are numbered from 1.
+    /// Number of rows of the bounding box without its padding; they are numbered from 1.
     pub(crate) fn rows(&self) -> usize {
         self.rows
     }
 
-    /// Number of cells in a row of the padded box.
+    /// Number of cells in a row of the padded bounding box.
     pub(crate) fn stride(&self) -> usize {
         self.stride
     }
 
-    /// Number of cells of the padded box.
+    /// Number of cells of the padded bounding box, which is the length of arrays over the domain.
     pub(crate) fn cells(&self) -> usize {
         (self.rows + 2) * self.stride
     }
@@ -190,17 +191,18 @@ impl Domain {
         &self.roles
     }
 
-    /// Runs of interior vertices.
+    /// Runs of consecutive interior vertices, row by row.
     pub(crate) fn interior(&self) -> &RowRuns {
         &self.interior
     }
 
-    /// Runs of vertices in `I ∪ ∂I`.
+    /// Runs of consecutive active vertices (interior and boundary), row by row.
     pub(crate) fn active(&self) -> &RowRuns {
         &self.active
     }
 
-    /// Cell of a lattice vertex; `None` outside of the box.
+    /// Returns the index of a lattice vertex (row, column) in arrays over the domain, or `None` outside of the bounding
+    /// box.
     pub(crate) fn cell(&self, (row, col): (isize, isize)) -> Option<usize> {
         let row = row - self.corner.0 as isize;
         let col = col - self.corner.1 as isize;
@@ -209,7 +211,8 @@ impl Domain {
         inside.then(|| (row + 1) as usize * self.stride + (col + 1) as usize)
     }
 
-    /// Cell of a lattice vertex if its role is accepted; `None` otherwise.
+    /// Returns the index of a lattice vertex (row, column) in arrays over the domain if its role is `wanted`, or
+    /// `None`.
     pub(crate) fn cell_of(
         &self,
         vertex: (isize, isize),
@@ -218,13 +221,15 @@ impl Domain {
         self.cell(vertex).filter(|cell| wanted(self.roles[*cell]))
     }
 
-    /// Index in the lattice's arrays of a cell of the padded box, if it is not padding.
+    /// Converts an index in arrays over the domain, not of padding, to the index of that vertex in the lattice's
+    /// row-major arrays.
     pub(crate) fn lattice_index(&self, cell: usize) -> usize {
         let (row, col) = self.lattice_vertex(cell);
         self.lattice.index(row, col)
     }
 
-    /// Cells of the runs with their rows and columns in the lattice, row by row.
+    /// Iterates over the vertices of runs, row by row: index in arrays over the domain, with row and column in the
+    /// lattice.
     pub(crate) fn vertices<'a>(
         &'a self,
         runs: &'a RowRuns,
@@ -237,7 +242,7 @@ impl Domain {
         })
     }
 
-    /// Row and column in the lattice of a cell that is not padding.
+    /// Converts an index in arrays over the domain, not of padding, to row and column of that vertex in the lattice.
     pub(crate) fn lattice_vertex(&self, cell: usize) -> (usize, usize) {
         (
             cell / self.stride - 1 + self.corner.0,
@@ -245,14 +250,15 @@ impl Domain {
         )
     }
 
-    /// Offsets to the neighbours W, E, NW, NE, SW and SE from a cell in a row of the padded box.
+    /// Returns the offsets, in arrays over the domain, from a vertex in a row of the padded box to its neighbours W, E,
+    /// NW, NE, SW and SE.
     pub(crate) fn neighbour_offsets(&self, row: usize) -> [isize; 6] {
         neighbour_offsets(row, self.stride)
     }
 }
 
-/// Offsets to the neighbours W, E, NW, NE, SW and SE. Rows of the padded box count from 1, so that its odd rows
-/// are the lattice's even ones.
+/// Returns the offsets, in arrays over the padded box with rows of `stride` cells, from a vertex to its neighbours W,
+/// E, NW, NE, SW and SE. Rows of the padded box count from 1, so that its odd rows are the lattice's even ones.
 fn neighbour_offsets(row: usize, stride: usize) -> [isize; 6] {
     let row = row as isize - 1;
     NEIGHBOUR_DIRECTIONS.map(|towards| {
@@ -261,7 +267,8 @@ fn neighbour_offsets(row: usize, stride: usize) -> [isize; 6] {
     })
 }
 
-/// First (an even row) and last valid vertex in each direction.
+/// Returns the first and the last row and column of the bounding box of all valid vertices, its first row made
+/// even; `None` if no vertex is valid.
 fn bounding_box(
     lattice: &Lattice,
     valid: impl Fn(usize, usize) -> bool,

@@ -1,26 +1,26 @@
-//! The operator `C` from heights to best-fit Hessians, and its adjoint.
+//! The operator `C` from heights to Hessians of the best-fit quadratics, and its adjoint.
 
 use super::domain::Domain;
 use super::stencil::{HessianMap, Ring, Rolling};
 use crate::math::sym2::Sym2;
 
-/// The operator `C` from heights at the lattice's vertices to Hessians at the interior vertices, matrix-free
-/// (paper, Eq. 16). Vertices outside the domain do not matter.
+/// The linear operator `C` from heights at the lattice's vertices to Hessians at the interior vertices, without a
+/// stored matrix (paper, Eq. 16). Heights of vertices outside the domain are ignored.
 ///
-/// Heights are in the lattice's order and units, Hessians in the row-major order of the interior vertices
-/// ([`HessianOperator::vertices`]).
+/// Heights are in the lattice's row-major order and in the user's units, Hessians in the row-major order of the
+/// interior vertices ([`HessianOperator::vertices`]).
 #[derive(Debug, Clone, Copy)]
 pub struct HessianOperator<'a> {
     domain: &'a Domain,
 }
 
 impl<'a> HessianOperator<'a> {
-    /// The operator over `domain`.
+    /// Makes the operator over the interior vertices of `domain`.
     pub fn new(domain: &'a Domain) -> Self {
         HessianOperator { domain }
     }
 
-    /// Row and column of each interior vertex, in the order of the Hessians.
+    /// Iterates over row and column of each interior vertex, in the order of the Hessians.
     pub fn vertices(&self) -> impl Iterator<Item = (usize, usize)> + '_ {
         let domain = self.domain;
         domain
@@ -29,8 +29,8 @@ impl<'a> HessianOperator<'a> {
             .map(|cell| domain.lattice_vertex(cell))
     }
 
-    /// The Hessian at each interior vertex. `heights` has one value for each
-    /// lattice vertex; those outside the domain may be NaN. Linear cost.
+    /// Computes the Hessian at each interior vertex. `heights` has one value for each lattice vertex; those outside the
+    /// domain may be NaN. Linear cost.
     ///
     /// # Panics
     /// If `heights` does not have `lattice.len()` values.
@@ -49,8 +49,8 @@ impl<'a> HessianOperator<'a> {
         hessians
     }
 
-    /// The adjoint `Cᵀ` with respect to the Frobenius inner product: one value
-    /// for each lattice vertex, zero outside the domain. Linear cost.
+    /// Applies the adjoint `Cᵀ`, with respect to the Frobenius inner product, to one matrix for each interior vertex.
+    /// Returns one value for each lattice vertex, zero outside the domain. Linear cost.
     ///
     /// # Panics
     /// If there is not one matrix for each interior vertex.
@@ -87,9 +87,8 @@ impl<'a> HessianOperator<'a> {
         out
     }
 
-    /// `C` as a sparse matrix: three rows `h_xx, h_xy, h_yy` for each interior
-    /// vertex, one column for each lattice vertex. Remember the factor 2 that
-    /// `h_xy` carries in the Frobenius inner product.
+    /// Returns `C` as a sparse matrix: three rows `h_xx, h_xy, h_yy` for each interior vertex, one column for each
+    /// lattice vertex. Remember the factor 2 that `h_xy` carries in the Frobenius inner product.
     #[cfg(feature = "sprs")]
     pub fn to_sparse(&self) -> sprs::CsMat<f64> {
         let lattice = self.domain.lattice();
@@ -121,7 +120,7 @@ impl<'a> HessianOperator<'a> {
     }
 }
 
-/// Copies lattice values to the padded box, with zero outside the domain.
+/// Copies values of the lattice's vertices to an array over the domain's padded box, with zero outside the domain.
 pub(crate) fn gather_active(domain: &Domain, values: &[f64]) -> Vec<f64> {
     let mut padded = vec![0.0; domain.cells()];
     for cell in domain.active().cells() {

@@ -33,8 +33,8 @@ pub struct Lattice {
     origin: [f64; 2],
 }
 
-/// The lattice triangle around a point: its three vertices, which may lie outside the lattice and are signed
-/// therefore, and the point's barycentric coordinates.
+/// The lattice triangle around a point of the plane: its three vertices (row, column), signed because they may lie
+/// outside the lattice, and the point's barycentric coordinates.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Located {
     pub vertices: [(isize, isize); 3],
@@ -42,12 +42,11 @@ pub(crate) struct Located {
 }
 
 impl Lattice {
-    /// A lattice whose vertex `(0, 0)` lies at the origin.
+    /// Makes a lattice whose vertex `(0, 0)` lies at the origin of the plane; `spacing` is the distance of neighbours.
     ///
     /// # Errors
-    /// [`Error::Empty`] without rows or columns, [`Error::Option`] if `spacing`
-    /// is not positive and finite, [`Error::TooLarge`] above
-    /// [`MAX_CELLS`](crate::MAX_CELLS) vertices.
+    /// [`Error::Empty`] without rows or columns, [`Error::Option`] if `spacing` is not positive and finite,
+    /// [`Error::TooLarge`] above [`MAX_CELLS`](crate::MAX_CELLS) vertices.
     pub fn new(rows: usize, cols: usize, spacing: f64) -> Result<Self> {
         if rows == 0 || cols == 0 {
             return Err(Error::Empty { what: "lattice" });
@@ -61,7 +60,7 @@ impl Lattice {
         })
     }
 
-    /// The same lattice with vertex `(0, 0)` at `origin`.
+    /// Moves the lattice so that vertex `(0, 0)` lies at `origin`.
     ///
     /// # Errors
     /// [`Error::Option`] if `origin` is not finite.
@@ -72,9 +71,8 @@ impl Lattice {
         Ok(Lattice { origin, ..self })
     }
 
-    /// The smallest lattice with vertex `(0, 0)` at the top left corner of the
-    /// box from `min` to `max` whose vertices reach every point of the box
-    /// from inside it: no vertex lies more than one cell beyond it.
+    /// Makes the smallest lattice with vertex `(0, 0)` at the top left corner of the box from `min` to `max` whose
+    /// vertices reach every point of the box from inside it: no vertex lies more than one cell beyond it.
     ///
     /// # Errors
     /// As [`Lattice::new`]; the size is checked before anything is allocated.
@@ -101,7 +99,7 @@ impl Lattice {
         Lattice::new(rows as usize, cols as usize, h)?.with_origin([min[0], max[1]])
     }
 
-    /// Number of rows.
+    /// Number of rows of the lattice.
     pub fn rows(&self) -> usize {
         self.rows
     }
@@ -117,22 +115,22 @@ impl Lattice {
         self.rows * self.cols
     }
 
-    /// Distance between neighbours.
+    /// Distance between neighbouring vertices, in the user's unit of length.
     pub fn spacing(&self) -> f64 {
         self.spacing
     }
 
-    /// Distance between rows, `spacing · √3/2`.
+    /// Distance between neighbouring rows, `spacing · √3/2`.
     pub fn row_spacing(&self) -> f64 {
         self.spacing * ROW_SPACING
     }
 
-    /// Position of vertex `(0, 0)`.
+    /// Position of vertex `(0, 0)` in the plane.
     pub fn origin(&self) -> [f64; 2] {
         self.origin
     }
 
-    /// Position of vertex `(row, col)`, also beyond the lattice's edge.
+    /// Position of vertex `(row, col)` in the plane, also for rows and columns beyond the lattice's edge.
     pub fn position(&self, row: usize, col: usize) -> [f64; 2] {
         [
             self.origin[0] + (col as f64 - shift(row)) * self.spacing,
@@ -140,7 +138,8 @@ impl Lattice {
         ]
     }
 
-    /// The six neighbours W, E, NW, NE, SW, SE of `(row, col)`; `None` beyond the edge.
+    /// Returns row and column of the six neighbours W, E, NW, NE, SW, SE of vertex `(row, col)`; `None` for a neighbour
+    /// beyond the lattice's edge.
     pub fn neighbours(&self, row: usize, col: usize) -> [Option<(usize, usize)>; 6] {
         NEIGHBOUR_DIRECTIONS.map(|towards| {
             let (r, c) = towards.step(row as isize, col as isize);
@@ -148,7 +147,8 @@ impl Lattice {
         })
     }
 
-    /// Indices of the neighbours of a vertex that is given by its index, without those beyond the edge.
+    /// Iterates over the indices of a vertex's neighbours, without those beyond the lattice's edge; the vertex is given
+    /// by its index.
     pub(crate) fn around(&self, index: usize) -> impl Iterator<Item = usize> + use<> {
         let lattice = *self;
         let neighbours = self.neighbours(index / self.cols, index % self.cols);
@@ -159,12 +159,12 @@ impl Lattice {
         (0..self.rows as isize).contains(&row) && (0..self.cols as isize).contains(&col)
     }
 
-    /// Index in row-major arrays of a vertex, which must be one of the lattice's: no check is made.
+    /// Index of vertex `(row, col)` in row-major arrays. The vertex must be one of the lattice's: no check is made.
     pub fn index(&self, row: usize, col: usize) -> usize {
         row * self.cols + col
     }
 
-    /// The triangle around a point, which may lie outside the lattice.
+    /// Finds the lattice triangle around the point `(x, y)`, which may lie outside the lattice.
     pub(crate) fn locate(&self, [x, y]: [f64; 2]) -> Located {
         let v = (self.origin[1] - y) / self.row_spacing();
         let row = v.floor();
@@ -197,7 +197,7 @@ impl Lattice {
     }
 }
 
-/// A direction to one of the six neighbours.
+/// A direction from a lattice vertex to one of its six neighbours.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Towards {
     West,
@@ -208,7 +208,7 @@ pub(crate) enum Towards {
     SouthEast,
 }
 
-/// Directions from a vertex to its six neighbours: W, E, NW, NE, SW, SE, the order used everywhere.
+/// Directions from a lattice vertex to its six neighbours: W, E, NW, NE, SW, SE, the order used everywhere.
 pub(crate) const NEIGHBOUR_DIRECTIONS: [Towards; 6] = [
     Towards::West,
     Towards::East,
@@ -218,17 +218,17 @@ pub(crate) const NEIGHBOUR_DIRECTIONS: [Towards; 6] = [
     Towards::SouthEast,
 ];
 
-/// Index of the direction opposite to each: an edge to neighbour `k` is, from its other end, one to neighbour
-/// `OPPOSITE_DIRECTION[k]`.
+/// For each of the six [`NEIGHBOUR_DIRECTIONS`] the index of the opposite one: an edge to neighbour `k` is, from its
+/// other end, one to neighbour `OPPOSITE_DIRECTION[k]`.
 pub(crate) const OPPOSITE_DIRECTION: [usize; 6] = [1, 0, 5, 4, 3, 2];
 
-/// Distance by which a row is shifted to the left of an even one, in spacings.
+/// Distance by which a row of the lattice is shifted to the left of an even row, in spacings: 0 or ½.
 pub(crate) fn shift(row: usize) -> f64 {
     if row % 2 == 1 { 0.5 } else { 0.0 }
 }
 
 impl Towards {
-    /// The neighbour of `(row, col)` in this direction.
+    /// Returns row and column of the neighbour of vertex `(row, col)` in this direction.
     pub(crate) fn step(self, row: isize, col: isize) -> (isize, isize) {
         let o = 1 - row.rem_euclid(2);
         match self {

@@ -1,26 +1,26 @@
-//! Values for each cell of a domain that are mostly the same for all cells.
+//! Values for each vertex of a domain, stored once where all are alike.
 
 use super::runs::Run;
 use crate::error::{Result, try_filled};
 use crate::math::lanes::narrow;
 
-/// A value for each cell, or the same for all. Kernels get a slice for each run in both cases; a value that is
-/// the same for all is one row that stays in the cache.
+/// A value for each cell of a domain's arrays, stored once if all are alike. Kernels get a slice for each run of cells
+/// in both cases; a value that all share is one row that stays in the cache.
 #[derive(Debug, Clone)]
 pub(crate) enum PerCell<T> {
-    /// The same value for all cells, repeated for the longest run.
+    /// One value that all cells share, repeated so often that the longest run of cells gets a slice of it.
     Same(Vec<T>),
-    /// A value for each cell.
+    /// A value for each cell of the domain's arrays.
     Each(Vec<T>),
 }
 
 impl<T: Copy> PerCell<T> {
-    /// The same value for all cells, in runs of up to `longest` cells.
+    /// Makes a value that all cells share, for runs of up to `longest` cells.
     pub(crate) fn same(longest: usize, value: T) -> Self {
         PerCell::Same(vec![value; longest])
     }
 
-    /// The values of a run.
+    /// Returns the values at a run of consecutive cells, as a slice of the run's length.
     #[inline(always)]
     pub(crate) fn run(&self, run: Run) -> &[T] {
         let n = run.end - run.start;
@@ -30,7 +30,7 @@ impl<T: Copy> PerCell<T> {
         }
     }
 
-    /// The value of a cell.
+    /// Returns the value of a cell, given by its index in the domain's arrays.
     pub(crate) fn at(&self, cell: usize) -> T {
         match self {
             PerCell::Same(values) => values[0],
@@ -40,10 +40,10 @@ impl<T: Copy> PerCell<T> {
 }
 
 impl PerCell<f64> {
-    /// Writes the values to `to`, in single precision.
+    /// Copies the values in single precision to `to`.
     ///
     /// # Errors
-    /// Out of memory.
+    /// [`Error::OutOfMemory`](crate::Error::OutOfMemory).
     pub(crate) fn narrow_into(&self, to: &mut PerCell<f32>) -> Result<()> {
         match (self, &mut *to) {
             (PerCell::Each(from), PerCell::Each(to)) => narrow(from, to),

@@ -1,23 +1,23 @@
-//! Runs of consecutive cells, which the kernels sweep over.
+//! Runs of consecutive cells of an array over a domain, which the kernels sweep over.
 
-/// A run of consecutive cells in one row of the padded box.
+/// A run of consecutive cells (vertices) in one row of a domain's padded box: the indices from `start` to before `end`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct Run {
     pub start: usize,
     pub end: usize,
 }
 
-/// Runs sorted by row.
+/// Runs of consecutive cells of a domain's padded box, sorted by row.
 #[derive(Debug, Clone)]
 pub(crate) struct RowRuns {
-    /// Index of the first run of each row: those of `row` are `runs[first[row]..first[row + 1]]`.
+    /// Index of each row's first run in `runs`: the runs of `row` are `runs[first[row]..first[row + 1]]`.
     first: Vec<usize>,
     runs: Vec<Run>,
     len: usize,
 }
 
 impl RowRuns {
-    /// The runs of the cells that belong, in rows of `stride` cells.
+    /// Collects the runs of consecutive cells whose role `belongs`, of an array with rows of `stride` cells.
     pub(crate) fn new<R: Copy>(roles: &[R], stride: usize, belongs: impl Fn(R) -> bool) -> Self {
         let mut first = vec![0];
         let mut runs: Vec<Run> = Vec::new();
@@ -41,22 +41,22 @@ impl RowRuns {
         RowRuns { first, runs, len }
     }
 
-    /// Number of cells in all runs.
+    /// Number of cells in all runs together.
     pub(crate) fn len(&self) -> usize {
         self.len
     }
 
-    /// The runs of one row of the padded box.
+    /// Returns the runs of one row of the domain's padded box.
     pub(crate) fn row(&self, row: usize) -> &[Run] {
         &self.runs[self.first[row]..self.first[row + 1]]
     }
 
-    /// All runs, row by row.
+    /// Returns all runs, row by row.
     pub(crate) fn all(&self) -> &[Run] {
         &self.runs
     }
 
-    /// All cells, row by row.
+    /// Iterates over the indices of all cells in the runs, row by row.
     pub(crate) fn cells(&self) -> impl Iterator<Item = usize> + Clone + '_ {
         self.runs.iter().flat_map(|run| run.start..run.end)
     }

@@ -22,20 +22,20 @@ use super::runs::Run;
 use crate::math::real::Real;
 use crate::math::sym2::Sym2;
 
-/// The quadratic `c + g·x + ½ xᵀHx` about a vertex.
+/// A quadratic height function `c + g·x + ½ xᵀHx` of the offset `x` from a vertex.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Quadratic {
-    /// Value at the vertex.
+    /// Height `c` at the vertex.
     pub constant: f64,
-    /// Gradient at the vertex.
+    /// Gradient `g` at the vertex.
     pub gradient: [f64; 2],
-    /// Hessian.
+    /// Hessian `H`, the matrix of second derivatives.
     pub hessian: Sym2,
 }
 
 impl Quadratic {
-    /// Fits a quadratic by least squares to the heights of a vertex and its neighbours W, E, NW, NE, SW, SE at
-    /// distance `spacing`. It interpolates the centre.
+    /// Fits a quadratic by least squares to the heights of a vertex and its neighbours W, E, NW, NE, SW, SE at distance
+    /// `spacing`. The quadratic has the vertex's own height there.
     pub fn fit(centre: f64, neighbours: [f64; 6], spacing: f64) -> Self {
         let [w, e, nw, ne, sw, se] = neighbours;
         let d = [
@@ -53,7 +53,7 @@ impl Quadratic {
         }
     }
 
-    /// Value at the offset `(x, y)` from the vertex.
+    /// Returns the quadratic's height at the offset `(x, y)` from the vertex.
     pub fn at(&self, [x, y]: [f64; 2]) -> f64 {
         let [xx, xy, yy] = self.hessian.entries();
         self.constant
@@ -63,7 +63,8 @@ impl Quadratic {
     }
 }
 
-/// The map from the three second differences to the Hessian, and its adjoint.
+/// The 3×3 linear map from the second differences of heights in the three lattice directions to the Hessian at a
+/// vertex, and its adjoint.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct HessianMap<T = f64> {
     third: T,
@@ -71,7 +72,7 @@ pub(crate) struct HessianMap<T = f64> {
 }
 
 impl<T: Real> HessianMap<T> {
-    /// The coordinates of the Hessian, in the order of [`Sym2`].
+    /// Returns the Hessian of three second differences by its coordinates `[mean, diff, off]`, as [`Sym2`] has them.
     #[inline(always)]
     pub(crate) fn coordinates(&self, [d1, d2, d3]: [T; 3]) -> [T; 3] {
         let side = d2 + d3;
@@ -82,7 +83,8 @@ impl<T: Real> HessianMap<T> {
         ]
     }
 
-    /// The adjoint of the map in coordinates, with respect to the Frobenius inner product.
+    /// Applies the adjoint of the map, with respect to the Frobenius inner product, to a matrix with the coordinates
+    /// `[mean, diff, off]` of [`Sym2`]; returns one value for each lattice direction.
     #[inline(always)]
     pub(crate) fn adjoint_of(&self, [mean, diff, off]: [T; 3]) -> [T; 3] {
         let twice = self.third + self.third;
@@ -93,7 +95,7 @@ impl<T: Real> HessianMap<T> {
 }
 
 impl HessianMap<f32> {
-    /// The map on a lattice of spacing 1.
+    /// Makes the map for a lattice of spacing 1.
     pub(crate) fn unit() -> Self {
         HessianMap {
             third: 1.0 / 3.0,
@@ -111,20 +113,21 @@ impl HessianMap {
         }
     }
 
-    /// The Hessian of three second differences.
+    /// Returns the Hessian of three second differences of heights, one for each lattice direction.
     #[inline(always)]
     pub(crate) fn hessian(&self, differences: [f64; 3]) -> Sym2 {
         let [mean, diff, off] = self.coordinates(differences);
         Sym2 { mean, diff, off }
     }
 
-    /// The adjoint of a matrix, with respect to the Frobenius inner product.
+    /// Applies the adjoint of the map, with respect to the Frobenius inner product, to a matrix; returns one value for
+    /// each lattice direction.
     #[inline(always)]
     pub(crate) fn adjoint(&self, y: Sym2) -> [f64; 3] {
         self.adjoint_of([y.mean, y.diff, y.off])
     }
 
-    /// The map followed by its adjoint: `adjoint(hessian(d))`.
+    /// Applies the map to three second differences, and its adjoint to the Hessian: `adjoint(hessian(d))`.
     #[inline(always)]
     pub(crate) fn normal(&self, [d1, d2, d3]: [f64; 3]) -> [f64; 3] {
         let unit = 2.0 * self.third * self.third; // 2/9 h⁻⁴
@@ -134,7 +137,7 @@ impl HessianMap {
     }
 }
 
-/// The heights of each cell of a run and of its six neighbours, as slices of the run's length.
+/// The heights of the cells of a run and of their six neighbours, as slices of the run's length.
 pub(crate) struct Ring<'a, T> {
     w: &'a [T],
     c: &'a [T],
@@ -146,7 +149,8 @@ pub(crate) struct Ring<'a, T> {
 }
 
 impl<'a, T: Real> Ring<'a, T> {
-    /// The rings of a run in one row of a field on the padded box.
+    /// Takes the heights of a run's cells and of their neighbours from `field`, an array over the domain; `row` is the
+    /// run's row in the padded box.
     #[inline(always)]
     pub(crate) fn new(field: &'a [T], domain: &Domain, row: usize, run: Run) -> Self {
         let n = run.end - run.start;
@@ -165,7 +169,7 @@ impl<'a, T: Real> Ring<'a, T> {
         }
     }
 
-    /// The three second differences about cell `i` of the run.
+    /// Returns the second differences of heights at cell `i` of the run, in the three lattice directions.
     #[inline(always)]
     pub(crate) fn differences(&self, i: usize) -> [T; 3] {
         let twice = self.c[i] + self.c[i];
@@ -178,7 +182,7 @@ impl<'a, T: Real> Ring<'a, T> {
 }
 
 impl Ring<'_, f64> {
-    /// Gradient of the best-fit quadratic about cell `i` of the run.
+    /// Returns the gradient of the best-fit quadratic at cell `i` of the run.
     #[inline(always)]
     pub(crate) fn gradient(&self, i: usize, spacing: f64) -> [f64; 2] {
         let (right, left) = (self.ne[i] + self.se[i], self.nw[i] + self.sw[i]);
@@ -191,23 +195,24 @@ impl Ring<'_, f64> {
 }
 
 impl<T: Real> Ring<'_, T> {
-    /// Height of cell `i` of the run.
+    /// Returns the height of cell `i` of the run.
     #[inline(always)]
     pub(crate) fn centre(&self, i: usize) -> T {
         self.c[i]
     }
 
-    /// Sum over the six neighbours of cell `i` of the run.
+    /// Returns the sum of the heights of the six neighbours of cell `i` of the run.
     #[inline(always)]
     pub(crate) fn sum(&self, i: usize) -> T {
         self.w[i] + self.e[i] + self.nw[i] + self.ne[i] + self.sw[i] + self.se[i]
     }
 }
 
-/// A row of the weights that multiply second differences in `Cᵀ`, one array for each direction.
+/// The weights of one row's vertices that multiply second differences in the adjoint `Cᵀ`, one array for each of the
+/// three lattice directions.
 pub(crate) type Weights<T> = [Vec<T>; 3];
 
-/// The weights of a run, as slices of the run's length.
+/// Returns the weights of a run's cells in each lattice direction, as slices of the run's length.
 #[inline(always)]
 pub(crate) fn weights_of<'a, T>(
     weights: &'a mut Weights<T>,
@@ -219,8 +224,8 @@ pub(crate) fn weights_of<'a, T>(
     weights.each_mut().map(|weight| &mut weight[col..][..n])
 }
 
-/// Three consecutive rows of weights, which move down the padded box, so that `Cᵀ` never stores a whole field
-/// of them.
+/// Three consecutive rows of weights of second differences, which move down the domain's padded box, so that the
+/// adjoint `Cᵀ` never stores weights for all vertices.
 #[derive(Debug, Clone)]
 pub(crate) struct Rolling<T> {
     rows: [Weights<T>; 3],
@@ -235,9 +240,9 @@ impl<T: Real> Rolling<T> {
         }
     }
 
-    /// Sweeps down the domain once: `fill(row, weights)` writes the weights of the interior cells of a row
-    /// (cleared before), `gather(row, sums)` then reads the adjoint of a row whose three rows of weights are
-    /// complete.
+    /// Sweeps down the domain once to apply the adjoint `Cᵀ`: `fill(row, weights)` writes the weights of the interior
+    /// cells of a row (cleared before), `gather(row, sums)` then reads the adjoint's values in a row whose own weights
+    /// and those of both neighbouring rows are complete.
     ///
     /// `fill` is called for each row before `gather` of the row above it.
     #[inline(always)]
@@ -271,14 +276,14 @@ impl<T: Real> Rolling<T> {
     }
 }
 
-/// Adjoint values of a row, as second differences of three complete rows of weights.
+/// Values of the adjoint `Cᵀ` in one row, to be read as second differences of three complete rows of weights.
 pub(crate) struct Gather<'a, T> {
     rows: &'a [Weights<T>; 3],
     row: usize,
     domain: &'a Domain,
 }
 
-/// The nine weights that meet in each cell of a run, as slices of the run's length.
+/// The nine weights whose sum is the adjoint's value in a cell, for each cell of a run: slices of the run's length.
 pub(crate) struct Gathered<'a, T> {
     w: &'a [T],
     e: &'a [T],
@@ -292,7 +297,7 @@ pub(crate) struct Gathered<'a, T> {
 }
 
 impl<T: Real> Gather<'_, T> {
-    /// The weights that meet in the cells of a run.
+    /// Takes the weights that the adjoint's values in the cells of a run are computed from.
     #[inline(always)]
     pub(crate) fn run(&self, run: Run) -> Gathered<'_, T> {
         let n = run.end - run.start;
@@ -316,7 +321,7 @@ impl<T: Real> Gather<'_, T> {
 }
 
 impl<T: Real> Gathered<'_, T> {
-    /// The adjoint's value in cell `i` of the run.
+    /// Returns the adjoint's value in cell `i` of the run.
     #[inline(always)]
     pub(crate) fn at(&self, i: usize) -> T {
         let centre = self.c1[i] + self.c2[i] + self.c3[i];

@@ -1,5 +1,5 @@
-//! The value that stands for a missing index.
+//! The number that stands for a missing index.
 
-/// Sentinel in arrays of `u32` indices (of vertices, half-edges, components): there is none. Arrays have fewer entries,
-/// so that it is no index of anything.
+/// Sentinel for "no index" in arrays of `u32` indices (of vertices, half-edges, components). Arrays have fewer entries,
+/// so that no entry has this index.
 pub(crate) const NO_INDEX: u32 = u32::MAX;

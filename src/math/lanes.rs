@@ -1,16 +1,16 @@
-//! Sums and changes of precision that vectorise: additions run in a fixed number of lanes, so that the result
-//! depends neither on the machine nor on its vector width.
+//! Sums of slices, and conversions between precisions, that vectorise: additions run in a fixed number of lanes, so
+//! that the result depends neither on the machine nor on its vector width.
 //!
 //! They take slices, not closures: a closure that is called in a loop and again for its tail is not inlined,
 //! and costs ten times the sum.
 
-/// Number of independent sums over 64-bit values.
+/// Number of partial sums that are kept side by side when 64-bit values are added.
 const F64_LANES: usize = 8;
 
-/// Number of independent sums over 32-bit values.
+/// Number of partial sums that are kept side by side when 32-bit values are added.
 const F32_LANES: usize = 16;
 
-/// The sum `Σ a`.
+/// Returns the sum `Σ a` of a slice.
 pub(crate) fn sum(a: &[f64]) -> f64 {
     let mut lanes = [0.0; F64_LANES];
     let chunks = a.chunks_exact(F64_LANES);
@@ -27,7 +27,8 @@ pub(crate) fn sum(a: &[f64]) -> f64 {
     ((a + b) + (c + d)) + ((e + f) + (g + h))
 }
 
-/// The inner product `Σ a b`, in single precision within a row.
+/// Returns the inner product `Σ a b` of two slices: products and partial sums in single precision, their total in
+/// double.
 pub(crate) fn dot(a: &[f32], b: &[f32]) -> f64 {
     let mut lanes = [0.0f32; F32_LANES];
     let (a, b) = (a.chunks_exact(F32_LANES), b.chunks_exact(F32_LANES));
@@ -43,7 +44,8 @@ pub(crate) fn dot(a: &[f32], b: &[f32]) -> f64 {
     lanes.iter().map(|lane| f64::from(*lane)).sum()
 }
 
-/// The weighted sum of squares `Σ a² m`, in single precision within a row.
+/// Returns the weighted sum of squares `Σ a² m` of a slice `a` with weights `m`: partial sums in single precision,
+/// their total in double.
 pub(crate) fn weighted_square(a: &[f32], m: &[f32]) -> f64 {
     let mut lanes = [0.0f32; F32_LANES];
     let (a, m) = (a.chunks_exact(F32_LANES), m.chunks_exact(F32_LANES));
@@ -59,9 +61,9 @@ pub(crate) fn weighted_square(a: &[f32], m: &[f32]) -> f64 {
     lanes.iter().map(|lane| f64::from(*lane)).sum()
 }
 
-/// Converts `f64` to `f32`. This and [`widen`] are loops of their own: V8's optimising compiler (Node 20)
-/// miscompiles some vectorised conversions within larger ones. No other loop over cells may convert, except by
-/// [`single`] and [`double`].
+/// Converts a slice of `f64` to `f32`. This function and [`widen`] are loops of their own: V8's optimising compiler
+/// (Node 20) miscompiles some vectorised conversions within larger loops. No other loop over cells may convert, except
+/// by [`single`] and [`double`].
 #[inline(never)]
 pub(crate) fn narrow(from: &[f64], to: &mut [f32]) {
     for (to, from) in to.iter_mut().zip(from) {
@@ -69,7 +71,7 @@ pub(crate) fn narrow(from: &[f64], to: &mut [f32]) {
     }
 }
 
-/// Converts `f32` to `f64`.
+/// Converts a slice of `f32` to `f64`.
 #[inline(never)]
 pub(crate) fn widen(from: &[f32], to: &mut [f64]) {
     for (to, from) in to.iter_mut().zip(from) {
@@ -77,14 +79,14 @@ pub(crate) fn widen(from: &[f32], to: &mut [f64]) {
     }
 }
 
-/// Converts one `f64` to `f32`, where speed does not matter: a call, so that the loop around it is not
+/// Converts one `f64` to `f32`, where speed does not matter: never inlined, so that the loop around the call is not
 /// vectorised.
 #[inline(never)]
 pub(crate) fn single(value: f64) -> f32 {
     value as f32
 }
 
-/// Converts one `f32` to `f64`, where speed does not matter: a call, so that the loop around it is not
+/// Converts one `f32` to `f64`, where speed does not matter: never inlined, so that the loop around the call is not
 /// vectorised.
 #[inline(never)]
 pub(crate) fn double(value: f32) -> f64 {

@@ -3,8 +3,8 @@
 use nalgebra::{Cholesky, Const, SMatrix, SVector};
 
 /// Normal equations `(Σ w a aᵀ + R) x = Σ w a b` of the weighted least-squares problem
-/// `min Σ w |aᵀ x − b|² + xᵀ R x`, where each observation has a row `a` of coefficients, a right-hand side of `K` values
-/// `b` and a weight `w`, and `R` is an optional diagonal (a ridge) that regularises what observations leave open.
+/// `min Σ w |aᵀ x − b|² + xᵀ R x`, where each observation has a row `a` of coefficients, a right-hand side of `K`
+/// values `b` and a weight `w`, and `R` is an optional diagonal (a ridge) that regularises what observations leave open.
 #[derive(Debug, Clone)]
 pub(crate) struct LeastSquares<const N: usize, const K: usize = 1> {
     pub matrix: SMatrix<f64, N, N>,
@@ -12,12 +12,12 @@ pub(crate) struct LeastSquares<const N: usize, const K: usize = 1> {
 }
 
 impl<const N: usize, const K: usize> LeastSquares<N, K> {
-    /// Normal equations without observations.
+    /// Makes normal equations without observations.
     pub(crate) fn new() -> Self {
         Self::with_ridge([0.0; N])
     }
 
-    /// Normal equations without observations, with a diagonal that regularises them.
+    /// Makes normal equations without observations, with a diagonal `R` that regularises their matrix.
     pub(crate) fn with_ridge(ridge: [f64; N]) -> Self {
         LeastSquares {
             matrix: SMatrix::from_diagonal(&SVector::from(ridge)),
@@ -25,7 +25,7 @@ impl<const N: usize, const K: usize> LeastSquares<N, K> {
         }
     }
 
-    /// Adds an observation: its row of coefficients, its values, and its weight.
+    /// Adds an observation to the normal equations: its row of coefficients, its values, and its weight.
     pub(crate) fn add(&mut self, row: &SVector<f64, N>, values: [f64; K], weight: f64) {
         self.matrix.ger(1.0, &(row * weight), row, 1.0);
         for (mut column, value) in self.right.column_iter_mut().zip(values) {
@@ -33,19 +33,19 @@ impl<const N: usize, const K: usize> LeastSquares<N, K> {
         }
     }
 
-    /// Adds to the diagonal.
+    /// Adds `ridge` to the diagonal of the normal equations' matrix.
     pub(crate) fn add_ridge(&mut self, ridge: &[f64]) {
         for (k, value) in ridge.iter().enumerate() {
             self.matrix[(k, k)] += value;
         }
     }
 
-    /// Cholesky factor of the matrix; `None` if it is not positive definite. It has `solve` and `inverse`.
+    /// Returns the Cholesky factor of the normal equations' matrix; `None` if that is not positive definite.
     pub(crate) fn factor(&self) -> Option<Cholesky<f64, Const<N>>> {
         self.matrix.cholesky()
     }
 
-    /// The minimiser; `None` if observations and ridge do not determine it.
+    /// Solves the normal equations and returns the minimiser; `None` if observations and ridge do not determine it.
     pub(crate) fn solve(&self) -> Option<SMatrix<f64, N, K>> {
         Some(self.factor()?.solve(&self.right))
     }

@@ -5,11 +5,11 @@ use nalgebra::Complex;
 /// A point or vector in the plane as a complex number: a product with a number of modulus 1 is a rotation.
 pub(crate) type Point2 = Complex<f64>;
 
-/// Types that hold a point of the plane: [`Point2`], and the pairs of the public interface.
+/// Types that hold a point of the plane: [`Point2`] and `[f64; 2]`.
 pub(crate) trait Planar: Copy {
-    /// Returns both coordinates.
+    /// Returns the coordinates `[x, y]`.
     fn xy(self) -> [f64; 2];
-    /// Makes a point of both coordinates.
+    /// Makes a point of its coordinates `[x, y]`.
     fn from_xy(xy: [f64; 2]) -> Self;
 }
 
@@ -37,7 +37,7 @@ impl Planar for Point2 {
     }
 }
 
-/// Vector from one point to another.
+/// Returns the vector from one point to another.
 fn difference(from: impl Planar, to: impl Planar) -> [f64; 2] {
     let ([a, b], [c, d]) = (from.xy(), to.xy());
     [c - a, d - b]
@@ -49,7 +49,7 @@ pub(crate) fn cross(u: impl Planar, v: impl Planar) -> f64 {
     a * d - b * c
 }
 
-/// Euclidean distance of two points.
+/// Euclidean distance between two points.
 pub(crate) fn distance<P: Planar>(a: P, b: P) -> f64 {
     let [x, y] = difference(a, b);
     x.hypot(y)
@@ -60,8 +60,8 @@ pub(crate) fn orientation<P: Planar>(a: P, b: P, c: P) -> f64 {
     cross(difference(a, b), difference(a, c))
 }
 
-/// Whether two segments intersect. A segment that only touches the other one with an end counts or does not, by the
-/// side that the end is on after rounding.
+/// Returns whether two segments intersect. A segment that only touches the other one with an end counts or does not, by
+/// the side that the end is on after rounding.
 pub(crate) fn segments_intersect<P: Planar>([a, b]: [P; 2], [c, d]: [P; 2]) -> bool {
     let separates = |p, q, r, s| (orientation(p, q, r) > 0.0) != (orientation(p, q, s) > 0.0);
     separates(a, b, c, d) && separates(c, d, a, b)
@@ -84,14 +84,14 @@ pub(crate) fn line_intersection<P: Planar>(
     Some(P::from_xy([x + u[0] * t, y + u[1] * t]))
 }
 
-/// Distance of a point from a segment.
+/// Shortest distance from a point to a segment.
 pub(crate) fn distance_to_segment<P: Planar>(point: P, [a, b]: [P; 2]) -> f64 {
     let (u, v) = (difference(a, b), difference(a, point));
     let t = nearest_parameter(u, v);
     (v[0] - t * u[0]).hypot(v[1] - t * u[1])
 }
 
-/// Point of a segment that is nearest to a given one.
+/// Returns the point of a segment that is nearest to `point`.
 pub(crate) fn nearest_on_segment<P: Planar>(point: P, [a, b]: [P; 2]) -> P {
     let u = difference(a, b);
     let t = nearest_parameter(u, difference(a, point));
@@ -99,7 +99,8 @@ pub(crate) fn nearest_on_segment<P: Planar>(point: P, [a, b]: [P; 2]) -> P {
     P::from_xy([x + t * u[0], y + t * u[1]])
 }
 
-/// Share of a segment's vector `u` that lies before its point nearest to the end of `v`, from 0 to 1.
+/// Projects `v` onto `u`, both from one end of a segment along `u`: the share of `u` at the point nearest to the end of
+/// `v`, clamped to 0 to 1.
 fn nearest_parameter(u: [f64; 2], v: [f64; 2]) -> f64 {
     let squared_length = u[0] * u[0] + u[1] * u[1];
     if squared_length > 0.0 {
@@ -109,18 +110,18 @@ fn nearest_parameter(u: [f64; 2], v: [f64; 2]) -> f64 {
     }
 }
 
-/// Length of a polyline.
+/// Length of a polyline: the sum of the distances between consecutive points.
 pub(crate) fn polyline_length<P: Planar>(points: &[P]) -> f64 {
     points.windows(2).map(|p| distance(p[0], p[1])).sum()
 }
 
-/// Edges of a closed polygon, whose last point is not its first one again.
+/// Iterates over the edges of a closed polygon whose last corner is not its first one again.
 fn polygon_edges<P: Planar>(polygon: &[P]) -> impl Iterator<Item = [P; 2]> {
     let next = |i: usize| if i + 1 == polygon.len() { 0 } else { i + 1 };
     (0..polygon.len()).map(move |i| [polygon[i], polygon[next(i)]])
 }
 
-/// Length of a closed polygon's edges.
+/// Perimeter of a closed polygon.
 pub(crate) fn polygon_perimeter<P: Planar>(polygon: &[P]) -> f64 {
     polygon_edges(polygon).map(|[a, b]| distance(a, b)).sum()
 }
@@ -132,7 +133,7 @@ pub(crate) fn polygon_area<P: Planar>(polygon: &[P]) -> f64 {
         .sum::<f64>()
 }
 
-/// Whether a point is inside of a closed polygon, by the even-odd rule.
+/// Returns whether a point is inside of a closed polygon, by the even-odd rule.
 pub(crate) fn polygon_contains<P: Planar>(polygon: &[P], point: P) -> bool {
     let [x, y] = point.xy();
     let crossings = polygon_edges(polygon).filter(|[a, b]| {

@@ -2,7 +2,7 @@
 
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
-/// A floating-point number in the row kernels; its default is 0.
+/// A floating-point number, `f32` or `f64`, in kernels that run in both precisions; its default is 0.
 pub(crate) trait Real:
     Copy
     + std::fmt::Debug
@@ -15,8 +15,9 @@ pub(crate) trait Real:
     + Div<Output = Self>
     + Neg<Output = Self>
 {
+    /// The number ½.
     const HALF: Self;
-    /// A vector of four numbers, for loops that do not vectorise by themselves.
+    /// SIMD vector of four numbers, for loops that do not vectorise by themselves.
     type Four: Copy + Add<Output = Self::Four> + Mul<Output = Self::Four>;
     fn sqrt(self) -> Self;
     fn four(lanes: [Self; 4]) -> Self::Four;
@@ -58,13 +59,13 @@ impl Real for f32 {
 }
 
 // `f64::max` treats NaN in a way that costs wasm several instructions; these are one each.
-/// The larger of two values; the second if they cannot be compared.
+/// Returns the larger of two values; the second one if they cannot be compared.
 #[inline(always)]
 pub(crate) fn larger<T: PartialOrd>(a: T, b: T) -> T {
     if a > b { a } else { b }
 }
 
-/// The smaller of two values; the second if they cannot be compared.
+/// Returns the smaller of two values; the second one if they cannot be compared.
 #[inline(always)]
 pub(crate) fn smaller<T: PartialOrd>(a: T, b: T) -> T {
     if a < b { a } else { b }

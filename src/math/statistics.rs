@@ -3,8 +3,8 @@
 /// Ratio of the standard deviation of a normal distribution to the median of its absolute values.
 pub(crate) const MAD_TO_SIGMA: f64 = 1.4826;
 
-/// Median of numbers, the upper one of the two in the middle of an even number; `None` for an empty slice.
-/// Changes their order; linear cost.
+/// Median of numbers, the upper one of the two in the middle of an even number; `None` for an empty slice. Reorders the
+/// slice; linear cost.
 pub(crate) fn median(values: &mut [f64]) -> Option<f64> {
     if values.is_empty() {
         return None;
@@ -13,8 +13,8 @@ pub(crate) fn median(values: &mut [f64]) -> Option<f64> {
     Some(*values.select_nth_unstable_by(middle, f64::total_cmp).1)
 }
 
-/// Weighted median of pairs of a value and its weight: the smallest value with at least half of the total
-/// weight at or below it; `None` for an empty slice. Sorts them.
+/// Weighted median of pairs of a value and its weight: the smallest value with at least half of the total weight at or
+/// below it; `None` for an empty slice. Sorts the slice.
 pub(crate) fn weighted_median(values: &mut [(f64, f64)]) -> Option<f64> {
     values.sort_by(|a, b| a.0.total_cmp(&b.0));
     let half = 0.5 * values.iter().map(|(_, weight)| weight).sum::<f64>();

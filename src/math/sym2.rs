@@ -4,9 +4,8 @@ use super::real::{Real, larger, smaller};
 
 /// A symmetric 2×2 matrix, held as `[[mean + diff, off], [off, mean − diff]]`.
 ///
-/// In these coordinates the eigenvalues are `mean ± √(diff² + off²)`, the
-/// Frobenius inner product is twice the ordinary one, and no eigenvectors are
-/// needed for any spectral function.
+/// In the coordinates `mean`, `diff`, `off` the eigenvalues are `mean ± √(diff² + off²)`, the Frobenius inner product
+/// is twice the ordinary one, and no eigenvectors are needed for any spectral function.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Sym2 {
     pub(crate) mean: f64,
@@ -15,7 +14,7 @@ pub struct Sym2 {
 }
 
 impl Sym2 {
-    /// The matrix `[[xx, xy], [xy, yy]]`.
+    /// Makes the matrix `[[xx, xy], [xy, yy]]`.
     pub fn new(xx: f64, xy: f64, yy: f64) -> Self {
         Sym2 {
             mean: 0.5 * (xx + yy),
@@ -24,18 +23,18 @@ impl Sym2 {
         }
     }
 
-    /// The entries `[xx, xy, yy]`.
+    /// Returns the entries `[xx, xy, yy]`.
     pub fn entries(self) -> [f64; 3] {
         [self.mean + self.diff, self.off, self.mean - self.diff]
     }
 
-    /// The matrix with coordinates `[mean, diff, off]`.
+    /// Makes the matrix with the coordinates `[mean, diff, off]`.
     #[inline(always)]
     pub(crate) fn from_coordinates([mean, diff, off]: [f64; 3]) -> Self {
         Sym2 { mean, diff, off }
     }
 
-    /// The coordinates `[mean, diff, off]`.
+    /// Returns the coordinates `[mean, diff, off]`.
     #[inline(always)]
     pub(crate) fn coordinates(self) -> [f64; 3] {
         [self.mean, self.diff, self.off]
@@ -47,7 +46,7 @@ impl Sym2 {
         (self.diff * self.diff + self.off * self.off).sqrt()
     }
 
-    /// Eigenvalues, the larger one first.
+    /// Returns the eigenvalues, the larger one first.
     pub fn eigenvalues(self) -> [f64; 2] {
         let r = self.radius();
         [self.mean + r, self.mean - r]
@@ -59,34 +58,34 @@ impl Sym2 {
         2.0 * larger(self.mean.abs(), self.radius())
     }
 
-    /// Largest absolute eigenvalue.
+    /// Spectral norm: the largest absolute eigenvalue.
     #[inline(always)]
     pub(crate) fn spectral_norm(self) -> f64 {
         self.mean.abs() + self.radius()
     }
 
-    /// Frobenius inner product.
+    /// Frobenius inner product of two matrices: the sum of products of their entries.
     #[inline(always)]
     pub fn dot(self, other: Sym2) -> f64 {
         2.0 * (self.mean * other.mean + self.diff * other.diff + self.off * other.off)
     }
 
-    /// Projection onto the matrices whose eigenvalues lie in `[−limit, limit]`.
+    /// Projects the matrix onto those whose eigenvalues lie in `[−limit, limit]`, by clamping its eigenvalues.
     #[inline(always)]
     pub fn clamp(self, limit: f64) -> Sym2 {
         let [mean, diff, off] = clamp([self.mean, self.diff, self.off], limit);
         Sym2 { mean, diff, off }
     }
 
-    /// Soft threshold of the eigenvalues: the minimiser of
-    /// `threshold · ‖H‖_* + ½ ‖H − self‖_F²` (paper, App. D).
+    /// Soft threshold: moves each eigenvalue towards 0 by at most `threshold`. This is the minimiser `H` of `threshold
+    /// · ‖H‖_* + ½ ‖H − self‖_F²` (paper, App. D).
     #[inline(always)]
     pub fn soft_threshold(self, threshold: f64) -> Sym2 {
         // Moreau: a matrix is its soft threshold plus its projection onto the dual ball.
         self - self.clamp(threshold)
     }
 
-    /// The matrix times a factor.
+    /// Multiplies the matrix by a factor.
     #[inline(always)]
     pub(crate) fn scale(self, factor: f64) -> Sym2 {
         Sym2 {
@@ -129,7 +128,8 @@ impl std::ops::Mul<f64> for Sym2 {
     }
 }
 
-/// Coordinates of [`Sym2::clamp`], in any precision.
+/// Clamps the eigenvalues of a symmetric matrix, given and returned by its coordinates `[mean, diff, off]`, to
+/// `[−limit, limit]`, in any precision.
 #[inline(always)]
 pub(crate) fn clamp<T: Real>([mean, diff, off]: [T; 3], limit: T) -> [T; 3] {
     let r = (diff * diff + off * off).sqrt();

@@ -2,7 +2,8 @@
 
 use nalgebra::{Matrix3, Vector3};
 
-/// Maximum number of Jacobi sweeps. The error falls quadratically: five sweeps suffice for finite entries.
+/// Maximum number of sweeps of Jacobi's eigenvalue method. The error falls quadratically: five sweeps suffice for
+/// finite entries.
 const MAX_JACOBI_SWEEPS: usize = 12;
 
 /// Eigenvalues of a symmetric 3×3 matrix with their unit eigenvectors, the largest eigenvalue first, by Jacobi's

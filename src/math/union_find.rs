@@ -11,7 +11,7 @@ pub(crate) struct UnionFind {
 }
 
 impl UnionFind {
-    /// Makes `count` sets of one number each.
+    /// Makes the sets `{0}` to `{count − 1}` of one number each.
     ///
     /// # Errors
     /// [`Error::OutOfMemory`](crate::Error::OutOfMemory), which names `what`.
@@ -23,7 +23,7 @@ impl UnionFind {
         Ok(UnionFind { parents })
     }
 
-    /// Returns the smallest number of the set that holds `member`.
+    /// Returns the representative of the set that holds `member`: its smallest number.
     pub(crate) fn find(&mut self, mut member: u32) -> u32 {
         while self.parents[member as usize] != member {
             let grandparent = self.parents[self.parents[member as usize] as usize];
@@ -39,8 +39,8 @@ impl UnionFind {
         self.parents[a.max(b) as usize] = a.min(b);
     }
 
-    /// Merges the set of `member` with those of a range of numbers. It is faster than single calls of
-    /// [`UnionFind::union`] where most of them are in one set already.
+    /// Merges the set of `member` with the sets of a range of numbers. Faster than single calls of [`UnionFind::union`]
+    /// where most of these numbers are in one set already.
     pub(crate) fn union_range(&mut self, member: usize, others: Range<usize>) {
         let mut root = self.find(member as u32);
         for other in others {

@@ -1,24 +1,28 @@
-//! Initial guess of the cylinder in closed form, from the corners and edges.
+//! Initial guess of the cylinder on which a curled page lies, in closed form from its corners and edges in the photo.
 
 use nalgebra::{DMatrix, DVector, Matrix3, SymmetricEigen, Vector3};
 
 use super::cylinder::{CurveSeries, Cylinder, legendre_values};
 use super::traced_line::TracedLine;
 
-/// Maximum degree of the polynomial that is fitted to a page's points for the initial curve.
+/// Maximum degree of the polynomial that is fitted to a page's cross-section for the initial guess of the page's curve.
 const MAX_INITIAL_DEGREE: usize = 5;
 
-/// Minimum distance of an edge's plane from the camera, over that of the other edge, for the edge to tell the curve.
+/// Minimum distance between the camera and the plane in which a bent edge lies, as a share of that distance for the
+/// opposite edge; an edge with a nearer plane appears straight and is not used for the curve.
 const MIN_EDGE_PLANE_DISTANCE: f64 = 0.2;
 
-/// Maximum distance of a traced point from the camera, over that of the page's first corner along the same axis.
+/// Maximum depth scale of a traced point: the multiple of the line of sight with `z = 1` at which it lies on the page,
+/// where the page's first corner is at 1. Points further away are left out.
 const MAX_POINT_SCALE: f64 = 100.0;
 
-/// Maximum ratio of a page's length and width, and of its width and length.
+/// Maximum ratio of a page's length along the rulings to its width, and of its width to its length; other initial
+/// guesses are discarded.
 const MAX_LENGTH_RATIO: f64 = 1e3;
 
-/// Focal length, in pixels, for which the rulings are perpendicular to the chord: the vanishing points of both directions
-/// satisfy `x₁x₂ + y₁y₂ + f² w₁w₂ = 0`. None if there is none.
+/// Computes the focal length, in pixels, from the page's four corners in the photo: the one for which the rulings are
+/// perpendicular to the chord of the bent edges, so that the vanishing points of both directions satisfy `x₁x₂ + y₁y₂ +
+/// f² w₁w₂ = 0`. None if no focal length satisfies that.
 pub(super) fn focal_length(pages: &[[TracedLine; 2]], centre: [f64; 2]) -> Option<f64> {
     let [a, b, c, d] = corners(pages).map(|p| ray(p, centre, 1.0));
     let r = a.cross(&d).cross(&b.cross(&c));
@@ -27,7 +31,8 @@ pub(super) fn focal_length(pages: &[[TracedLine; 2]], centre: [f64; 2]) -> Optio
     (squared.is_finite() && squared > 0.0).then(|| squared.sqrt())
 }
 
-/// The outer corners of all pages in the photo, clockwise from the first edge's start.
+/// Returns the four outer corners of a page, or of a spread's two pages together, in the photo's pixels, clockwise from
+/// the start of the first edge.
 pub(super) fn corners(pages: &[[TracedLine; 2]]) -> [[f64; 2]; 4] {
     let last = &pages[pages.len() - 1];
     [
@@ -38,12 +43,14 @@ pub(super) fn corners(pages: &[[TracedLine; 2]]) -> [[f64; 2]; 4] {
     ]
 }
 
-/// Line of sight of a pixel, with `z = 1`.
+/// Direction of the line of sight through pixel `p` in the camera's axes, scaled to `z = 1`. `centre` is the principal
+/// point.
 fn ray(p: [f64; 2], centre: [f64; 2], focal: f64) -> Vector3<f64> {
     Vector3::new((p[0] - centre[0]) / focal, (p[1] - centre[1]) / focal, 1.0)
 }
 
-/// The cylinder for a focal length in pixels. None if the corners are not those of a rectangle.
+/// Computes the initial guess of the page's cylinder in closed form from the traced edges, for a focal length in
+/// pixels. None if the corners are not those of a rectangle.
 pub(super) fn cylinder(
     pages: &[[TracedLine; 2]],
     centre: [f64; 2],
@@ -155,8 +162,8 @@ pub(super) fn cylinder(
         .then_some(found)
 }
 
-/// The curve of one page from its points `(along the chord, across it, weight)`: fits a polynomial over the chord and converts
-/// it to a Legendre series of the direction over the arc length. None if there are too few points.
+/// Fits one page's curve to points `(along the chord, across it, weight)`: first a polynomial over the chord, which is
+/// then converted to a Legendre series of the curve's direction over its arc length. None if there are too few points.
 fn fit_curve(points: &[(f64, f64, f64)]) -> Option<CurveSeries> {
     let low = points.iter().map(|p| p.0).fold(f64::INFINITY, f64::min);
     let high = points.iter().map(|p| p.0).fold(f64::NEG_INFINITY, f64::max);
@@ -180,7 +187,7 @@ fn fit_curve(points: &[(f64, f64, f64)]) -> Option<CurveSeries> {
             .map(|(p, c)| p * c)
             .sum()
     };
-    /// Number of pieces over which the arc length is summed.
+    /// Number of straight pieces over which the arc length of the fitted polynomial is summed.
     const ARC_LENGTH_STEPS: usize = 200;
     let mut pieces = Vec::with_capacity(ARC_LENGTH_STEPS);
     let mut width = 0.0;

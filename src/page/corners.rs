@@ -1,16 +1,17 @@
-//! Order of a page's edges, by the corners at their ends.
+//! Checks of a page's traced edges: their direction and order by the corners at their ends, and whether they cross.
 
 use super::traced_line::{TracedLine, TracedPage, distance};
 use crate::error::{Error, Result};
 
-/// Maximum number of segments of an edge that are checked for crossings.
+/// Maximum number of segments to which a traced edge is thinned before it is checked for crossings with the opposite
+/// edge.
 const MAX_CROSSING_SEGMENTS: usize = 1000;
 
-/// Maximum distance between two edges' ends at a common corner, as a share of the edge's length.
+/// Maximum distance between the ends of two edges that share a corner, as a share of the edge's chord.
 const MAX_CORNER_GAP_SHARE: f64 = 0.05;
 
-/// Makes both edges run the same way, so that the corners lie clockwise in the photo, and checks
-/// that they can belong to a page.
+/// Orients both bent edges of a page alike, so that the corners lie clockwise in the photo, and checks that they can
+/// belong to a page.
 ///
 /// # Errors
 /// [`Error::Edges`].
@@ -73,7 +74,7 @@ pub(super) fn arrange([first, second]: &mut [TracedLine; 2]) -> Result<()> {
     check_no_crossing(first, second)
 }
 
-/// Checks that two edges do not cross each other.
+/// Returns an error if the two bent edges of a page cross each other in the photo.
 fn check_no_crossing(first: &TracedLine, second: &TracedLine) -> Result<()> {
     let thin = |line: &TracedLine| -> Vec<[f64; 2]> {
         let step = line.points.len().div_ceil(MAX_CROSSING_SEGMENTS);
@@ -109,7 +110,8 @@ fn check_no_crossing(first: &TracedLine, second: &TracedLine) -> Result<()> {
     Ok(())
 }
 
-/// Puts the two pages of a spread in order, and checks that the second one begins at the gutter, where the first one ends.
+/// Orders the two pages of a spread, and checks that the second page's edges begin at the gutter, where the first
+/// page's edges end.
 ///
 /// # Errors
 /// [`Error::Edges`].
@@ -138,7 +140,7 @@ pub(super) fn arrange_spread(one: &mut TracedPage, other: &mut TracedPage) -> Re
     Ok(())
 }
 
-/// Checks that the straight edges end at the bent edges' corners.
+/// Checks that a page's two straight edges, `sides`, end at the corners of its two bent edges.
 ///
 /// # Errors
 /// [`Error::Edges`].
@@ -168,10 +170,11 @@ pub(super) fn check_sides(
     Ok(())
 }
 
-/// Maximum distance of a traced line outside of its page, as a share of the page's edge.
+/// Maximum distance of a traced line of text outside of its page's outline, as a share of the page's bent edge.
 const MAX_OUTSIDE_SHARE: f64 = 0.03;
 
-/// Checks that a line of text is on its page.
+/// Checks that all points of a traced line of text lie between the two bent edges of its page. `number` is the line's
+/// number for the error message.
 ///
 /// # Errors
 /// [`Error::Edges`].

@@ -15,71 +15,76 @@ use super::residual_statistics::ResidualStatistics;
 use super::traced_line::{TracedLine, TracedPage};
 use crate::error::{Error, Result};
 
-/// A line of text, or a straight edge.
+/// A line of text or a straight edge of a page, traced in the photo: a cross-section or a ruling of the page's
+/// cylinder.
 #[derive(Debug, Clone)]
 struct CrossSection {
     page: usize,
-    /// Whether it is a ruling, or else a cross-section.
+    /// Whether the line is a ruling of the cylinder (straight in space); otherwise it is a cross-section (bent like the
+    /// edges).
     ruling: bool,
-    /// Position of a straight edge, as a share of the page's width; None for text, whose level is eliminated.
+    /// Known position of a straight edge across itself, as a share of the page's width; None for a line of text, whose
+    /// position is estimated from its points.
     level: Option<f64>,
-    /// Whether it is text that was found in the photo.
+    /// Whether the line is text that was detected in the photo, not traced by the caller.
     found: bool,
     points: Vec<[f64; 2]>,
     weight: f64,
 }
 
-/// All lines of text and straight edges of the pages.
+/// Lines of text and straight edges of all pages of a photo, as observations for the cylinder's least-squares fit.
 #[derive(Debug, Clone, Default)]
 pub(super) struct CrossSections {
     list: Vec<CrossSection>,
-    /// Number of lines of text.
+    /// Number of lines of text, traced and detected.
     pub text: usize,
 }
 
-/// Residuals of one line or straight edge on a cylinder.
+/// Distances between one line of text (or straight edge) as traced and as the cylinder predicts it.
 #[derive(Debug, Clone)]
 pub(super) struct LineResiduals {
     points: Vec<PointResidual>,
-    /// Position of the line on the page, in widths of the first page.
+    /// Position across the line, in widths of the first page, at which the line lies on the flat page.
     level: f64,
 }
 
 #[derive(Debug, Clone, Copy)]
 struct PointResidual {
-    /// Distance across the line, in pixels.
+    /// Distance of the point from its line, across the line, in pixels of the photo.
     pixels: f64,
-    /// Position along the line, in widths of the first page.
+    /// Position of the point along its line, in widths of the first page.
     along: f64,
-    /// Pixels per unit of length on the page, across the line.
+    /// Pixels of the photo per unit of length on the page, in the direction across the line.
     scale: f64,
-    /// Huber's weight: 1, or less for an outlier.
+    /// Huber weight of the point: 1, or less for an outlier.
     trust: f64,
 }
 
-/// Position of a point on the page, and its coordinate across its line.
+/// A traced point's position on the flat page, and its coordinate across its line; both in widths of the first page.
 type LinePoint = ([f64; 2], f64);
 
-/// Maximum number of lines of text.
+/// Maximum number of traced lines of text in one photo; more are an error.
 const MAX_TEXT_LINES: usize = 500;
 
-/// Maximum number of points of a line that are used.
+/// Maximum number of points of one traced line of text, or straight edge, to which the page's cylinder is fitted.
 const MAX_POINTS_PER_LINE: usize = 24;
 
-/// Maximum number of points of all lines of text that were given.
+/// Maximum number of points of all traced lines of text together to which the page's cylinder is fitted.
 const MAX_TEXT_POINTS: usize = 800;
 
-/// Maximum number of points of a line that was found in the photo. Fewer are enough, for they are more exact than traced ones.
+/// Maximum number of points of one line of text detected in the photo to which the page's cylinder is fitted. Fewer
+/// than of a traced line, for they are more exact.
 const MAX_POINTS_PER_FOUND_LINE: usize = 12;
 
-/// Maximum number of points of all lines that were found in the photo.
+/// Maximum number of points of all lines of text detected in the photo together to which the page's cylinder is fitted.
 const MAX_FOUND_POINTS: usize = 400;
 
-/// Maximum number of independent points that a line counts as: errors of tracing continue along the line.
+/// Maximum number of independent points that one line of text counts as: errors of tracing are correlated along a line.
 const MAX_INDEPENDENT_POINTS: f64 = 8.0;
 
 impl CrossSections {
-    /// The lines of text and straight edges of all pages.
+    /// Collects the lines of text and straight edges of all pages, thinned to the maximum number of points. `sideways`
+    /// says that the left and right edges are bent, so that lines of text are rulings.
     ///
     /// # Errors
     /// [`Error::Edges`] for lines beside the page, [`Error::TooLarge`] for too many lines.
@@ -126,7 +131,8 @@ impl CrossSections {
         })
     }
 
-    /// Number of independent distances: the sum of their weights, less one for each level that is eliminated.
+    /// Number of independent distances of all lines: the sum of their points' weights, less one for each line whose
+    /// position is estimated.
     pub fn count(&self) -> f64 {
         let own = |cross: &CrossSection| {
             cross.weight * cross.points.len() as f64 - f64::from(u8::from(cross.level.is_none()))
@@ -134,12 +140,13 @@ impl CrossSections {
         self.list.iter().map(own).sum()
     }
 
-    /// Number of rows in the Jacobian.
+    /// Number of points of all lines: the rows that they take in the Jacobian of the least-squares problem.
     pub fn rows(&self) -> usize {
         self.list.iter().map(|cross| cross.points.len()).sum()
     }
 
-    /// Residuals of all lines on a cylinder, and the sum of their Huber penalties. None if a part is not in front of the camera.
+    /// Computes the residuals of all lines on a cylinder, and the sum of their Huber penalties. None if a part of the
+    /// page is not in front of the camera.
     pub fn residuals(
         &self,
         cylinder: &Cylinder,
@@ -192,7 +199,8 @@ impl CrossSections {
         cost.is_finite().then_some((found, cost))
     }
 
-    /// Back-projects the points of each line to a cylinder.
+    /// Back-projects the points of each line from the photo to a cylinder. None if a line of sight does not meet the
+    /// cylinder.
     fn line_points(&self, cylinder: &Cylinder) -> Option<Vec<Vec<LinePoint>>> {
         let curve = cylinder.curve();
         (self.list.iter())
@@ -217,8 +225,9 @@ impl CrossSections {
             .collect()
     }
 
-    /// Writes one column of the Jacobian, from row `first` on: the derivatives of the weighted distances by a parameter in which
-    /// the cylinders `plus` and `minus` differ. Levels that are eliminated follow the points.
+    /// Writes one column of the Jacobian, from row `first` on: the derivatives of all weighted residuals by one
+    /// parameter. The cylinders `plus` and `minus` are those with this parameter raised and lowered. Estimated
+    /// positions of lines change with the points.
     pub fn write_derivatives(
         &self,
         first: usize,
@@ -250,7 +259,8 @@ impl CrossSections {
         Some(())
     }
 
-    /// Writes the weighted distances whose derivatives [`CrossSections::write_derivatives`] writes.
+    /// Writes the weighted residuals of all lines into `values`, from row `first` on, in the order of
+    /// [`CrossSections::write_derivatives`].
     pub fn write_residuals(
         &self,
         first: usize,
@@ -267,7 +277,8 @@ impl CrossSections {
         }
     }
 
-    /// Writes the derivatives of the weighted distances by the principal point.
+    /// Writes the derivatives of all weighted residuals by the two coordinates of the principal point into the first
+    /// two columns of `matrix`, from row `first` on.
     pub fn principal_point_jacobian(
         &self,
         first: usize,
@@ -292,7 +303,7 @@ impl CrossSections {
         Some(())
     }
 
-    /// The weighted sum of squares of the distances, in pixels².
+    /// Returns the weighted sum of squares of the residuals of all lines' points, in pixels².
     pub fn squares(&self, off: &[LineResiduals]) -> f64 {
         (self.list.iter().zip(off))
             .map(|(cross, own)| {
@@ -301,8 +312,8 @@ impl CrossSections {
             .sum()
     }
 
-    /// Statistics of the distances along each straight edge, along each line of text that was given, and along
-    /// each that was found.
+    /// Returns residual statistics for each line, in three lists: straight edges, traced lines of text, detected lines
+    /// of text.
     pub fn statistics(&self, off: &[LineResiduals]) -> [Vec<ResidualStatistics>; 3] {
         let mut found = [const { Vec::new() }; 3];
         for (cross, own) in self.list.iter().zip(off) {
@@ -314,10 +325,12 @@ impl CrossSections {
         found
     }
 
-    /// Covariance of the distances of neighbouring lines of text at the same positions along them, in pixels²,
-    /// and the number of independent points that it is from. Errors of tracing are independent from line to line.
+    /// Covariance of the residuals of neighbouring lines of text at equal positions along them, in pixels², and the
+    /// number of independent points in the estimate. Errors of tracing are independent from line to line; errors of the
+    /// model are not.
     pub fn covariance(&self, off: &[LineResiduals]) -> (f64, f64) {
-        /// Maximum number of lines in the order of levels, of columns beside, before the next line of a column.
+        /// Maximum number of lines of other columns that are passed over in the search for the next line below in one
+        /// column.
         const MAX_LINES_BETWEEN: usize = 6;
         let (mut sum, mut points, mut count) = (0.0, 0.0, 0.0);
         let mut order: Vec<usize> = (0..off.len())
@@ -351,7 +364,8 @@ impl CrossSections {
         }
     }
 
-    /// Largest distance from the chord, in the photo, of each cross-section, in pixels.
+    /// Maximum distance in the photo, in pixels, of each cross-section's points from the chord between the
+    /// cross-section's ends.
     pub fn bows(&self) -> Vec<f64> {
         (self.list.iter())
             .filter(|cross| !cross.ruling)
@@ -368,7 +382,8 @@ impl CrossSections {
 }
 
 impl LineResiduals {
-    /// Distance at a position along the line, in pixels, linear between points.
+    /// Interpolates the residuals of a line's points linearly: the residual, in pixels, at position `along`, in widths
+    /// of the first page. None beyond the line's ends.
     fn at(&self, along: f64) -> Option<f64> {
         self.points.windows(2).find_map(|pair| {
             let (from, to) = (pair[0], pair[1]);
@@ -381,7 +396,7 @@ impl LineResiduals {
 }
 
 impl CrossSection {
-    /// A line with at most a number of its points, as a cross-section.
+    /// Makes a cross-section of a traced line, thinned to at most `most` points.
     fn new(line: &TracedLine, page: usize, most: usize) -> Self {
         let last = line.points.len() - 1;
         let step = last.div_ceil(most - 1).max(1);
@@ -401,7 +416,8 @@ impl CrossSection {
     }
 }
 
-/// Level of a line: the mean of its points' coordinates across it, weighted by Huber's weight and by scale.
+/// Estimates the position of a line across itself: the mean of its points' coordinates `values`, weighted by Huber
+/// weight and squared scale.
 fn weighted_mean(points: &[PointResidual], values: impl Iterator<Item = f64>) -> f64 {
     let (mut sum, mut weights) = (0.0, 0.0);
     for (point, value) in points.iter().zip(values) {

@@ -1,4 +1,4 @@
-//! A page in space from its traced edges.
+//! Curled pages: the cylinder in space on which a page lies, found from the page's edges as traced in one photo.
 
 use super::closed_form;
 use super::cylinder::Cylinder;
@@ -15,59 +15,63 @@ use super::traced_line::TracedLine;
 use super::traces::Traces;
 use crate::error::{Error, Readable, Result, positive};
 
-/// A page that is curled one way (a cylinder), or the two pages of a spread, in space.
+/// A page that is curled in one direction (a cylinder), or the two pages of a spread, in space.
 #[derive(Debug, Clone)]
 pub struct CurledPage {
     pub(super) cylinder: Cylinder,
     pub(super) photo: [usize; 2],
-    /// Whether the left and the right edges are bent, so that the curve runs down the page.
+    /// Whether the left and the right edge are the bent ones, so that the rulings run from left to right.
     pub(super) sideways: bool,
-    /// Length of the cylinder's unit: in millimetres if the format or a ruler is known, else in widths of a page.
+    /// Length of the cylinder's unit, which is the first page's width: in millimetres if the format or a ruler is
+    /// known, else in widths of a page.
     pub(super) unit: f64,
-    /// Whether lengths are in millimetres.
+    /// Whether lengths of the flat page are in millimetres; otherwise in widths of a page.
     pub(super) millimetres: bool,
-    /// Lines of text that were found in the photo, page by page.
+    /// Lines of text that were detected in the photo, a list for each page.
     pub(super) found: Vec<Vec<Trace>>,
-    /// Root mean square residual of the lines that were found, in standard deviations of a traced point.
+    /// Root mean square residual of the detected lines of text, in standard deviations of a traced point.
     pub(super) found_residual: f64,
     pub(super) report: PageReport,
 }
 
-/// Maximum relative standard deviation of a focal length that counts as found from the perspective.
+/// Maximum relative standard deviation of a focal length, estimated from the perspective, that is accepted.
 const MAX_FOCAL_DEVIATION: f64 = 0.05;
 
-/// Relative standard deviation of the proportions of a page whose format is known.
+/// Relative standard deviation of a page's ratio of height to width where the format is given.
 const FORMAT_RATIO_DEVIATION: f64 = 0.002;
 
-/// Difference of the logarithms of two ratios of sides above which edges contradict a format, if the page were known
-/// exactly. Four times the error bound is added.
+/// Minimum difference of the logarithms of the observed and the format's ratio of height to width at which edges
+/// contradict the format; four times the error bound of the observed ratio is added.
 const FORMAT_MISMATCH: f64 = 0.04;
 
-/// Maximum of that difference that errors may explain.
+/// Maximum difference of the logarithms of the observed and the format's ratio of height to width that is accepted,
+/// however large the error bound.
 const MAX_FORMAT_MISMATCH: f64 = 0.25;
 
-/// Bound on the ratio's error where there is no estimate.
+/// Assumed relative error bound of the observed ratio of height to width where it cannot be estimated.
 const UNKNOWN_RATIO_ERROR: f64 = 0.1;
 
-/// Ratio of the photo's diagonal to the default standard deviation of a traced point, which is 2 pixels of 12 megapixels.
+/// Ratio of the photo's diagonal to the default standard deviation of a traced point; the latter is 2 pixels in a photo
+/// of 12 megapixels.
 const DIAGONAL_PER_DEFAULT_ACCURACY: f64 = 2500.0;
 
-/// Minimum default standard deviation of a traced point, in pixels.
+/// Minimum default standard deviation of a traced point from the page's edge, in pixels.
 const MIN_DEFAULT_ACCURACY: f64 = 0.3;
 
-/// Standard deviation of an unknown principal point from the photo's middle, as a share of the photo's diagonal.
+/// Standard deviation of an unknown principal point from the photo's centre, as a share of the photo's diagonal.
 const PRINCIPAL_POINT_DEVIATION: f64 = 0.004;
 
-/// Maximum coordinate of a principal point, in diagonals of the photo.
+/// Maximum absolute coordinate of a principal point, in diagonals of the photo.
 pub(in crate::page) const MAX_CENTRE_DIAGONALS: f64 = 10.0;
 
-/// Focal lengths, over the photo's longer side, from which the search starts if none is given.
+/// Initial focal lengths of the search where none is given, as multiples of the photo's longer side.
 const INITIAL_FOCAL_RATIOS: [f64; 5] = [0.5, 0.75, 1.1, 2.0, 5.0];
 
-/// Number of distances more than parameters above which the error estimate leaves two further degrees of the curve open.
+/// Minimum number of observations in excess of parameters for the error estimate to add two degrees to the curve's
+/// Legendre series.
 const MIN_SPARE_DISTANCES: f64 = 6.0;
 
-/// Minimum length of a ruler, as a share of the page's shorter side.
+/// Minimum length of a ruler (a known distance on the page), as a share of the flat page's shorter side.
 const MIN_RULER_SHARE: f64 = 0.01;
 
 impl CurledPage {
@@ -88,11 +92,11 @@ impl CurledPage {
         Self::with_lines(edges, &[], photo, options)
     }
 
-    /// Finds a page by its traced edges and by lines of text, which are traced like edges but from their beginning to their
-    /// end, for each page in the order of `edges`. Lines of text are level on the flat page. If the
-    /// bent edges are those above and below the text, each line is a further cross-section; if they are
-    /// those beside it, each line is a ruling, and straight. Lines of text show whether a page is folded or bent both ways
-    /// between its edges, and check pages whose edges do not check each other.
+    /// Finds a page by its traced edges and by lines of text, which are traced like edges but from their beginning to
+    /// their end, for each page in the order of `edges`. Lines of text are level on the flat page. If the bent edges
+    /// are those above and below the text, each line is a further cross-section; if they are those beside it, each line
+    /// is a ruling, and straight. Lines of text show whether a page is folded or bent both ways between its edges, and
+    /// check pages whose edges do not check each other.
     ///
     /// The print may be turned on its page by about half a degree. At most 800 points of all lines are
     /// used, and at most 24 of one line.
@@ -110,7 +114,8 @@ impl CurledPage {
         Self::solved(edges, [text, &[]], photo, options)
     }
 
-    /// Finds a page by its edges, by lines of text that are given, and by others that were found in the photo.
+    /// Finds a page by its edges and by lines of text: `text[0]` are traced by the caller, `text[1]` detected in the
+    /// photo.
     ///
     /// # Errors
     /// Those of [`CurledPage::with_lines`].
@@ -241,12 +246,13 @@ impl CurledPage {
         Ok(page)
     }
 
-    /// Verdict and figures of the page that was found.
+    /// Verdict and measures of the fit of the page to its traced edges.
     pub fn report(&self) -> &PageReport {
         &self.report
     }
 
-    /// Sets the unit of length, by the sides of the format in millimetres, or by a ruler.
+    /// Sets the flat page's unit of length, by the format's width and height in millimetres, or by a ruler in the
+    /// options; else to a page's width.
     fn measure(&mut self, sides: Option<[f64; 2]>, options: &PageOptions) -> Result<()> {
         let [width, height] = self.size();
         let pages = self.cylinder.pages.len() as f64;
@@ -292,7 +298,7 @@ impl CurledPage {
     }
 }
 
-/// The error if no page explains the edges.
+/// The error for edges that no curled page explains.
 fn unsolved() -> Error {
     Error::edges(
         "no page was found whose edges these could be; check that the corners are at their ends, \
@@ -300,7 +306,8 @@ fn unsolved() -> Error {
     )
 }
 
-/// Length over width of the first page in the photo, along its chords.
+/// Ratio of length to width of the first page as it appears in the photo: mean chord of the straight edges over that of
+/// the bent ones.
 fn apparent_ratio(pages: &[[TracedLine; 2]]) -> f64 {
     let [first, second] = &pages[0];
     let ruling = |end: usize| {

@@ -1,57 +1,58 @@
-//! A page in space: a cylinder over a curve, seen by a pinhole camera.
+//! A curled page in space: a cylinder over a planar curve, seen by a pinhole camera.
 
 use nalgebra::{Matrix3, Rotation3, Vector3};
 
-/// Number of pieces over which each page's curve is integrated.
+/// Number of pieces into which each page's curve is divided for integrating its direction.
 pub(super) const CURVE_PIECES: usize = 96;
 
-/// Number of secant steps by which the intersection of a line of sight with a piece of the curve is exact to rounding: a
-/// piece is nearly straight.
+/// Number of secant steps by which the intersection of a line of sight with a piece of the page's curve is found; a
+/// piece is nearly straight, so that this many are exact to rounding.
 const SECANT_STEPS: usize = 3;
 
-/// Half the step of central differences by a cylinder's parameters and by places on the page, which are of order 1.
-/// About the cube root of the rounding error, where truncation and rounding are equally small.
+/// Half the step of central differences, by the parameters of a page's cylinder and by positions on the page, which are
+/// of order 1. About the cube root of the rounding error, where truncation and rounding are equally small.
 pub(super) const DIFFERENCE_STEP: f64 = 1e-5;
 
 /// A page, or the two of a spread, as a cylinder seen by a pinhole camera. Lengths are in widths of the first page.
 #[derive(Debug, Clone)]
 pub(super) struct Cylinder {
-    /// Focal length, in pixels.
+    /// Focal length of the camera, in pixels.
     pub focal: f64,
-    /// Principal point, in pixels.
+    /// Principal point of the camera, in pixels of the photo.
     pub centre: [f64; 2],
-    /// Rotation whose columns are the curve's two axes and the rulings' direction, from the first edge to the second.
+    /// Rotation from the cylinder's axes to the camera's. Its columns are the two axes of the curve's plane and the
+    /// direction of the rulings, from the first edge to the second.
     pub axes: Matrix3<f64>,
-    /// Start of the first edge in the camera's axes: x to the right, y down, z ahead.
+    /// Position of the first edge's start in the camera's axes: x to the right, y down, z ahead.
     pub origin: Vector3<f64>,
     /// Length of the rulings, in widths of the first page.
     pub length: f64,
-    /// The curve of each page.
+    /// Each page's curve across the rulings: the cylinder's cross-section.
     pub pages: Vec<CurveSeries>,
-    /// Angle by which the print is rotated on each page, in radians; empty without lines of text.
+    /// Angle by which the print is rotated on each page, in radians; empty if there are no lines of text.
     pub skews: Vec<f64>,
 }
 
 /// The curve of one page, by its direction as a Legendre series over the arc length.
 #[derive(Debug, Clone)]
 pub(super) struct CurveSeries {
-    /// Arc length: the width of the page.
+    /// Arc length of the page's curve, that is the width of the flat page.
     pub width: f64,
-    /// Coefficients, in radians, of the Legendre polynomials over the arc length whose sum is the curve's direction in its
-    /// plane. The first page's mean direction is 0: it is in the axes.
+    /// Coefficients, in radians, of the Legendre polynomials over the arc length whose sum is the curve's direction in
+    /// its plane. The first coefficient of the first page is 0: its mean direction is in [`Cylinder::axes`].
     pub turns: Vec<f64>,
 }
 
-/// The curve of all pages in its plane, integrated to nodes.
+/// Curve of all pages, sampled at nodes of equal arc length in the curve's plane.
 #[derive(Debug, Clone)]
 pub(super) struct SampledCurve {
-    /// Position and direction at each page's nodes.
+    /// Position and unit tangent of the curve at each node of each page.
     nodes: Vec<Vec<([f64; 2], [f64; 2])>>,
     widths: Vec<f64>,
 }
 
 impl Cylinder {
-    /// Number of unknowns of the least-squares problem; the principal point is not among them.
+    /// Number of unknowns of the cylinder's least-squares problem, without the principal point.
     pub fn parameters(&self) -> usize {
         8 + self
             .pages
@@ -62,12 +63,12 @@ impl Cylinder {
             + self.skews.len()
     }
 
-    /// Degree of the Legendre series.
+    /// Degree of the Legendre series that describes the direction of a page's curve.
     pub fn degree(&self) -> usize {
         self.pages[0].turns.len() - 1
     }
 
-    /// This cylinder with another degree of the Legendre series.
+    /// Returns this cylinder with another degree of the curve's Legendre series; added coefficients are 0.
     pub fn with_degree(mut self, degree: usize) -> Self {
         for page in &mut self.pages {
             page.turns.resize(degree + 1, 0.0);
@@ -75,10 +76,10 @@ impl Cylinder {
         self
     }
 
-    /// This cylinder with its parameters changed by a step. Their order is: logarithm of the focal length, rotation
-    /// about the page's middle (3), translation (3), logarithm of the length, and for each page the
-    /// logarithm of its width and its coefficients, but for the first page's width and mean; the
-    /// skews come last.
+    /// Returns this cylinder with its parameters changed by `step`. The parameters' order is: logarithm of the focal
+    /// length, rotation about the page's middle (3), translation (3), logarithm of the length, and for each page the
+    /// logarithm of its width and its Legendre coefficients, but for the first page's width and mean direction; the
+    /// rotations of the print come last.
     pub fn moved(&self, step: &[f64]) -> Self {
         let mut moved = self.clone();
         moved.focal *= step[0].exp();
@@ -105,13 +106,14 @@ impl Cylinder {
         moved
     }
 
-    /// Middle of the chord's box in space, about which steps rotate.
+    /// Point in space about which steps of the fit rotate the cylinder: the middle of a flat page with the same start,
+    /// width and length.
     fn middle(&self) -> Vector3<f64> {
         let width: f64 = self.pages.iter().map(|page| page.width).sum();
         self.origin + self.axes * Vector3::new(width / 2.0, 0.0, self.length / 2.0)
     }
 
-    /// Integrates the curve by Simpson's rule.
+    /// Integrates the direction of the pages' curve to positions, by Simpson's rule.
     pub fn curve(&self) -> SampledCurve {
         let mut place = [0.0; 2];
         let mut nodes = Vec::with_capacity(self.pages.len());
@@ -141,13 +143,14 @@ impl Cylinder {
         }
     }
 
-    /// The point in space on the ruling through a point of the curve, at a distance `down` along it.
+    /// Returns the point in space, in the camera's axes, on the ruling through point `(x, y)` of the curve, at a
+    /// distance `down` along the ruling.
     pub fn point(&self, [x, y]: [f64; 2], down: f64) -> Vector3<f64> {
         self.origin + self.axes * Vector3::new(x, y, down)
     }
 
-    /// Projects the point on the ruling through a point of the curve, at a distance `down` along it, to pixels. None unless it
-    /// is in front of the camera.
+    /// Projects the point on the ruling through point `on` of the curve, at a distance `down` along the ruling, to
+    /// pixels of the photo. None unless the point is in front of the camera.
     pub fn project(&self, on: [f64; 2], down: f64) -> Option<[f64; 2]> {
         let point = self.point(on, down);
         (point.z > 1e-9).then(|| {
@@ -160,8 +163,8 @@ impl Cylinder {
 }
 
 impl Cylinder {
-    /// Back-projects a pixel to a page: returns the distances along its curve and down its ruling. Beyond the page's sides the
-    /// curve is extended straight.
+    /// Back-projects a pixel to a page: returns the distances along the page's curve and down its ruling. Beyond the
+    /// page's sides the curve is extended straight.
     pub fn back_project(
         &self,
         curve: &SampledCurve,
@@ -218,7 +221,8 @@ impl Cylinder {
         found.iter().all(|v| v.is_finite()).then_some(found)
     }
 
-    /// Range of the direction along the curve of a page, in radians: that of the page that bends most.
+    /// Angle by which the curve's tangent turns over a page (largest minus smallest direction), in radians; the maximum
+    /// over all pages.
     pub fn bend(&self) -> f64 {
         let page = |page: &CurveSeries| {
             let turns = (0..=CURVE_PIECES)
@@ -232,7 +236,7 @@ impl Cylinder {
         self.pages.iter().map(page).fold(0.0, f64::max)
     }
 
-    /// Whether the camera sees a part of the page from behind, so that another part is hidden.
+    /// Whether the camera sees a part of the page from behind, so that this part hides another one.
     pub fn has_hidden_part(&self) -> bool {
         let curve = self.curve();
         let mut seen = [false; 2];
@@ -249,7 +253,8 @@ impl Cylinder {
 }
 
 impl SampledCurve {
-    /// Position at a share of one page's width, by cubic Hermite interpolation.
+    /// Position of a point of one page's curve, in the curve's plane, at a share of the page's width from 0 to 1, by
+    /// cubic Hermite interpolation.
     pub fn at(&self, page: usize, share: f64) -> [f64; 2] {
         let scaled = share.clamp(0.0, 1.0) * CURVE_PIECES as f64;
         let piece = (scaled as usize).min(CURVE_PIECES - 1);
@@ -264,7 +269,8 @@ impl SampledCurve {
         })
     }
 
-    /// Position at a share of one page's width; beyond 0 and 1 the curve is extended straight.
+    /// Position of a point of one page's curve, in the curve's plane, at a share of the page's width; below 0 and above
+    /// 1 the curve is extended straight.
     pub fn at_extended(&self, page: usize, share: f64) -> [f64; 2] {
         let end = if share < 0.0 { 0 } else { CURVE_PIECES };
         let beyond = if share < 0.0 {
@@ -277,13 +283,14 @@ impl SampledCurve {
         [0, 1].map(|k| on[k] + beyond * self.widths[page] * way[k])
     }
 
-    /// Position of a node.
+    /// Position of a node of one page's curve, in the curve's plane.
     pub fn node(&self, page: usize, node: usize) -> [f64; 2] {
         self.nodes[page][node].0
     }
 }
 
-/// Sum of a series of Legendre polynomials over the unit interval (Clenshaw's recurrence).
+/// Evaluates a series of Legendre polynomials, scaled to the interval from 0 to 1, at a place `at` in it (Clenshaw's
+/// recurrence).
 fn legendre_sum(coefficients: &[f64], at: f64) -> f64 {
     let x = 2.0 * at - 1.0;
     let (mut b1, mut b2) = (0.0, 0.0);
@@ -295,7 +302,8 @@ fn legendre_sum(coefficients: &[f64], at: f64) -> f64 {
     b1
 }
 
-/// Values of the Legendre polynomials over the unit interval, up to a degree.
+/// Evaluates the Legendre polynomials of degrees 0 to `degree`, scaled to the interval from 0 to 1, at a place `at` in
+/// it.
 pub(super) fn legendre_values(degree: usize, at: f64) -> Vec<f64> {
     let x = 2.0 * at - 1.0;
     let mut values = vec![1.0];

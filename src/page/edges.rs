@@ -1,4 +1,4 @@
-//! The edges of a page as they were traced.
+//! Traced edges of a page and lines of text: points or Bézier curves in a photo's pixels.
 
 /// A traced edge of a page, from one corner to the next, or a traced line of text, in the photo's
 /// pixels: `[0, 0]` is the centre of the upper left one.
@@ -12,8 +12,8 @@ pub enum Trace {
     Beziers(Vec<[f64; 2]>),
 }
 
-/// The traced edges of a page: the two that are bent, or all four. Each runs from left to right, or from top to bottom; if
-/// all run the other way, they are reversed.
+/// The traced edges of a page: the two that are bent, or all four. Each runs from left to right, or from top to bottom;
+/// if all run the other way, they are reversed.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub enum Edges {
@@ -21,26 +21,26 @@ pub enum Edges {
     TopBottom {
         /// The upper edge, as the page is read.
         top: Trace,
-        /// The lower edge.
+        /// The lower edge of the page.
         bottom: Trace,
     },
     /// The left and the right edge, of a page whose rulings run from left to right.
     LeftRight {
         /// The left edge, as the page is read.
         left: Trace,
-        /// The right edge.
+        /// The right edge of the page.
         right: Trace,
     },
-    /// All four edges, of which two opposite ones are bent and the others straight; which ones are bent is found out. The
-    /// straight ones check the page: they show a fold along the bent ones.
+    /// All four edges, of which two opposite ones are bent and the others straight; which ones are bent is found out.
+    /// The straight ones check the page: they show a fold along the bent ones.
     All {
         /// The upper edge, as the page is read.
         top: Trace,
-        /// The lower edge.
+        /// The lower edge of the page.
         bottom: Trace,
         /// The left edge.
         left: Trace,
-        /// The right edge.
+        /// The right edge of the page.
         right: Trace,
     },
 }

@@ -11,25 +11,27 @@ use super::traces::{Residuals, Traces};
 /// of a page.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct ErrorEstimate {
-    /// Expected displacement.
+    /// Expected displacement of the flat page's points, over the width of a page.
     pub expected: f64,
-    /// Displacement that is not exceeded in 95 of 100 cases, if the page is curled one way.
+    /// Displacement, over the width of a page, that is not exceeded in 95 of 100 cases if the page is curled in one
+    /// direction.
     pub bound: f64,
-    /// Relative standard deviation of the focal length.
+    /// Relative standard deviation of the camera's focal length.
     pub focal: f64,
 }
 
-/// Number of places along each page's curve at which displacements are estimated.
+/// Number of sample points along each page's curve at which errors of the flat page are estimated.
 const PLACES_ACROSS: usize = 11;
 
-/// Number of places along each ruling at which displacements are estimated.
+/// Number of sample points along each ruling at which errors of the flat page are estimated.
 const PLACES_DOWN: usize = 7;
 
-/// Weight of the assumed accuracy of traced points, as a number of points that have exactly this error.
+/// Number of additional points with exactly the assumed accuracy that enter the estimate of the traced points'
+/// variance.
 const PRIOR_POINTS: f64 = 4.0;
 
-/// Estimates the error of the flat page of a cylinder. `centre` is the standard deviation of the principal point, in pixels.
-/// None if the traces do not determine all parameters.
+/// Estimates the error of the flat page that a cylinder gives. `centre` is the standard deviation of the principal
+/// point, in pixels. None if the traces do not determine all parameters.
 pub(super) fn estimate_error(
     cylinder: &Cylinder,
     traces: &Traces,
@@ -86,13 +88,13 @@ pub(super) fn estimate_error(
     })
 }
 
-/// Product of two matrices, column by column.
+/// Product of two matrices, computed by dot products of columns.
 fn product(left: &DMatrix<f64>, right: &DMatrix<f64>) -> DMatrix<f64> {
     left.transpose().tr_mul(right)
 }
 
-/// Root mean square displacement between the flat pages of two cylinders for the same photo, after the best similarity, over
-/// the width of a page. None if they do not show the same.
+/// Root mean square displacement between the flat pages that two cylinders give for one photo, after the best
+/// similarity, over the width of a page. None if a place of one page is not visible on the other.
 pub(super) fn displacement_between(one: &Cylinder, other: &Cylinder) -> Option<f64> {
     let (curve, found) = (one.curve(), other.curve());
     let mut way = Vec::new();
@@ -133,7 +135,8 @@ pub(super) fn displacement_between(one: &Cylinder, other: &Cylinder) -> Option<f
     mean.is_finite().then_some(mean)
 }
 
-/// Places at which displacements are estimated: the number of the page, and the shares of its width and of its rulings.
+/// Sample points at which errors of the flat page are estimated: number of the page, share of its width, share of its
+/// length.
 fn page_places(pages: usize) -> impl Iterator<Item = (usize, f64, f64)> {
     (0..pages * PLACES_ACROSS * PLACES_DOWN).map(|i| {
         let (page, i) = (
@@ -149,8 +152,8 @@ fn page_places(pages: usize) -> impl Iterator<Item = (usize, f64, f64)> {
     })
 }
 
-/// Jacobian of places on the flat page, at fixed pixels, by the parameters and by the principal
-/// point: rows are x and y of each place.
+/// Jacobian of the positions on the flat page that belong to fixed pixels, by the cylinder's parameters and the
+/// principal point. Rows are x and y of each sample point. None if a sample point is not in front of the camera.
 fn displacement_jacobian(cylinder: &Cylinder) -> Option<DMatrix<f64>> {
     let places: Vec<_> = page_places(cylinder.pages.len()).collect();
     let parameters = cylinder.parameters();
@@ -213,7 +216,7 @@ fn displacement_jacobian(cylinder: &Cylinder) -> Option<DMatrix<f64>> {
     Some(out)
 }
 
-/// Orthonormal basis of the displacements by translations, scaling and rotation.
+/// Orthonormal basis of the displacements of the flat page's sample points by translation, scaling and rotation.
 fn similarity_basis(cylinder: &Cylinder) -> Vec<DVector<f64>> {
     let mut starts = vec![0.0];
     for page in &cylinder.pages {
@@ -241,7 +244,7 @@ fn similarity_basis(cylinder: &Cylinder) -> Vec<DVector<f64>> {
     found
 }
 
-/// Subtracts from a column its components along orthonormal vectors.
+/// Subtracts from one column of a matrix its components along orthonormal vectors.
 fn remove_components(field: &mut DMatrix<f64>, column: usize, motions: &[DVector<f64>]) {
     for motion in motions {
         let part = field.column(column).dot(motion);

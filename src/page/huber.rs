@@ -1,10 +1,11 @@
-//! Huber's penalty of distances: quadratic for small ones, linear for outliers.
+//! Huber's penalty of residuals in the fit of a page: quadratic for small distances, linear for outliers.
 
-/// Distance, in standard deviations of a traced point, above which it counts by its size and not by its square.
-/// Limits what a point that was traced wrongly moves the page by.
+/// Distance of a traced point from the page's model, in standard deviations, above which it is an outlier and penalised
+/// linearly. Limits the influence of a wrongly traced point.
 const OUTLIER_THRESHOLD: f64 = 3.0;
 
-/// Huber's penalty of a distance in standard deviations.
+/// Huber's penalty of a residual, `distance` in standard deviations: quadratic up to the outlier threshold, linear
+/// above.
 pub(super) fn huber_cost(distance: f64) -> f64 {
     if distance > OUTLIER_THRESHOLD {
         OUTLIER_THRESHOLD * (2.0 * distance - OUTLIER_THRESHOLD)
@@ -13,7 +14,8 @@ pub(super) fn huber_cost(distance: f64) -> f64 {
     }
 }
 
-/// The weight that makes a squared distance count as by Huber's penalty, for iteratively reweighted least squares.
+/// Huber's weight of a residual, `distance` in standard deviations, for iteratively reweighted least squares: 1, or
+/// less for an outlier.
 pub(super) fn huber_weight(distance: f64) -> f64 {
     if distance > OUTLIER_THRESHOLD {
         OUTLIER_THRESHOLD / distance

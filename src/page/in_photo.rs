@@ -1,4 +1,4 @@
-//! Pages by edges and by lines of text that are found in the photo.
+//! Search for a curled page by its traced edges and by lines of text that are detected in the photo.
 
 use super::curled_page::CurledPage;
 use super::edges::{Edges, Trace};
@@ -8,8 +8,8 @@ use super::text;
 use crate::dewarp::Photo;
 use crate::error::Result;
 
-/// Maximum root mean square residual of lines that were found, in standard deviations of a traced point, for which they count.
-/// Lines of print have about a quarter of it.
+/// Maximum root mean square residual of detected lines of text, in standard deviations of a traced point, at which they
+/// are used. Lines of print have about a quarter of that.
 const MAX_FOUND_RESIDUAL: f64 = 1.0;
 
 impl CurledPage {
@@ -19,11 +19,11 @@ impl CurledPage {
     ///
     /// Lines that agree with the edges make the page more exact. Lines that do not are not used for the page, but
     /// change the verdict: the page is folded, crumpled or bent both ways. Handwriting, pictures and blank pages have
-    /// no lines. [`CurledPage::text`] has the lines that were found, [`PageReport::lines_found`](super::PageReport) their
-    /// number.
+    /// no lines. [`CurledPage::text`] has the lines that were found, [`PageReport::lines_found`](super::PageReport)
+    /// their number.
     ///
-    /// Costs about ten times as much as [`CurledPage::new`], and `O(pixels of the page)`, of which there are at most about
-    /// four million.
+    /// Costs about ten times as much as [`CurledPage::new`], and `O(pixels of the page)`, of which there are at most
+    /// about four million.
     ///
     /// # Errors
     /// Those of [`CurledPage::with_lines`].
@@ -78,8 +78,8 @@ impl CurledPage {
         Ok(page)
     }
 
-    /// Baselines of text that [`CurledPage::in_photo`] has found, for each page from left to
-    /// right or from top to bottom, as points in the photo's pixels.
+    /// Baselines of text that [`CurledPage::in_photo`] has found, a list for each page from left to right or from top
+    /// to bottom, as points in the photo's pixels.
     pub fn text(&self) -> &[Vec<Trace>] {
         &self.found
     }

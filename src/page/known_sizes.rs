@@ -1,4 +1,4 @@
-//! Focal lengths and formats as options give them, in the units of the search.
+//! Focal lengths and page formats from the options, converted to the units of the fit.
 
 use super::options::{FocalLength, Format};
 use crate::error::{Error, Result, positive};
@@ -7,26 +7,26 @@ use crate::scene::camera::focal_length_of;
 /// Diagonal of 35 mm film (36 by 24 mm), in millimetres.
 const FILM_DIAGONAL_MM: f64 = 43.266_615;
 
-/// Relative standard deviation of a focal length that is given in pixels, as from a calibration.
-const PIXELS_DEVIATION: f64 = 0.003;
+/// Assumed relative standard deviation of a focal length that is given in pixels, as from a calibration.
+const FOCAL_PIXELS_DEVIATION: f64 = 0.003;
 
-/// Relative standard deviation of a focal length that is given as a field of view.
+/// Assumed relative standard deviation of a focal length that is given as a field of view.
 const FIELD_OF_VIEW_DEVIATION: f64 = 0.01;
 
-/// Relative standard deviation of a focal length that is given as that of 35 mm film: Exif rounds it to millimetres.
-const FILM35_DEVIATION: f64 = 0.02;
+/// Assumed relative standard deviation of a focal length that is given for 35 mm film: Exif rounds it to millimetres.
+const FOCAL_FILM35_DEVIATION: f64 = 0.02;
 
-/// Minimum focal length, over the photo's longer side.
+/// Minimum focal length that is accepted, as a multiple of the photo's longer side.
 const MIN_FOCAL_RATIO: f64 = 0.05;
 
-/// Maximum focal length, over the photo's longer side.
+/// Maximum focal length that is accepted, as a multiple of the photo's longer side.
 const MAX_FOCAL_RATIO: f64 = 100.0;
 
-/// Maximum ratio of the sides of a page.
+/// Maximum ratio of a page's longer to its shorter side that is accepted.
 const MAX_SIDE_RATIO: f64 = 50.0;
 
-/// Focal length in pixels and its relative standard deviation; None if it is unknown. `longer` and `diagonal` are the photo's
-/// longer side and diagonal in pixels.
+/// Converts a given focal length to pixels, with its relative standard deviation; None if it is unknown. `longer` and
+/// `diagonal` are the photo's longer side and diagonal in pixels.
 ///
 /// # Errors
 /// [`Error::Option`].
@@ -37,7 +37,7 @@ pub(super) fn focal_length(
 ) -> Result<Option<[f64; 2]>> {
     let (name, value, found, deviation) = match given {
         FocalLength::Unknown => return Ok(None),
-        FocalLength::Pixels(pixels) => ("focal_length", pixels, pixels, PIXELS_DEVIATION),
+        FocalLength::Pixels(pixels) => ("focal_length", pixels, pixels, FOCAL_PIXELS_DEVIATION),
         FocalLength::FieldOfView(degrees) => {
             let pixels = focal_length_of(degrees, longer)?;
             ("field_of_view", degrees, pixels, FIELD_OF_VIEW_DEVIATION)
@@ -46,7 +46,7 @@ pub(super) fn focal_length(
             "film35",
             length,
             length * diagonal / FILM_DIAGONAL_MM,
-            FILM35_DEVIATION,
+            FOCAL_FILM35_DEVIATION,
         ),
     };
     positive(name, value)?;
@@ -58,19 +58,20 @@ pub(super) fn focal_length(
     Ok(Some([found, deviation]))
 }
 
-/// Proportions of a page whose format is known.
+/// Ratio and lengths of the sides of a page whose format is known.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Sides {
-    /// Height over width.
+    /// Ratio of the page's height to its width.
     ratio: f64,
-    /// Whether the page may be upright or across.
+    /// Whether the page may also be turned by a quarter (portrait or landscape).
     either: bool,
-    /// Width and height in millimetres, if known.
+    /// Width and height of the page in millimetres, if known.
     pub millimetres: Option<[f64; 2]>,
 }
 
 impl Sides {
-    /// Height over width, upright or across, whichever is nearer to a ratio that was found.
+    /// Returns the format's ratio of height to width: portrait or landscape, whichever is nearer to the observed ratio
+    /// `seen`.
     pub fn ratio(&self, seen: f64) -> f64 {
         if self.either && (seen > 1.0) != (self.ratio > 1.0) {
             1.0 / self.ratio
@@ -80,7 +81,7 @@ impl Sides {
     }
 }
 
-/// Proportions of a format; None if it is unknown.
+/// Returns the sides of a page of the given format; None if the format is unknown.
 ///
 /// # Errors
 /// [`Error::Option`].

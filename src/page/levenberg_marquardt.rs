@@ -1,35 +1,37 @@
-//! The least-squares cylinder of traces, by Levenberg and Marquardt's method.
+//! Levenberg–Marquardt method for the page's cylinder that fits traced edges and lines best.
 
 use super::cylinder::Cylinder;
 use super::prior::Prior;
 use super::traces::{Residuals, Traces};
 
-/// Maximum number of steps of Levenberg and Marquardt's method.
+/// Maximum number of steps of the Levenberg–Marquardt method for a page's cylinder.
 const MAX_ITERATIONS: usize = 40;
 
-/// Initial damping of Levenberg and Marquardt's method, relative to the diagonal.
+/// Initial damping of the Levenberg–Marquardt method, relative to the normal matrix's diagonal.
 const INITIAL_DAMPING: f64 = 1e-3;
 
-/// Minimum damping of Levenberg and Marquardt's method, relative to the diagonal.
+/// Minimum damping of the Levenberg–Marquardt method, relative to the normal matrix's diagonal.
 const MIN_DAMPING: f64 = 1e-12;
 
-/// Damping at which the search for a better step ends.
+/// Damping of the Levenberg–Marquardt method at which the search for a step that lowers the cost ends.
 const MAX_DAMPING: f64 = 1e10;
 
-/// Factor of Levenberg and Marquardt's damping after a step that lowers the cost.
+/// Factor that multiplies the Levenberg–Marquardt damping after a step that lowers the cost.
 const DAMPING_DECREASE: f64 = 0.2;
 
-/// Factor of Levenberg and Marquardt's damping after a step that does not lower the cost.
+/// Factor that multiplies the Levenberg–Marquardt damping after a step that does not lower the cost.
 const DAMPING_INCREASE: f64 = 4.0;
 
-/// Relative decrease of the cost by one step at which the solution has converged.
+/// Relative decrease of the least-squares cost by one step below which the fit of the cylinder has converged.
 const RELATIVE_COST_TOLERANCE: f64 = 1e-3;
 
-/// Cost that is added for the relative decrease, so that exact traces converge, too.
+/// Number added to the cost in the test of its relative decrease, so that the fit of exact traces, whose cost tends to
+/// 0, converges, too.
 const ABSOLUTE_COST: f64 = 1e-3;
 
 impl Traces {
-    /// The least-squares cylinder near an initial guess, and its residuals.
+    /// Finds the cylinder that fits the traces best in the least-squares sense, from an initial guess; returns it with
+    /// its residuals. None if a cylinder on the way is not in front of the camera.
     pub fn solve(&self, start: Cylinder, prior: &Prior) -> Option<(Cylinder, Residuals)> {
         let mut best = start;
         let mut residuals = self.residuals(&best, prior)?;

@@ -1,13 +1,12 @@
-//! Flat pages from one photo and the traces of their bent edges.
+//! Flat pages from one photo of a curled page and the traces of its bent edges.
 //!
-//! A page that is curled one way (a book's page, a letter that was rolled up) is a cylinder over
-//! some curve: its rulings are straight, parallel, and normal to the two edges that are bent. So
-//! one photo in which these edges are traced, with the page's corners at their ends, determines the
-//! surface: the corners are those of a plane rectangle, which gives the rulings' direction, and each
-//! traced point is the intersection of its line of sight with the plane of its edge. (Huaigu Cao, Xiaoqing Ding, Changsong
-//! Liu, *A Cylindrical Surface Model to Rectify the Bound Document Image*, ICCV 2003, have the same
-//! model; they derive the bend from lines of text.) The closed form is the initial guess of the least-squares
-//! cylinder of both edges, the corners and prior knowledge; its residuals give the verdict.
+//! A page that is curled one way (a book's page, a letter that was rolled up) is a cylinder over some curve: its
+//! rulings are straight, parallel, and normal to the two edges that are bent. So one photo in which these edges are
+//! traced, with the page's corners at their ends, determines the surface: the corners are those of a plane rectangle,
+//! which gives the rulings' direction, and each traced point is the intersection of its line of sight with the plane of
+//! its edge. (Huaigu Cao, Xiaoqing Ding, Changsong Liu, *A Cylindrical Surface Model to Rectify the Bound Document
+//! Image*, ICCV 2003, have the same model; they derive the bend from lines of text.) The closed form is the initial
+//! guess of the least-squares cylinder of both edges, the corners and prior knowledge; its residuals give the verdict.
 //!
 //! ```
 //! use developable::dewarp::DewarpOptions;
@@ -48,8 +47,9 @@
 //! straight edges ([`Edges::All`]).
 //! Lenses are assumed to have no distortion.
 //!
-//! A page that is folded, crumpled or bent both ways is no cylinder. [`SheetPage`] finds it by its four edges and the lines of
-//! print between them as an isometric sheet that bends little; [`PageSurface`] takes the plainest model that explains them.
+//! A page that is folded, crumpled or bent both ways is no cylinder. [`SheetPage`] finds it by its four edges and the
+//! lines of print between them as an isometric sheet that bends little; [`PageSurface`] takes the plainest model that
+//! explains them.
 
 mod closed_form;
 mod corners;

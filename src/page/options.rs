@@ -1,39 +1,39 @@
-//! Options of finding a page: knowledge about the page and its camera.
+//! Options of the search for a page in a photo: what is known about the page and its camera.
 
-/// Knowledge about the camera's focal length.
+/// What is known about the camera's focal length.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 #[non_exhaustive]
 pub enum FocalLength {
-    /// Unknown: it is found from the perspective, if that is strong enough.
+    /// The focal length is not known: it is estimated from the perspective, if that is strong enough.
     #[default]
     Unknown,
-    /// Focal length in pixels of the photo.
+    /// The focal length is given in pixels of the photo.
     Pixels(f64),
     /// Field of view along the photo's longer side, in degrees.
     FieldOfView(f64),
-    /// Focal length in millimetres of a camera for 35 mm film (36 by 24 mm) with the same diagonal field of view: Exif's
-    /// `FocalLengthIn35mmFilm`. Its standard deviation is taken to be 2 %.
+    /// Focal length in millimetres of a camera for 35 mm film (36 by 24 mm) with the same diagonal field of view:
+    /// Exif's `FocalLengthIn35mmFilm`. Its standard deviation is taken to be 2 %.
     Film35(f64),
 }
 
-/// Knowledge about a page's size.
+/// What is known about a page's size: its paper format, its width and height, or their ratio.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 #[non_exhaustive]
 pub enum Format {
-    /// Unknown: the page's width is the unit of length.
+    /// The size is not known: the page's width is the unit of length.
     #[default]
     Unknown,
-    /// A4: 210 by 297 mm, upright or across, whichever is nearer to the edges.
+    /// A4: 210 by 297 mm, portrait or landscape, whichever is nearer to the traced edges.
     A4,
-    /// US letter: 8.5 by 11 inches, upright or across, whichever is nearer to the edges.
+    /// US letter: 8.5 by 11 inches, portrait or landscape, whichever is nearer to the traced edges.
     Letter,
     /// Width and height of a page, in millimetres.
     Millimetres([f64; 2]),
-    /// Height over width; the page's width is the unit of length.
+    /// Ratio of the page's height to its width; the page's width is the unit of length.
     Ratio(f64),
 }
 
-/// A known distance on the flat page.
+/// A known distance on the flat page, which sets the scale in millimetres.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Ruler {
     /// Position of the first end in the photo, in pixels.
@@ -57,14 +57,13 @@ pub struct PageOptions {
     /// The principal point, in pixels: in a photo that was cropped, the middle of the original one.
     /// Default: the photo's middle, with a standard deviation of 0.4 % of the diagonal.
     pub centre: Option<[f64; 2]>,
-    /// Standard deviation of the traced points from the edge, in pixels; if
-    /// the points scatter more, that counts. Default: 1/2500 of the photo's diagonal, 2 pixels of a
-    /// 12-megapixel photo.
+    /// Standard deviation of the traced points from the page's true edge, in pixels; if the points scatter more, the
+    /// observed scatter counts. Default: 1/2500 of the photo's diagonal, 2 pixels of a 12-megapixel photo.
     pub accuracy: Option<f64>,
 }
 
 impl PageOptions {
-    /// These options with another focal length.
+    /// Returns these options with another focal length of the camera.
     pub fn focal_length(self, focal_length: FocalLength) -> Self {
         PageOptions {
             focal_length,
@@ -72,12 +71,12 @@ impl PageOptions {
         }
     }
 
-    /// These options with another format.
+    /// Returns these options with another format of the page.
     pub fn format(self, format: Format) -> Self {
         PageOptions { format, ..self }
     }
 
-    /// These options with a ruler.
+    /// Returns these options with a known distance on the page.
     pub fn ruler(self, ruler: Ruler) -> Self {
         PageOptions {
             ruler: Some(ruler),
@@ -85,7 +84,7 @@ impl PageOptions {
         }
     }
 
-    /// These options with another principal point.
+    /// Returns these options with another principal point, in pixels.
     pub fn centre(self, centre: [f64; 2]) -> Self {
         PageOptions {
             centre: Some(centre),
@@ -93,7 +92,7 @@ impl PageOptions {
         }
     }
 
-    /// These options with another accuracy.
+    /// Returns these options with another standard deviation of the traced points, in pixels.
     pub fn accuracy(self, accuracy: f64) -> Self {
         PageOptions {
             accuracy: Some(accuracy),

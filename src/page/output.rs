@@ -1,4 +1,4 @@
-//! Outputs of a page: sizes, warp map and mesh.
+//! Outputs of a curled page: size of the flat page, warp map and mesh in space.
 
 use super::curled_page::CurledPage;
 use super::cylinder::SampledCurve;
@@ -7,10 +7,10 @@ use crate::error::{Error, Result, checked_cells, positive, try_filled};
 use crate::math::lanes;
 use crate::scene::mesh::Mesh;
 
-/// Maximum number of steps of Newton's method for a place on the page.
+/// Maximum number of steps of Newton's method for finding the place on the page that a pixel shows.
 const MAX_NEWTON_STEPS: usize = 30;
 
-/// Number of vertices of the mesh along a page's curve.
+/// Number of mesh vertices along one page's curve.
 const VERTICES_PER_CURVE: usize = 97;
 
 impl CurledPage {
@@ -20,17 +20,17 @@ impl CurledPage {
         self.size().map(|side| side * self.unit)
     }
 
-    /// Whether lengths are in millimetres.
+    /// Whether lengths of the flat page are in millimetres; otherwise in widths of a page.
     pub fn is_millimetres(&self) -> bool {
         self.millimetres
     }
 
-    /// Number of pages side by side.
+    /// Number of pages side by side: 1, or 2 for a spread.
     pub fn pages(&self) -> usize {
         self.cylinder.pages.len()
     }
 
-    /// Width and height of the flat page in the cylinder's unit.
+    /// Width and height of the flat page in the cylinder's unit, the width of the first page.
     pub(super) fn size(&self) -> [f64; 2] {
         let width = self.cylinder.pages.iter().map(|page| page.width).sum();
         if self.sideways {
@@ -40,15 +40,16 @@ impl CurledPage {
         }
     }
 
-    /// Projects a place on the flat page to the photo, in pixels; `from_left` and `from_top` are
-    /// shares of the page's sides. None if it is not in front of the camera.
+    /// Projects a place on the flat page to the photo, in pixels; `from_left` and `from_top` are shares of the page's
+    /// width and height. None if the place is not in front of the camera.
     pub fn photo_place(&self, [from_left, from_top]: [f64; 2]) -> Option<[f64; 2]> {
         let (along, down) = self.curve_shares([from_left, from_top]);
         let on = self.on_curve(&self.cylinder.curve(), along);
         self.cylinder.project(on, down * self.cylinder.length)
     }
 
-    /// Shares along the curve and along the rulings of a place on the flat page.
+    /// Converts a place on the flat page, in shares of its width and height, to shares of the curve's length and of the
+    /// rulings' length.
     pub(super) fn curve_shares(&self, [from_left, from_top]: [f64; 2]) -> (f64, f64) {
         if self.sideways {
             (from_top, 1.0 - from_left)
@@ -57,7 +58,7 @@ impl CurledPage {
         }
     }
 
-    /// Position on the curve at a share of all pages' width.
+    /// Point of the curve, in its plane, at a share of the total width of all pages.
     fn on_curve(&self, curve: &SampledCurve, share: f64) -> [f64; 2] {
         let pages = &self.cylinder.pages;
         let mut rest = share * pages.iter().map(|page| page.width).sum::<f64>();
@@ -70,18 +71,18 @@ impl CurledPage {
         curve.at(0, 0.0)
     }
 
-    /// Back-projects a pixel to the flat page, from its upper left corner, in the cylinder's unit. None if the pixel is not
-    /// on the page.
+    /// Back-projects a pixel to the flat page: returns its position in the cylinder's unit, from the upper left corner.
+    /// None if the pixel is not on the page.
     pub(super) fn flat_place(&self, pixel: [f64; 2]) -> Option<[f64; 2]> {
         let share = back_project(|at| self.photo_place(at), pixel)?;
         let size = self.size();
         Some([share[0] * size[0], share[1] * size[1]])
     }
 
-    /// The warp map of the flat page: the place in the photo of each of its pixels. `dots` are pixels per unit
-    /// of [`CurledPage::flat_size`], by default so many that the flat page has as many pixels as the photo has of it;
-    /// `trim` has no effect, because the page fills its image. The flat image is transparent where the page is outside of
-    /// the photo.
+    /// Computes the warp map of the flat page: for each pixel of the flat image its place in the photo. `dots` are
+    /// pixels per unit of [`CurledPage::flat_size`], by default as many as give the flat image the number of pixels
+    /// that the page covers in the photo; `trim` has no effect, because the page fills its image. The flat image is
+    /// transparent where the page is outside of the photo.
     ///
     /// # Errors
     /// [`Error::Option`] for a resolution that is not positive and finite, [`Error::TooLarge`] for an
@@ -116,9 +117,10 @@ impl CurledPage {
         ))
     }
 
-    /// Number of the photo's pixels that the page covers.
+    /// Area of the photo that the page covers, in pixels.
     fn seen_area(&self) -> f64 {
-        /// Number of quadrilaterals along each side of the page whose areas are summed.
+        /// Number of quadrilaterals along each side of the page by whose areas the page's area in the photo is
+        /// measured.
         const AREA_CELLS_PER_SIDE: usize = 16;
         let mut area = 0.0;
         for i in 0..AREA_CELLS_PER_SIDE * AREA_CELLS_PER_SIDE {
@@ -137,11 +139,10 @@ impl CurledPage {
         area.max(1.0)
     }
 
-    /// The page in space, with texture coordinates for the photo: 97 vertices along each page's
-    /// curve, squares of about the same size along its rulings, row by row from the upper left
-    /// corner. The axes are those of [`Intrinsics::back_project`](crate::Intrinsics::back_project):
-    /// x to the right, y up, z towards the viewer, the camera at the origin. So
-    /// [`sample`](crate::sample) with [`View::BestFit`](crate::View::BestFit) makes it a
+    /// Makes a mesh of the page in space, with texture coordinates for the photo: 97 vertices along each page's curve,
+    /// squares of about the same size along its rulings, row by row from the upper left corner. The axes are those of
+    /// [`Intrinsics::back_project`](crate::Intrinsics::back_project): x to the right, y up, z towards the viewer, the
+    /// camera at the origin. So [`sample`](crate::sample) with [`View::BestFit`](crate::View::BestFit) makes it a
     /// [`Heightfield`](crate::Heightfield).
     ///
     /// # Errors
@@ -185,8 +186,9 @@ impl CurledPage {
     }
 }
 
-/// Pixels of a flat image per unit of length, and its width and height in pixels: as `options` say, or so many that it has
-/// as many pixels as the photo has of the page, `seen_area`.
+/// Computes a flat image's resolution (pixels per unit of length) and its width and height in pixels from the page's
+/// `size`. The resolution is that of `options`, or by default the one that gives the image as many pixels as the page
+/// covers in the photo, `seen_area`.
 ///
 /// # Errors
 /// [`Error::Option`] for a resolution that is not positive and finite, [`Error::TooLarge`].
@@ -204,13 +206,13 @@ pub(super) fn flat_image_size(
     Ok((resolution, [width, height]))
 }
 
-/// Texture coordinates of a place in a photo of some width and height, all in pixels.
+/// Converts a place in a photo, in pixels, to texture coordinates; `photo` is the photo's width and height.
 pub(super) fn texture_coordinates([x, y]: [f64; 2], photo: [usize; 2]) -> [f32; 2] {
     let [width, height] = photo.map(|n| n as f64);
     [(x + 0.5) / width, 1.0 - (y + 0.5) / height].map(lanes::single)
 }
 
-/// The mesh of a grid of vertices in rows of `cols`, from the upper left corner.
+/// Makes a triangle mesh of a grid of vertices, which are given row by row from the upper left corner, `cols` in a row.
 pub(super) fn grid_mesh(positions: Vec<[f64; 3]>, uvs: Vec<[f32; 2]>, cols: usize) -> Result<Mesh> {
     let mut triangles = Vec::new();
     for row in 1..positions.len() / cols {
@@ -224,13 +226,13 @@ pub(super) fn grid_mesh(positions: Vec<[f64; 3]>, uvs: Vec<[f32; 2]>, cols: usiz
     Mesh::new(positions, triangles)?.with_uvs(uvs)
 }
 
-/// The place on a flat page, in shares of its sides, that the photo shows at a pixel: Newton's method from the nearest of a
-/// grid of places. None if the pixel is not on the page.
+/// Finds the place on a flat page, in shares of its width and height, that the photo shows at a pixel: by Newton's
+/// method from the nearest of a grid of initial places. None if the pixel is not on the page.
 pub(super) fn back_project(
     photo_place: impl Fn([f64; 2]) -> Option<[f64; 2]>,
     pixel: [f64; 2],
 ) -> Option<[f64; 2]> {
-    /// Number of initial places along each side of the page.
+    /// Number of initial places along each side of the page, from the nearest of which Newton's method starts.
     const INITIAL_PLACES_PER_SIDE: usize = 24;
     let off = |at: [f64; 2]| {
         let seen = photo_place(at)?;
@@ -247,7 +249,7 @@ pub(super) fn back_project(
     }
     let mut at = best.1;
     for _ in 0..MAX_NEWTON_STEPS {
-        /// Step of forward differences, as a share of a page's side.
+        /// Step of the forward differences in Newton's method, as a share of a page's side.
         const NEWTON_DIFFERENCE_STEP: f64 = 1e-6;
         let here = off(at)?;
         let [right, below] = [

@@ -1,27 +1,27 @@
-//! Prior knowledge about a page and its camera, as equations of least squares.
+//! Prior knowledge about a page and its camera, as residuals of the least-squares fit.
 
 use super::cylinder::Cylinder;
 
-/// Prior knowledge about a page: values with their standard deviations.
+/// Prior knowledge about a page and its camera: expected values with their standard deviations.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Prior {
-    /// Logarithm of the focal length in pixels, and its standard deviation.
+    /// Expected logarithm of the focal length in pixels, and its standard deviation.
     pub focal: Option<[f64; 2]>,
-    /// Logarithm of length over width, and its standard deviation.
+    /// Expected logarithm of the page's length along its rulings over its width, and its standard deviation.
     pub ratio: Option<[f64; 2]>,
-    /// Standard deviation of a traced point, in pixels.
+    /// Standard deviation of a traced point from the page's edge, in pixels.
     pub accuracy: f64,
 }
 
-/// Standard deviation of the first coefficient of the curve's direction, in radians; that of degree `k` is `1/k` of it. Keeps
-/// curves smooth between traced points.
+/// Prior standard deviation of the first-degree Legendre coefficient of the curve's direction, in radians; that of
+/// degree `k` is `1/k` of it. Keeps curves smooth between traced points.
 const CURVE_COEFFICIENT_DEVIATION: f64 = 1.0;
 
-/// Standard deviation of the angle by which print is turned on its page, in radians (half a degree).
+/// Prior standard deviation of the angle by which print is rotated on its page, in radians (half a degree).
 const PRINT_SKEW_DEVIATION: f64 = 0.0087;
 
-/// Residuals of the prior knowledge, in standard deviations, each with its derivatives by the numbers of the cylinder's
-/// parameters.
+/// Residuals of the prior knowledge at a cylinder, in standard deviations, each with its derivatives as pairs of a
+/// parameter's number and the derivative by it.
 pub(super) fn prior_rows(cylinder: &Cylinder, prior: &Prior) -> Vec<(f64, Vec<(usize, f64)>)> {
     let mut rows = Vec::new();
     if let Some([value, deviation]) = prior.focal {

@@ -1,28 +1,30 @@
-//! Reading of traced edges: checks, and a common order.
+//! Reading of traced edges and lines of text: checks them and brings them into a common order.
 
 use super::corners::{arrange, arrange_spread, check_sides};
 use super::edges::{Edges, Trace};
 use super::traced_line::{TracedLine, TracedPage, distance};
 use crate::error::{Error, Result};
 
-/// Number of points that a cubic Bézier curve is sampled at.
+/// Number of points at which each cubic Bézier curve of a trace is sampled.
 const BEZIER_SAMPLES: usize = 12;
 
-/// Maximum number of points of one edge.
+/// Maximum number of points of one traced edge; more are an error.
 const MAX_EDGE_POINTS: usize = 100_000;
 
-/// Minimum distance, in pixels, between the ends of an edge.
+/// Minimum distance, in pixels, between the two ends of a traced edge.
 const MIN_EDGE_LENGTH: f64 = 2.0;
 
-/// Ratio of the lengths of the path through an edge's points as given and as sorted, above which they are sorted.
+/// Ratio of the length of the polyline through an edge's points as given to that through the sorted points, above which
+/// the points are taken for disordered and are sorted.
 const DISORDER_LENGTH_RATIO: f64 = 1.5;
 
-/// Maximum distance of a traced point outside of the photo, as a share of the photo's diagonal.
+/// Maximum distance of a traced point outside of the photo, as a share of the photo's diagonal; points further away are
+/// an error.
 const MAX_OUTSIDE_SHARE: f64 = 0.05;
 
-/// Checks all traces and brings them into a common order: page by page from the curve's start. Returns whether the curve runs
-/// down the page, too. Lines of text are those that are given, page by page, and those that were found on the pages in
-/// their order from left to right.
+/// Checks all traces and brings them into a common order: page by page, from the start of the bent edges. Returns them,
+/// and whether the bent edges are the left and right ones. `text` are lines of text that the caller traced, `seen`
+/// those detected in the photo, both page by page; the latter from left to right.
 ///
 /// # Errors
 /// Those of [`CurledPage::with_lines`](super::CurledPage::with_lines) about edges and lines.
@@ -84,7 +86,8 @@ pub(super) fn read_traces(
 type Named<'a> = (&'static str, &'a Trace);
 
 impl Edges {
-    /// The two bent edges and, if there are, those along the first and the last ruling, with their names.
+    /// Returns the two bent edges and, if all four are given, the two straight ones at the start and the end, with
+    /// their names. `sideways` says that the left and right edges are bent.
     fn named(&self, sideways: bool) -> ([Named<'_>; 2], Option<[Named<'_>; 2]>) {
         match self {
             Edges::TopBottom { top, bottom } => ([("top", top), ("bottom", bottom)], None),
@@ -106,8 +109,8 @@ impl Edges {
     }
 }
 
-/// Whether the left and the right edges are the bent ones. Of pages with all four edges, the bent ones are those that are
-/// farther from straight in the photo.
+/// Whether the left and the right edges are the bent ones. Where all four edges are given, those that are farther from
+/// straight in the photo are bent.
 fn is_bent_sideways(pages: &[Edges]) -> Result<bool> {
     let mut bows = [0.0; 2];
     let mut told = Vec::new();
@@ -134,7 +137,7 @@ fn is_bent_sideways(pages: &[Edges]) -> Result<bool> {
     Ok(told.first().copied().unwrap_or(bows[1] > bows[0]))
 }
 
-/// Largest distance of a trace from its chord, as a share of the chord.
+/// Maximum distance of a trace's points from its chord, as a share of the chord's length.
 fn relative_bow(trace: &Trace) -> f64 {
     let points = match trace {
         Trace::Points(points) => points.clone(),
@@ -151,10 +154,10 @@ fn relative_bow(trace: &Trace) -> f64 {
         .fold(0.0, f64::max)
 }
 
-/// Name of lines of text among those of edges.
+/// Name of a line of text among the names of edges, in error messages.
 const TEXT_LINE_NAME: &str = "text";
 
-/// Description of an edge or a line of text in error messages.
+/// Description of the edge or line of text with this name, for error messages.
 fn described(name: &str) -> String {
     match name {
         TEXT_LINE_NAME => "a line of text".into(),
@@ -162,7 +165,7 @@ fn described(name: &str) -> String {
     }
 }
 
-/// Checks one trace and samples it.
+/// Checks one traced edge or line of text, and converts it to points.
 ///
 /// # Errors
 /// [`Error::Edges`], [`Error::NotFinite`], [`Error::TooLarge`].
@@ -252,7 +255,7 @@ fn read_line((name, trace): (&'static str, &Trace), photo: [usize; 2]) -> Result
     })
 }
 
-/// Sorts points by their positions along the chord if they are in disorder.
+/// Sorts points by their positions along their main direction if they are in disorder.
 fn sort_along_chord(points: &mut [[f64; 2]]) {
     let length =
         |points: &[[f64; 2]]| -> f64 { points.windows(2).map(|w| distance(w[0], w[1])).sum() };
@@ -281,7 +284,7 @@ fn sort_along_chord(points: &mut [[f64; 2]]) {
     }
 }
 
-/// Points on cubic Bézier curves.
+/// Samples cubic Bézier curves that follow each other, given by their control points.
 fn sample_beziers(control: &[[f64; 2]]) -> Vec<[f64; 2]> {
     let mut points = vec![control[0]];
     for start in (0..control.len() - 1).step_by(3) {

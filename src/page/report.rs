@@ -1,4 +1,4 @@
-//! Report and verdict of a page.
+//! Report on a page that was found in a photo: the verdict on its fit and the measures behind that.
 
 use super::cylinder::Cylinder;
 use super::error_estimate::ErrorEstimate;
@@ -15,24 +15,24 @@ use super::traces::{Residuals, Traces};
 )]
 #[non_exhaustive]
 pub enum PageVerdict {
-    /// Both edges are straight, and so are lines of text if they are known; only the perspective is
-    /// removed. The page was flat, or it is folded along these edges, which they do not show (the other two
-    /// edges do: [`Edges::All`](super::Edges::All)).
+    /// Both bent edges are straight, and so are lines of text if they are known; only the perspective is removed. The
+    /// page was flat, or it is folded along these edges, which they do not show (the other two edges do:
+    /// [`Edges::All`](super::Edges::All)).
     Flat,
-    /// The page was curled one way and is flat now, with lengths as on the page.
+    /// The page was curled in one direction and is flat now, with lengths as on the page.
     Unrolled,
-    /// The page may be right: too few points were traced, or one of the edges appears straight however the page
-    /// is bent, so that nothing checks the other one.
+    /// The flat page may be right, but nothing checks it: too few points were traced, or one of the edges appears
+    /// straight however the page is bent.
     Unchecked,
-    /// The expected error is above 1 % of the page's width, or the page hides a part of itself, or its
-    /// edges and lines disagree by about the accuracy of the traced points.
+    /// The flat page may be wrong: the expected error is above 1 % of the page's width, or the page hides a part of
+    /// itself, or its edges and lines disagree by about the accuracy of the traced points.
     Doubtful,
-    /// The edges, or the lines of text, cannot belong to a page that is curled one way only: the page is
+    /// The edges, or the lines of text, cannot belong to a page that is curled in one direction only: the page is
     /// folded, crumpled or bent both ways, or a line is traced wrongly. Measured depths are needed, or better traces.
     NotThisKind,
 }
 
-/// Model of a page's shape, from plain to free.
+/// Model of a page's shape, from the plainest to the most general.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[cfg_attr(
     feature = "serde",
@@ -41,17 +41,17 @@ pub enum PageVerdict {
 )]
 #[non_exhaustive]
 pub enum PageModel {
-    /// A plane, seen in perspective: a homography.
+    /// A plane seen in perspective: a homography maps it to the photo.
     Plane,
-    /// A cylinder over any curve: a page that is curled one way.
+    /// A cylinder over any curve: a page that is curled in one direction.
     Cylinder,
-    /// An isometric sheet of any shape: a page that is folded, or bent both ways.
+    /// An isometric sheet of any shape, bent without strain: a page that is folded, or bent both ways.
     Sheet,
-    /// A sheet that is strained a little: a crumpled page, whose wrinkles are too small to be seen in its outline.
+    /// A sheet that is slightly strained: a crumpled page, whose wrinkles are too small to be visible in its outline.
     SoftSheet,
 }
 
-/// Verdict and figures of a page that was found.
+/// Verdict on a page that was found in a photo, with the measures of its fit.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(
     feature = "serde",
@@ -60,112 +60,117 @@ pub enum PageModel {
 )]
 #[non_exhaustive]
 pub struct PageReport {
-    /// Whether the page can be trusted.
+    /// Whether the flat page can be trusted.
     pub verdict: PageVerdict,
-    /// Model of the page's shape.
+    /// Model that was fitted to the page's shape: plane, cylinder or sheet.
     pub model: PageModel,
     /// Expected displacement of points on the flat page: the root mean square after the best
     /// similarity, in % of a page's width.
     pub error: f64,
-    /// Displacement that is not exceeded in 95 of 100 cases if the page is curled one way and the lens does not distort (phones
-    /// correct it), in % of a page's width.
+    /// Displacement that is not exceeded in 95 of 100 cases if the page is curled in one direction and the lens does
+    /// not distort (phones correct it), in % of a page's width.
     pub error_bound: f64,
-    /// Focal length, in pixels of the photo.
+    /// Focal length of the camera, in pixels of the photo.
     pub focal_length: f64,
     /// Standard deviation of the focal length, in %.
     pub focal_deviation: f64,
-    /// Angle between the camera's axis and the normal of the page's chord, in degrees.
+    /// Angle between the camera's axis and the normal of the page's chord plane, in degrees.
     pub tilt: f64,
-    /// Range of the page's direction along its curve, in degrees: of the page that bends most.
+    /// Angle by which the page's tangent turns along its curve (largest minus smallest direction), in degrees; the
+    /// larger one of a spread's two pages.
     pub bend: f64,
-    /// Root mean square distance between the traced points and the edge that was found, in pixels: of
-    /// the edge that fits worst, or of all lines of text together.
+    /// Root mean square distance between the traced points and the page's model, in pixels: of the edge that fits
+    /// worst, or of all lines of text together.
     pub residual: f64,
-    /// Part of the residual that neighbouring points of an edge, or neighbouring lines of text, have in common, so that it is
-    /// not due to inaccurate tracing, in % of a page's width in the photo.
+    /// Part of the residual that is correlated between neighbouring points of an edge, or between neighbouring lines of
+    /// text, so that it is not due to inaccurate tracing; in % of a page's width in the photo.
     pub disagreement: f64,
-    /// Number of lines of text that the page was found by besides the edges, given and found ones.
+    /// Number of lines of text that the fit of the page used besides the edges, traced and detected ones.
     pub lines: usize,
-    /// Number of lines of text that were found in the photo.
+    /// Number of lines of text that were detected in the photo.
     pub lines_found: usize,
-    /// Number of lines found in the photo that the page was found by: all or none. If they contradict the edges, the page is
-    /// that of the edges, and only the verdict takes them into account.
+    /// Number of detected lines of text that the fit of the page used: all or none. If they contradict the edges, the
+    /// page is fitted to the edges alone, and only the verdict takes the lines into account.
     pub lines_used: usize,
-    /// Part of the distances of lines of text from the page that neighbouring lines have in common, in % of the page's width in
+    /// Part of the residual of lines of text that is correlated between neighbouring lines, in % of the page's width in
     /// the photo.
     pub lines_disagreement: f64,
-    /// Height over width of a page as the edges show it, without use of a format that was given.
+    /// Ratio of the page's height to its width as the edges show it, without use of a given format.
     pub ratio: f64,
 }
 
-/// Maximum expected error of a page that is not doubtful, as a share of the page's width.
+/// Maximum expected error of the flat page for a verdict other than `Doubtful`, as a share of the page's width.
 const MAX_TRUSTED_ERROR: f64 = 0.01;
 
-/// Minimum accuracy of traced points that residuals are compared with, as a share of a page's width in the photo: lens
-/// distortion, which is not modelled, moves points by about as much.
+/// Minimum standard deviation of traced points that residuals are compared with, as a share of a page's width in the
+/// photo: lens distortion, which is not modelled, moves points by about as much.
 const MIN_ACCURACY_SHARE: f64 = 0.0007;
 
-/// Maximum residual of an edge with many points, over the accuracy of traced points.
+/// Maximum root mean square residual of an edge with many points, as a multiple of the traced points' standard
+/// deviation.
 const MAX_EDGE_RESIDUAL: f64 = 1.3;
 
-/// Addition to the maximum residual of an edge, times the square root of its number of independent points: scatter of the
-/// residual by chance.
+/// Addition to [`MAX_EDGE_RESIDUAL`], times the square root of the edge's number of independent points: random scatter
+/// of the residual.
 const EDGE_RESIDUAL_SCATTER: f64 = 1.3;
 
-/// Maximum residual of lines of text, over that which is exceeded by chance once in a few thousand times.
+/// Maximum root mean square residual of lines of text, as a multiple of the residual that chance exceeds once in a few
+/// thousand times.
 const MAX_TEXT_RESIDUAL: f64 = 1.3;
 
-/// Maximum common residual of neighbouring points of an edge, over the accuracy, of a page that is curled one way.
+/// Maximum correlated residual of neighbouring points of an edge, as a multiple of the traced points' standard
+/// deviation; above it the page is not curled in one direction.
 const MAX_COMMON_RESIDUAL: f64 = 1.2;
 
-/// Maximum common residual of neighbouring points of an edge, over the accuracy, of a page that is not doubtful.
+/// Maximum correlated residual of neighbouring points of an edge, as a multiple of the traced points' standard
+/// deviation, for a verdict other than `Doubtful`.
 const MAX_TRUSTED_COMMON_RESIDUAL: f64 = 0.85;
 
-/// Ratio of the limits of the common residual of lines of text and of edges: the former is free of errors of tracing, which
-/// are independent from line to line, so that less of it is significant.
+/// Ratio of the limit for correlated residuals of lines of text to that of edges: the former contain no errors of
+/// tracing, which are independent from line to line, so that a smaller one is significant.
 const TEXT_COMMON_RESIDUAL_RATIO: f64 = 0.27;
 
-/// Minimum number of independent points of an edge, corners included, of a page that counts as checked.
+/// Minimum number of independent points of an edge, corners included, for a verdict other than `Unchecked`.
 const MIN_CHECKED_POINTS: f64 = 4.0;
 
-/// Maximum distance of an edge's points from its chord, in standard deviations of a traced point, of a straight edge.
+/// Maximum distance of a straight edge's points from its chord, in standard deviations of a traced point.
 const MAX_STRAIGHT_BOW: f64 = 3.0;
 
-/// Minimum distance of the more bent edge's points from its chord, over that of a straight edge, for which the other edge has
-/// to be bent, too.
+/// Minimum bow (largest distance from the chord) of the more bent edge, as a multiple of that of a straight edge, for
+/// which the other edge has to be bent, too.
 const MIN_CHECKED_BOW_RATIO: f64 = 4.0;
 
-/// Minimum distance of the other edge's points from its chord, in standard deviations of a traced point, for which it checks
-/// the more bent one.
+/// Minimum bow (largest distance from the chord) of the straighter edge, in standard deviations of a traced point, for
+/// it to check the more bent one.
 const MIN_CHECKING_BOW: f64 = 2.0;
 
-/// Quantile of the normal distribution that is exceeded once in a few thousand times.
+/// Quantile of the standard normal distribution that is exceeded once in a few thousand times.
 const CHANCE_QUANTILE: f64 = 3.4;
 
-/// Figures that a verdict is made of.
+/// Measures from which the verdict on a curled page is derived.
 pub(super) struct VerdictFigures {
     pub estimate: ErrorEstimate,
-    /// Statistics of the residuals along each edge.
+    /// Residual statistics of each edge.
     pub edges: Vec<ResidualStatistics>,
-    /// Statistics of the residuals along each line of text that was given.
+    /// Residual statistics of each line of text that the caller traced.
     pub text: Vec<ResidualStatistics>,
-    /// Covariance of the residuals of neighbouring lines of text, found ones included, in pixels².
+    /// Covariance of the residuals of neighbouring lines of text, detected ones included, in pixels².
     pub common: f64,
-    /// Standard deviation of a traced point that was assumed, in pixels.
+    /// Assumed standard deviation of a traced point, in pixels.
     pub accuracy: f64,
     /// Mean length of the edges' chords in the photo, in pixels.
     pub edge_length: f64,
-    /// Largest distances of the two edges from their chords in the photo, in pixels, the straighter edge last; if
-    /// lines of text run like the edges, the two largest of all.
+    /// Bows (largest distances from the chord) of the two edges in the photo, in pixels, the larger one first; if lines
+    /// of text run like the edges, the two largest bows of edges and lines.
     pub bow: [f64; 2],
-    /// Number of independent points of the edge with the fewest, corners included.
+    /// Number of independent points of the edge that has the fewest, corners included.
     pub fewest_points: f64,
-    /// Whether a part of the page is hidden by another.
+    /// Whether a part of the page hides another part from the camera.
     pub hidden: bool,
 }
 
 impl VerdictFigures {
-    /// The verdict on a page.
+    /// Derives the verdict on a page from the measures of its fit.
     pub fn verdict(&self) -> PageVerdict {
         let accuracy = self.accuracy.max(MIN_ACCURACY_SHARE * self.edge_length);
         let max_residual = MAX_EDGE_RESIDUAL + EDGE_RESIDUAL_SCATTER / self.fewest_points.sqrt();
@@ -211,14 +216,14 @@ impl VerdictFigures {
     }
 }
 
-/// Root mean square of `count` normally distributed errors, over its expectation, that is exceeded by chance once
-/// in a few thousand times (Wilson and Hilferty's quantile of chi-squared).
+/// Limit of the root mean square of `count` normally distributed errors of unit variance that chance exceeds once in a
+/// few thousand times (Wilson and Hilferty's quantile of chi-squared).
 fn chance_residual(count: f64) -> f64 {
     let part = 2.0 / (9.0 * count.max(1.0));
     (1.0 - part + CHANCE_QUANTILE * part.sqrt()).powf(1.5)
 }
 
-/// The report of a page that was found: its verdict, and the figures that this is made of.
+/// Makes the report on a curled page: the verdict and the measures of its fit.
 pub(super) fn report(
     cylinder: &Cylinder,
     pages: &[[TracedLine; 2]],

@@ -1,25 +1,27 @@
-//! Statistics of the distances of traced points from their line.
+//! Statistics of the residuals of a traced line: mean square, and correlation of neighbouring points.
 
-/// Correlation of neighbouring points' distances that is not significant, over the inverse square root of their number.
+/// Correlation of neighbouring residuals up to which it is insignificant, times the square root of their number.
 const INSIGNIFICANT_CORRELATION: f64 = 2.5;
 
-/// Maximum correlation of neighbouring points' distances: limits how much fewer independent errors there are.
+/// Maximum correlation of neighbouring residuals that is assumed; limits by how much they reduce the number of
+/// independent errors.
 const MAX_CORRELATION: f64 = 0.9;
 
-/// Statistics of the distances of traced points from their line, in pixels².
+/// Statistics of the residuals of one traced line, which are distances of its points from the model.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct ResidualStatistics {
-    /// Mean square of the distances.
+    /// Mean square of the residuals, in pixels².
     pub mean_square: f64,
-    /// Part of the mean square that independent points next to each other have in common (their covariance), which no
-    /// noise of single points explains; 0 if it is not significant.
+    /// Covariance of the residuals of neighbouring independent points, in pixels², which no noise of single points
+    /// explains; 0 if it is not significant.
     pub common: f64,
-    /// Number of independent points.
+    /// Number of independent points of the line.
     pub independent: f64,
 }
 
 impl ResidualStatistics {
-    /// Statistics of the distances of at least two points, in pixels, that count as a number of independent ones.
+    /// Computes the statistics of at least two residuals, `distances` in pixels, that count as `independent`
+    /// independent ones.
     pub fn new(distances: &[f64], independent: f64) -> Self {
         let count = distances.len();
         let mean_square = distances.iter().map(|d| d * d).sum::<f64>() / count as f64;
@@ -42,7 +44,7 @@ impl ResidualStatistics {
         }
     }
 
-    /// Statistics of several lines together.
+    /// Pools the statistics of several lines, weighted by their numbers of independent points. None for no lines.
     pub fn pooled(list: &[ResidualStatistics]) -> Option<ResidualStatistics> {
         let count: f64 = list.iter().map(|own| own.independent).sum();
         let mean = |of: fn(&ResidualStatistics) -> f64| {
@@ -58,7 +60,7 @@ impl ResidualStatistics {
         })
     }
 
-    /// Number of neighbouring points that have one error in common.
+    /// Number of neighbouring points that share one independent error, from their correlation.
     pub fn points_per_error(&self) -> f64 {
         let share = (self.common / self.mean_square.max(1e-12)).min(MAX_CORRELATION);
         (1.0 + share) / (1.0 - share)

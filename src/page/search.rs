@@ -1,4 +1,4 @@
-//! Search for the cylinder of the degree that the traces support.
+//! Search for the cylinder on which a page lies, with the degree of its curve that the traces support.
 
 use super::closed_form;
 use super::cylinder::Cylinder;
@@ -7,52 +7,58 @@ use super::prior::Prior;
 use super::traced_line::TracedLine;
 use super::traces::{Residuals, Traces};
 
-/// Degrees of the Legendre series of the curve's direction that are tried, each from the solution of the one before.
+/// Degrees of the polynomial series for the direction of a page's curve that are tried in turn, each from the solution
+/// for the previous one.
 const CURVE_DEGREES: [usize; 11] = [0, 1, 2, 3, 4, 5, 6, 8, 10, 12, 14];
 
-/// Range of the focal lengths of cameras, over the photo's longer side. A focal length that cannot be found is taken to be
-/// in this range.
+/// Smallest and largest typical focal length, as multiples of the photo's longer side. A focal length that cannot be
+/// determined is assumed to lie between them.
 const TYPICAL_FOCAL_RATIOS: [f64; 2] = [0.35, 4.0];
 
-/// Range of the focal lengths that a search starts from, over the photo's longer side.
+/// Smallest and largest focal length, as multiples of the photo's longer side, from which a search starts.
 const FOCAL_SEARCH_RATIOS: [f64; 2] = [0.2, 15.0];
 
-/// Maximum relative standard deviation of a focal length that sets the range of focal lengths that are tried.
+/// Maximum standard deviation of the logarithm of an undetermined focal length that is used for the range of focal
+/// lengths that are tried.
 const MAX_FOCAL_UNCERTAINTY: f64 = 10.0;
 
-/// Standard deviation of the logarithm of a focal length that is held.
+/// Standard deviation of the logarithm of a focal length that is held fixed in a fit.
 const HELD_FOCAL_DEVIATION: f64 = 1e-3;
 
-/// Number of degrees in a row that may be worse than the best one before the search ends.
+/// Number of successive degrees of the page's curve that may be worse than the best degree before the search ends.
 const MAX_WORSE_DEGREES: usize = 3;
 
-/// Degree of the curve at which the search starts again from the closed form, with its bend.
+/// Degree of the page's curve at which the search starts once more from the initial guess in closed form, beside the
+/// solution for the previous degree.
 const CLOSED_FORM_DEGREE: usize = 4;
 
-/// Error of traced points, in pixels, below which the information criterion does not tell degrees apart.
+/// Standard deviation of traced points, in pixels, that is added to the residuals in the information criterion, so that
+/// exact traces do not call for ever higher degrees.
 const MIN_CRITERION_ERROR: f64 = 0.05;
 
-/// Minimum number of distances more than parameters in the correction for few points of Akaike's criterion.
+/// Minimum number of observations in excess of parameters that is assumed in Akaike's information criterion, whose
+/// correction for few observations divides by it.
 const MIN_CRITERION_SPARE: f64 = 0.2;
 
-/// Minimum number of distances more than parameters of a curve that the traces support.
+/// Minimum number of observations in excess of parameters for which a degree of the page's curve is tried.
 const MIN_SPARE_DISTANCES: f64 = 2.0;
 
-/// Whether a focal length is one that is searched for, `longer` being the longer side of the photo in pixels.
+/// Whether a focal length, in pixels, is within the range from which a search starts; `longer` is the longer side of
+/// the photo in pixels.
 pub(super) fn is_searched(focal: f64, longer: f64) -> bool {
     (FOCAL_SEARCH_RATIOS[0] * longer..=FOCAL_SEARCH_RATIOS[1] * longer).contains(&focal)
 }
 
-/// Search for the cylinder that fits traces best.
+/// Search for the cylinder that fits the traced edges and lines of a page best.
 pub(super) struct CylinderSearch<'a> {
     pub pages: &'a [[TracedLine; 2]],
     pub traces: &'a Traces,
-    /// Principal point, in pixels.
+    /// Principal point of the camera, in pixels.
     pub centre: [f64; 2],
 }
 
 impl CylinderSearch<'_> {
-    /// The cylinder in closed form for a focal length, in pixels.
+    /// Computes the initial cylinder in closed form for a focal length in pixels.
     fn start(&self, focal: f64) -> Option<Cylinder> {
         let mut start = closed_form::cylinder(self.pages, self.centre, focal)?;
         if self.traces.text() > 0 {
@@ -61,8 +67,8 @@ impl CylinderSearch<'_> {
         Some(start)
     }
 
-    /// The error estimate of a page whose focal length cannot be found. None unless the page is nearly the same for all focal
-    /// lengths that are possible, as a flat page seen from straight above.
+    /// Extends the error estimate of a page whose focal length cannot be determined to all typical focal lengths. None
+    /// unless the flat page is nearly the same for all of them, as that of a page seen from straight above.
     pub(super) fn estimate_for_any_focal_length(
         &self,
         found: ErrorEstimate,
@@ -70,7 +76,7 @@ impl CylinderSearch<'_> {
         prior: &Prior,
         longer: f64,
     ) -> Option<ErrorEstimate> {
-        /// Maximum displacement, over a page's width, between the pages for two focal lengths that count as the same.
+        /// Maximum displacement, over a page's width, between the flat pages for two focal lengths that count as equal.
         const MAX_FOCAL_DISPLACEMENT: f64 = 0.01;
         let middle = cylinder.focal.clamp(
             TYPICAL_FOCAL_RATIOS[0] * longer,
@@ -100,7 +106,8 @@ impl CylinderSearch<'_> {
         })
     }
 
-    /// The best cylinder of all degrees that the traces support, from several initial focal lengths in pixels.
+    /// Finds the best cylinder of all degrees that the traces support, by an information criterion, from several
+    /// initial focal lengths in pixels. None if no fit succeeds.
     pub(super) fn best(&self, focal: &[f64], prior: &Prior) -> Option<(Cylinder, Residuals)> {
         let count = self.traces.count();
         let starts: Vec<Cylinder> = (focal.iter()).filter_map(|f| self.start(*f)).collect();

@@ -1,4 +1,4 @@
-//! The surface of a page in space by the plainest model that explains its edges and lines.
+//! Surface of a page in space, by the plainest model that explains its edges and lines in a photo.
 
 use super::curled_page::CurledPage;
 use super::edges::{Edges, Trace};
@@ -9,19 +9,19 @@ use crate::dewarp::{DewarpOptions, Photo, WarpMap};
 use crate::error::{Error, Result};
 use crate::scene::mesh::Mesh;
 
-/// The surface of a page in space: a cylinder or, of a page that is folded, crumpled or bent both ways, a sheet.
+/// The surface of a page in space: a cylinder or, for a page that is folded, crumpled or bent both ways, a sheet.
 #[derive(Debug, Clone)]
 #[non_exhaustive]
 pub enum PageSurface {
-    /// A page that is curled one way, or the two pages of a spread.
+    /// A page that is curled in one direction (a cylinder), or the two pages of a spread.
     Curled(CurledPage),
-    /// A page of any shape.
+    /// A page of any shape, as a nearly isometric sheet.
     Sheet(SheetPage),
 }
 
 impl PageSurface {
-    /// Finds the page whose edges are traced in a photo. The cylinder is tried first, as by [`CurledPage::in_photo`]; of one
-    /// page with all four edges that is none, [`SheetPage::in_photo`] takes the photo.
+    /// Finds the page whose edges are traced in a photo. A cylinder is tried first, by [`CurledPage::in_photo`]. If it
+    /// does not explain the page, and all four edges of one page are given, [`SheetPage::in_photo`] finds a sheet.
     ///
     /// # Errors
     /// Those of [`CurledPage::in_photo`] and [`SheetPage::in_photo`].
@@ -47,7 +47,7 @@ impl PageSurface {
         }
     }
 
-    /// Verdict and figures of the page.
+    /// Verdict on the page, with the measures of its fit.
     pub fn report(&self) -> &PageReport {
         match self {
             PageSurface::Curled(page) => page.report(),
@@ -63,7 +63,7 @@ impl PageSurface {
         }
     }
 
-    /// Whether lengths are in millimetres.
+    /// Whether lengths of the flat page are in millimetres; otherwise in widths of a page.
     pub fn is_millimetres(&self) -> bool {
         match self {
             PageSurface::Curled(page) => page.is_millimetres(),
@@ -71,7 +71,7 @@ impl PageSurface {
         }
     }
 
-    /// Lines that were found in the photo, for each page, as points in the photo's pixels.
+    /// Lines of text that were detected in the photo, a list for each page, as points in the photo's pixels.
     pub fn text(&self) -> &[Vec<Trace>] {
         match self {
             PageSurface::Curled(page) => page.text(),
@@ -79,7 +79,7 @@ impl PageSurface {
         }
     }
 
-    /// The warp map of the flat page.
+    /// Computes the warp map of the flat page: for each pixel of the flat image its place in the photo.
     ///
     /// # Errors
     /// Those of [`CurledPage::warp_map`].
@@ -90,7 +90,7 @@ impl PageSurface {
         }
     }
 
-    /// The page in space, with texture coordinates for the photo.
+    /// Makes a mesh of the page in space, with texture coordinates for the photo.
     ///
     /// # Errors
     /// Those of [`CurledPage::mesh`].
@@ -102,7 +102,7 @@ impl PageSurface {
     }
 }
 
-/// Whether a verdict says that the page is no cylinder, or hardly one.
+/// Whether a verdict says that a cylinder does not explain the page, or hardly does.
 fn is_untrusted(verdict: PageVerdict) -> bool {
     matches!(verdict, PageVerdict::NotThisKind | PageVerdict::Doubtful)
 }

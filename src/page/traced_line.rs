@@ -1,44 +1,43 @@
-//! Traced edges and lines of text in a common order.
+//! Traced edges and lines of text of a page, in a common order.
 
-/// A traced edge or line of text, from its start to its end along the page.
+/// A traced edge or line of text as points in the photo, in the direction of the page's order.
 #[derive(Debug, Clone)]
 pub(super) struct TracedLine {
-    /// Name in error messages.
+    /// Name of the edge in error messages.
     pub name: &'static str,
-    /// Points, in pixels, ends included.
+    /// Points of the trace, in the photo's pixels, ends included.
     pub points: Vec<[f64; 2]>,
-    /// Number of independent points.
+    /// Number of points with independent errors of tracing.
     pub independent: f64,
 }
 
-/// All traces of one page.
+/// All traced edges and lines of text of one page.
 #[derive(Debug, Clone)]
 pub(super) struct TracedPage {
-    /// The two bent edges, both from the curve's start to its end, so that the
-    /// corners lie clockwise in the photo.
+    /// The two bent edges, both in the same direction, so that the corners lie clockwise in the photo.
     pub pair: [TracedLine; 2],
-    /// The two straight edges, at the curve's start and at its end.
+    /// The two straight edges, at the start and at the end of the bent ones; None if they are not given.
     pub sides: Option<[TracedLine; 2]>,
-    /// Lines of text that were given.
+    /// Lines of text that the caller traced.
     pub text: Vec<TracedLine>,
-    /// Lines of text that were found in the photo.
+    /// Lines of text that were detected in the photo.
     pub found: Vec<TracedLine>,
 }
 
 impl TracedLine {
-    /// First and last point.
+    /// First and last point of the trace, in the photo's pixels.
     pub fn ends(&self) -> [[f64; 2]; 2] {
         [self.points[0], self.points[self.points.len() - 1]]
     }
 
-    /// Distance between the ends, in pixels.
+    /// Distance between the trace's first and last point, in pixels.
     pub fn chord(&self) -> f64 {
         let [from, to] = self.ends();
         distance(from, to)
     }
 }
 
-/// Distance between two points.
+/// Euclidean distance between two points.
 pub(super) fn distance(p: [f64; 2], q: [f64; 2]) -> f64 {
     (p[0] - q[0]).hypot(p[1] - q[1])
 }

@@ -1,4 +1,5 @@
-//! Traces of pages as data of least squares: residuals of a cylinder and their Jacobian.
+//! Traced edges and lines of pages as observations of a least-squares problem: a cylinder's residuals and their
+//! Jacobian.
 
 use nalgebra::{DMatrix, DVector};
 
@@ -10,57 +11,60 @@ use super::residual_statistics::ResidualStatistics;
 use super::traced_line::TracedPage;
 use crate::error::Result;
 
-/// A traced point of an edge.
+/// A traced point of a page's bent edge.
 #[derive(Debug, Clone, Copy)]
 struct TracedPoint {
     edge: usize,
     page: usize,
-    /// 0 or 1 for the corner at the page's start or end, which should be met; None for points that should
-    /// lie on the edge.
+    /// 0 or 1 for a corner at the start or the end of the edge, which the cylinder's corner should meet; None for a
+    /// point that should lie anywhere on the edge.
     corner: Option<f64>,
     at: [f64; 2],
     weight: f64,
 }
 
-/// All traces, thinned out and weighted: the data of least squares.
+/// All traced edges and lines of text of a photo, thinned out and weighted: the observations to which a page's cylinder
+/// is fitted.
 #[derive(Debug, Clone)]
 pub(super) struct Traces {
     points: Vec<TracedPoint>,
     crosses: CrossSections,
 }
 
-/// Residuals of a cylinder: distances of the traces from its projection.
+/// Residuals of a page's cylinder: distances in the photo between the traced points and the cylinder's projection.
 #[derive(Debug, Clone)]
 pub(super) struct Residuals {
-    /// Residual of each point of an edge.
+    /// Residual of each traced point of a bent edge.
     found: Vec<EdgeResidual>,
     crosses: Vec<LineResiduals>,
-    /// Sum of Huber's penalties, with that of prior knowledge: the objective of least squares.
+    /// Objective of the least-squares problem: sum of the Huber penalties of all residuals and of the squares of prior
+    /// knowledge.
     pub cost: f64,
 }
 
-/// Residual of a traced point of an edge.
+/// Residual of a traced point of a bent edge.
 #[derive(Debug, Clone, Copy)]
 struct EdgeResidual {
-    /// Share of the page's width at the nearest point of the edge.
+    /// Position of the nearest point along the cylinder's edge, as a share of the page's width.
     share: f64,
-    /// Unit normal of the edge at its nearest point, in the photo.
+    /// Unit normal of the projected edge at the nearest point.
     normal: [f64; 2],
-    /// Distance across the edge and, of corners, along it, in pixels.
+    /// Distance from the projected edge, in pixels: across the edge and, only for a corner, along it.
     distance: [f64; 2],
-    /// Huber's weight: 1, or less for an outlier.
+    /// Huber weight of the point: 1, or less for an outlier.
     trust: f64,
 }
 
-/// Approximate maximum number of points of each edge that are used.
+/// Approximate maximum number of points of each traced edge that the fit uses.
 const MAX_POINTS_PER_EDGE: usize = 300;
 
-/// Maximum number of independent points that an edge counts as: errors of one hand, or of one algorithm, continue along the
-/// edge.
+/// Maximum number of independent points that one edge counts as: errors of one hand, or of one algorithm, are
+/// correlated along the edge.
 const MAX_INDEPENDENT_POINTS: f64 = 60.0;
 
 impl Traces {
-    /// The data of least squares from all traces.
+    /// Collects the observations of the least-squares problem from the traces of all pages. `sideways` says that the
+    /// left and right edges are bent.
     ///
     /// # Errors
     /// [`Error::Edges`](crate::Error::Edges) for lines of text beside their page.
@@ -94,18 +98,18 @@ impl Traces {
         Ok(Traces { points, crosses })
     }
 
-    /// Number of lines of text.
+    /// Number of lines of text, traced and detected.
     pub fn text(&self) -> usize {
         self.crosses.text
     }
 
-    /// Number of independent distances: the sum of their weights.
+    /// Number of independent observations in all traces: the sum of their weights.
     pub fn count(&self) -> f64 {
         let own = |p: &TracedPoint| p.weight * if p.corner.is_some() { 2.0 } else { 1.0 };
         self.points.iter().map(own).sum::<f64>() + self.crosses.count()
     }
 
-    /// Residuals of a cylinder. None if part of it is not in front of the camera.
+    /// Computes the residuals of a page's cylinder. None if part of it is not in front of the camera.
     pub fn residuals(&self, cylinder: &Cylinder, prior: &Prior) -> Option<Residuals> {
         let curve = cylinder.curve();
         let edges = self.edges(cylinder, &curve)?;
@@ -156,9 +160,9 @@ impl Traces {
         })
     }
 
-    /// Jacobian of the weighted distances by the parameters (central differences), and these distances; the rows of
-    /// prior knowledge come last. Nearest points are held, because moving along the edge
-    /// changes no distance.
+    /// Computes the Jacobian of the weighted residuals by the cylinder's parameters (central differences), and these
+    /// residuals; the rows of prior knowledge come last. Nearest points on the edges stay the same, because moving
+    /// along an edge changes no distance.
     pub fn jacobian(
         &self,
         cylinder: &Cylinder,
@@ -218,8 +222,8 @@ impl Traces {
         Some((matrix, values))
     }
 
-    /// Statistics of the distances along each edge, the bent ones first, along each line of text that
-    /// was given, and along each that was found.
+    /// Residual statistics in three lists: of each edge (the bent ones first), of each traced line of text, and of each
+    /// detected line of text.
     pub fn statistics(&self, residuals: &Residuals) -> [Vec<ResidualStatistics>; 3] {
         let mut edges = Vec::new();
         let key = |p: &TracedPoint| (p.page, p.edge);
@@ -242,8 +246,7 @@ impl Traces {
         [edges, given, found]
     }
 
-    /// Covariance of the distances of neighbouring lines of text, in pixels²; 0 if it is not significantly above that of
-    /// errors of tracing.
+    /// Covariance of the residuals of neighbouring lines of text, in pixels²; 0 if it is not significant.
     pub fn common(&self, residuals: &Residuals) -> f64 {
         let (product, count) = self.crosses.covariance(&residuals.crosses);
         let [_, given, found] = self.statistics(residuals);
@@ -259,7 +262,7 @@ impl Traces {
         }
     }
 
-    /// The weighted sum of squares of the distances, in pixels².
+    /// Weighted sum of squares of all residuals, in pixels².
     pub fn squares(&self, residuals: &Residuals) -> f64 {
         let edges: f64 = (self.points.iter().zip(&residuals.found))
             .map(|(p, found)| {
@@ -270,8 +273,8 @@ impl Traces {
         edges + self.crosses.squares(&residuals.crosses)
     }
 
-    /// Largest distance from the chord, in the photo, of each bent edge and of each line of text that runs like them, in
-    /// pixels.
+    /// Bow (largest distance from the chord) in the photo, in pixels, of each bent edge of the cylinder, and of each
+    /// line of text that runs like these. None if the cylinder is not in front of the camera.
     pub fn bows(&self, cylinder: &Cylinder) -> Option<Vec<f64>> {
         let mut bows = [0.0f64; 2];
         for pair in self.edges(cylinder, &cylinder.curve())? {
@@ -290,12 +293,12 @@ impl Traces {
         Some(bows)
     }
 
-    /// Number of rows of the traces in the Jacobian.
+    /// Number of rows that the observations take in the Jacobian.
     pub fn rows(&self) -> usize {
         2 * self.points.len() + self.crosses.rows()
     }
 
-    /// Jacobian of the weighted distances by the principal point.
+    /// Computes the Jacobian of the weighted residuals by the two coordinates of the principal point.
     pub fn principal_point_jacobian(
         &self,
         cylinder: &Cylinder,
@@ -324,8 +327,8 @@ impl Traces {
         Some(matrix)
     }
 
-    /// Number of neighbouring points that have one error in common, from the correlation of their
-    /// distances.
+    /// Number of neighbouring points that share one independent error, from the correlation of their residuals; the
+    /// largest over edges and lines of text.
     pub fn points_per_error(&self, residuals: &Residuals) -> f64 {
         // The largest of edges and of lines of text: a short line does not show all of the correlation.
         (self.statistics(residuals).iter())
@@ -334,7 +337,8 @@ impl Traces {
             .fold(1.0, f64::max)
     }
 
-    /// Nodes of both edges of each page, projected to pixels.
+    /// Projects the nodes of both bent edges of each page's cylinder to pixels. None if a node is not in front of the
+    /// camera.
     fn edges(&self, cylinder: &Cylinder, curve: &SampledCurve) -> Option<Vec<[Vec<[f64; 2]>; 2]>> {
         let edge = |page: usize, down: f64| -> Option<Vec<[f64; 2]>> {
             (0..=CURVE_PIECES)
@@ -346,7 +350,8 @@ impl Traces {
             .collect()
     }
 
-    /// Projects the point of an edge at a share of the page's width.
+    /// Projects a point of the cylinder to pixels: on the edge to which the traced point `point` belongs, at a share of
+    /// the page's width. None if it is not in front of the camera.
     fn project(
         &self,
         of: &Cylinder,
@@ -358,13 +363,15 @@ impl Traces {
     }
 }
 
-/// Minimum covariance of neighbouring lines, in its standard deviations, that is significant.
+/// Minimum covariance between the residuals of neighbouring lines of text that counts as significant, in standard
+/// deviations of this covariance.
 const MIN_COVARIANCE_DEVIATIONS: f64 = 3.0;
 
-/// Minimum number of independent points for a significant covariance.
+/// Minimum number of independent points for the covariance of neighbouring lines' residuals to be significant.
 const MIN_COVARIANCE_POINTS: f64 = 8.0;
 
-/// Share of the page's width at the nearest point of an edge, and the number of its piece.
+/// Finds the point of a projected edge that is nearest to the point `at`: returns its share of the page's width, and
+/// the number of the edge's piece.
 fn nearest(nodes: &[[f64; 2]], at: [f64; 2]) -> (f64, usize) {
     let mut best = (f64::INFINITY, 0.0, 0);
     for (i, w) in nodes.windows(2).enumerate() {
@@ -380,7 +387,7 @@ fn nearest(nodes: &[[f64; 2]], at: [f64; 2]) -> (f64, usize) {
     (best.1, best.2)
 }
 
-/// Difference of two points.
+/// Vector from point `q` to point `p`.
 fn difference(p: [f64; 2], q: [f64; 2]) -> [f64; 2] {
     [p[0] - q[0], p[1] - q[1]]
 }

@@ -31,7 +31,7 @@ pub(super) enum Assembly {
     Cut(Box<Parts>, Vec<(u32, String)>),
 }
 
-/// All sheets with their positions on the plane.
+/// All sheets of a pattern, with the positions of their patches in the plane.
 pub(super) struct Assembled {
     pub parts: Parts,
     pub patches: Patches,
@@ -39,13 +39,14 @@ pub(super) struct Assembled {
     pub arrangement: Arrangement,
 }
 
-/// Stopping criteria for relaxing a sheet whose patches start near their final positions.
+/// Stopping criteria of the solver that lays a sheet flat when its patches start near their final positions.
 const SHEET_SETTLING: StoppingCriteria = StoppingCriteria {
     max_steps: 12,
     ..SHEET_RELAXATION
 };
 
-/// Joins parts to sheets as far as their sides fit, the strain stays within the limit and outlines stay simple.
+/// Joins parts of the surface to flat sheets, as far as the sides of their common seams fit, the strain stays
+/// within the limit and the sheets' outlines do not cross themselves.
 pub(super) fn assemble_sheets(
     parts: Parts,
     patches: &Patches,
@@ -88,7 +89,7 @@ pub(super) fn assemble_sheets(
     Ok(Assembly::Cut(Box::new(parts), wrong))
 }
 
-/// Result of laying sheets flat.
+/// Result of laying all sheets flat.
 pub(super) enum Settled {
     /// Folds of invalid sheets were opened; the patches that are invalid even so, and why.
     Opened(Vec<(u32, String)>),
@@ -147,7 +148,7 @@ pub(super) fn settle(
     Ok(Settled::Opened(wrong))
 }
 
-/// The few vertices of one part whose removal would make a sheet valid.
+/// Finds the few vertices of one part whose removal would make an invalid sheet valid.
 fn removable_vertices(parts: &Parts, net: &SeamGraph, fault: &Fault) -> Option<(u32, Vec<usize>)> {
     let (troubled, trouble) = fault.troubled(parts.options.max_strain)?;
     troubled.iter().find_map(|part| {
@@ -264,7 +265,8 @@ pub(super) fn draw_sheets(surface: &Heightfield, whole: &Assembled) -> Result<Pa
     })
 }
 
-/// Vertices and area of the surface that were left out, and its steps.
+/// Computes how many vertices and how much area of the surface are on no sheet, and the number and area of the
+/// surface's steps.
 fn missing(surface: &Heightfield, whole: &Assembled) -> Result<Missing> {
     let net = &whole.net;
     let torn = (0..net.seams.len()).filter(|seam| net.is_torn(*seam));

@@ -9,21 +9,23 @@ use crate::unroll::arap_mesh::{ArapMesh, BarycentricPoint, StoppingCriteria};
 use crate::unroll::flat_triangle::Point;
 use crate::unroll::overlap::crossings;
 
-/// Maximum seam gap, in spacings, at which the sides of a fold count as joined, so that nothing is relaxed. No table
-/// chose it.
+/// Maximum seam gap, in lattice spacings, at which the two sides of a fold count as coincident, so that the sheet
+/// is not laid flat again. No table chose it.
 const MAX_JOINED_GAP_SPACINGS: f64 = 0.05;
 
-/// Number of nodes at an end of a seam that are not tied to the other side where three patches meet: if more than
-/// three meet, the position of the node is inexact.
+/// Number of points at an end of a seam that are not joined to the other side where three patches meet: if more
+/// than three meet, the position of the meeting point is inexact.
 const UNTIED_END_NODES: usize = 1;
 
-/// Whether the sides of all folds coincide already, so that the sheet need not be relaxed.
+/// Returns whether the two sides of every fold of a sheet coincide already, so that the sheet need not be laid flat
+/// again.
 pub(super) fn are_close(net: &SeamGraph, layout: &Layout, folded: &[usize]) -> bool {
     let mut folded = folded.iter();
     folded.all(|seam| seam_gap(net, layout, *seam) <= MAX_JOINED_GAP_SPACINGS * net.spacing)
 }
 
-/// The patches of a sheet as one mesh, in which the two sides of each fold are tied to each other.
+/// The patches of a sheet as one triangle mesh, in which points on the two sides of each fold are constrained to
+/// coincide.
 pub(super) struct Tied {
     patches: Vec<u32>,
     /// Number of the first vertex of each patch.
@@ -62,8 +64,8 @@ impl Tied {
         })
     }
 
-    /// Relaxes the sheet from the current positions of its patches, and resets their motions. Returns the cost:
-    /// number of steps times number of vertices.
+    /// Moves the sheet's vertices to positions of less strain, starting from the current positions of its patches,
+    /// and resets the patches' rigid motions. Returns the cost: number of iterations times number of vertices.
     pub(super) fn relax(
         &mut self,
         net: &mut SeamGraph,
@@ -83,8 +85,8 @@ impl Tied {
     }
 }
 
-/// Pairs of points that the folds tie to each other, each point as a weighted mean of vertices; `starts` holds the
-/// number of each patch's first vertex.
+/// Lists the pairs of points on the two sides of folds that have to coincide, each point as a weighted mean of
+/// vertices; `starts` holds the number of each patch's first vertex.
 pub(super) fn ties(
     net: &SeamGraph,
     patches: &[u32],
@@ -118,7 +120,7 @@ pub(super) fn ties(
     ties
 }
 
-/// Strain of the triangles beside a seam, on both of its sides.
+/// Computes the strain (root mean square) of the triangles beside a seam, on both of its sides.
 pub(super) fn strain_along(net: &SeamGraph, seam: usize) -> f64 {
     let seam = &net.seams[seam];
     let sides = seam.patches.iter().filter_map(|patch| {
@@ -144,7 +146,7 @@ pub(super) fn strains(net: &SeamGraph, patches: &[u32]) -> (Strain, Vec<(u32, St
     (sum, all)
 }
 
-/// The first point where closed lines cross each other or themselves.
+/// Finds the first point where closed polylines cross each other or themselves.
 pub(super) fn crossing(lines: &[Vec<Point>]) -> Option<Point> {
     let (mut places, mut edges) = (Vec::new(), Vec::new());
     for line in lines {

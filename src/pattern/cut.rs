@@ -150,7 +150,7 @@ impl Labels {
     }
 }
 
-/// A vertex of a part: its position, its normal and its squared strain.
+/// A vertex of the part that is cut: its position seen from above, its normal and its squared strain.
 struct Sample {
     place: [f64; 2],
     normal: Vector3<f64>,

@@ -10,7 +10,7 @@ use crate::heights::heightfield::Heightfield;
 #[derive(Debug, Clone, PartialEq, Default)]
 #[non_exhaustive]
 pub struct Faces {
-    /// Position of each vertex on the surface.
+    /// Position of each vertex on the surface in space.
     pub built: Vec<[f64; 3]>,
     /// Position of each vertex on the flat sheet.
     pub flat: Vec<[f64; 2]>,

@@ -10,7 +10,7 @@ use crate::error::rounded;
 use crate::unroll::arap_mesh::StoppingCriteria;
 use crate::unroll::flat_triangle::Point;
 
-/// Stopping criteria for laying the patches of a sheet flat together.
+/// Stopping criteria of the solver that lays the patches of a sheet flat together.
 pub(super) const SHEET_RELAXATION: StoppingCriteria = StoppingCriteria {
     tolerance: 1e-8,
     target_energy: 0.0,
@@ -29,8 +29,9 @@ pub(super) enum Fault {
 }
 
 impl Fault {
-    /// The parts that have the fault, and the fault as [`removable_vertices`](super::trim::removable_vertices)
-    /// takes it; `None` for an outline that crosses itself, which belongs to no part.
+    /// Returns the parts that have this fault, and the fault in the form that
+    /// [`removable_vertices`](super::trim::removable_vertices) takes; `None` for an outline that crosses itself,
+    /// which belongs to no single part.
     pub(super) fn troubled(&self, limit: f64) -> Option<(&[u32], Trouble)> {
         match self {
             Fault::Strain(_, parts) => Some((parts, Trouble::Strain(limit))),
@@ -58,8 +59,8 @@ pub(super) fn folds_of(net: &SeamGraph, layout: &Layout, members: &[u32]) -> Vec
     (0..net.seams.len()).filter(own).collect()
 }
 
-/// The first fault of a sheet: of its strain above `limit`, flipped triangles and a self-intersection of its
-/// outline, in this order; `None` for a valid sheet.
+/// Checks a sheet and returns its first fault: strain above `limit`, flipped triangles, or a self-intersection of
+/// its outline, in this order; `None` for a valid sheet.
 pub(super) fn fault(
     net: &SeamGraph,
     layout: &Layout,

@@ -24,7 +24,7 @@ use crate::shape::patches::{NO_PATCH, Patches};
 /// Maximum number of vertices of a surface that is cut without a coarse lattice first.
 const MAX_DIRECT_VERTICES: usize = 12_000;
 
-/// A surface and its patches on every second vertex of a lattice.
+/// A surface and its patches, sampled at every second vertex of the lattice on which the surface is given.
 pub(super) struct Coarse {
     pub surface: Heightfield,
     pub patches: Patches,
@@ -64,7 +64,8 @@ impl Coarse {
     }
 }
 
-/// Index of the fine vertex at a coarse one.
+/// Converts the index of a vertex of the coarse lattice to the index of the vertex of the fine lattice at the same
+/// place.
 fn on_fine(coarse: &Lattice, fine: &Lattice, i: usize) -> Option<usize> {
     let (row, col) = fine_vertex(i / coarse.cols(), i % coarse.cols());
     fine.contains(row, col)
@@ -167,7 +168,7 @@ pub(super) fn refine_sheets(
     }
 }
 
-/// The new number of each part, from the old numbers in their new order.
+/// Inverts a permutation of parts: from the old numbers in their new order, the new number of each part.
 fn inverse(order: &[usize]) -> Vec<u32> {
     let mut numbers = vec![0; order.len()];
     for (number, old) in order.iter().enumerate() {
@@ -176,8 +177,9 @@ fn inverse(order: &[usize]) -> Vec<u32> {
     numbers
 }
 
-/// The part of each vertex of the fine lattice, and the patch of each part. Regions that no coarse part
-/// reaches become parts of their own; vertices left out on the coarse lattice stay so.
+/// Transfers labels from the coarse lattice to the fine one: returns the part of each fine vertex, and the patch of
+/// each part. Regions that no coarse part reaches become parts of their own; vertices left out on the coarse
+/// lattice stay so.
 fn transfer_labels(
     surface: &Heightfield,
     patches: &Patches,
@@ -256,7 +258,7 @@ fn placed(parts: &Parts, part: usize, rough: &Assembled) -> Result<Option<FlatPa
     )
 }
 
-/// Makes folds of those seams of the fine lattice that are folds on the coarse one.
+/// Joins the two sides of those seams of the fine lattice that are folds on the coarse lattice.
 fn fold_alike(net: &mut SeamGraph, layout: &mut Layout, order: &[usize], rough: &Assembled) {
     // For each pair of parts: the positions of the nodes between them, and whether the node is on a fold.
     let mut nodes: BTreeMap<[usize; 2], Vec<([f64; 2], bool)>> = BTreeMap::new();

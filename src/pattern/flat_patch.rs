@@ -16,7 +16,8 @@ use crate::shape::patches::extrapolate::extrapolated_height;
 use crate::unroll::flat_triangle::{FlatTriangle, Point};
 use crate::unroll::{UnrollOptions, unroll_mesh};
 
-/// Distance in space between the sides of a seam, in spacings, above which the seam is a tear.
+/// Distance in space between the two sides of a seam, in lattice spacings, above which the surface counts as torn
+/// there.
 pub(super) const MIN_TEAR_GAP_SPACINGS: f64 = 0.5;
 
 /// Minimum number of vertices of a part that may be cut further.
@@ -25,23 +26,25 @@ pub(super) const MIN_CUT_VERTICES: usize = 24;
 /// A patch, extended one cell beyond its creases and laid flat by itself.
 pub(super) struct FlatPatch {
     mesh: Triangulation,
-    /// Positions of the vertices after the patch was laid flat by itself; `places` holds their current positions.
+    /// Flat positions of the vertices from when the patch was laid flat by itself; `None` while these are also the
+    /// current ones, which are in `places`.
     alone: Vec<Point>,
     places: Vec<Point>,
-    /// Whether the patch was not laid flat on this lattice yet.
+    /// Whether the patch still has to be laid flat on this lattice: its positions come from a coarser one.
     rough: bool,
     window: Window,
     /// Whether each vertex belongs to the patch, and not to a neighbour.
     own: Vec<bool>,
 }
 
-/// Area, squared strain and flipped triangles of a layout.
+/// Strain of a flat layout: the area of its triangles, the integral of the squared strain, and the number of
+/// flipped triangles.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(super) struct Strain {
     pub area: f64,
     /// Squared strains, integrated over the area.
     pub squares: f64,
-    /// Number of triangles that lie upside down.
+    /// Number of triangles that lie upside down in the layout.
     pub flipped: usize,
 }
 
@@ -170,7 +173,7 @@ impl FlatPatch {
         Ok(Some((mesh, own)))
     }
 
-    /// Whether the patch was not laid flat on this lattice yet.
+    /// Returns whether the patch still has to be laid flat on this lattice: its positions come from a coarser one.
     pub(super) fn is_rough(&self) -> bool {
         self.rough
     }
@@ -192,7 +195,8 @@ impl FlatPatch {
         self.places = places;
     }
 
-    /// Positions of the vertices after the patch was laid flat by itself; `None` if they are still there.
+    /// Returns the flat positions of the vertices from when the patch was laid flat by itself; `None` if these are
+    /// still the current ones.
     pub(super) fn moved_from(&self) -> Option<Vec<Point>> {
         (self.alone != self.places).then(|| self.alone.clone())
     }
@@ -207,8 +211,8 @@ impl FlatPatch {
         self.size() < MIN_CUT_VERTICES
     }
 
-    /// Triangles of the patch, each in its own plane, with the numbers of its corners. A triangle with only one
-    /// corner of the patch is left out, unless there are no others.
+    /// Returns the triangles of the patch, each in a plane of its own, with the numbers of their corners. A
+    /// triangle with only one corner that belongs to the patch is left out, unless there are no others.
     pub(super) fn pieces(&self) -> impl Iterator<Item = (FlatTriangle, [u32; 3])> + '_ {
         let mesh = &self.mesh;
         let inside = |corners: &[u32; 3]| {
@@ -224,7 +228,7 @@ impl FlatPatch {
         })
     }
 
-    /// All triangles of the patch in their own planes, with the numbers of their corners.
+    /// Returns all triangles of the extended patch, each in a plane of its own, with the numbers of their corners.
     pub(super) fn all_pieces(&self) -> impl Iterator<Item = (FlatTriangle, [u32; 3])> + '_ {
         let mesh = &self.mesh;
         mesh.triangles().iter().map(|corners| {
@@ -238,7 +242,7 @@ impl FlatPatch {
         self.strain_of(|_| true)
     }
 
-    /// Strain of the triangles with at least one of the wanted corners.
+    /// Computes the strain of those triangles that have at least one of the wanted vertices as a corner.
     pub(super) fn strain_of(&self, wanted: impl Fn(u32) -> bool) -> Strain {
         let mut sum = Strain::default();
         for (piece, corners) in self.pieces().filter(|(piece, _)| piece.exists()) {
@@ -327,8 +331,8 @@ impl FlatPatch {
     }
 }
 
-/// Completes the positions of a mesh's vertices from some known ones: each triangle with two known corners
-/// determines the third. `None` if a vertex cannot be reached.
+/// Completes the flat positions of a mesh's vertices from some known positions: in each triangle two known corners
+/// determine the third. `None` if a vertex cannot be reached.
 fn spread(mesh: &Triangulation, mut known: Vec<Option<Point>>) -> Option<Vec<Point>> {
     let mut missing = known.iter().filter(|place| place.is_none()).count();
     while missing > 0 {

@@ -8,7 +8,7 @@ use rustc_hash::FxHashMap;
 /// to. A patch that cannot lie flat in one piece is cut into several parts.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Labels {
-    /// Number of the part of each vertex.
+    /// Number of the part that each vertex of the lattice belongs to.
     pub of: Vec<u32>,
     /// Number of the patch that each part was cut from.
     pub origins: Vec<u32>,

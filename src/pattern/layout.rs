@@ -4,7 +4,7 @@ use super::outline::{Layout, Motion};
 use super::seam_graph::{NEGLIGIBLE_GAP_LENGTHS, SeamGraph};
 use crate::math::planar::polyline_length;
 
-/// Positions of all patches, and the sheets that they are on.
+/// Rigid motions of all patches in the plane, and the sheets that the patches are on.
 pub(super) struct Arrangement {
     pub layout: Layout,
     /// Numbers of the patches of each sheet, ascending.
@@ -58,7 +58,7 @@ pub(super) fn arrange_patches(net: &SeamGraph, gap: f64) -> Arrangement {
     Arrangement { layout, sheets }
 }
 
-/// Numbers of the seams that may be closed, the longest first.
+/// Returns the numbers of the seams that may be closed, the longest seam first.
 pub(super) fn longest_first(net: &SeamGraph) -> Vec<usize> {
     let long = |seam: &usize| polyline_length(&net.seams[*seam].sides[0]);
     let whole = |seam: &usize| {
@@ -76,7 +76,7 @@ pub(super) fn motion_to_join(net: &SeamGraph, layout: &Layout, seam: usize) -> M
     Motion::between(&here, &there)
 }
 
-/// Whether the gap of a seam is at most `gap` times its length, or below the lattice's resolution.
+/// Returns whether the gap of a seam is at most `gap` times the seam's length, or below the lattice's resolution.
 pub(super) fn fits(net: &SeamGraph, layout: &Layout, seam: usize, gap: f64) -> bool {
     let most = gap * polyline_length(&net.seams[seam].sides[0]);
     seam_gap(net, layout, seam) <= most.max(NEGLIGIBLE_GAP_LENGTHS * net.spacing)

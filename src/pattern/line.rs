@@ -66,9 +66,9 @@ pub(super) fn simplify_ring(points: &[Point], tolerance: f64) -> Vec<Point> {
     out
 }
 
-/// Restores corners that were cut off: a segment shorter than `short` between two segments of more than three times
-/// `short` is replaced by the intersection of these, if that is within `short` of both its ends. A `closed` line
-/// continues from its last point to its first.
+/// Restores corners of a polyline that were cut off: a segment shorter than `short` between two segments of more
+/// than three times `short` is replaced by the intersection of the two, if that is within `short` of both ends of
+/// the short segment. A `closed` polyline continues from its last point to its first.
 pub(super) fn restore_corners(points: &[Point], short: f64, closed: bool) -> Vec<Point> {
     let n = points.len();
     let mut out = points.to_vec();

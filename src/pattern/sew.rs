@@ -26,11 +26,12 @@ const MAX_SEAM_STRAIN_FACTOR: f64 = 2.0;
 /// Minimum number of nodes of each half of a seam that is divided because it cannot be closed as a whole.
 const MIN_HALVED_SEAM_NODES: usize = 12;
 
-/// Maximum number of relaxation steps of all trials together, for each vertex of the pattern.
+/// Maximum number of solver iterations that all trials to close cuts may take together, for each vertex of the
+/// pattern.
 const STEP_BUDGET_PER_VERTEX: usize = 800;
 
-/// Energy, as a multiple of the energy at the strain limit, above which a trial is abandoned when its progress is
-/// slow.
+/// Strain energy, as a multiple of the energy at the strain limit, above which the trial to close a cut is
+/// abandoned if the energy falls slowly.
 const HOPELESS_STRAIN_FACTOR: f64 = 1.6;
 
 /// Closes cuts again where the sheets stay valid, the longest first; a cut that cannot be closed as a whole is

@@ -126,7 +126,7 @@ fn extend_to_outline(end: Point, back: Point, outlines: &[Vec<Run>], spacing: f6
         .unwrap_or(end)
 }
 
-/// A closed line divided into runs, each along one side of a seam or along the border.
+/// Divides a closed line around a sheet into runs, each along one side of a seam or along the surface's border.
 fn runs(net: &SeamGraph, line: &[Corner]) -> Vec<(Option<Side>, Vec<Point>)> {
     let tolerance = SIMPLIFICATION_TOLERANCE_SPACINGS * net.spacing;
     let n = line.len();
@@ -227,14 +227,15 @@ fn places(corners: &[Corner]) -> Vec<Point> {
     corners.iter().map(|corner| corner.place).collect()
 }
 
-/// Maximum length of a piece of the border that cuts off a corner.
+/// Computes the maximum length of a border segment that counts as cutting off a corner of the outline.
 fn short(corners: &[Corner]) -> f64 {
     let next = vertices(corners).skip(1);
     let edges = vertices(corners).zip(next).map(|(p, q)| (q - p).norm());
     MAX_CHAMFER_LENGTH_FACTOR * edges.fold(0.0, f64::max)
 }
 
-/// Positions of those corners that are vertices of the lattice; a border goes from one to the next.
+/// Returns the positions of those corners of a border that are lattice vertices; the border goes from one to the
+/// next.
 fn vertices(corners: &[Corner]) -> impl Iterator<Item = Point> {
     let own = corners
         .iter()
@@ -242,7 +243,7 @@ fn vertices(corners: &[Corner]) -> impl Iterator<Item = Point> {
     own.map(|corner| corner.place)
 }
 
-/// Midpoints of a border's edges: unlike the vertices they do not zigzag.
+/// Returns the midpoints of a border's edges: unlike the vertices these do not zigzag.
 fn middles(corners: &[Corner]) -> Vec<Point> {
     let next = vertices(corners).skip(1);
     vertices(corners)
@@ -251,7 +252,7 @@ fn middles(corners: &[Corner]) -> Vec<Point> {
         .collect()
 }
 
-/// Midpoint of the edge from the last vertex to the first.
+/// Returns the midpoint of the edge from the border's last vertex to its first.
 fn closing(corners: &[Corner]) -> Option<Point> {
     let (first, last) = (vertices(corners).next()?, vertices(corners).last()?);
     Some(0.5 * (first + last))

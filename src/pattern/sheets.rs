@@ -58,7 +58,7 @@ pub struct Sheet {
     pub spots: Vec<Spot>,
     /// Triangles of the sheet, with their positions on the surface and on the flat sheet.
     pub faces: Faces,
-    /// Spacing of the lattice, or mean edge length of the mesh: the resolution of these lines.
+    /// Spacing of the lattice, or mean edge length of the mesh: the resolution of the sheet's outlines and folds.
     pub spacing: f64,
     /// Area of the surface that the sheet is made of.
     pub area: f64,
@@ -118,9 +118,9 @@ pub struct Fold {
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub struct Seam {
-    /// The crease, by its place in the [`Patches::creases`] of [`Pattern::patches`].
+    /// The crease that the seam follows, by its place in the [`Patches::creases`] of [`Pattern::patches`].
     pub crease: usize,
-    /// The patches on either side of it, the lower number first.
+    /// The patches on either side of the seam, the lower number first.
     pub patches: [u32; 2],
     /// Whether the crease is a mountain or a valley fold.
     pub direction: Direction,
@@ -156,6 +156,6 @@ pub struct Spot {
     pub patch: u32,
     /// Position on the sheet.
     pub place: [f64; 2],
-    /// Approximate distance of the place from the patch's border.
+    /// Approximate distance from the label's place to the patch's border, in the surface's units.
     pub room: f64,
 }

@@ -60,8 +60,8 @@ pub(crate) fn remove_loops(runs: Runs, spacing: f64) -> (Runs, usize) {
     (out, loops)
 }
 
-/// One pass over a line that cuts off its small loops. Returns the line and the number of loops; `None` if
-/// there is none.
+/// Passes over a closed line once and cuts off its small loops. Returns the line and the number of loops; `None` if
+/// there is no loop.
 fn pass(line: &[(Point, usize)], spacing: f64) -> Option<(Vec<(Point, usize)>, usize)> {
     let n = line.len();
     let places: Vec<Point> = line.iter().map(|(place, _)| *place).collect();

@@ -12,12 +12,12 @@ const MAX_SPECK_SHARE: f64 = 0.002;
 /// Maximum strain of a part after border vertices were removed, as a share of the limit.
 const TRIMMED_STRAIN_SHARE: f64 = 0.5;
 
-/// Fault of a part that removing a few border vertices has to cure.
+/// Fault of a part that the removal of a few border vertices has to mend.
 #[derive(Debug, Clone, Copy)]
 pub(super) enum Trouble {
-    /// Strain above this limit.
+    /// The part's strain is above this limit.
     Strain(f64),
-    /// Flipped triangles.
+    /// Triangles of the part are flipped.
     Flipped,
 }
 
@@ -59,8 +59,8 @@ pub(super) fn removable_vertices(
     (whole && specks.iter().all(at_border)).then(|| specks.concat())
 }
 
-/// The smallest set of vertices without which the sum of squared strains falls to a share of its value, from the
-/// vertices' contributions (`burden`).
+/// Finds the smallest set of vertices without which the sum of squared strains falls to a given share of the whole,
+/// from each vertex's contribution to that sum (`burden`).
 fn heaviest(burden: &[(usize, f64)], share: f64) -> Vec<usize> {
     let mut sorted = burden.to_vec();
     sorted.sort_by(|a, b| b.1.total_cmp(&a.1));

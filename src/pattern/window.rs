@@ -2,8 +2,8 @@
 
 use crate::lattice::hexagonal::Lattice;
 
-/// A rectangle of the lattice. Its first row is even, so that its odd rows are the ones that are shifted, as in the
-/// whole lattice.
+/// A rectangle of lattice rows and columns. Its first row is even, so that its odd rows are shifted by half a
+/// spacing as in the whole lattice.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Window {
     pub top: usize,
@@ -13,7 +13,7 @@ pub(super) struct Window {
 }
 
 impl Window {
-    /// The window of the whole lattice.
+    /// Creates the window that covers the whole lattice.
     pub(super) fn whole(lattice: &Lattice) -> Window {
         Window {
             top: 0,
@@ -23,7 +23,7 @@ impl Window {
         }
     }
 
-    /// The empty window.
+    /// The window without any vertex.
     const EMPTY: Window = Window {
         top: usize::MAX,
         left: usize::MAX,
@@ -44,7 +44,7 @@ impl Window {
         }
     }
 
-    /// Indices of the lattice's vertices in the window.
+    /// Iterates over the indices, in the whole lattice, of the vertices in the window.
     pub(super) fn vertices(self, lattice: &Lattice) -> impl Iterator<Item = usize> {
         let cols = lattice.cols();
         let rows = if self.is_empty() {

@@ -1,10 +1,10 @@
-//! Colours as sRGB bytes: those of the page, so that pictures look like it.
+//! Colours of pictures as sRGB bytes; the web page uses the same ones.
 
-/// Colour of points without a value, such as curvature next to a border.
+/// Colour of points without a value, such as a curvature next to a border: grey.
 pub(super) const NO_VALUE: [u8; 3] = [150, 155, 160];
 
-/// Colours of values from the lowest to the highest, from blue over white to red: ColorBrewer's RdBu, whose
-/// ends are told apart also by the colour-blind.
+/// Colour scale for curvature, from the lowest to the highest value: blue over white to red. ColorBrewer's RdBu, whose
+/// ends are also told apart by the colour-blind.
 const CURVATURE_COLOURS: [[f64; 3]; 11] = [
     [5.0, 48.0, 97.0],
     [33.0, 102.0, 172.0],
@@ -19,7 +19,7 @@ const CURVATURE_COLOURS: [[f64; 3]; 11] = [
     [103.0, 0.0, 31.0],
 ];
 
-/// Colours of patches, told apart by hue and lightness; after the last they begin again.
+/// Colours of patches, told apart by hue and lightness; patch numbers above 11 begin again with the first.
 const PATCH_COLOURS: [[u8; 3]; 12] = [
     [86, 148, 206],
     [240, 160, 75],
@@ -35,10 +35,10 @@ const PATCH_COLOURS: [[u8; 3]; 12] = [
     [172, 210, 130],
 ];
 
-/// Brightness of a crease relative to its patch's colour.
+/// Brightness of a crease's pixels relative to the colour of their patch.
 const CREASE_BRIGHTNESS: f64 = 0.4;
 
-/// Diverging colour scale: the colour of a value, clamped to −1 to 1.
+/// Diverging colour scale: returns the colour of a value, which is clamped to the range from −1 (blue) to 1 (red).
 pub(super) fn diverging(value: f64) -> [u8; 3] {
     let last = CURVATURE_COLOURS.len() - 1;
     let place = 0.5 * (value.clamp(-1.0, 1.0) + 1.0) * last as f64;
@@ -50,7 +50,7 @@ pub(super) fn diverging(value: f64) -> [u8; 3] {
     })
 }
 
-/// Colour of a shaded surface by its brightness from 0 to 1: bluish where dark, white where bright.
+/// Colour of a shaded surface by its brightness `tone`, from 0 to 1: bluish where dark, white where bright.
 pub(super) fn steel(tone: f64) -> [u8; 3] {
     let tint = 0.1 * (1.0 - tone);
     [1.0 - tint, 1.0, 1.0 + 1.3 * tint].map(|share| (255.0 * tone * share).round() as u8)
@@ -60,7 +60,7 @@ pub(crate) fn patch(label: u32) -> [u8; 3] {
     PATCH_COLOURS[label as usize % PATCH_COLOURS.len()]
 }
 
-/// Colour of a patch along its creases.
+/// Colour of the patch with number `label` along its creases.
 pub(super) fn crease(label: u32) -> [u8; 3] {
     patch(label).map(|channel| (CREASE_BRIGHTNESS * f64::from(channel)).round() as u8)
 }

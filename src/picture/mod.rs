@@ -24,17 +24,17 @@ use crate::shape::patches::{NO_PATCH, PatchOptions, Patches};
 /// Ambient brightness: brightness of a surface that the light does not reach, from 0 to 1.
 const AMBIENT_BRIGHTNESS: f64 = 0.15;
 
-/// Minimum sum of the interpolation weights of the vertices with heights around a point at which the point is on
-/// the surface: half, less rounding, so that between two vertices the nearer one decides.
+/// Minimum sum of the interpolation weights of the vertices with heights around a point for the point to be on the
+/// surface: half, less rounding, so that between two vertices the nearer one decides.
 const MIN_VERTEX_WEIGHT: f64 = 0.5 - 1e-9;
 
-/// Distance beyond its outermost vertices up to which a surface is extrapolated, in units of the larger of spacing
-/// and pixel.
-const CONTINUATION_REACH: f64 = 0.5 + 1e-9;
+/// Distance beyond its outermost vertices up to which a surface is extrapolated in a picture, in units of the larger of
+/// lattice spacing and pixel size.
+const MAX_CONTINUATION_STEPS: f64 = 0.5 + 1e-9;
 
-/// Distance beyond the lattice's first and last row up to which a surface is extrapolated, in the same units: a
-/// height image may end a row and half a pixel beyond them.
-const ROW_REACH: f64 = 1.5;
+/// Distance beyond the lattice's first and last row up to which a surface is extrapolated in a picture, in units of the
+/// larger of lattice spacing and pixel size: a height image may end a row and half a pixel beyond them.
+const MAX_ROW_CONTINUATION_STEPS: f64 = 1.5;
 
 /// What a picture shows of a surface.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -49,7 +49,7 @@ pub enum Style {
     /// The curvature of the surface, from blue (negative) over white (0) to red (positive); grey next to the
     /// border, where it is not defined.
     Curvature {
-        /// Which curvature is shown.
+        /// Curvature that is shown: Gaussian, or the smaller eigenvalue of the Hessian.
         kind: Curvature,
         /// Absolute value at the ends of the colour scale, in the surface's units; larger values have the colour of
         /// the end. `None`: the curvature of a sphere as wide as the longer side of the surface.
@@ -59,26 +59,26 @@ pub enum Style {
     Patches(PatchOptions),
 }
 
-/// Curvatures that tell how far a surface is from developable; see [`Curvatures`].
+/// Measure of curvature that tells how far a surface is from developable; see [`Curvatures`].
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 #[non_exhaustive]
 pub enum Curvature {
-    /// The discrete Gaussian curvature, in `1/length²`.
+    /// Discrete Gaussian curvature, in `1/length²`.
     #[default]
     Gaussian,
-    /// The eigenvalue of smaller magnitude of the Hessian, in `1/length`.
+    /// Eigenvalue of the Hessian with the smaller magnitude, in `1/length`.
     Kappa2,
 }
 
 impl Style {
-    /// The style [`Style::Shaded`] with light from the upper left.
+    /// Returns the style [`Style::Shaded`] with light from the upper left.
     pub fn shaded() -> Self {
         Style::Shaded {
             light: [-0.38, 0.42, 0.82],
         }
     }
 
-    /// The style [`Style::Curvature`] with Gaussian curvature and the default limit.
+    /// Returns the style [`Style::Curvature`] with Gaussian curvature and the default limit.
     pub fn curvature() -> Self {
         Style::Curvature {
             kind: Curvature::default(),
@@ -86,23 +86,23 @@ impl Style {
         }
     }
 
-    /// The style [`Style::Patches`] with default options.
+    /// Returns the style [`Style::Patches`] with default options.
     pub fn patches() -> Self {
         Style::Patches(PatchOptions::default())
     }
 }
 
-/// Options of a picture: its style, width and extent.
+/// Options of a picture: its style, its width and the part of the plane it shows.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub struct PictureOptions {
     /// What the picture shows. Default [`Style::shaded`].
     pub style: Style,
-    /// Width of the picture, in pixels; the height follows. `None`: one pixel for each lattice spacing.
+    /// Width of the picture, in pixels; the height follows from the extent. `None`: one pixel for each lattice spacing.
     pub width: Option<usize>,
-    /// The part of the plane that the picture shows. `None`: the box around the lattice's vertices, half a spacing
-    /// larger on each side. For a surface made from a height image use [`Extent::from_image`], so that the pixels
-    /// of both coincide.
+    /// Rectangle of the plane that the picture shows. `None`: the box around the lattice's vertices, half a spacing
+    /// larger on each side. For a surface made from a height image use [`Extent::from_image`], so that the pixels of
+    /// both coincide.
     pub extent: Option<Extent>,
 }
 
@@ -117,12 +117,12 @@ impl Default for PictureOptions {
 }
 
 impl PictureOptions {
-    /// These options with another style.
+    /// Returns these options with another style of the picture.
     pub fn style(self, style: Style) -> Self {
         PictureOptions { style, ..self }
     }
 
-    /// These options with another width.
+    /// Returns these options with another width of the picture, in pixels.
     pub fn width(self, width: usize) -> Self {
         PictureOptions {
             width: Some(width),
@@ -130,7 +130,7 @@ impl PictureOptions {
         }
     }
 
-    /// These options with another part of the plane.
+    /// Returns these options with another rectangle of the plane that the picture shows.
     pub fn extent(self, extent: Extent) -> Self {
         PictureOptions {
             extent: Some(extent),
@@ -148,7 +148,7 @@ pub struct Picture {
 }
 
 impl Picture {
-    /// Draws a surface.
+    /// Draws a picture of a surface seen from above.
     ///
     /// Slopes and curvatures are linear between vertices, labels the nearest vertex's. A pixel is
     /// opaque if the surface has a height at its centre or nearest to it. Where pixels are larger
@@ -170,17 +170,17 @@ impl Picture {
         }
     }
 
-    /// Number of columns.
+    /// Number of columns of the picture.
     pub fn width(&self) -> usize {
         self.width
     }
 
-    /// Number of rows.
+    /// Number of rows of the picture.
     pub fn height(&self) -> usize {
         self.height
     }
 
-    /// Red, green, blue and alpha of each pixel, row by row, the top row first.
+    /// Red, green, blue and alpha bytes of each pixel, row by row from the top.
     pub fn rgba(&self) -> &[u8] {
         &self.rgba
     }
@@ -258,14 +258,14 @@ fn patched(frame: &Frame<'_>, options: &PatchOptions) -> Result<Picture> {
     })
 }
 
-/// A surface, and where the pixels of its picture lie.
+/// A surface, and the rectangle of the plane and the pixels of its picture.
 struct Frame<'a> {
     surface: &'a Heightfield,
     width: usize,
     height: usize,
-    /// Upper left corner.
+    /// Position of the picture's upper left corner in the plane.
     corner: [f64; 2],
-    /// Sides of a pixel: equal, but that there are whole numbers of them.
+    /// Width and height of a pixel in the plane: nearly equal, because a whole number of pixels fills the picture.
     pixel: [f64; 2],
     /// Bounding box of the vertices with heights: lower left and upper right corner.
     bounds: [[f64; 2]; 2],
@@ -293,8 +293,8 @@ impl<'a> Frame<'a> {
         })
     }
 
-    /// Draws the picture. `colour` gives the colour of a point from its position and the vertices around it; points
-    /// without one are grey.
+    /// Draws the picture. `colour` gives the colour of a point from its position and the vertices around it; where it
+    /// gives none, the pixel is grey.
     fn coloured(&self, colour: impl Fn([f64; 2], &Corners) -> Option<[u8; 3]>) -> Result<Picture> {
         let mut rgba = try_filled("picture", 4 * self.width * self.height, 0)?;
         let (pixels, _) = rgba.as_chunks_mut::<4>();
@@ -315,8 +315,8 @@ impl<'a> Frame<'a> {
         })
     }
 
-    /// The vertices of the surface around a point, or around the point of its bounding box that is
-    /// nearest; none where there is no surface.
+    /// Finds the vertices around a point, or around the nearest point of the surface's bounding box; none where there
+    /// is no surface.
     fn corners(&self, [x, y]: [f64; 2]) -> Option<Corners> {
         let lattice = self.surface.lattice();
         let unit = lattice.spacing().max(self.pixel[0]);
@@ -325,7 +325,9 @@ impl<'a> Frame<'a> {
         let row = y.max(bottom).min(top);
         let inside = [x.max(min[0]).min(max[0]), row.max(min[1]).min(max[1])];
         let beyond = (x - inside[0]).abs().max((row - inside[1]).abs());
-        if (y - row).abs() > ROW_REACH * unit || beyond > CONTINUATION_REACH * unit {
+        if (y - row).abs() > MAX_ROW_CONTINUATION_STEPS * unit
+            || beyond > MAX_CONTINUATION_STEPS * unit
+        {
             return None;
         }
         let triangle = lattice.locate(inside);
@@ -347,8 +349,8 @@ impl<'a> Frame<'a> {
     }
 }
 
-/// Default extent of a surface: the box around its lattice's vertices, half a spacing larger on each side. Pixels
-/// of the spacing's size then have their centres at the vertices of even rows.
+/// Default extent of a surface's picture: the box around its lattice's vertices, half a spacing larger on each side.
+/// Pixels of the spacing's size then have their centres at the vertices of even rows.
 fn around(surface: &Heightfield) -> Extent {
     let mut extent = Extent::from_heightfield(surface);
     let half = 0.5 * surface.lattice().spacing();
@@ -357,12 +359,12 @@ fn around(surface: &Heightfield) -> Extent {
     extent
 }
 
-/// Indices of the vertices around a point, with their interpolation weights; a vertex without a height has weight
+/// Indices of the three vertices around a point, with their interpolation weights; a vertex without a height has weight
 /// 0.
 struct Corners([(usize, f64); 3]);
 
 impl Corners {
-    /// Weighted mean of the values that are not NaN.
+    /// Interpolates values given at the vertices: weighted mean of those that are not NaN. None if there are none.
     fn mean<const N: usize>(&self, values: &[[f64; N]]) -> Option<[f64; N]> {
         let (mut sum, mut share) = ([0.0; N], 0.0);
         for (vertex, weight) in self.0 {

@@ -1,20 +1,20 @@
-//! Cameras: the pixel at which a point in space is seen, and the points behind a pixel.
+//! Cameras: projection of points in space to pixels, and back-projection of pixels with a depth.
 
 use crate::error::{Error, Result, positive};
 
-/// Kind of distance that the values of a depth image measure.
+/// What the values of a depth image measure: the distance along the camera's axis or along the line of sight.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
 #[non_exhaustive]
 pub enum Depth {
-    /// Distance along the camera's axis, as most depth cameras and depth buffers give it.
+    /// Distance in the direction of the camera's axis, as most depth cameras and depth buffers give it.
     #[default]
     Planar,
-    /// Distance from the camera's centre, along the pixel's own ray.
+    /// Distance from the camera's centre, in the direction of the pixel's own line of sight.
     Ray,
 }
 
-/// Distortion by a lens, with the coefficients of OpenCV and most calibration programs: radial
-/// `k1, k2, k3` and tangential `p1, p2` (D. C. Brown, Close-range camera calibration, 1971).
+/// Lens distortion, with the coefficients of OpenCV and most calibration programs: radial `k1, k2, k3` and tangential
+/// `p1, p2` (D. C. Brown, Close-range camera calibration, 1971).
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 #[allow(missing_docs)]
 pub struct Distortion {
@@ -26,8 +26,8 @@ pub struct Distortion {
 }
 
 impl Distortion {
-    /// Position in the image of a point that an ideal lens would show at `[x, y]`, both in focal lengths from
-    /// the axis; `None` beyond the radius at which the polynomial turns back.
+    /// Applies the distortion: returns the position in the image of a point that an ideal lens would show at `[x, y]`,
+    /// both in focal lengths from the axis. `None` beyond the radius at which the polynomial turns back.
     fn distorted(&self, [x, y]: [f64; 2]) -> Option<[f64; 2]> {
         let r = x * x + y * y;
         let growth = 1.0 + r * (3.0 * self.k1 + r * (5.0 * self.k2 + r * 7.0 * self.k3));
@@ -36,7 +36,8 @@ impl Distortion {
         (growth > 0.0).then_some([x * radial + dx, y * radial + dy])
     }
 
-    /// The inverse of [`Self::distorted`], by fixed-point iteration; `None` where that does not converge.
+    /// Removes the distortion, as the inverse of [`Self::distorted`], by fixed-point iteration; `None` where that does
+    /// not converge.
     fn undistorted(&self, [x, y]: [f64; 2]) -> Option<[f64; 2]> {
         if *self == Distortion::default() {
             return Some([x, y]);
@@ -64,37 +65,38 @@ impl Distortion {
     }
 }
 
-/// A pinhole camera, in pixels.
+/// Intrinsics of a pinhole camera: focal lengths, principal point and lens distortion, in pixels.
 ///
 /// The centre of the top left pixel is at `(0, 0)`, columns count to the right and rows down, as in OpenCV and the
 /// files of most cameras: a point `x` to the right of the axis, `y` below it and `z` ahead is seen at `(fx·x/z + cx,
 /// fy·y/z + cy)`, apart from lens distortion.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Intrinsics {
-    /// Focal length, in widths of a pixel.
+    /// Horizontal focal length, in widths of a pixel.
     pub fx: f64,
-    /// Focal length, in heights of a pixel.
+    /// Vertical focal length, in heights of a pixel.
     pub fy: f64,
-    /// Column of the camera's axis.
+    /// Horizontal coordinate of the principal point (where the camera's axis meets the image), in pixels.
     pub cx: f64,
-    /// Row of the camera's axis.
+    /// Vertical coordinate of the principal point (where the camera's axis meets the image), in pixels from the top.
     pub cy: f64,
-    /// Width and height, in pixels, of the images that the intrinsics are for; an image of another size is taken for
-    /// the same view, finer or coarser. `None`: any image.
+    /// Width and height, in pixels, of the images that the intrinsics are for; an image of another size is assumed to
+    /// show the same view, finer or coarser. `None`: any image.
     pub size: Option<[usize; 2]>,
-    /// Distortion by the lens.
+    /// Distortion by the camera's lens.
     pub distortion: Distortion,
-    /// Length of one step of a depth image's values: 0.001 makes metres of millimetres.
+    /// Factor that converts a depth image's values to lengths: 0.001 makes metres of millimetres.
     pub depth_scale: f64,
-    /// Kind of distance that the values of a depth image measure.
+    /// Kind of distance that the values of a depth image are: along the camera's axis or along the line of sight.
     pub depth: Depth,
-    /// Number of pixels of a depth image that are discarded on both sides of a jump, where sensors give depths
+    /// Number of pixels of a depth image that are discarded on both sides of a jump in depth, where sensors give depths
     /// between the two surfaces that belong to neither (flying pixels). Default 2.
     pub margin: usize,
 }
 
 impl Intrinsics {
-    /// A camera without distortion whose depth images hold planar depths in the unit of the result.
+    /// Makes intrinsics from focal lengths and principal point in pixels, without lens distortion. Depth images hold
+    /// distances along the camera's axis, in the unit of the result.
     pub fn new(fx: f64, fy: f64, cx: f64, cy: f64) -> Self {
         Intrinsics {
             fx,
@@ -109,8 +111,8 @@ impl Intrinsics {
         }
     }
 
-    /// A camera that looks at the middle of its images, with a field of view (in degrees) across
-    /// their longer side.
+    /// Makes the intrinsics of a camera that looks at the middle of its images, of size (width, height), with a field
+    /// of view in degrees across their longer side.
     ///
     /// # Errors
     /// [`Error::Option`] for an angle that is not between 0 and 180 degrees, [`Error::Empty`].
@@ -125,7 +127,7 @@ impl Intrinsics {
         Ok(camera)
     }
 
-    /// The camera for images of another size that show the same view: `cx' + ½ = (cx + ½)·s`.
+    /// Scales the intrinsics to images of another size (width, height) that show the same view: `cx' + ½ = (cx + ½)·s`.
     ///
     /// # Errors
     /// [`Error::Option`] for a number that is out of range or a centre outside the image,
@@ -164,8 +166,8 @@ impl Intrinsics {
         })
     }
 
-    /// Column and row at which a point in space is seen; `None` if it is not ahead of the camera. The axes are
-    /// x to the right, y up and z towards the viewer, the origin the camera's centre.
+    /// Projects a point in space to the image, as column and row in pixels; `None` if it is not ahead of the camera.
+    /// The axes are x to the right, y up and z towards the viewer, the origin the camera's centre.
     pub fn project(&self, [x, y, z]: [f64; 3]) -> Option<[f64; 2]> {
         if z >= 0.0 || z.is_nan() {
             return None;
@@ -174,8 +176,8 @@ impl Intrinsics {
         Some([self.fx * u + self.cx, self.fy * v + self.cy])
     }
 
-    /// The point in space that a pixel shows at a depth, in the axes of [`Intrinsics::project`]; `None` where the
-    /// lens cannot have shown it.
+    /// Back-projects a pixel with a depth to a point in space, in the axes of [`Intrinsics::project`]; `None` where the
+    /// lens cannot have shown it. `value` is the depth as the image stores it.
     pub(super) fn point(&self, col: f64, row: f64, value: f64) -> Option<[f64; 3]> {
         let seen = [(col - self.cx) / self.fx, (row - self.cy) / self.fy];
         let [x, y] = self.distortion.undistorted(seen)?;
@@ -202,7 +204,7 @@ impl Intrinsics {
     }
 }
 
-/// Focal length, in pixels, of a field of view in degrees across a number of pixels.
+/// Computes the focal length, in pixels, from a field of view in degrees across a number of pixels.
 pub(crate) fn focal_length_of(degrees: f64, pixels: f64) -> Result<f64> {
     if !(degrees > 0.0 && degrees < 180.0) {
         let requirement = "must be above 0 and below 180 degrees";
@@ -224,18 +226,18 @@ fn other_proportions(own: [usize; 2], size: [usize; 2]) -> String {
     )
 }
 
-/// Position of one camera relative to another: a point at `p` for the one is at `R p + t` for the other, in the
+/// Pose of one camera relative to another: a point at `p` for the other camera is at `R p + t` for this one, in the
 /// axes of calibrations: x to the right, y down, z ahead.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Pose {
-    /// The rotation `R`, by rows.
+    /// Rotation matrix `R`, row by row.
     pub rotation: [[f64; 3]; 3],
-    /// The translation `t`, in the unit of the depths.
+    /// Translation vector `t`, in the unit of the depths.
     pub translation: [f64; 3],
 }
 
 impl Default for Pose {
-    /// No rotation and no translation.
+    /// Returns the identity: no rotation and no translation.
     fn default() -> Self {
         Pose {
             rotation: [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]],
@@ -244,17 +246,17 @@ impl Default for Pose {
     }
 }
 
-/// A camera that takes photos, beside the camera of the depths or at the same position.
+/// A camera that takes photos, with its pose relative to the camera that measures depths.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Camera {
-    /// Intrinsics of the camera. The photo may have another size than they are for.
+    /// Intrinsics of the camera. They are scaled to a photo of another size.
     pub intrinsics: Intrinsics,
-    /// Position and rotation relative to the camera of the depths.
+    /// Pose of the camera relative to the camera that measures depths.
     pub pose: Pose,
 }
 
 impl Camera {
-    /// A camera at the place of the one that saw the depths, such as a phone's.
+    /// Makes a camera with the pose of the one that measures depths, such as a phone's.
     pub fn new(intrinsics: Intrinsics) -> Self {
         Camera {
             intrinsics,
@@ -262,12 +264,12 @@ impl Camera {
         }
     }
 
-    /// The camera at another position.
+    /// Returns the camera with another pose relative to the camera that measures depths.
     pub fn at(self, pose: Pose) -> Self {
         Camera { pose, ..self }
     }
 
-    /// The camera for photos of another size that show the same view.
+    /// Returns the camera for photos of another size that show the same view, and checks its pose.
     ///
     /// # Errors
     /// Those of [`Intrinsics::for_size`]; [`Error::Option`] if the pose's matrix is no rotation.
@@ -302,13 +304,13 @@ impl Camera {
         })
     }
 
-    /// Column and row at which a point in space is seen, as [`Intrinsics::project`] gives them; the point is in the
-    /// axes of the camera of the depths.
+    /// Projects a point in the axes of the camera that measures depths to this camera's photo, as column and row in
+    /// pixels. `None` if it is not ahead of this camera.
     pub fn project(&self, point: [f64; 3]) -> Option<[f64; 2]> {
         self.intrinsics.project(self.seen_from(point))
     }
 
-    /// Coordinates of a point in the axes of this camera.
+    /// Transforms a point from the axes of the camera that measures depths to this camera's axes.
     pub(crate) fn seen_from(&self, [x, y, z]: [f64; 3]) -> [f64; 3] {
         let Pose {
             rotation,

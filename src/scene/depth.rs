@@ -8,12 +8,13 @@ use crate::error::{Error, Result, check_count, try_filled};
 use crate::heights::heightfield::HeightImage;
 use crate::math::lanes;
 
-/// Maximum difference in depth between neighbouring pixels' points, per distance across the line of sight.
+/// Maximum difference in depth between the points of neighbouring pixels, per distance across the line of sight; above
+/// it the pixels are not joined.
 const MAX_DEPTH_SLOPE: f64 = 10.0;
 
 impl Intrinsics {
-    /// Back-projects a depth image to a mesh: each pixel is a vertex of the same index, and neighbouring ones are
-    /// joined by triangles.
+    /// Back-projects a depth image to a mesh in space: each pixel becomes the vertex of the same index, and
+    /// neighbouring pixels are joined by triangles.
     ///
     /// The axes are those of the camera as [`Frame`](crate::Frame)s have them:
     /// x to the right, y up, z towards the viewer, the origin at the camera's
@@ -38,9 +39,9 @@ impl Intrinsics {
         self.project_back(depths, None)
     }
 
-    /// Back-projects the pixels alone whose flag in `keep` is not 0, as [`Intrinsics::within`] gives them. The other
-    /// depths still show where jumps are. If depths are masked before instead, the background of a page is lost, and
-    /// depths that mix page and background stay and bend the page's border.
+    /// Back-projects only the pixels of a depth image whose flag in `keep` is not 0, as [`Intrinsics::within`] gives
+    /// them. The other depths still show where jumps are. If depths are masked before instead, the background of a page
+    /// is lost, and depths that mix page and background stay and bend the page's border.
     ///
     /// # Errors
     /// Those of [`Intrinsics::back_project`]; [`Error::Shape`] if there is not a flag for each pixel.
@@ -101,7 +102,8 @@ impl Intrinsics {
         Mesh::new(positions, triangles)?.with_uvs(uvs)
     }
 
-    /// Whether each pixel is within the margin of a jump. Pixels without a depth are at the origin.
+    /// Marks the pixels of a depth image that are within the margin of a jump in depth. `points` are the back-projected
+    /// pixels; those without a depth are at the origin.
     fn outlines(&self, points: &[[f64; 3]], width: usize) -> Result<Vec<bool>> {
         let mut outlines = try_filled("mesh", points.len(), false)?;
         if self.margin > 0 {
@@ -129,7 +131,7 @@ impl Intrinsics {
     }
 }
 
-/// A row or a column of pixels.
+/// A row or a column of a depth image's pixels, along which jumps in depth are detected.
 struct Line<'a> {
     points: &'a [[f64; 3]],
     start: usize,
@@ -137,11 +139,11 @@ struct Line<'a> {
     length: usize,
 }
 
-/// Maximum number of pixels that a jump extends over.
-const WIDEST_JUMP: usize = 3;
+/// Maximum number of pixels over which a jump in depth may extend.
+const MAX_JUMP_PIXELS: usize = 3;
 
 impl Line<'_> {
-    /// Distance of a pixel's point ahead of the camera; `None` where there is no depth.
+    /// Distance of pixel `i`'s point ahead of the camera; `None` where there is no depth.
     fn ahead(&self, i: usize) -> Option<f64> {
         let depth = -self.points.get(self.start + i * self.step)?[2];
         (i < self.length && depth > 0.0).then_some(depth)
@@ -149,7 +151,7 @@ impl Line<'_> {
 
     fn mark(&self, focal: f64, margin: usize, outlines: &mut [bool]) {
         for from in 0..self.length {
-            for wide in 1..=WIDEST_JUMP {
+            for wide in 1..=MAX_JUMP_PIXELS {
                 if self.jumps(from, wide, focal) {
                     // Pixels within the jump count, too.
                     let beyond = if wide == 1 { margin } else { margin - 1 };
@@ -162,9 +164,9 @@ impl Line<'_> {
         }
     }
 
-    /// Whether there is a jump from one pixel to another a number of pixels on. A jump over several pixels
-    /// rises from its first to its last, and much more than the depths before and after it; otherwise it is a
-    /// steep surface.
+    /// Whether the depth jumps from pixel `from` to the one `wide` pixels further on. Over several pixels it must rise
+    /// from the first to the last, and much more than the depths before and after them; otherwise it is a steep
+    /// surface.
     fn jumps(&self, from: usize, wide: usize, focal: f64) -> bool {
         let (Some(a), Some(b)) = (self.ahead(from), self.ahead(from + wide)) else {
             return false;
@@ -181,7 +183,7 @@ impl Line<'_> {
     }
 }
 
-/// The points of an image's pixels, row by row.
+/// Pixels of a depth image as points in space, row by row, from which triangles are made.
 struct Grid<'a> {
     width: usize,
     there: &'a [bool],
@@ -189,8 +191,8 @@ struct Grid<'a> {
 }
 
 impl Grid<'_> {
-    /// The triangles of the square whose lower right corner is a pixel, counter-clockwise as the camera sees
-    /// them.
+    /// Makes the up to two triangles of the square of pixels whose lower right corner is pixel `last`,
+    /// counter-clockwise as the camera sees them.
     fn square(&self, last: usize) -> [Option<[u32; 3]>; 2] {
         let [a, b] = [last - self.width - 1, last - self.width];
         let [c, d] = [last - 1, last];
@@ -214,7 +216,7 @@ impl Grid<'_> {
         whole.then(|| corners.map(|i| i as u32))
     }
 
-    /// Whether there is no jump between two pixels.
+    /// Whether two neighbouring pixels are joined: there is no jump in depth between them.
     fn joined(&self, from: usize, to: usize) -> bool {
         let [from, to] = [from, to].map(|i| Vector3::from(self.points[i]));
         // In proportion to the distance from the camera, so that nothing over- or underflows.

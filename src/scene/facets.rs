@@ -1,4 +1,4 @@
-//! The triangles of a surface, the angles between them, and its segmentation into smooth parts.
+//! Segmentation of a triangle mesh into smooth parts, by the angles between its triangles.
 
 use std::cmp::Reverse;
 use std::collections::hash_map::Entry;
@@ -12,23 +12,24 @@ use crate::math::statistics::median;
 use crate::math::union_find::UnionFind;
 use crate::scene::half_edges::{half_edge_ends, twin_half_edges};
 
-/// Range, in radians, of the threshold between the angles of facets and those of creases: flat facets that
-/// approximate a round shape fold by less than the maximum, and the remaining noise by less than the minimum.
+/// Smallest and largest threshold, in radians, that separates angles between facets of a smooth part from those of
+/// creases: facets that approximate a round shape fold by less than the maximum, and residual noise by less than the
+/// minimum.
 const CREASE_ANGLE_RANGE: [f64; 2] = [0.035, 0.35];
 
-/// Maximum angle, in radians, between a strip of triangles that noise has made of a crease and the strips on either
-/// side of it.
+/// Maximum angle, in radians, between the strip of triangles into which noise turns a sharp crease and the parts on
+/// either side.
 const MAX_BLUNT_CREASE_ANGLE: f64 = 1.0;
 
-/// Tolerance for rounding errors of angles between facets, in radians, and of heights: smaller bends count as flat.
+/// Tolerance for rounding errors of angles between facets, in radians: smaller bends count as flat.
 const FLATNESS_TOLERANCE: f64 = 1e-6;
 
-/// Triangles of a surface, with the angle at each edge.
+/// Triangles of a mesh, with area, and angle and length of each edge.
 pub(crate) struct Facets {
     pub places: Vec<Vector3<f64>>,
     pub triangles: Vec<[u32; 3]>,
     pub twins: Vec<u32>,
-    /// Angle between the triangles on both sides of each half-edge, in radians.
+    /// Angle between the normals of the triangles on both sides of each half-edge, in radians.
     pub angles: Vec<f64>,
     pub lengths: Vec<f64>,
     pub areas: Vec<f64>,
@@ -65,7 +66,7 @@ impl Facets {
         })
     }
 
-    /// Half-edges with a twin, each pair once.
+    /// Pairs of twin half-edges, each inner edge of the mesh once.
     pub fn pairs(&self) -> impl Iterator<Item = (usize, usize)> + '_ {
         let all = self.twins.iter().enumerate();
         all.filter(|(side, twin)| **twin != NO_INDEX && *side < **twin as usize)
@@ -79,9 +80,9 @@ impl Facets {
             .clamp(CREASE_ANGLE_RANGE[0], CREASE_ANGLE_RANGE[1])
     }
 
-    /// Segments the surface into smooth parts; returns the label of each triangle. Each part has at least a share
-    /// `share` of the area, and folds towards each neighbour by at least `fold`, and half of `bend`, on average, in
-    /// radians.
+    /// Segments the mesh into smooth parts; returns the part's label for each triangle. Each part has at least the
+    /// share `share` of the area, and folds towards each neighbour by at least `fold`, and half of `bend`, on average,
+    /// in radians.
     ///
     /// The segmentation is by watersheds (Mangan and Whitaker 1999): the height of a triangle is the angle by which
     /// the surface bends around it, and basins are flooded until they meet. So a blunt crease, which is a strip of
@@ -92,12 +93,13 @@ impl Facets {
         let heights = self.heights();
         let mut labels = self.basins(&heights, 0.5 * bend)?;
         self.merge(&mut labels, fold)?;
-        self.give_away(&mut labels, share);
+        self.dissolve_small_parts(&mut labels, share);
         self.merge(&mut labels, fold)?;
         Ok(labels)
     }
 
-    /// Mean angle along the edges of each triangle.
+    /// Mean angle along the edges of each triangle, in radians, weighted by length: the heights on which the watershed
+    /// segmentation runs.
     fn heights(&self) -> Vec<f64> {
         let of = |t: usize| {
             let sides = 3 * t..3 * t + 3;
@@ -110,8 +112,8 @@ impl Facets {
         (0..self.triangles.len()).map(of).collect()
     }
 
-    /// Basin of each triangle: the minimum that water reaches from it without passing edges sharper than `bend`; the
-    /// other triangles follow from where water runs from them.
+    /// Labels the watershed basin of each triangle: each local minimum of `heights`, connected across edges of at most
+    /// `bend`, is a basin, and the other triangles are flooded from the basins, across the lowest edges first.
     fn basins(&self, heights: &[f64], bend: f64) -> Result<Vec<u32>> {
         let mut sets = UnionFind::new("patches", heights.len())?;
         let around = |t: usize| {
@@ -154,7 +156,8 @@ impl Facets {
         Ok(labels)
     }
 
-    /// Gives open triangles the label of a neighbour, across the flattest edges first.
+    /// Gives triangles marked in `open` the label of a neighbour, across the half-edges with the smallest `way` first
+    /// (priority flood).
     fn flood(&self, labels: &mut [u32], mut open: Vec<bool>, way: impl Fn(usize) -> f64) {
         // The bits of positive floats have their order.
         let mut queue = BinaryHeap::new();
@@ -179,8 +182,9 @@ impl Facets {
         }
     }
 
-    /// Gives the triangles of small regions to the neighbour towards which they bend least.
-    fn give_away(&self, labels: &mut [u32], share: f64) {
+    /// Dissolves small parts: those below the share `share` of the area give each triangle to the neighbouring part
+    /// towards which it bends least.
+    fn dissolve_small_parts(&self, labels: &mut [u32], share: f64) {
         let mut areas = vec![0.0; labels.len()];
         for (label, area) in labels.iter().zip(&self.areas) {
             areas[*label as usize] += area;
@@ -191,7 +195,7 @@ impl Facets {
         self.flood(labels, open, |side| self.angles[side]);
     }
 
-    /// Merges regions that fold by less than an angle on average, those that fold least first.
+    /// Merges neighbouring parts that fold by less than `fold` on average, in radians, those that fold least first.
     fn merge(&self, labels: &mut [u32], fold: f64) -> Result<()> {
         let mut sets = UnionFind::new("patches", labels.len())?;
         let mut regions = Regions {
@@ -208,7 +212,7 @@ impl Facets {
             }
         }
         for a in 0..labels.len() as u32 {
-            regions.wait(a);
+            regions.enqueue_borders(a);
         }
         while let Some((a, b)) = regions.next() {
             sets.union(a, b);
@@ -221,13 +225,14 @@ impl Facets {
     }
 }
 
-/// Regions and the borders between them: the integral of the angle along each border, and its length.
+/// Parts of a mesh and the borders between them, while parts are merged: the integral of the angle along each border,
+/// and its length.
 struct Regions {
-    /// Borders by the numbers of both regions, the lower one first.
+    /// Integral of the angle and length of each border, by the labels of both parts, the lower one first.
     between: HashMap<(u32, u32), [f64; 2]>,
-    /// Neighbours of each region, some of which may have been merged into others.
+    /// Labels of each part's neighbours, some of which may have been merged into others.
     around: Vec<Vec<u32>>,
-    /// Pairs of regions by their mean angle at the time they were added.
+    /// Queue of pairs of parts, ordered by their mean angle at the time when they were added.
     queue: BinaryHeap<Reverse<(u64, u32, u32)>>,
     fold: f64,
 }
@@ -247,15 +252,16 @@ impl Regions {
         }
     }
 
-    /// Mean angle between two regions, as the bits of a positive float, which have its order.
+    /// Mean angle along the border of two parts, as the bits of a positive float, which order like the float itself.
+    /// None unless it is below the limit.
     fn angle(&self, a: u32, b: u32) -> Option<u64> {
         let [bent, long] = self.between.get(&(a.min(b), a.max(b)))?;
         let angle = bent / long;
         (angle < self.fold).then(|| angle.to_bits())
     }
 
-    /// Adds a region's pairs to the queue, each once.
-    fn wait(&mut self, a: u32) {
+    /// Adds a part's borders with higher-numbered neighbours to the queue.
+    fn enqueue_borders(&mut self, a: u32) {
         for b in self.around[a as usize].iter().filter(|b| **b > a) {
             if let Some(angle) = self.angle(a, *b) {
                 self.queue.push(Reverse((angle, a, *b)));
@@ -263,7 +269,7 @@ impl Regions {
         }
     }
 
-    /// The pair that folds least, of those that fold by less than the limit.
+    /// Takes the pair of parts from the queue that folds least, among those that fold by less than the limit.
     fn next(&mut self) -> Option<(u32, u32)> {
         while let Some(Reverse((angle, a, b))) = self.queue.pop() {
             if self.angle(a, b) == Some(angle) {
@@ -273,7 +279,7 @@ impl Regions {
         None
     }
 
-    /// Merges two regions: the one with fewer neighbours into the other.
+    /// Merges two neighbouring parts of the mesh: the one with fewer neighbours into the other.
     fn join(&mut self, a: u32, b: u32) {
         let size = |region: u32| self.around[region as usize].len();
         let (to, from) = if size(a) < size(b) { (b, a) } else { (a, b) };

@@ -1,29 +1,29 @@
 //! The part of the depths that shows a page with four known corners, however its edges are bent.
 //!
-//! Seen by a camera, the edge of a bent page is no straight line between two corners. Seen along the normal of the plane
-//! through its corners it nearly is: an edge bends out of that plane. So a depth belongs to the page if its point, moved along
-//! that normal, lies between the corners.
+//! Seen by a camera, the edge of a bent page is no straight line between two corners. Seen along the normal of the
+//! plane through its corners it nearly is: an edge bends out of that plane. So a depth belongs to the page if its
+//! point, moved along that normal, lies between the corners.
 
 use nalgebra::{Vector2, Vector3};
 
 use crate::math::least_squares::LeastSquares;
 use crate::math::planar::polygon_contains;
 
-/// Radius around a corner, in the photo, within which depths determine its position in space, as a share of the
-/// distance to the opposite corner: small, since a page may bend strongly there.
+/// Radius around a page's corner, in the photo, within which depths determine the corner's position in space, as a
+/// share of the distance to the opposite corner: small, since a page may bend strongly there.
 const CORNER_RADIUS_SHARE: f64 = 0.05;
 
-/// Minimum number of depths around a corner that determine it.
+/// Minimum number of depths around a page's corner that determine its position in space.
 const MIN_CORNER_DEPTHS: usize = 6;
 
-/// Ridge of the fit of points in space over places in the photo: decides only what the depths leave open.
+/// Ridge of the least-squares fit of a corner's position in space: decides only what the depths leave undetermined.
 const CORNER_FIT_RIDGE: f64 = 1e-9;
 
-/// Maximum distance of a page's points from the plane of its corners, as a share of its diagonal: points further away
-/// belong to something else.
+/// Maximum distance of a page's points from the plane through its corners, as a share of its diagonal: points further
+/// away belong to something else.
 const MAX_HEIGHT_SHARE: f64 = 0.6;
 
-/// The prism over a page's corners.
+/// The prism in space over a page's four corners that contains the page.
 pub(super) struct Footprint {
     origin: Vector3<f64>,
     normal: Vector3<f64>,
@@ -33,8 +33,8 @@ pub(super) struct Footprint {
 }
 
 impl Footprint {
-    /// The prism over four corners in the photo. `seen` are the points of the depths with their places in the photo. None if
-    /// too few depths lie around a corner.
+    /// Makes the prism over the four corners of a page in the photo. `seen` are the points of the depths in space with
+    /// their places in the photo. None if too few depths lie around a corner.
     pub(super) fn new(
         corners: &[[f64; 2]; 4],
         seen: &[([f64; 2], Vector3<f64>)],
@@ -73,13 +73,14 @@ impl Footprint {
         Some(footprint)
     }
 
-    /// Whether a point in space may belong to the page.
+    /// Whether a point in space lies in the prism, so that it may belong to the page.
     pub(super) fn holds(&self, point: &Vector3<f64>) -> bool {
         let height = (point - self.origin).dot(&self.normal);
         height.abs() <= self.max_height && polygon_contains(&self.corners, self.place(point).into())
     }
 
-    /// Coordinates of a point in the plane of the corners, along their normal.
+    /// Projects a point in space along the prism's axis to the plane through the corners; returns its coordinates
+    /// there.
     fn place(&self, point: &Vector3<f64>) -> Vector2<f64> {
         let off = point - self.origin;
         Vector2::new(off.dot(&self.axes[0]), off.dot(&self.axes[1]))

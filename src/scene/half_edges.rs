@@ -1,14 +1,15 @@
-//! Half-edges of a triangle mesh, by number: half-edge `3 t + k` goes from corner `k` of triangle `t` to the next corner.
+//! Half-edges of a triangle mesh, as numbers: half-edge `3 t + k` runs from corner `k` of triangle `t` to the next
+//! corner.
 
 use crate::math::index::NO_INDEX;
 
-/// Vertices that a half-edge goes from and to.
+/// Start and end vertex of a half-edge.
 pub(crate) fn half_edge_ends(triangles: &[[u32; 3]], half_edge: u32) -> [u32; 2] {
     let (triangle, k) = (&triangles[half_edge as usize / 3], half_edge as usize % 3);
     [triangle[k], triangle[(k + 1) % 3]]
 }
 
-/// Next half-edge of the same triangle.
+/// Number of the next half-edge around the same triangle.
 pub(crate) fn next_half_edge(half_edge: u32) -> u32 {
     match half_edge % 3 {
         2 => half_edge - 2,
@@ -16,8 +17,8 @@ pub(crate) fn next_half_edge(half_edge: u32) -> u32 {
     }
 }
 
-/// Twin of each half-edge: the half-edge of the neighbouring triangle with the same ends; [`NO_INDEX`] on the border. The
-/// mesh must be a surface, with at most two triangles at each edge. Costs a sort of the half-edges.
+/// Finds the twin of each half-edge: the half-edge of the neighbouring triangle with the same ends; [`NO_INDEX`] on the
+/// border. At most two triangles may share an edge. Costs a sort of the half-edges.
 pub(crate) fn twin_half_edges(triangles: &[[u32; 3]]) -> Vec<u32> {
     let half_edges = 0..3 * triangles.len() as u32;
     let mut sorted: Vec<(u32, u32, u32)> = half_edges

@@ -1,4 +1,4 @@
-//! A triangle mesh or a point cloud, with colours, normals and texture coordinates.
+//! Triangle meshes and point clouds, with colours, normals and texture coordinates.
 
 use crate::error::{Error, Result, check_count};
 
@@ -16,7 +16,7 @@ pub struct Mesh {
 }
 
 impl Mesh {
-    /// A mesh of triangles that name their vertices by index.
+    /// Makes a triangle mesh of vertex positions and of triangles, each of which lists three vertices by index.
     ///
     /// # Errors
     /// [`Error::Unsupported`] if there is no triangle, [`Error::Format`] if one
@@ -55,7 +55,7 @@ impl Mesh {
         })
     }
 
-    /// A point cloud: points without triangles.
+    /// Makes a point cloud: points without triangles.
     ///
     /// # Errors
     /// [`Error::Unsupported`] if there is no point, [`Error::NotFinite`] if a
@@ -78,12 +78,12 @@ impl Mesh {
         })
     }
 
-    /// Whether the mesh is a point cloud.
+    /// Whether the mesh is a point cloud, without triangles.
     pub fn is_cloud(&self) -> bool {
         self.triangles.is_empty()
     }
 
-    /// The mesh with a unit normal for each vertex. Meshes read from files have none.
+    /// Returns the mesh with a unit normal for each vertex. Meshes read from files have none.
     ///
     /// # Errors
     /// [`Error::Shape`] if there is not one for each vertex.
@@ -93,7 +93,7 @@ impl Mesh {
         Ok(self)
     }
 
-    /// The mesh with a colour for each vertex: red, green, blue, usually from 0 to 1, in the user's colour
+    /// Returns the mesh with a colour for each vertex: red, green, blue, usually from 0 to 1, in the user's colour
     /// space.
     ///
     /// # Errors
@@ -104,8 +104,9 @@ impl Mesh {
         Ok(self)
     }
 
-    /// The mesh with texture coordinates for each vertex: from the left of the picture and from its bottom, as
-    /// in OBJ and PLY. (glTF counts from the top; files are converted when they are read and written.)
+    /// Returns the mesh with texture coordinates for each vertex: shares of the texture's width from the left and of
+    /// its height from the bottom, as in OBJ and PLY. (glTF counts from the top; files are converted when they are read
+    /// and written.)
     ///
     /// # Errors
     /// [`Error::Shape`] if there is not one pair for each vertex.
@@ -115,8 +116,8 @@ impl Mesh {
         Ok(self)
     }
 
-    /// The mesh with the number of a texture for each triangle, -1 for none: the picture that the texture
-    /// coordinates of its corners refer to.
+    /// Returns the mesh with a texture number for each triangle, -1 for none: the image that the texture coordinates of
+    /// its corners refer to.
     ///
     /// # Errors
     /// [`Error::Shape`] if there is not one for each triangle.
@@ -131,37 +132,37 @@ impl Mesh {
         check_count(what, self.positions.len(), N, N * values.len())
     }
 
-    /// Positions of the vertices.
+    /// Positions of the vertices in space.
     pub fn positions(&self) -> &[[f64; 3]] {
         &self.positions
     }
 
-    /// Three vertices for each triangle.
+    /// Triangles, each as the indices of its three vertices; empty for a point cloud.
     pub fn triangles(&self) -> &[[u32; 3]] {
         &self.triangles
     }
 
-    /// A normal for each vertex.
+    /// Unit normal of each vertex, if there are normals.
     pub fn normals(&self) -> Option<&[[f32; 3]]> {
         self.normals.as_deref()
     }
 
-    /// A colour for each vertex.
+    /// Colour (red, green, blue) of each vertex, if there are colours.
     pub fn colors(&self) -> Option<&[[f32; 3]]> {
         self.colors.as_deref()
     }
 
-    /// Texture coordinates for each vertex.
+    /// Texture coordinates of each vertex, if there are any: shares from the texture's left and bottom.
     pub fn uvs(&self) -> Option<&[[f32; 2]]> {
         self.uvs.as_deref()
     }
 
-    /// The number of each triangle's texture, -1 for none.
+    /// Number of each triangle's texture, -1 for none; None if no textures are set.
     pub fn textures(&self) -> Option<&[i32]> {
         self.textures.as_deref()
     }
 
-    /// The mesh with other positions of its vertices, and without normals.
+    /// Returns the mesh with other positions of its vertices, and without normals.
     pub(crate) fn moved_to(mut self, positions: Vec<[f64; 3]>) -> Result<Self> {
         check_finite(&positions)?;
         self.positions = positions;
@@ -169,7 +170,7 @@ impl Mesh {
         Ok(self)
     }
 
-    /// The mesh with those triangles that are wanted, in the same order.
+    /// Returns the mesh with only those triangles that satisfy `wanted`, in the same order; vertices stay.
     pub(super) fn keep(mut self, mut wanted: impl FnMut([u32; 3]) -> bool) -> Self {
         let keep: Vec<bool> = self.triangles.iter().map(|t| wanted(*t)).collect();
         let mut flags = keep.iter();
@@ -181,7 +182,7 @@ impl Mesh {
         self
     }
 
-    /// The corners of one triangle.
+    /// Positions of the three corners of a triangle.
     pub(crate) fn corners(&self, triangle: [u32; 3]) -> [[f64; 3]; 3] {
         triangle.map(|i| self.positions[i as usize])
     }

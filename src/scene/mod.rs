@@ -1,4 +1,4 @@
-//! Meshes, point clouds and depth images, cameras, and the views in which these become heightfields.
+//! Meshes, point clouds, depth images and cameras, and the views in which these become heightfields.
 
 pub(crate) mod camera;
 mod depth;

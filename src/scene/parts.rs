@@ -1,16 +1,16 @@
-//! Connected components of a mesh.
+//! Removal of small connected components from a mesh.
 
 use super::mesh::Mesh;
 use crate::error::{Result, try_filled};
 use crate::math::union_find::UnionFind;
 
-/// Maximum number of triangles of a scrap, as a share of the largest component's.
+/// Number of triangles below which a connected component is a scrap, as a share of the largest component's.
 const MAX_SCRAP_SHARE: f64 = 0.25;
 
 impl Mesh {
-    /// The mesh without scraps: connected components with less than a quarter of the largest one's triangles. In
-    /// depths cropped to a page, scraps are mostly background seen beside a bent edge. Vertices keep their indices.
-    /// Linear cost.
+    /// Removes scraps from the mesh: connected components with less than a quarter of the largest one's triangles. In
+    /// depths cropped to a page, scraps are mostly background that is visible beside a bent edge. Vertices keep their
+    /// indices. Linear cost.
     ///
     /// # Errors
     /// [`Error::OutOfMemory`](crate::Error::OutOfMemory).

@@ -1,4 +1,4 @@
-//! Rotation of images by quarter turns, for depths that lie on their side beside a photo.
+//! Rotation of images by quarter turns, for depth images that lie on their side relative to a photo.
 
 use super::camera::{Distortion, Intrinsics};
 use crate::error::{Result, try_filled};
@@ -8,14 +8,14 @@ use crate::heights::heightfield::HeightImage;
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 #[non_exhaustive]
 pub enum Turn {
-    /// No rotation.
+    /// No rotation of the image.
     #[default]
     None,
-    /// By 90 degrees clockwise: the left side becomes the top.
+    /// Rotation by 90 degrees clockwise: the left side becomes the top.
     Quarter,
-    /// By 180 degrees.
+    /// Rotation by 180 degrees.
     Half,
-    /// By 270 degrees clockwise: the right side becomes the top.
+    /// Rotation by 270 degrees clockwise: the right side becomes the top.
     ThreeQuarters,
 }
 
@@ -24,7 +24,8 @@ impl Turn {
         self as usize
     }
 
-    /// Rotates values at the pixels of an image, row by row. Returns them with the new width and height.
+    /// Rotates values given at the pixels of an image of size (width, height), row by row. Returns them with the new
+    /// width and height.
     ///
     /// # Errors
     /// [`Error::OutOfMemory`](crate::Error::OutOfMemory).
@@ -65,7 +66,8 @@ impl Turn {
         HeightImage::new(width, height, values)?.with_pixel_size(image.pixel_size())
     }
 
-    /// The camera of a rotated image; `size` is the size of its images if the intrinsics have none.
+    /// Returns the intrinsics for rotated images; `size` is the size of the images before, used if the intrinsics have
+    /// none.
     pub fn camera(self, camera: &Intrinsics, size: [usize; 2]) -> Intrinsics {
         let mut camera = *camera;
         for _ in 0..self.quarters() {

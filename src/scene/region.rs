@@ -1,4 +1,4 @@
-//! What else is known at the pixels of depths, from images of other sizes and from parts of photos.
+//! Regions of photos as masks of a depth image, and resampling of further images to its size.
 
 use nalgebra::Vector3;
 
@@ -12,11 +12,11 @@ use crate::math::planar::polygon_contains;
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub enum Region<'a> {
-    /// The pixels whose value is not 0, in an image of this width and height.
+    /// The pixels whose value is not 0, in an image with this width and height.
     Mask([usize; 2], &'a [u8]),
-    /// The polygon between these corners, in pixels of a photo of this width and height: `[0, 0]` is the centre of
-    /// the upper left pixel. Four corners are taken for those of a page, whose edges may be bent: the region is then
-    /// seen along the normal of the plane through the corners, if there are depths around each.
+    /// The polygon between these corners, in pixels of a photo with this width and height; `[0, 0]` is the centre of
+    /// the upper left pixel. Four corners are assumed to be those of a page, whose edges may be bent: the region is
+    /// then the view along the normal of the plane through the corners, if there are depths around each.
     Polygon([usize; 2], &'a [[f64; 2]]),
 }
 
@@ -51,7 +51,7 @@ impl Region<'_> {
     }
 }
 
-/// Checks that the option `crop` is a polygon.
+/// Returns an error unless the value of the option `crop` is a polygon of at least three finite corners.
 pub(crate) fn check_crop(polygon: &[[f64; 2]]) -> Result<()> {
     if polygon.len() >= 3 && polygon.as_flattened().iter().all(|v| v.is_finite()) {
         return Ok(());
@@ -61,8 +61,9 @@ pub(crate) fn check_crop(polygon: &[[f64; 2]]) -> Result<()> {
 }
 
 impl Intrinsics {
-    /// Mask of the depths for [`HeightImage::masked`]: 1 where a depth shows the region, else 0. The photo was taken
-    /// by `camera`, or from the same place with the same outline. Costs `O(pixels · corners)`.
+    /// Computes the mask of a depth image for [`HeightImage::masked`]: 1 where a depth shows the region, else 0. The
+    /// camera `photo` took the photo of the region; without one, the photo shows the same view as the depth image.
+    /// Costs `O(pixels · corners)`.
     ///
     /// # Errors
     /// Those of [`Intrinsics::for_size`] and [`Camera::for_size`]; [`Error::Shape`] for a mask of another
@@ -119,8 +120,8 @@ impl Intrinsics {
     }
 }
 
-/// Resamples values at the pixels of an image, by the nearest pixel, to an image of another size that shows the same
-/// view.
+/// Resamples values given at the pixels of an image of some width and height to an image of another size that shows the
+/// same view, by the nearest pixel. `what` names the values in errors.
 ///
 /// # Errors
 /// [`Error::Shape`] if there are not as many as the size says, [`Error::Empty`],
@@ -142,7 +143,8 @@ pub fn resampled<T: Copy>(
     Ok(out)
 }
 
-/// Index, along one axis, of the nearest pixel of one image for each pixel of another one that shows the same view.
+/// Ratios of width and height of one image to those of another that shows the same view; an error if their proportions
+/// differ by more than 2 %.
 fn stretch(what: &'static str, from: [usize; 2], to: [usize; 2]) -> Result<[f64; 2]> {
     if from.contains(&0) || to.contains(&0) {
         return Err(Error::Empty { what });

@@ -13,38 +13,39 @@ use crate::heights::heightfield::Heightfield;
 use crate::lattice::hexagonal::{Lattice, ROW_SPACING, shift};
 use crate::math::lanes;
 
-/// Resolution of the lattice over a mesh.
+/// Resolution of the lattice on which a mesh is sampled: a number of vertices, or their distance.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub enum Resolution {
     /// Number of vertices along the longer side of the view, at least 2: the spacing is that side over one
     /// less.
     Across(usize),
-    /// Distance between neighbours on the lattice, in the mesh's units.
+    /// Distance between neighbouring vertices of the lattice, in the mesh's units.
     Spacing(f64),
     /// 200 vertices along the longer side; for a point cloud fewer, if there would be less than four points for each
     /// vertex of the box around them.
     Auto,
 }
 
-/// Maximum number of vertices along the longer side for [`Resolution::Auto`].
-const AUTO_RESOLUTION: usize = 200;
-const POINTS_FOR_EACH: f64 = 4.0;
+/// Maximum number of lattice vertices along the longer side of the view for [`Resolution::Auto`].
+const MAX_AUTO_SIDE_VERTICES: usize = 200;
+/// Minimum mean number of a cloud's points for each lattice vertex for [`Resolution::Auto`].
+const MIN_POINTS_PER_VERTEX: f64 = 4.0;
 
-/// The first hit of a ray with the mesh.
+/// The first hit of a view ray with a mesh: the triangle or point, and the position in it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub struct Hit {
-    /// Index of the triangle; in a point cloud, of the nearest visible point.
+    /// Index of the triangle that is hit; in a point cloud, of the nearest visible point.
     pub index: usize,
-    /// Barycentric coordinates in the triangle: none negative, their sum 1.
+    /// Barycentric coordinates of the hit in the triangle: none negative, their sum 1.
     pub weights: [f32; 3],
 }
 
-/// Mark of a lattice vertex whose ray hits no triangle.
+/// Marks a lattice vertex whose ray hits no triangle.
 const NO_TRIANGLE: u32 = u32::MAX;
 
-/// A mesh sampled on a lattice in the frame of a view.
+/// A mesh sampled on a lattice in the frame of a view: heights, and what each ray hits.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Samples {
     field: Heightfield,
@@ -80,10 +81,10 @@ pub fn sample(mesh: &Mesh, view: View, resolution: Resolution) -> Result<Samples
         Resolution::Auto if mesh.is_cloud() => {
             let points = mesh.positions().len() as f64;
             // Each vertex has an area of ROW_SPACING times the spacing squared.
-            let each = (POINTS_FOR_EACH / (points * ROW_SPACING)).sqrt();
-            across(AUTO_RESOLUTION).max(each * width.sqrt() * height.sqrt())
+            let each = (MIN_POINTS_PER_VERTEX / (points * ROW_SPACING)).sqrt();
+            across(MAX_AUTO_SIDE_VERTICES).max(each * width.sqrt() * height.sqrt())
         }
-        Resolution::Auto => across(AUTO_RESOLUTION),
+        Resolution::Auto => across(MAX_AUTO_SIDE_VERTICES),
         Resolution::Across(vertices) => {
             return Err(Error::option("resolution", vertices, "must be at least 2"));
         }
@@ -139,7 +140,7 @@ fn nothing_seen() -> Error {
     }
 }
 
-/// Bounding box of all triangles or points in the image's plane.
+/// Bounding box of all triangles or points in the plane of the view: lower left and upper right corner.
 fn seen(mesh: &Mesh, frame: &Frame) -> ([f64; 2], [f64; 2]) {
     let (mut min, mut max) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
     let mut include = |point| {
@@ -158,22 +159,23 @@ fn seen(mesh: &Mesh, frame: &Frame) -> ([f64; 2], [f64; 2]) {
 }
 
 impl Samples {
-    /// The heights: `x` to the right, `y` up, `z` towards the viewer.
+    /// Sampled heights of the mesh: `x` to the right, `y` up, `z` towards the viewer.
     pub fn heightfield(&self) -> &Heightfield {
         &self.field
     }
 
-    /// The heights, without frame and hits.
+    /// Returns the sampled heights, without the frame of the view and the hits.
     pub fn into_heightfield(self) -> Heightfield {
         self.field
     }
 
-    /// The axes of the image in those of the mesh.
+    /// Frame of the view: the axes of the image in those of the mesh.
     pub fn frame(&self) -> &Frame {
         &self.frame
     }
 
-    /// The first hit of the ray through a lattice vertex, given by its row-major index.
+    /// The first hit of the ray through a lattice vertex, which is given by its row-major index; `None` if nothing is
+    /// hit.
     pub fn hit(&self, index: usize) -> Option<Hit> {
         let found = self.indices[index];
         (found != NO_TRIANGLE).then(|| Hit {
@@ -182,8 +184,8 @@ impl Samples {
         })
     }
 
-    /// Interpolates values at the mesh's vertices to the lattice's: linear in each triangle, the nearest
-    /// point's in a cloud, NaN where nothing was hit. For colours, texture coordinates and other attributes of
+    /// Transfers values from the mesh's vertices to the lattice's vertices: interpolated linearly in each triangle, the
+    /// nearest point's in a cloud, NaN where nothing was hit. For colours, texture coordinates and other attributes of
     /// the mesh that was sampled.
     ///
     /// # Errors
@@ -207,7 +209,7 @@ impl Samples {
         Ok(carried)
     }
 
-    /// Number of the texture that was hit through each lattice vertex: -1 where there is none. Without
+    /// Texture number at each lattice vertex, of the triangle that its ray hits: -1 where it hits none. Without
     /// [`Mesh::textures`] all triangles have number 0.
     ///
     /// # Errors
@@ -230,7 +232,7 @@ struct Buffer {
     weights: Vec<[f32; 3]>,
 }
 
-/// A corner of a triangle on the lattice: `along` a row in spacings, `down` in rows.
+/// A corner of a triangle in lattice coordinates: `along` a row in spacings, `down` in rows.
 #[derive(Clone, Copy, PartialEq, PartialOrd)]
 struct Corner {
     down: f64,
@@ -238,7 +240,8 @@ struct Corner {
     height: f64,
 }
 
-/// Intersection of a row with an edge of a triangle: `share` of the way from corner `from` to corner `to`.
+/// Intersection of a lattice row with an edge of a triangle: at the share `share` of the way from corner `from` to
+/// corner `to`.
 #[derive(Clone, Copy)]
 struct Crossing {
     along: f64,
@@ -309,7 +312,7 @@ impl Buffer {
 }
 
 impl Crossing {
-    /// Barycentric coordinates.
+    /// Barycentric coordinates of the intersection in the triangle.
     fn weights(&self) -> [f64; 3] {
         let mut weights = [0.0; 3];
         weights[self.from] += 1.0 - self.share;
@@ -318,7 +321,7 @@ impl Crossing {
     }
 }
 
-/// Intersections of a row with the border of a triangle, where it enters and leaves.
+/// Finds where a lattice row enters and leaves a triangle; `None` if it does not meet the triangle.
 fn interval(corners: &[Corner; 3], row: f64) -> Option<(Crossing, Crossing)> {
     let mut found: Option<(Crossing, Crossing)> = None;
     for (from, to) in [(0, 1), (1, 2), (2, 0)] {
@@ -334,8 +337,8 @@ fn interval(corners: &[Corner; 3], row: f64) -> Option<(Crossing, Crossing)> {
     found
 }
 
-/// Intersections of an edge with a row: one, both of its ends if it lies on the row, or none. They are the same
-/// for an edge and its reverse, to the last bit.
+/// Finds the intersections of a triangle's edge with a lattice row: one, both of its ends if it lies on the row, or
+/// none. They are equal to the last bit for an edge and its reverse.
 fn crossings(corners: &[Corner; 3], from: usize, to: usize, row: f64) -> [Option<Crossing>; 2] {
     let key = |i: usize| (corners[i].down, corners[i].along);
     let (from, to) = if key(to) < key(from) {

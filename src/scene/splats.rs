@@ -12,15 +12,18 @@ use nalgebra::{Matrix3, Vector3};
 use crate::error::{Result, try_filled};
 use crate::lattice::hexagonal::{Lattice, shift};
 
-/// Distance within which a lattice vertex sees points, in lattice spacings.
+/// Radius around a lattice vertex within which points contribute to its height, in lattice spacings.
 const SPLAT_RADIUS_SPACINGS: f64 = 1.0;
 
-/// Depth below the highest point down to which a lattice vertex sees points, in lattice spacings.
+/// Depth below the highest point around a lattice vertex down to which points contribute to its height, in lattice
+/// spacings.
 const SPLAT_DEPTH_SPACINGS: f64 = 3.0;
-/// Maximum distance between a lattice vertex and the centroid of its points, in lattice spacings.
+/// Maximum distance between a lattice vertex and the centroid of its points for it to have a height, in lattice
+/// spacings.
 const MAX_CENTROID_OFFSET_SPACINGS: f64 = 0.5;
 
-/// Height and nearest visible point at each vertex; NaN and `miss` where there is none.
+/// Computes height and nearest visible point of a point cloud at each lattice vertex; NaN and `miss` where there is
+/// none.
 pub(crate) fn splat(
     lattice: &Lattice,
     points: impl Iterator<Item = [f64; 3]> + Clone,
@@ -62,7 +65,8 @@ pub(crate) fn splat(
     Ok((heights, nearest.into_iter().map(|(i, _)| i).collect()))
 }
 
-/// Calls `visit` with every vertex that sees a point, and the offset from it to the point in spacings.
+/// Calls `visit` with each lattice vertex within the splat radius of a point, and with the offset from the vertex to
+/// the point in spacings.
 fn around(lattice: &Lattice, [x, y, _]: [f64; 3], mut visit: impl FnMut(usize, [f64; 2])) {
     let [left, top] = lattice.origin();
     let step = lattice.row_spacing() / lattice.spacing();
@@ -88,18 +92,18 @@ fn around(lattice: &Lattice, [x, y, _]: [f64; 3], mut visit: impl FnMut(usize, [
     }
 }
 
-/// Integers from `from` to `to` that are at least 0 and below `count`.
+/// Range of the integers from `from` to `to` that are at least 0 and below `count`.
 fn range(from: f64, to: f64, count: usize) -> std::ops::Range<usize> {
     // Casts saturate.
     from.ceil().max(0.0) as usize..(to.floor() + 1.0).max(0.0).min(count as f64) as usize
 }
 
-/// Sums over the points around a vertex.
+/// Sums over the points around a lattice vertex for fitting a plane: weights, first and second moments.
 #[derive(Clone, Copy, Default)]
 struct Sums {
     weight: f64,
     first: [f64; 2],
-    /// Sums of x², xy and y².
+    /// Weighted sums of x², xy and y² over the points.
     second: [f64; 3],
     height: f64,
     tilt: [f64; 2],
@@ -120,7 +124,8 @@ impl Sums {
         }
     }
 
-    /// Height of the fitted plane at the vertex itself.
+    /// Height of the fitted plane at the lattice vertex itself; `None` if the points lie to one side of it, or there
+    /// are none.
     fn height(&self) -> Option<f64> {
         let [x, y] = self.first.map(|v| v / self.weight);
         // Without any points both are NaN.

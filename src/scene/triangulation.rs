@@ -1,4 +1,4 @@
-//! Triangulation of a heightfield as a mesh in space.
+//! Triangulation of a heightfield to a mesh in space.
 
 use super::mesh::Mesh;
 use super::view::Frame;
@@ -8,7 +8,7 @@ use crate::lattice::hexagonal::{Lattice, Towards};
 use crate::math::index::NO_INDEX;
 use crate::math::lanes;
 
-/// Triangulation of a heightfield as a mesh, with the lattice vertex that each of its vertices comes from.
+/// Triangulation of a heightfield: a mesh, with the lattice vertex of each of its vertices.
 ///
 /// It has every triangle of the lattice whose three vertices have heights, counter-clockwise as seen from above (from
 /// where the heights point), ordered by upper left vertex; and the vertices that these use, in the lattice's
@@ -21,8 +21,8 @@ pub struct Triangulation {
 }
 
 impl Triangulation {
-    /// Triangulates a heightfield over the plane of a frame: [`Frame::default`] gives positions `x y z` as in the
-    /// lattice, the frame of [`Samples`](crate::Samples) positions in the axes of the sampled mesh.
+    /// Triangulates a heightfield and places it in space by a frame: [`Frame::default`] gives positions `x y z` as in
+    /// the lattice, the frame of [`Samples`](crate::Samples) positions in the axes of the sampled mesh.
     ///
     /// Costs `O(vertices)`.
     ///
@@ -32,8 +32,8 @@ impl Triangulation {
         Triangulation::of_some(surface, frame, |_| true)
     }
 
-    /// Triangulation of a part of a heightfield: `wanted` tells for the lattice indices of a triangle's corners whether it
-    /// belongs to it.
+    /// Triangulates a part of a heightfield: `wanted` tells for the lattice indices of a triangle's corners whether it
+    /// belongs to the part.
     pub(crate) fn of_some(
         surface: &Heightfield,
         frame: &Frame,
@@ -77,7 +77,7 @@ impl Triangulation {
         })
     }
 
-    /// The triangulation with colours, given for each vertex of the lattice as [`Mesh::with_colors`] takes
+    /// Returns the triangulation with colours, given for each vertex of the lattice as [`Mesh::with_colors`] takes
     /// them. NaN becomes the mean of its neighbours, from a hole's rim inwards.
     ///
     /// # Errors
@@ -88,7 +88,7 @@ impl Triangulation {
         Ok(Triangulation { mesh, ..self })
     }
 
-    /// The triangulation with texture coordinates, given for each vertex of the lattice.
+    /// Returns the triangulation with texture coordinates, given for each vertex of the lattice.
     ///
     /// # Errors
     /// As [`Triangulation::with_colors`].
@@ -98,43 +98,43 @@ impl Triangulation {
         Ok(Triangulation { mesh, ..self })
     }
 
-    /// The lattice.
+    /// The lattice of the triangulated heightfield.
     pub fn lattice(&self) -> &Lattice {
         &self.lattice
     }
 
-    /// Row-major index in the lattice of each vertex, ascending.
+    /// Row-major index in the lattice of each of the mesh's vertices, ascending.
     pub fn vertices(&self) -> &[u32] {
         &self.vertices
     }
 
-    /// `x, y, z` of each vertex.
+    /// Position `x, y, z` in space of each of the mesh's vertices.
     pub fn positions(&self) -> &[[f64; 3]] {
         self.mesh.positions()
     }
 
-    /// The vertices of each triangle, counted from 0 in [`Triangulation::vertices`].
+    /// Vertices of each triangle, as indices into [`Triangulation::vertices`].
     pub fn triangles(&self) -> &[[u32; 3]] {
         self.mesh.triangles()
     }
 
-    /// The mesh.
+    /// The heightfield's triangle mesh.
     pub fn mesh(&self) -> &Mesh {
         &self.mesh
     }
 
-    /// The mesh, without the lattice indices of its vertices.
+    /// Returns the triangle mesh, without the lattice indices of its vertices.
     pub fn into_mesh(self) -> Mesh {
         self.mesh
     }
 
-    /// Normal of a triangle with its doubled area as length, in units of the spacing.
+    /// Normal vector of a triangle, with twice the triangle's area as its length, in units of the lattice spacing.
     pub(crate) fn normal(&self, triangle: [u32; 3]) -> [f64; 3] {
         normal(self.mesh.corners(triangle), self.lattice.spacing())
     }
 
-    /// Values at the mesh's vertices from those at the lattice's. A missing value, as in a bridged hole, becomes the
-    /// mean of its neighbours', from the hole's rim inwards, or 0 if it has none.
+    /// Picks the values at the mesh's vertices from those at the lattice's vertices. A missing value, as in a bridged
+    /// hole, becomes the mean of its neighbours' values, from the hole's rim inwards, or 0 if it has none.
     pub(crate) fn picked<const N: usize>(
         &self,
         what: &'static str,
@@ -188,7 +188,7 @@ fn room<T>(len: usize) -> Result<Vec<T>> {
     Ok(list)
 }
 
-/// Lattice indices of the corners of each triangle with three heights.
+/// Lattice indices of the corners of each triangle whose three vertices have heights.
 fn whole_triangles(surface: &Heightfield) -> impl Iterator<Item = [usize; 3]> {
     let lattice = *surface.lattice();
     let vertices = (0..lattice.rows()).flat_map(move |r| (0..lattice.cols()).map(move |c| (r, c)));
@@ -208,7 +208,7 @@ fn whole_triangles(surface: &Heightfield) -> impl Iterator<Item = [usize; 3]> {
         .map(move |triangle| triangle.map(|(row, col)| lattice.index(row as usize, col as usize)))
 }
 
-/// Normal of each vertex: the mean of those of its triangles, weighted by area.
+/// Computes the unit normal of each vertex: the mean of its triangles' normals, weighted by area.
 fn normals(mesh: &Mesh, spacing: f64) -> Result<Vec<[f32; 3]>> {
     let mut sums = try_filled("mesh", mesh.positions().len(), [0.0; 3])?;
     for triangle in mesh.triangles() {
@@ -225,8 +225,8 @@ fn normals(mesh: &Mesh, spacing: f64) -> Result<Vec<[f32; 3]>> {
     Ok(normals)
 }
 
-/// Normal of a triangle with its doubled area as length, all in units of the spacing, so that it
-/// neither over- nor underflows.
+/// Normal vector of a triangle, with twice the triangle's area as its length. Lengths are in units of the lattice
+/// spacing, so that nothing over- or underflows.
 fn normal(corners: [[f64; 3]; 3], spacing: f64) -> [f64; 3] {
     let [a, b, c] = corners.map(|corner| corner.map(|coordinate| coordinate / spacing));
     let edge = |to: [f64; 3]| [to[0] - a[0], to[1] - a[1], to[2] - a[2]];

@@ -1,4 +1,4 @@
-//! Views of a mesh: the direction it is seen in, and the axes of the image.
+//! Views of a mesh: the direction it is seen in, and the axes of the resulting image.
 
 use std::str::FromStr;
 
@@ -7,15 +7,15 @@ use nalgebra::{Matrix3, SymmetricEigen, Vector3};
 use super::mesh::Mesh;
 use crate::error::{Error, Result};
 
-/// A direction of view, from the viewer to the mesh.
+/// Direction in which a mesh is seen, from the viewer to the mesh.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub enum View {
-    /// Along a vector of any length: `[0.0, 0.0, -1.0]` looks down the z axis,
-    /// so that what has the largest z is in front. By name, `"-z"`.
+    /// View along a vector of any length: `[0.0, 0.0, -1.0]` looks down the z axis, so that what has the largest z is
+    /// in front. By name, `"-z"`.
     Along([f64; 3]),
-    /// Along the normal of the plane that fits the triangles best (their principal axes, weighted by area), from the
-    /// side that more of their area faces. For a point cloud the plane fits the points, and the viewer is on the
+    /// View along the normal of the plane that fits the triangles best (their principal axes, weighted by area), from
+    /// the side that more of their area faces. For a point cloud the plane fits the points, and the viewer is on the
     /// positive side of the normal's largest coordinate.
     BestFit,
 }
@@ -36,16 +36,16 @@ pub enum View {
 /// | `+y` | `+x` | `+z` | `-y` |
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Frame {
-    /// The image's x axis.
+    /// Direction of the image's x axis, in the mesh's axes.
     pub right: [f64; 3],
-    /// The image's y axis.
+    /// Direction of the image's y axis, in the mesh's axes.
     pub up: [f64; 3],
-    /// The axis of the heights, towards the viewer.
+    /// Direction of the heights, towards the viewer, in the mesh's axes.
     pub towards: [f64; 3],
 }
 
 impl Default for Frame {
-    /// The mesh's own axes, as seen along `-z`.
+    /// Returns the frame of a view along `-z`: the mesh's own axes.
     fn default() -> Self {
         Frame {
             right: [1.0, 0.0, 0.0],
@@ -58,7 +58,7 @@ impl Default for Frame {
 impl FromStr for View {
     type Err = Error;
 
-    /// From `-x`, `+x`, `-y`, `+y`, `-z`, `+z` or `best-fit`.
+    /// Makes a view from its name: `-x`, `+x`, `-y`, `+y`, `-z`, `+z` or `best-fit`.
     fn from_str(name: &str) -> Result<Self> {
         Ok(match name {
             "-x" => View::Along([-1.0, 0.0, 0.0]),
@@ -80,7 +80,7 @@ impl FromStr for View {
 }
 
 impl View {
-    /// The frame of this view of a mesh.
+    /// Computes the frame (axes of the image) of this view of a mesh.
     ///
     /// # Errors
     /// [`Error::Option`] if the vector is zero or not finite,
@@ -98,7 +98,7 @@ impl View {
 }
 
 impl Frame {
-    /// The frame of the view along a vector.
+    /// Computes the frame (axes of the image) of the view along a vector.
     ///
     /// # Errors
     /// [`Error::Option`] if the vector is zero or not finite.
@@ -130,20 +130,20 @@ impl Frame {
         })
     }
 
-    /// Coordinates of a point in the image's axes, from those in the mesh's.
+    /// Transforms a point from the mesh's axes to the image's.
     pub fn view(&self, point: [f64; 3]) -> [f64; 3] {
         [self.right, self.up, self.towards]
             .map(|axis| axis[0] * point[0] + axis[1] * point[1] + axis[2] * point[2])
     }
 
-    /// Coordinates of a point in the mesh's axes, from those in the image's.
+    /// Transforms a point from the image's axes to the mesh's.
     pub fn unview(&self, [x, y, z]: [f64; 3]) -> [f64; 3] {
         std::array::from_fn(|k| x * self.right[k] + y * self.up[k] + z * self.towards[k])
     }
 }
 
-/// Normal of the best-fit plane, on the side that more area faces. On equal sides, as of a closed mesh with a
-/// symmetry, its largest component is positive.
+/// Computes the normal of the plane that fits a mesh's triangles best, on the side that more of their area faces. On
+/// equal sides, as of a closed mesh with a symmetry, the normal's largest component is positive.
 fn facing_normal(mesh: &Mesh) -> Result<Vector3<f64>> {
     let (centre, size) = bounds(mesh);
     let corners = || {
@@ -197,7 +197,7 @@ fn facing_normal(mesh: &Mesh) -> Result<Vector3<f64>> {
     Ok(normal * 1f64.copysign(sign))
 }
 
-/// Normal of the plane that fits the points of a cloud best, with its largest component positive.
+/// Computes the normal of the plane that fits the points of a cloud best, with its largest component positive.
 fn normal_of_points(mesh: &Mesh) -> Result<Vector3<f64>> {
     let (centre, size) = bounds(mesh);
     let points = || {
@@ -222,7 +222,7 @@ fn normal_of_points(mesh: &Mesh) -> Result<Vector3<f64>> {
     Ok(normal * 1f64.copysign(normal[normal.iamax()]))
 }
 
-/// Centre and half the longest side of the box around all vertices, never 0.
+/// Centre of the bounding box of all vertices, and half the box's longest side, which is never 0.
 fn bounds(mesh: &Mesh) -> ([f64; 3], f64) {
     let extreme = |k: usize, start: f64, pick: fn(f64, f64) -> f64| {
         mesh.positions().iter().fold(start, |m, p| pick(m, p[k]))

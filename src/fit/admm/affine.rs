@@ -1,4 +1,4 @@
-//! The affine surface of least squares, which is optimal where λ is so small that no bend pays, and its proof.
+//! The affine least-squares surface, which is optimal where λ is so small that no bend pays, and the proof of that.
 //!
 //! ADMM takes long there, because it has to find a dual as smooth as the domain is large. But the optimality
 //! condition of that surface is a linear system: a stiffness κ (see [`balance`](super::balance)) that lets
@@ -10,27 +10,29 @@ use super::steps::Admm;
 use crate::error::Result;
 use crate::fit::linear::z_step_solver::{CgCriteria, SolvableOperator, ZStepSolver};
 
-/// Maximum relative duality gap at which the affine surface may be the answer; with a larger one, the surface
-/// bends.
+/// Maximum relative duality gap at which the affine least-squares surface may be the optimum; with a larger gap, the
+/// optimal surface bends.
 pub(super) const MAX_AFFINE_GAP: f64 = 0.1;
 
-/// Screening length `(κ/2λ)^¼` of a surface that counts as stiff, in sizes of the domain: its bends are then
-/// a millionth of what they could be.
+/// Screening length `(κ/2λ)^¼` (distance over which a stiffness `κ` smooths), in sizes of the domain, at which the
+/// surface counts as rigid: its bends are then a millionth of what they could be.
 const STIFF_SCREENING_LENGTH: f64 = 10.0;
 
-/// Residual at which the affine surface's dual is found, relative to the first.
+/// Residual of the linear system for the affine surface's dual at which conjugate gradients stop, relative to the first
+/// residual.
 const DUAL_TOLERANCE: f64 = 1e-4;
 
-/// Residual at which the affine surface's dual is found where vertices have next to no fidelity, relative to the
-/// first: what is left of it costs more there.
+/// Residual of the linear system for the affine surface's dual at which conjugate gradients stop where some vertices
+/// have hardly any fidelity weight, relative to the first: what is left of the residual costs the dual bound more
+/// there.
 const DUAL_TOLERANCE_WEAK_FIDELITY: f64 = 1e-9;
 
 /// Maximum number of conjugate-gradient iterations for the affine surface's dual.
 const MAX_DUAL_ITERATIONS: usize = 100;
 
 impl<O: SolvableOperator> Admm<O> {
-    /// Makes the affine surface of least squares the incumbent, with a bound of its own, if its objective is
-    /// smaller.
+    /// Computes the affine least-squares surface and a dual bound for it, and makes it the incumbent (best surface so
+    /// far) if its objective is smaller.
     pub(super) fn try_affine(&mut self) -> Result<()> {
         let is_trivial = self.incumbent.objective() <= self.incumbent.rounding;
         let is_fixed = self.parameters.follows_normals || !self.problem.constrained.is_empty();

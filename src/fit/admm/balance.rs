@@ -1,4 +1,5 @@
-//! A balanced dual, which satisfies the optimality condition of a surface `z`, and its bound.
+//! Balancing of a dual: a correction after which it satisfies the optimality condition of a surface `z`, and its dual
+//! bound.
 //!
 //! Where vertices have no fidelity term of their own, `CᵀY` must all but vanish for the bound `D(Y)` to be worth
 //! anything, and ADMM's dual comes close to that only in the end. So it is balanced first: with a stiffness `κ`
@@ -14,22 +15,24 @@ use crate::fit::linear::z_step_solver::{CgCriteria, SolvableOperator, ZStepSolve
 use crate::fit::operator::{Hessians, Matrices, Sums};
 use crate::math::sym2::Sym2;
 
-/// Stopping criteria of the conjugate gradients that balance a dual.
+/// Stopping criteria of the conjugate gradients that balance a dual during ADMM.
 pub(super) const BALANCE_CRITERIA: CgCriteria = CgCriteria {
     tolerance: 1e-9,
     max_iterations: 100,
 };
 
-/// A dual that is balanced: no vertex without a fidelity term is pulled by it, or else its dual bound would be −∞.
+/// A balanced dual: corrected so that `CᵀY` vanishes at vertices without a fidelity term, where the dual bound would be
+/// −∞ otherwise.
 pub(super) struct Balanced {
-    /// A lower bound of the optimum.
+    /// Dual bound of the balanced dual: a lower bound of the optimal objective.
     pub bound: f64,
-    /// Number of conjugate-gradient iterations that it took.
+    /// Number of conjugate-gradient iterations that the balancing took.
     pub iterations: usize,
     q: Vec<f64>,
 }
 
-/// Balances the iterate's dual about the surface `z`, with a `solver` whose ρ is the stiffness.
+/// Balances the iterate's dual: corrects it so that it satisfies the optimality condition of the surface `z`, by a
+/// linear solve with a z-step `solver` whose ρ is set to `stiffness`, and computes its dual bound.
 pub(super) fn balanced_bound<O: SolvableOperator>(
     iterate: &mut Iterate<O>,
     problem: &Problem<O>,
@@ -51,7 +54,7 @@ pub(super) fn balanced_bound<O: SolvableOperator>(
 }
 
 impl<O: SolvableOperator> Iterate<O> {
-    /// Replaces the dual by the balanced one.
+    /// Replaces the iterate's dual by the balanced one.
     pub(super) fn set_balanced_dual(
         &mut self,
         problem: &Problem<O>,
@@ -65,8 +68,8 @@ impl<O: SolvableOperator> Iterate<O> {
         });
     }
 
-    /// The bound `D(t(Y + κCq))` for the best feasible factor `t`; writes the residual
-    /// `−(2λw(z + q − z̃) + Cᵀ(Y + κCq))` to `residual`.
+    /// Computes the dual bound `D(t(Y + κCq))` for the best feasible factor `t`, and writes the residual `−(2λw(z + q −
+    /// z̃) + Cᵀ(Y + κCq))` of the optimality condition to `residual`.
     fn balance(
         &mut self,
         problem: &Problem<O>,

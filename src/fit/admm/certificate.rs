@@ -1,4 +1,4 @@
-//! The certificate of an iterate: objective, dual bound and residuals.
+//! The certificate of ADMM's iterate: objective, dual bound and residuals.
 
 use super::iterate::{CERTIFICATE_SUMS, Iterate, SumTerms};
 use crate::fit::energy::problem::Problem;
@@ -8,51 +8,51 @@ use crate::fit::operator::{Hessians, Matrices, Sums};
 use crate::math::lanes;
 use crate::math::sym2::Sym2;
 
-/// The first `n` terms of each sum of a run.
+/// Returns the first `n` entries of each buffer for a sum's terms.
 #[inline(always)]
 fn terms_of(terms: &mut SumTerms, n: usize) -> [&mut [f64]; CERTIFICATE_SUMS] {
     terms.each_mut().map(|row| &mut row[..n])
 }
 
-/// Adds the terms of a run to the sums.
+/// Adds the terms of one run of vertices or stencils to the certificate's sums.
 fn add_sums<const N: usize>(sums: &mut [f64; CERTIFICATE_SUMS], terms: [&mut [f64]; N]) {
     for (sum, terms) in sums.iter_mut().zip(terms) {
         *sum += lanes::sum(terms);
     }
 }
 
-/// Objective, dual bound and residuals of an iterate.
+/// Objective, dual bound and residuals of an iterate of ADMM, from which its duality gap follows.
 #[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct Certificate {
-    /// `λ Σ w (z − z̃)²`.
+    /// Fidelity `λ Σ w (z − z̃)²`, with the vertices' weights `w`.
     pub fidelity: f64,
-    /// `Σ ω f(Cz)`.
+    /// Penalty `Σ ω f(Cz)` of the Hessians, with the stencils' weights `ω`: the nuclear norm or another energy `f`.
     pub nuclear_norm: f64,
-    /// `D(tY)` with the best `t`: a certified lower bound of the optimum.
+    /// Dual bound `D(tY)` with the best factor `t`: a certified lower bound of the optimal objective.
     pub dual_bound: f64,
-    /// `‖Cz − H‖`.
+    /// Norm `‖Cz − H‖` of the primal residual.
     pub primal_residual: f64,
-    /// The larger of `‖Cz‖` and `‖H‖`, to which the primal residual is relative.
+    /// The larger of `‖Cz‖` and `‖H‖`, to which the primal residual is compared.
     pub primal_size: f64,
-    /// `‖2λ(z − z̃) + CᵀY‖`, which is `ρ‖CᵀΔH‖` for exact z-steps.
+    /// Norm `‖2λ(z − z̃) + CᵀY‖` of the dual residual, which is `ρ‖CᵀΔH‖` for exact z-steps.
     pub dual_residual: f64,
-    /// `‖CᵀY‖`, to which the dual residual is relative.
+    /// Norm `‖CᵀY‖`, to which the dual residual is compared.
     pub dual_size: f64,
-    /// `‖Y‖`.
+    /// Norm `‖Y‖` of the dual.
     pub dual_norm: f64,
-    /// `Σ (2λw(z − z̃) + CᵀY)² / 4λw`: the part of `P − D` that the dual residual causes.
+    /// Part `Σ (2λw(z − z̃) + CᵀY)² / 4λw` of the absolute duality gap `P − D` that the dual residual causes.
     pub dual_cost: f64,
 }
 
 impl Certificate {
-    /// `P`, the sum of fidelity and penalty.
+    /// Objective `P`: the sum of fidelity and penalty.
     pub(crate) fn objective(&self) -> f64 {
         self.fidelity + self.nuclear_norm
     }
 }
 
 impl<O: SolvableOperator> Iterate<O> {
-    /// Computes objective, dual bound and residuals in one pass over the vertices.
+    /// Computes the iterate's objective, dual bound and residuals in one pass over the vertices.
     pub(crate) fn certify(&mut self, problem: &Problem<O>) -> Certificate {
         match problem.kind {
             PenaltyKind::Nuclear => self.certify_under(NuclearNorm, problem),
@@ -145,9 +145,10 @@ impl<O: SolvableOperator> Iterate<O> {
     }
 }
 
-/// The dual bound `D(tY) = t⟨CᵀY, z̃⟩ − t²(Σ (CᵀY)²/4λw + Σ (ωf)*(Y))` for the best factor `t` up to `largest`:
-/// it is concave in `t`, because the conjugates are 0 or quadratic. Where it overflows, `t` is 0. The result is
-/// finite, and at least 0 before the problem's offset is taken off.
+/// Computes the dual bound `D(tY) = t⟨CᵀY, z̃⟩ − t²(Σ (CᵀY)²/4λw + Σ (ωf)*(Y))` for the best factor `t` up to
+/// `largest`: the bound is concave in `t`, because the conjugates are 0 or quadratic. `inner`, `quadratic` and
+/// `conjugate` are the three sums. Where they overflow, `t` is 0. The bound is finite, and at least 0 before the
+/// problem's constant offset is subtracted.
 pub(super) fn dual_bound<O: SolvableOperator>(
     problem: &Problem<O>,
     inner: f64,

@@ -1,4 +1,5 @@
-//! ρ under the default schedule: its start, its bounds, and its changes by relative residuals.
+//! ADMM's penalty parameter ρ under the default schedule: its initial value, its bounds, and its changes by relative
+//! residuals.
 //!
 //! `benches/choices.md` has what the constants were chosen by.
 
@@ -7,54 +8,56 @@ use super::steps::Admm;
 use crate::fit::energy::problem::Problem;
 use crate::fit::linear::z_step_solver::SolvableOperator;
 
-/// Ratio by which one relative residual, both balanced, exceeds the other where ρ changes.
+/// Ratio of the scaled primal to the scaled dual residual, or the inverse, above which ρ changes.
 const RESIDUAL_RATIO: f64 = 3.0;
 
-/// Factor by which ρ changes.
+/// Factor by which ρ is multiplied or divided when it changes.
 const RHO_FACTOR: f64 = 2.0;
 
-/// Ratio of the relative primal to the relative dual residual that changes of ρ aim at: the dual residual is
-/// measured behind `Cᵀ`, which weighs its highest frequencies most, and those cost the bound least, because
-/// dual ascent takes them away.
+/// Ratio of the relative primal to the relative dual residual that changes of ρ aim at. The dual residual is measured
+/// after multiplication by `Cᵀ`, which weighs its highest frequencies most, and those cost the dual bound least,
+/// because dual ascent removes them.
 const RESIDUAL_BALANCE_RATIO: f64 = 0.025;
 
-/// Ratio that changes of ρ aim at where vertices have next to no fidelity: there the dual residual is the
-/// change of the Hessians.
+/// Ratio of the relative primal to the relative dual residual that changes of ρ aim at where some vertices have hardly
+/// any fidelity weight: there the dual residual is the change of the Hessians.
 const RESIDUAL_BALANCE_RATIO_WEAK_FIDELITY: f64 = 10.0;
 
-/// Share of the gap below which the dual residual's part of it makes ρ grow, and keeps it from falling.
+/// Share of the duality gap below which the part that the dual residual causes makes ρ grow, and keeps ρ from falling.
 const DUAL_COST_SHARE_LOW: f64 = 0.2;
 
-/// Share of the gap above which the dual residual's part of it makes ρ fall, where ρ goes by these shares alone.
+/// Share of the duality gap above which the part that the dual residual causes makes ρ fall, on meshes, where ρ is
+/// changed by this share alone.
 const DUAL_COST_SHARE_HIGH: f64 = 0.7;
 
-/// Ratio of ρ on a level to that at the end of the next coarser one.
+/// Ratio of ρ at the start of a multigrid level to ρ at the end of the next coarser one.
 const RHO_REFINEMENT_FACTOR: f64 = 0.5;
 
-/// Maximum screening length of the z-step, in sizes of the domain: a longer one is of no use.
+/// Maximum screening length `(ρ/2λ)^¼` of the z-step (distance over which it smooths), in sizes of the domain: a longer
+/// one is of no use.
 const MAX_SCREENING_LENGTH_SIZES: f64 = 0.1;
 
-/// Maximum screening length of the z-step, in cells: its fourth power is the condition number. A longer one
-/// moves the surface faster and its bound more slowly.
+/// Maximum screening length `(ρ/2λ)^¼` of the z-step (distance over which it smooths), in lattice spacings: its fourth
+/// power is the condition number. A longer one moves the surface faster and its dual bound more slowly.
 const MAX_SCREENING_LENGTH_CELLS: f64 = 10.0;
 
-/// Maximum of ρ where there is no screening length, in sizes of the domain: about the ratio of dual and Hessian
-/// of a surface as large as the domain.
+/// Maximum of ρ, in sizes of the domain, where some vertices have hardly any fidelity weight and the screening length
+/// sets no limit: about the ratio of dual and Hessian of a surface as large as the domain.
 const MAX_RHO_SIZES: f64 = 10.0;
 
-/// ρ at the start of the first level. Creases have Hessians of the order of one over the spacing, which makes
-/// the spacing the natural unit of ρ.
+/// Initial ρ on the first multigrid level. Creases have Hessians of the order of one over the spacing, which makes the
+/// spacing the natural unit of ρ.
 pub(super) fn initial_rho<O: SolvableOperator>(problem: &Problem<O>) -> f64 {
     bounded_rho(problem.operator.spacing(), problem)
 }
 
-/// ρ at the start of a level, from that at the end of the next coarser one.
+/// Initial ρ on a multigrid level, from ρ at the end of the next coarser level.
 pub(crate) fn refined_rho<O: SolvableOperator>(rho: f64, fine: &Problem<O>) -> f64 {
     bounded_rho(RHO_REFINEMENT_FACTOR * rho, fine)
 }
 
-/// Limits ρ by the screening length `(ρ/2λ)^¼` of the z-step. Where the optimum is nearly affine, the relative
-/// primal residual stays at 1, and balancing alone would let ρ grow without end.
+/// Limits ρ by the screening length `(ρ/2λ)^¼` of the z-step. Where the optimal surface is nearly affine, the relative
+/// primal residual stays at 1, and residual balancing alone would let ρ grow without end.
 fn bounded_rho<O: SolvableOperator>(rho: f64, problem: &Problem<O>) -> f64 {
     let size = problem.operator.size();
     if problem.has_weak_fidelity {
@@ -65,8 +68,8 @@ fn bounded_rho<O: SolvableOperator>(rho: f64, problem: &Problem<O>) -> f64 {
     rho.min(2.0 * problem.lambda * length.powi(4))
 }
 
-/// Residual balancing (Boyd et al., Sec. 3.4.1) of relative residuals, by what the dual one contributes to the
-/// gap: the next ρ.
+/// Returns the next ρ by residual balancing (Boyd et al., Sec. 3.4.1) of relative residuals and by the share of the
+/// duality gap that the dual residual causes. `change` is `ρ‖ΔH‖` of the last iteration.
 pub(super) fn next_rho<O: SolvableOperator>(
     admm: &Admm<O>,
     certificate: &Certificate,

@@ -1,5 +1,5 @@
-//! The default schedule: few conjugate-gradient iterations in each z-step, over-relaxation, dual ascent for the
-//! bound, and an end at a certified gap.
+//! The default schedule of ADMM: few conjugate-gradient iterations in each z-step, over-relaxation, dual ascent for the
+//! dual bound, and a stop at a certified gap.
 //!
 //! `benches/choices.md` has what its constants were chosen by.
 
@@ -21,68 +21,68 @@ use crate::fit::energy::spectral_penalty::PenaltyKind;
 use crate::fit::linear::z_step_solver::SolvableOperator;
 use crate::fit::report::StopReason;
 
-/// Maximum number of conjugate-gradient iterations in a z-step.
+/// Maximum number of conjugate-gradient iterations in a z-step of the default schedule.
 const MAX_CG_ITERATIONS: usize = 1;
 
-/// Maximum number of conjugate-gradient iterations in a z-step with V-cycles while the gap is large.
+/// Maximum number of conjugate-gradient iterations in a z-step with V-cycles while the duality gap is large.
 const MAX_CG_ITERATIONS_LARGE_GAP: usize = 2;
 
-/// Maximum number of conjugate-gradient iterations in the first z-step of a level.
+/// Maximum number of conjugate-gradient iterations in the first z-step of a multigrid level.
 const MAX_CG_ITERATIONS_FIRST: usize = 3;
 
-/// Maximum number of conjugate-gradient iterations in a z-step where vertices have next to no fidelity, because
-/// a V-cycle does less there.
+/// Maximum number of conjugate-gradient iterations in a z-step where some vertices have hardly any fidelity weight,
+/// because a V-cycle reduces the error less there.
 const MAX_CG_ITERATIONS_WEAK_FIDELITY: usize = 4;
 
-/// Relative duality gap above which a second conjugate-gradient iteration in each z-step pays. Below, it saves
-/// hardly more iterations than it costs.
+/// Relative duality gap above which a second conjugate-gradient iteration in each z-step pays. Below, it saves hardly
+/// more iterations of ADMM than it costs.
 const EXTRA_CG_GAP: f64 = 0.03;
 
-/// Squared residual, relative to the first, at which a z-step ends.
+/// Squared residual at which a z-step ends, relative to the one at the start of that z-step.
 const CG_REDUCTION: f64 = 0.005;
 
-/// Over-relaxation of `Cz` in the updates of Hessians and dual.
+/// Over-relaxation factor of `Cz` in ADMM's updates of Hessians and dual.
 const OVER_RELAXATION: f64 = 1.8;
 
-/// Number of iterations at the start of a level without over-relaxation.
+/// Number of iterations without over-relaxation at the start of a multigrid level.
 const UNRELAXED_ITERATIONS: usize = 5;
 
-/// Number of iterations from one check to the next.
+/// Number of ADMM iterations from one check of the certificate to the next.
 const CHECK_ITERATIONS: usize = 10;
 
-/// Number of iterations from one check to the next at the start of a level.
+/// Number of ADMM iterations from one check of the certificate to the next at the start of a multigrid level.
 const FREQUENT_CHECK_ITERATIONS: usize = 5;
 
-/// Number of iterations at the start of a level in which checks are more frequent.
+/// Number of ADMM iterations at the start of a multigrid level in which checks of the certificate are more frequent.
 const FREQUENT_CHECKS_END: usize = 30;
 
-/// Maximum ratio of the current gap to the requested one at which dual ascent is tried.
+/// Maximum ratio of the current duality gap to the requested one at which dual ascent is tried.
 const MAX_ASCENT_GAP_RATIO: f64 = 100.0;
 
-/// Maximum ratio of the current gap to the requested one at which dual ascent is tried without V-cycles: a mesh has
-/// no coarser levels to start from, and ascents from larger gaps only cost time.
+/// Maximum ratio of the current duality gap to the requested one at which dual ascent is tried on meshes, which have no
+/// V-cycles: they have no coarser levels to start from either, and ascents from larger gaps only cost time.
 const MAX_ASCENT_GAP_RATIO_WITHOUT_V_CYCLES: f64 = 10.0;
 
-/// Minimum requested gap at which rank reduction is applied; surfaces solved to a smaller gap have Hessians of rank
-/// one already.
+/// Minimum requested duality gap at which rank reduction is applied; surfaces solved to a smaller gap have Hessians of
+/// rank one already.
 const MIN_RANK_REDUCTION_GAP: f64 = 2e-3;
 
-/// The default schedule on one level.
+/// State of the default schedule on one multigrid level.
 #[derive(Debug, Clone)]
 pub(super) struct DefaultSchedule<O: SolvableOperator> {
     phase: Phase<O>,
     ascent_timer: AscentTimer,
     rho_changes: GrowingInterval,
-    /// Buffers of the last dual ascent, to be used again.
+    /// Buffers of the last dual ascent, kept for the next one.
     idle_ascent: Option<Box<DualAscent<O>>>,
 }
 
-/// Current work of the schedule.
+/// What the default schedule is doing at the moment.
 #[derive(Debug, Clone)]
 enum Phase<O: SolvableOperator> {
-    /// An iteration, in its z-step.
+    /// An ADMM iteration, interrupted in its z-step or about to begin.
     Iteration,
-    /// Dual ascent from the iterate of a check, whose outcome decides how to continue.
+    /// Dual ascent from the iterate of a check; its outcome decides whether ADMM stops.
     DualAscent {
         ascent: Box<DualAscent<O>>,
         certificate: Certificate,
@@ -96,7 +96,7 @@ enum Phase<O: SolvableOperator> {
 }
 
 impl<O: SolvableOperator> DefaultSchedule<O> {
-    /// A schedule in which dual ascent is not tried before an iteration.
+    /// Makes the schedule of a level, in which dual ascent is not tried before iteration `first_ascent_iteration`.
     pub(super) fn new(first_ascent_iteration: usize) -> Self {
         DefaultSchedule {
             phase: Phase::Iteration,
@@ -106,7 +106,8 @@ impl<O: SolvableOperator> DefaultSchedule<O> {
         }
     }
 
-    /// Begins with the first iterate, or with the affine surface if that is better.
+    /// Begins a level with its first iterate, or with the affine least-squares surface if that `may_be_affine` and has
+    /// the smaller objective. Returns a reason to stop at once, if there is one.
     pub(super) fn start(
         &mut self,
         admm: &mut Admm<O>,
@@ -120,7 +121,8 @@ impl<O: SolvableOperator> DefaultSchedule<O> {
         self.ascend_or_decide(admm, certificate, 0.0)
     }
 
-    /// Begins a pass with other weights.
+    /// Begins a further pass, whose penalty weights differ from the last one's. Returns a reason to stop at once, if
+    /// there is one.
     pub(super) fn begin_pass(&mut self, admm: &mut Admm<O>) -> Result<Option<StopReason>> {
         admm.try_affine()?;
         admm.begin_z_step();
@@ -128,11 +130,11 @@ impl<O: SolvableOperator> DefaultSchedule<O> {
         Ok(stop_reason(admm))
     }
 
-    /// Continues until there is a reason to stop, or until the budget of conjugate-gradient iterations is
-    /// `left` empty.
+    /// Continues ADMM until there is a reason to stop, which is returned, or until the budget of `left`
+    /// conjugate-gradient iterations is used up.
     ///
     /// # Errors
-    /// Out of memory.
+    /// [`Error::OutOfMemory`](crate::Error::OutOfMemory).
     pub(super) fn advance(
         &mut self,
         admm: &mut Admm<O>,
@@ -161,7 +163,7 @@ impl<O: SolvableOperator> DefaultSchedule<O> {
         Ok(None)
     }
 
-    /// One iteration, or as much of it as the budget allows.
+    /// Runs one ADMM iteration, or as much of it as the budget of `left` conjugate-gradient iterations allows.
     fn iterate(&mut self, admm: &mut Admm<O>, left: &mut usize) -> Result<Option<StopReason>> {
         if !admm.advance_z_step(z_step_accuracy(admm), left) {
             return Ok(None);
@@ -178,7 +180,7 @@ impl<O: SolvableOperator> DefaultSchedule<O> {
         Ok(reason)
     }
 
-    /// Certifies the iterate, then decides at once or after dual ascent.
+    /// Computes the iterate's certificate, then decides at once or after dual ascent whether ADMM stops.
     fn check(&mut self, admm: &mut Admm<O>, change: f64) -> Result<Option<StopReason>> {
         let before = admm.incumbent.objective();
         let certificate = match admm.check()? {
@@ -193,7 +195,7 @@ impl<O: SolvableOperator> DefaultSchedule<O> {
         self.ascend_or_decide(admm, certificate, change)
     }
 
-    /// Begins dual ascent if it may reach the requested gap; otherwise decides whether to stop.
+    /// Begins dual ascent if that may reach the requested gap; decides at once whether ADMM stops if not.
     fn ascend_or_decide(
         &mut self,
         admm: &mut Admm<O>,
@@ -222,7 +224,7 @@ impl<O: SolvableOperator> DefaultSchedule<O> {
         Ok(None)
     }
 
-    /// Continues dual ascent; at its end, decides how to go on.
+    /// Continues dual ascent by one evaluation of the bound; at its end, decides whether ADMM stops.
     fn ascend(
         &mut self,
         admm: &mut Admm<O>,
@@ -250,7 +252,7 @@ impl<O: SolvableOperator> DefaultSchedule<O> {
         reason
     }
 
-    /// Decides whether to stop, and changes ρ if not.
+    /// Decides whether ADMM stops, and changes ρ if it goes on.
     fn decide(
         &mut self,
         admm: &mut Admm<O>,
@@ -269,7 +271,8 @@ impl<O: SolvableOperator> DefaultSchedule<O> {
         reason
     }
 
-    /// Begins rank reduction of the incumbent after the iterations have stopped; `false` if it is not worth it.
+    /// Begins rank reduction of the incumbent surface after the iterations have stopped for `reason`; returns `false`
+    /// if rank reduction is not worthwhile.
     pub(super) fn begin_rank_reduction(
         &mut self,
         admm: &Admm<O>,
@@ -292,7 +295,8 @@ impl<O: SolvableOperator> DefaultSchedule<O> {
         Ok(true)
     }
 
-    /// Continues rank reduction; at its end, takes over the surface if the bound certifies it as well.
+    /// Continues rank reduction by one step; at its end, replaces the incumbent by the reduced surface if the dual
+    /// bound certifies the requested gap for that as well.
     fn reduce_rank(
         &mut self,
         admm: &mut Admm<O>,
@@ -320,7 +324,7 @@ impl<O: SolvableOperator> DefaultSchedule<O> {
     }
 }
 
-/// Accuracy of the current z-step.
+/// Returns the accuracy to which the current z-step is to be solved.
 fn z_step_accuracy<O: SolvableOperator>(admm: &Admm<O>) -> ZStepAccuracy {
     let is_weak = admm.problem.has_weak_fidelity;
     let max_iterations = if is_weak {
@@ -343,7 +347,7 @@ fn z_step_accuracy<O: SolvableOperator>(admm: &Admm<O>) -> ZStepAccuracy {
     }
 }
 
-/// Whether the iteration that was just begun ends with a check.
+/// Returns whether the ADMM iteration that was just begun ends with a check of its certificate.
 fn is_check<O: SolvableOperator>(admm: &Admm<O>) -> bool {
     let every = if admm.iteration <= FREQUENT_CHECKS_END {
         FREQUENT_CHECK_ITERATIONS
@@ -353,23 +357,23 @@ fn is_check<O: SolvableOperator>(admm: &Admm<O>) -> bool {
     admm.iteration.is_multiple_of(every) || admm.is_last()
 }
 
-/// Over-relaxation of the current iteration. Over-relaxation leaves nearly all of the highest frequencies of a
-/// residual, with the opposite sign; so it is off at the start, where the iterate is full of them, where the bound is
-/// evaluated, and after a divergence.
+/// Returns the over-relaxation factor of the current ADMM iteration. Over-relaxation leaves nearly all of the highest
+/// frequencies of a residual, with the opposite sign; so it is off (1) at the start of a level, where the iterate is
+/// full of them, where the dual bound is evaluated, and after a divergence.
 fn relaxation<O: SolvableOperator>(admm: &Admm<O>) -> f64 {
     let is_plain =
         admm.iteration <= UNRELAXED_ITERATIONS || is_check(admm) || admm.divergence.has_restarted();
     if is_plain { 1.0 } else { OVER_RELAXATION }
 }
 
-/// Whether the optimum of the energy has Hessians of rank one nearly everywhere, which dual ascent and rank
-/// reduction rely on.
+/// Returns whether the optimal surface has Hessians of rank one nearly everywhere, which dual ascent and rank reduction
+/// rely on.
 fn has_rank_one_optimum<O: SolvableOperator>(problem: &Problem<O>) -> bool {
     matches!(problem.kind, PenaltyKind::Nuclear | PenaltyKind::Huber(_))
         && !problem.has_weak_fidelity
 }
 
-/// Whether dual ascent may reach the requested gap from the current one.
+/// Returns whether dual ascent may reach the requested duality gap from the current one.
 fn is_ascent_useful<O: SolvableOperator>(admm: &Admm<O>) -> bool {
     let ratio = match admm.parameters.has_v_cycles {
         true => MAX_ASCENT_GAP_RATIO,
@@ -379,8 +383,9 @@ fn is_ascent_useful<O: SolvableOperator>(admm: &Admm<O>) -> bool {
     has_rank_one_optimum(&admm.problem) && gap > requested && gap < ratio * requested
 }
 
-/// Reason to stop after a check: the requested gap is certified. For an affine surface on a coarse level a larger gap
-/// is enough, because the next lattice may certify it sooner.
+/// Returns the reason to stop after a check, if there is one: the requested gap is certified, rounding errors, or the
+/// iteration limit. For an affine surface on a coarse level a larger gap suffices, because the next finer lattice may
+/// certify it sooner.
 fn stop_reason<O: SolvableOperator>(admm: &Admm<O>) -> Option<StopReason> {
     let incumbent = &admm.incumbent;
     let gap = if incumbent.is_affine && admm.parameters.is_coarse {

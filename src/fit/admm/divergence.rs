@@ -1,14 +1,14 @@
-//! Detection of iterates that diverge, as they may where z-steps are too inexact for their domain.
+//! Detection of ADMM iterates that diverge, as they may where z-steps are solved too inexactly.
 
-/// Factor by which the objective must grow from one check to the next, and exceed that of the input, for
-/// the iterates to count as divergent.
+/// Factor by which the objective must grow from one check to the next, and exceed the objective of the input heights,
+/// for ADMM's iterates to count as divergent.
 const DIVERGENCE_FACTOR: f64 = 10.0;
 
-/// Maximum number of restarts after a divergence; each doubles the conjugate-gradient iterations of a z-step,
-/// so that the last ones solve it nearly exactly.
+/// Maximum number of restarts of ADMM after a divergence; each restart doubles the conjugate-gradient iterations of a
+/// z-step, so that the last ones solve it nearly exactly.
 const MAX_DIVERGENCE_RESTARTS: u32 = 6;
 
-/// The objective at the last check, and the number of restarts so far.
+/// Detector of divergence: the objective at the last check, and the number of restarts so far.
 #[derive(Debug, Clone)]
 pub(super) struct DivergenceGuard {
     last_objective: f64,
@@ -16,7 +16,7 @@ pub(super) struct DivergenceGuard {
 }
 
 impl DivergenceGuard {
-    /// The guard of a solve that has not been checked yet.
+    /// Makes the detector for a solve that has not been checked yet.
     pub(super) fn new() -> Self {
         DivergenceGuard {
             last_objective: f64::MAX,
@@ -24,12 +24,13 @@ impl DivergenceGuard {
         }
     }
 
-    /// Forgets the last objective, because the next one is that of another energy or surface.
+    /// Forgets the objective of the last check, because the next one belongs to another energy or surface.
     pub(super) fn forget_objective(&mut self) {
         self.last_objective = f64::MAX;
     }
 
-    /// Whether the iterates diverge, by the objective and the dual residual of a check.
+    /// Returns whether ADMM's iterates diverge, by the objective and the dual residual of a check; `input_objective`
+    /// computes the objective of the input heights.
     pub(super) fn is_divergent(
         &mut self,
         objective: f64,
@@ -42,19 +43,20 @@ impl DivergenceGuard {
         !(is_bounded && dual_residual.is_finite())
     }
 
-    /// Counts a restart; `false` if there were too many.
+    /// Counts a restart after a divergence; returns `false` if there have been too many.
     pub(super) fn restart(&mut self) -> bool {
         self.forget_objective();
         self.restarts += 1;
         self.restarts <= MAX_DIVERGENCE_RESTARTS
     }
 
-    /// Whether there was any restart.
+    /// Returns whether ADMM was restarted after a divergence.
     pub(super) fn has_restarted(&self) -> bool {
         self.restarts > 0
     }
 
-    /// Factor for the conjugate-gradient iterations of a z-step.
+    /// Factor by which the maximum number of conjugate-gradient iterations of a z-step is multiplied: 2 to the power of
+    /// the number of restarts.
     pub(super) fn accuracy_factor(&self) -> usize {
         1 << self.restarts
     }

@@ -1,4 +1,4 @@
-//! Dual ascent: a better dual bound from the dual of an iterate, by accelerated projected gradients.
+//! Dual ascent: accelerated projected gradient steps that improve the dual of an ADMM iterate, for a better dual bound.
 //!
 //! The dual of ADMM is slow to follow the highest frequencies where the surface bends: the noise that a finer
 //! lattice adds costs the bound many iterations after the objective has settled. Gradient ascent follows these
@@ -22,74 +22,76 @@ use crate::lattice::runs::Run;
 use crate::math::lanes::{self, narrow, widen};
 use crate::math::sym2::{Sym2, clamp};
 
-/// Number of ascent steps from one evaluation of the bound to the next; each costs a third to a fourth of an
-/// iteration of ADMM.
+/// Number of gradient steps of a dual ascent from one evaluation of the dual bound to the next; each step costs a third
+/// to a fourth of an ADMM iteration.
 const STEPS_PER_EVALUATION: usize = 8;
 
-/// Minimum number of evaluations of the bound before an ascent is given up.
+/// Minimum number of evaluations of the dual bound before a dual ascent is given up.
 const MIN_EVALUATIONS: usize = 2;
 
-/// Maximum number of evaluations of the bound in one ascent.
+/// Maximum number of evaluations of the dual bound in one dual ascent.
 const MAX_EVALUATIONS: usize = 8;
 
-/// Maximum ratio of the gain that is still missing to the last gain of the bound at which the ascent continues: each
-/// evaluation gains about half of what the one before did.
+/// Maximum ratio of the increase that is still missing from the dual bound to its last increase at which the ascent
+/// continues: each evaluation increases the bound by about half of what the one before did.
 const EXTRAPOLATION_FACTOR: f64 = 1.5;
 
-/// Minimum momentum, as a share of the last step: on a scan, ten steps come furthest with it.
+/// Minimum momentum of a dual ascent step, as a share of the step before: on a scan, ten steps come furthest with it.
 const MIN_MOMENTUM: f32 = 0.7;
 
-/// Maximum momentum, as a share of the last step: on a scan, fifty steps come furthest with it.
+/// Maximum momentum of a dual ascent step, as a share of the step before: on a scan, fifty steps come furthest with it.
 const MAX_MOMENTUM: f32 = 0.95;
 
-/// Momentum of the `k`-th step (Beck and Teboulle), as a share of the step before.
+/// Momentum of the `k`-th step of accelerated gradient ascent (Beck and Teboulle), as a share of the step before.
 fn momentum(k: usize) -> f32 {
     (k as f32 / (k as f32 + 3.0)).clamp(MIN_MOMENTUM, MAX_MOMENTUM)
 }
 
-/// Cost of the steps and of one evaluation of the bound, in conjugate-gradient iterations.
+/// Cost of [`STEPS_PER_EVALUATION`] dual ascent steps and one evaluation of the bound, in conjugate-gradient
+/// iterations.
 pub(super) const EVALUATION_COST_CG_ITERATIONS: usize = 5;
 
-/// Progress of a dual ascent: the bound that it seeks, and the dual bounds found so far.
+/// Progress of a dual ascent: its goal, and the dual bounds evaluated so far.
 #[derive(Debug, Clone, Default)]
 struct AscentProgress {
-    /// The bound at which the ascent ends.
+    /// Dual bound at which the ascent ends.
     goal: f64,
-    /// The largest bound so far.
+    /// Largest dual bound so far.
     best: f64,
-    /// The bound of the last evaluation.
+    /// Dual bound of the last evaluation.
     last: f64,
     evaluations: usize,
 }
 
-/// Dual ascent from the dual of an iterate, with its buffers.
+/// A dual ascent from the dual of an ADMM iterate, with its buffers.
 #[derive(Debug, Clone)]
 pub(super) struct DualAscent<O: SolvableOperator> {
     progress: AscentProgress,
-    /// `Y` after the last step.
+    /// Dual `Y` after the last step.
     last: Matrices<f32>,
-    /// `Y` extrapolated by the momentum, from which the next step starts.
+    /// Dual `Y` extrapolated by the momentum, from which the next step starts.
     ahead: Matrices<f32>,
-    /// `z_Y` for `Y = 0`.
+    /// Heights `z_Y = z̃ − CᵀY/2λ` for `Y = 0`.
     base: Vec<f32>,
-    /// `z_Y` of the extrapolated dual.
+    /// Heights `z_Y = z̃ − CᵀY/2λ` of the extrapolated dual.
     heights: Vec<f32>,
-    /// 0 at constrained vertices, which stay where they are, and 1 elsewhere.
+    /// For each vertex 0 if it is constrained, so that its height stays, and 1 otherwise.
     mobility: PerCell<f32>,
-    /// The energy's `ω`.
+    /// Weight `ω` of each stencil's penalty in the energy.
     weight: PerCell<f32>,
     scratch: O::Scratch<f32>,
-    /// Buffer for one run in double precision.
+    /// Buffer for the matrices of one run of stencils, in double precision.
     row: Matrices<f64>,
 }
 
-/// The proximal map of the penalty's conjugate, which follows a gradient step.
+/// Proximal map of the penalty's convex conjugate, which follows each gradient step of the dual.
 trait Proximal: Copy {
-    /// Maps the coordinates of a matrix, for the weight `ω`.
+    /// Applies the map to a matrix, given by its coordinates, of a stencil with penalty weight `ω`.
     fn apply(self, v: [f32; 3], weight: f32) -> [f32; 3];
 }
 
-/// The proximal map of the nuclear norm's conjugate: the projection onto the dual ball.
+/// Proximal map of the nuclear norm's conjugate: the projection onto the dual ball, matrices of spectral norm at most
+/// `ω`.
 #[derive(Clone, Copy)]
 struct Projection;
 
@@ -107,20 +109,20 @@ impl Proximal for HuberStep<f32> {
     }
 }
 
-/// Symmetric matrices, one array for each coordinate of [`Sym2`].
+/// Symmetric matrices at the stencils, one array for each coordinate of [`Sym2`].
 type Matrices<T> = [Vec<T>; 3];
 
-/// The matrices of one run.
+/// Returns the matrices of one run of stencils, by coordinate.
 #[inline(always)]
 fn run_of<T>(matrices: &mut Matrices<T>, Run { start, end }: Run) -> [&mut [T]; 3] {
     matrices.each_mut().map(|values| &mut values[start..end])
 }
 
 impl<O: SolvableOperator> DualAscent<O> {
-    /// Allocates the buffers for ascents on a problem.
+    /// Allocates the buffers for dual ascents on a problem.
     ///
     /// # Errors
-    /// Out of memory.
+    /// [`Error::OutOfMemory`](crate::Error::OutOfMemory).
     pub(super) fn new(problem: &Problem<O>) -> Result<Self> {
         let operator = &problem.operator;
         let zeros = |cells| try_filled("bound", cells, 0.0);
@@ -149,11 +151,11 @@ impl<O: SolvableOperator> DualAscent<O> {
         })
     }
 
-    /// Begins an ascent from the iterate's dual. It ends when the bound reaches the `goal`, or is predicted not to.
-    /// `bound` is the largest bound so far.
+    /// Begins a dual ascent from the iterate's dual. The ascent ends when the dual bound reaches the `goal`, or is
+    /// predicted not to. `bound` is the largest dual bound so far.
     ///
     /// # Errors
-    /// Out of memory.
+    /// [`Error::OutOfMemory`](crate::Error::OutOfMemory).
     pub(super) fn start_dual_ascent(
         &mut self,
         iterate: &mut Iterate<O>,
@@ -171,8 +173,8 @@ impl<O: SolvableOperator> DualAscent<O> {
         Ok(())
     }
 
-    /// Takes [`STEPS_PER_EVALUATION`] steps and evaluates the bound. Returns the largest bound once the ascent is
-    /// over.
+    /// Takes [`STEPS_PER_EVALUATION`] gradient steps and evaluates the dual bound. Returns the largest bound once the
+    /// ascent is over, and `None` before.
     pub(super) fn evaluate_bound(
         &mut self,
         iterate: &mut Iterate<O>,
@@ -198,7 +200,7 @@ impl<O: SolvableOperator> DualAscent<O> {
         over.then_some(search.best)
     }
 
-    /// Takes the steps up to the next evaluation.
+    /// Takes the gradient steps up to the next evaluation of the dual bound.
     fn take_steps(&mut self, operator: &O, proximal: impl Proximal) {
         let before = self.progress.evaluations * STEPS_PER_EVALUATION;
         for step in before..before + STEPS_PER_EVALUATION {
@@ -206,8 +208,8 @@ impl<O: SolvableOperator> DualAscent<O> {
         }
     }
 
-    /// Starts from the dual of ADMM. Where fidelity is weighted, part of `z` takes the place of `z̃`, so that
-    /// a step need not be smaller.
+    /// Sets the starting point of the ascent to the dual of ADMM's iterate. Where vertices have fidelity weights below
+    /// 1, part of the iterate's `z` replaces `z̃`, so that a step need not be smaller.
     fn set_dual(&mut self, iterate: &mut Iterate<O>, problem: &Problem<O>) -> Result<()> {
         let penalty = iterate.penalty(problem);
         problem.weight.narrow_into(&mut self.weight)?;
@@ -240,7 +242,7 @@ impl<O: SolvableOperator> DualAscent<O> {
         Ok(())
     }
 
-    /// Takes one step in one pass over the vertices.
+    /// Takes one gradient step of the dual in one pass over the vertices.
     fn take_step(&mut self, operator: &O, proximal: impl Proximal, momentum: f32) {
         let DualAscent {
             last,
@@ -287,7 +289,7 @@ impl<O: SolvableOperator> DualAscent<O> {
         );
     }
 
-    /// The bound `D` of the dual after the last step, in double precision.
+    /// Computes the dual bound `D` of the dual after the last step, in double precision.
     fn bound(&mut self, iterate: &mut Iterate<O>, problem: &Problem<O>) -> f64 {
         let DualAscent {
             last, row: wide, ..
@@ -344,7 +346,7 @@ impl<O: SolvableOperator> DualAscent<O> {
     }
 }
 
-/// The first `n` values of each coordinate of a row.
+/// Returns the first `n` values of each coordinate in a buffer of matrices.
 #[inline(always)]
 fn row_of(row: &mut Matrices<f64>, n: usize) -> [&mut [f64]; 3] {
     row.each_mut().map(|values| &mut values[..n])

@@ -5,22 +5,22 @@ use crate::fit::energy::problem::Problem;
 use crate::fit::linear::z_step_solver::SolvableOperator;
 use crate::fit::report::relative_gap;
 
-/// The surface of least objective so far and the largest dual bound so far; they may be those of different
-/// iterates.
+/// Incumbent: the surface of least objective that ADMM has found so far and the largest dual bound so far, maybe from
+/// different iterates.
 #[derive(Debug, Clone)]
 pub(crate) struct Incumbent {
     pub z: Vec<f64>,
     pub fidelity: f64,
     pub nuclear_norm: f64,
     pub dual_bound: f64,
-    /// Magnitude of rounding errors in the objective and in the bound.
+    /// Magnitude of rounding errors in the objective and in the dual bound.
     pub rounding: f64,
-    /// Whether the surface is the affine one of least squares.
+    /// Whether the incumbent is the affine least-squares surface.
     pub is_affine: bool,
 }
 
 impl Incumbent {
-    /// The input heights as the first incumbent: their objective is finite, and 0 is a bound of every energy
+    /// Makes the input heights the first incumbent: their objective is finite, and 0 is a dual bound of every energy
     /// without an offset.
     pub(crate) fn from_input<O: SolvableOperator>(problem: &Problem<O>) -> Self {
         Incumbent {
@@ -33,30 +33,31 @@ impl Incumbent {
         }
     }
 
-    /// `P`, the sum of fidelity and penalty.
+    /// Objective `P` of the incumbent: the sum of fidelity and penalty.
     pub(crate) fn objective(&self) -> f64 {
         self.fidelity + self.nuclear_norm
     }
 
-    /// Relative duality gap; 1 where it is not known.
+    /// Relative duality gap of the incumbent; 1 where it is not known.
     pub(crate) fn gap(&self) -> f64 {
         relative_gap(self.objective(), self.dual_bound, self.rounding).unwrap_or(1.0)
     }
 
-    /// Whether the bound certifies a relative duality gap for some surface of this `objective`.
+    /// Returns whether the dual bound certifies the relative duality `gap` for a surface of this `objective`.
     pub(super) fn certifies(&self, objective: f64, gap: f64) -> bool {
         objective - self.dual_bound + self.rounding <= gap * objective
     }
 
-    /// Whether nothing but rounding errors is left of the objective, or of the gap where that is not certified.
+    /// Returns whether the incumbent is optimal up to rounding: its objective, or its duality gap where `gap` is not
+    /// certified, is no larger than rounding errors.
     pub(super) fn is_exact(&self, gap: f64) -> bool {
         let objective = self.objective();
         let is_tight = objective - self.dual_bound <= self.rounding;
         objective <= self.rounding || (is_tight && !self.certifies(objective, gap))
     }
 
-    /// Takes over the surface of an iterate if its objective is smaller, and its bound if that is larger. An
-    /// iterate that is not finite changes nothing.
+    /// Takes over the surface of an iterate if its objective is smaller than the incumbent's, and its dual bound if
+    /// that is larger. An iterate that is not finite changes nothing.
     pub(crate) fn update(&mut self, z: &[f64], certificate: &Certificate) {
         if certificate.objective() < self.objective() {
             self.set_surface(z, certificate.fidelity, certificate.nuclear_norm);
@@ -64,13 +65,13 @@ impl Incumbent {
         self.dual_bound = self.dual_bound.max(certificate.dual_bound);
     }
 
-    /// Takes over both surface and bound of an iterate, because the energy is another one than before.
+    /// Takes over both surface and dual bound of an iterate, without comparison, because the energy has changed.
     pub(super) fn replace(&mut self, z: &[f64], certificate: &Certificate) {
         self.set_surface(z, certificate.fidelity, certificate.nuclear_norm);
         self.dual_bound = certificate.dual_bound;
     }
 
-    /// Replaces the surface, which is not the affine one, and the two terms of its objective.
+    /// Replaces the incumbent surface, and the two terms of its objective, by one that is not the affine one.
     pub(super) fn set_surface(&mut self, z: &[f64], fidelity: f64, nuclear_norm: f64) {
         self.z.copy_from_slice(z);
         self.fidelity = fidelity;

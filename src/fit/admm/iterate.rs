@@ -14,24 +14,25 @@ use crate::lattice::runs::Run;
 use crate::math::lanes;
 use crate::math::sym2::Sym2;
 
-/// Number of sums over stencils, and as many over vertices, that a certificate takes.
+/// Number of sums over stencils, and of sums over vertices, that a certificate is computed from.
 pub(super) const CERTIFICATE_SUMS: usize = 6;
 
-/// The terms of these sums along one run.
+/// Buffers for the terms of a certificate's sums along one run of stencils or vertices.
 pub(super) type SumTerms = [Vec<f64>; CERTIFICATE_SUMS];
 
-/// The iterate: heights `z` at the operator's vertices and `V` at its stencils.
+/// Iterate of ADMM: heights `z` at the operator's vertices and one matrix `V = Y + ρH` at each stencil, which holds
+/// dual `Y` and Hessian `H`.
 #[derive(Debug, Clone)]
 pub(crate) struct Iterate<O: SolvableOperator> {
     pub z: Vec<f64>,
     pub(crate) v: MatrixField,
     pub rho: f64,
     pub(super) scratch: O::Scratch<f64>,
-    /// Room for the terms of a certificate, of sums over stencils and of sums over vertices.
+    /// Buffers for the terms of a certificate: of its sums over stencils and of its sums over vertices.
     pub(super) terms: [SumTerms; 2],
 }
 
-/// A symmetric matrix for each stencil, one array for each coordinate of [`Sym2`].
+/// A symmetric 2×2 matrix for each stencil, one array for each coordinate of [`Sym2`].
 #[derive(Debug, Clone)]
 pub(crate) struct MatrixField {
     mean: Vec<f64>,
@@ -39,7 +40,7 @@ pub(crate) struct MatrixField {
     off: Vec<f64>,
 }
 
-/// One run of a [`MatrixField`].
+/// The part of a [`MatrixField`] that belongs to one run of stencils.
 pub(super) struct MatrixRun<'a> {
     mean: &'a mut [f64],
     diff: &'a mut [f64],
@@ -47,7 +48,7 @@ pub(super) struct MatrixRun<'a> {
 }
 
 impl MatrixField {
-    /// A field of zeros.
+    /// Makes a field of zero matrices, one for each stencil of the problem.
     pub(super) fn new<O: SolvableOperator>(problem: &Problem<O>) -> Result<Self> {
         let cells = problem.operator.stencil_cells();
         let zeros = || try_filled("Hessians and dual", cells, 0.0);
@@ -72,7 +73,7 @@ impl MatrixField {
         self.off[cell] = value.off;
     }
 
-    /// Changes `V = Y + ρH` to `Y + factor · ρH`.
+    /// Replaces `V = Y + ρH` by `Y + factor · ρH` at each stencil.
     fn rescale<O: SolvableOperator>(
         &mut self,
         problem: &Problem<O>,
@@ -120,7 +121,7 @@ impl MatrixRun<'_> {
 }
 
 impl<O: SolvableOperator> Iterate<O> {
-    /// The start of a solve: `z = z̃` and `H = U = 0`.
+    /// Makes the first iterate of a solve: `z` is the input `z̃`, Hessians `H` and dual `U` are 0.
     pub(crate) fn new(problem: &Problem<O>, rho: f64) -> Result<Self> {
         let operator = &problem.operator;
         let mut z = try_filled("heights", operator.vertex_cells(), 0.0)?;
@@ -136,7 +137,7 @@ impl<O: SolvableOperator> Iterate<O> {
         })
     }
 
-    /// Starts again from another `z`, with `H = U = 0`.
+    /// Restarts ADMM's iterate from other heights `z`, with Hessians and dual 0.
     pub(super) fn reset(&mut self, z: &[f64]) {
         self.z.copy_from_slice(z);
         let MatrixField { mean, diff, off } = &mut self.v;
@@ -145,14 +146,14 @@ impl<O: SolvableOperator> Iterate<O> {
         }
     }
 
-    /// Changes ρ and keeps `H` and `Y`.
+    /// Changes the penalty parameter ρ and keeps Hessians `H` and dual `Y`.
     pub(crate) fn set_rho(&mut self, problem: &Problem<O>, rho: f64) {
         self.v
             .rescale(problem, self.penalty(problem), rho / self.rho);
         self.rho = rho;
     }
 
-    /// `V` for the same `H` and `Y` and another ρ.
+    /// Computes the matrices `V = Y + ρH` for another ρ, with this iterate's Hessians `H` and dual `Y`.
     pub(crate) fn v_with_rho(&self, problem: &Problem<O>, rho: f64) -> Result<MatrixField> {
         let mut v = MatrixField::new(problem)?;
         for (to, from) in [
@@ -166,7 +167,7 @@ impl<O: SolvableOperator> Iterate<O> {
         Ok(v)
     }
 
-    /// The dual `Y` and the Hessian `H` at a stencil.
+    /// Returns the dual `Y` and the Hessian `H` at a stencil, which is given by its cell.
     pub(crate) fn matrices(&self, problem: &Problem<O>, cell: usize) -> (Sym2, Sym2) {
         let v = self.v.get(cell);
         let weight = problem.weight.at(cell);
@@ -175,12 +176,12 @@ impl<O: SolvableOperator> Iterate<O> {
         (dual, (v - dual).scale(1.0 / rho))
     }
 
-    /// Sets the dual and the Hessian at a stencil whose share of ρ is 1.
+    /// Sets the dual and the Hessian at a stencil whose factor of ρ is 1.
     pub(crate) fn set_matrices(&mut self, cell: usize, dual: Sym2, hessian: Sym2) {
         self.v.set(cell, dual + hessian.scale(self.rho));
     }
 
-    /// Sets the dual and the Hessian at a stencil with its own share of ρ.
+    /// Sets the dual and the Hessian at a stencil that has a factor of ρ of its own, as those of meshes.
     pub(crate) fn set_matrices_with_rho_share(
         &mut self,
         problem: &Problem<O>,
@@ -191,9 +192,9 @@ impl<O: SolvableOperator> Iterate<O> {
         self.set_matrices(cell, dual, hessian.scale(rho_share));
     }
 
-    /// Updates Hessians and dual with the given over-relaxation, and writes the residual
-    /// `b − A z = 2λ(z̃ − z) + Cᵀ(ρH − Y − ρCz)`, from which the next z-step starts, to its solver, all in one
-    /// pass. With relaxation 0, `H` and `Y` stay as they are.
+    /// Updates Hessians and dual (paper, Eq. 18 and 19) with the over-relaxation `relaxation`, and writes the residual
+    /// `b − A z = 2λ(z̃ − z) + Cᵀ(ρH − Y − ρCz)`, from which the next z-step starts, to its solver, all in one pass.
+    /// With relaxation 0, `H` and `Y` stay as they are.
     pub(crate) fn update(&mut self, problem: &Problem<O>, relaxation: f64, solver: &mut O::Solver) {
         match problem.kind {
             PenaltyKind::Nuclear => {
@@ -207,7 +208,7 @@ impl<O: SolvableOperator> Iterate<O> {
         };
     }
 
-    /// Updates as [`Self::update`] does, and returns `ρ‖ΔH‖`, the change of the Hessians.
+    /// Updates as [`Self::update`] does, and returns `ρ‖ΔH‖`, the norm of the Hessians' change times ρ.
     pub(crate) fn update_and_measure(
         &mut self,
         problem: &Problem<O>,
@@ -217,7 +218,7 @@ impl<O: SolvableOperator> Iterate<O> {
         self.update_under::<true>(self.penalty(problem), problem, relaxation, solver)
     }
 
-    /// The problem's spectral penalty at the current ρ.
+    /// Returns the spectral penalty of the problem's Hessians for the iterate's ρ.
     pub(super) fn penalty(&self, problem: &Problem<O>) -> AnyPenalty {
         AnyPenalty::new(problem.kind, self.rho)
     }

@@ -19,45 +19,47 @@ use crate::error::Result;
 use crate::fit::linear::z_step_solver::SolvableOperator;
 use crate::fit::report::StopReason;
 
-/// ρ at the start, as in the authors' code.
+/// Initial value of ADMM's penalty parameter ρ in the paper's schedule, as in the authors' code.
 pub(super) const INITIAL_RHO: f64 = 1e-6;
 
-/// Residual relative to `2λ z̃` at which a z-step counts as solved: the paper solves it by a sparse Cholesky
-/// factorisation, to rounding errors.
+/// Residual of the z-step's linear system, relative to its right-hand side `2λ z̃`, at which the z-step counts as
+/// solved: the paper solves it by a sparse Cholesky factorisation, to rounding errors.
 const Z_STEP_TOLERANCE: f64 = 1e-8;
 
-/// Squared residual, relative to the first, at which conjugate gradients in single precision end.
+/// Squared residual at which a round of conjugate gradients in single precision ends, relative to the one at the start
+/// of the round.
 const F32_CG_REDUCTION: f64 = 1e-6;
 
-/// Maximum number of conjugate-gradient iterations in a z-step: a bound for domains on which they hardly
-/// converge.
+/// Maximum number of conjugate-gradient iterations in a z-step of the paper's schedule: a limit for domains on which
+/// they hardly converge.
 const MAX_CG_ITERATIONS: usize = 5000;
 
-/// Over-relaxation of `Cz` in Eq. 18 and 19: none.
+/// Over-relaxation factor of `Cz` in Eq. 18 and 19 of the paper: 1, which is none.
 const PAPER_OVER_RELAXATION: f64 = 1.0;
 
-/// Number of iterations from one check of convergence and ρ to the next, as in the authors' code.
+/// Number of ADMM iterations from one check of convergence and ρ to the next, as in the authors' code.
 const CHECK_ITERATIONS: usize = 10;
 
-/// Absolute residual at which the iterations stop: that of the authors' own code, which measures both
-/// residuals among the Hessians, the dual one without the `Cᵀ` that the criterion of Boyd et al. has. With `Cᵀ`,
-/// factors of 1/h² dominate, and the schedule runs ten times longer to a tenth of the gap.
+/// Root mean square residual for each entry of a Hessian at which the paper's schedule stops, as in the authors' code,
+/// which measures both residuals among the Hessians, the dual one without the `Cᵀ` that the criterion of Boyd et al.
+/// has. With `Cᵀ`, factors of 1/h² dominate, and the schedule runs ten times longer to a tenth of the gap.
 const ABSOLUTE_TOLERANCE: f64 = 1e-4;
 
-/// Relative residual at which the iterations stop, measured as the absolute one.
+/// Residual, relative to the size of the Hessians or of the dual, at which the paper's schedule stops.
 const RELATIVE_TOLERANCE: f64 = 1e-3;
 
-/// Number of entries of a Hessian in the norm of a residual: the paper has `h_xy` and `h_yx` (Eq. 16).
+/// Number of entries of a Hessian in the norm of a residual: the paper counts `h_xy` and `h_yx` (Eq. 16).
 const HESSIAN_ENTRIES: f64 = 4.0;
 
-/// Ratio of the two residuals above which ρ changes, as in the authors' code: Boyd et al. have 10, and a larger
-/// one saves factorisations, as Stellato et al. recommend.
+/// Ratio of the primal to the dual residual, or the inverse, above which ρ changes, as in the authors' code: Boyd et
+/// al. have 10, and a larger ratio saves factorisations, as Stellato et al. recommend.
 const RESIDUAL_RATIO: f64 = 5000.0;
 
-/// Factor by which ρ changes, as in the authors' code.
+/// Factor by which ρ is multiplied or divided when it changes, as in the authors' code.
 const RHO_FACTOR: f64 = 2.0;
 
-/// Begins with the first iterate, `H = U = 0` unless there is a warm start.
+/// Begins the paper's schedule with the first iterate, whose Hessians and dual are 0 unless there is a warm start.
+/// Returns a reason to stop at once, if there is one.
 pub(super) fn start<O: SolvableOperator>(
     admm: &mut Admm<O>,
     certificate: &Certificate,
@@ -66,11 +68,11 @@ pub(super) fn start<O: SolvableOperator>(
     stop_reason(admm, certificate, f64::INFINITY)
 }
 
-/// Iterates until there is a reason to stop, or until the budget of conjugate-gradient iterations is `left`
-/// empty, which may be in the middle of a z-step.
+/// Runs ADMM's iterations until there is a reason to stop, which is returned, or until the budget of `left`
+/// conjugate-gradient iterations is used up, which may be in the middle of a z-step.
 ///
 /// # Errors
-/// Out of memory.
+/// [`Error::OutOfMemory`](crate::Error::OutOfMemory).
 pub(super) fn advance<O: SolvableOperator>(
     admm: &mut Admm<O>,
     left: &mut usize,
@@ -108,7 +110,7 @@ pub(super) fn advance<O: SolvableOperator>(
     Ok(None)
 }
 
-/// Accuracy of z-steps: nearly down to rounding errors.
+/// Returns the accuracy to which the paper's schedule solves z-steps: nearly down to rounding errors.
 fn accuracy<O: SolvableOperator>(admm: &Admm<O>) -> ZStepAccuracy {
     ZStepAccuracy {
         max_iterations: MAX_CG_ITERATIONS * admm.divergence.accuracy_factor(),
@@ -117,8 +119,8 @@ fn accuracy<O: SolvableOperator>(admm: &Admm<O>) -> ZStepAccuracy {
     }
 }
 
-/// Convergence (Boyd et al., Sec. 3.3.1): both residuals, `‖Cz − h‖` and the `change` `ρ‖Δh‖`, are below the
-/// tolerances.
+/// Returns the reason to stop, if there is one. ADMM has converged (Boyd et al., Sec. 3.3.1) if both residuals, `‖Cz −
+/// h‖` and the `change` `ρ‖Δh‖`, are below the tolerances.
 fn stop_reason<O: SolvableOperator>(
     admm: &Admm<O>,
     certificate: &Certificate,
@@ -133,8 +135,8 @@ fn stop_reason<O: SolvableOperator>(
     admm.stop_reason(admm.parameters.gap, reason)
 }
 
-/// Residual balancing (Boyd et al., Sec. 3.4.1): ρ grows where the primal residual is much larger than the
-/// dual one, and falls where it is much smaller.
+/// Returns the next ρ by residual balancing (Boyd et al., Sec. 3.4.1): it grows where the primal residual is much
+/// larger than the dual one, and falls where it is much smaller.
 fn next_rho(rho: f64, primal: f64, dual: f64) -> f64 {
     if dual > RESIDUAL_RATIO * primal {
         rho / RHO_FACTOR

@@ -3,38 +3,38 @@
 use super::certificate::Certificate;
 use crate::fit::options::{Energy, Options, Schedule};
 
-/// Which schedule ADMM follows on a level, and when it stops there.
+/// Parameters of ADMM on one multigrid level: the schedule that it follows, and when it stops.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct AdmmParameters {
     pub(super) schedule: Schedule,
-    /// Requested relative duality gap.
+    /// Relative duality gap at which ADMM stops.
     pub(super) gap: f64,
     pub(super) max_iterations: usize,
-    /// Whether there are finer levels.
+    /// Whether this level's lattice is not the finest one.
     pub(super) is_coarse: bool,
     /// Whether z-steps are preconditioned by a multigrid V-cycle.
     pub(super) has_v_cycles: bool,
-    /// Whether the weights are those of the current surface's normals ([`Energy::SecondForm`]).
+    /// Whether the penalty weights are computed anew from the current surface's normals ([`Energy::SecondForm`]).
     pub(super) follows_normals: bool,
 }
 
-/// Minimum number of interior vertices of a coarse level: a smaller one saves nothing.
+/// Minimum number of interior vertices of a coarse multigrid level: a smaller lattice saves nothing.
 const MIN_COARSE_VERTICES: usize = 500;
 
-/// Requested gap of coarse levels, unless a larger one is asked for: their lattice differs from the fine one
-/// by more than that.
+/// Relative duality gap at which ADMM stops on coarse levels, unless a larger one is asked for: their lattice differs
+/// from the fine one by more than that.
 const MIN_COARSE_GAP: f64 = 0.01;
 
-/// Maximum number of iterations of a coarse level (`benches/choices.md`): more would save the finer one less
+/// Maximum number of ADMM iterations on a coarse level (`benches/choices.md`): more would save the finer level less
 /// than they cost.
 const MAX_COARSE_ITERATIONS: usize = 200;
 
-/// Ratio of a warm start's own gap to the square root of the requested one above which coarse levels are a
-/// better start (`benches/choices.md`).
+/// Ratio of a warm start's duality gap to the square root of the requested gap above which a solve from coarse levels
+/// is a better start (`benches/choices.md`).
 const WARM_START_MAX_GAP_FACTOR: f64 = 3.0;
 
 impl AdmmParameters {
-    /// The parameters on the finest level.
+    /// Takes the parameters of the finest level from the solve's options.
     pub(crate) fn new(options: &Options) -> Self {
         AdmmParameters {
             schedule: options.schedule,
@@ -46,7 +46,7 @@ impl AdmmParameters {
         }
     }
 
-    /// The parameters for z-steps by conjugate gradients without a V-cycle.
+    /// Returns these parameters for z-steps that are solved by conjugate gradients without a V-cycle.
     pub(crate) fn without_v_cycles(self) -> Self {
         AdmmParameters {
             has_v_cycles: false,
@@ -54,7 +54,8 @@ impl AdmmParameters {
         }
     }
 
-    /// The parameters on a coarse level or on the finest one, after a number of iterations on others.
+    /// Returns the parameters of a coarse level or of the finest one, after `iterations_done` iterations on other
+    /// levels.
     pub(crate) fn on_level(&self, is_coarse: bool, iterations_done: usize) -> Self {
         let left = self.max_iterations.saturating_sub(iterations_done);
         let (gap, max_iterations) = match is_coarse {
@@ -72,19 +73,20 @@ impl AdmmParameters {
         }
     }
 
-    /// Whether a lattice with this number of interior vertices is worth a coarse level of its own.
+    /// Returns whether a lattice with `interior` interior vertices is worth a multigrid level of its own.
     pub(crate) fn wants_level(&self, interior: usize) -> bool {
         self.schedule == Schedule::Default && interior >= MIN_COARSE_VERTICES
     }
 
-    /// Whether a warm start is so far from the optimum that coarse levels are a better start.
+    /// Returns whether a warm start, given by its certificate, is so far from the optimum that a solve from coarse
+    /// levels is a better start.
     pub(crate) fn is_far(&self, start: &Certificate) -> bool {
         let objective = start.objective();
         let gap = (objective - start.dual_bound) / objective;
         gap.is_nan() || gap > WARM_START_MAX_GAP_FACTOR * self.gap.sqrt()
     }
 
-    /// Whether this iteration is the last one allowed.
+    /// Returns whether this ADMM iteration is the last one allowed.
     pub(super) fn is_last(&self, iteration: usize) -> bool {
         iteration >= self.max_iterations
     }

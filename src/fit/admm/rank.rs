@@ -21,35 +21,37 @@ use crate::math::lanes;
 use crate::math::real::larger;
 use crate::math::sym2::Sym2;
 
-/// Number of steps of the rank refinement, each of which costs about as much as an iteration of ADMM.
+/// Number of steps of a rank reduction, each of which costs about as much as an iteration of ADMM.
 const RANK_STEPS: usize = 8;
 
-/// Limit of the smaller eigenvalues in the first step, in medians of their magnitudes.
+/// Threshold of the Hessians' smaller eigenvalues in the first step of a rank reduction, in medians of their absolute
+/// values; beyond it, they are removed less.
 const FIRST_EIGENVALUE_LIMIT: f64 = 1.2;
 
-/// Factor by which the limit changes from step to step.
+/// Factor by which the threshold of the smaller eigenvalues changes from step to step.
 const LIMIT_FACTOR: f64 = 0.7;
 
-/// Over-relaxation of a step: heights can follow only a part of a change of their Hessians.
+/// Over-relaxation factor of a rank reduction step: heights can follow only a part of a change of their Hessians.
 const RANK_OVER_RELAXATION: f64 = 2.0;
 
-/// Stride between the stencils that the median is taken of.
+/// Stride between the stencils whose smaller eigenvalues the median is computed of.
 const MEDIAN_SAMPLE_STRIDE: usize = 7;
 
-/// State of a rank reduction.
+/// State of a rank reduction between two steps.
 #[derive(Debug, Clone)]
 pub(super) struct RankReduction {
-    /// The surface extrapolated by the momentum, from which the next step starts.
+    /// Heights of the surface extrapolated by the momentum, from which the next step starts.
     start: Vec<f64>,
-    /// The surface after the last step.
+    /// Heights of the surface after the last step of the rank reduction.
     z: Vec<f64>,
-    /// Magnitude beyond which a smaller eigenvalue counts the less the larger it is.
+    /// Absolute value of a Hessian's smaller eigenvalue beyond which the eigenvalue is removed the less the larger it
+    /// is.
     limit: f64,
     steps: usize,
 }
 
 impl RankReduction {
-    /// Starts from the surface `z`; `None` where its Hessians have rank one already.
+    /// Begins rank reduction of the surface `z`; `None` where its Hessians have rank one already.
     pub(super) fn new<O: SolvableOperator>(
         problem: &Problem<O>,
         z: &[f64],
@@ -83,7 +85,8 @@ impl RankReduction {
         }))
     }
 
-    /// Takes one step, which costs one conjugate-gradient iteration. Returns the surface after the last step.
+    /// Takes one step of the rank reduction, which costs one conjugate-gradient iteration. Returns the surface after
+    /// the last step, and `None` before.
     pub(super) fn step<O: SolvableOperator>(
         &mut self,
         problem: &Problem<O>,
@@ -105,14 +108,15 @@ impl RankReduction {
     }
 }
 
-/// The eigenvalue of smaller magnitude, and the sign of the other one.
+/// Returns the eigenvalue of smaller magnitude of a Hessian, and the sign of the other one.
 #[inline(always)]
 fn lesser_eigenvalue(hessian: Sym2) -> (f64, f64) {
     let sign = 1f64.copysign(hessian.mean);
     (hessian.mean - sign * hessian.radius(), sign)
 }
 
-/// The part of a Hessian that belongs to its smaller eigenvalue, reduced where that exceeds the limit.
+/// Returns the part of a Hessian that its smaller eigenvalue contributes, reduced where that eigenvalue exceeds the
+/// `limit`.
 #[inline(always)]
 fn lesser_part(hessian: Sym2, limit: f64) -> Sym2 {
     let (value, sign) = lesser_eigenvalue(hessian);
@@ -132,7 +136,8 @@ fn lesser_part(hessian: Sym2, limit: f64) -> Sym2 {
 }
 
 impl<O: SolvableOperator> Iterate<O> {
-    /// Writes `−ρCᵀN` of the surface `z` to the solver as the residual of the next z-step.
+    /// Writes the residual `−ρCᵀN` of the next z-step to the solver, where `N` is the part of the surface's Hessians
+    /// that their smaller eigenvalues contribute.
     fn reduce_rank(&mut self, problem: &Problem<O>, z: &[f64], limit: f64, solver: &mut O::Solver) {
         let Iterate {
             rho,
@@ -178,7 +183,7 @@ mod tests {
             prop_assert_eq!(part.eigenvalues(), [0.5 * value; 2]);
         }
 
-        /// Within the limit all of the smaller eigenvalue, beyond it the less the larger it is.
+        /// The part that is removed has all of the smaller eigenvalue within the limit, and less of a larger one.
         #[test]
         fn what_is_left_has_the_larger_eigenvalue_alone(
             xx in -5.0..5.0f64, xy in -5.0..5.0f64, yy in -5.0..5.0f64, limit in 0.01..8.0f64,

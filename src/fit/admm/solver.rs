@@ -1,4 +1,4 @@
-//! ADMM on one level under either schedule, in steps that can be interrupted.
+//! ADMM on one multigrid level under either schedule, in steps that can be interrupted.
 
 use web_time::Instant;
 
@@ -15,24 +15,24 @@ use crate::fit::linear::z_step_solver::SolvableOperator;
 use crate::fit::options::Schedule;
 use crate::fit::report::{LevelReport, StopReason};
 
-/// Number of iterations that a surface takes to adapt to a load on its border.
+/// Number of ADMM iterations that a surface takes to adapt to a load on its border.
 const LOAD_WARMUP_ITERATIONS: usize = 10;
 
-/// ADMM on one level, with the schedule that it follows.
+/// ADMM on one multigrid level, with the schedule that it follows.
 #[derive(Debug, Clone)]
 pub(crate) struct AdmmSolver<O: SolvableOperator> {
     pub admm: Admm<O>,
     schedule: ScheduleState<O>,
 }
 
-/// State of the schedule; the paper's schedule has none.
+/// State of ADMM's schedule; the paper's schedule has none.
 #[derive(Debug, Clone)]
 enum ScheduleState<O: SolvableOperator> {
     Paper,
     Default(DefaultSchedule<O>),
 }
 
-/// ρ at the start of the first level.
+/// Initial ρ on the first multigrid level, under the schedule of `parameters`.
 pub(crate) fn initial_rho<O: SolvableOperator>(
     parameters: &AdmmParameters,
     problem: &Problem<O>,
@@ -44,12 +44,12 @@ pub(crate) fn initial_rho<O: SolvableOperator>(
 }
 
 impl<O: SolvableOperator> AdmmSolver<O> {
-    /// Starts from an iterate, with the solver of its z-steps, or from the affine surface of least squares if it
-    /// `may_be_affine`. The default schedule tries dual ascent from the given iteration on. Also returns a reason to
-    /// stop at once, if there is one.
+    /// Starts ADMM from an iterate, with the solver of its z-steps, or from the affine least-squares surface if the
+    /// iterate `may_be_affine`. The default schedule tries dual ascent from iteration `first_ascent_iteration` on. Also
+    /// returns a reason to stop at once, if there is one.
     ///
     /// # Errors
-    /// Out of memory.
+    /// [`Error::OutOfMemory`](crate::Error::OutOfMemory).
     pub(crate) fn new(
         problem: Problem<O>,
         iterate: Iterate<O>,
@@ -72,7 +72,7 @@ impl<O: SolvableOperator> AdmmSolver<O> {
         Ok((AdmmSolver { admm, schedule }, reason))
     }
 
-    /// Report of the work on this level so far.
+    /// Reports the work done on this multigrid level so far.
     pub(crate) fn report(&self) -> LevelReport {
         let operator = &self.admm.problem.operator;
         LevelReport {
@@ -83,11 +83,11 @@ impl<O: SolvableOperator> AdmmSolver<O> {
         }
     }
 
-    /// Continues until there is a reason to stop, or until the budget of conjugate-gradient iterations is
-    /// `left` empty.
+    /// Continues ADMM until there is a reason to stop, which is returned, or until the budget of `left`
+    /// conjugate-gradient iterations is used up.
     ///
     /// # Errors
-    /// Out of memory.
+    /// [`Error::OutOfMemory`](crate::Error::OutOfMemory).
     pub(crate) fn advance(&mut self, left: &mut usize) -> Result<Option<StopReason>> {
         match &mut self.schedule {
             ScheduleState::Paper => paper::advance(&mut self.admm, left),
@@ -95,14 +95,15 @@ impl<O: SolvableOperator> AdmmSolver<O> {
         }
     }
 
-    /// Begins another pass, in which every stencil's norm is weighted by one over its size in the incumbent. Returns
-    /// a reason to stop at once, if there is one.
+    /// Begins a reweighting pass, in which every stencil's norm is weighted by one over its size in the incumbent.
+    /// Returns a reason to stop at once, if there is one.
     pub(crate) fn reweight(&mut self) -> Result<Option<StopReason>> {
         self.admm.problem.reweight(&self.admm.incumbent.z)?;
         self.begin_pass()
     }
 
-    /// Reduces the weights of stencils on creases, if enough weights change.
+    /// Reduces the penalty weights of stencils on sharp creases of the incumbent, of a bend radius below `radius`, if
+    /// enough weights change.
     pub(crate) fn reweight_creases(&mut self, radius: f64) -> Result<Creases> {
         let Admm {
             problem, incumbent, ..
@@ -110,8 +111,8 @@ impl<O: SolvableOperator> AdmmSolver<O> {
         problem.reweight_creases(&incumbent.z, radius)
     }
 
-    /// Begins another pass after the weights at creases have changed, or the border was `loaded`. Returns a reason to
-    /// stop at once, if there is one.
+    /// Begins a crease pass, after the penalty weights at creases have changed or the border was `loaded`. Returns a
+    /// reason to stop at once, if there is one.
     pub(crate) fn begin_pass_at_creases(&mut self, loaded: bool) -> Result<Option<StopReason>> {
         let reason = self.begin_pass()?;
         if loaded {
@@ -121,7 +122,7 @@ impl<O: SolvableOperator> AdmmSolver<O> {
         Ok(reason)
     }
 
-    /// Lets the surface adapt to a load on its border for a number of iterations, before which it does not stop.
+    /// Lets the surface adapt to a load on its border for a number of iterations, before which ADMM does not stop.
     pub(crate) fn follow_load(&mut self, iterations: usize) {
         self.admm.warmup.start(self.admm.iteration, iterations);
     }
@@ -134,8 +135,8 @@ impl<O: SolvableOperator> AdmmSolver<O> {
         }
     }
 
-    /// Begins to bring the incumbent's Hessians to rank one after the iterations have stopped for a `reason`;
-    /// `false` if that is not worth it.
+    /// Begins to reduce the incumbent's Hessians to rank one after the iterations have stopped for a `reason`; returns
+    /// `false` if that is not worthwhile.
     pub(crate) fn begin_rank_reduction(&mut self, reason: StopReason) -> Result<bool> {
         match &mut self.schedule {
             ScheduleState::Paper => Ok(false),

@@ -1,4 +1,4 @@
-//! The steps of which both schedules are made: z-step, update of Hessians and dual, check, change of ρ.
+//! The steps of ADMM that both schedules are made of: z-step, update of Hessians and dual, check, change of ρ.
 
 use web_time::Instant;
 
@@ -15,22 +15,23 @@ use crate::fit::energy::problem::Problem;
 use crate::fit::linear::z_step_solver::{SolvableOperator, ZStepSolver};
 use crate::fit::report::{Seconds, StopReason};
 
-/// Minimum number of iterations between two balancings of the dual, each of which costs about as much as they do.
+/// Minimum number of ADMM iterations between two balancings of the dual, each of which costs about as much as these
+/// iterations.
 const BALANCE_ITERATIONS: usize = 20;
 
-/// ADMM on one level without a schedule: the problem, the iterate and the incumbent.
+/// ADMM on one multigrid level without a schedule: problem, iterate and incumbent.
 #[derive(Debug, Clone)]
 pub(crate) struct Admm<O: SolvableOperator> {
     pub problem: Problem<O>,
     pub iterate: Iterate<O>,
     pub incumbent: Incumbent,
-    /// ρ at the start of the level.
+    /// Value of ρ at the start of the level.
     pub initial_rho: f64,
     pub seconds: Seconds,
     pub(super) parameters: AdmmParameters,
-    /// Solver of the z-steps.
+    /// Linear solver of the z-steps.
     pub(super) solver: O::Solver,
-    /// Number of complete z-steps.
+    /// Number of ADMM iterations whose z-step is complete.
     pub(super) iteration: usize,
     pub(super) cg_iterations: usize,
     pub(super) divergence: DivergenceGuard,
@@ -39,15 +40,15 @@ pub(crate) struct Admm<O: SolvableOperator> {
     balancing: GrowingInterval,
 }
 
-/// Outcome of a check.
+/// Outcome of a check of ADMM's iterate.
 pub(super) enum Check {
     Certified(Certificate),
-    /// The iterates diverged and start again from the incumbent, unless there is a reason to stop.
+    /// The iterates diverged and ADMM started again from the incumbent, unless there is a reason to stop.
     Restarted(Option<StopReason>),
 }
 
 impl<O: SolvableOperator> Admm<O> {
-    /// The first iterate as it is, with its certificate.
+    /// Starts ADMM at an iterate; also returns the iterate's certificate.
     pub(super) fn new(
         problem: Problem<O>,
         mut iterate: Iterate<O>,
@@ -76,15 +77,15 @@ impl<O: SolvableOperator> Admm<O> {
         (admm, certificate)
     }
 
-    /// Makes the right-hand side of a z-step from the iterate.
+    /// Begins a z-step: makes its right-hand side from the iterate.
     pub(super) fn begin_z_step(&mut self) {
         self.iterate.update(&self.problem, 0.0, &mut self.solver);
         self.z_step = ZStep::new::<O>(&self.solver);
     }
 
-    /// Continues the z-step (Eq. 17), and tells whether it is complete: then the next iteration has begun. The
-    /// budget of conjugate-gradient iterations that are `left` also counts the update that follows, which costs
-    /// about one of them, so that a solve without work for conjugate gradients ends as well.
+    /// Continues the z-step (Eq. 17); returns whether it is complete, and then counts the iteration. The budget of
+    /// `left` conjugate-gradient iterations also pays for the update that follows, which costs about one of them, so
+    /// that a solve without work for conjugate gradients ends as well.
     pub(super) fn advance_z_step(&mut self, accuracy: ZStepAccuracy, left: &mut usize) -> bool {
         let start = Instant::now();
         let before = self.z_step.iterations();
@@ -101,8 +102,8 @@ impl<O: SolvableOperator> Admm<O> {
         is_complete
     }
 
-    /// Updates Hessians and dual (Eq. 18 and 19) with the over-relaxation `relaxation`, and begins the next
-    /// z-step. Returns `ρ‖ΔH‖`, the change of the Hessians, or 0 where that is not measured.
+    /// Updates Hessians and dual (Eq. 18 and 19) with the over-relaxation `relaxation`, and begins the next z-step.
+    /// Returns `ρ‖ΔH‖`, the change of the Hessians, or 0 where that is not measured.
     pub(super) fn update_hessians_and_dual(
         &mut self,
         relaxation: f64,
@@ -124,7 +125,8 @@ impl<O: SolvableOperator> Admm<O> {
         Ok(change)
     }
 
-    /// Certifies the iterate and updates the incumbent; restarts from the incumbent if the iterates diverge.
+    /// Computes the iterate's certificate and updates the incumbent; restarts from the incumbent if the iterates
+    /// diverge.
     pub(super) fn check(&mut self) -> Result<Check> {
         let mut certificate = self.iterate.certify(&self.problem);
         let input_objective = || self.problem.smoothness(&self.problem.target);
@@ -162,12 +164,14 @@ impl<O: SolvableOperator> Admm<O> {
             || self.is_last()
     }
 
-    /// Whether the energy is another one than at the last check, so that the incumbent cannot be compared.
+    /// Returns whether the energy has changed since the last check, so that the incumbent cannot be compared with the
+    /// iterate.
     pub(super) fn replaces_incumbent(&self) -> bool {
         self.parameters.follows_normals || self.warmup.replaces_incumbent(self.iteration)
     }
 
-    /// Goes back to the incumbent, with z-steps that are more exact.
+    /// Restarts ADMM from the incumbent after a divergence, with more accurate z-steps. Returns a reason to stop, if
+    /// there is one.
     fn restart(&mut self) -> Option<StopReason> {
         if !self.divergence.restart() {
             return Some(StopReason::Diverged);
@@ -177,15 +181,15 @@ impl<O: SolvableOperator> Admm<O> {
         self.is_last().then_some(StopReason::MaxIterations)
     }
 
-    /// Changes ρ between two iterations.
+    /// Changes ρ between two iterations of ADMM.
     pub(super) fn set_rho(&mut self, rho: f64) {
         self.iterate.set_rho(&self.problem, rho);
         self.solver.set_rho(rho);
         self.begin_z_step();
     }
 
-    /// The reason to stop after a check: rounding errors, what the schedule says, or the number of iterations.
-    /// `gap` is the relative duality gap that is asked for.
+    /// Returns the reason to stop after a check, if there is one: rounding errors, `of_schedule`, or the number of
+    /// iterations. `gap` is the requested relative duality gap.
     pub(super) fn stop_reason(
         &self,
         gap: f64,
@@ -199,12 +203,13 @@ impl<O: SolvableOperator> Admm<O> {
         reason.filter(|_| self.warmup.may_stop(self.iteration))
     }
 
-    /// Whether there may be no further iteration.
+    /// Returns whether the current iteration is the last one allowed.
     pub(super) fn is_last(&self) -> bool {
         self.parameters.is_last(self.iteration)
     }
 
-    /// Begins a pass with other weights: the certificate of the iterate under these.
+    /// Begins a pass whose penalty weights differ from the last one's: computes the iterate's certificate under these
+    /// weights and makes it the incumbent.
     pub(super) fn begin_pass(&mut self) -> Certificate {
         let certificate = self.iterate.certify(&self.problem);
         self.incumbent.replace(&self.iterate.z, &certificate);

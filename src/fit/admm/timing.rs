@@ -1,6 +1,6 @@
-//! Iterations at which a check does more than check: balancing the dual, changing ρ, and dual ascent.
+//! Timing of what ADMM does at some checks only: balancing the dual, changing ρ, and dual ascent.
 
-/// Minimum interval between two times that something is done: a quarter of the iterations so far.
+/// Timer of a repeated task that waits for at least a quarter of the ADMM iterations so far between two times.
 ///
 /// Growing intervals make ρ settle in the end, without which ADMM need not converge (Boyd et al., Sec. 3.4.1), and
 /// bound the share of the time that costly work takes.
@@ -10,7 +10,7 @@ pub(super) struct GrowingInterval {
 }
 
 impl GrowingInterval {
-    /// Whether the interval, with `extra` iterations added to it, has passed at this iteration.
+    /// Returns whether the interval, with `extra` iterations added to it, has passed at this iteration.
     pub(super) fn has_passed(&self, iteration: usize, extra: usize) -> bool {
         iteration >= self.last + self.last / 4 + extra
     }
@@ -21,31 +21,31 @@ impl GrowingInterval {
     }
 }
 
-/// Iterations in which a surface follows a load on its border. The load is next to nothing of the energy, so
-/// that the gap says nothing before the surface has followed it.
+/// Warm-up iterations in which a surface adapts to a load on its border. The load is a tiny part of the energy, so that
+/// the duality gap says nothing before the surface has followed it.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct LoadWarmup {
     last_iteration: usize,
 }
 
 impl LoadWarmup {
-    /// Starts the warm-up after this iteration; it lasts for a number of iterations.
+    /// Starts the warm-up at `iteration`; it lasts for `iterations` iterations.
     pub(super) fn start(&mut self, iteration: usize, iterations: usize) {
         self.last_iteration = iteration + iterations;
     }
 
-    /// Whether an iterate replaces the incumbent even if its objective is larger.
+    /// Returns whether an iterate replaces the incumbent even if its objective is larger, because the warm-up lasts.
     pub(super) fn replaces_incumbent(&self, iteration: usize) -> bool {
         iteration <= self.last_iteration
     }
 
-    /// Whether the solve may stop at this iteration.
+    /// Returns whether ADMM may stop at this iteration, because the warm-up is over.
     pub(super) fn may_stop(&self, iteration: usize) -> bool {
         iteration >= self.last_iteration
     }
 }
 
-/// Timer that decides when dual ascent is tried again.
+/// Timer that decides at which iteration dual ascent is tried again.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct AscentTimer {
     next_iteration: usize,
@@ -54,7 +54,7 @@ pub(super) struct AscentTimer {
 }
 
 impl AscentTimer {
-    /// A timer that allows no ascent before `first_iteration`.
+    /// Makes a timer that allows no dual ascent before `first_iteration`.
     pub(super) fn new(first_iteration: usize) -> Self {
         AscentTimer {
             next_iteration: first_iteration,
@@ -63,7 +63,7 @@ impl AscentTimer {
         }
     }
 
-    /// Resets the timer for another pass, with other weights, at this iteration.
+    /// Resets the timer at `iteration`, for another pass with other penalty weights.
     pub(super) fn begin_pass(&mut self, iteration: usize) {
         *self = AscentTimer {
             next_iteration: iteration,
@@ -72,8 +72,8 @@ impl AscentTimer {
         };
     }
 
-    /// Records that the objective no longer falls, so that only the bound can improve. The first time, dual ascent is
-    /// due at once, however long coarser levels have taken.
+    /// Records that the objective no longer falls, so that only the dual bound can improve. The first time, dual ascent
+    /// is due at once, however long coarser levels have taken.
     pub(super) fn note_settled(&mut self, iteration: usize) {
         if !self.has_settled {
             self.has_settled = true;
@@ -81,13 +81,13 @@ impl AscentTimer {
         }
     }
 
-    /// Whether dual ascent is due at this iteration.
+    /// Returns whether dual ascent is due at this iteration.
     pub(super) fn is_due(&self, iteration: usize) -> bool {
         iteration >= self.next_iteration
     }
 
-    /// Records the gap that an ascent has left, as a multiple of the requested one: gaps hardly fall faster than with
-    /// the square of the iterations.
+    /// Records the duality gap that an ascent has left, as a multiple of the requested one, and sets the next ascent's
+    /// iteration by it: gaps hardly fall faster than with the square of the iterations.
     pub(super) fn note_ascent(&mut self, iteration: usize, gap_ratio: f64) {
         let iterations = (iteration - self.pass_start) as f64;
         self.next_iteration = self.pass_start + (iterations * gap_ratio.sqrt()) as usize;

@@ -1,33 +1,33 @@
-//! The z-step (paper, Eq. 17) under way: conjugate gradients that can be interrupted after any iteration.
+//! The z-step (paper, Eq. 17) in progress: conjugate gradients that can be interrupted after any iteration.
 
 use super::iterate::Iterate;
 use crate::fit::energy::problem::Problem;
 use crate::fit::linear::z_step_solver::{SolvableOperator, ZStepSolver};
 
-/// Accuracy to which a z-step is solved.
+/// Accuracy to which the linear system of a z-step is solved.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct ZStepAccuracy {
-    /// Maximum number of conjugate-gradient iterations, over all rounds.
+    /// Maximum number of conjugate-gradient iterations of the z-step, over all rounds.
     pub max_iterations: usize,
-    /// Squared residual, relative to that at the start of a round, at which the round ends.
+    /// Squared residual, relative to the one at the start of a round, at which the round of conjugate gradients ends.
     pub reduction: f64,
-    /// Residual relative to `2λ z̃` at which the z-step ends. Single precision needs several rounds to reach it, each
-    /// with the residual computed anew in double precision. `None`: there is one round.
+    /// Residual relative to the right-hand side `2λ z̃` at which the z-step ends. Single precision needs several rounds
+    /// to reach it, each with the residual computed anew in double precision. `None`: there is one round.
     pub tolerance: Option<f64>,
 }
 
-/// Progress of a z-step.
+/// Progress of a z-step's conjugate gradients.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct ZStep {
-    /// Conjugate-gradient iterations so far, and those of the current round.
+    /// Number of conjugate-gradient iterations so far.
     iterations: usize,
     round_iterations: usize,
-    /// Squared residual at the start of the current round.
+    /// Squared residual at the start of the current round of conjugate gradients.
     initial_energy: f64,
 }
 
 impl ZStep {
-    /// The z-step for the right-hand side that was just given to the solver.
+    /// Begins the z-step for the right-hand side that was just given to the solver.
     pub(super) fn new<O: SolvableOperator>(solver: &O::Solver) -> Self {
         ZStep {
             initial_energy: solver.energy(),
@@ -35,8 +35,8 @@ impl ZStep {
         }
     }
 
-    /// Continues until the z-step is complete, which it tells, or until the budget of conjugate-gradient
-    /// iterations is `left` empty.
+    /// Continues the z-step until it is complete, or until the budget of `left` conjugate-gradient iterations is used
+    /// up. Returns whether it is complete.
     pub(super) fn advance<O: SolvableOperator>(
         &mut self,
         accuracy: ZStepAccuracy,
@@ -76,7 +76,7 @@ impl ZStep {
         }
     }
 
-    /// Conjugate-gradient iterations so far.
+    /// Number of conjugate-gradient iterations so far.
     pub(super) fn iterations(&self) -> usize {
         self.iterations
     }

@@ -1,5 +1,5 @@
-//! Fits of cylinders: surfaces whose rulings are all parallel, as pages of books, curled sheets and sheets with parallel
-//! folds.
+//! Fits of cylinders: surfaces whose rulings are all parallel, as pages of books, curled sheets and sheets with
+//! parallel folds.
 //!
 //! A piecewise developable surface is straight along its rulings, but their direction may change from place to place,
 //! so that noise is averaged over a neighbourhood only. A cylinder has one
@@ -14,7 +14,7 @@ use crate::error::{Error, Result, try_filled};
 use crate::heights::heightfield::Heightfield;
 use profile::{Penalty, Profile, ProfileEquations};
 
-/// Verdict on heights: whether their surface is a cylinder.
+/// Verdict on whether the surface of heights is a cylinder.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[cfg_attr(
     feature = "serde",
@@ -23,13 +23,14 @@ use profile::{Penalty, Profile, ProfileEquations};
 )]
 #[non_exhaustive]
 pub enum CylinderVerdict {
-    /// The residuals are not more correlated along the rulings than noise is.
+    /// The surface is a cylinder: residuals are no more correlated along the rulings than noise is.
     Cylinder,
-    /// The surface has another shape: residuals are correlated along the rulings, or there are too few heights.
+    /// The surface has another shape, because residuals are correlated along the rulings, or there are too few heights
+    /// to tell.
     Other,
 }
 
-/// Figures of the fit of a cylinder.
+/// Figures that describe the fit of a cylinder to heights.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(
     feature = "serde",
@@ -38,20 +39,20 @@ pub enum CylinderVerdict {
 )]
 #[non_exhaustive]
 pub struct CylinderReport {
-    /// Whether the surface is a cylinder.
+    /// Verdict on whether the surface is a cylinder.
     pub verdict: CylinderVerdict,
-    /// Direction of the rulings: a unit vector in the axes of the heights.
+    /// Direction of the rulings: a unit vector (x, y, height) in the axes of the heights.
     pub rulings: [f64; 3],
-    /// Root mean square residual of the heights, in their unit.
+    /// Root mean square residual of the heights from the cylinder, in the heights' unit.
     pub residual: f64,
-    /// Correlation of the residuals along the rulings, relative to noise: about 1 for a cylinder with noise, and at most 1.95;
-    /// NaN if there are too few heights.
+    /// Correlation of the residuals along the rulings, relative to that of noise: about 1 for a cylinder with noise,
+    /// and at most 1.95 if the verdict is a cylinder; NaN if there are too few heights.
     pub excess: f64,
     /// Number of heights that the cylinder was fitted to.
     pub vertices: usize,
 }
 
-/// The least-squares cylinder of heights.
+/// Cylinder that fits heights best by least squares.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Cylinder {
     heightfield: Heightfield,
@@ -59,47 +60,49 @@ pub struct Cylinder {
 }
 
 impl Cylinder {
-    /// Heights of the cylinder wherever the input has one, and where small holes are [bridged](crate::Bridging).
+    /// Returns the heights of the cylinder, wherever the input has a height or a small hole is
+    /// [bridged](crate::Bridging).
     pub fn heightfield(&self) -> &Heightfield {
         &self.heightfield
     }
 
-    /// Heights of the cylinder, as [`Cylinder::heightfield`].
+    /// Returns the heights of the cylinder, as [`Cylinder::heightfield`] has them.
     pub fn into_heightfield(self) -> Heightfield {
         self.heightfield
     }
 
-    /// Figures of the fit.
+    /// Figures of the fit of the cylinder to the heights.
     pub fn report(&self) -> &CylinderReport {
         &self.report
     }
 }
 
-/// Number of stretches of the rulings that are left out one at a time, to choose the penalty by cross-validation.
+/// Number of stretches of the rulings that are left out one at a time, to choose the penalty of a profile by
+/// cross-validation.
 const CROSS_VALIDATION_FOLDS: usize = 6;
 
-/// Number of directions of the rulings that are tried at first.
+/// Number of directions of the rulings that are tried before the best one is refined.
 const INITIAL_DIRECTIONS: usize = 60;
 
-/// Number of golden-section steps that refine the best direction.
+/// Number of golden-section steps that refine the best direction of the rulings.
 const GOLDEN_SECTION_STEPS: usize = 16;
 
-/// Maximum number of heights by which the direction is found.
+/// Maximum number of heights that the direction of the rulings is found from.
 const MAX_DIRECTION_HEIGHTS: usize = 20_000;
 
-/// Penalty of the profiles by which directions are compared: nearly unsmoothed.
+/// Penalty of the profiles by which directions of the rulings are compared: so small that they are hardly smoothed.
 const DIRECTION_PENALTY: Penalty = Penalty::Squares(0.1);
 
-/// Maximum number of bins of a profile.
+/// Maximum number of bins, across the rulings, of a cylinder's profile.
 const MAX_PROFILE_BINS: usize = 2000;
 
 /// Minimum number of heights that a cylinder is fitted to.
 const MIN_HEIGHTS: usize = 400;
 
-/// Minimum number of bins of a profile, across the rulings.
+/// Minimum number of bins, across the rulings, of a cylinder's profile.
 const MIN_PROFILE_BINS: usize = 16;
 
-/// A height with its position in the plane and its weight.
+/// A height with its position in the plane and its weight in the fit.
 #[derive(Debug, Clone, Copy)]
 struct WeightedHeight {
     at: [f64; 2],
@@ -107,7 +110,7 @@ struct WeightedHeight {
     weight: f64,
 }
 
-/// Axes of a profile in the plane, across and along the rulings.
+/// Axes of a cylinder's profile in the plane, across and along the rulings.
 #[derive(Debug, Clone, Copy)]
 struct ProfileAxes {
     cos: f64,
@@ -141,19 +144,19 @@ impl ProfileAxes {
         }
     }
 
-    /// Position across the rulings, in bins, and along them, in the heights' unit.
+    /// Returns a position's coordinates across the rulings, in bins, and along them, in the heights' unit of length.
     fn place(&self, at: [f64; 2]) -> [f64; 2] {
         let across = (self.cos * at[0] + self.sin * at[1] - self.start) / self.unit;
         [across.max(0.0), self.cos * at[1] - self.sin * at[0]]
     }
 
-    /// Number of the stretch of the rulings, of `of` equal ones, that a position along them is on.
+    /// Returns the index of the stretch that a position `along` the rulings is on, of `of` equal stretches.
     fn stretch(&self, along: f64, of: usize) -> usize {
         let share = (along - self.first) / (self.last - self.first).max(f64::MIN_POSITIVE);
         ((share * of as f64) as usize).min(of - 1)
     }
 
-    /// Normal equations of a profile from heights.
+    /// Sums up the normal equations of a cylinder's profile from heights.
     fn sums(&self, points: impl Iterator<Item = WeightedHeight>) -> Result<ProfileEquations> {
         let mut sums = ProfileEquations::new(self.bins)?;
         for point in points {
@@ -164,13 +167,12 @@ impl ProfileAxes {
     }
 }
 
-/// Fits a cylinder to heights, by least squares, and tests whether their surface is one.
+/// Fits a cylinder to heights by least squares, and tests whether their surface is one.
 ///
-/// The penalty of the profile is the one that predicts each sixth of the rulings best from the
-/// other five; noise that is correlated over a few vertices does not matter to that. The surface is a cylinder if means of
-/// the residuals over long stretches of the rulings vary no more than short stretches let expect.
-/// Constraints and occlusions of the input are ignored. Costs `O(vertices)`, some hundred passes over at most
-/// 20 thousand of them.
+/// The penalty of the profile is the one under which five sixths of the rulings predict the other sixth best; noise
+/// that is correlated over a few vertices does not matter to that. The surface is a cylinder if means of the residuals
+/// over long stretches of the rulings vary no more than short stretches let expect. Constraints and occlusions of the
+/// input are ignored. Costs `O(vertices)`, some hundred passes over at most 20 thousand of them.
 ///
 /// # Errors
 /// [`Error::Unsupported`] for less than 400 heights, or if they are in one line; [`Error::OutOfMemory`].
@@ -252,7 +254,7 @@ pub fn fit_cylinder(input: impl Into<Input>) -> Result<Cylinder> {
     })
 }
 
-/// Mean position and height.
+/// Returns the mean position (x, y) and the mean height of points.
 fn mean(points: &[WeightedHeight]) -> [f64; 3] {
     let mut sums = [0.0; 3];
     for point in points {
@@ -266,7 +268,8 @@ fn mean(points: &[WeightedHeight]) -> [f64; 3] {
     sums.map(|sum| sum / points.len() as f64)
 }
 
-/// Angle, in radians, of the axis across the rulings for which nearly unsmoothed profiles have the smallest residuals.
+/// Finds the direction of the rulings: returns the angle, in radians, of the axis across them for which nearly
+/// unsmoothed profiles have the smallest residuals.
 fn find_direction(points: &[WeightedHeight], spacing: f64) -> Result<f64> {
     use std::f64::consts::PI;
     let step = points.len().div_ceil(MAX_DIRECTION_HEIGHTS);
@@ -305,7 +308,7 @@ fn find_direction(points: &[WeightedHeight], spacing: f64) -> Result<f64> {
     Ok(0.5 * (low + high))
 }
 
-/// The profile under the penalty with the smallest error of prediction (cross-validation).
+/// Fits the profile under the penalty that has the smallest prediction error in cross-validation.
 fn select_profile(points: &[WeightedHeight], axes: &ProfileAxes) -> Result<Profile> {
     let mut parts = Vec::with_capacity(CROSS_VALIDATION_FOLDS);
     for _ in 0..CROSS_VALIDATION_FOLDS {

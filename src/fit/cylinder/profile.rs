@@ -1,32 +1,32 @@
-//! The profile of a cylinder: heights along one axis, linear in between, by least squares with a penalty on changes of
-//! the slope.
+//! The profile of a cylinder: heights along an axis across the rulings, piecewise linear, by least squares with a
+//! penalty on changes of the slope.
 
 use crate::error::{Result, try_filled};
 
-/// Normal equations of a profile for a given direction of the rulings: of hat functions, and of the slope along the rulings.
-/// The equations of several sets of points are their sums.
+/// Normal equations of a cylinder's profile for a given direction of the rulings: the unknowns are the profile's values
+/// in bins (weights of hat functions) and the slope along the rulings. Equations of several sets of points add up.
 #[derive(Debug, Clone)]
 pub(super) struct ProfileEquations {
-    /// Diagonal: sums of squares of each hat function.
+    /// Diagonal of the normal matrix: sums of the squares of each hat function.
     own: Vec<f64>,
-    /// Next diagonal: sums of products of neighbouring hat functions.
+    /// Secondary diagonal of the normal matrix: sums of products of neighbouring hat functions.
     next: Vec<f64>,
-    /// Sums of hat functions times heights.
+    /// Right-hand side of the normal equations: weighted sums of hat functions times heights.
     heights: Vec<f64>,
-    /// Sums of hat functions times positions along the rulings.
+    /// Weighted sums of hat functions times positions along the rulings.
     places: Vec<f64>,
-    /// Sum of squares of heights.
+    /// Sum of the squares of heights.
     square: f64,
-    /// Sum of squares of positions along the rulings.
+    /// Sum of the squares of positions along the rulings.
     along: f64,
-    /// Sum of products of heights and positions along the rulings.
+    /// Sum of the products of heights and positions along the rulings.
     both: f64,
-    /// Sum of weights.
+    /// Sum of the weights of all points.
     pub weight: f64,
 }
 
 impl ProfileEquations {
-    /// Equations of no points.
+    /// Makes equations without points, for a profile of `bins` bins.
     ///
     /// # Errors
     /// [`Error::OutOfMemory`](crate::Error::OutOfMemory).
@@ -44,7 +44,7 @@ impl ProfileEquations {
         })
     }
 
-    /// Adds a height at the position `at` across the rulings, in bins, and `place` along them.
+    /// Adds a height at the position `at` across the rulings, in bins, and `place` along them, with its weight.
     pub fn add(&mut self, at: f64, place: f64, height: f64, weight: f64) {
         let bin = (at as usize).min(self.own.len() - 2);
         let right = at - bin as f64;
@@ -62,7 +62,7 @@ impl ProfileEquations {
         self.weight += weight;
     }
 
-    /// Adds other equations, multiplied by `sign`.
+    /// Adds other equations, multiplied by `sign`: −1 removes their points.
     pub fn add_scaled(&mut self, other: &ProfileEquations, sign: f64) {
         let pairs = [
             (&mut self.own, &other.own),
@@ -81,7 +81,7 @@ impl ProfileEquations {
         self.weight += sign * other.weight;
     }
 
-    /// Fits a profile under a penalty, whose weight is that for one point in each bin.
+    /// Fits a profile under a penalty, whose weight is scaled by the mean weight of the points in a bin.
     pub fn fit(&self, penalty: Penalty) -> Profile {
         let bins = self.own.len();
         let scale = self.weight / bins as f64;
@@ -102,7 +102,7 @@ impl ProfileEquations {
         }
     }
 
-    /// Fits a profile with a weight for the square of each bend; the first and the last weight have no effect.
+    /// Fits a profile with a penalty weight for the square of each bend; the first and the last weight have no effect.
     fn fit_weighted(&self, weights: &[f64]) -> Profile {
         let bins = self.own.len();
         // Each row's diagonal and the two entries to the left of it.
@@ -144,7 +144,7 @@ impl ProfileEquations {
         }
     }
 
-    /// Sum of squares of the residuals of a profile at these points.
+    /// Returns the sum of the squared residuals of a profile at these equations' points.
     pub fn squared_residual(&self, profile: &Profile) -> f64 {
         let (f, m) = (&profile.values, profile.slope);
         let mut sum = self.square - 2.0 * m * self.both + m * m * self.along;
@@ -158,46 +158,47 @@ impl ProfileEquations {
     }
 }
 
-/// Number of reweighting passes for a profile that is straight between kinks.
+/// Maximum number of reweighting passes for a profile that is straight between kinks.
 const KINK_REWEIGHTING_PASSES: usize = 20;
 
-/// Minimum bend, in bins, that a weight is divided by: smaller bends count as straight.
+/// Minimum absolute bend (second difference), in bins, that a weight is divided by: smaller bends count as straight.
 const MIN_KINK_BEND: f64 = 1e-4;
 
-/// Penalty on the bends of a profile, with its weight.
+/// Penalty on the bends (second differences) of a cylinder's profile, with its weight.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Penalty {
-    /// Sum of squares of the bends: smooth profiles.
+    /// Penalty on the sum of the squared bends, which makes profiles smooth.
     Squares(f64),
-    /// Sum of absolute bends: profiles that are straight between kinks.
+    /// Penalty on the sum of the absolute bends, which makes profiles straight between kinks.
     Kinks(f64),
 }
 
-/// Heights at the middles of bins, in the bins' unit, and the slope along the rulings.
+/// Profile of a cylinder: heights at the bins' positions, in the unit of the bins, and the slope along the rulings.
 #[derive(Debug, Clone)]
 pub(super) struct Profile {
     pub values: Vec<f64>,
     pub slope: f64,
-    /// Sum of squared residuals and penalty.
+    /// Sum of squared residuals and penalty at the fit.
     pub misfit: f64,
 }
 
 impl Profile {
-    /// Height at a position across the rulings, in bins.
+    /// Returns the profile's height at a position across the rulings, in bins.
     pub fn at(&self, at: f64) -> f64 {
         let bin = (at.max(0.0) as usize).min(self.values.len() - 2);
         let right = at - bin as f64;
         (1.0 - right) * self.values[bin] + right * self.values[bin + 1]
     }
 
-    /// Second differences of the heights.
+    /// Iterates over the bends of the profile: second differences of its heights.
     fn bends(&self) -> impl Iterator<Item = f64> + '_ {
         let inner = self.values.windows(3).map(|f| f[0] - 2.0 * f[1] + f[2]);
         std::iter::once(0.0).chain(inner).chain([0.0])
     }
 }
 
-/// Cholesky factorisation, in place, of a matrix with two diagonals below the main one.
+/// Computes in place the Cholesky factor of a symmetric matrix with two diagonals below the main one; each row holds
+/// the diagonal entry and the two entries to its left.
 fn factor(matrix: &mut [[f64; 3]]) {
     for i in 0..matrix.len() {
         let [mut own, mut near, mut far] = matrix[i];
@@ -213,7 +214,7 @@ fn factor(matrix: &mut [[f64; 3]]) {
     }
 }
 
-/// Solves a system by its Cholesky factor.
+/// Solves a linear system with the right-hand side `x` by the Cholesky factor of its matrix.
 fn solve(factor: &[[f64; 3]], mut x: Vec<f64>) -> Vec<f64> {
     for i in 0..x.len() {
         let [own, near, far] = factor[i];

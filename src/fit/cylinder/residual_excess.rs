@@ -1,60 +1,65 @@
-//! Test whether residuals of a cylinder are noise, which is not correlated along the rulings.
+//! Test whether the residuals of a cylinder's fit are noise, which is not correlated along the rulings.
 
-/// Minimum weight of a stretch that is tested, as a share of its weight if all blocks had the same.
+/// Minimum weight of a stretch of residuals that is tested, as a share of the weight it would have if all blocks had
+/// the same.
 const MIN_WEIGHT_SHARE: f64 = 0.25;
 
-/// Number of stripes across the rulings.
+/// Number of stripes, side by side across the rulings, that residuals are divided into.
 const STRIPE_COUNT: usize = 12;
 
-/// Number of blocks along the rulings in each stripe.
+/// Number of blocks along the rulings that each stripe of residuals is divided into.
 const BLOCKS_PER_STRIPE: usize = 48;
 
-/// Share of the rulings at either end that is left out: depths are biased at outlines.
+/// Share of the rulings at either end whose residuals are left out: depths are biased at outlines.
 const END_SHARE: f64 = 0.04;
 
-/// Number of blocks in half a long stretch of the rulings, for each length whose variance is tested.
+/// Number of blocks of residuals in half of a long stretch of the rulings, for each length of stretches whose variance
+/// is tested.
 const LONG_HALF_BLOCKS: [usize; 3] = [24, 12, 6];
 
-/// Number of blocks in half the short stretch that long ones are compared with.
+/// Number of blocks of residuals in half of a short stretch of the rulings, whose variance that of long stretches is
+/// compared with.
 const SHORT_HALF_BLOCKS: usize = 3;
 
-/// Number of parts of the rulings whose means are tested for correlation.
+/// Number of parts of the rulings whose mean residuals are tested for correlation.
 const CORRELATED_PARTS: usize = 12;
 
-/// Maximum distance between parts that are tested for correlation, in parts.
+/// Maximum distance, in parts, of two parts of the rulings that are tested for correlation.
 const MAX_LAG_PARTS: usize = 6;
 
-/// Product of both tests' ratios for the noise of depths, which is correlated over a part of the short stretch: smoothed by a
-/// Gaussian of 2 pixels, on pages half as large as the image.
+/// Product of the ratios that [`variance_ratio`] and [`correlation_ratio`] find for the noise of depth images, by which
+/// their product is divided: noise smoothed by a Gaussian of 2 pixels, on pages half as large as the image.
 const DEPTH_NOISE_PRODUCT: f64 = 4.7;
 
-/// Maximum excess of the residuals of a cylinder. Chosen on the pages of BENCHMARKS.md and three more draws of their noise.
+/// Maximum excess of the residuals' correlation at which a surface counts as a cylinder. Chosen on the pages of
+/// BENCHMARKS.md and three more draws of their noise.
 pub(super) const MAX_CYLINDER_EXCESS: f64 = 1.95;
 
-/// Residual of a height.
+/// Residual of one height from the fitted cylinder.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct FitResidual {
-    /// Share of the way across the rulings, from 0 to 1.
+    /// Position across the rulings, as a share of the cylinder's width, from 0 to 1.
     pub across: f64,
-    /// Position along the rulings.
+    /// Position along the rulings, in the heights' unit of length.
     pub along: f64,
-    /// Height less that of the cylinder.
+    /// Height less the height of the cylinder at its position.
     pub value: f64,
     pub weight: f64,
 }
 
-/// Sums over a block: of weighted values and of weights.
+/// Sums over a block of residuals: of weight times residual, and of weights.
 type BlockSum = [f64; 2];
 
-/// Adds the sums of blocks.
+/// Adds up the sums of several blocks of residuals.
 fn sum(blocks: &[BlockSum]) -> BlockSum {
     let add = |[value, weight]: BlockSum, block: &BlockSum| [value + block[0], weight + block[1]];
     blocks.iter().fold([0.0; 2], add)
 }
 
-/// Excess of the residuals' correlation along the rulings over that of noise: about 1 for noise. It is the geometric mean of
-/// two tests: whether means over long stretches vary more than those over short ones and the number of heights let expect,
-/// and whether means over parts of the rulings are correlated. NaN if there are too few heights.
+/// Computes the excess of the residuals' correlation along the rulings over that of noise: about 1 for noise. It is the
+/// geometric mean of two tests' ratios: whether means over long stretches vary more than those over short ones and the
+/// number of heights let expect, and whether means over parts of the rulings are correlated. NaN if there are too few
+/// heights.
 pub(super) fn residual_excess(rest: impl Iterator<Item = FitResidual> + Clone) -> f64 {
     let blocks = block_sums(rest);
     let all: f64 = blocks.iter().flatten().map(|block| block[1]).sum();
@@ -68,7 +73,7 @@ pub(super) fn residual_excess(rest: impl Iterator<Item = FitResidual> + Clone) -
     (variance_ratio(&blocks, few) * correlation_ratio(&blocks, few) / DEPTH_NOISE_PRODUCT).sqrt()
 }
 
-/// Sums residuals in each block of each stripe.
+/// Sums the residuals in each block of each stripe.
 fn block_sums(
     rest: impl Iterator<Item = FitResidual> + Clone,
 ) -> [[BlockSum; BLOCKS_PER_STRIPE]; STRIPE_COUNT] {
@@ -92,7 +97,8 @@ fn block_sums(
     blocks
 }
 
-/// Ratio of the variances over long and over short stretches, by the differences between the halves of each.
+/// Returns the ratio of the residuals' variances over long and over short stretches of the rulings, by the differences
+/// between the halves of each stretch. `few` gives the minimum weight that a number of blocks needs in order to count.
 fn variance_ratio(
     blocks: &[[BlockSum; BLOCKS_PER_STRIPE]; STRIPE_COUNT],
     few: impl Fn(usize) -> f64,
@@ -116,8 +122,9 @@ fn variance_ratio(
     (long / lengths) / (short / shorts)
 }
 
-/// Mean ratio of the squared correlations between parts of the rulings to those by chance (G. E. P. Box, D. A. Pierce,
-/// *Distribution of residual autocorrelations*, 1970).
+/// Returns the mean ratio of the squared correlations between parts of the rulings to those expected by chance (G. E.
+/// P. Box, D. A. Pierce, *Distribution of residual autocorrelations*, 1970). `few` gives the minimum weight that a
+/// number of blocks needs in order to count.
 fn correlation_ratio(
     blocks: &[[BlockSum; BLOCKS_PER_STRIPE]; STRIPE_COUNT],
     few: impl Fn(usize) -> f64,

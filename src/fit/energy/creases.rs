@@ -1,4 +1,4 @@
-//! Reweighting passes at creases: the penalty's weight falls where the surface bends too sharply to be smooth.
+//! Reweighting passes at creases: the penalty's weight is reduced where the surface bends too sharply to be smooth.
 //!
 //! With the weight `ω = T/s̄` beyond a curvature `T`, passes one after the other lower a penalty that grows
 //! like a logarithm there (Candès, Wakin and Boyd, *Enhancing Sparsity by Reweighted ℓ₁ Minimization*, 2008),
@@ -9,37 +9,38 @@ use crate::error::Result;
 use crate::fit::operator::Operator;
 use crate::lattice::per_cell::PerCell;
 
-/// Minimum weight of a stencil on a crease, relative to a smooth one: keeps the problem well conditioned.
+/// Minimum penalty weight of a stencil on a crease, relative to a smooth stencil's: keeps the problem well conditioned.
 const MIN_CREASE_WEIGHT: f64 = 0.05;
 
-/// Weight of a stencil on a crease between regions that are known to be smooth, relative to a smooth one.
+/// Penalty weight of a stencil on a crease between regions that are known to be smooth, relative to a smooth stencil's.
 const KNOWN_CREASE_WEIGHT: f64 = 0.01;
 
-/// Minimum relative change by which a weight counts as changed.
+/// Minimum relative change at which a stencil's penalty weight counts as changed.
 const MIN_WEIGHT_CHANGE: f64 = 0.1;
 
-/// Minimum share of stencils on creases whose weight has changed for which another pass is worth its time.
+/// Minimum share of stencils on creases whose weight has changed at which another crease pass is worth its time.
 const MIN_CHANGED_CREASES: f64 = 0.02;
 
-/// The stencils on creases in one reweighting pass.
+/// Counts of the stencils on creases in one reweighting pass.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub(crate) struct Creases {
-    /// Number of stencils with a weight below 1.
+    /// Number of stencils with a penalty weight below 1.
     pub vertices: usize,
-    /// Number of stencils on creases, now or in the pass before, whose weight has changed.
+    /// Number of stencils on creases, in this pass or the one before, whose penalty weight has changed.
     pub changed: usize,
 }
 
 impl Creases {
-    /// Whether enough weights have changed for the pass to be worth its time.
+    /// Returns whether enough weights have changed for the pass to be worth its time.
     pub(crate) fn is_worth(self) -> bool {
         self.changed as f64 > MIN_CHANGED_CREASES * self.vertices as f64
     }
 }
 
 impl<O: Operator> Problem<O> {
-    /// Sets the weights `ω = min(1, T/s̄)`, where `s̄` is `‖Cz‖_*` averaged once with the neighbours, if enough
-    /// of them change by that. `radius` is `1/T`, below which a bend is a crease.
+    /// Sets the penalty weights `ω = min(1, T/s̄)`, where `s̄` is `‖Cz‖_*` averaged once with the neighbours, if that
+    /// changes enough of them. `radius` is `1/T`, in normalised coordinates: a bend of a smaller radius counts as a
+    /// crease.
     pub(crate) fn reweight_creases(&mut self, z: &[f64], radius: f64) -> Result<Creases> {
         let mut weights = self.norms(z)?;
         self.operator.spread(&mut weights);
@@ -62,8 +63,8 @@ impl<O: Operator> Problem<O> {
         Ok(creases)
     }
 
-    /// Takes nearly all of the weight from stencils on creases that are `known`, and returns how many of these
-    /// had all of it. A weight by curvature leaves much of it where the mesh is coarse, because a crease is not
+    /// Takes nearly all of the penalty weight from stencils on creases that are `known`, and returns how many of these
+    /// had weight 1 before. A weight by curvature leaves much of it where the mesh is coarse, because a crease is not
     /// much sharper than a bend there; that would round the crease and push the surface beside it outwards.
     pub(crate) fn free_creases(&mut self, known: &[bool]) -> usize {
         let mut found = 0;

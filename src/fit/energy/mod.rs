@@ -1,5 +1,5 @@
-//! The energy of a solve: fidelity, spectral penalty of the Hessians, weights at creases, and moments on
-//! borders.
+//! The energy that a solve minimises: fidelity, spectral penalty of the Hessians, weights at creases, and bending
+//! moments on borders.
 
 pub(crate) mod creases;
 pub(crate) mod moment_load;

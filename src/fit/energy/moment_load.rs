@@ -1,4 +1,4 @@
-//! Bending moments on the border as a load, as the surface would exert if it went on beyond it.
+//! Bending moments on the border as a load, such as the surface would exert if it continued beyond it.
 //!
 //! A free border bears no bending moment, while a bend inside does (`Y`, the dual). So the smallest energy
 //! straightens a bent sheet along its border, over a length of about `(2/δλ)^¼`. The moments inside, continued
@@ -13,28 +13,31 @@ use crate::error::{Result, try_filled};
 use crate::fit::operator::{Matrices, Operator, Sums};
 use crate::math::sym2::Sym2;
 
-/// Distance from the border beyond which moments are those inside, in lengths over which a border straightens.
+/// Distance from the border beyond which bending moments count as undisturbed by it, in lengths `(2/δλ)^¼` over which a
+/// free border straightens.
 const BORDER_REACH_LENGTHS: f64 = 2.3;
 
-/// Maximum moment of a load, as a share of the largest that a stencil can bear, `ω`: a larger one would fold the
-/// sheet along its border without limit.
+/// Maximum moment of a load, as a share of the largest moment that a stencil can bear, its penalty weight `ω`: a larger
+/// one would fold the sheet along its border without limit.
 const MAX_LOAD_MOMENT: f64 = 0.6;
 
-/// Vertices near the border in rings: those without a stencil, their neighbours, and so on.
+/// Vertices near the border in rings: the border vertices, their neighbours, and so on.
 pub(crate) struct Rings {
-    /// The vertices of each ring: `reach` rings to where moments are those inside, and as many again.
+    /// The vertices of each ring, from the border inwards: `reach` rings whose moments the border disturbs, and as many
+    /// beyond.
     rings: Vec<Vec<u32>>,
-    /// Number of the ring that a vertex is in, or `u32::MAX`.
+    /// Number of the ring that each vertex is in, or `u32::MAX` if it is in none.
     depth: Vec<u32>,
-    /// Number of rings from the border to where moments are those inside.
+    /// Number of rings from the border to the vertices whose bending moments the border does not disturb.
     reach: u32,
 }
 
 impl Rings {
-    /// Rings from the `outermost` of a number of `vertices` inwards. `around` gives the neighbours of a vertex.
+    /// Collects rings from the `outermost` vertices inwards. `vertices` is the number of all vertices, `around` gives
+    /// the neighbours of one.
     ///
     /// # Errors
-    /// Out of memory.
+    /// [`Error::OutOfMemory`](crate::Error::OutOfMemory).
     pub(crate) fn new<I: Iterator<Item = usize>>(
         outermost: Vec<u32>,
         vertices: usize,
@@ -62,17 +65,17 @@ impl Rings {
         })
     }
 
-    /// Whether a vertex is at most this number of rings from one without a stencil.
+    /// Returns whether a vertex is in one of the outermost rings, up to the ring of this number.
     pub(crate) fn are_within(&self, vertex: usize, rings: u32) -> bool {
         // An operator may have room for more vertices than there are.
         self.depth.get(vertex).is_some_and(|depth| *depth <= rings)
     }
 
-    /// Smooths the values inside until hardly any noise is left, and continues them to the border along the shortest
-    /// paths; returns whether any vertex is inside.
+    /// Smooths the values beyond `reach` rings until hardly any noise is left, and continues them to the border along
+    /// the shortest paths; returns whether any vertex is that far inside.
     ///
     /// # Errors
-    /// Out of memory.
+    /// [`Error::OutOfMemory`](crate::Error::OutOfMemory).
     pub(crate) fn continue_outwards<M, I>(
         &self,
         values: &mut [M],
@@ -122,17 +125,18 @@ impl Rings {
 }
 
 impl<O: Operator> Problem<O> {
-    /// Number of rings from the border to where moments are those inside.
+    /// Returns the number of rings from the border to the vertices whose bending moments the border does not disturb.
+    /// `bend_radius` is `1/δ`.
     pub(crate) fn reach(&self, bend_radius: f64) -> u32 {
         let length = (2.0 * bend_radius / self.lambda).powf(0.25);
         ((BORDER_REACH_LENGTHS * length / self.operator.spacing()).ceil()).clamp(2.0, 1e6) as u32
     }
 
-    /// Loads the vertices that are `near` the border with the `moments` of all stencils, as far as these can be
-    /// borne.
+    /// Loads the vertices that are `near` the border with the bending `moments` of all stencils, each limited to what
+    /// its stencil can bear. The load changes the problem's target heights and offset.
     ///
     /// # Errors
-    /// Out of memory.
+    /// [`Error::OutOfMemory`](crate::Error::OutOfMemory).
     pub(crate) fn load(&mut self, moments: &[Sym2], near: impl Fn(usize) -> bool) -> Result<()> {
         let operator = &self.operator;
         let mut load = try_filled("load", operator.vertex_cells(), 0.0)?;
@@ -167,8 +171,8 @@ impl<O: Operator> Problem<O> {
     }
 }
 
-/// The part of a `dual` that bears a bend, in the direction of the larger curvature of its `hessian`. A bend
-/// leaves no other part.
+/// Returns the part of a stencil's `dual` that bears a bend, in the direction of the larger curvature of its `hessian`.
+/// A pure bend leaves no other part.
 pub(crate) fn bearing(dual: Sym2, hessian: Sym2) -> Sym2 {
     let [mean, diff, off] = hessian.coordinates();
     let radius = hessian.radius();

@@ -1,4 +1,4 @@
-//! The problem that a solve minimises: the energy of heights under any operator, in normalised coordinates.
+//! The optimisation problem of a solve: the energy of heights under an operator `C`, in normalised coordinates.
 
 use super::spectral_penalty::{AnyPenalty, PenaltyKind, SpectralPenalty};
 use crate::error::{Result, try_filled};
@@ -7,60 +7,62 @@ use crate::fit::operator::Operator;
 use crate::fit::options::Energy;
 use crate::lattice::per_cell::PerCell;
 
-/// Norm of a Hessian, as a share of the mean norm, that counts as small when all weights are reweighted: the ε
+/// Nuclear norm of a Hessian, as a share of the mean norm, that counts as small when all stencils are reweighted: the ε
 /// of the reweighting.
 const NEGLIGIBLE_NORM_SHARE: f64 = 0.3;
 
-/// Minimum fidelity, in units of `λh⁴`, at which a vertex is pinned to its height: it would hardly move, and pinning
-/// it costs less than a tenth, because the norm of one Hessian is of order 1 to 1/h.
+/// Minimum fidelity weight, in units of `1/(λh⁴)`, at which a vertex is fixed at its height: it would hardly move, and
+/// fixing it costs less than a tenth, because the norm of one Hessian is of order 1 to 1/h.
 const PINNED_FIDELITY: f64 = 1e3;
 
-/// Fidelity of a vertex, as a share of the largest, below which it counts as weak.
+/// Fidelity weight of a vertex, as a share of the largest, below which it counts as weak.
 const WEAK_FIDELITY_SHARE: f64 = 5e-3;
 
-/// Fidelity, as a share of the penalty of the input, below which constraints alone hold the surface.
+/// Largest possible fidelity, as a share of the input's penalty, below which constraints alone are said to hold the
+/// surface.
 const NEGLIGIBLE_FIDELITY_SHARE: f64 = 0.1;
 
-/// Rounding error of a Hessian's norm, in those of the largest height over the squared spacing: a norm is a sum of
-/// about as many heights.
+/// Rounding error of a Hessian's norm, in rounding errors of the largest height divided by the squared spacing: a norm
+/// is a sum of about as many heights.
 pub(crate) const HESSIAN_ROUNDING_UNITS: f64 = 16.0;
 
-/// Number of times that norms are averaged with their neighbours before all weights are reweighted.
+/// Number of times that Hessians' norms are averaged with their neighbours' before all stencils are reweighted.
 const NORM_AVERAGING_STEPS: usize = 30;
 
-/// The energy `P(z) = λ Σ w (z − z̃)² + Σ ω f(Cz)` (paper, Eq. 15), summed over the operator's vertices and
-/// over its stencils, subject to `z = z̃` at constrained vertices.
+/// Optimisation problem of a solve: to minimise the energy `P(z) = λ Σ w (z − z̃)² + Σ ω f(Cz)` (paper, Eq. 15), summed
+/// over the operator's vertices and over its stencils, subject to `z = z̃` at constrained vertices.
 #[derive(Debug, Clone)]
 pub(crate) struct Problem<O> {
-    /// The operator `C` from heights to Hessians.
+    /// Linear operator `C` from heights to Hessians.
     pub operator: O,
     pub lambda: f64,
-    /// The input heights `z̃`; 0 where there is no vertex.
+    /// Input height `z̃` of each vertex; 0 in entries without a vertex.
     pub target: Vec<f64>,
-    /// Energy that loads on the border have added by moving the target, and that is subtracted again: a load
-    /// does no work at the given heights.
+    /// Energy that is subtracted from the objective, because loads on the border have added it by moving the target
+    /// heights: a load does no work at the given heights.
     pub offset: f64,
-    /// Weight `w` of each vertex's fidelity.
+    /// Weight `w` of each vertex's fidelity term.
     pub fidelity: PerCell<f64>,
-    /// One over `w`, and 0 at constrained vertices.
+    /// One over the fidelity weight `w` of each vertex, and 0 at constrained vertices.
     pub inverse_fidelity: PerCell<f64>,
-    /// Vertices that keep their given height.
+    /// Vertices that keep their given height exactly.
     pub constrained: Vec<u32>,
-    /// Vertices with neither constraint nor fidelity, where `λw` is the tie break.
+    /// Vertices with neither constraint nor given height; a tiny fidelity weight makes their heights unique.
     pub free: Vec<u32>,
-    /// Whether some vertices have next to no fidelity, so that `CᵀY` must all but vanish there.
+    /// Whether some vertices have hardly any fidelity weight, or constraints alone hold the surface, so that `CᵀY` must
+    /// all but vanish there for a useful dual bound.
     pub has_weak_fidelity: bool,
     pub kind: PenaltyKind,
     /// Weight `ω` of each stencil's penalty.
     pub weight: PerCell<f64>,
-    /// Weight `ω` of each stencil before any reweighting.
+    /// Weight `ω` of each stencil's penalty before any reweighting.
     first_weight: PerCell<f64>,
-    /// Objective below which there is nothing but rounding errors.
+    /// Objective below which nothing but rounding errors is left.
     pub rounding: f64,
 }
 
 impl<O: Operator> Problem<O> {
-    /// A problem with all weights 1 and without constraints.
+    /// Makes a problem with all weights 1 and without constraints.
     pub(crate) fn unweighted(
         operator: O,
         lambda: f64,
@@ -85,11 +87,11 @@ impl<O: Operator> Problem<O> {
         }
     }
 
-    /// Sets the weights of the fidelity and the constraints. A vertex of weight 0 is free, and `tie_break` is
-    /// `λw` there.
+    /// Sets the fidelity weights and the constraints of all vertices. A vertex of weight 0 is free, and `tie_break` is
+    /// the product `λw` that it gets.
     ///
     /// # Errors
-    /// Out of memory.
+    /// [`Error::OutOfMemory`](crate::Error::OutOfMemory).
     pub(crate) fn set_fidelity(
         &mut self,
         weight: impl Fn(usize) -> f64,
@@ -141,8 +143,8 @@ impl<O: Operator> Problem<O> {
         Ok(())
     }
 
-    /// Whether constraints alone hold the surface: the largest possible fidelity is small beside the penalty of the
-    /// input.
+    /// Returns whether constraints alone hold the surface: the largest possible fidelity is small beside the penalty of
+    /// the input.
     fn is_held_by_constraints(&self) -> bool {
         let vertices = self.operator.vertices().cells();
         let squares = vertices.map(|v| self.fidelity.at(v) * self.target[v].powi(2));
@@ -150,7 +152,7 @@ impl<O: Operator> Problem<O> {
             < NEGLIGIBLE_FIDELITY_SHARE * self.smoothness(&self.target)
     }
 
-    /// Sets the rounding errors of an objective of 0 from the largest magnitude of heights.
+    /// Sets the rounding error of an objective of 0 from the largest magnitude of heights.
     pub(crate) fn set_rounding(&mut self, largest: f64) {
         let spacing = self.operator.spacing();
         let norm = HESSIAN_ROUNDING_UNITS * f64::EPSILON * largest / (spacing * spacing);
@@ -172,8 +174,8 @@ impl<O: Operator> Problem<O> {
         };
     }
 
-    /// Sets the weights of an energy whose weights follow from the normals of the input, again after free
-    /// vertices have got heights.
+    /// Sets the penalty weights of an energy whose weights follow from the normals of the input heights; to be called
+    /// again after free vertices have got heights.
     pub(crate) fn set_input_normal_weights(&mut self, energy: Energy) -> Result<()> {
         if matches!(energy, Energy::SecondFormOfInput | Energy::SecondForm) {
             let target = std::mem::take(&mut self.target);
@@ -184,7 +186,7 @@ impl<O: Operator> Problem<O> {
         Ok(())
     }
 
-    /// Sets the weights `ω = n₃`, the upward part of the unit normal of the surface `z`, which turns its
+    /// Sets the penalty weights `ω = n₃`, the upward component of the unit normal of the surface `z`, which turns its
     /// Hessian into the second fundamental form (paper, Eq. 24).
     pub(crate) fn set_normal_weights(&mut self, z: &[f64]) -> Result<()> {
         let mut factors = match std::mem::replace(&mut self.weight, PerCell::Same(Vec::new())) {
@@ -196,10 +198,10 @@ impl<O: Operator> Problem<O> {
         Ok(())
     }
 
-    /// Reweights all stencils by `ω ← ω ε/(σ + ε)`, where `σ` is `‖Cz‖_*` averaged over the stencils around and
-    /// `ε` a share of its mean: where the surface bends, bending becomes cheap (Candès, Wakin and Boyd,
-    /// *Enhancing Sparsity by Reweighted ℓ₁ Minimization*, 2008). Without the average, a stencil that bends a
-    /// little more than its surroundings by chance would become a crease.
+    /// Reweights all stencils by `ω ← ω ε/(σ + ε)`, where `σ` is `‖Cz‖_*` averaged over the stencils around and `ε` a
+    /// share of its mean: where the surface bends, bending becomes cheap (Candès, Wakin and Boyd, *Enhancing Sparsity
+    /// by Reweighted ℓ₁ Minimization*, 2008). Without the average, a stencil that bends a little more than its
+    /// surroundings by chance would become a crease.
     pub(crate) fn reweight(&mut self, z: &[f64]) -> Result<()> {
         let mut norms = self.norms(z)?;
         let stencils = self.operator.stencils();
@@ -220,7 +222,7 @@ impl<O: Operator> Problem<O> {
         Ok(())
     }
 
-    /// Nuclear norm `‖Cz‖_*` at each stencil, and 0 elsewhere.
+    /// Computes the nuclear norm `‖Cz‖_*` of the Hessian at each stencil; entries without a stencil are 0.
     pub(crate) fn norms(&self, z: &[f64]) -> Result<Vec<f64>> {
         let mut norms = try_filled("weights", self.operator.stencil_cells(), 0.0)?;
         self.operator.hessians(z, |stencil, hessian| {
@@ -229,7 +231,7 @@ impl<O: Operator> Problem<O> {
         Ok(norms)
     }
 
-    /// The penalty `Σ ω f(Cz)` of a surface.
+    /// Computes the penalty `Σ ω f(Cz)` of a surface `z`.
     pub(crate) fn smoothness(&self, z: &[f64]) -> f64 {
         let mut sum = 0.0;
         self.each_cost(z, |_, cost| sum += cost);
@@ -246,15 +248,15 @@ impl<O: Operator> Problem<O> {
         });
     }
 
-    /// The fidelity `λ Σ w (z − z̃)²` of a surface, less the offset of loads.
+    /// Computes the fidelity `λ Σ w (z − z̃)²` of a surface `z`, less the energy offset of loads.
     pub(crate) fn distance(&self, z: &[f64]) -> f64 {
         let vertices = self.operator.vertices().cells();
         let squares = vertices.map(|v| self.fidelity.at(v) * (z[v] - self.target[v]).powi(2));
         self.lambda * squares.sum::<f64>() - self.offset
     }
 
-    /// The affine surface of least squares. It is exactly 0 if every height is given, because the coordinates
-    /// are about it then.
+    /// Returns the affine surface that fits the target heights best by least squares. It is exactly 0 if every height
+    /// is given, because the coordinates are relative to it then.
     pub(crate) fn least_squares(&self) -> Result<Vec<f64>> {
         let operator = &self.operator;
         let mut z = try_filled("affine surface", operator.vertex_cells(), 0.0)?;

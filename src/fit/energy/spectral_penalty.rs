@@ -1,4 +1,4 @@
-//! Spectral penalties of the Hessian: proximal step, value and conjugate of each in closed form.
+//! Spectral penalties of the Hessian: proximal step, value and convex conjugate of each in closed form.
 //!
 //! An energy is a sum of `ω f(H)` over interior vertices, where `f` depends on the eigenvalues of `H`. ADMM
 //! needs the step `V = Y + ρH ↦ Y` alone, where `H` minimises `ω f(H) + ρ/2 ‖H − V/ρ‖²`: the dual `Y` is then a
@@ -9,24 +9,25 @@ use crate::math::lanes::single;
 use crate::math::real::{Real, larger, smaller};
 use crate::math::sym2::{Sym2, clamp};
 
-/// A function of the Hessian's eigenvalues, with its proximal step and its conjugate.
+/// A penalty `f` of the Hessian that depends on its eigenvalues alone, with its proximal step and its convex conjugate.
 pub(crate) trait SpectralPenalty: Copy {
-    /// Maximum of [`SpectralPenalty::size`] at which a dual is feasible: 1, or infinity if every dual is.
+    /// Maximum of [`SpectralPenalty::size`] at which a dual is feasible: 1, or infinity if every dual is feasible.
     fn largest(self) -> f64 {
         1.0
     }
 
-    /// The dual `Y` of `V`, for the weight `ω`.
+    /// Returns the dual `Y` that the proximal step splits off `V = Y + ρH`, for a stencil of penalty weight `ω`.
     fn dual(self, v: Sym2, weight: f64) -> Sym2;
-    /// The value `ω f(H)`.
+    /// Returns the penalty `ω f(H)` of a Hessian.
     fn value(self, hessian: Sym2, weight: f64) -> f64;
-    /// Size of a dual in the dual norm, relative to the weight.
+    /// Returns the size of a dual in the dual norm, relative to the stencil's weight.
     fn size(self, dual: Sym2, weight: f64) -> f64;
-    /// The conjugate `(ωf)*(Y)`, where it is finite.
+    /// Returns the convex conjugate `(ωf)*(Y)` of the penalty, where it is finite.
     fn conjugate(self, dual: Sym2, weight: f64) -> f64;
 }
 
-/// The nuclear norm `‖H‖_*`. Its dual step projects onto matrices with eigenvalues within ±ω (paper, App. D).
+/// Penalty by the nuclear norm `‖H‖_*`. Its dual step projects onto matrices with eigenvalues within ±ω (paper, App.
+/// D).
 #[derive(Clone, Copy)]
 pub(crate) struct NuclearNorm;
 
@@ -49,7 +50,7 @@ impl SpectralPenalty for NuclearNorm {
     }
 }
 
-/// The Frobenius norm `‖H‖_F`. Its dual step projects onto the ball of radius ω.
+/// Penalty by the Frobenius norm `‖H‖_F`. Its dual step projects onto the ball of radius ω.
 #[derive(Clone, Copy)]
 pub(crate) struct FrobeniusNorm;
 
@@ -73,9 +74,9 @@ impl SpectralPenalty for FrobeniusNorm {
     }
 }
 
-/// The squared nuclear norm `‖H‖_*²`. At the minimiser every eigenvalue of `H` is that of `V/ρ` shrunk by
-/// `2ωs/ρ`, where `s = ‖H‖_*`, so that `Y` is `V` with eigenvalues cut off at `2ωs`; `s` follows from the sum
-/// over the eigenvalues that are left, both or one.
+/// Penalty by the squared nuclear norm `‖H‖_*²`. At the minimiser every eigenvalue of `H` is the corresponding one of
+/// `V/ρ` shrunk by `2ωs/ρ`, where `s = ‖H‖_*`, so that `Y` is `V` with eigenvalues clamped to `±2ωs`; `s` follows from
+/// the sum over the eigenvalues that are left, both or one.
 #[derive(Clone, Copy)]
 pub(crate) struct SquaredNuclearNorm {
     pub rho: f64,
@@ -108,19 +109,18 @@ impl SpectralPenalty for SquaredNuclearNorm {
     }
 }
 
-/// Parameters of the Huber penalty `φ(‖H‖_*)`, where `φ` has the slope `min(α + s/δ, ω)`: the weight `ω` is no
-/// factor, but where the slope ends. It is a Huber function for `α = 0`, and `ω` times the nuclear norm for `α
-/// ≥ ω`.
+/// Parameters of the Huber penalty `φ(‖H‖_*)`, where `φ` has the slope `min(α + s/δ, ω)`: the weight `ω` is no factor,
+/// but the maximum of the slope. It is a Huber function for `α = 0`, and `ω` times the nuclear norm for `α ≥ ω`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct HuberParameters {
-    /// Slope `α` at 0.
+    /// Flatness `α`: the slope of the penalty at 0.
     pub flatness: f64,
-    /// Curvature `δ` at which the slope would reach `α + 1`.
+    /// Curvature `δ` at which the slope of the penalty would reach `α + 1`: one over the bend radius.
     pub delta: f64,
 }
 
 impl HuberParameters {
-    /// The parameters that the options say.
+    /// Takes the parameters from the options of a solve, with defaults where none are given.
     pub(crate) fn from_options(options: &Options) -> Self {
         let Bending {
             bend_radius,
@@ -133,12 +133,12 @@ impl HuberParameters {
         }
     }
 
-    /// The slope `φ′(s)` for `ω = 1`.
+    /// Returns the slope `φ′(s)` of the penalty at the nuclear norm `s`, for the weight `ω = 1`.
     pub(crate) fn slope(self, s: f64) -> f64 {
         smaller(self.flatness + s / self.delta, 1.0)
     }
 
-    /// The penalty with these parameters at one ρ.
+    /// Makes the penalty with these parameters for one ρ.
     pub(crate) fn penalty(self, rho: f64) -> HuberPenalty {
         HuberPenalty {
             bends: self,
@@ -146,7 +146,7 @@ impl HuberParameters {
         }
     }
 
-    /// The dual step at one ρ, in double precision.
+    /// Makes the dual step for one ρ, in double precision.
     fn steps(self, rho: f64) -> HuberStep<f64> {
         let c = rho * self.delta;
         HuberStep {
@@ -157,7 +157,7 @@ impl HuberParameters {
         }
     }
 
-    /// The dual step at one ρ, in single precision.
+    /// Makes the dual step for one ρ, in single precision.
     pub(crate) fn single(self, rho: f64) -> HuberStep<f32> {
         let HuberStep {
             flatness,
@@ -174,21 +174,21 @@ impl HuberParameters {
     }
 }
 
-/// Dual step of [`HuberPenalty`] at one ρ: with `c = ρδ`, `Y` is `V` with its eigenvalues cut off at
-/// `φ′(‖H‖_*)`, which follows from the sum over the eigenvalues that are left, both or one, as for
-/// [`SquaredNuclearNorm`].
+/// Step from `V = Y + ρH` to the dual `Y` of [`HuberPenalty`] for one ρ: with `c = ρδ`, `Y` is `V` with its eigenvalues
+/// clamped to `±φ′(‖H‖_*)`, where `‖H‖_*` follows from the sum over the eigenvalues of `V` beyond that limit, both or
+/// one.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct HuberStep<T> {
     flatness: T,
     c: T,
-    /// The factor `2/(2 + c)` where both eigenvalues are left.
+    /// Factor `2/(2 + c)` of the step where both eigenvalues are beyond the limit that they are clamped to.
     both: T,
-    /// The factor `1/(1 + c)` where one eigenvalue is left.
+    /// Factor `1/(1 + c)` of the step where one eigenvalue is beyond the limit that they are clamped to.
     one: T,
 }
 
 impl<T: Real> HuberStep<T> {
-    /// The dual of the matrix with these coordinates, for the weight `ω`.
+    /// Returns the dual of the matrix `v`, both by the coordinates of [`Sym2`], for a stencil of penalty weight `ω`.
     #[inline(always)]
     pub(crate) fn dual(self, v: [T; 3], weight: T) -> [T; 3] {
         let [mean, diff, off] = v;
@@ -202,7 +202,7 @@ impl<T: Real> HuberStep<T> {
     }
 }
 
-/// The Huber penalty of [`HuberParameters`] at one ρ.
+/// Huber penalty with given [`HuberParameters`] for one ρ.
 #[derive(Clone, Copy)]
 pub(crate) struct HuberPenalty {
     bends: HuberParameters,
@@ -224,7 +224,7 @@ impl SpectralPenalty for HuberPenalty {
         let bent = smaller(s, (weight - least) * delta);
         least * bent + 0.5 * bent * (bent / delta) + weight * (s - bent)
     }
-    /// Size of a dual, and at least 1, because `(ωf)*(tY) ≤ t² (ωf)*(Y)` for `t ≤ 1` only.
+    /// Returns the size of a dual in the dual norm, and at least 1, because `(ωf)*(tY) ≤ t² (ωf)*(Y)` for `t ≤ 1` only.
     #[inline(always)]
     fn size(self, dual: Sym2, weight: f64) -> f64 {
         larger(dual.spectral_norm() / weight, 1.0)
@@ -237,7 +237,7 @@ impl SpectralPenalty for HuberPenalty {
     }
 }
 
-/// Which penalty an energy has, without its weights and ρ.
+/// Kind of the spectral penalty that an energy has, without its weights and ρ.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum PenaltyKind {
     Nuclear,
@@ -259,8 +259,8 @@ impl PenaltyKind {
     }
 }
 
-/// The penalty of a kind, chosen at every vertex. Kernels that run seldom, or seldom for another energy than
-/// the nuclear norm, are compiled for this type only: one version for each penalty would make the wasm a
+/// Spectral penalty of any kind, chosen at run time at every stencil. Kernels that run seldom, or seldom for another
+/// energy than the nuclear norm, are compiled for this type only: one version for each penalty would make the wasm a
 /// quarter larger.
 #[derive(Clone, Copy)]
 pub(crate) enum AnyPenalty {
@@ -271,7 +271,7 @@ pub(crate) enum AnyPenalty {
 }
 
 impl AnyPenalty {
-    /// The penalty of a kind at one ρ.
+    /// Makes the penalty of a kind for one ρ.
     pub(crate) fn new(kind: PenaltyKind, rho: f64) -> Self {
         match kind {
             PenaltyKind::Nuclear => AnyPenalty::Nuclear,
@@ -282,7 +282,7 @@ impl AnyPenalty {
     }
 }
 
-/// Calls a method of the penalty that an [`AnyPenalty`] is.
+/// Calls a method of the spectral penalty that an [`AnyPenalty`] holds.
 macro_rules! the_penalty {
     ($any:expr, |$penalty:ident| $call:expr) => {
         match $any {

@@ -1,4 +1,4 @@
-//! Multigrid transfer and coarse stencils at the border of a lattice.
+//! Multigrid transfer and coarse stencils at the border of a lattice, exact for planes.
 //!
 //! Prolongation has to keep planes as they are at the border, too. A correction that tilts an edge would
 //! otherwise get a kink, whose energy is many times that of the correction itself: the V-cycle would overshoot
@@ -13,22 +13,25 @@ use crate::lattice::domain::{Domain, Role};
 use crate::lattice::hexagonal::{NEIGHBOUR_DIRECTIONS, OPPOSITE_DIRECTION};
 use crate::lattice::per_cell::PerCell;
 
-/// Weight of a neighbour in an average; that of the vertex itself is twice as large.
+/// Weight of each neighbour in the averages of multigrid prolongation; the vertex itself has the rest of the weight, at
+/// least ¼.
 const NEIGHBOUR_WEIGHT: f32 = 0.125;
 
-/// The averaging `A` at boundary vertices: each with those pairs of opposite neighbours that are both valid.
+/// Averages of multigrid prolongation at boundary vertices: each vertex is averaged with those pairs of opposite
+/// neighbours that are both active.
 #[derive(Debug, Clone)]
 pub(super) struct Averages {
     of: Vec<Average>,
 }
 
-/// The average at one cell, with directions as bits in the order of [`NEIGHBOUR_DIRECTIONS`].
+/// Averaging of one boundary vertex in multigrid prolongation; sets of neighbours are bits in the order of
+/// [`NEIGHBOUR_DIRECTIONS`].
 #[derive(Debug, Clone, Copy)]
 struct Average {
     cell: u32,
-    /// Neighbours that the cell is averaged with.
+    /// Directions of the neighbours that the vertex is averaged with, one bit for each of the six.
     pairs: u8,
-    /// Neighbours that are interior, and are averaged with this cell.
+    /// Directions of the interior neighbours, whose own averages include this vertex, one bit for each of the six.
     interior: u8,
 }
 
@@ -65,7 +68,7 @@ impl Averages {
         self.of.iter().map(|average| average.cell as usize)
     }
 
-    /// Completes `A from` at boundary cells, where it has the vertices themselves only.
+    /// Completes `to = A from` at boundary vertices, where `to` has only the vertices' own values so far.
     pub(super) fn complete(&self, domain: &Domain, from: &[f32], to: &mut [f32]) {
         for average in &self.of {
             let cell = average.cell as usize;
@@ -77,7 +80,7 @@ impl Averages {
         }
     }
 
-    /// Completes `Aᵀ from` at interior cells, where it has only what a symmetric matrix would give.
+    /// Completes `to = Aᵀ from`, where `to` has been computed so far as if the averaging `A` were symmetric.
     pub(super) fn complete_transposed(&self, domain: &Domain, from: &[f32], to: &mut [f32]) {
         for average in &self.of {
             let cell = average.cell as usize;
@@ -109,12 +112,12 @@ fn neighbours(domain: &Domain, cell: usize) -> impl Iterator<Item = (usize, usiz
         .enumerate()
 }
 
-/// The interpolation `L` at fine vertices that do not lie between two coarse vertices: the best-fit plane
-/// through the coarse vertices nearby.
+/// Linear interpolation `L` of multigrid at fine vertices that do not lie between two coarse vertices, from the
+/// best-fit plane through the coarse vertices nearby.
 #[derive(Debug, Clone)]
 pub(super) struct Extension {
     terms: Vec<Term>,
-    /// Fine vertices beside one coarse vertex alone, and that vertex.
+    /// Fine vertices that lie between two coarse vertices of which only one is in the domain, each with that one.
     single: Vec<(u32, u32)>,
 }
 
@@ -155,7 +158,7 @@ impl Extension {
         Extension { terms, single }
     }
 
-    /// Writes `L from` at those vertices.
+    /// Writes the interpolated values `L from` at fine vertices that do not lie between two coarse ones.
     pub(super) fn extend(&self, from: &[f32], to: &mut [f32]) {
         for (fine, _) in &self.single {
             to[*fine as usize] = 0.0;
@@ -165,7 +168,8 @@ impl Extension {
         }
     }
 
-    /// Completes `scale Lᵀ from` at these vertices, where it has only half of `from` at each parent.
+    /// Completes `to = scale · Lᵀ from` for fine vertices that do not lie between two coarse ones: `to` has only half
+    /// of `from` at each parent so far.
     pub(super) fn extend_transposed(&self, from: &[f32], to: &mut [f32], scale: f32) {
         for (fine, parent) in &self.single {
             to[*parent as usize] -= 0.5 * scale * from[*fine as usize];
@@ -176,7 +180,7 @@ impl Extension {
     }
 }
 
-/// The vertices up to two steps from the parents, each once.
+/// Collects the coarse vertices up to two edges away from the parents of a fine vertex, each once.
 fn nearby(parents: [(isize, isize); 2]) -> Vec<(isize, isize)> {
     let mut found = vec![parents[0]];
     if parents[1] != parents[0] {
@@ -198,8 +202,8 @@ fn nearby(parents: [(isize, isize); 2]) -> Vec<(isize, isize)> {
     found
 }
 
-/// Weights with which values at given offsets sum up to the value of their best-fit plane at 0; near ones weigh
-/// most.
+/// Returns the weights with which values at given offsets sum up to the value of their best-fit plane at offset 0; near
+/// values weigh most.
 fn affine_weights(near: &[(usize, [f64; 2])]) -> Vec<f64> {
     /// Weight of the squared slope relative to the squared residuals, which chooses the plane of least slope
     /// where the values do not determine one.
@@ -220,9 +224,9 @@ fn affine_weights(near: &[(usize, [f64; 2])]) -> Vec<f64> {
     near.iter().map(|(_, offset)| weight(*offset)).collect()
 }
 
-/// Number of stencils of the finest lattice that each coarse one stands for, as a share of those that one
-/// inside stands for. Near a border it is more, because the coarse stencils end further inside: bending would
-/// be too cheap there otherwise, and the correction up to three times too large.
+/// Counts the stencils of the finest lattice that each stencil of the next coarser lattice stands for, as a share of
+/// the number away from the border. Near a border it is more, because the coarse stencils end further inside: bending
+/// would be too cheap there otherwise, and the correction up to three times too large.
 pub(super) fn coarser_counts(
     counts: &PerCell<f32>,
     fine: &Domain,
@@ -261,7 +265,7 @@ fn squared_distance(fine: &Domain, cell: usize, coarse: &Domain, other: usize) -
     x * x + y * y
 }
 
-/// Offset from a fine vertex to a coarse one, in coarse spacings.
+/// Returns the offset from a fine vertex to a coarse one, in coarse spacings.
 fn offset(fine: &Domain, cell: usize, coarse: &Domain, other: usize) -> [f64; 2] {
     let place = |domain: &Domain, cell: usize| {
         let (row, col) = domain.lattice_vertex(cell);

@@ -22,27 +22,27 @@ use crate::fit::operator::lattice::LatticeOperator;
 use crate::lattice::domain::Domain;
 use crate::math::lanes;
 
-/// Conjugate gradients for the z-step on a lattice.
+/// Preconditioned conjugate gradients in single precision for the z-step on a lattice.
 #[derive(Debug, Clone)]
 pub(crate) struct ConjugateGradients {
     residual: Vec<f32>,
     correction: Vec<f32>,
     direction: Vec<f32>,
     image: Vec<f32>,
-    /// Room for one row in double precision.
+    /// Buffer for one lattice row in double precision.
     row: Vec<f64>,
     multigrid: Multigrid,
     rho: f64,
-    /// The largest magnitude of the input heights, which is 1 in the system.
+    /// Largest absolute input height, by which heights in the linear system are divided.
     unit: f64,
-    /// Squared residual `‖r‖²` in the norm of the inverse diagonal.
+    /// Squared residual `‖r‖²` in the norm of the matrix's inverse diagonal.
     energy: f64,
-    /// The product `r·M⁻¹r` of the iteration before; 0 before the first.
+    /// Product `r·M⁻¹r` of residual and preconditioned residual in the iteration before; 0 before the first.
     previous: f64,
 }
 
 impl ConjugateGradients {
-    /// A solver for a problem on the first of `domains`, each of which has twice the spacing of the one before.
+    /// Makes the solver for a problem on the first of `domains`, each of which has twice the spacing of the one before.
     pub(crate) fn new(problem: &Problem, domains: &[Arc<Domain>], rho: f64) -> Result<Self> {
         let domain = &problem.operator.domain;
         let zeros = || try_filled("conjugate gradients", domain.cells(), 0.0);

@@ -1,4 +1,5 @@
-//! The z-step's matrix on one lattice, and the passes that multigrid and conjugate gradients make with it:
+//! The matrix of the z-step's linear system on one lattice, and the passes that multigrid and conjugate gradients make
+//! with it:
 //!
 //! ```text
 //! A = 2λ + ρ CᵀC
@@ -16,34 +17,35 @@ use crate::lattice::runs::Run;
 use crate::lattice::stencil::{Gather, HessianMap, Ring, Rolling, weights_of};
 use crate::math::lanes;
 
-/// The matrix `A = 2λ + ρ CᵀC` on one lattice.
+/// The matrix `A = 2λw + ρ CᵀC` of the z-step on one lattice, scaled to a unit diagonal away from the boundary.
 #[derive(Debug, Clone)]
 pub(crate) struct Grid {
     pub domain: Arc<Domain>,
     map: HessianMap,
-    /// Diagonal entry away from the boundary, by which the matrix is divided.
+    /// Diagonal entry of the unscaled matrix away from the boundary, by which the matrix is divided.
     pub diagonal: f64,
-    /// Weight `2λw` of the fidelity, or of the spring that holds a coarse cell in place of constrained ones.
+    /// Scaled fidelity weight `2λw` of each vertex, with the springs that hold coarse vertices in place of constrained
+    /// ones.
     fidelity: PerCell<f32>,
-    /// Constrained cells, which are no unknowns.
+    /// Constrained vertices, whose heights are no unknowns.
     constrained: Vec<u32>,
-    /// Weight of each second difference `d_k` in `ρ CᵀC`.
+    /// Weight of each second difference `d_k` in `ρ CᵀC`, beside the weight `sum` of all three.
     own: f32,
     sum: f32,
-    /// Weight of each interior cell's stencil: 1 on the finest lattice, more at the border of a coarse one.
+    /// Weight of each interior vertex's stencil: 1 on the finest lattice, more at the border of a coarse one.
     pub stencils: PerCell<f32>,
-    /// Jacobi's preconditioner: one over the scaled diagonal.
+    /// Jacobi preconditioner: one over the scaled diagonal; 0 at constrained vertices.
     pub inverse_diagonal: Vec<f32>,
     rolling: Rolling<f32>,
 }
 
-/// Upper bound of the eigenvalues of `diag(A)⁻¹A` on every domain: that of a single stencil, because `A` and
-/// its diagonal are sums over stencils. (A stencil has 36 on the diagonal at its centre and 5 at each neighbour
-/// in units of 2/9 h⁻⁴; the deviatoric rows give 12/5, the mean 11/5.)
+/// Upper bound of the eigenvalues of `diag(A)⁻¹A` for the z-step's matrix `A` on every domain: the largest eigenvalue
+/// for a single stencil, because `A` and its diagonal are sums over stencils. (A stencil has 36 on the diagonal at its
+/// centre and 5 at each neighbour in units of 2/9 h⁻⁴; the deviatoric rows give 12/5, the mean 11/5.)
 pub(crate) const LARGEST_EIGENVALUE: f32 = 2.4;
 
 impl Grid {
-    /// The matrix on a domain, with a fidelity for each cell or the same for all.
+    /// Allocates the matrix on a domain; if `varied`, its fidelity weight differs from vertex to vertex.
     pub(crate) fn new(
         domain: Arc<Domain>,
         spacing: f64,
@@ -74,7 +76,7 @@ impl Grid {
         4.0 * (3.0 * own + 6.0 * other) + 6.0 * own
     }
 
-    /// Changes ρ, a typical `2λw`, and that of each cell.
+    /// Sets ρ, a typical fidelity weight `2λw`, by which the matrix is scaled, and the weight of `each` vertex.
     pub(crate) fn set(&mut self, rho: f64, typical: f64, each: impl Fn(usize) -> f64) {
         let [own, other, _] = self.map.normal([1.0, 0.0, 0.0]).map(|q| rho * q);
         let as_centre = 4.0 * (3.0 * own + 6.0 * other);
@@ -134,19 +136,19 @@ impl Grid {
         }
     }
 
-    /// Makes `x` 0 at constrained cells.
+    /// Sets `x` to 0 at constrained vertices.
     pub(crate) fn pin(&self, x: &mut [f32]) {
         for cell in &self.constrained {
             x[*cell as usize] = 0.0;
         }
     }
 
-    /// The constrained cells, which are no unknowns.
+    /// Constrained vertices, whose heights are no unknowns.
     pub(crate) fn constrained(&self) -> &[u32] {
         &self.constrained
     }
 
-    /// Upper bound of the condition number of `diag(A)⁻¹A`.
+    /// Returns an upper bound of the condition number of `diag(A)⁻¹A`.
     pub(crate) fn condition(&self) -> f32 {
         let least = match &self.fidelity {
             PerCell::Same(values) => values[0],
@@ -158,7 +160,7 @@ impl Grid {
         LARGEST_EIGENVALUE / least.max(f32::MIN_POSITIVE)
     }
 
-    /// The scaled matrix as dense columns, of unknowns in the order of the domain's active cells: for few
+    /// Returns the scaled matrix as dense columns, with unknowns in the order of the domain's active vertices: for few
     /// unknowns.
     pub(crate) fn dense(&mut self) -> Vec<Vec<f32>> {
         let cells: Vec<usize> = self.domain.active().cells().collect();
@@ -174,8 +176,8 @@ impl Grid {
         columns
     }
 
-    /// One pass down `x`: `after(x, run, sums)` gets `ρCᵀCx` in each run of a row, and may write `x` there,
-    /// because no later row reads it.
+    /// Computes `ρCᵀCx` in one pass down the rows of `x`: `after(x, run, sums)` gets its values in each run of a row,
+    /// and may write `x` there, because no later row reads it.
     #[inline(always)]
     fn pass(&mut self, x: &mut [f32], mut after: impl FnMut(&mut [f32], Run, &Gather<'_, f32>)) {
         let Grid {
@@ -212,7 +214,7 @@ impl Grid {
         );
     }
 
-    /// Computes `image = A x` and returns `x·Ax`; `x` does not change.
+    /// Computes `image = A x` and returns the product `x·Ax`; `x` does not change.
     pub(crate) fn apply(&mut self, x: &mut [f32], image: &mut [f32]) -> f64 {
         let fidelity = self.take_fidelity();
         let mut product = 0.0;
@@ -246,8 +248,8 @@ impl Grid {
         self.fidelity = fidelity;
     }
 
-    /// Takes one step of Chebyshev's iteration with Jacobi's preconditioner: `d ← momentum · d + weight · M(b −
-    /// A x)`, `x ← x + d`.
+    /// Takes one step of Chebyshev's iteration for `A x = b` with Jacobi's preconditioner `M`: `d ← momentum · d +
+    /// weight · M(b − A x)`, `x ← x + d`.
     pub(crate) fn smooth(
         &mut self,
         x: &mut [f32],
@@ -276,19 +278,19 @@ impl Grid {
         self.fidelity = fidelity;
     }
 
-    /// Takes the fidelity out for the length of a pass, which borrows the rest mutably.
+    /// Moves the fidelity weights out of the matrix for the length of a pass, which borrows the rest mutably.
     fn take_fidelity(&mut self) -> PerCell<f32> {
         std::mem::replace(&mut self.fidelity, PerCell::Same(Vec::new()))
     }
 }
 
-/// The values of a run.
+/// Returns the values of a run's cells.
 #[inline(always)]
 pub(crate) fn part<T>(values: &[T], run: Run) -> &[T] {
     &values[run.start..run.end]
 }
 
-/// The values of a run, to be changed.
+/// Returns the values of a run's cells, to be changed.
 #[inline(always)]
 pub(crate) fn part_mut<T>(values: &mut [T], run: Run) -> &mut [T] {
     &mut values[run.start..run.end]

@@ -1,4 +1,4 @@
-//! One multigrid V-cycle: the preconditioner of the z-step.
+//! Multigrid V-cycle, the preconditioner of the z-step on lattices.
 //!
 //! The same energy on the lattices of spacing 2h, 4h, … gives the coarse matrices (a coarse vertex stands for
 //! four fine ones, hence the factor ¼ in the restriction; at a border a coarse stencil may stand for more).
@@ -19,62 +19,63 @@ use crate::lattice::domain::Domain;
 use crate::lattice::per_cell::PerCell;
 use crate::math::lanes;
 
-/// Number of smoothing steps before and after the coarse correction.
+/// Number of smoothing steps of a V-cycle on each lattice before and after the coarse correction.
 const SMOOTHING_STEPS: usize = 2;
 
-/// Ratio of the largest to the smallest eigenvalue that the smoother reduces; the coarse lattice reduces the
-/// others.
+/// Ratio of the largest to the smallest eigenvalue whose error the smoother reduces; the coarse lattice reduces the
+/// errors of smaller eigenvalues.
 const SMOOTHED_EIGENVALUE_RATIO: f32 = 5.0;
 
-/// Condition number below which a lattice needs no coarser one.
+/// Maximum condition number of a lattice's matrix at which a V-cycle needs no coarser lattice.
 const MAX_BOTTOM_CONDITION: f32 = 8.0;
 
-/// Maximum number of smoothing steps on the coarsest lattice.
+/// Maximum number of smoothing steps on the coarsest lattice of a V-cycle.
 const MAX_BOTTOM_STEPS: f32 = 40.0;
 
-/// Maximum number of unknowns of a coarsest lattice that is solved by a Cholesky factorisation where
-/// Chebyshev's iteration would need more steps than elsewhere.
+/// Maximum number of unknowns of a coarsest lattice that is solved by a Cholesky factorisation where Chebyshev's
+/// iteration would need more than [`MAX_BOTTOM_STEPS`] steps.
 const MAX_DIRECT_UNKNOWNS: usize = 300;
 
-/// Amount added to the diagonal, relative to it, so that a matrix that is singular up to rounding stays
-/// positive definite.
+/// Amount added to the diagonal of a matrix before its Cholesky factorisation, relative to the diagonal, so that a
+/// matrix that is singular up to rounding stays positive definite.
 const DIAGONAL_SHIFT: f32 = 1e-5;
 
-/// Stiffness of the springs of [`Shares`], relative to the finest lattice: the value with the fewest iterations
-/// on drawn curves; 1 and 0.001 took half as many again.
+/// Stiffness of the springs that hold coarse vertices in place of constrained ones ([`Shares`]), relative to the finest
+/// matrix's diagonal: the value with the fewest iterations on drawn curves; 1 and 0.001 took half as many again.
 const SPRING_STIFFNESS: f64 = 0.03;
 
-/// The multigrid hierarchy: lattices, each of twice the spacing of the one before, and the transfers between
-/// them.
+/// Multigrid hierarchy: lattices, each of twice the spacing of the one before, and the transfers between them.
 #[derive(Debug, Clone)]
 pub(crate) struct Multigrid {
-    /// The lattices, the finest first.
+    /// Lattices of the hierarchy, the finest first.
     floors: Vec<Floor>,
-    /// The transfer from each lattice to the next coarser one.
+    /// Transfer from each lattice to the next coarser one.
     transfers: Vec<Transfer>,
-    /// Number of lattices that a cycle visits.
+    /// Number of lattices that a V-cycle visits.
     depth: usize,
     lambda: f64,
 }
 
-/// One lattice of the hierarchy with its matrix and work vectors.
+/// One lattice of the multigrid hierarchy with its matrix and work vectors.
 #[derive(Debug, Clone)]
 struct Floor {
     grid: Grid,
-    /// Fidelity and constraints, where they differ from cell to cell.
+    /// Fidelity weights and constraints of the lattice's vertices; `None` if all vertices have weight 1 and none is
+    /// constrained.
     shares: Option<Shares>,
-    /// Cholesky factor of the matrix on the coarsest lattice of a cycle, where Chebyshev's iteration would take
-    /// too long.
+    /// Cholesky factor of the matrix on the coarsest lattice of a cycle, where Chebyshev's iteration would take too
+    /// long.
     direct: Option<Cholesky<f32, Dyn>>,
-    /// Right-hand side, solution, last step of the smoother, residual.
+    /// Right-hand side of the lattice's linear system; the fields `x`, `step` and `residual` are its solution, the
+    /// smoother's last step, and its residual.
     b: Vec<f32>,
     x: Vec<f32>,
     step: Vec<f32>,
     residual: Vec<f32>,
 }
 
-/// Fidelity and constraints of a lattice's vertices, as means over the finest vertices that each stands for. A
-/// constrained vertex is out of the finest system; on coarser lattices a spring takes its place.
+/// Fidelity weights and constraints of a lattice's vertices, as means over the finest vertices that each stands for.
+/// Constrained vertices are no unknowns of the finest system; on coarser lattices springs replace them.
 #[derive(Debug, Clone)]
 struct Shares {
     fidelity: Vec<f32>,
@@ -82,7 +83,7 @@ struct Shares {
 }
 
 impl Multigrid {
-    /// The hierarchy for a problem on the first of `domains`, each of which has twice the spacing of the one
+    /// Makes the hierarchy for a problem on the first of `domains`, each of which has twice the spacing of the one
     /// before.
     pub(crate) fn new(problem: &Problem, domains: &[Arc<Domain>], rho: f64) -> Result<Self> {
         let transfers: Vec<Transfer> = domains
@@ -129,7 +130,7 @@ impl Multigrid {
         Ok(multigrid)
     }
 
-    /// Changes ρ in all matrices.
+    /// Changes ρ in the matrices of all lattices.
     pub(crate) fn set(&mut self, rho: f64) {
         let typical = 2.0 * self.lambda;
         let spring = SPRING_STIFFNESS * self.floors[0].grid.stiffness(rho);
@@ -154,17 +155,17 @@ impl Multigrid {
         self.floors[self.depth - 1].prepare();
     }
 
-    /// The matrix on the finest lattice.
+    /// Matrix of the z-step on the finest lattice.
     pub(crate) fn matrix(&self) -> &Grid {
         &self.floors[0].grid
     }
 
-    /// The matrix on the finest lattice, to be applied.
+    /// Matrix of the z-step on the finest lattice, for passes that use its buffers.
     pub(crate) fn matrix_mut(&mut self) -> &mut Grid {
         &mut self.floors[0].grid
     }
 
-    /// An approximation of `A⁻¹ b` by one cycle; `b` is the same afterwards.
+    /// Returns an approximation of `A⁻¹ b` by one V-cycle; `b` is the same afterwards.
     pub(crate) fn precondition(&mut self, b: &mut Vec<f32>) -> &[f32] {
         std::mem::swap(b, &mut self.floors[0].b);
         cycle(&mut self.floors[..self.depth], &self.transfers);
@@ -173,7 +174,7 @@ impl Multigrid {
     }
 }
 
-/// Solves `A x = b` roughly on the first lattice with the help of the coarser ones.
+/// Runs a V-cycle: solves `A x = b` approximately on the first lattice with the help of the coarser ones.
 fn cycle(floors: &mut [Floor], transfers: &[Transfer]) {
     let Some((fine, below)) = floors.split_first_mut() else {
         return;
@@ -226,7 +227,8 @@ impl Shares {
 }
 
 impl Floor {
-    /// The means on the next coarser lattice; leaves the work vectors clean.
+    /// Computes the mean fidelity weights and constraints of the next coarser lattice's vertices; leaves the work
+    /// vectors clean.
     fn coarser_shares(
         &mut self,
         transfer: &Transfer,
@@ -254,7 +256,7 @@ impl Floor {
         }))
     }
 
-    /// Factors the matrix if this is the coarsest lattice of a cycle and iterating would take too long.
+    /// Factors the matrix of the coarsest lattice of a cycle if iterating would take too long there.
     fn prepare(&mut self) {
         let steps = 1.5 * self.grid.condition().sqrt();
         let unknowns = self.grid.domain.active().len();
@@ -272,7 +274,8 @@ impl Floor {
         }
     }
 
-    /// Solves on the coarsest lattice of a cycle: directly, or by Chebyshev's iteration on the whole spectrum.
+    /// Solves the system on the coarsest lattice of a cycle: by the Cholesky factor, or by Chebyshev's iteration for
+    /// the whole spectrum.
     fn solve(&mut self) {
         if let Some(direct) = &self.direct {
             let cells = || self.grid.domain.active().cells();
@@ -291,7 +294,8 @@ impl Floor {
         self.smooth(steps as usize - 1, low, true);
     }
 
-    /// Takes the first step of Chebyshev's iteration from zero, which needs no matrix.
+    /// Takes the first step of Chebyshev's iteration from `x = 0`, which needs no product with the matrix. `low` is the
+    /// smallest eigenvalue whose error it reduces.
     fn start(&mut self, low: f32) {
         let weight = 2.0 / (LARGEST_EIGENVALUE + low);
         for run in self.grid.domain.active().all() {
@@ -307,8 +311,8 @@ impl Floor {
         }
     }
 
-    /// Takes steps of Chebyshev's iteration for eigenvalues from `low` to the largest, after the first step
-    /// where that was `started`.
+    /// Takes steps of Chebyshev's iteration that reduce the errors of eigenvalues from `low` to the largest; `started`
+    /// says that the first step was taken.
     fn smooth(&mut self, steps: usize, low: f32, started: bool) {
         let middle = 0.5 * (LARGEST_EIGENVALUE + low);
         let half = 0.5 * (LARGEST_EIGENVALUE - low);

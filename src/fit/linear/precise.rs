@@ -1,4 +1,4 @@
-//! The z-step's system in double precision.
+//! Conjugate gradients in double precision for the z-step's linear system.
 //!
 //! Without a fidelity term everywhere, its condition number grows with the fourth power of the domain's size in
 //! cells, and single precision does not resolve the smooth part of the residual any more. A V-cycle in single
@@ -10,10 +10,10 @@ use crate::fit::heightfields::Problem;
 use crate::lattice::stencil::{Ring, Rolling, weights_of};
 use crate::math::lanes;
 
-/// Conjugate gradients in double precision for `A x = b`, `A = 2λw + ρCᵀC`, over the cells that are not
-/// constrained.
+/// Conjugate gradients in double precision for the z-step's system `A x = b`, `A = 2λw + ρCᵀC`, over the vertices that
+/// are not constrained.
 pub(crate) struct Precise {
-    /// The residual `b − A x`, to be written before a solve; 0 outside `I ∪ ∂I`.
+    /// Residual `b − A x`, to be written before a solve; 0 outside the domain's active vertices.
     pub residual: Vec<f64>,
     direction: Vec<f64>,
     image: Vec<f64>,
@@ -22,13 +22,13 @@ pub(crate) struct Precise {
 }
 
 impl Precise {
-    /// Conjugate gradients for a problem, with a residual of 0.
+    /// Allocates the solver of a problem, with a residual of 0.
     pub(crate) fn new(problem: &Problem) -> Result<Self> {
         let cells = problem.operator.domain.cells();
         Precise::with_residual(problem, try_filled("conjugate gradients", cells, 0.0)?)
     }
 
-    /// Conjugate gradients for a problem, with a residual.
+    /// Allocates the solver of a problem, with a given residual.
     pub(crate) fn with_residual(problem: &Problem, residual: Vec<f64>) -> Result<Self> {
         let cells = residual.len();
         let zeros = || try_filled("conjugate gradients", cells, 0.0);
@@ -41,7 +41,7 @@ impl Precise {
         })
     }
 
-    /// Writes the residual `2λw z̃ − A z` of the z-step about `H = Y = 0`.
+    /// Sets the residual to `2λw z̃ − A z`: that of the z-step at heights `z` with Hessians and dual 0.
     pub(crate) fn start(&mut self, problem: &Problem, rho: f64, z: &[f64]) {
         self.direction.copy_from_slice(z);
         self.apply(problem, rho);
@@ -52,8 +52,8 @@ impl Precise {
         }
     }
 
-    /// Adds to `x` until the residual's [`distance`](Self::distance) is below a goal, or for a maximum number
-    /// of iterations. Returns the number of iterations.
+    /// Improves `x` by conjugate gradients until the residual's [`distance`](Self::distance) is at most a goal, or for
+    /// a maximum number of steps. Returns the number of steps taken.
     pub(crate) fn solve(
         &mut self,
         problem: &Problem,
@@ -101,8 +101,8 @@ impl Precise {
         steps
     }
 
-    /// Maximum distance by which the residual at a height would move that height alone: a measure that does not
-    /// depend on weights of many orders of magnitude.
+    /// Measures the residual: the largest distance by which the residual at a single vertex would move its height if no
+    /// other moved. This does not depend on weights of many orders of magnitude.
     pub(crate) fn distance(&self, problem: &Problem, multigrid: &Multigrid) -> f64 {
         let inverse = &multigrid.matrix().inverse_diagonal;
         let cells = problem.operator.domain.active().cells();
@@ -110,7 +110,7 @@ impl Precise {
         moved.fold(0.0, f64::max)
     }
 
-    /// Computes `image = A direction`, and returns the product of both.
+    /// Computes `image = A direction`, and returns the product of both vectors.
     fn apply(&mut self, problem: &Problem, rho: f64) -> f64 {
         let Precise {
             direction,
@@ -150,7 +150,7 @@ impl Precise {
     }
 }
 
-/// The largest magnitude.
+/// Returns the largest absolute value.
 fn largest(values: &[f64]) -> f64 {
     values.iter().fold(0.0f64, |m, v| m.max(v.abs()))
 }

@@ -1,4 +1,4 @@
-//! Transfer of corrections between a lattice and the one of twice the spacing.
+//! Transfer of multigrid corrections between a lattice and the one of twice the spacing.
 //!
 //! Prolongation is Loop's subdivision, `P = A L`: linear interpolation `L` from the coarse vertices, then the average
 //! `A` of each vertex (weight 2) with its neighbours (weight 1). Linear interpolation alone fails for a fourth-order
@@ -10,12 +10,13 @@ use crate::lattice::domain::Domain;
 use crate::lattice::runs::Run;
 use crate::lattice::stencil::Ring;
 
-/// The transfer between a lattice and the one of twice the spacing.
+/// Transfer of corrections (prolongation) and residuals (restriction) between a lattice and the one of twice the
+/// spacing.
 #[derive(Debug, Clone)]
 pub(crate) struct Transfer {
     averages: Averages,
     extension: Extension,
-    /// Fine row, within its box, of coarse row 0.
+    /// Row of the fine domain's padded box that coarse row 0 falls on.
     row: isize,
     col: [isize; 2],
 }
@@ -34,7 +35,8 @@ impl Transfer {
         }
     }
 
-    /// Adds `scale · Pᵀ from` to `to`; `work` is zero outside the fine domain and stays so.
+    /// Restricts a residual: writes `scale · Pᵀ from`, with the prolongation `P`, to the coarse `to`; `work` is zero
+    /// outside the fine domain and stays so.
     pub(crate) fn restrict(
         &self,
         (fine, from, work): (&Domain, &[f32], &mut [f32]),
@@ -64,7 +66,8 @@ impl Transfer {
         self.extension.extend_transposed(work, to, scale);
     }
 
-    /// Adds `P from` to `to`, where `from` is zero outside the coarse domain; overwrites `work`.
+    /// Prolongs a correction: adds `P from` to the fine `to`, where `from` is zero outside the coarse domain;
+    /// overwrites `work`.
     pub(crate) fn prolong(
         &self,
         (coarse, from): (&Domain, &[f32]),
@@ -108,7 +111,8 @@ impl Transfer {
         self.averages.complete(fine, work, to);
     }
 
-    /// Fine row of a coarse row, and fine column of its column 0.
+    /// Returns the fine row that a coarse row falls on, and the fine column of its column 0; `None` outside of the fine
+    /// box.
     fn fine_row(&self, fine: &Domain, coarse: &Domain, row: usize) -> Option<(usize, isize)> {
         debug_assert!(row <= coarse.rows());
         let at = 2 * row as isize + self.row;
@@ -116,8 +120,8 @@ impl Transfer {
         inside.then(|| (at as usize, self.col[usize::from(row.is_multiple_of(2))]))
     }
 
-    /// The average `A from` at each vertex of the fine domain, without what
-    /// [`Averages`](super::border::Averages) complete, to be stored or added.
+    /// Computes the average `A from` of each vertex of the fine domain with its neighbours, to be stored or added by
+    /// `store`. At boundary vertices it is the vertex's own value, which [`Averages`] completes.
     #[inline(always)]
     fn average(
         &self,

@@ -1,16 +1,18 @@
-//! The base of the first linearisation: the input mesh, smoothed.
+//! The base of a mesh's first linearisation: the input mesh, smoothed.
 
 use super::geometry::{Frame, Point, across, normals, smooth, unfold};
 use super::input::MeshInput;
 
-/// Number of smoothing steps that determine the positions of base vertices across the rays.
+/// Number of smoothing steps of the input mesh that determine where the vertices of the base (the smoothed mesh) are
+/// across their normals.
 const BASE_PLACE_STEPS: usize = 3;
 
-/// Number of smoothing steps that determine the positions of base vertices along the rays; includes
-/// [`BASE_PLACE_STEPS`].
+/// Number of smoothing steps of the input mesh that determine where the vertices of the base (the smoothed mesh) are
+/// along their normals; includes [`BASE_PLACE_STEPS`].
 const BASE_SURFACE_STEPS: usize = 10;
 
-/// The smoothed mesh and its frames. Across the rays, vertices are where fewer smoothing steps leave them.
+/// Smooths the input mesh, and returns the positions and frames of its vertices, about which the energy is first
+/// linearised. Across the rays, vertices are where fewer smoothing steps leave them.
 pub(super) fn first_base(given: &MeshInput) -> (Vec<Point>, Vec<Frame>) {
     let topology = &given.topology;
     let mut places = given.noisy.clone();

@@ -1,4 +1,4 @@
-//! Extrapolation of border vertices from the surface inside.
+//! Extrapolation of a mesh's border vertices from the surface inside.
 
 use super::geometry::{Frame, Point};
 use super::input::MeshInput;
@@ -6,18 +6,18 @@ use super::quadratic::{Neighbour, Quadratic};
 use super::smooth_regions::SmoothRegions;
 use super::topology::Topology;
 
-/// Number of rings around a border vertex in which an interior vertex is searched for.
+/// Number of rings of neighbours around a border vertex in which an interior vertex is searched for.
 const INNER_SEARCH_RINGS: usize = 3;
 
-/// Weight of a second-ring vertex relative to a first-ring vertex, where first-ring vertices are missing.
+/// Weight of a second-ring vertex relative to a first-ring vertex in the quadratic that the surface is extrapolated by.
 const SECOND_RING_WEIGHT: f64 = 0.3;
 
-/// Maximum noise amplification of a quadratic that the surface is extrapolated by, relative to a hexagonal ring; a
-/// quadratic that amplifies more is not used.
+/// Maximum noise amplification of a quadratic that the surface is extrapolated by, relative to that of a quadratic
+/// fitted to a hexagonal ring; a quadratic that amplifies more is not used.
 const MAX_CONTINUATION_AMPLIFICATION: f64 = 100.0;
 
-/// Extrapolates each border vertex from the quadratics fitted at its interior neighbours, on the same side of
-/// every crease where `sides` are known. A vertex without interior neighbours stays.
+/// Extrapolates each border vertex from the quadratics fitted at its interior neighbours, on its own side of every
+/// crease where the smooth regions `sides` are known. A vertex without interior neighbours stays.
 pub(super) fn extrapolate_border(
     given: &MeshInput,
     x: &mut [Point],
@@ -69,8 +69,9 @@ pub(super) fn extrapolate_border(
     }
 }
 
-/// Continues the surface to a point by the quadratic fitted at an inner vertex to those of its neighbours that
-/// are `usable`. Returns how far the quadratic is above the point along its normal there, and that normal.
+/// Continues the surface to the point `at` by the quadratic fitted at the vertex `inner` to those of its neighbours
+/// that are `usable`. Returns how far the quadratic is above the point along the quadratic's normal there, and that
+/// normal.
 pub(super) fn continue_surface(
     topology: &Topology,
     x: &[Point],

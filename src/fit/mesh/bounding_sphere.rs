@@ -4,7 +4,8 @@ use super::geometry::Point;
 use crate::error::{Error, Result};
 use crate::scene::mesh::Mesh;
 
-/// The map from the user's coordinates to normalised ones, `scale (x − centre)`.
+/// Map from the user's coordinates of a mesh to normalised ones, `scale (x − centre)`, in which its bounding sphere has
+/// the diameter 1.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct BoundingSphere {
     centre: Point,
@@ -12,7 +13,7 @@ pub(super) struct BoundingSphere {
 }
 
 impl BoundingSphere {
-    /// The sphere about the centroid of the mesh's area. It does not depend on how the mesh is rotated.
+    /// Finds the bounding sphere about the centroid of a mesh's area, which does not depend on how the mesh is rotated.
     pub(super) fn from_mesh(mesh: &Mesh) -> Result<Self> {
         let corners = |triangle: &[u32; 3]| mesh.corners(*triangle).map(Point::from);
         let (mut sum, mut weight) = (Point::zeros(), 0.0);
@@ -33,21 +34,21 @@ impl BoundingSphere {
         Ok(BoundingSphere { centre, scale })
     }
 
-    /// Normalised coordinates of a point.
+    /// Converts a point from the user's coordinates to normalised ones.
     pub(super) fn inward(self, x: [f64; 3]) -> Point {
         self.scale * (Point::from(x) - self.centre)
     }
 
-    /// A point in the user's coordinates.
+    /// Converts a point from normalised coordinates to the user's.
     pub(super) fn outward(self, x: Point) -> [f64; 3] {
         (self.centre + x / self.scale).into()
     }
 }
 
-/// Factor to coordinates in which the bounding sphere of a mesh has the diameter 1.
+/// Returns the factor from a mesh's coordinates to those in which its bounding sphere has the diameter 1.
 ///
 /// # Errors
-/// [`Error::Topology`] if it has no size.
+/// [`Error::Topology`] if the mesh has no size.
 pub(crate) fn bounding_sphere_scale(mesh: &Mesh) -> Result<f64> {
     Ok(BoundingSphere::from_mesh(mesh)?.scale)
 }

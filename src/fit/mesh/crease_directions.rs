@@ -1,4 +1,4 @@
-//! Directions in which vertices on creases move besides that of their normal.
+//! Directions in which vertices on creases of a mesh move besides that of their normal.
 //!
 //! The surface has two normals on a crease, and three in a corner. A vertex that moves along one ray alone cannot lie
 //! on all these sides; what it misses them by would stay as a dent.
@@ -7,17 +7,18 @@ use super::geometry::{Frame, Point};
 use super::input::MeshInput;
 use super::smooth_regions::SmoothRegions;
 
-/// Directions across the rays, each with an unknown of its own.
+/// Directions across the rays in which vertices on creases move, each with an unknown of its own.
 #[derive(Debug, Clone, Default)]
 pub(super) struct CreaseDirections {
-    /// The vertex and the direction of each unknown.
+    /// Vertex and unit direction of each unknown.
     pub all: Vec<(u32, Point)>,
-    /// Number of the first direction of each vertex.
+    /// Index in `all` of each vertex's first direction.
     first: Vec<u32>,
 }
 
 impl CreaseDirections {
-    /// The direction across the crease where two sides meet, and two directions where three sides do.
+    /// Finds the directions of each vertex: the one across the crease where two smooth regions meet, and two directions
+    /// where three regions do.
     pub(super) fn new(
         given: &MeshInput,
         sides: &SmoothRegions,
@@ -59,7 +60,7 @@ impl CreaseDirections {
         directions
     }
 
-    /// The directions of a vertex, with their numbers.
+    /// Returns the directions of a vertex, each with its index in `all`.
     pub(super) fn at_vertex(&self, vertex: usize) -> impl Iterator<Item = (u32, Point)> + '_ {
         let own = match self.first.get(vertex..vertex + 2) {
             Some([first, end]) => *first..*end,

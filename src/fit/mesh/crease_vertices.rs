@@ -1,4 +1,4 @@
-//! Vertices on creases, moved to the intersection of the surfaces on either side.
+//! Moves a mesh's vertices on creases to the intersection of the surfaces on either side.
 //!
 //! A quadratic fitted about a vertex next to a crease uses vertices on both sides, and blunts the crease by a part of
 //! an edge's length. So each vertex on a crease is moved, by the smallest step, to the intersection of the
@@ -12,11 +12,11 @@ use super::topology::Topology;
 use crate::math::symmetric_eigen::symmetric_eigen3;
 use nalgebra::Matrix3;
 
-/// Maximum step of a vertex on a crease, as a share of the mean length of the edges around it.
+/// Maximum step by which a vertex on a crease is moved, as a share of the mean length of the edges around it.
 const MAX_SHARPENING_SHARE: f64 = 0.7;
 
-/// Moves the vertices on creases, where regions of `sides` meet, to the intersection of the sides; `rays` are the
-/// frames before.
+/// Moves the vertices on creases, where smooth regions of `sides` meet, to the intersection of these regions' surfaces;
+/// `rays` are the vertices' frames before, for normals that are not determined.
 pub(super) fn move_crease_vertices(
     given: &MeshInput,
     sides: &SmoothRegions,
@@ -62,7 +62,8 @@ pub(super) fn move_crease_vertices(
     }
 }
 
-/// The tangent plane of one side, continued to a vertex: its mean height above the vertex, and its normal.
+/// Continues the tangent planes of one smooth region to a vertex: returns their mean height above the vertex, and their
+/// mean normal. `of` has the region of each vertex, `label` is the region.
 fn plane(
     topology: &Topology,
     x: &[Point],
@@ -91,8 +92,8 @@ fn plane(
     (count > 0.0 && normal.norm() > 0.0).then(|| (rise / count, normal.normalize()))
 }
 
-/// The shortest step to the intersection of planes, each given by its height above the start and its normal;
-/// `None` if they are nearly parallel.
+/// Returns the shortest step to the intersection of planes, each given by its height above the start and its unit
+/// normal; `None` if the planes are nearly parallel.
 fn intersect_planes(planes: &[(f64, Point)]) -> Option<Point> {
     let (mut matrix, mut right) = (Matrix3::zeros(), Point::zeros());
     for (rise, normal) in planes {

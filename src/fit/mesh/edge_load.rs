@@ -1,4 +1,4 @@
-//! Loads on the border and the creases of a mesh, neither of which bears bending moments: see
+//! Loads of bending moments on the border and the creases of a mesh, neither of which bears any by itself: see
 //! [`energy::moment_load`](crate::fit::energy::moment_load).
 
 use nalgebra::Matrix3;
@@ -12,15 +12,15 @@ use crate::fit::energy::moment_load::Rings;
 use crate::math::index::NO_INDEX;
 use crate::math::sym2::Sym2;
 
-/// Number of rings that the load along a border or crease acts on: the ring next to it, and two further ones
-/// that its stencils reach. Further inside equal moments cancel.
+/// Number of rings of vertices that the load along a border or crease acts on: the ring next to it, and two further
+/// ones that its stencils reach. Further inside equal moments cancel.
 const LOAD_REACH_RINGS: u32 = 3;
 
-/// Loads the border, and the creases whose stencils are `known`, with the `moments` of the stencils inside; returns
-/// whether there are any. Moments smaller than `flatness` are ignored: they are noise on flat faces.
+/// Loads the border, and the creases whose stencils are `known`, with the bending `moments` of the stencils inside;
+/// returns whether there are any. Moments smaller than the options' flatness are ignored: they are noise on flat faces.
 ///
 /// # Errors
-/// Out of memory.
+/// [`Error::OutOfMemory`](crate::Error::OutOfMemory).
 pub(super) fn load_border(
     topology: &Topology,
     linear: &mut Linearisation,
@@ -67,7 +67,7 @@ pub(super) fn load_border(
     Ok(true)
 }
 
-/// A moment in the plane of a frame as a matrix in space.
+/// Converts a bending moment in the tangent plane of a frame to a matrix in space.
 fn in_space(frame: &Frame, moment: Sym2) -> Matrix3<f64> {
     let [xx, xy, yy] = moment.entries();
     let [a, b] = &frame.tangents;
@@ -75,7 +75,7 @@ fn in_space(frame: &Frame, moment: Sym2) -> Matrix3<f64> {
     xx * a * a.transpose() + xy * (mixed + mixed.transpose()) + yy * b * b.transpose()
 }
 
-/// The part of a matrix in space that is in the plane of a frame.
+/// Returns the part of a bending moment, a matrix in space, that is in the tangent plane of a frame.
 fn in_plane(frame: &Frame, moment: &Matrix3<f64>) -> Sym2 {
     let [a, b] = &frame.tangents;
     let on = |u: &super::geometry::Point, v: &super::geometry::Point| u.dot(&(moment * v));

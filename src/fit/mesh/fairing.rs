@@ -1,4 +1,4 @@
-//! Fairing: moves vertices on borders and creases to smooth curves.
+//! Fairing: moves a mesh's vertices on borders and creases to smooth curves.
 
 use nalgebra::Vector3;
 
@@ -7,14 +7,15 @@ use super::smooth_regions::SmoothRegions;
 use super::topology::Topology;
 use crate::math::least_squares::LeastSquares;
 
-/// Number of vertices on either side along a curve that the fairing quadratic is fitted to.
+/// Number of vertices on either side of a vertex, along its border or crease, that the fairing quadratic is fitted to.
 const FAIRING_HALF_WINDOW: usize = 4;
 
-/// Fairing moves a vertex only if its variance after it is at most this share of that before.
+/// Maximum ratio of a vertex's variance after fairing to the variance before; where fairing reduces noise less, it does
+/// not move the vertex.
 const MAX_VARIANCE_RATIO: f64 = 0.95;
 
-/// The borders and creases of a surface as curves: the vertices before and after each vertex, and `None` where
-/// a curve ends and elsewhere.
+/// Finds the borders and creases of a surface as curves: for each vertex the vertices before and after it on its curve,
+/// and `None` where a curve ends and at vertices of no curve.
 pub(super) fn curves(topology: &Topology, sides: &SmoothRegions) -> Vec<Option<[u32; 2]>> {
     let mut curves = sides.creases(topology);
     for (vertex, beside) in curves.iter_mut().enumerate() {
@@ -26,8 +27,9 @@ pub(super) fn curves(topology: &Topology, sides: &SmoothRegions) -> Vec<Option<[
     curves
 }
 
-/// Moves each vertex of the `curves` to the quadratic fitted to those along its curve. A vertex that this would
-/// move by more than `most` is a corner: the curve ends there, and the vertex stays.
+/// Moves each vertex of the `curves` to the quadratic fitted to the vertices along its curve. A vertex that this would
+/// move by more than `most` is a corner: the curve ends there, and the vertex stays. Vertices that are `held` stay,
+/// too.
 pub(super) fn fair_curves(x: &mut [Point], curves: &[Option<[u32; 2]>], most: f64, held: &[bool]) {
     let old = x.to_vec();
     let near = |step: &Point| step.norm() <= most;
@@ -45,7 +47,8 @@ pub(super) fn fair_curves(x: &mut [Point], curves: &[Option<[u32; 2]>], most: f6
     }
 }
 
-/// The step from a vertex to the quadratic fitted along its curve, no further than to the `ends`.
+/// Returns the step from a vertex to the quadratic fitted to its neighbours along its curve, no further than to the
+/// `ends`; `None` where fairing does not apply.
 fn fairing_step(
     x: &[Point],
     curves: &[Option<[u32; 2]>],

@@ -6,11 +6,11 @@ use super::topology::Topology;
 
 pub(crate) type Point = Vector3<f64>;
 
-/// Share of the way to the mean of its neighbours that a vertex moves in one smoothing step; at 1, smoothing
-/// oscillates on some meshes.
+/// Share of the way to the mean of its neighbours that a vertex moves in one smoothing step; at 1, smoothing oscillates
+/// on some meshes.
 const SMOOTHING_STEP_SHARE: f64 = 0.7;
 
-/// Minimum squared length of a hint's component across a normal; a shorter one gives no tangent direction.
+/// Minimum squared length of a hint's component across a frame's normal; a shorter one gives no tangent direction.
 const MIN_HINT_SQUARE: f64 = 1e-6;
 
 /// An orthonormal frame at a vertex: its normal and two tangents.
@@ -21,7 +21,7 @@ pub(crate) struct Frame {
 }
 
 impl Frame {
-    /// The frame with a normal whose first tangent is nearest to a hint.
+    /// Makes the frame with a unit normal whose first tangent is nearest to the direction `hint`.
     pub(crate) fn from_normal(normal: Point, hint: Point) -> Self {
         let mut along = hint - normal * normal.dot(&hint);
         if along.norm_squared() < MIN_HINT_SQUARE {
@@ -35,15 +35,15 @@ impl Frame {
         }
     }
 
-    /// Coordinates of a vector along both tangents and the normal.
+    /// Returns a vector's coordinates along both tangents and the normal of the frame.
     pub(crate) fn coordinates(&self, v: Point) -> [f64; 3] {
         let [t1, t2] = &self.tangents;
         [v.dot(t1), v.dot(t2), v.dot(&self.normal)]
     }
 }
 
-/// Unit normals of vertices, weighted by the areas of their triangles; where these cancel, that of the `old`
-/// ones.
+/// Computes the unit normal of each vertex: the mean of its triangles' normals, weighted by their areas; where these
+/// cancel, the vertex's normal in `old`.
 pub(crate) fn normals(topology: &Topology, x: &[Point], old: Option<&[Point]>) -> Vec<Point> {
     let mut sums = vec![Point::zeros(); x.len()];
     for triangle in &topology.triangles {
@@ -62,13 +62,13 @@ pub(crate) fn normals(topology: &Topology, x: &[Point], old: Option<&[Point]>) -
     sums
 }
 
-/// Normal of a triangle times twice its area.
+/// Returns the normal of a triangle, with twice the triangle's area as its length.
 pub(super) fn twice_area(x: &[Point], triangle: &[u32; 3]) -> Point {
     let [a, b, c] = triangle.map(|i| x[i as usize]);
     (b - a).cross(&(c - a))
 }
 
-/// Area of each vertex: a third of those of its triangles.
+/// Computes the area of each vertex: a third of the areas of its triangles.
 pub(super) fn areas(topology: &Topology, x: &[Point]) -> Vec<f64> {
     let mut areas = vec![0.0; x.len()];
     for triangle in &topology.triangles {
@@ -80,7 +80,7 @@ pub(super) fn areas(topology: &Topology, x: &[Point]) -> Vec<f64> {
     areas
 }
 
-/// Volume that the surface encloses.
+/// Computes the volume that a closed surface encloses.
 pub(super) fn volume(topology: &Topology, x: &[Point]) -> f64 {
     let tetrahedra = topology.triangles.iter();
     tetrahedra
@@ -88,8 +88,8 @@ pub(super) fn volume(topology: &Topology, x: &[Point]) -> f64 {
         .sum()
 }
 
-/// Moves each vertex towards the mean of its neighbours (the umbrella operator), and vertices on the border
-/// towards that of their neighbours along it.
+/// Smooths a surface: moves each vertex towards the mean of its neighbours (the umbrella operator), and each border
+/// vertex towards the mean of its two neighbours along the border.
 pub(super) fn smooth(topology: &Topology, x: &mut [Point], steps: usize) {
     let mut old = x.to_vec();
     for _ in 0..steps {
@@ -116,7 +116,7 @@ pub(super) fn smooth(topology: &Topology, x: &mut [Point], steps: usize) {
     }
 }
 
-/// Whether a triangle faces away from the normals `up` of its corners.
+/// Returns whether a triangle faces away from the vertex normals `up` of its corners.
 pub(super) fn faces_away(x: &[Point], up: &[Point], triangle: &[u32; 3]) -> bool {
     let sum: Point = triangle.iter().map(|i| up[*i as usize]).sum();
     twice_area(x, triangle).dot(&sum) < 0.0
@@ -125,8 +125,8 @@ pub(super) fn faces_away(x: &[Point], up: &[Point], triangle: &[u32; 3]) -> bool
 /// Maximum number of steps in which folded triangles are laid flat.
 const MAX_UNFOLDING_STEPS: usize = 40;
 
-/// Lays triangles flat that face away from the normals of their corners: moves their vertices towards the mean
-/// of their neighbours, along the surface. Vertices that are `held` stay.
+/// Lays folded triangles flat, which face away from the vertex normals `up` of their corners: moves their vertices
+/// towards the mean of the neighbours, along the surface. Vertices that are `held` stay.
 pub(super) fn unfold(topology: &Topology, x: &mut [Point], up: &[Point], held: &[bool]) {
     let mut folded = vec![false; x.len()];
     let mut moved = vec![true; x.len()];
@@ -165,8 +165,8 @@ pub(super) fn unfold(topology: &Topology, x: &mut [Point], up: &[Point], held: &
     }
 }
 
-/// Points whose coordinate along each ray is that of `x`, and whose coordinates perpendicular to it are those of
-/// `places`.
+/// Combines two sets of points: the result has the coordinate of `x` along each ray, and the coordinates of `places`
+/// perpendicular to the ray.
 pub(super) fn across(x: &[Point], places: &[Point], rays: &[Point]) -> Vec<Point> {
     let all = x.iter().zip(places).zip(rays);
     all.map(|((x, place), ray)| place + ray * ray.dot(&(x - place)))

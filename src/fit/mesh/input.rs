@@ -1,15 +1,15 @@
-//! The input of a fit of a mesh.
+//! The input of a mesh's fit.
 
 use super::geometry::Point;
 use super::topology::Topology;
 
-/// The mesh to be fitted, in normalised coordinates; it is the same for all linearisations.
+/// Mesh to be fitted, in normalised coordinates; the same for all linearisations.
 #[derive(Debug, Clone)]
 pub(super) struct MeshInput {
     pub topology: Topology,
-    /// Positions of the vertices as given.
+    /// Position of each vertex as given.
     pub noisy: Vec<Point>,
-    /// Confidence of each vertex; empty for 1 each.
+    /// Confidence of each vertex; empty if each is 1.
     pub confidence: Vec<f64>,
     /// Whether each vertex stays where it is.
     pub held: Vec<bool>,

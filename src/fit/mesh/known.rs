@@ -1,4 +1,4 @@
-//! Confidences of a mesh's vertices, and which of them are held.
+//! What is known about a mesh's vertices before a fit: their confidences, and which of them are held.
 
 use super::options::check_confidence;
 use super::topology::Topology;
@@ -14,24 +14,24 @@ pub struct MeshKnown {
 }
 
 impl MeshKnown {
-    /// Sets the confidence of each vertex: the weight of its fidelity; default 1.
+    /// Sets the confidence of each vertex: the weight of its fidelity term; default 1.
     ///
     /// # Errors
-    /// [`Error::NotFinite`](crate::Error::NotFinite) if one is no finite number from 0 on.
+    /// [`Error::NotFinite`](crate::Error::NotFinite) if a confidence is no finite number from 0 on.
     pub fn with_confidence(mut self, confidence: Vec<f64>) -> Result<Self> {
         check_confidence(&confidence, confidence.len())?;
         self.confidence = confidence;
         Ok(self)
     }
 
-    /// Sets which vertices stay where they are.
+    /// Sets for each vertex whether it is held, that is stays where it is; default: none is.
     pub fn with_held(mut self, held: Vec<bool>) -> Self {
         self.held = held;
         self
     }
 
-    /// Confidence of each vertex of the topology, and whether it is held: the larger confidence, and held if
-    /// any is, where several vertices are joined.
+    /// Converts confidence and held flag of each of the mesh's vertices to those of the topology's vertices. Where
+    /// several vertices are joined, the largest confidence counts, and the joined one is held if any is.
     pub(super) fn for_topology(
         self,
         mesh: &Mesh,

@@ -1,4 +1,4 @@
-//! Linearisation of the energy of a mesh about a base, from which its vertices move along rays.
+//! Linearisation of the energy of a mesh about a base, from which vertices move along their normals (rays).
 //!
 //! The unknowns are `√w s`, where `s` is the distance along the ray and `w` each vertex's share of the area, so
 //! that the fidelity has the same weight at all of them. The second fundamental form of the base itself is the
@@ -20,56 +20,56 @@ use crate::math::sym2::Sym2;
 
 pub(super) type Problem = problem::Problem<SparseOperator>;
 
-/// Minimum area of a vertex, relative to the mean; smaller ones are raised to it.
+/// Minimum area of a vertex in the energy, as a share of the mean; smaller areas are raised to it.
 const MIN_AREA_SHARE: f64 = 0.1;
 
-/// Maximum noise amplification of a quadratic over the first ring, relative to a hexagonal one; above it the
-/// second ring is added. Including the second ring on all irregular meshes reduces the angle between normals of
-/// surface and truth by a third.
+/// Maximum noise amplification of a quadratic fitted to the first ring of a vertex, relative to a hexagonal ring's;
+/// above it the second ring is added. Including the second ring on all irregular meshes reduces the angle between
+/// normals of surface and truth by a third.
 const MAX_RING_AMPLIFICATION: f64 = 1.05;
 
-/// Minimum number of first-ring vertices at which the second ring may be left out.
+/// Minimum number of first-ring vertices at which a quadratic may be fitted to them without the second ring.
 const MIN_RING_VERTICES: usize = 6;
 
-/// Number of entries reserved per matrix row: two rings of a hexagonal mesh, the vertex itself and the
-/// constant.
+/// Number of entries reserved for each row of the operator's matrix: two rings of a hexagonal mesh, the vertex itself
+/// and the constant.
 const STENCIL_ROW_CAPACITY: usize = 20;
 
-/// Minimum confidence of a vertex: a smaller one would need a linear system of its own.
+/// Minimum confidence of a mesh's vertex in the energy: a smaller one would need a linear system of its own.
 const MIN_CONFIDENCE: f64 = 1e-4;
 
-/// The problem that is linearised about a base.
+/// Problem of a mesh's fit, linearised about a base: the convex problem that one pass solves.
 #[derive(Debug, Clone)]
 pub(super) struct Linearisation {
     pub problem: Problem,
     /// Positions of the vertices about which the energy is linearised.
     pub base: Vec<Point>,
-    /// Frames of the vertices, whose normals are the rays.
+    /// Frames of the vertices, whose normals are the rays along which vertices move.
     pub frames: Vec<Frame>,
     /// Vertex in the middle of each stencil.
     pub centres: Vec<u32>,
-    /// Stencil about each vertex, or [`NO_INDEX`].
+    /// Stencil whose middle each vertex is, or [`NO_INDEX`].
     pub about: Vec<u32>,
-    /// Factor from each unknown to a distance along the ray.
+    /// Factor from each vertex's unknown to a distance along its ray.
     pub scales: Vec<f64>,
-    /// Directions across the rays in which vertices on creases move; their unknowns follow those of the vertices and
-    /// the constant.
+    /// Directions across the rays in which vertices on creases move as well; their unknowns follow those of the
+    /// vertices and the constant.
     pub directions: CreaseDirections,
     /// Spacing of a hexagonal lattice with vertices of the same mean area.
     pub spacing: f64,
 }
 
-/// Spacing of a hexagonal lattice whose vertices have an area.
+/// Returns the spacing of a hexagonal lattice whose vertices have this area each.
 pub(super) fn hexagonal_spacing(area: f64) -> f64 {
     (2.0 * area / 3f64.sqrt()).sqrt()
 }
 
 impl Linearisation {
-    /// Linearises about vertices at `base`, which move along the normals of their frames, and across these as
-    /// well on creases, where `sides` meet.
+    /// Linearises the energy about vertices at `base`, which move along the normals of their frames, and across these
+    /// as well on creases, where smooth regions of `sides` meet. `lambda` gives λ for the spacing.
     ///
     /// # Errors
-    /// [`Error::Topology`] if no vertex has triangles all around, or out of memory.
+    /// [`Error::Topology`] if no vertex has triangles all around, or [`Error::OutOfMemory`].
     pub(super) fn new(
         given: &MeshInput,
         base: Vec<Point>,
@@ -210,7 +210,7 @@ impl Linearisation {
         })
     }
 
-    /// The unknowns of the base itself.
+    /// Returns the unknowns at which all vertices are at the base.
     pub(super) fn start(&self) -> Vec<f64> {
         let mut z = vec![0.0; self.problem.target.len()];
         z[self.base.len()] = 1.0;
@@ -220,7 +220,7 @@ impl Linearisation {
         z
     }
 
-    /// Positions of the vertices for these unknowns.
+    /// Returns the positions of the vertices at given unknowns `z`.
     pub(super) fn moved(&self, z: &[f64]) -> Vec<Point> {
         let all = self
             .base
@@ -238,12 +238,12 @@ impl Linearisation {
     }
 }
 
-/// Maximum slope of a local quadratic fit against its frame. Above it the frame is rotated into the fit's
-/// tangent plane, because second derivatives over a slanting plane are not the second fundamental form.
+/// Maximum slope of a local quadratic fit against its frame's tangent plane. Above it the frame is rotated into the
+/// fit's tangent plane, because second derivatives over a slanting plane are not the second fundamental form.
 const MAX_FRAME_SLOPE: f64 = 0.02;
 
-/// Fits the quadratic about a vertex over its tangent plane. Returns it with the vertices that it was fitted to
-/// and its frame.
+/// Fits a quadratic to the surface about a vertex, over its tangent plane. Returns the quadratic, the vertices that it
+/// was fitted to, and its frame.
 pub(crate) fn fit_quadratic(
     topology: &Topology,
     x: &[Point],
@@ -253,7 +253,8 @@ pub(crate) fn fit_quadratic(
     fit_quadratic_on_side(topology, x, frame, vertex, None)
 }
 
-/// Fits as [`fit_quadratic`] does, to vertices on the same side of every crease alone.
+/// Fits as [`fit_quadratic`] does, to vertices on one side of every crease alone, if the smooth regions `sides` are
+/// given.
 fn fit_quadratic_on_side(
     topology: &Topology,
     x: &[Point],

@@ -1,5 +1,5 @@
-//! Fits of whole meshes, as surfaces in space and not as seen from one side: closed, overhanging, with borders
-//! or in components.
+//! Fits of whole meshes, as surfaces in space and not as seen from one side: closed, overhanging, with borders or in
+//! components.
 //!
 //! The paper's energy needs heights. Here each vertex moves along a ray, and the second fundamental form takes
 //! the place of the Hessian: that of a quadratic fitted to the neighbours, linearised about a smoothed base.

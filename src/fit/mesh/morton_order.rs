@@ -1,11 +1,11 @@
 //! Order of points along a space-filling curve (Morton 1966), so that neighbours in the order are near each
 //! other.
 
-/// Number of bits of each coordinate in the key of the space-filling curve: three coordinates make a key of
-/// 63 bits.
+/// Number of bits of each coordinate in a point's key on the space-filling curve: three coordinates make a key of 63
+/// bits.
 const AXIS_KEY_BITS: u32 = 21;
 
-/// Numbers of the points in the order of the curve.
+/// Returns the indices of points in their order along the space-filling curve.
 pub(super) fn order(places: impl Iterator<Item = [f64; 3]> + Clone) -> Vec<u32> {
     let (mut low, mut high) = ([f64::INFINITY; 3], [f64::NEG_INFINITY; 3]);
     for place in places.clone() {
@@ -31,7 +31,7 @@ pub(super) fn order(places: impl Iterator<Item = [f64; 3]> + Clone) -> Vec<u32> 
     keys.into_iter().map(|(_, number)| number).collect()
 }
 
-/// Inserts two zeros after each bit.
+/// Inserts two zero bits after each of the 21 lowest bits of a number.
 fn spread(step: u64) -> u64 {
     let mut x = step & 0x1f_ffff;
     for (shift, mask) in [

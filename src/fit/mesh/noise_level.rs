@@ -1,4 +1,4 @@
-//! Estimate of the noise of a mesh.
+//! Estimate of the noise of a mesh's vertices.
 
 use nalgebra::Vector6;
 
@@ -7,14 +7,15 @@ use super::topology::Topology;
 use crate::math::least_squares::LeastSquares;
 use crate::math::statistics::{MAD_TO_SIGMA, median};
 
-/// Minimum number of samples from which noise is estimated.
+/// Minimum number of vertices from which the noise of a mesh is estimated.
 const MIN_NOISE_SAMPLES: usize = 50;
 
-/// Maximum number of samples from which noise is estimated: more do not make the estimate better.
+/// Maximum number of vertices from which the noise of a mesh is estimated: more do not make the estimate better.
 const MAX_NOISE_SAMPLES: usize = 20_000;
 
-/// Standard deviation of the noise along the normals of the base, from the median distance of a vertex to the
-/// quadratic fitted to those around it, so that creases do not count; `None` if there are too few samples.
+/// Estimates the standard deviation of a mesh's noise along the normals of the base, from the median distance of a
+/// vertex to the quadratic fitted to the vertices around it, so that creases do not count; `None` if there are too few
+/// vertices.
 pub(super) fn noise(
     topology: &Topology,
     base: &[Point],

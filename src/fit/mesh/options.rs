@@ -1,14 +1,14 @@
-//! Options of the fit of a mesh.
+//! Options of a mesh's fit.
 
 use crate::error::{Error, Result};
 use crate::fit::options::{DEFAULT_CREASE_PASSES, Energy, Lambda, Options};
 use crate::math::sym2::Sym2;
 
-/// Excess of a vertex's moment over the flatness threshold at which a bend counts in full.
+/// Excess of a dual's size over the flatness at which the bend there counts in full towards the border's moments.
 const CLEAR_BEND_EXCESS: f64 = 0.1;
 
-/// Options of [`fit_mesh`](super::fit_mesh), with the names of those of heightfields. The energy is
-/// [`Energy::Huber`](crate::Energy::Huber).
+/// Options of [`fit_mesh`](super::fit_mesh), with the names that they have in [`Options`]. The energy is
+/// [`Energy::Huber`].
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(
     feature = "serde",
@@ -40,46 +40,46 @@ impl Default for MeshOptions {
 }
 
 impl MeshOptions {
-    /// Weight of the fidelity term, in coordinates in which the bounding sphere of the mesh has the diameter 1.
+    /// Sets the weight λ of the fidelity term, in coordinates in which the mesh's bounding sphere has the diameter 1.
     /// Default [`Lambda::Auto`], which is `6.4/σh` for noise of standard deviation `σ` and a spacing `h`.
     pub fn lambda(mut self, lambda: impl Into<Lambda>) -> Self {
         self.lambda = lambda.into();
         self
     }
 
-    /// The certified relative gap at which the last linearised problem is solved; default 0.01.
+    /// Sets the certified relative duality gap at which the solve of the last linearised problem stops; default 0.01.
     pub fn gap(mut self, gap: f64) -> Self {
         self.gap = gap;
         self
     }
 
-    /// Maximum number of ADMM iterations for each linearisation; default 1000.
+    /// Sets the maximum number of ADMM iterations for each linearisation; default 1000.
     pub fn max_iterations(mut self, iterations: usize) -> Self {
         self.max_iterations = iterations;
         self
     }
 
-    /// Bend radius `1/δ`, in the coordinates of [`MeshOptions::lambda`]: the cost of tighter bends is linear, that of
-    /// wider ones quadratic; default 0.1.
+    /// Sets the bend radius `1/δ` of the Huber penalty, in the coordinates of [`MeshOptions::lambda`]: the cost of
+    /// tighter bends is linear, that of wider ones quadratic; default 0.1.
     pub fn bend_radius(mut self, radius: f64) -> Self {
         self.bend_radius = radius;
         self
     }
 
-    /// Flatness `α`: the slope of the penalty at 0, from 0 to 1; default 0.3.
+    /// Sets the flatness `α` of the Huber penalty: its slope at 0, from 0 to 1; default 0.3.
     pub fn flatness(mut self, slope: f64) -> Self {
         self.flatness = slope;
         self
     }
 
-    /// Crease radius `1/T`, in the coordinates of [`MeshOptions::lambda`]: bends of a smaller radius are creases;
-    /// default 0.1.
+    /// Sets the crease radius `1/T`, in the coordinates of [`MeshOptions::lambda`]: bends of a smaller radius are
+    /// creases; default 0.1.
     pub fn crease_radius(mut self, radius: f64) -> Self {
         self.crease_radius = radius;
         self
     }
 
-    /// Number of crease passes, at most 20; each solves another linearisation, in which creases cost
+    /// Sets the number of crease passes, at most 20; each solves another linearisation, in which bends at creases cost
     /// less. Default: 2, or 0 where λ is large for the noise of the mesh.
     pub fn crease_passes(mut self, passes: usize) -> Self {
         self.crease_passes = Some(passes);
@@ -91,8 +91,8 @@ impl MeshOptions {
         self.crease_passes.unwrap_or(DEFAULT_CREASE_PASSES)
     }
 
-    /// Share, from 0 to 1, of a stencil's dual that counts as the moment of a bend: 0 where the surface is nearly
-    /// flat, because the dual's direction is arbitrary there.
+    /// Returns the share, from 0 to 1, of a stencil's dual that counts as the moment of a bend: 0 where the surface is
+    /// nearly flat, because the dual's direction is arbitrary there.
     pub(super) fn bend_share(&self, dual: Sym2) -> f64 {
         ((dual.spectral_norm() - self.flatness) / CLEAR_BEND_EXCESS).clamp(0.0, 1.0)
     }
@@ -100,12 +100,12 @@ impl MeshOptions {
     /// Checks that every option is within its range.
     ///
     /// # Errors
-    /// [`Error::Option`] with the name of the first that is not.
+    /// [`Error::Option`] with the name of the first option that is out of range.
     pub fn validate(&self) -> Result<()> {
         self.common().validate()
     }
 
-    /// These options as those of a heightfield.
+    /// Converts these options to the options of a heightfield's solve.
     pub(super) fn common(&self) -> Options {
         Options::default()
             .energy(Energy::Huber)
@@ -119,7 +119,7 @@ impl MeshOptions {
     }
 }
 
-/// Checks that confidences are finite and at least 0.
+/// Checks that there is a confidence for each of a number of `vertices`, and that each is finite and at least 0.
 pub(super) fn check_confidence(confidence: &[f64], vertices: usize) -> Result<()> {
     crate::error::check_count("confidence of the mesh", vertices, 1, confidence.len())?;
     let odd = confidence

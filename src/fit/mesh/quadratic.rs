@@ -1,5 +1,5 @@
-//! The quadratic about a vertex that fits its neighbours' heights above the tangent plane best, and the
-//! derivative of its second derivatives with respect to the vertices.
+//! The quadratic that fits the heights of a vertex's neighbours above its tangent plane best, and the change of its
+//! second derivatives when vertices move.
 
 use super::geometry::{Frame, Point};
 use crate::math::sym2::Sym2;
@@ -7,24 +7,25 @@ use crate::math::sym2::Sym2;
 /// Number of coefficients of a local quadratic: of `½x²`, `xy`, `½y²`, `x` and `y`.
 const COEFFICIENT_COUNT: usize = 5;
 
-/// Noise amplification of the second derivatives on the six-ring of a hexagonal lattice, in units of `h⁻⁴`.
+/// Noise amplification of a quadratic's second derivatives on the six-ring of a hexagonal lattice of spacing `h`, in
+/// units of `h⁻⁴`.
 const HEXAGONAL_AMPLIFICATION: f64 = 20.0 / 3.0;
 
-/// Minimum pivot of a Cholesky factorisation, relative to the diagonal entry, for the neighbours to determine a
-/// quadratic: half of the digits of double precision are left.
+/// Minimum pivot of a quadratic fit's Cholesky factorisation, relative to the diagonal entry, at which the neighbours
+/// determine the quadratic: half of the digits of double precision are left.
 const MIN_PIVOT_SHARE: f64 = 1e-8;
 
 /// Weight of a second-ring vertex in a quadratic fit, relative to a first-ring vertex.
 pub(super) const SECOND_RING_FIT_WEIGHT: f64 = 0.03;
 
-/// A neighbour in a quadratic fit: its offset from the vertex, and its weight.
+/// A neighbour of the vertex that a quadratic is fitted at: its offset from the vertex, and its weight.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Neighbour {
     pub offset: Point,
     pub weight: f64,
 }
 
-/// The quadratic fitted at one vertex.
+/// Quadratic fitted to the surface at one vertex: height above the tangent plane.
 #[derive(Debug, Clone)]
 pub(crate) struct Quadratic {
     samples: Vec<Sample>,
@@ -33,29 +34,30 @@ pub(crate) struct Quadratic {
     scale: f64,
 }
 
-/// A neighbour's part in a fit.
+/// A neighbour's contribution to the fit of a quadratic.
 #[derive(Debug, Clone)]
 struct Sample {
-    /// Derivatives of the coefficients with respect to its height.
+    /// Derivatives of the quadratic's coefficients with respect to the neighbour's height.
     column: [f64; COEFFICIENT_COUNT],
-    /// Coordinates in the tangent plane, in units of `scale`.
+    /// Coordinates of the neighbour in the tangent plane, in units of the quadratic's `scale`.
     place: [f64; 2],
     weight: f64,
     residual: f64,
 }
 
-/// The terms of a quadratic at a point.
+/// Returns the terms `½x²`, `xy`, `½y²`, `x` and `y` of a quadratic at the point `(x, y)`.
 fn terms([x, y]: [f64; 2]) -> [f64; COEFFICIENT_COUNT] {
     [0.5 * x * x, x * y, 0.5 * y * y, x, y]
 }
 
-/// The inner product.
+/// Returns the inner product of two coefficient vectors.
 fn inner(a: &[f64; COEFFICIENT_COUNT], b: &[f64; COEFFICIENT_COUNT]) -> f64 {
     a.iter().zip(b).map(|(a, b)| a * b).sum()
 }
 
 impl Quadratic {
-    /// Fits a quadratic; `None` where the neighbours do not determine one.
+    /// Fits a quadratic through a vertex to its neighbours by least squares, over the tangent plane of `frame`; `None`
+    /// where the neighbours do not determine one.
     pub(super) fn fit(frame: &Frame, neighbours: &[Neighbour]) -> Option<Self> {
         let full = neighbours.iter().filter(|n| n.weight == 1.0);
         let count = full.clone().count() as f64;
@@ -100,39 +102,39 @@ impl Quadratic {
         })
     }
 
-    /// Noise of the second derivatives relative to that on the six-ring of a hexagonal lattice.
+    /// Returns the noise variance of the second derivatives, relative to that on the six-ring of a hexagonal lattice.
     pub(super) fn amplification(&self) -> f64 {
         let columns = self.samples.iter().map(|sample| sample.column);
         let squares = columns.map(|c| c[0] * c[0] + 2.0 * c[1] * c[1] + c[2] * c[2]);
         squares.sum::<f64>() / HEXAGONAL_AMPLIFICATION
     }
 
-    /// Second derivatives at the vertex.
+    /// Returns the second derivatives at the vertex.
     pub(crate) fn hessian(&self) -> Sym2 {
         let [xx, xy, yy, ..] = self.coefficients;
         Sym2::new(xx, xy, yy).scale(1.0 / self.scale)
     }
 
-    /// First derivatives at the vertex.
+    /// Returns the first derivatives at the vertex.
     pub(super) fn slope(&self) -> [f64; 2] {
         let [.., x, y] = self.coefficients;
         [x, y]
     }
 
-    /// Height above the tangent plane at a point of it.
+    /// Returns the quadratic's height above the tangent plane at a point of that plane.
     pub(super) fn height(&self, place: [f64; 2]) -> f64 {
         self.scale * inner(&self.coefficients, &terms(place.map(|x| x / self.scale)))
     }
 
-    /// First derivatives at a point of the tangent plane.
+    /// Returns the quadratic's first derivatives at a point of the tangent plane.
     pub(super) fn gradient(&self, place: [f64; 2]) -> [f64; 2] {
         let [x, y] = place.map(|x| x / self.scale);
         let [xx, xy, yy, a, b] = self.coefficients;
         [xx * x + xy * y + a, xy * x + yy * y + b]
     }
 
-    /// Change of the second derivatives when the `k`-th neighbour moves by `v` relative to the vertex, to first
-    /// order.
+    /// Returns the change of the second derivatives, to first order, when the `k`-th neighbour moves by `v` relative to
+    /// the vertex.
     pub(super) fn change(&self, frame: &Frame, k: usize, v: Point) -> Sym2 {
         let [dx, dy, dz] = frame.coordinates(v);
         let sample = &self.samples[k];
@@ -147,7 +149,7 @@ impl Quadratic {
     }
 }
 
-/// Inverse of a symmetric matrix by Cholesky's factorisation; `None` unless it is well positive definite.
+/// Inverts a symmetric matrix by Cholesky's factorisation; `None` unless the matrix is well positive definite.
 fn inverse(
     matrix: &[[f64; COEFFICIENT_COUNT]; COEFFICIENT_COUNT],
 ) -> Option<[[f64; COEFFICIENT_COUNT]; COEFFICIENT_COUNT]> {

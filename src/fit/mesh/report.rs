@@ -1,25 +1,25 @@
-//! The report of a fit of a mesh.
+//! The report of a mesh's fit.
 
 use crate::fit::report::{Seconds, StopReason};
 
-/// Repairs of a mesh before it was fitted. The result has the vertices and triangles of the input all the same.
+/// Repairs of a mesh before its fit. The fitted mesh has the vertices and triangles of the input all the same.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[non_exhaustive]
 pub struct Repairs {
-    /// Number of vertices at the same position as another one, with which they move.
+    /// Number of vertices that share their position with an earlier one and move together with it.
     pub joined: usize,
-    /// Triangles with two corners at one place.
+    /// Number of triangles with two corners at one position, which are ignored.
     pub degenerate: usize,
-    /// Triangles that repeat another one.
+    /// Number of triangles that repeat another one, which are ignored.
     pub repeated: usize,
     /// Number of triangles that faced the other side than their neighbours and were reversed.
     pub turned: usize,
-    /// Vertices of no triangle, which stay where they are.
+    /// Number of vertices of no triangle, which stay where they are.
     pub unused: usize,
 }
 
-/// One linearisation, and the solve of its convex problem.
+/// Figures of one pass of a mesh's fit: a linearisation of the energy, and the solve of its convex problem.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(
     feature = "serde",
@@ -28,27 +28,28 @@ pub struct Repairs {
 )]
 #[non_exhaustive]
 pub struct MeshPass {
-    /// ADMM iterations.
+    /// Number of ADMM iterations of the pass.
     pub iterations: usize,
-    /// Conjugate-gradient iterations over all z-steps.
+    /// Number of conjugate-gradient iterations of the pass, over all z-steps.
     pub cg_iterations: usize,
-    /// Energy of the best iterate, in the linearised problem.
+    /// Objective of the best iterate, in the linearised problem.
     pub objective: f64,
-    /// Certified lower bound of the linearised problem's optimum.
+    /// Certified lower bound of the linearised problem's optimal objective.
     pub dual_bound: f64,
-    /// `(objective − dual_bound) / objective`.
+    /// Relative duality gap `(objective − dual_bound) / objective` of the linearised problem.
     pub gap: Option<f64>,
-    /// Why the solve stopped.
+    /// Reason why the pass stopped.
     pub stop_reason: StopReason,
-    /// Vertices on creases, where bends cost less in this pass.
+    /// Number of vertices on creases, where bends cost less in this pass.
     pub creases: usize,
-    /// Root mean square distance from the base by which vertices moved, in the input's units.
+    /// Root mean square distance by which vertices moved from the base of the linearisation, in the input's unit of
+    /// length.
     pub moved: f64,
-    /// Largest distance from the base by which a vertex moved, in the input's units.
+    /// Largest distance by which a vertex moved from the base of the linearisation, in the input's unit of length.
     pub moved_most: f64,
 }
 
-/// The report of a fit of a mesh: what was solved, how well, and at what cost.
+/// Report of a mesh's fit: what was solved, how well, and at what cost.
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(
     feature = "serde",
@@ -57,45 +58,44 @@ pub struct MeshPass {
 )]
 #[non_exhaustive]
 pub struct MeshReport {
-    /// Number of vertices of the solve: of the input's vertices, one at each position.
+    /// Number of vertices in the solve: vertices of the input at one position count as one.
     pub vertices: usize,
-    /// Number of interior vertices, which have triangles all around.
+    /// Number of interior vertices of the solve, which have triangles all around and a bend of their own in the energy.
     pub interior: usize,
-    /// Vertices on the border, which are extrapolated from the surface inside.
+    /// Number of vertices on the border, which are extrapolated from the surface inside.
     pub border: usize,
-    /// Number of vertices at which parts of the surface touch in a point.
+    /// Number of pinched vertices, at which parts of the surface touch in a point.
     pub pinched: usize,
-    /// Connected components.
+    /// Number of connected components of the mesh.
     pub components: usize,
-    /// Repairs before the fit.
+    /// Repairs of the mesh before its fit.
     pub repairs: Repairs,
-    /// Spacing of a hexagonal lattice with vertices of the same mean area, in the input's units.
+    /// Spacing of a hexagonal lattice with vertices of the mesh's mean area, in the input's unit of length.
     pub spacing: f64,
-    /// Factor from the input's units to normalised coordinates, in which the bounding sphere has the diameter
-    /// 1.
+    /// Factor from the input's units to normalised coordinates, in which the mesh's bounding sphere has the diameter 1.
     pub scale: f64,
-    /// Standard deviation of the noise along the normals, in the input's units; `None` if there are too few
+    /// Standard deviation of the noise along the normals, in the input's unit of length; `None` if there are too few
     /// vertices to estimate it.
     pub sigma: Option<f64>,
-    /// λ as a number, in normalised coordinates.
+    /// Weight λ of the fidelity term, as a number, in normalised coordinates.
     pub lambda: f64,
-    /// The linearisations, in order. A gap is a certificate for the best iterate of that linearised problem
+    /// Figures of the passes, in order. A pass's duality gap certifies the best iterate of its linearised problem
     /// alone: the energy itself is not convex, and nothing is certified of it.
     pub passes: Vec<MeshPass>,
-    /// Volume that the surface encloses before and after, in the input's units; `None` for open surfaces.
+    /// Volume that the surface encloses before and after the fit, in the input's unit cubed; `None` for open surfaces.
     pub volume: Option<[f64; 2]>,
-    /// Area before and after.
+    /// Area of the surface before and after the fit, in the input's unit squared.
     pub area: [f64; 2],
-    /// Triangles that face away from the surface around them, before and after.
+    /// Number of folded triangles, which face away from the surface around them, before and after the fit.
     pub flipped: [usize; 2],
-    /// Why the solve stopped.
+    /// Reason why the fit stopped.
     pub stop_reason: StopReason,
-    /// Seconds per phase.
+    /// Time spent in each phase of the fit, in seconds.
     pub seconds: Seconds,
 }
 
 impl MeshReport {
-    /// The certified gap of the last linearised problem.
+    /// Returns the certified relative duality gap of the last linearised problem.
     pub fn gap(&self) -> Option<f64> {
         self.passes.last().and_then(|pass| pass.gap)
     }

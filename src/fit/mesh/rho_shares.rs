@@ -1,4 +1,4 @@
-//! Shares of ρ at creases.
+//! Factors of ADMM's penalty parameter ρ for stencils at creases of a mesh.
 //!
 //! One ρ suits all stencils with about the same ratio of dual and Hessian. Where smooth regions of the surface meet,
 //! the Hessian is large and its cost is small: the usual ρ would hold the Hessian of the iteration before there, and
@@ -7,7 +7,7 @@
 use super::linearisation::Problem;
 use crate::fit::energy::spectral_penalty::PenaltyKind;
 
-/// Sets the shares of ρ by the weights of the stencils.
+/// Sets each stencil's factor of ρ by its penalty weight.
 pub(super) fn set_rho_shares(problem: &mut Problem) {
     if let PenaltyKind::Huber(bends) = problem.kind {
         let weight = &problem.weight;
@@ -16,9 +16,9 @@ pub(super) fn set_rho_shares(problem: &mut Problem) {
     }
 }
 
-/// Share of ρ for a weight ω. The dual is at most ω, and the weight was one over the Hessian, so that their
-/// ratio falls with ω². Where ω exceeds the slope of the penalty at 0, the dual would depend on ρ, and the
-/// share is 1.
+/// Returns the factor of ADMM's penalty parameter ρ for a stencil of penalty weight ω. The dual is at most ω, and ω was
+/// chosen as one over the Hessian's size, so that the ratio of dual and Hessian falls with ω². Where ω exceeds the
+/// slope of the penalty at 0 (`flatness`), the dual would depend on ρ, and the factor is 1.
 fn share(weight: f64, flatness: f64) -> f64 {
     let least = weight / flatness.min(1.0);
     if least < 1.0 { least * least } else { 1.0 }

@@ -1,4 +1,4 @@
-//! Self-intersections: triangles that cross others near them, or are folded over, are separated.
+//! Removal of self-intersections of a mesh: triangles that cross others near them, or are folded over, are separated.
 //!
 //! Vertices can pass each other where their rays converge, as along creases in coarse noise. The triangles between
 //! them then turn over together, so that their normals do not show it. Parts of a surface that intersect far from
@@ -8,29 +8,30 @@ use super::geometry::{Point, twice_area};
 use super::topology::Topology;
 use super::vertex_fans::VertexFans;
 
-/// Minimum cosine of the angle between the normals of a triangle and of its vertex at which the triangles there are
-/// assumed not to cross.
+/// Minimum cosine of the angle between the normals of a triangle and of its vertex at which the triangles around that
+/// vertex are assumed not to cross others.
 const MIN_NORMAL_COSINE: f64 = 0.5;
 
-/// Number of rings around a vertex whose triangles are tested for crossing.
+/// Number of rings around a triangle whose triangles are tested for crossing it.
 const CROSSING_SEARCH_RINGS: usize = 3;
 
 /// Maximum number of rounds in which crossing triangles are separated.
 const MAX_MENDING_ROUNDS: usize = 60;
 
-/// Maximum number of crossing tests per vertex, on average over the mesh: bounds the time on a mesh that
-/// intersects itself everywhere.
+/// Maximum number of visits to vertices in the search for crossing triangles, per vertex of the mesh: bounds the time
+/// on a mesh that intersects itself everywhere.
 const MAX_VISITS_PER_VERTEX: usize = 4;
 
-/// Number of crossing tests that are allowed on any mesh in addition to those per vertex, so that small
-/// meshes are mended completely.
+/// Number of visits to vertices in the search for crossing triangles that are allowed on any mesh in addition to those
+/// per vertex, so that small meshes are mended completely.
 const EXTRA_VISITS: usize = 100_000;
 
-/// Number of mending rounds after which the neighbours of moved vertices are moved, too.
+/// Number of rounds of separating triangles after which the neighbours of moved vertices are moved, too.
 const WIDENING_ROUNDS: usize = 10;
 
-/// Moves the vertices of crossing and folded triangles towards the mean of their neighbours, those on creases
-/// along these first. Vertices that are `held` stay.
+/// Separates crossing triangles and turns folded ones back: moves their vertices towards the mean of the neighbours,
+/// those on creases along these first. Vertices that are `held` stay; `creased` says of a vertex whether it is on a
+/// crease.
 pub(super) fn separate_self_intersections(
     topology: &Topology,
     vertex_fans: &VertexFans,
@@ -74,7 +75,7 @@ pub(super) fn separate_self_intersections(
     }
 }
 
-/// These vertices and their neighbours, each once.
+/// Returns the given vertices and their neighbours, each once, in ascending order.
 fn around(topology: &Topology, vertices: &[u32]) -> Vec<u32> {
     let mut all = vertices.to_vec();
     for vertex in vertices {
@@ -85,8 +86,8 @@ fn around(topology: &Topology, vertices: &[u32]) -> Vec<u32> {
     all
 }
 
-/// Mean of a vertex's neighbours: of the two along the border, or of the two along a line of `creased`
-/// vertices, where the vertex is on one.
+/// Returns the mean of a vertex's neighbours: of the two along the border, or of the two along a line of `creased`
+/// vertices, or of all.
 fn mean_beside(
     topology: &Topology,
     x: &[Point],
@@ -112,8 +113,8 @@ fn mean_beside(
     Some(along.unwrap_or_else(|| mean_of(&|_| true)).0)
 }
 
-/// Triangles at these vertices that cross a triangle near them, the triangles that they cross, and those that face
-/// away from the normals of their corners.
+/// Finds the triangles at the given vertices that cross a triangle near them, the triangles that they cross, and those
+/// that face away from the normals of their corners.
 fn entangled_triangles(
     topology: &Topology,
     vertex_fans: &VertexFans,
@@ -167,7 +168,7 @@ fn entangled_triangles(
     bad
 }
 
-/// Whether an edge of one triangle passes through the other one, except edges with a corner of both.
+/// Returns whether an edge of one triangle passes through the other one, except edges with a corner of both.
 fn cross(x: &[Point], one: &[u32; 3], other: &[u32; 3]) -> bool {
     let [a, b] = [one, other].map(|t| t.map(|i| x[i as usize]));
     let apart = |k: usize| {
@@ -186,7 +187,7 @@ fn cross(x: &[Point], one: &[u32; 3], other: &[u32; 3]) -> bool {
     through(one, &a, other, &b) || through(other, &b, one, &a)
 }
 
-/// Whether the segment from `p` to `q` passes through the inside of a triangle.
+/// Returns whether the segment from `p` to `q` passes through the inside of a triangle.
 fn pierces(p: Point, q: Point, [a, b, c]: &[Point; 3]) -> bool {
     let normal = (b - a).cross(&(c - a));
     if normal.dot(&(p - a)) * normal.dot(&(q - a)) >= 0.0 {

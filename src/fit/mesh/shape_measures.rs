@@ -1,9 +1,9 @@
-//! Volume, area and folded triangles of a surface.
+//! Volume, area and number of folded triangles of a mesh's surface.
 
 use super::geometry::{Point, faces_away, normals, twice_area, volume};
 use super::topology::Topology;
 
-/// Volume, area and number of folded triangles of a surface.
+/// Volume, area and number of folded triangles of a mesh's surface.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct ShapeMeasures {
     pub volume: f64,
@@ -12,8 +12,8 @@ pub(super) struct ShapeMeasures {
 }
 
 impl ShapeMeasures {
-    /// Measures a surface. A triangle is folded if it faces away from the vertex normals of the `smooth`
-    /// surface.
+    /// Measures a surface with vertices at `x`. A triangle is folded if it faces away from the vertex normals of the
+    /// `smooth` surface.
     pub(super) fn new(topology: &Topology, x: &[Point], smooth: &[Point]) -> Self {
         let up = normals(topology, smooth, None);
         let flipped = (topology.triangles.iter()).filter(|triangle| faces_away(x, &up, triangle));

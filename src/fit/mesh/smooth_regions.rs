@@ -7,26 +7,26 @@ use crate::error::Result;
 use crate::math::index::NO_INDEX;
 use crate::scene::facets::Facets;
 
-/// Minimum angle between two sides of a crease, in radians, for which their intersection is well determined.
+/// Minimum angle between the two sides of a crease, in radians, at which their intersection is well determined.
 pub(super) const MIN_FOLD_ANGLE_RADIANS: f64 = 0.2;
 
-/// Minimum area of a region, as a share of the area of the mesh.
+/// Minimum area of a smooth region, as a share of the area of the mesh.
 const MIN_SIDE_AREA_SHARE: f64 = 0.003;
 
-/// The smooth regions, and those that each vertex is in.
+/// Smooth regions of a mesh, and the regions that meet at each vertex.
 pub(super) struct SmoothRegions {
-    /// Region of a vertex, or [`NO_INDEX`] where regions meet.
+    /// Region that all triangles of a vertex belong to, or [`NO_INDEX`] where regions meet.
     pub region: Vec<u32>,
     pub vertex_fans: VertexFans,
-    /// Region of each triangle.
+    /// Region that each triangle belongs to.
     labels: Vec<u32>,
 }
 
 impl SmoothRegions {
-    /// Finds the regions of the surface `x`.
+    /// Finds the smooth regions of the surface with vertices at `x`.
     ///
     /// # Errors
-    /// Out of memory.
+    /// [`Error::OutOfMemory`](crate::Error::OutOfMemory).
     pub(super) fn new(topology: &Topology, x: &[Point]) -> Result<SmoothRegions> {
         let facets = Facets::new(x.to_vec(), topology.triangles.clone())?;
         let labels = facets.parted(
@@ -47,18 +47,19 @@ impl SmoothRegions {
         Ok(sides)
     }
 
-    /// Whether regions meet at a vertex.
+    /// Returns whether several smooth regions meet at a vertex, so that it is on a crease.
     pub(super) fn is_on_crease(&self, vertex: usize) -> bool {
         self.region[vertex] == NO_INDEX
     }
 
-    /// Whether a vertex has triangles of a region.
+    /// Returns whether a vertex has triangles of the region `side`.
     pub(super) fn touches(&self, vertex: usize, side: u32) -> bool {
         let own = self.vertex_fans.around(vertex).iter();
         own.map(|t| self.labels[*t as usize]).any(|s| s == side)
     }
 
-    /// The creases as curves: the two vertices beside each one on a crease, where it is on no other one.
+    /// Finds the creases as curves: for each vertex the two vertices beside it along its crease; `None` for a vertex on
+    /// no crease or where several creases meet.
     pub(super) fn creases(&self, topology: &Topology) -> Vec<Option<[u32; 2]>> {
         let beside = |vertex: usize| {
             if !topology.inside[vertex] || !self.is_on_crease(vertex) {
@@ -81,7 +82,7 @@ impl SmoothRegions {
         (0..topology.len()).map(beside).collect()
     }
 
-    /// The regions that meet at a vertex.
+    /// Returns the smooth regions that meet at a vertex, in ascending order.
     pub(super) fn around(&self, vertex: usize) -> Vec<u32> {
         let own = self.vertex_fans.around(vertex).iter();
         let mut found: Vec<u32> = own.map(|t| self.labels[*t as usize]).collect();

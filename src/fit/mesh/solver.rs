@@ -36,24 +36,26 @@ use crate::math::index::NO_INDEX;
 use crate::math::sym2::Sym2;
 use crate::scene::mesh::Mesh;
 
-/// Product of λ, the noise and the spacing of vertices that determines λ where no value is given.
+/// Product of λ, the noise's standard deviation and the spacing of vertices, in normalised coordinates, that determines
+/// λ where none is given.
 const LAMBDA_NOISE_PRODUCT: f64 = 6.4;
 
-/// Relative duality gap of the first of several solves, which only gives the next one a base and the creases.
+/// Relative duality gap at which the first of several solves stops, which only gives the next one a base and the
+/// creases.
 const FIRST_SOLVE_GAP: f64 = 0.03;
 
-/// Maximum movement of a vertex to the smoothed curve of its border or crease, in standard deviations of the
-/// noise.
+/// Maximum distance that fairing moves a vertex to the smoothed curve of its border or crease, in standard deviations
+/// of the noise.
 const MAX_FAIRING_NOISE_RATIO: f64 = 1.5;
 
-/// Minimum standard deviation of noise that λ is chosen by, in spacings; smaller noise counts as none.
+/// Minimum standard deviation of noise that λ is chosen by, in spacings of vertices; smaller noise counts as none.
 const MIN_NOISE_SPACINGS: f64 = 1e-4;
 
-/// Maximum ratio of λ to the value that suits the noise at which creases are looked for; with a larger one, noise
-/// would be taken for creases.
+/// Maximum ratio of λ to the value that suits the noise at which there are crease passes; with a larger λ, noise would
+/// be taken for creases.
 const MAX_CREASE_LAMBDA_RATIO: f64 = 4.0;
 
-/// The fitted mesh and its report.
+/// Result of a mesh's fit: the fitted mesh, and the report.
 #[derive(Debug, Clone)]
 pub struct MeshSurface {
     mesh: Mesh,
@@ -61,24 +63,24 @@ pub struct MeshSurface {
 }
 
 impl MeshSurface {
-    /// The fitted mesh: vertices, triangles, colours, texture coordinates and textures of the input in the same
-    /// order, with its vertices moved.
+    /// Fitted mesh: vertices, triangles, colours, texture coordinates and textures of the input in the same order, with
+    /// moved vertices.
     pub fn mesh(&self) -> &Mesh {
         &self.mesh
     }
 
-    /// The report of the fit.
+    /// Report of the fit.
     pub fn report(&self) -> &MeshReport {
         &self.report
     }
 
-    /// The fitted mesh and its report.
+    /// Returns the fitted mesh and the report of the fit.
     pub fn into_parts(self) -> (Mesh, MeshReport) {
         (self.mesh, self.report)
     }
 }
 
-/// A fit of a mesh that runs in steps, so that its caller can look at it or stop it in between.
+/// Fit of a mesh that runs in steps, so that its caller can look at its progress or stop it in between.
 #[derive(Debug, Clone)]
 pub struct MeshSolver {
     mesh: Mesh,
@@ -87,11 +89,11 @@ pub struct MeshSolver {
     bounds: BoundingSphere,
     lambda: f64,
     sigma: Option<f64>,
-    /// The solve of the current linearisation.
+    /// Solve of the current linearised problem; `None` when the fit is finished.
     level: Option<AdmmSolver<SparseOperator>>,
     linear: Linearisation,
     creases: usize,
-    /// Positions of the vertices so far.
+    /// Positions of the vertices so far, in normalised coordinates.
     surface: Vec<Point>,
     passes: Vec<MeshPass>,
     before: ShapeMeasures,
@@ -122,11 +124,10 @@ pub fn fit_mesh(mesh: &Mesh, options: &MeshOptions) -> Result<MeshSurface> {
 }
 
 impl MeshSolver {
-    /// Sets up a fit.
+    /// Sets up the fit of a mesh.
     ///
     /// # Errors
-    /// As [`fit_mesh`]; [`Error::Shape`](crate::Error::Shape) if what is known is not of as many
-    /// vertices.
+    /// As [`fit_mesh`]; [`Error::Shape`](crate::Error::Shape) if `known` is not of as many vertices.
     pub fn new(mesh: Mesh, known: MeshKnown, options: &MeshOptions) -> Result<Self> {
         let start = Instant::now();
         options.validate()?;
@@ -187,10 +188,10 @@ impl MeshSolver {
         Ok(solver)
     }
 
-    /// Continues for about this number of conjugate-gradient iterations.
+    /// Continues the fit for about this number of conjugate-gradient iterations.
     ///
     /// # Errors
-    /// Out of memory.
+    /// [`Error::OutOfMemory`](crate::Error::OutOfMemory).
     pub fn advance(&mut self, iterations: usize) -> Result<Status> {
         let mut left = iterations;
         while self.reason.is_none() && left > 0 {
@@ -209,12 +210,12 @@ impl MeshSolver {
         })
     }
 
-    /// Stops a running fit; its surface is the best one so far.
+    /// Stops a running fit as cancelled; its surface is the best one so far.
     pub fn cancel(&mut self) {
         self.reason.get_or_insert(StopReason::Cancelled);
     }
 
-    /// Figures of the last check.
+    /// Returns the progress at the last check of the current linearised problem.
     pub fn progress(&self) -> Progress {
         let (objective, dual_bound, gap) = match &self.level {
             Some(level) => {
@@ -248,7 +249,7 @@ impl MeshSolver {
         }
     }
 
-    /// Starts to solve the linearised problem, from the dual of the one before where there is one.
+    /// Starts to solve the current linearised problem, with a warm start from the dual of the last one if there is one.
     fn begin(
         &mut self,
         warm: Option<(Iterate<SparseOperator>, Linearisation, SmoothRegions)>,
@@ -301,7 +302,7 @@ impl MeshSolver {
         }
     }
 
-    /// Takes over the result of a linearised problem, and goes on to the next one.
+    /// Takes over the result of a linearised problem, and goes on to the next one or ends the fit.
     fn finish(&mut self, reason: StopReason) -> Result<()> {
         let Some(level) = self.level.take() else {
             return Ok(());
@@ -384,10 +385,10 @@ impl MeshSolver {
         Ok(())
     }
 
-    /// The surface so far.
+    /// Returns the surface so far.
     ///
     /// # Errors
-    /// Out of memory.
+    /// [`Error::OutOfMemory`](crate::Error::OutOfMemory).
     pub fn surface(&self) -> Result<MeshSurface> {
         let topology = &self.given.topology;
         let mut positions = self.mesh.positions().to_vec();
@@ -429,7 +430,7 @@ impl MeshSolver {
     }
 }
 
-/// Linearises about a base, with the options of the fit.
+/// Linearises the energy about a base, with the options of the fit.
 fn linearise(
     given: &MeshInput,
     base: Vec<Point>,

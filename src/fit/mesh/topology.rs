@@ -10,25 +10,25 @@ use super::morton_order;
 use super::report::Repairs;
 use crate::scene::half_edges::{next_half_edge, twin_half_edges};
 
-/// Connectivity of a mesh as a surface: vertices at one position are joined, and all triangles face the same side.
+/// Connectivity of a mesh as a surface: vertices at one position are joined, and all triangles face one side.
 #[derive(Debug, Clone)]
 pub(crate) struct Topology {
-    /// Vertex of the topology that each vertex of the mesh is.
+    /// For each vertex of the mesh, the vertex of the topology that it belongs to.
     pub joined: Vec<u32>,
-    /// A vertex of the mesh for each vertex of the topology.
+    /// For each vertex of the topology, a vertex of the mesh that has its position.
     pub source: Vec<u32>,
     pub triangles: Vec<[u32; 3]>,
-    /// Triangle of the mesh that each triangle of the topology is.
+    /// For each triangle of the topology, the triangle of the mesh that it was.
     pub from: Vec<u32>,
     /// Index of each vertex's first neighbour in `around`.
     first: Vec<u32>,
-    /// The neighbours of all vertices, one vertex after the other.
+    /// Neighbours of all vertices, one vertex after the other.
     around: Vec<u32>,
-    /// Whether the edge to each neighbour in `around` is on the border: it has one triangle only.
+    /// Whether the edge to each neighbour in `around` is on the border, which has one triangle only.
     rim: Vec<bool>,
-    /// Whether triangles go once all around a vertex.
+    /// Whether each vertex is interior: its triangles form one closed fan around it.
     pub inside: Vec<bool>,
-    /// Number of vertices where two fans of triangles meet in a point.
+    /// Number of pinched vertices, where two fans of triangles meet in a point.
     pub pinched: usize,
     pub components: usize,
     pub closed: bool,
@@ -36,11 +36,11 @@ pub(crate) struct Topology {
 }
 
 impl Topology {
-    /// The topology of a mesh, with vertices and triangles in the mesh's order.
+    /// Finds the topology of a mesh, with vertices and triangles in the mesh's order.
     ///
     /// # Errors
-    /// [`Error::Topology`] where an edge has more than two triangles, or where no choice of sides fits
-    /// together; [`Error::Unsupported`] for a cloud of points.
+    /// [`Error::Topology`] where an edge has more than two triangles, or where triangles cannot all face one side;
+    /// [`Error::Unsupported`] for a cloud of points.
     pub(crate) fn new(mesh: &Mesh) -> Result<Self> {
         let vertices = join_vertices(mesh)?;
         let mut repairs = Repairs::default();
@@ -49,7 +49,7 @@ impl Topology {
         Self::from_triangles(mesh, vertices, from, repairs)
     }
 
-    /// The topology of a mesh, with vertices and triangles ordered along a space-filling curve, so that
+    /// Finds the topology of a mesh, with vertices and triangles ordered along a space-filling curve, so that
     /// neighbours on a large mesh are in the cache together.
     ///
     /// # Errors
@@ -114,17 +114,17 @@ impl Topology {
         self.source.len()
     }
 
-    /// The vertices with triangles all around.
+    /// Iterates over the interior vertices, which have triangles all around.
     pub(crate) fn vertices_inside(&self) -> impl Iterator<Item = usize> + Clone + '_ {
         (0..self.len()).filter(|vertex| self.inside[*vertex])
     }
 
-    /// The neighbours of a vertex.
+    /// Returns the neighbours of a vertex.
     pub(crate) fn around(&self, vertex: usize) -> &[u32] {
         &self.around[self.first[vertex] as usize..self.first[vertex + 1] as usize]
     }
 
-    /// The neighbours of a vertex along the border.
+    /// Iterates over the neighbours of a vertex along the border.
     pub(crate) fn along_rim(&self, vertex: usize) -> impl Iterator<Item = usize> + '_ {
         let edges = self.first[vertex] as usize..self.first[vertex + 1] as usize;
         edges
@@ -132,8 +132,8 @@ impl Topology {
             .map(|edge| self.around[edge] as usize)
     }
 
-    /// Writes the second ring of a vertex, which are its neighbours' neighbours that are no neighbours
-    /// themselves, in ascending order.
+    /// Finds the second ring of a vertex: its neighbours' neighbours that are no neighbours themselves. Writes them to
+    /// `to`, in ascending order.
     pub(crate) fn second_ring(&self, vertex: usize, to: &mut Vec<u32>) {
         let ring = self.around(vertex);
         to.clear();
@@ -145,7 +145,8 @@ impl Topology {
         to.retain(|other| *other != vertex as u32 && !ring.contains(other));
     }
 
-    /// Finds the neighbours of each vertex.
+    /// Finds the neighbours of each vertex, with the edges on the border, after the checks that make the mesh a
+    /// surface.
     fn connect(&mut self, mesh: &Mesh) -> Result<()> {
         // Each side of a triangle: its ends in order, the triangle and whether it runs forwards.
         let mut sides = Vec::new();
@@ -185,7 +186,7 @@ impl Topology {
         Ok(())
     }
 
-    /// Checks that no edge has more than two triangles.
+    /// Checks that no edge of the mesh has more than two triangles.
     fn check_edges(&self, mesh: &Mesh, edges: &[&[(u32, u32, u32, bool)]]) -> Result<()> {
         let mut bad = edges.iter().filter(|edge| edge.len() > 2);
         let Some(edge) = bad.next() else {
@@ -206,7 +207,7 @@ impl Topology {
         })
     }
 
-    /// Turns triangles over until neighbours face the same side.
+    /// Turns triangles over until neighbours face one side, and counts the connected components.
     fn orient(&mut self, mesh: &Mesh, edges: &[&[(u32, u32, u32, bool)]]) -> Result<()> {
         let count = self.triangles.len();
         let mut beside: Vec<[(u32, bool); 3]> = vec![[(u32::MAX, false); 3]; count];
@@ -271,7 +272,7 @@ impl Topology {
         Ok(())
     }
 
-    /// Finds the interior vertices, at which the triangles form one closed fan.
+    /// Finds the interior vertices, at which the triangles form one closed fan, and counts the pinched ones.
     fn find_inside(&mut self) {
         let twins = twin_half_edges(&self.triangles);
         let mut count = vec![0u32; self.len()];
@@ -300,13 +301,14 @@ impl Topology {
     }
 }
 
-/// Number and position of a vertex, for an error.
+/// Writes index and position of a vertex of the mesh, for an error message.
 fn place(mesh: &Mesh, vertex: u32) -> String {
     let [x, y, z] = mesh.positions()[vertex as usize].map(rounded);
     format!("vertex {vertex} ({x}, {y}, {z})")
 }
 
-/// Numbers of the triangles with three different corners, each once.
+/// Returns the indices of the mesh's triangles with three different corners, without repeated ones; counts the others
+/// as repairs.
 fn proper_triangles(mesh: &Mesh, joined: &[u32], repairs: &mut Repairs) -> Vec<u32> {
     let keys = mesh.triangles().iter().map(|triangle| {
         let mut key = triangle.map(|i| joined[i as usize]);
@@ -324,8 +326,8 @@ fn proper_triangles(mesh: &Mesh, joined: &[u32], repairs: &mut Repairs) -> Vec<u
     sorted.into_iter().map(|(_, number)| number).collect()
 }
 
-/// Joins vertices at exactly the same position, as those of files without indices and of seams between textures
-/// are.
+/// Joins vertices at exactly one position, as files without indices and seams between textures have them. Returns the
+/// joined vertex of each vertex, and for each joined vertex one of its vertices.
 fn join_vertices(mesh: &Mesh) -> Result<(Vec<u32>, Vec<u32>)> {
     if mesh.is_cloud() {
         return Err(Error::Unsupported {

@@ -2,7 +2,7 @@
 
 use super::topology::Topology;
 
-/// For each vertex the numbers of its triangles, in ascending order.
+/// Triangles around each vertex of a mesh: their indices, in ascending order.
 pub(super) struct VertexFans {
     first: Vec<u32>,
     triangles: Vec<u32>,
@@ -28,7 +28,7 @@ impl VertexFans {
         VertexFans { first, triangles }
     }
 
-    /// The triangles around a vertex.
+    /// Returns the indices of the triangles around a vertex.
     pub(super) fn around(&self, vertex: usize) -> &[u32] {
         &self.triangles[self.first[vertex] as usize..self.first[vertex + 1] as usize]
     }

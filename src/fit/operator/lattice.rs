@@ -1,4 +1,4 @@
-//! The operator of a lattice: the stencil of the best-fit quadratic, with multigrid for the z-step.
+//! The operator `C` of a lattice: the Hessian of each stencil's best-fit quadratic.
 
 use std::sync::Arc;
 
@@ -11,19 +11,19 @@ use crate::lattice::stencil::{Gathered, HessianMap, Ring, Rolling, weights_of};
 use crate::math::real::Real;
 use crate::math::sym2::Sym2;
 
-/// Norm `h⁴‖CᵀC‖` on the unbounded lattice, where two of the three second differences are largest and the third
-/// vanishes; that on a domain is no larger.
+/// Norm `h⁴‖CᵀC‖` of the operator on the unbounded lattice, where two of the three second differences are largest and
+/// the third vanishes; the norm on a domain is no larger.
 const SCALED_OPERATOR_NORM: f32 = 256.0 / 9.0;
 
-/// The operator `C` over a domain, in normalised coordinates. Vertices and stencils are both cells of the
-/// domain's padded box.
+/// Operator `C` from heights to Hessians over a domain of a lattice, in normalised coordinates. Vertices and stencils
+/// are both numbered as cells of the domain's padded box.
 #[derive(Debug, Clone)]
 pub(crate) struct LatticeOperator {
     pub domain: Arc<Domain>,
-    /// Normalised coordinates of the domain's heights.
+    /// Normalised coordinates: their scale, and the plane that heights are relative to.
     pub coordinates: Coordinates,
     pub map: HessianMap,
-    /// Lattice spacing in normalised coordinates.
+    /// Spacing of the lattice in normalised coordinates.
     pub spacing: f64,
 }
 
@@ -39,13 +39,13 @@ impl LatticeOperator {
     }
 }
 
-/// Position of a cell in the user's units.
+/// Returns the position of a vertex in the user's units; the vertex is given by its cell in the domain's padded box.
 pub(crate) fn position(domain: &Domain, cell: usize) -> [f64; 2] {
     let (row, col) = domain.lattice_vertex(cell);
     domain.lattice().position(row, col)
 }
 
-/// Hessians of a run, as second differences and the map from these.
+/// Hessians of a run of stencils, computed on demand from second differences.
 pub(crate) struct RunHessians<'a, T> {
     ring: Ring<'a, T>,
     map: HessianMap<T>,
@@ -58,7 +58,7 @@ impl<T: Real> Hessians<T> for RunHessians<'_, T> {
     }
 }
 
-/// Matrices `Y` of a run, as the weights of second differences in `Cᵀ`.
+/// Matrices `Y` of a run of stencils, stored as the weights of second differences in `Cᵀ`.
 pub(crate) struct RunMatrices<'a, T> {
     weights: [&'a mut [T]; 3],
     map: HessianMap<T>,
@@ -109,7 +109,7 @@ impl Operator for LatticeOperator {
         self.spacing
     }
 
-    /// The longer side of the domain's box.
+    /// Returns the longer side of the domain's padded box, in normalised coordinates.
     fn size(&self) -> f64 {
         self.spacing * self.domain.rows().max(self.domain.stride()) as f64
     }
@@ -167,7 +167,8 @@ impl Operator for LatticeOperator {
         );
     }
 
-    /// Each row follows the heights around it as soon as they are there.
+    /// Computes `CᵀY` and the Hessians of heights made of it in one pass down the rows: the Hessians of a row follow as
+    /// soon as the heights around it are there.
     #[inline(always)]
     fn sweep_back<S: ?Sized>(
         &self,
@@ -209,7 +210,8 @@ impl Operator for LatticeOperator {
         follow(state, heights, domain.rows());
     }
 
-    /// Of the surface itself: heights are above a plane.
+    /// Writes the upward component of the surface's unit normal at each stencil; heights are relative to a plane, whose
+    /// slope is added.
     fn normals(&self, z: &[f64], to: &mut [f64]) {
         let domain = &self.domain;
         for row in 1..=domain.rows() {

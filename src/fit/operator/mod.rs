@@ -1,4 +1,4 @@
-//! The operator `C` from heights to Hessians: its vertices and stencils, and the two sweeps over them.
+//! The linear operator `C` from heights to Hessians: its vertices and stencils, and the sweeps over them.
 //!
 //! Heights are arrays over the operator's vertices, Hessians and duals arrays over its stencils. Both may have
 //! gaps; the runs tell which entries count.
@@ -13,61 +13,61 @@ use crate::lattice::runs::{RowRuns, Run};
 use crate::math::real::Real;
 use crate::math::sym2::Sym2;
 
-/// A linear operator `C` from a height at each vertex to a symmetric 2×2 matrix at each stencil.
+/// A linear operator `C` from a height at each vertex to a symmetric 2×2 matrix (Hessian) at each stencil.
 ///
-/// Kernels are closures that get one run at a time, with views of that run only, so that their loops
-/// vectorise. A method that takes several calls each of them in one place, so that it is inlined.
+/// Kernels are closures that get one run of vertices or stencils at a time, with views of that run only, so that their
+/// loops vectorise. A method that takes several closures calls each of them in one place, so that it is inlined.
 pub(crate) trait Operator: Clone + Debug + 'static {
-    /// Work memory of a sweep in one precision.
+    /// Work memory of a sweep in single or double precision.
     type Scratch<T: Real>: Clone + Debug;
-    /// View of the Hessians of one run.
+    /// View of the Hessians of one run of stencils.
     type Hessians<'a, T: Real>: Hessians<T>;
-    /// View of the matrices `Y` of one run, to be written.
+    /// View of the matrices `Y` of one run of stencils, to be written.
     type Matrices<'a, T: Real>: Matrices<T>;
-    /// View of `CᵀY` along one run.
+    /// View of the values of `CᵀY` at one run of vertices.
     type Sums<'a, T: Real>: Sums<T>;
 
     /// Runs of the vertices, whose heights are the unknowns.
     fn vertices(&self) -> &RowRuns;
-    /// Runs of the stencils, which have a Hessian each.
+    /// Runs of the stencils, each of which has a Hessian.
     fn stencils(&self) -> &RowRuns;
     /// Length of an array over the vertices.
     fn vertex_cells(&self) -> usize;
     /// Length of an array over the stencils.
     fn stencil_cells(&self) -> usize;
-    /// Length of the longest run.
+    /// Length of the longest run of vertices or stencils.
     fn longest_run(&self) -> usize;
 
     /// Distance between neighbouring vertices, in normalised coordinates.
     fn spacing(&self) -> f64;
     /// Distance from one end of the domain to the other, in normalised coordinates.
     fn size(&self) -> f64;
-    /// Upper bound of `h⁴‖CᵀC‖`, `h` being the spacing.
+    /// Upper bound of the norm `h⁴‖CᵀC‖`, where `h` is the spacing.
     fn norm(&self) -> f32;
-    /// Weight of a stencil in sums over stencils, and in `Cᵀ`: its area, in units of their mean.
+    /// Weight of a stencil in sums over stencils, and in `Cᵀ`: its area, in units of the mean area.
     #[inline(always)]
     fn area(&self, _stencil: usize) -> f64 {
         1.0
     }
-    /// Share of ρ at a stencil: its weight in `‖Cz − H‖²` besides its area.
+    /// Factor by which ADMM's ρ is multiplied at a stencil: its weight in `‖Cz − H‖²` besides its area.
     #[inline(always)]
     fn rho_share(&self, _stencil: usize) -> f64 {
         1.0
     }
-    /// Coordinates of a vertex; `C` vanishes on their linear functions.
+    /// Returns the planar coordinates of a vertex; `C` vanishes on linear functions of them.
     fn place(&self, vertex: usize) -> [f64; 2];
 
-    /// Work memory for sweeps in one precision.
+    /// Allocates the work memory for sweeps in single or double precision.
     ///
     /// # Errors
-    /// Out of memory.
+    /// [`Error::OutOfMemory`](crate::Error::OutOfMemory).
     fn scratch<T: Real>(&self) -> Result<Self::Scratch<T>>;
 
     /// Calls `visit` with each stencil and its Hessian `Cz`, in order.
     fn hessians(&self, z: &[f64], visit: impl FnMut(usize, Sym2));
 
-    /// One pass over `Cz` and `CᵀY`: `at_stencils` gets the Hessians of each run and writes its `Y` everywhere;
-    /// `at_vertices` gets each run of `CᵀY` as soon as it is complete, which may be before the last stencils
+    /// Computes `Cz` and `CᵀY` in one pass: `at_stencils` gets the Hessians of each run of stencils and writes all of
+    /// its `Y`; `at_vertices` gets each run of `CᵀY` as soon as it is complete, which may be before the last stencils
     /// are visited.
     fn sweep<S: ?Sized>(
         &self,
@@ -78,8 +78,8 @@ pub(crate) trait Operator: Clone + Debug + 'static {
         at_vertices: impl FnMut(&mut S, Run, Self::Sums<'_, f64>),
     );
 
-    /// One pass over `CᵀY` and then `Cz`, in single precision and with `h²C` in the place of `C`: `at_stencils`
-    /// writes `Y`, `at_vertices` turns `CᵀY` into heights, and `follow` gets the Hessians of these.
+    /// Computes `CᵀY` and then `Cz` in one pass, in single precision and with `h²C` in the place of `C`: `at_stencils`
+    /// writes `Y`, `at_vertices` turns `CᵀY` into heights, and `follow` gets the Hessians of these heights.
     fn sweep_back<S: ?Sized>(
         &self,
         scratch: &mut Self::Scratch<f32>,
@@ -90,28 +90,29 @@ pub(crate) trait Operator: Clone + Debug + 'static {
         follow: impl FnMut(&mut S, Run, Self::Hessians<'_, f32>),
     );
 
-    /// Writes the factor that turns `Cz` into the second fundamental form at each stencil: the upward part of
-    /// the surface's unit normal for heights (paper, Eq. 24), and 1 where `Cz` is that form already.
+    /// Writes to `to` the factor that turns the Hessian `Cz` into the second fundamental form at each stencil: for
+    /// heights the upward component of the surface's unit normal (paper, Eq. 24), and 1 where `Cz` is that form
+    /// already.
     fn normals(&self, z: &[f64], to: &mut [f64]);
 
-    /// Averages each stencil's value (weight 2) with those at its neighbours (weight 1).
+    /// Averages each stencil's value (weight 2) with the values at its neighbours (weight 1), in place.
     fn spread(&self, values: &mut [f64]);
 }
 
-/// The Hessians of one run.
+/// The Hessians of one run of stencils.
 pub(crate) trait Hessians<T> {
-    /// The `i`-th Hessian, by the coordinates of [`Sym2`].
+    /// Returns the `i`-th Hessian of the run, by the coordinates of [`Sym2`].
     fn at(&self, i: usize) -> [T; 3];
 }
 
-/// The matrices `Y` of one run, to be written.
+/// The matrices `Y` of one run of stencils, to be written.
 pub(crate) trait Matrices<T> {
-    /// Writes the `i`-th matrix, by the coordinates of [`Sym2`].
+    /// Writes the `i`-th matrix of the run, by the coordinates of [`Sym2`].
     fn set(&mut self, i: usize, matrix: [T; 3]);
 }
 
-/// The heights `CᵀY` of one run.
+/// The values of `CᵀY` at one run of vertices.
 pub(crate) trait Sums<T> {
-    /// The `i`-th height.
+    /// Returns the value at the `i`-th vertex of the run.
     fn at(&self, i: usize) -> T;
 }

@@ -1,84 +1,89 @@
-//! Size and correlation length of noise, from the curvatures that it has at several scales.
+//! Standard deviation and correlation length of noise, from the curvatures that it has at several scales.
 //!
-//! The covariance of the noise is taken to be Gaussian, as that of white noise after a Gaussian blur: `σ² exp(−d²/4ℓ²)` at
-//! the distance `d`, where `ℓ` is the blur's standard deviation. The curvature that such noise has in discs of some radius
-//! follows from the coefficients of the least-squares fit, so that `σ` and `ℓ` can be fitted to what was measured.
+//! The covariance of the noise is taken to be Gaussian, as that of white noise after a Gaussian blur:
+//! `σ² exp(−d²/4ℓ²)` at the distance `d`, where `ℓ` is the blur's standard deviation. The curvature that such noise has
+//! in discs of some radius follows from the coefficients of the least-squares fit, so that `σ` and `ℓ` can be fitted to
+//! what was measured.
 
 use super::curvature_scales::{CurvatureScale, Disc};
 
-/// Minimum ratio of the smaller to the larger median curvature of noise. Isotropic noise has 0.30 to 0.34 at every
-/// scale; a developable shape beside the noise lowers the ratio.
+/// Minimum ratio of the medians of the smaller and the larger principal curvature, in discs of one size, at which they
+/// count as curvatures of noise. Isotropic noise has 0.30 to 0.34 at every scale; a developable shape beside the noise
+/// lowers the ratio.
 const MIN_NOISE_RATIO: f64 = 0.22;
 
-/// Minimum ratio of the smaller to the larger median curvature of isotropic noise without a visible shape beside it.
+/// Minimum ratio of the medians of the smaller and the larger principal curvature, in discs of one size, at which they
+/// count as curvatures of isotropic noise without a visible shape beside it.
 const MIN_ISOTROPIC_RATIO: f64 = 0.28;
 
-/// Minimum ratio of the smaller to the larger median curvature of noise that is rougher in one direction, such as
-/// that of scan lines. It counts as noise only where its Hessians are incoherent.
+/// Minimum ratio of the medians of the smaller and the larger principal curvature, in discs of one size, of noise that
+/// is rougher in one direction, such as that of scan lines. It counts as noise only where its Hessians are incoherent.
 const MIN_ANISOTROPIC_RATIO: f64 = 0.1;
 
-/// Largest coherence of neighbouring Hessians at which they are incoherent.
+/// Maximum coherence (mean cosine) of neighbouring discs' Hessians at which they count as incoherent.
 const MAX_NOISE_COHERENCE: f64 = 0.15;
 
-/// Minimum coherence of neighbouring Hessians that shows a shape beside noise.
+/// Minimum coherence (mean cosine) of neighbouring discs' Hessians that shows a shape beside noise.
 const MIN_SHAPE_COHERENCE: f64 = 0.05;
 
-/// Largest radius, in spacings, of discs in which incoherence is a sign of noise: in larger ones bends and creases of a shape
-/// are incoherent, too.
+/// Maximum radius, in spacings, of discs in which incoherent Hessians are a sign of noise: in larger ones bends and
+/// creases of a shape are incoherent, too.
 const MAX_INCOHERENCE_RADIUS: f64 = 12.0;
 
-/// Largest radius, in spacings, of the smallest discs that show noise. What shows in larger discs only is a shape.
+/// Maximum radius, in spacings, of the smallest discs that show noise. What shows in larger discs only is a shape.
 const MAX_FIRST_RADIUS: f64 = 4.0;
 
-/// Minimum number of discs at a scale; the medians of fewer are not used.
+/// Minimum number of discs of a scale whose median curvatures are used.
 const MIN_DISCS: usize = 100;
 
-/// Number of scales, up to the largest one that is used, to which a covariance is fitted.
+/// Number of scales, up to the largest one that is used, to which a covariance of noise is fitted.
 const FITTED_SCALES: usize = 3;
 
-/// Maximum ratio of the noise's standard deviation over large areas to what the largest disc shows of it. Above it
-/// the fitted covariance is too uncertain to be used.
+/// Maximum ratio of the noise's standard deviation over large areas to the part of it that the largest disc shows.
+/// Above it the fitted covariance is too uncertain to be used.
 const MAX_HIDDEN_RATIO: f64 = 6.0;
 
-/// Largest ratio of the noise in larger discs to what the fitted covariance predicts there. Creases in the discs raise it,
-/// smooth noise behind rough noise raises it more.
+/// Maximum ratio of the noise measured in larger discs to what the fitted covariance predicts there. Creases in the
+/// discs raise it, smooth noise behind rough noise raises it more.
 const MAX_PREDICTION_RATIO: f64 = 2.2;
 
-/// Maximum ratio of a covariance's spectral root to the least one among the candidates. Of those below it the one
-/// fitted to the smallest discs is taken, as these determine the correlation length best.
+/// Maximum ratio of a covariance's noise over large areas to the least one among the candidates. Of those below it the
+/// one fitted to the smallest discs is taken, as these determine the correlation length best.
 const MAX_LEAST_NOISE_RATIO: f64 = 1.25;
 
-/// Number of correlation lengths that are tried.
+/// Number of positive correlation lengths that are tried when a covariance is fitted.
 const LENGTH_TRIALS: u32 = 40;
 
-/// Shortest positive correlation length that is tried, in radii of the largest disc that is used. 0 is tried, too.
+/// Minimum positive correlation length that is tried, in radii of the largest disc that is used. 0 is tried, too.
 const MIN_LENGTH_RADII: f64 = 0.02;
 
-/// Longest correlation length that is tried, in radii of the largest disc that is used.
+/// Maximum correlation length that is tried, in radii of the largest disc that is used.
 const MAX_LENGTH_RADII: f64 = 1.2;
 
-/// Variance along one axis of the points of a cell, in squares of its lattice's spacing: means over cells blur noise by
-/// as much.
+/// Variance of the positions in a lattice cell along one axis, in squares of the spacing: means over cells blur noise
+/// by as much.
 const CELL_VARIANCE: f64 = 0.08;
 
-/// Noise with a Gaussian covariance.
+/// Noise with a Gaussian covariance: its standard deviation and correlation length.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct CorrelatedNoise {
-    /// Standard deviation, in the heights' unit.
+    /// Standard deviation of the noise, in the heights' unit.
     pub sigma: f64,
-    /// Standard deviation of the blur that makes such noise of white noise, in spacings.
+    /// Correlation length, in spacings: the standard deviation of the Gaussian blur that makes such noise of white
+    /// noise.
     pub length: f64,
-    /// Number of vertices that share one value of the noise: the sum of its correlations.
+    /// Number of vertices that share one independent value of the noise: the sum of its correlations over the lattice.
     pub shared_vertices: f64,
-    /// Whether no fitted covariance explains all scales, so that most of the noise may be shape.
+    /// Whether no fitted covariance explains the curvatures at all scales, so that most of the noise may be shape.
     pub ambiguous: bool,
 }
 
 impl CorrelatedNoise {
-    /// The noise of heights with these curvatures, from small discs to large ones; `None` if a shape hides it.
+    /// Estimates the noise of heights from their curvatures at scales from small discs to large ones; `None` if a shape
+    /// hides it.
     ///
-    /// A shape beside the noise adds to the curvatures. So of the covariances that explain all larger scales, the one of
-    /// the least noise counts, or one of smaller discs with hardly more.
+    /// A shape beside the noise adds to the curvatures. So of the covariances that explain all larger scales, the one
+    /// of the least noise counts, or one of smaller discs with hardly more.
     pub(super) fn from_scales(scales: &[CurvatureScale], discs: &[Disc]) -> Option<Self> {
         let first = scales.iter().position(is_noise)?;
         if scales[first].radius() > MAX_FIRST_RADIUS {
@@ -111,7 +116,7 @@ impl CorrelatedNoise {
     }
 }
 
-/// Whether the curvatures of a scale are mostly noise.
+/// Returns whether the curvatures of a scale are mostly noise.
 fn is_noise(scale: &CurvatureScale) -> bool {
     let bends_both_ways = scale.ratio > MIN_NOISE_RATIO;
     let incoherent = scale.coherence < MAX_NOISE_COHERENCE
@@ -120,23 +125,23 @@ fn is_noise(scale: &CurvatureScale) -> bool {
     scale.count >= MIN_DISCS && (bends_both_ways || incoherent)
 }
 
-/// Whether the curvatures of a scale are isotropic noise alone, with no shape beside it.
+/// Returns whether the curvatures of a scale are isotropic noise alone, with no shape beside it.
 fn is_plain_noise(scale: &CurvatureScale) -> bool {
     scale.ratio > MIN_ISOTROPIC_RATIO && scale.coherence < MAX_NOISE_COHERENCE
 }
 
-/// Gaussian covariance fitted to the curvatures of some scales.
+/// Gaussian covariance of noise, fitted to the curvatures of some scales.
 struct Covariance {
     sigma: f64,
     length: f64,
     shared_vertices: f64,
-    /// Ratio of the noise's standard deviation over large areas to what the largest disc shows of it.
+    /// Ratio of the noise's standard deviation over large areas to the part of it that the largest disc shows.
     hidden_ratio: f64,
 }
 
 impl Covariance {
-    /// Fits a covariance by least squares of the logarithms of the white equivalents, over a grid of correlation
-    /// lengths.
+    /// Fits a covariance of noise to scales: least squares of the logarithms of their white equivalents, over a grid of
+    /// correlation lengths.
     fn fit(scales: &[CurvatureScale], discs: &[Disc]) -> Self {
         let largest = scales.last().map_or(0.0, CurvatureScale::radius);
         let [shortest, longest] = [MIN_LENGTH_RADII, MAX_LENGTH_RADII].map(|radii| radii * largest);
@@ -166,8 +171,8 @@ impl Covariance {
         }
     }
 
-    /// Whether the covariance explains the first of `scales`, the largest it was fitted to, and predicts all larger
-    /// ones that show noise alone.
+    /// Returns whether the covariance explains the first of `scales`, the largest it was fitted to, and predicts all
+    /// larger ones that show noise alone.
     fn explains(&self, scales: &[CurvatureScale], discs: &[Disc]) -> bool {
         let Some((last, larger)) = scales.split_first() else {
             return false;
@@ -184,18 +189,19 @@ impl Covariance {
                 .all(is_predicted)
     }
 
-    /// Root of the noise's spectral density over large areas: the standard deviation of white noise that has the same.
+    /// Returns the standard deviation of white noise that has the same spectral density as this noise over large areas.
     fn spectral_root(&self) -> f64 {
         self.sigma * self.shared_vertices.sqrt()
     }
 
-    /// The white equivalent that this noise has at a scale.
+    /// Predicts the standard deviation of white noise that has the same curvatures at a scale as this noise.
     fn predict(&self, scale: &CurvatureScale, discs: &[Disc]) -> f64 {
         self.sigma * response(scale, discs, self.length)
     }
 }
 
-/// White equivalent of noise of standard deviation 1 and a correlation length, in spacings, at a scale.
+/// Returns the standard deviation of white noise that has, at a scale, the same curvatures as noise of standard
+/// deviation 1 with this correlation length in spacings.
 fn response(scale: &CurvatureScale, discs: &[Disc], length: f64) -> f64 {
     if length == 0.0 {
         return 1.0;
@@ -211,7 +217,8 @@ fn response(scale: &CurvatureScale, discs: &[Disc], length: f64) -> f64 {
     spacing * (own / blurred * sum).sqrt()
 }
 
-/// Sum of the correlations of a vertex's noise with that of all vertices.
+/// Returns the sum of the correlations of the noise at one vertex with that at all vertices, for a correlation length
+/// in spacings.
 fn shared_vertices(length: f64) -> f64 {
     if length == 0.0 {
         return 1.0;

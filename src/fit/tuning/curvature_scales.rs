@@ -13,37 +13,39 @@ use crate::math::statistics::median;
 use crate::math::sym2::Sym2;
 use nalgebra::SVector;
 
-/// Radii of the discs, in spacings of the lattice whose heights they hold.
+/// Radii of the discs in which curvatures are measured, in spacings of the lattice whose heights they hold.
 pub(super) const DISC_RADII: [usize; 2] = [2, 3];
 
-/// Maximum number of lattices that are measured, each of twice the spacing of the one before.
+/// Maximum number of lattices on which curvatures are measured, each of twice the spacing of the one before.
 const MAX_LATTICES: usize = 5;
 
-/// Maximum number of rows, and of columns, whose vertices are centres of discs. More of them cost time and make the
-/// medians hardly more exact.
+/// Maximum number of rows, and of columns, whose vertices are centres of discs in which curvatures are measured. More
+/// of them cost time and make the medians hardly more exact.
 const MAX_CENTRE_ROWS: usize = 80;
 
-/// Minimum mean confidence of the heights in a disc, as a share of the largest confidence of the input.
+/// Minimum mean confidence of the heights in a disc, as a share of the largest confidence of the input, at which its
+/// curvature is measured.
 const MIN_DISC_CONFIDENCE: f64 = 0.5;
 
 /// Ratio of the median of the smaller absolute eigenvalue of a Hessian to the standard deviation of its entry `xx`,
 /// for white noise. Found by simulation; both discs have the same ratio within 1 %.
 const SMALLER_CURVATURE_RATIO: f64 = 0.411;
 
-/// Stencil of a disc: the offsets of its vertices, and the coefficients that give the Hessian of the quadratic fitted
-/// to their heights.
+/// Disc in which curvatures are measured: the offsets of its vertices from its centre, and the coefficients that give
+/// the Hessian of the quadratic fitted to their heights.
 #[derive(Debug, Clone)]
 pub(super) struct Disc {
     radius: usize,
-    /// Offset of each vertex from the centre, in rows and half columns.
+    /// Offset of each vertex from the disc's centre, in rows and half columns.
     offsets: Vec<(isize, isize)>,
     /// Coefficients of each vertex's height in the entries `xx`, `xy` and `yy` of the Hessian, for a spacing of 1.
     hessian: Vec<[f64; 3]>,
-    /// Squared distances between the disc's vertices, for a spacing of 1, and the Frobenius product of the coefficients
-    /// of two vertices, summed over all pairs at that distance, as a share of the sum at distance 0. The Hessian of
-    /// noise with a covariance that depends on the distance has the sum of both's products as its variance.
+    /// Autocorrelation of the Hessian's coefficients: for each squared distance between vertices of the disc, at a
+    /// spacing of 1, the Frobenius product of two vertices' coefficients, summed over all pairs at that distance, as a
+    /// share of the sum at distance 0. For noise whose correlation depends on the distance alone, the sum of these
+    /// shares times the correlations is the Hessian's variance relative to white noise.
     pub autocorrelation: Vec<(f64, f64)>,
-    /// Standard deviation of the Hessian's entry `xx` for white noise of standard deviation 1.
+    /// Standard deviation of the Hessian's entry `xx` for white noise of standard deviation 1, at a spacing of 1.
     pub deviation: f64,
 }
 
@@ -83,7 +85,8 @@ impl Disc {
     }
 }
 
-/// See [`Disc::autocorrelation`].
+/// Computes [`Disc::autocorrelation`]: the products of the Hessian's coefficients of two vertices, summed by the
+/// squared distance between the vertices.
 fn autocorrelation(offsets: &[(isize, isize)], hessian: &[[f64; 3]]) -> Vec<(f64, f64)> {
     let mut sums: Vec<(f64, f64)> = Vec::new();
     for (p, a) in offsets.iter().zip(hessian) {
@@ -106,21 +109,22 @@ fn position((row, half): (isize, isize)) -> [f64; 2] {
     [0.5 * half as f64, -ROW_SPACING * row as f64]
 }
 
-/// Principal curvatures of an input in discs of one size.
+/// Principal curvatures of an input's heights in discs of one size, as medians over all discs.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct CurvatureScale {
     /// Number of times the spacing of the input's lattice was doubled.
     pub lattice: usize,
-    /// Index of the disc among [`DISC_RADII`].
+    /// Index of the disc's radius in [`DISC_RADII`].
     pub disc: usize,
     /// Number of discs that were measured.
     pub count: usize,
-    /// Ratio of the medians of the smaller and the larger absolute principal curvature.
+    /// Ratio of the median of the smaller absolute principal curvature to the median of the larger one.
     pub ratio: f64,
-    /// Standard deviation of white noise on the input's lattice that has the median of the smaller curvature.
+    /// Standard deviation of white noise on the input's lattice for which the smaller principal curvature has the same
+    /// median.
     pub white_equivalent: f64,
-    /// Mean cosine between the Hessians of discs side by side, along the direction in which it is least. It is
-    /// about 0 for noise and 1 for a shape.
+    /// Mean cosine between the Hessians (as vectors of their entries) of discs side by side, along the direction in
+    /// which it is least. It is about 0 for noise and 1 for a shape.
     pub coherence: f64,
 }
 
@@ -131,10 +135,11 @@ impl CurvatureScale {
     }
 }
 
-/// The curvatures of an input, from small discs to large ones. Cost: linear in the number of vertices.
+/// Measures the principal curvatures of an input's heights, from small discs to large ones. Cost: linear in the number
+/// of vertices.
 ///
 /// # Errors
-/// Out of memory.
+/// [`Error::OutOfMemory`](crate::Error::OutOfMemory).
 pub(super) fn curvature_scales(input: &Input, discs: &[Disc]) -> Result<Vec<CurvatureScale>> {
     let mut means = MeanHeights::from_input(input)?;
     let mut scales = Vec::new();
@@ -158,7 +163,7 @@ pub(super) fn curvature_scales(input: &Input, discs: &[Disc]) -> Result<Vec<Curv
     Ok(scales)
 }
 
-/// Medians of the absolute principal curvatures, and the coherence, over the discs of one size.
+/// Medians of the absolute principal curvatures over the discs of one size, and the coherence of their Hessians.
 struct Measured {
     count: usize,
     larger: f64,
@@ -166,8 +171,8 @@ struct Measured {
     coherence: f64,
 }
 
-/// Heights, or their means over rhombi of 4, 16, 64 … vertices, with the means of their confidence. NaN where a
-/// height is missing.
+/// Heights, or their means over rhombi of 4, 16, 64 … vertices, with the means of their confidence. A height is NaN
+/// where one is missing.
 struct MeanHeights {
     lattice: Lattice,
     heights: Vec<f64>,
@@ -200,7 +205,8 @@ impl MeanHeights {
         })
     }
 
-    /// Mean heights on the lattice of twice the spacing, over four vertices each. White noise stays white.
+    /// Averages heights and confidence over four vertices each, onto the lattice of twice the spacing. White noise
+    /// stays white.
     fn coarser(&self) -> Result<Self> {
         let lattice = coarse_lattice(&self.lattice)?;
         let mut heights = try_filled("mean heights", lattice.len(), f64::NAN)?;
@@ -260,8 +266,8 @@ impl MeanHeights {
         })
     }
 
-    /// Hessian of the quadratic fitted in the disc about a vertex, for a spacing of 1; `None` where a height of the
-    /// disc is missing or the disc's mean confidence is too small.
+    /// Computes the Hessian of the quadratic fitted in the disc about a vertex, for a spacing of 1; `None` where a
+    /// height of the disc is missing or the disc's mean confidence is too small.
     fn hessian(&self, disc: &Disc, row: isize, col: isize) -> Option<Sym2> {
         let mut entries = [0.0; 3];
         let mut confidence = 0.0;
@@ -286,7 +292,7 @@ impl MeanHeights {
     }
 }
 
-/// Row and column of the vertex at an offset, in rows and half columns, from the vertex at `row` and `col`.
+/// Returns row and column of the vertex at an offset, in rows and half columns, from the vertex at `row` and `col`.
 fn stepped(row: isize, col: isize, (rows, half): (isize, isize)) -> (isize, isize) {
     let odd = |row: isize| row.rem_euclid(2);
     let target = row + rows;

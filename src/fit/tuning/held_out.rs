@@ -1,4 +1,5 @@
-//! Cross-validation: some heights are held out, and the solve that predicts them best is the best one.
+//! Cross-validation by held-out heights: of several solves without them, the one that predicts them best is the best
+//! one.
 //!
 //! The difference between a held-out height and its prediction is the sum of the height's noise and the prediction's
 //! error. If the two are independent, the expected square is smallest for the surface nearest to the truth, whatever
@@ -8,25 +9,25 @@ use crate::error::{Result, try_filled};
 use crate::fit::input::Input;
 use crate::heights::heightfield::Heightfield;
 
-/// Number of classes that the vertices are divided into; one class is held out at a time. No class has two
-/// neighbouring vertices.
+/// Number of classes that the vertices are divided into for cross-validation; the heights of one class are held out at
+/// a time. No class has two neighbouring vertices.
 pub(crate) const HELD_OUT_CLASSES: usize = 3;
 
-/// Minimum number of held-out heights of one class; with fewer it is not used.
+/// Minimum number of held-out heights of a class of vertices; a class with fewer is not used.
 const MIN_HELD_OUT_SAMPLES: usize = 60;
 
-/// Confidence of the mean of the six neighbours that replaces a held-out height, as a share of the largest
-/// confidence: large enough that the solve converges fast, too small to change its surface.
+/// Confidence of the mean of the six neighbours that replaces a held-out height, as a share of the largest confidence:
+/// large enough that the solve converges fast, too small to change its surface.
 const MADE_UP: f64 = 0.01;
 
-/// Minimum confidence of a held-out height, as a share of the largest: far above [`MADE_UP`].
+/// Minimum confidence of a height that is held out, as a share of the largest: far above [`MADE_UP`].
 const MIN_HELD_OUT_CONFIDENCE: f64 = 0.1;
 
-/// Input with one class of heights held out, and the held-out heights.
+/// Input of a solve without one class of heights, and these held-out heights.
 #[derive(Debug, Clone)]
 pub(crate) struct HeldOut {
     pub input: Input,
-    /// Vertex, height and confidence of each held-out height.
+    /// Vertex index, height and confidence of each held-out height.
     samples: Vec<(usize, f64, f64)>,
 }
 
@@ -78,7 +79,7 @@ impl HeldOut {
         self.samples.len()
     }
 
-    /// Squared differences between a surface and each held-out height, times the height's confidence.
+    /// Returns the squared prediction error of a surface at each held-out height, times the height's confidence.
     pub(crate) fn misses(&self, surface: &Heightfield) -> Vec<f64> {
         let squares = self.samples.iter().map(|(vertex, height, weight)| {
             let miss = surface.heights()[*vertex] - height;
@@ -88,13 +89,13 @@ impl HeldOut {
     }
 }
 
-/// Class of a vertex. It changes from a vertex to each of its neighbours.
+/// Returns the class, from 0 to 2, of a vertex in cross-validation. Neighbouring vertices are in different classes.
 fn class_of(row: usize, col: usize) -> usize {
     (row / 2 + row + col) % HELD_OUT_CLASSES
 }
 
-/// Mean of `misses − others`, in standard errors of that mean: positive where `others` are smaller. 0 if the mean is
-/// 0 or NaN.
+/// Returns the mean of `misses − others` (squared prediction errors of two solves), in standard errors of that mean:
+/// positive where `others` are smaller. 0 if the mean is 0 or NaN.
 pub(crate) fn advantage(misses: &[f64], others: &[f64]) -> f64 {
     let count = misses.len() as f64;
     let differences = || misses.iter().zip(others).map(|(a, b)| a - b);

@@ -1,4 +1,4 @@
-//! Four vertices as one: the lattice of twice the spacing with half of the noise, which stays as
+//! Averaging of four vertices to one: the lattice of twice the spacing with half of the noise, which stays as
 //! independent from vertex to vertex as it was. The measurement of noise and cross-validation use it; a solve itself
 //! coarsens by `coarsen`.
 
@@ -10,11 +10,11 @@ use crate::lattice::coarsening::coarse_lattice;
 use crate::lattice::hexagonal::Lattice;
 
 /// Averages an input to the lattice of twice the spacing: each coarse height is the mean of the four fine ones of a
-/// rhombus, NaN where one of them is missing. Constraints become ordinary heights. A coarse vertex is on an occlusion
-/// where one of the four is.
+/// rhombus, NaN where one of them is missing. Constraints become ordinary heights. An occlusion tears the surface at a
+/// coarse vertex where it does at one of the four fine ones.
 ///
 /// # Errors
-/// Out of memory.
+/// [`Error::OutOfMemory`](crate::Error::OutOfMemory).
 pub(crate) fn merge(input: &Input) -> Result<Input> {
     let fine = input.field.lattice();
     let lattice = coarse_lattice(fine)?;
@@ -44,7 +44,8 @@ pub(crate) fn merge(input: &Input) -> Result<Input> {
     Ok(merged)
 }
 
-/// Indices of the four fine vertices averaged to one coarse vertex; `None` if one is outside of the fine lattice.
+/// Returns the indices of the four fine vertices that are averaged to one coarse vertex; `None` if one is outside of
+/// the fine lattice.
 pub(super) fn rhombus(fine: &Lattice, row: usize, col: usize) -> Option<[usize; 4]> {
     let left = (2 * col).checked_sub(row % 2)?;
     let (bottom, right) = (2 * row + 1, left + 1);
@@ -60,7 +61,7 @@ pub(super) fn rhombus(fine: &Lattice, row: usize, col: usize) -> Option<[usize; 
 }
 
 impl Input {
-    /// The confidence of a height, and 1 for a constraint.
+    /// Returns the confidence of a height, and 1 for a constraint.
     pub(super) fn trust(&self, vertex: usize) -> f64 {
         if self.is_constrained(vertex) {
             1.0

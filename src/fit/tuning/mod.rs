@@ -1,4 +1,4 @@
-//! Options from the data: how large its noise is, and what predicts heights best that were held out.
+//! Options from the data: λ and the penalty's parameters from the size of the noise and by cross-validation.
 
 mod correlated_noise;
 mod curvature_scales;

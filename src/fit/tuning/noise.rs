@@ -1,4 +1,4 @@
-//! How large the noise of heights is.
+//! Estimation of the noise of heights: standard deviation, correlation length and quantisation step.
 
 use super::correlated_noise::CorrelatedNoise;
 use super::curvature_scales::{DISC_RADII, Disc, curvature_scales};
@@ -6,50 +6,50 @@ use crate::error::Result;
 use crate::fit::input::Input;
 use crate::math::statistics::{MAD_TO_SIGMA, median};
 
-/// Minimum number of rings from which noise is measured; with fewer there is no result.
+/// Minimum number of rings of six neighbours from which noise is estimated; with fewer there is no estimate.
 const MIN_NOISE_SAMPLES: usize = 50;
 
-/// Minimum ratio of the noise of large discs to that of rings of six neighbours at which noise is correlated. Bends of the
-/// shape beside white noise raise it to 1.8.
+/// Minimum ratio of the noise estimated from large discs to that from rings of six neighbours at which noise counts as
+/// correlated. Bends of the shape beside white noise raise it to 1.8.
 const MIN_CORRELATED_RATIO: f64 = 2.5;
 
-/// Minimum correlation length of correlated noise, in spacings. White noise of square pixels has 0.5 to 0.6 after
-/// resampling to the lattice, and its held-out heights are not predicted by their neighbours.
+/// Minimum correlation length of noise that counts as correlated, in spacings. White noise of square pixels has 0.5 to
+/// 0.6 after resampling to the lattice, and its held-out heights are not predicted by their neighbours.
 const MIN_CORRELATION_LENGTH: f64 = 0.8;
 
-/// Largest share of different heights among all at which steps of quantisation are looked for.
+/// Maximum share of different heights among all heights at which a quantisation step is looked for.
 const MAX_DISTINCT_HEIGHTS: f64 = 0.25;
 
-/// Relative difference up to which heights count as equal when steps are looked for.
+/// Maximum relative deviation of a difference between heights from a multiple of the quantisation step.
 const EQUAL_HEIGHT_TOLERANCE: f64 = 1e-3;
 
-/// The noise of an input.
+/// Noise of an input's heights: size, correlation and quantisation.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Noise {
-    /// Standard deviation, in the user's units.
+    /// Standard deviation of the noise, in the user's unit of height.
     pub sigma: f64,
-    /// Standard deviation of the Gaussian blur that makes such noise of white noise, in the user's units; 0 for noise
-    /// that is independent from vertex to vertex.
+    /// Correlation length, in the user's unit of length: the standard deviation of the Gaussian blur that makes such
+    /// noise of white noise; 0 for noise that is independent from vertex to vertex.
     pub correlation_length: f64,
-    /// Number of coarsenings, each of four vertices to their mean, until noise is independent from vertex to vertex;
-    /// 0 for white noise.
+    /// Number of coarsenings, each of four vertices to their mean, until the noise is independent from vertex to
+    /// vertex; 0 for white noise.
     pub merged: usize,
-    /// Product `σ h √A` times the largest confidence, in the user's units squared; `A` vertices share one value of
-    /// the noise. In normalised coordinates the best λ is about `8 / product`.
+    /// Product `σ h √A` times the largest confidence, in the user's unit squared, where `h` is the spacing and `A`
+    /// vertices share one independent value of the noise. In normalised coordinates the best λ is about `8 / product`.
     pub product: f64,
     /// Quantisation step of the heights, in the user's units; `None` if they are not quantised, or their noise
     /// exceeds the rounding error of such a step, `step/√12`.
     pub step: Option<f64>,
-    /// Whether the noise is correlated over distances at which the shape bends, too, so that the two could not be
-    /// told apart.
+    /// Whether the noise is correlated over distances at which the shape bends, too, so that noise and shape could not
+    /// be told apart.
     pub ambiguous: bool,
 }
 
 impl Noise {
-    /// The noise of an input; `None` if it has too few heights.
+    /// Estimates the noise of an input; `None` if it has too few heights.
     ///
     /// # Errors
-    /// Out of memory.
+    /// [`Error::OutOfMemory`](crate::Error::OutOfMemory).
     pub(crate) fn from_input(input: &Input) -> Result<Option<Self>> {
         let Some(white) = ring_noise(input) else {
             return Ok(None);
@@ -84,8 +84,8 @@ impl Noise {
     }
 }
 
-/// Correlated noise of an input; `None` where it is hardly larger than the white noise measured from rings of
-/// neighbours.
+/// Estimates correlated noise of an input; `None` where it is hardly larger than `white`, the noise measured from rings
+/// of six neighbours.
 fn correlated_noise(input: &Input, white: f64) -> Result<Option<CorrelatedNoise>> {
     let discs: Vec<Disc> = DISC_RADII.into_iter().filter_map(Disc::new).collect();
     let scales = curvature_scales(input, &discs)?;
@@ -97,7 +97,7 @@ fn correlated_noise(input: &Input, white: f64) -> Result<Option<CorrelatedNoise>
     Ok(found.filter(is_correlated))
 }
 
-/// Standard deviation of white noise, measured from rings of six neighbours: the sum of a ring's heights with
+/// Estimates the standard deviation of white noise from rings of six neighbours: the sum of a ring's heights with
 /// alternating signs is 0 for every quadratic. The median over all rings discards creases. `None` if there are fewer
 /// than [`MIN_NOISE_SAMPLES`] rings.
 fn ring_noise(input: &Input) -> Option<f64> {
@@ -126,10 +126,11 @@ fn ring_noise(input: &Input) -> Option<f64> {
     Some(MAD_TO_SIGMA * median(&mut samples)? / 6f64.sqrt())
 }
 
-/// Minimum confidence of a height that noise is measured from, as a share of the largest: discards bridged vertices.
+/// Minimum confidence of a height that noise is estimated from, as a share of the largest: discards vertices whose
+/// heights were filled in.
 const MIN_SAMPLE_CONFIDENCE: f64 = 0.5;
 
-/// Largest confidence of a height that is not constrained.
+/// Returns the largest confidence of an input's heights that are not constrained.
 fn largest_trust(input: &Input) -> f64 {
     match input.confidence.is_empty() {
         true => 1.0,
@@ -140,7 +141,8 @@ fn largest_trust(input: &Input) -> f64 {
     }
 }
 
-/// Height of a vertex; NaN where its confidence is below `least` or 0, or the vertex is constrained.
+/// Returns the height of a vertex to estimate noise from; NaN where its confidence is below `least` or 0, or the vertex
+/// is constrained.
 fn sample(input: &Input, vertex: usize, least: f64) -> f64 {
     let weight = input.weight(vertex);
     if input.is_constrained(vertex) || weight < least || weight == 0.0 {
@@ -149,8 +151,8 @@ fn sample(input: &Input, vertex: usize, least: f64) -> f64 {
     input.field.heights()[vertex]
 }
 
-/// Quantisation step of the heights: the smallest difference between two, of which all other differences are
-/// multiples. `None` if too few heights are equal or there is no such step.
+/// Finds the quantisation step of an input's heights: the smallest difference between two of them, if all other
+/// differences are multiples of it. `None` if too few heights are equal or there is no such step.
 fn step(input: &Input) -> Option<f64> {
     let least = MIN_SAMPLE_CONFIDENCE * largest_trust(input);
     let samples = (0..input.field.lattice().len()).map(|v| sample(input, v, least));
@@ -170,7 +172,8 @@ fn step(input: &Input) -> Option<f64> {
     gaps.into_iter().all(multiple).then_some(step)
 }
 
-/// Mean length of a run of vertices along a row that are rounded to one height, in vertices; at least 1.
+/// Returns the mean number of consecutive vertices along a row whose heights are rounded to one multiple of `step`; at
+/// least 1.
 fn plateau(input: &Input, step: f64) -> f64 {
     let lattice = input.field.lattice();
     let least = MIN_SAMPLE_CONFIDENCE * largest_trust(input);

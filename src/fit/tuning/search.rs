@@ -1,5 +1,5 @@
-//! λ by itself, and what bends of [`Energy::Huber`] cost: from the noise, then by what predicts held-out
-//! heights best.
+//! Choice of λ and of the parameters of [`Energy::Huber`]: from the noise at first, then by how well solves predict
+//! held-out heights.
 
 use std::mem;
 use std::sync::Arc;
@@ -16,76 +16,79 @@ use crate::fit::options::{Bending, Border, Energy, Lambda, Options};
 use crate::fit::report::{LambdaChoice, LambdaReason};
 use crate::fit::warm_start::WarmStart;
 
-/// Product `λ σ h` of the first λ of a search under white noise, in normalised coordinates: σ is the noise's standard
+/// Product `λ σ h` of the first λ that is tried under white noise, in normalised coordinates: σ is the noise's standard
 /// deviation, h the spacing. The best λ is about there.
 const FIRST_LAMBDA_NOISE: f64 = 8.0;
 
-/// Product `λ σ h √A` of the first λ of a search under correlated noise, of which `A` vertices share a value, in
+/// Product `λ σ h √A` of the first λ that is tried under correlated noise, of which `A` vertices share a value, in
 /// normalised coordinates. It is larger than under white noise, since a shape beside such noise makes the noise look
 /// larger than it is (`benches/scenes.md`).
 const CORRELATED_LAMBDA_NOISE: f64 = 14.0;
 
-/// Maximum λ that a search begins with. An input whose noise is so small that it asks for a larger one counts as free
-/// of noise and gets [`WITHOUT_NOISE`].
+/// Maximum λ that the search for the best λ begins with. An input whose noise is so small that it asks for a larger one
+/// counts as free of noise and gets [`WITHOUT_NOISE`].
 const MAX_SEARCH_LAMBDA: f64 = 1e9;
 const WITHOUT_NOISE: Lambda = Lambda::Big;
 
-/// Factor from one λ of the search to the next.
+/// Factor from one λ that is tried to the next.
 const LAMBDA_STEP_FACTOR: f64 = 3.0;
 
-/// Largest number of steps down from the first λ.
+/// Maximum number of times that λ is divided by [`LAMBDA_STEP_FACTOR`] in the search for the best λ.
 const MAX_STEPS_DOWN: i32 = 3;
 
-/// Maximum number of times that four vertices are averaged to one before a search.
+/// Maximum number of times that four vertices are averaged to one before the search for the best λ.
 const MAX_MERGES: usize = 4;
 
-/// Relative duality gap of the solves that are compared: their surfaces differ by more than it leaves open.
+/// Relative duality gap of the solves that cross-validation compares: their surfaces differ by more than it leaves
+/// open.
 const SEARCH_GAP: f64 = 0.02;
 
-/// Largest number of iterations of a solve that is compared.
+/// Maximum number of ADMM iterations of a solve that cross-validation compares.
 const MAX_SEARCH_ITERATIONS: usize = 500;
 
-/// Minimum number of interior vertices of the lattice of twice the spacing at which a search is made there.
+/// Minimum number of interior vertices of the lattice of twice the spacing at which cross-validation runs there.
 const MIN_DOUBLED_VERTICES: usize = 1500;
 
-/// Minimum number of interior vertices of a lattice, coarsened until correlated noise is white, at which a search is made
-/// there.
+/// Minimum number of interior vertices of a lattice, coarsened until correlated noise is white, at which
+/// cross-validation runs there.
 const MIN_WHITENED_VERTICES: usize = 400;
 
-/// Minimum number of held-out heights that resolves small differences between candidates. Where one class of vertices
-/// has fewer, further classes are held out, each in a solve of its own.
+/// Minimum number of held-out heights that resolves small differences between candidates for λ and Huber parameters.
+/// Where one class of vertices has fewer, further classes are held out, each in a solve of its own.
 const MIN_HELD_OUT_HEIGHTS: usize = 1500;
 
-/// Number of standard errors by which a candidate with a smaller λ must predict held-out heights better to replace the best
-/// one: it may be a little worse. A candidate with another penalty has the threshold of its [`Choice`].
+/// Number of standard errors by which a candidate with a smaller λ must predict held-out heights better to replace the
+/// best one: it may be a little worse. A candidate with another penalty has the threshold of its [`Choice`].
 const SMALLER_LAMBDA_HURDLE: f64 = -0.5;
 
-/// Number of standard errors by which a candidate with a larger λ must predict held-out heights better to replace the best
-/// one.
+/// Number of standard errors by which a candidate with a larger λ must predict held-out heights better to replace the
+/// best one.
 const LARGER_LAMBDA_HURDLE: f64 = 2.0;
 
-/// Ratio of `λ σ h` to [`FIRST_LAMBDA_NOISE`] above which there are no crease passes, since these would make creases
-/// of noise.
+/// Ratio of λ to the λ that suits the noise ([`FIRST_LAMBDA_NOISE`]) above which there are no crease passes, since
+/// these would make creases of noise.
 const LOUD_NOISE_RATIO: f64 = 2.0;
 
-/// Minimum relative reduction of the mean squared prediction error for a penalty of smaller flatness under correlated
-/// noise. A surface that bends more easily follows such noise, and so predicts held-out heights better without being
-/// nearer to the truth.
+/// Minimum relative reduction of the mean squared prediction error at which a penalty of smaller flatness is chosen
+/// under correlated noise. A surface that bends more easily follows such noise, and so predicts held-out heights better
+/// without being nearer to the truth.
 const CORRELATED_FLATNESS_GAIN: f64 = 0.15;
 
-/// Minimum relative reduction of the mean squared prediction error for a penalty of larger crease radius under
-/// correlated noise.
+/// Minimum relative reduction of the mean squared prediction error at which a penalty of larger crease radius is chosen
+/// under correlated noise.
 const CORRELATED_CREASE_GAIN: f64 = 0.045;
 
-/// Minimum relative reduction of the mean squared prediction error for a penalty of larger crease radius where noise
-/// is correlated on the input's lattice but white on the coarse one that is searched: creases follow it there, too.
+/// Minimum relative reduction of the mean squared prediction error at which a penalty of larger crease radius is chosen
+/// where noise is correlated on the input's lattice but white on the coarse lattice of the search: on the input's
+/// lattice creases would follow the noise.
 const FINER_CREASE_GAIN: f64 = 0.021;
 
-/// Minimum advantage of another penalty under correlated noise, in standard errors, besides the relative reduction.
+/// Number of standard errors by which another penalty must predict held-out heights better under correlated noise,
+/// besides the relative reduction of the error.
 const BENDING_HURDLE: f64 = 1.0;
 
-/// Parameters of the Huber penalty that are compared, in order: the nuclear norm as the starting point, smooth bends,
-/// smooth bends with creases, flat facets, and smooth bends without flatness.
+/// Parameters of the Huber penalty that cross-validation compares, in order: the nuclear norm as the starting point,
+/// smooth bends, smooth bends with creases, flat facets, and smooth bends without flatness.
 const BENDING_CHOICES: [Choice; 5] = [
     (Bending::NUCLEAR, &[0], 0.0),
     (Bending::SMOOTH, &[0, -1], 0.0),
@@ -94,7 +97,7 @@ const BENDING_CHOICES: [Choice; 5] = [
     (Bending::new(0.1, 0.0, 0.3), &[-1], 1.0),
 ];
 
-/// Noise and scale of an input, known before its solve.
+/// Noise and coordinate scale of an input, known before its solve.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Known {
     pub scale: f64,
@@ -116,8 +119,8 @@ impl Known {
     }
 }
 
-/// Initial options, with the initial λ and the reason for it: a λ from the size of the noise, [`WITHOUT_NOISE`] for
-/// an input without noise, or [`Lambda::Medium`] where the noise cannot be measured.
+/// Makes the initial options of a search, with the initial λ and the reason for it: a λ from the size of the noise,
+/// [`WITHOUT_NOISE`] for an input without noise, or [`Lambda::Medium`] where the noise cannot be measured.
 pub(crate) fn initial_options(
     options: &Options,
     noise: Option<Noise>,
@@ -153,8 +156,8 @@ pub(crate) fn initial_options(
     (options.lambda(lambda), choice)
 }
 
-/// Options with the default Huber parameters filled in where none are given, kept from following noise where λ is
-/// large for it.
+/// Fills in the default Huber parameters where the options give none, restrained so that the surface does not follow
+/// noise where λ is large for it.
 pub(crate) fn with_huber_defaults(options: &Options, noise: Option<Noise>, scale: f64) -> Options {
     let loudness = noise.map_or(0.0, |noise| {
         options.lambda_or_default().value() * noise.product * scale * scale / FIRST_LAMBDA_NOISE
@@ -162,8 +165,8 @@ pub(crate) fn with_huber_defaults(options: &Options, noise: Option<Noise>, scale
     at_loudness(options, Bending::SMOOTH, loudness)
 }
 
-/// Fallback options where a search is impossible: those of [`initial_options`] with fixed Huber parameters. Under correlated
-/// noise these are the nuclear norm's, as any other penalty would follow the noise.
+/// Makes the fallback options where cross-validation is impossible: those of [`initial_options`] with fixed Huber
+/// parameters. Under correlated noise these are the nuclear norm's, as any other penalty would follow the noise.
 pub(crate) fn without_search(first: &Options, noise: Option<Noise>) -> Options {
     match noise.is_some_and(|noise| noise.merged > 0) {
         true => at_loudness(first, Bending::NUCLEAR, f64::INFINITY),
@@ -171,9 +174,9 @@ pub(crate) fn without_search(first: &Options, noise: Option<Noise>) -> Options {
     }
 }
 
-/// Options with the parameters of `bending` where none are given, restrained so that the surface does not follow
-/// noise. `loudness` is the ratio of λ to the λ that suits the noise: flatness grows in proportion to it, up to 1
-/// (the nuclear norm), and above [`LOUD_NOISE_RATIO`] there are no crease passes.
+/// Fills in the parameters of `bending` where the options give none, restrained so that the surface does not follow
+/// noise. `loudness` is the ratio of λ to the λ that suits the noise: flatness grows in proportion to it, up to 1 (the
+/// nuclear norm), and above [`LOUD_NOISE_RATIO`] there are no crease passes.
 fn at_loudness(options: &Options, bending: Bending, loudness: f64) -> Options {
     let quiet = Bending {
         flatness: (Bending::SMOOTH.flatness * loudness).clamp(bending.flatness, 1.0),
@@ -186,7 +189,8 @@ fn at_loudness(options: &Options, bending: Bending, loudness: f64) -> Options {
     out
 }
 
-/// The input on the lattice of a search, and whether its noise is correlated there, too.
+/// Brings an input to the lattice on which cross-validation runs; also returns whether its noise is correlated there,
+/// too.
 fn searchable(input: &Input, noise: Noise) -> Result<(Input, bool)> {
     let halved = |input: &Input| -> Result<(Input, usize)> {
         let merged = merge(input)?;
@@ -213,33 +217,33 @@ fn searchable(input: &Input, noise: Noise) -> Result<(Input, bool)> {
     Ok((searched, noise.merged > 0))
 }
 
-/// Candidate of a search: index of its penalty among [`Search::bendings`], and the exponent of [`LAMBDA_STEP_FACTOR`]
-/// by which its λ differs from the first.
+/// Candidate of cross-validation: index of its penalty among [`Search::bendings`], and the exponent of
+/// [`LAMBDA_STEP_FACTOR`] by which its λ differs from the first.
 type Candidate = (usize, i32);
 
 /// Huber parameters to compare, the exponents of [`LAMBDA_STEP_FACTOR`] to try with them, and the number of standard
-/// errors by which they must predict better.
+/// errors by which they must predict held-out heights better than the best candidate.
 type Choice = (Bending, &'static [i32], f64);
 
 /// Cross-validation in progress: compares candidates for λ and Huber parameters by how well they predict held-out
 /// heights.
 #[derive(Debug, Clone)]
 pub(crate) struct Search {
-    /// Inputs with held-out heights: one solve per candidate for each of them.
+    /// Inputs with held-out heights: each candidate is solved once for each of them.
     held_out: Vec<HeldOut>,
     /// Exponents of [`LAMBDA_STEP_FACTOR`] at the smallest and the largest λ to try. The largest is 0, the first λ,
     /// where noise is quantised or correlated on the input's lattice.
     steps: [i32; 2],
-    /// Whether noise is correlated on the lattice of the search, so that held-out noise can be predicted. Then λ
-    /// stays the first one, and another penalty needs a minimum reduction of the prediction error.
+    /// Whether noise is correlated on the lattice of the search, so that held-out noise can be predicted. Then λ stays
+    /// the first one, and another penalty needs a minimum reduction of the prediction error.
     dependent: bool,
     known: Known,
-    /// Options of the caller.
+    /// Options that the caller asked for.
     asked: Options,
-    /// Options that all compared solves share, with the first λ.
+    /// Options that all solves of the cross-validation share, with the first λ.
     options: Options,
     bendings: Vec<Choice>,
-    /// Candidates that have been tried.
+    /// Candidates for λ and Huber parameters that have been compared so far.
     tried: Vec<Candidate>,
     best: Candidate,
     misses: Vec<f64>,
@@ -252,12 +256,12 @@ pub(crate) struct Search {
 }
 
 impl Search {
-    /// Starts a search around the options that [`initial_options`] gives; `None` where too few heights can be held out, or
-    /// noise is correlated on every lattice large enough. Quantised heights are searched all the same, for the
-    /// penalty alone.
+    /// Starts a search for λ and Huber parameters around the options that [`initial_options`] gives; `None` where too
+    /// few heights can be held out, or noise is correlated on every lattice large enough. Quantised heights are
+    /// searched all the same, for the Huber parameters alone.
     ///
     /// # Errors
-    /// Out of memory, and errors of the solver.
+    /// [`Error::OutOfMemory`](crate::Error::OutOfMemory), and errors of the solver.
     pub(crate) fn new(
         input: &Input,
         asked: &Options,
@@ -326,7 +330,7 @@ impl Search {
         }))
     }
 
-    /// Continues until `left` conjugate-gradient iterations are used up; returns whether the search has finished.
+    /// Continues the search until `left` conjugate-gradient iterations are used up; returns whether it has finished.
     pub(crate) fn advance(&mut self, left: &mut usize) -> Result<bool> {
         while *left > 0 {
             let before = self.solve.progress().cg_iterations;
@@ -361,7 +365,7 @@ impl Search {
         Ok(false)
     }
 
-    /// Starts the next solve of the current candidate, from the surface of the solve before.
+    /// Starts the next solve of the current candidate, with a warm start from the surface of the solve before.
     fn begin(&mut self) -> Result<()> {
         let held_out = &self.held_out[self.solved];
         let options = candidate_options(&self.options, &self.bendings, self.now);
@@ -370,7 +374,7 @@ impl Search {
         Ok(())
     }
 
-    /// Whether the current candidate replaces the best one so far; `misses` are its squared prediction errors.
+    /// Returns whether the current candidate replaces the best one so far; `misses` are its squared prediction errors.
     fn is_better(&self, misses: &[f64]) -> bool {
         let [(new, _, other), (old, ..)] =
             [self.now, self.best].map(|(bending, _)| self.bendings[bending]);
@@ -392,9 +396,9 @@ impl Search {
         (least == 0.0 || enough) && advantage(&self.misses, misses) > hurdle
     }
 
-    /// The next candidate: first every penalty with each of its λ, then λ next to the best one's until neither
-    /// neighbour is better. Only the nuclear norm is tried above the first λ, where other penalties would follow
-    /// noise.
+    /// Returns the next candidate, or `None` at the end: first every penalty with each of its λ, then λ next to the
+    /// best one's until neither neighbour is better. Only the nuclear norm is tried above the first λ, where other
+    /// penalties would follow noise.
     fn next(&self) -> Option<Candidate> {
         let missing = |candidate: &Candidate| !self.tried.contains(candidate);
         let (bending, step) = self.best;
@@ -410,13 +414,13 @@ impl Search {
         others.chain(beside).find(missing)
     }
 
-    /// Number of ADMM iterations so far, of all solves.
+    /// Number of ADMM iterations of all solves so far.
     pub(crate) fn iterations(&self) -> usize {
         self.iterations + self.solve.progress().iteration
     }
 
-    /// Options of the best candidate, with the caller's in all that was given; writes the reason and the cost into
-    /// `choice`.
+    /// Returns the options of the best candidate, with the caller's in all that was given; writes the reason and the
+    /// cost into `choice`.
     pub(crate) fn found(&self, choice: &mut LambdaChoice) -> Options {
         if !self.dependent {
             choice.reason = LambdaReason::Prediction;
@@ -435,14 +439,14 @@ impl Search {
     }
 }
 
-/// Options of a candidate.
+/// Makes the options of a candidate from those with the first λ.
 fn candidate_options(first: &Options, bendings: &[Choice], (bending, step): Candidate) -> Options {
     let factor = LAMBDA_STEP_FACTOR.powi(step);
     let options = first.lambda(first.lambda_or_default().value() * factor);
     at_loudness(&options, bendings[bending].0, factor)
 }
 
-/// Starts a solve of the heights that are not held out.
+/// Starts a candidate's solve, of an input without the held-out heights.
 fn trial(
     held_out: &HeldOut,
     options: &Options,
@@ -462,8 +466,8 @@ fn trial(
     )
 }
 
-/// Options of the compared solves: the energy and normalisation that were asked for, a coarse duality gap and a free
-/// border. The other options hardly change which candidate is best.
+/// Makes the options of the compared solves: the energy and normalisation that were asked for, a coarse duality gap and
+/// a free border. The other options hardly change which candidate is best.
 fn compared(asked: &Options, first: Lambda) -> Options {
     Options {
         energy: asked.energy,
@@ -507,7 +511,7 @@ mod tests {
         }
     }
 
-    /// Candidates with λ too large for the noise have neither cheap flat parts nor passes.
+    /// Candidates whose λ is too large for the noise have a large flatness and no crease passes.
     #[test]
     fn candidates_are_guarded() {
         let first = Options::default().energy(Energy::Huber).lambda(1e4);
@@ -518,7 +522,7 @@ mod tests {
         assert_eq!(at(2).flatness, Some(1.0));
     }
 
-    /// A lattice without a hole, four times as wide as what the search needs.
+    /// The input is a lattice without holes, large enough for a search on the lattice of twice the spacing.
     #[test]
     fn the_search_goes_on_to_the_best_bending_and_then_to_the_best_lambda() {
         let lattice = Lattice::new(90, 90, 1.0).unwrap();

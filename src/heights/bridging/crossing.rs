@@ -1,5 +1,5 @@
-//! Test of a hole's cell: whether the surface continues from one side of the hole to the other, and at which
-//! height.
+//! Test whether the surface continues from one side of a hole in the data to the other, and the height of a cell
+//! (vertex or pixel) in the hole.
 
 use nalgebra::{Matrix2, Vector2};
 
@@ -10,78 +10,81 @@ use crate::math::least_squares::LeastSquares;
 use crate::math::statistics::median;
 use crate::math::sym2::Sym2;
 
-/// Maximum difference between the slope across a hole and those beside it that noise explains, in standard
+/// Maximum difference between the slope across a hole and the slopes beside it that noise explains, in standard
 /// deviations.
 const MAX_SLOPE_JUMP_DEVIATIONS: f64 = 4.0;
 
-/// Difference between slopes below which they count as equal whatever the noise, so that rounding is no jump.
+/// Difference between slopes, as rise over run, below which they count as equal whatever the noise, so that rounding
+/// errors are no jump.
 const NEGLIGIBLE_SLOPE_DIFFERENCE: f64 = 0.05;
 
-/// Maximum difference between slopes that a crease within the hole explains, as a share of their spread: a crease
-/// beside the middle of the hole makes them differ.
+/// Maximum difference between the slope across a hole and those beside it that a crease within the hole explains, as a
+/// multiple of the slopes' standard deviation.
 const MAX_CREASE_SLOPE_SHARE: f64 = 0.7;
 
-/// Maximum distance of a height from the plane around a hole, relative to the typical one, where there are no
-/// neighbours to take slopes between.
+/// Maximum distance of heights from the plane around a hole, relative to the typical distance, where slopes beside the
+/// hole are unknown.
 const MAX_PLANE_DISTANCE_RATIO: f64 = 3.0;
 
-/// Height by which a right-angled fold departs from the plane around a hole, per distance from the hole.
+/// Height by which a right-angled fold deviates from the plane around a hole, per distance from the hole.
 const FOLD_HEIGHT_PER_DISTANCE: f64 = 0.35;
 
-/// Minimum number of heights that a plane is fitted to.
+/// Minimum number of heights around a hole's cell to which a plane is fitted.
 const MIN_PLANE_SAMPLES: usize = 6;
 
-/// Weight of the typical noise relative to the noise around one hole, as a number of differences between
-/// slopes.
+/// Weight of the noise that is typical of all holes in the estimate of the noise around one hole, as an equivalent
+/// number of slopes.
 const TYPICAL_NOISE_WEIGHT: f64 = 6.0;
 
-/// A hole's cell with the plane fitted to its surroundings.
+/// A cell (vertex or pixel) in a hole, with the plane fitted to the heights around it.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Crossing {
     pub cell: usize,
     pub height: f64,
-    /// Mean confidence of the surroundings.
+    /// Mean confidence of the heights around the cell.
     pub confidence: f64,
-    /// Number of steps from the cell within which there are heights on all sides of it.
+    /// Number of steps from the cell within which there are heights on all sides.
     pub distance: f64,
-    /// Difference between the slope across the hole and those beside it, in height units per step.
+    /// Difference between the slope across the hole and the slopes beside it, in height units per step.
     difference: f64,
-    /// Square of `difference`, in units of the variance of one height.
+    /// Significance of `difference`: its square in units of the variance of one height.
     evidence: f64,
-    /// Sum of squares of the differences between slopes beside the hole, and their number.
+    /// Sum of squared deviations, from their mean, of the slopes between neighbouring heights beside the hole; `terms`
+    /// is their number.
     spread: f64,
     terms: f64,
     /// Whether slopes beside the hole are known in all directions.
     sees: bool,
-    /// Root mean square distance of heights from the plane, and the distance from which they are taken.
+    /// Root mean square distance of the heights from the plane; `reach` is the distance from the cell up to which they
+    /// are taken, in steps.
     stray: f64,
     reach: f64,
 }
 
 pub(super) struct Crossings<'a> {
     raster: &'a Raster,
-    /// Heights of the cells; NaN where there is none or it has no confidence.
+    /// Heights of the cells; NaN where there is none or its confidence is 0.
     heights: &'a [f64],
-    /// Confidence of each cell; empty for 1 each.
+    /// Confidence of each cell; empty if all are 1.
     confidence: &'a [f64],
-    /// Distance between neighbours, in units of height.
+    /// Distance between neighbouring cells, in units of height.
     spacing: f64,
-    /// The sites around a cell in an even and in an odd row.
+    /// Sites (relative positions of further cells) around a cell in an even row, and around one in an odd row.
     sites: [Sites; 2],
 }
 
-/// Work arrays for the surroundings of a cell.
+/// Buffers for the heights around a cell, used again for each cell.
 #[derive(Default)]
 struct Scratch {
-    /// Sites that have a height.
+    /// Indices of those sites around the cell that have a height.
     found: Vec<usize>,
-    /// Height of each site, and then its distance from the plane; NaN where there is none.
+    /// Height of each site, and later its distance from the plane; NaN where there is none.
     residuals: Vec<f64>,
-    /// Contribution of each height to the slopes beside the hole.
+    /// Contribution of each site's height to the slopes beside the hole.
     shares: Vec<Vector2<f64>>,
 }
 
-/// Ridge of a plane's normal equations, so that a matrix that is singular up to rounding stays positive
+/// Ridge of the normal equations of a plane's slopes, so that a matrix that is singular up to rounding stays positive
 /// definite.
 const PLANE_MATRIX_SHIFT: f64 = 1e-6;
 
@@ -102,7 +105,8 @@ impl<'a> Crossings<'a> {
         }
     }
 
-    /// The given cells across which the surface continues, without those next to a cell across which it does not.
+    /// Returns those of the given cells (vertices or pixels in holes) where the surface continues across the hole,
+    /// without the neighbours of cells where it does not.
     pub(super) fn sound(&self, cells: &[usize]) -> Result<Vec<Crossing>> {
         let mut scratch = Scratch::default();
         let at = |cell: &usize| self.at(*cell, &mut scratch);
@@ -125,8 +129,8 @@ impl<'a> Crossings<'a> {
         Ok(found.into_iter().flatten().filter(sound).collect())
     }
 
-    /// Fits a plane to the surroundings of a cell: out to where there are heights on all sides of it, and two steps
-    /// further.
+    /// Fits a plane to the heights around a cell: out to where there are heights on all sides of it, and two steps
+    /// further. None if there are too few.
     fn at(&self, cell: usize, scratch: &mut Scratch) -> Option<Crossing> {
         let sites = &self.sites[usize::from(self.raster.is_odd(cell))];
         scratch.found.clear();
@@ -227,11 +231,11 @@ impl<'a> Crossings<'a> {
     }
 }
 
-/// Medians over all holes: the typical noise.
+/// Typical noise of the heights around holes: medians over all holes.
 struct Typical {
-    /// Median of the spread of slopes, per difference.
+    /// Median over all holes of the variance of the slopes between neighbouring heights beside a hole.
     spread: f64,
-    /// Median distance of heights from the plane, where slopes beside the hole are not known.
+    /// Median distance of heights from the plane around a hole, over holes beside which slopes are unknown.
     stray: f64,
 }
 

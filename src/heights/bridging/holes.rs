@@ -3,10 +3,10 @@
 use super::raster::Raster;
 use crate::error::{Result, try_filled};
 
-/// The cells of narrow holes: those without a height that are in no empty hexagon of `width + 1` across
-/// (morphological closing; beyond the data everything counts as empty). For an even width such a hexagon is a cell
-/// with all cells up to `width / 2` steps around it, for an odd one a triangle with the cells around it. On pixels it
-/// is an octagon about one pixel, or about four.
+/// Finds the cells (vertices or pixels) of narrow holes: those without a height that are in no empty hexagon of
+/// `width + 1` across (morphological closing; beyond the data everything counts as empty). For an even width such a
+/// hexagon is a cell with all cells up to `width / 2` steps around it, for an odd one a triangle with the cells around
+/// it. On pixels it is an octagon about one pixel, or about four.
 pub(super) fn narrow(raster: &Raster, heights: &[f64], width: usize) -> Result<Vec<usize>> {
     let radius = width / 2;
     let filled: Vec<usize> = (0..raster.cells())
@@ -30,7 +30,8 @@ pub(super) fn narrow(raster: &Raster, heights: &[f64], width: usize) -> Result<V
         .collect())
 }
 
-/// Whether each cell is at most `steps` from one of the `seeds`.
+/// Returns for each cell of the raster whether it can be reached from one of the `seeds` by at most `steps` steps
+/// between neighbouring cells.
 fn reached(raster: &Raster, seeds: Vec<usize>, steps: usize) -> Result<Vec<bool>> {
     let mut reached = try_filled("bridged holes", raster.cells(), false)?;
     for cell in &seeds {

@@ -15,46 +15,46 @@ use crossing::Crossings;
 use holes::narrow;
 use raster::Raster;
 
-/// Which holes in the data are bridged.
+/// Which holes in the data are bridged (filled before the solve), by their width.
 ///
-/// Only the **width** of a hole counts, not its length: a missing row or column, a slot that is open to the border
-/// and the narrow end of a notch are bridged like a single dead pixel, and so is speckle that leaves no two
-/// neighbours next to each other. A hole, or a part of it, is wider than `n` if a regular hexagon of `n + 1` vertices
-/// across fits into it (in an image, an octagon of `n + 1` pixels across). Nothing is added outside of the data's
-/// outline, as such a hexagon fits into every corner of it.
+/// Only the **width** of a hole counts, not its length: a missing row or column, a slot that is open to the border and
+/// the narrow end of a notch are bridged like a single dead pixel, and so is speckle that leaves no two neighbours next
+/// to each other. A hole, or a part of it, is wider than `n` if a regular hexagon of `n + 1` vertices across fits into
+/// it (in an image, an octagon of `n + 1` pixels across). Nothing is added outside of the data's outline, as such a
+/// hexagon fits into every corner of it.
 ///
 /// A hole is not bridged where the surface on one side does not continue the other side: where the slope across the
 /// hole differs from the slopes beside it by more than noise and bends explain. So a hole between two levels of depth
 /// stays a hole. Nor is a hole bridged next to a known occlusion, or where a mask excludes the surface.
 ///
-/// Bridged vertices are part of the surface. They start from the plane that fits the data around
-/// best, and have a small confidence: a fifth of the data's next to it, less further away.
+/// Bridged vertices are part of the surface. They start from the plane that fits the data around best, and have a small
+/// confidence: a fifth of the data's next to it, less further away.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Bridging {
-    /// No hole: a vertex without a height is no part of the surface.
+    /// No hole is bridged: a vertex without a height is not part of the surface.
     Off,
-    /// Holes of at most this number of vertices, or pixels, across: 1 to 16.
+    /// Holes of at most this width, in vertices or pixels, are bridged: 1 to 16.
     UpTo(usize),
 }
 
-/// Maximum width of a hole that may be bridged, in lattice vertices: beyond it a plane says little about the
+/// Maximum width of a hole that may be bridged, in lattice vertices or pixels: beyond it a plane says little about the
 /// missing surface.
 const MAX_BRIDGE_WIDTH_VERTICES: usize = 16;
 
-/// Confidence of a bridged vertex one step from data on all sides, relative to that of the data; it falls with
-/// the distance. With a hundredth of it or none the same surface takes more iterations.
+/// Confidence of a bridged vertex one step from data on all sides, relative to the data's confidence; it falls with the
+/// distance. With a hundredth of it, or none, the same surface takes more iterations.
 const BRIDGE_CONFIDENCE: f64 = 0.2;
 
 impl Default for Bridging {
-    /// Bridges holes of up to 4 vertices across.
+    /// Returns the default: holes of up to 4 vertices or pixels across are bridged.
     fn default() -> Self {
         Bridging::UpTo(4)
     }
 }
 
 impl Bridging {
-    /// Maximum width of a bridged hole, in vertices or pixels; 0 for none.
+    /// Maximum width of a bridged hole, in vertices or pixels; 0 if none is bridged.
     ///
     /// # Errors
     /// [`Error::Option`] for a width out of range.
@@ -70,7 +70,7 @@ impl Bridging {
     }
 }
 
-/// A vertex or pixel that is bridged, with its height and confidence.
+/// A vertex or pixel in a hole that is bridged, with its height and confidence.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Bridge {
     pub index: usize,
@@ -78,20 +78,21 @@ pub(crate) struct Bridge {
     pub confidence: f64,
 }
 
-/// A field and what is known about it, by which its holes are bridged.
+/// Heights of a field, and what is known about each of them, for bridging its holes.
 pub(crate) struct Surroundings<'a> {
-    /// Heights; NaN where there is none.
+    /// Heights, row by row; NaN where there is none.
     pub heights: &'a [f64],
-    /// Confidence of each height; empty for 1 each. Heights of confidence 0 do not count.
+    /// Confidence of each height; empty if all are 1. Heights of confidence 0 do not count.
     pub confidence: &'a [f64],
-    /// Whether there is no surface at an index, whatever is around it.
+    /// Whether the vertex or pixel with this index is excluded from the surface, so that it is never bridged.
     pub outside: &'a dyn Fn(usize) -> bool,
-    /// Whether there is an occlusion at an index: it and its neighbours stay as they are.
+    /// Whether the vertex or pixel with this index is at an occlusion: it and its neighbours are not bridged.
     pub torn: &'a dyn Fn(usize) -> bool,
 }
 
 impl Surroundings<'_> {
-    /// The image sampled on a lattice, as [`HeightImage::to_lattice`] does.
+    /// Finds the bridges of a heightfield, an image sampled on a lattice as by [`HeightImage::to_lattice`]: holes up to
+    /// `width` vertices across.
     pub(crate) fn on_lattice(&self, field: &Heightfield, width: usize) -> Result<Vec<Bridge>> {
         let lattice = field.lattice();
         let raster = Raster::hexagonal(lattice.rows(), lattice.cols(), width)?;
@@ -160,18 +161,18 @@ impl Surroundings<'_> {
 #[derive(Debug, Clone, PartialEq)]
 pub struct BridgedImage {
     image: HeightImage,
-    /// The image before it was bridged.
+    /// The image as it was before bridging.
     original: HeightImage,
     /// Confidence of each pixel; `None` if all are equal.
     confidence: Option<HeightImage>,
     bridged: usize,
 }
 
-/// A bridged image, sampled at the vertices of a lattice.
+/// A bridged image sampled at the vertices of a lattice.
 pub(crate) struct OnLattice {
     pub heights: Heightfield,
     pub confidence: Option<Vec<f64>>,
-    /// Vertices that have a height because of bridged pixels.
+    /// Number of lattice vertices that have a height only because a hole in the image was bridged.
     pub bridges: usize,
 }
 
@@ -186,9 +187,9 @@ impl HeightImage {
         self.bridged_where(bridging, None, None, None)
     }
 
-    /// Bridges small holes of the image with more information about its pixels: the confidence of each height
-    /// (NaN or 0 where it does not count), that there is no surface where `keep` is 0, and an occlusion where
-    /// `torn` is not 0.
+    /// Bridges small holes of the image with more information about its pixels: the confidence of each height (NaN or 0
+    /// where it does not count), `keep`, which is 0 where there is no surface, and `torn`, which is not 0 at an
+    /// occlusion.
     ///
     /// # Errors
     /// As [`HeightImage::bridged`]; [`Error::Shape`](crate::Error::Shape) for what is not one value
@@ -243,17 +244,17 @@ impl HeightImage {
 }
 
 impl BridgedImage {
-    /// The image, with heights in bridged holes: for [`Heightfield::to_image`] on the way back.
+    /// The image with heights in bridged holes: for [`Heightfield::to_image`] on the way back.
     pub fn image(&self) -> &HeightImage {
         &self.image
     }
 
-    /// The image, with heights in bridged holes.
+    /// Returns the image with heights in bridged holes.
     pub fn into_image(self) -> HeightImage {
         self.image
     }
 
-    /// Sampled on a lattice, as [`HeightImage::to_lattice`] does.
+    /// Samples the bridged image on a lattice, as [`HeightImage::to_lattice`] does.
     pub(crate) fn on_lattice(&self, spacing: Option<f64>) -> Result<OnLattice> {
         let heights = self.image.to_lattice(spacing)?;
         let lattice = *heights.lattice();
@@ -274,12 +275,12 @@ impl BridgedImage {
         })
     }
 
-    /// Number of pixels that were bridged.
+    /// Number of pixels in holes that were bridged, that is filled with a height.
     pub fn len(&self) -> usize {
         self.bridged
     }
 
-    /// Whether there was nothing to bridge.
+    /// Whether no hole was bridged.
     pub fn is_empty(&self) -> bool {
         self.bridged == 0
     }

@@ -1,19 +1,19 @@
-//! A raster of vertices or pixels with a margin around it, and the neighbours of each cell.
+//! Raster of lattice vertices or pixels with a margin around it, and the neighbours of each cell.
 
 use crate::error::{Result, try_filled};
 use crate::lattice::hexagonal::{NEIGHBOUR_DIRECTIONS, ROW_SPACING};
 
-/// A raster of cells in rows, counted over the padded box, so that neighbours are at offsets that depend on the
-/// parity of the row alone.
+/// A raster of cells (lattice vertices or pixels) in rows, with a margin on all sides, so that neighbours are at index
+/// offsets that depend only on the parity of the row.
 pub(super) struct Raster {
     hexagonal: bool,
     rows: usize,
     cols: usize,
-    /// Number of cells beyond the data on each side, which is even.
+    /// Width of the margin on each side, in cells; even, so that rows keep their parity.
     margin: usize,
     pub stride: usize,
     pub height: usize,
-    /// Offsets to the neighbours, from even and from odd rows.
+    /// Index offsets from a cell to its neighbours: for even and for odd rows.
     offsets: [Vec<isize>; 2],
 }
 
@@ -26,7 +26,7 @@ impl Raster {
         Raster::new(false, rows, cols, width)
     }
 
-    /// A raster with a margin a little wider than `width`.
+    /// Makes a raster with a margin slightly wider than `width`, the maximum width of a hole.
     fn new(hexagonal: bool, rows: usize, cols: usize, width: usize) -> Result<Self> {
         let margin = (width + 4).next_multiple_of(2);
         let mut raster = Raster {
@@ -49,7 +49,7 @@ impl Raster {
         self.stride * self.height
     }
 
-    /// Copies the values of the data to the padded box, with the value `beyond` in the margin.
+    /// Copies values of the data to the padded raster, with the value `beyond` in the margin.
     pub(super) fn padded(&self, values: &[f64], beyond: f64) -> Result<Vec<f64>> {
         let mut padded = try_filled("bridged holes", self.cells(), beyond)?;
         for (row, values) in values.chunks(self.cols).enumerate() {
@@ -59,7 +59,7 @@ impl Raster {
         Ok(padded)
     }
 
-    /// Index in the data's arrays of a cell that is not in the margin.
+    /// Index in the data's arrays of a cell of the padded raster that is not in the margin.
     pub(super) fn index(&self, cell: usize) -> usize {
         let (row, col) = (
             cell / self.stride - self.margin,
@@ -68,19 +68,19 @@ impl Raster {
         row * self.cols + col
     }
 
-    /// Whether a cell is not in the margin.
+    /// Whether a cell of the padded raster belongs to the data, not to the margin.
     pub(super) fn is_inside(&self, cell: usize) -> bool {
         let (row, col) = (cell / self.stride, cell % self.stride);
         let within = |i: usize, n: usize| (self.margin..self.margin + n).contains(&i);
         within(row, self.rows) && within(col, self.cols)
     }
 
-    /// Offset from a cell in an even or odd row to another one some rows and columns away.
+    /// Index offset that corresponds to a step of some rows and columns.
     fn offset(&self, [row, col]: [isize; 2]) -> isize {
         row * self.stride as isize + col
     }
 
-    /// Steps in rows and columns to the neighbours, from a row of this parity, in the order of their angles.
+    /// Steps, as rows and columns, from a cell in an even or odd row to its neighbours, ordered by angle.
     pub(super) fn steps(&self, odd: bool) -> Vec<[isize; 2]> {
         let row = isize::from(odd);
         match self.hexagonal {
@@ -104,8 +104,9 @@ impl Raster {
         }
     }
 
-    /// Offsets to the cells of the `k`-th step outwards, counted from 1, from even and from odd rows. On pixels
-    /// every other step goes along rows and columns alone: eight corners are rounder than four.
+    /// Index offsets from a cell to the cells one step further outwards, when a region grows by its `k`-th step (from
+    /// 1): for even and for odd rows. On pixels every other step goes along rows and columns only: eight corners are
+    /// rounder than four.
     pub(super) fn step_offsets(&self, k: usize) -> [Vec<isize>; 2] {
         [false, true].map(|odd| {
             let straight =
@@ -124,7 +125,7 @@ impl Raster {
         offsets.iter().map(move |o| cell.wrapping_add_signed(*o))
     }
 
-    /// Position of a cell some rows and columns away from one in a row of this parity, in distances between
+    /// Position of the cell that is some rows and columns away from one in an even or odd row, in distances between
     /// neighbours.
     pub(super) fn place(&self, odd: bool, [row, col]: [isize; 2]) -> [f64; 2] {
         let shift = |odd: bool| if odd { 0.5 } else { 0.0 };
@@ -140,8 +141,8 @@ impl Raster {
         }
     }
 
-    /// Offsets to the other cells of the smallest shapes that are two across and have a cell as one corner:
-    /// triangles, or a square.
+    /// Index offsets to the other cells of each smallest shape two cells across that has a cell as a corner: triangles
+    /// on the lattice, a square on pixels.
     pub(super) fn pairs(&self, odd: bool) -> Vec<Vec<isize>> {
         let steps: Vec<isize> = self
             .steps(odd)

@@ -1,10 +1,11 @@
-//! Sites around a hole's cell, ring by ring.
+//! Sites (neighbouring cells) around a cell in a hole, ring by ring.
 
 use nalgebra::Vector2;
 
 use super::raster::Raster;
 
-/// Sites around a cell, sorted by their distance: those `k` steps away are `sites[rings[k - 1]..rings[k]]`.
+/// Sites around a cell (the relative positions of further cells), sorted by their number of steps from it: those `k`
+/// steps away are `sites[rings[k - 1]..rings[k]]`.
 pub(super) struct Sites {
     pub sites: Vec<Site>,
     pub rings: Vec<usize>,
@@ -13,16 +14,16 @@ pub(super) struct Sites {
 pub(super) struct Site {
     pub offset: isize,
     pub place: Vector2<f64>,
-    /// Sector of directions that the site is in, of twelve.
+    /// Number of the sector of directions that the site lies in, of twelve around the cell.
     pub sector: u32,
-    /// Half of the site's neighbours, so that each pair occurs once.
+    /// Indices of half of this site's neighbours in the list of sites, so that each pair of neighbours occurs once.
     pub next: Vec<usize>,
 }
 
-/// Number of sectors of directions, which tell whether neighbours surround a cell.
+/// Number of sectors of directions by which it is decided whether heights surround a cell in a hole.
 const DIRECTION_SECTORS: u32 = 12;
 
-/// Margin that keeps directions on the border of two sectors on one side, in full turns.
+/// Angle, in full turns, added so that directions on the border of two sectors fall into the same one despite rounding.
 const SECTOR_BORDER_TURNS: f64 = 1e-9;
 
 impl Sites {
@@ -71,7 +72,7 @@ impl Sites {
     }
 }
 
-/// Whether the sectors, as bits, surround a cell: no half turn of them is empty.
+/// Whether sites in the given sectors, a bit for each, surround a cell: no half turn is without one.
 pub(super) fn surround(sectors: u32) -> bool {
     let all = sectors | sectors << DIRECTION_SECTORS;
     let half = (1 << (DIRECTION_SECTORS / 2)) - 1;

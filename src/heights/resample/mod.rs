@@ -8,18 +8,18 @@ use super::heightfield::{HeightImage, Heightfield};
 use crate::error::{Result, try_filled};
 use crate::lattice::hexagonal::{Lattice, Located};
 
-/// Distance from a row or column, in grid steps, below which a point lies on it: far above rounding errors, far
-/// below anything visible.
-const ON_GRID: f64 = 1e-9;
+/// Distance from a row or column of pixels or vertices, in grid steps, below which a point lies on it: far above
+/// rounding errors, far below anything visible.
+const ON_GRID_TOLERANCE: f64 = 1e-9;
 
-/// Maximum distance beyond the last vertex at which heights are extrapolated, in units of the coarser of
-/// lattice spacing and pixel size.
-const EXTRAPOLATION_REACH: f64 = 3.0;
+/// Maximum distance beyond the lattice's outermost vertices at which heights are extrapolated, in units of the larger
+/// of lattice spacing and pixel size.
+const MAX_EXTRAPOLATION_STEPS: f64 = 3.0;
 
-/// Mark of a pixel that no plane has reached.
+/// Marks a pixel to which the plane fitted around a lattice vertex has not been extended.
 const NO_SOURCE: u32 = u32::MAX;
 
-/// Mark of a pixel that lies within a triangle.
+/// Marks a pixel that lies within a lattice triangle, so that its height is interpolated.
 const PIXEL_IN_TRIANGLE: u32 = u32::MAX - 1;
 
 impl HeightImage {
@@ -50,7 +50,7 @@ impl HeightImage {
         self.sampled_on(&lattice)
     }
 
-    /// Samples the image at the vertices of a given lattice, by the rules of [`HeightImage::to_lattice`]: for another
+    /// Samples the image at the vertices of a given lattice, by the rules of [`HeightImage::to_lattice`]. For a further
     /// image of the same scene, such as one of confidences.
     ///
     /// # Errors
@@ -67,8 +67,7 @@ impl HeightImage {
 }
 
 impl Heightfield {
-    /// The surface at the pixels of `like`: a height wherever `like` has one,
-    /// NaN elsewhere.
+    /// Samples the surface at the pixels of the image `like`: a height wherever `like` has one, NaN elsewhere.
     ///
     /// Within a lattice triangle with three heights the surface is linear.
     /// Pixels beyond (the lattice of an image ends up to one cell before its
@@ -85,7 +84,7 @@ impl Heightfield {
     /// [`Error::OutOfMemory`](crate::Error::OutOfMemory) if the image cannot be allocated.
     pub fn to_image(&self, like: &HeightImage) -> Result<HeightImage> {
         let (width, pixels) = (like.width(), like.values().len());
-        let reach = EXTRAPOLATION_REACH * self.lattice().spacing().max(like.pixel_size());
+        let reach = MAX_EXTRAPOLATION_STEPS * self.lattice().spacing().max(like.pixel_size());
         let mut values = try_filled("height image", pixels, f64::NAN)?;
         let mut sources = try_filled("height image", pixels, NO_SOURCE)?;
         let triangle_of = |i: usize| self.triangle_at(like.position(i / width, i % width));
@@ -142,7 +141,7 @@ impl Heightfield {
         HeightImage::new(width, like.height(), values)?.with_pixel_size(like.pixel_size())
     }
 
-    /// The lattice triangle around `p`; `None` if `p` is far outside.
+    /// Finds the lattice triangle around the point `p`; `None` if `p` is more than a cell outside of the lattice.
     fn triangle_at(&self, p: [f64; 2]) -> Option<Located> {
         let lattice = self.lattice();
         let ([x0, y0], h) = (lattice.origin(), lattice.spacing());
@@ -154,7 +153,7 @@ impl Heightfield {
         near.then(|| lattice.locate(p))
     }
 
-    /// Height of a vertex that may lie outside of the lattice, where it is NaN.
+    /// Height of a vertex in a row and column; NaN outside of the lattice.
     fn height_or_nan(&self, (row, col): (isize, isize)) -> f64 {
         if self.lattice().contains(row, col) {
             self.height(row as usize, col as usize)
@@ -163,7 +162,7 @@ impl Heightfield {
         }
     }
 
-    /// Linear interpolation in a triangle; NaN if a vertex that counts has no height.
+    /// Interpolates the height linearly in a triangle; NaN if a vertex with a weight has no height.
     fn linear(&self, triangle: &Located) -> f64 {
         let corners = triangle.vertices.map(|v| self.height_or_nan(v));
         if corners.iter().all(|z| z.is_finite()) {
@@ -179,7 +178,8 @@ impl Heightfield {
         }
     }
 
-    /// The triangle's vertex that is nearest to the point, among those with a height.
+    /// Index of the triangle's vertex with the largest weight, that is the nearest to the point, among those with a
+    /// height.
     fn heaviest(&self, triangle: &Located) -> u32 {
         (triangle.vertices.into_iter().zip(triangle.weights))
             .filter(|(v, _)| self.height_or_nan(*v).is_finite())
@@ -189,7 +189,8 @@ impl Heightfield {
             })
     }
 
-    /// Height at `p` of the plane around a vertex; `None` beyond `reach` or without a plane.
+    /// Height at the point `p` of the plane fitted around a vertex; `None` if `p` is further than `reach` from it, or
+    /// there is no plane.
     fn continued(&self, vertex: u32, p: [f64; 2], reach: f64) -> Option<f64> {
         if vertex == NO_SOURCE {
             return None;
@@ -206,7 +207,7 @@ impl Heightfield {
         z.is_finite().then_some(z)
     }
 
-    /// Slope of the least-squares plane through a vertex and near its valid neighbours; `None`
+    /// Slope `[∂z/∂x, ∂z/∂y]` of the least-squares plane through a vertex and near its neighbours with heights; `None`
     /// where these lie on one line.
     pub(crate) fn gradient(&self, row: usize, col: usize) -> Option<[f64; 2]> {
         let lattice = self.lattice();
@@ -235,12 +236,12 @@ impl Heightfield {
     }
 }
 
-/// The four pixels around a point.
+/// The four pixels around a point, between which heights are interpolated.
 struct Cell {
-    /// Their heights, NaN outside of the image. Corner k lies to the right if bit 0 is set and
-    /// below if bit 1 is set.
+    /// Heights of the four pixels, NaN outside of the image. Pixel `k` lies to the right if bit 0 of `k` is set, and
+    /// below if bit 1 is.
     corners: [f64; 4],
-    /// Position of the point between them, to the right of the upper left one.
+    /// Position of the point, from 0 to 1 to the right of the upper left pixel's centre; `fy` is that below it.
     fx: f64,
     fy: f64,
 }
@@ -261,7 +262,7 @@ impl Cell {
     }
 }
 
-/// Position of a point in pixels, to the right of and below the centre of the first pixel.
+/// Converts a point to pixels, to the right of and below the centre of the first pixel.
 fn in_pixels(image: &HeightImage, [x, y]: [f64; 2]) -> [f64; 2] {
     [
         x / image.pixel_size() - 0.5,
@@ -269,7 +270,7 @@ fn in_pixels(image: &HeightImage, [x, y]: [f64; 2]) -> [f64; 2] {
     ]
 }
 
-/// Index of the pixel in a whole-numbered row and column; `None` outside of the image.
+/// Index of the pixel in a row and column, which are whole numbers; `None` outside of the image.
 fn pixel_at(image: &HeightImage, row: f64, col: f64) -> Option<usize> {
     let inside =
         (0.0..image.height() as f64).contains(&row) && (0.0..image.width() as f64).contains(&col);
@@ -285,7 +286,7 @@ fn bilinear_weights(fx: f64, fy: f64) -> [f64; 4] {
     ]
 }
 
-/// The height within a cell; NaN where there is none. See [`HeightImage::to_lattice`].
+/// Interpolates the height between four pixels, by the rules of [`HeightImage::to_lattice`]; NaN where there is none.
 fn sample(&Cell { corners, fx, fy }: &Cell) -> f64 {
     let bilinear = |fx: f64, fy: f64| -> f64 {
         (corners.iter().zip(bilinear_weights(fx, fy)))
@@ -301,7 +302,7 @@ fn sample(&Cell { corners, fx, fy }: &Cell) -> f64 {
             let dx = if k & 1 == 1 { fx } else { 1.0 - fx };
             let dy = if k & 2 == 2 { fy } else { 1.0 - fy };
             let rest = 1.0 - dx - dy;
-            if rest >= -ON_GRID {
+            if rest >= -ON_GRID_TOLERANCE {
                 return rest * corners[k ^ 3] + dx * corners[k ^ 2] + dy * corners[k ^ 1];
             }
         }
@@ -311,18 +312,18 @@ fn sample(&Cell { corners, fx, fy }: &Cell) -> f64 {
     bilinear(snap(fx), snap(fy))
 }
 
-/// Rounds a weight to 0 or 1 if it differs by rounding errors alone.
+/// Rounds an interpolation weight to 0 or 1 if it differs from that by rounding errors only.
 fn snap(weight: f64) -> f64 {
-    if weight.abs() < ON_GRID {
+    if weight.abs() < ON_GRID_TOLERANCE {
         0.0
-    } else if (1.0 - weight).abs() < ON_GRID {
+    } else if (1.0 - weight).abs() < ON_GRID_TOLERANCE {
         1.0
     } else {
         weight
     }
 }
 
-/// Indices of the up to eight pixels around pixel `i`.
+/// Indices of the up to eight pixels around pixel `i` of an image.
 fn neighbours(image: &HeightImage, i: usize) -> impl Iterator<Item = usize> {
     let (width, height) = (image.width(), image.height());
     let (row, col) = (i / width, i % width);

@@ -1,17 +1,17 @@
 //! Resampling by the nearest pixel or vertex, for hard constraints and flags, which must not be interpolated.
 
-use super::{Cell, ON_GRID, bilinear_weights, in_pixels, pixel_at};
+use super::{Cell, ON_GRID_TOLERANCE, bilinear_weights, in_pixels, pixel_at};
 use crate::error::{Result, check_shape, try_filled};
 use crate::heights::heightfield::{HeightImage, Heightfield};
 use crate::lattice::hexagonal::Lattice;
 
 impl HeightImage {
-    /// Hard constraints of the pixels at the vertices of a surface that have a height. Each pixel with a
-    /// constraint constrains the vertex nearest to it, so that a point stays a point and a line a line; in an
-    /// area of such pixels all vertices between them are constrained. The height is bilinear between those of
-    /// the four pixels around the vertex that have one: a lone pixel's own, and along a line and within an area
-    /// exact on a slope. On a lattice so coarse that there is none of them around, it is the mean of the pixels
-    /// that constrain the vertex.
+    /// Transfers hard constraints from the pixels of this image to the vertices of a surface that have a height. Each
+    /// pixel with a constraint constrains the vertex nearest to it, so that a point stays a point and a line a line; in
+    /// an area of such pixels all vertices between them are constrained. The height is bilinear between those of the
+    /// four pixels around the vertex that have one: a lone pixel's own, and along a line and within an area exact on a
+    /// slope. On a lattice so coarse that none of these four has one, it is the mean of the pixels that constrain the
+    /// vertex.
     ///
     /// # Errors
     /// [`Error::OutOfMemory`](crate::Error::OutOfMemory).
@@ -33,7 +33,7 @@ impl HeightImage {
             let p = lattice.position(vertex / lattice.cols(), vertex % lattice.cols());
             let (mean, share) = mean(&Cell::around(self, p));
             *z = match claims[vertex] {
-                0 if share > 1.0 - ON_GRID && within(vertex) => mean,
+                0 if share > 1.0 - ON_GRID_TOLERANCE && within(vertex) => mean,
                 0 => f64::NAN,
                 number if share == 0.0 => *z / f64::from(number),
                 _ => mean,
@@ -42,10 +42,11 @@ impl HeightImage {
         Heightfield::new(*lattice, heights)
     }
 
-    /// Flags of the pixels at the vertices of a lattice: each vertex has those of its nearest pixel.
+    /// Transfers flags from the pixels to the vertices of a lattice: each vertex gets the flag of its nearest pixel.
     ///
     /// # Errors
-    /// [`Error::Shape`](crate::Error::Shape) if there is not one for each pixel, [`Error::OutOfMemory`](crate::Error::OutOfMemory).
+    /// [`Error::Shape`](crate::Error::Shape) if there is not one for each pixel,
+    /// [`Error::OutOfMemory`](crate::Error::OutOfMemory).
     pub fn flags_on(&self, lattice: &Lattice, flags: &[u8]) -> Result<Vec<u8>> {
         check_shape("occlusions", self.height(), self.width(), flags.len())?;
         let mut out = try_filled("flags", lattice.len(), 0)?;
@@ -56,11 +57,12 @@ impl HeightImage {
         Ok(out)
     }
 
-    /// Flags of a lattice's vertices at the pixels: each pixel with a height has those of its nearest vertex,
-    /// the others 0.
+    /// Transfers flags from a lattice's vertices to the pixels: each pixel with a height gets the flag of its nearest
+    /// vertex, the others 0.
     ///
     /// # Errors
-    /// [`Error::Shape`](crate::Error::Shape) if there is not one for each vertex, [`Error::OutOfMemory`](crate::Error::OutOfMemory).
+    /// [`Error::Shape`](crate::Error::Shape) if there is not one for each vertex,
+    /// [`Error::OutOfMemory`](crate::Error::OutOfMemory).
     pub fn flags_from(&self, lattice: &Lattice, flags: &[u8]) -> Result<Vec<u8>> {
         check_shape("occlusions", lattice.rows(), lattice.cols(), flags.len())?;
         let mut out = try_filled("flags", self.values().len(), 0)?;
@@ -74,13 +76,14 @@ impl HeightImage {
     }
 }
 
-/// Index of the pixel around a point; on the border of two the right or lower one's.
+/// Index of the pixel that contains a point; on the border of two pixels the right or lower one. None outside of the
+/// image.
 fn nearest_pixel(image: &HeightImage, p: [f64; 2]) -> Option<usize> {
-    let [u, v] = in_pixels(image, p).map(|w| (w + 0.5 + ON_GRID).floor());
+    let [u, v] = in_pixels(image, p).map(|w| (w + 0.5 + ON_GRID_TOLERANCE).floor());
     pixel_at(image, v, u)
 }
 
-/// Index of the vertex nearest to a point among the corners of its triangle that count.
+/// Index of the vertex nearest to a point, among the corners of the point's lattice triangle that satisfy `counts`.
 fn nearest_vertex(lattice: &Lattice, p: [f64; 2], counts: impl Fn(usize) -> bool) -> Option<usize> {
     // In an equilateral triangle the nearest corner is the one of the largest weight.
     let triangle = lattice.locate(p);
@@ -92,7 +95,7 @@ fn nearest_vertex(lattice: &Lattice, p: [f64; 2], counts: impl Fn(usize) -> bool
         .map(|(vertex, _)| vertex)
 }
 
-/// The bilinear mean of the corners that have a height, and their share of the weights.
+/// Bilinear mean of those of the four pixels around a point that have a height, and the sum of their weights.
 fn mean(cell: &Cell) -> (f64, f64) {
     let weights = bilinear_weights(cell.fx, cell.fy);
     let (sum, share) = (cell.corners.iter().zip(weights))

@@ -1,20 +1,20 @@
-//! Candidate masks of a page, by thresholds of lightness and colour and by models of both.
+//! Candidate masks of a page in a photo, by thresholds of lightness and colour and by colour histograms of page and
+//! background.
 
 use super::colour_model::{ColourModel, opponent_axes};
 use super::planes::Planes;
 
-/// Width of the strip along the photo's rim that is initially taken for background, as a share of the photo's
-/// sides.
+/// Width of the strip along the photo's rim that is initially taken for background, as a share of the photo's sides.
 const FRAME_SHARE: f64 = 0.04;
 
 /// Distance from the photo's rim of the central rectangle that is initially taken for the page, as a share of the
 /// photo's sides.
 const MIDDLE_SHARE: f64 = 0.25;
 
-/// Variance of a reduced photo's noise in each axis of colour.
+/// Variance of noise that is added to the variance of each colour component of a reduced photo.
 const COLOUR_NOISE_VARIANCE: f64 = 1e-4;
 
-/// Number of levels of grey that thresholds are chosen from.
+/// Number of levels to which pixel values are rounded when Otsu's thresholds are computed.
 const THRESHOLD_LEVELS: usize = 128;
 
 /// Two masks: whether each pixel is in the strip along the photo's rim, and whether it is in the central rectangle.
@@ -33,8 +33,8 @@ fn frame_and_middle(width: usize, height: usize) -> [Vec<bool>; 2] {
     ]
 }
 
-/// Otsu's thresholds of some values: the one that divides them into two classes of least variance, and the two that
-/// divide them into three.
+/// Computes Otsu's thresholds of the values: the one that divides them into two classes of least variance, and the two
+/// that divide them into three. Empty if all values are equal.
 fn otsu_thresholds(values: &[f32]) -> Vec<f32> {
     let (low, high) = values.iter().fold((f32::MAX, f32::MIN), |(low, high), v| {
         (low.min(*v), high.max(*v))
@@ -75,8 +75,8 @@ fn otsu_thresholds(values: &[f32]) -> Vec<f32> {
         .to_vec()
 }
 
-/// Lightness and colour differences summed with the weights that separate middle and frame best (Fisher's linear
-/// discriminant, with the axes taken for independent).
+/// Projects each pixel's colour (lightness and two colour differences) to the one number that separates the masks
+/// `middle` (page) and `frame` (background) best: Fisher's linear discriminant with independent components.
 fn discriminant(axes: &[[f32; 3]], frame: &[bool], middle: &[bool]) -> Vec<f32> {
     let moments = |mask: &[bool]| {
         let mut sums = [[0.0_f64; 2]; 3];
@@ -103,8 +103,8 @@ fn discriminant(axes: &[[f32; 3]], frame: &[bool], middle: &[bool]) -> Vec<f32> 
         .collect()
 }
 
-/// Candidate masks of a page, from an image whose print is suppressed. Most of them are similar if the page is easy
-/// to see.
+/// Makes candidate masks of the page from a reduced photo whose print is suppressed, each saying for every pixel
+/// whether it is page. Most of them are similar if the page is easy to see.
 pub(super) fn candidate_masks(planes: &Planes) -> Vec<Vec<bool>> {
     let [r, g, b] = &planes.channels;
     let colours: Vec<[f32; 3]> = (0..planes.len()).map(|i| [r[i], g[i], b[i]]).collect();

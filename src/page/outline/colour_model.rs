@@ -1,44 +1,49 @@
-//! Colours of page and ground as histograms, and masks by their likelihood ratio.
+//! Colour histograms of page and background, and masks of the page by their likelihood ratio.
 
 use super::morphology::box_mean;
 use super::planes::Planes;
 use crate::page::text::ranking::ranked;
 
-/// Number of bins for lightness, and for each of the two differences of colour.
+/// Number of histogram bins for lightness, and for each of the two colour differences.
 const BINS_PER_COMPONENT: [usize; 3] = [24, 16, 16];
 
-/// Minimum width of a bin, in logarithms: about twice the noise of a reduced photo.
+/// Minimum width of a colour histogram's bin, in units of logarithmic colour: about twice the noise of a reduced photo.
 const MIN_BIN_WIDTH: f32 = 0.02;
 
-/// Share of the pixels left out at either end of each axis before it is divided into bins.
+/// Share of the pixels at either end of a colour component's range that is left out when the range is divided into
+/// bins.
 const BIN_RANGE_TRIM: f64 = 0.01;
 
-/// Step between the pixels of which the range of an axis is taken.
-const SAMPLE_STEP: usize = 7;
+/// Distance, in the list of pixels, between those from which the range of a colour component is measured.
+const COLOUR_SAMPLE_STEP: usize = 7;
 
-/// Number of times that both histograms are counted anew with the mask of the round before.
+/// Maximum number of times that the histograms of page and background are counted anew with the latest mask of the
+/// page.
 const HISTOGRAM_ROUNDS: usize = 4;
 
-/// Radius, in pixels of half the reduced size, of the square over which likelihood ratios are averaged.
+/// Radius, in pixels of the reduced photo at half resolution, of the square over which the probability of being page is
+/// averaged.
 const SMOOTHING_RADIUS: usize = 2;
 
-/// Count added to each bin, as a share of a uniform histogram, so that unseen colours decide nothing.
+/// Count added to each histogram bin, as a share of a uniform histogram, so that colours that were not observed decide
+/// nothing.
 const UNIFORM_SHARE: f32 = 0.02;
 
-/// The bin of colour of each pixel.
+/// Colours of a photo's pixels as numbers of histogram bins, by which page and background are told apart.
 pub(super) struct ColourModel {
     bins: Vec<u16>,
     width: usize,
     height: usize,
 }
 
-/// Lightness and two differences of colour, which light of one colour does not change.
+/// Converts a logarithmic colour to lightness and two colour differences; the differences do not change with the
+/// brightness of the light.
 pub(super) fn opponent_axes([r, g, b]: [f32; 3]) -> [f32; 3] {
     [(r + g + b) / 3.0, r - g, b - g]
 }
 
 impl ColourModel {
-    /// Divides the colours of an image into bins.
+    /// Assigns each pixel's colour to a histogram bin.
     pub fn new(planes: &Planes) -> Self {
         let [r, g, b] = &planes.channels;
         let axes: Vec<[f32; 3]> = (0..planes.len())
@@ -46,7 +51,7 @@ impl ColourModel {
             .collect();
         let mut bins = vec![0_u16; axes.len()];
         for (axis, &count) in BINS_PER_COMPONENT.iter().enumerate() {
-            let sample: Vec<f64> = (axes.iter().step_by(SAMPLE_STEP))
+            let sample: Vec<f64> = (axes.iter().step_by(COLOUR_SAMPLE_STEP))
                 .map(|colour| f64::from(colour[axis]))
                 .collect();
             let order = ranked(&sample);
@@ -65,7 +70,7 @@ impl ColourModel {
         }
     }
 
-    /// Relative frequencies of the colours at some pixels, smoothed over neighbouring bins.
+    /// Counts the relative frequency of each colour bin among some pixels, smoothed over neighbouring bins.
     fn histogram(&self, pixels: impl Iterator<Item = usize>) -> Vec<f32> {
         let [n, m, k] = BINS_PER_COMPONENT;
         let mut counts = vec![0.0_f32; n * m * k];
@@ -88,7 +93,8 @@ impl ColourModel {
         counts.iter().map(|count| count * norm + floor).collect()
     }
 
-    /// Mask of the pixels whose colour is likelier on the page than on the ground.
+    /// Returns the mask of the pixels whose colour is more frequent among the `page` pixels than among the `ground`
+    /// (background) pixels.
     pub fn classify(
         &self,
         page: impl Iterator<Item = usize>,
@@ -105,7 +111,8 @@ impl ColourModel {
         plane.iter().map(|share| *share > 0.5).collect()
     }
 
-    /// Refines a mask: counts the colours inside and outside of it, classifies all pixels by them, and repeats that.
+    /// Refines a mask of the page: counts the colours inside and outside of it, classifies all pixels by these
+    /// histograms, and repeats that until the mask stays as it is.
     pub fn refine(&self, mut mask: Vec<bool>) -> Vec<bool> {
         for _ in 0..HISTOGRAM_ROUNDS {
             let pixels = |inside: bool| {

@@ -1,29 +1,32 @@
-//! Corners of a page to a fraction of a pixel: where its neighbouring edges meet.
+//! Corners of a page with subpixel accuracy: intersections of neighbouring edges.
 
 use crate::math::planar::{cross, distance, line_intersection, polyline_length};
 
-/// Share of an edge's length next to a corner that is left out of its end, because paper is worn and bent there.
+/// Share of an edge's points next to a corner that is left out, because paper is worn and bent there.
 const WORN_END_SHARE: f64 = 0.015;
 
-/// Share of an edge's length over which its direction near a corner is taken.
+/// Share of an edge's points from which its direction near a corner is fitted.
 const END_LENGTH_SHARE: f64 = 0.08;
 
-/// Share of an edge's length over which its direction is taken where the photo's rim cuts it off.
+/// Share of an edge's points from which its direction is fitted where the photo's rim cuts the edge off.
 const CUT_END_LENGTH_SHARE: f64 = 0.2;
 
-/// Minimum number of points that have a direction.
+/// Minimum number of points at an edge's end to which a line is fitted.
 const MIN_END_POINTS: usize = 6;
 
-/// Maximum distance of a corner from the end of an edge in the photo, as a share of the edge's length.
+/// Maximum distance between the end of an edge and the corner that is found for it within the photo, as a share of the
+/// edge's length.
 const MAX_CORNER_SHIFT: f64 = 0.06;
 
-/// Maximum distance of a corner outside of the photo from the end of an edge, as a share of the edge's length.
+/// Maximum distance between the end of an edge and an extrapolated corner outside of the photo, as a share of the
+/// edge's length.
 const MAX_EXTRAPOLATION: f64 = 0.6;
 
-/// Sine of the angle below which two edges have no corner.
+/// Minimum sine of the angle at which two edges are intersected in a corner.
 const MIN_CORNER_SINE: f64 = 0.3;
 
-/// Two points on the least-squares line through a share of an edge at its end.
+/// Fits a straight line to the first points of an edge, which are the share `share` of all of them, without the worn
+/// ones at the end; returns two points on it. None if the points are too few.
 fn end_line(edge: &[[f64; 2]], share: f64) -> Option<[[f64; 2]; 2]> {
     let n = edge.len();
     let skip = (n as f64 * WORN_END_SHARE) as usize;
@@ -42,14 +45,15 @@ fn end_line(edge: &[[f64; 2]], share: f64) -> Option<[[f64; 2]; 2]> {
     Some([mean, [mean[0] + angle.cos(), mean[1] + angle.sin()]])
 }
 
-/// The corner where two edges meet, both given as points from that corner on; `None` if their extensions do not
-/// intersect near their ends.
+/// Finds the corner where two edges meet; both are given as points that begin at that corner. `None` if the edges'
+/// extensions do not intersect near their ends.
 pub(super) fn corner(one: &[[f64; 2]], other: &[[f64; 2]]) -> Option<[f64; 2]> {
     meeting(one, other, END_LENGTH_SHARE, MAX_CORNER_SHIFT)
 }
 
-/// The corner outside of an image of a size between two edges that its rim cuts off, both given from their ends there on;
-/// `None` if they meet inside of the image, or far from it.
+/// Extrapolates the corner outside of the image where two edges meet that the image's rim cuts off; both are given as
+/// points that begin at the rim. `None` if they meet inside of the image of size `size` (width, height), or far from
+/// it.
 pub(super) fn outside_corner(
     one: &[[f64; 2]],
     other: &[[f64; 2]],
@@ -59,19 +63,21 @@ pub(super) fn outside_corner(
     is_outside(point, size, 0.0).then_some(point)
 }
 
-/// Whether a point is outside of an image of a size by more than a distance.
+/// Whether a point is outside of an image of size `size` (width, height) by more than `distance` pixels.
 pub(super) fn is_outside(point: [f64; 2], size: [usize; 2], distance: f64) -> bool {
     (0..2).any(|k| point[k] < -distance || point[k] > size[k] as f64 - 1.0 + distance)
 }
 
-/// The intersection of the lines along the ends of two edges, if it is within a share of the edges' lengths from both.
+/// Intersects two edges' extensions: straight lines fitted to the first share `end` of their points. None if the
+/// intersection is further from either edge's start than the share `shift` of its length.
 fn meeting(one: &[[f64; 2]], other: &[[f64; 2]], end: f64, shift: f64) -> Option<[f64; 2]> {
     let point = line_intersection(end_line(one, end)?, end_line(other, end)?, MIN_CORNER_SINE)?;
     let near = |edge: &[[f64; 2]]| distance(edge[0], point) <= shift * polyline_length(edge);
     (near(one) && near(other)).then_some(point)
 }
 
-/// Ends an edge, given from its end on, at a corner: leaves out its worn end and what is beyond the corner.
+/// Makes an edge begin at a corner: replaces the worn points at its start, and those beyond the corner, by the corner.
+/// `edge` begins at that end.
 pub(super) fn end_at(edge: &mut Vec<[f64; 2]>, corner: [f64; 2]) {
     let n = edge.len();
     let mut skip = (n as f64 * WORN_END_SHARE) as usize;
@@ -90,7 +96,7 @@ pub(super) fn end_at(edge: &mut Vec<[f64; 2]>, corner: [f64; 2]) {
     edge.splice(..skip, [corner]);
 }
 
-/// Whether corners are in clockwise order as seen in the image, around a convex quadrilateral.
+/// Whether four corners are in clockwise order as seen in the image and form a convex quadrilateral.
 pub(super) fn is_convex(corners: &[[f64; 2]; 4]) -> bool {
     (0..4).all(|k| {
         let [a, b, c] = [corners[k], corners[(k + 1) % 4], corners[(k + 2) % 4]];

@@ -1,47 +1,50 @@
-//! Edges of a page to a fraction of a pixel: the path of the strongest contrast in a band along a region's border.
+//! Edges of a page with subpixel accuracy: the path of strongest contrast in a band along a region's border.
 
 use super::corners::is_outside;
 use super::planes::Planes;
 use crate::math::planar::distance;
 
-/// Half of the width of the band in which an edge is looked for, in pixels of the reduced photo.
+/// Half the width of the band along a region's border in which the page's edge is searched, in pixels of the reduced
+/// photo.
 const BAND_RADIUS: usize = 10;
 
-/// Number of pixels beyond the band from which the colours of paper and ground are taken.
+/// Number of pixels by which colour profiles across the border extend beyond the searched band on each side, for the
+/// colours of paper and background.
 const BAND_MARGIN: usize = 4;
 
-/// Half width, in pixels, of the window over which a border, and the colours along it, are smoothed.
+/// Half width, in pixels, of the window over which a region's border, and the colours along it, are averaged.
 const SMOOTHING_LENGTH: usize = 8;
 
-/// Cost of a step of one pixel across the band, in the path search that rewards full contrast with 1 for each pixel
-/// of length.
+/// Cost of a sideways step by one pixel in the search for a page's edge, where full contrast earns 1 for each pixel of
+/// length.
 const STEP_COST: f32 = 0.15;
 
-/// Difference of logarithmic colour at which contrast in direction of the paper's colour and any contrast count alike.
+/// Difference of logarithmic colour between paper and background at which contrast in their direction and contrast of
+/// any colour have equal weight; below it the latter weighs more.
 const WEAK_CONTRAST: f32 = 0.15;
 
-/// Minimum difference of logarithmic colour across an edge that can be seen: 4 % of the light.
+/// Minimum difference of logarithmic colour across an edge of a page that counts as visible: 4 % of the light.
 const MIN_EDGE_CONTRAST: f32 = 0.04;
 
-/// Minimum distance of an edge from the photo's rim, in pixels, at which its ground is seen.
+/// Minimum distance of a page's edge from the photo's rim, in pixels, at which the background beside it is visible.
 const MIN_SIDE_PIXELS: f64 = 1.5;
 
-/// Minimum number of points of a border along which an edge is looked for.
+/// Minimum number of points of a region's border along which a page's edge is searched.
 const MIN_BORDER_POINTS: usize = 24;
 
-/// An edge in the reduced photo.
+/// An edge of a page in the reduced photo: its points, and how clearly it is visible.
 pub(super) struct EdgePath {
-    /// Points about one pixel from each other, in the border's order.
+    /// Points of the page's edge, about one pixel apart, in the order of the region's border.
     pub points: Vec<[f64; 2]>,
-    /// Share of the points, of those with both sides in the photo, across which a contrast can be seen.
+    /// Share of the points with visible contrast, among those with page and background in the photo.
     pub support: f64,
-    /// Share of the points with both sides in the photo.
+    /// Share of the points at which page and background are both in the photo.
     pub visible: f64,
-    /// Median difference of logarithmic colour across the edge.
+    /// Median difference of logarithmic colour between page and background across the edge.
     pub contrast: f64,
 }
 
-/// Points at distances of one on a polyline.
+/// Resamples a polyline at a spacing of one pixel.
 fn resampled(points: &[[f64; 2]]) -> Vec<[f64; 2]> {
     let mut found = Vec::new();
     let mut ahead = 0.0;
@@ -57,7 +60,8 @@ fn resampled(points: &[[f64; 2]]) -> Vec<[f64; 2]> {
     found
 }
 
-/// Smooths a polyline: mean of each point and an equal number of neighbours on both sides.
+/// Smooths a polyline: replaces each point by the mean of itself and its neighbours, up to `radius` and equally many on
+/// both sides.
 fn smoothed(points: &[[f64; 2]], radius: usize) -> Vec<[f64; 2]> {
     let n = points.len();
     (0..n)
@@ -69,7 +73,8 @@ fn smoothed(points: &[[f64; 2]], radius: usize) -> Vec<[f64; 2]> {
         .collect()
 }
 
-/// Unit normals to the right of a polyline's direction, as seen in an image: into the page.
+/// Unit normals of a polyline to the right of its direction, as seen in an image; along a clockwise border they point
+/// into the page.
 fn inward_normals(points: &[[f64; 2]]) -> Vec<[f64; 2]> {
     let n = points.len();
     (0..n)
@@ -84,7 +89,7 @@ fn inward_normals(points: &[[f64; 2]]) -> Vec<[f64; 2]> {
         .collect()
 }
 
-/// Mean of some colours.
+/// Mean of colours, component by component; black for none.
 fn mean_colour<'a>(colours: impl Iterator<Item = &'a [f32; 3]>) -> [f32; 3] {
     let (mut sum, mut count) = ([0.0; 3], 0.0_f32);
     for colour in colours {
@@ -94,23 +99,23 @@ fn mean_colour<'a>(colours: impl Iterator<Item = &'a [f32; 3]>) -> [f32; 3] {
     sum.map(|value| value / count.max(1.0))
 }
 
-/// Distance of two colours.
+/// Euclidean distance between two colours.
 fn difference(a: [f32; 3], b: [f32; 3]) -> f32 {
     (0..3).map(|j| (b[j] - a[j]).powi(2)).sum::<f32>().sqrt()
 }
 
-/// Colours along the normals of a border, from outside to inside.
+/// Colour profiles across a region's border, one for each of its points, from outside to inside.
 struct Band {
     profiles: Vec<[[f32; 3]; PROFILE_LENGTH]>,
 }
 
-/// Number of places in a profile.
+/// Number of pixels in a colour profile across a region's border.
 const PROFILE_LENGTH: usize = 2 * PROFILE_MIDDLE + 1;
 
-/// Place of the border in a profile.
+/// Index of the border itself in a colour profile across it.
 const PROFILE_MIDDLE: usize = BAND_RADIUS + BAND_MARGIN;
 
-/// Number of places at either end of a profile whose colours are those of ground and paper.
+/// Number of pixels at either end of a colour profile that are averaged for the colour of background and paper.
 const SIDE_LENGTH: usize = BAND_MARGIN + BAND_RADIUS / 2;
 
 impl Band {
@@ -126,7 +131,7 @@ impl Band {
         }
     }
 
-    /// Mean colours of ground and paper near a point of the border.
+    /// Mean colours of background and paper, averaged over the profiles near point `i` of the border.
     fn sides(&self, i: usize) -> [[f32; 3]; 2] {
         let from = i.saturating_sub(SMOOTHING_LENGTH);
         let near = &self.profiles[from..(i + SMOOTHING_LENGTH + 1).min(self.profiles.len())];
@@ -140,7 +145,8 @@ impl Band {
     }
 }
 
-/// Worth of an edge at each place of a profile: 1 for a step from the ground's colour to the paper's.
+/// Strength of a page's edge at each place of profile `i`, from 0 to 1: 1 for a step from the background's colour to
+/// the paper's. `clean` is from the photo with print suppressed, `raw` from the photo as it is.
 fn edge_strengths(clean: &Band, raw: &Band, i: usize) -> [f32; PROFILE_LENGTH] {
     let [ground, paper] = clean.sides(i);
     let direction = [0, 1, 2].map(|k| paper[k] - ground[k]);
@@ -161,7 +167,8 @@ fn edge_strengths(clean: &Band, raw: &Band, i: usize) -> [f32; PROFILE_LENGTH] {
     })
 }
 
-/// The place in each profile of the path with the largest sum of strengths minus the cost of its steps (Viterbi).
+/// Finds the path along the border with the largest sum of edge strengths minus the cost of its sideways steps (Viterbi
+/// algorithm); returns its index in each profile.
 fn best_path(strengths: &[[f32; PROFILE_LENGTH]]) -> Vec<usize> {
     let range = BAND_MARGIN..PROFILE_LENGTH - BAND_MARGIN;
     let mut worth = [f32::MIN; PROFILE_LENGTH];
@@ -193,8 +200,8 @@ fn best_path(strengths: &[[f32; PROFILE_LENGTH]]) -> Vec<usize> {
 }
 
 impl EdgePath {
-    /// The edge near a border, given from one corner to the next and clockwise, in a reduced photo as it is and without
-    /// print. `None` if the border is too short.
+    /// Finds the edge of a page near a region's border, which is given clockwise from one corner to the next. `raw` is
+    /// the reduced photo, `clean` the same with print suppressed. `None` if the border is too short.
     pub fn new(raw: &Planes, clean: &Planes, border: &[[f64; 2]]) -> Option<Self> {
         let size = [raw.width, raw.height];
         let border = resampled(&smoothed(&resampled(border), SMOOTHING_LENGTH));

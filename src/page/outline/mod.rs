@@ -1,10 +1,10 @@
 //! Detection of pages in a photo: their corners and edges, with a verdict.
 //!
-//! The photo is reduced to 800 pixels and its print suppressed by a grey closing. Thresholds of lightness and colour, and
-//! histograms of page and ground, give masks; each of their regions has four corners, the largest quadrilateral of its
-//! convex hull. The regions most like a page get exact edges, each the path of most contrast in a band along the border
-//! (Viterbi), and corners where these edges meet. Where no region is like a page, straight lines of contrast (Hough
-//! transform) that enclose the print are tried; what they give is never more than doubtful.
+//! The photo is reduced to 800 pixels and its print suppressed by a grey closing. Thresholds of lightness and colour,
+//! and histograms of page and ground, give masks; each of their regions has four corners, the largest quadrilateral of
+//! its convex hull. The regions most like a page get exact edges, each the path of most contrast in a band along the
+//! border (Viterbi), and corners where these edges meet. Where no region is like a page, straight lines of contrast
+//! (Hough transform) that enclose the print are tried; what they give is never more than doubtful.
 
 mod candidates;
 mod colour_model;

@@ -1,4 +1,4 @@
-//! Maximum, minimum and mean filters over squares, and the grey closing that suppresses print.
+//! Maximum, minimum and mean filters over squares of pixels, and the grey closing that suppresses print.
 
 use super::planes::Planes;
 
@@ -24,7 +24,8 @@ fn apply_separably(
     }
 }
 
-/// The extreme value among `radius` neighbours on either side, for each pixel of a line (van Herk and Gil–Werman).
+/// Replaces each pixel of a line by the extreme value (as the function `extreme` chooses) among itself and `radius`
+/// neighbours on either side, by the algorithm of van Herk, Gil and Werman.
 fn running_extreme(line: &mut [f32], radius: usize, extreme: fn(f32, f32) -> f32) {
     let (n, window) = (line.len(), 2 * radius + 1);
     let padded = |i: usize| line[i.saturating_sub(radius).min(n - 1)];
@@ -45,8 +46,8 @@ fn running_extreme(line: &mut [f32], radius: usize, extreme: fn(f32, f32) -> f32
     }
 }
 
-/// Grey closing by a square with sides of `2 radius + 1` pixels: dark print narrower than that takes the paper's colour.
-/// The image is continued beyond its rim, so that a narrow strip of ground along the rim remains.
+/// Applies a grey closing by a square with sides of `2 radius + 1` pixels: dark print narrower than that takes the
+/// paper's colour. The image is continued beyond its rim, so that a narrow strip of background along the rim remains.
 pub(super) fn closed(planes: &Planes, radius: usize) -> Planes {
     let (width, height) = (planes.width + 2 * radius, planes.height + 2 * radius);
     let channels = planes.channels.each_ref().map(|plane| {
@@ -76,7 +77,7 @@ pub(super) fn closed(planes: &Planes, radius: usize) -> Planes {
     }
 }
 
-/// Means over squares with sides of `2 radius + 1` pixels, which end at the image's rim.
+/// Replaces each pixel by the mean over a square with sides of `2 radius + 1` pixels around it, clipped to the image.
 pub(super) fn box_mean(plane: &mut [f32], width: usize, height: usize, radius: usize) {
     let mut sums = Vec::new();
     apply_separably(plane, width, height, |line| {

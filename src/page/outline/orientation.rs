@@ -1,24 +1,25 @@
-//! Orientation of a page by its print: lines of text run across it, and there is more print in its upper half.
+//! Orientation of a page by its print: lines of text run from left to right, and the upper half has more print.
 
 use super::planes::Planes;
 
-/// Number of samples along each side of the page.
+/// Number of samples along each side of a page when the orientation of its print is determined.
 const SAMPLES_PER_SIDE: usize = 320;
 
-/// Number of strips across the page in which rows of print are looked for, so that lines may be bent.
+/// Number of strips into which the page's width is divided when rows of print are detected, so that lines may be bent.
 const PRINT_STRIPS: usize = 10;
 
-/// Share of the page at each of its edges that is left out, because of shadows.
+/// Share of the page's side at each edge that is left out when the orientation is determined, because of shadows.
 const MARGIN_SHARE: f64 = 0.05;
 
-/// Minimum ratio of the energies of rows and columns from which the print has a direction.
+/// Minimum ratio of the contrast energies across and along the lines for the print to have a direction.
 const MIN_ENERGY_RATIO: f64 = 1.6;
 
-/// Minimum mean print, in logarithmic colour, of a page with an orientation.
-const MIN_PRINT: f64 = 0.003;
+/// Minimum mean darkness of the print, in logarithmic colour, for a page to have an orientation.
+const MIN_MEAN_PRINT: f64 = 0.003;
 
-/// Sum of the squared differences of neighbouring values of profiles across strips of `print`; `at` is the place of a sample
-/// of a strip in it.
+/// Contrast energy of print in one direction: the sum, over parallel strips of the image `print`, of squared
+/// differences between neighbouring values of the strip's profile. `at` gives the index of a sample in `print` by its
+/// place along the profile and across it.
 fn profile_energy(print: &[f32], at: impl Fn(usize, usize) -> usize) -> f64 {
     let width = SAMPLES_PER_SIDE / PRINT_STRIPS;
     let mut energy = 0.0;
@@ -35,8 +36,9 @@ fn profile_energy(print: &[f32], at: impl Fn(usize, usize) -> usize) -> f64 {
     energy
 }
 
-/// The number of corners by which the first corner has to move, clockwise, to be the upper left one of the page as it is read; 0
-/// if the print does not tell. Corners are clockwise, in pixels of a reduced photo as it is and without print.
+/// Number of corners by which the list of corners has to be rotated to begin with the upper left one of the page as it
+/// is read; 0 if the print does not tell. The corners are clockwise, in pixels of the reduced photo `raw`; `clean` is
+/// the same without print.
 pub(super) fn quarter_turns(raw: &Planes, clean: &Planes, corners: &[[f64; 2]; 4]) -> usize {
     let [a, b, c, d] = corners;
     let share = |i: usize| {
@@ -54,7 +56,7 @@ pub(super) fn quarter_turns(raw: &Planes, clean: &Planes, corners: &[[f64; 2]; 4
         total += f64::from(*value);
         right += f64::from(*value) * u;
     }
-    if total < MIN_PRINT * print.len() as f64 {
+    if total < MIN_MEAN_PRINT * print.len() as f64 {
         return 0;
     }
     let rows = profile_energy(&print, |row, col| row * SAMPLES_PER_SIDE + col);

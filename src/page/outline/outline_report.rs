@@ -1,4 +1,4 @@
-//! The result of a search for pages: outlines with corners and edges, a verdict, and the reasons for it.
+//! Result of the search for pages in a photo: outlines with corners and edges, a verdict, and the reasons for it.
 
 use crate::error::{Error, Result};
 use crate::math::planar::{distance_to_segment, polygon_area, polygon_contains};
@@ -10,13 +10,13 @@ use crate::page::edges::{Edges, Trace};
 #[cfg_attr(feature = "serde", serde(rename_all = "camelCase"))]
 #[non_exhaustive]
 pub enum OutlineVerdict {
-    /// One page, with a clear edge all around.
+    /// One page was found, with a clear edge all around.
     Found,
-    /// One page, of which something is not clear: see the reasons.
+    /// One page was found, but something about its outline is uncertain: see the reasons.
     Doubtful,
-    /// Several pages side by side, the best first: choose one.
+    /// Several pages side by side were found, listed by decreasing score: choose one.
     Several,
-    /// No page that can be told from its ground.
+    /// No page was found that can be told from its background.
     NotFound,
 }
 
@@ -30,11 +30,11 @@ pub enum OutlineReason {
     CornerOutside,
     /// Most of an edge is outside of the photo, or on its rim.
     EdgeOutside,
-    /// Part of an edge has no contrast: something covers it, or page and ground look alike.
+    /// Part of an edge has no contrast: something covers it, or page and background look alike.
     FaintEdge,
-    /// The shape is unlike that of a sheet of paper.
+    /// The outline's shape is unlike that of a sheet of paper.
     UnlikelyShape,
-    /// Nothing in the photo looks like a page on a ground.
+    /// Nothing in the photo looks like a page on a background.
     NoPage,
 }
 
@@ -42,19 +42,19 @@ pub enum OutlineReason {
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub struct PageOutline {
-    /// Upper left, upper right, lower right and lower left corner of the page as it is read, in the photo's pixels:
-    /// `[0, 0]` is the centre of the upper left one. A corner may be outside of the photo.
+    /// Upper left, upper right, lower right and lower left corner of the page as it is read, in the photo's pixels;
+    /// `[0, 0]` is the centre of the photo's upper left pixel. A corner may be outside of the photo.
     pub corners: [[f64; 2]; 4],
     /// Upper, right, lower and left edge as polylines from corner to corner, clockwise, in the photo's pixels.
     pub edges: [Vec<[f64; 2]>; 4],
-    /// How sure the outline is, from 0 to 1.
+    /// Confidence that this is the outline of a page, from 0 to 1.
     pub score: f64,
-    /// What is not clear about it.
+    /// Reasons for which the outline is uncertain.
     pub reasons: Vec<OutlineReason>,
 }
 
 impl PageOutline {
-    /// The edges in the form that [`CurledPage`](crate::page::CurledPage) takes.
+    /// Returns the page's edges in the form that [`CurledPage`](crate::page::CurledPage) takes.
     pub fn to_edges(&self) -> Edges {
         let [top, right, bottom, left] = &self.edges;
         let reversed = |edge: &[[f64; 2]]| Trace::Points(edge.iter().rev().copied().collect());
@@ -82,7 +82,8 @@ impl PageOutline {
         farthest / polygon_area(&outline).abs().sqrt()
     }
 
-    /// The same outline with another corner first: `turns` quarter turns of the page clockwise.
+    /// Returns this outline with its lists of corners and edges rotated by `turns` places, so that another corner is
+    /// first.
     pub(super) fn turned(mut self, turns: usize) -> Self {
         self.corners.rotate_left(turns % 4);
         self.edges.rotate_left(turns % 4);
@@ -90,21 +91,21 @@ impl PageOutline {
     }
 }
 
-/// Pages that were found in a photo.
+/// Result of the search for pages in a photo: a verdict, the reasons for it, and the outlines.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub struct OutlineReport {
-    /// Whether one page was found.
+    /// Verdict of the search: one page, a doubtful one, several, or none.
     pub verdict: OutlineVerdict,
-    /// Why the verdict is not [`OutlineVerdict::Found`]; empty if it is.
+    /// Reasons for which the verdict is not [`OutlineVerdict::Found`]; empty if it is.
     pub reasons: Vec<OutlineReason>,
-    /// Outlines, the best first: one of them if the verdict is `Found` or `Doubtful`, more if it is `Several`; of
+    /// Outlines by decreasing score: one if the verdict is `Found` or `Doubtful`, several if it is `Several`; if it is
     /// `NotFound` the best guess, if there is any.
     pub pages: Vec<PageOutline>,
 }
 
 impl OutlineReport {
-    /// The page to be made flat: the best outline.
+    /// Returns the outline of the page to be made flat, which is the one with the highest score.
     ///
     /// # Errors
     /// [`Error::NoPage`] if no page was found.

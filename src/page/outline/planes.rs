@@ -1,29 +1,31 @@
-//! Reduced photos as planes of logarithmic colour.
+//! Reduced photos as planes of logarithmic red, green and blue.
 
 use crate::dewarp::Photo;
 
-/// Maximum length of a reduced photo's longer side, in pixels: edges are found to a tenth of such a pixel, and twelve
-/// megapixels cost one pass over the photo.
+/// Maximum length of a reduced photo's longer side, in pixels: the page's edges are found to a tenth of such a pixel,
+/// and twelve megapixels cost one pass over the photo.
 const MAX_REDUCED_SIDE: usize = 800;
 
-/// Value added to a byte of colour before its logarithm, so that noise of dark pixels does not count much.
+/// Number added to a colour component (0 to 255) before its logarithm is taken, so that noise of dark pixels counts
+/// little.
 const LOG_OFFSET: f64 = 8.0;
 
-/// Three planes of the same size: logarithms of red, green and blue, in which light that falls on a scene is a term.
+/// A reduced photo as three planes of one size: logarithms of red, green and blue, in which a change of the light adds
+/// a constant.
 #[derive(Clone)]
 pub(super) struct Planes {
-    /// Number of columns.
+    /// Number of columns of the reduced photo.
     pub width: usize,
-    /// Number of rows.
+    /// Number of rows of the reduced photo.
     pub height: usize,
-    /// Red, green and blue, row by row.
+    /// Logarithms of red, green and blue, row by row.
     pub channels: [Vec<f32>; 3],
-    /// Pixels of the photo along a side of one pixel here.
+    /// Number of the photo's pixels along a side of one pixel of the reduced photo.
     pub scale: f64,
 }
 
 impl Planes {
-    /// Reduces a photo by averages of square blocks.
+    /// Reduces a photo by averages of square blocks of pixels, to a longer side of at most 800 pixels.
     pub fn from_photo(photo: &Photo<'_>) -> Self {
         let (w, h) = (photo.width(), photo.height());
         let block = w.max(h).div_ceil(MAX_REDUCED_SIDE);
@@ -63,7 +65,7 @@ impl Planes {
         }
     }
 
-    /// The planes at half the resolution.
+    /// Returns the reduced photo at half its resolution.
     pub fn halved(&self) -> Self {
         let (width, height) = ((self.width / 2).max(1), (self.height / 2).max(1));
         let half = |plane: &Vec<f32>| {
@@ -84,12 +86,12 @@ impl Planes {
         }
     }
 
-    /// Number of pixels.
+    /// Number of pixels of the reduced photo.
     pub fn len(&self) -> usize {
         self.width * self.height
     }
 
-    /// Length of the longer side, in pixels.
+    /// Length of the reduced photo's longer side, in pixels.
     pub fn longer_side(&self) -> f64 {
         self.width.max(self.height) as f64
     }
@@ -110,12 +112,12 @@ impl Planes {
         })
     }
 
-    /// The point here of a point in the photo's pixels.
+    /// Converts a point from the photo's pixels to the reduced photo's pixels.
     pub fn reduced_point(&self, point: [f64; 2]) -> [f64; 2] {
         point.map(|at| (at + 0.5) / self.scale - 0.5)
     }
 
-    /// The point in the photo's pixels of a point here.
+    /// Converts a point from the reduced photo's pixels to the photo's pixels.
     pub fn to_photo(&self, point: [f64; 2]) -> [f64; 2] {
         point.map(|at| (at + 0.5) * self.scale - 0.5)
     }

@@ -1,24 +1,27 @@
-//! The quadrilateral of a region: its four corners on the border, and how much the region is like a page.
+//! Quadrilaterals of regions in a mask: four corners on a region's border, and a score of how much it is like a page.
 
 use super::region::Region;
 use crate::math::planar::{cross, distance, orientation, polygon_area, polyline_length};
 use crate::page::text::ranking::ranked;
 
-/// Maximum number of vertices of a convex hull among which corners are looked for; their cost is its third power.
+/// Maximum number of convex hull vertices among which a page's four corners are searched; the cost is the third power
+/// of this.
 const MAX_HULL_VERTICES: usize = 64;
 
-/// Number of pixels from the photo's rim within which a border pixel is none of the page's edge.
+/// Distance from the photo's rim, in pixels, within which a border pixel may be the rim itself and not an edge of the
+/// page.
 const RIM_PIXELS: f64 = 1.0;
 
-/// A region's border with four corners, clockwise.
+/// The border of a region in a mask, divided by four corners, clockwise.
 pub(super) struct Quadrilateral {
-    /// The four arcs of the border from each corner to the next, in pixels of the mask.
+    /// The four arcs of the region's border from each corner to the next, in pixels of the mask.
     pub arcs: [Vec<[f64; 2]>; 4],
-    /// How much the region is like a page, from 0 to 1.
+    /// Score of how much the region is like a page, from 0 to 1.
     pub likeness: f64,
 }
 
-/// The vertices of the convex hull of pixels, as their numbers, around the hull (monotone chain).
+/// Computes the convex hull of pixels by the monotone chain algorithm; returns indices of its vertices in order around
+/// the hull.
 fn convex_hull(points: &[[f64; 2]]) -> Vec<usize> {
     // Coordinates of pixels are whole, so that one number orders them by column, then by row.
     let order = ranked(
@@ -46,7 +49,7 @@ fn convex_hull(points: &[[f64; 2]]) -> Vec<usize> {
     hull
 }
 
-/// Leaves out the vertices of a convex hull that change its area least, until there are few.
+/// Simplifies a convex hull to at most 64 vertices, by repeatedly removing the vertex that changes the area least.
 fn simplify_hull(points: &[[f64; 2]], hull: &mut Vec<usize>) {
     while hull.len() > MAX_HULL_VERTICES {
         let n = hull.len();
@@ -61,7 +64,8 @@ fn simplify_hull(points: &[[f64; 2]], hull: &mut Vec<usize>) {
     }
 }
 
-/// The four vertices of a convex polygon whose quadrilateral is largest, as places in it.
+/// Finds the four vertices of a convex polygon whose quadrilateral has the largest area; returns their indices. None if
+/// the polygon has fewer than four vertices.
 fn largest_quadrilateral(polygon: &[[f64; 2]]) -> Option<[usize; 4]> {
     let n = polygon.len();
     let mut best = (0.0, None);
@@ -86,14 +90,14 @@ fn largest_quadrilateral(polygon: &[[f64; 2]]) -> Option<[usize; 4]> {
     best.1
 }
 
-/// Whether a point is so near to the rim of an image of a size that it may be the rim itself.
+/// Whether a point lies on the rim of an image of size `[width, height]`, to within one pixel.
 pub(super) fn is_at_rim([x, y]: [f64; 2], [width, height]: [usize; 2]) -> bool {
     x.min(y) <= RIM_PIXELS
         || x >= width as f64 - 1.0 - RIM_PIXELS
         || y >= height as f64 - 1.0 - RIM_PIXELS
 }
 
-/// The angle at each corner of a quadrilateral, in radians.
+/// Interior angle at each corner of a quadrilateral, in radians.
 fn corner_angles(corners: &[[f64; 2]; 4]) -> [f64; 4] {
     [0, 1, 2, 3].map(|k| {
         let [before, at, after] = [corners[(k + 3) % 4], corners[k], corners[(k + 1) % 4]];
@@ -105,7 +109,8 @@ fn corner_angles(corners: &[[f64; 2]; 4]) -> [f64; 4] {
     })
 }
 
-/// How much four corners are like those of a sheet of paper seen by a camera, from 0 to 1.
+/// Score of how much four corners are like those of a sheet of paper seen by a camera, from 0 to 1: right angles, and
+/// opposite sides of equal length, give 1.
 pub(super) fn rectangularity(corners: &[[f64; 2]; 4]) -> f64 {
     let angles = corner_angles(corners).map(|angle| angle.sin().max(0.0));
     let lengths = [0, 1, 2, 3].map(|k| distance(corners[k], corners[(k + 1) % 4]));
@@ -115,7 +120,8 @@ pub(super) fn rectangularity(corners: &[[f64; 2]; 4]) -> f64 {
 }
 
 impl Quadrilateral {
-    /// The quadrilateral of a region of a mask `width` pixels wide; `None` if the region is too small to have corners.
+    /// Finds the quadrilateral of a region in a mask `width` pixels wide. `None` if the region is too small to have
+    /// corners.
     pub fn new(region: &Region, width: usize) -> Option<Self> {
         let border: Vec<[f64; 2]> = region
             .border(width)
@@ -155,7 +161,7 @@ impl Quadrilateral {
         })
     }
 
-    /// The corners, in pixels of the mask.
+    /// The four corners, in pixels of the mask.
     pub fn corners(&self) -> [[f64; 2]; 4] {
         self.arcs.each_ref().map(|arc| arc[0])
     }

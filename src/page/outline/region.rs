@@ -1,14 +1,15 @@
-//! Connected regions of a mask: components without holes, and their borders.
+//! Connected regions of a mask, with holes filled, and their borders.
 
-/// A connected set of pixels without holes.
+/// A connected region of a mask, without holes.
 pub(super) struct Region {
-    /// Whether each pixel belongs to it, row by row.
+    /// Whether each pixel of the image belongs to the region, row by row.
     pub mask: Vec<bool>,
-    /// Number of pixels.
+    /// Number of pixels in the region.
     pub area: usize,
 }
 
-/// Calls `visit` for each of the four neighbours of a pixel.
+/// Calls `visit` with each of the up to four neighbours of pixel `i`, in an image of `len` pixels, `width` of them in a
+/// row.
 fn for_neighbours(i: usize, width: usize, len: usize, mut visit: impl FnMut(usize)) {
     if !i.is_multiple_of(width) {
         visit(i - 1);
@@ -24,7 +25,7 @@ fn for_neighbours(i: usize, width: usize, len: usize, mut visit: impl FnMut(usiz
     }
 }
 
-/// Pixels that are connected to `start` and satisfy `takes`; they are marked as seen.
+/// Finds the pixels that are connected to `start` and satisfy `takes` (flood fill), and marks them in `seen`.
 fn flood(
     start: usize,
     width: usize,
@@ -47,7 +48,7 @@ fn flood(
     found
 }
 
-/// The components of a mask with at least `min_area` pixels, their holes filled.
+/// Finds the connected components of a mask with at least `min_area` pixels, and fills their holes.
 pub(super) fn regions(mask: &[bool], width: usize, min_area: usize) -> Vec<Region> {
     let mut seen = vec![false; mask.len()];
     let mut found = Vec::new();
@@ -62,7 +63,7 @@ pub(super) fn regions(mask: &[bool], width: usize, min_area: usize) -> Vec<Regio
     found
 }
 
-/// The region of some connected pixels and of all that they enclose.
+/// Makes a region of connected pixels, and of all pixels that they enclose.
 fn without_holes(pixels: &[usize], len: usize, width: usize) -> Region {
     let mut own = vec![false; len];
     pixels.iter().for_each(|i| own[*i] = true);
@@ -82,7 +83,7 @@ fn without_holes(pixels: &[usize], len: usize, width: usize) -> Region {
 }
 
 impl Region {
-    /// The pixels along the border in order, clockwise as seen in the image (Moore's tracing).
+    /// Traces the pixels along the region's border, clockwise as seen in the image (Moore's algorithm).
     pub fn border(&self, width: usize) -> Vec<[i32; 2]> {
         const NEIGHBOUR_OFFSETS: [[i32; 2]; 8] = [
             [1, 0],

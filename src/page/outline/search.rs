@@ -1,4 +1,4 @@
-//! The search for a page: candidates, their outlines, and the verdict about the best of them.
+//! Search for pages in a photo: candidate regions, their outlines, and the verdict on the best one.
 
 use super::candidates::candidate_masks;
 use super::morphology::closed;
@@ -13,43 +13,45 @@ use crate::dewarp::Photo;
 use crate::math::planar::{distance, polygon_area, polygon_contains};
 use crate::page::text::ranking::ranked;
 
-/// Width of print that is suppressed, as a share of the photo's longer side: bars of colour across a page are as high.
+/// Maximum width of print that is suppressed before the search for a page, as a share of the photo's longer side: bars
+/// of colour across a page are as high as that.
 const PRINT_WIDTH_SHARE: f64 = 0.03;
 
-/// Minimum length of a photo's shorter side, in pixels: in a smaller one an edge has too few of them.
-const MIN_PHOTO_SIDE: usize = 64;
+/// Minimum length of a photo's shorter side, in pixels: in a smaller one a page's edges have too few pixels.
+const MIN_PHOTO_SIDE_PIXELS: usize = 64;
 
-/// Minimum share of the photo that a page takes.
+/// Minimum share of the photo's area that a page covers.
 const MIN_PAGE_SHARE: f64 = 0.05;
 
-/// Maximum number of candidates whose edges are traced.
+/// Maximum number of candidate regions whose edges are traced.
 const MAX_TRACED_CANDIDATES: usize = 6;
 
-/// Maximum distance of the corners of candidates that are the same, as a share of the photo's longer side.
+/// Distance, as a share of the photo's longer side, up to which the corners of two candidates count as equal, so that
+/// only the better candidate is kept.
 const SAME_CORNER_SHARE: f64 = 0.03;
 
-/// Minimum score of a page that was found.
+/// Minimum score, from 0 to 1, of an outline for the verdict `Found`.
 const MIN_FOUND_SCORE: f64 = 0.45;
 
-/// Minimum score of a page that is doubtful.
+/// Minimum score, from 0 to 1, of an outline for the verdict `Doubtful`; below it no page was found.
 const MIN_DOUBTFUL_SCORE: f64 = 0.3;
 
-/// Minimum share of the photo that a page found by straight lines takes.
+/// Minimum share of the photo's area that a page covers if it is found by straight lines of contrast.
 const MIN_LINE_PAGE_SHARE: f64 = 0.15;
 
-/// Ratio of the score to the worth of a quadrilateral of straight lines: in real photos most of those with a worth
-/// above 0.08 are pages.
+/// Factor that converts the worth of a quadrilateral of straight lines to a score: in real photos most quadrilaterals
+/// with a worth above 0.08 are pages.
 const LINE_SCORE_FACTOR: f64 = 3.75;
 
-/// Minimum score of a second page, as a share of the first one's.
+/// Minimum score of a further page in the photo, as a share of the best one's score.
 const MIN_SECOND_SCORE_RATIO: f64 = 0.7;
 
-/// Whether all corners of two quadrilaterals, each clockwise from any corner on, are within a distance.
+/// Whether two quadrilaterals have equal corners up to a distance `tolerance`; both are clockwise, from any corner on.
 fn are_same(one: &[[f64; 2]; 4], other: &[[f64; 2]; 4], tolerance: f64) -> bool {
     (0..4).any(|turn| (0..4).all(|k| distance(one[k], other[(k + turn) % 4]) <= tolerance))
 }
 
-/// Whether two quadrilaterals are disjoint: neither contains a corner or the middle of the other one.
+/// Whether two quadrilaterals are disjoint: neither contains a corner or the centre of the other one; they may touch.
 fn are_apart(one: &[[f64; 2]; 4], other: &[[f64; 2]; 4]) -> bool {
     let free = |a: &[[f64; 2]; 4], b: &[[f64; 2]; 4]| {
         let middle = [0, 1].map(|j| b.iter().map(|p| 0.25 * p[j]).sum());
@@ -62,7 +64,8 @@ fn are_apart(one: &[[f64; 2]; 4], other: &[[f64; 2]; 4]) -> bool {
     free(one, other) && free(other, one)
 }
 
-/// Turns an outline so that its upper edge is that of the page as it is read, or that of the photo if the print does not tell.
+/// Rotates an outline's lists of corners and edges so that the upper edge of the page as it is read comes first, or the
+/// photo's upper edge if the print does not tell.
 fn upright(outline: PageOutline, views: &Views) -> PageOutline {
     let first = (0..4).min_by(|a, b| {
         let height = |k: &usize| {
@@ -81,7 +84,7 @@ fn upright(outline: PageOutline, views: &Views) -> PageOutline {
 /// Finds the outline of the page in a photo: its corners and edges, with a verdict.
 pub fn find_outline(photo: &Photo<'_>) -> OutlineReport {
     let raw = Planes::from_photo(photo);
-    if raw.width.min(raw.height) < MIN_PHOTO_SIDE {
+    if raw.width.min(raw.height) < MIN_PHOTO_SIDE_PIXELS {
         return report(Vec::new());
     }
     let clean = closed(&raw, (0.5 * PRINT_WIDTH_SHARE * raw.longer_side()) as usize);
@@ -136,7 +139,7 @@ pub fn find_outline(photo: &Photo<'_>) -> OutlineReport {
     report
 }
 
-/// Swaps the outline of the highest rank with the first one.
+/// Swaps the outline with the largest value of `rank` with the first one.
 fn move_best_first(outlines: &mut [PageOutline], rank: impl Fn(&PageOutline) -> f64) {
     for k in 1..outlines.len() {
         if rank(&outlines[k]) > rank(&outlines[0]) {
@@ -145,8 +148,8 @@ fn move_best_first(outlines: &mut [PageOutline], rank: impl Fn(&PageOutline) -> 
     }
 }
 
-/// The outline of a page on a ground of its own colour, by straight lines of contrast; always doubtful. `half` is the photo
-/// without print at half the reduced size.
+/// Finds a page on a background of its own colour by straight lines of contrast; such an outline is always doubtful.
+/// `half` is the photo without print at half the reduced size.
 fn by_lines(views: &Views, half: &Planes) -> Option<PageOutline> {
     let raw = views.raw.halved();
     let min_area = MIN_LINE_PAGE_SHARE * raw.len() as f64;
@@ -163,7 +166,8 @@ fn by_lines(views: &Views, half: &Planes) -> Option<PageOutline> {
     Some(outline)
 }
 
-/// The verdict about outlines, the best first.
+/// Makes the report of a search: the verdict and its reasons, from outlines of which the best is first. Outlines that
+/// are worse, or that overlap the best one, are dropped.
 fn report(mut outlines: Vec<PageOutline>) -> OutlineReport {
     let Some(best) = outlines.first() else {
         return OutlineReport {

@@ -1,4 +1,4 @@
-//! Quadrilaterals of straight lines of contrast, for pages on a ground of their own colour.
+//! Quadrilaterals of straight lines of contrast (Hough transform), for pages on a background of their own colour.
 
 use super::corners::{is_convex, is_outside};
 use super::morphology::box_mean;
@@ -8,73 +8,80 @@ use crate::math::planar::{cross, distance, line_intersection, polygon_area, poly
 use crate::math::statistics::median;
 use crate::page::text::ranking::ranked;
 
-/// Number of directions of lines: one for each degree.
+/// Number of directions of lines in the Hough transform: one for each degree.
 const LINE_DIRECTIONS: usize = 180;
 
-/// Minimum number of votes of a line.
+/// Minimum number of votes in the Hough transform for a line.
 const MIN_LINE_VOTES: f32 = 8.0;
 
-/// Number of directions on either side of a pixel's own one for which it votes, because gradients are noisy.
+/// Number of directions on either side of a pixel's own direction for which it votes in the Hough transform, because
+/// gradients are noisy.
 const VOTED_DIRECTIONS: usize = 2;
 
-/// Difference of direction, in degrees, below which two lines may be the same one.
+/// Difference of direction, in degrees, below which two lines may be the same.
 const SAME_LINE_DEGREES: usize = 4;
 
-/// Distance of two lines of about one direction, in pixels, below which they are the same one.
+/// Distance, in pixels, below which two lines of nearly equal direction are the same.
 const SAME_LINE_DISTANCE: usize = 5;
 
-/// Maximum number of lines from which quadrilaterals are made; the cost is its fourth power.
-const MAX_LINES: usize = 64;
+/// Maximum number of lines that are combined to quadrilaterals; the cost is the fourth power of this.
+const MAX_COMBINED_LINES: usize = 64;
 
-/// Ratio to the median gradient from which a gradient counts as an edge.
+/// Minimum gradient of an edge pixel, as a multiple of the image's median gradient.
 const MIN_GRADIENT_RATIO: f64 = 3.0;
 
-/// Minimum gradient of an edge, in logarithmic colour per pixel: about the noise of a reduced photo.
+/// Minimum gradient of an edge pixel, in logarithmic colour per pixel: about the noise of a reduced photo.
 const MIN_GRADIENT: f32 = 0.006;
 
-/// Distance from a line, in pixels, within which an edge belongs to it: slightly bent edges have straight lines.
+/// Distance from a line, in pixels, within which an edge pixel supports it, so that slightly bent edges support
+/// straight lines.
 const LINE_RADIUS: i32 = 2;
 
-/// Cosine of the largest angle between an edge and its line.
+/// Minimum cosine of the angle between an edge pixel's gradient and the normal of the line that it supports.
 const MIN_ALIGNMENT: f32 = 0.9;
 
-/// Difference of logarithmic colour to the same image without print from which a pixel is print.
+/// Minimum difference of logarithmic colour between a pixel and the same pixel with print suppressed for it to count as
+/// print.
 const MIN_PRINT_CONTRAST: f32 = 0.2;
 
-/// Vote of an edge of print, where one of anything else is 1: there is more print than edges of pages.
+/// Vote of an edge pixel near print in the Hough transform, where one of anything else is 1: there is more print than
+/// edges of pages.
 const PRINT_VOTE: f32 = 0.25;
 
-/// Radius, in pixels, of the square in which print is counted: a few lines of text.
+/// Half the side, in pixels, of the square in which the share of print pixels is measured: a few lines of text.
 const PRINT_RADIUS: usize = 10;
 
-/// Share of such a square from which print is text or a picture, and not a thin shadow along an edge.
+/// Minimum share of print pixels in the square around a pixel for it to be text or a picture, and not a thin shadow
+/// along an edge.
 const MIN_PRINT_DENSITY: f32 = 0.15;
 
-/// Minimum share of each side along which there is an edge.
+/// Minimum share of the length of each of a quadrilateral's sides along which there are edge pixels.
 const MIN_SIDE_SUPPORT: f64 = 0.45;
 
-/// Length beyond a corner along which a side must not continue, as a share of the side.
-const BEYOND_SHARE: f64 = 0.12;
+/// Length beyond a corner over which it is measured whether a side continues, as a share of the side.
+const BEYOND_CORNER_SHARE: f64 = 0.12;
 
-/// Weight of an edge that continues beyond a corner all the way, as do joints of tiles and folds of a page.
-const BEYOND_WEIGHT: f64 = 0.8;
+/// Penalty of a side that continues with full support beyond a corner, as do joints of tiles and folds of a page; from
+/// 0 to 1.
+const BEYOND_CORNER_PENALTY: f64 = 0.8;
 
-/// Minimum sine of the angle between neighbouring sides.
+/// Minimum sine of the angle between neighbouring sides of a page's quadrilateral.
 const MIN_SIDE_SINE: f64 = 0.75;
 
-/// Maximum sine of the angle between opposite sides.
+/// Maximum sine of the angle between opposite sides of a page's quadrilateral.
 const MAX_OPPOSITE_SINE: f64 = 0.5;
 
-/// Minimum share of the photo that is print: without print, lines may be those of anything.
+/// Minimum share of the photo's pixels that are print: without print the lines may be those of anything.
 const MIN_PRINT_SHARE: f64 = 0.002;
 
-/// Maximum number of pixels of print by which it is counted how much print a quadrilateral contains.
+/// Approximate maximum number of print pixels by which the share of the print in a quadrilateral is measured.
 const MAX_PRINT_SAMPLES: usize = 200;
 
-/// Power of the share of the print inside of a page, since a page has all of it: a tenth outside costs a third.
+/// Exponent of the share of all print that lies in a quadrilateral, in its worth: a page contains all of it, and a
+/// tenth outside costs a third.
 const PRINT_POWER: i32 = 4;
 
-/// Gradients of an image: in each pixel that of the channel where it is largest.
+/// Gradients of an image: at each pixel the gradient of the colour channel in which it is largest. Also marks print.
 struct Gradients {
     width: usize,
     height: usize,
@@ -128,7 +135,8 @@ impl Gradients {
         }
     }
 
-    /// Whether there is an edge across a direction near a point.
+    /// Whether there is an edge pixel within two pixels of a point, along the unit vector `[nx, ny]`, whose gradient
+    /// has about that direction.
     fn has_edge(&self, [x, y]: [f64; 2], [nx, ny]: [f32; 2]) -> bool {
         (-LINE_RADIUS..=LINE_RADIUS).any(|k| {
             let (col, row) = (
@@ -148,12 +156,13 @@ impl Gradients {
 /// A line across the image, with the number of edge pixels along it.
 struct Line {
     ends: [[f64; 2]; 2],
-    /// Prefix sums: number of places with an edge before each place along the line, one pixel apart.
+    /// Prefix sums: number of edge pixels along the line before each place, for places one pixel apart.
     sums: Vec<u32>,
 }
 
 impl Line {
-    /// The line `x cos φ + y sin φ = distance` within an image; `None` if it does not cross it.
+    /// Makes the part within the image of the line `x cos φ + y sin φ = offset`, with φ = `degrees`; `None` if the line
+    /// does not cross the image.
     fn new(gradients: &Gradients, degrees: usize, offset: f64) -> Option<Self> {
         let (sin, cos) = (degrees as f64).to_radians().sin_cos();
         let (width, height) = (gradients.width as f64 - 1.0, gradients.height as f64 - 1.0);
@@ -192,13 +201,14 @@ impl Line {
         [(b[0] - a[0]) / length, (b[1] - a[1]) / length]
     }
 
-    /// The place of a point along the line.
+    /// Position along the line of the point on it that is nearest to `point`, in pixels from the line's start.
     fn place(&self, point: [f64; 2]) -> f64 {
         let d = self.direction();
         (point[0] - self.ends[0][0]) * d[0] + (point[1] - self.ends[0][1]) * d[1]
     }
 
-    /// The share of the places between two with an edge, of those in the image; 0 without any.
+    /// Share of the places along the line between positions `from` and `to` that have an edge pixel; only places in the
+    /// image count, and 0 is returned if there are none.
     fn support(&self, from: f64, to: f64) -> f64 {
         let last = self.sums.len() - 1;
         let clamp = |t: f64| t.clamp(0.0, last as f64) as usize;
@@ -211,7 +221,7 @@ impl Line {
     }
 }
 
-/// The lines along which there are most edges (Hough transform), print left out.
+/// Finds the lines with the most edge pixels along them, by the Hough transform; edge pixels near print count less.
 fn find_lines(gradients: &Gradients) -> Vec<Line> {
     let diagonal = (gradients.width as f64).hypot(gradients.height as f64);
     let offsets = 2 * diagonal as usize + 3;
@@ -270,16 +280,16 @@ fn find_lines(gradients: &Gradients) -> Vec<Line> {
             direction,
             offset as f64 - middle as f64,
         ));
-        if lines.len() == MAX_LINES {
+        if lines.len() == MAX_COMBINED_LINES {
             break;
         }
     }
     lines
 }
 
-/// The quadrilateral of four lines, clockwise, whose sides are seen best, with its worth from 0 to 1; in images of the
-/// same size, as they are and without print. `None` if none has enough edges
-/// along each side, or there is no print.
+/// Finds the quadrilateral of four straight lines that is most like a page; returns its corners, clockwise, with its
+/// worth from 0 to 1. `raw` is the photo, `clean` the same with print suppressed. `None` if no quadrilateral has enough
+/// edge pixels along each side, or there is no print.
 pub(super) fn best_line_quadrilateral(
     raw: &Planes,
     clean: &Planes,
@@ -333,12 +343,12 @@ pub(super) fn best_line_quadrilateral(
                 let line = &lines[sides[k]];
                 let (from, to) = (line.place(corners[k]), line.place(corners[(k + 1) % 4]));
                 let own = line.support(from, to);
-                let reach = BEYOND_SHARE * (to - from);
+                let reach = BEYOND_CORNER_SHARE * (to - from);
                 let beyond = line
                     .support(from - reach, from)
                     .max(line.support(to, to + reach));
                 least = least.min(own);
-                worth *= own * (1.0 - BEYOND_WEIGHT * beyond);
+                worth *= own * (1.0 - BEYOND_CORNER_PENALTY * beyond);
             }
             if least < MIN_SIDE_SUPPORT {
                 continue;

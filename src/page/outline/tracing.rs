@@ -1,4 +1,4 @@
-//! Outlines of candidates: their edges traced to a fraction of a pixel, their corners, and their scores.
+//! Outlines of candidate pages: their edges traced with subpixel accuracy, their corners, and their scores.
 
 use super::corners::{corner, end_at, is_convex, is_outside, outside_corner};
 use super::edge_path::EdgePath;
@@ -7,37 +7,39 @@ use super::planes::Planes;
 use super::quadrilateral::{is_at_rim, rectangularity};
 use crate::math::planar::distance;
 
-/// Difference of logarithmic colour across an edge that gives half of the full score.
+/// Difference of logarithmic colour across an edge of a page at which the edge's contrast has a score of one half.
 const HALF_SCORE_CONTRAST: f64 = 0.25;
 
-/// Minimum share of an edge that has to be seen.
+/// Minimum share of an edge with visible contrast; below it the outline is reported as having a faint edge.
 const MIN_EDGE_SUPPORT: f64 = 0.85;
 
-/// Minimum share of an edge that has to be in the photo with both its sides.
+/// Minimum share of an edge's points at which page and background are both in the photo, for the edge to count as
+/// visible.
 const MIN_VISIBLE_SHARE: f64 = 0.5;
 
-/// Minimum number of edges in the photo of a page: with fewer it can hardly be told from a table.
+/// Minimum number of visible edges of a page: with fewer it can hardly be told from a table.
 const MIN_VISIBLE_EDGES: usize = 3;
 
-/// Maximum distance of a corner outside of the photo of which nothing is said, as a share of the photo's longer side.
+/// Distance of a corner outside of the photo that is not reported, as a share of the photo's longer side.
 const MAX_OUTSIDE_SHARE: f64 = 0.01;
 
-/// Share of an edge's length, at its end on the photo's rim, from which on a corner counts as cut off.
+/// Minimum share of an edge's points that lie on the photo's rim, next to a corner, for the corner to count as cut off.
 const CUT_LENGTH_SHARE: f64 = 0.02;
 
-/// Minimum rectangularity of a page's corners.
+/// Minimum rectangularity of a page's corners, from 0 to 1; below it the shape is reported as unlikely.
 const MIN_RECTANGULARITY: f64 = 0.45;
 
-/// Distance of the points of an edge, in pixels of the reduced photo.
+/// Spacing of the points of a traced edge, in pixels of the reduced photo.
 const POINT_DISTANCE: usize = 3;
 
-/// The reduced photo as it is, and without print.
+/// The reduced photo as it is (`raw`), and with print suppressed (`clean`).
 pub(super) struct Views {
     pub raw: Planes,
     pub clean: Planes,
 }
 
-/// Number of points at the start of an arc on the rim of an image of a size, or 0 if they are a small share of it.
+/// Number of points at the start of an arc that lie on the rim of an image of size `size`; 0 if they are only a small
+/// share of the arc.
 fn cut_points(arc: &[[f64; 2]], size: [usize; 2]) -> usize {
     let count = arc.iter().take_while(|p| is_at_rim(**p, size)).count();
     if count as f64 > CUT_LENGTH_SHARE * arc.len() as f64 {
@@ -47,7 +49,8 @@ fn cut_points(arc: &[[f64; 2]], size: [usize; 2]) -> usize {
     }
 }
 
-/// Corners that the rim of an image of a size cuts off; the arcs next to them lose their parts along the rim.
+/// Extrapolates the corners that the rim of an image of size `size` cuts off, and removes from the arcs next to them
+/// the parts along the rim. None for a corner that is not cut off.
 fn cut_corners(arcs: &mut [Vec<[f64; 2]>; 4], size: [usize; 2]) -> [Option<[f64; 2]>; 4] {
     [0, 1, 2, 3].map(|k| {
         let before = (k + 3) % 4;
@@ -66,8 +69,8 @@ fn cut_corners(arcs: &mut [Vec<[f64; 2]>; 4], size: [usize; 2]) -> [Option<[f64;
     })
 }
 
-/// The outline of a candidate, whose border is given as four arcs in pixels of the reduced photo, clockwise; `None` if an
-/// edge is too short, or too few of them are in the photo.
+/// Traces the outline of a candidate page, whose border is given as four arcs in pixels of the reduced photo,
+/// clockwise, with the score `likeness` of its region. `None` if an edge is too short, or too few edges are visible.
 pub(super) fn traced(
     views: &Views,
     mut arcs: [Vec<[f64; 2]>; 4],

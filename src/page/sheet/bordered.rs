@@ -1,23 +1,25 @@
-//! Normal equations of a band matrix with a dense border, by Cholesky's factorisation and the Schur complement.
+//! Least-squares normal equations of a band matrix with a dense border, solved by Cholesky factorisation and the Schur
+//! complement.
 
 use nalgebra::{DMatrix, DVector};
 
-/// Normal equations `JᵀJ x = −Jᵀr` whose first unknowns couple only within a band; the others, the border, couple with
-/// all.
+/// Normal equations `JᵀJ x = −Jᵀr` of a banded matrix with a dense border: the first unknowns couple only within a
+/// band, the last ones, which form the border, with all unknowns.
 pub(super) struct BorderedSystem {
     size: usize,
     half_width: usize,
-    /// Lower triangle of the band, row by row, the diagonal last.
+    /// Lower triangle of the band matrix, row by row, the diagonal entry last in each row.
     band: Vec<f64>,
-    /// Columns of the border, each of the band's size.
+    /// Columns that couple the border's unknowns with the band's, each of the band's size.
     border: Vec<Vec<f64>>,
     corner: DMatrix<f64>,
-    /// Right-hand sides of band and border.
+    /// Right-hand sides: of the band's and of the border's equations.
     right: (Vec<f64>, DVector<f64>),
 }
 
 impl BorderedSystem {
-    /// A system of zeros.
+    /// Makes a system of zeros with `size` unknowns in the band, whose row `i` couples with `half_width` before it, and
+    /// `border` further unknowns.
     pub fn new(size: usize, half_width: usize, border: usize) -> Self {
         BorderedSystem {
             size,
@@ -29,7 +31,8 @@ impl BorderedSystem {
         }
     }
 
-    /// Adds one residual with its derivatives by unknowns of the band and of the border.
+    /// Adds one residual to the normal equations, with its derivatives as pairs of an unknown's number and the
+    /// derivative by it: `banded` by unknowns of the band, `bordered` by those of the border.
     pub fn add(&mut self, banded: &[(usize, f64)], bordered: &[(usize, f64)], residual: f64) {
         let width = self.half_width + 1;
         for (i, a) in banded {
@@ -52,8 +55,8 @@ impl BorderedSystem {
         }
     }
 
-    /// The solution with the diagonal increased by `damping` times itself; None if the matrix is not positive
-    /// definite.
+    /// Solves the normal equations with the diagonal increased by `damping` times itself; returns the unknowns of band
+    /// and border. None if the matrix is not positive definite.
     pub fn solve(&self, damping: f64) -> Option<(Vec<f64>, Vec<f64>)> {
         let width = self.half_width + 1;
         let mut factor = self.band.clone();
@@ -90,7 +93,8 @@ impl BorderedSystem {
         Some((banded, bordered.as_slice().to_vec()))
     }
 
-    /// Replaces the lower triangle of a band matrix by its Cholesky factor.
+    /// Replaces the lower triangle of a band matrix by its Cholesky factor, in place. None if the matrix is not
+    /// positive definite.
     fn factorise(&self, band: &mut [f64]) -> Option<()> {
         let (half, width) = (self.half_width, self.half_width + 1);
         for i in 0..self.size {
@@ -111,7 +115,7 @@ impl BorderedSystem {
         Some(())
     }
 
-    /// Solves with the lower triangular factor.
+    /// Solves the equations of the lower triangular Cholesky factor (forward substitution).
     fn forward(&self, factor: &[f64], right: &[f64]) -> Vec<f64> {
         let (half, width) = (self.half_width, self.half_width + 1);
         let mut found = right.to_vec();
@@ -125,7 +129,7 @@ impl BorderedSystem {
         found
     }
 
-    /// Solves with the transposed factor, in place.
+    /// Solves the equations of the transposed Cholesky factor, in place (backward substitution).
     fn backward(&self, factor: &[f64], found: &mut [f64]) {
         let (half, width) = (self.half_width, self.half_width + 1);
         for i in (0..self.size).rev() {
@@ -141,7 +145,7 @@ impl BorderedSystem {
     }
 }
 
-/// Inner product, by four sums that the compiler vectorises.
+/// Inner product of two vectors, by four partial sums that the compiler vectorises.
 fn dot(a: &[f64], b: &[f64]) -> f64 {
     let (a4, a_rest) = a.as_chunks::<4>();
     let (b4, b_rest) = b.as_chunks::<4>();

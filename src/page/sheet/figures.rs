@@ -1,26 +1,29 @@
-//! Figures of a fitted sheet: how well it meets outline and lines, how much it is strained and bent.
+//! Measures of a fitted sheet: distances from outline and lines in the photo, strain and curvature.
 
 use super::fit::FittedSheet;
 use super::problem::{ResidualRow, RobustWeights, SheetProblem, SheetWeights};
 
-/// Misfits and shape of a sheet, in widths of the page. Outliers count less.
+/// Misfit and shape of a fitted sheet. Lengths are in widths of the page; outliers count less.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct SheetFigures {
-    /// Root mean square distance of the border from the outline.
+    /// Root mean square distance between the sheet's projected border and the page's outline in the photo, in widths of
+    /// the page.
     pub outline: f64,
-    /// Root mean square distance of the lines from level ones; 0 without lines.
+    /// Root mean square distance between lines of print in the photo and the lines on the sheet that they belong to, in
+    /// widths of the page; 0 without lines.
     pub lines: f64,
-    /// Root mean square relative change of length.
+    /// Root mean square strain (relative change of length) of the sheet.
     pub strain: f64,
-    /// Root mean square curvature.
+    /// Root mean square curvature of the sheet, in reciprocal widths of the page.
     pub curvature: f64,
 }
 
-/// Number of rounds of refining the lines' levels on a given sheet.
+/// Number of Gauss-Newton steps by which the positions of lines of print on the page are fitted to a sheet that is
+/// held.
 const LEVEL_ROUNDS: usize = 3;
 
 impl SheetProblem {
-    /// Figures of a sheet; None if it is not in front of the camera.
+    /// Computes the misfits, strain and curvature of a sheet; None if it is not in front of the camera.
     pub fn figures(&self, sheet: &FittedSheet) -> Option<SheetFigures> {
         let grid = &sheet.grid;
         let mut unit = self.clone();
@@ -57,7 +60,8 @@ impl SheetProblem {
         })
     }
 
-    /// A sheet with its lines' levels where they are nearest to the lines.
+    /// Returns the sheet with each line of print at the level (share of the page's height or width) where it fits the
+    /// line in the photo best. None if the sheet is not in front of the camera.
     pub fn with_levels(&self, sheet: &FittedSheet) -> Option<FittedSheet> {
         let mut sheet = sheet.clone();
         sheet.levels = self.lines.iter().map(|line| line.level).collect();

@@ -1,4 +1,4 @@
-//! Levenberg and Marquardt's method for a sheet.
+//! Levenberg–Marquardt method for fitting a sheet in space to a photo of a page.
 
 use nalgebra::Vector3;
 
@@ -6,35 +6,37 @@ use super::bordered::BorderedSystem;
 use super::grid::SheetGrid;
 use super::problem::{ResidualRow, RobustWeights, SheetProblem};
 
-/// Initial damping, relative to the diagonal.
+/// Initial damping of the Levenberg–Marquardt method, relative to the normal matrix's diagonal.
 const INITIAL_DAMPING: f64 = 1e-3;
 
-/// Minimum damping, relative to the diagonal.
+/// Minimum damping of the Levenberg–Marquardt method, relative to the normal matrix's diagonal.
 const MIN_DAMPING: f64 = 1e-9;
 
-/// Damping at which the search for a better step ends.
+/// Damping of the Levenberg–Marquardt method at which the search for a step that lowers the cost ends.
 const MAX_DAMPING: f64 = 1e8;
 
-/// Factor of the damping after a step that lowers the cost.
+/// Factor that multiplies the Levenberg–Marquardt damping after a step that lowers the cost.
 const DAMPING_DECREASE: f64 = 0.1;
 
-/// Factor of the damping after a step that does not.
+/// Factor that multiplies the Levenberg–Marquardt damping after a step that does not lower the cost.
 const DAMPING_INCREASE: f64 = 5.0;
 
-/// Number of unknowns of camera and proportions.
+/// Number of unknowns besides the sheet's nodes and lines: focal length, two coordinates of the principal point, ratio
+/// of the page's sides.
 const CAMERA_UNKNOWNS: usize = 4;
 
-/// A sheet with the levels of its lines.
+/// A sheet in space that was fitted to a photo of a page, with the position on the page (share of its height or width)
+/// of each line of print.
 #[derive(Debug, Clone)]
 pub(super) struct FittedSheet {
     pub grid: SheetGrid,
     pub levels: Vec<f64>,
-    /// Sum of squares of the weighted residuals.
+    /// Sum of squares of the fit's weighted residuals.
     pub cost: f64,
 }
 
 impl FittedSheet {
-    /// A sheet without lines.
+    /// Makes a sheet of a grid in space, without lines of print.
     pub fn new(grid: SheetGrid) -> Self {
         FittedSheet {
             grid,
@@ -45,8 +47,9 @@ impl FittedSheet {
 }
 
 impl SheetProblem {
-    /// The least-squares sheet near an initial guess: at most `steps` steps, until one lowers the cost by less than the share
-    /// `tolerance`. None if the initial sheet is not in front of the camera.
+    /// Finds the sheet that fits the photo best in the least-squares sense, from an initial guess: by at most `steps`
+    /// steps, until one lowers the cost by less than the share `tolerance`. None if the initial sheet is not in front
+    /// of the camera.
     pub fn solve(&self, start: FittedSheet, steps: usize, tolerance: f64) -> Option<FittedSheet> {
         let mut best = start;
         let mut damping = INITIAL_DAMPING;
@@ -77,7 +80,8 @@ impl SheetProblem {
         Some(best)
     }
 
-    /// Sum of squares of the residuals with held robust weights.
+    /// Sum of squares of a sheet's weighted residuals, with the robust weights held as they are. None if the sheet is
+    /// not in front of the camera.
     fn cost(&self, sheet: &FittedSheet, robust: &mut RobustWeights) -> Option<f64> {
         robust.hold();
         let mut cost = 0.0;
@@ -87,7 +91,8 @@ impl SheetProblem {
         cost.is_finite().then_some(cost)
     }
 
-    /// Normal equations at a sheet, and its cost.
+    /// Builds the normal equations of the least-squares problem at a sheet; returns them with the sheet's cost. None if
+    /// the sheet is not in front of the camera.
     fn system(
         &self,
         sheet: &FittedSheet,
@@ -108,7 +113,8 @@ impl SheetProblem {
     }
 }
 
-/// The derivatives of a row that are not 0, by numbers of unknowns.
+/// Lists the non-zero derivatives of a residual as pairs of an unknown's number and the derivative by it: by nodes into
+/// `banded`, by camera, ratio and levels into `bordered`.
 fn unknowns(row: &ResidualRow, banded: &mut Vec<(usize, f64)>, bordered: &mut Vec<(usize, f64)>) {
     banded.clear();
     bordered.clear();
@@ -129,7 +135,8 @@ fn unknowns(row: &ResidualRow, banded: &mut Vec<(usize, f64)>, bordered: &mut Ve
     }
 }
 
-/// A sheet moved by a step.
+/// Returns a sheet changed by a step of its unknowns: `banded` moves the nodes, `bordered` changes camera, ratio of
+/// sides and levels of lines.
 fn moved(sheet: &FittedSheet, banded: &[f64], bordered: &[f64]) -> FittedSheet {
     let mut moved = sheet.clone();
     for (node, step) in moved.grid.nodes.iter_mut().zip(banded.as_chunks::<3>().0) {

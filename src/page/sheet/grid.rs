@@ -1,37 +1,38 @@
-//! The sheet in space: positions at the nodes of a grid over the flat page.
+//! Grid of a sheet in space: positions at the nodes of a rectangular grid over the flat page.
 
 use nalgebra::Vector3;
 
 use super::camera::SheetCamera;
 
-/// A sheet in the camera's axes (x to the right, y down, z ahead), in widths of the page, with the camera that sees it.
+/// A sheet in the camera's axes (x to the right, y down, z ahead), with the camera that sees it. Lengths are in widths
+/// of the page.
 #[derive(Debug, Clone)]
 pub(super) struct SheetGrid {
     pub cols: usize,
     pub rows: usize,
-    /// Logarithm of height over width of the flat page.
+    /// Logarithm of the flat page's ratio of height to width.
     pub log_ratio: f64,
     pub camera: SheetCamera,
-    /// Positions of the nodes, row by row from the upper left corner.
+    /// Positions of the grid's nodes in space, row by row from the page's upper left corner.
     pub nodes: Vec<Vector3<f64>>,
 }
 
-/// Bilinear coordinates of a place on a grid: the cell's upper left node and the weights of its four nodes.
+/// Bilinear interpolation at a place on a grid: the four nodes of its cell and their weights.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct GridPlace {
     pub nodes: [usize; 4],
     pub weights: [f64; 4],
-    /// Derivatives of the weights by the shares of the width and of the height.
+    /// Derivatives of the weights by the place's share of the page's width and by that of its height.
     pub derivatives: [[f64; 4]; 2],
 }
 
 impl SheetGrid {
-    /// Height over width of the flat page.
+    /// Ratio of the flat page's height to its width.
     pub fn ratio(&self) -> f64 {
         self.log_ratio.exp()
     }
 
-    /// Distances between neighbouring nodes on the flat page, across and down.
+    /// Distances between neighbouring nodes on the flat page, across and down, in widths of the page.
     pub fn steps(&self) -> [f64; 2] {
         [
             1.0 / (self.cols - 1) as f64,
@@ -39,7 +40,7 @@ impl SheetGrid {
         ]
     }
 
-    /// Bilinear coordinates at shares of the page's width and height.
+    /// Computes the bilinear interpolation weights of a place, given in shares of the page's width and height.
     pub fn place(&self, share: [f64; 2]) -> GridPlace {
         let sides = [self.cols, self.rows];
         let [(i, s), (j, t)] = [0, 1].map(|k| {
@@ -59,19 +60,20 @@ impl SheetGrid {
         }
     }
 
-    /// Position at shares of the page's width and height, bilinear.
+    /// Interpolates the sheet's position in space bilinearly, at shares of the page's width and height.
     pub fn at(&self, share: [f64; 2]) -> Vector3<f64> {
         self.sum(&self.place(share).nodes, &self.place(share).weights)
     }
 
-    /// Weighted sum of nodes.
+    /// Weighted sum of the positions in space of four nodes of the sheet's grid.
     pub fn sum(&self, nodes: &[usize; 4], weights: &[f64; 4]) -> Vector3<f64> {
         (nodes.iter().zip(weights))
             .map(|(node, weight)| self.nodes[*node] * *weight)
             .sum()
     }
 
-    /// Position by the Catmull-Rom surface through the nodes, continued by reflection beyond the border.
+    /// Interpolates the sheet's position in space by a Catmull-Rom surface through the nodes, at shares of the page's
+    /// width and height. Beyond the border the nodes are continued by reflection.
     pub fn smooth_at(&self, share: [f64; 2]) -> Vector3<f64> {
         let sides = [self.cols, self.rows];
         let [(i, s), (j, t)] = [0, 1].map(|k| {
@@ -87,7 +89,7 @@ impl SheetGrid {
         cubic([-1, 0, 1, 2].map(|d| extended(j + d, self.rows, row)), t)
     }
 
-    /// The sheet on a grid of another size.
+    /// Resamples the sheet to a grid of other numbers of columns and rows.
     pub fn resampled(&self, [cols, rows]: [usize; 2]) -> Self {
         let nodes = (0..cols * rows)
             .map(|i| {
@@ -107,7 +109,7 @@ impl SheetGrid {
     }
 }
 
-/// The value at an index of a row of `count` values, extrapolated linearly by one.
+/// Value at index `i` of a row of `count` values; one index beyond either end it is extrapolated linearly.
 fn extended(i: isize, count: usize, value: impl Fn(isize) -> Vector3<f64>) -> Vector3<f64> {
     let last = count as isize - 1;
     if i < 0 {
@@ -119,7 +121,7 @@ fn extended(i: isize, count: usize, value: impl Fn(isize) -> Vector3<f64>) -> Ve
     }
 }
 
-/// Catmull-Rom's cubic between the middle two of four values.
+/// Catmull-Rom interpolation between the middle two of four equidistant points, at the share `t` of the way.
 fn cubic([a, b, c, d]: [Vector3<f64>; 4], t: f64) -> Vector3<f64> {
     let (p, q) = (c - a, 2.0 * a - 5.0 * b + 4.0 * c - d);
     b + 0.5 * t * (p + t * (q + t * (3.0 * (b - c) + d - a)))

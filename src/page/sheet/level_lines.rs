@@ -1,4 +1,4 @@
-//! Lines of text, rules and left margins in the flat picture of a sheet.
+//! Detection of lines of text, rules and left margins in a photo flattened by a sheet.
 
 use super::place_table::PlaceTable;
 use super::problem::LevelLine;
@@ -6,13 +6,15 @@ use super::view::PhotoView;
 use crate::dewarp::Photo;
 use crate::page::text::{PageView, find_on_view};
 
-/// Maximum number of points of a line.
+/// Maximum number of points of one detected line that are used.
 const MAX_LINE_POINTS: usize = 16;
 
-/// Maximum number of lines in each direction: more cost time and add nothing.
-const MAX_LINES: usize = 40;
+/// Maximum number of detected lines in each direction (across or down the page) that are used: more cost time and add
+/// nothing.
+const MAX_LINES_PER_DIRECTION: usize = 40;
 
-/// Lines across and down the page that a flattened picture shows.
+/// Detects the lines across and down the page in the photo as flattened by a sheet. `table` gives the photo's places of
+/// the flat page, `ratio` is the page's height over its width.
 pub(super) fn find_level_lines(
     table: &PlaceTable,
     view: &PhotoView,
@@ -25,7 +27,7 @@ pub(super) fn find_level_lines(
         let turned = |[x, y]: [f64; 2]| if vertical { [1.0 - y, x] } else { [x, y] };
         let turned_view = PageView::from_places(|share| Some(table.at(turned(share))));
         let found = find_on_view(&turned_view, photo, false).unwrap_or_default();
-        let step = found.len().div_ceil(MAX_LINES).max(1);
+        let step = found.len().div_ceil(MAX_LINES_PER_DIRECTION).max(1);
         for line in found.iter().step_by(step) {
             let thin = line.len().div_ceil(MAX_LINE_POINTS).max(1);
             let shares: Vec<_> = line.iter().step_by(thin).map(|p| turned(*p)).collect();

@@ -1,9 +1,10 @@
 //! Pages of any shape from one photo: the isometric sheet whose outline and lines the photo shows.
 //!
-//! The sheet is a grid of points in space that keeps lengths, bends little, and meets the four edges and the lines of print of
-//! the photo; large bends count by their size and not by their square, so that folds form. Focal length, principal point and,
-//! of unknown formats, the proportions are found along with it. (Nail Gumerov, Ali Zandifar, Ramani Duraiswami, Larry Davis,
-//! *Structure of Applicable Surfaces from Single Views*, ECCV 2004, show that an outline nearly determines a smooth sheet.)
+//! The sheet is a grid of points in space that keeps lengths, bends little, and meets the four edges and the lines of
+//! print of the photo; large bends count by their size and not by their square, so that folds form. Focal length,
+//! principal point and, of unknown formats, the proportions are found along with it. (Nail Gumerov, Ali Zandifar,
+//! Ramani Duraiswami, Larry Davis, *Structure of Applicable Surfaces from Single Views*, ECCV 2004, show that an
+//! outline nearly determines a smooth sheet.)
 
 mod bordered;
 mod camera;

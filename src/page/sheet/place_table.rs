@@ -1,13 +1,14 @@
-//! Places in the photo at a fine grid over a flat sheet.
+//! Table of the places in the photo that belong to a fine grid over a flat page.
 
 use super::grid::SheetGrid;
 use super::view::PhotoView;
 use crate::error::{Error, Result};
 
-/// Number of table cells along a grid's cell: bilinear places are right to a hundredth of a pixel then.
+/// Number of table cells along each side of a cell of the sheet's grid: bilinear interpolation is exact to a hundredth
+/// of a pixel then.
 const CELLS_PER_GRID_CELL: usize = 6;
 
-/// Places in the photo, in pixels, at the nodes of a grid over the flat page; bilinear in between.
+/// Places in the photo, in pixels, at the nodes of a grid over the flat page; interpolated bilinearly in between.
 #[derive(Debug, Clone)]
 pub(super) struct PlaceTable {
     cols: usize,
@@ -16,7 +17,7 @@ pub(super) struct PlaceTable {
 }
 
 impl PlaceTable {
-    /// The places of a sheet.
+    /// Makes the table by projecting a sheet in space to the photo at each of the table's nodes.
     ///
     /// # Errors
     /// [`Error::Empty`] for a sheet that is not in front of the camera.
@@ -36,7 +37,7 @@ impl PlaceTable {
         Ok(PlaceTable { cols, rows, places })
     }
 
-    /// The place at shares of the page's width and height.
+    /// Interpolates the place in the photo, in pixels, at shares of the page's width and height.
     pub fn at(&self, share: [f64; 2]) -> [f64; 2] {
         let sides = [self.cols, self.rows];
         let [(i, s), (j, t)] = [0, 1].map(|k| {
@@ -55,7 +56,7 @@ impl PlaceTable {
             .map(|k| (1.0 - t) * ((1.0 - s) * a[k] + s * b[k]) + t * ((1.0 - s) * c[k] + s * d[k]))
     }
 
-    /// Number of the photo's pixels that the page covers.
+    /// Area of the photo that the page covers, in pixels.
     pub fn area(&self) -> f64 {
         let mut area = 0.0;
         for j in 1..self.rows {

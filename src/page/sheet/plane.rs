@@ -1,45 +1,48 @@
-//! The plane of a page's four corners: its homography, and the camera that makes it a rectangle.
+//! Plane through a page's four corners: its homography, and the camera for which it is a rectangle.
 
 use nalgebra::{SMatrix, SVector, Vector3};
 
 use super::camera::SheetCamera;
 use super::grid::SheetGrid;
 
-/// Prior knowledge about the camera and the page's proportions.
+/// Prior knowledge about the camera and the ratio of a page's sides.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct CameraPrior {
-    /// Expected logarithm of the focal length over the nominal one.
+    /// Expected logarithm of the ratio of the camera's focal length to the nominal one.
     pub log_scale: f64,
-    /// Standard deviation of that logarithm.
+    /// Standard deviation of the logarithm of the camera's focal length.
     pub scale_deviation: f64,
-    /// Standard deviation of the principal point, in nominal focal lengths.
+    /// Standard deviation of the coordinates of the camera's principal point, divided by the nominal focal length.
     pub centre_deviation: f64,
-    /// Logarithm of height over width and its standard deviation, if the format is known.
+    /// Logarithm of the page's height over its width and its standard deviation, if the format is known.
     pub log_ratio: Option<[f64; 2]>,
 }
 
-/// The map from shares of a page's width and height to normalised coordinates.
+/// Homography that maps a flat page, in shares of its width and height, to normalised image coordinates (pixels from
+/// the nominal principal point, over the nominal focal length).
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Homography {
     matrix: SMatrix<f64, 3, 3>,
 }
 
-/// Standard deviation of the two conditions that make a homography the image of a rectangle: errors of corners.
+/// Standard deviation, due to errors of the corners, of the two conditions that a homography shows a rectangle: right
+/// angle, and the ratio of sides.
 const RECTANGLE_DEVIATION: f64 = 0.02;
 
-/// Standard deviation of the logarithm of the proportions where the format is not known, about the geometric mean of
-/// common formats.
+/// Standard deviation of the logarithm of a page's height over its width where the format is unknown, about the
+/// geometric mean of common formats.
 const UNKNOWN_RATIO_DEVIATION: f64 = 0.5;
 
-/// Logarithm of √2, the proportions of most formats.
+/// Logarithm of √2, which is the ratio of longer to shorter side of most paper formats.
 const COMMON_LOG_RATIO: f64 = 0.346_573_590_279_972_64;
 
-/// Number of Gauss-Newton steps to the camera.
+/// Number of Gauss-Newton steps by which the camera is found for which four corners in the photo are those of a
+/// rectangle.
 const CAMERA_STEPS: usize = 12;
 
 impl CameraPrior {
-    /// Prior of the page's height over its width: mean and standard deviation of its logarithm. The ratio that is seen in
-    /// the photo, `apparent`, tells whether the page is upright or lies on its side.
+    /// Returns mean and standard deviation of the logarithm of the page's height over its width. The ratio as seen in
+    /// the photo, `apparent`, tells portrait from landscape.
     pub fn ratio(&self, apparent: f64) -> [f64; 2] {
         let common = COMMON_LOG_RATIO * (apparent - 1.0).signum();
         self.log_ratio.unwrap_or([common, UNKNOWN_RATIO_DEVIATION])
@@ -47,7 +50,8 @@ impl CameraPrior {
 }
 
 impl Homography {
-    /// The homography of four corners, clockwise from the upper left one; None if three of them are on a line.
+    /// Computes the homography that maps the flat page's corners to four points, clockwise from the upper left one;
+    /// None if three of them are on a line.
     pub fn new(corners: [[f64; 2]; 4]) -> Option<Self> {
         let [p0, p1, p2, p3] = corners;
         let (d1, d2) = (difference(p1, p2), difference(p3, p2));
@@ -63,8 +67,8 @@ impl Homography {
             .then_some(Homography { matrix })
     }
 
-    /// Camera and proportions for which the homography is nearest to the image of a rectangle, given prior knowledge:
-    /// Gauss-Newton from the prior's camera.
+    /// Finds the camera, and the logarithm of the page's height over its width, for which the homography is nearest to
+    /// the image of a rectangle, given prior knowledge: damped Gauss-Newton steps from the prior's camera.
     fn camera(&self, prior: &CameraPrior, apparent: f64) -> (SheetCamera, f64) {
         let [ratio, ratio_deviation] = prior.ratio(apparent);
         let start = SVector::<f64, 4>::new(prior.log_scale, 0.0, 0.0, ratio);
@@ -121,7 +125,9 @@ impl Homography {
         (camera, at[3])
     }
 
-    /// Sides of the page's unit square in space, up to a common factor.
+    /// Vectors in space along the flat page's width and height, per unit of flat length and up to a common factor, for
+    /// the unknowns `at`: logarithms of the focal length and the ratio of sides first and last, the principal point
+    /// between them.
     fn sides(&self, at: &SVector<f64, 4>) -> [Vector3<f64>; 2] {
         let scale = at[0].exp();
         let back = |k: usize| {
@@ -131,8 +137,8 @@ impl Homography {
         [back(0), back(1) / at[3].exp()]
     }
 
-    /// The plane in space as a sheet of `cols` nodes across; None if it is not in front of the camera. `apparent` is the
-    /// ratio of height and width in the photo.
+    /// Makes a sheet that is the plane of the homography, with a grid of `cols` columns; None if it is not in front of
+    /// the camera. `apparent` is the ratio of height to width in the photo.
     pub fn sheet(&self, cols: usize, prior: &CameraPrior, apparent: f64) -> Option<SheetGrid> {
         let (camera, log_ratio) = self.camera(prior, apparent);
         let scale = camera.log_scale.exp();
@@ -163,7 +169,7 @@ impl Homography {
     }
 }
 
-/// Number of rows of a grid with about square cells.
+/// Number of rows of a grid of `cols` columns with about square cells on a page of height over width `ratio`.
 pub(super) fn grid_rows(cols: usize, ratio: f64) -> usize {
     ((((cols - 1) as f64 * ratio).round() as usize).max(2) + 1).min(4 * cols)
 }

@@ -1,4 +1,4 @@
-//! Polylines: nearest points and normals of traced edges.
+//! Polylines in a photo: nearest points and normals of a page's traced edges.
 
 /// A curve of straight segments.
 #[derive(Debug, Clone)]
@@ -6,25 +6,25 @@ pub(super) struct Polyline {
     points: Vec<[f64; 2]>,
 }
 
-/// The nearest point of a polyline.
+/// Nearest point on a polyline to a given point.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct NearestPoint {
-    /// Number of the segment, plus the share of it before the point.
+    /// Position along the polyline: the segment's index plus the share of the segment before the point.
     pub position: f64,
-    /// Unit normal of the segment.
+    /// Unit normal of the segment on which the nearest point lies.
     pub normal: [f64; 2],
-    /// Distance along the normal.
+    /// Signed distance of the given point from the segment's line, along the normal.
     pub distance: f64,
 }
 
 impl Polyline {
-    /// A polyline of at least two points.
+    /// Makes a polyline of at least two points.
     pub fn new(points: Vec<[f64; 2]>) -> Self {
         debug_assert!(points.len() > 1);
         Polyline { points }
     }
 
-    /// A traced curve resampled to equal segments.
+    /// Resamples a traced curve to segments of equal length.
     pub fn resampled(points: &[[f64; 2]], segments: usize) -> Self {
         let mut lengths = vec![0.0];
         for w in points.windows(2) {
@@ -52,7 +52,8 @@ impl Polyline {
         &self.points
     }
 
-    /// The nearest point; beyond the ends, distances are those from the outermost segments' lines.
+    /// Finds the point of the polyline that is nearest to the point `at`; beyond the ends, the distance is that from
+    /// the outermost segment's line. None if the segment has no length.
     pub fn nearest(&self, at: [f64; 2]) -> Option<NearestPoint> {
         let mut best = (f64::INFINITY, 0, 0.0);
         for (i, w) in self.points.windows(2).enumerate() {
@@ -81,14 +82,14 @@ impl Polyline {
         })
     }
 
-    /// The line nearest to the polyline, as a point and a unit direction: least squares, reweighted so that outliers count
-    /// less. Corners are left out, because they are often rounded.
+    /// Fits a straight line to the polyline, given as a point and a unit direction, by reweighted least squares in
+    /// which outliers count less. The ends are left out, because corners of pages are often rounded.
     pub fn line(&self) -> ([f64; 2], [f64; 2]) {
         let count = self.points.len();
         let inner = &self.points[count / 20..count - count / 20];
         let mut weights = vec![1.0; inner.len()];
         let mut found = ([0.0; 2], [1.0, 0.0]);
-        for _ in 0..LINE_ROUNDS {
+        for _ in 0..LINE_FIT_ROUNDS {
             let total: f64 = weights.iter().sum();
             let mean = [0, 1].map(|k| {
                 (inner.iter().zip(&weights))
@@ -117,5 +118,5 @@ impl Polyline {
     }
 }
 
-/// Rounds of reweighting for the line nearest to a polyline.
-const LINE_ROUNDS: usize = 4;
+/// Number of rounds of reweighted least squares for fitting a straight line to a polyline.
+const LINE_FIT_ROUNDS: usize = 4;

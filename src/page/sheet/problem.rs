@@ -1,4 +1,5 @@
-//! The least-squares problem of a sheet: an isometric grid that bends little and meets outline, corners and lines.
+//! Least-squares problem of a sheet in space: a nearly isometric grid that bends little and meets a page's outline,
+//! corners and lines in the photo.
 
 use nalgebra::Vector3;
 
@@ -6,20 +7,22 @@ use super::grid::SheetGrid;
 use super::plane::CameraPrior;
 use super::polyline::Polyline;
 
-/// A line of the print that is level on the flat page: a line of text or a rule.
+/// A line of the print that is horizontal or vertical on the flat page: a line of text, a rule or a margin.
 #[derive(Debug, Clone)]
 pub(super) struct LevelLine {
-    /// Points in normalised coordinates.
+    /// Points of the line in the photo, in normalised image coordinates (pixels from the principal point, over the
+    /// focal length).
     pub points: Vec<[f64; 2]>,
-    /// Whether the line runs down the page instead of across.
+    /// Whether the line runs down the page; otherwise it runs across.
     pub vertical: bool,
-    /// Initial share of the page's height, or of its width if vertical.
+    /// Initial position of the line on the flat page: share of the page's height, or of its width if the line is
+    /// vertical.
     pub level: f64,
-    /// Length, in widths of the page.
+    /// Length of the line on the flat page, in widths of the page.
     pub length: f64,
 }
 
-/// Weights of the residuals.
+/// Weights of the kinds of residuals in the fit of a sheet.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct SheetWeights {
     pub isometry: f64,
@@ -29,33 +32,37 @@ pub(super) struct SheetWeights {
     pub lines: f64,
 }
 
-/// Data of the least-squares problem: what a sheet is fitted to.
+/// Data of a sheet's least-squares problem: the page's edges and lines in the photo, prior knowledge, and weights.
 #[derive(Debug, Clone)]
 pub(super) struct SheetProblem {
-    /// Upper, lower, left and right edge in normalised coordinates.
+    /// Upper, lower, left and right edge of the page in the photo, in normalised image coordinates (pixels from the
+    /// principal point, over the focal length).
     pub edges: [Polyline; 4],
     pub lines: Vec<LevelLine>,
     pub prior: CameraPrior,
-    /// Expected logarithm of the proportions and its standard deviation.
+    /// Expected logarithm of the page's height over its width, and its standard deviation.
     pub ratio: [f64; 2],
-    /// Mean depth of the initial plane, in widths of the page: normalised distances times this are widths.
+    /// Mean depth of the initial plane, in widths of the page: factor that converts normalised image distances to
+    /// widths of the page.
     pub depth: f64,
     pub weights: SheetWeights,
 }
 
-/// A weighted residual with its derivatives.
+/// One weighted residual of a sheet's least-squares problem with its derivatives.
 #[derive(Debug, Clone)]
 pub(super) struct ResidualRow {
     pub value: f64,
-    /// Nodes and gradients by their positions.
+    /// Numbers of up to four nodes, each with the residual's gradient by the node's position.
     pub nodes: [(usize, Vector3<f64>); 4],
-    /// Derivatives by logarithm of the focal length, principal point and logarithm of the proportions.
+    /// Derivatives of the residual by the logarithm of the focal length, the principal point (2) and the logarithm of
+    /// the page's height over its width.
     pub globals: [f64; 4],
-    /// Number of a line and the derivative by its level.
+    /// Number of a line of print, and the derivative of the residual by this line's level; None if it depends on no
+    /// line.
     pub level: Option<(usize, f64)>,
 }
 
-/// Robust weights of residuals in the order in which they are visited: computed in the first pass, then held.
+/// Robust weights of residuals in the order of visiting: computed in the first pass over the residuals, then held.
 #[derive(Debug, Default)]
 pub(super) struct RobustWeights {
     values: Vec<f64>,
@@ -63,23 +70,26 @@ pub(super) struct RobustWeights {
     held: bool,
 }
 
-/// Curvature, in widths of the page, above which bending counts by its size and not by its square, so that folds form.
+/// Curvature, in reciprocal widths of the page, above which bending is penalised linearly instead of quadratically, so
+/// that folds form.
 const FOLD_CURVATURE: f64 = 1.5;
 
-/// Distance from the outline, in widths of the page, above which it counts less: outliers.
+/// Distance between border and outline, in widths of the page, above which a node is an outlier and counts less.
 const OUTLINE_OUTLIER_DISTANCE: f64 = 0.01;
 
-/// Distance from a line, in widths of the page, above which it counts less.
+/// Distance between a line's point and its line on the sheet, in widths of the page, above which the point is an
+/// outlier and counts less.
 const LINE_OUTLIER_DISTANCE: f64 = 0.004;
 
 impl RobustWeights {
-    /// Starts another pass with the same weights.
+    /// Starts another pass over the residuals with the robust weights of the first pass.
     pub fn hold(&mut self) {
         self.next = 0;
         self.held = true;
     }
 
-    /// The weight of the next residual by its size relative to a threshold: 1 for small ones, falling as a power.
+    /// Returns the weight of the next residual: `(1 + relative²)^power`, where `relative` is the residual's size over
+    /// its outlier threshold; in a later pass the weight from the first one.
     fn next(&mut self, relative: f64, power: f64) -> f64 {
         if !self.held {
             self.values.push((1.0 + relative * relative).powf(power));
@@ -101,7 +111,8 @@ impl ResidualRow {
 }
 
 impl SheetProblem {
-    /// Visits all residuals of a sheet with its lines' levels. None if part of it is not in front of the camera.
+    /// Calls `sink` with each residual of a sheet whose lines of print have the given levels. None if part of the sheet
+    /// is not in front of the camera.
     pub fn visit(
         &self,
         grid: &SheetGrid,
@@ -134,13 +145,13 @@ impl SheetProblem {
         Some(())
     }
 
-    /// Mean size of a cell's sides on the flat page.
+    /// Mean side length of a cell of the sheet's grid on the flat page, in widths of the page.
     fn cell(grid: &SheetGrid) -> f64 {
         let [across, down] = grid.steps();
         (across * down).sqrt()
     }
 
-    /// Relative changes of length of edges and diagonals.
+    /// Calls `sink` with the isometry residuals: weighted strains of the edges and diagonals of the sheet's cells.
     pub fn visit_isometry(&self, grid: &SheetGrid, sink: &mut dyn FnMut(&ResidualRow)) {
         let [across, down] = grid.steps();
         let weight = self.weights.isometry * Self::cell(grid);
@@ -168,7 +179,8 @@ impl SheetProblem {
         }
     }
 
-    /// Second derivatives, each reweighted by its own size.
+    /// Calls `sink` with the bending residuals: second differences of the sheet's nodes, reweighted by their sizes so
+    /// that large bends count linearly.
     pub fn visit_bending(
         &self,
         grid: &SheetGrid,
@@ -214,7 +226,8 @@ impl SheetProblem {
         }
     }
 
-    /// Distances of the border's nodes from their edges, and of the corners from theirs.
+    /// Calls `sink` with the outline residuals: distances of the projected border nodes from the page's edges in the
+    /// photo, and of the projected corners from the traced corners.
     pub fn visit_outline(
         &self,
         grid: &SheetGrid,
@@ -259,7 +272,8 @@ impl SheetProblem {
         Some(())
     }
 
-    /// Distances of the lines' points from the sheet's lines at their levels.
+    /// Calls `sink` with the residuals of lines of print: distances of their points in the photo from the sheet's
+    /// projected lines at the given levels.
     pub fn visit_lines(
         &self,
         grid: &SheetGrid,
@@ -310,13 +324,15 @@ impl SheetProblem {
     }
 }
 
-/// Derivatives of the projection's coordinate along a normal by the globals.
+/// Derivatives of a projected point's coordinate along an image normal by the camera's and page's unknowns, in the
+/// order of [`ResidualRow::globals`]. `seen` is the projected point.
 fn camera_derivatives(grid: &SheetGrid, seen: [f64; 2], [nx, ny]: [f64; 2]) -> [f64; 4] {
     let [cx, cy] = grid.camera.centre;
     [nx * (seen[0] - cx) + ny * (seen[1] - cy), nx, ny, 0.0]
 }
 
-/// The residual of a node's projection along a normal.
+/// Makes the residual of a projected node: its weighted distance along an image normal, with derivatives by node and
+/// camera.
 fn photo_row(
     grid: &SheetGrid,
     node: usize,

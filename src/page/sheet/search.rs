@@ -1,4 +1,5 @@
-//! The page of an outline and of the lines in its photo: the plainest of plane, firm sheet and soft sheet that explains both.
+//! Search for the plainest model of a page (plane, firm sheet or crumpled sheet) that explains its outline and its
+//! lines of print in a photo.
 
 use super::figures::SheetFigures;
 use super::fit::FittedSheet;
@@ -11,34 +12,36 @@ use super::view::PhotoView;
 use crate::dewarp::Photo;
 use crate::page::report::PageModel;
 
-/// The page that was found.
+/// Result of the search for a page of any shape: the fitted sheet, its model and its measures.
 #[derive(Debug, Clone)]
 pub(super) struct FoundSheet {
     pub sheet: FittedSheet,
     pub model: PageModel,
     pub figures: SheetFigures,
-    /// Lines in the photo, in normalised coordinates.
+    /// Lines of print in the photo to which the sheet was fitted, in normalised image coordinates (pixels from the
+    /// principal point, over the focal length).
     pub lines: Vec<Vec<[f64; 2]>>,
     /// Mean depth of the initial plane, in widths of the page.
     pub depth: f64,
 }
 
-/// Numbers of nodes across of the grids before lines are known; coarse ones find the large bends in few steps.
-const COARSE_GRIDS: [usize; 2] = [9, 13];
+/// Numbers of grid columns for the first fits, before lines of print are known; coarse grids find the large bends in
+/// few steps.
+const COARSE_GRID_COLS: [usize; 2] = [9, 13];
 
-/// Number of nodes across of the grid on which lines are fitted.
-const FINE_GRID: usize = 25;
+/// Number of columns of a sheet's grid when it is fitted to lines of print.
+const FINE_GRID_COLS: usize = 25;
 
-/// Number of times that lines are found in the flat picture and the sheet is fitted to them.
-const LINE_ROUNDS: usize = 2;
+/// Number of times that lines of print are detected in the flattened photo and the sheet is fitted to them.
+const LINE_DETECTION_ROUNDS: usize = 2;
 
-/// Maximum number of steps of each fit.
-const MAX_STEPS: usize = 15;
+/// Maximum number of Levenberg–Marquardt steps in one fit of a sheet to a photo.
+const MAX_SHEET_FIT_STEPS: usize = 15;
 
-/// Relative decrease of the cost by one step at which a fit has converged.
+/// Relative decrease of the cost by one step below which the fit of a sheet has converged.
 const COST_TOLERANCE: f64 = 0.01;
 
-/// Weights of a sheet of paper, firm against strain.
+/// Weights of the residuals in the fit of a sheet of smooth paper, which is firm against strain.
 const FIRM_PAPER_WEIGHTS: SheetWeights = SheetWeights {
     isometry: 300.0,
     bending: 1.5,
@@ -47,34 +50,38 @@ const FIRM_PAPER_WEIGHTS: SheetWeights = SheetWeights {
     lines: 400.0,
 };
 
-/// Weights of a crumpled sheet, whose wrinkles between nodes shorten it.
+/// Weights of the residuals in the fit of a sheet of crumpled paper, which wrinkles finer than the sheet's grid
+/// shorten.
 const CRUMPLED_PAPER_WEIGHTS: SheetWeights = SheetWeights {
     isometry: 40.0,
     bending: 3.5,
     ..FIRM_PAPER_WEIGHTS
 };
 
-/// Factor of the weight of isometry in the first fit: a stiff sheet would stay in the plane.
+/// Factor of the isometry weight in the first fit of a sheet: a stiffer sheet would stay in the initial plane.
 const INITIAL_ISOMETRY_FACTOR: f64 = 0.25;
 
-/// Factor of the weight of bending in the first fit: a limp sheet would end in ripples.
+/// Factor of the bending weight in the first fit of a sheet: a limper sheet would end in ripples.
 const INITIAL_BENDING_FACTOR: f64 = 4.0;
 
-/// Root mean square curvature, in widths of the page, above which a firm sheet is crumpled.
+/// Root mean square curvature, in reciprocal widths of the page, above which a sheet is fitted again with the weights
+/// for crumpled paper.
 const MAX_FIRM_CURVATURE: f64 = 1.3;
 
-/// Distance of a plane's border from the outline, in widths of the page, up to which a plane explains it: a millimetre on A4
-/// is what a flat page lifts off its ground.
+/// Maximum distance between a plane's border and the outline, in widths of the page, for the plane to be accepted: a
+/// flat page lifts off its support by a millimetre on A4.
 const MAX_PLANE_OUTLINE_MISFIT: f64 = 0.004;
 
-/// Distance of lines from level ones on a plane, in widths of the page, up to which a plane explains them.
+/// Distance between lines of print and the lines on a plane that they belong to, in widths of the page, up to which a
+/// plane is always accepted as the page's model.
 const MAX_PLANE_LINE_MISFIT: f64 = 0.0012;
 
-/// Ratio of the lines' distances on the plane and on the sheet up to which the plane explains them.
+/// Ratio of the misfit of lines of print on a plane to that on a bent sheet, up to which the plane is accepted as the
+/// page's model.
 const MAX_PLANE_LINE_RATIO: f64 = 1.5;
 
-/// The plainest page that explains four edges (upper, lower, left, right) and the lines that a photo shows between them. None
-/// if no page does.
+/// Finds the plainest model of a page that explains its four edges (upper, lower, left, right) in normalised image
+/// coordinates and the lines of print that the photo shows between them. None if no model does.
 pub(super) fn find_sheet(
     edges: &[Polyline; 4],
     prior: CameraPrior,
@@ -83,7 +90,7 @@ pub(super) fn find_sheet(
 ) -> Option<FoundSheet> {
     let apparent = apparent_ratio(edges);
     let homography = Homography::new(corners(edges))?;
-    let start = homography.sheet(COARSE_GRIDS[0], &prior, apparent)?;
+    let start = homography.sheet(COARSE_GRID_COLS[0], &prior, apparent)?;
     let mut problem = SheetProblem {
         edges: edges.clone(),
         lines: Vec::new(),
@@ -96,16 +103,16 @@ pub(super) fn find_sheet(
             ..FIRM_PAPER_WEIGHTS
         },
     };
-    let coarse = problem.solve(FittedSheet::new(start), MAX_STEPS, COST_TOLERANCE)?;
+    let coarse = problem.solve(FittedSheet::new(start), MAX_SHEET_FIT_STEPS, COST_TOLERANCE)?;
     problem.weights = FIRM_PAPER_WEIGHTS;
-    let coarse = problem.refined(coarse, &COARSE_GRIDS)?;
+    let coarse = problem.refined(coarse, &COARSE_GRID_COLS)?;
     let (mut sheet, mut figures) = problem.with_lines(coarse.clone(), view, photo)?;
     let mut model = PageModel::Sheet;
     if figures.curvature > MAX_FIRM_CURVATURE {
         let mut crumpled = problem.clone();
         crumpled.weights = CRUMPLED_PAPER_WEIGHTS;
         crumpled.lines.clear();
-        let refined = crumpled.refined(coarse, &COARSE_GRIDS);
+        let refined = crumpled.refined(coarse, &COARSE_GRID_COLS);
         if let Some(found) = refined.and_then(|coarse| crumpled.with_lines(coarse, view, photo)) {
             (sheet, figures) = found;
             (problem, model) = (crumpled, PageModel::SoftSheet);
@@ -129,54 +136,58 @@ pub(super) fn find_sheet(
 }
 
 impl SheetProblem {
-    /// The sheet fitted on grids of some numbers of nodes across, one after the other.
+    /// Fits a sheet on grids with the given numbers of columns, one after the other. None if the sheet is not in front
+    /// of the camera.
     fn refined(&self, mut sheet: FittedSheet, grids: &[usize]) -> Option<FittedSheet> {
         for cols in grids {
             let rows = grid_rows(*cols, sheet.grid.ratio());
             sheet.grid = sheet.grid.resampled([*cols, rows]);
-            sheet = self.solve(sheet, MAX_STEPS, COST_TOLERANCE)?;
+            sheet = self.solve(sheet, MAX_SHEET_FIT_STEPS, COST_TOLERANCE)?;
         }
         Some(sheet)
     }
 
-    /// The sheet fitted on the fine grid to the outline and to the lines that its flat picture shows, and its figures.
+    /// Detects lines of print in the photo as flattened by a sheet, fits the sheet on the fine grid to outline and
+    /// lines, and repeats that; returns it with its measures.
     fn with_lines(
         &mut self,
         mut sheet: FittedSheet,
         view: &PhotoView,
         photo: &Photo<'_>,
     ) -> Option<(FittedSheet, SheetFigures)> {
-        for _ in 0..LINE_ROUNDS {
+        for _ in 0..LINE_DETECTION_ROUNDS {
             let table = PlaceTable::new(&sheet.grid, view).ok()?;
             self.lines = find_level_lines(&table, view, photo, sheet.grid.ratio());
             sheet.levels = self.lines.iter().map(|line| line.level).collect();
-            sheet = self.refined(sheet, &[FINE_GRID])?;
+            sheet = self.refined(sheet, &[FINE_GRID_COLS])?;
         }
         let figures = self.figures(&sheet)?;
         Some((sheet, figures))
     }
 }
 
-/// The plane of a homography as a fine sheet with lines, and its figures.
+/// Makes a sheet in the plane of a homography, with the positions of the lines of print on it, and its misfits and
+/// curvature. None if it is not in front of the camera.
 fn plane(
     problem: &SheetProblem,
     homography: Homography,
     apparent: f64,
 ) -> Option<(FittedSheet, SheetFigures)> {
-    let grid = homography.sheet(FINE_GRID, &problem.prior, apparent)?;
+    let grid = homography.sheet(FINE_GRID_COLS, &problem.prior, apparent)?;
     let sheet = problem.with_levels(&FittedSheet::new(grid))?;
     let figures = problem.figures(&sheet)?;
     Some((sheet, figures))
 }
 
-/// Corners at the ends of the edges, clockwise from the upper left one.
+/// Corners at the ends of the upper and lower edge, clockwise from the upper left one.
 fn corners([top, bottom, ..]: &[Polyline; 4]) -> [[f64; 2]; 4] {
     let ends = |edge: &Polyline| [edge.points()[0], edge.points()[edge.points().len() - 1]];
     let ([a, b], [d, c]) = (ends(top), ends(bottom));
     [a, b, c, d]
 }
 
-/// Corners where the lines nearest to the edges meet, clockwise from the upper left one.
+/// Corners where straight lines fitted to the edges intersect, clockwise from the upper left one. None if two lines are
+/// parallel.
 fn straight_corners(edges: &[Polyline; 4]) -> Option<[[f64; 2]; 4]> {
     let [top, bottom, left, right] = [0, 1, 2, 3].map(|k| edges[k].line());
     let meet = |(p, d): ([f64; 2], [f64; 2]), (q, e): ([f64; 2], [f64; 2])| {
@@ -193,7 +204,7 @@ fn straight_corners(edges: &[Polyline; 4]) -> Option<[[f64; 2]; 4]> {
     ])
 }
 
-/// Height over width in the photo, along the chords of the edges.
+/// Ratio of height to width of the page as seen in the photo, along the chords of its edges.
 fn apparent_ratio(edges: &[Polyline; 4]) -> f64 {
     let [a, b, c, d] = corners(edges);
     let side = |p: [f64; 2], q: [f64; 2]| (p[0] - q[0]).hypot(p[1] - q[1]);

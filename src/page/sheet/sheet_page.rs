@@ -21,71 +21,75 @@ use crate::page::report::{PageModel, PageReport, PageVerdict};
 use crate::page::traced_line::{TracedLine, distance};
 use crate::scene::mesh::Mesh;
 
-/// A page of any shape in space: an isometric sheet that bends little, whose outline and lines of print are those of the photo.
+/// A page of any shape in space: a nearly isometric sheet that bends little, fitted to the page's outline and lines of
+/// print in one photo.
 #[derive(Debug, Clone)]
 pub struct SheetPage {
     grid: SheetGrid,
     table: PlaceTable,
     photo: [usize; 2],
-    /// Length of the page's width: in millimetres if the format or a ruler is known, else 1.
+    /// Width of the flat page: in millimetres if the format or a ruler is known, else 1.
     unit: f64,
     millimetres: bool,
-    /// Lines that were found, of the one page.
+    /// Lines of print that were detected in the photo; the outer list has one entry, for the one page.
     lines: Vec<Vec<Trace>>,
     report: PageReport,
 }
 
-/// Number of segments that an edge is resampled to.
+/// Number of segments to which each traced edge is resampled.
 const EDGE_SEGMENTS: usize = 160;
 
-/// Focal length over the photo's longer side where it is not known: that of a phone, whose photo is cropped a little.
+/// Assumed focal length where it is not known, as a multiple of the photo's longer side: that of a phone, with a photo
+/// that is cropped slightly.
 const USUAL_FOCAL_RATIO: f64 = 0.9;
 
 /// Standard deviation of the logarithm of an unknown focal length.
 const UNKNOWN_FOCAL_DEVIATION: f64 = 0.2;
 
-/// Minimum standard deviation of the logarithm of a known focal length: photos are edited.
+/// Minimum standard deviation of the logarithm of a known focal length, because photos are edited.
 const MIN_FOCAL_DEVIATION: f64 = 0.06;
 
-/// Standard deviation of the principal point, in focal lengths: photos are cropped by hand.
+/// Standard deviation of the principal point's coordinates, divided by the focal length: photos are cropped by hand.
 const CENTRE_DEVIATION: f64 = 0.12;
 
-/// Relative standard deviation of the proportions of a page whose format is known.
+/// Relative standard deviation of a page's height over width where the format is known.
 const FORMAT_RATIO_DEVIATION: f64 = 0.002;
 
-/// Distance of the border from the outline, in widths of the page, above which edges cannot be those of a sheet.
+/// Root mean square distance between sheet and outline, in widths of the page, above which the edges cannot be those of
+/// a sheet (verdict `NotThisKind`).
 const MAX_OUTLINE_MISFIT: f64 = 0.02;
 
-/// Distance of the border from the outline, in widths of the page, of a page that is not doubtful.
+/// Maximum root mean square distance between sheet and outline, in widths of the page, for the verdict `Unrolled`.
 const MAX_TRUSTED_OUTLINE_MISFIT: f64 = 0.003;
 
-/// Distance of the lines from level ones, in widths of the page, of a page that is not doubtful.
+/// Maximum root mean square distance between lines of print and the sheet's level lines, in widths of the page, for the
+/// verdict `Unrolled`.
 const MAX_TRUSTED_LINE_MISFIT: f64 = 0.003;
 
-/// Root mean square curvature, in widths of the page, of a page that is not doubtful.
+/// Maximum root mean square curvature, in reciprocal widths of the page, for the verdict `Unrolled`.
 const MAX_TRUSTED_CURVATURE: f64 = 0.55;
 
-/// Root mean square relative change of length of a page that is not doubtful.
+/// Maximum root mean square strain for the verdict `Unrolled`.
 const MAX_TRUSTED_STRAIN: f64 = 0.003;
 
-/// Minimum number of lines of a page that is not doubtful: outlines alone leave much open.
+/// Minimum number of detected lines of print for the verdict `Unrolled`: outlines alone leave much open.
 const MIN_TRUSTED_LINES: usize = 8;
 
-/// Expected displacement per distance of border and lines from the photo's, and per curvature, in widths of the page.
+/// Ratio of the expected displacement of the flat page to the misfit of outline and lines, both in widths of the page.
 const ERROR_PER_MISFIT: f64 = 3.0;
 
-/// Expected displacement per root mean square curvature, in squared widths of the page.
+/// Ratio of the expected displacement of the flat page, in widths of the page, to the root mean square curvature.
 const ERROR_PER_CURVATURE: f64 = 0.02;
 
-/// Ratio of the displacement that is not exceeded in 95 of 100 cases and the expected one.
+/// Ratio of the displacement that is not exceeded in 95 of 100 cases to the expected one.
 const ERROR_BOUND_RATIO: f64 = 2.5;
 
-/// Minimum length of a ruler, as a share of the page's shorter side.
+/// Minimum length of a ruler (a known distance on the page), as a share of the flat page's shorter side.
 const MIN_RULER_SHARE: f64 = 0.01;
 
 impl SheetPage {
-    /// Finds the page whose four edges are traced in a photo, and lines of print on it by themselves. A plane is taken where
-    /// it explains both, else an isometric sheet, else one that is strained a little.
+    /// Finds a page of any shape by its four traced edges in a photo, and by lines of print that are detected in it.
+    /// The model is a plane where that explains both, else an isometric sheet, else a slightly strained one.
     ///
     /// Camera and proportions are found, too, within what is usual and what `options` tell. Costs some hundred
     /// milliseconds.
@@ -149,7 +153,7 @@ impl SheetPage {
         Ok(page)
     }
 
-    /// Verdict and figures of the page that was found.
+    /// Verdict on the page, with the measures of its fit.
     pub fn report(&self) -> &PageReport {
         &self.report
     }
@@ -159,17 +163,18 @@ impl SheetPage {
         [self.unit, self.unit * self.grid.ratio()]
     }
 
-    /// Whether lengths are in millimetres.
+    /// Whether lengths of the flat page are in millimetres; otherwise in widths of the page.
     pub fn is_millimetres(&self) -> bool {
         self.millimetres
     }
 
-    /// Lines across and down the page that were found in the photo, as points in the photo's pixels.
+    /// Lines of print across and down the page that were detected in the photo, as points in the photo's pixels.
     pub fn text(&self) -> &[Vec<Trace>] {
         &self.lines
     }
 
-    /// The warp map of the flat page, as [`CurledPage::warp_map`](super::super::CurledPage::warp_map) makes it.
+    /// Computes the warp map of the flat page: for each pixel of the flat image its place in the photo, as
+    /// [`CurledPage::warp_map`](super::super::CurledPage::warp_map) does.
     ///
     /// # Errors
     /// Those of [`CurledPage::warp_map`](super::super::CurledPage::warp_map).
@@ -193,8 +198,8 @@ impl SheetPage {
         ))
     }
 
-    /// The page in space, with texture coordinates for the photo, row by row from the upper left corner, in the axes of
-    /// [`CurledPage::mesh`](super::super::CurledPage::mesh).
+    /// Makes a mesh of the page in space, with texture coordinates for the photo, row by row from the upper left
+    /// corner, in the axes of [`CurledPage::mesh`](super::super::CurledPage::mesh).
     ///
     /// # Errors
     /// [`Error::OutOfMemory`].
@@ -215,7 +220,8 @@ impl SheetPage {
         grid_mesh(positions, uvs, cols)
     }
 
-    /// Sets the unit of length, by the sides of the format in millimetres, or by a ruler.
+    /// Sets the flat page's unit of length, by the format's width and height in millimetres, or by a ruler in the
+    /// options; else it stays the page's width.
     fn measure(&mut self, sides: Option<[f64; 2]>, options: &PageOptions) -> Result<()> {
         let ratio = self.grid.ratio();
         if let Some([w, h]) = sides {
@@ -250,7 +256,8 @@ impl SheetPage {
     }
 }
 
-/// The four edges of a page in the order top, bottom, left, right, each from left to right or from top to bottom.
+/// Reads the four traced edges of a page, in the order top, bottom, left, right, each from left to right or from top to
+/// bottom.
 ///
 /// # Errors
 /// [`Error::Edges`] and what else [`read_traces`] finds.
@@ -296,7 +303,8 @@ fn outline(edges: &Edges, photo: [usize; 2]) -> Result<[TracedLine; 4]> {
     Ok(lines)
 }
 
-/// Verdict and figures of a page.
+/// Makes the report on a page: the verdict and the measures of its fit. `focal_deviation` is the relative standard
+/// deviation of the focal length.
 fn report(found: &FoundSheet, view: &PhotoView, focal_deviation: f64) -> PageReport {
     let (figures, grid) = (&found.figures, &found.sheet.grid);
     let lines = found.lines.len();
@@ -350,8 +358,8 @@ fn report(found: &FoundSheet, view: &PhotoView, focal_deviation: f64) -> PageRep
     }
 }
 
-/// Unit normals of a sheet's cells, away from the camera where the page's face is seen, one for each node that has a cell to
-/// its lower right, else that of the nearest cell.
+/// Unit normals of the sheet's cells, one for each node (of the cell to its lower right, or the nearest one); they
+/// point away from the camera where the page's face is visible.
 fn normals(grid: &SheetGrid) -> Vec<Vector3<f64>> {
     let (cols, rows) = (grid.cols, grid.rows);
     (0..cols * rows)

@@ -1,44 +1,48 @@
-//! Bands of ink that continue from strip to strip of a page.
+//! Bands of ink across a flattened page, tracked from strip to strip: candidates for lines of text.
 
 use super::ink::InkImage;
 use super::ranking::ranked;
 
-/// Amount of ink in each row, by vertical strips of the page.
+/// Ink of a page by strips: mean darkness of each row of pixels in each of the vertical strips into which the page is
+/// divided.
 pub(super) struct StripProfiles {
-    /// Width of a strip, in pixels.
+    /// Width of a vertical strip, in pixels of the ink image.
     pub step: f64,
     profiles: Vec<Vec<f32>>,
 }
 
-/// Strip profiles smoothed along the columns.
+/// Mean darkness of each row in each vertical strip of a page, smoothed along the columns by a Gaussian.
 pub(super) struct SmoothedProfiles(pub Vec<Vec<f32>>);
 
-/// The middle of a band: the numbers of its strips, and its row in each.
+/// Centre line of a band of ink, which may be a line of text: for each vertical strip that it crosses, the strip's
+/// number and the row.
 pub(super) type Band = Vec<(usize, f64)>;
 
-/// Number of strips across a page: each is about two letters of body text on A4 wide.
+/// Number of vertical strips into which a page is divided: each is about two letters of body text on A4 wide.
 const STRIPS_ACROSS: usize = 48;
 
-/// Minimum width of a strip, in pixels.
+/// Minimum width of a vertical strip, in pixels of the ink image.
 const MIN_STRIP_PIXELS: usize = 6;
 
-/// Minimum number of strips in a band.
+/// Minimum number of vertical strips that a band of ink has to cross to be a line of text.
 pub(super) const MIN_BAND_STRIPS: usize = 8;
 
-/// Maximum number of consecutive strips that a band may miss.
+/// Maximum number of consecutive vertical strips in which a band of ink may be interrupted.
 const MAX_MISSING_STRIPS: usize = 2;
 
-/// Minimum difference of the amount of ink between a band and the rows above and below it, from 0 to 1.
+/// Minimum contrast of a band of ink: negative second derivative of the darkness across it, times the square of half
+/// the searched x-height.
 const MIN_BAND_CONTRAST: f32 = 0.03;
 
-/// Maximum distance of a band in the next strip from its extrapolated row, over its scale.
+/// Maximum distance between a band of ink in the next vertical strip and its extrapolation there, as a multiple of half
+/// the searched x-height.
 const MAX_BAND_OFFSET: f64 = 1.0;
 
-/// Maximum slope of a band, in rows per column.
+/// Maximum slope of a band of ink, in rows per column.
 const MAX_BAND_SLOPE: f64 = 0.25;
 
 impl StripProfiles {
-    /// The profiles of an ink image.
+    /// Computes the mean darkness of each row in each vertical strip of an ink image.
     pub fn new(ink: &InkImage) -> Self {
         let count = STRIPS_ACROSS.min(ink.width / MIN_STRIP_PIXELS).max(1);
         let step = ink.width as f64 / count as f64;
@@ -68,7 +72,7 @@ impl StripProfiles {
         StripProfiles { step, profiles }
     }
 
-    /// Smooths the profiles by a Gaussian of a standard deviation in pixels.
+    /// Smooths the darkness along the columns by a Gaussian with standard deviation `sigma`, in pixels.
     pub fn smoothed(&self, sigma: f64) -> SmoothedProfiles {
         let reach = (3.0 * sigma).ceil() as usize;
         let kernel: Vec<f32> = (0..=2 * reach)
@@ -96,7 +100,8 @@ impl StripProfiles {
 }
 
 impl SmoothedProfiles {
-    /// Rows where the profile of a strip has the most ink relative to both sides: maxima of the negative second derivative.
+    /// Finds the rows where the vertical strip number `strip` crosses a line of text with half x-height `sigma`: maxima
+    /// of the darkness's negative second derivative.
     fn peaks(&self, strip: usize, sigma: f64) -> Vec<f64> {
         let p = &self.0[strip];
         let scale = (sigma * sigma) as f32;
@@ -110,7 +115,8 @@ impl SmoothedProfiles {
             .collect()
     }
 
-    /// Bands of about a scale, in pixels; `step` is the width of a strip.
+    /// Tracks bands of ink with half x-height `sigma`, in pixels, from one vertical strip to the next; `step` is the
+    /// width of a strip in pixels.
     pub fn bands(&self, sigma: f64, step: f64) -> Vec<Band> {
         struct OpenBand {
             band: Band,
@@ -167,7 +173,8 @@ impl SmoothedProfiles {
         found
     }
 
-    /// Row of the lower edge of a band in a strip: where ink decreases most steeply. None if there is no such row nearby.
+    /// Finds the row of the lower edge of a band of ink in one vertical strip, where the darkness decreases most
+    /// steeply. `row` is the band's middle, `sigma` half the x-height. None if there is no such row nearby.
     pub fn baseline(&self, strip: usize, row: f64, sigma: f64) -> Option<f64> {
         let p = &self.0[strip];
         let [from, to] = [0.1, 2.4].map(|k| (row + k * sigma).round());
@@ -182,7 +189,8 @@ impl SmoothedProfiles {
     }
 }
 
-/// Position of the vertex of the parabola through three equidistant values, from the middle one, from −0.5 to 0.5.
+/// Position of the vertex of the parabola through three equidistant values, in steps from the middle one, limited to
+/// −0.5 to 0.5.
 fn parabola_vertex([a, b, c]: [f32; 3]) -> f64 {
     let bend = f64::from(a - 2.0 * b + c);
     if bend == 0.0 {

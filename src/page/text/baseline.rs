@@ -1,5 +1,4 @@
-//! Baselines of bands of ink, and which of them are lines of text: those with a smooth baseline that is parallel to its
-//! neighbours.
+//! Baselines of bands of ink, and the test which of them are lines of text: smooth, and parallel to their neighbours.
 
 use nalgebra::{DMatrix, DVector};
 
@@ -11,43 +10,46 @@ use crate::page::cylinder::legendre_values;
 #[derive(Debug, Clone)]
 pub(super) struct Baseline {
     pub points: Vec<[f64; 2]>,
-    /// Half the x-height.
+    /// Half the x-height of the line's letters, in pixels.
     pub sigma: f64,
-    /// Mean row.
+    /// Mean row of the baseline, in pixels of the ink image.
     pub level: f64,
 }
 
-/// Minimum share of a band's strips whose lower edge lies on the baseline.
+/// Minimum share of the vertical strips of a band of ink in which its lower edge lies on the fitted baseline.
 const MIN_INLIER_SHARE: f64 = 0.6;
 
-/// Maximum scatter of the strips' lower edges about the baseline, in pixels of the ink image, to which a share of the letters'
-/// height is added. Letters of print stand on a line; handwriting and pictures do not.
+/// Maximum scatter of the lower edges of a band of ink about its fitted baseline, in pixels of the ink image;
+/// [`MAX_SCATTER_SCALES`] adds a share of the letters' height. Letters of print stand on a line; handwriting and
+/// pictures do not.
 const MAX_SCATTER_PIXELS: f64 = 0.3;
 
-/// Share of half the x-height that is added to the maximum scatter.
+/// Addition to the maximum scatter of lower edges about a baseline, as a share of half the x-height.
 const MAX_SCATTER_SCALES: f64 = 0.05;
 
-/// Minimum number of lines on a page: fewer may be parallel by chance.
-const MIN_LINES: usize = 4;
+/// Minimum number of parallel lines of text on a page: fewer may be parallel by chance.
+const MIN_TEXT_LINES: usize = 4;
 
-/// Maximum distance of a neighbouring line that a line is compared with, over half the x-height.
+/// Maximum distance between lines that are compared for being parallel, as a multiple of half the x-height.
 const MAX_NEIGHBOUR_DISTANCE: f64 = 25.0;
 
-/// Number of neighbouring lines that a line is compared with.
+/// Number of nearest lines with which a line is compared for being parallel.
 const COMPARED_NEIGHBOURS: usize = 4;
 
-/// Maximum root mean square change of the distance between parallel lines, in pixels of the ink image, to which a share of the
-/// letters' height is added.
+/// Maximum variation (standard deviation) of the distance between two lines of text that count as parallel, in pixels
+/// of the ink image; [`MAX_NON_PARALLEL_SCALES`] adds a share of the letters' height.
 const MAX_NON_PARALLEL_PIXELS: f64 = 0.5;
 
-/// Share of half the x-height that is added to the maximum change.
+/// Addition to the maximum variation of the distance between parallel lines of text, as a share of half the x-height.
 const MAX_NON_PARALLEL_SCALES: f64 = 0.08;
 
-/// Minimum share of all lines that are parallel to those around them: below it the page has no print.
+/// Minimum share of all candidate lines of text that are parallel to their neighbours: below it the page is assumed to
+/// have no print.
 const MIN_PARALLEL_SHARE: f64 = 0.65;
 
 impl Baseline {
-    /// The baseline of a band, by a polynomial through its strips' lower edges. None if these scatter too much.
+    /// Fits the baseline of a band of ink: a polynomial through the band's lower edges in each vertical strip, `step`
+    /// pixels wide. None if the edges scatter too much.
     pub fn new(band: &Band, fine: &SmoothedProfiles, sigma: f64, step: f64) -> Option<Self> {
         let all: Vec<[f64; 2]> = (band.iter())
             .filter_map(|(strip, row)| {
@@ -77,7 +79,7 @@ impl Baseline {
         })
     }
 
-    /// Whether both lines are at the same place.
+    /// Whether two baselines run at the same place, so that one of them is superfluous.
     pub fn covers(&self, other: &Baseline) -> bool {
         let near = 2.0 * self.sigma.max(other.sigma);
         let both = (self.points.iter())
@@ -86,7 +88,8 @@ impl Baseline {
         both >= 3
     }
 
-    /// Root mean square change of the distance from another line; None if they have too few strips in common.
+    /// Variation (standard deviation), along the lines, of the distance between two lines of text, in pixels; None if
+    /// they have too few strips in common.
     fn distance_change(&self, other: &Baseline) -> Option<f64> {
         let gaps: Vec<f64> = (self.points.iter())
             .filter_map(|p| {
@@ -102,7 +105,8 @@ impl Baseline {
         Some((squares / gaps.len() as f64).sqrt())
     }
 
-    /// Whether the line is parallel to half of its neighbours.
+    /// Whether the line is parallel to at least half of its nearest neighbours in `lines`; `own` is its own index
+    /// there.
     fn is_parallel(&self, lines: &[Baseline], own: usize) -> bool {
         let (away, apart): (Vec<f64>, Vec<f64>) = (lines.iter().enumerate())
             .filter(|(i, other)| {
@@ -123,7 +127,8 @@ impl Baseline {
     }
 }
 
-/// Lines that are parallel to half of the lines above and below them, as those of print are; none if they are too few.
+/// Keeps the lines that are parallel to at least half of their neighbours, as those of print are; returns none if too
+/// few remain.
 pub(super) fn parallel_lines(mut lines: Vec<Baseline>) -> Vec<Baseline> {
     let all = lines.len();
     loop {
@@ -131,7 +136,7 @@ pub(super) fn parallel_lines(mut lines: Vec<Baseline>) -> Vec<Baseline> {
             .filter(|(i, line)| line.is_parallel(&lines, *i))
             .map(|(_, line)| line.clone())
             .collect();
-        if kept.len() < MIN_LINES || (kept.len() as f64) < MIN_PARALLEL_SHARE * all as f64 {
+        if kept.len() < MIN_TEXT_LINES || (kept.len() as f64) < MIN_PARALLEL_SHARE * all as f64 {
             return Vec::new();
         }
         if kept.len() == lines.len() {
@@ -149,7 +154,7 @@ struct Polynomial {
 }
 
 impl Polynomial {
-    /// Value at a place.
+    /// Evaluates the polynomial at `x`.
     fn at(&self, x: f64) -> f64 {
         let degree = self.coefficients.len() - 1;
         let values = legendre_values(degree, (x - self.from) / self.span);
@@ -161,7 +166,8 @@ impl Polynomial {
     }
 }
 
-/// The polynomial with the least sum of absolute distances from points, by iteratively reweighted least squares.
+/// Fits the polynomial with the least sum of absolute distances from points, by iteratively reweighted least squares.
+/// None if there are no points.
 fn fit_robust(points: &[[f64; 2]], degree: usize) -> Option<Polynomial> {
     let from = points.first()?[0];
     let span = (points.last()?[0] - from).max(1e-9);

@@ -1,15 +1,16 @@
-//! The ink image of a page, flattened by the page that its edges show.
+//! Ink image of a page: the page's darkness relative to its paper, flattened by the surface that was found from the
+//! edges.
 
 use crate::dewarp::Photo;
 use crate::math::lanes;
 use crate::page::curled_page::CurledPage;
 
-/// A flat page and where the photo shows it, with coordinates as shares of its sides.
+/// A flat page with its projection to the photo; places on the page are shares of its width and height.
 pub(in crate::page) struct PageView<'a> {
     place: Box<dyn Fn([f64; 2]) -> Option<[f64; 2]> + 'a>,
 }
 
-/// Darkness of each pixel of the flat page relative to the paper around it, from 0 to 1.
+/// Ink image: darkness of each pixel of the flat page relative to the paper around it, from 0 to 1.
 pub(super) struct InkImage {
     pub width: usize,
     pub height: usize,
@@ -19,23 +20,25 @@ pub(super) struct InkImage {
 /// Maximum width of the ink image, in pixels: the x-height of body text on A4 is 8 pixels then.
 const MAX_INK_WIDTH: f64 = 1000.0;
 
-/// Minimum width and height of a page in the photo, in pixels, for text to be found.
+/// Minimum width and height of a page in the photo, in pixels, for text to be searched.
 const MIN_PAGE_PIXELS: f64 = 100.0;
 
-/// Number of blocks across the page for each of which the paper's brightness is measured.
+/// Number of blocks across the page in each of which the paper's brightness is measured.
 const PAPER_BLOCKS_ACROSS: usize = 40;
 
-/// Quantile of the brightness of a block's pixels that is taken for the paper's.
+/// Quantile of the brightness of a block's pixels that is taken for the paper's brightness.
 const PAPER_QUANTILE: f64 = 0.85;
 
-/// Width of the margin along the page's edges that is left out, as a share of the page: edges are traced with errors.
+/// Width of the margin along the page's edges that is left out of the ink image, as a share of the page's sides: edges
+/// are traced with errors.
 const MARGIN_SHARE: f64 = 0.015;
 
-/// Maximum number of samples along each side of a pixel.
+/// Maximum number of samples of the photo along each side of a pixel of the ink image.
 const MAX_SAMPLES_PER_SIDE: f64 = 4.0;
 
 impl<'a> PageView<'a> {
-    /// One page of a curled page, or one of the two of a spread.
+    /// Makes the view of a curled page, or of page `number` of a spread, by which places on the page are projected to
+    /// the photo.
     pub fn new(page: &'a CurledPage, number: usize) -> Self {
         let curve = page.cylinder.curve();
         Self::from_places(move |share| {
@@ -45,25 +48,26 @@ impl<'a> PageView<'a> {
         })
     }
 
-    /// A page whose points the photo shows at given places, in pixels.
+    /// Makes the view of a page whose places are projected to the photo's pixels by the function `place`.
     pub fn from_places(place: impl Fn([f64; 2]) -> Option<[f64; 2]> + 'a) -> Self {
         PageView {
             place: Box::new(place),
         }
     }
 
-    /// Projects a place on the page to the photo, in pixels.
+    /// Projects a place on the page, in shares of its width and height, to the photo, in pixels.
     pub fn project(&self, share: [f64; 2]) -> Option<[f64; 2]> {
         (self.place)(share)
     }
 
-    /// Width and height of the page in the photo, in pixels, along the lines through its middle.
+    /// Width and height of the page in the photo, in pixels, along the lines through its middle. None if a part is not
+    /// in front of the camera.
     fn size(&self) -> Option<[f64; 2]> {
-        /// Number of segments by which a length is measured.
-        const SIZE_STEPS: usize = 16;
+        /// Number of segments by which the page's width and height in the photo are measured.
+        const PAGE_SIZE_SEGMENTS: usize = 16;
         let length = |along: fn(f64) -> [f64; 2]| -> Option<f64> {
-            let seen: Option<Vec<_>> = (0..=SIZE_STEPS)
-                .map(|i| self.project(along(i as f64 / SIZE_STEPS as f64)))
+            let seen: Option<Vec<_>> = (0..=PAGE_SIZE_SEGMENTS)
+                .map(|i| self.project(along(i as f64 / PAGE_SIZE_SEGMENTS as f64)))
                 .collect();
             Some(
                 (seen?.windows(2))
@@ -76,7 +80,7 @@ impl<'a> PageView<'a> {
 }
 
 impl InkImage {
-    /// The ink image of a page; None if too little of the page is in the photo.
+    /// Computes the ink image of a page; None if too little of the page is in the photo.
     pub fn new(view: &PageView<'_>, photo: &Photo<'_>) -> Option<Self> {
         let [seen, down] = view.size()?;
         if !(seen >= MIN_PAGE_PIXELS && down >= MIN_PAGE_PIXELS && seen < 1e6 && down < 1e6) {
@@ -122,7 +126,8 @@ impl InkImage {
     }
 }
 
-/// Bilinear brightness of a photo, from 0 to 255; NaN outside of it and where it is transparent.
+/// Interpolates the brightness of a photo bilinearly, from 0 to 255; NaN outside of the photo and where it is
+/// transparent.
 fn brightness(photo: &Photo<'_>, [x, y]: [f64; 2]) -> f32 {
     let [width, height] = [photo.width(), photo.height()];
     if !(x >= 0.0 && y >= 0.0 && x <= (width - 1) as f64 && y <= (height - 1) as f64) {
@@ -143,7 +148,7 @@ fn brightness(photo: &Photo<'_>, [x, y]: [f64; 2]) -> f32 {
         + t * ((1.0 - s) * at(col, below) + s * at(right, below))
 }
 
-/// Brightness of the paper, block by block: corrects for shadows.
+/// Brightness of the paper, measured in square blocks of the flat page, by which shadows are corrected.
 struct PaperBrightness {
     side: usize,
     cols: usize,
@@ -204,7 +209,7 @@ impl PaperBrightness {
         }
     }
 
-    /// Brightness at a pixel, bilinear between the middles of blocks.
+    /// Interpolates the paper's brightness at a pixel, bilinearly between the centres of blocks.
     fn at(&self, pixel: [usize; 2]) -> f32 {
         let sides = [self.cols, self.rows];
         let [(x, s), (y, t)] = [0, 1].map(|k| {

@@ -1,4 +1,4 @@
-//! Detection of the lines of text on each page.
+//! Detection of the baselines of lines of text on flattened pages.
 
 use super::bands::StripProfiles;
 use super::baseline::{Baseline, parallel_lines};
@@ -8,13 +8,13 @@ use crate::dewarp::Photo;
 use crate::page::curled_page::CurledPage;
 use crate::page::edges::Trace;
 
-/// Half the x-heights that are looked for, in pixels of the ink image.
+/// Half x-heights of the letters for which lines of text are searched, in pixels of the ink image.
 const X_HEIGHT_SCALES: [f64; 6] = [1.5, 2.2, 3.2, 4.7, 6.8, 10.0];
 
-/// Maximum number of lines of one page.
+/// Approximate maximum number of lines of text of one page.
 const MAX_LINES_PER_PAGE: usize = 200;
 
-/// Finds the baselines of the lines of text on each page, in the photo's pixels.
+/// Finds the baselines of the lines of text on each page of a photo, in the photo's pixels.
 pub(in crate::page) fn find_lines(page: &CurledPage, photo: &Photo<'_>) -> Vec<Vec<Trace>> {
     (0..page.pages())
         .map(|number| {
@@ -28,7 +28,8 @@ pub(in crate::page) fn find_lines(page: &CurledPage, photo: &Photo<'_>) -> Vec<V
         .collect()
 }
 
-/// Finds the baselines on one flat page, as points in shares of its sides; None if too little of it is in the photo.
+/// Finds the baselines on one flat page, as points in shares of its width and height; `parallel` discards those that
+/// are not parallel to their neighbours. None if too little of the page is in the photo.
 pub(in crate::page) fn find_on_view(
     view: &PageView<'_>,
     photo: &Photo<'_>,

@@ -38,29 +38,29 @@ const MIN_SEAM_PART_NODES: usize = 4;
 /// A crease or a part of it, with its line on the flat patches on both sides.
 pub(super) struct Seam {
     pub patches: [u32; 2],
-    /// Number of the crease.
+    /// Number of the crease that the seam lies on.
     pub crease: usize,
     /// Whether the seam is a cut inside of a patch.
     pub smooth: bool,
     /// Position of the seam's first node among those of the crease.
     from: usize,
     pub nodes: Vec<Node>,
-    /// Positions of the nodes on either patch's plane, smoothed along the crease.
+    /// Positions of the seam's nodes in the plane of the flat patch on either side, smoothed along the crease.
     pub sides: [Vec<Point>; 2],
-    /// Positive for a ridge, negative for a groove, seen from above.
+    /// Sign of the crease: positive for a ridge, negative for a groove, seen from above.
     pub rise: f64,
     /// Vertical distance between the two patches along the seam, root mean square.
     pub apart: f64,
 }
 
-/// A piece of the line around a patch, from one node to another; the patch is to its left.
+/// A segment of the closed line around a patch, from one node to the next; the patch is to its left.
 type Segment = [Node; 2];
 
 /// Graph of the seams between all patches, and the positions of their nodes.
 pub(super) struct SeamGraph {
     pub spacing: f64,
-    /// Spacing of the lattice on which the surface was cut, which may be coarser; loops of outlines that are small
-    /// on that lattice are cut off.
+    /// Spacing of the lattice on which the cuts of the surface were decided, which may be coarser than this
+    /// lattice; loops of outlines that are small on that lattice are cut off.
     pub decided: f64,
     pub leaves: Vec<Option<FlatPatch>>,
     pub seams: Vec<Seam>,

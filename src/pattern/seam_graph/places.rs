@@ -14,7 +14,7 @@ const MIN_NODE_SHARE: f64 = 0.01;
 const CUT_SMOOTHING_PASSES: f64 = 4.0;
 
 impl SeamGraph {
-    /// Position of a node in plan.
+    /// Computes the position of a node seen from above.
     pub(in crate::pattern) fn plan(&self, (p, q): Node) -> [f64; 2] {
         let corners = match is_triangle((p, q)) {
             true => self.mesh.triangles()[p as usize],
@@ -72,7 +72,7 @@ impl SeamGraph {
         line.into_iter().map(|[x, y]| Point::new(x, y)).collect()
     }
 
-    /// Sets the positions of a patch's vertices.
+    /// Sets the flat positions of a patch's vertices.
     pub(in crate::pattern) fn set_places(&mut self, patch: u32, places: Vec<Point>) {
         if let Some(leaf) = self.leaves[patch as usize].as_mut() {
             leaf.set_places(places);
@@ -116,7 +116,7 @@ impl SeamGraph {
         }
     }
 
-    /// A node of a seam as a weighted mean of vertices of one of its patches.
+    /// Expresses a node of a seam as a weighted mean of vertices of one of its two patches.
     pub(in crate::pattern) fn mean(&self, node: Node, patch: u32) -> Option<BarycentricPoint> {
         let leaf = self.leaves[patch as usize].as_ref()?;
         let shares = self.shares.get(&node)?;
@@ -185,13 +185,13 @@ impl SeamGraph {
         })
     }
 
-    /// Height of an edge's node on one of its patches.
+    /// Computes the height of one patch's extended surface at a node on an edge.
     pub(super) fn height(&self, node: Node, patch: u32) -> f64 {
         let [first, second, _] = self.shares[&node];
         first * self.vertex_height(node.0, patch) + second * self.vertex_height(node.1, patch)
     }
 
-    /// Position of a node on a patch's plane, before smoothing.
+    /// Computes the position of a node in the plane of a flat patch, before the line of nodes is smoothed.
     pub(super) fn raw_place(&self, node: Node, patch: u32) -> Point {
         let (p, q) = node;
         if p == q {
@@ -205,7 +205,7 @@ impl SeamGraph {
         self.vertex_place(p, patch) * shares[0] + self.vertex_place(q, patch) * shares[1]
     }
 
-    /// Position of a node on a patch's plane.
+    /// Returns the position of a node in the plane of a flat patch, smoothed if the node lies on a seam.
     pub(in crate::pattern) fn place(&self, node: Node, patch: u32) -> Point {
         match self.on_seams.get(&(node, patch)) {
             Some(place) => *place,

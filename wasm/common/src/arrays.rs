@@ -1,4 +1,4 @@
-//! Typed arrays of groups of numbers, in and out.
+//! Conversion of JavaScript's typed arrays to lists of groups of numbers, such as the coordinates of points.
 
 use js_sys::Float32Array;
 use wasm_bindgen::prelude::*;
@@ -7,7 +7,7 @@ use super::Result;
 use developable::Error;
 use developable::checks::try_filled;
 
-/// Reads an array of groups of `N` numbers; `None` if the value is not a `Float32Array`.
+/// Reads a `Float32Array` as groups of `N` numbers; `None` if the value is not a `Float32Array`.
 pub fn groups<const N: usize>(values: &JsValue) -> Result<Option<Vec<[f32; N]>>> {
     let Some(values) = values.dyn_ref::<Float32Array>() else {
         return Ok(None);
@@ -17,8 +17,8 @@ pub fn groups<const N: usize>(values: &JsValue) -> Result<Option<Vec<[f32; N]>>>
     Ok(Some(list))
 }
 
-/// Array of groups of `N` numbers, `length` numbers in all and each of them `value`. `length` must be a
-/// multiple of `N`.
+/// Makes a list of groups of `N` numbers, `length` numbers in all and each of them `value`, to copy a typed array into.
+/// It is an error if `length` is not a multiple of `N`.
 pub fn filled<T: Copy, const N: usize>(length: u32, value: T) -> Result<Vec<[T; N]>> {
     let length = length as usize;
     if !length.is_multiple_of(N) {

@@ -1,4 +1,4 @@
-//! Cameras in.
+//! Cameras read from JavaScript objects.
 
 use wasm_bindgen::prelude::*;
 
@@ -6,7 +6,8 @@ use super::options::{entries, option, unknown};
 use super::{Failure, Result};
 use developable::{Camera, Depth, Error, Intrinsics, Pose};
 
-/// `Intrinsics` of `types.d.ts`.
+/// Reads the intrinsics of a depth camera from JavaScript's `Intrinsics` object; a pose (`rotation` or `translation`)
+/// is an error.
 pub fn intrinsics(camera: &JsValue) -> Result<Intrinsics> {
     let Camera { intrinsics, pose } = read(camera)?;
     if pose == Pose::default() {
@@ -17,21 +18,23 @@ pub fn intrinsics(camera: &JsValue) -> Result<Intrinsics> {
     ))
 }
 
-/// `PhotoCamera` of `types.d.ts`.
+/// Reads a camera that takes photos, with its pose, from JavaScript's `PhotoCamera` object.
 pub fn photo_camera(camera: &JsValue) -> Result<Camera> {
     read(camera)
 }
 
-const NUMBERS: [&str; 9] = ["fx", "fy", "cx", "cy", "k1", "k2", "p1", "p2", "k3"];
-const KNOWN: &str = "fx, fy, cx, cy, width, height, k1, k2, p1, p2, k3, depthScale, depth, margin, rotation and translation";
+/// Names of a camera's fields that are single numbers.
+const NUMBER_FIELDS: [&str; 9] = ["fx", "fy", "cx", "cy", "k1", "k2", "p1", "p2", "k3"];
+/// Names of all fields of a camera, for the error about an unknown one.
+const FIELD_NAMES: &str = "fx, fy, cx, cy, width, height, k1, k2, p1, p2, k3, depthScale, depth, margin, rotation and translation";
 
 fn read(camera: &JsValue) -> Result<Camera> {
     let mut found = [None; 9];
     let (mut width, mut height) = (None, None);
     let mut own = Camera::new(Intrinsics::new(1.0, 1.0, 0.0, 0.0));
     for (name, value) in entries(camera)? {
-        if let Some(k) = NUMBERS.iter().position(|known| *known == name) {
-            found[k] = Some(option(NUMBERS[k], value, "must be a number")?);
+        if let Some(k) = NUMBER_FIELDS.iter().position(|known| *known == name) {
+            found[k] = Some(option(NUMBER_FIELDS[k], value, "must be a number")?);
             continue;
         }
         let size = "must be a whole number of pixels";
@@ -51,7 +54,7 @@ fn read(camera: &JsValue) -> Result<Camera> {
             "translation" => {
                 pose.translation = option("translation", value, "must be three numbers")?
             }
-            _ => return Err(unknown(&name, KNOWN)),
+            _ => return Err(unknown(&name, FIELD_NAMES)),
         }
     }
     let [Some(fx), Some(fy), Some(cx), Some(cy), lens @ ..] = found else {

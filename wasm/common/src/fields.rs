@@ -1,4 +1,4 @@
-//! Heights in and out: plain JS objects around typed arrays.
+//! Height images and heightfields read from JavaScript objects with typed arrays.
 
 use js_sys::{Float32Array, Float64Array, Uint8Array};
 use serde::Deserialize;
@@ -12,7 +12,7 @@ use developable::Heightfield;
 use developable::Lattice;
 use developable::checks::{check_shape, try_filled};
 
-/// Fields of `HeightImage` in `types.d.ts` that every call reads; a solve reads further ones.
+/// Fields of JavaScript's `HeightImage` object that every call reads; a solve reads further ones.
 #[derive(Deserialize)]
 #[serde(rename_all = "camelCase")]
 pub struct ImageInput {
@@ -32,7 +32,8 @@ impl ImageInput {
         self.heights("height image", &self.data)
     }
 
-    /// Heights at the pixels, in units of length; NaN outside of the mask.
+    /// Converts values at the pixels to heights in units of length, by the height scale; NaN outside of the mask.
+    /// `what` names the values in errors.
     pub fn heights(&self, what: &'static str, data: &JsValue) -> Result<HeightImage> {
         let values = values(what, self.height, self.width, data, self.no_data)?;
         Ok(self
@@ -40,7 +41,8 @@ impl ImageInput {
             .scaled(self.height_scale.unwrap_or(1.0))?)
     }
 
-    /// Values of any kind at the pixels; NaN outside of the mask.
+    /// Makes an image of values of any kind at the pixels, with NaN outside of the mask. `what` names the values in
+    /// errors.
     pub fn image(&self, what: &'static str, values: Vec<f64>) -> Result<HeightImage> {
         let image = HeightImage::new(self.width, self.height, values)
             .and_then(|image| image.with_pixel_size(self.pixel_size.unwrap_or(1.0)))
@@ -52,7 +54,7 @@ impl ImageInput {
     }
 }
 
-/// Fields of `Heightfield` in `types.d.ts` that every call reads; a solve reads further ones.
+/// Fields of JavaScript's `Heightfield` object that every call reads; a solve reads further ones.
 #[derive(Deserialize)]
 #[serde(rename_all = "camelCase")]
 pub struct LatticeInput {
@@ -72,7 +74,8 @@ impl LatticeInput {
         self.heights("heightfield", &self.heights)
     }
 
-    /// Heights at the vertices; NaN outside of the mask.
+    /// Reads heights at the lattice's vertices from a typed array; NaN outside of the mask. `what` names them in
+    /// errors.
     pub fn heights(&self, what: &'static str, data: &JsValue) -> Result<Heightfield> {
         self.field(
             what,
@@ -80,7 +83,8 @@ impl LatticeInput {
         )
     }
 
-    /// Values of any kind at the vertices; NaN outside of the mask.
+    /// Makes a field of values of any kind at the lattice's vertices, with NaN outside of the mask. `what` names the
+    /// values in errors.
     pub fn field(&self, what: &'static str, values: Vec<f64>) -> Result<Heightfield> {
         let lattice = Lattice::new(self.rows, self.cols, self.spacing)?
             .with_origin(self.origin.unwrap_or_default())?;
@@ -92,7 +96,7 @@ impl LatticeInput {
     }
 }
 
-/// Replaces the name in an error by the name that the caller knows the thing by.
+/// Replaces the name of the values in an error about a value that is not finite by the name that the caller knows.
 fn about(name: &'static str, mut error: Error) -> Error {
     if let Error::NotFinite { what, .. } = &mut error {
         *what = name;
@@ -100,8 +104,9 @@ fn about(name: &'static str, mut error: Error) -> Error {
     error
 }
 
-/// Copies a typed array of any kind, with NaN in place of `no_data`. That value is rounded to the array's type first,
-/// since -9999.9 is another number in 32 bits. The size is checked before anything is allocated.
+/// Copies a typed array of any kind of numbers, `rows` by `cols`, with NaN in place of `no_data`. The number `no_data`
+/// is rounded to the array's type first, since -9999.9 is another number in 32 bits. The size is checked before
+/// anything is allocated.
 pub fn values(
     what: &'static str,
     rows: usize,

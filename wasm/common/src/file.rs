@@ -1,4 +1,4 @@
-//! The options of reading an image in, what the file holds out.
+//! Options of reading an image file, from JavaScript, and the file's contents, to JavaScript.
 
 use js_sys::{Float64Array, Uint8ClampedArray};
 use serde::Serialize;
@@ -9,7 +9,7 @@ use super::options::{entries, option, unknown};
 use super::{Failure, Result};
 use developable::files::images::{Decoded, FORMAT_NAMES, Format, PhotoFile};
 
-/// `ReadOptions` of `types.d.ts`.
+/// Options of reading an image file: JavaScript's `ReadOptions` object.
 #[derive(Default)]
 pub struct ReadOptions {
     pub format: Option<Format>,
@@ -32,7 +32,7 @@ impl ReadOptions {
         Ok(read)
     }
 
-    /// Returns an error if an array is named, for formats without named arrays.
+    /// Returns an error if the options name an array, for file formats without named arrays.
     pub fn without_array(&self) -> Result<()> {
         match self.array {
             Some(_) => Err(Failure::option(
@@ -43,7 +43,7 @@ impl ReadOptions {
     }
 }
 
-/// `ReadResult` of `types.d.ts`.
+/// Contents of an image file with heights, written as JavaScript's `ReadResult` object.
 #[derive(Serialize)]
 #[serde(rename_all = "camelCase")]
 struct ReadOutput {
@@ -72,7 +72,7 @@ pub fn output(file: Decoded) -> Result<JsValue> {
     })?)
 }
 
-/// `Photo` of `types.d.ts` on its way out.
+/// A photo, written as JavaScript's `Photo` object.
 #[derive(Serialize)]
 struct PhotoOutput {
     width: usize,

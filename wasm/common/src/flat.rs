@@ -1,4 +1,4 @@
-//! Flat images out, and their warp maps, in full and on a grid.
+//! Flat images and their warp maps, in full and on a grid, as results for JavaScript.
 
 use js_sys::{Float32Array, Uint8ClampedArray};
 use serde::Serialize;
@@ -9,16 +9,17 @@ use super::options::{Given, renamed};
 use developable::checks::try_filled;
 use developable::dewarp::{Photo, WarpGrid, WarpMap};
 
-/// Number of rows of the flat image that are computed at a time.
-const BAND: usize = 64;
+/// Number of rows of the flat image that are computed at a time and copied to JavaScript.
+const BAND_ROWS: usize = 64;
 
-/// Computes the flat image into JavaScript's memory, a band of rows at a time, so that the wasm module holds no copy.
+/// Computes the flat image in JavaScript's memory, a band of rows at a time, so that the wasm module holds no copy of
+/// it.
 pub fn flat_image(map: &WarpMap, photo: &Photo<'_>) -> Result<Uint8ClampedArray> {
     let line = 4 * map.width();
     let image = Uint8ClampedArray::new_with_length((line * map.height()) as u32);
-    let mut band = try_filled("flat image", line * BAND.min(map.height()), 0)?;
-    for start in (0..map.height()).step_by(BAND) {
-        let end = map.height().min(start + BAND);
+    let mut band = try_filled("flat image", line * BAND_ROWS.min(map.height()), 0)?;
+    for start in (0..map.height()).step_by(BAND_ROWS) {
+        let end = map.height().min(start + BAND_ROWS);
         let rgba = &mut band[..line * (end - start)];
         rgba.fill(0);
         map.image_rows(photo, start..end, rgba);
@@ -28,19 +29,18 @@ pub fn flat_image(map: &WarpMap, photo: &Photo<'_>) -> Result<Uint8ClampedArray>
     Ok(image)
 }
 
-/// Options of a call that returns a warp map besides the flat image.
+/// Options of a call that returns a warp map besides the flat image: whether in full, and whether on a grid.
 pub struct MapOptions {
     map: bool,
-    /// Maximum interpolation error between nodes of the warp grid, in pixels of the photo; `None` if no grid is
-    /// wanted.
+    /// Maximum interpolation error between nodes of the warp grid, in pixels of the photo; `None` if no grid is wanted.
     grid: Option<f64>,
 }
 
 /// Default of the maximum interpolation error between nodes of a warp grid, in pixels of the photo.
 const DEFAULT_GRID_TOLERANCE: f64 = 0.25;
 
-/// Maximum number of nodes of a warp grid.
-const NODES: usize = 40_000;
+/// Maximum number of nodes of a warp grid that is returned to JavaScript.
+const MAX_GRID_NODES: usize = 40_000;
 
 impl MapOptions {
     pub fn new(given: &mut Given) -> Self {
@@ -54,7 +54,8 @@ impl MapOptions {
         }
     }
 
-    /// Warp map at all pixels of the flat image; empty unless it is wanted.
+    /// Places in the photo of all pixels of the flat image, as pairs of coordinates; empty unless the full map is
+    /// wanted.
     pub fn places(&self, map: &WarpMap) -> Float32Array {
         let places = if self.map { map.places() } else { &[] };
         places.as_flattened().into()
@@ -62,14 +63,14 @@ impl MapOptions {
 
     pub fn grid(&self, map: &WarpMap) -> Result<Option<GridOutput>> {
         let found = (self.grid)
-            .map(|tolerance| map.grid(tolerance, NODES))
+            .map(|tolerance| map.grid(tolerance, MAX_GRID_NODES))
             .transpose()
             .map_err(|error| renamed(error, "tolerance", "grid"))?;
         Ok(found.as_ref().map(GridOutput::new))
     }
 }
 
-/// `WarpGrid` of `types.d.ts`.
+/// A warp map on a grid, written as JavaScript's `WarpGrid` object.
 #[derive(Serialize)]
 pub struct GridOutput {
     columns: usize,

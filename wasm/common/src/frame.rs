@@ -1,10 +1,10 @@
-//! The axes of a view in and out.
+//! Conversion of a view's frame (the axes of its image) from and to JavaScript.
 
 use serde::{Deserialize, Serialize};
 
 use developable::Frame;
 
-/// `Frame` of `types.d.ts`.
+/// Axes of a view's image, read from and written as JavaScript's `Frame` object.
 #[derive(Clone, Copy, Serialize, Deserialize)]
 pub struct FrameFields {
     right: [f64; 3],

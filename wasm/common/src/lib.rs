@@ -20,10 +20,11 @@ use developable::Error;
 use js_sys::Reflect;
 use wasm_bindgen::prelude::*;
 
-/// Result of every function exported to JavaScript.
+/// Result of every function that is exported to JavaScript: a value, or an error that JavaScript throws.
 pub type Result<T> = std::result::Result<T, Failure>;
 
-/// Turns panics into JS exceptions with the panic's message. The caller must discard the wasm instance after one.
+/// Makes every panic a JavaScript exception with the panic's message. The caller must discard the wasm instance after
+/// one.
 #[wasm_bindgen(js_name = reportPanics)]
 pub fn report_panics() {
     std::panic::set_hook(Box::new(|panic| {
@@ -31,16 +32,16 @@ pub fn report_panics() {
     }));
 }
 
-/// Error that becomes a JS `Error` with a `code`.
+/// An error that is thrown in JavaScript as an `Error` with a `code`.
 pub struct Failure {
-    /// One of `ErrorCode` in `errors.d.ts`.
+    /// Code of the error: one of `ErrorCode` in `errors.d.ts`.
     pub code: &'static str,
-    /// Message: what is wrong, where, and what to do.
+    /// Message of the error: what is wrong, where, and what to do.
     pub message: String,
 }
 
 impl Failure {
-    /// Error about an option that has a wrong value or an unknown name.
+    /// Makes an error about an option that has a wrong value or an unknown name.
     pub fn option(message: impl Into<String>) -> Self {
         Failure {
             code: "OPTION",
@@ -66,7 +67,7 @@ impl From<Error> for Failure {
     }
 }
 
-/// An option's name as JavaScript writes it: `maxIterations` for `max_iterations`.
+/// Converts an option's Rust name to the way JavaScript writes it: `max_iterations` becomes `maxIterations`.
 fn in_js(name: &str) -> String {
     let mut after_underscore = false;
     let mut js = String::with_capacity(name.len());

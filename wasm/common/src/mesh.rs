@@ -1,4 +1,4 @@
-//! Meshes, on their way in.
+//! Meshes read from JavaScript objects with typed arrays.
 
 use js_sys::{Float64Array, Int32Array, Uint32Array};
 use serde::Deserialize;
@@ -10,7 +10,7 @@ use super::arrays::{filled, groups};
 use developable::Mesh;
 use developable::checks::try_filled;
 
-/// `Mesh` of `types.d.ts`, on its way in; checked by `input.js` to have arrays of these types.
+/// A mesh, read from JavaScript's `Mesh` object; `input.js` has checked that its arrays have these types.
 #[derive(Deserialize)]
 #[serde(rename_all = "camelCase")]
 pub struct MeshInput {
@@ -24,13 +24,13 @@ pub struct MeshInput {
     uvs: JsValue,
     #[serde(default, with = "preserve")]
     texture_of: JsValue,
-    /// Confidence of each vertex as a `Float32Array`, or `undefined`.
+    /// Confidence of each vertex as a `Float32Array`, or `undefined` if all are 1.
     #[serde(default, with = "preserve")]
     pub confidence: JsValue,
 }
 
 impl MeshInput {
-    /// Copies the arrays to a [`Mesh`].
+    /// Copies the mesh's arrays from JavaScript to a [`Mesh`].
     pub fn into_mesh(self) -> Result<Mesh> {
         let mut positions = filled(self.positions.length(), 0.0)?;
         self.positions.copy_to(positions.as_flattened_mut());

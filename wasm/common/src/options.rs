@@ -1,4 +1,4 @@
-//! Options from plain JS objects, into the structures of the library.
+//! Options of a call, read from a JavaScript object into the structures of the library.
 
 use js_sys::{Array, JsString, Object, Reflect};
 use serde::de::value::Error as NoValue;
@@ -10,11 +10,11 @@ use wasm_bindgen::prelude::*;
 use super::{Failure, Result};
 use developable::Error;
 
-/// Options of a call, which can be read into several structures; each takes the options that its fields are named
-/// after. JavaScript has checked ranges and types before, in `pkg/schema/`.
+/// Options of a call as JavaScript passes them, which can be read into several structures; each takes the options that
+/// its fields are named after. JavaScript has checked ranges and types before, in `pkg/schema/`.
 pub struct Given {
     options: Object,
-    /// Names of options that have been read.
+    /// Names of the options that have been read.
     known: Vec<&'static str>,
 }
 
@@ -31,7 +31,7 @@ impl Given {
         }
     }
 
-    /// Reads a structure from the options; fields that are not given have their defaults.
+    /// Reads a structure from the options; fields for options that are not given have their defaults.
     pub fn read<T: DeserializeOwned>(&mut self) -> Result<T> {
         let mut names: &[&str] = &[];
         // Always fails, which is not an error: it is called for the field names alone.
@@ -40,24 +40,24 @@ impl Given {
         Ok(from_value(self.options.clone().into())?)
     }
 
-    /// Value of one option; `undefined` if it is not given.
+    /// Returns the value of one option; `undefined` if it is not given.
     pub fn value(&mut self, name: &'static str) -> JsValue {
         self.known.push(name);
         // Cannot fail: `options.js` has made the object, without getters.
         Reflect::get(&self.options, &name.into()).unwrap_or_default()
     }
 
-    /// An option that is a number.
+    /// Returns the value of an option that is a number; `None` if it is not given.
     pub fn number(&mut self, name: &'static str) -> Option<f64> {
         self.value(name).as_f64()
     }
 
-    /// An option that is true or false.
+    /// Returns the value of an option that is true or false; `None` if it is not given.
     pub fn flag(&mut self, name: &'static str) -> Option<bool> {
         self.value(name).as_bool()
     }
 
-    /// Returns an error if an option is left that nothing has read.
+    /// Returns an error if an option was given that nothing has read.
     pub fn finish(self) -> Result<()> {
         let names = Object::keys(&self.options);
         let mut names = names.iter().map(|name| String::from(JsString::from(name)));
@@ -76,7 +76,7 @@ pub fn read<T: DeserializeOwned>(options: &JsValue) -> Result<T> {
     Ok(found)
 }
 
-/// Deserialiser that records the field names of a structure and yields no values.
+/// Serde deserialiser that records the field names of a structure and yields no values.
 struct FieldNames<'a>(&'a mut &'static [&'static str]);
 
 impl<'de> Deserializer<'de> for FieldNames<'_> {
@@ -102,8 +102,8 @@ impl<'de> Deserializer<'de> for FieldNames<'_> {
     }
 }
 
-/// Names and values of an options object, without those that are `undefined`, for options whose values need checks of
-/// their own.
+/// Lists the names and values of an options object, without those that are `undefined`. For options whose values need
+/// checks of their own.
 pub fn entries(options: &JsValue) -> Result<Vec<(String, JsValue)>> {
     let Given { options, .. } = Given::new(options)?;
     Ok(Object::entries(&options)
@@ -114,7 +114,8 @@ pub fn entries(options: &JsValue) -> Result<Vec<(String, JsValue)>> {
         .collect())
 }
 
-/// Reads the value of the option `name` into a type that lists what is allowed; an error states the `requirement`.
+/// Reads the value of the option `name` into a type that says what is allowed; the error for another value states the
+/// `requirement`.
 pub fn option<T: DeserializeOwned>(
     name: &'static str,
     value: JsValue,
@@ -135,7 +136,7 @@ pub fn option<T: DeserializeOwned>(
     })
 }
 
-/// Renames the option in an error from its Rust name to its JS name, where these differ.
+/// Renames the option in an error from its name in Rust to its name in JavaScript, where these differ.
 pub fn renamed(mut error: Error, rust: &str, js: &'static str) -> Failure {
     if let Error::Option { name, .. } = &mut error
         && *name == rust

@@ -1,4 +1,4 @@
-//! Photos, and what they show, in.
+//! Photos, and the part of the plane they show, read from JavaScript objects.
 
 use js_sys::Uint8Array;
 use serde::Deserialize;
@@ -11,7 +11,7 @@ use super::options::option;
 use developable::Error;
 use developable::dewarp::{Extent, Photo};
 
-/// `Photo` of `types.d.ts`, as `asPhoto` makes it.
+/// A photo, read from JavaScript's `Photo` object, as the function `asPhoto` in `pkg/` has checked it.
 #[derive(Deserialize)]
 struct PhotoInput {
     width: usize,
@@ -20,7 +20,7 @@ struct PhotoInput {
     data: Uint8Array,
 }
 
-/// Pixels of a photo, copied to the wasm module's memory.
+/// Pixels of a photo as RGBA bytes, copied to the wasm module's memory.
 pub struct Pixels {
     width: usize,
     height: usize,
@@ -46,7 +46,7 @@ impl Pixels {
     }
 }
 
-/// The option `extent`.
+/// Reads the option `extent`: the left, bottom, right and top side of the rectangle of the plane that a photo shows.
 pub fn extent_from(value: JsValue) -> Result<Extent> {
     let requirement = "must be four numbers: left, bottom, right and top, left less than right and bottom less than top";
     let sides: [f64; 4] = option("extent", value, requirement)?;

@@ -1,4 +1,5 @@
-//! What is laid flat, and how: what all functions about sheets are told.
+//! The surface that a call gets from JavaScript, as a height image or a heightfield, and the part of the plane it
+//! covers.
 
 use serde::Deserialize;
 use serde_wasm_bindgen::from_value;
@@ -10,25 +11,28 @@ use developable::Error;
 use developable::Heightfield;
 use developable::dewarp::Extent;
 
-/// Heights, and the part of the plane that a photo of them shows.
+/// A surface as a heightfield, and the part of the plane that a photo of it shows.
 pub struct Scene {
     pub surface: Heightfield,
-    /// Part of the plane that the photo shows, if there is a photo.
+    /// Rectangle of the plane that a photo of the surface shows unless the caller says otherwise: that of the height
+    /// image, or of the vertices.
     pub extent: Extent,
 }
 
-/// Mark by which `input.js` tells a height image from a heightfield.
+/// The field by which `input.js` tells a height image from a heightfield.
 #[derive(Deserialize)]
 struct Kind {
     kind: String,
 }
 
-/// Whether a field is a height image, for which the option `spacing` is allowed.
+/// Whether a JavaScript field is a height image, for which the option `spacing` is allowed; otherwise it is a
+/// heightfield or `undefined`.
 pub fn is_image(field: &JsValue) -> Result<bool> {
     Ok(!field.is_undefined() && from_value::<Kind>(field.clone())?.kind == "image")
 }
 
-/// Returns an error if a spacing is given for a heightfield, whose lattice has its own.
+/// Returns an error if a lattice spacing is given for a heightfield, whose lattice has its own. `images` says whether
+/// an input is a height image.
 pub fn check_spacing(spacing: Option<f64>, images: bool) -> Result<()> {
     match spacing {
         Some(spacing) if !images => {

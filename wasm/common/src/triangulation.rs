@@ -1,4 +1,4 @@
-//! Heights on the lattice as the mesh that is written.
+//! Meshes of heightfields from JavaScript, for writing them to mesh files.
 
 use js_sys::Reflect;
 use serde::Deserialize;
@@ -13,7 +13,8 @@ use super::mesh::MeshInput;
 use developable::Mesh;
 use developable::Triangulation;
 
-/// Optional fields of `Heightfield` in `types.d.ts` that its mesh takes over.
+/// Optional fields of JavaScript's `Heightfield` object that its mesh takes over: frame, colours and texture
+/// coordinates.
 #[derive(Deserialize)]
 struct Extras {
     frame: Option<FrameFields>,
@@ -23,7 +24,8 @@ struct Extras {
     uvs: JsValue,
 }
 
-/// Triangulates a `Heightfield`, in the axes of its frame; a `Mesh` is returned as it is.
+/// Makes the mesh to be written: triangulates JavaScript's `Heightfield` object, in the axes of its frame, or reads a
+/// `Mesh` object as it is.
 pub fn mesh_of(field: JsValue) -> Result<Mesh> {
     if Reflect::has(&field, &"positions".into()).unwrap_or(false) {
         return from_value::<MeshInput>(field)?.into_mesh();

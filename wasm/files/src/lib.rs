@@ -1,4 +1,4 @@
-//! PNG, NPY, OBJ and photos from and to bytes, and colours from photos.
+//! Reading and writing of PNG, NPY, OBJ and photo files, and colours of vertices from photos.
 
 use js_sys::{Float32Array, Int32Array, Uint8Array};
 use serde_wasm_bindgen::from_value;
@@ -21,7 +21,7 @@ use developable_wasm::options::{entries, option, unknown};
 use developable_wasm::photo::{Pixels, extent_from};
 use developable_wasm::triangulation::mesh_of;
 
-/// Decodes a PNG or NPY file.
+/// Decodes a PNG or NPY file of heights; returns JavaScript's `ReadResult` object.
 #[wasm_bindgen]
 pub fn read(bytes: &Uint8Array, options: JsValue) -> Result<JsValue> {
     let options = ReadOptions::new(&options)?;
@@ -30,7 +30,7 @@ pub fn read(bytes: &Uint8Array, options: JsValue) -> Result<JsValue> {
     output(decode_basic(&file, announced(&file, options.format)?)?)
 }
 
-/// NPY file of an image's heights.
+/// Writes the heights of a height image to an NPY file.
 #[wasm_bindgen(js_name = writeImageNpy)]
 pub fn write_image_npy(image: JsValue) -> Result<Uint8Array> {
     let image = from_value::<ImageInput>(image)?.into_image()?;
@@ -38,7 +38,7 @@ pub fn write_image_npy(image: JsValue) -> Result<Uint8Array> {
     Ok(file.as_slice().into())
 }
 
-/// NPY file of lattice heights.
+/// Writes the heights at a lattice's vertices to an NPY file.
 #[wasm_bindgen(js_name = writeLatticeNpy)]
 pub fn write_lattice_npy(field: JsValue) -> Result<Uint8Array> {
     let field = from_value::<LatticeInput>(field)?.into_heightfield()?;
@@ -47,14 +47,15 @@ pub fn write_lattice_npy(field: JsValue) -> Result<Uint8Array> {
     Ok(file.as_slice().into())
 }
 
-/// 16-bit PNG file of an image's heights.
+/// Writes the heights of a height image to a 16-bit PNG file.
 #[wasm_bindgen(js_name = writePng)]
 pub fn write_png_file(image: JsValue) -> Result<Uint8Array> {
     let image = from_value::<ImageInput>(image)?.into_image()?;
     Ok(write_png(&image)?.as_slice().into())
 }
 
-/// OBJ file of lattice heights, in the axes of their frame, with the name of its material file, if any.
+/// Writes a heightfield or mesh to an OBJ file, in the axes of its frame. The option `materials` is the name of the
+/// material file that it refers to.
 #[wasm_bindgen(js_name = writeObj)]
 pub fn write_obj_file(field: JsValue, options: JsValue) -> Result<Uint8Array> {
     let mut material = None;
@@ -69,21 +70,21 @@ pub fn write_obj_file(field: JsValue, options: JsValue) -> Result<Uint8Array> {
     Ok(file.as_slice().into())
 }
 
-/// MTL file of one material with a picture.
+/// Writes an MTL file of one material whose texture is the file with the name `picture`.
 #[wasm_bindgen(js_name = writeMtl)]
 pub fn write_mtl_file(picture: &str) -> Result<Uint8Array> {
     Ok(write_mtl(picture)?.as_slice().into())
 }
 
-/// Decodes a PNG file with colours.
+/// Decodes a PNG file to a photo; returns JavaScript's `Photo` object.
 #[wasm_bindgen(js_name = readPhoto)]
 pub fn read_photo(bytes: &Uint8Array) -> Result<JsValue> {
     let file = copied(bytes)?;
     photo_output(&decode_photo_basic(&file, announced(&file, None)?)?)
 }
 
-/// Texture coordinates of a lattice's vertices in a photo that shows a rectangle of the plane: `extent` has its left,
-/// bottom, right and top side; `undefined` for the rectangle that the vertices cover.
+/// Computes texture coordinates of a lattice's vertices in a photo that shows a rectangle of the plane: `extent` has
+/// its left, bottom, right and top side; `undefined` stands for the rectangle that the vertices cover.
 #[wasm_bindgen(js_name = planeUvs)]
 pub fn plane_uvs(field: JsValue, extent: JsValue) -> Result<Float32Array> {
     let field = from_value::<LatticeInput>(field)?.into_heightfield()?;
@@ -95,7 +96,8 @@ pub fn plane_uvs(field: JsValue, extent: JsValue) -> Result<Float32Array> {
     Ok(uvs.as_flattened().into())
 }
 
-/// Colours, from one photo, of the vertices whose texture has its number; of all vertices if there are no numbers.
+/// Colours vertices from one photo by their texture coordinates: those whose entry of `texture_of` is `number`, or all
+/// if there are no such entries. Returns the colours of all vertices.
 #[wasm_bindgen]
 pub fn paint(
     colors: &Float32Array,
@@ -117,7 +119,8 @@ pub fn paint(
     Ok(painted.as_flattened().into())
 }
 
-/// Photo in JavaScript's memory, copied row by row, since there may not be memory for two.
+/// Photo in JavaScript's memory, which is copied row by row while it is written to a file, since there may not be
+/// memory for two.
 struct Rows<'a> {
     size: [usize; 2],
     rgba: &'a Uint8Array,
@@ -135,7 +138,7 @@ impl PhotoRows for Rows<'_> {
     }
 }
 
-/// A photo as a PNG, JPEG or PDF file.
+/// Writes a photo to a PNG, JPEG or PDF file, as the option `format` says.
 #[wasm_bindgen(js_name = writePhoto)]
 pub fn write_photo_file(
     width: usize,

@@ -1,4 +1,4 @@
-//! Surfaces fitted to meshes as they are, without a view.
+//! Solver for whole meshes, which fits surfaces in space without a view, and their curvatures and rulings.
 
 use js_sys::{Float64Array, Uint8Array};
 use serde::Serialize;
@@ -14,7 +14,8 @@ use developable_wasm::bytes::copied;
 use developable_wasm::mesh::MeshInput;
 use developable_wasm::options::{Given, read};
 
-/// Fields of `MeshSurface` in `types.d.ts` other than its mesh.
+/// Positions of a fitted surface's vertices and the report, written as fields of JavaScript's `MeshSurface` object; the
+/// rest of the mesh stays as it was.
 #[derive(Serialize)]
 struct Output<'a> {
     #[serde(with = "preserve")]
@@ -22,7 +23,7 @@ struct Output<'a> {
     report: &'a MeshReport,
 }
 
-/// A solve over a mesh that runs in steps.
+/// A solve over a whole mesh that runs in steps, so that JavaScript can show progress and cancel it.
 #[wasm_bindgen]
 pub struct MeshSolver {
     solver: developable::MeshSolver,
@@ -30,7 +31,7 @@ pub struct MeshSolver {
 
 #[wasm_bindgen]
 impl MeshSolver {
-    /// Makes a solver for a whole mesh.
+    /// Makes a solver for a whole mesh. The option `held` marks vertices that keep their positions.
     #[wasm_bindgen(js_name = onMesh)]
     pub fn on_mesh(mesh: JsValue, options: JsValue) -> Result<MeshSolver> {
         let mesh = from_value::<MeshInput>(mesh)?;
@@ -58,17 +59,18 @@ impl MeshSolver {
         Ok(self.solver.advance(work)? == Status::Running)
     }
 
-    /// Progress of the current linearisation.
+    /// Returns the progress of the current linearised problem, one of several that the fit of a mesh solves in turn, as
+    /// a JavaScript object.
     pub fn progress(&self) -> Result<JsValue> {
         Ok(to_value(&self.solver.progress())?)
     }
 
-    /// Stops a running solve; its surface is the best one so far.
+    /// Stops a running solve; its surface is then the best one so far.
     pub fn cancel(&mut self) {
         self.solver.cancel();
     }
 
-    /// The best surface so far.
+    /// Returns the best surface so far: positions of its vertices, and the report.
     pub fn surface(&self) -> Result<JsValue> {
         let surface = self.solver.surface()?;
         Ok(to_value(&Output {
@@ -78,7 +80,7 @@ impl MeshSolver {
     }
 }
 
-/// `MeshAnalysis` of `types.d.ts`.
+/// Curvatures of a mesh and their statistics, written as JavaScript's `MeshAnalysis` object.
 #[derive(Serialize)]
 #[serde(rename_all = "camelCase")]
 struct AnalysisOutput {
@@ -95,7 +97,7 @@ struct AnalysisOutput {
     summary: Summary,
 }
 
-/// How developable a mesh is.
+/// Computes curvatures at a mesh's vertices, and statistics that say how developable the mesh is.
 #[wasm_bindgen(js_name = analyzeMesh)]
 pub fn analyze_mesh(mesh: JsValue, options: JsValue) -> Result<JsValue> {
     let mut given = Given::new(&options)?;
@@ -113,7 +115,7 @@ pub fn analyze_mesh(mesh: JsValue, options: JsValue) -> Result<JsValue> {
     })?)
 }
 
-/// `MeshRulings` of `types.d.ts`.
+/// Rulings of a mesh, written as JavaScript's `MeshRulings` object.
 #[derive(Serialize)]
 struct RulingsOutput<'a> {
     #[serde(with = "preserve")]
@@ -123,7 +125,7 @@ struct RulingsOutput<'a> {
     lines: &'a [Ruling],
 }
 
-/// The rulings of a mesh, as directions and as lines.
+/// Computes the rulings (straight lines in the surface) of a mesh: a direction at each vertex, and traced lines.
 #[wasm_bindgen(js_name = meshRulings)]
 pub fn mesh_rulings(mesh: JsValue, options: JsValue) -> Result<JsValue> {
     let wanted: TraceOptions = read(&options)?;

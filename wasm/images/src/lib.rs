@@ -1,4 +1,4 @@
-//! TIFF, EXR and other height images from and to bytes.
+//! Reading and writing of TIFF, EXR and other files of height images.
 
 use js_sys::Uint8Array;
 use serde::Serialize;
@@ -13,7 +13,7 @@ use developable_wasm::bytes::copied;
 use developable_wasm::fields::ImageInput;
 use developable_wasm::file::{ReadOptions, output, photo_output};
 
-/// Decodes a height image of any format except PNG and NPY.
+/// Decodes a file of heights of any format except PNG and NPY; returns JavaScript's `ReadResult` object.
 #[wasm_bindgen(js_name = readImage)]
 pub fn read_image(bytes: &Uint8Array, options: JsValue) -> Result<JsValue> {
     let options = ReadOptions::new(&options)?;
@@ -27,24 +27,24 @@ pub fn read_image(bytes: &Uint8Array, options: JsValue) -> Result<JsValue> {
     }
 }
 
-/// Decodes a JPEG or WebP file with colours.
+/// Decodes a JPEG or WebP file to a photo; returns JavaScript's `Photo` object.
 #[wasm_bindgen(js_name = readImagePhoto)]
 pub fn read_image_photo(bytes: &Uint8Array) -> Result<JsValue> {
     let file = copied(bytes)?;
     photo_output(&extended::decode_photo(&file, announced(&file, None)?)?)
 }
 
-/// `NpzArray` of `types.d.ts`.
+/// Name, shape and type of an array in an NPZ file, written as JavaScript's `NpzArray` object.
 #[derive(Serialize)]
 #[serde(rename_all = "camelCase")]
 struct ArrayOutput {
     name: String,
-    /// Shape as floats, since 64-bit integers would become a `BigInt` in JavaScript.
+    /// Shape of the array, as floats, since 64-bit integers would become a `BigInt` in JavaScript.
     shape: Vec<f64>,
     data_type: String,
 }
 
-/// The arrays of an NPZ file.
+/// Lists the arrays of an NPZ file: names, shapes and types.
 #[wasm_bindgen(js_name = npzArrays)]
 pub fn arrays(bytes: &Uint8Array) -> Result<JsValue> {
     let file = copied(bytes)?;
@@ -60,14 +60,14 @@ pub fn arrays(bytes: &Uint8Array) -> Result<JsValue> {
     Ok(to_value(&arrays)?)
 }
 
-/// TIFF file of an image's heights.
+/// Writes the heights of a height image to a TIFF file.
 #[wasm_bindgen(js_name = writeTiff)]
 pub fn write_tiff_file(image: JsValue) -> Result<Uint8Array> {
     let image = from_value::<ImageInput>(image)?.into_image()?;
     Ok(write_tiff(&image)?.as_slice().into())
 }
 
-/// EXR file of an image's heights.
+/// Writes the heights of a height image to an EXR file.
 #[wasm_bindgen(js_name = writeExr)]
 pub fn write_exr_file(image: JsValue) -> Result<Uint8Array> {
     let image = from_value::<ImageInput>(image)?.into_image()?;

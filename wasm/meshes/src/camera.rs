@@ -1,4 +1,4 @@
-//! Depth cameras.
+//! Depth images made to meshes, and texture coordinates by a camera, for JavaScript.
 
 use js_sys::{Float32Array, Uint8Array};
 use serde::{Deserialize, Serialize};
@@ -16,7 +16,8 @@ use developable_wasm::fields::{ImageInput, LatticeInput, values};
 use developable_wasm::frame::FrameFields;
 use developable_wasm::options::{entries, option, unknown};
 
-/// Back-projects a depth image to a mesh.
+/// Back-projects a depth image to a mesh in space; returns JavaScript's `Mesh` object and the camera, rotated as the
+/// option `turn` says.
 #[wasm_bindgen(js_name = backProject)]
 pub fn back_project(image: JsValue, camera: JsValue, options: JsValue) -> Result<JsValue> {
     let camera = intrinsics(&camera)?;
@@ -63,8 +64,8 @@ pub fn back_project(image: JsValue, camera: JsValue, options: JsValue) -> Result
     })?)
 }
 
-/// Texture coordinates of a `Heightfield` of `types.d.ts` in a photo of a width and height, by the camera that took
-/// it.
+/// Computes texture coordinates of a heightfield's vertices in a photo of a given width and height, by the camera that
+/// took the photo. `frame` has the axes of the heightfield in those of the depth camera.
 #[wasm_bindgen(js_name = cameraUvs)]
 pub fn camera_uvs(
     field: JsValue,
@@ -83,14 +84,14 @@ pub fn camera_uvs(
     Ok(uvs.as_flattened().into())
 }
 
-/// Mesh of a depth image, and the intrinsics of its camera after the quarter turn.
+/// Mesh of a depth image, and the intrinsics of its camera after the quarter turn, as a JavaScript object.
 #[derive(Serialize)]
 struct BackProjected {
     mesh: MeshOutput,
     camera: Seen,
 }
 
-/// Intrinsics that a quarter turn changes.
+/// Those intrinsics of a depth camera that a quarter turn of its image changes, as a JavaScript object.
 #[derive(Serialize)]
 struct Seen {
     fx: f64,
@@ -119,9 +120,10 @@ impl Seen {
     }
 }
 
-const TURNS: &str = "must be 0, 90, 180 or 270 degrees";
+/// Requirement of the option `turn`, for its error.
+const TURN_REQUIREMENT: &str = "must be 0, 90, 180 or 270 degrees";
 
-/// Values at the pixels of an image.
+/// Values at the pixels of an image, with its width and height.
 struct Sized<T> {
     size: [usize; 2],
     data: Vec<T>,
@@ -154,7 +156,8 @@ impl<T> Sized<T> {
     }
 }
 
-/// `DepthOptions` of `types.d.ts`, as `asDepthOptions` makes them.
+/// Options of back-projecting a depth image, read from JavaScript's `DepthOptions` object, as the function
+/// `asDepthOptions` in `pkg/` has checked it.
 #[derive(Default)]
 struct Known {
     confidence: Option<Sized<f32>>,
@@ -187,12 +190,12 @@ impl Known {
                 }
                 "camera" => known.camera = Some(photo_camera(&value)?),
                 "turn" => {
-                    known.turn = match option::<u32>("turn", value.clone(), TURNS)? {
+                    known.turn = match option::<u32>("turn", value.clone(), TURN_REQUIREMENT)? {
                         0 => Turn::None,
                         90 => Turn::Quarter,
                         180 => Turn::Half,
                         270 => Turn::ThreeQuarters,
-                        other => return Err(Error::option("turn", other, TURNS).into()),
+                        other => return Err(Error::option("turn", other, TURN_REQUIREMENT).into()),
                     }
                 }
                 _ => {
@@ -204,7 +207,8 @@ impl Known {
         Ok(known)
     }
 
-    /// Masks of the depths: 1 where a depth shows the region that is wanted.
+    /// Computes the masks of the depth image that the options `mask` and `crop` ask for: 1 where a depth shows the
+    /// wanted region. `stored` is the depth image's size before its rotation.
     fn masks(
         &self,
         camera: &Intrinsics,

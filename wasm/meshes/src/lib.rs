@@ -1,4 +1,4 @@
-//! Meshes from files, and what is seen of them.
+//! Reading of mesh files, sampling of meshes from a view, and back-projection of depth images, for JavaScript.
 
 mod camera;
 mod surfaces;
@@ -21,7 +21,7 @@ use developable_wasm::frame::FrameFields;
 use developable_wasm::mesh::MeshInput;
 use developable_wasm::options::{entries, option, unknown};
 
-/// `Mesh` of `types.d.ts`, on its way out.
+/// A mesh, written as JavaScript's `Mesh` object.
 #[derive(Serialize)]
 #[serde(rename_all = "camelCase")]
 struct MeshOutput {
@@ -43,7 +43,8 @@ struct MeshOutput {
     missing: Vec<String>,
 }
 
-/// `SampledMesh` of `types.d.ts`, and the texture at each vertex, for `direct.js` to paint with.
+/// A mesh sampled from a view, written as JavaScript's `SampledMesh` object, with the number of the texture at each
+/// vertex, by which `direct.js` colours it.
 #[derive(Serialize)]
 #[serde(rename_all = "camelCase")]
 struct SampledOutput {
@@ -64,7 +65,8 @@ struct SampledOutput {
     confidence: JsValue,
 }
 
-/// Decodes a mesh file; `files` are pairs of name and bytes of the files that it refers to.
+/// Decodes a mesh file; returns JavaScript's `Mesh` object. `files` are pairs of name and bytes of further files that
+/// it refers to.
 #[wasm_bindgen(js_name = readMesh)]
 pub fn read_mesh_file(bytes: &Uint8Array, files: &Array, options: JsValue) -> Result<JsValue> {
     let mut format = None;
@@ -118,7 +120,8 @@ impl MeshOutput {
     }
 }
 
-/// Samples a mesh from a view.
+/// Samples a mesh from a view: computes heights, colours and texture coordinates at the vertices of a lattice; returns
+/// JavaScript's `SampledMesh` object.
 #[wasm_bindgen(js_name = sampleMesh)]
 pub fn sample_mesh(mesh: JsValue, options: JsValue) -> Result<JsValue> {
     let mesh = from_value::<MeshInput>(mesh)?;

@@ -1,4 +1,4 @@
-//! Surfaces to files of meshes besides OBJ.
+//! Writing of heightfields and meshes to PLY, STL and GLB files.
 
 use js_sys::Uint8Array;
 use wasm_bindgen::prelude::*;
@@ -10,19 +10,20 @@ use developable_wasm::bytes::copied;
 use developable_wasm::options::{entries, unknown};
 use developable_wasm::triangulation::mesh_of;
 
-/// PLY file of lattice heights, in the axes of their frame.
+/// Writes a heightfield or mesh to a PLY file, in the axes of its frame.
 #[wasm_bindgen(js_name = writePly)]
 pub fn write_ply_file(field: JsValue) -> Result<Uint8Array> {
     Ok(write_ply(&mesh_of(field)?)?.as_slice().into())
 }
 
-/// STL file of lattice heights, in the axes of their frame.
+/// Writes a heightfield or mesh to an STL file, in the axes of its frame.
 #[wasm_bindgen(js_name = writeStl)]
 pub fn write_stl_file(field: JsValue) -> Result<Uint8Array> {
     Ok(write_stl(&mesh_of(field)?)?.as_slice().into())
 }
 
-/// GLB file of lattice heights, in the axes of their frame, with a texture if there is one.
+/// Writes a heightfield or mesh to a GLB file, in the axes of its frame, with the image of the option `texture` if it
+/// is given.
 #[wasm_bindgen(js_name = writeGlb)]
 pub fn write_glb_file(field: JsValue, options: JsValue) -> Result<Uint8Array> {
     let mut texture = None;

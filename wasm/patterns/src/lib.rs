@@ -1,4 +1,4 @@
-//! Surfaces cut into sheets: drawn, and drawings to files.
+//! Surfaces cut into flat sheets, drawings of these, and drawings written to files, for JavaScript.
 
 use js_sys::{Float64Array, Int32Array, Reflect, Uint8Array, Uint32Array};
 use serde::{Deserialize, Serialize};
@@ -18,7 +18,7 @@ use developable_wasm::options::{Given, read};
 use developable_wasm::scene::{Scene, check_spacing, is_image};
 use developable_wasm::{Failure, Result};
 
-/// Options of a pattern and of its drawing.
+/// Options of a pattern (a surface cut into flat sheets) and of its drawing, read from JavaScript.
 #[derive(Default)]
 struct Wanted {
     patches: PatchOptions,
@@ -60,7 +60,7 @@ impl Wanted {
         })
     }
 
-    /// `Drawing` of `types.d.ts`.
+    /// Draws sheets of a pattern; returns JavaScript's `Drawing` object, with the assembly if it is wanted.
     fn draw(&self, sheets: &[Sheet], missing: &Missing) -> Result<JsValue> {
         let drawn = Drawing::new(sheets, &self.drawing)?;
         let drawn = drawn.missing(missing, self.drawing.scale);
@@ -82,7 +82,7 @@ impl Wanted {
     }
 }
 
-/// The drawing of a surface's pattern.
+/// Cuts a surface into flat sheets and draws them; returns JavaScript's `Drawing` object.
 #[wasm_bindgen(js_name = pattern)]
 pub fn draw_pattern(field: JsValue, options: JsValue) -> Result<JsValue> {
     let wanted = Wanted::of(&options)?;
@@ -93,7 +93,8 @@ pub fn draw_pattern(field: JsValue, options: JsValue) -> Result<JsValue> {
     wanted.draw(&found.sheets, &found.missing)
 }
 
-/// Arguments of an exploration: lists of λ and patch sizes, or the λ that suits a mesh's noise.
+/// Values of λ and of the minimum patch size that an exploration tries, read from JavaScript; or only the λ that suits
+/// a mesh's noise, from which they are chosen.
 #[derive(Default, Deserialize)]
 #[serde(default, rename_all = "camelCase")]
 struct TrialsInput {
@@ -108,7 +109,8 @@ struct TrialsOutput {
     smallest: Vec<f64>,
 }
 
-/// The λ and sizes of patches of an exploration, in the order in which they are tried.
+/// Returns the values of λ and of the minimum patch size of an exploration, which makes a pattern for each pair, in the
+/// order in which they are tried.
 #[wasm_bindgen]
 pub fn trials(given: JsValue) -> Result<JsValue> {
     let given: TrialsInput = read(&given)?;
@@ -125,7 +127,7 @@ pub fn trials(given: JsValue) -> Result<JsValue> {
     Ok(to_value(&TrialsOutput { lambdas, smallest })?)
 }
 
-/// The drawing of a whole mesh's pattern.
+/// Cuts a whole mesh into flat sheets and draws them; returns JavaScript's `Drawing` object.
 #[wasm_bindgen(js_name = patternMesh)]
 pub fn draw_pattern_of_mesh(mesh: JsValue, options: JsValue) -> Result<JsValue> {
     let wanted = Wanted::of(&options)?;
@@ -133,7 +135,7 @@ pub fn draw_pattern_of_mesh(mesh: JsValue, options: JsValue) -> Result<JsValue> 
     wanted.draw(&found.sheets, &Missing::default())
 }
 
-/// `MeshUnrolling` of `types.d.ts`.
+/// Sheets of a mesh laid flat side by side, written as JavaScript's `MeshUnrolling` object.
 #[derive(Serialize)]
 struct UnrollingOutput<'a> {
     #[serde(with = "preserve")]
@@ -159,7 +161,7 @@ struct UnrollingReport {
     gap: f64,
 }
 
-/// Unrolls a mesh: its sheets lie side by side.
+/// Cuts a mesh into flat sheets and lays them side by side; returns JavaScript's `MeshUnrolling` object.
 #[wasm_bindgen(js_name = unrollMesh)]
 pub fn unroll_mesh(mesh: JsValue, options: JsValue) -> Result<JsValue> {
     let wanted = Wanted::of(&options)?;
@@ -206,7 +208,7 @@ fn sheets_of(mesh: JsValue, wanted: &Wanted) -> Result<(MeshPatches, MeshPattern
     Ok((patches, found))
 }
 
-/// Bending parameters of sheet metal, if a thickness is given.
+/// Reads the bending parameters of sheet metal: thickness, inner radius and k-factor. None without a thickness.
 fn bending(
     thickness: Option<f64>,
     radius: Option<f64>,
@@ -235,7 +237,7 @@ fn set(object: &JsValue, name: &str, value: &JsValue) -> Result<()> {
     Ok(())
 }
 
-/// `Stock` of `types.d.ts`.
+/// Stock on which sheets are laid out (pages, plates or a roll), read from JavaScript's `Stock` value.
 #[derive(Deserialize)]
 #[serde(untagged)]
 enum Paper {
@@ -251,7 +253,7 @@ enum Named {
     Letter,
 }
 
-/// The option `stock`, if it is given.
+/// Reads the option `stock`, on which sheets are laid out; `None` if it is not given.
 fn stock_from(value: JsValue) -> Result<Option<Stock>> {
     let paper: Option<Paper> = from_value(value)?;
     Ok(paper.map(|paper| match paper {
@@ -262,13 +264,13 @@ fn stock_from(value: JsValue) -> Result<Option<Stock>> {
     }))
 }
 
-/// SVG file of a drawing.
+/// Writes a drawing to an SVG file.
 #[wasm_bindgen(js_name = writeSvg)]
 pub fn write_svg_file(drawing: JsValue) -> Result<Uint8Array> {
     Ok(write_svg(&drawn(drawing)?)?.as_slice().into())
 }
 
-/// PDF file of a drawing, on one page or on those of a stock.
+/// Writes a drawing to a PDF file, on one page, or on pages of the option `stock`.
 #[wasm_bindgen(js_name = writePdf)]
 pub fn write_pdf_file(drawing: JsValue, options: JsValue) -> Result<Uint8Array> {
     let mut given = Given::new(&options)?;
@@ -277,13 +279,13 @@ pub fn write_pdf_file(drawing: JsValue, options: JsValue) -> Result<Uint8Array> 
     Ok(write_pdf(&drawn(drawing)?, stock)?.as_slice().into())
 }
 
-/// DXF file of a drawing.
+/// Writes a drawing to a DXF file.
 #[wasm_bindgen(js_name = writeDxf)]
 pub fn write_dxf_file(drawing: JsValue) -> Result<Uint8Array> {
     Ok(write_dxf(&drawn(drawing)?)?.as_slice().into())
 }
 
-/// `Drawing` of `types.d.ts`.
+/// Reads a drawing from JavaScript's `Drawing` object, which must be unchanged.
 fn drawn(drawing: JsValue) -> Result<Drawing> {
     from_value(drawing).map_err(|_| Failure {
         code: "INPUT",

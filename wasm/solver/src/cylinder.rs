@@ -1,4 +1,4 @@
-//! Heights of a cylinder.
+//! Fit of a cylinder to heights, for JavaScript.
 
 use js_sys::Float64Array;
 use serde::Serialize;
@@ -10,7 +10,7 @@ use super::source::Source;
 use developable::{CylinderReport, fit_cylinder};
 use developable_wasm::Result;
 
-/// `FittedCylinder` of `types.d.ts`.
+/// Heights of a fitted cylinder and the report, written as JavaScript's `FittedCylinder` object.
 #[derive(Serialize)]
 struct CylinderOutput {
     rows: usize,
@@ -22,7 +22,7 @@ struct CylinderOutput {
     report: CylinderReport,
 }
 
-/// Fits a cylinder to heights on the lattice.
+/// Fits a cylinder (a surface with parallel rulings) to the heights of a heightfield.
 #[wasm_bindgen(js_name = fitCylinder)]
 pub fn cylinder(field: JsValue) -> Result<JsValue> {
     let settings = Settings::default();

@@ -1,4 +1,4 @@
-//! The procedural examples.
+//! Example surfaces with known shape, generated for JavaScript.
 
 use js_sys::Float64Array;
 use serde::Serialize;
@@ -10,7 +10,7 @@ use developable::{Example, ExampleOptions};
 use developable_wasm::Result;
 use developable_wasm::options::{option, read};
 
-/// `Example` of `types.d.ts`.
+/// A generated example with noisy and exact heights, written as JavaScript's `Example` object.
 #[derive(Serialize)]
 struct ExampleOutput {
     input: ImageOutput,
@@ -18,7 +18,7 @@ struct ExampleOutput {
     truth: Float64Array,
 }
 
-/// One of the examples.
+/// Generates an example surface by its name; returns JavaScript's `Example` object.
 #[wasm_bindgen]
 pub fn example(name: JsValue, options: JsValue) -> Result<JsValue> {
     let name: String = option("example", name, "must be the name of an example")?;

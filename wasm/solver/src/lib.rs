@@ -1,4 +1,4 @@
-//! The solver and the examples: what every page needs.
+//! Solver for heightfields, detection of occlusions, and examples, for JavaScript.
 
 mod cylinder;
 mod examples;

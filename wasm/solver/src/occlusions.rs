@@ -1,4 +1,4 @@
-//! Occlusions to look at, without a solve.
+//! Detection of occlusions without a solve, for JavaScript.
 
 use serde_wasm_bindgen::to_value;
 use wasm_bindgen::prelude::*;
@@ -10,13 +10,13 @@ use developable::Error;
 use developable::{OCCLUSION_THRESHOLD, Occlusions};
 use developable_wasm::Result;
 
-/// The occlusions in an image's heights, resampled to the lattice.
+/// Detects occlusions in the heights of a height image, after resampling to the lattice.
 #[wasm_bindgen(js_name = occlusionsOfImage)]
 pub fn occlusions_of_image(image: JsValue, options: JsValue) -> Result<JsValue> {
     detect(&Source::image(image)?, &options)
 }
 
-/// The occlusions in heights on the lattice.
+/// Detects occlusions in the heights of a heightfield.
 #[wasm_bindgen(js_name = occlusionsOfLattice)]
 pub fn occlusions_of_lattice(field: JsValue, options: JsValue) -> Result<JsValue> {
     detect(&Source::lattice(field)?, &options)

@@ -1,4 +1,4 @@
-//! Results as plain JS objects.
+//! Results of the solver as plain JavaScript objects.
 
 use js_sys::{Float64Array, Uint8Array};
 use serde::{Serialize, Serializer};
@@ -7,7 +7,7 @@ use serde_wasm_bindgen::preserve;
 use developable::HeightImage;
 use developable::Report;
 
-/// `Surface` of `types.d.ts`.
+/// A fitted surface and the report, written as JavaScript's `Surface` object.
 #[derive(Serialize)]
 pub struct SurfaceOutput<'a> {
     pub rows: usize,
@@ -21,7 +21,7 @@ pub struct SurfaceOutput<'a> {
     pub report: &'a Report,
 }
 
-/// A `HeightImage` of `types.d.ts` that is a result.
+/// A height image that is a result, written as JavaScript's `HeightImage` object.
 #[derive(Serialize)]
 #[serde(rename_all = "camelCase")]
 pub struct ImageOutput {
@@ -43,7 +43,7 @@ impl From<&HeightImage> for ImageOutput {
     }
 }
 
-/// `DetectedOcclusions` of `types.d.ts`.
+/// Detected occlusions, written as JavaScript's `DetectedOcclusions` object.
 #[derive(Serialize)]
 pub struct OcclusionsOutput {
     pub rows: usize,

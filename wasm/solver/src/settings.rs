@@ -1,4 +1,4 @@
-//! What may be chosen about a solve, and about how it is resampled.
+//! Options of a solve, and of resampling its input, read from JavaScript.
 
 use wasm_bindgen::prelude::*;
 
@@ -7,11 +7,11 @@ use developable::{Bridging, Normalization, Options};
 use developable_wasm::Result;
 use developable_wasm::options::{Given, option};
 
-/// Options of a solve as JavaScript passes them: `SolverOptions` of `pkg/types.d.ts`.
+/// Options of a solve and of resampling its input, read from JavaScript's `SolverOptions` object.
 #[derive(Clone, Copy, Default)]
 pub struct Settings {
     pub options: Options,
-    /// Normalisation of the coordinates; the threshold of occlusions is stated in normalised coordinates, too.
+    /// Normalisation of the coordinates to the unit square, in which λ and the threshold of occlusions are stated.
     pub normalization: Normalization,
     pub spacing: Option<f64>,
     pub occlusion_threshold: Option<f64>,
@@ -37,7 +37,7 @@ impl Settings {
         Ok(settings)
     }
 
-    /// Checks the options, as far as that does not depend on the input.
+    /// Returns an error if the value of an option is out of its range, as far as that does not depend on the input.
     fn check(&self) -> Result<()> {
         self.options.validate()?;
         self.bridging.width()?;
@@ -50,7 +50,7 @@ impl Settings {
         Ok(())
     }
 
-    /// Whether the input of the solve stays the same if these options replace `other`.
+    /// Whether the resampled input of the solve stays unchanged if these options replace `other`.
     pub fn leave_input(&self, other: &Settings) -> bool {
         self.spacing == other.spacing
             && self.occlusion_threshold == other.occlusion_threshold
@@ -59,13 +59,14 @@ impl Settings {
     }
 }
 
-/// Returns an error for options that every solve would refuse; called before arrays are transferred.
+/// Returns an error for options that every solve would refuse; called before arrays are transferred to the worker.
 #[wasm_bindgen(js_name = checkOptions)]
 pub fn check_options(options: JsValue) -> Result<()> {
     Settings::new(&options)?.check()
 }
 
-/// Reads the option `bridging`: a width, `true` for the default width, `false` for none.
+/// Reads the option `bridge`: the maximum width of holes that are bridged, `true` for the default width, `false` for
+/// none.
 fn bridging(value: JsValue) -> Result<Bridging> {
     if value.is_undefined() {
         return Ok(Bridging::default());

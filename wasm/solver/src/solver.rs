@@ -1,4 +1,4 @@
-//! The solver, in steps.
+//! Solver for heightfields that runs in steps, as JavaScript calls it.
 
 use serde_wasm_bindgen::to_value;
 use wasm_bindgen::prelude::*;
@@ -9,25 +9,25 @@ use super::source::Source;
 use developable::{HeightImage, Status};
 use developable_wasm::Result;
 
-/// Solver with its source, which is kept for restarts and for resampling the surface to the image.
+/// Solver for heights, with its input, which is kept for restarts and for resampling the surface to the image.
 #[wasm_bindgen]
 pub struct Solver {
     solver: developable::Solver,
     source: Source,
-    /// Height image that surfaces are resampled to, with small holes bridged.
+    /// Height image that fitted surfaces are resampled to, with small holes bridged; None for an input on a lattice.
     pixels: Option<HeightImage>,
     settings: Settings,
 }
 
 #[wasm_bindgen]
 impl Solver {
-    /// A solver on an image's heights, resampled to the lattice.
+    /// Makes a solver for the heights of a height image, which are resampled to the lattice.
     #[wasm_bindgen(js_name = onImage)]
     pub fn on_image(image: JsValue, options: JsValue) -> Result<Solver> {
         Solver::on(Source::image(image)?, &options)
     }
 
-    /// A solver on heights that are on the lattice already.
+    /// Makes a solver for the heights of a heightfield, which are on the lattice already.
     #[wasm_bindgen(js_name = onLattice)]
     pub fn on_lattice(field: JsValue, options: JsValue) -> Result<Solver> {
         Solver::on(Source::lattice(field)?, &options)
@@ -44,7 +44,7 @@ impl Solver {
         })
     }
 
-    /// Restarts with other options on the same input, with a warm start from the last surface.
+    /// Restarts the solve with other options on the same input, with a warm start from the last surface.
     pub fn restart(&mut self, options: JsValue) -> Result<()> {
         let settings = Settings::new(&options)?;
         if settings.leave_input(&self.settings) {
@@ -58,13 +58,13 @@ impl Solver {
         Ok(())
     }
 
-    /// Restarts with another height image, with a warm start from the last surface.
+    /// Restarts the solve with another height image, with a warm start from the last surface.
     #[wasm_bindgen(js_name = restartWithImage)]
     pub fn restart_with_image(&mut self, image: JsValue, options: JsValue) -> Result<()> {
         self.restart_with(Source::image(image)?, &options)
     }
 
-    /// Restarts with other heights on the lattice, with a warm start from the last surface.
+    /// Restarts the solve with other heights on the lattice, with a warm start from the last surface.
     #[wasm_bindgen(js_name = restartWithLattice)]
     pub fn restart_with_lattice(&mut self, field: JsValue, options: JsValue) -> Result<()> {
         self.restart_with(Source::lattice(field)?, &options)
@@ -85,17 +85,17 @@ impl Solver {
         Ok(self.solver.advance(work)? == Status::Running)
     }
 
-    /// Figures of the last check.
+    /// Returns the progress of the solve at its last check (energy, dual bound and gap) as a JavaScript object.
     pub fn progress(&self) -> Result<JsValue> {
         Ok(to_value(&self.solver.progress())?)
     }
 
-    /// Stops a running solve; its surface is the best one so far.
+    /// Stops a running solve; its surface is then the best one so far.
     pub fn cancel(&mut self) {
         self.solver.cancel();
     }
 
-    /// The best surface so far.
+    /// Returns the best surface so far, resampled to the image if the input was one: JavaScript's `Surface` object.
     pub fn surface(&self) -> Result<JsValue> {
         let surface = self.solver.surface()?;
         let field = surface.heightfield();

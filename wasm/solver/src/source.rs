@@ -1,5 +1,4 @@
-//! What a solve is about, kept as it was given, so that it can be resampled and
-//! searched for occlusions again.
+//! Input of a solve as JavaScript gave it, kept so that it can be resampled and searched for occlusions again.
 
 use serde::Deserialize;
 use serde_wasm_bindgen::{from_value, preserve};
@@ -12,7 +11,7 @@ use developable::{Bridging, HeightImage, Heightfield, Input, Occlusions};
 use developable_wasm::fields::{ImageInput, LatticeInput, bytes, values};
 use developable_wasm::{Failure, Result};
 
-/// Optional fields of `HeightImage` and `Heightfield` in `types.d.ts` besides the heights.
+/// Optional fields of JavaScript's `HeightImage` and `Heightfield` objects besides the heights.
 #[derive(Deserialize)]
 #[serde(rename_all = "camelCase")]
 struct Known {
@@ -31,9 +30,10 @@ pub enum Source {
     Lattice(Parts),
 }
 
-/// Source on the pixels of an image.
+/// Input of a solve that is given at the pixels of an image.
 pub struct Image {
-    /// Input heights; of a design, its outline.
+    /// Input heights at the pixels; for a design (a solve from constraints alone) 0 inside of its outline and NaN
+    /// outside.
     heights: HeightImage,
     design: bool,
     mask: Option<Vec<u8>>,
@@ -42,10 +42,11 @@ pub struct Image {
     occlusions: Option<Vec<u8>>,
 }
 
-/// Source on the vertices of a lattice.
+/// Input of a solve that is given at the vertices of a lattice.
 #[derive(Clone)]
 pub struct Parts {
-    /// Input heights; of a design, its outline.
+    /// Input heights at the vertices; for a design (a solve from constraints alone) 0 inside of its outline and NaN
+    /// outside.
     heights: Heightfield,
     design: bool,
     mask: Option<Vec<u8>>,
@@ -115,7 +116,7 @@ impl Source {
         }))
     }
 
-    /// The image that was given.
+    /// The height image of the input, if it is given as an image.
     pub fn pixels(&self) -> Option<&HeightImage> {
         match self {
             Source::Image(image) => Some(&image.heights),
@@ -123,7 +124,7 @@ impl Source {
         }
     }
 
-    /// Makes the input of a solve, and the image that its surface is resampled to.
+    /// Makes the input of a solve, and the image that its surface is resampled to; no image for an input on a lattice.
     pub fn input(&self, settings: &Settings) -> Result<(Input, Option<HeightImage>)> {
         match self {
             Source::Image(image) => {
@@ -137,7 +138,7 @@ impl Source {
         }
     }
 
-    /// The heights on the lattice, no holes bridged.
+    /// Returns the input heights on the lattice, resampled from an image if necessary, without bridged holes.
     pub fn heights(&self, settings: &Settings) -> Result<Heightfield> {
         match self {
             Source::Image(image) => Ok(image.heights.to_lattice(settings.spacing)?),
@@ -149,7 +150,7 @@ impl Source {
     }
 }
 
-/// Returns an error if a spacing is given for a lattice.
+/// Returns an error if a lattice spacing is given for an input that is on a lattice already.
 fn check_spacing(settings: &Settings) -> Result<()> {
     match settings.spacing {
         None => Ok(()),
@@ -208,7 +209,8 @@ impl Parts {
     }
 }
 
-/// An input with constraints and occlusions.
+/// Adds to an input the constraints and occlusions that are given, and the occlusions that are detected if a threshold
+/// is set; makes it a design if `design` is true.
 fn with_known(
     mut input: Input,
     design: bool,
@@ -239,12 +241,12 @@ fn with_known(
     }
 }
 
-/// The value, or `None` if it is `undefined`.
+/// Returns the value, or `None` if it is `undefined` in JavaScript.
 fn given(value: &JsValue) -> Option<&JsValue> {
     Some(value).filter(|value| !value.is_undefined())
 }
 
-/// Confidence of each height; NaN where there is none, so that interpolation ignores it.
+/// Reads the confidence of each height; NaN where there is no height, so that interpolation ignores it.
 fn confidence(value: &JsValue, (rows, cols): (usize, usize), heights: &[f64]) -> Result<Vec<f64>> {
     let mut confidence = values("confidence", rows, cols, value, None)?;
     check_confidence(&confidence, heights, cols)?;

@@ -1,4 +1,4 @@
-//! Surfaces measured, drawn, laid flat, and photos of them made flat.
+//! Surfaces analysed, drawn and laid flat, and photos made flat by them, for JavaScript.
 
 mod page;
 mod picture;
@@ -25,7 +25,7 @@ use developable_wasm::options::Given;
 use developable_wasm::photo::{Pixels, extent_from};
 use developable_wasm::scene::{Scene, check_spacing, is_image};
 
-/// `Analysis` of `types.d.ts`.
+/// Curvatures of a surface and their statistics, written as JavaScript's `Analysis` object.
 #[derive(Serialize)]
 #[serde(rename_all = "camelCase")]
 struct AnalysisOutput {
@@ -46,21 +46,22 @@ struct AnalysisOutput {
     deviation: Option<Deviation>,
 }
 
-/// The spacing among the last options of a call.
+/// Takes the option `spacing`, the only one that is left to read; another one left is an error.
 fn spacing_of(mut given: Given) -> Result<Option<f64>> {
     let spacing = given.number("spacing");
     given.finish()?;
     Ok(spacing)
 }
 
-/// Reads a surface, resampled as the remaining options say.
+/// Reads a surface; a height image is resampled to the lattice with the option `spacing`, the only option left to read.
 fn surface_of(field: JsValue, given: Given) -> Result<Heightfield> {
     let spacing = spacing_of(given)?;
     check_spacing(spacing, is_image(&field)?)?;
     Ok(Scene::new(field, spacing)?.surface)
 }
 
-/// Curvatures of a surface, their statistics, and its deviation from a reference surface.
+/// Computes curvatures of a surface, their statistics, and the surface's deviation from a reference surface if there is
+/// one; returns JavaScript's `Analysis` object.
 #[wasm_bindgen]
 pub fn analyze(field: JsValue, reference: JsValue, options: JsValue) -> Result<JsValue> {
     let mut given = Given::new(&options)?;
@@ -94,7 +95,7 @@ pub fn analyze(field: JsValue, reference: JsValue, options: JsValue) -> Result<J
     })?)
 }
 
-/// `Unrolling` of `types.d.ts`.
+/// A surface laid flat and the report, written as JavaScript's `Unrolling` object.
 #[derive(Serialize)]
 #[serde(rename_all = "camelCase")]
 struct UnrollingOutput {
@@ -120,7 +121,7 @@ struct UnrollingOutput {
     report: UnrollReport,
 }
 
-/// Unrolls a surface.
+/// Lays a surface flat without cuts; returns JavaScript's `Unrolling` object.
 #[wasm_bindgen(js_name = unroll)]
 pub fn unroll_surface(field: JsValue, options: JsValue) -> Result<JsValue> {
     let mut given = Given::new(&options)?;
@@ -145,7 +146,7 @@ pub fn unroll_surface(field: JsValue, options: JsValue) -> Result<JsValue> {
     })?)
 }
 
-/// `Dewarped` of `types.d.ts`.
+/// A flat image of a photo, its warp map and the report, written as JavaScript's `Dewarped` object.
 #[derive(Serialize)]
 struct DewarpedOutput {
     width: usize,
@@ -164,8 +165,8 @@ struct DewarpedOutput {
     report: UnrollReport,
 }
 
-/// Options of dewarping as JavaScript passes them: `DewarpOptions` of `pkg/types.d.ts`, with the frame and the texture
-/// coordinates that tell where in the photo the surface lies.
+/// Options of dewarping, read from JavaScript's `DewarpOptions` object, with the frame and the texture coordinates that
+/// tell where in the photo the surface lies.
 #[derive(Default, Deserialize)]
 #[serde(default)]
 struct DewarpInput {
@@ -182,12 +183,12 @@ struct DewarpInput {
     uvs: JsValue,
 }
 
-/// The value, or `None` if it is `undefined`.
+/// Returns the value, or `None` if it is `undefined` in JavaScript.
 fn some(value: JsValue) -> Option<JsValue> {
     (!value.is_undefined()).then_some(value)
 }
 
-/// Dewarps a photo of a surface.
+/// Makes a photo of a surface flat, by unrolling the surface; returns JavaScript's `Dewarped` object.
 #[wasm_bindgen]
 pub fn dewarp(field: JsValue, photo: JsValue, options: JsValue) -> Result<JsValue> {
     let mut given = Given::new(&options)?;
@@ -259,7 +260,7 @@ fn overreach(photo: &Photo, crop: Option<&[[f64; 2]]>) -> f64 {
     }
 }
 
-/// `PatchMap` of `types.d.ts`.
+/// Patches and creases of a surface, written as JavaScript's `PatchMap` object.
 #[derive(Serialize)]
 struct PatchesOutput<'a> {
     rows: usize,
@@ -273,7 +274,7 @@ struct PatchesOutput<'a> {
     bend: f64,
 }
 
-/// The patches of a surface, and the creases between them.
+/// Segments a surface into patches and finds the creases between them; returns JavaScript's `PatchMap` object.
 #[wasm_bindgen]
 pub fn patches(field: JsValue, options: JsValue) -> Result<JsValue> {
     let mut given = Given::new(&options)?;
@@ -298,7 +299,7 @@ pub fn patches(field: JsValue, options: JsValue) -> Result<JsValue> {
     })?)
 }
 
-/// `RulingField` of `types.d.ts`.
+/// Rulings of a surface, written as JavaScript's `RulingField` object.
 #[derive(Serialize)]
 struct RulingsOutput<'a> {
     rows: usize,
@@ -312,7 +313,8 @@ struct RulingsOutput<'a> {
     lines: &'a [Ruling],
 }
 
-/// The rulings of a surface, as directions and as lines.
+/// Computes the rulings (straight lines in the surface): a direction at each vertex, and traced lines; returns
+/// JavaScript's `RulingField` object.
 #[wasm_bindgen]
 pub fn rulings(field: JsValue, options: JsValue) -> Result<JsValue> {
     let mut given = Given::new(&options)?;

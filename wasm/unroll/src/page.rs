@@ -1,4 +1,4 @@
-//! Photos of pages made flat by their edges.
+//! Photos of pages made flat by the pages' edges, for JavaScript.
 
 use js_sys::{Float32Array, Float64Array, Uint8ClampedArray, Uint32Array};
 use serde::{Deserialize, Serialize};
@@ -15,15 +15,16 @@ use developable_wasm::options::{Given, entries, option, renamed, unknown};
 use developable_wasm::photo::Pixels;
 use developable_wasm::{Failure, Result};
 
-/// The edges of one page and its lines of text, as `asEdges` makes them.
+/// Traced edges and lines of text of one page, as the function `asEdges` in `pkg/` passes them.
 #[derive(Deserialize)]
 struct EdgesInput {
-    /// Whether the two edges given are the left and the right one.
+    /// Whether the two edges that are given are the left and the right one.
     sideways: bool,
-    /// Traced edges: two, or the upper, lower, left and right one; then the text lines.
+    /// Traced edges: two, or the upper, lower, left and right one; after them the lines of text. `edges` is the number
+    /// of the former.
     traces: Vec<TraceInput>,
     edges: usize,
-    /// Whether text lines were not given, so that they are searched for.
+    /// Whether lines of text were not given, so that they are searched for in the photo.
     open: bool,
 }
 
@@ -83,7 +84,7 @@ struct RulerInput {
     length: f64,
 }
 
-/// `DewarpedPage` of `types.d.ts`.
+/// A flat page of a photo with its warp map, mesh and report, written as JavaScript's `DewarpedPage` object.
 #[derive(Serialize)]
 struct PageOutput {
     width: usize,
@@ -99,11 +100,11 @@ struct PageOutput {
     size: [f64; 2],
     unit: &'static str,
     mesh: MeshOutput,
-    /// Text lines that were found, for each page.
+    /// Lines of text that were detected in the photo, a list for each page, as points in the photo's pixels.
     lines: Vec<Vec<Vec<[f64; 2]>>>,
     verdict: PageVerdict,
     report: PageReport,
-    /// Outlines found in the photo, if no edges were given.
+    /// Outlines of pages that were found in the photo, if no edges were given.
     #[serde(skip_serializing_if = "Option::is_none")]
     outline: Option<OutlinesOutput>,
 }
@@ -118,7 +119,7 @@ struct MeshOutput {
     uvs: Float32Array,
 }
 
-/// `PageOutlines` of `types.d.ts`.
+/// Outlines of pages found in a photo, with a verdict, written as JavaScript's `PageOutlines` object.
 #[derive(Serialize)]
 struct OutlinesOutput {
     verdict: OutlineVerdict,
@@ -126,7 +127,7 @@ struct OutlinesOutput {
     pages: Vec<OutlineOutput>,
 }
 
-/// `PageOutline` of `types.d.ts`.
+/// Corners and edges of one page found in a photo, written as JavaScript's `PageOutline` object.
 #[derive(Serialize)]
 struct OutlineOutput {
     corners: [[f64; 2]; 4],
@@ -171,7 +172,7 @@ impl From<&OutlineReport> for OutlinesOutput {
     }
 }
 
-/// The outline of the page in a photo.
+/// Finds the outline of the page in a photo; returns JavaScript's `PageOutlines` object.
 #[wasm_bindgen(js_name = findPage)]
 pub fn find_page(photo: JsValue) -> Result<JsValue> {
     let pixels = Pixels::new(photo)?;
@@ -179,7 +180,8 @@ pub fn find_page(photo: JsValue) -> Result<JsValue> {
     Ok(to_value(&OutlinesOutput::from(&report))?)
 }
 
-/// Dewarps a photo of a page, or of a spread, by the page's edges; without edges, by those found in the photo.
+/// Makes a photo of a page, or of a spread, flat by the page's traced edges, or if none are given by those found in the
+/// photo; returns JavaScript's `DewarpedPage` object.
 #[wasm_bindgen(js_name = dewarpPage)]
 pub fn dewarp_page(photo: JsValue, edges: JsValue, options: JsValue) -> Result<JsValue> {
     let (mut wanted, mut known) = (DewarpOptions::default(), PageOptions::default());
@@ -287,7 +289,7 @@ fn points(line: &Trace) -> Vec<[f64; 2]> {
     }
 }
 
-/// The option `page`.
+/// Reads the option `page`: a paper format's name, or width and height in millimetres.
 fn format_from(value: JsValue) -> Result<Format> {
     #[derive(Deserialize)]
     #[serde(untagged)]

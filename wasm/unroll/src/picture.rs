@@ -1,4 +1,4 @@
-//! Surfaces as pictures, and pictures on a canvas.
+//! Pictures of surfaces, as pixels or on a canvas, for JavaScript.
 
 use js_sys::{Object, Reflect, Uint8ClampedArray, global};
 use serde::Deserialize;
@@ -18,7 +18,8 @@ use developable_wasm::{Failure, Result};
 
 use super::{some, spacing_of};
 
-/// Draws a surface to pixels: an `ImageData` where the platform has it, else a plain object with the same fields.
+/// Draws a surface seen from above to pixels: returns an `ImageData` where the platform has it, else a plain object
+/// with the same fields.
 #[wasm_bindgen]
 pub fn picture(field: JsValue, options: JsValue) -> Result<JsValue> {
     let picture = drawn(field, options)?;
@@ -37,14 +38,14 @@ pub fn picture(field: JsValue, options: JsValue) -> Result<JsValue> {
     Ok(plain.into())
 }
 
-/// Draws a surface to a canvas, which is resized to the picture.
+/// Draws a surface seen from above to a canvas, which is resized to the picture.
 #[wasm_bindgen]
 pub fn draw(canvas: JsValue, field: JsValue, options: JsValue) -> Result<()> {
     let canvas = Canvas::new(canvas)?;
     canvas.put(&drawn(field, options)?)
 }
 
-/// `PictureOptions` of the types, without those of patches.
+/// Options of a picture, read from JavaScript's `PictureOptions` object, without those of patches.
 #[derive(Default, Deserialize)]
 #[serde(default)]
 struct PictureInput {
@@ -57,7 +58,7 @@ struct PictureInput {
     extent: JsValue,
 }
 
-/// Draws the picture that the options ask for.
+/// Draws the picture of a surface that the options ask for.
 fn drawn(field: JsValue, options: JsValue) -> Result<Picture> {
     let mut given = Given::new(&options)?;
     let patching: PatchOptions = given.read()?;
@@ -102,7 +103,7 @@ fn image_data(picture: &Picture) -> Result<ImageData> {
     ImageData::new_with_js_u8_clamped_array_and_sh(&data, width, height).map_err(refused)
 }
 
-/// Canvas: an element of a page, or an offscreen one.
+/// A canvas with its 2D context: an element of a web page, or an offscreen one.
 enum Canvas {
     Element(HtmlCanvasElement, CanvasRenderingContext2d),
     Offscreen(OffscreenCanvas, OffscreenCanvasRenderingContext2d),
@@ -147,7 +148,8 @@ impl Canvas {
     }
 }
 
-/// Context of a canvas, or an error: it has contexts of one kind only, and none once control was transferred.
+/// Returns the 2D context of a canvas, or an error if there is none: a canvas has contexts of one kind only, and none
+/// once control was transferred to a worker.
 fn context<T: JsCast>(found: std::result::Result<Option<Object>, JsValue>) -> Result<T> {
     (found.ok().flatten())
         .and_then(|context| context.dyn_into().ok())
@@ -159,7 +161,7 @@ fn context<T: JsCast>(found: std::result::Result<Option<Object>, JsValue>) -> Re
         })
 }
 
-/// Error that the browser threw.
+/// Makes an error of an exception that the browser threw when a picture was to be shown.
 fn refused(error: JsValue) -> Failure {
     let message = error.dyn_ref::<js_sys::Error>().map(js_sys::Error::message);
     let message = message.map_or_else(|| format!("{error:?}"), String::from);

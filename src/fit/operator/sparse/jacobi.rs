@@ -1,4 +1,4 @@
-//! The z-step of a sparse matrix: conjugate gradients with Jacobi's preconditioner.
+//! The z-step's solver for operators given as a sparse matrix: conjugate gradients with Jacobi's preconditioner.
 
 use super::{MAX_RUN_LENGTH, Rows, SparseOperator, normal};
 use crate::error::{Result, try_filled};
@@ -8,20 +8,20 @@ use crate::fit::operator::Operator;
 use crate::math::lanes;
 use crate::math::real::Real;
 
-/// Number of Jacobi-preconditioned iterations in one step of the solver: together they do about as much as a
+/// Number of Jacobi-preconditioned iterations in one step of the z-step's solver: together they do about as much as a
 /// V-cycle, for which ADMM's schedule is made.
 const JACOBI_STEPS: usize = 6;
 
-/// The matrix `A = 2λw + ρCᵀC`, scaled so that its largest diagonal entry is 1.
+/// The z-step's matrix `A = 2λw + ρCᵀC`, scaled so that its largest diagonal entry is 1.
 #[derive(Debug, Clone)]
 struct System {
     rho: f64,
-    /// Diagonal `2λw` of the fidelity.
+    /// Fidelity weight `2λw` of each vertex, a part of the diagonal.
     fidelity: Vec<f64>,
     normal: Vec<f64>,
-    /// The largest diagonal entry, by which the matrix is divided.
+    /// Largest diagonal entry of the unscaled matrix, by which the matrix is divided.
     diagonal: f64,
-    /// One over the diagonal, and 0 at constrained vertices, which stay as they are by that.
+    /// Inverse of the scaled diagonal, and 0 at constrained vertices, which stay as they are by that.
     inverse: Vec<f64>,
     constrained: Vec<u32>,
 }
@@ -45,29 +45,31 @@ impl System {
     }
 }
 
-/// One run of conjugate gradients, in one precision.
+/// State of preconditioned conjugate gradients for the z-step, in single or double precision.
 #[derive(Debug, Clone)]
 struct Gradients<T> {
     residual: Vec<T>,
     solution: Vec<T>,
     direction: Vec<T>,
     image: Vec<T>,
-    /// `A`, scaled: the diagonal part, what `CᵀC` counts, and the inverse diagonal.
+    /// Scaled fidelity weights; with `rho`, the factor of `CᵀC`, and `inverse`, the inverse diagonal, this is the
+    /// scaled matrix.
     fidelity: Vec<T>,
     rho: T,
     inverse: Vec<T>,
-    /// `r·M⁻¹r`, and that of the iteration before; 0 before the first.
+    /// Product `r·M⁻¹r` of residual and preconditioned residual; `previous` is the one of the iteration before, and 0
+    /// before the first.
     energy: f64,
     previous: f64,
 }
 
-/// A floating-point precision of conjugate gradients, with conversions from and to double precision.
+/// A floating-point precision that conjugate gradients run in, with conversions from and to double precision.
 trait Precision: Real {
     fn from_f64(value: f64) -> Self;
     fn double(self) -> f64;
-    /// Rows of the operator in this precision, and their weights times the shares of ρ.
+    /// Returns the operator's rows in this precision, and their weights times their factors of ρ.
     fn rows(operator: &SparseOperator) -> (&Rows<Self>, &[Self]);
-    /// Factor by which the rows of this precision are scaled.
+    /// Returns the factor by which the operator's rows of this precision are scaled.
     fn unit(operator: &SparseOperator) -> f64;
     fn dot(a: &[Self], b: &[Self]) -> f64;
     fn weighted_square(a: &[Self], weight: &[Self]) -> f64;
@@ -141,7 +143,7 @@ impl<T: Precision> Gradients<T> {
         Ok(gradients)
     }
 
-    /// Changes the matrix.
+    /// Takes over the values of a system's matrix, in this precision.
     fn take(&mut self, operator: &SparseOperator, system: &System) {
         let unit = T::unit(operator);
         self.rho = T::from_f64(system.rho / (system.diagonal * unit * unit));
@@ -151,7 +153,7 @@ impl<T: Precision> Gradients<T> {
         }
     }
 
-    /// Begins with the residual as it is, and 0 as the solution.
+    /// Starts conjugate gradients with the residual as it is, and 0 as the solution.
     fn start(&mut self) {
         self.solution.fill(T::default());
         self.direction.fill(T::default());
@@ -163,7 +165,7 @@ impl<T: Precision> Gradients<T> {
         self.energy = T::weighted_square(&self.residual, &self.inverse);
     }
 
-    /// Takes one iteration; `false` if there is nothing left to improve.
+    /// Takes one conjugate-gradient iteration; returns `false` if nothing is left to improve.
     fn step(&mut self, operator: &SparseOperator) -> bool {
         if self.energy <= 0.0 {
             return false;
@@ -197,7 +199,8 @@ impl<T: Precision> Gradients<T> {
         true
     }
 
-    /// Maximum distance by which the residual at a height would move that height alone.
+    /// Measures the residual: the largest distance by which the residual at a single vertex would move its height if no
+    /// other moved.
     fn distance(&self) -> f64 {
         let moved = self.residual.iter().zip(&self.inverse);
         let moved = moved.map(|(r, inverse)| (*r * *inverse).double().abs());
@@ -205,16 +208,16 @@ impl<T: Precision> Gradients<T> {
     }
 }
 
-/// Solver of the z-step of a sparse matrix.
+/// Solver of the z-step for a [`SparseOperator`].
 #[derive(Debug, Clone)]
 pub(crate) struct JacobiGradients {
     system: System,
     gradients: Gradients<f32>,
-    /// Residual as written by the caller.
+    /// Residual as written by the caller, in single precision.
     residual: Vec<f32>,
     /// Whether ρ has changed since the matrix was made.
     stale: bool,
-    /// The largest magnitude of the unknowns' targets, which is 1 in the system.
+    /// Largest absolute target height, by which heights in the linear system are divided.
     unit: f64,
 }
 

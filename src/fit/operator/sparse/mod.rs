@@ -1,4 +1,4 @@
-//! An operator that is given as a sparse matrix, for meshes and other domains that are no lattice.
+//! The operator `C` as a sparse matrix, for meshes and other domains that are no lattice.
 
 pub(crate) mod jacobi;
 #[cfg(all(test, feature = "sprs", not(target_arch = "wasm32")))] // clarabel is native
@@ -13,31 +13,31 @@ use crate::math::lanes;
 use crate::math::real::Real;
 use crate::math::sym2::Sym2;
 
-/// Maximum length of a run, so that what kernels store for one stays in the cache.
+/// Maximum length of a run of vertices or stencils, so that what kernels store for one run stays in the cache.
 const MAX_RUN_LENGTH: usize = 256;
 
-/// Number of power iterations for the operator's norm. Only the speed of dual ascent depends on how far they
-/// fall short of it, not that its bound is one.
+/// Number of power iterations that estimate the operator's norm. Only the speed of dual ascent depends on their
+/// accuracy, not the validity of its dual bound.
 const POWER_ITERATIONS: usize = 10;
-/// Factor that makes an upper bound of the power iterations' lower estimate of the norm.
+/// Factor that turns the power iterations' lower estimate of the operator's norm into an upper bound.
 const NORM_ESTIMATE_MARGIN: f32 = 1.1;
 
-/// Number of entries of a row that are computed together: the numbers in a SIMD vector of single precision.
+/// Number of entries of a matrix row that are computed together: the numbers in a SIMD vector of single precision.
 const ROW_GROUP_ENTRIES: usize = 4;
 
-/// Rows of the operator `C`: for each stencil its vertices, with the factors of their heights in the
-/// coordinates of [`Sym2`]. Entries are stored in groups, filled up with zeros.
+/// Rows of the sparse operator `C`: for each stencil its vertices, with the factors of their heights in the coordinates
+/// of [`Sym2`]. Entries are stored in groups, filled up with zeros.
 ///
-/// The adjoint is computed from the same rows, by adding to the vertices of one stencil after the other: this
-/// halves the memory, and `CᵀC` takes one pass.
+/// The adjoint is computed from the same rows, by adding to the vertices of one stencil after the other: this halves
+/// the memory, and `CᵀC` takes one pass.
 #[derive(Debug, Clone)]
 pub(crate) struct Rows<T> {
-    /// Number of the first group of each row.
+    /// Index of each row's first group of entries.
     first: Vec<u32>,
     fours: Vec<EntryGroup<T>>,
 }
 
-/// Entries of a row that are computed together.
+/// Group of entries of a matrix row that are computed together.
 #[derive(Debug, Clone)]
 struct EntryGroup<T> {
     vertices: [u32; ROW_GROUP_ENTRIES],
@@ -45,7 +45,7 @@ struct EntryGroup<T> {
 }
 
 impl<T: Real> Rows<T> {
-    /// Rows of no stencils.
+    /// Makes a matrix without rows.
     pub(crate) fn new() -> Self {
         Rows {
             first: vec![0],
@@ -53,14 +53,15 @@ impl<T: Real> Rows<T> {
         }
     }
 
-    /// Reserves memory for a number of stencils with a number of vertices each.
+    /// Reserves memory for the rows of a number of stencils with a number of vertices each.
     pub(crate) fn reserve(&mut self, stencils: usize, vertices: usize) {
         self.first.reserve(stencils);
         self.fours
             .reserve(stencils * vertices.div_ceil(ROW_GROUP_ENTRIES));
     }
 
-    /// Appends the row of one more stencil.
+    /// Appends the row of one more stencil: its vertices, each with the factors of its height in the Hessian's
+    /// coordinates.
     pub(crate) fn push(&mut self, entries: impl IntoIterator<Item = (u32, [T; 3])>) {
         let mut lane = ROW_GROUP_ENTRIES;
         for (vertex, entry) in entries {
@@ -82,7 +83,7 @@ impl<T: Real> Rows<T> {
         self.first.push(self.fours.len() as u32);
     }
 
-    /// Multiplies each column by the factor of its vertex.
+    /// Multiplies each column of the matrix by a factor that depends on its vertex.
     pub(crate) fn scale_columns(&mut self, factor: impl Fn(u32) -> T) {
         for EntryGroup { vertices, entries } in &mut self.fours {
             for lane in 0..ROW_GROUP_ENTRIES {
@@ -98,18 +99,18 @@ impl<T: Real> Rows<T> {
         self.first.len() - 1
     }
 
-    /// The vertices of all rows, some of them several times.
+    /// Iterates over the vertices of all rows' entries, with repetitions.
     fn vertices(&self) -> impl Iterator<Item = u32> + '_ {
         self.fours.iter().flat_map(|four| four.vertices)
     }
 
-    /// The entries of a stencil.
+    /// Returns the groups of entries of a stencil's row.
     #[inline(always)]
     fn row(&self, stencil: usize) -> &[EntryGroup<T>] {
         &self.fours[self.first[stencil] as usize..self.first[stencil + 1] as usize]
     }
 
-    /// The Hessian `Cx` at a stencil.
+    /// Returns the Hessian `Cx` at a stencil, by the coordinates of [`Sym2`].
     #[inline(always)]
     fn apply(&self, stencil: usize, x: &[T]) -> [T; 3] {
         let zero = T::four([T::default(); ROW_GROUP_ENTRIES]);
@@ -134,7 +135,7 @@ impl<T: Real> Rows<T> {
         })
     }
 
-    /// Adds `Cᵀ` of the matrix at one stencil, which includes the stencil's weight.
+    /// Adds the adjoint `Cᵀ` of the matrix at one stencil, which includes the stencil's weight, to the heights `to`.
     #[inline(always)]
     fn add_adjoint(&self, stencil: usize, [mean, diff, off]: [T; 3], to: &mut [T]) {
         let [mean, diff, off] = [mean, diff, off].map(|y| T::four([y; ROW_GROUP_ENTRIES]));
@@ -152,34 +153,35 @@ impl<T: Real> Rows<T> {
     }
 }
 
-/// The components of a [`SparseOperator`].
+/// The components that a [`SparseOperator`] is made of.
 #[derive(Debug, Clone)]
 pub(crate) struct Parts {
     pub rows: Rows<f64>,
-    /// Weight of each stencil in every sum over stencils; empty for 1 each.
+    /// Area of each stencil, its weight in every sum over stencils; empty if each is 1.
     pub areas: Vec<f64>,
-    /// Numbers of the neighbouring stencils of each stencil.
+    /// Indices of the neighbouring stencils of each stencil.
     pub beside: Vec<Vec<u32>>,
-    /// Vertex that is held at its height and so makes `C` affine; its column does not count for the norm.
+    /// Vertex whose height is constant and so makes `C` affine; its column does not count for the operator's norm.
     pub constant: Option<u32>,
     pub places: Vec<[f64; 2]>,
     pub spacing: f64,
-    /// Distance from one end of the domain to the other.
+    /// Distance from one end of the domain to the other, in the unit of the places.
     pub size: f64,
 }
 
-/// An operator `C` that is given as a sparse matrix.
+/// Operator `C` from heights to Hessians that is given as a sparse matrix.
 #[derive(Debug, Clone)]
 pub(crate) struct SparseOperator {
     double: Arc<Rows<f64>>,
-    /// The rows of `h²C` in single precision.
+    /// Rows of `h²C` in single precision, where `h` is the spacing.
     single: Arc<Rows<f32>>,
-    /// Twice the area of each stencil: the inner product is that of matrices, in which coordinates count twice.
+    /// Twice the area of each stencil, its weight in inner products: the coordinates of a matrix count twice in its
+    /// Frobenius product.
     weights: Vec<f64>,
     single_weights: Vec<f32>,
-    /// Share of ρ at each stencil.
+    /// Factor by which ADMM's ρ is multiplied at each stencil.
     rho_shares: Vec<f64>,
-    /// Weight times share of ρ at each stencil.
+    /// Weight of each stencil times its factor of ρ.
     rho_weights: Vec<f64>,
     single_rho_weights: Vec<f32>,
     vertices: RowRuns,
@@ -192,11 +194,11 @@ pub(crate) struct SparseOperator {
 }
 
 impl SparseOperator {
-    /// The operator of these rows, which are taken for second fundamental forms. Vertices of no row are no
-    /// unknowns.
+    /// Makes the operator of given rows, whose values are taken for second fundamental forms. Vertices that no row has
+    /// are no unknowns.
     ///
     /// # Errors
-    /// Out of memory.
+    /// [`Error::OutOfMemory`](crate::Error::OutOfMemory).
     pub(crate) fn new(parts: Parts) -> Result<Self> {
         let Parts {
             rows,
@@ -251,7 +253,7 @@ impl SparseOperator {
         Ok(operator)
     }
 
-    /// A lower estimate of `h⁴‖CᵀC‖` by power iterations.
+    /// Estimates the norm `h⁴‖CᵀC‖` from below by power iterations; the height of the vertex `constant` does not count.
     fn power(&self, constant: Option<u32>) -> Result<f32> {
         let mut x = try_filled("vertices", self.vertex_cells(), 0.0f32)?;
         let mut image = x.clone();
@@ -273,7 +275,7 @@ impl SparseOperator {
         Ok(norm)
     }
 
-    /// Sets the share of ρ at each stencil.
+    /// Sets the factor by which ρ is multiplied at each stencil.
     pub(crate) fn set_rho_shares(&mut self, share: impl Fn(usize) -> f64) {
         for stencil in 0..self.weights.len() {
             let rho_share = share(stencil);
@@ -283,7 +285,7 @@ impl SparseOperator {
         }
     }
 
-    /// The diagonal of `CᵀC`, weighted by the shares of ρ.
+    /// Returns the diagonal of `CᵀC`, with the stencils weighted by their factors of ρ.
     fn normal_diagonal(&self) -> Result<Vec<f64>> {
         let mut diagonal = try_filled("diagonal", self.vertex_cells(), 0.0)?;
         for (stencil, weight) in self.rho_weights.iter().enumerate() {
@@ -298,7 +300,7 @@ impl SparseOperator {
     }
 }
 
-/// Computes `image = CᵀC x`.
+/// Computes `image = CᵀC x` for an operator's rows and its stencils' weights.
 fn normal<T: Real>(rows: &Rows<T>, weights: &[T], x: &[T], image: &mut [T]) {
     image.fill(T::default());
     for (stencil, weight) in weights.iter().enumerate() {
@@ -347,7 +349,7 @@ impl<T: Real> Sums<T> for RunSums<'_, T> {
 }
 
 impl Operator for SparseOperator {
-    /// `CᵀY`.
+    /// Values of `CᵀY` at all vertices.
     type Scratch<T: Real> = Vec<T>;
     type Hessians<'a, T: Real> = RunHessians<'a, T>;
     type Matrices<'a, T: Real> = RunMatrices<'a, T>;

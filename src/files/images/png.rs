@@ -26,10 +26,10 @@ const HEIGHT_OFFSET: &str = "developable:heightOffset";
 const PIXEL_SIZE: &str = "developable:pixelSize";
 const NO_DATA: &str = "developable:noData";
 
-/// Lowest level that [`write_png`] uses for heights; 0 is no data.
+/// Lowest grey level that [`write_png`] uses for heights; level 0 is no data.
 const MIN_HEIGHT_LEVEL: f64 = 1.0;
 
-/// Highest level that [`write_png`] uses for heights.
+/// Highest grey level that [`write_png`] uses for heights.
 const MAX_HEIGHT_LEVEL: f64 = 65535.0;
 
 /// The pixels of a PNG file, and the reader that holds its metadata.
@@ -143,7 +143,7 @@ pub(super) fn decode(bytes: &[u8]) -> Result<Decoded> {
     })
 }
 
-/// Values of the text chunks in files of this library.
+/// Values that PNG files of this library record in text chunks.
 #[derive(Default)]
 struct Recorded {
     scale: Option<f64>,
@@ -236,7 +236,7 @@ fn write(
     writer.finish()
 }
 
-/// Scale and offset that put the lowest height on level 1 and the highest on level 65535.
+/// Computes scale and offset that put the lowest height of an image on grey level 1 and the highest on 65535.
 fn quantisation(values: &[f64]) -> (f64, f64) {
     let (low, high) = values
         .iter()

@@ -6,7 +6,7 @@ use crate::error::{Error, Result, checked_cells};
 use crate::files::images::decoded::Decoded;
 use crate::files::images::format::Format;
 
-/// Maximum length of a number in a header, in bytes.
+/// Maximum length of a number in the header of a PFM file, in bytes.
 const MAX_WORD: usize = 32;
 
 pub(super) fn decode(bytes: &[u8]) -> Result<Decoded> {

@@ -87,7 +87,7 @@ pub(super) fn decode(bytes: &[u8]) -> Result<Decoded> {
     })
 }
 
-/// Number of samples per pixel, bits per sample, and their meaning.
+/// Reads from a TIFF file the number of samples per pixel, the bits per sample, and what the samples mean.
 fn channels(file: &mut File, color: ColorType) -> Result<(usize, usize, Channels)> {
     let plain = |colours, alpha| Channels { colours, alpha };
     let (samples, bits, channels) = match color {

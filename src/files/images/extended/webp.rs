@@ -26,7 +26,7 @@ pub(super) fn decode_photo(bytes: &[u8]) -> Result<PhotoFile> {
     ))
 }
 
-/// The samples, their number per pixel, and width and height.
+/// Decodes a WebP file: returns its samples, their number per pixel, and width and height.
 fn pixels(bytes: &[u8]) -> Result<(Vec<u8>, usize, (usize, usize))> {
     // The decoder fills in missing data at the end; the header has the length.
     let length = bytes.get(4..8).map_or(0, |length| {

@@ -70,7 +70,7 @@ pub(super) fn offset_outwards(curves: &[Curve], distance: f64) -> Option<Vec<Cur
     Some(moved.into_iter().map(curve).collect())
 }
 
-/// Offsets a closed polyline to its right, corner by corner.
+/// Offsets a closed polyline to its right by a distance, corner by corner.
 fn beside(ring: &[Point], distance: f64) -> Vec<Point> {
     let n = ring.len();
     let mut out = Vec::with_capacity(n);

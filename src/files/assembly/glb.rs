@@ -16,7 +16,7 @@ use crate::pattern::Sheet;
 const STEP_SECONDS: f64 = 1.5;
 
 /// Duration of the pause between two steps of the assembly animation, in seconds.
-const PAUSE_SECONDS: f64 = 0.5;
+const STEP_PAUSE_SECONDS: f64 = 0.5;
 
 /// Writes a GLB file of the assembly: sheets that lie flat beside the surface move to their places one after the
 /// other, in the assembly's order, and bend as they move. It is in metres, `scale` being the millimetres of a unit,
@@ -56,7 +56,7 @@ pub fn write_animation(sheets: &[Sheet], assembly: &Assembly, scale: f64) -> Res
             part.sheet,
             sheet,
             &moved,
-            step as f64 * (STEP_SECONDS + PAUSE_SECONDS),
+            step as f64 * (STEP_SECONDS + STEP_PAUSE_SECONDS),
             sizes,
         );
     }

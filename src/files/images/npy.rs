@@ -10,15 +10,15 @@ use crate::error::{Error, Result, check_shape, checked_cells, try_filled};
 use crate::files::buffer::Buffer;
 
 /// Maximum length of the header of an NPY file, in bytes; NumPy has the same limit.
-const MAX_HEADER: usize = 10_000;
+const MAX_HEADER_BYTES: usize = 10_000;
 
 /// Maximum number of brackets in the header of an NPY file: a plain array has 2, `{` and `(`. The parser recurses
 /// on brackets, so that this also bounds the parser's use of the stack.
-const MAX_BRACKETS: usize = 8;
+const MAX_HEADER_BRACKETS: usize = 8;
 
 /// Maximum number of digits in the header of an NPY file, so that no product of the sizes in the header overflows
 /// 64 bits.
-const MAX_DIGITS: usize = 19;
+const MAX_HEADER_DIGITS: usize = 19;
 
 pub(super) fn decode(bytes: &[u8]) -> Result<Decoded> {
     let start = check_header(bytes)?;
@@ -135,19 +135,19 @@ fn check_header(bytes: &[u8]) -> Result<usize> {
             )));
         }
     };
-    if length > MAX_HEADER {
+    if length > MAX_HEADER_BYTES {
         return Err(damaged(format!(
-            "its header claims {length} bytes, where {MAX_HEADER} are the most"
+            "its header claims {length} bytes, where {MAX_HEADER_BYTES} are the most"
         )));
     }
     let header = bytes.get(begin..begin + length).ok_or_else(cut)?;
     let count = |of: &dyn Fn(u8) -> bool| header.iter().filter(|b| of(**b)).count();
-    if count(&|b| b"([{".contains(&b)) > MAX_BRACKETS {
+    if count(&|b| b"([{".contains(&b)) > MAX_HEADER_BRACKETS {
         return Err(unsupported(
             "an array of structures; only arrays of plain numbers are read".into(),
         ));
     }
-    if count(&|b| b.is_ascii_digit()) > MAX_DIGITS {
+    if count(&|b| b.is_ascii_digit()) > MAX_HEADER_DIGITS {
         return Err(Error::TooLarge {
             what: "NPY array",
             requested: usize::MAX,

@@ -19,10 +19,10 @@ use crate::files::images::photo::PhotoFile;
 const MAX_SAMPLES_PER_BYTE: usize = 4096;
 
 /// Marker that ends a JPEG file.
-const END_MARKER: [u8; 2] = [0xff, 0xd9];
+const JPEG_END_MARKER: [u8; 2] = [0xff, 0xd9];
 
 /// Second byte of the JPEG marker that image data follow.
-const SCAN_MARKER: u8 = 0xda;
+const JPEG_SCAN_MARKER: u8 = 0xda;
 
 pub(super) fn decode(bytes: &[u8]) -> Result<Decoded> {
     let mut file = Opened::new(bytes)?;
@@ -177,9 +177,9 @@ fn ends(bytes: &[u8]) -> bool {
             return false;
         };
         rest = next;
-        if marker == SCAN_MARKER {
+        if marker == JPEG_SCAN_MARKER {
             break;
         }
     }
-    rest.windows(2).any(|pair| pair == END_MARKER)
+    rest.windows(2).any(|pair| pair == JPEG_END_MARKER)
 }

@@ -27,7 +27,7 @@ pub(super) fn embedded(uri: &str) -> Result<Option<Vec<u8>>> {
     Ok(Some(bytes))
 }
 
-/// Decodes percent-encoded blanks in the name of a file.
+/// Decodes percent-encoded characters, such as blanks, in the name of a file.
 pub(super) fn plain(uri: &str) -> String {
     let mut bytes = Vec::with_capacity(uri.len());
     let mut rest = uri.as_bytes();

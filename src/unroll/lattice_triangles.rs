@@ -50,7 +50,7 @@ impl LatticeTriangles {
         Ok(LatticeTriangles { grid, of, area })
     }
 
-    /// All triangles that exist.
+    /// Lists all triangles of the lattice that exist.
     pub(super) fn ids(&self) -> impl Iterator<Item = TriangleId> + '_ {
         let cells = (0..self.grid.rows()).flat_map(|row| self.grid.row(row));
         cells
@@ -62,7 +62,7 @@ impl LatticeTriangles {
         &self.of[cell][side]
     }
 
-    /// The cells of a triangle's corners.
+    /// Returns the cells of a triangle's three corners.
     pub(super) fn corners(&self, (cell, side): TriangleId) -> [usize; 3] {
         let offsets = self.grid.offsets(self.grid.vertex(cell).0);
         let south_east = cell.wrapping_add_signed(offsets.south_east);
@@ -76,7 +76,7 @@ impl LatticeTriangles {
         }
     }
 
-    /// The triangles around a vertex.
+    /// Lists the triangles around a vertex.
     pub(super) fn around(&self, cell: usize) -> impl Iterator<Item = TriangleId> + '_ {
         let offsets = self.grid.offsets(self.grid.vertex(cell).0);
         let ne = cell.wrapping_add_signed(offsets.north_east);
@@ -93,7 +93,7 @@ impl LatticeTriangles {
         .filter(|id| self.get(*id).exists())
     }
 
-    /// The border edges, which have a triangle on one side only, each directed as in that triangle.
+    /// Finds the border edges, which have a triangle on one side only, each directed as in that triangle.
     pub(super) fn border(&self) -> impl Iterator<Item = [usize; 2]> + '_ {
         self.ids().flat_map(|id| {
             let [a, b, c] = self.corners(id);

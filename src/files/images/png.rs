@@ -14,7 +14,7 @@ use crate::files::buffer::Buffer;
 use crate::heights::heightfield::HeightImage;
 
 /// Maximum memory that the decoder itself may allocate, in bytes: two rows of the widest image and metadata.
-const DECODER_BYTES: usize = 1 << 28;
+const MAX_DECODER_BYTES: usize = 1 << 28;
 
 /// Maximum ratio by which DEFLATE can shrink data.
 const DEFLATE_RATIO: usize = 1032;
@@ -43,7 +43,7 @@ pub(super) struct Pixels<'a> {
 impl<'a> Pixels<'a> {
     pub(super) fn decode(bytes: &'a [u8], transformations: Transformations) -> Result<Self> {
         let limits = Limits {
-            bytes: DECODER_BYTES,
+            bytes: MAX_DECODER_BYTES,
         };
         let mut decoder = Decoder::new_with_limits(Cursor::new(bytes), limits);
         decoder.set_transformations(transformations);

@@ -36,9 +36,9 @@ pub struct Summary {
     pub median_kappa2: f64,
     /// Sum of `‖H‖_*` over the vertices: the energy without its fidelity term.
     pub nuclear_norm: f64,
-    /// Histogram of `|K|`.
+    /// Histogram of `|K|`, the magnitude of the Gaussian curvature.
     pub gaussian: Histogram,
-    /// Histogram of `|κ₂|`.
+    /// Histogram of `|κ₂|`, the magnitude of the smaller principal curvature.
     pub kappa2: Histogram,
 }
 
@@ -55,7 +55,7 @@ pub struct Histogram {
 }
 
 impl Summary {
-    /// Statistics of the curvatures of a heightfield. Costs `O(vertices)`.
+    /// Computes the statistics of a heightfield's curvatures. Costs `O(vertices)`.
     ///
     /// # Errors
     /// [`Error::Option`] unless the threshold is positive and finite, [`Error::Shape`] if the
@@ -78,7 +78,7 @@ impl Summary {
         }))
     }
 
-    /// Statistics of magnitudes of curvatures.
+    /// Computes the statistics of given magnitudes of curvatures.
     pub(super) fn from_magnitudes(measured: CurvatureMagnitudes) -> Self {
         let CurvatureMagnitudes {
             mut gaussian,
@@ -112,7 +112,7 @@ pub(super) struct CurvatureMagnitudes {
 }
 
 impl Histogram {
-    /// The histogram of magnitudes.
+    /// Counts magnitudes in the bins of a histogram.
     fn from_magnitudes(magnitudes: &[f64]) -> Self {
         /// Number of bins with two ends: half decades from 10⁻⁵ to 10⁶.
         const BOUNDED_BINS: i32 = 22;
@@ -129,7 +129,7 @@ impl Histogram {
     }
 }
 
-/// Deviation of a surface from another one on the same lattice, in their units, over the vertices
+/// Deviation of one surface from another on the same lattice, in the surfaces' unit of height, over the vertices
 /// where both have a height.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
@@ -144,7 +144,7 @@ pub struct Deviation {
 }
 
 impl Deviation {
-    /// The deviation between two surfaces; costs `O(vertices)`.
+    /// Measures how far two surfaces deviate from each other; costs `O(vertices)`.
     ///
     /// # Errors
     /// [`Error::Shape`] if their lattices have different shapes.

@@ -11,7 +11,7 @@ pub(super) struct BendAngles {
     /// Angle, in radians, by which the surface bends over one spacing: the nuclear norm of the Hessian along the surface,
     /// times the spacing.
     pub angle: Vec<f64>,
-    /// Gradient of the best-fit quadratic.
+    /// Gradient of the quadratic that fits the heights around a vertex best, as slopes in x and y.
     pub gradient: Vec<[f64; 2]>,
 }
 
@@ -29,7 +29,7 @@ const CREASE_BEND_PER_MEDIAN: f64 = 6.0;
 const MIN_CREASE_BEND: f64 = 0.035;
 
 impl BendAngles {
-    /// The bend angles of a heightfield; costs `O(vertices)`.
+    /// Computes the bend angles of a heightfield; costs `O(vertices)`.
     ///
     /// # Errors
     /// [`Error::NoInterior`](crate::Error::NoInterior), [`Error::OutOfMemory`](crate::Error::OutOfMemory).

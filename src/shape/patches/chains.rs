@@ -2,11 +2,11 @@
 
 use std::collections::BTreeMap;
 
-/// A polyline of consecutive edges.
+/// A polyline of consecutive edges of a mesh or lattice.
 pub(crate) struct Chain {
-    /// Vertices along it; the last one is the first one if it is closed.
+    /// Vertices along the polyline; the last one is the first one if the polyline is closed.
     pub vertices: Vec<u32>,
-    /// Numbers of its edges in the list that was given.
+    /// Numbers of the polyline's edges in the list of edges that was given.
     pub edges: Vec<usize>,
 }
 

@@ -8,7 +8,7 @@ use super::ruling::{MIN_LENGTH_SEPARATIONS, Ruling};
 use crate::error::Result;
 use crate::math::sym2::Sym2;
 
-/// Position and direction of a line, as seen from above.
+/// Position and direction of a ruling that is traced, as seen from above.
 type Step = ([f64; 2], [f64; 2]);
 
 impl Rulings {
@@ -112,7 +112,7 @@ impl Rulings {
         (confidence >= options.confidence).then_some(found)
     }
 
-    /// Height at a place, linear in each triangle of the lattice.
+    /// Interpolates the height at a place, linearly in each triangle of the lattice.
     fn height(&self, place: [f64; 2]) -> Option<f64> {
         let lattice = self.surface.lattice();
         let triangle = lattice.locate(place);

@@ -51,14 +51,14 @@ pub struct MeshRulings {
     pub(super) trust: Vec<f64>,
     /// Bend angle at each vertex, in radians over one edge; NaN where there is no second fundamental form.
     pub(super) bends: Vec<f64>,
-    /// Mean length of the edges.
+    /// Mean length of the mesh's edges.
     pub(super) spacing: f64,
     directions: Vec<[f64; 3]>,
     confidence: Vec<f64>,
 }
 
 impl MeshRulings {
-    /// The rulings of a mesh; costs `O(vertices)`.
+    /// Computes the ruling direction at each vertex of a mesh; costs `O(vertices)`.
     ///
     /// # Errors
     /// [`Error::Topology`](crate::Error::Topology) if it is no surface,

@@ -16,7 +16,7 @@ use crate::files::images::npy;
 const DEFLATE_RATIO: usize = 1032;
 
 /// Maximum size of an NPY file that is read from an archive, in bytes: 64-bit numbers, and a header.
-const MAX_BYTES: usize = 8 * MAX_CELLS + 16_384;
+const MAX_NPY_BYTES: usize = 8 * MAX_CELLS + 16_384;
 
 /// Number of bytes that are read of an NPY file in the archive to know the array's shape.
 const MAX_HEADER_BYTES: u64 = 16_384;
@@ -87,7 +87,7 @@ pub fn decode_npz(bytes: &[u8], array: Option<&str>) -> Result<Decoded> {
     };
     let entry = archive.by_name(&member(name)).map_err(failed)?;
     let size = usize::try_from(entry.size()).unwrap_or(usize::MAX);
-    if size > MAX_BYTES {
+    if size > MAX_NPY_BYTES {
         return Err(Error::TooLarge {
             what: "NPZ array",
             requested: size / 8,

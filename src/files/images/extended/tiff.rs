@@ -21,12 +21,12 @@ use crate::heights::heightfield::HeightImage;
 const MAX_COMPRESSION_RATIO: usize = 4096;
 
 /// Maximum memory that the decoder itself may allocate, in bytes: a compressed strip, and the values of a tag.
-const DECODER_BYTES: usize = 1 << 28;
+const MAX_DECODER_BYTES: usize = 1 << 28;
 
 pub(super) fn decode(bytes: &[u8]) -> Result<Decoded> {
     let mut limits = Limits::default();
-    limits.decoding_buffer_size = DECODER_BYTES;
-    limits.intermediate_buffer_size = DECODER_BYTES;
+    limits.decoding_buffer_size = MAX_DECODER_BYTES;
+    limits.intermediate_buffer_size = MAX_DECODER_BYTES;
     let mut file = Decoder::new(Cursor::new(bytes))
         .map_err(failed)?
         .with_limits(limits);

@@ -21,12 +21,12 @@ const INCH_MM: f64 = 25.4;
 const CENTIMETRE_MM: f64 = 10.0;
 
 /// Value of the tag `ResolutionUnit` for no unit.
-const NO_UNIT: u16 = 1;
+const RESOLUTION_UNIT_NONE: u16 = 1;
 const PER_INCH: u16 = 2;
 const PER_CENTIMETRE: u16 = 3;
 
 /// Number of the GeoTIFF key `GTModelTypeGeoKey`.
-const MODEL_TYPE: u16 = 1024;
+const MODEL_TYPE_KEY: u16 = 1024;
 
 /// Value of the GeoTIFF key `GTModelTypeGeoKey` for degrees of longitude and latitude.
 const MODEL_TYPE_GEOGRAPHIC: u16 = 2;
@@ -92,7 +92,7 @@ fn pixel_size(file: &mut File) -> Result<(f64, Option<Unit>)> {
     };
     let per = match unsigned(file, Tag::ResolutionUnit)?.unwrap_or(PER_INCH) {
         // Without a unit, resolutions state the proportions of a pixel only.
-        NO_UNIT => return square(1.0 / x, 1.0 / y).map(|_| (1.0, None)),
+        RESOLUTION_UNIT_NONE => return square(1.0 / x, 1.0 / y).map(|_| (1.0, None)),
         PER_INCH => INCH_MM,
         PER_CENTIMETRE => CENTIMETRE_MM,
         other => {
@@ -148,7 +148,7 @@ fn geographic_unit(file: &mut File) -> Result<Option<Unit>> {
             .find(|entry| entry[0] == wanted && entry[1] == 0)
             .map(|entry| entry[3])
     };
-    if key(MODEL_TYPE) == Some(MODEL_TYPE_GEOGRAPHIC) {
+    if key(MODEL_TYPE_KEY) == Some(MODEL_TYPE_GEOGRAPHIC) {
         return Err(unsupported(
             Format::Tiff,
             "its pixels are degrees of longitude and latitude, which are no lengths: project it \

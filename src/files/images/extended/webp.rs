@@ -11,7 +11,7 @@ use crate::files::images::format::Format;
 use crate::files::images::photo::PhotoFile;
 
 /// Maximum memory that the decoder may allocate for metadata, in bytes.
-const DECODER_BYTES: usize = 1 << 24;
+const MAX_DECODER_BYTES: usize = 1 << 24;
 
 pub(super) fn decode(bytes: &[u8]) -> Result<Decoded> {
     let (samples, stride, size) = pixels(bytes)?;
@@ -36,7 +36,7 @@ fn pixels(bytes: &[u8]) -> Result<(Vec<u8>, usize, (usize, usize))> {
         return Err(damaged(Format::WebP, "it is cut short"));
     }
     let mut decoder = WebPDecoder::new(Cursor::new(bytes)).map_err(failed)?;
-    decoder.set_memory_limit(DECODER_BYTES);
+    decoder.set_memory_limit(MAX_DECODER_BYTES);
     if decoder.is_animated() {
         return Err(unsupported(
             Format::WebP,

@@ -1,4 +1,4 @@
-//! Where places on a flat sheet are once it is built.
+//! Maps points of a flat sheet to the surface in space.
 
 use crate::pattern::Faces;
 use rustc_hash::FxHashMap;

@@ -1,4 +1,4 @@
-//! Which sheet comes next.
+//! Order in which sheets are put together.
 
 use std::collections::BTreeMap;
 

@@ -1,4 +1,4 @@
-//! Where a flat sheet comes closest to the one that is built.
+//! The rigid motion that moves a flat sheet closest to its place on the surface.
 
 use nalgebra::{Matrix3, Rotation3, UnitQuaternion, Vector3};
 

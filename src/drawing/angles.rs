@@ -1,4 +1,4 @@
-//! Angles of the pieces around a point, against that of the surface around it.
+//! Compares the angles of the flat pieces around a point with the angle of the surface there.
 
 use crate::math::planar::polyline_length;
 use std::collections::BTreeMap;

@@ -1,4 +1,4 @@
-//! Sheets in millimetres, with tabs and labels, before they have a place.
+//! Draws single sheets in millimetres, with tabs and labels, before they are placed in the drawing.
 
 use std::collections::BTreeMap;
 

@@ -1,4 +1,4 @@
-//! Both sides of each joint drawn equally long.
+//! Makes both sides of each joint equally long in a drawing.
 //!
 //! The two sides of a joint differ in length for two reasons: the strain that is left in a sheet is largest at its
 //! border, and smoothing shortens lines. The corners of outlines are moved by the least-squares solution that makes
@@ -89,7 +89,8 @@ impl Side {
         }
     }
 
-    /// The curve with its ends shifted by `from` and `to`, and its distances from the chord scaled so that the largest is
+    /// The curve with its ends shifted by `from` and `to`, and its distances from the chord scaled so that the
+    /// largest is
     /// `bow`.
     fn moved(&self, [from, to]: [[f64; 2]; 2], bow: f64) -> Curve {
         let swell = if self.bow > 0.0 { bow / self.bow } else { 0.0 };

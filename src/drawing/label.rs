@@ -1,4 +1,4 @@
-//! What is written on sheets, and where.
+//! Texts on the sheets of a drawing, and their positions.
 
 use super::curve::Curve;
 use super::line::{FLATTENING_TOLERANCE_MM, Line, place_at};
@@ -32,7 +32,7 @@ pub struct Label {
     pub turn: f64,
 }
 
-/// What a text is about.
+/// Subject of a text in a drawing.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 #[cfg_attr(
     feature = "serde",

@@ -1,4 +1,4 @@
-//! The lines of a sheet, smooth and in millimetres, before they have a place.
+//! The outlines and folds of a sheet as smooth curves in millimetres, before the sheet is placed in the drawing.
 
 use super::curve::Curve;
 use super::line::Line;

@@ -1,4 +1,4 @@
-//! Outlines moved outwards, for what a beam burns away and for hems.
+//! Offsets outlines outwards, by half the kerf and the allowance.
 
 use super::curve::{Curve, POLYLINE_CORNER_ANGLE};
 use super::smooth::smooth;

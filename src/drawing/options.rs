@@ -1,4 +1,4 @@
-//! How a pattern is drawn.
+//! Options of a drawing: its scale, tabs, marks, kerf, allowance and smoothing.
 
 use super::bending::Bending;
 use crate::error::{Error, Result};

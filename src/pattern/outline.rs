@@ -1,4 +1,4 @@
-//! Where patches lie on a sheet, and the lines around them all.
+//! Rigid motions of the patches on a sheet, and the closed lines around them.
 
 use super::seam_graph::{Node, SeamGraph, is_triangle};
 use crate::unroll::flat_triangle::Point;

@@ -224,14 +224,16 @@ fn matrix(
     entries.to_csr()
 }
 
-/// Computes the vector from the second point of a tie to the first.
+/// Returns vertices with weights whose weighted sum of positions is the vector from the second point of a tie to the
+/// first.
 fn difference([one, other]: &[BarycentricPoint; 2]) -> [(u32, f64); 6] {
     let [a, b, c] = *one;
     let [d, e, f] = other.map(|(v, w)| (v, -w));
     [a, b, c, d, e, f]
 }
 
-/// Conjugate gradients with Jacobi's preconditioner, for both coordinates at once as complex numbers: the matrix is real.
+/// Conjugate gradients with Jacobi's preconditioner, for both coordinates at once as complex numbers: the matrix is
+/// real.
 struct ConjugateGradients<'a> {
     matrix: &'a CsMat<f64>,
     inverse_diagonal: &'a [f64],

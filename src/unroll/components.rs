@@ -1,4 +1,4 @@
-//! The connected components of a surface, each laid upright.
+//! Connected components of a surface, each rotated to its place in the view from above.
 
 use super::flat_triangle::Point;
 use crate::error::{Result, try_filled};

@@ -10,8 +10,8 @@ use super::padded_lattice::PaddedLattice;
 use crate::error::{Result, try_filled};
 use crate::math::lanes;
 
-/// The cotangent Laplacian of a heightfield on the padded lattice, by the weights of the edges from each cell to the east,
-/// south-west and south-east.
+/// The cotangent Laplacian of a heightfield on the padded lattice, by the weights of the edges from each cell to the
+/// east, south-west and south-east.
 #[derive(Debug, Clone)]
 pub(super) struct Laplacian {
     pub grid: PaddedLattice,
@@ -167,7 +167,7 @@ struct RowStencil<'a> {
     /// Weights of the edges to W, E, NW, NE, SW, SE.
     weights: [&'a [f32]; 6],
     centre: &'a [f32],
-    /// Values of the vector at these neighbours.
+    /// Values of the vector at the neighbours W, E, NW, NE, SW, SE.
     values: [&'a [f32]; 6],
 }
 

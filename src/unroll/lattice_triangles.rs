@@ -4,7 +4,8 @@ use super::flat_triangle::{FlatTriangle, Point, Position};
 use super::padded_lattice::PaddedLattice;
 use crate::error::{Error, Result, try_filled};
 
-/// A triangle of the lattice: the cell of its first corner, and 0 for the triangle below that corner or 1 for the one beside it.
+/// A triangle of the lattice: the cell of its first corner, and 0 for the triangle below that corner or 1 for the one
+/// beside it.
 pub(super) type TriangleId = (usize, usize);
 
 /// The flat triangles of a heightfield: two for each cell `v`, with the corners `[v, SW, SE]` and `[v, SE, E]`.

@@ -3,7 +3,7 @@
 use super::distortion::Distortion;
 use crate::scene::triangulation::Triangulation;
 
-/// Figures of an [`Unrolling`].
+/// Figures of an [`Unrolling`]: iterations, energy, strain and overlaps of the flat layout.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(
     feature = "serde",

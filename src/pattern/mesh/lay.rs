@@ -11,7 +11,7 @@ use crate::unroll::arap_mesh::{ArapMesh, StoppingCriteria};
 use crate::unroll::flat_triangle::{FlatTriangle, Point};
 use crate::unroll::overlap::crossings;
 
-/// Triangles of a mesh, laid flat.
+/// A part of a mesh, laid flat: its triangles, and the positions of its vertices in the plane.
 #[derive(Debug, Clone)]
 pub(super) struct FlatPart {
     /// Numbers of the laid triangles in the whole mesh.

@@ -73,8 +73,8 @@ pub(super) fn eigenvalues_by_magnitude(hessian: Sym2) -> [f64; 2] {
     }
 }
 
-/// Discrete Gaussian curvature: the angle deficit over the lumped area, from the heights of the neighbours W, E, NW, NE, SW,
-/// SE above the vertex.
+/// Discrete Gaussian curvature: the angle deficit over the lumped area, from the heights of the neighbours W, E, NW,
+/// NE, SW, SE above the vertex.
 fn gaussian_curvature([w, e, nw, ne, sw, se]: [f64; 6], spacing: f64) -> f64 {
     // In units of the spacing, once around.
     let edges = [

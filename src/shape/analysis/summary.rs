@@ -6,8 +6,8 @@ use crate::heights::heightfield::Heightfield;
 use crate::heights::normalization::Normalization;
 use crate::math::statistics::median;
 
-/// Default threshold of the Gaussian curvature, in coordinates scaled to the unit square, above which a vertex counts as
-/// curved in two directions: the curvature of a sphere whose radius is the longer side of the surface.
+/// Default threshold of the Gaussian curvature, in coordinates scaled to the unit square, above which a vertex counts
+/// as curved in two directions: the curvature of a sphere whose radius is the longer side of the surface.
 pub const DEFAULT_GAUSSIAN_THRESHOLD: f64 = 1.0;
 
 /// Statistics of a surface's curvatures, as in one row of the [paper](crate#references)'s Table 1.
@@ -102,7 +102,8 @@ impl Summary {
     }
 }
 
-/// Magnitudes of curvatures in coordinates scaled to the unit square, and the fields of [`Summary`] that come with them.
+/// Magnitudes of curvatures in coordinates scaled to the unit square, and the fields of [`Summary`] that come with
+/// them.
 pub(super) struct CurvatureMagnitudes {
     pub gaussian: Vec<f64>,
     pub kappa2: Vec<f64>,

@@ -31,7 +31,8 @@ const SMOOTHING_PASSES: usize = 8;
 /// centre of a triangle between three patches, by its number and [`NO_INDEX`].
 pub(crate) type CreaseNode = (u32, u32);
 
-/// The patches on either side of each crease and the nodes along it, in the order of [`creases`].
+/// Finds the creases: returns the patches on either side of each crease and the nodes along it, in the order of
+/// [`creases`].
 pub(crate) fn crease_lines(
     mesh: &Triangulation,
     labels: &[u32],

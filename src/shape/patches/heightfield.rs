@@ -98,7 +98,8 @@ impl Patches {
         &self.labels
     }
 
-    /// Checks that patches belong to a surface: they are on its lattice, and a vertex has a patch where it has a height.
+    /// Checks that patches belong to a surface: they are on its lattice, and a vertex has a patch where it has a
+    /// height.
     ///
     /// # Errors
     /// [`Error::Shape`](crate::Error::Shape) or [`Error::Mismatch`](crate::Error::Mismatch).

@@ -15,8 +15,9 @@ use crate::lattice::hexagonal::{Lattice, Towards};
 /// the surfaces whose patches it must find.
 const MIN_FOLD_PER_BEND: f64 = 2.0;
 
-/// Merges patches whose common border folds by less than `fold` radians on average, or hardly more than the patches bend,
-/// the flattest border first, until there is none; then patches of fewer than `min_vertices` with the neighbour across
+/// Merges patches whose common border folds by less than `fold` radians on average, or hardly more than the patches
+/// bend, the flattest border first, until there is none; then patches of fewer than `min_vertices` with the neighbour
+/// across
 /// their flattest border. Numbers the patches from 0 again.
 pub(super) fn merge_patches(
     lattice: &Lattice,
@@ -153,8 +154,8 @@ impl AdjacencyGraph {
         }
     }
 
-    /// Mean fold angle of a border over the minimum that makes it a crease, as the bits of a positive float, which have its
-    /// order.
+    /// Mean fold angle of a border over the minimum that makes it a crease, as the bits of a positive float, which
+    /// have its order.
     fn sharpness(&self, a: u32, b: u32, (sum, number): AngleSum) -> u64 {
         let bending = |patch: u32| {
             let (sum, number) = self.bends[patch as usize];

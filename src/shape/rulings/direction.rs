@@ -6,8 +6,8 @@ use crate::math::sym2::Sym2;
 /// would mix ruling directions across narrow patches.
 pub(super) const SMOOTHING_PASSES: usize = 3;
 
-/// Bend angle, in radians from one vertex to the next, at which the confidence of a ruling is one half: limits how plane
-/// a surface with rulings may be. No table chose it.
+/// Bend angle, in radians from one vertex to the next, at which the confidence of a ruling is one half: limits how
+/// plane a surface with rulings may be. No table chose it.
 const HALF_CONFIDENCE_BEND: f64 = 5e-4;
 
 /// Computes the confidence of a ruling's direction, from 0 to 1, from the eigenvalues of `Σ H²`, the sum of squared

@@ -17,8 +17,8 @@ impl Rulings {
     /// close to another one. (After Jobard and Lefer 1997.) Costs `O(n log n)` for `n` vertices.
     ///
     /// # Errors
-    /// [`Error::Option`](crate::Error::Option) unless separation and crease are positive and finite, and the confidence is
-    /// from 0 to 1.
+    /// [`Error::Option`](crate::Error::Option) unless separation and crease are positive and finite, and the
+    /// confidence is from 0 to 1.
     pub fn trace(&self, options: &TraceOptions) -> Result<Vec<Ruling>> {
         let lattice = self.surface.lattice();
         let separation = options.checked_separation(lattice.spacing())?;

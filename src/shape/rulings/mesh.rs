@@ -11,8 +11,8 @@ use crate::math::sym2::Sym2;
 use crate::scene::half_edges::twin_half_edges;
 use crate::scene::mesh::Mesh;
 
-/// Bend angle, in radians from one vertex to the next, above which a vertex is not averaged with neighbours that bend less:
-/// it lies on a crease.
+/// Bend angle, in radians from one vertex to the next, above which a vertex is not averaged with neighbours that bend
+/// less: it lies on a crease.
 const MAX_SMOOTHED_BEND: f64 = 0.2;
 
 /// The direction of the ruling at every vertex of a mesh of any shape.
@@ -40,8 +40,8 @@ const MAX_SMOOTHED_BEND: f64 = 0.2;
 /// ```
 #[derive(Debug, Clone)]
 pub struct MeshRulings {
-    /// Positions of the vertices, where those at one place are one. All other fields but `directions` and `confidence` are
-    /// by these vertices.
+    /// Positions of the vertices, where those at one place are one. All other fields but `directions` and
+    /// `confidence` are by these vertices.
     pub(super) places: Vec<Vector3<f64>>,
     pub(super) triangles: Vec<[u32; 3]>,
     pub(super) twins: Vec<u32>,

@@ -155,8 +155,8 @@ impl MeshRulings {
         best.map(|(_, side, place)| (side, place))
     }
 
-    /// Direction of the ruling at a place in a triangle, with the sign that is closer to a given direction; None where a
-    /// ruling ends.
+    /// Direction of the ruling at a place in a triangle, with the sign that is closer to a given direction; None
+    /// where a ruling ends.
     fn direction_at(
         &self,
         triangle: usize,

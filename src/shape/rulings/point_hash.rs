@@ -2,7 +2,7 @@
 
 use std::collections::HashMap;
 
-/// A spatial hash of points in `N` dimensions, each with an attribute.
+/// A spatial hash (points sorted into cubic cells) of points in `N` dimensions, each with an attribute.
 pub(super) struct PointHash<const N: usize, T> {
     /// Side of the cells into which space is divided, in the points' unit.
     pub cell_size: f64,

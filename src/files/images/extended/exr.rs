@@ -20,7 +20,8 @@ use crate::files::images::decoded::Decoded;
 use crate::files::images::format::Format;
 use crate::heights::heightfield::HeightImage;
 
-/// Largest ratio of the size of the image in memory to that of its file: more than any of the format's compressions reaches.
+/// Largest ratio of the size of the image in memory to that of its file: more than any of the format's compressions
+/// reaches.
 const MAX_COMPRESSION_RATIO: usize = 4096;
 
 /// Name of the OpenEXR attribute with the pixel size, which only files written by this library have.

@@ -1,21 +1,21 @@
-//! Where places on a flat sheet are once it is built.
+//! Maps points of a flat sheet to the surface in space.
 
 use crate::pattern::Faces;
 use rustc_hash::FxHashMap;
 
-/// A point on the surface, and whether the triangle there faces up.
+/// A point on the surface in space, and whether the triangle around it faces up.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Spot {
     pub at: [f64; 3],
     pub up: bool,
 }
 
-/// Whether a triangle in space faces up.
+/// Returns whether a triangle in space faces up.
 pub(crate) fn faces_up([a, b, c]: [[f64; 3]; 3]) -> bool {
     (b[0] - a[0]) * (c[1] - a[1]) - (c[0] - a[0]) * (b[1] - a[1]) > 0.0
 }
 
-/// Triangles of a flat sheet in a spatial index: a grid of squares as wide as the longest edge.
+/// Triangles of a flat sheet in a spatial index: a grid of squares as wide as the sheet's longest edge.
 pub(crate) struct Built<'a> {
     faces: &'a Faces,
     width: f64,
@@ -71,7 +71,7 @@ impl<'a> Built<'a> {
         })
     }
 
-    /// Barycentric coordinates of a point in a triangle; `None` for a triangle without an area.
+    /// Computes the barycentric coordinates of a point in a triangle; `None` for a triangle without an area.
     fn shares(&self, corners: [u32; 3], place: [f64; 2]) -> Option<[f64; 3]> {
         let [a, b, c] = corners.map(|v| self.faces.flat[v as usize]);
         let area = |[a, b, c]: [[f64; 2]; 3]| {

@@ -1,4 +1,4 @@
-//! Which sheet comes next.
+//! Order in which sheets are put together.
 
 use std::collections::BTreeMap;
 
@@ -10,8 +10,8 @@ use crate::pattern::Sheet;
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[non_exhaustive]
 pub struct Assembly {
-    /// One step for each sheet. The first sheet is the one with the largest patch; each next one has the longest
-    /// seams to the sheets already in place.
+    /// Steps of the assembly, one for each sheet. The first sheet is the one with the largest patch; each next one
+    /// has the longest seams to the sheets already in place.
     pub steps: Vec<Step>,
 }
 
@@ -26,15 +26,15 @@ pub struct Step {
     pub joints: Vec<Joint>,
 }
 
-/// A seam between sheets, or of a sheet with itself.
+/// A seam that is closed in a step: between two sheets, or of a sheet with itself.
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[non_exhaustive]
 pub struct Joint {
     /// Name of the seam on the drawing: one or more letters.
     pub name: String,
-    /// Number of the sheet already in place that the seam leads to; the step's own for a seam of the sheet
-    /// with itself.
+    /// Number of the sheet already in place that the seam leads to; for a seam of the sheet with itself, the number
+    /// of that sheet.
     pub to: usize,
     /// Length of the seam, in the surface's units.
     pub length: f64,
@@ -49,7 +49,7 @@ impl Assembly {
     }
 }
 
-/// For each crease the sheets on either side, with the length of the seam there.
+/// Sheets on either side of each crease, each with the length of the seam on that sheet.
 type Seams = BTreeMap<usize, Vec<(usize, f64)>>;
 
 fn assembly_steps(sheets: &[Sheet], letters: &BTreeMap<usize, String>) -> Vec<Step> {
@@ -85,7 +85,7 @@ fn assembly_steps(sheets: &[Sheet], letters: &BTreeMap<usize, String>) -> Vec<St
     steps
 }
 
-/// Seams of a sheet with those already in place and with itself, the longest first.
+/// Lists the seams of a sheet with the sheets already in place and with itself, the longest first.
 fn joints(
     seams: &Seams,
     letters: &BTreeMap<usize, String>,

@@ -1,4 +1,4 @@
-//! Where a flat sheet comes closest to the one that is built.
+//! The rigid motion that moves a flat sheet closest to its place on the surface.
 
 use nalgebra::{Matrix3, Rotation3, UnitQuaternion, Vector3};
 
@@ -39,12 +39,12 @@ impl Pose {
         }
     }
 
-    /// The image of a point under the pose.
+    /// Computes the image of a point under the pose.
     pub fn of_place(&self, place: [f64; 3]) -> [f64; 3] {
         (self.rotation() * Vector3::from(place) + Vector3::from(self.shift)).into()
     }
 
-    /// The point whose image under the pose is given.
+    /// Computes the point whose image under the pose is given (the inverse of the pose).
     pub fn back(&self, place: [f64; 3]) -> [f64; 3] {
         let moved = Vector3::from(place) - Vector3::from(self.shift);
         self.rotation().inverse_transform_vector(&moved).into()
@@ -56,8 +56,8 @@ impl Pose {
     }
 }
 
-/// Rotation nearest to a matrix (orthogonal Procrustes problem). The matrix of a flat sheet has no third column;
-/// the cross product of the other two replaces it.
+/// Finds the rotation nearest to a matrix (orthogonal Procrustes problem). The matrix of a flat sheet has no third
+/// column; the cross product of the other two columns replaces it.
 fn nearest(matrix: Matrix3<f64>) -> Rotation3<f64> {
     let [a, b] = [matrix.column(0).into_owned(), matrix.column(1).into_owned()];
     let normal = a.cross(&b);

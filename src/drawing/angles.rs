@@ -1,4 +1,4 @@
-//! Angles of the pieces around a point, against that of the surface around it.
+//! Compares the angles of the flat pieces around a point with the angle of the surface there.
 
 use crate::math::planar::polyline_length;
 use std::collections::BTreeMap;
@@ -22,9 +22,9 @@ pub struct WorstAngle {
     /// ([`Label`](super::Label)).
     #[cfg_attr(feature = "serde", serde(skip_serializing_if = "Option::is_none"))]
     pub crease: Option<usize>,
-    /// Sum of the angles of the flat pieces around the point.
+    /// Sum of the angles of the flat pieces around the point, in degrees.
     pub flat: f64,
-    /// Angle of the surface around the point: 360° where the surface could be laid flat in one piece.
+    /// Angle of the surface around the point, in degrees: 360° where the surface could be laid flat in one piece.
     pub surface: f64,
 }
 
@@ -101,7 +101,7 @@ pub(super) fn angles(sheets: &[Sheet], lines: &[Lines<'_>], scale: f64) -> Vec<W
     compared.collect()
 }
 
-/// Whether a run begins and ends at the same point and only connects two nodes of it.
+/// Returns whether a run of an outline begins and ends at the same point and only connects two nodes of that point.
 fn is_within(run: &Run) -> bool {
     match run.ends {
         [Some(from), Some(to)] => {

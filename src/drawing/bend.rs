@@ -47,7 +47,7 @@ pub(super) fn apply_bend_allowance(
     Ok(out)
 }
 
-/// The bend of a sheet along one fold.
+/// The bend of a sheet along one of its folds.
 struct Bend {
     /// The fold's ends; `outline` is the number of the outline that both lie on.
     ends: [Point; 2],
@@ -142,7 +142,7 @@ impl Bend {
         (self.normal(side).conj() * (place - self.ends[0])).re
     }
 
-    /// Whether a side's outline reaches beyond the bend.
+    /// Returns whether the outline on a side of the fold reaches beyond the bend.
     fn is_wide(&self, side: usize) -> bool {
         let away = |corner: &Corner| self.away(side, corner.0);
         self.sides[side].iter().map(away).fold(0.0, f64::max) > self.setback
@@ -201,8 +201,8 @@ impl Bend {
         }
     }
 
-    /// A side's outline after the bend allowance was applied. Only the pieces next to the fold's ends are
-    /// within the bend.
+    /// Computes the outline on one side of the fold after the bend allowance was applied. Only the pieces next to
+    /// the fold's ends are within the bend.
     fn arc(&self, side: usize) -> Vec<Corner> {
         let corners = &self.sides[side];
         let beyond = |(place, _): &Corner| self.away(side, *place) >= self.setback;

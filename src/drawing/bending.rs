@@ -26,12 +26,12 @@ impl Bending {
         }
     }
 
-    /// This bending with another inner radius.
+    /// Returns these bending options with another inner radius, in millimetres.
     pub fn radius(self, radius: f64) -> Self {
         Bending { radius, ..self }
     }
 
-    /// This bending with another K-factor.
+    /// Returns these bending options with another K-factor.
     pub fn k_factor(self, k_factor: f64) -> Self {
         Bending { k_factor, ..self }
     }
@@ -55,8 +55,8 @@ impl Bending {
         }
     }
 
-    /// Setback of a bend, its distance from the crease, and half of its bend allowance, in millimetres. `angle` is
-    /// in radians.
+    /// Computes for a bend the setback, which is the bend's distance from the crease, and half of the bend
+    /// allowance, both in millimetres. `angle` is in radians.
     pub(super) fn zone(&self, direction: Direction, angle: f64) -> [f64; 2] {
         let outside = match direction {
             Direction::Mountain => self.thickness,

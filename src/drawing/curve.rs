@@ -32,7 +32,7 @@ impl Curve {
         curve
     }
 
-    /// A curve with given control points.
+    /// Creates a curve from its control points.
     pub(super) fn of(controls: Vec<[f64; 2]>) -> Self {
         Curve(controls)
     }
@@ -42,7 +42,7 @@ impl Curve {
         &self.0
     }
 
-    /// Whether the number of control points is valid: `3n + 1`.
+    /// Returns whether the number of control points is valid: `3n + 1`.
     #[cfg(feature = "patterns")]
     pub(super) fn is_whole(&self) -> bool {
         self.0.len() % 3 == 1
@@ -72,7 +72,8 @@ impl Curve {
         Curve(self.0.iter().map(|p| f(*p)).collect())
     }
 
-    /// Points on the curve, the first and the last among them, that form a polyline within a tolerance of it.
+    /// Computes points on the curve, the first and the last among them, that form a polyline within a tolerance of
+    /// the curve.
     pub fn points(&self, tolerance: f64) -> Vec<[f64; 2]> {
         let mut points: Vec<[f64; 2]> = self.0.iter().take(1).copied().collect();
         for piece in self.pieces() {
@@ -102,7 +103,7 @@ impl Curve {
         self.0.iter().copied().zip(shares)
     }
 
-    /// The parts of the curve between positions, which are ascending shares of its length.
+    /// Splits the curve at positions, which are ascending shares of its length, and returns the parts.
     pub(super) fn split(&self, shares: &[f64]) -> Vec<Curve> {
         let pieces: Vec<Piece> = self.pieces().collect();
         let lengths: Vec<f64> = pieces.iter().map(Piece::length).collect();
@@ -143,7 +144,7 @@ impl Curve {
 pub(super) const POLYLINE_CORNER_ANGLE: f64 = 0.3;
 
 /// Number of straight lines by which the length of a curve's piece is measured.
-const LENGTH_STEPS: usize = 32;
+const LENGTH_SEGMENTS_PER_PIECE: usize = 32;
 
 impl Piece {
     fn of(controls: [[f64; 2]; 4]) -> Self {
@@ -158,7 +159,7 @@ impl Piece {
         }
     }
 
-    /// The point at a parameter from 0 to 1.
+    /// Computes the point of the piece at a curve parameter from 0 to 1.
     pub fn at(&self, t: f64) -> [f64; 2] {
         let s = 1.0 - t;
         match self {
@@ -189,20 +190,20 @@ impl Piece {
         }
     }
 
-    /// Lengths of the piece up to the end of each of [`LENGTH_STEPS`] equal steps of the parameter.
+    /// Lengths of the piece up to the end of each of [`LENGTH_SEGMENTS_PER_PIECE`] equal steps of the parameter.
     fn lengths(&self) -> Vec<f64> {
         let mut sum = 0.0;
         let mut last = self.at(0.0);
         let step = |i: usize| {
-            let place = self.at(i as f64 / LENGTH_STEPS as f64);
+            let place = self.at(i as f64 / LENGTH_SEGMENTS_PER_PIECE as f64);
             sum += distance(last, place);
             last = place;
             sum
         };
-        (1..=LENGTH_STEPS).map(step).collect()
+        (1..=LENGTH_SEGMENTS_PER_PIECE).map(step).collect()
     }
 
-    /// The parameter, from 0 to 1, up to which the piece has a given length.
+    /// Computes the curve parameter, from 0 to 1, up to which the piece has a given length.
     fn parameter(&self, length: f64) -> f64 {
         let lengths = self.lengths();
         let i = lengths.partition_point(|sum| *sum < length);
@@ -213,7 +214,7 @@ impl Piece {
         } else {
             0.0
         };
-        ((i as f64 + share) / LENGTH_STEPS as f64).clamp(0.0, 1.0)
+        ((i as f64 + share) / LENGTH_SEGMENTS_PER_PIECE as f64).clamp(0.0, 1.0)
     }
 
     /// Splits the piece in two at a parameter from 0 to 1 (de Casteljau).

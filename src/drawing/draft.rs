@@ -1,4 +1,4 @@
-//! Sheets in millimetres, with tabs and labels, before they have a place.
+//! Draws single sheets in millimetres, with tabs and labels, before they are placed in the drawing.
 
 use std::collections::BTreeMap;
 
@@ -16,7 +16,7 @@ use super::tabs::{Tab, add_tabs};
 use crate::error::{Error, Result, rounded};
 use crate::pattern::Sheet;
 
-/// Letters of the cut creases, by the creases' numbers.
+/// Assigns letters to the creases that are cut; returns the letters by the creases' numbers.
 pub(crate) fn letters(sheets: &[Sheet]) -> BTreeMap<usize, String> {
     let runs = sheets.iter().flat_map(|s| s.outlines.iter().flatten());
     let mut creases: Vec<usize> = runs.filter_map(|run| run.seam.map(|s| s.crease)).collect();
@@ -36,7 +36,7 @@ pub(crate) fn letters(sheets: &[Sheet]) -> BTreeMap<usize, String> {
     names.map(|(n, crease)| (crease, name(n))).collect()
 }
 
-/// Names that all sheets share: letters of seams, and the number of marks on each.
+/// Names and marks that all sheets share: the letter of each seam, and the number of marks on each seam.
 pub(super) struct Named {
     pub letters: BTreeMap<usize, String>,
     pub marks: BTreeMap<usize, usize>,

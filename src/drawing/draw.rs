@@ -1,4 +1,4 @@
-//! Sheets drawn beside each other.
+//! Drawings: sheets drawn beside each other in millimetres.
 
 use super::bend::apply_bend_allowance;
 use super::draft::{Named, letters};

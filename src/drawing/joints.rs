@@ -1,4 +1,4 @@
-//! Both sides of each joint drawn equally long.
+//! Makes both sides of each joint equally long in a drawing.
 //!
 //! The two sides of a joint differ in length for two reasons: the strain that is left in a sheet is largest at its
 //! border, and smoothing shortens lines. The corners of outlines are moved by the least-squares solution that makes
@@ -36,7 +36,7 @@ const BACKTRACKING_FACTOR: f64 = 0.6;
 /// Number of parts of a piece of a curve among which the point nearest to a fold's end is looked for.
 const NEAREST_POINT_PARTS: usize = 16;
 
-/// A run of an outline: a curve between two corners.
+/// A side of a joint: a run of an outline, which is a curve between two corners.
 struct Side {
     /// Numbers of the corners where the curve begins and ends.
     corners: [usize; 2],
@@ -44,7 +44,7 @@ struct Side {
     length: f64,
     /// Largest distance of a point of the curve from the point of the chord at the same share of the length.
     bow: f64,
-    /// Maximum distance that the curve may be moved.
+    /// Maximum distance that the curve may be moved, in millimetres.
     most: f64,
 }
 
@@ -89,7 +89,8 @@ impl Side {
         }
     }
 
-    /// The curve with its ends shifted by `from` and `to`, and its distances from the chord scaled so that the largest is
+    /// The curve with its ends shifted by `from` and `to`, and its distances from the chord scaled so that the
+    /// largest is
     /// `bow`.
     fn moved(&self, [from, to]: [[f64; 2]; 2], bow: f64) -> Curve {
         let swell = if self.bow > 0.0 { bow / self.bow } else { 0.0 };
@@ -150,7 +151,7 @@ fn equalise_joints(sheets: &[Sheet], lines: &mut [Lines<'_>], options: &DrawingO
     }
 }
 
-/// The sides of one sheet, as a range of their numbers.
+/// The sides on one sheet, as a range of their numbers.
 struct Own {
     sides: Range<usize>,
     /// Spacing of the lattice in the drawing, in millimetres.
@@ -218,7 +219,7 @@ impl Outlines {
         wrong.collect()
     }
 
-    /// Reduces the maximum shift of some sides and of their corners.
+    /// Reduces the maximum shift of some sides and of the corners at their ends.
     fn hold(&mut self, lines: &[usize]) {
         for number in lines {
             for corner in self.sides[*number].corners {
@@ -303,7 +304,8 @@ fn product(row: &[(usize, f64)], x: &[f64]) -> f64 {
     row.iter().map(|(i, w)| w * x[*i]).sum()
 }
 
-/// Shift of a fold's end: that of the nearest point of the outlines, if it is within half a spacing.
+/// Computes the shift of a fold's end: the shift of the nearest point of the outlines, if that point is within half
+/// a lattice spacing.
 fn way(end: [f64; 2], before: &[Curve], after: &[Curve], cell: f64) -> [f64; 2] {
     let pieces =
         |curves: &[Curve]| -> Vec<Piece> { curves.iter().flat_map(Curve::pieces).collect() };

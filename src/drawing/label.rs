@@ -1,4 +1,4 @@
-//! What is written on sheets, and where.
+//! Texts on the sheets of a drawing, and their positions.
 
 use super::curve::Curve;
 use super::line::{FLATTENING_TOLERANCE_MM, Line, place_at};
@@ -20,7 +20,7 @@ const MIN_TEXT_SIZE_MM: f64 = 1.5;
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub struct Label {
-    /// What the text is about.
+    /// Subject of the text: a patch, a seam, a fold or a sheet.
     pub kind: LabelKind,
     /// The text.
     pub text: String,
@@ -32,7 +32,7 @@ pub struct Label {
     pub turn: f64,
 }
 
-/// What a text is about.
+/// Subject of a text in a drawing.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 #[cfg_attr(
     feature = "serde",
@@ -94,7 +94,7 @@ impl Label {
         vec![at(-1.0, -1.0), at(1.0, -1.0), at(1.0, 1.0), at(-1.0, 1.0)]
     }
 
-    /// The letter of a cut crease, to the left of the middle of its line.
+    /// Creates the label with the letter of a cut crease, to the left of the middle of the crease's line.
     pub(super) fn seam(letter: &str, points: &[[f64; 2]]) -> Self {
         Label::beside(LabelKind::Seam, letter.into(), points, 1.0)
     }
@@ -145,7 +145,7 @@ impl Label {
         }
     }
 
-    /// A text along a line, to the left of the line's middle by a multiple of the text's size.
+    /// Creates a text along a line, to the left of the line's middle by a multiple of the text's size.
     fn beside(kind: LabelKind, text: String, points: &[[f64; 2]], away: f64) -> Self {
         let long = polyline_length(points);
         let size = (0.2 * long).clamp(MIN_TEXT_SIZE_MM, NOTE_SIZE_MM);

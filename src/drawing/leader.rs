@@ -1,4 +1,4 @@
-//! Numbers beside a sheet, with a line to the patch that has no room for its own.
+//! Places the number of a small patch beside its sheet, with a leader line to the patch.
 
 use super::curve::Curve;
 use super::label::Label;

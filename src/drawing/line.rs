@@ -1,4 +1,4 @@
-//! Lines to fold along, and places on polylines.
+//! Lines to fold along, and positions along polylines.
 
 use super::curve::Curve;
 use crate::math::planar::{distance, polyline_length};

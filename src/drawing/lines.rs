@@ -1,4 +1,4 @@
-//! The lines of a sheet, smooth and in millimetres, before they have a place.
+//! The outlines and folds of a sheet as smooth curves in millimetres, before the sheet is placed in the drawing.
 
 use super::curve::Curve;
 use super::line::Line;
@@ -6,7 +6,7 @@ use super::options::DrawingOptions;
 use super::smooth::smooth_lines;
 use crate::pattern::{Run, Sheet};
 
-/// The outlines and folds of a sheet, smooth and in millimetres.
+/// The outlines and folds of a sheet as smooth curves in millimetres.
 pub(super) struct Lines<'a> {
     pub outlines: Vec<Vec<(&'a Run, Curve)>>,
     pub folds: Vec<Line>,

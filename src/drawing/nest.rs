@@ -17,7 +17,7 @@ const MAX_PAGE_CELLS: f64 = 5000.0;
 const NESTING_GAP_MM: f64 = 3.0;
 
 /// Shape of a sheet for nesting: the closed lines of the sheet and of texts beside it, and width and height of the
-/// name above it.
+/// box for the sheet's name above it.
 pub(super) struct Shape {
     pub lines: Vec<Vec<[f64; 2]>>,
     pub name: [f64; 2],
@@ -40,7 +40,7 @@ impl Shape {
         bounds(points.collect::<Vec<_>>().iter())
     }
 
-    /// Corners of the box for the name above a bounding box.
+    /// Computes the corners of the box for the sheet's name above a bounding box.
     fn above(&self, [low, high]: [[f64; 2]; 2]) -> Vec<[f64; 2]> {
         let middle = 0.5 * (low[0] + high[0]);
         let [left, right] = [-0.5, 0.5].map(|k| middle + k * self.name[0]);
@@ -121,8 +121,8 @@ fn cells_along(side: f64, cell: f64) -> usize {
     ((side / cell + 1e-9) as usize).max(1)
 }
 
-/// Those of the four orientations of a shape in which it fits on a page, with its lower left corner at the origin,
-/// each with the cells that it touches.
+/// Finds those of the four orientations of a shape in which the shape fits on a page, with its lower left corner at
+/// the origin; returns each with the raster cells that it touches.
 fn turned(shape: &Shape, cell: f64, page: [f64; 2]) -> Vec<(Place, Mask)> {
     let least = Place::around(&shape.lines);
     (0..4)

@@ -1,4 +1,4 @@
-//! Outlines moved outwards, for what a beam burns away and for hems.
+//! Offsets outlines outwards, by half the kerf and the allowance.
 
 use super::curve::{Curve, POLYLINE_CORNER_ANGLE};
 use super::smooth::smooth;
@@ -70,7 +70,7 @@ pub(super) fn offset_outwards(curves: &[Curve], distance: f64) -> Option<Vec<Cur
     Some(moved.into_iter().map(curve).collect())
 }
 
-/// Offsets a closed polyline to its right, corner by corner.
+/// Offsets a closed polyline to its right by a distance, corner by corner.
 fn beside(ring: &[Point], distance: f64) -> Vec<Point> {
     let n = ring.len();
     let mut out = Vec::with_capacity(n);

@@ -1,4 +1,4 @@
-//! How a pattern is drawn.
+//! Options of a drawing: its scale, tabs, marks, kerf, allowance and smoothing.
 
 use super::bending::Bending;
 use crate::error::{Error, Result};
@@ -58,7 +58,7 @@ const MIN_MARK_DISTANCE_MM: f64 = 1.0;
 const MAX_OFFSET_MM: f64 = 1000.0;
 
 impl DrawingOptions {
-    /// Checks all options but scale and tabs.
+    /// Checks the ranges of all options except scale and tabs.
     pub(super) fn check(&self) -> Result<()> {
         if let Some(marks) = self
             .marks
@@ -86,12 +86,12 @@ impl DrawingOptions {
         }
     }
 
-    /// These options with another scale.
+    /// Returns these options with another scale, in millimetres for each unit of the surface.
     pub fn scale(self, scale: f64) -> Self {
         DrawingOptions { scale, ..self }
     }
 
-    /// These options with tabs.
+    /// Returns these options with tabs of a given depth, in millimetres.
     pub fn tabs(self, depth: f64) -> Self {
         DrawingOptions {
             tabs: Some(depth),

@@ -108,7 +108,7 @@ pub struct Pages {
     pub marks: Vec<[f64; 2]>,
 }
 
-/// Number of pages of paper that sheets take.
+/// Computes the number of pages of paper that sheets take.
 pub(super) fn page_count(sheets: &[DrawnSheet], stock: Stock) -> usize {
     arrange_on_pages(sheets, stock).map_or(0, |found| found.pages.pages.len())
 }
@@ -269,7 +269,7 @@ fn no_room(sheet: &DrawnSheet, shape: &Shape, part: [f64; 2]) -> Error {
     }
 }
 
-/// Length that a number of overlapping pages covers.
+/// Computes the length that a number of overlapping pages covers, in millimetres.
 fn covered(count: usize, side: f64) -> f64 {
     count as f64 * (side - PAGE_OVERLAP_MM) + PAGE_OVERLAP_MM
 }

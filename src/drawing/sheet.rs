@@ -1,4 +1,4 @@
-//! Sheets as they are drawn.
+//! The drawn sheet: its cut lines, folds, tabs, marks and labels in millimetres.
 
 use super::curve::Curve;
 use super::label::Label;

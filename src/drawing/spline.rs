@@ -134,7 +134,8 @@ impl Spline {
         (sum(b), sum(d))
     }
 
-    /// One Gauss-Newton step towards the parameter of the point nearest to a given one.
+    /// Makes one Gauss-Newton step from a curve parameter towards the parameter of the spline's point nearest to a
+    /// given point.
     fn nearer(&self, u: f64, point: Point) -> f64 {
         let (place, slope) = self.at(u);
         let square = slope.norm_sqr();

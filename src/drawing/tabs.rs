@@ -5,7 +5,7 @@ use super::line::FLATTENING_TOLERANCE_MM;
 use crate::math::planar::{distance, polyline_length, segments_intersect};
 use crate::pattern::{Run, Seam};
 
-/// A tab, and the line that it is folded along.
+/// A tab (a glued flap at an edge), and the line that the tab is folded along.
 pub(super) struct Tab {
     pub seam: Seam,
     /// Fold line of the tab, in the direction of the outline.
@@ -93,8 +93,8 @@ pub(super) fn add_tabs(outlines: &[Outline<'_>], depth: Option<f64>) -> (Vec<Cur
     (cuts, tabs)
 }
 
-/// Divides a curve into fold lines of tabs: each turns by at most [`MAX_TAB_BEND`] and, where possible, is at least
-/// [`MIN_TAB_LENGTH_MM`] long.
+/// Divides a curve into fold lines of tabs: each line turns by at most [`MAX_TAB_BEND`] and, where possible, is at
+/// least [`MIN_TAB_LENGTH_MM`] long.
 fn bases(curve: &Curve) -> Vec<Curve> {
     let points = curve.points(FLATTENING_TOLERANCE_MM);
     let heading = |i: usize| {
@@ -144,7 +144,7 @@ fn flap(base: &[[f64; 2]], depth: f64, walls: &[[[f64; 2]; 2]]) -> Option<(f64, 
     free.then_some((depth, corners))
 }
 
-/// Whether two line segments cross, or touch elsewhere than at common ends.
+/// Returns whether two line segments cross, or touch elsewhere than at common ends.
 fn crosses([a, b]: [[f64; 2]; 2], [c, d]: [[f64; 2]; 2]) -> bool {
     let same = |p: [f64; 2], q: [f64; 2]| distance(p, q) < 1e-6;
     if [a, b].iter().any(|p| same(*p, c) || same(*p, d)) {

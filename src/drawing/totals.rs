@@ -1,4 +1,4 @@
-//! What a drawing comes to.
+//! Summary of a drawing: numbers of its elements and total lengths.
 
 use crate::math::planar::{distance, polyline_length};
 use std::collections::BTreeMap;

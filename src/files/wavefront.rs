@@ -68,7 +68,7 @@ pub fn write_obj_textured(mesh: &Mesh, materials: Option<&str>) -> Result<Vec<u8
     file.finish("OBJ file", written)
 }
 
-/// Name of the one material.
+/// Name of the only material in the MTL file.
 const MATERIAL_NAME: &str = "surface";
 
 /// An MTL file: the material of [`write_obj_textured`], with the name of its picture's file.

@@ -1,4 +1,4 @@
-//! Parts joined to sheets, each of which is checked as it is drawn.
+//! Joins the parts of a surface to flat sheets, and checks each sheet as it is drawn.
 
 use super::check::{Tied, are_close, strains};
 use super::faces::faces;

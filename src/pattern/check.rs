@@ -1,4 +1,4 @@
-//! What a sheet has to be: joined without strain, and within a simple outline.
+//! Checks that a sheet is valid: laid flat without strain, and within an outline that does not cross itself.
 
 use super::flat_patch::Strain;
 use super::layout::seam_gap;

@@ -1,4 +1,4 @@
-//! The triangles of a sheet, as it is built and as it lies flat.
+//! The triangles of a sheet, with their positions on the surface and on the flat sheet.
 
 use super::outline::Layout;
 use super::seam_graph::SeamGraph;

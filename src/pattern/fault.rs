@@ -1,4 +1,4 @@
-//! What keeps a sheet from being one: strain, triangles upside down, an outline that crosses itself.
+//! Faults that make a sheet invalid: strain, flipped triangles, an outline that crosses itself.
 
 use super::check::{crossing, strains};
 use super::flat_patch::Strain;

@@ -1,4 +1,4 @@
-//! Decided on a coarse lattice, drawn on the fine one.
+//! Sheets that were found on a coarse lattice, laid flat and drawn on the fine one.
 //!
 //! Where a surface has to be cut depends on its shape and not on its sampling. Surfaces with many vertices are
 //! therefore cut and joined on every second or every fourth vertex, where trial cuts and trial joins cost less.

@@ -26,8 +26,8 @@ pub(super) const MIN_CUT_VERTICES: usize = 24;
 /// A patch, extended one cell beyond its creases and laid flat by itself.
 pub(super) struct FlatPatch {
     mesh: Triangulation,
-    /// Flat positions of the vertices from when the patch was laid flat by itself; `None` while these are also the
-    /// current ones, which are in `places`.
+    /// Flat positions of the vertices from when the patch was laid flat by itself; the current positions, which may
+    /// differ, are in `places`.
     alone: Vec<Point>,
     places: Vec<Point>,
     /// Whether the patch still has to be laid flat on this lattice: its positions come from a coarser one.

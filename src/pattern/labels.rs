@@ -1,5 +1,4 @@
-//! Which part of the surface each vertex belongs to: its patches, and the parts that these are cut
-//! into.
+//! Segmentation of a lattice into parts: the part of each vertex, and the patch of each part.
 
 use crate::lattice::hexagonal::Lattice;
 use rustc_hash::FxHashMap;

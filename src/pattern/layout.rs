@@ -1,4 +1,4 @@
-//! Patches laid beside each other, as many as fit.
+//! Arranges flat patches beside each other on sheets, joining as many seams as fit.
 
 use super::outline::{Layout, Motion};
 use super::seam_graph::{NEGLIGIBLE_GAP_LENGTHS, SeamGraph};

@@ -1,4 +1,4 @@
-//! Lines of many points made plain.
+//! Simplification of polylines with many points.
 
 use crate::math::planar::{distance_to_segment, line_intersection};
 use crate::unroll::flat_triangle::Point;

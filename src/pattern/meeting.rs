@@ -49,7 +49,8 @@ pub struct Meeting {
     pub cuts: usize,
 }
 
-/// The points of a heightfield where cuts or folds end or meet, each under its node in the graph of seams.
+/// The points of a heightfield where cuts or folds end or meet, each with its node in the graph of seams as the
+/// key.
 pub(super) struct Meetings {
     all: Vec<Option<Meeting>>,
     of: FxHashMap<Node, usize>,
@@ -188,7 +189,7 @@ struct Around<'a> {
 struct Way {
     long: f64,
     place: [f64; 3],
-    /// Length and end of the path's first half.
+    /// Length of the path's first half, and the point where that half ends.
     half: (f64, [f64; 3]),
     creased: bool,
 }

@@ -1,11 +1,11 @@
-//! Where patches lie on a sheet, and the lines around them all.
+//! Rigid motions of the patches on a sheet, and the closed lines around them.
 
 use super::seam_graph::{Node, SeamGraph, is_triangle};
 use crate::unroll::flat_triangle::Point;
 use crate::unroll::overlap::crossings;
 use rustc_hash::FxHashMap;
 
-/// Rigid motion in the plane: a rotation about the origin, then a translation.
+/// A rigid motion in the plane: a rotation about the origin, then a translation.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Motion {
     pub turn: Point,
@@ -23,7 +23,7 @@ impl Motion {
         self.turn * place + self.shift
     }
 
-    /// This motion followed by another.
+    /// Composes two motions: this motion followed by another.
     pub(super) fn then(&self, next: &Motion) -> Motion {
         Motion {
             turn: next.turn * self.turn,
@@ -80,7 +80,7 @@ impl Layout {
         }
     }
 
-    /// Applies a motion to some patches.
+    /// Applies a rigid motion to some patches of the layout.
     pub(super) fn carry(&mut self, patches: &[u32], motion: &Motion) {
         for patch in patches {
             let own = &mut self.motions[*patch as usize];
@@ -95,7 +95,7 @@ impl Layout {
         places.map(|place| motion.of(*place)).collect()
     }
 
-    /// The patches at a node that are connected to a given patch by folds at that node, including the patch itself;
+    /// Finds the patches at a node that are connected to a given patch by folds at that node, including that patch;
     /// ascending.
     fn family(&self, net: &SeamGraph, node: Node, patch: u32) -> Vec<u32> {
         let mut family = vec![patch];
@@ -167,7 +167,7 @@ impl Layout {
         outlines
     }
 
-    /// Whether some patches overlap.
+    /// Returns whether some of the given patches overlap in the plane.
     pub(super) fn overlaps(&self, net: &SeamGraph, patches: &[u32]) -> bool {
         let outlines = self.outlines(net, patches);
         let (mut places, mut edges, mut positions) = (Vec::new(), Vec::new(), Vec::new());

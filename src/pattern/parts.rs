@@ -30,7 +30,7 @@ const MAX_TRIM_ROUNDS: usize = 8;
 /// Maximum number of vertices that are left out in one step.
 const MAX_OMITTED_VERTICES: usize = 4 * MIN_CUT_VERTICES;
 
-/// Number and layout of a part that was merged with another.
+/// Number of a part that was merged with another part, and the flat layout of both together.
 type Enlarged = (u32, Option<FlatPatch>);
 
 /// The parts that a surface is cut into, each laid flat by itself.
@@ -42,14 +42,14 @@ pub(super) struct Parts {
     pub options: PatternOptions,
     /// Size of the smallest detail of outlines, in spacings; smaller loops of an outline are cut off.
     pub finest: f64,
-    /// Window of the lattice around each part.
+    /// Window of the lattice that encloses each part.
     windows: Vec<Window>,
-    /// Numbers of the parts that were not checked yet.
+    /// Numbers of the parts whose strain was not checked yet.
     pending: Vec<u32>,
     /// Number of vertices that were left out so far; `most_left_out` is its maximum.
     left_out: usize,
     most_left_out: usize,
-    /// Number of times that border vertices were removed from sheets, at most [`MAX_TRIM_ROUNDS`].
+    /// Number of times that border vertices were removed from sheets so far, at most [`MAX_TRIM_ROUNDS`].
     trims: usize,
 }
 
@@ -354,7 +354,7 @@ impl Parts {
         Ok(())
     }
 
-    /// Maximum number of vertices that may be left out in the next step.
+    /// Computes the maximum number of vertices that may be left out in the next step.
     fn scrap(&self) -> usize {
         MAX_OMITTED_VERTICES.min(self.most_left_out.saturating_sub(self.left_out))
     }

@@ -1,4 +1,4 @@
-//! Sheets folded back.
+//! Folds flat sheets back into space and measures their distance from the surface.
 //!
 //! A sheet of paper bends but does not stretch. A sheet is folded back by an as-rigid-as-possible deformation: its
 //! flat triangles, tied along its folds, move in space from their positions on the surface to those of least

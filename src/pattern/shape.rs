@@ -1,4 +1,4 @@
-//! From nodes to the lines that are cut and folded: grouped, straightened and plain.
+//! Outlines and folds of a sheet, made from the nodes of its seams: grouped into runs, extended and simplified.
 
 use super::line::{meeting, restore_corners, simplify_polyline, simplify_ring};
 use super::meeting::Meetings;

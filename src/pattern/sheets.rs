@@ -1,4 +1,4 @@
-//! What a pattern is: sheets, their outlines and folds.
+//! The types of a pattern: sheets, their outlines and folds.
 
 use super::faces::Faces;
 use super::meeting::Meeting;
@@ -84,7 +84,7 @@ pub struct Refolding {
     pub rms: f64,
     /// Largest of the distances.
     pub maximum: f64,
-    /// Strain that is left in the folded sheet: root of the mean square.
+    /// Strain that is left in the folded sheet: root of its mean square over the area.
     pub strain: f64,
 }
 

@@ -1,4 +1,4 @@
-//! Closed lines without the small loops in which they cross themselves.
+//! Removes the small loops in which closed lines cross themselves.
 
 use crate::math::planar::{line_intersection, polygon_area, polygon_perimeter};
 use crate::unroll::flat_triangle::Point;

@@ -1,4 +1,4 @@
-//! Where there is room to write on each patch.
+//! Finds a place for the label of each patch on a sheet.
 
 use std::collections::VecDeque;
 

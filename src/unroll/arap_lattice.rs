@@ -8,30 +8,33 @@ use super::multigrid::GlobalStep;
 use crate::error::{Result, try_filled};
 use crate::math::lanes;
 
-/// Conjugate-gradient iterations in each global step. With a V-cycle each two are nearly exact; the rest of the residual is
-/// in the next step's right-hand side.
+/// Conjugate-gradient iterations in each global step of the layout. With a V-cycle as preconditioner every two
+/// iterations are nearly exact; the rest of the residual is in the next step's right-hand side.
 const CG_ITERATIONS: usize = 2;
 
-/// Minimum ratio of a layout's energy to the wanted one at which a layout that stalls is given up.
+/// Minimum ratio of a layout's energy to the wanted energy at which a layout whose energy hardly falls any more is
+/// given up.
 const HOPELESS_ENERGY_FACTOR: f64 = 2.5;
 
-/// Relative change of the energy in a step below which a layout stalls.
+/// Relative change of the energy in one step below which a layout counts as stalled.
 const STALLED_RELATIVE_CHANGE: f64 = 0.01;
 
-/// Number of steps that are made before a layout may be given up.
+/// Number of local and global steps that are made before a layout may be given up.
 const MIN_STEPS_BEFORE_GIVING_UP: usize = 6;
 
-/// When to stop laying a heightfield flat.
+/// Stopping criteria for laying a heightfield flat.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Limits {
     /// Change of the energy over the area in one iteration, below which the layout has converged.
     pub tolerance: f64,
     pub max_iterations: usize,
-    /// Energy over area that is wanted: a layout that stalls well above it is given up. Infinite for no such limit.
+    /// Energy over area that is wanted: a layout that stalls well above it is given up. Infinite if no energy is
+    /// wanted.
     pub wanted_energy: f64,
 }
 
-/// Moves the vertices from given positions, in units of the spacing, to those with the least energy.
+/// Moves the vertices of a flat layout from given positions, in units of the spacing, to those with the least
+/// as-rigid-as-possible energy.
 ///
 /// # Errors
 /// [`Error::OutOfMemory`](crate::Error::OutOfMemory).

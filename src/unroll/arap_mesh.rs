@@ -10,8 +10,8 @@ use super::flat_triangle::{FlatTriangle, Point, Position};
 use super::local_global::Iteration;
 use crate::error::{Result, try_filled};
 
-/// Weight of a tie's squared distance. An edge between two equilateral triangles has the weight 0.58, so that ties close
-/// before triangles are strained.
+/// Weight of the squared distance between two points that are tied, that is, should coincide. An edge between two
+/// equilateral triangles has the weight 0.58, so that ties close before triangles are strained.
 const TIE_WEIGHT: f64 = 8.0;
 
 /// Maximum number of conjugate-gradient iterations in each global step.
@@ -20,47 +20,48 @@ const MAX_CG_ITERATIONS: usize = 16;
 /// Factor by which conjugate gradients reduce the residual in each global step.
 const CG_RESIDUAL_REDUCTION: f64 = 1e-3;
 
-/// Relative change of the energy in a step below which a mesh stalls.
+/// Relative change of the energy in one step below which the layout of a mesh counts as stalled.
 const STALLED_RELATIVE_CHANGE: f64 = 0.02;
 
-/// Number of steps that are made before a mesh may be given up.
+/// Number of local and global steps that are made before the layout of a mesh may be given up.
 const MIN_STEPS_BEFORE_GIVING_UP: usize = 5;
 
-/// Factor by which an earlier change of the energy counts less after each step, where the change to come is estimated
+/// Factor by which an earlier change of the energy counts less after each step, where the next change is estimated
 /// by the largest recent one: the energy does not fall at an even rate.
 const CHANGE_DECAY: f64 = 0.8;
 
 /// A point on a mesh: vertices with barycentric weights; a vertex of weight 0 does not count.
 pub(crate) type BarycentricPoint = [(u32, f64); 3];
 
-/// A mesh of flat triangles with ties, as the problem of its least energy.
+/// The problem of laying a mesh with the least as-rigid-as-possible energy: its triangles in their own planes, and
+/// ties, which are pairs of points that should coincide.
 pub(crate) struct ArapMesh {
-    /// Triangles with the numbers of their corners.
+    /// Triangles of the mesh, each with the numbers of its corners.
     triangles: Vec<(FlatTriangle, [u32; 3])>,
-    /// Pairs of points that should coincide.
+    /// Pairs of points of the mesh that should coincide.
     ties: Vec<[BarycentricPoint; 2]>,
     matrix: CsMat<f64>,
-    /// Inverse of the matrix's diagonal.
+    /// Inverse of the diagonal of the global step's matrix, the preconditioner of conjugate gradients.
     inverse_diagonal: Vec<f64>,
     area: f64,
 }
 
-/// When to stop minimising the energy of a mesh.
+/// Stopping criteria for minimising the energy of a mesh.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct StoppingCriteria {
     /// Change of the energy over the area in one step, below which the mesh has converged.
     pub tolerance: f64,
-    /// Energy over area at which to stop, or 0. A mesh is also given up if it would not get there in `max_steps` at the
-    /// rate of the last steps.
+    /// Energy over area at which the solver stops, or 0. The layout is also given up if at the rate of the last
+    /// steps it would not reach this energy in `max_steps`.
     pub target_energy: f64,
-    /// Energy over area above which a mesh that stalls is given up.
+    /// Energy over area above which a layout that stalls is given up.
     pub hopeless_energy: f64,
     /// Maximum number of local and global steps.
     pub max_steps: usize,
 }
 
 impl ArapMesh {
-    /// A mesh of `count` vertices.
+    /// Creates the problem for a mesh of `count` vertices.
     ///
     /// # Errors
     /// [`Error::OutOfMemory`](crate::Error::OutOfMemory).
@@ -85,7 +86,7 @@ impl ArapMesh {
         })
     }
 
-    /// Moves the vertices in the plane to the least energy. Returns the number of steps.
+    /// Moves the vertices in the plane to the least energy. Returns the number of local and global steps.
     ///
     /// # Errors
     /// [`Error::OutOfMemory`](crate::Error::OutOfMemory).
@@ -161,13 +162,13 @@ impl ArapMesh {
         Ok(())
     }
 
-    /// Root mean square of the triangles' strains at positions in space.
+    /// Computes the root mean square of the triangles' strains at given vertex positions in space.
     pub(crate) fn strain_in_space(&self, positions: &[Vector3<f64>]) -> f64 {
         let mut descent = vec![Vector3::zeros(); positions.len()];
         (0.5 * self.triangle_energy(positions, &mut descent) / self.area).sqrt()
     }
 
-    /// The energy of the triangles. Adds minus half its gradient to `descent`.
+    /// Computes the energy of the triangles alone. Adds minus half the energy's gradient to `descent`.
     fn triangle_energy<P: Position>(&self, positions: &[P], descent: &mut [P]) -> f64 {
         let mut energy = 0.0;
         for (triangle, corners) in &self.triangles {
@@ -177,7 +178,7 @@ impl ArapMesh {
         energy
     }
 
-    /// The energy of triangles and ties. Writes minus half its gradient to `descent`.
+    /// Computes the energy of triangles and ties. Writes minus half the energy's gradient to `descent`.
     fn energy<P: Position>(&self, positions: &[P], descent: &mut [P]) -> f64 {
         descent.fill(P::default());
         let mut energy = self.triangle_energy(positions, descent);
@@ -223,14 +224,16 @@ fn matrix(
     entries.to_csr()
 }
 
-/// The first point of a tie less the second one.
+/// Returns vertices with weights whose weighted sum of positions is the vector from the second point of a tie to the
+/// first.
 fn difference([one, other]: &[BarycentricPoint; 2]) -> [(u32, f64); 6] {
     let [a, b, c] = *one;
     let [d, e, f] = other.map(|(v, w)| (v, -w));
     [a, b, c, d, e, f]
 }
 
-/// Conjugate gradients with Jacobi's preconditioner, for both coordinates at once as complex numbers: the matrix is real.
+/// Conjugate gradients with Jacobi's preconditioner, for both coordinates at once as complex numbers: the matrix is
+/// real.
 struct ConjugateGradients<'a> {
     matrix: &'a CsMat<f64>,
     inverse_diagonal: &'a [f64],

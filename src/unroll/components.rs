@@ -1,12 +1,12 @@
-//! The connected components of a surface, each laid upright.
+//! Connected components of a surface, each rotated to its place in the view from above.
 
 use super::flat_triangle::Point;
 use crate::error::{Result, try_filled};
 use crate::math::union_find::UnionFind;
 use crate::scene::triangulation::Triangulation;
 
-/// The number of each vertex's connected component, and the number of components. The component with the most
-/// vertices is 0; the others are in the order of their first vertices.
+/// Finds the connected components of the surface. Returns the number of each vertex's component, and the number of
+/// components. The component with the most vertices is 0; the others are in the order of their first vertices.
 ///
 /// # Errors
 /// [`Error::OutOfMemory`](crate::Error::OutOfMemory).
@@ -41,8 +41,8 @@ pub(super) fn components(mesh: &Triangulation) -> Result<(Vec<u32>, usize)> {
     Ok((numbers, sizes.len()))
 }
 
-/// Rotates and translates each component to its place in the view from above, by least squares (the Procrustes problem
-/// without scaling).
+/// Rotates and translates each component of the flat layout to its place in the view from above, by least squares
+/// (the Procrustes problem without scaling).
 pub(super) fn align_to_plan(
     mesh: &Triangulation,
     parts: &[u32],

@@ -35,7 +35,7 @@ pub(super) fn singular_values(
     triangles.get(id).singular_values(corners)
 }
 
-/// The distortion of some triangles at given positions of the vertices.
+/// Computes the distortion of some triangles at given flat positions of the vertices.
 pub(super) fn distortion(
     triangles: &LatticeTriangles,
     ids: impl Iterator<Item = TriangleId>,

@@ -39,7 +39,8 @@ pub(crate) struct FlatTriangle {
 }
 
 impl FlatTriangle {
-    /// The triangle above one of a lattice of spacing 1, from the differences of height along its edges 1–2 and 1–3.
+    /// Creates the triangle of a heightfield above one of a lattice of spacing 1, from the differences of height
+    /// along the edges 1–2 and 1–3.
     pub(super) fn from_rises(rise2: f64, rise3: f64) -> Self {
         // In plan the edges are unit vectors at 60°.
         let (square2, square3) = (1.0 + rise2 * rise2, 1.0 + rise3 * rise3);
@@ -55,7 +56,7 @@ impl FlatTriangle {
         }
     }
 
-    /// The triangle between three points in space, in their unit; all 0 if it has no area.
+    /// Creates the triangle between three points in space, in their unit; all fields are 0 if it has no area.
     pub(crate) fn from_points([a, b, c]: [[f64; 3]; 3]) -> Self {
         let edge = |p: [f64; 3], q: [f64; 3]| [0, 1, 2].map(|k| q[k] - p[k]);
         let dot = |u: [f64; 3], v: [f64; 3]| u[0] * v[0] + u[1] * v[1] + u[2] * v[2];
@@ -81,7 +82,7 @@ impl FlatTriangle {
         self.second > 0.0
     }
 
-    /// The third corner where the first one is at 0 and the second one at 1.
+    /// Computes the third corner when the first corner is at 0 and the second one at 1.
     pub(crate) fn third_corner(&self) -> Point {
         self.third / self.second
     }

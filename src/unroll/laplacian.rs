@@ -10,8 +10,8 @@ use super::padded_lattice::PaddedLattice;
 use crate::error::{Result, try_filled};
 use crate::math::lanes;
 
-/// The cotangent Laplacian of a heightfield on the padded lattice, by the weights of the edges from each cell to the east,
-/// south-west and south-east.
+/// The cotangent Laplacian of a heightfield on the padded lattice, by the weights of the edges from each cell to the
+/// east, south-west and south-east.
 #[derive(Debug, Clone)]
 pub(super) struct Laplacian {
     pub grid: PaddedLattice,
@@ -19,14 +19,14 @@ pub(super) struct Laplacian {
     south_west: Vec<f32>,
     south_east: Vec<f32>,
     diagonal: Vec<f32>,
-    /// Inverse of the diagonal; 0 at vertices without edges.
+    /// Inverse of the matrix's diagonal; 0 at vertices without edges.
     pub inverse: Vec<f32>,
-    /// Upper bound of the eigenvalues of the matrix over its diagonal.
+    /// Upper bound of the eigenvalues of the matrix divided by its diagonal (`D⁻¹A`).
     pub largest: f32,
 }
 
 impl Laplacian {
-    /// The cotangent Laplacian of a heightfield's triangles.
+    /// Creates the cotangent Laplacian of a heightfield's triangles.
     pub(super) fn new(triangles: &LatticeTriangles) -> Result<Self> {
         let grid = triangles.grid;
         let mut out = Laplacian::zero(grid)?;
@@ -47,7 +47,8 @@ impl Laplacian {
         Ok(out)
     }
 
-    /// The Galerkin matrix of this one for functions that are linear on the triangles of twice the spacing.
+    /// Computes the Galerkin matrix on the lattice of twice the spacing, for functions that are linear on its
+    /// triangles.
     pub(super) fn coarse(&self) -> Result<Self> {
         let fine = self.grid;
         let grid = fine.coarse();
@@ -73,7 +74,7 @@ impl Laplacian {
         Ok(out)
     }
 
-    /// A matrix without edges.
+    /// Creates a matrix without edges.
     fn zero(grid: PaddedLattice) -> Result<Self> {
         let zeros = || try_filled("unrolling", grid.cells(), 0.0);
         Ok(Laplacian {
@@ -87,7 +88,7 @@ impl Laplacian {
         })
     }
 
-    /// Sums the edges' weights up to the diagonal and bounds the eigenvalues.
+    /// Computes each diagonal entry as the sum of the weights of the vertex's edges, and bounds the eigenvalues.
     fn set_diagonal(&mut self) {
         let grid = self.grid;
         let mut largest = 0.0f32;
@@ -131,7 +132,7 @@ impl Laplacian {
         }
     }
 
-    /// The residual: `out ← b − A x`.
+    /// Computes the residual of the linear system: `out ← b − A x`.
     pub(super) fn residual(&self, b: &[f32], x: &[f32], out: &mut [f32]) {
         for row in 0..self.grid.rows() {
             let cells = self.grid.row(row);
@@ -144,7 +145,7 @@ impl Laplacian {
         }
     }
 
-    /// The product `out ← A x`. Returns `x·Ax`.
+    /// Computes the product of matrix and vector: `out ← A x`. Returns `x·Ax`.
     pub(super) fn apply(&self, x: &[f32], out: &mut [f32]) -> f64 {
         let mut product = 0.0;
         for row in 0..self.grid.rows() {
@@ -166,7 +167,7 @@ struct RowStencil<'a> {
     /// Weights of the edges to W, E, NW, NE, SW, SE.
     weights: [&'a [f32]; 6],
     centre: &'a [f32],
-    /// Values of the vector at these neighbours.
+    /// Values of the vector at the neighbours W, E, NW, NE, SW, SE.
     values: [&'a [f32]; 6],
 }
 

@@ -4,7 +4,8 @@ use super::flat_triangle::{FlatTriangle, Point, Position};
 use super::padded_lattice::PaddedLattice;
 use crate::error::{Error, Result, try_filled};
 
-/// A triangle of the lattice: the cell of its first corner, and 0 for the triangle below that corner or 1 for the one beside it.
+/// A triangle of the lattice: the cell of its first corner, and 0 for the triangle below that corner or 1 for the one
+/// beside it.
 pub(super) type TriangleId = (usize, usize);
 
 /// The flat triangles of a heightfield: two for each cell `v`, with the corners `[v, SW, SE]` and `[v, SE, E]`.
@@ -50,7 +51,7 @@ impl LatticeTriangles {
         Ok(LatticeTriangles { grid, of, area })
     }
 
-    /// All triangles that exist.
+    /// Lists all triangles of the lattice that exist.
     pub(super) fn ids(&self) -> impl Iterator<Item = TriangleId> + '_ {
         let cells = (0..self.grid.rows()).flat_map(|row| self.grid.row(row));
         cells
@@ -62,7 +63,7 @@ impl LatticeTriangles {
         &self.of[cell][side]
     }
 
-    /// The cells of a triangle's corners.
+    /// Returns the cells of a triangle's three corners.
     pub(super) fn corners(&self, (cell, side): TriangleId) -> [usize; 3] {
         let offsets = self.grid.offsets(self.grid.vertex(cell).0);
         let south_east = cell.wrapping_add_signed(offsets.south_east);
@@ -76,7 +77,7 @@ impl LatticeTriangles {
         }
     }
 
-    /// The triangles around a vertex.
+    /// Lists the triangles around a vertex.
     pub(super) fn around(&self, cell: usize) -> impl Iterator<Item = TriangleId> + '_ {
         let offsets = self.grid.offsets(self.grid.vertex(cell).0);
         let ne = cell.wrapping_add_signed(offsets.north_east);
@@ -93,7 +94,7 @@ impl LatticeTriangles {
         .filter(|id| self.get(*id).exists())
     }
 
-    /// The border edges, which have a triangle on one side only, each directed as in that triangle.
+    /// Finds the border edges, which have a triangle on one side only, each directed as in that triangle.
     pub(super) fn border(&self) -> impl Iterator<Item = [usize; 2]> + '_ {
         self.ids().flat_map(|id| {
             let [a, b, c] = self.corners(id);

@@ -119,7 +119,8 @@ pub(crate) fn unroll_mesh(
     })
 }
 
-/// Positions of the vertices in the view from above, in units of the spacing, by the cells of the padded lattice.
+/// Computes the positions of the vertices in the view from above, in units of the spacing, by the cells of the
+/// padded lattice.
 pub(super) fn plan_positions(grid: PaddedLattice) -> Result<Vec<Point>> {
     let mut places = try_filled("unrolling", grid.cells(), Point::default())?;
     for row in 0..grid.rows() {

@@ -11,13 +11,13 @@ const CONVERGED_STEPS: usize = 3;
 /// State of an iteration of local and global steps, which are extrapolated by Nesterov's momentum. It restarts whenever
 /// the energy rises. The number of steps depends on the shape, hardly on the number of vertices.
 pub(super) struct Iteration<P> {
-    /// Number of global steps so far.
+    /// Number of global steps made so far.
     pub steps: usize,
-    /// Energy over area, from the last local step.
+    /// Energy of the layout over its area, from the last local step.
     pub energy: f64,
     /// Decrease of the energy over the area by the last step; infinite before the first one.
     pub decrease: f64,
-    /// Positions without extrapolation.
+    /// Positions of the vertices without extrapolation by the momentum.
     last: Vec<P>,
     momentum: f64,
     /// Number of steps in a row that changed the energy by less than the tolerance.
@@ -42,8 +42,8 @@ impl<P: Position> Iteration<P> {
         })
     }
 
-    /// Takes the energy over the area that a local step has found. Returns whether the iteration has converged: the
-    /// energy changes by less than `tolerance`.
+    /// Records the energy over the area that a local step has found. Returns whether the iteration has converged:
+    /// the energy changes by less than `tolerance`.
     pub(super) fn converges(&mut self, energy: f64, tolerance: f64) -> bool {
         self.decrease = self.energy - energy;
         self.energy = energy;
@@ -57,7 +57,7 @@ impl<P: Position> Iteration<P> {
         self.calm_steps == CONVERGED_STEPS
     }
 
-    /// Moves the vertices by a global step's corrections, and on by the momentum.
+    /// Moves the vertices by the corrections of a global step, and further by Nesterov's momentum.
     pub(super) fn advance(
         &mut self,
         positions: &mut [P],
@@ -75,7 +75,7 @@ impl<P: Position> Iteration<P> {
         }
     }
 
-    /// Moves the vertices to where the last global step has put them, without extrapolation.
+    /// Moves the vertices to where the last global step put them, without extrapolation by the momentum.
     pub(super) fn finish(&self, positions: &mut [P]) {
         positions.copy_from_slice(&self.last);
     }

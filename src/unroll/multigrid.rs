@@ -8,7 +8,7 @@ use super::padded_lattice::PaddedLattice;
 use crate::error::{Result, try_filled};
 use crate::math::lanes;
 
-/// Both coordinates of a vector field on the padded lattice.
+/// Both coordinates of a field of plane vectors on the padded lattice.
 pub(super) type PlaneField = [Vec<f32>; 2];
 
 /// One lattice of the multigrid hierarchy with the fields that a V-cycle needs.
@@ -20,7 +20,7 @@ struct MultigridLevel {
     spare: Vec<f32>,
 }
 
-/// The solver of the global step: conjugate gradients with a V-cycle.
+/// Solver of the global step's linear system: conjugate gradients with a multigrid V-cycle as preconditioner.
 #[derive(Debug, Clone)]
 pub(super) struct GlobalStep {
     /// Levels of the hierarchy, the finest first. Its right-hand side is the residual of the conjugate gradients.
@@ -54,12 +54,13 @@ impl GlobalStep {
         })
     }
 
-    /// The right-hand side, to be written before [`GlobalStep::solve`], which overwrites it.
+    /// Returns the right-hand side, to be written before [`GlobalStep::solve`], which overwrites it.
     pub(super) fn right_hand_side_mut(&mut self) -> &mut PlaneField {
         &mut self.levels[0].right
     }
 
-    /// The solution after some iterations of conjugate gradients from 0.
+    /// Solves the global step's linear system by some iterations of conjugate gradients from 0, and returns the
+    /// solution.
     pub(super) fn solve(&mut self, iterations: usize) -> &PlaneField {
         let mut previous = 0.0;
         for field in &mut self.correction {
@@ -103,7 +104,7 @@ impl GlobalStep {
         &self.correction
     }
 
-    /// One V-cycle: an approximate, symmetric inverse applied to the right-hand side.
+    /// Applies one multigrid V-cycle, an approximate, symmetric inverse of the matrix, to the right-hand side.
     fn v_cycle(&mut self) {
         let last = self.levels.len() - 1;
         for i in 0..last {
@@ -149,7 +150,7 @@ impl MultigridLevel {
         })
     }
 
-    /// A pair of smoothing steps of one coordinate, from 0.
+    /// Makes a pair of damped Jacobi smoothing steps for one coordinate, from 0.
     fn smooth_from_zero(&mut self, k: usize) {
         let [first, second] = SMOOTHER_WEIGHTS.map(|weight| weight / self.matrix.largest);
         let inverse = self.matrix.inverse.iter().zip(&self.right[k]);
@@ -162,7 +163,7 @@ impl MultigridLevel {
             .smooth(second, &self.right[k], &self.spare, &mut self.solution[k]);
     }
 
-    /// A pair of smoothing steps of one coordinate.
+    /// Makes a pair of damped Jacobi smoothing steps for one coordinate.
     fn smooth(&mut self, k: usize) {
         let [first, second] = SMOOTHER_WEIGHTS.map(|weight| weight / self.matrix.largest);
         self.matrix
@@ -172,7 +173,7 @@ impl MultigridLevel {
     }
 }
 
-/// A field of zeros.
+/// Creates a field of zeros.
 fn zero_field(cells: usize) -> Result<PlaneField> {
     Ok([
         try_filled("unrolling", cells, 0.0)?,
@@ -180,14 +181,14 @@ fn zero_field(cells: usize) -> Result<PlaneField> {
     ])
 }
 
-/// `to ← to + factor · values`.
+/// Adds a multiple of one field to another: `to ← to + factor · values`.
 fn add_scaled(to: &mut [f32], factor: f32, values: &[f32]) {
     for (x, v) in to.iter_mut().zip(values) {
         *x += factor * v;
     }
 }
 
-/// The scalar product of two fields, without the padding.
+/// Computes the scalar product of two fields, without the padding.
 fn dot(grid: PaddedLattice, a: &PlaneField, b: &PlaneField) -> f64 {
     let rows = (0..grid.rows()).map(|row| grid.row(row));
     rows.map(|cells| {

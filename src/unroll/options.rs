@@ -1,6 +1,7 @@
 //! Options of unrolling.
 
-/// Default change of the energy over the area below which a layout has converged: that of strains of 10⁻⁵.
+/// Default change of the energy over the area in one iteration, below which a layout has converged: the energy of
+/// strains of 10⁻⁵.
 const DEFAULT_TOLERANCE: f64 = 1e-10;
 
 /// Default maximum number of iterations. Surfaces of 200 thousand vertices take 6 to 26 (`benches/choices.md`).
@@ -32,7 +33,7 @@ impl Default for UnrollOptions {
 }
 
 impl UnrollOptions {
-    /// These options with another tolerance.
+    /// Returns these options with another tolerance for convergence.
     pub fn tolerance(self, tolerance: f64) -> Self {
         UnrollOptions { tolerance, ..self }
     }

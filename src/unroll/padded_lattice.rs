@@ -4,13 +4,13 @@
 /// need.
 const PADDING_ROWS_ABOVE: usize = 1;
 
-/// Rows of padding below the lattice.
+/// Number of rows of padding below the lattice.
 const PADDING_ROWS_BELOW: usize = 2;
 
-/// Columns of padding to the left of the lattice.
+/// Number of columns of padding to the left of the lattice.
 const PADDING_COLUMNS_LEFT: usize = 2;
 
-/// Columns of padding to the right of the lattice.
+/// Number of columns of padding to the right of the lattice.
 const PADDING_COLUMNS_RIGHT: usize = 4;
 
 /// A padded lattice of `rows × cols` vertices.
@@ -23,7 +23,8 @@ pub(super) struct PaddedLattice {
     cols: usize,
 }
 
-/// Offsets of a cell's neighbours in the rows above and below. Those in its own row are ±1.
+/// Index offsets from a cell to its neighbours in the rows above and below. The neighbours in the cell's own row
+/// are at ±1.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Offsets {
     pub north_west: isize,
@@ -33,7 +34,7 @@ pub(super) struct Offsets {
 }
 
 impl Offsets {
-    /// Offsets of the six neighbours, in the order W, E, NW, NE, SW, SE.
+    /// Returns the index offsets from a cell to its six neighbours, in the order W, E, NW, NE, SW, SE.
     pub(super) fn all(self) -> [isize; 6] {
         [
             -1,
@@ -51,7 +52,7 @@ impl PaddedLattice {
         PaddedLattice { rows, cols }
     }
 
-    /// The lattice of twice the spacing, large enough for every fine triangle to lie in a coarse one.
+    /// Creates the lattice of twice the spacing, large enough for every fine triangle to lie in a coarse one.
     pub(super) fn coarse(self) -> Self {
         PaddedLattice::new(self.rows / 2 + 1, self.cols / 2 + 2)
     }
@@ -74,12 +75,12 @@ impl PaddedLattice {
         (PADDING_ROWS_ABOVE + self.rows + PADDING_ROWS_BELOW) * self.stride()
     }
 
-    /// The cell of a vertex.
+    /// Returns the cell, an index into the padded lattice, of a vertex.
     pub(super) fn cell(self, row: usize, col: usize) -> usize {
         (row + PADDING_ROWS_ABOVE) * self.stride() + col + PADDING_COLUMNS_LEFT
     }
 
-    /// Row and column of the vertex of a cell that is not padding.
+    /// Returns row and column of the vertex at a cell that is not padding.
     pub(super) fn vertex(self, cell: usize) -> (usize, usize) {
         (
             cell / self.stride() - PADDING_ROWS_ABOVE,
@@ -87,13 +88,13 @@ impl PaddedLattice {
         )
     }
 
-    /// The cells of a row without padding.
+    /// Returns the range of the cells of a row, without padding.
     pub(super) fn row(self, row: usize) -> std::ops::Range<usize> {
         let start = self.cell(row, 0);
         start..start + self.cols
     }
 
-    /// Offsets of the neighbours of the cells of a row.
+    /// Returns the index offsets from a cell in a given row to the cell's neighbours.
     pub(super) fn offsets(self, row: usize) -> Offsets {
         let stride = self.stride() as isize;
         // On odd rows, which are shifted to the left, the eastern neighbours have the same column.

@@ -11,8 +11,8 @@ const MAX_REPAIR_ROUNDS: usize = 8;
 const SWEEPS_PER_ROUND: usize = 40;
 
 /// Turns flipped triangles over: moves the vertices around them to the means of their neighbours, repeatedly, which
-/// leaves no triangle flipped inside a convex outline (Tutte 1963). Border vertices stay. Returns whether any vertex was
-/// moved.
+/// leaves no triangle flipped inside a convex outline (Tutte 1963). Border vertices stay. Returns whether any vertex
+/// was moved.
 ///
 /// # Errors
 /// [`Error::OutOfMemory`](crate::Error::OutOfMemory).

@@ -3,7 +3,7 @@
 use super::distortion::Distortion;
 use crate::scene::triangulation::Triangulation;
 
-/// Figures of an [`Unrolling`].
+/// Figures of an [`Unrolling`]: iterations, energy, strain and overlaps of the flat layout.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(
     feature = "serde",
@@ -18,13 +18,13 @@ pub struct UnrollReport {
     pub iterations: usize,
     /// Energy over area: the mean of the sum of both squared principal strains.
     pub energy: f64,
-    /// Decrease of the energy over the area in the last iteration.
+    /// Decrease of the energy over the area in the last iteration of laying the surface flat.
     pub change: f64,
     /// Area of the surface, in its own units.
     pub area: f64,
     /// Strain of the layout: 0 for a developable surface.
     pub distortion: Distortion,
-    /// Strain of the view from above: a measure of how far from flat the surface is.
+    /// Strain of the view from above, taken as a flat layout: a measure of how far from flat the surface is.
     pub plan: Distortion,
     /// Number of pairs of border edges of the layout that cross: 0 if it does not cover itself.
     pub crossings: usize,
@@ -45,7 +45,7 @@ pub struct Unrolling {
 }
 
 impl Unrolling {
-    /// The triangles of the surface.
+    /// Returns the triangles of the surface that is laid flat.
     pub fn mesh(&self) -> &Triangulation {
         &self.mesh
     }
@@ -71,12 +71,13 @@ impl Unrolling {
         &self.stretches
     }
 
-    /// Pairs of border edges that cross, each edge by the numbers of its two vertices in the mesh.
+    /// Returns the pairs of border edges of the layout that cross, each edge by the numbers of its two vertices in
+    /// the mesh.
     pub fn overlaps(&self) -> &[[[u32; 2]; 2]] {
         &self.overlaps
     }
 
-    /// Figures of the layout.
+    /// Returns the figures of the layout.
     pub fn report(&self) -> &UnrollReport {
         &self.report
     }

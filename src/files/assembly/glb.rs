@@ -15,8 +15,8 @@ use crate::pattern::Sheet;
 /// Duration of one step of the assembly, in seconds.
 const STEP_SECONDS: f64 = 1.5;
 
-/// Duration of the pause between two steps, in seconds.
-const PAUSE_SECONDS: f64 = 0.5;
+/// Duration of the pause between two steps of the assembly animation, in seconds.
+const STEP_PAUSE_SECONDS: f64 = 0.5;
 
 /// Writes a GLB file of the assembly: sheets that lie flat beside the surface move to their places one after the
 /// other, in the assembly's order, and bend as they move. It is in metres, `scale` being the millimetres of a unit,
@@ -56,7 +56,7 @@ pub fn write_animation(sheets: &[Sheet], assembly: &Assembly, scale: f64) -> Res
             part.sheet,
             sheet,
             &moved,
-            step as f64 * (STEP_SECONDS + PAUSE_SECONDS),
+            step as f64 * (STEP_SECONDS + STEP_PAUSE_SECONDS),
             sizes,
         );
     }
@@ -74,7 +74,8 @@ fn in_millimetres(sheets: &[Sheet], scale: f64) -> Vec<Vec<Vec<[f64; 2]>>> {
     sheets.iter().map(lines).collect()
 }
 
-/// Place of the flat sheets: to the left of the surface, at the height of its lowest point.
+/// Position of the flat sheets before they move: to the left of the surface, at the height of the surface's lowest
+/// point.
 struct Ground {
     corner: [f64; 2],
     height: f64,
@@ -94,7 +95,7 @@ impl Ground {
     }
 }
 
-/// A sheet about its centre, and the centre's positions before and after.
+/// A sheet relative to its centre, and the positions of the centre before and after the sheet moves.
 struct Moved {
     middle: [f64; 2],
     start: Pose,
@@ -124,7 +125,7 @@ impl Moved {
     }
 }
 
-/// The binary part of the file, and the lists of its text part.
+/// A GLB file that is being written: its binary part, and the lists of its text part (JSON).
 #[derive(Default)]
 struct File {
     bin: Vec<u8>,
@@ -287,7 +288,7 @@ fn list(values: &[f32]) -> String {
     format!("[{}]", values.join(","))
 }
 
-/// Linear light of an sRGB value.
+/// Converts an sRGB colour value from 0 to 1 to linear light.
 fn linear(value: f64) -> f64 {
     match value <= 0.04045 {
         true => value / 12.92,

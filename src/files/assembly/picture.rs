@@ -174,7 +174,8 @@ pub fn write_assembly_svg(sheets: &[Sheet]) -> Result<Vec<u8>> {
     Ok(document.to_string().into_bytes())
 }
 
-/// Numbers of the sheets in drawing order: those that hide others come later.
+/// Sorts the sheets for drawing, seen from above: a sheet that hides another comes later. Returns the sheets'
+/// numbers.
 fn from_below(sheets: &[Sheet]) -> Vec<usize> {
     let height = |number: &usize| {
         let faces = &sheets[*number].faces;
@@ -189,7 +190,7 @@ fn from_below(sheets: &[Sheet]) -> Vec<usize> {
     order
 }
 
-/// Triangles of a sheet that face up.
+/// Returns the triangles of a sheet that face up on the surface.
 fn upper(faces: &Faces) -> Vec<[u32; 3]> {
     let up = |corners: &&[u32; 3]| faces_up(corners.map(|v| faces.built[v as usize]));
     faces.triangles.iter().filter(up).copied().collect()

@@ -4,7 +4,7 @@ use super::format::Format;
 use crate::error::{Error, Result};
 use crate::heights::heightfield::HeightImage;
 
-/// A unit of length.
+/// Unit of length in which an image file states its pixel size.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum Unit {
@@ -15,7 +15,7 @@ pub enum Unit {
 }
 
 impl Unit {
-    /// The symbol `"mm"` or `"m"`.
+    /// Returns the unit's symbol, `"mm"` or `"m"`.
     pub fn symbol(self) -> &'static str {
         match self {
             Unit::Millimetre => "mm",
@@ -30,11 +30,11 @@ impl Unit {
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub struct Decoded {
-    /// Format of the file.
+    /// Format of the image file.
     pub format: Format,
-    /// Number of columns.
+    /// Number of pixel columns of the image.
     pub width: usize,
-    /// Number of rows.
+    /// Number of pixel rows of the image.
     pub height: usize,
     /// The values as stored (grey levels, numbers), row by row, top row first;
     /// NaN where there is no data. A PNG's recorded offset is contained, as
@@ -51,12 +51,12 @@ pub struct Decoded {
     /// suggestion: the one that makes their full range (from black to white) a quarter of the image's longer
     /// side.
     pub height_scale: f64,
-    /// The type the file stores: `"u8"`, `"u16"`, `"f32"`, `"f64"`, …
+    /// Type of number that the file stores for each pixel: `"u8"`, `"u16"`, `"f32"`, `"f64"`, …
     pub data_type: &'static str,
 }
 
 impl Decoded {
-    /// The heights as an image.
+    /// Converts the stored values to heights by `height_scale`, and returns them as a height image.
     ///
     /// # Errors
     /// As [`HeightImage::new`], so [`Error::NotFinite`] if a value is infinite.
@@ -67,15 +67,17 @@ impl Decoded {
     }
 }
 
-/// Share of the longer side that black to white spans where no scale is recorded.
+/// Suggested height between black and white, as a share of the image's longer side, where a file records no height
+/// scale.
 const SUGGESTED_RELIEF: f64 = 0.25;
 
-/// Suggested height scale for values of the given range.
+/// Suggests a height scale for grey values of the given range, where the file records none.
 pub(super) fn suggested_scale(width: usize, height: usize, range: f64) -> f64 {
     SUGGESTED_RELIEF * width.max(height) as f64 / range
 }
 
-/// The error of a picture with colours, found at the given pixel.
+/// Creates the error for a picture with colours, which cannot be read as heights; it names the first coloured
+/// pixel.
 pub(super) fn coloured(format: &'static str, pixel: usize, width: usize) -> Error {
     Error::Unsupported {
         format,

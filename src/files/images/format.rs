@@ -4,14 +4,13 @@ use std::str::FromStr;
 
 use crate::error::{Error, Result};
 
-/// A file format that can be read. All but the first two need the cargo feature
-/// `images`.
+/// An image file format that can be read. All but the first two need the cargo feature `images`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum Format {
     /// Portable Network Graphics, grey, 1 to 16 bits.
     Png,
-    /// NumPy's array file.
+    /// NumPy's file of one array (NPY).
     Npy,
     /// Tagged Image File Format, also BigTIFF and GeoTIFF.
     Tiff,
@@ -19,7 +18,7 @@ pub enum Format {
     Exr,
     /// Portable float map.
     Pfm,
-    /// NumPy's archive of arrays.
+    /// NumPy's archive of several arrays (NPZ).
     Npz,
     /// JPEG, grey.
     Jpeg,
@@ -27,7 +26,7 @@ pub enum Format {
     WebP,
 }
 
-/// Formats with their names in options and their titles in messages.
+/// Image formats with their names in options and their titles in messages.
 const FORMAT_TITLES: [(Format, &str, &str); 8] = [
     (Format::Png, "png", "PNG"),
     (Format::Npy, "npy", "NPY"),
@@ -57,19 +56,19 @@ const MAGIC_BYTES: [(&[u8], Format); 13] = [
 ];
 
 impl Format {
-    /// Whether the format is read without the cargo feature `images`.
+    /// Returns whether the format can be read without the cargo feature `images`.
     #[cfg(feature = "images")]
     pub(super) fn is_basic(self) -> bool {
         matches!(self, Format::Png | Format::Npy)
     }
 
-    /// The name in lower case: `"png"`, `"npy"`, `"tiff"`, `"exr"`, `"pfm"`,
-    /// `"npz"`, `"jpeg"` or `"webp"`.
+    /// Returns the format's name in lower case: `"png"`, `"npy"`, `"tiff"`, `"exr"`, `"pfm"`, `"npz"`, `"jpeg"` or
+    /// `"webp"`.
     pub fn name(self) -> &'static str {
         self.entry().1
     }
 
-    /// The format that a file's first bytes announce.
+    /// Detects the format of an image file from the file's first bytes.
     pub fn detect(bytes: &[u8]) -> Option<Format> {
         let announces = |magic: &[u8]| {
             bytes.len() >= magic.len() && magic.iter().zip(bytes).all(|(m, b)| *m == b'?' || m == b)
@@ -91,7 +90,7 @@ impl Format {
 impl FromStr for Format {
     type Err = Error;
 
-    /// From [`Format::name`].
+    /// Parses a format's name, as [`Format::name`] returns it.
     fn from_str(name: &str) -> Result<Self> {
         FORMAT_TITLES
             .into_iter()
@@ -100,11 +99,11 @@ impl FromStr for Format {
     }
 }
 
-/// Condition on the option `format`, as its error states it.
+/// Permitted values of the option `format`, as the error about a wrong one lists them.
 pub const FORMAT_NAMES: &str =
     "must be `png`, `npy`, `tiff`, `exr`, `pfm`, `npz`, `jpeg` or `webp`";
 
-/// The format that the first bytes announce, if it is the stated one.
+/// Detects the format of a file from its first bytes, and checks that it is the stated one, if one is stated.
 ///
 /// # Errors
 /// [`Error::Format`] for an empty file and one of another format than stated,
@@ -133,7 +132,7 @@ pub fn announced(bytes: &[u8], stated: Option<Format>) -> Result<Format> {
     }
 }
 
-/// What a file seems to be, for messages only.
+/// Guesses from a file's first bytes which kind of file it is, for error messages only.
 fn guess(bytes: &[u8]) -> &'static str {
     let known: [(&[u8], &str); 6] = [
         (b"\x89PNG", "a PNG file damaged in transfer"),

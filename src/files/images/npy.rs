@@ -9,15 +9,16 @@ use super::format::Format;
 use crate::error::{Error, Result, check_shape, checked_cells, try_filled};
 use crate::files::buffer::Buffer;
 
-/// Maximum length of a header, in bytes; NumPy has the same limit.
-const MAX_HEADER: usize = 10_000;
+/// Maximum length of the header of an NPY file, in bytes; NumPy has the same limit.
+const MAX_HEADER_BYTES: usize = 10_000;
 
-/// Maximum number of brackets in a header: a plain array has 2, `{` and `(`. The parser recurses on them, so
-/// that this also bounds its use of the stack.
-const MAX_BRACKETS: usize = 8;
+/// Maximum number of brackets in the header of an NPY file: a plain array has 2, `{` and `(`. The parser recurses
+/// on brackets, so that this also bounds the parser's use of the stack.
+const MAX_HEADER_BRACKETS: usize = 8;
 
-/// Maximum number of digits in a header, so that no product of sizes in it overflows 64 bits.
-const MAX_DIGITS: usize = 19;
+/// Maximum number of digits in the header of an NPY file, so that no product of the sizes in the header overflows
+/// 64 bits.
+const MAX_HEADER_DIGITS: usize = 19;
 
 pub(super) fn decode(bytes: &[u8]) -> Result<Decoded> {
     let start = check_header(bytes)?;
@@ -94,7 +95,7 @@ pub(super) fn decode(bytes: &[u8]) -> Result<Decoded> {
     })
 }
 
-/// Shape and type of the array in a file that may end after the header.
+/// Reads shape and number type of an NPY file's array; the file may end after the header.
 #[cfg(feature = "images")]
 pub(super) fn describe(bytes: &[u8]) -> Result<(Vec<u64>, String)> {
     if Format::detect(bytes) != Some(Format::Npy) {
@@ -118,7 +119,7 @@ pub(super) fn describe(bytes: &[u8]) -> Result<(Vec<u64>, String)> {
     Ok((header.shape().to_vec(), data_type))
 }
 
-/// Checks that the header is safe to parse. Returns the offset of the data.
+/// Checks that the header of an NPY file is safe to parse. Returns the offset of the data.
 ///
 /// The parser allocates as much as the header states, multiplies sizes unchecked and recurses on brackets; crafted
 /// files must not exploit that.
@@ -134,19 +135,19 @@ fn check_header(bytes: &[u8]) -> Result<usize> {
             )));
         }
     };
-    if length > MAX_HEADER {
+    if length > MAX_HEADER_BYTES {
         return Err(damaged(format!(
-            "its header claims {length} bytes, where {MAX_HEADER} are the most"
+            "its header claims {length} bytes, where {MAX_HEADER_BYTES} are the most"
         )));
     }
     let header = bytes.get(begin..begin + length).ok_or_else(cut)?;
     let count = |of: &dyn Fn(u8) -> bool| header.iter().filter(|b| of(**b)).count();
-    if count(&|b| b"([{".contains(&b)) > MAX_BRACKETS {
+    if count(&|b| b"([{".contains(&b)) > MAX_HEADER_BRACKETS {
         return Err(unsupported(
             "an array of structures; only arrays of plain numbers are read".into(),
         ));
     }
-    if count(&|b| b.is_ascii_digit()) > MAX_DIGITS {
+    if count(&|b| b.is_ascii_digit()) > MAX_HEADER_DIGITS {
         return Err(Error::TooLarge {
             what: "NPY array",
             requested: usize::MAX,
@@ -156,7 +157,7 @@ fn check_header(bytes: &[u8]) -> Result<usize> {
     Ok(begin + length)
 }
 
-/// All values in their stored order.
+/// Reads all values of an NPY file in their stored order.
 fn read<T: Deserialize>(file: NpyFile<&[u8]>, convert: impl Fn(T) -> f64) -> Result<Vec<f64>> {
     let mut values = try_filled("NPY array", file.len() as usize, 0.0)?;
     let stored = file.data::<T>().map_err(|e| damaged(e.to_string()))?;

@@ -6,13 +6,13 @@ use super::format::Format;
 use super::png::Pixels;
 use crate::error::{Error, Result, try_filled};
 
-/// A decoded photo.
+/// A decoded photo: its pixels in colour, and what its metadata say about the camera.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub struct PhotoFile {
-    /// Number of columns.
+    /// Number of pixel columns of the photo.
     pub width: usize,
-    /// Number of rows.
+    /// Number of pixel rows of the photo.
     pub height: usize,
     /// Red, green, blue and alpha of each pixel, row by row, top row first.
     pub rgba: Vec<u8>,

@@ -14,7 +14,7 @@ use crate::files::buffer::Buffer;
 use crate::heights::heightfield::HeightImage;
 
 /// Maximum memory that the decoder itself may allocate, in bytes: two rows of the widest image and metadata.
-const DECODER_BYTES: usize = 1 << 28;
+const MAX_DECODER_BYTES: usize = 1 << 28;
 
 /// Maximum ratio by which DEFLATE can shrink data.
 const DEFLATE_RATIO: usize = 1032;
@@ -26,10 +26,10 @@ const HEIGHT_OFFSET: &str = "developable:heightOffset";
 const PIXEL_SIZE: &str = "developable:pixelSize";
 const NO_DATA: &str = "developable:noData";
 
-/// Lowest level that [`write_png`] uses for heights; 0 is no data.
+/// Lowest grey level that [`write_png`] uses for heights; level 0 is no data.
 const MIN_HEIGHT_LEVEL: f64 = 1.0;
 
-/// Highest level that [`write_png`] uses for heights.
+/// Highest grey level that [`write_png`] uses for heights.
 const MAX_HEIGHT_LEVEL: f64 = 65535.0;
 
 /// The pixels of a PNG file, and the reader that holds its metadata.
@@ -43,7 +43,7 @@ pub(super) struct Pixels<'a> {
 impl<'a> Pixels<'a> {
     pub(super) fn decode(bytes: &'a [u8], transformations: Transformations) -> Result<Self> {
         let limits = Limits {
-            bytes: DECODER_BYTES,
+            bytes: MAX_DECODER_BYTES,
         };
         let mut decoder = Decoder::new_with_limits(Cursor::new(bytes), limits);
         decoder.set_transformations(transformations);
@@ -143,7 +143,7 @@ pub(super) fn decode(bytes: &[u8]) -> Result<Decoded> {
     })
 }
 
-/// Values of the text chunks in files of this library.
+/// Values that PNG files of this library record in text chunks.
 #[derive(Default)]
 struct Recorded {
     scale: Option<f64>,
@@ -236,7 +236,7 @@ fn write(
     writer.finish()
 }
 
-/// Scale and offset that put the lowest height on level 1 and the highest on level 65535.
+/// Computes scale and offset that put the lowest height of an image on grey level 1 and the highest on 65535.
 fn quantisation(values: &[f64]) -> (f64, f64) {
     let (low, high) = values
         .iter()

@@ -170,7 +170,7 @@ pub fn write_photo_jpeg(photo: &impl PhotoRows, options: &PhotoOptions) -> Resul
     file.finish("JPEG file", written)
 }
 
-/// A resolution as JFIF states it, if it can.
+/// Converts a resolution to the density that a JFIF header states; `None` if JFIF cannot state it.
 fn density(dots_per_millimetre: f64) -> Option<PixelDensity> {
     let units = [
         (25.4, PixelDensityUnit::Inches),
@@ -192,7 +192,7 @@ fn density(dots_per_millimetre: f64) -> Option<PixelDensity> {
     })
 }
 
-/// A photo on a white background.
+/// A photo laid on a white background, row by row.
 struct White<'a, P> {
     photo: &'a P,
     width: u16,

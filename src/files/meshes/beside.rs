@@ -12,7 +12,7 @@ pub struct Texture {
     pub bytes: Vec<u8>,
 }
 
-/// Lookup of the files beside the mesh's own file by name; keeps the names that were not found.
+/// Lookup, by name, of the files that lie beside a mesh file; records the names that were not found.
 pub(super) struct Beside<'a> {
     files: &'a [(&'a str, &'a [u8])],
     missing: RefCell<Vec<String>>,
@@ -26,8 +26,8 @@ impl<'a> Beside<'a> {
         }
     }
 
-    /// The file of this name, or one whose name agrees without folders: programs often write paths of another
-    /// machine.
+    /// Finds the file of a given name, or one whose name agrees without folders: programs often write paths of
+    /// another machine.
     pub(super) fn find(&self, name: &str) -> Option<(&'a str, &'a [u8])> {
         let same = |of: fn(&str) -> &str| {
             let matches = |known: &str| of(known).eq_ignore_ascii_case(of(name));

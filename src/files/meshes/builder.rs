@@ -9,10 +9,10 @@ use crate::scene::mesh::Mesh;
 /// Colour of a vertex to which the file gives none.
 pub(super) const DEFAULT_VERTEX_COLOUR: [f32; 3] = [1.0; 3];
 
-/// Texture coordinates of vertices that have none.
+/// Texture coordinates that mark a vertex without any.
 const NO_UV: [f32; 2] = [f32::MIN; 2];
 
-/// Number of a triangle's texture where it has none.
+/// Number of a triangle's texture where the triangle has none.
 pub(super) const NO_TEXTURE: i32 = -1;
 
 /// A mesh that the decoders put together vertex by vertex and triangle by triangle.
@@ -25,7 +25,7 @@ pub(super) struct MeshBuilder {
     /// The texture of each triangle; shorter where the last ones have none.
     pub(super) textures: Vec<i32>,
     pub(super) pictures: Vec<Texture>,
-    /// Number of bytes left for further pictures; all pictures together may not exceed the files' size.
+    /// Number of bytes left for further pictures; all pictures together may not exceed the size of the given files.
     pub(super) room: usize,
 }
 
@@ -58,7 +58,7 @@ impl MeshBuilder {
         self.uvs.resize(self.positions.len(), NO_UV);
     }
 
-    /// Number of a picture, by its name; a new number for a picture without one.
+    /// Returns the number of a picture with a given name; a new number for a picture without a name.
     pub(super) fn picture(&mut self, name: &str, bytes: &[u8]) -> Result<i32> {
         let known = (self.pictures.iter()).position(|p| !name.is_empty() && p.name == name);
         if let Some(number) = known {

@@ -12,8 +12,8 @@ pub enum MeshFormat {
     /// Wavefront OBJ. All groups together; colours after the coordinates are
     /// read, and the diffuse colours and textures of its materials (MTL).
     Obj,
-    /// The Stanford format, ASCII or binary of either byte order; a texture is
-    /// named by a comment, `TextureFile`.
+    /// The Stanford format PLY, ASCII or binary of either byte order; a texture is named by a comment,
+    /// `TextureFile`.
     Ply,
     /// Stereolithography, ASCII or binary. Each triangle has vertices of its own.
     Stl,
@@ -24,7 +24,7 @@ pub enum MeshFormat {
 }
 
 impl MeshFormat {
-    /// The name `"obj"`, `"ply"`, `"stl"` or `"gltf"`.
+    /// Returns the format's name: `"obj"`, `"ply"`, `"stl"` or `"gltf"`.
     pub fn name(self) -> &'static str {
         match self {
             MeshFormat::Obj => "obj",
@@ -64,7 +64,7 @@ impl MeshFormat {
 impl FromStr for MeshFormat {
     type Err = Error;
 
-    /// From [`MeshFormat::name`]; `glb` is glTF.
+    /// Parses a format's name, as [`MeshFormat::name`] returns it; `glb` is also glTF.
     fn from_str(name: &str) -> Result<Self> {
         match name {
             "obj" => Ok(MeshFormat::Obj),

@@ -68,7 +68,7 @@ fn checked<'a>(image: &'a [u8], mesh: &Mesh) -> Result<(&'a [u8], &'static str)>
     }
 }
 
-/// The text part and the binary part of the file.
+/// A GLB file that is being written: its text part (JSON) and its binary part.
 #[derive(Default)]
 struct File {
     root: Root,
@@ -191,7 +191,7 @@ impl File {
         Ok(self.root.push(accessor))
     }
 
-    /// Appends bytes, beginning at a multiple of four.
+    /// Appends bytes to the binary part of a GLB file, beginning at a multiple of four bytes.
     fn view<const N: usize>(
         &mut self,
         length: usize,
@@ -279,7 +279,7 @@ fn accessor_of(view: Index<View>, count: usize, component: ComponentType, kind: 
     }
 }
 
-/// The smallest or largest value of each coordinate.
+/// Computes the smallest or the largest value of each coordinate of some positions.
 fn extreme(positions: &[[f32; 3]], pick: fn(f32, f32) -> f32) -> Value {
     let first = positions.first().copied().unwrap_or_default();
     let extreme = positions

@@ -32,7 +32,7 @@ pub use stl::write_stl;
 pub struct MeshFile {
     /// The mesh. Where there are textures, [`Mesh::textures`] says which triangle has which.
     pub mesh: Mesh,
-    /// The pictures, each once, in the order of their numbers.
+    /// The pictures of all textures, each once, in the order of the numbers that [`Mesh::textures`] uses.
     pub textures: Vec<Texture>,
     /// Names of material and texture files that were not given, whose colours the mesh lacks.
     pub missing: Vec<String>,

@@ -4,7 +4,7 @@ use crate::error::{Error, Result, try_filled};
 use crate::math::lanes;
 use crate::scene::mesh::Mesh;
 
-/// Positions relative to an origin, in 32 bits.
+/// Converts positions to 32-bit floats, relative to an origin.
 pub(super) fn narrowed(what: &'static str, mesh: &Mesh, origin: [f64; 3]) -> Result<Vec<[f32; 3]>> {
     let mut positions = try_filled(what, mesh.positions().len(), [0f32; 3])?;
     for (row, (narrow, wide)) in positions.iter_mut().zip(mesh.positions()).enumerate() {
@@ -52,7 +52,8 @@ pub(super) fn near_origin(mesh: &Mesh) -> [f64; 3] {
     })
 }
 
-/// A whole number near this one, of at most 24 bits: multiples of 10ᵏ up to 2²⁴⁺ᵏ.
+/// Rounds a number to a whole number nearby that 32-bit floats hold exactly, of at most 24 bits: multiples of 10ᵏ
+/// up to 2²⁴⁺ᵏ.
 fn rounded(value: f64) -> f64 {
     let (mut unit, mut limit) = (1.0, f64::from(1 << 24));
     while value.abs() >= limit {
@@ -62,7 +63,7 @@ fn rounded(value: f64) -> f64 {
     (value / unit).round() * unit
 }
 
-/// A colour from 0 to 1 as a byte.
+/// Converts a colour component from 0 to 1 to a byte.
 pub(super) fn byte(color: f32) -> u8 {
     // Casts saturate; NaN becomes 0.
     (color * 255.0).round() as u8

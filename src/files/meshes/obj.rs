@@ -105,12 +105,12 @@ fn texture(material: &Material) -> Option<&str> {
     }
 }
 
-/// Lines of a file, without leading blanks.
+/// Iterates over the lines of an OBJ or MTL file, without leading blanks.
 pub(super) fn lines(bytes: &[u8]) -> impl Iterator<Item = &[u8]> {
     bytes.split(|b| *b == b'\n').map(<[u8]>::trim_ascii_start)
 }
 
-/// Whether a line is that of a vertex.
+/// Returns whether a line of an OBJ file states a vertex.
 pub(super) fn is_vertex(line: &&[u8]) -> bool {
     line.starts_with(b"v ") || line.starts_with(b"v\t")
 }
@@ -149,7 +149,7 @@ fn check_indices(text: &str) -> Result<()> {
     Ok(())
 }
 
-/// Value of the leading digits of a number; anything after them is refused later.
+/// Parses the leading digits of a number; anything after the digits is refused later.
 fn whole(text: &str) -> usize {
     let digits = text.bytes().filter(u8::is_ascii_digit);
     digits.fold(0, |n, digit| {

@@ -79,7 +79,7 @@ pub(super) fn read(bytes: &[u8], beside: &Beside, parts: &mut MeshBuilder) -> Re
     Ok(())
 }
 
-/// An element that is not used.
+/// An element of a PLY file that is read but not used.
 struct Skipped;
 
 impl PropertyAccess for Skipped {
@@ -88,7 +88,7 @@ impl PropertyAccess for Skipped {
     }
 }
 
-/// A vertex, with NaN for properties that are missing.
+/// A vertex of a PLY file, with NaN for properties that are missing.
 struct Vertex {
     position: [f64; 3],
     color: [f32; 3],
@@ -137,7 +137,7 @@ impl PropertyAccess for Vertex {
     }
 }
 
-/// A scalar, and the value of white in its type.
+/// Reads a scalar of a PLY file, and returns it with the value that stands for white in its type.
 fn number(property: &Property) -> Option<(f64, f64)> {
     Some(match property {
         Property::Char(v) => (f64::from(*v), f64::from(i8::MAX)),
@@ -229,7 +229,7 @@ fn write(file: &mut Buffer, mesh: &Mesh) -> io::Result<()> {
     Ok(())
 }
 
-/// The element that is being written.
+/// Kind of element of a PLY file that is being written.
 enum Element {
     Vertex {
         position: [f64; 3],

@@ -11,18 +11,18 @@ use crate::error::Result;
 use crate::files::buffer::Buffer;
 use crate::scene::mesh::Mesh;
 
-/// Number of bytes before the triangles of a binary file.
+/// Number of bytes before the triangles of a binary STL file.
 const HEADER_BYTES: usize = 84;
 
-/// Number of bytes of each triangle of a binary file.
+/// Number of bytes of each triangle of a binary STL file.
 const TRIANGLE_BYTES: usize = 50;
 
-/// Whether the file has the length that a binary file must have.
+/// Returns whether a file has exactly the length of a binary STL file with the number of triangles in its header.
 pub(super) fn is_binary(bytes: &[u8]) -> bool {
     triangles(bytes).is_some_and(|n| n > 0 && length(n) == Some(bytes.len()))
 }
 
-/// Number of triangles that the header of a binary file states.
+/// Reads the number of triangles that the header of a binary STL file states.
 fn triangles(bytes: &[u8]) -> Option<usize> {
     let count = bytes.get(HEADER_BYTES - 4..HEADER_BYTES)?;
     Some(u32::from_le_bytes(count.try_into().ok()?) as usize)
@@ -59,7 +59,7 @@ pub(super) fn read(bytes: &[u8], parts: &mut MeshBuilder) -> Result<()> {
     collect(&file, parts)
 }
 
-/// Reads an ASCII file of several solids in a row, of which `stl_io` reads one.
+/// Reads an ASCII STL file of several solids in a row, of which `stl_io` reads only one.
 fn ascii(bytes: &[u8], parts: &mut MeshBuilder) -> Result<()> {
     let ends = bytes.iter().enumerate().filter(|(_, b)| **b == b'\n');
     let lines = std::iter::once(0).chain(ends.map(|(i, _)| i + 1));
@@ -119,7 +119,7 @@ pub fn write_stl(mesh: &Mesh) -> Result<Vec<u8>> {
     file.finish("STL file", written)
 }
 
-/// Unit normal of a triangle, and 0 for a degenerate one.
+/// Computes the unit normal of a triangle, and 0 for a triangle without area.
 fn normal(corners: [[f64; 3]; 3]) -> [f32; 3] {
     let [a, b, c] = corners.map(Vector3::from);
     let (u, v) = (b - a, c - a);

@@ -17,16 +17,16 @@ pub(super) type Place = Vector3<f64>;
 /// Distance from a plane, in edge lengths, below which a vertex lies on the plane.
 const PLANE_TOLERANCE_LENGTHS: f64 = 0.1;
 
-/// A mesh whose triangles are in parts.
+/// A mesh whose triangles are grouped into parts, each of which is to be laid flat.
 #[derive(Debug, Clone)]
 pub(super) struct Body {
     pub places: Vec<Place>,
     pub triangles: Vec<[u32; 3]>,
-    /// Number of the patch that each triangle belongs to; `parts` holds the number of its part.
+    /// Number of the patch that each triangle belongs to, while `parts` holds the number of each triangle's part.
     pub patches: Vec<u32>,
     pub parts: Vec<u32>,
     pub count: u32,
-    /// Mean length of the edges.
+    /// Mean length of the mesh's edges.
     pub spacing: f64,
 }
 
@@ -73,7 +73,7 @@ impl Body {
             .collect()
     }
 
-    /// One part as a mesh of its own, with the number 0.
+    /// Copies one part of the mesh to a mesh of its own, in which the part has the number 0.
     pub(super) fn alone(&self, members: &[u32]) -> Body {
         let mut numbers: FxHashMap<u32, u32> = FxHashMap::default();
         let mut places = Vec::new();
@@ -97,7 +97,7 @@ impl Body {
     }
 
     /// Divides triangles of a part into connected components of equal labels. The first component keeps the part's
-    /// number; returns the numbers of all.
+    /// number; returns the numbers of all components.
     fn part(&mut self, members: &[u32], labels: &[u32]) -> Result<Vec<u32>> {
         let own: Vec<[u32; 3]> = (members.iter())
             .map(|t| self.triangles[*t as usize])
@@ -127,8 +127,8 @@ impl Body {
         Ok(numbers.into_values().collect())
     }
 
-    /// Candidate planes for cutting a part: normal to its principal axes, through its middle and through a given
-    /// point.
+    /// Creates candidate planes for cutting a part in two: normal to the part's principal axes, through the part's
+    /// middle and through a given point.
     pub(super) fn planes(&self, members: &[u32], place: Place) -> Vec<Plane> {
         let corners = |t: &u32| self.triangles[*t as usize].map(|v| self.places[v as usize]);
         let (mut sum, mut weight) = (Place::zeros(), 0.0);
@@ -153,7 +153,8 @@ impl Body {
             .collect()
     }
 
-    /// Cuts a part along a plane. Returns the numbers of its pieces; one if the plane does not meet the part.
+    /// Cuts a part of the mesh along a plane. Returns the numbers of the pieces; a single number if the plane does
+    /// not meet the part.
     pub(super) fn cut(&mut self, part: u32, plane: &Plane) -> Result<Vec<u32>> {
         let members = self.members(part);
         let mut heights: FxHashMap<u32, f64> = FxHashMap::default();
@@ -194,7 +195,8 @@ impl Body {
         self.part(&members, &labels)
     }
 
-    /// Separates some triangles from a part, as parts of their own. Returns the numbers of all pieces of the part.
+    /// Separates some triangles from a part of the mesh, as parts of their own. Returns the numbers of all pieces
+    /// of the part.
     pub(super) fn set_apart(&mut self, part: u32, apart: &[u32]) -> Result<Vec<u32>> {
         let members = self.members(part);
         let mut labels = vec![0; self.triangles.len()];
@@ -202,7 +204,7 @@ impl Body {
         self.part(&members, &labels)
     }
 
-    /// Divides a triangle at the new vertices on its edges.
+    /// Divides a triangle into smaller ones at the new vertices on its edges.
     fn divide(&mut self, t: usize, middles: &FxHashMap<(u32, u32), u32>) {
         let corners = self.triangles[t];
         let mut ring: Vec<u32> = Vec::with_capacity(6);
@@ -247,7 +249,7 @@ impl Body {
         turns.iter().map(missing).collect()
     }
 
-    /// Renumbers the parts by their areas, the largest first. Returns the new number of each.
+    /// Renumbers the parts by their areas, the largest first. Returns the new number of each part.
     pub(super) fn sort(&mut self) -> Vec<u32> {
         let mut areas = vec![0.0; self.count as usize];
         for (part, corners) in self.parts.iter().zip(&self.triangles) {

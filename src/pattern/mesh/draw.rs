@@ -12,7 +12,7 @@ use crate::scene::half_edges::half_edge_ends;
 use crate::shape::patches::{Crease, Patch};
 use crate::unroll::flat_triangle::Point;
 
-/// A mesh cut into sheets.
+/// A mesh cut into flat sheets.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub struct MeshPattern {
@@ -186,7 +186,7 @@ fn runs(
     runs
 }
 
-/// Vertices of the sheet along one of its folds.
+/// Lists the vertices of a sheet along one of its folds.
 fn along(seams: &Seams, laid: &FlatPart, number: usize) -> Vec<u32> {
     let seam = &seams.all[number];
     let vertex = |body_side: u32, end: u32| {
@@ -212,7 +212,7 @@ fn along(seams: &Seams, laid: &FlatPart, number: usize) -> Vec<u32> {
     line
 }
 
-/// The vertex of the whole mesh at an end of a sheet's half-edge.
+/// Finds the vertex of the whole mesh at an end of one of the sheet's half-edges.
 fn laid_source(laid: &FlatPart, side: u32, end: u32) -> u32 {
     let t = laid.members.binary_search(&(side / 3)).unwrap_or(0);
     laid.source[laid.triangles[t][((side + end) % 3) as usize] as usize]
@@ -221,7 +221,7 @@ fn laid_source(laid: &FlatPart, side: u32, end: u32) -> u32 {
 /// Maximum number of triangles of a part that are compared as the place of its label.
 const MAX_LABEL_CANDIDATES: usize = 200;
 
-/// Place for a part's number: the centroid of a triangle far from the part's border.
+/// Finds a place for a part's number: the centroid of a triangle far from the part's border.
 fn spot(body: &Body, laid: &FlatPart, part: u32) -> Spot {
     let is_own = |t: usize| body.parts[laid.members[t] as usize] == part;
     let own: Vec<usize> = (0..laid.members.len()).filter(|t| is_own(*t)).collect();

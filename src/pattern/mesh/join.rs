@@ -23,7 +23,7 @@ pub(super) struct Limits {
 const TRIAL_STRAIN_SHARE: f64 = 0.8;
 
 impl Limits {
-    /// Stopping criteria for parts that may still be cut or joined.
+    /// Stopping criteria of the solver that lays parts flat which may still be cut or joined.
     pub(super) fn trial(&self) -> StoppingCriteria {
         StoppingCriteria {
             // The energy is the sum of the squares of both principal strains.
@@ -32,7 +32,7 @@ impl Limits {
         }
     }
 
-    /// Whether a layout is a valid sheet: its strain is within the limit and it has no self-intersection.
+    /// Returns whether a layout is a valid sheet: its strain is within the limit and it has no self-intersection.
     pub(super) fn allow(&self, laid: &FlatPart) -> bool {
         laid.strain <= self.strain && !laid.overlaps()
     }
@@ -42,14 +42,14 @@ impl Limits {
 #[derive(Debug, Clone)]
 pub(super) struct Joined {
     pub parts: Vec<u32>,
-    /// Numbers of the seams that are closed.
+    /// Numbers of the seams whose two sides are joined on the sheet.
     pub whole: Vec<usize>,
     pub laid: FlatPart,
-    /// Largest seam gap of a closed seam before its sides were joined.
+    /// Largest seam gap that a joined seam had before its sides were joined.
     pub gap: f64,
 }
 
-/// Joins parts to sheets along their seams, the longest first.
+/// Joins parts of a mesh to sheets along their seams, the longest seam first.
 pub(super) fn join_parts(
     body: &Body,
     seams: &Seams,
@@ -76,13 +76,13 @@ struct Sheets<'a> {
     seams: &'a Seams,
     limits: Limits,
     all: Vec<Option<Joined>>,
-    /// Whether each sheet was relaxed completely.
+    /// Whether each sheet was laid flat until convergence.
     settled: Vec<bool>,
-    /// Number of the sheet that each part is on.
+    /// Number of the sheet that each part of the mesh is on.
     of: Vec<usize>,
-    /// For each corner of the mesh's triangles its position on its sheet.
+    /// Position on its sheet of each corner of the mesh's triangles.
     at: Vec<Point>,
-    /// Whether each seam is closed.
+    /// Whether the two sides of each seam are joined on a sheet.
     whole: Vec<bool>,
 }
 
@@ -143,7 +143,8 @@ impl<'a> Sheets<'a> {
         Ok(())
     }
 
-    /// Joins two sheets along a seam and along all others that then fit; `None` if the result is not a valid sheet.
+    /// Lays two sheets flat together, joined along a seam and along all other seams that then fit; `None` if the
+    /// result is not a valid sheet.
     fn together(
         &self,
         seam: usize,
@@ -166,7 +167,7 @@ impl<'a> Sheets<'a> {
         }
     }
 
-    /// Relaxes a sheet to convergence. Returns false if that was done before.
+    /// Lays a sheet flat until convergence. Returns false if that was done before.
     fn settle(&mut self, number: usize) -> Result<bool> {
         if std::mem::replace(&mut self.settled[number], true) {
             return Ok(false);
@@ -190,7 +191,7 @@ impl<'a> Sheets<'a> {
 struct SheetPair<'a> {
     sheets: &'a Sheets<'a>,
     numbers: [usize; 2],
-    /// Motion of the second sheet; `None` if there is only one.
+    /// Rigid motion of the second sheet; `None` if there is only one sheet.
     motion: Option<Motion>,
 }
 
@@ -214,14 +215,14 @@ impl<'a> SheetPair<'a> {
         numbers.filter_map(|number| self.sheets.all[number].as_ref())
     }
 
-    /// Whether an open seam has both its parts on these sheets.
+    /// Returns whether both parts at a seam that is not joined lie on these sheets.
     fn has(&self, seam: usize) -> bool {
         let mut parts = self.sheets.seams.all[seam].parts.iter();
         let is_here = |part: &u32| self.numbers.contains(&self.sheets.of[*part as usize]);
         !self.sheets.whole[seam] && parts.all(is_here)
     }
 
-    /// Position of a corner of the mesh's triangles.
+    /// Returns the position of a corner of the mesh's triangles on the sheets, after the motion of the second one.
     fn place(&self, corner: u32) -> Point {
         let part = self.sheets.body.parts[corner as usize / 3];
         let place = self.sheets.at[corner as usize];
@@ -231,7 +232,7 @@ impl<'a> SheetPair<'a> {
         }
     }
 
-    /// Positions of a seam's edge ends on both of its sides.
+    /// Lists the positions of the ends of a seam's edges, on both sides of the seam.
     fn nodes(&self, seam: usize) -> [Vec<Point>; 2] {
         let sides = &self.sheets.seams.all[seam].sides;
         let one = sides
@@ -246,7 +247,7 @@ impl<'a> SheetPair<'a> {
         ]
     }
 
-    /// Seam gap, root mean square; `None` if it is too large for the seam to be closed.
+    /// Computes the seam gap, root mean square; `None` if the gap is too large for the seam to be closed.
     fn fits(&self, seam: usize) -> Option<f64> {
         let Sheets {
             seams,

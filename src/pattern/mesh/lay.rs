@@ -11,20 +11,20 @@ use crate::unroll::arap_mesh::{ArapMesh, StoppingCriteria};
 use crate::unroll::flat_triangle::{FlatTriangle, Point};
 use crate::unroll::overlap::crossings;
 
-/// Triangles of a mesh, laid flat.
+/// A part of a mesh, laid flat: its triangles, and the positions of its vertices in the plane.
 #[derive(Debug, Clone)]
 pub(super) struct FlatPart {
-    /// Numbers of the triangles in the whole mesh.
+    /// Numbers of the laid triangles in the whole mesh.
     pub members: Vec<u32>,
     /// Vertices of the triangles; `twins` holds the opposite of each half-edge, or [`NO_INDEX`] where it is cut or
     /// at the border.
     pub triangles: Vec<[u32; 3]>,
     pub twins: Vec<u32>,
-    /// Number in the whole mesh of each vertex.
+    /// Number in the whole mesh of each vertex of the flat part.
     pub source: Vec<u32>,
     pub places: Vec<Point>,
     pub area: f64,
-    /// Strain: root of the mean square over the area.
+    /// Strain of the flat part: root of the mean square over the area.
     pub strain: f64,
     /// Number of the triangle with the largest strain for its size.
     pub worst: usize,
@@ -33,7 +33,7 @@ pub(super) struct FlatPart {
 /// Maximum share of a part's triangles that may be removed where its border crosses itself.
 const MAX_REMOVED_SHARE: f64 = 0.01;
 
-/// Initial positions of triangles.
+/// Initial flat positions of triangles, from which they are laid with the least strain.
 pub(super) enum Lying<'a> {
     /// Triangles are unfolded into the plane one after the other, over common edges.
     TurnedOver,
@@ -41,10 +41,10 @@ pub(super) enum Lying<'a> {
     At(&'a dyn Fn(u32) -> Point),
 }
 
-/// Number of relaxation steps before a relaxation may be abandoned.
+/// Number of solver iterations before the solver may give up a layout.
 const UNCONDITIONAL_STEPS: usize = 40;
 
-/// Number of relaxation steps after which trial cuts of a part are compared.
+/// Number of solver iterations after which layouts of trial cuts of a part are compared.
 pub(super) const TRIAL_STEPS: usize = 12;
 
 impl FlatPart {
@@ -107,7 +107,7 @@ impl FlatPart {
         Ok(laid)
     }
 
-    /// Relaxes this layout from its current positions to the least strain.
+    /// Moves the vertices from their current flat positions to those of the least strain.
     pub(super) fn relaxed(mut self, body: &Body, until: StoppingCriteria) -> Result<FlatPart> {
         let own = self.members.iter().map(|t| body.triangles[*t as usize]);
         let pieces: Vec<FlatTriangle> = own.map(|t| piece(body, t)).collect();
@@ -196,14 +196,14 @@ impl FlatPart {
         };
     }
 
-    /// Half-edges along the border.
+    /// Lists the half-edges along the border of the flat part.
     pub(super) fn border(&self) -> impl Iterator<Item = u32> + '_ {
         let all = (0..self.twins.len() as u32).zip(&self.twins);
         all.filter(|(_, twin)| **twin == NO_INDEX)
             .map(|(side, _)| side)
     }
 
-    /// Whether the border crosses itself, or triangles overlap.
+    /// Returns whether the flat part's border crosses itself, or triangles overlap.
     pub(super) fn overlaps(&self) -> bool {
         let border: Vec<[u32; 2]> = self
             .border()
@@ -250,7 +250,8 @@ impl FlatPart {
         }
     }
 
-    /// Unfolds triangles into the plane one after the other, and relaxes them.
+    /// Lays triangles flat: unfolds them into the plane one after the other, then moves their vertices to the least
+    /// strain.
     pub(super) fn whole(
         body: &Body,
         members: Vec<u32>,
@@ -262,7 +263,7 @@ impl FlatPart {
         FlatPart::new(body, members, twin_half_edges(&own), Lying::TurnedOver)?.relaxed(body, until)
     }
 
-    /// Removes some of the triangles.
+    /// Removes some of the triangles from the flat part.
     fn take_off(&mut self, off: &[usize]) {
         for t in off {
             for side in 3 * t..3 * t + 3 {

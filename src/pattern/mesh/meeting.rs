@@ -11,7 +11,7 @@ use crate::pattern::meeting::{
     ANGLE_RADIUS_SHARE, MAX_ANGLE_RADIUS_LENGTHS, MIN_ANGLE_RADIUS_LENGTHS,
 };
 
-/// The points of a mesh where cuts or folds end or meet, each under its vertex.
+/// The points of a mesh where cuts or folds end or meet, each with its vertex as the key.
 pub(super) struct Meetings {
     of: BTreeMap<u32, Meeting>,
 }
@@ -90,14 +90,14 @@ impl Meetings {
     }
 }
 
-/// The seams that are cut or folded, and whether they are cut.
+/// Lists the seams that are cut or folded, and whether each of them is cut.
 fn lines<'a>(seams: &'a Seams, whole: &'a [bool]) -> impl Iterator<Item = (&'a Seam, bool)> {
     let all = seams.all.iter().zip(whole);
     all.filter(|(seam, whole)| !(**whole && seam.smooth))
         .map(|(seam, whole)| (seam, !whole))
 }
 
-/// The vertices where a line ends; none for a closed line.
+/// Lists the vertices where a seam's line ends; none for a closed line.
 fn ends(vertices: &[u32]) -> Vec<u32> {
     let (first, last) = (vertices[0], vertices[vertices.len() - 1]);
     match first == last {

@@ -8,9 +8,9 @@ use crate::math::index::NO_INDEX;
 use crate::scene::half_edges::{half_edge_ends, twin_half_edges};
 use crate::shape::patches::chains::chains;
 
-/// A line between two parts.
+/// A seam: a line of edges between two parts of a mesh.
 pub(super) struct Seam {
-    /// Numbers of the two parts, the lower one first.
+    /// Numbers of the two parts at the seam, the lower one first.
     pub parts: [u32; 2],
     pub vertices: Vec<u32>,
     /// For each edge of the seam, in order, the half-edges on both sides.
@@ -110,7 +110,7 @@ impl Seams {
     }
 }
 
-/// Whether the triangles on both sides of an edge belong to one patch.
+/// Returns whether the triangles on both sides of an edge belong to one patch.
 fn is_one(body: &Body, pair: [u32; 2]) -> bool {
     let [a, b] = pair.map(|side| body.patches[side as usize / 3]);
     a == b
@@ -123,8 +123,8 @@ const MIN_PATCH_BEND_SHARE: f64 = 0.25;
 /// edges of a crease.
 const CREASE_WINDOW_EDGES: usize = 2;
 
-/// Divides a line of edges, given by their lengths and fold angles, into ranges that are a crease and ranges that
-/// are smooth.
+/// Divides a line of edges, given by their lengths and fold angles, into ranges where the line is a crease and
+/// ranges where the surface is smooth.
 fn stretches(folds: &[(f64, f64)], bend: f64) -> Vec<(Range<usize>, bool)> {
     let is_sharp = |k: usize| {
         let near =
@@ -144,14 +144,14 @@ fn stretches(folds: &[(f64, f64)], bend: f64) -> Vec<(Range<usize>, bool)> {
     found
 }
 
-/// Mean angle of edges, weighted by their length.
+/// Computes the mean fold angle of edges, weighted by the edges' lengths.
 fn mean(folds: &[(f64, f64)]) -> f64 {
     let long: f64 = folds.iter().map(|(long, _)| long).sum();
     let bent: f64 = folds.iter().map(|(long, angle)| long * angle).sum();
     if long > 0.0 { bent / long } else { 0.0 }
 }
 
-/// Length of an edge, and the angle between its triangles; positive for a ridge.
+/// Computes the length of an edge and the angle between its two triangles, in radians; positive for a ridge.
 fn fold(body: &Body, [one, other]: [u32; 2]) -> (f64, f64) {
     let normal = |side: u32| {
         let [a, b, c] = body.triangles[side as usize / 3].map(|v| body.places[v as usize]);

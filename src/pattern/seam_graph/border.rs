@@ -9,7 +9,7 @@ use crate::shape::patches::NO_PATCH;
 use crate::unroll::flat_triangle::Point;
 use rustc_hash::FxHashMap;
 
-/// Number of nodes from a seam's end over which its direction there is measured.
+/// Number of nodes at a seam's end over which the seam's direction there is measured.
 pub(in crate::pattern) const HEADING_NODES: usize = 6;
 
 fn is_vertex((p, q): &Node) -> bool {
@@ -148,7 +148,7 @@ impl SeamGraph {
     }
 }
 
-/// Whether an edge, which has a triangle on its left, has none on its right.
+/// Returns whether an edge, which has a triangle on its left, has none on its right and so lies on the border.
 fn is_open(surface: &Heightfield, mesh: &Triangulation, from: u32, to: u32) -> bool {
     let lattice = surface.lattice();
     let [from, to] = [from, to].map(|v| {

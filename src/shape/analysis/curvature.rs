@@ -28,7 +28,7 @@ pub struct Curvatures {
 }
 
 impl Curvatures {
-    /// The curvatures of a heightfield; costs `O(vertices)`.
+    /// Computes the curvatures of a heightfield; costs `O(vertices)`.
     ///
     /// # Errors
     /// [`Error::NoInterior`](crate::Error::NoInterior) if no vertex has all six neighbours,
@@ -63,7 +63,7 @@ impl Curvatures {
     }
 }
 
-/// Eigenvalues of a matrix, the one of larger magnitude first.
+/// Computes the eigenvalues of a symmetric 2×2 matrix, the one of larger magnitude first.
 pub(super) fn eigenvalues_by_magnitude(hessian: Sym2) -> [f64; 2] {
     let [high, low] = hessian.eigenvalues();
     if high.abs() >= low.abs() {
@@ -73,8 +73,8 @@ pub(super) fn eigenvalues_by_magnitude(hessian: Sym2) -> [f64; 2] {
     }
 }
 
-/// Discrete Gaussian curvature: the angle deficit over the lumped area, from the heights of the neighbours W, E, NW, NE, SW,
-/// SE above the vertex.
+/// Discrete Gaussian curvature: the angle deficit over the lumped area, from the heights of the neighbours W, E, NW,
+/// NE, SW, SE above the vertex.
 fn gaussian_curvature([w, e, nw, ne, sw, se]: [f64; 6], spacing: f64) -> f64 {
     // In units of the spacing, once around.
     let edges = [

@@ -30,12 +30,12 @@ pub struct MeshCurvatures {
     pub nuclear_norm: Vec<f64>,
     /// Principal direction of `κ₂`, a unit vector up to its sign: the direction of the ruling on a developable surface.
     pub rulings: Vec<[f64; 3]>,
-    /// Lumped areas; 0 on the border.
+    /// Area that belongs to each vertex: a third of the area of the triangles around it; 0 on the border.
     areas: Vec<f64>,
 }
 
 impl MeshCurvatures {
-    /// The curvatures of a mesh; costs `O(vertices)`. Vertices at one place have the same ones.
+    /// Computes the curvatures of a mesh; costs `O(vertices)`. Vertices at one place have equal curvatures.
     ///
     /// # Errors
     /// [`Error::Topology`](crate::Error::Topology) if it is no surface,
@@ -131,7 +131,7 @@ impl MeshCurvatures {
     }
 }
 
-/// Unit eigenvector of the eigenvalue of smaller magnitude.
+/// Computes the unit eigenvector of the eigenvalue of smaller magnitude.
 fn minor_eigenvector(bend: Sym2) -> [f64; 2] {
     let [xx, xy, yy] = bend.entries();
     // The direction of the higher eigenvalue is half the angle of (xx − yy, 2xy).
@@ -144,7 +144,8 @@ fn minor_eigenvector(bend: Sym2) -> [f64; 2] {
     }
 }
 
-/// Sum of the angles at each vertex, in radians, and its lumped area.
+/// Computes the sum of the angles at each vertex, in radians, and the vertex's area: a third of the area of the
+/// triangles around it.
 fn angles_and_areas(topology: &Topology, places: &[Vector3<f64>]) -> (Vec<f64>, Vec<f64>) {
     let (mut turns, mut areas) = (vec![0.0; places.len()], vec![0.0; places.len()]);
     for corners in &topology.triangles {

@@ -6,8 +6,8 @@ use crate::heights::heightfield::Heightfield;
 use crate::heights::normalization::Normalization;
 use crate::math::statistics::median;
 
-/// Default threshold of the Gaussian curvature, in coordinates scaled to the unit square, above which a vertex counts as
-/// curved in two directions: the curvature of a sphere whose radius is the longer side of the surface.
+/// Default threshold of the Gaussian curvature, in coordinates scaled to the unit square, above which a vertex counts
+/// as curved in two directions: the curvature of a sphere whose radius is the longer side of the surface.
 pub const DEFAULT_GAUSSIAN_THRESHOLD: f64 = 1.0;
 
 /// Statistics of a surface's curvatures, as in one row of the [paper](crate#references)'s Table 1.
@@ -36,9 +36,9 @@ pub struct Summary {
     pub median_kappa2: f64,
     /// Sum of `‖H‖_*` over the vertices: the energy without its fidelity term.
     pub nuclear_norm: f64,
-    /// Histogram of `|K|`.
+    /// Histogram of `|K|`, the magnitude of the Gaussian curvature.
     pub gaussian: Histogram,
-    /// Histogram of `|κ₂|`.
+    /// Histogram of `|κ₂|`, the magnitude of the smaller principal curvature.
     pub kappa2: Histogram,
 }
 
@@ -55,7 +55,7 @@ pub struct Histogram {
 }
 
 impl Summary {
-    /// Statistics of the curvatures of a heightfield. Costs `O(vertices)`.
+    /// Computes the statistics of a heightfield's curvatures. Costs `O(vertices)`.
     ///
     /// # Errors
     /// [`Error::Option`] unless the threshold is positive and finite, [`Error::Shape`] if the
@@ -78,7 +78,7 @@ impl Summary {
         }))
     }
 
-    /// Statistics of magnitudes of curvatures.
+    /// Computes the statistics of given magnitudes of curvatures.
     pub(super) fn from_magnitudes(measured: CurvatureMagnitudes) -> Self {
         let CurvatureMagnitudes {
             mut gaussian,
@@ -102,7 +102,8 @@ impl Summary {
     }
 }
 
-/// Magnitudes of curvatures in coordinates scaled to the unit square, and the fields of [`Summary`] that come with them.
+/// Magnitudes of curvatures in coordinates scaled to the unit square, and the fields of [`Summary`] that come with
+/// them.
 pub(super) struct CurvatureMagnitudes {
     pub gaussian: Vec<f64>,
     pub kappa2: Vec<f64>,
@@ -112,7 +113,7 @@ pub(super) struct CurvatureMagnitudes {
 }
 
 impl Histogram {
-    /// The histogram of magnitudes.
+    /// Counts magnitudes in the bins of a histogram.
     fn from_magnitudes(magnitudes: &[f64]) -> Self {
         /// Number of bins with two ends: half decades from 10⁻⁵ to 10⁶.
         const BOUNDED_BINS: i32 = 22;
@@ -129,7 +130,7 @@ impl Histogram {
     }
 }
 
-/// Deviation of a surface from another one on the same lattice, in their units, over the vertices
+/// Deviation of one surface from another on the same lattice, in the surfaces' unit of height, over the vertices
 /// where both have a height.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
@@ -144,7 +145,7 @@ pub struct Deviation {
 }
 
 impl Deviation {
-    /// The deviation between two surfaces; costs `O(vertices)`.
+    /// Measures how far two surfaces deviate from each other; costs `O(vertices)`.
     ///
     /// # Errors
     /// [`Error::Shape`] if their lattices have different shapes.

@@ -8,10 +8,10 @@ use crate::lattice::stencil::Quadratic;
 
 /// Bend angle and slope of a heightfield at each vertex of the lattice; NaN where a neighbour is missing.
 pub(super) struct BendAngles {
-    /// Angle, in radians, by which the surface bends over one spacing: the nuclear norm of the Hessian along the surface,
-    /// times the spacing.
+    /// Angle, in radians, by which the surface bends over one spacing: the nuclear norm of the Hessian along the
+    /// surface, times the spacing.
     pub angle: Vec<f64>,
-    /// Gradient of the best-fit quadratic.
+    /// Gradient of the quadratic that fits the heights around a vertex best, as slopes in x and y.
     pub gradient: Vec<[f64; 2]>,
 }
 
@@ -29,7 +29,7 @@ const CREASE_BEND_PER_MEDIAN: f64 = 6.0;
 const MIN_CREASE_BEND: f64 = 0.035;
 
 impl BendAngles {
-    /// The bend angles of a heightfield; costs `O(vertices)`.
+    /// Computes the bend angles of a heightfield; costs `O(vertices)`.
     ///
     /// # Errors
     /// [`Error::NoInterior`](crate::Error::NoInterior), [`Error::OutOfMemory`](crate::Error::OutOfMemory).
@@ -67,8 +67,8 @@ impl BendAngles {
         (CREASE_BEND_PER_MEDIAN * median).max(MIN_CREASE_BEND)
     }
 
-    /// Fold angle, in radians, of a crease at an edge of the lattice between two patches: between the normals some vertices
-    /// away from the edge on either side, or as far as the patches reach. None if there is no normal.
+    /// Fold angle, in radians, of a crease at an edge of the lattice between two patches: between the normals some
+    /// vertices away from the edge on either side, or as far as the patches reach. None if there is no normal.
     pub(super) fn fold_angle(
         &self,
         lattice: &Lattice,

@@ -2,16 +2,16 @@
 
 use std::collections::BTreeMap;
 
-/// A polyline of consecutive edges.
+/// A polyline of consecutive edges of a mesh or lattice.
 pub(crate) struct Chain {
-    /// Vertices along it; the last one is the first one if it is closed.
+    /// Vertices along the polyline; the last one is the first one if the polyline is closed.
     pub vertices: Vec<u32>,
-    /// Numbers of its edges in the list that was given.
+    /// Numbers of the polyline's edges in the list of edges that was given.
     pub edges: Vec<usize>,
 }
 
-/// Joins edges to polylines. These end at vertices with one edge or more than two, and at each vertex for which `end` is
-/// true. Costs `O(n log n)`.
+/// Joins edges to polylines. These end at vertices with one edge or more than two, and at each vertex for which `end`
+/// is true. Costs `O(n log n)`.
 pub(crate) fn chains(edges: &[[u32; 2]], end: impl Fn(u32) -> bool) -> Vec<Chain> {
     let mut at: BTreeMap<u32, Vec<usize>> = BTreeMap::new();
     for (number, ends) in edges.iter().enumerate() {

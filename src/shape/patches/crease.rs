@@ -17,7 +17,7 @@ pub struct Crease {
     pub patches: [u32; 2],
     /// Points along the crease, in the surface's units, smoothed. The crease is closed if the last point is the first.
     pub points: Vec<[f64; 3]>,
-    /// Length, in the surface's units.
+    /// Length of the crease, in the surface's units.
     pub length: f64,
     /// Fold angle, in radians: between the normals of the patches on either side, on average along the crease; 0 where
     /// the surface is smooth.
@@ -31,7 +31,8 @@ const SMOOTHING_PASSES: usize = 8;
 /// centre of a triangle between three patches, by its number and [`NO_INDEX`].
 pub(crate) type CreaseNode = (u32, u32);
 
-/// The patches on either side of each crease and the nodes along it, in the order of [`creases`].
+/// Finds the creases: returns the patches on either side of each crease and the nodes along it, in the order of
+/// [`creases`].
 pub(crate) fn crease_lines(
     mesh: &Triangulation,
     labels: &[u32],
@@ -76,7 +77,7 @@ pub(crate) fn crease_lines(
     out
 }
 
-/// The creases of a segmented heightfield.
+/// Finds the creases between the patches of a segmented heightfield.
 pub(super) fn creases(
     surface: &Heightfield,
     mesh: &Triangulation,
@@ -132,7 +133,7 @@ fn take_polyline(line: &mut BTreeMap<CreaseNode, Vec<CreaseNode>>) -> Option<Vec
     Some(nodes)
 }
 
-/// Position of a node: the midpoint of an edge, or the centre of a triangle.
+/// Computes the position of a crease's node: the midpoint of an edge, or the centre of a triangle.
 fn node_position(mesh: &Triangulation, (p, q): CreaseNode) -> [f64; 3] {
     let at = |v: u32| mesh.positions()[v as usize];
     if q == NO_INDEX {

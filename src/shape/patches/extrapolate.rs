@@ -14,15 +14,16 @@ const EXTRAPOLATION_RADIUS: usize = 3;
 /// Distance, in spacings, from the extrapolation of its own patch up to which a vertex stays in that patch.
 const MAX_OWN_DISTANCE: f64 = 0.02;
 
-/// Maximum number of passes of reassigning vertices at the border.
+/// Maximum number of passes in which vertices at the surface's border are reassigned to neighbouring patches.
 const MAX_REASSIGNMENT_PASSES: usize = 4;
 
-/// A vertex moves to another patch if its distance from that one's extrapolation is less than this share of the distance
-/// from its own patch's.
+/// Ratio of two distances below which a border vertex moves to another patch: its distance from that patch's
+/// extrapolation, over its distance from the extrapolation of its own patch.
 const MAX_OTHER_DISTANCE_SHARE: f64 = 0.5;
 
-/// Reassigns vertices at the border of the surface to the neighbouring patch whose extrapolation they lie nearest to. Bend
-/// angles, by which regions grow, are missing at the border, so that creases would end a cell or two beside their place.
+/// Reassigns vertices at the border of the surface to the neighbouring patch whose extrapolation they lie nearest to.
+/// Bend angles, by which regions grow, are missing at the border, so that creases would end a cell or two beside
+/// their place.
 pub(super) fn reassign_border_vertices(
     surface: &Heightfield,
     bend: &BendAngles,
@@ -70,8 +71,9 @@ pub(super) fn reassign_border_vertices(
     }
 }
 
-/// Extrapolated height of a patch at a vertex on or beside its border, from the least-squares quadratic of its other vertices
-/// nearby. Where they do not determine a quadratic, it is as plane and as level as they allow. NaN if there are none.
+/// Extrapolated height of a patch at a vertex on or beside its border, from the least-squares quadratic of its other
+/// vertices nearby. Where they do not determine a quadratic, it is as plane and as level as they allow. NaN if there
+/// are none.
 pub(crate) fn extrapolated_height(
     surface: &Heightfield,
     labels: &[u32],

@@ -15,8 +15,9 @@ const HYSTERESIS_LOW_RATIO: f64 = 0.4;
 /// Minimum number of vertices of a region between creases; smaller ones are part of the creases around them.
 const MIN_REGION_VERTICES: usize = 8;
 
-/// The region of each vertex of a heightfield, numbered from 0, [`NO_PATCH`] where there is no height; `high` is the
-/// higher threshold of the bend angle, in radians. Costs `O(n log n)` for `n` vertices.
+/// Divides a heightfield into regions between creases. Returns the number of each vertex's region, from 0,
+/// [`NO_PATCH`] where there is no height; `high` is the higher threshold of the bend angle, in radians. Costs `O(n
+/// log n)` for `n` vertices.
 ///
 /// # Errors
 /// [`Error::OutOfMemory`](crate::Error::OutOfMemory).
@@ -101,7 +102,8 @@ pub(super) fn segment(surface: &Heightfield, bend: &BendAngles, high: f64) -> Re
     Ok(labels)
 }
 
-/// Region growing: regions take the vertices beside them, those with the smallest bend angle first.
+/// Grows the regions over the vertices beside them that have no region yet, those with the smallest bend angle
+/// first.
 fn grow_regions<I: Iterator<Item = usize>>(
     len: usize,
     bend: &BendAngles,

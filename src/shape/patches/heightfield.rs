@@ -24,7 +24,7 @@ pub struct Patches {
 }
 
 impl Patches {
-    /// The patches of a heightfield; costs `O(n log n)` for `n` vertices.
+    /// Divides a heightfield into patches at its creases; costs `O(n log n)` for `n` vertices.
     ///
     /// # Errors
     /// [`Error::Option`](crate::Error::Option) for an angle that is not positive and finite or a
@@ -61,7 +61,8 @@ impl Patches {
         })
     }
 
-    /// Patches with other labels of the vertices, in the order of their areas, and the former number of each.
+    /// Creates patches from other labels of the vertices, numbered by their areas. Returns them and the former
+    /// number of each patch.
     ///
     /// # Errors
     /// Those of [`Patches::new`].
@@ -97,7 +98,8 @@ impl Patches {
         &self.labels
     }
 
-    /// Checks that patches belong to a surface: they are on its lattice, and a vertex has a patch where it has a height.
+    /// Checks that patches belong to a surface: they are on its lattice, and a vertex has a patch where it has a
+    /// height.
     ///
     /// # Errors
     /// [`Error::Shape`](crate::Error::Shape) or [`Error::Mismatch`](crate::Error::Mismatch).
@@ -128,7 +130,8 @@ impl Patches {
         &self.creases
     }
 
-    /// Bend angle above which a vertex counted as crease, in radians from one vertex to the next.
+    /// Returns the bend angle above which a vertex counted as part of a crease, in radians from one vertex to the
+    /// next.
     pub fn bend(&self) -> f64 {
         self.bend
     }

@@ -15,8 +15,9 @@ use crate::lattice::hexagonal::{Lattice, Towards};
 /// the surfaces whose patches it must find.
 const MIN_FOLD_PER_BEND: f64 = 2.0;
 
-/// Merges patches whose common border folds by less than `fold` radians on average, or hardly more than the patches bend,
-/// the flattest border first, until there is none; then patches of fewer than `min_vertices` with the neighbour across
+/// Merges patches whose common border folds by less than `fold` radians on average, or hardly more than the patches
+/// bend, the flattest border first, until there is none; then patches of fewer than `min_vertices` with the neighbour
+/// across
 /// their flattest border. Numbers the patches from 0 again.
 pub(super) fn merge_patches(
     lattice: &Lattice,
@@ -44,7 +45,7 @@ pub(super) fn merge_patches(
     }
 }
 
-/// Sum of angles, in radians, and their number.
+/// Sum of some angles, in radians, and the number of these angles.
 type AngleSum = (f64, f64);
 
 /// Region adjacency graph: which patches have a common border, and by which angles it folds.
@@ -62,7 +63,7 @@ struct AdjacencyGraph {
 }
 
 impl AdjacencyGraph {
-    /// The graph of a segmentation.
+    /// Builds the region adjacency graph of a segmentation.
     fn new(lattice: &Lattice, bend: &BendAngles, fold: f64, labels: &[u32]) -> Self {
         let patches = labels.iter().filter(|label| **label != NO_PATCH);
         let count = patches.max().map_or(0, |label| *label as usize + 1);
@@ -103,7 +104,7 @@ impl AdjacencyGraph {
         graph
     }
 
-    /// Merges patches across flat borders. Returns whether there were any.
+    /// Merges patches across borders that fold too little to be creases. Returns whether there were any.
     fn merge_flat(&mut self) -> bool {
         let mut queue = BinaryHeap::new();
         for (a, neighbours) in self.neighbours.iter().enumerate() {
@@ -129,7 +130,7 @@ impl AdjacencyGraph {
         merged
     }
 
-    /// Merges patches of fewer vertices with a neighbour.
+    /// Merges each patch of too few vertices with a neighbouring patch.
     fn merge_small(&mut self, min_vertices: f64) {
         let mut queue: BinaryHeap<_> = (self.sizes.iter().enumerate())
             .map(|(patch, size)| Reverse((*size, patch as u32)))
@@ -153,8 +154,8 @@ impl AdjacencyGraph {
         }
     }
 
-    /// Mean fold angle of a border over the minimum that makes it a crease, as the bits of a positive float, which have its
-    /// order.
+    /// Mean fold angle of a border over the minimum that makes it a crease, as the bits of a positive float, which
+    /// have its order.
     fn sharpness(&self, a: u32, b: u32, (sum, number): AngleSum) -> u64 {
         let bending = |patch: u32| {
             let (sum, number) = self.bends[patch as usize];
@@ -192,7 +193,7 @@ impl AdjacencyGraph {
         kept
     }
 
-    /// Applies the merges to labels.
+    /// Replaces the labels of merged patches by the number of the patch they were merged into.
     fn relabel(&self, labels: &mut [u32]) {
         for label in labels.iter_mut().filter(|label| **label != NO_PATCH) {
             while self.parents[*label as usize] != *label {

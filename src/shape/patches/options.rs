@@ -21,8 +21,8 @@ pub struct PatchOptions {
     /// Bend angle, in radians from one vertex to the next, above which a vertex belongs to a crease.
     /// `None`: six times the median of the surface, and at least 0.035 (two degrees).
     pub bend: Option<f64>,
-    /// Minimum fold angle of a crease, in radians, on average along it: patches that meet at a smaller angle are merged.
-    /// Default 0.15, about nine degrees.
+    /// Minimum fold angle of a crease, in radians, on average along it: patches that meet at a smaller angle are
+    /// merged. Default 0.15, about nine degrees.
     pub fold: f64,
     /// Minimum size of a patch, as a share of all vertices; smaller ones are merged with a neighbour. Default 0.005.
     pub smallest: f64,

@@ -1,6 +1,6 @@
 //! A patch, and the label of vertices and triangles without one.
 
-/// Label of vertices and triangles that belong to no patch, as those without a height.
+/// Label of a vertex or triangle that belongs to no patch, such as a vertex without a height.
 pub const NO_PATCH: u32 = u32::MAX;
 
 /// A patch: a region of a surface without a crease inside.
@@ -8,8 +8,9 @@ pub const NO_PATCH: u32 = u32::MAX;
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[non_exhaustive]
 pub struct Patch {
-    /// Number of its vertices.
+    /// Number of the patch's vertices.
     pub vertices: usize,
-    /// Area on the surface, in the surface's units squared. Each corner of a triangle counts a third of its area.
+    /// Area of the patch on the surface, in the surface's units squared. Each corner of a triangle counts a third
+    /// of the triangle's area.
     pub area: f64,
 }

@@ -2,14 +2,16 @@
 
 use crate::math::sym2::Sym2;
 
-/// Number of passes in which `H²` is averaged with the neighbours'. More would mix directions across narrow patches.
+/// Number of passes in which the squared Hessian `H²` at each vertex is averaged with those of its neighbours. More
+/// would mix ruling directions across narrow patches.
 pub(super) const SMOOTHING_PASSES: usize = 3;
 
-/// Bend angle, in radians from one vertex to the next, at which the confidence of a ruling is one half: limits how plane
-/// a surface with rulings may be. No table chose it.
+/// Bend angle, in radians from one vertex to the next, at which the confidence of a ruling is one half: limits how
+/// plane a surface with rulings may be. No table chose it.
 const HALF_CONFIDENCE_BEND: f64 = 5e-4;
 
-/// Confidence of a ruling's direction, from 0 to 1, by the eigenvalues of `Σ H²`, the larger one first.
+/// Computes the confidence of a ruling's direction, from 0 to 1, from the eigenvalues of `Σ H²`, the sum of squared
+/// Hessians around a vertex, the larger eigenvalue first.
 pub(super) fn direction_confidence(squares: [f64; 2], spacing: f64) -> f64 {
     let [large, small] = squares.map(|v| v.max(0.0).sqrt());
     let bend = large * spacing;
@@ -21,7 +23,7 @@ pub(super) fn direction_confidence(squares: [f64; 2], spacing: f64) -> f64 {
     share * bend / (bend + HALF_CONFIDENCE_BEND)
 }
 
-/// The unit eigenvector of the smaller eigenvalue, with `x ≥ 0`.
+/// Computes the unit eigenvector of the smaller eigenvalue, with `x ≥ 0`.
 pub(super) fn minor_axis(matrix: Sym2) -> [f64; 2] {
     let angle = 0.5 * matrix.off.atan2(matrix.diff) + std::f64::consts::FRAC_PI_2;
     let (sin, cos) = angle.sin_cos();

@@ -12,7 +12,7 @@ use crate::math::sym2::Sym2;
 #[derive(Debug, Clone, PartialEq)]
 pub struct Rulings {
     pub(super) surface: Heightfield,
-    /// Sum of `H²` over the neighbourhood of each vertex.
+    /// Sum of the squared Hessians `H²` over the neighbourhood of each vertex.
     pub(super) squares: Vec<Sym2>,
     pub(super) directions: Vec<[f64; 2]>,
     pub(super) confidence: Vec<f64>,
@@ -21,7 +21,7 @@ pub struct Rulings {
 }
 
 impl Rulings {
-    /// The rulings of a heightfield; costs `O(vertices)`.
+    /// Computes the ruling direction at each vertex of a heightfield; costs `O(vertices)`.
     ///
     /// # Errors
     /// [`Error::NoInterior`](crate::Error::NoInterior) if no vertex has all six neighbours,
@@ -99,7 +99,7 @@ impl Rulings {
     }
 }
 
-/// Gradient of the best-fit quadratic at a vertex that has all six neighbours.
+/// Computes the gradient of the best-fit quadratic at a vertex that has all six neighbours.
 fn slope(surface: &Heightfield, row: usize, col: usize) -> [f64; 2] {
     let lattice = surface.lattice();
     let ring = lattice

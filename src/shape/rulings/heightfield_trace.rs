@@ -8,7 +8,7 @@ use super::ruling::{MIN_LENGTH_SEPARATIONS, Ruling};
 use crate::error::Result;
 use crate::math::sym2::Sym2;
 
-/// Position and direction of a line, as seen from above.
+/// Position and direction of a ruling that is traced, as seen from above.
 type Step = ([f64; 2], [f64; 2]);
 
 impl Rulings {
@@ -17,8 +17,8 @@ impl Rulings {
     /// close to another one. (After Jobard and Lefer 1997.) Costs `O(n log n)` for `n` vertices.
     ///
     /// # Errors
-    /// [`Error::Option`](crate::Error::Option) unless separation and crease are positive and finite, and the confidence is
-    /// from 0 to 1.
+    /// [`Error::Option`](crate::Error::Option) unless separation and crease are positive and finite, and the
+    /// confidence is from 0 to 1.
     pub fn trace(&self, options: &TraceOptions) -> Result<Vec<Ruling>> {
         let lattice = self.surface.lattice();
         let separation = options.checked_separation(lattice.spacing())?;
@@ -112,7 +112,7 @@ impl Rulings {
         (confidence >= options.confidence).then_some(found)
     }
 
-    /// Height at a place, linear in each triangle of the lattice.
+    /// Interpolates the height at a place, linearly in each triangle of the lattice.
     fn height(&self, place: [f64; 2]) -> Option<f64> {
         let lattice = self.surface.lattice();
         let triangle = lattice.locate(place);

@@ -11,8 +11,8 @@ use crate::math::sym2::Sym2;
 use crate::scene::half_edges::twin_half_edges;
 use crate::scene::mesh::Mesh;
 
-/// Bend angle, in radians from one vertex to the next, above which a vertex is not averaged with neighbours that bend less:
-/// it lies on a crease.
+/// Bend angle, in radians from one vertex to the next, above which a vertex is not averaged with neighbours that bend
+/// less: it lies on a crease.
 const MAX_SMOOTHED_BEND: f64 = 0.2;
 
 /// The direction of the ruling at every vertex of a mesh of any shape.
@@ -40,8 +40,8 @@ const MAX_SMOOTHED_BEND: f64 = 0.2;
 /// ```
 #[derive(Debug, Clone)]
 pub struct MeshRulings {
-    /// Positions of the vertices, where those at one place are one. All other fields but `directions` and `confidence` are
-    /// by these vertices.
+    /// Positions of the vertices, where those at one place are one. All other fields but `directions` and
+    /// `confidence` are by these vertices.
     pub(super) places: Vec<Vector3<f64>>,
     pub(super) triangles: Vec<[u32; 3]>,
     pub(super) twins: Vec<u32>,
@@ -51,14 +51,14 @@ pub struct MeshRulings {
     pub(super) trust: Vec<f64>,
     /// Bend angle at each vertex, in radians over one edge; NaN where there is no second fundamental form.
     pub(super) bends: Vec<f64>,
-    /// Mean length of the edges.
+    /// Mean length of the mesh's edges.
     pub(super) spacing: f64,
     directions: Vec<[f64; 3]>,
     confidence: Vec<f64>,
 }
 
 impl MeshRulings {
-    /// The rulings of a mesh; costs `O(vertices)`.
+    /// Computes the ruling direction at each vertex of a mesh; costs `O(vertices)`.
     ///
     /// # Errors
     /// [`Error::Topology`](crate::Error::Topology) if it is no surface,

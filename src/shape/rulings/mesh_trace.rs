@@ -11,14 +11,16 @@ use crate::math::index::NO_INDEX;
 
 type Place = Vector3<f64>;
 
-/// Points of traced rulings with the normal there: a point on the other side of a thin body is no neighbour.
+/// Points of traced rulings, each with the surface's normal there: a point on the other side of a thin body does
+/// not count as near.
 type TracedPoints = PointHash<3, Place>;
 
 /// Minimum distance from a corner, as a share of the side, at which a line leaves a triangle, so that it never meets a
 /// vertex.
 const MIN_CORNER_DISTANCE_SHARE: f64 = 1e-6;
 
-/// State of a line that is traced: the triangle that it is in, the side by which it entered that, position and direction.
+/// State of a ruling that is traced: the triangle that it is in, the side by which it entered the triangle, its
+/// position and its direction.
 #[derive(Clone, Copy)]
 struct Step {
     triangle: usize,
@@ -128,7 +130,7 @@ impl MeshRulings {
         }
     }
 
-    /// Side and position at which a straight line leaves a triangle.
+    /// Finds the side and the position at which a straight line leaves a triangle.
     fn exit(&self, step: &Step, towards: Place) -> Option<(usize, Place)> {
         let corners = self.corners(step.triangle);
         let normal = self.normal(step.triangle);
@@ -153,8 +155,8 @@ impl MeshRulings {
         best.map(|(_, side, place)| (side, place))
     }
 
-    /// Direction of the ruling at a place in a triangle, with the sign that is closer to a given direction; None where a
-    /// ruling ends.
+    /// Direction of the ruling at a place in a triangle, with the sign that is closer to a given direction; None
+    /// where a ruling ends.
     fn direction_at(
         &self,
         triangle: usize,

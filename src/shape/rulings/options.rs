@@ -44,7 +44,7 @@ impl Default for TraceOptions {
 }
 
 impl TraceOptions {
-    /// These options with another distance between rulings.
+    /// Returns these options with another distance between rulings, in the surface's units.
     pub fn separation(self, separation: f64) -> Self {
         TraceOptions {
             separation: Some(separation),
@@ -62,7 +62,7 @@ impl TraceOptions {
         TraceOptions { crease, ..self }
     }
 
-    /// The distance between rulings for a given distance between vertices, after a check of all options.
+    /// Checks all options, and returns the distance between rulings for a given distance between vertices.
     pub(super) fn checked_separation(&self, spacing: f64) -> Result<f64> {
         positive("crease", self.crease)?;
         if !(0.0..=1.0).contains(&self.confidence) {

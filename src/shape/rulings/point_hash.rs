@@ -2,9 +2,9 @@
 
 use std::collections::HashMap;
 
-/// A spatial hash of points in `N` dimensions, each with an attribute.
+/// A spatial hash (points sorted into cubic cells) of points in `N` dimensions, each with an attribute.
 pub(super) struct PointHash<const N: usize, T> {
-    /// Side of a cell.
+    /// Side of the cells into which space is divided, in the points' unit.
     pub cell_size: f64,
     cells: HashMap<[i64; N], Vec<([f64; N], T)>>,
 }

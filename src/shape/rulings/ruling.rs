@@ -5,13 +5,13 @@
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[non_exhaustive]
 pub struct Ruling {
-    /// Points along the ruling on the surface: about one for each spacing of a lattice, one for each edge of a mesh that it
-    /// crosses.
+    /// Points along the ruling on the surface: about one for each spacing of a lattice, one for each edge of a mesh
+    /// that it crosses.
     pub points: Vec<[f64; 3]>,
     /// Distance between the ruling's ends, in the surface's units.
     pub length: f64,
-    /// Deviation from a straight line: the largest distance of a point from the line through the
-    /// ends, over the length.
+    /// Deviation of the ruling from a straight line: the largest distance of a point from the line through the
+    /// ends, divided by the ruling's length.
     pub deviation: f64,
 }
 
@@ -19,7 +19,7 @@ pub struct Ruling {
 pub(super) const MIN_LENGTH_SEPARATIONS: f64 = 1.0;
 
 impl Ruling {
-    /// A ruling through points; None if its ends coincide.
+    /// Creates a ruling from the points along it; `None` if its ends coincide.
     pub(super) fn new(points: Vec<[f64; 3]>) -> Option<Self> {
         let (first, last) = (*points.first()?, *points.last()?);
         let difference = |a: [f64; 3], b: [f64; 3]| [a[0] - b[0], a[1] - b[1], a[2] - b[2]];

@@ -20,10 +20,11 @@ use crate::files::images::decoded::Decoded;
 use crate::files::images::format::Format;
 use crate::heights::heightfield::HeightImage;
 
-/// Largest ratio of the size of the image in memory to that of its file: more than any of the format's compressions reaches.
+/// Largest ratio of the size of the image in memory to that of its file: more than any of the format's compressions
+/// reaches.
 const MAX_COMPRESSION_RATIO: usize = 4096;
 
-/// Name of the attribute for the pixel size, which files of this library have in addition.
+/// Name of the OpenEXR attribute with the pixel size, which only files written by this library have.
 const PIXEL_SIZE: &str = "developable:pixelSize";
 
 pub(super) fn decode(bytes: &[u8]) -> Result<Decoded> {
@@ -129,13 +130,13 @@ pub(super) fn decode(bytes: &[u8]) -> Result<Decoded> {
     })
 }
 
-/// Channels of a layer that are read, by their indices in its list.
+/// Channels of an OpenEXR layer that are read, by their indices in the layer's list of channels.
 struct Chosen {
     heights: Vec<usize>,
     alpha: Option<usize>,
 }
 
-/// The first layer with heights in it.
+/// Finds the first layer of an OpenEXR file that holds heights.
 fn choose(layers: &[Header]) -> Result<(usize, &Header, Chosen)> {
     let flat = || layers.iter().enumerate().filter(|(_, header)| !header.deep);
     let found = flat().find_map(|(i, header)| {

@@ -14,15 +14,15 @@ use crate::files::images::decoded::Decoded;
 use crate::files::images::format::Format;
 use crate::files::images::photo::PhotoFile;
 
-/// Largest number of samples that one byte can stand for: an even block of 64 takes a few bits, and in a
-/// progressive file a run of such blocks does.
+/// Maximum number of pixel samples that one byte of a JPEG file can stand for: an even block of 64 takes a few
+/// bits, and in a progressive file a run of such blocks does.
 const MAX_SAMPLES_PER_BYTE: usize = 4096;
 
-/// Marker that ends a file.
-const END_MARKER: [u8; 2] = [0xff, 0xd9];
+/// Marker that ends a JPEG file.
+const JPEG_END_MARKER: [u8; 2] = [0xff, 0xd9];
 
-/// Second byte of the marker that image data follow.
-const SCAN_MARKER: u8 = 0xda;
+/// Second byte of the JPEG marker that image data follow.
+const JPEG_SCAN_MARKER: u8 = 0xda;
 
 pub(super) fn decode(bytes: &[u8]) -> Result<Decoded> {
     let mut file = Opened::new(bytes)?;
@@ -68,14 +68,14 @@ pub(super) fn decode_photo(bytes: &[u8]) -> Result<PhotoFile> {
     })
 }
 
-/// A file whose headers have been read.
+/// A JPEG file whose headers have been read.
 struct Opened<'a> {
     decoder: JpegDecoder<ZCursor<&'a [u8]>>,
     options: DecoderOptions,
     size: (usize, usize),
-    /// Number of pixels.
+    /// Number of pixels of the picture.
     len: usize,
-    /// Colour space of the stored samples, and their number per pixel.
+    /// Colour space of the stored samples, and number of samples per pixel.
     stored: (ColorSpace, usize),
 }
 
@@ -149,8 +149,8 @@ fn orientation(exif: &Exif) -> u16 {
     }
 }
 
-/// Focal length as for 35 mm film, unless the photo's size in the Exif data has other proportions: programs
-/// that crop a photo keep the data of its camera.
+/// Reads the focal length for 35 mm film from Exif data; `None` if the photo's size in the Exif data has other
+/// proportions than the photo: programs that crop a photo keep the data of its camera.
 fn film35(exif: &Exif, (width, height): (usize, usize)) -> Option<f64> {
     let length = number(exif, Tag::FocalLengthIn35mmFilm).filter(|length| *length > 0)?;
     let stated = [Tag::PixelXDimension, Tag::PixelYDimension].map(|tag| number(exif, tag));
@@ -168,7 +168,7 @@ fn number(exif: &Exif, tag: Tag) -> Option<u32> {
     exif.get_field(tag, In::PRIMARY)?.value.get_uint(0)
 }
 
-/// Whether the file has the marker of the image's end, outside of the pictures within its metadata.
+/// Returns whether a JPEG file has the marker of the image's end, outside of the pictures within its metadata.
 fn ends(bytes: &[u8]) -> bool {
     let mut rest = &bytes[2..];
     while let [0xff, marker, high, low, ..] = *rest {
@@ -177,9 +177,9 @@ fn ends(bytes: &[u8]) -> bool {
             return false;
         };
         rest = next;
-        if marker == SCAN_MARKER {
+        if marker == JPEG_SCAN_MARKER {
             break;
         }
     }
-    rest.windows(2).any(|pair| pair == END_MARKER)
+    rest.windows(2).any(|pair| pair == JPEG_END_MARKER)
 }

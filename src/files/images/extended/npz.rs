@@ -15,29 +15,28 @@ use crate::files::images::npy;
 /// Maximum ratio by which DEFLATE can shrink data.
 const DEFLATE_RATIO: usize = 1032;
 
-/// Maximum size of an NPY file that is read, in bytes: 64-bit numbers, and a header.
-const MAX_BYTES: usize = 8 * MAX_CELLS + 16_384;
+/// Maximum size of an NPY file that is read from an archive, in bytes: 64-bit numbers, and a header.
+const MAX_NPY_BYTES: usize = 8 * MAX_CELLS + 16_384;
 
-/// Number of bytes of an array that are read to know its shape.
+/// Number of bytes that are read of an NPY file in the archive to know the array's shape.
 const MAX_HEADER_BYTES: u64 = 16_384;
 
-/// Maximum number of arrays of an archive.
+/// Maximum number of arrays of an NPZ archive.
 const MAX_ARRAYS: usize = 1024;
 
 /// One array of an NPZ file.
 #[derive(Debug, Clone, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct NpzArray {
-    /// Its name, without `.npy`.
+    /// Name of the array, without `.npy`.
     pub name: String,
-    /// Its extents; a height image has two, rows and columns.
+    /// Extents of the array; a height image has two, rows and columns.
     pub shape: Vec<u64>,
-    /// The type of its elements: `"f32"` and the like, or NumPy's own name for
-    /// what is no number.
+    /// Type of the array's elements: `"f32"` and the like, or NumPy's own name for elements that are not numbers.
     pub data_type: String,
 }
 
-/// The arrays of an NPZ file, in the order of the file.
+/// Lists the arrays of an NPZ file, in the order of the file.
 ///
 /// # Errors
 /// [`Error::Format`] for a damaged file, [`Error::Unsupported`] for arrays
@@ -88,7 +87,7 @@ pub fn decode_npz(bytes: &[u8], array: Option<&str>) -> Result<Decoded> {
     };
     let entry = archive.by_name(&member(name)).map_err(failed)?;
     let size = usize::try_from(entry.size()).unwrap_or(usize::MAX);
-    if size > MAX_BYTES {
+    if size > MAX_NPY_BYTES {
         return Err(Error::TooLarge {
             what: "NPZ array",
             requested: size / 8,
@@ -136,7 +135,7 @@ fn listed(names: &[String]) -> String {
     quoted.join(", ")
 }
 
-/// An error about one array of the archive.
+/// Adds the name of an array of the archive to an error about the array.
 fn within(name: &str, mut error: Error) -> Error {
     if let Error::Format { format, reason } | Error::Unsupported { format, reason } = &mut error {
         *format = Format::Npz.title();

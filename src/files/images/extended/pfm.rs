@@ -6,8 +6,8 @@ use crate::error::{Error, Result, checked_cells};
 use crate::files::images::decoded::Decoded;
 use crate::files::images::format::Format;
 
-/// Maximum length of a number in a header, in bytes.
-const MAX_WORD: usize = 32;
+/// Maximum length of a number in the header of a PFM file, in bytes.
+const MAX_NUMBER_BYTES: usize = 32;
 
 pub(super) fn decode(bytes: &[u8]) -> Result<Decoded> {
     let colours = if bytes.starts_with(b"PF") { 3 } else { 1 };
@@ -16,7 +16,7 @@ pub(super) fn decode(bytes: &[u8]) -> Result<Decoded> {
         let start = rest.trim_ascii_start();
         let length = start
             .iter()
-            .take(MAX_WORD + 1)
+            .take(MAX_NUMBER_BYTES + 1)
             .position(u8::is_ascii_whitespace)
             .ok_or_else(|| damaged(Format::Pfm, "its header is cut short"))?;
         // One byte of white space ends the header: what follows may look like more of it.

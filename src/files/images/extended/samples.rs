@@ -6,8 +6,8 @@ use crate::files::images::format::Format;
 use crate::heights::heightfield::HeightImage;
 use crate::math::lanes;
 
-/// Red, green, blue and alpha of each pixel from its 8-bit samples, which are grey or colours, with or without
-/// alpha.
+/// Converts 8-bit samples, which are grey or colours with or without alpha, to red, green, blue and alpha of each
+/// pixel.
 pub(super) fn rgba_of(format: Format, samples: &[u8], stride: usize) -> Result<Vec<[u8; 4]>> {
     let mut rgba = try_filled(format.title(), samples.len() / stride, [u8::MAX; 4])?;
     for (out, pixel) in rgba.iter_mut().zip(samples.chunks_exact(stride)) {
@@ -25,7 +25,7 @@ pub(super) struct Channels {
     pub(super) alpha: Option<usize>,
 }
 
-/// Grey values from the samples `sample(pixel, channel)`. An alpha of 0 is no data.
+/// Reads grey values from the samples `sample(pixel, channel)` of an image; an alpha of 0 is no data.
 pub(super) fn grey(
     format: Format,
     (width, height): (usize, usize),
@@ -47,7 +47,8 @@ pub(super) fn grey(
     Ok(values)
 }
 
-/// Checks that a number of bytes, shrunk by at most `ratio`, can come from so short a file.
+/// Checks that decoded data of a given number of bytes can come from a file of the given length, if compression
+/// shrinks data by at most `ratio`.
 pub(super) fn check_length(format: Format, file: &[u8], needed: usize, ratio: usize) -> Result<()> {
     if needed / ratio <= file.len() {
         return Ok(());
@@ -58,13 +59,14 @@ pub(super) fn check_length(format: Format, file: &[u8], needed: usize, ratio: us
     ))
 }
 
-/// The largest value less the smallest that a type of integers can have; floats have none.
+/// Computes the difference between the largest and the smallest value of an integer type, given by its name; `None`
+/// for floats.
 fn integer_range(data_type: &str) -> Option<f64> {
     let bits = data_type.strip_prefix(['u', 'i'])?;
     Some(bits.parse::<i32>().ok()?).map(|bits| 2f64.powi(bits) - 1.0)
 }
 
-/// The scale that heights of this type have where the file records none.
+/// Returns the height scale for pixel values of a given type where the file records none.
 pub(super) fn default_scale(
     (width, height): (usize, usize),
     pixel_size: f64,
@@ -75,7 +77,7 @@ pub(super) fn default_scale(
     })
 }
 
-/// The picture of 8-bit samples, with `colours` samples of colour and perhaps one of alpha per pixel.
+/// Converts 8-bit samples, `colours` of colour and perhaps one of alpha per pixel, to a picture.
 pub(super) fn picture(
     format: Format,
     size: (usize, usize),
@@ -101,7 +103,7 @@ pub(super) fn picture(
     })
 }
 
-/// The heights in 32 bits, which is all that EXR and most readers of TIFF support.
+/// Converts heights to 32-bit floats, which is all that EXR and most readers of TIFF support.
 pub(super) fn narrowed(what: &'static str, image: &HeightImage) -> Result<Vec<f32>> {
     let mut heights = try_filled(what, image.values().len(), 0f32)?;
     for (i, (narrow, z)) in heights.iter_mut().zip(image.values()).enumerate() {
@@ -120,7 +122,7 @@ pub(super) fn narrowed(what: &'static str, image: &HeightImage) -> Result<Vec<f3
     Ok(heights)
 }
 
-/// An empty file with memory for a number of bytes, or the error that there is not enough.
+/// Reserves memory for a file of a number of bytes; an error if there is not enough memory.
 pub(super) fn room(what: &'static str, bytes: usize) -> Result<Vec<u8>> {
     let mut file = Vec::new();
     file.try_reserve_exact(bytes)

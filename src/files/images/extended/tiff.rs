@@ -17,16 +17,17 @@ use crate::files::images::decoded::Decoded;
 use crate::files::images::format::Format;
 use crate::heights::heightfield::HeightImage;
 
-/// Largest ratio of the size of the image in memory to that of its file: more than any of the format's compressions reaches.
+/// Largest ratio of the size of the image in memory to that of its file: more than any of the format's compressions
+/// reaches.
 const MAX_COMPRESSION_RATIO: usize = 4096;
 
 /// Maximum memory that the decoder itself may allocate, in bytes: a compressed strip, and the values of a tag.
-const DECODER_BYTES: usize = 1 << 28;
+const MAX_DECODER_BYTES: usize = 1 << 28;
 
 pub(super) fn decode(bytes: &[u8]) -> Result<Decoded> {
     let mut limits = Limits::default();
-    limits.decoding_buffer_size = DECODER_BYTES;
-    limits.intermediate_buffer_size = DECODER_BYTES;
+    limits.decoding_buffer_size = MAX_DECODER_BYTES;
+    limits.intermediate_buffer_size = MAX_DECODER_BYTES;
     let mut file = Decoder::new(Cursor::new(bytes))
         .map_err(failed)?
         .with_limits(limits);
@@ -87,7 +88,7 @@ pub(super) fn decode(bytes: &[u8]) -> Result<Decoded> {
     })
 }
 
-/// Number of samples per pixel, bits per sample, and their meaning.
+/// Reads from a TIFF file the number of samples per pixel, the bits per sample, and what the samples mean.
 fn channels(file: &mut File, color: ColorType) -> Result<(usize, usize, Channels)> {
     let plain = |colours, alpha| Channels { colours, alpha };
     let (samples, bits, channels) = match color {

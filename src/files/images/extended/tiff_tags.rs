@@ -21,12 +21,12 @@ const INCH_MM: f64 = 25.4;
 const CENTIMETRE_MM: f64 = 10.0;
 
 /// Value of the tag `ResolutionUnit` for no unit.
-const NO_UNIT: u16 = 1;
+const RESOLUTION_UNIT_NONE: u16 = 1;
 const PER_INCH: u16 = 2;
 const PER_CENTIMETRE: u16 = 3;
 
 /// Number of the GeoTIFF key `GTModelTypeGeoKey`.
-const MODEL_TYPE: u16 = 1024;
+const MODEL_TYPE_KEY: u16 = 1024;
 
 /// Value of the GeoTIFF key `GTModelTypeGeoKey` for degrees of longitude and latitude.
 const MODEL_TYPE_GEOGRAPHIC: u16 = 2;
@@ -42,7 +42,7 @@ pub(super) struct About {
     pub(super) pixel_size: f64,
     pub(super) unit: Option<Unit>,
     pub(super) no_data: Option<f64>,
-    /// Orientation from 1 to 8, as the tag numbers them.
+    /// Orientation of the image, from 1 to 8, as the TIFF tag `Orientation` numbers it.
     pub(super) orientation: u16,
 }
 
@@ -71,7 +71,7 @@ pub(super) fn read(file: &mut File, data_type: &str) -> Result<About> {
     })
 }
 
-/// Whether the only extra sample is an alpha.
+/// Returns whether the pixels of a TIFF file have exactly one extra sample and this is an alpha.
 pub(super) fn has_alpha(file: &mut File) -> Result<bool> {
     Ok(matches!(unsigned(file, Tag::ExtraSamples)?, Some(1 | 2)))
 }
@@ -92,7 +92,7 @@ fn pixel_size(file: &mut File) -> Result<(f64, Option<Unit>)> {
     };
     let per = match unsigned(file, Tag::ResolutionUnit)?.unwrap_or(PER_INCH) {
         // Without a unit, resolutions state the proportions of a pixel only.
-        NO_UNIT => return square(1.0 / x, 1.0 / y).map(|_| (1.0, None)),
+        RESOLUTION_UNIT_NONE => return square(1.0 / x, 1.0 / y).map(|_| (1.0, None)),
         PER_INCH => INCH_MM,
         PER_CENTIMETRE => CENTIMETRE_MM,
         other => {
@@ -105,7 +105,7 @@ fn pixel_size(file: &mut File) -> Result<(f64, Option<Unit>)> {
     Ok((square(per / x, per / y)?, Some(Unit::Millimetre)))
 }
 
-/// Side length of pixels of this width and height, which must be equal.
+/// Returns the side length of pixels whose width and height must be equal, from that width and height.
 fn square(x: f64, y: f64) -> Result<f64> {
     if !(x.is_finite() && x > 0.0 && y.is_finite() && y > 0.0) {
         return Err(damaged(
@@ -122,7 +122,8 @@ fn square(x: f64, y: f64) -> Result<f64> {
     Ok(x)
 }
 
-/// Number of pixels per unit of length; 0 is written by programs that do not know it, and counts as none.
+/// Reads the number of pixels per unit of length; programs that do not know it write 0, which counts as no
+/// resolution.
 fn resolution(file: &mut File, tag: Tag) -> Result<Option<f64>> {
     let Some(value) = file.find_tag(tag).map_err(failed)? else {
         return Ok(None);
@@ -147,7 +148,7 @@ fn geographic_unit(file: &mut File) -> Result<Option<Unit>> {
             .find(|entry| entry[0] == wanted && entry[1] == 0)
             .map(|entry| entry[3])
     };
-    if key(MODEL_TYPE) == Some(MODEL_TYPE_GEOGRAPHIC) {
+    if key(MODEL_TYPE_KEY) == Some(MODEL_TYPE_GEOGRAPHIC) {
         return Err(unsupported(
             Format::Tiff,
             "its pixels are degrees of longitude and latitude, which are no lengths: project it \
@@ -180,7 +181,7 @@ fn unsigned(file: &mut File, tag: Tag) -> Result<Option<u16>> {
     file.find_tag_unsigned(tag).map_err(failed)
 }
 
-/// The image rotated as it is to be seen, with its width and height.
+/// Rotates an image as it is to be seen, and returns it with its new width and height.
 pub(super) fn oriented<T: Copy + Default>(
     values: Vec<T>,
     (width, height): (usize, usize),

@@ -11,7 +11,7 @@ use crate::files::images::format::Format;
 use crate::files::images::photo::PhotoFile;
 
 /// Maximum memory that the decoder may allocate for metadata, in bytes.
-const DECODER_BYTES: usize = 1 << 24;
+const MAX_DECODER_BYTES: usize = 1 << 24;
 
 pub(super) fn decode(bytes: &[u8]) -> Result<Decoded> {
     let (samples, stride, size) = pixels(bytes)?;
@@ -26,7 +26,7 @@ pub(super) fn decode_photo(bytes: &[u8]) -> Result<PhotoFile> {
     ))
 }
 
-/// The samples, their number per pixel, and width and height.
+/// Decodes a WebP file: returns its samples, their number per pixel, and width and height.
 fn pixels(bytes: &[u8]) -> Result<(Vec<u8>, usize, (usize, usize))> {
     // The decoder fills in missing data at the end; the header has the length.
     let length = bytes.get(4..8).map_or(0, |length| {
@@ -36,7 +36,7 @@ fn pixels(bytes: &[u8]) -> Result<(Vec<u8>, usize, (usize, usize))> {
         return Err(damaged(Format::WebP, "it is cut short"));
     }
     let mut decoder = WebPDecoder::new(Cursor::new(bytes)).map_err(failed)?;
-    decoder.set_memory_limit(DECODER_BYTES);
+    decoder.set_memory_limit(MAX_DECODER_BYTES);
     if decoder.is_animated() {
         return Err(unsupported(
             Format::WebP,

@@ -13,7 +13,7 @@ use crate::files::meshes::builder::{damaged, unsupported};
 /// Name of the format in messages.
 pub(super) const FORMAT_NAME: &str = "glTF";
 
-/// Bytes within a `data:` address.
+/// Decodes the bytes that are embedded in a `data:` address of a glTF file.
 pub(super) fn embedded(uri: &str) -> Result<Option<Vec<u8>>> {
     let Some(data) = uri.strip_prefix("data:") else {
         return Ok(None);
@@ -27,7 +27,7 @@ pub(super) fn embedded(uri: &str) -> Result<Option<Vec<u8>>> {
     Ok(Some(bytes))
 }
 
-/// A name without percent-encoded blanks.
+/// Decodes percent-encoded characters, such as blanks, in the name of a file.
 pub(super) fn plain(uri: &str) -> String {
     let mut bytes = Vec::with_capacity(uri.len());
     let mut rest = uri.as_bytes();
@@ -48,7 +48,8 @@ pub(super) fn plain(uri: &str) -> String {
     String::from_utf8_lossy(&bytes).into_owned()
 }
 
-/// The first `N` components of each element; integers as shares of their maximum.
+/// Reads the first `N` components of each element of a glTF accessor as floats; integers as shares of their
+/// maximum.
 pub(super) fn floats<const N: usize>(
     accessor: &Accessor,
     buffers: &[Cow<[u8]>],
@@ -100,7 +101,7 @@ fn count(dimensions: Dimensions) -> usize {
     }
 }
 
-/// The bytes of each element.
+/// Returns the bytes of each element of a glTF accessor.
 fn elements<'a>(
     accessor: &Accessor,
     buffers: &'a [Cow<'a, [u8]>],

@@ -96,14 +96,14 @@ fn elsewhere(uri: &str) -> Error {
     unsupported(FORMAT_NAME, reason)
 }
 
-/// A document with the bytes of its buffers.
+/// A glTF document with the bytes of its buffers.
 struct Scene<'a> {
     document: &'a Document,
     buffers: &'a [Cow<'a, [u8]>],
     beside: &'a Beside<'a>,
 }
 
-/// Name of a file, empty for an embedded one, and its bytes.
+/// Name of a picture's file, empty for an embedded picture, and the file's bytes.
 type Named<'a> = (&'a str, Cow<'a, [u8]>);
 
 /// Appearance of a primitive where its vertices do not state it: a colour, the number of a texture, and the
@@ -115,7 +115,7 @@ struct Look {
 }
 
 impl Scene<'_> {
-    /// Visits every node of the scene, with the transforms of those above it.
+    /// Visits every node of the glTF scene, with the product of the transforms of all nodes above it.
     fn visit(&self, parts: &mut MeshBuilder) -> Result<()> {
         let document = self.document;
         let Some(scene) = document

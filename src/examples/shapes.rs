@@ -30,7 +30,7 @@ impl Shape {
                 height: oloid,
             },
             Example::Page => Shape {
-                extent: [1.04 * A4_WIDTH / PAGE_IMAGE_HEIGHT, 1.0],
+                extent: [1.04 * A4_WIDTH / EXAMPLE_PAGE_IMAGE_HEIGHT_RATIO, 1.0],
                 height: page,
             },
             Example::House => Shape {
@@ -159,14 +159,14 @@ fn unit_oloid(x: f64, y: f64) -> f64 {
 /// Width of an A4 sheet of height 1.
 const A4_WIDTH: f64 = 210.0 / 297.0;
 
-/// Height of the example page's image, in heights of the sheet.
-const PAGE_IMAGE_HEIGHT: f64 = 1.04;
+/// Height of the height image of the example "page", as a multiple of the paper's height: the rest is the margin around it.
+const EXAMPLE_PAGE_IMAGE_HEIGHT_RATIO: f64 = 1.04;
 
 fn page(x: f64, y: f64) -> f64 {
     unit_page(
-        x * PAGE_IMAGE_HEIGHT + 0.5 * A4_WIDTH,
-        y * PAGE_IMAGE_HEIGHT + 0.5,
-    ) / PAGE_IMAGE_HEIGHT
+        x * EXAMPLE_PAGE_IMAGE_HEIGHT_RATIO + 0.5 * A4_WIDTH,
+        y * EXAMPLE_PAGE_IMAGE_HEIGHT_RATIO + 0.5,
+    ) / EXAMPLE_PAGE_IMAGE_HEIGHT_RATIO
 }
 
 /// Height of a sheet `[0, A4_WIDTH] × [0, 1]` that is flat up to a slanting line and rolled onto a cylinder beyond it,

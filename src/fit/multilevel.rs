@@ -129,8 +129,8 @@ impl Multilevel {
         Ok(self.reason)
     }
 
-    /// Continues after ADMM has stopped on a level for a reason: with the next finer level, which is set up in steps of
-    /// its own, or on the finest level with further passes.
+    /// Continues after ADMM has stopped on a level, with `reason` as its stop reason: sets up the next finer level, or on the
+    /// finest level begins the next reweighting or crease pass, if there is one.
     fn finish_level(&mut self, mut reason: StopReason) -> Result<()> {
         if let Some(fine) = self.finer.last() {
             let rho = refined_rho(self.level.admm.iterate.rho, fine);

@@ -40,7 +40,8 @@ impl Totals {
     }
 }
 
-/// Adds the work on one component's multigrid levels to that of the other components on lattices of the same spacing.
+/// Adds the counts of vertices and iterations of one component's levels, `part`, to those in `levels` for lattices of the
+/// same spacing.
 pub(super) fn add_levels(levels: &mut Vec<LevelReport>, part: &[LevelReport]) {
     let missing = part.len().saturating_sub(levels.len());
     levels.splice(0..0, part[..missing].iter().copied());

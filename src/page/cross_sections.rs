@@ -36,7 +36,7 @@ struct CrossSection {
 #[derive(Debug, Clone, Default)]
 pub(super) struct CrossSections {
     list: Vec<CrossSection>,
-    /// Number of lines of text, traced and detected.
+    /// Number of lines of text: those that the caller traced and those that were detected, together.
     pub text: usize,
 }
 

@@ -48,7 +48,7 @@ pub struct Ruler {
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 #[non_exhaustive]
 pub struct PageOptions {
-    /// The camera's focal length. Default: unknown.
+    /// The camera's focal length, in pixels, as a field of view or in millimetres of 35 mm film. Default: unknown.
     pub focal_length: FocalLength,
     /// The page's format; of a spread that of each of its pages. Default: unknown.
     pub format: Format,

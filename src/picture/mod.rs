@@ -46,8 +46,8 @@ pub enum Style {
         /// Direction towards the light, of any length: x to the right, y up, z towards the viewer and positive.
         light: [f64; 3],
     },
-    /// The curvature of the surface, from blue (negative) over white (0) to red (positive); grey next to the
-    /// border, where it is not defined.
+    /// A curvature that is zero on developable surfaces, [`Curvature::Gaussian`] or [`Curvature::Kappa2`]: from blue
+    /// (negative) over white (0) to red (positive), and grey next to the border, where it is not defined.
     Curvature {
         /// Curvature that is shown: Gaussian, or the smaller eigenvalue of the Hessian.
         kind: Curvature,

@@ -19,10 +19,10 @@ const MAX_DECODER_BYTES: usize = 1 << 28;
 /// Maximum ratio by which DEFLATE can shrink data.
 const DEFLATE_RATIO: usize = 1032;
 
-/// Keyword of the text chunk for the height of one grey level, in files of this library: `height = HEIGHT_SCALE
-/// · level + HEIGHT_OFFSET`.
-const HEIGHT_SCALE: &str = "developable:heightScale";
-const HEIGHT_OFFSET: &str = "developable:heightOffset";
+/// Keyword of the PNG text chunk in which this library writes the height of one grey level: `height = scale · level +
+/// offset`.
+const HEIGHT_SCALE_KEYWORD: &str = "developable:heightScale";
+const HEIGHT_OFFSET_KEYWORD: &str = "developable:heightOffset";
 const PIXEL_SIZE: &str = "developable:pixelSize";
 const NO_DATA: &str = "developable:noData";
 
@@ -157,9 +157,9 @@ impl Recorded {
         let mut recorded = Recorded::default();
         for chunk in chunks {
             let (place, positive) = match chunk.keyword.as_str() {
-                HEIGHT_SCALE => (&mut recorded.scale, true),
+                HEIGHT_SCALE_KEYWORD => (&mut recorded.scale, true),
                 PIXEL_SIZE => (&mut recorded.pixel_size, true),
-                HEIGHT_OFFSET => (&mut recorded.offset, false),
+                HEIGHT_OFFSET_KEYWORD => (&mut recorded.offset, false),
                 NO_DATA => (&mut recorded.no_data, false),
                 _ => continue,
             };
@@ -223,8 +223,8 @@ fn write(
     encoder.set_color(ColorType::Grayscale);
     encoder.set_depth(BitDepth::Sixteen);
     for (keyword, value) in [
-        (HEIGHT_SCALE, scale),
-        (HEIGHT_OFFSET, offset),
+        (HEIGHT_SCALE_KEYWORD, scale),
+        (HEIGHT_OFFSET_KEYWORD, offset),
         (PIXEL_SIZE, image.pixel_size()),
         (NO_DATA, 0.0),
     ] {

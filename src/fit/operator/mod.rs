@@ -49,7 +49,8 @@ pub(crate) trait Operator: Clone + Debug + 'static {
     fn area(&self, _stencil: usize) -> f64 {
         1.0
     }
-    /// Factor by which ADMM's ρ is multiplied at a stencil: its weight in `‖Cz − H‖²` besides its area.
+    /// Factor by which ADMM's penalty parameter ρ is multiplied at a stencil. With the stencil's area it is the weight of
+    /// its term in `‖Cz − H‖²`, the squared distance of the Hessians `Cz` of the heights `z` from ADMM's matrices `H`.
     #[inline(always)]
     fn rho_share(&self, _stencil: usize) -> f64 {
         1.0
@@ -99,19 +100,20 @@ pub(crate) trait Operator: Clone + Debug + 'static {
     fn spread(&self, values: &mut [f64]);
 }
 
-/// The Hessians of one run of stencils.
+/// Read access to the Hessians (symmetric 2×2 matrices of second differences of the heights) at consecutive stencils, each
+/// of which is a vertex with its six neighbours.
 pub(crate) trait Hessians<T> {
     /// Returns the `i`-th Hessian of the run, by the coordinates of [`Sym2`].
     fn at(&self, i: usize) -> [T; 3];
 }
 
-/// The matrices `Y` of one run of stencils, to be written.
+/// Write access to the dual matrices `Y` (symmetric, 2×2) at consecutive stencils.
 pub(crate) trait Matrices<T> {
     /// Writes the `i`-th matrix of the run, by the coordinates of [`Sym2`].
     fn set(&mut self, i: usize, matrix: [T; 3]);
 }
 
-/// The values of `CᵀY` at one run of vertices.
+/// Read access to the values of `CᵀY`, the adjoint of the Hessian operator applied to the dual, at consecutive vertices.
 pub(crate) trait Sums<T> {
     /// Returns the value at the `i`-th vertex of the run.
     fn at(&self, i: usize) -> T;

@@ -90,7 +90,7 @@ impl Meetings {
     }
 }
 
-/// Lists the seams that are cut or folded, and whether each of them is cut.
+/// Iterates over the seams that are cut or folded: yields each seam with a flag that is true if it is cut.
 fn lines<'a>(seams: &'a Seams, whole: &'a [bool]) -> impl Iterator<Item = (&'a Seam, bool)> {
     let all = seams.all.iter().zip(whole);
     all.filter(|(seam, whole)| !(**whole && seam.smooth))

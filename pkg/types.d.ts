@@ -1061,7 +1061,7 @@ export interface PageReport {
   /** Expected displacement on the flat page (root mean square after the best similarity), in % of a page's width. */
   error: number;
   /** The same, not exceeded in 95 of 100 cases, if the page is curled one way and the lens does not distort. */
-  errorBound: number;
+  pinholeErrorBound: number;
   /** In pixels of the photo, and its standard deviation in %. */
   focalLength: number;
   focalDeviation: number;

@@ -83,9 +83,9 @@ export function pageVerdict({ verdict, lines }) {
  * How far the flat page is to be trusted.
  * @param {PageReport} report
  */
-export function pageErrors({ verdict, error, errorBound, lines, linesFound }) {
+export function pageErrors({ verdict, error, pinholeErrorBound, lines, linesFound }) {
   const text = lines + linesFound > 0 ? ' and lines of text' : '';
-  const likely = `wrong by about ${percent(error / 100)} of its width, and in 95 of 100 cases by less than ${percent(errorBound / 100)}`;
+  const likely = `wrong by about ${percent(error / 100)} of its width, and, if the lens does not distort, in 95 of 100 cases by less than ${percent(pinholeErrorBound / 100)}`;
   switch (verdict) {
     case 'flat': return `If it has no such folds and the edges are traced well, places on it are ${likely}.`;
     case 'unrolled': return `If the edges are traced well, places on it are ${likely}.`;

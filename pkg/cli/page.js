@@ -59,9 +59,9 @@ const MIN_TOLD_DISAGREEMENT = 0.005;
 const MAX_TRUSTED_ERROR = 1;
 
 /** @param {import('../types.js').PageReport} report */
-function words({ verdict, error, errorBound, disagreement, residual, lines, linesFound }) {
+function words({ verdict, error, pinholeErrorBound, disagreement, residual, lines, linesFound }) {
   const text = lines + linesFound > 0 ? ' and lines of text' : '';
-  const likely = `${percent(error / 100, 2)} of its width (at most ${percent(errorBound / 100, 2)} in 95 of 100 cases, if the lens does not distort)`;
+  const likely = `${percent(error / 100, 2)} of its width (at most ${percent(pinholeErrorBound / 100, 2)} in 95 of 100 cases, if the lens does not distort)`;
   // Where both edges agree on the whole, single points are off.
   const off = disagreement < MIN_TOLD_DISAGREEMENT ? `by ${residual.toFixed(1)} pixels` : `by ${percent(disagreement / 100, 2)} of its width`;
   switch (verdict) {

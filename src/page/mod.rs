@@ -27,7 +27,7 @@
 //! let options = PageOptions::default().focal_length(FocalLength::Pixels(2700.0));
 //! let page = CurledPage::new(&[edges], [3200, 2400], &options)?;
 //! assert_eq!(page.report().verdict, PageVerdict::Unrolled);
-//! assert!(page.report().error_bound < 0.3); // % of the page's width
+//! assert!(page.report().pinhole_error_bound < 0.3); // % of the page's width
 //! // The curve is longer than its chord, so the page is lower than it looks: 1400 by 2400.
 //! let [width, height] = page.flat_size();
 //! assert!(width == 1.0 && height < 0.58);

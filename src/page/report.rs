@@ -69,7 +69,7 @@ pub struct PageReport {
     pub error: f64,
     /// Displacement that is not exceeded in 95 of 100 cases if the page is curled in one direction and the lens does
     /// not distort (phones correct it), in % of a page's width.
-    pub error_bound: f64,
+    pub pinhole_error_bound: f64,
     /// Focal length of the camera, in pixels of the photo.
     pub focal_length: f64,
     /// Standard deviation of the focal length, in %.
@@ -268,7 +268,7 @@ pub(super) fn report(
         verdict: findings.verdict(),
         model: PageModel::Cylinder,
         error: 100.0 * estimate.expected,
-        error_bound: 100.0 * estimate.bound,
+        pinhole_error_bound: 100.0 * estimate.bound,
         focal_length: cylinder.focal,
         focal_deviation: 100.0 * estimate.focal,
         tilt: cylinder.axes.column(1).z.abs().min(1.0).acos().to_degrees(),

@@ -57,7 +57,7 @@ test('a curled page is flat, in millimetres', async () => {
   assert.deepEqual([flat.width, flat.height, flat.unit, flat.resolution], [210, 297, 'mm', 1]);
   assert.equal(flat.verdict, 'unrolled');
   assert.equal(flat.report.verdict, 'unrolled');
-  assert.ok(flat.report.error > 0 && flat.report.error < 0.5 && flat.report.errorBound < 1, JSON.stringify(flat.report));
+  assert.ok(flat.report.error > 0 && flat.report.error < 0.5 && flat.report.pinholeErrorBound < 1, JSON.stringify(flat.report));
   assert.ok(flat.size.every((side, k) => Math.abs(side - [210, 297][k]) < 0.5), String(flat.size));
   for (const [col, row] of [[0, 0], [209, 0], [70, 200], [105, 296]]) {
     const [x, y] = seen((col + 0.5) / 210, (row + 0.5) / 297);
@@ -175,7 +175,7 @@ test('the command', async () => {
   const at = map.length - 8 * 210 * 297;
   assert.ok(Math.hypot(map.readFloatLE(at) - x, map.readFloatLE(at + 4) - y) < 0.1);
   const report = JSON.parse(await readFile(join(folder, 'report.json'), 'utf8'));
-  assert.ok(report.verdict === 'unrolled' && report.unit === 'mm' && report.error < report.errorBound, JSON.stringify(report));
+  assert.ok(report.verdict === 'unrolled' && report.unit === 'mm' && report.error < report.pinholeErrorBound, JSON.stringify(report));
 
   assert.deepEqual(await command('dewarp photo.png --edges edges.json --fov 67.4 --page 210x297 -o page.png'), silent);
 

@@ -109,11 +109,11 @@ function sizeOf({ size: [wide, high], unit }) {
  * @returns {[string, string][]}
  */
 function factsOf(flat, scale) {
-  const { verdict, error, errorBound, focalLength, focalDeviation, tilt, bend, disagreement, residual, lines, linesFound } = flat.report;
+  const { verdict, error, pinholeErrorBound, focalLength, focalDeviation, tilt, bend, disagreement, residual, lines, linesFound } = flat.report;
   const wrong = verdict === 'notThisKind';
   return [
     ['Likely error', wrong ? '–' : `${percent(error / 100)} of the width`],
-    ['In 95 of 100 cases below', wrong ? '–' : percent(errorBound / 100)],
+    ['In 95 of 100 cases below, if the lens does not distort', wrong ? '–' : percent(pinholeErrorBound / 100)],
     ['Edges disagree by', `${percent(disagreement / 100)} of the width`],
     ...(lines + linesFound === 0 ? [] : [/** @type {[string, string]} */ (['Lines of text', linesFacts(flat.report)])]),
     ['Points off the edges', `${number(residual / scale, 2)} pixels`],

@@ -339,7 +339,7 @@ fn report(found: &FoundSheet, view: &PhotoView, focal_deviation: f64) -> PageRep
         verdict,
         model: found.model,
         error,
-        error_bound: ERROR_BOUND_RATIO * error,
+        pinhole_error_bound: ERROR_BOUND_RATIO * error,
         focal_length: focal,
         focal_deviation: 100.0 * focal_deviation,
         tilt: mean.z.abs().min(1.0).acos().to_degrees(),

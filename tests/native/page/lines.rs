@@ -90,7 +90,7 @@ fn curled_pages_are_as_accurate_with_lines_of_text_and_the_estimate_says_so() {
                 );
                 assert!(error < 0.3, "{error} {report:?}");
                 assert_eq!(report.lines, lines);
-                within += usize::from(error < report.error_bound);
+                within += usize::from(error < report.pinhole_error_bound);
                 *sum += error * error;
             }
         }

@@ -92,7 +92,7 @@ fn curled_pages_are_flat_to_three_thousandths_of_their_width_and_the_estimate_sa
             );
             assert!(!page.is_millimetres());
             count += 1;
-            within += usize::from(error <= report.error_bound);
+            within += usize::from(error <= report.pinhole_error_bound);
             ratios.push(error / report.error);
         }
     }
@@ -136,7 +136,8 @@ fn the_bound_holds_for_errors_that_wander_and_for_few_points() {
             for turn in [arc, s_curve, book] {
                 let scene = view(turn, VIEWS[1 + seed % 2]);
                 let page = found(&scene, hand, 100 + seed as u128, &known(&scene)).unwrap();
-                within += usize::from(displacement(&page, &scene) <= page.report().error_bound);
+                within +=
+                    usize::from(displacement(&page, &scene) <= page.report().pinhole_error_bound);
                 count += 1;
             }
         }
@@ -158,7 +159,7 @@ fn the_focal_length_is_found_from_a_tilt_of_15_degrees_on_and_asked_for_where_it
         let above = view(turn, [430.0, 0.0, 0.0, 0.0]);
         match found(&above, HAND, 3, &PageOptions::default()) {
             Err(error) => assert_eq!(error.code(), "FOCAL_LENGTH"),
-            Ok(page) => assert!(displacement(&page, &above) < page.report().error_bound),
+            Ok(page) => assert!(displacement(&page, &above) < page.report().pinhole_error_bound),
         }
     }
     // Flat and seen from above, any focal length gives the same.
@@ -604,7 +605,7 @@ fn no_edges_make_it_panic() {
             let options = PageOptions::default().focal_length(focal);
             if let Ok(page) = CurledPage::new(&edges, [1000, 1000], &options) {
                 let report = page.report();
-                assert!(report.error.is_finite() && report.error_bound >= report.error);
+                assert!(report.error.is_finite() && report.pinhole_error_bound >= report.error);
                 assert!(
                     page.flat_size()
                         .iter()

@@ -1,4 +1,4 @@
-//! The outlines and folds of a sheet as smooth curves in millimetres, before the sheet is placed in the drawing.
+//! The outlines and folds of one sheet as smooth curves in millimetres, before the sheet is placed in the drawing.
 
 use super::curve::Curve;
 use super::line::Line;

@@ -12,15 +12,15 @@ use crate::drawing::beside;
 use crate::error::{Error, Result, positive};
 use crate::pattern::Sheet;
 
-/// Duration of one step of the assembly, in seconds.
+/// Duration of one step of the assembly animation, in seconds.
 const STEP_SECONDS: f64 = 1.5;
 
-/// Duration of the pause between two steps of the assembly animation, in seconds.
+/// Pause between two steps of the assembly animation, in seconds.
 const STEP_PAUSE_SECONDS: f64 = 0.5;
 
-/// Writes a GLB file of the assembly: sheets that lie flat beside the surface move to their places one after the
-/// other, in the assembly's order, and bend as they move. It is in metres, `scale` being the millimetres of a unit,
-/// with +y up, as viewers expect. The animation is called `Assembly`; at its end the surface is built.
+/// Writes a GLB file of the assembly: sheets that lie flat beside the surface move to their places one after the other,
+/// in the assembly's order, and bend as they move. The file is in metres, with +y up, as viewers expect; `scale` is the
+/// number of millimetres in a unit of the surface. The animation is called `Assembly`; at its end the surface is built.
 ///
 /// Halfway a sheet's shape and size are between those at both ends, because morph targets are linear.
 ///
@@ -74,8 +74,8 @@ fn in_millimetres(sheets: &[Sheet], scale: f64) -> Vec<Vec<Vec<[f64; 2]>>> {
     sheets.iter().map(lines).collect()
 }
 
-/// Position of the flat sheets before they move: to the left of the surface, at the height of the surface's lowest
-/// point.
+/// Place of the flat sheets before they move, in the surface's units: to the left of the surface, at the height of the
+/// surface's lowest point.
 struct Ground {
     corner: [f64; 2],
     height: f64,
@@ -95,7 +95,8 @@ impl Ground {
     }
 }
 
-/// A sheet relative to its centre, and the positions of the centre before and after the sheet moves.
+/// The motion of a sheet in the assembly animation: the sheet's centre on the flat sheet, and the poses before and
+/// after the motion.
 struct Moved {
     middle: [f64; 2],
     start: Pose,
@@ -125,7 +126,8 @@ impl Moved {
     }
 }
 
-/// A GLB file that is being written: its binary part, and the lists of its text part (JSON).
+/// A GLB file of an animation that is being written: the bytes of its binary part, and the lists of its text part
+/// (JSON).
 #[derive(Default)]
 struct File {
     bin: Vec<u8>,

@@ -1,4 +1,4 @@
-//! One channel of OpenEXR images, by the `exr` crate.
+//! Reads heights from one channel of OpenEXR images and writes them, by the `exr` crate.
 
 use std::io::Cursor;
 
@@ -20,8 +20,8 @@ use crate::files::images::decoded::Decoded;
 use crate::files::images::format::Format;
 use crate::heights::heightfield::HeightImage;
 
-/// Largest ratio of the size of the image in memory to that of its file: more than any of the format's compressions
-/// reaches.
+/// Maximum ratio of the size of an OpenEXR image in memory to that of its file: more than any of the format's
+/// compressions reaches.
 const MAX_COMPRESSION_RATIO: usize = 4096;
 
 /// Name of the OpenEXR attribute with the pixel size, which only files written by this library have.
@@ -130,13 +130,15 @@ pub(super) fn decode(bytes: &[u8]) -> Result<Decoded> {
     })
 }
 
-/// Channels of an OpenEXR layer that are read, by their indices in the layer's list of channels.
+/// Channels of an OpenEXR layer from which heights and alpha are read, by their indices in the layer's list of
+/// channels.
 struct Chosen {
     heights: Vec<usize>,
     alpha: Option<usize>,
 }
 
-/// Finds the first layer of an OpenEXR file that holds heights.
+/// Finds the first layer of an OpenEXR file that holds heights; returns its number, its header and the channels to
+/// read.
 fn choose(layers: &[Header]) -> Result<(usize, &Header, Chosen)> {
     let flat = || layers.iter().enumerate().filter(|(_, header)| !header.deep);
     let found = flat().find_map(|(i, header)| {
@@ -224,12 +226,10 @@ fn failed(error: ExrError) -> Error {
     }
 }
 
-/// An EXR file of the image's heights: one channel `Z` of 32-bit floats, NaN
-/// where there is no data, compressed without loss. Exact for heights that are
-/// 32-bit floats; others are rounded to the nearest one.
+/// Writes a height image as an OpenEXR file: one channel `Z` of 32-bit floats, NaN where there is no data, compressed
+/// without loss. Exact for heights that are 32-bit floats; others are rounded to the nearest one.
 ///
-/// An attribute records the pixel size, so that
-/// [`decode`](crate::files::images::decode) gives it back.
+/// An attribute of the file records the pixel size, so that [`decode`](crate::files::images::decode) gives it back.
 ///
 /// # Errors
 /// [`Error::NotFinite`] for heights beyond 3.4·10³⁸, [`Error::OutOfMemory`].

@@ -1,4 +1,4 @@
-//! JPEG pictures, decoded by the `zune-jpeg` crate, and their orientation, read by `kamadak-exif`.
+//! Decodes JPEG pictures by the `zune-jpeg` crate, and reads their orientation by `kamadak-exif`.
 
 use exif::{Exif, In, Tag};
 use zune_core::bytestream::ZCursor;
@@ -18,7 +18,7 @@ use crate::files::images::photo::PhotoFile;
 /// bits, and in a progressive file a run of such blocks does.
 const MAX_SAMPLES_PER_BYTE: usize = 4096;
 
-/// Marker that ends a JPEG file.
+/// Bytes of the marker that ends a JPEG file.
 const JPEG_END_MARKER: [u8; 2] = [0xff, 0xd9];
 
 /// Second byte of the JPEG marker that image data follow.
@@ -75,7 +75,7 @@ struct Opened<'a> {
     size: (usize, usize),
     /// Number of pixels of the picture.
     len: usize,
-    /// Colour space of the stored samples, and number of samples per pixel.
+    /// Colour space of the samples stored in the JPEG file, and number of samples per pixel.
     stored: (ColorSpace, usize),
 }
 
@@ -130,7 +130,7 @@ impl<'a> Opened<'a> {
         exif::Reader::new().read_raw(exif.to_vec()).ok()
     }
 
-    /// Orientation of the camera, as TIFF numbers it, from 1 to 8; 1 without Exif data.
+    /// Reads how the camera was held, as TIFF's orientation number from 1 (upright) to 8; 1 without Exif data.
     fn orientation(&self) -> u16 {
         self.exif().as_ref().map_or(1, orientation)
     }
@@ -140,8 +140,8 @@ fn failed(error: DecodeErrors) -> Error {
     damaged(Format::Jpeg, format!("{error:?}"))
 }
 
-/// Orientation of the camera, as TIFF numbers it, from 1 to 8. An invalid number counts as 1, since damaged metadata
-/// need not mean a damaged picture.
+/// Reads how the camera was held from Exif data, as TIFF's orientation number from 1 (upright) to 8. An invalid number
+/// counts as 1, since damaged metadata need not mean a damaged picture.
 fn orientation(exif: &Exif) -> u16 {
     match number(exif, Tag::Orientation) {
         Some(number @ 1..=8) => number as u16,

@@ -103,11 +103,11 @@ struct Scene<'a> {
     beside: &'a Beside<'a>,
 }
 
-/// Name of a picture's file, empty for an embedded picture, and the file's bytes.
+/// A texture picture: the name of its file, empty for an embedded picture, and the file's bytes.
 type Named<'a> = (&'a str, Cow<'a, [u8]>);
 
-/// Appearance of a primitive where its vertices do not state it: a colour, the number of a texture, and the
-/// texture coordinates for that.
+/// Appearance of a primitive (triangles of one material) by its material: a base colour, the number of a texture, and
+/// which set of texture coordinates that texture uses.
 struct Look {
     color: [f32; 3],
     texture: i32,
@@ -148,7 +148,7 @@ impl Scene<'_> {
         Ok(())
     }
 
-    /// Base colour and texture of a primitive's material; each texture is read once.
+    /// Reads the base colour and the texture of a primitive's material; each texture is read once.
     fn look(
         &self,
         primitive: &Primitive,
@@ -193,7 +193,7 @@ impl Scene<'_> {
         Ok(look)
     }
 
-    /// Bytes of an image and the name of their file, if it is there.
+    /// Returns the bytes of a glTF image and the name of the image's file; `None` if the file was not given.
     fn picture(&self, image: &Image) -> Result<Option<Named<'_>>> {
         if let Some(uri) = &image.uri {
             return match embedded(uri)? {

@@ -1,4 +1,4 @@
-//! Creases of a heightfield: their courses, lengths and fold angles.
+//! Finds the creases of a heightfield: their courses, lengths and fold angles.
 
 use std::collections::BTreeMap;
 
@@ -24,7 +24,7 @@ pub struct Crease {
     pub fold: f64,
 }
 
-/// Number of smoothing passes of a crease: enough to remove the lattice's zigzag.
+/// Number of smoothing passes of a crease's polyline: enough to remove the zigzag of the lattice's edges.
 const SMOOTHING_PASSES: usize = 8;
 
 /// A node of a crease: the midpoint of an edge between two patches, by its two vertices, the lower number first; or the
@@ -77,7 +77,7 @@ pub(crate) fn crease_lines(
     out
 }
 
-/// Finds the creases between the patches of a segmented heightfield.
+/// Finds the creases between the patches of a heightfield that is divided into patches.
 pub(super) fn creases(
     surface: &Heightfield,
     mesh: &Triangulation,

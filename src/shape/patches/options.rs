@@ -39,7 +39,8 @@ impl Default for PatchOptions {
 }
 
 impl PatchOptions {
-    /// These options with another bend angle of a crease, in radians.
+    /// Sets the bend angle above which a vertex belongs to a crease, in radians from one vertex to the next, and
+    /// returns the options.
     pub fn bend(self, bend: f64) -> Self {
         PatchOptions {
             bend: Some(bend),
@@ -47,12 +48,12 @@ impl PatchOptions {
         }
     }
 
-    /// These options with another minimum fold angle, in radians.
+    /// Sets the minimum fold angle of a crease, in radians, and returns the options.
     pub fn fold(self, fold: f64) -> Self {
         PatchOptions { fold, ..self }
     }
 
-    /// These options with another minimum size of a patch, as a share of all vertices.
+    /// Sets the minimum size of a patch, as a share of all vertices, and returns the options.
     pub fn smallest(self, smallest: f64) -> Self {
         PatchOptions { smallest, ..self }
     }

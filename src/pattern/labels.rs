@@ -21,15 +21,15 @@ impl Labels {
         }
     }
 
-    /// Whether two parts are the same or were cut from one patch, so that the surface is smooth across their common
-    /// border.
+    /// Returns whether two parts are the same part or were cut from one patch, so that the surface is smooth across
+    /// their common border.
     pub(super) fn are_one(&self, a: u32, b: u32) -> bool {
         let origin = |part: u32| self.origins.get(part as usize);
         a == b || (origin(a).is_some() && origin(a) == origin(b))
     }
 }
 
-/// Connected components of some vertices of a lattice; two neighbours are connected where `joined` is true.
+/// Finds the connected components of some vertices of a lattice; two neighbours are connected where `joined` is true.
 pub(super) fn connected_groups(
     lattice: &Lattice,
     vertices: impl Iterator<Item = usize>,

@@ -10,8 +10,8 @@ use crate::shape::patches::Patches;
 pub struct Pattern {
     /// The sheets; the first is the one with the largest patch.
     pub sheets: Vec<Sheet>,
-    /// The patches of the sheets and the creases between them. If a patch was cut, these are the parts it was cut
-    /// into, and its cuts are among the creases; otherwise they are the patches that were given.
+    /// The patches of the sheets and the creases between them. A patch that was cut is replaced by the parts it was cut
+    /// into, and its cuts are among the creases.
     pub patches: Patches,
     /// Vertices, area and steps of the surface that are on no sheet.
     pub missing: Missing,
@@ -29,12 +29,12 @@ pub struct Missing {
     /// Number of vertices that were left out because they do not lie flat together with any neighbouring part,
     /// mostly at ragged steep borders and torn tips; at most a fiftieth of all.
     pub vertices: usize,
-    /// Area around the vertices that were left out.
+    /// Area around the vertices that were left out, in the surface's units squared.
     pub area: f64,
-    /// Number of steps of the surface. The surface is cut at a step, and the steep wall between its two sides is on
-    /// no sheet.
+    /// Number of steps of the surface, which are edges where it jumps in height. The surface is cut at a step, and the
+    /// steep wall between its two sides is on no sheet.
     pub steps: usize,
-    /// Approximate area of the walls at steps: their lengths times their heights.
+    /// Approximate area of the walls at steps, in the surface's units squared: their lengths times their heights.
     pub step_area: f64,
 }
 
@@ -42,7 +42,7 @@ pub struct Missing {
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub struct Sheet {
-    /// Numbers of the sheet's patches, ascending.
+    /// Numbers of the patches that the sheet consists of, ascending.
     pub patches: Vec<u32>,
     /// Outlines of the sheet: closed lines, the longest first, each divided into runs that begin where the run
     /// before ends. The sheet is to the left, so outlines of holes run clockwise.
@@ -60,7 +60,7 @@ pub struct Sheet {
     pub faces: Faces,
     /// Spacing of the lattice, or mean edge length of the mesh: the resolution of the sheet's outlines and folds.
     pub spacing: f64,
-    /// Area of the surface that the sheet is made of.
+    /// Area of the surface that the sheet covers, in the surface's units squared.
     pub area: f64,
     /// Strain of the sheet, root mean square over its area; 0 for a sheet that is exactly developable.
     pub strain: f64,
@@ -80,11 +80,11 @@ pub struct Sheet {
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[non_exhaustive]
 pub struct Refolding {
-    /// Root mean square of the distances.
+    /// Root mean square distance of the refolded sheet's vertices from the surface, in the surface's units.
     pub rms: f64,
-    /// Largest of the distances.
+    /// Largest distance of a refolded sheet's vertex from the surface, in the surface's units.
     pub maximum: f64,
-    /// Strain that is left in the folded sheet: root of its mean square over the area.
+    /// Strain that is left in the folded sheet: root mean square over the area.
     pub strain: f64,
 }
 
@@ -96,9 +96,10 @@ pub struct Run {
     pub seam: Option<Seam>,
     /// Number of the patch whose side of the crease the run follows; `None` along the border.
     pub patch: Option<u32>,
-    /// Points inside of the surface where the run begins and ends; `None` at the border.
+    /// Points inside of the surface where cuts or folds meet and the run begins and ends; `None` at the border.
     pub ends: [Option<Meeting>; 2],
-    /// At least two points; the first one is repeated at the end where the run is a whole outline.
+    /// Polyline of the run on the flat sheet: at least two points; the first one is repeated at the end where the run
+    /// is a whole outline.
     pub points: Vec<[f64; 2]>,
 }
 
@@ -106,11 +107,12 @@ pub struct Run {
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub struct Fold {
-    /// The crease that is folded.
+    /// The crease along which the sheet is folded.
     pub seam: Seam,
-    /// Points inside of the surface where the fold begins and ends; `None` at the border.
+    /// Points inside of the surface where cuts or folds meet and the fold begins and ends; `None` at the border.
     pub ends: [Option<Meeting>; 2],
-    /// At least two points; the first one is repeated at the end where the fold is closed.
+    /// Polyline of the fold on the flat sheet: at least two points; the first one is repeated at the end where the fold
+    /// is closed.
     pub points: Vec<[f64; 2]>,
 }
 
@@ -118,13 +120,13 @@ pub struct Fold {
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub struct Seam {
-    /// The crease that the seam follows, by its place in the [`Patches::creases`] of [`Pattern::patches`].
+    /// The crease that the seam follows, by its index in the [`Patches::creases`] of [`Pattern::patches`].
     pub crease: usize,
     /// The patches on either side of the seam, the lower number first.
     pub patches: [u32; 2],
     /// Whether the crease is a mountain or a valley fold.
     pub direction: Direction,
-    /// Fold angle in radians: 0 is flat.
+    /// Fold angle of the crease in radians: 0 where the surface is smooth.
     pub angle: f64,
     /// Whether this is a cut inside of a patch that cannot be laid flat in one piece, and not a crease of the
     /// surface.
@@ -133,7 +135,7 @@ pub struct Seam {
     pub torn: bool,
 }
 
-/// Which way a sheet is folded, seen from above.
+/// The direction in which a sheet is folded, seen from above.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 #[cfg_attr(
     feature = "serde",
@@ -148,13 +150,13 @@ pub enum Direction {
     Valley,
 }
 
-/// A place on a sheet for the number of a patch.
+/// A position on a flat sheet for the number of a patch.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub struct Spot {
-    /// Number of the patch.
+    /// Number of the patch that the position is for.
     pub patch: u32,
-    /// Position on the sheet.
+    /// Position of the label on the flat sheet, in the surface's units.
     pub place: [f64; 2],
     /// Approximate distance from the label's place to the patch's border, in the surface's units.
     pub room: f64,

@@ -119,7 +119,7 @@ impl Laplacian {
         self.largest = largest.min(3.0);
     }
 
-    /// One damped Jacobi step: `next ← x + ω D⁻¹ (b − A x)`.
+    /// Makes one damped Jacobi step, which smooths the error: `next ← x + ω D⁻¹ (b − A x)`.
     pub(super) fn smooth(&self, omega: f32, b: &[f32], x: &[f32], next: &mut [f32]) {
         for row in 0..self.grid.rows() {
             let cells = self.grid.row(row);

@@ -1,7 +1,7 @@
 //! Options of unrolling.
 
-/// Default change of the energy over the area in one iteration, below which a layout has converged: the energy of
-/// strains of 10⁻⁵.
+/// Default change of the energy over the area in one iteration, without unit, below which a layout has converged: the
+/// energy of strains of 10⁻⁵.
 const DEFAULT_TOLERANCE: f64 = 1e-10;
 
 /// Default maximum number of iterations. Surfaces of 200 thousand vertices take 6 to 26 (`benches/choices.md`).
@@ -33,12 +33,12 @@ impl Default for UnrollOptions {
 }
 
 impl UnrollOptions {
-    /// Returns these options with another tolerance for convergence.
+    /// Sets the change of the energy per iteration below which the layout has converged, and returns the options.
     pub fn tolerance(self, tolerance: f64) -> Self {
         UnrollOptions { tolerance, ..self }
     }
 
-    /// These options with another maximum number of iterations.
+    /// Sets the maximum number of iterations, and returns the options.
     pub fn max_iterations(self, max_iterations: usize) -> Self {
         UnrollOptions {
             max_iterations,

@@ -1,7 +1,7 @@
 //! A hexagonal lattice with padding on all sides, and the one of twice its spacing.
 
-/// Rows of padding above the lattice. All padding is as wide as a coarse vertex beyond the border, and its neighbours,
-/// need.
+/// Number of rows of padding above the lattice. All padding is as wide as a coarse vertex beyond the border, and its
+/// neighbours, need.
 const PADDING_ROWS_ABOVE: usize = 1;
 
 /// Number of rows of padding below the lattice.
@@ -13,7 +13,7 @@ const PADDING_COLUMNS_LEFT: usize = 2;
 /// Number of columns of padding to the right of the lattice.
 const PADDING_COLUMNS_RIGHT: usize = 4;
 
-/// A padded lattice of `rows × cols` vertices.
+/// A lattice of `rows × cols` vertices with padding around it, so that every vertex has neighbours.
 ///
 /// Coarse vertex `(r, c)` is fine vertex `(2r, 2c − (r odd))`, and every other fine vertex is the
 /// midpoint of a coarse edge.
@@ -65,12 +65,12 @@ impl PaddedLattice {
         self.cols
     }
 
-    /// Number of cells from one row to the next.
+    /// Returns the number of cells from one row of the padded lattice to the next.
     pub(super) fn stride(self) -> usize {
         PADDING_COLUMNS_LEFT + self.cols + PADDING_COLUMNS_RIGHT
     }
 
-    /// Number of cells, padding included.
+    /// Returns the number of cells of the lattice, padding included.
     pub(super) fn cells(self) -> usize {
         (PADDING_ROWS_ABOVE + self.rows + PADDING_ROWS_BELOW) * self.stride()
     }
@@ -107,7 +107,7 @@ impl PaddedLattice {
         }
     }
 
-    /// The cell of this lattice at a vertex of the [coarse](PaddedLattice::coarse) one, which may be padding.
+    /// Returns the cell of this lattice, which may be padding, at a vertex of the [coarse](PaddedLattice::coarse) one.
     pub(super) fn cell_of_coarse(self, row: usize, col: usize) -> usize {
         (2 * row + PADDING_ROWS_ABOVE) * self.stride() + 2 * col + PADDING_COLUMNS_LEFT - row % 2
     }

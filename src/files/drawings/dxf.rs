@@ -41,12 +41,12 @@ const CAPITAL_HEIGHT: f64 = 0.72;
 /// [`Error::OutOfMemory`](crate::Error::OutOfMemory).
 pub fn write_dxf(drawing: &Drawing) -> Result<Vec<u8>> {
     drawing.check()?;
-    let mut file = Pairs(Buffer::default());
+    let mut file = GroupCodes(Buffer::default());
     let written = write(&mut file, drawing);
     file.0.finish("DXF file", written)
 }
 
-fn write(file: &mut Pairs, drawing: &Drawing) -> io::Result<()> {
+fn write(file: &mut GroupCodes, drawing: &Drawing) -> io::Result<()> {
     file.section("HEADER", |file| {
         file.pair(9, "$ACADVER")?;
         file.pair(1, "AC1009")?;
@@ -95,9 +95,9 @@ fn layer(kind: Kind) -> &'static str {
 }
 
 /// A DXF file that is being written: pairs of a group code, which states the meaning, and a value.
-struct Pairs(Buffer);
+struct GroupCodes(Buffer);
 
-impl Pairs {
+impl GroupCodes {
     fn pair(&mut self, code: u16, value: impl Display) -> io::Result<()> {
         write!(self.0, "{code}\r\n{value}\r\n")
     }

@@ -118,7 +118,7 @@ pub(super) fn decode(bytes: &[u8]) -> Result<Decoded> {
         *z = f64::from(sample(0));
     }
 
-    let recorded = Recorded::read(&reader.info().uncompressed_latin1_text)?;
+    let recorded = RecordedMetadata::read(&reader.info().uncompressed_latin1_text)?;
     if let Some(level) = recorded.no_data {
         values
             .iter_mut()
@@ -146,16 +146,16 @@ pub(super) fn decode(bytes: &[u8]) -> Result<Decoded> {
 /// Values that this library records in the text chunks of a PNG file: height scale and offset, pixel size, level of no
 /// data.
 #[derive(Default)]
-struct Recorded {
+struct RecordedMetadata {
     scale: Option<f64>,
     offset: Option<f64>,
     pixel_size: Option<f64>,
     no_data: Option<f64>,
 }
 
-impl Recorded {
+impl RecordedMetadata {
     fn read(chunks: &[TEXtChunk]) -> Result<Self> {
-        let mut recorded = Recorded::default();
+        let mut recorded = RecordedMetadata::default();
         for chunk in chunks {
             let (place, positive) = match chunk.keyword.as_str() {
                 HEIGHT_SCALE_KEYWORD => (&mut recorded.scale, true),

@@ -159,7 +159,7 @@ pub fn write_photo_jpeg(photo: &impl PhotoRows, options: &PhotoOptions) -> Resul
     if let Some(density) = density {
         encoder.set_density(density);
     }
-    let white = White {
+    let white = OnWhite {
         photo,
         width,
         height,
@@ -195,13 +195,13 @@ fn density(dots_per_millimetre: f64) -> Option<PixelDensity> {
 }
 
 /// A photo laid on a white background, which is read row by row.
-struct White<'a, P> {
+struct OnWhite<'a, P> {
     photo: &'a P,
     width: u16,
     height: u16,
 }
 
-impl<P: PhotoRows> ImageBuffer for White<'_, P> {
+impl<P: PhotoRows> ImageBuffer for OnWhite<'_, P> {
     fn get_jpeg_color_type(&self) -> JpegColorType {
         JpegColorType::Ycbcr
     }

@@ -18,7 +18,7 @@ use crate::scene::mesh::Mesh;
 
 pub(super) fn read(bytes: &[u8], beside: &Beside, parts: &mut MeshBuilder) -> Result<()> {
     let mut reader = Reader::new(Cursor::new(bytes));
-    let header = Parser::<Skipped>::new()
+    let header = Parser::<SkippedElement>::new()
         .read_header(&mut reader)
         .map_err(|error| damaged("PLY", error))?;
     for element in header.elements.values() {
@@ -62,7 +62,7 @@ pub(super) fn read(bytes: &[u8], beside: &Beside, parts: &mut MeshBuilder) -> Re
                 ));
             }
             _ => {
-                Parser::<Skipped>::new()
+                Parser::<SkippedElement>::new()
                     .read_payload_for_element(&mut reader, element, &header)
                     .map_err(|error| damaged("PLY", error))?;
             }
@@ -80,11 +80,11 @@ pub(super) fn read(bytes: &[u8], beside: &Beside, parts: &mut MeshBuilder) -> Re
 }
 
 /// An element of a PLY file, such as an edge, whose values are skipped.
-struct Skipped;
+struct SkippedElement;
 
-impl PropertyAccess for Skipped {
+impl PropertyAccess for SkippedElement {
     fn new() -> Self {
-        Skipped
+        SkippedElement
     }
 }
 

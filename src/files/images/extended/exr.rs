@@ -29,7 +29,7 @@ const PIXEL_SIZE: &str = "developable:pixelSize";
 
 pub(super) fn decode(bytes: &[u8]) -> Result<Decoded> {
     let reader = ::exr::block::read(Cursor::new(bytes), false).map_err(failed)?;
-    let (layer, header, chosen) = choose(reader.headers())?;
+    let (layer, header, chosen) = choose_layer(reader.headers())?;
     let Vec2(width, height) = header.layer_size;
     let len = checked_cells("EXR image", height, width)?;
     if len == 0 {
@@ -132,14 +132,14 @@ pub(super) fn decode(bytes: &[u8]) -> Result<Decoded> {
 
 /// Channels of an OpenEXR layer from which heights and alpha are read, by their indices in the layer's list of
 /// channels.
-struct Chosen {
+struct ChosenChannels {
     heights: Vec<usize>,
     alpha: Option<usize>,
 }
 
 /// Finds the first layer of an OpenEXR file that holds heights; returns its number, its header and the channels to
 /// read.
-fn choose(layers: &[Header]) -> Result<(usize, &Header, Chosen)> {
+fn choose_layer(layers: &[Header]) -> Result<(usize, &Header, ChosenChannels)> {
     let flat = || layers.iter().enumerate().filter(|(_, header)| !header.deep);
     let found = flat().find_map(|(i, header)| {
         heights_among(&header.channels.list).map(|chosen| (i, header, chosen))
@@ -177,7 +177,7 @@ fn choose(layers: &[Header]) -> Result<(usize, &Header, Chosen)> {
     Ok((i, header, chosen))
 }
 
-fn heights_among(channels: &[ChannelDescription]) -> Option<Chosen> {
+fn heights_among(channels: &[ChannelDescription]) -> Option<ChosenChannels> {
     // In a file of several layers, names of channels begin with the layer's name.
     let names: Vec<(String, String)> = channels
         .iter()
@@ -208,7 +208,7 @@ fn heights_among(channels: &[ChannelDescription]) -> Option<Chosen> {
     let only = || (channels.len() == 1).then(|| vec![0]);
     let heights = single.map(|k| vec![k]).or_else(grey).or_else(only)?;
     let alpha = place(&names[heights[0]].0, "a").filter(|k| !heights.contains(k));
-    Some(Chosen { heights, alpha })
+    Some(ChosenChannels { heights, alpha })
 }
 
 fn type_name(kind: SampleType) -> &'static str {

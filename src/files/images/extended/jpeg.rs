@@ -25,7 +25,7 @@ const JPEG_END_MARKER: [u8; 2] = [0xff, 0xd9];
 const JPEG_SCAN_MARKER: u8 = 0xda;
 
 pub(super) fn decode(bytes: &[u8]) -> Result<Decoded> {
-    let mut file = Opened::new(bytes)?;
+    let mut file = OpenedJpeg::new(bytes)?;
     let (colours, stride) = file.stored;
     let mut samples = try_filled("JPEG image", stride * file.len, 0u8)?;
     file.decode(colours, &mut samples)?;
@@ -40,7 +40,7 @@ pub(super) fn decode(bytes: &[u8]) -> Result<Decoded> {
 }
 
 pub(super) fn decode_photo(bytes: &[u8]) -> Result<PhotoFile> {
-    let mut file = Opened::new(bytes)?;
+    let mut file = OpenedJpeg::new(bytes)?;
     let rgba = match file.stored {
         (ColorSpace::RGB, _) => {
             // Converted in place, since photos are large. (The decoder's own RGBA is wrong in places without SIMD, as
@@ -69,7 +69,7 @@ pub(super) fn decode_photo(bytes: &[u8]) -> Result<PhotoFile> {
 }
 
 /// A JPEG file whose headers have been read.
-struct Opened<'a> {
+struct OpenedJpeg<'a> {
     decoder: JpegDecoder<ZCursor<&'a [u8]>>,
     options: DecoderOptions,
     size: (usize, usize),
@@ -79,7 +79,7 @@ struct Opened<'a> {
     stored: (ColorSpace, usize),
 }
 
-impl<'a> Opened<'a> {
+impl<'a> OpenedJpeg<'a> {
     fn new(bytes: &'a [u8]) -> Result<Self> {
         // The decoder fills in missing data at the end.
         if !ends(bytes) {
@@ -110,7 +110,7 @@ impl<'a> Opened<'a> {
             }
         };
         check_length(Format::Jpeg, bytes, stored.1 * len, MAX_SAMPLES_PER_BYTE)?;
-        Ok(Opened {
+        Ok(OpenedJpeg {
             decoder,
             options,
             size,

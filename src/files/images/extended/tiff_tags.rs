@@ -39,7 +39,7 @@ const LINEAR_UNIT_METRE: u16 = 9001;
 /// square.
 const NEGLIGIBLE_SIDE_DIFFERENCE: f64 = 1e-6;
 
-pub(super) struct About {
+pub(super) struct PixelTags {
     pub(super) pixel_size: f64,
     pub(super) unit: Option<Unit>,
     pub(super) no_data: Option<f64>,
@@ -47,7 +47,7 @@ pub(super) struct About {
     pub(super) orientation: u16,
 }
 
-pub(super) fn read(file: &mut File, data_type: &str) -> Result<About> {
+pub(super) fn read(file: &mut File, data_type: &str) -> Result<PixelTags> {
     let (pixel_size, unit) = pixel_size(file)?;
     let no_data = no_data(file, data_type)?;
     let inverted = unsigned(file, Tag::PhotometricInterpretation)? == Some(0);
@@ -64,7 +64,7 @@ pub(super) fn read(file: &mut File, data_type: &str) -> Result<About> {
             format!("its orientation is {orientation}, where 1 to 8 are known"),
         ));
     }
-    Ok(About {
+    Ok(PixelTags {
         pixel_size,
         unit,
         no_data,

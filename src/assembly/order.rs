@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use crate::drawing::letters;
 use crate::pattern::Sheet;
 
-/// The order in which sheets are put together.
+/// The order in which the sheets of a pattern are put together.
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[non_exhaustive]
@@ -20,13 +20,13 @@ pub struct Assembly {
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[non_exhaustive]
 pub struct Step {
-    /// Number of the sheet, counted from 0; names of sheets count from 1.
+    /// Number of the sheet that is added in this step, counted from 0; names of sheets count from 1.
     pub sheet: usize,
-    /// Seams that are closed in this step, the longest first.
+    /// Seams that are joined in this step, the longest first.
     pub joints: Vec<Joint>,
 }
 
-/// A seam that is closed in a step: between two sheets, or of a sheet with itself.
+/// A seam that is joined in a step of the assembly: between two sheets, or of a sheet with itself.
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[non_exhaustive]

@@ -16,13 +16,13 @@ use crate::unroll::flat_triangle::Point;
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub struct WorstAngle {
-    /// Position of the point on the surface, in the surface's units.
+    /// Position of the point on the surface in space, in the surface's units.
     pub place: [f64; 3],
     /// Lowest number of the creases that are cut at the point, if any; its letter is on the drawing
     /// ([`Label`](super::Label)).
     #[cfg_attr(feature = "serde", serde(skip_serializing_if = "Option::is_none"))]
     pub crease: Option<usize>,
-    /// Sum of the angles of the flat pieces around the point, in degrees.
+    /// Sum of the angles of the flat pieces that meet at the point, in degrees.
     pub flat: f64,
     /// Angle of the surface around the point, in degrees: 360° where the surface could be laid flat in one piece.
     pub surface: f64,

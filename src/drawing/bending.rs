@@ -9,7 +9,7 @@ use crate::pattern::Direction;
 pub struct Bending {
     /// Thickness of the metal, in millimetres.
     pub thickness: f64,
-    /// Inner radius of all bends, in millimetres. Default: the thickness.
+    /// Inner radius of all bends of the metal, in millimetres. Default: the thickness.
     pub radius: f64,
     /// K-factor of all bends: distance of the neutral line from the inside of a bend, as a share of the thickness; from
     /// 0 to 1, mostly 0.33 to 0.5. Default 0.44.

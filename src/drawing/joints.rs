@@ -39,7 +39,8 @@ const BACKTRACKING_FACTOR: f64 = 0.6;
 /// Number of parts of each curve piece of an outline among which the point nearest to a fold's end is searched.
 const NEAREST_POINT_PARTS: usize = 16;
 
-/// A side of a joint: a run of an outline, which is a curve between two corners.
+/// A side of a joint (of a seam or a fold between two parts): a piece of an outline, which is a curve between two
+/// corners.
 struct Side {
     /// Numbers of the outline's corners where the side's curve begins and ends.
     corners: [usize; 2],
@@ -156,10 +157,10 @@ fn equalise_joints(sheets: &[Sheet], lines: &mut [Lines<'_>], options: &DrawingO
     }
 }
 
-/// The outline sides on one sheet, as a range of their numbers.
+/// The sides of joints on one sheet, as a range of their numbers.
 struct SheetSides {
     sides: Range<usize>,
-    /// Spacing of the lattice in the drawing, in millimetres.
+    /// Spacing of the lattice's vertices on the drawing, in millimetres.
     cell: f64,
 }
 
@@ -226,7 +227,8 @@ impl Outlines {
         wrong.collect()
     }
 
-    /// Reduces the maximum shift of some sides, and of the corners at the ends of these, by [`BACKTRACKING_FACTOR`].
+    /// Reduces the maximum shift of some sides, and of the corners at their ends, by the factor
+    /// [`BACKTRACKING_FACTOR`].
     fn reduce_limits(&mut self, lines: &[usize]) {
         for number in lines {
             for corner in self.sides[*number].corners {

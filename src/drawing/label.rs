@@ -6,7 +6,7 @@ use super::tabs::Tab;
 use crate::math::planar::{distance, polyline_length};
 use crate::pattern::Direction;
 
-/// Font size of texts beside sheets, and maximum font size of texts along lines, in millimetres.
+/// Font size of a text beside a sheet, and maximum font size of a text along a line, in millimetres.
 const NOTE_SIZE_MM: f64 = 3.0;
 
 /// Maximum font size of a text in a drawing, in millimetres.
@@ -15,14 +15,14 @@ const MAX_TEXT_SIZE_MM: f64 = 12.0;
 /// Minimum font size of a text in a drawing, in millimetres.
 const MIN_TEXT_SIZE_MM: f64 = 1.5;
 
-/// A text on a sheet or beside it.
+/// A text on a sheet of a drawing or beside it.
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub struct Label {
     /// Subject of the text: a patch, a cut crease, a fold or a sheet.
     pub kind: LabelKind,
-    /// The characters of the text.
+    /// The text's characters.
     pub text: String,
     /// Position of the middle of the text in the drawing, in millimetres.
     pub place: [f64; 2],
@@ -32,7 +32,7 @@ pub struct Label {
     pub turn: f64,
 }
 
-/// Subject of a text in a drawing.
+/// Subject of a text in a drawing: what the text numbers or names.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 #[cfg_attr(
     feature = "serde",

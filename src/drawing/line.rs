@@ -12,7 +12,8 @@ pub(super) const FLATTENING_TOLERANCE_MM: f64 = 0.02;
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub struct Line {
-    /// Number of the crease, its index in [`Patches::creases`](crate::shape::patches::Patches::creases).
+    /// Number of the crease that the fold line follows, its index in
+    /// [`Patches::creases`](crate::shape::patches::Patches::creases).
     pub crease: usize,
     /// Whether the fold is a mountain or a valley fold, seen from above.
     pub direction: Direction,

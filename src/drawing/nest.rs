@@ -13,7 +13,7 @@ const PAGE_CELLS: f64 = 150.0;
 /// Maximum number of raster cells along the longer side of a page, for nesting sheets.
 const MAX_PAGE_CELLS: f64 = 5000.0;
 
-/// Minimum distance between nested sheets, in millimetres.
+/// Minimum distance between sheets nested on a page, in millimetres.
 const NESTING_GAP_MM: f64 = 3.0;
 
 /// Shape of a sheet for nesting: the closed lines of the sheet and of texts beside it, and width and height of the

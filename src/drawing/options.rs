@@ -53,10 +53,10 @@ impl Default for DrawingOptions {
 /// Maximum width or height of a drawing, in millimetres.
 pub const MAX_SIZE: f64 = 50_000.0;
 
-/// Minimum distance between marks, in millimetres.
+/// Minimum distance between marks along a joint, in millimetres.
 const MIN_MARK_DISTANCE_MM: f64 = 1.0;
 
-/// Maximum kerf or allowance, in millimetres.
+/// Maximum kerf (width that a cutter takes away) and maximum allowance (extra width along edges), in millimetres.
 const MAX_OFFSET_MM: f64 = 1000.0;
 
 impl DrawingOptions {
@@ -119,7 +119,7 @@ impl DrawingOptions {
         DrawingOptions { allowance, ..self }
     }
 
-    /// Adds a bend allowance for folds in metal, and returns the options.
+    /// Sets how metal is bent along folds, for a bend allowance, and returns the options.
     pub fn bending(self, bending: Bending) -> Self {
         DrawingOptions {
             bending: Some(bending),

@@ -6,13 +6,13 @@ use super::pack::{Place, pack_rows};
 use super::sheet::DrawnSheet;
 use crate::error::{Error, Result, positive};
 
-/// Maximum number of pages of a drawing.
+/// Maximum number of pages that a drawing may be divided over.
 pub const MAX_PAGES: usize = 400;
 
 /// Width of the margin of paper that a printer may leave blank, in millimetres.
 const PAPER_MARGIN_MM: f64 = 10.0;
 
-/// Width by which neighbouring pages of a sheet overlap, in millimetres.
+/// Width by which neighbouring pages overlap where one sheet is printed over several pages, in millimetres.
 const PAGE_OVERLAP_MM: f64 = 10.0;
 
 /// Width of the empty margin of a plate or a roll, in millimetres.
@@ -25,9 +25,9 @@ const PAGE_GAP_MM: f64 = 20.0;
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub enum Stock {
-    /// Paper of 210 × 297 mm, with a blank margin of 10 mm.
+    /// A4 paper, 210 × 297 mm, with a blank margin of 10 mm.
     A4,
-    /// Paper of 8½ × 11 inches, with a blank margin of 10 mm.
+    /// US Letter paper, 8½ × 11 inches, with a blank margin of 10 mm.
     Letter,
     /// Plates of a material such as metal or plywood, of a given width and height in millimetres.
     Plate([f64; 2]),
@@ -115,7 +115,7 @@ pub(super) fn page_count(sheets: &[DrawnSheet], stock: Stock) -> usize {
     arrange_on_pages(sheets, stock).map_or(0, |found| found.pages.pages.len())
 }
 
-/// Sheets arranged on pages: the place of each sheet, the pages, and width and height of the whole drawing.
+/// Result of arranging sheets on pages: the place of each sheet, the pages, and width and height of the whole drawing.
 pub(super) struct Arranged {
     pub places: Vec<Place>,
     pub pages: Pages,
@@ -271,7 +271,7 @@ fn no_room(sheet: &DrawnSheet, shape: &Shape, part: [f64; 2]) -> Error {
     }
 }
 
-/// Computes the length that a number of overlapping pages covers, in millimetres.
+/// Computes the total length that a row of overlapping pages covers, in millimetres.
 fn covered(count: usize, side: f64) -> f64 {
     count as f64 * (side - PAGE_OVERLAP_MM) + PAGE_OVERLAP_MM
 }

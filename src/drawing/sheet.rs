@@ -11,7 +11,7 @@ use super::pack::Place;
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub struct DrawnSheet {
-    /// Name of the sheet: `Sheet 1` and so on.
+    /// Name of the sheet that is written above it: `Sheet 1` and so on.
     pub name: String,
     /// Numbers of the patches that the sheet consists of.
     pub patches: Vec<u32>,
@@ -29,7 +29,7 @@ pub struct DrawnSheet {
     /// Edges of the surface inside of the sheet's allowance: the lines along which the extra material is sewn or bent
     /// over.
     pub edges: Vec<Curve>,
-    /// Marks: short lines along seams, which coincide when both sides of a seam are joined.
+    /// Marks: short lines across seams, which coincide when both sides of a seam are joined.
     pub marks: Vec<Curve>,
     /// Leader lines, each from a patch that is too small for its number to the number beside the sheet.
     pub leaders: Vec<Curve>,

@@ -120,7 +120,7 @@ pub(super) fn crossing_curves(curves: &[Curve], spacing: f64) -> Vec<usize> {
     wrong
 }
 
-/// Moves the ends of a fold onto the sheet's smooth outline, if they are near it.
+/// Moves the ends of a fold onto the sheet's smooth outline, if the ends are near the outline.
 fn extend_fold(points: &[[f64; 2]], outlines: &[Curve], tolerance: f64) -> Vec<[f64; 2]> {
     let mut out = points.to_vec();
     let last = out.len() - 1;

@@ -26,7 +26,7 @@ const MAX_TAB_INSET_SHARE: f64 = 0.3;
 /// Maximum depth of a tab, as a multiple of the length of its fold line.
 const MAX_TAB_DEPTH_SHARE: f64 = 1.5;
 
-/// Maximum number of times the depth of a tab that does not fit is halved.
+/// Maximum number of times that the depth of a tab that does not fit is halved.
 const MAX_TAB_HALVINGS: usize = 2;
 
 /// The closed outline of a sheet as a list of runs (pieces along one side of a crease or along the border), each with

@@ -22,11 +22,11 @@ const MIN_COMPARED_JOINT_SHARE: f64 = 0.1;
 )]
 #[non_exhaustive]
 pub struct Totals {
-    /// Number of sheets.
+    /// Number of sheets on the drawing.
     pub sheets: usize,
     /// Number of creases that are cut over their whole length or a part of it.
     pub seams: usize,
-    /// Number of cuts inside of a patch, made because the patch cannot be laid flat in one piece.
+    /// Number of slits: cuts inside of a patch, made because the patch cannot be laid flat in one piece.
     pub slits: usize,
     /// Total length of the cuts along creases, in millimetres, each counted once.
     pub seam_length: f64,
@@ -46,9 +46,9 @@ pub struct Totals {
     /// The point where the angles of the flat pieces differ most from that of the surface, if any was compared.
     #[cfg_attr(feature = "serde", serde(skip_serializing_if = "Option::is_none"))]
     pub worst_angle: Option<WorstAngle>,
-    /// Number of creases that are folds.
+    /// Number of creases along which a sheet is folded.
     pub folds: usize,
-    /// Number of tabs (glued flaps).
+    /// Number of tabs (glued flaps) on the drawing.
     pub tabs: usize,
     /// Total length of all cut lines, in millimetres.
     pub cut_length: f64,

@@ -24,7 +24,7 @@ use crate::unroll::arap_mesh::StoppingCriteria;
 
 /// Result of joining the parts of a surface: valid flat sheets, or parts that have to be cut further.
 pub(super) enum Assembly {
-    /// All parts are on valid sheets.
+    /// All parts of the surface are on valid flat sheets.
     Whole(Box<Assembled>),
     /// The parts of the surface, and for each part that has to be cut its number and the reason; no numbers if vertices
     /// at a part's border were removed instead.
@@ -89,7 +89,7 @@ pub(super) fn assemble_sheets(
     Ok(Assembly::Cut(Box::new(parts), wrong))
 }
 
-/// Result of laying all sheets flat.
+/// Result of laying the patches of all sheets flat together.
 pub(super) enum Settled {
     /// Folds of invalid sheets were opened; a patch of each sheet that is invalid nevertheless, and the reason.
     Opened(Vec<(u32, String)>),

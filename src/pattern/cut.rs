@@ -151,7 +151,7 @@ impl Labels {
     }
 }
 
-/// A vertex of the part that is cut: its position seen from above, its normal and its squared strain.
+/// A vertex of the part that is cut: its position seen from above, its normal, and its squared strain as weight.
 struct Sample {
     place: [f64; 2],
     normal: Vector3<f64>,
@@ -199,9 +199,9 @@ fn median(samples: &[Sample], [x, y]: [f64; 2], power: f64) -> f64 {
     weighted_median(&mut along).unwrap_or(0.0)
 }
 
-/// Score of a straight cut, lower is better. For each side it adds the smallest eigenvalue of the scatter matrix of
-/// the normals, over the number of all vertices: 0 for planes, cylinders and cones (Julius, Kraevoy and Sheffer
-/// 2005, *D-Charts*). The length of the cut is added with [`CUT_LENGTH_WEIGHT`].
+/// Computes the score of a straight cut, lower is better: adds for each side the smallest eigenvalue of the scatter
+/// matrix of the normals, over the number of all vertices: 0 for planes, cylinders and cones (Julius, Kraevoy and
+/// Sheffer 2005, *D-Charts*). The length of the cut is added with [`CUT_LENGTH_WEIGHT`].
 fn score(samples: &[Sample], [a, b, c]: [f64; 3], spacing: f64) -> f64 {
     let mut sums = [(0.0, Vector3::zeros(), Matrix3::zeros()); 2];
     let mut length = 0.0;

@@ -14,7 +14,7 @@ pub struct Faces {
     pub built: Vec<[f64; 3]>,
     /// Position of each of the sheet's vertices on the flat sheet.
     pub flat: Vec<[f64; 2]>,
-    /// Vertices of each triangle, counter-clockwise.
+    /// Numbers of the three vertices of each of the sheet's triangles, counter-clockwise.
     pub triangles: Vec<[u32; 3]>,
 }
 

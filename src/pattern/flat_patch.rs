@@ -33,7 +33,7 @@ pub(super) struct FlatPatch {
     /// Whether the patch still has to be laid flat on this lattice: its positions come from a coarser one.
     rough: bool,
     window: Window,
-    /// Whether each vertex belongs to the patch, and not to a neighbour.
+    /// Whether each vertex of the flat layout belongs to the patch itself, and not to a neighbour.
     own: Vec<bool>,
 }
 
@@ -206,7 +206,7 @@ impl FlatPatch {
         self.own.iter().filter(|own| **own).count()
     }
 
-    /// Whether the part has fewer than [`MIN_CUT_VERTICES`] vertices and is too small to be cut.
+    /// Returns whether the part has fewer than [`MIN_CUT_VERTICES`] vertices and is too small to be cut.
     pub(super) fn is_crumb(&self) -> bool {
         self.size() < MIN_CUT_VERTICES
     }

@@ -9,7 +9,7 @@ use rustc_hash::FxHashMap;
 pub(super) struct Labels {
     /// Number of the part that each vertex of the lattice belongs to.
     pub of: Vec<u32>,
-    /// Number of the patch that each part was cut from.
+    /// Number of the patch from which each part was cut.
     pub origins: Vec<u32>,
 }
 

@@ -50,7 +50,7 @@ impl Motion {
     }
 }
 
-/// Layout of all patches: the rigid motion of each patch, and for each seam whether it is a fold.
+/// Layout of all patches in the plane: the rigid motion of each patch, and for each seam whether it is a fold.
 #[derive(Debug, Clone)]
 pub(super) struct Layout {
     pub motions: Vec<Motion>,
@@ -168,7 +168,7 @@ impl Layout {
         outlines
     }
 
-    /// Returns whether some of the given patches overlap in the plane.
+    /// Returns whether some of the given patches overlap where the layout puts them in the plane.
     pub(super) fn overlaps(&self, net: &SeamGraph, patches: &[u32]) -> bool {
         let outlines = self.outlines(net, patches);
         let (mut places, mut edges, mut positions) = (Vec::new(), Vec::new(), Vec::new());

@@ -33,7 +33,7 @@ const MAX_OMITTED_VERTICES: usize = 4 * MIN_CUT_VERTICES;
 /// Number of a part that another part was merged into, and the flat layout of both together.
 type Enlarged = (u32, Option<FlatPatch>);
 
-/// The parts that a surface is cut into, each laid flat by itself.
+/// The parts that a surface is cut into; a part is a patch or a piece of it, which is laid flat by itself.
 pub(super) struct Parts {
     /// The surface that is cut; vertices that were left out of the pattern have no height.
     pub surface: Heightfield,

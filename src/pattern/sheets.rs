@@ -4,11 +4,11 @@ use super::faces::Faces;
 use super::meeting::Meeting;
 use crate::shape::patches::Patches;
 
-/// A heightfield cut into sheets.
+/// A heightfield cut into flat sheets.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub struct Pattern {
-    /// The sheets; the first is the one with the largest patch.
+    /// The flat sheets; the first is the one with the largest patch.
     pub sheets: Vec<Sheet>,
     /// The patches of the sheets and the creases between them. A patch that was cut is replaced by the parts it was cut
     /// into, and its cuts are among the creases.
@@ -26,8 +26,8 @@ pub struct Pattern {
 )]
 #[non_exhaustive]
 pub struct Missing {
-    /// Number of vertices that were left out because they do not lie flat together with any neighbouring part,
-    /// mostly at ragged steep borders and torn tips; at most a fiftieth of all.
+    /// Number of vertices that were left out of the pattern because they do not lie flat together with any neighbouring
+    /// part, mostly at ragged steep borders and torn tips; at most a fiftieth of all.
     pub vertices: usize,
     /// Area around the vertices that were left out, in the surface's units squared.
     pub area: f64,
@@ -56,7 +56,7 @@ pub struct Sheet {
     pub folds: Vec<Fold>,
     /// For each patch, in the order of the patches, a place for its label far from the patch's border.
     pub spots: Vec<Spot>,
-    /// Triangles of the sheet, with their positions on the surface and on the flat sheet.
+    /// Triangles of the sheet, with their positions on the surface and in the plane.
     pub faces: Faces,
     /// Spacing of the lattice, or mean edge length of the mesh: the resolution of the sheet's outlines and folds.
     pub spacing: f64,
@@ -67,7 +67,7 @@ pub struct Sheet {
     /// Largest seam gap of a fold: root mean square distance between its two sides along the fold. The drawn fold
     /// lies halfway between the sides.
     pub gap: f64,
-    /// Number of small loops, in which outlines crossed themselves, that were cut off.
+    /// Number of small loops that were cut off where the sheet's outlines crossed themselves.
     pub loops: usize,
     /// Distance of the refolded sheet from the surface; `None` unless
     /// [`PatternOptions::refold`](super::PatternOptions::refold) is set.
@@ -84,7 +84,7 @@ pub struct Refolding {
     pub rms: f64,
     /// Largest distance of a refolded sheet's vertex from the surface, in the surface's units.
     pub maximum: f64,
-    /// Strain that is left in the folded sheet: root mean square over the area.
+    /// Root mean square strain, over the area, that is left in the folded sheet.
     pub strain: f64,
 }
 
@@ -116,13 +116,13 @@ pub struct Fold {
     pub points: Vec<[f64; 2]>,
 }
 
-/// A crease or cut as it is on a sheet: its patches, its fold and its kind.
+/// A crease or cut on the border of a sheet or within it: the patches on either side, the fold angle and the kind.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub struct Seam {
     /// The crease that the seam follows, by its index in the [`Patches::creases`] of [`Pattern::patches`].
     pub crease: usize,
-    /// The patches on either side of the seam, the lower number first.
+    /// Numbers of the patches on either side of the seam, the lower one first.
     pub patches: [u32; 2],
     /// Whether the crease is a mountain or a valley fold.
     pub direction: Direction,

@@ -13,7 +13,7 @@ const MAX_LOOP_LENGTH: f64 = 60.0;
 /// Maximum number of passes over a sheet's outline in which loops are cut off.
 const MAX_LOOP_PASSES: usize = 8;
 
-/// One side of a seam: the number of the seam, and the patch on that side.
+/// One side of a seam: the number of the seam, and the number of the patch on that side.
 pub(crate) type Side = (usize, u32);
 
 /// Consecutive pieces of a closed line, each with the side of the seam that it follows; `None` for the surface's

@@ -15,9 +15,9 @@ const TRIMMED_STRAIN_SHARE: f64 = 0.5;
 /// Fault of a part that the removal of a few border vertices has to mend.
 #[derive(Debug, Clone, Copy)]
 pub(super) enum Trouble {
-    /// The part's strain is above this limit.
+    /// The part's strain is above the limit, which this value holds.
     Strain(f64),
-    /// Triangles of the part are flipped.
+    /// Triangles of the part are flipped (lie upside down in the layout).
     Flipped,
 }
 

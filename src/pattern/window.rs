@@ -23,7 +23,7 @@ impl Window {
         }
     }
 
-    /// The window without any vertex.
+    /// The window that encloses no vertex of the lattice.
     const EMPTY: Window = Window {
         top: usize::MAX,
         left: usize::MAX,

@@ -35,7 +35,7 @@ pub(super) fn singular_values(
     triangles.get(id).singular_values(corners)
 }
 
-/// Computes the distortion of some triangles at given flat positions of the vertices.
+/// Computes the strain of some triangles of a surface at given flat positions of the vertices.
 pub(super) fn distortion(
     triangles: &LatticeTriangles,
     ids: impl Iterator<Item = TriangleId>,

@@ -74,7 +74,7 @@ impl Laplacian {
         Ok(out)
     }
 
-    /// Creates a matrix without edges.
+    /// Creates the Laplacian of a lattice without edges, all of whose entries are 0.
     fn zero(grid: PaddedLattice) -> Result<Self> {
         let zeros = || try_filled("unrolling", grid.cells(), 0.0);
         Ok(Laplacian {
@@ -164,10 +164,10 @@ impl Laplacian {
 /// One row of the matrix and of the vector that it is applied to, as slices of the row's length.
 struct RowStencil<'a> {
     diagonal: &'a [f32],
-    /// Weights of the edges to W, E, NW, NE, SW, SE.
+    /// Weights of the matrix's edges from each vertex of the row to its neighbours W, E, NW, NE, SW, SE.
     weights: [&'a [f32]; 6],
     centre: &'a [f32],
-    /// Values of the vector at the neighbours W, E, NW, NE, SW, SE.
+    /// Values of the vector at the neighbours W, E, NW, NE, SW, SE of each vertex of the row.
     values: [&'a [f32]; 6],
 }
 

@@ -77,7 +77,7 @@ impl LatticeTriangles {
         }
     }
 
-    /// Lists the triangles around a vertex.
+    /// Lists the triangles of the lattice around a vertex.
     pub(super) fn around(&self, cell: usize) -> impl Iterator<Item = TriangleId> + '_ {
         let offsets = self.grid.offsets(self.grid.vertex(cell).0);
         let ne = cell.wrapping_add_signed(offsets.north_east);

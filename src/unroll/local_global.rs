@@ -17,7 +17,7 @@ pub(super) struct Iteration<P> {
     pub energy: f64,
     /// Decrease of the energy over the area by the last global step; infinite before the first one.
     pub decrease: f64,
-    /// Positions of the vertices without extrapolation by the momentum.
+    /// Positions of the vertices after the last global step, without extrapolation by the momentum.
     last: Vec<P>,
     momentum: f64,
     /// Number of steps in a row that changed the energy by less than the tolerance.

@@ -164,7 +164,7 @@ impl MultigridLevel {
             .smooth(second, &self.right[k], &self.spare, &mut self.solution[k]);
     }
 
-    /// Makes a pair of damped Jacobi smoothing steps for one coordinate.
+    /// Makes a pair of damped Jacobi smoothing steps for one coordinate of the solution.
     fn smooth(&mut self, k: usize) {
         let [first, second] = SMOOTHER_WEIGHTS.map(|weight| weight / self.matrix.largest);
         self.matrix
@@ -174,7 +174,7 @@ impl MultigridLevel {
     }
 }
 
-/// Creates a field of zeros.
+/// Creates a field of plane vectors that are all 0.
 fn zero_field(cells: usize) -> Result<PlaneField> {
     Ok([
         try_filled("unrolling", cells, 0.0)?,

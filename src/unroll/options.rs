@@ -7,7 +7,7 @@ const DEFAULT_TOLERANCE: f64 = 1e-10;
 /// Default maximum number of iterations. Surfaces of 200 thousand vertices take 6 to 26 (`benches/choices.md`).
 const DEFAULT_MAX_ITERATIONS: usize = 500;
 
-/// Options of [`unroll`](super::unroll): when its iteration stops.
+/// Options of [`unroll`](super::unroll), which lays a surface flat: when its iteration stops.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(
     feature = "serde",

@@ -20,9 +20,9 @@ pub struct UnrollReport {
     pub energy: f64,
     /// Decrease of the energy over the area in the last iteration of laying the surface flat.
     pub change: f64,
-    /// Area of the surface, in its own units.
+    /// Area of the surface, in the surface's units squared.
     pub area: f64,
-    /// Strain of the layout: 0 for a developable surface.
+    /// Strain of the flat layout (relative changes of length): 0 for a developable surface.
     pub distortion: Distortion,
     /// Strain of the view from above, taken as a flat layout: a measure of how far from flat the surface is.
     pub plan: Distortion,
@@ -76,7 +76,7 @@ impl Unrolling {
         &self.overlaps
     }
 
-    /// Returns the figures of the layout.
+    /// Returns the figures of the flat layout: iterations, energy, strain and overlaps.
     pub fn report(&self) -> &UnrollReport {
         &self.report
     }

@@ -22,7 +22,7 @@ const PICTURE_MARGIN: f64 = 20.0;
 /// Maximum distance between a simplified line of the assembly picture and the exact line, in lattice spacings.
 const LINE_TOLERANCE_SPACINGS: f64 = 0.5;
 
-/// Font size of step numbers in the assembly picture, in units of the SVG file.
+/// Font size of the numbers of assembly steps in the assembly picture, in units of the SVG file.
 const NUMBER_FONT_SIZE: f64 = 28.0;
 
 /// Font size of seam letters in the assembly picture, in units of the SVG file.

@@ -26,7 +26,7 @@ const LAYER_COLOURS: [(&str, u8); 8] = [
     ("LABEL", 9),
 ];
 
-/// Value of the header variable `$INSUNITS` for millimetres.
+/// Value of the DXF header variable `$INSUNITS` for millimetres.
 const INSUNITS_MILLIMETRES: u8 = 4;
 
 /// Height of a capital letter, in font sizes: DXF gives text heights as the height of capitals.

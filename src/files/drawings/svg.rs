@@ -131,7 +131,7 @@ fn paged(pages: &Pages, height: f64) -> Element {
     view
 }
 
-/// Writes a curve as SVG path data.
+/// Converts a curve to SVG path data, such as `M0 0L1 0`; `place` converts a point to the file's coordinates.
 fn data(curve: &Curve, closed: bool, place: impl Fn([f64; 2]) -> [String; 2]) -> String {
     let at = |point: &[f64; 2]| place(*point).join(" ");
     let mut data = String::new();
@@ -151,7 +151,7 @@ fn data(curve: &Curve, closed: bool, place: impl Fn([f64; 2]) -> [String; 2]) ->
     data
 }
 
-/// Creates an SVG group that editors treat as a layer.
+/// Creates an SVG group that drawing programs treat as a layer.
 fn layer(name: &str) -> Group {
     Group::new()
         .set("id", name)

@@ -4,7 +4,7 @@ use super::format::Format;
 use crate::error::{Error, Result};
 use crate::heights::heightfield::HeightImage;
 
-/// Unit of length in which an image file states its pixel size.
+/// Unit of length of the pixel size that an image file states.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum Unit {

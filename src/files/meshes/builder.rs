@@ -9,7 +9,7 @@ use crate::scene::mesh::Mesh;
 /// Colour of a vertex for which the mesh file states no colour.
 pub(super) const DEFAULT_VERTEX_COLOUR: [f32; 3] = [1.0; 3];
 
-/// Texture coordinates that mark a vertex without any.
+/// Texture coordinates, far outside of any picture, that mark a vertex without texture coordinates.
 const NO_UV: [f32; 2] = [f32::MIN; 2];
 
 /// Texture number of a triangle that has no texture.
@@ -48,7 +48,7 @@ impl MeshBuilder {
             .try_for_each(|edge| self.triangle([*first, edge[0], edge[1]]))
     }
 
-    /// Sets the colour of all vertices from `start` on.
+    /// Sets the colour of all vertices that were added since vertex number `start`.
     pub(super) fn material(&mut self, start: usize, color: [f32; 3]) {
         let vertices = self.positions.len() - start;
         self.colors.extend(std::iter::repeat_n(color, vertices));

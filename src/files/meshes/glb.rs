@@ -278,7 +278,7 @@ fn accessor_of(view: Index<View>, count: usize, component: ComponentType, kind: 
     }
 }
 
-/// Computes the smallest or the largest value of each coordinate of some positions.
+/// Computes the smallest or the largest value of each coordinate of a mesh's positions.
 fn extreme(positions: &[[f32; 3]], pick: fn(f32, f32) -> f32) -> Value {
     let first = positions.first().copied().unwrap_or_default();
     let extreme = positions

@@ -26,7 +26,7 @@ pub use glb::write_glb;
 pub use ply::write_ply;
 pub use stl::write_stl;
 
-/// A mesh read from a file, with its textures.
+/// A mesh read from a file, with the pictures of its textures.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub struct MeshFile {
@@ -34,7 +34,7 @@ pub struct MeshFile {
     pub mesh: Mesh,
     /// The pictures of all textures, each once, in the order of the numbers that [`Mesh::textures`] uses.
     pub textures: Vec<Texture>,
-    /// Names of material and texture files that were not given, whose colours the mesh lacks.
+    /// Names of material and texture files that the mesh file refers to but that were not given.
     pub missing: Vec<String>,
 }
 

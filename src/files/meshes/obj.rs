@@ -106,7 +106,7 @@ fn texture(material: &Material) -> Option<&str> {
     }
 }
 
-/// Iterates over the lines of an OBJ or MTL file, without leading blanks.
+/// Iterates over the lines of an OBJ or MTL file, without blanks at their beginnings.
 pub(super) fn lines(bytes: &[u8]) -> impl Iterator<Item = &[u8]> {
     bytes.split(|b| *b == b'\n').map(<[u8]>::trim_ascii_start)
 }

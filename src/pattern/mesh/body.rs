@@ -30,7 +30,7 @@ pub(super) struct Body {
     pub spacing: f64,
 }
 
-/// A plane through a point, with a normal.
+/// A plane in space along which a part of a mesh is cut: a point on it and its normal.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Plane {
     pub through: Place,

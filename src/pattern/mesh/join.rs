@@ -10,7 +10,7 @@ use crate::scene::half_edges::next_half_edge;
 use crate::unroll::arap_mesh::StoppingCriteria;
 use crate::unroll::flat_triangle::Point;
 
-/// Limits that a sheet of a mesh has to keep.
+/// Limits that a flat sheet of a mesh has to keep: seam gap, strain, and when the solver stops.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Limits {
     /// Maximum seam gap, as a share of the seam's length.
@@ -23,7 +23,7 @@ pub(super) struct Limits {
 const TRIAL_STRAIN_SHARE: f64 = 0.8;
 
 impl Limits {
-    /// Stopping criteria of the solver that lays parts flat which may still be cut or joined.
+    /// Returns the stopping criteria of the solver for laying parts flat that may still be cut or joined.
     pub(super) fn trial(&self) -> StoppingCriteria {
         StoppingCriteria {
             // The energy is the sum of the squares of both principal strains.
@@ -38,11 +38,11 @@ impl Limits {
     }
 }
 
-/// A sheet: parts laid flat together.
+/// A flat sheet of a mesh: parts laid flat together.
 #[derive(Debug, Clone)]
 pub(super) struct Joined {
     pub parts: Vec<u32>,
-    /// Numbers of the seams whose two sides are joined on the sheet.
+    /// Numbers of the seams whose two sides are joined within the sheet.
     pub whole: Vec<usize>,
     pub laid: FlatPart,
     /// Largest seam gap of the joined seams before their sides were joined: root mean square distance between a seam's

@@ -20,7 +20,7 @@ pub(super) struct FlatPart {
     /// at the border.
     pub triangles: Vec<[u32; 3]>,
     pub twins: Vec<u32>,
-    /// Number in the whole mesh of each vertex of the flat part.
+    /// Number of the mesh's vertex that each vertex of the flat part comes from.
     pub source: Vec<u32>,
     pub places: Vec<Point>,
     pub area: f64,

@@ -106,7 +106,7 @@ fn ends(vertices: &[u32]) -> Vec<u32> {
     }
 }
 
-/// Angle defects and neighbours of all vertices of a mesh.
+/// Angle defects and neighbours of all vertices of a mesh, for measuring angles around points.
 struct Around<'a> {
     body: &'a Body,
     /// Angle defect of each vertex: a full turn less the angles around it; NaN at the border.

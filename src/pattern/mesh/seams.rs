@@ -10,7 +10,7 @@ use crate::shape::patches::chains::chains;
 
 /// A seam: a line of edges of a mesh along which two parts meet.
 pub(super) struct Seam {
-    /// Numbers of the two parts at the seam, the lower one first.
+    /// Numbers of the two parts (regions laid flat by themselves) at the seam, the lower one first.
     pub parts: [u32; 2],
     pub vertices: Vec<u32>,
     /// For each edge of the seam, in order, the numbers of the two half-edges on its sides.

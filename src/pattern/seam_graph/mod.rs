@@ -59,7 +59,8 @@ pub(super) struct Seam {
 /// A segment of the closed line around a patch, from one node to the next; the patch is to its left.
 type Segment = [Node; 2];
 
-/// Graph of the seams between all patches, and the positions of their nodes.
+/// Graph of the seams between all patches; its nodes are points along the seams, with their positions in the plane of
+/// each patch.
 pub(super) struct SeamGraph {
     pub spacing: f64,
     /// Spacing, in the surface's units, of the lattice on which the cuts of the surface were decided, which may be

@@ -22,7 +22,7 @@ pub const DEFAULT_GAUSSIAN_THRESHOLD: f64 = 1.0;
 )]
 #[non_exhaustive]
 pub struct Summary {
-    /// Number of vertices that have curvatures.
+    /// Number of vertices of the surface that have curvatures.
     pub vertices: usize,
     /// Longer side of a heightfield seen from above, in the surface's units; for a mesh the diameter of its bounding
     /// sphere.
@@ -80,7 +80,7 @@ impl Summary {
         }))
     }
 
-    /// Computes the statistics of given magnitudes of curvatures.
+    /// Computes the statistics from the magnitudes of the curvatures at all vertices.
     pub(super) fn from_magnitudes(measured: CurvatureMagnitudes) -> Self {
         let CurvatureMagnitudes {
             mut gaussian,
@@ -115,7 +115,7 @@ pub(super) struct CurvatureMagnitudes {
 }
 
 impl Histogram {
-    /// Counts magnitudes in the bins of a histogram.
+    /// Counts magnitudes of curvatures in the bins of a histogram.
     fn from_magnitudes(magnitudes: &[f64]) -> Self {
         /// Number of a histogram's bins with two ends: half decades from 10⁻⁵ to 10⁶.
         const BOUNDED_BINS: i32 = 22;
@@ -138,11 +138,11 @@ impl Histogram {
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[non_exhaustive]
 pub struct Deviation {
-    /// Number of vertices where both surfaces have a height.
+    /// Number of vertices where both compared surfaces have a height.
     pub vertices: usize,
-    /// Root mean square of the differences of height.
+    /// Root mean square difference of height between the two surfaces, in their unit.
     pub rms: f64,
-    /// Largest difference of height.
+    /// Largest difference of height between the two surfaces, in their unit.
     pub maximum: f64,
 }
 

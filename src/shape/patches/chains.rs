@@ -6,7 +6,7 @@ use std::collections::BTreeMap;
 pub(crate) struct Chain {
     /// Vertices along the polyline; the last one is the first one if the polyline is closed.
     pub vertices: Vec<u32>,
-    /// Numbers of the polyline's edges in the list of edges that was given.
+    /// Numbers of the polyline's edges, as indices into the list of edges that was given.
     pub edges: Vec<usize>,
 }
 

@@ -44,18 +44,18 @@ pub(super) fn merge_patches(
     }
 }
 
-/// Sum of some angles, in radians, and the number of these angles.
+/// Sum of angles, in radians, and the number of these angles, from which their mean follows.
 type AngleSum = (f64, f64);
 
-/// Region adjacency graph: which patches have a common border, and by which angles it folds.
+/// Region adjacency graph: which patches have a common border, and by which angles the surface folds there.
 struct AdjacencyGraph {
     /// Neighbours of each patch, each with the sum of the fold angles along the common border.
     neighbours: Vec<BTreeMap<u32, AngleSum>>,
-    /// Number of vertices of each patch.
+    /// Number of vertices of each patch of the graph.
     sizes: Vec<usize>,
     /// For each patch the sum of its bend angles from vertex to vertex.
     bends: Vec<AngleSum>,
-    /// Minimum fold angle of a crease, in radians.
+    /// Minimum fold angle along a border, in radians, that makes the border a crease.
     fold: f64,
     /// Number of the patch that each patch was merged into, or its own number.
     parents: Vec<u32>,
@@ -103,7 +103,7 @@ impl AdjacencyGraph {
         graph
     }
 
-    /// Merges patches across borders that fold too little to be creases. Returns whether any were merged.
+    /// Merges patches across borders that fold by too small an angle to be creases. Returns whether any were merged.
     fn merge_flat(&mut self) -> bool {
         let mut queue = BinaryHeap::new();
         for (a, neighbours) in self.neighbours.iter().enumerate() {
@@ -129,7 +129,7 @@ impl AdjacencyGraph {
         merged
     }
 
-    /// Merges each patch of too few vertices with a neighbouring patch.
+    /// Merges each patch of fewer than a minimum number of vertices with the neighbour across its flattest border.
     fn merge_small(&mut self, min_vertices: f64) {
         let mut queue: BinaryHeap<_> = (self.sizes.iter().enumerate())
             .map(|(patch, size)| Reverse((*size, patch as u32)))

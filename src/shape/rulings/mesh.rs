@@ -151,7 +151,7 @@ impl MeshRulings {
     }
 }
 
-/// Restricts a symmetric tensor to the plane of two orthonormal vectors.
+/// Restricts a symmetric tensor in space to the plane of two orthonormal vectors; returns a 2×2 matrix.
 pub(super) fn restrict_to_plane(square: &Matrix3<f64>, [t1, t2]: &[Vector3<f64>; 2]) -> Sym2 {
     let [a, b] = [square * t1, square * t2];
     Sym2::new(t1.dot(&a), t1.dot(&b), t2.dot(&b))

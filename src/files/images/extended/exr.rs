@@ -24,7 +24,7 @@ use crate::heights::heightfield::HeightImage;
 /// compressions reaches.
 const MAX_COMPRESSION_RATIO: usize = 4096;
 
-/// Name of the OpenEXR attribute with the pixel size, which only files written by this library have.
+/// Name of the OpenEXR attribute that holds the pixel size; only files written by this library have it.
 const PIXEL_SIZE: &str = "developable:pixelSize";
 
 pub(super) fn decode(bytes: &[u8]) -> Result<Decoded> {

@@ -21,16 +21,16 @@ const MAX_NPY_BYTES: usize = 8 * MAX_CELLS + 16_384;
 /// Number of bytes that are read from an NPY file in the archive to learn the array's shape and type.
 const MAX_HEADER_BYTES: u64 = 16_384;
 
-/// Maximum number of arrays of an NPZ archive.
+/// Maximum number of arrays of an NPZ archive that is read.
 const MAX_ARRAYS: usize = 1024;
 
-/// One array of an NPZ file.
+/// Name, shape and type of one array of an NPZ file.
 #[derive(Debug, Clone, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct NpzArray {
-    /// Name of the array, without `.npy`.
+    /// Name of the array within the archive, without the ending `.npy`.
     pub name: String,
-    /// Extents of the array; a height image has two, rows and columns.
+    /// Extents of the array along its axes; a height image has two, rows and columns.
     pub shape: Vec<u64>,
     /// Type of the array's elements: `"f32"` and the like, or NumPy's own name for elements that are not numbers.
     pub data_type: String,

@@ -39,6 +39,7 @@ const LINEAR_UNIT_METRE: u16 = 9001;
 /// square.
 const NEGLIGIBLE_SIDE_DIFFERENCE: f64 = 1e-6;
 
+/// What the tags of a TIFF file say about its pixels: their size and its unit, the value of no data, the orientation.
 pub(super) struct PixelTags {
     pub(super) pixel_size: f64,
     pub(super) unit: Option<Unit>,

@@ -10,8 +10,8 @@ use super::lines::Lines;
 use crate::pattern::{Meeting, Run, Sheet};
 use crate::unroll::flat_triangle::Point;
 
-/// Point of the surface where the sum of the angles of the flat pieces differs most from the angle of the surface;
-/// angles in degrees.
+/// Point of the surface where the sum of the angles of the flat pieces around it differs most from the angle of the
+/// surface around it; angles in degrees.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]

@@ -203,8 +203,8 @@ impl Bend {
         }
     }
 
-    /// Computes the outline on one side of the fold after the bend allowance was applied. Only the pieces next to
-    /// the fold's ends are within the bend.
+    /// Computes the part of the outline on one side of the fold after the bend allowance was applied. Only the segments
+    /// next to the fold's ends lie within the zone that bends.
     fn arc(&self, side: usize) -> Vec<Corner> {
         let corners = &self.sides[side];
         let beyond = |(place, _): &Corner| self.away(side, *place) >= self.setback;

@@ -23,8 +23,8 @@ const LENGTH_TOLERANCE: f64 = 1e-4;
 /// as a share of the side's length.
 const MAX_SHIFT_SHARE: f64 = 0.01;
 
-/// Maximum number of Kaczmarz sweeps for the linear system; each sweep makes the two sides of one joint after another
-/// equally long.
+/// Maximum number of Kaczmarz sweeps, which solve the linear system for the shifts of sides; each sweep makes the two
+/// sides of one joint after another equally long.
 const MAX_KACZMARZ_SWEEPS: usize = 400;
 
 /// Maximum number of times that the lengths of the joints' sides are linearised again (Gauss-Newton steps).

@@ -88,7 +88,7 @@ impl DrawingOptions {
         }
     }
 
-    /// Sets the scale, in millimetres for each unit of the surface, and returns the options.
+    /// Sets the scale of the drawing, in millimetres for each unit of the surface, and returns the options.
     pub fn scale(self, scale: f64) -> Self {
         DrawingOptions { scale, ..self }
     }

@@ -93,7 +93,7 @@ pub(super) fn assemble_sheets(
 pub(super) enum Settled {
     /// Folds of invalid sheets were opened; a patch of each sheet that is invalid nevertheless, and the reason.
     Opened(Vec<(u32, String)>),
-    /// The invalid sheet would be valid if these vertices were removed from the part of this number.
+    /// The invalid sheet would be valid without some border vertices; holds the number of the part and these vertices.
     Specks(u32, Vec<usize>),
 }
 

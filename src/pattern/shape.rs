@@ -245,7 +245,7 @@ fn vertices(corners: &[Corner]) -> impl Iterator<Item = Point> {
     own.map(|corner| corner.place)
 }
 
-/// Returns the midpoints of a border's edges: unlike the vertices these do not zigzag.
+/// Returns the midpoints of the edges of the surface's border: unlike the vertices these do not zigzag.
 fn middles(corners: &[Corner]) -> Vec<Point> {
     let next = vertices(corners).skip(1);
     vertices(corners)
@@ -254,7 +254,7 @@ fn middles(corners: &[Corner]) -> Vec<Point> {
         .collect()
 }
 
-/// Returns the midpoint of the edge from the border's last vertex to its first.
+/// Returns the midpoint of the edge from the last vertex of the surface's border to its first vertex.
 fn closing(corners: &[Corner]) -> Option<Point> {
     let (first, last) = (vertices(corners).next()?, vertices(corners).last()?);
     Some(0.5 * (first + last))

@@ -131,7 +131,8 @@ pub struct Seam {
     /// Whether this is a cut inside of a patch that cannot be laid flat in one piece, and not a crease of the
     /// surface.
     pub slit: bool,
-    /// Whether the surface has a step here: the two sides are apart in space and are not glued together.
+    /// Whether the surface has a step (a jump in height) along the seam: the two sides are apart in space and are not
+    /// glued together.
     pub torn: bool,
 }
 

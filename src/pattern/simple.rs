@@ -20,8 +20,9 @@ pub(crate) type Side = (usize, u32);
 /// border.
 pub(crate) type Runs = Vec<(Option<Side>, Vec<Point>)>;
 
-/// Cuts off the small loops in which a closed line crosses itself. The line is given as runs, each of which begins
-/// where the one before ends. Returns the line and the number of loops that were cut off.
+/// Cuts off the small loops in which a closed line crosses itself. The line is given as runs (pieces along one side of
+/// a seam or the border each), each of which begins where the one before ends. Returns the line and the number of loops
+/// that were cut off.
 pub(crate) fn remove_loops(runs: Runs, spacing: f64) -> (Runs, usize) {
     // Each point with the number of the run that the segment from this point to the next belongs to.
     let mut line: Vec<(Point, usize)> = Vec::new();

@@ -10,8 +10,8 @@ use super::padded_lattice::PaddedLattice;
 use crate::error::{Result, try_filled};
 use crate::math::lanes;
 
-/// The cotangent Laplacian of a heightfield on the padded lattice, by the weights of the edges from each cell to the
-/// east, south-west and south-east.
+/// The cotangent Laplacian of a heightfield on the padded lattice, stored as the weights of the edges from each cell to
+/// its neighbours in the east, south-west and south-east.
 #[derive(Debug, Clone)]
 pub(super) struct Laplacian {
     pub grid: PaddedLattice,

@@ -4,7 +4,8 @@
 /// energy of strains of 10⁻⁵.
 const DEFAULT_TOLERANCE: f64 = 1e-10;
 
-/// Default maximum number of iterations. Surfaces of 200 thousand vertices take 6 to 26 (`benches/choices.md`).
+/// Default maximum number of iterations for laying a surface flat. Surfaces of 200 thousand vertices take 6 to 26
+/// (`benches/choices.md`).
 const DEFAULT_MAX_ITERATIONS: usize = 500;
 
 /// Options of [`unroll`](super::unroll), which lays a surface flat: when its iteration stops.

@@ -23,8 +23,8 @@ pub(super) struct PaddedLattice {
     cols: usize,
 }
 
-/// Index offsets from a cell to its neighbours in the rows above and below. The neighbours in the cell's own row
-/// are at ±1.
+/// Index offsets from a cell of the padded lattice to its neighbours in the rows above and below. The neighbours in the
+/// cell's own row are at ±1.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Offsets {
     pub north_west: isize,
@@ -75,12 +75,12 @@ impl PaddedLattice {
         (PADDING_ROWS_ABOVE + self.rows + PADDING_ROWS_BELOW) * self.stride()
     }
 
-    /// Returns the cell, an index into the padded lattice, of a vertex.
+    /// Returns the cell, an index into the padded lattice, of a vertex given by row and column.
     pub(super) fn cell(self, row: usize, col: usize) -> usize {
         (row + PADDING_ROWS_ABOVE) * self.stride() + col + PADDING_COLUMNS_LEFT
     }
 
-    /// Returns row and column of the vertex at a cell that is not padding.
+    /// Returns row and column of the vertex at a cell (index into the padded lattice) that is not padding.
     pub(super) fn vertex(self, cell: usize) -> (usize, usize) {
         (
             cell / self.stride() - PADDING_ROWS_ABOVE,

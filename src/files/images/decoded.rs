@@ -24,7 +24,7 @@ impl Unit {
     }
 }
 
-/// A decoded image file: its values, and how they become heights.
+/// A decoded image file: its stored values, and the scale that converts these to heights.
 ///
 /// `height = values · height_scale`, in the unit of `pixel_size`.
 #[derive(Debug, Clone, PartialEq)]
@@ -70,7 +70,7 @@ impl Decoded {
 /// image's longer side.
 const SUGGESTED_RELIEF: f64 = 0.25;
 
-/// Suggests a height scale for grey values of the given range, where the file records none.
+/// Suggests a factor from grey values of a given range to heights, where the file records none.
 pub(super) fn suggested_scale(width: usize, height: usize, range: f64) -> f64 {
     SUGGESTED_RELIEF * width.max(height) as f64 / range
 }

@@ -9,8 +9,8 @@ use crate::error::{Error, Result};
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum MeshFormat {
-    /// Wavefront OBJ. All groups together; colours after the coordinates are
-    /// read, and the diffuse colours and textures of its materials (MTL).
+    /// Wavefront OBJ: all groups together, with colours after the coordinates, and with the diffuse colours and
+    /// textures of the materials (MTL).
     Obj,
     /// The Stanford format PLY, ASCII or binary of either byte order; a texture is named by a comment,
     /// `TextureFile`.

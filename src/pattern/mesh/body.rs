@@ -17,7 +17,8 @@ pub(super) type Place = Vector3<f64>;
 /// Distance from a cutting plane, in mean edge lengths of the mesh, below which a vertex lies on the plane.
 const PLANE_TOLERANCE_LENGTHS: f64 = 0.1;
 
-/// A mesh whose triangles are grouped into parts, each of which is to be laid flat on its own.
+/// A mesh whose triangles are grouped into parts: patches or pieces of them, each of which is to be laid flat on its
+/// own.
 #[derive(Debug, Clone)]
 pub(super) struct Body {
     pub places: Vec<Place>,
@@ -127,8 +128,8 @@ impl Body {
         Ok(numbers.into_values().collect())
     }
 
-    /// Creates candidate planes for cutting a part in two: normal to the part's principal axes, through the part's
-    /// middle and through a given point.
+    /// Creates candidate planes for cutting a part in two: for each principal axis of the part two planes normal to it,
+    /// one through the part's centroid and one through a given point.
     pub(super) fn planes(&self, members: &[u32], place: Place) -> Vec<Plane> {
         let corners = |t: &u32| self.triangles[*t as usize].map(|v| self.places[v as usize]);
         let (mut sum, mut weight) = (Place::zeros(), 0.0);

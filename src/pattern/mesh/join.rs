@@ -50,7 +50,7 @@ pub(super) struct Joined {
     pub gap: f64,
 }
 
-/// Joins parts of a mesh to sheets along their seams, the longest seam first.
+/// Joins the parts of a mesh to flat sheets along their seams, the longest seam first.
 pub(super) fn join_parts(
     body: &Body,
     seams: &Seams,
@@ -126,7 +126,7 @@ impl<'a> Sheets<'a> {
         self.all[number] = Some(sheet);
     }
 
-    /// Joins the two sheets on either side of a seam, or closes a seam within one sheet, if the result is a valid
+    /// Joins the two sheets on either side of a seam, or closes a seam within one sheet, if the result is a valid flat
     /// sheet.
     fn join(&mut self, seam: usize, order: &[usize]) -> Result<()> {
         let [a, b] = self.seams.all[seam]

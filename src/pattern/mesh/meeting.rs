@@ -23,7 +23,7 @@ struct Found {
     cuts: usize,
     edges: usize,
     shortest: f64,
-    /// Number of edges of the longest seam, by this number, that ends at the vertex.
+    /// Number of edges of the seam with the most edges that ends at the vertex.
     most: usize,
 }
 

@@ -88,7 +88,7 @@ impl MeshCurvatures {
         Ok(fields)
     }
 
-    /// Copies the curvatures of one vertex to another one at the same place.
+    /// Copies the curvatures of one vertex to another vertex at the same position.
     fn copy(&mut self, from: usize, to: usize) {
         let fields = [
             &mut self.gaussian,

@@ -104,8 +104,8 @@ impl Summary {
     }
 }
 
-/// Magnitudes of curvatures in coordinates scaled to the unit square, and the fields of [`Summary`] that come with
-/// them.
+/// Magnitudes of a surface's curvatures in coordinates scaled to the unit square, from which a [`Summary`] is computed,
+/// with the surface's size.
 pub(super) struct CurvatureMagnitudes {
     pub gaussian: Vec<f64>,
     pub kappa2: Vec<f64>,

@@ -110,7 +110,7 @@ fn number_by_area(facets: &Facets, labels: &mut [u32]) -> Vec<Patch> {
     order.into_iter().map(|(_, patch)| patch).collect()
 }
 
-/// Finds the creases of a mesh: lines of edges between triangles of different patches.
+/// Finds the creases of a mesh that is divided into patches: lines of edges between triangles of different patches.
 fn creases(facets: &Facets, labels: &[u32]) -> Vec<Crease> {
     let mut between: BTreeMap<[u32; 2], Vec<usize>> = BTreeMap::new();
     for (side, twin) in facets.pairs() {

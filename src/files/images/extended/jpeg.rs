@@ -168,7 +168,8 @@ fn number(exif: &Exif, tag: Tag) -> Option<u32> {
     exif.get_field(tag, In::PRIMARY)?.value.get_uint(0)
 }
 
-/// Returns whether a JPEG file has the marker of the image's end, outside of the pictures within its metadata.
+/// Returns whether a JPEG file is complete: it has the marker of the image's end, not counting pictures within its
+/// metadata.
 fn ends(bytes: &[u8]) -> bool {
     let mut rest = &bytes[2..];
     while let [0xff, marker, high, low, ..] = *rest {

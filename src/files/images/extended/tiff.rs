@@ -88,7 +88,8 @@ pub(super) fn decode(bytes: &[u8]) -> Result<Decoded> {
     })
 }
 
-/// Reads from a TIFF file the number of samples per pixel, the bits per sample, and what the samples mean.
+/// Reads the layout of a TIFF file's pixels: the number of samples per pixel, the bits per sample, and what each sample
+/// means.
 fn channels(file: &mut File, color: ColorType) -> Result<(usize, usize, Channels)> {
     let plain = |colours, alpha| Channels { colours, alpha };
     let (samples, bits, channels) = match color {

@@ -25,7 +25,7 @@ const RESOLUTION_UNIT_NONE: u16 = 1;
 const PER_INCH: u16 = 2;
 const PER_CENTIMETRE: u16 = 3;
 
-/// Number of the GeoTIFF key `GTModelTypeGeoKey`.
+/// Number of the GeoTIFF key `GTModelTypeGeoKey`, which tells whether coordinates are lengths or degrees.
 const MODEL_TYPE_KEY: u16 = 1024;
 
 /// Value of the GeoTIFF key `GTModelTypeGeoKey` for degrees of longitude and latitude.

@@ -38,8 +38,8 @@ impl WorstAngle {
 /// far.
 struct PointAngles {
     meeting: Meeting,
-    /// Number of ends of cut sides found at the point: twice the number of cuts when all are found, because a cut
-    /// has two sides.
+    /// Number of ends of cut edges that were found at the point: twice the number of cuts when all are found, because
+    /// both sides of a cut are edges of flat pieces.
     ends: usize,
     angle: f64,
     crease: Option<usize>,

@@ -211,8 +211,8 @@ impl Mask {
         }
     }
 
-    /// Computes the dilation of the mask by a square of `2 reach + 1` cells; its origin moves by `reach` cells to the
-    /// lower left.
+    /// Computes the dilation of the mask, which enlarges its occupied area by a square of `2 reach + 1` cells a side;
+    /// its origin moves by `reach` cells to the lower left.
     fn grown(&self, reach: usize) -> Mask {
         let mut out = Mask::empty(self.columns + 2 * reach, self.rows.len() + 2 * reach);
         for y in 0..self.rows.len() {

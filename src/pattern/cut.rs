@@ -12,7 +12,7 @@ use crate::lattice::hexagonal::Lattice;
 use crate::math::statistics::weighted_median;
 use rustc_hash::FxHashMap;
 
-/// Number of directions of a straight cut through a part that are compared, evenly spaced over half a turn.
+/// Number of directions in which a straight cut through a part of the surface is tried, evenly spaced over half a turn.
 const CUT_DIRECTIONS: usize = 16;
 
 /// Minimum number of vertices of a connected group on one side of a cut; a smaller group stays with its neighbour.

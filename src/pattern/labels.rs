@@ -7,7 +7,7 @@ use rustc_hash::FxHashMap;
 /// to. A patch that cannot lie flat in one piece is cut into several parts.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Labels {
-    /// Number of the part that each vertex of the lattice belongs to.
+    /// Number of the part (a patch or a piece of one) that each vertex of the lattice belongs to.
     pub of: Vec<u32>,
     /// Number of the patch from which each part was cut.
     pub origins: Vec<u32>,

@@ -186,7 +186,8 @@ struct Around<'a> {
     net: &'a SeamGraph,
 }
 
-/// A path along the surface, straight in plan: its length, its end, and whether a crease is near its end.
+/// A path along the surface that is straight as seen from above: its length, its end, and whether a crease is near its
+/// end.
 struct Way {
     long: f64,
     place: [f64; 3],
@@ -235,8 +236,8 @@ impl Around<'_> {
         Some(angles.sum())
     }
 
-    /// Computes paths along the surface, straight in plan, from a centre to points of a ring with a given radius in
-    /// plan, in directions given in full turns. `None` if one leaves the surface.
+    /// Computes paths along the surface, straight as seen from above, from a centre to points of a ring with a given
+    /// radius in plan, in directions given in full turns. `None` if one leaves the surface.
     fn ring(&self, place: [f64; 3], radius: f64, turns: &[f64]) -> Option<Vec<Way>> {
         let way = |turn: &f64| {
             let (sin, cos) = (std::f64::consts::TAU * turn).sin_cos();

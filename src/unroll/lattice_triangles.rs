@@ -8,7 +8,8 @@ use crate::error::{Error, Result, try_filled};
 /// triangle below that corner or 1 for the one beside it.
 pub(super) type TriangleId = (usize, usize);
 
-/// The flat triangles of a heightfield: two for each cell `v`, with the corners `[v, SW, SE]` and `[v, SE, E]`.
+/// The triangles of a heightfield, each moved to a plane of its own: two for each cell `v` (a vertex's index in the
+/// padded lattice), with the corners `[v, SW, SE]` and `[v, SE, E]`.
 #[derive(Debug, Clone)]
 pub(super) struct LatticeTriangles {
     pub grid: PaddedLattice,

@@ -20,7 +20,7 @@ pub struct UnrollOptions {
     /// Change of the energy over the area (the mean of the squared strains, without unit) in one iteration, below which
     /// the layout has converged. Default 10⁻¹⁰.
     pub tolerance: f64,
-    /// Maximum number of iterations. Default 500.
+    /// Maximum number of iterations for laying the surface flat. Default 500.
     pub max_iterations: usize,
 }
 

@@ -61,8 +61,8 @@ impl Patches {
         })
     }
 
-    /// Creates patches from other labels of the vertices, numbered by their areas. Returns the patches and the former
-    /// number of each patch.
+    /// Divides the heightfield anew, by a given patch number of each vertex, and numbers the patches by area. Returns
+    /// the patches and the former number of each patch.
     ///
     /// # Errors
     /// Those of [`Patches::new`].

@@ -3,14 +3,14 @@
 use crate::pattern::Faces;
 use rustc_hash::FxHashMap;
 
-/// A point on the surface in space, and whether the triangle around it faces up.
+/// A point on the surface in space, and whether the triangle that contains it faces up.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Spot {
     pub at: [f64; 3],
     pub up: bool,
 }
 
-/// Returns whether a triangle in space faces up.
+/// Returns whether a triangle in space faces up, towards larger z.
 pub(crate) fn faces_up([a, b, c]: [[f64; 3]; 3]) -> bool {
     (b[0] - a[0]) * (c[1] - a[1]) - (c[0] - a[0]) * (b[1] - a[1]) > 0.0
 }
@@ -51,7 +51,7 @@ impl<'a> Built<'a> {
     }
 
     /// Maps a point on the flat sheet to the surface, by the triangle that contains it or else by the plane of the
-    /// nearest one; `None` if no triangle is near. Costs tests of a few triangles.
+    /// nearest one; `None` if no triangle is near. Costs the tests of a few triangles.
     pub(crate) fn at(&self, place: [f64; 2]) -> Option<Spot> {
         let (column, row) = self.square(place);
         let around = (-1..=1).flat_map(|i| (-1..=1).map(move |k| (column + i, row + k)));
@@ -71,7 +71,7 @@ impl<'a> Built<'a> {
         })
     }
 
-    /// Computes the barycentric coordinates of a point in a triangle; `None` for a triangle without an area.
+    /// Computes the barycentric coordinates of a point in a flat triangle; `None` for a triangle without an area.
     fn shares(&self, corners: [u32; 3], place: [f64; 2]) -> Option<[f64; 3]> {
         let [a, b, c] = corners.map(|v| self.faces.flat[v as usize]);
         let area = |[a, b, c]: [[f64; 2]; 3]| {

@@ -1,17 +1,17 @@
-//! Order in which sheets are put together.
+//! Finds the order in which the sheets of a pattern are put together.
 
 use std::collections::BTreeMap;
 
 use crate::drawing::letters;
 use crate::pattern::Sheet;
 
-/// The order in which sheets are put together.
+/// The order in which the sheets of a pattern are put together.
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[non_exhaustive]
 pub struct Assembly {
-    /// Steps of the assembly, one for each sheet. The first sheet is the one with the largest patch; each next one
-    /// has the longest seams to the sheets already in place.
+    /// Steps in which the sheets are put together, one for each sheet. The first sheet is the one with the largest
+    /// patch; each next one has the longest seams to the sheets already in place.
     pub steps: Vec<Step>,
 }
 
@@ -20,13 +20,13 @@ pub struct Assembly {
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[non_exhaustive]
 pub struct Step {
-    /// Number of the sheet, counted from 0; names of sheets count from 1.
+    /// Number of the sheet that is added in this step, counted from 0; names of sheets count from 1.
     pub sheet: usize,
-    /// Seams that are closed in this step, the longest first.
+    /// Seams that are joined in this step, the longest first.
     pub joints: Vec<Joint>,
 }
 
-/// A seam that is closed in a step: between two sheets, or of a sheet with itself.
+/// A seam that is joined in a step of the assembly: between two sheets, or of a sheet with itself.
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[non_exhaustive]
@@ -41,7 +41,8 @@ pub struct Joint {
 }
 
 impl Assembly {
-    /// Finds the order in which sheets are joined. Costs `O(sheets² + runs)`.
+    /// Finds the order in which a pattern's sheets are joined. Costs `O(sheets² + runs)`, runs being the pieces of
+    /// outlines.
     pub fn new(sheets: &[Sheet]) -> Self {
         Assembly {
             steps: assembly_steps(sheets, &letters(sheets)),
@@ -49,7 +50,7 @@ impl Assembly {
     }
 }
 
-/// Sheets on either side of each crease, each with the length of the seam on that sheet.
+/// For each crease the sheets on its two sides, each with the length of the seam on that sheet.
 type Seams = BTreeMap<usize, Vec<(usize, f64)>>;
 
 fn assembly_steps(sheets: &[Sheet], letters: &BTreeMap<usize, String>) -> Vec<Step> {

@@ -1,4 +1,4 @@
-//! The rigid motion that moves a flat sheet closest to its place on the surface.
+//! Finds the rigid motion that moves a flat sheet closest to its place on the surface.
 
 use nalgebra::{Matrix3, Rotation3, UnitQuaternion, Vector3};
 
@@ -10,12 +10,12 @@ use crate::pattern::Faces;
 pub struct Pose {
     /// Rotation as a unit quaternion: x, y, z, w.
     pub turn: [f64; 4],
-    /// Translation after the rotation.
+    /// Translation after the rotation, in the surface's units.
     pub shift: [f64; 3],
 }
 
 impl Pose {
-    /// Finds the pose that moves a flat sheet to the surface with the least sum of squared distances between
+    /// Finds the rigid motion that moves a flat sheet to the surface with the least sum of squared distances between
     /// vertices. `middle`, a point of the flat sheet, is the origin of the rotation.
     pub fn of(faces: &Faces, middle: [f64; 2]) -> Pose {
         let count = faces.built.len().max(1) as f64;
@@ -39,12 +39,12 @@ impl Pose {
         }
     }
 
-    /// Computes the image of a point under the pose.
+    /// Computes the position to which the rigid motion moves a point.
     pub fn of_place(&self, place: [f64; 3]) -> [f64; 3] {
         (self.rotation() * Vector3::from(place) + Vector3::from(self.shift)).into()
     }
 
-    /// Computes the point whose image under the pose is given (the inverse of the pose).
+    /// Computes the point that the rigid motion moves to a given position (the inverse motion).
     pub fn back(&self, place: [f64; 3]) -> [f64; 3] {
         let moved = Vector3::from(place) - Vector3::from(self.shift);
         self.rotation().inverse_transform_vector(&moved).into()

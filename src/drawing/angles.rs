@@ -10,19 +10,19 @@ use super::lines::Lines;
 use crate::pattern::{Meeting, Run, Sheet};
 use crate::unroll::flat_triangle::Point;
 
-/// Point of the surface where the sum of the angles of the flat pieces differs most from the angle of the surface;
-/// angles in degrees.
+/// Point of the surface where the sum of the angles of the flat pieces around it differs most from the angle of the
+/// surface around it; angles in degrees.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub struct WorstAngle {
-    /// Position of the point on the surface, in the surface's units.
+    /// Position of the point on the surface in space, in the surface's units.
     pub place: [f64; 3],
     /// Lowest number of the creases that are cut at the point, if any; its letter is on the drawing
     /// ([`Label`](super::Label)).
     #[cfg_attr(feature = "serde", serde(skip_serializing_if = "Option::is_none"))]
     pub crease: Option<usize>,
-    /// Sum of the angles of the flat pieces around the point, in degrees.
+    /// Sum of the angles of the flat pieces that meet at the point, in degrees.
     pub flat: f64,
     /// Angle of the surface around the point, in degrees: 360° where the surface could be laid flat in one piece.
     pub surface: f64,
@@ -34,11 +34,12 @@ impl WorstAngle {
     }
 }
 
-/// Sum of the angles of the flat pieces around a point, over the pieces found so far.
-struct Around {
+/// Sum of the angles of the flat pieces around a point of the surface where cuts or folds end, over the pieces added so
+/// far.
+struct PointAngles {
     meeting: Meeting,
-    /// Number of ends of cut sides found at the point: twice the number of cuts when all are found, because a cut
-    /// has two sides.
+    /// Number of ends of cut edges that were found at the point: twice the number of cuts when all are found, because
+    /// both sides of a cut are edges of flat pieces.
     ends: usize,
     angle: f64,
     crease: Option<usize>,
@@ -47,9 +48,9 @@ struct Around {
 /// Compares the angles of the flat pieces with the angle of the surface at each point inside of the surface where
 /// cuts or folds end; points that cannot be measured are left out.
 pub(super) fn angles(sheets: &[Sheet], lines: &[Lines<'_>], scale: f64) -> Vec<WorstAngle> {
-    let mut all: BTreeMap<usize, Around> = BTreeMap::new();
+    let mut all: BTreeMap<usize, PointAngles> = BTreeMap::new();
     let mut add = |meeting: &Meeting, ends: usize, angle: f64, crease: Option<usize>| {
-        let around = all.entry(meeting.number).or_insert(Around {
+        let around = all.entry(meeting.number).or_insert(PointAngles {
             meeting: *meeting,
             ends: 0,
             angle: 0.0,
@@ -101,7 +102,8 @@ pub(super) fn angles(sheets: &[Sheet], lines: &[Lines<'_>], scale: f64) -> Vec<W
     compared.collect()
 }
 
-/// Returns whether a run of an outline begins and ends at the same point and only connects two nodes of that point.
+/// Returns whether a run (a piece of an outline between two seams) is degenerate: it begins and ends at the same
+/// meeting point of seams and is shorter than the radius in which angles are measured there.
 fn is_within(run: &Run) -> bool {
     match run.ends {
         [Some(from), Some(to)] => {
@@ -111,8 +113,8 @@ fn is_within(run: &Run) -> bool {
     }
 }
 
-/// Angle of a sheet, in radians, between the end of a run and the start of the next, measured at the same distance
-/// as the angle of the surface.
+/// Computes the angle of a flat sheet at the corner between outline piece `k` and the next one, in radians, measured at
+/// the same distance from the corner as the angle of the surface.
 fn corner(outline: &[(&Run, Curve)], k: usize, meeting: &Meeting, scale: f64) -> f64 {
     let count = outline.len();
     let mut next = (1..=count).map(|i| (k + i) % count);

@@ -1,5 +1,5 @@
-//! Sheets of metal, which are bent with a radius and have a thickness: their flat length between two faces
-//! differs from what these have up to the crease.
+//! Applies the bend allowance of sheet metal to flat sheets: metal has a thickness and bends with a radius, so that the
+//! flat length between two faces differs from what these have up to the crease.
 //!
 //! The bend allowance BA of a bend by an angle θ is the length of its neutral line, θ (r + k t), with the inner
 //! radius r, the thickness t and the K-factor k. The bend begins at the setback S before the crease: r tan(θ/2) on
@@ -13,10 +13,11 @@ use crate::math::planar::{nearest_on_segment, polyline_length};
 use crate::pattern::{Fold, Run, Sheet};
 use crate::unroll::flat_triangle::Point;
 
-/// Maximum distance of a fold from the straight line between its ends, in spacings, for a bend allowance.
+/// Maximum distance of a fold's points from the straight line between the fold's ends, in lattice spacings, for a bend
+/// allowance.
 const MAX_FOLD_BOW_SPACINGS: f64 = 0.5;
 
-/// Maximum distance of a fold's ends from the outline, in spacings, for a bend allowance.
+/// Maximum distance of a fold's ends from the sheet's outline, in lattice spacings, for a bend allowance.
 const MAX_FOLD_END_GAP_SPACINGS: f64 = 1.0;
 
 /// Applies the bend allowance to all folds of a sheet; an error if a fold is not a straight line from edge to edge.
@@ -47,18 +48,19 @@ pub(super) fn apply_bend_allowance(
     Ok(out)
 }
 
-/// The bend of a sheet along one of its folds.
+/// The bend of a sheet of metal along one of the sheet's folds.
 struct Bend {
-    /// The fold's ends; `outline` is the number of the outline that both lie on.
+    /// Positions of the fold's ends; `outline` is the number of the sheet's outline that both ends lie on.
     ends: [Point; 2],
     outline: usize,
-    /// The outline on either side of the fold.
+    /// The two parts of the outline between the fold's ends, one on either side of the fold.
     sides: [Vec<Corner>; 2],
     setback: f64,
     half: f64,
 }
 
-/// A point of an outline, and the number of the run that the segment after it belongs to.
+/// A point of a sheet's outline, and the number of the run (piece of the outline) that the segment after the point
+/// belongs to.
 type Corner = (Point, usize);
 
 impl Bend {
@@ -131,7 +133,7 @@ impl Bend {
         }
     }
 
-    /// Unit vector across the fold, towards one of its sides.
+    /// Returns the unit vector normal to the fold, towards one of the fold's two sides.
     fn normal(&self, side: usize) -> Point {
         // The sheet lies to the left of its outline, so that which begins at the fold's first end is to its right.
         let along = (self.ends[1] - self.ends[0]) / (self.ends[1] - self.ends[0]).norm();
@@ -142,13 +144,13 @@ impl Bend {
         (self.normal(side).conj() * (place - self.ends[0])).re
     }
 
-    /// Returns whether the outline on a side of the fold reaches beyond the bend.
+    /// Returns whether the outline on one side of the fold reaches beyond the zone in which the metal bends.
     fn is_wide(&self, side: usize) -> bool {
         let away = |corner: &Corner| self.away(side, corner.0);
         self.sides[side].iter().map(away).fold(0.0, f64::max) > self.setback
     }
 
-    /// Position of a point of the sheet after the bend allowance was applied.
+    /// Computes the position that a point of the sheet has after the bend allowance was applied.
     fn moved(&self, side: usize, place: Point, is_beside: bool) -> Point {
         let away = self.away(side, place);
         let by = match is_beside && away < self.setback && self.setback > 0.0 {
@@ -201,8 +203,8 @@ impl Bend {
         }
     }
 
-    /// Computes the outline on one side of the fold after the bend allowance was applied. Only the pieces next to
-    /// the fold's ends are within the bend.
+    /// Computes the part of the outline on one side of the fold after the bend allowance was applied. Only the segments
+    /// next to the fold's ends lie within the zone that bends.
     fn arc(&self, side: usize) -> Vec<Corner> {
         let corners = &self.sides[side];
         let beyond = |(place, _): &Corner| self.away(side, *place) >= self.setback;
@@ -244,7 +246,7 @@ fn ring(outline: &[Run]) -> Vec<Corner> {
     corners.collect()
 }
 
-/// Replaces the points of an outline's runs by those of its corners.
+/// Replaces the points of a closed outline's runs (its pieces) by given points.
 fn rebuild(outline: &mut [Run], corners: &[Corner]) {
     let n = corners.len();
     // Begin at the start of the first run, unless that is the whole outline.
@@ -267,7 +269,7 @@ fn rebuild(outline: &mut [Run], corners: &[Corner]) {
     }
 }
 
-/// Whether a point is inside of a closed line.
+/// Returns whether a point is inside of a closed polyline.
 fn is_inside(line: &[Point], place: Point) -> bool {
     let next = line.iter().cycle().skip(1);
     let crossed = line.iter().zip(next).filter(|(p, q)| {

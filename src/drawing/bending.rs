@@ -1,23 +1,23 @@
-//! The bend allowance of metal.
+//! Options of bending sheet metal, and the bend allowance that follows from them.
 
 use crate::error::{Error, Result, positive};
 use crate::pattern::Direction;
 
-/// Bending of sheet metal: its thickness, and the radius and neutral line of its bends.
+/// How sheet metal is bent along folds: the thickness of the metal, the inner radius and the K-factor of bends.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub struct Bending {
     /// Thickness of the metal, in millimetres.
     pub thickness: f64,
-    /// Inner radius of all bends, in millimetres. Default: the thickness.
+    /// Inner radius of all bends of the metal, in millimetres. Default: the thickness.
     pub radius: f64,
-    /// K-factor: distance of the neutral line from the inside of a bend, as a share of the thickness; from 0
-    /// to 1, mostly 0.33 to 0.5. Default 0.44.
+    /// K-factor of all bends: distance of the neutral line from the inside of a bend, as a share of the thickness; from
+    /// 0 to 1, mostly 0.33 to 0.5. Default 0.44.
     pub k_factor: f64,
 }
 
 impl Bending {
-    /// Bending of metal of a given thickness in millimetres, with the default radius and K-factor.
+    /// Creates the bending options for metal of a given thickness in millimetres, with the default radius and K-factor.
     pub fn new(thickness: f64) -> Self {
         Bending {
             thickness,
@@ -26,12 +26,12 @@ impl Bending {
         }
     }
 
-    /// Returns these bending options with another inner radius, in millimetres.
+    /// Sets the inner radius of all bends, in millimetres, and returns the bending options.
     pub fn radius(self, radius: f64) -> Self {
         Bending { radius, ..self }
     }
 
-    /// Returns these bending options with another K-factor.
+    /// Sets the K-factor of all bends, from 0 to 1, and returns the bending options.
     pub fn k_factor(self, k_factor: f64) -> Self {
         Bending { k_factor, ..self }
     }
@@ -55,8 +55,8 @@ impl Bending {
         }
     }
 
-    /// Computes for a bend the setback, which is the bend's distance from the crease, and half of the bend
-    /// allowance, both in millimetres. `angle` is in radians.
+    /// Computes for a bend the setback, which is the distance from the crease to where the metal begins to bend, and
+    /// half of the bend allowance, both in millimetres. `angle` is in radians.
     pub(super) fn zone(&self, direction: Direction, angle: f64) -> [f64; 2] {
         let outside = match direction {
             Direction::Mountain => self.thickness,

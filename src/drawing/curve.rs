@@ -1,4 +1,4 @@
-//! Lines made of cubic Bézier curves.
+//! Curves of straight lines and cubic Bézier curves: their length, points on them, and division into parts.
 
 use crate::math::planar::distance;
 
@@ -13,17 +13,17 @@ use crate::math::planar::distance;
 )]
 pub struct Curve(Vec<[f64; 2]>);
 
-/// A piece of a [`Curve`], with its ends.
+/// A piece of a [`Curve`], straight or curved, with the positions of its ends.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Piece {
-    /// A straight line.
+    /// A straight line between two points.
     Line([[f64; 2]; 2]),
-    /// A cubic Bézier curve.
+    /// A cubic Bézier curve between two points, with its two inner control points.
     Bezier([[f64; 2]; 4]),
 }
 
 impl Curve {
-    /// Creates a polyline through points.
+    /// Creates a curve of straight pieces from one given point to the next.
     pub fn through(points: &[[f64; 2]]) -> Self {
         let mut curve = Curve(points.iter().take(1).copied().collect());
         for point in points.iter().skip(1) {
@@ -32,12 +32,12 @@ impl Curve {
         curve
     }
 
-    /// Creates a curve from its control points.
+    /// Creates a curve from its control points, of which there must be `3n + 1`.
     pub(super) fn of(controls: Vec<[f64; 2]>) -> Self {
         Curve(controls)
     }
 
-    /// The curve's control points.
+    /// Returns the curve's control points: each piece's end points and the two points between them.
     pub fn controls(&self) -> &[[f64; 2]] {
         &self.0
     }
@@ -48,7 +48,7 @@ impl Curve {
         self.0.len() % 3 == 1
     }
 
-    /// The curve's pieces, one after the other.
+    /// Iterates over the curve's pieces, from its beginning to its end.
     pub fn pieces(&self) -> impl Iterator<Item = Piece> + '_ {
         let starts = (0..self.0.len().saturating_sub(1)).step_by(3);
         starts.filter_map(|i| Some(Piece::of(self.0.get(i..i + 4)?.try_into().ok()?)))
@@ -62,7 +62,7 @@ impl Curve {
         self.0.push(to);
     }
 
-    /// Appends a curve that begins where this one ends.
+    /// Appends another curve, which begins where this one ends.
     pub(super) fn append(&mut self, next: &Curve) {
         let from = usize::from(!self.0.is_empty());
         self.0.extend(next.0.iter().skip(from));
@@ -84,13 +84,13 @@ impl Curve {
         points
     }
 
-    /// Length of the curve.
+    /// Computes the length of the curve.
     pub(super) fn length(&self) -> f64 {
         self.pieces().map(|piece| piece.length()).sum()
     }
 
-    /// The control points, each with the share of the curve's length that lies before it; inner control points
-    /// count as lying at a third and two thirds of their piece.
+    /// Lists the curve's control points, each with its position along the curve as a share of the curve's length, from
+    /// 0 to 1; the inner control points of a piece count as lying at a third and two thirds of it.
     pub(super) fn placed(&self) -> impl Iterator<Item = ([f64; 2], f64)> + '_ {
         let whole = self.length().max(f64::MIN_POSITIVE);
         let mut before = 0.0;
@@ -103,7 +103,8 @@ impl Curve {
         self.0.iter().copied().zip(shares)
     }
 
-    /// Splits the curve at positions, which are ascending shares of its length, and returns the parts.
+    /// Splits the curve at given positions, which are ascending shares of its length from 0 to 1, and returns the
+    /// parts.
     pub(super) fn split(&self, shares: &[f64]) -> Vec<Curve> {
         let pieces: Vec<Piece> = self.pieces().collect();
         let lengths: Vec<f64> = pieces.iter().map(Piece::length).collect();
@@ -140,10 +141,11 @@ impl Curve {
     }
 }
 
-/// Minimum angle, in radians, by which a polyline turns at a corner; where it turns by less, it is a bend.
+/// Minimum turning angle, in radians, at a point of a polyline that counts as a corner; a polyline that turns by less
+/// approximates a curve there.
 pub(super) const POLYLINE_CORNER_ANGLE: f64 = 0.3;
 
-/// Number of straight lines by which the length of a curve's piece is measured.
+/// Number of straight segments by which the length of one piece of a curve is measured.
 const LENGTH_SEGMENTS_PER_PIECE: usize = 32;
 
 impl Piece {
@@ -169,7 +171,7 @@ impl Piece {
         }
     }
 
-    /// Number of straight lines that approximate the piece within a tolerance.
+    /// Computes the number of straight segments that approximate the piece within a tolerance.
     fn steps(&self, tolerance: f64) -> usize {
         let Piece::Bezier([a, b, c, d]) = self else {
             return 1;
@@ -190,7 +192,8 @@ impl Piece {
         }
     }
 
-    /// Lengths of the piece up to the end of each of [`LENGTH_SEGMENTS_PER_PIECE`] equal steps of the parameter.
+    /// Computes the lengths of the piece from its beginning to the end of each of [`LENGTH_SEGMENTS_PER_PIECE`] equal
+    /// steps of the curve parameter.
     fn lengths(&self) -> Vec<f64> {
         let mut sum = 0.0;
         let mut last = self.at(0.0);
@@ -203,7 +206,7 @@ impl Piece {
         (1..=LENGTH_SEGMENTS_PER_PIECE).map(step).collect()
     }
 
-    /// Computes the curve parameter, from 0 to 1, up to which the piece has a given length.
+    /// Finds the curve parameter, from 0 to 1, at a given length from the piece's beginning.
     fn parameter(&self, length: f64) -> f64 {
         let lengths = self.lengths();
         let i = lengths.partition_point(|sum| *sum < length);
@@ -217,7 +220,7 @@ impl Piece {
         ((i as f64 + share) / LENGTH_SEGMENTS_PER_PIECE as f64).clamp(0.0, 1.0)
     }
 
-    /// Splits the piece in two at a parameter from 0 to 1 (de Casteljau).
+    /// Splits the piece in two at a curve parameter from 0 to 1 (de Casteljau).
     fn cut(&self, t: f64) -> (Piece, Piece) {
         let mix = |p: [f64; 2], q: [f64; 2]| [0, 1].map(|k| (1.0 - t) * p[k] + t * q[k]);
         match *self {

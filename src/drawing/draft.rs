@@ -16,7 +16,8 @@ use super::tabs::{Tab, add_tabs};
 use crate::error::{Error, Result, rounded};
 use crate::pattern::Sheet;
 
-/// Assigns letters to the creases that are cut; returns the letters by the creases' numbers.
+/// Assigns letters to the creases that are cut, by which both sides of a seam are labelled; returns the letters by the
+/// creases' numbers.
 pub(crate) fn letters(sheets: &[Sheet]) -> BTreeMap<usize, String> {
     let runs = sheets.iter().flat_map(|s| s.outlines.iter().flatten());
     let mut creases: Vec<usize> = runs.filter_map(|run| run.seam.map(|s| s.crease)).collect();
@@ -36,8 +37,9 @@ pub(crate) fn letters(sheets: &[Sheet]) -> BTreeMap<usize, String> {
     names.map(|(n, crease)| (crease, name(n))).collect()
 }
 
-/// Names and marks that all sheets share: the letter of each seam, and the number of marks on each seam.
-pub(super) struct Named {
+/// Annotations of seams that all sheets of a drawing share: the letter of each seam, and the number of marks (short
+/// lines across the seam for alignment) on each.
+pub(super) struct SeamAnnotations {
     pub letters: BTreeMap<usize, String>,
     pub marks: BTreeMap<usize, usize>,
 }
@@ -48,7 +50,7 @@ impl DrawnSheet {
         sheet: &Sheet,
         lines: &Lines<'_>,
         options: &DrawingOptions,
-        Named { letters, marks }: &Named,
+        SeamAnnotations { letters, marks }: &SeamAnnotations,
     ) -> Result<Self> {
         let scale = options.scale;
         let (plain, flaps) = add_tabs(&lines.outlines, options.tabs);

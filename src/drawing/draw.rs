@@ -1,7 +1,7 @@
-//! Drawings: sheets drawn beside each other in millimetres.
+//! Draws the sheets of a pattern beside each other or on pages, in millimetres.
 
 use super::bend::apply_bend_allowance;
-use super::draft::{Named, letters};
+use super::draft::{SeamAnnotations, letters};
 use super::joints::matched_lines;
 use super::marks::mark_counts;
 use super::nest::Shape;
@@ -23,11 +23,11 @@ pub struct Drawing {
     pub width: f64,
     /// Height of the drawing, in millimetres.
     pub height: f64,
-    /// The drawn sheets, in their order; none overlaps another.
+    /// The drawn sheets, in the order of the pattern's sheets; none overlaps another.
     pub sheets: Vec<DrawnSheet>,
-    /// The pages that the sheets lie on, if there are any ([`Drawing::onto`]).
+    /// The printed pages or plates that the sheets lie on, if there are any ([`Drawing::onto`]).
     pub pages: Option<Pages>,
-    /// Numbers and total lengths of what is drawn.
+    /// Summary of the drawing: numbers of sheets, seams, folds and tabs, and their total lengths.
     pub summary: Totals,
 }
 
@@ -60,7 +60,7 @@ impl Drawing {
             .collect::<Result<Vec<_>>>()?;
         let lines = matched_lines(sheets, &options);
         let marks = options.marks.map(|distance| mark_counts(&lines, distance));
-        let named = Named {
+        let named = SeamAnnotations {
             letters,
             marks: marks.unwrap_or_default(),
         };
@@ -93,9 +93,9 @@ impl Drawing {
         })
     }
 
-    /// Arranges the sheets on as few pages as a greedy search finds. A sheet lies whole on one page, rotated if it
-    /// fits better; on paper, a sheet that is larger than a page is divided over several pages to be glued
-    /// together.
+    /// Arranges the drawing's sheets on pages of a material, on as few as a greedy search finds. A sheet lies whole on
+    /// one page, rotated if it fits better; on paper, a sheet that is larger than a page is divided over several pages
+    /// to be glued together.
     ///
     /// Sheets are nested by their outlines, not as boxes: the largest first, each on the first page that has room,
     /// three millimetres apart at least.
@@ -130,8 +130,8 @@ impl Drawing {
         })
     }
 
-    /// Adds to the summary what part of the surface is on no sheet
-    /// ([`Pattern::missing`](crate::pattern::Pattern::missing)); `scale` is that of the drawing, in millimetres per
+    /// Adds to the drawing's summary which part of the surface is on no sheet
+    /// ([`Pattern::missing`](crate::pattern::Pattern::missing)); `scale` is the drawing's scale, in millimetres per
     /// unit.
     pub fn missing(mut self, missing: &Missing, scale: f64) -> Self {
         let mut missing = *missing;

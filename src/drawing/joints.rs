@@ -15,37 +15,42 @@ use super::options::DrawingOptions;
 use super::smooth::crossing_curves;
 use crate::pattern::Sheet;
 
-/// Difference between the two sides of a joint, as a share of their length, below which they are equally long.
+/// Maximum difference between the lengths of a joint's two sides, as a share of the length, at which they count as
+/// equally long.
 const LENGTH_TOLERANCE: f64 = 1e-4;
 
-/// Maximum distance that a side and its corners are moved beyond the tolerance, as a share of the side's length.
+/// Maximum distance that a side of a joint and the side's corners may be moved in addition to the smoothing tolerance,
+/// as a share of the side's length.
 const MAX_SHIFT_SHARE: f64 = 0.01;
 
-/// Maximum number of Kaczmarz sweeps, each of which makes the sides of one joint after the other equally long.
+/// Maximum number of Kaczmarz sweeps, which solve the linear system for the shifts of sides; each sweep makes the two
+/// sides of one joint after another equally long.
 const MAX_KACZMARZ_SWEEPS: usize = 400;
 
-/// Maximum number of times the lengths of joints are linearised again.
+/// Maximum number of times that the lengths of the joints' sides are linearised again (Gauss-Newton steps).
 const MAX_LENGTH_ROUNDS: usize = 4;
 
-/// Maximum number of trials in which sides that would cross others are moved less far.
+/// Maximum number of trials in which sides of joints that would cross other sides are moved less far.
 const MAX_BACKTRACKING_TRIALS: usize = 16;
 
 /// Factor by which the limit of a side's shift is reduced after a trial in which the side crosses another.
 const BACKTRACKING_FACTOR: f64 = 0.6;
 
-/// Number of parts of a piece of a curve among which the point nearest to a fold's end is looked for.
+/// Number of parts of each curve piece of an outline among which the point nearest to a fold's end is searched.
 const NEAREST_POINT_PARTS: usize = 16;
 
-/// A side of a joint: a run of an outline, which is a curve between two corners.
+/// A side of a joint (of a seam or a fold between two parts): a piece of an outline, which is a curve between two
+/// corners.
 struct Side {
-    /// Numbers of the corners where the curve begins and ends.
+    /// Numbers of the outline's corners where the side's curve begins and ends.
     corners: [usize; 2],
     curve: Curve,
     length: f64,
-    /// Largest distance of a point of the curve from the point of the chord at the same share of the length.
+    /// Largest distance of a point of the side's curve from the point of its chord at the same share of the length, in
+    /// millimetres.
     bow: f64,
-    /// Maximum distance that the curve may be moved, in millimetres.
-    most: f64,
+    /// Maximum distance that the side's curve may be moved, in millimetres.
+    max_shift: f64,
 }
 
 impl Side {
@@ -56,7 +61,7 @@ impl Side {
             curve: curve.clone(),
             length,
             bow: 0.0,
-            most: cells + MAX_SHIFT_SHARE * length,
+            max_shift: cells + MAX_SHIFT_SHARE * length,
         };
         let away = |(p, s): ([f64; 2], f64)| {
             let [x, y] = side.off(p, s);
@@ -71,14 +76,14 @@ impl Side {
         [controls[0], controls[controls.len() - 1]]
     }
 
-    /// Offset of a point of the curve from the point of the chord at the same share of the length.
+    /// Computes the offset of a point of the side's curve from the point of the chord at the same share of the length.
     fn off(&self, p: [f64; 2], share: f64) -> [f64; 2] {
         let [from, to] = self.chord();
         [0, 1].map(|k| p[k] - from[k] - share * (to[k] - from[k]))
     }
 
-    /// Derivatives of the curve's length by the position of its last corner and by its bow; the derivative by the
-    /// first corner is the negative of the former.
+    /// Computes the derivatives of the side's length by the position of its last corner and by its bow (largest
+    /// distance from the chord); the derivative by the first corner is the negative of the former.
     fn slopes(&self) -> ([f64; 2], f64) {
         let [from, to] = self.chord();
         let along = [0, 1].map(|k| (to[k] - from[k]) / self.length);
@@ -89,9 +94,8 @@ impl Side {
         }
     }
 
-    /// The curve with its ends shifted by `from` and `to`, and its distances from the chord scaled so that the
-    /// largest is
-    /// `bow`.
+    /// Computes the side's curve with its ends shifted by `from` and `to`, and its offsets from the chord scaled so
+    /// that the largest becomes `bow`.
     fn moved(&self, [from, to]: [[f64; 2]; 2], bow: f64) -> Curve {
         let swell = if self.bow > 0.0 { bow / self.bow } else { 0.0 };
         Curve::of(
@@ -105,7 +109,7 @@ impl Side {
     }
 }
 
-/// The smooth lines of all sheets in millimetres, with both sides of each joint equally long.
+/// Computes the smooth outlines and folds of all sheets in millimetres, with both sides of each joint equally long.
 pub(super) fn matched_lines<'a>(sheets: &'a [Sheet], options: &DrawingOptions) -> Vec<Lines<'a>> {
     let mut lines: Vec<Lines<'_>> = sheets.iter().map(|s| Lines::new(s, options)).collect();
     // With a bend allowance lengths across a fold differ from those of the surface on purpose.
@@ -115,8 +119,8 @@ pub(super) fn matched_lines<'a>(sheets: &'a [Sheet], options: &DrawingOptions) -
     lines
 }
 
-/// Makes both sides of joints equally long, as far as the limits of their shifts allow; changes nothing
-/// without smoothing.
+/// Makes the two sides of each joint equally long, as far as the limits of the sides' shifts allow; changes nothing
+/// where smoothing is disabled.
 fn equalise_joints(sheets: &[Sheet], lines: &mut [Lines<'_>], options: &DrawingOptions) {
     if options.smoothing == 0.0 {
         return;
@@ -132,14 +136,16 @@ fn equalise_joints(sheets: &[Sheet], lines: &mut [Lines<'_>], options: &DrawingO
         let mut wrong = outlines.crossing(&after);
         wrong.retain(|number| !usual.contains(number));
         if !wrong.is_empty() {
-            outlines.hold(&wrong);
+            outlines.reduce_limits(&wrong);
             continue;
         }
         for (own, sheet) in lines.iter_mut().zip(&outlines.sheets) {
             let [before, after] = [&before, &after].map(|curves| &curves[sheet.sides.clone()]);
             for fold in &mut own.folds {
                 let line = Side::new(&fold.curve, [0, 0], 0.0);
-                let ways = line.chord().map(|end| way(end, before, after, sheet.cell));
+                let ways = line
+                    .chord()
+                    .map(|end| fold_end_shift(end, before, after, sheet.cell));
                 *fold = fold.clone().along(line.moved(ways, 0.0));
             }
             let runs = own.outlines.iter_mut().flatten();
@@ -151,20 +157,22 @@ fn equalise_joints(sheets: &[Sheet], lines: &mut [Lines<'_>], options: &DrawingO
     }
 }
 
-/// The sides on one sheet, as a range of their numbers.
-struct Own {
+/// The sides of joints on one sheet, as a range of their numbers.
+struct SheetSides {
     sides: Range<usize>,
-    /// Spacing of the lattice in the drawing, in millimetres.
+    /// Spacing of the lattice's vertices on the drawing, in millimetres.
     cell: f64,
 }
 
-/// The runs of all outlines, called sides here, and for each joint the numbers of the sides on both halves of it.
+/// The outlines of all sheets as one list of sides (curves between two corners), and for each joint the numbers of the
+/// sides on both halves of the joint.
 struct Outlines {
     sides: Vec<Side>,
     joints: Vec<[Vec<usize>; 2]>,
-    sheets: Vec<Own>,
+    sheets: Vec<SheetSides>,
     corners: usize,
-    /// Maximum shift of each unknown: two coordinates for each corner, then the bow of each side.
+    /// Maximum shift of each unknown of the least-squares problem, in millimetres: of the two coordinates of each
+    /// corner, then of the bow of each side.
     limits: Vec<f64>,
 }
 
@@ -188,16 +196,16 @@ impl Outlines {
                 corners += count;
             }
             let sides = first..sides.len();
-            ranges.push(Own { sides, cell });
+            ranges.push(SheetSides { sides, cell });
         }
         let mut limits = vec![0.0f64; 2 * corners + sides.len()];
         for (number, side) in sides.iter().enumerate() {
             for corner in side.corners {
                 for limit in &mut limits[2 * corner..2 * corner + 2] {
-                    *limit = limit.max(side.most);
+                    *limit = limit.max(side.max_shift);
                 }
             }
-            limits[2 * corners + number] = side.most;
+            limits[2 * corners + number] = side.max_shift;
         }
         Outlines {
             joints: (joints.into_values())
@@ -210,17 +218,18 @@ impl Outlines {
         }
     }
 
-    /// Numbers of the sides that cross other sides of their sheet.
+    /// Finds the sides that cross themselves or other sides of their sheet; returns the sides' numbers.
     fn crossing(&self, curves: &[Curve]) -> Vec<usize> {
-        let wrong = self.sheets.iter().flat_map(|Own { sides, cell }| {
+        let wrong = self.sheets.iter().flat_map(|SheetSides { sides, cell }| {
             let wrong = crossing_curves(&curves[sides.clone()], *cell);
             wrong.into_iter().map(|number| sides.start + number)
         });
         wrong.collect()
     }
 
-    /// Reduces the maximum shift of some sides and of the corners at their ends.
-    fn hold(&mut self, lines: &[usize]) {
+    /// Reduces the maximum shift of some sides, and of the corners at their ends, by the factor
+    /// [`BACKTRACKING_FACTOR`].
+    fn reduce_limits(&mut self, lines: &[usize]) {
         for number in lines {
             for corner in self.sides[*number].corners {
                 self.limits[2 * corner] *= BACKTRACKING_FACTOR;
@@ -230,10 +239,14 @@ impl Outlines {
         }
     }
 
-    /// Moves all sides so that the two halves of each joint are as nearly equally long as the limits allow.
+    /// Moves all sides so that the two halves of each joint are as nearly equally long as the limits of the shifts
+    /// allow.
     fn equalise_joints(&self) -> Vec<Curve> {
-        let rows: Vec<Vec<(usize, f64)>> =
-            self.joints.iter().map(|joint| self.row(joint)).collect();
+        let rows: Vec<Vec<(usize, f64)>> = self
+            .joints
+            .iter()
+            .map(|joint| self.length_difference_gradient(joint))
+            .collect();
         let mut x = vec![0.0; self.limits.len()];
         let mut curves: Vec<Curve> = self.sides.iter().map(|s| s.curve.clone()).collect();
         for _ in 0..MAX_LENGTH_ROUNDS {
@@ -278,8 +291,9 @@ impl Outlines {
         curves
     }
 
-    /// Derivatives of the difference between the lengths of a joint's halves by each unknown.
-    fn row(&self, joint: &[Vec<usize>; 2]) -> Vec<(usize, f64)> {
+    /// Computes the derivatives of the difference between the lengths of a joint's two halves by each corner's
+    /// coordinates and each side's bow; returns those that are not 0, each with the number of its unknown.
+    fn length_difference_gradient(&self, joint: &[Vec<usize>; 2]) -> Vec<(usize, f64)> {
         let mut row: BTreeMap<usize, f64> = BTreeMap::new();
         for (own, sign) in joint.iter().zip([1.0, -1.0]) {
             for number in own {
@@ -304,9 +318,9 @@ fn product(row: &[(usize, f64)], x: &[f64]) -> f64 {
     row.iter().map(|(i, w)| w * x[*i]).sum()
 }
 
-/// Computes the shift of a fold's end: the shift of the nearest point of the outlines, if that point is within half
-/// a lattice spacing.
-fn way(end: [f64; 2], before: &[Curve], after: &[Curve], cell: f64) -> [f64; 2] {
+/// Computes the shift of a fold's end: the shift of the outline's point nearest to it, or 0 if that is more than half a
+/// lattice spacing away.
+fn fold_end_shift(end: [f64; 2], before: &[Curve], after: &[Curve], cell: f64) -> [f64; 2] {
     let pieces =
         |curves: &[Curve]| -> Vec<Piece> { curves.iter().flat_map(Curve::pieces).collect() };
     let (mut nearest, mut found) = (0.5 * cell, [0.0; 2]);

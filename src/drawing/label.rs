@@ -1,4 +1,4 @@
-//! Texts on the sheets of a drawing, and their positions.
+//! Texts on the sheets of a drawing: their contents, sizes and positions.
 
 use super::curve::Curve;
 use super::line::{FLATTENING_TOLERANCE_MM, Line, place_at};
@@ -6,33 +6,33 @@ use super::tabs::Tab;
 use crate::math::planar::{distance, polyline_length};
 use crate::pattern::Direction;
 
-/// Size of texts beside sheets, and maximum size of texts along lines, in millimetres.
+/// Font size of a text beside a sheet, and maximum font size of a text along a line, in millimetres.
 const NOTE_SIZE_MM: f64 = 3.0;
 
-/// Maximum size of texts, in millimetres.
+/// Maximum font size of a text in a drawing, in millimetres.
 const MAX_TEXT_SIZE_MM: f64 = 12.0;
 
-/// Minimum size of texts, in millimetres.
+/// Minimum font size of a text in a drawing, in millimetres.
 const MIN_TEXT_SIZE_MM: f64 = 1.5;
 
-/// A text on a sheet or beside it.
+/// A text on a sheet of a drawing or beside it.
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub struct Label {
-    /// Subject of the text: a patch, a seam, a fold or a sheet.
+    /// Subject of the text: a patch, a cut crease, a fold or a sheet.
     pub kind: LabelKind,
-    /// The text.
+    /// The text's characters.
     pub text: String,
-    /// Middle of the text, in millimetres.
+    /// Position of the middle of the text in the drawing, in millimetres.
     pub place: [f64; 2],
-    /// Size of the font, in millimetres.
+    /// Font size of the text, in millimetres.
     pub size: f64,
     /// Angle of the text, in degrees counter-clockwise.
     pub turn: f64,
 }
 
-/// Subject of a text in a drawing.
+/// Subject of a text in a drawing: what the text numbers or names.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 #[cfg_attr(
     feature = "serde",
@@ -41,13 +41,13 @@ pub struct Label {
 )]
 #[non_exhaustive]
 pub enum LabelKind {
-    /// The number of a patch.
+    /// The number of a patch, on it or beside its sheet.
     Patch,
-    /// The letter of a cut crease, at its edge or on a tab.
+    /// The letter of a cut crease, along the cut or on a tab.
     Seam,
-    /// Direction and angle of a fold.
+    /// Direction (mountain or valley) and angle of a fold, along it.
     Fold,
-    /// The name of a sheet, above it.
+    /// The name of a sheet, above the sheet.
     Sheet,
 }
 
@@ -62,13 +62,13 @@ impl Label {
         }
     }
 
-    /// Whether a patch is too small for its number; `room` is the distance from the label's place to the patch's
-    /// border, in millimetres.
+    /// Returns whether a patch is too small for its number; `room` is the distance from the label's place to the
+    /// patch's border, in millimetres.
     pub(super) fn is_cramped(room: f64) -> bool {
         0.8 * room < MIN_TEXT_SIZE_MM
     }
 
-    /// Moves this label to a place beside its sheet.
+    /// Moves this label to a place beside its sheet, where a leader line connects it to its patch.
     pub(super) fn outside(self, place: [f64; 2]) -> Self {
         Label {
             place,
@@ -77,14 +77,14 @@ impl Label {
         }
     }
 
-    /// Whether this label stands beside its sheet, because a leader line ends at it.
+    /// Returns whether this label stands beside its sheet, which it does if a leader line ends at it.
     pub(super) fn is_beside(&self, leaders: &[Curve]) -> bool {
         self.kind == LabelKind::Patch
             && (leaders.iter().flat_map(|line| line.controls().last()))
                 .any(|end| distance(*end, self.place) < 1.5 * NOTE_SIZE_MM)
     }
 
-    /// Approximate bounding box of the text, as four corners.
+    /// Computes the four corners of an approximate bounding box of the label's text, in millimetres.
     pub(super) fn corners(&self) -> Vec<[f64; 2]> {
         let half = [
             0.3 * self.size * self.text.chars().count() as f64,
@@ -133,7 +133,7 @@ impl Label {
         }
     }
 
-    /// A small text that belongs to no sheet, such as a page's name.
+    /// Creates a small text that belongs to no sheet, such as the name of a printed page.
     #[cfg(feature = "patterns")]
     pub(crate) fn note(text: &str, place: [f64; 2]) -> Self {
         Label {
@@ -145,7 +145,8 @@ impl Label {
         }
     }
 
-    /// Creates a text along a line, to the left of the line's middle by a multiple of the text's size.
+    /// Creates a text along a line, to the left of the line's middle, at a distance that is a multiple of the text's
+    /// font size.
     fn beside(kind: LabelKind, text: String, points: &[[f64; 2]], away: f64) -> Self {
         let long = polyline_length(points);
         let size = (0.2 * long).clamp(MIN_TEXT_SIZE_MM, NOTE_SIZE_MM);
@@ -162,7 +163,7 @@ impl Label {
         label
     }
 
-    /// Approximate width of a sheet's name, and its height with the room around it.
+    /// Estimates the width of a sheet's name, and its height with the empty space around it, in millimetres.
     pub(super) fn extent(&self) -> [f64; 2] {
         let letters = self.text.chars().count() as f64;
         [0.6 * self.size * letters, 2.0 * self.size]
@@ -172,7 +173,7 @@ impl Label {
         self.kind == LabelKind::Sheet
     }
 
-    /// Rotates the label with its sheet, by 180° more if the text would be upside down.
+    /// Rotates the label when its sheet is rotated, by 180° more if the text would be upside down.
     pub(super) fn turn_by(&mut self, degrees: f64) {
         let turned = (self.turn + degrees).rem_euclid(180.0);
         // Text runs to the right or upwards.

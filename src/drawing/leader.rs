@@ -4,17 +4,19 @@ use super::curve::Curve;
 use super::label::Label;
 use crate::math::planar::{distance, nearest_on_segment};
 
-/// Number of directions in which a leader is tried, evenly spaced over a full turn.
+/// Number of directions in which a leader line from a small patch to its number is tried, evenly spaced over a full
+/// turn.
 const LEADER_DIRECTIONS: u32 = 24;
 
-/// Distance of a leader's end from the sheet's edge, in millimetres.
+/// Distance of a leader line's outer end from the sheet's edge, in millimetres.
 const LEADER_END_DISTANCE_MM: f64 = 3.0;
 
-/// Distance of the middle of a leader's number from the sheet's edge, in millimetres.
+/// Distance between the sheet's edge and the middle of the number at the end of a leader line, in millimetres.
 const LEADER_TEXT_DISTANCE_MM: f64 = 6.0;
 
-/// Moves a label beside the sheet, in the direction in which its leader line leaves the sheet after the shortest
-/// distance and crosses nothing else. Returns the label and its leader; `None` if there is no such direction.
+/// Moves the label of a small patch beside the sheet, in the direction in which the leader line (from patch to label)
+/// leaves the sheet after the shortest distance and crosses nothing else. Returns the label and the leader line; `None`
+/// if there is no such direction.
 pub(super) fn place_leader(
     label: &Label,
     walls: &[[[f64; 2]; 2]],
@@ -50,7 +52,8 @@ pub(super) fn place_leader(
     Some((label.clone().outside(place), Curve::through(&[from, end])))
 }
 
-/// Distance along a ray to its intersection with a line segment.
+/// Computes the distance from the start of a ray to the ray's intersection with a line segment; `None` if they do not
+/// meet.
 fn hit(from: [f64; 2], [x, y]: [f64; 2], [p, q]: [[f64; 2]; 2]) -> Option<f64> {
     let side = |r: [f64; 2]| x * (r[1] - from[1]) - y * (r[0] - from[0]);
     let (a, b) = (side(p), side(q));

@@ -1,28 +1,29 @@
-//! Lines to fold along, and positions along polylines.
+//! Fold lines of a drawn sheet, and positions along polylines.
 
 use super::curve::Curve;
 use crate::math::planar::{distance, polyline_length};
 use crate::pattern::{Direction, Seam};
 
-/// Maximum distance between a curve and the polyline that approximates it, in millimetres.
+/// Maximum distance between a curve of a drawing and the polyline that approximates it, in millimetres.
 pub(super) const FLATTENING_TOLERANCE_MM: f64 = 0.02;
 
-/// A line to fold along.
+/// A fold line of a drawn sheet: a line along which the sheet is folded.
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub struct Line {
-    /// Number of the crease, its index in [`Patches::creases`](crate::shape::patches::Patches::creases).
+    /// Number of the crease that the fold line follows, its index in
+    /// [`Patches::creases`](crate::shape::patches::Patches::creases).
     pub crease: usize,
-    /// Whether the line is a mountain or a valley fold, seen from above.
+    /// Whether the fold is a mountain or a valley fold, seen from above.
     pub direction: Direction,
-    /// Fold angle in degrees: 0 is flat.
+    /// Fold angle in degrees: 0 where the sheet stays flat.
     pub angle: f64,
-    /// Length of the line in millimetres.
+    /// Length of the fold line, in millimetres.
     pub length: f64,
-    /// The line as a polyline, within a fiftieth of a millimetre of [`Line::curve`].
+    /// The fold line as a polyline in millimetres, within a fiftieth of a millimetre of [`Line::curve`].
     pub points: Vec<[f64; 2]>,
-    /// The line as a curve.
+    /// The fold line as a smooth curve in millimetres.
     pub curve: Curve,
 }
 
@@ -39,7 +40,7 @@ impl Line {
         line.along(curve)
     }
 
-    /// Replaces the curve of this line.
+    /// Replaces the curve of this fold line, and computes its polyline and length anew.
     pub(super) fn along(self, curve: Curve) -> Self {
         let points = curve.points(FLATTENING_TOLERANCE_MM);
         Line {
@@ -51,7 +52,7 @@ impl Line {
     }
 }
 
-/// The point at a length along a polyline, and the direction of the polyline there.
+/// Computes the point of a polyline at a given length from its beginning, and the direction of the polyline there.
 pub(super) fn place_at(points: &[[f64; 2]], along: f64) -> ([f64; 2], [f64; 2]) {
     let (mut rest, mut place, mut heading) = (along, points[0], [1.0, 0.0]);
     for piece in points.windows(2) {

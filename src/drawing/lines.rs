@@ -1,4 +1,4 @@
-//! The outlines and folds of a sheet as smooth curves in millimetres, before the sheet is placed in the drawing.
+//! The outlines and folds of one sheet as smooth curves in millimetres, before the sheet is placed in the drawing.
 
 use super::curve::Curve;
 use super::line::Line;
@@ -6,7 +6,7 @@ use super::options::DrawingOptions;
 use super::smooth::smooth_lines;
 use crate::pattern::{Run, Sheet};
 
-/// The outlines and folds of a sheet as smooth curves in millimetres.
+/// The outlines and folds of one sheet as smooth curves in millimetres, before the sheet is placed in the drawing.
 pub(super) struct Lines<'a> {
     pub outlines: Vec<Vec<(&'a Run, Curve)>>,
     pub folds: Vec<Line>,

@@ -1,4 +1,4 @@
-//! Marks along both sides of seams, which lie on each other when these are joined.
+//! Draws marks along both sides of each seam, by which these are aligned when they are joined.
 
 use crate::math::planar::polyline_length;
 use std::collections::BTreeMap;
@@ -8,10 +8,11 @@ use super::line::{FLATTENING_TOLERANCE_MM, place_at};
 use super::lines::Lines;
 use crate::pattern::Run;
 
-/// Length of a mark, in millimetres.
+/// Length of a mark across a seam, in millimetres.
 const MARK_LENGTH_MM: f64 = 3.0;
 
-/// Number of marks on each seam, by the number of its crease; 0 if one of its sides is not a single run.
+/// Computes the number of marks (short lines by which the two sides of a seam are aligned) on each seam, by the number
+/// of its crease; 0 if one of its sides is in several pieces.
 pub(super) fn mark_counts(lines: &[Lines<'_>], distance: f64) -> BTreeMap<usize, usize> {
     let mut sides: BTreeMap<usize, Vec<(Option<u32>, f64)>> = BTreeMap::new();
     for (run, curve) in lines.iter().flat_map(|own| own.outlines.iter().flatten()) {
@@ -35,8 +36,8 @@ pub(super) fn mark_counts(lines: &[Lines<'_>], distance: f64) -> BTreeMap<usize,
         .collect()
 }
 
-/// Marks on one side of a seam, normal to it and evenly spaced, so that the marks of the other side, which runs in
-/// the opposite direction, are at the same points.
+/// Draws the marks on one side of a seam: short lines normal to it and evenly spaced, so that the marks of the other
+/// side, which runs in the opposite direction, are at the same points.
 pub(super) fn seam_marks(run: &Run, curve: &Curve, counts: &BTreeMap<usize, usize>) -> Vec<Curve> {
     let count = run
         .seam

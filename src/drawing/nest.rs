@@ -1,4 +1,4 @@
-//! Sheets nested on pages as they are, not as boxes: each where it fits lowest, turned by quarters.
+//! Nests sheets on pages by their outlines, not as boxes: each where it fits lowest, rotated by quarter turns.
 //!
 //! Sheets and pages are bitmaps on a grid, so that testing whether a sheet fits takes a few machine words for each
 //! of its rows. A sheet occupies every cell that it touches, so sheets never overlap.
@@ -7,13 +7,13 @@ use super::label::Label;
 use super::pack::Place;
 use super::sheet::{DrawnSheet, bounds};
 
-/// Number of raster cells along the shorter side of a page.
+/// Number of raster cells along the shorter side of a page, for nesting sheets.
 const PAGE_CELLS: f64 = 150.0;
 
-/// Maximum number of raster cells along the longer side of a page.
+/// Maximum number of raster cells along the longer side of a page, for nesting sheets.
 const MAX_PAGE_CELLS: f64 = 5000.0;
 
-/// Minimum distance between nested sheets, in millimetres.
+/// Minimum distance between sheets nested on a page, in millimetres.
 const NESTING_GAP_MM: f64 = 3.0;
 
 /// Shape of a sheet for nesting: the closed lines of the sheet and of texts beside it, and width and height of the
@@ -34,13 +34,13 @@ impl Shape {
         }
     }
 
-    /// Bounding box of the shape at a place, without its name.
+    /// Computes the bounding box of the shape at a place, without the box for the sheet's name.
     pub(super) fn bounds(&self, place: &Place) -> [[f64; 2]; 2] {
         let points = self.lines.iter().flatten().map(|p| place.of(*p));
         bounds(points.collect::<Vec<_>>().iter())
     }
 
-    /// Computes the corners of the box for the sheet's name above a bounding box.
+    /// Computes the corners of the box for a sheet's name, which lies above the sheet's bounding box.
     fn above(&self, [low, high]: [[f64; 2]; 2]) -> Vec<[f64; 2]> {
         let middle = 0.5 * (low[0] + high[0]);
         let [left, right] = [-0.5, 0.5].map(|k| middle + k * self.name[0]);
@@ -49,20 +49,22 @@ impl Shape {
     }
 }
 
-/// Position of a nested shape: the number of its page, and its place relative to the page's lower left corner.
+/// Position of a nested shape: the number of its page, and its rotation and translation relative to the page's lower
+/// left corner.
 pub(super) struct Nested {
     pub page: usize,
     pub place: Place,
 }
 
 impl Nested {
-    /// Height of the shape's upper end above the page's lower edge.
+    /// Computes the height of the nested shape's upper end above the page's lower edge, in millimetres.
     pub(super) fn top(&self, shape: &Shape) -> f64 {
         shape.bounds(&self.place)[1][1] + shape.name[1]
     }
 }
 
-/// Lays shapes on pages of one size, the largest first; `None` for a shape that is larger than a page.
+/// Finds a position on pages of one size for each shape, the largest shape first; `None` for a shape that is larger
+/// than a page.
 pub(super) fn nest_shapes(shapes: &[Shape], page: [f64; 2]) -> Vec<Option<Nested>> {
     let [short, long] = [page[0].min(page[1]), page[0].max(page[1])];
     let cell = (short / PAGE_CELLS).max(long / MAX_PAGE_CELLS);
@@ -121,8 +123,8 @@ fn cells_along(side: f64, cell: f64) -> usize {
     ((side / cell + 1e-9) as usize).max(1)
 }
 
-/// Finds those of the four orientations of a shape in which the shape fits on a page, with its lower left corner at
-/// the origin; returns each with the raster cells that it touches.
+/// Rotates a shape by each number of quarter turns at which it fits on a page, with its lower left corner at the
+/// origin; returns each with a mask of the raster cells that it touches.
 fn turned(shape: &Shape, cell: f64, page: [f64; 2]) -> Vec<(Place, Mask)> {
     let least = Place::around(&shape.lines);
     (0..4)
@@ -151,7 +153,7 @@ fn turned(shape: &Shape, cell: f64, page: [f64; 2]) -> Vec<(Place, Mask)> {
         .collect()
 }
 
-/// A raster of occupied cells, 64 to a machine word, row by row.
+/// A bitmap of the raster cells that are occupied, 64 cells to a machine word, row by row.
 struct Mask {
     columns: usize,
     rows: Vec<Vec<u64>>,
@@ -176,7 +178,7 @@ impl Mask {
         word.is_some_and(|word| word >> (x % 64) & 1 == 1)
     }
 
-    /// Marks the cells inside of closed lines, by the even-odd rule, and those that the lines touch.
+    /// Marks the raster cells inside of closed lines, by the even-odd rule, and the cells that these lines touch.
     fn fill(&mut self, lines: &[Vec<[f64; 2]>]) {
         let edges = || {
             lines.iter().flat_map(|line| {
@@ -209,8 +211,8 @@ impl Mask {
         }
     }
 
-    /// Dilation of the mask by a square of `2 reach + 1` cells; its origin moves by `reach` cells to the lower
-    /// left.
+    /// Computes the dilation of the mask, which enlarges its occupied area by a square of `2 reach + 1` cells a side;
+    /// its origin moves by `reach` cells to the lower left.
     fn grown(&self, reach: usize) -> Mask {
         let mut out = Mask::empty(self.columns + 2 * reach, self.rows.len() + 2 * reach);
         for y in 0..self.rows.len() {
@@ -225,8 +227,8 @@ impl Mask {
         out
     }
 
-    /// The lowest position of a shape, and of several the leftmost, at which the dilated shape meets no occupied
-    /// cell; `None` if there is none.
+    /// Finds the lowest position of a shape on a page, and of several the leftmost, at which the dilated shape meets no
+    /// occupied cell; `None` if there is none.
     fn room(&self, shape: &Mask, grown: &Mask, reach: usize) -> Option<[usize; 2]> {
         let last = [
             self.columns.checked_sub(shape.columns)?,
@@ -242,7 +244,7 @@ impl Mask {
         None
     }
 
-    /// Whether a dilated shape at a position meets an occupied cell.
+    /// Returns whether a dilated shape at a given position meets an occupied cell of the page.
     fn meets(&self, grown: &Mask, x: usize, y: usize, reach: usize) -> bool {
         grown.rows.iter().enumerate().any(|(k, row)| {
             let Some(own) = (y + k)
@@ -267,7 +269,7 @@ impl Mask {
     }
 }
 
-/// The 64 bits of a row from position `from` on, which may be negative; bits outside of the row are 0.
+/// Returns the 64 bits of a mask's row from position `from` on, which may be negative; bits outside of the row are 0.
 fn bits(row: &[u64], from: i64) -> u64 {
     let word = |n: i64| {
         usize::try_from(n)

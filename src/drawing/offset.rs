@@ -1,4 +1,4 @@
-//! Offsets outlines outwards, by half the kerf and the allowance.
+//! Offsets the outlines of sheets outwards, by half the kerf and the allowance.
 
 use super::curve::{Curve, POLYLINE_CORNER_ANGLE};
 use super::smooth::smooth;
@@ -19,12 +19,12 @@ const OFFSET_FLATTENING_TOLERANCE_MM: f64 = 0.005;
 /// Maximum distance of an offset corner from the corner itself, as a multiple of the offset.
 const MAX_MITRE_FACTOR: f64 = 2.0;
 
-/// Maximum size of the loops of an offset line that are cut off, as a multiple of the offset. Such loops arise at
-/// slits.
+/// Maximum size of the loops of an offset line that are cut off, as a multiple of the offset distance. Such loops arise
+/// at slits.
 const MAX_LOOP_FACTOR: f64 = 8.0;
 
-/// Offsets the closed lines around a sheet outwards by a distance. Loops in which an offset line crosses itself, as
-/// in a slit narrower than the offset, are cut off. `None` if lines cross even so.
+/// Offsets the closed lines around a sheet outwards by a distance in millimetres. Loops in which an offset line crosses
+/// itself, as in a slit narrower than the offset, are cut off. `None` if lines cross nevertheless.
 pub(super) fn offset_outwards(curves: &[Curve], distance: f64) -> Option<Vec<Curve>> {
     let mut moved = Vec::new();
     for curve in curves {
@@ -70,7 +70,7 @@ pub(super) fn offset_outwards(curves: &[Curve], distance: f64) -> Option<Vec<Cur
     Some(moved.into_iter().map(curve).collect())
 }
 
-/// Offsets a closed polyline to its right by a distance, corner by corner.
+/// Offsets a closed polyline to its right by a distance in millimetres, corner by corner.
 fn beside(ring: &[Point], distance: f64) -> Vec<Point> {
     let n = ring.len();
     let mut out = Vec::with_capacity(n);

@@ -3,7 +3,7 @@
 use super::bending::Bending;
 use crate::error::{Error, Result};
 
-/// Options of a drawing: its scale, and what is added to sheets.
+/// Options of a drawing: its scale, its tabs and marks, kerf, allowance, bending and smoothing.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(
     feature = "serde",
@@ -12,25 +12,27 @@ use crate::error::{Error, Result};
 )]
 #[non_exhaustive]
 pub struct DrawingOptions {
-    /// Millimetres for each unit of the surface. Default 1.
+    /// Scale of the drawing: number of millimetres for each unit of the surface. Default 1.
     pub scale: f64,
-    /// Depth of tabs along cut creases, in millimetres. Tabs are on the side of the patch with the lower number; a
-    /// curved side gets several short ones. Default: no tabs.
+    /// Depth of tabs (glued flaps) along cut creases, in millimetres. Tabs are on the side of the patch with the lower
+    /// number; a curved side gets several short ones. Default: no tabs.
     pub tabs: Option<f64>,
-    /// Distance between marks along joints, in millimetres, at the same points on both sides. Default: no marks.
+    /// Distance between marks (short lines for alignment) along joints, in millimetres, at the same points on both
+    /// sides. Default: no marks.
     pub marks: Option<f64>,
-    /// Kerf: width of the line that a laser or a saw takes away, in millimetres. Cut lines are offset outwards by
-    /// half of it. Default 0.
+    /// Kerf: width of the line that a laser or a saw takes away, in millimetres. Cut lines are moved outwards by half
+    /// of it. Default 0.
     pub kerf: f64,
     /// Allowance: width of the strip outside of all edges that is sewn or bent over, in millimetres. Cut lines are
-    /// offset outwards by it. Default 0.
+    /// moved outwards by it. Default 0.
     pub allowance: f64,
-    /// Thickness of metal and how it is bent, for the bend allowance. Folds must be straight and go from edge to
+    /// How metal is bent along folds, from which the bend allowance follows. Folds must be straight and go from edge to
     /// edge. Default: no bend allowance.
     #[cfg_attr(feature = "serde", serde(skip))]
     pub bending: Option<Bending>,
-    /// Maximum distance of smooth lines from the lines of the sheet, in spacings; 0 disables smoothing. The two
-    /// sides of joints may be moved by the same distance again to become equally long. Default 0.5.
+    /// Maximum distance of the drawn, smooth lines from the outlines and folds found on the lattice, in lattice
+    /// spacings; 0 disables smoothing. The two sides of joints may be moved by the same distance again to become
+    /// equally long. Default 0.5.
     pub smoothing: f64,
 }
 
@@ -48,17 +50,17 @@ impl Default for DrawingOptions {
     }
 }
 
-/// Maximum side of a drawing, in millimetres.
+/// Maximum width or height of a drawing, in millimetres.
 pub const MAX_SIZE: f64 = 50_000.0;
 
-/// Minimum distance between marks, in millimetres.
+/// Minimum distance between marks along a joint, in millimetres.
 const MIN_MARK_DISTANCE_MM: f64 = 1.0;
 
-/// Maximum kerf or allowance, in millimetres.
+/// Maximum kerf (width that a cutter takes away) and maximum allowance (extra width along edges), in millimetres.
 const MAX_OFFSET_MM: f64 = 1000.0;
 
 impl DrawingOptions {
-    /// Checks the ranges of all options except scale and tabs.
+    /// Checks the ranges of all drawing options except scale and tabs.
     pub(super) fn check(&self) -> Result<()> {
         if let Some(marks) = self
             .marks
@@ -86,12 +88,12 @@ impl DrawingOptions {
         }
     }
 
-    /// Returns these options with another scale, in millimetres for each unit of the surface.
+    /// Sets the scale of the drawing, in millimetres for each unit of the surface, and returns the options.
     pub fn scale(self, scale: f64) -> Self {
         DrawingOptions { scale, ..self }
     }
 
-    /// Returns these options with tabs of a given depth, in millimetres.
+    /// Adds tabs of a given depth, in millimetres, along cut creases, and returns the options.
     pub fn tabs(self, depth: f64) -> Self {
         DrawingOptions {
             tabs: Some(depth),
@@ -99,7 +101,7 @@ impl DrawingOptions {
         }
     }
 
-    /// These options with marks along seams.
+    /// Adds marks at a given distance from each other, in millimetres, along seams, and returns the options.
     pub fn marks(self, distance: f64) -> Self {
         DrawingOptions {
             marks: Some(distance),
@@ -107,17 +109,17 @@ impl DrawingOptions {
         }
     }
 
-    /// These options with another kerf.
+    /// Sets the kerf, the width in millimetres that the cutter takes away, and returns the options.
     pub fn kerf(self, kerf: f64) -> Self {
         DrawingOptions { kerf, ..self }
     }
 
-    /// These options with another allowance.
+    /// Sets the allowance, the width in millimetres of the extra strip along all edges, and returns the options.
     pub fn allowance(self, allowance: f64) -> Self {
         DrawingOptions { allowance, ..self }
     }
 
-    /// These options with a bend allowance for metal.
+    /// Sets how metal is bent along folds, for a bend allowance, and returns the options.
     pub fn bending(self, bending: Bending) -> Self {
         DrawingOptions {
             bending: Some(bending),
@@ -125,7 +127,8 @@ impl DrawingOptions {
         }
     }
 
-    /// These options with another tolerance of smooth lines.
+    /// Sets the maximum distance of smooth lines from the lattice's lines, in lattice spacings, and returns the
+    /// options.
     pub fn smoothing(self, smoothing: f64) -> Self {
         DrawingOptions { smoothing, ..self }
     }

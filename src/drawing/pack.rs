@@ -1,10 +1,11 @@
-//! Sheets turned and laid beside each other: boxes in rows, the tallest first. (Shelves are not the
-//! least area, but near it for few sheets, and everybody sees what comes where.)
+//! Rotates sheets to their smallest bounding boxes and lays these beside each other in rows, the tallest first.
+//! (Shelves are not the least area, but near it for few sheets, and everybody sees what comes where.)
 
-/// Width of the empty margin around sheets, in millimetres.
+/// Width of the empty margin around each sheet in a drawing, in millimetres.
 const SHEET_MARGIN_MM: f64 = 10.0;
 
-/// A rotation followed by a translation, and the size of the resulting bounding box.
+/// Placement of a sheet in a drawing: a rotation followed by a translation, and the size of the resulting bounding box,
+/// in millimetres.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Place {
     turn: [f64; 2],
@@ -12,12 +13,12 @@ pub(super) struct Place {
     size: [f64; 2],
 }
 
-/// Minimum share of the bounding box's area that a rotation must save; otherwise the sheet stays upright, which is
-/// easier to recognise.
+/// Minimum share of a sheet's bounding box's area that a rotation must save; otherwise the sheet stays upright, which
+/// is easier to recognise.
 const MIN_TURN_AREA_SAVING: f64 = 0.03;
 
 impl Place {
-    /// The identity: no rotation and no translation.
+    /// The placement that moves nothing: no rotation and no translation.
     pub(super) const IDENTITY: Place = Place {
         turn: [1.0, 0.0],
         shift: [0.0; 2],
@@ -29,7 +30,7 @@ impl Place {
         [cos * x - sin * y + dx, sin * x + cos * y + dy]
     }
 
-    /// This place followed by a number of quarter turns about the origin.
+    /// Computes this placement followed by a number of quarter turns about the origin.
     pub(super) fn quarters(&self, count: usize) -> Place {
         let turned = |[x, y]: [f64; 2]| match count % 4 {
             0 => [x, y],
@@ -60,8 +61,8 @@ impl Place {
         self.turn[1].atan2(self.turn[0]).to_degrees()
     }
 
-    /// The rotation with the bounding box of least area, which aligns an edge of the convex hull with an axis,
-    /// followed by the translation of the box's corner to the origin.
+    /// Finds the rotation that gives points the bounding box of least area, which aligns an edge of their convex hull
+    /// with an axis, and the translation that moves the box's lower left corner to the origin.
     pub(super) fn around(lines: &[Vec<[f64; 2]>]) -> Place {
         let hull = hull(lines.iter().flatten().copied().collect());
         let boxed = |turn: [f64; 2]| {
@@ -100,7 +101,7 @@ impl Place {
     }
 }
 
-/// Lays sheets of closed lines in millimetres beside each other. Returns the cosine and sine of each sheet's
+/// Lays sheets, given as closed lines in millimetres, beside each other. Returns the cosine and sine of each sheet's
 /// rotation, and the translation after it.
 #[cfg(feature = "patterns")]
 pub(crate) fn beside(sheets: &[Vec<Vec<[f64; 2]>>]) -> Vec<([f64; 2], [f64; 2])> {
@@ -112,7 +113,7 @@ pub(crate) fn beside(sheets: &[Vec<Vec<[f64; 2]>>]) -> Vec<([f64; 2], [f64; 2])>
         .collect()
 }
 
-/// Lays bounding boxes in rows. Returns their places, and width and height of the whole.
+/// Lays bounding boxes in rows. Returns the position of each box, and width and height of the whole arrangement.
 pub(super) fn pack_rows(boxes: &[Place]) -> (Vec<Place>, [f64; 2]) {
     let mut order: Vec<usize> = (0..boxes.len()).collect();
     order.sort_by(|a, b| boxes[*b].size[1].total_cmp(&boxes[*a].size[1]));
@@ -141,7 +142,7 @@ pub(super) fn pack_rows(boxes: &[Place]) -> (Vec<Place>, [f64; 2]) {
     (out, [width + SHEET_MARGIN_MM, height])
 }
 
-/// Corners of the convex hull, counter-clockwise (Andrew 1979).
+/// Computes the corners of the convex hull of points, counter-clockwise (Andrew 1979).
 fn hull(mut points: Vec<[f64; 2]>) -> Vec<[f64; 2]> {
     points.sort_by(|p, q| p[0].total_cmp(&q[0]).then(p[1].total_cmp(&q[1])));
     points.dedup();

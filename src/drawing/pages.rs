@@ -1,4 +1,4 @@
-//! A drawing on the sheets of paper or of a material that it is made from.
+//! Divides a drawing over pages of paper, plates or rolls of material.
 
 use super::nest::{Shape, nest_shapes};
 use super::options::MAX_SIZE;
@@ -6,37 +6,38 @@ use super::pack::{Place, pack_rows};
 use super::sheet::DrawnSheet;
 use crate::error::{Error, Result, positive};
 
-/// Maximum number of pages of a drawing.
+/// Maximum number of pages that a drawing may be divided over.
 pub const MAX_PAGES: usize = 400;
 
 /// Width of the margin of paper that a printer may leave blank, in millimetres.
 const PAPER_MARGIN_MM: f64 = 10.0;
 
-/// Width by which neighbouring pages of a sheet overlap, in millimetres.
+/// Width by which neighbouring pages overlap where one sheet is printed over several pages, in millimetres.
 const PAGE_OVERLAP_MM: f64 = 10.0;
 
 /// Width of the empty margin of a plate or a roll, in millimetres.
 const STOCK_MARGIN_MM: f64 = 5.0;
 
-/// Distance between pages drawn beside each other, in millimetres.
+/// Distance between neighbouring pages in the drawing, in millimetres.
 const PAGE_GAP_MM: f64 = 20.0;
 
-/// Material that a pattern is cut from, with its size in millimetres.
+/// Material on which a pattern is printed or from which it is cut, with its size in millimetres.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub enum Stock {
-    /// Paper of 210 × 297 mm, with a blank margin of 10 mm.
+    /// A4 paper, 210 × 297 mm, with a blank margin of 10 mm.
     A4,
-    /// Paper of 8½ × 11 inches, with a blank margin of 10 mm.
+    /// US Letter paper, 8½ × 11 inches, with a blank margin of 10 mm.
     Letter,
-    /// Plates or sheets of a material, by their width and height.
+    /// Plates of a material such as metal or plywood, of a given width and height in millimetres.
     Plate([f64; 2]),
-    /// A roll of a material, by its width.
+    /// A roll of a material, of a given width in millimetres.
     Roll(f64),
 }
 
 impl Stock {
-    /// Width and height of the stock, the shorter side first for paper; a roll is as long as its sheets need.
+    /// Returns width and height of the material in millimetres, the shorter side first for paper; a roll is as long as
+    /// the sheets on it need.
     fn size(self, sheets: &[DrawnSheet]) -> Result<[f64; 2]> {
         let side = |name, value| match positive(name, value)? <= MAX_SIZE {
             true => Ok(()),
@@ -64,7 +65,7 @@ impl Stock {
         }
     }
 
-    /// Whether the stock is paper, so that large sheets may be put together from several pages.
+    /// Returns whether the material is paper, so that large sheets may be put together from several pages.
     fn is_paper(self) -> bool {
         matches!(self, Stock::A4 | Stock::Letter)
     }
@@ -78,7 +79,7 @@ impl Stock {
     }
 }
 
-/// One page of a drawing, which shows a part of it.
+/// One printed page or plate, which shows a rectangular part of the drawing.
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
@@ -86,34 +87,35 @@ pub struct Page {
     /// Name of the page: its number if it holds whole sheets; column letter and row number from the upper
     /// left, such as `A1`, if it has to be put together with others.
     pub name: String,
-    /// Lower left corner of the part that the page shows, in the drawing's millimetres.
+    /// Lower left corner of the page's part of the drawing, in the drawing's millimetres.
     pub corner: [f64; 2],
 }
 
-/// The pages of a drawing, all of one size.
+/// The printed pages or plates of a drawing, all of one size.
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub struct Pages {
-    /// Width and height of the paper, in millimetres.
+    /// Width and height of the paper or plate, in millimetres.
     pub paper: [f64; 2],
-    /// Distance of the drawing's part from the paper's left and lower edge, in millimetres.
+    /// Width of the blank margin: distance from the paper's left and lower edge to the part of the drawing on it, in
+    /// millimetres.
     pub blank: f64,
-    /// Width and height of the drawing's part on each page, in millimetres.
+    /// Width and height of the part of the drawing that each page shows, in millimetres.
     pub part: [f64; 2],
-    /// The pages, each with its name and corner.
+    /// The pages, each with its name and the lower left corner of its part of the drawing.
     pub pages: Vec<Page>,
     /// Positions of alignment marks, in the drawing's millimetres: middles and corners of the strips in which pages
     /// overlap. Each mark is printed on all pages that show its position, so that the pages can be aligned.
     pub marks: Vec<[f64; 2]>,
 }
 
-/// Computes the number of pages of paper that sheets take.
+/// Computes the number of pages of a paper size that the sheets of a drawing take.
 pub(super) fn page_count(sheets: &[DrawnSheet], stock: Stock) -> usize {
     arrange_on_pages(sheets, stock).map_or(0, |found| found.pages.pages.len())
 }
 
-/// Sheets arranged on pages: the place of each sheet, the pages, and width and height of the whole drawing.
+/// Result of arranging sheets on pages: the place of each sheet, the pages, and width and height of the whole drawing.
 pub(super) struct Arranged {
     pub places: Vec<Place>,
     pub pages: Pages,
@@ -215,8 +217,8 @@ pub(super) fn arrange_on_pages(sheets: &[DrawnSheet], stock: Stock) -> Result<Ar
     })
 }
 
-/// Lays shapes that are larger than a page beside each other and covers them with overlapping pages. Returns
-/// the place of each shape, and width and height of the whole.
+/// Lays sheets' shapes that are larger than a page beside each other and covers them with overlapping pages. Returns
+/// the placement of each shape, and width and height of the whole arrangement.
 fn cover_with_pages(
     shapes: &[Shape],
     large: &[usize],
@@ -269,12 +271,12 @@ fn no_room(sheet: &DrawnSheet, shape: &Shape, part: [f64; 2]) -> Error {
     }
 }
 
-/// Computes the length that a number of overlapping pages covers, in millimetres.
+/// Computes the total length that a row of overlapping pages covers, in millimetres.
 fn covered(count: usize, side: f64) -> f64 {
     count as f64 * (side - PAGE_OVERLAP_MM) + PAGE_OVERLAP_MM
 }
 
-/// Columns and rows of overlapping pages, centred over a rectangle.
+/// A grid of overlapping pages, centred over a rectangle: the number of its columns and rows.
 struct Grid {
     columns: usize,
     rows: usize,
@@ -302,7 +304,7 @@ impl Grid {
         [(0, self.columns), (1, self.rows)].map(|(k, count)| covered(count, self.part[k]))
     }
 
-    /// Column and row, from the upper left, of each page that overlaps a box.
+    /// Lists column and row, counted from the upper left, of each page of the grid that overlaps a box.
     fn pages(&self, boxes: &[[[f64; 2]; 2]]) -> impl Iterator<Item = (usize, usize)> {
         let all = (0..self.rows).flat_map(|row| (0..self.columns).map(move |column| (column, row)));
         all.filter(|(column, row)| {

@@ -5,38 +5,40 @@ use super::label::Label;
 use super::line::{FLATTENING_TOLERANCE_MM, Line};
 use super::pack::Place;
 
-/// A sheet of a drawing. It is rotated to its smallest bounding box if that saves enough area, and never mirrored.
+/// A sheet of a drawing, in the drawing's millimetres. It is rotated to its smallest bounding box if that saves enough
+/// area, and never mirrored.
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub struct DrawnSheet {
-    /// Name of the sheet: `Sheet 1` and so on.
+    /// Name of the sheet that is written above it: `Sheet 1` and so on.
     pub name: String,
-    /// Numbers of the sheet's patches.
+    /// Numbers of the patches that the sheet consists of.
     pub patches: Vec<u32>,
-    /// Lower left and upper right corner of the sheet.
+    /// Lower left and upper right corner of the sheet's bounding box, in the drawing's millimetres.
     pub bounds: [[f64; 2]; 2],
-    /// Cut lines, which also go around tabs: closed polylines whose last point is joined to the first. Points lie
-    /// within a fiftieth of a millimetre of [`DrawnSheet::curves`].
+    /// Cut lines of the sheet, which also go around tabs: closed polylines whose last point is joined to the first.
+    /// Points lie within a fiftieth of a millimetre of [`DrawnSheet::curves`].
     pub cuts: Vec<Vec<[f64; 2]>>,
-    /// The cut lines as curves.
+    /// The sheet's cut lines as smooth curves.
     pub curves: Vec<Curve>,
-    /// Lines along which the sheet is folded.
+    /// Lines along which the sheet is folded, without those of tabs.
     pub folds: Vec<Line>,
-    /// Lines along which tabs are folded.
+    /// Lines along which the sheet's tabs (glued flaps) are folded.
     pub tabs: Vec<Line>,
-    /// Edges of the surface inside of the allowance, along which the sheet is sewn or bent over.
+    /// Edges of the surface inside of the sheet's allowance: the lines along which the extra material is sewn or bent
+    /// over.
     pub edges: Vec<Curve>,
-    /// Marks: short lines along seams, which coincide when both sides of a seam are joined.
+    /// Marks: short lines across seams, which coincide when both sides of a seam are joined.
     pub marks: Vec<Curve>,
-    /// Leader lines from patches without room for their number to the number beside the sheet.
+    /// Leader lines, each from a patch that is too small for its number to the number beside the sheet.
     pub leaders: Vec<Curve>,
-    /// Texts on the sheet and beside it.
+    /// Texts on and beside the sheet: numbers of patches, letters of seams, angles of folds, the sheet's name.
     pub labels: Vec<Label>,
 }
 
 impl DrawnSheet {
-    /// This sheet moved to a place.
+    /// Computes this sheet rotated and translated to a place in the drawing.
     pub(super) fn moved(mut self, place: &Place) -> Self {
         for line in self.folds.iter_mut().chain(&mut self.tabs) {
             line.curve = line.curve.mapped(|p| place.of(p));
@@ -65,7 +67,7 @@ impl DrawnSheet {
     }
 }
 
-/// The lower left and upper right corner of a box around points.
+/// Computes the lower left and upper right corner of the bounding box of points.
 pub(super) fn bounds<'a>(points: impl Iterator<Item = &'a [f64; 2]>) -> [[f64; 2]; 2] {
     let empty = [[f64::INFINITY; 2], [f64::NEG_INFINITY; 2]];
     points.fold(empty, |[low, high], p| {

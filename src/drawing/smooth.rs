@@ -1,4 +1,4 @@
-//! Lines as they were found on the lattice, made smooth: straight pieces and curves between corners.
+//! Makes the outlines and folds found on the lattice smooth: straight pieces and curves between corners.
 
 use super::curve::Curve;
 use super::spline::fit_spline;
@@ -7,40 +7,44 @@ use crate::pattern::Sheet;
 use crate::unroll::flat_triangle::Point;
 use crate::unroll::overlap::crossings;
 
-/// Distance between the points that curves are fitted to, in spacings.
+/// Distance between the sample points of an outline to which curves are fitted, in lattice spacings.
 const SAMPLE_DISTANCE_SPACINGS: f64 = 0.25;
 
-/// Minimum angle of a corner, in radians, between the line's directions over one arm before and after it.
+/// Minimum angle of a corner of an outline, in radians: between the line's directions before and after it.
 const CORNER_ANGLE: f64 = 0.44;
 
-/// Length of line before and after a corner, in spacings, over which its angle is measured.
+/// Length of an outline before and after a corner, in lattice spacings, over which the corner's angle is measured.
 const CORNER_ARM_SPACINGS: f64 = 4.0;
 
-/// Minimum share of a corner's angle that is left with arms of half the length; a smooth bend keeps half of it.
+/// Minimum share of a corner's angle that remains when it is measured over half the length before and after it; at a
+/// smooth bend half of the angle remains.
 const CORNER_CONCENTRATION: f64 = 0.62;
 
-/// Minimum length of a line that is smoothed, in spacings.
+/// Minimum length of an outline's piece that is smoothed, in lattice spacings.
 const MIN_SMOOTHED_LENGTH_SPACINGS: f64 = 3.0;
 
-/// Minimum length of a spline's span, in spacings.
+/// Minimum length of a span of the fitted spline, in lattice spacings.
 const MIN_SPAN_SPACINGS: f64 = 1.5;
 
-/// Root mean square distance from the points, in spacings, at which a fit counts as exact.
+/// Root mean square distance of a fitted curve from the sample points, in lattice spacings, below which the fit counts
+/// as exact.
 const NEGLIGIBLE_RESIDUAL_SPACINGS: f64 = 0.03;
 
-/// Tolerances of a smooth line, as shares of the tolerance that was asked for, tried in this order: the next is used
-/// where the line crosses another or itself.
+/// Tolerances of a smooth line, as shares of [`DrawingOptions::smoothing`](super::DrawingOptions::smoothing), tried in
+/// this order: the next is used where the line crosses another or itself.
 const TOLERANCE_SHARES: [f64; 4] = [1.0, 0.5, 0.2, 0.0];
 
-/// The smooth outlines and folds of a sheet.
+/// The smooth outlines and folds of one sheet, in the surface's units.
 pub(super) struct Smooth {
-    /// The runs of each outline, as curves.
+    /// The sheet's outlines, each as a list of smooth curves, one for each run (piece along one side of a crease or
+    /// along the border).
     pub outlines: Vec<Vec<Curve>>,
     pub folds: Vec<Curve>,
 }
 
-/// Makes the lines of a sheet smooth, within a tolerance in spacings of the lattice. Ends of runs keep their
-/// positions, so that the two sides of a seam keep common ends. Smoothing adds no intersections of outlines.
+/// Makes a sheet's outlines and folds smooth, within a tolerance in lattice spacings. Ends of an outline's runs (pieces
+/// along one crease each) keep their positions, so that the two sides of a seam keep common ends. Smoothing adds no
+/// intersections of outlines.
 pub(super) fn smooth_lines(sheet: &Sheet, tolerance: f64) -> Smooth {
     let spacing = sheet.spacing;
     let runs: Vec<&[[f64; 2]]> = (sheet.outlines.iter().flatten())
@@ -81,7 +85,7 @@ pub(super) fn smooth_lines(sheet: &Sheet, tolerance: f64) -> Smooth {
     Smooth { outlines, folds }
 }
 
-/// Indices of the curves that cross each other or themselves.
+/// Finds the curves that cross each other or themselves; returns their indices.
 pub(super) fn crossing_curves(curves: &[Curve], spacing: f64) -> Vec<usize> {
     let (mut places, mut edges, mut owners) = (Vec::new(), Vec::new(), Vec::new());
     for (owner, curve) in curves.iter().enumerate() {
@@ -116,7 +120,7 @@ pub(super) fn crossing_curves(curves: &[Curve], spacing: f64) -> Vec<usize> {
     wrong
 }
 
-/// Moves the ends of a fold onto the smooth outline, if they are near it.
+/// Moves the ends of a fold onto the sheet's smooth outline, if the ends are near the outline.
 fn extend_fold(points: &[[f64; 2]], outlines: &[Curve], tolerance: f64) -> Vec<[f64; 2]> {
     let mut out = points.to_vec();
     let last = out.len() - 1;
@@ -141,7 +145,8 @@ fn extend_fold(points: &[[f64; 2]], outlines: &[Curve], tolerance: f64) -> Vec<[
     out
 }
 
-/// Sample of a line: its position, its distance along the line, and whether it is one of the line's given points.
+/// A sample point of a line that is smoothed: its position, its distance along the line, and whether it is one of the
+/// line's given points.
 #[derive(Clone, Copy)]
 struct Sample {
     along: f64,
@@ -149,7 +154,7 @@ struct Sample {
     given: bool,
 }
 
-/// A smooth curve within a tolerance of a polyline; a closed polyline repeats its first point at the end.
+/// Fits a smooth curve within a tolerance to a polyline; a closed polyline repeats its first point at the end.
 pub(crate) fn smooth(points: &[[f64; 2]], tolerance: f64, spacing: f64) -> Curve {
     if tolerance <= 0.0 || polyline_length(points) < MIN_SMOOTHED_LENGTH_SPACINGS * spacing {
         return Curve::through(points);
@@ -268,7 +273,7 @@ fn samples(points: &[[f64; 2]], step: f64) -> Vec<Sample> {
     out
 }
 
-/// Rotates a closed line so that it begins at sample `first`.
+/// Rotates the list of a closed line's samples so that it begins at sample `first`.
 fn rotated(line: &[Sample], first: usize) -> Vec<Sample> {
     let last = line.len() - 1;
     let whole = line[last].along;
@@ -283,7 +288,7 @@ fn rotated(line: &[Sample], first: usize) -> Vec<Sample> {
         .collect()
 }
 
-/// Indices of the samples at corners, ascending, without the ends of an open line.
+/// Finds the samples at corners of a line; returns their indices, ascending, without the ends of an open line.
 fn corners(line: &[Sample], closed: bool, spacing: f64) -> Vec<usize> {
     let last = line.len() - 1;
     let whole = line[last].along;
@@ -336,8 +341,8 @@ fn corners(line: &[Sample], closed: bool, spacing: f64) -> Vec<usize> {
     found
 }
 
-/// Direction of a line after one of its samples, or before it for a negative `arm`: that of the least-squares line
-/// through the samples within the arm's length.
+/// Computes the direction of a line after one of its samples, or before it for a negative `arm`: that of the
+/// least-squares line through the samples within the length `arm`.
 fn heading(line: &[Sample], i: usize, arm: f64, closed: bool) -> Option<Point> {
     let last = line.len() - 1;
     let whole = line[last].along;
@@ -368,7 +373,7 @@ fn heading(line: &[Sample], i: usize, arm: f64, closed: bool) -> Option<Point> {
     (count > 2.0 && spread > 0.0).then(|| (sp - p1 * (s1 / count)) * arm.signum())
 }
 
-/// Two points on the least-squares line through samples.
+/// Fits the least-squares line to samples, and returns two points on it.
 fn axis(line: &[Sample]) -> [Point; 2] {
     let count = line.len() as f64;
     let middle = line.iter().map(|s| s.place).sum::<Point>() / count;
@@ -381,7 +386,7 @@ fn axis(line: &[Sample]) -> [Point; 2] {
     [middle, middle + along / along.norm().max(f64::MIN_POSITIVE)]
 }
 
-/// Intersection of two straight lines; `None` where they are nearly parallel.
+/// Computes the intersection of two straight lines; `None` where they are nearly parallel.
 fn meeting([p, q]: [Point; 2], [r, s]: [Point; 2]) -> Option<Point> {
     let (u, v) = (q - p, s - r);
     let cross = (u.conj() * v).im;

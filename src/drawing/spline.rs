@@ -1,21 +1,23 @@
-//! Smooth curves near many points: uniform cubic B-splines by least squares, with as few spans as will do.
+//! Fits smooth curves to many points: uniform cubic B-splines by least squares, with as few spans as possible.
 
 use nalgebra::{DMatrix, DVector};
 
 use super::curve::Curve;
 use crate::unroll::flat_triangle::Point;
 
-/// A curve with the maximum and the root mean square distance of the points that it was fitted to.
+/// A fitted curve, with the maximum and the root mean square distance of the given points from it.
 pub(super) struct Fit {
     pub curve: Curve,
     pub most: f64,
     pub rms: f64,
 }
 
-/// Number of times that a fit updates the parameter of each point to that of the nearest point of the spline.
+/// Number of times that a spline fit moves the curve parameter of each point to that of the nearest point of the
+/// spline.
 const REPARAMETRISATION_PASSES: usize = 3;
 
-/// Minimum factor by which more spans must reduce the root mean square distance to be used.
+/// Minimum factor by which a spline with more spans must reduce the root mean square distance from the points to be
+/// preferred.
 const MIN_IMPROVEMENT_FACTOR: f64 = 3.0;
 
 /// Fits the spline with the fewest spans to points, each given with its distance along the line. It interpolates
@@ -83,7 +85,8 @@ struct Spline {
     spans: usize,
 }
 
-/// Weights of a span's four control points, and the derivatives of these weights.
+/// Computes the weights of the four control points of a spline's span at a parameter, and the derivatives of these
+/// weights.
 fn weights(t: f64) -> ([f64; 4], [f64; 4]) {
     let s = 1.0 - t;
     let b = [
@@ -121,7 +124,7 @@ impl Spline {
         Some(Fit::new(spline.beziers(), away))
     }
 
-    /// Number of the span at a parameter, and the parameter within that span.
+    /// Returns the number of the span at a curve parameter, and the parameter within that span, from 0 to 1.
     fn span(&self, u: f64) -> (usize, f64) {
         let span = (u.max(0.0) as usize).min(self.spans - 1);
         (span, (u - span as f64).clamp(0.0, 1.0))

@@ -1,4 +1,4 @@
-//! Tabs to glue along cut creases: trapezoids outside of the sheet, a comb of short ones along a curve.
+//! Adds tabs (glued flaps) along cut creases: trapezoids outside of the sheet, a comb of short ones along a curve.
 
 use super::curve::{Curve, POLYLINE_CORNER_ANGLE};
 use super::line::FLATTENING_TOLERANCE_MM;
@@ -8,31 +8,32 @@ use crate::pattern::{Run, Seam};
 /// A tab (a glued flap at an edge), and the line that the tab is folded along.
 pub(super) struct Tab {
     pub seam: Seam,
-    /// Fold line of the tab, in the direction of the outline.
+    /// Fold line between tab and sheet, in the direction of the outline.
     pub base: Curve,
     pub depth: f64,
     pub middle: [f64; 2],
 }
 
-/// Maximum angle, in radians, by which the base of a tab turns in all.
+/// Maximum angle, in radians, by which a tab's fold line turns in all.
 const MAX_TAB_BEND: f64 = 0.3;
 
-/// Minimum length of a tab's base, in millimetres.
+/// Minimum length of a tab's fold line, in millimetres.
 const MIN_TAB_LENGTH_MM: f64 = 2.0;
 
-/// Maximum inset of a tab's ends, which are cut at 45°, as a share of the tab's base.
+/// Maximum inset of a tab's ends, which are cut at 45°, as a share of the length of the tab's fold line.
 const MAX_TAB_INSET_SHARE: f64 = 0.3;
 
-/// Maximum depth of a tab, as a multiple of the length of its base.
+/// Maximum depth of a tab, as a multiple of the length of its fold line.
 const MAX_TAB_DEPTH_SHARE: f64 = 1.5;
 
-/// Maximum number of times the depth of a tab that does not fit is halved.
+/// Maximum number of times that the depth of a tab that does not fit is halved.
 const MAX_TAB_HALVINGS: usize = 2;
 
-/// The runs of an outline, each with its curve in millimetres.
+/// The closed outline of a sheet as a list of runs (pieces along one side of a crease or along the border), each with
+/// its curve in millimetres.
 type Outline<'a> = Vec<(&'a Run, Curve)>;
 
-/// Adds tabs to the outlines of a sheet where there is room. Returns the cut lines and the tabs.
+/// Adds tabs (glued flaps) to the outlines of a sheet where there is room. Returns the cut lines and the tabs.
 pub(super) fn add_tabs(outlines: &[Outline<'_>], depth: Option<f64>) -> (Vec<Curve>, Vec<Tab>) {
     let mut tabs = Vec::new();
     // Tabs are on the side of the patch with the lower number. The two sides of a step are not glued, so they have
@@ -120,7 +121,8 @@ fn bases(curve: &Curve) -> Vec<Curve> {
     curve.split(&shares)
 }
 
-/// The outer corners of a tab to the right of its base, if the base is long enough and nothing is in the way.
+/// Computes the outer corners of a tab to the right of its fold line; `None` if the fold line is too short or something
+/// is in the way.
 fn flap(base: &[[f64; 2]], depth: f64, walls: &[[[f64; 2]; 2]]) -> Option<(f64, [[f64; 2]; 2])> {
     let (from, to) = (base[0], base[base.len() - 1]);
     let long = distance(from, to);

@@ -1,4 +1,4 @@
-//! Summary of a drawing: numbers of its elements and total lengths.
+//! Summary of a drawing: numbers of sheets, seams, folds and tabs, and their total lengths.
 
 use crate::math::planar::{distance, polyline_length};
 use std::collections::BTreeMap;
@@ -12,7 +12,8 @@ use crate::pattern::{Direction, Missing, Sheet};
 /// sheets.
 const MIN_COMPARED_JOINT_SHARE: f64 = 0.1;
 
-/// Summary of a drawing: numbers of its elements and total lengths, in millimetres.
+/// Summary of a drawing: numbers of sheets, seams, folds, tabs and pages; total lengths in millimetres; strain and
+/// gaps.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(
     feature = "serde",
@@ -21,47 +22,48 @@ const MIN_COMPARED_JOINT_SHARE: f64 = 0.1;
 )]
 #[non_exhaustive]
 pub struct Totals {
-    /// Number of sheets.
+    /// Number of sheets on the drawing.
     pub sheets: usize,
-    /// Number of creases that are cut, at least in part.
+    /// Number of creases that are cut over their whole length or a part of it.
     pub seams: usize,
-    /// Number of cuts inside of a patch, made because the patch cannot be laid flat in one piece.
+    /// Number of slits: cuts inside of a patch, made because the patch cannot be laid flat in one piece.
     pub slits: usize,
-    /// Length of the cut creases, as far as they are cut, each counted once.
+    /// Total length of the cuts along creases, in millimetres, each counted once.
     pub seam_length: f64,
-    /// Length of the slits, each counted once.
+    /// Total length of the slits (cuts inside of a patch), in millimetres, each counted once.
     pub slit_length: f64,
-    /// Largest difference between the lengths of a joint's two sides, as a share of the longer one. Joints shorter
-    /// than a tenth of the side of a square with the area of all sheets are ignored, as are steps, whose sides are
-    /// not joined.
+    /// Largest difference between the lengths of a joint's two sides, as a share of the longer one. Joints shorter than
+    /// a tenth of the side of a square with the area of all sheets are ignored, as are steps of the surface, whose two
+    /// sides are not joined.
     pub mismatch: f64,
-    /// The joint with the largest mismatch, if any counts.
+    /// The joint with the largest difference between the lengths of its two sides, if any joint is compared.
     #[cfg_attr(feature = "serde", serde(skip_serializing_if = "Option::is_none"))]
     pub worst_joint: Option<WorstJoint>,
-    /// Number of points inside of the surface where cuts or folds end and whose angles were compared: those
-    /// of the cut pieces with that of the surface, within four fifths of the shortest line that ends there
-    /// and twenty spacings at most.
+    /// Number of points inside of the surface where cuts or folds end and where the angles of the flat pieces were
+    /// compared with that of the surface. Angles are measured within four fifths of the shortest seam that ends there,
+    /// and within twenty spacings.
     pub points: usize,
-    /// The point with the largest difference of angles, if any was compared.
+    /// The point where the angles of the flat pieces differ most from that of the surface, if any was compared.
     #[cfg_attr(feature = "serde", serde(skip_serializing_if = "Option::is_none"))]
     pub worst_angle: Option<WorstAngle>,
-    /// Number of creases that are folds.
+    /// Number of creases along which a sheet is folded.
     pub folds: usize,
-    /// Number of tabs.
+    /// Number of tabs (glued flaps) on the drawing.
     pub tabs: usize,
-    /// Length of all cuts.
+    /// Total length of all cut lines, in millimetres.
     pub cut_length: f64,
-    /// Length of all mountain folds, without those of tabs.
+    /// Total length of all mountain folds, without those of tabs, in millimetres.
     pub mountain_length: f64,
-    /// Length of all valley folds, without those of tabs.
+    /// Total length of all valley folds, without those of tabs, in millimetres.
     pub valley_length: f64,
-    /// Area of the sheets without tabs, in square millimetres.
+    /// Total area of the sheets without tabs, in square millimetres.
     pub area: f64,
-    /// Largest strain of a sheet, root mean square over its area; 0 if all sheets are exactly developable.
+    /// Largest strain (relative change of length) of a sheet, root mean square over its area; 0 if all sheets are
+    /// exactly developable.
     pub strain: f64,
-    /// Largest seam gap of a fold, root mean square along the fold, in millimetres.
+    /// Largest seam gap of a fold in millimetres: root mean square distance between the fold's two sides.
     pub gap: f64,
-    /// Number of small loops in which outlines crossed themselves, and which were cut off.
+    /// Number of small loops that were cut off where outlines crossed themselves.
     pub loops: usize,
     /// Largest root mean square distance between a refolded sheet and the surface, in millimetres; `None` unless
     /// [`PatternOptions::refold`](crate::pattern::PatternOptions::refold) was set.
@@ -70,26 +72,26 @@ pub struct Totals {
     /// Part of the surface that is on no sheet, if it is known ([`Drawing::missing`](super::Drawing::missing));
     /// areas in square millimetres.
     pub missing: Option<Missing>,
-    /// Number of A4 pages that the drawing takes.
+    /// Number of pages of A4 paper that the drawing takes.
     pub a4: usize,
-    /// Number of Letter pages that the drawing takes.
+    /// Number of pages of Letter paper that the drawing takes.
     pub letter: usize,
 }
 
-/// The joint whose two sides differ most in length.
+/// The joint whose two sides differ most in length on the drawing.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub struct WorstJoint {
     /// Number of the joint's crease, whose letter is on both sides of it ([`Label`](super::Label)).
     pub crease: usize,
-    /// The patches on either side of the joint.
+    /// Numbers of the patches on either side of the joint.
     pub patches: [u32; 2],
     /// Lengths of the joint's two sides, in millimetres.
     pub lengths: [f64; 2],
 }
 
-/// A crease that is cut, with its length on either patch.
+/// A crease that is cut, with the length of its side on either patch.
 struct Joint {
     crease: usize,
     patches: [u32; 2],
@@ -99,7 +101,7 @@ struct Joint {
 }
 
 impl Joint {
-    /// Difference between the lengths of the joint's sides, as a share of the longer one.
+    /// Computes the difference between the lengths of the joint's two sides, as a share of the longer one.
     fn mismatch(&self) -> f64 {
         let [a, b] = self.sides;
         (a - b).abs() / a.max(b)

@@ -1,10 +1,10 @@
-//! A growing file in memory that reports lack of memory as an error.
+//! A file that is written to memory, and that reports lack of memory as an error.
 
 use std::io::{self, Write};
 
 use crate::error::{Error, Result};
 
-/// The bytes of a file that is written to memory.
+/// The bytes of a file that is written to memory; writing fails if there is not enough memory.
 #[derive(Default)]
 pub(crate) struct Buffer(Vec<u8>);
 
@@ -23,7 +23,8 @@ impl Write for Buffer {
 }
 
 impl Buffer {
-    /// The finished file. Writing into memory can fail for lack of memory only.
+    /// Returns the bytes of the finished file, or an error if there was not enough memory; `what` names the file in the
+    /// error.
     pub(crate) fn finish(self, what: &'static str, written: io::Result<()>) -> Result<Vec<u8>> {
         match written {
             Ok(()) => Ok(self.0),

@@ -1,4 +1,4 @@
-//! Wavefront OBJ, written as text.
+//! Writes surfaces and meshes as Wavefront OBJ, with a material file (MTL).
 
 use std::io::{self, Write};
 
@@ -9,9 +9,8 @@ use crate::scene::mesh::Mesh;
 use crate::scene::triangulation::Triangulation;
 use crate::scene::view::Frame;
 
-/// An OBJ file of the surface, as [`write_obj_mesh`] writes its
-/// [`Triangulation`]: positions are `x y z` as in the lattice, `x` to the right,
-/// `y` up the image, `z` the height, all in the same unit.
+/// Writes a surface as an OBJ file, as [`write_obj_mesh`] writes the surface's [`Triangulation`]: positions are `x y z`
+/// as in the lattice, `x` to the right, `y` up the image, `z` the height, all in the same unit.
 ///
 /// # Errors
 /// As [`Triangulation::new`].
@@ -19,7 +18,7 @@ pub fn write_obj(surface: &Heightfield) -> Result<Vec<u8>> {
     write_obj_in(surface, &Frame::default())
 }
 
-/// Writes an OBJ file of a surface in the axes of the mesh that it was sampled from: as [`write_obj`], with `x`, `y`
+/// Writes a surface as an OBJ file in the axes of the mesh that it was sampled from: as [`write_obj`], with `x`, `y`
 /// and `z` along the axes of the frame.
 ///
 /// # Errors
@@ -28,9 +27,9 @@ pub fn write_obj_in(surface: &Heightfield, frame: &Frame) -> Result<Vec<u8>> {
     write_obj_mesh(Triangulation::new(surface, frame)?.mesh())
 }
 
-/// An OBJ file of a mesh: positions with as many digits as it takes to read back the same 64-bit
-/// floats, then what the mesh has of colours (three more numbers for each vertex, which not all
-/// readers know), texture coordinates and normals.
+/// Writes a mesh as an OBJ file: positions with as many digits as it takes to read back the same 64-bit floats, then
+/// what the mesh has of colours (three more numbers for each vertex, which not all readers know), texture coordinates
+/// and normals.
 ///
 /// Costs `O(vertices + triangles)`.
 ///
@@ -40,8 +39,8 @@ pub fn write_obj_mesh(mesh: &Mesh) -> Result<Vec<u8>> {
     write_obj_textured(mesh, None)
 }
 
-/// An OBJ file of a mesh as by [`write_obj_mesh`], with the name of its material file ([`write_mtl`]), if there
-/// is one. Its picture takes the place of colours, because readers would multiply the two.
+/// Writes a mesh as an OBJ file, as [`write_obj_mesh`] does, with the name of its material file ([`write_mtl`]), if
+/// there is one. The material's picture takes the place of colours, because readers would multiply the two.
 ///
 /// # Errors
 /// [`Error::Option`] for a name that is empty or of several lines,
@@ -68,10 +67,11 @@ pub fn write_obj_textured(mesh: &Mesh, materials: Option<&str>) -> Result<Vec<u8
     file.finish("OBJ file", written)
 }
 
-/// Name of the only material in the MTL file.
+/// Name of the only material in the MTL file (Wavefront's material file).
 const MATERIAL_NAME: &str = "surface";
 
-/// An MTL file: the material of [`write_obj_textured`], with the name of its picture's file.
+/// Writes a Wavefront material file (MTL) for [`write_obj_textured`]: one material, with the name of its picture's
+/// file.
 ///
 /// # Errors
 /// [`Error::Option`] for a name that is empty or of several lines.

@@ -22,16 +22,16 @@ use crate::math::union_find::UnionFind;
 use crate::shape::patches::Patches;
 use crate::unroll::arap_mesh::StoppingCriteria;
 
-/// Result of joining parts: valid sheets, or parts that have to be cut further.
+/// Result of joining the parts of a surface: valid flat sheets, or parts that have to be cut further.
 pub(super) enum Assembly {
-    /// All parts are on valid sheets.
+    /// All parts of the surface are on valid flat sheets.
     Whole(Box<Assembled>),
-    /// The parts, and for each part that has to be cut its number and the reason; no numbers if border vertices
-    /// were removed instead.
+    /// The parts of the surface, and for each part that has to be cut its number and the reason; no numbers if vertices
+    /// at a part's border were removed instead.
     Cut(Box<Parts>, Vec<(u32, String)>),
 }
 
-/// All sheets of a pattern, with the positions of their patches in the plane.
+/// All flat sheets of a pattern, with the positions of their patches in the plane.
 pub(super) struct Assembled {
     pub parts: Parts,
     pub patches: Patches,
@@ -89,11 +89,11 @@ pub(super) fn assemble_sheets(
     Ok(Assembly::Cut(Box::new(parts), wrong))
 }
 
-/// Result of laying all sheets flat.
+/// Result of laying the patches of all sheets flat together.
 pub(super) enum Settled {
-    /// Folds of invalid sheets were opened; the patches that are invalid even so, and why.
+    /// Folds of invalid sheets were opened; a patch of each sheet that is invalid nevertheless, and the reason.
     Opened(Vec<(u32, String)>),
-    /// The sheet would be valid if these vertices of the part were removed.
+    /// The invalid sheet would be valid without some border vertices; holds the number of the part and these vertices.
     Specks(u32, Vec<usize>),
 }
 
@@ -148,7 +148,8 @@ pub(super) fn settle(
     Ok(Settled::Opened(wrong))
 }
 
-/// Finds the few vertices of one part whose removal would make an invalid sheet valid.
+/// Finds the few vertices of one part whose removal would make an invalid sheet valid; returns the part's number and
+/// the vertices.
 fn removable_vertices(parts: &Parts, net: &SeamGraph, fault: &Fault) -> Option<(u32, Vec<usize>)> {
     let (troubled, trouble) = fault.troubled(parts.options.max_strain)?;
     troubled.iter().find_map(|part| {
@@ -157,7 +158,7 @@ fn removable_vertices(parts: &Parts, net: &SeamGraph, fault: &Fault) -> Option<(
     })
 }
 
-/// Connected components of a sheet's patches, where folds connect two patches.
+/// Finds the connected components of a sheet's patches, where folds connect two patches.
 fn connected(net: &SeamGraph, layout: &Layout, members: &[u32]) -> Result<Vec<Vec<u32>>> {
     let mut sets = UnionFind::new("pattern", members.len())?;
     let place = |patch: u32| members.binary_search(&patch).ok();
@@ -175,8 +176,8 @@ fn connected(net: &SeamGraph, layout: &Layout, members: &[u32]) -> Result<Vec<Ve
     Ok(groups)
 }
 
-/// The folds to open: the one nearest to where an outline crosses itself, or else, for each of the strained
-/// patches, the one whose sides are furthest apart.
+/// Chooses the folds of an invalid sheet that are opened: the one nearest to where an outline crosses itself, or else,
+/// for each of the strained patches, the one whose sides are furthest apart.
 fn folds_to_open(net: &SeamGraph, layout: &Layout, folded: &[usize], fault: &Fault) -> Vec<usize> {
     match fault {
         Fault::Crossing(place) => {
@@ -208,7 +209,7 @@ fn folds_to_open(net: &SeamGraph, layout: &Layout, folded: &[usize], fault: &Fau
     }
 }
 
-/// Creates the pattern: outlines, folds, labels and figures of all sheets.
+/// Creates the pattern: outlines, folds, label positions, strain and area of all sheets.
 pub(super) fn draw_sheets(surface: &Heightfield, whole: &Assembled) -> Result<Pattern> {
     let Assembled {
         parts,
@@ -266,7 +267,7 @@ pub(super) fn draw_sheets(surface: &Heightfield, whole: &Assembled) -> Result<Pa
 }
 
 /// Computes how many vertices and how much area of the surface are on no sheet, and the number and area of the
-/// surface's steps.
+/// surface's steps (edges where it jumps in height).
 fn missing(surface: &Heightfield, whole: &Assembled) -> Result<Missing> {
     let net = &whole.net;
     let torn = (0..net.seams.len()).filter(|seam| net.is_torn(*seam));

@@ -13,7 +13,7 @@ use crate::unroll::overlap::crossings;
 /// is not laid flat again. No table chose it.
 const MAX_JOINED_GAP_SPACINGS: f64 = 0.05;
 
-/// Number of points at an end of a seam that are not joined to the other side where three patches meet: if more
+/// Number of nodes at an end of a seam that are not joined to the seam's other side where three patches meet: if more
 /// than three meet, the position of the meeting point is inexact.
 const UNTIED_END_NODES: usize = 1;
 
@@ -28,7 +28,7 @@ pub(super) fn are_close(net: &SeamGraph, layout: &Layout, folded: &[usize]) -> b
 /// coincide.
 pub(super) struct Tied {
     patches: Vec<u32>,
-    /// Number of the first vertex of each patch.
+    /// Number of the first vertex of each patch among the vertices of the joined mesh.
     starts: Vec<u32>,
     joint: ArapMesh,
     places: Vec<Point>,
@@ -120,7 +120,7 @@ pub(super) fn ties(
     ties
 }
 
-/// Computes the strain (root mean square) of the triangles beside a seam, on both of its sides.
+/// Computes the root mean square strain of the triangles beside a seam, on both of the seam's sides.
 pub(super) fn strain_along(net: &SeamGraph, seam: usize) -> f64 {
     let seam = &net.seams[seam];
     let sides = seam.patches.iter().filter_map(|patch| {
@@ -135,7 +135,7 @@ pub(super) fn strain_along(net: &SeamGraph, seam: usize) -> f64 {
     sides.fold(Strain::default(), Strain::with).rms()
 }
 
-/// Strain of a whole sheet, and of each of its patches.
+/// Computes the strain of a whole sheet, and the strain of each of its patches.
 pub(super) fn strains(net: &SeamGraph, patches: &[u32]) -> (Strain, Vec<(u32, Strain)>) {
     let leaf = |patch: &u32| net.leaves[*patch as usize].as_ref();
     let of = |patch: &u32| Some((*patch, leaf(patch)?.strain()));

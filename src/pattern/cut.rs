@@ -12,26 +12,27 @@ use crate::lattice::hexagonal::Lattice;
 use crate::math::statistics::weighted_median;
 use rustc_hash::FxHashMap;
 
-/// Number of directions of a straight cut that are compared, evenly spaced over half a turn.
+/// Number of directions in which a straight cut through a part of the surface is tried, evenly spaced over half a turn.
 const CUT_DIRECTIONS: usize = 16;
 
-/// Minimum number of vertices of a group on one side of a cut; a smaller one stays with its neighbour.
+/// Minimum number of vertices of a connected group on one side of a cut; a smaller group stays with its neighbour.
 const MIN_GROUP_VERTICES: usize = 4;
 
-/// Minimum size of a group on one side of a cut, as a share of the vertices of the part that is cut.
+/// Minimum size of a connected group on one side of a cut, as a share of the vertices of the part that is cut.
 const MIN_GROUP_SHARE: f64 = 0.03;
 
-/// Minimum rise of an edge over the spacing at which the edge is a step of the surface.
+/// Minimum slope of a lattice edge, its rise over the lattice's spacing, at which the edge is a step (jump in height)
+/// of the surface.
 const MIN_STEP_SLOPE: f64 = 4.0;
 
-/// Weight of a cut's length in its score, beside the variance of the normals that is left on both sides.
+/// Weight of a cut's length in its score, relative to the variance of the normals that is left on both sides.
 const CUT_LENGTH_WEIGHT: f64 = 0.002;
 
 impl Labels {
     /// Cuts a part into two or more along a line that is straight seen from above. Candidate lines pass through the
-    /// middle of the strain or of the part; the one with the best [`score`] is used. A part with steps is cut along
-    /// these instead. Returns the numbers of the pieces, the first being the part's own, or `None` if the part is
-    /// too small.
+    /// median of the vertices, weighted by their strain or not; the one with the best [`score`] is used. A part with
+    /// steps (jumps in height) is cut along these instead. Returns the numbers of the pieces, the first being the
+    /// part's own, or `None` if the part is too small.
     pub(super) fn cut(
         &mut self,
         surface: &Heightfield,
@@ -150,7 +151,7 @@ impl Labels {
     }
 }
 
-/// A vertex of the part that is cut: its position seen from above, its normal and its squared strain.
+/// A vertex of the part that is cut: its position seen from above, its normal, and its squared strain as weight.
 struct Sample {
     place: [f64; 2],
     normal: Vector3<f64>,
@@ -190,7 +191,7 @@ impl Sample {
     }
 }
 
-/// Median of the vertices' positions along a direction, each weighted by a power of its strain.
+/// Computes the median of the vertices' positions along a direction, each vertex weighted by a power of its strain.
 fn median(samples: &[Sample], [x, y]: [f64; 2], power: f64) -> f64 {
     let mut along: Vec<(f64, f64)> = (samples.iter())
         .map(|s| (x * s.place[0] + y * s.place[1], s.square.powf(power)))
@@ -198,9 +199,9 @@ fn median(samples: &[Sample], [x, y]: [f64; 2], power: f64) -> f64 {
     weighted_median(&mut along).unwrap_or(0.0)
 }
 
-/// Score of a straight cut, lower is better. For each side it adds the smallest eigenvalue of the scatter matrix of
-/// the normals, over the number of all vertices: 0 for planes, cylinders and cones (Julius, Kraevoy and Sheffer
-/// 2005, *D-Charts*). The length of the cut is added with [`CUT_LENGTH_WEIGHT`].
+/// Computes the score of a straight cut, lower is better: adds for each side the smallest eigenvalue of the scatter
+/// matrix of the normals, over the number of all vertices: 0 for planes, cylinders and cones (Julius, Kraevoy and
+/// Sheffer 2005, *D-Charts*). The length of the cut is added with [`CUT_LENGTH_WEIGHT`].
 fn score(samples: &[Sample], [a, b, c]: [f64; 3], spacing: f64) -> f64 {
     let mut sums = [(0.0, Vector3::zeros(), Matrix3::zeros()); 2];
     let mut length = 0.0;

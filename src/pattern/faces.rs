@@ -10,11 +10,11 @@ use crate::heights::heightfield::Heightfield;
 #[derive(Debug, Clone, PartialEq, Default)]
 #[non_exhaustive]
 pub struct Faces {
-    /// Position of each vertex on the surface in space.
+    /// Position of each of the sheet's vertices on the surface in space.
     pub built: Vec<[f64; 3]>,
-    /// Position of each vertex on the flat sheet.
+    /// Position of each of the sheet's vertices on the flat sheet.
     pub flat: Vec<[f64; 2]>,
-    /// Vertices of each triangle, counter-clockwise.
+    /// Numbers of the three vertices of each of the sheet's triangles, counter-clockwise.
     pub triangles: Vec<[u32; 3]>,
 }
 

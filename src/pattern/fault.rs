@@ -20,11 +20,12 @@ pub(super) const SHEET_RELAXATION: StoppingCriteria = StoppingCriteria {
 
 /// Reason why a sheet is invalid.
 pub(super) enum Fault {
-    /// The sheet's strain, and the parts that are strained by more than the limit.
+    /// The sheet's strain exceeds the limit; holds that strain, and the parts of the sheet that are strained by more
+    /// than the limit.
     Strain(f64, Vec<u32>),
-    /// Parts with flipped triangles.
+    /// Triangles of the sheet are flipped (lie upside down); holds the parts with such triangles.
     Flipped(Vec<u32>),
-    /// A point where the outline crosses itself.
+    /// The sheet's outline crosses itself; holds a point where it does.
     Crossing(Point),
 }
 
@@ -53,7 +54,7 @@ impl Fault {
     }
 }
 
-/// Numbers of the seams of a sheet that are folds.
+/// Lists the numbers of a sheet's seams that are folds.
 pub(super) fn folds_of(net: &SeamGraph, layout: &Layout, members: &[u32]) -> Vec<usize> {
     let own = |seam: &usize| layout.folded[*seam] && members.contains(&net.seams[*seam].patches[0]);
     (0..net.seams.len()).filter(own).collect()

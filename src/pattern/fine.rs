@@ -21,14 +21,14 @@ use crate::lattice::coarsening::{coarse_lattice, fine_vertex, parents};
 use crate::lattice::hexagonal::Lattice;
 use crate::shape::patches::{NO_PATCH, Patches};
 
-/// Maximum number of vertices of a surface that is cut without a coarse lattice first.
+/// Maximum number of vertices of a surface that is cut into sheets without doing so on a coarser lattice first.
 const MAX_DIRECT_VERTICES: usize = 12_000;
 
 /// A surface and its patches, sampled at every second vertex of the lattice on which the surface is given.
 pub(super) struct Coarse {
     pub surface: Heightfield,
     pub patches: Patches,
-    /// Number on the fine lattice of each coarse patch.
+    /// For each patch of the coarse lattice the number of the same patch on the fine lattice.
     order: Vec<usize>,
 }
 
@@ -72,7 +72,7 @@ fn on_fine(coarse: &Lattice, fine: &Lattice, i: usize) -> Option<usize> {
         .then(|| fine.index(row as usize, col as usize))
 }
 
-/// Indices of the one or two coarse vertices at or beside a fine one.
+/// Returns the indices of the one or two coarse vertices at or beside a vertex of the fine lattice.
 fn on_coarse(coarse: &Lattice, row: usize, col: usize) -> impl Iterator<Item = usize> {
     let inside = |(row, col): &(isize, isize)| coarse.contains(*row, *col);
     let found: Vec<usize> = (parents(row, col).iter().filter(|vertex| inside(vertex)))
@@ -81,8 +81,8 @@ fn on_coarse(coarse: &Lattice, row: usize, col: usize) -> impl Iterator<Item = u
     found.into_iter()
 }
 
-/// Lays the sheets that were found on a coarse lattice flat on the fine one. The inner error is the reason why a
-/// sheet is invalid there.
+/// Lays the sheets that were found on a coarse lattice flat on the fine one. The inner error holds the reason why a
+/// sheet is invalid on the fine lattice.
 pub(super) fn refine_sheets(
     surface: &Heightfield,
     patches: &Patches,
@@ -168,7 +168,7 @@ pub(super) fn refine_sheets(
     }
 }
 
-/// Inverts a permutation of parts: from the old numbers in their new order, the new number of each part.
+/// Inverts a permutation of parts: from the old part numbers in their new order, computes the new number of each part.
 fn inverse(order: &[usize]) -> Vec<u32> {
     let mut numbers = vec![0; order.len()];
     for (number, old) in order.iter().enumerate() {
@@ -234,8 +234,8 @@ fn transfer_labels(
     }
 }
 
-/// Creates a part of the fine lattice at its position on the coarse one; `None` if that does not determine all its
-/// vertices.
+/// Creates a part of the fine lattice with the flat positions it has on the coarse lattice; `None` if these do not
+/// determine the positions of all its vertices.
 fn placed(parts: &Parts, part: usize, rough: &Assembled) -> Result<Option<FlatPatch>> {
     let Some(leaf) = rough.net.leaves[part].as_ref() else {
         return Ok(None);

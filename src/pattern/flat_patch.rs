@@ -20,7 +20,7 @@ use crate::unroll::{UnrollOptions, unroll_mesh};
 /// there.
 pub(super) const MIN_TEAR_GAP_SPACINGS: f64 = 0.5;
 
-/// Minimum number of vertices of a part that may be cut further.
+/// Minimum number of vertices of a part that may be cut into smaller parts.
 pub(super) const MIN_CUT_VERTICES: usize = 24;
 
 /// A patch, extended one cell beyond its creases and laid flat by itself.
@@ -33,23 +33,23 @@ pub(super) struct FlatPatch {
     /// Whether the patch still has to be laid flat on this lattice: its positions come from a coarser one.
     rough: bool,
     window: Window,
-    /// Whether each vertex belongs to the patch, and not to a neighbour.
+    /// Whether each vertex of the flat layout belongs to the patch itself, and not to a neighbour.
     own: Vec<bool>,
 }
 
-/// Strain of a flat layout: the area of its triangles, the integral of the squared strain, and the number of
-/// flipped triangles.
+/// Strain of a flat layout as sums over its triangles: the area of its triangles, the integral of the squared strain,
+/// and the number of flipped triangles.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(super) struct Strain {
     pub area: f64,
-    /// Squared strains, integrated over the area.
+    /// Integral of the squared strain over the area of the triangles.
     pub squares: f64,
     /// Number of triangles that lie upside down in the layout.
     pub flipped: usize,
 }
 
 impl Strain {
-    /// Root mean square of the strain; infinite where a layout is not finite.
+    /// Computes the root mean square of the strain; infinite where a layout is not finite.
     pub(super) fn rms(&self) -> f64 {
         let rms = match self.area > 0.0 {
             true => (self.squares / self.area).sqrt(),
@@ -68,7 +68,7 @@ impl Strain {
 }
 
 impl FlatPatch {
-    /// Lays a patch flat, with all triangles that have at least one of its vertices; `None` without such a
+    /// Lays a patch flat, with all triangles that have at least one of its vertices; `None` if there is no such
     /// triangle. The relaxation stops early once the strain is sure to exceed `limit`.
     pub(super) fn new(
         surface: &Heightfield,
@@ -94,8 +94,8 @@ impl FlatPatch {
         }))
     }
 
-    /// Creates a patch with given positions, which is not relaxed. Vertices without a given position are placed
-    /// next to those that have one; `None` if that does not reach all of them.
+    /// Creates a patch with given positions, which is not relaxed. Vertices without a given position are placed next to
+    /// those that have one; `None` if some vertices cannot be placed that way.
     pub(super) fn at(
         surface: &Heightfield,
         labels: &Labels,
@@ -124,8 +124,8 @@ impl FlatPatch {
         }))
     }
 
-    /// Mesh of all triangles with a vertex of a patch, and for each vertex of the mesh whether it belongs to the
-    /// patch; `None` without a triangle.
+    /// Creates the mesh of all triangles with a vertex of a patch, and tells for each vertex of the mesh whether it
+    /// belongs to the patch; `None` if there is no triangle.
     fn mesh(
         surface: &Heightfield,
         labels: &Labels,
@@ -182,7 +182,7 @@ impl FlatPatch {
         &self.places
     }
 
-    /// Positions of the vertices on the surface.
+    /// Returns the positions of the patch's vertices on the surface in space.
     pub(super) fn positions(&self) -> &[[f64; 3]] {
         self.mesh.positions()
     }
@@ -201,12 +201,12 @@ impl FlatPatch {
         (self.alone != self.places).then(|| self.alone.clone())
     }
 
-    /// Number of vertices that belong to the patch.
+    /// Counts the vertices that belong to the patch.
     pub(super) fn size(&self) -> usize {
         self.own.iter().filter(|own| **own).count()
     }
 
-    /// Whether the part has fewer than [`MIN_CUT_VERTICES`] vertices and is too small to be cut.
+    /// Returns whether the part has fewer than [`MIN_CUT_VERTICES`] vertices and is too small to be cut.
     pub(super) fn is_crumb(&self) -> bool {
         self.size() < MIN_CUT_VERTICES
     }
@@ -237,7 +237,7 @@ impl FlatPatch {
         })
     }
 
-    /// Strain of the patch at the current positions of its vertices.
+    /// Computes the strain of the patch at the current flat positions of its vertices.
     pub(super) fn strain(&self) -> Strain {
         self.strain_of(|_| true)
     }
@@ -257,8 +257,8 @@ impl FlatPatch {
         sum
     }
 
-    /// Contribution of each vertex of the patch to the strain: its index in the whole lattice, and the sum over its
-    /// triangles of squared strain times area.
+    /// Computes the contribution of each vertex of the patch to the strain: returns its index in the whole lattice, and
+    /// the sum over its triangles of squared strain times area.
     pub(super) fn burden(&self, whole: &Lattice) -> Vec<(usize, f64)> {
         let mut shares = vec![0.0; self.places.len()];
         for (piece, corners) in self.pieces().filter(|(piece, _)| piece.exists()) {
@@ -272,7 +272,7 @@ impl FlatPatch {
         own.map(|v| (self.index(whole, v), shares[v])).collect()
     }
 
-    /// Vertices of the patch that are corners of flipped triangles, by their index in the whole lattice.
+    /// Lists the vertices of the patch that are corners of flipped triangles, by their index in the whole lattice.
     pub(super) fn flipped(&self, whole: &Lattice) -> Vec<usize> {
         let upside_down = |(piece, corners): &(FlatTriangle, [u32; 3])| {
             let [_, short] = piece.singular_values(corners.map(|v| self.places[v as usize]));
@@ -284,13 +284,13 @@ impl FlatPatch {
         own.map(|v| self.index(whole, v)).collect()
     }
 
-    /// Index in the whole lattice of one of the patch's vertices.
+    /// Returns the index in the whole lattice of one of the patch's vertices.
     fn index(&self, whole: &Lattice, number: usize) -> usize {
         let [row, col] = self.vertex(number);
         whole.index(row, col)
     }
 
-    /// Row and column in the whole lattice of one of the patch's vertices.
+    /// Returns row and column in the whole lattice of one of the patch's vertices.
     pub(super) fn vertex(&self, number: usize) -> [usize; 2] {
         let (index, cols) = (
             self.mesh.vertices()[number] as usize,
@@ -302,8 +302,8 @@ impl FlatPatch {
         ]
     }
 
-    /// Number within the patch of a vertex, given by its row and column in the whole lattice; `None` if it is not
-    /// in the patch.
+    /// Returns the number within the patch of a vertex, given by its row and column in the whole lattice; `None` if the
+    /// vertex is not in the patch.
     pub(super) fn number(&self, vertex: [usize; 2]) -> Option<usize> {
         let [row, col] = vertex;
         let lattice = self.mesh.lattice();
@@ -318,13 +318,13 @@ impl FlatPatch {
         self.mesh.vertices().binary_search(&index).ok()
     }
 
-    /// Height of the extended patch at a row and column of the whole lattice; NaN outside of it.
+    /// Returns the height of the extended patch at a row and column of the whole lattice; NaN outside of the patch.
     pub(super) fn height(&self, vertex: [usize; 2]) -> f64 {
         let number = self.number(vertex);
         number.map_or(f64::NAN, |n| self.mesh.positions()[n][2])
     }
 
-    /// Position in the plane of the vertex at a row and column of the whole lattice; NaN outside of the patch.
+    /// Returns the flat position of the vertex at a row and column of the whole lattice; NaN outside of the patch.
     pub(super) fn place(&self, vertex: [usize; 2]) -> Point {
         self.number(vertex)
             .map_or(Point::new(f64::NAN, f64::NAN), |n| self.places[n])

@@ -13,8 +13,8 @@ use crate::shape::patches::Patches;
 /// used if sheets are invalid on the fine lattice.
 const COARSE_STRAIN_SHARES: [f64; 2] = [0.9, 0.7];
 
-/// Size of the smallest detail of outlines, in spacings, on a lattice that is not refined. With a larger value
-/// loops are cut off whose removal makes the two sides of a joint differ in length.
+/// Size of the smallest detail of sheets' outlines, in lattice spacings, where sheets are cut without a coarser
+/// lattice. With a larger value loops are cut off whose removal makes the two sides of a joint differ in length.
 pub(super) const DIRECT_OUTLINE_DETAIL: f64 = 0.4;
 
 /// Maximum number of rounds in which parts that are too small to be cut are merged or left out.

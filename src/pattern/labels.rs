@@ -7,9 +7,9 @@ use rustc_hash::FxHashMap;
 /// to. A patch that cannot lie flat in one piece is cut into several parts.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Labels {
-    /// Number of the part that each vertex of the lattice belongs to.
+    /// Number of the part (a patch or a piece of one) that each vertex of the lattice belongs to.
     pub of: Vec<u32>,
-    /// Number of the patch that each part was cut from.
+    /// Number of the patch from which each part was cut.
     pub origins: Vec<u32>,
 }
 
@@ -21,15 +21,15 @@ impl Labels {
         }
     }
 
-    /// Whether two parts are the same or were cut from one patch, so that the surface is smooth across their common
-    /// border.
+    /// Returns whether two parts are the same part or were cut from one patch, so that the surface is smooth across
+    /// their common border.
     pub(super) fn are_one(&self, a: u32, b: u32) -> bool {
         let origin = |part: u32| self.origins.get(part as usize);
         a == b || (origin(a).is_some() && origin(a) == origin(b))
     }
 }
 
-/// Connected components of some vertices of a lattice; two neighbours are connected where `joined` is true.
+/// Finds the connected components of some vertices of a lattice; two neighbours are connected where `joined` is true.
 pub(super) fn connected_groups(
     lattice: &Lattice,
     vertices: impl Iterator<Item = usize>,

@@ -7,12 +7,13 @@ use crate::math::planar::polyline_length;
 /// Rigid motions of all patches in the plane, and the sheets that the patches are on.
 pub(super) struct Arrangement {
     pub layout: Layout,
-    /// Numbers of the patches of each sheet, ascending.
+    /// Numbers of the patches on each sheet, ascending.
     pub sheets: Vec<Vec<u32>>,
 }
 
-/// Arranges patches on sheets: for each seam, the longest first, moves the sheet on one side to the other if the
-/// two sides then fit within `gap` times their length and nothing overlaps. Such a seam becomes a fold.
+/// Arranges patches on sheets: for each seam, the longest first, moves the sheet on one side to the other if the two
+/// sides of the seam then fit within `gap` times their length and the patches do not overlap. Such a seam becomes a
+/// fold.
 pub(super) fn arrange_patches(net: &SeamGraph, gap: f64) -> Arrangement {
     let mut layout = Layout::loose(net);
     // The sheet of each patch, and the patches of each sheet.
@@ -58,7 +59,7 @@ pub(super) fn arrange_patches(net: &SeamGraph, gap: f64) -> Arrangement {
     Arrangement { layout, sheets }
 }
 
-/// Returns the numbers of the seams that may be closed, the longest seam first.
+/// Lists the numbers of the seams whose two sides may be joined, the longest seam first.
 pub(super) fn longest_first(net: &SeamGraph) -> Vec<usize> {
     let long = |seam: &usize| polyline_length(&net.seams[*seam].sides[0]);
     let whole = |seam: &usize| {
@@ -70,7 +71,7 @@ pub(super) fn longest_first(net: &SeamGraph) -> Vec<usize> {
     order
 }
 
-/// The rigid motion that brings the second side of a seam to its first, by least squares.
+/// Computes the rigid motion in the plane that brings the second side of a seam to its first, by least squares.
 pub(super) fn motion_to_join(net: &SeamGraph, layout: &Layout, seam: usize) -> Motion {
     let [there, here] = [0, 1].map(|side| layout.side(net, seam, side));
     Motion::between(&here, &there)
@@ -82,7 +83,7 @@ pub(super) fn fits(net: &SeamGraph, layout: &Layout, seam: usize, gap: f64) -> b
     seam_gap(net, layout, seam) <= most.max(NEGLIGIBLE_GAP_LENGTHS * net.spacing)
 }
 
-/// Seam gap: root mean square of the distances between the sides of a seam.
+/// Computes the seam gap: the root mean square distance between the two sides of a seam.
 pub(super) fn seam_gap(net: &SeamGraph, layout: &Layout, seam: usize) -> f64 {
     let [one, other] = [0, 1].map(|side| layout.side(net, seam, side));
     let squares: f64 = one

@@ -99,7 +99,7 @@ pub(super) fn restore_corners(points: &[Point], short: f64, closed: bool) -> Vec
         .collect()
 }
 
-/// Intersection of two straight lines; `None` where they are parallel.
+/// Computes the intersection of two straight lines; `None` where the lines are parallel.
 pub(super) fn meeting([p, q]: [Point; 2], [r, s]: [Point; 2]) -> Option<Point> {
     // Lines at an angle below a hundredth of a radian count as parallel.
     line_intersection([p, q], [r, s], 0.01)

@@ -11,41 +11,42 @@ use crate::math::union_find::UnionFind;
 use crate::unroll::flat_triangle::Point;
 use rustc_hash::FxHashMap;
 
-/// Maximum radius within which the angle around a point is measured, in spacings of a lattice or edge lengths
+/// Maximum radius around a point within which the surface's angle is measured, in spacings of a lattice or edge lengths
 /// of a mesh.
 pub(super) const MAX_ANGLE_RADIUS_LENGTHS: f64 = 20.0;
 
-/// Maximum radius within which the angle around a point is measured, as a share of the shortest seam there.
+/// Maximum radius around a point within which the surface's angle is measured, as a share of the shortest seam that
+/// ends there.
 pub(super) const ANGLE_RADIUS_SHARE: f64 = 0.8;
 
-/// Minimum radius at which the angle around a point is measured, in spacings of a lattice or edge lengths of a
-/// mesh; nearer to the point the sampling smooths the surface.
+/// Minimum radius around a point at which the surface's angle is measured, in spacings of a lattice or edge lengths of
+/// a mesh; nearer to the point the sampling smooths the surface.
 pub(super) const MIN_ANGLE_RADIUS_LENGTHS: f64 = 6.0;
 
-/// Number of evenly spaced directions in which the ring around a point is sampled.
+/// Number of evenly spaced directions in which the ring around a point is sampled to measure the angle there.
 const RING_DIRECTIONS: usize = 180;
 
-/// Number of directions of a ring that replace each direction beside a crease.
+/// Number of directions of a ring around a point that replace each direction beside a crease.
 const CREASE_REFINEMENT: usize = 16;
 
-/// Number of segments by which the length of the path from a point to its ring is measured.
+/// Number of straight segments by which the length of the path from a point to its ring is measured.
 const RADIAL_STEPS: usize = 12;
 
 /// A point inside of the surface where cuts or folds end.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub struct Meeting {
-    /// Number of the point, the same on all sheets.
+    /// Number of the point, which is the same on all sheets.
     pub number: usize,
-    /// Position of the point on the surface.
+    /// Position of the point on the surface, in the surface's units.
     pub place: [f64; 3],
     /// Sum of the angles of the surface around the point, in radians: 2π where the surface could be laid flat in
     /// one piece, less at the tip of a cone, more at a saddle.
     pub angle: f64,
-    /// Outer radius of the ring in which the angle was measured, as distance along the surface; the inner radius is
-    /// half of it.
+    /// Outer radius of the ring in which the angle was measured, as distance along the surface in its units; the inner
+    /// radius is half of it.
     pub reach: f64,
-    /// Number of ends of cuts at the point.
+    /// Number of cuts that end at the point, counted twice if both ends do.
     pub cuts: usize,
 }
 
@@ -57,8 +58,8 @@ pub(super) struct Meetings {
 }
 
 impl Meetings {
-    /// The point at a node; `None` at the border, at steps, and where a seam that ends there is too short to
-    /// measure an angle.
+    /// Returns the point at a node of the seam graph; `None` at the border, at steps, and where a seam that ends there
+    /// is too short to measure an angle.
     pub(super) fn at(&self, node: Node) -> Option<Meeting> {
         self.of.get(&node).and_then(|number| self.all[*number])
     }
@@ -141,7 +142,7 @@ impl Meetings {
         })
     }
 
-    /// The points at the corners of a sheet, with their positions on it.
+    /// Lists the points where cuts or folds meet at the corners of a sheet, with their positions on the sheet.
     pub(super) fn corners(
         &self,
         net: &SeamGraph,
@@ -161,7 +162,7 @@ struct Found {
     cuts: usize,
     torn: bool,
     shortest: f64,
-    /// Sum of the positions of the point's nodes. `count` is their number.
+    /// Sum of the positions of the graph's nodes that belong to the point. `count` is the number of these nodes.
     sum: [f64; 3],
     count: f64,
 }
@@ -178,18 +179,19 @@ impl Default for Found {
     }
 }
 
-/// The surface around a point, with its creases where patches meet.
+/// The surface around a point where seams end, with its patches and the creases between them.
 struct Around<'a> {
     surface: &'a Heightfield,
     labels: &'a Labels,
     net: &'a SeamGraph,
 }
 
-/// A path along the surface, straight in plan: its length, its end, and whether a crease is near its end.
+/// A path along the surface that is straight as seen from above: its length, its end, and whether a crease is near its
+/// end.
 struct Way {
     long: f64,
     place: [f64; 3],
-    /// Length of the path's first half, and the point where that half ends.
+    /// Length of the path's first half, and the position where that half ends.
     half: (f64, [f64; 3]),
     creased: bool,
 }
@@ -199,10 +201,10 @@ fn squared(p: [f64; 3], q: [f64; 3]) -> f64 {
 }
 
 impl Around<'_> {
-    /// Sum of the angles around a point, in radians, measured between two rings around it, of `reach` and half of
-    /// it: from the lengths along both rings and between them. It is exact for cones, and so where flat faces meet,
-    /// and hardly depends on heights near the point, where the lattice smooths the surface. `None` if a ring leaves
-    /// the surface.
+    /// Computes the angle of the surface around a point, in radians, measured between two rings around it, of `reach`
+    /// and half of it: from the lengths along both rings and between them. It is exact for cones, and so where flat
+    /// faces meet, and hardly depends on heights near the point, where the lattice smooths the surface. `None` if a
+    /// ring leaves the surface.
     fn angle(&self, place: [f64; 3], reach: f64) -> Option<f64> {
         let even: Vec<f64> = (0..RING_DIRECTIONS)
             .map(|k| k as f64 / RING_DIRECTIONS as f64)
@@ -234,8 +236,8 @@ impl Around<'_> {
         Some(angles.sum())
     }
 
-    /// Paths, straight in plan, from a centre to points of a ring with a given radius in plan, in directions given
-    /// in full turns. `None` if one leaves the surface.
+    /// Computes paths along the surface, straight as seen from above, from a centre to points of a ring with a given
+    /// radius in plan, in directions given in full turns. `None` if one leaves the surface.
     fn ring(&self, place: [f64; 3], radius: f64, turns: &[f64]) -> Option<Vec<Way>> {
         let way = |turn: &f64| {
             let (sin, cos) = (std::f64::consts::TAU * turn).sin_cos();
@@ -260,8 +262,8 @@ impl Around<'_> {
         turns.iter().map(way).collect()
     }
 
-    /// Height of the surface at a point, and whether two patches meet in the triangle around it. In such a triangle
-    /// both patches are extrapolated to their crease.
+    /// Computes the height of the surface at a point, and whether two patches meet in the triangle around it. In such a
+    /// triangle both patches are extrapolated to their crease.
     fn height(&self, place: [f64; 2]) -> Option<(f64, bool)> {
         let lattice: &Lattice = self.surface.lattice();
         let found = lattice.locate(place);

@@ -5,8 +5,8 @@ use crate::unroll::UnrollOptions;
 /// Default maximum seam gap, as a share of the fold's length: half a millimetre on 10 cm. No table chose it.
 const DEFAULT_MAX_GAP_SHARE: f64 = 0.005;
 
-/// Default maximum root mean square strain of a sheet: lengths are wrong by 1 %, 2 mm on a page of A4, as in a layout
-/// that counts as unrolled. No table chose it; the patterns in `benches/choices.md` keep to it.
+/// Default maximum root mean square strain of a sheet: lengths on the sheet are wrong by 1 %, 2 mm on a page of A4, as
+/// in a layout that counts as unrolled. No table chose it; the patterns in `benches/choices.md` keep to it.
 const DEFAULT_MAX_STRAIN: f64 = 0.01;
 
 /// Options of a pattern: maximum seam gap, maximum strain, and how patches are laid flat.
@@ -23,11 +23,11 @@ pub struct PatternOptions {
     pub gap: f64,
     /// Maximum strain of a sheet, root mean square over its area. Default 0.01.
     pub max_strain: f64,
-    /// Options for laying patches flat.
+    /// Stopping criteria of the solver that lays patches flat.
     #[cfg_attr(feature = "serde", serde(skip))]
     pub unrolling: UnrollOptions,
     /// Whether sheets are folded back into space to measure their distance from the surface
-    /// ([`Refolding`](super::Refolding)). Takes about as long as laying them flat. Default `false`.
+    /// ([`Refolding`](super::Refolding)). Takes about as long as laying the sheets flat. Default `false`.
     pub refold: bool,
 }
 
@@ -43,22 +43,23 @@ impl Default for PatternOptions {
 }
 
 impl PatternOptions {
-    /// These options with another maximum seam gap.
+    /// Sets the maximum seam gap, as a share of the fold's length, and returns the options.
     pub fn gap(self, gap: f64) -> Self {
         PatternOptions { gap, ..self }
     }
 
-    /// These options with another maximum strain.
+    /// Sets the maximum root mean square strain of a sheet, and returns the options.
     pub fn max_strain(self, max_strain: f64) -> Self {
         PatternOptions { max_strain, ..self }
     }
 
-    /// These options with or without folding sheets back into space.
+    /// Sets whether sheets are folded back into space to measure their distance from the surface, and returns the
+    /// options.
     pub fn refold(self, refold: bool) -> Self {
         PatternOptions { refold, ..self }
     }
 
-    /// These options with other options for laying patches flat.
+    /// Sets the stopping criteria of the solver that lays patches flat, and returns the options.
     pub fn unrolling(self, unrolling: UnrollOptions) -> Self {
         PatternOptions { unrolling, ..self }
     }

@@ -13,7 +13,7 @@ pub(super) struct Motion {
 }
 
 impl Motion {
-    /// The motion that leaves every point where it is.
+    /// The identity, which leaves every point of the plane where it is.
     pub(super) const IDENTITY: Motion = Motion {
         turn: Point::new(1.0, 0.0),
         shift: Point::new(0.0, 0.0),
@@ -31,7 +31,8 @@ impl Motion {
         }
     }
 
-    /// The motion that minimises the sum of squared distances from the moved points `from` to the points `to`.
+    /// Computes the rigid motion that minimises the sum of squared distances from the moved points `from` to the points
+    /// `to`.
     pub(super) fn between(from: &[Point], to: &[Point]) -> Motion {
         let count = from.len() as f64;
         let middle = |places: &[Point]| places.iter().sum::<Point>() / count;
@@ -49,21 +50,21 @@ impl Motion {
     }
 }
 
-/// Layout of all patches: the rigid motion of each patch, and for each seam whether it is a fold.
+/// Layout of all patches in the plane: the rigid motion of each patch, and for each seam whether it is a fold.
 #[derive(Debug, Clone)]
 pub(super) struct Layout {
     pub motions: Vec<Motion>,
     pub folded: Vec<bool>,
 }
 
-/// A corner of a closed line around patches, which lie to its left.
+/// A corner of an outline: a closed line around patches, which lie to its left.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Corner {
     pub node: Node,
     pub place: Point,
-    /// Number of the seam that the line follows after this corner; `None` along the border.
+    /// Number of the seam that the outline follows after this corner; `None` along the border.
     pub seam: Option<usize>,
-    /// Number of the patch to the left of the line after this corner.
+    /// Number of the patch to the left of the outline after this corner.
     pub patch: u32,
 }
 
@@ -88,7 +89,7 @@ impl Layout {
         }
     }
 
-    /// Positions of a seam's nodes on one of its two patches, 0 or 1.
+    /// Computes the positions, on the flat sheet, of a seam's nodes on one of its two patches, 0 or 1.
     pub(super) fn side(&self, net: &SeamGraph, seam: usize, side: usize) -> Vec<Point> {
         let motion = &self.motions[net.seams[seam].patches[side] as usize];
         let places = net.seams[seam].sides[side].iter();
@@ -122,8 +123,8 @@ impl Layout {
         family
     }
 
-    /// The closed lines around some patches on a sheet, which also follow both sides of each open seam between
-    /// them.
+    /// Finds the outlines of some patches on a sheet: the closed lines around them, which also follow both sides of
+    /// each seam between them that is not joined.
     pub(super) fn outlines(&self, net: &SeamGraph, patches: &[u32]) -> Vec<Vec<Corner>> {
         let mut segments = Vec::new();
         let mut starts: FxHashMap<(Node, u32), Vec<usize>> = FxHashMap::default();
@@ -167,7 +168,7 @@ impl Layout {
         outlines
     }
 
-    /// Returns whether some of the given patches overlap in the plane.
+    /// Returns whether some of the given patches overlap where the layout puts them in the plane.
     pub(super) fn overlaps(&self, net: &SeamGraph, patches: &[u32]) -> bool {
         let outlines = self.outlines(net, patches);
         let (mut places, mut edges, mut positions) = (Vec::new(), Vec::new(), Vec::new());

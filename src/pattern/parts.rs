@@ -27,26 +27,26 @@ const MAX_OMITTED_SHARE: f64 = 0.02;
 /// again.
 const MAX_TRIM_ROUNDS: usize = 8;
 
-/// Maximum number of vertices that are left out in one step.
+/// Maximum number of vertices of the surface that are left out of the pattern in one step.
 const MAX_OMITTED_VERTICES: usize = 4 * MIN_CUT_VERTICES;
 
-/// Number of a part that was merged with another part, and the flat layout of both together.
+/// Number of a part that another part was merged into, and the flat layout of both together.
 type Enlarged = (u32, Option<FlatPatch>);
 
-/// The parts that a surface is cut into, each laid flat by itself.
+/// The parts that a surface is cut into; a part is a patch or a piece of it, which is laid flat by itself.
 pub(super) struct Parts {
-    /// The surface; the vertices that were left out have no height.
+    /// The surface that is cut; vertices that were left out of the pattern have no height.
     pub surface: Heightfield,
     pub labels: Labels,
     pub leaves: Vec<Option<FlatPatch>>,
     pub options: PatternOptions,
-    /// Size of the smallest detail of outlines, in spacings; smaller loops of an outline are cut off.
+    /// Size of the smallest detail of sheets' outlines, in lattice spacings; smaller loops of an outline are cut off.
     pub finest: f64,
-    /// Window of the lattice that encloses each part.
+    /// For each part the window of the lattice (rows and columns) that encloses it.
     windows: Vec<Window>,
-    /// Numbers of the parts whose strain was not checked yet.
+    /// Numbers of the parts whose strain was not yet compared with the limit.
     pending: Vec<u32>,
-    /// Number of vertices that were left out so far; `most_left_out` is its maximum.
+    /// Number of vertices of the surface that were left out of the pattern so far; `most_left_out` is its maximum.
     left_out: usize,
     most_left_out: usize,
     /// Number of times that border vertices were removed from sheets so far, at most [`MAX_TRIM_ROUNDS`].
@@ -99,8 +99,7 @@ impl Parts {
         }
     }
 
-    /// Replaces the parts by those of given labels, and leaves vertices without a label out. No part is laid flat
-    /// yet.
+    /// Replaces the parts by those of given labels, and leaves out vertices without a label. No part is laid flat yet.
     pub(super) fn with_labels(mut self, surface: &Heightfield, labels: Labels) -> Result<Self> {
         let lattice = surface.lattice();
         let keep: Vec<u8> = labels
@@ -131,7 +130,7 @@ impl Parts {
         self.windows = order.iter().map(|old| self.windows[*old]).collect();
     }
 
-    /// Number of vertices that were left out.
+    /// Returns the number of vertices of the surface that were left out of the pattern.
     pub(super) fn left_out(&self) -> usize {
         self.left_out
     }
@@ -140,8 +139,8 @@ impl Parts {
         self.windows[part as usize]
     }
 
-    /// Renumbers the parts by area, the largest first, and returns them with the segmentation into patches that
-    /// they form.
+    /// Renumbers the parts by area, the largest first, and returns them with the patches that they form, a part being a
+    /// patch there.
     pub(super) fn numbered(mut self, patches: &Patches) -> Result<(Self, Patches)> {
         if self.left_out == 0 && self.leaves.len() == patches.patches().len() {
             return Ok((self, patches.clone()));
@@ -232,8 +231,8 @@ impl Parts {
         Ok(true)
     }
 
-    /// Merges each part that is too small to be cut and strained above the limit with a neighbour, or leaves it
-    /// out.
+    /// Merges each part that is too small to be cut and strained above the limit with a neighbour, or leaves it out of
+    /// the pattern.
     pub(super) fn give_away_crumbs(&mut self) -> Result<()> {
         let limit = self.options.max_strain;
         for part in (0..self.leaves.len() as u32).rev() {
@@ -246,8 +245,8 @@ impl Parts {
         Ok(())
     }
 
-    /// Merges a part with a neighbour if both together lie flat. A neighbour cut from the same patch comes first,
-    /// then the one with the longest common border. Returns whether one was found; numbers of parts may change.
+    /// Merges a part with a neighbour if both together lie flat. A neighbour cut from the same patch comes first, then
+    /// the one with the longest common border. Returns whether such a neighbour was found; numbers of parts may change.
     pub(super) fn give_away(&mut self, part: u32) -> Result<bool> {
         let own = self.members(part);
         let mut beside: Vec<(u32, usize)> = self.borders(part, &own).into_iter().collect();
@@ -282,8 +281,8 @@ impl Parts {
         Ok(None)
     }
 
-    /// Leaves out a part that is too small to be cut, unless the maximum number of vertices is left out already.
-    /// Returns whether the part was left out; numbers of parts may change.
+    /// Leaves out of the pattern a part that is too small to be cut, unless the maximum number of vertices is left out
+    /// already. Returns whether the part was left out; numbers of parts may change.
     pub(super) fn leave_out(&mut self, part: u32) -> Result<bool> {
         let own = self.members(part);
         if own.len() > self.scrap() {
@@ -302,8 +301,8 @@ impl Parts {
         Ok(true)
     }
 
-    /// Leaves out the few border vertices of a part that hold most of its strain or are corners of flipped
-    /// triangles. Returns whether there were any.
+    /// Leaves out of the pattern the few border vertices of a part that hold most of its strain or are corners of
+    /// flipped triangles. Returns whether there were such vertices.
     fn trim(&mut self, part: u32) -> Result<bool> {
         let Some(leaf) = self.leaves[part as usize].as_ref() else {
             return Ok(false);
@@ -323,8 +322,8 @@ impl Parts {
         Ok(true)
     }
 
-    /// The few border vertices of a part whose removal would make the sheet valid; `None` if there are none or the
-    /// limits of what may be left out are reached.
+    /// Finds the few border vertices of a part whose removal would make the sheet valid; `None` if there are none or
+    /// the limits of what may be left out are reached.
     pub(super) fn removable_vertices(
         &self,
         part: u32,
@@ -336,8 +335,8 @@ impl Parts {
         (self.trims < MAX_TRIM_ROUNDS).then(found).flatten()
     }
 
-    /// Leaves out some vertices of a part; the other vertices of the part and of its neighbours keep their
-    /// positions.
+    /// Leaves out of the pattern some vertices of a part; the other vertices of the part and of its neighbours keep
+    /// their flat positions.
     pub(super) fn leave_out_specks(&mut self, part: u32, specks: Vec<usize>) -> Result<()> {
         self.trims += 1;
         let mut changed: Vec<u32> = self.borders(part, &specks).into_keys().collect();
@@ -354,7 +353,7 @@ impl Parts {
         Ok(())
     }
 
-    /// Computes the maximum number of vertices that may be left out in the next step.
+    /// Computes the maximum number of vertices that may be left out of the pattern in the next step.
     fn scrap(&self) -> usize {
         MAX_OMITTED_VERTICES.min(self.most_left_out.saturating_sub(self.left_out))
     }
@@ -371,7 +370,7 @@ impl Parts {
         Ok(())
     }
 
-    /// Number of lattice edges between a part and each of its neighbours.
+    /// Counts the lattice edges between a part and each of its neighbours.
     fn borders(&self, part: u32, own: &[usize]) -> BTreeMap<u32, usize> {
         let lattice = self.surface.lattice();
         let mut borders: BTreeMap<u32, usize> = BTreeMap::new();
@@ -387,7 +386,7 @@ impl Parts {
         borders
     }
 
-    /// Removes a part without vertices; the last part takes its number.
+    /// Removes a part that has no vertices from the list of parts; the last part takes its number.
     fn remove(&mut self, part: u32) {
         let last = self.labels.origins.len() as u32 - 1;
         if last != part {

@@ -13,7 +13,7 @@ use crate::error::Result;
 use crate::unroll::arap_mesh::{ArapMesh, StoppingCriteria};
 use crate::unroll::flat_triangle::FlatTriangle;
 
-/// Stopping criteria for folding a sheet back into space.
+/// Stopping criteria of the solver that folds a sheet back into space.
 const REFOLDING_RELAXATION: StoppingCriteria = StoppingCriteria {
     tolerance: 1e-12,
     target_energy: 0.0,
@@ -21,7 +21,7 @@ const REFOLDING_RELAXATION: StoppingCriteria = StoppingCriteria {
     max_steps: 80,
 };
 
-/// Folds a sheet back into space, and measures its distance from the surface.
+/// Folds a flat sheet back into space, and measures its distance from the surface.
 pub(super) fn refold_sheet(
     net: &SeamGraph,
     patches: &[u32],
@@ -68,9 +68,9 @@ pub(super) fn refold_sheet(
     })
 }
 
-/// Registers points to others by the rigid motion with the least sum of squared distances. The rotation is found
-/// iteratively from the points' correlation matrix, starting from none (Müller et al. 2016, *A Robust Method to
-/// Extract the Rotational Part of Deformations*).
+/// Registers a point set to another by the rigid motion with the least sum of squared distances. The rotation is found
+/// iteratively from the points' correlation matrix, starting from none (Müller et al. 2016, *A Robust Method to Extract
+/// the Rotational Part of Deformations*).
 fn register(places: &mut [Vector3<f64>], others: &[Vector3<f64>]) {
     let count = places.len().max(1) as f64;
     let here = places.iter().sum::<Vector3<f64>>() / count;

@@ -26,8 +26,8 @@ const MAX_SEAM_STRAIN_FACTOR: f64 = 2.0;
 /// Minimum number of nodes of each half of a seam that is divided because it cannot be closed as a whole.
 const MIN_HALVED_SEAM_NODES: usize = 12;
 
-/// Maximum number of solver iterations that all trials to close cuts may take together, for each vertex of the
-/// pattern.
+/// Maximum number of solver iterations of all trials to close cuts, summed over the vertices of the sheet in each
+/// trial, per vertex of the pattern.
 const STEP_BUDGET_PER_VERTEX: usize = 800;
 
 /// Strain energy, as a multiple of the energy at the strain limit, above which the trial to close a cut is
@@ -115,7 +115,8 @@ fn close_narrow_gaps(net: &mut SeamGraph, arrangement: &mut Arrangement, limit: 
     }
 }
 
-/// Tries to close one cut. Returns whether the sheet is valid then; if not, everything is restored.
+/// Tries to close one cut, that is to join its two sides. Returns whether the sheet is valid then; if not, the former
+/// layout is restored.
 fn close_cut(
     net: &mut SeamGraph,
     arrangement: &mut Arrangement,

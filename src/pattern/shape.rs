@@ -9,14 +9,14 @@ use super::simple::{Runs, Side, remove_loops};
 use crate::math::planar::polyline_length;
 use crate::unroll::flat_triangle::Point;
 
-/// Maximum distance between a line and its simplification, in spacings.
+/// Maximum distance between an outline or fold and its simplified polyline, in lattice spacings.
 const SIMPLIFICATION_TOLERANCE_SPACINGS: f64 = 0.02;
 
-/// Maximum length of a border segment that cuts off a corner, as a multiple of the longest edge there. Such a
-/// segment arises because the border connects the midpoints of edges.
+/// Maximum length of a border segment that cuts off a corner of the outline, as a multiple of the longest edge there.
+/// Such a segment arises because the border connects the midpoints of edges.
 const MAX_CHAMFER_LENGTH_FACTOR: f64 = 1.1;
 
-/// The closed lines around a sheet, and the number of small loops that were cut off them.
+/// Finds the closed lines around a sheet and cuts off their small loops; returns the lines and the number of loops.
 pub(super) fn lines(net: &SeamGraph, layout: &Layout, patches: &[u32]) -> (Vec<Runs>, usize) {
     let mut loops = 0;
     let lines = layout.outlines(net, patches).into_iter().map(|line| {
@@ -27,7 +27,7 @@ pub(super) fn lines(net: &SeamGraph, layout: &Layout, patches: &[u32]) -> (Vec<R
     (lines.collect(), loops)
 }
 
-/// The outlines of a sheet, the longest first, and the number of small loops that were cut off them.
+/// Creates the outlines of a sheet, the longest first; returns them and the number of small loops that were cut off.
 pub(super) fn outlines(
     net: &SeamGraph,
     layout: &Layout,
@@ -62,7 +62,7 @@ pub(super) fn outlines(
     (out.into_iter().map(|(_, runs)| runs).collect(), loops)
 }
 
-/// The folds of a sheet, except those that only connect two nodes of one four-way junction.
+/// Lists the folds of a sheet, except those that only connect two nodes of one four-way junction.
 pub(super) fn folds(
     net: &SeamGraph,
     layout: &Layout,
@@ -109,8 +109,8 @@ pub(super) fn folds(
         .collect()
 }
 
-/// Intersection of the straight line from `back` through `end` with the outlines, the one nearest to `end`; `end`
-/// itself if none is within a spacing of it.
+/// Computes the intersection of the straight line from `back` through `end` with the outlines, the one nearest to
+/// `end`; `end` itself if none is within a spacing of it.
 fn extend_to_outline(end: Point, back: Point, outlines: &[Vec<Run>], spacing: f64) -> Point {
     let pieces = outlines.iter().flatten().flat_map(|run| {
         let points = run.points.windows(2);
@@ -183,7 +183,8 @@ fn runs(net: &SeamGraph, line: &[Corner]) -> Vec<(Option<Side>, Vec<Point>)> {
     out
 }
 
-/// Extends or shortens the two seams that end at border run `k` to their intersections with the border's line.
+/// Extends or shortens the two seams that end at run `k`, a piece of the surface's border, to their intersections with
+/// the border's line.
 fn meet(net: &SeamGraph, groups: &[(Option<Side>, Vec<Corner>)], runs: &mut Runs, k: usize) {
     let count = groups.len();
     for (other, starts) in [((k + count - 1) % count, true), ((k + 1) % count, false)] {
@@ -227,7 +228,8 @@ fn places(corners: &[Corner]) -> Vec<Point> {
     corners.iter().map(|corner| corner.place).collect()
 }
 
-/// Computes the maximum length of a border segment that counts as cutting off a corner of the outline.
+/// Computes the maximum length, in the surface's units, of a border segment that counts as cutting off a corner of the
+/// outline.
 fn short(corners: &[Corner]) -> f64 {
     let next = vertices(corners).skip(1);
     let edges = vertices(corners).zip(next).map(|(p, q)| (q - p).norm());
@@ -243,7 +245,7 @@ fn vertices(corners: &[Corner]) -> impl Iterator<Item = Point> {
     own.map(|corner| corner.place)
 }
 
-/// Returns the midpoints of a border's edges: unlike the vertices these do not zigzag.
+/// Returns the midpoints of the edges of the surface's border: unlike the vertices these do not zigzag.
 fn middles(corners: &[Corner]) -> Vec<Point> {
     let next = vertices(corners).skip(1);
     vertices(corners)
@@ -252,7 +254,7 @@ fn middles(corners: &[Corner]) -> Vec<Point> {
         .collect()
 }
 
-/// Returns the midpoint of the edge from the border's last vertex to its first.
+/// Returns the midpoint of the edge from the last vertex of the surface's border to its first vertex.
 fn closing(corners: &[Corner]) -> Option<Point> {
     let (first, last) = (vertices(corners).next()?, vertices(corners).last()?);
     Some(0.5 * (first + last))

@@ -4,14 +4,14 @@ use super::faces::Faces;
 use super::meeting::Meeting;
 use crate::shape::patches::Patches;
 
-/// A heightfield cut into sheets.
+/// A heightfield cut into flat sheets.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub struct Pattern {
-    /// The sheets; the first is the one with the largest patch.
+    /// The flat sheets; the first is the one with the largest patch.
     pub sheets: Vec<Sheet>,
-    /// The patches of the sheets and the creases between them. If a patch was cut, these are the parts it was cut
-    /// into, and its cuts are among the creases; otherwise they are the patches that were given.
+    /// The patches of the sheets and the creases between them. A patch that was cut is replaced by the parts it was cut
+    /// into, and its cuts are among the creases.
     pub patches: Patches,
     /// Vertices, area and steps of the surface that are on no sheet.
     pub missing: Missing,
@@ -26,15 +26,15 @@ pub struct Pattern {
 )]
 #[non_exhaustive]
 pub struct Missing {
-    /// Number of vertices that were left out because they do not lie flat together with any neighbouring part,
-    /// mostly at ragged steep borders and torn tips; at most a fiftieth of all.
+    /// Number of vertices that were left out of the pattern because they do not lie flat together with any neighbouring
+    /// part, mostly at ragged steep borders and torn tips; at most a fiftieth of all.
     pub vertices: usize,
-    /// Area around the vertices that were left out.
+    /// Area around the vertices that were left out, in the surface's units squared.
     pub area: f64,
-    /// Number of steps of the surface. The surface is cut at a step, and the steep wall between its two sides is on
-    /// no sheet.
+    /// Number of steps of the surface, which are edges where it jumps in height. The surface is cut at a step, and the
+    /// steep wall between its two sides is on no sheet.
     pub steps: usize,
-    /// Approximate area of the walls at steps: their lengths times their heights.
+    /// Approximate area of the walls at steps, in the surface's units squared: their lengths times their heights.
     pub step_area: f64,
 }
 
@@ -42,7 +42,7 @@ pub struct Missing {
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub struct Sheet {
-    /// Numbers of the sheet's patches, ascending.
+    /// Numbers of the patches that the sheet consists of, ascending.
     pub patches: Vec<u32>,
     /// Outlines of the sheet: closed lines, the longest first, each divided into runs that begin where the run
     /// before ends. The sheet is to the left, so outlines of holes run clockwise.
@@ -56,18 +56,18 @@ pub struct Sheet {
     pub folds: Vec<Fold>,
     /// For each patch, in the order of the patches, a place for its label far from the patch's border.
     pub spots: Vec<Spot>,
-    /// Triangles of the sheet, with their positions on the surface and on the flat sheet.
+    /// Triangles of the sheet, with their positions on the surface and in the plane.
     pub faces: Faces,
     /// Spacing of the lattice, or mean edge length of the mesh: the resolution of the sheet's outlines and folds.
     pub spacing: f64,
-    /// Area of the surface that the sheet is made of.
+    /// Area of the surface that the sheet covers, in the surface's units squared.
     pub area: f64,
     /// Strain of the sheet, root mean square over its area; 0 for a sheet that is exactly developable.
     pub strain: f64,
     /// Largest seam gap of a fold: root mean square distance between its two sides along the fold. The drawn fold
     /// lies halfway between the sides.
     pub gap: f64,
-    /// Number of small loops, in which outlines crossed themselves, that were cut off.
+    /// Number of small loops that were cut off where the sheet's outlines crossed themselves.
     pub loops: usize,
     /// Distance of the refolded sheet from the surface; `None` unless
     /// [`PatternOptions::refold`](super::PatternOptions::refold) is set.
@@ -80,11 +80,11 @@ pub struct Sheet {
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[non_exhaustive]
 pub struct Refolding {
-    /// Root mean square of the distances.
+    /// Root mean square distance of the refolded sheet's vertices from the surface, in the surface's units.
     pub rms: f64,
-    /// Largest of the distances.
+    /// Largest distance of a refolded sheet's vertex from the surface, in the surface's units.
     pub maximum: f64,
-    /// Strain that is left in the folded sheet: root of its mean square over the area.
+    /// Root mean square strain, over the area, that is left in the folded sheet.
     pub strain: f64,
 }
 
@@ -96,9 +96,10 @@ pub struct Run {
     pub seam: Option<Seam>,
     /// Number of the patch whose side of the crease the run follows; `None` along the border.
     pub patch: Option<u32>,
-    /// Points inside of the surface where the run begins and ends; `None` at the border.
+    /// Points inside of the surface where cuts or folds meet and the run begins and ends; `None` at the border.
     pub ends: [Option<Meeting>; 2],
-    /// At least two points; the first one is repeated at the end where the run is a whole outline.
+    /// Polyline of the run on the flat sheet: at least two points; the first one is repeated at the end where the run
+    /// is a whole outline.
     pub points: Vec<[f64; 2]>,
 }
 
@@ -106,34 +107,36 @@ pub struct Run {
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub struct Fold {
-    /// The crease that is folded.
+    /// The crease along which the sheet is folded.
     pub seam: Seam,
-    /// Points inside of the surface where the fold begins and ends; `None` at the border.
+    /// Points inside of the surface where cuts or folds meet and the fold begins and ends; `None` at the border.
     pub ends: [Option<Meeting>; 2],
-    /// At least two points; the first one is repeated at the end where the fold is closed.
+    /// Polyline of the fold on the flat sheet: at least two points; the first one is repeated at the end where the fold
+    /// is closed.
     pub points: Vec<[f64; 2]>,
 }
 
-/// A crease or cut as it is on a sheet: its patches, its fold and its kind.
+/// A crease or cut on the border of a sheet or within it: the patches on either side, the fold angle and the kind.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub struct Seam {
-    /// The crease that the seam follows, by its place in the [`Patches::creases`] of [`Pattern::patches`].
+    /// The crease that the seam follows, by its index in the [`Patches::creases`] of [`Pattern::patches`].
     pub crease: usize,
-    /// The patches on either side of the seam, the lower number first.
+    /// Numbers of the patches on either side of the seam, the lower one first.
     pub patches: [u32; 2],
     /// Whether the crease is a mountain or a valley fold.
     pub direction: Direction,
-    /// Fold angle in radians: 0 is flat.
+    /// Fold angle of the crease in radians: 0 where the surface is smooth.
     pub angle: f64,
     /// Whether this is a cut inside of a patch that cannot be laid flat in one piece, and not a crease of the
     /// surface.
     pub slit: bool,
-    /// Whether the surface has a step here: the two sides are apart in space and are not glued together.
+    /// Whether the surface has a step (a jump in height) along the seam: the two sides are apart in space and are not
+    /// glued together.
     pub torn: bool,
 }
 
-/// Which way a sheet is folded, seen from above.
+/// The direction in which a sheet is folded, seen from above.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 #[cfg_attr(
     feature = "serde",
@@ -148,13 +151,13 @@ pub enum Direction {
     Valley,
 }
 
-/// A place on a sheet for the number of a patch.
+/// A position on a flat sheet for the number of a patch.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub struct Spot {
-    /// Number of the patch.
+    /// Number of the patch that the position is for.
     pub patch: u32,
-    /// Position on the sheet.
+    /// Position of the label on the flat sheet, in the surface's units.
     pub place: [f64; 2],
     /// Approximate distance from the label's place to the patch's border, in the surface's units.
     pub room: f64,

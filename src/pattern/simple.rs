@@ -4,23 +4,25 @@ use crate::math::planar::{line_intersection, polygon_area, polygon_perimeter};
 use crate::unroll::flat_triangle::Point;
 use crate::unroll::overlap::crossings;
 
-/// Maximum area, in squared spacings, of a loop that is cut off a line.
+/// Maximum area, in squared spacings, of a loop that is cut off a sheet's outline.
 const MAX_LOOP_AREA: f64 = 6.0;
 
-/// Maximum length, in spacings, of a loop that is cut off a line.
+/// Maximum length, in spacings, of a loop that is cut off a sheet's outline.
 const MAX_LOOP_LENGTH: f64 = 60.0;
 
-/// Maximum number of passes over a line in which its loops are cut off.
+/// Maximum number of passes over a sheet's outline in which loops are cut off.
 const MAX_LOOP_PASSES: usize = 8;
 
-/// One side of a seam: the number of the seam, and the patch on that side.
+/// One side of a seam: the number of the seam, and the number of the patch on that side.
 pub(crate) type Side = (usize, u32);
 
-/// Consecutive pieces of a closed line, each with the side that it follows; `None` for the border.
+/// Consecutive pieces of a closed line, each with the side of the seam that it follows; `None` for the surface's
+/// border.
 pub(crate) type Runs = Vec<(Option<Side>, Vec<Point>)>;
 
-/// Cuts off the small loops in which a closed line crosses itself. The line is given as runs, each of which begins
-/// where the one before ends. Returns the line and the number of loops that were cut off.
+/// Cuts off the small loops in which a closed line crosses itself. The line is given as runs (pieces along one side of
+/// a seam or the border each), each of which begins where the one before ends. Returns the line and the number of loops
+/// that were cut off.
 pub(crate) fn remove_loops(runs: Runs, spacing: f64) -> (Runs, usize) {
     // Each point with the number of the run that the segment from this point to the next belongs to.
     let mut line: Vec<(Point, usize)> = Vec::new();
@@ -60,7 +62,7 @@ pub(crate) fn remove_loops(runs: Runs, spacing: f64) -> (Runs, usize) {
     (out, loops)
 }
 
-/// Passes over a closed line once and cuts off its small loops. Returns the line and the number of loops; `None` if
+/// Cuts off the small loops of a closed line, in one pass over it. Returns the line and the number of loops; `None` if
 /// there is no loop.
 fn pass(line: &[(Point, usize)], spacing: f64) -> Option<(Vec<(Point, usize)>, usize)> {
     let n = line.len();

@@ -8,8 +8,8 @@ use super::sheets::Spot;
 use crate::heights::heightfield::Heightfield;
 use crate::shape::patches::NO_PATCH;
 
-/// Finds for each patch a vertex for its label: the one that is the most lattice edges away from other patches and
-/// the border; of several, the one nearest to the patch's centroid.
+/// Finds for each patch a vertex for its label: the vertex that is the most lattice edges away from other patches and
+/// from the surface's border; of several such vertices, the one nearest to the patch's centroid.
 pub(super) fn label_spots(
     surface: &Heightfield,
     labels: &[u32],

@@ -6,23 +6,23 @@ use super::labels::{Labels, connected_groups};
 use crate::lattice::hexagonal::{Lattice, NEIGHBOUR_DIRECTIONS};
 use rustc_hash::FxHashMap;
 
-/// Maximum number of border vertices that are removed from a part, as a share of its vertices.
+/// Maximum number of border vertices that are removed from a part, as a share of the part's vertices.
 const MAX_SPECK_SHARE: f64 = 0.002;
 
-/// Maximum strain of a part after border vertices were removed, as a share of the limit.
+/// Maximum strain of a part after border vertices were removed, as a share of the strain limit.
 const TRIMMED_STRAIN_SHARE: f64 = 0.5;
 
 /// Fault of a part that the removal of a few border vertices has to mend.
 #[derive(Debug, Clone, Copy)]
 pub(super) enum Trouble {
-    /// The part's strain is above this limit.
+    /// The part's strain is above the limit, which this value holds.
     Strain(f64),
-    /// Triangles of the part are flipped.
+    /// Triangles of the part are flipped (lie upside down in the layout).
     Flipped,
 }
 
-/// The few border vertices of a part whose removal is sure to cure its fault; `None` if they are more than `most`,
-/// if they are not at the border, or if the part would not stay connected.
+/// Finds the few border vertices of a part whose removal is sure to mend its fault; `None` if there are more than
+/// `most`, if they are not at the part's border, or if the part would not stay connected.
 pub(super) fn removable_vertices(
     lattice: &Lattice,
     labels: &Labels,

@@ -23,7 +23,7 @@ impl Window {
         }
     }
 
-    /// The window without any vertex.
+    /// The window that encloses no vertex of the lattice.
     const EMPTY: Window = Window {
         top: usize::MAX,
         left: usize::MAX,
@@ -55,7 +55,7 @@ impl Window {
         rows.flat_map(move |row| (self.left..=self.right).map(move |col| row * cols + col))
     }
 
-    /// For each of `count` patches the window of its vertices, enlarged by one cell on each side.
+    /// Computes for each of `count` patches the window that encloses its vertices, enlarged by one cell on each side.
     pub(super) fn around(self, lattice: &Lattice, labels: &[u32], count: usize) -> Vec<Window> {
         let mut windows = vec![Window::EMPTY; count];
         for i in self.vertices(lattice) {

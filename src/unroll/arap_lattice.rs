@@ -8,32 +8,34 @@ use super::multigrid::GlobalStep;
 use crate::error::{Result, try_filled};
 use crate::math::lanes;
 
-/// Conjugate-gradient iterations in each global step of the layout. With a V-cycle as preconditioner every two
-/// iterations are nearly exact; the rest of the residual is in the next step's right-hand side.
+/// Conjugate-gradient iterations in each global step of the layout. With a multigrid V-cycle as preconditioner two
+/// iterations are nearly exact; the rest of the residual enters the next step's right-hand side.
 const CG_ITERATIONS: usize = 2;
 
-/// Minimum ratio of a layout's energy to the wanted energy at which a layout whose energy hardly falls any more is
-/// given up.
+/// Minimum ratio of a layout's energy to the wanted energy at which the solver gives up a layout whose energy hardly
+/// falls any more.
 const HOPELESS_ENERGY_FACTOR: f64 = 2.5;
 
-/// Relative change of the energy in one step below which a layout counts as stalled.
+/// Relative change of a heightfield layout's energy in one iteration below which the layout counts as stalled.
 const STALLED_RELATIVE_CHANGE: f64 = 0.01;
 
-/// Number of local and global steps that are made before a layout may be given up.
+/// Number of iterations (a local and a global step each) that are made before the layout of a heightfield may be given
+/// up.
 const MIN_STEPS_BEFORE_GIVING_UP: usize = 6;
 
 /// Stopping criteria for laying a heightfield flat.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Limits {
-    /// Change of the energy over the area in one iteration, below which the layout has converged.
+    /// Change of the layout's energy over its area in one iteration, without unit, below which the layout has
+    /// converged.
     pub tolerance: f64,
     pub max_iterations: usize,
-    /// Energy over area that is wanted: a layout that stalls well above it is given up. Infinite if no energy is
-    /// wanted.
+    /// Energy over area, without unit, that the layout should reach: a layout that stalls well above it is given up.
+    /// Infinite if no energy is wanted.
     pub wanted_energy: f64,
 }
 
-/// Moves the vertices of a flat layout from given positions, in units of the spacing, to those with the least
+/// Moves the vertices of a flat layout from given positions, in units of the spacing, to those that minimise the
 /// as-rigid-as-possible energy.
 ///
 /// # Errors

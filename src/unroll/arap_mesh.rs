@@ -10,24 +10,25 @@ use super::flat_triangle::{FlatTriangle, Point, Position};
 use super::local_global::Iteration;
 use crate::error::{Result, try_filled};
 
-/// Weight of the squared distance between two points that are tied, that is, should coincide. An edge between two
-/// equilateral triangles has the weight 0.58, so that ties close before triangles are strained.
+/// Weight, in the energy of a mesh, of the squared distance between two points that are tied, that is, should coincide.
+/// An edge between two equilateral triangles has the weight 0.58, so that tied points meet before triangles are
+/// strained.
 const TIE_WEIGHT: f64 = 8.0;
 
-/// Maximum number of conjugate-gradient iterations in each global step.
+/// Maximum number of conjugate-gradient iterations in each global step of laying a mesh.
 const MAX_CG_ITERATIONS: usize = 16;
 
-/// Factor by which conjugate gradients reduce the residual in each global step.
+/// Factor by which conjugate gradients reduce the residual in each global step of laying a mesh.
 const CG_RESIDUAL_REDUCTION: f64 = 1e-3;
 
-/// Relative change of the energy in one step below which the layout of a mesh counts as stalled.
+/// Relative change of a mesh layout's energy in one iteration below which the layout counts as stalled.
 const STALLED_RELATIVE_CHANGE: f64 = 0.02;
 
-/// Number of local and global steps that are made before the layout of a mesh may be given up.
+/// Number of iterations (a local and a global step each) that are made before the layout of a mesh may be given up.
 const MIN_STEPS_BEFORE_GIVING_UP: usize = 5;
 
-/// Factor by which an earlier change of the energy counts less after each step, where the next change is estimated
-/// by the largest recent one: the energy does not fall at an even rate.
+/// Factor by which an earlier decrease of the energy counts less after each iteration. The next decrease is estimated
+/// by the largest recent one, because the energy does not fall at an even rate.
 const CHANGE_DECAY: f64 = 0.8;
 
 /// A point on a mesh: vertices with barycentric weights; a vertex of weight 0 does not count.
@@ -38,7 +39,7 @@ pub(crate) type BarycentricPoint = [(u32, f64); 3];
 pub(crate) struct ArapMesh {
     /// Triangles of the mesh, each with the numbers of its corners.
     triangles: Vec<(FlatTriangle, [u32; 3])>,
-    /// Pairs of points of the mesh that should coincide.
+    /// Ties: pairs of points of the mesh that should coincide.
     ties: Vec<[BarycentricPoint; 2]>,
     matrix: CsMat<f64>,
     /// Inverse of the diagonal of the global step's matrix, the preconditioner of conjugate gradients.
@@ -49,14 +50,14 @@ pub(crate) struct ArapMesh {
 /// Stopping criteria for minimising the energy of a mesh.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct StoppingCriteria {
-    /// Change of the energy over the area in one step, below which the mesh has converged.
+    /// Change of the energy over the area in one iteration, without unit, below which the mesh has converged.
     pub tolerance: f64,
-    /// Energy over area at which the solver stops, or 0. The layout is also given up if at the rate of the last
-    /// steps it would not reach this energy in `max_steps`.
+    /// Energy over area, without unit, at which the solver stops, or 0. The solver also gives up if at the rate of the
+    /// last iterations it would not reach this energy in `max_steps`.
     pub target_energy: f64,
-    /// Energy over area above which a layout that stalls is given up.
+    /// Energy over area, without unit, above which the solver gives up a layout that stalls.
     pub hopeless_energy: f64,
-    /// Maximum number of local and global steps.
+    /// Maximum number of iterations, a local and a global step each.
     pub max_steps: usize,
 }
 
@@ -86,7 +87,8 @@ impl ArapMesh {
         })
     }
 
-    /// Moves the vertices in the plane to the least energy. Returns the number of local and global steps.
+    /// Moves the mesh's vertices in the plane to positions of least energy. Returns the number of local and global
+    /// steps.
     ///
     /// # Errors
     /// [`Error::OutOfMemory`](crate::Error::OutOfMemory).
@@ -122,8 +124,8 @@ impl ArapMesh {
         Ok(iteration.steps)
     }
 
-    /// Moves the vertices in space, from positions near the solution, to the least energy. Stops by tolerance and
-    /// maximum number of steps alone.
+    /// Moves the mesh's vertices in space, from positions near the solution, to positions of least energy. The
+    /// tolerance and the maximum number of iterations alone decide when it stops.
     ///
     /// # Errors
     /// [`Error::OutOfMemory`](crate::Error::OutOfMemory).
@@ -168,7 +170,8 @@ impl ArapMesh {
         (0.5 * self.triangle_energy(positions, &mut descent) / self.area).sqrt()
     }
 
-    /// Computes the energy of the triangles alone. Adds minus half the energy's gradient to `descent`.
+    /// Computes the as-rigid-as-possible energy of the triangles, without that of ties. Adds minus half the energy's
+    /// gradient to `descent`.
     fn triangle_energy<P: Position>(&self, positions: &[P], descent: &mut [P]) -> f64 {
         let mut energy = 0.0;
         for (triangle, corners) in &self.triangles {
@@ -178,7 +181,8 @@ impl ArapMesh {
         energy
     }
 
-    /// Computes the energy of triangles and ties. Writes minus half the energy's gradient to `descent`.
+    /// Computes the energy of the triangles and of the ties, which are points that should coincide. Writes minus half
+    /// the energy's gradient to `descent`.
     fn energy<P: Position>(&self, positions: &[P], descent: &mut [P]) -> f64 {
         descent.fill(P::default());
         let mut energy = self.triangle_energy(positions, descent);
@@ -194,7 +198,7 @@ impl ArapMesh {
     }
 }
 
-/// The matrix of the global step: the cotangent Laplacian of the triangles and the ties' squares.
+/// Creates the matrix of the global step: the cotangent Laplacian of the triangles, and the squared distances of ties.
 fn matrix(
     count: usize,
     triangles: &[(FlatTriangle, [u32; 3])],
@@ -256,7 +260,7 @@ impl<'a> ConjugateGradients<'a> {
         })
     }
 
-    /// Solves from 0 for the right-hand side `right`, which becomes the residual.
+    /// Solves the linear system for the right-hand side `right`, starting from 0; `right` becomes the residual.
     fn solve(&mut self) {
         self.solution.fill(Point::default());
         self.direction.fill(Point::default());

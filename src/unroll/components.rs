@@ -5,7 +5,7 @@ use crate::error::{Result, try_filled};
 use crate::math::union_find::UnionFind;
 use crate::scene::triangulation::Triangulation;
 
-/// Finds the connected components of the surface. Returns the number of each vertex's component, and the number of
+/// Finds the connected components of a surface. Returns the component number of each vertex, and the number of
 /// components. The component with the most vertices is 0; the others are in the order of their first vertices.
 ///
 /// # Errors
@@ -41,7 +41,7 @@ pub(super) fn components(mesh: &Triangulation) -> Result<(Vec<u32>, usize)> {
     Ok((numbers, sizes.len()))
 }
 
-/// Rotates and translates each component of the flat layout to its place in the view from above, by least squares
+/// Rotates and translates each component of the flat layout to its position in the view from above, by least squares
 /// (the Procrustes problem without scaling).
 pub(super) fn align_to_plan(
     mesh: &Triangulation,

@@ -3,8 +3,8 @@
 use super::flat_triangle::Point;
 use super::lattice_triangles::{LatticeTriangles, TriangleId};
 
-/// Strain above which [`Distortion::above`] counts a triangle: 1 %, 3 mm on the longer side of an A4 page. No table
-/// chose it.
+/// Strain above which [`Distortion::above`] counts a triangle: 1 %, which is 3 mm on the longer side of an A4 page. No
+/// table chose it.
 const NOTICEABLE_STRAIN: f64 = 0.01;
 
 /// Strain of a flat layout: relative changes of length from the surface to the plane. `σ₁ ≥ σ₂` are the
@@ -13,19 +13,19 @@ const NOTICEABLE_STRAIN: f64 = 0.01;
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[non_exhaustive]
 pub struct Distortion {
-    /// Root mean square strain: the root of the mean of `((σ₁ − 1)² + (σ₂ − 1)²) / 2` by area.
+    /// Root mean square strain over the area of all triangles: the root of the mean of `((σ₁ − 1)² + (σ₂ − 1)²) / 2`.
     pub rms: f64,
     /// Largest strain of any triangle, `max(σ₁ − 1, 1 − σ₂)`.
     pub maximum: f64,
-    /// Share of the area whose strain is above 0.01, from 0 to 1.
+    /// Share of the area in triangles whose strain is above 0.01, from 0 to 1.
     pub above: f64,
-    /// Area of the layout over that of the surface.
+    /// Ratio of the layout's area to the surface's area.
     pub area: f64,
-    /// Number of triangles that lie upside down.
+    /// Number of triangles that lie upside down in the layout.
     pub flipped: usize,
 }
 
-/// Singular values of a triangle's map to the plane.
+/// Computes the singular values of a triangle's map from the surface to the plane, the larger one first.
 pub(super) fn singular_values(
     triangles: &LatticeTriangles,
     id: TriangleId,
@@ -35,7 +35,7 @@ pub(super) fn singular_values(
     triangles.get(id).singular_values(corners)
 }
 
-/// Computes the distortion of some triangles at given flat positions of the vertices.
+/// Computes the strain of some triangles of a surface at given flat positions of the vertices.
 pub(super) fn distortion(
     triangles: &LatticeTriangles,
     ids: impl Iterator<Item = TriangleId>,

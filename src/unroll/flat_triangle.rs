@@ -7,17 +7,17 @@ use std::ops::{Add, Mul, Sub, SubAssign};
 
 use nalgebra::{Complex, Vector3};
 
-/// A point of the plane.
+/// A point of the plane, as a complex number.
 pub(crate) type Point = Complex<f64>;
 
-/// A position of a vertex in the plane or in space.
+/// A position of a mesh's vertex, in the plane or in space.
 pub(super) trait Position:
     Copy + Default + Add<Output = Self> + Sub<Output = Self> + SubAssign + Mul<f64, Output = Self> + Sum
 {
     fn squared_norm(self) -> f64;
 
-    /// The local step of one triangle: its energy `area · ‖J − R‖²` for the best rotation `R`. Adds minus half the
-    /// energy's gradient to `descent`.
+    /// Makes the local step for one triangle: finds the rotation `R` nearest to the triangle's map `J`, and returns the
+    /// energy `area · ‖J − R‖²`. Adds minus half the energy's gradient to `descent`.
     fn local_step(
         triangle: &FlatTriangle,
         positions: &[Self],
@@ -26,15 +26,15 @@ pub(super) trait Position:
     ) -> f64;
 }
 
-/// A triangle in the plane with counter-clockwise corners: the first at 0, the second on the positive real axis. All
-/// fields are 0 where there is no triangle, so that it weighs nothing.
+/// A triangle of a surface, moved to the plane without strain, with counter-clockwise corners: the first at 0, the
+/// second on the positive real axis. All fields are 0 where there is no triangle, so that it weighs nothing.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub(crate) struct FlatTriangle {
-    /// Position of the second corner on the real axis.
+    /// Position of the triangle's second corner on the real axis.
     pub(super) second: f64,
-    /// Position of the third corner.
+    /// Position of the triangle's third corner.
     pub(super) third: Point,
-    /// Half the cotangents of the angles opposite the edges 1–2, 2–3 and 3–1.
+    /// Half the cotangents of the angles opposite the edges 1–2, 2–3 and 3–1, the weights of these edges in the energy.
     pub(super) weights: [f64; 3],
 }
 
@@ -82,7 +82,8 @@ impl FlatTriangle {
         self.second > 0.0
     }
 
-    /// Computes the third corner when the first corner is at 0 and the second one at 1.
+    /// Computes the position of the triangle's third corner when the triangle is moved and scaled so that the first
+    /// corner is at 0 and the second one at 1.
     pub(crate) fn third_corner(&self) -> Point {
         self.third / self.second
     }
@@ -91,8 +92,8 @@ impl FlatTriangle {
         0.5 * self.second * self.third.im
     }
 
-    /// Singular values `[σ₁, σ₂]` of the linear map from this triangle to three points of the plane; `σ₂` is negative
-    /// where the map turns the triangle over.
+    /// Computes the singular values `[σ₁, σ₂]` of the linear map from this triangle to three points of the plane; `σ₂`
+    /// is negative where the map turns the triangle over.
     pub(crate) fn singular_values(&self, [a, b, c]: [Point; 3]) -> [f64; 2] {
         // The map is e ↦ αe + βē.
         let sum = (b - a) / self.second;

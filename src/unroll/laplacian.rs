@@ -10,8 +10,8 @@ use super::padded_lattice::PaddedLattice;
 use crate::error::{Result, try_filled};
 use crate::math::lanes;
 
-/// The cotangent Laplacian of a heightfield on the padded lattice, by the weights of the edges from each cell to the
-/// east, south-west and south-east.
+/// The cotangent Laplacian of a heightfield on the padded lattice, stored as the weights of the edges from each cell to
+/// its neighbours in the east, south-west and south-east.
 #[derive(Debug, Clone)]
 pub(super) struct Laplacian {
     pub grid: PaddedLattice,
@@ -74,7 +74,7 @@ impl Laplacian {
         Ok(out)
     }
 
-    /// Creates a matrix without edges.
+    /// Creates the Laplacian of a lattice without edges, all of whose entries are 0.
     fn zero(grid: PaddedLattice) -> Result<Self> {
         let zeros = || try_filled("unrolling", grid.cells(), 0.0);
         Ok(Laplacian {
@@ -119,7 +119,7 @@ impl Laplacian {
         self.largest = largest.min(3.0);
     }
 
-    /// One damped Jacobi step: `next ← x + ω D⁻¹ (b − A x)`.
+    /// Makes one damped Jacobi step, which smooths the error: `next ← x + ω D⁻¹ (b − A x)`.
     pub(super) fn smooth(&self, omega: f32, b: &[f32], x: &[f32], next: &mut [f32]) {
         for row in 0..self.grid.rows() {
             let cells = self.grid.row(row);
@@ -164,10 +164,10 @@ impl Laplacian {
 /// One row of the matrix and of the vector that it is applied to, as slices of the row's length.
 struct RowStencil<'a> {
     diagonal: &'a [f32],
-    /// Weights of the edges to W, E, NW, NE, SW, SE.
+    /// Weights of the matrix's edges from each vertex of the row to its neighbours W, E, NW, NE, SW, SE.
     weights: [&'a [f32]; 6],
     centre: &'a [f32],
-    /// Values of the vector at the neighbours W, E, NW, NE, SW, SE.
+    /// Values of the vector at the neighbours W, E, NW, NE, SW, SE of each vertex of the row.
     values: [&'a [f32]; 6],
 }
 

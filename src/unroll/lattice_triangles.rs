@@ -4,11 +4,12 @@ use super::flat_triangle::{FlatTriangle, Point, Position};
 use super::padded_lattice::PaddedLattice;
 use crate::error::{Error, Result, try_filled};
 
-/// A triangle of the lattice: the cell of its first corner, and 0 for the triangle below that corner or 1 for the one
-/// beside it.
+/// Identifies a triangle of the lattice: the cell (index into the padded lattice) of its first corner, and 0 for the
+/// triangle below that corner or 1 for the one beside it.
 pub(super) type TriangleId = (usize, usize);
 
-/// The flat triangles of a heightfield: two for each cell `v`, with the corners `[v, SW, SE]` and `[v, SE, E]`.
+/// The triangles of a heightfield, each moved to a plane of its own: two for each cell `v` (a vertex's index in the
+/// padded lattice), with the corners `[v, SW, SE]` and `[v, SE, E]`.
 #[derive(Debug, Clone)]
 pub(super) struct LatticeTriangles {
     pub grid: PaddedLattice,
@@ -18,8 +19,8 @@ pub(super) struct LatticeTriangles {
 }
 
 impl LatticeTriangles {
-    /// The triangles that are `wanted`, from heights in units of the spacing, which are NaN in the padding and where
-    /// there is no data.
+    /// Creates the flat triangles of a heightfield for which `wanted` is true. Heights are in units of the spacing, and
+    /// NaN in the padding and where there is no data.
     ///
     /// # Errors
     /// [`Error::Overflow`] if areas are not finite, [`Error::OutOfMemory`].
@@ -63,7 +64,7 @@ impl LatticeTriangles {
         &self.of[cell][side]
     }
 
-    /// Returns the cells of a triangle's three corners.
+    /// Returns the cells (indices into the padded lattice) of a triangle's three corners.
     pub(super) fn corners(&self, (cell, side): TriangleId) -> [usize; 3] {
         let offsets = self.grid.offsets(self.grid.vertex(cell).0);
         let south_east = cell.wrapping_add_signed(offsets.south_east);
@@ -77,7 +78,7 @@ impl LatticeTriangles {
         }
     }
 
-    /// Lists the triangles around a vertex.
+    /// Lists the triangles of the lattice around a vertex.
     pub(super) fn around(&self, cell: usize) -> impl Iterator<Item = TriangleId> + '_ {
         let offsets = self.grid.offsets(self.grid.vertex(cell).0);
         let ne = cell.wrapping_add_signed(offsets.north_east);
@@ -94,7 +95,8 @@ impl LatticeTriangles {
         .filter(|id| self.get(*id).exists())
     }
 
-    /// Finds the border edges, which have a triangle on one side only, each directed as in that triangle.
+    /// Finds the edges on the surface's border, which have a triangle on one side only, each directed as in that
+    /// triangle.
     pub(super) fn border(&self) -> impl Iterator<Item = [usize; 2]> + '_ {
         self.ids().flat_map(|id| {
             let [a, b, c] = self.corners(id);
@@ -110,9 +112,9 @@ impl LatticeTriangles {
         })
     }
 
-    /// The as-rigid-as-possible energy at given positions of the vertices: the sum of `area · ‖J − R‖²` over the
-    /// triangles, each with its best rotation `R` (the local step; Liu et al. 2008, Eq. 3 and 6). Writes minus half
-    /// the energy's gradient to `descent`.
+    /// Computes the as-rigid-as-possible energy at given flat positions of the vertices: the sum of `area · ‖J − R‖²`
+    /// over the triangles, each with its best rotation `R` (the local step; Liu et al. 2008, Eq. 3 and 6). Writes minus
+    /// half the energy's gradient to `descent`.
     pub(super) fn energy(&self, places: &[Point], descent: &mut [Point]) -> f64 {
         descent.fill(Point::default());
         let mut energy = 0.0;

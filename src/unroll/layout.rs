@@ -18,7 +18,7 @@ use crate::scene::view::Frame;
 
 /// Lays a surface flat with as little strain as possible.
 ///
-/// Costs some tens of iterations of `O(vertices)`, and 300 bytes for each vertex. Deterministic.
+/// Costs tens of iterations of `O(vertices)`, and 300 bytes for each vertex. Deterministic.
 ///
 /// # Errors
 /// [`Error::Option`] unless the tolerance is positive and finite, [`Error::Unsupported`] if no triangle has

@@ -11,13 +11,13 @@ const CONVERGED_STEPS: usize = 3;
 /// State of an iteration of local and global steps, which are extrapolated by Nesterov's momentum. It restarts whenever
 /// the energy rises. The number of steps depends on the shape, hardly on the number of vertices.
 pub(super) struct Iteration<P> {
-    /// Number of global steps made so far.
+    /// Number of global steps made so far in laying the surface flat.
     pub steps: usize,
-    /// Energy of the layout over its area, from the last local step.
+    /// Energy of the layout over its area, without unit, from the last local step.
     pub energy: f64,
-    /// Decrease of the energy over the area by the last step; infinite before the first one.
+    /// Decrease of the energy over the area by the last global step; infinite before the first one.
     pub decrease: f64,
-    /// Positions of the vertices without extrapolation by the momentum.
+    /// Positions of the vertices after the last global step, without extrapolation by the momentum.
     last: Vec<P>,
     momentum: f64,
     /// Number of steps in a row that changed the energy by less than the tolerance.
@@ -25,7 +25,7 @@ pub(super) struct Iteration<P> {
 }
 
 impl<P: Position> Iteration<P> {
-    /// An iteration that starts from given positions.
+    /// Creates an iteration of local and global steps that starts from given positions.
     ///
     /// # Errors
     /// [`Error::OutOfMemory`](crate::Error::OutOfMemory).

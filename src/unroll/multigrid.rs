@@ -8,7 +8,7 @@ use super::padded_lattice::PaddedLattice;
 use crate::error::{Result, try_filled};
 use crate::math::lanes;
 
-/// Both coordinates of a field of plane vectors on the padded lattice.
+/// A field of plane vectors on the padded lattice: one array for each of the two coordinates.
 pub(super) type PlaneField = [Vec<f32>; 2];
 
 /// One lattice of the multigrid hierarchy with the fields that a V-cycle needs.
@@ -23,18 +23,19 @@ struct MultigridLevel {
 /// Solver of the global step's linear system: conjugate gradients with a multigrid V-cycle as preconditioner.
 #[derive(Debug, Clone)]
 pub(super) struct GlobalStep {
-    /// Levels of the hierarchy, the finest first. Its right-hand side is the residual of the conjugate gradients.
+    /// Levels of the hierarchy, the finest first. The finest level's right-hand side is the residual of the conjugate
+    /// gradients.
     levels: Vec<MultigridLevel>,
     direction: PlaneField,
     image: PlaneField,
     correction: PlaneField,
 }
 
-/// Weights of a pair of Jacobi steps, over the largest eigenvalue: the inverse roots of the Chebyshev polynomial on the
-/// upper three quarters of the spectrum.
+/// Weights of the two Jacobi steps of a smoothing pair, in units of one over the matrix's largest eigenvalue: the
+/// inverse roots of the Chebyshev polynomial on the upper three quarters of the spectrum.
 const SMOOTHER_WEIGHTS: [f32; 2] = [1.0 / (0.625 + 0.265_165), 1.0 / (0.625 - 0.265_165)];
 
-/// Number of pairs of smoothing steps on the coarsest lattice, which has a few cells.
+/// Number of pairs of smoothing steps on the coarsest lattice of the hierarchy, which has a few cells.
 const COARSEST_SMOOTHING_PAIRS: usize = 8;
 
 impl GlobalStep {
@@ -163,7 +164,7 @@ impl MultigridLevel {
             .smooth(second, &self.right[k], &self.spare, &mut self.solution[k]);
     }
 
-    /// Makes a pair of damped Jacobi smoothing steps for one coordinate.
+    /// Makes a pair of damped Jacobi smoothing steps for one coordinate of the solution.
     fn smooth(&mut self, k: usize) {
         let [first, second] = SMOOTHER_WEIGHTS.map(|weight| weight / self.matrix.largest);
         self.matrix
@@ -173,7 +174,7 @@ impl MultigridLevel {
     }
 }
 
-/// Creates a field of zeros.
+/// Creates a field of plane vectors that are all 0.
 fn zero_field(cells: usize) -> Result<PlaneField> {
     Ok([
         try_filled("unrolling", cells, 0.0)?,
@@ -198,7 +199,7 @@ fn dot(grid: PaddedLattice, a: &PlaneField, b: &PlaneField) -> f64 {
     .sum()
 }
 
-/// Prolongation: adds the linear interpolation of a coarse field to a fine one.
+/// Prolongation: adds to a field on the fine lattice the linear interpolation of a field on the coarse lattice.
 pub(super) fn interpolate(
     coarse: PaddedLattice,
     values: &[f32],
@@ -224,7 +225,8 @@ pub(super) fn interpolate(
     }
 }
 
-/// Restriction, the transpose of [`interpolate`]: overwrites a coarse field.
+/// Restriction, the transpose of [`interpolate`]: overwrites a field on the coarse lattice with weighted sums of a
+/// field on the fine lattice.
 fn restrict(fine: PaddedLattice, values: &[f32], coarse: PaddedLattice, out: &mut [f32]) {
     for row in 0..coarse.rows() {
         let offsets = fine.offsets(2 * row).all();

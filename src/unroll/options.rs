@@ -1,13 +1,14 @@
 //! Options of unrolling.
 
-/// Default change of the energy over the area in one iteration, below which a layout has converged: the energy of
-/// strains of 10⁻⁵.
+/// Default change of the energy over the area in one iteration, without unit, below which a layout has converged: the
+/// energy of strains of 10⁻⁵.
 const DEFAULT_TOLERANCE: f64 = 1e-10;
 
-/// Default maximum number of iterations. Surfaces of 200 thousand vertices take 6 to 26 (`benches/choices.md`).
+/// Default maximum number of iterations for laying a surface flat. Surfaces of 200 thousand vertices take 6 to 26
+/// (`benches/choices.md`).
 const DEFAULT_MAX_ITERATIONS: usize = 500;
 
-/// Options of [`unroll`](super::unroll): when its iteration stops.
+/// Options of [`unroll`](super::unroll), which lays a surface flat: when its iteration stops.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(
     feature = "serde",
@@ -19,7 +20,7 @@ pub struct UnrollOptions {
     /// Change of the energy over the area (the mean of the squared strains, without unit) in one iteration, below which
     /// the layout has converged. Default 10⁻¹⁰.
     pub tolerance: f64,
-    /// Maximum number of iterations. Default 500.
+    /// Maximum number of iterations for laying the surface flat. Default 500.
     pub max_iterations: usize,
 }
 
@@ -33,12 +34,12 @@ impl Default for UnrollOptions {
 }
 
 impl UnrollOptions {
-    /// Returns these options with another tolerance for convergence.
+    /// Sets the change of the energy per iteration below which the layout has converged, and returns the options.
     pub fn tolerance(self, tolerance: f64) -> Self {
         UnrollOptions { tolerance, ..self }
     }
 
-    /// These options with another maximum number of iterations.
+    /// Sets the maximum number of iterations, and returns the options.
     pub fn max_iterations(self, max_iterations: usize) -> Self {
         UnrollOptions {
             max_iterations,

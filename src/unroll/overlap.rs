@@ -7,8 +7,8 @@ use super::flat_triangle::Point;
 use crate::math::planar::segments_intersect;
 use rustc_hash::FxHashMap;
 
-/// Pairs of border edges that cross, by their numbers in `border`, whose edges are pairs of vertices. Costs
-/// `O(edges)` where edges are about equally long and few lie at one place.
+/// Finds the pairs of border edges that cross, by the edges' indices in `border`; each edge is given by its two
+/// vertices, indices into `places`. Costs `O(edges)` where edges are about equally long and few lie at one position.
 pub(crate) fn crossings(places: &[Point], border: &[[u32; 2]]) -> Vec<[usize; 2]> {
     let ends = |edge: usize| border[edge].map(|v| places[v as usize]);
     let longest = (0..border.len()).map(|i| {

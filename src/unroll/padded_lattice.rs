@@ -1,7 +1,7 @@
 //! A hexagonal lattice with padding on all sides, and the one of twice its spacing.
 
-/// Rows of padding above the lattice. All padding is as wide as a coarse vertex beyond the border, and its neighbours,
-/// need.
+/// Number of rows of padding above the lattice. All padding is as wide as a coarse vertex beyond the border, and its
+/// neighbours, need.
 const PADDING_ROWS_ABOVE: usize = 1;
 
 /// Number of rows of padding below the lattice.
@@ -13,7 +13,7 @@ const PADDING_COLUMNS_LEFT: usize = 2;
 /// Number of columns of padding to the right of the lattice.
 const PADDING_COLUMNS_RIGHT: usize = 4;
 
-/// A padded lattice of `rows × cols` vertices.
+/// A lattice of `rows × cols` vertices with padding around it, so that every vertex has neighbours.
 ///
 /// Coarse vertex `(r, c)` is fine vertex `(2r, 2c − (r odd))`, and every other fine vertex is the
 /// midpoint of a coarse edge.
@@ -23,8 +23,8 @@ pub(super) struct PaddedLattice {
     cols: usize,
 }
 
-/// Index offsets from a cell to its neighbours in the rows above and below. The neighbours in the cell's own row
-/// are at ±1.
+/// Index offsets from a cell of the padded lattice to its neighbours in the rows above and below. The neighbours in the
+/// cell's own row are at ±1.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Offsets {
     pub north_west: isize,
@@ -65,22 +65,22 @@ impl PaddedLattice {
         self.cols
     }
 
-    /// Number of cells from one row to the next.
+    /// Returns the number of cells from one row of the padded lattice to the next.
     pub(super) fn stride(self) -> usize {
         PADDING_COLUMNS_LEFT + self.cols + PADDING_COLUMNS_RIGHT
     }
 
-    /// Number of cells, padding included.
+    /// Returns the number of cells of the lattice, padding included.
     pub(super) fn cells(self) -> usize {
         (PADDING_ROWS_ABOVE + self.rows + PADDING_ROWS_BELOW) * self.stride()
     }
 
-    /// Returns the cell, an index into the padded lattice, of a vertex.
+    /// Returns the cell, an index into the padded lattice, of a vertex given by row and column.
     pub(super) fn cell(self, row: usize, col: usize) -> usize {
         (row + PADDING_ROWS_ABOVE) * self.stride() + col + PADDING_COLUMNS_LEFT
     }
 
-    /// Returns row and column of the vertex at a cell that is not padding.
+    /// Returns row and column of the vertex at a cell (index into the padded lattice) that is not padding.
     pub(super) fn vertex(self, cell: usize) -> (usize, usize) {
         (
             cell / self.stride() - PADDING_ROWS_ABOVE,
@@ -107,7 +107,7 @@ impl PaddedLattice {
         }
     }
 
-    /// The cell of this lattice at a vertex of the [coarse](PaddedLattice::coarse) one, which may be padding.
+    /// Returns the cell of this lattice, which may be padding, at a vertex of the [coarse](PaddedLattice::coarse) one.
     pub(super) fn cell_of_coarse(self, row: usize, col: usize) -> usize {
         (2 * row + PADDING_ROWS_ABOVE) * self.stride() + 2 * col + PADDING_COLUMNS_LEFT - row % 2
     }

@@ -4,15 +4,16 @@ use super::flat_triangle::Point;
 use super::lattice_triangles::{LatticeTriangles, TriangleId};
 use crate::error::{Result, try_filled};
 
-/// Maximum number of repair rounds. Each moves vertices one triangle further around those that are still flipped.
+/// Maximum number of rounds in which flipped triangles are repaired. Each round moves vertices one triangle further
+/// around those that are still flipped.
 const MAX_REPAIR_ROUNDS: usize = 8;
 
-/// Number of smoothing sweeps in each repair round.
+/// Number of smoothing sweeps in each round in which flipped triangles are repaired.
 const SWEEPS_PER_ROUND: usize = 40;
 
-/// Turns flipped triangles over: moves the vertices around them to the means of their neighbours, repeatedly, which
-/// leaves no triangle flipped inside a convex outline (Tutte 1963). Border vertices stay. Returns whether any vertex
-/// was moved.
+/// Turns over the flipped triangles of a flat layout: moves the vertices around them to the means of their neighbours,
+/// repeatedly, which leaves no triangle flipped inside a convex outline (Tutte 1963). Border vertices stay. Returns
+/// whether any vertex was moved.
 ///
 /// # Errors
 /// [`Error::OutOfMemory`](crate::Error::OutOfMemory).

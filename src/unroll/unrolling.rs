@@ -12,21 +12,21 @@ use crate::scene::triangulation::Triangulation;
 )]
 #[non_exhaustive]
 pub struct UnrollReport {
-    /// Number of connected components of the surface. Each is laid flat by itself.
+    /// Number of connected components of the surface. Each component is laid flat by itself.
     pub parts: usize,
-    /// Number of iterations, each a local and a global step.
+    /// Number of iterations made, each of a local and a global step.
     pub iterations: usize,
-    /// Energy over area: the mean of the sum of both squared principal strains.
+    /// Energy of the layout over its area, without unit: the mean of the sum of both squared principal strains.
     pub energy: f64,
     /// Decrease of the energy over the area in the last iteration of laying the surface flat.
     pub change: f64,
-    /// Area of the surface, in its own units.
+    /// Area of the surface, in the surface's units squared.
     pub area: f64,
-    /// Strain of the layout: 0 for a developable surface.
+    /// Strain of the flat layout (relative changes of length): 0 for a developable surface.
     pub distortion: Distortion,
     /// Strain of the view from above, taken as a flat layout: a measure of how far from flat the surface is.
     pub plan: Distortion,
-    /// Number of pairs of border edges of the layout that cross: 0 if it does not cover itself.
+    /// Number of pairs of border edges of the layout that cross: 0 if the layout does not cover itself.
     pub crossings: usize,
 }
 
@@ -54,19 +54,18 @@ impl Unrolling {
         self.mesh
     }
 
-    /// Position of each vertex of the mesh in the plane, in the surface's units.
+    /// Returns the position of each vertex of the mesh in the plane, in the surface's units.
     pub fn places(&self) -> &[[f64; 2]] {
         &self.places
     }
 
-    /// Number of the connected component of each vertex of the mesh; component 0 has the most vertices.
+    /// Returns the number of the connected component of each vertex of the mesh; component 0 has the most vertices.
     pub fn parts(&self) -> &[u32] {
         &self.parts
     }
 
-    /// Singular values `σ₁ ≥ σ₂` of each triangle's map to the plane, both 1 where the map is
-    /// rigid: `σ₁σ₂` is the ratio of areas, `σ₁/σ₂` the distortion of angles. `σ₂` is negative where the
-    /// triangle lies upside down.
+    /// Returns the singular values `σ₁ ≥ σ₂` of each triangle's map to the plane, both 1 where the map is rigid: `σ₁σ₂`
+    /// is the ratio of areas, `σ₁/σ₂` the distortion of angles. `σ₂` is negative where the triangle lies upside down.
     pub fn stretches(&self) -> &[[f64; 2]] {
         &self.stretches
     }
@@ -77,7 +76,7 @@ impl Unrolling {
         &self.overlaps
     }
 
-    /// Returns the figures of the layout.
+    /// Returns the figures of the flat layout: iterations, energy, strain and overlaps.
     pub fn report(&self) -> &UnrollReport {
         &self.report
     }

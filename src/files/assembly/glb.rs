@@ -12,15 +12,15 @@ use crate::drawing::beside;
 use crate::error::{Error, Result, positive};
 use crate::pattern::Sheet;
 
-/// Duration of one step of the assembly, in seconds.
+/// Duration of one step of the assembly animation, in seconds.
 const STEP_SECONDS: f64 = 1.5;
 
-/// Duration of the pause between two steps of the assembly animation, in seconds.
+/// Pause between two steps of the assembly animation, in seconds.
 const STEP_PAUSE_SECONDS: f64 = 0.5;
 
-/// Writes a GLB file of the assembly: sheets that lie flat beside the surface move to their places one after the
-/// other, in the assembly's order, and bend as they move. It is in metres, `scale` being the millimetres of a unit,
-/// with +y up, as viewers expect. The animation is called `Assembly`; at its end the surface is built.
+/// Writes a GLB file of the assembly: sheets that lie flat beside the surface move to their places one after the other,
+/// in the assembly's order, and bend as they move. The file is in metres, with +y up, as viewers expect; `scale` is the
+/// number of millimetres in a unit of the surface. The animation is called `Assembly`; at its end the surface is built.
 ///
 /// Halfway a sheet's shape and size are between those at both ends, because morph targets are linear.
 ///
@@ -44,14 +44,14 @@ pub fn write_animation(sheets: &[Sheet], assembly: &Assembly, scale: f64) -> Res
     }
     let mut file = File::default();
     let places = beside(&in_millimetres(sheets, scale));
-    let ground = Ground::from_sheets(sheets);
+    let ground = FlatPlace::from_sheets(sheets);
     let sizes = scale / 1000.0;
     for (step, part) in assembly.steps.iter().enumerate() {
         let Some(sheet) = sheets.get(part.sheet) else {
             continue;
         };
         let (turn, shift) = places[part.sheet];
-        let moved = Moved::new(sheet, turn, shift.map(|v| v / scale), &ground);
+        let moved = SheetMotion::new(sheet, turn, shift.map(|v| v / scale), &ground);
         file.sheet(
             part.sheet,
             sheet,
@@ -74,20 +74,20 @@ fn in_millimetres(sheets: &[Sheet], scale: f64) -> Vec<Vec<Vec<[f64; 2]>>> {
     sheets.iter().map(lines).collect()
 }
 
-/// Position of the flat sheets before they move: to the left of the surface, at the height of the surface's lowest
-/// point.
-struct Ground {
+/// Place of the flat sheets before they move, in the surface's units: to the left of the surface, at the height of the
+/// surface's lowest point.
+struct FlatPlace {
     corner: [f64; 2],
     height: f64,
     width: f64,
 }
 
-impl Ground {
+impl FlatPlace {
     fn from_sheets(sheets: &[Sheet]) -> Self {
         let built = || sheets.iter().flat_map(|sheet| &sheet.faces.built);
         let low = |k: usize| built().map(|p| p[k]).fold(f64::INFINITY, f64::min);
         let high = built().map(|p| p[0]).fold(f64::NEG_INFINITY, f64::max);
-        Ground {
+        FlatPlace {
             corner: [low(0), low(1)],
             height: low(2),
             width: high - low(0),
@@ -95,22 +95,23 @@ impl Ground {
     }
 }
 
-/// A sheet relative to its centre, and the positions of the centre before and after the sheet moves.
-struct Moved {
+/// The motion of a sheet in the assembly animation: the sheet's centre on the flat sheet, and the poses before and
+/// after the motion.
+struct SheetMotion {
     middle: [f64; 2],
     start: Pose,
     end: Pose,
 }
 
-impl Moved {
-    fn new(sheet: &Sheet, [cos, sin]: [f64; 2], shift: [f64; 2], ground: &Ground) -> Self {
+impl SheetMotion {
+    fn new(sheet: &Sheet, [cos, sin]: [f64; 2], shift: [f64; 2], ground: &FlatPlace) -> Self {
         let flat = &sheet.faces.flat;
         let count = flat.len().max(1) as f64;
         let middle = [0, 1].map(|k| flat.iter().map(|p| p[k]).sum::<f64>() / count);
         let [x, y] = middle;
         let laid = [cos * x - sin * y + shift[0], sin * x + cos * y + shift[1]];
         let half = 0.5 * sin.atan2(cos);
-        Moved {
+        SheetMotion {
             middle,
             start: Pose {
                 turn: [0.0, 0.0, half.sin(), half.cos()],
@@ -125,7 +126,8 @@ impl Moved {
     }
 }
 
-/// A GLB file that is being written: its binary part, and the lists of its text part (JSON).
+/// A GLB file of an animation that is being written: the bytes of its binary part, and the lists of its text part
+/// (JSON).
 #[derive(Default)]
 struct File {
     bin: Vec<u8>,
@@ -145,7 +147,7 @@ const GL_FLOAT: u32 = 5126;
 const GL_UNSIGNED_INT: u32 = 5125;
 
 impl File {
-    fn sheet(&mut self, number: usize, sheet: &Sheet, moved: &Moved, time: f64, scale: f64) {
+    fn sheet(&mut self, number: usize, sheet: &Sheet, moved: &SheetMotion, time: f64, scale: f64) {
         let index = self.meshes.len();
         let faces = &sheet.faces;
         let place = |p: [f64; 3]| p.map(|v| (scale * v) as f32);

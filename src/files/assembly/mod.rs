@@ -8,7 +8,7 @@ use crate::picture::colours;
 pub use glb::write_animation;
 pub use picture::write_assembly_svg;
 
-/// Colour of a sheet, given by the sheet's number; the same in the GLB animation and in the SVG picture.
+/// Returns the colour of a sheet, given by the sheet's number; the same in the GLB animation and in the SVG picture.
 fn colour(sheet: usize) -> [u8; 3] {
     colours::patch(sheet as u32)
 }

@@ -13,19 +13,19 @@ use crate::drawing::{letters, smooth};
 use crate::error::{Error, Result};
 use crate::pattern::{Faces, Sheet};
 
-/// Length of the picture's longer side, in its units.
+/// Length of the longer side of the assembly picture, in units of the SVG file.
 const PICTURE_SIZE: f64 = 1000.0;
 
-/// Width of the margin around the picture, in its units.
+/// Width of the margin around the assembly picture, in units of the SVG file.
 const PICTURE_MARGIN: f64 = 20.0;
 
-/// Maximum distance between a drawn line and the exact one, in lattice spacings.
+/// Maximum distance between a simplified line of the assembly picture and the exact line, in lattice spacings.
 const LINE_TOLERANCE_SPACINGS: f64 = 0.5;
 
-/// Font size of step numbers, in units of the picture.
+/// Font size of the numbers of assembly steps in the assembly picture, in units of the SVG file.
 const NUMBER_FONT_SIZE: f64 = 28.0;
 
-/// Font size of edge letters, in units of the picture.
+/// Font size of seam letters in the assembly picture, in units of the SVG file.
 const LETTER_FONT_SIZE: f64 = 16.0;
 
 /// Writes an SVG file of the assembled surface, seen from above. Numbers of patches and letters of seams are those of
@@ -174,7 +174,7 @@ pub fn write_assembly_svg(sheets: &[Sheet]) -> Result<Vec<u8>> {
     Ok(document.to_string().into_bytes())
 }
 
-/// Sorts the sheets for drawing, seen from above: a sheet that hides another comes later. Returns the sheets'
+/// Sorts the sheets for a picture from above, so that a sheet that hides another is drawn later. Returns the sheets'
 /// numbers.
 fn from_below(sheets: &[Sheet]) -> Vec<usize> {
     let height = |number: &usize| {
@@ -190,13 +190,13 @@ fn from_below(sheets: &[Sheet]) -> Vec<usize> {
     order
 }
 
-/// Returns the triangles of a sheet that face up on the surface.
+/// Returns those triangles of a sheet that face up where the sheet is in its place on the surface.
 fn upper(faces: &Faces) -> Vec<[u32; 3]> {
     let up = |corners: &&[u32; 3]| faces_up(corners.map(|v| faces.built[v as usize]));
     faces.triangles.iter().filter(up).copied().collect()
 }
 
-/// Visible parts of a line on a flat sheet, seen from above.
+/// Computes the visible parts, seen from above, of a line given on a flat sheet, in the plane of the picture.
 fn seen(built: &Built, flat: &[[f64; 2]]) -> Vec<Vec<[f64; 2]>> {
     let spots: Vec<_> = flat.iter().filter_map(|place| built.at(*place)).collect();
     let parts = spots
@@ -206,8 +206,8 @@ fn seen(built: &Built, flat: &[[f64; 2]]) -> Vec<Vec<[f64; 2]>> {
     plan.collect()
 }
 
-/// Borders, as closed lines, of the triangles that face up. Vertices of different patches at one position of
-/// the surface are joined.
+/// Finds the borders, as closed lines of vertices, of a sheet's triangles that face up. Vertices of different patches
+/// at one position of the surface count as one.
 fn borders(faces: &Faces) -> Vec<Vec<u32>> {
     let mut first: HashMap<[u64; 3], u32> = HashMap::new();
     let one: Vec<u32> = (faces.built.iter().enumerate())

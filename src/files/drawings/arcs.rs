@@ -1,22 +1,22 @@
-//! Approximation of curves by arcs of circles, for file formats without other curves.
+//! Approximates curves by circular arcs, for file formats without Bézier curves.
 
 use crate::drawing::{Curve, Piece};
 
-/// Maximum distance between an arc and the curve that it replaces, in millimetres.
+/// Maximum distance between a circular arc and the Bézier curve that it replaces, in millimetres.
 const ARC_TOLERANCE_MM: f64 = 0.01;
 
-/// Maximum number of times that a curve is halved.
+/// Maximum number of times that a Bézier curve is halved to approximate it by arcs.
 const MAX_CURVE_HALVINGS: u32 = 8;
 
-/// A corner of a polyline and the piece that follows it: the tangent of a quarter of the arc's angle, positive
-/// if it runs counter-clockwise, 0 for a straight piece.
+/// A corner of a polyline and the piece that follows it: a straight piece or an arc. `bulge` is the tangent of a
+/// quarter of the arc's angle, positive if it runs counter-clockwise, 0 for a straight piece.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Corner {
     pub place: [f64; 2],
     pub bulge: f64,
 }
 
-/// Approximates a curve by straight pieces and arcs; the last corner is its end.
+/// Approximates a curve by straight pieces and circular arcs; the last corner is the curve's end.
 pub(super) fn arcs(curve: &Curve) -> Vec<Corner> {
     let mut out = Vec::new();
     for piece in curve.pieces() {
@@ -63,7 +63,7 @@ fn halved(piece: &Piece, [from, to]: [f64; 2], left: u32, out: &mut Vec<Corner>)
 }
 
 fn tangent(piece: &Piece, t: f64) -> [f64; 2] {
-    /// Half the parameter difference over which a tangent is taken.
+    /// Half the difference of the curve parameter over which a curve's tangent is taken.
     const TANGENT_STEP: f64 = 1e-4;
     let (a, b) = ((t - TANGENT_STEP).max(0.0), (t + TANGENT_STEP).min(1.0));
     // At an end of the curve the difference is the tangent at a point half a step inside, so that it is extrapolated.
@@ -93,8 +93,9 @@ fn less(p: [f64; 2], q: [f64; 2]) -> [f64; 2] {
     [p[0] - q[0], p[1] - q[1]]
 }
 
-/// Two arcs between positions with tangents, with tangents of equal length on either side of where they meet.
-/// (Bolton 1975.)
+/// Computes two circular arcs that connect two positions with given tangents there and a common tangent where they
+/// meet; the tangent lengths on either side of the meeting point are equal (Bolton 1975). `None` if there are no such
+/// arcs.
 fn biarc([(p, u), (q, v)]: [([f64; 2], [f64; 2]); 2]) -> Option<[Corner; 2]> {
     let chord = less(q, p);
     let sum = [u[0] + v[0], u[1] + v[1]];
@@ -127,7 +128,7 @@ fn biarc([(p, u), (q, v)]: [([f64; 2], [f64; 2]); 2]) -> Option<[Corner; 2]> {
     Some([corner(p, joint, u, 1.0), second])
 }
 
-/// Distance of a position from the circle of an arc, or from the line of a straight piece.
+/// Computes the distance of a position from the circle of an arc, or from the line of a straight piece.
 fn from_arc(place: [f64; 2], Corner { place: from, bulge }: Corner, to: [f64; 2]) -> f64 {
     let chord = less(to, from);
     let long = chord[0].hypot(chord[1]);

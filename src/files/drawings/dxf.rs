@@ -1,4 +1,4 @@
-//! Drawing Exchange Format, for cutters.
+//! Writes drawings as DXF (Drawing Exchange Format), for laser cutters and plotters.
 //!
 //! A DXF file is pairs of lines: a group code, which states the meaning, and its value. The files are in the format
 //! of AutoCAD release 12, which has polylines with arcs and texts, needs no object handles and is read by every
@@ -14,7 +14,7 @@ use crate::drawing::{Drawing, Label};
 use crate::error::Result;
 use crate::files::buffer::Buffer;
 
-/// Layers with their colours, as numbers in AutoCAD's palette.
+/// Layers of the DXF file with their colours, as numbers in AutoCAD's palette.
 const LAYER_COLOURS: [(&str, u8); 8] = [
     ("CUT", 7),
     ("MOUNTAIN", 1),
@@ -26,27 +26,27 @@ const LAYER_COLOURS: [(&str, u8); 8] = [
     ("LABEL", 9),
 ];
 
-/// Value of the header variable `$INSUNITS` for millimetres.
+/// Value of the DXF header variable `$INSUNITS` for millimetres.
 const INSUNITS_MILLIMETRES: u8 = 4;
 
-/// Height of capital letters, in font sizes.
+/// Height of a capital letter, in font sizes: DXF gives text heights as the height of capitals.
 const CAPITAL_HEIGHT: f64 = 0.72;
 
-/// A DXF file of a drawing (AutoCAD R12, ASCII) in millimetres, with polylines of straight pieces and arcs
-/// within a hundredth of a millimetre of the drawing's curves, and texts, on the layers `CUT`, `MOUNTAIN`,
-/// `VALLEY`, `TAB`, `EDGE`, `MARK`, `LEADER` and `LABEL`.
+/// Writes a drawing as a DXF file (AutoCAD R12, ASCII) in millimetres, with polylines of straight pieces and arcs
+/// within a hundredth of a millimetre of the drawing's curves, and texts, on the layers `CUT`, `MOUNTAIN`, `VALLEY`,
+/// `TAB`, `EDGE`, `MARK`, `LEADER` and `LABEL`.
 ///
 /// # Errors
 /// [`Error::Unsupported`](crate::Error::Unsupported) for a drawing that is not finite,
 /// [`Error::OutOfMemory`](crate::Error::OutOfMemory).
 pub fn write_dxf(drawing: &Drawing) -> Result<Vec<u8>> {
     drawing.check()?;
-    let mut file = Pairs(Buffer::default());
+    let mut file = GroupCodes(Buffer::default());
     let written = write(&mut file, drawing);
     file.0.finish("DXF file", written)
 }
 
-fn write(file: &mut Pairs, drawing: &Drawing) -> io::Result<()> {
+fn write(file: &mut GroupCodes, drawing: &Drawing) -> io::Result<()> {
     file.section("HEADER", |file| {
         file.pair(9, "$ACADVER")?;
         file.pair(1, "AC1009")?;
@@ -94,15 +94,15 @@ fn layer(kind: Kind) -> &'static str {
     }
 }
 
-/// A file that grows by group codes and their values.
-struct Pairs(Buffer);
+/// A DXF file that is being written: pairs of a group code, which states the meaning, and a value.
+struct GroupCodes(Buffer);
 
-impl Pairs {
+impl GroupCodes {
     fn pair(&mut self, code: u16, value: impl Display) -> io::Result<()> {
         write!(self.0, "{code}\r\n{value}\r\n")
     }
 
-    /// Writes a point; the group codes of y and z are those of x plus 10 and 20.
+    /// Writes a point to the DXF file; the group codes of y and z are that of x plus 10 and plus 20.
     fn point(&mut self, code: u16, [x, y]: [f64; 2]) -> io::Result<()> {
         self.pair(code, x)?;
         self.pair(code + 10, y)?;
@@ -120,7 +120,7 @@ impl Pairs {
         self.pair(0, "ENDSEC")
     }
 
-    /// Writes a polyline; the last corner of a closed one, which is its first, is left out.
+    /// Writes a polyline to the DXF file; the last corner of a closed one, which repeats the first, is left out.
     fn polyline(&mut self, layer: &str, line: &[Corner], closed: bool) -> io::Result<()> {
         let line = match line {
             [all @ .., _] if closed => all,
@@ -144,12 +144,12 @@ impl Pairs {
         self.pair(8, layer)
     }
 
-    /// Writes a text centred on its position.
+    /// Writes a label's text to the DXF file, centred on the label's position.
     fn text(&mut self, label: &Label) -> io::Result<()> {
-        /// Horizontal alignment (group 72) at the centre.
+        /// Value of DXF's group 72 for text that is centred horizontally.
         const ALIGN_CENTRE: u8 = 1;
 
-        /// Vertical alignment (group 73) in the middle.
+        /// Value of DXF's group 73 for text that is centred vertically.
         const ALIGN_MIDDLE: u8 = 2;
         self.pair(0, "TEXT")?;
         self.pair(8, "LABEL")?;
@@ -163,7 +163,7 @@ impl Pairs {
     }
 }
 
-/// A text in one line of ASCII, in DXF's encoding of other characters.
+/// Encodes a text as one line of ASCII, in DXF's notation for other characters.
 fn encoded(text: &str) -> String {
     let mut line = String::new();
     for letter in text.chars() {

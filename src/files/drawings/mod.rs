@@ -35,7 +35,7 @@ pub use dxf::write_dxf;
 pub use pdf::write_pdf;
 pub use svg::write_svg;
 
-/// The purpose of a line, in the order in which lines are drawn.
+/// The purpose of a line in a drawing (to cut, to fold, a mark …), in the order in which lines are drawn.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Kind {
     Mountain,
@@ -77,7 +77,7 @@ impl Kind {
         }
     }
 
-    /// Colour as red, green and blue.
+    /// Returns the colour of lines of this kind as red, green and blue, from 0 to 255.
     fn color(self) -> [u8; 3] {
         match self {
             Kind::Mountain => [200, 0, 0],
@@ -89,7 +89,7 @@ impl Kind {
         }
     }
 
-    /// Lengths of dashes and gaps, in millimetres.
+    /// Returns the lengths of dashes and gaps of lines of this kind, in millimetres; empty for solid lines.
     fn dashes(self) -> &'static [f32] {
         match self {
             Kind::Mountain => &[4.0, 1.2, 0.6, 1.2],
@@ -100,7 +100,7 @@ impl Kind {
         }
     }
 
-    /// Lines of this kind on a sheet, and whether they are closed.
+    /// Returns the lines of this kind on a sheet, and whether these lines are closed.
     fn lines(self, sheet: &DrawnSheet) -> (Vec<&Curve>, bool) {
         let course = |line: &'_ &Line| Kind::of(line.direction) == self;
         match self {
@@ -117,19 +117,19 @@ impl Kind {
     }
 }
 
-/// Width of all lines, in millimetres.
+/// Width of all lines in a written drawing, in millimetres.
 const LINE_WIDTH_MM: f64 = 0.2;
 
-/// Grey level of all text, from 0 (black) to 255.
+/// Grey level of all text in a written drawing, from 0 (black) to 255 (white).
 const TEXT_GREY_LEVEL: u8 = 90;
 
 /// Distance from the middle of a line of text down to its baseline, in font sizes.
 const BASELINE_DROP: f64 = 0.35;
 
-/// A line, and whether it is closed.
+/// A line of a drawing, and whether the line is closed.
 type Drawn<'a> = (&'a Curve, bool);
 
-/// Lines of each kind, sheet by sheet.
+/// Iterates over the kinds of lines: yields each kind with the lines of this kind on all sheets of a drawing.
 fn layers(drawing: &Drawing) -> impl Iterator<Item = (Kind, Vec<Drawn<'_>>)> {
     Kind::ALL.into_iter().map(|kind| {
         let lines = drawing.sheets.iter().flat_map(move |sheet| {

@@ -1,4 +1,4 @@
-//! Drawings as PDF: on one page of the drawing's size, or on pages of paper to be put together.
+//! Writes drawings as PDF: on one page of the drawing's size, or on pages of paper to be put together.
 
 use pdf_writer::types::LineJoinStyle;
 use pdf_writer::{Content, Finish, Name, Pdf, Rect, Ref, Str, TextStr};
@@ -8,17 +8,17 @@ use crate::drawing::{Drawing, Label, Pages, Piece, Stock};
 use crate::error::{Error, Result};
 use crate::files::points::{MAX_PAGE_SIDE_POINTS, POINTS_PER_MM, points};
 
-/// Length of each arm of a registration mark, in millimetres.
+/// Length of each arm of a registration mark (a cross by which pages are aligned), in millimetres.
 const REGISTRATION_ARM_MM: f64 = 4.0;
 
-/// Name of the font among a page's resources.
+/// Name of the font in the list of a PDF page's resources.
 const FONT_RESOURCE: Name = Name(b"F");
 
-/// Name of the drawing among a page's resources.
+/// Name of the drawing in the list of a PDF page's resources.
 const DRAWING_RESOURCE: Name = Name(b"D");
 
-/// A PDF file of a drawing in true size: on its pages, each with its name and with crosses where it overlaps
-/// its neighbours, or on one page of the drawing's size. `stock` lays it out on pages first
+/// Writes a drawing as a PDF file in true size: on the drawing's pages, each with its name and with crosses where it
+/// overlaps its neighbours, or on one page of the drawing's size. `stock` arranges the drawing on pages first
 /// ([`Drawing::onto`]). Print it at 100 %.
 ///
 /// # Errors
@@ -65,7 +65,7 @@ pub fn write_pdf(drawing: &Drawing, stock: Option<Stock>) -> Result<Vec<u8>> {
     Ok(pdf.finish())
 }
 
-/// Size of a page in millimetres, and its content.
+/// Width and height of a PDF page in millimetres, and the page's content stream.
 type Sheet = ([f64; 2], Vec<u8>);
 
 fn whole(drawing: &Drawing) -> Result<Sheet> {
@@ -120,7 +120,7 @@ fn spread(pages: &Pages) -> Result<Vec<Sheet>> {
     Ok(pages.pages.iter().map(sheet).collect())
 }
 
-/// Content of the drawing, of which each page shows a part.
+/// Creates the PDF content stream of the whole drawing, of which each page shows a part.
 fn figure(drawing: &Drawing) -> Vec<u8> {
     let mut out = Content::new();
     out.set_line_width(points(LINE_WIDTH_MM))
@@ -180,7 +180,7 @@ fn text(out: &mut Content, label: &Label) {
     out.show(Str(&bytes)).end_text();
 }
 
-/// Width of a character of Helvetica, in font sizes; labels consist of these characters.
+/// Returns the width of a character of the font Helvetica, in font sizes; labels consist of these characters.
 fn width(character: u8) -> f64 {
     match character {
         b'i' | b'j' | b'l' => 0.222,

@@ -1,4 +1,4 @@
-//! Drawings as SVG: a layer for each kind of line.
+//! Writes drawings as SVG: a layer for each kind of line.
 
 use std::fmt::Write as _;
 
@@ -9,9 +9,9 @@ use super::{BASELINE_DROP, Kind, LINE_WIDTH_MM, TEXT_GREY_LEVEL};
 use crate::drawing::{Curve, Drawing, LabelKind, Pages, Piece};
 use crate::error::Result;
 
-/// An SVG file of a drawing: its unit is the millimetre, its layers are groups with the ids `cut`,
-/// `mountain`, `valley`, `tab`, `edge`, `mark`, `leader` and `label`, and what belongs to a sheet has its number as
-/// `data-sheet`, what belongs to a crease the crease's as `data-crease`.
+/// Writes a drawing as an SVG file: its unit is the millimetre, its layers are groups with the ids `cut`, `mountain`,
+/// `valley`, `tab`, `edge`, `mark`, `leader` and `label`, and each element has the number of its sheet as `data-sheet`
+/// and of its crease, if any, as `data-crease`.
 ///
 /// # Errors
 /// [`Error::Unsupported`](crate::Error::Unsupported) for a drawing that is not finite or larger
@@ -108,7 +108,8 @@ pub fn write_svg(drawing: &Drawing) -> Result<Vec<u8>> {
     Ok(document.add(texts).to_string().into_bytes())
 }
 
-/// The pages as Inkscape has them, without lines, which a cutter would follow.
+/// Creates the element that tells the program Inkscape where the drawing's pages are; it has no lines, which a cutter
+/// would follow.
 fn paged(pages: &Pages, height: f64) -> Element {
     let mut view = Element::new("sodipodi:namedview");
     let [width, tall] = pages.paper;
@@ -130,7 +131,7 @@ fn paged(pages: &Pages, height: f64) -> Element {
     view
 }
 
-/// The path data of a curve.
+/// Converts a curve to SVG path data, such as `M0 0L1 0`; `place` converts a point to the file's coordinates.
 fn data(curve: &Curve, closed: bool, place: impl Fn([f64; 2]) -> [String; 2]) -> String {
     let at = |point: &[f64; 2]| place(*point).join(" ");
     let mut data = String::new();
@@ -150,7 +151,7 @@ fn data(curve: &Curve, closed: bool, place: impl Fn([f64; 2]) -> [String; 2]) ->
     data
 }
 
-/// A group that editors treat as a layer.
+/// Creates an SVG group that drawing programs treat as a layer.
 fn layer(name: &str) -> Group {
     Group::new()
         .set("id", name)
@@ -162,7 +163,7 @@ fn rgb([r, g, b]: [u8; 3]) -> String {
     format!("#{r:02x}{g:02x}{b:02x}")
 }
 
-/// A number to four decimals, a tenth of a micrometre, without trailing zeros.
+/// Writes a number to four decimals (a length in millimetres to a tenth of a micrometre), without trailing zeros.
 fn number(value: f64) -> String {
     let text = format!("{value:.4}");
     let text = text.trim_end_matches('0').trim_end_matches('.');

@@ -1,21 +1,21 @@
-//! The result of decoding an image: values, and how they become heights.
+//! The result of decoding an image: the stored pixel values, and how they become heights.
 
 use super::format::Format;
 use crate::error::{Error, Result};
 use crate::heights::heightfield::HeightImage;
 
-/// Unit of length in which an image file states its pixel size.
+/// Unit of length of the pixel size that an image file states.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum Unit {
-    /// 10⁻³ m.
+    /// Millimetre, 10⁻³ m.
     Millimetre,
-    /// 1 m.
+    /// Metre, the SI unit of length.
     Metre,
 }
 
 impl Unit {
-    /// Returns the unit's symbol, `"mm"` or `"m"`.
+    /// Returns the symbol of the unit of length, `"mm"` or `"m"`.
     pub fn symbol(self) -> &'static str {
         match self {
             Unit::Millimetre => "mm",
@@ -24,7 +24,7 @@ impl Unit {
     }
 }
 
-/// A decoded image file: its values, and how they become heights.
+/// A decoded image file: its stored values, and the scale that converts these to heights.
 ///
 /// `height = values · height_scale`, in the unit of `pixel_size`.
 #[derive(Debug, Clone, PartialEq)]
@@ -36,20 +36,19 @@ pub struct Decoded {
     pub width: usize,
     /// Number of pixel rows of the image.
     pub height: usize,
-    /// The values as stored (grey levels, numbers), row by row, top row first;
-    /// NaN where there is no data. A PNG's recorded offset is contained, as
-    /// `offset / height_scale`. Integers beyond 2⁵³ are rounded.
+    /// The pixel values as stored in the file (grey levels, numbers), row by row, top row first; NaN where there is no
+    /// data. A PNG's recorded offset is contained, as `offset / height_scale`. Integers beyond 2⁵³ are rounded.
     pub values: Vec<f64>,
-    /// Side length of a pixel: as recorded by [`write_png`](super::write_png) and the like, or
-    /// by a TIFF's resolution or GeoTIFF scale; else 1.
+    /// Side length of a pixel in `unit`, or in an unknown unit: as recorded by [`write_png`](super::write_png) and the
+    /// like, or by a TIFF's resolution or GeoTIFF scale; else 1.
     pub pixel_size: f64,
     /// The unit of `pixel_size`, where the file says it: millimetres if a TIFF
     /// has a resolution, metres if a GeoTIFF says so.
     pub unit: Option<Unit>,
-    /// Height of one step of the values. For NPY, NPZ and floats it is 1, or the scale that a PFM states; for
-    /// PNG as recorded by [`write_png`](super::write_png). For the integers of other pictures it is a
-    /// suggestion: the one that makes their full range (from black to white) a quarter of the image's longer
-    /// side.
+    /// Factor from the stored values to heights: `height = values · height_scale`. For NPY, NPZ and floats it is 1, or
+    /// the scale that a PFM states; for PNG as recorded by [`write_png`](super::write_png). For the integers of other
+    /// pictures it is a suggestion: the one that makes their full range (from black to white) a quarter of the image's
+    /// longer side.
     pub height_scale: f64,
     /// Type of number that the file stores for each pixel: `"u8"`, `"u16"`, `"f32"`, `"f64"`, …
     pub data_type: &'static str,
@@ -67,11 +66,11 @@ impl Decoded {
     }
 }
 
-/// Suggested height between black and white, as a share of the image's longer side, where a file records no height
-/// scale.
+/// Height difference between black and white that is suggested where a file records no height scale, as a share of the
+/// image's longer side.
 const SUGGESTED_RELIEF: f64 = 0.25;
 
-/// Suggests a height scale for grey values of the given range, where the file records none.
+/// Suggests a factor from grey values of a given range to heights, where the file records none.
 pub(super) fn suggested_scale(width: usize, height: usize, range: f64) -> f64 {
     SUGGESTED_RELIEF * width.max(height) as f64 / range
 }

@@ -4,7 +4,7 @@ use std::str::FromStr;
 
 use crate::error::{Error, Result};
 
-/// An image file format that can be read. All but the first two need the cargo feature `images`.
+/// An image file format that can be read. All but PNG and NPY need the cargo feature `images`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum Format {
@@ -14,15 +14,15 @@ pub enum Format {
     Npy,
     /// Tagged Image File Format, also BigTIFF and GeoTIFF.
     Tiff,
-    /// OpenEXR.
+    /// OpenEXR, a format of pictures with several channels.
     Exr,
-    /// Portable float map.
+    /// Portable float map (PFM), grey.
     Pfm,
     /// NumPy's archive of several arrays (NPZ).
     Npz,
-    /// JPEG, grey.
+    /// JPEG, only grey pictures.
     Jpeg,
-    /// WebP, grey.
+    /// WebP, only grey pictures.
     WebP,
 }
 
@@ -38,7 +38,7 @@ const FORMAT_TITLES: [(Format, &str, &str); 8] = [
     (Format::WebP, "webp", "WebP"),
 ];
 
-/// First bytes of the files of each format; a `?` stands for any byte.
+/// Signatures of the image formats: the first bytes of a file of each format; a `?` stands for any byte.
 const MAGIC_BYTES: [(&[u8], Format); 13] = [
     (b"\x89PNG\r\n\x1a\n", Format::Png),
     (b"\x93NUMPY", Format::Npy),
@@ -90,7 +90,7 @@ impl Format {
 impl FromStr for Format {
     type Err = Error;
 
-    /// Parses a format's name, as [`Format::name`] returns it.
+    /// Parses the name of an image format, as [`Format::name`] returns it.
     fn from_str(name: &str) -> Result<Self> {
         FORMAT_TITLES
             .into_iter()
@@ -99,11 +99,11 @@ impl FromStr for Format {
     }
 }
 
-/// Permitted values of the option `format`, as the error about a wrong one lists them.
+/// Permitted values of the option `format`, as they are listed in the error about a wrong value.
 pub const FORMAT_NAMES: &str =
     "must be `png`, `npy`, `tiff`, `exr`, `pfm`, `npz`, `jpeg` or `webp`";
 
-/// Detects the format of a file from its first bytes, and checks that it is the stated one, if one is stated.
+/// Detects the format of an image file from its first bytes, and checks that it is the stated format, if one is stated.
 ///
 /// # Errors
 /// [`Error::Format`] for an empty file and one of another format than stated,
@@ -132,7 +132,7 @@ pub fn announced(bytes: &[u8], stated: Option<Format>) -> Result<Format> {
     }
 }
 
-/// Guesses from a file's first bytes which kind of file it is, for error messages only.
+/// Guesses from a file's first bytes which kind of file it is, such as a PDF or a GIF, for error messages only.
 fn guess(bytes: &[u8]) -> &'static str {
     let known: [(&[u8], &str); 6] = [
         (b"\x89PNG", "a PNG file damaged in transfer"),

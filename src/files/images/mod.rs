@@ -29,7 +29,7 @@ pub use photo::{PhotoFile, decode_photo_basic};
 pub use png::write_png;
 pub use print::{PhotoOptions, PhotoRows, write_photo, write_photo_jpeg, write_photo_pdf};
 
-/// Decodes a file of the given format (`None`: the one its first bytes announce).
+/// Decodes the heights in an image file of the given format (`None`: the format that the file's first bytes announce).
 ///
 /// - **PNG**: grey of 1 to 16 bits, interlaced or not, also when stored as RGB
 ///   or with a palette, as long as every pixel is grey. Fewer than 8 bits are
@@ -68,7 +68,7 @@ pub fn decode(bytes: &[u8], format: Option<Format>) -> Result<Decoded> {
     }
 }
 
-/// Decodes a PNG or NPY file, and links the decoders of these two only.
+/// Decodes the heights in a PNG or NPY file, and links the decoders of these two formats only.
 ///
 /// # Errors
 /// As [`decode`].

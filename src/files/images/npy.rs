@@ -1,4 +1,4 @@
-//! NumPy's array file, read and written by the `npyz` crate.
+//! Reads and writes NumPy's file of one array (NPY) by the `npyz` crate.
 
 use std::io;
 
@@ -187,8 +187,8 @@ fn unsupported_type(descr: &str) -> Error {
     ))
 }
 
-/// An NPY file of 64-bit floats in C order from `rows` rows of `cols` values:
-/// heights of an image or of a lattice, NaN where there is none. Exact.
+/// Writes `rows` rows of `cols` values as an NPY file of 64-bit floats in C order: heights of an image or of a lattice,
+/// NaN where there is no height. Exact.
 ///
 /// # Errors
 /// [`Error::Empty`] without rows or columns, [`Error::Shape`] if there are not

@@ -1,4 +1,4 @@
-//! The result of decoding a photo.
+//! A decoded photo: its pixels, and what the file says about the camera.
 
 use ::png::{ColorType, Transformations};
 
@@ -36,7 +36,7 @@ impl PhotoFile {
     }
 }
 
-/// Decodes a PNG file to RGBA bytes, and links the decoder of PNG only.
+/// Decodes the photo in a PNG file to RGBA bytes, and links the decoder of PNG only.
 ///
 /// # Errors
 /// As [`decode_photo`](super::decode_photo).

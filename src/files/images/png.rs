@@ -1,4 +1,4 @@
-//! Grey PNG files, read and written by the `png` crate.
+//! Reads and writes heights as grey PNG files by the `png` crate.
 
 use std::io::Cursor;
 
@@ -13,10 +13,10 @@ use crate::error::{Error, Result, checked_cells, try_filled};
 use crate::files::buffer::Buffer;
 use crate::heights::heightfield::HeightImage;
 
-/// Maximum memory that the decoder itself may allocate, in bytes: two rows of the widest image and metadata.
+/// Maximum memory that the PNG decoder itself may allocate, in bytes: two rows of the widest image and metadata.
 const MAX_DECODER_BYTES: usize = 1 << 28;
 
-/// Maximum ratio by which DEFLATE can shrink data.
+/// Maximum ratio by which the compression DEFLATE can shrink data.
 const DEFLATE_RATIO: usize = 1032;
 
 /// Keyword of the PNG text chunk in which this library writes the height of one grey level: `height = scale · level +
@@ -32,7 +32,7 @@ const MIN_HEIGHT_LEVEL: f64 = 1.0;
 /// Highest grey level that [`write_png`] uses for heights.
 const MAX_HEIGHT_LEVEL: f64 = 65535.0;
 
-/// The pixels of a PNG file, and the reader that holds its metadata.
+/// The decoded samples of a PNG file, its width and height in pixels, and the reader that holds its metadata.
 pub(super) struct Pixels<'a> {
     pub reader: Reader<Cursor<&'a [u8]>>,
     pub samples: Vec<u8>,
@@ -118,7 +118,7 @@ pub(super) fn decode(bytes: &[u8]) -> Result<Decoded> {
         *z = f64::from(sample(0));
     }
 
-    let recorded = Recorded::read(&reader.info().uncompressed_latin1_text)?;
+    let recorded = RecordedMetadata::read(&reader.info().uncompressed_latin1_text)?;
     if let Some(level) = recorded.no_data {
         values
             .iter_mut()
@@ -143,18 +143,19 @@ pub(super) fn decode(bytes: &[u8]) -> Result<Decoded> {
     })
 }
 
-/// Values that PNG files of this library record in text chunks.
+/// Values that this library records in the text chunks of a PNG file: height scale and offset, pixel size, level of no
+/// data.
 #[derive(Default)]
-struct Recorded {
+struct RecordedMetadata {
     scale: Option<f64>,
     offset: Option<f64>,
     pixel_size: Option<f64>,
     no_data: Option<f64>,
 }
 
-impl Recorded {
+impl RecordedMetadata {
     fn read(chunks: &[TEXtChunk]) -> Result<Self> {
-        let mut recorded = Recorded::default();
+        let mut recorded = RecordedMetadata::default();
         for chunk in chunks {
             let (place, positive) = match chunk.keyword.as_str() {
                 HEIGHT_SCALE_KEYWORD => (&mut recorded.scale, true),
@@ -186,8 +187,8 @@ fn damaged(error: DecodingError) -> Error {
     }
 }
 
-/// A 16-bit grey PNG file of the image: heights evenly on the levels 1 to
-/// 65535, from the lowest to the highest; level 0 is no data.
+/// Writes a height image as a 16-bit grey PNG file: heights are mapped evenly to the levels 1 to 65535, from the lowest
+/// to the highest; level 0 is no data.
 ///
 /// Text chunks record scale, offset, pixel size and the no-data level, so that
 /// [`decode`](super::decode) gives back every height to half a level, which is

@@ -1,4 +1,4 @@
-//! Photos written to files that state their size on paper: PNG, JPEG and PDF.
+//! Writes photos to files that state their size on paper: PNG, JPEG and PDF.
 
 use std::io::Write as _;
 
@@ -16,15 +16,15 @@ use crate::error::{Error, Result, positive, try_filled};
 use crate::files::buffer::Buffer;
 use crate::files::points::{MAX_PAGE_SIDE_POINTS, POINTS_PER_MM, points};
 
-/// Options of writing a photo.
+/// Options of writing a photo to a file: resolution and quality.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub struct PhotoOptions {
     /// Number of pixels per millimetre of the surface in the photo. `None` (the default): not known, so that
     /// PNG and JPEG files do not state it, and no PDF can be made.
     pub dots_per_millimetre: Option<f64>,
-    /// Quality of JPEG, and of the picture in a PDF: from 1 to 100; default 90. Colour has the full resolution from
-    /// 90 on, and half of it below.
+    /// Quality of JPEG compression, in a JPEG file or within a PDF: from 1 to 100; default 90. Colour has the full
+    /// resolution from 90 on, and half of it below.
     pub quality: u8,
 }
 
@@ -38,7 +38,7 @@ impl Default for PhotoOptions {
 }
 
 impl PhotoOptions {
-    /// These options with another number of pixels per millimetre of the surface in the photo.
+    /// Sets the resolution, in pixels per millimetre of the surface in the photo, and returns the options.
     pub fn dots_per_millimetre(self, dots: f64) -> Self {
         PhotoOptions {
             dots_per_millimetre: Some(dots),
@@ -46,12 +46,12 @@ impl PhotoOptions {
         }
     }
 
-    /// These options with another quality of JPEG.
+    /// Sets the quality of JPEG compression, from 1 to 100, and returns the options.
     pub fn quality(self, quality: u8) -> Self {
         PhotoOptions { quality, ..self }
     }
 
-    /// The resolution as given, after a check of its range.
+    /// Checks the range of the resolution and returns it, in pixels per millimetre.
     fn dots(&self) -> Result<Option<f64>> {
         let checked = |dots| positive("dots_per_millimetre", dots);
         self.dots_per_millimetre.map(checked).transpose()
@@ -60,10 +60,11 @@ impl PhotoOptions {
 
 /// A photo that is read row by row, so that writing it needs no copy of it.
 pub trait PhotoRows {
-    /// Width and height in pixels.
+    /// Returns width and height of the photo in pixels.
     fn size(&self) -> [usize; 2];
 
-    /// Copies the RGBA bytes of a row, from the top, into `rgba`, which has room for just these.
+    /// Copies the RGBA bytes of one row, counted from the top, into `rgba`, whose length is four bytes per pixel of the
+    /// row.
     fn read(&self, row: usize, rgba: &mut [u8]);
 }
 
@@ -77,7 +78,7 @@ impl PhotoRows for Photo<'_> {
     }
 }
 
-/// An 8-bit PNG file, with alpha if something is transparent. It states the resolution, if that is
+/// Writes a photo as an 8-bit PNG file, with alpha if a pixel is transparent. The file states the resolution, if it is
 /// known, to whole pixels per metre.
 ///
 /// # Errors
@@ -129,8 +130,8 @@ pub fn write_photo(photo: &impl PhotoRows, options: &PhotoOptions) -> Result<Vec
     file.finish("PNG file", written)
 }
 
-/// A JPEG file, white where the photo is transparent. It states the resolution, if that is known, in
-/// whole pixels per inch or per centimetre, whichever is nearer.
+/// Writes a photo as a JPEG file, white where the photo is transparent. The file states the resolution, if it is known,
+/// in whole pixels per inch or per centimetre, whichever is nearer.
 ///
 /// # Errors
 /// [`Error::Option`] for a resolution that is not positive and finite or a quality that is not from 1
@@ -158,7 +159,7 @@ pub fn write_photo_jpeg(photo: &impl PhotoRows, options: &PhotoOptions) -> Resul
     if let Some(density) = density {
         encoder.set_density(density);
     }
-    let white = White {
+    let white = OnWhite {
         photo,
         width,
         height,
@@ -170,7 +171,8 @@ pub fn write_photo_jpeg(photo: &impl PhotoRows, options: &PhotoOptions) -> Resul
     file.finish("JPEG file", written)
 }
 
-/// Converts a resolution to the density that a JFIF header states; `None` if JFIF cannot state it.
+/// Converts a resolution, in pixels per millimetre, to the pixel density that the header of a JPEG file (JFIF) states;
+/// `None` if JFIF cannot state it.
 fn density(dots_per_millimetre: f64) -> Option<PixelDensity> {
     let units = [
         (25.4, PixelDensityUnit::Inches),
@@ -192,14 +194,14 @@ fn density(dots_per_millimetre: f64) -> Option<PixelDensity> {
     })
 }
 
-/// A photo laid on a white background, row by row.
-struct White<'a, P> {
+/// A photo laid on a white background, which is read row by row.
+struct OnWhite<'a, P> {
     photo: &'a P,
     width: u16,
     height: u16,
 }
 
-impl<P: PhotoRows> ImageBuffer for White<'_, P> {
+impl<P: PhotoRows> ImageBuffer for OnWhite<'_, P> {
     fn get_jpeg_color_type(&self) -> JpegColorType {
         JpegColorType::Ycbcr
     }
@@ -227,11 +229,11 @@ impl<P: PhotoRows> ImageBuffer for White<'_, P> {
     }
 }
 
-/// Minimum length of a page's side, in millimetres: below it programs that show PDF may fail.
+/// Minimum length of a PDF page's side, in millimetres: below it programs that show PDF may fail.
 const MIN_PAGE_SIDE_MM: f64 = 2.0;
 
-/// A PDF file of one page in the size of the surface in the photo, which fills it, as a JPEG. Print it at 100
-/// %.
+/// Writes a photo as a PDF file of one page, which the photo fills as a JPEG; the page has the size of the surface in
+/// the photo. Print it at 100 %.
 ///
 /// # Errors
 /// Those of [`write_photo_jpeg`]; [`Error::Option`] without a resolution, [`Error::Unsupported`] if a

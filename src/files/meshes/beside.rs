@@ -1,14 +1,14 @@
-//! Files that a mesh's file refers to: materials, textures, buffers.
+//! Finds the files that a mesh file refers to: materials, textures, buffers.
 
 use std::cell::RefCell;
 
-/// A picture that texture coordinates refer to: the bytes of its file, which the caller decodes.
+/// A texture picture of a mesh: the bytes of the picture's file, which the caller decodes.
 #[derive(Debug, Clone, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct Texture {
-    /// Name of the file; empty for a picture within the mesh's file.
+    /// Name of the picture's file; empty for a picture within the mesh's file.
     pub name: String,
-    /// Bytes of the file, usually PNG or JPEG.
+    /// Bytes of the picture's file, usually PNG or JPEG.
     pub bytes: Vec<u8>,
 }
 
@@ -26,8 +26,8 @@ impl<'a> Beside<'a> {
         }
     }
 
-    /// Finds the file of a given name, or one whose name agrees without folders: programs often write paths of
-    /// another machine.
+    /// Finds the file of a given name beside the mesh file, or one whose name agrees without folders: programs often
+    /// write paths of another machine.
     pub(super) fn find(&self, name: &str) -> Option<(&'a str, &'a [u8])> {
         let same = |of: fn(&str) -> &str| {
             let matches = |known: &str| of(known).eq_ignore_ascii_case(of(name));

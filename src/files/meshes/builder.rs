@@ -1,4 +1,4 @@
-//! Construction of a mesh from a file, and the errors of that.
+//! Builds a mesh from the vertices and triangles that a file's decoder adds, and reports what is wrong with them.
 
 use std::fmt::Display;
 
@@ -6,26 +6,27 @@ use super::beside::Texture;
 use crate::error::{Error, MAX_CELLS, Result};
 use crate::scene::mesh::Mesh;
 
-/// Colour of a vertex to which the file gives none.
+/// Colour of a vertex for which the mesh file states no colour.
 pub(super) const DEFAULT_VERTEX_COLOUR: [f32; 3] = [1.0; 3];
 
-/// Texture coordinates that mark a vertex without any.
+/// Texture coordinates, far outside of any picture, that mark a vertex without texture coordinates.
 const NO_UV: [f32; 2] = [f32::MIN; 2];
 
-/// Number of a triangle's texture where the triangle has none.
+/// Texture number of a triangle that has no texture.
 pub(super) const NO_TEXTURE: i32 = -1;
 
-/// A mesh that the decoders put together vertex by vertex and triangle by triangle.
+/// A mesh under construction, to which a file's decoder adds vertices and triangles one by one.
 #[derive(Default)]
 pub(super) struct MeshBuilder {
     pub(super) positions: Vec<[f64; 3]>,
     pub(super) triangles: Vec<[u32; 3]>,
     pub(super) colors: Vec<[f32; 3]>,
     pub(super) uvs: Vec<[f32; 2]>,
-    /// The texture of each triangle; shorter where the last ones have none.
+    /// Texture number of each triangle; shorter than the list of triangles where the last ones have no texture.
     pub(super) textures: Vec<i32>,
     pub(super) pictures: Vec<Texture>,
-    /// Number of bytes left for further pictures; all pictures together may not exceed the size of the given files.
+    /// Number of bytes left for further texture pictures; all pictures together may not exceed the size of the given
+    /// files.
     pub(super) room: usize,
 }
 
@@ -38,7 +39,7 @@ impl MeshBuilder {
         push(&mut self.triangles, triangle, MAX_CELLS)
     }
 
-    /// Adds a polygon as triangles that all share its first corner.
+    /// Adds a polygon as triangles that all share the polygon's first corner.
     pub(super) fn fan(&mut self, corners: &[u32]) -> Result<()> {
         let [first, rest @ ..] = corners else {
             return Ok(());
@@ -47,18 +48,19 @@ impl MeshBuilder {
             .try_for_each(|edge| self.triangle([*first, edge[0], edge[1]]))
     }
 
-    /// Sets the colour of all vertices from `start` on.
+    /// Sets the colour of all vertices that were added since vertex number `start`.
     pub(super) fn material(&mut self, start: usize, color: [f32; 3]) {
         let vertices = self.positions.len() - start;
         self.colors.extend(std::iter::repeat_n(color, vertices));
     }
 
-    /// Marks the last vertices as having no texture coordinates, while others may have some.
+    /// Marks the vertices added since texture coordinates were last given as having none, while other vertices may have
+    /// some.
     pub(super) fn no_uvs(&mut self) {
         self.uvs.resize(self.positions.len(), NO_UV);
     }
 
-    /// Returns the number of a picture with a given name; a new number for a picture without a name.
+    /// Returns the number of a texture picture, given by name and bytes; a picture without a name gets a new number.
     pub(super) fn picture(&mut self, name: &str, bytes: &[u8]) -> Result<i32> {
         let known = (self.pictures.iter()).position(|p| !name.is_empty() && p.name == name);
         if let Some(number) = known {
@@ -74,14 +76,14 @@ impl MeshBuilder {
         Ok(self.pictures.len() as i32 - 1)
     }
 
-    /// Gives a texture to all triangles that have none yet.
+    /// Sets the texture of all triangles that have none yet.
     pub(super) fn texture(&mut self, number: i32) {
         self.textures.resize(self.triangles.len(), number);
     }
 
-    /// The mesh; its errors name the format `title`. Where there are vertices but no triangles, it is a point cloud if
-    /// files of the format can hold one. Colours and texture coordinates that only some of the vertices have are left
-    /// out.
+    /// Finishes the mesh and returns it; errors name the file format `title`. Where there are vertices but no
+    /// triangles, it is a point cloud if files of the format can hold one. Colours and texture coordinates that only
+    /// some of the vertices have are left out.
     pub(super) fn into_mesh(mut self, title: &'static str, can_be_cloud: bool) -> Result<Mesh> {
         let (vertices, triangles) = (self.positions.len(), self.triangles.len());
         let named = |error| match error {
@@ -138,8 +140,8 @@ fn push<T>(list: &mut Vec<T>, value: T, limit: usize) -> Result<()> {
     Ok(())
 }
 
-/// Maximum number of characters that are kept of a decoder's message: some quote the line, which may be the
-/// whole file.
+/// Maximum number of characters that are kept of a decoder's error message: some messages quote the line, which may be
+/// the whole file.
 const MAX_MESSAGE_CHARACTERS: usize = 160;
 
 pub(super) fn damaged(format: &'static str, reason: impl Display) -> Error {

@@ -9,8 +9,8 @@ use crate::error::{Error, Result};
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum MeshFormat {
-    /// Wavefront OBJ. All groups together; colours after the coordinates are
-    /// read, and the diffuse colours and textures of its materials (MTL).
+    /// Wavefront OBJ: all groups together, with colours after the coordinates, and with the diffuse colours and
+    /// textures of the materials (MTL).
     Obj,
     /// The Stanford format PLY, ASCII or binary of either byte order; a texture is named by a comment,
     /// `TextureFile`.
@@ -24,7 +24,7 @@ pub enum MeshFormat {
 }
 
 impl MeshFormat {
-    /// Returns the format's name: `"obj"`, `"ply"`, `"stl"` or `"gltf"`.
+    /// Returns the name of the mesh format: `"obj"`, `"ply"`, `"stl"` or `"gltf"`.
     pub fn name(self) -> &'static str {
         match self {
             MeshFormat::Obj => "obj",
@@ -34,8 +34,8 @@ impl MeshFormat {
         }
     }
 
-    /// Format detected from the contents of a file. OBJ has no signature: a line that begins with `v` and a blank is
-    /// taken for OBJ.
+    /// Detects the format of a mesh file from the file's contents. OBJ has no signature: a line that begins with `v`
+    /// and a blank is taken for OBJ.
     pub fn detect(bytes: &[u8]) -> Option<MeshFormat> {
         if bytes.starts_with(b"ply\n") || bytes.starts_with(b"ply\r") {
             return Some(MeshFormat::Ply);
@@ -64,7 +64,7 @@ impl MeshFormat {
 impl FromStr for MeshFormat {
     type Err = Error;
 
-    /// Parses a format's name, as [`MeshFormat::name`] returns it; `glb` is also glTF.
+    /// Parses the name of a mesh format, as [`MeshFormat::name`] returns it; `glb` is also glTF.
     fn from_str(name: &str) -> Result<Self> {
         match name {
             "obj" => Ok(MeshFormat::Obj),

@@ -1,4 +1,4 @@
-//! Meshes written as glTF 2.0 in one binary file (GLB).
+//! Writes meshes as glTF 2.0 in one binary file (GLB).
 
 use std::borrow::Cow;
 use std::collections::BTreeMap;
@@ -20,14 +20,12 @@ use super::narrow::{byte, narrowed, near_origin};
 use crate::error::{Error, Result};
 use crate::scene::mesh::Mesh;
 
-/// Name of the format in messages.
+/// Name of the GLB format in error messages.
 const FORMAT_NAME: &str = "GLB";
 
-/// A GLB file of a mesh: positions rounded to 32-bit floats, and what the mesh
-/// has of normals, colours (as bytes, 0 to 255 for 0 to 1) and texture
-/// coordinates, in one material that is seen from both sides. The texture is a
-/// PNG or JPEG file, which is embedded as it is; it takes the place of colours,
-/// for the two would be multiplied.
+/// Writes a mesh as a GLB file: positions rounded to 32-bit floats, and what the mesh has of normals, colours (as
+/// bytes, 0 to 255 for 0 to 1) and texture coordinates, in one material that is seen from both sides. The texture is a
+/// PNG or JPEG file, which is embedded as it is; it takes the place of colours, for the two would be multiplied.
 ///
 /// A mesh that is small beside its distance from the origin is written around
 /// an origin of its own, its node's translation: of coordinates on a map, 32
@@ -50,7 +48,8 @@ pub fn write_glb(mesh: &Mesh, texture: Option<&[u8]>) -> Result<Vec<u8>> {
     file.finish(primitive, origin)
 }
 
-/// Checks a texture and returns it with its media type; an error if the mesh has no texture coordinates.
+/// Checks a texture picture and returns it with its media type (PNG or JPEG); an error if the mesh has no texture
+/// coordinates.
 fn checked<'a>(image: &'a [u8], mesh: &Mesh) -> Result<(&'a [u8], &'static str)> {
     if mesh.uvs().is_none() {
         let reason = "a texture needs texture coordinates, and the mesh has none";
@@ -68,7 +67,7 @@ fn checked<'a>(image: &'a [u8], mesh: &Mesh) -> Result<(&'a [u8], &'static str)>
     }
 }
 
-/// A GLB file that is being written: its text part (JSON) and its binary part.
+/// A GLB file of a mesh that is being written: its text part (JSON) and its binary part.
 #[derive(Default)]
 struct File {
     root: Root,
@@ -279,7 +278,7 @@ fn accessor_of(view: Index<View>, count: usize, component: ComponentType, kind: 
     }
 }
 
-/// Computes the smallest or the largest value of each coordinate of some positions.
+/// Computes the smallest or the largest value of each coordinate of a mesh's positions.
 fn extreme(positions: &[[f32; 3]], pick: fn(f32, f32) -> f32) -> Value {
     let first = positions.first().copied().unwrap_or_default();
     let extreme = positions

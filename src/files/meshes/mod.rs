@@ -26,20 +26,20 @@ pub use glb::write_glb;
 pub use ply::write_ply;
 pub use stl::write_stl;
 
-/// A mesh read from a file, with its textures.
+/// A mesh read from a file, with the pictures of its textures.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub struct MeshFile {
-    /// The mesh. Where there are textures, [`Mesh::textures`] says which triangle has which.
+    /// The mesh that was read. Where there are textures, [`Mesh::textures`] says which triangle has which.
     pub mesh: Mesh,
     /// The pictures of all textures, each once, in the order of the numbers that [`Mesh::textures`] uses.
     pub textures: Vec<Texture>,
-    /// Names of material and texture files that were not given, whose colours the mesh lacks.
+    /// Names of material and texture files that the mesh file refers to but that were not given.
     pub missing: Vec<String>,
 }
 
-/// Reads the mesh in a file of the given format (`None`: the detected one), without other files; see
-/// [`read_mesh_beside`].
+/// Reads a mesh file of the given format (`None`: the format detected from its contents), without any files beside it;
+/// see [`read_mesh_beside`].
 ///
 /// # Errors
 /// As [`read_mesh_beside`].
@@ -47,8 +47,8 @@ pub fn read_mesh(bytes: &[u8], format: Option<MeshFormat>) -> Result<Mesh> {
     Ok(read_mesh_beside(bytes, format, &[])?.mesh)
 }
 
-/// Reads the mesh in a file, with the materials, textures and buffers that the file names: `files` are the files
-/// beside it, by name. Each name is looked up as it is and then without its folders.
+/// Reads a mesh file, with the materials, textures and buffers that the file names: `files` are the files beside it, by
+/// name. Each name is looked up as it is and then without its folders.
 ///
 /// Where there are points but no faces, they are a point cloud
 /// ([`Mesh::is_cloud`]). Polygons are cut into fans. Colours and texture coordinates are kept where

@@ -1,10 +1,10 @@
-//! Numbers of a mesh in fewer bits, as most file formats have them.
+//! Converts the numbers of a mesh to fewer bits, as most file formats have them.
 
 use crate::error::{Error, Result, try_filled};
 use crate::math::lanes;
 use crate::scene::mesh::Mesh;
 
-/// Converts positions to 32-bit floats, relative to an origin.
+/// Converts a mesh's positions to 32-bit floats, relative to an origin.
 pub(super) fn narrowed(what: &'static str, mesh: &Mesh, origin: [f64; 3]) -> Result<Vec<[f32; 3]>> {
     let mut positions = try_filled(what, mesh.positions().len(), [0f32; 3])?;
     for (row, (narrow, wide)) in positions.iter_mut().zip(mesh.positions()).enumerate() {
@@ -23,12 +23,12 @@ pub(super) fn narrowed(what: &'static str, mesh: &Mesh, origin: [f64; 3]) -> Res
     Ok(positions)
 }
 
-/// Maximum distance of a mesh from the origin relative to its size at which 32 bits hold positions to a
+/// Maximum ratio of a mesh's distance from the origin to the mesh's size at which 32 bits hold positions to a
 /// thousandth of the spacing of a mesh 4096 vertices across.
 const MAX_ORIGIN_DISTANCE_RATIO: f64 = 8.0;
 
-/// An origin near a mesh, in each coordinate in which the mesh is far from 0: 32-bit floats resolve the differences
-/// from there, but not the fine detail of, for example, map coordinates.
+/// Chooses an origin near a mesh, in each coordinate in which the mesh is far from 0: 32-bit floats resolve the
+/// differences from there, but not the fine detail of, for example, map coordinates.
 ///
 /// Each coordinate is a number that both 32-bit floats and a few decimal digits hold exactly, so that all readers
 /// agree on it.
@@ -52,7 +52,7 @@ pub(super) fn near_origin(mesh: &Mesh) -> [f64; 3] {
     })
 }
 
-/// Rounds a number to a whole number nearby that 32-bit floats hold exactly, of at most 24 bits: multiples of 10ᵏ
+/// Rounds a coordinate to a whole number nearby that 32-bit floats hold exactly, of at most 24 bits: multiples of 10ᵏ
 /// up to 2²⁴⁺ᵏ.
 fn rounded(value: f64) -> f64 {
     let (mut unit, mut limit) = (1.0, f64::from(1 << 24));
@@ -63,7 +63,7 @@ fn rounded(value: f64) -> f64 {
     (value / unit).round() * unit
 }
 
-/// Converts a colour component from 0 to 1 to a byte.
+/// Converts a colour component from 0 to 1 to a byte from 0 to 255.
 pub(super) fn byte(color: f32) -> u8 {
     // Casts saturate; NaN becomes 0.
     (color * 255.0).round() as u8

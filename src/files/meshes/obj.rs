@@ -1,4 +1,4 @@
-//! Wavefront OBJ, read by the `tobj` crate.
+//! Reads Wavefront OBJ meshes and their materials by the `tobj` crate.
 
 use std::path::Path;
 
@@ -70,8 +70,9 @@ pub(super) fn read(bytes: &[u8], beside: &Beside, parts: &mut MeshBuilder) -> Re
     Ok(())
 }
 
-/// The lines of a material file with names, colours and pictures, if each colour has three numbers, or one for
-/// all three: `tobj` panics for other numbers of them. It refuses other lines that are invalid.
+/// Copies from a material file (MTL) the lines with names, colours and pictures, so that `tobj` can parse them; a
+/// colour of one number is written with three. `None` if a colour has another number of components, for which `tobj`
+/// would panic.
 fn looks(bytes: &[u8]) -> Option<String> {
     let mut kept = String::new();
     for line in lines(bytes) {
@@ -96,7 +97,7 @@ fn looks(bytes: &[u8]) -> Option<String> {
     Some(kept)
 }
 
-/// Name of a material's picture, without the options before it (`-s 1 1 1`).
+/// Returns the file name of a material's texture picture, without the options before it (`-s 1 1 1`).
 fn texture(material: &Material) -> Option<&str> {
     let name = material.diffuse_texture.as_deref()?;
     match name.strip_prefix('-') {
@@ -105,7 +106,7 @@ fn texture(material: &Material) -> Option<&str> {
     }
 }
 
-/// Iterates over the lines of an OBJ or MTL file, without leading blanks.
+/// Iterates over the lines of an OBJ or MTL file, without blanks at their beginnings.
 pub(super) fn lines(bytes: &[u8]) -> impl Iterator<Item = &[u8]> {
     bytes.split(|b| *b == b'\n').map(<[u8]>::trim_ascii_start)
 }
@@ -115,8 +116,8 @@ pub(super) fn is_vertex(line: &&[u8]) -> bool {
     line.starts_with(b"v ") || line.starts_with(b"v\t")
 }
 
-/// Checks that no index exceeds the length of the file, and no relative one the number of elements so far:
-/// `tobj` computes with them unchecked, which could overflow.
+/// Checks that no index in an OBJ file exceeds the length of the file, and that no relative index reaches back beyond
+/// the elements so far: `tobj` computes with indices unchecked, which could overflow.
 fn check_indices(text: &str) -> Result<()> {
     // Of positions, texture coordinates and normals, which a corner names in this order.
     let mut counts = [0; 3];
@@ -149,7 +150,8 @@ fn check_indices(text: &str) -> Result<()> {
     Ok(())
 }
 
-/// Parses the leading digits of a number; anything after the digits is refused later.
+/// Parses the digits of a number in an OBJ file and saturates where it is too large; what is not a digit is left to the
+/// later parser.
 fn whole(text: &str) -> usize {
     let digits = text.bytes().filter(u8::is_ascii_digit);
     digits.fold(0, |n, digit| {

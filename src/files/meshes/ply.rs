@@ -1,4 +1,4 @@
-//! The Stanford format (PLY), read and written by the `ply-rs-bw` crate.
+//! Reads and writes meshes in the Stanford format (PLY) by the `ply-rs-bw` crate.
 
 use std::io::{self, Cursor};
 
@@ -18,7 +18,7 @@ use crate::scene::mesh::Mesh;
 
 pub(super) fn read(bytes: &[u8], beside: &Beside, parts: &mut MeshBuilder) -> Result<()> {
     let mut reader = Reader::new(Cursor::new(bytes));
-    let header = Parser::<Skipped>::new()
+    let header = Parser::<SkippedElement>::new()
         .read_header(&mut reader)
         .map_err(|error| damaged("PLY", error))?;
     for element in header.elements.values() {
@@ -62,7 +62,7 @@ pub(super) fn read(bytes: &[u8], beside: &Beside, parts: &mut MeshBuilder) -> Re
                 ));
             }
             _ => {
-                Parser::<Skipped>::new()
+                Parser::<SkippedElement>::new()
                     .read_payload_for_element(&mut reader, element, &header)
                     .map_err(|error| damaged("PLY", error))?;
             }
@@ -79,16 +79,16 @@ pub(super) fn read(bytes: &[u8], beside: &Beside, parts: &mut MeshBuilder) -> Re
     Ok(())
 }
 
-/// An element of a PLY file that is read but not used.
-struct Skipped;
+/// An element of a PLY file, such as an edge, whose values are skipped.
+struct SkippedElement;
 
-impl PropertyAccess for Skipped {
+impl PropertyAccess for SkippedElement {
     fn new() -> Self {
-        Skipped
+        SkippedElement
     }
 }
 
-/// A vertex of a PLY file, with NaN for properties that are missing.
+/// A vertex read from a PLY file: position, colour and texture coordinates, NaN where the file lacks them.
 struct Vertex {
     position: [f64; 3],
     color: [f32; 3],
@@ -137,7 +137,7 @@ impl PropertyAccess for Vertex {
     }
 }
 
-/// Reads a scalar of a PLY file, and returns it with the value that stands for white in its type.
+/// Reads a number from a PLY file, and returns it with the value that stands for white in its type.
 fn number(property: &Property) -> Option<(f64, f64)> {
     Some(match property {
         Property::Char(v) => (f64::from(*v), f64::from(i8::MAX)),
@@ -168,7 +168,7 @@ impl PropertyAccess for Face {
     }
 }
 
-/// A PLY file (binary, little-endian) of a mesh.
+/// Writes a mesh as a PLY file (binary, little-endian).
 ///
 /// Positions are written as 64-bit floats, exactly; normals and texture
 /// coordinates (`s`, `t`) as 32-bit floats; colours as bytes, 0 to 255 for 0 to
@@ -229,7 +229,7 @@ fn write(file: &mut Buffer, mesh: &Mesh) -> io::Result<()> {
     Ok(())
 }
 
-/// Kind of element of a PLY file that is being written.
+/// An element of a PLY file that is being written: a vertex or a triangle.
 enum Element {
     Vertex {
         position: [f64; 3],

@@ -1,4 +1,4 @@
-//! Stereolithography (STL), read and written by the `stl_io` crate.
+//! Reads and writes stereolithography meshes (STL) by the `stl_io` crate.
 
 use std::io::Cursor;
 
@@ -11,7 +11,7 @@ use crate::error::Result;
 use crate::files::buffer::Buffer;
 use crate::scene::mesh::Mesh;
 
-/// Number of bytes before the triangles of a binary STL file.
+/// Number of bytes before the first triangle of a binary STL file.
 const HEADER_BYTES: usize = 84;
 
 /// Number of bytes of each triangle of a binary STL file.
@@ -59,7 +59,7 @@ pub(super) fn read(bytes: &[u8], parts: &mut MeshBuilder) -> Result<()> {
     collect(&file, parts)
 }
 
-/// Reads an ASCII STL file of several solids in a row, of which `stl_io` reads only one.
+/// Reads all solids of an ASCII STL file, of which `stl_io` reads only one.
 fn ascii(bytes: &[u8], parts: &mut MeshBuilder) -> Result<()> {
     let ends = bytes.iter().enumerate().filter(|(_, b)| **b == b'\n');
     let lines = std::iter::once(0).chain(ends.map(|(i, _)| i + 1));
@@ -92,9 +92,9 @@ fn collect(bytes: &[u8], parts: &mut MeshBuilder) -> Result<()> {
     Ok(())
 }
 
-/// A binary STL file of a mesh's triangles, each with its own normal; positions are rounded to
-/// 32-bit floats. Far from the origin that takes detail away: at 10⁶ they are steps of 0.06. (STL
-/// knows no origin of its own, as GLB does, and not more bits, as PLY and OBJ do.)
+/// Writes a mesh's triangles as a binary STL file, each with its own normal; positions are rounded to 32-bit floats.
+/// Far from the origin detail is lost: coordinates of 10⁶ are rounded to multiples of 0.06. (STL knows no origin of its
+/// own, as GLB does, and not more bits, as PLY and OBJ do.)
 ///
 /// Costs `O(triangles)`.
 ///
@@ -119,7 +119,7 @@ pub fn write_stl(mesh: &Mesh) -> Result<Vec<u8>> {
     file.finish("STL file", written)
 }
 
-/// Computes the unit normal of a triangle, and 0 for a triangle without area.
+/// Computes the unit normal of a triangle; 0 for a triangle without area.
 fn normal(corners: [[f64; 3]; 3]) -> [f32; 3] {
     let [a, b, c] = corners.map(Vector3::from);
     let (u, v) = (b - a, c - a);

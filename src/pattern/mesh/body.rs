@@ -14,10 +14,11 @@ use rustc_hash::FxHashMap;
 
 pub(super) type Place = Vector3<f64>;
 
-/// Distance from a plane, in edge lengths, below which a vertex lies on the plane.
+/// Distance from a cutting plane, in mean edge lengths of the mesh, below which a vertex lies on the plane.
 const PLANE_TOLERANCE_LENGTHS: f64 = 0.1;
 
-/// A mesh whose triangles are grouped into parts, each of which is to be laid flat.
+/// A mesh whose triangles are grouped into parts: patches or pieces of them, each of which is to be laid flat on its
+/// own.
 #[derive(Debug, Clone)]
 pub(super) struct Body {
     pub places: Vec<Place>,
@@ -26,11 +27,11 @@ pub(super) struct Body {
     pub patches: Vec<u32>,
     pub parts: Vec<u32>,
     pub count: u32,
-    /// Mean length of the mesh's edges.
+    /// Mean length of the mesh's edges, in the mesh's units.
     pub spacing: f64,
 }
 
-/// A plane through a point, with a normal.
+/// A plane in space along which a part of a mesh is cut: a point on it and its normal.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Plane {
     pub through: Place,
@@ -97,7 +98,7 @@ impl Body {
     }
 
     /// Divides triangles of a part into connected components of equal labels. The first component keeps the part's
-    /// number; returns the numbers of all components.
+    /// number. Returns the part numbers of all components.
     fn part(&mut self, members: &[u32], labels: &[u32]) -> Result<Vec<u32>> {
         let own: Vec<[u32; 3]> = (members.iter())
             .map(|t| self.triangles[*t as usize])
@@ -127,8 +128,8 @@ impl Body {
         Ok(numbers.into_values().collect())
     }
 
-    /// Creates candidate planes for cutting a part in two: normal to the part's principal axes, through the part's
-    /// middle and through a given point.
+    /// Creates candidate planes for cutting a part in two: for each principal axis of the part two planes normal to it,
+    /// one through the part's centroid and one through a given point.
     pub(super) fn planes(&self, members: &[u32], place: Place) -> Vec<Plane> {
         let corners = |t: &u32| self.triangles[*t as usize].map(|v| self.places[v as usize]);
         let (mut sum, mut weight) = (Place::zeros(), 0.0);
@@ -153,7 +154,7 @@ impl Body {
             .collect()
     }
 
-    /// Cuts a part of the mesh along a plane. Returns the numbers of the pieces; a single number if the plane does
+    /// Cuts a part of the mesh along a plane. Returns the part numbers of the pieces; a single number if the plane does
     /// not meet the part.
     pub(super) fn cut(&mut self, part: u32, plane: &Plane) -> Result<Vec<u32>> {
         let members = self.members(part);
@@ -195,8 +196,7 @@ impl Body {
         self.part(&members, &labels)
     }
 
-    /// Separates some triangles from a part of the mesh, as parts of their own. Returns the numbers of all pieces
-    /// of the part.
+    /// Separates some triangles from a part of the mesh, as parts of their own. Returns the part numbers of all pieces.
     pub(super) fn set_apart(&mut self, part: u32, apart: &[u32]) -> Result<Vec<u32>> {
         let members = self.members(part);
         let mut labels = vec![0; self.triangles.len()];
@@ -235,8 +235,9 @@ impl Body {
 const MAX_ANGLE_DEFECT: f64 = 0.3;
 
 impl Body {
-    /// Whether each vertex has an angle defect above [`MAX_ANGLE_DEFECT`], as a tip or a saddle has. Seams end
-    /// there, because two sides that meet there do not both fit.
+    /// Returns for each vertex whether its angle defect (a full turn less the angles around it) is above
+    /// [`MAX_ANGLE_DEFECT`] in magnitude, as at a tip or a saddle. Seams end there, because two sides that meet there
+    /// do not both fit.
     pub(super) fn pointed(&self) -> Vec<bool> {
         let mut turns = vec![0.0; self.places.len()];
         for corners in &self.triangles {
@@ -249,7 +250,7 @@ impl Body {
         turns.iter().map(missing).collect()
     }
 
-    /// Renumbers the parts by their areas, the largest first. Returns the new number of each part.
+    /// Renumbers the parts of the mesh by their areas, the largest first. Returns the new number of each part.
     pub(super) fn sort(&mut self) -> Vec<u32> {
         let mut areas = vec![0.0; self.count as usize];
         for (part, corners) in self.parts.iter().zip(&self.triangles) {

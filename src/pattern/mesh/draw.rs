@@ -159,7 +159,8 @@ fn draw(body: &Body, seams: &Seams, meetings: &Meetings, sheet: &Joined) -> Shee
     }
 }
 
-/// Divides a closed line of half-edges into runs: a new run begins where the seam on the other side changes.
+/// Divides a sheet's outline, a closed line of half-edges, into runs along one side of a seam or the border each.
+/// Returns for each run the number of its seam, `None` on the border, and its half-edges.
 fn runs(
     body: &Body,
     seams: &Seams,

@@ -10,7 +10,7 @@ use crate::scene::half_edges::next_half_edge;
 use crate::unroll::arap_mesh::StoppingCriteria;
 use crate::unroll::flat_triangle::Point;
 
-/// Limits that a sheet of a mesh has to keep.
+/// Limits that a flat sheet of a mesh has to keep: seam gap, strain, and when the solver stops.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Limits {
     /// Maximum seam gap, as a share of the seam's length.
@@ -19,11 +19,11 @@ pub(super) struct Limits {
     pub until: StoppingCriteria,
 }
 
-/// Strain at which the relaxation of a part that may still be cut or joined stops, as a share of the limit.
+/// Strain, as a share of the limit, at which laying a part flat stops as long as the part may still be cut or joined.
 const TRIAL_STRAIN_SHARE: f64 = 0.8;
 
 impl Limits {
-    /// Stopping criteria of the solver that lays parts flat which may still be cut or joined.
+    /// Returns the stopping criteria of the solver for laying parts flat that may still be cut or joined.
     pub(super) fn trial(&self) -> StoppingCriteria {
         StoppingCriteria {
             // The energy is the sum of the squares of both principal strains.
@@ -38,18 +38,19 @@ impl Limits {
     }
 }
 
-/// A sheet: parts laid flat together.
+/// A flat sheet of a mesh: parts laid flat together.
 #[derive(Debug, Clone)]
 pub(super) struct Joined {
     pub parts: Vec<u32>,
-    /// Numbers of the seams whose two sides are joined on the sheet.
+    /// Numbers of the seams whose two sides are joined within the sheet.
     pub whole: Vec<usize>,
     pub laid: FlatPart,
-    /// Largest seam gap that a joined seam had before its sides were joined.
+    /// Largest seam gap of the joined seams before their sides were joined: root mean square distance between a seam's
+    /// sides, in the mesh's units.
     pub gap: f64,
 }
 
-/// Joins parts of a mesh to sheets along their seams, the longest seam first.
+/// Joins the parts of a mesh to flat sheets along their seams, the longest seam first.
 pub(super) fn join_parts(
     body: &Body,
     seams: &Seams,
@@ -70,19 +71,19 @@ pub(super) fn join_parts(
     Ok(sheets.all.into_iter().flatten().collect())
 }
 
-/// The sheets found so far, while parts are joined.
+/// The sheets found so far, while parts of a mesh are joined to sheets.
 struct Sheets<'a> {
     body: &'a Body,
     seams: &'a Seams,
     limits: Limits,
     all: Vec<Option<Joined>>,
-    /// Whether each sheet was laid flat until convergence.
+    /// Whether the solver has laid each sheet flat until convergence.
     settled: Vec<bool>,
     /// Number of the sheet that each part of the mesh is on.
     of: Vec<usize>,
     /// Position on its sheet of each corner of the mesh's triangles.
     at: Vec<Point>,
-    /// Whether the two sides of each seam are joined on a sheet.
+    /// For each seam whether its two sides are joined on a sheet.
     whole: Vec<bool>,
 }
 
@@ -125,7 +126,7 @@ impl<'a> Sheets<'a> {
         self.all[number] = Some(sheet);
     }
 
-    /// Joins the two sheets on either side of a seam, or closes a seam within one sheet, if the result is a valid
+    /// Joins the two sheets on either side of a seam, or closes a seam within one sheet, if the result is a valid flat
     /// sheet.
     fn join(&mut self, seam: usize, order: &[usize]) -> Result<()> {
         let [a, b] = self.seams.all[seam]
@@ -187,11 +188,11 @@ impl<'a> Sheets<'a> {
     }
 }
 
-/// One sheet, or two sheets of which the second is moved to the first along a seam.
+/// One sheet that is closed along a seam, or two sheets of which the second is moved to the first along a seam.
 struct SheetPair<'a> {
     sheets: &'a Sheets<'a>,
     numbers: [usize; 2],
-    /// Rigid motion of the second sheet; `None` if there is only one sheet.
+    /// Rigid motion in the plane that moves the second sheet to the first; `None` if there is only one sheet.
     motion: Option<Motion>,
 }
 
@@ -215,14 +216,15 @@ impl<'a> SheetPair<'a> {
         numbers.filter_map(|number| self.sheets.all[number].as_ref())
     }
 
-    /// Returns whether both parts at a seam that is not joined lie on these sheets.
+    /// Returns whether a seam may be joined here: it is not joined yet, and the parts on both of its sides lie on these
+    /// sheets.
     fn has(&self, seam: usize) -> bool {
         let mut parts = self.sheets.seams.all[seam].parts.iter();
         let is_here = |part: &u32| self.numbers.contains(&self.sheets.of[*part as usize]);
         !self.sheets.whole[seam] && parts.all(is_here)
     }
 
-    /// Returns the position of a corner of the mesh's triangles on the sheets, after the motion of the second one.
+    /// Returns the flat position of a corner of the mesh's triangles, after the second sheet was moved to the first.
     fn place(&self, corner: u32) -> Point {
         let part = self.sheets.body.parts[corner as usize / 3];
         let place = self.sheets.at[corner as usize];
@@ -247,7 +249,8 @@ impl<'a> SheetPair<'a> {
         ]
     }
 
-    /// Computes the seam gap, root mean square; `None` if the gap is too large for the seam to be closed.
+    /// Computes the seam gap, the root mean square distance between the two sides of a seam; `None` if the gap is too
+    /// large for the seam to be closed.
     fn fits(&self, seam: usize) -> Option<f64> {
         let Sheets {
             seams,
@@ -264,8 +267,8 @@ impl<'a> SheetPair<'a> {
         (apart <= most).then_some(apart)
     }
 
-    /// Lays the sheets flat together, closed along seams that are given with their gaps; `None` if the result is
-    /// not a valid sheet.
+    /// Lays the sheets flat as one sheet, closed along given seams, each with its seam gap; `None` if the result is not
+    /// a valid sheet.
     fn laid(&self, along: &[(usize, f64)]) -> Result<Option<Joined>> {
         let Sheets {
             seams,

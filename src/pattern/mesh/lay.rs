@@ -20,36 +20,36 @@ pub(super) struct FlatPart {
     /// at the border.
     pub triangles: Vec<[u32; 3]>,
     pub twins: Vec<u32>,
-    /// Number in the whole mesh of each vertex of the flat part.
+    /// Number of the mesh's vertex that each vertex of the flat part comes from.
     pub source: Vec<u32>,
     pub places: Vec<Point>,
     pub area: f64,
-    /// Strain of the flat part: root of the mean square over the area.
+    /// Strain of the flat part: root mean square over its area.
     pub strain: f64,
     /// Number of the triangle with the largest strain for its size.
     pub worst: usize,
 }
 
-/// Maximum share of a part's triangles that may be removed where its border crosses itself.
+/// Maximum share of a part's triangles that may be removed where the part's border crosses itself.
 const MAX_REMOVED_SHARE: f64 = 0.01;
 
-/// Initial flat positions of triangles, from which they are laid with the least strain.
+/// Initial flat positions of triangles, from which the solver reduces their strain.
 pub(super) enum Lying<'a> {
     /// Triangles are unfolded into the plane one after the other, over common edges.
     TurnedOver,
-    /// Position of each corner of the whole mesh's triangles.
+    /// A function that gives the flat position of each corner of the whole mesh's triangles.
     At(&'a dyn Fn(u32) -> Point),
 }
 
-/// Number of solver iterations before the solver may give up a layout.
+/// Number of solver iterations that are made before the solver may give up a layout.
 const UNCONDITIONAL_STEPS: usize = 40;
 
 /// Number of solver iterations after which layouts of trial cuts of a part are compared.
 pub(super) const TRIAL_STEPS: usize = 12;
 
 impl FlatPart {
-    /// Lays triangles into the plane. `twins` holds the opposite of each half-edge, or [`NO_INDEX`] where the
-    /// triangles are cut apart.
+    /// Places triangles in the plane, by unfolding them or at given positions. `twins` holds the opposite of each
+    /// half-edge, or [`NO_INDEX`] where the triangles are cut apart.
     pub(super) fn new(
         body: &Body,
         members: Vec<u32>,
@@ -212,8 +212,8 @@ impl FlatPart {
         !crossings(&self.places, &border).is_empty() || self.covers_itself(&border)
     }
 
-    /// The few triangles whose removal would leave a border that does not cross itself; empty if there would be too
-    /// many, or if removal does not help.
+    /// Finds the few triangles of the flat part whose removal would leave a border that does not cross itself; empty if
+    /// there would be too many, or if removal does not help.
     pub(super) fn removable_triangles(&self) -> Vec<u32> {
         let most = (MAX_REMOVED_SHARE * self.members.len() as f64).ceil() as usize;
         let mut left = self.clone();
@@ -263,7 +263,7 @@ impl FlatPart {
         FlatPart::new(body, members, twin_half_edges(&own), Lying::TurnedOver)?.relaxed(body, until)
     }
 
-    /// Removes some of the triangles from the flat part.
+    /// Removes some triangles, given by ascending numbers, from the flat part.
     fn take_off(&mut self, off: &[usize]) {
         for t in off {
             for side in 3 * t..3 * t + 3 {
@@ -292,7 +292,8 @@ impl FlatPart {
         }
     }
 
-    /// Whether the centroid of a triangle lies on another triangle, by the border's winding number around it.
+    /// Returns whether the centroid of a triangle lies on another triangle, by the border's winding number around the
+    /// centroid.
     fn covers_itself(&self, border: &[[u32; 2]]) -> bool {
         let step = self.triangles.len().div_ceil(MAX_OVERLAP_PROBES);
         (self.triangles.iter().step_by(step)).any(|corners| {
@@ -311,7 +312,7 @@ impl FlatPart {
         })
     }
 
-    /// Closed lines of half-edges around the triangles, which lie to their left.
+    /// Finds the outlines of the flat part: closed lines of half-edges, with the triangles to their left.
     pub(super) fn outlines(&self) -> Vec<Vec<u32>> {
         let mut done = vec![false; self.twins.len()];
         let mut lines = Vec::new();
@@ -337,10 +338,11 @@ fn piece(body: &Body, corners: [u32; 3]) -> FlatTriangle {
     FlatTriangle::from_points(corners.map(|v| body.places[v as usize].into()))
 }
 
-/// Maximum number of triangles whose centroids are tested for lying on another triangle.
+/// Maximum number of a flat part's triangles whose centroids are tested for lying on another triangle.
 const MAX_OVERLAP_PROBES: usize = 60;
 
-/// Position of the corner opposite an edge that goes from 0 to 1, as a complex number.
+/// Computes the position of a triangle's third corner, as a complex number, where the edge opposite of it goes from 0
+/// to 1.
 fn third(piece: &FlatTriangle, side: usize) -> Point {
     if !piece.exists() {
         return Point::new(0.5, 0.0);

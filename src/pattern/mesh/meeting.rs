@@ -11,7 +11,7 @@ use crate::pattern::meeting::{
     ANGLE_RADIUS_SHARE, MAX_ANGLE_RADIUS_LENGTHS, MIN_ANGLE_RADIUS_LENGTHS,
 };
 
-/// The points of a mesh where cuts or folds end or meet, each with its vertex as the key.
+/// The points of a mesh where cuts or folds end or meet, with the number of the vertex there as the key.
 pub(super) struct Meetings {
     of: BTreeMap<u32, Meeting>,
 }
@@ -19,17 +19,17 @@ pub(super) struct Meetings {
 /// Data of a vertex where seams end, gathered before its angle is measured.
 #[derive(Clone)]
 struct Found {
-    /// Number of ends of cuts. `edges` is the number of edges that are cut.
+    /// Number of cuts that end at the vertex. `edges` is the number of the vertex's edges that are cut.
     cuts: usize,
     edges: usize,
     shortest: f64,
-    /// Largest number of edges of a seam that ends at the vertex.
+    /// Number of edges of the seam with the most edges that ends at the vertex.
     most: usize,
 }
 
 impl Meetings {
-    /// The point at a vertex; `None` if the border is near or a seam that ends there is too short to measure an
-    /// angle.
+    /// Returns the point where cuts or folds meet at a vertex; `None` if the border is near or a seam that ends there
+    /// is too short to measure an angle.
     pub(super) fn at(&self, vertex: u32) -> Option<Meeting> {
         self.of.get(&vertex).copied()
     }
@@ -106,12 +106,13 @@ fn ends(vertices: &[u32]) -> Vec<u32> {
     }
 }
 
-/// Angle defects and neighbours of all vertices of a mesh.
+/// Angle defects and neighbours of all vertices of a mesh, for measuring angles around points.
 struct Around<'a> {
     body: &'a Body,
     /// Angle defect of each vertex: a full turn less the angles around it; NaN at the border.
     missing: Vec<f64>,
-    /// Neighbours of all vertices, vertex by vertex; `starts` holds the position of each vertex's first one.
+    /// Numbers of the neighbours of all vertices, vertex by vertex; `starts` holds the position of each vertex's first
+    /// neighbour in this list.
     neighbours: Vec<u32>,
     starts: Vec<usize>,
 }
@@ -150,8 +151,9 @@ impl Around<'_> {
         }
     }
 
-    /// Angle around a vertex, in radians: 2π less the sum of the angle defects within a circle, averaged over radii
-    /// from half of `reach` to `reach`. It is exact where flat faces meet. `None` if the border is within `reach`.
+    /// Computes the angle of the surface around a vertex, in radians: 2π less the sum of the angle defects within a
+    /// circle, averaged over radii from half of `reach` to `reach`. It is exact where flat faces meet. `None` if the
+    /// border is within `reach`.
     fn angle(&self, vertex: u32, reach: f64) -> Option<f64> {
         let middle = self.body.places[vertex as usize];
         let mut seen = BTreeSet::from([vertex]);

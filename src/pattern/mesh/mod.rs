@@ -29,8 +29,8 @@ use seams::Seams;
 /// Maximum number of parts of a mesh: a pattern of more parts cannot be assembled in practice.
 const MAX_PARTS: u32 = 500;
 
-/// Energy, as a multiple of the energy at the strain limit, above which a relaxation is abandoned when its progress
-/// is slow.
+/// Ratio of the energy to the energy at the strain limit above which the solver that lays parts flat gives up where it
+/// progresses slowly.
 const HOPELESS_STRAIN_FACTOR: f64 = 2.5;
 
 /// Cuts a mesh into flat sheets; the first is the one with the largest patch. The mesh may be closed, overhanging
@@ -84,7 +84,7 @@ pub fn pattern_mesh(
     draw_sheets(&body, &seams, &sheets)
 }
 
-/// Cuts parts of a mesh until each lies flat. Returns them by area, the largest first.
+/// Cuts the parts of a mesh until each lies flat within the strain limit. Returns them by area, the largest first.
 fn flat_parts(mut body: Body, limits: Limits) -> Result<(Body, Vec<FlatPart>)> {
     // Parts that lie flat, each with its triangles at that time: later cuts of neighbours divide some of them.
     let mut flat: BTreeMap<u32, FlatPart> = BTreeMap::new();

@@ -8,21 +8,21 @@ use crate::math::index::NO_INDEX;
 use crate::scene::half_edges::{half_edge_ends, twin_half_edges};
 use crate::shape::patches::chains::chains;
 
-/// A seam: a line of edges between two parts of a mesh.
+/// A seam: a line of edges of a mesh along which two parts meet.
 pub(super) struct Seam {
-    /// Numbers of the two parts at the seam, the lower one first.
+    /// Numbers of the two parts (regions laid flat by themselves) at the seam, the lower one first.
     pub parts: [u32; 2],
     pub vertices: Vec<u32>,
-    /// For each edge of the seam, in order, the half-edges on both sides.
+    /// For each edge of the seam, in order, the numbers of the two half-edges on its sides.
     pub sides: Vec<[u32; 2]>,
     pub length: f64,
-    /// Whether the seam is a cut inside of a patch.
+    /// Whether the seam is a cut inside of a patch and not a crease.
     pub smooth: bool,
     /// Mean fold angle along the seam, in radians; positive for a ridge.
     pub angle: f64,
 }
 
-/// The seams between the parts of a mesh, and the seam of each half-edge.
+/// The seams between the parts of a mesh, and the number of the seam that each half-edge is on.
 pub(super) struct Seams {
     pub all: Vec<Seam>,
     of: Vec<u32>,
@@ -30,8 +30,9 @@ pub(super) struct Seams {
 }
 
 impl Seams {
-    /// Finds the seams of a mesh. A line is divided into two seams where its fold angle passes `bend`, in radians,
-    /// so that a cut that follows a crease along a part of its length is a seam of its own there.
+    /// Finds the seams of a mesh. A line of edges between two parts is divided into two seams where its fold angle
+    /// passes `bend`, in radians, so that a cut that follows a crease along a part of its length is a seam of its own
+    /// there.
     pub(super) fn new(body: &Body, bend: f64) -> Seams {
         let twins = twin_half_edges(&body.triangles);
         let mut between: BTreeMap<[u32; 2], Vec<[u32; 2]>> = BTreeMap::new();
@@ -82,8 +83,8 @@ impl Seams {
         self.all.push(seam);
     }
 
-    /// Opposite of each half-edge of some triangles; [`NO_INDEX`] where the opposite triangle is not among them, or
-    /// where the seam is open.
+    /// Computes the opposite of each half-edge of some triangles; [`NO_INDEX`] where the opposite triangle is not among
+    /// them, or where the seam is not joined.
     pub(super) fn twins(&self, members: &[u32], is_whole: impl Fn(usize) -> bool) -> Vec<u32> {
         let mut numbers = vec![NO_INDEX; self.twins.len() / 3];
         for (number, t) in (0..).zip(members) {
@@ -103,7 +104,7 @@ impl Seams {
         sides.map(twin).collect()
     }
 
-    /// The seam that a half-edge is on.
+    /// Returns the number of the seam that a half-edge is on; `None` if it is on no seam.
     pub(super) fn of(&self, side: u32) -> Option<usize> {
         let seam = self.of[side as usize];
         (seam != NO_INDEX).then_some(seam as usize)

@@ -9,7 +9,7 @@ use crate::shape::patches::NO_PATCH;
 use crate::unroll::flat_triangle::Point;
 use rustc_hash::FxHashMap;
 
-/// Number of nodes at a seam's end over which the seam's direction there is measured.
+/// Number of nodes at a seam's end over which the direction of the seam there is measured.
 pub(in crate::pattern) const HEADING_NODES: usize = 6;
 
 fn is_vertex((p, q): &Node) -> bool {
@@ -17,7 +17,8 @@ fn is_vertex((p, q): &Node) -> bool {
 }
 
 impl SeamGraph {
-    /// The seam that a segment of the line around a patch belongs to, given by its ends; `None` on the border.
+    /// Returns the seam that a segment of the line around a patch belongs to, given by the two nodes at its ends;
+    /// `None` on the surface's border.
     pub(super) fn seam_along(&self, from: Node, to: Node) -> Option<usize> {
         if is_vertex(&from) || is_vertex(&to) {
             return None;
@@ -30,7 +31,8 @@ impl SeamGraph {
         }
     }
 
-    /// Segments of the line around a patch, each with the seam that it belongs to; `None` for the border.
+    /// Lists the segments of the line around a patch, each with the seam that it belongs to; `None` for the surface's
+    /// border.
     pub(in crate::pattern) fn border(
         &self,
         patch: u32,
@@ -39,7 +41,7 @@ impl SeamGraph {
         pieces.map(|[from, to]| ([*from, *to], self.seam_along(*from, *to)))
     }
 
-    /// The seam of a segment between two nodes of one triangle; `None` if they have no seam in common.
+    /// Finds the seam of a segment between two nodes of one triangle; `None` if the nodes have no seam in common.
     pub(super) fn seam_between(&self, one: Node, other: Node) -> Option<usize> {
         let (one, other) = (self.seams_of(one), self.seams_of(other));
         let both = one
@@ -87,8 +89,8 @@ impl SeamGraph {
     }
 
     /// Computes for each seam that ends at the border the distance from its last node to the border's line, which
-    /// connects the midpoints of the border's edges. It is computed in plan, so that both sides of a seam get the
-    /// same distance.
+    /// connects the midpoints of the border's edges. The distance is computed in plan (as seen from above), so that
+    /// both sides of a seam get the same distance.
     pub(super) fn add_ends(&mut self) {
         let (mut after, mut before) = (FxHashMap::default(), FxHashMap::default());
         for (patch, border) in self.borders.iter().enumerate() {
@@ -134,9 +136,9 @@ impl SeamGraph {
         self.ends = ends;
     }
 
-    /// Intersection of a seam with the border's line, on one of its patches: the seam is extended from an inner
-    /// node through its last node by the distance that [`SeamGraph::add_ends`] found in plan. `nodes` and `places`
-    /// hold the inner node and the last one.
+    /// Computes the intersection of a seam with the border's line, on one of its flat patches: the seam is extended
+    /// from an inner node through its last node by the distance that [`SeamGraph::add_ends`] found in plan. `nodes` and
+    /// `places` hold the inner node and the last one.
     pub(in crate::pattern) fn end(&self, nodes: [Node; 2], places: [Point; 2]) -> Point {
         let [[a, b], [c, d]] = nodes.map(|node| self.plan(node));
         let long = (c - a).hypot(d - b);

@@ -3,15 +3,16 @@
 use super::{MIN_SEAM_PART_NODES, NEGLIGIBLE_GAP_LENGTHS, Seam, SeamGraph};
 use crate::unroll::flat_triangle::Point;
 
-/// Minimum share of a crease's length that is closed where the whole crease cannot be closed.
+/// Minimum share of a crease's length over which its two sides are joined where the whole crease cannot be.
 const MIN_JOINED_CREASE_SHARE: f64 = 0.5;
 
-/// Minimum share of the length of a cut inside of a patch that is closed where the whole cut cannot be closed.
+/// Minimum share of the length of a cut inside of a patch over which its two sides are joined where the whole cut
+/// cannot be.
 const MIN_JOINED_CUT_SHARE: f64 = 0.2;
 
 impl SeamGraph {
-    /// Divides each seam whose sides do not fit as a whole, if the sides of a long enough part of it do. `gap` is
-    /// the maximum seam gap, as in [`PatternOptions`](crate::pattern::PatternOptions).
+    /// Divides each seam whose sides do not fit as a whole, if the sides of a long enough part of it do. `gap` is the
+    /// maximum seam gap, as a share of the length, as in [`PatternOptions`](crate::pattern::PatternOptions).
     pub(in crate::pattern) fn divide_by_fit(&mut self, gap: f64) {
         for number in 0..self.seams.len() {
             if self.is_torn(number) {
@@ -36,16 +37,16 @@ impl SeamGraph {
         self.index();
     }
 
-    /// Divides a seam at one of its inner nodes. Returns the number of the second part.
+    /// Divides a seam in two at one of its inner nodes. Returns the number of the second part.
     pub(in crate::pattern) fn divide(&mut self, seam: usize, at: usize) -> usize {
         let number = self.cut_off(seam, at);
         self.index();
         number
     }
 
-    /// Divides a seam where the kind of its nodes changes; `kinds` holds one of two kinds for each node. Returns
-    /// the parts and their kinds. Parts of fewer than [`MIN_SEAM_PART_NODES`](super::MIN_SEAM_PART_NODES) nodes are
-    /// merged with a neighbour.
+    /// Divides a seam where the kind of its nodes changes; `kinds` holds one of two kinds for each node. Returns the
+    /// number of each part and the kind of its nodes. Parts of fewer than
+    /// [`MIN_SEAM_PART_NODES`](super::MIN_SEAM_PART_NODES) nodes are merged with a neighbour.
     pub(in crate::pattern) fn divide_where(
         &mut self,
         seam: usize,
@@ -111,7 +112,7 @@ impl SeamGraph {
         number
     }
 
-    /// Numbers of the seams of a crease, from its beginning to its end.
+    /// Lists the numbers of the seams that a crease is divided into, from its beginning to its end.
     pub(in crate::pattern) fn parts(&self, crease: usize) -> Vec<usize> {
         let mut parts = self.parts[crease].clone();
         parts.sort_by_key(|seam| self.seams[*seam].from);
@@ -155,8 +156,8 @@ impl SeamGraph {
     }
 }
 
-/// Node positions along a seam, first and last included, that bound its parts: the longest part whose sides fit, if
-/// it has at least the share `least` of the length, and the rest.
+/// Computes where to divide a seam, as node numbers along it, first and last included: around the longest part whose
+/// sides fit, if that has at least the share `least` of the seam's length.
 fn divided(sides: &[Vec<Point>; 2], gap: f64, fine: f64, least: f64) -> Vec<usize> {
     let last = sides[0].len() - 1;
     let whole = vec![0, last];

@@ -20,19 +20,20 @@ use crate::shape::patches::crease::crease_lines;
 use crate::unroll::flat_triangle::Point;
 use rustc_hash::FxHashMap;
 
-/// Node of the graph: a point on an edge, at a vertex or in a triangle of the lattice. An edge is given by its
+/// Node of the graph of seams: a point on an edge, at a vertex or in a triangle of the lattice. An edge is given by its
 /// vertices, the lower number first; a vertex by its number, twice; a triangle by its number and an invalid vertex.
 /// Numbers refer to the mesh of the whole surface.
 pub(super) type Node = crate::shape::patches::crease::CreaseNode;
 
-/// Maximum distance, in spacings, between two nodes of three patches each that form one junction of four patches.
+/// Maximum distance, in lattice spacings, between two nodes of three patches each that form one junction of four
+/// patches.
 pub(super) const FOUR_WAY_JUNCTION_RADIUS: f64 = 3.0;
 
 /// Seam gap below which a seam counts as closed, because it is finer than the surface's resolution; in spacings of
 /// a lattice or edge lengths of a mesh.
 pub(in crate::pattern) const NEGLIGIBLE_GAP_LENGTHS: f64 = 0.25;
 
-/// Minimum number of nodes of each part of a divided seam.
+/// Minimum number of nodes (points where a crease crosses lattice edges) of each part of a seam that is divided.
 const MIN_SEAM_PART_NODES: usize = 4;
 
 /// A crease or a part of it, with its line on the flat patches on both sides.
@@ -40,36 +41,39 @@ pub(super) struct Seam {
     pub patches: [u32; 2],
     /// Number of the crease that the seam lies on.
     pub crease: usize,
-    /// Whether the seam is a cut inside of a patch.
+    /// Whether the seam is a cut inside of a patch, and not a crease.
     pub smooth: bool,
-    /// Position of the seam's first node among those of the crease.
+    /// Position of the seam's first node in the list of the crease's nodes.
     from: usize,
     pub nodes: Vec<Node>,
     /// Positions of the seam's nodes in the plane of the flat patch on either side, smoothed along the crease.
     pub sides: [Vec<Point>; 2],
-    /// Sign of the crease: positive for a ridge, negative for a groove, seen from above.
+    /// Sum over the crease's nodes of how far one patch falls relative to the other across the crease; its sign is
+    /// positive for a ridge, negative for a groove, seen from above.
     pub rise: f64,
-    /// Vertical distance between the two patches along the seam, root mean square.
+    /// Root mean square vertical distance between the surfaces of the two patches along the seam, in the surface's
+    /// units.
     pub apart: f64,
 }
 
 /// A segment of the closed line around a patch, from one node to the next; the patch is to its left.
 type Segment = [Node; 2];
 
-/// Graph of the seams between all patches, and the positions of their nodes.
+/// Graph of the seams between all patches; its nodes are points along the seams, with their positions in the plane of
+/// each patch.
 pub(super) struct SeamGraph {
     pub spacing: f64,
-    /// Spacing of the lattice on which the cuts of the surface were decided, which may be coarser than this
-    /// lattice; loops of outlines that are small on that lattice are cut off.
+    /// Spacing, in the surface's units, of the lattice on which the cuts of the surface were decided, which may be
+    /// coarser than this lattice; loops of outlines that are small on that lattice are cut off.
     pub decided: f64,
     pub leaves: Vec<Option<FlatPatch>>,
     pub seams: Vec<Seam>,
     /// Numbers of the seams that each crease is divided into.
     parts: Vec<Vec<usize>>,
-    /// The seam of each node; `also` holds a second seam for nodes where a crease is divided.
+    /// For each node the number of its seam; `also` holds a second seam for nodes where a crease is divided.
     seam_of: FxHashMap<Node, usize>,
     also: FxHashMap<Node, usize>,
-    /// Segments of the line around each patch, in no order.
+    /// For each patch the segments of the closed line around it, in no order.
     borders: Vec<Vec<Segment>>,
     mesh: Triangulation,
     labels: Vec<u32>,
@@ -158,7 +162,7 @@ impl SeamGraph {
         });
     }
 
-    /// Indexes the seams by their nodes.
+    /// Builds the index from nodes to the seams that they are on.
     fn index(&mut self) {
         self.seam_of.clear();
         self.also.clear();
@@ -176,12 +180,12 @@ impl SeamGraph {
         }
     }
 
-    /// Whether a seam is at a step of the surface, so that its two sides are apart in space.
+    /// Returns whether a seam is at a step of the surface, so that its two sides are apart in space.
     pub(super) fn is_torn(&self, seam: usize) -> bool {
         self.seams[seam].apart > MIN_TEAR_GAP_SPACINGS * self.spacing
     }
 
-    /// The one or two seams at a node on an edge.
+    /// Returns the one or two seams that a node on an edge is on.
     pub(super) fn seams_of(&self, node: Node) -> [Option<usize>; 2] {
         [
             self.seam_of.get(&node).copied(),
@@ -189,7 +193,7 @@ impl SeamGraph {
         ]
     }
 
-    /// The seams that meet in a triangle.
+    /// Returns the seams that cross the three edges of a triangle.
     pub(super) fn seams_at(&self, triangle: u32) -> [Option<usize>; 3] {
         let [a, b, c] = self.mesh.triangles()[triangle as usize];
         [(a, b), (b, c), (c, a)].map(|(p, q)| self.seam_of.get(&(p.min(q), p.max(q))).copied())

@@ -9,8 +9,8 @@ use crate::unroll::flat_triangle::Point;
 /// Minimum barycentric coordinate of a node on its edge or in its triangle, so that no two nodes coincide.
 const MIN_NODE_SHARE: f64 = 0.01;
 
-/// Number of smoothing passes over a cut inside of a patch, which zigzags between the vertices on either side.
-/// A cut decided on a lattice of twice the spacing takes four times as many.
+/// Number of smoothing passes over a cut inside of a patch, which zigzags between the vertices on either side. A cut
+/// that was decided on a lattice of twice the spacing takes four times as many passes.
 const CUT_SMOOTHING_PASSES: f64 = 4.0;
 
 impl SeamGraph {
@@ -30,7 +30,7 @@ impl SeamGraph {
         })
     }
 
-    /// Position of a node on the surface; its height is the mean of its patches' heights there.
+    /// Computes the position of a node on the surface; its height is the mean of its patches' heights there.
     pub(in crate::pattern) fn built(&self, node: Node) -> [f64; 3] {
         let [x, y] = self.plan(node);
         let seams = match is_triangle(node) {
@@ -55,8 +55,8 @@ impl SeamGraph {
         [x, y, sum / count]
     }
 
-    /// Positions of consecutive nodes in a patch's plane, smoothed along the line; a `smooth` line, a cut inside of
-    /// a patch, is smoothed more.
+    /// Computes the positions of consecutive nodes in a patch's plane, smoothed along the line; a `smooth` line, a cut
+    /// inside of a patch, is smoothed more.
     pub(super) fn line(&self, patch: u32, nodes: &[Node], smooth: bool) -> Vec<Point> {
         let places = nodes.iter().map(|node| self.raw_place(*node, patch));
         let mut line: Vec<[f64; 2]> = places.map(|place| [place.re, place.im]).collect();
@@ -72,7 +72,7 @@ impl SeamGraph {
         line.into_iter().map(|[x, y]| Point::new(x, y)).collect()
     }
 
-    /// Sets the flat positions of a patch's vertices.
+    /// Replaces the flat positions of a patch's vertices.
     pub(in crate::pattern) fn set_places(&mut self, patch: u32, places: Vec<Point>) {
         if let Some(leaf) = self.leaves[patch as usize].as_mut() {
             leaf.set_places(places);
@@ -133,9 +133,9 @@ impl SeamGraph {
         Some(mean)
     }
 
-    /// Intersection of the two patches at an edge: its position as a share of the way from the first vertex to the
-    /// second, clamped to the edge, and the height that the second patch falls relative to the first along the
-    /// edge.
+    /// Computes where the extended surfaces of two patches intersect above an edge of the lattice: the position as a
+    /// share of the way from the first vertex to the second, clamped to the edge, and the height that the second patch
+    /// falls relative to the first along the edge.
     pub(super) fn crossing(&self, (p, q): Node) -> (f64, f64) {
         let [first, second] = [p, q].map(|v| self.labels[v as usize]);
         // Height of the first vertex's patch above the second one's, at both vertices.
@@ -149,8 +149,8 @@ impl SeamGraph {
         )
     }
 
-    /// Barycentric coordinates of the point in a triangle where its three patches meet; those of the centroid if
-    /// they do not meet inside.
+    /// Computes the barycentric coordinates of the point in a triangle where its three patches meet; those of the
+    /// centroid if they do not meet inside.
     pub(super) fn meeting(&self, triangle: u32) -> [f64; 3] {
         let corners = self.mesh.triangles()[triangle as usize];
         let heights = corners.map(|own| {

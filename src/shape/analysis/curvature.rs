@@ -1,4 +1,4 @@
-//! Curvatures of a heightfield: discrete ones, and those of the best-fit Hessian.
+//! Computes curvatures of a heightfield: the discrete Gaussian curvature, and those of the best-fit Hessian.
 
 use std::f64::consts::TAU;
 
@@ -19,11 +19,12 @@ pub struct Curvatures {
     /// of the area of the six triangles ([paper](crate#references), Sec. 5.4). It is that of the surface in space,
     /// not of the Hessian.
     pub gaussian: Vec<f64>,
-    /// `κ₁`: the eigenvalue of larger magnitude of the best-fit Hessian.
+    /// `κ₁`: the eigenvalue of larger magnitude of the best-fit Hessian at each vertex.
     pub kappa1: Vec<f64>,
-    /// `κ₂`: the eigenvalue of smaller magnitude, which vanishes on developable surfaces.
+    /// `κ₂`: the eigenvalue of smaller magnitude of the best-fit Hessian at each vertex, which vanishes on developable
+    /// surfaces.
     pub kappa2: Vec<f64>,
-    /// Nuclear norm of the Hessian, `‖H‖_* = |κ₁| + |κ₂|`.
+    /// Nuclear norm of the Hessian at each vertex, `‖H‖_* = |κ₁| + |κ₂|`.
     pub nuclear_norm: Vec<f64>,
 }
 
@@ -73,8 +74,8 @@ pub(super) fn eigenvalues_by_magnitude(hessian: Sym2) -> [f64; 2] {
     }
 }
 
-/// Discrete Gaussian curvature: the angle deficit over the lumped area, from the heights of the neighbours W, E, NW,
-/// NE, SW, SE above the vertex.
+/// Computes the discrete Gaussian curvature at a vertex: the angle deficit over the lumped area, from the heights of
+/// the neighbours W, E, NW, NE, SW, SE above the vertex.
 fn gaussian_curvature([w, e, nw, ne, sw, se]: [f64; 6], spacing: f64) -> f64 {
     // In units of the spacing, once around.
     let edges = [

@@ -1,4 +1,4 @@
-//! Curvatures of a mesh.
+//! Computes curvatures at the vertices of a mesh.
 
 use std::f64::consts::TAU;
 
@@ -24,18 +24,20 @@ pub struct MeshCurvatures {
     /// `κ₁`: the eigenvalue of larger magnitude of the second fundamental form of the least-squares
     /// quadratic at a vertex.
     pub kappa1: Vec<f64>,
-    /// `κ₂`: the eigenvalue of smaller magnitude, which vanishes on developable surfaces.
+    /// `κ₂`: the eigenvalue of smaller magnitude of the second fundamental form at a vertex, which vanishes on
+    /// developable surfaces.
     pub kappa2: Vec<f64>,
-    /// Nuclear norm of the second fundamental form, `‖II‖_* = |κ₁| + |κ₂|`.
+    /// Nuclear norm of the second fundamental form at a vertex, `‖II‖_* = |κ₁| + |κ₂|`.
     pub nuclear_norm: Vec<f64>,
     /// Principal direction of `κ₂`, a unit vector up to its sign: the direction of the ruling on a developable surface.
     pub rulings: Vec<[f64; 3]>,
-    /// Area that belongs to each vertex: a third of the area of the triangles around it; 0 on the border.
+    /// Area that belongs to each vertex, in the mesh's units squared: a third of the area of the triangles around it; 0
+    /// on the border.
     areas: Vec<f64>,
 }
 
 impl MeshCurvatures {
-    /// Computes the curvatures of a mesh; costs `O(vertices)`. Vertices at one place have equal curvatures.
+    /// Computes the curvatures of a mesh; costs `O(vertices)`. Vertices at the same position have equal curvatures.
     ///
     /// # Errors
     /// [`Error::Topology`](crate::Error::Topology) if it is no surface,
@@ -86,7 +88,7 @@ impl MeshCurvatures {
         Ok(fields)
     }
 
-    /// Copies the curvatures of one vertex to another one at the same place.
+    /// Copies the curvatures of one vertex to another vertex at the same position.
     fn copy(&mut self, from: usize, to: usize) {
         let fields = [
             &mut self.gaussian,
@@ -100,9 +102,9 @@ impl MeshCurvatures {
         self.rulings[to] = self.rulings[from];
     }
 
-    /// Statistics of the curvatures, in coordinates in which the bounding sphere of the mesh has the diameter 1, as
-    /// for λ of meshes; [`Summary::size`] is that diameter. Nuclear norms are summed by area, in units of the mean
-    /// lumped area of a vertex.
+    /// Computes statistics of the curvatures, in coordinates in which the bounding sphere of the mesh has the diameter
+    /// 1, as for λ of meshes; [`Summary::size`] is that diameter. Nuclear norms are summed by area, in units of the
+    /// mean lumped area of a vertex.
     ///
     /// # Errors
     /// [`Error::Option`](crate::Error::Option) unless the threshold is positive and finite,
@@ -131,7 +133,7 @@ impl MeshCurvatures {
     }
 }
 
-/// Computes the unit eigenvector of the eigenvalue of smaller magnitude.
+/// Computes the unit eigenvector of the eigenvalue of smaller magnitude of a symmetric 2×2 matrix.
 fn minor_eigenvector(bend: Sym2) -> [f64; 2] {
     let [xx, xy, yy] = bend.entries();
     // The direction of the higher eigenvalue is half the angle of (xx − yy, 2xy).

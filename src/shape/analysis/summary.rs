@@ -22,27 +22,29 @@ pub const DEFAULT_GAUSSIAN_THRESHOLD: f64 = 1.0;
 )]
 #[non_exhaustive]
 pub struct Summary {
-    /// Number of vertices that have curvatures.
+    /// Number of vertices of the surface that have curvatures.
     pub vertices: usize,
-    /// Longer side of the surface seen from above, in its own units; of a mesh the diameter of the ball around it.
+    /// Longer side of a heightfield seen from above, in the surface's units; for a mesh the diameter of its bounding
+    /// sphere.
     pub size: f64,
-    /// Threshold of `|K|` for [`Summary::gaussian_above`].
+    /// Threshold of the Gaussian curvature `|K|` for [`Summary::gaussian_above`], in coordinates scaled to the unit
+    /// square.
     pub threshold: f64,
-    /// Share of the vertices with `|K|` above the threshold, from 0 to 1.
+    /// Share of the vertices whose Gaussian curvature `|K|` is above the threshold, from 0 to 1.
     pub gaussian_above: f64,
-    /// Median of `|K|`; 0 if no vertex has curvatures, like all other figures.
+    /// Median of the Gaussian curvature's magnitude `|K|`; 0, like all other figures, if no vertex has curvatures.
     pub median_gaussian: f64,
-    /// Median of `|κ₂|`; 0 if no vertex has curvatures.
+    /// Median of the smaller principal curvature's magnitude `|κ₂|`; 0 if no vertex has curvatures.
     pub median_kappa2: f64,
-    /// Sum of `‖H‖_*` over the vertices: the energy without its fidelity term.
+    /// Sum of the Hessians' nuclear norms `‖H‖_*` over the vertices: the energy without its fidelity term.
     pub nuclear_norm: f64,
-    /// Histogram of `|K|`, the magnitude of the Gaussian curvature.
+    /// Histogram of `|K|`, the magnitude of the Gaussian curvature, over the vertices.
     pub gaussian: Histogram,
-    /// Histogram of `|κ₂|`, the magnitude of the smaller principal curvature.
+    /// Histogram of `|κ₂|`, the magnitude of the smaller principal curvature, over the vertices.
     pub kappa2: Histogram,
 }
 
-/// Histogram of magnitudes in bins of half a decade, which are the same for all surfaces.
+/// Histogram of magnitudes of curvatures in bins of half a decade, which are the same for all surfaces.
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[non_exhaustive]
@@ -50,12 +52,12 @@ pub struct Histogram {
     /// Upper ends of the bins, ascending: bin `i` counts magnitudes from `edges[i − 1]` to below
     /// `edges[i]`, the first bin all smaller ones, and the last bin, which has no upper end, all larger ones.
     pub edges: Vec<f64>,
-    /// Number of vertices in each bin; there is one bin more than edges.
+    /// Number of vertices in each bin of the histogram; there is one bin more than edges.
     pub counts: Vec<usize>,
 }
 
 impl Summary {
-    /// Computes the statistics of a heightfield's curvatures. Costs `O(vertices)`.
+    /// Computes statistics of a heightfield's curvatures. Costs `O(vertices)`.
     ///
     /// # Errors
     /// [`Error::Option`] unless the threshold is positive and finite, [`Error::Shape`] if the
@@ -78,7 +80,7 @@ impl Summary {
         }))
     }
 
-    /// Computes the statistics of given magnitudes of curvatures.
+    /// Computes the statistics from the magnitudes of the curvatures at all vertices.
     pub(super) fn from_magnitudes(measured: CurvatureMagnitudes) -> Self {
         let CurvatureMagnitudes {
             mut gaussian,
@@ -102,8 +104,8 @@ impl Summary {
     }
 }
 
-/// Magnitudes of curvatures in coordinates scaled to the unit square, and the fields of [`Summary`] that come with
-/// them.
+/// Magnitudes of a surface's curvatures in coordinates scaled to the unit square, from which a [`Summary`] is computed,
+/// with the surface's size.
 pub(super) struct CurvatureMagnitudes {
     pub gaussian: Vec<f64>,
     pub kappa2: Vec<f64>,
@@ -113,11 +115,11 @@ pub(super) struct CurvatureMagnitudes {
 }
 
 impl Histogram {
-    /// Counts magnitudes in the bins of a histogram.
+    /// Counts magnitudes of curvatures in the bins of a histogram.
     fn from_magnitudes(magnitudes: &[f64]) -> Self {
-        /// Number of bins with two ends: half decades from 10⁻⁵ to 10⁶.
+        /// Number of a histogram's bins with two ends: half decades from 10⁻⁵ to 10⁶.
         const BOUNDED_BINS: i32 = 22;
-        /// Exponent of ten of the lowest edge between the bins of a histogram.
+        /// Exponent of ten of the lowest edge between the bins of a curvature histogram.
         const LOWEST_EDGE_EXPONENT: f64 = -5.0;
         let edges: Vec<f64> = (0..=BOUNDED_BINS)
             .map(|i| 10f64.powf(0.5 * f64::from(i) + LOWEST_EDGE_EXPONENT))
@@ -136,11 +138,11 @@ impl Histogram {
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[non_exhaustive]
 pub struct Deviation {
-    /// Number of vertices where both surfaces have a height.
+    /// Number of vertices where both compared surfaces have a height.
     pub vertices: usize,
-    /// Root mean square of the differences of height.
+    /// Root mean square difference of height between the two surfaces, in their unit.
     pub rms: f64,
-    /// Largest difference of height.
+    /// Largest difference of height between the two surfaces, in their unit.
     pub maximum: f64,
 }
 
@@ -167,7 +169,7 @@ impl Deviation {
     }
 }
 
-/// Checks that a field has the number of values that a surface has.
+/// Checks that a field has as many values as a surface has vertices.
 fn check_same_shape(expected: usize, surface: &Heightfield, found: usize) -> Result<()> {
     if expected == found {
         return Ok(());

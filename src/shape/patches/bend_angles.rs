@@ -1,4 +1,4 @@
-//! The angle by which a heightfield bends from one vertex to the next.
+//! Computes the angle by which a heightfield bends from one vertex to the next.
 
 use crate::error::{Result, try_filled};
 use crate::heights::heightfield::Heightfield;
@@ -11,7 +11,7 @@ pub(super) struct BendAngles {
     /// Angle, in radians, by which the surface bends over one spacing: the nuclear norm of the Hessian along the
     /// surface, times the spacing.
     pub angle: Vec<f64>,
-    /// Gradient of the quadratic that fits the heights around a vertex best, as slopes in x and y.
+    /// Gradient of the quadratic that fits the heights around each vertex best, as slopes in x and y.
     pub gradient: Vec<[f64; 2]>,
 }
 
@@ -56,7 +56,8 @@ impl BendAngles {
         Ok(bend)
     }
 
-    /// The bend angle that counts as a crease by default, in radians.
+    /// Computes the default bend angle above which a vertex counts as part of a crease, in radians from one vertex to
+    /// the next.
     pub(super) fn default_crease_bend(&self) -> f64 {
         let mut angles: Vec<f64> = self.angle.iter().copied().filter(|a| !a.is_nan()).collect();
         let middle = angles.len() / 2;
@@ -67,8 +68,9 @@ impl BendAngles {
         (CREASE_BEND_PER_MEDIAN * median).max(MIN_CREASE_BEND)
     }
 
-    /// Fold angle, in radians, of a crease at an edge of the lattice between two patches: between the normals some
-    /// vertices away from the edge on either side, or as far as the patches reach. None if there is no normal.
+    /// Computes the fold angle, in radians, of a crease at an edge of the lattice between two patches: the angle
+    /// between the normals some vertices away from the edge on either side, or as far as the patches reach. `None` if
+    /// there is no normal.
     pub(super) fn fold_angle(
         &self,
         lattice: &Lattice,

@@ -1,4 +1,4 @@
-//! Polylines from edges.
+//! Joins the edges of a mesh or lattice to polylines.
 
 use std::collections::BTreeMap;
 
@@ -6,12 +6,12 @@ use std::collections::BTreeMap;
 pub(crate) struct Chain {
     /// Vertices along the polyline; the last one is the first one if the polyline is closed.
     pub vertices: Vec<u32>,
-    /// Numbers of the polyline's edges in the list of edges that was given.
+    /// Numbers of the polyline's edges, as indices into the list of edges that was given.
     pub edges: Vec<usize>,
 }
 
-/// Joins edges to polylines. These end at vertices with one edge or more than two, and at each vertex for which `end`
-/// is true. Costs `O(n log n)`.
+/// Joins edges to polylines, which end at vertices with one edge or more than two, and at each vertex for which `end`
+/// is true. Costs `O(n log n)` for `n` edges.
 pub(crate) fn chains(edges: &[[u32; 2]], end: impl Fn(u32) -> bool) -> Vec<Chain> {
     let mut at: BTreeMap<u32, Vec<usize>> = BTreeMap::new();
     for (number, ends) in edges.iter().enumerate() {

@@ -1,4 +1,4 @@
-//! Creases of a heightfield: their courses, lengths and fold angles.
+//! Finds the creases of a heightfield: their courses, lengths and fold angles.
 
 use std::collections::BTreeMap;
 
@@ -13,7 +13,7 @@ use crate::scene::triangulation::Triangulation;
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[non_exhaustive]
 pub struct Crease {
-    /// Numbers of the patches on either side, the lower one first.
+    /// Numbers of the patches on either side of the crease, the lower one first.
     pub patches: [u32; 2],
     /// Points along the crease, in the surface's units, smoothed. The crease is closed if the last point is the first.
     pub points: Vec<[f64; 3]>,
@@ -24,7 +24,7 @@ pub struct Crease {
     pub fold: f64,
 }
 
-/// Number of smoothing passes of a crease: enough to remove the lattice's zigzag.
+/// Number of smoothing passes of a crease's polyline: enough to remove the zigzag of the lattice's edges.
 const SMOOTHING_PASSES: usize = 8;
 
 /// A node of a crease: the midpoint of an edge between two patches, by its two vertices, the lower number first; or the
@@ -77,7 +77,7 @@ pub(crate) fn crease_lines(
     out
 }
 
-/// Finds the creases between the patches of a segmented heightfield.
+/// Finds the creases between the patches of a heightfield that is divided into patches.
 pub(super) fn creases(
     surface: &Heightfield,
     mesh: &Triangulation,
@@ -144,7 +144,7 @@ fn node_position(mesh: &Triangulation, (p, q): CreaseNode) -> [f64; 3] {
     [0, 1, 2].map(|k| 0.5 * (a[k] + b[k]))
 }
 
-/// Smooths a polyline and keeps its ends; it is closed if the last point is the first.
+/// Smooths a polyline and keeps its ends; a polyline whose last point is the first is closed.
 pub(crate) fn smooth_polyline<const N: usize>(mut points: Vec<[f64; N]>) -> Vec<[f64; N]> {
     let n = points.len();
     let closed = n > 3 && points[0] == points[n - 1];

@@ -1,4 +1,4 @@
-//! Extrapolation of patches beyond their borders, and correction of the borders by it.
+//! Extrapolates patches beyond their borders, and corrects the borders by that.
 
 use nalgebra::Vector6;
 
@@ -8,16 +8,18 @@ use crate::heights::heightfield::Heightfield;
 use crate::lattice::hexagonal::{ROW_SPACING, shift};
 use crate::math::least_squares::LeastSquares;
 
-/// Radius, in spacings, around a vertex within which the vertices of a patch determine its extrapolated height.
+/// Radius around a vertex, in lattice spacings, within which the other vertices of a patch determine the patch's
+/// extrapolated height there.
 const EXTRAPOLATION_RADIUS: usize = 3;
 
-/// Distance, in spacings, from the extrapolation of its own patch up to which a vertex stays in that patch.
+/// Maximum distance of a vertex from the extrapolation of its own patch, in lattice spacings, at which it stays in that
+/// patch.
 const MAX_OWN_DISTANCE: f64 = 0.02;
 
 /// Maximum number of passes in which vertices at the surface's border are reassigned to neighbouring patches.
 const MAX_REASSIGNMENT_PASSES: usize = 4;
 
-/// Ratio of two distances below which a border vertex moves to another patch: its distance from that patch's
+/// Maximum ratio of two distances at which a border vertex moves to another patch: its distance from that patch's
 /// extrapolation, over its distance from the extrapolation of its own patch.
 const MAX_OTHER_DISTANCE_SHARE: f64 = 0.5;
 
@@ -71,9 +73,9 @@ pub(super) fn reassign_border_vertices(
     }
 }
 
-/// Extrapolated height of a patch at a vertex on or beside its border, from the least-squares quadratic of its other
-/// vertices nearby. Where they do not determine a quadratic, it is as plane and as level as they allow. NaN if there
-/// are none.
+/// Computes the extrapolated height of a patch at a vertex on or beside its border, from the least-squares quadratic of
+/// its other vertices nearby. Where they do not determine a quadratic, it is as plane and as level as they allow. NaN
+/// if there are none.
 pub(crate) fn extrapolated_height(
     surface: &Heightfield,
     labels: &[u32],

@@ -1,4 +1,4 @@
-//! Segmentation of a heightfield by hysteresis thresholding, flood fill and region growing.
+//! Segments a heightfield by hysteresis thresholding, flood fill and region growing.
 
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;

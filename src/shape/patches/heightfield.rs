@@ -1,4 +1,4 @@
-//! The patches of a heightfield.
+//! Divides a heightfield into patches along its creases.
 
 use super::bend_angles::BendAngles;
 use super::crease::{Crease, creases};
@@ -61,8 +61,8 @@ impl Patches {
         })
     }
 
-    /// Creates patches from other labels of the vertices, numbered by their areas. Returns them and the former
-    /// number of each patch.
+    /// Divides the heightfield anew, by a given patch number of each vertex, and numbers the patches by area. Returns
+    /// the patches and the former number of each patch.
     ///
     /// # Errors
     /// Those of [`Patches::new`].
@@ -85,7 +85,7 @@ impl Patches {
         Ok((divided, order))
     }
 
-    /// Area of a heightfield's surface, in its units squared.
+    /// Computes the area of a heightfield's surface, in the surface's units squared.
     pub(crate) fn area(surface: &Heightfield) -> Result<f64> {
         let mesh = Triangulation::new(surface, &Frame::default())?;
         let mut labels = vec![0; surface.heights().len()];
@@ -93,13 +93,13 @@ impl Patches {
         Ok(patches.iter().map(|patch| patch.area).sum())
     }
 
-    /// Number of the patch of each vertex, row by row; [`NO_PATCH`] where there is none.
+    /// Returns the number of the patch of each vertex, row by row; [`NO_PATCH`] where there is no patch.
     pub fn labels(&self) -> &[u32] {
         &self.labels
     }
 
-    /// Checks that patches belong to a surface: they are on its lattice, and a vertex has a patch where it has a
-    /// height.
+    /// Checks that patches belong to a surface: the patches are on the surface's lattice, and a vertex has a patch
+    /// where it has a height.
     ///
     /// # Errors
     /// [`Error::Shape`](crate::Error::Shape) or [`Error::Mismatch`](crate::Error::Mismatch).
@@ -120,12 +120,12 @@ impl Patches {
         }
     }
 
-    /// The patches, in the order of their areas, the largest first.
+    /// Returns the patches by area, the largest first.
     pub fn patches(&self) -> &[Patch] {
         &self.patches
     }
 
-    /// The creases between the patches.
+    /// Returns the creases between the patches.
     pub fn creases(&self) -> &[Crease] {
         &self.creases
     }
@@ -137,7 +137,7 @@ impl Patches {
     }
 }
 
-/// Measures the patches and numbers them by their areas. Returns them and the former number of each.
+/// Measures the patches and numbers them by area, the largest first. Returns the patches and the former number of each.
 fn number_by_area(mesh: &Triangulation, labels: &mut [u32]) -> Result<(Vec<Patch>, Vec<usize>)> {
     let count = labels.iter().filter(|label| **label != NO_PATCH).max();
     let count = count.map_or(0, |label| *label as usize + 1);

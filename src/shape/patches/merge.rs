@@ -1,4 +1,4 @@
-//! Merging of patches across borders that are no creases.
+//! Merges patches across borders that are no creases.
 //!
 //! A surface that was fitted to noise bends along few of its rulings and hardly in between, so
 //! that it is segmented where there is no crease. A crease has a fold angle between the patches on either side.
@@ -16,9 +16,8 @@ use crate::lattice::hexagonal::{Lattice, Towards};
 const MIN_FOLD_PER_BEND: f64 = 2.0;
 
 /// Merges patches whose common border folds by less than `fold` radians on average, or hardly more than the patches
-/// bend, the flattest border first, until there is none; then patches of fewer than `min_vertices` with the neighbour
-/// across
-/// their flattest border. Numbers the patches from 0 again.
+/// bend, the flattest border first, until there is none; then merges each patch of fewer than `min_vertices` with the
+/// neighbour across its flattest border. Numbers the patches from 0 again.
 pub(super) fn merge_patches(
     lattice: &Lattice,
     bend: &BendAngles,
@@ -45,20 +44,20 @@ pub(super) fn merge_patches(
     }
 }
 
-/// Sum of some angles, in radians, and the number of these angles.
+/// Sum of angles, in radians, and the number of these angles, from which their mean follows.
 type AngleSum = (f64, f64);
 
-/// Region adjacency graph: which patches have a common border, and by which angles it folds.
+/// Region adjacency graph: which patches have a common border, and by which angles the surface folds there.
 struct AdjacencyGraph {
-    /// Neighbours of each patch, with the fold angles along the common border.
+    /// Neighbours of each patch, each with the sum of the fold angles along the common border.
     neighbours: Vec<BTreeMap<u32, AngleSum>>,
-    /// Number of vertices of each patch.
+    /// Number of vertices of each patch of the graph.
     sizes: Vec<usize>,
-    /// Bend angles of each patch from vertex to vertex.
+    /// For each patch the sum of its bend angles from vertex to vertex.
     bends: Vec<AngleSum>,
-    /// Minimum fold angle of a crease, in radians.
+    /// Minimum fold angle along a border, in radians, that makes the border a crease.
     fold: f64,
-    /// The patch that each one was merged into, or itself.
+    /// Number of the patch that each patch was merged into, or its own number.
     parents: Vec<u32>,
 }
 
@@ -104,7 +103,7 @@ impl AdjacencyGraph {
         graph
     }
 
-    /// Merges patches across borders that fold too little to be creases. Returns whether there were any.
+    /// Merges patches across borders that fold by too small an angle to be creases. Returns whether any were merged.
     fn merge_flat(&mut self) -> bool {
         let mut queue = BinaryHeap::new();
         for (a, neighbours) in self.neighbours.iter().enumerate() {
@@ -130,7 +129,7 @@ impl AdjacencyGraph {
         merged
     }
 
-    /// Merges each patch of too few vertices with a neighbouring patch.
+    /// Merges each patch of fewer than a minimum number of vertices with the neighbour across its flattest border.
     fn merge_small(&mut self, min_vertices: f64) {
         let mut queue: BinaryHeap<_> = (self.sizes.iter().enumerate())
             .map(|(patch, size)| Reverse((*size, patch as u32)))
@@ -154,8 +153,8 @@ impl AdjacencyGraph {
         }
     }
 
-    /// Mean fold angle of a border over the minimum that makes it a crease, as the bits of a positive float, which
-    /// have its order.
+    /// Computes the ratio of a border's mean fold angle to the minimum of a crease, as the bits of a positive float,
+    /// which sort like the ratio itself.
     fn sharpness(&self, a: u32, b: u32, (sum, number): AngleSum) -> u64 {
         let bending = |patch: u32| {
             let (sum, number) = self.bends[patch as usize];

@@ -1,4 +1,4 @@
-//! The patches of a mesh: its triangles, segmented along the edges where the surface folds.
+//! Divides the triangles of a mesh into patches along the edges where the surface folds.
 
 use std::collections::BTreeMap;
 
@@ -14,7 +14,7 @@ use crate::scene::facets::Facets;
 use crate::scene::half_edges::half_edge_ends;
 use crate::scene::mesh::Mesh;
 
-/// The patches of a mesh and the creases between them.
+/// The patches of a mesh (its triangles divided into regions) and the creases between the patches.
 ///
 /// A crease runs along edges. Where a crease is blunt, by noise or by its triangles, so that it is a
 /// strip of triangles, each of these belongs to the side from which it bends less.
@@ -27,9 +27,9 @@ pub struct MeshPatches {
 }
 
 impl MeshPatches {
-    /// The patches of a mesh; costs `O(n log n)` for `n` triangles. [`PatchOptions::bend`] is the
-    /// angle between the triangles on either side of an edge; by default six times its median over edges
-    /// that are not flat, from 0.035 to 0.35.
+    /// Divides a mesh into patches at its creases; costs `O(n log n)` for `n` triangles. [`PatchOptions::bend`] is the
+    /// angle between the triangles on either side of an edge; by default six times its median over edges that are not
+    /// flat, from 0.035 to 0.35.
     ///
     /// # Errors
     /// [`Error::Option`] as for heightfields, [`Error::Topology`] if the mesh is no surface,
@@ -60,30 +60,30 @@ impl MeshPatches {
         })
     }
 
-    /// Number of the patch of each triangle; [`NO_PATCH`](super::NO_PATCH) for duplicates and triangles without an
-    /// area.
+    /// Returns the number of the patch of each triangle; [`NO_PATCH`](super::NO_PATCH) for duplicates and triangles
+    /// without an area.
     pub fn labels(&self) -> &[u32] {
         &self.labels
     }
 
-    /// The patches, in the order of their areas, the largest first. A vertex on a crease counts for all patches there.
+    /// Returns the patches by area, the largest first. A vertex on a crease counts for all patches there.
     pub fn patches(&self) -> &[Patch] {
         &self.patches
     }
 
-    /// The creases between the patches.
+    /// Returns the creases between the patches.
     pub fn creases(&self) -> &[Crease] {
         &self.creases
     }
 
-    /// Angle between neighbouring triangles, in radians, above which an edge counts as crease; next to such an edge,
-    /// half of it is enough.
+    /// Returns the angle between neighbouring triangles, in radians, above which an edge counts as part of a crease;
+    /// for edges next to such an edge, half of it is enough.
     pub fn bend(&self) -> f64 {
         self.bend
     }
 }
 
-/// Measures the patches and numbers them by their areas.
+/// Measures the patches of a mesh and numbers them by area, the largest first.
 fn number_by_area(facets: &Facets, labels: &mut [u32]) -> Vec<Patch> {
     let mut found: BTreeMap<u32, (f64, Vec<u32>)> = BTreeMap::new();
     for ((label, area), corners) in labels.iter().zip(&facets.areas).zip(&facets.triangles) {
@@ -110,7 +110,7 @@ fn number_by_area(facets: &Facets, labels: &mut [u32]) -> Vec<Patch> {
     order.into_iter().map(|(_, patch)| patch).collect()
 }
 
-/// Finds the creases between triangles of different labels.
+/// Finds the creases of a mesh that is divided into patches: lines of edges between triangles of different patches.
 fn creases(facets: &Facets, labels: &[u32]) -> Vec<Crease> {
     let mut between: BTreeMap<[u32; 2], Vec<usize>> = BTreeMap::new();
     for (side, twin) in facets.pairs() {

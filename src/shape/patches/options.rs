@@ -24,7 +24,8 @@ pub struct PatchOptions {
     /// Minimum fold angle of a crease, in radians, on average along it: patches that meet at a smaller angle are
     /// merged. Default 0.15, about nine degrees.
     pub fold: f64,
-    /// Minimum size of a patch, as a share of all vertices; smaller ones are merged with a neighbour. Default 0.005.
+    /// Minimum size of a patch, as a share of all vertices; smaller patches are merged with a neighbouring patch.
+    /// Default 0.005.
     pub smallest: f64,
 }
 
@@ -39,7 +40,8 @@ impl Default for PatchOptions {
 }
 
 impl PatchOptions {
-    /// These options with another bend angle of a crease, in radians.
+    /// Sets the bend angle above which a vertex belongs to a crease, in radians from one vertex to the next, and
+    /// returns the options.
     pub fn bend(self, bend: f64) -> Self {
         PatchOptions {
             bend: Some(bend),
@@ -47,12 +49,12 @@ impl PatchOptions {
         }
     }
 
-    /// These options with another minimum fold angle, in radians.
+    /// Sets the minimum fold angle of a crease, in radians, and returns the options.
     pub fn fold(self, fold: f64) -> Self {
         PatchOptions { fold, ..self }
     }
 
-    /// These options with another minimum size of a patch, as a share of all vertices.
+    /// Sets the minimum size of a patch, as a share of all vertices, and returns the options.
     pub fn smallest(self, smallest: f64) -> Self {
         PatchOptions { smallest, ..self }
     }

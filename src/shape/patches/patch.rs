@@ -8,7 +8,7 @@ pub const NO_PATCH: u32 = u32::MAX;
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[non_exhaustive]
 pub struct Patch {
-    /// Number of the patch's vertices.
+    /// Number of vertices that belong to the patch.
     pub vertices: usize,
     /// Area of the patch on the surface, in the surface's units squared. Each corner of a triangle counts a third
     /// of the triangle's area.

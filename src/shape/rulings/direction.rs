@@ -1,9 +1,9 @@
-//! The direction in which a surface bends least, and its confidence.
+//! Computes the direction in which a surface bends least, and the confidence of that direction.
 
 use crate::math::sym2::Sym2;
 
 /// Number of passes in which the squared Hessian `H²` at each vertex is averaged with those of its neighbours. More
-/// would mix ruling directions across narrow patches.
+/// passes would mix ruling directions across narrow patches.
 pub(super) const SMOOTHING_PASSES: usize = 3;
 
 /// Bend angle, in radians from one vertex to the next, at which the confidence of a ruling is one half: limits how
@@ -23,7 +23,7 @@ pub(super) fn direction_confidence(squares: [f64; 2], spacing: f64) -> f64 {
     share * bend / (bend + HALF_CONFIDENCE_BEND)
 }
 
-/// Computes the unit eigenvector of the smaller eigenvalue, with `x ≥ 0`.
+/// Computes the unit eigenvector of the smaller eigenvalue of a symmetric 2×2 matrix, with `x ≥ 0`.
 pub(super) fn minor_axis(matrix: Sym2) -> [f64; 2] {
     let angle = 0.5 * matrix.off.atan2(matrix.diff) + std::f64::consts::FRAC_PI_2;
     let (sin, cos) = angle.sin_cos();

@@ -1,4 +1,4 @@
-//! The rulings of a heightfield.
+//! Computes the direction of the ruling at each vertex of a heightfield.
 
 use super::direction::{SMOOTHING_PASSES, direction_confidence, minor_axis};
 use crate::error::{Result, try_filled};
@@ -16,7 +16,7 @@ pub struct Rulings {
     pub(super) squares: Vec<Sym2>,
     pub(super) directions: Vec<[f64; 2]>,
     pub(super) confidence: Vec<f64>,
-    /// Bend angle at each vertex, in radians over one spacing; NaN where there is no Hessian.
+    /// Bend angle of the surface at each vertex, in radians over one spacing; NaN where there is no Hessian.
     pub(super) bends: Vec<f64>,
 }
 
@@ -74,19 +74,19 @@ impl Rulings {
         })
     }
 
-    /// Unit vectors along the rulings as seen from above, row by row, with `x ≥ 0`; NaN where a
-    /// vertex or a neighbour of it has no height.
+    /// Returns unit vectors along the rulings as seen from above, row by row, with `x ≥ 0`; NaN where a vertex or a
+    /// neighbour of it has no height.
     pub fn directions(&self) -> &[[f64; 2]] {
         &self.directions
     }
 
-    /// Confidence of each direction, from 0 to 1: low where the surface is nearly a
-    /// plane, and where it bends in both directions; NaN where there is no direction.
+    /// Returns the confidence of each ruling direction, from 0 to 1: low where the surface is nearly a plane, and where
+    /// it bends in both directions; NaN where there is no direction.
     pub fn confidence(&self) -> &[f64] {
         &self.confidence
     }
 
-    /// Unit vector in space along the ruling at a vertex; `None` where there is no direction.
+    /// Computes the unit vector in space along the ruling at a vertex; `None` where there is no direction.
     pub fn lifted(&self, row: usize, col: usize) -> Option<[f64; 3]> {
         let [x, y] = self.directions[self.surface.lattice().index(row, col)];
         if x.is_nan() {
@@ -99,7 +99,7 @@ impl Rulings {
     }
 }
 
-/// Computes the gradient of the best-fit quadratic at a vertex that has all six neighbours.
+/// Computes the gradient of the best-fit quadratic at a vertex that has all six neighbours, as slopes in x and y.
 fn slope(surface: &Heightfield, row: usize, col: usize) -> [f64; 2] {
     let lattice = surface.lattice();
     let ring = lattice

@@ -1,4 +1,4 @@
-//! Tracing of evenly spaced rulings on a heightfield.
+//! Traces evenly spaced rulings on a heightfield.
 
 use super::direction::minor_axis;
 use super::heightfield::Rulings;
@@ -8,7 +8,7 @@ use super::ruling::{MIN_LENGTH_SEPARATIONS, Ruling};
 use crate::error::Result;
 use crate::math::sym2::Sym2;
 
-/// Position and direction of a ruling that is traced, as seen from above.
+/// Position and direction of a ruling that is traced, both as seen from above.
 type Step = ([f64; 2], [f64; 2]);
 
 impl Rulings {
@@ -52,7 +52,7 @@ impl Rulings {
         Ok(lines)
     }
 
-    /// Points of a ruling after its first one, by the midpoint rule with steps of one spacing.
+    /// Computes the points of a ruling after its first one, by the midpoint rule with steps of one spacing.
     fn follow(
         &self,
         (mut place, mut towards): Step,
@@ -81,7 +81,8 @@ impl Rulings {
         course
     }
 
-    /// Direction of the ruling at a place, with the sign that is closer to a given direction; None where a ruling ends.
+    /// Computes the direction of the ruling at a position, with the sign that is closer to a given direction; `None`
+    /// where a ruling ends.
     fn direction_at(
         &self,
         place: [f64; 2],
@@ -112,7 +113,7 @@ impl Rulings {
         (confidence >= options.confidence).then_some(found)
     }
 
-    /// Interpolates the height at a place, linearly in each triangle of the lattice.
+    /// Interpolates the height of the surface at a position, linearly in each triangle of the lattice.
     fn height(&self, place: [f64; 2]) -> Option<f64> {
         let lattice = self.surface.lattice();
         let triangle = lattice.locate(place);

@@ -1,4 +1,4 @@
-//! The rulings of a mesh.
+//! Computes the direction of the ruling at each vertex of a mesh.
 
 use nalgebra::{Matrix3, Vector3};
 
@@ -40,18 +40,18 @@ const MAX_SMOOTHED_BEND: f64 = 0.2;
 /// ```
 #[derive(Debug, Clone)]
 pub struct MeshRulings {
-    /// Positions of the vertices, where those at one place are one. All other fields but `directions` and
-    /// `confidence` are by these vertices.
+    /// Positions of the vertices, with vertices at the same position merged to one. All other fields but `directions`
+    /// and `confidence` are by these merged vertices.
     pub(super) places: Vec<Vector3<f64>>,
     pub(super) triangles: Vec<[u32; 3]>,
     pub(super) twins: Vec<u32>,
     /// Sum of the squares of the second fundamental form over the neighbourhood of each vertex.
     pub(super) squares: Vec<Matrix3<f64>>,
-    /// Confidence of the ruling at each vertex; NaN where there is no second fundamental form.
+    /// Confidence of the ruling's direction at each vertex, from 0 to 1; NaN where there is no second fundamental form.
     pub(super) trust: Vec<f64>,
-    /// Bend angle at each vertex, in radians over one edge; NaN where there is no second fundamental form.
+    /// Bend angle of the mesh at each vertex, in radians over one edge; NaN where there is no second fundamental form.
     pub(super) bends: Vec<f64>,
-    /// Mean length of the mesh's edges.
+    /// Mean length of the mesh's edges, in the mesh's units.
     pub(super) spacing: f64,
     directions: Vec<[f64; 3]>,
     confidence: Vec<f64>,
@@ -61,7 +61,7 @@ impl MeshRulings {
     /// Computes the ruling direction at each vertex of a mesh; costs `O(vertices)`.
     ///
     /// # Errors
-    /// [`Error::Topology`](crate::Error::Topology) if it is no surface,
+    /// [`Error::Topology`](crate::Error::Topology) if the mesh is no surface,
     /// [`Error::Unsupported`](crate::Error::Unsupported) for a cloud of points,
     /// [`Error::OutOfMemory`](crate::Error::OutOfMemory).
     pub fn new(mesh: &Mesh) -> Result<Self> {
@@ -138,31 +138,32 @@ impl MeshRulings {
         Ok(rulings)
     }
 
-    /// Unit vectors along the rulings, for each vertex of the mesh, up to their sign; NaN at vertices on the border.
+    /// Returns unit vectors along the rulings, for each vertex of the mesh, up to their sign; NaN at vertices on the
+    /// border.
     pub fn directions(&self) -> &[[f64; 3]] {
         &self.directions
     }
 
-    /// Confidence of each direction, from 0 to 1: low where the surface is nearly a plane, and where
+    /// Returns the confidence of each ruling direction, from 0 to 1: low where the surface is nearly a plane, and where
     /// it bends in both directions; NaN where there is no direction.
     pub fn confidence(&self) -> &[f64] {
         &self.confidence
     }
 }
 
-/// Restricts a symmetric tensor to the plane of two orthonormal vectors.
+/// Restricts a symmetric tensor in space to the plane of two orthonormal vectors; returns a 2×2 matrix.
 pub(super) fn restrict_to_plane(square: &Matrix3<f64>, [t1, t2]: &[Vector3<f64>; 2]) -> Sym2 {
     let [a, b] = [square * t1, square * t2];
     Sym2::new(t1.dot(&a), t1.dot(&b), t2.dot(&b))
 }
 
-/// The eigenvector, in space, of the smaller eigenvalue of a tensor in the plane of two orthonormal vectors.
+/// Computes the eigenvector, in space, of the smaller eigenvalue of a tensor in the plane of two orthonormal vectors.
 pub(super) fn minor_axis_in_space(square: Sym2, [t1, t2]: &[Vector3<f64>; 2]) -> Vector3<f64> {
     let [x, y] = minor_axis(square);
     t1 * x + t2 * y
 }
 
-/// Mean length of the edges at a vertex.
+/// Computes the mean length of the edges at a vertex.
 fn mean_edge_length_at(topology: &Topology, places: &[Vector3<f64>], vertex: usize) -> f64 {
     let ring = topology.around(vertex);
     let lengths = ring
@@ -171,7 +172,7 @@ fn mean_edge_length_at(topology: &Topology, places: &[Vector3<f64>], vertex: usi
     lengths.sum::<f64>() / ring.len().max(1) as f64
 }
 
-/// Mean length of all edges.
+/// Computes the mean length of all edges of a mesh.
 fn mean_edge_length(topology: &Topology, places: &[Vector3<f64>]) -> f64 {
     let all = (0..places.len()).map(|vertex| mean_edge_length_at(topology, places, vertex));
     all.sum::<f64>() / places.len().max(1) as f64

@@ -1,4 +1,4 @@
-//! Tracing of evenly spaced rulings on a mesh, from triangle to triangle.
+//! Traces evenly spaced rulings on a mesh, from triangle to triangle.
 
 use nalgebra::Vector3;
 
@@ -15,8 +15,8 @@ type Place = Vector3<f64>;
 /// not count as near.
 type TracedPoints = PointHash<3, Place>;
 
-/// Minimum distance from a corner, as a share of the side, at which a line leaves a triangle, so that it never meets a
-/// vertex.
+/// Minimum distance from a corner, as a share of the side, at which a traced line leaves a triangle, so that the line
+/// never meets a vertex.
 const MIN_CORNER_DISTANCE_SHARE: f64 = 1e-6;
 
 /// State of a ruling that is traced: the triangle that it is in, the side by which it entered the triangle, its
@@ -83,7 +83,8 @@ impl MeshRulings {
         Ok(lines)
     }
 
-    /// Points of a ruling after its first one, on the sides of triangles that it crosses, with the normals there.
+    /// Computes the points of a ruling after its first one, on the sides of the triangles that the ruling crosses, with
+    /// the normals there.
     fn follow(
         &self,
         mut step: Step,
@@ -116,8 +117,8 @@ impl MeshRulings {
         course
     }
 
-    /// Side and position at which a line leaves a triangle, and its direction: straight, in the direction of the ruling
-    /// halfway (midpoint rule).
+    /// Moves a ruling through one triangle on a straight line, in the direction of the ruling halfway (midpoint rule).
+    /// Returns the side and the position at which it leaves the triangle, and its direction.
     fn cross_triangle(&self, step: &Step, options: &TraceOptions) -> Option<(usize, Place, Place)> {
         let near = Some(step.towards);
         let first = self.direction_at(step.triangle, step.place, near, options)?;
@@ -155,8 +156,8 @@ impl MeshRulings {
         best.map(|(_, side, place)| (side, place))
     }
 
-    /// Direction of the ruling at a place in a triangle, with the sign that is closer to a given direction; None
-    /// where a ruling ends.
+    /// Computes the direction of the ruling at a position in a triangle, with the sign that is closer to a given
+    /// direction; `None` where a ruling ends.
     fn direction_at(
         &self,
         triangle: usize,
@@ -190,12 +191,12 @@ impl MeshRulings {
         (trust >= options.confidence).then_some(found)
     }
 
-    /// Positions of a triangle's corners.
+    /// Returns the positions of a triangle's corners.
     fn corners(&self, triangle: usize) -> [Place; 3] {
         self.triangles[triangle].map(|v| self.places[v as usize])
     }
 
-    /// Unit normal of a triangle; zero if it has no area.
+    /// Computes the unit normal of a triangle; zero if the triangle has no area.
     fn normal(&self, triangle: usize) -> Place {
         let [a, b, c] = self.corners(triangle);
         let normal = (b - a).cross(&(c - a));

@@ -14,7 +14,7 @@ const DEFAULT_MIN_CONFIDENCE: f64 = 0.3;
 /// chose it.
 const DEFAULT_CREASE_BEND: f64 = 0.2;
 
-/// Options of tracing rulings: how far apart they are and where they end.
+/// Options of tracing rulings: distance between rulings, and where rulings end.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(
     feature = "serde",
@@ -24,12 +24,12 @@ const DEFAULT_CREASE_BEND: f64 = 0.2;
 #[non_exhaustive]
 pub struct TraceOptions {
     /// Distance between rulings, in the surface's units: as seen from above on a heightfield, in space on a mesh.
-    /// `None`: ten spacings, or mean lengths of an edge.
+    /// `None`: ten spacings of the lattice, or ten mean edge lengths of the mesh.
     pub separation: Option<f64>,
-    /// Minimum confidence of the direction, from 0 to 1: a ruling ends where it is lower. Default 0.3.
+    /// Minimum confidence of the ruling's direction, from 0 to 1: a ruling ends where it is lower. Default 0.3.
     pub confidence: f64,
-    /// Bend angle of a crease, in radians from one vertex to the next: a ruling ends where the surface bends by more.
-    /// Default 0.2.
+    /// Bend angle above which a vertex belongs to a crease, in radians from one vertex to the next: a ruling ends
+    /// there. Default 0.2.
     pub crease: f64,
 }
 
@@ -44,7 +44,7 @@ impl Default for TraceOptions {
 }
 
 impl TraceOptions {
-    /// Returns these options with another distance between rulings, in the surface's units.
+    /// Sets the distance between rulings, in the surface's units, and returns the options.
     pub fn separation(self, separation: f64) -> Self {
         TraceOptions {
             separation: Some(separation),
@@ -52,17 +52,19 @@ impl TraceOptions {
         }
     }
 
-    /// These options with another minimum confidence.
+    /// Sets the minimum confidence of a ruling's direction, from 0 to 1, and returns the options.
     pub fn confidence(self, confidence: f64) -> Self {
         TraceOptions { confidence, ..self }
     }
 
-    /// These options with another bend angle of a crease.
+    /// Sets the bend angle above which a vertex counts as a crease where rulings end, in radians from one vertex to the
+    /// next, and returns the options.
     pub fn crease(self, crease: f64) -> Self {
         TraceOptions { crease, ..self }
     }
 
-    /// Checks all options, and returns the distance between rulings for a given distance between vertices.
+    /// Checks the ranges of all options, and returns the distance between rulings; `spacing` is the distance between
+    /// vertices, from which the default follows.
     pub(super) fn checked_separation(&self, spacing: f64) -> Result<f64> {
         positive("crease", self.crease)?;
         if !(0.0..=1.0).contains(&self.confidence) {

@@ -1,4 +1,4 @@
-//! A spatial hash of points.
+//! A spatial hash that tells whether a point is near others.
 
 use std::collections::HashMap;
 
@@ -26,7 +26,8 @@ impl<const N: usize, T> PointHash<N, T> {
         self.cells.entry(cell).or_default().push((place, kind));
     }
 
-    /// Whether a point whose attribute `counts` is nearer than a distance, which is at most the side of a cell.
+    /// Returns whether a point whose attribute satisfies `counts` is nearer to a position than a distance, which is at
+    /// most the side of a cell.
     pub(super) fn has_neighbour(
         &self,
         place: [f64; N],

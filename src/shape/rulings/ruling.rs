@@ -1,4 +1,4 @@
-//! A traced ruling.
+//! A traced ruling: its points, its length, and how straight it is.
 
 /// A traced ruling: a nearly straight line in a surface.
 #[derive(Debug, Clone, PartialEq)]
@@ -8,14 +8,14 @@ pub struct Ruling {
     /// Points along the ruling on the surface: about one for each spacing of a lattice, one for each edge of a mesh
     /// that it crosses.
     pub points: Vec<[f64; 3]>,
-    /// Distance between the ruling's ends, in the surface's units.
+    /// Distance between the two ends of the ruling, in the surface's units.
     pub length: f64,
     /// Deviation of the ruling from a straight line: the largest distance of a point from the line through the
     /// ends, divided by the ruling's length.
     pub deviation: f64,
 }
 
-/// Minimum length of a traced ruling, in distances between rulings. Shorter ones are discarded.
+/// Minimum length of a traced ruling, as a multiple of the distance between rulings. Shorter rulings are discarded.
 pub(super) const MIN_LENGTH_SEPARATIONS: f64 = 1.0;
 
 impl Ruling {

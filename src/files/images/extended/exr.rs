@@ -1,4 +1,4 @@
-//! One channel of OpenEXR images, by the `exr` crate.
+//! Reads heights from one channel of OpenEXR images and writes them, by the `exr` crate.
 
 use std::io::Cursor;
 
@@ -20,16 +20,16 @@ use crate::files::images::decoded::Decoded;
 use crate::files::images::format::Format;
 use crate::heights::heightfield::HeightImage;
 
-/// Largest ratio of the size of the image in memory to that of its file: more than any of the format's compressions
-/// reaches.
+/// Maximum ratio of the size of an OpenEXR image in memory to that of its file: more than any of the format's
+/// compressions reaches.
 const MAX_COMPRESSION_RATIO: usize = 4096;
 
-/// Name of the OpenEXR attribute with the pixel size, which only files written by this library have.
+/// Name of the OpenEXR attribute that holds the pixel size; only files written by this library have it.
 const PIXEL_SIZE: &str = "developable:pixelSize";
 
 pub(super) fn decode(bytes: &[u8]) -> Result<Decoded> {
     let reader = ::exr::block::read(Cursor::new(bytes), false).map_err(failed)?;
-    let (layer, header, chosen) = choose(reader.headers())?;
+    let (layer, header, chosen) = choose_layer(reader.headers())?;
     let Vec2(width, height) = header.layer_size;
     let len = checked_cells("EXR image", height, width)?;
     if len == 0 {
@@ -130,14 +130,16 @@ pub(super) fn decode(bytes: &[u8]) -> Result<Decoded> {
     })
 }
 
-/// Channels of an OpenEXR layer that are read, by their indices in the layer's list of channels.
-struct Chosen {
+/// Channels of an OpenEXR layer from which heights and alpha are read, by their indices in the layer's list of
+/// channels.
+struct ChosenChannels {
     heights: Vec<usize>,
     alpha: Option<usize>,
 }
 
-/// Finds the first layer of an OpenEXR file that holds heights.
-fn choose(layers: &[Header]) -> Result<(usize, &Header, Chosen)> {
+/// Finds the first layer of an OpenEXR file that holds heights; returns its number, its header and the channels to
+/// read.
+fn choose_layer(layers: &[Header]) -> Result<(usize, &Header, ChosenChannels)> {
     let flat = || layers.iter().enumerate().filter(|(_, header)| !header.deep);
     let found = flat().find_map(|(i, header)| {
         heights_among(&header.channels.list).map(|chosen| (i, header, chosen))
@@ -175,7 +177,7 @@ fn choose(layers: &[Header]) -> Result<(usize, &Header, Chosen)> {
     Ok((i, header, chosen))
 }
 
-fn heights_among(channels: &[ChannelDescription]) -> Option<Chosen> {
+fn heights_among(channels: &[ChannelDescription]) -> Option<ChosenChannels> {
     // In a file of several layers, names of channels begin with the layer's name.
     let names: Vec<(String, String)> = channels
         .iter()
@@ -206,7 +208,7 @@ fn heights_among(channels: &[ChannelDescription]) -> Option<Chosen> {
     let only = || (channels.len() == 1).then(|| vec![0]);
     let heights = single.map(|k| vec![k]).or_else(grey).or_else(only)?;
     let alpha = place(&names[heights[0]].0, "a").filter(|k| !heights.contains(k));
-    Some(Chosen { heights, alpha })
+    Some(ChosenChannels { heights, alpha })
 }
 
 fn type_name(kind: SampleType) -> &'static str {
@@ -224,12 +226,10 @@ fn failed(error: ExrError) -> Error {
     }
 }
 
-/// An EXR file of the image's heights: one channel `Z` of 32-bit floats, NaN
-/// where there is no data, compressed without loss. Exact for heights that are
-/// 32-bit floats; others are rounded to the nearest one.
+/// Writes a height image as an OpenEXR file: one channel `Z` of 32-bit floats, NaN where there is no data, compressed
+/// without loss. Exact for heights that are 32-bit floats; others are rounded to the nearest one.
 ///
-/// An attribute records the pixel size, so that
-/// [`decode`](crate::files::images::decode) gives it back.
+/// An attribute of the file records the pixel size, so that [`decode`](crate::files::images::decode) gives it back.
 ///
 /// # Errors
 /// [`Error::NotFinite`] for heights beyond 3.4·10³⁸, [`Error::OutOfMemory`].

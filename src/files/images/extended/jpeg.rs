@@ -1,4 +1,4 @@
-//! JPEG pictures, decoded by the `zune-jpeg` crate, and their orientation, read by `kamadak-exif`.
+//! Decodes JPEG pictures by the `zune-jpeg` crate, and reads their orientation by `kamadak-exif`.
 
 use exif::{Exif, In, Tag};
 use zune_core::bytestream::ZCursor;
@@ -18,14 +18,14 @@ use crate::files::images::photo::PhotoFile;
 /// bits, and in a progressive file a run of such blocks does.
 const MAX_SAMPLES_PER_BYTE: usize = 4096;
 
-/// Marker that ends a JPEG file.
+/// Bytes of the marker that ends a JPEG file.
 const JPEG_END_MARKER: [u8; 2] = [0xff, 0xd9];
 
 /// Second byte of the JPEG marker that image data follow.
 const JPEG_SCAN_MARKER: u8 = 0xda;
 
 pub(super) fn decode(bytes: &[u8]) -> Result<Decoded> {
-    let mut file = Opened::new(bytes)?;
+    let mut file = OpenedJpeg::new(bytes)?;
     let (colours, stride) = file.stored;
     let mut samples = try_filled("JPEG image", stride * file.len, 0u8)?;
     file.decode(colours, &mut samples)?;
@@ -40,7 +40,7 @@ pub(super) fn decode(bytes: &[u8]) -> Result<Decoded> {
 }
 
 pub(super) fn decode_photo(bytes: &[u8]) -> Result<PhotoFile> {
-    let mut file = Opened::new(bytes)?;
+    let mut file = OpenedJpeg::new(bytes)?;
     let rgba = match file.stored {
         (ColorSpace::RGB, _) => {
             // Converted in place, since photos are large. (The decoder's own RGBA is wrong in places without SIMD, as
@@ -69,17 +69,17 @@ pub(super) fn decode_photo(bytes: &[u8]) -> Result<PhotoFile> {
 }
 
 /// A JPEG file whose headers have been read.
-struct Opened<'a> {
+struct OpenedJpeg<'a> {
     decoder: JpegDecoder<ZCursor<&'a [u8]>>,
     options: DecoderOptions,
     size: (usize, usize),
     /// Number of pixels of the picture.
     len: usize,
-    /// Colour space of the stored samples, and number of samples per pixel.
+    /// Colour space of the samples stored in the JPEG file, and number of samples per pixel.
     stored: (ColorSpace, usize),
 }
 
-impl<'a> Opened<'a> {
+impl<'a> OpenedJpeg<'a> {
     fn new(bytes: &'a [u8]) -> Result<Self> {
         // The decoder fills in missing data at the end.
         if !ends(bytes) {
@@ -110,7 +110,7 @@ impl<'a> Opened<'a> {
             }
         };
         check_length(Format::Jpeg, bytes, stored.1 * len, MAX_SAMPLES_PER_BYTE)?;
-        Ok(Opened {
+        Ok(OpenedJpeg {
             decoder,
             options,
             size,
@@ -130,7 +130,7 @@ impl<'a> Opened<'a> {
         exif::Reader::new().read_raw(exif.to_vec()).ok()
     }
 
-    /// Orientation of the camera, as TIFF numbers it, from 1 to 8; 1 without Exif data.
+    /// Reads how the camera was held, as TIFF's orientation number from 1 (upright) to 8; 1 without Exif data.
     fn orientation(&self) -> u16 {
         self.exif().as_ref().map_or(1, orientation)
     }
@@ -140,8 +140,8 @@ fn failed(error: DecodeErrors) -> Error {
     damaged(Format::Jpeg, format!("{error:?}"))
 }
 
-/// Orientation of the camera, as TIFF numbers it, from 1 to 8. An invalid number counts as 1, since damaged metadata
-/// need not mean a damaged picture.
+/// Reads how the camera was held from Exif data, as TIFF's orientation number from 1 (upright) to 8. An invalid number
+/// counts as 1, since damaged metadata need not mean a damaged picture.
 fn orientation(exif: &Exif) -> u16 {
     match number(exif, Tag::Orientation) {
         Some(number @ 1..=8) => number as u16,
@@ -168,7 +168,8 @@ fn number(exif: &Exif, tag: Tag) -> Option<u32> {
     exif.get_field(tag, In::PRIMARY)?.value.get_uint(0)
 }
 
-/// Returns whether a JPEG file has the marker of the image's end, outside of the pictures within its metadata.
+/// Returns whether a JPEG file is complete: it has the marker of the image's end, not counting pictures within its
+/// metadata.
 fn ends(bytes: &[u8]) -> bool {
     let mut rest = &bytes[2..];
     while let [0xff, marker, high, low, ..] = *rest {

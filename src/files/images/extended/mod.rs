@@ -19,7 +19,7 @@ pub use exr::write_exr;
 pub use npz::{NpzArray, decode_npz, npz_arrays};
 pub use tiff::write_tiff;
 
-/// Decodes a file that begins like one of the given format; the only array of an NPZ.
+/// Decodes the heights of a file that begins like one of the given image format; of an NPZ archive the only array.
 ///
 /// # Errors
 /// As [`decode`](super::decode); [`Error::Unsupported`] for PNG and NPY.
@@ -38,7 +38,7 @@ pub fn decode(bytes: &[u8], format: Format) -> Result<Decoded> {
     }
 }
 
-/// Decodes a JPEG or WebP photo.
+/// Decodes a JPEG or WebP photo to RGBA bytes.
 ///
 /// # Errors
 /// As [`decode_photo`](super::decode_photo); [`Error::Unsupported`] for all others.

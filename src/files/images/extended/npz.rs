@@ -1,4 +1,4 @@
-//! NumPy's archives of named NPY files, read by the `zip` crate.
+//! Reads NumPy's archives of named arrays (NPZ) by the `zip` crate.
 
 use std::io::{Cursor, Read};
 
@@ -12,25 +12,25 @@ use crate::files::images::decoded::Decoded;
 use crate::files::images::format::Format;
 use crate::files::images::npy;
 
-/// Maximum ratio by which DEFLATE can shrink data.
+/// Maximum ratio by which the compression DEFLATE can shrink data.
 const DEFLATE_RATIO: usize = 1032;
 
 /// Maximum size of an NPY file that is read from an archive, in bytes: 64-bit numbers, and a header.
 const MAX_NPY_BYTES: usize = 8 * MAX_CELLS + 16_384;
 
-/// Number of bytes that are read of an NPY file in the archive to know the array's shape.
+/// Number of bytes that are read from an NPY file in the archive to learn the array's shape and type.
 const MAX_HEADER_BYTES: u64 = 16_384;
 
-/// Maximum number of arrays of an NPZ archive.
+/// Maximum number of arrays of an NPZ archive that is read.
 const MAX_ARRAYS: usize = 1024;
 
-/// One array of an NPZ file.
+/// Name, shape and type of one array of an NPZ file.
 #[derive(Debug, Clone, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct NpzArray {
-    /// Name of the array, without `.npy`.
+    /// Name of the array within the archive, without the ending `.npy`.
     pub name: String,
-    /// Extents of the array; a height image has two, rows and columns.
+    /// Extents of the array along its axes; a height image has two, rows and columns.
     pub shape: Vec<u64>,
     /// Type of the array's elements: `"f32"` and the like, or NumPy's own name for elements that are not numbers.
     pub data_type: String,
@@ -60,12 +60,12 @@ pub fn npz_arrays(bytes: &[u8]) -> Result<Vec<NpzArray>> {
         .collect()
 }
 
-/// Decodes one array of an NPZ file, by the rules of [`decode`](crate::files::images::decode) for NPY files: the
-/// array of this name, or the only one.
+/// Decodes one array of an NPZ file, by the rules of [`decode`](crate::files::images::decode) for NPY files: the array
+/// of the given name, or the only array if no name is given.
 ///
 /// # Errors
-/// As `decode`, and [`Error::Unsupported`] if there is no such array, or none is
-/// named and there are several: the message lists them.
+/// As `decode`, and [`Error::Unsupported`] if there is no such array, or if there are several and no name is given: the
+/// message lists them.
 pub fn decode_npz(bytes: &[u8], array: Option<&str>) -> Result<Decoded> {
     let mut archive = open(bytes)?;
     let names = names(&archive)?;
@@ -135,7 +135,7 @@ fn listed(names: &[String]) -> String {
     quoted.join(", ")
 }
 
-/// Adds the name of an array of the archive to an error about the array.
+/// Adds the name of an array in an NPZ archive to the text of an error about that array.
 fn within(name: &str, mut error: Error) -> Error {
     if let Error::Format { format, reason } | Error::Unsupported { format, reason } = &mut error {
         *format = Format::Npz.title();

@@ -1,5 +1,4 @@
-//! Portable float maps: a line each for kind, size and scale, then 32-bit
-//! floats, the bottom row first.
+//! Reads portable float maps (PFM): a line each for kind, size and scale, then 32-bit floats, the bottom row first.
 
 use super::samples::{Channels, damaged, grey};
 use crate::error::{Error, Result, checked_cells};

@@ -1,4 +1,4 @@
-//! Conversion of a picture's samples to heights and colours, and its errors, for several decoders.
+//! Converts the samples of a decoded picture to heights and colours, and reports errors, for several decoders.
 
 use crate::error::{Error, Result, try_filled};
 use crate::files::images::decoded::{Decoded, coloured, suggested_scale};
@@ -6,8 +6,7 @@ use crate::files::images::format::Format;
 use crate::heights::heightfield::HeightImage;
 use crate::math::lanes;
 
-/// Converts 8-bit samples, which are grey or colours with or without alpha, to red, green, blue and alpha of each
-/// pixel.
+/// Converts 8-bit samples (grey or colours, with or without alpha) to the red, green, blue and alpha of each pixel.
 pub(super) fn rgba_of(format: Format, samples: &[u8], stride: usize) -> Result<Vec<[u8; 4]>> {
     let mut rgba = try_filled(format.title(), samples.len() / stride, [u8::MAX; 4])?;
     for (out, pixel) in rgba.iter_mut().zip(samples.chunks_exact(stride)) {
@@ -19,13 +18,15 @@ pub(super) fn rgba_of(format: Format, samples: &[u8], stride: usize) -> Result<V
     Ok(rgba)
 }
 
-/// The samples of a pixel: one of grey or three of colour come first.
+/// Layout of a pixel's samples: the first `colours` samples are one of grey or three of colour; `alpha` is the index of
+/// the alpha sample.
 pub(super) struct Channels {
     pub(super) colours: usize,
     pub(super) alpha: Option<usize>,
 }
 
-/// Reads grey values from the samples `sample(pixel, channel)` of an image; an alpha of 0 is no data.
+/// Reads the grey values of an image, whose samples `sample(pixel, channel)` returns; a pixel with an alpha of 0
+/// becomes NaN, no data.
 pub(super) fn grey(
     format: Format,
     (width, height): (usize, usize),
@@ -47,8 +48,8 @@ pub(super) fn grey(
     Ok(values)
 }
 
-/// Checks that decoded data of a given number of bytes can come from a file of the given length, if compression
-/// shrinks data by at most `ratio`.
+/// Checks that decoded data of a given number of bytes can come from a file of a given length, if the compression
+/// shrinks data by a factor of at most `ratio`.
 pub(super) fn check_length(format: Format, file: &[u8], needed: usize, ratio: usize) -> Result<()> {
     if needed / ratio <= file.len() {
         return Ok(());
@@ -77,7 +78,7 @@ pub(super) fn default_scale(
     })
 }
 
-/// Converts 8-bit samples, `colours` of colour and perhaps one of alpha per pixel, to a picture.
+/// Converts 8-bit samples, with `colours` colour samples and perhaps one of alpha per pixel, to a decoded grey image.
 pub(super) fn picture(
     format: Format,
     size: (usize, usize),
@@ -103,7 +104,7 @@ pub(super) fn picture(
     })
 }
 
-/// Converts heights to 32-bit floats, which is all that EXR and most readers of TIFF support.
+/// Converts the heights of an image to 32-bit floats, which is all that EXR and most readers of TIFF support.
 pub(super) fn narrowed(what: &'static str, image: &HeightImage) -> Result<Vec<f32>> {
     let mut heights = try_filled(what, image.values().len(), 0f32)?;
     for (i, (narrow, z)) in heights.iter_mut().zip(image.values()).enumerate() {
@@ -122,7 +123,7 @@ pub(super) fn narrowed(what: &'static str, image: &HeightImage) -> Result<Vec<f3
     Ok(heights)
 }
 
-/// Reserves memory for a file of a number of bytes; an error if there is not enough memory.
+/// Reserves memory for a file of a given number of bytes; an error if there is not enough memory.
 pub(super) fn room(what: &'static str, bytes: usize) -> Result<Vec<u8>> {
     let mut file = Vec::new();
     file.try_reserve_exact(bytes)

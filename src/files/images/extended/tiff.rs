@@ -1,4 +1,4 @@
-//! One channel of TIFF images, by the `tiff` crate.
+//! Reads heights from one channel of TIFF images and writes them, by the `tiff` crate.
 
 use std::io::Cursor;
 
@@ -17,11 +17,11 @@ use crate::files::images::decoded::Decoded;
 use crate::files::images::format::Format;
 use crate::heights::heightfield::HeightImage;
 
-/// Largest ratio of the size of the image in memory to that of its file: more than any of the format's compressions
+/// Maximum ratio of the size of a TIFF image in memory to that of its file: more than any of the format's compressions
 /// reaches.
 const MAX_COMPRESSION_RATIO: usize = 4096;
 
-/// Maximum memory that the decoder itself may allocate, in bytes: a compressed strip, and the values of a tag.
+/// Maximum memory that the TIFF decoder itself may allocate, in bytes: a compressed strip, and the values of a tag.
 const MAX_DECODER_BYTES: usize = 1 << 28;
 
 pub(super) fn decode(bytes: &[u8]) -> Result<Decoded> {
@@ -88,7 +88,8 @@ pub(super) fn decode(bytes: &[u8]) -> Result<Decoded> {
     })
 }
 
-/// Reads from a TIFF file the number of samples per pixel, the bits per sample, and what the samples mean.
+/// Reads the layout of a TIFF file's pixels: the number of samples per pixel, the bits per sample, and what each sample
+/// means.
 fn channels(file: &mut File, color: ColorType) -> Result<(usize, usize, Channels)> {
     let plain = |colours, alpha| Channels { colours, alpha };
     let (samples, bits, channels) = match color {
@@ -159,9 +160,8 @@ fn size_of(kind: DecodingSampleType) -> usize {
     }
 }
 
-/// A TIFF file of the image's heights: 32-bit floats, uncompressed, NaN where
-/// there is no data (which `GDAL_NODATA` says too). Exact for heights that are
-/// 32-bit floats; others are rounded to the nearest one.
+/// Writes a height image as a TIFF file of 32-bit floats, uncompressed, which are NaN where there is no data (which
+/// `GDAL_NODATA` says too). Exact for heights that are 32-bit floats; others are rounded to the nearest one.
 ///
 /// The tag `ModelPixelScale` records the pixel size, so that
 /// [`decode`](crate::files::images::decode) gives it back.

@@ -1,4 +1,4 @@
-//! Tags of a TIFF about its pixels: size, unit, no data, orientation.
+//! Reads what the tags of a TIFF file say about its pixels: size, unit, no data, orientation.
 
 use std::io::Cursor;
 
@@ -20,12 +20,12 @@ const INCH_MM: f64 = 25.4;
 /// Length of a centimetre, in millimetres.
 const CENTIMETRE_MM: f64 = 10.0;
 
-/// Value of the tag `ResolutionUnit` for no unit.
+/// Value of the TIFF tag `ResolutionUnit` for no unit.
 const RESOLUTION_UNIT_NONE: u16 = 1;
 const PER_INCH: u16 = 2;
 const PER_CENTIMETRE: u16 = 3;
 
-/// Number of the GeoTIFF key `GTModelTypeGeoKey`.
+/// Number of the GeoTIFF key `GTModelTypeGeoKey`, which tells whether coordinates are lengths or degrees.
 const MODEL_TYPE_KEY: u16 = 1024;
 
 /// Value of the GeoTIFF key `GTModelTypeGeoKey` for degrees of longitude and latitude.
@@ -35,10 +35,12 @@ const LINEAR_UNIT: u16 = 3076;
 /// Value of the GeoTIFF key `ProjLinearUnitsGeoKey` for metres.
 const LINEAR_UNIT_METRE: u16 = 9001;
 
-/// Maximum relative difference between a pixel's sides that count as equal.
+/// Maximum difference between a pixel's width and height, as a share of the larger one, at which the pixel counts as
+/// square.
 const NEGLIGIBLE_SIDE_DIFFERENCE: f64 = 1e-6;
 
-pub(super) struct About {
+/// What the tags of a TIFF file say about its pixels: their size and its unit, the value of no data, the orientation.
+pub(super) struct PixelTags {
     pub(super) pixel_size: f64,
     pub(super) unit: Option<Unit>,
     pub(super) no_data: Option<f64>,
@@ -46,7 +48,7 @@ pub(super) struct About {
     pub(super) orientation: u16,
 }
 
-pub(super) fn read(file: &mut File, data_type: &str) -> Result<About> {
+pub(super) fn read(file: &mut File, data_type: &str) -> Result<PixelTags> {
     let (pixel_size, unit) = pixel_size(file)?;
     let no_data = no_data(file, data_type)?;
     let inverted = unsigned(file, Tag::PhotometricInterpretation)? == Some(0);
@@ -63,7 +65,7 @@ pub(super) fn read(file: &mut File, data_type: &str) -> Result<About> {
             format!("its orientation is {orientation}, where 1 to 8 are known"),
         ));
     }
-    Ok(About {
+    Ok(PixelTags {
         pixel_size,
         unit,
         no_data,
@@ -105,7 +107,7 @@ fn pixel_size(file: &mut File) -> Result<(f64, Option<Unit>)> {
     Ok((square(per / x, per / y)?, Some(Unit::Millimetre)))
 }
 
-/// Returns the side length of pixels whose width and height must be equal, from that width and height.
+/// Checks that a pixel's width and height are equal, and returns them as the side length of the pixel.
 fn square(x: f64, y: f64) -> Result<f64> {
     if !(x.is_finite() && x > 0.0 && y.is_finite() && y > 0.0) {
         return Err(damaged(
@@ -122,8 +124,8 @@ fn square(x: f64, y: f64) -> Result<f64> {
     Ok(x)
 }
 
-/// Reads the number of pixels per unit of length; programs that do not know it write 0, which counts as no
-/// resolution.
+/// Reads a TIFF tag that states the number of pixels per unit of length; programs that do not know it write 0, which
+/// counts as no resolution.
 fn resolution(file: &mut File, tag: Tag) -> Result<Option<f64>> {
     let Some(value) = file.find_tag(tag).map_err(failed)? else {
         return Ok(None);
@@ -181,7 +183,8 @@ fn unsigned(file: &mut File, tag: Tag) -> Result<Option<u16>> {
     file.find_tag_unsigned(tag).map_err(failed)
 }
 
-/// Rotates an image as it is to be seen, and returns it with its new width and height.
+/// Rotates or mirrors an image's values by its orientation number, so that the image is upright, and returns them with
+/// the new width and height.
 pub(super) fn oriented<T: Copy + Default>(
     values: Vec<T>,
     (width, height): (usize, usize),

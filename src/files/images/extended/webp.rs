@@ -1,4 +1,4 @@
-//! WebP pictures, by the `image-webp` crate.
+//! Decodes WebP pictures by the `image-webp` crate.
 
 use std::io::Cursor;
 
@@ -10,7 +10,7 @@ use crate::files::images::decoded::Decoded;
 use crate::files::images::format::Format;
 use crate::files::images::photo::PhotoFile;
 
-/// Maximum memory that the decoder may allocate for metadata, in bytes.
+/// Maximum memory that the WebP decoder may allocate for metadata, in bytes.
 const MAX_DECODER_BYTES: usize = 1 << 24;
 
 pub(super) fn decode(bytes: &[u8]) -> Result<Decoded> {
@@ -26,7 +26,7 @@ pub(super) fn decode_photo(bytes: &[u8]) -> Result<PhotoFile> {
     ))
 }
 
-/// Decodes a WebP file: returns its samples, their number per pixel, and width and height.
+/// Decodes a WebP file: returns its samples, the number of samples per pixel, and width and height in pixels.
 fn pixels(bytes: &[u8]) -> Result<(Vec<u8>, usize, (usize, usize))> {
     // The decoder fills in missing data at the end; the header has the length.
     let length = bytes.get(4..8).map_or(0, |length| {

@@ -1,4 +1,4 @@
-//! Data of a glTF file: the numbers of its accessors and the bytes of its addresses.
+//! Reads the numbers and the embedded bytes that a glTF file refers to.
 
 use std::borrow::Cow;
 
@@ -10,10 +10,10 @@ use gltf::accessor::{DataType, Dimensions};
 use crate::error::Result;
 use crate::files::meshes::builder::{damaged, unsupported};
 
-/// Name of the format in messages.
+/// Name of the glTF format in error messages.
 pub(super) const FORMAT_NAME: &str = "glTF";
 
-/// Decodes the bytes that are embedded in a `data:` address of a glTF file.
+/// Decodes the bytes that a `data:` address in a glTF file contains; `None` for another kind of address.
 pub(super) fn embedded(uri: &str) -> Result<Option<Vec<u8>>> {
     let Some(data) = uri.strip_prefix("data:") else {
         return Ok(None);
@@ -27,7 +27,7 @@ pub(super) fn embedded(uri: &str) -> Result<Option<Vec<u8>>> {
     Ok(Some(bytes))
 }
 
-/// Decodes percent-encoded characters, such as blanks, in the name of a file.
+/// Decodes percent-encoded characters, such as blanks, in the name of a file that a glTF file refers to.
 pub(super) fn plain(uri: &str) -> String {
     let mut bytes = Vec::with_capacity(uri.len());
     let mut rest = uri.as_bytes();
@@ -48,8 +48,8 @@ pub(super) fn plain(uri: &str) -> String {
     String::from_utf8_lossy(&bytes).into_owned()
 }
 
-/// Reads the first `N` components of each element of a glTF accessor as floats; integers as shares of their
-/// maximum.
+/// Reads the first `N` components of each element of a glTF accessor (a typed array) as floats; integers become shares
+/// of their type's maximum.
 pub(super) fn floats<const N: usize>(
     accessor: &Accessor,
     buffers: &[Cow<[u8]>],
@@ -101,7 +101,7 @@ fn count(dimensions: Dimensions) -> usize {
     }
 }
 
-/// Returns the bytes of each element of a glTF accessor.
+/// Returns the bytes of each element of a glTF accessor (a typed array).
 fn elements<'a>(
     accessor: &Accessor,
     buffers: &'a [Cow<'a, [u8]>],

@@ -103,12 +103,12 @@ struct Scene<'a> {
     beside: &'a Beside<'a>,
 }
 
-/// Name of a picture's file, empty for an embedded picture, and the file's bytes.
-type Named<'a> = (&'a str, Cow<'a, [u8]>);
+/// A texture picture: the name of its file, empty for an embedded picture, and the file's bytes.
+type NamedPicture<'a> = (&'a str, Cow<'a, [u8]>);
 
-/// Appearance of a primitive where its vertices do not state it: a colour, the number of a texture, and the
-/// texture coordinates for that.
-struct Look {
+/// Appearance of a primitive (triangles of one material) by its material: a base colour, the number of a texture, and
+/// which set of texture coordinates that texture uses.
+struct Appearance {
     color: [f32; 3],
     texture: i32,
     set: u32,
@@ -148,14 +148,14 @@ impl Scene<'_> {
         Ok(())
     }
 
-    /// Base colour and texture of a primitive's material; each texture is read once.
+    /// Reads the base colour and the texture of a primitive's material; each texture is read once.
     fn look(
         &self,
         primitive: &Primitive,
         pictures: &mut [Option<i32>],
         parts: &mut MeshBuilder,
-    ) -> Result<Look> {
-        let mut look = Look {
+    ) -> Result<Appearance> {
+        let mut look = Appearance {
             color: DEFAULT_VERTEX_COLOUR,
             texture: NO_TEXTURE,
             set: 0,
@@ -193,8 +193,8 @@ impl Scene<'_> {
         Ok(look)
     }
 
-    /// Bytes of an image and the name of their file, if it is there.
-    fn picture(&self, image: &Image) -> Result<Option<Named<'_>>> {
+    /// Returns the bytes of a glTF image and the name of the image's file; `None` if the file was not given.
+    fn picture(&self, image: &Image) -> Result<Option<NamedPicture<'_>>> {
         if let Some(uri) = &image.uri {
             return match embedded(uri)? {
                 Some(bytes) => Ok(Some(("", bytes.into()))),
@@ -221,7 +221,7 @@ impl Scene<'_> {
         &self,
         primitive: &Primitive,
         transform: &Matrix4<f64>,
-        look: &Look,
+        look: &Appearance,
         parts: &mut MeshBuilder,
     ) -> Result<()> {
         let buffers = self.buffers;

@@ -13,7 +13,7 @@ const MAX_SAMPLES_PER_SIDE: usize = 24;
 
 /// Ridge weight of each coefficient of the quadratic, relative to the number of samples: so small that it decides only
 /// what the samples leave undetermined. Curvature is given up first.
-const RIDGE_WEIGHTS: [f64; QUADRATIC_TERMS] = [1e-9, 1e-8, 1e-8, 1e-5, 1e-5, 1e-5];
+const QUADRATIC_FIT_RIDGE_WEIGHTS: [f64; QUADRATIC_TERMS] = [1e-9, 1e-8, 1e-8, 1e-5, 1e-5, 1e-5];
 
 /// Quadratic that fits a warp map over a square window: from pixels of the flat image to places in the photo.
 pub(super) struct LocalQuadratic {
@@ -60,7 +60,7 @@ impl LocalQuadratic {
             return None;
         }
         let scale = found as f64;
-        fit.add_ridge(&RIDGE_WEIGHTS.map(|weight| weight * scale));
+        fit.add_ridge(&QUADRATIC_FIT_RIDGE_WEIGHTS.map(|weight| weight * scale));
         let solution = fit.solve()?;
         Some(LocalQuadratic {
             centre,

@@ -36,7 +36,7 @@ pub enum Lambda {
     Medium,
     /// λ = 10⁷: for input that is developable except for small artefacts.
     Big,
-    /// Any λ from 10⁻¹² to 10¹⁵.
+    /// Any weight λ of the squared distance from the input, from 10⁻¹² to 10¹⁵, for heights normalised to the unit square.
     Value(f64),
     /// λ chosen from the input: an initial λ from the size of its noise, then the λ that predicts held-out heights best
     /// (cross-validation on a lattice of twice the spacing). With [`Energy::Huber`] the parameters of the penalty are

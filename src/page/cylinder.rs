@@ -163,8 +163,8 @@ impl Cylinder {
 }
 
 impl Cylinder {
-    /// Back-projects a pixel to a page: returns the distances along the page's curve and down its ruling. Beyond the
-    /// page's sides the curve is extended straight.
+    /// Back-projects a pixel to a page: returns the distances from the page's left edge along its curve and from its upper
+    /// edge down its ruling, in the cylinder's unit of length. Beyond the page's sides the curve is extended straight.
     pub fn back_project(
         &self,
         curve: &SampledCurve,

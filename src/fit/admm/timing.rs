@@ -29,7 +29,7 @@ pub(super) struct LoadWarmup {
 }
 
 impl LoadWarmup {
-    /// Starts the warm-up at `iteration`; it lasts for `iterations` iterations.
+    /// Starts the ADMM iterations in which the surface adapts to a load on its border, at `iteration` and for `iterations`.
     pub(super) fn start(&mut self, iteration: usize, iterations: usize) {
         self.last_iteration = iteration + iterations;
     }

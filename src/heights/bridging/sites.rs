@@ -24,7 +24,7 @@ pub(super) struct Site {
 const DIRECTION_SECTORS: u32 = 12;
 
 /// Angle, in full turns, added so that directions on the border of two sectors fall into the same one despite rounding.
-const SECTOR_BORDER_TURNS: f64 = 1e-9;
+const SECTOR_BORDER_OFFSET_TURNS: f64 = 1e-9;
 
 impl Sites {
     pub(super) fn new(raster: &Raster, odd: bool, most: usize) -> Self {
@@ -59,7 +59,7 @@ impl Sites {
             Site {
                 offset: at[0] * stride + at[1],
                 place: place.into(),
-                sector: ((angle + SECTOR_BORDER_TURNS).rem_euclid(1.0)
+                sector: ((angle + SECTOR_BORDER_OFFSET_TURNS).rem_euclid(1.0)
                     * f64::from(DIRECTION_SECTORS)) as u32
                     % DIRECTION_SECTORS,
                 next: next.collect(),

@@ -20,12 +20,12 @@ pub(super) struct BendAngles {
 pub(super) const NORMAL_DISTANCE_VERTICES: usize = 4;
 
 /// Ratio of the default bend angle of a crease to the median over the surface: limits how much of a surface that bends
-/// everywhere is taken for crease. No table chose it; `tests/native/patches.rs` has the surfaces whose patches it must
+/// everywhere is taken for crease. Not tuned by measurements; `tests/native/patches.rs` has the surfaces whose patches it must
 /// find.
 const CREASE_BEND_PER_MEDIAN: f64 = 6.0;
 
 /// Minimum default bend angle of a crease, in radians (two degrees): limits what noise on a flat surface is taken for
-/// crease. No table chose it; `tests/native/patches.rs` has the surfaces whose patches it must find.
+/// crease. Not tuned by measurements; `tests/native/patches.rs` has the surfaces whose patches it must find.
 const MIN_CREASE_BEND: f64 = 0.035;
 
 impl BendAngles {

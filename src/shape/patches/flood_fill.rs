@@ -9,8 +9,8 @@ use crate::error::{Result, try_filled};
 use crate::heights::heightfield::Heightfield;
 
 /// Ratio of the lower to the higher threshold of the bend angle (hysteresis). Limits how far a crease reaches from the
-/// vertices that bend most. No table chose it; `tests/native/patches.rs` has the surfaces whose patches it must find.
-const HYSTERESIS_LOW_RATIO: f64 = 0.4;
+/// vertices that bend most. Not tuned by measurements; `tests/native/patches.rs` has the surfaces whose patches it must find.
+const LOW_TO_HIGH_BEND_ANGLE_RATIO: f64 = 0.4;
 
 /// Minimum number of vertices of a region between creases; smaller ones are part of the creases around them.
 const MIN_REGION_VERTICES: usize = 8;
@@ -40,7 +40,7 @@ pub(super) fn segment(surface: &Heightfield, bend: &BendAngles, high: f64) -> Re
     }
     while let Some(i) = stack.pop() {
         for k in around(i) {
-            if !band[k] && bend.angle[k] > HYSTERESIS_LOW_RATIO * high {
+            if !band[k] && bend.angle[k] > LOW_TO_HIGH_BEND_ANGLE_RATIO * high {
                 band[k] = true;
                 stack.push(k);
             }

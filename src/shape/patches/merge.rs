@@ -11,7 +11,7 @@ use super::patch::NO_PATCH;
 use crate::lattice::hexagonal::{Lattice, Towards};
 
 /// Minimum ratio of a crease's fold angle to the angle by which the flatter of the two patches bends over the same
-/// distance. Limits what is taken for a crease on surfaces that bend. No table chose it; `tests/native/patches.rs` has
+/// distance. Limits what is taken for a crease on surfaces that bend. Not tuned by measurements; `tests/native/patches.rs` has
 /// the surfaces whose patches it must find.
 const MIN_FOLD_PER_BEND: f64 = 2.0;
 

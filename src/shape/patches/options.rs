@@ -1,11 +1,11 @@
 //! Options of the segmentation into patches.
 
 /// Default minimum fold angle of a crease, in radians (about nine degrees). Limits how sharp the rulings of a surface
-/// that was fitted to noise may be without counting as creases. No table chose it; `tests/native/patches.rs` has the
+/// that was fitted to noise may be without counting as creases. Not tuned by measurements; `tests/native/patches.rs` has the
 /// surfaces whose patches it must find.
 const DEFAULT_FOLD: f64 = 0.15;
 
-/// Default minimum size of a patch, as a share of all vertices. No table chose it; `tests/native/patches.rs` has the
+/// Default minimum size of a patch, as a share of all vertices. Not tuned by measurements; `tests/native/patches.rs` has the
 /// surfaces whose patches it must find.
 const DEFAULT_SMALLEST: f64 = 0.005;
 

@@ -7,7 +7,7 @@ use crate::math::sym2::Sym2;
 pub(super) const SMOOTHING_PASSES: usize = 3;
 
 /// Bend angle, in radians from one vertex to the next, at which the confidence of a ruling is one half: limits how
-/// plane a surface with rulings may be. No table chose it.
+/// plane a surface with rulings may be. Not tuned by measurements.
 const HALF_CONFIDENCE_BEND: f64 = 5e-4;
 
 /// Computes the confidence of a ruling's direction, from 0 to 1, from the eigenvalues of `Σ H²`, the sum of squared

@@ -6,7 +6,7 @@ use crate::error::{Error, Result, positive};
 /// which lines can be told apart.
 const DEFAULT_SEPARATION_SPACINGS: f64 = 10.0;
 
-/// Default minimum confidence of a ruling's direction. No table chose it; the confidence is one half where the surface
+/// Default minimum confidence of a ruling's direction. Not tuned by measurements; the confidence is one half where the surface
 /// bends by 0.0005 radians from one vertex to the next.
 const DEFAULT_MIN_CONFIDENCE: f64 = 0.3;
 

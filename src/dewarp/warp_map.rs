@@ -32,7 +32,7 @@ pub struct WarpMap {
 const MAX_OVERLAP_SHARE: f64 = 0.003;
 
 /// Maximum share of a page between four corners that may be lost where the flat image is not called doubtful. Of simulated
-/// phone captures with corners on the page nothing above 1 % was lost, see `benches/verdicts.md`.
+/// phone captures with corners on the page no more than 4 % were lost, see `benches/verdicts.md`.
 const MAX_PAGE_LOSS: f64 = 0.05;
 
 /// Maximum displacement, as [`WarpMap::displacement`] measures it, for the verdict `Flat`: 0.2 % is half a millimetre

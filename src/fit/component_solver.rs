@@ -1,5 +1,6 @@
 //! Solver with known options, which solves one connected component of the surface after the other.
 
+use std::mem;
 use std::sync::Arc;
 
 use web_time::Instant;
@@ -144,7 +145,19 @@ impl ComponentSolver {
         self.next_part()
     }
 
-    /// Returns the warm start for another solve on a lattice of the same shape; `None` for another shape.
+    /// Begins again with other options, with a warm start from the surface that was found.
+    pub(super) fn begin_again(&mut self, options: &Options) -> Result<()> {
+        self.warm_start = Some(Arc::new(WarmStart {
+            domain: self.domain.clone(),
+            components: self.components.clone(),
+            answers: mem::take(&mut self.answers),
+            lambda: self.options.lambda_or_default().value(),
+        }));
+        self.status = Status::Running;
+        self.begin_with(options)
+    }
+
+    /// The warm start for another solve on a lattice of the same shape; `None` for another shape.
     pub(super) fn warm_start(&self, lattice: &Lattice) -> Option<Arc<WarmStart>> {
         let shape = |lattice: &Lattice| [lattice.rows(), lattice.cols()];
         if shape(lattice) != shape(self.input.field.lattice()) {
@@ -164,6 +177,16 @@ impl ComponentSolver {
 
     pub(super) fn input(&self) -> &Input {
         &self.input
+    }
+
+    /// The vertices that take part in the solve.
+    pub(super) fn domain(&self) -> &Domain {
+        &self.domain
+    }
+
+    /// The options of the solve.
+    pub(super) fn options(&self) -> &Options {
+        &self.options
     }
 
     pub(super) fn status(&self) -> Status {

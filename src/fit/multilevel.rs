@@ -47,6 +47,8 @@ pub(crate) struct Multilevel {
     creases: Creases,
     /// Whether rank reduction, the last step of the solve, has begun.
     ends: bool,
+    /// Whether there is rank reduction.
+    reduces_rank: bool,
     seconds: Seconds,
     reason: Option<StopReason>,
 }
@@ -94,10 +96,11 @@ impl Multilevel {
             passes: 0,
             passes_left,
             crease_radius,
-            loads_within: (options.border_or_default() == Border::Loaded)
+            loads_within: (options.border_or_default() == Border::Loaded && !options.is_trial)
                 .then(|| Bending::SMOOTH.within(options).bend_radius),
             creases: Creases::default(),
             ends: false,
+            reduces_rank: !options.is_trial,
             seconds: Seconds::default(),
             reason: None,
         };
@@ -173,7 +176,7 @@ impl Multilevel {
                 None => return Ok(()),
             }
         }
-        if !self.ends && self.level.begin_rank_reduction(reason)? {
+        if self.reduces_rank && !self.ends && self.level.begin_rank_reduction(reason)? {
             self.ends = true;
             return Ok(());
         }

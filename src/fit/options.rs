@@ -243,7 +243,8 @@ impl Bending {
         crease_radius: 0.1,
     };
 
-    /// Huber parameters for a surface of unknown kind: near the best for smooth bends, for creases and for flat facets.
+    /// Parameters for a surface of unknown kind: never far from the best for smooth bends, for creases and for flat
+    /// facets.
     pub(crate) const ANY: Bending = Bending {
         bend_radius: 0.2,
         flatness: 0.5,
@@ -315,6 +316,9 @@ pub struct Options {
     pub(crate) crease_passes: Option<usize>,
     #[cfg_attr(feature = "serde", serde(skip))]
     pub(crate) border: Option<Border>,
+    /// Whether the surface is only compared with others: its border bears no moments, and its rank is not reduced.
+    #[cfg_attr(feature = "serde", serde(skip))]
+    pub(crate) is_trial: bool,
 }
 
 impl Default for Options {
@@ -333,6 +337,7 @@ impl Default for Options {
             crease_radius: None,
             crease_passes: None,
             border: None,
+            is_trial: false,
         }
     }
 }

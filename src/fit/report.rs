@@ -121,10 +121,12 @@ pub struct LevelReport {
 )]
 #[non_exhaustive]
 pub enum LambdaReason {
-    /// This λ predicts held-out heights best (cross-validation).
+    /// λ follows from size and correlation length of the noise, and the penalty is the one that predicts held-out heights
+    /// best (cross-validation).
     Prediction,
-    /// λ follows from size and correlation length of the noise, without cross-validation: there are too few heights to
-    /// hold some out, or their noise is correlated, so that the noise of held-out heights could be predicted.
+    /// λ follows from size and correlation length of the noise, without cross-validation: the energy has no parameters,
+    /// there are too few heights to hold some out, or their noise is correlated, so that held-out noise could be
+    /// predicted.
     Noise,
     /// The heights have hardly any noise: λ is [`Lambda::Big`](crate::Lambda::Big).
     NoNoise,
@@ -157,7 +159,14 @@ pub struct LambdaChoice {
     /// Number of times that the lattice's spacing has to be doubled, by averages of four heights, until the noise is
     /// independent from vertex to vertex; 0 for white noise.
     pub merged: usize,
-    /// Number of candidates for λ and penalty parameters that were compared, each by up to three solves.
+    /// Root mean square of the residual, in standard deviations σ of the noise and without outliers: about 1 where λ
+    /// suits the shape. Far above, the surface is farther from the heights than their noise explains. `None` before the
+    /// end of the solve, or without noise.
+    pub residual_ratio: Option<f64>,
+    /// Number of times that λ was raised above the one that follows from the noise, since the residual of the surface
+    /// showed that one to be too small.
+    pub raises: usize,
+    /// Number of solves before the last one: for each penalty that was compared, and before each raise of λ.
     pub solves: usize,
     /// Number of ADMM iterations of the compared solves, which [`Report::iterations`] does not include.
     pub iterations: usize,

@@ -8,9 +8,11 @@ use web_time::Instant;
 use super::component_solver::{ComponentSolver, PreparedInput, StartMode, Status};
 use super::input::Input;
 use super::options::{Lambda, Options};
-use super::report::{LambdaChoice, LambdaReason, Progress};
+use super::report::{LambdaChoice, LambdaReason, Progress, StopReason};
 use super::surface::Surface;
-use super::tuning::search::{self as tuning, Known, Search};
+use super::tuning::closed_form::{self, Known};
+use super::tuning::residual::Residual;
+use super::tuning::search::Search;
 use super::warm_start::WarmStart;
 use crate::error::Result;
 
@@ -32,7 +34,7 @@ use crate::error::Result;
 /// ```
 #[derive(Debug, Clone)]
 pub struct Solver {
-    /// Search for λ and the Huber parameters, until it is finished; `None` if there is none.
+    /// Search for the penalty, until it is finished.
     search: Option<Search>,
     choice: Option<LambdaChoice>,
     solve: ComponentSolver,
@@ -63,19 +65,19 @@ impl Solver {
         let Known { scale, noise } = known;
         let (mut options, mut choice, mut search) = (asked, None, None);
         if asked.lambda_or_default() == Lambda::Auto {
-            let (first, found) = tuning::initial_options(&asked, noise, scale);
+            let (first, found) = closed_form::initial_options(&asked, noise, scale);
             if found.reason == LambdaReason::Noise {
-                search = Search::new(&prepared.input, &asked, &first, known)?;
+                search = Search::new(&prepared.input, &first, known)?;
             }
             options = match search {
                 None if found.reason == LambdaReason::Noise => {
-                    tuning::without_search(&first, noise)
+                    closed_form::without_search(&first, noise)
                 }
                 _ => first,
             };
             choice = Some(found);
         }
-        let options = tuning::with_huber_defaults(&options, noise, scale);
+        let options = closed_form::with_huber_defaults(&options, noise, scale);
         let start_mode = match search {
             Some(_) => StartMode::Deferred,
             None => StartMode::Immediate,
@@ -125,7 +127,45 @@ impl Solver {
             }
             self.take_choice()?;
         }
-        self.solve.advance(&mut left)
+        while left > 0 {
+            let status = self.solve.advance(&mut left)?;
+            if status == Status::Running || !self.raise_lambda()? {
+                return Ok(status);
+            }
+        }
+        Ok(Status::Running)
+    }
+
+    /// Begins again with a larger λ where λ is not given and the residual of the surface asks for it; tells whether it
+    /// does.
+    fn raise_lambda(&mut self) -> Result<bool> {
+        let (Some(choice), Status::Stopped(reason)) = (&mut self.choice, self.solve.status())
+        else {
+            return Ok(false);
+        };
+        let is_noise = matches!(
+            choice.reason,
+            LambdaReason::Noise | LambdaReason::Prediction
+        );
+        let (Some(sigma), None, true) = (choice.sigma, choice.residual_ratio, is_noise) else {
+            return Ok(false);
+        };
+        let surface = self.solve.surface()?;
+        let (input, domain) = (self.solve.input(), self.solve.domain());
+        let residual = Residual::of(input, domain, surface.heightfield(), sigma)?;
+        let is_solved = matches!(reason, StopReason::Gap | StopReason::Rounding);
+        let factor = residual.and_then(|residual| residual.lambda_factor(choice));
+        let Some(factor) = factor.filter(|_| is_solved) else {
+            choice.residual_ratio = residual.map(|residual| residual.rms);
+            return Ok(false);
+        };
+        choice.raises += 1;
+        choice.solves += 1;
+        choice.iterations += surface.report().iterations;
+        let options = *self.solve.options();
+        let lambda = factor * options.lambda_or_default().value();
+        self.solve.begin_again(&options.lambda(lambda))?;
+        Ok(true)
     }
 
     /// Ends the search for λ and starts the solve with the options that it has chosen.

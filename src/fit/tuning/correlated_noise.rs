@@ -20,7 +20,10 @@ const MIN_ISOTROPIC_RATIO: f64 = 0.28;
 /// is rougher in one direction, such as that of scan lines. It counts as noise only where its Hessians are incoherent.
 const MIN_ANISOTROPIC_RATIO: f64 = 0.1;
 
-/// Maximum coherence (mean cosine) of neighbouring discs' Hessians at which they count as incoherent.
+/// Largest coherence of neighbouring Hessians of noise. Bends of a shape that is not developable have a coherence near 1.
+const MAX_COHERENCE: f64 = 0.7;
+
+/// Largest coherence of neighbouring Hessians at which they are incoherent.
 const MAX_NOISE_COHERENCE: f64 = 0.15;
 
 /// Minimum coherence (mean cosine) of neighbouring discs' Hessians that shows a shape beside noise.
@@ -118,7 +121,7 @@ impl CorrelatedNoise {
 
 /// Returns whether the curvatures of a scale are mostly noise.
 fn is_noise(scale: &CurvatureScale) -> bool {
-    let bends_both_ways = scale.ratio > MIN_NOISE_RATIO;
+    let bends_both_ways = scale.ratio > MIN_NOISE_RATIO && scale.coherence < MAX_COHERENCE;
     let incoherent = scale.coherence < MAX_NOISE_COHERENCE
         && scale.ratio > MIN_ANISOTROPIC_RATIO
         && scale.radius() < MAX_INCOHERENCE_RADIUS;

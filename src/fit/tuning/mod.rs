@@ -1,8 +1,10 @@
-//! Options from the data: λ and the penalty's parameters from the size of the noise and by cross-validation.
+//! Options from the data: λ from the noise of the heights, and the penalty that predicts held-out heights best.
 
+pub(crate) mod closed_form;
 mod correlated_noise;
 mod curvature_scales;
 pub(crate) mod held_out;
 pub(crate) mod merge;
 pub(crate) mod noise;
+pub(crate) mod residual;
 pub(crate) mod search;

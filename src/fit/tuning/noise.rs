@@ -17,7 +17,11 @@ const MIN_CORRELATED_RATIO: f64 = 2.5;
 /// 0.6 after resampling to the lattice, and its held-out heights are not predicted by their neighbours.
 const MIN_CORRELATION_LENGTH: f64 = 0.8;
 
-/// Maximum share of different heights among all heights at which a quantisation step is looked for.
+/// Minimum ratio of the standard deviation of correlated noise to that of rings of six neighbours, which the noise of the
+/// rings alone would have to reach.
+const MIN_CORRELATED_SIGMA_RATIO: f64 = 0.8;
+
+/// Largest share of different heights among all at which steps of quantisation are looked for.
 const MAX_DISTINCT_HEIGHTS: f64 = 0.25;
 
 /// Maximum relative deviation of a difference between heights from a multiple of the quantisation step.
@@ -92,7 +96,9 @@ fn correlated_noise(input: &Input, white: f64) -> Result<Option<CorrelatedNoise>
     let found = CorrelatedNoise::from_scales(&scales, &discs);
     let is_correlated = |noise: &CorrelatedNoise| {
         let root = noise.sigma * noise.shared_vertices.sqrt();
-        root >= MIN_CORRELATED_RATIO * white && noise.length >= MIN_CORRELATION_LENGTH
+        root >= MIN_CORRELATED_RATIO * white
+            && noise.length >= MIN_CORRELATION_LENGTH
+            && noise.sigma >= MIN_CORRELATED_SIGMA_RATIO * white
     };
     Ok(found.filter(is_correlated))
 }
@@ -126,12 +132,11 @@ fn ring_noise(input: &Input) -> Option<f64> {
     Some(MAD_TO_SIGMA * median(&mut samples)? / 6f64.sqrt())
 }
 
-/// Minimum confidence of a height that noise is estimated from, as a share of the largest: discards vertices whose
-/// heights were filled in.
-const MIN_SAMPLE_CONFIDENCE: f64 = 0.5;
+/// Minimum confidence of a height that noise is measured from, as a share of the largest: discards bridged vertices.
+pub(super) const MIN_SAMPLE_CONFIDENCE: f64 = 0.5;
 
-/// Returns the largest confidence of an input's heights that are not constrained.
-fn largest_trust(input: &Input) -> f64 {
+/// Largest confidence of a height that is not constrained.
+pub(super) fn largest_trust(input: &Input) -> f64 {
     match input.confidence.is_empty() {
         true => 1.0,
         false => (0..input.field.lattice().len())
@@ -141,9 +146,8 @@ fn largest_trust(input: &Input) -> f64 {
     }
 }
 
-/// Returns the height of a vertex to estimate noise from; NaN where its confidence is below `least` or 0, or the vertex
-/// is constrained.
-fn sample(input: &Input, vertex: usize, least: f64) -> f64 {
+/// Height of a vertex; NaN where its confidence is below `least` or 0, or the vertex is constrained.
+pub(super) fn sample(input: &Input, vertex: usize, least: f64) -> f64 {
     let weight = input.weight(vertex);
     if input.is_constrained(vertex) || weight < least || weight == 0.0 {
         return f64::NAN;

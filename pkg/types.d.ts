@@ -356,9 +356,11 @@ export interface HuberReport {
 export interface LambdaChoice {
   /**
    * Where lambda comes from:
-   * - `'prediction'`: it predicts best what heights are that were held out;
-   * - `'noise'`: it follows from the size and the correlation length of the noise: there are too few heights to hold
-   *   some out, or their noise is alike from one to the next, so that it would predict itself;
+   * - `'prediction'`: it follows from the noise, and the parameters of the energy are those that predict held-out heights
+   *   best;
+   * - `'noise'`: it follows from the size and the correlation length of the noise alone: the energy has no parameters,
+   *   there are too few heights to hold some out, or their noise is alike from one to the next, so that it would predict
+   *   itself;
    * - `'noNoise'`: the heights have no noise to speak of, and lambda is `'big'`;
    * - `'unknown'`: there are too few heights to tell their noise, and lambda is `'medium'`.
    */
@@ -379,7 +381,14 @@ export interface LambdaChoice {
   ambiguous: boolean;
   /** Noise is independent from vertex to vertex on the lattice of `2 ** merged` times the spacing. */
   merged: number;
-  /** How many ways were compared, each by up to three solves. */
+  /**
+   * Root mean square of the residual, in standard deviations of the noise and without outliers: about 1 where lambda suits
+   * the shape. Far above, the surface is farther from the heights than their noise explains.
+   */
+  residualRatio?: number;
+  /** How often lambda was raised above the one of the noise, since the residual showed that one to be too small. */
+  raises: number;
+  /** Number of solves before the last one: for each penalty that was compared, and before each raise of lambda. */
   solves: number;
   /** Their ADMM iterations, which the report's own do not count. */
   iterations: number;

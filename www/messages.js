@@ -165,7 +165,7 @@ export function lambdaFound({ lambda, lambdaChoice }) {
   const noise = step === undefined ? `noise of ${number(sigma ?? 0)}${length}` : `steps of ${number(step)}`;
   const doubt = ambiguous ? ' The shape bends over such distances, too, so that the two cannot be told apart for certain: try other λ.' : '';
   switch (reason) {
-    case 'prediction': return `The heights have ${noise}, in their own unit. λ = ${shortest(lambda)} had the smallest prediction error of ${count(solves)} tries.${doubt}`;
+    case 'prediction': return `The heights have ${noise}, in their own unit: λ = ${shortest(lambda)} follows from that. Bends cost what had the smallest prediction error in ${count(solves)} solves.${doubt}`;
     case 'noise': return `The heights have ${noise}, in their own unit: λ = ${shortest(lambda)} follows from that.${doubt}`;
     case 'noNoise': return `The heights have no noise to speak of: λ = ${shortest(lambda)}. A smaller one makes fewer, larger sheets.`;
     default: return `There are too few heights to tell their noise: λ = ${shortest(lambda)}.`;

@@ -28,10 +28,10 @@ export const solver = {
    * `'small'` 1e5 (heavy noise, few large patches), `'medium'` 1e6, `'big'` 1e7
    * (nearly developable input), a number from 1e-12 to 1e15, or `'auto'`.
    *
-   * `'auto'` finds it from the noise of the heights: a first value from the size of the noise, then the value that predicts
-   * held-out heights best, by some solves on a lattice of twice the spacing. With the energy `'huber'` the parameters of the
-   * energy are found likewise. An input whose noise cannot be measured, as a design, has 1e6. `report.lambdaChoice` tells
-   * what was found. It costs about as much as two solves, or several where there are few heights.
+   * `'auto'` finds it from the size of the heights' noise. With the energy `'huber'` its parameters are those that predict
+   * held-out heights best, by some solves on a coarser lattice. Where the surface is farther from the heights than noise
+   * explains, lambda is raised. An input whose noise cannot be measured, as a design, has 1e6. `report.lambdaChoice` tells
+   * what was found. All that costs about as much as one solve.
    */
   lambda: {
     kind: either(choice('small', 'medium', 'big', 'auto'), number),

@@ -38,9 +38,9 @@ pub enum Lambda {
     Big,
     /// Any weight λ of the squared distance from the input, from 10⁻¹² to 10¹⁵, for heights normalised to the unit square.
     Value(f64),
-    /// λ chosen from the input: an initial λ from the size of its noise, then the λ that predicts held-out heights best
-    /// (cross-validation on a lattice of twice the spacing). With [`Energy::Huber`] the parameters of the penalty are
-    /// chosen in the same way. An input whose noise cannot be measured, such as a [design](crate::Input::design), gets
+    /// Chosen from the input: λ follows from the size of its noise. With [`Energy::Huber`] the parameters of the penalty are
+    /// those that predict held-out heights best (cross-validation on a coarser lattice). Where the residual of the surface is
+    /// larger than the noise explains, λ is raised. An input whose noise cannot be measured, such as a [design](crate::Input::design), gets
     /// [`Lambda::Medium`]. [`Report::lambda_choice`](crate::Report::lambda_choice) reports the choice.
     #[default]
     Auto,

@@ -36,7 +36,16 @@ fn it_is_about_as_close_as_the_best_and_follows_the_noise() {
             let input = with_noise(&truth, sigma, 5);
             let (surface, report) = solve(&input, &auto().energy(energy));
             let choice = report.lambda_choice.unwrap();
-            assert_eq!(choice.reason, LambdaReason::Prediction, "{choice:?}");
+            let reason = match energy {
+                Energy::Huber => LambdaReason::Prediction,
+                _ => LambdaReason::Noise,
+            };
+            assert_eq!(choice.reason, reason, "{choice:?}");
+            let ratio = choice.residual_ratio.unwrap();
+            assert!(
+                (ratio - 1.0).abs() < 0.1 && choice.raises == 0,
+                "{choice:?}"
+            );
             assert!(
                 (choice.sigma.unwrap() / sigma - 1.0).abs() < 0.08,
                 "{choice:?}"
@@ -81,7 +90,7 @@ fn it_depends_on_neither_units_nor_steps() {
 #[test]
 fn a_search_that_is_cancelled_leaves_the_input() {
     let input = with_noise(&unit_square(50, scene), 0.005, 6);
-    let mut solver = Solver::new(&input, &auto()).unwrap();
+    let mut solver = Solver::new(&input, &auto().energy(Energy::Huber)).unwrap();
     solver.advance(1).unwrap();
     let progress = solver.progress();
     assert!(
@@ -95,7 +104,7 @@ fn a_search_that_is_cancelled_leaves_the_input() {
     let changed = both.filter(|(a, b)| a != b).count();
     assert_eq!(changed, surface.report().omitted);
     // And can be begun anew.
-    solver.restart(&auto()).unwrap();
+    solver.restart(&auto().energy(Energy::Huber)).unwrap();
     while solver.advance(50).unwrap() == Status::Running {}
     assert!(solver.surface().unwrap().report().is_certified(0.01));
 }
@@ -183,4 +192,50 @@ fn quantised_heights_are_told_by_their_step() {
         error(&surface),
         error(&input)
     );
+}
+
+/// Bends so tight that the λ of the noise flattens them, and steps: the result is not farther off than the input.
+#[test]
+fn lambda_is_raised_where_the_noise_does_not_explain_the_residual() {
+    let ripple = |x: f64, y: f64| 0.02 * (40.0 * (0.9 * x + 0.4 * y)).sin();
+    let stairs = |x: f64, y: f64| (8.0 * (x + 0.2 * y)).floor() / 16.0;
+    let cases: [(fn(f64, f64) -> f64, f64); 2] = [(ripple, 1.2e-4), (stairs, 5e-3)];
+    for (shape, sigma) in cases {
+        let truth = unit_square(80, shape);
+        let input = with_noise(&truth, sigma, 8);
+        let (surface, report) = solve(&input, &Options::default());
+        let choice = report.lambda_choice.unwrap();
+        assert!(choice.raises > 0, "{choice:?}");
+        assert!(choice.residual_ratio.unwrap() < 1.1, "{choice:?}");
+        let [own, raw] = [&surface, &input].map(|field| rms_difference(&truth, field));
+        assert!(own < 1.05 * raw, "{own} {raw}");
+    }
+}
+
+/// A sphere bends both ways everywhere, as noise does, but alike from place to place.
+#[test]
+fn a_sphere_with_little_noise_is_no_noise() {
+    let sphere = |x: f64, y: f64| (0.6 - (x - 0.5).powi(2) - (y - 0.5).powi(2)).sqrt();
+    let truth = unit_square(80, sphere);
+    let sigma = 1e-4;
+    let input = with_noise(&truth, sigma, 9);
+    let (surface, report) = solve(&input, &Options::default());
+    let choice = report.lambda_choice.unwrap();
+    assert_eq!(choice.correlation_length, 0.0, "{choice:?}");
+    assert!(
+        (choice.sigma.unwrap() / sigma - 1.0).abs() < 0.3,
+        "{choice:?}"
+    );
+    assert!(rms_difference(&truth, &surface) < 2.0 * sigma);
+}
+
+/// Single impulses are no reason to raise λ.
+#[test]
+fn impulses_do_not_raise_lambda() {
+    let truth = unit_square(80, scene);
+    let mut heights = with_noise(&truth, 2e-3, 10).heights().to_vec();
+    heights.iter_mut().step_by(97).for_each(|z| *z += 0.1);
+    let input = Heightfield::new(*truth.lattice(), heights).unwrap();
+    let (_, report) = solve(&input, &Options::default());
+    assert_eq!(report.lambda_choice.unwrap().raises, 0);
 }

@@ -19,7 +19,7 @@ const MIN_CORRELATION_LENGTH: f64 = 0.8;
 
 /// Minimum ratio of the standard deviation of correlated noise to that of rings of six neighbours, which the noise of the
 /// rings alone would have to reach.
-const MIN_CORRELATED_SIGMA_RATIO: f64 = 0.8;
+const MIN_CORRELATED_SIGMA_RATIO: f64 = 0.65;
 
 /// Largest share of different heights among all at which steps of quantisation are looked for.
 const MAX_DISTINCT_HEIGHTS: f64 = 0.25;

@@ -113,9 +113,10 @@ mod tests {
         let flat = Heightfield::from_fn(lattice, |_, _| 0.0).unwrap();
         let input = Input::new(field);
         let domain = input.domain().unwrap();
-        residual_ratio(&input, &domain, &flat, 0.5)
+        Residual::of(&input, &domain, &flat, 0.5)
             .unwrap()
             .unwrap()
+            .rms
     }
 
     /// Heights of ±1 are two standard deviations off; single impulses do not count, a strip of large residuals does.

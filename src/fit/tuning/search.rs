@@ -18,12 +18,12 @@ use crate::fit::options::{Bending, Energy, Options};
 use crate::fit::report::{LambdaChoice, LambdaReason};
 use crate::fit::warm_start::WarmStart;
 
-/// Penalties that are compared to [`default_penalty`], in this order: flat facets with creases, smooth bends with
-/// creases, smooth bends alone (`benches/choices.md`).
+/// Penalties that are compared to [`default_penalty`], in this order: flat facets with creases, smooth bends, smooth
+/// bends with creases (`benches/choices.md`).
 const OTHER_PENALTIES: [Bending; 3] = [
     Bending::new(0.1, 1.0, 0.2),
-    Bending::new(0.3, 0.3, 0.3),
     Bending::SMOOTH,
+    Bending::new(0.3, 0.3, 0.3),
 ];
 
 /// Minimum number of standard errors by which a penalty must predict held-out heights better to replace the best one.

@@ -5,6 +5,7 @@
 //! each other along it, as two bodies that overlap, are left as they are.
 
 use super::geometry::{Point, twice_area};
+use super::input::MeshInput;
 use super::topology::Topology;
 use super::vertex_fans::VertexFans;
 
@@ -29,17 +30,22 @@ const EXTRA_VISITS: usize = 100_000;
 /// Number of mending rounds after which the neighbours of moved vertices are moved, too.
 const WIDENING_ROUNDS: usize = 10;
 
+/// Number of mending rounds after which vertices on creases may leave their reach where that is allowed.
+const BOUNDED_ROUNDS: usize = 30;
+
 /// Moves the vertices of crossing and folded triangles towards the mean of their neighbours, those on creases
-/// along these first. Vertices that are `held` stay.
+/// along these first and all within their reach, except those on creases if they `may_leave_reach`. Vertices that are
+/// held stay.
 pub(super) fn separate_self_intersections(
-    topology: &Topology,
+    given: &MeshInput,
     vertex_fans: &VertexFans,
     x: &mut [Point],
-    held: &[bool],
     creased: &dyn Fn(usize) -> bool,
+    may_leave_reach: bool,
 ) {
+    let topology = &given.topology;
     let all: Vec<u32> = (0..topology.len() as u32).collect();
-    let mut bad = entangled_triangles(topology, vertex_fans, x, &all);
+    let (mut bad, _) = entangled_triangles(topology, vertex_fans, x, &all);
     let mut left = MAX_VISITS_PER_VERTEX * topology.len() + EXTRA_VISITS;
     let mut moving: Vec<u32> = Vec::new();
     for round in 0..MAX_MENDING_ROUNDS {
@@ -56,13 +62,18 @@ pub(super) fn separate_self_intersections(
         moving.dedup();
         for &vertex in &moving {
             let vertex = vertex as usize;
-            if held[vertex] {
+            if given.held[vertex] {
                 continue;
             }
             let along = round < WIDENING_ROUNDS && creased(vertex);
             let beside = mean_beside(topology, x, vertex, along.then_some(creased));
             if let Some(mean) = beside {
-                x[vertex] += 0.5 * (mean - x[vertex]);
+                let halfway = 0.5 * (x[vertex] + mean);
+                let is_free = may_leave_reach && round >= BOUNDED_ROUNDS && creased(vertex);
+                x[vertex] = match is_free {
+                    true => halfway,
+                    false => given.within_reach(vertex, halfway),
+                };
             }
         }
         let mut near = moving.clone();
@@ -70,8 +81,15 @@ pub(super) fn separate_self_intersections(
             near = around(topology, &near);
         }
         left = left.saturating_sub(near.len());
-        bad = entangled_triangles(topology, vertex_fans, x, &near);
+        (bad, _) = entangled_triangles(topology, vertex_fans, x, &near);
     }
+}
+
+/// Whether triangles of the surface cross others near them.
+pub(super) fn has_crossings(given: &MeshInput, vertex_fans: &VertexFans, x: &[Point]) -> bool {
+    let all: Vec<u32> = (0..given.topology.len() as u32).collect();
+    let (_, crosses) = entangled_triangles(&given.topology, vertex_fans, x, &all);
+    crosses
 }
 
 /// These vertices and their neighbours, each once.
@@ -113,15 +131,16 @@ fn mean_beside(
 }
 
 /// Triangles at these vertices that cross a triangle near them, the triangles that they cross, and those that face
-/// away from the normals of their corners.
+/// away from the normals of their corners. Also tells whether
+/// any cross.
 fn entangled_triangles(
     topology: &Topology,
     vertex_fans: &VertexFans,
     x: &[Point],
     vertices: &[u32],
-) -> Vec<u32> {
+) -> (Vec<u32>, bool) {
     let triangles = &topology.triangles;
-    let mut bad = Vec::new();
+    let (mut bad, mut crosses) = (Vec::new(), false);
     let mut suspects = Vec::new();
     for vertex in vertices {
         let own = vertex_fans.around(*vertex as usize);
@@ -159,12 +178,13 @@ fn entangled_triangles(
         for other in others {
             if cross(x, corners, &triangles[other as usize]) {
                 bad.extend([triangle, other]);
+                crosses = true;
             }
         }
     }
     bad.sort_unstable();
     bad.dedup();
-    bad
+    (bad, crosses)
 }
 
 /// Whether an edge of one triangle passes through the other one, except edges with a corner of both.

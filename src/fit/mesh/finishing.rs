@@ -6,7 +6,7 @@ use super::fairing::{curves, fair_curves};
 use super::geometry::{Frame, Point};
 use super::input::MeshInput;
 use super::orientation::turn_back;
-use super::self_intersections::{has_crossings, separate_self_intersections};
+use super::self_intersections::{is_entangled, separate_self_intersections};
 use super::smooth_regions::SmoothRegions;
 use super::tight_bends::restore_bends;
 use super::vertex_fans::VertexFans;
@@ -42,8 +42,8 @@ pub(super) fn sharpen_creases(
 }
 
 /// Removes self-intersections and triangles that are turned over from a finished surface. Where sides meet at a sharp
-/// angle in coarse noise, triangles may still cross when all vertices are within their reach; then those on creases may
-/// leave it.
+/// angle in coarse noise, triangles may still cross or be folded when all vertices are within their reach; then those on
+/// creases may leave it.
 pub(super) fn untangle(
     given: &MeshInput,
     vertex_fans: &VertexFans,
@@ -57,7 +57,7 @@ pub(super) fn untangle(
                 break;
             }
         }
-        if !has_crossings(given, vertex_fans, x) {
+        if !is_entangled(given, vertex_fans, x) {
             return;
         }
     }

@@ -45,7 +45,7 @@ pub(super) fn separate_self_intersections(
 ) {
     let topology = &given.topology;
     let all: Vec<u32> = (0..topology.len() as u32).collect();
-    let (mut bad, _) = entangled_triangles(topology, vertex_fans, x, &all);
+    let mut bad = entangled_triangles(topology, vertex_fans, x, &all);
     let mut left = MAX_VISITS_PER_VERTEX * topology.len() + EXTRA_VISITS;
     let mut moving: Vec<u32> = Vec::new();
     for round in 0..MAX_MENDING_ROUNDS {
@@ -81,15 +81,14 @@ pub(super) fn separate_self_intersections(
             near = around(topology, &near);
         }
         left = left.saturating_sub(near.len());
-        (bad, _) = entangled_triangles(topology, vertex_fans, x, &near);
+        bad = entangled_triangles(topology, vertex_fans, x, &near);
     }
 }
 
-/// Whether triangles of the surface cross others near them.
-pub(super) fn has_crossings(given: &MeshInput, vertex_fans: &VertexFans, x: &[Point]) -> bool {
+/// Whether triangles of the surface cross others near them or are folded over.
+pub(super) fn is_entangled(given: &MeshInput, vertex_fans: &VertexFans, x: &[Point]) -> bool {
     let all: Vec<u32> = (0..given.topology.len() as u32).collect();
-    let (_, crosses) = entangled_triangles(&given.topology, vertex_fans, x, &all);
-    crosses
+    !entangled_triangles(&given.topology, vertex_fans, x, &all).is_empty()
 }
 
 /// These vertices and their neighbours, each once.
@@ -131,16 +130,15 @@ fn mean_beside(
 }
 
 /// Triangles at these vertices that cross a triangle near them, the triangles that they cross, and those that face
-/// away from the normals of their corners. Also tells whether
-/// any cross.
+/// away from the normals of their corners.
 fn entangled_triangles(
     topology: &Topology,
     vertex_fans: &VertexFans,
     x: &[Point],
     vertices: &[u32],
-) -> (Vec<u32>, bool) {
+) -> Vec<u32> {
     let triangles = &topology.triangles;
-    let (mut bad, mut crosses) = (Vec::new(), false);
+    let mut bad = Vec::new();
     let mut suspects = Vec::new();
     for vertex in vertices {
         let own = vertex_fans.around(*vertex as usize);
@@ -178,13 +176,12 @@ fn entangled_triangles(
         for other in others {
             if cross(x, corners, &triangles[other as usize]) {
                 bad.extend([triangle, other]);
-                crosses = true;
             }
         }
     }
     bad.sort_unstable();
     bad.dedup();
-    (bad, crosses)
+    bad
 }
 
 /// Whether an edge of one triangle passes through the other one, except edges with a corner of both.

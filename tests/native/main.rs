@@ -30,6 +30,7 @@ mod huber;
 #[cfg(feature = "images")]
 mod images;
 mod invariance;
+mod irregular;
 mod mesh_crossings;
 #[cfg(feature = "meshes")]
 mod meshes;

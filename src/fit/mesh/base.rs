@@ -12,20 +12,22 @@ const BASE_PLACE_STEPS: usize = 3;
 const BASE_SURFACE_STEPS: usize = 10;
 
 /// Smooths the input mesh, and returns the positions and frames of its vertices, about which the energy is first
-/// linearised. Across the rays, vertices are where fewer smoothing steps leave them.
+/// linearised. After the first steps vertices move along their normals alone, because the mean of its neighbours leads a
+/// vertex of irregular triangles along the surface as well. Vertices stay within their reach, a multiple of the noise.
 pub(super) fn first_base(given: &MeshInput) -> (Vec<Point>, Vec<Frame>) {
     let topology = &given.topology;
-    let mut places = given.noisy.clone();
-    smooth(topology, &mut places, BASE_PLACE_STEPS);
-    let mut smoothed = places.clone();
-    smooth(
-        topology,
-        &mut smoothed,
-        BASE_SURFACE_STEPS - BASE_PLACE_STEPS,
-    );
-    let rays = normals(topology, &smoothed, None);
-    let mut base = across(&smoothed, &places, &rays);
-    unfold(topology, &mut base, &rays, &given.held);
+    let mut base = given.noisy.clone();
+    smooth(topology, &mut base, BASE_PLACE_STEPS);
+    given.keep_within_reach(&mut base);
+    let mut rays = normals(topology, &base, None);
+    for _ in BASE_PLACE_STEPS..BASE_SURFACE_STEPS {
+        let places = base.clone();
+        smooth(topology, &mut base, 1);
+        base = across(&base, &places, &rays);
+        rays = normals(topology, &base, Some(&rays));
+    }
+    given.keep_within_reach(&mut base);
+    unfold(given, &mut base, &rays);
     let rays = normals(topology, &base, Some(&rays));
     let frames = rays
         .into_iter()

@@ -16,8 +16,12 @@ const SECOND_RING_WEIGHT: f64 = 0.3;
 /// fitted to a hexagonal ring; a quadratic that amplifies more is not used.
 const MAX_CONTINUATION_AMPLIFICATION: f64 = 100.0;
 
-/// Extrapolates each border vertex from the quadratics fitted at its interior neighbours, on its own side of every
-/// crease where the smooth regions `sides` are known. A vertex without interior neighbours stays.
+/// Maximum step of a border vertex, as a share of its reach: three standard deviations of the noise. A quadratic that
+/// leads farther than noise does is discarded.
+const MAX_EXTRAPOLATION_REACH_SHARE: f64 = 0.6;
+
+/// Extrapolates each border vertex from the quadratics fitted at its interior neighbours, on the same side of
+/// every crease where `sides` are known. A vertex without interior neighbours stays.
 pub(super) fn extrapolate_border(
     given: &MeshInput,
     x: &mut [Point],
@@ -59,12 +63,17 @@ pub(super) fn extrapolate_border(
                 continue_surface(topology, &old, frame, inner, inside, old[vertex])
             {
                 // The border vertex moves along the normal of the interior vertex, by the height of its quadratic.
-                sum += frame.normal * (rise / up.dot(&frame.normal));
-                count += 1.0;
+                let step = frame.normal * (rise / up.dot(&frame.normal));
+                if step.norm() <= MAX_EXTRAPOLATION_REACH_SHARE * given.reach[vertex] {
+                    // The error of an extrapolation grows with the distance squared.
+                    let weight = (old[vertex] - old[inner]).norm_squared().powi(-2);
+                    sum += step * weight;
+                    count += weight;
+                }
             }
         }
         if count > 0.0 {
-            x[vertex] += sum / count;
+            x[vertex] = given.within_reach(vertex, old[vertex] + sum / count);
         }
     }
 }

@@ -52,7 +52,7 @@ pub(super) fn move_crease_vertices(
         if step.norm() > MAX_SHARPENING_SHARE * edges.sum::<f64>() / ring.len() as f64 {
             continue;
         }
-        x[vertex] = before[vertex] + step;
+        x[vertex] = given.within_reach(vertex, before[vertex] + step);
         // A step that folds a triangle over is not made.
         let folds = |x: &[Point], t: &u32| faces_away(x, &up, &topology.triangles[*t as usize]);
         let own = sides.vertex_fans.around(vertex);

@@ -2,6 +2,7 @@
 
 use nalgebra::Vector3;
 
+use super::input::MeshInput;
 use super::topology::Topology;
 
 pub(crate) type Point = Vector3<f64>;
@@ -126,8 +127,9 @@ pub(super) fn faces_away(x: &[Point], up: &[Point], triangle: &[u32; 3]) -> bool
 const MAX_UNFOLDING_STEPS: usize = 40;
 
 /// Lays folded triangles flat, which face away from the vertex normals `up` of their corners: moves their vertices
-/// towards the mean of the neighbours, along the surface. Vertices that are `held` stay.
-pub(super) fn unfold(topology: &Topology, x: &mut [Point], up: &[Point], held: &[bool]) {
+/// towards the mean of the neighbours, along the surface and within their reach. Vertices that are held stay.
+pub(super) fn unfold(given: &MeshInput, x: &mut [Point], up: &[Point]) {
+    let topology = &given.topology;
     let mut folded = vec![false; x.len()];
     let mut moved = vec![true; x.len()];
     for _ in 0..MAX_UNFOLDING_STEPS {
@@ -155,12 +157,13 @@ pub(super) fn unfold(topology: &Topology, x: &mut [Point], up: &[Point], held: &
                 (false, 2) => 1.5,
                 _ => continue,
             };
-            if !folded[vertex] || held[vertex] {
+            if !folded[vertex] || given.held[vertex] {
                 continue;
             }
             let sum: Point = ring.iter().map(|other| x[*other as usize]).sum();
             let towards = sum / ring.len() as f64 - x[vertex];
-            x[vertex] += share * (towards - up[vertex] * up[vertex].dot(&towards));
+            let step = share * (towards - up[vertex] * up[vertex].dot(&towards));
+            x[vertex] = given.within_reach(vertex, x[vertex] + step);
         }
     }
 }

@@ -13,4 +13,31 @@ pub(super) struct MeshInput {
     pub confidence: Vec<f64>,
     /// Whether each vertex stays where it is.
     pub held: Vec<bool>,
+    /// Maximum distance of each vertex from where it was given.
+    pub reach: Vec<f64>,
+}
+
+impl MeshInput {
+    /// The position within a vertex's reach that is nearest to `x`.
+    pub(super) fn within_reach(&self, vertex: usize, x: Point) -> Point {
+        let (start, reach) = (self.noisy[vertex], self.reach[vertex]);
+        let offset = x - start;
+        let length = offset.norm();
+        match length > reach {
+            true => start + offset * (reach / length),
+            false => x,
+        }
+    }
+
+    /// Brings all vertices within their reach: the farther beyond it one is, the nearer to where it was given, because a
+    /// step far beyond the noise says nothing about the surface.
+    pub(super) fn keep_within_reach(&self, x: &mut [Point]) {
+        for (vertex, x) in x.iter_mut().enumerate() {
+            let (start, reach) = (self.noisy[vertex], self.reach[vertex]);
+            let length = (*x - start).norm();
+            if length > reach {
+                *x = start + (*x - start) * (reach / length).powi(2);
+            }
+        }
+    }
 }

@@ -12,6 +12,7 @@ mod crease_directions;
 mod crease_vertices;
 mod edge_load;
 mod fairing;
+mod finishing;
 pub(crate) mod geometry;
 mod input;
 mod known;
@@ -19,7 +20,9 @@ pub(crate) mod linearisation;
 mod morton_order;
 mod noise_level;
 mod options;
+mod orientation;
 mod quadratic;
+mod reach;
 mod report;
 mod rho_shares;
 mod self_intersections;
@@ -28,6 +31,7 @@ mod smooth_regions;
 mod solver;
 #[cfg(test)]
 mod tests;
+mod tight_bends;
 pub(crate) mod topology;
 mod vertex_fans;
 

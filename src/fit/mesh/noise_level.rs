@@ -13,9 +13,9 @@ const MIN_NOISE_SAMPLES: usize = 50;
 /// Maximum number of vertices from which the noise of a mesh is estimated: more do not make the estimate better.
 const MAX_NOISE_SAMPLES: usize = 20_000;
 
-/// Estimates the standard deviation of a mesh's noise along the normals of the base, from the median distance of a
-/// vertex to the quadratic fitted to the vertices around it, so that creases do not count; `None` if there are too few
-/// vertices.
+/// Estimates the standard deviation of a mesh's noise along the normals of the base, from the median distance of a vertex to the
+/// quadratic fitted to those around it, so that creases do not count; `None` if there are too few samples. Positions
+/// across the normals are those given, because smoothing moves irregular vertices along the surface.
 pub(super) fn noise(
     topology: &Topology,
     base: &[Point],
@@ -42,7 +42,7 @@ pub(super) fn noise(
         let scale = ring.sum::<f64>() / topology.around(vertex).len() as f64;
         let mut quadratic = LeastSquares::<6>::new();
         for other in all {
-            let [x, y, _] = frame.coordinates((base[other] - base[vertex]) / scale);
+            let [x, y, _] = frame.coordinates((noisy[other] - noisy[vertex]) / scale);
             let q = Vector6::new(1.0, x, y, x * x, x * y, y * y);
             quadratic.add(&q, [off(other)], 1.0);
         }

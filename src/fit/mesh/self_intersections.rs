@@ -5,6 +5,7 @@
 //! each other along it, as two bodies that overlap, are left as they are.
 
 use super::geometry::{Point, twice_area};
+use super::input::MeshInput;
 use super::topology::Topology;
 use super::vertex_fans::VertexFans;
 
@@ -29,16 +30,20 @@ const EXTRA_VISITS: usize = 100_000;
 /// Number of rounds of separating triangles after which the neighbours of moved vertices are moved, too.
 const WIDENING_ROUNDS: usize = 10;
 
-/// Separates crossing triangles and turns folded ones back: moves their vertices towards the mean of the neighbours,
-/// those on creases along these first. Vertices that are `held` stay; `creased` says of a vertex whether it is on a
-/// crease.
+/// Number of rounds of separating triangles after which vertices on creases may leave their reach where that is allowed.
+const BOUNDED_ROUNDS: usize = 30;
+
+/// Separates crossing triangles and turns folded ones back: moves their vertices towards the mean of their neighbours, those on creases
+/// along these first and all within their reach, except those on creases if they `may_leave_reach`. Vertices that are
+/// held stay.
 pub(super) fn separate_self_intersections(
-    topology: &Topology,
+    given: &MeshInput,
     vertex_fans: &VertexFans,
     x: &mut [Point],
-    held: &[bool],
     creased: &dyn Fn(usize) -> bool,
+    may_leave_reach: bool,
 ) {
+    let topology = &given.topology;
     let all: Vec<u32> = (0..topology.len() as u32).collect();
     let mut bad = entangled_triangles(topology, vertex_fans, x, &all);
     let mut left = MAX_VISITS_PER_VERTEX * topology.len() + EXTRA_VISITS;
@@ -57,13 +62,18 @@ pub(super) fn separate_self_intersections(
         moving.dedup();
         for &vertex in &moving {
             let vertex = vertex as usize;
-            if held[vertex] {
+            if given.held[vertex] {
                 continue;
             }
             let along = round < WIDENING_ROUNDS && creased(vertex);
             let beside = mean_beside(topology, x, vertex, along.then_some(creased));
             if let Some(mean) = beside {
-                x[vertex] += 0.5 * (mean - x[vertex]);
+                let halfway = 0.5 * (x[vertex] + mean);
+                let is_free = may_leave_reach && round >= BOUNDED_ROUNDS && creased(vertex);
+                x[vertex] = match is_free {
+                    true => halfway,
+                    false => given.within_reach(vertex, halfway),
+                };
             }
         }
         let mut near = moving.clone();
@@ -73,6 +83,12 @@ pub(super) fn separate_self_intersections(
         left = left.saturating_sub(near.len());
         bad = entangled_triangles(topology, vertex_fans, x, &near);
     }
+}
+
+/// Returns whether triangles of the surface cross others near them or are folded over.
+pub(super) fn is_entangled(given: &MeshInput, vertex_fans: &VertexFans, x: &[Point]) -> bool {
+    let all: Vec<u32> = (0..given.topology.len() as u32).collect();
+    !entangled_triangles(&given.topology, vertex_fans, x, &all).is_empty()
 }
 
 /// Returns the given vertices and their neighbours, each once, in ascending order.

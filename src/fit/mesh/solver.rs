@@ -5,15 +5,15 @@ use web_time::Instant;
 use super::base::first_base;
 use super::border_extrapolation::extrapolate_border;
 use super::bounding_sphere::BoundingSphere;
-use super::crease_vertices::move_crease_vertices;
 use super::edge_load::load_border;
-use super::fairing::{curves, fair_curves};
+use super::finishing::{sharpen_creases, untangle};
 use super::geometry::{Frame, Point, areas, normals, unfold};
 use super::input::MeshInput;
 use super::known::MeshKnown;
 use super::linearisation::{Linearisation, hexagonal_spacing};
 use super::noise_level::noise;
 use super::options::MeshOptions;
+use super::reach::reach;
 use super::report::{MeshPass, MeshReport};
 use super::rho_shares::set_rho_shares;
 use super::self_intersections::separate_self_intersections;
@@ -43,10 +43,6 @@ const LAMBDA_NOISE_PRODUCT: f64 = 6.4;
 /// Relative duality gap at which the first of several solves stops, which only gives the next one a base and the
 /// creases.
 const FIRST_SOLVE_GAP: f64 = 0.03;
-
-/// Maximum distance that fairing moves a vertex to the smoothed curve of its border or crease, in standard deviations
-/// of the noise.
-const MAX_FAIRING_NOISE_RATIO: f64 = 1.5;
 
 /// Minimum standard deviation of noise that λ is chosen by, in spacings of vertices; smaller noise counts as none.
 const MIN_NOISE_SPACINGS: f64 = 1e-4;
@@ -95,6 +91,8 @@ pub struct MeshSolver {
     creases: usize,
     /// Positions of the vertices so far, in normalised coordinates.
     surface: Vec<Point>,
+    /// Positions of the vertices before crease passes.
+    smooth: Option<Vec<Point>>,
     passes: Vec<MeshPass>,
     before: ShapeMeasures,
     reason: Option<StopReason>,
@@ -139,20 +137,19 @@ impl MeshSolver {
             .map(|vertex| bounds.inward(mesh.positions()[*vertex as usize]))
             .collect();
         let (confidence, held) = known.for_topology(&mesh, &topology)?;
-        let given = MeshInput {
+        let mut given = MeshInput {
+            reach: try_filled("vertices", topology.len(), f64::INFINITY)?,
             topology,
             noisy,
             confidence,
             held,
         };
-        let topology = &given.topology;
+        // Without noise there is no reach, and without reach slivers spoil the base.
         let (base, frames) = first_base(&given);
-        let own = areas(topology, &base);
-        let inside = topology.vertices_inside();
-        let count = inside.clone().count() as f64;
-        let mean = inside.map(|vertex| own[vertex]).sum::<f64>() / count;
-        let spacing = hexagonal_spacing(mean);
-        let sigma = noise(topology, &base, &frames, &given.noisy);
+        let sigma = noise(&given.topology, &base, &frames, &given.noisy);
+        given.reach = reach(&given, sigma, mean_spacing(&given.topology, &base));
+        let (base, frames) = first_base(&given);
+        let spacing = mean_spacing(&given.topology, &base);
         let auto = sigma.map_or(Lambda::Medium.value(), |sigma| {
             LAMBDA_NOISE_PRODUCT / (sigma.max(MIN_NOISE_SPACINGS * spacing) * spacing)
         });
@@ -160,6 +157,10 @@ impl MeshSolver {
             Lambda::Auto => auto,
             given => given.value(),
         };
+        // A smaller λ asks for more than the removal of noise.
+        let relief = (auto / lambda).max(1.0);
+        given.reach.iter_mut().for_each(|reach| *reach *= relief);
+        let topology = &given.topology;
         let mut options = *options;
         if lambda > MAX_CREASE_LAMBDA_RATIO * auto {
             options.crease_passes.get_or_insert(0);
@@ -174,6 +175,7 @@ impl MeshSolver {
             sigma,
             level: None,
             surface: given.noisy.clone(),
+            smooth: None,
             linear,
             given,
             creases: 0,
@@ -311,11 +313,12 @@ impl MeshSolver {
         let last = self.passes.len() >= self.options.crease_passes_or_default();
         let z = &level.admm.incumbent.z;
         let mut next = self.linear.moved(z);
+        self.given.keep_within_reach(&mut next);
         extrapolate_border(&self.given, &mut next, &self.linear.frames, None);
         let topology = &self.given.topology;
         let old: Vec<Point> = self.linear.frames.iter().map(|f| f.normal).collect();
         let up = normals(topology, &next, Some(&old));
-        unfold(topology, &mut next, &up, &self.given.held);
+        unfold(&self.given, &mut next, &up);
         let moved = next
             .iter()
             .zip(&self.linear.base)
@@ -336,39 +339,30 @@ impl MeshSolver {
         self.seconds = self.seconds + level.admm.seconds;
         self.surface = next;
         let done = last || !matches!(reason, StopReason::Gap | StopReason::Residuals);
-        let (topology, held) = (&self.given.topology, &self.given.held);
-        let surface = &mut self.surface;
+        let (given, surface) = (&self.given, &mut self.surface);
         if done && self.options.crease_passes_or_default() > 0 {
-            let sides = SmoothRegions::new(topology, surface)?;
-            extrapolate_border(&self.given, surface, &self.linear.frames, Some(&sides));
-            move_crease_vertices(&self.given, &sides, surface, &self.linear.frames);
-            if let Some(sigma) = self.sigma {
-                fair_curves(
-                    surface,
-                    &curves(topology, &sides),
-                    MAX_FAIRING_NOISE_RATIO * sigma,
-                    held,
-                );
-            }
+            let sides = SmoothRegions::new(&given.topology, surface)?;
+            let (before, frames) = (self.smooth.as_deref(), &self.linear.frames);
+            sharpen_creases(given, &sides, surface, before, frames, self.sigma);
             // Normals beside creases have changed.
-            let up = normals(topology, surface, Some(&old));
-            unfold(topology, surface, &up, held);
-            separate_self_intersections(topology, &sides.vertex_fans, surface, held, &|v| {
+            let up = normals(&given.topology, surface, Some(&old));
+            unfold(given, surface, &up);
+            untangle(given, &sides.vertex_fans, surface, &|v| {
                 sides.is_on_crease(v)
             });
+        } else if done {
+            untangle(given, &VertexFans::new(&given.topology), surface, &|_| {
+                false
+            });
         } else {
-            separate_self_intersections(
-                topology,
-                &VertexFans::new(topology),
-                surface,
-                held,
-                &|_| false,
-            );
+            let fans = VertexFans::new(&given.topology);
+            separate_self_intersections(given, &fans, surface, &|_| false, false);
         }
         if done {
             self.reason = Some(reason);
             return Ok(());
         }
+        self.smooth.get_or_insert_with(|| surface.clone());
         let start = Instant::now();
         let frames = normals(&self.given.topology, &self.surface, Some(&old))
             .into_iter()
@@ -428,6 +422,14 @@ impl MeshSolver {
             },
         })
     }
+}
+
+/// Computes the spacing of a hexagonal lattice whose vertices have the mean area of those inside.
+fn mean_spacing(topology: &Topology, x: &[Point]) -> f64 {
+    let own = areas(topology, x);
+    let inside = topology.vertices_inside();
+    let count = inside.clone().count() as f64;
+    hexagonal_spacing(inside.map(|vertex| own[vertex]).sum::<f64>() / count)
 }
 
 /// Linearises the energy about a base, with the options of the fit.

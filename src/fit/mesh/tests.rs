@@ -27,6 +27,7 @@ use crate::{Error, Heightfield, Input, Lattice, Mesh, Options, Triangulation};
 #[path = "../../../tests/native/common/closed_meshes.rs"]
 mod closed_meshes;
 mod creases;
+mod orientation;
 mod self_intersections;
 
 use closed_meshes::{cube, grid, indexed, normal, points, random, with_positions};
@@ -64,6 +65,7 @@ fn given(mesh: &Mesh) -> MeshInput {
         noisy: points(mesh),
         confidence: Vec::new(),
         held: vec![false; topology.len()],
+        reach: vec![f64::INFINITY; topology.len()],
         topology,
     }
 }
@@ -201,6 +203,7 @@ fn a_lattice_as_a_mesh_has_the_lattices_answer() {
         noisy: places.clone(),
         confidence: areas.iter().map(|area| whole / area).collect(),
         held: vec![false; base.len()],
+        reach: vec![f64::INFINITY; base.len()],
     };
     let frames = base
         .iter()

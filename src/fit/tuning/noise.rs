@@ -17,10 +17,6 @@ const MIN_CORRELATED_RATIO: f64 = 2.5;
 /// 0.6 after resampling to the lattice, and its held-out heights are not predicted by their neighbours.
 const MIN_CORRELATION_LENGTH: f64 = 0.8;
 
-/// Minimum ratio of the standard deviation of correlated noise to that of rings of six neighbours, which the noise of the
-/// rings alone would have to reach.
-const MIN_CORRELATED_SIGMA_RATIO: f64 = 0.65;
-
 /// Largest share of different heights among all at which steps of quantisation are looked for.
 const MAX_DISTINCT_HEIGHTS: f64 = 0.25;
 
@@ -96,9 +92,7 @@ fn correlated_noise(input: &Input, white: f64) -> Result<Option<CorrelatedNoise>
     let found = CorrelatedNoise::from_scales(&scales, &discs);
     let is_correlated = |noise: &CorrelatedNoise| {
         let root = noise.sigma * noise.shared_vertices.sqrt();
-        root >= MIN_CORRELATED_RATIO * white
-            && noise.length >= MIN_CORRELATION_LENGTH
-            && noise.sigma >= MIN_CORRELATED_SIGMA_RATIO * white
+        root >= MIN_CORRELATED_RATIO * white && noise.length >= MIN_CORRELATION_LENGTH
     };
     Ok(found.filter(is_correlated))
 }

@@ -5,6 +5,7 @@ pub mod closed_meshes;
 pub mod conic;
 #[cfg(feature = "formats")]
 pub mod files;
+pub mod irregular;
 
 use developable::{Heightfield, Lattice};
 

@@ -1,0 +1,100 @@
+//! Triangles that are turned over, turned back by the smallest moves along the surface.
+
+use super::geometry::{Point, twice_area};
+use super::input::MeshInput;
+
+/// Maximum number of rounds over the triangles that are turned over.
+const MAX_TURNING_ROUNDS: usize = 200;
+
+/// Height of a triangle that has been turned back, as a share of its longest side: flatter than any triangle that
+/// matters.
+const TURNED_BACK_HEIGHT_SHARE: f64 = 1e-3;
+
+/// Minimum cosine of the angle between a triangle and the flat surface around it; less at a sharp edge. The normals of a
+/// noisy surface are wrong by some degrees, so that a triangle which stands steeper counts as turned over
+/// (`benches/irregular.md`).
+const MIN_TRIANGLE_COSINE: f64 = 0.2;
+
+/// Ratio of the area seen along the normals that a triangle is given to the area at which it counts as turned over, so
+/// that rounding leaves it on the right side.
+const TURNED_BACK_MARGIN: f64 = 1.1;
+
+/// Turns triangles back that face away from the surface around them, or stand steep on it, and returns whether there were
+/// any. Their corners move along the surface and within their reach; those that are held stay. Normals are at first those
+/// over two rings, so that few small triangles which are turned over together do not decide, then those over one. Costs
+/// `O(triangles)` for each round.
+pub(super) fn turn_back(given: &MeshInput, x: &mut [Point]) -> bool {
+    let mut found = false;
+    for is_wide in [true, false] {
+        for _ in 0..MAX_TURNING_ROUNDS {
+            let up = mean_normals(given, x, is_wide);
+            let mut any = false;
+            for triangle in &given.topology.triangles {
+                any |= raise(given, x, &up, triangle);
+            }
+            if !any {
+                break;
+            }
+            found = true;
+        }
+    }
+    found
+}
+
+/// Mean unit normals of the triangles around each vertex, weighted by area, over one ring or two: their length is 1 on a
+/// plane and small on a sharp edge.
+fn mean_normals(given: &MeshInput, x: &[Point], is_wide: bool) -> Vec<Point> {
+    let mut sums = vec![(Point::zeros(), 0.0); x.len()];
+    for triangle in &given.topology.triangles {
+        let area = twice_area(x, triangle);
+        for corner in triangle {
+            let (sum, size) = &mut sums[*corner as usize];
+            *sum += area;
+            *size += area.norm();
+        }
+    }
+    let mean = |vertex: usize| {
+        let ring = given.topology.around(vertex).iter().filter(|_| is_wide);
+        let (sum, size) = ring.fold(sums[vertex], |(sum, size), other| {
+            let (more, area) = sums[*other as usize];
+            (sum + more, size + area)
+        });
+        if size > 0.0 { sum / size } else { sum }
+    };
+    (0..x.len()).map(mean).collect()
+}
+
+/// Moves the corners of a triangle that is turned over, as seen along the normals `up`, until it has a small area seen
+/// along them: one Newton step in the direction of that area's gradient. Returns whether it was turned over.
+fn raise(given: &MeshInput, x: &mut [Point], up: &[Point], triangle: &[u32; 3]) -> bool {
+    let mean = triangle.iter().map(|i| up[*i as usize]).sum::<Point>() / 3.0;
+    let Some(normal) = mean.try_normalize(0.0) else {
+        return false;
+    };
+    let own = twice_area(x, triangle);
+    let (seen, least) = (
+        own.dot(&normal),
+        MIN_TRIANGLE_COSINE * mean.norm() * own.norm(),
+    );
+    let corners = triangle.map(|i| x[i as usize]);
+    let opposite = [0, 1, 2].map(|k| corners[(k + 2) % 3] - corners[(k + 1) % 3]);
+    let gradients = opposite.map(|side| normal.cross(&side));
+    let free = triangle.map(|i| !given.held[i as usize]);
+    let squares: f64 = (gradients.iter().zip(free))
+        .map(|(gradient, free)| if free { gradient.norm_squared() } else { 0.0 })
+        .sum();
+    if seen > 0.0 && seen >= least || squares == 0.0 {
+        return false;
+    }
+    let longest = opposite.iter().map(|side| side.norm_squared());
+    let longest = longest.fold(0.0, f64::max);
+    let wanted = (TURNED_BACK_HEIGHT_SHARE * longest).max(TURNED_BACK_MARGIN * least);
+    for ((vertex, gradient), free) in triangle.iter().zip(gradients).zip(free) {
+        if free {
+            let vertex = *vertex as usize;
+            let moved = x[vertex] + gradient * ((wanted - seen) / squares);
+            x[vertex] = given.within_reach(vertex, moved);
+        }
+    }
+    true
+}

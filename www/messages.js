@@ -65,17 +65,58 @@ export const FLATTENED = {
 /** Of a page that is bent about parallel rulings. */
 export const PARALLEL = 'It is bent in one direction only, so that one profile, from all of it, was taken for the whole.';
 
+/** What the page says of a photo of a page. */
+export const PAGE_WORDS = {
+  working: 'Making it flat…',
+  unfound: 'I did not find the page. Drag the four corners onto it.',
+  unfoundDetail: 'The flat page appears as soon as a corner was moved.',
+  noFlat: 'No flat page from this outline.',
+  startAgain: 'Discard your changes to the outline?',
+  several: 'Several pages were found. Take',
+  /** @param {number} n */
+  choosePage: (n) => `Page ${n}`,
+  /** @param {string} paper */
+  looksLike: (paper) => `Looks like ${paper}: use it`,
+};
+
+/** What the dialog says that saves. */
+export const SAVE_WORDS = {
+  pdf: 'to print or to send',
+  pdfOfTwo: 'to print or to send, one page for each',
+  /** @param {string} looksLike */
+  paper: (looksLike) => `Paper size of the PDF${looksLike ? ` (looks like ${looksLike})` : ''}`,
+  /** @param {string} size */
+  trueSize: (size) => `true size, ${size}`,
+  papers: { a4: 'A4', letter: 'Letter', a5: 'A5', a3: 'A3', 'a4-wide': 'A4, lengthwise', 'letter-wide': 'Letter, lengthwise' },
+};
+
+/** What is known of the camera's focal length. */
+export const FOCAL_WORDS = {
+  unknown: 'The photo’s file does not tell it: it is found from the perspective, or else 65° are assumed.',
+  /** @param {string} film35 */
+  told: (film35) => `From the photo’s file: ${film35} mm (35 mm film).`,
+  fov: 'The angle across the photo’s longer side: 65 to 80° on most phones.',
+  film35: 'As for 35 mm film: 23 to 28 mm on most phones.',
+  pixels: 'In pixels of the photo.',
+};
+
+/** @param {readonly string[]} words one or more */
+function listed(words) {
+  return words.length < 2 ? words.join('') : `${words.slice(0, -1).join(', ')} and ${words[words.length - 1]}`;
+}
+
 /**
  * What came of making a page flat by its edges.
  * @param {PageReport} report
  */
-export function pageVerdict({ verdict, lines }) {
+export function pageVerdict({ verdict, model, lines }) {
+  const text = lines > 0 ? ' and lines of text' : '';
   switch (verdict) {
-    case 'flat': return 'Both edges are straight: only the perspective was taken out. Folds that run along them do not show in them.';
-    case 'unrolled': return `Made flat: both edges agree on how the page is bent${lines > 0 ? ', and so do lines of text' : ''}.`;
+    case 'flat': return 'Made flat: the page lay flat, only the perspective was removed.';
+    case 'unrolled': return model === 'sheet' || model === 'softSheet' ? `Made flat: folds and bends follow its edges${text}.` : `Made flat: its edges${text} agree.`;
     case 'unchecked': return 'Made flat, but nothing checks the bend.';
-    case 'doubtful': return 'Doubtful: look at it closely.';
-    default: return 'This is no page that is curled one way.';
+    case 'doubtful': return 'Made flat, but doubtful: compare it with the photo.';
+    default: return 'Not reliable: the edges do not fit one page.';
   }
 }
 
@@ -85,14 +126,30 @@ export function pageVerdict({ verdict, lines }) {
  */
 export function pageErrors({ verdict, error, pinholeErrorBound, lines, linesFound }) {
   const text = lines + linesFound > 0 ? ' and lines of text' : '';
-  const likely = `wrong by about ${percent(error / 100)} of its width, and, if the lens does not distort, in 95 of 100 cases by less than ${percent(pinholeErrorBound / 100)}`;
+  const likely = `Places are off by about ${percent(error / 100)} of its width (below ${percent(pinholeErrorBound / 100)} in 95 of 100 cases, if the lens does not distort)`;
   switch (verdict) {
-    case 'flat': return `If it has no such folds and the edges are traced well, places on it are ${likely}.`;
-    case 'unrolled': return `If the edges are traced well, places on it are ${likely}.`;
-    case 'unchecked': return `There are few points along the edges, or one of them looks straight however the page is bent. If it is curled one way, places on it are ${likely}.`;
-    case 'doubtful': return `Its edges${text} disagree, or it hides a part of itself. Places on it are ${likely}. Correct the edges, or give the page’s format and the focal length.`;
-    default: return `Its edges${text} do not fit together. It is folded or crumpled, for which depth is needed, or an edge is traced wrongly: correct it, or choose the other two edges.`;
+    case 'flat': case 'unrolled': return `${likely}, if the outline is right.`;
+    case 'unchecked': return `One edge looks straight however the page is bent, or has few points. ${likely}, if it is curled one way.`;
+    case 'doubtful': return `The edges${text} disagree, or the page hides a part of itself. ${likely}. Correct the outline, or set the page’s format.`;
+    default: return `The edges${text} contradict each other. Correct the outline where it leaves the page.`;
   }
+}
+
+/**
+ * What else has to be known about a flat page.
+ * @param {object} about
+ * @param {readonly string[]} about.outside corners that the photo does not show
+ * @param {readonly string[]} about.weak edges that it hardly shows
+ * @param {boolean} about.assumed whether the focal length is a guess
+ * @param {number} about.unplaced corners of a page that was not found, which are still where they were at first
+ */
+export function pageCautions({ outside, weak, assumed, unplaced }) {
+  return [
+    ...(unplaced > 0 ? [`Drag the other ${unplaced === 1 ? 'corner' : `${count(unplaced)} corners`}, too.`] : []),
+    ...(outside.length > 0 ? [outside.length === 1 ? `The ${outside[0]} corner is outside the photo: its place is a guess.` : `The ${listed(outside)} corners are outside the photo: their places are guesses.`] : []),
+    ...(weak.length > 0 ? [`The ${listed(weak)} ${weak.length === 1 ? 'edge is' : 'edges are'} hardly seen: check ${weak.length === 1 ? 'it' : 'them'}.`] : []),
+    ...(assumed ? ['The camera is not known: a field of view of 65° is assumed.'] : []),
+  ];
 }
 
 /** A gap above this says little: the objective could be twice the optimum. */

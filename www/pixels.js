@@ -17,6 +17,6 @@ export async function pixelsOf(file) {
  * @param {number} scale at most 1
  */
 export async function reducedPhoto(pixels, scale) {
-  const { width, height, data, grey, outline } = await work('photoAt', pixels, scale);
-  return { small: new ImageData(data, width, height), grey: { width, height, scale, data: grey }, outline };
+  const { width, height, data, grey } = await work('photoAt', pixels, scale);
+  return { small: new ImageData(data, width, height), grey: { width, height, scale, data: grey } };
 }

@@ -75,7 +75,8 @@ export function pagePanel(api, goOn) {
   const openExample = async () => {
     const name = /** @type {ExampleName} */ (examples.find((radio) => radio.checked)?.value ?? 'curled');
     const { image, film35, pages } = examplePhoto(name);
-    await show('The example could not be made', () => photoOf({ width: image.width, height: image.height, data: image.data, film35 }, name), pages);
+    const pixels = { width: image.width, height: image.height, data: image.data, film35 };
+    await show('The example could not be made', (signal) => photoOf(api, pixels, name, signal), pages);
   };
   for (const radio of examples) radio.addEventListener('change', openExample);
   choosesFile(element('page-open', HTMLButtonElement), element('page-file', HTMLInputElement), open);

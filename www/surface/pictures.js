@@ -1,5 +1,4 @@
 /** Pictures as pixels, in a worker. */
-import { suggested } from '../page/detect.js';
 import { greyOf } from '../page/grey.js';
 
 /** @import {Pixels} from '../pixels.js' */
@@ -15,7 +14,7 @@ export async function pictureOf(file) {
 }
 
 /**
- * A photo on fewer pixels, in colour and in grey, and the outline of a page on it, if one is beyond doubt.
+ * A photo on fewer pixels, in colour and in grey.
  * @param {Pixels} pixels
  * @param {number} scale
  */
@@ -23,9 +22,7 @@ export async function photoAt({ width, height, data }, scale) {
   const bitmap = await createImageBitmap(new ImageData(data, width, height));
   const small = drawn(bitmap, width * scale, height * scale);
   bitmap.close();
-  const grey = greyOf(small, scale);
-  const outline = suggested(grey);
-  return { ...small, grey: grey.data, outline: outline && { edges: outline.edges, sideways: outline.sideways } };
+  return { ...small, grey: greyOf(small, scale).data };
 }
 
 /**

@@ -75,6 +75,8 @@ export const PAGE_WORDS = {
   several: 'Several pages were found. Take',
   /** @param {number} n */
   choosePage: (n) => `Page ${n}`,
+  /** @param {string} edge */
+  tooFarOutside: (edge) => `The ${edge} edge lies too far outside the photo. Take the photo anew, with the whole page in it`,
   /** @param {string} paper */
   looksLike: (paper) => `Looks like ${paper}: use it`,
 };

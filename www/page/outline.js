@@ -28,7 +28,7 @@ export const EDGES = /** @type {const} */ ([0, 1, 2, 3]);
 /** Nodes between two corners, at first, and of an edge that bends more often. */
 const [BETWEEN, MAX_BETWEEN] = [3, 7];
 /** Largest distance of a curve through nodes from the edge that was found, as a share of its chord. */
-const MAX_NODE_CURVE_OFFSET = 0.006;
+const MAX_NODE_CURVE_OFFSET = 0.012;
 
 export class Outline {
   /** @type {Edges} */
@@ -106,16 +106,6 @@ export class Outline {
     if (this.pages < 2) return null;
     const [upper, lower] = this.edges.map((nodes) => nodes.slice(1, -1).find(({ corner }) => corner));
     return upper && lower ? [upper, lower] : null;
-  }
-
-  /** The same outline of a page that is read a quarter turn clockwise of this one. */
-  turned() {
-    const joined = this.pages > 1 ? this.joined() : this.copy();
-    const [upper, lower, left, right] = joined.edges;
-    const made = new Outline([left.toReversed(), right.toReversed(), lower, upper]);
-    const [top, bottom, start, end] = joined.found;
-    made.found = [start?.toReversed() ?? null, end?.toReversed() ?? null, bottom, top];
-    return made;
   }
 
   /** The two pages as one. */

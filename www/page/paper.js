@@ -1,5 +1,7 @@
 /** Paper sizes for a flat page: which one it looks like, and a PDF of it in that size. */
 
+import { turnedPicture } from './quarter-turn.js';
+
 /** @import {Worker} from '../worker-task.js' */
 /** @import {DewarpedPage} from './flatten.js' */
 
@@ -32,13 +34,14 @@ export function similarPaper(width, height) {
  * @param {Worker} worker
  * @param {DewarpedPage} flat
  * @param {number} pages that it shows side by side
+ * @param {number} quarters by which each is turned clockwise
  * @param {readonly [number, number] | null} paper in millimetres
  */
-export async function pagesPdf(worker, flat, pages, paper) {
+export async function pagesPdf(worker, flat, pages, quarters, paper) {
   const columns = Array.from({ length: pages }, (_, i) => [Math.round((i * flat.width) / pages), Math.round(((i + 1) * flat.width) / pages)]);
   const made = [];
   for (const [from, to] of columns) {
-    const { width, height, data } = columnsOf(flat, from, to);
+    const { width, height, data } = turnedPicture(columnsOf(flat, from, to), quarters);
     const jpeg = await worker.writePhoto({ width, height, data }, { format: 'jpeg' });
     const dots = paper ? Math.max(width / paper[0], height / paper[1]) : flat.resolution;
     made.push({ jpeg, width, height, size: [width / dots, height / dots].map((side) => side * POINTS_PER_MILLIMETRE) });

@@ -8,7 +8,7 @@ import { EDGE_NAMES, EDGES, Outline } from './outline.js';
 import { settle, traced } from './snap.js';
 
 /** @import {Api} from '../api.js' */
-/** @import {DewarpedPage, Flat, Line, Options, Traces, Wish} from './flatten.js' */
+/** @import {Flat, Line, Options, Traces, Wish} from './flatten.js' */
 /** @import {Ends} from './lines.js' */
 /** @import {PagePhoto} from './photo.js' */
 /** @import {Edge, Point, Which} from './outline.js' */
@@ -28,8 +28,8 @@ import { settle, traced } from './snap.js';
 
 /** Lines of text that are shorter than this share of the photo are none. */
 const SHORT = 0.02;
-/** How far a corner may be put beyond the photo's border, as a share of the photo's side. */
-const MAX_OUTSIDE_SHARE = 0.15;
+/** How far a corner may be put beyond the photo's border, as a share of its diagonal: less than the package takes. */
+const MAX_OUTSIDE_SHARE = 0.045;
 /** Share of an edge's length that shows contrast, below which the edge is called weak. */
 const MIN_SEEN_SHARE = 0.5;
 
@@ -58,9 +58,12 @@ export class PageSession extends Events {
   /** @type {Options} */
   options = {};
 
+  /** Quarter turns by which the flat page is turned clockwise. */
+  quarters = 0;
+
   #flattening;
-  /** The newest flat page. @type {DewarpedPage | null} */
-  #flat = null;
+  /** The newest flat page. @type {Flat | null} */
+  #made = null;
   /** @type {Wish | null} */
   #newest = null;
   /** What the outline was before each change. @type {Snapshot[]} */
@@ -101,8 +104,8 @@ export class PageSession extends Events {
    */
   show(photo, pages = 1) {
     this.photo = photo;
-    [this.drawn, this.found, this.#flat, this.#past] = [[], [], null, []];
-    [this.chosen, this.#dragging] = [0, false];
+    [this.drawn, this.found, this.#made, this.#past] = [[], [], null, []];
+    [this.chosen, this.#dragging, this.quarters] = [0, false, 0];
     this.#begin(photo, pages);
     this.emit('photo', photo);
     this.#changed();
@@ -168,13 +171,10 @@ export class PageSession extends Events {
     this.#settled();
   }
 
-  /** The page is read a quarter turn clockwise. */
+  /** Turns the flat page clockwise by a quarter. */
   turn() {
-    this.#remember();
-    const { pages } = this.outline;
-    this.outline = this.outline.turned();
-    if (pages === 2 && this.photo) this.#divide(this.photo);
-    this.#changed();
+    this.quarters = (this.quarters + 1) % 4;
+    if (this.#made) this.emit('flat', { ...this.#made, moving: false });
   }
 
   /** @param {boolean} snapping */
@@ -201,8 +201,8 @@ export class PageSession extends Events {
     if (!photo || !node) return;
     if (!this.#dragging) this.#remember();
     this.#dragging = !ended;
-    const within = (/** @type {number} */ at, /** @type {number} */ side) =>
-      Math.min(Math.max(at, -MAX_OUTSIDE_SHARE * side), (1 + MAX_OUTSIDE_SHARE) * side);
+    const outside = MAX_OUTSIDE_SHARE * Math.hypot(photo.width, photo.height);
+    const within = (/** @type {number} */ at, /** @type {number} */ side) => Math.min(Math.max(at, -outside), side + outside);
     outline.move(which, [within(x, photo.width), within(y, photo.height)]);
     node.held = held || !this.snapping;
     const corner = outline.corners.indexOf(node);
@@ -229,7 +229,7 @@ export class PageSession extends Events {
     const { photo: { grey, width, height }, snapping } = this;
     const within = ends.map(([x, y]) => [Math.min(Math.max(x, 0), width - 1), Math.min(Math.max(y, 0), height - 1)]);
     const [from, to] = /** @type {Ends} */ (within);
-    this.drawn[line] = { ends: [from, to], points: lineBetween(grey, [from, to], this.#flat, snapping && ended) };
+    this.drawn[line] = { ends: [from, to], points: lineBetween(grey, [from, to], this.#made?.flat ?? null, snapping && ended) };
     if (ended && Math.hypot(to[0] - from[0], to[1] - from[1]) < SHORT * width) this.drawn.splice(line, 1);
     this.emit('lines', null);
     if (ended) this.#changed();
@@ -247,7 +247,7 @@ export class PageSession extends Events {
   /** The page that a line of text is on. @param {Ends} ends */
   #leaf([from, to]) {
     const { pages } = this.outline;
-    const flat = this.#flat;
+    const flat = this.#made?.flat;
     const middle = /** @type {Point} */ ([(from[0] + to[0]) / 2, (from[1] + to[1]) / 2]);
     const place = flat && this.photo && flatPlace(flat, middle, this.photo.grey.scale);
     if (pages === 1 || !place) return 0;
@@ -288,7 +288,7 @@ export class PageSession extends Events {
 
   /** @param {Flat} made @param {Wish} wish */
   #show({ flat, assumed }, { photo, moving }) {
-    this.#flat = flat;
+    this.#made = { flat, assumed };
     // While something is dragged, the lines stay as they were.
     if (!moving) {
       const back = (/** @type {number} */ at) => rescaled(at, 1 / photo.grey.scale);
@@ -310,7 +310,7 @@ export class PageSession extends Events {
     this.#newest = wish;
     this.emit('outline', { outline: this.outline, traces: wish.traces, moving });
     if (this.unfound) {
-      [this.found, this.#flat] = [[], null];
+      [this.found, this.#made] = [[], null];
       this.emit('unfound', null);
       this.emit('lines', null);
       this.emit('working', false);
@@ -321,7 +321,7 @@ export class PageSession extends Events {
       if (done.wish.photo !== this.photo || this.unfound) return;
       if ('flat' in done) this.#show(done, done.wish);
       else {
-        [this.found, this.#flat] = [[], null];
+        [this.found, this.#made] = [[], null];
         this.emit('problem', done.error);
       }
       this.emit('lines', null);

@@ -3,6 +3,7 @@ import { element, make } from '../dom.js';
 import { degrees, number, percent } from '../format.js';
 import { whole } from '../page/flatten.js';
 import { PAPERS, pagesPdf, similarPaper } from '../page/paper.js';
+import { turnedPicture } from '../page/quarter-turn.js';
 import { imagePicture, PictureView } from '../surface/picture.js';
 import { Zoom } from '../surface/zoom.js';
 import { canvasOf } from '../views/dewarped.js';
@@ -61,7 +62,10 @@ export function pageResultPanel(api, session, goOn) {
     clear(PAGE_WORDS.working);
     say(PAGE_WORDS.working);
   });
-  session.on('outline', () => (side.dataset.state = session.unfound ? 'unfound' : 'found'));
+  session.on('outline', ({ moving }) => {
+    // Nothing moves away under the hand.
+    if (!moving) side.dataset.state = session.unfound ? 'unfound' : 'found';
+  });
   session.on('working', (working) => figure.setAttribute('aria-busy', String(working)));
   session.on('unfound', () => {
     clear(PAGE_WORDS.unfoundDetail);
@@ -69,13 +73,14 @@ export function pageResultPanel(api, session, goOn) {
   });
   session.on('flat', ({ flat, assumed, moving }) => {
     shown = flat;
-    const { width, height, data, report } = flat;
+    const { report } = flat;
+    const { width, height, data } = turnedPicture(flat, session.quarters);
     view.show(imagePicture(canvasOf(new ImageData(data, width, height)), 'Flat', 'The page made flat'));
     empty.hidden = true;
     enable(true);
     // Without lines of text the figures are others: they wait until the hand rests.
     if (moving) return;
-    caption.textContent = flat.unit === 'mm' ? sizeOf(flat) : '';
+    caption.textContent = flat.unit === 'mm' ? sizeOf(flat, session.quarters) : '';
     const unplaced = session.photo?.outlines.verdict === 'notFound' ? 4 - session.moved.size : 0;
     const cautions = pageCautions({ outside: session.outside, weak: session.weak, assumed, unplaced });
     say(pageVerdict(report), [...cautions, pageErrors(report)].join(' '));
@@ -83,7 +88,7 @@ export function pageResultPanel(api, session, goOn) {
     const similar = flat.unit === 'mm' ? null : similarPaper(flat.size[0] / session.outline.pages, flat.size[1]);
     proposal.hidden = similar === null;
     if (similar) [proposal.value, proposal.textContent] = [similar, PAGE_WORDS.looksLike(SAVE_WORDS.papers[similar])];
-    about.replaceChildren(figures(factsOf(flat, session.photo?.grey.scale ?? 1)));
+    about.replaceChildren(figures(factsOf(flat, session.quarters, session.photo?.grey.scale ?? 1)));
   });
   session.on('problem', (error) => {
     clear(PAGE_WORDS.noFlat);
@@ -93,10 +98,11 @@ export function pageResultPanel(api, session, goOn) {
   save.addEventListener('click', () => {
     const wish = session.wish();
     if (!wish || !shown) return;
-    const { pages } = session.outline;
+    const { outline: { pages }, quarters } = session;
     const measured = shown.unit === 'mm';
-    const similar = similarPaper(shown.size[0] / pages, shown.size[1]);
-    const paper = make('select', '', ...(measured ? [new Option(SAVE_WORDS.trueSize(sizeOf(shown)), '')] : []),
+    const [wide, high] = [shown.size[0] / pages, shown.size[1]];
+    const similar = quarters % 2 === 0 ? similarPaper(wide, high) : similarPaper(high, wide);
+    const paper = make('select', '', ...(measured ? [new Option(SAVE_WORDS.trueSize(sizeOf(shown, quarters)), '')] : []),
       ...Object.entries(SAVE_WORDS.papers).map(([name, words]) => new Option(words, name)));
     paper.value = measured ? '' : similar ?? 'a4';
     /** With all pixels of the photo: made once for all formats. @type {DewarpedPage | null} */
@@ -104,7 +110,7 @@ export function pageResultPanel(api, session, goOn) {
     /** @param {'png' | 'jpeg'} format */
     const written = (format) => async (/** @type {Worker} */ worker) => {
       flat ??= await whole(worker, wish);
-      return worker.writePhoto(flat, { format });
+      return worker.writePhoto({ ...flat, ...turnedPicture(flat, quarters) }, { format });
     };
     const offer = offerToSave(api, {
       title: 'Flat page',
@@ -113,7 +119,7 @@ export function pageResultPanel(api, session, goOn) {
       formats: [
         { value: 'pdf', name: 'PDF', words: pages > 1 ? SAVE_WORDS.pdfOfTwo : SAVE_WORDS.pdf, type: 'application/pdf', write: async (worker) => {
           flat ??= await whole(worker, wish);
-          return pagesPdf(worker, flat, pages, paper.value === '' ? null : PAPERS[/** @type {PaperName} */ (paper.value)]);
+          return pagesPdf(worker, flat, pages, quarters, paper.value === '' ? null : PAPERS[/** @type {PaperName} */ (paper.value)]);
         } },
         { value: 'jpg', name: 'JPEG', words: 'a smaller file', type: 'image/jpeg', write: written('jpeg') },
         { value: 'png', name: 'PNG', words: 'nothing is lost', type: 'image/png', write: written('png') },
@@ -133,17 +139,19 @@ export function pageResultPanel(api, session, goOn) {
   });
 }
 
-/** @param {DewarpedPage} flat */
-function sizeOf({ size: [wide, high], unit }) {
+/** @param {DewarpedPage} flat @param {number} quarters */
+function sizeOf({ size, unit }, quarters) {
+  const [wide, high] = quarters % 2 === 0 ? size : size.toReversed();
   return unit === 'mm' ? `${number(wide, 4)} × ${number(high, 4)} mm` : `${number(wide / high, 3)} : 1`;
 }
 
 /**
  * @param {DewarpedPage} flat
+ * @param {number} quarters
  * @param {number} scale pixels of the reduced photo for one of the whole one
  * @returns {[string, string][]}
  */
-function factsOf(flat, scale) {
+function factsOf(flat, quarters, scale) {
   const { verdict, error, pinholeErrorBound, focalLength, focalDeviation, tilt, bend, disagreement, residual, lines, linesFound } = flat.report;
   const wrong = verdict === 'notThisKind';
   return [
@@ -155,7 +163,7 @@ function factsOf(flat, scale) {
     ['Bend', degrees((bend * Math.PI) / 180)],
     ['Tilt', degrees((tilt * Math.PI) / 180)],
     ['Focal length', `${number(focalLength / scale, 4)} pixels ± ${percent(focalDeviation / 100)}`],
-    [flat.unit === 'mm' ? 'Size' : 'Width to height', sizeOf(flat)],
+    [flat.unit === 'mm' ? 'Size' : 'Width to height', sizeOf(flat, quarters)],
   ];
 }
 
@@ -169,6 +177,8 @@ function linesFacts({ lines, linesFound, linesUsed, linesDisagreement }) {
 
 /** @param {unknown} error */
 function sentence(error) {
-  const words = error instanceof Error ? error.message : String(error);
+  const message = error instanceof Error ? error.message : String(error);
+  const [, edge] = /the (\w+) edge has a point at .* outside of the photo/.exec(message) ?? [];
+  const words = edge ? PAGE_WORDS.tooFarOutside(edge) : message;
   return `${words[0].toUpperCase()}${words.slice(1).replace(/\.$/, '')}.`;
 }

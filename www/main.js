@@ -45,11 +45,19 @@ async function start() {
   const views = analysisPanel(session, analyses, show);
   headline(session, analyses);
   savePanel(session, analyses, views.choose);
-  const { openNamed, openFiles, understand, takeMesh } = sourcePanel(session, views, (files) => void keep.remember(files));
+  const { openNamed, openFiles, understand, takeMesh } = sourcePanel(session, views, (files) => void keep.remember(files), (photo) => {
+    mode.show('photo');
+    void page.open(photo);
+  });
+  /** @param {File[]} files */
+  const openHeights = (files) => {
+    mode.enter('heights');
+    void openFiles(files);
+  };
   const page = pagePanel(session.api, ({ mesh }, name) => {
     mode.enter('heights');
     takeMesh({ name, kind: 'photo' }, async () => mesh, 'The page could not be taken as a surface');
-  });
+  }, openHeights);
   const mode = modePanel((entered) => {
     if (entered === 'photo') page.begin();
   });
@@ -58,8 +66,7 @@ async function start() {
   watchDrops((files) => {
     if (mode.now === 'photo' && files.length === 1) return void page.open(files[0]);
     // What comes together is no photo alone.
-    mode.enter('heights');
-    void openFiles(files);
+    openHeights(files);
   });
   const keep = keepPanel(session, { adopt, choose: views.choose, openExample: openNamed, openFiles, understand, gallery, whole, solvedWhole });
   await keep.begin();

@@ -23,7 +23,33 @@ export const VIEWS = {
   rulings: 'Straight lines that lie on the surface: paper bends across them, and never along.',
   patches: 'The smooth pieces, each in a colour, and the creases where they meet.',
   sheet: 'The surface laid flat to scale: what one would cut from paper.',
+  photo: 'The photo, or the scan’s own colours, on both surfaces.',
   dewarped: 'A photo of the surface, and what is printed on it as if it lay flat.',
+};
+
+/** What is said of files that the part of the page they came to does not take. */
+export const FILE_WORDS = {
+  /** @param {string} name @param {string} what */
+  unread: (name, what) => `“${name}” is ${what}. This page opens photos of pages (JPEG, PNG, WebP), heights and depths (TIFF, EXR, PFM, NPY, NPZ, grey PNG), and meshes and point clouds (OBJ, PLY, STL, GLB).`,
+  /** @param {string} name */
+  meshNoPhoto: (name) => `“${name}” is a mesh or a point cloud, and no photo of a page.`,
+  /** @param {string} name */
+  heightsNoPhoto: (name) => `“${name}” holds heights or depths, and no photo of a page.`,
+  /** @param {string} name */
+  pageNoHeights: (name) => `“${name}” is a photo in colour, which has no heights. Open the depths that belong to it, or make it flat as a photo of a page.`,
+  openAsHeights: 'Open it under “Heights, depth, scans”',
+  openAsPage: 'Make it flat as a page',
+  /** @param {string} name */
+  tooLarge: (name) => `“${name}” has more pixels than can be opened here.`,
+  openAtHalf: 'Open it at half size',
+};
+
+/** What is said of depths from a camera. */
+export const DEPTH_WORDS = {
+  /** @param {string} angle @param {number} scale */
+  assumed: (angle, scale) => `Assumed: ${angle}° field of view, depths in ${scale === 1 ? 'metres' : scale === 0.001 ? 'millimetres' : `steps of ${number(scale)} m`}. Correct it under “Camera” if lengths are off.`,
+  failed: 'The 3D surface could not be built',
+  building: 'Building the 3D surface',
 };
 
 /** What is marked on the input, by how many there are. */
@@ -177,8 +203,8 @@ export function verdict({ gap, seconds: { total }, stopReason }) {
  */
 export function closer(factor) {
   if (factor === undefined) return '';
-  if (factor >= 1.05) return `${factor >= 10 ? count(factor) : factor.toFixed(1)} times closer to the truth than the input.`;
-  return 'No closer to the truth than the input.';
+  if (factor >= 1.05) return `${factor >= 10 ? count(factor) : factor.toFixed(1)}× less noise than the input (against the noise-free example).`;
+  return 'No less noise than the input (against the noise-free example).';
 }
 
 /**
@@ -186,15 +212,18 @@ export function closer(factor) {
  * @param {number} pieces smooth ones; infinite where they are too small to be told apart
  * @param {number} creases
  * @param {number} [factor] of closeness to the truth, where it is known
+ * @param {boolean} [oneSide] whether it is a mesh of which one side is seen
  */
-export function outcome(pieces, creases, factor) {
+export function outcome(pieces, creases, factor, oneSide = false) {
   const smooth = pieces === 1 ? 'One smooth piece' : `${count(pieces)} smooth pieces`;
+  const none = oneSide ? ', no crease told apart' : ' without a crease';
   const meet = creases === 0
-    ? `${smooth}${pieces === 1 ? ' without a crease' : ', apart from each other'}`
+    ? `${smooth}${pieces === 1 ? none : ', apart from each other'}`
     : `${smooth} ${pieces === 1 ? 'with' : 'meet in'} ${creases === 1 ? 'one crease' : `${count(creases)} creases`}`;
   const better = closer(factor);
-  if (!Number.isFinite(pieces)) return `Creased all over, too finely for its pieces to be counted${better ? `; ${better[0].toLowerCase()}${better.slice(1)}` : '.'}`;
-  return better ? `${meet}; ${better[0].toLowerCase()}${better.slice(1)}` : `${meet}.`;
+  const words = Number.isFinite(pieces) ? meet : 'Creased all over: too finely to count its pieces';
+  const first = oneSide ? `From this side: ${words[0].toLowerCase()}${words.slice(1)}.` : `${words}.`;
+  return [first, better].filter(Boolean).join(' ');
 }
 
 /**

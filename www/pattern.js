@@ -1,5 +1,5 @@
 /** A surface as sheets to cut out: how large, and what they are like in words. */
-import { count, number, percent } from './format.js';
+import { count, number, numberAgainst, percent } from './format.js';
 
 /** @import {Analyses} from './analyses.js' */
 /** @import {Result} from './session.js' */
@@ -82,7 +82,7 @@ export function piecesInFigures({ width, height, summary: { cutLength, mountainL
     ['Area', `${number(area / 100)} cm²`],
     ['Largest strain', percent(strain)],
     ['Sides of a cut differ by', percent(mismatch)],
-    ...(off === undefined ? [] : [/** @type {[string, string]} */ (['Angles at a point differ by', `${number(off, 2)}°`])]),
+    ...(off === undefined ? [] : [/** @type {[string, string]} */ (['Angles at a point differ by', `${numberAgainst(off, 360)}°`])]),
   ];
 }
 

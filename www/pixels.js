@@ -6,9 +6,10 @@ import { work } from './surface/work.js';
 /**
  * Whatever pictures the browser knows.
  * @param {File} file
+ * @param {number} [times] by which the sides are reduced
  */
-export async function pixelsOf(file) {
-  const { width, height, data } = await work('pictureOf', file);
+export async function pixelsOf(file, times) {
+  const { width, height, data } = await work('pictureOf', file, times);
   return new ImageData(data, width, height);
 }
 

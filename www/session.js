@@ -41,6 +41,8 @@ import { lookAt, lookAtOnce, lookInto } from './surface/known.js';
  * @property {{ name: string, image: ImageData }} [photo] that came with it
  * @property {Design} [drawn] what a design was made of
  * @property {Beside} [beside] what came with depths, besides
+ * @property {Input} [depthSource] the depths that a mesh was built from
+ * @property {string} [assumed] what was guessed of their camera
  */
 
 /**

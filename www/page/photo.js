@@ -26,11 +26,13 @@ const SMALL = 1280;
  * @param {Api} api
  * @param {File} file
  * @param {AbortSignal} signal it is given up
+ * @param {boolean} [half] whether its sides are halved, as it has too many pixels
  * @returns {Promise<PagePhoto>}
  */
-export async function openPhoto(api, file, signal) {
-  const photo = await apart(api, signal, (worker) => worker.readPhoto(file)).catch((/** @type {unknown} */ error) => {
+export async function openPhoto(api, file, signal, half = false) {
+  const photo = half ? await pixelsOf(file, 2) : await apart(api, signal, (worker) => worker.readPhoto(file)).catch((/** @type {unknown} */ error) => {
     signal.throwIfAborted();
+    if (isTooLarge(error)) throw error;
     // The browser may know kinds of pictures that the package does not.
     return pixelsOf(file).catch(() => {
       throw error;
@@ -52,6 +54,11 @@ export async function photoOf(api, { width, height, data, film35 }, name, signal
   const { small, grey } = await reducedPhoto({ width, height, data }, Math.min(1, SMALL / Math.max(width, height)));
   const outlines = await apart(api, signal, (worker) => worker.findPage(small));
   return { name, width, height, data, film35, small, grey, outlines: enlarged(outlines, 1 / grey.scale) };
+}
+
+/** Whether a file has more pixels than the package takes. @param {unknown} error */
+export function isTooLarge(error) {
+  return error instanceof Error && 'code' in error && error.code === 'TOO_LARGE';
 }
 
 /** @param {PageOutlines} outlines @param {number} scale @returns {PageOutlines} */

@@ -3,6 +3,7 @@ import { element, elements, make } from '../dom.js';
 import { gaussian, kappa2 } from '../views/curvature.js';
 import { dewarped, photoPicture } from '../views/dewarped.js';
 import { patches } from '../views/patches.js';
+import { hasColours, photo as coloured } from '../views/photo.js';
 import { flat as laidFlat } from '../views/pieces.js';
 import { rulings } from '../views/rulings.js';
 import { VIEWS as VIEWS_SAY } from '../messages.js';
@@ -17,7 +18,7 @@ import { waitingPanel } from './waiting.js';
 /** Milliseconds for a vertex, until that was measured. */
 const EACH = 0.005;
 /** @type {Record<string, View>} */
-const VIEWS = { gaussian, kappa2, rulings, patches, sheet: laidFlat };
+const VIEWS = { gaussian, kappa2, rulings, patches, photo: coloured, sheet: laidFlat };
 
 /**
  * @param {Session} session
@@ -112,6 +113,11 @@ export function analysisPanel(session, analyses, show) {
     void update();
   };
   for (const radio of radios) radio.addEventListener('change', renew);
+  session.on('input', (input) => {
+    const own = element('view-photo', HTMLElement);
+    own.hidden = !hasColours(input);
+    if (own.hidden && chosen() === 'photo') radios[0].click();
+  });
   session.on('result', renew);
   session.on('cleared', renew);
   /** @param {string} view */

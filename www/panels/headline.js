@@ -40,7 +40,7 @@ export function headline(session, analyses) {
       const pieces = await analyses.pieces(result).catch(() => null);
       if (session.result !== result) return;
       if (!pieces) continue;
-      main.textContent = outcome(pieces.count, pieces.creases, factorOf(result));
+      main.textContent = outcome(pieces.count, pieces.creases, factorOf(result), result.input.seen !== undefined);
       break;
     }
     if (session.result === result) main.setAttribute('aria-busy', 'false');
@@ -48,7 +48,7 @@ export function headline(session, analyses) {
 
   session.on('input', (input) => {
     hideNotice();
-    if (input.kind) say(`Opened ${input.name}.`, input.depths ? 'Depths from a camera: say what is known of it, then put them in space.' : '');
+    if (input.kind) say(`Opened ${input.name}.`, '');
   });
   session.on('start', () => {
     hideNotice();
@@ -84,7 +84,8 @@ export function headline(session, analyses) {
 function describe({ input, result }) {
   if (!input) return '';
   const report = result?.input === input ? result.surface.report : null;
-  return report ? `${count(report.interior + report.boundary)} vertices.` : `${count(input.width * input.height)} pixels.`;
+  const size = report ? `${count(report.interior + report.boundary)} vertices.` : `${count(input.width * input.height)} pixels.`;
+  return [size, input.assumed].filter(Boolean).join(' ');
 }
 
 /** How many times closer to the truth the result is than the input, where that is known. @param {Result} result */

@@ -1,6 +1,6 @@
 /** The flat page beside its photo: what it is worth in words, its figures, and its files. */
 import { element, make } from '../dom.js';
-import { degrees, number, percent } from '../format.js';
+import { degrees, number, numberAgainst, percent } from '../format.js';
 import { whole } from '../page/flatten.js';
 import { PAPERS, pagesPdf, similarPaper } from '../page/paper.js';
 import { turnedPicture } from '../page/quarter-turn.js';
@@ -159,7 +159,7 @@ function factsOf(flat, quarters, scale) {
     ['95 of 100 below', wrong ? '–' : percent(pinholeErrorBound / 100)],
     ['Edges disagree', `${percent(disagreement / 100)} of the width`],
     ...(lines + linesFound === 0 ? [] : [/** @type {[string, string]} */ (['Lines of text', linesFacts(flat.report)])]),
-    ['Edge residual', `${number(residual / scale, 2)} pixels`],
+    ['Edge residual', `${numberAgainst(residual / scale, 1000)} pixels`],
     ['Bend', degrees((bend * Math.PI) / 180)],
     ['Tilt', degrees((tilt * Math.PI) / 180)],
     ['Focal length', `${number(focalLength / scale, 4)} pixels ± ${percent(focalDeviation / 100)}`],

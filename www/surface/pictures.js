@@ -3,12 +3,16 @@ import { greyOf } from '../page/grey.js';
 
 /** @import {Pixels} from '../pixels.js' */
 
-/** @param {File} file @returns {Promise<Pixels>} */
-export async function pictureOf(file) {
+/**
+ * @param {File} file
+ * @param {number} [times] by which the sides are reduced
+ * @returns {Promise<Pixels>}
+ */
+export async function pictureOf(file, times = 1) {
   const bitmap = await createImageBitmap(file).catch(() => {
     throw new Error('it is no picture that this browser can read');
   });
-  const pixels = drawn(bitmap, bitmap.width, bitmap.height);
+  const pixels = drawn(bitmap, bitmap.width / times, bitmap.height / times);
   bitmap.close();
   return pixels;
 }

@@ -57,9 +57,10 @@ async function start() {
   const page = pagePanel(session.api, ({ mesh }, name) => {
     mode.enter('heights');
     takeMesh({ name, kind: 'photo' }, async () => mesh, 'The page could not be taken as a surface');
-  }, openHeights);
+  }, openHeights, (file) => void keep.rememberPhoto(file));
   const mode = modePanel((entered) => {
     if (entered === 'photo') page.begin();
+    keep.write();
   });
   const gallery = galleryPanel(session, { adopt, choose: views.choose, strip: strip.show, enter: () => mode.enter('heights') });
   element('notice-close', HTMLButtonElement).addEventListener('click', hideNotice);
@@ -68,7 +69,10 @@ async function start() {
     // What comes together is no photo alone.
     openHeights(files);
   });
-  const keep = keepPanel(session, { adopt, choose: views.choose, openExample: openNamed, openFiles, understand, gallery, whole, solvedWhole });
+  const keep = keepPanel(session, {
+    adopt, choose: views.choose, openExample: openNamed, openFiles, openRecent: openHeights, understand, gallery, mode, openPhoto: page.open,
+    beginPhoto: page.begin, whole, solvedWhole,
+  });
   await keep.begin();
 }
 

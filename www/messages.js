@@ -107,10 +107,42 @@ export const PAGE_WORDS = {
   looksLike: (paper) => `Looks like ${paper}: use it`,
 };
 
+/** What is said of addresses. */
+export const ADDRESS_WORDS = {
+  lost: 'The file of this address is not kept in this browser: open it again.',
+  unkept: 'The file could not be kept in this browser (too large, or a private window): open it again.',
+};
+
+/** What is said of one of five λ. */
+export const STRIP_WORDS = {
+  /** @param {number} pieces @param {number} distance as a share of the width */
+  figures: (pieces, distance) => `${count(pieces)} ${pieces === 1 ? 'piece' : 'pieces'}, off by ${percent(distance)}`,
+};
+
+/** What is said of a mesh that is solved whole. */
+export const WHOLE_WORDS = {
+  kept: 'Cancelled: this is the surface before.',
+};
+
+/** What is said of sheets to cut out. */
+export const SHEET_WORDS = {
+  units: 'The file is in',
+  /** @param {string} unit */
+  unit: (unit) => (({ mm: 'millimetres', cm: 'centimetres', m: 'metres', inch: 'inches' })[unit] ?? unit),
+  ownSize: 'no unit: I set the size',
+  /** @param {string} field @param {string} min @param {string} max */
+  outOfRange: (field, min, max) => `“${field}” has to be from ${min} to ${max}`,
+};
+
 /** What the dialog says that saves. */
 export const SAVE_WORDS = {
   pdf: 'to print or to send',
   pdfOfTwo: 'to print or to send, one page for each',
+  working: 'Writing the file…',
+  /** @param {string} name */
+  saved: (name) => `Saved ${name}. Choose another format, or close.`,
+  /** @param {string} reason */
+  unwritten: (reason) => `Not written: ${reason}.`,
   /** @param {string} looksLike */
   paper: (looksLike) => `Paper size of the PDF${looksLike ? ` (looks like ${looksLike})` : ''}`,
   /** @param {string} size */

@@ -27,10 +27,37 @@ export function handySide(result) {
   return handyLength(longerSide(result), result.input.unit);
 }
 
-/** @param {number} length @param {string | null} [unit] */
+/** Millimetres in the units that a file may be in. */
+export const MILLIMETRES = { mm: 1, cm: 10, m: 1000, inch: 25.4 };
+/** Bounds of a longer side in millimetres that can be cut at home. */
+const [MIN_HANDY, MAX_HANDY] = [30, 2000];
+
+/** @typedef {keyof typeof MILLIMETRES} LengthUnit */
+
+/**
+ * A longer side in millimetres: in true size, if that can be held.
+ * @param {number} length
+ * @param {string | null} [unit]
+ */
 export function handyLength(length, unit) {
-  const side = length * (unit === 'mm' ? 1 : unit === 'm' ? 1000 : NaN);
-  return side >= 30 && side <= 1000 ? Number(side.toPrecision(4)) : HANDY;
+  const side = length * (MILLIMETRES[/** @type {LengthUnit} */ (unit ?? '')] ?? NaN);
+  return side >= MIN_HANDY && side <= MAX_HANDY ? Number(side.toPrecision(4)) : HANDY;
+}
+
+/**
+ * The unit in which a length of a file that does not say it can be held: millimetres, if possible.
+ * @param {number} length
+ * @returns {LengthUnit | 'none'}
+ */
+export function likelyUnit(length) {
+  const units = /** @type {LengthUnit[]} */ (['mm', 'cm', 'm']);
+  return units.find((unit) => length * MILLIMETRES[unit] >= MIN_HANDY && length * MILLIMETRES[unit] <= MAX_HANDY) ?? 'none';
+}
+
+/** The unit of an input, for what is cut of it. @param {{ unit?: string, kind?: string }} input @returns {LengthUnit | 'none' | 'unknown'} */
+export function unitOf({ unit, kind }) {
+  if (kind === undefined) return 'none';
+  return unit !== undefined && Object.hasOwn(MILLIMETRES, unit) ? /** @type {LengthUnit} */ (unit) : 'unknown';
 }
 
 /**

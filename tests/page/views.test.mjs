@@ -2,7 +2,7 @@
 import assert from 'node:assert/strict';
 import { grid, npy, png16 } from './support/files.mjs';
 import { parsed } from './support/numbers.mjs';
-import { choose, look, open, pageTest, painted, runBy, save, saveAs, settled } from './support/page.mjs';
+import { downloaded, choose, look, open, pageTest, painted, runBy, save, saveAs, settled } from './support/page.mjs';
 import { parsePng } from './support/photos.mjs';
 
 /** @typedef {import('playwright-core').Page} Page */
@@ -238,14 +238,31 @@ pageTest('what cannot be laid flat whole is laid flat in pieces, which are saved
   const pages = async () => parsed(await figure('Pages').innerText());
   const before = await pages();
   const side = page.getByLabel('Longer side of the finished piece');
-  await side.fill(String(2 * Number(await side.inputValue())));
+  const doubled = 2 * Number(await side.inputValue());
+  // What cannot be is refused in its place, and nothing of another size can be saved.
+  for (const wrong of ['0', '-5']) {
+    await side.fill(wrong);
+    await page.locator('#save-size', { hasText: /Longer side .* has to be from 10 to 5000/ }).waitFor();
+    assert.ok(await page.locator('#save-now').isDisabled());
+  }
+  await side.fill(String(doubled));
   await figure('Drawing').filter({ hasNotText: String(Math.round(wide)) }).waitFor();
   assert.ok(await pages() > 2 * before, `${await pages()} pages instead of ${before}`);
   await page.locator('.sheets label', { hasText: /^Paper/ }).locator('select').selectOption('a4');
-  const pdf = await saveAs(page, 'PDF');
+  await page.locator('#save-formats').getByRole('radio', { name: /^PDF / }).check();
+  await page.locator('#save-size', { hasText: /pdf, / }).waitFor();
+  const saveBox = await page.locator('#save-now').boundingBox();
+  assert.ok(saveBox && saveBox.y + saveBox.height <= 900, `Save is in view, at ${saveBox?.y}`);
+  const pdf = await downloaded(page, () => page.locator('#save-now').click());
   assert.equal(pdf.bytes.toString('latin1', 0, 5), '%PDF-');
+  // The dialog stays, and so does the size: the next format is of the same.
+  assert.match(await page.locator('#save-size').innerText(), /^Saved .*pdf/);
+  const again = await saveAs(page, 'SVG');
+  const twice = Number(/width="([\d.]+)mm"/.exec(again.bytes.toString())?.[1]);
   await page.locator('#end-sheets').click();
   await page.locator('.preview[aria-busy="false"] img').waitFor();
+  assert.equal(Number(await side.inputValue()), doubled, 'kept from save to save');
+  assert.ok(twice > 1.8 * wide, `${twice} mm`);
   // Done without, as soon as it has begun, and asked for again.
   await page.evaluate(() => {
     const cutting = /** @type {HTMLElement} */ (document.querySelector('#cutting'));

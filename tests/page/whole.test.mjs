@@ -206,7 +206,7 @@ pageTest('a whole solve tells how far it is and can be done without; what is no 
   assert.equal(cancelled, 'Cancelled.');
   assert.ok(await page.locator('#whole-file').isDisabled());
   const progress = page.waitForFunction(() => /Iteration \d/.test(document.querySelector('#whole-detail')?.textContent ?? ''));
-  await page.getByRole('button', { name: 'Work it out' }).click();
+  await page.getByRole('button', { name: 'Solve', exact: true }).click();
   await progress;
   await done(page);
   assert.match(await page.locator('#whole-verdict').innerText(), /^Solved whole/);

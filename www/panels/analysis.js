@@ -69,7 +69,7 @@ export function analysisPanel(session, analyses, show) {
     }
     panel.setAttribute('aria-busy', 'true');
     if (!anew) about.replaceChildren();
-    const slow = { words: 'Working it out', kind: name, size: result.surface.heights.length, each: EACH };
+    const slow = { words: 'Preparing this view', kind: name, size: result.surface.heights.length, each: EACH };
     waiting.begin(slow);
     try {
       const shown = await (name === 'dewarped' ? flat(result) : VIEWS[name](analyses, result));
@@ -100,7 +100,7 @@ export function analysisPanel(session, analyses, show) {
     asked++;
     analyses.stop();
     waiting.end();
-    const again = make('button', '', 'Work it out');
+    const again = make('button', '', 'Try again');
     again.type = 'button';
     again.addEventListener('click', () => void update());
     put({ about: [make('p', 'muted', 'Cancelled.'), again] });

@@ -22,8 +22,9 @@ import { SOON, waitingPanel } from './waiting.js';
  * @param {Api} api
  * @param {(flat: DewarpedPage, name: string) => void} goOn with the page as a surface
  * @param {(files: File[]) => void} openHeights what is no photo of a page
+ * @param {(file: File | null) => void} opened is open now; an example, if there is none
  */
-export function pagePanel(api, goOn, openHeights) {
+export function pagePanel(api, goOn, openHeights, opened) {
   /** Made with the first photo, for most visitors come for something else. @type {PageSession | null} */
   let session = null;
   const examples = elements('input[name="page-example"]', HTMLInputElement);
@@ -61,6 +62,7 @@ export function pagePanel(api, goOn, openHeights) {
       if (signal.aborted) return;
       hideNotice();
       to.show(photo, pages);
+      opened(file ?? null);
     } catch (error) {
       if (signal.aborted) return;
       if (file && isTooLarge(error)) showNotice(FILE_WORDS.tooLarge(file.name), 'alert', { label: FILE_WORDS.openAtHalf, act: () => void open(file, true) });
@@ -95,7 +97,7 @@ export function pagePanel(api, goOn, openHeights) {
   return {
     open,
     /** Something to see, where nothing was opened yet. */
-    begin() {
+    begin: () => {
       if (!opening) void openExample();
     },
   };

@@ -7,24 +7,24 @@ import { plainly } from './error-messages.js';
 
 /** @type {Record<StopReason, string>} */
 export const STOP_REASONS = {
-  gap: 'the wanted gap was certified',
+  gap: 'the wanted gap was proven',
   residuals: 'the residuals were small enough (the paper’s rule)',
-  rounding: 'nothing left to gain: the optimum, up to rounding',
-  maxIterations: 'the most iterations allowed',
+  rounding: 'the optimum was reached, up to rounding',
+  maxIterations: 'the maximum number of iterations was reached',
   cancelled: 'cancelled; this is the best surface so far',
   diverged: 'the iterations diverged; this is the best surface before',
 };
 
 /** What each view shows, in one sentence. @type {Record<string, string>} */
 export const VIEWS = {
-  shaded: 'Both surfaces in the same light: smooth pieces shine evenly, creases are sharp lines.',
-  gaussian: 'How much each place bends both ways at once: grey is none, so that it can be laid flat.',
-  kappa2: 'The smaller of both curvatures: 0 where the surface bends one way only.',
-  rulings: 'Straight lines that lie on the surface: paper bends across them, and never along.',
-  patches: 'The smooth pieces, each in a colour, and the creases where they meet.',
-  sheet: 'The surface laid flat to scale: what one would cut from paper.',
+  shaded: 'Input and result in the same light: smooth pieces shine evenly, creases are sharp lines.',
+  gaussian: 'How much each place bends both ways at once. Grey: not at all, so it can be laid flat.',
+  kappa2: 'The smaller principal curvature: 0 where the surface bends one way only.',
+  rulings: 'Straight lines in the surface: paper bends across them, never along them.',
+  patches: 'Each smooth piece in its own colour, and the creases between them.',
+  sheet: 'The surface laid flat, to scale: what you cut from paper.',
   photo: 'The photo, or the scan’s own colours, on both surfaces.',
-  dewarped: 'A photo of the surface, and what is printed on it as if it lay flat.',
+  dewarped: 'A photo of the surface, and the same photo made flat.',
 };
 
 /** What is said of files that the part of the page they came to does not take. */
@@ -74,22 +74,22 @@ export const ENERGIES = {
 
 /** What came of laying a surface flat. @type {Record<Verdict, string>} */
 export const VERDICTS = {
-  flat: 'It was flat to begin with.',
-  unrolled: 'Unrolled: lengths on the flat sheet are those on the surface.',
-  stretched: 'It cannot be laid flat without stretching or overlapping: mind the figures.',
-  doubtful: 'It may be wrong: mind the figures.',
+  flat: 'The surface was flat already.',
+  unrolled: 'Laid flat: lengths on the sheet are those on the surface.',
+  stretched: 'The surface cannot be laid flat without stretch or overlap: see the figures.',
+  doubtful: 'The flat sheet may be wrong: see the figures.',
 };
 
 /** What came of making a photo flat. @type {Record<Verdict, string>} */
 export const FLATTENED = {
-  flat: 'The page was flat to begin with: the photo can be used as it is.',
+  flat: 'The page was flat already: the photo can be used as it is.',
   unrolled: 'Made flat: lengths are those on the page.',
-  stretched: 'Made flat with strain, for as a whole it cannot be laid flat: mind the figures.',
+  stretched: 'Made flat with stretch, because the surface cannot be laid flat as a whole: see the figures.',
   doubtful: 'The corners are hardly those of the page: a part of it is missing, or something beside it is shown. Move them onto the page.',
 };
 
 /** Of a page that is bent about parallel rulings. */
-export const PARALLEL = 'It is bent in one direction only, so that one profile, from all of it, was taken for the whole.';
+export const PARALLEL = 'It bends in one direction only: one profile was used for all of it.';
 
 /** What the page says of a photo of a page. */
 export const PAGE_WORDS = {
@@ -122,6 +122,13 @@ export const STRIP_WORDS = {
 /** What is said of a mesh that is solved whole. */
 export const WHOLE_WORDS = {
   kept: 'Cancelled: this is the surface before.',
+  solving: 'Solving the whole mesh…',
+  solved: 'The whole mesh is solved, from all sides.',
+  unsolved: 'The mesh cannot be solved as a whole.',
+  /** @param {string} share */
+  hidden: (share) => `${share} of the surface is hidden from this side. “Whole mesh” takes all of it.`,
+  /** @param {number} passes @param {string} gap */
+  proof: (passes, gap) => `The last of ${count(passes)} steps is proven within ${gap} of its best; nothing is proven about the shape as a whole.`,
 };
 
 /** What is said of sheets to cut out. */
@@ -130,6 +137,7 @@ export const SHEET_WORDS = {
   /** @param {string} unit */
   unit: (unit) => (({ mm: 'millimetres', cm: 'centimetres', m: 'metres', inch: 'inches' })[unit] ?? unit),
   ownSize: 'no unit: I set the size',
+  figures: 'Figures',
   /** @param {string} field @param {string} min @param {string} max */
   outOfRange: (field, min, max) => `“${field}” has to be from ${min} to ${max}`,
 };
@@ -215,18 +223,30 @@ export function pageCautions({ outside, weak, assumed, unplaced }) {
 /** A gap above this says little: the objective could be twice the optimum. */
 const USEFUL = 0.5;
 
+/** What is said of a solve under way. */
+export const RUN_WORDS = {
+  begun: 'Solving…',
+  stopping: 'Stopping…',
+  unsolved: 'Not solved',
+  /** @param {number} level @param {string} time */
+  coarse: (level, time) => `Coarse solve, ${count(level)} finer ${level === 1 ? 'one' : 'ones'} to come, ${time}`,
+  /** @param {number | undefined} gap @param {number} iterations @param {string} time */
+  fine: (gap, iterations, time) =>
+    `${gap !== undefined && gap < USEFUL ? `Within ${percentAtMost(gap)} of the best possible, ` : ''}${count(iterations)} iterations, ${time}`,
+};
+
 /**
  * The one sentence that matters.
  * @param {Report} report
  */
 export function verdict({ gap, seconds: { total }, stopReason }) {
   const time = seconds(total);
-  const within = gap !== undefined && gap < USEFUL ? `within ${percentAtMost(gap)} of the optimum` : '';
+  const within = gap !== undefined && gap < USEFUL ? `proven within ${percentAtMost(gap)} of the best possible` : '';
   if (stopReason === 'cancelled') {
-    return `Cancelled after ${time}: ${within ? `the surface so far is ${within}` : 'too early to tell how far the surface is from the optimum'}.`;
+    return `Cancelled after ${time}: ${within || 'too early to tell how far the surface is from the best possible'}.`;
   }
-  if (stopReason === 'rounding') return `This is the optimum up to rounding, found in ${time}.`;
-  return within ? `Certified to ${within} in ${time}.` : `Stopped after ${time} without a useful certificate.`;
+  if (stopReason === 'rounding') return `This is the best possible surface, up to rounding, found in ${time}.`;
+  return within ? `P${within.slice(1)}, in ${time}.` : `Stopped after ${time}, nothing is proven.`;
 }
 
 /**
@@ -264,15 +284,15 @@ export function outcome(pieces, creases, factor, oneSide = false) {
  */
 export function lambdaHint(lambda) {
   const exponent = Math.log10(lambda);
-  if (exponent < 4.5) return 'Very small: a few large, smooth patches; most detail goes.';
-  if (exponent < 5.5) return 'Small: for heavy noise, or to make do with few patches.';
-  if (exponent < 6.5) return 'Medium: for some noise, and shapes to be approximated by patches.';
-  if (exponent < 7.5) return 'Big: for input that is nearly developable but for small artefacts.';
-  return 'Very big: stays close to the input, and keeps its noise.';
+  if (exponent < 4.5) return 'Very simple: a few large pieces; most detail goes.';
+  if (exponent < 5.5) return 'Simple: for heavy noise, or for few pieces.';
+  if (exponent < 6.5) return 'Medium: for some noise, and for shapes to be built from pieces.';
+  if (exponent < 7.5) return 'Close: for input that is nearly right, with small artefacts.';
+  return 'Very close: keeps the input, and its noise.';
 }
 
 /** In its place, before it is known. */
-export const BY_NOISE = 'By the noise of the input, with smooth bends and sharp creases: for scans. It takes some solves more.';
+export const BY_NOISE = 'Chosen from the noise of the input. This takes a few more solves.';
 
 /**
  * How λ came about.
@@ -281,25 +301,25 @@ export const BY_NOISE = 'By the noise of the input, with smooth bends and sharp 
 export function lambdaFound({ lambda, lambdaChoice }) {
   if (!lambdaChoice) return '';
   const { reason, sigma, step, solves, correlationLength, ambiguous } = lambdaChoice;
-  const length = correlationLength > 0 ? ` that is alike over distances of ${number(correlationLength)}` : '';
-  const noise = step === undefined ? `noise of ${number(sigma ?? 0)}${length}` : `steps of ${number(step)}`;
-  const doubt = ambiguous ? ' The shape bends over such distances, too, so that the two cannot be told apart for certain: try other λ.' : '';
+  const length = correlationLength > 0 ? `, alike over distances of ${number(correlationLength)}` : '';
+  const noise = step === undefined ? `Noise: ${number(sigma ?? 0)}${length}` : `Steps: ${number(step)}`;
+  const doubt = ambiguous ? ' The shape bends over such distances, too: compare five values.' : '';
   switch (reason) {
-    case 'prediction': return `The heights have ${noise}, in their own unit: λ = ${shortest(lambda)} follows from that. Bends cost what had the smallest prediction error in ${count(solves)} solves.${doubt}`;
-    case 'noise': return `The heights have ${noise}, in their own unit: λ = ${shortest(lambda)} follows from that.${doubt}`;
-    case 'noNoise': return `The heights have no noise to speak of: λ = ${shortest(lambda)}. A smaller one makes fewer, larger sheets.`;
-    default: return `There are too few heights to tell their noise: λ = ${shortest(lambda)}.`;
+    case 'prediction': return `Chosen automatically (${count(solves)} values tried). ${noise}, in the unit of the heights.${doubt}`;
+    case 'noise': return `Chosen automatically. ${noise}, in the unit of the heights.${doubt}`;
+    case 'noNoise': return 'No noise was found. A simpler surface (smaller λ) has fewer, larger sheets.';
+    default: return `Too few heights to measure their noise: λ = ${shortest(lambda)}.`;
   }
 }
 
 /** The same of a mesh solved whole. @param {MeshSurface['report']} report */
 export function wholeLambdaFound({ lambda, sigma }) {
-  if (sigma === undefined) return `There are too few vertices to tell their noise: λ = ${shortest(lambda)}.`;
-  return `The mesh has noise of ${number(sigma)} along its normals, in its own unit: λ = ${shortest(lambda)} follows from that.`;
+  if (sigma === undefined) return `Too few vertices to measure their noise: λ = ${shortest(lambda)}.`;
+  return `Chosen automatically. Noise: ${number(sigma)} along the normals, in the unit of the mesh.`;
 }
 
 /** In the place of a hint, where there are only constraints. */
-export const NO_FIDELITY = 'A design has no input to stay close to: λ has no effect on it.';
+export const NO_FIDELITY = 'A design has no input to stay close to: this has no effect.';
 
 /**
  * A failure as one message.

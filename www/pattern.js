@@ -108,8 +108,8 @@ export function piecesInFigures({ width, height, summary: { cutLength, mountainL
     ['To fold', `${number((mountainLength + valleyLength) / 1000)} m`],
     ['Area', `${number(area / 100)} cm²`],
     ['Largest strain', percent(strain)],
-    ['Sides of a cut differ by', percent(mismatch)],
-    ...(off === undefined ? [] : [/** @type {[string, string]} */ (['Angles at a point differ by', `${numberAgainst(off, 360)}°`])]),
+    ['Cut mismatch', percent(mismatch)],
+    ...(off === undefined ? [] : [/** @type {[string, string]} */ (['Angle mismatch', `${numberAgainst(off, 360)}°`])]),
   ];
 }
 

@@ -88,7 +88,7 @@ pageTest('axe finds nothing wrong with a photo of a page', async (page) => {
 pageTest('axe finds nothing wrong with a whole mesh', async (page) => {
   await open(page, 'box.obj', obj(noisyBox(5, 0.02)));
   await soundEverywhere(page, 'a mesh');
-  await choose(page.getByRole('radio', { name: 'Whole', exact: true }));
+  await choose(page.getByRole('radio', { name: 'Whole mesh', exact: true }));
   for (const view of ['shaded', 'gaussian', 'patches', 'sheet']) {
     await page.locator('#whole[aria-busy="false"]').waitFor();
     await choose(page.locator(`input[name="whole-view"][value="${view}"]`));

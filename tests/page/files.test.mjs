@@ -12,7 +12,7 @@ const [WIDTH, HEIGHT] = [48, 36];
 const plane = grid(WIDTH, HEIGHT, (col, row) => 2000 + 30 * col + 50 * row);
 
 /** @param {Page} page */
-const run = (page) => runBy(page, () => page.getByRole('button', { name: 'Run', exact: true }).click());
+const run = (page) => runBy(page, () => page.getByRole('button', { name: 'Solve', exact: true }).click());
 
 /**
  * @param {number[]} found

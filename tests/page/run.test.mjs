@@ -13,16 +13,16 @@ async function startLongRun(page) {
   await page.locator('summary').click();
   await runBy(page, () => page.locator('#size').selectOption('200'));
   await runBy(page, () => page.getByRole('button', { name: /^small/ }).click());
-  await page.getByLabel('Stop at a certified gap of').selectOption('0.0001');
+  await page.getByLabel('Stop when proven within').selectOption('0.0001');
   await page.locator('#page[data-phase="running"]').waitFor();
   await page.locator('#progress-text', { hasText: 'iterations' }).waitFor();
 }
 
 pageTest('the first visit shows a solved example with its certificate', async (page) => {
-  const target = Number(await page.getByLabel('Stop at a certified gap of').inputValue());
+  const target = Number(await page.getByLabel('Stop when proven within').inputValue());
   const gap = parsed(await reported(page, 'Gap'));
   assert.ok(gap > 0 && gap <= 100 * target, `gap ${gap} %`);
-  assert.match(await page.locator('#certificate').innerText(), /^Certified to within [\d.]+\s%/);
+  assert.match(await page.locator('#certificate').innerText(), /^Proven within [\d.]+\s%/);
 
   const [objective, bound] = [parsed(await reported(page, 'Objective')), parsed(await reported(page, 'Dual bound'))];
   assert.ok(bound <= objective, `${bound} above ${objective}`);
@@ -63,7 +63,7 @@ pageTest('progress moves the bar and the curve', async (page) => {
       requestAnimationFrame(() => requestAnimationFrame(() => seen.curves.add(curve.toDataURL())));
     }).observe(bar, { attributes: true });
   });
-  await runBy(page, () => page.getByLabel('Stop at a certified gap of').selectOption('0.001'));
+  await runBy(page, () => page.getByLabel('Stop when proven within').selectOption('0.001'));
   const { values, curves } = await page.evaluate(() => {
     const { seen } = /** @type {any} */ (window);
     return { values: seen.values, curves: seen.curves.size };
@@ -96,7 +96,7 @@ pageTest('a large run ends even where its worker does not listen, and what was t
   assert.match(await page.locator('#verdict').innerText(), /^Not solved/);
   assert.equal(await page.locator('#result-caption').innerText(), caption);
   await runBy(page, () => page.getByRole('button', { name: /^medium/ }).click());
-  assert.match(await page.locator('#certificate').innerText(), /^Certified|^✓ Certified/);
+  assert.match(await page.locator('#certificate').innerText(), /^Proven/);
 });
 
 pageTest('cancel is heard at once and keeps the best surface, marked', async (page) => {
@@ -117,9 +117,9 @@ pageTest('cancel is heard at once and keeps the best surface, marked', async (pa
 pageTest('another λ during a run replaces the run', async (page) => {
   await startLongRun(page);
   await page.getByRole('button', { name: /^big/ }).click();
-  await page.getByLabel('Stop at a certified gap of').selectOption('0.1');
+  await page.getByLabel('Stop when proven within').selectOption('0.1');
   await settled(page);
-  assert.match(await page.locator('#certificate').innerText(), /^Certified/);
+  assert.match(await page.locator('#certificate').innerText(), /^Proven/);
   assert.equal(parsed(await reported(page, 'λ')), 1e7);
   assert.equal(await page.locator('#result-mark').isVisible(), false);
 });

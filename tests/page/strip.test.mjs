@@ -5,7 +5,7 @@ import { look, pageTest, reported, runBy } from './support/page.mjs';
 
 pageTest('five λ side by side are smoother the smaller λ is, and a click takes one', async (page) => {
   await runBy(page, () => page.locator('#size').selectOption('100'));
-  const open = page.getByRole('button', { name: 'Five λ side by side' });
+  const open = page.getByRole('button', { name: 'Compare five values' });
   await open.click();
   const strip = page.getByRole('group', { name: 'The same input at five λ' });
   await page.locator('#strip[aria-busy="false"]').waitFor();

@@ -97,8 +97,8 @@ pageTest('without the camera’s file it is assumed, and may be typed', async (p
   await page.getByLabel('Centre cx').fill(String(depthCamera.cx));
   await page.getByLabel('Centre cy').fill(String(depthCamera.cy));
   await runBy(page, () => page.getByRole('button', { name: 'Build the 3D surface' }).click());
-  await choose(page.getByRole('radio', { name: 'Dewarped', exact: true }));
-  await runBy(page, () => page.getByRole('button', { name: 'Run', exact: true }).click());
+  await choose(page.getByRole('radio', { name: 'Flat photo', exact: true }));
+  await runBy(page, () => page.getByRole('button', { name: 'Solve', exact: true }).click());
   const error = misplaced(await flatPng(page));
   assert.ok(error < 0.006, `dots are off by ${100 * error} % of the width`);
 });
@@ -193,8 +193,8 @@ pageTest('a scan in OBJ brings its material and texture along', async (page) => 
   });
   await page.locator('#mesh-name', { hasText: 'page (OBJ)' }).waitFor();
   assert.doesNotMatch(await page.locator('#mesh-span').innerText(), /Without/);
-  await choose(page.getByRole('radio', { name: 'Dewarped', exact: true }));
-  await runBy(page, () => page.getByRole('button', { name: 'Run', exact: true }).click());
+  await choose(page.getByRole('radio', { name: 'Flat photo', exact: true }));
+  await runBy(page, () => page.getByRole('button', { name: 'Solve', exact: true }).click());
   const error = misplaced(await flatPng(page));
   assert.match(await page.locator('#photo-name').innerText(), /texture/);
   assert.ok(error < 0.004, `dots are off by ${100 * error} % of the width`);
@@ -215,7 +215,7 @@ pageTest('heights in another unit, and levels that are guessed, are asked about'
   await page.getByLabel('Pixel size').fill('10');
   await runBy(page, () => page.getByLabel('Pixel size').press('Tab'));
   assert.match(await doubt.innerText(), /hardly differ.*pixel size.*depths/s);
-  await choose(page.getByRole('radio', { name: 'Dewarped', exact: true }));
+  await choose(page.getByRole('radio', { name: 'Flat photo', exact: true }));
   await flattened(page);
   assert.equal(await page.locator('#photo-name').innerText(), 'holiday.png');
 

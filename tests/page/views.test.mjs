@@ -163,7 +163,7 @@ pageTest('the cylinder laid flat is as large as it is bent', async (page) => {
     await page.getByLabel('λ as a number').fill('1e9');
     await page.getByLabel('λ as a number').press('Tab');
   });
-  await view(page, 'Unrolled');
+  await view(page, 'Laid flat');
   // Flat places of the border's points, turned as little as possible from where they are seen.
   const along = (/** @type {number[]} */ [x, y]) => COS * x + SIN * y;
   const flat = (/** @type {number[]} */ point) => {
@@ -194,7 +194,7 @@ pageTest('the cylinder laid flat is as large as it is bent', async (page) => {
   const expected = [ends[1] - ends[0], ends[3] - ends[2]];
   const found = (await told(page, 'Size of the sheet')).split('×').map(parsed);
   found.forEach((side, k) => assert.ok(Math.abs(side / expected[k] - 1) < 0.005, `${found} against ${expected}`));
-  assert.match(await page.locator('#about-view .said').innerText(), /^Unrolled/);
+  assert.match(await page.locator('#about-view .said').innerText(), /^Laid flat/);
   assert.ok(parsed(await told(page, 'Strain, root mean square')) < 0.1);
   assert.equal(await told(page, 'Flipped triangles'), '0');
   assert.equal(await told(page, 'Overlaps'), 'none');
@@ -209,7 +209,7 @@ pageTest('the cylinder laid flat is as large as it is bent', async (page) => {
 
 pageTest('what cannot be laid flat whole is laid flat in pieces, which are saved as sheets to cut out', async (page) => {
   await example(page, 'roof');
-  await view(page, 'Unrolled');
+  await view(page, 'Laid flat');
   assert.match(await page.locator('#about-view .said').innerText(), /In one piece it would stretch.*sheets.*cuts/);
   assert.ok(parsed(await told(page, 'Largest strain')) <= 1);
   assert.equal(await page.locator('#result-title').innerText(), 'Laid flat, in pieces');
@@ -308,7 +308,7 @@ pageTest('how sheets are put together is saved as a numbered picture and as a mo
 
 pageTest('the printed page is made flat: an A4 sheet, with its pixels and its map', async (page) => {
   await example(page, 'page');
-  await view(page, 'Dewarped');
+  await view(page, 'Flat photo');
   assert.match(await page.locator('#about-view .said').innerText(), /^Made flat/);
   assert.ok((await look(page, '#input-picture')).covered > 0.2 && (await look(page, '#result-picture')).covered > 0.2);
   const [width, height] = (await told(page, 'Flat image')).split('×').map(parsed);
@@ -364,8 +364,8 @@ const [WIDTH, HEIGHT] = [48, 36];
 
 pageTest('a photo of what is flat is called that, and what is no photo is refused', async (page) => {
   await open(page, 'table.npy', npy(WIDTH, grid(WIDTH, HEIGHT, () => 3)));
-  await runBy(page, () => page.getByRole('button', { name: 'Run', exact: true }).click());
-  await view(page, 'Dewarped');
+  await runBy(page, () => page.getByRole('button', { name: 'Solve', exact: true }).click());
+  await view(page, 'Flat photo');
   assert.match(await page.locator('#about-view').innerText(), /Open a photo/);
   const choose = async (/** @type {string} */ name, /** @type {Buffer} */ buffer) => {
     const [chooser] = await Promise.all([page.waitForEvent('filechooser'), page.getByRole('button', { name: 'Open a photo' }).click()]);
@@ -381,11 +381,11 @@ pageTest('a photo of what is flat is called that, and what is no photo is refuse
 });
 
 pageTest('another result takes the place of an answer that is still being worked out', async (page) => {
-  await choose(page.getByRole('radio', { name: 'Unrolled', exact: true }));
+  await choose(page.getByRole('radio', { name: 'Laid flat', exact: true }));
   // Not waited for: the answer is about something that is gone.
   await runBy(page, () => page.locator('input[value="cylinder"]').check());
   await page.locator('#analysis[aria-busy="false"]').waitFor();
-  assert.match(await page.locator('#about-view .said').innerText(), /^Unrolled/);
+  assert.match(await page.locator('#about-view .said').innerText(), /^Laid flat/);
   assert.equal(await page.locator('#notice').isVisible(), false);
 }, { start: '' });
 
@@ -397,7 +397,7 @@ pageTest('a view that cannot be worked out says so, and the surface stays', asyn
   await page.reload();
   await settled(page);
   const before = (await look(page, '#result-canvas')).hash;
-  await view(page, 'Unrolled');
+  await view(page, 'Laid flat');
   await page.getByRole('alert').filter({ hasText: 'could not be worked out' }).waitFor();
   assert.equal((await look(page, '#result-canvas')).hash, before);
   await page.unrouteAll();

@@ -13,7 +13,7 @@ const [a, b, c] = SIDES;
 const area = 2 * (a * b + b * c + c * a);
 
 /** @param {Page} page @param {string} [way] */
-async function solve(page, way = 'Whole') {
+async function solve(page, way = 'Whole mesh') {
   await choose(page.getByRole('radio', { name: way, exact: true }));
   await done(page);
 }
@@ -123,7 +123,7 @@ pageTest('a closed mesh is solved whole, shown before and after, laid flat and s
   assert.ok(hidden > 50 && hidden <= 100 * (1 - (a * b) / area) + 1, hint);
   await solve(page);
   assert.match(await page.locator('#whole-verdict').innerText(), /^Solved whole/);
-  assert.match(await page.locator('#whole-detail').innerText(), /linearised problems .* nothing is certified of the shape/);
+  assert.match(await page.locator('#whole-detail').innerText(), /of \d+ steps is proven within .* nothing is proven about the shape/);
   assert.equal(await page.locator('section[aria-label="Surfaces"]').isVisible(), false, 'no heights');
   assert.equal(await page.locator('.controls .more').isVisible(), false, 'nor their settings');
   assert.ok(await page.locator('#lambda').isVisible(), 'but for λ');
@@ -187,7 +187,7 @@ pageTest('a closed mesh is solved whole, shown before and after, laid flat and s
   assert.match((await saveAs(page, 'SVG')).bytes.toString(), /<svg/);
 
   // And back.
-  await choose(page.getByRole('radio', { name: 'As seen', exact: true }));
+  await choose(page.getByRole('radio', { name: 'From one side', exact: true }));
   assert.ok(await page.locator('section[aria-label="Surfaces"]').isVisible());
   await settled(page);
 });
@@ -268,10 +268,10 @@ pageTest('a whole mesh is solved with the λ that is chosen, which stands in the
   const pressed = () => page.locator('#lambda-auto').getAttribute('aria-pressed');
   const field = page.getByLabel('λ as a number');
 
-  await solvedBy(() => choose(page.getByRole('radio', { name: 'Whole', exact: true })), /whole=1$/);
+  await solvedBy(() => choose(page.getByRole('radio', { name: 'Whole mesh', exact: true })), /whole=1$/);
   const hint = await page.locator('#lambda-hint').innerText();
   // Evenly distributed, up to 0.02 to either side.
-  const sigma = parsed(/noise of ([\d.]+)/.exec(hint)?.[1] ?? '');
+  const sigma = parsed(/Noise: ([\d.]+)/.exec(hint)?.[1] ?? '');
   assert.ok(Math.abs(sigma / (0.02 / Math.sqrt(3)) - 1) < 0.2, hint);
   const auto = parsed(await told(page, 'λ'));
   assert.ok(Math.abs(Number(await field.inputValue()) / auto - 1) < 0.05);
@@ -292,7 +292,7 @@ pageTest('a whole mesh is solved with the λ that is chosen, which stands in the
   assert.deepEqual([await pressed(), parsed(await told(page, 'λ'))], ['true', auto]);
   await page.goBack();
   await page.locator('section[aria-label="Surfaces"]').waitFor();
-  assert.ok(await page.getByRole('radio', { name: 'As seen', exact: true }).isChecked());
+  assert.ok(await page.getByRole('radio', { name: 'From one side', exact: true }).isChecked());
   await solvedBy(() => page.goForward(), /whole=1$/);
   await solvedBy(() => page.goForward(), /view=rulings$/);
   await page.reload();
@@ -302,7 +302,7 @@ pageTest('a whole mesh is solved with the λ that is chosen, which stands in the
 
   // As seen, heights follow the λ that was chosen meanwhile.
   await solvedBy(() => page.getByRole('button', { name: /^medium/ }).click(), /lambda=1e6&whole=1&view=rulings$/);
-  await choose(page.getByRole('radio', { name: 'As seen', exact: true }));
+  await choose(page.getByRole('radio', { name: 'From one side', exact: true }));
   await page.waitForURL(/lambda=1e6$/);
   await settled(page);
   assert.equal(parsed(await reported(page, 'λ')), 1e6);

@@ -161,7 +161,7 @@ export function wholePanel(session, whole) {
 
   whole.on('start', (mesh) => {
     asked++;
-    say('Solving the whole mesh…', '');
+    say(WHOLE_WORDS.solving, '');
     enable(false);
     again.hidden = true;
     stage.setAttribute('aria-busy', 'true');
@@ -175,7 +175,7 @@ export function wholePanel(session, whole) {
   whole.on('result', (surface) => {
     if (!whole.mesh) return;
     waiting.end(slow(whole.mesh, '', 'whole'));
-    say('Solved whole, from all sides.', wholeInWords(whole.mesh, surface));
+    say(WHOLE_WORDS.solved, wholeInWords(whole.mesh, surface));
     enable(true);
     void update();
   });
@@ -183,7 +183,7 @@ export function wholePanel(session, whole) {
     waiting.end();
     stage.setAttribute('aria-busy', 'false');
     const words = plainly(error instanceof Error ? error.message : String(error));
-    say('It cannot be solved whole.', `${words[0].toUpperCase()}${words.slice(1)}.`);
+    say(WHOLE_WORDS.unsolved, `${words[0].toUpperCase()}${words.slice(1)}.`);
   });
 
   report.addEventListener('click', () => {
@@ -274,7 +274,7 @@ export function wholePanel(session, whole) {
     const { positions, triangles } = mesh;
     const hidden = await work('hiddenShare', { positions, triangles }, { rows, cols, spacing, origin, heights, frame });
     if (session.input?.lattice !== lattice || hidden < MUCH) return;
-    hint.textContent = `Heights from this side leave out ${percent(hidden)} of its surface, which is behind what is seen: “Whole” takes all of it.`;
+    hint.textContent = WHOLE_WORDS.hidden(percent(hidden));
   });
 
   return {

@@ -12,6 +12,7 @@ export function modePanel(entered) {
     for (const radio of radios) radio.checked = radio.value === mode;
     sides.heights.hidden = mode !== 'heights';
     sides.photo.hidden = mode !== 'photo';
+    for (const [id, own] of /** @type {const} */ ([['open', 'heights'], ['page-open', 'photo']])) element(id, HTMLElement).hidden = own !== mode;
     for (const name of /** @type {const} */ (['heights', 'photo'])) element(`drop-${name}`, HTMLElement).hidden = name !== mode;
   };
   /** @param {Mode} mode */

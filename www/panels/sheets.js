@@ -177,7 +177,7 @@ export function offerSheets(api, { stem, size, length, unit, cut, svg, stop }) {
         make('label', 'field', 'Material', metal),
         ...forCard,
         ...forMetal,
-        about))],
+        make('details', 'more', make('summary', '', SHEET_WORDS.figures), about)))],
     formats: [
       { value: 'pdf', name: 'PDF', words: 'to print, in true size', type: 'application/pdf',
         write: async (worker) => worker.writePdf(await drawing, { stock: paper.value === 'a4' || paper.value === 'letter' ? paper.value : undefined }) },

@@ -29,8 +29,10 @@ export function handySide(result) {
 
 /** Millimetres in the units that a file may be in. */
 export const MILLIMETRES = { mm: 1, cm: 10, m: 1000, inch: 25.4 };
-/** Bounds of a longer side in millimetres that can be cut at home. */
+/** Bounds of a longer side in millimetres that is taken in true size. */
 const [MIN_HANDY, MAX_HANDY] = [30, 2000];
+/** Bounds of a longer side in millimetres by which the unit of a file is guessed: what people cut at home. */
+const [MIN_LIKELY, MAX_LIKELY] = [80, 1000];
 
 /** @typedef {keyof typeof MILLIMETRES} LengthUnit */
 
@@ -51,7 +53,7 @@ export function handyLength(length, unit) {
  */
 export function likelyUnit(length) {
   const units = /** @type {LengthUnit[]} */ (['mm', 'cm', 'm']);
-  return units.find((unit) => length * MILLIMETRES[unit] >= MIN_HANDY && length * MILLIMETRES[unit] <= MAX_HANDY) ?? 'none';
+  return units.find((unit) => length * MILLIMETRES[unit] >= MIN_LIKELY && length * MILLIMETRES[unit] <= MAX_LIKELY) ?? 'none';
 }
 
 /** The unit of an input, for what is cut of it. @param {{ unit?: string, kind?: string }} input @returns {LengthUnit | 'none' | 'unknown'} */

@@ -479,7 +479,7 @@ function spacingOf({ pixelSize, lattice }, coarsening) {
  * An input as the package takes it.
  * @param {Input} input
  */
-function heightsOf({ width, height, data, pixelSize, heightScale, lattice, design, confidence, constraints }) {
+export function heightsOf({ width, height, data, pixelSize, heightScale, lattice, design, confidence, constraints }) {
   if (lattice) return lattice;
   const frame = { width, height, pixelSize, heightScale };
   return design ? { ...frame, constraints: data } : { ...frame, data, confidence, constraints };

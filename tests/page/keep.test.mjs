@@ -82,7 +82,7 @@ pageTest('settings stand in the address, Back undoes them, and a file is there a
 
   // A card of the gallery by its address, and the same at five λ.
   await page.goto(`${page.url().replace(/#.*/, '')}#fig-8&lambda=1e5`);
-  await page.locator('#story-title', { hasText: 'Fig. 8' }).waitFor();
+  await page.locator('#story-title', { hasText: 'Fig. 8)' }).waitFor();
   await settled(page);
   assert.equal(parsed(await reported(page, 'λ')), 1e5);
   await page.locator('#strip[aria-busy="false"]').waitFor();

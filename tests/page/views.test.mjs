@@ -227,7 +227,7 @@ pageTest('what cannot be laid flat whole is laid flat in pieces, which are saved
   await page.locator('#end-sheets').click();
   await page.locator('.preview[aria-busy="false"] img').waitFor();
   const figure = (/** @type {string} */ name) => page.locator('.sheets .figures div').filter({ has: page.locator('dt', { hasText: name }) }).locator('dd');
-  const [wide] = (await figure('Drawing').innerText()).split('×').map(parsed);
+  const [wide] = (await figure('Drawing').textContent() ?? '').split('×').map(parsed);
   const svg = await saveAs(page, 'SVG');
   assert.match(svg.bytes.toString(), /^(<\?xml[^>]*>\s*)?<svg/);
   assert.ok(Math.abs(Number(/width="([\d.]+)mm"/.exec(svg.bytes.toString())?.[1]) / wide - 1) < 0.01, 'in true size');
@@ -235,7 +235,7 @@ pageTest('what cannot be laid flat whole is laid flat in pieces, which are saved
   // Twice as large takes about four times the paper.
   await page.locator('#end-sheets').click();
   await page.locator('.preview[aria-busy="false"] img').waitFor();
-  const pages = async () => parsed(await figure('Pages').innerText());
+  const pages = async () => parsed(await figure('Pages').textContent() ?? '');
   const before = await pages();
   const side = page.getByLabel('Longer side of the finished piece');
   const doubled = 2 * Number(await side.inputValue());
@@ -246,7 +246,7 @@ pageTest('what cannot be laid flat whole is laid flat in pieces, which are saved
     assert.ok(await page.locator('#save-now').isDisabled());
   }
   await side.fill(String(doubled));
-  await figure('Drawing').filter({ hasNotText: String(Math.round(wide)) }).waitFor();
+  await figure('Drawing').filter({ hasNotText: String(Math.round(wide)) }).waitFor({ state: 'attached' });
   assert.ok(await pages() > 2 * before, `${await pages()} pages instead of ${before}`);
   await page.locator('.sheets label', { hasText: /^Paper/ }).locator('select').selectOption('a4');
   await page.locator('#save-formats').getByRole('radio', { name: /^PDF / }).check();

@@ -127,7 +127,7 @@ pageTest('a closed mesh is solved whole, shown before and after, laid flat and s
   assert.equal(await page.locator('section[aria-label="Surfaces"]').isVisible(), false, 'no heights');
   assert.equal(await page.locator('.controls .more').isVisible(), false, 'nor their settings');
   assert.ok(await page.locator('#lambda').isVisible(), 'but for λ');
-  assert.equal(await told(page, 'On the border'), 'none: it is closed');
+  assert.equal(await told(page, 'Border vertices'), 'none: it is closed');
   const [before, after] = (await told(page, 'Volume')).split('→').map(parsed);
   assert.ok(Math.abs(before / (a * b * c) - 1) < 0.02 && Math.abs(after / (a * b * c) - 1) < 0.03, `${before} → ${after}`);
 
@@ -172,12 +172,12 @@ pageTest('a closed mesh is solved whole, shown before and after, laid flat and s
   await page.locator('.preview[aria-busy="false"] img').waitFor();
   assert.match(await page.locator('.sheets .said').innerText(), /sheet.*fold/);
   /** @param {string} name */
-  const figure = (name) => page.locator('.sheets .figures div').filter({ has: page.locator('dt', { hasText: name }) }).locator('dd').innerText();
+  const figure = (name) => page.locator('.sheets .figures div').filter({ has: page.locator('dt', { hasText: name }) }).locator('dd').textContent().then(String);
   const [card, folds] = [parsed(await figure('Area')), parsed(await figure('To fold'))];
   await page.getByLabel('Thickness, in mm').waitFor({ state: 'hidden' });
   await page.getByLabel('Material').selectOption('metal');
   await page.getByLabel('Thickness, in mm').fill('2');
-  await page.locator('.sheets .figures dd', { hasText: 'cm²' }).filter({ hasNotText: await figure('Area') }).waitFor();
+  await page.locator('.sheets .figures dd', { hasText: 'cm²' }).filter({ hasNotText: await figure('Area') }).waitFor({ state: 'attached' });
   await page.locator('.preview[aria-busy="false"] img').waitFor();
   // Of metal a bend by 90° takes a strip less: the setback on both sides, less the arc of its neutral line.
   const strip = 2 * (2 + 2) - ((2 + 0.44 * 2) * Math.PI) / 2;

@@ -223,6 +223,16 @@ export function pageCautions({ outside, weak, assumed, unplaced }) {
 /** A gap above this says little: the objective could be twice the optimum. */
 const USEFUL = 0.5;
 
+/** The headline before its pieces are counted. */
+export const HEADLINE_WORDS = {
+  solved: 'Made of pieces that bend like paper.',
+  unsolved: 'Not solved.',
+  stays: 'The result before it stays.',
+  solving: 'Solving…',
+  /** @param {string} name */
+  opened: (name) => `Opened ${name}.`,
+};
+
 /** What is said of a solve under way. */
 export const RUN_WORDS = {
   begun: 'Solving…',
@@ -255,27 +265,24 @@ export function verdict({ gap, seconds: { total }, stopReason }) {
  */
 export function closer(factor) {
   if (factor === undefined) return '';
-  if (factor >= 1.05) return `${factor >= 10 ? count(factor) : factor.toFixed(1)}× less noise than the input (against the noise-free example).`;
-  return 'No less noise than the input (against the noise-free example).';
+  if (factor >= 1.05) return `${factor >= 10 ? count(factor) : factor.toFixed(1)}× less noise (against the noise-free example).`;
+  return 'No less noise (against the noise-free example).';
 }
 
 /**
  * What has come of it, in one sentence.
  * @param {number} pieces smooth ones; infinite where they are too small to be told apart
  * @param {number} creases
- * @param {number} [factor] of closeness to the truth, where it is known
  * @param {boolean} [oneSide] whether it is a mesh of which one side is seen
  */
-export function outcome(pieces, creases, factor, oneSide = false) {
+export function outcome(pieces, creases, oneSide = false) {
   const smooth = pieces === 1 ? 'One smooth piece' : `${count(pieces)} smooth pieces`;
   const none = oneSide ? ', no crease told apart' : ' without a crease';
   const meet = creases === 0
     ? `${smooth}${pieces === 1 ? none : ', apart from each other'}`
     : `${smooth} ${pieces === 1 ? 'with' : 'meet in'} ${creases === 1 ? 'one crease' : `${count(creases)} creases`}`;
-  const better = closer(factor);
   const words = Number.isFinite(pieces) ? meet : 'Creased all over: too finely to count its pieces';
-  const first = oneSide ? `From this side: ${words[0].toLowerCase()}${words.slice(1)}.` : `${words}.`;
-  return [first, better].filter(Boolean).join(' ');
+  return oneSide ? `From this side: ${words[0].toLowerCase()}${words.slice(1)}.` : `${words}.`;
 }
 
 /**

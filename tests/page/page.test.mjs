@@ -1,5 +1,8 @@
 /** A photo of a curled page alone: found, dragged, held, made flat and saved. */
 import assert from 'node:assert/strict';
+import { test } from 'node:test';
+import { pageCautions } from '../../www/messages.js';
+import { ASSUMED_FIELD_OF_VIEW, Flattening } from '../../www/page/flatten.js';
 import { readPdfPicture } from '../js/support/drawings.mjs';
 import { parsed } from './support/numbers.mjs';
 import { choose, drop, ended, look, pageTest, painted, saveAs } from './support/page.mjs';
@@ -142,6 +145,49 @@ pageTest('a page that is not found has no flat page, no figure and no file until
   await page.locator('#page-side[data-state="unfound"]').waitFor();
   assert.deepEqual(await placeOf(page, 'Upper left corner'), [120, 90]);
   assert.ok(await save.isDisabled());
+});
+
+test('where nothing tells the focal length, that of a phone is assumed, and said', async () => {
+  /** @type {unknown[]} */
+  const asked = [];
+  const worker = /** @type {any} */ ({
+    dewarpPage: async (/** @type {unknown} */ _, /** @type {unknown} */ edges, /** @type {{ fieldOfView?: number }} */ options) => {
+      asked.push([edges, options.fieldOfView]);
+      if (options.fieldOfView === undefined) throw Object.assign(new Error('not known'), { code: 'FOCAL_LENGTH' });
+      return { report: {} };
+    },
+  });
+  const line = /** @type {[number, number][]} */ ([[0, 0], [9, 0]]);
+  const wish = /** @type {any} */ ({
+    photo: { small: { width: 10, height: 10, data: [] }, grey: { scale: 1 } }, traces: [[line], [line], [line], [line]], text: [[]], options: {}, moving: false,
+  });
+  /** @type {any} */
+  const done = await new Promise((resolve) => void new Flattening(worker).preview(wish, resolve));
+  assert.equal(done.assumed, true);
+  assert.deepEqual(asked.map((one) => /** @type {any} */ (one)[1]), [undefined, ASSUMED_FIELD_OF_VIEW]);
+  const told = pageCautions({ outside: ['upper left'], weak: ['lower', 'right'], assumed: true, unplaced: 0 });
+  assert.deepEqual(told, [
+    'The upper left corner is outside the photo: its place is a guess.', 'The lower and right edges are hardly seen: check them.',
+    'The camera is not known: a field of view of 65° is assumed.',
+  ]);
+});
+
+pageTest('of several pages one is taken, and another by a click', async (page) => {
+  const { width, height, data } = parsePng(photo);
+  const both = new Uint8Array(8 * width * height);
+  for (let row = 0; row < height; row++) {
+    for (const k of [0, 1]) both.set(data.subarray(4 * row * width, 4 * (row + 1) * width), 4 * (2 * row + k) * width);
+  }
+  await openPhoto(page, 'two.png', png({ width: 2 * width, height, data: both }));
+  const choices = page.locator('#several').getByRole('button');
+  assert.equal(await choices.count(), 2);
+  const [before] = await placeOf(page, 'Upper left corner');
+  for (const choice of await choices.all()) {
+    await choice.click();
+    await flattened(page);
+    if (Math.abs((await placeOf(page, 'Upper left corner'))[0] - before) > width / 2) return;
+  }
+  assert.fail('the other page was never taken');
 });
 
 pageTest('a corner outside the photo is named, and stays in the frame', async (page) => {

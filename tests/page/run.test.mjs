@@ -1,7 +1,8 @@
 /** Running: to the end, with progress, and not to the end. */
 import assert from 'node:assert/strict';
 import { parsed } from './support/numbers.mjs';
-import { look, pageTest, reported, runBy, settled } from './support/page.mjs';
+import { downloaded, look, pageTest, reported, runBy, settled } from './support/page.mjs';
+import { parsePng } from './support/photos.mjs';
 
 /** @typedef {import('playwright-core').Page} Page */
 
@@ -28,6 +29,14 @@ pageTest('the first visit shows a solved example with its certificate', async (p
   assert.ok(bound <= objective, `${bound} above ${objective}`);
   const terms = parsed(await reported(page, 'Fidelity')) + parsed(await reported(page, 'Bending'));
   assert.ok(Math.abs(terms - objective) < 1e-3 * objective, `${terms} against ${objective}`);
+
+  const saved = await downloaded(page, () => page.locator('#report-save').evaluate((button) => /** @type {HTMLButtonElement} */ (button).click()));
+  assert.equal(saved.name, 'roof-report.json');
+  assert.ok(Math.abs(100 * JSON.parse(saved.bytes.toString()).gap - gap) <= 0.1 * gap + 0.01, 'the same gap');
+  const picture = await downloaded(page, () => page.getByRole('button', { name: 'Save this view (PNG)' }).click());
+  const { width, data } = parsePng(picture.bytes);
+  const colours = new Set(Array.from({ length: width }, (_, i) => data[4 * (Math.floor(data.length / 8 / width) * width + i)]));
+  assert.ok(width > 300 && colours.size > 20, `${colours.size} greys`);
 
   const print = await page.pdf({ format: 'A4', printBackground: true });
   assert.equal(print.toString('latin1').match(/\/Type\s*\/Page\b/g)?.length, 1, 'printed, it is one page');

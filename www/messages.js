@@ -123,6 +123,8 @@ export const STRIP_WORDS = {
 export const WHOLE_WORDS = {
   kept: 'Cancelled: this is the surface before.',
   solving: 'Solving the whole mesh…',
+  /** @param {number} n */
+  iterations: (n) => `${count(n)} ${n === 1 ? 'iteration' : 'iterations'}.`,
   solved: 'The whole mesh is solved, from all sides.',
   unsolved: 'The mesh cannot be solved as a whole.',
   /** @param {string} share */

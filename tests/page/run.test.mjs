@@ -11,7 +11,7 @@ import { parsePng } from './support/photos.mjs';
  * @param {Page} page
  */
 async function startLongRun(page) {
-  await page.locator('summary').click();
+  await page.locator('#controls summary').click();
   await runBy(page, () => page.locator('#size').selectOption('200'));
   await runBy(page, () => page.getByRole('button', { name: /^small/ }).click());
   await page.getByLabel('Stop when proven within').selectOption('0.0001');
@@ -61,7 +61,7 @@ pageTest('progress moves the bar and the curve', async (page) => {
   // The certificate opens the drawer that has the curve.
   await page.locator('#certificate').click();
   await page.locator('#curve-canvas').waitFor();
-  await page.locator('summary').click();
+  await page.locator('#controls summary').click();
   await page.evaluate(() => {
     const bar = /** @type {HTMLProgressElement} */ (document.querySelector('#progress'));
     const curve = /** @type {HTMLCanvasElement} */ (document.querySelector('#curve-canvas'));

@@ -374,7 +374,7 @@ pageTest('a photo of what is flat is called that, and what is no photo is refuse
   await choose('notes.png', Buffer.from('no picture'));
   await page.getByRole('alert').filter({ hasText: 'notes.png' }).waitFor();
   await choose('photo.png', png16(2 * WIDTH, grid(2 * WIDTH, 2 * HEIGHT, (col) => 600 * col)));
-  await page.locator('#about-view .said', { hasText: 'flat to begin with' }).waitFor();
+  await page.locator('#about-view .said', { hasText: 'was flat already' }).waitFor();
   assert.equal(await page.locator('#photo-name').innerText(), 'photo.png');
   const [width, height] = (await told(page, 'Flat image')).split('×').map(parsed);
   assert.ok(Math.abs(width - 2 * WIDTH) <= 2 && Math.abs(height - 2 * HEIGHT) <= 2, `${width} × ${height}`);

@@ -118,11 +118,11 @@ async function canvasPixels(page) {
 pageTest('a closed mesh is solved whole, shown before and after, laid flat and saved', async (page) => {
   await open(page, 'box.obj', obj(box));
   const hint = await page.locator('#whole-hint').innerText();
-  const hidden = parsed(/leave out ([\d.]+)/.exec(hint)?.[1] ?? '');
+  const hidden = parsed(/([\d.]+)\s% of the surface is hidden/.exec(hint)?.[1] ?? '');
   // From above all but one side, though some of the upright ones may be seen at the rim.
   assert.ok(hidden > 50 && hidden <= 100 * (1 - (a * b) / area) + 1, hint);
   await solve(page);
-  assert.match(await page.locator('#whole-verdict').innerText(), /^Solved whole/);
+  assert.match(await page.locator('#whole-verdict').innerText(), /^The whole mesh is solved/);
   assert.match(await page.locator('#whole-detail').innerText(), /of \d+ steps is proven within .* nothing is proven about the shape/);
   assert.equal(await page.locator('section[aria-label="Surfaces"]').isVisible(), false, 'no heights');
   assert.equal(await page.locator('.controls .more').isVisible(), false, 'nor their settings');
@@ -199,17 +199,26 @@ pageTest('a whole solve tells how far it is and can be done without; what is no 
     radio.checked = true;
     radio.dispatchEvent(new Event('change', { bubbles: true }));
     const waiting = /** @type {HTMLElement} */ (document.querySelector('#whole-waiting'));
-    const seen = !waiting.hidden && /Solving it/.test(waiting.innerText) && waiting.querySelector('progress') !== null;
+    const seen = !waiting.hidden && /Solving/.test(waiting.innerText) && waiting.querySelector('progress') !== null;
     /** @type {HTMLButtonElement} */ (document.querySelector('#whole-waiting-cancel')).click();
     return seen && waiting.hidden && document.querySelector('#whole-verdict')?.textContent;
   });
   assert.equal(cancelled, 'Cancelled.');
   assert.ok(await page.locator('#whole-file').isDisabled());
-  const progress = page.waitForFunction(() => /Iteration \d/.test(document.querySelector('#whole-detail')?.textContent ?? ''));
+  const progress = page.waitForFunction(() => /\d iterations/.test(document.querySelector('#whole-detail')?.textContent ?? ''));
   await page.getByRole('button', { name: 'Solve', exact: true }).click();
   await progress;
   await done(page);
-  assert.match(await page.locator('#whole-verdict').innerText(), /^Solved whole/);
+  assert.match(await page.locator('#whole-verdict').innerText(), /^The whole mesh is solved/);
+
+  // Cancelled, the next solve leaves the surface before.
+  await page.evaluate(() => {
+    /** @type {HTMLButtonElement} */ (document.querySelector('[data-exponent="7"]')).click();
+    /** @type {HTMLButtonElement} */ (document.querySelector('#whole-waiting-cancel')).click();
+  });
+  await page.locator('#whole-detail', { hasText: 'this is the surface before' }).waitFor();
+  assert.ok(await page.locator('#whole-file').isEnabled());
+  await done(page);
 
   // Three triangles at one edge.
   const fan = { points: [[0, 0, 0], [1, 0, 0], [0, 1, 0.2], [0, -1, 0.1], [0, 0.2, 1]], triangles: [[0, 1, 2], [1, 0, 3], [0, 1, 4]] };

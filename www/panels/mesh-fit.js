@@ -172,6 +172,9 @@ export function wholePanel(session, whole) {
       looked = mesh;
     });
   });
+  whole.on('progress', ({ iteration }) => {
+    detail.textContent = WHOLE_WORDS.iterations(iteration);
+  });
   whole.on('result', (surface) => {
     if (!whole.mesh) return;
     waiting.end(slow(whole.mesh, '', 'whole'));

@@ -75,7 +75,7 @@ pageTest('where it jumps it is torn, which can be seen before and after', async 
   await more(page);
   await page.getByLabel('Tear where it jumps').check();
   await page.locator('#input-legend', { hasText: 'no jumps found' }).waitFor(); // at 4e4
-  const field = page.getByLabel('Least bend that counts as a jump');
+  const field = page.getByLabel('Smallest jump');
   await field.fill('150');
   await field.press('Tab');
   await page.locator('#input-legend', { hasText: 'torn at' }).waitFor();

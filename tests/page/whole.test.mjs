@@ -225,7 +225,7 @@ pageTest('a whole solve tells how far it is and can be done without; what is no 
   await open(page, 'fan.obj', obj(/** @type {any} */ (fan)));
   assert.equal(await page.locator('#whole').isVisible(), false, 'another mesh is seen first');
   await solve(page);
-  assert.match(await page.locator('#whole-verdict').innerText(), /cannot be solved whole/);
+  assert.match(await page.locator('#whole-verdict').innerText(), /cannot be solved as a whole/);
   assert.match(await page.locator('#whole-detail').innerText(), /edge/);
 });
 

@@ -9,7 +9,8 @@ import { spanInWords, understood } from '../import-interpretation.js';
 import { pixelsOf } from '../pixels.js';
 import { isCamera, together } from '../dropped-files.js';
 import { kindByName, otherInWords } from '../file-kinds.js';
-import { FILE_WORDS } from '../messages.js';
+import { DEPTH_WORDS, FILE_WORDS } from '../messages.js';
+import { areSurelyDepths } from '../metadata-guess.js';
 import { cameraPanel } from './camera.js';
 import { isMesh, meshPanel } from './mesh.js';
 import { hideNotice, showNotice } from './notice.js';
@@ -97,14 +98,19 @@ export function sourcePanel(session, { choose, usePhoto }, opened, openPage) {
     if (coloured) return takePhoto(chosen);
     if (!opened || !session.input) return false;
     waiting = null;
-    const { depths, stored } = session.input;
+    const { depths, stored, data } = session.input;
     setCoarsening(stored?.coarsening ?? 1);
     if (!depths) {
       void session.run();
       return true;
     }
     camera.ask();
-    if (known || !(await camera.project(true))) return true;
+    if (known) return true;
+    if (!areSurelyDepths(chosen.name, data)) {
+      void session.run();
+      return true;
+    }
+    if (!(await camera.project(true))) return true;
     void session.run();
     choose(hasColours(session.input) ? 'photo' : 'shaded');
     return true;
@@ -236,7 +242,7 @@ export function sourcePanel(session, { choose, usePhoto }, opened, openPage) {
     zero.checked = input.stored.zeros;
     design.checked = input.design === true;
     hex.checked = input.stored.hexagonal;
-    told.textContent = input.stored.told;
+    told.textContent = input.depths ? DEPTH_WORDS.maybe : input.stored.told;
     told.hidden = told.textContent === '';
     span.textContent = spanInWords(input);
     const words = doubtOf(input);

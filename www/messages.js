@@ -47,7 +47,7 @@ export const FILE_WORDS = {
 /** What is said of depths from a camera. */
 export const DEPTH_WORDS = {
   /** @param {string} angle @param {number} scale */
-  assumed: (angle, scale) => `Assumed: ${angle}° field of view, depths in ${scale === 1 ? 'metres' : scale === 0.001 ? 'millimetres' : `steps of ${number(scale)} m`}. Correct it under “Camera” if lengths are off.`,
+  assumed: (angle, scale) => `Assumed: ${angle}° field of view, depths in ${scale === 1 ? 'metres' : scale === 0.001 ? 'millimetres' : `steps of ${number(scale)} m`}. Correct it under “Input” if lengths are off.`,
   maybe: 'These may be depths from a camera. If so, build the 3D surface below; here they are taken for heights.',
   failed: 'The 3D surface could not be built',
   building: 'Building the 3D surface',

@@ -92,7 +92,7 @@ pageTest('a page on a dark ground is found, and its dots come out evenly', async
   const error = misplaced(flat);
   assert.ok(error < 0.003, `dots are off by ${100 * error} % of the width`);
   // What is claimed is about what it is.
-  const [likely, bound] = [parsed(await told(page, 'Likely error')), parsed(await told(page, '95 of 100 below'))];
+  const [likely, bound] = [parsed(await told(page, 'Likely error')), parsed(await told(page, '95 % limit'))];
   assert.ok(likely < bound && bound < 1 && 100 * error < 2 * bound, `${likely}, ${bound}, ${100 * error}`);
 
   const jpeg = await savedPage(page, 'JPEG');

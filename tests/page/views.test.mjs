@@ -192,10 +192,10 @@ pageTest('the cylinder laid flat is as large as it is bent', async (page) => {
     }
   }
   const expected = [ends[1] - ends[0], ends[3] - ends[2]];
-  const found = (await told(page, 'Size of the sheet')).split('×').map(parsed);
+  const found = (await told(page, 'Sheet size')).split('×').map(parsed);
   found.forEach((side, k) => assert.ok(Math.abs(side / expected[k] - 1) < 0.005, `${found} against ${expected}`));
   assert.match(await page.locator('#about-view .said').innerText(), /^Laid flat/);
-  assert.ok(parsed(await told(page, 'Strain, root mean square')) < 0.1);
+  assert.ok(parsed(await told(page, 'RMS strain')) < 0.1);
   assert.equal(await told(page, 'Flipped triangles'), '0');
   assert.equal(await told(page, 'Overlaps'), 'none');
   assert.ok((await look(page, '#result-picture')).covered > 0.4);

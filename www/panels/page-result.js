@@ -156,7 +156,7 @@ function factsOf(flat, quarters, scale) {
   const wrong = verdict === 'notThisKind';
   return [
     ['Likely error', wrong ? '–' : `${percent(error / 100)} of the width`],
-    ['95 of 100 below', wrong ? '–' : percent(pinholeErrorBound / 100)],
+    ['95 % limit', wrong ? '–' : percent(pinholeErrorBound / 100)],
     ['Edges disagree', `${percent(disagreement / 100)} of the width`],
     ...(lines + linesFound === 0 ? [] : [/** @type {[string, string]} */ (['Lines of text', linesFacts(flat.report)])]),
     ['Edge residual', `${numberAgainst(residual / scale, 1000)} pixels`],

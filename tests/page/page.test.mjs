@@ -450,6 +450,9 @@ pageTest('on a phone a finger drags, and nothing scrolls', async (page) => {
     const box = await one.boundingBox();
     assert.ok(box && box.width >= 44 && box.height >= 44, 'large enough for a finger');
   }
+  const low = await page.locator(':is(.ways, #page-side) :is(button, select):not(.handle):visible').evaluateAll((all) =>
+    all.filter((one) => one.getBoundingClientRect().height < 44).map(({ id }) => id));
+  assert.deepEqual(low, []);
   const [x, y] = await placeOf(page, 'Lower left corner');
   await page.locator('#page-photo').scrollIntoViewIfNeeded();
   const scrolled = await page.evaluate(() => window.scrollY);

@@ -197,11 +197,11 @@ export function pageVerdict({ verdict, model, lines }) {
  */
 export function pageErrors({ verdict, error, pinholeErrorBound, lines, linesFound }) {
   const text = lines + linesFound > 0 ? ' and lines of text' : '';
-  const likely = `Places are off by about ${percent(error / 100)} of its width (below ${percent(pinholeErrorBound / 100)} in 95 of 100 cases, if the lens does not distort)`;
+  const likely = `places are off by about ${percent(error / 100)} of its width (95 of 100: below ${percent(pinholeErrorBound / 100)}, without lens distortion)`;
   switch (verdict) {
-    case 'flat': case 'unrolled': return `${likely}, if the outline is right.`;
-    case 'unchecked': return `One edge looks straight however the page is bent, or has few points. ${likely}, if it is curled one way.`;
-    case 'doubtful': return `The edges${text} disagree, or the page hides a part of itself. ${likely}. Correct the outline, or set the page’s format.`;
+    case 'flat': case 'unrolled': return `If the outline is right, ${likely}.`;
+    case 'unchecked': return `One edge looks straight however the page is bent, or has few points. If it is curled one way, ${likely}.`;
+    case 'doubtful': return `The edges${text} disagree, or the page hides a part of itself: ${likely}. Correct the outline, or set the page’s format.`;
     default: return `The edges${text} contradict each other. Correct the outline where it leaves the page.`;
   }
 }

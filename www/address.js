@@ -13,6 +13,8 @@ import { ENERGIES, VIEWS } from './messages.js';
  * @property {{ pixelSize?: number, heightScale?: number, zeros?: boolean, hexagonal?: boolean }} [stored] how it is understood
  * @property {Partial<Settings>} settings that are not the defaults
  * @property {boolean} [whole] a mesh is solved whole
+ * @property {boolean} [photo] a photo of a page is made flat
+ * @property {boolean} [unkept] the file was too large to be kept, or the browser keeps nothing
  * @property {string} [view]
  */
 
@@ -24,7 +26,7 @@ const NUMBERS = ['gap', 'coarsening', 'reweighting', 'occlusionThreshold'];
  * @param {Readonly<Settings>} defaults
  * @returns {string} with its #
  */
-export function addressOf({ card, example, file, stored, settings, whole, view }, defaults) {
+export function addressOf({ card, example, file, stored, settings, whole, photo, unkept, view }, defaults) {
   const words = new URLSearchParams();
   if (example) {
     words.set('example', example.name);
@@ -37,6 +39,8 @@ export function addressOf({ card, example, file, stored, settings, whole, view }
     if (value === undefined || value === defaults[/** @type {keyof Settings} */ (name)]) continue;
     words.set(name, typeof value === 'number' && name === 'lambda' ? shortest(value) : String(value));
   }
+  if (unkept) words.set('unkept', '1');
+  if (photo) words.set('photo', '1');
   if (whole) words.set('whole', '1');
   if (view && view !== 'shaded') words.set('view', view);
   return `#${[...(card ? [card] : []), ...(words.size > 0 ? [words] : [])].join('&')}`;
@@ -77,6 +81,8 @@ export function stateOf(hash) {
     stored: flags.length + scales.length > 0 ? Object.fromEntries([...flags, ...scales]) : undefined,
     settings,
     whole: words.get('whole') === '1' || undefined,
+    photo: words.get('photo') === '1' || undefined,
+    unkept: words.get('unkept') === '1' || undefined,
     view: view && Object.hasOwn(VIEWS, view) ? view : undefined,
   };
 }

@@ -1,4 +1,5 @@
 /** Which of several files is what: a mesh and what it names, or depths with what is known of them. */
+import { kindByName } from './file-kinds.js';
 import { isMesh } from './panels/mesh.js';
 
 /**
@@ -12,13 +13,9 @@ import { isMesh } from './panels/mesh.js';
  * @property {File[]} others
  */
 
-const CAMERA = /\.(json|csv|txt)$/i;
-const HEIGHTS = /\.(tiff?|exr|pfm|npy|npz)$/i;
-const PICTURE = /\.(png|jpe?g|webp|avif|heic)$/i;
-
 /** Whether it is a text with the numbers of a camera, by its name. @param {File} file */
-export function isCamera({ name }) {
-  return CAMERA.test(name);
+export function isCamera(file) {
+  return kindByName(file) === 'camera';
 }
 
 /**
@@ -35,7 +32,7 @@ export async function together(files) {
   }
   // A grey picture beside one in colour is what that shows.
   if (!found.depths && !found.mesh) {
-    const pictures = files.filter((file) => file === found.photo || (found.others.includes(file) && PICTURE.test(file.name)));
+    const pictures = files.filter((file) => file === found.photo || (found.others.includes(file) && kindByName(file) === 'picture'));
     const grey = pictures.length > 1 ? await firstOf(pictures, isGrey) : undefined;
     if (grey) {
       found.depths = grey;
@@ -53,14 +50,15 @@ export async function together(files) {
 async function kindOf(file) {
   const { name } = file;
   if (isMesh(name)) return 'mesh';
-  if (CAMERA.test(name)) return 'camera';
-  if (HEIGHTS.test(name) || PICTURE.test(name)) {
+  const kind = kindByName(file);
+  if (kind === 'camera') return 'camera';
+  if (kind === 'heights' || kind === 'picture') {
     if (/conf/i.test(name)) return 'confidence';
     if (/mask|matte|segment/i.test(name)) return 'mask';
   }
-  if (HEIGHTS.test(name)) return 'depths';
+  if (kind === 'heights') return 'depths';
   if (/\.png$/i.test(name) && (/depth/i.test(name) || await isGrey16(file))) return 'depths';
-  return PICTURE.test(name) ? 'photo' : null;
+  return kind === 'picture' ? 'photo' : null;
 }
 
 /** Whether it is a PNG of 16 bits of grey, as depth cameras write it. @param {File} file */

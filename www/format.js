@@ -10,6 +10,15 @@ export function count(n) {
 }
 
 /**
+ * A number of a quantity of which a typical size is known: 0 where it is a rounding error.
+ * @param {number} value
+ * @param {number} size
+ */
+export function numberAgainst(value, size) {
+  return number(Math.abs(value) < 1e-9 * Math.abs(size) ? 0 : value, 2);
+}
+
+/**
  * Three significant digits, by powers of ten where that is shorter.
  * @param {number} value
  * @param {number} [digits]
@@ -54,14 +63,18 @@ export function percentAtMost(share) {
   return `${number(up, 2)}${BREAKLESS}%`;
 }
 
+/** Shares below this are rounding errors. */
+const MIN_SHARE = 1e-7;
+
 /** @param {number} share */
 export function percent(share) {
+  if (Math.abs(share) < MIN_SHARE) return `0${BREAKLESS}%`;
   return `${number(100 * share, 2)}${BREAKLESS}%`;
 }
 
 /** @param {number} share with its sign */
 export function signed(share) {
-  return `${share > 0 ? '+' : ''}${percent(share)}`;
+  return `${share >= MIN_SHARE ? '+' : ''}${percent(share)}`;
 }
 
 /** What is under the pointer on a sheet. @param {number} strain NaN beside it */

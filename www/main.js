@@ -45,23 +45,34 @@ async function start() {
   const views = analysisPanel(session, analyses, show);
   headline(session, analyses);
   savePanel(session, analyses, views.choose);
-  const { openNamed, openFiles, understand, takeMesh } = sourcePanel(session, views, (files) => void keep.remember(files));
+  const { openNamed, openFiles, understand, takeMesh } = sourcePanel(session, views, (files) => void keep.remember(files), (photo) => {
+    mode.show('photo');
+    void page.open(photo);
+  });
+  /** @param {File[]} files */
+  const openHeights = (files) => {
+    mode.enter('heights');
+    void openFiles(files);
+  };
   const page = pagePanel(session.api, ({ mesh }, name) => {
     mode.enter('heights');
     takeMesh({ name, kind: 'photo' }, async () => mesh, 'The page could not be taken as a surface');
-  });
+  }, openHeights, (file) => void keep.rememberPhoto(file));
   const mode = modePanel((entered) => {
     if (entered === 'photo') page.begin();
+    keep.write();
   });
   const gallery = galleryPanel(session, { adopt, choose: views.choose, strip: strip.show, enter: () => mode.enter('heights') });
   element('notice-close', HTMLButtonElement).addEventListener('click', hideNotice);
   watchDrops((files) => {
     if (mode.now === 'photo' && files.length === 1) return void page.open(files[0]);
     // What comes together is no photo alone.
-    mode.enter('heights');
-    void openFiles(files);
+    openHeights(files);
   });
-  const keep = keepPanel(session, { adopt, choose: views.choose, openExample: openNamed, openFiles, understand, gallery, whole, solvedWhole });
+  const keep = keepPanel(session, {
+    adopt, choose: views.choose, openExample: openNamed, openFiles, openRecent: openHeights, understand, gallery, mode, openPhoto: page.open,
+    beginPhoto: page.begin, whole, solvedWhole,
+  });
   await keep.begin();
 }
 

@@ -30,6 +30,8 @@ export class Whole extends Events {
   lambda = 'auto';
   /** @type {MeshSurface | null} */
   surface = null;
+  /** Of the same mesh, before the solve under way. @type {MeshSurface | null} */
+  #before = null;
   /** The solve under way, or the last one. @type {object | null} */
   #turn = null;
   /** What is worked out now. @type {Set<AbortController>} */
@@ -47,6 +49,7 @@ export class Whole extends Events {
   async solve(mesh, lambda) {
     this.stop();
     const turn = (this.#turn = {});
+    this.#before = this.mesh === mesh ? this.surface ?? this.#before : null;
     this.mesh = mesh;
     this.lambda = lambda;
     this.surface = null;
@@ -64,6 +67,15 @@ export class Whole extends Events {
     } catch (error) {
       if (this.#turn === turn) this.emit('failure', error);
     }
+  }
+
+  /** Takes the surface before the solve that was stopped. @returns {boolean} whether there is one */
+  restore() {
+    if (!this.surface && this.#before) {
+      this.surface = this.#before;
+      this.emit('result', this.surface);
+    }
+    return this.surface !== null;
   }
 
   /** Ends whatever is being worked out; those who wait for it are told so. */

@@ -5,7 +5,7 @@ import { work } from './surface/work.js';
 
 /** @import {Mesh, SampleMeshOptions} from './api.js' */
 /** @import {Input, Session, Slow} from './session.js' */
-/** @typedef {Pick<Input, 'name' | 'kind' | 'photo'>} Called */
+/** @typedef {Pick<Input, 'name' | 'kind' | 'photo' | 'depthSource' | 'assumed'>} Called */
 
 /** Milliseconds for a vertex of a mesh that is drawn into a lattice, until that was measured. */
 const EACH = 1e-3;
@@ -30,6 +30,6 @@ export function see(session, file, load, options, doing, { whole, slow } = {}) {
     const grid = gridOver(lattice);
     const data = await work('interpolated', lattice, lattice.heights, grid);
     if (!lattice.heights.some(Number.isFinite)) throw new Error('nothing of it is seen from there');
-    return { ...file, ...grid, heightScale: 1, data, lattice, seen: { mesh, options, whole } };
+    return { ...file, ...grid, heightScale: 1, data, lattice, unit: lattice.unit ?? undefined, seen: { mesh, options, whole } };
   }, slow);
 }

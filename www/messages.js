@@ -7,23 +7,50 @@ import { plainly } from './error-messages.js';
 
 /** @type {Record<StopReason, string>} */
 export const STOP_REASONS = {
-  gap: 'the wanted gap was certified',
+  gap: 'the wanted gap was proven',
   residuals: 'the residuals were small enough (the paper’s rule)',
-  rounding: 'nothing left to gain: the optimum, up to rounding',
-  maxIterations: 'the most iterations allowed',
+  rounding: 'the optimum was reached, up to rounding',
+  maxIterations: 'the maximum number of iterations was reached',
   cancelled: 'cancelled; this is the best surface so far',
   diverged: 'the iterations diverged; this is the best surface before',
 };
 
 /** What each view shows, in one sentence. @type {Record<string, string>} */
 export const VIEWS = {
-  shaded: 'Both surfaces in the same light: smooth pieces shine evenly, creases are sharp lines.',
-  gaussian: 'How much each place bends both ways at once: grey is none, so that it can be laid flat.',
-  kappa2: 'The smaller of both curvatures: 0 where the surface bends one way only.',
-  rulings: 'Straight lines that lie on the surface: paper bends across them, and never along.',
-  patches: 'The smooth pieces, each in a colour, and the creases where they meet.',
-  sheet: 'The surface laid flat to scale: what one would cut from paper.',
-  dewarped: 'A photo of the surface, and what is printed on it as if it lay flat.',
+  shaded: 'Input and result in the same light: smooth pieces shine evenly, creases are sharp lines.',
+  gaussian: 'How much each place bends both ways at once. Grey: not at all, so it can be laid flat.',
+  kappa2: 'The smaller principal curvature: 0 where the surface bends one way only.',
+  rulings: 'Straight lines in the surface: paper bends across them, never along them.',
+  patches: 'Each smooth piece in its own colour, and the creases between them.',
+  sheet: 'The surface laid flat, to scale: what you cut from paper.',
+  photo: 'The photo, or the scan’s own colours, on both surfaces.',
+  dewarped: 'A photo of the surface, and the same photo made flat.',
+};
+
+/** What is said of files that the part of the page they came to does not take. */
+export const FILE_WORDS = {
+  /** @param {string} name @param {string} what */
+  unread: (name, what) => `“${name}” is ${what}. This page opens photos of pages (JPEG, PNG, WebP), heights and depths (TIFF, EXR, PFM, NPY, NPZ, grey PNG), and meshes and point clouds (OBJ, PLY, STL, GLB).`,
+  /** @param {string} name */
+  meshNoPhoto: (name) => `“${name}” is a mesh or a point cloud, and no photo of a page.`,
+  /** @param {string} name */
+  heightsNoPhoto: (name) => `“${name}” holds heights or depths, and no photo of a page.`,
+  /** @param {string} name */
+  pageNoHeights: (name) => `“${name}” is a photo in colour, which has no heights. Open the depths that belong to it, or make it flat as a photo of a page.`,
+  openAsHeights: 'Open it under “Heights, depth, scans”',
+  openAsPage: 'Make it flat as a page',
+  /** @param {string} name */
+  tooLarge: (name) => `“${name}” has more pixels than can be opened here.`,
+  openAtHalf: 'Open it at half size',
+};
+
+/** What is said of depths from a camera. */
+export const DEPTH_WORDS = {
+  /** @param {string} angle @param {number} scale */
+  assumed: (angle, scale) => `Assumed: ${angle}° field of view, depths in ${scale === 1 ? 'metres' : scale === 0.001 ? 'millimetres' : `steps of ${number(scale)} m`}. Correct it under “Input” if lengths are off.`,
+  maybe: 'These may be depths from a camera. If so, build the 3D surface below; here they are taken for heights.',
+  failed: 'The 3D surface could not be built',
+  building: 'Building the 3D surface',
 };
 
 /** What is marked on the input, by how many there are. */
@@ -48,34 +75,119 @@ export const ENERGIES = {
 
 /** What came of laying a surface flat. @type {Record<Verdict, string>} */
 export const VERDICTS = {
-  flat: 'It was flat to begin with.',
-  unrolled: 'Unrolled: lengths on the flat sheet are those on the surface.',
-  stretched: 'It cannot be laid flat without stretching or overlapping: mind the figures.',
-  doubtful: 'It may be wrong: mind the figures.',
+  flat: 'The surface was flat already.',
+  unrolled: 'Laid flat: lengths on the sheet are those on the surface.',
+  stretched: 'The surface cannot be laid flat without stretch or overlap: see the figures.',
+  doubtful: 'The flat sheet may be wrong: see the figures.',
 };
 
 /** What came of making a photo flat. @type {Record<Verdict, string>} */
 export const FLATTENED = {
-  flat: 'The page was flat to begin with: the photo can be used as it is.',
+  flat: 'The page was flat already: the photo can be used as it is.',
   unrolled: 'Made flat: lengths are those on the page.',
-  stretched: 'Made flat with strain, for as a whole it cannot be laid flat: mind the figures.',
+  stretched: 'Made flat with stretch, because the surface cannot be laid flat as a whole: see the figures.',
   doubtful: 'The corners are hardly those of the page: a part of it is missing, or something beside it is shown. Move them onto the page.',
 };
 
 /** Of a page that is bent about parallel rulings. */
-export const PARALLEL = 'It is bent in one direction only, so that one profile, from all of it, was taken for the whole.';
+export const PARALLEL = 'It bends in one direction only: one profile was used for all of it.';
+
+/** What the page says of a photo of a page. */
+export const PAGE_WORDS = {
+  working: 'Making it flat…',
+  unfound: 'I did not find the page. Drag the four corners onto it.',
+  unfoundDetail: 'The flat page appears as soon as a corner was moved.',
+  noFlat: 'No flat page from this outline.',
+  startAgain: 'Discard your changes to the outline?',
+  several: 'Several pages were found. Take',
+  /** @param {number} n */
+  choosePage: (n) => `Page ${n}`,
+  /** @param {string} edge */
+  tooFarOutside: (edge) => `The ${edge} edge lies too far outside the photo. Take the photo anew, with the whole page in it`,
+  /** @param {string} paper */
+  looksLike: (paper) => `Looks like ${paper}: use it`,
+};
+
+/** What is said of addresses. */
+export const ADDRESS_WORDS = {
+  lost: 'The file of this address is not kept in this browser: open it again.',
+  unkept: 'The file could not be kept in this browser (too large, or a private window): open it again.',
+};
+
+/** What is said of one of five λ. */
+export const STRIP_WORDS = {
+  /** @param {number} pieces @param {number} distance as a share of the width */
+  figures: (pieces, distance) => `${count(pieces)} ${pieces === 1 ? 'piece' : 'pieces'}, off by ${percent(distance)}`,
+};
+
+/** What is said of a mesh that is solved whole. */
+export const WHOLE_WORDS = {
+  kept: 'Cancelled: this is the surface before.',
+  solving: 'Solving the whole mesh…',
+  /** @param {number} n */
+  iterations: (n) => `${count(n)} ${n === 1 ? 'iteration' : 'iterations'}.`,
+  solved: 'The whole mesh is solved, from all sides.',
+  unsolved: 'The mesh cannot be solved as a whole.',
+  /** @param {string} share */
+  hidden: (share) => `${share} of the surface is hidden from this side. “Whole mesh” takes all of it.`,
+  /** @param {number} passes @param {string} gap */
+  proof: (passes, gap) => `The last of ${count(passes)} steps is proven within ${gap} of its best; nothing is proven about the shape as a whole.`,
+};
+
+/** What is said of sheets to cut out. */
+export const SHEET_WORDS = {
+  units: 'The file is in',
+  /** @param {string} unit */
+  unit: (unit) => (({ mm: 'millimetres', cm: 'centimetres', m: 'metres', inch: 'inches' })[unit] ?? unit),
+  ownSize: 'no unit: I set the size',
+  figures: 'Figures',
+  /** @param {string} field @param {string} min @param {string} max */
+  outOfRange: (field, min, max) => `“${field}” has to be from ${min} to ${max}`,
+};
+
+/** What the dialog says that saves. */
+export const SAVE_WORDS = {
+  pdf: 'to print or to send',
+  pdfOfTwo: 'to print or to send, one page for each',
+  working: 'Writing the file…',
+  /** @param {string} name */
+  saved: (name) => `Saved ${name}. Choose another format, or close.`,
+  /** @param {string} reason */
+  unwritten: (reason) => `Not written: ${reason}.`,
+  /** @param {string} looksLike */
+  paper: (looksLike) => `Paper size of the PDF${looksLike ? ` (looks like ${looksLike})` : ''}`,
+  /** @param {string} size */
+  trueSize: (size) => `true size, ${size}`,
+  papers: { a4: 'A4', letter: 'Letter', a5: 'A5', a3: 'A3', 'a4-wide': 'A4, lengthwise', 'letter-wide': 'Letter, lengthwise' },
+};
+
+/** What is known of the camera's focal length. */
+export const FOCAL_WORDS = {
+  unknown: 'The photo’s file does not tell it: it is found from the perspective, or else 65° are assumed.',
+  /** @param {string} film35 */
+  told: (film35) => `From the photo’s file: ${film35} mm (35 mm film).`,
+  fov: 'The angle across the photo’s longer side: 65 to 80° on most phones.',
+  film35: 'As for 35 mm film: 23 to 28 mm on most phones.',
+  pixels: 'In pixels of the photo.',
+};
+
+/** @param {readonly string[]} words one or more */
+function listed(words) {
+  return words.length < 2 ? words.join('') : `${words.slice(0, -1).join(', ')} and ${words[words.length - 1]}`;
+}
 
 /**
  * What came of making a page flat by its edges.
  * @param {PageReport} report
  */
-export function pageVerdict({ verdict, lines }) {
+export function pageVerdict({ verdict, model, lines }) {
+  const text = lines > 0 ? ' and lines of text' : '';
   switch (verdict) {
-    case 'flat': return 'Both edges are straight: only the perspective was taken out. Folds that run along them do not show in them.';
-    case 'unrolled': return `Made flat: both edges agree on how the page is bent${lines > 0 ? ', and so do lines of text' : ''}.`;
+    case 'flat': return 'Made flat: the page lay flat, only the perspective was removed.';
+    case 'unrolled': return model === 'sheet' || model === 'softSheet' ? `Made flat: folds and bends follow its edges${text}.` : `Made flat: its edges${text} agree.`;
     case 'unchecked': return 'Made flat, but nothing checks the bend.';
-    case 'doubtful': return 'Doubtful: look at it closely.';
-    default: return 'This is no page that is curled one way.';
+    case 'doubtful': return 'Made flat, but doubtful: compare it with the photo.';
+    default: return 'Not reliable: the edges do not fit one page.';
   }
 }
 
@@ -85,18 +197,56 @@ export function pageVerdict({ verdict, lines }) {
  */
 export function pageErrors({ verdict, error, pinholeErrorBound, lines, linesFound }) {
   const text = lines + linesFound > 0 ? ' and lines of text' : '';
-  const likely = `wrong by about ${percent(error / 100)} of its width, and, if the lens does not distort, in 95 of 100 cases by less than ${percent(pinholeErrorBound / 100)}`;
+  const likely = `places are off by about ${percent(error / 100)} of its width (95 of 100: below ${percent(pinholeErrorBound / 100)}, without lens distortion)`;
   switch (verdict) {
-    case 'flat': return `If it has no such folds and the edges are traced well, places on it are ${likely}.`;
-    case 'unrolled': return `If the edges are traced well, places on it are ${likely}.`;
-    case 'unchecked': return `There are few points along the edges, or one of them looks straight however the page is bent. If it is curled one way, places on it are ${likely}.`;
-    case 'doubtful': return `Its edges${text} disagree, or it hides a part of itself. Places on it are ${likely}. Correct the edges, or give the page’s format and the focal length.`;
-    default: return `Its edges${text} do not fit together. It is folded or crumpled, for which depth is needed, or an edge is traced wrongly: correct it, or choose the other two edges.`;
+    case 'flat': case 'unrolled': return `If the outline is right, ${likely}.`;
+    case 'unchecked': return `One edge looks straight however the page is bent, or has few points. If it is curled one way, ${likely}.`;
+    case 'doubtful': return `The edges${text} disagree, or the page hides a part of itself: ${likely}. Correct the outline, or set the page’s format.`;
+    default: return `The edges${text} contradict each other. Correct the outline where it leaves the page.`;
   }
+}
+
+/**
+ * What else has to be known about a flat page.
+ * @param {object} about
+ * @param {readonly string[]} about.outside corners that the photo does not show
+ * @param {readonly string[]} about.weak edges that it hardly shows
+ * @param {boolean} about.assumed whether the focal length is a guess
+ * @param {number} about.unplaced corners of a page that was not found, which are still where they were at first
+ */
+export function pageCautions({ outside, weak, assumed, unplaced }) {
+  return [
+    ...(unplaced > 0 ? [`Drag the other ${unplaced === 1 ? 'corner' : `${count(unplaced)} corners`}, too.`] : []),
+    ...(outside.length > 0 ? [outside.length === 1 ? `The ${outside[0]} corner is outside the photo: its place is a guess.` : `The ${listed(outside)} corners are outside the photo: their places are guesses.`] : []),
+    ...(weak.length > 0 ? [`The ${listed(weak)} ${weak.length === 1 ? 'edge is' : 'edges are'} hardly seen: check ${weak.length === 1 ? 'it' : 'them'}.`] : []),
+    ...(assumed ? ['The camera is not known: a field of view of 65° is assumed.'] : []),
+  ];
 }
 
 /** A gap above this says little: the objective could be twice the optimum. */
 const USEFUL = 0.5;
+
+/** The headline before its pieces are counted. */
+export const HEADLINE_WORDS = {
+  solved: 'Made of pieces that bend like paper.',
+  unsolved: 'Not solved.',
+  stays: 'The result before it stays.',
+  solving: 'Solving…',
+  /** @param {string} name */
+  opened: (name) => `Opened ${name}.`,
+};
+
+/** What is said of a solve under way. */
+export const RUN_WORDS = {
+  begun: 'Solving…',
+  stopping: 'Stopping…',
+  unsolved: 'Not solved',
+  /** @param {number} level @param {string} time */
+  coarse: (level, time) => `Coarse solve, ${count(level)} finer ${level === 1 ? 'one' : 'ones'} to come, ${time}`,
+  /** @param {number | undefined} gap @param {number} iterations @param {string} time */
+  fine: (gap, iterations, time) =>
+    `${gap !== undefined && gap < USEFUL ? `Within ${percentAtMost(gap)} of the best possible, ` : ''}${count(iterations)} iterations, ${time}`,
+};
 
 /**
  * The one sentence that matters.
@@ -104,12 +254,12 @@ const USEFUL = 0.5;
  */
 export function verdict({ gap, seconds: { total }, stopReason }) {
   const time = seconds(total);
-  const within = gap !== undefined && gap < USEFUL ? `within ${percentAtMost(gap)} of the optimum` : '';
+  const within = gap !== undefined && gap < USEFUL ? `proven within ${percentAtMost(gap)} of the best possible` : '';
   if (stopReason === 'cancelled') {
-    return `Cancelled after ${time}: ${within ? `the surface so far is ${within}` : 'too early to tell how far the surface is from the optimum'}.`;
+    return `Cancelled after ${time}: ${within || 'too early to tell how far the surface is from the best possible'}.`;
   }
-  if (stopReason === 'rounding') return `This is the optimum up to rounding, found in ${time}.`;
-  return within ? `Certified to ${within} in ${time}.` : `Stopped after ${time} without a useful certificate.`;
+  if (stopReason === 'rounding') return `This is the best possible surface, up to rounding, found in ${time}.`;
+  return within ? `P${within.slice(1)}, in ${time}.` : `Stopped after ${time}, nothing is proven.`;
 }
 
 /**
@@ -118,24 +268,24 @@ export function verdict({ gap, seconds: { total }, stopReason }) {
  */
 export function closer(factor) {
   if (factor === undefined) return '';
-  if (factor >= 1.05) return `${factor >= 10 ? count(factor) : factor.toFixed(1)} times closer to the truth than the input.`;
-  return 'No closer to the truth than the input.';
+  if (factor >= 1.05) return `${factor >= 10 ? count(factor) : factor.toFixed(1)}× less noise (against the noise-free example).`;
+  return 'No less noise (against the noise-free example).';
 }
 
 /**
  * What has come of it, in one sentence.
  * @param {number} pieces smooth ones; infinite where they are too small to be told apart
  * @param {number} creases
- * @param {number} [factor] of closeness to the truth, where it is known
+ * @param {boolean} [oneSide] whether it is a mesh of which one side is seen
  */
-export function outcome(pieces, creases, factor) {
+export function outcome(pieces, creases, oneSide = false) {
   const smooth = pieces === 1 ? 'One smooth piece' : `${count(pieces)} smooth pieces`;
+  const none = oneSide ? ', no crease told apart' : ' without a crease';
   const meet = creases === 0
-    ? `${smooth}${pieces === 1 ? ' without a crease' : ', apart from each other'}`
+    ? `${smooth}${pieces === 1 ? none : ', apart from each other'}`
     : `${smooth} ${pieces === 1 ? 'with' : 'meet in'} ${creases === 1 ? 'one crease' : `${count(creases)} creases`}`;
-  const better = closer(factor);
-  if (!Number.isFinite(pieces)) return `Creased all over, too finely for its pieces to be counted${better ? `; ${better[0].toLowerCase()}${better.slice(1)}` : '.'}`;
-  return better ? `${meet}; ${better[0].toLowerCase()}${better.slice(1)}` : `${meet}.`;
+  const words = Number.isFinite(pieces) ? meet : 'Creased all over: too finely to count its pieces';
+  return oneSide ? `From this side: ${words[0].toLowerCase()}${words.slice(1)}.` : `${words}.`;
 }
 
 /**
@@ -144,15 +294,15 @@ export function outcome(pieces, creases, factor) {
  */
 export function lambdaHint(lambda) {
   const exponent = Math.log10(lambda);
-  if (exponent < 4.5) return 'Very small: a few large, smooth patches; most detail goes.';
-  if (exponent < 5.5) return 'Small: for heavy noise, or to make do with few patches.';
-  if (exponent < 6.5) return 'Medium: for some noise, and shapes to be approximated by patches.';
-  if (exponent < 7.5) return 'Big: for input that is nearly developable but for small artefacts.';
-  return 'Very big: stays close to the input, and keeps its noise.';
+  if (exponent < 4.5) return 'Very simple: a few large pieces; most detail goes.';
+  if (exponent < 5.5) return 'Simple: for heavy noise, or for few pieces.';
+  if (exponent < 6.5) return 'Medium: for some noise, and for shapes to be built from pieces.';
+  if (exponent < 7.5) return 'Close: for input that is nearly right, with small artefacts.';
+  return 'Very close: keeps the input, and its noise.';
 }
 
 /** In its place, before it is known. */
-export const BY_NOISE = 'By the noise of the input, with smooth bends and sharp creases: for scans. It takes some solves more.';
+export const BY_NOISE = 'Chosen from the noise of the input. This takes a few more solves.';
 
 /**
  * How λ came about.
@@ -161,25 +311,25 @@ export const BY_NOISE = 'By the noise of the input, with smooth bends and sharp 
 export function lambdaFound({ lambda, lambdaChoice }) {
   if (!lambdaChoice) return '';
   const { reason, sigma, step, solves, correlationLength, ambiguous } = lambdaChoice;
-  const length = correlationLength > 0 ? ` that is alike over distances of ${number(correlationLength)}` : '';
-  const noise = step === undefined ? `noise of ${number(sigma ?? 0)}${length}` : `steps of ${number(step)}`;
-  const doubt = ambiguous ? ' The shape bends over such distances, too, so that the two cannot be told apart for certain: try other λ.' : '';
+  const length = correlationLength > 0 ? `, alike over distances of ${number(correlationLength)}` : '';
+  const noise = step === undefined ? `Noise: ${number(sigma ?? 0)}${length}` : `Steps: ${number(step)}`;
+  const doubt = ambiguous ? ' The shape bends over such distances, too: compare five values.' : '';
   switch (reason) {
-    case 'prediction': return `The heights have ${noise}, in their own unit: λ = ${shortest(lambda)} follows from that. Bends cost what had the smallest prediction error in ${count(solves)} solves.${doubt}`;
-    case 'noise': return `The heights have ${noise}, in their own unit: λ = ${shortest(lambda)} follows from that.${doubt}`;
-    case 'noNoise': return `The heights have no noise to speak of: λ = ${shortest(lambda)}. A smaller one makes fewer, larger sheets.`;
-    default: return `There are too few heights to tell their noise: λ = ${shortest(lambda)}.`;
+    case 'prediction': return `Chosen automatically (${count(solves)} values tried). ${noise}, in the unit of the heights.${doubt}`;
+    case 'noise': return `Chosen automatically. ${noise}, in the unit of the heights.${doubt}`;
+    case 'noNoise': return 'No noise was found. A simpler surface (smaller λ) has fewer, larger sheets.';
+    default: return `Too few heights to measure their noise: λ = ${shortest(lambda)}.`;
   }
 }
 
 /** The same of a mesh solved whole. @param {MeshSurface['report']} report */
 export function wholeLambdaFound({ lambda, sigma }) {
-  if (sigma === undefined) return `There are too few vertices to tell their noise: λ = ${shortest(lambda)}.`;
-  return `The mesh has noise of ${number(sigma)} along its normals, in its own unit: λ = ${shortest(lambda)} follows from that.`;
+  if (sigma === undefined) return `Too few vertices to measure their noise: λ = ${shortest(lambda)}.`;
+  return `Chosen automatically. Noise: ${number(sigma)} along the normals, in the unit of the mesh.`;
 }
 
 /** In the place of a hint, where there are only constraints. */
-export const NO_FIDELITY = 'A design has no input to stay close to: λ has no effect on it.';
+export const NO_FIDELITY = 'A design has no input to stay close to: this has no effect.';
 
 /**
  * A failure as one message.

@@ -78,6 +78,20 @@ export function isHexagonal({ width, height, data }) {
   return left < 0.6 * square && right > 1.5 * square;
 }
 
+/** Names of files that hold depths. */
+const NAMED_DEPTHS = /depth|tiefe|kinect|lidar|tof(?![a-z])/i;
+/** Share of pixels without a depth, from which on a camera has left them out. */
+const MIN_HOLE_SHARE = 0.002;
+
+/**
+ * Whether what looks like depths is taken for depths without asking: the file is called so, or a camera has left pixels out.
+ * @param {string} name of the file
+ * @param {Float64Array} data NaN where there is no depth
+ */
+export function areSurelyDepths(name, data) {
+  return NAMED_DEPTHS.test(name) || data.reduce((sum, value) => sum + Number(Number.isNaN(value)), 0) > MIN_HOLE_SHARE * data.length;
+}
+
 /**
  * Whether these are depths from a camera rather than heights: they are far from 0, and jump where one thing is in
  * front of another.
@@ -106,10 +120,10 @@ export function depthsIn(name, { width, height, data, dataType = '' }) {
     pairs++;
     if (Math.abs(beside - depth) > Math.max(JUMP * Math.min(beside, depth), 5 * usual)) jumps++;
   }
-  const named = /depth|tiefe|kinect|lidar|tof(?![a-z])/i.test(name);
+  const named = NAMED_DEPTHS.test(name);
   // An edge in front of something crosses about as many pixels as the image is wide; noise is everywhere.
   const edges = jumps > 0.3 * Math.min(width, height) && jumps < 0.05 * pairs;
-  const holes = nothing > 0.002 * data.length;
+  const holes = nothing > MIN_HOLE_SHARE * data.length;
   if (valid === 0 || !(named || (edges && (holes || !whole)))) return null;
   if (!whole && metres > 0.98 * valid) return 'm';
   return (whole || named) && millimetres > 0.98 * valid ? 'mm' : null;

@@ -1,5 +1,5 @@
 /** A surface as sheets to cut out: how large, and what they are like in words. */
-import { count, number, percent } from './format.js';
+import { count, number, numberAgainst, percent } from './format.js';
 
 /** @import {Analyses} from './analyses.js' */
 /** @import {Result} from './session.js' */
@@ -27,10 +27,39 @@ export function handySide(result) {
   return handyLength(longerSide(result), result.input.unit);
 }
 
-/** @param {number} length @param {string | null} [unit] */
+/** Millimetres in the units that a file may be in. */
+export const MILLIMETRES = { mm: 1, cm: 10, m: 1000, inch: 25.4 };
+/** Bounds of a longer side in millimetres that is taken in true size. */
+const [MIN_HANDY, MAX_HANDY] = [30, 2000];
+/** Bounds of a longer side in millimetres by which the unit of a file is guessed: what people cut at home. */
+const [MIN_LIKELY, MAX_LIKELY] = [80, 1000];
+
+/** @typedef {keyof typeof MILLIMETRES} LengthUnit */
+
+/**
+ * A longer side in millimetres: in true size, if that can be held.
+ * @param {number} length
+ * @param {string | null} [unit]
+ */
 export function handyLength(length, unit) {
-  const side = length * (unit === 'mm' ? 1 : unit === 'm' ? 1000 : NaN);
-  return side >= 30 && side <= 1000 ? Number(side.toPrecision(4)) : HANDY;
+  const side = length * (MILLIMETRES[/** @type {LengthUnit} */ (unit ?? '')] ?? NaN);
+  return side >= MIN_HANDY && side <= MAX_HANDY ? Number(side.toPrecision(4)) : HANDY;
+}
+
+/**
+ * The unit in which a length of a file that does not say it can be held: millimetres, if possible.
+ * @param {number} length
+ * @returns {LengthUnit | 'none'}
+ */
+export function likelyUnit(length) {
+  const units = /** @type {LengthUnit[]} */ (['mm', 'cm', 'm']);
+  return units.find((unit) => length * MILLIMETRES[unit] >= MIN_LIKELY && length * MILLIMETRES[unit] <= MAX_LIKELY) ?? 'none';
+}
+
+/** The unit of an input, for what is cut of it. @param {{ unit?: string, kind?: string }} input @returns {LengthUnit | 'none' | 'unknown'} */
+export function unitOf({ unit, kind }) {
+  if (kind === undefined) return 'none';
+  return unit !== undefined && Object.hasOwn(MILLIMETRES, unit) ? /** @type {LengthUnit} */ (unit) : 'unknown';
 }
 
 /**
@@ -81,8 +110,8 @@ export function piecesInFigures({ width, height, summary: { cutLength, mountainL
     ['To fold', `${number((mountainLength + valleyLength) / 1000)} m`],
     ['Area', `${number(area / 100)} cm²`],
     ['Largest strain', percent(strain)],
-    ['Sides of a cut differ by', percent(mismatch)],
-    ...(off === undefined ? [] : [/** @type {[string, string]} */ (['Angles at a point differ by', `${number(off, 2)}°`])]),
+    ['Cut mismatch', percent(mismatch)],
+    ...(off === undefined ? [] : [/** @type {[string, string]} */ (['Angle mismatch', `${numberAgainst(off, 360)}°`])]),
   ];
 }
 

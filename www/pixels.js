@@ -6,9 +6,10 @@ import { work } from './surface/work.js';
 /**
  * Whatever pictures the browser knows.
  * @param {File} file
+ * @param {number} [times] by which the sides are reduced
  */
-export async function pixelsOf(file) {
-  const { width, height, data } = await work('pictureOf', file);
+export async function pixelsOf(file, times) {
+  const { width, height, data } = await work('pictureOf', file, times);
   return new ImageData(data, width, height);
 }
 
@@ -17,6 +18,6 @@ export async function pixelsOf(file) {
  * @param {number} scale at most 1
  */
 export async function reducedPhoto(pixels, scale) {
-  const { width, height, data, grey, outline } = await work('photoAt', pixels, scale);
-  return { small: new ImageData(data, width, height), grey: { width, height, scale, data: grey }, outline };
+  const { width, height, data, grey } = await work('photoAt', pixels, scale);
+  return { small: new ImageData(data, width, height), grey: { width, height, scale, data: grey } };
 }

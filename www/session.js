@@ -41,6 +41,8 @@ import { lookAt, lookAtOnce, lookInto } from './surface/known.js';
  * @property {{ name: string, image: ImageData }} [photo] that came with it
  * @property {Design} [drawn] what a design was made of
  * @property {Beside} [beside] what came with depths, besides
+ * @property {Input} [depthSource] the depths that a mesh was built from
+ * @property {string} [assumed] what was guessed of their camera
  */
 
 /**
@@ -477,7 +479,7 @@ function spacingOf({ pixelSize, lattice }, coarsening) {
  * An input as the package takes it.
  * @param {Input} input
  */
-function heightsOf({ width, height, data, pixelSize, heightScale, lattice, design, confidence, constraints }) {
+export function heightsOf({ width, height, data, pixelSize, heightScale, lattice, design, confidence, constraints }) {
   if (lattice) return lattice;
   const frame = { width, height, pixelSize, heightScale };
   return design ? { ...frame, constraints: data } : { ...frame, data, confidence, constraints };

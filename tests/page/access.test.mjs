@@ -74,6 +74,7 @@ pageTest('everything can be done by keyboard', async (page) => {
   await tabTo(page, '#save-now');
   const [download] = await Promise.all([page.waitForEvent('download'), page.keyboard.press('Enter')]);
   assert.match(download.suggestedFilename(), /\.npy$/);
+  await page.keyboard.press('Escape');
   assert.equal(await page.evaluate(() => document.activeElement?.id), 'end-file', 'the focus is back');
 
   await tabTo(page, 'input[name="example"]');
@@ -83,7 +84,7 @@ pageTest('everything can be done by keyboard', async (page) => {
   await tabTo(page, 'button[data-exponent="6"]');
   await runBy(page, () => page.keyboard.press('Space'));
 
-  await tabTo(page, 'summary');
+  await tabTo(page, '#controls summary');
   await page.keyboard.press('Enter');
   await tabTo(page, '#gap');
   // The last option is the smallest gap: a run long enough to be cancelled.
@@ -135,7 +136,7 @@ pageTest('every view fits on a phone, light and dark, with the pixels of the dev
   if (!(await page.locator('#drawer').isVisible())) await page.locator('#certificate').click();
   for (const colorScheme of /** @type {const} */ (['light', 'dark'])) {
     await page.emulateMedia({ colorScheme });
-    for (const radio of await page.locator('input[name="view"]').all()) {
+    for (const radio of await page.locator('label:not([hidden]) > input[name="view"]').all()) {
       await choose(radio);
       await page.locator('#analysis[aria-busy="false"]').waitFor({ state: 'attached' });
       await painted(page);

@@ -49,7 +49,7 @@ pageTest('a pin is dragged up, the surface follows, and Undo takes it back', asy
   await settled(page);
   const now = Number(await pin.getAttribute('aria-valuenow'));
   assert.ok(now > start + 0.05, `${start} → ${now}`);
-  assert.match(await page.locator('#certificate').innerText(), /^Certified/);
+  assert.match(await page.locator('#certificate').innerText(), /^Proven/);
 
   // What is saved passes through the pin.
   const { bytes } = await save(page, 'NPY');

@@ -2,7 +2,8 @@
 import assert from 'node:assert/strict';
 import { grid, npy, obj, parseNpy, png16 } from './support/files.mjs';
 import { parsed } from './support/numbers.mjs';
-import { drop, look, open, pageTest, reported, runBy, save, settled } from './support/page.mjs';
+import { choose, drop, look, open, pageTest, reported, runBy, save, settled } from './support/page.mjs';
+import { dottedPhoto } from './support/photos.mjs';
 
 /** @typedef {import('playwright-core').Page} Page */
 
@@ -11,7 +12,7 @@ const [WIDTH, HEIGHT] = [48, 36];
 const plane = grid(WIDTH, HEIGHT, (col, row) => 2000 + 30 * col + 50 * row);
 
 /** @param {Page} page */
-const run = (page) => runBy(page, () => page.getByRole('button', { name: 'Run', exact: true }).click());
+const run = (page) => runBy(page, () => page.getByRole('button', { name: 'Solve', exact: true }).click());
 
 /**
  * @param {number[]} found
@@ -146,6 +147,48 @@ pageTest('the file button opens a file', async (page) => {
     page.getByRole('button', { name: /^Open/ }).click(),
   ]);
   await chooser.setFiles({ name: 'slope.npy', mimeType: '', buffer: npy(WIDTH, plane) });
+});
+
+pageTest('a file of the wrong kind is named, and the part of the page that takes it is one click away', async (page) => {
+  const alert = page.getByRole('alert');
+  for (const [name, says] of /** @type {const} */ ([
+    ['notes.txt', /“notes.txt” is a text\. This page opens/], ['letter.docx', /“letter.docx” is a text document/], ['part.step', /export it as OBJ/],
+  ])) {
+    await drop(page, name, Buffer.from('PK\x03\x04'));
+    assert.match(await alert.innerText(), says);
+  }
+  await drop(page, 'IMG_7.png', dottedPhoto({ page: 240, ground: 60 }, [1, 0.9, 0.8]));
+  await alert.getByRole('button', { name: 'Make it flat as a page' }).click();
+  await page.locator('#page-caption', { hasText: 'IMG_7' }).waitFor();
+  assert.equal(await alert.isVisible(), false);
+  assert.ok(await page.getByRole('radio', { name: 'A photo of a page' }).isChecked());
+  await drop(page, 'notes.txt', Buffer.from('a letter'));
+  assert.match(await alert.innerText(), /is a text/);
+  await drop(page, 'ramp.obj', obj({ points: [[0, 0, 0], [3, 0, 0], [3, 2, 1], [0, 2, 1]], triangles: [[0, 1, 2], [0, 2, 3]] }));
+  assert.match(await alert.innerText(), /a mesh or a point cloud, and no photo/);
+  await alert.getByRole('button', { name: 'Open it under' }).click();
+  await page.locator('#input-caption', { hasText: 'ramp' }).waitFor();
+  await settled(page);
+});
+
+pageTest('a photo with too many pixels is opened at half size by a click', async (page) => {
+  await choose(page.locator('input[name="mode"][value="photo"]'));
+  await page.locator('#page-caption', { hasText: 'curled' }).waitFor();
+  // 5000 × 4400 pixels of one grey.
+  await page.evaluate(async () => {
+    const canvas = new OffscreenCanvas(5000, 4400);
+    const context = /** @type {OffscreenCanvasRenderingContext2D} */ (canvas.getContext('2d'));
+    context.fillStyle = '#777';
+    context.fillRect(0, 0, 5000, 4400);
+    const files = new DataTransfer();
+    files.items.add(new File([await canvas.convertToBlob({ type: 'image/png' })], 'large.png'));
+    const input = /** @type {HTMLInputElement} */ (document.querySelector('#page-file'));
+    input.files = files.files;
+    input.dispatchEvent(new Event('change', { bubbles: true }));
+  });
+  const alert = page.getByRole('alert').filter({ hasText: 'more pixels than can be opened' });
+  await alert.getByRole('button', { name: 'Open it at half size' }).click();
+  await page.locator('#page-caption', { hasText: /large, 2.500 × 2.200/ }).waitFor();
 });
 
 /** @type {{ what: string, name: string, bytes: Buffer, says: RegExp }[]} */

@@ -5,7 +5,8 @@ import { CARDS } from '../../www/gallery/cards.js';
 import { test } from 'node:test';
 import { grid, npy } from './support/files.mjs';
 import { parsed } from './support/numbers.mjs';
-import { drop, open, pageTest, reported, runBy, settled } from './support/page.mjs';
+import { choose, drop, open, pageTest, reported, runBy, settled } from './support/page.mjs';
+import { dottedPhoto } from './support/photos.mjs';
 
 const defaults = /** @type {const} */ ({ lambda: 1e6, gap: 0.01, schedule: 'default', coarsening: 1, energy: 'nuclear', reweighting: 0, occlusionThreshold: undefined });
 
@@ -14,6 +15,7 @@ test('an address says what it was made of, and what it does not know is left', (
     { card: 'fig-8', settings: { lambda: 1e5 } },
     { example: { name: 'cone', size: 200, noise: 0 }, settings: { energy: /** @type {const} */ ('huber'), lambda: /** @type {const} */ ('auto') }, view: 'patches' },
     { file: 4, settings: { lambda: 1e7 }, whole: true, view: 'rulings' },
+    { file: 5, settings: {}, photo: true }, { settings: {}, unkept: true },
     { file: 3, stored: { pixelSize: 0.25, heightScale: -1e-3, zeros: true, hexagonal: false }, settings: { occlusionThreshold: 4e4, gap: 1e-4 } },
   ];
   for (const state of states) {
@@ -56,9 +58,31 @@ pageTest('settings stand in the address, Back undoes them, and a file is there a
   assert.equal(await page.getByLabel('Pixel size').inputValue(), '0.5');
   assert.match(await page.locator('#recent').innerText(), /slope\.npy/);
 
+  // A photo of a page, too; going back leads to what was there before it.
+  await choose(page.locator('input[name="mode"][value="photo"]'));
+  await page.locator('#page-caption', { hasText: 'curled' }).waitFor();
+  await drop(page, 'letter.png', dottedPhoto());
+  await page.waitForURL(/file=\d+&photo=1/);
+  await page.reload();
+  await page.locator('#page-caption', { hasText: 'letter' }).waitFor();
+  await page.goBack();
+  await page.goBack();
+  await page.locator('#file-name', { hasText: 'slope' }).waitFor();
+  await settled(page);
+
+  // A view that is chosen at once does not take the place of the input before.
+  const cone = page.locator('input[name="example"][value="cone"]');
+  await cone.evaluate((/** @type {HTMLInputElement} */ radio) => radio.click());
+  await page.locator('#input-caption', { hasText: 'cone' }).waitFor();
+  await page.locator('input[name="view"][value="patches"]').evaluate((/** @type {HTMLInputElement} */ radio) => radio.click());
+  await settled(page);
+  await page.goBack();
+  await page.locator('#file-name', { hasText: 'slope' }).waitFor();
+  await settled(page);
+
   // A card of the gallery by its address, and the same at five λ.
   await page.goto(`${page.url().replace(/#.*/, '')}#fig-8&lambda=1e5`);
-  await page.locator('#story-title', { hasText: 'Fig. 8' }).waitFor();
+  await page.locator('#story-title', { hasText: 'Fig. 8)' }).waitFor();
   await settled(page);
   assert.equal(parsed(await reported(page, 'λ')), 1e5);
   await page.locator('#strip[aria-busy="false"]').waitFor();
@@ -68,7 +92,8 @@ pageTest('settings stand in the address, Back undoes them, and a file is there a
   assert.equal(await page.locator('.card').count(), CARDS.length);
   await runBy(page, () => page.getByRole('button', { name: /Fig\. 11/ }).click());
   await page.waitForURL(/#fig-11$/);
-  assert.match(await page.locator('#verdict').innerText(), /^\d+ smooth pieces meet in \d+ creases; \d/);
+  assert.match(await page.locator('#verdict').innerText(), /^\d+ smooth pieces meet in \d+ creases\.$/);
+  assert.match(await page.locator('#verdict-detail').innerText(), /^[\d.]+× less noise \(against the noise-free example\)/);
   // Whatever else is opened ends its story.
   await drop(page, 'other.npy', npy(48, grid(48, 36, (col) => 3 * col)));
   await page.locator('#file-name', { hasText: 'other' }).waitFor();

@@ -37,7 +37,7 @@ pageTest('while λ is dragged, pictures follow, and the last wish is certified',
   assert.equal(await page.locator('#result-mark').isVisible(), false, 'no preview any more');
   const wished = 10 ** Number(await page.locator('#lambda').inputValue());
   assert.ok(Math.abs(parsed(await reported(page, 'λ')) / wished - 1) < 0.06);
-  assert.match(await page.locator('#certificate').innerText(), /^Certified/);
+  assert.match(await page.locator('#certificate').innerText(), /^Proven/);
 
   // Cancelled while there is only a preview, the result before it stays.
   const caption = await page.locator('#result-caption').innerText();
@@ -117,5 +117,5 @@ pageTest('the solver of a large input gives its memory back when it rests, and c
   await page.waitForFunction(() => /** @type {any} */ (window).seen.ended === 1);
   await runBy(page, () => page.getByRole('button', { name: /^small/ }).click());
   assert.equal((await seen()).opened, 2);
-  assert.match(await page.locator('#certificate').innerText(), /^Certified/);
+  assert.match(await page.locator('#certificate').innerText(), /^Proven/);
 });

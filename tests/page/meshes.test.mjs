@@ -1,7 +1,7 @@
 /** Meshes and point clouds, seen from a direction of one's choice; files with several arrays. */
 import assert from 'node:assert/strict';
 import { grid, npy, npz, obj, parseNpy, ply } from './support/files.mjs';
-import { drop, look, open, pageTest, painted, save, settled } from './support/page.mjs';
+import { drop, look, open, pageTest, painted, runBy, save, settled } from './support/page.mjs';
 
 /** @typedef {import('playwright-core').Page} Page */
 /** @typedef {import('./support/files.mjs').Mesh} Mesh */
@@ -163,16 +163,20 @@ pageTest('depths from a camera are put where it has seen them', async (page) => 
   const [cx, cy] = [(width - 1) / 2, (height - 1) / 2];
   const depths = grid(width, height, (col) => 2000 / (1 - (slope * (col - cx)) / focus));
   await open(page, 'depth.npy', npy(width, depths));
-  await page.getByLabel('These are depths from a camera').check();
+  // By its name they are depths: the surface is built by a guess, which is said as one.
+  await page.locator('#mesh-name', { hasText: 'depth (depths)' }).waitFor();
+  await settled(page);
+  for (const said of ['#guessed', '#verdict-detail']) assert.match(await page.locator(said).innerText(), /Assumed: 60° field of view, depths in millimetres/);
+  assert.match(await page.locator('#verdict').innerText(), /^From this side: /);
   assert.equal(await page.getByLabel('Centre cx').inputValue(), String(cx));
   assert.equal(await page.getByLabel('Centre cy').inputValue(), String(cy));
   await page.getByLabel('Focal length fx').fill('0');
-  await page.getByRole('button', { name: 'Put in space' }).click();
-  assert.equal(await page.locator('#mesh-options').isVisible(), false, 'no camera has that');
+  await page.getByRole('button', { name: 'Build the 3D surface' }).click();
+  assert.match(await page.locator('#guessed').innerText(), /Assumed/, 'no camera has that');
   await page.getByLabel('Focal length fx').fill(String(focus));
   await page.getByLabel('Focal length fy').fill(String(focus));
-  await page.getByRole('button', { name: 'Put in space' }).click();
-  await page.locator('#mesh-name', { hasText: 'depth (depths)' }).waitFor();
+  await runBy(page, () => page.getByRole('button', { name: 'Build the 3D surface' }).click());
+  assert.equal(await page.locator('#guessed').isVisible(), false, 'nothing is guessed any more');
   // In metres, the depths' range among them.
   const range = (Math.max(...depths) - Math.min(...depths)) / 1000;
   const spans = (await page.locator('#mesh-span').innerText()).match(/[\d.]+(?=[,.]( |$))/g)?.map(Number) ?? [];

@@ -119,11 +119,11 @@ test('each λ and each way to stop has words of its own', () => {
   assert.equal(new Set([1e3, 1e5, 1e6, 1e7, 1e9].map(lambdaHint)).size, 5);
   const seconds = { setup: 0, zStep: 0, hStep: 0, certificate: 0, total: 0.42 };
   const report = /** @type {import('../../pkg/types.js').Report} */ ({ gap: 0.009, stopReason: 'gap', seconds });
-  assert.equal(verdict(report).replaceAll('\u00a0', ' '), 'Certified to within 0.9 % of the optimum in 0.42 s.');
+  assert.equal(verdict(report).replaceAll('\u00a0', ' '), 'Proven within 0.9 % of the best possible, in 0.42 s.');
   assert.match(verdict({ ...report, stopReason: 'cancelled' }), /^Cancelled/);
   assert.match(verdict({ ...report, stopReason: 'cancelled', gap: 1 }), /too early/);
   for (const stopReason of /** @type {const} */ (['gap', 'rounding', 'maxIterations', 'diverged', 'cancelled'])) {
-    assert.doesNotMatch(verdict({ ...report, stopReason, gap: undefined }), /[Cc]ertified|within|NaN/);
+    assert.doesNotMatch(verdict({ ...report, stopReason, gap: undefined }), /[Pp]roven within|NaN/);
   }
 });
 

@@ -46,7 +46,7 @@ pageTest('the site works under any path and without a network, and is renewed as
     await server.close();
     await visit.reload();
     await settled(visit);
-    assert.match(await visit.locator('#certificate').innerText(), /^Certified/);
+    assert.match(await visit.locator('#certificate').innerText(), /^Proven/);
     // What was not loaded before, too.
     await visit.locator('#end-file').click();
     await visit.locator('#save-formats input[value="glb"]').check();

@@ -130,12 +130,12 @@ pageTest('an answer that takes long can be done without, and asked for again; th
     radio.checked = true;
     radio.dispatchEvent(new Event('change', { bubbles: true }));
     const waiting = /** @type {HTMLElement} */ (document.querySelector('#waiting'));
-    const seen = !waiting.hidden && /Working it out/.test(waiting.innerText);
+    const seen = !waiting.hidden && /Preparing this view/.test(waiting.innerText);
     /** @type {HTMLButtonElement} */ (document.querySelector('#waiting-cancel')).click();
     return seen && waiting.hidden && document.querySelector('#about-view')?.textContent;
   });
   assert.match(String(cancelled), /^Cancelled/);
-  await page.getByRole('button', { name: 'Work it out' }).click();
+  await page.getByRole('button', { name: 'Try again' }).click();
   await page.locator('#unfold-field').waitFor();
   assert.equal(await page.locator('#unfold').inputValue(), '1', 'flat at once, where motion is unwelcome');
   assert.equal(await page.locator('#divider').isVisible(), false);

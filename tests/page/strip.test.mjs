@@ -5,12 +5,16 @@ import { look, pageTest, reported, runBy } from './support/page.mjs';
 
 pageTest('five λ side by side are smoother the smaller λ is, and a click takes one', async (page) => {
   await runBy(page, () => page.locator('#size').selectOption('100'));
-  const open = page.getByRole('button', { name: 'Five λ side by side' });
+  const open = page.getByRole('button', { name: 'Compare five values' });
   await open.click();
   const strip = page.getByRole('group', { name: 'The same input at five λ' });
   await page.locator('#strip[aria-busy="false"]').waitFor();
   const choices = strip.getByRole('button');
-  assert.deepEqual(await choices.allInnerTexts(), ['1e4', '1e5', '1e6', '1e7', '1e8'].map((lambda) => `λ = ${lambda}`));
+  const texts = await choices.allInnerTexts();
+  assert.deepEqual(texts.map((text) => text.split('\n')[0].trim()), ['1e4', '1e5', '1e6', '1e7', '1e8'].map((lambda) => `λ = ${lambda}`));
+  // The larger λ, the closer to the input.
+  const off = texts.map((text) => parsed(/off by (.*)/.exec(text)?.[1] ?? ''));
+  assert.ok(off.every((value, i) => value > 0 && (i === 0 || value < off[i - 1])), texts.join('; '));
 
   // What is followed more closely has more of the noise.
   const pictures = [];

@@ -4,7 +4,7 @@ import { meets } from '../js/support/phone.mjs';
 import { normal, smoothNoise } from '../../tools/bench/phone/sensor.mjs';
 import { grid, npy, png16 } from './support/files.mjs';
 import { parsed } from './support/numbers.mjs';
-import { choose, drop, dropAll, open, pageTest, painted, runBy, saveAs } from './support/page.mjs';
+import { choose, drop, dropAll, look, open, pageTest, painted, runBy, saveAs } from './support/page.mjs';
 import { camera, dots, dottedPhoto, misplaced, parsePng, png, seen } from './support/photos.mjs';
 
 /** @typedef {import('playwright-core').Page} Page */
@@ -77,9 +77,14 @@ pageTest('what is known of depths is dropped with them, and what is not is said'
   await page.getByRole('alert').filter({ hasText: 'confidence.png' }).filter({ hasText: 'colour' }).waitFor();
 });
 
-pageTest('without the camera’s file it is asked for, and may be typed', async (page) => {
+pageTest('without the camera’s file it is assumed, and may be typed', async (page) => {
   await dropAll(page, { 'depth.png': png16(256, depths(0).map((depth) => Math.round(10000 * depth))), 'IMG_1.png': photo });
-  await page.locator('#camera').waitFor();
+  // Built by a guess, with the photo on it at once.
+  await page.locator('#guessed', { hasText: 'Assumed: 60° field of view' }).waitFor();
+  assert.ok(await page.getByRole('radio', { name: 'Photo', exact: true }).isChecked());
+  await page.locator('#analysis[data-view="photo"][aria-busy="false"]').waitFor({ state: 'attached' });
+  await painted(page);
+  assert.ok((await look(page, '#result-canvas')).roughness > 1, 'dots on the surface');
   assert.ok(await page.getByLabel('These are depths from a camera').isChecked());
   // A tenth of a millimetre.
   await page.getByLabel('Depth scale').fill('0.0001');
@@ -91,10 +96,9 @@ pageTest('without the camera’s file it is asked for, and may be typed', async 
   assert.ok(Math.abs(Number(await page.getByLabel('Focal length fx').inputValue()) / depthCamera.fx - 1) < 1e-4);
   await page.getByLabel('Centre cx').fill(String(depthCamera.cx));
   await page.getByLabel('Centre cy').fill(String(depthCamera.cy));
-  await page.getByRole('button', { name: 'Put in space' }).click();
-  await page.locator('#mesh-name', { hasText: 'depth (depths)' }).waitFor();
-  await choose(page.getByRole('radio', { name: 'Dewarped', exact: true }));
-  await runBy(page, () => page.getByRole('button', { name: 'Run', exact: true }).click());
+  await runBy(page, () => page.getByRole('button', { name: 'Build the 3D surface' }).click());
+  await choose(page.getByRole('radio', { name: 'Flat photo', exact: true }));
+  await runBy(page, () => page.getByRole('button', { name: 'Solve', exact: true }).click());
   const error = misplaced(await flatPng(page));
   assert.ok(error < 0.006, `dots are off by ${100 * error} % of the width`);
 });
@@ -107,7 +111,7 @@ pageTest('a camera that cannot belong to the image is refused', async (page) => 
   await drop(page, 'far.csv', Buffer.from('900,0,2000\n0,900,1500\n0,0,1\n'));
   await page.getByRole('alert').filter({ hasText: 'far from the middle' }).waitFor();
   await page.getByLabel('Centre cx').fill('2000');
-  await page.getByRole('button', { name: 'Put in space' }).click();
+  await page.getByRole('button', { name: 'Build the 3D surface' }).click();
   await page.getByRole('alert').filter({ hasText: 'images of another size' }).waitFor();
 });
 
@@ -189,8 +193,8 @@ pageTest('a scan in OBJ brings its material and texture along', async (page) => 
   });
   await page.locator('#mesh-name', { hasText: 'page (OBJ)' }).waitFor();
   assert.doesNotMatch(await page.locator('#mesh-span').innerText(), /Without/);
-  await choose(page.getByRole('radio', { name: 'Dewarped', exact: true }));
-  await runBy(page, () => page.getByRole('button', { name: 'Run', exact: true }).click());
+  await choose(page.getByRole('radio', { name: 'Flat photo', exact: true }));
+  await runBy(page, () => page.getByRole('button', { name: 'Solve', exact: true }).click());
   const error = misplaced(await flatPng(page));
   assert.match(await page.locator('#photo-name').innerText(), /texture/);
   assert.ok(error < 0.004, `dots are off by ${100 * error} % of the width`);
@@ -211,7 +215,7 @@ pageTest('heights in another unit, and levels that are guessed, are asked about'
   await page.getByLabel('Pixel size').fill('10');
   await runBy(page, () => page.getByLabel('Pixel size').press('Tab'));
   assert.match(await doubt.innerText(), /hardly differ.*pixel size.*depths/s);
-  await choose(page.getByRole('radio', { name: 'Dewarped', exact: true }));
+  await choose(page.getByRole('radio', { name: 'Flat photo', exact: true }));
   await flattened(page);
   assert.equal(await page.locator('#photo-name').innerText(), 'holiday.png');
 

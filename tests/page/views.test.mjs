@@ -2,7 +2,7 @@
 import assert from 'node:assert/strict';
 import { grid, npy, png16 } from './support/files.mjs';
 import { parsed } from './support/numbers.mjs';
-import { choose, look, open, pageTest, painted, runBy, save, saveAs, settled } from './support/page.mjs';
+import { downloaded, choose, look, open, pageTest, painted, runBy, save, saveAs, settled } from './support/page.mjs';
 import { parsePng } from './support/photos.mjs';
 
 /** @typedef {import('playwright-core').Page} Page */
@@ -163,7 +163,7 @@ pageTest('the cylinder laid flat is as large as it is bent', async (page) => {
     await page.getByLabel('λ as a number').fill('1e9');
     await page.getByLabel('λ as a number').press('Tab');
   });
-  await view(page, 'Unrolled');
+  await view(page, 'Laid flat');
   // Flat places of the border's points, turned as little as possible from where they are seen.
   const along = (/** @type {number[]} */ [x, y]) => COS * x + SIN * y;
   const flat = (/** @type {number[]} */ point) => {
@@ -192,10 +192,10 @@ pageTest('the cylinder laid flat is as large as it is bent', async (page) => {
     }
   }
   const expected = [ends[1] - ends[0], ends[3] - ends[2]];
-  const found = (await told(page, 'Size of the sheet')).split('×').map(parsed);
+  const found = (await told(page, 'Sheet size')).split('×').map(parsed);
   found.forEach((side, k) => assert.ok(Math.abs(side / expected[k] - 1) < 0.005, `${found} against ${expected}`));
-  assert.match(await page.locator('#about-view .said').innerText(), /^Unrolled/);
-  assert.ok(parsed(await told(page, 'Strain, root mean square')) < 0.1);
+  assert.match(await page.locator('#about-view .said').innerText(), /^Laid flat/);
+  assert.ok(parsed(await told(page, 'RMS strain')) < 0.1);
   assert.equal(await told(page, 'Flipped triangles'), '0');
   assert.equal(await told(page, 'Overlaps'), 'none');
   assert.ok((await look(page, '#result-picture')).covered > 0.4);
@@ -209,7 +209,7 @@ pageTest('the cylinder laid flat is as large as it is bent', async (page) => {
 
 pageTest('what cannot be laid flat whole is laid flat in pieces, which are saved as sheets to cut out', async (page) => {
   await example(page, 'roof');
-  await view(page, 'Unrolled');
+  await view(page, 'Laid flat');
   assert.match(await page.locator('#about-view .said').innerText(), /In one piece it would stretch.*sheets.*cuts/);
   assert.ok(parsed(await told(page, 'Largest strain')) <= 1);
   assert.equal(await page.locator('#result-title').innerText(), 'Laid flat, in pieces');
@@ -227,7 +227,7 @@ pageTest('what cannot be laid flat whole is laid flat in pieces, which are saved
   await page.locator('#end-sheets').click();
   await page.locator('.preview[aria-busy="false"] img').waitFor();
   const figure = (/** @type {string} */ name) => page.locator('.sheets .figures div').filter({ has: page.locator('dt', { hasText: name }) }).locator('dd');
-  const [wide] = (await figure('Drawing').innerText()).split('×').map(parsed);
+  const [wide] = (await figure('Drawing').textContent() ?? '').split('×').map(parsed);
   const svg = await saveAs(page, 'SVG');
   assert.match(svg.bytes.toString(), /^(<\?xml[^>]*>\s*)?<svg/);
   assert.ok(Math.abs(Number(/width="([\d.]+)mm"/.exec(svg.bytes.toString())?.[1]) / wide - 1) < 0.01, 'in true size');
@@ -235,17 +235,34 @@ pageTest('what cannot be laid flat whole is laid flat in pieces, which are saved
   // Twice as large takes about four times the paper.
   await page.locator('#end-sheets').click();
   await page.locator('.preview[aria-busy="false"] img').waitFor();
-  const pages = async () => parsed(await figure('Pages').innerText());
+  const pages = async () => parsed(await figure('Pages').textContent() ?? '');
   const before = await pages();
   const side = page.getByLabel('Longer side of the finished piece');
-  await side.fill(String(2 * Number(await side.inputValue())));
-  await figure('Drawing').filter({ hasNotText: String(Math.round(wide)) }).waitFor();
+  const doubled = 2 * Number(await side.inputValue());
+  // What cannot be is refused in its place, and nothing of another size can be saved.
+  for (const wrong of ['0', '-5']) {
+    await side.fill(wrong);
+    await page.locator('#save-size', { hasText: /Longer side .* has to be from 10 to 5000/ }).waitFor();
+    assert.ok(await page.locator('#save-now').isDisabled());
+  }
+  await side.fill(String(doubled));
+  await figure('Drawing').filter({ hasNotText: String(Math.round(wide)) }).waitFor({ state: 'attached' });
   assert.ok(await pages() > 2 * before, `${await pages()} pages instead of ${before}`);
   await page.locator('.sheets label', { hasText: /^Paper/ }).locator('select').selectOption('a4');
-  const pdf = await saveAs(page, 'PDF');
+  await page.locator('#save-formats').getByRole('radio', { name: /^PDF / }).check();
+  await page.locator('#save-size', { hasText: /pdf, / }).waitFor();
+  const saveBox = await page.locator('#save-now').boundingBox();
+  assert.ok(saveBox && saveBox.y + saveBox.height <= 900, `Save is in view, at ${saveBox?.y}`);
+  const pdf = await downloaded(page, () => page.locator('#save-now').click());
   assert.equal(pdf.bytes.toString('latin1', 0, 5), '%PDF-');
+  // The dialog stays, and so does the size: the next format is of the same.
+  assert.match(await page.locator('#save-size').innerText(), /^Saved .*pdf/);
+  const again = await saveAs(page, 'SVG');
+  const twice = Number(/width="([\d.]+)mm"/.exec(again.bytes.toString())?.[1]);
   await page.locator('#end-sheets').click();
   await page.locator('.preview[aria-busy="false"] img').waitFor();
+  assert.equal(Number(await side.inputValue()), doubled, 'kept from save to save');
+  assert.ok(twice > 1.8 * wide, `${twice} mm`);
   // Done without, as soon as it has begun, and asked for again.
   await page.evaluate(() => {
     const cutting = /** @type {HTMLElement} */ (document.querySelector('#cutting'));
@@ -291,7 +308,7 @@ pageTest('how sheets are put together is saved as a numbered picture and as a mo
 
 pageTest('the printed page is made flat: an A4 sheet, with its pixels and its map', async (page) => {
   await example(page, 'page');
-  await view(page, 'Dewarped');
+  await view(page, 'Flat photo');
   assert.match(await page.locator('#about-view .said').innerText(), /^Made flat/);
   assert.ok((await look(page, '#input-picture')).covered > 0.2 && (await look(page, '#result-picture')).covered > 0.2);
   const [width, height] = (await told(page, 'Flat image')).split('×').map(parsed);
@@ -347,8 +364,8 @@ const [WIDTH, HEIGHT] = [48, 36];
 
 pageTest('a photo of what is flat is called that, and what is no photo is refused', async (page) => {
   await open(page, 'table.npy', npy(WIDTH, grid(WIDTH, HEIGHT, () => 3)));
-  await runBy(page, () => page.getByRole('button', { name: 'Run', exact: true }).click());
-  await view(page, 'Dewarped');
+  await runBy(page, () => page.getByRole('button', { name: 'Solve', exact: true }).click());
+  await view(page, 'Flat photo');
   assert.match(await page.locator('#about-view').innerText(), /Open a photo/);
   const choose = async (/** @type {string} */ name, /** @type {Buffer} */ buffer) => {
     const [chooser] = await Promise.all([page.waitForEvent('filechooser'), page.getByRole('button', { name: 'Open a photo' }).click()]);
@@ -357,18 +374,18 @@ pageTest('a photo of what is flat is called that, and what is no photo is refuse
   await choose('notes.png', Buffer.from('no picture'));
   await page.getByRole('alert').filter({ hasText: 'notes.png' }).waitFor();
   await choose('photo.png', png16(2 * WIDTH, grid(2 * WIDTH, 2 * HEIGHT, (col) => 600 * col)));
-  await page.locator('#about-view .said', { hasText: 'flat to begin with' }).waitFor();
+  await page.locator('#about-view .said', { hasText: 'was flat already' }).waitFor();
   assert.equal(await page.locator('#photo-name').innerText(), 'photo.png');
   const [width, height] = (await told(page, 'Flat image')).split('×').map(parsed);
   assert.ok(Math.abs(width - 2 * WIDTH) <= 2 && Math.abs(height - 2 * HEIGHT) <= 2, `${width} × ${height}`);
 });
 
 pageTest('another result takes the place of an answer that is still being worked out', async (page) => {
-  await choose(page.getByRole('radio', { name: 'Unrolled', exact: true }));
+  await choose(page.getByRole('radio', { name: 'Laid flat', exact: true }));
   // Not waited for: the answer is about something that is gone.
   await runBy(page, () => page.locator('input[value="cylinder"]').check());
   await page.locator('#analysis[aria-busy="false"]').waitFor();
-  assert.match(await page.locator('#about-view .said').innerText(), /^Unrolled/);
+  assert.match(await page.locator('#about-view .said').innerText(), /^Laid flat/);
   assert.equal(await page.locator('#notice').isVisible(), false);
 }, { start: '' });
 
@@ -380,7 +397,7 @@ pageTest('a view that cannot be worked out says so, and the surface stays', asyn
   await page.reload();
   await settled(page);
   const before = (await look(page, '#result-canvas')).hash;
-  await view(page, 'Unrolled');
+  await view(page, 'Laid flat');
   await page.getByRole('alert').filter({ hasText: 'could not be worked out' }).waitFor();
   assert.equal((await look(page, '#result-canvas')).hash, before);
   await page.unrouteAll();

@@ -13,7 +13,7 @@ const [a, b, c] = SIDES;
 const area = 2 * (a * b + b * c + c * a);
 
 /** @param {Page} page @param {string} [way] */
-async function solve(page, way = 'Whole') {
+async function solve(page, way = 'Whole mesh') {
   await choose(page.getByRole('radio', { name: way, exact: true }));
   await done(page);
 }
@@ -118,16 +118,16 @@ async function canvasPixels(page) {
 pageTest('a closed mesh is solved whole, shown before and after, laid flat and saved', async (page) => {
   await open(page, 'box.obj', obj(box));
   const hint = await page.locator('#whole-hint').innerText();
-  const hidden = parsed(/leave out ([\d.]+)/.exec(hint)?.[1] ?? '');
+  const hidden = parsed(/([\d.]+)\s% of the surface is hidden/.exec(hint)?.[1] ?? '');
   // From above all but one side, though some of the upright ones may be seen at the rim.
   assert.ok(hidden > 50 && hidden <= 100 * (1 - (a * b) / area) + 1, hint);
   await solve(page);
-  assert.match(await page.locator('#whole-verdict').innerText(), /^Solved whole/);
-  assert.match(await page.locator('#whole-detail').innerText(), /linearised problems .* nothing is certified of the shape/);
+  assert.match(await page.locator('#whole-verdict').innerText(), /^The whole mesh is solved/);
+  assert.match(await page.locator('#whole-detail').innerText(), /of \d+ steps is proven within .* nothing is proven about the shape/);
   assert.equal(await page.locator('section[aria-label="Surfaces"]').isVisible(), false, 'no heights');
   assert.equal(await page.locator('.controls .more').isVisible(), false, 'nor their settings');
   assert.ok(await page.locator('#lambda').isVisible(), 'but for λ');
-  assert.equal(await told(page, 'On the border'), 'none: it is closed');
+  assert.equal(await told(page, 'Border vertices'), 'none: it is closed');
   const [before, after] = (await told(page, 'Volume')).split('→').map(parsed);
   assert.ok(Math.abs(before / (a * b * c) - 1) < 0.02 && Math.abs(after / (a * b * c) - 1) < 0.03, `${before} → ${after}`);
 
@@ -172,12 +172,12 @@ pageTest('a closed mesh is solved whole, shown before and after, laid flat and s
   await page.locator('.preview[aria-busy="false"] img').waitFor();
   assert.match(await page.locator('.sheets .said').innerText(), /sheet.*fold/);
   /** @param {string} name */
-  const figure = (name) => page.locator('.sheets .figures div').filter({ has: page.locator('dt', { hasText: name }) }).locator('dd').innerText();
+  const figure = (name) => page.locator('.sheets .figures div').filter({ has: page.locator('dt', { hasText: name }) }).locator('dd').textContent().then(String);
   const [card, folds] = [parsed(await figure('Area')), parsed(await figure('To fold'))];
   await page.getByLabel('Thickness, in mm').waitFor({ state: 'hidden' });
   await page.getByLabel('Material').selectOption('metal');
   await page.getByLabel('Thickness, in mm').fill('2');
-  await page.locator('.sheets .figures dd', { hasText: 'cm²' }).filter({ hasNotText: await figure('Area') }).waitFor();
+  await page.locator('.sheets .figures dd', { hasText: 'cm²' }).filter({ hasNotText: await figure('Area') }).waitFor({ state: 'attached' });
   await page.locator('.preview[aria-busy="false"] img').waitFor();
   // Of metal a bend by 90° takes a strip less: the setback on both sides, less the arc of its neutral line.
   const strip = 2 * (2 + 2) - ((2 + 0.44 * 2) * Math.PI) / 2;
@@ -187,7 +187,7 @@ pageTest('a closed mesh is solved whole, shown before and after, laid flat and s
   assert.match((await saveAs(page, 'SVG')).bytes.toString(), /<svg/);
 
   // And back.
-  await choose(page.getByRole('radio', { name: 'As seen', exact: true }));
+  await choose(page.getByRole('radio', { name: 'From one side', exact: true }));
   assert.ok(await page.locator('section[aria-label="Surfaces"]').isVisible());
   await settled(page);
 });
@@ -199,24 +199,33 @@ pageTest('a whole solve tells how far it is and can be done without; what is no 
     radio.checked = true;
     radio.dispatchEvent(new Event('change', { bubbles: true }));
     const waiting = /** @type {HTMLElement} */ (document.querySelector('#whole-waiting'));
-    const seen = !waiting.hidden && /Solving it/.test(waiting.innerText) && waiting.querySelector('progress') !== null;
+    const seen = !waiting.hidden && /Solving/.test(waiting.innerText) && waiting.querySelector('progress') !== null;
     /** @type {HTMLButtonElement} */ (document.querySelector('#whole-waiting-cancel')).click();
     return seen && waiting.hidden && document.querySelector('#whole-verdict')?.textContent;
   });
   assert.equal(cancelled, 'Cancelled.');
   assert.ok(await page.locator('#whole-file').isDisabled());
-  const progress = page.waitForFunction(() => /Iteration \d/.test(document.querySelector('#whole-detail')?.textContent ?? ''));
-  await page.getByRole('button', { name: 'Work it out' }).click();
+  const progress = page.waitForFunction(() => /\d iterations/.test(document.querySelector('#whole-detail')?.textContent ?? ''));
+  await page.getByRole('button', { name: 'Solve', exact: true }).click();
   await progress;
   await done(page);
-  assert.match(await page.locator('#whole-verdict').innerText(), /^Solved whole/);
+  assert.match(await page.locator('#whole-verdict').innerText(), /^The whole mesh is solved/);
+
+  // Cancelled, the next solve leaves the surface before.
+  await page.evaluate(() => {
+    /** @type {HTMLButtonElement} */ (document.querySelector('[data-exponent="7"]')).click();
+    /** @type {HTMLButtonElement} */ (document.querySelector('#whole-waiting-cancel')).click();
+  });
+  await page.locator('#whole-detail', { hasText: 'this is the surface before' }).waitFor();
+  assert.ok(await page.locator('#whole-file').isEnabled());
+  await done(page);
 
   // Three triangles at one edge.
   const fan = { points: [[0, 0, 0], [1, 0, 0], [0, 1, 0.2], [0, -1, 0.1], [0, 0.2, 1]], triangles: [[0, 1, 2], [1, 0, 3], [0, 1, 4]] };
   await open(page, 'fan.obj', obj(/** @type {any} */ (fan)));
   assert.equal(await page.locator('#whole').isVisible(), false, 'another mesh is seen first');
   await solve(page);
-  assert.match(await page.locator('#whole-verdict').innerText(), /cannot be solved whole/);
+  assert.match(await page.locator('#whole-verdict').innerText(), /cannot be solved as a whole/);
   assert.match(await page.locator('#whole-detail').innerText(), /edge/);
 });
 
@@ -268,10 +277,10 @@ pageTest('a whole mesh is solved with the λ that is chosen, which stands in the
   const pressed = () => page.locator('#lambda-auto').getAttribute('aria-pressed');
   const field = page.getByLabel('λ as a number');
 
-  await solvedBy(() => choose(page.getByRole('radio', { name: 'Whole', exact: true })), /whole=1$/);
+  await solvedBy(() => choose(page.getByRole('radio', { name: 'Whole mesh', exact: true })), /whole=1$/);
   const hint = await page.locator('#lambda-hint').innerText();
   // Evenly distributed, up to 0.02 to either side.
-  const sigma = parsed(/noise of ([\d.]+)/.exec(hint)?.[1] ?? '');
+  const sigma = parsed(/Noise: ([\d.]+)/.exec(hint)?.[1] ?? '');
   assert.ok(Math.abs(sigma / (0.02 / Math.sqrt(3)) - 1) < 0.2, hint);
   const auto = parsed(await told(page, 'λ'));
   assert.ok(Math.abs(Number(await field.inputValue()) / auto - 1) < 0.05);
@@ -292,7 +301,7 @@ pageTest('a whole mesh is solved with the λ that is chosen, which stands in the
   assert.deepEqual([await pressed(), parsed(await told(page, 'λ'))], ['true', auto]);
   await page.goBack();
   await page.locator('section[aria-label="Surfaces"]').waitFor();
-  assert.ok(await page.getByRole('radio', { name: 'As seen', exact: true }).isChecked());
+  assert.ok(await page.getByRole('radio', { name: 'From one side', exact: true }).isChecked());
   await solvedBy(() => page.goForward(), /whole=1$/);
   await solvedBy(() => page.goForward(), /view=rulings$/);
   await page.reload();
@@ -302,7 +311,7 @@ pageTest('a whole mesh is solved with the λ that is chosen, which stands in the
 
   // As seen, heights follow the λ that was chosen meanwhile.
   await solvedBy(() => page.getByRole('button', { name: /^medium/ }).click(), /lambda=1e6&whole=1&view=rulings$/);
-  await choose(page.getByRole('radio', { name: 'As seen', exact: true }));
+  await choose(page.getByRole('radio', { name: 'From one side', exact: true }));
   await page.waitForURL(/lambda=1e6$/);
   await settled(page);
   assert.equal(parsed(await reported(page, 'λ')), 1e6);

@@ -42,20 +42,3 @@ export function brightness({ width, height, data }, x, y) {
 export function rescaled(at, scale) {
   return (at + 0.5) * scale - 0.5;
 }
-
-/**
- * The same picture, each of its pixels the mean of some.
- * @param {Grey} grey
- * @param {number} times
- * @returns {Grey}
- */
-export function reduced({ width, height, scale, data }, times) {
-  const [w, h] = [Math.floor(width / times), Math.floor(height / times)];
-  const out = new Float32Array(w * h);
-  for (let y = 0; y < h * times; y++) {
-    const row = Math.floor(y / times) * w;
-    for (let x = 0; x < w * times; x++) out[row + Math.floor(x / times)] += data[y * width + x];
-  }
-  for (let i = 0; i < out.length; i++) out[i] /= times * times;
-  return { width: w, height: h, scale: scale / times, data: out };
-}

@@ -21,7 +21,7 @@ const SIDE = 9;
  * @returns {[Point, Point]}
  */
 export function gutterOf(outline, grey) {
-  return /** @type {[Point, Point]} */ (outline.edges.map((nodes) => (grey && kink(grey, nodes)) ?? middle(nodes)));
+  return /** @type {[Point, Point]} */ (outline.edges.slice(0, 2).map((nodes) => (grey && kink(grey, nodes)) ?? middle(nodes)));
 }
 
 /** @param {readonly Node[]} nodes @returns {Point} */

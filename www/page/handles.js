@@ -24,6 +24,8 @@ import { Magnifier } from './magnifier.js';
 const STEP = 0.5;
 /** Pixels of the page by which a line is pulled before that counts. */
 const PULL = 4;
+/** Room around places outside the photo, as a share of its side. */
+const RIM = 0.03;
 /** @type {Record<string, readonly [number, number]>} */
 const ARROWS = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1] };
 
@@ -55,6 +57,7 @@ export class Handles {
   /** @param {Pixels} photo */
   on(photo) {
     this.#photo = photo;
+    this.#magnifier.hide();
     this.#svg.setAttribute('viewBox', `-0.5 -0.5 ${photo.width} ${photo.height}`);
     this.box.style.setProperty('--aspect', String(photo.width / photo.height));
   }
@@ -79,6 +82,23 @@ export class Handles {
       const seen = [...rims, shape('path', { d, class: kind })];
       return pulls === undefined ? seen : [...seen, shape('path', { d, class: 'grip', 'data-pulls': String(pulls) })];
     }));
+  }
+
+  /**
+   * Reduces the photo in its frame until places outside of it are in the frame, too.
+   * @param {readonly Place[]} places
+   */
+  fit(places) {
+    const { width, height } = this.#photo;
+    // From the middle, in sides of the photo.
+    const far = places.map(([x, y]) => [(x + 0.5) / width - 0.5, (y + 0.5) / height - 0.5]);
+    const bounds = [0, 1].map((k) => [Math.min(-0.5, ...far.map((place) => place[k] - RIM)), Math.max(0.5, ...far.map((place) => place[k] + RIM))]);
+    const outside = far.some((place) => Math.max(...place.map(Math.abs)) > 0.5);
+    const zoom = outside ? 1 / Math.max(...bounds.map(([low, high]) => high - low)) : 1;
+    this.box.style.setProperty('--zoom', String(zoom));
+    ['--across', '--down'].forEach((name, k) => {
+      this.box.style.setProperty(name, String(outside ? (-zoom * (bounds[k][0] + bounds[k][1])) / 2 : 0));
+    });
   }
 
   /** @param {number} handle */

@@ -4,27 +4,34 @@ import { Flattening } from './flatten.js';
 import { gutterOf } from './gutter.js';
 import { rescaled } from './grey.js';
 import { flatPlace, lineBetween } from './lines.js';
-import { Outline } from './outline.js';
+import { EDGE_NAMES, EDGES, Outline } from './outline.js';
 import { settle, traced } from './snap.js';
 
 /** @import {Api} from '../api.js' */
-/** @import {DewarpedPage, Line, Options, Traces, Wish} from './flatten.js' */
+/** @import {Flat, Line, Options, Traces, Wish} from './flatten.js' */
 /** @import {Ends} from './lines.js' */
 /** @import {PagePhoto} from './photo.js' */
-/** @import {Point, Which} from './outline.js' */
+/** @import {Edge, Point, Which} from './outline.js' */
 
 /**
  * @typedef {object} PageEvents
  * @property {PagePhoto} photo another one
- * @property {{ outline: Outline, traces: Traces }} outline
+ * @property {{ outline: Outline, traces: Traces, moving: boolean }} outline
  * @property {boolean} working whether a newer flat page is to come
- * @property {DewarpedPage} flat of the reduced photo
+ * @property {Flat & { moving: boolean }} flat of the reduced photo; `moving`: something is being dragged
+ * @property {null} unfound there is no outline yet: corners have to be put onto the page first
  * @property {null} lines of text: others are drawn, or found
  * @property {unknown} problem why there is none
  */
+/** @typedef {{ ends: Ends, points: Line }} DrawnLine */
+/** @typedef {{ outline: Outline, drawn: DrawnLine[], moved: ReadonlySet<number>, chosen: number }} Snapshot */
 
 /** Lines of text that are shorter than this share of the photo are none. */
 const SHORT = 0.02;
+/** How far a corner may be put beyond the photo's border, as a share of its diagonal: less than the package takes. */
+const MAX_OUTSIDE_SHARE = 0.045;
+/** Share of an edge's length that shows contrast, below which the edge is called weak. */
+const MIN_SEEN_SHARE = 0.5;
 
 /** @extends {Events<PageEvents>} */
 export class PageSession extends Events {
@@ -32,11 +39,17 @@ export class PageSession extends Events {
   photo = null;
   /** @type {Outline} */
   outline = Outline.within({ width: 1, height: 1 });
+  /** Which of several pages that were found is made flat. */
+  chosen = 0;
+  /** The corners that were put where they are by hand. @type {ReadonlySet<number>} */
+  moved = new Set();
+  /** Names of edges that the photo hardly shows. @type {string[]} */
+  weak = [];
   /** Whether edges are drawn to what the photo shows. */
   snapping = true;
   /** Whether lines of text are looked for. */
   finding = true;
-  /** Lines of text that are drawn. @type {{ ends: Ends, points: Line }[]} */
+  /** Lines of text that are drawn. @type {DrawnLine[]} */
   drawn = [];
   /** Those that were found. @type {Line[]} */
   found = [];
@@ -45,11 +58,18 @@ export class PageSession extends Events {
   /** @type {Options} */
   options = {};
 
+  /** Quarter turns by which the flat page is turned clockwise. */
+  quarters = 0;
+
   #flattening;
-  /** The newest flat page. @type {DewarpedPage | null} */
-  #flat = null;
+  /** The newest flat page. @type {Flat | null} */
+  #made = null;
   /** @type {Wish | null} */
   #newest = null;
+  /** What the outline was before each change. @type {Snapshot[]} */
+  #past = [];
+  /** Whether the change under way is remembered already. */
+  #dragging = false;
 
   /** @param {Api} api */
   constructor(api) {
@@ -58,33 +78,83 @@ export class PageSession extends Events {
     this.#flattening = new Flattening(this.worker);
   }
 
+  /** Whether no page was found, and no corner was put onto it yet. */
+  get unfound() {
+    return this.photo?.outlines.verdict === 'notFound' && this.moved.size === 0;
+  }
+
+  get changed() {
+    return this.#past.length > 0;
+  }
+
+  /** Names of the corners that are outside the photo. */
+  get outside() {
+    const { photo, outline } = this;
+    if (!photo) return [];
+    const names = ['upper left', 'upper right', 'lower right', 'lower left'];
+    return names.filter((_, i) => {
+      const { x, y } = outline.corners[i];
+      return x < -0.5 || y < -0.5 || x > photo.width - 0.5 || y > photo.height - 0.5;
+    });
+  }
+
   /**
    * @param {PagePhoto} photo
    * @param {number} [pages] that it shows
    */
   show(photo, pages = 1) {
     this.photo = photo;
-    [this.drawn, this.found, this.#flat] = [[], [], null];
+    [this.drawn, this.found, this.#made, this.#past] = [[], [], null, []];
+    [this.chosen, this.#dragging, this.quarters] = [0, false, 0];
     this.#begin(photo, pages);
     this.emit('photo', photo);
+    this.#changed();
+  }
+
+  /** Another of the pages that were found. @param {number} page */
+  choose(page) {
+    if (!this.photo?.outlines.pages[page]) return;
+    this.#remember();
+    this.chosen = page;
+    this.#begin(this.photo, 1);
     this.#changed();
   }
 
   /** An outline to start from, again. */
   suggest() {
     if (!this.photo) return;
+    this.#past = [];
+    this.drawn = [];
     this.#begin(this.photo, this.outline.pages);
     this.#changed();
   }
 
   /** @param {PagePhoto} photo @param {number} pages */
   #begin(photo, pages) {
-    this.outline = photo.outline ? Outline.of(photo.outline) : Outline.within(photo);
+    const found = photo.outlines.pages[this.chosen];
+    this.outline = found ? Outline.from(found) : Outline.within(photo);
+    this.moved = new Set();
     if (pages === 2) this.#divide(photo);
+  }
+
+  #remember() {
+    this.#dragging = false;
+    const { outline, drawn, moved, chosen } = this;
+    this.#past.push({ outline: outline.copy(), drawn: [...drawn], moved, chosen });
+  }
+
+  /** Takes the last change of outline or lines back. */
+  undo() {
+    const before = this.#past.pop();
+    if (!before) return;
+    Object.assign(this, before);
+    this.#dragging = false;
+    this.#changed();
   }
 
   divide() {
     if (!this.photo) return;
+    this.#remember();
     this.#divide(this.photo);
     this.#changed();
   }
@@ -96,15 +166,15 @@ export class PageSession extends Events {
   }
 
   join() {
+    this.#remember();
     this.outline = this.outline.joined();
     this.#settled();
   }
 
+  /** Turns the flat page clockwise by a quarter. */
   turn() {
-    const { pages } = this.outline;
-    this.outline = this.outline.turned();
-    if (pages === 2) this.divide();
-    else this.#settled();
+    this.quarters = (this.quarters + 1) % 4;
+    if (this.#made) this.emit('flat', { ...this.#made, moving: false });
   }
 
   /** @param {boolean} snapping */
@@ -129,8 +199,14 @@ export class PageSession extends Events {
     const { photo, outline } = this;
     const node = outline.at(which);
     if (!photo || !node) return;
-    outline.move(which, [Math.min(Math.max(x, -0.5), photo.width - 0.5), Math.min(Math.max(y, -0.5), photo.height - 0.5)]);
+    if (!this.#dragging) this.#remember();
+    this.#dragging = !ended;
+    const outside = MAX_OUTSIDE_SHARE * Math.hypot(photo.width, photo.height);
+    const within = (/** @type {number} */ at, /** @type {number} */ side) => Math.min(Math.max(at, -outside), side + outside);
+    outline.move(which, [within(x, photo.width), within(y, photo.height)]);
     node.held = held || !this.snapping;
+    const corner = outline.corners.indexOf(node);
+    if (corner >= 0) this.moved = new Set([...this.moved, corner]);
     if (ended && this.snapping && !node.held) settle(photo.grey, outline);
     this.#changed(!ended);
   }
@@ -148,10 +224,12 @@ export class PageSession extends Events {
    */
   drawLine(ends, { line = this.drawn.length, ended }) {
     if (!this.photo) return line;
+    if (!this.#dragging) this.#remember();
+    this.#dragging = !ended;
     const { photo: { grey, width, height }, snapping } = this;
     const within = ends.map(([x, y]) => [Math.min(Math.max(x, 0), width - 1), Math.min(Math.max(y, 0), height - 1)]);
     const [from, to] = /** @type {Ends} */ (within);
-    this.drawn[line] = { ends: [from, to], points: lineBetween(grey, [from, to], this.#flat, snapping && ended) };
+    this.drawn[line] = { ends: [from, to], points: lineBetween(grey, [from, to], this.#made?.flat ?? null, snapping && ended) };
     if (ended && Math.hypot(to[0] - from[0], to[1] - from[1]) < SHORT * width) this.drawn.splice(line, 1);
     this.emit('lines', null);
     if (ended) this.#changed();
@@ -160,6 +238,7 @@ export class PageSession extends Events {
 
   /** @param {number} line */
   removeLine(line) {
+    this.#remember();
     this.drawn.splice(line, 1);
     this.emit('lines', null);
     this.#changed();
@@ -167,20 +246,22 @@ export class PageSession extends Events {
 
   /** The page that a line of text is on. @param {Ends} ends */
   #leaf([from, to]) {
-    const { pages, sideways } = this.outline;
-    const flat = this.#flat;
+    const { pages } = this.outline;
+    const flat = this.#made?.flat;
     const middle = /** @type {Point} */ ([(from[0] + to[0]) / 2, (from[1] + to[1]) / 2]);
     const place = flat && this.photo && flatPlace(flat, middle, this.photo.grey.scale);
     if (pages === 1 || !place) return 0;
-    const share = sideways ? place[1] / flat.height : place[0] / flat.width;
-    return Math.min(pages - 1, Math.floor(share * pages));
+    return Math.min(pages - 1, Math.floor((place[0] / flat.width) * pages));
   }
 
   /**
-   * @param {0 | 1} edge
+   * @param {Edge} edge
    * @param {[number, number]} place
+   * @param {boolean} [pulled] whether the new point is being dragged already
    */
-  add(edge, place) {
+  add(edge, place, pulled = false) {
+    this.#remember();
+    this.#dragging = pulled;
     const which = this.outline.add(edge, place);
     this.#changed();
     return which;
@@ -188,12 +269,13 @@ export class PageSession extends Events {
 
   /** @param {Which} which */
   remove(which) {
+    this.#remember();
     this.outline.remove(which);
     this.#changed();
   }
 
   /** The wish for the whole photo made flat. @returns {Wish | null} */
-  wish() {
+  wish(moving = false) {
     const { photo, options, finding, drawn } = this;
     if (!photo) return null;
     /** @type {Line[][]} */
@@ -201,19 +283,19 @@ export class PageSession extends Events {
     for (const { ends, points } of drawn) {
       if (Math.hypot(ends[1][0] - ends[0][0], ends[1][1] - ends[0][1]) >= SHORT * photo.width) text[this.#leaf(ends)].push(points);
     }
-    return { photo, traces: this.#traces(photo), text, options: { ...options, findLines: finding } };
+    return { photo, traces: this.#traces(photo), text, options: { ...options, findLines: finding }, moving };
   }
 
-  /** @param {DewarpedPage} flat @param {Wish} wish */
-  #show(flat, { photo, options: { findLines } }) {
-    this.#flat = flat;
+  /** @param {Flat} made @param {Wish} wish */
+  #show({ flat, assumed }, { photo, moving }) {
+    this.#made = { flat, assumed };
     // While something is dragged, the lines stay as they were.
-    if (findLines || !this.finding) {
+    if (!moving) {
       const back = (/** @type {number} */ at) => rescaled(at, 1 / photo.grey.scale);
       this.found = flat.lines.flat().map((line) => line.map(([x, y]) => [back(x), back(y)]));
       this.agreed = flat.report.linesUsed === flat.report.linesFound;
     }
-    this.emit('flat', flat);
+    this.emit('flat', { flat, assumed, moving });
   }
 
   #settled() {
@@ -221,19 +303,25 @@ export class PageSession extends Events {
     this.#changed();
   }
 
-  /** @param {boolean} [moving] whether this goes on: then lines of text are not looked for, which takes longer */
+  /** @param {boolean} [moving] whether this goes on */
   #changed(moving = false) {
-    const wish = this.wish();
+    const wish = this.wish(moving);
     if (!wish) return;
-    if (moving) wish.options.findLines = false;
-    this.emit('outline', { outline: this.outline, traces: wish.traces });
-    this.emit('working', true);
     this.#newest = wish;
+    this.emit('outline', { outline: this.outline, traces: wish.traces, moving });
+    if (this.unfound) {
+      [this.found, this.#made] = [[], null];
+      this.emit('unfound', null);
+      this.emit('lines', null);
+      this.emit('working', false);
+      return;
+    }
+    this.emit('working', true);
     void this.#flattening.preview(wish, (done) => {
-      if (done.wish.photo !== this.photo) return;
-      if ('flat' in done) this.#show(done.flat, done.wish);
+      if (done.wish.photo !== this.photo || this.unfound) return;
+      if ('flat' in done) this.#show(done, done.wish);
       else {
-        [this.found, this.#flat] = [[], null];
+        [this.found, this.#made] = [[], null];
         this.emit('problem', done.error);
       }
       this.emit('lines', null);
@@ -242,16 +330,19 @@ export class PageSession extends Events {
   }
 
   /**
-   * The points of the edges: those that the photo shows, or else the nodes as they are.
+   * The points of the edges: those that were found or that the photo shows, or else the nodes as they are.
    * @param {PagePhoto} photo
    * @returns {Traces}
    */
   #traces({ grey }) {
     const { outline } = this;
-    const lines = /** @type {Traces['lines']} */ (/** @type {const} */ ([0, 1]).map((edge) => outline.spans(edge).map((nodes) => {
-      const trace = this.snapping ? traced(grey, nodes) : null;
-      return trace && trace.seen >= 0.5 ? trace.points : nodes.map(({ x, y }) => [x, y]);
-    })));
-    return { sideways: outline.sideways, lines };
+    this.weak = [];
+    return /** @type {Traces} */ (EDGES.map((edge) => {
+      const traces = outline.spans(edge).map((nodes) => ({ nodes, ...traced(grey, nodes) }));
+      if (traces.some(({ seen }) => seen < MIN_SEEN_SHARE)) this.weak.push(EDGE_NAMES[edge]);
+      const found = outline.found[edge];
+      if (found) return [found];
+      return traces.map(({ nodes, points, seen }) => (this.snapping && seen >= MIN_SEEN_SHARE ? points : nodes.map(({ x, y }) => /** @type {Point} */ ([x, y]))));
+    }));
   }
 }

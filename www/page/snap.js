@@ -6,10 +6,11 @@
  */
 import { normals, through } from './curve.js';
 import { brightness, rescaled } from './grey.js';
+import { EDGES } from './outline.js';
 import { robust } from './polynomial.js';
 
 /** @import {Grey} from './grey.js' */
-/** @import {Node, Outline, Point} from './outline.js' */
+/** @import {Edge, Node, Outline, Point} from './outline.js' */
 
 /** Places along a line that are looked at, less one. */
 const PLACES = 48;
@@ -162,14 +163,19 @@ function vertex(values, k) {
   return bend === 0 ? 0 : Math.min(0.5, Math.max(-0.5, (0.5 * (a - c)) / bend));
 }
 
+/** The edges that meet at each corner, and at which of their ends. @type {readonly (readonly [Edge, Edge, number, number])[]} */
+const MEETINGS = [[0, 2, 0, 0], [0, 3, -1, 0], [1, 2, 0, -1], [1, 3, -1, -1]];
+
 /**
- * Moves what is not held to the edges that the photo shows: corners to where two of them meet.
+ * Moves what is not held to the edges that the photo shows: corners to where two of them meet. Edges that were found stay.
  * @param {Grey} grey
  * @param {Outline} outline is changed
  */
 export function settle(grey, outline) {
   const reach = 1.5 * reachOf(grey) / grey.scale;
-  const free = outline.edges.flat().filter(({ held }) => !held);
+  const changed = EDGES.filter((edge) => !outline.found[edge]);
+  const kept = new Set(EDGES.filter((edge) => outline.found[edge]).flatMap((edge) => outline.edges[edge]));
+  const free = changed.flatMap((edge) => outline.edges[edge]).filter((node) => !node.held && !kept.has(node));
   for (const node of free) [node.x, node.y] = node.home;
   /** @param {Node} node @param {Point} to */
   const draw = (node, to) => {
@@ -177,22 +183,17 @@ export function settle(grey, outline) {
   };
   // Of moved corners others follow.
   for (let pass = 0; pass < 2; pass++) {
-    /** The courses without their ends, which are what is looked for. @type {Trace[][]} */
-    const traces = [0, 1].map((edge) => outline.spans(/** @type {0 | 1} */ (edge)).map((nodes) => loose(grey, nodes)));
-    outline.sides().forEach((side, i, sides) => {
-      // A gutter is no edge that can be seen.
-      if (i > 0 && i < sides.length - 1) return;
-      const straight = loose(grey, side);
-      if (straight.seen < 0.5) return;
-      side.forEach((corner, edge) => {
-        const trace = traces[edge][i === 0 ? 0 : traces[edge].length - 1];
-        if (corner.held || trace.seen < 0.5) return;
-        const near = i === 0 ? trace.points : trace.points.toReversed();
-        const met = meeting(near, edge === 0 ? straight.points : straight.points.toReversed());
-        if (met) draw(corner, met);
-      });
-    });
-    for (const edge of /** @type {const} */ ([0, 1])) {
+    /** The courses without their ends, which are what is looked for. */
+    const traces = EDGES.map((edge) => (changed.includes(edge) ? outline.spans(edge).map((nodes) => loose(grey, nodes)) : []));
+    for (const [edge, side, end, sideEnd] of MEETINGS) {
+      const corner = /** @type {Node} */ (outline.edges[edge].at(end));
+      const [one, other] = [traces[edge].at(end), traces[side][0]];
+      if (!free.includes(corner) || !one || !other || one.seen < 0.5 || other.seen < 0.5) continue;
+      const [p, q] = [end === 0 ? one.points : one.points.toReversed(), sideEnd === 0 ? other.points : other.points.toReversed()];
+      const met = meeting(p, q);
+      if (met) draw(corner, met);
+    }
+    for (const edge of changed) {
       for (const nodes of outline.spans(edge)) {
         const { points, seen } = traced(grey, nodes);
         if (seen < 0.3) continue;

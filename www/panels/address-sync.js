@@ -1,10 +1,12 @@
 /** What is shown stands in the address: shared by a link, undone by going back, there again after a reload. */
 import { addressOf, stateOf } from '../address.js';
 import { element, elements, make } from '../dom.js';
+import { ADDRESS_WORDS } from '../messages.js';
 import { keepFiles, keptFiles, namesOf, recentFiles } from '../recent-files.js';
 import { showNotice } from './notice.js';
 
 /** @import {State} from '../address.js' */
+/** @import {Mode} from './mode.js' */
 /** @import {Card} from '../gallery/cards.js' */
 /** @import {Session, Settings} from '../session.js' */
 /** @import {Stored} from '../import-interpretation.js' */
@@ -12,7 +14,6 @@ import { showNotice } from './notice.js';
 
 /** How long a result stands, in milliseconds, before it is worth going back to. */
 const REST = 400;
-const LOST = 'The file of this address is not kept in this browser: open it again. The settings are those of the address.';
 
 /**
  * @param {Session} session
@@ -21,8 +22,12 @@ const LOST = 'The file of this address is not kept in this browser: open it agai
  * @param {(view: string) => void} page.choose
  * @param {(name: string, options: { size: number, noise: number }) => Promise<void>} page.openExample
  * @param {(files: File[]) => Promise<unknown>} page.openFiles
+ * @param {(files: File[]) => unknown} page.openRecent likewise, or as a photo of a page
  * @param {(change: Partial<Stored>) => void} page.understand
  * @param {{ find: (id: string) => Card | undefined, show: (card: Card, settings?: Partial<Settings>, view?: string) => Promise<void>, present: Card | null }} page.gallery
+ * @param {{ readonly now: Mode, show: (mode: Mode) => void }} page.mode
+ * @param {(file: File) => Promise<unknown>} page.openPhoto of a page
+ * @param {() => void} page.beginPhoto shows an example, where no photo is open
  * @param {Whole} page.whole a mesh solved whole, and how that is shown
  * @param {{ readonly view?: string, enter: (view: string) => void, leave: () => void }} page.solvedWhole
  */
@@ -34,10 +39,17 @@ export function keepPanel(session, page) {
   let rest = 0;
   /** What is shown is being taken from an address. */
   let taking = false;
+  /** The file that is open could not be kept. */
+  let unkept = false;
+  /** The photo of a page that is open, by its number where it is kept. @type {number | undefined} */
+  let photo;
+  /** What the address in the history is about, without its view. */
+  let subject = '';
 
   /** @returns {State} */
   const present = () => {
     const { input, settings } = session;
+    if (page.mode.now === 'photo') return { photo: true, file: photo, unkept: unkept || undefined, settings: {} };
     const card = page.gallery.present;
     if (card) {
       const own = { ...session.defaults, ...card.settings };
@@ -48,7 +60,7 @@ export function keepPanel(session, page) {
       const { pixelSize, heightScale, zeros, hexagonal } = input.stored ?? {};
       const { view: wholly } = page.solvedWhole;
       const whole = wholly === undefined ? undefined : true;
-      return { file, stored: input.stored && { pixelSize, heightScale, zeros, hexagonal }, settings, whole, view: wholly ?? view() };
+      return { file, unkept: (file === undefined && unkept) || undefined, stored: input.stored && { pixelSize, heightScale, zeros, hexagonal }, settings, whole, view: wholly ?? view() };
     }
     const [size, noise] = ['size', 'noise'].map((name) => Number(element(name, HTMLSelectElement).value));
     return { example: { name: input?.name ?? 'roof', size, noise }, settings, view: view() };
@@ -56,9 +68,14 @@ export function keepPanel(session, page) {
 
   const write = (push = true) => {
     if (taking || !session.input) return;
-    const address = addressOf(present(), session.defaults);
+    const state = present();
+    const address = addressOf(state, session.defaults);
+    const now = addressOf({ ...state, view: undefined }, session.defaults);
+    // A view that is chosen before its input stands in the address does not take the place of the input before.
+    const other = now !== subject;
+    subject = now;
     if (address === location.hash) return;
-    if (push && location.hash !== '') history.pushState(null, '', address);
+    if ((push || other) && location.hash !== '') history.pushState(null, '', address);
     else history.replaceState(null, '', address);
   };
   const writeSoon = () => {
@@ -81,16 +98,28 @@ export function keepPanel(session, page) {
     taking = true;
     clearTimeout(rest);
     try {
+      if (state.photo) {
+        page.mode.show('photo');
+        const files = state.file === undefined || state.file === photo ? undefined : await keptFiles(state.file);
+        if (files) await page.openPhoto(files[0]);
+        else if (state.file !== undefined && state.file !== photo) showNotice(ADDRESS_WORDS.lost);
+        else if (state.unkept) showNotice(ADDRESS_WORDS.unkept);
+        if (!files) page.beginPhoto();
+        return;
+      }
+      page.mode.show('heights');
       const before = present();
       const settings = { ...session.defaults, ...state.settings };
       const card = state.card ? page.gallery.find(state.card) : undefined;
       if (card && page.gallery.present !== card) return await page.gallery.show(card, { ...card.settings, ...state.settings }, state.view);
       const same = card !== undefined || (state.file !== undefined ? state.file === file : JSON.stringify(state.example) === JSON.stringify(before.example));
-      page.adopt(card ? { ...session.defaults, ...card.settings, ...state.settings } : settings);
+      const wanted = card ? { ...session.defaults, ...card.settings, ...state.settings } : settings;
+      // What is as it was is not solved again.
+      if (!same || Object.entries(wanted).some(([name, value]) => session.settings[/** @type {keyof Settings} */ (name)] !== value)) page.adopt(wanted);
       if (!same && state.file !== undefined) {
         const files = await keptFiles(state.file);
         if (files) await page.openFiles(files);
-        else showNotice(LOST);
+        else showNotice(ADDRESS_WORDS.lost);
       } else if (!same && state.example) {
         await page.openExample(state.example.name, state.example);
       }
@@ -104,6 +133,7 @@ export function keepPanel(session, page) {
       page.choose(state.view ?? 'shaded');
     } finally {
       taking = false;
+      if (session.input) subject = addressOf({ ...present(), view: undefined }, session.defaults);
     }
   };
   addEventListener('popstate', () => void take(stateOf(location.hash)));
@@ -115,7 +145,7 @@ export function keepPanel(session, page) {
     list.replaceChildren('Opened before: ', ...kept.map(({ files }) => {
       const button = make('button', 'plain small', namesOf(files));
       button.type = 'button';
-      button.addEventListener('click', () => void page.openFiles(files));
+      button.addEventListener('click', () => void page.openRecent(files));
       return button;
     }));
   };
@@ -144,13 +174,24 @@ export function keepPanel(session, page) {
       if (session.input !== null) return;
       // Something to see at once.
       await page.openExample('roof', { size: 400, noise: 0.02 });
-      if (state.file !== undefined) showNotice(LOST);
+      if (state.photo) write(false);
+      else if (state.file !== undefined) showNotice(ADDRESS_WORDS.lost);
+      else if (state.unkept) showNotice(ADDRESS_WORDS.unkept);
     },
     /** Keeps what was opened. @param {readonly File[]} files */
     async remember(files) {
       file = await keepFiles(files);
+      unkept = file === undefined;
       void tell();
       write();
     },
+    /** The same of a photo of a page. @param {File | null} opened an example, if there is none */
+    async rememberPhoto(opened) {
+      const kept = opened ? await keepFiles([opened]) : undefined;
+      [photo, unkept] = [kept, opened !== null && kept === undefined];
+      void tell();
+      write();
+    },
+    write,
   };
 }

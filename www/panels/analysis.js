@@ -3,6 +3,7 @@ import { element, elements, make } from '../dom.js';
 import { gaussian, kappa2 } from '../views/curvature.js';
 import { dewarped, photoPicture } from '../views/dewarped.js';
 import { patches } from '../views/patches.js';
+import { hasColours, photo as coloured } from '../views/photo.js';
 import { flat as laidFlat } from '../views/pieces.js';
 import { rulings } from '../views/rulings.js';
 import { VIEWS as VIEWS_SAY } from '../messages.js';
@@ -17,7 +18,7 @@ import { waitingPanel } from './waiting.js';
 /** Milliseconds for a vertex, until that was measured. */
 const EACH = 0.005;
 /** @type {Record<string, View>} */
-const VIEWS = { gaussian, kappa2, rulings, patches, sheet: laidFlat };
+const VIEWS = { gaussian, kappa2, rulings, patches, photo: coloured, sheet: laidFlat };
 
 /**
  * @param {Session} session
@@ -68,7 +69,7 @@ export function analysisPanel(session, analyses, show) {
     }
     panel.setAttribute('aria-busy', 'true');
     if (!anew) about.replaceChildren();
-    const slow = { words: 'Working it out', kind: name, size: result.surface.heights.length, each: EACH };
+    const slow = { words: 'Preparing this view', kind: name, size: result.surface.heights.length, each: EACH };
     waiting.begin(slow);
     try {
       const shown = await (name === 'dewarped' ? flat(result) : VIEWS[name](analyses, result));
@@ -99,7 +100,7 @@ export function analysisPanel(session, analyses, show) {
     asked++;
     analyses.stop();
     waiting.end();
-    const again = make('button', '', 'Work it out');
+    const again = make('button', '', 'Try again');
     again.type = 'button';
     again.addEventListener('click', () => void update());
     put({ about: [make('p', 'muted', 'Cancelled.'), again] });
@@ -112,6 +113,11 @@ export function analysisPanel(session, analyses, show) {
     void update();
   };
   for (const radio of radios) radio.addEventListener('change', renew);
+  session.on('input', (input) => {
+    const own = element('view-photo', HTMLElement);
+    own.hidden = !hasColours(input);
+    if (own.hidden && chosen() === 'photo') radios[0].click();
+  });
   session.on('result', renew);
   session.on('cleared', renew);
   /** @param {string} view */

@@ -2,12 +2,13 @@
 import { apart } from '../worker-task.js';
 import { choosesFile, element } from '../dom.js';
 import { number } from '../format.js';
+import { DEPTH_WORDS } from '../messages.js';
 
 /** @import {Mesh, PhotoCamera} from '../api.js' */
 /** @import {Called} from '../mesh-sampling.js' */
 /** @import {Input, Session, Slow} from '../session.js' */
 
-/** Milliseconds for a depth that is put in space, until that was measured. */
+/** Milliseconds for a depth that a surface is built from, until that was measured. */
 const EACH = 2e-3;
 /** Depths that are larger than that are no metres. */
 const FAR = 100;
@@ -24,11 +25,12 @@ export function cameraPanel(session, take) {
   const angle = element('camera-angle', HTMLInputElement);
   const about = element('camera-about', HTMLElement);
   const span = element('camera-span', HTMLElement);
+  const source = () => session.input?.depthSource ?? session.input;
   /** What a file says besides what is shown: the images that its numbers are for, the lens. @type {Partial<PhotoCamera>} */
   let further = {};
 
   const tell = () => {
-    const { input } = session;
+    const input = source();
     if (!input) return;
     const { width = input.width, height = input.height, k1, k2, k3, p1, p2 } = further;
     const lens = [k1, k2, k3, p1, p2].some((value) => value) ? ', and a lens that distorts' : '';
@@ -56,7 +58,8 @@ export function cameraPanel(session, take) {
   const ask = () => {
     wanted.checked = true;
     panel.hidden = false;
-    if (session.input) begin(session.input);
+    const input = source();
+    if (input) begin(input);
   };
   /** @param {PhotoCamera} camera */
   const fill = ({ fx: x, fy: y, cx: across, cy: down, depthScale, rotation, translation, ...rest }) => {
@@ -66,10 +69,18 @@ export function cameraPanel(session, take) {
     tell();
   };
 
-  wanted.addEventListener('change', () => (wanted.checked ? ask() : (panel.hidden = true)));
+  wanted.addEventListener('change', () => {
+    const depths = session.input?.depthSource;
+    if (wanted.checked) ask();
+    // Not depths after all: the heights that the file holds.
+    else if (depths) void session.open('The heights could not be taken', async () => ({ ...depths, depths: undefined })).then((opened) => {
+        if (opened) void session.run();
+      });
+    else panel.hidden = true;
+  });
   scale.addEventListener('change', tell);
   angle.addEventListener('change', () => {
-    const { input } = session;
+    const input = source();
     const sound = angle.valueAsNumber > 0 && angle.valueAsNumber < 180;
     angle.setCustomValidity(sound || angle.value === '' ? '' : 'It must be an angle above 0° and below 180°.');
     if (!angle.reportValidity() || !sound || !input) return;
@@ -77,11 +88,11 @@ export function cameraPanel(session, take) {
   });
   /** @param {File} file */
   const read = async (file) => {
-    const { input } = session;
+    const input = source();
     if (!input) return false;
     try {
       const camera = session.api.parseCamera(await file.text(), [input, ...(input.photo ? [input.photo.image] : [])].map(({ width, height }) => ({ width, height })));
-      if (session.input !== input) return false;
+      if (source() !== input) return false;
       ask();
       fill(camera);
       return true;
@@ -92,8 +103,9 @@ export function cameraPanel(session, take) {
   };
   choosesFile(element('camera-open', HTMLButtonElement), element('camera-file', HTMLInputElement), read);
 
-  const project = async () => {
-    const { input } = session;
+  /** @param {boolean} [guessed] whether nobody has said what the camera was */
+  const project = async (guessed = false) => {
+    const input = source();
     if (!input) return false;
     for (const field of fields) {
       const sound = Number.isFinite(field.valueAsNumber) && (field === cx || field === cy || field.valueAsNumber > 0);
@@ -105,15 +117,18 @@ export function cameraPanel(session, take) {
     const camera = { ...further, fx: x, fy: y, cx: across, cy: down, depthScale };
     const known = beside && { confidence: beside.confidence, mask: beside.mask };
     const kind = beside ? `depths, with ${beside.names.join(' and ')}` : 'depths';
-    return take({ name, kind, photo }, (signal) => apart(session.api, signal, (worker) => worker.backProject({ width, height, data }, camera, known)),
-      'The depths could not be put in space', { words: 'Putting the depths in space', kind: 'depths', size: width * height, each: EACH });
+    const unit = input.depths ? { unit: /** @type {const} */ ('m') } : {};
+    const assumed = guessed ? DEPTH_WORDS.assumed(number(angle.valueAsNumber), depthScale) : undefined;
+    return take({ name, kind, photo: session.input?.photo ?? photo, depthSource: input, assumed },
+      (signal) => apart(session.api, signal, async (worker) => ({ ...await worker.backProject({ width, height, data }, camera, known), ...unit })),
+      DEPTH_WORDS.failed, { words: DEPTH_WORDS.building, kind: 'depths', size: width * height, each: EACH });
   };
   element('back-project', HTMLButtonElement).addEventListener('click', async () => {
     if (await project()) void session.run();
   });
   session.on('cleared', () => {
-    wanted.checked = false;
-    panel.hidden = true;
+    wanted.checked = session.input?.depthSource !== undefined;
+    panel.hidden = !wanted.checked;
   });
   return { ask, read, project };
 }

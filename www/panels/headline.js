@@ -2,7 +2,7 @@
 import { element } from '../dom.js';
 import { count } from '../format.js';
 import { accuracyOf } from '../surface/known.js';
-import { closer, outcome, verdict } from '../messages.js';
+import { closer, HEADLINE_WORDS, outcome, verdict } from '../messages.js';
 import { hideNotice, showFailure } from './notice.js';
 
 /** @import {Analyses} from '../analyses.js' */
@@ -40,7 +40,7 @@ export function headline(session, analyses) {
       const pieces = await analyses.pieces(result).catch(() => null);
       if (session.result !== result) return;
       if (!pieces) continue;
-      main.textContent = outcome(pieces.count, pieces.creases, factorOf(result));
+      main.textContent = outcome(pieces.count, pieces.creases, result.input.seen !== undefined);
       break;
     }
     if (session.result === result) main.setAttribute('aria-busy', 'false');
@@ -48,19 +48,19 @@ export function headline(session, analyses) {
 
   session.on('input', (input) => {
     hideNotice();
-    if (input.kind) say(`Opened ${input.name}.`, input.depths ? 'Depths from a camera: say what is known of it, then put them in space.' : '');
+    if (input.kind) say(HEADLINE_WORDS.opened(input.name), '');
   });
   session.on('start', () => {
     hideNotice();
     // What stands there is replaced by what comes of the run.
-    if (!session.result) say('Solving…', describe(session));
+    if (!session.result) say(HEADLINE_WORDS.solving, describe(session));
   });
   session.on('result', (result) => {
     const { report } = result.surface;
     chip.hidden = false;
     chip.textContent = verdict(report);
     chip.dataset.mark = report.stopReason === 'cancelled' || (report.gap === undefined && report.stopReason !== 'rounding') ? 'doubt' : 'sure';
-    say(closer(factorOf(result)) || 'Made of pieces that bend like paper.', describe(session));
+    say(HEADLINE_WORDS.solved, describe(session));
     main.setAttribute('aria-busy', 'true');
     clearTimeout(rest);
     rest = window.setTimeout(() => void tellPieces(result), REST);
@@ -74,7 +74,7 @@ export function headline(session, analyses) {
     if (phase === 'idle' && !session.input) say('Nothing to show yet.', 'Choose an example or open a file.');
   });
   session.on('unsolved', () => {
-    say('Not solved.', session.result ? 'The result before it stays.' : '');
+    say(HEADLINE_WORDS.unsolved, session.result ? HEADLINE_WORDS.stays : '');
     main.setAttribute('aria-busy', 'false');
   });
   session.on('failure', ({ doing, error }) => showFailure(doing, error));
@@ -84,7 +84,8 @@ export function headline(session, analyses) {
 function describe({ input, result }) {
   if (!input) return '';
   const report = result?.input === input ? result.surface.report : null;
-  return report ? `${count(report.interior + report.boundary)} vertices.` : `${count(input.width * input.height)} pixels.`;
+  const size = report ? `${count(report.interior + report.boundary)} vertices.` : `${count(input.width * input.height)} pixels.`;
+  return [report ? closer(factorOf(/** @type {Result} */ (result))) : '', size, input.assumed].filter(Boolean).join(' ');
 }
 
 /** How many times closer to the truth the result is than the input, where that is known. @param {Result} result */

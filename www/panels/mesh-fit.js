@@ -1,8 +1,9 @@
 /** A mesh solved whole: before and after in space, what is known of it, and its files. */
-import { element, elements, make } from '../dom.js';
+import { download, element, elements, make } from '../dom.js';
 import { percent } from '../format.js';
-import { handyLength } from '../pattern.js';
+import { unitOf } from '../pattern.js';
 import { plainly } from '../error-messages.js';
+import { WHOLE_WORDS } from '../messages.js';
 import { MeshView } from '../surface/mesh-view.js';
 import { PictureView } from '../surface/picture.js';
 import { work } from '../surface/work.js';
@@ -44,6 +45,7 @@ export function wholePanel(session, whole) {
   const ways = elements('input[name="mesh-way"]', HTMLInputElement);
   const radios = elements('input[name="whole-view"]', HTMLInputElement);
   const [file, sheets, flat] = ['file', 'sheets', 'flat'].map((name) => element(`whole-${name}`, HTMLButtonElement));
+  const report = element('whole-report', HTMLButtonElement);
   const picture = new PictureView(element('whole-picture', HTMLCanvasElement), new Zoom());
   /** @type {Promise<MeshView | null> | null} */
   let viewer = null;
@@ -60,8 +62,12 @@ export function wholePanel(session, whole) {
     asked++;
     whole.stop();
     waiting.end();
+    const solving = !whole.surface;
+    const kept = whole.restore();
     again.hidden = false;
-    if (!whole.surface) say('Cancelled.', '');
+    again.toggleAttribute('data-solves', solving);
+    if (!kept) say('Cancelled.', '');
+    else if (solving) detail.textContent = WHOLE_WORDS.kept;
     else about.replaceChildren(make('p', 'muted', 'Cancelled.'));
     stage.setAttribute('aria-busy', 'false');
     again.focus();
@@ -96,7 +102,7 @@ export function wholePanel(session, whole) {
     const { mesh, surface } = whole;
     if (!mesh || !surface) return;
     const name = radios.find(({ checked }) => checked)?.value ?? 'shaded';
-    const doing = slow(mesh, 'Working it out', `whole ${name}`);
+    const doing = slow(mesh, 'Preparing this view', `whole ${name}`);
     stage.setAttribute('aria-busy', 'true');
     again.hidden = true;
     if (name !== 'shaded') waiting.begin(doing);
@@ -116,7 +122,7 @@ export function wholePanel(session, whole) {
 
   /** @param {boolean} ready */
   const enable = (ready) => {
-    for (const end of [file, sheets, flat]) end.disabled = !ready;
+    for (const end of [file, sheets, flat, report]) end.disabled = !ready;
     for (const radio of radios) radio.disabled = !ready;
   };
 
@@ -155,24 +161,24 @@ export function wholePanel(session, whole) {
 
   whole.on('start', (mesh) => {
     asked++;
-    say('Solving the whole mesh…', '');
+    say(WHOLE_WORDS.solving, '');
     enable(false);
     again.hidden = true;
     stage.setAttribute('aria-busy', 'true');
-    waiting.begin(slow(mesh, 'Solving it', 'whole'));
+    waiting.begin(slow(mesh, 'Solving', 'whole'));
     void put({ before: mesh, about: [] }).then(async () => {
       // Solved once more, it stays as it was turned.
       if (looked !== mesh) (await viewer)?.look(OBLIQUE);
       looked = mesh;
     });
   });
-  whole.on('progress', ({ iteration, gap }) => {
-    detail.textContent = `Iteration ${iteration}${gap !== undefined && gap < 1 ? `, gap ${percent(gap)}` : ''}.`;
+  whole.on('progress', ({ iteration }) => {
+    detail.textContent = WHOLE_WORDS.iterations(iteration);
   });
   whole.on('result', (surface) => {
     if (!whole.mesh) return;
     waiting.end(slow(whole.mesh, '', 'whole'));
-    say('Solved whole, from all sides.', wholeInWords(whole.mesh, surface));
+    say(WHOLE_WORDS.solved, wholeInWords(whole.mesh, surface));
     enable(true);
     void update();
   });
@@ -180,12 +186,15 @@ export function wholePanel(session, whole) {
     waiting.end();
     stage.setAttribute('aria-busy', 'false');
     const words = plainly(error instanceof Error ? error.message : String(error));
-    say('It cannot be solved whole.', `${words[0].toUpperCase()}${words.slice(1)}.`);
+    say(WHOLE_WORDS.unsolved, `${words[0].toUpperCase()}${words.slice(1)}.`);
   });
 
+  report.addEventListener('click', () => {
+    if (whole.surface) download(`${JSON.stringify(whole.surface.report, null, 2)}\n`, 'application/json', `${stem()}-report.json`);
+  });
   divider.addEventListener('input', async () => (await viewer)?.divide(divider.valueAsNumber));
   for (const radio of radios) radio.addEventListener('change', () => void update());
-  again.addEventListener('click', () => (whole.surface ? void update() : solve()));
+  again.addEventListener('click', () => (whole.surface && !again.hasAttribute('data-solves') ? void update() : solve()));
   for (const radio of ways) radio.addEventListener('change', () => (radio.value === 'whole' ? enter('shaded') : leave()));
   /** The newest place of the pointer, which is looked at once in a frame. @type {{ offsetX: number, offsetY: number } | null} */
   let pointed = null;
@@ -249,7 +258,8 @@ export function wholePanel(session, whole) {
     offerSheets(session.api, {
       stem: stem(),
       size: surface.positions.length / 3,
-      side: handyLength(longest, surface.unit),
+      length: longest,
+      unit: unitOf({ ...session.input, kind: 'mesh', unit: surface.unit ?? undefined }),
       cut: ({ side: length, ...options }) => whole.pattern(surface, { scale: length / longest, ...options }),
       svg: (drawing) => whole.svg(drawing),
       stop: () => whole.stop(),
@@ -267,7 +277,7 @@ export function wholePanel(session, whole) {
     const { positions, triangles } = mesh;
     const hidden = await work('hiddenShare', { positions, triangles }, { rows, cols, spacing, origin, heights, frame });
     if (session.input?.lattice !== lattice || hidden < MUCH) return;
-    hint.textContent = `Heights from this side leave out ${percent(hidden)} of its surface, which is behind what is seen: “Whole” takes all of it.`;
+    hint.textContent = WHOLE_WORDS.hidden(percent(hidden));
   });
 
   return {

@@ -111,8 +111,8 @@ export function meshPanel(session) {
 }
 
 /** @param {Input} input @returns {Called} */
-function calledAs({ name, kind, photo }) {
-  return { name, kind, photo };
+function calledAs({ name, kind, photo, depthSource, assumed }) {
+  return { name, kind, photo, depthSource, assumed };
 }
 
 /** @param {Mesh} mesh */

@@ -3,12 +3,24 @@ import { element } from '../dom.js';
 import { complaint } from '../messages.js';
 
 /**
+ * @typedef {object} Offer what can be done about it
+ * @property {string} label of a button
+ * @property {() => void} act
+ *
  * @param {string} message
  * @param {'alert' | 'note'} [kind]
+ * @param {Offer} [offer]
  */
-export function showNotice(message, kind = 'alert') {
+export function showNotice(message, kind = 'alert', offer) {
   const notice = element('notice', HTMLElement);
   element('notice-text', HTMLElement).textContent = message;
+  const button = element('notice-act', HTMLButtonElement);
+  button.hidden = offer === undefined;
+  button.textContent = offer?.label ?? '';
+  button.onclick = () => {
+    hideNotice();
+    offer?.act();
+  };
   notice.dataset.kind = kind;
   notice.hidden = false;
   // Whoever is further down would not know.

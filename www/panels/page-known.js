@@ -1,15 +1,17 @@
 /** What is known of a page and of the camera that took the photo. */
 import { element, elements } from '../dom.js';
 import { number } from '../format.js';
+import { FOCAL_WORDS } from '../messages.js';
+import { PAPERS } from '../page/paper.js';
 
 /** @import {PageSession} from '../page/session.js' */
 /** @typedef {import('../../pkg/types.js').DewarpPageOptions} Options */
 
 /** What may be typed of the camera, and what of it can be. @type {Record<string, { hint: string, most: number, options: (value: number) => Options }>} */
 const CAMERAS = {
-  fov: { hint: 'The angle that the photo’s longer side covers: 65 to 80° on most phones.', most: 179, options: (fieldOfView) => ({ fieldOfView }) },
-  film35: { hint: 'As for a film of 36 × 24 mm: 23 to 28 mm on most phones.', most: Infinity, options: (film35) => ({ film35 }) },
-  pixels: { hint: 'In pixels of the photo.', most: Infinity, options: (focalLength) => ({ focalLength }) },
+  fov: { hint: FOCAL_WORDS.fov, most: 179, options: (fieldOfView) => ({ fieldOfView }) },
+  film35: { hint: FOCAL_WORDS.film35, most: Infinity, options: (film35) => ({ film35 }) },
+  pixels: { hint: FOCAL_WORDS.pixels, most: Infinity, options: (focalLength) => ({ focalLength }) },
 };
 
 /** @param {PageSession} session */
@@ -22,7 +24,6 @@ export function pageKnownPanel(session) {
   const value = element('focal-value', HTMLInputElement);
   const hint = element('focal-hint', HTMLElement);
   const pages = elements('input[name="pages"]', HTMLInputElement);
-  const bent = elements('input[name="bent"]', HTMLInputElement);
 
   /** @param {HTMLInputElement} input @param {number} [most] */
   const sound = (input, most = Infinity) => {
@@ -37,13 +38,13 @@ export function pageKnownPanel(session) {
     field.hidden = known === undefined;
     const { photo } = session;
     hint.textContent = known?.hint ?? (photo?.film35 === undefined
-      ? 'The photo does not tell the focal length: it is found from the perspective, where there is enough of it.'
-      : `From the photo: ${number(photo.film35)} mm, as for a film of 36 × 24 mm.`);
+      ? FOCAL_WORDS.unknown
+      : FOCAL_WORDS.told(number(photo.film35)));
     /** @type {Options} */
     const options = {};
     if (format.value === 'a4' || format.value === 'letter') options.page = format.value;
     else if (format.value === 'own' && sound(wide) && sound(high)) options.page = [wide.valueAsNumber, high.valueAsNumber];
-    else if (format.value === 'a4-wide') options.page = [297, 210];
+    else if (format.value === 'a4-wide' || format.value === 'letter-wide') options.page = [...PAPERS[format.value]];
     if (known && sound(value, known.most)) Object.assign(options, known.options(value.valueAsNumber));
     return options;
   };
@@ -56,7 +57,6 @@ export function pageKnownPanel(session) {
   for (const radio of pages) {
     radio.addEventListener('change', () => (radio.value === '2' ? session.divide() : session.join()));
   }
-  for (const radio of bent) radio.addEventListener('change', () => session.turn());
 
   session.on('photo', () => {
     // Another photo may be another camera's.
@@ -65,6 +65,5 @@ export function pageKnownPanel(session) {
   });
   session.on('outline', ({ outline }) => {
     for (const radio of pages) radio.checked = radio.value === String(outline.pages);
-    for (const radio of bent) radio.checked = (radio.value === 'sides') === outline.sideways;
   });
 }

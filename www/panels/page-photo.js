@@ -1,11 +1,13 @@
 /** The photo with the outline of the page on it, to be dragged. */
-import { element, followDevicePixels } from '../dom.js';
+import { element, followDevicePixels, make } from '../dom.js';
 import { number } from '../format.js';
+import { PAGE_WORDS } from '../messages.js';
 import { Handles } from '../page/handles.js';
+import { EDGES } from '../page/outline.js';
 import { canvasOf } from '../views/dewarped.js';
 
 /** @import {PageSession} from '../page/session.js' */
-/** @import {Which} from '../page/outline.js' */
+/** @import {Edge, Which} from '../page/outline.js' */
 /** @import {Line} from '../page/handles.js' */
 
 /** @param {PageSession} session */
@@ -19,6 +21,8 @@ export function pagePhotoPanel(session) {
   const drawLine = element('line-draw', HTMLButtonElement);
   const removeLine = element('line-remove', HTMLButtonElement);
   const findLines = element('find-lines', HTMLInputElement);
+  const undo = element('page-undo', HTMLButtonElement);
+  const several = element('several', HTMLElement);
   /** Which node each handle is. @type {Which[]} */
   let nodes = [];
   /** The handle that had the focus last. */
@@ -32,7 +36,7 @@ export function pagePhotoPanel(session) {
       session.drawLine(end.end === 0 ? [to, last] : [from, to], { line: end.line, ended });
     },
     begin: (place) => nodes.length + 2 * session.drawLine([place, place], { ended: false }) + 1,
-    pull: (edge, place) => handleOf(session.add(/** @type {0 | 1} */ (edge), place)),
+    pull: (edge, place) => handleOf(session.add(/** @type {Edge} */ (edge), place, true)),
     remove: (handle) => remove(handle),
     choose: (handle) => {
       chosen = handle;
@@ -51,6 +55,7 @@ export function pagePhotoPanel(session) {
     // Only said to be disabled, so that the keyboard's focus is not lost.
     fewer.setAttribute('aria-disabled', String(!bend()));
     for (const button of [more, drawLine]) button.setAttribute('aria-disabled', String(session.photo === null));
+    undo.setAttribute('aria-disabled', String(!session.changed));
     removeLine.setAttribute('aria-disabled', String(endOf(chosen) === null));
   };
   /** @param {number} handle */
@@ -84,7 +89,7 @@ export function pagePhotoPanel(session) {
     if (!session.photo) return;
     // By keyboard there is a line at once, to be moved by its ends.
     if (event.detail !== 0) return draw(!handles.drawing);
-    const corners = session.outline.sides().flat();
+    const { corners } = session.outline;
     const [x, y] = [Math.min(...corners.map((one) => one.x)), Math.min(...corners.map((one) => one.y))];
     const [u, v] = [Math.max(...corners.map((one) => one.x)), Math.max(...corners.map((one) => one.y))];
     /** @type {(s: number) => [number, number]} */
@@ -93,7 +98,17 @@ export function pagePhotoPanel(session) {
   });
   findLines.addEventListener('change', () => session.find(findLines.checked));
   snap.addEventListener('change', () => session.snap(snap.checked));
-  element('suggest', HTMLButtonElement).addEventListener('click', () => session.suggest());
+  element('page-turn', HTMLButtonElement).addEventListener('click', () => session.turn());
+  element('suggest', HTMLButtonElement).addEventListener('click', () => {
+    if (!session.changed || confirm(PAGE_WORDS.startAgain)) session.suggest();
+  });
+  undo.addEventListener('click', () => session.undo());
+  document.addEventListener('keydown', (event) => {
+    const typing = event.target instanceof HTMLInputElement && event.target.type === 'number';
+    if (event.key !== 'z' || !(event.ctrlKey || event.metaKey) || event.shiftKey || typing || box.offsetParent === null) return;
+    event.preventDefault();
+    session.undo();
+  });
 
   const paint = () => {
     const context = canvas.getContext('2d');
@@ -108,6 +123,14 @@ export function pagePhotoPanel(session) {
     draw(false);
     handles.on(photo);
     box.hidden = false;
+    const { verdict, pages } = photo.outlines;
+    several.hidden = verdict !== 'several' || pages.length < 2;
+    several.replaceChildren(PAGE_WORDS.several, ...pages.map((_, i) => {
+      const button = make('button', '', PAGE_WORDS.choosePage(i + 1));
+      button.type = 'button';
+      button.addEventListener('click', () => session.choose(i));
+      return button;
+    }));
     element('page-empty', HTMLElement).hidden = true;
     caption.textContent = `${photo.name}, ${number(photo.width, 6)} × ${number(photo.height, 6)}`;
     canvas.setAttribute('aria-label', `The photo ${photo.name}`);
@@ -135,13 +158,17 @@ export function pagePhotoPanel(session) {
     tell();
   };
   session.on('lines', redraw);
-  session.on('outline', ({ outline, traces }) => {
-    nodes = outline.edges.flatMap((list, edge) => list.map((_, node) => ({ edge: /** @type {0 | 1} */ (edge), node })));
+  session.on('outline', ({ outline, traces, moving }) => {
+    nodes = EDGES.flatMap((edge) => outline.edges[edge].flatMap((_, node, { length }) =>
+      (edge > 1 && (node === 0 || node === length - 1) ? [] : [{ edge, node }])));
+    const gutter = outline.gutter();
     /** @type {Line[]} */
-    const sides = outline.sides().map(([p, q]) => ({ kind: 'side', points: [[p.x, p.y], [q.x, q.y]] }));
+    const gutters = gutter ? [{ kind: 'side', points: gutter.map(({ x, y }) => /** @type {[number, number]} */ ([x, y])) }] : [];
     /** @type {Line[]} */
-    const edges = traces.lines.flatMap((spans, edge) => spans.map((points) => ({ kind: /** @type {const} */ ('edge'), points, pulls: edge })));
-    outlined = [...sides, ...edges];
+    const edges = traces.flatMap((spans, edge) => spans.map((points) => ({ kind: /** @type {const} */ ('edge'), points, pulls: edge })));
+    outlined = [...gutters, ...edges];
+    // Not under the finger.
+    if (!moving) handles.fit(outline.corners.map(({ x, y }) => [x, y]));
     redraw();
   });
   tell();
@@ -150,7 +177,7 @@ export function pagePhotoPanel(session) {
 /**
  * The middle of an edge's longest part without a point.
  * @param {PageSession} session
- * @param {0 | 1} edge
+ * @param {Edge} edge
  * @returns {[number, number]}
  */
 function widest({ outline }, edge) {

@@ -1,18 +1,21 @@
 /** The flat page beside its photo: what it is worth in words, its figures, and its files. */
-import { element } from '../dom.js';
-import { degrees, number, percent } from '../format.js';
+import { element, make } from '../dom.js';
+import { degrees, number, numberAgainst, percent } from '../format.js';
 import { whole } from '../page/flatten.js';
+import { PAPERS, pagesPdf, similarPaper } from '../page/paper.js';
+import { turnedPicture } from '../page/quarter-turn.js';
 import { imagePicture, PictureView } from '../surface/picture.js';
 import { Zoom } from '../surface/zoom.js';
 import { canvasOf } from '../views/dewarped.js';
 import { figures } from '../views/legend.js';
-import { pageErrors, pageVerdict } from '../messages.js';
+import { PAGE_WORDS, SAVE_WORDS, pageCautions, pageErrors, pageVerdict } from '../messages.js';
 import { offerToSave } from './save-dialog.js';
 
 /** @import {Api} from '../api.js' */
 /** @import {Worker} from '../worker-task.js' */
 /** @import {DewarpedPage} from '../page/flatten.js' */
 /** @import {PageSession} from '../page/session.js' */
+/** @import {PaperName} from '../page/paper.js' */
 
 /**
  * @param {Api} api
@@ -25,7 +28,10 @@ export function pageResultPanel(api, session, goOn) {
   const empty = element('flat-empty', HTMLElement);
   const verdict = element('flat-verdict', HTMLElement);
   const detail = element('flat-detail', HTMLElement);
+  const side = element('page-side', HTMLElement);
   const about = element('flat-about', HTMLElement);
+  const facts = element('flat-facts', HTMLElement);
+  const proposal = element('format-proposal', HTMLButtonElement);
   const caption = element('flat-caption', HTMLElement);
   const save = element('page-save', HTMLButtonElement);
   const surface = element('flat-surface', HTMLButtonElement);
@@ -36,91 +42,128 @@ export function pageResultPanel(api, session, goOn) {
   const enable = (ready) => {
     save.disabled = surface.disabled = !ready;
   };
-  session.on('photo', () => {
+  /** @param {string} words @param {string} [more] */
+  const say = (words, more = '') => {
+    verdict.textContent = words;
+    detail.textContent = more;
+  };
+  /** @param {string} instead what is said in the place of the flat page */
+  const clear = (instead) => {
     shown = null;
     view.show(null);
     empty.hidden = false;
-    empty.textContent = 'Working it out…';
+    empty.textContent = instead;
     caption.textContent = '';
     about.replaceChildren();
+    facts.hidden = proposal.hidden = true;
     enable(false);
+  };
+  session.on('photo', () => {
+    clear(PAGE_WORDS.working);
+    say(PAGE_WORDS.working);
+  });
+  session.on('outline', ({ moving }) => {
+    // Nothing moves away under the hand.
+    if (!moving) side.dataset.state = session.unfound ? 'unfound' : 'found';
   });
   session.on('working', (working) => figure.setAttribute('aria-busy', String(working)));
-  session.on('flat', (flat) => {
+  session.on('unfound', () => {
+    clear(PAGE_WORDS.unfoundDetail);
+    say(PAGE_WORDS.unfound, PAGE_WORDS.unfoundDetail);
+  });
+  session.on('flat', ({ flat, assumed, moving }) => {
     shown = flat;
-    const { width, height, data, report } = flat;
+    const { report } = flat;
+    const { width, height, data } = turnedPicture(flat, session.quarters);
     view.show(imagePicture(canvasOf(new ImageData(data, width, height)), 'Flat', 'The page made flat'));
     empty.hidden = true;
-    caption.textContent = flat.unit === 'mm' ? sizeOf(flat) : '';
-    verdict.textContent = pageVerdict(report);
-    detail.textContent = pageErrors(report);
-    about.replaceChildren(figures(factsOf(flat, session.photo?.grey.scale ?? 1)));
     enable(true);
+    // Without lines of text the figures are others: they wait until the hand rests.
+    if (moving) return;
+    caption.textContent = flat.unit === 'mm' ? sizeOf(flat, session.quarters) : '';
+    const unplaced = session.photo?.outlines.verdict === 'notFound' ? 4 - session.moved.size : 0;
+    const cautions = pageCautions({ outside: session.outside, weak: session.weak, assumed, unplaced });
+    say(pageVerdict(report), [...cautions, pageErrors(report)].join(' '));
+    facts.hidden = false;
+    const similar = flat.unit === 'mm' ? null : similarPaper(flat.size[0] / session.outline.pages, flat.size[1]);
+    proposal.hidden = similar === null;
+    if (similar) [proposal.value, proposal.textContent] = [similar, PAGE_WORDS.looksLike(SAVE_WORDS.papers[similar])];
+    about.replaceChildren(figures(factsOf(flat, session.quarters, session.photo?.grey.scale ?? 1)));
   });
   session.on('problem', (error) => {
-    shown = null;
-    view.show(null);
-    empty.hidden = false;
-    empty.textContent = 'No flat page from these edges';
-    caption.textContent = '';
-    verdict.textContent = 'It cannot be made flat like this.';
-    detail.textContent = sentence(error);
-    about.replaceChildren();
-    enable(false);
+    clear(PAGE_WORDS.noFlat);
+    say('It cannot be made flat like this.', sentence(error));
   });
 
   save.addEventListener('click', () => {
     const wish = session.wish();
     if (!wish || !shown) return;
+    const { outline: { pages }, quarters } = session;
+    const measured = shown.unit === 'mm';
+    const [wide, high] = [shown.size[0] / pages, shown.size[1]];
+    const similar = quarters % 2 === 0 ? similarPaper(wide, high) : similarPaper(high, wide);
+    const paper = make('select', '', ...(measured ? [new Option(SAVE_WORDS.trueSize(sizeOf(shown, quarters)), '')] : []),
+      ...Object.entries(SAVE_WORDS.papers).map(([name, words]) => new Option(words, name)));
+    paper.value = measured ? '' : similar ?? 'a4';
     /** With all pixels of the photo: made once for all formats. @type {DewarpedPage | null} */
     let flat = null;
-    /** @param {'png' | 'jpeg' | 'pdf'} format */
+    /** @param {'png' | 'jpeg'} format */
     const written = (format) => async (/** @type {Worker} */ worker) => {
       flat ??= await whole(worker, wish);
-      return worker.writePhoto(flat, { format });
+      return worker.writePhoto({ ...flat, ...turnedPicture(flat, quarters) }, { format });
     };
-    offerToSave(api, {
+    const offer = offerToSave(api, {
       title: 'Flat page',
       stem: `${wish.photo.name}-flat`,
       size: wish.photo.width * wish.photo.height,
       formats: [
-        { value: 'png', name: 'PNG', words: 'nothing is lost', type: 'image/png', write: written('png') },
+        { value: 'pdf', name: 'PDF', words: pages > 1 ? SAVE_WORDS.pdfOfTwo : SAVE_WORDS.pdf, type: 'application/pdf', write: async (worker) => {
+          flat ??= await whole(worker, wish);
+          return pagesPdf(worker, flat, pages, quarters, paper.value === '' ? null : PAPERS[/** @type {PaperName} */ (paper.value)]);
+        } },
         { value: 'jpg', name: 'JPEG', words: 'a smaller file', type: 'image/jpeg', write: written('jpeg') },
-        {
-          value: 'pdf', name: 'PDF', words: 'to print, in true size', type: 'application/pdf', write: written('pdf'),
-          without: shown.unit === 'mm' ? undefined : 'of what size it is, a page format or a ruler would say',
-        },
+        { value: 'png', name: 'PNG', words: 'nothing is lost', type: 'image/png', write: written('png') },
       ],
+      extra: [make('label', 'field', SAVE_WORDS.paper(similar !== null && !measured ? SAVE_WORDS.papers[similar] : ''), paper)],
     });
+    paper.addEventListener('change', () => offer.renew());
+  });
+  proposal.addEventListener('click', () => {
+    const format = element('page-format', HTMLSelectElement);
+    format.value = proposal.value;
+    format.dispatchEvent(new Event('change'));
+    format.focus();
   });
   surface.addEventListener('click', () => {
     if (shown) goOn(shown, session.photo?.name ?? 'page');
   });
 }
 
-/** @param {DewarpedPage} flat */
-function sizeOf({ size: [wide, high], unit }) {
+/** @param {DewarpedPage} flat @param {number} quarters */
+function sizeOf({ size, unit }, quarters) {
+  const [wide, high] = quarters % 2 === 0 ? size : size.toReversed();
   return unit === 'mm' ? `${number(wide, 4)} × ${number(high, 4)} mm` : `${number(wide / high, 3)} : 1`;
 }
 
 /**
  * @param {DewarpedPage} flat
+ * @param {number} quarters
  * @param {number} scale pixels of the reduced photo for one of the whole one
  * @returns {[string, string][]}
  */
-function factsOf(flat, scale) {
+function factsOf(flat, quarters, scale) {
   const { verdict, error, pinholeErrorBound, focalLength, focalDeviation, tilt, bend, disagreement, residual, lines, linesFound } = flat.report;
   const wrong = verdict === 'notThisKind';
   return [
     ['Likely error', wrong ? '–' : `${percent(error / 100)} of the width`],
-    ['In 95 of 100 cases below, if the lens does not distort', wrong ? '–' : percent(pinholeErrorBound / 100)],
-    ['Edges disagree by', `${percent(disagreement / 100)} of the width`],
+    ['95 % limit', wrong ? '–' : percent(pinholeErrorBound / 100)],
+    ['Edges disagree', `${percent(disagreement / 100)} of the width`],
     ...(lines + linesFound === 0 ? [] : [/** @type {[string, string]} */ (['Lines of text', linesFacts(flat.report)])]),
-    ['Points off the edges', `${number(residual / scale, 2)} pixels`],
-    ['Bent by', degrees((bend * Math.PI) / 180)],
-    ['Tilted by', degrees((tilt * Math.PI) / 180)],
+    ['Edge residual', `${numberAgainst(residual / scale, 1000)} pixels`],
+    ['Bend', degrees((bend * Math.PI) / 180)],
+    ['Tilt', degrees((tilt * Math.PI) / 180)],
     ['Focal length', `${number(focalLength / scale, 4)} pixels ± ${percent(focalDeviation / 100)}`],
-    [flat.unit === 'mm' ? 'Size' : 'Width to height', sizeOf(flat)],
+    [flat.unit === 'mm' ? 'Size' : 'Width to height', sizeOf(flat, quarters)],
   ];
 }
 
@@ -134,6 +177,8 @@ function linesFacts({ lines, linesFound, linesUsed, linesDisagreement }) {
 
 /** @param {unknown} error */
 function sentence(error) {
-  const words = error instanceof Error ? error.message : String(error);
+  const message = error instanceof Error ? error.message : String(error);
+  const [, edge] = /the (\w+) edge has a point at .* outside of the photo/.exec(message) ?? [];
+  const words = edge ? PAGE_WORDS.tooFarOutside(edge) : message;
   return `${words[0].toUpperCase()}${words.slice(1).replace(/\.$/, '')}.`;
 }

@@ -2,9 +2,11 @@
 import { readingOf } from '../worker-task.js';
 import { choosesFile, element, elements } from '../dom.js';
 import { examplePhoto } from '../page/example.js';
-import { openPhoto, photoOf } from '../page/photo.js';
+import { isTooLarge, openPhoto, photoOf } from '../page/photo.js';
 import { PageSession } from '../page/session.js';
-import { hideNotice, showFailure } from './notice.js';
+import { kindByName, otherInWords } from '../file-kinds.js';
+import { FILE_WORDS } from '../messages.js';
+import { hideNotice, showFailure, showNotice } from './notice.js';
 import { pageKnownPanel } from './page-known.js';
 import { pagePhotoPanel } from './page-photo.js';
 import { pageResultPanel } from './page-result.js';
@@ -19,8 +21,10 @@ import { SOON, waitingPanel } from './waiting.js';
 /**
  * @param {Api} api
  * @param {(flat: DewarpedPage, name: string) => void} goOn with the page as a surface
+ * @param {(files: File[]) => void} openHeights what is no photo of a page
+ * @param {(file: File | null) => void} opened is open now; an example, if there is none
  */
-export function pagePanel(api, goOn) {
+export function pagePanel(api, goOn, openHeights, opened) {
   /** Made with the first photo, for most visitors come for something else. @type {PageSession | null} */
   let session = null;
   const examples = elements('input[name="page-example"]', HTMLInputElement);
@@ -45,8 +49,9 @@ export function pagePanel(api, goOn) {
    * @param {(signal: AbortSignal) => Promise<PagePhoto>} load
    * @param {number} [pages]
    * @param {Slow} [slow] for what is said meanwhile
+   * @param {File} [file] which may be opened at half size
    */
-  const show = async (doing, load, pages, slow) => {
+  const show = async (doing, load, pages, slow, file) => {
     opening?.abort();
     const { signal } = (opening = new AbortController());
     const to = begun();
@@ -57,32 +62,42 @@ export function pagePanel(api, goOn) {
       if (signal.aborted) return;
       hideNotice();
       to.show(photo, pages);
+      opened(file ?? null);
     } catch (error) {
-      if (!signal.aborted) showFailure(doing, error);
+      if (signal.aborted) return;
+      if (file && isTooLarge(error)) showNotice(FILE_WORDS.tooLarge(file.name), 'alert', { label: FILE_WORDS.openAtHalf, act: () => void open(file, true) });
+      else showFailure(doing, error);
     } finally {
       if (!signal.aborted) waiting.end(slow);
     }
   };
 
-  /** @param {File} file */
-  const open = async (file) => {
+  /** @param {File} file @param {boolean} [half] at half size */
+  const open = async (file, half) => {
+    const kind = kindByName(file);
+    if (kind === 'other' || kind === 'camera') return showNotice(FILE_WORDS.unread(file.name, otherInWords(file)));
+    if (kind === 'mesh' || kind === 'heights') {
+      const words = kind === 'mesh' ? FILE_WORDS.meshNoPhoto(file.name) : FILE_WORDS.heightsNoPhoto(file.name);
+      return showNotice(words, 'alert', { label: FILE_WORDS.openAsHeights, act: () => openHeights([file]) });
+    }
     await show(`“${file.name}” could not be opened`, async (signal) => {
-      const photo = await openPhoto(api, file, signal);
+      const photo = await openPhoto(api, file, signal, half);
       for (const radio of examples) radio.checked = radio.checked && signal.aborted;
       return photo;
-    }, 1, readingOf(file));
+    }, 1, readingOf(file), file);
   };
   const openExample = async () => {
     const name = /** @type {ExampleName} */ (examples.find((radio) => radio.checked)?.value ?? 'curled');
     const { image, film35, pages } = examplePhoto(name);
-    await show('The example could not be made', () => photoOf({ width: image.width, height: image.height, data: image.data, film35 }, name), pages);
+    const pixels = { width: image.width, height: image.height, data: image.data, film35 };
+    await show('The example could not be made', (signal) => photoOf(api, pixels, name, signal), pages);
   };
   for (const radio of examples) radio.addEventListener('change', openExample);
   choosesFile(element('page-open', HTMLButtonElement), element('page-file', HTMLInputElement), open);
   return {
     open,
     /** Something to see, where nothing was opened yet. */
-    begin() {
+    begin: () => {
       if (!opening) void openExample();
     },
   };

@@ -48,7 +48,7 @@ export function photoPanel(session, analyses, changed) {
     if (place && !part) return;
     const own = { name: name.textContent ?? '', image: photo };
     const taken = await see(
-      session, { name: input.name, kind: input.kind, photo: own }, async () => part ?? whole, options,
+      session, { name: input.name, kind: input.kind, photo: own, depthSource: input.depthSource, assumed: input.assumed }, async () => part ?? whole, options,
       'This part could not be taken', { whole: part ? whole : undefined, slow: drawingOf(whole) },
     );
     if (taken) await session.run();

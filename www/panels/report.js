@@ -1,5 +1,5 @@
 /** The report as a table, each line with a word on what it means. */
-import { element } from '../dom.js';
+import { download, element } from '../dom.js';
 import { count, number, percentAtMost, seconds } from '../format.js';
 import { accuracyOf } from '../surface/known.js';
 import { ENERGIES, STOP_REASONS, lambdaFound } from '../messages.js';
@@ -14,15 +14,19 @@ import { ENERGIES, STOP_REASONS, lambdaFound } from '../messages.js';
 export function reportPanel(session) {
   const table = element('report-table', HTMLTableElement);
   const empty = element('report-empty', HTMLElement);
+  element('report-save', HTMLButtonElement).addEventListener('click', () => {
+    const { result } = session;
+    if (result) download(`${JSON.stringify(result.surface.report, null, 2)}\n`, 'application/json', `${result.input.name}-report.json`);
+  });
   session.on('result', (result) => {
     const { report } = result.surface;
     const groups = [certificate(report), domain(report), work(report), accuracy(result)];
     table.replaceChildren(...groups.filter((group) => group.lines.length > 0).map(rowGroup));
-    table.hidden = false;
+    table.hidden = element('report-save', HTMLElement).hidden = false;
     empty.hidden = true;
   });
   session.on('cleared', () => {
-    table.hidden = true;
+    table.hidden = element('report-save', HTMLElement).hidden = true;
     empty.hidden = false;
   });
 }

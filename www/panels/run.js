@@ -1,6 +1,7 @@
 /** Run, cancel, and how far it is. */
 import { element } from '../dom.js';
-import { count, percentAtMost, seconds } from '../format.js';
+import { seconds } from '../format.js';
+import { RUN_WORDS } from '../messages.js';
 
 /** @import {Session} from '../session.js' */
 
@@ -25,7 +26,7 @@ export function runPanel(session) {
   // Only said to be disabled, so that the keyboard's focus is not lost when a run ends.
   cancel.addEventListener('click', () => {
     if (session.phase !== 'running') return;
-    text.textContent = 'Stopping…';
+    text.textContent = RUN_WORDS.stopping;
     cancel.setAttribute('aria-disabled', 'true');
     session.cancel();
   });
@@ -36,14 +37,14 @@ export function runPanel(session) {
     first = NaN;
     levels = 0;
     bar.value = 0;
-    text.textContent = 'Setting up…';
+    text.textContent = RUN_WORDS.begun;
   });
   session.on('progress', ({ level, iteration, gap, elapsed }) => {
     if (level > 0) {
       levels = Math.max(levels, level);
       // The search for λ is on coarser lattices than the solve begins with, or on finer ones.
       bar.value = Math.max(bar.value, COARSE * (1 - level / (levels + 1)));
-      text.textContent = `coarse lattice, ${count(level)} finer to come, ${seconds(elapsed)}`;
+      text.textContent = RUN_WORDS.coarse(level, seconds(elapsed));
       return;
     }
     const known = gap !== undefined && gap < 1;
@@ -55,15 +56,14 @@ export function runPanel(session) {
       const share = begin + (1 - begin) * reached(gap, first, session.settings.gap);
       bar.value = Math.max(bar.value, share);
     }
-    const state = known ? `gap ${percentAtMost(gap)}` : 'no certificate yet';
-    text.textContent = `${state} after ${count(iteration)} iterations, ${seconds(elapsed)}`;
+    text.textContent = RUN_WORDS.fine(gap, iteration, seconds(elapsed));
   });
   session.on('result', ({ surface: { report } }) => {
     if (report.stopReason !== 'cancelled') bar.value = 1;
-    text.textContent = `gap ${percentAtMost(report.gap)} after ${count(report.iterations)} iterations`;
+    text.textContent = RUN_WORDS.fine(report.gap, report.iterations, seconds(report.seconds.total));
   });
   session.on('unsolved', () => {
-    text.textContent = 'Not solved';
+    text.textContent = RUN_WORDS.unsolved;
   });
   session.on('cleared', () => {
     bar.value = 0;

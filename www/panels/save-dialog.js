@@ -3,6 +3,7 @@ import { apart } from '../worker-task.js';
 import { download, element, make } from '../dom.js';
 import { fileSize } from '../format.js';
 import { plainly } from '../error-messages.js';
+import { SAVE_WORDS } from '../messages.js';
 import { SOON, waitingPanel } from './waiting.js';
 
 /** @import {Worker} from '../worker-task.js' */
@@ -81,7 +82,7 @@ export function offerToSave(api, { title, stem, size: amount, ready = async () =
     save.disabled = true;
     if (!format) return;
     taken.set(title, format.value);
-    size.textContent = 'Working it out…';
+    size.textContent = SAVE_WORDS.working;
     try {
       await ready();
       if (mine !== present) return;
@@ -94,13 +95,14 @@ export function offerToSave(api, { title, stem, size: amount, ready = async () =
       save.disabled = false;
       save.onclick = () => {
         download(content, format.type, `${stem}.${format.value}`);
-        dialog.close();
+        // It stays open: the next format is of the same size.
+        size.textContent = SAVE_WORDS.saved(`${stem}.${format.value}`);
       };
     } catch (error) {
       if (mine !== present) return;
       wait.end();
       const reason = plainly(error instanceof Error ? error.message : String(error));
-      size.textContent = `It could not be written: ${reason}.`;
+      size.textContent = SAVE_WORDS.unwritten(reason);
     }
   };
   dialog.onclose = () => {

@@ -1,7 +1,7 @@
 /** What to do with the result, one click each: a 3D file, sheets to cut out, a flat photo. */
 import { element } from '../dom.js';
 import { shortest } from '../format.js';
-import { handySide, piecesOf } from '../pattern.js';
+import { longerSide, piecesOf, unitOf } from '../pattern.js';
 import { resultImage } from '../surface/known.js';
 import { offerToSave } from './save-dialog.js';
 import { offerSheets } from './sheets.js';
@@ -68,7 +68,8 @@ function cutterOf(result, analyses) {
   return {
     stem: fileStem(result),
     size: result.surface.heights.length,
-    side: handySide(result),
+    length: longerSide(result),
+    unit: unitOf(result.input),
     cut: (options) => piecesOf(analyses, result, options),
     svg: (drawing) => analyses.svg(drawing),
     stop: () => analyses.stop(),

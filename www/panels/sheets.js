@@ -1,13 +1,14 @@
 /** The result as sheets to cut out: how large, on what paper, with tabs or without; looked at, then saved. */
 import { make } from '../dom.js';
-import { modelOf, numberedPicture, piecesInFigures, piecesInWords, previewOf } from '../pattern.js';
+import { handyLength, likelyUnit, MILLIMETRES, modelOf, numberedPicture, piecesInFigures, piecesInWords, previewOf } from '../pattern.js';
 import { plainly } from '../error-messages.js';
+import { SHEET_WORDS } from '../messages.js';
 import { figures } from '../views/legend.js';
 import { offerToSave } from './save-dialog.js';
 import { waitingPanel } from './waiting.js';
 
 /** @import {Api} from '../api.js' */
-/** @import {Cut} from '../pattern.js' */
+/** @import {Cut, LengthUnit} from '../pattern.js' */
 /** @typedef {import('../../pkg/types.js').Drawing} Drawing */
 
 /** Depth of tabs in millimetres, at first. */
@@ -18,14 +19,19 @@ const EACH = 0.02;
 const REST = 300;
 
 /** What was chosen last, for the next time. */
-const chosen = { paper: /^en-(US|CA)/.test(navigator.language) ? 'letter' : 'a4', tabs: true, depth: TABS, metal: false, thickness: 1, kFactor: 0.44 };
+const chosen = { paper: /^en-(US|CA)/.test(navigator.language) ? 'letter' : 'a4', tabs: true, depth: TABS, metal: false, thickness: 1, radius: NaN, kFactor: 0.44 };
+/** The size and the unit that were chosen last, by the input's name. @type {Map<string, { side: number, unit: string }>} */
+const sizes = new Map();
+/** Bounds of the longer side in millimetres. */
+const [MIN_SIDE, MAX_SIDE] = [10, 5000];
 
 /**
  * What is cut, and how.
  * @typedef {object} Cutter
  * @property {string} stem of the file's name
  * @property {number} size vertices
- * @property {number} side how long the longer side is to be at first, in millimetres
+ * @property {number} length of the longer side, in the input's unit
+ * @property {LengthUnit | 'none' | 'unknown'} unit of the input; `none`: it is an example, of any size
  * @property {(options: Cut) => Promise<Drawing>} cut
  * @property {(drawing: Drawing) => Promise<Uint8Array<ArrayBuffer>>} svg
  * @property {() => void} stop what is still being cut
@@ -35,15 +41,20 @@ const chosen = { paper: /^en-(US|CA)/.test(navigator.language) ? 'letter' : 'a4'
  * @param {Api} api
  * @param {Cutter} cutter
  */
-export function offerSheets(api, { stem, size, side: handy, cut, svg, stop }) {
-  const side = numberField(handy, 10, 5000);
+export function offerSheets(api, { stem, size, length, unit, cut, svg, stop }) {
+  const last = sizes.get(stem) ?? { unit: unit === 'unknown' ? likelyUnit(length) : unit, side: NaN };
+  const side = numberField(Number.isNaN(last.side) ? handyLength(length, last.unit) : last.side, MIN_SIDE, MAX_SIDE);
+  const units = make('select', '', ...Object.keys(MILLIMETRES).map((name) => new Option(SHEET_WORDS.unit(name), name)), new Option(SHEET_WORDS.ownSize, 'none'));
+  units.value = last.unit;
+  const unitField = make('label', 'field', SHEET_WORDS.units, units);
+  unitField.hidden = unit === 'none';
   const depth = numberField(chosen.depth, 1, 50);
   const tabs = make('input', '');
   Object.assign(tabs, { type: 'checkbox', checked: chosen.tabs });
   const metal = make('select', '', new Option('card or paper', ''), new Option('sheet metal', 'metal'));
   metal.value = chosen.metal ? 'metal' : '';
   const thickness = numberField(chosen.thickness, 0.05, 20);
-  const radius = numberField(NaN, 0, 100);
+  const radius = numberField(chosen.radius, 0, 100);
   Object.assign(radius, { required: false, placeholder: 'as the thickness' });
   const kFactor = numberField(chosen.kFactor, 0.1, 0.9);
   const forCard = [make('label', 'check', tabs, 'Tabs to glue'), make('label', 'field', 'Depth of the tabs, in mm', depth)];
@@ -88,9 +99,19 @@ export function offerSheets(api, { stem, size, side: handy, cut, svg, stop }) {
   drawing.catch(() => {});
 
   const draw = async () => {
-    const sound = [side, ...(metal.value ? [thickness, radius, kFactor] : [depth])].every((field) => field.reportValidity());
-    if (!sound) return;
-    Object.assign(chosen, { paper: paper.value, tabs: tabs.checked, depth: depth.valueAsNumber, metal: metal.value !== '', thickness: thickness.valueAsNumber, kFactor: kFactor.valueAsNumber });
+    const wrong = [side, ...(metal.value ? [thickness, radius, kFactor] : [depth])].find((field) => !field.checkValidity());
+    if (wrong) {
+      stop();
+      waiting.end();
+      const words = SHEET_WORDS.outOfRange(wrong.labels?.[0]?.firstChild?.textContent ?? '', wrong.min, wrong.max);
+      drawing = Promise.reject(new Error(words));
+      drawing.catch(() => {});
+      offer.renew();
+      wrong.reportValidity();
+      return;
+    }
+    sizes.set(stem, { side: side.valueAsNumber, unit: units.value });
+    Object.assign(chosen, { paper: paper.value, tabs: tabs.checked, depth: depth.valueAsNumber, metal: metal.value !== '', thickness: thickness.valueAsNumber, radius: radius.valueAsNumber, kFactor: kFactor.valueAsNumber });
     depth.disabled = !tabs.checked;
     words.textContent = '';
     again.hidden = true;
@@ -121,6 +142,11 @@ export function offerSheets(api, { stem, size, side: handy, cut, svg, stop }) {
   let rest = 0;
   metal.addEventListener('change', suit);
   suit();
+  units.addEventListener('change', () => {
+    side.value = String(handyLength(length, units.value));
+    void draw();
+  });
+  side.addEventListener('input', () => (units.value = 'none'));
   for (const field of [side, depth, tabs, metal, thickness, radius, kFactor]) {
     field.addEventListener('input', () => {
       clearTimeout(rest);
@@ -145,12 +171,13 @@ export function offerSheets(api, { stem, size, side: handy, cut, svg, stop }) {
         words,
         panel,
         again,
+        unitField,
         make('label', 'field', 'Longer side of the finished piece, in mm', side),
         make('label', 'field', 'Paper', paper),
         make('label', 'field', 'Material', metal),
         ...forCard,
         ...forMetal,
-        about))],
+        make('details', 'more', make('summary', '', SHEET_WORDS.figures), about)))],
     formats: [
       { value: 'pdf', name: 'PDF', words: 'to print, in true size', type: 'application/pdf',
         write: async (worker) => worker.writePdf(await drawing, { stock: paper.value === 'a4' || paper.value === 'letter' ? paper.value : undefined }) },

@@ -4,9 +4,13 @@ import { designInput } from '../design.js';
 import { doubtOf } from '../unit-check.js';
 import { choosesFiles, element, elements } from '../dom.js';
 import { InColour, inputOf } from '../height-file.js';
+import { hasColours } from '../views/photo.js';
 import { spanInWords, understood } from '../import-interpretation.js';
 import { pixelsOf } from '../pixels.js';
 import { isCamera, together } from '../dropped-files.js';
+import { kindByName, otherInWords } from '../file-kinds.js';
+import { DEPTH_WORDS, FILE_WORDS } from '../messages.js';
+import { areSurelyDepths } from '../metadata-guess.js';
 import { cameraPanel } from './camera.js';
 import { isMesh, meshPanel } from './mesh.js';
 import { hideNotice, showNotice } from './notice.js';
@@ -21,8 +25,9 @@ import { hideNotice, showNotice } from './notice.js';
  * @param {(view: string) => void} result.choose a view of it
  * @param {(name: string, image: ImageData) => void} result.usePhoto lays a photo on it
  * @param {(files: readonly File[]) => void} opened files that are the input now
+ * @param {(photo: File) => void} openPage makes a photo of a page flat
  */
-export function sourcePanel(session, { choose, usePhoto }, opened) {
+export function sourcePanel(session, { choose, usePhoto }, opened, openPage) {
   const radios = elements('input[name="example"]', HTMLInputElement);
   const size = element('size', HTMLSelectElement);
   const noise = element('noise', HTMLSelectElement);
@@ -68,9 +73,16 @@ export function sourcePanel(session, { choose, usePhoto }, opened) {
    * @param {File} chosen
    * @param {string} [wanted] array of it
    * @param {Pick<Together, 'photo' | 'confidence' | 'mask'>} [others] that go with it
+   * @param {boolean} [known] whether the camera's file comes with it
    */
-  const openFile = async (chosen, wanted, others = {}) => {
+  const openFile = async (chosen, wanted, others = {}, known = false) => {
     if (isMesh(chosen.name)) return openMesh(chosen);
+    const kind = kindByName(chosen);
+    // Without depths a text has nothing to say.
+    if (kind === 'other' || (/\.txt$/i.test(chosen.name) && !session.input?.kind)) {
+      showNotice(FILE_WORDS.unread(chosen.name, otherInWords(chosen)));
+      return false;
+    }
     if (isCamera(chosen)) return camera.read(chosen);
     const photo = others.photo ?? waiting ?? undefined;
     /** @type {unknown} */
@@ -86,10 +98,21 @@ export function sourcePanel(session, { choose, usePhoto }, opened) {
     if (coloured) return takePhoto(chosen);
     if (!opened || !session.input) return false;
     waiting = null;
-    const { depths, stored } = session.input;
+    const { depths, stored, data } = session.input;
     setCoarsening(stored?.coarsening ?? 1);
-    if (depths) camera.ask();
-    else void session.run();
+    if (!depths) {
+      void session.run();
+      return true;
+    }
+    camera.ask();
+    if (known) return true;
+    if (!areSurelyDepths(chosen.name, data)) {
+      void session.run();
+      return true;
+    }
+    if (!(await camera.project(true))) return true;
+    void session.run();
+    choose(hasColours(session.input) ? 'photo' : 'shaded');
     return true;
   };
 
@@ -106,7 +129,7 @@ export function sourcePanel(session, { choose, usePhoto }, opened) {
     hideNotice();
     if (input?.kind === undefined) {
       waiting = file;
-      showNotice(`“${file.name}” is a photo. Open the heights or depths that it shows, and it is laid on them; a photo of a page alone is made flat under “A photo of a page”.`);
+      showNotice(FILE_WORDS.pageNoHeights(file.name), 'alert', { label: FILE_WORDS.openAsPage, act: () => openPage(file) });
       return true;
     }
     const image = await session.obtain(`“${file.name}” could not be used`, () => pixelsOf(file), readingOf(file));
@@ -141,8 +164,8 @@ export function sourcePanel(session, { choose, usePhoto }, opened) {
       session.fail('These files could not be put together', new Error('there are neither a mesh nor heights or depths (a TIFF, EXR, PFM, NPY or grey PNG) among them'));
       return false;
     }
-    if (!(await openFile(depths, undefined, beside))) return false;
-    if (numbers || beside.confidence || beside.mask) camera.ask();
+    if (!(await openFile(depths, undefined, beside, numbers !== undefined))) return false;
+    if (!session.input?.depthSource && (numbers || beside.confidence || beside.mask)) camera.ask();
     if (numbers && !(await camera.read(numbers))) return true;
     if (numbers && !(await camera.project())) return true;
     // All that is needed is there.
@@ -200,9 +223,15 @@ export function sourcePanel(session, { choose, usePhoto }, opened) {
     const isFile = input.kind !== undefined;
     exampleOptions.hidden = isFile || input.design === true || !radios.some(({ value }) => value === input.name);
     designHint.hidden = isFile || !input.design;
-    fileOptions.hidden = !isFile || input.seen !== undefined;
+    const built = input.depthSource !== undefined;
+    fileOptions.hidden = !isFile || (input.seen !== undefined && !built);
+    fileOptions.toggleAttribute('data-built', built);
     for (const radio of radios) radio.checked = !isFile && radio.value === input.name;
     if (fileOptions.hidden) return;
+    if (built) {
+      told.textContent = input.assumed ?? '';
+      told.hidden = told.textContent === '';
+    }
     const { array: several } = input;
     arrayField.hidden = several === undefined;
     array.replaceChildren(...(several?.names ?? []).map((name) => new Option(name, name, false, name === several?.name)));
@@ -213,7 +242,7 @@ export function sourcePanel(session, { choose, usePhoto }, opened) {
     zero.checked = input.stored.zeros;
     design.checked = input.design === true;
     hex.checked = input.stored.hexagonal;
-    told.textContent = input.depths ? depthsInWords(input.depths) : input.stored.told;
+    told.textContent = input.depths ? DEPTH_WORDS.maybe : input.stored.told;
     told.hidden = told.textContent === '';
     span.textContent = spanInWords(input);
     const words = doubtOf(input);
@@ -250,11 +279,6 @@ function chooseNearest(select, value) {
   const values = [...select.options].map((option) => Number(option.value));
   const nearest = values.toSorted((a, b) => Math.abs(a - value) - Math.abs(b - value))[0];
   select.value = String(nearest);
-}
-
-/** @param {'mm' | 'm'} unit */
-function depthsInWords(unit) {
-  return `These look like depths from a camera, in ${unit === 'mm' ? 'millimetres' : 'metres'}: say what is known of it below, then put them in space.`;
 }
 
 /** A number as an input field takes it, without the digits that only binary fractions have. @param {number} value */

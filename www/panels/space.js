@@ -272,6 +272,11 @@ export function spacePanel(session, light) {
   return {
     /** Whether surfaces are seen here. */
     there,
+    /** The canvas as it is seen, to be copied within the same frame. */
+    drawn: () => {
+      draw();
+      return canvas;
+    },
     /** Drags over the surface are somebody's, if he wants them. @param {Taken} by */
     takes: (by) => takers.push(by),
     canvas,

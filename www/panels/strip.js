@@ -1,6 +1,7 @@
 /** The same input at five λ, small and side by side: a click takes one. */
 import { element, make } from '../dom.js';
 import { shortest } from '../format.js';
+import { STRIP_WORDS } from '../messages.js';
 import { drawThumbnail } from '../surface/thumbnail.js';
 
 /** @import {Input, Session, Settings} from '../session.js' */
@@ -25,11 +26,12 @@ export function stripPanel(session, adopt) {
   const pictures = LAMBDAS.map((lambda) => {
     const canvas = make('canvas', '');
     canvas.setAttribute('aria-hidden', 'true');
-    const choice = make('button', 'strip-one', canvas, `λ = ${shortest(lambda)}`);
+    const figures = make('span', 'muted', '\u00a0');
+    const choice = make('button', 'strip-one', canvas, make('span', '', `λ = ${shortest(lambda)}`), figures);
     choice.type = 'button';
     choice.addEventListener('click', () => adopt({ ...session.settings, lambda }));
     list.append(choice);
-    return { lambda, canvas, choice };
+    return { lambda, canvas, choice, figures };
   });
 
   const press = () => {
@@ -43,15 +45,21 @@ export function stripPanel(session, adopt) {
     const mine = (job = new AbortController());
     shown = input;
     const small = thinned(input);
-    for (const { canvas } of pictures) drawThumbnail(canvas, small, small.heightScale / small.pixelSize);
+    for (const { canvas, figures } of pictures) {
+      drawThumbnail(canvas, small, small.heightScale / small.pixelSize);
+      figures.textContent = '\u00a0';
+    }
     strip.setAttribute('aria-busy', 'true');
     const worker = new session.api.DevelopableWorker();
     try {
       // The energy and whatever else is set stays the same.
       const { lambda: _, coarsening: __, ...options } = session.settings;
-      for (const { lambda, canvas } of pictures) {
-        const { image } = await worker.fit(small, { ...options, gap: 0.03, spacing: small.pixelSize, lambda, signal: mine.signal });
+      for (const { lambda, canvas, figures } of pictures) {
+        const surface = await worker.fit(small, { ...options, gap: 0.03, spacing: small.pixelSize, lambda, signal: mine.signal });
+        const { image } = surface;
         drawThumbnail(canvas, image, 1 / image.pixelSize);
+        const { patches } = await worker.patches(surface);
+        figures.textContent = STRIP_WORDS.figures(patches.length, distance(small, image));
       }
     } catch (error) {
       if (job === mine && !mine.signal.aborted) session.fail('The five pictures could not be made', error);
@@ -83,6 +91,22 @@ export function stripPanel(session, adopt) {
     void draw();
   });
   return { show };
+}
+
+/**
+ * Distance of a surface from its input, root mean square, as a share of the input's width.
+ * @param {ReturnType<typeof thinned>} input
+ * @param {{ data: Float64Array }} image of the surface
+ */
+function distance({ width, data, pixelSize, heightScale }, image) {
+  let [sum, count] = [0, 0];
+  data.forEach((step, i) => {
+    const off = step * heightScale - image.data[i];
+    if (!Number.isFinite(off)) return;
+    sum += off * off;
+    count++;
+  });
+  return Math.sqrt(sum / Math.max(1, count)) / (width * pixelSize);
 }
 
 /**

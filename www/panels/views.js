@@ -1,5 +1,5 @@
 /** Input and result side by side under one light. */
-import { element } from '../dom.js';
+import { download, element, elements } from '../dom.js';
 import { number, readingOf, shortest } from '../format.js';
 import { gridOf, nearest } from '../surface/lattice.js';
 import { inputNormals, resultImage, resultNormals } from '../surface/known.js';
@@ -136,6 +136,24 @@ export function viewsPanel(session) {
     figure.setAttribute('aria-busy', String(phase === 'running'));
     empty.textContent = phase === 'running' ? 'Solving…' : 'Not solved yet';
   });
+
+  const save = element('view-save', HTMLButtonElement);
+  save.addEventListener('click', async () => {
+    const shown = space.there() ? [space.drawn()] : elements('#views canvas', HTMLCanvasElement).filter((canvas) => canvas.checkVisibility());
+    const picture = new OffscreenCanvas(shown.reduce((sum, { width }) => sum + width, 0), Math.max(...shown.map(({ height }) => height)));
+    const context = picture.getContext('2d');
+    if (!context) return;
+    context.fillStyle = getComputedStyle(views).getPropertyValue('--well').trim();
+    context.fillRect(0, 0, picture.width, picture.height);
+    let left = 0;
+    for (const canvas of shown) {
+      context.drawImage(canvas, left, 0);
+      left += canvas.width;
+    }
+    download(await picture.convertToBlob({ type: 'image/png' }), 'image/png', `${session.input?.name ?? 'view'}-view.png`);
+  });
+  session.on('result', () => (save.disabled = false));
+  session.on('cleared', () => (save.disabled = true));
 
   return {
     space,

@@ -29,13 +29,17 @@ export function waitingPanel(panel, cancel, after = 0) {
   const rates = new Map();
   let [start, expected, clock, shown] = [0, 0, 0, 0];
   let doing = '';
+  /** Whether others of its kind were measured: a guess of the time left is not told. */
+  let measured = false;
 
   const look = () => {
     const gone = performance.now() - start;
     // Slower towards an end that nobody knows.
     bar.value = gone < 0.8 * expected ? gone / expected : 1 - 0.2 * Math.exp(-(gone / expected - 0.8) / 0.4);
     const left = Math.ceil((expected - gone) / 1000);
-    text.textContent = gone < 400 ? `${doing}…` : left >= 1 ? `${doing}, about ${count(left)} s left` : `${doing}, soon done`;
+    if (gone < 400) text.textContent = `${doing}…`;
+    else if (!measured) text.textContent = `${doing}, ${count(Math.floor(gone / 1000))} s`;
+    else text.textContent = left >= 1 ? `${doing}, about ${count(left)} s left` : `${doing}, soon done`;
   };
 
   return {
@@ -43,6 +47,7 @@ export function waitingPanel(panel, cancel, after = 0) {
     begin({ kind, size, each, words }) {
       start = performance.now();
       doing = words;
+      measured = rates.has(kind);
       expected = Math.max(LEAST, size * (rates.get(kind) ?? each));
       clearTimeout(shown);
       if (after === 0) panel.hidden = false;

@@ -1,21 +1,24 @@
 /** Pictures as pixels, in a worker. */
-import { suggested } from '../page/detect.js';
 import { greyOf } from '../page/grey.js';
 
 /** @import {Pixels} from '../pixels.js' */
 
-/** @param {File} file @returns {Promise<Pixels>} */
-export async function pictureOf(file) {
+/**
+ * @param {File} file
+ * @param {number} [times] by which the sides are reduced
+ * @returns {Promise<Pixels>}
+ */
+export async function pictureOf(file, times = 1) {
   const bitmap = await createImageBitmap(file).catch(() => {
     throw new Error('it is no picture that this browser can read');
   });
-  const pixels = drawn(bitmap, bitmap.width, bitmap.height);
+  const pixels = drawn(bitmap, bitmap.width / times, bitmap.height / times);
   bitmap.close();
   return pixels;
 }
 
 /**
- * A photo on fewer pixels, in colour and in grey, and the outline of a page on it, if one is beyond doubt.
+ * A photo on fewer pixels, in colour and in grey.
  * @param {Pixels} pixels
  * @param {number} scale
  */
@@ -23,9 +26,7 @@ export async function photoAt({ width, height, data }, scale) {
   const bitmap = await createImageBitmap(new ImageData(data, width, height));
   const small = drawn(bitmap, width * scale, height * scale);
   bitmap.close();
-  const grey = greyOf(small, scale);
-  const outline = suggested(grey);
-  return { ...small, grey: grey.data, outline: outline && { edges: outline.edges, sideways: outline.sideways } };
+  return { ...small, grey: greyOf(small, scale).data };
 }
 
 /**

@@ -43,6 +43,33 @@ export function labelPixels(lattice, labels, grid, colours) {
 }
 
 /**
+ * The photo that shows a surface, or colours of its vertices.
+ * @param {Lattice} lattice
+ * @param {{ image?: { width: number, height: number, data: Uint8ClampedArray }, uvs?: ArrayLike<number>, colors?: ArrayLike<number> }} seen
+ *   `uvs`: places in the image as shares from the left and from below; `colors`: from 0 to 1
+ * @param {Grid} grid
+ */
+export function photoPixels(lattice, { image, uvs, colors }, grid) {
+  const values = image && uvs ? uvs : colors ?? [];
+  const channels = image && uvs ? 2 : 3;
+  const count = lattice.rows * lattice.cols;
+  const planes = Array.from({ length: channels }, (_, k) =>
+    interpolated(lattice, Float64Array.from({ length: count }, (_, i) => values[channels * i + k]), grid));
+  const out = new Uint8ClampedArray(4 * grid.width * grid.height);
+  for (let i = 0; i < grid.width * grid.height; i++) {
+    const place = planes.map((plane) => plane[i]);
+    if (place.some(Number.isNaN)) continue;
+    out[4 * i + 3] = 255;
+    if (image) {
+      const col = Math.min(image.width - 1, Math.max(0, Math.floor(place[0] * image.width)));
+      const row = Math.min(image.height - 1, Math.max(0, Math.floor((1 - place[1]) * image.height)));
+      for (let k = 0; k < 3; k++) out[4 * i + k] = image.data[4 * (row * image.width + col) + k];
+    } else for (let k = 0; k < 3; k++) out[4 * i + k] = 255 * place[k];
+  }
+  return new Uint32Array(out.buffer);
+}
+
+/**
  * A sheet in colours of its strain.
  * @param {Uint32Array} triangles
  * @param {Float64Array} places

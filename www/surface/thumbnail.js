@@ -4,6 +4,24 @@ import { HOLE, normalsOf, UNIT } from './normals.js';
 const LIGHT = [-0.5, 0.55, 0.67];
 
 /**
+ * One surface on the left half of a picture, and another on the right half.
+ * @param {HTMLCanvasElement} canvas
+ * @param {HTMLCanvasElement} before
+ * @param {HTMLCanvasElement} after as large
+ */
+export function drawHalves(canvas, before, after) {
+  const { width, height } = before;
+  Object.assign(canvas, { width, height });
+  const context = canvas.getContext('2d');
+  if (!context) return;
+  const half = Math.floor(width / 2);
+  context.drawImage(before, 0, 0, half, height, 0, 0, half, height);
+  context.drawImage(after, half, 0, width - half, height, half, 0, width - half, height);
+  context.fillStyle = '#4a90c2';
+  context.fillRect(half, 0, 1, height);
+}
+
+/**
  * @param {HTMLCanvasElement} canvas becomes as large as the heights
  * @param {{ width: number, height: number, data: ArrayLike<number> }} heights
  * @param {number} slope height of a step over the side of a pixel

@@ -8,7 +8,7 @@ import { hiddenShare } from './hidden.js';
 import { firstLook, lookedAt } from './look.js';
 import { normalsOf } from './normals.js';
 import { photoAt, pictureOf } from './pictures.js';
-import { drawnStrains, flatPixels, labelPixels, sheetPixels, valuePixels } from './pixels.js';
+import { drawnStrains, flatPixels, labelPixels, photoPixels, sheetPixels, valuePixels } from './pixels.js';
 import { curvaturesOf, roundness } from './roundness.js';
 import { unfolding } from './unfolding.js';
 
@@ -27,7 +27,7 @@ function unfoldingInPieces(model, scale, most, offset) {
 /** What can be asked for, by name. Arrays of an answer are handed over. */
 export const tasks = {
   confidenceOf, constraintsOf, curvaturesOf, drawnStrains, firstLook, flatPixels, hiddenShare, interpolated, labelPixels, lookedAt, lookedThrough, meanAngle, normalsOf,
-  photoAt, photographed, pictureOf, rmsError, roundness, sheetPixels, unfolding, unfoldingInPieces, valuePixels,
+  photoAt, photoPixels, photographed, pictureOf, rmsError, roundness, sheetPixels, unfolding, unfoldingInPieces, valuePixels,
 };
 
 globalThis.addEventListener('message', async ({ data: { id, task, args } }) => {

@@ -1,5 +1,5 @@
 /** Gaussian curvature and κ₂ by colour, of input and result on one scale. */
-import { number, percent } from '../format.js';
+import { number, numberAgainst, percent } from '../format.js';
 import { logarithmic, magnitude } from '../surface/colours.js';
 import { gridOf } from '../surface/lattice.js';
 import { canvasOf, valueAt } from '../surface/layer.js';
@@ -27,7 +27,7 @@ export async function gaussian(analyses, result) {
   const area = size ** 2;
   const inverse = `1/${result.input.unit ?? 'unit'}²`;
   return coloured(result, both, 'gaussian', inverse, 1 / area, `Gaussian curvature K in ${inverse}`, [
-    [`Median |K| in ${inverse}`, inBoth(both, ({ summary }) => number(summary.medianGaussian / area, 2))],
+    [`Median |K| in ${inverse}`, inBoth(both, ({ summary }) => numberAgainst(summary.medianGaussian / area, 1 / area))],
     [`|K| above ${number(threshold / area, 2)}`, inBoth(both, ({ summary }) => percent(summary.gaussianAbove))],
   ]);
 }
@@ -42,8 +42,8 @@ export async function kappa2(analyses, result) {
   const { size } = both.after.summary;
   const inverse = `1/${result.input.unit ?? 'unit'}`;
   return coloured(result, both, 'kappa2', inverse, 1 / size, `κ₂, the smaller of the two bends, in ${inverse}`, [
-    [`Median |κ₂| in ${inverse}`, inBoth(both, ({ summary }) => number(summary.medianKappa2 / size, 2))],
-    [`Median |κ₁|, the larger one`, inBoth(both, ({ medianKappa1 }) => number(medianKappa1, 2))],
+    [`Median |κ₂| in ${inverse}`, inBoth(both, ({ summary }) => numberAgainst(summary.medianKappa2 / size, 1 / size))],
+    [`Median |κ₁|, the larger one`, inBoth(both, ({ medianKappa1 }) => numberAgainst(medianKappa1, 1 / size))],
   ]);
 }
 
@@ -67,7 +67,7 @@ async function coloured({ input }, { before, after }, what, inverse, knee, title
     return {
       grid,
       image: canvasOf(grid, await work('valuePixels', lattice, values, grid, knee, most)),
-      read: (/** @type {number} */ x, /** @type {number} */ y) => `${NAMES[what]} ${number(valueAt(field, x, y))} ${inverse}`,
+      read: (/** @type {number} */ x, /** @type {number} */ y) => `${NAMES[what]} ${numberAgainst(valueAt(field, x, y), knee)} ${inverse}`,
     };
   };
   return {

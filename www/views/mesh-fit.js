@@ -1,9 +1,10 @@
 /** What is shown of a whole mesh and its result: their colours, and what stands below. */
-import { count, number, percent, seconds, signed } from '../format.js';
+import { count, number, numberAgainst, percent, seconds, signed } from '../format.js';
 import { css, diverging, linear, logarithmic, magnitude, patchColour } from '../surface/colours.js';
 import { canvasOf } from '../surface/layer.js';
 import { imagePicture } from '../surface/picture.js';
 import { work } from '../surface/work.js';
+import { WHOLE_WORDS } from '../messages.js';
 import { colourBar, figures, key, say } from './legend.js';
 import { ruledBy } from './rulings.js';
 import { make } from '../dom.js';
@@ -51,12 +52,12 @@ export async function gaussian(whole, mesh, surface) {
     read: (place) => {
       // Beside a border it is known at some corners only.
       const value = between(mesh, place, (vertex) => (place.after ? after : before).gaussian[vertex]);
-      return Number.isNaN(value) ? '' : `K ${number(value)} ${inverse}`;
+      return Number.isNaN(value) ? '' : `K ${numberAgainst(value, 1 / area)} ${inverse}`;
     },
     about: [
       colourBar(`Gaussian curvature K in ${inverse}`, scale),
       figures([
-        [`Median |K| in ${inverse}`, `${number(before.summary.medianGaussian / area, 2)} → ${number(after.summary.medianGaussian / area, 2)}`],
+        [`Median |K| in ${inverse}`, `${numberAgainst(before.summary.medianGaussian / area, 1 / area)} → ${numberAgainst(after.summary.medianGaussian / area, 1 / area)}`],
         [`|K| above ${number(threshold / area, 2)}`, `${percent(before.summary.gaussianAbove)} → ${percent(after.summary.gaussianAbove)}`],
       ]),
     ],
@@ -110,7 +111,7 @@ export async function sheet(whole, mesh, surface) {
     about: [
       say(`${words}.`),
       colourBar('Strain: blue is compressed, red is stretched', linear(most, signed)),
-      figures([['Strain of the worst sheet', percent(strain)], ['Sides of folds are apart by', `${number(gap, 2)} ${unit}`]]),
+      figures([['Largest strain', percent(strain)], ['Gap at folds', `${numberAgainst(gap, extent.width)} ${unit}`]]),
     ],
   };
 }
@@ -129,7 +130,7 @@ export function readingAt(mesh, surface, place, value = '') {
   const [before, after] = [at(mesh), at(surface)];
   const xyz = (place.after ? after : before).map((coordinate, k) => `${'xyz'[k]} ${number(coordinate)}`).join(', ');
   const moved = Math.hypot(...after.map((coordinate, k) => coordinate - before[k]));
-  return [`${xyz} ${unit}`, `moved by ${number(moved, 2)}`, value].filter(Boolean).join(' · ');
+  return [`${xyz} ${unit}`, `moved by ${numberAgainst(moved, Math.hypot(...before))}`, value].filter(Boolean).join(' · ');
 }
 
 /**
@@ -149,9 +150,9 @@ export function wholeInWords(mesh, { report }) {
   const mended = turned + degenerate + repeated;
   return [
     `${count(report.vertices)} vertices in ${seconds(total)}.`,
-    gap === undefined ? '' : `The last of ${passes.length} linearised problems was solved to within ${percent(gap)} of its optimum; nothing is certified of the shape itself.`,
-    stopReason === 'maxIterations' ? 'It stopped before the wanted gap.' : stopReason === 'diverged' ? 'The iterations diverged: this is the best surface before.' : '',
-    mended > 0 ? `Mended first: ${count(mended)} triangles that faced the wrong side, had no area or were there twice.` : '',
+    gap === undefined ? '' : WHOLE_WORDS.proof(passes.length, percent(gap)),
+    stopReason === 'maxIterations' ? 'It stopped at the maximum number of iterations.' : stopReason === 'diverged' ? 'The iterations diverged: this is the best surface before.' : '',
+    mended > 0 ? `${count(mended)} triangles were repaired first: wrong side, no area, or double.` : '',
     flipped[1] > 0 ? `${count(flipped[1])} triangles of the result are folded over.` : '',
   ].filter(Boolean).join(' ');
 }
@@ -163,13 +164,13 @@ function factsOf({ unit, triangles }, { report: { vertices, border, components, 
   return [
     ['Vertices', count(vertices)],
     ['Triangles', count(triangles.length / 3)],
-    ['On the border', border === 0 ? 'none: it is closed' : count(border)],
+    ['Border vertices', border === 0 ? 'none: it is closed' : count(border)],
     ...(components > 1 ? [/** @type {[string, string]} */ (['Parts', count(components)])] : []),
-    ['Noise, σ', sigma === undefined ? '–' : `${number(sigma, 2)} ${lengths}`],
+    ['Noise, σ', sigma === undefined ? '–' : `${numberAgainst(sigma, Math.sqrt(area[0]))} ${lengths}`],
     ['λ', number(lambda, 2)],
     ['Area', `${number(area[0])} → ${number(area[1])}`],
     ...(volume ? [/** @type {[string, string]} */ (['Volume', `${number(volume[0])} → ${number(volume[1])}`])] : []),
-    ...(last ? [/** @type {[string, string]} */ (['Moved in the last pass', `${number(last.moved, 2)} ${lengths}`])] : []),
+    ...(last ? [/** @type {[string, string]} */ (['Last movement', `${numberAgainst(last.moved, Math.sqrt(area[0]))} ${lengths}`])] : []),
     ['Folded triangles', `${count(flipped[0])} → ${count(flipped[1])}`],
   ];
 }

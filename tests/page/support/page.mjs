@@ -336,7 +336,9 @@ export async function save(page, format) {
 export async function saveAs(page, format) {
   await page.locator('#save-formats').getByRole('radio', { name: new RegExp(`^${format} `) }).check();
   await page.locator('#save-size', { hasText: new RegExp(`${format === 'JPEG' ? 'jpg' : format === 'Warp map' ? 'json' : format.toLowerCase()}, .*(bytes|kB|MB)`) }).waitFor();
-  return downloaded(page, () => page.locator('#save-now').click());
+  const file = await downloaded(page, () => page.locator('#save-now').click());
+  await page.locator('#save-dialog').getByRole('button', { name: 'Close' }).click();
+  return file;
 }
 
 /**

@@ -31,9 +31,10 @@ export function seen(s, t) {
 /**
  * A page of dots on a ground.
  * @param {{ page: number, ground: number }} [greys]
+ * @param {readonly number[]} [tint] factors of red, green and blue
  * @returns {Buffer} a PNG
  */
-export function dottedPhoto({ page, ground } = { page: 240, ground: 60 }) {
+export function dottedPhoto({ page, ground } = { page: 240, ground: 60 }, tint = [1, 1, 1]) {
   const { width, height } = camera;
   const data = new Uint8Array(4 * width * height).fill(255);
   const grey = (/** @type {number} */ col, /** @type {number} */ row) => {
@@ -47,7 +48,7 @@ export function dottedPhoto({ page, ground } = { page: 240, ground: 60 }) {
     const [col, row] = [i % width, Math.floor(i / width)];
     let sum = 0;
     for (const [dx, dy] of [[-0.25, -0.25], [0.25, -0.25], [-0.25, 0.25], [0.25, 0.25]]) sum += grey(col + dx, row + dy);
-    data.fill(sum / 4, 4 * i, 4 * i + 3);
+    tint.forEach((factor, k) => (data[4 * i + k] = (factor * sum) / 4));
   }
   return png({ width, height, data });
 }

@@ -29,7 +29,9 @@ const DRAWN_SIZE_MM: f64 = 300.0;
 
 fn main() -> Outcome<()> {
     let mut arguments = std::env::args().skip(1);
-    let folder = arguments.next().ok_or("the folder of the scans is missing")?;
+    let folder = arguments
+        .next()
+        .ok_or("the folder of the scans is missing")?;
     let wanted: Vec<String> = arguments.collect();
     let is_wanted =
         |name: &str| wanted.is_empty() || wanted.iter().any(|w| name.starts_with(w.as_str()));
@@ -79,10 +81,21 @@ fn heightfield_row(name: &str, surface: &Heightfield) -> Outcome<()> {
         Ok(found) => {
             let size = surface.lattice().cols() as f64 * surface.lattice().spacing();
             let parts = found.patches.patches().len();
-            row(name, [vertices, patches.patches().len(), parts], times, &found.sheets, &found.missing, size)
+            row(
+                name,
+                [vertices, patches.patches().len(), parts],
+                times,
+                &found.sheets,
+                &found.missing,
+                size,
+            )
         }
         Err(error) => {
-            println!("| {name} | {vertices} | {} | {:.2} | {error} |", patches.patches().len(), times[0]);
+            println!(
+                "| {name} | {vertices} | {} | {:.2} | {error} |",
+                patches.patches().len(),
+                times[0]
+            );
             Ok(())
         }
     }
@@ -97,7 +110,14 @@ fn mesh_row(name: &str, mesh: &Mesh) -> Outcome<()> {
     let size = heights.clone().fold(f64::MIN, f64::max) - heights.fold(f64::MAX, f64::min);
     let parts = found.sheets.iter().map(|sheet| sheet.patches.len()).sum();
     let counts = [mesh.positions().len(), patches.patches().len(), parts];
-    row(name, counts, times, &found.sheets, &Missing::default(), size)
+    row(
+        name,
+        counts,
+        times,
+        &found.sheets,
+        &Missing::default(),
+        size,
+    )
 }
 
 const HEAD: &str = "| scan | vertices | patches | parts | user s | s | sheets | slits | cuts mm | slits mm | strain % | \
@@ -115,7 +135,9 @@ fn row(
     let scale = DRAWN_SIZE_MM / size;
     let drawing = Drawing::new(sheets, &DrawingOptions::default().scale(scale))?;
     let all = &drawing.summary;
-    let off = all.worst_angle.map_or(0.0, |worst| (worst.flat - worst.surface).abs());
+    let off = all
+        .worst_angle
+        .map_or(0.0, |worst| (worst.flat - worst.surface).abs());
     // Outlines around less than one cell of the lattice.
     let least = (scale * sheets[0].spacing).powi(2);
     let cuts = drawing.sheets.iter().flat_map(|sheet| &sheet.cuts);
@@ -145,6 +167,12 @@ fn area(line: &[[f64; 2]]) -> f64 {
 /// Processor time of this process in user mode, in seconds; 0 where the system does not tell.
 fn user_seconds() -> f64 {
     let stat = std::fs::read_to_string("/proc/self/stat").unwrap_or_default();
-    let ticks = stat.rsplit(')').next().and_then(|rest| rest.split_whitespace().nth(11));
-    ticks.and_then(|ticks| ticks.parse::<f64>().ok()).unwrap_or(0.0) / 100.0
+    let ticks = stat
+        .rsplit(')')
+        .next()
+        .and_then(|rest| rest.split_whitespace().nth(11));
+    ticks
+        .and_then(|ticks| ticks.parse::<f64>().ok())
+        .unwrap_or(0.0)
+        / 100.0
 }

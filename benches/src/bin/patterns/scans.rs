@@ -15,13 +15,34 @@ pub struct Scan {
 }
 
 pub const SCANS: [Scan; 7] = [
-    Scan { name: "range", make: range },
-    Scan { name: "range from the left", make: |folder| range_from(folder, [0.7, 0.2, -1.0]) },
-    Scan { name: "range from below", make: |folder| range_from(folder, [-0.2, 0.9, -1.0]) },
-    Scan { name: "bunny from ahead", make: |folder| bunny_from(folder, [0.0, 0.0, -1.0]) },
-    Scan { name: "bunny from the side", make: |folder| bunny_from(folder, [-1.0, -0.3, -0.4]) },
-    Scan { name: "terrain", make: |_| terrain() },
-    Scan { name: "face", make: |_| face() },
+    Scan {
+        name: "range",
+        make: range,
+    },
+    Scan {
+        name: "range from the left",
+        make: |folder| range_from(folder, [0.7, 0.2, -1.0]),
+    },
+    Scan {
+        name: "range from below",
+        make: |folder| range_from(folder, [-0.2, 0.9, -1.0]),
+    },
+    Scan {
+        name: "bunny from ahead",
+        make: |folder| bunny_from(folder, [0.0, 0.0, -1.0]),
+    },
+    Scan {
+        name: "bunny from the side",
+        make: |folder| bunny_from(folder, [-1.0, -0.3, -0.4]),
+    },
+    Scan {
+        name: "terrain",
+        make: |_| terrain(),
+    },
+    Scan {
+        name: "face",
+        make: |_| face(),
+    },
 ];
 
 /// Vertices along the longer side of a scan.
@@ -31,7 +52,10 @@ const RESOLUTION: usize = 580;
 fn range(folder: &Path) -> Outcome<Heightfield> {
     let file = images::decode(&std::fs::read(folder.join("range.npy"))?, None)?;
     let lattice = Lattice::new(file.height, file.width, 0.002)?;
-    let heights = file.values.iter().map(|z| if *z == 0.0 { f64::NAN } else { *z });
+    let heights = file
+        .values
+        .iter()
+        .map(|z| if *z == 0.0 { f64::NAN } else { *z });
     Ok(Heightfield::new(lattice, heights.collect())?)
 }
 
@@ -42,7 +66,10 @@ fn range_from(folder: &Path, along: [f64; 3]) -> Outcome<Heightfield> {
 }
 
 fn bunny_from(folder: &Path, along: [f64; 3]) -> Outcome<Heightfield> {
-    seen(&read_mesh(&std::fs::read(folder.join("bunny.obj"))?, None)?, along)
+    seen(
+        &read_mesh(&std::fs::read(folder.join("bunny.obj"))?, None)?,
+        along,
+    )
 }
 
 fn seen(mesh: &Mesh, along: [f64; 3]) -> Outcome<Heightfield> {
@@ -123,7 +150,13 @@ fn value_noise(x: f64, y: f64, seed: i64) -> f64 {
 pub fn to_bytes(field: &Heightfield) -> Vec<u8> {
     let lattice = field.lattice();
     let [x, y] = lattice.position(0, 0);
-    let head = [lattice.rows() as f64, lattice.cols() as f64, lattice.spacing(), x, y];
+    let head = [
+        lattice.rows() as f64,
+        lattice.cols() as f64,
+        lattice.spacing(),
+        x,
+        y,
+    ];
     let numbers = head.iter().chain(field.heights());
     numbers.flat_map(|number| number.to_le_bytes()).collect()
 }
@@ -131,8 +164,16 @@ pub fn to_bytes(field: &Heightfield) -> Vec<u8> {
 /// A heightfield from the bytes of [`to_bytes`].
 pub fn from_bytes(bytes: &[u8]) -> Outcome<Heightfield> {
     let number = |chunk: &[u8]| chunk.try_into().map(f64::from_le_bytes);
-    let numbers = bytes.chunks(8).map(number).collect::<Result<Vec<f64>, _>>()?;
-    let (head, heights) = numbers.split_at_checked(5).ok_or("a fitted surface without a head")?;
+    let numbers = bytes
+        .chunks(8)
+        .map(number)
+        .collect::<Result<Vec<f64>, _>>()?;
+    let (head, heights) = numbers
+        .split_at_checked(5)
+        .ok_or("a fitted surface without a head")?;
     let lattice = Lattice::new(head[0] as usize, head[1] as usize, head[2])?;
-    Ok(Heightfield::new(lattice.with_origin([head[3], head[4]])?, heights.to_vec())?)
+    Ok(Heightfield::new(
+        lattice.with_origin([head[3], head[4]])?,
+        heights.to_vec(),
+    )?)
 }

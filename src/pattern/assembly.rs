@@ -11,7 +11,7 @@ use super::outline::Layout;
 use super::parts::Parts;
 use super::refold::refold_sheet;
 use super::seam_graph::SeamGraph;
-use super::sew::close_cuts;
+use super::sew::{STEP_BUDGET_PER_VERTEX, close_cuts};
 use super::shape::{folds, outlines};
 use super::sheets::{Direction, Missing, Pattern, Seam, Sheet};
 use super::spots::label_spots;
@@ -41,6 +41,7 @@ pub(super) struct Assembled {
 
 /// Stopping criteria of the solver that lays a sheet flat when its patches start near their final positions.
 const SHEET_SETTLING: StoppingCriteria = StoppingCriteria {
+    relative_tolerance: 2e-3,
     max_steps: 12,
     ..SHEET_RELAXATION
 };
@@ -71,12 +72,19 @@ pub(super) fn assemble_sheets(
             Settled::Opened(found) => wrong = found,
             Settled::Specks(part, specks) => {
                 parts.leaves = net.leaves;
+                parts.trims += 1;
                 parts.leave_out_specks(part, specks)?;
                 return Ok(Assembly::Cut(Box::new(parts), Vec::new()));
             }
         }
         if wrong.is_empty() {
-            close_cuts(&mut net, &mut arrangement, limit)?;
+            close_cuts(
+                &mut net,
+                &mut arrangement,
+                limit,
+                STEP_BUDGET_PER_VERTEX,
+                |_| true,
+            )?;
             return Ok(Assembly::Whole(Box::new(Assembled {
                 parts,
                 patches,
@@ -129,6 +137,8 @@ pub(super) fn settle(
             .as_ref()
             .and_then(|fault| removable_vertices(parts, net, fault));
         if let Some((part, specks)) = specks {
+            arrangement.sheets.append(&mut pending);
+            arrangement.sheets.push(members);
             return Ok(Settled::Specks(part, specks));
         }
         match fault {

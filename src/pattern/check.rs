@@ -59,7 +59,7 @@ impl Tied {
         Ok(Tied {
             patches: patches.to_vec(),
             starts,
-            joint: ArapMesh::new(places.len(), pieces, ties)?,
+            joint: ArapMesh::new(&places, pieces, ties)?,
             places,
         })
     }

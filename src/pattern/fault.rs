@@ -13,6 +13,7 @@ use crate::unroll::flat_triangle::Point;
 /// Stopping criteria of the solver that lays the patches of a sheet flat together.
 pub(super) const SHEET_RELAXATION: StoppingCriteria = StoppingCriteria {
     tolerance: 1e-8,
+    relative_tolerance: 1e-4,
     target_energy: 0.0,
     hopeless_energy: f64::INFINITY,
     max_steps: 25,

@@ -15,6 +15,7 @@ use super::layout::Arrangement;
 use super::outline::Layout;
 use super::parts::Parts;
 use super::seam_graph::SeamGraph;
+use super::sew::close_cuts;
 use crate::error::{Error, Result, try_filled};
 use crate::heights::heightfield::Heightfield;
 use crate::lattice::coarsening::{coarse_lattice, fine_vertex, parents};
@@ -22,7 +23,12 @@ use crate::lattice::hexagonal::Lattice;
 use crate::shape::patches::{NO_PATCH, Patches};
 
 /// Maximum number of vertices of a surface that is cut into sheets without doing so on a coarser lattice first.
-const MAX_DIRECT_VERTICES: usize = 12_000;
+/// `benches/patterns.md` has what it costs and gains.
+const MAX_DIRECT_VERTICES: usize = 20_000;
+
+/// Maximum number of solver iterations of all trials to close cuts of parts that were cut on the fine lattice, summed over
+/// the vertices of the sheet in each trial, per vertex of the pattern.
+const RECUT_STEP_BUDGET_PER_VERTEX: usize = 100;
 
 /// A surface and its patches, sampled at every second vertex of the lattice on which the surface is given.
 pub(super) struct Coarse {
@@ -124,15 +130,18 @@ pub(super) fn refine_sheets(
     }
     let mut sheets = rough.arrangement.sheets.clone();
     sheets.extend((known..parts.leaves.len()).map(|part| vec![part as u32]));
-    let mut before: Vec<usize> = (0..parts.leaves.len()).collect();
+    let decided = rough.net.decided;
+    // The net and layout that say which seams are folds: those of the coarse lattice first, then the last ones here.
+    let mut last: Option<(SeamGraph, Layout)> = None;
+    let mut is_recut = vec![false; parts.leaves.len()];
     loop {
         // Sorted by their areas, as all patches are.
         let (found, order) = patches.divided(&parts.surface, parts.labels.of.clone())?;
         parts.renumber(&found, &order);
-        before = order.iter().map(|old| before[*old]).collect();
-        let numbers = inverse(&order);
+        let numbers = inverse(&order, is_recut.len());
+        is_recut = order.iter().map(|old| is_recut[*old]).collect();
         for members in &mut sheets {
-            let renumbered = members.iter().map(|part| numbers[*part as usize]);
+            let renumbered = members.iter().filter_map(|part| numbers[*part as usize]);
             *members = renumbered
                 .filter(|part| parts.leaves[*part as usize].is_some())
                 .collect();
@@ -140,39 +149,70 @@ pub(super) fn refine_sheets(
         }
         sheets.retain(|members| !members.is_empty());
         let leaves = std::mem::take(&mut parts.leaves);
-        let decided = rough.net.decided;
         let mut net = SeamGraph::new(&parts.surface, &parts.labels, leaves, decided)?;
         let mut layout = Layout::loose(&net);
-        fold_alike(&mut net, &mut layout, &before, rough);
-        let mut arrangement = Arrangement {
-            layout,
-            sheets: sheets.clone(),
-        };
+        match &last {
+            None => fold_alike(
+                &mut net,
+                &mut layout,
+                &order,
+                &rough.net,
+                &rough.arrangement.layout,
+            ),
+            Some((before, folds)) => fold_alike(&mut net, &mut layout, &order, before, folds),
+        }
+        let mut arrangement = Arrangement { layout, sheets };
         match settle(&parts, &mut net, &mut arrangement)? {
+            Settled::Opened(wrong) if wrong.is_empty() => {
+                if is_recut.contains(&true) {
+                    let is_wanted = |part: u32| is_recut[part as usize];
+                    let budget = RECUT_STEP_BUDGET_PER_VERTEX;
+                    close_cuts(
+                        &mut net,
+                        &mut arrangement,
+                        parts.options.max_strain,
+                        budget,
+                        is_wanted,
+                    )?;
+                }
+                return Ok(Ok(Assembled {
+                    parts,
+                    patches: found,
+                    net,
+                    arrangement,
+                }));
+            }
             Settled::Opened(wrong) => {
-                return Ok(match wrong.into_iter().next() {
-                    Some((_, reason)) => Err(reason),
-                    None => Ok(Assembled {
-                        parts,
-                        patches: found,
-                        net,
-                        arrangement,
-                    }),
-                });
+                parts.leaves = std::mem::take(&mut net.leaves);
+                for (part, reason) in wrong {
+                    let first = parts.leaves.len() as u32;
+                    match parts.cut_alone(part) {
+                        Ok(true) => {}
+                        Ok(false) | Err(Error::NotFlat { .. }) => return Ok(Err(reason)),
+                        Err(other) => return Err(other),
+                    }
+                    is_recut[part as usize] = true;
+                    is_recut.resize(parts.leaves.len(), true);
+                    let added = first..parts.leaves.len() as u32;
+                    arrangement.sheets.extend(added.map(|part| vec![part]));
+                }
             }
             Settled::Specks(part, specks) => {
-                parts.leaves = net.leaves;
+                parts.leaves = std::mem::take(&mut net.leaves);
+                parts.trims += 1;
                 parts.leave_out_specks(part, specks)?;
             }
         }
+        sheets = arrangement.sheets;
+        last = Some((net, arrangement.layout));
     }
 }
 
-/// Inverts a permutation of parts: from the old part numbers in their new order, computes the new number of each part.
-fn inverse(order: &[usize]) -> Vec<u32> {
-    let mut numbers = vec![0; order.len()];
+/// Inverts a renumbering of parts: the new number of each of `count` parts, from the old numbers in their new order; `None` if a part is gone.
+fn inverse(order: &[usize], count: usize) -> Vec<Option<u32>> {
+    let mut numbers = vec![None; count];
     for (number, old) in order.iter().enumerate() {
-        numbers[*old] = number as u32;
+        numbers[*old] = Some(number as u32);
     }
     numbers
 }
@@ -258,18 +298,24 @@ fn placed(parts: &Parts, part: usize, rough: &Assembled) -> Result<Option<FlatPa
     )
 }
 
-/// Joins the two sides of those seams of the fine lattice that are folds on the coarse lattice.
-fn fold_alike(net: &mut SeamGraph, layout: &mut Layout, order: &[usize], rough: &Assembled) {
+/// Makes folds of those seams that are folds in another layout; `order` holds the number there of each part. Parts that
+/// were not there have no folds.
+fn fold_alike(
+    net: &mut SeamGraph,
+    layout: &mut Layout,
+    order: &[usize],
+    other: &SeamGraph,
+    folds: &Layout,
+) {
     // For each pair of parts: the positions of the nodes between them, and whether the node is on a fold.
     let mut nodes: BTreeMap<[usize; 2], Vec<([f64; 2], bool)>> = BTreeMap::new();
-    for (number, seam) in rough.net.seams.iter().enumerate() {
-        let folded = rough.arrangement.layout.folded[number];
+    for (number, seam) in other.seams.iter().enumerate() {
         let list = nodes.entry(seam.patches.map(|p| p as usize)).or_default();
-        list.extend(
-            seam.nodes
-                .iter()
-                .map(|node| (rough.net.plan(*node), folded)),
-        );
+        let own = seam
+            .nodes
+            .iter()
+            .map(|node| (other.plan(*node), folds.folded[number]));
+        list.extend(own);
     }
     for seam in 0..net.seams.len() {
         let mut pair = net.seams[seam].patches.map(|p| order[p as usize]);
@@ -279,7 +325,7 @@ fn fold_alike(net: &mut SeamGraph, layout: &mut Layout, order: &[usize], rough: 
         };
         let kind = |node| {
             let [x, y] = net.plan(node);
-            let away = |[p, q]: [f64; 2]| (p - x).hypot(q - y);
+            let away = |[p, q]: [f64; 2]| (p - x).powi(2) + (q - y).powi(2);
             let nearest = list.iter().min_by(|a, b| away(a.0).total_cmp(&away(b.0)));
             nearest.is_some_and(|(_, folded)| *folded)
         };
@@ -303,13 +349,17 @@ mod tests {
     use crate::pattern::heightfield::{DIRECT_OUTLINE_DETAIL, find_sheets};
     use crate::shape::patches::PatchOptions;
 
-    #[test]
-    fn what_only_the_fine_lattice_shows_torn_is_left_out_there() {
-        // A folded card, drawn down at a vertex of its border that is on no coarse lattice.
-        let lattice = Lattice::new(120, 160, 1.0).unwrap();
-        let [left, bottom] = lattice.position(0, 81);
+    /// Sheets of a folded card on its own lattice, decided on the coarse one, and the number of vertices left out. Some
+    /// vertices of its border, on no coarse lattice, are drawn down.
+    fn torn_card(columns: &[usize]) -> (Vec<Vec<u32>>, usize) {
+        let lattice = Lattice::new(140, 160, 1.0).unwrap();
+        let torn: Vec<[f64; 2]> = columns
+            .iter()
+            .map(|col| lattice.position(0, *col))
+            .collect();
         let surface = Heightfield::from_fn(lattice, |x, y| {
-            -0.5 * (x - 60.3).abs() - 12.0 * (1.0 - (x - left).hypot(y - bottom)).max(0.0)
+            let depth = |[p, q]: &[f64; 2]| (1.0 - (x - p).hypot(y - q)).max(0.0);
+            -0.5 * (x - 60.3).abs() - 12.0 * torn.iter().map(depth).sum::<f64>()
         });
         let surface = surface.unwrap();
         let patches = Patches::new(&surface, &PatchOptions::default()).unwrap();
@@ -325,8 +375,21 @@ mod tests {
         let parts = Parts::none(&surface, &options);
         let found = refine_sheets(&surface, &patches, &coarse, &rough, parts).unwrap();
         let found = found.unwrap_or_else(|reason| panic!("{reason}"));
-        assert_eq!(found.arrangement.sheets, [[0, 1]]);
-        let out = found.parts.left_out();
+        (found.arrangement.sheets, found.parts.left_out())
+    }
+
+    #[test]
+    fn what_only_the_fine_lattice_shows_torn_is_left_out_there() {
+        let (sheets, out) = torn_card(&[81]);
+        assert_eq!(sheets, [[0, 1]]);
         assert!((1..=16).contains(&out), "{out}");
+    }
+
+    #[test]
+    fn a_part_that_is_invalid_on_the_fine_lattice_alone_is_mended_and_joined_again() {
+        // More torn vertices than may be left out of a sheet whose other parts are valid.
+        let (sheets, out) = torn_card(&[81, 91, 101, 111, 121, 131]);
+        assert_eq!(sheets.len(), 1, "{sheets:?}");
+        assert!(out <= 140 * 160 / 50, "{out}");
     }
 }

@@ -29,8 +29,8 @@ const MAX_MERGE_ROUNDS: usize = 24;
 /// valid. A part that is too small to be cut and that lies flat with none of its neighbours is left out, at most a
 /// fiftieth of all vertices ([`Pattern::missing`]).
 ///
-/// Surfaces of more than twelve thousand vertices are cut on the lattice of twice the spacing, recursively; their
-/// own lattice then costs one unrolling. The lattice on which the surface is cut costs one unrolling of each part,
+/// Surfaces of more than twenty thousand vertices are cut on the lattice of twice the spacing, recursively; their
+/// own lattice then costs one unrolling, and a cut of each part that is invalid there alone. The lattice on which the surface is cut costs one unrolling of each part,
 /// two or three more of parts that are cut again, and up to 800 steps of `O(vertices)` for closing cuts.
 ///
 /// # Errors

@@ -61,13 +61,17 @@ pub(super) fn arrange_patches(net: &SeamGraph, gap: f64) -> Arrangement {
 
 /// Lists the numbers of the seams whose two sides may be joined, the longest seam first.
 pub(super) fn longest_first(net: &SeamGraph) -> Vec<usize> {
-    let long = |seam: &usize| polyline_length(&net.seams[*seam].sides[0]);
+    let lengths: Vec<f64> = net
+        .seams
+        .iter()
+        .map(|seam| polyline_length(&seam.sides[0]))
+        .collect();
     let whole = |seam: &usize| {
         let nodes = net.seams[*seam].nodes.len();
-        nodes > 2 && !net.is_torn(*seam) && long(seam) > 0.0
+        nodes > 2 && !net.is_torn(*seam) && lengths[*seam] > 0.0
     };
     let mut order: Vec<usize> = (0..net.seams.len()).filter(whole).collect();
-    order.sort_by(|a, b| long(b).total_cmp(&long(a)));
+    order.sort_by(|a, b| lengths[*b].total_cmp(&lengths[*a]));
     order
 }
 

@@ -6,7 +6,7 @@ use std::collections::BTreeMap;
 use super::flat_patch::{FlatPatch, MIN_CUT_VERTICES};
 use super::labels::Labels;
 use super::options::PatternOptions;
-use super::trim::{Trouble, removable_vertices};
+use super::trim::{MAX_SPECK_SHARE, Trouble, removable_vertices};
 use super::window::Window;
 use crate::error::{Error, Result};
 use crate::heights::heightfield::Heightfield;
@@ -26,6 +26,10 @@ const MAX_OMITTED_SHARE: f64 = 0.02;
 /// Maximum number of times that a few border vertices are removed from sheets; each removal lays these sheets flat
 /// again.
 const MAX_TRIM_ROUNDS: usize = 8;
+
+/// Maximum number of border vertices that are removed from a part that is invalid on the fine lattice alone, as a share
+/// of its vertices. Most such parts are small and ragged: cut further, they would become sheets of a few vertices.
+const MAX_RECUT_SPECK_SHARE: f64 = 0.15;
 
 /// Maximum number of vertices of the surface that are left out of the pattern in one step.
 const MAX_OMITTED_VERTICES: usize = 4 * MIN_CUT_VERTICES;
@@ -50,7 +54,7 @@ pub(super) struct Parts {
     left_out: usize,
     most_left_out: usize,
     /// Number of times that border vertices were removed from sheets so far, at most [`MAX_TRIM_ROUNDS`].
-    trims: usize,
+    pub trims: usize,
 }
 
 fn most_left_out(surface: &Heightfield) -> usize {
@@ -231,6 +235,41 @@ impl Parts {
         Ok(true)
     }
 
+    /// Cuts a part into parts that lie flat, and leaves out those that do not and are too small to be cut. The neighbours
+    /// keep their positions. Returns whether nothing of the part is invalid any more.
+    pub(super) fn cut_alone(&mut self, part: u32) -> Result<bool> {
+        let mut open = vec![part];
+        let mut is_invalid = true;
+        while let Some(part) = open.pop() {
+            let leaf = self.leaves[part as usize].as_ref();
+            let strain = leaf.map(FlatPatch::strain).unwrap_or_default();
+            is_invalid |= strain.rms() > self.options.max_strain || strain.flipped > 0;
+            if std::mem::take(&mut is_invalid) {
+                let trouble = match strain.rms() > self.options.max_strain {
+                    true => Trouble::Strain(self.options.max_strain),
+                    false => Trouble::Flipped,
+                };
+                let most = |count| self.most_specks(count, MAX_RECUT_SPECK_SHARE);
+                let specks = self.leaves[part as usize].as_ref().and_then(|leaf| {
+                    let lattice = self.surface.lattice();
+                    removable_vertices(lattice, &self.labels, part, leaf, trouble, most)
+                });
+                if let Some(specks) = specks {
+                    self.leave_out_specks(part, specks)?;
+                } else if self.cut(part)? {
+                    open.append(&mut self.pending);
+                } else {
+                    let own = self.members(part);
+                    if own.len() > self.scrap() {
+                        return Ok(false);
+                    }
+                    self.leave_out_specks(part, own)?;
+                }
+            }
+        }
+        Ok(true)
+    }
+
     /// Merges each part that is too small to be cut and strained above the limit with a neighbour, or leaves it out of
     /// the pattern.
     pub(super) fn give_away_crumbs(&mut self) -> Result<()> {
@@ -312,7 +351,8 @@ impl Parts {
             false => Trouble::Flipped,
         };
         let lattice = self.surface.lattice();
-        let own = removable_vertices(lattice, &self.labels, part, leaf, trouble, self.scrap());
+        let most = |count| self.most_specks(count, MAX_SPECK_SHARE);
+        let own = removable_vertices(lattice, &self.labels, part, leaf, trouble, most);
         let Some(own) = own else {
             return Ok(false);
         };
@@ -331,14 +371,14 @@ impl Parts {
         trouble: Trouble,
     ) -> Option<Vec<usize>> {
         let lattice = self.surface.lattice();
-        let found = || removable_vertices(lattice, &self.labels, part, leaf, trouble, self.scrap());
+        let most = |count| self.most_specks(count, MAX_SPECK_SHARE);
+        let found = || removable_vertices(lattice, &self.labels, part, leaf, trouble, most);
         (self.trims < MAX_TRIM_ROUNDS).then(found).flatten()
     }
 
     /// Leaves out of the pattern some vertices of a part; the other vertices of the part and of its neighbours keep
     /// their flat positions.
     pub(super) fn leave_out_specks(&mut self, part: u32, specks: Vec<usize>) -> Result<()> {
-        self.trims += 1;
         let mut changed: Vec<u32> = self.borders(part, &specks).into_keys().collect();
         changed.push(part);
         self.without(specks)?;
@@ -356,6 +396,11 @@ impl Parts {
     /// Computes the maximum number of vertices that may be left out of the pattern in the next step.
     fn scrap(&self) -> usize {
         MAX_OMITTED_VERTICES.min(self.most_left_out.saturating_sub(self.left_out))
+    }
+
+    /// Maximum number of border vertices that may be left out of a part of `count` vertices in the next step.
+    fn most_specks(&self, count: usize, share: f64) -> usize {
+        self.scrap().min((share * count as f64) as usize)
     }
 
     fn without(&mut self, vertices: Vec<usize>) -> Result<()> {

@@ -11,11 +11,12 @@ use super::seam_graph::SeamGraph;
 use super::sheets::Refolding;
 use crate::error::Result;
 use crate::unroll::arap_mesh::{ArapMesh, StoppingCriteria};
-use crate::unroll::flat_triangle::FlatTriangle;
+use crate::unroll::flat_triangle::{FlatTriangle, Point};
 
 /// Stopping criteria of the solver that folds a sheet back into space.
 const REFOLDING_RELAXATION: StoppingCriteria = StoppingCriteria {
     tolerance: 1e-12,
+    relative_tolerance: 0.0,
     target_energy: 0.0,
     hopeless_energy: f64::INFINITY,
     max_steps: 80,
@@ -47,7 +48,8 @@ pub(super) fn refold_sheet(
     }
     let ties = ties(net, patches, &starts, folded);
     let built = places.clone();
-    let joint = ArapMesh::new(places.len(), pieces, ties)?;
+    let plan: Vec<Point> = places.iter().map(|p| Point::new(p.x, p.y)).collect();
+    let mut joint = ArapMesh::new(&plan, pieces, ties)?;
     joint.minimise_in_space(&mut places, REFOLDING_RELAXATION)?;
     let strain = joint.strain_in_space(&places);
     register(&mut places, &built);

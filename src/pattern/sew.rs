@@ -28,20 +28,37 @@ const MIN_HALVED_SEAM_NODES: usize = 12;
 
 /// Maximum number of solver iterations of all trials to close cuts, summed over the vertices of the sheet in each
 /// trial, per vertex of the pattern.
-const STEP_BUDGET_PER_VERTEX: usize = 800;
+pub(super) const STEP_BUDGET_PER_VERTEX: usize = 800;
 
 /// Strain energy, as a multiple of the energy at the strain limit, above which the trial to close a cut is
 /// abandoned if the energy falls slowly.
 const HOPELESS_STRAIN_FACTOR: f64 = 1.6;
 
+/// Stopping criteria for the first steps of a trial, which show whether it is worth more.
+const TRIAL_RELAXATION: StoppingCriteria = StoppingCriteria {
+    relative_tolerance: 0.01,
+    max_steps: 6,
+    ..SHEET_RELAXATION
+};
+
+/// Strain after the first steps of a trial, as a multiple of its limit, above which it is abandoned: later steps hardly
+/// lower the strain of a sheet that will be valid.
+const TRIAL_STRAIN_FACTOR: f64 = 1.05;
+
 /// Closes cuts again where the sheets stay valid, the longest first; a cut that cannot be closed as a whole is
-/// halved, and each half is tried.
+/// halved, and each half is tried. Only cuts of the wanted parts are tried, by at most so many relaxation steps for each
+/// vertex of the pattern.
 pub(super) fn close_cuts(
     net: &mut SeamGraph,
     arrangement: &mut Arrangement,
     limit: f64,
+    steps_per_vertex: usize,
+    is_wanted: impl Fn(u32) -> bool,
 ) -> Result<()> {
-    let open = |seam: &usize| !arrangement.layout.folded[*seam];
+    let open = |seam: &usize| {
+        let wanted = net.seams[*seam].patches.iter().any(|part| is_wanted(*part));
+        wanted && !arrangement.layout.folded[*seam]
+    };
     let mut pending: VecDeque<usize> = longest_first(net).into_iter().filter(open).collect();
     // Cuts inside of patches are closed before creases.
     pending
@@ -53,7 +70,7 @@ pub(super) fn close_cuts(
         .flatten()
         .map(|leaf| leaf.places().len())
         .sum();
-    let mut budget = STEP_BUDGET_PER_VERTEX * vertices;
+    let mut budget = steps_per_vertex * vertices;
     while let Some(seam) = pending.pop_front() {
         if budget == 0 {
             break;
@@ -174,21 +191,28 @@ fn close_cut(
                 .min(limit)
         }
     };
-    let until = StoppingCriteria {
+    let trial = StoppingCriteria {
         hopeless_energy: HOPELESS_STRAIN_FACTOR * 2.0 * most * most,
-        ..SHEET_RELAXATION
+        ..TRIAL_RELAXATION
     };
     let joined = !are_close(net, &layout, &ties);
+    let mut is_hopeless = false;
     if joined {
         let mut sheet = Tied::new(net, &layout, &members, &ties)?;
-        let work = sheet.relax(net, &mut layout, until)?;
+        let mut work = sheet.relax(net, &mut layout, trial)?;
+        // Most trials fail, and a few steps show that.
+        is_hopeless = fault(net, &layout, &members, TRIAL_STRAIN_FACTOR * most).is_some();
+        if !is_hopeless {
+            work += sheet.relax(net, &mut layout, SHEET_RELAXATION)?;
+        }
         *budget = budget.saturating_sub(work);
     }
     let tight =
         |seam: &usize| seam_gap(net, &layout, *seam) <= NEGLIGIBLE_GAP_LENGTHS * net.spacing;
     // A large strain in a small place hardly changes the strain of the whole sheet, so it is checked separately.
     let even = strain_along(net, seam) <= MAX_SEAM_STRAIN_FACTOR * limit;
-    if even && ties.iter().all(tight) && fault(net, &layout, &members, most).is_none() {
+    let valid = |layout| fault(net, layout, &members, most).is_none();
+    if !is_hopeless && even && ties.iter().all(tight) && valid(&layout) {
         arrangement.layout = layout;
         arrangement.sheets[a] = members;
         if a != b {

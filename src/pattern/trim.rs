@@ -7,7 +7,7 @@ use crate::lattice::hexagonal::{Lattice, NEIGHBOUR_DIRECTIONS};
 use rustc_hash::FxHashMap;
 
 /// Maximum number of border vertices that are removed from a part, as a share of the part's vertices.
-const MAX_SPECK_SHARE: f64 = 0.002;
+pub(super) const MAX_SPECK_SHARE: f64 = 0.002;
 
 /// Maximum strain of a part after border vertices were removed, as a share of the strain limit.
 const TRIMMED_STRAIN_SHARE: f64 = 0.5;
@@ -21,18 +21,18 @@ pub(super) enum Trouble {
     Flipped,
 }
 
-/// Finds the few border vertices of a part whose removal is sure to mend its fault; `None` if there are more than
-/// `most`, if they are not at the part's border, or if the part would not stay connected.
+/// Finds the few border vertices of a part whose removal is sure to mend its fault; `None` if they are more than `most`
+/// allows for the number of the part's vertices, if they are not at the border, or if the part would not stay connected.
 pub(super) fn removable_vertices(
     lattice: &Lattice,
     labels: &Labels,
     part: u32,
     leaf: &FlatPatch,
     trouble: Trouble,
-    most: usize,
+    most: impl Fn(usize) -> usize,
 ) -> Option<Vec<usize>> {
     let burden = leaf.burden(lattice);
-    let most = most.min((MAX_SPECK_SHARE * burden.len() as f64) as usize);
+    let most = most(burden.len());
     let speck: FxHashMap<usize, ()> = match trouble {
         Trouble::Strain(limit) => {
             heaviest(&burden, TRIMMED_STRAIN_SHARE * limit / leaf.strain().rms())

@@ -4,10 +4,11 @@
 //! the triangles and, for each tie, of the squared distance between its two points times [`TIE_WEIGHT`].
 
 use nalgebra::Vector3;
-use sprs::{CsMat, TriMat};
 
+use super::cholesky::Cholesky;
 use super::flat_triangle::{FlatTriangle, Point, Position};
 use super::local_global::Iteration;
+use super::sparse_rows::SparseRows;
 use crate::error::{Result, try_filled};
 
 /// Weight, in the energy of a mesh, of the squared distance between two points that are tied, that is, should coincide.
@@ -15,17 +16,11 @@ use crate::error::{Result, try_filled};
 /// strained.
 const TIE_WEIGHT: f64 = 8.0;
 
-/// Maximum number of conjugate-gradient iterations in each global step of laying a mesh.
-const MAX_CG_ITERATIONS: usize = 16;
-
-/// Factor by which conjugate gradients reduce the residual in each global step of laying a mesh.
-const CG_RESIDUAL_REDUCTION: f64 = 1e-3;
-
 /// Relative change of a mesh layout's energy in one iteration below which the layout counts as stalled.
 const STALLED_RELATIVE_CHANGE: f64 = 0.02;
 
 /// Number of iterations (a local and a global step each) that are made before the layout of a mesh may be given up.
-const MIN_STEPS_BEFORE_GIVING_UP: usize = 5;
+const MIN_STEPS_BEFORE_GIVING_UP: usize = 3;
 
 /// Factor by which an earlier decrease of the energy counts less after each iteration. The next decrease is estimated
 /// by the largest recent one, because the energy does not fall at an even rate.
@@ -41,9 +36,8 @@ pub(crate) struct ArapMesh {
     triangles: Vec<(FlatTriangle, [u32; 3])>,
     /// Ties: pairs of points of the mesh that should coincide.
     ties: Vec<[BarycentricPoint; 2]>,
-    matrix: CsMat<f64>,
-    /// Inverse of the diagonal of the global step's matrix, the preconditioner of conjugate gradients.
-    inverse_diagonal: Vec<f64>,
+    /// Cholesky factor of the global step's matrix.
+    factor: Cholesky,
     area: f64,
 }
 
@@ -52,6 +46,8 @@ pub(crate) struct ArapMesh {
 pub(crate) struct StoppingCriteria {
     /// Change of the energy over the area in one iteration, without unit, below which the mesh has converged.
     pub tolerance: f64,
+    /// Change of the energy in one step, as a share of it, below which the mesh has converged.
+    pub relative_tolerance: f64,
     /// Energy over area, without unit, at which the solver stops, or 0. The solver also gives up if at the rate of the
     /// last iterations it would not reach this energy in `max_steps`.
     pub target_energy: f64,
@@ -62,28 +58,22 @@ pub(crate) struct StoppingCriteria {
 }
 
 impl ArapMesh {
-    /// Creates the problem for a mesh of `count` vertices.
+    /// Creates the problem for a mesh whose vertices are near given places, by which they are ordered.
+    /// Factorises its matrix.
     ///
     /// # Errors
     /// [`Error::OutOfMemory`](crate::Error::OutOfMemory).
     pub(crate) fn new(
-        count: usize,
+        places: &[Point],
         triangles: Vec<(FlatTriangle, [u32; 3])>,
         ties: Vec<[BarycentricPoint; 2]>,
     ) -> Result<ArapMesh> {
-        let area = triangles.iter().map(|(triangle, _)| triangle.area()).sum();
-        let matrix = matrix(count, &triangles, &ties);
-        let mut inverse_diagonal = try_filled("unrolling", count, 0.0)?;
-        for (row, entries) in matrix.outer_iterator().enumerate() {
-            let own = entries.get(row).copied().unwrap_or(0.0);
-            inverse_diagonal[row] = if own > 0.0 { 1.0 / own } else { 0.0 };
-        }
+        let matrix = matrix(places.len(), &triangles, &ties)?;
         Ok(ArapMesh {
+            area: triangles.iter().map(|(triangle, _)| triangle.area()).sum(),
+            factor: Cholesky::new(&matrix, places)?,
             triangles,
             ties,
-            matrix,
-            inverse_diagonal,
-            area,
         })
     }
 
@@ -93,16 +83,18 @@ impl ArapMesh {
     /// # Errors
     /// [`Error::OutOfMemory`](crate::Error::OutOfMemory).
     pub(crate) fn minimise_in_plane(
-        &self,
+        &mut self,
         positions: &mut [Point],
         criteria: StoppingCriteria,
     ) -> Result<usize> {
-        let mut gradients = ConjugateGradients::new(&self.matrix, &self.inverse_diagonal)?;
+        let mut descent = try_filled("unrolling", positions.len(), Point::default())?;
+        let mut corrections = descent.clone();
         let mut iteration = Iteration::new(positions)?;
         let mut recent_change = 0.0;
         while iteration.steps < criteria.max_steps {
-            let energy = self.energy(positions, &mut gradients.right) / self.area;
-            let converges = iteration.converges(energy, criteria.tolerance);
+            let energy = self.energy(positions, &mut descent) / self.area;
+            let tolerance = criteria.tolerance.max(criteria.relative_tolerance * energy);
+            let converges = iteration.converges(energy, tolerance);
             let change = iteration.decrease.abs();
             recent_change = change.max(CHANGE_DECAY * recent_change);
             let change_to_come = recent_change * (criteria.max_steps - iteration.steps) as f64;
@@ -117,8 +109,8 @@ impl ArapMesh {
             {
                 break;
             }
-            gradients.solve();
-            iteration.advance(positions, gradients.solution.iter().copied());
+            self.factor.solve(&descent, &mut corrections);
+            iteration.advance(positions, corrections.iter().copied());
         }
         iteration.finish(positions);
         Ok(iteration.steps)
@@ -130,13 +122,14 @@ impl ArapMesh {
     /// # Errors
     /// [`Error::OutOfMemory`](crate::Error::OutOfMemory).
     pub(crate) fn minimise_in_space(
-        &self,
+        &mut self,
         positions: &mut [Vector3<f64>],
         criteria: StoppingCriteria,
     ) -> Result<()> {
-        let mut gradients = ConjugateGradients::new(&self.matrix, &self.inverse_diagonal)?;
         let mut descent = try_filled("refolding", positions.len(), Vector3::zeros())?;
         let mut corrections = descent.clone();
+        let mut right = try_filled("refolding", positions.len(), Point::default())?;
+        let mut solution = right.clone();
         let mut iteration = Iteration::new(positions)?;
         while iteration.steps < criteria.max_steps {
             let energy = self.energy(positions, &mut descent) / self.area;
@@ -144,18 +137,18 @@ impl ArapMesh {
                 break;
             }
             // Two coordinates at once, then the third.
-            for (right, descent) in gradients.right.iter_mut().zip(&descent) {
+            for (right, descent) in right.iter_mut().zip(&descent) {
                 *right = Point::new(descent.x, descent.y);
             }
-            gradients.solve();
-            for (correction, solved) in corrections.iter_mut().zip(&gradients.solution) {
+            self.factor.solve(&right, &mut solution);
+            for (correction, solved) in corrections.iter_mut().zip(&solution) {
                 (correction.x, correction.y) = (solved.re, solved.im);
             }
-            for (right, descent) in gradients.right.iter_mut().zip(&descent) {
+            for (right, descent) in right.iter_mut().zip(&descent) {
                 *right = Point::new(descent.z, 0.0);
             }
-            gradients.solve();
-            for (correction, solved) in corrections.iter_mut().zip(&gradients.solution) {
+            self.factor.solve(&right, &mut solution);
+            for (correction, solved) in corrections.iter_mut().zip(&solution) {
                 correction.z = solved.re;
             }
             iteration.advance(positions, corrections.iter().copied());
@@ -203,16 +196,13 @@ fn matrix(
     count: usize,
     triangles: &[(FlatTriangle, [u32; 3])],
     ties: &[[BarycentricPoint; 2]],
-) -> CsMat<f64> {
-    let room = 12 * triangles.len() + 36 * ties.len();
-    let mut entries = TriMat::with_capacity((count, count), room);
+) -> Result<SparseRows> {
+    let mut entries = Vec::with_capacity(12 * triangles.len() + 36 * ties.len());
     for (triangle, corners) in triangles {
         for (k, weight) in triangle.weights.into_iter().enumerate() {
-            let [a, b] = [k, (k + 1) % 3].map(|k| corners[k] as usize);
-            entries.add_triplet(a, a, weight);
-            entries.add_triplet(b, b, weight);
-            entries.add_triplet(a, b, -weight);
-            entries.add_triplet(b, a, -weight);
+            let [a, b] = [k, (k + 1) % 3].map(|k| corners[k]);
+            entries.extend([([a, a], weight), ([b, b], weight)]);
+            entries.extend([([a, b], -weight), ([b, a], -weight)]);
         }
     }
     for tie in ties {
@@ -220,12 +210,12 @@ fn matrix(
         for (a, wa) in terms {
             for (b, wb) in terms {
                 if wa != 0.0 && wb != 0.0 {
-                    entries.add_triplet(a as usize, b as usize, TIE_WEIGHT * wa * wb);
+                    entries.push(([a, b], TIE_WEIGHT * wa * wb));
                 }
             }
         }
     }
-    entries.to_csr()
+    SparseRows::new(count, &entries)
 }
 
 /// Returns vertices with weights whose weighted sum of positions is the vector from the second point of a tie to the
@@ -234,69 +224,4 @@ fn difference([one, other]: &[BarycentricPoint; 2]) -> [(u32, f64); 6] {
     let [a, b, c] = *one;
     let [d, e, f] = other.map(|(v, w)| (v, -w));
     [a, b, c, d, e, f]
-}
-
-/// Conjugate gradients with Jacobi's preconditioner, for both coordinates at once as complex numbers: the matrix is
-/// real.
-struct ConjugateGradients<'a> {
-    matrix: &'a CsMat<f64>,
-    inverse_diagonal: &'a [f64],
-    right: Vec<Point>,
-    solution: Vec<Point>,
-    direction: Vec<Point>,
-    image: Vec<Point>,
-}
-
-impl<'a> ConjugateGradients<'a> {
-    fn new(matrix: &'a CsMat<f64>, inverse_diagonal: &'a [f64]) -> Result<Self> {
-        let blank = || try_filled("unrolling", inverse_diagonal.len(), Point::default());
-        Ok(ConjugateGradients {
-            right: blank()?,
-            solution: blank()?,
-            direction: blank()?,
-            image: blank()?,
-            matrix,
-            inverse_diagonal,
-        })
-    }
-
-    /// Solves the linear system for the right-hand side `right`, starting from 0; `right` becomes the residual.
-    fn solve(&mut self) {
-        self.solution.fill(Point::default());
-        self.direction.fill(Point::default());
-        let (mut last, mut first) = (0.0, None);
-        let starts = self.matrix.indptr();
-        let starts = starts.raw_storage();
-        let (columns, weights) = (self.matrix.indices(), self.matrix.data());
-        for _ in 0..MAX_CG_ITERATIONS {
-            let pairs = self.right.iter().zip(self.inverse_diagonal);
-            let square: f64 = pairs.clone().map(|(r, d)| r.norm_sqr() * d).sum();
-            let goal = *first.get_or_insert(CG_RESIDUAL_REDUCTION * CG_RESIDUAL_REDUCTION * square);
-            if square <= goal || square <= f64::MIN_POSITIVE {
-                return;
-            }
-            let share = if last > 0.0 { square / last } else { 0.0 };
-            last = square;
-            for (direction, (r, d)) in self.direction.iter_mut().zip(pairs) {
-                *direction = r * *d + *direction * share;
-            }
-            let mut curvature = 0.0;
-            let direction = &self.direction[..];
-            for ((image, own), row) in self.image.iter_mut().zip(direction).zip(starts.windows(2)) {
-                let row = row[0]..row[1];
-                let terms = columns[row.clone()].iter().zip(&weights[row]);
-                let sum: Point = terms.map(|(k, w)| direction[*k] * *w).sum();
-                curvature += own.re * sum.re + own.im * sum.im;
-                *image = sum;
-            }
-            if curvature <= 0.0 {
-                return;
-            }
-            let step = square / curvature;
-            for k in 0..self.right.len() {
-                self.solution[k] += self.direction[k] * step;
-                self.right[k] -= self.image[k] * step;
-            }
-        }
-    }
 }

@@ -29,6 +29,7 @@
 
 mod arap_lattice;
 pub(crate) mod arap_mesh;
+mod cholesky;
 mod components;
 mod distortion;
 pub(crate) mod flat_triangle;
@@ -40,6 +41,7 @@ mod multigrid;
 mod options;
 pub(crate) mod overlap;
 mod padded_lattice;
+mod sparse_rows;
 mod unflip;
 mod unrolling;
 

@@ -13,9 +13,9 @@ pub(crate) fn crossings(places: &[Point], border: &[[u32; 2]]) -> Vec<[usize; 2]
     let ends = |edge: usize| border[edge].map(|v| places[v as usize]);
     let longest = (0..border.len()).map(|i| {
         let [a, b] = ends(i);
-        (b - a).norm()
+        (b - a).norm_sqr()
     });
-    let size = longest.fold(0.0, f64::max);
+    let size = longest.fold(0.0, f64::max).sqrt();
     if !(size > 0.0 && size.is_finite()) {
         return Vec::new();
     }

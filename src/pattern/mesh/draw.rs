@@ -7,10 +7,14 @@ use super::meeting::Meetings;
 use super::seams::Seams;
 use crate::error::Result;
 use crate::math::index::NO_INDEX;
+use crate::pattern::shape::drop_empty_lines;
 use crate::pattern::{Direction, Faces, Fold, Run, Seam, Sheet, Spot};
 use crate::scene::half_edges::half_edge_ends;
 use crate::shape::patches::{Crease, Patch};
 use crate::unroll::flat_triangle::Point;
+
+/// Minimum area of a closed line around a sheet, as a share of the sheet's area; far below any triangle's.
+const MIN_OUTLINE_SHARE: f64 = 1e-6;
 
 /// A mesh cut into flat sheets.
 #[derive(Debug, Clone, PartialEq)]
@@ -87,7 +91,15 @@ fn draw(body: &Body, seams: &Seams, meetings: &Meetings, sheet: &Joined) -> Shee
         let place = laid.places[vertex as usize];
         [place.re, place.im]
     };
-    let mut outlines: Vec<(f64, Vec<Run>)> = (laid.outlines().iter())
+    // A cut that is within the sheet and cannot open is no outline.
+    let mut lines = laid.outlines();
+    drop_empty_lines(&mut lines, MIN_OUTLINE_SHARE * laid.area, |line| {
+        let starts = line
+            .iter()
+            .map(|side| half_edge_ends(&laid.triangles, *side)[0]);
+        starts.map(|vertex| laid.places[vertex as usize]).collect()
+    });
+    let mut outlines: Vec<(f64, Vec<Run>)> = (lines.iter())
         .map(|line| {
             let runs = runs(body, seams, laid, line);
             let long = (line.iter())

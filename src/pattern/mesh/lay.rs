@@ -118,7 +118,7 @@ impl FlatPart {
     fn relax(&mut self, pieces: &[FlatTriangle], until: StoppingCriteria) -> Result<()> {
         let whole = pieces.iter().copied().zip(self.triangles.iter().copied());
         let whole = whole.filter(|(piece, _)| piece.exists()).collect();
-        let joint = ArapMesh::new(self.places.len(), whole, Vec::new())?;
+        let mut joint = ArapMesh::new(&self.places, whole, Vec::new())?;
         // Slow progress in the first steps is no reason to stop: an error at one end takes several steps to reach
         // the other.
         let start = StoppingCriteria {

@@ -64,6 +64,7 @@ pub fn pattern_mesh(
     let strain = positive("maxStrain", options.max_strain)?;
     let until = StoppingCriteria {
         tolerance: positive("tolerance", options.unrolling.tolerance)?,
+        relative_tolerance: 0.0,
         target_energy: 0.0,
         // Of the two principal strains the energy has the sum of the squares.
         hopeless_energy: HOPELESS_STRAIN_FACTOR * 2.0 * strain * strain,
@@ -198,6 +199,7 @@ mod tests {
         let body = Body::new(places, triangles, labels).unwrap();
         let until = StoppingCriteria {
             tolerance: 1e-12,
+            relative_tolerance: 0.0,
             target_energy: 0.0,
             hopeless_energy: f64::INFINITY,
             max_steps: 200,

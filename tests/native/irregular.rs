@@ -29,10 +29,14 @@ fn no_vertex_moves_farther_than_five_times_the_noise_and_no_triangle_turns_over(
                 // The noise does not determine which side thin triangles face.
                 let [given, own] = [&sample.mesh, found.mesh()].map(|mesh| sample.turned(mesh));
                 assert!(own <= 2 + given / 8, "{what}: {given} {own}");
+                // Few long triangles, as at a ragged rim, do not hold enough of the shape to take all noise away.
+                let is_coarse = matches!(
+                    tessellation,
+                    Tessellation::Hubs | Tessellation::Decimated | Tessellation::RaggedRim
+                );
                 let noisy = 1.2 * sample.distance(&sample.mesh) + 1e-3;
-                let is_coarse =
-                    tessellation == Tessellation::Hubs || tessellation == Tessellation::Decimated;
-                assert!(is_coarse || sample.distance(found.mesh()) < noisy, "{what}");
+                let distance = sample.distance(found.mesh());
+                assert!(is_coarse || distance < noisy, "{what}: {distance} {noisy}");
             }
         }
     }

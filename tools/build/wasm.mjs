@@ -27,7 +27,7 @@ const files = [
   { name: 'files', limit: 275_000 },
   { name: 'images', limit: 560_000 },
   { name: 'meshes', limit: 299_000 },
-  { name: 'fitmesh', limit: 180_000 },
+  { name: 'fitmesh', limit: 186_000 },
   { name: 'unroll', limit: 345_000 },
   { name: 'patterns', limit: 532_000 },
 ];

@@ -33,6 +33,10 @@ const WIDENING_ROUNDS: usize = 10;
 /// Number of rounds of separating triangles after which vertices on creases may leave their reach where that is allowed.
 const BOUNDED_ROUNDS: usize = 30;
 
+/// Minimum reach of a vertex that may leave it, as a ratio of its distance from the mean of its neighbours: noise that is far
+/// smaller than the triangles folds none of them.
+const MIN_LEFT_REACH_RATIO: f64 = 0.1;
+
 /// Separates crossing triangles and turns folded ones back: moves their vertices towards the mean of their neighbours, those on creases
 /// along these first and all within their reach, except those on creases if they `may_leave_reach`. Vertices that are
 /// held stay.
@@ -69,7 +73,10 @@ pub(super) fn separate_self_intersections(
             let beside = mean_beside(topology, x, vertex, along.then_some(creased));
             if let Some(mean) = beside {
                 let halfway = 0.5 * (x[vertex] + mean);
-                let is_free = may_leave_reach && round >= BOUNDED_ROUNDS && creased(vertex);
+                let is_noisy = given.reach[vertex]
+                    >= MIN_LEFT_REACH_RATIO * (mean - given.noisy[vertex]).norm();
+                let is_free =
+                    may_leave_reach && round >= BOUNDED_ROUNDS && creased(vertex) && is_noisy;
                 x[vertex] = match is_free {
                     true => halfway,
                     false => given.within_reach(vertex, halfway),

@@ -31,6 +31,13 @@ const MIN_DISC_CONFIDENCE: f64 = 0.5;
 /// for white noise. Found by simulation; both discs have the same ratio within 1 %.
 const SMALLER_CURVATURE_RATIO: f64 = 0.411;
 
+/// Minimum height of an impulse above or below all of its neighbours, in standard deviations of the noise as rings of six
+/// neighbours show it: correlated noise, which shows there by less than its size, has hardly any such height.
+const MIN_IMPULSE_NOISE_RATIO: f64 = 6.0;
+
+/// Minimum number of neighbours with heights that an impulse is told by.
+const MIN_IMPULSE_NEIGHBOURS: usize = 3;
+
 /// Disc in which curvatures are measured: the offsets of its vertices from its centre, and the coefficients that give
 /// the Hessian of the quadratic fitted to their heights.
 #[derive(Debug, Clone)]
@@ -135,13 +142,18 @@ impl CurvatureScale {
     }
 }
 
-/// Measures the principal curvatures of an input's heights, from small discs to large ones. Cost: linear in the number
-/// of vertices.
+/// Measures the principal curvatures of an input's heights, from small discs to large ones, without impulses, which `white`,
+/// the standard deviation of white noise from rings of six neighbours, tells. Cost: linear in the number of vertices.
 ///
 /// # Errors
 /// [`Error::OutOfMemory`](crate::Error::OutOfMemory).
-pub(super) fn curvature_scales(input: &Input, discs: &[Disc]) -> Result<Vec<CurvatureScale>> {
+pub(super) fn curvature_scales(
+    input: &Input,
+    discs: &[Disc],
+    white: f64,
+) -> Result<Vec<CurvatureScale>> {
     let mut means = MeanHeights::from_input(input)?;
+    means.replace_impulses(MIN_IMPULSE_NOISE_RATIO * white);
     let mut scales = Vec::new();
     for lattice in 0..MAX_LATTICES {
         for (index, disc) in discs.iter().enumerate() {
@@ -203,6 +215,31 @@ impl MeanHeights {
             confidence,
             min_confidence: MIN_DISC_CONFIDENCE * largest,
         })
+    }
+
+    /// Replaces each height that is more than `least` above all of its neighbours, or below all of them, by the mean of these.
+    fn replace_impulses(&mut self, least: f64) {
+        let lattice = self.lattice;
+        let heights = &self.heights;
+        let mean_beside_impulse = |vertex: usize| {
+            let (row, col) = (vertex / lattice.cols(), vertex % lattice.cols());
+            let around: Vec<f64> = (lattice.neighbours(row, col).into_iter().flatten())
+                .map(|(row, col)| heights[lattice.index(row, col)])
+                .filter(|height| height.is_finite())
+                .collect();
+            let stands_out = |sign: f64| {
+                let above = |other: &f64| sign * (heights[vertex] - other) > least;
+                around.len() >= MIN_IMPULSE_NEIGHBOURS && around.iter().all(above)
+            };
+            (stands_out(1.0) || stands_out(-1.0))
+                .then(|| around.iter().sum::<f64>() / around.len() as f64)
+        };
+        let impulses: Vec<(usize, f64)> = (0..heights.len())
+            .filter_map(|vertex| Some((vertex, mean_beside_impulse(vertex)?)))
+            .collect();
+        for (vertex, mean) in impulses {
+            self.heights[vertex] = mean;
+        }
     }
 
     /// Averages heights and confidence over four vertices each, onto the lattice of twice the spacing. White noise

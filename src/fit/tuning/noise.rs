@@ -88,7 +88,7 @@ impl Noise {
 /// of six neighbours.
 fn correlated_noise(input: &Input, white: f64) -> Result<Option<CorrelatedNoise>> {
     let discs: Vec<Disc> = DISC_RADII.into_iter().filter_map(Disc::new).collect();
-    let scales = curvature_scales(input, &discs)?;
+    let scales = curvature_scales(input, &discs, white)?;
     let found = CorrelatedNoise::from_scales(&scales, &discs);
     let is_correlated = |noise: &CorrelatedNoise| {
         let root = noise.sigma * noise.shared_vertices.sqrt();

@@ -205,14 +205,14 @@ fn searchable(input: &Input, noise: Noise) -> Result<(Input, bool)> {
 }
 
 /// Options of the solves that are compared: the energy and normalisation that were asked for, a coarse duality gap, and
-/// the shape alone. Other options hardly change which penalty is best.
+/// the shape alone. Parameters of the penalty that the caller gave are left out, so that they change no other parameter.
 fn trial_options(first: &Options, penalty: Bending) -> Options {
     Options {
         energy: first.energy,
         normalization: first.normalization,
         lambda: first.lambda,
         is_trial: true,
-        ..penalty.within(first).of(&Options::default())
+        ..penalty.of(&Options::default())
     }
     .max_iterations(MAX_SEARCH_ITERATIONS)
     .gap(SEARCH_GAP)

@@ -33,8 +33,8 @@ const WIDENING_ROUNDS: usize = 10;
 /// Number of rounds of separating triangles after which vertices on creases may leave their reach where that is allowed.
 const BOUNDED_ROUNDS: usize = 30;
 
-/// Minimum reach of a vertex that may leave it, as a ratio of its distance from the mean of its neighbours: noise that is far
-/// smaller than the triangles folds none of them.
+/// Minimum reach of a vertex that may leave it, as a ratio of the mean length of its edges: noise that is far smaller than
+/// the triangles folds none of them.
 const MIN_LEFT_REACH_RATIO: f64 = 0.1;
 
 /// Separates crossing triangles and turns folded ones back: moves their vertices towards the mean of their neighbours, those on creases
@@ -73,8 +73,8 @@ pub(super) fn separate_self_intersections(
             let beside = mean_beside(topology, x, vertex, along.then_some(creased));
             if let Some(mean) = beside {
                 let halfway = 0.5 * (x[vertex] + mean);
-                let is_noisy = given.reach[vertex]
-                    >= MIN_LEFT_REACH_RATIO * (mean - given.noisy[vertex]).norm();
+                let edge = mean_edge_length(given, vertex);
+                let is_noisy = given.reach[vertex] >= MIN_LEFT_REACH_RATIO * edge;
                 let is_free =
                     may_leave_reach && round >= BOUNDED_ROUNDS && creased(vertex) && is_noisy;
                 x[vertex] = match is_free {
@@ -90,6 +90,13 @@ pub(super) fn separate_self_intersections(
         left = left.saturating_sub(near.len());
         bad = entangled_triangles(topology, vertex_fans, x, &near);
     }
+}
+
+/// Mean length of a vertex's edges, as they were given.
+fn mean_edge_length(given: &MeshInput, vertex: usize) -> f64 {
+    let around = given.topology.around(vertex);
+    let length = |other: &u32| (given.noisy[*other as usize] - given.noisy[vertex]).norm();
+    around.iter().map(length).sum::<f64>() / around.len() as f64
 }
 
 /// Returns whether triangles of the surface cross others near them or are folded over.

@@ -29,7 +29,7 @@ const files = [
   { name: 'meshes', limit: 299_000 },
   { name: 'fitmesh', limit: 186_000 },
   { name: 'unroll', limit: 345_000 },
-  { name: 'patterns', limit: 532_000 },
+  { name: 'patterns', limit: 538_000 },
 ];
 
 /**

@@ -19,8 +19,9 @@ const MIN_ALIKE_RESIDUAL: f64 = 2.0;
 const MIN_ALIKE_NEIGHBOURS: usize = 2;
 
 /// Largest root mean square of the residual, in standard deviations of the noise, that the noise explains. A shape that
-/// bends more than λ allows adds to it.
-const MAX_NOISE_RESIDUAL: f64 = 1.1;
+/// bends more than λ allows adds to it. More than 1, because rings of six neighbours show the noise of square pixels by about
+/// three quarters of its size after resampling to the lattice, where neighbours share pixels.
+const MAX_NOISE_RESIDUAL: f64 = 2.0;
 
 /// Factor by which λ is raised where the residual is larger than that: a warm start is still of use.
 const LAMBDA_RAISE_FACTOR: f64 = 2.9;

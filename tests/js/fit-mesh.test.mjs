@@ -190,7 +190,7 @@ test('a whole mesh is measured, laid flat and drawn', async () => {
   await direct.load('patterns');
   const surface = await developable.fitMesh(noisy);
   const [before, after] = await Promise.all([noisy, surface].map((mesh) => developable.analyzeMesh(mesh)));
-  assert.ok(after.summary.gaussianAbove < 0.2 * before.summary.gaussianAbove, JSON.stringify(after.summary));
+  assert.ok(after.summary.gaussianAbove < 0.25 * before.summary.gaussianAbove, JSON.stringify(after.summary));
   assert.ok(Math.abs(after.summary.size - 2 * Math.hypot(1, 1.35)) < 0.2, `${after.summary.size}`);
   const count = noisy.positions.length / 3;
   const round = Array.from({ length: count }, (_, i) => i).filter((i) => Math.abs(noisy.positions[3 * i + 2] - 1) < 0.5);

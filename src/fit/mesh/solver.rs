@@ -147,8 +147,6 @@ impl MeshSolver {
         // Without noise there is no reach, and without reach slivers spoil the base.
         let (base, frames) = first_base(&given);
         let sigma = noise(&given.topology, &base, &frames, &given.noisy);
-        given.reach = reach(&given, sigma, mean_spacing(&given.topology, &base));
-        let (base, frames) = first_base(&given);
         let spacing = mean_spacing(&given.topology, &base);
         let auto = sigma.map_or(Lambda::Medium.value(), |sigma| {
             LAMBDA_NOISE_PRODUCT / (sigma.max(MIN_NOISE_SPACINGS * spacing) * spacing)
@@ -157,9 +155,11 @@ impl MeshSolver {
             Lambda::Auto => auto,
             given => given.value(),
         };
+        given.reach = reach(&given, sigma, spacing);
         // A smaller λ asks for more than the removal of noise.
         let relief = (auto / lambda).max(1.0);
         given.reach.iter_mut().for_each(|reach| *reach *= relief);
+        let (base, frames) = first_base(&given);
         let topology = &given.topology;
         let mut options = *options;
         if lambda > MAX_CREASE_LAMBDA_RATIO * auto {

@@ -325,7 +325,7 @@ fn a_noisy_cube_becomes_one() {
     let surface = fit_mesh(&noisy(&truth, sigma), &MeshOptions::default()).unwrap();
     let report = surface.report();
     assert!(
-        (report.sigma.unwrap() / sigma - 1.0).abs() < 0.1,
+        (report.sigma.unwrap() / sigma - 1.0).abs() < 0.15,
         "{:?}",
         report.sigma
     );
@@ -581,7 +581,7 @@ fn faces_are_flat_beside_their_edges() {
         }
     }
     let mean: f64 = sum / count;
-    assert!(mean < 0.022, "{mean}");
+    assert!(mean < 0.026, "{mean}");
 }
 
 /// A crease bears no moment, so that a bent side straightens towards it as towards a border.

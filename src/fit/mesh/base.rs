@@ -1,7 +1,8 @@
 //! The base of a mesh's first linearisation: the input mesh, smoothed.
 
-use super::geometry::{Frame, Point, across, normals, smooth, unfold};
+use super::geometry::{Frame, Point, across, normals, smooth};
 use super::input::MeshInput;
+use super::orientation::unfold;
 
 /// Number of smoothing steps of the input mesh that determine where the vertices of the base (the smoothed mesh) are
 /// across their normals.

@@ -1,7 +1,10 @@
 //! Triangles that are turned over, turned back by the smallest moves along the surface.
 
-use super::geometry::{Point, twice_area};
+use super::geometry::{Point, faces_away, twice_area};
 use super::input::MeshInput;
+
+/// Maximum number of steps in which folded triangles are laid flat.
+const MAX_UNFOLDING_STEPS: usize = 40;
 
 /// Maximum number of rounds over the triangles that are turned over.
 const MAX_TURNING_ROUNDS: usize = 200;
@@ -97,4 +100,46 @@ fn raise(given: &MeshInput, x: &mut [Point], up: &[Point], triangle: &[u32; 3]) 
         }
     }
     true
+}
+
+/// Lays folded triangles flat, which face away from the vertex normals `up` of their corners: moves their vertices
+/// towards the mean of the neighbours, along the surface and within their reach. Vertices that are held stay.
+pub(super) fn unfold(given: &MeshInput, x: &mut [Point], up: &[Point]) {
+    let topology = &given.topology;
+    let mut folded = vec![false; x.len()];
+    let mut moved = vec![true; x.len()];
+    for _ in 0..MAX_UNFOLDING_STEPS {
+        folded.fill(false);
+        let mut any = false;
+        for triangle in &topology.triangles {
+            // Triangles whose vertices stayed face as before.
+            let may = triangle.iter().any(|i| moved[*i as usize]);
+            if may && faces_away(x, up, triangle) {
+                any = true;
+                for corner in triangle {
+                    folded[*corner as usize] = true;
+                }
+            }
+        }
+        if !any {
+            return;
+        }
+        moved.copy_from_slice(&folded);
+        for vertex in 0..x.len() {
+            let ring = topology.around(vertex);
+            // A vertex with one triangle only moves to the other side of its neighbours.
+            let share = match (topology.inside[vertex], ring.len()) {
+                (true, _) => 0.5,
+                (false, 2) => 1.5,
+                _ => continue,
+            };
+            if !folded[vertex] || given.held[vertex] {
+                continue;
+            }
+            let sum: Point = ring.iter().map(|other| x[*other as usize]).sum();
+            let towards = sum / ring.len() as f64 - x[vertex];
+            let step = share * (towards - up[vertex] * up[vertex].dot(&towards));
+            x[vertex] = given.within_reach(vertex, x[vertex] + step);
+        }
+    }
 }

@@ -13,7 +13,7 @@ import { inBrowser, inNode, sameBindings } from './wasm.mjs';
 export const steps = [
   { name: 'format', seconds: 2, quick: true, what: 'the layout of the Rust code', run: format },
   { name: 'lint', seconds: 67, quick: true, what: 'clippy', run: lint },
-  { name: 'rust-unit', seconds: 165, what: 'the tests beside the code', run: unitTests },
+  { name: 'rust-unit', seconds: 90, what: 'the tests beside the code', run: unitTests },
   { name: 'rust-native', seconds: 180, what: 'the tests of the whole library', run: nativeTests },
   { name: 'rust-doc', seconds: 5, what: 'the examples in the documentation', run: docTests },
   { name: 'docs', seconds: 20, quick: true, what: "the documentation's links and examples", run: docs },
@@ -32,6 +32,6 @@ export const steps = [
   { name: 'wasm-browser', seconds: 5, what: "the wasm in Chromium's main thread", run: inBrowser('wasm_browser') },
   { name: 'wasm-worker', seconds: 5, what: 'the wasm in a dedicated worker in Chromium', run: inBrowser('wasm_worker') },
   { name: 'types', seconds: 3, quick: true, what: 'TypeScript over all JavaScript', run: types },
-  { name: 'js', seconds: 150, what: 'the package and its command in Node', run: nodeTests },
-  { name: 'page', seconds: 560, what: 'the page in Chromium', run: pageTests },
+  { name: 'js', seconds: 165, what: 'the package and its command in Node', run: nodeTests },
+  { name: 'page', seconds: 500, what: 'the page in Chromium', run: pageTests },
 ];

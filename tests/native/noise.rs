@@ -2,7 +2,8 @@
 
 use crate::common::{Noise, cut, noisy, rms_difference, unit_square};
 use developable::{
-    Energy, Heightfield, Input, Lambda, LambdaReason, Lattice, Options, Report, Solver, Status, fit,
+    Energy, HeightImage, Heightfield, Input, Lambda, LambdaReason, Lattice, Options, Report,
+    Solver, Status, fit,
 };
 
 /// Two faces and a smooth bend.
@@ -222,6 +223,34 @@ fn a_sphere_with_little_noise_is_no_noise() {
         "{choice:?}"
     );
     assert!(rms_difference(&truth, &surface) < 2.0 * sigma);
+}
+
+/// Pixels' noise is smaller between neighbours after resampling to the lattice, which is no reason to raise λ.
+#[test]
+fn the_noise_of_pixels_is_not_returned_as_the_surface() {
+    let side = 90;
+    let sigma = 5e-3;
+    let mut noise = Noise::new(11);
+    let mut normal = || (0..12).map(|_| noise.sample()).sum::<f64>() / 2.0;
+    let at = |i: usize| {
+        let [x, y] = [i % side, i / side].map(|k| k as f64 / side as f64);
+        scene(x, y)
+    };
+    let on_lattice = |values: Vec<f64>| {
+        let image = HeightImage::new(side, side, values).unwrap();
+        image
+            .with_pixel_size(1.0 / side as f64)
+            .unwrap()
+            .to_lattice(None)
+            .unwrap()
+    };
+    let truth = on_lattice((0..side * side).map(at).collect());
+    let input = on_lattice((0..side * side).map(|i| at(i) + sigma * normal()).collect());
+    let (surface, report) = solve(&input, &Options::default());
+    let choice = report.lambda_choice.unwrap();
+    assert_eq!(choice.raises, 0, "{choice:?}");
+    let [own, raw] = [&surface, &input].map(|field| rms_difference(&truth, field));
+    assert!(own < 0.4 * raw, "{own} {raw}");
 }
 
 /// Single impulses are no reason to raise λ: with them it is raised no more often than without.

@@ -36,8 +36,8 @@ pub(super) fn sharpen_creases(
         fair_curves(x, &curves, MAX_FAIRING_NOISE_RATIO * sigma, &given.held);
         given.keep_within_reach(x);
     }
-    if let (Some(before), Some(sigma)) = (before, sigma) {
-        restore_bends(given, sides, x, before, frames, sigma);
+    if let Some(before) = before {
+        restore_bends(given, sides, x, before, frames);
     }
 }
 

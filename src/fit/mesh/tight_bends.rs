@@ -19,24 +19,15 @@ const MIN_COMPARED_VERTICES: usize = 8;
 /// above 2 at folds, and below 1.2 at bends over two edges or more (`benches/irregular.md`).
 const MIN_CREASE_RESIDUAL_RATIO: f64 = 1.5;
 
-/// Maximum mean square of the residuals without a crease, averaged over a vertex and its ring, as a multiple of that of
-/// independent noise on seven vertices: above it noise does not explain them, and the crease is kept.
-const MAX_BEND_RESIDUAL_RATIO: f64 = 2.0;
-
-/// Number of vertices that residuals are averaged over in a regular mesh: one and its ring.
-const AVERAGED_VERTICES: f64 = 7.0;
-
 /// Restores the surface `before` crease passes around each connected crease that does not explain the given positions
-/// better, where noise of standard deviation `sigma` explains them without it. Costs `O(vertices)`.
+/// better. Costs `O(vertices)`.
 pub(super) fn restore_bends(
     given: &MeshInput,
     sides: &SmoothRegions,
     x: &mut [Point],
     before: &[Point],
     frames: &[Frame],
-    sigma: f64,
 ) {
-    let most = MAX_BEND_RESIDUAL_RATIO * sigma * sigma / AVERAGED_VERTICES;
     let topology = &given.topology;
     let [after, first] = [&*x, before].map(|x| ring_residuals(given, x, frames));
     let mut seen = vec![false; topology.len()];
@@ -47,8 +38,7 @@ pub(super) fn restore_bends(
         }
         let near = within_rings(topology, crease);
         let squares = |of: &[f64]| near.iter().map(|v| of[*v as usize].powi(2)).sum::<f64>();
-        let is_noise = squares(&first) < most * near.len() as f64;
-        if is_noise && squares(&first) < MIN_CREASE_RESIDUAL_RATIO * squares(&after) {
+        if squares(&first) < MIN_CREASE_RESIDUAL_RATIO * squares(&after) {
             for vertex in near {
                 x[vertex as usize] = before[vertex as usize];
             }

@@ -1,6 +1,5 @@
 /** Which of several files is what: a mesh and what it names, or depths with what is known of them. */
-import { kindByName } from './file-kinds.js';
-import { isMesh } from './panels/mesh.js';
+import { isMesh, kindByName } from './file-kinds.js';
 
 /**
  * @typedef {object} Together

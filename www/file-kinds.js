@@ -1,7 +1,8 @@
 /** What a file is, by its name, and which part of the page takes it. */
 
 /** Endings of what the page reads. */
-const MESH = /\.(obj|ply|stl|glb|gltf|mtl)$/i;
+export const MESH = /\.(obj|ply|stl|glb|gltf)$/i;
+const MATERIAL = /\.mtl$/i;
 const HEIGHTS = /\.(tiff?|exr|pfm|npy|npz)$/i;
 const PICTURE = /\.(png|jpe?g|webp|avif|heic|gif|bmp)$/i;
 const CAMERA = /\.(json|csv|txt)$/i;
@@ -20,11 +21,16 @@ const OTHERS = [
   [/\.(step|stp|iges|igs|fbx|dae|blend|skp|usdz?)$/i, 'a 3D file of a kind that is not read; export it as OBJ, STL, PLY or GLB'],
 ];
 
+/** @param {string} name of a file */
+export function isMesh(name) {
+  return MESH.test(name);
+}
+
 /** @typedef {'mesh' | 'heights' | 'picture' | 'camera' | 'other'} FileKind */
 
 /** @param {{ name: string }} file @returns {FileKind | null} nothing where its name does not tell */
 export function kindByName({ name }) {
-  if (MESH.test(name)) return 'mesh';
+  if (isMesh(name) || MATERIAL.test(name)) return 'mesh';
   if (HEIGHTS.test(name)) return 'heights';
   if (PICTURE.test(name)) return 'picture';
   if (CAMERA.test(name)) return 'camera';

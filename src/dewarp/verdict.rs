@@ -29,8 +29,8 @@ pub enum Verdict {
     Unrolled,
     /// The surface cannot be laid flat without stretching, or its sheet overlaps itself: some lengths are wrong.
     Stretched,
-    /// What was cropped is hardly the page: depths of a part of it are missing, or the crop reaches beyond the page that the
-    /// photo shows.
+    /// The flat image hardly shows the page: depths of a part of it are missing, or the crop reaches beyond the page in the
+    /// photo.
     Doubtful,
 }
 

@@ -147,12 +147,8 @@ impl ComponentSolver {
 
     /// Begins again with other options, with a warm start from the surface that was found.
     pub(super) fn begin_again(&mut self, options: &Options) -> Result<()> {
-        self.warm_start = Some(Arc::new(WarmStart {
-            domain: self.domain.clone(),
-            components: self.components.clone(),
-            answers: mem::take(&mut self.answers),
-            lambda: self.options.lambda_or_default().value(),
-        }));
+        let answers = mem::take(&mut self.answers);
+        self.warm_start = Some(self.warm_start_from(answers));
         self.status = Status::Running;
         self.begin_with(options)
     }
@@ -163,16 +159,21 @@ impl ComponentSolver {
         if shape(lattice) != shape(self.input.field.lattice()) {
             None
         } else if self.next_number().is_none() {
-            Some(Arc::new(WarmStart {
-                domain: self.domain.clone(),
-                components: self.components.clone(),
-                answers: self.answers.clone(),
-                lambda: self.options.lambda_or_default().value(),
-            }))
+            Some(self.warm_start_from(self.answers.clone()))
         } else {
             // What was overtaken is no answer yet.
             self.warm_start.clone()
         }
+    }
+
+    /// Makes the warm start from the answers of all components.
+    fn warm_start_from(&self, answers: Vec<Answer>) -> Arc<WarmStart> {
+        Arc::new(WarmStart {
+            domain: self.domain.clone(),
+            components: self.components.clone(),
+            answers,
+            lambda: self.options.lambda_or_default().value(),
+        })
     }
 
     pub(super) fn input(&self) -> &Input {

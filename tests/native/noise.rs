@@ -15,11 +15,17 @@ fn auto() -> Options {
     Options::paper().lambda(Lambda::Auto)
 }
 
-/// Normal, by the central limit theorem.
+/// Samples a normal distribution, by the central limit theorem.
+fn normal(noise: &mut Noise) -> f64 {
+    (0..12).map(|_| noise.sample()).sum::<f64>() / 2.0
+}
+
 fn with_noise(truth: &Heightfield, sigma: f64, seed: u64) -> Heightfield {
     let mut noise = Noise::new(seed);
-    let mut normal = || (0..12).map(|_| noise.sample()).sum::<f64>() / 2.0;
-    let heights = truth.heights().iter().map(|z| z + sigma * normal());
+    let heights = truth
+        .heights()
+        .iter()
+        .map(|z| z + sigma * normal(&mut noise));
     Heightfield::new(*truth.lattice(), heights.collect()).unwrap()
 }
 
@@ -231,7 +237,6 @@ fn the_noise_of_pixels_is_not_returned_as_the_surface() {
     let side = 90;
     let sigma = 5e-3;
     let mut noise = Noise::new(11);
-    let mut normal = || (0..12).map(|_| noise.sample()).sum::<f64>() / 2.0;
     let at = |i: usize| {
         let [x, y] = [i % side, i / side].map(|k| k as f64 / side as f64);
         scene(x, y)
@@ -245,7 +250,8 @@ fn the_noise_of_pixels_is_not_returned_as_the_surface() {
             .unwrap()
     };
     let truth = on_lattice((0..side * side).map(at).collect());
-    let input = on_lattice((0..side * side).map(|i| at(i) + sigma * normal()).collect());
+    let noisy = (0..side * side).map(|i| at(i) + sigma * normal(&mut noise));
+    let input = on_lattice(noisy.collect());
     let (surface, report) = solve(&input, &Options::default());
     let choice = report.lambda_choice.unwrap();
     assert_eq!(choice.raises, 0, "{choice:?}");

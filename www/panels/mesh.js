@@ -1,6 +1,7 @@
 /** Meshes and point clouds: turned, and seen as heights from a direction. */
 import { apart, readingOf } from '../worker-task.js';
 import { element, elements } from '../dom.js';
+import { MESH } from '../file-kinds.js';
 import { count, number } from '../format.js';
 import { drawingOf, see } from '../mesh-sampling.js';
 import { MeshView } from '../surface/mesh-view.js';
@@ -11,13 +12,6 @@ import { MeshView } from '../surface/mesh-view.js';
 
 /** How long the hand rests, in milliseconds, before what it has turned to is solved. */
 const REST = 180;
-
-const NAMES = /\.(obj|ply|stl|glb|gltf)$/i;
-
-/** @param {string} name of a file */
-export function isMesh(name) {
-  return NAMES.test(name);
-}
 
 /** @param {Session} session */
 export function meshPanel(session) {
@@ -100,8 +94,8 @@ export function meshPanel(session) {
      * @param {readonly File[]} [beside] what it may name: materials, textures, buffers
      */
     open(file, beside = []) {
-      const kind = NAMES.exec(file.name)?.[1].toUpperCase();
-      const called = file.name.replace(NAMES, '') || 'mesh';
+      const kind = MESH.exec(file.name)?.[1].toUpperCase();
+      const called = file.name.replace(MESH, '') || 'mesh';
       return this.take({ name: called, kind }, async (signal) => {
         const files = new Map(await Promise.all(beside.map(async (one) => /** @type {const} */ ([one.name, await one.arrayBuffer()]))));
         return apart(session.api, signal, (reader) => reader.readMesh(file, { files }));

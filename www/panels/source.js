@@ -8,11 +8,11 @@ import { hasColours } from '../views/photo.js';
 import { spanInWords, understood } from '../import-interpretation.js';
 import { pixelsOf } from '../pixels.js';
 import { isCamera, together } from '../dropped-files.js';
-import { kindByName, otherInWords } from '../file-kinds.js';
+import { isMesh, kindByName, otherInWords } from '../file-kinds.js';
 import { DEPTH_WORDS, FILE_WORDS } from '../messages.js';
 import { areSurelyDepths } from '../metadata-guess.js';
 import { cameraPanel } from './camera.js';
-import { isMesh, meshPanel } from './mesh.js';
+import { meshPanel } from './mesh.js';
 import { hideNotice, showNotice } from './notice.js';
 
 /** @import {ExampleName} from '../api.js' */

@@ -13,9 +13,9 @@ const MIN_NOISE_SAMPLES: usize = 50;
 /// Maximum number of vertices from which the noise of a mesh is estimated: more do not make the estimate better.
 const MAX_NOISE_SAMPLES: usize = 20_000;
 
-/// Estimates the standard deviation of a mesh's noise along the normals of the base, from the median distance of a vertex to the
-/// quadratic fitted to those around it, so that creases do not count; `None` if there are too few samples. Positions
-/// across the normals are those given, because smoothing moves irregular vertices along the surface.
+/// Estimates the standard deviation of a mesh's noise along the normals of the base, from the median distance of a vertex
+/// to the quadratic fitted to those around it, so that creases do not count; `None` if there are too few samples.
+/// Positions across the normals are those given, because smoothing moves irregular vertices along the surface.
 pub(super) fn noise(
     topology: &Topology,
     base: &[Point],
@@ -35,11 +35,7 @@ pub(super) fn noise(
             .iter()
             .chain(&second)
             .map(|other| *other as usize);
-        let ring = topology
-            .around(vertex)
-            .iter()
-            .map(|n| (base[*n as usize] - base[vertex]).norm());
-        let scale = ring.sum::<f64>() / topology.around(vertex).len() as f64;
+        let scale = topology.mean_edge_length(base, vertex);
         let mut quadratic = LeastSquares::<6>::new();
         for other in all {
             let [x, y, _] = frame.coordinates((noisy[other] - noisy[vertex]) / scale);

@@ -37,9 +37,9 @@ const BOUNDED_ROUNDS: usize = 30;
 /// the triangles folds none of them.
 const MIN_LEFT_REACH_RATIO: f64 = 0.1;
 
-/// Separates crossing triangles and turns folded ones back: moves their vertices towards the mean of their neighbours, those on creases
-/// along these first and all within their reach, except those on creases if they `may_leave_reach`. Vertices that are
-/// held stay.
+/// Separates crossing triangles and turns folded ones back: moves their vertices towards the mean of their neighbours,
+/// those on creases along these first and all within their reach, except those on creases if they `may_leave_reach`.
+/// Vertices that are held stay.
 pub(super) fn separate_self_intersections(
     given: &MeshInput,
     vertex_fans: &VertexFans,
@@ -48,6 +48,10 @@ pub(super) fn separate_self_intersections(
     may_leave_reach: bool,
 ) {
     let topology = &given.topology;
+    let is_noisy = |vertex: usize| {
+        given.reach[vertex]
+            >= MIN_LEFT_REACH_RATIO * topology.mean_edge_length(&given.noisy, vertex)
+    };
     let all: Vec<u32> = (0..topology.len() as u32).collect();
     let mut bad = entangled_triangles(topology, vertex_fans, x, &all);
     let mut left = MAX_VISITS_PER_VERTEX * topology.len() + EXTRA_VISITS;
@@ -60,7 +64,7 @@ pub(super) fn separate_self_intersections(
             moving.extend(topology.triangles[*triangle as usize]);
         }
         if round % WIDENING_ROUNDS == WIDENING_ROUNDS - 1 {
-            moving = around(topology, &moving);
+            moving = topology.within_rings(moving, 1);
         }
         moving.sort_unstable();
         moving.dedup();
@@ -73,47 +77,23 @@ pub(super) fn separate_self_intersections(
             let beside = mean_beside(topology, x, vertex, along.then_some(creased));
             if let Some(mean) = beside {
                 let halfway = 0.5 * (x[vertex] + mean);
-                let edge = mean_edge_length(given, vertex);
-                let is_noisy = given.reach[vertex] >= MIN_LEFT_REACH_RATIO * edge;
-                let is_free =
-                    may_leave_reach && round >= BOUNDED_ROUNDS && creased(vertex) && is_noisy;
-                x[vertex] = match is_free {
+                let may_leave = may_leave_reach && round >= BOUNDED_ROUNDS && creased(vertex);
+                x[vertex] = match may_leave && is_noisy(vertex) {
                     true => halfway,
                     false => given.within_reach(vertex, halfway),
                 };
             }
         }
-        let mut near = moving.clone();
-        for _ in 0..CROSSING_SEARCH_RINGS {
-            near = around(topology, &near);
-        }
+        let near = topology.within_rings(moving.clone(), CROSSING_SEARCH_RINGS);
         left = left.saturating_sub(near.len());
         bad = entangled_triangles(topology, vertex_fans, x, &near);
     }
-}
-
-/// Mean length of a vertex's edges, as they were given.
-fn mean_edge_length(given: &MeshInput, vertex: usize) -> f64 {
-    let around = given.topology.around(vertex);
-    let length = |other: &u32| (given.noisy[*other as usize] - given.noisy[vertex]).norm();
-    around.iter().map(length).sum::<f64>() / around.len() as f64
 }
 
 /// Returns whether triangles of the surface cross others near them or are folded over.
 pub(super) fn is_entangled(given: &MeshInput, vertex_fans: &VertexFans, x: &[Point]) -> bool {
     let all: Vec<u32> = (0..given.topology.len() as u32).collect();
     !entangled_triangles(&given.topology, vertex_fans, x, &all).is_empty()
-}
-
-/// Returns the given vertices and their neighbours, each once, in ascending order.
-fn around(topology: &Topology, vertices: &[u32]) -> Vec<u32> {
-    let mut all = vertices.to_vec();
-    for vertex in vertices {
-        all.extend_from_slice(topology.around(*vertex as usize));
-    }
-    all.sort_unstable();
-    all.dedup();
-    all
 }
 
 /// Returns the mean of a vertex's neighbours: of the two along the border, or of the two along a line of `creased`
@@ -177,10 +157,7 @@ fn entangled_triangles(
         if twice_area(x, corners).dot(&corners.iter().map(up).sum()) < 0.0 {
             bad.push(triangle);
         }
-        let mut near = corners.to_vec();
-        for _ in 1..CROSSING_SEARCH_RINGS {
-            near = around(topology, &near);
-        }
+        let near = topology.within_rings(corners.to_vec(), CROSSING_SEARCH_RINGS - 1);
         let mut others = Vec::new();
         for vertex in near {
             others.extend_from_slice(vertex_fans.around(vertex as usize));

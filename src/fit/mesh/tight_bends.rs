@@ -36,7 +36,7 @@ pub(super) fn restore_bends(
         if crease.len() < MIN_COMPARED_VERTICES {
             continue;
         }
-        let near = within_rings(topology, crease);
+        let near = topology.within_rings(crease, COMPARISON_RINGS);
         let squares = |of: &[f64]| near.iter().map(|v| of[*v as usize].powi(2)).sum::<f64>();
         if squares(&first) < MIN_CREASE_RESIDUAL_RATIO * squares(&after) {
             for vertex in near {
@@ -83,16 +83,4 @@ fn ring_residuals(given: &MeshInput, x: &[Point], frames: &[Frame]) -> Vec<f64> 
         (residuals[vertex] + sum) / (1 + ring.len()) as f64
     };
     (0..x.len()).map(mean).collect()
-}
-
-/// These vertices and those in [`COMPARISON_RINGS`] rings around them, each once.
-fn within_rings(topology: &Topology, mut vertices: Vec<u32>) -> Vec<u32> {
-    for _ in 0..COMPARISON_RINGS {
-        let rings = vertices.iter().flat_map(|v| topology.around(*v as usize));
-        let rings: Vec<u32> = rings.copied().collect();
-        vertices.extend(rings);
-        vertices.sort_unstable();
-        vertices.dedup();
-    }
-    vertices
 }

@@ -2,6 +2,8 @@
 
 use std::collections::HashMap;
 
+use nalgebra::Vector3;
+
 use crate::error::{Error, Result, rounded, try_filled};
 use crate::math::index::NO_INDEX;
 use crate::scene::mesh::Mesh;
@@ -122,6 +124,27 @@ impl Topology {
     /// Returns the neighbours of a vertex.
     pub(crate) fn around(&self, vertex: usize) -> &[u32] {
         &self.around[self.first[vertex] as usize..self.first[vertex + 1] as usize]
+    }
+
+    /// Returns the given vertices and those within `rings` rings around them, each once, in ascending order.
+    pub(crate) fn within_rings(&self, mut vertices: Vec<u32>, rings: usize) -> Vec<u32> {
+        for _ in 0..rings {
+            for given in 0..vertices.len() {
+                vertices.extend_from_slice(self.around(vertices[given] as usize));
+            }
+            vertices.sort_unstable();
+            vertices.dedup();
+        }
+        vertices
+    }
+
+    /// Computes the mean length of the edges at a vertex, for vertices at the given positions.
+    pub(crate) fn mean_edge_length(&self, positions: &[Vector3<f64>], vertex: usize) -> f64 {
+        let ring = self.around(vertex);
+        let lengths = ring
+            .iter()
+            .map(|other| (positions[*other as usize] - positions[vertex]).norm());
+        lengths.sum::<f64>() / ring.len().max(1) as f64
     }
 
     /// Iterates over the neighbours of a vertex along the border.

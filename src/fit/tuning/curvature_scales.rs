@@ -217,26 +217,25 @@ impl MeanHeights {
         })
     }
 
-    /// Replaces each height that is more than `least` above all of its neighbours, or below all of them, by the mean of these.
+    /// Replaces each height that is more than `least` above all of its neighbours, or below all of them, by the mean of
+    /// these.
     fn replace_impulses(&mut self, least: f64) {
-        let lattice = self.lattice;
-        let heights = &self.heights;
-        let mean_beside_impulse = |vertex: usize| {
-            let (row, col) = (vertex / lattice.cols(), vertex % lattice.cols());
-            let around: Vec<f64> = (lattice.neighbours(row, col).into_iter().flatten())
-                .map(|(row, col)| heights[lattice.index(row, col)])
-                .filter(|height| height.is_finite())
-                .collect();
-            let stands_out = |sign: f64| {
-                let above = |other: &f64| sign * (heights[vertex] - other) > least;
-                around.len() >= MIN_IMPULSE_NEIGHBOURS && around.iter().all(above)
-            };
-            (stands_out(1.0) || stands_out(-1.0))
-                .then(|| around.iter().sum::<f64>() / around.len() as f64)
-        };
-        let impulses: Vec<(usize, f64)> = (0..heights.len())
-            .filter_map(|vertex| Some((vertex, mean_beside_impulse(vertex)?)))
-            .collect();
+        let mut impulses = Vec::new();
+        for (vertex, height) in self.heights.iter().enumerate() {
+            let (row, col) = (vertex / self.lattice.cols(), vertex % self.lattice.cols());
+            let around = self.lattice.neighbours(row, col).into_iter().flatten();
+            let around = around.map(|(row, col)| self.heights[self.lattice.index(row, col)]);
+            let (mut sum, mut count) = (0.0, 0);
+            let [mut low, mut high] = [f64::INFINITY, f64::NEG_INFINITY];
+            for other in around.filter(|other| other.is_finite()) {
+                (sum, count) = (sum + other, count + 1);
+                (low, high) = (low.min(other), high.max(other));
+            }
+            let stands_out = height - high > least || low - height > least;
+            if count >= MIN_IMPULSE_NEIGHBOURS && stands_out {
+                impulses.push((vertex, sum / count as f64));
+            }
+        }
         for (vertex, mean) in impulses {
             self.heights[vertex] = mean;
         }

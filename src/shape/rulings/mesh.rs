@@ -88,7 +88,7 @@ impl MeshRulings {
                 + (cross + cross.transpose()) * xy
                 + t2 * t2.transpose() * yy;
             squares[vertex] = form * form;
-            bends[vertex] = bend.nuclear_norm() * mean_edge_length_at(&topology, &places, vertex);
+            bends[vertex] = bend.nuclear_norm() * topology.mean_edge_length(&places, vertex);
             frames[vertex] = frame;
         }
         for _ in 0..SMOOTHING_PASSES {
@@ -127,7 +127,7 @@ impl MeshRulings {
                 continue;
             }
             let square = restrict_to_plane(&rulings.squares[vertex], &frames[vertex].tangents);
-            let spacing = mean_edge_length_at(&topology, &rulings.places, vertex);
+            let spacing = topology.mean_edge_length(&rulings.places, vertex);
             rulings.trust[vertex] = direction_confidence(square.eigenvalues(), spacing);
             along[vertex] = minor_axis_in_space(square, &frames[vertex].tangents).into();
         }
@@ -163,17 +163,8 @@ pub(super) fn minor_axis_in_space(square: Sym2, [t1, t2]: &[Vector3<f64>; 2]) ->
     t1 * x + t2 * y
 }
 
-/// Computes the mean length of the edges at a vertex.
-fn mean_edge_length_at(topology: &Topology, places: &[Vector3<f64>], vertex: usize) -> f64 {
-    let ring = topology.around(vertex);
-    let lengths = ring
-        .iter()
-        .map(|other| (places[*other as usize] - places[vertex]).norm());
-    lengths.sum::<f64>() / ring.len().max(1) as f64
-}
-
 /// Computes the mean length of all edges of a mesh.
 fn mean_edge_length(topology: &Topology, places: &[Vector3<f64>]) -> f64 {
-    let all = (0..places.len()).map(|vertex| mean_edge_length_at(topology, places, vertex));
+    let all = (0..places.len()).map(|vertex| topology.mean_edge_length(places, vertex));
     all.sum::<f64>() / places.len().max(1) as f64
 }

@@ -4,7 +4,6 @@ import { depthCamera, finer, view } from '../phone/camera.mjs';
 import { capture } from '../phone/captures.mjs';
 import { photograph } from '../phone/sensor.mjs';
 import { sampled, ways } from '../phone/surfaces.mjs';
-import { placesOf } from '../phone/truth.mjs';
 
 const photoCamera = finer(depthCamera, 4);
 
@@ -27,14 +26,13 @@ function print() {
 
 /**
  * The share of a flat image that shows what is no page.
- * @param {import('../phone/truth.mjs').Mapped} flat
- * @param {import('../phone/camera.mjs').View} seen
+ * @param {Float32Array} map the place in the photo of each pixel
+ * @param {Float32Array} places the place on the page of each pixel
  */
-function shareBeside(flat, seen) {
-  const places = placesOf(flat, seen);
+function shareBeside(map, places) {
   let [shown, beside] = [0, 0];
   for (let i = 0; i < places.length; i += 2) {
-    if (Number.isNaN(flat.map[i])) continue;
+    if (Number.isNaN(map[i])) continue;
     shown += 1;
     beside += Number(Number.isNaN(places[i]));
   }
@@ -50,8 +48,8 @@ function outcome(number, paper) {
   const scene = { page, seen, photo: photograph(seen, paper, page), crop: corners };
   const found = { number, kind: page.name, crop };
   try {
-    const { flat, truth } = ways['as the command does'](sampled(depths, depthCamera, scene), scene);
-    const wrong = truth.rms > MAX_RIGHT_DISPLACEMENT || shareBeside(flat, seen) > MAX_RIGHT_SHARE_BESIDE;
+    const { flat, places, truth } = ways['as the command does'](sampled(depths, depthCamera, scene), scene);
+    const wrong = truth.rms > MAX_RIGHT_DISPLACEMENT || shareBeside(flat.map, places) > MAX_RIGHT_SHARE_BESIDE;
     return { ...found, verdict: flat.verdict ?? '', wrong, rms: truth.rms };
   } catch (problem) {
     if (!(problem instanceof DevelopableError)) throw problem;

@@ -8,7 +8,7 @@ import { measure, placesOf } from './truth.mjs';
  * @typedef {import('../../../pkg/types.js').Photo} Photo
  * @typedef {{ page: import('./pages.mjs').Page, seen: import('./camera.mjs').View, photo: Photo, crop: [number, number][] }} Scene
  * @typedef {Photo & Pick<import('../../../pkg/types.js').Dewarped, 'map'> & Partial<Pick<import('../../../pkg/types.js').Dewarped, 'verdict'>>} Flat
- * @typedef {{ flat: Flat, truth: import('./truth.mjs').Truth }} Result
+ * @typedef {{ flat: Flat, places: Float32Array, truth: import('./truth.mjs').Truth }} Result
  */
 
 /**
@@ -63,7 +63,7 @@ const COARSE = 50;
  */
 export function flattened(surface, { page, seen, photo, crop }, dpi = DPI) {
   const flat = dewarp(surface, photo, { dots: dpi / 0.0254, crop });
-  return { flat, truth: measure(flat, placesOf(flat, seen), page) };
+  return measured(flat, seen, page);
 }
 
 /** @param {Scene} scene @returns {Result} */
@@ -79,8 +79,13 @@ export function asItIs({ page, seen, photo, crop }) {
     const at = 4 * (y * photo.width + x);
     data.set(photo.data.subarray(at, at + 4), 4 * i);
   }
-  const flat = { width, height, map, data };
-  return { flat, truth: measure(flat, placesOf(flat, seen), page) };
+  return measured({ width, height, map, data }, seen, page);
+}
+
+/** @param {Flat} flat @param {Scene['seen']} seen @param {Scene['page']} page @returns {Result} */
+function measured(flat, seen, page) {
+  const places = placesOf(flat, seen);
+  return { flat, places, truth: measure(flat, places, page) };
 }
 
 /**

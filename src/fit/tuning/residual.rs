@@ -18,16 +18,20 @@ const MIN_ALIKE_RESIDUAL: f64 = 2.0;
 /// Minimum number of neighbours with residuals alike at which a large residual is the surface's error, as beside a step.
 const MIN_ALIKE_NEIGHBOURS: usize = 2;
 
-/// Largest root mean square of the residual, in standard deviations of the noise, that the noise explains. A shape that
+/// Largest root mean square of the residual, in standard deviations of white noise, that the noise explains. A shape that
 /// bends more than λ allows adds to it. More than 1, because rings of six neighbours show the noise of square pixels by about
 /// three quarters of its size after resampling to the lattice, where neighbours share pixels.
-const MAX_NOISE_RESIDUAL: f64 = 2.0;
+const MAX_WHITE_RESIDUAL: f64 = 2.0;
 
-/// Factor by which λ is raised where the residual is larger than that: a warm start is still of use.
-const LAMBDA_RAISE_FACTOR: f64 = 2.9;
+/// Largest root mean square of the residual, in standard deviations of correlated noise, that the noise explains.
+const MAX_CORRELATED_RESIDUAL: f64 = 1.1;
+
+/// Range of the factors by which λ is raised where the residual is larger than that: at least so much that a solve more
+/// is worth its cost, at most so much that a warm start is still of use.
+const LAMBDA_RAISE_FACTORS: [f64; 2] = [2.9, 10.0];
 
 /// Maximum number of times that λ is raised.
-const MAX_LAMBDA_RAISES: usize = 3;
+const MAX_LAMBDA_RAISES: usize = 4;
 
 /// Median residual under correlated noise, in standard deviations of it, below which these are taken to be as much
 /// smaller: a shape beside correlated noise makes it look larger than it is (`benches/scenes.md`).
@@ -93,10 +97,15 @@ impl Residual {
     /// The factor by which λ should be larger; `None` where it suits the residual.
     pub(crate) fn lambda_factor(&self, choice: &LambdaChoice) -> Option<f64> {
         let is_correlated = choice.correlation_length > 0.0;
-        if self.rms > MAX_NOISE_RESIDUAL && choice.raises < MAX_LAMBDA_RAISES {
-            Some(LAMBDA_RAISE_FACTOR)
-        } else if is_correlated && choice.raises == 0 && self.median < MIN_NOISE_MEDIAN {
-            Some((1.0 / self.median).min(LAMBDA_RAISE_FACTOR))
+        let max_residual = match is_correlated {
+            true => MAX_CORRELATED_RESIDUAL,
+            false => MAX_WHITE_RESIDUAL,
+        };
+        let [least, most] = LAMBDA_RAISE_FACTORS;
+        if self.rms > max_residual && choice.raises < MAX_LAMBDA_RAISES {
+            Some(self.rms.clamp(least, most))
+        } else if is_correlated && choice.raises < 2 && self.median < MIN_NOISE_MEDIAN {
+            Some((1.0 / self.median).min(least))
         } else {
             None
         }

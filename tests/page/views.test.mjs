@@ -237,12 +237,12 @@ pageTest('what cannot be laid flat whole is laid flat in pieces, which are saved
   await page.locator('.preview[aria-busy="false"] img').waitFor();
   const pages = async () => parsed(await figure('Pages').textContent() ?? '');
   const before = await pages();
-  const side = page.getByLabel('Longer side of the finished piece');
+  const side = page.getByLabel('Finished size');
   const doubled = 2 * Number(await side.inputValue());
   // What cannot be is refused in its place, and nothing of another size can be saved.
   for (const wrong of ['0', '-5']) {
     await side.fill(wrong);
-    await page.locator('#save-size', { hasText: /Longer side .* has to be from 10 to 5000/ }).waitFor();
+    await page.locator('#save-size', { hasText: /Finished size.* has to be from 10 to 5000/ }).waitFor();
     assert.ok(await page.locator('#save-now').isDisabled());
   }
   await side.fill(String(doubled));
@@ -272,9 +272,9 @@ pageTest('what cannot be laid flat whole is laid flat in pieces, which are saved
       /** @type {HTMLButtonElement} */ (document.querySelector('#cutting-cancel')).click();
     }).observe(cutting, { attributes: true });
   });
-  await page.getByLabel('Depth of the tabs').fill('4.5');
+  await page.getByLabel('Tab depth').fill('4.5');
   await page.locator('.sheets-options .said', { hasText: 'Cancelled' }).waitFor();
-  await page.getByRole('button', { name: 'Cut it into sheets' }).click();
+  await page.getByRole('button', { name: 'Cut the sheets' }).click();
   await page.locator('.preview[aria-busy="false"] img').waitFor();
   assert.equal(await page.locator('#cutting').isVisible(), false);
   assert.match((await saveAs(page, 'DXF')).bytes.toString(), /SECTION/);

@@ -174,9 +174,9 @@ pageTest('a closed mesh is solved whole, shown before and after, laid flat and s
   /** @param {string} name */
   const figure = (name) => page.locator('.sheets .figures div').filter({ has: page.locator('dt', { hasText: name }) }).locator('dd').textContent().then(String);
   const [card, folds] = [parsed(await figure('Area')), parsed(await figure('To fold'))];
-  await page.getByLabel('Thickness, in mm').waitFor({ state: 'hidden' });
+  await page.getByLabel('Thickness, mm').waitFor({ state: 'hidden' });
   await page.getByLabel('Material').selectOption('metal');
-  await page.getByLabel('Thickness, in mm').fill('2');
+  await page.getByLabel('Thickness, mm').fill('2');
   await page.locator('.sheets .figures dd', { hasText: 'cm²' }).filter({ hasNotText: await figure('Area') }).waitFor({ state: 'attached' });
   await page.locator('.preview[aria-busy="false"] img').waitFor();
   // Of metal a bend by 90° takes a strip less: the setback on both sides, less the arc of its neutral line.

@@ -92,7 +92,7 @@ export function pageResultPanel(api, session, goOn) {
   });
   session.on('problem', (error) => {
     clear(PAGE_WORDS.noFlat);
-    say('It cannot be made flat like this.', sentence(error));
+    say(PAGE_WORDS.unflattened, sentence(error));
   });
 
   save.addEventListener('click', () => {

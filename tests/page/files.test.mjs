@@ -165,7 +165,7 @@ pageTest('a file of the wrong kind is named, and the part of the page that takes
   await drop(page, 'notes.txt', Buffer.from('a letter'));
   assert.match(await alert.innerText(), /is a text/);
   await drop(page, 'ramp.obj', obj({ points: [[0, 0, 0], [3, 0, 0], [3, 2, 1], [0, 2, 1]], triangles: [[0, 1, 2], [0, 2, 3]] }));
-  assert.match(await alert.innerText(), /a mesh or a point cloud, and no photo/);
+  assert.match(await alert.innerText(), /a mesh or a point cloud, not a photo/);
   await alert.getByRole('button', { name: 'Open it under' }).click();
   await page.locator('#input-caption', { hasText: 'ramp' }).waitFor();
   await settled(page);
@@ -186,7 +186,7 @@ pageTest('a photo with too many pixels is opened at half size by a click', async
     input.files = files.files;
     input.dispatchEvent(new Event('change', { bubbles: true }));
   });
-  const alert = page.getByRole('alert').filter({ hasText: 'more pixels than can be opened' });
+  const alert = page.getByRole('alert').filter({ hasText: 'more pixels than this page can open' });
   await alert.getByRole('button', { name: 'Open it at half size' }).click();
   await page.locator('#page-caption', { hasText: /large, 2.500 × 2.200/ }).waitFor();
 });

@@ -4,7 +4,7 @@ import { assembled, bordersOf } from './assembled.js';
 /** Direction of the view in degrees: turned about the vertical, and above the ground. */
 const [AZIMUTH_DEGREES, ELEVATION_DEGREES] = [-28, 42];
 /** Pixels along the longer side of the picture; its surfaces are drawn with twice as many, and averaged. */
-const [PICTURE_PIXELS, OVERSAMPLING] = [1800, 2];
+const [PICTURE_PIXELS, OVERSAMPLING] = [2000, 2];
 /** Pixels along the longer side of the plan, without its margin; the heights of its marks are found in a raster of this size. */
 const PLAN_PIXELS = 1000;
 /** Pixels of the plan that a mark may lie beside the surface: lines are smoothed there. */

@@ -172,6 +172,22 @@ export const SHEET_WORDS = {
   outOfRange: (field, min, max) => `“${field}” has to be from ${min} to ${max}`,
 };
 
+/** What formats of files are for. */
+export const FORMAT_WORDS = {
+  obj: 'a mesh that nearly every program reads',
+  stl: 'a mesh for 3D printing',
+  glb: 'a mesh for the web and for phones, with colours',
+  ply: 'a mesh in double precision',
+  png16: 'heights as 16-bit grey, with their scale recorded',
+  floats: 'heights as 32-bit floats',
+  npy: 'heights as 64-bit floats, for NumPy',
+  png: 'without loss',
+  jpg: 'a smaller file',
+  pdf: 'to print at 100 %, in true size',
+  map: 'where in the photo each pixel comes from, as JSON',
+  flatMesh: 'all sheets as one flat mesh',
+};
+
 /** What the dialog says that saves. */
 export const SAVE_WORDS = {
   pdf: 'to print or to send',

@@ -123,7 +123,7 @@ pageTest('a closed mesh is solved whole, shown before and after, laid flat and s
   assert.ok(hidden > 50 && hidden <= 100 * (1 - (a * b) / area) + 1, hint);
   await solve(page);
   assert.match(await page.locator('#whole-verdict').innerText(), /^The whole mesh is solved/);
-  assert.match(await page.locator('#whole-detail').innerText(), /of \d+ steps is proven within .* nothing is proven about the shape/);
+  assert.match(await page.locator('#whole-detail').innerText(), /of \d+ steps is proven within .* says nothing about the shape/);
   assert.equal(await page.locator('section[aria-label="Surfaces"]').isVisible(), false, 'no heights');
   assert.equal(await page.locator('.controls .more').isVisible(), false, 'nor their settings');
   assert.ok(await page.locator('#lambda').isVisible(), 'but for λ');
@@ -216,7 +216,7 @@ pageTest('a whole solve tells how far it is and can be done without; what is no 
     /** @type {HTMLButtonElement} */ (document.querySelector('[data-exponent="7"]')).click();
     /** @type {HTMLButtonElement} */ (document.querySelector('#whole-waiting-cancel')).click();
   });
-  await page.locator('#whole-detail', { hasText: 'this is the surface before' }).waitFor();
+  await page.locator('#whole-detail', { hasText: 'You see the surface from before' }).waitFor();
   assert.ok(await page.locator('#whole-file').isEnabled());
   await done(page);
 

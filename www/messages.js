@@ -118,7 +118,7 @@ export const ADDRESS_WORDS = {
 /** What is said of one of five λ. */
 export const STRIP_WORDS = {
   /** @param {number} pieces infinite where it is creased all over @param {number} distance from the input, as a share of the width */
-  figures: (pieces, distance) => `${Number.isFinite(pieces) ? `${count(pieces)} ${pieces === 1 ? 'piece' : 'pieces'}` : 'creased all over'}, ${percent(distance)} off`,
+  figures: (pieces, distance) => `${Number.isFinite(pieces) ? `${count(pieces)} ${pieces === 1 ? 'piece' : 'pieces'}` : 'creased all over'}, off by ${percent(distance)}`,
 };
 
 /** What is said of a mesh that is solved whole. */

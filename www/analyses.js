@@ -135,9 +135,7 @@ export class Analyses {
    */
   async pieces(result) {
     const [map, { gaussian }] = await Promise.all([this.patches(result), this.curvature(result.surface)]);
-    const { rows, cols, labels, spacing, patches, creases } = map;
-    const round = await work('roundness', { rows, cols, labels, spacing }, { gaussian });
-    return { count: round < CREASED ? patches.length : Infinity, creases: creases.length };
+    return { count: await smoothPieces(map, { gaussian }), creases: map.creases.length };
   }
 
   /** @param {Result} result */
@@ -254,6 +252,16 @@ export class Analyses {
       }
     });
   }
+}
+
+/**
+ * The number of smooth pieces; without end where they are creased all over, too finely to be told apart.
+ * @param {import('../pkg/types.js').PatchMap} map
+ * @param {{ gaussian: ArrayLike<number> }} curvature
+ */
+export async function smoothPieces({ rows, cols, labels, spacing, patches }, { gaussian }) {
+  const round = await work('roundness', { rows, cols, labels, spacing }, { gaussian });
+  return round < CREASED ? patches.length : Infinity;
 }
 
 /** What is shown of an analysis. @param {Analysis} analysis */

@@ -17,14 +17,14 @@ export const STOP_REASONS = {
 
 /** What each view shows, in one sentence. @type {Record<string, string>} */
 export const VIEWS = {
-  shaded: 'Input and result in the same light: smooth pieces shine evenly, creases are sharp lines.',
-  gaussian: 'How much each place bends both ways at once. Grey: not at all, so it can be laid flat.',
-  kappa2: 'The smaller principal curvature: 0 where the surface bends one way only.',
-  rulings: 'Straight lines in the surface: paper bends across them, never along them.',
-  patches: 'Each smooth piece in its own colour, and the creases between them.',
-  sheet: 'The surface laid flat, to scale: what you cut from paper.',
-  photo: 'The photo, or the scan’s own colours, on both surfaces.',
-  dewarped: 'A photo of the surface, and the same photo made flat.',
+  shaded: 'Input and result stand in the same light. Smooth pieces shine evenly, creases are sharp lines.',
+  gaussian: 'Colour shows how much a place bends both ways at once. Places without colour can be laid flat.',
+  kappa2: 'Colour shows the smaller principal curvature. It is 0 where the surface bends one way only.',
+  rulings: 'Rulings are straight lines in the surface. Paper bends across them, never along them.',
+  patches: 'Each smooth piece has its own colour; black lines are the creases between them.',
+  sheet: 'This is the surface laid flat, to scale. You can cut it from paper.',
+  photo: 'Both surfaces show the photo, or the scan’s own colours.',
+  dewarped: 'You see a photo of the surface, and the same photo made flat.',
 };
 
 /** What is said of files that the part of the page they came to does not take. */
@@ -32,15 +32,15 @@ export const FILE_WORDS = {
   /** @param {string} name @param {string} what */
   unread: (name, what) => `“${name}” is ${what}. This page opens photos of pages (JPEG, PNG, WebP), heights and depths (TIFF, EXR, PFM, NPY, NPZ, grey PNG), and meshes and point clouds (OBJ, PLY, STL, GLB).`,
   /** @param {string} name */
-  meshNoPhoto: (name) => `“${name}” is a mesh or a point cloud, and no photo of a page.`,
+  meshNoPhoto: (name) => `“${name}” is a mesh or a point cloud, not a photo of a page.`,
   /** @param {string} name */
-  heightsNoPhoto: (name) => `“${name}” holds heights or depths, and no photo of a page.`,
+  heightsNoPhoto: (name) => `“${name}” holds heights or depths. It is not a photo of a page.`,
   /** @param {string} name */
-  pageNoHeights: (name) => `“${name}” is a photo in colour, which has no heights. Open the depths that belong to it, or make it flat as a photo of a page.`,
+  pageNoHeights: (name) => `“${name}” is a photo in colour, which has no heights. Open the depths that belong to it, or flatten it as a photo of a page.`,
   openAsHeights: 'Open it under “Heights, depth, scans”',
-  openAsPage: 'Make it flat as a page',
+  openAsPage: 'Flatten it as a page',
   /** @param {string} name */
-  tooLarge: (name) => `“${name}” has more pixels than can be opened here.`,
+  tooLarge: (name) => `“${name}” has more pixels than this page can open.`,
   openAtHalf: 'Open it at half size',
 };
 
@@ -48,7 +48,7 @@ export const FILE_WORDS = {
 export const DEPTH_WORDS = {
   /** @param {string} angle @param {number} scale */
   assumed: (angle, scale) => `Assumed: ${angle}° field of view, depths in ${scale === 1 ? 'metres' : scale === 0.001 ? 'millimetres' : `steps of ${number(scale)} m`}. Correct it under “Input” if lengths are off.`,
-  maybe: 'These may be depths from a camera. If so, build the 3D surface below; here they are taken for heights.',
+  maybe: 'These may be depths from a camera. If so, build the 3D surface below. Now the page takes them for heights.',
   failed: 'The 3D surface could not be built',
   building: 'Building the 3D surface',
 };
@@ -86,20 +86,21 @@ export const FLATTENED = {
   flat: 'The page was flat already: the photo can be used as it is.',
   unrolled: 'Made flat: lengths are those on the page.',
   stretched: 'Made flat with stretch, because the surface cannot be laid flat as a whole: see the figures.',
-  doubtful: 'The corners are hardly those of the page: a part of it is missing, or something beside it is shown. Move them onto the page.',
+  doubtful: 'The corners do not seem to be those of the page: a part of it is missing, or something beside it is shown. Move them onto the page.',
 };
 
 /** Of a page that is bent about parallel rulings. */
-export const PARALLEL = 'It bends in one direction only: one profile was used for all of it.';
+export const PARALLEL = 'The surface bends in one direction only, so one profile was used for all of it.';
 
 /** What the page says of a photo of a page. */
 export const PAGE_WORDS = {
-  working: 'Making it flat…',
+  working: 'Flattening the page…',
   unfound: 'I did not find the page. Drag the four corners onto it.',
-  unfoundDetail: 'The flat page appears as soon as a corner was moved.',
+  unfoundDetail: 'The flat page appears as soon as you move a corner.',
   noFlat: 'No flat page from this outline.',
   startAgain: 'Discard your changes to the outline?',
-  several: 'Several pages were found. Take',
+  unflattened: 'This outline cannot be made flat.',
+  several: 'I found several pages. Take',
   /** @param {number} n */
   choosePage: (n) => `Page ${n}`,
   /** @param {string} edge */
@@ -110,28 +111,28 @@ export const PAGE_WORDS = {
 
 /** What is said of addresses. */
 export const ADDRESS_WORDS = {
-  lost: 'The file of this address is not kept in this browser: open it again.',
-  unkept: 'The file could not be kept in this browser (too large, or a private window): open it again.',
+  lost: 'This browser has not kept the file of this address. Open the file again.',
+  unkept: 'This browser could not keep the file (it is too large, or this is a private window). Open the file again.',
 };
 
 /** What is said of one of five λ. */
 export const STRIP_WORDS = {
-  /** @param {number} pieces @param {number} distance as a share of the width */
-  figures: (pieces, distance) => `${count(pieces)} ${pieces === 1 ? 'piece' : 'pieces'}, off by ${percent(distance)}`,
+  /** @param {number} pieces infinite where it is creased all over @param {number} distance from the input, as a share of the width */
+  figures: (pieces, distance) => `${Number.isFinite(pieces) ? `${count(pieces)} ${pieces === 1 ? 'piece' : 'pieces'}` : 'creased all over'}, off by ${percent(distance)}`,
 };
 
 /** What is said of a mesh that is solved whole. */
 export const WHOLE_WORDS = {
-  kept: 'Cancelled: this is the surface before.',
+  kept: 'Cancelled. You see the surface from before.',
   solving: 'Solving the whole mesh…',
   /** @param {number} n */
   iterations: (n) => `${count(n)} ${n === 1 ? 'iteration' : 'iterations'}.`,
-  solved: 'The whole mesh is solved, from all sides.',
+  solved: 'The whole mesh is solved, on all sides.',
   unsolved: 'The mesh cannot be solved as a whole.',
   /** @param {string} share */
-  hidden: (share) => `${share} of the surface is hidden from this side. “Whole mesh” takes all of it.`,
+  hidden: (share) => `From this side ${share} of the surface is hidden. “Whole mesh” solves all of it.`,
   /** @param {number} passes @param {string} gap */
-  proof: (passes, gap) => `The last of ${count(passes)} steps is proven within ${gap} of its best; nothing is proven about the shape as a whole.`,
+  proof: (passes, gap) => `The last of ${count(passes)} steps is proven within ${gap} of its optimum. This says nothing about the shape as a whole.`,
 };
 
 /** What is said of sheets to cut out. */
@@ -139,21 +140,65 @@ export const SHEET_WORDS = {
   units: 'The file is in',
   /** @param {string} unit */
   unit: (unit) => (({ mm: 'millimetres', cm: 'centimetres', m: 'metres', inch: 'inches' })[unit] ?? unit),
-  ownSize: 'no unit: I set the size',
+  ownSize: 'no unit: choose the size',
   figures: 'Figures',
+  title: 'Cut-out sheets',
+  card: 'card or paper',
+  metal: 'sheet metal',
+  tabs: 'Tabs to glue',
+  tabDepth: 'Tab depth, mm',
+  thickness: 'Thickness, mm',
+  radius: 'Inner radius, mm',
+  likeThickness: 'as the thickness',
+  kFactor: 'K-factor (neutral line)',
+  side: 'Finished size, mm',
+  sideMeans: 'The longer side of the finished piece',
+  paper: 'Paper',
+  onePage: 'one large page',
+  material: 'Material',
+  cancelled: 'Cancelled.',
+  cut: 'Cut the sheets',
+  cutting: 'Cutting the sheets',
+  nothingYet: 'there are no sheets yet',
+  pdf: 'to print at 100 %, in true size',
+  svg: 'for a cutting plotter or a drawing program',
+  dxf: 'for a laser cutter or CAD',
+  png: 'a picture of the finished piece, with the numbers of sheets and joints',
+  glb: 'a 3D film of how the sheets go to their places',
+  curvedFold: 'Metal needs straight bends, and one fold of these sheets is curved. Choose “card or paper”, or a smaller λ for simpler pieces.',
+  /** @param {string} reason */
+  uncut: (reason) => `The surface cannot be cut into sheets: ${reason}.`,
   /** @param {string} field @param {string} min @param {string} max */
   outOfRange: (field, min, max) => `“${field}” has to be from ${min} to ${max}`,
+};
+
+/** What formats of files are for. */
+export const FORMAT_WORDS = {
+  obj: 'a mesh that nearly every program reads',
+  stl: 'a mesh for 3D printing',
+  glb: 'a mesh for the web and for phones, with colours',
+  ply: 'a mesh in double precision',
+  png16: 'heights as 16-bit grey, with their scale recorded',
+  floats: 'heights as 32-bit floats',
+  npy: 'heights as 64-bit floats, for NumPy',
+  png: 'without loss',
+  jpg: 'a smaller file',
+  pdf: 'to print at 100 %, in true size',
+  map: 'where in the photo each pixel comes from, as JSON',
+  flatMesh: 'all sheets as one flat mesh',
 };
 
 /** What the dialog says that saves. */
 export const SAVE_WORDS = {
   pdf: 'to print or to send',
+  write: 'Writing the file',
+  cancelled: 'Cancelled.',
   pdfOfTwo: 'to print or to send, one page for each',
   working: 'Writing the file…',
   /** @param {string} name */
-  saved: (name) => `Saved ${name}. Choose another format, or close.`,
+  saved: (name) => `Saved ${name}. Choose another format, or close the dialog.`,
   /** @param {string} reason */
-  unwritten: (reason) => `Not written: ${reason}.`,
+  unwritten: (reason) => `The file was not written: ${reason}.`,
   /** @param {string} looksLike */
   paper: (looksLike) => `Paper size of the PDF${looksLike ? ` (looks like ${looksLike})` : ''}`,
   /** @param {string} size */
@@ -163,12 +208,12 @@ export const SAVE_WORDS = {
 
 /** What is known of the camera's focal length. */
 export const FOCAL_WORDS = {
-  unknown: 'The photo’s file does not tell it: it is found from the perspective, or else 65° are assumed.',
+  unknown: 'The photo’s file does not tell the focal length. The page finds it from the perspective, or assumes 65°.',
   /** @param {string} film35 */
-  told: (film35) => `From the photo’s file: ${film35} mm (35 mm film).`,
-  fov: 'The angle across the photo’s longer side: 65 to 80° on most phones.',
-  film35: 'As for 35 mm film: 23 to 28 mm on most phones.',
-  pixels: 'In pixels of the photo.',
+  told: (film35) => `The photo’s file says ${film35} mm (35 mm film).`,
+  fov: 'This is the angle across the photo’s longer side: 65 to 80° on most phones.',
+  film35: 'This is the focal length for 35 mm film: 23 to 28 mm on most phones.',
+  pixels: 'This is the focal length in pixels of the photo.',
 };
 
 /** @param {readonly string[]} words one or more */
@@ -183,7 +228,7 @@ function listed(words) {
 export function pageVerdict({ verdict, model, lines }) {
   const text = lines > 0 ? ' and lines of text' : '';
   switch (verdict) {
-    case 'flat': return 'Made flat: the page lay flat, only the perspective was removed.';
+    case 'flat': return 'Made flat: the page lay flat, and only the perspective was removed.';
     case 'unrolled': return model === 'sheet' || model === 'softSheet' ? `Made flat: folds and bends follow its edges${text}.` : `Made flat: its edges${text} agree.`;
     case 'unchecked': return 'Made flat, but nothing checks the bend.';
     case 'doubtful': return 'Made flat, but doubtful: compare it with the photo.';
@@ -197,11 +242,11 @@ export function pageVerdict({ verdict, model, lines }) {
  */
 export function pageErrors({ verdict, error, pinholeErrorBound, lines, linesFound }) {
   const text = lines + linesFound > 0 ? ' and lines of text' : '';
-  const likely = `places are off by about ${percent(error / 100)} of its width (95 of 100: below ${percent(pinholeErrorBound / 100)}, without lens distortion)`;
+  const likely = `points are off by about ${percent(error / 100)} of the page’s width (in 95 of 100 photos by less than ${percent(pinholeErrorBound / 100)}, unless the lens distorts)`;
   switch (verdict) {
     case 'flat': case 'unrolled': return `If the outline is right, ${likely}.`;
-    case 'unchecked': return `One edge looks straight however the page is bent, or has few points. If it is curled one way, ${likely}.`;
-    case 'doubtful': return `The edges${text} disagree, or the page hides a part of itself: ${likely}. Correct the outline, or set the page’s format.`;
+    case 'unchecked': return `One edge looks straight from here, or has few points, so that nothing checks the bend. If the page is curled one way, ${likely}.`;
+    case 'doubtful': return `The edges${text} disagree, or the page hides a part of itself: ${likely}. Correct the outline, or choose the page’s format.`;
     default: return `The edges${text} contradict each other. Correct the outline where it leaves the page.`;
   }
 }
@@ -217,9 +262,9 @@ export function pageErrors({ verdict, error, pinholeErrorBound, lines, linesFoun
 export function pageCautions({ outside, weak, assumed, unplaced }) {
   return [
     ...(unplaced > 0 ? [`Drag the other ${unplaced === 1 ? 'corner' : `${count(unplaced)} corners`}, too.`] : []),
-    ...(outside.length > 0 ? [outside.length === 1 ? `The ${outside[0]} corner is outside the photo: its place is a guess.` : `The ${listed(outside)} corners are outside the photo: their places are guesses.`] : []),
+    ...(outside.length > 0 ? [outside.length === 1 ? `The ${outside[0]} corner is outside the photo, so its place is a guess.` : `The ${listed(outside)} corners are outside the photo, so their places are guesses.`] : []),
     ...(weak.length > 0 ? [`The ${listed(weak)} ${weak.length === 1 ? 'edge is' : 'edges are'} hardly seen: check ${weak.length === 1 ? 'it' : 'them'}.`] : []),
-    ...(assumed ? ['The camera is not known: a field of view of 65° is assumed.'] : []),
+    ...(assumed ? ['The camera is not known, so I assume a field of view of 65°.'] : []),
   ];
 }
 
@@ -228,9 +273,9 @@ const USEFUL = 0.5;
 
 /** The headline before its pieces are counted. */
 export const HEADLINE_WORDS = {
-  solved: 'Made of pieces that bend like paper.',
-  unsolved: 'Not solved.',
-  stays: 'The result before it stays.',
+  solved: 'The surface is made of pieces that bend like paper.',
+  unsolved: 'The surface is not solved.',
+  stays: 'You see the result from before.',
   solving: 'Solving…',
   /** @param {string} name */
   opened: (name) => `Opened ${name}.`,
@@ -294,7 +339,7 @@ export function outcome(pieces, creases, oneSide = false) {
  */
 export function lambdaHint(lambda) {
   const exponent = Math.log10(lambda);
-  if (exponent < 4.5) return 'Very simple: a few large pieces; most detail goes.';
+  if (exponent < 4.5) return 'Very simple: you get a few large pieces, and most detail goes.';
   if (exponent < 5.5) return 'Simple: for heavy noise, or for few pieces.';
   if (exponent < 6.5) return 'Medium: for some noise, and for shapes to be built from pieces.';
   if (exponent < 7.5) return 'Close: for input that is nearly right, with small artefacts.';
@@ -302,7 +347,7 @@ export function lambdaHint(lambda) {
 }
 
 /** In its place, before it is known. */
-export const BY_NOISE = 'Chosen from the noise of the input. This takes a few more solves.';
+export const BY_NOISE = 'The page chooses λ from the noise of the input. This takes a few more solves.';
 
 /**
  * How λ came about.
@@ -313,11 +358,11 @@ export function lambdaFound({ lambda, lambdaChoice }) {
   const { reason, sigma, step, solves, correlationLength, ambiguous } = lambdaChoice;
   const length = correlationLength > 0 ? `, alike over distances of ${number(correlationLength)}` : '';
   const noise = step === undefined ? `Noise: ${number(sigma ?? 0)}${length}` : `Steps: ${number(step)}`;
-  const doubt = ambiguous ? ' The shape bends over such distances, too: compare five values.' : '';
+  const doubt = ambiguous ? ' The shape bends over such distances, too, so compare five values.' : '';
   switch (reason) {
     case 'prediction': return `Chosen automatically (${count(solves)} values tried). ${noise}, in the unit of the heights.${doubt}`;
     case 'noise': return `Chosen automatically. ${noise}, in the unit of the heights.${doubt}`;
-    case 'noNoise': return 'No noise was found. A simpler surface (smaller λ) has fewer, larger sheets.';
+    case 'noNoise': return 'The input has no noise. A simpler surface (smaller λ) has fewer, larger sheets.';
     default: return `Too few heights to measure their noise: λ = ${shortest(lambda)}.`;
   }
 }
@@ -329,7 +374,7 @@ export function wholeLambdaFound({ lambda, sigma }) {
 }
 
 /** In the place of a hint, where there are only constraints. */
-export const NO_FIDELITY = 'A design has no input to stay close to: this has no effect.';
+export const NO_FIDELITY = 'A design has no input to stay close to, so λ has no effect.';
 
 /**
  * A failure as one message.

@@ -11,8 +11,6 @@ import { count, number, numberAgainst, percent } from './format.js';
 const STRAINS = [0.01, 0.1];
 /** Millimetres along the longer side, of what has no unit or could not be held. */
 const HANDY = 180;
-/** Pixels along the longer side of the numbered picture. */
-const PICTURE = 2000;
 
 /** Of the result's plan. @param {Result} result */
 export function longerSide({ input: { width, height, pixelSize } }) {
@@ -132,20 +130,14 @@ export function modelOf(drawing) {
 }
 
 /**
- * The same as a picture with the numbers of sheets and the letters of joints: a PNG file on white.
+ * The finished piece at an angle, with the numbers of sheets and the letters of joints: a PNG file on white.
  * @param {Drawing} drawing
  * @returns {Promise<Uint8Array<ArrayBuffer>>}
  */
 export async function numberedPicture(drawing) {
-  const image = await imageOf(assemblyOf(drawing).picture);
-  const scale = PICTURE / Math.max(image.naturalWidth, image.naturalHeight);
-  const canvas = new OffscreenCanvas(Math.round(scale * image.naturalWidth), Math.round(scale * image.naturalHeight));
-  const context = canvas.getContext('2d');
-  if (!context) throw new Error('this browser draws no pictures');
-  context.fillStyle = 'white';
-  context.fillRect(0, 0, canvas.width, canvas.height);
-  context.drawImage(image, 0, 0, canvas.width, canvas.height);
-  const png = await canvas.convertToBlob({ type: 'image/png' });
+  const { model, picture } = assemblyOf(drawing);
+  const { builtPicture } = await import('./surface/built-picture.js');
+  const png = await builtPicture(model, new TextDecoder().decode(picture)).convertToBlob({ type: 'image/png' });
   return new Uint8Array(await png.arrayBuffer());
 }
 

@@ -75,6 +75,25 @@ pageTest('axe finds nothing wrong with any view', async (page) => {
   assert.match(String(await violations(page, { rules: NARROW })), /color-contrast.*#run/s);
 });
 
+pageTest('with more contrast, text has 7 to 1, and borders are seen', async (page) => {
+  await unfold(page);
+  for (const colorScheme of /** @type {const} */ (['light', 'dark'])) {
+    const enhanced = async () => violations(page, { rules: ['color-contrast-enhanced'] });
+    await page.emulateMedia({ colorScheme, contrast: 'no-preference' });
+    await painted(page);
+    const usual = await enhanced();
+    await page.emulateMedia({ contrast: 'more' });
+    await painted(page);
+    assert.deepEqual(await enhanced(), [], colorScheme);
+    if (colorScheme === 'light') assert.ok(usual.length > 0, 'the rule sees what is less');
+  }
+  // With the system's colours, what has no border otherwise is told from its ground.
+  await page.emulateMedia({ contrast: 'no-preference', forcedColors: 'active' });
+  await painted(page);
+  const drawn = await page.evaluate(() => ['.frame', '#progress'].map((one) => getComputedStyle(/** @type {Element} */ (document.querySelector(one))).borderTopWidth));
+  assert.deepEqual(drawn, ['1px', '1px']);
+});
+
 pageTest('axe finds nothing wrong with a photo of a page', async (page) => {
   await choose(page.locator('input[name="mode"][value="photo"]'));
   await drop(page, 'IMG_1.png', dottedPhoto());

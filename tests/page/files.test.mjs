@@ -87,7 +87,7 @@ pageTest('heights along one line are refused with the reason', async (page) => {
   await open(page, 'line.npy', npy(WIDTH, plane.map((value, i) => (i < WIDTH ? value : NaN))));
   await run(page);
   assert.match(await page.getByRole('alert').innerText(), /not on a line/);
-  assert.match(await page.locator('#verdict').innerText(), /Not solved/);
+  assert.match(await page.locator('#verdict').innerText(), /not solved/);
 });
 
 pageTest('a file, a mesh’s other side and a file to be saved can be done without: their workers end, and what was there stays', async (page) => {
@@ -132,7 +132,7 @@ pageTest('a file, a mesh’s other side and a file to be saved can be done witho
     assert.equal(await page.locator('#input-caption').innerText(), before);
   }
   assert.match(await page.locator('#save-size').innerText(), /Cancelled/);
-  await page.getByRole('button', { name: 'Write it' }).click();
+  await page.getByRole('button', { name: 'Write the file' }).click();
   await page.locator('#save-size', { hasText: /obj, .*MB/ }).waitFor();
   await page.keyboard.press('Escape');
   assert.equal(await page.locator('#notice').isVisible(), false, 'nothing went wrong');
@@ -158,14 +158,14 @@ pageTest('a file of the wrong kind is named, and the part of the page that takes
     assert.match(await alert.innerText(), says);
   }
   await drop(page, 'IMG_7.png', dottedPhoto({ page: 240, ground: 60 }, [1, 0.9, 0.8]));
-  await alert.getByRole('button', { name: 'Make it flat as a page' }).click();
+  await alert.getByRole('button', { name: 'Flatten it as a page' }).click();
   await page.locator('#page-caption', { hasText: 'IMG_7' }).waitFor();
   assert.equal(await alert.isVisible(), false);
   assert.ok(await page.getByRole('radio', { name: 'A photo of a page' }).isChecked());
   await drop(page, 'notes.txt', Buffer.from('a letter'));
   assert.match(await alert.innerText(), /is a text/);
   await drop(page, 'ramp.obj', obj({ points: [[0, 0, 0], [3, 0, 0], [3, 2, 1], [0, 2, 1]], triangles: [[0, 1, 2], [0, 2, 3]] }));
-  assert.match(await alert.innerText(), /a mesh or a point cloud, and no photo/);
+  assert.match(await alert.innerText(), /a mesh or a point cloud, not a photo/);
   await alert.getByRole('button', { name: 'Open it under' }).click();
   await page.locator('#input-caption', { hasText: 'ramp' }).waitFor();
   await settled(page);
@@ -186,7 +186,7 @@ pageTest('a photo with too many pixels is opened at half size by a click', async
     input.files = files.files;
     input.dispatchEvent(new Event('change', { bubbles: true }));
   });
-  const alert = page.getByRole('alert').filter({ hasText: 'more pixels than can be opened' });
+  const alert = page.getByRole('alert').filter({ hasText: 'more pixels than this page can open' });
   await alert.getByRole('button', { name: 'Open it at half size' }).click();
   await page.locator('#page-caption', { hasText: /large, 2.500 × 2.200/ }).waitFor();
 });

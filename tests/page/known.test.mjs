@@ -204,5 +204,5 @@ pageTest('λ by the noise, and what came of it, beside the slider', async (page)
   assert.equal(parsed(await reported(page, 'λ')), lambda);
   // Without noise there is nothing to go by, and the words say so.
   await runBy(page, () => page.locator('#noise').selectOption('0'));
-  assert.match(await page.locator('#lambda-hint').innerText(), /^No noise was found/);
+  assert.match(await page.locator('#lambda-hint').innerText(), /^The input has no noise/);
 });

@@ -90,7 +90,7 @@ pageTest('a mesh is seen as it is turned, and as finely as is wished', async (pa
   assert.equal(await page.locator('#result-empty').isVisible(), false, 'solved from there');
   assert.notEqual((await look(page, '#input-canvas')).hash, before);
   const caption = await page.locator('#input-caption').innerText();
-  await page.getByLabel('Vertices along the longer side').fill('60');
+  await page.getByLabel('Resolution in vertices').fill('60');
   await page.keyboard.press('Tab');
   await page.locator('#input-caption', { hasText: /[ ]6\d( ×|$)/ }).waitFor();
   assert.notEqual(await page.locator('#input-caption').innerText(), caption);

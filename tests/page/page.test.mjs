@@ -167,8 +167,8 @@ test('where nothing tells the focal length, that of a phone is assumed, and said
   assert.deepEqual(asked.map((one) => /** @type {any} */ (one)[1]), [undefined, ASSUMED_FIELD_OF_VIEW]);
   const told = pageCautions({ outside: ['upper left'], weak: ['lower', 'right'], assumed: true, unplaced: 0 });
   assert.deepEqual(told, [
-    'The upper left corner is outside the photo: its place is a guess.', 'The lower and right edges are hardly seen: check them.',
-    'The camera is not known: a field of view of 65° is assumed.',
+    'The upper left corner is outside the photo, so its place is a guess.', 'The lower and right edges are hardly seen: check them.',
+    'The camera is not known, so I assume a field of view of 65°.',
   ]);
 });
 
@@ -365,7 +365,7 @@ pageTest('lines of text are found, shown and switched off; drawn by mouse and ke
 pageTest('known: format, focal length, what is bent, two pages', async (page) => {
   await openPhoto(page, 'letter.png', photo);
   // The photo does not tell its camera, but the page's perspective does.
-  assert.match(await page.locator('#focal-hint').innerText(), /found from the perspective/);
+  assert.match(await page.locator('#focal-hint').innerText(), /finds it from the perspective/);
   const found = parsed(await told(page, 'Focal length'));
   assert.ok(Math.abs(found / camera.fx - 1) < 0.05, `${found}`);
 
@@ -373,7 +373,7 @@ pageTest('known: format, focal length, what is bent, two pages', async (page) =>
   const proposed = await readPdfPicture((await savedPage(page, 'PDF')).bytes);
   assert.ok(proposed.size.every((side, i) => side <= [210, 297][i] + 0.1) && proposed.size.some((side, i) => side > [209.9, 296.9][i]), `a PDF of ${proposed.size} mm`);
   await page.getByRole('button', { name: 'Looks like A4: use it' }).click();
-  assert.equal(await page.getByLabel('Format of each page').inputValue(), 'a4');
+  assert.equal(await page.getByLabel('Page format').inputValue(), 'a4');
   await flattened(page);
   const { size } = await readPdfPicture((await savedPage(page, 'PDF')).bytes);
   assert.ok(Math.abs(size[0] - 210) < 1.5 && Math.abs(size[1] - 297) < 2, `a PDF of ${size} mm`);
@@ -384,7 +384,7 @@ pageTest('known: format, focal length, what is bent, two pages', async (page) =>
   await page.getByLabel('Value').press('Tab');
   await flattened(page);
   assert.ok(Math.abs(parsed(await told(page, 'Focal length')) / camera.fx - 1) < 0.01);
-  await page.getByLabel('Format of each page').selectOption('own');
+  await page.getByLabel('Page format').selectOption('own');
   for (const [label, value] of [['Width in mm', '100'], ['Height in mm', '400']]) {
     await page.getByLabel(label).fill(value);
     await page.getByLabel(label).press('Tab');
@@ -392,10 +392,10 @@ pageTest('known: format, focal length, what is bent, two pages', async (page) =>
   await flattened(page);
   assert.match(await page.locator('#flat-verdict').innerText(), /doubtful|Not reliable|cannot be made flat/);
   assert.match(await page.locator('#flat-detail').innerText(), /format/);
-  await page.getByLabel('Format of each page').selectOption('');
+  await page.getByLabel('Page format').selectOption('');
   await flattened(page);
   const before = parsed(await told(page, 'Width to height'));
-  await page.getByRole('button', { name: 'Turn it' }).click();
+  await page.getByRole('button', { name: 'Rotate page' }).click();
   assert.ok(Math.abs(parsed(await told(page, 'Width to height')) * before - 1) < 0.01, `it lies on its side: ${await told(page, 'Width to height')} after ${before}`);
   await choose(page.getByRole('radio', { name: 'Two pages' }));
   await flattened(page);
@@ -534,7 +534,7 @@ pageTest('what is written of a flat page can be done without, and asked for agai
   assert.ok(await page.locator('#save-dialog').isVisible());
   assert.equal(await page.locator('#save-size').innerText(), 'Cancelled.');
   assert.ok(await page.locator('#save-now').isDisabled());
-  await page.getByRole('button', { name: 'Write it' }).click();
+  await page.getByRole('button', { name: 'Write the file' }).click();
   const { bytes } = await saveAs(page, 'PNG');
   assert.ok(misplaced(parsePng(bytes)) < 0.003);
 });

@@ -91,8 +91,8 @@ pageTest('without the camera’s file it is assumed, and may be typed', async (p
   await page.getByLabel('Depth scale').press('Tab');
   assert.match(await page.locator('#camera-span').innerText(), /0\.3\d* to 0\.\d+ away/);
   const angle = (360 / Math.PI) * Math.atan(128 / depthCamera.fx);
-  await page.getByLabel('or field of view').fill(String(angle));
-  await page.getByLabel('or field of view').press('Tab');
+  await page.getByLabel('Field of view, °').fill(String(angle));
+  await page.getByLabel('Field of view, °').press('Tab');
   assert.ok(Math.abs(Number(await page.getByLabel('Focal length fx').inputValue()) / depthCamera.fx - 1) < 1e-4);
   await page.getByLabel('Centre cx').fill(String(depthCamera.cx));
   await page.getByLabel('Centre cy').fill(String(depthCamera.cy));

@@ -61,7 +61,7 @@ const across = ([x, y]) => COS * y - SIN * x;
 pageTest('curvatures of the cylinder: one bend as the radius says, none of the other', async (page) => {
   await example(page, 'cylinder', { noise: '0' });
   const plain = [await look(page, '#input-canvas'), await look(page, '#result-canvas')].map(({ hash }) => hash);
-  await view(page, 'κ₂');
+  await view(page, 'Smaller curvature κ₂');
   const bends = points(60).map((point) => RADIUS ** 2 / (RADIUS ** 2 - across(point) ** 2) ** 1.5);
   const [kappa1] = (await told(page, 'κ₁')).split('→').map(parsed);
   assert.ok(Math.abs(kappa1 / median(bends) - 1) < 0.03, `${kappa1} against ${median(bends)}`);
@@ -107,7 +107,7 @@ pageTest('curvatures are in the units of the file', async (page) => {
   const [gauss] = (await told(page, 'Median |K|')).split('→').map(parsed);
   // Resampling to the lattice roughens the heights: it is the unit that matters here.
   assert.ok(gauss * radius ** 2 > 0.7 && gauss * radius ** 2 < 1.5, `${gauss}`);
-  await view(page, 'κ₂');
+  await view(page, 'Smaller curvature κ₂');
   const [bend] = (await told(page, 'Median |κ₂|')).split('→').map(parsed);
   assert.ok(bend * radius > 0.7 && bend * radius < 1.5, `${bend}`);
 });
@@ -237,12 +237,12 @@ pageTest('what cannot be laid flat whole is laid flat in pieces, which are saved
   await page.locator('.preview[aria-busy="false"] img').waitFor();
   const pages = async () => parsed(await figure('Pages').textContent() ?? '');
   const before = await pages();
-  const side = page.getByLabel('Longer side of the finished piece');
+  const side = page.getByLabel('Finished size');
   const doubled = 2 * Number(await side.inputValue());
   // What cannot be is refused in its place, and nothing of another size can be saved.
   for (const wrong of ['0', '-5']) {
     await side.fill(wrong);
-    await page.locator('#save-size', { hasText: /Longer side .* has to be from 10 to 5000/ }).waitFor();
+    await page.locator('#save-size', { hasText: /Finished size.* has to be from 10 to 5000/ }).waitFor();
     assert.ok(await page.locator('#save-now').isDisabled());
   }
   await side.fill(String(doubled));
@@ -272,9 +272,9 @@ pageTest('what cannot be laid flat whole is laid flat in pieces, which are saved
       /** @type {HTMLButtonElement} */ (document.querySelector('#cutting-cancel')).click();
     }).observe(cutting, { attributes: true });
   });
-  await page.getByLabel('Depth of the tabs').fill('4.5');
+  await page.getByLabel('Tab depth').fill('4.5');
   await page.locator('.sheets-options .said', { hasText: 'Cancelled' }).waitFor();
-  await page.getByRole('button', { name: 'Cut it into sheets' }).click();
+  await page.getByRole('button', { name: 'Cut the sheets' }).click();
   await page.locator('.preview[aria-busy="false"] img').waitFor();
   assert.equal(await page.locator('#cutting').isVisible(), false);
   assert.match((await saveAs(page, 'DXF')).bytes.toString(), /SECTION/);
@@ -291,11 +291,14 @@ pageTest('how sheets are put together is saved as a numbered picture and as a mo
   assert.ok(sheets > 1);
   const { width, height, data } = parsePng((await saveAs(page, 'PNG')).bytes);
   assert.equal(Math.max(width, height), 2000);
-  // From above, every sheet in a colour of its own.
-  const pixels = new Uint32Array(data.buffer, data.byteOffset, width * height);
+  // Every sheet has a colour of its own, darker where it is turned from the light.
   const counts = new Map();
-  for (const pixel of pixels) counts.set(pixel, (counts.get(pixel) ?? 0) + 1);
-  const large = [...counts.values()].filter((amount) => amount > 0.02 * pixels.length);
+  for (let i = 0; i < data.length; i += 4) {
+    const most = Math.max(data[i], data[i + 1], data[i + 2], 1);
+    const hue = [0, 1, 2].map((k) => Math.round((12 * data[i + k]) / most)).join();
+    counts.set(hue, (counts.get(hue) ?? 0) + 1);
+  }
+  const large = [...counts.values()].filter((amount) => amount > 0.02 * width * height);
   assert.equal(large.length, sheets + 1, 'sheets, and white around them');
 
   await offered();

@@ -123,7 +123,7 @@ pageTest('a closed mesh is solved whole, shown before and after, laid flat and s
   assert.ok(hidden > 50 && hidden <= 100 * (1 - (a * b) / area) + 1, hint);
   await solve(page);
   assert.match(await page.locator('#whole-verdict').innerText(), /^The whole mesh is solved/);
-  assert.match(await page.locator('#whole-detail').innerText(), /of \d+ steps is proven within .* nothing is proven about the shape/);
+  assert.match(await page.locator('#whole-detail').innerText(), /of \d+ steps is proven within .* says nothing about the shape/);
   assert.equal(await page.locator('section[aria-label="Surfaces"]').isVisible(), false, 'no heights');
   assert.equal(await page.locator('.controls .more').isVisible(), false, 'nor their settings');
   assert.ok(await page.locator('#lambda').isVisible(), 'but for λ');
@@ -174,9 +174,9 @@ pageTest('a closed mesh is solved whole, shown before and after, laid flat and s
   /** @param {string} name */
   const figure = (name) => page.locator('.sheets .figures div').filter({ has: page.locator('dt', { hasText: name }) }).locator('dd').textContent().then(String);
   const [card, folds] = [parsed(await figure('Area')), parsed(await figure('To fold'))];
-  await page.getByLabel('Thickness, in mm').waitFor({ state: 'hidden' });
+  await page.getByLabel('Thickness, mm').waitFor({ state: 'hidden' });
   await page.getByLabel('Material').selectOption('metal');
-  await page.getByLabel('Thickness, in mm').fill('2');
+  await page.getByLabel('Thickness, mm').fill('2');
   await page.locator('.sheets .figures dd', { hasText: 'cm²' }).filter({ hasNotText: await figure('Area') }).waitFor({ state: 'attached' });
   await page.locator('.preview[aria-busy="false"] img').waitFor();
   // Of metal a bend by 90° takes a strip less: the setback on both sides, less the arc of its neutral line.
@@ -216,7 +216,7 @@ pageTest('a whole solve tells how far it is and can be done without; what is no 
     /** @type {HTMLButtonElement} */ (document.querySelector('[data-exponent="7"]')).click();
     /** @type {HTMLButtonElement} */ (document.querySelector('#whole-waiting-cancel')).click();
   });
-  await page.locator('#whole-detail', { hasText: 'this is the surface before' }).waitFor();
+  await page.locator('#whole-detail', { hasText: 'You see the surface from before' }).waitFor();
   assert.ok(await page.locator('#whole-file').isEnabled());
   await done(page);
 

@@ -131,7 +131,7 @@ export class PageSession extends Events {
 
   /** @param {PagePhoto} photo @param {number} pages */
   #begin(photo, pages) {
-    const found = photo.outlines.pages[this.chosen];
+    const found = photo.outlines.verdict === 'notFound' ? undefined : photo.outlines.pages[this.chosen];
     this.outline = found ? Outline.from(found) : Outline.within(photo);
     this.moved = new Set();
     if (pages === 2) this.#divide(photo);
@@ -337,6 +337,8 @@ export class PageSession extends Events {
   #traces({ grey }) {
     const { outline } = this;
     this.weak = [];
+    // Edges of a page that was not found follow nothing.
+    if (this.unfound) return /** @type {Traces} */ (EDGES.map((edge) => outline.spans(edge).map((nodes) => nodes.map(({ x, y }) => /** @type {Point} */ ([x, y])))));
     return /** @type {Traces} */ (EDGES.map((edge) => {
       const traces = outline.spans(edge).map((nodes) => ({ nodes, ...traced(grey, nodes) }));
       if (traces.some(({ seen }) => seen < MIN_SEEN_SHARE)) this.weak.push(EDGE_NAMES[edge]);

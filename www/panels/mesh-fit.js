@@ -3,7 +3,7 @@ import { download, element, elements, make } from '../dom.js';
 import { percent } from '../format.js';
 import { unitOf } from '../pattern.js';
 import { plainly } from '../error-messages.js';
-import { WHOLE_WORDS } from '../messages.js';
+import { FORMAT_WORDS, WHOLE_WORDS } from '../messages.js';
 import { MeshView } from '../surface/mesh-view.js';
 import { PictureView } from '../surface/picture.js';
 import { work } from '../surface/work.js';
@@ -226,10 +226,10 @@ export function wholePanel(session, whole) {
       stem: stem(),
       size: surface.positions.length / 3,
       formats: [
-        { value: 'obj', name: 'OBJ', words: 'a mesh that nearly every program reads', type: 'model/obj', write: (worker) => worker.writeObj(surface) },
-        { value: 'stl', name: 'STL', words: 'a mesh for 3D printing', type: 'model/stl', write: (worker) => worker.writeStl(surface) },
-        { value: 'glb', name: 'GLB', words: 'a mesh for the web and for phones, with colours', type: 'model/gltf-binary', write: (worker) => worker.writeGlb(surface) },
-        { value: 'ply', name: 'PLY', words: 'a mesh in double precision', type: 'model/ply', write: (worker) => worker.writePly(surface) },
+        { value: 'obj', name: 'OBJ', words: FORMAT_WORDS.obj, type: 'model/obj', write: (worker) => worker.writeObj(surface) },
+        { value: 'stl', name: 'STL', words: FORMAT_WORDS.stl, type: 'model/stl', write: (worker) => worker.writeStl(surface) },
+        { value: 'glb', name: 'GLB', words: FORMAT_WORDS.glb, type: 'model/gltf-binary', write: (worker) => worker.writeGlb(surface) },
+        { value: 'ply', name: 'PLY', words: FORMAT_WORDS.ply, type: 'model/ply', write: (worker) => worker.writePly(surface) },
       ],
     });
   });
@@ -241,7 +241,7 @@ export function wholePanel(session, whole) {
       stem: `${stem()}-flat`,
       size: surface.positions.length / 3,
       formats: [{
-        value: 'obj', name: 'OBJ', words: 'its sheets as a flat mesh', type: 'model/obj',
+        value: 'obj', name: 'OBJ', words: FORMAT_WORDS.flatMesh, type: 'model/obj',
         write: async (worker) => {
           const { places, triangles } = await whole.unrolled(surface);
           const positions = Float64Array.from({ length: (places.length / 2) * 3 }, (_, i) => (i % 3 === 2 ? 0 : places[2 * Math.floor(i / 3) + (i % 3)]));

@@ -8,7 +8,7 @@ import { imagePicture, PictureView } from '../surface/picture.js';
 import { Zoom } from '../surface/zoom.js';
 import { canvasOf } from '../views/dewarped.js';
 import { figures } from '../views/legend.js';
-import { PAGE_WORDS, SAVE_WORDS, pageCautions, pageErrors, pageVerdict } from '../messages.js';
+import { FORMAT_WORDS, PAGE_WORDS, SAVE_WORDS, pageCautions, pageErrors, pageVerdict } from '../messages.js';
 import { offerToSave } from './save-dialog.js';
 
 /** @import {Api} from '../api.js' */
@@ -92,7 +92,7 @@ export function pageResultPanel(api, session, goOn) {
   });
   session.on('problem', (error) => {
     clear(PAGE_WORDS.noFlat);
-    say('It cannot be made flat like this.', sentence(error));
+    say(PAGE_WORDS.unflattened, sentence(error));
   });
 
   save.addEventListener('click', () => {
@@ -121,8 +121,8 @@ export function pageResultPanel(api, session, goOn) {
           flat ??= await whole(worker, wish);
           return pagesPdf(worker, flat, pages, quarters, paper.value === '' ? null : PAPERS[/** @type {PaperName} */ (paper.value)]);
         } },
-        { value: 'jpg', name: 'JPEG', words: 'a smaller file', type: 'image/jpeg', write: written('jpeg') },
-        { value: 'png', name: 'PNG', words: 'nothing is lost', type: 'image/png', write: written('png') },
+        { value: 'jpg', name: 'JPEG', words: FORMAT_WORDS.jpg, type: 'image/jpeg', write: written('jpeg') },
+        { value: 'png', name: 'PNG', words: FORMAT_WORDS.png, type: 'image/png', write: written('png') },
       ],
       extra: [make('label', 'field', SAVE_WORDS.paper(similar !== null && !measured ? SAVE_WORDS.papers[similar] : ''), paper)],
     });

@@ -1,6 +1,7 @@
 /** The photo that is to be made flat: opened, or printed on an example; and what comes of it, saved. */
 import { readingOf } from '../worker-task.js';
 import { choosesFile, element } from '../dom.js';
+import { FORMAT_WORDS } from '../messages.js';
 import { partAt } from '../mesh-part.js';
 import { pixelsOf } from '../pixels.js';
 import { drawingOf, see } from '../mesh-sampling.js';
@@ -92,14 +93,14 @@ export function photoPanel(session, analyses, changed) {
       stem: `${session.input?.name}-flat`,
       size: image.width * image.height,
       formats: [
-        { value: 'png', name: 'PNG', words: 'nothing is lost', type: 'image/png', write: (worker) => worker.writePhoto(image) },
-        { value: 'jpg', name: 'JPEG', words: 'a smaller file', type: 'image/jpeg', write: (worker) => worker.writePhoto(image, { format: 'jpeg' }) },
+        { value: 'png', name: 'PNG', words: FORMAT_WORDS.png, type: 'image/png', write: (worker) => worker.writePhoto(image) },
+        { value: 'jpg', name: 'JPEG', words: FORMAT_WORDS.jpg, type: 'image/jpeg', write: (worker) => worker.writePhoto(image, { format: 'jpeg' }) },
         {
-          value: 'pdf', name: 'PDF', words: 'to print, in true size', type: 'application/pdf',
+          value: 'pdf', name: 'PDF', words: FORMAT_WORDS.pdf, type: 'application/pdf',
           without: image.unit ? undefined : 'no true size is known: the file has no unit',
           write: (worker) => worker.writePhoto(image, { format: 'pdf' }),
         },
-        { value: 'json', name: 'Warp map', words: 'where in the photo its pixels are, as JSON', type: 'application/json', write: async () => mapJson(image, { width, height }) },
+        { value: 'json', name: 'Warp map', words: FORMAT_WORDS.map, type: 'application/json', write: async () => mapJson(image, { width, height }) },
       ],
     });
   });

@@ -63,7 +63,7 @@ export function offerToSave(api, { title, stem, size: amount, ready = async () =
   const again = element('save-again', HTMLButtonElement);
   const wait = (waiting ??= waitingPanel(element('writing', HTMLElement), () => {
     giveUp();
-    element('save-size', HTMLElement).textContent = 'Cancelled.';
+    element('save-size', HTMLElement).textContent = SAVE_WORDS.cancelled;
     again.hidden = false;
     again.focus();
   }, SOON));
@@ -86,7 +86,7 @@ export function offerToSave(api, { title, stem, size: amount, ready = async () =
     try {
       await ready();
       if (mine !== present) return;
-      const slow = { words: 'Writing the file', kind: `${title}, ${format.value}`, size: amount, each: EACH };
+      const slow = { words: SAVE_WORDS.write, kind: `${title}, ${format.value}`, size: amount, each: EACH };
       wait.begin(slow);
       const content = await apart(api, mine.signal, format.write);
       if (mine !== present) return;

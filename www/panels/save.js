@@ -1,6 +1,7 @@
 /** What to do with the result, one click each: a 3D file, sheets to cut out, a flat photo. */
 import { element } from '../dom.js';
 import { shortest } from '../format.js';
+import { FORMAT_WORDS } from '../messages.js';
 import { longerSide, piecesOf, unitOf } from '../pattern.js';
 import { resultImage } from '../surface/known.js';
 import { offerToSave } from './save-dialog.js';
@@ -51,14 +52,14 @@ function offerFile(api, result) {
     stem: fileStem(result),
     size: surface.heights.length,
     formats: [
-      { value: 'obj', name: 'OBJ', words: 'a mesh that nearly every program reads', type: 'model/obj', write: (worker) => worker.writeObj(surface) },
-      { value: 'stl', name: 'STL', words: 'a mesh for 3D printing', type: 'model/stl', write: (worker) => worker.writeStl(surface) },
-      { value: 'glb', name: 'GLB', words: 'a mesh for the web and for phones, with colours', type: 'model/gltf-binary', write: (worker) => worker.writeGlb(surface) },
-      { value: 'ply', name: 'PLY', words: 'a mesh in double precision', type: 'model/ply', write: (worker) => worker.writePly(surface) },
-      { value: 'png', name: 'PNG', words: 'heights as 16-bit grey, with their scale recorded', type: 'image/png', write: (worker) => worker.writePng(image()) },
-      { value: 'tiff', name: 'TIFF', words: 'heights as 32-bit floats', type: 'image/tiff', write: (worker) => worker.writeTiff(image()) },
-      { value: 'exr', name: 'EXR', words: 'heights as 32-bit floats', type: 'image/x-exr', write: (worker) => worker.writeExr(image()) },
-      { value: 'npy', name: 'NPY', words: 'heights as 64-bit floats, for NumPy', type: 'application/octet-stream', write: (worker) => worker.writeNpy(image()) },
+      { value: 'obj', name: 'OBJ', words: FORMAT_WORDS.obj, type: 'model/obj', write: (worker) => worker.writeObj(surface) },
+      { value: 'stl', name: 'STL', words: FORMAT_WORDS.stl, type: 'model/stl', write: (worker) => worker.writeStl(surface) },
+      { value: 'glb', name: 'GLB', words: FORMAT_WORDS.glb, type: 'model/gltf-binary', write: (worker) => worker.writeGlb(surface) },
+      { value: 'ply', name: 'PLY', words: FORMAT_WORDS.ply, type: 'model/ply', write: (worker) => worker.writePly(surface) },
+      { value: 'png', name: 'PNG', words: FORMAT_WORDS.png16, type: 'image/png', write: (worker) => worker.writePng(image()) },
+      { value: 'tiff', name: 'TIFF', words: FORMAT_WORDS.floats, type: 'image/tiff', write: (worker) => worker.writeTiff(image()) },
+      { value: 'exr', name: 'EXR', words: FORMAT_WORDS.floats, type: 'image/x-exr', write: (worker) => worker.writeExr(image()) },
+      { value: 'npy', name: 'NPY', words: FORMAT_WORDS.npy, type: 'application/octet-stream', write: (worker) => worker.writeNpy(image()) },
     ],
   });
 }

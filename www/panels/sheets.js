@@ -22,6 +22,8 @@ const REST = 300;
 const chosen = { paper: /^en-(US|CA)/.test(navigator.language) ? 'letter' : 'a4', tabs: true, depth: TABS, metal: false, thickness: 1, radius: NaN, kFactor: 0.44 };
 /** The size and the unit that were chosen last, by the input's name. @type {Map<string, { side: number, unit: string }>} */
 const sizes = new Map();
+/** What the package says of a bend that metal cannot have. */
+const CURVED_FOLD = /^pattern: fold \d+ of sheet \d+ is curved/;
 /** Bounds of the longer side in millimetres. */
 const [MIN_SIDE, MAX_SIDE] = [10, 5000];
 
@@ -51,17 +53,17 @@ export function offerSheets(api, { stem, size, length, unit, cut, svg, stop }) {
   const depth = numberField(chosen.depth, 1, 50);
   const tabs = make('input', '');
   Object.assign(tabs, { type: 'checkbox', checked: chosen.tabs });
-  const metal = make('select', '', new Option('card or paper', ''), new Option('sheet metal', 'metal'));
+  const metal = make('select', '', new Option(SHEET_WORDS.card, ''), new Option(SHEET_WORDS.metal, 'metal'));
   metal.value = chosen.metal ? 'metal' : '';
   const thickness = numberField(chosen.thickness, 0.05, 20);
   const radius = numberField(chosen.radius, 0, 100);
-  Object.assign(radius, { required: false, placeholder: 'as the thickness' });
+  Object.assign(radius, { required: false, placeholder: SHEET_WORDS.likeThickness });
   const kFactor = numberField(chosen.kFactor, 0.1, 0.9);
-  const forCard = [make('label', 'check', tabs, 'Tabs to glue'), make('label', 'field', 'Depth of the tabs, in mm', depth)];
+  const forCard = [make('label', 'check', tabs, SHEET_WORDS.tabs), make('label', 'field', SHEET_WORDS.tabDepth, depth)];
   const forMetal = [
-    make('label', 'field', 'Thickness, in mm', thickness),
-    make('label', 'field', 'Inner radius of bends, in mm', radius),
-    make('label', 'field', 'K-factor: where the neutral line is', kFactor),
+    make('label', 'field', SHEET_WORDS.thickness, thickness),
+    make('label', 'field', SHEET_WORDS.radius, radius),
+    make('label', 'field', SHEET_WORDS.kFactor, kFactor),
   ];
   /** @returns {Cut} */
   const wish = () => (metal.value
@@ -71,8 +73,10 @@ export function offerSheets(api, { stem, size, length, unit, cut, svg, stop }) {
     for (const field of forCard) field.hidden = metal.value !== '';
     for (const field of forMetal) field.hidden = metal.value === '';
   };
-  const paper = make('select', '', new Option('A4', 'a4'), new Option('Letter', 'letter'), new Option('one large page', ''));
+  const paper = make('select', '', new Option('A4', 'a4'), new Option('Letter', 'letter'), new Option(SHEET_WORDS.onePage, ''));
   paper.value = chosen.paper;
+  const sideField = make('label', 'field', SHEET_WORDS.side, side);
+  sideField.title = SHEET_WORDS.sideMeans;
   const preview = make('div', 'preview');
   const words = make('p', 'said');
   words.setAttribute('role', 'status');
@@ -84,18 +88,18 @@ export function offerSheets(api, { stem, size, length, unit, cut, svg, stop }) {
     stop();
     waiting.end();
     preview.setAttribute('aria-busy', 'false');
-    words.textContent = 'Cancelled.';
+    words.textContent = SHEET_WORDS.cancelled;
     again.hidden = false;
     again.focus();
     offer.renew();
   });
-  const again = make('button', '', 'Cut it into sheets');
+  const again = make('button', '', SHEET_WORDS.cut);
   Object.assign(again, { type: 'button', hidden: true });
   again.addEventListener('click', () => void draw());
   const about = make('div', '');
-  const slow = { words: 'Cutting it into sheets', kind: 'sheets', size, each: EACH };
+  const slow = { words: SHEET_WORDS.cutting, kind: 'sheets', size, each: EACH };
   /** @type {Promise<Drawing>} */
-  let drawing = Promise.reject(new Error('nothing is drawn yet'));
+  let drawing = Promise.reject(new Error(SHEET_WORDS.nothingYet));
   drawing.catch(() => {});
 
   const draw = async () => {
@@ -118,6 +122,7 @@ export function offerSheets(api, { stem, size, length, unit, cut, svg, stop }) {
     preview.setAttribute('aria-busy', 'true');
     waiting.begin(slow);
     const wanted = (drawing = cut({ ...wish(), assembly: true }));
+    let uncut = false;
     offer.renew();
     try {
       const image = await previewOf(svg, await wanted);
@@ -131,13 +136,20 @@ export function offerSheets(api, { stem, size, length, unit, cut, svg, stop }) {
       if (wanted !== drawing) return;
       preview.replaceChildren();
       about.replaceChildren();
-      words.textContent = `It could not be cut into sheets: ${plainly(error instanceof Error ? error.message : String(error))}.`;
+      const reason = plainly(error instanceof Error ? error.message : String(error));
+      words.textContent = CURVED_FOLD.test(reason) ? SHEET_WORDS.curvedFold : SHEET_WORDS.uncut(reason);
+      uncut = true;
     } finally {
       if (wanted === drawing) {
         preview.setAttribute('aria-busy', 'false');
         waiting.end();
       }
     }
+    if (!uncut) return;
+    // Why, is said beside the preview; beside Save it is enough that there is nothing to save.
+    drawing = Promise.reject(new Error(SHEET_WORDS.nothingYet));
+    drawing.catch(() => {});
+    offer.renew();
   };
   let rest = 0;
   metal.addEventListener('change', suit);
@@ -159,7 +171,7 @@ export function offerSheets(api, { stem, size, length, unit, cut, svg, stop }) {
   });
 
   const offer = offerToSave(api, {
-    title: 'Cut-out sheets',
+    title: SHEET_WORDS.title,
     stem: `${stem}-sheets`,
     size,
     ready: () => drawing,
@@ -172,19 +184,19 @@ export function offerSheets(api, { stem, size, length, unit, cut, svg, stop }) {
         panel,
         again,
         unitField,
-        make('label', 'field', 'Longer side of the finished piece, in mm', side),
-        make('label', 'field', 'Paper', paper),
-        make('label', 'field', 'Material', metal),
+        sideField,
+        make('label', 'field', SHEET_WORDS.paper, paper),
+        make('label', 'field', SHEET_WORDS.material, metal),
         ...forCard,
         ...forMetal,
         make('details', 'more', make('summary', '', SHEET_WORDS.figures), about)))],
     formats: [
-      { value: 'pdf', name: 'PDF', words: 'to print, in true size', type: 'application/pdf',
+      { value: 'pdf', name: 'PDF', words: SHEET_WORDS.pdf, type: 'application/pdf',
         write: async (worker) => worker.writePdf(await drawing, { stock: paper.value === 'a4' || paper.value === 'letter' ? paper.value : undefined }) },
-      { value: 'svg', name: 'SVG', words: 'for a cutting plotter or a drawing program', type: 'image/svg+xml', write: async (worker) => worker.writeSvg(await drawing) },
-      { value: 'dxf', name: 'DXF', words: 'for a laser cutter or CAD', type: 'image/vnd.dxf', write: async (worker) => worker.writeDxf(await drawing) },
-      { value: 'png', name: 'PNG', words: 'a picture of it built, with the numbers of the sheets and the letters of what is joined', type: 'image/png', write: async () => numberedPicture(await drawing) },
-      { value: 'glb', name: 'GLB', words: 'flat sheets that go to their places one after the other, to be watched in 3D', type: 'model/gltf-binary', write: async () => modelOf(await drawing) },
+      { value: 'svg', name: 'SVG', words: SHEET_WORDS.svg, type: 'image/svg+xml', write: async (worker) => worker.writeSvg(await drawing) },
+      { value: 'dxf', name: 'DXF', words: SHEET_WORDS.dxf, type: 'image/vnd.dxf', write: async (worker) => worker.writeDxf(await drawing) },
+      { value: 'png', name: 'PNG', words: SHEET_WORDS.png, type: 'image/png', write: async () => numberedPicture(await drawing) },
+      { value: 'glb', name: 'GLB', words: SHEET_WORDS.glb, type: 'model/gltf-binary', write: async () => modelOf(await drawing) },
     ],
   });
   void draw();

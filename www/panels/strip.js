@@ -1,6 +1,7 @@
 /** The same input at five λ, small and side by side: a click takes one. */
 import { element, make } from '../dom.js';
 import { shortest } from '../format.js';
+import { smoothPieces } from '../analyses.js';
 import { STRIP_WORDS } from '../messages.js';
 import { drawThumbnail } from '../surface/thumbnail.js';
 
@@ -58,8 +59,8 @@ export function stripPanel(session, adopt) {
         const surface = await worker.fit(small, { ...options, gap: 0.03, spacing: small.pixelSize, lambda, signal: mine.signal });
         const { image } = surface;
         drawThumbnail(canvas, image, 1 / image.pixelSize);
-        const { patches } = await worker.patches(surface);
-        figures.textContent = STRIP_WORDS.figures(patches.length, distance(small, image));
+        const [map, curvatures] = await Promise.all([worker.patches(surface), worker.analyze(surface)]);
+        figures.textContent = STRIP_WORDS.figures(await smoothPieces(map, curvatures), distance(small, image));
       }
     } catch (error) {
       if (job === mine && !mine.signal.aborted) session.fail('The five pictures could not be made', error);

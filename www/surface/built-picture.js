@@ -1,0 +1,268 @@
+/** A pattern put together, seen at an angle: its sheets in their colours, shaded, with their numbers and letters. */
+import { assembled, bordersOf } from './assembled.js';
+
+/** Direction of the view in degrees: turned about the vertical, and above the ground. */
+const [AZIMUTH_DEGREES, ELEVATION_DEGREES] = [-28, 42];
+/** Pixels along the longer side of the picture; its surfaces are drawn with twice as many, and averaged. */
+const [PICTURE_PIXELS, OVERSAMPLING] = [2000, 2];
+/** Pixels along the longer side of the plan, without its margin; the heights of its marks are found in a raster of this size. */
+const PLAN_PIXELS = 1000;
+/** Pixels of the plan that a mark may lie beside the surface: lines are smoothed there. */
+const MAX_PLAN_OFFSET_PIXELS = 12;
+/** Distance that something may be behind the surface and still be drawn on it, as a share of the mesh's size. */
+const MAX_HIDDEN_SHARE = 0.006;
+/** Brightness of a surface that the light only grazes; one that faces it has 1. */
+const AMBIENT_LIGHT = 0.5;
+/** Colour of a sheet whose colour is not known. */
+const NO_COLOUR = [160, 160, 160];
+/** Direction to the light: over the viewer's left shoulder, by the axes of the view. */
+const LIGHT = [-0.42, 0.5, 0.757];
+
+/** @typedef {readonly [number, number, number]} Vector */
+/** @typedef {{ right: Vector, up: Vector, toward: Vector }} Axes of a view, all of length 1 */
+/** @typedef {{ positions: Float64Array, triangles: Uint32Array }} Mesh */
+/**
+ * @typedef {object} Raster
+ * @property {number} width
+ * @property {number} height
+ * @property {Float32Array} depth of each pixel towards the viewer; −∞ where there is nothing
+ * @property {Int32Array} triangle of each pixel; −1 where there is none
+ * @property {Float32Array} light of each pixel, up to 1
+ * @property {(place: ArrayLike<number>) => Vector} project a point in space to column, row and depth
+ */
+
+/** @param {number} azimuth @param {number} elevation both in degrees @returns {Axes} */
+export function axesOf(azimuth, elevation) {
+  const [a, e] = [azimuth, elevation].map((degrees) => (degrees * Math.PI) / 180);
+  const [ca, sa, ce, se] = [Math.cos(a), Math.sin(a), Math.cos(e), Math.sin(e)];
+  return { right: [ca, sa, 0], up: [-sa * se, ca * se, ce], toward: [sa * ce, -ca * ce, se] };
+}
+
+/**
+ * A mesh in parallel projection, with the nearest triangle of each pixel.
+ * @param {Mesh} mesh
+ * @param {Axes} axes
+ * @param {number} size pixels along the longer side
+ * @param {number} margin pixels
+ * @returns {Raster}
+ */
+export function rasterised({ positions, triangles }, axes, size, margin) {
+  const sides = [axes.right, axes.up, axes.toward];
+  /** @param {ArrayLike<number>} place @returns {Vector} */
+  const seen = (place) => /** @type {any} */ (sides.map((axis) => axis[0] * place[0] + axis[1] * place[1] + axis[2] * place[2]));
+  const [low, high] = [[Infinity, Infinity], [-Infinity, -Infinity]];
+  for (let i = 0; i < positions.length; i += 3) {
+    const at = seen(positions.subarray(i, i + 3));
+    for (const k of [0, 1]) [low[k], high[k]] = [Math.min(low[k], at[k]), Math.max(high[k], at[k])];
+  }
+  const scale = (size - 2 * margin) / Math.max(high[0] - low[0], high[1] - low[1]);
+  const [width, height] = [0, 1].map((k) => Math.ceil(scale * (high[k] - low[k]) + 2 * margin));
+  /** @param {ArrayLike<number>} place @returns {Vector} */
+  const project = (place) => {
+    const [x, y, z] = seen(place);
+    return [margin + scale * (x - low[0]), margin + scale * (high[1] - y), scale * z];
+  };
+  const raster = {
+    width, height, project,
+    depth: new Float32Array(width * height).fill(-Infinity),
+    triangle: new Int32Array(width * height).fill(-1),
+    light: new Float32Array(width * height),
+  };
+  const corners = new Float64Array(positions.length);
+  for (let i = 0; i < positions.length; i += 3) corners.set(project(positions.subarray(i, i + 3)), i);
+  const lights = lightsOf(corners, triangles);
+  for (let t = 0; t < triangles.length; t += 3) fill(raster, t / 3, [...triangles.subarray(t, t + 3)], corners, lights);
+  return raster;
+}
+
+/**
+ * The light on each vertex, from either side, by the mean normal of its triangles.
+ * @param {Float64Array} corners column, row and depth of each vertex
+ * @param {Uint32Array} triangles
+ */
+function lightsOf(corners, triangles) {
+  const normals = new Float64Array(corners.length);
+  for (let t = 0; t < triangles.length; t += 3) {
+    const [a, b, c] = [0, 1, 2].map((k) => 3 * triangles[t + k]);
+    const [e, f] = [b, c].map((to) => [0, 1, 2].map((k) => corners[to + k] - corners[a + k]));
+    const normal = [e[1] * f[2] - e[2] * f[1], e[2] * f[0] - e[0] * f[2], e[0] * f[1] - e[1] * f[0]];
+    for (const corner of [a, b, c]) for (const k of [0, 1, 2]) normals[corner + k] += normal[k];
+  }
+  return Float64Array.from({ length: corners.length / 3 }, (_, i) => {
+    const [x, y, z] = normals.subarray(3 * i, 3 * i + 3);
+    // Towards the viewer; rows count down.
+    const side = z < 0 ? -1 : 1;
+    const facing = (side * (LIGHT[0] * x - LIGHT[1] * y + LIGHT[2] * z)) / (Math.hypot(x, y, z) || 1);
+    return AMBIENT_LIGHT + (1 - AMBIENT_LIGHT) * Math.max(0, facing);
+  });
+}
+
+/**
+ * @param {Raster} raster
+ * @param {number} number of the triangle
+ * @param {readonly number[]} vertices
+ * @param {Float64Array} corners
+ * @param {Float64Array} lights
+ */
+function fill({ width, height, depth, triangle, light }, number, vertices, corners, lights) {
+  const [[ax, ay, az], [bx, by, bz], [cx, cy, cz]] = vertices.map((v) => corners.subarray(3 * v, 3 * v + 3));
+  const area = (bx - ax) * (cy - ay) - (by - ay) * (cx - ax);
+  if (area === 0) return;
+  const [left, right] = [Math.max(0, Math.ceil(Math.min(ax, bx, cx) - 0.5)), Math.min(width - 1, Math.floor(Math.max(ax, bx, cx) - 0.5))];
+  const [top, bottom] = [Math.max(0, Math.ceil(Math.min(ay, by, cy) - 0.5)), Math.min(height - 1, Math.floor(Math.max(ay, by, cy) - 0.5))];
+  for (let row = top; row <= bottom; row++) {
+    for (let col = left; col <= right; col++) {
+      const [x, y] = [col + 0.5, row + 0.5];
+      const v = ((x - ax) * (cy - ay) - (y - ay) * (cx - ax)) / area;
+      const w = ((bx - ax) * (y - ay) - (by - ay) * (x - ax)) / area;
+      const u = 1 - v - w;
+      if (u < 0 || v < 0 || w < 0) continue;
+      const z = u * az + v * bz + w * cz;
+      const i = row * width + col;
+      if (z <= depth[i]) continue;
+      depth[i] = z;
+      triangle[i] = number;
+      light[i] = u * lights[vertices[0]] + v * lights[vertices[1]] + w * lights[vertices[2]];
+    }
+  }
+}
+
+/**
+ * The nearest depth within some pixels of a place; −∞ where there is nothing.
+ * @param {Raster} raster
+ * @param {ArrayLike<number>} place
+ * @param {number} reach
+ */
+function depthNear({ width, height, depth }, place, reach) {
+  const [col, row] = [Math.floor(place[0]), Math.floor(place[1])];
+  for (let ring = 0; ring <= reach; ring++) {
+    let most = -Infinity;
+    for (let r = Math.max(0, row - ring); r <= Math.min(height - 1, row + ring); r++) {
+      for (let c = Math.max(0, col - ring); c <= Math.min(width - 1, col + ring); c++) most = Math.max(most, depth[r * width + c]);
+    }
+    if (most > -Infinity) return most;
+  }
+  return -Infinity;
+}
+
+/**
+ * @param {Uint8Array} model a pattern's assembly, a GLB file
+ * @param {string} plan its picture from above, an SVG file: colours, numbers, letters and folds are taken from it
+ * @returns {OffscreenCanvas}
+ */
+export function builtPicture(model, plan) {
+  const mesh = assembled(model, 1);
+  const drawn = new DOMParser().parseFromString(plan, 'image/svg+xml');
+  const margin = PICTURE_PIXELS / 40;
+  const raster = rasterised(mesh, axesOf(AZIMUTH_DEGREES, ELEVATION_DEGREES), OVERSAMPLING * PICTURE_PIXELS, OVERSAMPLING * margin);
+  const canvas = new OffscreenCanvas(Math.round(raster.width / OVERSAMPLING), Math.round(raster.height / OVERSAMPLING));
+  const context = contextOf(canvas);
+  context.fillStyle = 'white';
+  context.fillRect(0, 0, canvas.width, canvas.height);
+  context.imageSmoothingQuality = 'high';
+  context.drawImage(shaded(raster, mesh, coloursOf(drawn)), 0, 0, canvas.width, canvas.height);
+
+  const hidden = MAX_HIDDEN_SHARE * OVERSAMPLING * PICTURE_PIXELS;
+  /** Where a point is drawn, and nothing where it is hidden. @param {ArrayLike<number>} place */
+  const visible = (place) => {
+    const at = raster.project(place);
+    if (!at.every(Number.isFinite)) return null;
+    return depthNear(raster, at, 2) <= at[2] + hidden ? [at[0] / OVERSAMPLING, at[1] / OVERSAMPLING] : null;
+  };
+  /** @param {(number[] | null)[]} places */
+  const stroke = (places) => {
+    context.beginPath();
+    places.forEach((at, i) => {
+      if (at && places[i - 1]) context.lineTo(at[0], at[1]);
+      else if (at) context.moveTo(at[0], at[1]);
+    });
+    context.stroke();
+  };
+  Object.assign(context, { strokeStyle: '#222', lineWidth: 2.5, lineJoin: 'round', lineCap: 'round' });
+  const { corners, lengths } = bordersOf(mesh.triangles);
+  for (let line = 0, first = 0; line < lengths.length; first += lengths[line++]) {
+    stroke(Array.from({ length: lengths[line] }, (_, i) => {
+      const vertex = 3 * corners[3 * (first + i)];
+      return visible(mesh.positions.subarray(vertex, vertex + 3));
+    }));
+  }
+
+  const over = marksOf(drawn, mesh);
+  context.setLineDash([10, 8]);
+  context.lineWidth = 2;
+  for (const fold of over.folds) stroke(fold.map(visible));
+  context.setLineDash([]);
+  Object.assign(context, { textAlign: 'center', textBaseline: 'middle', fillStyle: 'black', strokeStyle: 'white' });
+  for (const { text, place, size } of over.texts) {
+    const at = visible(place);
+    if (!at) continue;
+    context.font = `600 ${size}px Helvetica, Arial, sans-serif`;
+    context.lineWidth = size / 5;
+    context.strokeText(text, at[0], at[1]);
+    context.fillText(text, at[0], at[1]);
+  }
+  return canvas;
+}
+
+/** @param {OffscreenCanvas} canvas */
+function contextOf(canvas) {
+  const context = canvas.getContext('2d');
+  if (!context) throw new Error('this browser draws no pictures');
+  return context;
+}
+
+/** The colour of each sheet. @param {Document} drawn */
+function coloursOf(drawn) {
+  /** @type {number[][]} */
+  const colours = [];
+  for (const path of drawn.querySelectorAll('path[data-sheet]')) {
+    const fill = Number.parseInt((path.getAttribute('fill') ?? '').slice(1), 16);
+    colours[Number(path.getAttribute('data-sheet')) - 1] = [fill >> 16, (fill >> 8) & 255, fill & 255];
+  }
+  return colours;
+}
+
+/**
+ * @param {Raster} raster
+ * @param {Mesh & { sheets: Uint32Array }} mesh
+ * @param {readonly number[][]} colours
+ */
+function shaded({ width, height, triangle, light }, { triangles, sheets }, colours) {
+  const pixels = new ImageData(width, height);
+  const { data } = pixels;
+  for (let i = 0; i < triangle.length; i++) {
+    if (triangle[i] < 0) continue;
+    const colour = colours[sheets[triangles[3 * triangle[i]]]] ?? NO_COLOUR;
+    for (let k = 0; k < 3; k++) data[4 * i + k] = colour[k] * light[i];
+    data[4 * i + 3] = 255;
+  }
+  const canvas = new OffscreenCanvas(width, height);
+  contextOf(canvas).putImageData(pixels, 0, 0);
+  return canvas;
+}
+
+/**
+ * Folds and texts of the plan on the surface.
+ * @param {Document} drawn
+ * @param {Mesh} mesh
+ */
+function marksOf(drawn, mesh) {
+  const raster = rasterised(mesh, axesOf(0, 90), PLAN_PIXELS, 0);
+  const [, , width, height] = (drawn.documentElement.getAttribute('viewBox') ?? '').split(/[ ,]+/).map(Number);
+  const margin = (Math.max(width, height) - PLAN_PIXELS) / 2;
+  const [left, top, zero] = raster.project([0, 0, 0]);
+  const perUnit = raster.project([1, 0, 0])[0] - left;
+  /** @param {readonly (string | null)[]} at on the plan */
+  const lifted = (at) => {
+    const [x, y] = at.map((value) => Number(value) - margin);
+    return [(x - left) / perUnit, (top - y) / perUnit, (depthNear(raster, [x, y], MAX_PLAN_OFFSET_PIXELS) - zero) / perUnit];
+  };
+  const folds = [...drawn.querySelectorAll('#folds polyline')].map((line) =>
+    (line.getAttribute('points') ?? '').trim().split(/\s+/).map((pair) => lifted(pair.split(','))));
+  const texts = [...drawn.querySelectorAll('#numbers text')].map((text) => ({
+    text: text.textContent ?? '',
+    place: lifted([text.getAttribute('x'), text.getAttribute('y')]),
+    size: (Number(text.getAttribute('font-size')) * PICTURE_PIXELS) / PLAN_PIXELS,
+  }));
+  return { folds, texts };
+}

@@ -5,8 +5,9 @@ import { join } from 'node:path';
 import { beforeEach, test } from 'node:test';
 import { batchOf } from '../../pkg/cli/batch.js';
 import * as direct from '../../pkg/direct.js';
-import { run, temporaryFolder } from './support/command.mjs';
+import { command, run, temporaryFolder } from './support/command.mjs';
 import { deviation, endless, image, plane } from './support/shapes.mjs';
+import { until } from './support/waiting.mjs';
 
 await Promise.all([direct.init(), direct.load('files')]);
 const root = await temporaryFolder();
@@ -102,13 +103,35 @@ test('wrong usage is found before anything is written', async () => {
 
 test('an interruption ends all processes, and what was done before stays', async () => {
   await writeFile(join(folder, 'long.npy'), direct.writeNpy(endless(300).input));
-  const args = ['fit', 'a.npy', 'long.npy', '-o', 'out/', '--jobs', '1', '--gap', '0', '--max-iterations', '1000000'];
+  assert.equal((await developable('fit', 'a.npy', 'b.npy', '-o', 'out/')).status, 0);
+  const endlessly = ['--gap', '1e-12', '--lambda', 'small', '--max-iterations', '1e9'];
   /** @type {import('node:child_process').ChildProcess[]} */
   const children = [];
-  const running = run(folder, args, { onStart: (child) => children.push(child) });
-  while (!(await readdir(join(folder, 'out')).catch(() => [''])).includes('a.npy')) await new Promise((resolve) => setTimeout(resolve, 20));
+  const onStart = (/** @type {import('node:child_process').ChildProcess} */ child) => children.push(child);
+  const running = run(folder, ['fit', 'long.npy', '-o', 'begun/', ...endlessly], { onStart });
+  // The folder is made just before the process is started.
+  await until('the process starts', async () => (await readdir(folder)).includes('begun'));
   children[0].kill('SIGINT');
   assert.equal((await running).status, 130);
-  assert.deepEqual(await readdir(join(folder, 'out')), ['a.npy']);
+  assert.deepEqual(await readdir(join(folder, 'begun')), []);
+  assert.deepEqual(await readdir(join(folder, 'out')), ['a.npy', 'b.npy']);
 });
 
+
+test('the array job in the documentation shares the inputs among its tasks', { skip: process.platform === 'win32' }, async () => {
+  const text = await readFile(new URL('../../docs/command.md', import.meta.url), 'utf8');
+  const script = text.split('```sh\n').find((block) => block.startsWith('#!/bin/sh'))?.split('```')[0] ?? '';
+  assert.match(script, /SLURM_ARRAY_TASK_ID/);
+  await mkdir(join(folder, 'scans'));
+  for (const name of ['a', 'b', 'c d']) await writeFile(join(folder, `scans/${name}.npy`), direct.writeNpy(ramp));
+  await mkdir(join(folder, 'bin'));
+  await writeFile(join(folder, 'bin/npx'), `#!/bin/sh\nshift\nexec '${process.execPath}' '${command}' "$@"\n`, { mode: 0o755 });
+  await writeFile(join(folder, 'fit.sh'), script);
+  const PATH = `${join(folder, 'bin')}:${process.env.PATH}`;
+  for (const [task, made] of [['0', ['a.npy', 'c d.npy']], ['1', ['a.npy', 'b.npy', 'c d.npy']]]) {
+    const env = { PATH, SLURM_ARRAY_TASK_COUNT: '2', SLURM_ARRAY_TASK_ID: String(task), SLURM_CPUS_PER_TASK: '2' };
+    const ended = await run(folder, [], { program: ['/bin/sh', 'fit.sh'], env });
+    assert.equal(ended.status, 0, ended.stderr);
+    assert.deepEqual(await readdir(join(folder, 'out')), made);
+  }
+});

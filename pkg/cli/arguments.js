@@ -99,6 +99,19 @@ const extensions = {
   dewarp: ['.png', '.jpg', '.jpeg', '.pdf'],
 };
 
+/**
+ * The ending of an output that is named by its folder alone: of a fit the input's own where a surface can have it.
+ * @param {WritingCommand} command
+ * @param {string} input
+ * @param {Values} values
+ */
+export function defaultExtension(command, input, values) {
+  const own = extname(input).toLowerCase();
+  const wanted = command === 'fit' && extensions.fit.some((known) => known === own) && (!values.surface || isMesh(input));
+  if (wanted) return own;
+  return command === 'fit' && values.surface ? '.ply' : extensions[command][0];
+}
+
 /** Commands that tell something, for which standard output will do. */
 const telling = ['analyze', 'patches', 'rulings'];
 
@@ -241,7 +254,7 @@ function shape(values, lattice) {
 }
 
 /** Options of a fit over a whole mesh. */
-const wholeFlags = ['surface', 'output', 'force', 'report', ...flagNames(meshSolver)];
+const wholeFlags = ['surface', 'output', 'force', 'report', 'jobs', 'overwrite', ...flagNames(meshSolver)];
 
 /** What else commands take that go on with it. @satisfies {Record<string, readonly Flag[]>} */
 const wholeCommands = {
@@ -310,7 +323,7 @@ function isPhotoAlone(input, values) {
  */
 function page(input, output, edges, values) {
   const { report, map } = values;
-  const known = ['edges', 'output', 'force', 'report', 'map', 'dots', 'quality', ...pageFlags];
+  const known = ['edges', 'output', 'force', 'report', 'jobs', 'overwrite', 'map', 'dots', 'quality', ...pageFlags];
   const stray = Object.keys(values).find((flag) => !known.includes(flag));
   if (stray !== undefined) throw usage(`--${stray} is for heights, and without --texture the input is a photo of a page`, 'dewarp');
   if (values['focal-length'] !== undefined && values['field-of-view'] !== undefined) {
@@ -559,4 +572,15 @@ function number(name, values) {
   const value = text.trim() === '' ? NaN : Number(text);
   if (!Number.isNaN(value)) return value;
   throw usage(`--${name} must be a number, but is ${show(text)}`);
+}
+
+/**
+ * A number of things, at least one.
+ * @param {string} name of the flag
+ * @param {string} text
+ */
+export function wholeNumber(name, text) {
+  const value = Number(text);
+  if (Number.isInteger(value) && value > 0) return value;
+  throw usage(`--${name} must be a whole number from 1 on, but is ${show(text)}`);
 }

@@ -35,7 +35,7 @@ const known = ['confidence', 'constraints', 'free', 'occlusions', ...flagNames(s
 /** @satisfies {readonly Flag[]} */
 const page = ['edges', ...flagNames(dewarpPage, 'page')];
 /** @satisfies {readonly Flag[]} */
-const general = ['help', 'version'];
+const general = ['jobs', 'overwrite', 'help', 'version'];
 
 /** Of all commands that fit a surface. @satisfies {readonly Flag[]} */
 const fitted = ['output', 'force', ...energy, ...heights, ...mesh, ...known, ...general];

@@ -61,6 +61,8 @@ export const sections = {
     flags: {
       output: { short: 'o', value: 'FILE', help: 'the file to write, which appears whole or not at all' },
       report: { value: 'FILE', help: 'JSON file for the figures of the solve' },
+      jobs: { value: 'N', help: 'of several inputs, how many are worked on at a time, each by a process of its own (default: as many as there are cores)' },
+      overwrite: { help: 'of several inputs, do those again, too, whose outputs are there and not older than they are' },
       force: {
         help: 'let a file that is written replace one that is read, such as INPUT; and fit more than 2,000,000 vertices that --resolution ' +
           'or --spacing makes without a question (in a terminal) or a warning',
@@ -214,7 +216,7 @@ export const sections = {
 
 /**
  * @typedef {{ [S in keyof typeof sections]: keyof (typeof sections)[S]['flags'] }[keyof typeof sections] | 'min-confidence' | 'no-normalize'} Flag
- * @typedef {'force' | 'paper' | 'no-normalize' | 'surface' | 'ray' | 'as-is' | 'explore' | 'trim' | 'deskew' | 'help' | 'version'} PlainFlag those without a value
+ * @typedef {'force' | 'overwrite' | 'paper' | 'no-normalize' | 'surface' | 'ray' | 'as-is' | 'explore' | 'trim' | 'deskew' | 'help' | 'version'} PlainFlag those without a value
  * @typedef {Partial<Record<Exclude<Flag, PlainFlag>, string> & Record<PlainFlag, boolean>>} Values
  */
 

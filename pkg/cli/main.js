@@ -4,6 +4,7 @@ import { DevelopableError, dispose } from '../index.js';
 import { messageOf } from '../errors.js';
 import { Problem, status } from './problem.js';
 import { parse } from './arguments.js';
+import { batchOf, runBatch } from './batch.js';
 import { fit } from './fit.js';
 import { asFlags, asSpelled } from './flags.js';
 import { helpOn, overview } from './help.js';
@@ -29,6 +30,8 @@ export async function main(args) {
     process.once(signal, () => interruption.abort(new Problem(code, '')));
   }
   try {
+    const batch = batchOf(args);
+    if (batch !== undefined) return await runBatch(batch, interruption.signal);
     const task = parse(args);
     await perform(task, interruption.signal);
     return status.success;

@@ -9,7 +9,7 @@
 use std::collections::{BTreeMap, VecDeque};
 
 use super::assembly::{Assembled, Settled, settle};
-use super::flat_patch::FlatPatch;
+use super::flat_patch::{FlatPatch, MIN_CUT_VERTICES};
 use super::labels::Labels;
 use super::layout::Arrangement;
 use super::outline::Layout;
@@ -21,6 +21,7 @@ use crate::heights::heightfield::Heightfield;
 use crate::lattice::coarsening::{coarse_lattice, fine_vertex, parents};
 use crate::lattice::hexagonal::Lattice;
 use crate::shape::patches::{NO_PATCH, Patches};
+use rustc_hash::FxHashSet;
 
 /// Maximum number of vertices of a surface that is cut into sheets without doing so on a coarser lattice first.
 /// `benches/patterns.md` has what it costs and gains.
@@ -88,13 +89,15 @@ fn on_coarse(coarse: &Lattice, row: usize, col: usize) -> impl Iterator<Item = u
 }
 
 /// Lays the sheets that were found on a coarse lattice flat on the fine one. The inner error holds the reason why a
-/// sheet is invalid on the fine lattice.
+/// sheet is invalid on the fine lattice. Unless `is_finest`, parts that are invalid alone are kept: the finer lattices
+/// decide whether they have to be mended, and a part that is cut on several lattices falls into crumbs.
 pub(super) fn refine_sheets(
     surface: &Heightfield,
     patches: &Patches,
     coarse: &Coarse,
     rough: &Assembled,
     parts: Parts,
+    is_finest: bool,
 ) -> Result<std::result::Result<Assembled, String>> {
     let (labels, origins) = transfer_labels(surface, patches, coarse, rough)?;
     let mut parts = parts.with_labels(
@@ -163,7 +166,7 @@ pub(super) fn refine_sheets(
         }
         let mut arrangement = Arrangement { layout, sheets };
         match settle(&parts, &mut net, &mut arrangement)? {
-            Settled::Opened(wrong) if wrong.is_empty() => {
+            Settled::Opened(wrong) if wrong.is_empty() || !is_finest => {
                 if is_recut.contains(&true) {
                     let is_wanted = |part: u32| is_recut[part as usize];
                     let budget = RECUT_STEP_BUDGET_PER_VERTEX;
@@ -218,8 +221,8 @@ fn inverse(order: &[usize], count: usize) -> Vec<Option<u32>> {
 }
 
 /// Transfers labels from the coarse lattice to the fine one: returns the part of each fine vertex, and the patch of
-/// each part. Regions that no coarse part reaches become parts of their own; vertices left out on the coarse
-/// lattice stay so.
+/// each part. Regions that no coarse part reaches become parts of their own, unless they are too small to be cut, which
+/// are left out: such a part would have no outline. Vertices left out on the coarse lattice stay so.
 fn transfer_labels(
     surface: &Heightfield,
     patches: &Patches,
@@ -252,26 +255,51 @@ fn transfer_labels(
     let mut queue: VecDeque<usize> = (0..fine.len())
         .filter(|i| labels[*i] != NO_PATCH && fine.around(*i).any(|k| open[k]))
         .collect();
-    let mut first = 0;
-    loop {
-        while let Some(i) = queue.pop_front() {
-            for k in fine.around(i) {
-                if open[k] && patches.labels()[k] == patches.labels()[i] {
-                    open[k] = false;
-                    labels[k] = labels[i];
-                    queue.push_back(k);
-                }
+    while let Some(i) = queue.pop_front() {
+        for k in fine.around(i) {
+            if open[k] && patches.labels()[k] == patches.labels()[i] {
+                open[k] = false;
+                labels[k] = labels[i];
+                queue.push_back(k);
             }
         }
+    }
+    let mut first = 0;
+    loop {
         let Some(i) = (first..fine.len()).find(|i| open[*i]) else {
             return Ok((labels, origins));
         };
         first = i;
-        open[i] = false;
-        labels[i] = origins.len() as u32;
-        origins.push(patches.labels()[i]);
-        queue.push_back(i);
+        let patch = patches.labels()[i];
+        let region = connected_region(&fine, i, |k| open[k] && patches.labels()[k] == patch);
+        region.iter().for_each(|k| open[*k] = false);
+        if region.len() >= MIN_CUT_VERTICES {
+            region
+                .iter()
+                .for_each(|k| labels[*k] = origins.len() as u32);
+            origins.push(patch);
+        }
     }
+}
+
+/// Lists the vertices that are connected with a first one by neighbours that are inside.
+fn connected_region(
+    lattice: &Lattice,
+    first: usize,
+    is_inside: impl Fn(usize) -> bool,
+) -> Vec<usize> {
+    let mut seen = FxHashSet::from_iter([first]);
+    let mut region = vec![first];
+    let mut next = 0;
+    while let Some(i) = region.get(next).copied() {
+        next += 1;
+        region.extend(
+            lattice
+                .around(i)
+                .filter(|k| is_inside(*k) && seen.insert(*k)),
+        );
+    }
+    region
 }
 
 /// Creates a part of the fine lattice with the flat positions it has on the coarse lattice; `None` if these do not
@@ -373,7 +401,7 @@ mod tests {
         )
         .unwrap();
         let parts = Parts::none(&surface, &options);
-        let found = refine_sheets(&surface, &patches, &coarse, &rough, parts).unwrap();
+        let found = refine_sheets(&surface, &patches, &coarse, &rough, parts, true).unwrap();
         let found = found.unwrap_or_else(|reason| panic!("{reason}"));
         (found.arrangement.sheets, found.parts.left_out())
     }

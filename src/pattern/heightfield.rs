@@ -56,18 +56,30 @@ pub(super) fn find_sheets(
     surface: &Heightfield,
     patches: &Patches,
     options: &PatternOptions,
+    finest: f64,
+) -> Result<Assembled> {
+    find_sheets_at(surface, patches, options, finest, true)
+}
+
+/// Finds the sheets of a surface on its own lattice, or on a coarser one of the same surface.
+fn find_sheets_at(
+    surface: &Heightfield,
+    patches: &Patches,
+    options: &PatternOptions,
     mut finest: f64,
+    is_finest: bool,
 ) -> Result<Assembled> {
     if let Some(coarse) = Coarse::new(surface, patches)? {
         finest = 1.0;
         for margin in COARSE_STRAIN_SHARES {
             let stricter = options.max_strain(margin * options.max_strain);
-            let rough = match find_sheets(&coarse.surface, &coarse.patches, &stricter, finest) {
-                Err(Error::NotFlat { .. }) => break,
-                other => other?,
-            };
+            let rough =
+                match find_sheets_at(&coarse.surface, &coarse.patches, &stricter, finest, false) {
+                    Err(Error::NotFlat { .. }) => break,
+                    other => other?,
+                };
             let parts = Parts::none(surface, options);
-            if let Ok(found) = refine_sheets(surface, patches, &coarse, &rough, parts)? {
+            if let Ok(found) = refine_sheets(surface, patches, &coarse, &rough, parts, is_finest)? {
                 return Ok(found);
             }
         }

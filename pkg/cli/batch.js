@@ -1,0 +1,208 @@
+/** Several inputs, each by a process of its own, and one summary. */
+import { spawn } from 'node:child_process';
+import { statSync } from 'node:fs';
+import { mkdir, stat } from 'node:fs/promises';
+import { availableParallelism } from 'node:os';
+import { dirname, extname, basename, join } from 'node:path';
+import { fileURLToPath } from 'node:url';
+import { show } from '../values.js';
+import { defaultExtension, parse, wholeNumber } from './arguments.js';
+import { commandNamed } from './commands.js';
+import { failed } from './files.js';
+import { split, usage } from './flags.js';
+import { Problem, status } from './problem.js';
+import { print, say, statusLine } from './terminal.js';
+
+/**
+ * @typedef {import('./flags.js').Values} Values
+ *
+ * @typedef {object} BatchItem
+ * @property {string} input
+ * @property {string[]} args the command line for this input alone
+ * @property {string[]} written the files that it writes
+ *
+ * @typedef {{ items: BatchItem[], jobs: number, overwrite: boolean }} Batch
+ * @typedef {{ code: number | null, stdout: string, stderr: string }} Ending
+ */
+
+/** Flags that name a file, in which `*` stands for the name of the input without folder and ending. */
+const NAMING_FLAGS = /** @type {const} */ ([
+  'output', 'report', 'map', 'mtl', 'assembly', 'mask', 'confidence', 'constraints', 'occlusions', 'texture', 'photo-camera',
+  'intrinsics', 'edges',
+]);
+
+/** Those of them that are written. @type {readonly string[]} */
+const WRITTEN_FLAGS = ['output', 'report', 'map', 'mtl', 'assembly'];
+
+/** Maximum number of characters that are kept of what one process says. */
+const MAX_KEPT_OUTPUT = 1 << 24;
+
+/**
+ * The batch that a command line asks for; nothing where it has one input and one output. All of it is checked before any
+ * of it is started.
+ * @param {string[]} args
+ * @returns {Batch | undefined}
+ */
+export function batchOf(args) {
+  const { values, positionals } = split(args);
+  const [name, ...inputs] = positionals;
+  if (values.version || values.help || name === undefined || name === 'help' || inputs.length === 0) return undefined;
+  const { output } = values;
+  if (inputs.length === 1 && !(output !== undefined && (isFolderName(output) || output.includes('*')))) return undefined;
+  const command = commandNamed(name);
+  const { jobs, overwrite = false, ...others } = values;
+  if (command !== 'info' && output === undefined) {
+    throw usage('the output of several inputs is missing: -o FOLDER/, or a name with * for that of the input, as in -o "FOLDER/*.json"', command);
+  }
+  /** @type {Map<string, string>} */
+  const owners = new Map();
+  const items = inputs.map((input) => {
+    const own = ownValues(command, input, others, inputs.length > 1);
+    const line = [command, ...Object.entries(own).map(([flag, value]) => (value === true ? `--${flag}` : `--${flag}=${value}`))];
+    // A name that begins with a hyphen is no flag.
+    line.push(input.startsWith('-') ? join('.', input).replace(/^-/, './-') : input);
+    const task = parse(line);
+    const written = 'written' in task ? task.written : [];
+    for (const path of written) {
+      const other = owners.get(path);
+      if (other !== undefined) {
+        throw usage(`${other} and ${input} would both be written to ${path}: give one of them another name, or do them apart`, command);
+      }
+      owners.set(path, input);
+    }
+    return { input, args: line, written };
+  });
+  const most = jobs === undefined ? availableParallelism() : wholeNumber('jobs', jobs);
+  return { items, jobs: Math.min(most, items.length), overwrite };
+}
+
+/**
+ * The flags for one of the inputs.
+ * @param {import('./commands.js').Command} command
+ * @param {string} input
+ * @param {Values} values
+ * @param {boolean} several whether there are other inputs
+ * @returns {Values}
+ */
+function ownValues(command, input, values, several) {
+  const stem = basename(input, extname(input));
+  const own = { ...values };
+  for (const flag of NAMING_FLAGS) {
+    const path = values[flag];
+    if (path === undefined) continue;
+    if (path.includes('*')) {
+      own[flag] = path.replaceAll('*', () => stem);
+    } else if (flag === 'output' && command !== 'info' && (isFolderName(path) || isFolder(path))) {
+      own[flag] = join(path, stem + defaultExtension(command, input, values));
+    } else if (several && WRITTEN_FLAGS.includes(flag)) {
+      const also = flag === 'output' ? ', or a folder' : '';
+      throw usage(`--${flag} ${show(path)} is one file for several inputs: * stands for the name of the input${also}`, command);
+    }
+  }
+  return own;
+}
+
+/** @param {string} path */
+function isFolderName(path) {
+  return path.endsWith('/') || path.endsWith('\\');
+}
+
+/** @param {string} path */
+function isFolder(path) {
+  return statSync(path, { throwIfNoEntry: false })?.isDirectory() === true;
+}
+
+/**
+ * Does all of a batch, several inputs at a time. What is done already is skipped, and a failure stops none of the others.
+ * @param {Batch} batch
+ * @param {AbortSignal} signal
+ * @returns {Promise<number>} the exit status
+ */
+export async function runBatch({ items, jobs, overwrite }, signal) {
+  const counts = { done: 0, skipped: 0, failed: 0 };
+  /** @type {number[]} */
+  const codes = [];
+  /** @type {Map<BatchItem, string>} */
+  const told = new Map();
+  const line = statusLine();
+  const waiting = items.values();
+  const news = () => {
+    const finished = counts.done + counts.skipped + counts.failed;
+    if (line.shown) line.show(`${finished} of ${items.length} files${counts.failed > 0 ? `, ${counts.failed} failed` : ''}...`);
+  };
+  const work = async () => {
+    for (const item of waiting) {
+      if (signal.aborted) return;
+      if (!overwrite && (await isDone(item))) {
+        counts.skipped += 1;
+      } else {
+        const { code, stdout, stderr } = await ending(item, signal);
+        if (signal.aborted) return;
+        told.set(item, stdout);
+        const words = stderr.replace(/^developable: /gm, '').trim();
+        if (words !== '') say(`${item.input}: ${words}`);
+        else if (code !== status.success) say(`${item.input}: the process ended with ${code ?? 'a signal'}`);
+        counts[code === status.success ? 'done' : 'failed'] += 1;
+        if (code !== status.success) codes.push(code ?? status.failure);
+      }
+      news();
+    }
+  };
+  news();
+  try {
+    await Promise.all(Array.from({ length: jobs }, work));
+  } finally {
+    line.clear();
+  }
+  signal.throwIfAborted();
+  // In the order of the inputs, whichever was ready first.
+  for (const item of items) {
+    const text = told.get(item) ?? '';
+    if (text !== '') await print(`==> ${item.input} <==\n${text}`);
+  }
+  const skipped = counts.skipped > 0 ? `, ${counts.skipped} done before (--overwrite does them again)` : '';
+  say(`${items.length} files: ${counts.done} done${skipped}, ${counts.failed} failed`);
+  if (codes.length === 0) return status.success;
+  return codes.every((code) => code === codes[0]) ? codes[0] : status.failure;
+}
+
+/**
+ * Whether all that an input is made into is there, and not older than it. Files appear whole, so none is half done.
+ * @param {BatchItem} item
+ */
+async function isDone({ input, written }) {
+  if (written.length === 0) return false;
+  const [from, ...made] = await Promise.all([input, ...written].map((path) => stat(path).catch(() => undefined)));
+  return from !== undefined && made.every((file) => file !== undefined && file.isFile() && file.mtimeMs >= from.mtimeMs);
+}
+
+/**
+ * How a process ends that does one input.
+ * @param {BatchItem} item
+ * @param {AbortSignal} signal
+ * @returns {Promise<Ending>}
+ */
+async function ending({ args, written }, signal) {
+  for (const path of written) {
+    try {
+      await mkdir(dirname(path), { recursive: true });
+    } catch (error) {
+      const problem = failed(`cannot make the folder of ${path}`, error);
+      return { code: problem.status, stdout: '', stderr: problem.message };
+    }
+  }
+  const command = fileURLToPath(new URL('../bin/developable.js', import.meta.url));
+  return new Promise((resolve) => {
+    const child = spawn(process.execPath, [...process.execArgv, command, ...args], { stdio: ['ignore', 'pipe', 'pipe'] });
+    let [stdout, stderr] = ['', ''];
+    child.stdout.setEncoding('utf8').on('data', (text) => (stdout = (stdout + text).slice(0, MAX_KEPT_OUTPUT)));
+    child.stderr.setEncoding('utf8').on('data', (text) => (stderr = (stderr + text).slice(0, MAX_KEPT_OUTPUT)));
+    const stop = () => child.kill(signal.reason instanceof Problem && signal.reason.status === status.interrupted ? 'SIGINT' : 'SIGTERM');
+    signal.addEventListener('abort', stop);
+    child.on('error', (error) => resolve({ code: status.failure, stdout, stderr: error.message }));
+    child.on('close', (code) => {
+      signal.removeEventListener('abort', stop);
+      resolve({ code, stdout, stderr });
+    });
+  });
+}

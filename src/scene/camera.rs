@@ -2,6 +2,20 @@
 
 use crate::error::{Error, Result, positive};
 
+/// Ratios of the longer to the shorter side of photos as cameras and phones take them.
+const CAMERA_SIDE_RATIOS: [f64; 7] = [1.0, 4.0 / 3.0, 1.5, 16.0 / 9.0, 2.0, 19.5 / 9.0, 20.0 / 9.0];
+
+/// Maximum relative deviation of a photo's side ratio from a camera's: reduced photos have their sides rounded to pixels.
+const CAMERA_SIDE_RATIO_TOLERANCE: f64 = 0.003;
+
+/// Whether a photo of `size` (width, height) has the proportions in which cameras take photos; otherwise it was cropped, and
+/// neither its focal length nor its principal point can be derived from its size.
+pub(crate) fn has_camera_proportions(size: [usize; 2]) -> bool {
+    let [width, height] = size.map(|n| n as f64);
+    let ratio = width.max(height) / width.min(height);
+    (CAMERA_SIDE_RATIOS.iter()).any(|own| (ratio / own - 1.0).abs() < CAMERA_SIDE_RATIO_TOLERANCE)
+}
+
 /// What the values of a depth image measure: the distance along the camera's axis or along the line of sight.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
 #[non_exhaustive]

@@ -1,7 +1,9 @@
 //! Height and depth images: those of other programs, exact round trips, damage.
 
+use developable::dewarp::Photo;
 use developable::files::images::{
-    Decoded, Format, Unit, decode, decode_npz, decode_photo, npz_arrays, write_exr, write_tiff,
+    Decoded, Format, PhotoOptions, Unit, decode, decode_npz, decode_photo, npz_arrays, write_exr,
+    write_photo_jpeg, write_tiff,
 };
 use developable::{Error, HeightImage};
 use proptest::prelude::*;
@@ -266,6 +268,23 @@ fn photos_know_their_focal_length_unless_they_were_cropped() {
     // Zero stands for unknown.
     assert_eq!(read(0, size).film35, None);
     assert_eq!(read(26, [2 * size[0], 3 * size[1]]).film35, None);
+}
+
+#[test]
+fn a_photo_whose_exif_data_state_the_cropped_size_has_no_focal_length() {
+    let read = |size: [usize; 2]| {
+        let rgba = vec![200; 4 * size[0] * size[1]];
+        let photo = Photo::new(size[0], size[1], &rgba).unwrap();
+        let jpeg = write_photo_jpeg(&photo, &PhotoOptions::default()).unwrap();
+        let stated = size.map(|n| n as u32);
+        decode_photo(&with_exif(&jpeg, 26, stated)).unwrap().film35
+    };
+    for size in [[400, 300], [300, 400], [300, 200], [320, 180]] {
+        assert_eq!(read(size), Some(26.0), "{size:?}");
+    }
+    for size in [[188, 242], [206, 152], [400, 320]] {
+        assert_eq!(read(size), None, "{size:?}");
+    }
 }
 
 #[test]

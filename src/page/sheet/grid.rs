@@ -22,8 +22,8 @@ pub(super) struct SheetGrid {
 pub(super) struct GridPlace {
     pub nodes: [usize; 4],
     pub weights: [f64; 4],
-    /// Derivatives of the weights by the place's share of the page's width and by that of its height.
-    pub derivatives: [[f64; 4]; 2],
+    /// Derivatives of the weights by the place's share of the page's height.
+    pub derivative_down: [f64; 4],
 }
 
 impl SheetGrid {
@@ -49,14 +49,11 @@ impl SheetGrid {
             (low, at - low as f64)
         });
         let first = j * self.cols + i;
-        let [across, down] = sides.map(|n| (n - 1) as f64);
+        let down = (self.rows - 1) as f64;
         GridPlace {
             nodes: [first, first + 1, first + self.cols, first + self.cols + 1],
             weights: [(1.0 - s) * (1.0 - t), s * (1.0 - t), (1.0 - s) * t, s * t],
-            derivatives: [
-                [-(1.0 - t), 1.0 - t, -t, t].map(|d| d * across),
-                [-(1.0 - s), -s, 1.0 - s, s].map(|d| d * down),
-            ],
+            derivative_down: [-(1.0 - s), -s, 1.0 - s, s].map(|d| d * down),
         }
     }
 

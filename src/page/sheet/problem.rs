@@ -7,16 +7,13 @@ use super::grid::SheetGrid;
 use super::plane::CameraPrior;
 use super::polyline::Polyline;
 
-/// A line of the print that is horizontal or vertical on the flat page: a line of text, a rule or a margin.
+/// A line of the print that runs across the flat page: a line of text or a rule.
 #[derive(Debug, Clone)]
 pub(super) struct LevelLine {
     /// Points of the line in the photo, in normalised image coordinates (pixels from the principal point, over the
     /// focal length).
     pub points: Vec<[f64; 2]>,
-    /// Whether the line runs down the page; otherwise it runs across.
-    pub vertical: bool,
-    /// Initial position of the line on the flat page: share of the page's height, or of its width if the line is
-    /// vertical.
+    /// Initial position of the line on the flat page: share of the page's height.
     pub level: f64,
     /// Length of the line on the flat page, in widths of the page.
     pub length: f64,
@@ -282,14 +279,8 @@ impl SheetProblem {
         sink: &mut dyn FnMut(&ResidualRow),
     ) -> Option<()> {
         for (number, (line, level)) in self.lines.iter().zip(levels).enumerate() {
-            let share = |along: f64| {
-                if line.vertical {
-                    [*level, along]
-                } else {
-                    [along, *level]
-                }
-            };
-            let count = if line.vertical { grid.rows } else { grid.cols };
+            let share = |along: f64| [along, *level];
+            let count = grid.cols;
             let seen: Option<Vec<_>> = (0..count)
                 .map(|i| {
                     grid.camera
@@ -312,9 +303,8 @@ impl SheetProblem {
                 for k in 0..4 {
                     row.nodes[k] = (place.nodes[k], gradient * place.weights[k]);
                 }
-                let way = usize::from(!line.vertical);
-                let along = grid.sum(&place.nodes, &place.derivatives[way]);
-                row.level = Some((number, gradient.dot(&along)));
+                let down = grid.sum(&place.nodes, &place.derivative_down);
+                row.level = Some((number, gradient.dot(&down)));
                 let projected = grid.camera.project(at)?;
                 row.globals = camera_derivatives(grid, projected, near.normal).map(|d| d * own);
                 sink(&row);

@@ -157,7 +157,7 @@ impl SheetProblem {
     ) -> Option<(FittedSheet, SheetFigures)> {
         for _ in 0..LINE_DETECTION_ROUNDS {
             let table = PlaceTable::new(&sheet.grid, view).ok()?;
-            self.lines = find_level_lines(&table, view, photo, sheet.grid.ratio());
+            self.lines = find_level_lines(&table, view, photo);
             sheet.levels = self.lines.iter().map(|line| line.level).collect();
             sheet = self.refined(sheet, &[FINE_GRID_COLS])?;
         }

@@ -19,6 +19,7 @@ use crate::page::output::{back_project, flat_image_size, grid_mesh, texture_coor
 use crate::page::read_traces::read_traces;
 use crate::page::report::{PageModel, PageReport, PageVerdict};
 use crate::page::traced_line::{TracedLine, distance};
+use crate::scene::camera::has_camera_proportions;
 use crate::scene::mesh::Mesh;
 
 /// A page of any shape in space: a nearly isometric sheet that bends little, fitted to the page's outline and lines of
@@ -45,6 +46,17 @@ const USUAL_FOCAL_RATIO: f64 = 0.9;
 
 /// Standard deviation of the logarithm of an unknown focal length.
 const UNKNOWN_FOCAL_DEVIATION: f64 = 0.2;
+
+/// Assumed focal length of a photo whose proportions are no camera's, as a multiple of its longer side: that of a phone,
+/// whose photo was cropped to about three fifths of its sides. Chosen by the table of pages in `benches/page.md`.
+const CROPPED_FOCAL_RATIO: f64 = 1.3;
+
+/// Standard deviation of the logarithm of the unknown focal length of a cropped photo.
+const CROPPED_FOCAL_DEVIATION: f64 = 0.15;
+
+/// Standard deviation of the coordinates of a cropped photo's principal point, divided by the focal length: about half
+/// of what was cut off on one side.
+const CROPPED_CENTRE_DEVIATION: f64 = 0.2;
 
 /// Minimum standard deviation of the logarithm of a known focal length, because photos are edited.
 const MIN_FOCAL_DEVIATION: f64 = 0.06;
@@ -103,8 +115,18 @@ impl SheetPage {
         let (longer, diagonal) = (width.max(height), width.hypot(height));
         let focal = focal_length(options.focal_length, longer, diagonal)?;
         let format = sides(options.format)?;
+        let is_cropped = focal.is_none() && !has_camera_proportions(size);
+        let [usual_ratio, usual_deviation, centre_deviation] = if is_cropped {
+            [
+                CROPPED_FOCAL_RATIO,
+                CROPPED_FOCAL_DEVIATION,
+                CROPPED_CENTRE_DEVIATION,
+            ]
+        } else {
+            [USUAL_FOCAL_RATIO, UNKNOWN_FOCAL_DEVIATION, CENTRE_DEVIATION]
+        };
         let view = PhotoView {
-            focal: focal.map_or(USUAL_FOCAL_RATIO * longer, |[focal, _]| focal),
+            focal: focal.map_or(usual_ratio * longer, |[focal, _]| focal),
             centre: (options.centre).unwrap_or([(width - 1.0) / 2.0, (height - 1.0) / 2.0]),
         };
         if !(view.centre.iter()).all(|v| v.abs() <= MAX_CENTRE_DIAGONALS * diagonal) {
@@ -125,10 +147,10 @@ impl SheetPage {
         let ratio = |sides: Sides| [sides.ratio(apparent).ln(), FORMAT_RATIO_DEVIATION];
         let prior = CameraPrior {
             log_scale: 0.0,
-            scale_deviation: focal.map_or(UNKNOWN_FOCAL_DEVIATION, |[_, deviation]| {
+            scale_deviation: focal.map_or(usual_deviation, |[_, deviation]| {
                 deviation.max(MIN_FOCAL_DEVIATION)
             }),
-            centre_deviation: CENTRE_DEVIATION,
+            centre_deviation,
             log_ratio: format.map(ratio),
         };
         let found = find_sheet(&edges, prior, &view, photo).ok_or_else(|| {

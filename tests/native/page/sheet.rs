@@ -199,10 +199,10 @@ fn a_plane_stays_a_plane() {
 #[test]
 fn known_sheets_are_found() {
     for (shape, most) in [
-        (curled as Shape, 6.0),
+        (curled as Shape, 1.2),
         (curled_askew, 6.0),
-        (cone, 6.0),
-        (thirds, 6.0),
+        (cone, 0.8),
+        (thirds, 1.3),
     ] {
         let (error, report) = fitted(shape, true);
         assert!(error < most, "{error}");

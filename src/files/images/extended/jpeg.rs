@@ -13,6 +13,7 @@ use crate::error::{Error, Result, checked_cells, try_filled};
 use crate::files::images::decoded::Decoded;
 use crate::files::images::format::Format;
 use crate::files::images::photo::PhotoFile;
+use crate::scene::camera::has_camera_proportions;
 
 /// Maximum number of pixel samples that one byte of a JPEG file can stand for: an even block of 64 takes a few
 /// bits, and in a progressive file a run of such blocks does.
@@ -149,8 +150,9 @@ fn orientation(exif: &Exif) -> u16 {
     }
 }
 
-/// Reads the focal length for 35 mm film from Exif data; `None` if the photo's size in the Exif data has other
-/// proportions than the photo: programs that crop a photo keep the data of its camera.
+/// Reads the focal length for 35 mm film from Exif data; `None` if the photo was cropped: its proportions are no camera's, or
+/// the photo's size in the Exif data has others. Programs that crop a photo keep the data of its camera, and some state
+/// the new size.
 fn film35(exif: &Exif, (width, height): (usize, usize)) -> Option<f64> {
     let length = number(exif, Tag::FocalLengthIn35mmFilm).filter(|length| *length > 0)?;
     let stated = [Tag::PixelXDimension, Tag::PixelYDimension].map(|tag| number(exif, tag));
@@ -161,7 +163,7 @@ fn film35(exif: &Exif, (width, height): (usize, usize)) -> Option<f64> {
             return None;
         }
     }
-    Some(f64::from(length))
+    has_camera_proportions([width, height]).then_some(f64::from(length))
 }
 
 fn number(exif: &Exif, tag: Tag) -> Option<u32> {

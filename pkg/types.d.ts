@@ -191,6 +191,11 @@ export interface MeshReport {
   area: [number, number];
   /** Triangles that face away from the surface around them, before and after. */
   flipped: [number, number];
+  /**
+   * Triangles of the result that are folded over or cross others near them: their index in the mesh, and their middle.
+   * Their vertices cannot be parted within five standard deviations of the noise.
+   */
+  entangled: { triangle: number; position: [number, number, number] }[];
   stopReason: StopReason;
   seconds: Report['seconds'];
 }

@@ -102,7 +102,8 @@ pub use fit::component_solver::Status;
 pub use fit::cylinder::{Cylinder, CylinderReport, CylinderVerdict, fit_cylinder};
 pub use fit::input::Input;
 pub use fit::mesh::{
-    MeshKnown, MeshOptions, MeshPass, MeshReport, MeshSolver, MeshSurface, Repairs, fit_mesh,
+    EntangledTriangle, MeshKnown, MeshOptions, MeshPass, MeshReport, MeshSolver, MeshSurface,
+    Repairs, fit_mesh,
 };
 pub use fit::options::{Border, Energy, Lambda, Options, Schedule};
 pub use fit::report::{

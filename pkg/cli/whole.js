@@ -116,6 +116,14 @@ function tell(task, { report }, mesh) {
       `developable: warning: ${report.flipped[1]} triangles of ${task.output} are folded over (${percent(report.flipped[1] / (mesh.triangles.length / 3))})\n`,
     );
   }
+  const [first] = report.entangled;
+  if (first) {
+    const place = first.position.map((x) => Number(x.toPrecision(4))).join(', ');
+    process.stderr.write(
+      `developable: warning: ${report.entangled.length} triangles of ${task.output} are folded over or cross others, as far as the noise ` +
+        `tells; the first is number ${first.triangle}, at (${place}); report.entangled has all\n`,
+    );
+  }
 }
 
 /**

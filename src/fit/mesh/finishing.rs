@@ -6,7 +6,7 @@ use super::fairing::{curves, fair_curves};
 use super::geometry::{Frame, Point};
 use super::input::MeshInput;
 use super::orientation::turn_back;
-use super::self_intersections::{is_entangled, separate_self_intersections};
+use super::self_intersections::{all_entangled, separate_self_intersections};
 use super::smooth_regions::SmoothRegions;
 use super::tight_bends::restore_bends;
 use super::vertex_fans::VertexFans;
@@ -18,6 +18,9 @@ const MAX_FAIRING_NOISE_RATIO: f64 = 1.5;
 /// Maximum number of times that self-intersections are removed and triangles turned back: either may bring back a few of
 /// the other.
 const MAX_UNTANGLING_ROUNDS: usize = 3;
+
+/// Maximum number of times that what is still entangled is moved halfway back to where it was given.
+const MAX_RETREAT_STEPS: usize = 6;
 
 /// Moves vertices on creases and borders to where the continuations of their sides meet and to smooth curves, and takes
 /// the surface `before` crease passes where a crease proves to be a tight bend.
@@ -41,24 +44,39 @@ pub(super) fn sharpen_creases(
     }
 }
 
-/// Removes self-intersections and triangles that are turned over from a finished surface. Where sides meet at a sharp
-/// angle in coarse noise, triangles may still cross or be folded when all vertices are within their reach; then those on
-/// creases may leave it.
+/// Removes self-intersections and triangles that are turned over from a finished surface, and returns the triangles
+/// for which that is not possible with all vertices within their reach.
 pub(super) fn untangle(
     given: &MeshInput,
     vertex_fans: &VertexFans,
     x: &mut [Point],
     creased: &dyn Fn(usize) -> bool,
-) {
-    for may_leave_reach in [false, true] {
-        for _ in 0..MAX_UNTANGLING_ROUNDS {
-            separate_self_intersections(given, vertex_fans, x, creased, may_leave_reach);
-            if !turn_back(given, x) {
-                break;
-            }
-        }
-        if !is_entangled(given, vertex_fans, x) {
-            return;
+) -> Vec<u32> {
+    for _ in 0..MAX_UNTANGLING_ROUNDS {
+        separate_self_intersections(given, vertex_fans, x, creased);
+        if !turn_back(given, x) {
+            break;
         }
     }
+    let mut left = all_entangled(given, vertex_fans, x);
+    for _ in 0..MAX_RETREAT_STEPS {
+        if left.is_empty() {
+            break;
+        }
+        let mut retreated = x.to_vec();
+        let corners = left
+            .iter()
+            .flat_map(|t| given.topology.triangles[*t as usize]);
+        for vertex in given.topology.within_rings(corners.collect(), 1) {
+            let vertex = vertex as usize;
+            retreated[vertex] = 0.5 * (x[vertex] + given.noisy[vertex]);
+        }
+        let still = all_entangled(given, vertex_fans, &retreated);
+        if still.len() >= left.len() {
+            break;
+        }
+        x.copy_from_slice(&retreated);
+        left = still;
+    }
+    left
 }

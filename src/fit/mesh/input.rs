@@ -29,6 +29,25 @@ impl MeshInput {
         }
     }
 
+    /// The position within a vertex's reach that is nearest to `x` at the same height along the unit vector `up`, or as
+    /// near to that height as the reach allows.
+    pub(super) fn within_reach_across(&self, vertex: usize, x: Point, up: &Point) -> Point {
+        let (start, reach) = (self.noisy[vertex], self.reach[vertex]);
+        let offset = x - start;
+        if offset.norm() <= reach {
+            return x;
+        }
+        let rise = up.dot(&offset).clamp(-reach, reach);
+        let across = offset - up * up.dot(&offset);
+        let most = (reach * reach - rise * rise).sqrt();
+        let share = if across.norm() > most {
+            most / across.norm()
+        } else {
+            1.0
+        };
+        start + up * rise + across * share
+    }
+
     /// Brings all vertices within their reach: the farther beyond it one is, the nearer to where it was given, because a
     /// step far beyond the noise says nothing about the surface.
     pub(super) fn keep_within_reach(&self, x: &mut [Point]) {

@@ -38,5 +38,5 @@ mod vertex_fans;
 pub(crate) use bounding_sphere::bounding_sphere_scale;
 pub use known::MeshKnown;
 pub use options::MeshOptions;
-pub use report::{MeshPass, MeshReport, Repairs};
+pub use report::{EntangledTriangle, MeshPass, MeshReport, Repairs};
 pub use solver::{MeshSolver, MeshSurface, fit_mesh};

@@ -46,7 +46,7 @@ pub(super) fn turn_back(given: &MeshInput, x: &mut [Point]) -> bool {
 
 /// Mean unit normals of the triangles around each vertex, weighted by area, over one ring or two: their length is 1 on a
 /// plane and small on a sharp edge.
-fn mean_normals(given: &MeshInput, x: &[Point], is_wide: bool) -> Vec<Point> {
+pub(super) fn mean_normals(given: &MeshInput, x: &[Point], is_wide: bool) -> Vec<Point> {
     let mut sums = vec![(Point::zeros(), 0.0); x.len()];
     for triangle in &given.topology.triangles {
         let area = twice_area(x, triangle);
@@ -96,7 +96,7 @@ fn raise(given: &MeshInput, x: &mut [Point], up: &[Point], triangle: &[u32; 3]) 
         if free {
             let vertex = *vertex as usize;
             let moved = x[vertex] + gradient * ((wanted - seen) / squares);
-            x[vertex] = given.within_reach(vertex, moved);
+            x[vertex] = given.within_reach_across(vertex, moved, &normal);
         }
     }
     true
@@ -139,7 +139,7 @@ pub(super) fn unfold(given: &MeshInput, x: &mut [Point], up: &[Point]) {
             let sum: Point = ring.iter().map(|other| x[*other as usize]).sum();
             let towards = sum / ring.len() as f64 - x[vertex];
             let step = share * (towards - up[vertex] * up[vertex].dot(&towards));
-            x[vertex] = given.within_reach(vertex, x[vertex] + step);
+            x[vertex] = given.within_reach_across(vertex, x[vertex] + step, &up[vertex]);
         }
     }
 }

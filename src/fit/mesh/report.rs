@@ -49,6 +49,17 @@ pub struct MeshPass {
     pub moved_most: f64,
 }
 
+/// A triangle of a fitted mesh that is folded over or crosses another one near it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[non_exhaustive]
+pub struct EntangledTriangle {
+    /// Index of the triangle in the mesh.
+    pub triangle: usize,
+    /// Middle of the triangle in the fitted mesh.
+    pub position: [f64; 3],
+}
+
 /// Report of a mesh's fit: what was solved, how well, and at what cost.
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(
@@ -88,6 +99,9 @@ pub struct MeshReport {
     pub area: [f64; 2],
     /// Number of folded triangles, which face away from the surface around them, before and after the fit.
     pub flipped: [usize; 2],
+    /// Triangles of the finished surface that are folded over or cross others near them, because their vertices cannot be
+    /// parted without leaving their reach: five standard deviations of the noise, and more if λ is smaller than suits it.
+    pub entangled: Vec<EntangledTriangle>,
     /// Reason why the fit stopped.
     pub stop_reason: StopReason,
     /// Time spent in each phase of the fit, in seconds.

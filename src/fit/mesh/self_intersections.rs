@@ -6,6 +6,7 @@
 
 use super::geometry::{Point, twice_area};
 use super::input::MeshInput;
+use super::orientation::mean_normals;
 use super::topology::Topology;
 use super::vertex_fans::VertexFans;
 
@@ -30,36 +31,27 @@ const EXTRA_VISITS: usize = 100_000;
 /// Number of rounds of separating triangles after which the neighbours of moved vertices are moved, too.
 const WIDENING_ROUNDS: usize = 10;
 
-/// Number of rounds of separating triangles after which vertices on creases may leave their reach where that is allowed.
-const BOUNDED_ROUNDS: usize = 30;
-
-/// Minimum reach of a vertex that may leave it, as a ratio of the mean length of its edges: noise that is far smaller than
-/// the triangles folds none of them.
-const MIN_LEFT_REACH_RATIO: f64 = 0.1;
-
-/// Separates crossing triangles and turns folded ones back: moves their vertices towards the mean of their neighbours,
-/// those on creases along these first and all within their reach, except those on creases if they `may_leave_reach`.
-/// Vertices that are held stay.
+/// Separates crossing triangles and turns folded ones back: moves their vertices along the surface towards the mean of
+/// their neighbours, those on creases along these first, and all within their reach. Vertices that are held stay.
 pub(super) fn separate_self_intersections(
     given: &MeshInput,
     vertex_fans: &VertexFans,
     x: &mut [Point],
     creased: &dyn Fn(usize) -> bool,
-    may_leave_reach: bool,
 ) {
     let topology = &given.topology;
-    let is_noisy = |vertex: usize| {
-        given.reach[vertex]
-            >= MIN_LEFT_REACH_RATIO * topology.mean_edge_length(&given.noisy, vertex)
-    };
     let all: Vec<u32> = (0..topology.len() as u32).collect();
     let mut bad = entangled_triangles(topology, vertex_fans, x, &all);
+    let mut up = mean_normals(given, x, true);
+    up.iter_mut()
+        .for_each(|up| *up = up.try_normalize(0.0).unwrap_or_default());
     let mut left = MAX_VISITS_PER_VERTEX * topology.len() + EXTRA_VISITS;
     let mut moving: Vec<u32> = Vec::new();
     for round in 0..MAX_MENDING_ROUNDS {
         if bad.is_empty() || left == 0 {
             return;
         }
+        moving.clear();
         for triangle in &bad {
             moving.extend(topology.triangles[*triangle as usize]);
         }
@@ -76,12 +68,11 @@ pub(super) fn separate_self_intersections(
             let along = round < WIDENING_ROUNDS && creased(vertex);
             let beside = mean_beside(topology, x, vertex, along.then_some(creased));
             if let Some(mean) = beside {
-                let halfway = 0.5 * (x[vertex] + mean);
-                let may_leave = may_leave_reach && round >= BOUNDED_ROUNDS && creased(vertex);
-                x[vertex] = match may_leave && is_noisy(vertex) {
-                    true => halfway,
-                    false => given.within_reach(vertex, halfway),
-                };
+                let mut step = 0.5 * (mean - x[vertex]);
+                if !creased(vertex) {
+                    step -= up[vertex] * up[vertex].dot(&step);
+                }
+                x[vertex] = given.within_reach_across(vertex, x[vertex] + step, &up[vertex]);
             }
         }
         let near = topology.within_rings(moving.clone(), CROSSING_SEARCH_RINGS);
@@ -90,10 +81,10 @@ pub(super) fn separate_self_intersections(
     }
 }
 
-/// Returns whether triangles of the surface cross others near them or are folded over.
-pub(super) fn is_entangled(given: &MeshInput, vertex_fans: &VertexFans, x: &[Point]) -> bool {
+/// Finds the triangles of the surface that cross others near them or are folded over.
+pub(super) fn all_entangled(given: &MeshInput, vertex_fans: &VertexFans, x: &[Point]) -> Vec<u32> {
     let all: Vec<u32> = (0..given.topology.len() as u32).collect();
-    !entangled_triangles(&given.topology, vertex_fans, x, &all).is_empty()
+    entangled_triangles(&given.topology, vertex_fans, x, &all)
 }
 
 /// Returns the mean of a vertex's neighbours: of the two along the border, or of the two along a line of `creased`

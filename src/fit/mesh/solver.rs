@@ -15,7 +15,7 @@ use super::noise_level::noise;
 use super::options::MeshOptions;
 use super::orientation::unfold;
 use super::reach::reach;
-use super::report::{MeshPass, MeshReport};
+use super::report::{EntangledTriangle, MeshPass, MeshReport};
 use super::rho_shares::set_rho_shares;
 use super::self_intersections::separate_self_intersections;
 use super::shape_measures::ShapeMeasures;
@@ -86,6 +86,8 @@ pub struct MeshSolver {
     bounds: BoundingSphere,
     lambda: f64,
     sigma: Option<f64>,
+    /// Triangles of the surface that are folded over or cross others, when the fit is finished.
+    entangled: Vec<u32>,
     /// Solve of the current linearised problem; `None` when the fit is finished.
     level: Option<AdmmSolver<SparseOperator>>,
     linear: Linearisation,
@@ -174,6 +176,7 @@ impl MeshSolver {
             bounds,
             lambda,
             sigma,
+            entangled: Vec::new(),
             level: None,
             surface: given.noisy.clone(),
             smooth: None,
@@ -348,16 +351,16 @@ impl MeshSolver {
             // Normals beside creases have changed.
             let up = normals(&given.topology, surface, Some(&old));
             unfold(given, surface, &up);
-            untangle(given, &sides.vertex_fans, surface, &|v| {
+            self.entangled = untangle(given, &sides.vertex_fans, surface, &|v| {
                 sides.is_on_crease(v)
             });
         } else if done {
-            untangle(given, &VertexFans::new(&given.topology), surface, &|_| {
+            self.entangled = untangle(given, &VertexFans::new(&given.topology), surface, &|_| {
                 false
             });
         } else {
             let fans = VertexFans::new(&given.topology);
-            separate_self_intersections(given, &fans, surface, &|_| false, false);
+            separate_self_intersections(given, &fans, surface, &|_| false);
         }
         if done {
             self.reason = Some(reason);
@@ -418,10 +421,27 @@ impl MeshSolver {
                     .then(|| [self.before.volume, after.volume].map(|v| v * length.powi(3))),
                 area: [self.before.area, after.area].map(|a| a * length.powi(2)),
                 flipped: [self.before.flipped, after.flipped],
+                entangled: self
+                    .entangled
+                    .iter()
+                    .map(|t| self.entangled_triangle(*t))
+                    .collect(),
                 stop_reason: self.reason.unwrap_or(StopReason::Cancelled),
                 seconds,
             },
         })
+    }
+}
+
+impl MeshSolver {
+    /// Locates a triangle of the topology in the mesh, and its middle on the surface so far.
+    fn entangled_triangle(&self, triangle: u32) -> EntangledTriangle {
+        let corners = self.given.topology.triangles[triangle as usize];
+        let sum: Point = corners.iter().map(|i| self.surface[*i as usize]).sum();
+        EntangledTriangle {
+            triangle: self.given.topology.from[triangle as usize] as usize,
+            position: self.bounds.outward(sum / 3.0),
+        }
     }
 }
 

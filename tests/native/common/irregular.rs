@@ -43,17 +43,23 @@ pub enum Tessellation {
     Decimated,
     /// Hubs with 20 neighbours, and triangles split at their centroids: valences 3 to 20.
     Hubs,
+    /// Points a hundred times as dense around one corner as far from it.
+    Graded,
+    /// Rows of points close together between rows that are far apart: aspect ratios to 1,000.
+    Needles,
     /// A grid with random diagonals, for comparison.
     Regular,
 }
 
 impl Tessellation {
-    pub const ALL: [Self; 6] = [
+    pub const ALL: [Self; 8] = [
         Self::Scattered,
         Self::RaggedRim,
         Self::Stretched,
         Self::Decimated,
         Self::Hubs,
+        Self::Graded,
+        Self::Needles,
         Self::Regular,
     ];
 
@@ -141,6 +147,29 @@ impl Tessellation {
                 }
                 (places, triangles)
             }
+            Self::Graded => {
+                let places = (0..side * side).map(|_| [0, 1].map(|_| random.uniform().powi(3)));
+                let places = places.collect();
+                delaunay(places)
+            }
+            Self::Needles => {
+                let (cols, rows) = (side, side);
+                let places = (0..cols * rows).map(|i| {
+                    let [u, v] = [i % cols, i / cols].map(|k| k as f64);
+                    let pair = (v / 2.0).floor() + 1e-3 * (v % 2.0);
+                    let jitter = 0.4 * (random.uniform() - 0.5);
+                    [
+                        (u + 0.5 + jitter) / cols as f64,
+                        (pair + 0.5) / (0.5 * rows as f64).ceil(),
+                    ]
+                });
+                let (places, stretched): (Vec<_>, Vec<_>) = places
+                    .enumerate()
+                    .map(|(i, place)| (place, [place[0], (i / cols) as f64 / rows as f64]))
+                    .unzip();
+                let (_, triangles) = delaunay(stretched);
+                (places, triangles)
+            }
             Self::Regular => {
                 let places = (0..side * side).map(|i| [i % side, i / side]);
                 let places = places.map(|cell| cell.map(|k| k as f64 / (side - 1) as f64));
@@ -167,8 +196,10 @@ impl Tessellation {
 pub enum Sheet {
     /// An arc of a cylinder of radius 0.5.
     Curled,
-    /// Two planes at 60 degrees along a slanting line.
+    /// Two planes along a slanting line, the angle between their normals 60 degrees.
     Folded,
+    /// Two planes at 45 degrees along a slanting line, so that the sheet nearly touches itself.
+    Wedge,
     /// Two planes joined by a quarter of a cylinder of this radius, around the middle of the square.
     Bracket { radius: f64 },
 }
@@ -180,14 +211,18 @@ impl Sheet {
                 let angle = (u - 0.5) / 0.5;
                 Point::new(0.5 * angle.sin(), v, 0.5 * angle.cos())
             }
-            Sheet::Folded => {
+            Sheet::Folded | Sheet::Wedge => {
                 // Across the fold, and along it.
                 let (sin, cos) = 0.3f64.sin_cos();
                 let [s, t] = [
                     cos * (u - 0.5) + sin * (v - 0.5),
                     cos * (v - 0.5) - sin * (u - 0.5),
                 ];
-                let (rise, run) = (std::f64::consts::FRAC_PI_6).sin_cos();
+                let slope = match self {
+                    Sheet::Wedge => 3.0 * std::f64::consts::FRAC_PI_8,
+                    _ => std::f64::consts::FRAC_PI_6,
+                };
+                let (rise, run) = slope.sin_cos();
                 Point::new(s * run, t, -s.abs() * rise)
             }
             Sheet::Bracket { radius } => {

@@ -22,13 +22,7 @@ fn vertices_that_passed_each_other_on_a_crease_go_back() {
     x[one].z += 0.35;
     x[other].z -= 0.2;
     assert!(crossings(&with_positions(&truth, &x)) > 0);
-    separate_self_intersections(
-        &given,
-        &vertex_fans,
-        &mut x,
-        &|v| edge(&given.noisy[v]),
-        false,
-    );
+    separate_self_intersections(&given, &vertex_fans, &mut x, &|v| edge(&given.noisy[v]));
     assert_eq!(crossings(&with_positions(&truth, &x)), 0);
     assert!(x[at(-0.25)].z < x[one].z && x[one].z < x[other].z && x[other].z < x[at(0.5)].z);
     // What is not near stays, and what is on the edge slides along it.
@@ -51,6 +45,6 @@ fn bodies_put_through_each_other_stay() {
     let given = given(&both);
     let mut x = given.noisy.clone();
     let vertex_fans = VertexFans::new(&given.topology);
-    separate_self_intersections(&given, &vertex_fans, &mut x, &|_| false, false);
+    separate_self_intersections(&given, &vertex_fans, &mut x, &|_| false);
     assert_eq!(x, given.noisy);
 }

@@ -391,6 +391,11 @@ export interface LambdaChoice {
    * the shape. Far above, the surface is farther from the heights than their noise explains.
    */
   residualRatio?: number;
+  /**
+   * Whether the residual is larger than the noise explains although lambda was raised, so that the surface has lost a part
+   * of the shape: take a larger lambda.
+   */
+  residualExceedsNoise: boolean;
   /** How often lambda was raised above the one of the noise, since the residual showed that one to be too small. */
   raises: number;
   /** Number of solves before the last one: for each penalty that was compared, and before each raise of lambda. */

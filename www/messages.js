@@ -355,10 +355,13 @@ export const BY_NOISE = 'The page chooses λ from the noise of the input. This t
  */
 export function lambdaFound({ lambda, lambdaChoice }) {
   if (!lambdaChoice) return '';
-  const { reason, sigma, step, solves, correlationLength, ambiguous } = lambdaChoice;
+  const { reason, sigma, step, solves, correlationLength, ambiguous, residualExceedsNoise, residualRatio } = lambdaChoice;
   const length = correlationLength > 0 ? `, alike over distances of ${number(correlationLength)}` : '';
   const noise = step === undefined ? `Noise: ${number(sigma ?? 0)}${length}` : `Steps: ${number(step)}`;
-  const doubt = ambiguous ? ' The shape bends over such distances, too, so compare five values.' : '';
+  const unsure = ambiguous ? ' The shape bends over such distances, too, so compare five values.' : '';
+  const doubt = residualExceedsNoise
+    ? ` The surface is ${number(residualRatio ?? 0)} times as far from the heights as their noise explains: a larger λ keeps more of the shape.`
+    : unsure;
   switch (reason) {
     case 'prediction': return `Chosen automatically (${count(solves)} values tried). ${noise}, in the unit of the heights.${doubt}`;
     case 'noise': return `Chosen automatically. ${noise}, in the unit of the heights.${doubt}`;

@@ -163,6 +163,9 @@ pub struct LambdaChoice {
     /// suits the shape. Far above, the surface is farther from the heights than their noise explains. `None` before the
     /// end of the solve, or without noise.
     pub residual_ratio: Option<f64>,
+    /// Whether the residual is larger than the noise explains although λ was raised, so that the surface has lost a part of
+    /// the shape.
+    pub residual_exceeds_noise: bool,
     /// Number of times that λ was raised above the one that follows from the noise, since the residual of the surface
     /// showed that one to be too small.
     pub raises: usize,

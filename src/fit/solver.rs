@@ -157,6 +157,8 @@ impl Solver {
         let factor = residual.and_then(|residual| residual.lambda_factor(choice));
         let Some(factor) = factor.filter(|_| is_solved) else {
             choice.residual_ratio = residual.map(|residual| residual.rms);
+            choice.residual_exceeds_noise =
+                residual.is_some_and(|residual| residual.exceeds_noise(choice));
             return Ok(false);
         };
         choice.raises += 1;

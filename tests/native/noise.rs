@@ -214,6 +214,59 @@ fn lambda_is_raised_where_the_noise_does_not_explain_the_residual() {
     assert!(own < 1.5 * raw, "{own} {raw}");
 }
 
+/// Noise as depth cameras smooth it: white noise after means over the six neighbours, four times.
+fn with_smooth_noise(truth: &Heightfield, sigma: f64, seed: u64) -> Heightfield {
+    let lattice = *truth.lattice();
+    let mut noise = Noise::new(seed);
+    let mut values: Vec<f64> = (0..lattice.len()).map(|_| normal(&mut noise)).collect();
+    for _ in 0..4 {
+        let old = values.clone();
+        for (i, value) in values.iter_mut().enumerate() {
+            let ring = lattice.neighbours(i / lattice.cols(), i % lattice.cols());
+            let around = ring.into_iter().flatten();
+            let around = around.map(|(row, col)| old[lattice.index(row, col)]);
+            let (sum, count) = around.fold((old[i], 1.0), |(sum, n), z| (sum + z, n + 1.0));
+            *value = sum / count;
+        }
+    }
+    let size = (values.iter().map(|z| z * z).sum::<f64>() / values.len() as f64).sqrt();
+    let heights = truth.heights().iter().zip(values);
+    let heights = heights.map(|(z, n)| z + sigma * n / size);
+    Heightfield::new(lattice, heights.collect()).unwrap()
+}
+
+/// Folds that are as narrow as ten vertices look like noise from afar. They stay, and what is farther off than the input
+/// is said to be.
+#[test]
+fn narrow_folds_stay_in_smooth_noise() {
+    let folds = |x: f64, y: f64| {
+        let u = 0.88 * (x - 0.5) + 0.48 * (y - 0.5);
+        0.155 * ((u / 0.31).rem_euclid(1.0) - 0.5).abs()
+    };
+    let truth = unit_square(80, folds);
+    for (share, seed) in [(0.01, 5), (0.02, 6)] {
+        let input = with_smooth_noise(&truth, share * 0.0775, seed);
+        let (surface, report) = solve(&input, &Options::default());
+        let choice = report.lambda_choice.unwrap();
+        let [own, raw] = [&surface, &input].map(|field| rms_difference(&truth, field));
+        assert!(own < 0.95 * raw, "{own} {raw} {choice:?}");
+        assert!(!choice.residual_exceeds_noise, "{choice:?}");
+    }
+}
+
+/// Steps are no surface like paper. λ is raised until most of their height is kept.
+#[test]
+fn stairs_are_not_flattened_into_a_ramp() {
+    let stairs = |x: f64, y: f64| 0.06 * ((x + 0.3 * y) / 0.15).floor();
+    let truth = unit_square(80, stairs);
+    let input = with_smooth_noise(&truth, 0.005 * 0.48, 7);
+    let (surface, report) = solve(&input, &Options::default());
+    // A ramp through the steps is off by the standard deviation of a sawtooth.
+    let ramp = 0.06 / 12f64.sqrt();
+    let own = rms_difference(&truth, &surface);
+    assert!(own < 0.5 * ramp, "{own} {ramp} {:?}", report.lambda_choice);
+}
+
 /// A sphere bends both ways everywhere, as noise does, but alike from place to place.
 #[test]
 fn a_sphere_with_little_noise_is_no_noise() {

@@ -63,6 +63,7 @@ pub(crate) fn initial_options(
         ambiguous: noise.is_some_and(|noise| noise.ambiguous),
         merged: noise.map_or(0, |noise| noise.merged),
         residual_ratio: None,
+        residual_exceeds_noise: false,
         raises: 0,
         solves: 0,
         iterations: 0,

@@ -33,9 +33,12 @@ const LAMBDA_RAISE_FACTORS: [f64; 2] = [2.9, 10.0];
 /// Maximum number of times that λ is raised.
 const MAX_LAMBDA_RAISES: usize = 4;
 
-/// Median residual under correlated noise, in standard deviations of it, below which these are taken to be as much
+/// Median residual under correlated noise, in standard deviations of it, below which the noise is taken to be as much
 /// smaller: a shape beside correlated noise makes it look larger than it is (`benches/scenes.md`).
 const MIN_NOISE_MEDIAN: f64 = 0.8;
+
+/// Number of raises below which λ is raised for a median residual that is smaller.
+const MAX_SMALLER_NOISE_RAISES: usize = 2;
 
 /// Residual of a surface, in standard deviations of the noise.
 #[derive(Debug, Clone, Copy)]
@@ -94,17 +97,24 @@ impl Residual {
         }))
     }
 
+    /// Whether the residual is larger than the noise explains.
+    pub(crate) fn exceeds_noise(&self, choice: &LambdaChoice) -> bool {
+        match choice.correlation_length > 0.0 {
+            true => self.rms > MAX_CORRELATED_RESIDUAL,
+            false => self.rms > MAX_WHITE_RESIDUAL,
+        }
+    }
+
     /// The factor by which λ should be larger; `None` where it suits the residual.
     pub(crate) fn lambda_factor(&self, choice: &LambdaChoice) -> Option<f64> {
-        let is_correlated = choice.correlation_length > 0.0;
-        let max_residual = match is_correlated {
-            true => MAX_CORRELATED_RESIDUAL,
-            false => MAX_WHITE_RESIDUAL,
-        };
         let [least, most] = LAMBDA_RAISE_FACTORS;
-        if self.rms > max_residual && choice.raises < MAX_LAMBDA_RAISES {
+        let is_correlated = choice.correlation_length > 0.0;
+        if self.exceeds_noise(choice) && choice.raises < MAX_LAMBDA_RAISES {
             Some(self.rms.clamp(least, most))
-        } else if is_correlated && choice.raises < 2 && self.median < MIN_NOISE_MEDIAN {
+        } else if is_correlated
+            && self.median < MIN_NOISE_MEDIAN
+            && choice.raises < MAX_SMALLER_NOISE_RAISES
+        {
             Some((1.0 / self.median).min(least))
         } else {
             None

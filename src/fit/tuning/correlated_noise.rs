@@ -36,8 +36,8 @@ const MAX_INCOHERENCE_RADIUS: f64 = 12.0;
 /// Maximum radius, in spacings, of the smallest discs that show noise. What shows in larger discs only is a shape.
 const MAX_FIRST_RADIUS: f64 = 4.0;
 
-/// Minimum number of discs of a scale whose median curvatures are used.
-const MIN_DISCS: usize = 100;
+/// Minimum number of discs of a scale, of those without a common vertex, whose median curvatures are used.
+const MIN_INDEPENDENT_DISCS: f64 = 5.5;
 
 /// Number of scales, up to the largest one that is used, to which a covariance of noise is fitted.
 const FITTED_SCALES: usize = 3;
@@ -88,11 +88,13 @@ impl CorrelatedNoise {
     /// A shape beside the noise adds to the curvatures. So of the covariances that explain all larger scales, the one
     /// of the least noise counts, or one of smaller discs with hardly more.
     pub(super) fn from_scales(scales: &[CurvatureScale], discs: &[Disc]) -> Option<Self> {
-        let first = scales.iter().position(is_noise)?;
+        let first = scales.iter().position(|scale| is_noise(scale, discs))?;
         if scales[first].radius() > MAX_FIRST_RADIUS {
             return None;
         }
-        let noisy = scales[first..].iter().take_while(|scale| is_noise(scale));
+        let noisy = scales[first..]
+            .iter()
+            .take_while(|scale| is_noise(scale, discs));
         let scales = &scales[first..first + noisy.count()];
         let (explaining, others): (Vec<_>, Vec<_>) = (1..scales.len())
             .map(|last| {
@@ -120,12 +122,12 @@ impl CorrelatedNoise {
 }
 
 /// Returns whether the curvatures of a scale are mostly noise.
-fn is_noise(scale: &CurvatureScale) -> bool {
+fn is_noise(scale: &CurvatureScale, discs: &[Disc]) -> bool {
     let bends_both_ways = scale.ratio > MIN_NOISE_RATIO && scale.coherence < MAX_COHERENCE;
     let incoherent = scale.coherence < MAX_NOISE_COHERENCE
         && scale.ratio > MIN_ANISOTROPIC_RATIO
         && scale.radius() < MAX_INCOHERENCE_RADIUS;
-    scale.count >= MIN_DISCS && (bends_both_ways || incoherent)
+    scale.independent_discs(discs) >= MIN_INDEPENDENT_DISCS && (bends_both_ways || incoherent)
 }
 
 /// Returns whether the curvatures of a scale are isotropic noise alone, with no shape beside it.

@@ -136,6 +136,11 @@ pub(super) struct CurvatureScale {
 }
 
 impl CurvatureScale {
+    /// Number of discs without a common vertex that would tell as much.
+    pub(super) fn independent_discs(&self, discs: &[Disc]) -> f64 {
+        self.count as f64 / discs[self.disc].offsets.len() as f64
+    }
+
     /// Radius of the discs, in spacings of the input's lattice.
     pub(super) fn radius(&self) -> f64 {
         (DISC_RADII[self.disc] << self.lattice) as f64

@@ -13,9 +13,14 @@ const MIN_NOISE_SAMPLES: usize = 50;
 /// correlated. Bends of the shape beside white noise raise it to 1.8.
 const MIN_CORRELATED_RATIO: f64 = 2.5;
 
-/// Minimum correlation length of noise that counts as correlated, in spacings. White noise of square pixels has 0.5 to
-/// 0.6 after resampling to the lattice, and its held-out heights are not predicted by their neighbours.
+/// Minimum correlation length of noise that counts as correlated, in spacings, unless the ratio is larger than
+/// [`MIN_SHORT_CORRELATED_RATIO`]. White noise of square pixels has 0.5 to 0.6 after resampling to the lattice, and its
+/// held-out heights are not predicted by their neighbours.
 const MIN_CORRELATION_LENGTH: f64 = 0.8;
+
+/// Minimum ratio of the noise estimated from large discs to that from rings of six neighbours at which noise counts as
+/// correlated whatever its length. White noise of square pixels has about 3.
+const MIN_SHORT_CORRELATED_RATIO: f64 = 5.0;
 
 /// Largest share of different heights among all at which steps of quantisation are looked for.
 const MAX_DISTINCT_HEIGHTS: f64 = 0.25;
@@ -92,7 +97,13 @@ fn correlated_noise(input: &Input, white: f64) -> Result<Option<CorrelatedNoise>
     let found = CorrelatedNoise::from_scales(&scales, &discs);
     let is_correlated = |noise: &CorrelatedNoise| {
         let root = noise.sigma * noise.shared_vertices.sqrt();
-        root >= MIN_CORRELATED_RATIO * white && noise.length >= MIN_CORRELATION_LENGTH
+        let is_long = noise.length >= MIN_CORRELATION_LENGTH;
+        let min_ratio = if is_long {
+            MIN_CORRELATED_RATIO
+        } else {
+            MIN_SHORT_CORRELATED_RATIO
+        };
+        root >= min_ratio * white
     };
     Ok(found.filter(is_correlated))
 }
@@ -284,6 +295,24 @@ mod tests {
                 assert!((0.7..1.7).contains(&product), "{blur} {product} {noise:?}");
                 assert!(!noise.ambiguous);
             }
+        }
+    }
+
+    /// Few large discs fit into a lattice, and their medians are uncertain: no draw of the noise is taken for far larger
+    /// or smaller than it is.
+    #[test]
+    fn no_draw_of_smooth_noise_is_far_off() {
+        let cone = |x: f64, y: f64, slope: f64| 0.5 - slope * x.hypot(y);
+        let cones = |x: f64, y: f64| cone(x - 0.3, y - 0.35, 0.6).max(cone(x - 0.75, y - 0.7, 0.8));
+        let truth = Heightfield::from_fn(lattice(), cones).unwrap();
+        let sigma = 0.035;
+        for seed in 0..100 {
+            let heights = truth.heights().iter().zip(blurred(seed, [1.0; 2]));
+            let heights = heights.map(|(z, n)| z + sigma * n).collect();
+            let field = Heightfield::new(lattice(), heights).unwrap();
+            let noise = Noise::from_input(&field.into()).unwrap().unwrap();
+            let product = noise.product / (sigma * 0.01 * shared_root([1.0; 2]));
+            assert!((0.5..2.0).contains(&product), "{seed} {product}");
         }
     }
 

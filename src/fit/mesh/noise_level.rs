@@ -13,12 +13,8 @@ const MIN_NOISE_SAMPLES: usize = 50;
 /// Maximum number of vertices from which the noise of a mesh is estimated: more do not make the estimate better.
 const MAX_NOISE_SAMPLES: usize = 20_000;
 
-/// Share of the vertices, those around which the base bends least, from which the noise is estimated: the quadratics of
-/// vertices next to edges miss these, not the noise alone.
-const FLATTEST_SHARE: f64 = 0.5;
-
 /// Estimates the standard deviation of a mesh's noise along the normals of the base, from the median distance of a vertex
-/// to the quadratic fitted to those around it, where the base is flattest; `None` if there are too few samples.
+/// to the quadratic fitted to those around it, so that creases do not count; `None` if there are too few samples.
 /// Positions across the normals are those given, because smoothing moves irregular vertices along the surface.
 pub(super) fn noise(
     topology: &Topology,
@@ -53,17 +49,11 @@ pub(super) fn noise(
         let predicted = (inverse * quadratic.right)[0];
         let sample = (off(vertex) - predicted).abs() / (1.0 + inverse[(0, 0)]).sqrt();
         if sample.is_finite() {
-            let bends = (topology.around(vertex).iter())
-                .map(|other| 1.0 - frame.normal.dot(&frames[*other as usize].normal));
-            samples.push((bends.fold(0.0, f64::max), sample));
+            samples.push(sample);
         }
     }
     if samples.len() < MIN_NOISE_SAMPLES {
         return None;
     }
-    samples.sort_unstable_by(|a, b| a.0.total_cmp(&b.0));
-    let flat = (FLATTEST_SHARE * samples.len() as f64) as usize;
-    let flat = flat.max(MIN_NOISE_SAMPLES);
-    let mut flattest: Vec<f64> = samples[..flat].iter().map(|(_, sample)| *sample).collect();
-    Some(MAD_TO_SIGMA * median(&mut flattest)?)
+    Some(MAD_TO_SIGMA * median(&mut samples)?)
 }

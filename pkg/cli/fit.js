@@ -35,16 +35,11 @@ export async function fit(task, signal) {
   }
   await writeWhole(files, signal);
   announce(task.output, report);
-  const { residualExceedsNoise, residualRatio, ambiguous, sigma } = report.lambdaChoice ?? {};
+  const { residualExceedsNoise, residualRatio } = report.lambdaChoice ?? {};
   if (residualExceedsNoise) {
     process.stderr.write(
       `developable: warning: the surface is farther from the heights than their noise explains (${residualRatio?.toFixed(1)} times): a part of ` +
       `the shape is lost; a larger --lambda than ${Number(report.lambda.toPrecision(2))} keeps more of it\n`,
-    );
-  } else if (ambiguous) {
-    process.stderr.write(
-      `developable: warning: noise (${Number(sigma?.toPrecision(2))}) and shape of the heights could not be told apart, so --lambda auto is ` +
-      `uncertain: look at the result, and try others than ${Number(report.lambda.toPrecision(2))}\n`,
     );
   }
   const certainty = report.gap === undefined ? 'without a known gap' : `with a gap of ${percent(report.gap)}`;

@@ -226,7 +226,7 @@ test('wrong usage: status 2, what is wrong, and no output', async () => {
     ['solve ramp.npy -o x.npy', /"solve".*fit, design, occlusions/],
     ['fit', /input is missing/],
     ['fit ramp.npy', /output is missing/],
-    ['fit ramp.npy more.npy -o x.npy', /more\.npy/],
+    ['fit ramp.npy more.npy -o x.npy', /x\.npy.*several inputs/],
     ['fit ramp.npy -o x.jpg', /\.npy, \.png.*x\.jpg/],
     ['fit ramp.npy -o', /output/],
     ['fit ramp.npy -o x.npy --colour red', /unknown option --colour\n/],

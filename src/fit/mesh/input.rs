@@ -34,7 +34,8 @@ impl MeshInput {
     pub(super) fn within_reach_across(&self, vertex: usize, x: Point, up: &Point) -> Point {
         let (start, reach) = (self.noisy[vertex], self.reach[vertex]);
         let offset = x - start;
-        if offset.norm() <= reach {
+        // No number in a mesh without extent.
+        if offset.norm() <= reach || reach.is_nan() {
             return x;
         }
         let rise = up.dot(&offset).clamp(-reach, reach);

@@ -26,7 +26,7 @@ use shapes::Scene;
 
 const SIZES: [usize; 2] = [80, 200];
 
-const NOISES: [Noise; 20] = [
+const NOISES: [Noise; 25] = [
     Noise::White(0.005),
     Noise::White(0.01),
     Noise::White(0.02),
@@ -34,12 +34,17 @@ const NOISES: [Noise; 20] = [
     Noise::White(0.1),
     Noise::Correlated(0.01),
     Noise::Correlated(0.05),
+    Noise::Blurred(0.02, [3.0, 0.0]),
     Noise::Blurred(0.005, [1.0, 1.0]),
     Noise::Blurred(0.01, [1.0, 1.0]),
+    Noise::Blurred(0.02, [1.0, 1.0]),
+    Noise::Blurred(0.005, [1.6, 1.6]),
     Noise::Blurred(0.01, [1.6, 1.6]),
     Noise::Blurred(0.02, [1.6, 1.6]),
     Noise::Blurred(0.005, [2.5, 2.5]),
     Noise::Blurred(0.01, [2.5, 2.5]),
+    Noise::Blurred(0.02, [2.5, 2.5]),
+    Noise::Blurred(0.005, [4.0, 4.0]),
     Noise::Blurred(0.01, [4.0, 4.0]),
     Noise::Blurred(0.02, [4.0, 4.0]),
     Noise::Blurred(0.01, [3.0, 0.0]),

@@ -1,4 +1,4 @@
-//! Developable surfaces, and envelopes of some, as heights over the unit square.
+//! Developable surfaces, envelopes of some, and shapes with steps, as heights over the unit square.
 
 use std::f64::consts::TAU;
 
@@ -17,7 +17,7 @@ macro_rules! scenes {
 pub fn all() -> Vec<Scene> {
     scenes![
         wave, fan, tangents, groin, valley, tent, fold, accordion, cones, frustum, corner, leaf,
-        facets, plane,
+        facets, plane, stairs, ramps, half_pipe, ripples, block, roof, cup, scroll,
     ]
     .into()
 }
@@ -127,4 +127,58 @@ fn facets(x: f64, y: f64) -> f64 {
 
 fn plane(x: f64, y: f64) -> f64 {
     0.3 * x - 0.2 * y
+}
+
+/// Level steps, which no surface like paper has.
+fn stairs(x: f64, y: f64) -> f64 {
+    0.06 * (turned(x, y, 0.35)[0] / 0.15).floor()
+}
+
+/// Level steps with ramps between them.
+fn ramps(x: f64, y: f64) -> f64 {
+    let u = turned(x, y, 0.35)[0] / 0.2;
+    0.08 * (u.floor() + (4.0 * u.rem_euclid(1.0) - 1.5).clamp(0.0, 1.0))
+}
+
+/// A flat floor between two quarters of a cylinder.
+fn half_pipe(x: f64, y: f64) -> f64 {
+    let beyond = (turned(x, y, 0.7)[0].abs() - 0.05).clamp(0.0, 0.45);
+    0.5 - (0.2501 - beyond * beyond).sqrt()
+}
+
+/// A cylinder over a wave of many periods.
+fn ripples(x: f64, y: f64) -> f64 {
+    0.02 * (7.0 * TAU * turned(x, y, 0.3)[0]).sin()
+}
+
+/// A block on a table, seen from above.
+fn block(x: f64, y: f64) -> f64 {
+    let [u, v] = turned(x, y, 0.2);
+    if u.abs() < 0.25 && v.abs() < 0.2 {
+        0.2
+    } else {
+        0.0
+    }
+}
+
+/// Two gable roofs that cross.
+fn roof(x: f64, y: f64) -> f64 {
+    let [u, v] = turned(x, y, 0.45);
+    (0.3 - 0.7 * u.abs()).max(0.25 - 0.6 * v.abs())
+}
+
+/// A disc with a conical rim in a plane.
+fn cup(x: f64, y: f64) -> f64 {
+    let radius = (x - 0.5).hypot(y - 0.5);
+    0.6 * (radius - 0.3).clamp(0.0, 0.12)
+}
+
+/// A sheet that begins to roll up steeply.
+fn scroll(x: f64, y: f64) -> f64 {
+    let u = turned(x, y, 1.2)[0];
+    if u < 0.0 {
+        0.02 * u
+    } else {
+        0.35 - (0.1225 - 0.45 * u * u).max(0.0).sqrt()
+    }
 }

@@ -363,7 +363,7 @@ export function lambdaFound({ lambda, lambdaChoice }) {
     ? ` The surface is ${number(residualRatio ?? 0)} times as far from the heights as their noise explains: a larger λ keeps more of the shape.`
     : unsure;
   switch (reason) {
-    case 'prediction': return `Chosen automatically (${count(solves)} values tried). ${noise}, in the unit of the heights.${doubt}`;
+    case 'prediction': return `Chosen automatically (${count(solves)} trial solves). ${noise}, in the unit of the heights.${doubt}`;
     case 'noise': return `Chosen automatically. ${noise}, in the unit of the heights.${doubt}`;
     case 'noNoise': return 'The input has no noise. A simpler surface (smaller λ) has fewer, larger sheets.';
     default: return `Too few heights to measure their noise: λ = ${shortest(lambda)}.`;

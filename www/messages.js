@@ -172,7 +172,7 @@ export const SHEET_WORDS = {
   outOfRange: (field, min, max) => `“${field}” has to be from ${min} to ${max}`,
 };
 
-/** What formats of files are for. */
+/** Purposes of file formats, as the save dialogs show them beside each format. */
 export const FORMAT_WORDS = {
   obj: 'a mesh that nearly every program reads',
   stl: 'a mesh for 3D printing',

@@ -31,7 +31,7 @@ const NAMING_FLAGS = /** @type {const} */ ([
   'intrinsics', 'edges',
 ]);
 
-/** Those of them that are written. @type {readonly string[]} */
+/** Flags that name a file which the command writes. @type {readonly string[]} */
 const WRITTEN_FLAGS = ['output', 'report', 'map', 'mtl', 'assembly'];
 
 /** Maximum number of characters that are kept of what one process says. */

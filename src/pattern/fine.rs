@@ -10,7 +10,7 @@ use std::collections::{BTreeMap, VecDeque};
 
 use super::assembly::{Assembled, Settled, settle};
 use super::flat_patch::{FlatPatch, MIN_CUT_VERTICES};
-use super::labels::Labels;
+use super::labels::{Labels, connected_groups};
 use super::layout::Arrangement;
 use super::outline::Layout;
 use super::parts::Parts;
@@ -21,7 +21,6 @@ use crate::heights::heightfield::Heightfield;
 use crate::lattice::coarsening::{coarse_lattice, fine_vertex, parents};
 use crate::lattice::hexagonal::Lattice;
 use crate::shape::patches::{NO_PATCH, Patches};
-use rustc_hash::FxHashSet;
 
 /// Maximum number of vertices of a surface that is cut into sheets without doing so on a coarser lattice first.
 /// `benches/patterns.md` has what it costs and gains.
@@ -264,42 +263,18 @@ fn transfer_labels(
             }
         }
     }
-    let mut first = 0;
-    loop {
-        let Some(i) = (first..fine.len()).find(|i| open[*i]) else {
-            return Ok((labels, origins));
-        };
-        first = i;
-        let patch = patches.labels()[i];
-        let region = connected_region(&fine, i, |k| open[k] && patches.labels()[k] == patch);
-        region.iter().for_each(|k| open[*k] = false);
+    let left = (0..fine.len()).filter(|i| open[*i]);
+    let same_patch = |i: usize, k: usize| patches.labels()[i] == patches.labels()[k];
+    for region in connected_groups(&fine, left, same_patch) {
         if region.len() >= MIN_CUT_VERTICES {
+            let patch = patches.labels()[region[0]];
             region
                 .iter()
                 .for_each(|k| labels[*k] = origins.len() as u32);
             origins.push(patch);
         }
     }
-}
-
-/// Lists the vertices that are connected with a first one by neighbours that are inside.
-fn connected_region(
-    lattice: &Lattice,
-    first: usize,
-    is_inside: impl Fn(usize) -> bool,
-) -> Vec<usize> {
-    let mut seen = FxHashSet::from_iter([first]);
-    let mut region = vec![first];
-    let mut next = 0;
-    while let Some(i) = region.get(next).copied() {
-        next += 1;
-        region.extend(
-            lattice
-                .around(i)
-                .filter(|k| is_inside(*k) && seen.insert(*k)),
-        );
-    }
-    region
+    Ok((labels, origins))
 }
 
 /// Creates a part of the fine lattice with the flat positions it has on the coarse lattice; `None` if these do not

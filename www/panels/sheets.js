@@ -22,7 +22,7 @@ const REST = 300;
 const chosen = { paper: /^en-(US|CA)/.test(navigator.language) ? 'letter' : 'a4', tabs: true, depth: TABS, metal: false, thickness: 1, radius: NaN, kFactor: 0.44 };
 /** The size and the unit that were chosen last, by the input's name. @type {Map<string, { side: number, unit: string }>} */
 const sizes = new Map();
-/** What the package says of a bend that metal cannot have. */
+/** Pattern of the package's error message about a curved fold, along which sheet metal cannot be bent. */
 const CURVED_FOLD = /^pattern: fold \d+ of sheet \d+ is curved/;
 /** Bounds of the longer side in millimetres. */
 const [MIN_SIDE, MAX_SIDE] = [10, 5000];

@@ -40,8 +40,7 @@ pub(super) fn separate_self_intersections(
     creased: &dyn Fn(usize) -> bool,
 ) {
     let topology = &given.topology;
-    let all: Vec<u32> = (0..topology.len() as u32).collect();
-    let mut bad = entangled_triangles(topology, vertex_fans, x, &all);
+    let mut bad = all_entangled(given, vertex_fans, x);
     let mut up = mean_normals(given, x, true);
     up.iter_mut()
         .for_each(|up| *up = up.try_normalize(0.0).unwrap_or_default());

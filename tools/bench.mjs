@@ -1,15 +1,15 @@
 /**
  * `npm run bench`: how fast it is, always as ratios of things measured in the same run;
- * `npm run bench -- NAME...` makes some of the tables, `--quick` smaller ones, `--write` writes
- * BENCHMARKS.md, and `--input FILE` adds a file of your own.
+ * `npm run bench -- NAME...` makes some of the tables, or those of a document, `--peers` those with other programs, `--quick`
+ * smaller ones; `--write` writes the documents whose tables were all made, and `--input FILE` adds a file of your own.
  */
-import { mkdtemp, readFile, rm, writeFile } from 'node:fs/promises';
+import { mkdtemp, rm, writeFile } from 'node:fs/promises';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { parse } from './bench/arguments.mjs';
 import { Bench, buildNative } from './bench/bench.mjs';
 import { machine } from './bench/machine.mjs';
-import { tables } from './bench/tables.mjs';
+import { documents as known, tables } from './bench/tables.mjs';
 import { rule } from './bench/task.mjs';
 import { asMarkdown, asText } from './bench/text.mjs';
 import { build } from './build.mjs';
@@ -17,43 +17,49 @@ import { root } from './util/paths.mjs';
 import { main } from './util/problem.mjs';
 
 await main(async () => {
-  const { quick, write, names, file } = parse(process.argv.slice(2));
+  const { quick, names, documents, file } = parse(process.argv.slice(2));
   await build();
   await buildNative();
 
   const start = performance.now();
   const where = await machine();
   const folder = await mkdtemp(join(tmpdir(), 'developable-bench-'));
-  const made = [];
+  /** @type {Record<string, import('./bench/text.mjs').Table>} */
+  const made = {};
   try {
     const bench = new Bench({ folder, quick, file });
-    for (const name of names) made.push(await tables[name](bench));
+    for (const name of names) made[name] = await tables[name](bench);
   } finally {
     await rm(folder, { recursive: true, force: true });
   }
 
-  for (const table of made) console.log(asText(table));
+  for (const table of Object.values(made)) console.log(asText(table));
+  for (const { summary } of Object.values(made)) if (summary) console.log(summary);
   console.log(`\n${where}\n${((performance.now() - start) / 1000).toFixed(0)} s`);
-  if (write) {
-    const choices = await readFile(join(root, 'benches/choices.md'), 'utf8');
-    await writeFile(join(root, 'BENCHMARKS.md'), page(where, made, choices));
+  for (const path of documents) {
+    const { title, tables: its } = known[path];
+    const text = page(title, where, Object.keys(its).map((name) => made[name]));
+    await writeFile(join(root, path), text);
   }
 });
 
 /**
+ * A document of tables, with what they come to at its head.
+ * @param {string} title
  * @param {string} where
  * @param {import('./bench/text.mjs').Table[]} made
- * @param {string} choices what is not made anew
  */
-function page(where, made, choices) {
+function page(title, where, made) {
   const date = new Date().toISOString().slice(0, 10);
-  const head = `# Benchmarks
+  const summaries = made.flatMap(({ summary }) => (summary ? [`- ${summary}`] : []));
+  const head = `# ${title}
 
 Written by \`npm run bench -- --write\` on ${date}: ${where}.
 
+${[...summaries, ''].join('\n')}
 Times change from machine to machine; what to look at are the ratios, all of which were measured in
 one run. Each measurement has a process of its own and is ${rule}. Everything runs in one thread.
 Inputs are the library's own examples under noise, so that nothing else is needed to repeat this.
 `;
-  return [head.trimEnd(), ...made.map(asMarkdown), choices.trimEnd()].join('\n\n').concat('\n');
+  return [head.trimEnd(), ...made.map(asMarkdown)].join('\n\n').concat('\n');
 }

@@ -5,11 +5,15 @@ without any.
     python -m venv env && env/bin/pip install -r benches/pymeshlab/requirements.txt
     env/bin/python benches/pymeshlab/compare.py FOLDER > benches/pymeshlab.md
 
+`--scenes N` takes the first N scenes only, `--json FILE` writes the ratios to a file besides; `npm run bench -- --peers` does
+all of this.
+
 The filters move vertices in all directions and keep their triangles, so vertices are compared one by one:
 the mean angle between their normals and the true ones, and the root mean square of their distances from
 the true tangent planes. Vertices on the border, and next to it, do not count.
 """
 
+import argparse
 import json
 import sys
 import time
@@ -102,8 +106,8 @@ def best(path, truth, name, grid):
     return least, seconds
 
 
-def main(folder):
-    scenes = json.loads((folder / "scenes.json").read_text())
+def main(folder, count, summary):
+    scenes = json.loads((folder / "scenes.json").read_text())[:count]
     print("# Beside pymeshlab\n")
     print(
         "Written by `benches/pymeshlab/compare.py`, which says what is compared. Each filter has the parameters "
@@ -131,13 +135,27 @@ def main(folder):
     print("\nOurs over theirs, geometric means and the largest, and the mean of seconds:\n")
     print("| | normals | largest | distances | largest | seconds | ours |")
     print("| :--- | ---: | ---: | ---: | ---: | ---: | ---: |")
-    for k, name in enumerate(FILTERS):
-        mean, most = ratios[k], worst[k]
-        print(
-            f"| {name} | {mean[0]:.2f} | {most[0]:.2f} | {mean[1]:.2f} | {most[1]:.2f} | "
-            f"{np.nanmean(seconds[:, k + 1]):.2f} | {seconds[:, 0].mean():.2f} |"
-        )
+    filters = [
+        {
+            "name": name,
+            "normals": {"mean": ratios[k][0], "largest": worst[k][0]},
+            "distances": {"mean": ratios[k][1], "largest": worst[k][1]},
+            "seconds": np.nanmean(seconds[:, k + 1]),
+            "ours": seconds[:, 0].mean(),
+        }
+        for k, name in enumerate(FILTERS)
+    ]
+    for found in filters:
+        parts = [found[of][figure] for of in ("normals", "distances") for figure in ("mean", "largest")]
+        print(f"| {found['name']} | " + " | ".join(f"{x:.2f}" for x in [*parts, found["seconds"], found["ours"]]) + " |")
+    if summary:
+        summary.write_text(json.dumps({"version": version("pymeshlab"), "filters": filters}))
 
 
 if __name__ == "__main__":
-    main(Path(sys.argv[1]))
+    arguments = argparse.ArgumentParser()
+    arguments.add_argument("folder", type=Path)
+    arguments.add_argument("--scenes", type=int)
+    arguments.add_argument("--json", type=Path)
+    given = arguments.parse_args()
+    main(given.folder, given.scenes, given.json)

@@ -3,11 +3,12 @@ import { existsSync } from 'node:fs';
 import { basename, resolve } from 'node:path';
 import { parseArgs } from 'node:util';
 import { Problem } from '../util/problem.mjs';
-import { tables } from './tables.mjs';
+import { documents, peers as peerTables, tables } from './tables.mjs';
 
 const flags = /** @type {const} */ ({
   quick: { type: 'boolean' },
   write: { type: 'boolean' },
+  peers: { type: 'boolean' },
   input: { type: 'string' },
   lattice: { type: 'string' },
   spacing: { type: 'string' },
@@ -18,16 +19,20 @@ const flags = /** @type {const} */ ({
 /** @param {string[]} args */
 export function parse(args) {
   const { values, positionals } = split(args);
-  const { quick = false, write = false } = values;
-  const unknown = positionals.find((name) => !(name in tables));
+  const { quick = false, write = false, peers = false } = values;
+  const unknown = positionals.find((name) => !(name in tables) && !(name in documents));
   if (unknown !== undefined) {
-    throw new Problem(`There is no table "${unknown}": there are ${Object.keys(tables).join(', ')}.`);
+    const known = [...Object.keys(tables), ...Object.keys(documents)];
+    throw new Problem(`There is no table or document "${unknown}": there are ${known.join(', ')}.`);
   }
-  if (write && (quick || positionals.length > 0)) {
-    throw new Problem('BENCHMARKS.md has all tables in full: leave --quick and the names away, or --write.');
+  const chosen = [...positionals, ...(peers ? peerTables : [])];
+  const names = new Set((chosen.length > 0 ? chosen : Object.keys(documents))
+    .flatMap((name) => (name in documents ? Object.keys(documents[name].tables) : [name])));
+  const whole = Object.keys(documents).filter((name) => Object.keys(documents[name].tables).every((table) => names.has(table)));
+  if (write && (quick || whole.length === 0)) {
+    throw new Problem(`A document has all of its tables in full: leave --quick away, and name ${Object.keys(documents).join(' or ')}, or nothing.`);
   }
-  const names = positionals.length > 0 ? positionals : Object.keys(tables);
-  return { quick, write, names, file: values.input === undefined ? undefined : file(values.input, values) };
+  return { quick, names: [...names], documents: write ? whole : [], file: values.input === undefined ? undefined : file(values.input, values) };
 }
 
 /**

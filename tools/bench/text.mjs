@@ -6,6 +6,7 @@
  * @property {string} text what is compared, and how
  * @property {string[]} columns
  * @property {string[][]} rows
+ * @property {string} [summary] what the table comes to, in one sentence
  */
 
 /** @param {number} value */
@@ -16,6 +17,15 @@ export const seconds = (value) => (value < 1 ? `${digits(1000 * value)} ms` : `$
 
 /** @param {number} value */
 export const ratio = (value) => `${digits(value)} ×`;
+
+/**
+ * The range of some ratios, as "2.0 to 3.1".
+ * @param {number[]} values
+ */
+export function range(values) {
+  const [least, most] = [Math.min(...values), Math.max(...values)].map((value) => value.toPrecision(2)).map(Number);
+  return least === most ? count(least) : `${count(least)} to ${count(most)}`;
+}
 
 /** @param {number} value */
 export const percent = (value) => (value < 1e-4 ? value.toExponential(1) : `${digits(100 * value)} %`);

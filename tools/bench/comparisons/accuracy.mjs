@@ -22,6 +22,7 @@ export async function accuracy(bench) {
     ]);
   }
   return {
+    summary: `A gap of ${rows.at(-1)?.[0]} takes ${rows.at(-1)?.[3]} the time of ${rows[0][0]}.`,
     title: 'High accuracy',
     text: 'Native time to smaller and smaller certified gaps, at λ = 1e6, and its ratio to the '
       + `first. Given up after ${count(maxIterations)} iterations.`,

@@ -1,5 +1,5 @@
 /** Native code against wasm. */
-import { count, lambdaOf, ratio, seconds } from '../text.mjs';
+import { count, lambdaOf, range, ratio, seconds } from '../text.mjs';
 
 /** @typedef {import('../bench.mjs').Bench} Bench */
 
@@ -15,10 +15,12 @@ const cases = [
 /** @param {Bench} bench */
 export async function nativeAndWasm(bench) {
   const rows = [];
+  const ratios = [];
   for (const { name, lambda, gap } of cases) {
     const input = await bench.example(name, bench.quick ? 20_000 : 100_000);
     const native = await bench.native(input, { lambda, gap });
     const wasm = await bench.wasm(input, { lambda, gap });
+    ratios.push(wasm.seconds / native.seconds);
     rows.push([
       name, count(native.vertices), lambdaOf(lambda), `${100 * gap} %`,
       count(native.iterations), count(wasm.iterations),
@@ -26,6 +28,7 @@ export async function nativeAndWasm(bench) {
     ]);
   }
   return {
+    summary: `Wasm takes ${range(ratios)} times as long as native code.`,
     title: 'Native code and wasm',
     text: 'The same heights and options, natively and in wasm in Node through the package\'s '
       + 'synchronous API, one thread each: the time from making the solver to the surface, as the '

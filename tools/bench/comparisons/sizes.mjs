@@ -1,5 +1,5 @@
 /** How the cost grows with the number of vertices. */
-import { count, micros, ratio, seconds } from '../text.mjs';
+import { count, micros, range, ratio, seconds } from '../text.mjs';
 
 /**
  * @typedef {import('../bench.mjs').Bench} Bench
@@ -12,6 +12,7 @@ export async function sizes(bench) {
     ? [20_000, 50_000, 100_000]
     : [20_000, 50_000, 100_000, 250_000, 500_000, 1_000_000];
   const rows = [];
+  const each = [];
   /** @type {{ native: Measurement, wasm: Measurement } | undefined} */
   let first;
   for (const size of vertices) {
@@ -19,6 +20,7 @@ export async function sizes(bench) {
     const native = await bench.native(input);
     const wasm = await bench.wasm(input);
     first ??= { native, wasm };
+    each.push(1e6 * wasm.seconds / wasm.vertices);
     rows.push([
       count(native.vertices), count(native.finest),
       ...cost(native, first.native), ...cost(wasm, first.wasm),
@@ -26,6 +28,7 @@ export async function sizes(bench) {
     ]);
   }
   return {
+    summary: `A vertex costs ${range(each)} µs in wasm, from ${count(vertices[0])} vertices to ${count(vertices.at(-1) ?? 0)}.`,
     title: 'One size and the next',
     text: 'A noisy page on finer and finer lattices, at λ = 1e6, to a gap of 1 %: the ADMM '
       + 'iterations on the finest of them, the time, microseconds for each vertex, and their ratio '

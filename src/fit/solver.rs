@@ -11,6 +11,7 @@ use super::options::{Lambda, Options};
 use super::report::{LambdaChoice, LambdaReason, Progress, StopReason};
 use super::surface::Surface;
 use super::tuning::closed_form::{self, Known};
+use super::tuning::noise::Noise;
 use super::tuning::residual::Residual;
 use super::tuning::search::Search;
 use super::warm_start::WarmStart;
@@ -37,6 +38,8 @@ pub struct Solver {
     /// Search for the penalty, until it is finished.
     search: Option<Search>,
     choice: Option<LambdaChoice>,
+    /// Noise of the input, where λ or the penalty is chosen by it.
+    noise: Option<Noise>,
     solve: ComponentSolver,
 }
 
@@ -85,6 +88,7 @@ impl Solver {
         Ok(Solver {
             search,
             choice,
+            noise,
             solve: ComponentSolver::new(
                 prepared, &options, scale, warm_start, start_mode, started,
             )?,
@@ -139,26 +143,28 @@ impl Solver {
     /// Begins again with a larger λ where λ is not given and the residual of the surface asks for it; tells whether it
     /// does.
     fn raise_lambda(&mut self) -> Result<bool> {
-        let (Some(choice), Status::Stopped(reason)) = (&mut self.choice, self.solve.status())
-        else {
+        let (Some(choice), Some(noise)) = (&mut self.choice, &self.noise) else {
+            return Ok(false);
+        };
+        let Status::Stopped(reason) = self.solve.status() else {
             return Ok(false);
         };
         let is_noise = matches!(
             choice.reason,
             LambdaReason::Noise | LambdaReason::Prediction
         );
-        let (Some(sigma), None, true) = (choice.sigma, choice.residual_ratio, is_noise) else {
+        if choice.residual_ratio.is_some() || !is_noise {
             return Ok(false);
-        };
+        }
         let surface = self.solve.surface()?;
         let (input, domain) = (self.solve.input(), self.solve.domain());
-        let residual = Residual::of(input, domain, surface.heightfield(), sigma)?;
+        let residual = Residual::of(input, domain, surface.heightfield(), noise.sigma)?;
         let is_solved = matches!(reason, StopReason::Gap | StopReason::Rounding);
-        let factor = residual.and_then(|residual| residual.lambda_factor(choice));
+        let factor = residual.and_then(|residual| residual.lambda_factor(noise, choice.raises));
         let Some(factor) = factor.filter(|_| is_solved) else {
             choice.residual_ratio = residual.map(|residual| residual.rms);
             choice.residual_exceeds_noise =
-                residual.is_some_and(|residual| residual.exceeds_noise(choice));
+                residual.is_some_and(|residual| residual.exceeds_noise(noise));
             return Ok(false);
         };
         choice.raises += 1;

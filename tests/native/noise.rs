@@ -201,7 +201,7 @@ fn quantised_heights_are_told_by_their_step() {
     );
 }
 
-/// Ripples so tight that the λ of the noise flattens them: with a larger λ the result is about as near as the input.
+/// Ripples so tight that the λ of the noise flattens them: with a larger λ the result is as near as the input.
 #[test]
 fn lambda_is_raised_where_the_noise_does_not_explain_the_residual() {
     let truth = unit_square(80, |x, y| 0.02 * (40.0 * (0.9 * x + 0.4 * y)).sin());
@@ -211,7 +211,7 @@ fn lambda_is_raised_where_the_noise_does_not_explain_the_residual() {
     assert!(choice.raises > 0, "{choice:?}");
     assert!(choice.residual_ratio.unwrap() < 2.0, "{choice:?}");
     let [own, raw] = [&surface, &input].map(|field| rms_difference(&truth, field));
-    assert!(own < 1.5 * raw, "{own} {raw}");
+    assert!(own < 1.05 * raw, "{own} {raw} {choice:?}");
 }
 
 /// Noise as depth cameras smooth it: white noise after means over the six neighbours, four times.
@@ -254,17 +254,82 @@ fn narrow_folds_stay_in_smooth_noise() {
     }
 }
 
-/// Steps are no surface like paper. λ is raised until most of their height is kept.
+/// Steps are no surface like paper. λ is raised until they are kept, so that the result is hardly farther off than the input.
 #[test]
 fn stairs_are_not_flattened_into_a_ramp() {
     let stairs = |x: f64, y: f64| 0.06 * ((x + 0.3 * y) / 0.15).floor();
     let truth = unit_square(80, stairs);
     let input = with_smooth_noise(&truth, 0.005 * 0.48, 7);
     let (surface, report) = solve(&input, &Options::default());
-    // A ramp through the steps is off by the standard deviation of a sawtooth.
-    let ramp = 0.06 / 12f64.sqrt();
-    let own = rms_difference(&truth, &surface);
-    assert!(own < 0.5 * ramp, "{own} {ramp} {:?}", report.lambda_choice);
+    let [own, raw] = [&surface, &input].map(|field| rms_difference(&truth, field));
+    assert!(own < 1.25 * raw, "{own} {raw} {:?}", report.lambda_choice);
+}
+
+/// An image of two heights is a block on a table, not the rounding of a smooth surface.
+#[test]
+fn two_levels_are_a_shape() {
+    let block = |x: f64, y: f64| match (x - 0.5).abs() < 0.25 && (y - 0.45).abs() < 0.2 {
+        true => 0.2,
+        false => 0.0,
+    };
+    let truth = unit_square(60, block);
+    let (surface, report) = solve(&truth, &Options::default());
+    let off = rms_difference(&truth, &surface);
+    assert!(off < 0.002, "{off} {:?}", report.lambda_choice);
+}
+
+/// Noise of a scanner that moves: smooth along rows, independent from row to row. Its σ is found too small, which is no
+/// reason to raise λ.
+#[test]
+fn the_noise_of_scan_lines_is_not_returned_as_the_surface() {
+    let cone = |x: f64, y: f64| 0.5 - 0.6 * (x - 0.4).hypot(y + 0.2);
+    let roof = |x: f64, y: f64| 0.4 * (x + 0.3 * y - 0.6).abs();
+    for (scene, seed) in [(cone as fn(f64, f64) -> f64, 12), (roof, 13)] {
+        let truth = unit_square(80, scene);
+        let lattice = *truth.lattice();
+        let mut noise = Noise::new(seed);
+        let mut run = 0.0;
+        // An autoregressive process along each row: neighbours' correlation is 0.9.
+        let values = truth.heights().iter().enumerate().map(|(vertex, z)| {
+            let fresh = normal(&mut noise);
+            run = match vertex % lattice.cols() {
+                0 => fresh,
+                _ => 0.9 * run + 0.19f64.sqrt() * fresh,
+            };
+            z + 0.004 * run
+        });
+        let input = Heightfield::new(lattice, values.collect()).unwrap();
+        let (surface, report) = solve(&input, &Options::default());
+        let [own, raw] = [&surface, &input].map(|field| rms_difference(&truth, field));
+        assert!(own < 0.6 * raw, "{own} {raw} {:?}", report.lambda_choice);
+    }
+}
+
+/// Noise with long tails, and noise that grows fourfold with the distance from the camera, are smoothed as other noise is.
+#[test]
+fn long_tails_and_growing_noise_do_not_raise_lambda() {
+    let truth = unit_square(80, scene);
+    let mut noise = Noise::new(14);
+    // The difference of two exponentially distributed numbers has Laplace's distribution.
+    let mut laplace = || {
+        let [a, b] = [(); 2].map(|()| (noise.sample() + 1.0).max(1e-9) / 2.0);
+        0.002 * (a / b).ln()
+    };
+    let tails = truth.heights().iter().map(|z| z + laplace());
+    let tails = Heightfield::new(*truth.lattice(), tails.collect()).unwrap();
+    let mut noise = Noise::new(15);
+    let growing = truth.heights().iter().map(|z| {
+        let farness = 1.0 + 3.0 * (0.5 - z).clamp(0.0, 0.5) / 0.5;
+        z + 0.002 * farness * normal(&mut noise)
+    });
+    let growing = Heightfield::new(*truth.lattice(), growing.collect()).unwrap();
+    for input in [tails, growing] {
+        let (surface, report) = solve(&input, &Options::default());
+        let choice = report.lambda_choice.unwrap();
+        assert_eq!(choice.raises, 0, "{choice:?}");
+        let [own, raw] = [&surface, &input].map(|field| rms_difference(&truth, field));
+        assert!(own < 0.35 * raw, "{own} {raw} {choice:?}");
+    }
 }
 
 /// A sphere bends both ways everywhere, as noise does, but alike from place to place.

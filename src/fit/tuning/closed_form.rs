@@ -69,7 +69,7 @@ pub(crate) fn initial_options(
         iterations: 0,
     };
     let lambda = match noise.map(|noise| {
-        let product = match noise.correlation_length > 0.0 {
+        let product = match noise.is_correlated() {
             true => CORRELATED_LAMBDA_NOISE,
             false => WHITE_LAMBDA_NOISE,
         };

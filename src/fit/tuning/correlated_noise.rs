@@ -29,6 +29,13 @@ const MAX_NOISE_COHERENCE: f64 = 0.15;
 /// Minimum coherence (mean cosine) of neighbouring discs' Hessians that shows a shape beside noise.
 const MIN_SHAPE_COHERENCE: f64 = 0.05;
 
+/// Minimum ratio, or its inverse, of the second derivatives across rows and along them of incoherent Hessians at which the
+/// noise is anisotropic.
+const MIN_ANISOTROPY: f64 = 3.0;
+
+/// Largest coherence of neighbouring Hessians of anisotropic noise, whose ratio of principal curvatures tells little.
+const MAX_ANISOTROPIC_COHERENCE: f64 = 0.3;
+
 /// Maximum radius, in spacings, of discs in which incoherent Hessians are a sign of noise: in larger ones bends and
 /// creases of a shape are incoherent, too.
 const MAX_INCOHERENCE_RADIUS: f64 = 12.0;
@@ -77,6 +84,9 @@ pub(super) struct CorrelatedNoise {
     pub length: f64,
     /// Number of vertices that share one independent value of the noise: the sum of its correlations over the lattice.
     pub shared_vertices: f64,
+    /// Whether the noise is much rougher in one direction than in the other, so that no covariance that depends on the
+    /// distance alone describes it.
+    pub is_anisotropic: bool,
     /// Whether no fitted covariance explains the curvatures at all scales, so that most of the noise may be shape.
     pub ambiguous: bool,
 }
@@ -88,13 +98,13 @@ impl CorrelatedNoise {
     /// A shape beside the noise adds to the curvatures. So of the covariances that explain all larger scales, the one
     /// of the least noise counts, or one of smaller discs with hardly more.
     pub(super) fn from_scales(scales: &[CurvatureScale], discs: &[Disc]) -> Option<Self> {
-        let first = scales.iter().position(|scale| is_noise(scale, discs))?;
+        let is_anisotropic = scales.first().is_some_and(is_anisotropic);
+        let is_noise = |scale: &CurvatureScale| is_noise(scale, discs, is_anisotropic);
+        let first = scales.iter().position(is_noise)?;
         if scales[first].radius() > MAX_FIRST_RADIUS {
             return None;
         }
-        let noisy = scales[first..]
-            .iter()
-            .take_while(|scale| is_noise(scale, discs));
+        let noisy = scales[first..].iter().take_while(|scale| is_noise(scale));
         let scales = &scales[first..first + noisy.count()];
         let (explaining, others): (Vec<_>, Vec<_>) = (1..scales.len())
             .map(|last| {
@@ -116,15 +126,26 @@ impl CorrelatedNoise {
             sigma: found.sigma,
             length: found.length,
             shared_vertices: found.shared_vertices,
+            is_anisotropic,
             ambiguous,
         })
     }
 }
 
+/// Returns whether the curvatures of the smallest scale are those of anisotropic noise.
+fn is_anisotropic(scale: &CurvatureScale) -> bool {
+    let ratio = scale.anisotropy.max(1.0 / scale.anisotropy);
+    ratio > MIN_ANISOTROPY && scale.coherence < MAX_NOISE_COHERENCE
+}
+
 /// Returns whether the curvatures of a scale are mostly noise.
-fn is_noise(scale: &CurvatureScale, discs: &[Disc]) -> bool {
+fn is_noise(scale: &CurvatureScale, discs: &[Disc], is_anisotropic: bool) -> bool {
     let bends_both_ways = scale.ratio > MIN_NOISE_RATIO && scale.coherence < MAX_COHERENCE;
-    let incoherent = scale.coherence < MAX_NOISE_COHERENCE
+    let max_coherence = match is_anisotropic {
+        true => MAX_ANISOTROPIC_COHERENCE,
+        false => MAX_NOISE_COHERENCE,
+    };
+    let incoherent = scale.coherence < max_coherence
         && scale.ratio > MIN_ANISOTROPIC_RATIO
         && scale.radius() < MAX_INCOHERENCE_RADIUS;
     scale.independent_discs(discs) >= MIN_INDEPENDENT_DISCS && (bends_both_ways || incoherent)
@@ -268,6 +289,7 @@ mod tests {
             ratio: 0.32,
             white_equivalent: 0.0,
             coherence: 0.0,
+            anisotropy: 1.0,
         };
         for length in [1.0, 2.5] {
             let whole = shared_vertices(length).sqrt();

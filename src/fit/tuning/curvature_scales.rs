@@ -133,6 +133,8 @@ pub(super) struct CurvatureScale {
     /// Mean cosine between the Hessians (as vectors of their entries) of discs side by side, along the direction in
     /// which it is least. It is about 0 for noise and 1 for a shape.
     pub coherence: f64,
+    /// Ratio of the median second derivative across rows to the one along rows: 1 for isotropic noise.
+    pub anisotropy: f64,
 }
 
 impl CurvatureScale {
@@ -170,6 +172,7 @@ pub(super) fn curvature_scales(
                 white_equivalent: measured.smaller / (SMALLER_CURVATURE_RATIO * disc.deviation)
                     * (1u32 << lattice) as f64,
                 coherence: measured.coherence,
+                anisotropy: measured.anisotropy,
             }));
         }
         if means.lattice.rows() < 8 || means.lattice.cols() < 8 {
@@ -186,6 +189,7 @@ struct Measured {
     larger: f64,
     smaller: f64,
     coherence: f64,
+    anisotropy: f64,
 }
 
 /// Heights, or their means over rhombi of 4, 16, 64 … vertices, with the means of their confidence. A height is NaN
@@ -275,12 +279,16 @@ impl MeanHeights {
         let [rows, cols] = [self.lattice.rows(), self.lattice.cols()];
         let beside = 2 * disc.radius as isize + 1;
         let mut curvatures: [Vec<f64>; 2] = Default::default();
+        let mut derivatives: [Vec<f64>; 2] = Default::default();
         let mut cosines = [(0.0, 0.0); 3];
         for row in (0..rows as isize).step_by(step(rows)) {
             for col in (0..cols as isize).step_by(step(cols)) {
                 let Some(hessian) = self.hessian(disc, row, col) else {
                     continue;
                 };
+                let [along, _, across] = hessian.entries().map(f64::abs);
+                derivatives[0].push(along);
+                derivatives[1].push(across);
                 let [a, b] = hessian.eigenvalues().map(f64::abs);
                 curvatures[0].push(a.min(b));
                 curvatures[1].push(a.max(b));
@@ -299,7 +307,9 @@ impl MeanHeights {
         }
         let means = cosines.iter().filter(|(_, count)| *count > 0.0);
         let [smaller, larger] = &mut curvatures;
+        let [along, across] = &mut derivatives;
         Some(Measured {
+            anisotropy: median(across)? / median(along)?,
             count: smaller.len(),
             smaller: median(smaller)?,
             larger: median(larger)?,
@@ -334,7 +344,7 @@ impl MeanHeights {
 }
 
 /// Returns row and column of the vertex at an offset, in rows and half columns, from the vertex at `row` and `col`.
-fn stepped(row: isize, col: isize, (rows, half): (isize, isize)) -> (isize, isize) {
+pub(super) fn stepped(row: isize, col: isize, (rows, half): (isize, isize)) -> (isize, isize) {
     let odd = |row: isize| row.rem_euclid(2);
     let target = row + rows;
     (target, col + (half + odd(target) - odd(row)).div_euclid(2))

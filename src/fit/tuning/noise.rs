@@ -25,6 +25,10 @@ const MIN_SHORT_CORRELATED_RATIO: f64 = 5.0;
 /// Largest share of different heights among all at which steps of quantisation are looked for.
 const MAX_DISTINCT_HEIGHTS: f64 = 0.25;
 
+/// Minimum number of different heights at which their common step is one of quantisation. With fewer the steps are the
+/// shape: terraces, or a block on a table.
+const MIN_QUANTISED_HEIGHTS: usize = 6;
+
 /// Maximum relative deviation of a difference between heights from a multiple of the quantisation step.
 const EQUAL_HEIGHT_TOLERANCE: f64 = 1e-3;
 
@@ -45,6 +49,11 @@ pub(crate) struct Noise {
     /// Quantisation step of the heights, in the user's units; `None` if they are not quantised, or their noise
     /// exceeds the rounding error of such a step, `step/√12`.
     pub step: Option<f64>,
+    /// Whether the heights are quantised, also where their noise exceeds the rounding error.
+    pub is_quantised: bool,
+    /// Whether the noise is much rougher across rows than along them or the other way round, as that of scan lines is. Its
+    /// σ is then found up to three times too small.
+    pub is_anisotropic: bool,
     /// Whether the noise is correlated over distances at which the shape bends, too, so that noise and shape could not
     /// be told apart.
     pub ambiguous: bool,
@@ -61,13 +70,16 @@ impl Noise {
         };
         let trust = largest_trust(input);
         let spacing = input.field.lattice().spacing();
-        let step = step(input).filter(|step| step / 12f64.sqrt() > white);
+        let any_step = step(input);
+        let step = any_step.filter(|step| step / 12f64.sqrt() > white);
         let mut noise = Noise {
             sigma: step.map_or(white, |step| step / 12f64.sqrt()),
             correlation_length: 0.0,
             merged: 0,
             product: 0.0,
             step,
+            is_quantised: any_step.is_some(),
+            is_anisotropic: false,
             ambiguous: false,
         };
         let mut shared = 1.0;
@@ -82,15 +94,20 @@ impl Noise {
             noise.sigma = found.sigma;
             noise.correlation_length = found.length * spacing;
             noise.merged = shared.log2().round() as usize;
+            noise.is_anisotropic = found.is_anisotropic;
             noise.ambiguous = found.ambiguous;
         }
         noise.product = trust * noise.sigma * spacing * shared;
         Ok(Some(noise))
     }
+
+    pub(crate) fn is_correlated(&self) -> bool {
+        self.correlation_length > 0.0
+    }
 }
 
-/// Estimates correlated noise of an input; `None` where it is hardly larger than `white`, the noise measured from rings
-/// of six neighbours.
+/// Estimates correlated noise of an input; `None` where it is isotropic and hardly larger than `white`, the noise measured
+/// from rings of six neighbours.
 fn correlated_noise(input: &Input, white: f64) -> Result<Option<CorrelatedNoise>> {
     let discs: Vec<Disc> = DISC_RADII.into_iter().filter_map(Disc::new).collect();
     let scales = curvature_scales(input, &discs, white)?;
@@ -103,7 +120,7 @@ fn correlated_noise(input: &Input, white: f64) -> Result<Option<CorrelatedNoise>
         } else {
             MIN_SHORT_CORRELATED_RATIO
         };
-        root >= min_ratio * white
+        noise.is_anisotropic || root >= min_ratio * white
     };
     Ok(found.filter(is_correlated))
 }
@@ -171,7 +188,9 @@ fn step(input: &Input) -> Option<f64> {
     let size = heights.first()?.abs().max(heights.last()?.abs());
     let rounding = 16.0 * f64::EPSILON * size;
     heights.dedup_by(|a, b| *a - *b <= rounding);
-    if heights.len() < 2 || heights.len() as f64 > MAX_DISTINCT_HEIGHTS * count as f64 {
+    if heights.len() < MIN_QUANTISED_HEIGHTS
+        || heights.len() as f64 > MAX_DISTINCT_HEIGHTS * count as f64
+    {
         return None;
     }
     let gaps = heights.windows(2).map(|pair| pair[1] - pair[0]);

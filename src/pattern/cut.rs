@@ -37,11 +37,11 @@ impl Labels {
         &mut self,
         surface: &Heightfield,
         part: u32,
-        leaf: &FlatPatch,
+        flat_patch: &FlatPatch,
     ) -> Result<Option<Vec<u32>>> {
         let lattice = *surface.lattice();
-        let burden = leaf.burden(&lattice);
-        if leaf.is_crumb() {
+        let burden = flat_patch.burden(&lattice);
+        if flat_patch.is_too_small_to_cut() {
             return Ok(None);
         }
         // First try to cut along steps of the surface.

@@ -65,10 +65,10 @@ pub(super) fn close_cuts(
         .make_contiguous()
         .sort_by_key(|seam| !net.seams[*seam].smooth);
     let vertices: usize = net
-        .leaves
+        .flat_patches
         .iter()
         .flatten()
-        .map(|leaf| leaf.places().len())
+        .map(|flat_patch| flat_patch.places().len())
         .sum();
     let mut budget = steps_per_vertex * vertices;
     while let Some(seam) = pending.pop_front() {
@@ -171,7 +171,12 @@ fn close_cut(
     }
     let ties = folds_of(net, &layout, &members);
     let before: Vec<(u32, Vec<Point>)> = (members.iter())
-        .filter_map(|p| Some((*p, net.leaves[*p as usize].as_ref()?.places().to_vec())))
+        .filter_map(|p| {
+            Some((
+                *p,
+                net.flat_patches[*p as usize].as_ref()?.places().to_vec(),
+            ))
+        })
         .collect();
     // A cut inside of a patch is closed if the strain that this adds is small for its length. A crease is closed
     // only if that adds hardly any strain: a crease whose two sides fit only with strain cannot be folded.

@@ -18,7 +18,7 @@ pub(super) struct Meetings {
 
 /// Data of a vertex where seams end, gathered before its angle is measured.
 #[derive(Clone)]
-struct Found {
+struct PointSeams {
     /// Number of cuts that end at the vertex. `edges` is the number of the vertex's edges that are cut.
     cuts: usize,
     edges: usize,
@@ -39,10 +39,10 @@ impl Meetings {
         for seam in sheets.iter().flat_map(|sheet| &sheet.whole) {
             whole[*seam] = true;
         }
-        let mut all: BTreeMap<u32, Found> = BTreeMap::new();
+        let mut all: BTreeMap<u32, PointSeams> = BTreeMap::new();
         for (seam, _) in lines(seams, &whole) {
             for end in ends(&seam.vertices) {
-                let blank = Found {
+                let blank = PointSeams {
                     cuts: 0,
                     edges: 0,
                     shortest: f64::INFINITY,
@@ -65,8 +65,8 @@ impl Meetings {
                 }
             }
         }
-        let around = Around::new(body);
-        let meeting = |(vertex, found): (u32, Found)| {
+        let around = AngleDefects::new(body);
+        let meeting = |(vertex, found): (u32, PointSeams)| {
             let reach =
                 (MAX_ANGLE_RADIUS_LENGTHS * body.spacing).min(ANGLE_RADIUS_SHARE * found.shortest);
             let short = found.most > 1 && reach < MIN_ANGLE_RADIUS_LENGTHS * body.spacing;
@@ -107,7 +107,7 @@ fn ends(vertices: &[u32]) -> Vec<u32> {
 }
 
 /// Angle defects and neighbours of all vertices of a mesh, for measuring angles around points.
-struct Around<'a> {
+struct AngleDefects<'a> {
     body: &'a Body,
     /// Angle defect of each vertex: a full turn less the angles around it; NaN at the border.
     missing: Vec<f64>,
@@ -117,8 +117,8 @@ struct Around<'a> {
     starts: Vec<usize>,
 }
 
-impl Around<'_> {
-    fn new(body: &Body) -> Around<'_> {
+impl AngleDefects<'_> {
+    fn new(body: &Body) -> AngleDefects<'_> {
         let count = body.places.len();
         let mut missing = vec![TAU; count];
         // An interior edge occurs in both directions.
@@ -143,7 +143,7 @@ impl Around<'_> {
         for k in 0..count {
             starts[k + 1] += starts[k];
         }
-        Around {
+        AngleDefects {
             body,
             missing,
             neighbours: edges.into_iter().map(|(_, b)| b).collect(),

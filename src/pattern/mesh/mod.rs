@@ -107,12 +107,12 @@ fn flat_parts(mut body: Body, limits: Limits) -> Result<(Body, Vec<FlatPart>)> {
             continue;
         }
         flat.remove(&part);
-        let specks = match laid.strain <= limits.strain {
+        let removed = match laid.strain <= limits.strain {
             true => laid.removable_triangles(),
             false => Vec::new(),
         };
-        if !specks.is_empty() {
-            open.extend(body.set_apart(part, &specks)?);
+        if !removed.is_empty() {
+            open.extend(body.set_apart(part, &removed)?);
             continue;
         }
         let worst = body.triangles[laid.members[laid.worst] as usize];

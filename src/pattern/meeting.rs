@@ -16,7 +16,7 @@ use rustc_hash::FxHashMap;
 pub(super) const MAX_ANGLE_RADIUS_LENGTHS: f64 = 20.0;
 
 /// Maximum radius around a point within which the surface's angle is measured, as a share of the shortest seam that
-/// ends there.
+/// ends there and of the distance to the nearest cut that does not.
 pub(super) const ANGLE_RADIUS_SHARE: f64 = 0.8;
 
 /// Minimum radius around a point at which the surface's angle is measured, in spacings of a lattice or edge lengths of
@@ -121,13 +121,29 @@ impl Meetings {
             labels,
             net,
         };
+        // Positions of the nodes of all cuts, each with the numbers of the points where its cut ends.
+        let cuts: Vec<([f64; 3], [Option<usize>; 2])> = (0..net.seams.len())
+            .filter(|seam| !layout.folded[*seam])
+            .flat_map(|seam| {
+                let ends = ends(seam).map(|node| of.get(&node).copied());
+                let nodes = net.seams[seam].nodes.iter();
+                nodes.map(move |node| (net.built(*node), ends))
+            })
+            .collect();
         let all = found.iter().enumerate().map(|(number, found)| {
-            let reach =
-                (MAX_ANGLE_RADIUS_LENGTHS * net.spacing).min(ANGLE_RADIUS_SHARE * found.shortest);
+            let place = found.sum.map(|sum| sum / found.count);
+            // What the surface bends beside another cut is taken up by that cut.
+            let others = cuts
+                .iter()
+                .filter(|(_, ends)| !ends.contains(&Some(number)));
+            let other = others
+                .map(|(node, _)| squared(*node, place))
+                .fold(f64::INFINITY, f64::min);
+            let reach = (MAX_ANGLE_RADIUS_LENGTHS * net.spacing)
+                .min(ANGLE_RADIUS_SHARE * found.shortest.min(other.sqrt()));
             if found.torn || found.count == 0.0 || reach < MIN_ANGLE_RADIUS_LENGTHS * net.spacing {
                 return None;
             }
-            let place = found.sum.map(|sum| sum / found.count);
             Some(Meeting {
                 number,
                 place,

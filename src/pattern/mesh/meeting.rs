@@ -28,8 +28,8 @@ struct PointSeams {
 }
 
 impl Meetings {
-    /// Returns the point where cuts or folds meet at a vertex; `None` if the border is near or a seam that ends there
-    /// is too short to measure an angle.
+    /// Returns the point where cuts or folds meet at a vertex; `None` if the border is near, or if a seam that ends there
+    /// is too short or another cut too near to measure an angle.
     pub(super) fn at(&self, vertex: u32) -> Option<Meeting> {
         self.of.get(&vertex).copied()
     }
@@ -65,10 +65,23 @@ impl Meetings {
                 }
             }
         }
+        // The vertices of all cuts, each with the ends of its cut.
+        let cut_vertices: Vec<(u32, Vec<u32>)> = lines(seams, &whole)
+            .filter(|(_, cut)| *cut)
+            .flat_map(|(seam, _)| seam.vertices.iter().map(|v| (*v, ends(&seam.vertices))))
+            .collect();
         let around = AngleDefects::new(body);
         let meeting = |(vertex, found): (u32, PointSeams)| {
-            let reach =
-                (MAX_ANGLE_RADIUS_LENGTHS * body.spacing).min(ANGLE_RADIUS_SHARE * found.shortest);
+            // What the mesh bends beside another cut is taken up by that cut.
+            let others = cut_vertices
+                .iter()
+                .filter(|(_, ends)| !ends.contains(&vertex));
+            let place = body.places[vertex as usize];
+            let other = others
+                .map(|(other, _)| (body.places[*other as usize] - place).norm())
+                .fold(f64::INFINITY, f64::min);
+            let reach = (MAX_ANGLE_RADIUS_LENGTHS * body.spacing)
+                .min(ANGLE_RADIUS_SHARE * found.shortest.min(other));
             let short = found.most > 1 && reach < MIN_ANGLE_RADIUS_LENGTHS * body.spacing;
             // A cut that passes through the vertex without an end divides the surface around it, so no angle is
             // measured.

@@ -12,12 +12,12 @@ use super::parts::Parts;
 use super::refold::refold_sheet;
 use super::seam_graph::SeamGraph;
 use super::sew::{STEP_BUDGET_PER_VERTEX, close_cuts};
-use super::shape::{folds, outlines};
-use super::sheets::{Direction, Missing, Pattern, Seam, Sheet};
+use super::shape::{MIN_OUTLINE_AREA, folds, outlines};
+use super::sheets::{Direction, Missing, Pattern, Run, Seam, Sheet};
 use super::spots::label_spots;
 use crate::error::Result;
 use crate::heights::heightfield::Heightfield;
-use crate::math::planar::polyline_length;
+use crate::math::planar::{polygon_area, polyline_length};
 use crate::math::union_find::UnionFind;
 use crate::shape::patches::Patches;
 use crate::unroll::arap_mesh::StoppingCriteria;
@@ -274,17 +274,29 @@ pub(super) fn draw_sheets(surface: &Heightfield, whole: &Assembled) -> Result<Pa
         })
     });
     let mut sheets = sheets.collect::<Result<Vec<Sheet>>>()?;
+    // A sheet of a few vertices whose outline was cut off with a loop is no sheet.
+    let least = MIN_OUTLINE_AREA * net.spacing * net.spacing;
+    let is_empty = |sheet: &mut Sheet| sheet.outlines.iter().all(|line| outline_area(line) < least);
+    let empty: Vec<Sheet> = sheets.extract_if(.., is_empty).collect();
     sheets.sort_by_key(|sheet| sheet.patches[0]);
     Ok(Pattern {
         sheets,
         patches: patches.clone(),
-        missing: missing(surface, whole)?,
+        missing: missing(surface, whole, &empty)?,
     })
 }
 
+/// Computes the area that an outline encloses.
+fn outline_area(line: &[Run]) -> f64 {
+    let points = line
+        .iter()
+        .flat_map(|run| &run.points[..run.points.len() - 1]);
+    polygon_area(&points.copied().collect::<Vec<_>>()).abs()
+}
+
 /// Computes how many vertices and how much area of the surface are on no sheet, and the number and area of the
-/// surface's steps (edges where it jumps in height).
-fn missing(surface: &Heightfield, whole: &Assembled) -> Result<Missing> {
+/// surface's steps (edges where it jumps in height). `empty` holds the sheets that are not drawn.
+fn missing(surface: &Heightfield, whole: &Assembled, empty: &[Sheet]) -> Result<Missing> {
     let net = &whole.net;
     let torn = (0..net.seams.len()).filter(|seam| net.is_torn(*seam));
     let high = |seam: usize| net.seams[seam].apart * polyline_length(&net.seams[seam].sides[0]);
@@ -301,9 +313,13 @@ fn missing(surface: &Heightfield, whole: &Assembled) -> Result<Missing> {
                 .sum::<f64>()
         }
     };
+    let undrawn = empty.iter().flat_map(|sheet| &sheet.patches);
+    let undrawn = undrawn.map(|patch| whole.patches.patches()[*patch as usize]);
     Ok(Missing {
-        vertices: left_out,
-        area,
+        vertices: left_out + undrawn.clone().map(|patch| patch.vertices).sum::<usize>(),
+        area: undrawn
+            .map(|patch| patch.area)
+            .fold(area, |sum, area| sum + area),
         steps: torn.clone().count(),
         // Not a sum, which is -0 of nothing.
         step_area: torn.map(high).fold(0.0, |sum, area| sum + area),

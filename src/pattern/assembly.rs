@@ -12,12 +12,12 @@ use super::parts::Parts;
 use super::refold::refold_sheet;
 use super::seam_graph::SeamGraph;
 use super::sew::{STEP_BUDGET_PER_VERTEX, close_cuts};
-use super::shape::{folds, outlines};
-use super::sheets::{Direction, Missing, Pattern, Seam, Sheet};
+use super::shape::{MIN_OUTLINE_AREA, folds, outlines};
+use super::sheets::{Direction, Missing, Pattern, Run, Seam, Sheet};
 use super::spots::label_spots;
 use crate::error::Result;
 use crate::heights::heightfield::Heightfield;
-use crate::math::planar::polyline_length;
+use crate::math::planar::{polygon_area, polyline_length};
 use crate::math::union_find::UnionFind;
 use crate::shape::patches::Patches;
 use crate::unroll::arap_mesh::StoppingCriteria;
@@ -54,15 +54,20 @@ pub(super) fn assemble_sheets(
     options: &PatternOptions,
 ) -> Result<Assembly> {
     let (mut parts, patches) = parts.numbered(patches)?;
-    let leaves = std::mem::take(&mut parts.leaves);
+    let flat_patches = std::mem::take(&mut parts.flat_patches);
     let decided = parts.finest * parts.surface.lattice().spacing();
-    let mut net = SeamGraph::new(&parts.surface, &parts.labels, leaves, decided)?;
+    let mut net = SeamGraph::new(&parts.surface, &parts.labels, flat_patches, decided)?;
     net.divide_by_fit(options.gap);
     // A part that is invalid by itself is found without unrolling its sheet.
     let limit = options.max_strain;
     let loose = Layout::loose(&net);
-    let by_itself = |leaf: &Option<FlatPatch>| leaf.as_ref().is_some_and(|leaf| !leaf.is_rough());
-    let alone = (0..net.leaves.len() as u32).filter(|part| by_itself(&net.leaves[*part as usize]));
+    let by_itself = |flat_patch: &Option<FlatPatch>| {
+        flat_patch
+            .as_ref()
+            .is_some_and(|flat_patch| !flat_patch.is_rough())
+    };
+    let alone = (0..net.flat_patches.len() as u32)
+        .filter(|part| by_itself(&net.flat_patches[*part as usize]));
     let mut wrong: Vec<(u32, String)> = alone
         .filter_map(|part| Some((part, fault(&net, &loose, &[part], limit)?.reason(limit))))
         .collect();
@@ -70,10 +75,10 @@ pub(super) fn assemble_sheets(
         let mut arrangement = arrange_patches(&net, options.gap);
         match settle(&parts, &mut net, &mut arrangement)? {
             Settled::Opened(found) => wrong = found,
-            Settled::Specks(part, specks) => {
-                parts.leaves = net.leaves;
+            Settled::Removable(part, removed) => {
+                parts.flat_patches = net.flat_patches;
                 parts.trims += 1;
-                parts.leave_out_specks(part, specks)?;
+                parts.leave_out_vertices(part, removed)?;
                 return Ok(Assembly::Cut(Box::new(parts), Vec::new()));
             }
         }
@@ -93,7 +98,7 @@ pub(super) fn assemble_sheets(
             })));
         }
     }
-    parts.leaves = net.leaves;
+    parts.flat_patches = net.flat_patches;
     Ok(Assembly::Cut(Box::new(parts), wrong))
 }
 
@@ -102,7 +107,7 @@ pub(super) enum Settled {
     /// Folds of invalid sheets were opened; a patch of each sheet that is invalid nevertheless, and the reason.
     Opened(Vec<(u32, String)>),
     /// The invalid sheet would be valid without some border vertices; holds the number of the part and these vertices.
-    Specks(u32, Vec<usize>),
+    Removable(u32, Vec<usize>),
 }
 
 /// Lays the patches of each sheet flat together, and opens folds of invalid sheets unless removing a few
@@ -118,10 +123,10 @@ pub(super) fn settle(
     let mut wrong = Vec::new();
     while let Some(members) = pending.pop() {
         let folded = folds_of(net, layout, &members);
-        let leaves = members
+        let flat_patches = members
             .iter()
-            .filter_map(|p| net.leaves[*p as usize].as_ref());
-        let rough = leaves.clone().any(FlatPatch::is_rough);
+            .filter_map(|p| net.flat_patches[*p as usize].as_ref());
+        let rough = flat_patches.clone().any(FlatPatch::is_rough);
         if rough || !are_close(net, layout, &folded) {
             let mut tied = Tied::new(net, layout, &members, &folded)?;
             tied.relax(net, layout, SHEET_SETTLING)?;
@@ -133,13 +138,13 @@ pub(super) fn settle(
             members.iter().for_each(|patch| net.lay_alone(*patch));
         }
         let fault = fault(net, layout, &members, limit);
-        let specks = fault
+        let removed = fault
             .as_ref()
             .and_then(|fault| removable_vertices(parts, net, fault));
-        if let Some((part, specks)) = specks {
+        if let Some((part, removed)) = removed {
             arrangement.sheets.append(&mut pending);
             arrangement.sheets.push(members);
-            return Ok(Settled::Specks(part, specks));
+            return Ok(Settled::Removable(part, removed));
         }
         match fault {
             Some(fault) if !folded.is_empty() => {
@@ -161,10 +166,11 @@ pub(super) fn settle(
 /// Finds the few vertices of one part whose removal would make an invalid sheet valid; returns the part's number and
 /// the vertices.
 fn removable_vertices(parts: &Parts, net: &SeamGraph, fault: &Fault) -> Option<(u32, Vec<usize>)> {
-    let (troubled, trouble) = fault.troubled(parts.options.max_strain)?;
-    troubled.iter().find_map(|part| {
-        let leaf = net.leaves[*part as usize].as_ref()?;
-        Some((*part, parts.removable_vertices(*part, leaf, trouble)?))
+    let (invalid, part_fault) = fault.part_fault(parts.options.max_strain)?;
+    invalid.iter().find_map(|part| {
+        let flat_patch = net.flat_patches[*part as usize].as_ref()?;
+        let removed = parts.removable_vertices(*part, flat_patch, part_fault)?;
+        Some((*part, removed))
     })
 }
 
@@ -268,17 +274,29 @@ pub(super) fn draw_sheets(surface: &Heightfield, whole: &Assembled) -> Result<Pa
         })
     });
     let mut sheets = sheets.collect::<Result<Vec<Sheet>>>()?;
+    // A sheet of a few vertices whose outline was cut off with a loop is no sheet.
+    let least = MIN_OUTLINE_AREA * net.spacing * net.spacing;
+    let is_empty = |sheet: &mut Sheet| sheet.outlines.iter().all(|line| outline_area(line) < least);
+    let empty: Vec<Sheet> = sheets.extract_if(.., is_empty).collect();
     sheets.sort_by_key(|sheet| sheet.patches[0]);
     Ok(Pattern {
         sheets,
         patches: patches.clone(),
-        missing: missing(surface, whole)?,
+        missing: missing(surface, whole, &empty)?,
     })
 }
 
+/// Computes the area that an outline encloses.
+fn outline_area(line: &[Run]) -> f64 {
+    let points = line
+        .iter()
+        .flat_map(|run| &run.points[..run.points.len() - 1]);
+    polygon_area(&points.copied().collect::<Vec<_>>()).abs()
+}
+
 /// Computes how many vertices and how much area of the surface are on no sheet, and the number and area of the
-/// surface's steps (edges where it jumps in height).
-fn missing(surface: &Heightfield, whole: &Assembled) -> Result<Missing> {
+/// surface's steps (edges where it jumps in height). `empty` holds the sheets that are not drawn.
+fn missing(surface: &Heightfield, whole: &Assembled, empty: &[Sheet]) -> Result<Missing> {
     let net = &whole.net;
     let torn = (0..net.seams.len()).filter(|seam| net.is_torn(*seam));
     let high = |seam: usize| net.seams[seam].apart * polyline_length(&net.seams[seam].sides[0]);
@@ -295,9 +313,13 @@ fn missing(surface: &Heightfield, whole: &Assembled) -> Result<Missing> {
                 .sum::<f64>()
         }
     };
+    let undrawn = empty.iter().flat_map(|sheet| &sheet.patches);
+    let undrawn = undrawn.map(|patch| whole.patches.patches()[*patch as usize]);
     Ok(Missing {
-        vertices: left_out,
-        area,
+        vertices: left_out + undrawn.clone().map(|patch| patch.vertices).sum::<usize>(),
+        area: undrawn
+            .map(|patch| patch.area)
+            .fold(area, |sum, area| sum + area),
         steps: torn.clone().count(),
         // Not a sum, which is -0 of nothing.
         step_area: torn.map(high).fold(0.0, |sum, area| sum + area),

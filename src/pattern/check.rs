@@ -47,12 +47,12 @@ impl Tied {
         for patch in patches {
             let first = places.len() as u32;
             starts.push(first);
-            let Some(leaf) = net.leaves[*patch as usize].as_ref() else {
+            let Some(flat_patch) = net.flat_patches[*patch as usize].as_ref() else {
                 continue;
             };
             let motion = layout.motions[*patch as usize];
-            places.extend(leaf.places().iter().map(|place| motion.of(*place)));
-            let own = leaf.all_pieces().filter(|(piece, _)| piece.exists());
+            places.extend(flat_patch.places().iter().map(|place| motion.of(*place)));
+            let own = flat_patch.all_pieces().filter(|(piece, _)| piece.exists());
             pieces.extend(own.map(|(piece, corners)| (piece, corners.map(|v| first + v))));
         }
         let ties = ties(net, patches, &starts, folded);
@@ -124,21 +124,21 @@ pub(super) fn ties(
 pub(super) fn strain_along(net: &SeamGraph, seam: usize) -> f64 {
     let seam = &net.seams[seam];
     let sides = seam.patches.iter().filter_map(|patch| {
-        let leaf = net.leaves[*patch as usize].as_ref()?;
-        let mut beside = vec![false; leaf.places().len()];
+        let flat_patch = net.flat_patches[*patch as usize].as_ref()?;
+        let mut beside = vec![false; flat_patch.places().len()];
         let means = seam.nodes.iter().filter_map(|node| net.mean(*node, *patch));
         for (vertex, weight) in means.flatten() {
             beside[vertex as usize] |= weight != 0.0;
         }
-        Some(leaf.strain_of(|vertex| beside[vertex as usize]))
+        Some(flat_patch.strain_of(|vertex| beside[vertex as usize]))
     });
     sides.fold(Strain::default(), Strain::with).rms()
 }
 
 /// Computes the strain of a whole sheet, and the strain of each of its patches.
 pub(super) fn strains(net: &SeamGraph, patches: &[u32]) -> (Strain, Vec<(u32, Strain)>) {
-    let leaf = |patch: &u32| net.leaves[*patch as usize].as_ref();
-    let of = |patch: &u32| Some((*patch, leaf(patch)?.strain()));
+    let flat_patch = |patch: &u32| net.flat_patches[*patch as usize].as_ref();
+    let of = |patch: &u32| Some((*patch, flat_patch(patch)?.strain()));
     let all: Vec<(u32, Strain)> = patches.iter().filter_map(of).collect();
     let sum = all
         .iter()

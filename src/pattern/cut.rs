@@ -8,7 +8,7 @@ use super::flat_patch::FlatPatch;
 use super::labels::{Labels, connected_groups};
 use crate::error::Result;
 use crate::heights::heightfield::Heightfield;
-use crate::lattice::hexagonal::Lattice;
+use crate::lattice::hexagonal::{Lattice, NEIGHBOUR_DIRECTIONS, Towards};
 use crate::math::statistics::weighted_median;
 use rustc_hash::FxHashMap;
 
@@ -25,6 +25,9 @@ const MIN_GROUP_SHARE: f64 = 0.03;
 /// of the surface.
 const MIN_STEP_SLOPE: f64 = 4.0;
 
+/// Maximum number of edges across a step: a fitted surface rises over two or three.
+const MAX_STEP_EDGES: usize = 3;
+
 /// Weight of a cut's length in its score, relative to the variance of the normals that is left on both sides.
 const CUT_LENGTH_WEIGHT: f64 = 0.002;
 
@@ -37,17 +40,15 @@ impl Labels {
         &mut self,
         surface: &Heightfield,
         part: u32,
-        leaf: &FlatPatch,
+        flat_patch: &FlatPatch,
     ) -> Result<Option<Vec<u32>>> {
         let lattice = *surface.lattice();
-        let burden = leaf.burden(&lattice);
-        if leaf.is_crumb() {
+        let burden = flat_patch.burden(&lattice);
+        if flat_patch.is_too_small_to_cut() {
             return Ok(None);
         }
         // First try to cut along steps of the surface.
-        let steep = MIN_STEP_SLOPE * lattice.spacing();
-        let level =
-            |i: usize, k: usize| (surface.heights()[i] - surface.heights()[k]).abs() < steep;
+        let level = |i: usize, k: usize| !is_step(surface, i, k);
         if let Some(parts) = self.try_cut(&lattice, part, &burden, |_| false, level) {
             return Ok(Some(parts));
         }
@@ -151,6 +152,50 @@ impl Labels {
     }
 }
 
+/// Returns whether the edge between two neighbouring vertices crosses a step: the surface rises by at least
+/// [`MIN_STEP_SLOPE`] there, and within [`MAX_STEP_EDGES`] edges of the same line it is less than half as steep on both
+/// sides. Along an upright border it is steep up to the border, which is no step.
+fn is_step(surface: &Heightfield, i: usize, k: usize) -> bool {
+    let (lattice, heights) = (surface.lattice(), surface.heights());
+    let slope = |i: usize, k: usize| (heights[i] - heights[k]).abs() / lattice.spacing();
+    if slope(i, k) < MIN_STEP_SLOPE {
+        return false;
+    }
+    let [from, to] = [i, k].map(|i| ((i / lattice.cols()) as isize, (i % lattice.cols()) as isize));
+    let steep_edges = |(row, col): (isize, isize), along: &Towards| {
+        let mut here = (row, col);
+        let mut count = 0;
+        while count < MAX_STEP_EDGES {
+            let next = along.step(here.0, here.1);
+            if !lattice.contains(next.0, next.1) {
+                return None;
+            }
+            let [a, b] = [here, next].map(|(row, col)| lattice.index(row as usize, col as usize));
+            let slope = slope(a, b);
+            if slope.is_nan() {
+                return None;
+            }
+            if slope < 0.5 * MIN_STEP_SLOPE {
+                return Some(count);
+            }
+            count += 1;
+            here = next;
+        }
+        None
+    };
+    let along = |from: (isize, isize), to: (isize, isize)| {
+        let mut all = NEIGHBOUR_DIRECTIONS.iter();
+        all.find(|direction| direction.step(from.0, from.1) == to)
+    };
+    let (Some(on), Some(back)) = (along(from, to), along(to, from)) else {
+        return false;
+    };
+    match (steep_edges(to, on), steep_edges(from, back)) {
+        (Some(a), Some(b)) => a + b < MAX_STEP_EDGES,
+        _ => false,
+    }
+}
+
 /// A vertex of the part that is cut: its position seen from above, its normal, and its squared strain as weight.
 struct Sample {
     place: [f64; 2],
@@ -223,4 +268,28 @@ fn score(samples: &[Sample], [a, b, c]: [f64; 3], spacing: f64) -> f64 {
     let total = samples.len() as f64;
     let balance = (sums[0].0 - sums[1].0).abs() / total;
     (left[0] + left[1]) / total + CUT_LENGTH_WEIGHT * length / total.sqrt() * (1.0 + balance)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Number of lattice edges of a surface along which it has a step.
+    fn steps(height: impl Fn(f64, f64) -> f64) -> usize {
+        let lattice = Lattice::new(30, 40, 1.0).unwrap();
+        let surface = Heightfield::from_fn(lattice, height).unwrap();
+        let edges = (0..lattice.len()).flat_map(|i| lattice.around(i).map(move |k| (i, k)));
+        let edges = edges.filter(|(i, k)| i < k);
+        edges.filter(|(i, k)| is_step(&surface, *i, *k)).count()
+    }
+
+    #[test]
+    fn a_jump_is_a_step_and_an_upright_border_is_none() {
+        assert!(steps(|x, _| if x < 17.3 { 0.0 } else { 9.0 }) > 40);
+        // A fitted surface rises over two edges, of which one in each row is steep.
+        assert!(steps(|x, _| 9.0 * (0.5 * (x - 16.3)).clamp(0.0, 1.0)) >= 25);
+        assert_eq!(steps(|x, _| -(x - 33.0).max(0.0).powi(3)), 0);
+        assert_eq!(steps(|x, _| 5.0 * x), 0, "steep everywhere");
+        assert_eq!(steps(|x, _| 3.0 * (x - 20.0).abs()), 0, "a steep fold");
+    }
 }

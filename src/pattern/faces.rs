@@ -27,24 +27,25 @@ pub(super) fn faces(
     let mut faces = Faces::default();
     let lattice = surface.lattice();
     for patch in patches {
-        let Some(leaf) = net.leaves[*patch as usize].as_ref() else {
+        let Some(flat_patch) = net.flat_patches[*patch as usize].as_ref() else {
             continue;
         };
-        let mut numbers = vec![u32::MAX; leaf.places().len()];
-        for (_, corners) in leaf.pieces() {
+        let mut numbers = vec![u32::MAX; flat_patch.places().len()];
+        for (_, corners) in flat_patch.pieces() {
             let corners = corners.map(|corner| {
                 let number = &mut numbers[corner as usize];
                 if *number == u32::MAX {
                     *number = faces.flat.len() as u32;
-                    let [row, col] = leaf.vertex(corner as usize);
+                    let [row, col] = flat_patch.vertex(corner as usize);
                     let [x, y] = lattice.position(row, col);
                     let z = surface.height(row, col);
                     let z = if z.is_nan() {
-                        leaf.height([row, col])
+                        flat_patch.height([row, col])
                     } else {
                         z
                     };
-                    let place = layout.motions[*patch as usize].of(leaf.places()[corner as usize]);
+                    let place =
+                        layout.motions[*patch as usize].of(flat_patch.places()[corner as usize]);
                     faces.built.push([x, y, z]);
                     faces.flat.push([place.re, place.im]);
                 }

@@ -5,7 +5,7 @@ use super::flat_patch::Strain;
 use super::outline::Layout;
 use super::seam_graph::SeamGraph;
 use super::shape::lines;
-use super::trim::Trouble;
+use super::trim::PartFault;
 use crate::error::rounded;
 use crate::unroll::arap_mesh::StoppingCriteria;
 use crate::unroll::flat_triangle::Point;
@@ -34,10 +34,10 @@ impl Fault {
     /// Returns the parts that have this fault, and the fault in the form that
     /// [`removable_vertices`](super::trim::removable_vertices) takes; `None` for an outline that crosses itself,
     /// which belongs to no single part.
-    pub(super) fn troubled(&self, limit: f64) -> Option<(&[u32], Trouble)> {
+    pub(super) fn part_fault(&self, limit: f64) -> Option<(&[u32], PartFault)> {
         match self {
-            Fault::Strain(_, parts) => Some((parts, Trouble::Strain(limit))),
-            Fault::Flipped(parts) => Some((parts, Trouble::Flipped)),
+            Fault::Strain(_, parts) => Some((parts, PartFault::Strain(limit))),
+            Fault::Flipped(parts) => Some((parts, PartFault::Flipped)),
             Fault::Crossing(_) => None,
         }
     }

@@ -207,7 +207,7 @@ impl FlatPatch {
     }
 
     /// Returns whether the part has fewer than [`MIN_CUT_VERTICES`] vertices and is too small to be cut.
-    pub(super) fn is_crumb(&self) -> bool {
+    pub(super) fn is_too_small_to_cut(&self) -> bool {
         self.size() < MIN_CUT_VERTICES
     }
 

@@ -1,7 +1,8 @@
 //! Patterns of heightfields.
 
 use super::assembly::{Assembled, Assembly, assemble_sheets, draw_sheets};
-use super::fine::{Coarse, refine_sheets};
+use super::coarse::Coarse;
+use super::fine::refine_sheets;
 use super::options::PatternOptions;
 use super::parts::Parts;
 use super::sheets::Pattern;
@@ -102,7 +103,7 @@ fn cut_and_join(
     let mut parts = Parts::new(surface, patches, options)?;
     parts.finest = finest;
     parts.cut_strained()?;
-    parts.give_away_crumbs()?;
+    parts.merge_strained_small_parts()?;
     // Parts of invalid sheets are cut further; parts that are too small for that are merged with a neighbour or
     // left out.
     let mut rounds = 0;
@@ -125,8 +126,8 @@ fn cut_and_join(
         // Go from the last part to the first, because removing a part changes the numbers of later ones.
         small.sort_unstable();
         for (part, reason) in small.into_iter().rev() {
-            let gone =
-                rounds <= MAX_MERGE_ROUNDS && (parts.give_away(part)? || parts.leave_out(part)?);
+            let gone = rounds <= MAX_MERGE_ROUNDS
+                && (parts.merge_with_neighbour(part)? || parts.leave_out(part)?);
             if !gone {
                 return Err(parts.refused(part, reason));
             }

@@ -17,9 +17,9 @@ pub(super) struct Arrangement {
 pub(super) fn arrange_patches(net: &SeamGraph, gap: f64) -> Arrangement {
     let mut layout = Layout::loose(net);
     // The sheet of each patch, and the patches of each sheet.
-    let mut of: Vec<usize> = (0..net.leaves.len()).collect();
-    let mut sheets: Vec<Vec<u32>> = (net.leaves.iter().enumerate())
-        .map(|(patch, leaf)| leaf.iter().map(|_| patch as u32).collect())
+    let mut of: Vec<usize> = (0..net.flat_patches.len()).collect();
+    let mut sheets: Vec<Vec<u32>> = (net.flat_patches.iter().enumerate())
+        .map(|(patch, flat_patch)| flat_patch.iter().map(|_| patch as u32).collect())
         .collect();
     let order = longest_first(net);
     for seam in &order {

@@ -16,7 +16,7 @@ use rustc_hash::FxHashMap;
 pub(super) const MAX_ANGLE_RADIUS_LENGTHS: f64 = 20.0;
 
 /// Maximum radius around a point within which the surface's angle is measured, as a share of the shortest seam that
-/// ends there.
+/// ends there and of the distance to the nearest cut that does not.
 pub(super) const ANGLE_RADIUS_SHARE: f64 = 0.8;
 
 /// Minimum radius around a point at which the surface's angle is measured, in spacings of a lattice or edge lengths of
@@ -97,7 +97,7 @@ impl Meetings {
         }
         of.values_mut()
             .for_each(|number| *number = sets.find(*number as u32) as usize);
-        let mut found = vec![Found::default(); nodes.len()];
+        let mut found = vec![PointSeams::default(); nodes.len()];
         for seam in seams {
             let at = ends(seam).map(|node| of.get(&node).copied());
             for number in at.into_iter().flatten() {
@@ -116,18 +116,34 @@ impl Meetings {
             found.sum = [0, 1, 2].map(|k| found.sum[k] + place[k]);
             found.count += 1.0;
         }
-        let around = Around {
+        let around = AngleSurface {
             surface,
             labels,
             net,
         };
+        // Positions of the nodes of all cuts, each with the numbers of the points where its cut ends.
+        let cuts: Vec<([f64; 3], [Option<usize>; 2])> = (0..net.seams.len())
+            .filter(|seam| !layout.folded[*seam])
+            .flat_map(|seam| {
+                let ends = ends(seam).map(|node| of.get(&node).copied());
+                let nodes = net.seams[seam].nodes.iter();
+                nodes.map(move |node| (net.built(*node), ends))
+            })
+            .collect();
         let all = found.iter().enumerate().map(|(number, found)| {
-            let reach =
-                (MAX_ANGLE_RADIUS_LENGTHS * net.spacing).min(ANGLE_RADIUS_SHARE * found.shortest);
+            let place = found.sum.map(|sum| sum / found.count);
+            // What the surface bends beside another cut is taken up by that cut.
+            let others = cuts
+                .iter()
+                .filter(|(_, ends)| !ends.contains(&Some(number)));
+            let other = others
+                .map(|(node, _)| squared(*node, place))
+                .fold(f64::INFINITY, f64::min);
+            let reach = (MAX_ANGLE_RADIUS_LENGTHS * net.spacing)
+                .min(ANGLE_RADIUS_SHARE * found.shortest.min(other.sqrt()));
             if found.torn || found.count == 0.0 || reach < MIN_ANGLE_RADIUS_LENGTHS * net.spacing {
                 return None;
             }
-            let place = found.sum.map(|sum| sum / found.count);
             Some(Meeting {
                 number,
                 place,
@@ -158,7 +174,7 @@ impl Meetings {
 
 /// Data of a point where seams end, gathered before its angle is measured.
 #[derive(Clone)]
-struct Found {
+struct PointSeams {
     cuts: usize,
     torn: bool,
     shortest: f64,
@@ -167,9 +183,9 @@ struct Found {
     count: f64,
 }
 
-impl Default for Found {
+impl Default for PointSeams {
     fn default() -> Self {
-        Found {
+        PointSeams {
             cuts: 0,
             torn: false,
             shortest: f64::INFINITY,
@@ -180,7 +196,7 @@ impl Default for Found {
 }
 
 /// The surface around a point where seams end, with its patches and the creases between them.
-struct Around<'a> {
+struct AngleSurface<'a> {
     surface: &'a Heightfield,
     labels: &'a Labels,
     net: &'a SeamGraph,
@@ -188,7 +204,7 @@ struct Around<'a> {
 
 /// A path along the surface that is straight as seen from above: its length, its end, and whether a crease is near its
 /// end.
-struct Way {
+struct RadialPath {
     long: f64,
     place: [f64; 3],
     /// Length of the path's first half, and the position where that half ends.
@@ -200,7 +216,7 @@ fn squared(p: [f64; 3], q: [f64; 3]) -> f64 {
     (0..3).map(|k| (p[k] - q[k]).powi(2)).sum()
 }
 
-impl Around<'_> {
+impl AngleSurface<'_> {
     /// Computes the angle of the surface around a point, in radians, measured between two rings around it, of `reach`
     /// and half of it: from the lengths along both rings and between them. It is exact for cones, and so where flat
     /// faces meet, and hardly depends on heights near the point, where the lattice smooths the surface. `None` if a
@@ -210,7 +226,7 @@ impl Around<'_> {
             .map(|k| k as f64 / RING_DIRECTIONS as f64)
             .collect();
         let first = self.ring(place, 0.5 * reach, &even)?;
-        let mean = first.iter().map(|way| way.long).sum::<f64>() / RING_DIRECTIONS as f64;
+        let mean = first.iter().map(|path| path.long).sum::<f64>() / RING_DIRECTIONS as f64;
         // Radius in plan at which the distance along the surface is `reach`.
         let radius = 0.5 * reach * reach / mean;
         let coarse = self.ring(place, radius, &even)?;
@@ -238,10 +254,10 @@ impl Around<'_> {
 
     /// Computes paths along the surface, straight as seen from above, from a centre to points of a ring with a given
     /// radius in plan, in directions given in full turns. `None` if one leaves the surface.
-    fn ring(&self, place: [f64; 3], radius: f64, turns: &[f64]) -> Option<Vec<Way>> {
-        let way = |turn: &f64| {
+    fn ring(&self, place: [f64; 3], radius: f64, turns: &[f64]) -> Option<Vec<RadialPath>> {
+        let path = |turn: &f64| {
             let (sin, cos) = (std::f64::consts::TAU * turn).sin_cos();
-            let mut way = Way {
+            let mut path = RadialPath {
                 long: 0.0,
                 place,
                 half: (0.0, place),
@@ -251,15 +267,15 @@ impl Around<'_> {
                 let away = radius * step as f64 / RADIAL_STEPS as f64;
                 let [x, y] = [place[0] + away * cos, place[1] + away * sin];
                 let (z, creased) = self.height([x, y])?;
-                way.long += squared([x, y, z], way.place).sqrt();
-                (way.place, way.creased) = ([x, y, z], creased);
+                path.long += squared([x, y, z], path.place).sqrt();
+                (path.place, path.creased) = ([x, y, z], creased);
                 if 2 * step == RADIAL_STEPS {
-                    way.half = (way.long, way.place);
+                    path.half = (path.long, path.place);
                 }
             }
-            Some(way)
+            Some(path)
         };
-        turns.iter().map(way).collect()
+        turns.iter().map(path).collect()
     }
 
     /// Computes the height of the surface at a point, and whether two patches meet in the triangle around it. In such a
@@ -275,8 +291,8 @@ impl Around<'_> {
             let (row, col) = (row as usize, col as usize);
             *corner = ([row, col], self.labels.of[lattice.index(row, col)]);
         }
-        let leaf = |patch: u32| self.net.leaves.get(patch as usize)?.as_ref();
-        let of = |vertex: [usize; 2], patch: u32| Some(leaf(patch)?.height(vertex));
+        let flat_patch = |patch: u32| self.net.flat_patches.get(patch as usize)?.as_ref();
+        let of = |vertex: [usize; 2], patch: u32| Some(flat_patch(patch)?.height(vertex));
         let sum = |heights: [Option<f64>; 3]| {
             let terms = heights.into_iter().zip(found.weights);
             terms.map(|(z, w)| Some(z? * w)).sum::<Option<f64>>()

@@ -26,6 +26,7 @@
 
 mod assembly;
 mod check;
+mod coarse;
 mod cut;
 mod faces;
 mod fault;
@@ -47,6 +48,7 @@ mod shape;
 mod sheets;
 mod simple;
 mod spots;
+mod transfer;
 mod trim;
 mod window;
 

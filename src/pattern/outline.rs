@@ -76,7 +76,7 @@ impl Layout {
     /// Creates the layout in which no seam is a fold and no patch is moved.
     pub(super) fn loose(net: &SeamGraph) -> Layout {
         Layout {
-            motions: vec![Motion::IDENTITY; net.leaves.len()],
+            motions: vec![Motion::IDENTITY; net.flat_patches.len()],
             folded: vec![false; net.seams.len()],
         }
     }

@@ -6,7 +6,7 @@ use std::collections::BTreeMap;
 use super::flat_patch::{FlatPatch, MIN_CUT_VERTICES};
 use super::labels::Labels;
 use super::options::PatternOptions;
-use super::trim::{MAX_SPECK_SHARE, Trouble, removable_vertices};
+use super::trim::{MAX_REMOVED_SHARE, PartFault, removable_vertices};
 use super::window::Window;
 use crate::error::{Error, Result};
 use crate::heights::heightfield::Heightfield;
@@ -29,20 +29,20 @@ const MAX_TRIM_ROUNDS: usize = 8;
 
 /// Maximum number of border vertices that are removed from a part that is invalid on the fine lattice alone, as a share
 /// of its vertices. Most such parts are small and ragged: cut further, they would become sheets of a few vertices.
-const MAX_RECUT_SPECK_SHARE: f64 = 0.15;
+const MAX_RECUT_REMOVED_SHARE: f64 = 0.15;
 
 /// Maximum number of vertices of the surface that are left out of the pattern in one step.
 const MAX_OMITTED_VERTICES: usize = 4 * MIN_CUT_VERTICES;
 
 /// Number of a part that another part was merged into, and the flat layout of both together.
-type Enlarged = (u32, Option<FlatPatch>);
+type MergedPart = (u32, Option<FlatPatch>);
 
 /// The parts that a surface is cut into; a part is a patch or a piece of it, which is laid flat by itself.
 pub(super) struct Parts {
     /// The surface that is cut; vertices that were left out of the pattern have no height.
     pub surface: Heightfield,
     pub labels: Labels,
-    pub leaves: Vec<Option<FlatPatch>>,
+    pub flat_patches: Vec<Option<FlatPatch>>,
     pub options: PatternOptions,
     /// Size of the smallest detail of sheets' outlines, in lattice spacings; smaller loops of an outline are cut off.
     pub finest: f64,
@@ -75,7 +75,7 @@ impl Parts {
             windows: Window::whole(lattice).around(lattice, &labels.of, count),
             surface: surface.clone(),
             labels,
-            leaves: (0..count).map(|_| None).collect(),
+            flat_patches: (0..count).map(|_| None).collect(),
             options: *options,
             finest: 1.0,
             pending: Vec::new(),
@@ -92,7 +92,7 @@ impl Parts {
         Parts {
             surface: surface.clone(),
             labels: Labels::new(&[], 0),
-            leaves: Vec::new(),
+            flat_patches: Vec::new(),
             options: *options,
             finest: 1.0,
             windows: Vec::new(),
@@ -118,7 +118,7 @@ impl Parts {
         self.surface = surface.clone().masked(&keep)?;
         let count = labels.origins.len();
         self.windows = Window::whole(lattice).around(lattice, &labels.of, count);
-        self.leaves = (0..count).map(|_| None).collect();
+        self.flat_patches = (0..count).map(|_| None).collect();
         self.labels = labels;
         Ok(self)
     }
@@ -130,7 +130,10 @@ impl Parts {
             of: patches.labels().to_vec(),
             origins,
         };
-        self.leaves = order.iter().map(|old| self.leaves[*old].take()).collect();
+        self.flat_patches = order
+            .iter()
+            .map(|old| self.flat_patches[*old].take())
+            .collect();
         self.windows = order.iter().map(|old| self.windows[*old]).collect();
     }
 
@@ -146,7 +149,7 @@ impl Parts {
     /// Renumbers the parts by area, the largest first, and returns them with the patches that they form, a part being a
     /// patch there.
     pub(super) fn numbered(mut self, patches: &Patches) -> Result<(Self, Patches)> {
-        if self.left_out == 0 && self.leaves.len() == patches.patches().len() {
+        if self.left_out == 0 && self.flat_patches.len() == patches.patches().len() {
             return Ok((self, patches.clone()));
         }
         let (divided, order) = patches.divided(&self.surface, self.labels.of.clone())?;
@@ -155,10 +158,11 @@ impl Parts {
     }
 
     fn lay_flat(&mut self, parts: &[u32]) -> Result<()> {
-        self.leaves.resize_with(self.labels.origins.len(), || None);
+        self.flat_patches
+            .resize_with(self.labels.origins.len(), || None);
         for part in parts {
-            let leaf = self.leaf(part)?;
-            self.leaves[*part as usize] = leaf;
+            let flat_patch = self.flat_patch(part)?;
+            self.flat_patches[*part as usize] = flat_patch;
         }
         self.pending.extend(parts);
         Ok(())
@@ -174,11 +178,11 @@ impl Parts {
     }
 
     fn is_strained(&self, part: u32) -> bool {
-        let leaf = self.leaves[part as usize].as_ref();
-        leaf.is_some_and(|leaf| leaf.strain().rms() > self.options.max_strain)
+        let flat_patch = self.flat_patches[part as usize].as_ref();
+        flat_patch.is_some_and(|flat_patch| flat_patch.strain().rms() > self.options.max_strain)
     }
 
-    pub(super) fn leaf(&self, part: &u32) -> Result<Option<FlatPatch>> {
+    pub(super) fn flat_patch(&self, part: &u32) -> Result<Option<FlatPatch>> {
         FlatPatch::new(
             &self.surface,
             &self.labels,
@@ -199,8 +203,8 @@ impl Parts {
     /// vertices is enough.
     pub(super) fn cut_strained(&mut self) -> Result<()> {
         while let Some(part) = self.pending.pop() {
-            let leaf = self.leaves[part as usize].as_ref();
-            let flipped = leaf.is_some_and(|leaf| leaf.strain().flipped > 0);
+            let flat_patch = self.flat_patches[part as usize].as_ref();
+            let flipped = flat_patch.is_some_and(|flat_patch| flat_patch.strain().flipped > 0);
             // A part that is too small to be cut is kept: it may still be valid within a sheet.
             if (self.is_strained(part) || flipped) && !self.trim(part)? {
                 self.cut(part)?;
@@ -211,12 +215,12 @@ impl Parts {
 
     /// Cuts a part into two or more and lays these flat. Returns whether the part was large enough to be cut.
     pub(super) fn cut(&mut self, part: u32) -> Result<bool> {
-        let Some(leaf) = self.leaves[part as usize].take() else {
+        let Some(flat_patch) = self.flat_patches[part as usize].take() else {
             return Ok(false);
         };
-        let cut = self.labels.cut(&self.surface, part, &leaf)?;
+        let cut = self.labels.cut(&self.surface, part, &flat_patch)?;
         let Some(parts) = cut else {
-            self.leaves[part as usize] = Some(leaf);
+            self.flat_patches[part as usize] = Some(flat_patch);
             return Ok(false);
         };
         if self.labels.origins.len() > MAX_PARTS {
@@ -241,29 +245,38 @@ impl Parts {
         let mut open = vec![part];
         let mut is_invalid = true;
         while let Some(part) = open.pop() {
-            let leaf = self.leaves[part as usize].as_ref();
-            let strain = leaf.map(FlatPatch::strain).unwrap_or_default();
+            let flat_patch = self.flat_patches[part as usize].as_ref();
+            let strain = flat_patch.map(FlatPatch::strain).unwrap_or_default();
             is_invalid |= strain.rms() > self.options.max_strain || strain.flipped > 0;
             if std::mem::take(&mut is_invalid) {
-                let trouble = match strain.rms() > self.options.max_strain {
-                    true => Trouble::Strain(self.options.max_strain),
-                    false => Trouble::Flipped,
+                let part_fault = match strain.rms() > self.options.max_strain {
+                    true => PartFault::Strain(self.options.max_strain),
+                    false => PartFault::Flipped,
                 };
-                let most = |count| self.most_specks(count, MAX_RECUT_SPECK_SHARE);
-                let specks = self.leaves[part as usize].as_ref().and_then(|leaf| {
-                    let lattice = self.surface.lattice();
-                    removable_vertices(lattice, &self.labels, part, leaf, trouble, most)
-                });
-                if let Some(specks) = specks {
-                    self.leave_out_specks(part, specks)?;
+                let most = |count| self.max_removed(count, MAX_RECUT_REMOVED_SHARE);
+                let removed = self.flat_patches[part as usize]
+                    .as_ref()
+                    .and_then(|flat_patch| {
+                        let lattice = self.surface.lattice();
+                        removable_vertices(
+                            lattice,
+                            &self.labels,
+                            part,
+                            flat_patch,
+                            part_fault,
+                            most,
+                        )
+                    });
+                if let Some(removed) = removed {
+                    self.leave_out_vertices(part, removed)?;
                 } else if self.cut(part)? {
                     open.append(&mut self.pending);
                 } else {
                     let own = self.members(part);
-                    if own.len() > self.scrap() {
+                    if own.len() > self.max_omitted_now() {
                         return Ok(false);
                     }
-                    self.leave_out_specks(part, own)?;
+                    self.leave_out_vertices(part, own)?;
                 }
             }
         }
@@ -272,12 +285,14 @@ impl Parts {
 
     /// Merges each part that is too small to be cut and strained above the limit with a neighbour, or leaves it out of
     /// the pattern.
-    pub(super) fn give_away_crumbs(&mut self) -> Result<()> {
+    pub(super) fn merge_strained_small_parts(&mut self) -> Result<()> {
         let limit = self.options.max_strain;
-        for part in (0..self.leaves.len() as u32).rev() {
-            let leaf = self.leaves[part as usize].as_ref();
-            let crumb = leaf.is_some_and(|leaf| leaf.is_crumb() && leaf.strain().rms() > limit);
-            if crumb && !self.give_away(part)? {
+        for part in (0..self.flat_patches.len() as u32).rev() {
+            let flat_patch = self.flat_patches[part as usize].as_ref();
+            let is_small_and_strained = flat_patch.is_some_and(|flat_patch| {
+                flat_patch.is_too_small_to_cut() && flat_patch.strain().rms() > limit
+            });
+            if is_small_and_strained && !self.merge_with_neighbour(part)? {
                 self.leave_out(part)?;
             }
         }
@@ -286,14 +301,14 @@ impl Parts {
 
     /// Merges a part with a neighbour if both together lie flat. A neighbour cut from the same patch comes first, then
     /// the one with the longest common border. Returns whether such a neighbour was found; numbers of parts may change.
-    pub(super) fn give_away(&mut self, part: u32) -> Result<bool> {
+    pub(super) fn merge_with_neighbour(&mut self, part: u32) -> Result<bool> {
         let own = self.members(part);
         let mut beside: Vec<(u32, usize)> = self.borders(part, &own).into_iter().collect();
         beside.sort_by_key(|(other, count)| Reverse((self.labels.are_one(*other, part), *count)));
         beside.truncate(MAX_MERGE_CANDIDATES);
         for (other, _) in beside {
-            if let Some((number, leaf)) = self.enlarged(other, part, &own)? {
-                self.leaves[number as usize] = leaf;
+            if let Some((number, flat_patch)) = self.merged_with(other, part, &own)? {
+                self.flat_patches[number as usize] = flat_patch;
                 self.remove(part);
                 return Ok(true);
             }
@@ -302,18 +317,18 @@ impl Parts {
     }
 
     /// Merges a part into another if both lie flat together; changes nothing otherwise.
-    fn enlarged(&mut self, other: u32, part: u32, own: &[usize]) -> Result<Option<Enlarged>> {
+    fn merged_with(&mut self, other: u32, part: u32, own: &[usize]) -> Result<Option<MergedPart>> {
         let before = self.windows[other as usize];
         self.windows[other as usize] = before.with(&self.windows[part as usize]);
         own.iter().for_each(|i| self.labels.of[*i] = other);
-        let leaf = self.leaf(&other)?;
+        let flat_patch = self.flat_patch(&other)?;
         let limit = self.options.max_strain;
-        let flat = leaf.as_ref().is_none_or(|leaf| {
-            let strain = leaf.strain();
+        let flat = flat_patch.as_ref().is_none_or(|flat_patch| {
+            let strain = flat_patch.strain();
             strain.rms() <= limit && strain.flipped == 0
         });
         if flat {
-            return Ok(Some((other, leaf)));
+            return Ok(Some((other, flat_patch)));
         }
         own.iter().for_each(|i| self.labels.of[*i] = part);
         self.windows[other as usize] = before;
@@ -324,7 +339,7 @@ impl Parts {
     /// already. Returns whether the part was left out; numbers of parts may change.
     pub(super) fn leave_out(&mut self, part: u32) -> Result<bool> {
         let own = self.members(part);
-        if own.len() > self.scrap() {
+        if own.len() > self.max_omitted_now() {
             return Ok(false);
         }
         let mut beside: Vec<u32> = self.borders(part, &own).into_keys().collect();
@@ -343,16 +358,16 @@ impl Parts {
     /// Leaves out of the pattern the few border vertices of a part that hold most of its strain or are corners of
     /// flipped triangles. Returns whether there were such vertices.
     fn trim(&mut self, part: u32) -> Result<bool> {
-        let Some(leaf) = self.leaves[part as usize].as_ref() else {
+        let Some(flat_patch) = self.flat_patches[part as usize].as_ref() else {
             return Ok(false);
         };
-        let trouble = match self.is_strained(part) {
-            true => Trouble::Strain(self.options.max_strain),
-            false => Trouble::Flipped,
+        let part_fault = match self.is_strained(part) {
+            true => PartFault::Strain(self.options.max_strain),
+            false => PartFault::Flipped,
         };
         let lattice = self.surface.lattice();
-        let most = |count| self.most_specks(count, MAX_SPECK_SHARE);
-        let own = removable_vertices(lattice, &self.labels, part, leaf, trouble, most);
+        let most = |count| self.max_removed(count, MAX_REMOVED_SHARE);
+        let own = removable_vertices(lattice, &self.labels, part, flat_patch, part_fault, most);
         let Some(own) = own else {
             return Ok(false);
         };
@@ -367,40 +382,42 @@ impl Parts {
     pub(super) fn removable_vertices(
         &self,
         part: u32,
-        leaf: &FlatPatch,
-        trouble: Trouble,
+        flat_patch: &FlatPatch,
+        part_fault: PartFault,
     ) -> Option<Vec<usize>> {
         let lattice = self.surface.lattice();
-        let most = |count| self.most_specks(count, MAX_SPECK_SHARE);
-        let found = || removable_vertices(lattice, &self.labels, part, leaf, trouble, most);
+        let most = |count| self.max_removed(count, MAX_REMOVED_SHARE);
+        let found =
+            || removable_vertices(lattice, &self.labels, part, flat_patch, part_fault, most);
         (self.trims < MAX_TRIM_ROUNDS).then(found).flatten()
     }
 
     /// Leaves out of the pattern some vertices of a part; the other vertices of the part and of its neighbours keep
     /// their flat positions.
-    pub(super) fn leave_out_specks(&mut self, part: u32, specks: Vec<usize>) -> Result<()> {
-        let mut changed: Vec<u32> = self.borders(part, &specks).into_keys().collect();
+    pub(super) fn leave_out_vertices(&mut self, part: u32, removed: Vec<usize>) -> Result<()> {
+        let mut changed: Vec<u32> = self.borders(part, &removed).into_keys().collect();
         changed.push(part);
-        self.without(specks)?;
+        self.without(removed)?;
         for part in changed {
-            let Some(before) = self.leaves[part as usize].take() else {
+            let Some(before) = self.flat_patches[part as usize].take() else {
                 continue;
             };
             let place = |vertex| Some(before.place(vertex)).filter(|place| !place.re.is_nan());
-            let leaf = FlatPatch::at(&self.surface, &self.labels, part, self.window(part), place)?;
-            self.leaves[part as usize] = leaf;
+            let flat_patch =
+                FlatPatch::at(&self.surface, &self.labels, part, self.window(part), place)?;
+            self.flat_patches[part as usize] = flat_patch;
         }
         Ok(())
     }
 
     /// Computes the maximum number of vertices that may be left out of the pattern in the next step.
-    fn scrap(&self) -> usize {
+    fn max_omitted_now(&self) -> usize {
         MAX_OMITTED_VERTICES.min(self.most_left_out.saturating_sub(self.left_out))
     }
 
     /// Maximum number of border vertices that may be left out of a part of `count` vertices in the next step.
-    fn most_specks(&self, count: usize, share: f64) -> usize {
-        self.scrap().min((share * count as f64) as usize)
+    fn max_removed(&self, count: usize, share: f64) -> usize {
+        self.max_omitted_now().min((share * count as f64) as usize)
     }
 
     fn without(&mut self, vertices: Vec<usize>) -> Result<()> {
@@ -440,7 +457,7 @@ impl Parts {
             }
         }
         self.labels.origins.swap_remove(part as usize);
-        self.leaves.swap_remove(part as usize);
+        self.flat_patches.swap_remove(part as usize);
         self.windows.swap_remove(part as usize);
         self.pending.clear();
     }

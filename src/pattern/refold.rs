@@ -34,13 +34,13 @@ pub(super) fn refold_sheet(
     for patch in patches {
         let first = places.len() as u32;
         starts.push(first);
-        let Some(leaf) = net.leaves[*patch as usize].as_ref() else {
+        let Some(flat_patch) = net.flat_patches[*patch as usize].as_ref() else {
             continue;
         };
-        places.extend(leaf.positions().iter().map(|p| Vector3::from(*p)));
-        own.extend((0..leaf.places().len()).map(|vertex| leaf.is_own(vertex)));
-        let flat = leaf.all_pieces().map(|(_, corners)| {
-            let points = corners.map(|v| leaf.places()[v as usize]);
+        places.extend(flat_patch.positions().iter().map(|p| Vector3::from(*p)));
+        own.extend((0..flat_patch.places().len()).map(|vertex| flat_patch.is_own(vertex)));
+        let flat = flat_patch.all_pieces().map(|(_, corners)| {
+            let points = corners.map(|v| flat_patch.places()[v as usize]);
             let piece = FlatTriangle::from_points(points.map(|p| [p.re, p.im, 0.0]));
             (piece, corners.map(|v| first + v))
         });

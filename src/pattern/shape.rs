@@ -16,18 +16,27 @@ const SIMPLIFICATION_TOLERANCE_SPACINGS: f64 = 0.02;
 /// Such a segment arises because the border connects the midpoints of edges.
 const MAX_CHAMFER_LENGTH_FACTOR: f64 = 1.1;
 
-/// Minimum area of a closed line around a sheet, in squared spacings; a cut within a sheet that opens less is not drawn.
-const MIN_OUTLINE_AREA: f64 = 1.0;
+/// Minimum area of a closed line around a sheet, in squared spacings of a lattice or edge lengths of a mesh; a cut within a
+/// sheet that opens less is not drawn.
+pub(super) const MIN_OUTLINE_AREA: f64 = 1.0;
 
-/// Removes the closed lines around less than a least area, except the one around the largest.
-pub(super) fn drop_empty_lines<T>(lines: &mut Vec<T>, least: f64, ring: impl Fn(&T) -> Vec<Point>) {
+/// Removes the closed lines around less than a least area, except the one around the largest; `least` may differ from
+/// line to line.
+pub(super) fn drop_empty_lines<T>(
+    lines: &mut Vec<T>,
+    least: impl Fn(&T) -> f64,
+    ring: impl Fn(&T) -> Vec<Point>,
+) {
     let areas: Vec<f64> = lines
         .iter()
         .map(|line| polygon_area(&ring(line)).abs())
         .collect();
     let largest = areas.iter().copied().fold(0.0, f64::max);
     let mut areas = areas.into_iter();
-    lines.retain(|_| areas.next().is_some_and(|area| area >= least.min(largest)));
+    lines.retain(|line| {
+        let area = areas.next();
+        area.is_some_and(|area| area >= least(line).min(largest))
+    });
 }
 
 /// Finds the closed lines around a sheet and cuts off their small loops; returns the lines and the number of loops.
@@ -40,10 +49,14 @@ pub(super) fn lines(net: &SeamGraph, layout: &Layout, patches: &[u32]) -> (Vec<R
     });
     let mut lines: Vec<Runs> = lines.collect();
     let least = MIN_OUTLINE_AREA * net.spacing * net.spacing;
-    drop_empty_lines(&mut lines, least, |runs| {
-        let points = runs.iter().map(|(_, points)| &points[..points.len() - 1]);
-        points.flatten().copied().collect()
-    });
+    drop_empty_lines(
+        &mut lines,
+        |_| least,
+        |runs| {
+            let points = runs.iter().map(|(_, points)| &points[..points.len() - 1]);
+            points.flatten().copied().collect()
+        },
+    );
     (lines, loops)
 }
 
@@ -294,10 +307,10 @@ mod tests {
         let square = |size: f64| [at(0.0, 0.0), at(size, 0.0), at(size, size), at(0.0, size)];
         let there_and_back = [at(1.0, 1.0), at(2.0, 1.5), at(3.0, 2.0), at(2.0, 1.5)];
         let mut lines = vec![square(8.0), square(-2.0), there_and_back];
-        drop_empty_lines(&mut lines, 1.0, |line| line.to_vec());
+        drop_empty_lines(&mut lines, |_| 1.0, |line| line.to_vec());
         assert_eq!(lines, [square(8.0), square(-2.0)]);
         let mut lines = vec![square(0.5)];
-        drop_empty_lines(&mut lines, 1.0, |line| line.to_vec());
+        drop_empty_lines(&mut lines, |_| 1.0, |line| line.to_vec());
         assert_eq!(lines, [square(0.5)]);
     }
 }

@@ -39,7 +39,7 @@ pub(super) fn label_spots(
         }
     }
     let position = |i: usize| lattice.position(i / lattice.cols(), i % lattice.cols());
-    let mut middles = vec![([0.0; 2], 0.0); net.leaves.len()];
+    let mut middles = vec![([0.0; 2], 0.0); net.flat_patches.len()];
     for (i, label) in labels.iter().enumerate() {
         if let Some((sum, count)) = middles.get_mut(*label as usize) {
             let [x, y] = position(i);
@@ -48,7 +48,7 @@ pub(super) fn label_spots(
         }
     }
     // Compare by the number of edges first, then by the distance from the middle.
-    let mut best = vec![(0u32, f64::INFINITY, usize::MAX); net.leaves.len()];
+    let mut best = vec![(0u32, f64::INFINITY, usize::MAX); net.flat_patches.len()];
     for (i, label) in labels.iter().enumerate() {
         if let Some(found) = best.get_mut(*label as usize) {
             let ([x, y], count) = middles[*label as usize];
@@ -61,9 +61,9 @@ pub(super) fn label_spots(
         }
     }
     let spot = |(patch, (steps, _, vertex)): (usize, (u32, f64, usize))| {
-        let leaf = net.leaves[patch].as_ref();
-        let place = leaf.map(|leaf| {
-            let here = leaf.place([vertex / lattice.cols(), vertex % lattice.cols()]);
+        let flat_patch = net.flat_patches[patch].as_ref();
+        let place = flat_patch.map(|flat_patch| {
+            let here = flat_patch.place([vertex / lattice.cols(), vertex % lattice.cols()]);
             layout.motions[patch].of(here)
         });
         Spot {

@@ -1,5 +1,5 @@
-//! Specks at a border that nearly all strain of a part is in, or that lie upside down: where a surface ends
-//! in a steep point, a few vertices may be torn apart however the part is cut.
+//! Border vertices whose removal makes a part valid: where a surface ends in a steep point, a few vertices hold nearly all
+//! strain or lie upside down however the part is cut.
 
 use super::flat_patch::FlatPatch;
 use super::labels::{Labels, connected_groups};
@@ -7,14 +7,14 @@ use crate::lattice::hexagonal::{Lattice, NEIGHBOUR_DIRECTIONS};
 use rustc_hash::FxHashMap;
 
 /// Maximum number of border vertices that are removed from a part, as a share of the part's vertices.
-pub(super) const MAX_SPECK_SHARE: f64 = 0.002;
+pub(super) const MAX_REMOVED_SHARE: f64 = 0.002;
 
 /// Maximum strain of a part after border vertices were removed, as a share of the strain limit.
-const TRIMMED_STRAIN_SHARE: f64 = 0.5;
+const TRIMMED_STRAIN_SHARE: f64 = 0.8;
 
 /// Fault of a part that the removal of a few border vertices has to mend.
 #[derive(Debug, Clone, Copy)]
-pub(super) enum Trouble {
+pub(super) enum PartFault {
     /// The part's strain is above the limit, which this value holds.
     Strain(f64),
     /// Triangles of the part are flipped (lie upside down in the layout).
@@ -27,36 +27,37 @@ pub(super) fn removable_vertices(
     lattice: &Lattice,
     labels: &Labels,
     part: u32,
-    leaf: &FlatPatch,
-    trouble: Trouble,
+    flat_patch: &FlatPatch,
+    part_fault: PartFault,
     most: impl Fn(usize) -> usize,
 ) -> Option<Vec<usize>> {
-    let burden = leaf.burden(lattice);
+    let burden = flat_patch.burden(lattice);
     let most = most(burden.len());
-    let speck: FxHashMap<usize, ()> = match trouble {
-        Trouble::Strain(limit) => {
-            heaviest(&burden, TRIMMED_STRAIN_SHARE * limit / leaf.strain().rms())
-        }
-        Trouble::Flipped => leaf.flipped(lattice),
+    let removed: FxHashMap<usize, ()> = match part_fault {
+        PartFault::Strain(limit) => heaviest(
+            &burden,
+            TRIMMED_STRAIN_SHARE * limit / flat_patch.strain().rms(),
+        ),
+        PartFault::Flipped => flat_patch.flipped(lattice),
     }
     .into_iter()
     .map(|i| (i, ()))
     .collect();
-    if speck.is_empty() || speck.len() > most {
+    if removed.is_empty() || removed.len() > most {
         return None;
     }
     let together = |inside: &dyn Fn(usize) -> bool| {
         let members = burden.iter().map(|(i, _)| *i).filter(|i| inside(*i));
         connected_groups(lattice, members, |_, _| true)
     };
-    let whole = together(&|i| !speck.contains_key(&i)).len() == 1;
+    let whole = together(&|i| !removed.contains_key(&i)).len() == 1;
     let is_outermost = |i: usize| {
         let own = lattice.around(i).filter(|k| labels.of[*k] == part);
         own.count() < NEIGHBOUR_DIRECTIONS.len()
     };
-    let specks = together(&|i| speck.contains_key(&i));
+    let removed = together(&|i| removed.contains_key(&i));
     let at_border = |group: &Vec<usize>| group.iter().any(|i| is_outermost(*i));
-    (whole && specks.iter().all(at_border)).then(|| specks.concat())
+    (whole && removed.iter().all(at_border)).then(|| removed.concat())
 }
 
 /// Finds the smallest set of vertices without which the sum of squared strains falls to a given share of the whole,

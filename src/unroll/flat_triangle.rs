@@ -99,8 +99,8 @@ impl FlatTriangle {
         let sum = (b - a) / self.second;
         let difference = ((c - a) - sum * self.third.re) / Point::new(0.0, self.third.im);
         let (alpha, beta) = (
-            0.5 * (sum + difference).norm(),
-            0.5 * (sum - difference).norm(),
+            0.5 * (sum + difference).norm_sqr().sqrt(),
+            0.5 * (sum - difference).norm_sqr().sqrt(),
         );
         [alpha + beta, alpha - beta]
     }

@@ -257,6 +257,54 @@ fn solid(corners: &[[f64; 3]], faces: &[[usize; 3]], count: usize) -> Mesh {
     surface(&maps, count, count)
 }
 
+/// The surface of those unit cubes of a grid for which `is_filled` is true.
+fn cubes(size: [i32; 3], is_filled: impl Fn([i32; 3]) -> bool) -> Mesh {
+    let is_filled =
+        |cell: [i32; 3]| (0..3).all(|k| (0..size[k]).contains(&cell[k])) && is_filled(cell);
+    let (mut places, mut triangles, mut found) = (Vec::new(), Vec::new(), HashMap::new());
+    let [x, y, z] = size;
+    let cells = (0..x * y * z).map(|i| [i % x, i / x % y, i / (x * y)]);
+    for cell in cells.filter(|cell| is_filled(*cell)) {
+        for (axis, side) in (0..3).flat_map(|axis| [(axis, 0), (axis, 1)]) {
+            let mut beyond = cell;
+            beyond[axis] += 2 * side - 1;
+            if is_filled(beyond) {
+                continue;
+            }
+            let mut quad = [[0, 0], [1, 0], [1, 1], [0, 1]].map(|[u, v]| {
+                let mut corner = cell;
+                corner[axis] += side;
+                corner[(axis + 1) % 3] += u;
+                corner[(axis + 2) % 3] += v;
+                *found.entry(corner).or_insert_with(|| {
+                    places.push(corner.map(f64::from));
+                    places.len() as u32 - 1
+                })
+            });
+            if side == 0 {
+                quad.reverse();
+            }
+            let [a, b, c, d] = quad;
+            triangles.extend([[a, b, c], [a, c, d]]);
+        }
+    }
+    Mesh::new(places, triangles).unwrap()
+}
+
+/// Around a corner of a bracket the faces have 270 degrees, though cuts that do not end there are nearer than other
+/// corners.
+#[test]
+fn angles_beside_other_cuts_close_up() {
+    let bracket = cubes([24, 18, 24], |[x, y, z]| {
+        x < 6 || z < 6 || (6..12).contains(&y) && x < 16 && z < 16
+    });
+    let (_, pattern) = pattern_of(&bracket);
+    let drawing = Drawing::new(&pattern.sheets, &DrawingOptions::default()).unwrap();
+    let worst = drawing.summary.worst_angle;
+    println!("{worst:?} of {} points", drawing.summary.points);
+    assert!(worst.is_none_or(|worst| (worst.flat - worst.surface).abs() < 1.0));
+}
+
 #[test]
 fn angles_at_the_corners_of_solids_close_up() {
     for count in [1, 12] {

@@ -7,13 +7,14 @@ use super::meeting::Meetings;
 use super::seams::Seams;
 use crate::error::Result;
 use crate::math::index::NO_INDEX;
-use crate::pattern::shape::drop_empty_lines;
+use crate::pattern::shape::{MIN_OUTLINE_AREA, drop_empty_lines};
 use crate::pattern::{Direction, Faces, Fold, Run, Seam, Sheet, Spot};
 use crate::scene::half_edges::half_edge_ends;
 use crate::shape::patches::{Crease, Patch};
 use crate::unroll::flat_triangle::Point;
 
-/// Minimum area of a closed line around a sheet, as a share of the sheet's area; far below any triangle's.
+/// Minimum area of a closed line around a sheet that follows the mesh's own border, as a share of the sheet's area; far
+/// below any triangle's.
 const MIN_OUTLINE_SHARE: f64 = 1e-6;
 
 /// A mesh cut into flat sheets.
@@ -91,9 +92,17 @@ fn draw(body: &Body, seams: &Seams, meetings: &Meetings, sheet: &Joined) -> Shee
         let place = laid.places[vertex as usize];
         [place.re, place.im]
     };
-    // A cut that is within the sheet and cannot open is no outline.
+    // A cut that is within the sheet and hardly opens is no outline, but a hole of the mesh is, however small.
     let mut lines = laid.outlines();
-    drop_empty_lines(&mut lines, MIN_OUTLINE_SHARE * laid.area, |line| {
+    let is_cut = |side: &u32| {
+        let member = laid.members[*side as usize / 3];
+        seams.of(3 * member + side % 3).is_some()
+    };
+    let least = |line: &Vec<u32>| match line.iter().all(is_cut) {
+        true => MIN_OUTLINE_AREA * body.spacing * body.spacing,
+        false => MIN_OUTLINE_SHARE * laid.area,
+    };
+    drop_empty_lines(&mut lines, least, |line| {
         let starts = line
             .iter()
             .map(|side| half_edge_ends(&laid.triangles, *side)[0]);

@@ -22,6 +22,10 @@ pub(super) struct Limits {
 /// Strain, as a share of the limit, at which laying a part flat stops as long as the part may still be cut or joined.
 const TRIAL_STRAIN_SHARE: f64 = 0.8;
 
+/// Maximum strain of a joined sheet, as a multiple of the strain that its sheets had, at which it is not laid flat again
+/// before the next one is joined to it.
+const MAX_UNRELAXED_GROWTH: f64 = 1.01;
+
 impl Limits {
     /// Returns the stopping criteria of the solver for laying parts flat that may still be cut or joined.
     pub(super) fn trial(&self) -> StoppingCriteria {
@@ -288,7 +292,15 @@ impl<'a> SheetPair<'a> {
         if rough.overlaps() {
             return Ok(None);
         }
-        let laid = match rough.strain <= TRIAL_STRAIN_SHARE * limits.strain {
+        let [squares, area] = self.all().fold([0.0; 2], |[squares, area], sheet| {
+            let laid = &sheet.laid;
+            [squares + laid.area * laid.strain.powi(2), area + laid.area]
+        });
+        let before = (squares / area).sqrt();
+        let enough = (TRIAL_STRAIN_SHARE * limits.strain)
+            .max(MAX_UNRELAXED_GROWTH * before)
+            .min(limits.strain);
+        let laid = match rough.strain <= enough {
             true => rough,
             false => {
                 let laid = rough.relaxed(body, limits.trial())?;

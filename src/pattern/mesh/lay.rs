@@ -217,7 +217,7 @@ impl FlatPart {
     pub(super) fn removable_triangles(&self) -> Vec<u32> {
         let most = (MAX_REMOVED_SHARE * self.members.len() as f64).ceil() as usize;
         let mut left = self.clone();
-        let mut specks = Vec::new();
+        let mut removed = Vec::new();
         loop {
             let sides: Vec<u32> = left.border().collect();
             let border: Vec<[u32; 2]> = sides
@@ -228,7 +228,7 @@ impl FlatPart {
             if crossings.is_empty() {
                 return match left.covers_itself(&border) {
                     true => Vec::new(),
-                    false => specks,
+                    false => removed,
                 };
             }
             let area = |t: usize| {
@@ -242,8 +242,8 @@ impl FlatPart {
             let mut off: Vec<usize> = crossings.iter().map(smaller).collect();
             off.sort_unstable();
             off.dedup();
-            specks.extend(off.iter().map(|t| left.members[*t]));
-            if specks.len() > most {
+            removed.extend(off.iter().map(|t| left.members[*t]));
+            if removed.len() > most {
                 return Vec::new();
             }
             left.take_off(&off);

@@ -18,7 +18,7 @@ pub(super) struct Meetings {
 
 /// Data of a vertex where seams end, gathered before its angle is measured.
 #[derive(Clone)]
-struct Found {
+struct PointSeams {
     /// Number of cuts that end at the vertex. `edges` is the number of the vertex's edges that are cut.
     cuts: usize,
     edges: usize,
@@ -28,8 +28,8 @@ struct Found {
 }
 
 impl Meetings {
-    /// Returns the point where cuts or folds meet at a vertex; `None` if the border is near or a seam that ends there
-    /// is too short to measure an angle.
+    /// Returns the point where cuts or folds meet at a vertex; `None` if the border is near, or if a seam that ends there
+    /// is too short or another cut too near to measure an angle.
     pub(super) fn at(&self, vertex: u32) -> Option<Meeting> {
         self.of.get(&vertex).copied()
     }
@@ -39,10 +39,10 @@ impl Meetings {
         for seam in sheets.iter().flat_map(|sheet| &sheet.whole) {
             whole[*seam] = true;
         }
-        let mut all: BTreeMap<u32, Found> = BTreeMap::new();
+        let mut all: BTreeMap<u32, PointSeams> = BTreeMap::new();
         for (seam, _) in lines(seams, &whole) {
             for end in ends(&seam.vertices) {
-                let blank = Found {
+                let blank = PointSeams {
                     cuts: 0,
                     edges: 0,
                     shortest: f64::INFINITY,
@@ -65,10 +65,23 @@ impl Meetings {
                 }
             }
         }
-        let around = Around::new(body);
-        let meeting = |(vertex, found): (u32, Found)| {
-            let reach =
-                (MAX_ANGLE_RADIUS_LENGTHS * body.spacing).min(ANGLE_RADIUS_SHARE * found.shortest);
+        // The vertices of all cuts, each with the ends of its cut.
+        let cut_vertices: Vec<(u32, Vec<u32>)> = lines(seams, &whole)
+            .filter(|(_, cut)| *cut)
+            .flat_map(|(seam, _)| seam.vertices.iter().map(|v| (*v, ends(&seam.vertices))))
+            .collect();
+        let around = AngleDefects::new(body);
+        let meeting = |(vertex, found): (u32, PointSeams)| {
+            // What the mesh bends beside another cut is taken up by that cut.
+            let others = cut_vertices
+                .iter()
+                .filter(|(_, ends)| !ends.contains(&vertex));
+            let place = body.places[vertex as usize];
+            let other = others
+                .map(|(other, _)| (body.places[*other as usize] - place).norm())
+                .fold(f64::INFINITY, f64::min);
+            let reach = (MAX_ANGLE_RADIUS_LENGTHS * body.spacing)
+                .min(ANGLE_RADIUS_SHARE * found.shortest.min(other));
             let short = found.most > 1 && reach < MIN_ANGLE_RADIUS_LENGTHS * body.spacing;
             // A cut that passes through the vertex without an end divides the surface around it, so no angle is
             // measured.
@@ -107,7 +120,7 @@ fn ends(vertices: &[u32]) -> Vec<u32> {
 }
 
 /// Angle defects and neighbours of all vertices of a mesh, for measuring angles around points.
-struct Around<'a> {
+struct AngleDefects<'a> {
     body: &'a Body,
     /// Angle defect of each vertex: a full turn less the angles around it; NaN at the border.
     missing: Vec<f64>,
@@ -117,8 +130,8 @@ struct Around<'a> {
     starts: Vec<usize>,
 }
 
-impl Around<'_> {
-    fn new(body: &Body) -> Around<'_> {
+impl AngleDefects<'_> {
+    fn new(body: &Body) -> AngleDefects<'_> {
         let count = body.places.len();
         let mut missing = vec![TAU; count];
         // An interior edge occurs in both directions.
@@ -143,7 +156,7 @@ impl Around<'_> {
         for k in 0..count {
             starts[k + 1] += starts[k];
         }
-        Around {
+        AngleDefects {
             body,
             missing,
             neighbours: edges.into_iter().map(|(_, b)| b).collect(),

@@ -66,7 +66,7 @@ pub(super) struct SeamGraph {
     /// Spacing, in the surface's units, of the lattice on which the cuts of the surface were decided, which may be
     /// coarser than this lattice; loops of outlines that are small on that lattice are cut off.
     pub decided: f64,
-    pub leaves: Vec<Option<FlatPatch>>,
+    pub flat_patches: Vec<Option<FlatPatch>>,
     pub seams: Vec<Seam>,
     /// Numbers of the seams that each crease is divided into.
     parts: Vec<Vec<usize>>,
@@ -92,15 +92,15 @@ impl SeamGraph {
     pub(super) fn new(
         surface: &Heightfield,
         labels: &Labels,
-        leaves: Vec<Option<FlatPatch>>,
+        flat_patches: Vec<Option<FlatPatch>>,
         decided: f64,
     ) -> Result<SeamGraph> {
         let mesh = Triangulation::new(surface, &Frame::default())?;
         let mut net = SeamGraph {
             spacing: surface.lattice().spacing(),
             decided,
-            borders: vec![Vec::new(); leaves.len()],
-            leaves,
+            borders: vec![Vec::new(); flat_patches.len()],
+            flat_patches,
             seams: Vec::new(),
             parts: Vec::new(),
             seam_of: FxHashMap::default(),

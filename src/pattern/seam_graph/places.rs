@@ -43,11 +43,11 @@ impl SeamGraph {
             .flatten()
             .flat_map(|seam| self.seams[seam].patches)
         {
-            let leaf = self.leaves[patch as usize].as_ref();
-            if let (Some(leaf), Some(mean)) = (leaf, self.mean(node, patch)) {
+            let flat_patch = self.flat_patches[patch as usize].as_ref();
+            if let (Some(flat_patch), Some(mean)) = (flat_patch, self.mean(node, patch)) {
                 let terms = mean.iter().filter(|(_, share)| *share != 0.0);
                 sum += terms
-                    .map(|(vertex, share)| share * leaf.positions()[*vertex as usize][2])
+                    .map(|(vertex, share)| share * flat_patch.positions()[*vertex as usize][2])
                     .sum::<f64>();
                 count += 1.0;
             }
@@ -74,8 +74,8 @@ impl SeamGraph {
 
     /// Replaces the flat positions of a patch's vertices.
     pub(in crate::pattern) fn set_places(&mut self, patch: u32, places: Vec<Point>) {
-        if let Some(leaf) = self.leaves[patch as usize].as_mut() {
-            leaf.set_places(places);
+        if let Some(flat_patch) = self.flat_patches[patch as usize].as_mut() {
+            flat_patch.set_places(places);
         }
         for crease in 0..self.parts.len() {
             let seam = self.parts[crease].first().map(|seam| &self.seams[*seam]);
@@ -87,8 +87,8 @@ impl SeamGraph {
 
     /// Resets the vertices of a patch to their positions when it was laid flat by itself.
     pub(in crate::pattern) fn lay_alone(&mut self, patch: u32) {
-        let leaf = self.leaves[patch as usize].as_ref();
-        if let Some(places) = leaf.and_then(FlatPatch::moved_from) {
+        let flat_patch = self.flat_patches[patch as usize].as_ref();
+        if let Some(places) = flat_patch.and_then(FlatPatch::moved_from) {
             self.set_places(patch, places);
         }
     }
@@ -118,7 +118,7 @@ impl SeamGraph {
 
     /// Expresses a node of a seam as a weighted mean of vertices of one of its two patches.
     pub(in crate::pattern) fn mean(&self, node: Node, patch: u32) -> Option<BarycentricPoint> {
-        let leaf = self.leaves[patch as usize].as_ref()?;
+        let flat_patch = self.flat_patches[patch as usize].as_ref()?;
         let shares = self.shares.get(&node)?;
         let vertices = match is_triangle(node) {
             true => self.mesh.triangles()[node.0 as usize],
@@ -127,7 +127,7 @@ impl SeamGraph {
         let mut mean = [(0, 0.0); 3];
         for ((term, vertex), share) in mean.iter_mut().zip(vertices).zip(shares) {
             if *share != 0.0 {
-                *term = (leaf.number(self.row_and_col(vertex))? as u32, *share);
+                *term = (flat_patch.number(self.row_and_col(vertex))? as u32, *share);
             }
         }
         Some(mean)
@@ -174,14 +174,16 @@ impl SeamGraph {
     }
 
     pub(super) fn vertex_height(&self, vertex: u32, patch: u32) -> f64 {
-        let leaf = self.leaves[patch as usize].as_ref();
-        leaf.map_or(f64::NAN, |leaf| leaf.height(self.row_and_col(vertex)))
+        let flat_patch = self.flat_patches[patch as usize].as_ref();
+        flat_patch.map_or(f64::NAN, |flat_patch| {
+            flat_patch.height(self.row_and_col(vertex))
+        })
     }
 
     pub(super) fn vertex_place(&self, vertex: u32, patch: u32) -> Point {
-        let leaf = self.leaves[patch as usize].as_ref();
-        leaf.map_or(Point::new(f64::NAN, f64::NAN), |leaf| {
-            leaf.place(self.row_and_col(vertex))
+        let flat_patch = self.flat_patches[patch as usize].as_ref();
+        flat_patch.map_or(Point::new(f64::NAN, f64::NAN), |flat_patch| {
+            flat_patch.place(self.row_and_col(vertex))
         })
     }
 

@@ -8,9 +8,10 @@
 //! the folder `fitted` of the system's temporary files.
 
 mod scans;
+mod shapes;
 
 use std::error::Error;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use developable::drawing::{Drawing, DrawingOptions};
@@ -50,25 +51,52 @@ fn main() -> Outcome<()> {
     }
     let name = "bunny mesh";
     if is_wanted(name) {
-        let bytes = std::fs::read(Path::new(&folder).join("bunny.obj"))?;
-        let mesh = read_mesh(&bytes, None)?;
-        let (mesh, _) = fit_mesh(&mesh, &MeshOptions::default())?.into_parts();
+        let mesh = kept_mesh(name, || {
+            let bytes = std::fs::read(Path::new(&folder).join("bunny.obj"))?;
+            let mesh = read_mesh(&bytes, None)?;
+            Ok(fit_mesh(&mesh, &MeshOptions::default())?.into_parts().0)
+        })?;
         mesh_row(name, &mesh)?;
+    }
+    for shape in shapes::SHAPES {
+        for noise in shapes::NOISE {
+            let name = format!("{}, {} %", shape.name, 100.0 * noise);
+            if is_wanted(&name) {
+                let mesh = kept_mesh(&name, || shapes::fitted(&shape, noise, 1))?;
+                mesh_row(&name, &mesh)?;
+            }
+        }
     }
     Ok(())
 }
 
 /// A fitted surface, read from where it was kept or made and kept.
 fn kept(name: &str, make: impl Fn() -> Outcome<Heightfield>) -> Outcome<Heightfield> {
-    let folder = std::env::temp_dir().join("fitted");
-    std::fs::create_dir_all(&folder)?;
-    let file = folder.join(name.replace(' ', "-"));
+    let file = kept_file(name)?;
     if let Ok(bytes) = std::fs::read(&file) {
         return scans::from_bytes(&bytes);
     }
     let surface = make()?;
     std::fs::write(file, scans::to_bytes(&surface))?;
     Ok(surface)
+}
+
+/// A fitted mesh, read from where it was kept or made and kept.
+fn kept_mesh(name: &str, make: impl Fn() -> Outcome<Mesh>) -> Outcome<Mesh> {
+    let file = kept_file(name)?;
+    if let Ok(bytes) = std::fs::read(&file) {
+        return shapes::from_bytes(&bytes);
+    }
+    let mesh = make()?;
+    std::fs::write(file, shapes::to_bytes(&mesh))?;
+    Ok(mesh)
+}
+
+/// The file in which a fitted surface is kept.
+fn kept_file(name: &str) -> Outcome<PathBuf> {
+    let folder = std::env::temp_dir().join("fitted");
+    std::fs::create_dir_all(&folder)?;
+    Ok(folder.join(name.replace(' ', "-")))
 }
 
 fn heightfield_row(name: &str, surface: &Heightfield) -> Outcome<()> {

@@ -11,6 +11,7 @@ use super::problem::{SheetProblem, SheetWeights};
 use super::view::PhotoView;
 use crate::dewarp::Photo;
 use crate::page::report::PageModel;
+use crate::page::text::{GreyPhoto, PageView};
 
 /// Result of the search for a page of any shape: the fitted sheet, its model and its measures.
 #[derive(Debug, Clone)]
@@ -106,6 +107,9 @@ pub(super) fn find_sheet(
     let coarse = problem.solve(FittedSheet::new(start), MAX_SHEET_FIT_STEPS, COST_TOLERANCE)?;
     problem.weights = FIRM_PAPER_WEIGHTS;
     let coarse = problem.refined(coarse, &COARSE_GRID_COLS)?;
+    let table = PlaceTable::new(&coarse.grid, view).ok()?;
+    let photo = PageView::from_places(|share| Some(table.at(share))).reduce(photo);
+    let photo = photo.as_ref();
     let (mut sheet, mut figures) = problem.with_lines(coarse.clone(), view, photo)?;
     let mut model = PageModel::Sheet;
     if figures.curvature > MAX_FIRM_CURVATURE {
@@ -153,11 +157,11 @@ impl SheetProblem {
         &mut self,
         mut sheet: FittedSheet,
         view: &PhotoView,
-        photo: &Photo<'_>,
+        photo: Option<&GreyPhoto>,
     ) -> Option<(FittedSheet, SheetFigures)> {
         for _ in 0..LINE_DETECTION_ROUNDS {
             let table = PlaceTable::new(&sheet.grid, view).ok()?;
-            self.lines = find_level_lines(&table, view, photo);
+            self.lines = photo.map_or_else(Vec::new, |photo| find_level_lines(&table, view, photo));
             sheet.levels = self.lines.iter().map(|line| line.level).collect();
             sheet = self.refined(sheet, &[FINE_GRID_COLS])?;
         }

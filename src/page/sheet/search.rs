@@ -54,7 +54,7 @@ const FIRM_PAPER_WEIGHTS: SheetWeights = SheetWeights {
 /// Weights of the residuals in the fit of a sheet of crumpled paper, which wrinkles finer than the sheet's grid
 /// shorten.
 const CRUMPLED_PAPER_WEIGHTS: SheetWeights = SheetWeights {
-    isometry: 40.0,
+    isometry: 80.0,
     bending: 3.5,
     ..FIRM_PAPER_WEIGHTS
 };
@@ -69,9 +69,22 @@ const INITIAL_BENDING_FACTOR: f64 = 4.0;
 /// for crumpled paper.
 const MAX_FIRM_CURVATURE: f64 = 1.3;
 
+/// Distance between lines of print and the lines on a firm sheet that they belong to, in widths of the page, above which
+/// the sheet is fitted again with the weights for crumpled paper: a sheet that wrinkles shorten does not meet them.
+/// Chosen with the weights for crumpled paper by the table of pages in `benches/page.md`.
+const MAX_FIRM_LINE_MISFIT: f64 = 0.0006;
+
 /// Maximum distance between a plane's border and the outline, in widths of the page, for the plane to be accepted: a
 /// flat page lifts off its support by a millimetre on A4.
 const MAX_PLANE_OUTLINE_MISFIT: f64 = 0.004;
+
+/// Distance between a plane's border and the outline, in widths of the page, up to which a plane needs no comparison with
+/// the sheet.
+const SMALL_PLANE_OUTLINE_MISFIT: f64 = 0.002;
+
+/// Ratio of the distances from the outline of a plane's border and of a firm sheet's, up to which the plane is accepted
+/// as the page's model: a sheet that explains the outline hardly better bends by errors of the outline.
+const MAX_PLANE_OUTLINE_RATIO: f64 = 2.25;
 
 /// Distance between lines of print and the lines on a plane that they belong to, in widths of the page, up to which a
 /// plane is always accepted as the page's model.
@@ -112,7 +125,9 @@ pub(super) fn find_sheet(
     let photo = photo.as_ref();
     let (mut sheet, mut figures) = problem.with_lines(coarse.clone(), view, photo)?;
     let mut model = PageModel::Sheet;
-    if figures.curvature > MAX_FIRM_CURVATURE {
+    let max_outline = (MAX_PLANE_OUTLINE_RATIO * figures.outline)
+        .clamp(SMALL_PLANE_OUTLINE_MISFIT, MAX_PLANE_OUTLINE_MISFIT);
+    if figures.curvature > MAX_FIRM_CURVATURE || figures.lines > MAX_FIRM_LINE_MISFIT {
         let mut crumpled = problem.clone();
         crumpled.weights = CRUMPLED_PAPER_WEIGHTS;
         crumpled.lines.clear();
@@ -122,11 +137,9 @@ pub(super) fn find_sheet(
             (problem, model) = (crumpled, PageModel::SoftSheet);
         }
     }
-    let plane = (straight_corners(edges))
-        .and_then(|corners| plane(&problem, Homography::new(corners)?, apparent));
-    if let Some((flat, own)) = plane {
+    if let Some((flat, own)) = plane(&problem, homography, apparent) {
         let max_lines = MAX_PLANE_LINE_MISFIT.max(MAX_PLANE_LINE_RATIO * figures.lines);
-        if own.outline < MAX_PLANE_OUTLINE_MISFIT && own.lines < max_lines {
+        if own.outline < max_outline && own.lines < max_lines {
             (sheet, figures, model) = (flat, own, PageModel::Plane);
         }
     }
@@ -188,24 +201,6 @@ fn corners([top, bottom, ..]: &[Polyline; 4]) -> [[f64; 2]; 4] {
     let ends = |edge: &Polyline| [edge.points()[0], edge.points()[edge.points().len() - 1]];
     let ([a, b], [d, c]) = (ends(top), ends(bottom));
     [a, b, c, d]
-}
-
-/// Corners where straight lines fitted to the edges intersect, clockwise from the upper left one. None if two lines are
-/// parallel.
-fn straight_corners(edges: &[Polyline; 4]) -> Option<[[f64; 2]; 4]> {
-    let [top, bottom, left, right] = [0, 1, 2, 3].map(|k| edges[k].line());
-    let meet = |(p, d): ([f64; 2], [f64; 2]), (q, e): ([f64; 2], [f64; 2])| {
-        let area = d[0] * e[1] - d[1] * e[0];
-        let t = ((q[0] - p[0]) * e[1] - (q[1] - p[1]) * e[0]) / area;
-        let found = [p[0] + t * d[0], p[1] + t * d[1]];
-        found.iter().all(|v| v.is_finite()).then_some(found)
-    };
-    Some([
-        meet(top, left)?,
-        meet(top, right)?,
-        meet(bottom, right)?,
-        meet(bottom, left)?,
-    ])
 }
 
 /// Ratio of height to width of the page as seen in the photo, along the chords of its edges.

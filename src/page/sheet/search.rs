@@ -137,7 +137,12 @@ pub(super) fn find_sheet(
             (problem, model) = (crumpled, PageModel::SoftSheet);
         }
     }
-    if let Some((flat, own)) = plane(&problem, homography, apparent) {
+    let plane = (straight_corners(edges)).and_then(|straight| {
+        let traced = corners(edges);
+        let both = [0, 1, 2, 3].map(|k| [0, 1].map(|j| 0.5 * (traced[k][j] + straight[k][j])));
+        plane(&problem, Homography::new(both)?, apparent)
+    });
+    if let Some((flat, own)) = plane {
         let max_lines = MAX_PLANE_LINE_MISFIT.max(MAX_PLANE_LINE_RATIO * figures.lines);
         if own.outline < max_outline && own.lines < max_lines {
             (sheet, figures, model) = (flat, own, PageModel::Plane);
@@ -201,6 +206,24 @@ fn corners([top, bottom, ..]: &[Polyline; 4]) -> [[f64; 2]; 4] {
     let ends = |edge: &Polyline| [edge.points()[0], edge.points()[edge.points().len() - 1]];
     let ([a, b], [d, c]) = (ends(top), ends(bottom));
     [a, b, c, d]
+}
+
+/// Corners where straight lines fitted to the edges intersect, clockwise from the upper left one. None if two lines are
+/// parallel.
+fn straight_corners(edges: &[Polyline; 4]) -> Option<[[f64; 2]; 4]> {
+    let [top, bottom, left, right] = [0, 1, 2, 3].map(|k| edges[k].line());
+    let meet = |(p, d): ([f64; 2], [f64; 2]), (q, e): ([f64; 2], [f64; 2])| {
+        let area = d[0] * e[1] - d[1] * e[0];
+        let t = ((q[0] - p[0]) * e[1] - (q[1] - p[1]) * e[0]) / area;
+        let found = [p[0] + t * d[0], p[1] + t * d[1]];
+        found.iter().all(|v| v.is_finite()).then_some(found)
+    };
+    Some([
+        meet(top, left)?,
+        meet(top, right)?,
+        meet(bottom, right)?,
+        meet(bottom, left)?,
+    ])
 }
 
 /// Ratio of height to width of the page as seen in the photo, along the chords of its edges.

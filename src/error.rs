@@ -123,8 +123,8 @@ pub enum Error {
 
     /// No page can be told from the background in a photo.
     #[error(
-        "no page was found in the photo; trace its edges, or take the photo anew, with the whole \
-         page on a ground of another colour"
+        "I did not find the page in the photo; trace its edges, or take the photo anew, with the \
+         whole page on a ground of another colour"
     )]
     NoPage,
 

@@ -58,22 +58,40 @@ const MIN_TOLD_DISAGREEMENT = 0.005;
 /** Largest expected error of a page that is not doubtful for it, in % of its width, as the library has it. */
 const MAX_TRUSTED_ERROR = 1;
 
+/** Smallest number of lines of text by which a sheet of any shape is trusted, as the library has it. */
+const MIN_TRUSTED_LINES = 8;
+
+/**
+ * Why a page that was fitted as a sheet of any shape is doubtful.
+ * @param {import('../types.js').PageReport} report
+ */
+function sheetDoubt({ model, linesFound }) {
+  if (linesFound === 0) return 'it shows no lines of text, and its outline alone does not tell how it is bent';
+  if (linesFound < MIN_TRUSTED_LINES) return `few lines of text (${linesFound}) tell how it is bent`;
+  return model === 'softSheet' ? 'it is crumpled, or bent strongly' : 'it is bent strongly, or its outline is not exact';
+}
+
 /** @param {import('../types.js').PageReport} report */
-function words({ verdict, error, pinholeErrorBound, disagreement, residual, lines, linesFound }) {
+function words(report) {
+  const { verdict, model, error, pinholeErrorBound, disagreement, residual, lines, linesFound } = report;
+  const isSheet = model === 'sheet' || model === 'softSheet';
   const text = lines + linesFound > 0 ? ' and lines of text' : '';
   const likely = `${percent(error / 100, 2)} of its width (at most ${percent(pinholeErrorBound / 100, 2)} in 95 of 100 cases, if the lens does not distort)`;
   // Where both edges agree on the whole, single points are off.
   const off = disagreement < MIN_TOLD_DISAGREEMENT ? `by ${residual.toFixed(1)} pixels` : `by ${percent(disagreement / 100, 2)} of its width`;
   switch (verdict) {
     case 'flat':
+      if (model === 'plane') return 'the page lay flat: only the perspective was taken out';
       return 'both edges are straight: only the perspective was taken out; folds that run along them do not show in them';
     case 'unchecked':
       return `warning: nothing checks the page's bend, for too few points were traced, or one edge looks straight ` +
         `however the page is bent; if it is curled one way, its places are wrong by ${likely}`;
     case 'doubtful':
+      if (isSheet) return `warning: the flat page is doubtful: ${sheetDoubt(report)}; its places are wrong by ${likely}`;
       if (error > MAX_TRUSTED_ERROR) return `warning: the flat page is doubtful: its places are wrong by ${likely}`;
       return `warning: the flat page is doubtful: it hides a part of itself, or its edges${text} disagree (${off})`;
     case 'notThisKind':
+      if (isSheet) return `warning: no sheet of paper has these edges (off ${off}): correct them, and give them with --edges FILE`;
       return `warning: this is no page that is curled one way: its edges${text} disagree (${off}); ` +
         'it is folded or crumpled, for which depth is needed, or an edge is traced wrongly';
     default:

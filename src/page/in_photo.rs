@@ -35,10 +35,24 @@ impl CurledPage {
     ) -> Result<Self> {
         let size = [photo.width(), photo.height()];
         let by_edges = Self::with_lines(edges, given, size, options)?;
+        Ok(by_edges.with_detected_lines(edges, given, photo, options))
+    }
+
+    /// Checks a page that was found by its edges, and by the lines `given`, by lines of text that are detected in the photo;
+    /// fits it again if they agree.
+    pub(super) fn with_detected_lines(
+        self,
+        edges: &[Edges],
+        given: &[Vec<Trace>],
+        photo: &Photo<'_>,
+        options: &PageOptions,
+    ) -> Self {
+        let by_edges = self;
+        let size = [photo.width(), photo.height()];
         let found = text::find_lines(&by_edges, photo);
         let count = found.iter().map(Vec::len).sum();
         if count == 0 {
-            return Ok(by_edges);
+            return by_edges;
         }
         let by_itself = *by_edges.report();
         let both = Self::solved(edges, [given, &found], size, options);
@@ -75,7 +89,7 @@ impl CurledPage {
             _ => doubtful(&mut report.verdict),
         }
         page.found = found;
-        Ok(page)
+        page
     }
 
     /// Baselines of text that [`CurledPage::in_photo`] has found, a list for each page from left to right or from top

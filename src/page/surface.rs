@@ -31,7 +31,17 @@ impl PageSurface {
         photo: &Photo<'_>,
         options: &PageOptions,
     ) -> Result<Self> {
-        let curled = CurledPage::in_photo(edges, given, photo, options);
+        let size = [photo.width(), photo.height()];
+        let curled = CurledPage::with_lines(edges, given, size, options).map(|page| {
+            // Lines of text do not rescue a cylinder that does not explain the edges.
+            let is_hopeless = page.report().verdict == PageVerdict::NotThisKind
+                && matches!(edges, [Edges::All { .. }]);
+            if is_hopeless {
+                page
+            } else {
+                page.with_detected_lines(edges, given, photo, options)
+            }
+        });
         let sheet = match (&curled, edges) {
             (Ok(page), [edges @ Edges::All { .. }]) if is_untrusted(page.report().verdict) => {
                 SheetPage::in_photo(edges, photo, options).ok()

@@ -56,7 +56,7 @@ struct EdgeResidual {
 }
 
 /// Approximate maximum number of points of each traced edge that the fit uses.
-const MAX_POINTS_PER_EDGE: usize = 300;
+const MAX_POINTS_PER_EDGE: usize = 120;
 
 /// Maximum number of independent points that one edge counts as: errors of one hand, or of one algorithm, are
 /// correlated along the edge.

@@ -3,8 +3,7 @@
 use super::place_table::PlaceTable;
 use super::problem::LevelLine;
 use super::view::PhotoView;
-use crate::dewarp::Photo;
-use crate::page::text::{PageView, find_on_view};
+use crate::page::text::{GreyPhoto, PageView, find_on_view};
 
 /// Maximum number of points of one detected line that are used.
 const MAX_LINE_POINTS: usize = 16;
@@ -17,7 +16,7 @@ const MAX_LINES: usize = 40;
 pub(super) fn find_level_lines(
     table: &PlaceTable,
     view: &PhotoView,
-    photo: &Photo<'_>,
+    photo: &GreyPhoto,
 ) -> Vec<LevelLine> {
     let page = PageView::from_places(|share| Some(table.at(share)));
     let found = find_on_view(&page, photo, false).unwrap_or_default();

@@ -11,6 +11,7 @@ use super::problem::{SheetProblem, SheetWeights};
 use super::view::PhotoView;
 use crate::dewarp::Photo;
 use crate::page::report::PageModel;
+use crate::page::text::{GreyPhoto, PageView};
 
 /// Result of the search for a page of any shape: the fitted sheet, its model and its measures.
 #[derive(Debug, Clone)]
@@ -53,7 +54,7 @@ const FIRM_PAPER_WEIGHTS: SheetWeights = SheetWeights {
 /// Weights of the residuals in the fit of a sheet of crumpled paper, which wrinkles finer than the sheet's grid
 /// shorten.
 const CRUMPLED_PAPER_WEIGHTS: SheetWeights = SheetWeights {
-    isometry: 40.0,
+    isometry: 80.0,
     bending: 3.5,
     ..FIRM_PAPER_WEIGHTS
 };
@@ -68,9 +69,22 @@ const INITIAL_BENDING_FACTOR: f64 = 4.0;
 /// for crumpled paper.
 const MAX_FIRM_CURVATURE: f64 = 1.3;
 
+/// Distance between lines of print and the lines on a firm sheet that they belong to, in widths of the page, above which
+/// the sheet is fitted again with the weights for crumpled paper: a sheet that wrinkles shorten does not meet them.
+/// Chosen with the weights for crumpled paper by the table of pages in `benches/page.md`.
+const MAX_FIRM_LINE_MISFIT: f64 = 0.0006;
+
 /// Maximum distance between a plane's border and the outline, in widths of the page, for the plane to be accepted: a
 /// flat page lifts off its support by a millimetre on A4.
 const MAX_PLANE_OUTLINE_MISFIT: f64 = 0.004;
+
+/// Distance between a plane's border and the outline, in widths of the page, up to which a plane needs no comparison with
+/// the sheet.
+const SMALL_PLANE_OUTLINE_MISFIT: f64 = 0.002;
+
+/// Ratio of the distances from the outline of a plane's border and of a firm sheet's, up to which the plane is accepted
+/// as the page's model: a sheet that explains the outline hardly better bends by errors of the outline.
+const MAX_PLANE_OUTLINE_RATIO: f64 = 2.25;
 
 /// Distance between lines of print and the lines on a plane that they belong to, in widths of the page, up to which a
 /// plane is always accepted as the page's model.
@@ -106,9 +120,14 @@ pub(super) fn find_sheet(
     let coarse = problem.solve(FittedSheet::new(start), MAX_SHEET_FIT_STEPS, COST_TOLERANCE)?;
     problem.weights = FIRM_PAPER_WEIGHTS;
     let coarse = problem.refined(coarse, &COARSE_GRID_COLS)?;
+    let table = PlaceTable::new(&coarse.grid, view).ok()?;
+    let photo = PageView::from_places(|share| Some(table.at(share))).reduce(photo);
+    let photo = photo.as_ref();
     let (mut sheet, mut figures) = problem.with_lines(coarse.clone(), view, photo)?;
     let mut model = PageModel::Sheet;
-    if figures.curvature > MAX_FIRM_CURVATURE {
+    let max_outline = (MAX_PLANE_OUTLINE_RATIO * figures.outline)
+        .clamp(SMALL_PLANE_OUTLINE_MISFIT, MAX_PLANE_OUTLINE_MISFIT);
+    if figures.curvature > MAX_FIRM_CURVATURE || figures.lines > MAX_FIRM_LINE_MISFIT {
         let mut crumpled = problem.clone();
         crumpled.weights = CRUMPLED_PAPER_WEIGHTS;
         crumpled.lines.clear();
@@ -118,11 +137,14 @@ pub(super) fn find_sheet(
             (problem, model) = (crumpled, PageModel::SoftSheet);
         }
     }
-    let plane = (straight_corners(edges))
-        .and_then(|corners| plane(&problem, Homography::new(corners)?, apparent));
+    let plane = (straight_corners(edges)).and_then(|straight| {
+        let traced = corners(edges);
+        let both = [0, 1, 2, 3].map(|k| [0, 1].map(|j| 0.5 * (traced[k][j] + straight[k][j])));
+        plane(&problem, Homography::new(both)?, apparent)
+    });
     if let Some((flat, own)) = plane {
         let max_lines = MAX_PLANE_LINE_MISFIT.max(MAX_PLANE_LINE_RATIO * figures.lines);
-        if own.outline < MAX_PLANE_OUTLINE_MISFIT && own.lines < max_lines {
+        if own.outline < max_outline && own.lines < max_lines {
             (sheet, figures, model) = (flat, own, PageModel::Plane);
         }
     }
@@ -153,11 +175,11 @@ impl SheetProblem {
         &mut self,
         mut sheet: FittedSheet,
         view: &PhotoView,
-        photo: &Photo<'_>,
+        photo: Option<&GreyPhoto>,
     ) -> Option<(FittedSheet, SheetFigures)> {
         for _ in 0..LINE_DETECTION_ROUNDS {
             let table = PlaceTable::new(&sheet.grid, view).ok()?;
-            self.lines = find_level_lines(&table, view, photo);
+            self.lines = photo.map_or_else(Vec::new, |photo| find_level_lines(&table, view, photo));
             sheet.levels = self.lines.iter().map(|line| line.level).collect();
             sheet = self.refined(sheet, &[FINE_GRID_COLS])?;
         }

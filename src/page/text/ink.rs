@@ -1,8 +1,8 @@
 //! Ink image of a page: the page's darkness relative to its paper, flattened by the surface that was found from the
 //! edges.
 
+use super::grey_photo::GreyPhoto;
 use crate::dewarp::Photo;
-use crate::math::lanes;
 use crate::page::curled_page::CurledPage;
 
 /// A flat page with its projection to the photo; places on the page are shares of its width and height.
@@ -33,8 +33,9 @@ const PAPER_QUANTILE: f64 = 0.85;
 /// are traced with errors.
 const MARGIN_SHARE: f64 = 0.015;
 
-/// Maximum number of samples of the photo along each side of a pixel of the ink image.
-const MAX_SAMPLES_PER_SIDE: f64 = 4.0;
+/// Side, in pixels of the ink image, of the square cells whose corners are projected to the photo; in between, the places
+/// are interpolated, with an error of some hundredths of a pixel.
+const PIXELS_PER_CELL: usize = 8;
 
 impl<'a> PageView<'a> {
     /// Makes the view of a curled page, or of page `number` of a spread, by which places on the page are projected to
@@ -60,6 +61,16 @@ impl<'a> PageView<'a> {
         (self.place)(share)
     }
 
+    /// Reduces a photo for the page's ink image; None if too little of the page is in the photo for lines of text.
+    pub fn reduce(&self, photo: &Photo<'_>) -> Option<GreyPhoto> {
+        let [seen, down] = self.size()?;
+        let is_large = seen >= MIN_PAGE_PIXELS && down >= MIN_PAGE_PIXELS;
+        (is_large && seen < 1e6 && down < 1e6).then(|| {
+            let block = (seen / MAX_INK_WIDTH).round().max(1.0) as usize;
+            GreyPhoto::new(photo, block)
+        })
+    }
+
     /// Width and height of the page in the photo, in pixels, along the lines through its middle. None if a part is not
     /// in front of the camera.
     fn size(&self) -> Option<[f64; 2]> {
@@ -80,33 +91,32 @@ impl<'a> PageView<'a> {
 }
 
 impl InkImage {
-    /// Computes the ink image of a page; None if too little of the page is in the photo.
-    pub fn new(view: &PageView<'_>, photo: &Photo<'_>) -> Option<Self> {
+    /// Computes the ink image of a page; None if a part of the page is not in front of the camera.
+    pub fn new(view: &PageView<'_>, photo: &GreyPhoto) -> Option<Self> {
         let [seen, down] = view.size()?;
-        if !(seen >= MIN_PAGE_PIXELS && down >= MIN_PAGE_PIXELS && seen < 1e6 && down < 1e6) {
-            return None;
-        }
         let scale = (MAX_INK_WIDTH / seen).min(1.0);
         let [width, height] =
             [seen * scale, (down * scale).min(4.0 * MAX_INK_WIDTH)].map(|n| n as usize);
-        let samples = (1.0 / scale).ceil().min(MAX_SAMPLES_PER_SIDE) as usize;
+        let [cols, rows] = [width, height].map(|n| n.div_ceil(PIXELS_PER_CELL) + 1);
+        let nodes = (0..cols * rows)
+            .map(|i| {
+                let node = [i % cols, i / cols].map(|n| (n * PIXELS_PER_CELL) as f64);
+                view.project([node[0] / width as f64, node[1] / height as f64])
+            })
+            .collect::<Option<Vec<_>>>()?;
         let mut data = vec![f32::NAN; width * height];
         let [left, top] = [width, height].map(|n| (MARGIN_SHARE * n as f64).ceil() as usize);
+        let mut line = vec![[0.0; 2]; cols];
         for row in top..height - top {
+            let (above, t) = cell_place(row);
+            for (col, place) in line.iter_mut().enumerate() {
+                let [p, q] = [above, above + 1].map(|row| nodes[row * cols + col]);
+                *place = between(p, q, t);
+            }
             for col in left..width - left {
-                let place = |x: f64, y: f64| view.project([x / width as f64, y / height as f64]);
-                let [x, y] = [col, row].map(|n| n as f64 + 0.5);
-                let here = place(x, y)?;
-                let ends = [place(x + 0.5, y)?, place(x, y + 0.5)?];
-                let [across, along] = ends.map(|end| [end[0] - here[0], end[1] - here[1]]);
-                let mut sum = 0.0;
-                for i in 0..samples * samples {
-                    let [s, t] = [i % samples, i / samples]
-                        .map(|k| (2 * k + 1) as f64 / samples as f64 - 1.0);
-                    let at = [0, 1].map(|k| here[k] + s * across[k] + t * along[k]);
-                    sum += brightness(photo, at);
-                }
-                data[row * width + col] = sum / (samples * samples) as f32;
+                let (before, s) = cell_place(col);
+                let place = between(line[before], line[before + 1], s);
+                data[row * width + col] = photo.at(place);
             }
         }
         let paper = PaperBrightness::new(&data, [width, height]);
@@ -126,26 +136,16 @@ impl InkImage {
     }
 }
 
-/// Interpolates the brightness of a photo bilinearly, from 0 to 255; NaN outside of the photo and where it is
-/// transparent.
-fn brightness(photo: &Photo<'_>, [x, y]: [f64; 2]) -> f32 {
-    let [width, height] = [photo.width(), photo.height()];
-    if !(x >= 0.0 && y >= 0.0 && x <= (width - 1) as f64 && y <= (height - 1) as f64) {
-        return f32::NAN;
-    }
-    let [col, row] = [x as usize, y as usize];
-    let [right, below] = [(col + 1).min(width - 1), (row + 1).min(height - 1)];
-    let [s, t] = [lanes::single(x - col as f64), lanes::single(y - row as f64)];
-    let pixels = photo.rgba().as_chunks::<4>().0;
-    let at = |col: usize, row: usize| {
-        let [r, g, b, a] = pixels[row * width + col];
-        if a == 0 {
-            return f32::NAN;
-        }
-        0.299 * f32::from(r) + 0.587 * f32::from(g) + 0.114 * f32::from(b)
-    };
-    (1.0 - t) * ((1.0 - s) * at(col, row) + s * at(right, row))
-        + t * ((1.0 - s) * at(col, below) + s * at(right, below))
+/// Cell of the grid of projected nodes in which the centre of an ink image's pixel lies, along one axis, and the share of
+/// the cell before it.
+fn cell_place(pixel: usize) -> (usize, f64) {
+    let rest = (pixel % PIXELS_PER_CELL) as f64 + 0.5;
+    (pixel / PIXELS_PER_CELL, rest / PIXELS_PER_CELL as f64)
+}
+
+/// Point at a share of the way between two points.
+fn between(p: [f64; 2], q: [f64; 2], share: f64) -> [f64; 2] {
+    [0, 1].map(|k| p[k] + share * (q[k] - p[k]))
 }
 
 /// Brightness of the paper, measured in square blocks of the flat page, by which shadows are corrected.

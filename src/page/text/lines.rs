@@ -2,6 +2,7 @@
 
 use super::bands::StripProfiles;
 use super::baseline::{Baseline, parallel_lines};
+use super::grey_photo::GreyPhoto;
 use super::ink::{InkImage, PageView};
 use super::ranking::ranked;
 use crate::dewarp::Photo;
@@ -19,7 +20,9 @@ pub(in crate::page) fn find_lines(page: &CurledPage, photo: &Photo<'_>) -> Vec<V
     (0..page.pages())
         .map(|number| {
             let view = PageView::new(page, number);
-            let lines = find_on_view(&view, photo, true).unwrap_or_default();
+            let grey = view.reduce(photo);
+            let lines = grey.and_then(|grey| find_on_view(&view, &grey, true));
+            let lines = lines.unwrap_or_default();
             (lines.iter())
                 .filter_map(|line| line.iter().map(|at| view.project(*at)).collect())
                 .map(Trace::Points)
@@ -29,10 +32,10 @@ pub(in crate::page) fn find_lines(page: &CurledPage, photo: &Photo<'_>) -> Vec<V
 }
 
 /// Finds the baselines on one flat page, as points in shares of its width and height; `parallel` discards those that
-/// are not parallel to their neighbours. None if too little of the page is in the photo.
+/// are not parallel to their neighbours. None if a part of the page is not in front of the camera.
 pub(in crate::page) fn find_on_view(
     view: &PageView<'_>,
-    photo: &Photo<'_>,
+    photo: &GreyPhoto,
     parallel: bool,
 ) -> Option<Vec<Vec<[f64; 2]>>> {
     let ink = InkImage::new(view, photo)?;

@@ -7,9 +7,11 @@
 
 mod bands;
 mod baseline;
+mod grey_photo;
 mod ink;
 mod lines;
 pub(super) mod ranking;
 
+pub(super) use grey_photo::GreyPhoto;
 pub(super) use ink::PageView;
 pub(super) use lines::{find_lines, find_on_view};

@@ -1,0 +1,100 @@
+//! Brightness of a photo, reduced by averages of square blocks of pixels to about the resolution of the ink image.
+
+use crate::dewarp::Photo;
+use crate::math::lanes;
+
+/// Brightness of a photo at a reduced resolution, from 0 to 255; NaN where the photo is transparent. Places are given in
+/// the photo's own pixels.
+pub(in crate::page) struct GreyPhoto {
+    width: usize,
+    height: usize,
+    /// Side of the square of the photo's pixels that is one pixel here.
+    block: usize,
+    data: Vec<f32>,
+}
+
+impl GreyPhoto {
+    /// Averages the photo's brightness over squares with sides of `block` pixels. A photo that is smaller than one square
+    /// has no pixels.
+    pub fn new(photo: &Photo<'_>, block: usize) -> Self {
+        let [width, height] = [photo.width() / block, photo.height() / block];
+        let pixels = photo.rgba().as_chunks::<4>().0;
+        let mut data = Vec::with_capacity(width * height);
+        let mut sums = vec![[0_u32; 2]; width];
+        for rows in pixels.chunks_exact(photo.width() * block).take(height) {
+            sums.fill([0; 2]);
+            for row in rows.chunks_exact(photo.width()) {
+                for (sum, pixels) in sums.iter_mut().zip(row.chunks_exact(block)) {
+                    for [r, g, b, a] in pixels {
+                        if *a > 0 {
+                            sum[0] +=
+                                299 * u32::from(*r) + 587 * u32::from(*g) + 114 * u32::from(*b);
+                            sum[1] += 1000;
+                        }
+                    }
+                }
+            }
+            data.extend(
+                sums.iter()
+                    .map(|[sum, weight]| *sum as f32 / *weight as f32),
+            );
+        }
+        GreyPhoto {
+            width,
+            height,
+            block,
+            data,
+        }
+    }
+
+    /// Interpolates the brightness bilinearly at a place in the photo, in pixels; NaN outside of the photo.
+    pub fn at(&self, place: [f64; 2]) -> f32 {
+        let half = 0.5 * (self.block as f64 - 1.0);
+        let [x, y] = place.map(|at| (at - half) / self.block as f64);
+        let [last_x, last_y] = [self.width, self.height].map(|n| n as f64 - 1.0);
+        if !(x >= 0.0 && y >= 0.0 && x <= last_x && y <= last_y) {
+            return f32::NAN;
+        }
+        let [col, row] = [x as usize, y as usize];
+        let [s, t] = [lanes::single(x - col as f64), lanes::single(y - row as f64)];
+        let right = usize::from(col + 1 < self.width);
+        let here = row * self.width + col;
+        let below = here + if row + 1 < self.height { self.width } else { 0 };
+        let [a, b, c, d] = [here, here + right, below, below + right].map(|i| self.data[i]);
+        (1.0 - t) * ((1.0 - s) * a + s * b) + t * ((1.0 - s) * c + s * d)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_linear_ramp_is_interpolated_exactly_for_any_block() {
+        let (width, height) = (23, 17);
+        let level = |x: f64, y: f64| 10.0 + 4.0 * x + 7.0 * y;
+        let rgba: Vec<u8> = (0..width * height)
+            .flat_map(|i| {
+                let grey = level((i % width) as f64, (i / width) as f64) as u8;
+                [grey, grey, grey, 255]
+            })
+            .collect();
+        let photo = Photo::new(width, height, &rgba).unwrap();
+        for block in [1, 2, 3] {
+            let grey = GreyPhoto::new(&photo, block);
+            for place in [[5.0, 6.0], [7.25, 3.5], [11.9, 8.1]] {
+                let expected = level(place[0], place[1]);
+                assert!((f64::from(grey.at(place)) - expected).abs() < 1e-3);
+            }
+            assert!(grey.at([-1.0, 3.0]).is_nan() && grey.at([3.0, 17.0]).is_nan());
+        }
+    }
+
+    #[test]
+    fn transparent_pixels_have_no_brightness() {
+        let photo = [[90, 90, 90, 255], [250, 250, 250, 0]].concat().repeat(8);
+        let photo = Photo::new(2, 8, &photo).unwrap();
+        assert!(GreyPhoto::new(&photo, 1).at([1.0, 4.0]).is_nan());
+        assert!((GreyPhoto::new(&photo, 2).at([0.5, 4.0]) - 90.0).abs() < 1e-3);
+    }
+}

@@ -56,6 +56,15 @@ pub(crate) fn refined_rho<O: SolvableOperator>(rho: f64, fine: &Problem<O>) -> f
     bounded_rho(RHO_REFINEMENT_FACTOR * rho, fine)
 }
 
+/// Initial ρ of a problem, from ρ at the end of the solve of another one with this spacing: ρ is proportional to it.
+pub(crate) fn rho_for_spacing<O: SolvableOperator>(
+    rho: f64,
+    spacing: f64,
+    problem: &Problem<O>,
+) -> f64 {
+    bounded_rho(rho * problem.operator.spacing() / spacing, problem)
+}
+
 /// Limits ρ by the screening length `(ρ/2λ)^¼` of the z-step. Where the optimal surface is nearly affine, the relative
 /// primal residual stays at 1, and residual balancing alone would let ρ grow without end.
 fn bounded_rho<O: SolvableOperator>(rho: f64, problem: &Problem<O>) -> f64 {

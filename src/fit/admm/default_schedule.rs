@@ -60,7 +60,7 @@ const FREQUENT_CHECKS_END: usize = 30;
 const MAX_ASCENT_GAP_RATIO: f64 = 100.0;
 
 /// Maximum ratio of the current duality gap to the requested one at which dual ascent is tried on meshes, which have no
-/// V-cycles: they have no coarser levels to start from either, and ascents from larger gaps only cost time.
+/// V-cycles: ascents from larger gaps only cost time.
 const MAX_ASCENT_GAP_RATIO_WITHOUT_V_CYCLES: f64 = 10.0;
 
 /// Minimum requested duality gap at which rank reduction is applied; surfaces solved to a smaller gap have Hessians of

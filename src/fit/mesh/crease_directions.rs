@@ -60,6 +60,20 @@ impl CreaseDirections {
         directions
     }
 
+    /// Returns the directions of some of the vertices, which are given in the order that they then have.
+    pub(super) fn at_vertices(&self, vertices: impl Iterator<Item = usize>) -> CreaseDirections {
+        let mut some = CreaseDirections {
+            all: Vec::new(),
+            first: vec![0],
+        };
+        for (own, vertex) in (0..).zip(vertices) {
+            let all = self.at_vertex(vertex);
+            some.all.extend(all.map(|(_, along)| (own, along)));
+            some.first.push(some.all.len() as u32);
+        }
+        some
+    }
+
     /// Returns the directions of a vertex, each with its index in `all`.
     pub(super) fn at_vertex(&self, vertex: usize) -> impl Iterator<Item = (u32, Point)> + '_ {
         let own = match self.first.get(vertex..vertex + 2) {

@@ -6,7 +6,6 @@ use nalgebra::Matrix3;
 use super::geometry::Frame;
 use super::linearisation::Linearisation;
 use super::options::MeshOptions;
-use super::topology::Topology;
 use crate::error::{Result, try_filled};
 use crate::fit::energy::moment_load::Rings;
 use crate::math::index::NO_INDEX;
@@ -22,41 +21,46 @@ const LOAD_REACH_RINGS: u32 = 3;
 /// # Errors
 /// [`Error::OutOfMemory`](crate::Error::OutOfMemory).
 pub(super) fn load_border(
-    topology: &Topology,
     linear: &mut Linearisation,
     moments: &[Sym2],
     options: &MeshOptions,
     known: &[bool],
 ) -> Result<bool> {
-    if topology.closed && !known.contains(&true) {
+    let vertices = &linear.vertices;
+    if vertices.closed && !known.contains(&true) {
         return Ok(false);
     }
-    let around = |vertex: usize| topology.around(vertex).iter().map(|v| *v as usize);
-    let vertices = 0..topology.len() as u32;
-    let outermost = vertices.filter(|v| match linear.about[*v as usize] {
+    let around = |vertex: usize| {
+        vertices
+            .adjacency
+            .around(vertex)
+            .iter()
+            .map(|v| *v as usize)
+    };
+    let outermost = (0..vertices.len() as u32).filter(|v| match linear.about[*v as usize] {
         NO_INDEX => true,
         stencil => known[stencil as usize],
     });
     let reach = linear.problem.reach(options.bend_radius);
-    let rings = Rings::new(outermost.collect(), topology.len(), around, reach)?;
+    let rings = Rings::new(outermost.collect(), vertices.len(), around, reach)?;
     // Moments are averaged in space, because neighbours have different frames.
-    let mut spatial = try_filled("moments", topology.len(), Matrix3::zeros())?;
+    let mut spatial = try_filled("moments", vertices.len(), Matrix3::zeros())?;
     for (vertex, moment) in linear.centres.iter().zip(moments) {
         let vertex = *vertex as usize;
-        spatial[vertex] = in_space(&linear.frames[vertex], *moment);
+        spatial[vertex] = in_space(&vertices.frames[vertex], *moment);
     }
     if !rings.continue_outwards(&mut spatial, around)? {
         return Ok(false);
     }
     let centres = linear.centres.iter().map(|vertex| *vertex as usize);
     let planar: Vec<Sym2> = centres
-        .map(|vertex| in_plane(&linear.frames[vertex], &spatial[vertex]))
+        .map(|vertex| in_plane(&vertices.frames[vertex], &spatial[vertex]))
         .map(|moment| match moment.spectral_norm() < options.flatness {
             true => Sym2::default(),
             false => moment,
         })
         .collect();
-    let (across, directions) = (topology.len() + 1, &linear.directions.all);
+    let (across, directions) = (vertices.len() + 1, &vertices.directions.all);
     linear.problem.load(&planar, |unknown| {
         let vertex = match unknown.checked_sub(across) {
             Some(way) => directions[way].0 as usize,
@@ -68,7 +72,7 @@ pub(super) fn load_border(
 }
 
 /// Converts a bending moment in the tangent plane of a frame to a matrix in space.
-fn in_space(frame: &Frame, moment: Sym2) -> Matrix3<f64> {
+pub(super) fn in_space(frame: &Frame, moment: Sym2) -> Matrix3<f64> {
     let [xx, xy, yy] = moment.entries();
     let [a, b] = &frame.tangents;
     let mixed = a * b.transpose();
@@ -76,7 +80,7 @@ fn in_space(frame: &Frame, moment: Sym2) -> Matrix3<f64> {
 }
 
 /// Returns the part of a bending moment, a matrix in space, that is in the tangent plane of a frame.
-fn in_plane(frame: &Frame, moment: &Matrix3<f64>) -> Sym2 {
+pub(super) fn in_plane(frame: &Frame, moment: &Matrix3<f64>) -> Sym2 {
     let [a, b] = &frame.tangents;
     let on = |u: &super::geometry::Point, v: &super::geometry::Point| u.dot(&(moment * v));
     Sym2::new(on(a, a), on(a, b), on(b, b))

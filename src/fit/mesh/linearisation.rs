@@ -4,9 +4,9 @@
 //! that the fidelity has the same weight at all of them. The second fundamental form of the base itself is the
 //! column of one more vertex, which is held at 1.
 
-use super::crease_directions::CreaseDirections;
-use super::geometry::{Frame, Point, areas};
-use super::input::MeshInput;
+use super::adjacency::Adjacency;
+use super::geometry::{Frame, Point};
+use super::level_vertices::LevelVertices;
 use super::quadratic::{Neighbour, Quadratic, SECOND_RING_FIT_WEIGHT};
 use super::smooth_regions::SmoothRegions;
 use super::topology::Topology;
@@ -42,19 +42,15 @@ const MIN_CONFIDENCE: f64 = 1e-4;
 #[derive(Debug, Clone)]
 pub(super) struct Linearisation {
     pub problem: Problem,
-    /// Positions of the vertices about which the energy is linearised.
-    pub base: Vec<Point>,
-    /// Frames of the vertices, whose normals are the rays along which vertices move.
-    pub frames: Vec<Frame>,
+    /// Vertices of the problem. The unknowns of their directions across the rays follow those of the vertices and the
+    /// constant.
+    pub vertices: LevelVertices,
     /// Vertex in the middle of each stencil.
     pub centres: Vec<u32>,
     /// Stencil whose middle each vertex is, or [`NO_INDEX`].
     pub about: Vec<u32>,
     /// Factor from each vertex's unknown to a distance along its ray.
     pub scales: Vec<f64>,
-    /// Directions across the rays in which vertices on creases move as well; their unknowns follow those of the
-    /// vertices and the constant.
-    pub directions: CreaseDirections,
     /// Spacing of a hexagonal lattice with vertices of the same mean area.
     pub spacing: f64,
 }
@@ -65,26 +61,35 @@ pub(super) fn hexagonal_spacing(area: f64) -> f64 {
 }
 
 impl Linearisation {
-    /// Linearises the energy about vertices at `base`, which move along the normals of their frames, and across these
-    /// as well on creases, where smooth regions of `sides` meet. `lambda` gives λ for the spacing.
+    /// Linearises the energy about the vertices of a level, which move along the normals of their frames, and across
+    /// these as well on creases, where smooth regions of `sides` meet. `lambda` gives λ for the spacing.
     ///
     /// # Errors
     /// [`Error::Topology`] if no vertex has triangles all around, or [`Error::OutOfMemory`].
     pub(super) fn new(
-        given: &MeshInput,
-        base: Vec<Point>,
-        frames: Vec<Frame>,
+        vertices: LevelVertices,
         bends: HuberParameters,
         lambda: impl Fn(f64) -> f64,
         sides: Option<&SmoothRegions>,
     ) -> Result<Self> {
-        let MeshInput { topology, .. } = given;
-        let count = topology.len();
+        let LevelVertices {
+            adjacency,
+            base,
+            frames,
+            areas,
+            directions,
+            ..
+        } = &vertices;
+        let count = vertices.len();
         let constant = count as u32;
-        let areas = areas(topology, &base);
-        let directions = sides.map_or_else(CreaseDirections::default, |s| {
-            CreaseDirections::new(given, s, &base, &frames)
-        });
+        let side = |vertex: usize| {
+            let sides = sides?;
+            let own = sides.region[vertices.source[vertex] as usize];
+            (own != NO_INDEX).then_some(own)
+        };
+        let touches = |other: u32, own: u32| {
+            sides.is_none_or(|s| s.touches(vertices.source[other as usize] as usize, own))
+        };
         let across = constant + 1;
         let unknowns = count + 1 + directions.all.len();
         let mut about = try_filled("stencils", count, NO_INDEX)?;
@@ -92,18 +97,20 @@ impl Linearisation {
         rows.reserve(count, STENCIL_ROW_CAPACITY);
         let mut row = Vec::new();
         for vertex in 0..count {
-            if !topology.inside[vertex] {
+            if !vertices.inside[vertex] {
                 continue;
             }
             let ray = &frames[vertex];
-            let Some((fit, vertices, frame)) =
-                fit_quadratic_on_side(topology, &base, ray, vertex, sides)
+            let own = side(vertex);
+            let is_beside = |other: u32| own.is_none_or(|own| touches(other, own));
+            let Some((fit, ring, frame)) =
+                fit_quadratic_on_side(adjacency, base, ray, vertex, is_beside)
             else {
                 continue;
             };
             row.clear();
             let mut own = Sym2::default();
-            for (k, other) in vertices.iter().enumerate() {
+            for (k, other) in ring.iter().enumerate() {
                 let change = fit.change(&frame, k, frames[*other as usize].normal);
                 row.push((*other, change.coordinates()));
                 own = own - fit.change(&frame, k, ray.normal);
@@ -112,7 +119,7 @@ impl Linearisation {
                 }
             }
             for (way, along) in directions.at_vertex(vertex) {
-                let all = (0..vertices.len()).map(|k| fit.change(&frame, k, along));
+                let all = (0..ring.len()).map(|k| fit.change(&frame, k, along));
                 let own = all.fold(Sym2::default(), |sum, change| sum - change);
                 row.push((across + way, own.coordinates()));
             }
@@ -147,7 +154,7 @@ impl Linearisation {
         let share = |vertex: usize| (areas[vertex] / mean).max(MIN_AREA_SHARE);
         let mut scales = try_filled("vertices", count, 0.0)?;
         for (vertex, scale) in scales.iter_mut().enumerate() {
-            let trust = given
+            let trust = vertices
                 .confidence
                 .get(vertex)
                 .map_or(1.0, |c| c.max(MIN_CONFIDENCE));
@@ -158,7 +165,7 @@ impl Linearisation {
             None => scales.get(unknown as usize).copied().unwrap_or(1.0),
         });
         let beside = centres.iter().map(|vertex| {
-            let ring = topology.around(*vertex as usize).iter();
+            let ring = adjacency.around(*vertex as usize).iter();
             let ring = ring.map(|other| about[*other as usize]);
             ring.filter(|stencil| *stencil != NO_INDEX).collect()
         });
@@ -176,36 +183,33 @@ impl Linearisation {
         })?;
         let mut target = try_filled("vertices", unknowns, 1.0)?;
         for vertex in 0..count {
-            let off = given.noisy[vertex] - base[vertex];
-            target[vertex] = off.dot(&frames[vertex].normal) / scales[vertex];
+            target[vertex] = vertices.offset[vertex].dot(&frames[vertex].normal) / scales[vertex];
         }
         for (target, (vertex, along)) in target[count + 1..].iter_mut().zip(&directions.all) {
             let vertex = *vertex as usize;
-            *target = (given.noisy[vertex] - base[vertex]).dot(along) / scales[vertex];
+            *target = vertices.offset[vertex].dot(along) / scales[vertex];
         }
         let mut problem =
             Problem::unweighted(operator, lambda(spacing), target, PenaltyKind::Huber(bends));
         problem.constrained.push(constant);
         let mut inverse = try_filled("fidelity", unknowns, 1.0)?;
         inverse[count] = 0.0;
-        for (vertex, held) in given.held.iter().enumerate() {
+        for (vertex, held) in vertices.held.iter().enumerate() {
             if *held {
                 problem.constrained.push(vertex as u32);
                 inverse[vertex] = 0.0;
             }
         }
         problem.inverse_fidelity = PerCell::Each(inverse);
-        let sizes = given.noisy.iter().map(|x| x.norm());
+        let sizes = (base.iter().zip(&vertices.offset)).map(|(x, offset)| (x + offset).norm());
         let largest = sizes.fold(0.0, f64::max);
         problem.set_rounding(largest);
         Ok(Linearisation {
             problem,
-            base,
-            frames,
+            vertices,
             centres,
             about,
             scales,
-            directions,
             spacing,
         })
     }
@@ -213,7 +217,7 @@ impl Linearisation {
     /// Returns the unknowns at which all vertices are at the base.
     pub(super) fn start(&self) -> Vec<f64> {
         let mut z = vec![0.0; self.problem.target.len()];
-        z[self.base.len()] = 1.0;
+        z[self.vertices.len()] = 1.0;
         for vertex in &self.problem.constrained {
             z[*vertex as usize] = self.problem.target[*vertex as usize];
         }
@@ -222,15 +226,17 @@ impl Linearisation {
 
     /// Returns the positions of the vertices at given unknowns `z`.
     pub(super) fn moved(&self, z: &[f64]) -> Vec<Point> {
-        let all = self
-            .base
-            .iter()
-            .zip(&self.frames)
-            .zip(z.iter().zip(&self.scales));
+        let LevelVertices {
+            base,
+            frames,
+            directions,
+            ..
+        } = &self.vertices;
+        let all = base.iter().zip(frames).zip(z.iter().zip(&self.scales));
         let mut x: Vec<Point> = all
             .map(|((base, frame), (z, scale))| base + frame.normal * (scale * z))
             .collect();
-        for (z, (vertex, along)) in z[self.base.len() + 1..].iter().zip(&self.directions.all) {
+        for (z, (vertex, along)) in z[base.len() + 1..].iter().zip(&directions.all) {
             let vertex = *vertex as usize;
             x[vertex] += along * (self.scales[vertex] * z);
         }
@@ -250,23 +256,22 @@ pub(crate) fn fit_quadratic(
     frame: &Frame,
     vertex: usize,
 ) -> Option<(Quadratic, Vec<u32>, Frame)> {
-    fit_quadratic_on_side(topology, x, frame, vertex, None)
+    fit_quadratic_on_side(&topology.adjacency, x, frame, vertex, |_| true)
 }
 
-/// Fits as [`fit_quadratic`] does, to vertices on one side of every crease alone, if the smooth regions `sides` are
-/// given.
+/// Fits as [`fit_quadratic`] does, of the second ring to those vertices alone for which `is_beside` holds.
 fn fit_quadratic_on_side(
-    topology: &Topology,
+    adjacency: &Adjacency,
     x: &[Point],
     frame: &Frame,
     vertex: usize,
-    sides: Option<&SmoothRegions>,
+    is_beside: impl Fn(u32) -> bool,
 ) -> Option<(Quadratic, Vec<u32>, Frame)> {
     let offset = |other: &u32, weight| Neighbour {
         offset: x[*other as usize] - x[vertex],
         weight,
     };
-    let ring = topology.around(vertex);
+    let ring = adjacency.around(vertex);
     let mut vertices = Vec::with_capacity(4 * ring.len());
     vertices.extend_from_slice(ring);
     let mut neighbours = Vec::with_capacity(4 * ring.len());
@@ -278,11 +283,8 @@ fn fit_quadratic_on_side(
     };
     if fit.is_none() {
         let mut second = Vec::with_capacity(8 * ring.len());
-        topology.second_ring(vertex, &mut second);
-        if let Some(sides) = sides.filter(|sides| !sides.is_on_crease(vertex)) {
-            let own = sides.region[vertex];
-            second.retain(|other| sides.touches(*other as usize, own));
-        }
+        adjacency.second_ring(vertex, &mut second);
+        second.retain(|other| is_beside(*other));
         neighbours.extend(
             second
                 .iter()

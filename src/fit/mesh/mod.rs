@@ -5,9 +5,11 @@
 //! the place of the Hessian: that of a quadratic fitted to the neighbours, linearised about a smoothed base.
 //! The operator is a sparse matrix, and everything else is as for heightfields.
 
+mod adjacency;
 mod base;
 mod border_extrapolation;
 mod bounding_sphere;
+mod clusters;
 mod crease_directions;
 mod crease_vertices;
 mod edge_load;
@@ -16,6 +18,9 @@ mod finishing;
 pub(crate) mod geometry;
 mod input;
 mod known;
+mod level_transfer;
+mod level_vertices;
+mod levels;
 pub(crate) mod linearisation;
 mod morton_order;
 mod noise_level;

@@ -28,9 +28,9 @@ pub struct Repairs {
 )]
 #[non_exhaustive]
 pub struct MeshPass {
-    /// Number of ADMM iterations of the pass.
+    /// Number of ADMM iterations of the pass, on the mesh and on coarser levels together.
     pub iterations: usize,
-    /// Number of conjugate-gradient iterations of the pass, over all z-steps.
+    /// Number of conjugate-gradient steps of the pass, over all z-steps of all levels.
     pub cg_iterations: usize,
     /// Objective of the best iterate, in the linearised problem.
     pub objective: f64,

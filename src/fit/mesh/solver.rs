@@ -5,36 +5,29 @@ use web_time::Instant;
 use super::base::first_base;
 use super::border_extrapolation::extrapolate_border;
 use super::bounding_sphere::BoundingSphere;
-use super::edge_load::load_border;
 use super::finishing::{sharpen_creases, untangle};
 use super::geometry::{Frame, Point, areas, normals};
 use super::input::MeshInput;
 use super::known::MeshKnown;
+use super::level_vertices::LevelVertices;
+use super::levels::MeshLevels;
 use super::linearisation::{Linearisation, hexagonal_spacing};
 use super::noise_level::noise;
 use super::options::MeshOptions;
 use super::orientation::unfold;
 use super::reach::reach;
 use super::report::{EntangledTriangle, MeshPass, MeshReport};
-use super::rho_shares::set_rho_shares;
 use super::self_intersections::separate_self_intersections;
 use super::shape_measures::ShapeMeasures;
 use super::smooth_regions::SmoothRegions;
 use super::topology::Topology;
 use super::vertex_fans::VertexFans;
 use crate::error::{Result, try_filled};
-use crate::fit::admm::iterate::Iterate;
 use crate::fit::admm::parameters::AdmmParameters;
-use crate::fit::admm::solver::{AdmmSolver, initial_rho};
 use crate::fit::component_solver::Status;
-use crate::fit::energy::moment_load::bearing;
 use crate::fit::energy::spectral_penalty::HuberParameters;
-use crate::fit::operator::sparse::SparseOperator;
-use crate::fit::operator::sparse::jacobi::JacobiGradients;
 use crate::fit::options::Lambda;
 use crate::fit::report::{Progress, Seconds, StopReason};
-use crate::math::index::NO_INDEX;
-use crate::math::sym2::Sym2;
 use crate::scene::mesh::Mesh;
 
 /// Product of λ, the noise's standard deviation and the spacing of vertices, in normalised coordinates, that determines
@@ -44,6 +37,9 @@ const LAMBDA_NOISE_PRODUCT: f64 = 6.4;
 /// Relative duality gap at which the first of several solves stops, which only gives the next one a base and the
 /// creases.
 const FIRST_SOLVE_GAP: f64 = 0.03;
+
+/// Relative duality gap at which the solves between the first and the last one stop: the next one starts from their dual.
+const MIDDLE_SOLVE_GAP: f64 = 0.02;
 
 /// Minimum standard deviation of noise that λ is chosen by, in spacings of vertices; smaller noise counts as none.
 const MIN_NOISE_SPACINGS: f64 = 1e-4;
@@ -88,10 +84,8 @@ pub struct MeshSolver {
     sigma: Option<f64>,
     /// Triangles of the surface that are folded over or cross others, when the fit is finished.
     entangled: Vec<u32>,
-    /// Solve of the current linearised problem; `None` when the fit is finished.
-    level: Option<AdmmSolver<SparseOperator>>,
-    linear: Linearisation,
-    creases: usize,
+    /// Solve of the current or the last linearised problem.
+    levels: MeshLevels,
     /// Positions of the vertices so far, in normalised coordinates.
     surface: Vec<Point>,
     /// Positions of the vertices before crease passes.
@@ -170,6 +164,7 @@ impl MeshSolver {
         }
         let before = ShapeMeasures::new(topology, &given.noisy, &base);
         let linear = linearise(&given, base, frames, &options, lambda, None)?;
+        let (levels, reason) = MeshLevels::new(linear, None, &options, parameters(&options, 0))?;
         let mut solver = MeshSolver {
             mesh,
             options,
@@ -177,19 +172,19 @@ impl MeshSolver {
             lambda,
             sigma,
             entangled: Vec::new(),
-            level: None,
+            levels,
             surface: given.noisy.clone(),
             smooth: None,
-            linear,
             given,
-            creases: 0,
             passes: Vec::new(),
             before,
             reason: None,
             seconds: Seconds::default(),
             start,
         };
-        solver.begin(None)?;
+        if let Some(reason) = reason {
+            solver.finish(reason)?;
+        }
         solver.seconds.setup = start.elapsed().as_secs_f64();
         Ok(solver)
     }
@@ -201,10 +196,7 @@ impl MeshSolver {
     pub fn advance(&mut self, iterations: usize) -> Result<Status> {
         let mut left = iterations;
         while self.reason.is_none() && left > 0 {
-            let Some(level) = &mut self.level else {
-                break;
-            };
-            if let Some(reason) = level.advance(&mut left)? {
+            if let Some(reason) = self.levels.advance(&mut left)? {
                 self.finish(reason)?;
                 // A further linearisation takes as much work as one call.
                 left = 0;
@@ -223,130 +215,64 @@ impl MeshSolver {
 
     /// Returns the progress at the last check of the current linearised problem.
     pub fn progress(&self) -> Progress {
-        let (objective, dual_bound, gap) = match &self.level {
-            Some(level) => {
-                let incumbent = &level.admm.incumbent;
-                (
-                    incumbent.objective(),
-                    incumbent.dual_bound,
-                    Some(incumbent.gap()),
-                )
-            }
-            None => (0.0, 0.0, None),
-        };
+        let admm = &self.levels.solver.admm;
         let done = |of: fn(&MeshPass) -> usize| self.passes.iter().map(of).sum::<usize>();
-        let under_way = self.level.as_ref().map(AdmmSolver::report);
+        let under_way = match self.reason {
+            None | Some(StopReason::Cancelled) => self.levels.iterations(),
+            Some(_) => [0; 2],
+        };
         Progress {
             level: self
                 .options
                 .crease_passes_or_default()
                 .saturating_sub(self.passes.len()),
-            iteration: done(|pass| pass.iterations) + under_way.map_or(0, |l| l.iterations),
-            cg_iterations: done(|pass| pass.cg_iterations)
-                + under_way.map_or(0, |l| l.cg_iterations),
-            objective,
-            dual_bound,
-            gap,
-            rho: self
-                .level
-                .as_ref()
-                .map_or(0.0, |level| level.admm.iterate.rho),
+            iteration: done(|pass| pass.iterations) + under_way[0],
+            cg_iterations: done(|pass| pass.cg_iterations) + under_way[1],
+            objective: admm.incumbent.objective(),
+            dual_bound: admm.incumbent.dual_bound,
+            gap: Some(admm.incumbent.gap()),
+            rho: admm.iterate.rho,
             elapsed: self.start.elapsed().as_secs_f64(),
-        }
-    }
-
-    /// Starts to solve the current linearised problem, with a warm start from the dual of the last one if there is one.
-    fn begin(
-        &mut self,
-        warm: Option<(Iterate<SparseOperator>, Linearisation, SmoothRegions)>,
-    ) -> Result<()> {
-        let mut options = self.options.common();
-        if warm.is_none() && self.options.crease_passes_or_default() > 0 {
-            options = options.gap(self.options.gap.max(FIRST_SOLVE_GAP));
-        }
-        let parameters = AdmmParameters::new(&options).without_v_cycles();
-        let start = self.linear.start();
-        let problem = &mut self.linear.problem;
-        let mut iterate = Iterate::new(problem, initial_rho(&parameters, problem))?;
-        self.creases = 0;
-        let mut loaded = false;
-        if let Some((old, before, sides)) = warm {
-            let mut moments = try_filled("moments", self.linear.centres.len(), Sym2::default())?;
-            let creases = problem.reweight_creases(&start, self.options.crease_radius)?;
-            let centres = self.linear.centres.iter();
-            let known: Vec<bool> = centres.map(|v| sides.is_on_crease(*v as usize)).collect();
-            self.creases = creases.vertices + problem.free_creases(&known);
-            set_rho_shares(problem);
-            iterate.rho = old.rho;
-            for (stencil, centre) in self.linear.centres.iter().enumerate() {
-                let from = before.about[*centre as usize];
-                if from != NO_INDEX {
-                    let (dual, hessian) = old.matrices(&before.problem, from as usize);
-                    iterate.set_matrices_with_rho_share(problem, stencil, [dual, hessian]);
-                    moments[stencil] = bearing(dual, hessian).scale(self.options.bend_share(dual));
-                }
-            }
-            let topology = &self.given.topology;
-            loaded = load_border(topology, &mut self.linear, &moments, &self.options, &known)?;
-        }
-        iterate.z.copy_from_slice(&start);
-        let problem = self.linear.problem.clone();
-        let solver = JacobiGradients::new(&problem, iterate.rho)?;
-        let (mut level, reason) = AdmmSolver::new(problem, iterate, solver, parameters, 0, false)?;
-        // One round between checks is enough, since the base is near the solution.
-        let reason = match loaded {
-            true => {
-                level.follow_load(1);
-                None
-            }
-            false => reason,
-        };
-        self.level = Some(level);
-        match reason {
-            Some(reason) => self.finish(reason),
-            None => Ok(()),
         }
     }
 
     /// Takes over the result of a linearised problem, and goes on to the next one or ends the fit.
     fn finish(&mut self, reason: StopReason) -> Result<()> {
-        let Some(level) = self.level.take() else {
-            return Ok(());
-        };
-        let report = level.report();
+        let admm = &self.levels.solver.admm;
+        let linear = self.levels.finest();
+        let [iterations, cg_iterations] = self.levels.iterations();
         let last = self.passes.len() >= self.options.crease_passes_or_default();
-        let z = &level.admm.incumbent.z;
-        let mut next = self.linear.moved(z);
+        let mut next = linear.moved(&admm.incumbent.z);
         self.given.keep_within_reach(&mut next);
-        extrapolate_border(&self.given, &mut next, &self.linear.frames, None);
+        extrapolate_border(&self.given, &mut next, &linear.vertices.frames, None);
         let topology = &self.given.topology;
-        let old: Vec<Point> = self.linear.frames.iter().map(|f| f.normal).collect();
+        let old: Vec<Point> = linear.vertices.frames.iter().map(|f| f.normal).collect();
         let up = normals(topology, &next, Some(&old));
         unfold(&self.given, &mut next, &up);
         let moved = next
             .iter()
-            .zip(&self.linear.base)
+            .zip(&linear.vertices.base)
             .map(|(a, b)| (a - b).norm());
         let squares = moved.clone().map(|d| d * d).sum::<f64>();
         let scale = self.bounds.scale;
         self.passes.push(MeshPass {
-            iterations: report.iterations,
-            cg_iterations: report.cg_iterations,
-            objective: level.admm.incumbent.objective(),
-            dual_bound: level.admm.incumbent.dual_bound,
-            gap: Some(level.admm.incumbent.gap()),
+            iterations,
+            cg_iterations,
+            objective: admm.incumbent.objective(),
+            dual_bound: admm.incumbent.dual_bound,
+            gap: Some(admm.incumbent.gap()),
             stop_reason: reason,
-            creases: self.creases,
+            creases: self.levels.creases,
             moved: (squares / next.len() as f64).sqrt() / scale,
             moved_most: moved.fold(0.0, f64::max) / scale,
         });
-        self.seconds = self.seconds + level.admm.seconds;
+        self.seconds = self.seconds + self.levels.seconds();
         self.surface = next;
         let done = last || !matches!(reason, StopReason::Gap | StopReason::Residuals);
         let (given, surface) = (&self.given, &mut self.surface);
         if done && self.options.crease_passes_or_default() > 0 {
             let sides = SmoothRegions::new(&given.topology, surface)?;
-            let (before, frames) = (self.smooth.as_deref(), &self.linear.frames);
+            let (before, frames) = (self.smooth.as_deref(), &linear.vertices.frames);
             sharpen_creases(given, &sides, surface, before, frames, self.sigma);
             // Normals beside creases have changed.
             let up = normals(&given.topology, surface, Some(&old));
@@ -370,15 +296,24 @@ impl MeshSolver {
         let start = Instant::now();
         let frames = normals(&self.given.topology, &self.surface, Some(&old))
             .into_iter()
-            .zip(&self.linear.frames)
+            .zip(&linear.vertices.frames)
             .map(|(normal, hint)| Frame::from_normal(normal, hint.tangents[0]))
             .collect();
         let base = self.surface.clone();
         let sides = SmoothRegions::new(&self.given.topology, &base)?;
         let (options, lambda) = (&self.options, self.lambda);
         let next = linearise(&self.given, base, frames, options, lambda, Some(&sides))?;
-        let before = std::mem::replace(&mut self.linear, next);
-        self.begin(Some((level.admm.iterate, before, sides)))?;
+        let warm = self.levels.warm_start(&next, sides)?;
+        let (levels, reason) = MeshLevels::new(
+            next,
+            Some(&warm),
+            options,
+            parameters(options, self.passes.len()),
+        )?;
+        self.levels = levels;
+        if let Some(reason) = reason {
+            self.finish(reason)?;
+        }
         self.seconds.setup += start.elapsed().as_secs_f64();
         Ok(())
     }
@@ -399,7 +334,7 @@ impl MeshSolver {
         }
         let after = ShapeMeasures::new(topology, &self.surface, &self.surface);
         let (length, closed) = (1.0 / self.bounds.scale, topology.closed);
-        let interior = self.linear.centres.len();
+        let interior = self.levels.finest().centres.len();
         let inside = topology.vertices_inside().count();
         let mut seconds = self.seconds;
         seconds.total = self.start.elapsed().as_secs_f64();
@@ -412,7 +347,7 @@ impl MeshSolver {
                 pinched: topology.pinched,
                 components: topology.components,
                 repairs: topology.repairs,
-                spacing: self.linear.spacing * length,
+                spacing: self.levels.finest().spacing * length,
                 scale: self.bounds.scale,
                 sigma: self.sigma.map(|sigma| sigma * length),
                 lambda: self.lambda,
@@ -453,6 +388,19 @@ fn mean_spacing(topology: &Topology, x: &[Point]) -> f64 {
     hexagonal_spacing(inside.map(|vertex| own[vertex]).sum::<f64>() / count)
 }
 
+/// Parameters of ADMM for the solve after a number of other ones.
+fn parameters(options: &MeshOptions, solved: usize) -> AdmmParameters {
+    let mut common = options.common();
+    if solved < options.crease_passes_or_default() {
+        let least = match solved {
+            0 => FIRST_SOLVE_GAP,
+            _ => MIDDLE_SOLVE_GAP,
+        };
+        common = common.gap(options.gap.max(least));
+    }
+    AdmmParameters::new(&common).without_v_cycles()
+}
+
 /// Linearises the energy about a base, with the options of the fit.
 fn linearise(
     given: &MeshInput,
@@ -463,5 +411,6 @@ fn linearise(
     sides: Option<&SmoothRegions>,
 ) -> Result<Linearisation> {
     let bends = HuberParameters::from_options(&options.common());
-    Linearisation::new(given, base, frames, bends, |_| lambda, sides)
+    let vertices = LevelVertices::from_mesh(given, base, frames, sides);
+    Linearisation::new(vertices, bends, |_| lambda, sides)
 }

@@ -5,6 +5,7 @@ use nalgebra::{Rotation3, Vector3};
 
 use super::geometry::{Frame, Point, normals};
 use super::input::MeshInput;
+use super::level_vertices::LevelVertices;
 use super::linearisation::Linearisation;
 use super::quadratic::{Neighbour, Quadratic};
 use super::topology::Topology;
@@ -27,6 +28,7 @@ use crate::{Error, Heightfield, Input, Lattice, Mesh, Options, Triangulation};
 #[path = "../../../tests/native/common/closed_meshes.rs"]
 mod closed_meshes;
 mod creases;
+mod levels;
 mod orientation;
 mod self_intersections;
 
@@ -78,15 +80,8 @@ fn linearise(mesh: &Mesh) -> Linearisation {
         .into_iter()
         .map(|n| Frame::from_normal(n, Point::x()))
         .collect();
-    Linearisation::new(
-        &given,
-        given.noisy.clone(),
-        frames,
-        HUBER_PENALTY,
-        |_| 1e4,
-        None,
-    )
-    .unwrap()
+    let vertices = LevelVertices::from_mesh(&given, given.noisy.clone(), frames, None);
+    Linearisation::new(vertices, HUBER_PENALTY, |_| 1e4, None).unwrap()
 }
 
 #[test]
@@ -99,7 +94,7 @@ fn a_plane_of_hexagons_has_the_papers_stencil() {
     let linear = linearise(&mesh);
     assert!((linear.spacing / h - 1.0).abs() < 1e-12);
     let mut random = random(1);
-    let heights: Vec<f64> = linear.base.iter().map(|_| random()).collect();
+    let heights: Vec<f64> = linear.vertices.base.iter().map(|_| random()).collect();
     let mut z: Vec<f64> = heights
         .iter()
         .zip(&linear.scales)
@@ -107,6 +102,7 @@ fn a_plane_of_hexagons_has_the_papers_stencil() {
         .collect();
     z.push(1.0);
     let index: HashMap<[i64; 2], usize> = linear
+        .vertices
         .base
         .iter()
         .enumerate()
@@ -123,7 +119,7 @@ fn a_plane_of_hexagons_has_the_papers_stencil() {
     let mut count = 0;
     linear.problem.operator.hessians(&z, |stencil, hessian| {
         let centre = linear.centres[stencil] as usize;
-        let x = linear.base[centre];
+        let x = linear.vertices.base[centre];
         let at = |dx: f64, dy: f64| {
             let place = [x.x + dx * h, x.y + dy * h * 3f64.sqrt()];
             heights[index[&place.map(|p| (4.0 * p / h).round() as i64)]]
@@ -210,7 +206,8 @@ fn a_lattice_as_a_mesh_has_the_lattices_answer() {
         .map(|_| Frame::from_normal(Point::z(), Point::x()))
         .collect();
     let bends = HuberParameters::from_options(&options);
-    let linear = Linearisation::new(&given, base, frames, bends, |_| 1e4, None).unwrap();
+    let vertices = LevelVertices::from_mesh(&given, base, frames, None);
+    let linear = Linearisation::new(vertices, bends, |_| 1e4, None).unwrap();
     let jacobi =
         |problem: &super::linearisation::Problem, rho| JacobiGradients::new(problem, rho).unwrap();
     let b = solve(

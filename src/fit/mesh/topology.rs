@@ -8,6 +8,7 @@ use crate::error::{Error, Result, rounded, try_filled};
 use crate::math::index::NO_INDEX;
 use crate::scene::mesh::Mesh;
 
+use super::adjacency::Adjacency;
 use super::morton_order;
 use super::report::Repairs;
 use crate::scene::half_edges::{next_half_edge, twin_half_edges};
@@ -22,12 +23,9 @@ pub(crate) struct Topology {
     pub triangles: Vec<[u32; 3]>,
     /// For each triangle of the topology, the triangle of the mesh that it was.
     pub from: Vec<u32>,
-    /// Index of each vertex's first neighbour in `around`.
-    first: Vec<u32>,
-    /// Neighbours of all vertices, one vertex after the other.
-    around: Vec<u32>,
-    /// Whether the edge to each neighbour in `around` is on the border, which has one triangle only.
-    rim: Vec<bool>,
+    pub adjacency: Adjacency,
+    /// Neighbours of each vertex along the border.
+    rim: Adjacency,
     /// Whether each vertex is interior: its triangles form one closed fan around it.
     pub inside: Vec<bool>,
     /// Number of pinched vertices, where two fans of triangles meet in a point.
@@ -96,9 +94,8 @@ impl Topology {
         repairs.joined = spoken_for.saturating_sub(once);
         let mut topology = Topology {
             joined,
-            first: Vec::new(),
-            around: Vec::new(),
-            rim: Vec::new(),
+            adjacency: Adjacency::default(),
+            rim: Adjacency::default(),
             inside: try_filled("vertices", source.len(), false)?,
             source,
             triangles,
@@ -123,7 +120,7 @@ impl Topology {
 
     /// Returns the neighbours of a vertex.
     pub(crate) fn around(&self, vertex: usize) -> &[u32] {
-        &self.around[self.first[vertex] as usize..self.first[vertex + 1] as usize]
+        self.adjacency.around(vertex)
     }
 
     /// Returns the given vertices and those within `rings` rings around them, each once, in ascending order.
@@ -149,23 +146,12 @@ impl Topology {
 
     /// Iterates over the neighbours of a vertex along the border.
     pub(crate) fn along_rim(&self, vertex: usize) -> impl Iterator<Item = usize> + '_ {
-        let edges = self.first[vertex] as usize..self.first[vertex + 1] as usize;
-        edges
-            .filter(|edge| self.rim[*edge])
-            .map(|edge| self.around[edge] as usize)
+        self.rim.around(vertex).iter().map(|other| *other as usize)
     }
 
-    /// Finds the second ring of a vertex: its neighbours' neighbours that are no neighbours themselves. Writes them to
-    /// `to`, in ascending order.
+    /// Finds the second ring of a vertex, as [`Adjacency::second_ring`] does.
     pub(crate) fn second_ring(&self, vertex: usize, to: &mut Vec<u32>) {
-        let ring = self.around(vertex);
-        to.clear();
-        for neighbour in ring {
-            to.extend(self.around(*neighbour as usize));
-        }
-        to.sort_unstable();
-        to.dedup();
-        to.retain(|other| *other != vertex as u32 && !ring.contains(other));
+        self.adjacency.second_ring(vertex, to);
     }
 
     /// Finds the neighbours of each vertex, with the edges on the border, after the checks that make the mesh a
@@ -184,27 +170,11 @@ impl Topology {
             sides.chunk_by(|a, b| (a.0, a.1) == (b.0, b.1)).collect();
         self.check_edges(mesh, &edges)?;
         self.orient(mesh, &edges)?;
-        let count = self.len();
-        self.first = try_filled("vertices", count + 1, 0)?;
-        for edge in &edges {
-            self.first[edge[0].0 as usize + 1] += 1;
-            self.first[edge[0].1 as usize + 1] += 1;
-        }
-        for i in 0..count {
-            self.first[i + 1] += self.first[i];
-        }
-        let mut next: Vec<u32> = self.first[..count].to_vec();
-        self.around = try_filled("edges", 2 * edges.len(), 0)?;
-        self.rim = try_filled("edges", 2 * edges.len(), false)?;
-        for edge in &edges {
-            let (a, b, ..) = edge[0];
-            for (from, to) in [(a, b), (b, a)] {
-                let place = next[from as usize] as usize;
-                (self.around[place], self.rim[place]) = (to, edge.len() == 1);
-                next[from as usize] += 1;
-            }
-            self.closed &= edge.len() == 2;
-        }
+        let ends = |edge: &&[(u32, u32, u32, bool)]| [edge[0].0, edge[0].1];
+        self.adjacency = Adjacency::from_edges(self.len(), edges.iter().map(ends))?;
+        let rim = || edges.iter().filter(|edge| edge.len() == 1);
+        self.rim = Adjacency::from_edges(self.len(), rim().map(ends))?;
+        self.closed = rim().next().is_none();
         self.find_inside();
         Ok(())
     }

@@ -26,7 +26,8 @@ fn fits_beside_a_crease_go_by_their_own_side() {
     let sides = SmoothRegions::new(&given.topology, &given.noisy).unwrap();
     let bends = |sides: Option<&SmoothRegions>| {
         let x = given.noisy.clone();
-        Linearisation::new(&given, x, frames(&given), HUBER_PENALTY, |_| 1e4, sides).unwrap()
+        let vertices = LevelVertices::from_mesh(&given, x, frames(&given), sides);
+        Linearisation::new(vertices, HUBER_PENALTY, |_| 1e4, sides).unwrap()
     };
     let largest = |linear: &Linearisation| {
         let mut most = 0.0f64;

@@ -9,8 +9,9 @@ use crate::math::lanes;
 use crate::math::real::Real;
 
 /// Number of Jacobi-preconditioned iterations in one step of the z-step's solver: together they do about as much as a
-/// V-cycle, for which ADMM's schedule is made.
-const JACOBI_STEPS: usize = 6;
+/// V-cycle, for which ADMM's schedule is made. After coarser levels, 12 take about half as many iterations of ADMM as 6
+/// (`benches/whole.md`).
+const JACOBI_STEPS: usize = 12;
 
 /// The z-step's matrix `A = 2λw + ρCᵀC`, scaled so that its largest diagonal entry is 1.
 #[derive(Debug, Clone)]

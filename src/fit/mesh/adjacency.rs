@@ -1,0 +1,58 @@
+//! The neighbours of each vertex of a mesh.
+
+use crate::error::{Result, try_filled};
+
+/// Neighbours of each vertex, in one array for all vertices.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct Adjacency {
+    /// Index of each vertex's first neighbour, and the number of all neighbours at the end.
+    first: Vec<u32>,
+    neighbours: Vec<u32>,
+}
+
+impl Adjacency {
+    /// Makes the adjacency of a number of vertices from edges, each given once by its two ends. The neighbours of a
+    /// vertex are in the order of the edges.
+    ///
+    /// # Errors
+    /// [`Error::OutOfMemory`](crate::Error::OutOfMemory).
+    pub(super) fn from_edges(
+        vertices: usize,
+        edges: impl Iterator<Item = [u32; 2]> + Clone,
+    ) -> Result<Self> {
+        let mut first = try_filled("vertices", vertices + 1, 0u32)?;
+        for end in edges.clone().flatten() {
+            first[end as usize + 1] += 1;
+        }
+        for vertex in 0..vertices {
+            first[vertex + 1] += first[vertex];
+        }
+        let mut next: Vec<u32> = first[..vertices].to_vec();
+        let mut neighbours = try_filled("edges", first[vertices] as usize, 0)?;
+        for [a, b] in edges {
+            for (from, to) in [(a, b), (b, a)] {
+                neighbours[next[from as usize] as usize] = to;
+                next[from as usize] += 1;
+            }
+        }
+        Ok(Adjacency { first, neighbours })
+    }
+
+    /// Returns the neighbours of a vertex.
+    pub(crate) fn around(&self, vertex: usize) -> &[u32] {
+        &self.neighbours[self.first[vertex] as usize..self.first[vertex + 1] as usize]
+    }
+
+    /// Finds the second ring of a vertex: its neighbours' neighbours that are no neighbours themselves. Writes them to
+    /// `to`, in ascending order.
+    pub(crate) fn second_ring(&self, vertex: usize, to: &mut Vec<u32>) {
+        let ring = self.around(vertex);
+        to.clear();
+        for neighbour in ring {
+            to.extend(self.around(*neighbour as usize));
+        }
+        to.sort_unstable();
+        to.dedup();
+        to.retain(|other| *other != vertex as u32 && !ring.contains(other));
+    }
+}

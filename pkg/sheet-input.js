@@ -1,8 +1,8 @@
 /** What is laid flat, and photos of it: checked as far as JS has to. */
 import { DevelopableError } from './errors.js';
-import { cells, count } from './input.js';
+import { asBytes, cells, count } from './input.js';
 import { optionsOf } from './options.js';
-import { record, typeOf, viewOf } from './values.js';
+import { reading, record, show, typeOf, viewOf } from './values.js';
 
 /**
  * @typedef {import('./types.js').HeightImage | import('./types.js').Heightfield} Heights
@@ -67,6 +67,23 @@ export function printOptions(photo, given) {
     'a PDF has its true size, and nothing says how large this picture is: pass `dotsPerMillimetre`, or a picture that was ' +
       'made flat where the unit of lengths is known (`unit` of depths and heights, `page` or `ruler` of a page by its edges)',
   );
+}
+
+/**
+ * The pages of a book, each a picture's file and the size of its page in millimetres.
+ * @param {unknown} given
+ * @returns {{ picture: Uint8Array, size: [number, number] }[]}
+ */
+export function asBook(given) {
+  if (!Array.isArray(given)) throw new DevelopableError('INPUT', 'the pages must be a list of { picture, size }');
+  return reading('INPUT', 'the pages', () => given.map((page, i) => {
+    const { picture, size } = record('INPUT', `page ${i + 1}`, page, ['picture', 'size']);
+    const sides = Array.isArray(size) && size.length === 2 ? [Number(size[0]), Number(size[1])] : [];
+    if (sides.length !== 2 || !sides.every((side) => Number.isFinite(side) && side > 0)) {
+      throw new DevelopableError('INPUT', `the size of page ${i + 1} must be its width and height in millimetres, but is ${show(size)}`);
+    }
+    return { picture: asBytes(/** @type {Uint8Array} */ (picture)), size: /** @type {[number, number]} */ (sides) };
+  }));
 }
 
 /**

@@ -107,6 +107,21 @@ export const PAGE_WORDS = {
   tooFarOutside: (edge) => `The ${edge} edge lies too far outside the photo. Take the photo anew, with the whole page in it`,
   /** @param {string} paper */
   looksLike: (paper) => `Looks like ${paper}: use it`,
+  keptLight: 'The page is not mostly paper, so I kept its light.',
+};
+
+/** What is said of several photos that become one PDF. */
+export const BOOK_WORDS = {
+  /** @param {number} n */
+  photos: (n) => `${count(n)} photos, one PDF:`,
+  /** @param {number} n @param {string} name */
+  page: (n, name) => `${n} ${name}`,
+  remove: 'Remove this photo',
+  unfound: 'I did not find the page. Show this photo and drag the four corners onto its page',
+  /** @param {number} n */
+  pdf: (n) => `all ${count(n)} photos, a page each`,
+  /** @param {number} n @param {number} all */
+  writing: (n, all) => `Flattening photo ${n} of ${all}…`,
 };
 
 /** What is said of addresses. */

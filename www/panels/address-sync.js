@@ -140,7 +140,8 @@ export function keepPanel(session, page) {
 
   const list = element('recent', HTMLElement);
   const tell = async () => {
-    const kept = await recentFiles();
+    const open = page.mode.now === 'photo' ? photo : file;
+    const kept = (await recentFiles()).filter(({ id }) => id !== open);
     list.hidden = kept.length === 0;
     list.replaceChildren('Opened before: ', ...kept.map(({ files }) => {
       const button = make('button', 'plain small', namesOf(files));

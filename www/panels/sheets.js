@@ -192,7 +192,7 @@ export function offerSheets(api, { stem, size, length, unit, cut, svg, stop }) {
         make('details', 'more', make('summary', '', SHEET_WORDS.figures), about)))],
     formats: [
       { value: 'pdf', name: 'PDF', words: SHEET_WORDS.pdf, type: 'application/pdf',
-        write: async (worker) => worker.writePdf(await drawing, { stock: paper.value === 'a4' || paper.value === 'letter' ? paper.value : undefined }) },
+        write: async (worker) => worker.writePdf(await drawing, { stock: paper.value === 'a4' || paper.value === 'letter' ? paper.value : undefined, title: stem }) },
       { value: 'svg', name: 'SVG', words: SHEET_WORDS.svg, type: 'image/svg+xml', write: async (worker) => worker.writeSvg(await drawing) },
       { value: 'dxf', name: 'DXF', words: SHEET_WORDS.dxf, type: 'image/vnd.dxf', write: async (worker) => worker.writeDxf(await drawing) },
       { value: 'png', name: 'PNG', words: SHEET_WORDS.png, type: 'image/png', write: async () => numberedPicture(await drawing) },

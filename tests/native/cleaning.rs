@@ -70,27 +70,35 @@ fn page(seed: u128) -> Vec<Shown> {
 /// The light at a place, in shares of the page, for red, green and blue.
 type Lamp = fn([f64; 2]) -> [f64; 3];
 
-/// The share of the light that a hard shadow with a penumbra of 2 mm leaves, on one side of a line across the page.
-fn shadow([x, y]: [f64; 2], slope: f64, offset: f64) -> f64 {
+/// The share of a lamp's light that passes an edge across the page, with a penumbra of 2 mm: all of it on one side.
+fn beyond([x, y]: [f64; 2], slope: f64, offset: f64) -> f64 {
     let distance = SIZE[0] as f64 * (x + slope * y - offset) / 1.0f64.hypot(slope);
-    0.45 + 0.55 / (1.0 + (-distance / 2.0).exp())
+    1.0 / (1.0 + (-distance / 2.0).exp())
+}
+
+/// The factor on a pixel's value for a share of the light, by the gamma of images.
+fn value(light: f64) -> f64 {
+    light.powf(1.0 / 2.2)
 }
 
 const LAMPS: [(&str, Lamp); 5] = [
-    ("hard shadow", |at| [shadow(at, 0.5, 0.7); 3]),
-    ("two shadows, bluer than the lamp", |at| {
-        let light = shadow(at, 0.4, 0.8) * shadow(at, -1.5, -0.6);
-        [light, light.powf(0.95), light.powf(0.88)]
+    ("hard shadow", |at| {
+        [value(0.2 + 0.8 * beyond(at, 0.5, 0.7)); 3]
+    }),
+    ("shadows of two lamps, bluer than these", |at| {
+        let lamps = [beyond(at, 0.4, 0.8), beyond(at, -1.5, -0.6)];
+        [0.12, 0.14, 0.18].map(|sky| value(sky + 0.45 * lamps[0] + 0.4 * lamps[1]))
     }),
     ("warm lamp from one side", |[x, y]| {
-        [1.0, 0.86, 0.62].map(|colour| colour * (1.0 - 0.45 * x - 0.2 * y))
+        [1.0, 0.7, 0.35].map(|colour| value(colour * (1.0 - 0.7 * x - 0.2 * y)))
     }),
     ("vignetting", |[x, y]| {
-        [1.0 - 1.1 * ((x - 0.5).powi(2) + (y - 0.5).powi(2)); 3]
+        [value(1.0 - 1.6 * ((x - 0.5).powi(2) + (y - 0.5).powi(2))); 3]
     }),
     ("warm lamp, vignetting and a shadow", |at| {
-        let edge = 1.0 - 0.7 * ((at[0] - 0.5).powi(2) + (at[1] - 0.5).powi(2));
-        [1.0, 0.9, 0.75].map(|colour| colour * edge * shadow(at, 1.2, 1.0))
+        let edge = 1.0 - ((at[0] - 0.5).powi(2) + (at[1] - 0.5).powi(2));
+        let lamp = edge * (0.25 + 0.75 * beyond(at, 1.2, 1.0));
+        [1.0, 0.8, 0.55].map(|colour| value(colour * lamp))
     }),
 ];
 

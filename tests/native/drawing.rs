@@ -4,7 +4,7 @@
 use crate::common::{noisy, unit_square};
 use developable::drawing::{Bending, Drawing, DrawingOptions, DrawnSheet, LabelKind, Piece, Stock};
 use developable::files::assembly::write_assembly_svg;
-use developable::files::drawings::{write_dxf, write_pdf, write_svg};
+use developable::files::drawings::{PdfOptions, write_dxf, write_pdf, write_svg};
 use developable::patches::{PatchOptions, Patches};
 use developable::pattern::{PatternOptions, Sheet, pattern};
 use developable::{Heightfield, Options, fit};
@@ -381,7 +381,7 @@ fn sheets_lie_whole_on_as_few_pages_as_they_fit_on() {
 fn files_are_the_same_each_time() {
     let drawing = drawn(&vaults(), DrawingOptions::default().scale(100.0).tabs(5.0));
     for write in [write_svg, write_dxf, |d: &Drawing| {
-        write_pdf(d, Some(Stock::A4))
+        write_pdf(d, &PdfOptions::default().stock(Some(Stock::A4)))
     }] {
         let file = write(&drawing).unwrap();
         assert!(file.len() > 1000);
@@ -409,9 +409,16 @@ fn nonsense_is_refused() {
     );
     assert_eq!(code(&[], DrawingOptions::default()), "EMPTY");
     let large = drawn(&sheets, DrawingOptions::default().scale(20_000.0));
-    assert_eq!(write_pdf(&large, None).unwrap_err().code(), "UNSUPPORTED");
     assert_eq!(
-        write_pdf(&large, Some(Stock::A4)).unwrap_err().code(),
+        write_pdf(&large, &PdfOptions::default())
+            .unwrap_err()
+            .code(),
+        "UNSUPPORTED"
+    );
+    assert_eq!(
+        write_pdf(&large, &PdfOptions::default().stock(Some(Stock::A4)))
+            .unwrap_err()
+            .code(),
         "UNSUPPORTED"
     );
     let mut broken = drawn(&sheets, DrawingOptions::default());

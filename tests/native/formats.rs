@@ -511,8 +511,8 @@ fn photos_come_back_as_they_were_and_other_kinds_become_colours() {
     assert_eq!(decode_photo(cut).unwrap_err().code(), "FORMAT");
 }
 
-/// Width, height and number of bits of the PNG in `file`.
-fn png_header(file: &[u8]) -> (u32, u32, u8, u8) {
+/// Width, height, number of bits and kind of colours of the PNG in `file`.
+fn read_png_header(file: &[u8]) -> (u32, u32, u8, u8) {
     let number = |at: usize| u32::from_be_bytes(file[at..at + 4].try_into().unwrap());
     (number(16), number(20), file[24], file[25])
 }
@@ -528,14 +528,14 @@ fn black_and_white_photos_have_one_bit_for_each_pixel() {
         .collect();
     let photo = Photo::new(width, height, &rgba).unwrap();
     let file = write_photo(&photo, &PhotoOptions::default()).unwrap();
-    assert_eq!(png_header(&file), (37, 11, 1, 0));
-    assert_eq!(decode_photo(&file, None).unwrap().rgba, rgba);
+    assert_eq!(read_png_header(&file), (37, 11, 1, 0));
+    assert_eq!(decode_photo(&file).unwrap().rgba, rgba);
     // One grey pixel, and it is a photo as others are.
     let mut grey = rgba.clone();
     grey[..3].fill(128);
     let photo = Photo::new(width, height, &grey).unwrap();
     let file = write_photo(&photo, &PhotoOptions::default()).unwrap();
-    assert_eq!(png_header(&file), (37, 11, 8, 2));
+    assert_eq!(read_png_header(&file), (37, 11, 8, 2));
 }
 
 #[test]

@@ -18,13 +18,15 @@ export function pageBookPanel(book, show, remove) {
       list.hidden = photos.length < 2;
       if (list.hidden) return list.replaceChildren();
       const buttons = photos.map(({ file }, i) => {
-        const button = make('button', 'plain', BOOK_WORDS.page(i + 1, file.name));
+        const button = make('button', '', BOOK_WORDS.number(i + 1));
         button.type = 'button';
+        button.title = file.name;
+        button.setAttribute('aria-label', BOOK_WORDS.page(i + 1, file.name));
         button.setAttribute('aria-pressed', String(i === at));
         button.addEventListener('click', () => show(i));
         return button;
       });
-      const out = make('button', '', BOOK_WORDS.remove);
+      const out = make('button', 'plain', BOOK_WORDS.remove);
       out.type = 'button';
       out.addEventListener('click', remove);
       list.replaceChildren(BOOK_WORDS.photos(photos.length), ...buttons, out);

@@ -122,7 +122,7 @@ export function pageResultPanel(api, session, book, goOn) {
     };
     const offer = offerToSave(api, {
       title: 'Flat page',
-      stem: `${wish.photo.name}-flat`,
+      stem: several ? `${book.photos[0].file.name.replace(/\.[^.]*$/, '')}-pages` : `${wish.photo.name}-flat`,
       size: wish.photo.width * wish.photo.height * Math.max(1, book.photos.length),
       formats: [
         { value: 'pdf', name: 'PDF', words: several ? BOOK_WORDS.pdf(book.photos.length) : pages > 1 ? SAVE_WORDS.pdfOfTwo : SAVE_WORDS.pdf, type: 'application/pdf', write: async (worker) => {

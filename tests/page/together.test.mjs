@@ -214,7 +214,7 @@ pageTest('heights in another unit, and levels that are guessed, are asked about'
   assert.ok(Math.abs(Number(await page.getByLabel('Pixel size').inputValue()) / side - 0.5) < 1e-9);
   await page.getByLabel('Pixel size').fill('10');
   await runBy(page, () => page.getByLabel('Pixel size').press('Tab'));
-  assert.match(await doubt.innerText(), /hardly differ.*pixel size.*depths/s);
+  assert.match(await doubt.innerText(), /differ very little.*pixel size.*depths/s);
   await choose(page.getByRole('radio', { name: 'Flat photo', exact: true }));
   await flattened(page);
   assert.equal(await page.locator('#photo-name').innerText(), 'holiday.png');

@@ -61,7 +61,7 @@ async function start() {
   }, openHeights, (file) => void keep.rememberPhoto(file));
   const mode = modePanel((entered) => {
     if (entered === 'photo') page.begin();
-    keep.write();
+    keep.entered();
   });
   const gallery = galleryPanel(session, { adopt, choose: views.choose, strip: strip.show, enter: () => mode.enter('heights') });
   element('notice-close', HTMLButtonElement).addEventListener('click', hideNotice);

@@ -523,6 +523,19 @@ fn bends_take_the_length_of_their_neutral_line() {
         "{}",
         refused(&pyramid(), metal)
     );
+    // A cylinder whose upper part is mirrored in the plane y = 0.5 + 2 (z - z₀) folds along a curve.
+    let round = |x: f64| (0.49 - (x - 0.5).powi(2)).sqrt();
+    let curved = sheets(&unit_square(100, |x, y| {
+        let crease = 0.5 + 2.0 * (round(x) - round(0.25));
+        round(x) + (4.0 / 3.0) * (y - crease).max(0.0)
+    }));
+    assert_eq!((curved.len(), curved[0].folds.len()), (1, 1));
+    let error = Drawing::new(&curved, &plain.bending(metal)).unwrap_err();
+    assert_eq!(error.code(), "CURVED_FOLD", "{error}");
+    assert!(
+        error.to_string().starts_with("fold 1 of sheet 1 is curved"),
+        "{error}"
+    );
     let narrow = sheets(&unit_square(100, |x, _| -(x - 0.053).abs()));
     assert!(refused(&narrow, metal.radius(30.0)).contains("nearer to an edge"));
     for (bending, name) in [

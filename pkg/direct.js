@@ -10,7 +10,7 @@ import { asEdges, pageOptions } from './page-input.js';
 import { inColour, paintOf, readPhoto } from './paint.js';
 import { makeDisposable } from './platform.js';
 import { Steps } from './steps.js';
-import { asPhoto, placeOf, placedOptions, printOptions } from './sheet-input.js';
+import { asBook, asPhoto, placeOf, placedOptions, printOptions } from './sheet-input.js';
 import { asText, isRecord, plainCopy, reading, show } from './values.js';
 
 export { parseCamera } from './camera-file.js';
@@ -402,6 +402,12 @@ export function writePhoto(photo, given) {
   const { width, height, data } = asPhoto(photo);
   const { transfer, ...options } = printOptions(photo, given);
   return bytesOf((wasm) => wasm.writePhoto(width, height, data, options));
+}
+
+/** @type {typeof import('./direct.js').writeBook} */
+export function writeBook(pages) {
+  const book = asBook(pages);
+  return bytesOf((wasm) => wasm.writeBook(book));
 }
 
 /** @type {typeof import('./direct.js').example} */

@@ -1,13 +1,16 @@
 /** What is laid flat, and photos of it: checked as far as JS has to. */
 import { DevelopableError } from './errors.js';
-import { cells, count } from './input.js';
+import { asBytes, cells, count } from './input.js';
 import { optionsOf } from './options.js';
-import { record, typeOf, viewOf } from './values.js';
+import { reading, record, show, typeOf, viewOf } from './values.js';
 
 /**
  * @typedef {import('./types.js').HeightImage | import('./types.js').Heightfield} Heights
  * @typedef {{ width: number, height: number, data: Uint8Array }} Pixels
  */
+
+/** Largest number of pages of one PDF. */
+const MAX_BOOK_PAGES = 10_000;
 
 /**
  * A photo, such as an `ImageData`, with its bytes as a view of their own. Other things that it says are its own matter:
@@ -67,6 +70,26 @@ export function printOptions(photo, given) {
     'a PDF has its true size, and nothing says how large this picture is: pass `dotsPerMillimetre`, or a picture that was ' +
       'made flat where the unit of lengths is known (`unit` of depths and heights, `page` or `ruler` of a page by its edges)',
   );
+}
+
+/**
+ * The pages of a book, each a picture's file and the size of its page in millimetres.
+ * @param {unknown} given
+ * @returns {{ picture: Uint8Array, size: [number, number] }[]}
+ */
+export function asBook(given) {
+  return reading('INPUT', 'the pages', () => {
+    if (!Array.isArray(given)) throw new DevelopableError('INPUT', 'the pages must be a list of { picture, size }');
+    return Array.from(given.slice(0, MAX_BOOK_PAGES + 1), (page, i) => {
+      if (i === MAX_BOOK_PAGES) throw new DevelopableError('TOO_LARGE', `there are more than ${MAX_BOOK_PAGES} pages, which is the limit`);
+      const { picture, size } = record('INPUT', `page ${i + 1}`, page, ['picture', 'size']);
+      const sides = Array.isArray(size) && size.length === 2 ? [size[0], size[1]] : [];
+      if (sides.length !== 2 || !sides.every((side) => Number.isFinite(side) && side > 0)) {
+        throw new DevelopableError('INPUT', `the size of page ${i + 1} must be its width and height in millimetres, but is ${show(size)}`);
+      }
+      return { picture: asBytes(/** @type {Uint8Array} */ (picture)), size: /** @type {[number, number]} */ (sides) };
+    });
+  });
 }
 
 /**

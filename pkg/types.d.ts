@@ -629,6 +629,14 @@ export interface SizedPhoto extends Photo {
   unit?: Unit | 'page';
 }
 
+/** One page of a PDF. */
+export interface BookPage {
+  /** A JPEG or PNG file without transparency, as `writePhoto` writes them. */
+  picture: Uint8Array | ArrayBuffer;
+  /** Width and height of the page, in millimetres. */
+  size: readonly [number, number];
+}
+
 /** A surface in the colours of a picture. */
 export type Painted<F> = F & { uvs: Float32Array; colors: Float32Array; texture?: Uint8Array };
 
@@ -1028,6 +1036,8 @@ export interface Dewarped extends DecodedPhoto {
    * above 0.02 the flat image shows what lies beside it, and is `'doubtful'`. 0 where no page is found without doubt.
    */
   overreach: number;
+  /** What happened to the light: `'keep'` also where it was to be evened, but the image is not mostly paper. */
+  light: 'even' | 'keep';
   verdict: Verdict;
   report: UnrollReport;
 }

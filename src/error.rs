@@ -121,6 +121,18 @@ pub enum Error {
         reason: String,
     },
 
+    /// A fold is curved, so that sheet metal cannot be bent along it.
+    #[error(
+        "fold {fold} of sheet {sheet} is curved, and a bend allowance needs straight ones; without a thickness it is \
+         drawn as it is"
+    )]
+    CurvedFold {
+        /// Number of the sheet, from 1.
+        sheet: usize,
+        /// Number of the fold on the sheet, from 1.
+        fold: usize,
+    },
+
     /// No page can be told from the background in a photo.
     #[error(
         "I did not find the page in the photo; trace its edges, or take the photo anew, with the \
@@ -239,6 +251,7 @@ impl Error {
             Error::Mismatch { .. } => "MISMATCH",
             Error::Option { .. } => "OPTION",
             Error::Edges { .. } => "EDGES",
+            Error::CurvedFold { .. } => "CURVED_FOLD",
             Error::NoPage => "NO_PAGE",
             Error::FocalLength => "FOCAL_LENGTH",
             Error::Topology { .. } => "TOPOLOGY",

@@ -1,6 +1,7 @@
 /** How a file of numbers is understood: what is guessed of it at first, and the one way or the other afterwards. */
 import { coarseningFor, depthsIn, guessedPixel, isHexagonal, isNoDepth, zeroIsNothing } from './metadata-guess.js';
 import { number } from './format.js';
+import { GUESS_WORDS } from './messages.js';
 import { gridOver, interpolated } from './surface/lattice.js';
 import { firstLook, small } from './surface/look.js';
 
@@ -76,10 +77,10 @@ function guessed(read, depths) {
   const coarsening = hexagonal ? 1 : coarseningFor(read);
   const told = [
     ...(pixel ? [pixel.words] : []),
-    ...(design ? ['Few pixels have a height: the surface is made to pass through them, free everywhere else.'] : []),
-    ...(zeros ? ['0 is taken for “no data”.'] : []),
-    ...(hexagonal ? ['Odd rows seem to lie half a step to the left, as on a hexagonal lattice: that is what it is taken for.'] : []),
-    ...(coarsening > 1 ? [`It is large: one vertex for ${coarsening} × ${coarsening} pixels (see “Lattice” under “More options”).`] : []),
+    ...(design ? [GUESS_WORDS.few] : []),
+    ...(zeros ? [GUESS_WORDS.zeros] : []),
+    ...(hexagonal ? [GUESS_WORDS.hexagonal] : []),
+    ...(coarsening > 1 ? [GUESS_WORDS.coarse(coarsening)] : []),
   ].join(' ');
   const levels = /^u/.test(dataType);
   return { width, height, data, pixelSize: pixel?.pixelSize ?? pixelSize, heightScale, zeros, hexagonal, design, levels, told, coarsening };

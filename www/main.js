@@ -2,6 +2,7 @@
 import { Analyses } from './analyses.js';
 import { connect } from './api.js';
 import { element } from './dom.js';
+import { kindByName } from './file-kinds.js';
 import { analysisPanel } from './panels/analysis.js';
 import { besidePanel } from './panels/beside.js';
 import { curvePanel } from './panels/curve.js';
@@ -60,12 +61,12 @@ async function start() {
   }, openHeights, (file) => void keep.rememberPhoto(file));
   const mode = modePanel((entered) => {
     if (entered === 'photo') page.begin();
-    keep.write();
+    keep.entered();
   });
   const gallery = galleryPanel(session, { adopt, choose: views.choose, strip: strip.show, enter: () => mode.enter('heights') });
   element('notice-close', HTMLButtonElement).addEventListener('click', hideNotice);
   watchDrops((files) => {
-    if (mode.now === 'photo' && files.length === 1) return void page.open(files[0]);
+    if (mode.now === 'photo' && (files.length === 1 || files.every((file) => kindByName(file) === 'picture'))) return void page.openAll(files);
     // What comes together is no photo alone.
     openHeights(files);
   });

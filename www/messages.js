@@ -53,6 +53,22 @@ export const DEPTH_WORDS = {
   building: 'Building the 3D surface',
 };
 
+/** What is said of a file's numbers where the size of a pixel is guessed. */
+export const GUESS_WORDS = {
+  /** @param {string} relief @param {boolean} steep */
+  side: (relief, steep) => `Assumed: the longer side is 1 long. With pixels 1 wide, heights that differ by ${relief} would be too ${steep ? 'steep' : 'flat'}.`,
+  /** @param {string} relief @param {boolean} steep @param {string} size */
+  pixels: (relief, steep, size) => `Assumed: pixels are ${size} wide. With pixels 1 wide, heights that differ by ${relief} would be too ${steep ? 'steep' : 'flat'}.`,
+  few: 'Few pixels have a height. The surface passes through them and is free everywhere else.',
+  zeros: 'Assumed: 0 means “no data”.',
+  hexagonal: 'Assumed: odd rows lie half a step to the left (hexagonal lattice).',
+  /** @param {number} step */
+  coarse: (step) => `The image is large, so one vertex stands for ${step} × ${step} pixels (“Lattice” under “More options” changes that).`,
+  levels: 'The file does not say how high its levels are. Assumed: from black to white is a quarter of the longer side. Give the height scale, or tick that these are depths from a camera.',
+  /** @param {boolean} flat */
+  relief: (flat) => `Is this right? The heights differ ${flat ? 'very little compared with' : 'by more than'} the width. Give the pixel size in the unit of the heights, or tick that these are depths from a camera.`,
+};
+
 /** What is marked on the input, by how many there are. */
 export const MARKS = {
   /** @param {number} n */
@@ -107,6 +123,23 @@ export const PAGE_WORDS = {
   tooFarOutside: (edge) => `The ${edge} edge lies too far outside the photo. Take the photo anew, with the whole page in it`,
   /** @param {string} paper */
   looksLike: (paper) => `Looks like ${paper}: use it`,
+  keptLight: 'The page is not mostly paper, so I kept its light.',
+};
+
+/** What is said of several photos that become one PDF. */
+export const BOOK_WORDS = {
+  /** @param {number} n */
+  photos: (n) => `${count(n)} photos, one PDF:`,
+  /** @param {number} n */
+  number: (n) => String(n),
+  /** @param {number} n @param {string} name */
+  page: (n, name) => `Photo ${n}, ${name}`,
+  remove: 'Remove this photo',
+  unfound: 'I did not find the page. Show this photo and drag the four corners onto its page',
+  /** @param {number} n */
+  pdf: (n) => `all ${count(n)} photos, a page each`,
+  /** @param {number} n @param {number} all */
+  writing: (n, all) => `Flattening photo ${n} of ${all}…`,
 };
 
 /** What is said of addresses. */
@@ -131,6 +164,15 @@ export const WHOLE_WORDS = {
   unsolved: 'The mesh cannot be solved as a whole.',
   /** @param {string} share */
   hidden: (share) => `From this side ${share} of the surface is hidden. “Whole mesh” solves all of it.`,
+  vertices: (/** @type {string} */ vertices, /** @type {string} */ time) => `${vertices} vertices in ${time}.`,
+  maxIterations: 'The solve stopped at the maximum number of iterations.',
+  diverged: 'The iterations diverged. You see the best surface before.',
+  /** @param {number} n */
+  repaired: (n) => `${count(n)} ${n === 1 ? 'triangle was' : 'triangles were'} repaired first: wrong side, no area, or double.`,
+  /** @param {number} n @param {string} place */
+  entangled: (n, place) => `${count(n)} ${n === 1 ? 'triangle is' : 'triangles are'} folded over or cross others, the first near (${place}). Repair the mesh there.`,
+  /** @param {number} n */
+  flipped: (n) => `${count(n)} ${n === 1 ? 'triangle' : 'triangles'} of the result ${n === 1 ? 'is' : 'are'} folded over.`,
   /** @param {number} passes @param {string} gap */
   proof: (passes, gap) => `The last of ${count(passes)} steps is proven within ${gap} of its optimum. This says nothing about the shape as a whole.`,
 };

@@ -1,5 +1,6 @@
 /** What a file of numbers does not say: the scale, holes, the lattice, whether they are depths. Guessed, and said. */
 import { number } from './format.js';
+import { GUESS_WORDS } from './messages.js';
 
 /** @typedef {{ width: number, height: number, data: Float64Array, pixelSize: number, heightScale: number, unit?: string | null, dataType?: string }} Numbers */
 
@@ -26,12 +27,12 @@ export function guessedPixel({ width, height, data, pixelSize, heightScale, unit
   const relief = reliefOf(data);
   const share = relief / side;
   if (relief === 0 || (share >= MIN_LIKELY_RELIEF_SHARE && share <= MAX_LIKELY_RELIEF_SHARE)) return null;
-  const why = share < MIN_LIKELY_RELIEF_SHARE ? 'which would be a slab if pixels were 1 wide' : 'which would be a needle if pixels were 1 wide';
+  const steep = share > MAX_LIKELY_RELIEF_SHARE;
   if (relief >= 0.02 && relief <= 2) {
-    return { pixelSize: Number((1 / side).toPrecision(6)), words: `The heights differ by ${number(relief, 2)}, ${why}: the longer side is taken to be 1.` };
+    return { pixelSize: Number((1 / side).toPrecision(6)), words: GUESS_WORDS.side(number(relief, 2), steep) };
   }
   const guessed = Number((relief / GUESS / side).toPrecision(1));
-  return { pixelSize: guessed, words: `The heights differ by ${number(relief, 2)}, ${why}: pixels are taken to be ${number(guessed)} wide.` };
+  return { pixelSize: guessed, words: GUESS_WORDS.pixels(number(relief, 2), steep, number(guessed)) };
 }
 
 /** From the second to the ninety-eighth hundredth. @param {Float64Array} data */

@@ -1,4 +1,5 @@
 /** What of a file's heights cannot be taken as it is, in words that say what to do. */
+import { GUESS_WORDS } from './messages.js';
 import { reliefOf } from './metadata-guess.js';
 
 /** @import {Input} from './session.js' */
@@ -18,9 +19,9 @@ export function doubtOf(input) {
   const side = Math.max(width, height) * pixelSize;
   const [, bits] = /^u(\d+)$/.exec(dataType) ?? [];
   if (bits && Math.abs(heightScale / ((GUESS * side) / (2 ** Number(bits) - 1)) - 1) < 1e-9) {
-    return 'The file does not say how high its levels are: white is taken for a quarter of the longer side above black, and all lengths depend on that. Give the height scale, or tick that these are depths from a camera.';
+    return GUESS_WORDS.levels;
   }
   const share = (reliefOf(data) * Math.abs(heightScale)) / side;
   if (share === 0 || (share >= PLAUSIBLE[0] && share <= PLAUSIBLE[1])) return '';
-  return `Is this right? ${share < 1 ? 'The heights hardly differ against the width' : 'The heights differ by more than the width'}. Give the pixel size in the unit of the heights, or tick that these are depths from a camera.`;
+  return GUESS_WORDS.relief(share < 1);
 }

@@ -62,10 +62,10 @@ import { refuseSameFiles } from './same-file.js';
  * }} PatternTask
  * @typedef {SheetTask & {
  *   command: 'dewarp', texture?: string, photoCamera?: string, crop?: [number, number][], dots?: number, trim?: boolean, deskew?: boolean, map?: string,
- *   quality?: number, shape: Shape,
+ *   quality?: number, light?: 'even' | 'keep', ink?: boolean, shape: Shape,
  * }} DewarpTask
  * @typedef {{
- *   command: 'page', input: string, output: string, extension: Extension, written: string[], edges?: string, report?: string,
+ *   command: 'page', inputs: string[], output: string, extension: Extension, written: string[], edges?: string, report?: string,
  *   map?: string, quality?: number,
  *   options: import('../types.js').DewarpPageOptions,
  * }} PageTask
@@ -130,12 +130,13 @@ export function parse(args) {
   const command = commandNamed(name);
   checkFlags(command, values);
   if (input === undefined) throw usage('the input is missing', command);
+  if (isBook(command, [input, ...more], values)) return page([input, ...more], values.output ?? '', undefined, values);
   if (more.length > 0) throw usage(`one input at a time: what is ${show(more[0])}?`, command);
   const { output = '', report, mask, confidence, constraints, texture, mtl, map, array } = values;
   if (command === 'info') return { command, input, array };
   if (values.output === undefined && !telling.includes(command) && !values.explore) throw usage('the output is missing: -o FILE', command);
   if (command === 'dewarp') {
-    if (values.edges !== undefined || isPhotoAlone(input, values)) return page(input, output, values.edges, values);
+    if (values.edges !== undefined || isPhotoAlone(input, values)) return page([input], output, values.edges, values);
     const stray = pageFlags.find((flag) => values[flag] !== undefined);
     if (stray !== undefined) throw usage(`--${stray} is for a photo alone, without --texture`, command);
   }
@@ -314,30 +315,42 @@ function isPhotoAlone(input, values) {
 }
 
 /**
- * A photo alone.
- * @param {string} input
+ * Whether several photos of pages are to become one PDF.
+ * @param {import('./commands.js').Command} command
+ * @param {string[]} inputs
+ * @param {Values} values
+ */
+export function isBook(command, inputs, values) {
+  const { output = '' } = values;
+  return command === 'dewarp' && inputs.length > 1 && extname(output).toLowerCase() === '.pdf' && !output.includes('*') &&
+    inputs.every((input) => isPhotoAlone(input, values));
+}
+
+/**
+ * Photos alone.
+ * @param {string[]} inputs
  * @param {string} output
  * @param {string | undefined} edges
  * @param {Values} values
  * @returns {PageTask}
  */
-function page(input, output, edges, values) {
+function page(inputs, output, edges, values) {
   const { report, map } = values;
-  const known = ['edges', 'output', 'force', 'report', 'jobs', 'overwrite', 'map', 'dots', 'quality', ...pageFlags];
+  const known = ['edges', 'output', 'force', 'report', 'jobs', 'overwrite', 'map', 'dots', 'light', 'ink', 'quality', ...pageFlags];
   const stray = Object.keys(values).find((flag) => !known.includes(flag));
   if (stray !== undefined) throw usage(`--${stray} is for heights, and without --texture the input is a photo of a page`, 'dewarp');
   if (values['focal-length'] !== undefined && values['field-of-view'] !== undefined) {
     throw usage('--focal-length and --field-of-view say the same: give one of them', 'dewarp');
   }
   const kind = extension('output', output, extensions.dewarp);
-  if (kind === '.pdf' && values.page === undefined) {
-    throw usage('a .pdf has its true size: --page a4, letter or WIDTHxHEIGHT in millimetres says how large the page is', 'dewarp');
-  }
+  const single = ['edges', 'map'].find((flag) => inputs.length > 1 && Object.hasOwn(values, flag));
+  if (single !== undefined) throw usage(`--${single} is for one photo: make the pages flat one by one`, 'dewarp');
   if (map !== undefined) extension('map', map, ['.npy', '.json']);
-  refuseSameFiles({ written: { output, report, map }, read: { input, edges }, force: values.force });
+  const read = Object.fromEntries(inputs.map((input, i) => [inputs.length > 1 ? `input ${i + 1}` : 'input', input]));
+  refuseSameFiles({ written: { output, report, map }, read: { ...read, edges }, force: values.force });
   return {
     command: 'page',
-    input,
+    inputs,
     output,
     extension: kind,
     written: [output, report, map].filter((path) => path !== undefined),
@@ -345,7 +358,7 @@ function page(input, output, edges, values) {
     report,
     map,
     ...given(writePhoto, values),
-    options: (({ map: _, ...options }) => options)(given(dewarpPage, values, { map: String, page: format })),
+    options: (({ map: _, ...options }) => options)({ ...given({ light: dewarp.light, ink: dewarp.ink }, values), ...given(dewarpPage, values, { map: String, page: format }) }),
   };
 }
 

@@ -6,7 +6,7 @@ import { availableParallelism } from 'node:os';
 import { dirname, extname, basename, join } from 'node:path';
 import { fileURLToPath } from 'node:url';
 import { show } from '../values.js';
-import { defaultExtension, parse, wholeNumber } from './arguments.js';
+import { defaultExtension, isBook, parse, wholeNumber } from './arguments.js';
 import { commandNamed } from './commands.js';
 import { failed } from './files.js';
 import { split, usage } from './flags.js';
@@ -50,6 +50,7 @@ export function batchOf(args) {
   const { output } = values;
   if (inputs.length === 1 && !(output !== undefined && (isFolderName(output) || output.includes('*')))) return undefined;
   const command = commandNamed(name);
+  if (isBook(command, inputs, values)) return undefined;
   const { jobs, overwrite = false, ...others } = values;
   if (command !== 'info' && output === undefined) {
     throw usage('the output of several inputs is missing: -o FOLDER/, or a name with * for that of the input, as in -o "FOLDER/*.json"', command);

@@ -152,7 +152,8 @@ export const commands = {
       PHOTO: 'a PNG, JPEG or WebP of what the heights show, with as many pixels as it likes; a textured mesh has its own',
       IMAGE:
         '.png, transparent where there is no sheet, .jpg or .pdf, white there. A page of a .pdf has the true size, and the ' +
-        'others state their resolution, where the unit of lengths is known: --unit, or of a page --page',
+        'others state their resolution, where the unit of lengths is known: --unit, or of a page --page. Without --page, ' +
+        'photos of pages are fitted to A4. Several photos of pages become one .pdf, a page each',
     },
     flags: [...shaped, 'report', 'texture', 'photo-camera', 'shape', ...flagNames(dewarp), ...printed, ...page],
     words: { texture: 'the photo', report: 'JSON file for the strain and the verdict' },
@@ -162,6 +163,7 @@ export const commands = {
       'dewarp scan.glb -o page.png --view best-fit',
       'dewarp photo.jpg -o page.png',
       'dewarp photo.jpg --edges edges.json --page a4 -o page.png',
+      'dewarp photo-1.jpg photo-2.jpg photo-3.jpg -o book.pdf --ink',
     ],
   },
   info: {

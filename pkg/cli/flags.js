@@ -216,7 +216,7 @@ export const sections = {
 
 /**
  * @typedef {{ [S in keyof typeof sections]: keyof (typeof sections)[S]['flags'] }[keyof typeof sections] | 'min-confidence' | 'no-normalize'} Flag
- * @typedef {'force' | 'overwrite' | 'paper' | 'no-normalize' | 'surface' | 'ray' | 'as-is' | 'explore' | 'trim' | 'deskew' | 'help' | 'version'} PlainFlag those without a value
+ * @typedef {'force' | 'overwrite' | 'paper' | 'no-normalize' | 'surface' | 'ray' | 'as-is' | 'explore' | 'trim' | 'deskew' | 'ink' | 'help' | 'version'} PlainFlag those without a value
  * @typedef {Partial<Record<Exclude<Flag, PlainFlag>, string> & Record<PlainFlag, boolean>>} Values
  */
 

@@ -7,6 +7,9 @@ import { Problem, status } from './problem.js';
 import { json, mapFile, mapOptions, printed } from './sheets.js';
 import { percent } from './terminal.js';
 
+/** Width and height of a PDF's pages where no size is given, in millimetres: A4. */
+const DEFAULT_PAPER = /** @type {const} */ ([210, 297]);
+
 /**
  * @param {import('./arguments.js').PageTask} task
  * @param {AbortSignal} signal
@@ -14,18 +17,46 @@ import { percent } from './terminal.js';
 export async function page(task, signal) {
   await checkPlaces(...task.written);
   const edges = task.edges === undefined ? undefined : await readEdges(task.edges);
-  const bytes = await readBytes(task.input);
-  const photo = await about(task.input, () => developable.readPhoto(bytes));
   const options = Object.fromEntries(Object.entries(task.options).filter(([, value]) => value !== undefined));
-  const flat = await developable.dewarpPage(photo, edges, { ...options, ...mapOptions(task.map), transfer: true });
-  const files = [{ path: task.output, bytes: await printed(task, flat) }];
-  const { size, unit, report, outline } = flat;
-  if (task.report !== undefined) files.push({ path: task.report, bytes: json({ ...report, size, unit, ...(outline && { outline }) }) });
-  if (task.map !== undefined) files.push({ path: task.map, bytes: mapFile(flat, photo) });
-  await writeWhole(files, signal);
-  for (const told of [outline && outlineWords(outline), words(report)]) {
-    if (told !== undefined) process.stderr.write(`developable: ${told}\n`);
+  const files = [];
+  const reports = [];
+  /** @type {import('../types.js').BookPage[]} */
+  const book = [];
+  const several = task.inputs.length > 1;
+  for (const input of task.inputs) {
+    signal.throwIfAborted();
+    const bytes = await readBytes(input);
+    const photo = await about(input, () => developable.readPhoto(bytes));
+    const { width, height } = photo;
+    const flatten = () => developable.dewarpPage(photo, edges, { ...options, ...mapOptions(task.map), transfer: true });
+    const flat = await (several ? about(input, flatten) : flatten());
+    if (task.map !== undefined) files.push({ path: task.map, bytes: mapFile(flat, { width, height }) });
+    const { size, unit, report, outline, light } = flat;
+    reports.push({ ...(several && { input }), ...report, size, unit, light, ...(outline && { outline }) });
+    if (task.extension === '.pdf') {
+      const paper = flat.width > flat.height ? [DEFAULT_PAPER[1], DEFAULT_PAPER[0]] : DEFAULT_PAPER;
+      const extension = task.options.ink ? '.png' : '.jpg';
+      const picture = await printed({ extension, quality: task.quality }, flat);
+      book.push({ picture, size: unit === 'mm' ? size : /** @type {[number, number]} */ (paper) });
+    } else {
+      files.push({ path: task.output, bytes: await printed(task, flat) });
+    }
+    for (const told of [outline && outlineWords(outline), words(report), lightWords(task, light)]) {
+      if (told !== undefined) process.stderr.write(`developable: ${several ? `${input}: ` : ''}${told}\n`);
+    }
   }
+  if (book.length > 0) files.push({ path: task.output, bytes: await developable.writeBook(book) });
+  if (task.report !== undefined) files.push({ path: task.report, bytes: json(several ? reports : reports[0]) });
+  await writeWhole(files, signal);
+}
+
+/**
+ * @param {import('./arguments.js').PageTask} task
+ * @param {'even' | 'keep'} light what happened to it
+ */
+function lightWords({ options }, light) {
+  if (light === 'even' || options.light === 'keep') return undefined;
+  return 'the light was kept, since the page is not mostly paper';
 }
 
 /** @type {Record<import('../types.js').OutlineReason, string>} */

@@ -1,4 +1,5 @@
 /** `developable unroll`, `developable pattern` and `developable dewarp`. */
+import { basename, extname } from 'node:path';
 import * as developable from '../index.js';
 import { solver } from '../schema/fit.js';
 import { readCamera } from './camera.js';
@@ -46,7 +47,7 @@ export async function pattern(task, signal) {
  * @param {Plan} [plan]
  */
 export async function patternFiles(task, drawing, plan) {
-  const files = [{ path: task.output, bytes: await drawn(drawing, task.extension) }];
+  const files = [{ path: task.output, bytes: await drawn(drawing, task.extension, basename(task.output, extname(task.output))) }];
   const { assembly } = drawing;
   if (task.report !== undefined) {
     files.push({ path: task.report, bytes: json({ ...drawing.summary, ...plan, assembly: assembly?.steps }) });
@@ -212,11 +213,12 @@ const counted = (count, what, several = `${what}s`) => `${count} ${count === 1 ?
 /**
  * @param {import('../types.js').Drawing} drawing
  * @param {import('./arguments.js').Extension} extension
+ * @param {string} title
  */
-export async function drawn(drawing, extension) {
+export async function drawn(drawing, extension, title) {
   switch (extension) {
     case '.svg': return developable.writeSvg(drawing);
-    case '.pdf': return developable.writePdf(drawing);
+    case '.pdf': return developable.writePdf(drawing, { title });
     case '.dxf': return developable.writeDxf(drawing);
     default: return json({ ...drawing, assembly: undefined });
   }
@@ -255,8 +257,8 @@ export async function dewarp(task, signal) {
   const cylinder = cylinderOf(surface);
   const photo = given ?? await textureOf(task.input, surface);
   const camera = elsewhere ?? (photoCamera === undefined ? undefined : await readCamera(photoCamera, [photo]));
-  const { dots, trim, deskew, crop } = task;
-  const flat = await developable.dewarp(surface, photo, { ...options, ...mapOptions(task.map), dots, trim, deskew, crop, camera, transfer: true });
+  const { dots, trim, deskew, crop, light, ink } = task;
+  const flat = await developable.dewarp(surface, photo, { ...options, ...mapOptions(task.map), dots, trim, deskew, crop, light, ink, camera, transfer: true });
   const files = [{ path: task.output, bytes: await printed(task, flat) }, ...reported(task, { ...flat, report: { ...flat.report, ...(cylinder && { cylinder }) } })];
   if (task.map !== undefined) {
     files.push({ path: task.map, bytes: mapFile(flat, photo) });

@@ -1,5 +1,5 @@
 /** Options of patterns and their drawings. Each comment is what the types say; the default is added there. */
-import { choice, either, flag, number, numbers } from './kinds.js';
+import { choice, either, flag, number, numbers, text } from './kinds.js';
 import { meshPatches, meshUnrolling, unroll } from './shape.js';
 
 /** @typedef {import('./kinds.js').Options} Options */
@@ -161,4 +161,6 @@ export const patternMesh = { ...unrollMesh, ...drawing };
 export const writePdf = {
   /** Lay it on pages of this size first. Default: the drawing's own pages, or one as large as it is. */
   stock: { kind: paper, type: 'Stock' },
+  /** Title of the document, which is also written on each page. Default: "Pattern", and none on the pages. */
+  title: { kind: text },
 };

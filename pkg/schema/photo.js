@@ -103,10 +103,33 @@ export const mapping = {
   grid: { kind: either(flag, positive), default: false },
 };
 
+/** What happens to the light of a flat image. */
+const LIGHT_KIND = choice('even', 'keep');
+
 /** @satisfies {Options} */
 export const dewarp = {
   ...unroll,
   ...mapping,
+  /**
+   * `'even'` makes paper white, without shadows and the lamp's colour, and keeps the colours of print; `'keep'` leaves the light as it
+   * was photographed, as does a surface that is not mostly paper. Of photos of pages, which are documents, the default is `'even'`.
+   */
+  light: {
+    kind: LIGHT_KIND,
+    default: 'keep',
+    flag: {
+      section: 'shape',
+      value: 'L',
+      help: "even: paper becomes white, shadows and the lamp's colour disappear, colours of print stay; keep: as " +
+        'photographed (default: even for a photo of a page, keep for heights and depths)',
+    },
+  },
+  /** Black and white, for print: the light is evened, and each pixel becomes ink or paper. */
+  ink: {
+    kind: flag,
+    default: false,
+    flag: { section: 'shape', help: 'black and white, for print: the light is evened, and each pixel becomes ink or paper' },
+  },
   /**
    * Cut off the margins: keep the largest upright rectangle that is all sheet, or, of a `crop` with four corners, the
    * rectangle that these are on the flat sheet.
@@ -192,6 +215,13 @@ export const dewarpPage = {
    * the page more exact, and where they do not, the verdict says so. Default: if `lines` are given of no page.
    */
   findLines: { kind: flag },
+  /**
+   * `'even'` makes paper white, without shadows and the lamp's colour, and keeps the colours of print; `'keep'` leaves the light as it
+   * was photographed, as does a page that is not mostly paper.
+   */
+  light: { kind: LIGHT_KIND, default: 'even' },
+  /** Black and white, for print: the light is evened, and each pixel becomes ink or paper. */
+  ink: { kind: flag, default: false },
   ...mapping,
 };
 

@@ -9,7 +9,7 @@
 
 use super::options::DrawingOptions;
 use crate::error::{Error, Result};
-use crate::math::planar::{nearest_on_segment, polyline_length};
+use crate::math::planar::{distance, nearest_on_segment, polyline_length};
 use crate::pattern::{Fold, Run, Sheet};
 use crate::unroll::flat_triangle::Point;
 
@@ -32,6 +32,12 @@ pub(super) fn apply_bend_allowance(
     };
     for k in 0..sheet.folds.len() {
         let fold = out.folds[k].clone();
+        if !is_straight(&fold, out.spacing) {
+            return Err(Error::CurvedFold {
+                sheet: number + 1,
+                fold: k + 1,
+            });
+        }
         let zone = bending.zone(fold.seam.direction, fold.seam.angle);
         let zone = zone.map(|millimetres| millimetres / options.scale);
         let bend = Bend::new(&out, &fold, zone).map_err(|reason| Error::Unsupported {
@@ -46,6 +52,13 @@ pub(super) fn apply_bend_allowance(
         bend.apply(&mut out, k);
     }
     Ok(out)
+}
+
+/// Whether all points of a fold are near the line between its ends.
+fn is_straight(fold: &Fold, spacing: f64) -> bool {
+    let ends = [fold.points[0], fold.points[fold.points.len() - 1]];
+    let off = |p: &[f64; 2]| distance(*p, nearest_on_segment(*p, ends));
+    (fold.points.iter()).all(|p| off(p) <= MAX_FOLD_BOW_SPACINGS * spacing)
 }
 
 /// The bend of a sheet of metal along one of the sheet's folds.
@@ -75,13 +88,6 @@ impl Bend {
             let [x, y] = nearest_on_segment([p.re, p.im], line.map(|p| [p.re, p.im]));
             Point::new(x, y)
         };
-        let off = |p: &Point| (p - near(*p, ends)).norm();
-        if !points
-            .iter()
-            .all(|p| off(p) <= MAX_FOLD_BOW_SPACINGS * sheet.spacing)
-        {
-            return Err("is curved, and a bend allowance needs straight ones");
-        }
         if fold.ends.iter().flatten().next().is_some() {
             return Err(
                 "ends inside of the surface, and a bend allowance needs folds from edge to edge",

@@ -20,11 +20,19 @@ const MAX_TAB_BEND: f64 = 0.3;
 /// Minimum length of a tab's fold line, in millimetres.
 const MIN_TAB_LENGTH_MM: f64 = 2.0;
 
-/// Maximum inset of a tab's ends, which are cut at 45°, as a share of the length of the tab's fold line.
+/// Maximum inset of a tab's ends, as a share of the length of the tab's fold line.
 const MAX_TAB_INSET_SHARE: f64 = 0.3;
 
 /// Maximum depth of a tab, as a multiple of the length of its fold line.
 const MAX_TAB_DEPTH_SHARE: f64 = 1.5;
+
+/// Distance, in millimetres, that a tab's end keeps from the bisector between it and the next tab, so that they do not
+/// touch.
+const TAB_CLEARANCE_MM: f64 = 0.1;
+
+/// Minimum length of tabs along a run, as a share of the greatest length that any depth allows, for a depth to be taken
+/// for the whole run.
+const MIN_TABBED_SHARE: f64 = 0.9;
 
 /// Maximum number of times that the depth of a tab that does not fit is halved.
 const MAX_TAB_HALVINGS: usize = 2;
@@ -70,10 +78,15 @@ pub(super) fn add_tabs(outlines: &[Outline<'_>], depth: Option<f64>) -> (Vec<Cur
                 cut.append(curve);
                 continue;
             };
-            for base in bases {
-                let points = base.points(FLATTENING_TOLERANCE_MM);
+            let runs: Vec<Vec<[f64; 2]>> = (bases.iter())
+                .map(|base| base.points(FLATTENING_TOLERANCE_MM))
+                .collect();
+            let own = common_depth(&runs, depth, &walls);
+            for (number, base) in bases.into_iter().enumerate() {
+                let points = &runs[number];
+                let turns = end_turns(&runs, number);
                 let tab = (0..=MAX_TAB_HALVINGS)
-                    .find_map(|k| flap(&points, depth / f64::from(1 << k), &walls));
+                    .find_map(|k| flap(points, turns, own / f64::from(1 << k), &walls));
                 let Some((depth, flap)) = tab else {
                     cut.append(&base);
                     continue;
@@ -121,15 +134,62 @@ fn bases(curve: &Curve) -> Vec<Curve> {
     curve.split(&shares)
 }
 
+/// Chooses one depth for the tabs along a run: the largest at which nearly as much of the run gets tabs as at any other.
+/// The few that do not fit at that depth are halved on their own.
+fn common_depth(runs: &[Vec<[f64; 2]>], depth: f64, walls: &[[[f64; 2]; 2]]) -> f64 {
+    let depths: Vec<f64> = (0..=MAX_TAB_HALVINGS)
+        .map(|k| depth / f64::from(1 << k))
+        .collect();
+    let tabbed = |depth: &f64| -> f64 {
+        (0..runs.len())
+            .filter(|i| flap(&runs[*i], end_turns(runs, *i), *depth, walls).is_some())
+            .map(|i| polyline_length(&runs[i]))
+            .sum()
+    };
+    let lengths: Vec<f64> = depths.iter().map(tabbed).collect();
+    let longest = lengths.iter().copied().fold(0.0, f64::max);
+    let enough = |length: &f64| *length >= MIN_TABBED_SHARE * longest;
+    depths[lengths.iter().position(enough).unwrap_or_default()]
+}
+
+/// Returns the angles, in radians and to the left, by which the chord of a tab's fold line turns from that of the one
+/// before and to that of the one after; `None` at an end of the run.
+fn end_turns(runs: &[Vec<[f64; 2]>], number: usize) -> [Option<f64>; 2] {
+    let heading = |run: &Vec<[f64; 2]>| {
+        let [from, to] = [run[0], run[run.len() - 1]];
+        (to[1] - from[1]).atan2(to[0] - from[0])
+    };
+    let turn = |from: Option<&Vec<[f64; 2]>>, to: Option<&Vec<[f64; 2]>>| {
+        let turn = heading(to?) - heading(from?);
+        Some(turn.sin().atan2(turn.cos()))
+    };
+    let before = number.checked_sub(1).and_then(|i| runs.get(i));
+    let [own, after] = [number, number + 1].map(|i| runs.get(i));
+    [turn(before, own), turn(own, after)]
+}
+
 /// Computes the outer corners of a tab to the right of its fold line; `None` if the fold line is too short or something
-/// is in the way.
-fn flap(base: &[[f64; 2]], depth: f64, walls: &[[[f64; 2]; 2]]) -> Option<(f64, [[f64; 2]; 2])> {
+/// is in the way. At an end of a run the tab is cut at 45°; where the next tab follows it is cut along the bisector if
+/// the two would overlap, and otherwise at a right angle.
+fn flap(
+    base: &[[f64; 2]],
+    turns: [Option<f64>; 2],
+    depth: f64,
+    walls: &[[[f64; 2]; 2]],
+) -> Option<(f64, [[f64; 2]; 2])> {
     let (from, to) = (base[0], base[base.len() - 1]);
     let long = distance(from, to);
     if long * MAX_TAB_DEPTH_SHARE < depth || long == 0.0 {
         return None;
     }
-    let inset = depth.min(MAX_TAB_INSET_SHARE * long);
+    let insets = turns.map(|turn| match turn {
+        None => depth.min(MAX_TAB_INSET_SHARE * long),
+        Some(turn) if turn < 0.0 => {
+            let bisector = depth * (-0.5 * turn).tan() + TAB_CLEARANCE_MM;
+            bisector.min(MAX_TAB_INSET_SHARE * long)
+        }
+        Some(_) => 0.0,
+    });
     let along = [0, 1].map(|k| (to[k] - from[k]) / long);
     let beside = |s: f64| {
         [
@@ -137,7 +197,7 @@ fn flap(base: &[[f64; 2]], depth: f64, walls: &[[[f64; 2]; 2]]) -> Option<(f64, 
             from[1] + along[1] * s - along[0] * depth,
         ]
     };
-    let corners = [beside(inset), beside(long - inset)];
+    let corners = [beside(insets[0]), beside(long - insets[1])];
     let line = [from, corners[0], corners[1], to];
     let free = line.windows(2).all(|p| {
         let piece = [p[0], p[1]];
@@ -153,4 +213,65 @@ fn crosses([a, b]: [[f64; 2]; 2], [c, d]: [[f64; 2]; 2]) -> bool {
         return false;
     }
     segments_intersect([a, b], [c, d])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// An arc around the origin from the angle 0 to `end`, in radians.
+    fn arc(radius: f64, end: f64) -> Curve {
+        let point = |i: usize| {
+            let angle = end * i as f64 / 400.0;
+            [radius * angle.cos(), radius * angle.sin()]
+        };
+        Curve::through(&(0..=400).map(point).collect::<Vec<_>>())
+    }
+
+    /// Fold lines of the tabs along a curve, and the tabs' depths and outer corners.
+    #[allow(clippy::type_complexity)]
+    fn tabs_along(curve: &Curve, depth: f64) -> Vec<(Vec<[f64; 2]>, f64, [[f64; 2]; 2])> {
+        let runs: Vec<_> = bases(curve)
+            .iter()
+            .map(|base| base.points(FLATTENING_TOLERANCE_MM))
+            .collect();
+        let own = common_depth(&runs, depth, &[]);
+        (0..runs.len())
+            .map(|i| {
+                let (depth, corners) = flap(&runs[i], end_turns(&runs, i), own, &[]).unwrap();
+                (runs[i].clone(), depth, corners)
+            })
+            .collect()
+    }
+
+    #[test]
+    fn tabs_outside_a_bend_are_equally_deep_and_not_cut_in_between() {
+        // Counterclockwise: the right side is outside of the circle.
+        let tabs = tabs_along(&arc(40.0, 2.0), 6.0);
+        assert!(tabs.len() > 4);
+        assert!(tabs.iter().all(|(_, depth, _)| *depth == 6.0));
+        let insides = &tabs[1..tabs.len() - 1];
+        for (base, _, corners) in insides {
+            let chord = distance(base[0], base[base.len() - 1]);
+            assert!((distance(corners[0], corners[1]) - chord).abs() < 1e-9);
+        }
+        // At both ends of the run they are cut at 45°, or as far as a short tab allows.
+        let (base, _, corners) = &tabs[0];
+        let chord = distance(base[0], base[base.len() - 1]);
+        assert!(distance(corners[0], corners[1]) < chord - 1.0);
+    }
+
+    #[test]
+    fn tabs_inside_a_bend_meet_at_the_bisector_without_overlap() {
+        // Clockwise: the right side is within the circle, where tabs converge.
+        let tabs = tabs_along(&arc(40.0, -2.0), 6.0);
+        for pair in tabs.windows(2) {
+            let ([_, last], [first, _]) = (pair[0].2, pair[1].2);
+            let gap = distance(last, first);
+            assert!(gap > 0.1 && gap < 1.0, "{gap}");
+            // Seen from the middle, one ends before the next begins.
+            let angle = |p: [f64; 2]| p[1].atan2(p[0]);
+            assert!(angle(last) > angle(first));
+        }
+    }
 }

@@ -51,6 +51,7 @@
 //! lines of print between them as an isometric sheet that bends little; [`PageSurface`] takes the plainest model that
 //! explains them.
 
+pub mod cleaning;
 mod closed_form;
 mod corners;
 mod cross_sections;

@@ -94,6 +94,7 @@ const calls = {
   findPage: { args: { photo: pagePhoto } },
   readPhoto: { args: { bytes: direct.writePhoto(photo) } },
   writePhoto: { args: { photo } },
+  writeBook: { args: { pages: [{ picture: direct.writePhoto(photo, { format: 'jpeg' }), size: [210, 297] }] } },
   example: { args: { name: 'roof' }, options: 'example' },
 };
 

@@ -6,6 +6,7 @@ import { after, test } from 'node:test';
 import * as developable from '../../pkg/index.js';
 import * as direct from '../../pkg/direct.js';
 import { run, temporaryFolder } from './support/command.mjs';
+import { readPdf } from './support/drawings.mjs';
 import { withExif } from './support/exif.mjs';
 
 after(() => developable.dispose());
@@ -53,7 +54,8 @@ await direct.init();
 await direct.load('files', 'images', 'unroll', 'meshes');
 
 test('a curled page is flat, in millimetres', async () => {
-  const flat = direct.dewarpPage(photo, edges, { focalLength: focal, page: 'a4', dots: 1 });
+  const options = /** @type {const} */ ({ focalLength: focal, page: 'a4', dots: 1, light: 'keep' });
+  const flat = direct.dewarpPage(photo, edges, options);
   assert.deepEqual([flat.width, flat.height, flat.unit, flat.resolution], [210, 297, 'mm', 1]);
   assert.equal(flat.verdict, 'unrolled');
   assert.equal(flat.report.verdict, 'unrolled');
@@ -66,7 +68,7 @@ test('a curled page is flat, in millimetres', async () => {
     const [red, green] = flat.data.subarray(4 * i);
     assert.ok(Math.abs(red - x / 2) < 1.5 && Math.abs(green - y / 3) < 1.5, `${col} ${row}: ${red} ${green}`);
   }
-  assert.deepEqual(await developable.dewarpPage(photo, edges, { focalLength: focal, page: 'a4', dots: 1 }), flat);
+  assert.deepEqual(await developable.dewarpPage(photo, edges, options), flat);
 });
 
 test('its surface goes on as any other', () => {
@@ -311,6 +313,69 @@ test('the page in a photo is found, and made flat without edges', async () => {
   const given = direct.dewarpPage(sheet, found.pages[0].edges, { focalLength: 700, page: 'a4', dots: 1 });
   assert.deepEqual(given.data, flat.data);
   assert.equal(given.outline, undefined);
+});
+
+/** The same page under a warm lamp, with a shadow across it. */
+const shaded = {
+  ...sheet,
+  data: sheet.data.map((value, i) => {
+    const [x, y, k] = [(i >> 2) % sheet.width, Math.floor((i >> 2) / sheet.width), i % 4];
+    if (k === 3) return 255;
+    return value * [1, 0.9, 0.7][k] * (x + y > 800 ? 0.5 : 1);
+  }),
+};
+
+test('light is evened on documents, kept where that is wished, and pages become black and white', async () => {
+  const known = /** @type {const} */ ({ focalLength: 700, page: 'a4', dots: 2 });
+  const [even, kept, ink] = [{}, { light: 'keep' }, { ink: true }].map((more) => direct.dewarpPage(shaded, undefined, { ...known, .../** @type {{}} */ (more) }));
+  assert.deepEqual([even.light, kept.light, ink.light], ['even', 'keep', 'even']);
+  /** The smallest value of each colour on the page below its text. @param {{ width: number, height: number, data: Uint8ClampedArray }} flat */
+  const darkest = ({ width, height, data }) => {
+    const least = [255, 255, 255];
+    for (let y = Math.ceil(0.78 * height); y < height - 12; y += 1) {
+      for (let x = 12; x < width - 12; x += 1) for (let k = 0; k < 3; k += 1) least[k] = Math.min(least[k], data[4 * (y * width + x) + k]);
+    }
+    return least;
+  };
+  // The edge of the shadow is sharper than a pixel: a trace of it is left.
+  assert.ok(Math.min(...darkest(even)) > 205, String(darkest(even)));
+  assert.ok(Math.max(...darkest(kept)) < 140, String(darkest(kept)));
+  assert.deepEqual(darkest(ink), [255, 255, 255]);
+  const counts = new Map();
+  for (let i = 0; i < ink.data.length; i += 4) counts.set(ink.data.slice(i, i + 4).join(), (counts.get(ink.data.slice(i, i + 4).join()) ?? 0) + 1);
+  assert.deepEqual([...counts.keys()].sort(), ['0,0,0,255', '255,255,255,255']);
+  assert.deepEqual((await developable.dewarpPage(shaded, undefined, known)).data, even.data);
+  assert.throws(() => direct.dewarpPage(shaded, undefined, /** @type {any} */ ({ light: 'bright' })), error('OPTION', /even or keep/));
+});
+
+test('the command makes one PDF of several photos, in black and white if that is wished', async () => {
+  const folder = await temporaryFolder();
+  for (const [i, one] of [sheet, shaded].entries()) await writeFile(join(folder, `photo-${i}.png`), direct.writePhoto(one));
+  const command = (/** @type {string} */ args) => run(folder, args.split(' '));
+  for (const more of ['', ' --ink', ' --page letter']) {
+    const { status, stderr } = await command(`dewarp photo-0.png photo-1.png -o book.pdf --report report.json${more}`);
+    assert.equal(status, 0, stderr);
+    const book = await readPdf(await readFile(join(folder, 'book.pdf')));
+    const paper = more.includes('letter') ? [215.9, 279.4] : [210, 297];
+    assert.equal(book.length, 2);
+    for (const { size } of book) assert.ok(size.every((side, k) => Math.abs(side - paper[k]) < 1), String(size));
+    const reports = JSON.parse(await readFile(join(folder, 'report.json'), 'utf8'));
+    assert.deepEqual(reports.map((/** @type {any} */ { input, light }) => [input, light]), [['photo-0.png', 'even'], ['photo-1.png', 'even']]);
+  }
+  // One photo without a format is on A4, too.
+  const one = await command('dewarp photo-1.png -o one.pdf --light keep');
+  assert.equal(one.status, 0, one.stderr);
+  assert.equal((await readPdf(await readFile(join(folder, 'one.pdf')))).length, 1);
+  for (const [args, message] of /** @type {[string, RegExp][]} */ ([
+    ['dewarp photo-0.png photo-1.png -o book.pdf --map map.npy', /--map is for one photo/],
+    ['dewarp photo-0.png photo-1.png -o photo-1.png', /one file for several inputs/],
+    ['dewarp photo-0.png photo-1.png -o book.pdf --lambda big', /--lambda is for heights/],
+    ['dewarp photo-0.png -o one.png --light dim', /--light must be even or keep/],
+  ])) {
+    const { status, stderr } = await command(args);
+    assert.equal(status, 2, `${args}: ${stderr}`);
+    assert.match(stderr, message);
+  }
 });
 
 test('a photo without a page is refused', () => {

@@ -74,6 +74,27 @@ test('a PDF page is as large as what it shows', async () => {
   assert.deepEqual(await developable.writePhoto(picture, { format: 'pdf', dotsPerMillimetre: 2 }), file);
 });
 
+test('a book has a page for each picture, which is as large as fits and in the middle', async () => {
+  const jpeg = direct.writePhoto(picture, { format: 'jpeg' });
+  const data = picture.data.map((value, i) => (i % 4 === 3 || value > 90 ? 255 : value > 45 ? 255 : 0)).map((_, i, all) => (i % 4 === 3 ? 255 : all[i - (i % 4)]));
+  const png = direct.writePhoto({ width, height, data });
+  const pages = /** @type {const} */ ([{ picture: jpeg, size: [180, 200] }, { picture: png, size: [90, 70] }]);
+  const book = direct.writeBook(pages);
+  assert.deepEqual(await developable.writeBook(pages), book);
+  const first = await readPdfPicture(book);
+  assert.equal(first.pages, 2);
+  assert.deepEqual(first.matrix.map(Math.round), [180, 0, 0, 140, 0, 30]);
+  const second = await readPdfPicture(direct.writeBook([pages[1]]));
+  assert.deepEqual([second.width, second.height, second.size.map(Math.round)], [width, height, [90, 70]]);
+  for (const [given, message] of /** @type {[unknown, RegExp][]} */ ([
+    [[{ picture: jpeg, size: [0, 200] }], /size of page 1/], [[{ picture: jpeg, size: 4 }], /size of page 1/], [jpeg, /list/], [[{ picture: 'a', size: [9, 9] }], /bytes/],
+  ])) {
+    assert.throws(() => direct.writeBook(/** @type {any} */ (given)), error('INPUT', message));
+  }
+  assert.throws(() => direct.writeBook([]), error('EMPTY', /book/));
+  assert.throws(() => direct.writeBook([{ picture: new Uint8Array([1, 2]), size: [9, 9] }]), error('UNSUPPORTED', /JPEG or PNG/));
+});
+
 test('JPEG and PNG state the resolution that is known', async () => {
   const jpeg = direct.writePhoto({ ...picture, resolution: 8000, unit: 'm' }, { format: 'jpeg' });
   assert.ok(Math.abs(Number(jpegDensity(jpeg)) - 8) < 1e-9);
@@ -171,9 +192,9 @@ test('the command writes pages in true size', async () => {
   await command(...edges, 'edges.pdf', '--page', 'a4');
   const a4 = await readPdfPicture(await readFile(join(folder, 'edges.pdf')));
   assert.ok(Math.abs(a4.size[0] - 210) < 1 && Math.abs(a4.size[1] - 297) < 1, String(a4.size));
-  const bare = await run(folder, [...edges, 'edges.pdf']);
-  assert.equal(bare.status, 2);
-  assert.match(bare.stderr, /--page a4/);
+  // Without a format it is on A4, as large as fits.
+  await command(...edges, 'edges.pdf');
+  assert.deepEqual((await readPdfPicture(await readFile(join(folder, 'edges.pdf')))).size.map(Math.round), [210, 297]);
   await command(...edges, 'edges.jpeg');
   assert.equal(jpegDensity(await readFile(join(folder, 'edges.jpeg'))), undefined);
 });

@@ -4,7 +4,7 @@
 use crate::common::{noisy, unit_square};
 use developable::drawing::{Bending, Drawing, DrawingOptions, DrawnSheet, LabelKind, Piece, Stock};
 use developable::files::assembly::write_assembly_svg;
-use developable::files::drawings::{write_dxf, write_pdf, write_svg};
+use developable::files::drawings::{PdfOptions, write_dxf, write_pdf, write_svg};
 use developable::patches::{PatchOptions, Patches};
 use developable::pattern::{PatternOptions, Sheet, pattern};
 use developable::{Heightfield, Options, fit};
@@ -381,7 +381,7 @@ fn sheets_lie_whole_on_as_few_pages_as_they_fit_on() {
 fn files_are_the_same_each_time() {
     let drawing = drawn(&vaults(), DrawingOptions::default().scale(100.0).tabs(5.0));
     for write in [write_svg, write_dxf, |d: &Drawing| {
-        write_pdf(d, Some(Stock::A4))
+        write_pdf(d, &PdfOptions::default().stock(Some(Stock::A4)))
     }] {
         let file = write(&drawing).unwrap();
         assert!(file.len() > 1000);
@@ -409,9 +409,16 @@ fn nonsense_is_refused() {
     );
     assert_eq!(code(&[], DrawingOptions::default()), "EMPTY");
     let large = drawn(&sheets, DrawingOptions::default().scale(20_000.0));
-    assert_eq!(write_pdf(&large, None).unwrap_err().code(), "UNSUPPORTED");
     assert_eq!(
-        write_pdf(&large, Some(Stock::A4)).unwrap_err().code(),
+        write_pdf(&large, &PdfOptions::default())
+            .unwrap_err()
+            .code(),
+        "UNSUPPORTED"
+    );
+    assert_eq!(
+        write_pdf(&large, &PdfOptions::default().stock(Some(Stock::A4)))
+            .unwrap_err()
+            .code(),
         "UNSUPPORTED"
     );
     let mut broken = drawn(&sheets, DrawingOptions::default());
@@ -515,6 +522,19 @@ fn bends_take_the_length_of_their_neutral_line() {
         refused(&pyramid(), metal).contains("ends inside"),
         "{}",
         refused(&pyramid(), metal)
+    );
+    // A cylinder whose upper part is mirrored in the plane y = 0.5 + 2 (z - z₀) folds along a curve.
+    let round = |x: f64| (0.49 - (x - 0.5).powi(2)).sqrt();
+    let curved = sheets(&unit_square(100, |x, y| {
+        let crease = 0.5 + 2.0 * (round(x) - round(0.25));
+        round(x) + (4.0 / 3.0) * (y - crease).max(0.0)
+    }));
+    assert_eq!((curved.len(), curved[0].folds.len()), (1, 1));
+    let error = Drawing::new(&curved, &plain.bending(metal)).unwrap_err();
+    assert_eq!(error.code(), "CURVED_FOLD", "{error}");
+    assert!(
+        error.to_string().starts_with("fold 1 of sheet 1 is curved"),
+        "{error}"
     );
     let narrow = sheets(&unit_square(100, |x, _| -(x - 0.053).abs()));
     assert!(refused(&narrow, metal.radius(30.0)).contains("nearer to an edge"));

@@ -2,8 +2,8 @@
 
 use developable::dewarp::Photo;
 use developable::files::images::{
-    Decoded, Format, PhotoOptions, decode, decode_photo, write_npy, write_photo, write_photo_jpeg,
-    write_photo_pdf, write_png,
+    BookPage, Decoded, Format, PhotoOptions, decode, decode_photo, write_book, write_npy,
+    write_photo, write_photo_jpeg, write_photo_pdf, write_png,
 };
 use developable::files::wavefront::write_obj;
 use developable::{Error, HeightImage, Heightfield, Lattice, MAX_CELLS, Result};
@@ -509,4 +509,74 @@ fn photos_come_back_as_they_were_and_other_kinds_become_colours() {
     assert_eq!(decode_photo(b"no png").unwrap_err().code(), "UNSUPPORTED");
     let cut = &written[..written.len() - 20];
     assert_eq!(decode_photo(cut).unwrap_err().code(), "FORMAT");
+}
+
+/// Width, height, number of bits and kind of colours of the PNG in `file`.
+fn read_png_header(file: &[u8]) -> (u32, u32, u8, u8) {
+    let number = |at: usize| u32::from_be_bytes(file[at..at + 4].try_into().unwrap());
+    (number(16), number(20), file[24], file[25])
+}
+
+#[test]
+fn black_and_white_photos_have_one_bit_for_each_pixel() {
+    let (width, height) = (37, 11);
+    let rgba: Vec<u8> = (0..width * height)
+        .flat_map(|i| match (i * i) % 7 < 3 {
+            true => [0, 0, 0, 255],
+            false => [255; 4],
+        })
+        .collect();
+    let photo = Photo::new(width, height, &rgba).unwrap();
+    let file = write_photo(&photo, &PhotoOptions::default()).unwrap();
+    assert_eq!(read_png_header(&file), (37, 11, 1, 0));
+    assert_eq!(decode_photo(&file).unwrap().rgba, rgba);
+    // One grey pixel, and it is a photo as others are.
+    let mut grey = rgba.clone();
+    grey[..3].fill(128);
+    let photo = Photo::new(width, height, &grey).unwrap();
+    let file = write_photo(&photo, &PhotoOptions::default()).unwrap();
+    assert_eq!(read_png_header(&file), (37, 11, 8, 2));
+}
+
+#[test]
+fn books_take_pictures_as_they_are_and_refuse_others() {
+    let rgba: Vec<u8> = (0..4 * 40 * 30)
+        .map(|i| if i % 4 == 3 { 255 } else { (i % 251) as u8 })
+        .collect();
+    let photo = Photo::new(40, 30, &rgba).unwrap();
+    let options = PhotoOptions::default();
+    let pictures = [
+        write_photo_jpeg(&photo, &options).unwrap(),
+        write_photo(&photo, &options).unwrap(),
+    ];
+    let size = [210.0, 297.0];
+    let pages: Vec<BookPage<'_>> = pictures
+        .iter()
+        .map(|picture| BookPage { picture, size })
+        .collect();
+    let book = write_book(&pages).unwrap();
+    let has = |part: &[u8]| book.windows(part.len()).any(|window| window == part);
+    assert!(has(&pictures[0]) && has(b"/Count 2") && has(b"/FlateDecode") && has(b"/DCTDecode"));
+    let refused = |picture: &[u8], size| {
+        write_book(&[BookPage { picture, size }])
+            .unwrap_err()
+            .code()
+    };
+    assert_eq!(refused(b"GIF89a", size), "UNSUPPORTED");
+    assert_eq!(refused(&pictures[0], [1.0, 297.0]), "UNSUPPORTED");
+    assert_eq!(refused(&pictures[0], [f64::NAN, 297.0]), "UNSUPPORTED");
+    let see_through: Vec<u8> = rgba.iter().map(|v| v / 2).collect();
+    let see_through = write_photo(&Photo::new(40, 30, &see_through).unwrap(), &options).unwrap();
+    assert_eq!(refused(&see_through, size), "UNSUPPORTED");
+    assert_eq!(write_book(&[]).unwrap_err().code(), "EMPTY");
+    // Cut off anywhere, a file is refused or goes in as it is, without a panic.
+    for picture in &pictures {
+        for length in 0..picture.len().min(700) {
+            let _ = write_book(&[BookPage {
+                picture: &picture[..length],
+                size,
+            }]);
+        }
+        assert_eq!(refused(&picture[..20], size), "FORMAT");
+    }
 }

@@ -10,6 +10,7 @@ mod case;
 mod check;
 
 mod camera;
+mod cleaning;
 mod clouds;
 mod confidence;
 mod cylinder;

@@ -56,7 +56,7 @@ pageTest('settings stand in the address, Back undoes them, and a file is there a
   await page.locator('#file-name', { hasText: 'slope' }).waitFor();
   await settled(page);
   assert.equal(await page.getByLabel('Pixel size').inputValue(), '0.5');
-  assert.match(await page.locator('#recent').innerText(), /slope\.npy/);
+  assert.equal(await page.locator('#recent').isVisible(), false, 'it is open, and no other was opened before');
 
   // A photo of a page, too; going back leads to what was there before it.
   await choose(page.locator('input[name="mode"][value="photo"]'));
@@ -74,6 +74,7 @@ pageTest('settings stand in the address, Back undoes them, and a file is there a
   const cone = page.locator('input[name="example"][value="cone"]');
   await cone.evaluate((/** @type {HTMLInputElement} */ radio) => radio.click());
   await page.locator('#input-caption', { hasText: 'cone' }).waitFor();
+  await page.locator('#recent', { hasText: 'slope.npy' }).waitFor();
   await page.locator('input[name="view"][value="patches"]').evaluate((/** @type {HTMLInputElement} */ radio) => radio.click());
   await settled(page);
   await page.goBack();

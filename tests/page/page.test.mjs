@@ -3,9 +3,9 @@ import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import { pageCautions } from '../../www/messages.js';
 import { ASSUMED_FIELD_OF_VIEW, Flattening } from '../../www/page/flatten.js';
-import { readPdfPicture } from '../js/support/drawings.mjs';
+import { readPdf, readPdfPicture } from '../js/support/drawings.mjs';
 import { parsed } from './support/numbers.mjs';
-import { choose, drop, ended, look, pageTest, painted, saveAs } from './support/page.mjs';
+import { choose, drop, dropAll, ended, look, pageTest, painted, saveAs } from './support/page.mjs';
 import { camera, dottedPhoto, misplaced, parsePng, png, seen } from './support/photos.mjs';
 
 /** @typedef {import('playwright-core').Page} Page */
@@ -145,6 +145,66 @@ pageTest('a page that is not found has no flat page, no figure and no file until
   await page.locator('#page-side[data-state="unfound"]').waitFor();
   assert.deepEqual(await placeOf(page, 'Upper left corner'), [120, 90]);
   assert.ok(await save.isDisabled());
+});
+
+pageTest('photos that are opened together become one PDF, each with its own outline', async (page) => {
+  await choose(page.locator('input[name="mode"][value="photo"]'));
+  await dropAll(page, { 'one.png': photo, 'two.png': photo, 'none.png': hidden });
+  const numbers = page.locator('#book').getByRole('button', { name: /^Photo \d/ });
+  await page.locator('#page-caption', { hasText: 'one' }).waitFor();
+  await flattened(page);
+  assert.equal(await numbers.count(), 3);
+  await page.locator('#snap').evaluate((box) => box.closest('details')?.setAttribute('open', ''));
+  await page.locator('#snap').uncheck();
+  const moved = /** @type {Place} */ (seen(0.03, 0.02).map(Math.round));
+  await drag(page, 'Upper left corner', moved);
+  await flattened(page);
+  const placed = await placeOf(page, 'Upper left corner');
+  // The third one is not found, and cannot be written until it is put right or taken out.
+  await numbers.nth(2).click();
+  await page.locator('#page-side[data-state="unfound"]').waitFor();
+  await numbers.nth(1).click();
+  await page.locator('#page-caption', { hasText: 'two' }).waitFor();
+  await flattened(page);
+  assert.equal(await numbers.nth(1).getAttribute('aria-pressed'), 'true');
+  assert.notDeepEqual(await placeOf(page, 'Upper left corner'), placed);
+  await page.getByRole('button', { name: 'Save the flat page…' }).click();
+  await page.locator('#save-size', { hasText: 'none.png: I did not find the page' }).waitFor();
+  await page.locator('#save-dialog').evaluate((dialog) => /** @type {HTMLDialogElement} */ (dialog).close());
+  await numbers.nth(2).click();
+  await page.locator('#page-side[data-state="unfound"]').waitFor();
+  await page.getByRole('button', { name: 'Remove this photo' }).click();
+  await page.locator('#page-caption', { hasText: 'two' }).waitFor();
+  await flattened(page);
+  await numbers.nth(0).click();
+  await page.locator('#page-caption', { hasText: 'one' }).waitFor();
+  await flattened(page);
+  assert.deepEqual(await placeOf(page, 'Upper left corner'), placed, 'as it was left');
+  const { name, bytes } = await savedPage(page, 'PDF');
+  assert.equal(name, 'one-pages.pdf');
+  const pages = await readPdf(bytes);
+  assert.deepEqual(pages.map(({ size }) => size.map(Math.round)), [[210, 297], [210, 297]]);
+});
+
+pageTest('paper is white, or as it was photographed, or the page is black and white', async (page) => {
+  await openPhoto(page, 'letter.png', photo);
+  const paper = async () => {
+    const { bytes } = await savedPage(page, 'PNG');
+    await page.locator('#save-dialog').evaluate((dialog) => /** @type {HTMLDialogElement} */ (dialog).close());
+    return bytes;
+  };
+  // The number of bits of each channel, and the kind of colours: 2 is red, green and blue, 0 grey.
+  const kind = (/** @type {Uint8Array} */ bytes) => [bytes[24], bytes[25]];
+  const light = page.locator('#page-light');
+  const even = await paper();
+  await light.selectOption('keep');
+  await flattened(page);
+  const kept = await paper();
+  await light.selectOption('ink');
+  await flattened(page);
+  const ink = await paper();
+  assert.deepEqual([even, kept, ink].map(kind), [[8, 2], [8, 2], [1, 0]]);
+  assert.ok(Buffer.compare(even, kept) !== 0);
 });
 
 test('where nothing tells the focal length, that of a phone is assumed, and said', async () => {

@@ -25,6 +25,7 @@ import { settle, traced } from './snap.js';
  */
 /** @typedef {{ ends: Ends, points: Line }} DrawnLine */
 /** @typedef {{ outline: Outline, drawn: DrawnLine[], moved: ReadonlySet<number>, chosen: number }} Snapshot */
+/** @typedef {Snapshot & { quarters: number, traces: Traces, text: Line[][] }} PageState what was done to a photo's outline, without its pixels */
 
 /** Lines of text that are shorter than this share of the photo are none. */
 const SHORT = 0.02;
@@ -101,12 +102,17 @@ export class PageSession extends Events {
   /**
    * @param {PagePhoto} photo
    * @param {number} [pages] that it shows
+   * @param {PageState | null} [state] what was done to it before
    */
-  show(photo, pages = 1) {
+  show(photo, pages = 1, state = null) {
     this.photo = photo;
     [this.drawn, this.found, this.#made, this.#past] = [[], [], null, []];
     [this.chosen, this.#dragging, this.quarters] = [0, false, 0];
     this.#begin(photo, pages);
+    if (state) {
+      const { outline, drawn, moved, chosen, quarters } = state;
+      Object.assign(this, { outline: outline.copy(), drawn: [...drawn], moved, chosen, quarters });
+    }
     this.emit('photo', photo);
     this.#changed();
   }
@@ -141,6 +147,13 @@ export class PageSession extends Events {
     this.#dragging = false;
     const { outline, drawn, moved, chosen } = this;
     this.#past.push({ outline: outline.copy(), drawn: [...drawn], moved, chosen });
+  }
+
+  /** What was done to the photo's outline, if it has one. @returns {PageState | null} */
+  state() {
+    const { outline, drawn, moved, chosen, quarters } = this;
+    const wish = this.unfound ? null : this.wish();
+    return wish && { outline: outline.copy(), drawn: [...drawn], moved, chosen, quarters, traces: wish.traces, text: wish.text };
   }
 
   /** Takes the last change of outline or lines back. */

@@ -86,7 +86,9 @@ export function keepPanel(session, page) {
   page.whole.on('result', writeSoon);
   page.whole.on('left', writeSoon);
   session.on('input', ({ kind }) => {
-    if (kind === undefined) file = undefined;
+    if (kind !== undefined || file === undefined) return;
+    file = undefined;
+    void tell();
   });
   // Another look is nothing to undo.
   for (const radio of [...views, ...elements('input[name="whole-view"]', HTMLInputElement)]) {
@@ -140,7 +142,10 @@ export function keepPanel(session, page) {
 
   const list = element('recent', HTMLElement);
   const tell = async () => {
-    const kept = await recentFiles();
+    const all = await recentFiles();
+    // What is open now was not opened before.
+    const open = page.mode.now === 'photo' ? photo : file;
+    const kept = all.filter(({ id }) => id !== open);
     list.hidden = kept.length === 0;
     list.replaceChildren('Opened before: ', ...kept.map(({ files }) => {
       const button = make('button', 'plain small', namesOf(files));
@@ -192,6 +197,10 @@ export function keepPanel(session, page) {
       void tell();
       write();
     },
-    write,
+    /** The other part of the page was entered. */
+    entered() {
+      write();
+      void tell();
+    },
   };
 }

@@ -23,6 +23,7 @@ export function pageKnownPanel(session) {
   const field = element('focal-field', HTMLElement);
   const value = element('focal-value', HTMLInputElement);
   const hint = element('focal-hint', HTMLElement);
+  const light = element('page-light', HTMLSelectElement);
   const pages = elements('input[name="pages"]', HTMLInputElement);
 
   /** @param {HTMLInputElement} input @param {number} [most] */
@@ -42,6 +43,8 @@ export function pageKnownPanel(session) {
       : FOCAL_WORDS.told(number(photo.film35)));
     /** @type {Options} */
     const options = {};
+    if (light.value === 'ink') options.ink = true;
+    else if (light.value === 'keep') options.light = 'keep';
     if (format.value === 'a4' || format.value === 'letter') options.page = format.value;
     else if (format.value === 'own' && sound(wide) && sound(high)) options.page = [wide.valueAsNumber, high.valueAsNumber];
     else if (format.value === 'a4-wide' || format.value === 'letter-wide') options.page = [...PAPERS[format.value]];
@@ -49,7 +52,7 @@ export function pageKnownPanel(session) {
     return options;
   };
   const update = () => session.know(read());
-  for (const control of [format, wide, high, value]) control.addEventListener('change', update);
+  for (const control of [format, light, wide, high, value]) control.addEventListener('change', update);
   camera.addEventListener('change', () => {
     value.value = '';
     update();

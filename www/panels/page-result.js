@@ -2,27 +2,29 @@
 import { element, make } from '../dom.js';
 import { degrees, number, numberAgainst, percent } from '../format.js';
 import { whole } from '../page/flatten.js';
-import { PAPERS, pagesPdf, similarPaper } from '../page/paper.js';
+import { PAPERS, pictureFiles, similarPaper } from '../page/paper.js';
 import { turnedPicture } from '../page/quarter-turn.js';
 import { imagePicture, PictureView } from '../surface/picture.js';
 import { Zoom } from '../surface/zoom.js';
 import { canvasOf } from '../views/dewarped.js';
 import { figures } from '../views/legend.js';
-import { FORMAT_WORDS, PAGE_WORDS, SAVE_WORDS, pageCautions, pageErrors, pageVerdict } from '../messages.js';
+import { BOOK_WORDS, FORMAT_WORDS, PAGE_WORDS, SAVE_WORDS, pageCautions, pageErrors, pageVerdict } from '../messages.js';
 import { offerToSave } from './save-dialog.js';
 
 /** @import {Api} from '../api.js' */
 /** @import {Worker} from '../worker-task.js' */
 /** @import {DewarpedPage} from '../page/flatten.js' */
 /** @import {PageSession} from '../page/session.js' */
+/** @import {Book} from '../page/book.js' */
 /** @import {PaperName} from '../page/paper.js' */
 
 /**
  * @param {Api} api
  * @param {PageSession} session
+ * @param {Book} book the photo's, of which it may be one of several
  * @param {(flat: DewarpedPage, name: string) => void} goOn with the page as a surface
  */
-export function pageResultPanel(api, session, goOn) {
+export function pageResultPanel(api, session, book, goOn) {
   const figure = element('flat-view', HTMLElement);
   const view = new PictureView(element('flat-canvas', HTMLCanvasElement), new Zoom());
   const empty = element('flat-empty', HTMLElement);
@@ -83,7 +85,8 @@ export function pageResultPanel(api, session, goOn) {
     caption.textContent = flat.unit === 'mm' ? sizeOf(flat, session.quarters) : '';
     const unplaced = session.photo?.outlines.verdict === 'notFound' ? 4 - session.moved.size : 0;
     const cautions = pageCautions({ outside: session.outside, weak: session.weak, assumed, unplaced });
-    say(pageVerdict(report), [...cautions, pageErrors(report)].join(' '));
+    const kept = flat.light === 'keep' && session.options.light !== 'keep' ? [PAGE_WORDS.keptLight] : [];
+    say(pageVerdict(report), [...cautions, pageErrors(report), ...kept].join(' '));
     facts.hidden = false;
     const similar = flat.unit === 'mm' ? null : similarPaper(flat.size[0] / session.outline.pages, flat.size[1]);
     proposal.hidden = similar === null;
@@ -105,6 +108,11 @@ export function pageResultPanel(api, session, goOn) {
     const paper = make('select', '', ...(measured ? [new Option(SAVE_WORDS.trueSize(sizeOf(shown, quarters)), '')] : []),
       ...Object.entries(SAVE_WORDS.papers).map(([name, words]) => new Option(words, name)));
     paper.value = measured ? '' : similar ?? 'a4';
+    const several = book.photos.length > 1;
+    const status = element('save-size', HTMLElement);
+    const tell = (/** @type {number} */ done) => {
+      status.textContent = BOOK_WORDS.writing(done + 1, book.photos.length);
+    };
     /** With all pixels of the photo: made once for all formats. @type {DewarpedPage | null} */
     let flat = null;
     /** @param {'png' | 'jpeg'} format */
@@ -114,12 +122,14 @@ export function pageResultPanel(api, session, goOn) {
     };
     const offer = offerToSave(api, {
       title: 'Flat page',
-      stem: `${wish.photo.name}-flat`,
-      size: wish.photo.width * wish.photo.height,
+      stem: several ? `${book.photos[0].file.name.replace(/\.[^.]*$/, '')}-pages` : `${wish.photo.name}-flat`,
+      size: wish.photo.width * wish.photo.height * Math.max(1, book.photos.length),
       formats: [
-        { value: 'pdf', name: 'PDF', words: pages > 1 ? SAVE_WORDS.pdfOfTwo : SAVE_WORDS.pdf, type: 'application/pdf', write: async (worker) => {
+        { value: 'pdf', name: 'PDF', words: several ? BOOK_WORDS.pdf(book.photos.length) : pages > 1 ? SAVE_WORDS.pdfOfTwo : SAVE_WORDS.pdf, type: 'application/pdf', write: async (worker) => {
+          const size = paper.value === '' ? null : PAPERS[/** @type {PaperName} */ (paper.value)];
+          if (several) return worker.writeBook(await book.pages(api, session, worker, size, tell));
           flat ??= await whole(worker, wish);
-          return pagesPdf(worker, flat, pages, quarters, paper.value === '' ? null : PAPERS[/** @type {PaperName} */ (paper.value)]);
+          return worker.writeBook(await pictureFiles(worker, flat, pages, quarters, size, wish.options.ink));
         } },
         { value: 'jpg', name: 'JPEG', words: FORMAT_WORDS.jpg, type: 'image/jpeg', write: written('jpeg') },
         { value: 'png', name: 'PNG', words: FORMAT_WORDS.png, type: 'image/png', write: written('png') },

@@ -3,6 +3,7 @@ import { download, element } from '../dom.js';
 import { count, number, percentAtMost, seconds } from '../format.js';
 import { accuracyOf } from '../surface/known.js';
 import { ENERGIES, STOP_REASONS, lambdaFound } from '../messages.js';
+import { REPORT_WORDS } from '../report-words.js';
 
 /** @import {Report} from '../api.js' */
 /** @import {Result, Session} from '../session.js' */
@@ -36,12 +37,12 @@ function certificate(report) {
   return {
     title: 'Certificate',
     lines: [
-      line('Gap', percentAtMost(report.gap), report.gap === undefined ? 'The objective is a rounding error: no share of it says anything.' : 'At most this share of the objective is above the optimum.'),
-      line('Objective', number(report.objective, 5), 'The energy of the result: the sum of the next two.'),
-      line('Fidelity', number(report.fidelity, 4), 'λ times the squared distances from the input.'),
-      line('Nuclear norms', number(report.nuclearNorm, 4), 'Bending and creasing; what makes it developable.', report.energy === 'nuclear'),
+      line('Gap', percentAtMost(report.gap), report.gap === undefined ? REPORT_WORDS.noGap : REPORT_WORDS.gap),
+      line('Objective', number(report.objective, 5), REPORT_WORDS.objective),
+      line('Fidelity', number(report.fidelity, 4), REPORT_WORDS.fidelity),
+      line('Nuclear norms', number(report.nuclearNorm, 4), REPORT_WORDS.nuclearNorm, report.energy === 'nuclear'),
       line('Bending', number(report.nuclearNorm, 4), ENERGIES[report.energy], report.energy !== 'nuclear'),
-      line('Dual bound', number(report.dualBound, 5), 'No surface has less energy than this.'),
+      line('Dual bound', number(report.dualBound, 5), REPORT_WORDS.dualBound),
       line('Stopped by', STOP_REASONS[report.stopReason], ''),
     ],
   };
@@ -52,13 +53,13 @@ function domain(report) {
   return {
     title: 'Vertices',
     lines: [
-      line('Interior', count(report.interior), 'With all six neighbours: curvature is measured here.'),
-      line('Boundary', count(report.boundary), 'Neighbours of interior ones.'),
-      line('Omitted', count(report.omitted), 'Left out of the solve, restored from what is nearest.'),
-      line('Torn', count(report.occluded), 'No curvature is measured here.', report.occluded > 0),
-      line('Held', count(report.constrained), 'Their heights are given for good.', report.constrained > 0),
-      line('Free', count(report.free), 'Neither held nor drawn towards the input.', report.free > 0),
-      line('Parts', count(report.components), 'Not connected; each was solved for itself.', report.components > 1),
+      line('Interior', count(report.interior), REPORT_WORDS.interior),
+      line('Boundary', count(report.boundary), REPORT_WORDS.boundary),
+      line('Omitted', count(report.omitted), REPORT_WORDS.omitted),
+      line('Torn', count(report.occluded), REPORT_WORDS.torn, report.occluded > 0),
+      line('Held', count(report.constrained), REPORT_WORDS.held, report.constrained > 0),
+      line('Free', count(report.free), REPORT_WORDS.free, report.free > 0),
+      line('Parts', count(report.components), REPORT_WORDS.parts, report.components > 1),
     ],
   };
 }
@@ -69,16 +70,16 @@ function work(report) {
   return {
     title: 'Work',
     lines: [
-      line('λ', number(report.lambda), 'Weight of the fidelity, in the unit square.'),
+      line('λ', number(report.lambda), REPORT_WORDS.lambda),
       line('Noise, σ', number(report.lambdaChoice?.sigma ?? 0), lambdaFound(report), report.lambdaChoice?.sigma !== undefined),
-      line('Reweighted', count(report.reweighting), 'Passes after the first; the certificate is the last one’s.', report.reweighting > 0),
-      line('Creases', count(report.huber?.creases ?? 0), `Vertices on them; ${count(report.huber?.creasePasses ?? 0)} passes after the first, and the certificate is the last one’s.`, report.huber !== undefined),
-      line('Lattices', count(report.levels.length), `From coarse to fine, with ${report.levels.map(({ interior }) => count(interior)).join(', ')} interior vertices.`),
-      line('Iterations', count(report.iterations), `Of ADMM; ${count(report.levels.at(-1)?.iterations ?? 0)} of them on the finest lattice.`),
-      line('CG iterations', count(report.cgIterations), 'Conjugate gradients, within its z-steps.'),
-      line('ρ', number(report.rho), 'The last penalty; adapted as it goes.'),
-      line('Scale', number(report.scale, 4), 'From the input’s units to the unit square.'),
-      line('Time', seconds(total), `Set-up ${seconds(setup)}, z-steps ${seconds(zStep)}, H-steps ${seconds(hStep)}, certificate ${seconds(check)}.`),
+      line('Reweighted', count(report.reweighting), REPORT_WORDS.reweighted, report.reweighting > 0),
+      line('Creases', count(report.huber?.creases ?? 0), REPORT_WORDS.creases(report.huber?.creasePasses ?? 0), report.huber !== undefined),
+      line('Lattices', count(report.levels.length), REPORT_WORDS.lattices(report.levels.map(({ interior }) => interior))),
+      line('Iterations', count(report.iterations), REPORT_WORDS.iterations(report.levels.at(-1)?.iterations ?? 0)),
+      line('CG iterations', count(report.cgIterations), REPORT_WORDS.cgIterations),
+      line('ρ', number(report.rho), REPORT_WORDS.rho),
+      line('Scale', number(report.scale, 4), REPORT_WORDS.scale),
+      line('Time', seconds(total), REPORT_WORDS.time(seconds(setup), seconds(zStep), seconds(hStep), seconds(check))),
     ],
   };
 }
@@ -95,8 +96,8 @@ function accuracy(result) {
   return {
     title: 'Error against the true surface, input → result',
     lines: [
-      line('Heights', `${number(heights.before)} → ${number(heights.after)}`, 'Root mean square, in the example’s units.'),
-      line('Normals', `${number(normals.before)}° → ${number(normals.after)}°`, 'Mean angle between the normals.'),
+      line('Heights', `${number(heights.before)} → ${number(heights.after)}`, REPORT_WORDS.heights),
+      line('Normals', `${number(normals.before)}° → ${number(normals.after)}°`, REPORT_WORDS.normals),
     ],
   };
 }

@@ -22,8 +22,6 @@ const REST = 300;
 const chosen = { paper: /^en-(US|CA)/.test(navigator.language) ? 'letter' : 'a4', tabs: true, depth: TABS, metal: false, thickness: 1, radius: NaN, kFactor: 0.44 };
 /** The size and the unit that were chosen last, by the input's name. @type {Map<string, { side: number, unit: string }>} */
 const sizes = new Map();
-/** Pattern of the package's error message about a curved fold, along which sheet metal cannot be bent. */
-const CURVED_FOLD = /^pattern: fold \d+ of sheet \d+ is curved/;
 /** Bounds of the longer side in millimetres. */
 const [MIN_SIDE, MAX_SIDE] = [10, 5000];
 
@@ -137,7 +135,8 @@ export function offerSheets(api, { stem, size, length, unit, cut, svg, stop }) {
       preview.replaceChildren();
       about.replaceChildren();
       const reason = plainly(error instanceof Error ? error.message : String(error));
-      words.textContent = CURVED_FOLD.test(reason) ? SHEET_WORDS.curvedFold : SHEET_WORDS.uncut(reason);
+      const curved = error instanceof Error && 'code' in error && error.code === 'CURVED_FOLD';
+      words.textContent = curved ? SHEET_WORDS.curvedFold : SHEET_WORDS.uncut(reason);
       uncut = true;
     } finally {
       if (wanted === drawing) {
@@ -192,7 +191,7 @@ export function offerSheets(api, { stem, size, length, unit, cut, svg, stop }) {
         make('details', 'more', make('summary', '', SHEET_WORDS.figures), about)))],
     formats: [
       { value: 'pdf', name: 'PDF', words: SHEET_WORDS.pdf, type: 'application/pdf',
-        write: async (worker) => worker.writePdf(await drawing, { stock: paper.value === 'a4' || paper.value === 'letter' ? paper.value : undefined }) },
+        write: async (worker) => worker.writePdf(await drawing, { stock: paper.value === 'a4' || paper.value === 'letter' ? paper.value : undefined, title: stem }) },
       { value: 'svg', name: 'SVG', words: SHEET_WORDS.svg, type: 'image/svg+xml', write: async (worker) => worker.writeSvg(await drawing) },
       { value: 'dxf', name: 'DXF', words: SHEET_WORDS.dxf, type: 'image/vnd.dxf', write: async (worker) => worker.writeDxf(await drawing) },
       { value: 'png', name: 'PNG', words: SHEET_WORDS.png, type: 'image/png', write: async () => numberedPicture(await drawing) },

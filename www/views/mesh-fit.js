@@ -145,15 +145,16 @@ function between({ triangles }, { triangle, shares }, value) {
 
 /** What is said first. @param {Mesh} mesh @param {MeshSurface} surface */
 export function wholeInWords(mesh, { report }) {
-  const { passes, seconds: { total }, stopReason, flipped, repairs: { turned, degenerate, repeated } } = report;
+  const { passes, seconds: { total }, stopReason, flipped, entangled, repairs: { turned, degenerate, repeated } } = report;
   const gap = passes.at(-1)?.gap;
   const mended = turned + degenerate + repeated;
   return [
-    `${count(report.vertices)} vertices in ${seconds(total)}.`,
+    WHOLE_WORDS.vertices(count(report.vertices), seconds(total)),
     gap === undefined ? '' : WHOLE_WORDS.proof(passes.length, percent(gap)),
-    stopReason === 'maxIterations' ? 'It stopped at the maximum number of iterations.' : stopReason === 'diverged' ? 'The iterations diverged: this is the best surface before.' : '',
-    mended > 0 ? `${count(mended)} triangles were repaired first: wrong side, no area, or double.` : '',
-    flipped[1] > 0 ? `${count(flipped[1])} triangles of the result are folded over.` : '',
+    stopReason === 'maxIterations' ? WHOLE_WORDS.maxIterations : stopReason === 'diverged' ? WHOLE_WORDS.diverged : '',
+    mended > 0 ? WHOLE_WORDS.repaired(mended) : '',
+    entangled.length > 0 ? WHOLE_WORDS.entangled(entangled.length, entangled[0].position.map((at) => number(at, 3)).join(', ')) : '',
+    entangled.length === 0 && flipped[1] > 0 ? WHOLE_WORDS.flipped(flipped[1]) : '',
   ].filter(Boolean).join(' ');
 }
 

@@ -32,7 +32,7 @@ mod svg;
 use crate::drawing::{Curve, Drawing, DrawnSheet, Line};
 use crate::pattern::Direction;
 pub use dxf::write_dxf;
-pub use pdf::write_pdf;
+pub use pdf::{PdfOptions, write_pdf};
 pub use svg::write_svg;
 
 /// The purpose of a line in a drawing (to cut, to fold, a mark …), in the order in which lines are drawn.

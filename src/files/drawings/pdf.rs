@@ -17,28 +17,77 @@ const FONT_RESOURCE: Name = Name(b"F");
 /// Name of the drawing in the list of a PDF page's resources.
 const DRAWING_RESOURCE: Name = Name(b"D");
 
+/// Length of the scale line by which the size of a print is checked, in millimetres.
+const SCALE_LINE_MM: f64 = 100.0;
+
+/// Length of the marks at both ends of the scale line, in millimetres.
+const SCALE_TICK_MM: f64 = 2.0;
+
+/// Minimum width of a page for a scale line and what is said beside it, in millimetres.
+const MIN_SCALED_PAGE_MM: f64 = 150.0;
+
+/// Height of the foot with the scale line: the blank margin of paper at least, and what is added below a drawing on one
+/// page of its size, in millimetres.
+const FOOT_MM: f64 = 10.0;
+
+/// Height of the scale line above the page's lower edge, in millimetres: most printers can print there.
+const SCALE_LINE_HEIGHT_MM: f64 = 6.0;
+
+/// What is written beside the scale line.
+const SCALE_WORDS: &str = "100 mm: print at 100 %";
+
+/// Maximum number of characters of a title on a page.
+const MAX_TITLE_LENGTH: usize = 28;
+
+/// Options of writing a drawing as a PDF file.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[non_exhaustive]
+pub struct PdfOptions<'a> {
+    /// Pages on which the drawing is arranged first ([`Drawing::onto`]). Default: its own, or one of its size.
+    pub stock: Option<Stock>,
+    /// Title of the document, which is also written on each page. Default: "Pattern", and none on the pages.
+    pub title: Option<&'a str>,
+}
+
+impl<'a> PdfOptions<'a> {
+    /// Sets the pages on which the drawing is arranged, and returns the options.
+    pub fn stock(self, stock: Option<Stock>) -> Self {
+        PdfOptions { stock, ..self }
+    }
+
+    /// Sets the title, and returns the options.
+    pub fn title(self, title: Option<&'a str>) -> Self {
+        PdfOptions { title, ..self }
+    }
+}
+
 /// Writes a drawing as a PDF file in true size: on the drawing's pages, each with its name and with crosses where it
-/// overlaps its neighbours, or on one page of the drawing's size. `stock` arranges the drawing on pages first
-/// ([`Drawing::onto`]). Print it at 100 %.
+/// overlaps its neighbours, or on one page of the drawing's size with a foot below. Margins and foot have the title and
+/// a line of 100 mm. Print it at 100 %.
 ///
 /// # Errors
 /// [`Error::Unsupported`] for a drawing that is not finite, for a page of more than 5.08 m, the format's
 /// limit, and what [`Drawing::onto`] has to say.
-pub fn write_pdf(drawing: &Drawing, stock: Option<Stock>) -> Result<Vec<u8>> {
+pub fn write_pdf(drawing: &Drawing, options: &PdfOptions<'_>) -> Result<Vec<u8>> {
     drawing.check()?;
-    let laid = stock.map(|stock| drawing.clone().onto(stock)).transpose()?;
+    let title = options.title.unwrap_or_default();
+    let laid = options
+        .stock
+        .map(|stock| drawing.clone().onto(stock))
+        .transpose()?;
     let drawing = laid.as_ref().unwrap_or(drawing);
     // Numbers of the objects: the first pages and their contents come after these.
     let [catalog, tree, font, form, info] = [1, 2, 3, 4, 5].map(Ref::new);
     let page = |i: usize| Ref::new(6 + 2 * i as i32);
     let content = |i: usize| Ref::new(7 + 2 * i as i32);
     let sheets = match &drawing.pages {
-        Some(pages) => spread(pages)?,
-        None => vec![whole(drawing)?],
+        Some(pages) => spread(pages, title)?,
+        None => vec![whole(drawing, title)?],
     };
     let mut pdf = Pdf::new();
     pdf.catalog(catalog).pages(tree);
-    pdf.document_info(info).title(TextStr("Pattern"));
+    pdf.document_info(info)
+        .title(TextStr(options.title.unwrap_or("Pattern")));
     let ids = (0..sheets.len()).map(page);
     pdf.pages(tree).kids(ids).count(sheets.len() as i32);
     pdf.type1_font(font)
@@ -68,10 +117,18 @@ pub fn write_pdf(drawing: &Drawing, stock: Option<Stock>) -> Result<Vec<u8>> {
 /// Width and height of a PDF page in millimetres, and the page's content stream.
 type Sheet = ([f64; 2], Vec<u8>);
 
-fn whole(drawing: &Drawing) -> Result<Sheet> {
-    let size = [drawing.width, drawing.height];
+fn whole(drawing: &Drawing, title: &str) -> Result<Sheet> {
+    let mut size = [drawing.width, drawing.height];
+    let scaled = drawing.width >= MIN_SCALED_PAGE_MM;
+    if scaled {
+        size[1] += FOOT_MM;
+    }
     check_page(size)?;
     let mut page = Content::new();
+    if scaled {
+        foot(&mut page, 0.0, title);
+        page.transform([1.0, 0.0, 0.0, 1.0, 0.0, points(FOOT_MM)]);
+    }
     page.x_object(DRAWING_RESOURCE);
     Ok((size, page.finish().into_vec()))
 }
@@ -89,7 +146,32 @@ fn check_page(size: [f64; 2]) -> Result<()> {
     }
 }
 
-fn spread(pages: &Pages) -> Result<Vec<Sheet>> {
+/// Draws the scale line at the lower edge of a page, from `left` in millimetres, and says beside it what it is for.
+fn foot(out: &mut Content, left: f64, title: &str) {
+    grey(out);
+    out.set_line_width(points(LINE_WIDTH_MM));
+    let right = left + SCALE_LINE_MM;
+    let [low, high] = [-0.5, 0.5].map(|share| SCALE_LINE_HEIGHT_MM + share * SCALE_TICK_MM);
+    let line = [left, right].map(|x| [[x, low], [x, high]]);
+    for [from, to] in [
+        line[0],
+        line[1],
+        [left, right].map(|x| [x, SCALE_LINE_HEIGHT_MM]),
+    ] {
+        out.move_to(points(from[0]), points(from[1]));
+        out.line_to(points(to[0]), points(to[1])).stroke();
+    }
+    let title: String = title.chars().take(MAX_TITLE_LENGTH).collect();
+    let words = match title.is_empty() {
+        true => SCALE_WORDS.into(),
+        false => format!("{SCALE_WORDS}  |  {title}"),
+    };
+    let mut label = Label::note(&words, [0.0, SCALE_LINE_HEIGHT_MM]);
+    label.place[0] = right + 2.0 + 0.5 * text_width(&label);
+    text(out, &label);
+}
+
+fn spread(pages: &Pages, title: &str) -> Result<Vec<Sheet>> {
     check_page(pages.paper)?;
     let [width, height] = pages.part;
     let sheet = |page: &crate::drawing::Page| {
@@ -113,8 +195,16 @@ fn spread(pages: &Pages) -> Result<Vec<Sheet>> {
                 }
             }
         }
-        let name = Label::note(&page.name, [0.5 * pages.paper[0], 0.5 * pages.blank]);
-        text(&mut out, &name);
+        let mut middle = 0.5 * pages.paper[0];
+        if pages.blank >= FOOT_MM && pages.paper[0] >= MIN_SCALED_PAGE_MM {
+            foot(&mut out, pages.blank, title);
+            // At the right end, since the line is where it would be otherwise.
+            middle = pages.paper[0] - 1.5 * pages.blank;
+        }
+        text(
+            &mut out,
+            &Label::note(&page.name, [middle, 0.5 * pages.blank]),
+        );
         (pages.paper, out.finish().into_vec())
     };
     Ok(pages.pages.iter().map(sheet).collect())
@@ -161,13 +251,20 @@ fn grey(out: &mut Content) {
     out.set_fill_gray(grey).set_stroke_gray(grey);
 }
 
+/// Converts a text to Latin-1, which agrees with PDF's Windows encoding; other characters become `?`.
+fn latin(text: &str) -> Vec<u8> {
+    let byte = |c| u8::try_from(c).unwrap_or(b'?');
+    text.chars().map(byte).collect()
+}
+
+/// Returns the width of a label's text, in millimetres.
+fn text_width(label: &Label) -> f64 {
+    label.size * latin(&label.text).iter().map(|c| width(*c)).sum::<f64>()
+}
+
 fn text(out: &mut Content, label: &Label) {
-    // In Latin-1, which agrees with PDF's Windows encoding; other characters become `?`.
-    let bytes: Vec<u8> = (label.text.chars())
-        .map(|c| u8::try_from(c).unwrap_or(b'?'))
-        .collect();
-    // A letter of Helvetica is about half as wide as the font is large.
-    let half = 0.5 * label.size * bytes.iter().map(|c| width(*c)).sum::<f64>();
+    let bytes = latin(&label.text);
+    let half = 0.5 * text_width(label);
     let (sin, cos) = label.turn.to_radians().sin_cos();
     let (x, y) = (-half, -BASELINE_DROP * label.size);
     let start = [

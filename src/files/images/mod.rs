@@ -15,6 +15,8 @@ pub mod extended;
 mod format;
 mod npy;
 mod photo;
+mod photo_pdf;
+mod picture_data;
 mod png;
 mod print;
 
@@ -26,8 +28,9 @@ pub use extended::{NpzArray, decode_npz, npz_arrays, write_exr, write_tiff};
 pub use format::{FORMAT_NAMES, Format, announced};
 pub use npy::write_npy;
 pub use photo::{PhotoFile, decode_photo_basic};
+pub use photo_pdf::{BookPage, write_book, write_photo_pdf};
 pub use png::write_png;
-pub use print::{PhotoOptions, PhotoRows, write_photo, write_photo_jpeg, write_photo_pdf};
+pub use print::{PhotoOptions, PhotoRows, write_photo, write_photo_jpeg};
 
 /// Decodes the heights in an image file of the given format (`None`: the format that the file's first bytes announce).
 ///

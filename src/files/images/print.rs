@@ -1,4 +1,4 @@
-//! Writes photos to files that state their size on paper: PNG, JPEG and PDF.
+//! Writes photos to files that state their size on paper: PNG and JPEG.
 
 use std::io::Write as _;
 
@@ -9,12 +9,10 @@ use jpeg_encoder::{
     Encoder as JpegEncoder, EncodingError as JpegError, ImageBuffer, JpegColorType, PixelDensity,
     PixelDensityUnit, rgb_to_ycbcr,
 };
-use pdf_writer::{Content, Filter, Finish, Name, Pdf, Rect, Ref};
 
 use crate::dewarp::Photo;
 use crate::error::{Error, Result, positive, try_filled};
 use crate::files::buffer::Buffer;
-use crate::files::points::{MAX_PAGE_SIDE_POINTS, POINTS_PER_MM, points};
 
 /// Options of writing a photo to a file: resolution and quality.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -52,11 +50,14 @@ impl PhotoOptions {
     }
 
     /// Checks the range of the resolution and returns it, in pixels per millimetre.
-    fn dots(&self) -> Result<Option<f64>> {
+    pub(super) fn dots(&self) -> Result<Option<f64>> {
         let checked = |dots| positive("dots_per_millimetre", dots);
         self.dots_per_millimetre.map(checked).transpose()
     }
 }
+
+/// Compression level of black and white PNG files, which compress quickly.
+const BILEVEL_COMPRESSION: u8 = 6;
 
 /// A photo that is read row by row, so that writing it needs no copy of it.
 pub trait PhotoRows {
@@ -78,8 +79,20 @@ impl PhotoRows for Photo<'_> {
     }
 }
 
-/// Writes a photo as an 8-bit PNG file, with alpha if a pixel is transparent. The file states the resolution, if it is
-/// known, to whole pixels per metre.
+/// Whether a photo has black and white pixels only, all of them opaque.
+pub(super) fn is_bilevel(photo: &impl PhotoRows) -> Result<bool> {
+    let [width, height] = photo.size();
+    let mut line = try_filled("PNG file", 4 * width, 0)?;
+    Ok((0..height).all(|row| {
+        photo.read(row, &mut line);
+        (line.as_chunks().0.iter())
+            .all(|pixel| matches!(pixel, [0, 0, 0, 255] | [255, 255, 255, 255]))
+    }))
+}
+
+/// Writes a photo as a PNG file: with one bit for each pixel if all are black or white, otherwise with 8 bits for each
+/// colour, and with alpha if a pixel is transparent. The file states the resolution, if it is known, to whole pixels per
+/// metre.
 ///
 /// # Errors
 /// [`Error::Option`] for a resolution that is not positive and finite, [`Error::OutOfMemory`].
@@ -91,17 +104,25 @@ pub fn write_photo(photo: &impl PhotoRows, options: &PhotoOptions) -> Result<Vec
         photo.read(row, &mut line);
         line.chunks_exact(4).all(|pixel| pixel[3] == u8::MAX)
     });
+    let bilevel = opaque && is_bilevel(photo)?;
     let mut file = Buffer::default();
     let mut encoder = Encoder::new(&mut file, width as u32, height as u32);
-    encoder.set_color(if opaque {
-        ColorType::Rgb
+    if bilevel {
+        encoder.set_color(ColorType::Grayscale);
+        encoder.set_depth(BitDepth::One);
+        encoder.set_deflate_compression(DeflateCompression::Level(BILEVEL_COMPRESSION));
+        encoder.set_filter(Prediction::NoFilter);
     } else {
-        ColorType::Rgba
-    });
-    encoder.set_depth(BitDepth::Eight);
-    // Higher compression would hardly shrink a photo, because of its noise, at ten times the cost.
-    encoder.set_deflate_compression(DeflateCompression::Level(2));
-    encoder.set_filter(Prediction::Adaptive);
+        encoder.set_color(if opaque {
+            ColorType::Rgb
+        } else {
+            ColorType::Rgba
+        });
+        encoder.set_depth(BitDepth::Eight);
+        // Higher compression would hardly shrink a photo, because of its noise, at ten times the cost.
+        encoder.set_deflate_compression(DeflateCompression::Level(2));
+        encoder.set_filter(Prediction::Adaptive);
+    }
     let per_metre = dots.map_or(0.0, |dots| (1000.0 * dots).round());
     if (1.0..=f64::from(i32::MAX)).contains(&per_metre) {
         encoder.set_pixel_dims(Some(PixelDimensions {
@@ -115,7 +136,15 @@ pub fn write_photo(photo: &impl PhotoRows, options: &PhotoOptions) -> Result<Vec
         let mut stream = writer.stream_writer()?;
         for row in 0..height {
             photo.read(row, &mut line);
-            if opaque {
+            if bilevel {
+                for (col, pixels) in (0..width).step_by(8).enumerate() {
+                    let bits = (pixels..width.min(pixels + 8))
+                        .map(|x| (line[4 * x] >> 7) << (7 - (x - pixels)))
+                        .sum();
+                    line[col] = bits;
+                }
+                stream.write_all(&line[..width.div_ceil(8)])?;
+            } else if opaque {
                 for col in 0..width {
                     line.copy_within(4 * col..4 * col + 3, 3 * col);
                 }
@@ -227,66 +256,6 @@ impl<P: PhotoRows> ImageBuffer for OnWhite<'_, P> {
             cr.push(colour.2);
         }
     }
-}
-
-/// Minimum length of a PDF page's side, in millimetres: below it programs that show PDF may fail.
-const MIN_PAGE_SIDE_MM: f64 = 2.0;
-
-/// Writes a photo as a PDF file of one page, which the photo fills as a JPEG; the page has the size of the surface in
-/// the photo. Print it at 100 %.
-///
-/// # Errors
-/// Those of [`write_photo_jpeg`]; [`Error::Option`] without a resolution, [`Error::Unsupported`] if a
-/// side is below 2 mm or above 5.08 m, the format's limit.
-pub fn write_photo_pdf(photo: &impl PhotoRows, options: &PhotoOptions) -> Result<Vec<u8>> {
-    let Some(dots) = options.dots()? else {
-        let requirement = "must be known for a PDF, whose pages are in true size";
-        return Err(Error::option(
-            "dots_per_millimetre",
-            "not given",
-            requirement,
-        ));
-    };
-    let sides = photo.size().map(|pixels| pixels as f64 / dots);
-    if !sides
-        .iter()
-        .all(|side| (MIN_PAGE_SIDE_MM..=MAX_PAGE_SIDE_POINTS / POINTS_PER_MM).contains(side))
-    {
-        return Err(Error::Unsupported {
-            format: "PDF",
-            reason: format!(
-                "a page of {:.3} × {:.3} mm cannot be; pages have sides from 2 mm to 5.08 m. Is the \
-                 unit of the lengths right?",
-                sides[0], sides[1]
-            ),
-        });
-    }
-    let picture = write_photo_jpeg(photo, options)?;
-    let [catalog, tree, page, content, image] = [1, 2, 3, 4, 5].map(Ref::new);
-    let name = Name(b"I");
-    let [width, height] = sides.map(points);
-    let mut pdf = Pdf::new();
-    pdf.catalog(catalog).pages(tree);
-    pdf.pages(tree).kids([page]).count(1);
-    let mut entry = pdf.page(page);
-    entry
-        .parent(tree)
-        .media_box(Rect::new(0.0, 0.0, width, height))
-        .contents(content);
-    entry.resources().x_objects().pair(name, image);
-    entry.finish();
-    let mut drawn = Content::new();
-    drawn.save_state();
-    drawn.transform([width, 0.0, 0.0, height, 0.0, 0.0]);
-    drawn.x_object(name).restore_state();
-    pdf.stream(content, &drawn.finish());
-    let [wide, tall] = photo.size().map(|pixels| pixels as i32);
-    let mut object = pdf.image_xobject(image, &picture);
-    object.filter(Filter::DctDecode);
-    object.width(wide).height(tall).bits_per_component(8);
-    object.color_space().device_rgb();
-    object.finish();
-    Ok(pdf.finish())
 }
 
 #[cfg(test)]

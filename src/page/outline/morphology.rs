@@ -48,7 +48,7 @@ fn running_extreme(line: &mut [f32], radius: usize, extreme: fn(f32, f32) -> f32
 
 /// Applies a grey closing by a square with sides of `2 radius + 1` pixels: dark print narrower than that takes the
 /// paper's colour. The image is continued beyond its rim, so that a narrow strip of background along the rim remains.
-pub(super) fn closed(planes: &Planes, radius: usize) -> Planes {
+pub(in crate::page) fn closed(planes: &Planes, radius: usize) -> Planes {
     let (width, height) = (planes.width + 2 * radius, planes.height + 2 * radius);
     let channels = planes.channels.each_ref().map(|plane| {
         let row = |y: usize| {
@@ -78,7 +78,7 @@ pub(super) fn closed(planes: &Planes, radius: usize) -> Planes {
 }
 
 /// Replaces each pixel by the mean over a square with sides of `2 radius + 1` pixels around it, clipped to the image.
-pub(super) fn box_mean(plane: &mut [f32], width: usize, height: usize, radius: usize) {
+pub(in crate::page) fn box_mean(plane: &mut [f32], width: usize, height: usize, radius: usize) {
     let mut sums = Vec::new();
     apply_separably(plane, width, height, |line| {
         sums.clear();

@@ -13,7 +13,7 @@ const LOG_OFFSET: f64 = 8.0;
 /// A reduced photo as three planes of one size: logarithms of red, green and blue, in which a change of the light adds
 /// a constant.
 #[derive(Clone)]
-pub(super) struct Planes {
+pub(in crate::page) struct Planes {
     /// Number of columns of the reduced photo.
     pub width: usize,
     /// Number of rows of the reduced photo.

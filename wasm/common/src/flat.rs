@@ -1,32 +1,104 @@
 //! Flat images and their warp maps, in full and on a grid, as results for JavaScript.
 
+use std::ops::Range;
+
 use js_sys::{Float32Array, Uint8ClampedArray};
 use serde::Serialize;
 use serde_wasm_bindgen::preserve;
 
 use super::Result;
-use super::options::{Given, renamed};
+use super::options::{Given, option, renamed};
 use developable::checks::try_filled;
 use developable::dewarp::{Photo, WarpGrid, WarpMap};
+use developable::page::cleaning::{CleaningOptions, Light, LightEstimator, binarise, luminance};
 
 /// Number of rows of the flat image that are computed at a time and copied to JavaScript.
 const BAND_ROWS: usize = 64;
 
 /// Computes the flat image in JavaScript's memory, a band of rows at a time, so that the wasm module holds no copy of
-/// it.
-pub fn flat_image(map: &WarpMap, photo: &Photo<'_>) -> Result<Uint8ClampedArray> {
-    let line = 4 * map.width();
-    let image = Uint8ClampedArray::new_with_length((line * map.height()) as u32);
-    let mut band = try_filled("flat image", line * BAND_ROWS.min(map.height()), 0)?;
-    for start in (0..map.height()).step_by(BAND_ROWS) {
-        let end = map.height().min(start + BAND_ROWS);
-        let rgba = &mut band[..line * (end - start)];
+/// it; cleans it as the options say, and returns what happened to its light.
+pub fn flat_image(
+    map: &WarpMap,
+    photo: &Photo<'_>,
+    cleaning: &CleaningOptions,
+) -> Result<(Uint8ClampedArray, Light)> {
+    let (width, height) = (map.width(), map.height());
+    let line = 4 * width;
+    let image = Uint8ClampedArray::new_with_length((line * height) as u32);
+    let mut band = try_filled("flat image", line * BAND_ROWS.min(height), 0)?;
+    let bands = || {
+        (0..height)
+            .step_by(BAND_ROWS)
+            .map(|start| start..height.min(start + BAND_ROWS))
+    };
+    let place =
+        |rows: &Range<usize>| image.subarray((line * rows.start) as u32, (line * rows.end) as u32);
+    let mut estimator = match cleaning.needs_light() {
+        true => Some(LightEstimator::new(width, height)?),
+        false => None,
+    };
+    for rows in bands() {
+        let rgba = &mut band[..line * rows.len()];
         rgba.fill(0);
-        map.image_rows(photo, start..end, rgba);
-        let (from, to) = ((line * start) as u32, (line * end) as u32);
-        image.subarray(from, to).copy_from(rgba);
+        map.image_rows(photo, rows.clone(), rgba);
+        place(&rows).copy_from(rgba);
+        if let Some(estimator) = &mut estimator {
+            for (row, pixels) in rows.zip(rgba.chunks_exact(line)) {
+                estimator.add_row(row, pixels);
+            }
+        }
     }
-    Ok(image)
+    let Some(light) = estimator.map(LightEstimator::finish) else {
+        return Ok((image, Light::Keep));
+    };
+    let mut plane = try_filled(
+        "flat image",
+        if cleaning.ink { width * height } else { 0 },
+        0,
+    )?;
+    for rows in bands() {
+        let rgba = &mut band[..line * rows.len()];
+        place(&rows).copy_to(rgba);
+        for (row, pixels) in rows.clone().zip(rgba.chunks_exact_mut(line)) {
+            light.apply(row, pixels);
+        }
+        if cleaning.ink {
+            for (value, pixel) in plane[width * rows.start..]
+                .iter_mut()
+                .zip(rgba.as_chunks().0)
+            {
+                *value = luminance(pixel);
+            }
+        }
+        place(&rows).copy_from(rgba);
+    }
+    if cleaning.ink {
+        binarise(width, height, &mut plane, light.is_even())?;
+        for rows in bands() {
+            let rgba = &mut band[..line * rows.len()];
+            place(&rows).copy_to(rgba);
+            for (value, pixel) in plane[width * rows.start..]
+                .iter()
+                .zip(rgba.as_chunks_mut::<4>().0)
+            {
+                pixel[..3].fill(*value);
+            }
+            place(&rows).copy_from(rgba);
+        }
+    }
+    Ok((image, light.kind()))
+}
+
+/// Options of cleaning the flat image, `light` and `ink`; `default` says what happens to the light where nothing is
+/// said of it.
+pub fn cleaning_from(given: &mut Given, default: Light) -> Result<CleaningOptions> {
+    let light = given.value("light");
+    let light = match light.is_undefined() {
+        true => default,
+        false => option("light", light, "must be `even` or `keep`")?,
+    };
+    let ink = given.flag("ink").unwrap_or(false);
+    Ok(CleaningOptions::default().light(light).ink(ink))
 }
 
 /// Options of a call that returns a warp map besides the flat image: whether in full, and whether on a grid.

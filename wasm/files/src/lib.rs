@@ -1,15 +1,16 @@
 //! Reading and writing of PNG, NPY, OBJ and photo files, and colours of vertices from photos.
 
 use js_sys::{Float32Array, Int32Array, Uint8Array};
-use serde_wasm_bindgen::from_value;
+use serde::Deserialize;
+use serde_wasm_bindgen::{from_value, preserve};
 use wasm_bindgen::prelude::*;
 
 use developable::Error;
 use developable::checks::{check_count, check_shape};
 use developable::dewarp::{self, Extent};
 use developable::files::images::{
-    PhotoOptions, PhotoRows, announced, decode_basic, decode_photo_basic, write_npy, write_photo,
-    write_photo_jpeg, write_photo_pdf, write_png,
+    BookPage, PhotoOptions, PhotoRows, announced, decode_basic, decode_photo_basic, write_book,
+    write_npy, write_photo, write_photo_jpeg, write_photo_pdf, write_png,
 };
 use developable::files::wavefront::{write_mtl, write_obj_textured};
 use developable_wasm::Result;
@@ -176,4 +177,29 @@ pub fn write_photo_file(
         _ => return Err(Error::option("format", format, formats).into()),
     };
     Ok(file.as_slice().into())
+}
+
+/// One page of a PDF file, as the function `asBook` in `pkg/` passes it.
+#[derive(Deserialize)]
+struct BookPageInput {
+    #[serde(with = "preserve")]
+    picture: Uint8Array,
+    size: [f64; 2],
+}
+
+/// Writes a PDF file with one page for each JPEG or PNG file.
+#[wasm_bindgen(js_name = writeBook)]
+pub fn write_book_file(pages: JsValue) -> Result<Uint8Array> {
+    let given: Vec<BookPageInput> = from_value(pages)?;
+    let mut pictures = Vec::new();
+    for page in &given {
+        pictures.push(copied(&page.picture)?);
+    }
+    let pages: Vec<BookPage<'_>> = (pictures.iter().zip(&given))
+        .map(|(picture, BookPageInput { size, .. })| BookPage {
+            picture,
+            size: *size,
+        })
+        .collect();
+    Ok(write_book(&pages)?.as_slice().into())
 }

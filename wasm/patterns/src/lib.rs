@@ -9,7 +9,7 @@ use developable::assembly::Assembly;
 use developable::drawing::{Bending, Drawing, DrawingOptions, Stock};
 use developable::explore::ExploreOptions;
 use developable::files::assembly::{write_animation, write_assembly_svg};
-use developable::files::drawings::{write_dxf, write_pdf, write_svg};
+use developable::files::drawings::{PdfOptions, write_dxf, write_pdf, write_svg};
 use developable::patches::{Crease, MeshPatches, Patch, PatchOptions, Patches};
 use developable::pattern::{MeshPattern, Missing, PatternOptions, Sheet, pattern, pattern_mesh};
 use developable::unroll::UnrollOptions;
@@ -275,8 +275,10 @@ pub fn write_svg_file(drawing: JsValue) -> Result<Uint8Array> {
 pub fn write_pdf_file(drawing: JsValue, options: JsValue) -> Result<Uint8Array> {
     let mut given = Given::new(&options)?;
     let stock = stock_from(given.value("stock"))?;
+    let title = given.value("title").as_string();
     given.finish()?;
-    Ok(write_pdf(&drawn(drawing)?, stock)?.as_slice().into())
+    let options = PdfOptions::default().stock(stock).title(title.as_deref());
+    Ok(write_pdf(&drawn(drawing)?, &options)?.as_slice().into())
 }
 
 /// Writes a drawing to a DXF file.

@@ -11,6 +11,7 @@ use wasm_bindgen::prelude::*;
 use developable::analysis::{Curvatures, DEFAULT_GAUSSIAN_THRESHOLD, Deviation, Summary};
 use developable::checks::try_filled;
 use developable::dewarp::{DewarpOptions, Photo, Registration, Verdict, WarpMap};
+use developable::page::cleaning::Light;
 use developable::page::{OutlineVerdict, find_outline};
 use developable::patches::{Crease, Patch, PatchOptions, Patches};
 use developable::rulings::{Ruling, Rulings, TraceOptions};
@@ -19,7 +20,7 @@ use developable::{Frame, Heightfield};
 use developable_wasm::Result;
 use developable_wasm::arrays::groups;
 use developable_wasm::camera::photo_camera;
-use developable_wasm::flat::{GridOutput, MapOptions, flat_image};
+use developable_wasm::flat::{GridOutput, MapOptions, cleaning_from, flat_image};
 use developable_wasm::frame::FrameFields;
 use developable_wasm::options::Given;
 use developable_wasm::photo::{Pixels, extent_from};
@@ -161,6 +162,7 @@ struct DewarpedOutput {
     grid: Option<GridOutput>,
     loss: f64,
     overreach: f64,
+    light: Light,
     verdict: Verdict,
     report: UnrollReport,
 }
@@ -194,6 +196,8 @@ pub fn dewarp(field: JsValue, photo: JsValue, options: JsValue) -> Result<JsValu
     let mut given = Given::new(&options)?;
     let unrolling: UnrollOptions = given.read()?;
     let maps = MapOptions::new(&mut given);
+    // A surface need not be a document: its shades may mean something.
+    let cleaning = cleaning_from(&mut given, Light::Keep)?;
     let DewarpInput {
         dots,
         trim,
@@ -232,16 +236,18 @@ pub fn dewarp(field: JsValue, photo: JsValue, options: JsValue) -> Result<JsValu
     )?;
     let map = map.cut(crop.as_deref(), deskew, trim)?;
     let overreach = overreach(&photo, crop.as_deref());
+    let (data, light) = flat_image(&map, &photo, &cleaning)?;
     Ok(to_value(&DewarpedOutput {
         width: map.width(),
         height: map.height(),
         resolution: map.resolution(),
         corner: map.corner(),
-        data: flat_image(&map, &photo)?,
+        data,
         map: maps.places(&map),
         grid: maps.grid(&map)?,
         loss: map.loss(),
         overreach,
+        light,
         verdict: map.verdict(sheet.report()).with_overreach(overreach),
         report: *sheet.report(),
     })?)

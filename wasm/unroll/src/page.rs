@@ -6,11 +6,12 @@ use serde_wasm_bindgen::{from_value, preserve, to_value};
 use wasm_bindgen::prelude::*;
 
 use developable::dewarp::DewarpOptions;
+use developable::page::cleaning::Light;
 use developable::page::{
     CurledPage, Edges, FocalLength, Format, OutlineReason, OutlineReport, OutlineVerdict,
     PageOptions, PageOutline, PageReport, PageSurface, PageVerdict, Ruler, Trace, find_outline,
 };
-use developable_wasm::flat::{GridOutput, MapOptions, flat_image};
+use developable_wasm::flat::{GridOutput, MapOptions, cleaning_from, flat_image};
 use developable_wasm::options::{Given, entries, option, renamed, unknown};
 use developable_wasm::photo::Pixels;
 use developable_wasm::{Failure, Result};
@@ -102,6 +103,8 @@ struct PageOutput {
     mesh: MeshOutput,
     /// Lines of text that were detected in the photo, a list for each page, as points in the photo's pixels.
     lines: Vec<Vec<Vec<[f64; 2]>>>,
+    /// What happened to the light on the flat page.
+    light: Light,
     verdict: PageVerdict,
     report: PageReport,
     /// Outlines of pages that were found in the photo, if no edges were given.
@@ -187,6 +190,7 @@ pub fn dewarp_page(photo: JsValue, edges: JsValue, options: JsValue) -> Result<J
     let (mut wanted, mut known) = (DewarpOptions::default(), PageOptions::default());
     let mut given = Given::new(&options)?;
     let maps = MapOptions::new(&mut given);
+    let cleaning = cleaning_from(&mut given, Light::default())?;
     let mut focal = Vec::new();
     let mut finding = None;
     for (name, value) in entries(&options)? {
@@ -214,9 +218,10 @@ pub fn dewarp_page(photo: JsValue, edges: JsValue, options: JsValue) -> Result<J
             "centre" => known = known.centre(option("centre", value, "must be two numbers")?),
             "findLines" => finding = Some(option("findLines", value, "must be true or false")?),
             "accuracy" => known = known.accuracy(option("accuracy", value, number)?),
-            "map" | "grid" => {}
+            "map" | "grid" | "light" | "ink" => {}
             _ => {
-                let names = "dots, map, grid, focalLength, fieldOfView, film35, page, ruler, centre, accuracy and findLines";
+                let names = "dots, map, grid, light, ink, focalLength, fieldOfView, film35, page, ruler, centre, accuracy and \
+                    findLines";
                 return Err(unknown(&name, names));
             }
         }
@@ -258,12 +263,13 @@ pub fn dewarp_page(photo: JsValue, edges: JsValue, options: JsValue) -> Result<J
     .map_err(|error| renamed(error, "format", "page"))?;
     let map = page.warp_map(&wanted)?;
     let mesh = page.mesh()?;
+    let (data, light) = flat_image(&map, &photo, &cleaning)?;
     Ok(to_value(&PageOutput {
         width: map.width(),
         height: map.height(),
         resolution: map.resolution(),
         corner: map.corner(),
-        data: flat_image(&map, &photo)?,
+        data,
         map: maps.places(&map),
         grid: maps.grid(&map)?,
         size: page.flat_size(),
@@ -276,6 +282,7 @@ pub fn dewarp_page(photo: JsValue, edges: JsValue, options: JsValue) -> Result<J
         lines: (page.text().iter())
             .map(|lines| lines.iter().map(points).collect())
             .collect(),
+        light,
         verdict: page.report().verdict,
         report: *page.report(),
         outline,

@@ -1,0 +1,139 @@
+//! Writes photos as PDF: one page for each picture.
+
+use pdf_writer::{Content, Filter, Finish, Name, Pdf, Rect, Ref};
+
+use super::picture_data::{Compression, PictureData};
+use super::print::{PhotoOptions, PhotoRows, is_bilevel, write_photo, write_photo_jpeg};
+use crate::error::{Error, Result};
+use crate::files::points::{MAX_PAGE_SIDE_POINTS, POINTS_PER_MM, points};
+
+/// Minimum length of a PDF page's side, in millimetres: below it programs that show PDF may fail.
+const MIN_PAGE_SIDE_MM: f64 = 2.0;
+
+/// Number of objects of a PDF file for each of its pages: the page, its content and its picture.
+const OBJECTS_PER_PAGE: i32 = 3;
+
+/// One page of a PDF file, with a picture that is as large as fits, in the middle.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct BookPage<'a> {
+    /// JPEG or PNG file of the picture, as [`write_photo_jpeg`] and [`write_photo`] write it. It goes into the PDF as it
+    /// is, without loss.
+    pub picture: &'a [u8],
+    /// Width and height of the page, in millimetres.
+    pub size: [f64; 2],
+}
+
+/// Writes a photo as a PDF file of one page, which the photo fills as a JPEG, or without loss if all its pixels are
+/// black or white; the page has the size of the surface in the photo. Print it at 100 %.
+///
+/// # Errors
+/// Those of [`write_photo_jpeg`]; [`Error::Option`] without a resolution, [`Error::Unsupported`] if a
+/// side is below 2 mm or above 5.08 m, the format's limit.
+pub fn write_photo_pdf(photo: &impl PhotoRows, options: &PhotoOptions) -> Result<Vec<u8>> {
+    let Some(dots) = options.dots()? else {
+        let requirement = "must be known for a PDF, whose pages are in true size";
+        return Err(Error::option(
+            "dots_per_millimetre",
+            "not given",
+            requirement,
+        ));
+    };
+    let size = photo.size().map(|pixels| pixels as f64 / dots);
+    check_size(size)?;
+    let picture = match is_bilevel(photo)? {
+        true => write_photo(photo, options)?,
+        false => write_photo_jpeg(photo, options)?,
+    };
+    write_book(&[BookPage {
+        picture: &picture,
+        size,
+    }])
+}
+
+/// Writes a PDF file with one page for each picture, in their order.
+///
+/// # Errors
+/// [`Error::Empty`] without pages; [`Error::Unsupported`] if a side of a page is below 2 mm or above 5.08 m, the
+/// format's limit, and for pictures that are neither JPEG nor PNG without transparency; [`Error::Format`] for a damaged
+/// picture.
+pub fn write_book(pages: &[BookPage<'_>]) -> Result<Vec<u8>> {
+    if pages.is_empty() {
+        return Err(Error::Empty { what: "book" });
+    }
+    let [catalog, tree] = [1, 2].map(Ref::new);
+    let first = |number: usize| 3 + OBJECTS_PER_PAGE * number as i32;
+    let mut pdf = Pdf::new();
+    pdf.catalog(catalog).pages(tree);
+    pdf.pages(tree)
+        .kids((0..pages.len()).map(|number| Ref::new(first(number))))
+        .count(pages.len() as i32);
+    for (number, page) in pages.iter().enumerate() {
+        check_size(page.size)?;
+        let picture = PictureData::new(page.picture)?;
+        let [object, content, image] = [0, 1, 2].map(|k| Ref::new(first(number) + k));
+        let name = Name(b"I");
+        let [width, height] = page.size;
+        let mut entry = pdf.page(object);
+        entry
+            .parent(tree)
+            .media_box(Rect::new(0.0, 0.0, points(width), points(height)))
+            .contents(content);
+        entry.resources().x_objects().pair(name, image);
+        entry.finish();
+        let [wide, tall] = picture.size.map(f64::from);
+        let scale = (width / wide).min(height / tall);
+        let [x, y] = [width - scale * wide, height - scale * tall].map(|rest| points(0.5 * rest));
+        let mut drawn = Content::new();
+        drawn.save_state();
+        drawn.transform([points(scale * wide), 0.0, 0.0, points(scale * tall), x, y]);
+        drawn.x_object(name).restore_state();
+        pdf.stream(content, &drawn.finish());
+        write_picture(&mut pdf, image, &picture);
+    }
+    Ok(pdf.finish())
+}
+
+/// Writes a picture as an object of a PDF file.
+fn write_picture(pdf: &mut Pdf, place: Ref, picture: &PictureData<'_>) {
+    let mut object = pdf.image_xobject(place, &picture.data);
+    let [width, height] = picture.size.map(|side| side as i32);
+    object.width(width).height(height);
+    object.bits_per_component(picture.bits.into());
+    match picture.channels {
+        1 => object.color_space().device_gray(),
+        _ => object.color_space().device_rgb(),
+    }
+    match picture.compression {
+        Compression::Jpeg => {
+            object.filter(Filter::DctDecode);
+        }
+        Compression::Png => {
+            object.filter(Filter::FlateDecode);
+            object
+                .decode_parms()
+                .predictor(pdf_writer::types::Predictor::PngOptimum)
+                .colors(picture.channels.into())
+                .bits_per_component(picture.bits.into())
+                .columns(width);
+        }
+    }
+    object.finish();
+}
+
+/// Checks that a page's sides, in millimetres, are within the limits of PDF.
+fn check_size(sides: [f64; 2]) -> Result<()> {
+    if sides
+        .iter()
+        .all(|side| (MIN_PAGE_SIDE_MM..=MAX_PAGE_SIDE_POINTS / POINTS_PER_MM).contains(side))
+    {
+        return Ok(());
+    }
+    Err(Error::Unsupported {
+        format: "PDF",
+        reason: format!(
+            "a page of {:.3} × {:.3} mm cannot be; pages have sides from 2 mm to 5.08 m. Is the \
+             unit of the lengths right?",
+            sides[0], sides[1]
+        ),
+    })
+}

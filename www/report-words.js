@@ -1,0 +1,34 @@
+/** What each row of the report means, in plain words. */
+import { count } from './format.js';
+
+/** Meanings of the rows, by what the row is about. */
+export const REPORT_WORDS = {
+  gap: 'No surface has an energy that is lower by more than this share.',
+  noGap: 'The energy is almost zero, so a share of it would say nothing.',
+  objective: 'The energy of the result: fidelity and bending together.',
+  fidelity: 'How far the result is from the input: λ times the squared distances.',
+  nuclearNorm: 'How much the result bends and creases.',
+  dualBound: 'The proof: no surface at all has a lower energy.',
+  interior: 'These vertices have all six neighbours. Curvature is measured there.',
+  boundary: 'These vertices lie at the border.',
+  omitted: 'These vertices have too few neighbours. Their heights follow from the nearest ones.',
+  torn: 'The surface is torn here, so its curvature is not measured.',
+  held: 'You fixed these heights.',
+  free: 'These heights follow from the surface around them.',
+  parts: 'The surface has unconnected parts. Each was solved by itself.',
+  lambda: 'The detail that is kept: a larger λ stays closer to the input.',
+  reweighted: 'The surface was solved again so many times. The proof is about the last time.',
+  /** @param {number} passes */
+  creases: (passes) => `These vertices lie on creases, which were sharpened ${passes === 1 ? 'once' : `${count(passes)} times`}. The proof is about the last time.`,
+  /** @param {readonly number[]} sizes */
+  lattices: (sizes) => `The solve went from coarse to fine: ${sizes.map((size) => count(size)).join(', ')} interior vertices.`,
+  /** @param {number} finest */
+  iterations: (finest) => `The solver (ADMM) took so many steps, ${count(finest)} of them on the finest lattice.`,
+  cgIterations: 'The linear systems within these steps took so many conjugate-gradient steps.',
+  rho: 'The solver’s own parameter at the end. It adapts by itself.',
+  scale: 'One unit of the input is this long while the page solves.',
+  /** @param {string} setup @param {string} zStep @param {string} hStep @param {string} check */
+  time: (setup, zStep, hStep, check) => `Preparation ${setup}, linear systems ${zStep}, bending ${hStep}, proof ${check}.`,
+  heights: 'Root mean square distance from the true surface, in the example’s unit.',
+  normals: 'Mean angle between the surface and the true one.',
+};

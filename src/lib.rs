@@ -111,6 +111,7 @@ pub use fit::report::{
 };
 pub use fit::solver::{Solver, fit, fit_with};
 pub use fit::surface::Surface;
+pub use fit::threads::ThreadLimit;
 pub use heights::bridging::{BridgedImage, Bridging};
 pub use heights::heightfield::{HeightImage, Heightfield};
 pub use heights::normalization::Normalization;

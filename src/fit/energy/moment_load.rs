@@ -144,7 +144,7 @@ impl<O: Operator> Problem<O> {
         operator.sweep(
             &mut scratch,
             &self.target,
-            &mut load,
+            &mut operator.bands().split(&mut load).collect::<Vec<_>>(),
             |_, run, _, mut to| {
                 for (i, stencil) in (run.start..run.end).enumerate() {
                     let most = MAX_LOAD_MOMENT * self.weight.at(stencil);
@@ -154,7 +154,7 @@ impl<O: Operator> Problem<O> {
                 }
             },
             |load, run, sums| {
-                for (i, load) in load[run.start..run.end].iter_mut().enumerate() {
+                for (i, load) in load.run_mut(run).iter_mut().enumerate() {
                     *load = sums.at(i);
                 }
             },

@@ -11,13 +11,13 @@ use std::sync::Arc;
 use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
 
 use super::border::coarser_counts;
-use super::grid::{Grid, LARGEST_EIGENVALUE, part, part_mut};
+use super::grid::{Grid, LARGEST_EIGENVALUE, part};
 use super::transfer::Transfer;
 use crate::error::{Result, try_filled};
 use crate::fit::heightfields::Problem;
 use crate::lattice::domain::Domain;
 use crate::lattice::per_cell::PerCell;
-use crate::math::lanes;
+use crate::math::{fork, lanes};
 
 /// Number of smoothing steps of a V-cycle on each lattice before and after the coarse correction.
 const SMOOTHING_STEPS: usize = 2;
@@ -70,6 +70,8 @@ struct Floor {
     /// smoother's last step, and its residual.
     b: Vec<f32>,
     x: Vec<f32>,
+    /// Solution after the smoothing step in progress.
+    next: Vec<f32>,
     step: Vec<f32>,
     residual: Vec<f32>,
 }
@@ -106,6 +108,7 @@ impl Multigrid {
                 direct: None,
                 b: zeros()?,
                 x: zeros()?,
+                next: zeros()?,
                 step: zeros()?,
                 residual: zeros()?,
             };
@@ -186,7 +189,7 @@ fn cycle(floors: &mut [Floor], transfers: &[Transfer]) {
     let low = LARGEST_EIGENVALUE / SMOOTHED_EIGENVALUE_RATIO;
     fine.start(low);
     fine.smooth(SMOOTHING_STEPS - 1, low, true);
-    fine.grid.residual(&mut fine.x, &fine.b, &mut fine.residual);
+    fine.grid.residual(&fine.x, &fine.b, &mut fine.residual);
     fine.grid.pin(&mut fine.residual);
     let scale = 0.25 * fine.grid.diagonal / coarse.grid.diagonal;
     transfer.restrict(
@@ -298,17 +301,20 @@ impl Floor {
     /// smallest eigenvalue whose error it reduces.
     fn start(&mut self, low: f32) {
         let weight = 2.0 / (LARGEST_EIGENVALUE + low);
-        for run in self.grid.domain.active().all() {
-            let x = part_mut(&mut self.x, *run);
-            let step = part_mut(&mut self.step, *run);
-            let b = part(&self.b, *run);
-            let m = part(&self.grid.inverse_diagonal, *run);
-            for i in 0..x.len() {
-                let first = weight * (m[i] * b[i]);
-                step[i] = first;
-                x[i] = first;
+        let (domain, b) = (&self.grid.domain, &self.b);
+        let (bands, inverse) = (domain.bands(), &self.grid.inverse_diagonal);
+        let states = bands.split(&mut self.x).zip(bands.split(&mut self.step));
+        fork::for_each(&mut states.collect::<Vec<_>>(), |band, (x, step)| {
+            for run in bands.runs(domain.active(), band) {
+                let (x, step) = (x.run_mut(*run), step.run_mut(*run));
+                let (b, m) = (part(b, *run), part(inverse, *run));
+                for i in 0..x.len() {
+                    let first = weight * (m[i] * b[i]);
+                    step[i] = first;
+                    x[i] = first;
+                }
             }
-        }
+        });
     }
 
     /// Takes steps of Chebyshev's iteration that reduce the errors of eigenvalues from `low` to the largest; `started`
@@ -326,8 +332,9 @@ impl Floor {
                 ratio = 1.0 / (2.0 * sigma - last);
                 (ratio * last, 2.0 * ratio / half)
             };
-            self.grid
-                .smooth(&mut self.x, &self.b, &mut self.step, momentum, weight);
+            let (x, b) = ((&*self.x, &mut *self.next), &self.b);
+            self.grid.smooth(x, b, &mut self.step, momentum, weight);
+            std::mem::swap(&mut self.x, &mut self.next);
         }
     }
 }

@@ -14,6 +14,18 @@ pub(crate) fn for_each<S: Send>(pieces: &mut [S], work: impl Fn(usize, &mut S) +
     }
 }
 
+/// Runs two pieces of work, side by side where there are threads, and returns what both return.
+pub(crate) fn join<A: Send, B: Send>(
+    a: impl FnOnce() -> A + Send,
+    b: impl FnOnce() -> B + Send,
+) -> (A, B) {
+    #[cfg(feature = "threads")]
+    if pool::has_threads() {
+        return rayon_core::join(a, b);
+    }
+    (a(), b())
+}
+
 /// Handle of a pool of threads, of which there is one for each size in a process. Without the feature `threads`, and
 /// where threads cannot be started, the pool is the caller's own thread.
 #[derive(Debug, Clone)]

@@ -88,14 +88,22 @@ impl Multigrid {
     /// Makes the hierarchy for a problem on the first of `domains`, each of which has twice the spacing of the one
     /// before.
     pub(crate) fn new(problem: &Problem, domains: &[Arc<Domain>], rho: f64) -> Result<Self> {
-        let transfers: Vec<Transfer> = domains
-            .windows(2)
-            .map(|pair| Transfer::new(&pair[0], &pair[1]))
-            .collect();
+        let transfers = || {
+            let pairs = domains.windows(2);
+            let mut transfers: Vec<_> = pairs.map(|pair| (pair, None)).collect();
+            fork::for_each(&mut transfers, |_, (pair, to)| {
+                *to = Some(Transfer::new(&pair[0], &pair[1]));
+            });
+            transfers.into_iter().filter_map(|(_, transfer)| transfer)
+        };
+        let (transfers, counts) = fork::join(
+            || transfers().collect::<Vec<Transfer>>(),
+            || stencil_counts(domains),
+        );
         let mut floors: Vec<Floor> = Vec::with_capacity(domains.len());
         let mut spacing = problem.operator.spacing;
         let varied = matches!(problem.fidelity, PerCell::Each(_));
-        for (i, domain) in domains.iter().enumerate() {
+        for (i, (domain, stencils)) in domains.iter().zip(counts?).enumerate() {
             let zeros = || try_filled("multigrid", domain.cells(), 0.0);
             let constrained = if i == 0 {
                 problem.constrained.clone()
@@ -112,10 +120,7 @@ impl Multigrid {
                 step: zeros()?,
                 residual: zeros()?,
             };
-            if let Some(finer) = floors.last() {
-                let counts = &finer.grid.stencils;
-                floor.grid.stencils = coarser_counts(counts, &finer.grid.domain, domain)?;
-            }
+            floor.grid.stencils = stencils;
             floor.shares = match floors.last_mut() {
                 None => Shares::from_problem(problem)?,
                 Some(finer) => finer.coarser_shares(&transfers[i - 1], &mut floor)?,
@@ -175,6 +180,18 @@ impl Multigrid {
         std::mem::swap(b, &mut self.floors[0].b);
         &self.floors[0].x
     }
+}
+
+/// Counts the finest stencils that each stencil of each lattice stands for, as shares of the number away from the border.
+fn stencil_counts(domains: &[Arc<Domain>]) -> Result<Vec<PerCell<f32>>> {
+    let mut counts: Vec<PerCell<f32>> = Vec::with_capacity(domains.len());
+    for (i, domain) in domains.iter().enumerate() {
+        counts.push(match counts.last() {
+            None => PerCell::same(domain.stride(), 1.0),
+            Some(finer) => coarser_counts(finer, &domains[i - 1], domain)?,
+        });
+    }
+    Ok(counts)
 }
 
 /// Runs a V-cycle: solves `A x = b` approximately on the first lattice with the help of the coarser ones.

@@ -29,9 +29,11 @@ impl Transfer {
         let (frow, fcol) = fine.corner();
         let (crow, ccol) = coarse.corner();
         let first = |coarse: usize, fine: usize| 2 * (coarse as isize - 1) - fine as isize + 1;
+        let (averages, extension) =
+            fork::join(|| Averages::new(fine), || Extension::new(fine, coarse));
         Transfer {
-            averages: Averages::new(fine),
-            extension: Extension::new(fine, coarse),
+            averages,
+            extension,
             row: first(crow, frow),
             col: [first(ccol, fcol), first(ccol, fcol) - 1],
         }

@@ -248,33 +248,45 @@ impl Operator for LatticeOperator {
     /// slope is added.
     fn normals(&self, z: &[f64], to: &mut [f64]) {
         let domain = &self.domain;
-        for row in 1..=domain.rows() {
-            for run in domain.interior().row(row) {
-                let ring = Ring::new(z, domain, row, *run);
-                for (i, factor) in to[run.start..run.end].iter_mut().enumerate() {
-                    let [gx, gy] = ring.gradient(i, self.spacing);
-                    let [sx, sy] = self.coordinates.slope();
-                    let (gx, gy) = (gx + sx, gy + sy);
-                    *factor = 1.0 / (1.0 + gx * gx + gy * gy).sqrt();
+        let bands = domain.bands();
+        let mut states: Vec<_> = bands.split(to).collect();
+        fork::for_each(&mut states, |band, to| {
+            for row in bands.rows(band, domain.rows()) {
+                for run in domain.interior().row(row) {
+                    let ring = Ring::new(z, domain, row, *run);
+                    for (i, factor) in to.run_mut(*run).iter_mut().enumerate() {
+                        let [gx, gy] = ring.gradient(i, self.spacing);
+                        let [sx, sy] = self.coordinates.slope();
+                        let (gx, gy) = (gx + sx, gy + sy);
+                        *factor = 1.0 / (1.0 + gx * gx + gy * gy).sqrt();
+                    }
                 }
             }
-        }
+        });
     }
 
     fn spread(&self, values: &mut [f64]) {
         let domain = &self.domain;
         let old = values.to_vec();
-        for cell in domain.interior().cells() {
-            let around = domain
-                .neighbour_offsets(cell / domain.stride())
-                .map(|o| cell.wrapping_add_signed(o))
-                .into_iter()
-                .filter(|n| domain.roles()[*n] == Role::Interior);
-            let (sum, weight) = around.fold((2.0 * old[cell], 2.0), |(sum, weight), n| {
-                (sum + old[n], weight + 1.0)
-            });
-            values[cell] = sum / weight;
-        }
+        let bands = domain.bands();
+        let mut states: Vec<_> = bands.split(values).collect();
+        fork::for_each(&mut states, |band, values| {
+            for row in bands.rows(band, domain.rows()) {
+                let offsets = domain.neighbour_offsets(row);
+                for run in domain.interior().row(row) {
+                    for (cell, value) in (run.start..).zip(values.run_mut(*run)) {
+                        let around = offsets
+                            .map(|o| cell.wrapping_add_signed(o))
+                            .into_iter()
+                            .filter(|n| domain.roles()[*n] == Role::Interior);
+                        let own = (2.0 * old[cell], 2.0);
+                        let (sum, weight) =
+                            around.fold(own, |(sum, weight), n| (sum + old[n], weight + 1.0));
+                        *value = sum / weight;
+                    }
+                }
+            }
+        });
     }
 }
 

@@ -8,6 +8,7 @@ use crate::error::{Result, try_filled};
 use crate::fit::input::Input;
 use crate::lattice::coarsening::coarse_lattice;
 use crate::lattice::hexagonal::{Lattice, ROW_SPACING};
+use crate::math::fork;
 use crate::math::least_squares::LeastSquares;
 use crate::math::statistics::median;
 use crate::math::sym2::Sym2;
@@ -161,8 +162,10 @@ pub(super) fn curvature_scales(
     means.replace_impulses(MIN_IMPULSE_NOISE_RATIO * white);
     let mut scales = Vec::new();
     for lattice in 0..MAX_LATTICES {
-        for (index, disc) in discs.iter().enumerate() {
-            scales.extend(means.measure(disc).map(|measured| CurvatureScale {
+        let mut measured: Vec<_> = discs.iter().map(|disc| (disc, None)).collect();
+        fork::for_each(&mut measured, |_, (disc, to)| *to = means.measure(disc));
+        for (index, (disc, measured)) in measured.into_iter().enumerate() {
+            scales.extend(measured.map(|measured| CurvatureScale {
                 lattice,
                 disc: index,
                 count: measured.count,

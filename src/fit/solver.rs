@@ -63,8 +63,7 @@ impl Solver {
         options.check_effects_on(is_design, input.has_free_vertices())?;
         let prepared = PreparedInput::new(input)?;
         let threads = Threads::new(options.threads, &prepared.domain);
-        let pool = threads.clone();
-        pool.run(|| Solver::start(prepared, options, threads, warm_start, started))
+        threads.run(|| Solver::start(prepared, options, threads, warm_start, started))
     }
 
     /// Chooses the options that are not given, and sets up the solve.
@@ -135,7 +134,7 @@ impl Solver {
     /// # Errors
     /// [`Error::OutOfMemory`](crate::Error::OutOfMemory) in the set-up of a component or a level.
     pub fn advance(&mut self, work: usize) -> Result<Status> {
-        let threads = self.threads.clone();
+        let threads = self.threads;
         threads.run(|| self.continue_solve(work))
     }
 

@@ -28,7 +28,7 @@ pub enum ThreadLimit {
 }
 
 /// Threads of one solve.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Copy)]
 pub(crate) struct Threads {
     pool: Pool,
     limit: ThreadLimit,
@@ -59,17 +59,17 @@ impl Threads {
     }
 
     /// Number of threads.
-    pub(crate) fn len(&self) -> usize {
+    pub(crate) fn len(self) -> usize {
         self.pool.len()
     }
 
     /// Reason why there are not more threads.
-    pub(crate) fn limit(&self) -> ThreadLimit {
+    pub(crate) fn limit(self) -> ThreadLimit {
         self.limit
     }
 
     /// Runs a part of the solve on these threads.
-    pub(crate) fn run<R: Send>(&self, work: impl FnOnce() -> R + Send) -> R {
+    pub(crate) fn run<R: Send>(self, work: impl FnOnce() -> R + Send) -> R {
         self.pool.run(work)
     }
 }

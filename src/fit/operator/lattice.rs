@@ -134,8 +134,8 @@ impl Operator for LatticeOperator {
         Ok(Rolling::new(&self.domain))
     }
 
-    fn hessians(&self, z: &[f64], mut visit: impl FnMut(usize, Sym2)) {
-        for row in 1..=self.domain.rows() {
+    fn band_hessians(&self, band: usize, z: &[f64], mut visit: impl FnMut(usize, Sym2)) {
+        for row in self.bands().rows(band, self.domain.rows()) {
             for run in self.domain.interior().row(row) {
                 let ring = Ring::new(z, &self.domain, row, *run);
                 for cell in run.start..run.end {

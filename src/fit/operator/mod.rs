@@ -69,8 +69,15 @@ pub(crate) trait Operator: Clone + Debug + Send + Sync + 'static {
     /// [`Error::OutOfMemory`](crate::Error::OutOfMemory).
     fn scratch<T: Real>(&self) -> Result<Self::Scratch<T>>;
 
+    /// Calls `visit` with each stencil of a band and its Hessian `Cz`, in order.
+    fn band_hessians(&self, band: usize, z: &[f64], visit: impl FnMut(usize, Sym2));
+
     /// Calls `visit` with each stencil and its Hessian `Cz`, in order.
-    fn hessians(&self, z: &[f64], visit: impl FnMut(usize, Sym2));
+    fn hessians(&self, z: &[f64], mut visit: impl FnMut(usize, Sym2)) {
+        for band in 0..self.bands().len() {
+            self.band_hessians(band, z, &mut visit);
+        }
+    }
 
     /// Computes `Cz` and `CᵀY` in one pass, with one of the `states` for each band: `at_stencils` gets the Hessians of
     /// each run of stencils and writes all of its `Y`; `at_vertices` gets each run of `CᵀY` as soon as it is complete,

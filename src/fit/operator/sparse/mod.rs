@@ -411,7 +411,7 @@ impl Operator for SparseOperator {
         try_filled("matrices", self.vertex_cells(), T::default())
     }
 
-    fn hessians(&self, z: &[f64], mut visit: impl FnMut(usize, Sym2)) {
+    fn band_hessians(&self, _: usize, z: &[f64], mut visit: impl FnMut(usize, Sym2)) {
         for stencil in 0..self.stencil_cells() {
             visit(
                 stencil,

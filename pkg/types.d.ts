@@ -449,6 +449,13 @@ export interface Report {
    * `'rounding'`, and where the objective is no more than a rounding error: then a share of it says nothing.
    */
   gap?: number;
+  /** Number of threads that the solve ran on. */
+  threads: number;
+  /**
+   * Why there were not more: no more were asked for, the process has no more cores, the surface has too few vertices, the
+   * wasm was built for one thread, or the system started no more.
+   */
+  threadLimit: 'options' | 'cores' | 'vertices' | 'build' | 'system';
   /** Lambda that was used, as a number. */
   lambda: number;
   /** How that came about, for `lambda: 'auto'`. */

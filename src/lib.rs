@@ -60,8 +60,8 @@
 //!
 //! Each iteration is linear in the number of vertices; their number grows slowly with it (from 10
 //! to 50 on the finest lattice from 20 thousand to 1 million vertices of a noisy page). About 180
-//! bytes for each vertex. One thread.
-//! The result is the same on every run and, to rounding, on every machine.
+//! bytes for each vertex. With the feature `threads` a solve runs on all cores ([`Options::threads`]).
+//! The result is the same on every run, for any number of threads and, to rounding, on every machine.
 //!
 //! # References
 //!
@@ -111,6 +111,7 @@ pub use fit::report::{
 };
 pub use fit::solver::{Solver, fit, fit_with};
 pub use fit::surface::Surface;
+pub use fit::threads::ThreadLimit;
 pub use heights::bridging::{BridgedImage, Bridging};
 pub use heights::heightfield::{HeightImage, Heightfield};
 pub use heights::normalization::Normalization;

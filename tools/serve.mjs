@@ -11,6 +11,15 @@ const strict = [
 ].join('; ');
 
 /**
+ * Headers by which browsers isolate a page from others, so that its memory may be shared with its workers. Every file of the
+ * page needs them, the worker's script too.
+ */
+export const isolation = {
+  'Cross-Origin-Opener-Policy': 'same-origin',
+  'Cross-Origin-Embedder-Policy': 'require-corp',
+};
+
+/**
  * @typedef {import('node:http').IncomingMessage} Request
  * @typedef {import('node:http').ServerResponse} Response
  * @typedef {{ url: string, close: () => Promise<void> }} Server

@@ -38,12 +38,12 @@ function candidates(wish) {
 /** @param {number[]} ports */
 async function open(ports) {
   // Only now: on a fresh clone the server's library has just been installed.
-  const { serve } = await import('./serve.mjs');
+  const { isolation, serve } = await import('./serve.mjs');
   await writeGuide(documents, { references: false });
   const folders = { '/': www, '/pkg/': pkg, '/guide/': join(documents, 'guide') };
   for (const port of ports) {
     try {
-      return await serve({ port, host: process.env.HOST || undefined, folders });
+      return await serve({ port, host: process.env.HOST || undefined, folders, headers: isolation });
     } catch (error) {
       if (!isTaken(error)) throw new Problem(`Port ${port} cannot be used (${error}): set PORT to another.`);
     }

@@ -5,6 +5,7 @@ use super::energy::moment_load::{Rings, bearing};
 use super::heightfields::{Iterate, Problem};
 use crate::error::{Result, try_filled};
 use crate::lattice::domain::Role;
+use crate::math::fork;
 use crate::math::sym2::Sym2;
 
 /// Loads the border with the bending moments of the vertices inside, and returns whether there are any. `bend_radius`
@@ -39,10 +40,17 @@ pub(super) fn load_border(
         problem.reach(bend_radius),
     )?;
     let mut moments = try_filled("moments", domain.cells(), Sym2::default())?;
-    for cell in domain.interior().cells() {
-        let (dual, hessian) = iterate.matrices(problem, cell);
-        moments[cell] = bearing(dual, hessian);
-    }
+    let bands = domain.bands();
+    let mut states: Vec<_> = bands.split(&mut moments).collect();
+    let from = &*problem;
+    fork::for_each(&mut states, |band, moments| {
+        for run in bands.runs(domain.interior(), band) {
+            for (cell, moment) in (run.start..).zip(moments.run_mut(*run)) {
+                let (dual, hessian) = iterate.matrices(from, cell);
+                *moment = bearing(dual, hessian);
+            }
+        }
+    });
     if !rings.continue_outwards(&mut moments, around)? {
         return Ok(false);
     }

@@ -15,6 +15,7 @@ use super::multilevel::{Answer, Multilevel, SET_UP_CG_ITERATIONS};
 use super::options::{Bending, Energy, Options};
 use super::report::{HuberReport, LevelReport, Progress, Report, Seconds, StopReason};
 use super::surface::Surface;
+use super::threads::ThreadLimit;
 use super::totals::{Totals, add_levels};
 use super::warm_start::WarmStart;
 use crate::error::{Error, Result, try_filled};
@@ -354,7 +355,7 @@ impl ComponentSolver {
         }
     }
 
-    /// Returns the best surface so far; its report does not say how λ was chosen.
+    /// Returns the best surface so far; its report does not say how λ was chosen, nor how many threads there were.
     ///
     /// # Errors
     /// [`Error::OutOfMemory`].
@@ -438,6 +439,8 @@ impl ComponentSolver {
             rho: answers().next().map_or(0.0, |answer| answer.iterate.rho),
             scale: self.scale,
             stop_reason,
+            threads: 1,
+            thread_limit: ThreadLimit::Options,
             seconds: Seconds {
                 setup: self.setup,
                 total: self.started.elapsed().as_secs_f64(),

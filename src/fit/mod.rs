@@ -23,6 +23,7 @@ pub(crate) mod report;
 pub(crate) mod solver;
 pub(crate) mod surface;
 mod thin_plate;
+pub(crate) mod threads;
 mod totals;
 mod tuning;
 mod warm_start;

@@ -2,6 +2,7 @@
 
 use std::str::FromStr;
 
+use super::threads::MAX_THREADS;
 use crate::error::{Error, Result};
 use crate::heights::normalization::Normalization;
 
@@ -316,6 +317,8 @@ pub struct Options {
     pub(crate) crease_passes: Option<usize>,
     #[cfg_attr(feature = "serde", serde(skip))]
     pub(crate) border: Option<Border>,
+    #[cfg_attr(feature = "serde", serde(skip))]
+    pub(crate) threads: Option<usize>,
     /// Whether the surface is only compared with others: its border bears no moments, and its rank is not reduced.
     #[cfg_attr(feature = "serde", serde(skip))]
     pub(crate) is_trial: bool,
@@ -337,6 +340,7 @@ impl Default for Options {
             crease_radius: None,
             crease_passes: None,
             border: None,
+            threads: None,
             is_trial: false,
         }
     }
@@ -447,6 +451,13 @@ impl Options {
     /// of the [`Options::crease_passes`].
     pub fn border(mut self, border: Border) -> Self {
         self.border = Some(border);
+        self
+    }
+
+    /// Sets the number of threads of the solve, from 1 to 256; default: one for each core that the process may use. No
+    /// more are started than have some thousand vertices each. The surface is the same to the last bit for any number.
+    pub fn threads(mut self, threads: usize) -> Self {
+        self.threads = Some(threads);
         self
     }
 
@@ -561,6 +572,15 @@ impl Options {
         }
         if self.max_iterations == 0 {
             return Err(Error::option("max_iterations", 0, "must be at least 1"));
+        }
+        if let Some(threads) = self.threads
+            && !(1..=MAX_THREADS).contains(&threads)
+        {
+            return Err(Error::option(
+                "threads",
+                threads,
+                "must be a whole number from 1 to 256",
+            ));
         }
         Ok(())
     }

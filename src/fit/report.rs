@@ -1,6 +1,7 @@
 //! Reports of a solve: its progress while it runs, and its figures afterwards.
 
 use super::options::Energy;
+use super::threads::ThreadLimit;
 
 /// Reason why a solve stopped.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -260,6 +261,10 @@ pub struct Report {
     pub scale: f64,
     /// Reason why the solve stopped.
     pub stop_reason: StopReason,
+    /// Number of threads that the solve ran on.
+    pub threads: usize,
+    /// Reason why there were not more threads.
+    pub thread_limit: ThreadLimit,
     /// Time spent in each phase of the solve, in seconds.
     pub seconds: Seconds,
 }

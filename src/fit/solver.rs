@@ -10,6 +10,7 @@ use super::input::Input;
 use super::options::{Lambda, Options};
 use super::report::{LambdaChoice, LambdaReason, Progress, StopReason};
 use super::surface::Surface;
+use super::threads::Threads;
 use super::tuning::closed_form::{self, Known};
 use super::tuning::noise::Noise;
 use super::tuning::residual::Residual;
@@ -41,6 +42,7 @@ pub struct Solver {
     /// Noise of the input, where λ or the penalty is chosen by it.
     noise: Option<Noise>,
     solve: ComponentSolver,
+    threads: Threads,
 }
 
 impl Solver {
@@ -63,6 +65,19 @@ impl Solver {
         let is_design = input.is_design();
         options.check_effects_on(is_design, input.has_free_vertices())?;
         let prepared = PreparedInput::new(input)?;
+        let threads = Threads::new(options.threads, &prepared.domain);
+        threads.run(|| Solver::start(prepared, options, threads, warm_start, started))
+    }
+
+    /// Chooses the options that are not given, and sets up the solve.
+    fn start(
+        prepared: PreparedInput,
+        options: &Options,
+        threads: Threads,
+        warm_start: Option<Arc<WarmStart>>,
+        started: Instant,
+    ) -> Result<Self> {
+        let is_design = prepared.input.is_design();
         let asked = options.with_energy_for(is_design);
         let known = Known::of(&prepared.input, &asked)?;
         let Known { scale, noise } = known;
@@ -92,6 +107,7 @@ impl Solver {
             solve: ComponentSolver::new(
                 prepared, &options, scale, warm_start, start_mode, started,
             )?,
+            threads,
         })
     }
 
@@ -122,6 +138,12 @@ impl Solver {
     /// # Errors
     /// [`Error::OutOfMemory`](crate::Error::OutOfMemory) in the set-up of a component or a level.
     pub fn advance(&mut self, work: usize) -> Result<Status> {
+        let threads = self.threads;
+        threads.run(|| self.continue_solve(work))
+    }
+
+    /// Continues the solve on the threads that this is called on.
+    fn continue_solve(&mut self, work: usize) -> Result<Status> {
         let mut left = work.max(1);
         while let Some(search) = &mut self.search
             && self.solve.status() == Status::Running
@@ -214,8 +236,10 @@ impl Solver {
     /// # Errors
     /// [`Error::OutOfMemory`](crate::Error::OutOfMemory).
     pub fn surface(&self) -> Result<Surface> {
-        let mut surface = self.solve.surface()?;
+        let mut surface = self.threads.run(|| self.solve.surface())?;
         surface.report.lambda_choice = self.choice;
+        surface.report.threads = self.threads.len();
+        surface.report.thread_limit = self.threads.limit();
         Ok(surface)
     }
 }

@@ -1,6 +1,7 @@
 //! The domain of a solve: which vertices of a lattice take part, as interior and boundary vertices, and which
 //! are omitted.
 
+use super::bands::Bands;
 use super::hexagonal::{Lattice, NEIGHBOUR_DIRECTIONS};
 use super::runs::RowRuns;
 use crate::error::{Error, Result, try_filled};
@@ -51,6 +52,7 @@ pub struct Domain {
     roles: Vec<Role>,
     interior: RowRuns,
     active: RowRuns,
+    bands: Bands,
     omitted: usize,
     occluded: usize,
 }
@@ -129,6 +131,7 @@ impl Domain {
             stride,
             roles,
             interior,
+            bands: Bands::new(&active, rows, stride),
             active,
             omitted,
             occluded: torn,
@@ -199,6 +202,18 @@ impl Domain {
     /// Runs of consecutive active vertices (interior and boundary), row by row.
     pub(crate) fn active(&self) -> &RowRuns {
         &self.active
+    }
+
+    /// Bands of rows, which threads work on side by side.
+    pub(crate) fn bands(&self) -> &Bands {
+        &self.bands
+    }
+
+    /// Divides the rows into about a number of bands.
+    #[cfg(test)]
+    pub(crate) fn with_bands(self, number: usize) -> Self {
+        let bands = Bands::with_number(number, &self.active, self.rows, self.stride);
+        Domain { bands, ..self }
     }
 
     /// Returns the index of a lattice vertex (row, column) in arrays over the domain, or `None` outside of the bounding

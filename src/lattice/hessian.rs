@@ -1,7 +1,7 @@
 //! The operator `C` from heights to Hessians of the best-fit quadratics, and its adjoint.
 
 use super::domain::Domain;
-use super::stencil::{HessianMap, Ring, Rolling};
+use super::stencil::{HessianMap, Ring, Rolling, weights_of};
 use crate::math::sym2::Sym2;
 
 /// The linear operator `C` from heights at the lattice's vertices to Hessians at the interior vertices, without a
@@ -59,31 +59,34 @@ impl<'a> HessianOperator<'a> {
         assert_eq!(matrices.len(), domain.interior_len());
         let map = HessianMap::new(domain.lattice().spacing());
         let mut out = vec![0.0; domain.lattice().len()];
-        let mut left = matrices;
+        let mut padded = vec![Sym2::default(); domain.cells()];
+        for (cell, y) in domain.interior().cells().zip(matrices) {
+            padded[cell] = *y;
+        }
+        let mut sums = vec![0.0; domain.cells()];
         Rolling::<f64>::new(domain).sweep(
             domain,
-            &mut (),
-            |(), row, weights| {
+            &mut domain.bands().split(&mut sums).collect::<Vec<_>>(),
+            |_, row, weights| {
                 for run in domain.interior().row(row) {
-                    let (these, rest) = left.split_at(run.end - run.start);
-                    left = rest;
-                    let col = run.start - row * domain.stride();
-                    for (i, y) in these.iter().enumerate() {
-                        for (weight, value) in weights.iter_mut().zip(map.adjoint(*y)) {
-                            weight[col + i] = value;
-                        }
+                    let [w1, w2, w3] = weights_of(weights, domain, row, *run);
+                    for (i, y) in padded[run.start..run.end].iter().enumerate() {
+                        (w1[i], w2[i], w3[i]) = map.adjoint(*y).into();
                     }
                 }
             },
-            |(), row, sums| {
+            |to, row, sums| {
                 for run in domain.active().row(row) {
                     let sum = sums.run(*run);
-                    for (i, cell) in (run.start..run.end).enumerate() {
-                        out[domain.lattice_index(cell)] = sum.at(i);
+                    for (i, to) in to.run_mut(*run).iter_mut().enumerate() {
+                        *to = sum.at(i);
                     }
                 }
             },
         );
+        for cell in domain.active().cells() {
+            out[domain.lattice_index(cell)] = sums[cell];
+        }
         out
     }
 

@@ -1,10 +1,19 @@
 //! Runs of consecutive cells of an array over a domain, which the kernels sweep over.
 
+use std::ops::Range;
+
 /// A run of consecutive cells (vertices) in one row of a domain's padded box: the indices from `start` to before `end`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct Run {
     pub start: usize,
     pub end: usize,
+}
+
+impl Run {
+    /// Number of cells in the run.
+    pub(crate) fn len(&self) -> usize {
+        self.end - self.start
+    }
 }
 
 /// Runs of consecutive cells of a domain's padded box, sorted by row.
@@ -48,7 +57,17 @@ impl RowRuns {
 
     /// Returns the runs of one row of the domain's padded box.
     pub(crate) fn row(&self, row: usize) -> &[Run] {
-        &self.runs[self.first[row]..self.first[row + 1]]
+        self.rows(row..row + 1)
+    }
+
+    /// Returns the runs of consecutive rows of the domain's padded box.
+    pub(crate) fn rows(&self, rows: Range<usize>) -> &[Run] {
+        &self.runs[self.first[rows.start]..self.first[rows.end]]
+    }
+
+    /// Number of rows of the domain's padded box.
+    pub(crate) fn row_count(&self) -> usize {
+        self.first.len() - 1
     }
 
     /// Returns all runs, row by row.

@@ -19,6 +19,7 @@
 
 use super::domain::Domain;
 use super::runs::Run;
+use crate::math::fork;
 use crate::math::real::Real;
 use crate::math::sym2::Sym2;
 
@@ -224,61 +225,104 @@ pub(crate) fn weights_of<'a, T>(
     weights.each_mut().map(|weight| &mut weight[col..][..n])
 }
 
-/// Three consecutive rows of weights of second differences, which move down the domain's padded box, so that the
-/// adjoint `Cᵀ` never stores weights for all vertices.
+/// Three consecutive rows of weights of second differences for each band of a domain, which move down the band, so that
+/// the adjoint `Cᵀ` never stores weights for all vertices.
 #[derive(Debug, Clone)]
 pub(crate) struct Rolling<T> {
+    bands: Vec<BandRows<T>>,
+}
+
+/// Rows of weights in one band.
+#[derive(Debug, Clone)]
+struct BandRows<T> {
     rows: [Weights<T>; 3],
+    /// First two rows of the band, for the vertices beside the band above.
+    first: [Weights<T>; 2],
 }
 
 impl<T: Real> Rolling<T> {
     pub(crate) fn new(domain: &Domain) -> Self {
         let row = || vec![T::default(); domain.stride()];
         let weights = || [row(), row(), row()];
-        Rolling {
+        let rows = || BandRows {
             rows: [weights(), weights(), weights()],
+            first: [weights(), weights()],
+        };
+        Rolling {
+            bands: (0..domain.bands().len()).map(|_| rows()).collect(),
         }
     }
 
-    /// Sweeps down the domain once to apply the adjoint `Cᵀ`: `fill(row, weights)` writes the weights of the interior
-    /// cells of a row (cleared before), `gather(row, sums)` then reads the adjoint's values in a row whose own weights
-    /// and those of both neighbouring rows are complete.
+    /// Sweeps down each band of the domain once to apply the adjoint `Cᵀ`, with one of the `states` for each band:
+    /// `fill(state, row, weights)` writes the weights of the interior cells of a row (cleared before),
+    /// `gather(state, row, sums)` then reads the adjoint's values in a row whose own weights and those of both
+    /// neighbouring rows are complete.
     ///
-    /// `fill` is called for each row before `gather` of the row above it.
+    /// In a band, `fill` is called for each row before `gather` of the row above it; `gather` of the band's outermost
+    /// rows follows after all bands are swept, in the order of the rows.
     #[inline(always)]
-    pub(crate) fn sweep<S: ?Sized>(
+    pub(crate) fn sweep<S: Send>(
         &mut self,
         domain: &Domain,
-        state: &mut S,
-        mut fill: impl FnMut(&mut S, usize, &mut Weights<T>),
-        mut gather: impl FnMut(&mut S, usize, &Gather<'_, T>),
+        states: &mut [S],
+        fill: impl Fn(&mut S, usize, &mut Weights<T>) + Sync,
+        gather: impl Fn(&mut S, usize, &Gather<'_, T>) + Sync,
     ) {
-        for weights in self.rows.iter_mut().flatten() {
-            weights.fill(T::default());
-        }
-        for row in 1..=domain.rows() + 1 {
-            self.rows.rotate_left(1);
-            for weights in &mut self.rows[2] {
+        let last = self.bands.len() - 1;
+        let rows_of = |band| domain.bands().rows(band, domain.rows());
+        let mut bands: Vec<_> = self.bands.iter_mut().zip(&mut *states).collect();
+        fork::for_each(&mut bands, |band, (BandRows { rows, first }, state)| {
+            for weights in rows.iter_mut().flatten() {
                 weights.fill(T::default());
             }
-            if row <= domain.rows() {
-                fill(state, row, &mut self.rows[2]);
+            let (start, end) = (rows_of(band).start, rows_of(band).end);
+            let gathered_from = start + usize::from(band > 0);
+            for row in start..end + usize::from(band == last) {
+                rows.rotate_left(1);
+                for weights in &mut rows[2] {
+                    weights.fill(T::default());
+                }
+                if row < end {
+                    fill(state, row, &mut rows[2]);
+                }
+                if band > 0 && row < start + 2 {
+                    for (to, from) in first[row - start].iter_mut().zip(&rows[2]) {
+                        to.copy_from_slice(from);
+                    }
+                }
+                if row > gathered_from {
+                    gather(
+                        state,
+                        row - 1,
+                        &Gather::new(domain, row - 1, rows.each_ref()),
+                    );
+                }
             }
-            if row > 1 {
-                let gathered = Gather {
-                    rows: &self.rows,
-                    row: row - 1,
-                    domain,
-                };
-                gather(state, row - 1, &gathered);
-            }
+        });
+        if last == 0 {
+            return;
         }
+        let bands = &self.bands;
+        fork::for_each(states, |band, state| {
+            let BandRows { rows, first } = &bands[band];
+            let top = band.checked_sub(1).map(|above| {
+                let rows = [&bands[above].rows[2], &first[0], &first[1]];
+                (rows_of(band).start, rows)
+            });
+            let bottom = bands.get(band + 1).map(|below| {
+                let rows = [&rows[1], &rows[2], &below.first[0]];
+                (rows_of(band).end - 1, rows)
+            });
+            for (row, rows) in [top, bottom].into_iter().flatten() {
+                gather(state, row, &Gather::new(domain, row, rows));
+            }
+        });
     }
 }
 
 /// Values of the adjoint `Cᵀ` in one row, to be read as second differences of three complete rows of weights.
 pub(crate) struct Gather<'a, T> {
-    rows: &'a [Weights<T>; 3],
+    rows: [&'a Weights<T>; 3],
     row: usize,
     domain: &'a Domain,
 }
@@ -296,7 +340,13 @@ pub(crate) struct Gathered<'a, T> {
     c3: &'a [T],
 }
 
-impl<T: Real> Gather<'_, T> {
+impl<'a, T: Real> Gather<'a, T> {
+    /// Takes the weights of a row, of the one before it and of the one after it.
+    #[inline(always)]
+    fn new(domain: &'a Domain, row: usize, rows: [&'a Weights<T>; 3]) -> Self {
+        Gather { rows, row, domain }
+    }
+
     /// Takes the weights that the adjoint's values in the cells of a run are computed from.
     #[inline(always)]
     pub(crate) fn run(&self, run: Run) -> Gathered<'_, T> {

@@ -5,6 +5,8 @@ use std::ops::{Add, Div, Mul, Neg, Sub};
 /// A floating-point number, `f32` or `f64`, in kernels that run in both precisions; its default is 0.
 pub(crate) trait Real:
     Copy
+    + Send
+    + Sync
     + std::fmt::Debug
     + 'static
     + Default

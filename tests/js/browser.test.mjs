@@ -3,6 +3,7 @@ import assert from 'node:assert/strict';
 import { readFile, writeFile } from 'node:fs/promises';
 import { join } from 'node:path';
 import { after, before, test } from 'node:test';
+import { isolation } from '../../tools/serve.mjs';
 import { launch, openPage, serve, skip } from './support/browser.mjs';
 import { temporaryFolder } from './support/command.mjs';
 import { pkg, wasmFile } from './support/paths.mjs';
@@ -73,6 +74,23 @@ inPage('a worker solves, without blob: or eval', async (page) => {
   })()`);
   assert.ok(result.most < 1e-9);
   assert.deepEqual([result.reason, result.real], ['rounding', true]);
+});
+
+test('in a page that is isolated from others the package works as well', { skip }, async () => {
+  const isolated = await serve({ '/pkg/': pkg, '/': site }, isolation);
+  const { page, incidents } = await openPage(browser, isolated.url);
+  const result = await page.evaluate(`(async () => {
+    const worker = new developable.DevelopableWorker({ workerUrl: '/pkg/worker.js' });
+    const fits = await Promise.all([developable.fit(plane(20, 15)), worker.fit(plane(20, 15))]);
+    worker.dispose();
+    await direct.init();
+    const reasons = [...fits, direct.fit(plane(20, 15))].map(({ report }) => report.stopReason);
+    return { isolated: crossOriginIsolated, reasons };
+  })()`);
+  assert.deepEqual(result, { isolated: true, reasons: ['rounding', 'rounding', 'rounding'] });
+  assert.deepEqual(incidents, []);
+  await page.close();
+  await isolated.close();
 });
 
 inPage('progress comes, and an abort stops the work while the page stays alive', async (page) => {

@@ -16,8 +16,9 @@ for (const name of (await readdir(folder)).filter((entry) => entry.endsWith('.js
     close(surface.heights, numbers(expected.heights));
     if (expected.image) close(surface.image?.data ?? [], numbers(expected.image));
     else assert.equal(surface.image, undefined);
-    const { seconds, ...report } = /** @type {Record<string, any>} */ (surface.report);
+    const { seconds, threads, threadLimit, ...report } = /** @type {Record<string, any>} */ (surface.report);
     assert.ok(seconds.total >= 0);
+    assert.deepEqual([threads, threadLimit], [1, 'build']);
     figures(report, expected.report, name);
   });
 }

@@ -54,6 +54,8 @@ mod steps;
 mod surfaces;
 #[cfg(all(feature = "formats", feature = "meshes"))]
 mod textures;
+#[cfg(feature = "threads")]
+mod threads;
 mod unroll;
 mod warm;
 mod whole;

@@ -47,6 +47,7 @@ pageTest('the site works under any path and without a network, and is renewed as
     await visit.reload();
     await settled(visit);
     assert.match(await visit.locator('#certificate').innerText(), /^Proven/);
+    assert.ok(await visit.evaluate(() => crossOriginIsolated), 'the service worker isolates the page');
     // What was not loaded before, too.
     await visit.locator('#end-file').click();
     await visit.locator('#save-formats input[value="glb"]').check();

@@ -34,8 +34,22 @@ on('fetch', (event) => {
   const { request } = event;
   const url = new URL(request.url);
   if (request.method !== 'GET' || url.origin !== location.origin) return;
-  event.respondWith(isDocument(url) ? documentFor(request) : fileFor(request));
+  event.respondWith((isDocument(url) ? documentFor(request) : fileFor(request)).then(isolated));
 });
+
+/**
+ * An answer with the headers by which browsers isolate a page from others, so that its memory may be shared with its workers:
+ * a server of static files seldom sends them.
+ * @param {Response} response
+ */
+function isolated(response) {
+  // A redirection is the browser's own affair.
+  if (response.status === 0) return response;
+  const headers = new Headers(response.headers);
+  headers.set('Cross-Origin-Opener-Policy', 'same-origin');
+  headers.set('Cross-Origin-Embedder-Policy', 'require-corp');
+  return new Response(response.body, { status: response.status, statusText: response.statusText, headers });
+}
 
 /** The page or one of its files. @param {Request} request */
 async function fileFor(request) {

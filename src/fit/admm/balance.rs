@@ -7,12 +7,13 @@
 //! condition exactly. The new dual is then scaled back into the dual ball.
 
 use super::certificate::dual_bound;
-use super::iterate::Iterate;
+use super::iterate::{Iterate, MatrixBand};
 use crate::error::{Result, try_filled};
 use crate::fit::energy::problem::Problem;
 use crate::fit::energy::spectral_penalty::SpectralPenalty;
 use crate::fit::linear::z_step_solver::{CgCriteria, SolvableOperator, ZStepSolver};
 use crate::fit::operator::{Hessians, Matrices, Sums};
+use crate::lattice::bands::BandSlice;
 use crate::math::sym2::Sym2;
 
 /// Stopping criteria of the conjugate gradients that balance a dual during ADMM.
@@ -53,6 +54,18 @@ pub(super) fn balanced_bound<O: SolvableOperator>(
     })
 }
 
+/// What balancing reads, writes and sums up in one band.
+struct Balance<'a> {
+    v: MatrixBand<'a>,
+    /// Residual of the optimality condition.
+    residual: BandSlice<'a, f64>,
+    /// Largest size of a dual matrix.
+    excess: f64,
+    conjugate: f64,
+    inner: f64,
+    quadratic: f64,
+}
+
 impl<O: SolvableOperator> Iterate<O> {
     /// Replaces the iterate's dual by the balanced one.
     pub(super) fn set_balanced_dual(
@@ -81,37 +94,55 @@ impl<O: SolvableOperator> Iterate<O> {
         let penalty = self.penalty(problem);
         let Iterate { v, scratch, .. } = self;
         let fidelity = 2.0 * problem.lambda;
-        let (mut excess, mut conjugate) = (0.0f64, 0.0);
-        let (mut inner, mut quadratic) = (0.0, 0.0);
+        let bands = problem.operator.bands();
+        let mut states: Vec<_> = v
+            .split(bands)
+            .zip(bands.split(residual))
+            .map(|(v, residual)| Balance {
+                v,
+                residual,
+                excess: 0.0,
+                conjugate: 0.0,
+                inner: 0.0,
+                quadratic: 0.0,
+            })
+            .collect();
         problem.operator.sweep(
             scratch,
             q,
-            v,
-            |v, run, hessians, mut matrices| {
-                let v = v.run(run);
+            &mut states,
+            |state, run, hessians, mut matrices| {
+                let v = state.v.run(run);
                 let weight = problem.weight.run(run);
                 for (i, weight) in weight.iter().enumerate() {
                     let change = Sym2::from_coordinates(hessians.at(i)).scale(stiffness);
                     let y = penalty.dual(v.get(i), *weight) + change;
                     matrices.set(i, y.coordinates());
-                    excess = excess.max(penalty.size(y, *weight));
-                    conjugate +=
+                    state.excess = state.excess.max(penalty.size(y, *weight));
+                    state.conjugate +=
                         problem.operator.area(run.start + i) * penalty.conjugate(y, *weight);
                 }
             },
-            |_, run, sums| {
+            |state, run, sums| {
+                let residual = state.residual.run_mut(run);
                 let weight = problem.fidelity.run(run);
                 let inverse = problem.inverse_fidelity.run(run);
                 for (i, vertex) in (run.start..run.end).enumerate() {
                     let adjoint = sums.at(i);
                     let offset = z[vertex] + q[vertex] - problem.target[vertex];
                     let gradient = fidelity * (weight[i] * offset) + adjoint;
-                    residual[vertex] = -gradient;
-                    inner += adjoint * problem.target[vertex];
-                    quadratic += adjoint * adjoint * inverse[i];
+                    residual[i] = -gradient;
+                    state.inner += adjoint * problem.target[vertex];
+                    state.quadratic += adjoint * adjoint * inverse[i];
                 }
             },
         );
+        let excess = states
+            .iter()
+            .fold(0.0f64, |most, band| most.max(band.excess));
+        let sum = |term: fn(&Balance) -> f64| states.iter().map(term).sum::<f64>();
+        let (inner, quadratic) = (sum(|band| band.inner), sum(|band| band.quadratic));
+        let conjugate = sum(|band| band.conjugate);
         let largest = if excess > 0.0 {
             penalty.largest() / excess
         } else {

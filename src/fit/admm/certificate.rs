@@ -1,6 +1,6 @@
 //! The certificate of ADMM's iterate: objective, dual bound and residuals.
 
-use super::iterate::{CERTIFICATE_SUMS, Iterate, SumTerms};
+use super::iterate::{CERTIFICATE_SUMS, Iterate, MatrixBand, SumTerms};
 use crate::fit::energy::problem::Problem;
 use crate::fit::energy::spectral_penalty::{NuclearNorm, PenaltyKind, SpectralPenalty};
 use crate::fit::linear::z_step_solver::SolvableOperator;
@@ -19,6 +19,22 @@ fn add_sums<const N: usize>(sums: &mut [f64; CERTIFICATE_SUMS], terms: [&mut [f6
     for (sum, terms) in sums.iter_mut().zip(terms) {
         *sum += lanes::sum(terms);
     }
+}
+
+/// Adds the sums of all bands.
+fn total(bands: impl Iterator<Item = [f64; CERTIFICATE_SUMS]>) -> [f64; CERTIFICATE_SUMS] {
+    bands.fold([0.0; CERTIFICATE_SUMS], |sums, band| {
+        std::array::from_fn(|k| sums[k] + band[k])
+    })
+}
+
+/// The part of an iterate in one band, and what the certificate sums up there.
+struct BandSums<'a> {
+    v: MatrixBand<'a>,
+    stencil_terms: &'a mut SumTerms,
+    vertex_terms: &'a mut SumTerms,
+    over_stencils: [f64; CERTIFICATE_SUMS],
+    over_vertices: [f64; CERTIFICATE_SUMS],
 }
 
 /// Objective, dual bound and residuals of an iterate of ADMM, from which its duality gap follows.
@@ -74,18 +90,26 @@ impl<O: SolvableOperator> Iterate<O> {
         } = self;
         let (z, inverse_rho) = (z.as_slice(), 1.0 / *rho);
         let fidelity = 2.0 * problem.lambda;
-        let (mut stencil_sums, mut vertex_sums) =
-            ([0.0; CERTIFICATE_SUMS], [0.0; CERTIFICATE_SUMS]);
-        let [stencil_terms, vertex_terms] = terms;
+        let bands = v.split(problem.operator.bands());
+        let mut states: Vec<_> = bands
+            .zip(terms)
+            .map(|(v, [stencil_terms, vertex_terms])| BandSums {
+                v,
+                stencil_terms,
+                vertex_terms,
+                over_stencils: [0.0; CERTIFICATE_SUMS],
+                over_vertices: [0.0; CERTIFICATE_SUMS],
+            })
+            .collect();
         problem.operator.sweep(
             scratch,
             z,
-            v,
-            |v, run, hessians, mut matrices| {
-                let v = v.run(run);
+            &mut states,
+            |state, run, hessians, mut matrices| {
+                let v = state.v.run(run);
                 let weight = problem.weight.run(run);
                 let n = run.end - run.start;
-                let [t1, t2, t3, t4, t5, t6] = terms_of(stencil_terms, n);
+                let [t1, t2, t3, t4, t5, t6] = terms_of(state.stencil_terms, n);
                 for i in 0..n {
                     let hessian = Sym2::from_coordinates(hessians.at(i));
                     let value = v.get(i);
@@ -102,15 +126,15 @@ impl<O: SolvableOperator> Iterate<O> {
                     t5[i] = area * y.dot(y);
                     t6[i] = area * penalty.conjugate(y, weight[i]);
                 }
-                add_sums(&mut stencil_sums, [t1, t2, t3, t4, t5, t6]);
+                add_sums(&mut state.over_stencils, [t1, t2, t3, t4, t5, t6]);
             },
-            |_, run, sums| {
+            |state, run, sums| {
                 let n = run.end - run.start;
                 let z = &z[run.start..][..n];
                 let target = &problem.target[run.start..][..n];
                 let weight = problem.fidelity.run(run);
                 let inverse = problem.inverse_fidelity.run(run);
-                let [t1, t2, t3, t4, t5, t6] = terms_of(vertex_terms, n);
+                let [t1, t2, t3, t4, t5, t6] = terms_of(state.vertex_terms, n);
                 for i in 0..n {
                     let offset = z[i] - target[i];
                     let adjoint = sums.at(i);
@@ -125,11 +149,13 @@ impl<O: SolvableOperator> Iterate<O> {
                     t5[i] = if asked { square } else { 0.0 };
                     t6[i] = gradient * gradient * inverse[i];
                 }
-                add_sums(&mut vertex_sums, [t1, t2, t3, t4, t5, t6]);
+                add_sums(&mut state.over_vertices, [t1, t2, t3, t4, t5, t6]);
             },
         );
-        let [nuclear, primal, image, split, dual_norm, conjugate] = stencil_sums;
-        let [distance, inner, quadratic, dual, dual_size, cost] = vertex_sums;
+        let [nuclear, primal, image, split, dual_norm, conjugate] =
+            total(states.iter().map(|state| state.over_stencils));
+        let [distance, inner, quadratic, dual, dual_size, cost] =
+            total(states.iter().map(|state| state.over_vertices));
         let bound = dual_bound(problem, inner, quadratic, conjugate, penalty.largest());
         Certificate {
             fidelity: problem.lambda * distance - problem.offset,

@@ -11,14 +11,16 @@
 //! evaluated in double precision.
 
 use super::certificate::dual_bound;
-use super::iterate::Iterate;
+use super::iterate::{Iterate, SumTerms};
 use crate::error::{Result, try_filled};
 use crate::fit::energy::problem::Problem;
 use crate::fit::energy::spectral_penalty::{HuberStep, NuclearNorm, PenaltyKind, SpectralPenalty};
 use crate::fit::linear::z_step_solver::SolvableOperator;
 use crate::fit::operator::{Hessians as _, Matrices as _, Sums as _};
+use crate::lattice::bands::{BandSlice, Bands};
 use crate::lattice::per_cell::PerCell;
 use crate::lattice::runs::Run;
+use crate::math::fork;
 use crate::math::lanes::{self, narrow, widen};
 use crate::math::sym2::{Sym2, clamp};
 
@@ -80,12 +82,12 @@ pub(super) struct DualAscent<O: SolvableOperator> {
     /// Weight `ω` of each stencil's penalty in the energy.
     weight: PerCell<f32>,
     scratch: O::Scratch<f32>,
-    /// Buffer for the matrices of one run of stencils, in double precision.
-    row: Matrices<f64>,
+    /// Buffer of each band for the matrices of one run of stencils, in double precision.
+    rows: Vec<Matrices<f64>>,
 }
 
 /// Proximal map of the penalty's convex conjugate, which follows each gradient step of the dual.
-trait Proximal: Copy {
+trait Proximal: Copy + Sync {
     /// Applies the map to a matrix, given by its coordinates, of a stencil with penalty weight `ω`.
     fn apply(self, v: [f32; 3], weight: f32) -> [f32; 3];
 }
@@ -112,10 +114,24 @@ impl Proximal for HuberStep<f32> {
 /// Symmetric matrices at the stencils, one array for each coordinate of [`Sym2`].
 type Matrices<T> = [Vec<T>; 3];
 
+/// The part of an array of matrices that belongs to one band, by coordinate.
+type MatrixBand<'a, T> = [BandSlice<'a, T>; 3];
+
+/// Splits matrices into the parts of their bands.
+fn split<'a, T>(
+    bands: &'a Bands,
+    matrices: &'a mut Matrices<T>,
+) -> impl Iterator<Item = MatrixBand<'a, T>> {
+    let [mean, diff, off] = matrices;
+    let rest = bands.split(diff).zip(bands.split(off));
+    let all = bands.split(mean).zip(rest);
+    all.map(|(mean, (diff, off))| [mean, diff, off])
+}
+
 /// Returns the matrices of one run of stencils, by coordinate.
 #[inline(always)]
-fn run_of<T>(matrices: &mut Matrices<T>, Run { start, end }: Run) -> [&mut [T]; 3] {
-    matrices.each_mut().map(|values| &mut values[start..end])
+fn run_of<'a, T>(matrices: &'a mut MatrixBand<'_, T>, run: Run) -> [&'a mut [T]; 3] {
+    matrices.each_mut().map(|values| values.run_mut(run))
 }
 
 impl<O: SolvableOperator> DualAscent<O> {
@@ -130,6 +146,7 @@ impl<O: SolvableOperator> DualAscent<O> {
             let zeros = || zeros(operator.stencil_cells());
             Ok([zeros()?, zeros()?, zeros()?])
         };
+        let row = || std::array::from_fn(|_| vec![0.0; operator.longest_run()]);
         let mut mobility = PerCell::same(operator.longest_run(), 1.0);
         if !problem.constrained.is_empty() {
             let mut each = try_filled("bound", operator.vertex_cells(), 1.0)?;
@@ -147,7 +164,7 @@ impl<O: SolvableOperator> DualAscent<O> {
             mobility,
             weight: PerCell::same(operator.longest_run(), 1.0),
             scratch: operator.scratch()?,
-            row: std::array::from_fn(|_| vec![0.0; operator.longest_run()]),
+            rows: (0..operator.bands().len()).map(|_| row()).collect(),
         })
     }
 
@@ -215,30 +232,41 @@ impl<O: SolvableOperator> DualAscent<O> {
         problem.weight.narrow_into(&mut self.weight)?;
         let spacing = problem.operator.spacing();
         let unit = 2.0 * problem.lambda * spacing * spacing;
-        for run in problem.operator.vertices().all() {
-            let Run { start, end } = *run;
-            let weight = problem.fidelity.run(*run);
-            let (z, target) = (&iterate.z[start..end], &problem.target[start..end]);
-            let [base, ..] = row_of(&mut self.row, end - start);
-            for i in 0..base.len() {
-                base[i] = unit * (z[i] + weight[i] * (target[i] - z[i]));
+        let operator = &problem.operator;
+        let bands = operator.bands();
+        let z = &iterate.z;
+        let mut states: Vec<_> = bands.split(&mut self.base).zip(&mut self.rows).collect();
+        fork::for_each(&mut states, |band, (to, row)| {
+            for run in bands.runs(operator.vertices(), band) {
+                let Run { start, end } = *run;
+                let weight = problem.fidelity.run(*run);
+                let (z, target) = (&z[start..end], &problem.target[start..end]);
+                let [base, ..] = row_of(row, end - start);
+                for i in 0..base.len() {
+                    base[i] = unit * (z[i] + weight[i] * (target[i] - z[i]));
+                }
+                narrow(base, to.run_mut(*run));
             }
-            narrow(base, &mut self.base[start..end]);
-        }
-        for run in problem.operator.stencils().all() {
-            let v = iterate.v.run(*run);
-            let weight = problem.weight.run(*run);
-            let [mean, diff, off] = row_of(&mut self.row, weight.len());
-            for i in 0..weight.len() {
-                let dual = penalty.dual(v.get(i), weight[i]);
-                (mean[i], diff[i], off[i]) = dual.coordinates().into();
-            }
-            for to in [&mut self.last, &mut self.ahead] {
-                for (from, to) in [&*mean, diff, off].into_iter().zip(run_of(to, *run)) {
-                    narrow(from, to);
+        });
+        let to = split(bands, &mut self.last).zip(split(bands, &mut self.ahead));
+        let from = iterate.v.split(bands).zip(&mut self.rows);
+        let mut states: Vec<_> = from.zip(to).collect();
+        fork::for_each(&mut states, |band, ((v, row), (last, ahead))| {
+            for run in bands.runs(operator.stencils(), band) {
+                let v = v.run(*run);
+                let weight = problem.weight.run(*run);
+                let [mean, diff, off] = row_of(row, weight.len());
+                for i in 0..weight.len() {
+                    let dual = penalty.dual(v.get(i), weight[i]);
+                    (mean[i], diff[i], off[i]) = dual.coordinates().into();
+                }
+                for to in [&mut *last, &mut *ahead] {
+                    for (from, to) in [&*mean, diff, off].into_iter().zip(run_of(to, *run)) {
+                        narrow(from, to);
+                    }
                 }
             }
-        }
+        });
         Ok(())
     }
 
@@ -255,10 +283,12 @@ impl<O: SolvableOperator> DualAscent<O> {
             ..
         } = self;
         let share = 1.0 / operator.norm();
+        let bands = operator.bands();
+        let mut states: Vec<_> = split(bands, last).zip(split(bands, ahead)).collect();
         operator.sweep_back(
             scratch,
             heights,
-            &mut (last, ahead),
+            &mut states,
             |(_, ahead), run, mut matrices| {
                 let [mean, diff, off] = run_of(ahead, run);
                 for i in 0..mean.len() {
@@ -291,26 +321,33 @@ impl<O: SolvableOperator> DualAscent<O> {
 
     /// Computes the dual bound `D` of the dual after the last step, in double precision.
     fn bound(&mut self, iterate: &mut Iterate<O>, problem: &Problem<O>) -> f64 {
-        let DualAscent {
-            last, row: wide, ..
-        } = self;
+        let DualAscent { last, rows, .. } = self;
         let penalty = iterate.penalty(problem);
         let Iterate {
             z, scratch, terms, ..
         } = iterate;
-        let [[conjugates, ..], [inners, quadratics, ..]] = terms;
-        let (mut inner, mut quadratic, mut conjugate) = (0.0, 0.0, 0.0);
+        let mut states: Vec<_> = split(problem.operator.bands(), last)
+            .zip(rows)
+            .zip(terms)
+            .map(|((last, wide), terms)| BoundSums {
+                last,
+                wide,
+                terms,
+                sums: [0.0; 3],
+            })
+            .collect();
         let costs = problem.kind != PenaltyKind::Nuclear;
         // The Hessians of `z` are not used.
         problem.operator.sweep(
             scratch,
             z,
-            &mut (last, wide),
-            |(last, wide), run, _, mut matrices| {
+            &mut states,
+            |state, run, _, mut matrices| {
+                let [[conjugates, ..], _] = &mut *state.terms;
                 let weight = problem.weight.run(run);
                 let n = weight.len();
-                let mut wide = row_of(wide, n);
-                for (from, to) in run_of(last, run).into_iter().zip(&mut wide) {
+                let mut wide = row_of(state.wide, n);
+                for (from, to) in run_of(&mut state.last, run).into_iter().zip(&mut wide) {
                     widen(from, to);
                 }
                 let [mean, diff, off] = wide;
@@ -325,10 +362,11 @@ impl<O: SolvableOperator> DualAscent<O> {
                     }
                 }
                 if costs {
-                    conjugate += lanes::sum(&conjugates[..n]);
+                    state.sums[0] += lanes::sum(&conjugates[..n]);
                 }
             },
-            |_, run, sums| {
+            |state, run, sums| {
+                let [_, [inners, quadratics, ..]] = &mut *state.terms;
                 let n = run.end - run.start;
                 let target = &problem.target[run.start..][..n];
                 let inverse = problem.inverse_fidelity.run(run);
@@ -338,12 +376,24 @@ impl<O: SolvableOperator> DualAscent<O> {
                     inners[i] = adjoint * target[i];
                     quadratics[i] = adjoint * adjoint * inverse[i];
                 }
-                inner += lanes::sum(inners);
-                quadratic += lanes::sum(quadratics);
+                state.sums[1] += lanes::sum(inners);
+                state.sums[2] += lanes::sum(quadratics);
             },
         );
+        let [conjugate, inner, quadratic] = states.iter().fold([0.0; 3], |total, state| {
+            std::array::from_fn(|k| total[k] + state.sums[k])
+        });
         dual_bound(problem, inner, quadratic, conjugate, 1.0)
     }
+}
+
+/// What an evaluation of the dual bound reads and sums up in one band.
+struct BoundSums<'a> {
+    last: MatrixBand<'a, f32>,
+    wide: &'a mut Matrices<f64>,
+    terms: &'a mut [SumTerms; 2],
+    /// Sums of the conjugates, of `⟨CᵀY, z̃⟩`, and of `(CᵀY)²` over the weights.
+    sums: [f64; 3],
 }
 
 /// Returns the first `n` values of each coordinate in a buffer of matrices.

@@ -10,9 +10,10 @@ use crate::fit::energy::problem::Problem;
 use crate::fit::energy::spectral_penalty::{AnyPenalty, NuclearNorm, PenaltyKind, SpectralPenalty};
 use crate::fit::linear::z_step_solver::{SolvableOperator, ZStepSolver};
 use crate::fit::operator::{Hessians, Matrices, Sums};
+use crate::lattice::bands::{BandSlice, Bands};
 use crate::lattice::runs::Run;
-use crate::math::lanes;
 use crate::math::sym2::Sym2;
+use crate::math::{fork, lanes};
 
 /// Number of sums over stencils, and of sums over vertices, that a certificate is computed from.
 pub(super) const CERTIFICATE_SUMS: usize = 6;
@@ -28,8 +29,8 @@ pub(crate) struct Iterate<O: SolvableOperator> {
     pub(crate) v: MatrixField,
     pub rho: f64,
     pub(super) scratch: O::Scratch<f64>,
-    /// Buffers for the terms of a certificate: of its sums over stencils and of its sums over vertices.
-    pub(super) terms: [SumTerms; 2],
+    /// Buffers of each band for the terms of a certificate: of its sums over stencils and of its sums over vertices.
+    pub(super) terms: Vec<[SumTerms; 2]>,
 }
 
 /// A symmetric 2×2 matrix for each stencil, one array for each coordinate of [`Sym2`].
@@ -38,6 +39,24 @@ pub(crate) struct MatrixField {
     mean: Vec<f64>,
     diff: Vec<f64>,
     off: Vec<f64>,
+}
+
+/// The part of a [`MatrixField`] that belongs to one band of stencils.
+pub(super) struct MatrixBand<'a> {
+    mean: BandSlice<'a, f64>,
+    diff: BandSlice<'a, f64>,
+    off: BandSlice<'a, f64>,
+}
+
+impl MatrixBand<'_> {
+    #[inline(always)]
+    pub(super) fn run(&mut self, run: Run) -> MatrixRun<'_> {
+        MatrixRun {
+            mean: self.mean.run_mut(run),
+            diff: self.diff.run_mut(run),
+            off: self.off.run_mut(run),
+        }
+    }
 }
 
 /// The part of a [`MatrixField`] that belongs to one run of stencils.
@@ -80,25 +99,30 @@ impl MatrixField {
         penalty: impl SpectralPenalty,
         factor: f64,
     ) {
-        for run in problem.operator.stencils().all() {
-            let weight = problem.weight.run(*run);
-            let mut v = self.run(*run);
-            for (i, weight) in weight.iter().enumerate() {
-                let value = v.get(i);
-                let dual = penalty.dual(value, *weight);
-                v.set(i, dual + (value - dual).scale(factor));
+        let operator = &problem.operator;
+        let mut states: Vec<_> = self.split(operator.bands()).collect();
+        fork::for_each(&mut states, |band, v| {
+            for run in operator.bands().runs(operator.stencils(), band) {
+                let weight = problem.weight.run(*run);
+                let mut v = v.run(*run);
+                for (i, weight) in weight.iter().enumerate() {
+                    let value = v.get(i);
+                    let dual = penalty.dual(value, *weight);
+                    v.set(i, dual + (value - dual).scale(factor));
+                }
             }
-        }
+        });
     }
 
-    #[inline(always)]
-    pub(super) fn run(&mut self, run: Run) -> MatrixRun<'_> {
-        let n = run.end - run.start;
-        MatrixRun {
-            mean: &mut self.mean[run.start..][..n],
-            diff: &mut self.diff[run.start..][..n],
-            off: &mut self.off[run.start..][..n],
-        }
+    /// Splits the field into the parts of its bands.
+    pub(super) fn split<'a>(
+        &'a mut self,
+        bands: &'a Bands,
+    ) -> impl Iterator<Item = MatrixBand<'a>> + 'a {
+        let diff = bands.split(&mut self.diff);
+        let rest = diff.zip(bands.split(&mut self.off));
+        let all = bands.split(&mut self.mean).zip(rest);
+        all.map(|(mean, (diff, off))| MatrixBand { mean, diff, off })
     }
 }
 
@@ -120,10 +144,25 @@ impl MatrixRun<'_> {
     }
 }
 
+/// What the update of Hessians and dual reads and writes in one band.
+struct Update<'a> {
+    v: MatrixBand<'a>,
+    /// Residual of the next z-step.
+    residual: BandSlice<'a, f32>,
+    /// Buffer for squared changes along one run of stencils.
+    squares: &'a mut [f64],
+    /// Buffer for the residual along one run of vertices, in double precision.
+    wide: &'a mut [f64],
+    /// Sum of the squared changes of the Hessians, times ρ².
+    change: f64,
+}
+
 impl<O: SolvableOperator> Iterate<O> {
     /// Makes the first iterate of a solve: `z` is the input `z̃`, Hessians `H` and dual `U` are 0.
     pub(crate) fn new(problem: &Problem<O>, rho: f64) -> Result<Self> {
         let operator = &problem.operator;
+        let row = |_| vec![0.0; operator.longest_run()];
+        let terms = || std::array::from_fn(|_| std::array::from_fn(row));
         let mut z = try_filled("heights", operator.vertex_cells(), 0.0)?;
         z.copy_from_slice(&problem.target);
         Ok(Iterate {
@@ -131,9 +170,7 @@ impl<O: SolvableOperator> Iterate<O> {
             v: MatrixField::new(problem)?,
             rho,
             scratch: operator.scratch()?,
-            terms: std::array::from_fn(|_| {
-                std::array::from_fn(|_| vec![0.0; operator.longest_run()])
-            }),
+            terms: (0..operator.bands().len()).map(|_| terms()).collect(),
         })
     }
 
@@ -237,18 +274,29 @@ impl<O: SolvableOperator> Iterate<O> {
             scratch,
             terms,
         } = self;
-        let [[squares, ..], [wide, ..]] = terms;
-        let mut change = 0.0;
         let (z, rho) = (z.as_slice(), *rho);
         let fidelity = 2.0 * problem.lambda;
         let scale = solver.residual_scale();
-        let residual = solver.residual();
+        let bands = problem.operator.bands();
+        let residuals = bands.split(solver.residual());
+        let mut states: Vec<_> = v
+            .split(bands)
+            .zip(residuals)
+            .zip(terms)
+            .map(|((v, residual), [[squares, ..], [wide, ..]])| Update {
+                v,
+                residual,
+                squares,
+                wide,
+                change: 0.0,
+            })
+            .collect();
         problem.operator.sweep(
             scratch,
             z,
-            v,
-            |v, run, hessians, mut matrices| {
-                let mut v = v.run(run);
+            &mut states,
+            |state, run, hessians, mut matrices| {
+                let (mut v, squares) = (state.v.run(run), &mut *state.squares);
                 let weight = problem.weight.run(run);
                 let n = run.end - run.start;
                 for i in 0..n {
@@ -267,22 +315,24 @@ impl<O: SolvableOperator> Iterate<O> {
                     matrices.set(i, (new - dual - dual - hessian).coordinates());
                 }
                 if MEASURE {
-                    change += lanes::sum(&squares[..n]);
+                    state.change += lanes::sum(&squares[..n]);
                 }
             },
-            |_, run, sums| {
+            |state, run, sums| {
                 let n = run.end - run.start;
                 let z = &z[run.start..][..n];
                 let target = &problem.target[run.start..][..n];
-                let wide = &mut wide[..n];
+                let wide = &mut state.wide[..n];
                 let weight = problem.fidelity.run(run);
                 for i in 0..n {
                     let value = fidelity * (weight[i] * (target[i] - z[i])) + sums.at(i);
                     wide[i] = scale * value;
                 }
-                lanes::narrow(wide, &mut residual[run.start..][..n]);
+                lanes::narrow(wide, state.residual.run_mut(run));
             },
         );
+        let change: f64 = states.iter().map(|state| state.change).sum();
+        drop(states);
         solver.restart(&problem.operator);
         change.sqrt()
     }

@@ -145,25 +145,28 @@ impl<O: SolvableOperator> Iterate<O> {
             terms,
             ..
         } = self;
-        let [_, [wide, ..]] = terms;
         let factor = -RANK_OVER_RELAXATION * *rho * solver.residual_scale();
-        let residual = solver.residual();
+        let residuals = problem.operator.bands().split(solver.residual());
+        let mut states: Vec<_> = residuals
+            .zip(terms)
+            .map(|(residual, [_, [wide, ..]])| (residual, wide))
+            .collect();
         problem.operator.sweep(
             scratch,
             z,
-            wide,
+            &mut states,
             |_, run, hessians, mut matrices| {
                 for i in 0..run.end - run.start {
                     let hessian = Sym2::from_coordinates(hessians.at(i));
                     matrices.set(i, lesser_part(hessian, limit).coordinates());
                 }
             },
-            |wide, run, sums| {
+            |(residual, wide), run, sums| {
                 let wide = &mut wide[..run.end - run.start];
                 for (i, value) in wide.iter_mut().enumerate() {
                     *value = factor * sums.at(i);
                 }
-                lanes::narrow(wide, &mut residual[run.start..run.end]);
+                lanes::narrow(wide, residual.run_mut(run));
             },
         );
         solver.restart(&problem.operator);

@@ -11,6 +11,7 @@ use std::ops::{Add, Mul, Range};
 use super::problem::Problem;
 use crate::error::{Result, try_filled};
 use crate::fit::operator::{Matrices, Operator, Sums};
+use crate::math::fork;
 use crate::math::sym2::Sym2;
 
 /// Distance from the border beyond which bending moments count as undisturbed by it, in lengths `(2/δλ)^¼` over which a
@@ -20,6 +21,9 @@ const BORDER_REACH_LENGTHS: f64 = 2.3;
 /// Maximum moment of a load, as a share of the largest moment that a stencil can bear, its penalty weight `ω`: a larger
 /// one would fold the sheet along its border without limit.
 const MAX_LOAD_MOMENT: f64 = 0.6;
+
+/// Number of vertices whose moments are smoothed by one thread at a time.
+const SMOOTHING_PIECE_VERTICES: usize = 4096;
 
 /// Vertices near the border in rings: the border vertices, their neighbours, and so on.
 pub(crate) struct Rings {
@@ -79,10 +83,10 @@ impl Rings {
     pub(crate) fn continue_outwards<M, I>(
         &self,
         values: &mut [M],
-        around: impl Fn(usize) -> I,
+        around: impl Fn(usize) -> I + Sync,
     ) -> Result<bool>
     where
-        M: Copy + Default + Add<Output = M> + Mul<f64, Output = M>,
+        M: Copy + Default + Add<Output = M> + Mul<f64, Output = M> + Send + Sync,
         I: Iterator<Item = usize>,
     {
         // Mean over the neighbours in a range of rings and `own` copies of the vertex itself.
@@ -100,16 +104,21 @@ impl Rings {
             }
         };
         let (reach, edge) = (self.reach as usize, 2 * self.reach);
-        let inside = || self.rings.iter().skip(reach).flatten();
-        if inside().next().is_none() {
+        let inside: Vec<u32> = self.rings.iter().skip(reach).flatten().copied().collect();
+        if inside.is_empty() {
             return Ok(false);
         }
-        let mut means = try_filled("moments", inside().count(), M::default())?;
+        let mut means = try_filled("moments", inside.len(), M::default())?;
         for _ in 0..reach {
-            for (vertex, to) in inside().zip(&mut means) {
-                *to = mean(values, *vertex as usize, self.reach..edge, 2.0);
-            }
-            for (vertex, from) in inside().zip(&means) {
+            let old = &*values;
+            let vertices = inside.chunks(SMOOTHING_PIECE_VERTICES);
+            let pieces = vertices.zip(means.chunks_mut(SMOOTHING_PIECE_VERTICES));
+            fork::for_each(&mut pieces.collect::<Vec<_>>(), |_, (vertices, means)| {
+                for (vertex, to) in vertices.iter().zip(means.iter_mut()) {
+                    *to = mean(old, *vertex as usize, self.reach..edge, 2.0);
+                }
+            });
+            for (vertex, from) in inside.iter().zip(&means) {
                 values[*vertex as usize] = *from;
             }
         }
@@ -144,7 +153,7 @@ impl<O: Operator> Problem<O> {
         operator.sweep(
             &mut scratch,
             &self.target,
-            &mut load,
+            &mut operator.bands().split(&mut load).collect::<Vec<_>>(),
             |_, run, _, mut to| {
                 for (i, stencil) in (run.start..run.end).enumerate() {
                     let most = MAX_LOAD_MOMENT * self.weight.at(stencil);
@@ -154,7 +163,7 @@ impl<O: Operator> Problem<O> {
                 }
             },
             |load, run, sums| {
-                for (i, load) in load[run.start..run.end].iter_mut().enumerate() {
+                for (i, load) in load.run_mut(run).iter_mut().enumerate() {
                     *load = sums.at(i);
                 }
             },

@@ -6,6 +6,7 @@ use crate::fit::coordinates::Plane;
 use crate::fit::operator::Operator;
 use crate::fit::options::Energy;
 use crate::lattice::per_cell::PerCell;
+use crate::math::fork;
 
 /// Nuclear norm of a Hessian, as a share of the mean norm, that counts as small when all stencils are reweighted: the ε
 /// of the reweighting.
@@ -225,24 +226,38 @@ impl<O: Operator> Problem<O> {
     /// Computes the nuclear norm `‖Cz‖_*` of the Hessian at each stencil; entries without a stencil are 0.
     pub(crate) fn norms(&self, z: &[f64]) -> Result<Vec<f64>> {
         let mut norms = try_filled("weights", self.operator.stencil_cells(), 0.0)?;
-        self.operator.hessians(z, |stencil, hessian| {
-            norms[stencil] = hessian.nuclear_norm()
+        let mut states: Vec<_> = self.operator.bands().split(&mut norms).collect();
+        fork::for_each(&mut states, |band, norms| {
+            let first = norms.first();
+            let norms = norms.values();
+            self.operator.band_hessians(band, z, |stencil, hessian| {
+                norms[stencil - first] = hessian.nuclear_norm()
+            });
         });
         Ok(norms)
     }
 
     /// Computes the penalty `Σ ω f(Cz)` of a surface `z`.
     pub(crate) fn smoothness(&self, z: &[f64]) -> f64 {
-        let mut sum = 0.0;
-        self.each_cost(z, |_, cost| sum += cost);
-        sum
+        let mut sums = vec![0.0; self.operator.bands().len()];
+        fork::for_each(&mut sums, |band, sum| {
+            self.band_costs(band, z, |_, cost| *sum += cost);
+        });
+        sums.iter().sum()
     }
 
     /// Calls `visit` with each stencil and its term of the penalty.
     pub(crate) fn each_cost(&self, z: &[f64], mut visit: impl FnMut(usize, f64)) {
+        for band in 0..self.operator.bands().len() {
+            self.band_costs(band, z, &mut visit);
+        }
+    }
+
+    /// Calls `visit` with each stencil of a band and its term of the penalty.
+    fn band_costs(&self, band: usize, z: &[f64], mut visit: impl FnMut(usize, f64)) {
         // The penalty's values do not depend on ρ.
         let penalty = AnyPenalty::new(self.kind, f64::NAN);
-        self.operator.hessians(z, |stencil, hessian| {
+        self.operator.band_hessians(band, z, |stencil, hessian| {
             let value = penalty.value(hessian, self.weight.at(stencil));
             visit(stencil, self.operator.area(stencil) * value);
         });

@@ -10,7 +10,7 @@ use crate::math::real::{Real, larger, smaller};
 use crate::math::sym2::{Sym2, clamp};
 
 /// A penalty `f` of the Hessian that depends on its eigenvalues alone, with its proximal step and its convex conjugate.
-pub(crate) trait SpectralPenalty: Copy {
+pub(crate) trait SpectralPenalty: Copy + Sync {
     /// Maximum of [`SpectralPenalty::size`] at which a dual is feasible: 1, or infinity if every dual is feasible.
     fn largest(self) -> f64 {
         1.0

@@ -11,7 +11,7 @@
 
 use std::sync::Arc;
 
-use super::grid::{part, part_mut};
+use super::grid::part;
 use super::multigrid::Multigrid;
 use super::precise::Precise;
 use super::z_step_solver::{CgCriteria, SolvableOperator, ZStepSolver};
@@ -20,7 +20,7 @@ use crate::fit::heightfields::Problem;
 use crate::fit::operator::Operator;
 use crate::fit::operator::lattice::LatticeOperator;
 use crate::lattice::domain::Domain;
-use crate::math::lanes;
+use crate::math::{fork, lanes};
 
 /// Preconditioned conjugate gradients in single precision for the z-step on a lattice.
 #[derive(Debug, Clone)]
@@ -29,8 +29,8 @@ pub(crate) struct ConjugateGradients {
     correction: Vec<f32>,
     direction: Vec<f32>,
     image: Vec<f32>,
-    /// Buffer for one lattice row in double precision.
-    row: Vec<f64>,
+    /// Buffer for one lattice row in double precision, for each band.
+    rows: Vec<Vec<f64>>,
     multigrid: Multigrid,
     rho: f64,
     /// Largest absolute input height, by which heights in the linear system are divided.
@@ -52,7 +52,7 @@ impl ConjugateGradients {
             correction: zeros()?,
             direction: zeros()?,
             image: zeros()?,
-            row: vec![0.0; domain.stride()],
+            rows: vec![vec![0.0; domain.stride()]; domain.bands().len()],
             multigrid: Multigrid::new(problem, domains, rho)?,
             rho,
             unit: if largest > 0.0 { largest } else { 1.0 },
@@ -82,15 +82,18 @@ impl ZStepSolver<LatticeOperator> for ConjugateGradients {
 
     fn restart(&mut self, operator: &LatticeOperator) {
         self.previous = 0.0;
-        self.energy = 0.0;
         self.multigrid.matrix().pin(&mut self.residual);
-        for run in operator.vertices().all() {
-            part_mut(&mut self.correction, *run).fill(0.0);
-            self.energy += lanes::weighted_square(
-                part(&self.residual, *run),
-                part(&self.multigrid.matrix().inverse_diagonal, *run),
-            );
-        }
+        let (bands, vertices) = (operator.bands(), operator.vertices());
+        let (residual, inverse) = (&self.residual, &self.multigrid.matrix().inverse_diagonal);
+        let corrections = bands.split(&mut self.correction);
+        let mut states: Vec<_> = corrections.map(|correction| (correction, 0.0)).collect();
+        fork::for_each(&mut states, |band, (correction, energy)| {
+            for run in bands.runs(vertices, band) {
+                correction.run_mut(*run).fill(0.0);
+                *energy += lanes::weighted_square(part(residual, *run), part(inverse, *run));
+            }
+        });
+        self.energy = states.iter().map(|(_, energy)| energy).sum();
     }
 
     fn energy(&self) -> f64 {
@@ -108,59 +111,74 @@ impl ZStepSolver<LatticeOperator> for ConjugateGradients {
     }
 
     fn correct(&mut self, operator: &LatticeOperator, z: &mut [f64]) {
-        for run in operator.vertices().all() {
-            let correction = part(&self.correction, *run);
-            let wide = &mut self.row[..correction.len()];
-            lanes::widen(correction, wide);
-            for (z, delta) in part_mut(z, *run).iter_mut().zip(wide) {
-                *z += self.unit * *delta;
+        let (bands, vertices) = (operator.bands(), operator.vertices());
+        let (correction, unit) = (&self.correction, self.unit);
+        let mut states: Vec<_> = bands.split(z).zip(&mut self.rows).collect();
+        fork::for_each(&mut states, |band, (z, row)| {
+            for run in bands.runs(vertices, band) {
+                let wide = &mut row[..run.len()];
+                lanes::widen(part(correction, *run), wide);
+                for (z, delta) in z.run_mut(*run).iter_mut().zip(wide) {
+                    *z += unit * *delta;
+                }
             }
-        }
+        });
     }
 
     fn step(&mut self, operator: &LatticeOperator) -> bool {
         if self.energy <= 0.0 {
             return false;
         }
+        let (bands, vertices) = (operator.bands(), operator.vertices());
         let preconditioned = self.multigrid.precondition(&mut self.residual);
-        let mut product = 0.0;
-        for run in operator.vertices().all() {
-            product += lanes::dot(part(&self.residual, *run), part(preconditioned, *run));
-        }
+        let residual = &self.residual;
+        let mut products = vec![0.0; bands.len()];
+        fork::for_each(&mut products, |band, product| {
+            for run in bands.runs(vertices, band) {
+                *product += lanes::dot(part(residual, *run), part(preconditioned, *run));
+            }
+        });
+        let product: f64 = products.iter().sum();
         let beta = if self.previous > 0.0 {
             (product / self.previous) as f32
         } else {
             0.0
         };
-        for run in operator.vertices().all() {
-            let preconditioned = part(preconditioned, *run);
-            for (p, s) in part_mut(&mut self.direction, *run)
-                .iter_mut()
-                .zip(preconditioned)
-            {
-                *p = s + beta * *p;
+        let mut directions: Vec<_> = bands.split(&mut self.direction).collect();
+        fork::for_each(&mut directions, |band, direction| {
+            for run in bands.runs(vertices, band) {
+                let preconditioned = part(preconditioned, *run);
+                for (p, s) in direction.run_mut(*run).iter_mut().zip(preconditioned) {
+                    *p = s + beta * *p;
+                }
             }
-        }
+        });
         let matrix = self.multigrid.matrix_mut();
-        let curvature = matrix.apply(&mut self.direction, &mut self.image);
+        let curvature = matrix.apply(&self.direction, &mut self.image);
         if !(curvature > 0.0 && product > 0.0) {
             return false;
         }
         let alpha = (product / curvature) as f32;
-        let mut energy = 0.0;
-        for run in operator.vertices().all() {
-            let correction = part_mut(&mut self.correction, *run);
-            let residual = part_mut(&mut self.residual, *run);
-            let direction = part(&self.direction, *run);
-            let image = part(&self.image, *run);
-            for i in 0..correction.len() {
-                correction[i] += alpha * direction[i];
-                residual[i] -= alpha * image[i];
+        let (direction, image) = (&self.direction, &self.image);
+        let corrections = bands.split(&mut self.correction);
+        let mut states: Vec<_> = corrections
+            .zip(bands.split(&mut self.residual))
+            .map(|(correction, residual)| (correction, residual, 0.0))
+            .collect();
+        fork::for_each(&mut states, |band, (correction, residual, energy)| {
+            for run in bands.runs(vertices, band) {
+                let correction = correction.run_mut(*run);
+                let residual = residual.run_mut(*run);
+                let (direction, image) = (part(direction, *run), part(image, *run));
+                for i in 0..correction.len() {
+                    correction[i] += alpha * direction[i];
+                    residual[i] -= alpha * image[i];
+                }
+                *energy += lanes::weighted_square(residual, part(&matrix.inverse_diagonal, *run));
             }
-            energy += lanes::weighted_square(residual, part(&matrix.inverse_diagonal, *run));
-        }
+        });
+        self.energy = states.iter().map(|(.., energy)| energy).sum();
         self.previous = product;
-        self.energy = energy;
         true
     }
 

@@ -169,17 +169,22 @@ impl Grid {
         let mut columns = Vec::with_capacity(cells.len());
         for cell in &cells {
             unit[*cell] = 1.0;
-            self.apply(&mut unit, &mut image);
+            self.apply(&unit, &mut image);
             unit[*cell] = 0.0;
             columns.push(cells.iter().map(|c| image[*c]).collect());
         }
         columns
     }
 
-    /// Computes `ρCᵀCx` in one pass down the rows of `x`: `after(x, run, sums)` gets its values in each run of a row,
-    /// and may write `x` there, because no later row reads it.
+    /// Computes `ρCᵀCx` in one pass down the rows of `x`: `after(state, run, sums)` gets its values in each run of a row,
+    /// with the state of the row's band.
     #[inline(always)]
-    fn pass(&mut self, x: &mut [f32], mut after: impl FnMut(&mut [f32], Run, &Gather<'_, f32>)) {
+    fn pass<S: Send>(
+        &mut self,
+        x: &[f32],
+        states: &mut [S],
+        after: impl Fn(&mut S, Run, &Gather<'_, f32>) + Sync,
+    ) {
         let Grid {
             domain,
             own,
@@ -191,8 +196,8 @@ impl Grid {
         let (domain, own, sum) = (&**domain, *own, *sum);
         rolling.sweep(
             domain,
-            x,
-            |x, row, weights| {
+            states,
+            |_, row, weights| {
                 for run in domain.interior().row(row) {
                     let ring = Ring::new(x, domain, row, *run);
                     let [w1, w2, w3] = weights_of(weights, domain, row, *run);
@@ -206,41 +211,45 @@ impl Grid {
                     }
                 }
             },
-            |x, row, sums| {
+            |state, row, sums| {
                 for run in domain.active().row(row) {
-                    after(x, *run, sums);
+                    after(state, *run, sums);
                 }
             },
         );
     }
 
-    /// Computes `image = A x` and returns the product `x·Ax`; `x` does not change.
-    pub(crate) fn apply(&mut self, x: &mut [f32], image: &mut [f32]) -> f64 {
+    /// Computes `image = A x` and returns the product `x·Ax`.
+    pub(crate) fn apply(&mut self, x: &[f32], image: &mut [f32]) -> f64 {
         let fidelity = self.take_fidelity();
-        let mut product = 0.0;
-        self.pass(x, |x, run, sums| {
+        let domain = self.domain.clone();
+        let images = domain.bands().split(image);
+        let mut states: Vec<_> = images.map(|image| (image, 0.0)).collect();
+        self.pass(x, &mut states, |(image, product), run, sums| {
             let sum = sums.run(run);
             let fidelity = fidelity.run(run);
             let x = part(x, run);
-            let image = part_mut(image, run);
+            let image = image.run_mut(run);
             for i in 0..x.len() {
                 image[i] = fidelity[i] * x[i] + sum.at(i);
             }
-            product += lanes::dot(x, image);
+            *product += lanes::dot(x, image);
         });
         self.fidelity = fidelity;
-        product
+        states.iter().map(|(_, product)| product).sum()
     }
 
-    /// Computes `residual = b − A x`; `x` does not change.
-    pub(crate) fn residual(&mut self, x: &mut [f32], b: &[f32], residual: &mut [f32]) {
+    /// Computes `residual = b − A x`.
+    pub(crate) fn residual(&mut self, x: &[f32], b: &[f32], residual: &mut [f32]) {
         let fidelity = self.take_fidelity();
-        self.pass(x, |x, run, sums| {
+        let domain = self.domain.clone();
+        let mut states: Vec<_> = domain.bands().split(residual).collect();
+        self.pass(x, &mut states, |residual, run, sums| {
             let sum = sums.run(run);
             let fidelity = fidelity.run(run);
             let x = part(x, run);
             let b = part(b, run);
-            let residual = part_mut(residual, run);
+            let residual = residual.run_mut(run);
             for i in 0..x.len() {
                 residual[i] = b[i] - (fidelity[i] * x[i] + sum.at(i));
             }
@@ -249,10 +258,10 @@ impl Grid {
     }
 
     /// Takes one step of Chebyshev's iteration for `A x = b` with Jacobi's preconditioner `M`: `d ← momentum · d +
-    /// weight · M(b − A x)`, `x ← x + d`.
+    /// weight · M(b − A x)`, `next ← x + d`.
     pub(crate) fn smooth(
         &mut self,
-        x: &mut [f32],
+        (x, next): (&[f32], &mut [f32]),
         b: &[f32],
         d: &mut [f32],
         momentum: f32,
@@ -260,18 +269,22 @@ impl Grid {
     ) {
         let fidelity = self.take_fidelity();
         let inverse = std::mem::take(&mut self.inverse_diagonal);
-        self.pass(x, |x, run, sums| {
+        let domain = self.domain.clone();
+        let bands = domain.bands();
+        let mut states: Vec<_> = bands.split(next).zip(bands.split(d)).collect();
+        self.pass(x, &mut states, |(next, d), run, sums| {
             let sum = sums.run(run);
             let fidelity = fidelity.run(run);
-            let x = part_mut(x, run);
+            let x = part(x, run);
             let b = part(b, run);
-            let d = part_mut(d, run);
             let m = part(&inverse, run);
+            let next = next.run_mut(run);
+            let d = d.run_mut(run);
             for i in 0..x.len() {
                 let residual = b[i] - (fidelity[i] * x[i] + sum.at(i));
                 let step = momentum * d[i] + weight * (m[i] * residual);
                 d[i] = step;
-                x[i] += step;
+                next[i] = x[i] + step;
             }
         });
         self.inverse_diagonal = inverse;
@@ -327,7 +340,7 @@ mod tests {
         let c = HessianOperator::new(&domain);
         let normal = c.adjoint(&c.apply(&heights));
         let mut image = vec![0.0; domain.cells()];
-        let product = grid.apply(&mut x, &mut image);
+        let product = grid.apply(&x, &mut image);
         let mut expected_product = 0.0;
         for cell in domain.active().cells() {
             let i = domain.lattice_index(cell);
@@ -341,11 +354,11 @@ mod tests {
         for cell in domain.active().cells().take(10) {
             let mut unit = vec![0.0; domain.cells()];
             unit[cell] = 1.0;
-            let entry = grid.apply(&mut unit, &mut image) as f32;
+            let entry = grid.apply(&unit, &mut image) as f32;
             assert!((entry * grid.inverse_diagonal[cell] - 1.0).abs() < 1e-5);
         }
         for _ in 0..30 {
-            grid.apply(&mut x, &mut image);
+            grid.apply(&x, &mut image);
             let mut size = 0.0f32;
             for cell in domain.active().cells() {
                 x[cell] = grid.inverse_diagonal[cell] * image[cell];
@@ -353,7 +366,7 @@ mod tests {
             }
             x.iter_mut().for_each(|v| *v /= size);
         }
-        let curvature = grid.apply(&mut x, &mut image);
+        let curvature = grid.apply(&x, &mut image);
         let cells = domain.active().cells();
         let square: f64 = cells
             .map(|c| f64::from(x[c] * x[c] / grid.inverse_diagonal[c]))

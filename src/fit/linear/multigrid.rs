@@ -11,13 +11,13 @@ use std::sync::Arc;
 use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
 
 use super::border::coarser_counts;
-use super::grid::{Grid, LARGEST_EIGENVALUE, part, part_mut};
+use super::grid::{Grid, LARGEST_EIGENVALUE, part};
 use super::transfer::Transfer;
 use crate::error::{Result, try_filled};
 use crate::fit::heightfields::Problem;
 use crate::lattice::domain::Domain;
 use crate::lattice::per_cell::PerCell;
-use crate::math::lanes;
+use crate::math::{fork, lanes};
 
 /// Number of smoothing steps of a V-cycle on each lattice before and after the coarse correction.
 const SMOOTHING_STEPS: usize = 2;
@@ -70,6 +70,8 @@ struct Floor {
     /// smoother's last step, and its residual.
     b: Vec<f32>,
     x: Vec<f32>,
+    /// Solution after the smoothing step in progress.
+    next: Vec<f32>,
     step: Vec<f32>,
     residual: Vec<f32>,
 }
@@ -86,14 +88,22 @@ impl Multigrid {
     /// Makes the hierarchy for a problem on the first of `domains`, each of which has twice the spacing of the one
     /// before.
     pub(crate) fn new(problem: &Problem, domains: &[Arc<Domain>], rho: f64) -> Result<Self> {
-        let transfers: Vec<Transfer> = domains
-            .windows(2)
-            .map(|pair| Transfer::new(&pair[0], &pair[1]))
-            .collect();
+        let transfers = || {
+            let pairs = domains.windows(2);
+            let mut transfers: Vec<_> = pairs.map(|pair| (pair, None)).collect();
+            fork::for_each(&mut transfers, |_, (pair, to)| {
+                *to = Some(Transfer::new(&pair[0], &pair[1]));
+            });
+            transfers.into_iter().filter_map(|(_, transfer)| transfer)
+        };
+        let (transfers, counts) = fork::join(
+            || transfers().collect::<Vec<Transfer>>(),
+            || stencil_counts(domains),
+        );
         let mut floors: Vec<Floor> = Vec::with_capacity(domains.len());
         let mut spacing = problem.operator.spacing;
         let varied = matches!(problem.fidelity, PerCell::Each(_));
-        for (i, domain) in domains.iter().enumerate() {
+        for (i, (domain, stencils)) in domains.iter().zip(counts?).enumerate() {
             let zeros = || try_filled("multigrid", domain.cells(), 0.0);
             let constrained = if i == 0 {
                 problem.constrained.clone()
@@ -106,13 +116,11 @@ impl Multigrid {
                 direct: None,
                 b: zeros()?,
                 x: zeros()?,
+                next: zeros()?,
                 step: zeros()?,
                 residual: zeros()?,
             };
-            if let Some(finer) = floors.last() {
-                let counts = &finer.grid.stencils;
-                floor.grid.stencils = coarser_counts(counts, &finer.grid.domain, domain)?;
-            }
+            floor.grid.stencils = stencils;
             floor.shares = match floors.last_mut() {
                 None => Shares::from_problem(problem)?,
                 Some(finer) => finer.coarser_shares(&transfers[i - 1], &mut floor)?,
@@ -174,6 +182,18 @@ impl Multigrid {
     }
 }
 
+/// Counts the finest stencils that each stencil of each lattice stands for, as shares of the number away from the border.
+fn stencil_counts(domains: &[Arc<Domain>]) -> Result<Vec<PerCell<f32>>> {
+    let mut counts: Vec<PerCell<f32>> = Vec::with_capacity(domains.len());
+    for (i, domain) in domains.iter().enumerate() {
+        counts.push(match counts.last() {
+            None => PerCell::same(domain.stride(), 1.0),
+            Some(finer) => coarser_counts(finer, &domains[i - 1], domain)?,
+        });
+    }
+    Ok(counts)
+}
+
 /// Runs a V-cycle: solves `A x = b` approximately on the first lattice with the help of the coarser ones.
 fn cycle(floors: &mut [Floor], transfers: &[Transfer]) {
     let Some((fine, below)) = floors.split_first_mut() else {
@@ -186,7 +206,7 @@ fn cycle(floors: &mut [Floor], transfers: &[Transfer]) {
     let low = LARGEST_EIGENVALUE / SMOOTHED_EIGENVALUE_RATIO;
     fine.start(low);
     fine.smooth(SMOOTHING_STEPS - 1, low, true);
-    fine.grid.residual(&mut fine.x, &fine.b, &mut fine.residual);
+    fine.grid.residual(&fine.x, &fine.b, &mut fine.residual);
     fine.grid.pin(&mut fine.residual);
     let scale = 0.25 * fine.grid.diagonal / coarse.grid.diagonal;
     transfer.restrict(
@@ -298,17 +318,20 @@ impl Floor {
     /// smallest eigenvalue whose error it reduces.
     fn start(&mut self, low: f32) {
         let weight = 2.0 / (LARGEST_EIGENVALUE + low);
-        for run in self.grid.domain.active().all() {
-            let x = part_mut(&mut self.x, *run);
-            let step = part_mut(&mut self.step, *run);
-            let b = part(&self.b, *run);
-            let m = part(&self.grid.inverse_diagonal, *run);
-            for i in 0..x.len() {
-                let first = weight * (m[i] * b[i]);
-                step[i] = first;
-                x[i] = first;
+        let (domain, b) = (&self.grid.domain, &self.b);
+        let (bands, inverse) = (domain.bands(), &self.grid.inverse_diagonal);
+        let states = bands.split(&mut self.x).zip(bands.split(&mut self.step));
+        fork::for_each(&mut states.collect::<Vec<_>>(), |band, (x, step)| {
+            for run in bands.runs(domain.active(), band) {
+                let (x, step) = (x.run_mut(*run), step.run_mut(*run));
+                let (b, m) = (part(b, *run), part(inverse, *run));
+                for i in 0..x.len() {
+                    let first = weight * (m[i] * b[i]);
+                    step[i] = first;
+                    x[i] = first;
+                }
             }
-        }
+        });
     }
 
     /// Takes steps of Chebyshev's iteration that reduce the errors of eigenvalues from `low` to the largest; `started`
@@ -326,8 +349,9 @@ impl Floor {
                 ratio = 1.0 / (2.0 * sigma - last);
                 (ratio * last, 2.0 * ratio / half)
             };
-            self.grid
-                .smooth(&mut self.x, &self.b, &mut self.step, momentum, weight);
+            let (x, b) = ((&*self.x, &mut *self.next), &self.b);
+            self.grid.smooth(x, b, &mut self.step, momentum, weight);
+            std::mem::swap(&mut self.x, &mut self.next);
         }
     }
 }

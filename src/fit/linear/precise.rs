@@ -120,10 +120,11 @@ impl Precise {
         } = self;
         let (domain, map) = (&problem.operator.domain, problem.operator.map);
         let fidelity = 2.0 * problem.lambda;
-        let mut product = 0.0;
+        let images = domain.bands().split(image);
+        let mut states: Vec<_> = images.map(|image| (image, 0.0)).collect();
         rolling.sweep(
             domain,
-            image,
+            &mut states,
             |_, row, weights| {
                 for run in domain.interior().row(row) {
                     let ring = Ring::new(direction, domain, row, *run);
@@ -134,19 +135,20 @@ impl Precise {
                     }
                 }
             },
-            |image, row, sums| {
+            |(image, product), row, sums| {
                 for run in domain.active().row(row) {
                     let sum = sums.run(*run);
                     let weight = problem.fidelity.run(*run);
-                    for (i, cell) in (run.start..run.end).enumerate() {
-                        let value = fidelity * weight[i] * direction[cell] + sum.at(i);
-                        image[cell] = value;
-                        product += direction[cell] * value;
+                    let direction = &direction[run.start..run.end];
+                    for (i, image) in image.run_mut(*run).iter_mut().enumerate() {
+                        let value = fidelity * weight[i] * direction[i] + sum.at(i);
+                        *image = value;
+                        *product += direction[i] * value;
                     }
                 }
             },
         );
-        product
+        states.iter().map(|(_, product)| product).sum()
     }
 }
 

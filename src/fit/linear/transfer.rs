@@ -6,9 +6,11 @@
 //! border.
 
 use super::border::{Averages, Extension};
+use crate::lattice::bands::BandSlice;
 use crate::lattice::domain::Domain;
 use crate::lattice::runs::Run;
 use crate::lattice::stencil::Ring;
+use crate::math::fork;
 
 /// Transfer of corrections (prolongation) and residuals (restriction) between a lattice and the one of twice the
 /// spacing.
@@ -27,9 +29,11 @@ impl Transfer {
         let (frow, fcol) = fine.corner();
         let (crow, ccol) = coarse.corner();
         let first = |coarse: usize, fine: usize| 2 * (coarse as isize - 1) - fine as isize + 1;
+        let (averages, extension) =
+            fork::join(|| Averages::new(fine), || Extension::new(fine, coarse));
         Transfer {
-            averages: Averages::new(fine),
-            extension: Extension::new(fine, coarse),
+            averages,
+            extension,
             row: first(crow, frow),
             col: [first(ccol, fcol), first(ccol, fcol) - 1],
         }
@@ -45,24 +49,29 @@ impl Transfer {
     ) {
         self.average(fine, from, work, |to, average| *to = average);
         self.averages.complete_transposed(fine, from, work);
-        for row in 1..=coarse.rows() {
-            let Some((middle, first)) = self.fine_row(fine, coarse, row) else {
-                continue;
-            };
-            let stride = fine.stride();
-            for &Run { start, end } in coarse.active().row(row) {
-                let at = (2 * (start - row * coarse.stride()) as isize + first) as usize;
-                let n = end - start;
-                let span = |row: usize| &work[row * stride + at - 1..][..2 * n + 1];
-                let (up, mid, down) = (span(middle - 1), span(middle), span(middle + 1));
-                for (i, to) in to[start..end].iter_mut().enumerate() {
-                    let j = 2 * i + 1;
-                    let ring =
-                        (mid[j - 1] + mid[j + 1]) + (up[j] + up[j + 1]) + (down[j] + down[j + 1]);
-                    *to = scale * (mid[j] + 0.5 * ring);
+        let bands = coarse.bands();
+        let mut states: Vec<_> = bands.split(to).collect();
+        fork::for_each(&mut states, |band, to| {
+            for row in bands.rows(band, coarse.rows()) {
+                let Some((middle, first)) = self.fine_row(fine, coarse, row) else {
+                    continue;
+                };
+                let stride = fine.stride();
+                for run in coarse.active().row(row) {
+                    let col = run.start - row * coarse.stride();
+                    let at = (2 * col as isize + first) as usize;
+                    let span = |row: usize| &work[row * stride + at - 1..][..2 * run.len() + 1];
+                    let (up, mid, down) = (span(middle - 1), span(middle), span(middle + 1));
+                    for (i, to) in to.run_mut(*run).iter_mut().enumerate() {
+                        let j = 2 * i + 1;
+                        let ring = (mid[j - 1] + mid[j + 1])
+                            + (up[j] + up[j + 1])
+                            + (down[j] + down[j + 1]);
+                        *to = scale * (mid[j] + 0.5 * ring);
+                    }
                 }
             }
-        }
+        });
         self.extension.extend_transposed(work, to, scale);
     }
 
@@ -73,42 +82,60 @@ impl Transfer {
         (coarse, from): (&Domain, &[f32]),
         (fine, to, work): (&Domain, &mut [f32], &mut [f32]),
     ) {
-        work.fill(0.0);
-        let stride = fine.stride() as isize;
-        for row in 0..=coarse.rows() {
-            let parity = usize::from(row.is_multiple_of(2));
-            let first = self.col[parity];
-            let top = &from[row * coarse.stride()..][..coarse.stride()];
-            let below = &from[(row + 1) * coarse.stride()..][..coarse.stride()];
-            // Columns whose two fine cells lie in the box and whose neighbours exist.
-            let low = (1 - first).div_euclid(2).max(1);
-            let high = ((stride - first).div_euclid(2)).min(coarse.stride() as isize - 1);
-            if high <= low {
-                continue;
+        let bands = fine.bands();
+        let mut states: Vec<_> = bands.split(work).collect();
+        fork::for_each(&mut states, |band, work| {
+            work.values().fill(0.0);
+            for row in bands.rows(band, fine.rows()) {
+                self.interpolate((coarse, from), (fine, row, work));
             }
-            let (low, n) = (low as usize, (high - low) as usize);
-            let at = (2 * low as isize + first) as usize;
-            let (a, b) = (&top[low..][..n], &top[low + 1..][..n]);
-            let (sw, se) = (&below[low - parity..][..n], &below[low + 1 - parity..][..n]);
-            let even = 2 * row as isize + self.row;
-            if (0..=fine.rows() as isize).contains(&even) {
-                let out = &mut work[even as usize * fine.stride() + at..][..2 * n];
-                for (i, out) in out.chunks_exact_mut(2).enumerate() {
-                    out[0] = a[i];
-                    out[1] = 0.5 * (a[i] + b[i]);
-                }
-            }
-            if (0..=fine.rows() as isize).contains(&(even + 1)) {
-                let out = &mut work[(even + 1) as usize * fine.stride() + at..][..2 * n];
-                for (i, out) in out.chunks_exact_mut(2).enumerate() {
-                    out[0] = 0.5 * (a[i] + sw[i]);
-                    out[1] = 0.5 * (a[i] + se[i]);
-                }
-            }
-        }
+        });
         self.extension.extend(from, work);
         self.average(fine, work, to, |to, average| *to += average);
         self.averages.complete(fine, work, to);
+    }
+
+    /// Interpolates linearly in one row of the fine domain's padded box.
+    fn interpolate(
+        &self,
+        (coarse, from): (&Domain, &[f32]),
+        (fine, fine_row, to): (&Domain, usize, &mut BandSlice<'_, f32>),
+    ) {
+        let stride = coarse.stride();
+        let Ok(row) = usize::try_from((fine_row as isize - self.row).div_euclid(2)) else {
+            return;
+        };
+        if row > coarse.rows() {
+            return;
+        }
+        let parity = usize::from(row.is_multiple_of(2));
+        let first = self.col[parity];
+        let top = &from[row * stride..][..stride];
+        let below = &from[(row + 1) * stride..][..stride];
+        // Columns whose two fine cells lie in the box and whose neighbours exist.
+        let low = (1 - first).div_euclid(2).max(1);
+        let high = ((fine.stride() as isize - first).div_euclid(2)).min(stride as isize - 1);
+        if high <= low {
+            return;
+        }
+        let (low, n) = (low as usize, (high - low) as usize);
+        let start = fine_row * fine.stride() + (2 * low as isize + first) as usize;
+        let end = start + 2 * n;
+        let out = to.run_mut(Run { start, end }).chunks_exact_mut(2);
+        let a = &top[low..][..n];
+        if 2 * row as isize + self.row == fine_row as isize {
+            let b = &top[low + 1..][..n];
+            for (i, out) in out.enumerate() {
+                out[0] = a[i];
+                out[1] = 0.5 * (a[i] + b[i]);
+            }
+        } else {
+            let (sw, se) = (&below[low - parity..][..n], &below[low + 1 - parity..][..n]);
+            for (i, out) in out.enumerate() {
+                out[0] = 0.5 * (a[i] + sw[i]);
+                out[1] = 0.5 * (a[i] + se[i]);
+            }
+        }
     }
 
     /// Returns the fine row that a coarse row falls on, and the fine column of its column 0; `None` outside of the fine
@@ -128,17 +155,20 @@ impl Transfer {
         domain: &Domain,
         from: &[f32],
         to: &mut [f32],
-        store: impl Fn(&mut f32, f32),
+        store: impl Fn(&mut f32, f32) + Sync,
     ) {
-        for row in 1..=domain.rows() {
-            for run in domain.interior().row(row) {
-                let ring = Ring::new(from, domain, row, *run);
-                let to = &mut to[run.start..run.end];
-                for (i, to) in to.iter_mut().enumerate() {
-                    store(to, 0.25 * ring.centre(i) + 0.125 * ring.sum(i));
+        let bands = domain.bands();
+        let mut states: Vec<_> = bands.split(to).collect();
+        fork::for_each(&mut states, |band, to| {
+            for row in bands.rows(band, domain.rows()) {
+                for run in domain.interior().row(row) {
+                    let ring = Ring::new(from, domain, row, *run);
+                    for (i, to) in to.run_mut(*run).iter_mut().enumerate() {
+                        store(to, 0.25 * ring.centre(i) + 0.125 * ring.sum(i));
+                    }
                 }
             }
-        }
+        });
         for cell in self.averages.cells() {
             store(&mut to[cell], from[cell]);
         }

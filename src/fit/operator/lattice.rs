@@ -1,13 +1,16 @@
 //! The operator `C` of a lattice: the Hessian of each stencil's best-fit quadratic.
 
+use std::ops::Range;
 use std::sync::Arc;
 
 use super::{Hessians, Matrices, Operator, Sums};
 use crate::error::Result;
 use crate::fit::coordinates::Coordinates;
+use crate::lattice::bands::Bands;
 use crate::lattice::domain::{Domain, Role};
 use crate::lattice::runs::{RowRuns, Run};
 use crate::lattice::stencil::{Gathered, HessianMap, Ring, Rolling, weights_of};
+use crate::math::fork;
 use crate::math::real::Real;
 use crate::math::sym2::Sym2;
 
@@ -93,6 +96,10 @@ impl Operator for LatticeOperator {
         self.domain.interior()
     }
 
+    fn bands(&self) -> &Bands {
+        self.domain.bands()
+    }
+
     fn vertex_cells(&self) -> usize {
         self.domain.cells()
     }
@@ -127,8 +134,8 @@ impl Operator for LatticeOperator {
         Ok(Rolling::new(&self.domain))
     }
 
-    fn hessians(&self, z: &[f64], mut visit: impl FnMut(usize, Sym2)) {
-        for row in 1..=self.domain.rows() {
+    fn band_hessians(&self, band: usize, z: &[f64], mut visit: impl FnMut(usize, Sym2)) {
+        for row in self.bands().rows(band, self.domain.rows()) {
             for run in self.domain.interior().row(row) {
                 let ring = Ring::new(z, &self.domain, row, *run);
                 for cell in run.start..run.end {
@@ -139,18 +146,18 @@ impl Operator for LatticeOperator {
     }
 
     #[inline(always)]
-    fn sweep<S: ?Sized>(
+    fn sweep<S: Send>(
         &self,
         rolling: &mut Rolling<f64>,
         z: &[f64],
-        state: &mut S,
-        mut at_stencils: impl FnMut(&mut S, Run, RunHessians<'_, f64>, RunMatrices<'_, f64>),
-        mut at_vertices: impl FnMut(&mut S, Run, Gathered<'_, f64>),
+        states: &mut [S],
+        at_stencils: impl Fn(&mut S, Run, RunHessians<'_, f64>, RunMatrices<'_, f64>) + Sync,
+        at_vertices: impl Fn(&mut S, Run, Gathered<'_, f64>) + Sync,
     ) {
         let (domain, map) = (&*self.domain, self.map);
         rolling.sweep(
             domain,
-            state,
+            states,
             |state, row, weights| {
                 for run in domain.interior().row(row) {
                     let ring = Ring::new(z, domain, row, *run);
@@ -167,79 +174,219 @@ impl Operator for LatticeOperator {
         );
     }
 
-    /// Computes `CᵀY` and the Hessians of heights made of it in one pass down the rows: the Hessians of a row follow as
-    /// soon as the heights around it are there.
+    /// Computes `CᵀY` and the Hessians of heights made of it in one pass down the rows of each band: the Hessians of a
+    /// row follow as soon as the heights around it are there, and those of the outermost rows after all bands' heights.
     #[inline(always)]
-    fn sweep_back<S: ?Sized>(
+    fn sweep_back<S: Send>(
         &self,
         rolling: &mut Rolling<f32>,
         heights: &mut [f32],
-        state: &mut S,
-        mut at_stencils: impl FnMut(&mut S, Run, RunMatrices<'_, f32>),
-        mut at_vertices: impl FnMut(&mut S, Run, Gathered<'_, f32>, &mut [f32]),
-        mut follow: impl FnMut(&mut S, Run, RunHessians<'_, f32>),
+        states: &mut [S],
+        at_stencils: impl Fn(&mut S, Run, RunMatrices<'_, f32>) + Sync,
+        at_vertices: impl Fn(&mut S, Run, Gathered<'_, f32>, &mut [f32]) + Sync,
+        follow: impl Fn(&mut S, Run, RunHessians<'_, f32>) + Sync,
     ) {
         let (domain, map) = (&*self.domain, HessianMap::unit());
-        let mut follow = |state: &mut S, heights: &[f32], row: usize| {
+        let bands = domain.bands();
+        let rows_of = |band| bands.rows(band, domain.rows());
+        // `heights` begin with the cell `first`.
+        let follow = |state: &mut S, heights: &[f32], first: usize, row: usize| {
             for run in domain.interior().row(row) {
-                let ring = Ring::new(heights, domain, row, *run);
+                let local = Run {
+                    start: run.start - first,
+                    end: run.end - first,
+                };
+                let ring = Ring::new(heights, domain, row, local);
                 follow(state, *run, RunHessians { ring, map });
             }
         };
-        let mut both = (state, heights);
+        let mut both: Vec<_> = states
+            .iter_mut()
+            .zip(bands.split(heights))
+            .enumerate()
+            .map(|(band, (state, heights))| {
+                // The first row whose Hessians take no heights of the band above.
+                let inner = rows_of(band).start + if band > 0 { 2 } else { 0 };
+                (state, heights, inner)
+            })
+            .collect();
         rolling.sweep(
             domain,
             &mut both,
-            |(state, _), row, weights| {
+            |(state, ..), row, weights| {
                 for run in domain.interior().row(row) {
                     let weights = weights_of(weights, domain, row, *run);
                     at_stencils(state, *run, RunMatrices { weights, map });
                 }
             },
-            |(state, heights), row, sums| {
+            |(state, heights, inner), row, sums| {
                 for run in domain.active().row(row) {
-                    let Run { start, end } = *run;
-                    at_vertices(state, *run, sums.run(*run), &mut heights[start..end]);
+                    at_vertices(state, *run, sums.run(*run), heights.run_mut(*run));
                 }
-                if row > 1 {
-                    follow(state, heights, row - 1);
+                if row > *inner {
+                    let first = heights.first();
+                    follow(state, heights.values(), first, row - 1);
                 }
             },
         );
-        let (state, heights) = both;
-        follow(state, heights, domain.rows());
+        drop(both);
+        if bands.len() == 1 {
+            return;
+        }
+        let heights = &*heights;
+        fork::for_each(states, |band, state| {
+            let Range { start, end } = rows_of(band);
+            let top = (band > 0).then_some([start, start + 1]);
+            let bottom = (band + 1 < bands.len()).then_some(end - 1);
+            for row in top.into_iter().flatten().chain(bottom) {
+                follow(state, heights, 0, row);
+            }
+        });
     }
 
     /// Writes the upward component of the surface's unit normal at each stencil; heights are relative to a plane, whose
     /// slope is added.
     fn normals(&self, z: &[f64], to: &mut [f64]) {
         let domain = &self.domain;
-        for row in 1..=domain.rows() {
-            for run in domain.interior().row(row) {
-                let ring = Ring::new(z, domain, row, *run);
-                for (i, factor) in to[run.start..run.end].iter_mut().enumerate() {
-                    let [gx, gy] = ring.gradient(i, self.spacing);
-                    let [sx, sy] = self.coordinates.slope();
-                    let (gx, gy) = (gx + sx, gy + sy);
-                    *factor = 1.0 / (1.0 + gx * gx + gy * gy).sqrt();
+        let bands = domain.bands();
+        let mut states: Vec<_> = bands.split(to).collect();
+        fork::for_each(&mut states, |band, to| {
+            for row in bands.rows(band, domain.rows()) {
+                for run in domain.interior().row(row) {
+                    let ring = Ring::new(z, domain, row, *run);
+                    for (i, factor) in to.run_mut(*run).iter_mut().enumerate() {
+                        let [gx, gy] = ring.gradient(i, self.spacing);
+                        let [sx, sy] = self.coordinates.slope();
+                        let (gx, gy) = (gx + sx, gy + sy);
+                        *factor = 1.0 / (1.0 + gx * gx + gy * gy).sqrt();
+                    }
                 }
             }
-        }
+        });
     }
 
     fn spread(&self, values: &mut [f64]) {
         let domain = &self.domain;
         let old = values.to_vec();
-        for cell in domain.interior().cells() {
-            let around = domain
-                .neighbour_offsets(cell / domain.stride())
-                .map(|o| cell.wrapping_add_signed(o))
-                .into_iter()
-                .filter(|n| domain.roles()[*n] == Role::Interior);
-            let (sum, weight) = around.fold((2.0 * old[cell], 2.0), |(sum, weight), n| {
-                (sum + old[n], weight + 1.0)
-            });
-            values[cell] = sum / weight;
+        let bands = domain.bands();
+        let mut states: Vec<_> = bands.split(values).collect();
+        fork::for_each(&mut states, |band, values| {
+            for row in bands.rows(band, domain.rows()) {
+                let offsets = domain.neighbour_offsets(row);
+                for run in domain.interior().row(row) {
+                    for (cell, value) in (run.start..).zip(values.run_mut(*run)) {
+                        let around = offsets
+                            .map(|o| cell.wrapping_add_signed(o))
+                            .into_iter()
+                            .filter(|n| domain.roles()[*n] == Role::Interior);
+                        let own = (2.0 * old[cell], 2.0);
+                        let (sum, weight) =
+                            around.fold(own, |(sum, weight), n| (sum + old[n], weight + 1.0));
+                        *value = sum / weight;
+                    }
+                }
+            }
+        });
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::math::fork::Pool;
+    use crate::{Heightfield, Input, Lattice};
+
+    /// What the sweeps give on a disk with holes that is divided into about a number of bands: Hessians, `CᵀY`, and the
+    /// Hessians of `CᵀY`.
+    fn swept(bands: usize) -> (usize, [Vec<[f64; 3]>; 2], Vec<f64>) {
+        let lattice = Lattice::new(70, 40, 1.0).unwrap();
+        let height = |x: f64, y: f64| (0.7 * x).sin() * (0.4 * y + 0.1 * x).cos();
+        let field = Heightfield::from_fn(lattice, |x, y| {
+            let is_outside = (x - 20.0).hypot(0.6 * (y + 30.0)) > 18.0;
+            let is_hole = (x - 12.0).hypot(y + 28.0) < 4.0;
+            if is_outside || is_hole {
+                f64::NAN
+            } else {
+                height(x, y)
+            }
+        });
+        let input = Input::new(field.unwrap());
+        let domain = Arc::new(input.domain().unwrap().with_bands(bands));
+        let operator =
+            LatticeOperator::new(domain.clone(), &Coordinates::new(&input, &domain, 1.0));
+        let mut z = vec![0.0; domain.cells()];
+        for cell in domain.active().cells() {
+            let [x, y] = position(&domain, cell);
+            z[cell] = height(x, y);
+        }
+        let zeros = || vec![[0.0; 3]; domain.cells()];
+        let (mut hessians, mut back) = (zeros(), zeros());
+        let mut sums = vec![0.0; domain.cells()];
+        let y = |cell: usize| [1.0, 3.0, 7.0].map(|factor| (factor * cell as f64).sin());
+        let bands = domain.bands();
+        let mut states: Vec<_> = bands
+            .split(&mut hessians)
+            .zip(bands.split(&mut sums))
+            .collect();
+        operator.sweep(
+            &mut operator.scratch().unwrap(),
+            &z,
+            &mut states,
+            |(to, _), run, hessians, mut matrices| {
+                for (i, to) in to.run_mut(run).iter_mut().enumerate() {
+                    *to = hessians.at(i);
+                    matrices.set(i, y(run.start + i));
+                }
+            },
+            |(_, to), run, sums| {
+                for (i, to) in to.run_mut(run).iter_mut().enumerate() {
+                    *to = sums.at(i);
+                }
+            },
+        );
+        drop(states);
+        operator.sweep_back(
+            &mut operator.scratch().unwrap(),
+            &mut vec![0.0; domain.cells()],
+            &mut bands.split(&mut back).collect::<Vec<_>>(),
+            |_, run, mut matrices| {
+                for i in 0..run.end - run.start {
+                    matrices.set(i, y(run.start + i).map(|y| y as f32));
+                }
+            },
+            |_, _, sums, heights| {
+                for (i, height) in heights.iter_mut().enumerate() {
+                    *height = sums.at(i);
+                }
+            },
+            |to, run, hessians| {
+                for (i, to) in to.run_mut(run).iter_mut().enumerate() {
+                    *to = hessians.at(i).map(f64::from);
+                }
+            },
+        );
+        (bands.len(), [hessians, back], sums)
+    }
+
+    #[test]
+    fn bands_change_nothing_at_any_vertex() {
+        let (_, hessians, sums) = swept(1);
+        assert!(
+            hessians
+                .iter()
+                .flatten()
+                .flatten()
+                .all(|value| value.is_finite())
+        );
+        for number in 2..=7 {
+            for threads in [1, 3] {
+                let (bands, others, other_sums) = Pool::new(threads).run(|| swept(number));
+                assert!(bands > 1 && bands <= number);
+                assert!(
+                    others == hessians && other_sums == sums,
+                    "{number} {threads}"
+                );
+            }
         }
     }
 }

@@ -9,6 +9,7 @@ pub(crate) mod sparse;
 use std::fmt::Debug;
 
 use crate::error::Result;
+use crate::lattice::bands::Bands;
 use crate::lattice::runs::{RowRuns, Run};
 use crate::math::real::Real;
 use crate::math::sym2::Sym2;
@@ -16,10 +17,12 @@ use crate::math::sym2::Sym2;
 /// A linear operator `C` from a height at each vertex to a symmetric 2×2 matrix (Hessian) at each stencil.
 ///
 /// Kernels are closures that get one run of vertices or stencils at a time, with views of that run only, so that their
-/// loops vectorise. A method that takes several closures calls each of them in one place, so that it is inlined.
-pub(crate) trait Operator: Clone + Debug + 'static {
+/// loops vectorise. A method that takes several closures calls each of them in one place, so that it is inlined. Bands
+/// of runs are swept side by side on several threads: a kernel writes only to the state of the band that it is called
+/// for.
+pub(crate) trait Operator: Clone + Debug + Send + Sync + 'static {
     /// Work memory of a sweep in single or double precision.
-    type Scratch<T: Real>: Clone + Debug;
+    type Scratch<T: Real>: Clone + Debug + Send + Sync;
     /// View of the Hessians of one run of stencils.
     type Hessians<'a, T: Real>: Hessians<T>;
     /// View of the matrices `Y` of one run of stencils, to be written.
@@ -31,6 +34,8 @@ pub(crate) trait Operator: Clone + Debug + 'static {
     fn vertices(&self) -> &RowRuns;
     /// Runs of the stencils, each of which has a Hessian.
     fn stencils(&self) -> &RowRuns;
+    /// Bands of the arrays over vertices and stencils.
+    fn bands(&self) -> &Bands;
     /// Length of an array over the vertices.
     fn vertex_cells(&self) -> usize;
     /// Length of an array over the stencils.
@@ -64,31 +69,38 @@ pub(crate) trait Operator: Clone + Debug + 'static {
     /// [`Error::OutOfMemory`](crate::Error::OutOfMemory).
     fn scratch<T: Real>(&self) -> Result<Self::Scratch<T>>;
 
-    /// Calls `visit` with each stencil and its Hessian `Cz`, in order.
-    fn hessians(&self, z: &[f64], visit: impl FnMut(usize, Sym2));
+    /// Calls `visit` with each stencil of a band and its Hessian `Cz`, in order.
+    fn band_hessians(&self, band: usize, z: &[f64], visit: impl FnMut(usize, Sym2));
 
-    /// Computes `Cz` and `CᵀY` in one pass: `at_stencils` gets the Hessians of each run of stencils and writes all of
-    /// its `Y`; `at_vertices` gets each run of `CᵀY` as soon as it is complete, which may be before the last stencils
-    /// are visited.
-    fn sweep<S: ?Sized>(
+    /// Calls `visit` with each stencil and its Hessian `Cz`, in order.
+    fn hessians(&self, z: &[f64], mut visit: impl FnMut(usize, Sym2)) {
+        for band in 0..self.bands().len() {
+            self.band_hessians(band, z, &mut visit);
+        }
+    }
+
+    /// Computes `Cz` and `CᵀY` in one pass, with one of the `states` for each band: `at_stencils` gets the Hessians of
+    /// each run of stencils and writes all of its `Y`; `at_vertices` gets each run of `CᵀY` as soon as it is complete,
+    /// which may be before the last stencils are visited.
+    fn sweep<S: Send>(
         &self,
         scratch: &mut Self::Scratch<f64>,
         z: &[f64],
-        state: &mut S,
-        at_stencils: impl FnMut(&mut S, Run, Self::Hessians<'_, f64>, Self::Matrices<'_, f64>),
-        at_vertices: impl FnMut(&mut S, Run, Self::Sums<'_, f64>),
+        states: &mut [S],
+        at_stencils: impl Fn(&mut S, Run, Self::Hessians<'_, f64>, Self::Matrices<'_, f64>) + Sync,
+        at_vertices: impl Fn(&mut S, Run, Self::Sums<'_, f64>) + Sync,
     );
 
     /// Computes `CᵀY` and then `Cz` in one pass, in single precision and with `h²C` in the place of `C`: `at_stencils`
     /// writes `Y`, `at_vertices` turns `CᵀY` into heights, and `follow` gets the Hessians of these heights.
-    fn sweep_back<S: ?Sized>(
+    fn sweep_back<S: Send>(
         &self,
         scratch: &mut Self::Scratch<f32>,
         heights: &mut [f32],
-        state: &mut S,
-        at_stencils: impl FnMut(&mut S, Run, Self::Matrices<'_, f32>),
-        at_vertices: impl FnMut(&mut S, Run, Self::Sums<'_, f32>, &mut [f32]),
-        follow: impl FnMut(&mut S, Run, Self::Hessians<'_, f32>),
+        states: &mut [S],
+        at_stencils: impl Fn(&mut S, Run, Self::Matrices<'_, f32>) + Sync,
+        at_vertices: impl Fn(&mut S, Run, Self::Sums<'_, f32>, &mut [f32]) + Sync,
+        follow: impl Fn(&mut S, Run, Self::Hessians<'_, f32>) + Sync,
     );
 
     /// Writes to `to` the factor that turns the Hessian `Cz` into the second fundamental form at each stencil: for

@@ -8,6 +8,7 @@ use crate::error::{Result, try_filled};
 use crate::fit::input::Input;
 use crate::lattice::coarsening::coarse_lattice;
 use crate::lattice::hexagonal::{Lattice, ROW_SPACING};
+use crate::math::fork;
 use crate::math::least_squares::LeastSquares;
 use crate::math::statistics::median;
 use crate::math::sym2::Sym2;
@@ -163,8 +164,10 @@ pub(super) fn curvature_scales(
     means.replace_impulses(MIN_IMPULSE_NOISE_RATIO * white);
     let mut scales = Vec::new();
     for lattice in 0..MAX_LATTICES {
-        for (index, disc) in discs.iter().enumerate() {
-            scales.extend(means.measure(disc).map(|measured| CurvatureScale {
+        let mut measured: Vec<_> = discs.iter().map(|disc| (disc, None)).collect();
+        fork::for_each(&mut measured, |_, (disc, to)| *to = means.measure(disc));
+        for (index, (disc, measured)) in measured.into_iter().enumerate() {
+            scales.extend(measured.map(|measured| CurvatureScale {
                 lattice,
                 disc: index,
                 count: measured.count,
@@ -229,25 +232,33 @@ impl MeanHeights {
     /// Replaces each height that is more than `least` above all of its neighbours, or below all of them, by the mean of
     /// these.
     fn replace_impulses(&mut self, least: f64) {
-        let mut impulses = Vec::new();
-        for (vertex, height) in self.heights.iter().enumerate() {
-            let (row, col) = (vertex / self.lattice.cols(), vertex % self.lattice.cols());
-            let around = self.lattice.neighbours(row, col).into_iter().flatten();
-            let around = around.map(|(row, col)| self.heights[self.lattice.index(row, col)]);
-            let (mut sum, mut count) = (0.0, 0);
-            let [mut low, mut high] = [f64::INFINITY, f64::NEG_INFINITY];
-            for other in around.filter(|other| other.is_finite()) {
-                (sum, count) = (sum + other, count + 1);
-                (low, high) = (low.min(other), high.max(other));
+        let rows = self.heights.chunks(self.lattice.cols().max(1));
+        let mut impulses: Vec<_> = rows.map(|_| Vec::new()).collect();
+        fork::for_each(&mut impulses, |row, impulses| {
+            for col in 0..self.lattice.cols() {
+                impulses.extend(self.mean_around_impulse(row, col, least));
             }
-            let stands_out = height - high > least || low - height > least;
-            if count >= MIN_IMPULSE_NEIGHBOURS && stands_out {
-                impulses.push((vertex, sum / count as f64));
-            }
-        }
-        for (vertex, mean) in impulses {
+        });
+        for (vertex, mean) in impulses.into_iter().flatten() {
             self.heights[vertex] = mean;
         }
+    }
+
+    /// Returns the index of a vertex and the mean of its neighbours if its height is more than `least` above all of
+    /// these, or below all of them.
+    fn mean_around_impulse(&self, row: usize, col: usize, least: f64) -> Option<(usize, f64)> {
+        let vertex = self.lattice.index(row, col);
+        let height = self.heights[vertex];
+        let around = self.lattice.neighbours(row, col).into_iter().flatten();
+        let around = around.map(|(row, col)| self.heights[self.lattice.index(row, col)]);
+        let (mut sum, mut count) = (0.0, 0);
+        let [mut low, mut high] = [f64::INFINITY, f64::NEG_INFINITY];
+        for other in around.filter(|other| other.is_finite()) {
+            (sum, count) = (sum + other, count + 1);
+            (low, high) = (low.min(other), high.max(other));
+        }
+        let stands_out = height - high > least || low - height > least;
+        (count >= MIN_IMPULSE_NEIGHBOURS && stands_out).then(|| (vertex, sum / count as f64))
     }
 
     /// Averages heights and confidence over four vertices each, onto the lattice of twice the spacing. White noise

@@ -4,6 +4,7 @@ use super::correlated_noise::CorrelatedNoise;
 use super::curvature_scales::{DISC_RADII, Disc, curvature_scales};
 use crate::error::Result;
 use crate::fit::input::Input;
+use crate::math::fork;
 use crate::math::statistics::{MAD_TO_SIGMA, median};
 
 /// Minimum number of rings of six neighbours from which noise is estimated; with fewer there is no estimate.
@@ -125,15 +126,22 @@ fn correlated_noise(input: &Input, white: f64) -> Result<Option<CorrelatedNoise>
     Ok(found.filter(is_correlated))
 }
 
+/// Number of rows whose rings of six neighbours are measured by one thread at a time.
+const RING_NOISE_PIECE_ROWS: usize = 32;
+
 /// Estimates the standard deviation of white noise from rings of six neighbours: the sum of a ring's heights with
 /// alternating signs is 0 for every quadratic. The median over all rings discards creases. `None` if there are fewer
 /// than [`MIN_NOISE_SAMPLES`] rings.
 fn ring_noise(input: &Input) -> Option<f64> {
     let lattice = input.field.lattice();
     let least = MIN_SAMPLE_CONFIDENCE * largest_trust(input);
-    let mut samples = Vec::new();
-    for row in 0..lattice.rows() {
-        for col in 0..lattice.cols() {
+    let pieces = lattice.rows().div_ceil(RING_NOISE_PIECE_ROWS);
+    let mut samples = vec![Vec::new(); pieces];
+    fork::for_each(&mut samples, |piece, samples| {
+        let first = piece * RING_NOISE_PIECE_ROWS;
+        let last = (first + RING_NOISE_PIECE_ROWS).min(lattice.rows());
+        let vertices = (first..last).flat_map(|row| (0..lattice.cols()).map(move |col| (row, col)));
+        for (row, col) in vertices {
             if sample(input, lattice.index(row, col), least).is_nan() {
                 continue;
             }
@@ -147,7 +155,8 @@ fn ring_noise(input: &Input) -> Option<f64> {
                 samples.push(excess.abs());
             }
         }
-    }
+    });
+    let mut samples = samples.concat();
     if samples.len() < MIN_NOISE_SAMPLES {
         return None;
     }

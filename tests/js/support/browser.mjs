@@ -29,9 +29,10 @@ const policy =
   "default-src 'none'; script-src 'self' 'wasm-unsafe-eval'; connect-src 'self'; worker-src 'self'; img-src data:";
 /**
  * @param {Record<string, string>} folders from where in the site to what on the disk
+ * @param {Record<string, string>} [headers] of every answer
  * @returns {Promise<{ url: string, close: () => Promise<void> }>}
  */
-export const serve = (folders) => serveFolders({ folders, policy });
+export const serve = (folders, headers) => serveFolders({ folders, policy, headers });
 
 /**
  * A page that collects what goes wrong on it: errors, console messages, breaches of the policy.

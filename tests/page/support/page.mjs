@@ -6,7 +6,7 @@ import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { after, before, test } from 'node:test';
 import { chromium } from 'playwright-core';
-import { serve } from '../../../tools/serve.mjs';
+import { isolation, serve } from '../../../tools/serve.mjs';
 
 /** @typedef {import('playwright-core').Page} Page */
 
@@ -40,7 +40,7 @@ const missing = browserMissing();
 if (!missing) {
   before(async () => {
     // The files don't change during a test run: they may be cached, with the code that was compiled from them.
-    server = await serve({ port: 0, headers: { 'Cache-Control': 'max-age=3600' } });
+    server = await serve({ port: 0, headers: { ...isolation, 'Cache-Control': 'max-age=3600' } });
   });
   after(async () => {
     await (await shared)?.close();

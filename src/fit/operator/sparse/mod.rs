@@ -8,6 +8,7 @@ use std::sync::Arc;
 
 use super::{Hessians, Matrices, Operator, Sums};
 use crate::error::{Result, try_filled};
+use crate::lattice::bands::Bands;
 use crate::lattice::runs::{RowRuns, Run};
 use crate::math::lanes;
 use crate::math::real::Real;
@@ -363,6 +364,11 @@ impl Operator for SparseOperator {
         &self.stencils
     }
 
+    fn bands(&self) -> &Bands {
+        static ONE: Bands = Bands::SINGLE;
+        &ONE
+    }
+
     fn vertex_cells(&self) -> usize {
         self.places.len()
     }
@@ -405,7 +411,7 @@ impl Operator for SparseOperator {
         try_filled("matrices", self.vertex_cells(), T::default())
     }
 
-    fn hessians(&self, z: &[f64], mut visit: impl FnMut(usize, Sym2)) {
+    fn band_hessians(&self, _: usize, z: &[f64], mut visit: impl FnMut(usize, Sym2)) {
         for stencil in 0..self.stencil_cells() {
             visit(
                 stencil,
@@ -415,14 +421,15 @@ impl Operator for SparseOperator {
     }
 
     #[inline(always)]
-    fn sweep<S: ?Sized>(
+    fn sweep<S: Send>(
         &self,
         sums: &mut Vec<f64>,
         z: &[f64],
-        state: &mut S,
-        mut at_stencils: impl FnMut(&mut S, Run, RunHessians<'_, f64>, RunMatrices<'_, f64>),
-        mut at_vertices: impl FnMut(&mut S, Run, RunSums<'_, f64>),
+        states: &mut [S],
+        at_stencils: impl Fn(&mut S, Run, RunHessians<'_, f64>, RunMatrices<'_, f64>) + Sync,
+        at_vertices: impl Fn(&mut S, Run, RunSums<'_, f64>) + Sync,
     ) {
+        let [state] = states else { return };
         let (rows, heights) = (&self.double, z);
         sums.fill(0.0);
         for run in self.stencils.all() {
@@ -447,15 +454,16 @@ impl Operator for SparseOperator {
     }
 
     #[inline(always)]
-    fn sweep_back<S: ?Sized>(
+    fn sweep_back<S: Send>(
         &self,
         sums: &mut Vec<f32>,
         heights: &mut [f32],
-        state: &mut S,
-        mut at_stencils: impl FnMut(&mut S, Run, RunMatrices<'_, f32>),
-        mut at_vertices: impl FnMut(&mut S, Run, RunSums<'_, f32>, &mut [f32]),
-        mut follow: impl FnMut(&mut S, Run, RunHessians<'_, f32>),
+        states: &mut [S],
+        at_stencils: impl Fn(&mut S, Run, RunMatrices<'_, f32>) + Sync,
+        at_vertices: impl Fn(&mut S, Run, RunSums<'_, f32>, &mut [f32]) + Sync,
+        follow: impl Fn(&mut S, Run, RunHessians<'_, f32>) + Sync,
     ) {
+        let [state] = states else { return };
         let rows = &self.single;
         sums.fill(0.0);
         for run in self.stencils.all() {

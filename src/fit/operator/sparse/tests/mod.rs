@@ -251,7 +251,7 @@ fn a_lattice_as_a_matrix_has_its_sweeps() {
     fn run<O: SolvableOperator>(
         operator: &O,
         z: &[f64],
-        y: impl Fn(usize) -> [f64; 3],
+        y: impl Fn(usize) -> [f64; 3] + Sync,
     ) -> [Vec<f64>; 4] {
         let hessians = || vec![0.0; 3 * operator.stencil_cells()];
         let heights = || vec![0.0; operator.vertex_cells()];
@@ -259,7 +259,7 @@ fn a_lattice_as_a_matrix_has_its_sweeps() {
         operator.sweep(
             &mut operator.scratch().unwrap(),
             z,
-            &mut found,
+            std::slice::from_mut(&mut found),
             |(found, _), run, hessians, mut matrices| {
                 for (i, stencil) in (run.start..run.end).enumerate() {
                     found[3 * stencil..][..3].copy_from_slice(&hessians.at(i));
@@ -277,7 +277,7 @@ fn a_lattice_as_a_matrix_has_its_sweeps() {
         operator.sweep_back(
             &mut operator.scratch().unwrap(),
             &mut single,
-            &mut back,
+            std::slice::from_mut(&mut back),
             |_, run, mut matrices| {
                 for (i, stencil) in (run.start..run.end).enumerate() {
                     matrices.set(i, y(stencil).map(|y| y as f32));

@@ -32,7 +32,11 @@ impl Bands {
     };
 
     /// Divides rows 1 to `rows` of arrays with rows of `stride` cells, where `active` are the runs of active vertices.
+    /// Without threads there is one band, whose outermost rows need no second pass.
     pub(crate) fn new(active: &RowRuns, rows: usize, stride: usize) -> Self {
+        if !cfg!(feature = "threads") {
+            return Bands::SINGLE;
+        }
         let most = MAX_BANDS.min(rows / MIN_BAND_ROWS).max(1);
         Bands::with_number(
             (active.len() / BAND_VERTICES).clamp(1, most),

@@ -17,6 +17,8 @@
 //! in the coordinates of [`Sym2`]. So `C` is three second differences and a
 //! 3×3 map, and `Cᵀ` is the transposed map and three second differences again.
 
+use std::ops::Range;
+
 use super::domain::Domain;
 use super::runs::Run;
 use crate::math::fork;
@@ -240,6 +242,46 @@ struct BandRows<T> {
     first: [Weights<T>; 2],
 }
 
+impl<T: Real> BandRows<T> {
+    /// Sweeps down a band of rows as [`Rolling::sweep`] does, without `gather` of the outermost rows that have a band above or
+    /// below; `ends` says whether the band is the first one and the last one.
+    #[inline(always)]
+    fn sweep<S>(
+        &mut self,
+        domain: &Domain,
+        band: Range<usize>,
+        [is_first, is_last]: [bool; 2],
+        state: &mut S,
+        fill: impl Fn(&mut S, usize, &mut Weights<T>),
+        gather: impl Fn(&mut S, usize, &Gather<'_, T>),
+    ) {
+        let BandRows { rows, first } = self;
+        for weights in rows.iter_mut().flatten() {
+            weights.fill(T::default());
+        }
+        let Range { start, end } = band;
+        let gathered_from = start + usize::from(!is_first);
+        for row in start..end + usize::from(is_last) {
+            rows.rotate_left(1);
+            for weights in &mut rows[2] {
+                weights.fill(T::default());
+            }
+            if row < end {
+                fill(state, row, &mut rows[2]);
+            }
+            if !is_first && row < start + 2 {
+                for (to, from) in first[row - start].iter_mut().zip(&rows[2]) {
+                    to.copy_from_slice(from);
+                }
+            }
+            if row > gathered_from {
+                let sums = Gather::new(domain, row - 1, rows.each_ref());
+                gather(state, row - 1, &sums);
+            }
+        }
+    }
+}
+
 impl<T: Real> Rolling<T> {
     pub(crate) fn new(domain: &Domain) -> Self {
         let row = || vec![T::default(); domain.stride()];
@@ -251,6 +293,20 @@ impl<T: Real> Rolling<T> {
         Rolling {
             bands: (0..domain.bands().len()).map(|_| rows()).collect(),
         }
+    }
+
+    /// Sweeps down all rows of the domain on the calling thread, as [`sweep`](Self::sweep) does on a domain of one band.
+    /// `gather` may change what `fill` reads of a row: no later row reads it.
+    #[inline(always)]
+    pub(crate) fn sweep_serially<S>(
+        &mut self,
+        domain: &Domain,
+        state: &mut S,
+        fill: impl Fn(&mut S, usize, &mut Weights<T>),
+        gather: impl Fn(&mut S, usize, &Gather<'_, T>),
+    ) {
+        let rows = 1..domain.rows() + 1;
+        self.bands[0].sweep(domain, rows, [true, true], state, fill, gather);
     }
 
     /// Sweeps down each band of the domain once to apply the adjoint `Cᵀ`, with one of the `states` for each band:
@@ -271,35 +327,11 @@ impl<T: Real> Rolling<T> {
         let last = self.bands.len() - 1;
         let rows_of = |band| domain.bands().rows(band, domain.rows());
         let mut bands: Vec<_> = self.bands.iter_mut().zip(&mut *states).collect();
-        fork::for_each(&mut bands, |band, (BandRows { rows, first }, state)| {
-            for weights in rows.iter_mut().flatten() {
-                weights.fill(T::default());
-            }
-            let (start, end) = (rows_of(band).start, rows_of(band).end);
-            let gathered_from = start + usize::from(band > 0);
-            for row in start..end + usize::from(band == last) {
-                rows.rotate_left(1);
-                for weights in &mut rows[2] {
-                    weights.fill(T::default());
-                }
-                if row < end {
-                    fill(state, row, &mut rows[2]);
-                }
-                if band > 0 && row < start + 2 {
-                    for (to, from) in first[row - start].iter_mut().zip(&rows[2]) {
-                        to.copy_from_slice(from);
-                    }
-                }
-                if row > gathered_from {
-                    gather(
-                        state,
-                        row - 1,
-                        &Gather::new(domain, row - 1, rows.each_ref()),
-                    );
-                }
-            }
+        fork::for_each(&mut bands, |band, (weights, state)| {
+            let ends = [band == 0, band == last];
+            weights.sweep(domain, rows_of(band), ends, *state, &fill, &gather);
         });
-        if last == 0 {
+        if !cfg!(feature = "threads") || last == 0 {
             return;
         }
         let bands = &self.bands;

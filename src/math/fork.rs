@@ -14,6 +14,15 @@ pub(crate) fn for_each<S: Send>(pieces: &mut [S], work: impl Fn(usize, &mut S) +
     }
 }
 
+/// Returns whether [`for_each`] does its pieces one after the other, on the calling thread.
+pub(crate) fn is_serial() -> bool {
+    #[cfg(feature = "threads")]
+    if pool::has_threads() {
+        return false;
+    }
+    true
+}
+
 /// Runs two pieces of work, side by side where there are threads, and returns what both return.
 pub(crate) fn join<A: Send, B: Send>(
     a: impl FnOnce() -> A + Send,

@@ -10,7 +10,7 @@ use rustc_hash::FxHashMap;
 pub(super) const MAX_REMOVED_SHARE: f64 = 0.002;
 
 /// Maximum strain of a part after border vertices were removed, as a share of the strain limit.
-const TRIMMED_STRAIN_SHARE: f64 = 0.8;
+const TRIMMED_STRAIN_SHARE: f64 = 0.5;
 
 /// Fault of a part that the removal of a few border vertices has to mend.
 #[derive(Debug, Clone, Copy)]

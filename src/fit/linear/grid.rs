@@ -14,8 +14,8 @@ use crate::error::{Result, try_filled};
 use crate::lattice::domain::{Domain, Role};
 use crate::lattice::per_cell::PerCell;
 use crate::lattice::runs::Run;
-use crate::lattice::stencil::{Gather, HessianMap, Ring, Rolling, weights_of};
-use crate::math::lanes;
+use crate::lattice::stencil::{Gather, HessianMap, Ring, Rolling, Weights, weights_of};
+use crate::math::{fork, lanes};
 
 /// The matrix `A = 2λw + ρ CᵀC` of the z-step on one lattice, scaled to a unit diagonal away from the boundary.
 #[derive(Debug, Clone)]
@@ -193,27 +193,44 @@ impl Grid {
             stencils,
             ..
         } = self;
-        let (domain, own, sum) = (&**domain, *own, *sum);
+        let matrix = (&**domain, [*own, *sum], &*stencils);
         rolling.sweep(
             domain,
             states,
-            |_, row, weights| {
-                for run in domain.interior().row(row) {
-                    let ring = Ring::new(x, domain, row, *run);
-                    let [w1, w2, w3] = weights_of(weights, domain, row, *run);
-                    let count = stencils.run(*run);
-                    for i in 0..w1.len() {
-                        let [d1, d2, d3] = ring.differences(i);
-                        let common = sum * (d1 + d2 + d3);
-                        w1[i] = count[i] * (own * d1 + common);
-                        w2[i] = count[i] * (own * d2 + common);
-                        w3[i] = count[i] * (own * d3 + common);
-                    }
-                }
-            },
+            |_, row, weights| fill_weights(matrix, x, row, weights),
             |state, row, sums| {
                 for run in domain.active().row(row) {
                     after(state, *run, sums);
+                }
+            },
+        );
+    }
+
+    /// Computes `ρCᵀCx` in one pass down the rows of `x`, on the calling thread: `after(x, run, sums)` gets its values in each
+    /// run of a row, and may write `x` there, because no later row reads it.
+    #[inline(always)]
+    fn pass_in_place(
+        &mut self,
+        mut x: &mut [f32],
+        after: impl FnMut(&mut [f32], Run, &Gather<'_, f32>),
+    ) {
+        let Grid {
+            domain,
+            own,
+            sum,
+            rolling,
+            stencils,
+            ..
+        } = self;
+        let matrix = (&**domain, [*own, *sum], &*stencils);
+        let mut state = (&mut x, after);
+        rolling.sweep_serially(
+            domain,
+            &mut state,
+            |(x, _), row, weights| fill_weights(matrix, x, row, weights),
+            |(x, after), row, sums| {
+                for run in domain.active().row(row) {
+                    after(x, *run, sums);
                 }
             },
         );
@@ -258,10 +275,11 @@ impl Grid {
     }
 
     /// Takes one step of Chebyshev's iteration for `A x = b` with Jacobi's preconditioner `M`: `d ← momentum · d +
-    /// weight · M(b − A x)`, `next ← x + d`.
+    /// weight · M(b − A x)`, `x ← x + d`. On one thread `x` changes in place; else the sum is written to `next`, since bands
+    /// read rows of their neighbours, and changes places with `x`.
     pub(crate) fn smooth(
         &mut self,
-        (x, next): (&[f32], &mut [f32]),
+        (x, next): (&mut Vec<f32>, &mut Vec<f32>),
         b: &[f32],
         d: &mut [f32],
         momentum: f32,
@@ -269,24 +287,39 @@ impl Grid {
     ) {
         let fidelity = self.take_fidelity();
         let inverse = std::mem::take(&mut self.inverse_diagonal);
-        let domain = self.domain.clone();
-        let bands = domain.bands();
-        let mut states: Vec<_> = bands.split(next).zip(bands.split(d)).collect();
-        self.pass(x, &mut states, |(next, d), run, sums| {
+        let step = |x: &[f32], d: &mut [f32], run: Run, sums: &Gather<'_, f32>| {
             let sum = sums.run(run);
             let fidelity = fidelity.run(run);
-            let x = part(x, run);
             let b = part(b, run);
             let m = part(&inverse, run);
-            let next = next.run_mut(run);
-            let d = d.run_mut(run);
             for i in 0..x.len() {
                 let residual = b[i] - (fidelity[i] * x[i] + sum.at(i));
-                let step = momentum * d[i] + weight * (m[i] * residual);
-                d[i] = step;
-                next[i] = x[i] + step;
+                d[i] = momentum * d[i] + weight * (m[i] * residual);
             }
-        });
+        };
+        if fork::is_serial() {
+            self.pass_in_place(x, |x, run, sums| {
+                let x = part_mut(x, run);
+                let d = part_mut(d, run);
+                step(x, d, run, sums);
+                x.iter_mut().zip(d).for_each(|(x, d)| *x += *d);
+            });
+        } else {
+            next.resize(x.len(), 0.0);
+            let domain = self.domain.clone();
+            let bands = domain.bands();
+            let mut states: Vec<_> = bands.split(next).zip(bands.split(d)).collect();
+            self.pass(x, &mut states, |(next, d), run, sums| {
+                let x = part(x, run);
+                let d = d.run_mut(run);
+                step(x, d, run, sums);
+                let next = next.run_mut(run);
+                for i in 0..x.len() {
+                    next[i] = x[i] + d[i];
+                }
+            });
+            std::mem::swap(x, next);
+        }
         self.inverse_diagonal = inverse;
         self.fidelity = fidelity;
     }
@@ -294,6 +327,29 @@ impl Grid {
     /// Moves the fidelity weights out of the matrix for the length of a pass, which borrows the rest mutably.
     fn take_fidelity(&mut self) -> PerCell<f32> {
         std::mem::replace(&mut self.fidelity, PerCell::Same(Vec::new()))
+    }
+}
+
+/// Writes the weights of second differences of a row of `x` whose adjoint is `ρCᵀCx`, for the matrix's domain, the factors of a
+/// difference itself and of the sum of all three, and the numbers of stencils.
+#[inline(always)]
+fn fill_weights(
+    (domain, [own, sum], stencils): (&Domain, [f32; 2], &PerCell<f32>),
+    x: &[f32],
+    row: usize,
+    weights: &mut Weights<f32>,
+) {
+    for run in domain.interior().row(row) {
+        let ring = Ring::new(x, domain, row, *run);
+        let [w1, w2, w3] = weights_of(weights, domain, row, *run);
+        let count = stencils.run(*run);
+        for i in 0..w1.len() {
+            let [d1, d2, d3] = ring.differences(i);
+            let common = sum * (d1 + d2 + d3);
+            w1[i] = count[i] * (own * d1 + common);
+            w2[i] = count[i] * (own * d2 + common);
+            w3[i] = count[i] * (own * d3 + common);
+        }
     }
 }
 

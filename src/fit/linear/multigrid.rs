@@ -70,7 +70,7 @@ struct Floor {
     /// smoother's last step, and its residual.
     b: Vec<f32>,
     x: Vec<f32>,
-    /// Solution after the smoothing step in progress.
+    /// Solution after the smoothing step in progress; empty on one thread, which changes the solution in place.
     next: Vec<f32>,
     step: Vec<f32>,
     residual: Vec<f32>,
@@ -116,7 +116,7 @@ impl Multigrid {
                 direct: None,
                 b: zeros()?,
                 x: zeros()?,
-                next: zeros()?,
+                next: Vec::new(),
                 step: zeros()?,
                 residual: zeros()?,
             };
@@ -349,9 +349,9 @@ impl Floor {
                 ratio = 1.0 / (2.0 * sigma - last);
                 (ratio * last, 2.0 * ratio / half)
             };
-            let (x, b) = ((&*self.x, &mut *self.next), &self.b);
-            self.grid.smooth(x, b, &mut self.step, momentum, weight);
-            std::mem::swap(&mut self.x, &mut self.next);
+            let x = (&mut self.x, &mut self.next);
+            self.grid
+                .smooth(x, &self.b, &mut self.step, momentum, weight);
         }
     }
 }

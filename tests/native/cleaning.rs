@@ -124,11 +124,11 @@ fn photograph(shown: &[Shown], lamp: Lamp, seed: u128) -> Vec<u8> {
             y.saturating_sub(1) * width + x,
             (y + 1).min(height - 1) * width + x,
         ];
-        for k in 0..3 {
+        for (k, light) in light.iter().enumerate() {
             let clean = around.map(|j| colour(j)[k]);
             let blurred = 0.6 * clean[0] + 0.1 * clean[1..].iter().sum::<f64>();
             let noise: f64 = (0..4).map(|_| random.rand_float() - 0.5).sum::<f64>() * 3.5;
-            rgba.push((light[k] * blurred + noise).round().clamp(0.0, 255.0) as u8);
+            rgba.push((light * blurred + noise).round().clamp(0.0, 255.0) as u8);
         }
         rgba.push(255);
     }

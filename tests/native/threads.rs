@@ -84,7 +84,7 @@ fn every_energy_and_schedule_gives_the_same_bits() {
 fn the_report_says_why_there_are_not_more_threads() {
     let threads = |cols: usize, options: Options| {
         let options = options.lambda(1e6).max_iterations(1);
-        let surface = fit(&sheets(cols), &options).unwrap();
+        let surface = fit(sheets(cols), &options).unwrap();
         (surface.report().threads, surface.report().thread_limit)
     };
     let auto = Options::default();

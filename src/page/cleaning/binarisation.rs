@@ -12,6 +12,9 @@ const MIN_WINDOW_RADIUS: usize = 4;
 /// usual value for print.
 const CONTRAST_WEIGHT: f32 = 0.2;
 
+/// Sauvola's parameter k where the light is even: paper has no grain there, so that print may be paler.
+const EVEN_CONTRAST_WEIGHT: f32 = 0.1;
+
 /// Standard deviation of a window of full contrast (Sauvola's parameter R), in steps of 8 bits.
 const FULL_DEVIATION: f32 = 128.0;
 
@@ -19,7 +22,7 @@ const FULL_DEVIATION: f32 = 128.0;
 const MAX_INK_LUMINANCE: u8 = 128;
 
 /// Minimum luminance that is always paper where the light is even.
-const MIN_PAPER_LUMINANCE: u8 = 225;
+const MIN_PAPER_LUMINANCE: u8 = 235;
 
 /// Replaces each luminance of a page (row by row from the top) by 0 for ink or 255 for paper. The threshold is
 /// `m (1 + k (s / R − 1))`, with the mean `m` and the standard deviation `s` of the window around the pixel (Sauvola and
@@ -34,6 +37,10 @@ pub fn binarise(width: usize, height: usize, luminance: &mut [u8], even: bool) -
     if luminance.is_empty() {
         return Ok(());
     }
+    let weight = match even {
+        true => EVEN_CONTRAST_WEIGHT,
+        false => CONTRAST_WEIGHT,
+    };
     let share = WINDOW_RADIUS_SHARE * width.max(height) as f64;
     let radius = (share as usize).max(MIN_WINDOW_RADIUS);
     // The rows of the window that were overwritten already are kept as they were.
@@ -73,7 +80,7 @@ pub fn binarise(width: usize, height: usize, luminance: &mut [u8], even: bool) -
             let count = (rows * (to - from)) as f32;
             let [sum, squares] = [0, 1].map(|k| (prefix[to][k] - prefix[from][k]) as f32 / count);
             let deviation = (squares - sum * sum).max(0.0).sqrt();
-            let threshold = sum * (1.0 + CONTRAST_WEIGHT * (deviation / FULL_DEVIATION - 1.0));
+            let threshold = sum * (1.0 + weight * (deviation / FULL_DEVIATION - 1.0));
             let ink = match *value {
                 value if even && value <= MAX_INK_LUMINANCE => true,
                 value if even && value >= MIN_PAPER_LUMINANCE => false,

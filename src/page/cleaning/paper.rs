@@ -27,7 +27,7 @@ const FIT_STRIDE: usize = 7;
 /// Maximum difference of a cell from the brightest cells around it for plain paper, in logarithms.
 const MAX_PLAIN_DIFFERENCE: f32 = 0.08;
 
-/// Radius, in cells, of the window in which plain paper is counted: that of the closing, 3 mm on A4.
+/// Radius, in cells, of the window in which plain paper is counted: 3 mm on A4.
 const PLAIN_RADIUS: usize = 8;
 
 /// Minimum share of plain paper in a window: dense text has a third, a photograph next to none.

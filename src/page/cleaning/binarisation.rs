@@ -12,8 +12,9 @@ const MIN_WINDOW_RADIUS: usize = 4;
 /// usual value for print.
 const CONTRAST_WEIGHT: f32 = 0.2;
 
-/// Sauvola's parameter k where the light is even: paper has no grain there, so that print may be paler.
-const EVEN_CONTRAST_WEIGHT: f32 = 0.1;
+/// Sauvola's parameter k where the light is even: paper has no grain there, so that print may be paler; a
+/// trace of a sharp shadow's edge stays paper.
+const EVEN_CONTRAST_WEIGHT: f32 = 0.16;
 
 /// Standard deviation of a window of full contrast (Sauvola's parameter R), in steps of 8 bits.
 const FULL_DEVIATION: f32 = 128.0;

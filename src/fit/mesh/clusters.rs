@@ -4,6 +4,7 @@
 //! the spacing nearly doubles. Clusters are neighbours if an edge leads from one to the other.
 
 use super::adjacency::Adjacency;
+use super::geometry::Point;
 use super::level_vertices::LevelVertices;
 use crate::error::{Result, try_filled};
 use crate::math::index::NO_INDEX;
@@ -54,6 +55,65 @@ impl Clusters {
             of_vertex,
             adjacency,
         })
+    }
+
+    /// Makes the vertices of the next coarser level: one for each cluster, where its seed is, with the area of the
+    /// cluster and its mean offset along the ray. An offset across the ray, which counts on creases alone, is the mean of
+    /// the cluster's vertices on creases.
+    pub(super) fn coarsen(&self, fine: &LevelVertices) -> LevelVertices {
+        let of_seed = |seed: &u32| *seed as usize;
+        let seeds = || self.seeds.iter().map(of_seed);
+        let count = self.seeds.len();
+        let mut areas = vec![0.0; count];
+        let mut confidence = vec![0.0; if fine.confidence.is_empty() { 0 } else { count }];
+        let mut sums = vec![[(0.0, 0.0); 2]; count];
+        let mut across = vec![Point::zeros(); count];
+        for (vertex, cluster) in self.of_vertex.iter().enumerate() {
+            let cluster = *cluster as usize;
+            let area = fine.areas[vertex];
+            areas[cluster] += area;
+            let trust = fine.confidence.get(vertex).copied().unwrap_or(1.0);
+            if let Some(sum) = confidence.get_mut(cluster) {
+                *sum += area * trust;
+            }
+            let weight = area * trust;
+            let rise = fine.offset[vertex].dot(&fine.frames[vertex].normal);
+            let is_free = usize::from(fine.directions.at_vertex(vertex).next().is_some());
+            let sum = &mut sums[cluster][is_free];
+            *sum = (sum.0 + weight * rise, sum.1 + weight);
+            if is_free == 1 {
+                across[cluster] += weight * fine.offset[vertex];
+            }
+        }
+        for (sum, area) in confidence.iter_mut().zip(&areas) {
+            *sum /= area;
+        }
+        let offset = seeds().enumerate().map(|(cluster, seed)| {
+            let normal = fine.frames[seed].normal;
+            let [(smooth, smooth_weight), (creased, creased_weight)] = sums[cluster];
+            let is_free = fine.directions.at_vertex(seed).next().is_some();
+            if is_free && creased_weight > 0.0 {
+                return across[cluster] / creased_weight;
+            }
+            let weight = smooth_weight + creased_weight;
+            match weight > 0.0 {
+                true => normal * ((smooth + creased) / weight),
+                false => fine.offset[seed],
+            }
+        });
+        LevelVertices {
+            source: seeds().map(|seed| fine.source[seed]).collect(),
+            inside: seeds().map(|seed| fine.inside[seed]).collect(),
+            base: seeds().map(|seed| fine.base[seed]).collect(),
+            frames: seeds().map(|seed| fine.frames[seed].clone()).collect(),
+            held: seeds().map(|seed| fine.held[seed]).collect(),
+            directions: fine.directions.at_vertices(seeds()),
+            adjacency: self.adjacency.clone(),
+            closed: fine.closed,
+            offset: offset.collect(),
+            areas,
+            confidence,
+        }
     }
 }
 

@@ -1,7 +1,6 @@
 //! The vertices of a linearised problem: those of the mesh, or clusters of them on a coarser level.
 
 use super::adjacency::Adjacency;
-use super::clusters::Clusters;
 use super::crease_directions::CreaseDirections;
 use super::geometry::{Frame, Point, areas};
 use super::input::MeshInput;
@@ -63,64 +62,5 @@ impl LevelVertices {
 
     pub(super) fn len(&self) -> usize {
         self.source.len()
-    }
-
-    /// Makes the vertices of the next coarser level: one for each cluster, where its seed is, with the area of the
-    /// cluster and its mean offset along the ray. An offset across the ray, which counts on creases alone, is the mean of
-    /// the cluster's vertices on creases.
-    pub(super) fn coarsen(&self, clusters: &Clusters) -> Self {
-        let of_seed = |seed: &u32| *seed as usize;
-        let seeds = || clusters.seeds.iter().map(of_seed);
-        let count = clusters.seeds.len();
-        let mut areas = vec![0.0; count];
-        let mut confidence = vec![0.0; if self.confidence.is_empty() { 0 } else { count }];
-        let mut sums = vec![[(0.0, 0.0); 2]; count];
-        let mut across = vec![Point::zeros(); count];
-        for (vertex, cluster) in clusters.of_vertex.iter().enumerate() {
-            let cluster = *cluster as usize;
-            let area = self.areas[vertex];
-            areas[cluster] += area;
-            let trust = self.confidence.get(vertex).copied().unwrap_or(1.0);
-            if let Some(sum) = confidence.get_mut(cluster) {
-                *sum += area * trust;
-            }
-            let weight = area * trust;
-            let rise = self.offset[vertex].dot(&self.frames[vertex].normal);
-            let is_free = usize::from(self.directions.at_vertex(vertex).next().is_some());
-            let sum = &mut sums[cluster][is_free];
-            *sum = (sum.0 + weight * rise, sum.1 + weight);
-            if is_free == 1 {
-                across[cluster] += weight * self.offset[vertex];
-            }
-        }
-        for (sum, area) in confidence.iter_mut().zip(&areas) {
-            *sum /= area;
-        }
-        let offset = seeds().enumerate().map(|(cluster, seed)| {
-            let normal = self.frames[seed].normal;
-            let [(smooth, smooth_weight), (creased, creased_weight)] = sums[cluster];
-            let is_free = self.directions.at_vertex(seed).next().is_some();
-            if is_free && creased_weight > 0.0 {
-                return across[cluster] / creased_weight;
-            }
-            let weight = smooth_weight + creased_weight;
-            match weight > 0.0 {
-                true => normal * ((smooth + creased) / weight),
-                false => self.offset[seed],
-            }
-        });
-        LevelVertices {
-            source: seeds().map(|seed| self.source[seed]).collect(),
-            inside: seeds().map(|seed| self.inside[seed]).collect(),
-            base: seeds().map(|seed| self.base[seed]).collect(),
-            frames: seeds().map(|seed| self.frames[seed].clone()).collect(),
-            held: seeds().map(|seed| self.held[seed]).collect(),
-            directions: self.directions.at_vertices(seeds()),
-            adjacency: clusters.adjacency.clone(),
-            closed: self.closed,
-            offset: offset.collect(),
-            areas,
-            confidence,
-        }
     }
 }

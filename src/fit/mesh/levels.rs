@@ -100,7 +100,7 @@ impl MeshLevels {
             let bends = HuberParameters::from_options(&options.common());
             let lambda = level.linear.problem.lambda;
             let Ok(linear) =
-                Linearisation::new(vertices.coarsen(&clusters), bends, |_| lambda, sides)
+                Linearisation::new(clusters.coarsen(vertices), bends, |_| lambda, sides)
             else {
                 break;
             };

@@ -103,7 +103,7 @@ export const mapping = {
   grid: { kind: either(flag, positive), default: false },
 };
 
-/** What happens to the light of a flat image. */
+/** Ways to treat the light of a flat image. */
 const LIGHT_KIND = choice('even', 'keep');
 
 /** @satisfies {Options} */

@@ -33,7 +33,7 @@ const FOOT_MM: f64 = 10.0;
 /// Height of the scale line above the page's lower edge, in millimetres: most printers can print there.
 const SCALE_LINE_HEIGHT_MM: f64 = 6.0;
 
-/// What is written beside the scale line.
+/// The text beside the scale line.
 const SCALE_WORDS: &str = "100 mm: print at 100 %";
 
 /// Maximum number of characters of a title on a page.

@@ -27,7 +27,7 @@ pub struct BookPage<'a> {
 /// black or white; the page has the size of the surface in the photo. Print it at 100 %.
 ///
 /// # Errors
-/// Those of [`write_photo_jpeg`]; [`Error::Option`] without a resolution, [`Error::Unsupported`] if a
+/// The errors of [`write_photo_jpeg`]; [`Error::Option`] without a resolution, [`Error::Unsupported`] if a
 /// side is below 2 mm or above 5.08 m, the format's limit.
 pub fn write_photo_pdf(photo: &impl PhotoRows, options: &PhotoOptions) -> Result<Vec<u8>> {
     let Some(dots) = options.dots()? else {

@@ -54,7 +54,7 @@ pub(super) fn balanced_bound<O: SolvableOperator>(
     })
 }
 
-/// What balancing reads, writes and sums up in one band.
+/// The part of one band in balancing: arrays that it reads and writes, and its sums.
 struct Balance<'a> {
     v: MatrixBand<'a>,
     /// Residual of the optimality condition.

@@ -387,7 +387,7 @@ impl<O: SolvableOperator> DualAscent<O> {
     }
 }
 
-/// What an evaluation of the dual bound reads and sums up in one band.
+/// The part of one band in an evaluation of the dual bound: arrays that it reads, and its sums.
 struct BoundSums<'a> {
     last: MatrixBand<'a, f32>,
     wide: &'a mut Matrices<f64>,

@@ -144,7 +144,7 @@ impl MatrixRun<'_> {
     }
 }
 
-/// What the update of Hessians and dual reads and writes in one band.
+/// The part of one band in the update of Hessians and dual: arrays that it reads and writes.
 struct Update<'a> {
     v: MatrixBand<'a>,
     /// Residual of the next z-step.

@@ -176,6 +176,12 @@ impl Grid {
         columns
     }
 
+    /// Splits the matrix into what [`fill_weights`] reads of it and the rows of weights.
+    fn split(&mut self) -> (PenaltyMatrix<'_>, &mut Rolling<f32>) {
+        let factors = [self.own, self.sum];
+        ((&*self.domain, factors, &self.stencils), &mut self.rolling)
+    }
+
     /// Computes `ρCᵀCx` in one pass down the rows of `x`: `after(state, run, sums)` gets its values in each run of a row,
     /// with the state of the row's band.
     #[inline(always)]
@@ -185,15 +191,8 @@ impl Grid {
         states: &mut [S],
         after: impl Fn(&mut S, Run, &Gather<'_, f32>) + Sync,
     ) {
-        let Grid {
-            domain,
-            own,
-            sum,
-            rolling,
-            stencils,
-            ..
-        } = self;
-        let matrix = (&**domain, [*own, *sum], &*stencils);
+        let (matrix, rolling) = self.split();
+        let (domain, ..) = matrix;
         rolling.sweep(
             domain,
             states,
@@ -214,15 +213,8 @@ impl Grid {
         mut x: &mut [f32],
         after: impl FnMut(&mut [f32], Run, &Gather<'_, f32>),
     ) {
-        let Grid {
-            domain,
-            own,
-            sum,
-            rolling,
-            stencils,
-            ..
-        } = self;
-        let matrix = (&**domain, [*own, *sum], &*stencils);
+        let (matrix, rolling) = self.split();
+        let (domain, ..) = matrix;
         let mut state = (&mut x, after);
         rolling.sweep_serially(
             domain,
@@ -330,11 +322,14 @@ impl Grid {
     }
 }
 
-/// Writes the weights of second differences of a row of `x` whose adjoint is `ρCᵀCx`, for the matrix's domain, the factors of a
-/// difference itself and of the sum of all three, and the numbers of stencils.
+/// The matrix `ρCᵀC`: its domain, the factors of a second difference itself and of the sum of all three, and the numbers of
+/// stencils.
+type PenaltyMatrix<'a> = (&'a Domain, [f32; 2], &'a PerCell<f32>);
+
+/// Writes the weights of second differences of a row of `x` whose adjoint is `ρCᵀCx`.
 #[inline(always)]
 fn fill_weights(
-    (domain, [own, sum], stencils): (&Domain, [f32; 2], &PerCell<f32>),
+    (domain, [own, sum], stencils): PenaltyMatrix<'_>,
     x: &[f32],
     row: usize,
     weights: &mut Weights<f32>,

@@ -1,6 +1,6 @@
 //! Transfer of iterates between the levels of a mesh's multilevel solve.
 //!
-//! What goes to the finer level is the correction that the coarser one has found: displacements along the rays, and the
+//! The coarser level passes on the correction that it has found: displacements along the rays, and the
 //! changes of dual and Hessian as matrices in space, because neighbours have different frames. The dual is bounded by 1 on
 //! every level, so that nothing is rescaled.
 

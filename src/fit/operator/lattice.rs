@@ -296,7 +296,7 @@ mod tests {
     use crate::math::fork::Pool;
     use crate::{Heightfield, Input, Lattice};
 
-    /// What the sweeps give on a disk with holes that is divided into about a number of bands: Hessians, `CᵀY`, and the
+    /// Results of the sweeps on a disk with holes that is divided into about a number of bands: Hessians, `CᵀY`, and the
     /// Hessians of `CᵀY`.
     fn swept(bands: usize) -> (usize, [Vec<[f64; 3]>; 2], Vec<f64>) {
         let lattice = Lattice::new(70, 40, 1.0).unwrap();

@@ -19,7 +19,7 @@ const MAX_COLOUR_DIFFERENCE: f32 = 0.2;
 const COLOUR_FITS: usize = 5;
 
 /// Weight that keeps the gradient of the paper's colour near zero where few cells determine it.
-const RIDGE: f64 = 1.0;
+const COLOUR_GRADIENT_RIDGE: f64 = 1.0;
 
 /// Number of cells of which one is taken for the fit of the paper's colour.
 const FIT_STRIDE: usize = 7;
@@ -107,7 +107,8 @@ fn paper_colour<D: Fn(usize) -> [f32; 2]>(
         [expected[0] as f32, expected[1] as f32]
     };
     for _ in 0..COLOUR_FITS {
-        let mut normal = LeastSquares::<3, 2>::with_ridge([1e-9, RIDGE, RIDGE]);
+        let mut normal =
+            LeastSquares::<3, 2>::with_ridge([1e-9, COLOUR_GRADIENT_RIDGE, COLOUR_GRADIENT_RIDGE]);
         for i in &sampled {
             let (found, expected) = (difference(*i), colour(&fitted, *i));
             if (0..2).all(|k| (found[k] - expected[k]).abs() < MAX_COLOUR_DIFFERENCE) {

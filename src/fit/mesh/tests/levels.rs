@@ -5,10 +5,10 @@ use crate::fit::operator::sparse::SparseOperator;
 use crate::fit::report::StopReason;
 
 /// Requested relative duality gap.
-const GAP: f64 = 2e-3;
+const SOLVE_GAP: f64 = 2e-3;
 
 fn parameters() -> AdmmParameters {
-    AdmmParameters::new(&MeshOptions::default().gap(GAP).common()).without_v_cycles()
+    AdmmParameters::new(&MeshOptions::default().gap(SOLVE_GAP).common()).without_v_cycles()
 }
 
 /// About the mesh without noise, of a mesh with noise.
@@ -53,7 +53,7 @@ fn compare(linear: Linearisation, warm: Option<&WarmStart>) -> [usize; 2] {
     let (a, b) = (&own.admm.incumbent, &cold.admm.incumbent);
     let bound = a.dual_bound.max(b.dual_bound);
     for objective in [a.objective(), b.objective()] {
-        assert!((bound..(1.0 + 2.0 * GAP) * bound).contains(&objective));
+        assert!((bound..(1.0 + 2.0 * SOLVE_GAP) * bound).contains(&objective));
     }
     // Each is as near to the optimum as its gap says, because the fidelity is strongly convex.
     let radius = |objective: f64| ((objective - bound) / linear.problem.lambda).sqrt();

@@ -1,7 +1,10 @@
 //! The multilevel solve of one linearised problem of a mesh: from clusters of its vertices to the vertices themselves.
 
+use std::sync::Arc;
+
 use super::clusters::Clusters;
 use super::edge_load::load_border;
+use super::interpolation::interpolation;
 use super::level_transfer::{StencilMatrices, add_correction, restrict};
 use super::linearisation::Linearisation;
 use super::options::MeshOptions;
@@ -16,6 +19,7 @@ use crate::fit::energy::moment_load::bearing;
 use crate::fit::energy::spectral_penalty::HuberParameters;
 use crate::fit::operator::sparse::SparseOperator;
 use crate::fit::operator::sparse::jacobi::JacobiGradients;
+use crate::fit::operator::sparse::matrix::SparseMatrix;
 use crate::fit::report::{Seconds, StopReason};
 use crate::math::index::NO_INDEX;
 use crate::math::sym2::Sym2;
@@ -61,6 +65,8 @@ struct MeshLevel {
     start: StencilMatrices,
     /// Clusters of the level's vertices, if there is a coarser level.
     clusters: Option<Clusters>,
+    /// Interpolations between the unknowns of this level and the coarser ones, the finest first.
+    interpolations: Vec<Arc<SparseMatrix<f32>>>,
     loaded: bool,
 }
 
@@ -87,6 +93,7 @@ impl MeshLevels {
             linear,
             start,
             clusters: None,
+            interpolations: Vec::new(),
             loaded: false,
         }];
         while let Some(level) = levels.last_mut()
@@ -106,11 +113,16 @@ impl MeshLevels {
             };
             let fine = &level.linear;
             let start = restrict(fine, &level.start, &clusters, &linear, &is_creased)?;
+            let to_finer = Arc::new(interpolation(&linear, &clusters, fine, sides));
             level.clusters = Some(clusters);
+            for level in &mut levels {
+                level.interpolations.push(to_finer.clone());
+            }
             levels.push(MeshLevel {
                 linear,
                 start,
                 clusters: None,
+                interpolations: Vec::new(),
                 loaded: false,
             });
         }
@@ -292,7 +304,7 @@ impl MeshLevel {
         for (stencil, pair) in matrices.iter().enumerate() {
             iterate.set_matrices_with_rho_share(&problem, stencil, *pair);
         }
-        let solver = JacobiGradients::new(&problem, rho)?;
+        let solver = JacobiGradients::with_v_cycle(&problem, rho, &self.interpolations)?;
         let (mut solver, reason) = AdmmSolver::new(problem, iterate, solver, parameters, 0, false)?;
         Ok(match self.loaded {
             // One round between checks is enough, since the base is near the solution.

@@ -17,6 +17,7 @@ mod fairing;
 mod finishing;
 pub(crate) mod geometry;
 mod input;
+mod interpolation;
 mod known;
 mod level_transfer;
 mod level_vertices;

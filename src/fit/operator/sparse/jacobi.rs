@@ -1,5 +1,6 @@
 //! The z-step's solver for operators given as a sparse matrix: conjugate gradients with Jacobi's preconditioner.
 
+use super::v_cycle::{Interpolations, VCycle};
 use super::{MAX_RUN_LENGTH, Rows, SparseOperator, normal};
 use crate::error::{Result, try_filled};
 use crate::fit::energy::problem::Problem;
@@ -180,6 +181,27 @@ impl<T: Precision> Gradients<T> {
         for (i, direction) in self.direction.iter_mut().enumerate() {
             *direction = self.inverse[i] * self.residual[i] + beta * *direction;
         }
+        self.advance(operator, self.energy)
+    }
+
+    /// Takes one conjugate-gradient iteration with another preconditioner, which has turned the residual into
+    /// `preconditioned`; returns `false` if nothing is left to improve.
+    fn step_along(&mut self, operator: &SparseOperator, preconditioned: &[T]) -> bool {
+        let energy = T::dot(&self.residual, preconditioned);
+        let beta = if self.previous > 0.0 {
+            energy / self.previous
+        } else {
+            0.0
+        };
+        let beta = T::from_f64(beta);
+        for (direction, more) in self.direction.iter_mut().zip(preconditioned) {
+            *direction = *more + beta * *direction;
+        }
+        self.advance(operator, energy)
+    }
+
+    /// Goes to the minimum along the direction; `energy` is the product of residual and preconditioned residual.
+    fn advance(&mut self, operator: &SparseOperator, energy: f64) -> bool {
         let (rows, weights) = T::rows(operator);
         normal(rows, weights, &self.direction, &mut self.image);
         for (i, image) in self.image.iter_mut().enumerate() {
@@ -187,15 +209,15 @@ impl<T: Precision> Gradients<T> {
         }
         let curvature = T::dot(&self.direction, &self.image);
         // As what a NaN is not.
-        if !(curvature > 0.0 && self.energy > 0.0) {
+        if !(curvature > 0.0 && energy > 0.0) {
             return false;
         }
-        let alpha = T::from_f64(self.energy / curvature);
+        let alpha = T::from_f64(energy / curvature);
         for (i, residual) in self.residual.iter_mut().enumerate() {
             self.solution[i] = self.solution[i] + alpha * self.direction[i];
             *residual = *residual - alpha * self.image[i];
         }
-        self.previous = self.energy;
+        self.previous = energy;
         self.measure();
         true
     }
@@ -220,9 +242,38 @@ pub(crate) struct JacobiGradients {
     stale: bool,
     /// Largest absolute target height, by which heights in the linear system are divided.
     unit: f64,
+    v_cycle: Option<VCycle>,
+    /// Residual that is preconditioned by the V-cycle.
+    preconditioned: Vec<f32>,
 }
 
 impl JacobiGradients {
+    /// Makes the solver with a V-cycle as the preconditioner.
+    ///
+    /// # Errors
+    /// [`Error::OutOfMemory`](crate::Error::OutOfMemory).
+    pub(crate) fn with_v_cycle(
+        problem: &Problem<SparseOperator>,
+        rho: f64,
+        interpolations: &Interpolations,
+    ) -> Result<Self> {
+        let mut solver = JacobiGradients::new(problem, rho)?;
+        if !interpolations.is_empty() {
+            let mut v_cycle = VCycle::new(&problem.operator, interpolations)?;
+            let Gradients {
+                rho,
+                fidelity,
+                inverse,
+                ..
+            } = &solver.gradients;
+            v_cycle.set_matrix(*rho, fidelity, inverse);
+            solver.v_cycle = Some(v_cycle);
+            solver.preconditioned =
+                try_filled("conjugate gradients", problem.operator.vertex_cells(), 0.0)?;
+        }
+        Ok(solver)
+    }
+
     pub(crate) fn new(problem: &Problem<SparseOperator>, rho: f64) -> Result<Self> {
         let operator = &problem.operator;
         let cells = operator.vertex_cells();
@@ -246,6 +297,8 @@ impl JacobiGradients {
             stale: false,
             residual: try_filled("conjugate gradients", cells, 0.0)?,
             unit: if largest > 0.0 { largest } else { 1.0 },
+            v_cycle: None,
+            preconditioned: Vec::new(),
         })
     }
 }
@@ -271,6 +324,15 @@ impl ZStepSolver<SparseOperator> for JacobiGradients {
     fn restart(&mut self, operator: &SparseOperator) {
         if std::mem::take(&mut self.stale) {
             self.gradients.take(operator, &self.system);
+            if let Some(v_cycle) = &mut self.v_cycle {
+                let Gradients {
+                    rho,
+                    fidelity,
+                    inverse,
+                    ..
+                } = &self.gradients;
+                v_cycle.set_matrix(*rho, fidelity, inverse);
+            }
         }
         self.gradients.residual.copy_from_slice(&self.residual);
         self.gradients.start();
@@ -289,6 +351,11 @@ impl ZStepSolver<SparseOperator> for JacobiGradients {
     }
 
     fn step(&mut self, operator: &SparseOperator) -> bool {
+        if let Some(v_cycle) = &mut self.v_cycle {
+            let residual = &self.gradients.residual;
+            v_cycle.apply(operator, residual, &mut self.preconditioned);
+            return self.gradients.step_along(operator, &self.preconditioned);
+        }
         let done = (0..JACOBI_STEPS).take_while(|_| self.gradients.step(operator));
         done.count() > 0
     }

@@ -1,8 +1,10 @@
 //! The operator `C` as a sparse matrix, for meshes and other domains that are no lattice.
 
 pub(crate) mod jacobi;
+pub(crate) mod matrix;
 #[cfg(all(test, feature = "sprs", not(target_arch = "wasm32")))] // clarabel is native
 mod tests;
+pub(crate) mod v_cycle;
 
 use std::sync::Arc;
 
@@ -283,6 +285,18 @@ impl SparseOperator {
             self.rho_shares[stencil] = rho_share;
             self.rho_weights[stencil] = rho_share * self.weights[stencil];
             self.single_rho_weights[stencil] = lanes::single(self.rho_weights[stencil]);
+        }
+    }
+
+    /// Adds the diagonal of `CᵀC` in single precision to `diagonal`, with the stencils weighted by their factors of ρ.
+    fn single_normal_diagonal(&self, diagonal: &mut [f32]) {
+        for (stencil, weight) in self.single_rho_weights.iter().enumerate() {
+            for EntryGroup { vertices, entries } in self.single.row(stencil) {
+                for (lane, vertex) in vertices.iter().enumerate() {
+                    let squares = entries.iter().map(|row| row[lane] * row[lane]);
+                    diagonal[*vertex as usize] += weight * squares.sum::<f32>();
+                }
+            }
         }
     }
 

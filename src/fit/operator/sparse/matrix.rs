@@ -1,0 +1,127 @@
+//! Sparse matrices by rows, their transposes and products.
+
+use crate::error::{Result, try_filled};
+use crate::math::index::NO_INDEX;
+
+/// A sparse matrix by rows, whose entries are numbers or small blocks of numbers.
+#[derive(Debug, Clone)]
+pub(crate) struct SparseMatrix<T> {
+    /// Index of each row's first entry, and the number of all entries at the end.
+    first: Vec<usize>,
+    entries: Vec<(u32, T)>,
+    columns: usize,
+}
+
+impl<T: Copy> SparseMatrix<T> {
+    /// Makes a matrix of `columns` columns without rows.
+    pub(crate) fn new(columns: usize) -> Self {
+        SparseMatrix {
+            first: vec![0],
+            entries: Vec::new(),
+            columns,
+        }
+    }
+
+    /// Appends a row of entries with distinct columns.
+    pub(crate) fn push(&mut self, entries: impl IntoIterator<Item = (u32, T)>) {
+        self.entries.extend(entries);
+        self.first.push(self.entries.len());
+    }
+
+    pub(super) fn rows(&self) -> usize {
+        self.first.len() - 1
+    }
+
+    /// Returns the entries of a row, each with its column.
+    #[inline(always)]
+    pub(super) fn row(&self, row: usize) -> &[(u32, T)] {
+        &self.entries[self.first[row]..self.first[row + 1]]
+    }
+
+    /// Returns the transpose, in whose rows columns ascend.
+    ///
+    /// # Errors
+    /// [`Error::OutOfMemory`](crate::Error::OutOfMemory).
+    pub(super) fn transpose(&self) -> Result<Self> {
+        let mut first = try_filled("sparse matrix", self.columns + 1, 0)?;
+        for (column, _) in &self.entries {
+            first[*column as usize + 1] += 1;
+        }
+        for column in 0..self.columns {
+            first[column + 1] += first[column];
+        }
+        let Some(any) = self.entries.first() else {
+            return Ok(SparseMatrix {
+                first,
+                entries: Vec::new(),
+                columns: self.rows(),
+            });
+        };
+        let mut next = first.clone();
+        let mut entries = try_filled("sparse matrix", self.entries.len(), (0, any.1))?;
+        for row in 0..self.rows() {
+            for (column, entry) in self.row(row) {
+                let next = &mut next[*column as usize];
+                entries[*next] = (row as u32, *entry);
+                *next += 1;
+            }
+        }
+        Ok(SparseMatrix {
+            first,
+            entries,
+            columns: self.rows(),
+        })
+    }
+
+    /// Returns the product with another matrix; `add` adds the product of two entries to an entry of the result.
+    ///
+    /// # Errors
+    /// [`Error::OutOfMemory`](crate::Error::OutOfMemory).
+    pub(super) fn multiply<U: Copy, V: Copy + Default>(
+        &self,
+        other: &SparseMatrix<U>,
+        add: impl Fn(&mut V, &T, &U),
+    ) -> Result<SparseMatrix<V>> {
+        let mut product = SparseMatrix::new(other.columns);
+        // Index among the row's entries of each column that the row has.
+        let mut places = try_filled("sparse matrix", other.columns, NO_INDEX)?;
+        let mut row: Vec<(u32, V)> = Vec::new();
+        for own in 0..self.rows() {
+            for (middle, left) in self.row(own) {
+                for (column, right) in other.row(*middle as usize) {
+                    let place = &mut places[*column as usize];
+                    if *place == NO_INDEX {
+                        *place = row.len() as u32;
+                        row.push((*column, V::default()));
+                    }
+                    add(&mut row[*place as usize].1, left, right);
+                }
+            }
+            for (column, _) in &row {
+                places[*column as usize] = NO_INDEX;
+            }
+            product.push(row.drain(..));
+        }
+        Ok(product)
+    }
+}
+
+impl SparseMatrix<f32> {
+    /// Returns the inner product of a row with a vector.
+    #[inline(always)]
+    pub(super) fn row_times(&self, row: usize, x: &[f32]) -> f32 {
+        let entries = self.row(row).iter();
+        entries.fold(0.0, |sum, (column, entry)| {
+            sum + entry * x[*column as usize]
+        })
+    }
+
+    /// Adds the product of the transpose with a vector to `to`.
+    pub(super) fn add_transposed(&self, x: &[f32], to: &mut [f32]) {
+        for (row, x) in x.iter().enumerate() {
+            for (column, entry) in self.row(row) {
+                to[*column as usize] += entry * x;
+            }
+        }
+    }
+}

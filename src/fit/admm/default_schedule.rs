@@ -24,7 +24,7 @@ use crate::fit::report::StopReason;
 /// Maximum number of conjugate-gradient iterations in a z-step of the default schedule.
 const MAX_CG_ITERATIONS: usize = 1;
 
-/// Maximum number of conjugate-gradient iterations in a z-step with V-cycles while the duality gap is large.
+/// Maximum number of conjugate-gradient iterations in a z-step on a lattice while the duality gap is large.
 const MAX_CG_ITERATIONS_LARGE_GAP: usize = 2;
 
 /// Maximum number of conjugate-gradient iterations in the first z-step of a multigrid level.
@@ -59,9 +59,9 @@ const FREQUENT_CHECKS_END: usize = 30;
 /// Maximum ratio of the current duality gap to the requested one at which dual ascent is tried.
 const MAX_ASCENT_GAP_RATIO: f64 = 100.0;
 
-/// Maximum ratio of the current duality gap to the requested one at which dual ascent is tried on meshes, which have no
-/// V-cycles: ascents from larger gaps only cost time.
-const MAX_ASCENT_GAP_RATIO_WITHOUT_V_CYCLES: f64 = 10.0;
+/// Maximum ratio of the current duality gap to the requested one at which dual ascent is tried on meshes: ascents from
+/// larger gaps only cost time.
+const MAX_MESH_ASCENT_GAP_RATIO: f64 = 10.0;
 
 /// Minimum requested duality gap at which rank reduction is applied; surfaces solved to a smaller gap have Hessians of
 /// rank one already.
@@ -331,7 +331,7 @@ fn z_step_accuracy<O: SolvableOperator>(admm: &Admm<O>) -> ZStepAccuracy {
         MAX_CG_ITERATIONS_WEAK_FIDELITY
     } else if admm.iteration == 0 {
         MAX_CG_ITERATIONS_FIRST
-    } else if admm.parameters.has_v_cycles && admm.incumbent.gap() > EXTRA_CG_GAP {
+    } else if !admm.parameters.is_mesh && admm.incumbent.gap() > EXTRA_CG_GAP {
         MAX_CG_ITERATIONS_LARGE_GAP
     } else {
         MAX_CG_ITERATIONS
@@ -375,9 +375,9 @@ fn has_rank_one_optimum<O: SolvableOperator>(problem: &Problem<O>) -> bool {
 
 /// Returns whether dual ascent may reach the requested duality gap from the current one.
 fn is_ascent_useful<O: SolvableOperator>(admm: &Admm<O>) -> bool {
-    let ratio = match admm.parameters.has_v_cycles {
-        true => MAX_ASCENT_GAP_RATIO,
-        false => MAX_ASCENT_GAP_RATIO_WITHOUT_V_CYCLES,
+    let ratio = match admm.parameters.is_mesh {
+        true => MAX_MESH_ASCENT_GAP_RATIO,
+        false => MAX_ASCENT_GAP_RATIO,
     };
     let (gap, requested) = (admm.incumbent.gap(), admm.parameters.gap);
     has_rank_one_optimum(&admm.problem) && gap > requested && gap < ratio * requested

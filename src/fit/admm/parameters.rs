@@ -12,8 +12,8 @@ pub(crate) struct AdmmParameters {
     pub(super) max_iterations: usize,
     /// Whether this level's lattice is not the finest one.
     pub(super) is_coarse: bool,
-    /// Whether z-steps are preconditioned by a multigrid V-cycle.
-    pub(super) has_v_cycles: bool,
+    /// Whether the problem is that of a mesh, not of a lattice.
+    pub(super) is_mesh: bool,
     /// Whether the penalty weights are computed anew from the current surface's normals ([`Energy::SecondForm`]).
     pub(super) follows_normals: bool,
 }
@@ -41,15 +41,15 @@ impl AdmmParameters {
             gap: options.gap_or_default(),
             max_iterations: options.max_iterations,
             is_coarse: false,
-            has_v_cycles: true,
+            is_mesh: false,
             follows_normals: options.energy_or_default() == Energy::SecondForm,
         }
     }
 
-    /// Returns these parameters for z-steps that are solved by conjugate gradients without a V-cycle.
-    pub(crate) fn without_v_cycles(self) -> Self {
+    /// Returns these parameters for the problem of a mesh.
+    pub(crate) fn for_mesh(self) -> Self {
         AdmmParameters {
-            has_v_cycles: false,
+            is_mesh: true,
             ..self
         }
     }

@@ -13,8 +13,9 @@ use super::smooth_regions::SmoothRegions;
 use crate::fit::operator::sparse::matrix::SparseMatrix;
 use crate::math::index::NO_INDEX;
 
-/// Squared distance at which weights vanish, in squared distances of the farthest cluster.
-const SQUARED_REACH_RATIO: f64 = 1.05;
+/// Squared distance from which on clusters have no weight, in squared distances of the farthest cluster around. With
+/// 1.05, coarse matrices have half as many entries again, and iterations are as many.
+const SQUARED_REACH_RATIO: f64 = 0.8;
 
 /// Share of the second moments that is added to them, so that slopes vanish where the clusters around a vertex do not
 /// determine them.
@@ -83,25 +84,24 @@ fn cluster_weights(
         region == NO_INDEX || sides.touches(above.source[other as usize] as usize, region)
     };
     let ring = clusters.adjacency.around(cluster as usize).iter().copied();
-    let around: Vec<(u32, [f64; 2], f64)> = std::iter::once(cluster)
+    let mut around: Vec<(u32, [f64; 2], f64)> = std::iter::once(cluster)
         .chain(ring)
         .filter(|other| is_beside(*other))
         .map(|other| {
             let offset = above.base[other as usize] - own.base[vertex];
-            let place = frame
-                .tangents
-                .each_ref()
-                .map(|tangent| tangent.dot(&offset));
+            let place = frame.tangents.map(|tangent| tangent.dot(&offset));
             let cosine = frame.normal.dot(&above.frames[other as usize].normal);
             (other, place, cosine.max(0.0))
         })
         .collect();
     let square = |[x, y]: [f64; 2]| x * x + y * y;
-    let reach = around
+    let farthest = around
         .iter()
         .fold(0.0, |most, (_, at, _)| square(*at).max(most));
+    let reach = SQUARED_REACH_RATIO * farthest;
+    around.retain(|(_, at, _)| square(*at) < reach);
     let weight = |at: [f64; 2], cosine: f64| {
-        let left = 1.0 - square(at) / (SQUARED_REACH_RATIO * reach);
+        let left = 1.0 - square(at) / reach;
         left * left * cosine * cosine
     };
     let mut moments = Matrix3::zeros();

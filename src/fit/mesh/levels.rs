@@ -18,7 +18,7 @@ use crate::fit::admm::solver::{AdmmSolver, initial_rho};
 use crate::fit::energy::moment_load::bearing;
 use crate::fit::energy::spectral_penalty::HuberParameters;
 use crate::fit::operator::sparse::SparseOperator;
-use crate::fit::operator::sparse::jacobi::JacobiGradients;
+use crate::fit::operator::sparse::gradients::SparseGradients;
 use crate::fit::operator::sparse::matrix::SparseMatrix;
 use crate::fit::report::{Seconds, StopReason};
 use crate::math::index::NO_INDEX;
@@ -29,6 +29,10 @@ const MIN_COARSENED_VERTICES: usize = 4000;
 
 /// Minimum ratio of the vertices of a level to those of the next coarser one at which that saves time.
 const MIN_COARSENING_RATIO: f64 = 2.0;
+
+/// Minimum number of vertices of a level whose z-steps are preconditioned by a V-cycle. On smaller levels it saves hardly
+/// any time, because making its matrices takes as long as the iterations that it saves (`benches/whole.md`).
+const MIN_V_CYCLE_VERTICES: usize = 100_000;
 
 /// Ratio of ρ in spacings at the start of a level to that at the end of the next coarser one.
 const RHO_SPACING_RATIO: f64 = 2.0;
@@ -304,7 +308,11 @@ impl MeshLevel {
         for (stencil, pair) in matrices.iter().enumerate() {
             iterate.set_matrices_with_rho_share(&problem, stencil, *pair);
         }
-        let solver = JacobiGradients::with_v_cycle(&problem, rho, &self.interpolations)?;
+        let interpolations = match self.linear.vertices.len() >= MIN_V_CYCLE_VERTICES {
+            true => &self.interpolations[..],
+            false => &[],
+        };
+        let solver = SparseGradients::with_v_cycle(&problem, rho, interpolations)?;
         let (mut solver, reason) = AdmmSolver::new(problem, iterate, solver, parameters, 0, false)?;
         Ok(match self.loaded {
             // One round between checks is enough, since the base is near the solution.

@@ -398,7 +398,7 @@ fn parameters(options: &MeshOptions, solved: usize) -> AdmmParameters {
         };
         common = common.gap(options.gap.max(least));
     }
-    AdmmParameters::new(&common).without_v_cycles()
+    AdmmParameters::new(&common).for_mesh()
 }
 
 /// Linearises the energy about a base, with the options of the fit.

@@ -20,7 +20,7 @@ use crate::fit::linear::cg::ConjugateGradients;
 use crate::fit::linear::z_step_solver::SolvableOperator;
 use crate::fit::operator::Operator;
 use crate::fit::operator::lattice::position;
-use crate::fit::operator::sparse::jacobi::JacobiGradients;
+use crate::fit::operator::sparse::gradients::SparseGradients;
 use crate::scene::view::Frame as Frame3;
 use crate::{Error, Heightfield, Input, Lattice, Mesh, Options, Triangulation};
 
@@ -31,6 +31,7 @@ mod creases;
 mod levels;
 mod orientation;
 mod self_intersections;
+mod v_cycle;
 
 use closed_meshes::{cube, grid, indexed, normal, points, random, with_positions};
 
@@ -209,7 +210,7 @@ fn a_lattice_as_a_mesh_has_the_lattices_answer() {
     let vertices = LevelVertices::from_mesh(&given, base, frames, None);
     let linear = Linearisation::new(vertices, bends, |_| 1e4, None).unwrap();
     let jacobi =
-        |problem: &super::linearisation::Problem, rho| JacobiGradients::new(problem, rho).unwrap();
+        |problem: &super::linearisation::Problem, rho| SparseGradients::new(problem, rho).unwrap();
     let b = solve(
         linear.problem.clone(),
         &options,

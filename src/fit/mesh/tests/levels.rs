@@ -8,7 +8,7 @@ use crate::fit::report::StopReason;
 const SOLVE_GAP: f64 = 2e-3;
 
 fn parameters() -> AdmmParameters {
-    AdmmParameters::new(&MeshOptions::default().gap(SOLVE_GAP).common()).without_v_cycles()
+    AdmmParameters::new(&MeshOptions::default().gap(SOLVE_GAP).common()).for_mesh()
 }
 
 /// About the mesh without noise, of a mesh with noise.
@@ -29,7 +29,7 @@ fn cold(linear: &Linearisation) -> AdmmSolver<SparseOperator> {
     let (problem, parameters) = (linear.problem.clone(), parameters());
     let mut iterate = Iterate::new(&problem, initial_rho(&parameters, &problem)).unwrap();
     iterate.z.copy_from_slice(&linear.start());
-    let jacobi = JacobiGradients::new(&problem, iterate.rho).unwrap();
+    let jacobi = SparseGradients::new(&problem, iterate.rho).unwrap();
     let (mut solver, mut reason) =
         AdmmSolver::new(problem, iterate, jacobi, parameters, 0, false).unwrap();
     while reason.is_none() {

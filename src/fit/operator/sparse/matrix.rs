@@ -3,6 +3,9 @@
 use crate::error::{Result, try_filled};
 use crate::math::index::NO_INDEX;
 
+/// Number of independent sums of an inner product.
+const ROW_LANES: usize = 4;
+
 /// A sparse matrix by rows, whose entries are numbers or small blocks of numbers.
 #[derive(Debug, Clone)]
 pub(crate) struct SparseMatrix<T> {
@@ -34,7 +37,7 @@ impl<T: Copy> SparseMatrix<T> {
 
     /// Returns the entries of a row, each with its column.
     #[inline(always)]
-    pub(super) fn row(&self, row: usize) -> &[(u32, T)] {
+    pub(crate) fn row(&self, row: usize) -> &[(u32, T)] {
         &self.entries[self.first[row]..self.first[row + 1]]
     }
 
@@ -107,13 +110,23 @@ impl<T: Copy> SparseMatrix<T> {
 }
 
 impl SparseMatrix<f32> {
-    /// Returns the inner product of a row with a vector.
+    /// Returns the inner product of a row with a vector. Sums run in a fixed number of lanes, so that they need not wait
+    /// for each other.
     #[inline(always)]
     pub(super) fn row_times(&self, row: usize, x: &[f32]) -> f32 {
-        let entries = self.row(row).iter();
-        entries.fold(0.0, |sum, (column, entry)| {
-            sum + entry * x[*column as usize]
-        })
+        let mut lanes = [0.0; ROW_LANES];
+        let chunks = self.row(row).chunks_exact(ROW_LANES);
+        let tail = chunks.remainder();
+        for chunk in chunks {
+            for (lane, (column, entry)) in lanes.iter_mut().zip(chunk) {
+                *lane += entry * x[*column as usize];
+            }
+        }
+        for (lane, (column, entry)) in lanes.iter_mut().zip(tail) {
+            *lane += entry * x[*column as usize];
+        }
+        let [a, b, c, d] = lanes;
+        (a + b) + (c + d)
     }
 
     /// Adds the product of the transpose with a vector to `to`.
@@ -123,5 +136,61 @@ impl SparseMatrix<f32> {
                 to[*column as usize] += entry * x;
             }
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use nalgebra::DMatrix;
+
+    use super::*;
+
+    fn sparse(dense: &DMatrix<f32>) -> SparseMatrix<f32> {
+        let mut matrix = SparseMatrix::new(dense.ncols());
+        for row in dense.row_iter() {
+            let entries = (0..).zip(row.iter().copied());
+            matrix.push(entries.filter(|(_, entry)| *entry != 0.0));
+        }
+        matrix
+    }
+
+    fn dense(matrix: &SparseMatrix<f32>) -> DMatrix<f32> {
+        let mut dense = DMatrix::zeros(matrix.rows(), matrix.columns);
+        for row in 0..matrix.rows() {
+            for (column, entry) in matrix.row(row) {
+                dense[(row, *column as usize)] += entry;
+            }
+        }
+        dense
+    }
+
+    #[test]
+    fn products_and_transposes_are_those_of_dense_matrices() {
+        // Small integers, of which all sums are exact; the last row and column are empty.
+        let entry = |row: usize, column: usize, period: usize| match (7 * row + 5 * column) % period
+        {
+            1 => row as f32 - 3.0,
+            2 => column as f32 + 1.0,
+            _ => 0.0,
+        };
+        let mut a = DMatrix::from_fn(9, 14, |row, column| entry(row, column, 4));
+        a.row_mut(8).fill(0.0);
+        a.column_mut(13).fill(0.0);
+        let b = DMatrix::from_fn(14, 6, |row, column| entry(row, column, 5));
+        let (left, right) = (sparse(&a), sparse(&b));
+        let product = left
+            .multiply(&right, |sum: &mut f32, a, b| *sum += a * b)
+            .unwrap();
+        assert_eq!(dense(&product), &a * &b);
+        assert_eq!(dense(&left.transpose().unwrap()), a.transpose());
+        let x = DMatrix::from_fn(9, 1, |row, _| row as f32 - 4.0);
+        let mut image = vec![0.0; 14];
+        left.add_transposed(x.as_slice(), &mut image);
+        assert_eq!(image, (a.transpose() * &x).as_slice());
+        let y = DMatrix::from_fn(14, 1, |row, _| row as f32 - 6.0);
+        let times: Vec<f32> = (0..9)
+            .map(|row| left.row_times(row, y.as_slice()))
+            .collect();
+        assert_eq!(times, (a * &y).as_slice());
     }
 }

@@ -1,6 +1,6 @@
 //! The operator `C` as a sparse matrix, for meshes and other domains that are no lattice.
 
-pub(crate) mod jacobi;
+pub(crate) mod gradients;
 pub(crate) mod matrix;
 #[cfg(all(test, feature = "sprs", not(target_arch = "wasm32")))] // clarabel is native
 mod tests;
@@ -132,16 +132,19 @@ impl<T: Real> Rows<T> {
             diff = diff + T::four(*b) * x;
             off = off + T::four(*c) * x;
         }
-        [mean, diff, off].map(|sum| {
-            let [a, b, c, d] = T::lanes(sum);
-            (a + b) + (c + d)
-        })
+        [
+            sum_of_lanes::<T>(mean),
+            sum_of_lanes::<T>(diff),
+            sum_of_lanes::<T>(off),
+        ]
     }
 
     /// Adds the adjoint `Cᵀ` of the matrix at one stencil, which includes the stencil's weight, to the heights `to`.
     #[inline(always)]
     fn add_adjoint(&self, stencil: usize, [mean, diff, off]: [T; 3], to: &mut [T]) {
-        let [mean, diff, off] = [mean, diff, off].map(|y| T::four([y; ROW_GROUP_ENTRIES]));
+        let mean = T::four([mean; ROW_GROUP_ENTRIES]);
+        let diff = T::four([diff; ROW_GROUP_ENTRIES]);
+        let off = T::four([off; ROW_GROUP_ENTRIES]);
         for EntryGroup { vertices, entries } in self.row(stencil) {
             let [a, b, c] = entries;
             let more = T::four(*a) * mean + T::four(*b) * diff + T::four(*c) * off;
@@ -154,6 +157,13 @@ impl<T: Real> Rows<T> {
             to[v3] = to[v3] + m3;
         }
     }
+}
+
+/// Returns the sum of the numbers in a SIMD vector.
+#[inline(always)]
+fn sum_of_lanes<T: Real>(four: T::Four) -> T {
+    let [a, b, c, d] = T::lanes(four);
+    (a + b) + (c + d)
 }
 
 /// The components that a [`SparseOperator`] is made of.
@@ -288,13 +298,22 @@ impl SparseOperator {
         }
     }
 
-    /// Adds the diagonal of `CᵀC` in single precision to `diagonal`, with the stencils weighted by their factors of ρ.
-    fn single_normal_diagonal(&self, diagonal: &mut [f32]) {
+    /// Adds to `bound` a diagonal matrix that is an upper bound of `CᵀC` in single precision, with the stencils weighted by
+    /// their factors of ρ: `(Σ c x)² ≤ Σ|c| Σ|c| x²` for every row of `C`.
+    fn bound_normal(&self, bound: &mut [f32]) {
         for (stencil, weight) in self.single_rho_weights.iter().enumerate() {
-            for EntryGroup { vertices, entries } in self.single.row(stencil) {
+            let row = self.single.row(stencil);
+            let mut totals = [0.0; 3];
+            for EntryGroup { entries, .. } in row {
+                for (total, entries) in totals.iter_mut().zip(entries) {
+                    *total += entries.iter().map(|entry| entry.abs()).sum::<f32>();
+                }
+            }
+            for EntryGroup { vertices, entries } in row {
                 for (lane, vertex) in vertices.iter().enumerate() {
-                    let squares = entries.iter().map(|row| row[lane] * row[lane]);
-                    diagonal[*vertex as usize] += weight * squares.sum::<f32>();
+                    let terms = entries.iter().zip(totals);
+                    let sum: f32 = terms.map(|(row, total)| row[lane].abs() * total).sum();
+                    bound[*vertex as usize] += weight * sum;
                 }
             }
         }
@@ -347,7 +366,8 @@ pub(crate) struct RunMatrices<'a, T> {
 impl<T: Real> Matrices<T> for RunMatrices<'_, T> {
     #[inline(always)]
     fn set(&mut self, i: usize, matrix: [T; 3]) {
-        let matrix = matrix.map(|y| self.weights[i] * y);
+        let ([a, b, c], weight) = (matrix, self.weights[i]);
+        let matrix = [weight * a, weight * b, weight * c];
         self.rows.add_adjoint(self.first + i, matrix, self.sums);
     }
 }

@@ -1,8 +1,9 @@
 //! Multigrid V-cycle, the preconditioner of the z-step on meshes.
 //!
-//! The coarse matrices are Galerkin products `PᵀCᵀCP`, so that the coarse correction never overshoots, whatever the
-//! interpolation `P`. Chebyshev's polynomial of Jacobi's preconditioner smooths before and after the correction. The cycle
-//! is symmetric and positive definite, so that conjugate gradients may use it.
+//! The coarse stiffness matrices are Galerkin products `PᵀCᵀCP`, so that the coarse correction does not overshoot, whatever
+//! the interpolation `P`. Chebyshev's polynomial smooths before and after the correction. It is scaled by a diagonal
+//! matrix that bounds the level's matrix from above, because an estimate of the largest eigenvalue may be too small
+//! beside creases, and the cycle would not be positive definite. As it is, conjugate gradients may use it.
 
 use std::sync::Arc;
 
@@ -19,19 +20,13 @@ const SMOOTHING_STEPS: usize = 2;
 
 /// Ratio of the largest to the smallest eigenvalue whose error the smoother reduces; the coarse level reduces the errors of
 /// smaller eigenvalues.
-const SMOOTHED_EIGENVALUE_RATIO: f32 = 8.0;
+const SMOOTHED_EIGENVALUE_RATIO: f32 = 16.0;
 
 /// Number of smoothing steps on the coarsest level of a V-cycle.
-const BOTTOM_STEPS: usize = 8;
+const BOTTOM_STEPS: usize = 6;
 
 /// Ratio of the largest to the smallest eigenvalue whose error the steps on the coarsest level reduce.
 const BOTTOM_EIGENVALUE_RATIO: f32 = 40.0;
-
-/// Number of power iterations that estimate the largest eigenvalue of a level's matrix.
-const POWER_ITERATIONS: usize = 8;
-
-/// Factor that turns the power iterations' lower estimate of the largest eigenvalue into an upper bound.
-const EIGENVALUE_MARGIN: f32 = 1.2;
 
 /// V-cycle on the levels of a mesh.
 #[derive(Debug, Clone)]
@@ -49,12 +44,11 @@ struct Level {
     stiffness: Option<Arc<SparseMatrix<f32>>>,
     /// Interpolation from the next coarser level's unknowns; `None` on the coarsest level.
     interpolation: Option<Arc<SparseMatrix<f32>>>,
-    stiffness_diagonal: Vec<f32>,
+    /// Diagonal matrix that bounds the stiffness matrix from above.
+    stiffness_bound: Vec<f32>,
     fidelity: Vec<f32>,
-    /// Inverse of the matrix's diagonal, and 0 at constrained vertices.
+    /// Inverse of the diagonal matrix that bounds the level's matrix from above, and 0 at constrained vertices.
     inverse: Vec<f32>,
-    /// Upper bound of the eigenvalues of the matrix that is scaled by its inverse diagonal.
-    largest_eigenvalue: f32,
     right: Vec<f32>,
     x: Vec<f32>,
     step: Vec<f32>,
@@ -135,29 +129,27 @@ impl VCycle {
         Ok(VCycle { levels, rho: 0.0 })
     }
 
-    /// Takes over ρ, the fidelity's part of the finest matrix, and its inverse diagonal.
+    /// Takes over ρ and the fidelity's part of the finest matrix; vertices without an `inverse` diagonal are constrained.
     pub(super) fn set_matrix(&mut self, rho: f32, fidelity: &[f32], inverse: &[f32]) {
         self.rho = rho;
+        self.levels[0].fidelity.copy_from_slice(fidelity);
         for k in 0..self.levels.len() {
             let (finer, coarser) = self.levels.split_at_mut(k);
             let level = &mut coarser[0];
-            match finer.last() {
-                Some(Level {
-                    interpolation: Some(interpolation),
-                    fidelity,
-                    ..
-                }) => {
-                    lump(fidelity, interpolation, &mut level.fidelity);
-                    let entries = level.fidelity.iter().zip(&level.stiffness_diagonal);
-                    for (inverse, (fidelity, stiffness)) in level.inverse.iter_mut().zip(entries) {
-                        let entry = fidelity + rho * stiffness;
-                        *inverse = if entry > 0.0 { 1.0 / entry } else { 0.0 };
-                    }
-                }
-                _ => {
-                    level.fidelity.copy_from_slice(fidelity);
-                    level.inverse.copy_from_slice(inverse);
-                }
+            if let Some(finer) = finer.last()
+                && let Some(interpolation) = &finer.interpolation
+            {
+                lump(&finer.fidelity, interpolation, &mut level.fidelity);
+            }
+            let entries = level.fidelity.iter().zip(&level.stiffness_bound);
+            for (inverse, (fidelity, stiffness)) in level.inverse.iter_mut().zip(entries) {
+                let entry = fidelity + rho * stiffness;
+                *inverse = if entry > 0.0 { 1.0 / entry } else { 0.0 };
+            }
+        }
+        for (own, inverse) in self.levels[0].inverse.iter_mut().zip(inverse) {
+            if *inverse == 0.0 {
+                *own = 0.0;
             }
         }
     }
@@ -175,8 +167,8 @@ impl VCycle {
         let Some(interpolation) = level.interpolation.clone() else {
             return level.smooth(operator, rho, true, BOTTOM_STEPS, BOTTOM_EIGENVALUE_RATIO);
         };
-        let ratio = SMOOTHED_EIGENVALUE_RATIO;
-        level.smooth(operator, rho, true, SMOOTHING_STEPS, ratio);
+        let (steps, ratio) = (SMOOTHING_STEPS, SMOOTHED_EIGENVALUE_RATIO);
+        level.smooth(operator, rho, true, steps, ratio);
         level.compute_residual(operator, rho);
         let [level, coarse, ..] = &mut self.levels[k..] else {
             return;
@@ -192,7 +184,7 @@ impl VCycle {
                 *x += interpolation.row_times(row, &coarse.x);
             }
         }
-        level.smooth(operator, rho, false, SMOOTHING_STEPS, ratio);
+        level.smooth(operator, rho, false, steps, ratio);
     }
 }
 
@@ -207,60 +199,26 @@ impl Level {
             None => operator.vertex_cells(),
         };
         let zeros = || try_filled("multigrid", count, 0.0f32);
-        let mut stiffness_diagonal = zeros()?;
+        let mut stiffness_bound = zeros()?;
         match &stiffness {
             Some(stiffness) => {
-                for (row, entry) in stiffness_diagonal.iter_mut().enumerate() {
-                    let own = stiffness.row(row).iter();
-                    *entry = own
-                        .filter(|(c, _)| *c as usize == row)
-                        .map(|(_, a)| a)
-                        .sum();
+                for (row, entry) in stiffness_bound.iter_mut().enumerate() {
+                    *entry = stiffness.row(row).iter().map(|(_, a)| a.abs()).sum();
                 }
             }
-            None => operator.single_normal_diagonal(&mut stiffness_diagonal),
+            None => operator.bound_normal(&mut stiffness_bound),
         }
-        let mut level = Level {
+        Ok(Level {
             stiffness,
             interpolation,
-            stiffness_diagonal,
+            stiffness_bound,
             fidelity: zeros()?,
             inverse: zeros()?,
-            largest_eigenvalue: 1.0,
             right: zeros()?,
             x: zeros()?,
             step: zeros()?,
             image: zeros()?,
-        };
-        level.estimate_largest_eigenvalue(operator);
-        Ok(level)
-    }
-
-    /// Bounds the eigenvalues of the stiffness matrix that is scaled by its inverse diagonal: for every ρ, with the
-    /// fidelity, they are at most as large, or at most 1.
-    fn estimate_largest_eigenvalue(&mut self, operator: &SparseOperator) {
-        let mut random = oorandom::Rand32::new(1);
-        let inverse = |entry: f32| if entry > 0.0 { 1.0 / entry } else { 0.0 };
-        for (x, entry) in self.x.iter_mut().zip(&self.stiffness_diagonal) {
-            *x = (random.rand_float() - 0.5) * inverse(*entry).sqrt();
-        }
-        let mut largest = 1.0f32;
-        for _ in 0..POWER_ITERATIONS {
-            self.multiply(operator, 1.0);
-            let mut size = 0.0f64;
-            for (image, entry) in self.image.iter().zip(&self.stiffness_diagonal) {
-                size += f64::from(image * image * inverse(*entry));
-            }
-            let size = size.sqrt() as f32;
-            if !(size > 0.0) {
-                break;
-            }
-            largest = size;
-            for (i, x) in self.x.iter_mut().enumerate() {
-                *x = self.image[i] * inverse(self.stiffness_diagonal[i]) / size;
-            }
-        }
-        self.largest_eigenvalue = (EIGENVALUE_MARGIN * largest).max(1.0);
+        })
     }
 
     /// Computes the product of the level's matrix with `x` and writes it to `image`.
@@ -296,9 +254,9 @@ impl Level {
         steps: usize,
         ratio: f32,
     ) {
-        let largest = self.largest_eigenvalue;
-        let smallest = largest / ratio;
-        let (middle, half) = (0.5 * (largest + smallest), 0.5 * (largest - smallest));
+        // Scaled by the bound's inverse, the matrix has no eigenvalue above 1.
+        let smallest = 1.0 / ratio;
+        let (middle, half) = (0.5 * (1.0 + smallest), 0.5 * (1.0 - smallest));
         let sigma = middle / half;
         let mut last = 1.0 / sigma;
         for k in 0..steps {

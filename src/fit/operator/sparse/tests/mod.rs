@@ -4,7 +4,7 @@ mod scattered;
 
 use std::sync::Arc;
 
-use super::jacobi::JacobiGradients;
+use super::gradients::SparseGradients;
 use super::{Parts, Rows, SparseOperator};
 use crate::error::Result;
 use crate::fit::admm::iterate::Iterate;
@@ -206,7 +206,7 @@ fn the_answer_does_not_depend_on_the_penalties() {
     let options = options(1e4);
     let mut both = Both::new(&Input::new(disk(16)), &options);
     let (lattice, _) = solve(&both.lattice, multigrid, &options);
-    let (usual, _) = solve(&both.sparse, JacobiGradients::new, &options);
+    let (usual, _) = solve(&both.sparse, SparseGradients::new, &options);
     let mut noise = noise(8);
     let rho_shares: Vec<f64> = (0..both.sparse.operator.stencil_cells())
         .map(|_| 10f64.powf(noise()))
@@ -214,7 +214,7 @@ fn the_answer_does_not_depend_on_the_penalties() {
     both.sparse
         .operator
         .set_rho_shares(|stencil| rho_shares[stencil]);
-    let (own, reason) = solve(&both.sparse, JacobiGradients::new, &options);
+    let (own, reason) = solve(&both.sparse, SparseGradients::new, &options);
     assert_eq!(reason, StopReason::Gap);
     assert_alike(&both, &lattice, &own);
     assert_ne!(own.admm.incumbent.z, usual.admm.incumbent.z);
@@ -341,7 +341,7 @@ fn a_lattice_as_a_matrix_has_its_answer_under_every_energy() {
         let options = options(1e4).energy(energy);
         let both = Both::new(&input, &options);
         let (lattice, a) = solve(&both.lattice, multigrid, &options);
-        let (sparse, b) = solve(&both.sparse, JacobiGradients::new, &options);
+        let (sparse, b) = solve(&both.sparse, SparseGradients::new, &options);
         assert_eq!([a, b], [StopReason::Gap; 2], "{energy:?}");
         assert_alike(&both, &lattice, &sparse);
     }
@@ -353,7 +353,7 @@ fn passes_and_the_papers_schedule_run_on_a_matrix() {
     let options = options(1e4);
     let both = Both::new(&input, &options);
     let (mut lattice, _) = solve(&both.lattice, multigrid, &options);
-    let (mut sparse, _) = solve(&both.sparse, JacobiGradients::new, &options);
+    let (mut sparse, _) = solve(&both.sparse, SparseGradients::new, &options);
     for _ in 0..2 {
         fn pass<O: SolvableOperator>(level: &mut AdmmSolver<O>) {
             let mut reason = level.reweight().unwrap();
@@ -375,14 +375,14 @@ fn passes_and_the_papers_schedule_run_on_a_matrix() {
     let huber = options.energy(Energy::Huber);
     let both = Both::new(&input, &huber);
     let (mut lattice, _) = solve(&both.lattice, multigrid, &huber);
-    let (mut sparse, _) = solve(&both.sparse, JacobiGradients::new, &huber);
+    let (mut sparse, _) = solve(&both.sparse, SparseGradients::new, &huber);
     let a = lattice.reweight_creases(1.0).unwrap();
     let b = sparse.reweight_creases(1.0).unwrap();
     assert!(a.vertices > 10 && a.is_worth() && b.is_worth(), "{a:?}");
     assert!(a.vertices.abs_diff(b.vertices) <= 2, "{a:?} {b:?}");
 
     let paper = huber.energy(Energy::Nuclear).schedule(Schedule::Paper);
-    let (level, reason) = solve(&both.sparse, JacobiGradients::new, &paper);
+    let (level, reason) = solve(&both.sparse, SparseGradients::new, &paper);
     assert_eq!(reason, StopReason::Residuals);
     assert!(level.admm.incumbent.objective() > level.admm.incumbent.dual_bound);
 }
@@ -408,7 +408,7 @@ fn weights_constraints_and_free_vertices_are_the_same_on_a_matrix() {
     let both = Both::new(&input, &options);
     assert!(both.sparse.has_weak_fidelity && !both.sparse.free.is_empty());
     let (lattice, a) = solve(&both.lattice, multigrid, &options);
-    let (sparse, b) = solve(&both.sparse, JacobiGradients::new, &options);
+    let (sparse, b) = solve(&both.sparse, SparseGradients::new, &options);
     assert_eq!([a, b], [StopReason::Gap; 2]);
     assert_alike(&both, &lattice, &sparse);
     for vertex in &both.sparse.constrained {

@@ -8,7 +8,7 @@ use nalgebra::{DMatrix, DVector};
 use sprs::TriMat;
 
 use super::{
-    JacobiGradients, PenaltyKind, Problem, StopReason, noise, operator_of, options, solve,
+    PenaltyKind, Problem, SparseGradients, StopReason, noise, operator_of, options, solve,
 };
 
 /// Scattered points, each but those at the border with a quadratic through the eight around it.
@@ -120,7 +120,7 @@ fn scattered_points_have_the_optimum_of_a_conic_solver() {
     let operator = operator_of(&matrix, &centres, places, 1.0 / side as f64);
     // The input is no plane: the affine functions are looked for among all of them.
     let problem = Problem::unweighted(operator, lambda, target, PenaltyKind::Nuclear);
-    let (level, reason) = solve(&problem, JacobiGradients::new, &options(lambda).gap(1e-7));
+    let (level, reason) = solve(&problem, SparseGradients::new, &options(lambda).gap(1e-7));
     assert_eq!(reason, StopReason::Gap);
     let incumbent = &level.admm.incumbent;
     let slack = 1e-9 * optimum;

@@ -1,4 +1,5 @@
-//! The z-step's solver for operators given as a sparse matrix: conjugate gradients with Jacobi's preconditioner.
+//! The z-step's solver for operators given as a sparse matrix: conjugate gradients, preconditioned by a V-cycle where
+//! there are coarser levels and by Jacobi's preconditioner where there are none.
 
 use super::v_cycle::{Interpolations, VCycle};
 use super::{MAX_RUN_LENGTH, Rows, SparseOperator, normal};
@@ -10,8 +11,7 @@ use crate::math::lanes;
 use crate::math::real::Real;
 
 /// Number of Jacobi-preconditioned iterations in one step of the z-step's solver: together they do about as much as a
-/// V-cycle, for which ADMM's schedule is made. After coarser levels, 12 take about half as many iterations of ADMM as 6
-/// (`benches/whole.md`).
+/// V-cycle on a small mesh, for which ADMM's schedule is made (`benches/whole.md`).
 const JACOBI_STEPS: usize = 12;
 
 /// The z-step's matrix `A = 2λw + ρCᵀC`, scaled so that its largest diagonal entry is 1.
@@ -233,7 +233,7 @@ impl<T: Precision> Gradients<T> {
 
 /// Solver of the z-step for a [`SparseOperator`].
 #[derive(Debug, Clone)]
-pub(crate) struct JacobiGradients {
+pub(crate) struct SparseGradients {
     system: System,
     gradients: Gradients<f32>,
     /// Residual as written by the caller, in single precision.
@@ -247,8 +247,8 @@ pub(crate) struct JacobiGradients {
     preconditioned: Vec<f32>,
 }
 
-impl JacobiGradients {
-    /// Makes the solver with a V-cycle as the preconditioner.
+impl SparseGradients {
+    /// Makes the solver with a V-cycle as the preconditioner, unless there are no `interpolations` from coarser levels.
     ///
     /// # Errors
     /// [`Error::OutOfMemory`](crate::Error::OutOfMemory).
@@ -257,7 +257,7 @@ impl JacobiGradients {
         rho: f64,
         interpolations: &Interpolations,
     ) -> Result<Self> {
-        let mut solver = JacobiGradients::new(problem, rho)?;
+        let mut solver = SparseGradients::new(problem, rho)?;
         if !interpolations.is_empty() {
             let mut v_cycle = VCycle::new(&problem.operator, interpolations)?;
             let Gradients {
@@ -291,7 +291,7 @@ impl JacobiGradients {
         };
         system.set_rho(rho);
         let largest = problem.target.iter().fold(0.0f64, |m, z| m.max(z.abs()));
-        Ok(JacobiGradients {
+        Ok(SparseGradients {
             gradients: Gradients::new(operator, &system)?,
             system,
             stale: false,
@@ -304,10 +304,10 @@ impl JacobiGradients {
 }
 
 impl SolvableOperator for SparseOperator {
-    type Solver = JacobiGradients;
+    type Solver = SparseGradients;
 }
 
-impl ZStepSolver<SparseOperator> for JacobiGradients {
+impl ZStepSolver<SparseOperator> for SparseGradients {
     fn set_rho(&mut self, rho: f64) {
         self.system.set_rho(rho);
         self.stale = true;
@@ -354,7 +354,12 @@ impl ZStepSolver<SparseOperator> for JacobiGradients {
         if let Some(v_cycle) = &mut self.v_cycle {
             let residual = &self.gradients.residual;
             v_cycle.apply(operator, residual, &mut self.preconditioned);
-            return self.gradients.step_along(operator, &self.preconditioned);
+            if self.gradients.step_along(operator, &self.preconditioned) {
+                return true;
+            }
+            // Rounding may have made the V-cycle indefinite.
+            self.gradients.previous = 0.0;
+            self.gradients.direction.fill(0.0);
         }
         let done = (0..JACOBI_STEPS).take_while(|_| self.gradients.step(operator));
         done.count() > 0

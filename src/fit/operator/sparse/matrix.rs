@@ -37,7 +37,7 @@ impl<T: Copy> SparseMatrix<T> {
 
     /// Returns the entries of a row, each with its column.
     #[inline(always)]
-    pub(crate) fn row(&self, row: usize) -> &[(u32, T)] {
+    pub(super) fn row(&self, row: usize) -> &[(u32, T)] {
         &self.entries[self.first[row]..self.first[row + 1]]
     }
 

@@ -237,12 +237,12 @@ pageTest('what cannot be laid flat whole is laid flat in pieces, which are saved
   await page.locator('.preview[aria-busy="false"] img').waitFor();
   const pages = async () => parsed(await figure('Pages').textContent() ?? '');
   const before = await pages();
-  const side = page.getByLabel('Finished size');
+  const side = page.getByLabel('Longer side when finished');
   const doubled = 2 * Number(await side.inputValue());
   // What cannot be is refused in its place, and nothing of another size can be saved.
   for (const wrong of ['0', '-5']) {
     await side.fill(wrong);
-    await page.locator('#save-size', { hasText: /Finished size.* has to be from 10 to 5000/ }).waitFor();
+    await page.locator('#save-size', { hasText: /Longer side when finished.* has to be from 10 to 5000/ }).waitFor();
     assert.ok(await page.locator('#save-now').isDisabled());
   }
   await side.fill(String(doubled));

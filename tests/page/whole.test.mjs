@@ -121,6 +121,10 @@ pageTest('a closed mesh is solved whole, shown before and after, laid flat and s
   const hidden = parsed(/([\d.]+)\s% of the surface is hidden/.exec(hint)?.[1] ?? '');
   // From above all but one side, though some of the upright ones may be seen at the rim.
   assert.ok(hidden > 50 && hidden <= 100 * (1 - (a * b) / area) + 1, hint);
+  // Who cuts this side out is told so, too.
+  await page.locator('#end-sheets').click();
+  await page.locator('#save-dialog').getByText(hint).waitFor();
+  await page.keyboard.press('Escape');
   await solve(page);
   assert.match(await page.locator('#whole-verdict').innerText(), /^The whole mesh is solved/);
   assert.match(await page.locator('#whole-detail').innerText(), /of \d+ steps is proven within .* says nothing about the shape/);

@@ -276,7 +276,7 @@ export function outcome(pieces, creases, oneSide = false) {
   const meet = creases === 0
     ? `${smooth}${pieces === 1 ? none : ', apart from each other'}`
     : `${smooth} ${pieces === 1 ? 'with' : 'meet in'} ${creases === 1 ? 'one crease' : `${count(creases)} creases`}`;
-  const words = Number.isFinite(pieces) ? meet : 'Creased all over: too finely to count its pieces';
+  const words = Number.isFinite(pieces) ? meet : 'Creased all over, too finely to count its pieces';
   return oneSide ? `From this side: ${words[0].toLowerCase()}${words.slice(1)}.` : `${words}.`;
 }
 

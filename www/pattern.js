@@ -108,8 +108,8 @@ export function piecesInFigures({ width, height, summary: { cutLength, mountainL
     ['To fold', `${number((mountainLength + valleyLength) / 1000)} m`],
     ['Area', `${number(area / 100)} cm²`],
     ['Largest strain', percent(strain)],
-    ['Cut mismatch', percent(mismatch)],
-    ...(off === undefined ? [] : [/** @type {[string, string]} */ (['Angle mismatch', `${numberAgainst(off, 360)}°`])]),
+    ['Length mismatch of joints', percent(mismatch)],
+    ...(off === undefined ? [] : [/** @type {[string, string]} */ (['Angle mismatch of joints', `${numberAgainst(off, 360)}°`])]),
   ];
 }
 

@@ -232,7 +232,7 @@ test('where nothing tells the focal length, that of a phone is assumed, and said
   ]);
   // Which of the reasons it is, the report does not say.
   const doubtful = /** @type {import('../../www/api.js').PageReport} */ ({ verdict: 'doubtful', error: 1.8, pinholeErrorBound: 4.4, lines: 0, linesFound: 13 });
-  assert.match(pageErrors(doubtful), /^The photo leaves the bend uncertain, the edges and lines of text disagree, or .*about 1\.8 % .*less than 4\.4 %/);
+  assert.match(pageErrors(doubtful), /^The photo leaves the bend uncertain, the edges and lines of text disagree, or .*about 1\.8\s%.*less than 4\.4\s%/);
 });
 
 pageTest('of several pages one is taken, and another by a click', async (page) => {

@@ -150,7 +150,7 @@ pageTest('rulings are drawn over the result only', async (page) => {
   const seen = [await look(page, '#input-canvas'), await look(page, '#result-canvas')].map(({ hash }) => hash);
   assert.ok(seen[0] === plain[0] && seen[1] !== plain[1]);
   assert.ok(parsed(await told(page, 'Lines')) > 10);
-  assert.ok(parsed(await told(page, 'Off straight')) < 3);
+  assert.ok(parsed(await told(page, 'Median deviation from straight')) < 3);
   // Along the axis, from side to side.
   const longest = parsed(await told(page, 'Longest'));
   assert.ok(longest > 0.9 && longest < 1 / COS + 0.01, `${longest}`);

@@ -241,7 +241,7 @@ pageTest('rulings of a whole mesh are drawn on its result only, along the axis o
   assert.equal((await drawnRulings(page)).pixels, 0);
   await view(page, 'rulings');
   assert.ok(parsed(await told(page, 'Lines')) >= 8);
-  assert.ok(parsed(await told(page, 'Off straight')) < 3);
+  assert.ok(parsed(await told(page, 'Median deviation from straight')) < 3);
   const longest = parsed(await told(page, 'Longest'));
   // From ring to ring, but for the ends, of whose vertices no neighbourhood tells a direction.
   assert.ok(longest > 0.8 * TUBE.length && longest < TUBE.length + 0.05, `${longest}`);

@@ -43,7 +43,7 @@ export function ruledBy(lines, unit) {
       figures([
         ['Lines', count(lines.length)],
         ['Longest', lines.length > 0 ? `${number(lines.reduce((most, { length }) => Math.max(most, length), 0))} ${unit ?? 'units'}` : '–'],
-        ['Off straight, median', bent.length > 0 ? `${percent(bent[bent.length >> 1])} of length` : '–'],
+        ['Median deviation from straight', bent.length > 0 ? `${percent(bent[bent.length >> 1])} of the length` : '–'],
       ]),
     ],
   };

@@ -428,7 +428,7 @@ pageTest('lines of text are found, shown and switched off; drawn by mouse and ke
 pageTest('known: format, focal length, what is bent, two pages', async (page) => {
   await openPhoto(page, 'letter.png', photo);
   // The photo does not tell its camera, but the page's perspective does.
-  assert.match(await page.locator('#focal-hint').innerText(), /finds it from the perspective/);
+  assert.match(await page.locator('#focal-hint').innerText(), /photo was cropped\. I find it from the perspective/);
   const found = parsed(await told(page, 'Focal length'));
   assert.ok(Math.abs(found / camera.fx - 1) < 0.05, `${found}`);
 

@@ -68,12 +68,12 @@ pageTest('curvatures of the cylinder: one bend as the radius says, none of the o
   const [before, after] = (await told(page, 'κ₂')).split('→').map(parsed);
   // The input's is what resampling it to the lattice leaves.
   assert.ok(before < 0.03 / RADIUS && after < 0.01 / RADIUS, `${before} → ${after}`);
-  assert.match(await page.locator('#about-view figcaption').innerText(), /κ₂.*1\/unit$/);
+  assert.match(await page.locator('#about-view figcaption').innerText(), /κ₂.*1\/unit; figures: input → result$/);
   const seen = [await look(page, '#input-canvas'), await look(page, '#result-canvas')].map(({ hash }) => hash);
   assert.ok(seen[0] !== plain[0] && seen[1] !== plain[1], 'both are coloured');
 
   await view(page, 'Curvature K');
-  assert.match(await page.locator('#about-view figcaption').innerText(), /K in 1\/unit²$/);
+  assert.match(await page.locator('#about-view figcaption').innerText(), /K in 1\/unit²; figures: input → result$/);
   const values = await ticks(page);
   assert.ok(values.every((value, i) => value === -values[values.length - 1 - i]), 'symmetric');
   assert.ok(values.includes(0) && values.length >= 3);

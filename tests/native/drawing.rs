@@ -155,7 +155,7 @@ fn the_border_of_a_tilted_rectangle_is_four_straight_lines() {
     let (slope_x, slope_y) = (0.3, 0.2);
     let plane = unit_square(60, |x, y| slope_x * x + slope_y * y);
     for noise in [0.0, 2e-3] {
-        let scan = fit(&noisy(&plane, noise, 5), &Options::default()).unwrap();
+        let scan = fit(noisy(&plane, noise, 5), &Options::default()).unwrap();
         let drawing = drawn(
             &sheets(scan.heightfield()),
             DrawingOptions::default().scale(200.0),

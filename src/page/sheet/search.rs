@@ -119,7 +119,19 @@ pub(super) fn find_sheet(
     };
     let coarse = problem.solve(FittedSheet::new(start), MAX_SHEET_FIT_STEPS, COST_TOLERANCE)?;
     problem.weights = FIRM_PAPER_WEIGHTS;
-    let coarse = problem.refined(coarse, &COARSE_GRID_COLS)?;
+    let flat = problem.refined(coarse, &COARSE_GRID_COLS)?;
+    // The page's ratio makes a plane through the corners of a curled page tilt, from which some fits end in a local minimum.
+    let ruled = [false, true].into_iter().filter_map(|sideways| {
+        let start =
+            homography.ruled_sheet(COARSE_GRID_COLS[0], edges, sideways, &prior, apparent)?;
+        problem.refined(FittedSheet::new(start), &COARSE_GRID_COLS)
+    });
+    let coarse = ruled.fold(
+        flat,
+        |best, sheet| {
+            if sheet.cost < best.cost { sheet } else { best }
+        },
+    );
     let table = PlaceTable::new(&coarse.grid, view).ok()?;
     let photo = PageView::from_places(|share| Some(table.at(share))).reduce(photo);
     let photo = photo.as_ref();

@@ -109,7 +109,7 @@ mod tests {
 
     const CAMERA: SheetCamera = SheetCamera {
         log_scale: 0.1,
-        centre: [0.02, -0.03],
+        centre: [0.0; 2],
     };
 
     /// A page that is curled across by an arc of a circle, or down by one if `sideways`, tilted about both axes.
@@ -151,7 +151,7 @@ mod tests {
             let prior = CameraPrior {
                 log_scale: CAMERA.log_scale,
                 scale_deviation: 1e-6,
-                centre_deviation: 1.0,
+                centre_deviation: 1e-6,
                 log_ratio: Some([RATIO.ln(), 0.002]),
             };
             let sheet = homography.ruled_sheet(9, &edges, sideways, &prior, apparent);

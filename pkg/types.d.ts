@@ -452,10 +452,11 @@ export interface Report {
   /** Number of threads that the solve ran on. */
   threads: number;
   /**
-   * Why there were not more: no more were asked for, the process has no more cores, the surface has too few vertices, the
-   * wasm was built for one thread, or the system started no more.
+   * Why there were not more: no more were asked for (`'options'`), the surface has too few vertices, the wasm for several
+   * threads is not there or none were asked for (`'build'`), the page is not cross-origin isolated, the system started no more,
+   * or the process has no more cores.
    */
-  threadLimit: 'options' | 'cores' | 'vertices' | 'build' | 'system';
+  threadLimit: 'options' | 'vertices' | 'build' | 'isolation' | 'system' | 'cores';
   /** Lambda that was used, as a number. */
   lambda: number;
   /** How that came about, for `lambda: 'auto'`. */

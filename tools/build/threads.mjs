@@ -23,6 +23,7 @@ const MADE_FROM = 'made-from';
  */
 const flags = [
   'target-feature=+simd128,+atomics,+bulk-memory,+mutable-globals',
+  'llvm-args=-inline-threshold=50', // as .cargo/config.toml has it
   ...['--shared-memory', '--import-memory', '--max-memory=4294967296'].map((arg) => `link-arg=${arg}`),
   ...['__heap_base', '__wasm_init_tls', '__tls_size', '__tls_align', '__tls_base', '__stack_pointer'].map((name) => `link-arg=--export=${name}`),
 ].map((flag) => `-C ${flag}`);

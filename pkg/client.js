@@ -179,11 +179,11 @@ export class DevelopableWorker {
   #connect() {
     if (this.#disposed) throw new DevelopableError('DISPOSED', 'this worker has been disposed');
     if (!this.#connection?.open) {
-      const { wasm, filesWasm, imagesWasm, meshesWasm, fitmeshWasm, unrollWasm, patternsWasm } = this.#options;
+      const { threads, wasm, filesWasm, imagesWasm, meshesWasm, fitmeshWasm, unrollWasm, patternsWasm } = this.#options;
       const sources = [wasm, filesWasm, imagesWasm, meshesWasm, fitmeshWasm, unrollWasm, patternsWasm];
       this.#wasm ??= Promise.all(sources.map(portable));
       this.#wasm.catch(() => (this.#wasm = undefined));
-      this.#connection = new Connection(this.#options.workerUrl, this.#wasm);
+      this.#connection = new Connection(this.#options.workerUrl, this.#wasm, threads);
     }
     return this.#connection;
   }

@@ -1,6 +1,7 @@
 /** A running worker, and the calls that wait for it. */
 import { wasmCopy, workerCopy } from './copies.js';
 import { DevelopableError, messageOf } from './errors.js';
+import { Team } from './team.js';
 import { spawn, spawnCode } from './thread.js';
 import { expose, transfer, wrap } from './wire.js';
 
@@ -16,6 +17,9 @@ export class Connection {
   /** @type {Remote | undefined} */
   #remote;
   #ready;
+  #threads;
+  /** @type {Team | undefined} */
+  #team;
   /** @type {Set<(error: DevelopableError) => void>} */
   #pending = new Set();
   /** @type {DevelopableError | undefined} why it ended */
@@ -24,8 +28,10 @@ export class Connection {
   /**
    * @param {string | URL | undefined} workerUrl
    * @param {Promise<Source[]>} wasm the solver's, the files', the images', the meshes', of fits to meshes, the unrolling's and the patterns'
+   * @param {number} [threads] that solves are to run on
    */
-  constructor(workerUrl, wasm) {
+  constructor(workerUrl, wasm, threads) {
+    this.#threads = threads;
     this.#ready = this.#settled(this.#start(workerUrl, wasm));
     this.#ready.catch((error) => this.close(error));
   }
@@ -60,11 +66,33 @@ export class Connection {
     this.#thread = thread;
     thread.hold(this.#pending.size > 0);
     const remote = /** @type {Remote} */ (wrap(thread.endpoint));
-    const init = wasm.then((sources) => remote.init(sources, copies && transfer(copies, [copies])));
+    const init = wasm.then((sources) => this.#init(remote, sources, begin, copies));
     const failure = await Promise.race([init, thread.ended]);
-    if (failure !== undefined) return failure;
+    if (failure !== undefined) {
+      this.#team?.dismiss();
+      return failure;
+    }
     this.#remote = remote;
     thread.ended.then((reason) => this.close(new DevelopableError('WORKER', `the worker failed: ${reason}`)));
+  }
+
+  /**
+   * Loads the worker's solver, with helpers where several threads were asked for.
+   * @param {Remote} remote
+   * @param {Source[]} sources
+   * @param {() => Thread} begin
+   * @param {MessagePort} [copies]
+   */
+  async #init(remote, sources, begin, copies) {
+    const team = this.#threads === undefined ? undefined : new Team(this.#threads);
+    this.#team = team;
+    await team?.start(begin);
+    if (this.#end) team?.dismiss();
+    const seats = await remote.init(sources, copies && transfer(copies, [copies]), team?.size);
+    if (!team) return;
+    if (seats) await team.join(seats);
+    else if (team.size > 0) team.dismiss('build');
+    await remote.setThreadLimit(team.limit);
   }
 
   get open() {
@@ -95,6 +123,7 @@ export class Connection {
     if (this.#end) return;
     this.#end = error;
     this.#thread?.terminate();
+    this.#team?.dismiss();
     for (const reject of this.#pending) reject(error);
   }
 

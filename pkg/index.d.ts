@@ -9,12 +9,12 @@ import type {
   ExploredPatterns, OcclusionOptions, PageEdges, PageOutlines, Painted, PaintOptions, PatchMap, PatchOptions, PatternOptions, PatternPlan, Photo, Picture,
   PictureOptions, Progress,
   ReadMeshOptions, ReadOptions, ReadResult, RulingField, RulingOptions, SampledMesh, SampleMeshOptions, SizedPhoto,
-  SolverOptions, Surface, SurfaceOf, SurfacePicture, Unrolling, UnrollOptions, WritePdfOptions, WritePhotoOptions,
+  SolverOptions, Surface, SurfaceOf, SurfacePicture, ThreadOptions, Unrolling, UnrollOptions, WritePdfOptions, WritePhotoOptions,
 } from './types.js';
 export { parseCamera } from './camera-file.js';
 export * from './types.js';
 
-export interface WorkerOptions {
+export interface WorkerOptions extends ThreadOptions {
   /** Where the worker's script is; default: `worker.js` beside this module, or else the copy that a bundle has. */
   workerUrl?: string | URL;
   /** Where the solver's wasm is; default: beside the worker. */

@@ -13,6 +13,8 @@ import { compile, compileOwn } from './wasm-source.js';
  * }} Glue
  */
 
+/** @typedef {{ module: WebAssembly.Module, memory: WebAssembly.Memory }} SharedStart */
+
 /** @template {Glue} G */
 export class Instance {
   /** @type {G | undefined} */
@@ -67,6 +69,18 @@ export class Instance {
     } catch (cause) {
       throw initError(cause);
     }
+    this.#loading = Promise.resolve();
+  }
+
+  /**
+   * Takes another build of the file in its place, and a memory that other threads share.
+   * @param {Omit<G, 'default' | 'initSync'> & { initSync: (input: SharedStart) => Exports }} glue
+   * @param {WebAssembly.Module} module
+   * @param {WebAssembly.Memory} memory
+   */
+  initShared(glue, module, memory) {
+    // It is not started again.
+    this.#start(/** @type {G} */ (/** @type {unknown} */ (glue)), glue.initSync({ module, memory }));
     this.#loading = Promise.resolve();
   }
 

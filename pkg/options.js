@@ -47,6 +47,7 @@ export const OPTIONS = {
   writeObj: { materials: { kind: text } },
   writeGlb: { texture: { kind: anything } },
   worker: {
+    ...fit.threading,
     workerUrl: { kind: address },
     wasm: { kind: anything },
     filesWasm: { kind: anything },

@@ -7,6 +7,7 @@ import { patterns, solver } from './instances.js';
 import { Job } from './job.js';
 import { KeptSolver } from './kept.js';
 import { paintOf } from './paint.js';
+import { becomeHelper, countIn, startSharedSolver } from './shared-solver.js';
 import { transfer, wrap } from './wire.js';
 
 /** @type {Map<number, Job>} */
@@ -24,19 +25,34 @@ const kept = new Map();
 /** Where the other wasm files are, each loaded when it is needed. @type {Partial<Record<PartName, Place>>} */
 let places = {};
 
+/** Why solves do not run on more threads, where `init` was asked for some. @type {import('./team.js').ThreadLimit | undefined} */
+let threadLimit;
+
 export const service = {
   /**
    * @param {Place[]} sources of the solver's wasm, the files', the images', the meshes', of fits to meshes, the unrolling's and the patterns'
    * @param {MessagePort} [copies] where to get copies of them, where nothing lies beside this script
+   * @param {number} [helpers] number of workers that are to help the solver
+   * @returns {Promise<import('./shared-solver.js').Seat[] | undefined>} a seat for each; nothing where the solver takes none
    */
-  init([wasm, files, images, meshes, fitmesh, unroll, patterns], copies) {
+  async init([wasm, files, images, meshes, fitmesh, unroll, patterns], copies, helpers = 0) {
     if (copies) {
       /** @type {import('./vendor/comlink.mjs').Remote<typeof import('./copies.js').wasmCopy>} */
       const ask = wrap(copies);
       takeCopiesFrom((name) => ask(name));
     }
     places = { files, images, meshes, fitmesh, unroll, patterns };
-    return direct.init(wasm);
+    const seats = helpers > 0 ? await startSharedSolver(helpers).catch(() => undefined) : undefined;
+    if (!seats) await direct.init(wasm);
+    return seats;
+  },
+
+  countIn,
+  becomeHelper,
+
+  /** @param {import('./team.js').ThreadLimit} limit */
+  setThreadLimit(limit) {
+    threadLimit = limit;
   },
 
   /**
@@ -125,6 +141,9 @@ export const service = {
     if (!surface) return news;
     jobs.delete(id);
     if ('positions' in surface) return transfer(news, buffersOf(surface.positions));
+    // The solver itself knows only the threads that it has.
+    const { report } = surface;
+    if (threadLimit && ['build', 'cores'].includes(report.threadLimit)) report.threadLimit = threadLimit;
     return transfer(news, buffersOf(surface.heights, surface.image?.data));
   },
 

@@ -452,10 +452,11 @@ export interface Report {
   /** Number of threads that the solve ran on. */
   threads: number;
   /**
-   * Why there were not more: no more were asked for, the process has no more cores, the surface has too few vertices, the
-   * wasm was built for one thread, or the system started no more.
+   * Why there were not more: no more were asked for (`'options'`), the surface has too few vertices, the wasm for several
+   * threads is not there or none were asked for (`'build'`), the page is not cross-origin isolated, the system started no more,
+   * or the process has no more cores.
    */
-  threadLimit: 'options' | 'cores' | 'vertices' | 'build' | 'system';
+  threadLimit: 'options' | 'vertices' | 'build' | 'isolation' | 'system' | 'cores';
   /** Lambda that was used, as a number. */
   lambda: number;
   /** How that came about, for `lambda: 'auto'`. */
@@ -758,8 +759,8 @@ export interface UnrollReport {
 
 /**
  * Whether a flat layout is to be trusted: the surface was flat to begin with, and faced the viewer
- * (`'flat'`); it was bent, and lengths are right (`'unrolled'`); or it cannot be laid flat without
- * stretching, or more than 0.3 % of it overlapping (`'stretched'`). A flat image is `'doubtful'` where what was cropped is
+ * (`'flat'`); it was bent, and lengths are right (`'unrolled'`); or it cannot be laid flat without a mean strain above 1 %,
+ * more than 3 % of its area being strained by more than 1 %, or more than 0.3 % of it overlapping (`'stretched'`). A flat image is `'doubtful'` where what was cropped is
  * hardly the page: more than 5 % of it are missing, or the crop reaches beyond the page that the photo shows.
  */
 export type Verdict = 'flat' | 'unrolled' | 'stretched' | 'doubtful';

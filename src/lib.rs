@@ -120,6 +120,8 @@ pub use lattice::domain::{Domain, Role};
 pub use lattice::hessian::HessianOperator;
 pub use lattice::hexagonal::Lattice;
 pub use lattice::stencil::Quadratic;
+#[cfg(all(feature = "thread-team", not(feature = "threads")))]
+pub use math::fork::{ThreadTeam, set_thread_team};
 pub use math::sym2::Sym2;
 pub use scene::camera::{Camera, Depth, Distortion, Intrinsics, Pose};
 pub use scene::mesh::Mesh;

@@ -13,7 +13,7 @@ const documents = join(root, 'target/documents');
 
 await main(async () => {
   const ports = candidates(process.env.PORT);
-  await build(process.argv.includes('--quick') ? 'quick' : 'release');
+  await build(process.argv.includes('--quick') ? 'quick' : 'release', { threads: false });
   const server = await open(ports);
   console.log(`\nThe page is at ${server.url} (Ctrl-C ends this)`);
   for (const signal of ['SIGINT', 'SIGTERM', 'SIGHUP']) {

@@ -56,14 +56,14 @@ async function kindOf(file) {
     if (/mask|matte|segment/i.test(name)) return 'mask';
   }
   if (kind === 'heights') return 'depths';
-  if (/\.png$/i.test(name) && (/depth/i.test(name) || await isGrey16(file))) return 'depths';
+  if ((/\.png$/i.test(name) && /depth/i.test(name)) || await isGrey16(file)) return 'depths';
   return kind === 'picture' ? 'photo' : null;
 }
 
 /** Whether it is a PNG of 16 bits of grey, as depth cameras write it. @param {File} file */
-async function isGrey16(file) {
+export async function isGrey16(file) {
   const { bits, colour } = await headOf(file);
-  return bits === 16 && colour === 0;
+  return /\.png$/i.test(file.name) && bits === 16 && colour === 0;
 }
 
 /** Whether it is a PNG without colours. @param {File} file */

@@ -25,6 +25,8 @@ import { firstLook, small } from './surface/look.js';
  * @property {number} coarsening that suits its size
  */
 
+/** Distance of the rows of a hexagonal lattice, in spacings of its vertices. */
+const HEXAGONAL_ROW_SPACING = Math.sqrt(3) / 2;
 /** Share of pixels with a height, below which they are lines and points to pass through. */
 const FEW = 0.2;
 
@@ -73,7 +75,7 @@ function guessed(read, depths) {
   const given = valid.data.reduce((sum, value) => sum + Number(Number.isFinite(value)), 0);
   const design = !depths && given < FEW * data.length;
   const hexagonal = !design && !depths && isHexagonal(valid);
-  const pixel = depths || design ? null : guessedPixel(valid);
+  const pixel = depths || design ? null : guessedPixel({ ...valid, rowSpacing: hexagonal ? HEXAGONAL_ROW_SPACING : 1 });
   const coarsening = hexagonal ? 1 : coarseningFor(read);
   const told = [
     ...(pixel ? [pixel.words] : []),

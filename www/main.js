@@ -45,7 +45,7 @@ async function start() {
   reportPanel(session);
   const views = analysisPanel(session, analyses, show);
   headline(session, analyses);
-  savePanel(session, analyses, views.choose);
+  savePanel(session, analyses, views.choose, solvedWhole);
   const { openNamed, openFiles, understand, takeMesh } = sourcePanel(session, views, (files) => void keep.remember(files), (photo) => {
     mode.show('photo');
     void page.open(photo);

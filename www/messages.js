@@ -3,11 +3,11 @@ import { count, number, percent, percentAtMost, seconds, shortest } from './form
 import { plainly } from './error-messages.js';
 
 /** @import {MeshSurface} from './mesh-fit.js' */
-/** @import {Energy, PageReport, Report, StopReason, Verdict} from './api.js' */
+/** @import {Energy, Report, StopReason, Verdict} from './api.js' */
 
 /** @type {Record<StopReason, string>} */
 export const STOP_REASONS = {
-  gap: 'the wanted gap was proven',
+  gap: 'the requested gap was proven',
   residuals: 'the residuals were small enough (the paper’s rule)',
   rounding: 'the optimum was reached, up to rounding',
   maxIterations: 'the maximum number of iterations was reached',
@@ -22,7 +22,7 @@ export const VIEWS = {
   kappa2: 'Colour shows the smaller principal curvature. It is 0 where the surface bends one way only.',
   rulings: 'Rulings are straight lines in the surface. Paper bends across them, never along them.',
   patches: 'Each smooth piece has its own colour; black lines are the creases between them.',
-  sheet: 'This is the surface laid flat, to scale. You can cut it from paper.',
+  sheet: 'This is the surface laid flat, to scale. Colour shows where it had to be stretched or compressed.',
   photo: 'Both surfaces show the photo, or the scan’s own colours.',
   dewarped: 'You see a photo of the surface, and the same photo made flat.',
 };
@@ -35,6 +35,8 @@ export const FILE_WORDS = {
   meshNoPhoto: (name) => `“${name}” is a mesh or a point cloud, not a photo of a page.`,
   /** @param {string} name */
   heightsNoPhoto: (name) => `“${name}” holds heights or depths. It is not a photo of a page.`,
+  /** @param {string} name */
+  maybeHeights: (name) => `I found no page in “${name}”. It is grey with 16 bits, as depth cameras write their images: is it heights or depths?`,
   /** @param {string} name */
   pageNoHeights: (name) => `“${name}” is a photo in colour, which has no heights. Open the depths that belong to it, or flatten it as a photo of a page.`,
   openAsHeights: 'Open it under “Heights, depth, scans”',
@@ -56,9 +58,9 @@ export const DEPTH_WORDS = {
 /** What is said of a file's numbers where the size of a pixel is guessed. */
 export const GUESS_WORDS = {
   /** @param {string} relief @param {boolean} steep */
-  side: (relief, steep) => `Assumed: the longer side is 1 long. With pixels 1 wide, heights that differ by ${relief} would be too ${steep ? 'steep' : 'flat'}.`,
+  side: (relief, steep) => `Assumed: the longer side is 1 long. With pixels 1 wide, the relief of ${relief} (without extremes) would be too ${steep ? 'steep' : 'flat'}.`,
   /** @param {string} relief @param {boolean} steep @param {string} size */
-  pixels: (relief, steep, size) => `Assumed: pixels are ${size} wide. With pixels 1 wide, heights that differ by ${relief} would be too ${steep ? 'steep' : 'flat'}.`,
+  pixels: (relief, steep, size) => `Assumed: pixels are ${size} wide. With pixels 1 wide, the relief of ${relief} (without extremes) would be too ${steep ? 'steep' : 'flat'}.`,
   few: 'Few pixels have a height. The surface passes through them and is free everywhere else.',
   zeros: 'Assumed: 0 means “no data”.',
   hexagonal: 'Assumed: odd rows lie half a step to the left (hexagonal lattice).',
@@ -81,12 +83,12 @@ export const MARKS = {
 
 /** @type {Record<Energy, string>} */
 export const ENERGIES = {
-  nuclear: 'Nuclear norms of the Hessians: piecewise developable.',
+  nuclear: 'The paper’s energy, nuclear norms of the Hessians: each piece bends one way only, and noisy bends become facets.',
   frobenius: 'Frobenius norms of the Hessians: smooth where it should crease, for comparison.',
   squaredNuclear: 'Squared nuclear norms of the Hessians: smooth where it should crease, for comparison.',
-  secondFormOfInput: 'Nuclear norms of the second fundamental form, with the slopes of the input.',
-  secondForm: 'Nuclear norms of the second fundamental form, with the surface’s own slopes: the bound is for its last slopes.',
-  huber: 'Squares of small norms, sizes of large ones: smooth bends and sharp creases. The bound is for the last pass at creases.',
+  secondFormOfInput: 'Nuclear norms of the second fundamental form (exact curvature), with the slopes of the input.',
+  secondForm: 'Nuclear norms of the second fundamental form (exact curvature), with the surface’s own slopes. The proof is for the last slopes.',
+  huber: 'Gentle bends count by their square, creases by their size: bends stay round and creases sharp. The proof is for the last pass over the creases.',
 };
 
 /** What came of laying a surface flat. @type {Record<Verdict, string>} */
@@ -107,40 +109,6 @@ export const FLATTENED = {
 
 /** Of a page that is bent about parallel rulings. */
 export const PARALLEL = 'The surface bends in one direction only, so one profile was used for all of it.';
-
-/** What the page says of a photo of a page. */
-export const PAGE_WORDS = {
-  working: 'Flattening the page…',
-  unfound: 'I did not find the page. Drag the four corners onto it.',
-  unfoundDetail: 'The flat page appears as soon as you move a corner.',
-  noFlat: 'No flat page from this outline.',
-  startAgain: 'Discard your changes to the outline?',
-  unflattened: 'This outline cannot be made flat.',
-  several: 'I found several pages. Take',
-  /** @param {number} n */
-  choosePage: (n) => `Page ${n}`,
-  /** @param {string} edge */
-  tooFarOutside: (edge) => `The ${edge} edge lies too far outside the photo. Take the photo anew, with the whole page in it`,
-  /** @param {string} paper */
-  looksLike: (paper) => `Looks like ${paper}: use it`,
-  keptLight: 'The page is not mostly paper, so I kept its light.',
-};
-
-/** What is said of several photos that become one PDF. */
-export const BOOK_WORDS = {
-  /** @param {number} n */
-  photos: (n) => `${count(n)} photos, one PDF:`,
-  /** @param {number} n */
-  number: (n) => String(n),
-  /** @param {number} n @param {string} name */
-  page: (n, name) => `Photo ${n}, ${name}`,
-  remove: 'Remove this photo',
-  unfound: 'I did not find the page. Show this photo and drag the four corners onto its page',
-  /** @param {number} n */
-  pdf: (n) => `all ${count(n)} photos, a page each`,
-  /** @param {number} n @param {number} all */
-  writing: (n, all) => `Flattening photo ${n} of ${all}…`,
-};
 
 /** What is said of addresses. */
 export const ADDRESS_WORDS = {
@@ -193,8 +161,7 @@ export const SHEET_WORDS = {
   radius: 'Inner radius, mm',
   likeThickness: 'as the thickness',
   kFactor: 'K-factor (neutral line)',
-  side: 'Finished size, mm',
-  sideMeans: 'The longer side of the finished piece',
+  side: 'Longer side when finished, mm',
   paper: 'Paper',
   onePage: 'one large page',
   material: 'Material',
@@ -247,68 +214,6 @@ export const SAVE_WORDS = {
   trueSize: (size) => `true size, ${size}`,
   papers: { a4: 'A4', letter: 'Letter', a5: 'A5', a3: 'A3', 'a4-wide': 'A4, lengthwise', 'letter-wide': 'Letter, lengthwise' },
 };
-
-/** What is known of the camera's focal length. */
-export const FOCAL_WORDS = {
-  unknown: 'The photo’s file does not tell the focal length. The page finds it from the perspective, or assumes 65°.',
-  /** @param {string} film35 */
-  told: (film35) => `The photo’s file says ${film35} mm (35 mm film).`,
-  fov: 'This is the angle across the photo’s longer side: 65 to 80° on most phones.',
-  film35: 'This is the focal length for 35 mm film: 23 to 28 mm on most phones.',
-  pixels: 'This is the focal length in pixels of the photo.',
-};
-
-/** @param {readonly string[]} words one or more */
-function listed(words) {
-  return words.length < 2 ? words.join('') : `${words.slice(0, -1).join(', ')} and ${words[words.length - 1]}`;
-}
-
-/**
- * What came of making a page flat by its edges.
- * @param {PageReport} report
- */
-export function pageVerdict({ verdict, model, lines }) {
-  const text = lines > 0 ? ' and lines of text' : '';
-  switch (verdict) {
-    case 'flat': return 'Made flat: the page lay flat, and only the perspective was removed.';
-    case 'unrolled': return model === 'sheet' || model === 'softSheet' ? `Made flat: folds and bends follow its edges${text}.` : `Made flat: its edges${text} agree.`;
-    case 'unchecked': return 'Made flat, but nothing checks the bend.';
-    case 'doubtful': return 'Made flat, but doubtful: compare it with the photo.';
-    default: return 'Not reliable: the edges do not fit one page.';
-  }
-}
-
-/**
- * How far the flat page is to be trusted.
- * @param {PageReport} report
- */
-export function pageErrors({ verdict, error, pinholeErrorBound, lines, linesFound }) {
-  const text = lines + linesFound > 0 ? ' and lines of text' : '';
-  const likely = `points are off by about ${percent(error / 100)} of the page’s width (in 95 of 100 photos by less than ${percent(pinholeErrorBound / 100)}, unless the lens distorts)`;
-  switch (verdict) {
-    case 'flat': case 'unrolled': return `If the outline is right, ${likely}.`;
-    case 'unchecked': return `One edge looks straight from here, or has few points, so that nothing checks the bend. If the page is curled one way, ${likely}.`;
-    case 'doubtful': return `The edges${text} disagree, or the page hides a part of itself: ${likely}. Correct the outline, or choose the page’s format.`;
-    default: return `The edges${text} contradict each other. Correct the outline where it leaves the page.`;
-  }
-}
-
-/**
- * What else has to be known about a flat page.
- * @param {object} about
- * @param {readonly string[]} about.outside corners that the photo does not show
- * @param {readonly string[]} about.weak edges that it hardly shows
- * @param {boolean} about.assumed whether the focal length is a guess
- * @param {number} about.unplaced corners of a page that was not found, which are still where they were at first
- */
-export function pageCautions({ outside, weak, assumed, unplaced }) {
-  return [
-    ...(unplaced > 0 ? [`Drag the other ${unplaced === 1 ? 'corner' : `${count(unplaced)} corners`}, too.`] : []),
-    ...(outside.length > 0 ? [outside.length === 1 ? `The ${outside[0]} corner is outside the photo, so its place is a guess.` : `The ${listed(outside)} corners are outside the photo, so their places are guesses.`] : []),
-    ...(weak.length > 0 ? [`The ${listed(weak)} ${weak.length === 1 ? 'edge is' : 'edges are'} hardly seen: check ${weak.length === 1 ? 'it' : 'them'}.`] : []),
-    ...(assumed ? ['The camera is not known, so I assume a field of view of 65°.'] : []),
-  ];
-}
 
 /** A gap above this says little: the objective could be twice the optimum. */
 const USEFUL = 0.5;
@@ -371,7 +276,7 @@ export function outcome(pieces, creases, oneSide = false) {
   const meet = creases === 0
     ? `${smooth}${pieces === 1 ? none : ', apart from each other'}`
     : `${smooth} ${pieces === 1 ? 'with' : 'meet in'} ${creases === 1 ? 'one crease' : `${count(creases)} creases`}`;
-  const words = Number.isFinite(pieces) ? meet : 'Creased all over: too finely to count its pieces';
+  const words = Number.isFinite(pieces) ? meet : 'Creased all over, too finely to count its pieces';
   return oneSide ? `From this side: ${words[0].toLowerCase()}${words.slice(1)}.` : `${words}.`;
 }
 

@@ -2,7 +2,7 @@
 import { number } from './format.js';
 import { GUESS_WORDS } from './messages.js';
 
-/** @typedef {{ width: number, height: number, data: Float64Array, pixelSize: number, heightScale: number, unit?: string | null, dataType?: string }} Numbers */
+/** @typedef {{ width: number, height: number, data: Float64Array, pixelSize: number, heightScale: number, unit?: string | null, dataType?: string, rowSpacing?: number }} Numbers `rowSpacing`: of rows, in pixels, where it is not 1 */
 
 /** Smallest share of the longer side that a relief may well have, of a file that does not give its pixels' size. */
 const MIN_LIKELY_RELIEF_SHARE = 0.01;
@@ -20,10 +20,10 @@ const MANY = 1.2e6;
  * @param {Numbers} numbers
  * @returns {{ pixelSize: number, words: string } | null}
  */
-export function guessedPixel({ width, height, data, pixelSize, heightScale, unit, dataType = '' }) {
+export function guessedPixel({ width, height, data, pixelSize, heightScale, unit, dataType = '', rowSpacing = 1 }) {
   // Of whole numbers the package suggests the height scale.
   if (pixelSize !== 1 || unit || heightScale !== 1 || /^u/.test(dataType)) return null;
-  const side = Math.max(width, height);
+  const side = Math.max(width, height * rowSpacing);
   const relief = reliefOf(data);
   const share = relief / side;
   if (relief === 0 || (share >= MIN_LIKELY_RELIEF_SHARE && share <= MAX_LIKELY_RELIEF_SHARE)) return null;

@@ -90,7 +90,7 @@ export function strainOf({ summary: { strain } }) {
 export function piecesInWords({ summary: { sheets, seams, folds, slits, strain } }) {
   const cut = seams === 0 ? '' : `, to be joined along ${seams === 1 ? 'one cut' : `${count(seams)} cuts`}`;
   const fold = folds === 0 ? '' : `, with ${folds === 1 ? 'one fold' : `${count(folds)} folds`}`;
-  const slit = slits === 0 ? '' : ` ${slits === 1 ? 'One slit lets' : `${count(slits)} slits let`} it lie flat.`;
+  const slit = slits === 0 ? '' : ` ${slits === 1 ? 'One slit lets' : `${count(slits)} slits let`} ${sheets === 1 ? 'it' : 'them'} lie flat.`;
   const stretch = strain > STRAINS[0] ? ` Paper has to give by ${percent(strain)}: use something that stretches, or a smaller λ.` : '';
   return `${sheets === 1 ? 'One sheet' : `${count(sheets)} sheets`}${fold}${cut}.${slit}${stretch}`;
 }
@@ -108,8 +108,8 @@ export function piecesInFigures({ width, height, summary: { cutLength, mountainL
     ['To fold', `${number((mountainLength + valleyLength) / 1000)} m`],
     ['Area', `${number(area / 100)} cm²`],
     ['Largest strain', percent(strain)],
-    ['Cut mismatch', percent(mismatch)],
-    ...(off === undefined ? [] : [/** @type {[string, string]} */ (['Angle mismatch', `${numberAgainst(off, 360)}°`])]),
+    ['Length mismatch of joints', percent(mismatch)],
+    ...(off === undefined ? [] : [/** @type {[string, string]} */ (['Angle mismatch of joints', `${numberAgainst(off, 360)}°`])]),
   ];
 }
 

@@ -17,14 +17,14 @@ export const REPORT_WORDS = {
   free: 'These heights follow from the surface around them.',
   parts: 'The surface has unconnected parts. Each was solved by itself.',
   lambda: 'The detail that is kept: a larger λ stays closer to the input.',
-  reweighted: 'The surface was solved again so many times. The proof is about the last time.',
+  reweighted: 'Solves after the first one, each of which restores curvature. The proof is about the last one.',
   /** @param {number} passes */
   creases: (passes) => `These vertices lie on creases, which were sharpened ${passes === 1 ? 'once' : `${count(passes)} times`}. The proof is about the last time.`,
   /** @param {readonly number[]} sizes */
   lattices: (sizes) => `The solve went from coarse to fine: ${sizes.map((size) => count(size)).join(', ')} interior vertices.`,
   /** @param {number} finest */
-  iterations: (finest) => `The solver (ADMM) took so many steps, ${count(finest)} of them on the finest lattice.`,
-  cgIterations: 'The linear systems within these steps took so many conjugate-gradient steps.',
+  iterations: (finest) => `Steps of the solver (ADMM), ${count(finest)} of them on the finest lattice.`,
+  cgIterations: 'Conjugate-gradient steps for the linear systems within these iterations.',
   rho: 'The solver’s own parameter at the end. It adapts by itself.',
   scale: 'One unit of the input is this long while the page solves.',
   /** @param {string} setup @param {string} zStep @param {string} hStep @param {string} check */

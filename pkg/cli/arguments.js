@@ -1,7 +1,7 @@
 /** From the command line to a task. */
 import { extname } from 'node:path';
 import { sampleMesh } from '../schema/file.js';
-import { meshSolver, solver } from '../schema/fit.js';
+import { meshSolver, solver, threading } from '../schema/fit.js';
 import { drawing, patternMesh } from '../schema/pattern.js';
 import { dewarp, dewarpPage, writePhoto } from '../schema/photo.js';
 import { meshPatches, rulings } from '../schema/shape.js';
@@ -49,6 +49,7 @@ import { refuseSameFiles } from './same-file.js';
  *
  * @typedef {InputTask & KnownTask & {
  *   command: 'fit' | 'design', report?: string, texture?: string, photoCamera?: string, mtl?: string, options: SolverOptions,
+ *   threads?: number,
  * }} FitTask
  * @typedef {InputTask & { command: 'occlusions', threshold?: number }} OcclusionsTask
  * @typedef {Omit<FitTask, 'command'> & { asIs: boolean }} SheetTask `asIs`: without a fit
@@ -196,6 +197,7 @@ export function parse(args) {
     photoCamera,
     mtl,
     options: { ...given(solver, values), normalize: about.normalize },
+    ...given(threading, values),
   };
   if (photoCamera !== undefined && kind === 'image') {
     throw usage('--photo-camera is for depths and meshes, and the input is an image: --intrinsics says that it has depths');

@@ -2,7 +2,7 @@
 import { nearest } from '../nearest.js';
 import { show } from '../values.js';
 import { sampleMesh } from '../schema/file.js';
-import { solver } from '../schema/fit.js';
+import { solver, threading } from '../schema/fit.js';
 import { drawing } from '../schema/pattern.js';
 import { dewarp, dewarpPage } from '../schema/photo.js';
 import { meshPatches, rulings } from '../schema/shape.js';
@@ -29,7 +29,7 @@ const printed = ['unit', 'quality'];
 /** @satisfies {readonly Flag[]} */
 const mesh = [...flagNames(sampleMesh, 'mesh'), 'intrinsics', 'turn', 'ray'];
 /** @satisfies {readonly Flag[]} */
-const energy = [...flagNames(solver, 'energy'), ...flagNames(solver, 'stop')];
+const energy = [...flagNames(solver, 'energy'), ...flagNames(solver, 'stop'), ...flagNames(threading)];
 /** @satisfies {readonly Flag[]} */
 const known = ['confidence', 'constraints', 'free', 'occlusions', ...flagNames(solver, 'known')];
 /** @satisfies {readonly Flag[]} */

@@ -3,7 +3,7 @@ import { parseArgs } from 'node:util';
 import { messageOf } from '../errors.js';
 import { nearest } from '../nearest.js';
 import { sampleMesh } from '../schema/file.js';
-import { occlusions, solver } from '../schema/fit.js';
+import { occlusions, solver, threading } from '../schema/fit.js';
 import { drawing } from '../schema/pattern.js';
 import { dewarp, dewarpPage, writePhoto } from '../schema/photo.js';
 import { meshPatches, rulings } from '../schema/shape.js';
@@ -62,6 +62,7 @@ export const sections = {
       output: { short: 'o', value: 'FILE', help: 'the file to write, which appears whole or not at all' },
       report: { value: 'FILE', help: 'JSON file for the figures of the solve' },
       jobs: { value: 'N', help: 'of several inputs, how many are worked on at a time, each by a process of its own (default: as many as there are cores)' },
+      ...flagsFor(threading, 'output'),
       overwrite: { help: 'of several inputs, do those again, too, whose outputs are there and not older than they are' },
       force: {
         help: 'let a file that is written replace one that is read, such as INPUT; and fit more than 2,000,000 vertices that --resolution ' +

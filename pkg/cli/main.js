@@ -1,6 +1,6 @@
 /** The command: what to do, how it ends. */
 import { readFile } from 'node:fs/promises';
-import { DevelopableError, dispose } from '../index.js';
+import { DevelopableError, dispose, init } from '../index.js';
 import { messageOf } from '../errors.js';
 import { Problem, status } from './problem.js';
 import { parse } from './arguments.js';
@@ -49,6 +49,7 @@ export async function main(args) {
  * @param {AbortSignal} signal
  */
 async function perform(task, signal) {
+  if ('threads' in task) await init({ threads: task.threads });
   switch (task.command) {
     case 'help':
       return print(task.about === undefined ? overview() : helpOn(task.about));

@@ -288,14 +288,14 @@ export async function dewarp(task, signal) {
   if (flat.verdict === 'flat') {
     process.stderr.write('developable: the photo shows the page flat to begin with, and can be used as it is\n');
   } else if (flat.verdict === 'stretched') {
-    const { rms } = flat.report.distortion;
-    const reason = rms > MAX_UNROLLED_STRAIN ? `without stretching it (by ${percent(rms, 2)})` : 'beside itself: parts of the sheet lie on others';
-    process.stderr.write(`developable: warning: the surface cannot be laid flat ${reason}\n`);
+    const { distortion: { rms, above, flipped }, crossings } = flat.report;
+    const overlaps = flipped + crossings > 0 ? ', and parts of the sheet lie on others' : '';
+    process.stderr.write(
+      `developable: warning: the surface cannot be laid flat as it is: its sheet is stretched by ${percent(rms, 2)} on average and by more ` +
+        `than 1 % in ${percent(above, 2)} of its area${overlaps}; lengths on the flat image may be wrong\n`,
+    );
   }
 }
-
-/** Strain above which a sheet is stretched, as `Verdict::from_report` has it; below, it is called so for another reason. */
-const MAX_UNROLLED_STRAIN = 0.01;
 
 /** Largest share of a page that is left out without a word: a millimetre on each side of a page of A4. */
 const MAX_UNMENTIONED_LOSS = 0.015;

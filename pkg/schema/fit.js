@@ -1,5 +1,5 @@
 /** Options of fits, and of the search for occlusions. Each comment is what the types say; the default is added there. */
-import { bridging, choice, either, flag, flags, number, threshold, whole } from './kinds.js';
+import { bridging, choice, either, flag, flags, number, threadCount, threshold, whole } from './kinds.js';
 
 /** @typedef {import('./kinds.js').Options} Options */
 
@@ -7,6 +7,23 @@ import { bridging, choice, either, flag, flags, number, threshold, whole } from 
 export const resampling = {
   /** Lattice spacing for an image input, in units of length. Default: its pixel size. */
   spacing: { kind: number },
+};
+
+/** Options of a worker's threads. @satisfies {Options} */
+export const threading = {
+  /**
+   * Number of threads that fits of heightfields run on, from 1 to 64; the result is the same, to rounding. More than one need shared
+   * memory: in Node, and in pages that are cross-origin isolated. Where they cannot be had there is one, and
+   * `report.threadLimit` tells why. Default: 1.
+   */
+  threads: {
+    kind: threadCount,
+    flag: {
+      section: 'output',
+      value: 'N',
+      help: 'fit on so many threads, for large inputs (default 1); the result is the same',
+    },
+  },
 };
 
 /** @satisfies {Options} */

@@ -55,6 +55,14 @@ export const percentage = {
 };
 
 /** @type {Kind} */
+export const threadCount = {
+  type: 'number',
+  must: 'must be a whole number from 1 to 64',
+  take: (value) => (Number.isInteger(value) && Number(value) >= 1 && Number(value) <= 64 ? value : undefined),
+  typed: numeral,
+};
+
+/** @type {Kind} */
 export const whole = {
   type: 'number',
   must: 'must be a whole number from 0 to about 4 billion',

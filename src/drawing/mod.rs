@@ -21,6 +21,7 @@
 mod angles;
 mod bend;
 mod bending;
+mod border_side;
 mod curve;
 mod draft;
 mod draw;
@@ -28,6 +29,7 @@ mod joints;
 mod label;
 mod leader;
 mod line;
+mod line_corners;
 mod lines;
 mod marks;
 mod nest;

@@ -1,27 +1,16 @@
 //! Makes the outlines and folds found on the lattice smooth: straight pieces and curves between corners.
 
+use super::border_side::{axis, is_straight_side, side_ends};
 use super::curve::Curve;
+use super::line_corners::{MIN_SMOOTHED_LENGTH_SPACINGS, Sample, corners, rotated, samples};
 use super::spline::fit_spline;
 use crate::math::planar::{distance, nearest_on_segment, polyline_length};
-use crate::pattern::Sheet;
+use crate::pattern::{Run, Sheet};
 use crate::unroll::flat_triangle::Point;
 use crate::unroll::overlap::crossings;
 
 /// Distance between the sample points of an outline to which curves are fitted, in lattice spacings.
 const SAMPLE_DISTANCE_SPACINGS: f64 = 0.25;
-
-/// Minimum angle of a corner of an outline, in radians: between the line's directions before and after it.
-const CORNER_ANGLE: f64 = 0.44;
-
-/// Length of an outline before and after a corner, in lattice spacings, over which the corner's angle is measured.
-const CORNER_ARM_SPACINGS: f64 = 4.0;
-
-/// Minimum share of a corner's angle that remains when it is measured over half the length before and after it; at a
-/// smooth bend half of the angle remains.
-const CORNER_CONCENTRATION: f64 = 0.62;
-
-/// Minimum length of an outline's piece that is smoothed, in lattice spacings.
-const MIN_SMOOTHED_LENGTH_SPACINGS: f64 = 3.0;
 
 /// Minimum length of a span of the fitted spline, in lattice spacings.
 const MIN_SPAN_SPACINGS: f64 = 1.5;
@@ -29,6 +18,13 @@ const MIN_SPAN_SPACINGS: f64 = 1.5;
 /// Root mean square distance of a fitted curve from the sample points, in lattice spacings, below which the fit counts
 /// as exact.
 const NEGLIGIBLE_RESIDUAL_SPACINGS: f64 = 0.03;
+
+/// Maximum distance of the intersection of two straight lines from the corner that it replaces, as a multiple of the
+/// tolerance.
+const MAX_CORNER_TOLERANCES: f64 = 1.5;
+
+/// The same for two sides of the surface's border, of whose corner the lattice may have cut off a cell.
+const MAX_SIDE_CORNER_TOLERANCES: f64 = 4.0;
 
 /// Tolerances of a smooth line, as shares of [`DrawingOptions::smoothing`](super::DrawingOptions::smoothing), tried in
 /// this order: the next is used where the line crosses another or itself.
@@ -47,12 +43,14 @@ pub(super) struct Smooth {
 /// intersections of outlines.
 pub(super) fn smooth_lines(sheet: &Sheet, tolerance: f64) -> Smooth {
     let spacing = sheet.spacing;
-    let runs: Vec<&[[f64; 2]]> = (sheet.outlines.iter().flatten())
-        .map(|run| &run.points[..])
-        .collect();
+    let runs: Vec<&Run> = sheet.outlines.iter().flatten().collect();
+    let smooth_run = |run: &Run, tolerance: f64| {
+        let is_border = run.seam.is_none();
+        smooth_line(&run.points, tolerance * spacing, spacing, is_border)
+    };
     let mut levels = vec![0; runs.len()];
     let mut curves: Vec<Curve> = (runs.iter())
-        .map(|run| smooth(run, tolerance * spacing, spacing))
+        .map(|run| smooth_run(run, tolerance))
         .collect();
     loop {
         let wrong = crossing_curves(&curves, spacing);
@@ -60,8 +58,7 @@ pub(super) fn smooth_lines(sheet: &Sheet, tolerance: f64) -> Smooth {
         for run in wrong {
             if levels[run] + 1 < TOLERANCE_SHARES.len() {
                 levels[run] += 1;
-                let tolerance = TOLERANCE_SHARES[levels[run]] * tolerance;
-                curves[run] = smooth(runs[run], tolerance * spacing, spacing);
+                curves[run] = smooth_run(runs[run], TOLERANCE_SHARES[levels[run]] * tolerance);
                 changed = true;
             }
         }
@@ -145,42 +142,61 @@ fn extend_fold(points: &[[f64; 2]], outlines: &[Curve], tolerance: f64) -> Vec<[
     out
 }
 
-/// A sample point of a line that is smoothed: its position, its distance along the line, and whether it is one of the
-/// line's given points.
-#[derive(Clone, Copy)]
-struct Sample {
-    along: f64,
-    place: Point,
-    given: bool,
-}
-
 /// Fits a smooth curve within a tolerance to a polyline; a closed polyline repeats its first point at the end.
 pub(crate) fn smooth(points: &[[f64; 2]], tolerance: f64, spacing: f64) -> Curve {
+    smooth_line(points, tolerance, spacing, false)
+}
+
+/// Fits a smooth curve within a tolerance to a polyline, as [`smooth`] does; sides of the surface's border that are
+/// straight but for the lattice's steps become straight lines.
+fn smooth_line(points: &[[f64; 2]], tolerance: f64, spacing: f64, is_border: bool) -> Curve {
     if tolerance <= 0.0 || polyline_length(points) < MIN_SMOOTHED_LENGTH_SPACINGS * spacing {
         return Curve::through(points);
     }
     let closed = points.len() > 3 && points[0] == points[points.len() - 1];
     let mut line = samples(points, SAMPLE_DISTANCE_SPACINGS * spacing);
     let mut corners = corners(&line, closed, spacing);
+    let mut ends = match is_border {
+        true => side_ends(&line, &corners, closed, spacing),
+        false => Vec::new(),
+    };
+    let last = line.len() - 1;
     if closed {
-        let Some(first) = corners.first().copied() else {
+        let Some(first) = ends.first().or(corners.first()).copied() else {
             return section(&line, true, tolerance, spacing)
                 .unwrap_or_else(|| Curve::through(points));
         };
-        // Begin at a corner.
+        // Begin at a corner, at the end of a side if there is one.
         line = rotated(&line, first);
-        let ring = line.len() - 1;
-        for corner in &mut corners {
-            *corner -= first;
+        for list in [&mut corners, &mut ends] {
+            for corner in list.iter_mut() {
+                *corner = (*corner + last - first) % last;
+            }
+            list.sort_unstable();
         }
-        corners.push(ring);
+        corners.push(last);
     } else {
         corners.insert(0, 0);
-        corners.push(line.len() - 1);
+        corners.push(last);
+        ends.insert(0, 0);
     }
+    ends.push(last);
+    let sides: Vec<[usize; 2]> = (ends.windows(2).map(|pair| [pair[0], pair[1]]))
+        .filter(|[from, to]| is_border && is_straight_side(&line[*from..=*to], tolerance, spacing))
+        .collect();
+    corners.retain(|i| !sides.iter().any(|[from, to]| from < i && i < to));
     let sections = || corners.windows(2).map(|ends| &line[ends[0]..=ends[1]]);
     let mut curves: Vec<Option<Curve>> = sections()
-        .map(|own| section(own, false, tolerance, spacing))
+        .zip(corners.windows(2))
+        .map(
+            |(own, ends)| match sides.iter().any(|side| side[..] == *ends) {
+                true => Some(Curve::through(&[
+                    pair(own[0].place),
+                    pair(own[own.len() - 1].place),
+                ])),
+                false => section(own, false, tolerance, spacing),
+            },
+        )
         .collect();
     // The corner between two straight pieces is their intersection, even if the lattice has cut it off.
     let count = curves.len();
@@ -204,7 +220,12 @@ pub(crate) fn smooth(points: &[[f64; 2]], tolerance: f64, spacing: f64) -> Curve
         };
         if let (Some(a), Some(b)) = (straight[k], straight[next]) {
             let corner = line[corners[k + 1]].place;
-            let near = |p: &Point| (p - corner).norm() <= 1.5 * tolerance;
+            let is_side = |k: usize| sides.contains(&[corners[k], corners[k + 1]]);
+            let reach = match is_side(k) || is_side(next) {
+                true => MAX_SIDE_CORNER_TOLERANCES,
+                false => MAX_CORNER_TOLERANCES,
+            };
+            let near = |p: &Point| (p - corner).norm() <= reach * tolerance;
             if let Some(place) = meeting(a, b).filter(near) {
                 ends[k + 1] = pair(place);
                 if next == 0 {
@@ -240,152 +261,6 @@ fn section(line: &[Sample], closed: bool, tolerance: f64, spacing: f64) -> Optio
     )
 }
 
-fn samples(points: &[[f64; 2]], step: f64) -> Vec<Sample> {
-    let at = |[x, y]: [f64; 2]| Point::new(x, y);
-    let mut along = 0.0;
-    let mut out = vec![Sample {
-        along,
-        place: at(points[0]),
-        given: true,
-    }];
-    for p in points.windows(2) {
-        let (from, to) = (at(p[0]), at(p[1]));
-        let long = (to - from).norm();
-        if long == 0.0 {
-            continue;
-        }
-        let steps = (long / step).ceil().max(1.0) as usize;
-        out.extend((1..=steps).map(|i| {
-            let share = i as f64 / steps as f64;
-            let place = if i == steps {
-                to
-            } else {
-                from + (to - from) * share
-            };
-            Sample {
-                along: along + share * long,
-                place,
-                given: i == steps,
-            }
-        }));
-        along += long;
-    }
-    out
-}
-
-/// Rotates the list of a closed line's samples so that it begins at sample `first`.
-fn rotated(line: &[Sample], first: usize) -> Vec<Sample> {
-    let last = line.len() - 1;
-    let whole = line[last].along;
-    let start = line[first].along;
-    let shifted = |s: &Sample, by: f64| Sample {
-        along: s.along - start + by,
-        ..*s
-    };
-    let before = line[first..].iter().map(|s| shifted(s, 0.0));
-    before
-        .chain(line[1..=first].iter().map(|s| shifted(s, whole)))
-        .collect()
-}
-
-/// Finds the samples at corners of a line; returns their indices, ascending, without the ends of an open line.
-fn corners(line: &[Sample], closed: bool, spacing: f64) -> Vec<usize> {
-    let last = line.len() - 1;
-    let whole = line[last].along;
-    let turn = |i: usize, arm: f64| -> f64 {
-        let [back, on] = [-1.0, 1.0].map(|way| heading(line, i, way * arm, closed));
-        match (back, on) {
-            (Some(back), Some(on)) => ((-back).conj() * on).arg().abs(),
-            _ => 0.0,
-        }
-    };
-    let end = |i: usize| {
-        !closed
-            && (line[i].along < 0.5 * MIN_SMOOTHED_LENGTH_SPACINGS * spacing
-                || whole - line[i].along < 0.5 * MIN_SMOOTHED_LENGTH_SPACINGS * spacing)
-    };
-    let turns: Vec<f64> = (0..last)
-        .map(|i| {
-            if end(i) {
-                0.0
-            } else {
-                turn(i, CORNER_ARM_SPACINGS * spacing)
-            }
-        })
-        .collect();
-    let apart = |i: usize, k: usize| {
-        let d = (line[i].along - line[k].along).abs();
-        if closed { d.min(whole - d) } else { d }
-    };
-    let mut order: Vec<usize> = (0..last).filter(|i| turns[*i] > CORNER_ANGLE).collect();
-    order.sort_by(|a, b| turns[*b].total_cmp(&turns[*a]));
-    let mut found: Vec<usize> = Vec::new();
-    for i in order {
-        if found
-            .iter()
-            .any(|k| apart(i, *k) < 0.75 * CORNER_ARM_SPACINGS * spacing)
-        {
-            continue;
-        }
-        // Corners are given points of the line.
-        let near = (0..last).filter(|k| line[*k].given && !end(*k) && apart(i, *k) < spacing);
-        let corner = near
-            .max_by(|a, b| turns[*a].total_cmp(&turns[*b]))
-            .unwrap_or(i);
-        if turn(corner, 0.5 * CORNER_ARM_SPACINGS * spacing) > CORNER_CONCENTRATION * turns[i] {
-            found.push(corner);
-        }
-    }
-    found.sort_unstable();
-    found.dedup();
-    found
-}
-
-/// Computes the direction of a line after one of its samples, or before it for a negative `arm`: that of the
-/// least-squares line through the samples within the length `arm`.
-fn heading(line: &[Sample], i: usize, arm: f64, closed: bool) -> Option<Point> {
-    let last = line.len() - 1;
-    let whole = line[last].along;
-    let step = if arm > 0.0 { 1 } else { last - 1 };
-    let mut count = 0.0;
-    let (mut s1, mut s2, mut p1, mut sp) = (0.0, 0.0, Point::new(0.0, 0.0), Point::new(0.0, 0.0));
-    let mut k = i;
-    for _ in 0..last {
-        let mut s = line[k].along - line[i].along;
-        if closed && s * arm < 0.0 {
-            s += whole * arm.signum();
-        }
-        if s.abs() > arm.abs() || (!closed && s * arm < 0.0) {
-            break;
-        }
-        let place = line[k].place;
-        (count, s1, s2, p1, sp) = (count + 1.0, s1 + s, s2 + s * s, p1 + place, sp + place * s);
-        if !closed && ((arm > 0.0 && k == last) || (arm < 0.0 && k == 0)) {
-            break;
-        }
-        k = match closed {
-            true => (k + step) % last,
-            false if arm > 0.0 => k + 1,
-            false => k - 1,
-        };
-    }
-    let spread = s2 - s1 * s1 / count;
-    (count > 2.0 && spread > 0.0).then(|| (sp - p1 * (s1 / count)) * arm.signum())
-}
-
-/// Fits the least-squares line to samples, and returns two points on it.
-fn axis(line: &[Sample]) -> [Point; 2] {
-    let count = line.len() as f64;
-    let middle = line.iter().map(|s| s.place).sum::<Point>() / count;
-    // Squares of complex numbers, so that opposite directions count as one.
-    let square: Point = line
-        .iter()
-        .map(|s| (s.place - middle) * (s.place - middle))
-        .sum();
-    let along = square.sqrt();
-    [middle, middle + along / along.norm().max(f64::MIN_POSITIVE)]
-}
-
 /// Computes the intersection of two straight lines; `None` where they are nearly parallel.
 fn meeting([p, q]: [Point; 2], [r, s]: [Point; 2]) -> Option<Point> {
     let (u, v) = (q - p, s - r);
@@ -395,4 +270,73 @@ fn meeting([p, q]: [Point; 2], [r, s]: [Point; 2]) -> Option<Point> {
 
 fn pair(place: Point) -> [f64; 2] {
     [place.re, place.im]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::curve::Piece;
+    use super::*;
+
+    /// A rectangle's border with a tooth of the lattice every `pitch` along one of its long sides, turned by an angle.
+    fn rectangle(wide: f64, high: f64, pitch: f64, depth: f64, angle: f64) -> Vec<[f64; 2]> {
+        let mut points = vec![[0.0, 0.0]];
+        points.extend((1..=wide as usize).map(|i| [i as f64, 0.0]));
+        let teeth = (high / pitch) as usize;
+        for k in 0..teeth {
+            // Along the side the border leans outwards, and steps back by one edge of the lattice.
+            points.extend((1..=pitch as usize).map(|i| {
+                [
+                    wide + depth * (i as f64 / pitch - 0.5),
+                    k as f64 * pitch + i as f64 - 0.5,
+                ]
+            }));
+            points.push([wide - 0.5 * depth, (k + 1) as f64 * pitch]);
+        }
+        points.extend((0..=wide as usize).map(|i| [wide - i as f64, high]));
+        points.extend((1..=high as usize).map(|i| [0.0, high - i as f64]));
+        let (sin, cos) = angle.sin_cos();
+        (points.iter())
+            .map(|[x, y]| [cos * x - sin * y, sin * x + cos * y])
+            .collect()
+    }
+
+    #[test]
+    fn a_rectangle_with_steps_along_a_side_has_four_straight_lines() {
+        for (angle, depth) in [(0.0, 1.2), (0.4, 1.2), (2.0, 0.9)] {
+            let border = rectangle(60.0, 80.0, 8.0, depth, angle);
+            let curve = smooth_line(&border, 0.5, 1.0, true);
+            let pieces: Vec<Piece> = curve.pieces().collect();
+            assert_eq!(pieces.len(), 4, "{angle}, {depth}: {pieces:?}");
+            let mut lengths: Vec<f64> = (pieces.iter())
+                .map(|piece| match piece {
+                    Piece::Line([p, q]) => distance(*p, *q),
+                    Piece::Bezier(_) => f64::NAN,
+                })
+                .collect();
+            lengths.sort_by(f64::total_cmp);
+            // The sides keep their lengths but for a fraction of a cell.
+            for (length, side) in lengths.iter().zip([60.0, 60.0, 80.0, 80.0]) {
+                assert!((length - side).abs() < 0.5, "{lengths:?}");
+            }
+            // Within the sheet the same line is a crease, and stays as it is.
+            assert!(smooth(&border, 0.5, 1.0).pieces().count() > 4);
+        }
+    }
+
+    #[test]
+    fn a_side_that_bends_stays_a_curve() {
+        // An arc of which half a spacing rises above the chord, and one that rises by a spacing over ten times the length.
+        for (long, rise) in [(40.0f64, 0.5), (400.0, 1.0)] {
+            let border: Vec<[f64; 2]> = (0..=long as usize)
+                .map(|i| {
+                    let t = i as f64 / long;
+                    [i as f64, 4.0 * rise * t * (1.0 - t)]
+                })
+                .collect();
+            let curve = smooth_line(&border, 0.5, 1.0, true);
+            assert!(curve.pieces().any(|p| matches!(p, Piece::Bezier(_))));
+            let middle = curve.points(1e-3).iter().map(|p| p[1]).fold(0.0, f64::max);
+            assert!((middle - rise).abs() < 0.1, "{middle}");
+        }
+    }
 }

@@ -1,7 +1,7 @@
 //! Threads of a solve: how many it uses, and why not more.
 
 use crate::lattice::domain::Domain;
-use crate::math::fork::Pool;
+use crate::math::fork::{HAS_POOLS, Pool, available_threads};
 
 /// Maximum number of threads of a solve that can be asked for.
 pub(crate) const MAX_THREADS: usize = 256;
@@ -21,7 +21,7 @@ pub enum ThreadLimit {
     Cores,
     /// The surface has too few vertices: each thread gets at least some thousand.
     Vertices,
-    /// The library was built without the feature `threads`.
+    /// The library was built without a feature for threads.
     Build,
     /// The system did not start more threads.
     System,
@@ -39,10 +39,10 @@ impl Threads {
     pub(crate) fn new(asked: Option<usize>, domain: &Domain) -> Self {
         let (wanted, limit) = match asked {
             Some(asked) => (asked, ThreadLimit::Options),
-            None => (available_cores(), ThreadLimit::Cores),
+            None => (available_threads(), ThreadLimit::Cores),
         };
         let bands = domain.bands().len();
-        let (wanted, limit) = if !cfg!(feature = "threads") {
+        let (wanted, limit) = if !HAS_POOLS {
             (1, ThreadLimit::Build)
         } else if bands < wanted {
             (bands, ThreadLimit::Vertices)
@@ -72,9 +72,4 @@ impl Threads {
     pub(crate) fn run<R: Send>(self, work: impl FnOnce() -> R + Send) -> R {
         self.pool.run(work)
     }
-}
-
-/// Returns the number of cores that the process may use.
-fn available_cores() -> usize {
-    std::thread::available_parallelism().map_or(1, usize::from)
 }

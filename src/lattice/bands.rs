@@ -4,6 +4,7 @@
 //! band, so that results do not depend on the number of threads.
 
 use super::runs::{RowRuns, Run};
+use crate::math::fork::HAS_POOLS;
 
 /// Number of active vertices in a band: large enough that handing a band to another thread costs little beside the work
 /// on it, and few enough that the arrays of a band stay in a core's cache.
@@ -34,7 +35,7 @@ impl Bands {
     /// Divides rows 1 to `rows` of arrays with rows of `stride` cells, where `active` are the runs of active vertices.
     /// Without threads there is one band, whose outermost rows need no second pass.
     pub(crate) fn new(active: &RowRuns, rows: usize, stride: usize) -> Self {
-        if !cfg!(feature = "threads") {
+        if !HAS_POOLS {
             return Bands::SINGLE;
         }
         let most = MAX_BANDS.min(rows / MIN_BAND_ROWS).max(1);

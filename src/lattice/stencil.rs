@@ -21,7 +21,7 @@ use std::ops::Range;
 
 use super::domain::Domain;
 use super::runs::Run;
-use crate::math::fork;
+use crate::math::fork::{self, HAS_POOLS};
 use crate::math::real::Real;
 use crate::math::sym2::Sym2;
 
@@ -331,7 +331,7 @@ impl<T: Real> Rolling<T> {
             let ends = [band == 0, band == last];
             weights.sweep(domain, rows_of(band), ends, *state, &fill, &gather);
         });
-        if !cfg!(feature = "threads") || last == 0 {
+        if !HAS_POOLS || last == 0 {
             return;
         }
         let bands = &self.bands;

@@ -3,11 +3,27 @@
 //! Results do not depend on the number of threads: a caller divides its work into pieces by the size of its data alone,
 //! and adds up what the pieces return in their order.
 
+#[cfg(feature = "threads")]
+#[path = "fork/rayon.rs"]
+mod backend;
+#[cfg(all(feature = "thread-team", not(feature = "threads")))]
+#[path = "fork/team.rs"]
+mod backend;
+#[cfg(not(any(feature = "thread-team", feature = "threads")))]
+#[path = "fork/single.rs"]
+mod backend;
+
+pub(crate) use backend::available_threads;
+#[cfg(all(feature = "thread-team", not(feature = "threads")))]
+pub use backend::{ThreadTeam, set_thread_team};
+
+/// Whether the library was built with a feature that lets it use more than one thread.
+pub(crate) const HAS_POOLS: bool = cfg!(any(feature = "thread-team", feature = "threads"));
+
 /// Calls `work` once for each piece of work, with the piece's index and state, side by side where there are threads.
 pub(crate) fn for_each<S: Send>(pieces: &mut [S], work: impl Fn(usize, &mut S) + Sync) {
-    #[cfg(feature = "threads")]
-    if pieces.len() > 1 && pool::has_threads() {
-        return pool::halve(0, pieces, &work);
+    if pieces.len() > 1 && !is_serial() {
+        return backend::for_each(pieces, &work);
     }
     for (index, piece) in pieces.iter_mut().enumerate() {
         work(index, piece);
@@ -16,11 +32,7 @@ pub(crate) fn for_each<S: Send>(pieces: &mut [S], work: impl Fn(usize, &mut S) +
 
 /// Returns whether [`for_each`] does its pieces one after the other, on the calling thread.
 pub(crate) fn is_serial() -> bool {
-    #[cfg(feature = "threads")]
-    if pool::has_threads() {
-        return false;
-    }
-    true
+    !backend::has_threads()
 }
 
 /// Runs two pieces of work, side by side where there are threads, and returns what both return.
@@ -28,27 +40,27 @@ pub(crate) fn join<A: Send, B: Send>(
     a: impl FnOnce() -> A + Send,
     b: impl FnOnce() -> B + Send,
 ) -> (A, B) {
-    #[cfg(feature = "threads")]
-    if pool::has_threads() {
-        return pool::join(a, b);
+    if is_serial() {
+        return (a(), b());
     }
-    (a(), b())
+    backend::join(a, b)
 }
 
-/// A pool of threads, of which there is one for each size in a process. Without the feature `threads`, and where threads
-/// cannot be started, the pool is the caller's own thread.
+/// A pool of threads, of which there is one for each size in a process. Where threads cannot be started, the pool is the
+/// caller's own thread.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Pool {
     threads: usize,
 }
 
 impl Pool {
-    /// Returns the pool of a number of threads, which are started when it is first asked for.
+    /// Returns the pool of at most a number of threads, which are started when it is first asked for.
     pub(crate) fn new(threads: usize) -> Self {
-        let is_there = threads > 1 && pool_of(threads).is_some();
-        Pool {
-            threads: if is_there { threads } else { 1 },
-        }
+        let threads = match threads {
+            0 | 1 => 1,
+            _ => backend::start(threads),
+        };
+        Pool { threads }
     }
 
     /// Number of threads in the pool.
@@ -58,138 +70,10 @@ impl Pool {
 
     /// Runs `work` in the pool: [`for_each`] within it uses the pool's threads.
     pub(crate) fn run<R: Send>(self, work: impl FnOnce() -> R + Send) -> R {
-        #[cfg(feature = "threads")]
-        if self.threads > 1
-            && let Some(pool) = pool_of(self.threads)
-        {
-            return pool::run(&pool, work);
+        match self.threads {
+            1 => work(),
+            threads => backend::run(threads, work),
         }
-        work()
-    }
-}
-
-#[cfg(feature = "threads")]
-use pool::start as pool_of;
-
-/// Returns no pool.
-#[cfg(not(feature = "threads"))]
-fn pool_of(_: usize) -> Option<()> {
-    None
-}
-
-#[cfg(feature = "threads")]
-mod pool {
-    use std::cell::Cell;
-    use std::sync::atomic::{AtomicBool, Ordering};
-    use std::sync::{Arc, Mutex, PoisonError};
-
-    use rayon_core::{ThreadPool, ThreadPoolBuilder, Yield};
-
-    /// Pools that have been started, one for each number of threads.
-    static POOLS: Mutex<Vec<Arc<ThreadPool>>> = Mutex::new(Vec::new());
-
-    /// Returns the pool of a number of threads; `None` where they cannot be started.
-    pub(super) fn start(threads: usize) -> Option<Arc<ThreadPool>> {
-        let mut pools = POOLS.lock().unwrap_or_else(PoisonError::into_inner);
-        let started = pools
-            .iter()
-            .find(|pool| pool.current_num_threads() == threads);
-        if let Some(pool) = started {
-            return Some(pool.clone());
-        }
-        let builder = ThreadPoolBuilder::new()
-            .num_threads(threads)
-            .start_handler(|_| IS_IN_POOL.set(true))
-            .thread_name(|index| format!("developable-{index}"));
-        let pool = Arc::new(builder.build().ok()?);
-        pools.push(pool.clone());
-        Some(pool)
-    }
-
-    thread_local! {
-        /// Whether the thread belongs to one of these pools, not to a pool that the library's user has made.
-        static IS_IN_POOL: Cell<bool> = const { Cell::new(false) };
-    }
-
-    /// Number of times that an idle thread looks for work before it lets other processes have its core: about as long as
-    /// the work between two fork-joins takes.
-    const IDLE_LOOKS: u32 = 4096;
-
-    thread_local! {
-        /// Number of pieces of work, one within the other, that the thread is at.
-        static DEPTH: Cell<usize> = const { Cell::new(0) };
-    }
-
-    /// Runs `work` in a pool, whose other threads look for work until it is done: one that slept would take longer to
-    /// wake up than most fork-joins take.
-    pub(super) fn run<R: Send>(pool: &ThreadPool, work: impl FnOnce() -> R + Send) -> R {
-        let done = Done(Arc::new(AtomicBool::new(false)));
-        let is_done = done.0.clone();
-        pool.spawn_broadcast(move |_| look_for_work(&is_done));
-        pool.install(|| at_work(work))
-    }
-
-    /// Does a piece of work, within which the thread does not [look for](look_for_work) other work.
-    fn at_work<R>(work: impl FnOnce() -> R) -> R {
-        DEPTH.set(DEPTH.get() + 1);
-        let result = work();
-        DEPTH.set(DEPTH.get() - 1);
-        result
-    }
-
-    /// Executes other threads' pieces of work until the work as a whole is done. A thread that waits within a piece
-    /// returns at once: the work as a whole may wait for that piece.
-    fn look_for_work(is_done: &AtomicBool) {
-        let mut looks = 0;
-        while DEPTH.get() == 0 && !is_done.load(Ordering::Acquire) {
-            if rayon_core::yield_now() == Some(Yield::Executed) {
-                looks = 0;
-            } else if looks < IDLE_LOOKS {
-                looks += 1;
-                std::hint::spin_loop();
-            } else {
-                std::thread::yield_now();
-            }
-        }
-    }
-
-    /// Sets a flag when it is dropped, as after a panic too.
-    struct Done(Arc<AtomicBool>);
-
-    impl Drop for Done {
-        fn drop(&mut self) {
-            self.0.store(true, Ordering::Release);
-        }
-    }
-
-    /// Runs two pieces of work side by side.
-    pub(super) fn join<A: Send, B: Send>(
-        a: impl FnOnce() -> A + Send,
-        b: impl FnOnce() -> B + Send,
-    ) -> (A, B) {
-        rayon_core::join(|| at_work(a), || at_work(b))
-    }
-
-    /// Returns whether the caller runs in one of these pools, which have more than one thread.
-    pub(super) fn has_threads() -> bool {
-        IS_IN_POOL.get()
-    }
-
-    /// Calls `work` for each piece, one half of the pieces beside the other; `first` is the index of the first piece.
-    pub(super) fn halve<S: Send>(
-        first: usize,
-        pieces: &mut [S],
-        work: &(impl Fn(usize, &mut S) + Sync),
-    ) {
-        if let [piece] = pieces {
-            return work(first, piece);
-        }
-        let middle = pieces.len() / 2;
-        let (left, right) = pieces.split_at_mut(middle);
-        join(
-            || halve(first, left, work),
-            || halve(first + middle, right, work),
-        );
     }
 }
 

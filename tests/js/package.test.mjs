@@ -62,6 +62,9 @@ test('each wasm file has its JavaScript, the types of both, and a copy', () => {
   assert.deepEqual(names, ['files', 'fitmesh', 'images', 'meshes', 'patterns', 'solver', 'unroll']);
   const parts = names.flatMap((name) => [`${name}.d.ts`, `${name}.js`, `${name}_bg.wasm`, `${name}_bg.wasm.d.ts`]);
   assert.deepEqual(paths().filter((path) => path.startsWith('wasm/')), parts.map((part) => `wasm/${part}`).sort());
+  // The solver for several threads has none.
+  const threads = ['threads.d.ts', 'threads.js', 'threads_bg.wasm', 'threads_bg.wasm.d.ts'].map((part) => `threads/${part}`);
+  assert.deepEqual(paths().filter((path) => path.startsWith('threads/')), threads);
   const copies = [...names, 'worker'].flatMap((name) => [`inline/${name}.d.ts`, `inline/${name}.js`]);
   assert.deepEqual(paths().filter((path) => path.startsWith('inline/')), copies.sort());
 });
@@ -251,7 +254,7 @@ test('an app bundled with Vite runs under the strict policy', { skip }, async ()
   const assets = await readdir(join(app, 'dist/assets'));
   // Each of the package's wasm files, once.
   const modules = assets.filter((name) => name.endsWith('.wasm')).map((name) => name.split('-')[0]);
-  assert.deepEqual(modules.sort(), ['files_bg', 'fitmesh_bg', 'images_bg', 'meshes_bg', 'patterns_bg', 'solver_bg', 'unroll_bg']);
+  assert.deepEqual(modules.sort(), ['files_bg', 'fitmesh_bg', 'images_bg', 'meshes_bg', 'patterns_bg', 'solver_bg', 'threads_bg', 'unroll_bg']);
   // And none of the copies, which are gzipped.
   for (const name of assets.filter((one) => one.endsWith('.js'))) {
     assert.doesNotMatch(await readFile(join(app, 'dist/assets', name), 'utf8'), /H4sIA{4}/, name);

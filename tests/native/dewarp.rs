@@ -124,6 +124,12 @@ fn lines_on_the_page_are_straight_and_evenly_spaced_in_the_flat_image() {
     assert_eq!(flat[4 * (map.width() / 2) + 3], 255);
 }
 
+/// A curled page with a ball-shaped dimple in its middle, where the area inside its rim must stretch.
+fn dimple(x: f64, y: f64) -> f64 {
+    let inside = (1.0 - ((x - 0.5).powi(2) + (y - 0.5).powi(2)) / 0.03).max(0.0);
+    (0.49 - (x - 0.5).powi(2)).sqrt() + 0.03 * inside.powi(2)
+}
+
 #[test]
 fn a_word_tells_whether_to_trust_it() {
     let verdict = |f: fn(f64, f64) -> f64| {
@@ -140,6 +146,11 @@ fn a_word_tells_whether_to_trust_it() {
         verdict(|x, y| (0.6 - (x - 0.5).powi(2) - (y - 0.5).powi(2)).sqrt()),
         Verdict::Stretched
     );
+    // A page that is stretched by more than paper allows in a part only.
+    let in_part = unroll(&unit_square(60, dimple), &UnrollOptions::default()).unwrap();
+    let strain = in_part.report().distortion;
+    assert!(strain.rms < 0.01 && strain.maximum > 0.01, "{strain:?}");
+    assert_eq!(Verdict::from_report(in_part.report()), Verdict::Stretched);
     // A border that crosses itself, but covers nothing to speak of.
     let sheet = unroll(&curled(), &UnrollOptions::default()).unwrap();
     let map = map_of(&curled(), &DewarpOptions::default());

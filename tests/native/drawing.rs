@@ -150,6 +150,36 @@ fn lines_of_a_noisy_surface_are_straight_or_smooth() {
     );
 }
 
+#[test]
+fn the_border_of_a_tilted_rectangle_is_four_straight_lines() {
+    let (slope_x, slope_y) = (0.3, 0.2);
+    let plane = unit_square(60, |x, y| slope_x * x + slope_y * y);
+    for noise in [0.0, 2e-3] {
+        let scan = fit(noisy(&plane, noise, 5), &Options::default()).unwrap();
+        let drawing = drawn(
+            &sheets(scan.heightfield()),
+            DrawingOptions::default().scale(200.0),
+        );
+        let [sheet] = &drawing.sheets[..] else {
+            panic!("{} sheets", drawing.sheets.len());
+        };
+        let pieces: Vec<Piece> = sheet.curves.iter().flat_map(|c| c.pieces()).collect();
+        assert_eq!(pieces.len(), 4, "{pieces:?}");
+        let mut lengths: Vec<f64> = (pieces.iter())
+            .map(|piece| match piece {
+                Piece::Line([p, q]) => (p[0] - q[0]).hypot(p[1] - q[1]),
+                Piece::Bezier(_) => f64::NAN,
+            })
+            .collect();
+        lengths.sort_by(f64::total_cmp);
+        // A unit square's sides rise by the slopes; the lattice may leave out a cell at each end.
+        for (length, slope) in lengths.iter().zip([slope_y, slope_y, slope_x, slope_x]) {
+            let side = 200.0 * f64::hypot(1.0, slope);
+            assert!((length / side - 1.0).abs() < 2.5 / 60.0, "{lengths:?}");
+        }
+    }
+}
+
 fn perimeter(cut: &[[f64; 2]]) -> f64 {
     let next = cut.iter().cycle().skip(1);
     cut.iter()
@@ -572,8 +602,8 @@ fn the_picture_of_an_assembly_has_its_lines_where_the_creases_are() {
             (0..=100).map(move |i| [0, 1].map(|k| along(k, 0.01 * f64::from(i))))
         });
         for pixel in steps {
-            let x = low + (pixel[0] - 20.0) / scale - 0.503;
-            let y = high - (pixel[1] - 20.0) / scale - 0.502;
+            let x = low + pixel[0] / scale - 0.503;
+            let y = high - pixel[1] / scale - 0.502;
             // Away from the apex, which is round, and from the border all that is drawn are creases.
             if (0.03..0.45).contains(&x.abs().max(y.abs())) {
                 let off = (x.abs() - y.abs()).abs() / 2f64.sqrt();

@@ -1,6 +1,7 @@
 /** By keyboard, on a phone, in the dark, and under a moving light. */
 import assert from 'node:assert/strict';
-import { choose, look, pageTest, painted, runBy, settled } from './support/page.mjs';
+import { grid, npy } from './support/files.mjs';
+import { choose, look, open, pageTest, painted, runBy, settled } from './support/page.mjs';
 
 /** @typedef {import('playwright-core').Page} Page */
 
@@ -149,6 +150,19 @@ pageTest('every view fits on a phone, light and dark, with the pixels of the dev
   });
   assert.ok(Math.max(...paper) < 64 && Math.min(...ink) > 192, `${ink} on ${paper}`);
 }, { viewport: { width: 360, height: 740 }, deviceScaleFactor: 2 });
+
+pageTest('a file with a long name can be saved on a phone', async (page) => {
+  await open(page, `${'long_words_joined_by_lines_'.repeat(4)}.npy`, npy(24, grid(24, 20, (col, row) => 3 * col + row)));
+  await page.locator('#end-file').click();
+  await page.locator('#save-now:enabled').waitFor();
+  const [dialog, save] = await Promise.all(['#save-dialog', '#save-now'].map((one) => page.locator(one).boundingBox()));
+  assert.ok(dialog && save && save.x + save.width <= dialog.x + dialog.width, `${save?.x} + ${save?.width}`);
+}, { viewport: { width: 390, height: 844 } });
+
+pageTest('names of λ do not lie on each other’s borders where the system sets the colours', async (page) => {
+  const borders = await page.locator('.presets button').evaluateAll((all) => all.map((one) => getComputedStyle(one).borderTopWidth));
+  assert.deepEqual(borders, ['0px', '0px', '0px']);
+}, { forcedColors: 'active' });
 
 pageTest('a tap moves the light, too', async (page) => {
   const canvas = page.locator('#result-canvas');

@@ -169,6 +169,13 @@ pageTest('a file of the wrong kind is named, and the part of the page that takes
   await alert.getByRole('button', { name: 'Open it under' }).click();
   await page.locator('#input-caption', { hasText: 'ramp' }).waitFor();
   await settled(page);
+  // What a depth camera writes is a picture, too.
+  await choose(page.locator('input[name="mode"][value="photo"]'));
+  await drop(page, 'scan.png', png16(WIDTH, plane));
+  assert.match(await alert.innerText(), /no page in “scan.png”.* heights or depths\?/);
+  await alert.getByRole('button', { name: 'Open it under' }).click();
+  await page.locator('#input-caption', { hasText: 'scan' }).waitFor();
+  await settled(page);
 });
 
 pageTest('a photo with too many pixels is opened at half size by a click', async (page) => {

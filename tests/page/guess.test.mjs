@@ -32,6 +32,9 @@ test('a hexagonal lattice shows in its rows, with noise, too', () => {
   assert.ok(!isHexagonal(image(150, 120, (col, row) => hills(col, row) + noise(col, row))));
   assert.ok(!isHexagonal(image(150, 120, (col, row) => hills(col + 0.5 * (row % 2), row * Math.sqrt(0.75)))), 'shifted the other way');
   assert.ok(!isHexagonal(image(20, 20, () => 1)));
+  // Its rows are closer than its columns: 120 of them span less than 110 columns.
+  const upright = guessedPixel({ ...image(110, 120, (x, y) => 0.005 * hills(x, y)), rowSpacing: Math.sqrt(0.75) });
+  assert.ok(upright && Math.abs(upright.pixelSize * 110 - 1) < 1e-3);
 });
 
 test('depths are told from heights by their unit and their edges', () => {

@@ -27,7 +27,7 @@ test('an address says what it was made of, and what it does not know is left', (
 });
 
 test('the gallery has a card for each figure of the paper that it tells, with an address of its own', () => {
-  const figures = CARDS.flatMap(({ figure }) => figure.match(/\d+/g) ?? []).map(Number);
+  const figures = CARDS.flatMap(({ figure }) => figure?.match(/\d+/g) ?? []).map(Number);
   for (const figure of [4, 5, 6, 7, 8, 9, 10, 11, 16, 18, 19, 20, 21, 22, 23, 24, 25, 26]) assert.ok(figures.includes(figure), `Fig. ${figure}`);
   assert.equal(new Set(CARDS.map(({ id }) => id)).size, CARDS.length);
   for (const { id, input, sketch, words, look } of CARDS) {
@@ -83,7 +83,7 @@ pageTest('settings stand in the address, Back undoes them, and a file is there a
 
   // A card of the gallery by its address, and the same at five λ.
   await page.goto(`${page.url().replace(/#.*/, '')}#fig-8&lambda=1e5`);
-  await page.locator('#story-title', { hasText: 'Fig. 8)' }).waitFor();
+  await page.locator('#story-title', { hasText: 'Fig. 8 of the paper)' }).waitFor();
   await settled(page);
   assert.equal(parsed(await reported(page, 'λ')), 1e5);
   await page.locator('#strip[aria-busy="false"]').waitFor();
@@ -91,6 +91,20 @@ pageTest('settings stand in the address, Back undoes them, and a file is there a
   assert.equal(parsed(await reported(page, 'λ')), 1e7);
   await page.getByRole('button', { name: /^Gallery/ }).click();
   assert.equal(await page.locator('.card').count(), CARDS.length);
+  // The first two show what people come for: a page before and after, and sheets to cut, beside each other on white.
+  for (const title of ['A curled page made flat', 'A canopy to cut from card']) {
+    const picture = page.locator('.card').filter({ hasText: title }).locator('canvas');
+    await page.waitForFunction((canvas) => /** @type {HTMLCanvasElement} */ (canvas).width === 224, await picture.elementHandle());
+    const [left, right] = await picture.evaluate((canvas) => {
+      const { data } = /** @type {CanvasRenderingContext2D} */ (/** @type {HTMLCanvasElement} */ (canvas).getContext('2d')).getImageData(0, 0, 224, 224);
+      return [4, 116].map((from) => {
+        const levels = Array.from({ length: 104 * 224 }, (_, i) => 4 * (224 * Math.floor(i / 104) + from + (i % 104)))
+          .map((at) => (data[at + 3] > 0 ? data[at + 1] : 255));
+        return Math.max(...levels) - Math.min(...levels);
+      });
+    });
+    assert.ok(left > 60 && right > 60, `${title}: ${left}, ${right}`);
+  }
   await runBy(page, () => page.getByRole('button', { name: /Fig\. 11/ }).click());
   await page.waitForURL(/#fig-11$/);
   assert.match(await page.locator('#verdict').innerText(), /^\d+ smooth pieces meet in \d+ creases\.$/);

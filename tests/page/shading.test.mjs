@@ -11,11 +11,19 @@ import { HOLE, UNIT, normalsOf } from '../../www/surface/normals.js';
 import { NOTHING, SIDE, rasterOf } from '../../www/surface/raster.js';
 import { fillTriangles } from '../../www/surface/triangles.js';
 import { lambdaHint, verdict } from '../../www/messages.js';
+import { gapsByLevel } from '../../www/panels/curve.js';
 import { grid } from './support/files.mjs';
 import { parsed } from './support/numbers.mjs';
 
 /** @param {import('../../www/surface/normals.js').Normals} normals @param {number} i */
 const normal = ({ xy }, i) => [xy[2 * i] / UNIT, xy[2 * i + 1] / UNIT];
+
+test('gaps on coarser lattices are not joined across a solve on the finest one', () => {
+  const moments = [[2, 0.5], [1, 0.2], [1, 0.1], [0, 0.3], [0, 0.01], [1, 0.4], [0, 0.02]].map(([level, gap], i) => (
+    { level, gap, iteration: i, elapsed: i, objective: 1, dualBound: 1 }));
+  assert.deepEqual(gapsByLevel(moments, 'iteration', false), [[0, 50], [1, NaN], [1, 20], [2, 10], [5, NaN], [5, 40]]);
+  assert.deepEqual(gapsByLevel(moments, 'iteration', true), [[3, 30], [4, 1], [6, NaN], [6, 2]]);
+});
 
 test('a plane has its normal everywhere, and it leans downhill with y up', () => {
   // Rises to the right by 1 and downwards on the screen by 0.5 per unit of length; pixels of side 2.

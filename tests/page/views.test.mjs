@@ -68,12 +68,12 @@ pageTest('curvatures of the cylinder: one bend as the radius says, none of the o
   const [before, after] = (await told(page, 'κ₂')).split('→').map(parsed);
   // The input's is what resampling it to the lattice leaves.
   assert.ok(before < 0.03 / RADIUS && after < 0.01 / RADIUS, `${before} → ${after}`);
-  assert.match(await page.locator('#about-view figcaption').innerText(), /κ₂.*1\/unit$/);
+  assert.match(await page.locator('#about-view figcaption').innerText(), /κ₂.*1\/unit; figures: input → result$/);
   const seen = [await look(page, '#input-canvas'), await look(page, '#result-canvas')].map(({ hash }) => hash);
   assert.ok(seen[0] !== plain[0] && seen[1] !== plain[1], 'both are coloured');
 
   await view(page, 'Curvature K');
-  assert.match(await page.locator('#about-view figcaption').innerText(), /K in 1\/unit²$/);
+  assert.match(await page.locator('#about-view figcaption').innerText(), /K in 1\/unit²; figures: input → result$/);
   const values = await ticks(page);
   assert.ok(values.every((value, i) => value === -values[values.length - 1 - i]), 'symmetric');
   assert.ok(values.includes(0) && values.length >= 3);
@@ -150,7 +150,7 @@ pageTest('rulings are drawn over the result only', async (page) => {
   const seen = [await look(page, '#input-canvas'), await look(page, '#result-canvas')].map(({ hash }) => hash);
   assert.ok(seen[0] === plain[0] && seen[1] !== plain[1]);
   assert.ok(parsed(await told(page, 'Lines')) > 10);
-  assert.ok(parsed(await told(page, 'Off straight')) < 3);
+  assert.ok(parsed(await told(page, 'Median deviation from straight')) < 3);
   // Along the axis, from side to side.
   const longest = parsed(await told(page, 'Longest'));
   assert.ok(longest > 0.9 && longest < 1 / COS + 0.01, `${longest}`);
@@ -237,12 +237,12 @@ pageTest('what cannot be laid flat whole is laid flat in pieces, which are saved
   await page.locator('.preview[aria-busy="false"] img').waitFor();
   const pages = async () => parsed(await figure('Pages').textContent() ?? '');
   const before = await pages();
-  const side = page.getByLabel('Finished size');
+  const side = page.getByLabel('Longer side when finished');
   const doubled = 2 * Number(await side.inputValue());
   // What cannot be is refused in its place, and nothing of another size can be saved.
   for (const wrong of ['0', '-5']) {
     await side.fill(wrong);
-    await page.locator('#save-size', { hasText: /Finished size.* has to be from 10 to 5000/ }).waitFor();
+    await page.locator('#save-size', { hasText: /Longer side when finished.* has to be from 10 to 5000/ }).waitFor();
     assert.ok(await page.locator('#save-now').isDisabled());
   }
   await side.fill(String(doubled));

@@ -12,7 +12,7 @@ export const optionTypesFile = join(root, 'pkg/option-types.d.ts');
 
 /** The modules with rows, and the interface of each set of options. */
 const MODULES = {
-  fit: { solver: 'SolverOptions', meshSolver: 'MeshSolverOptions', occlusions: 'OcclusionOptions' },
+  fit: { threading: 'ThreadOptions', solver: 'SolverOptions', meshSolver: 'MeshSolverOptions', occlusions: 'OcclusionOptions' },
   shape: {
     analyze: 'AnalyzeOptions', analyzeMesh: 'MeshAnalyzeOptions', patches: 'PatchOptions', rulings: 'RulingOptions',
     meshRulings: 'MeshRulingOptions', unroll: 'UnrollOptions', picture: 'PictureOptions',

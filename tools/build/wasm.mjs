@@ -92,7 +92,7 @@ export async function packWasm({ env, bindgen }, kind = 'release') {
       await rm(draft, { recursive: true, force: true });
     }
   }
-  if (kind === 'release') for (const { name, limit } of files) await checkSize(name, limit);
+  if (kind === 'release') for (const { name, limit } of files) await checkSize(pkgWasm, name, limit);
 }
 
 /**
@@ -151,7 +151,7 @@ async function isCurrent(name, origin) {
 }
 
 /** npm's binaryen. It takes the module's features from the module itself. */
-const wasmOpt = join(root, 'node_modules/binaryen/bin/wasm-opt');
+export const wasmOpt = join(root, 'node_modules/binaryen/bin/wasm-opt');
 
 /**
  * What the files depend on besides the module: the two tools, and this script.
@@ -178,11 +178,13 @@ export async function modulesFolder(env) {
 export const moduleFile = (name) => `developable_wasm_${name}.wasm`;
 
 /**
+ * Tells the size of a wasm file, and stops the build where that is too large.
+ * @param {string} folder
  * @param {string} name
- * @param {number} limit
+ * @param {number} limit in bytes, gzipped
  */
-async function checkSize(name, limit) {
-  const bytes = await readFile(join(pkgWasm, `${name}_bg.wasm`));
+export async function checkSize(folder, name, limit) {
+  const bytes = await readFile(join(folder, `${name}_bg.wasm`));
   const gzipped = gzipSync(bytes, { level: 9 }).length;
   console.log(`${name}: ${(bytes.length / 1000).toFixed(1)} kB of wasm, ${(gzipped / 1000).toFixed(1)} kB gzipped`);
   if (gzipped > limit) {
@@ -191,11 +193,12 @@ async function checkSize(name, limit) {
 }
 
 /**
+ * Runs a program, and stops the build where it fails.
  * @param {string} command
  * @param {string[]} args
  * @param {Env} env
  */
-async function must(command, args, env) {
+export async function must(command, args, env) {
   const { ok, failure } = await run(command, args, { env, cwd: root, show: true });
   if (!ok) throw new Problem(`The build stopped (${failure}): see what ${command} says above.`);
 }

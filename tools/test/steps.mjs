@@ -3,6 +3,7 @@
  * (`benches/tests.md`).
  */
 import { buildInline } from '../build/inline.mjs';
+import { buildThreads } from '../build/threads.mjs';
 import { buildVendor } from '../build/vendor.mjs';
 import { buildWasm } from '../build/wasm.mjs';
 import { docs, docTests, format, lint, nativeTests, unitTests } from './rust.mjs';
@@ -19,11 +20,12 @@ export const steps = [
   { name: 'docs', seconds: 20, quick: true, what: "the documentation's links and examples", run: docs },
   {
     name: 'build',
-    seconds: 5,
+    seconds: 120,
     what: 'the package, and the size of its wasm',
     run: async (context) => {
       await buildVendor();
       await buildWasm(context);
+      await buildThreads(context);
       await buildInline();
     },
   },

@@ -9,6 +9,8 @@ export const root = fileURLToPath(new URL('../..', import.meta.url));
 export const pkg = join(root, 'pkg');
 /** What wasm-bindgen and wasm-opt write. */
 export const pkgWasm = join(pkg, 'wasm');
+/** The same of the solver for several threads. */
+export const pkgThreads = join(pkg, 'threads');
 /** Copies of both the worker and the wasm as JavaScript. */
 export const pkgInline = join(pkg, 'inline');
 /** Libraries copied into the package, so that it has no dependencies. */

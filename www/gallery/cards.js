@@ -9,13 +9,14 @@ import { bench, bust, canopy, cathedral, fandisk, hall, hidden, note, pleats, te
 /**
  * @typedef {object} Card
  * @property {string} id also its address
- * @property {string} figure of the paper, or what it goes beyond
+ * @property {string} [figure] of the paper
  * @property {string} title
  * @property {string} words two sentences
  * @property {string} look what to look at
  * @property {{ name: ExampleName, size: number, noise: number }} [example] of the package
  * @property {(size: number) => Input} [input] made here, by the pixels along its side
  * @property {(size: number) => Input} [sketch] for its picture, where the input is but lines
+ * @property {'photo' | 'sheets'} [shows] what its picture shows of the result, where it is not the surface
  * @property {number} size of it
  * @property {Partial<Settings>} settings where they are not the defaults
  * @property {string} view
@@ -31,19 +32,19 @@ const PAPER = /** @type {const} */ ({ lambda: 1e6, energy: 'nuclear' });
 /** @type {readonly Card[]} */
 export const CARDS = [
   {
-    id: 'dewarp', figure: 'Beyond the paper', title: 'A curled page made flat',
+    id: 'dewarp', title: 'A curled page made flat',
     words: 'A phone has taken a photo of a curled page, and measured its shape. The shape makes the photo flat.',
     look: 'Bent lines become straight, and letters get their printed width.',
-    example: { name: 'page', size: 300, noise: 0.02 }, size: 300, settings: {}, view: 'dewarped',
+    example: { name: 'page', size: 300, noise: 0.02 }, shows: 'photo', size: 300, settings: {}, view: 'dewarped',
   },
   {
-    id: 'canopy', figure: 'Beyond the paper', title: 'A canopy to cut from card',
+    id: 'canopy', title: 'A canopy to cut from card',
     words: 'You fix the edges of a canopy on four masts. The page fills in a surface that bends like paper, and cuts it into sheets.',
     look: 'Press “Make cut-out sheets” below, then print, cut and fold.',
-    input: (size) => designed('canopy', canopy, size, (x, y) => Math.max(Math.abs(x), Math.abs(y)) > 0.5 - 1.1 / size || Math.hypot(x, y) < 0.8 / size), sketch: (size) => sampled('canopy', canopy, size), size: 100, settings: PAPER, view: 'sheet',
+    input: (size) => designed('canopy', canopy, size, (x, y) => Math.max(Math.abs(x), Math.abs(y)) > 0.5 - 1.1 / size || Math.hypot(x, y) < 0.8 / size), sketch: (size) => sampled('canopy', canopy, size), shows: 'sheets', size: 100, settings: PAPER, view: 'sheet',
   },
   {
-    id: 'auto', figure: 'Beyond the paper', title: 'A noisy house, cleaned by itself',
+    id: 'auto', title: 'A noisy house, cleaned by itself',
     words: 'The page measures the noise of the heights and chooses the detail (λ) by itself. You need not know what λ is.',
     look: 'The noise that was found stands below the slider.',
     example: { name: 'house', size: 160, noise: 0.03 }, size: 160, settings: { lambda: 'auto', energy: 'huber' }, view: 'shaded',
@@ -55,19 +56,19 @@ export const CARDS = [
     input: (size) => sampled('note', note, size, { noise: 0.02 }), size: 200, settings: PAPER, view: 'patches',
   },
   {
-    id: 'dropouts', figure: 'Beyond the paper', title: 'Pleats with dead pixels',
+    id: 'dropouts', title: 'Pleats with dead pixels, mended',
     words: 'The sensor has lost a tenth of the pixels. The surface goes on across narrow holes.',
     look: 'No hole is left, and the creases stay in place.',
     input: (size) => sampled('pleats', turned(pleats, 25), size, { noise: 0.02, dropouts: 0.1 }), size: 200, settings: PAPER, view: 'shaded',
   },
   {
-    id: 'smooth-bends', figure: 'Beyond the paper', title: 'A noisy cone without facets',
+    id: 'smooth-bends', title: 'A noisy cone without facets',
     words: 'The paper’s energy turns noisy bends into facets. The page’s default energy keeps them round, and keeps creases sharp.',
     look: 'The cone has no facets. Choose the nuclear norm under “More options” to see them.',
     example: { name: 'cone', size: 200, noise: 0.05 }, size: 200, settings: { energy: 'huber', lambda: 1e5 }, view: 'shaded',
   },
   {
-    id: 'certificate', figure: 'Beyond the paper', title: 'An oloid, proven to a thousandth',
+    id: 'certificate', title: 'An oloid, proven to a thousandth',
     words: 'Every result comes with a proof of how near it is to the best possible surface. Here the solve goes on until that is a thousandth.',
     look: 'The curves of result and bound approach each other.',
     example: { name: 'oloid', size: 200, noise: 0.02 }, size: 200, settings: { ...PAPER, gap: 0.001 }, view: 'shaded', opens: 'drawer',
@@ -109,7 +110,7 @@ export const CARDS = [
     input: (size) => sampled('scene', hidden, size, { noise: 0.005, known: false }), size: 200, settings: { ...PAPER, occlusionThreshold: 2e3 }, view: 'shaded',
   },
   {
-    id: 'fig-10', figure: 'Fig. 10', title: 'A noisy page, laid flat',
+    id: 'fig-10', figure: 'Fig. 10', title: 'The scan of a page, laid flat',
     words: 'The scan of a page has noise of a tenth of its height. The result has the lengths of the paper again.',
     look: 'The page lies flat: a rectangle with the proportions of A4, with hardly any stretch.',
     example: { name: 'page', size: 200, noise: 0.1 }, size: 200, settings: { ...PAPER, lambda: 1e5 }, view: 'sheet',

@@ -1,5 +1,5 @@
 /** Several photos of pages that become one PDF: each with its outline, as it was found or corrected. */
-import { BOOK_WORDS } from '../messages.js';
+import { BOOK_WORDS } from './messages.js';
 import { apart } from '../worker-task.js';
 import { whole } from './flatten.js';
 import { pictureFiles } from './paper.js';

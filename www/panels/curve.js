@@ -128,20 +128,21 @@ function drawMoments(canvas, moments, along, target) {
 }
 
 /**
- * Gaps in percent on the finest lattice, or on the others with a break after each.
+ * Gaps in percent on the finest lattice, or on the others, with a break wherever the solve comes from another lattice.
  * @param {readonly Moment[]} moments
  * @param {'iteration' | 'elapsed'} along
  * @param {boolean} finest
  * @returns {[number, number][]}
  */
-function gapsByLevel(moments, along, finest) {
+export function gapsByLevel(moments, along, finest) {
   /** @type {[number, number][]} */
   const points = [];
   let level = NaN;
   for (const moment of moments) {
-    if ((moment.level === 0) !== finest) continue;
-    if (points.length > 0 && moment.level !== level) points.push([moment[along], NaN]);
+    const begins = moment.level !== level;
     level = moment.level;
+    if ((level === 0) !== finest) continue;
+    if (points.length > 0 && begins) points.push([moment[along], NaN]);
     points.push([moment[along], 100 * (moment.gap ?? NaN)]);
   }
   return points;

@@ -1,17 +1,10 @@
 /** The gallery: cards with pictures, each of which opens an input with its settings and says what to look at. */
 import { element, make } from '../dom.js';
 import { CARDS } from '../gallery/cards.js';
-import { settingsFor } from '../design.js';
-import { heightsOf } from '../session.js';
-import { drawHalves, drawThumbnail } from '../surface/thumbnail.js';
+import { drawPicture, inputOf } from '../gallery/pictures.js';
 
 /** @import {Card} from '../gallery/cards.js' */
 /** @import {Session, Settings} from '../session.js' */
-
-/** Pixels along a side of a card's picture. */
-const PICTURE = 112;
-/** Duality gap at which a card's picture is good enough. */
-const PICTURE_GAP = 0.05;
 
 /**
  * @param {Session} session
@@ -49,7 +42,7 @@ export function galleryPanel(session, { adopt, choose, strip, enter }) {
   const tell = () => {
     story.hidden = present === null;
     if (!present) return;
-    element('story-title', HTMLElement).textContent = `${present.title} (${present.figure}).`;
+    element('story-title', HTMLElement).textContent = `${present.title}${present.figure ? ` (${present.figure} of the paper)` : ''}.`;
     element('story-words', HTMLElement).textContent = present.words;
     element('story-look', HTMLElement).textContent = present.look;
   };
@@ -62,7 +55,7 @@ export function galleryPanel(session, { adopt, choose, strip, enter }) {
   const show = async (card, settings = card.settings, view = card.view) => {
     dialog.close();
     enter();
-    const opened = await session.open('The gallery’s input could not be made', () => inputOf(session, card, card.size));
+    const opened = await session.open('The gallery’s input could not be made', () => inputOf(session.api, card, card.size));
     if (!opened) return;
     present = card;
     named = session.input?.name ?? '';
@@ -94,21 +87,6 @@ export function galleryPanel(session, { adopt, choose, strip, enter }) {
 
 /**
  * @param {Session} session
- * @param {Card} card
- * @param {number} size
- * @returns {Promise<import('../session.js').Input>}
- */
-async function inputOf({ api }, { example, input }, size) {
-  if (input) return input(size);
-  if (!example) throw new Error('it has neither');
-  const { name, noise } = example;
-  const made = await api.example(name, { size, noise });
-  const { width, height, data, pixelSize = 1, heightScale = 1 } = made.input;
-  return { name, width, height, data: Float64Array.from(data), pixelSize, heightScale, truth: Float64Array.from(made.truth) };
-}
-
-/**
- * @param {Session} session
  * @param {HTMLElement} list
  * @param {(card: Card) => void} take
  */
@@ -116,7 +94,7 @@ function fill(session, list, take) {
   for (const card of CARDS) {
     const canvas = make('canvas', '');
     canvas.setAttribute('aria-hidden', 'true');
-    const button = make('button', 'card', canvas, make('strong', '', card.title), make('span', 'small', card.words), make('span', 'muted small', card.figure));
+    const button = make('button', 'card', canvas, make('strong', '', card.title), make('span', 'small', card.words), ...(card.figure ? [make('span', 'muted small', `${card.figure} of the paper`)] : []));
     button.type = 'button';
     button.addEventListener('click', () => take(card));
     list.append(button);
@@ -124,47 +102,7 @@ function fill(session, list, take) {
     new IntersectionObserver((entries, observer) => {
       if (!entries.some(({ isIntersecting }) => isIntersecting)) return;
       observer.disconnect();
-      void picture(session, card, canvas);
+      void drawPicture(session.api, session.defaults, card, canvas);
     }).observe(canvas);
   }
-}
-
-/** @param {Session} session @param {Card} card @param {HTMLCanvasElement} canvas */
-async function picture(session, card, canvas) {
-  const input = await inputOf(session, card, PICTURE).catch(() => null);
-  if (!input) return;
-  const sketch = card.sketch?.(PICTURE) ?? input;
-  drawThumbnail(canvas, sketch, sketch.heightScale / sketch.pixelSize);
-  const after = await solved(session, card, input).catch(() => null);
-  if (!after) return;
-  const [left, right] = [make('canvas', ''), make('canvas', '')];
-  // Of a design there is nothing to be seen before.
-  if (input.design) return drawThumbnail(canvas, after, 1 / after.pixelSize);
-  drawThumbnail(left, input, input.heightScale / input.pixelSize);
-  drawThumbnail(right, after, 1 / after.pixelSize);
-  drawHalves(canvas, left, right);
-}
-
-/** The worker of small results, while there are some to come, and the last one. */
-const small = { worker: /** @type {InstanceType<import('../api.js').Api['DevelopableWorker']> | null} */ (null), open: 0, last: Promise.resolve() };
-
-/**
- * What comes of a card's input, roughly. One after the other, in one worker.
- * @param {Session} session
- * @param {Card} card
- * @param {import('../session.js').Input} input
- */
-function solved({ api, defaults }, card, input) {
-  small.open++;
-  const mine = small.last.then(async () => {
-    small.worker ??= new api.DevelopableWorker();
-    const { coarsening: _, ...options } = settingsFor(input, { ...defaults, ...card.settings, gap: PICTURE_GAP });
-    return (await small.worker.fit(heightsOf(input), options)).image;
-  }).finally(() => {
-    if (--small.open > 0) return;
-    small.worker?.dispose();
-    small.worker = null;
-  });
-  small.last = mine.then(() => {}, () => {});
-  return mine;
 }

@@ -285,6 +285,10 @@ export function wholePanel(session, whole) {
     get view() {
       return whole.mesh ? radios.find(({ checked }) => checked)?.value : undefined;
     },
+    /** How much of the mesh is not seen from the chosen side; empty where that is little. */
+    get hiddenInWords() {
+      return hint.textContent ?? '';
+    },
     enter,
     leave,
   };

@@ -1,6 +1,6 @@
 /** The photos of a book, to be gone through: one button each, and one more to add others. */
 import { element, make } from '../dom.js';
-import { BOOK_WORDS } from '../messages.js';
+import { BOOK_WORDS } from '../page/messages.js';
 
 /** @import {Book} from '../page/book.js' */
 

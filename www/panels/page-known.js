@@ -1,7 +1,7 @@
 /** What is known of a page and of the camera that took the photo. */
 import { element, elements } from '../dom.js';
 import { number } from '../format.js';
-import { FOCAL_WORDS } from '../messages.js';
+import { FOCAL_WORDS } from '../page/messages.js';
 import { PAPERS } from '../page/paper.js';
 
 /** @import {PageSession} from '../page/session.js' */

@@ -1,7 +1,7 @@
 /** The photo with the outline of the page on it, to be dragged. */
 import { element, followDevicePixels, make } from '../dom.js';
 import { number } from '../format.js';
-import { PAGE_WORDS } from '../messages.js';
+import { PAGE_WORDS } from '../page/messages.js';
 import { Handles } from '../page/handles.js';
 import { EDGES } from '../page/outline.js';
 import { canvasOf } from '../views/dewarped.js';

@@ -8,7 +8,8 @@ import { imagePicture, PictureView } from '../surface/picture.js';
 import { Zoom } from '../surface/zoom.js';
 import { canvasOf } from '../views/dewarped.js';
 import { figures } from '../views/legend.js';
-import { BOOK_WORDS, FORMAT_WORDS, PAGE_WORDS, SAVE_WORDS, pageCautions, pageErrors, pageVerdict } from '../messages.js';
+import { FORMAT_WORDS, SAVE_WORDS } from '../messages.js';
+import { BOOK_WORDS, PAGE_WORDS, pageCautions, pageErrors, pageVerdict } from '../page/messages.js';
 import { offerToSave } from './save-dialog.js';
 
 /** @import {Api} from '../api.js' */

@@ -5,6 +5,7 @@ import { Book } from '../page/book.js';
 import { examplePhoto } from '../page/example.js';
 import { isTooLarge, openPhoto, photoOf } from '../page/photo.js';
 import { PageSession } from '../page/session.js';
+import { isGrey16 } from '../dropped-files.js';
 import { kindByName, otherInWords } from '../file-kinds.js';
 import { FILE_WORDS } from '../messages.js';
 import { hideNotice, showFailure, showNotice } from './notice.js';
@@ -55,6 +56,7 @@ export function pagePanel(api, goOn, openHeights, opened) {
    * @param {Slow} [slow] for what is said meanwhile
    * @param {File} [file] which may be opened at half size
    * @param {PageState | null} [state] what was done to it before
+   * @returns {Promise<AbortSignal>} whether it was given up
    */
   const show = async (doing, load, pages, slow, file, state) => {
     opening?.abort();
@@ -64,17 +66,18 @@ export function pagePanel(api, goOn, openHeights, opened) {
     if (slow) waiting.begin(slow);
     try {
       const photo = await load(signal);
-      if (signal.aborted) return;
+      if (signal.aborted) return signal;
       hideNotice();
       to.show(photo, pages, state);
       opened(file ?? null);
     } catch (error) {
-      if (signal.aborted) return;
+      if (signal.aborted) return signal;
       if (file && isTooLarge(error)) showNotice(FILE_WORDS.tooLarge(file.name), 'alert', { label: FILE_WORDS.openAtHalf, act: () => void open(file, true) });
       else showFailure(doing, error);
     } finally {
       if (!signal.aborted) waiting.end(slow);
     }
+    return signal;
   };
 
   /** @param {File} file @param {boolean} [half] at half size */
@@ -91,11 +94,14 @@ export function pagePanel(api, goOn, openHeights, opened) {
       const words = kind === 'mesh' ? FILE_WORDS.meshNoPhoto(file.name) : FILE_WORDS.heightsNoPhoto(file.name);
       return showNotice(words, 'alert', { label: FILE_WORDS.openAsHeights, act: () => openHeights([file]) });
     }
-    await show(`“${file.name}” could not be opened`, async (signal) => {
+    let pageless = false;
+    const signal = await show(`“${file.name}” could not be opened`, async (signal) => {
       const photo = await openPhoto(api, file, signal, half);
       for (const radio of examples) radio.checked = radio.checked && signal.aborted;
+      pageless = photo.outlines.verdict === 'notFound' && await isGrey16(file);
       return photo;
     }, 1, readingOf(file), file, state);
+    if (pageless && !signal.aborted) showNotice(FILE_WORDS.maybeHeights(file.name), 'alert', { label: FILE_WORDS.openAsHeights, act: () => openHeights([file]) });
   };
   /** @param {number} at */
   const turnTo = async (at) => {

@@ -82,10 +82,11 @@ export function offerToSave(api, { title, stem, size: amount, ready = async () =
     save.disabled = true;
     if (!format) return;
     taken.set(title, format.value);
-    size.textContent = SAVE_WORDS.working;
+    size.textContent = '';
     try {
       await ready();
       if (mine !== present) return;
+      size.textContent = SAVE_WORDS.working;
       const slow = { words: SAVE_WORDS.write, kind: `${title}, ${format.value}`, size: amount, each: EACH };
       wait.begin(slow);
       const content = await apart(api, mine.signal, format.write);

@@ -16,8 +16,9 @@ import { offerSheets } from './sheets.js';
  * @param {Session} session
  * @param {Analyses} analyses
  * @param {(view: string) => void} choose a view of the result
+ * @param {{ hiddenInWords: string }} whole what is not seen of a mesh
  */
-export function savePanel(session, analyses, choose) {
+export function savePanel(session, analyses, choose, whole) {
   const ends = ['file', 'sheets', 'photo'].map((name) => element(`end-${name}`, HTMLButtonElement));
   const [file, sheets, photo] = ends;
   file.addEventListener('click', () => {
@@ -25,7 +26,7 @@ export function savePanel(session, analyses, choose) {
   });
   sheets.addEventListener('click', () => {
     const { result } = session;
-    if (result) offerSheets(session.api, cutterOf(result, analyses));
+    if (result) offerSheets(session.api, { ...cutterOf(result, analyses), note: whole.hiddenInWords });
   });
   photo.addEventListener('click', () => {
     choose('dewarped');

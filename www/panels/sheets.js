@@ -31,6 +31,7 @@ const [MIN_SIDE, MAX_SIDE] = [10, 5000];
  * @property {string} stem of the file's name
  * @property {number} size vertices
  * @property {number} length of the longer side, in the input's unit
+ * @property {string} [note] what is left out of the sheets
  * @property {LengthUnit | 'none' | 'unknown'} unit of the input; `none`: it is an example, of any size
  * @property {(options: Cut) => Promise<Drawing>} cut
  * @property {(drawing: Drawing) => Promise<Uint8Array<ArrayBuffer>>} svg
@@ -41,7 +42,7 @@ const [MIN_SIDE, MAX_SIDE] = [10, 5000];
  * @param {Api} api
  * @param {Cutter} cutter
  */
-export function offerSheets(api, { stem, size, length, unit, cut, svg, stop }) {
+export function offerSheets(api, { stem, size, note = '', length, unit, cut, svg, stop }) {
   const last = sizes.get(stem) ?? { unit: unit === 'unknown' ? likelyUnit(length) : unit, side: NaN };
   const side = numberField(Number.isNaN(last.side) ? handyLength(length, last.unit) : last.side, MIN_SIDE, MAX_SIDE);
   const units = make('select', '', ...Object.keys(MILLIMETRES).map((name) => new Option(SHEET_WORDS.unit(name), name)), new Option(SHEET_WORDS.ownSize, 'none'));
@@ -74,7 +75,6 @@ export function offerSheets(api, { stem, size, length, unit, cut, svg, stop }) {
   const paper = make('select', '', new Option('A4', 'a4'), new Option('Letter', 'letter'), new Option(SHEET_WORDS.onePage, ''));
   paper.value = chosen.paper;
   const sideField = make('label', 'field', SHEET_WORDS.side, side);
-  sideField.title = SHEET_WORDS.sideMeans;
   const preview = make('div', 'preview');
   const words = make('p', 'said');
   words.setAttribute('role', 'status');
@@ -180,6 +180,7 @@ export function offerSheets(api, { stem, size, length, unit, cut, svg, stop }) {
       preview,
       make('div', 'sheets-options',
         words,
+        ...(note ? [make('p', 'small', note)] : []),
         panel,
         again,
         unitField,

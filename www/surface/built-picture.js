@@ -5,8 +5,6 @@ import { assembled, bordersOf } from './assembled.js';
 const [AZIMUTH_DEGREES, ELEVATION_DEGREES] = [-28, 42];
 /** Pixels along the longer side of the picture; its surfaces are drawn with twice as many, and averaged. */
 const [PICTURE_PIXELS, OVERSAMPLING] = [2000, 2];
-/** Pixels along the longer side of the plan, without its margin; the heights of its marks are found in a raster of this size. */
-const PLAN_PIXELS = 1000;
 /** Pixels of the plan that a mark may lie beside the surface: lines are smoothed there. */
 const MAX_PLAN_OFFSET_PIXELS = 12;
 /** Distance that something may be behind the surface and still be drawn on it, as a share of the mesh's size. */
@@ -247,14 +245,16 @@ function shaded({ width, height, triangle, light }, { triangles, sheets }, colou
  * @param {Mesh} mesh
  */
 function marksOf(drawn, mesh) {
-  const raster = rasterised(mesh, axesOf(0, 90), PLAN_PIXELS, 0);
-  const [, , width, height] = (drawn.documentElement.getAttribute('viewBox') ?? '').split(/[ ,]+/).map(Number);
-  const margin = (Math.max(width, height) - PLAN_PIXELS) / 2;
+  // The plan begins at the origin, with a margin around it.
+  const [margin, , width, height] = (drawn.documentElement.getAttribute('viewBox') ?? '').split(/[ ,]+/).map(Number);
+  const size = Math.round(Math.max(width, height) + 2 * margin);
+  // The heights of its marks are found in a raster as large as the plan.
+  const raster = rasterised(mesh, axesOf(0, 90), size, 0);
   const [left, top, zero] = raster.project([0, 0, 0]);
   const perUnit = raster.project([1, 0, 0])[0] - left;
   /** @param {readonly (string | null)[]} at on the plan */
   const lifted = (at) => {
-    const [x, y] = at.map((value) => Number(value) - margin);
+    const [x, y] = at.map(Number);
     return [(x - left) / perUnit, (top - y) / perUnit, (depthNear(raster, [x, y], MAX_PLAN_OFFSET_PIXELS) - zero) / perUnit];
   };
   const folds = [...drawn.querySelectorAll('#folds polyline')].map((line) =>
@@ -262,7 +262,7 @@ function marksOf(drawn, mesh) {
   const texts = [...drawn.querySelectorAll('#numbers text')].map((text) => ({
     text: text.textContent ?? '',
     place: lifted([text.getAttribute('x'), text.getAttribute('y')]),
-    size: (Number(text.getAttribute('font-size')) * PICTURE_PIXELS) / PLAN_PIXELS,
+    size: (Number(text.getAttribute('font-size')) * PICTURE_PIXELS) / size,
   }));
   return { folds, texts };
 }

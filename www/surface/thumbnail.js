@@ -2,6 +2,8 @@
 import { HOLE, normalsOf, UNIT } from './normals.js';
 
 const LIGHT = [-0.5, 0.55, 0.67];
+/** Pixels along a side of a picture of two: twice what it is shown with, for lines of text are fine. */
+const BESIDE = 224;
 
 /**
  * One surface on the left half of a picture, and another on the right half.
@@ -19,6 +21,28 @@ export function drawHalves(canvas, before, after) {
   context.drawImage(after, half, 0, width - half, height, half, 0, width - half, height);
   context.fillStyle = '#4a90c2';
   context.fillRect(half, 0, 1, height);
+}
+
+/**
+ * Two whole pictures beside each other.
+ * @param {HTMLCanvasElement} canvas
+ * @param {HTMLCanvasElement | HTMLImageElement} before
+ * @param {HTMLCanvasElement | HTMLImageElement} after
+ */
+export function drawBeside(canvas, before, after) {
+  Object.assign(canvas, { width: BESIDE, height: BESIDE });
+  const context = canvas.getContext('2d');
+  if (!context) return;
+  const half = BESIDE / 2;
+  context.fillStyle = '#fff';
+  context.fillRect(half, 0, half, BESIDE);
+  [before, after].forEach((picture, side) => {
+    const scale = Math.min(half / picture.width, BESIDE / picture.height);
+    const [width, height] = [scale * picture.width, scale * picture.height];
+    context.drawImage(picture, side * half + (half - width) / 2, (BESIDE - height) / 2, width, height);
+  });
+  context.fillStyle = '#4a90c2';
+  context.fillRect(half - 1, 0, 2, BESIDE);
 }
 
 /**

@@ -16,6 +16,9 @@ const SPAN = 0.99;
 
 /** @typedef {{ before: Curvatures | null, after: Curvatures }} Both */
 
+/** What an arrow between figures means. */
+const ARROW = '; figures: input → result';
+
 /**
  * @param {Analyses} analyses
  * @param {Result} result
@@ -26,7 +29,7 @@ export async function gaussian(analyses, result) {
   const { size, threshold } = both.after.summary;
   const area = size ** 2;
   const inverse = `1/${result.input.unit ?? 'unit'}²`;
-  return coloured(result, both, 'gaussian', inverse, 1 / area, `Gaussian curvature K in ${inverse}`, [
+  return coloured(result, both, 'gaussian', inverse, 1 / area, `Gaussian curvature K in ${inverse}${both.before ? ARROW : ''}`, [
     [`Median |K| in ${inverse}`, inBoth(both, ({ summary }) => numberAgainst(summary.medianGaussian / area, 1 / area))],
     [`|K| above ${number(threshold / area, 2)}`, inBoth(both, ({ summary }) => percent(summary.gaussianAbove))],
   ]);
@@ -41,7 +44,7 @@ export async function kappa2(analyses, result) {
   const both = await analyses.curvatures(result);
   const { size } = both.after.summary;
   const inverse = `1/${result.input.unit ?? 'unit'}`;
-  return coloured(result, both, 'kappa2', inverse, 1 / size, `κ₂, the smaller of the two bends, in ${inverse}`, [
+  return coloured(result, both, 'kappa2', inverse, 1 / size, `κ₂, the smaller principal curvature, in ${inverse}${both.before ? ARROW : ''}`, [
     [`Median |κ₂| in ${inverse}`, inBoth(both, ({ summary }) => numberAgainst(summary.medianKappa2 / size, 1 / size))],
     [`Median |κ₁|, the larger one`, inBoth(both, ({ medianKappa1 }) => numberAgainst(medianKappa1, 1 / size))],
   ]);

@@ -55,7 +55,7 @@ export async function gaussian(whole, mesh, surface) {
       return Number.isNaN(value) ? '' : `K ${numberAgainst(value, 1 / area)} ${inverse}`;
     },
     about: [
-      colourBar(`Gaussian curvature K in ${inverse}`, scale),
+      colourBar(`Gaussian curvature K in ${inverse}; figures: input → result`, scale),
       figures([
         [`Median |K| in ${inverse}`, `${numberAgainst(before.summary.medianGaussian / area, 1 / area)} → ${numberAgainst(after.summary.medianGaussian / area, 1 / area)}`],
         [`|K| above ${number(threshold / area, 2)}`, `${percent(before.summary.gaussianAbove)} → ${percent(after.summary.gaussianAbove)}`],
@@ -171,8 +171,8 @@ function factsOf({ unit, triangles }, { report: { vertices, border, components, 
     ['λ', number(lambda, 2)],
     ['Area', `${number(area[0])} → ${number(area[1])}`],
     ...(volume ? [/** @type {[string, string]} */ (['Volume', `${number(volume[0])} → ${number(volume[1])}`])] : []),
-    ...(last ? [/** @type {[string, string]} */ (['Last movement', `${numberAgainst(last.moved, Math.sqrt(area[0]))} ${lengths}`])] : []),
-    ['Folded triangles', `${count(flipped[0])} → ${count(flipped[1])}`],
+    ...(last ? [/** @type {[string, string]} */ (['Movement in the last step', `${numberAgainst(last.moved, Math.sqrt(area[0]))} ${lengths}`])] : []),
+    ['Triangles folded over', `${count(flipped[0])} → ${count(flipped[1])}`],
   ];
 }
 

@@ -49,9 +49,9 @@ export async function patches(analyses, result) {
         ['Area', `${number(total)} ${squared}`],
       ]),
       make('div', 'tables',
-        table(map.patches.length > MOST ? `The ${MOST} largest patches` : 'Patches', ['Patch', `Area in ${squared}`, 'Share'],
+        table(map.patches.length > MOST ? `The ${MOST} largest patches` : 'Patches', ['Patch', `Area in ${squared}`, 'Share of the area'],
           map.patches.slice(0, MOST).map(({ area }, i) => [named(i), number(area), percent(area / total)])),
-        ...(longest.length > 0 ? [table(creases.length > MOST ? `The ${MOST} longest creases` : 'Creases', ['Between', `Length in ${unit}`, 'Fold'],
+        ...(longest.length > 0 ? [table(creases.length > MOST ? `The ${MOST} longest creases` : 'Creases', ['Between', `Length in ${unit}`, 'Fold angle'],
           longest.map(({ patches: [a, b], length, fold }) => [make('span', 'keys', named(a), named(b)), number(length), degrees(fold)]))] : [])),
     ],
   };

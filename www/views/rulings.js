@@ -39,11 +39,11 @@ export function ruledBy(lines, unit) {
   return {
     lines: lines.map(({ points }) => ({ points, colour: COLOUR, width: 1.25 })),
     about: [
-      key(css(COLOUR), 'rulings: straight lines on the surface, across which alone it bends'),
+      key(css(COLOUR), 'Rulings'),
       figures([
         ['Lines', count(lines.length)],
         ['Longest', lines.length > 0 ? `${number(lines.reduce((most, { length }) => Math.max(most, length), 0))} ${unit ?? 'units'}` : '–'],
-        ['Off straight, median', bent.length > 0 ? `${percent(bent[bent.length >> 1])} of length` : '–'],
+        ['Median deviation from straight', bent.length > 0 ? `${percent(bent[bent.length >> 1])} of the length` : '–'],
       ]),
     ],
   };

@@ -38,7 +38,7 @@ export async function sheet(analyses, result) {
         ['Strain above 1 %', `${percent(distortion.above)} of the area`],
         ['Flipped triangles', count(distortion.flipped)],
         ['Overlaps', crossings === 0 ? 'none' : `borders cross ${count(crossings)} times`],
-        ['Plan view instead', `${percent(plan.rms)} of strain`],
+        ['Strain seen from above, RMS', percent(plan.rms)],
         ...(parts > 1 ? [/** @type {const} */ (['Parts', count(parts)])] : []),
       ]),
     ],

@@ -28,7 +28,7 @@ const NUMBER_FONT_SIZE: f64 = 28.0;
 /// Font size of seam letters in the assembly picture, in units of the SVG file.
 const LETTER_FONT_SIZE: f64 = 16.0;
 
-/// Writes an SVG file of the assembled surface, seen from above. Numbers of patches and letters of seams are those of
+/// Writes an SVG file of the assembled surface, seen from above; its upper left corner is at the origin. Numbers of patches and letters of seams are those of
 /// the drawing; folds are dashed. Triangles that face away from the viewer are left out.
 ///
 /// # Errors
@@ -50,12 +50,7 @@ pub fn write_assembly_svg(sheets: &[Sheet]) -> Result<Vec<u8>> {
         });
     }
     let scale = PICTURE_SIZE / wide;
-    let place = |p: [f64; 2]| {
-        [
-            PICTURE_MARGIN + scale * (p[0] - low[0]),
-            PICTURE_MARGIN + scale * (high[1] - p[1]),
-        ]
-    };
+    let place = |p: [f64; 2]| [scale * (p[0] - low[0]), scale * (high[1] - p[1])];
     let [width, height] = [0, 1].map(|k| scale * (high[k] - low[k]) + 2.0 * PICTURE_MARGIN);
     let mut areas = Group::new()
         .set("id", "sheets")
@@ -163,7 +158,10 @@ pub fn write_assembly_svg(sheets: &[Sheet]) -> Result<Vec<u8>> {
         }
     }
     let document = Document::new()
-        .set("viewBox", format!("0 0 {width:.1} {height:.1}"))
+        .set(
+            "viewBox",
+            format!("{0:.1} {0:.1} {width:.1} {height:.1}", -PICTURE_MARGIN),
+        )
         .set("width", format!("{width:.1}"))
         .set("height", format!("{height:.1}"))
         .add(Title::new("Assembly"))

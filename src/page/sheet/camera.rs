@@ -28,6 +28,13 @@ impl SheetCamera {
         })
     }
 
+    /// Direction in space in which a place in the photo, in normalised image coordinates, is seen; its depth is 1.
+    pub fn ray(&self, seen: [f64; 2]) -> Vector3<f64> {
+        let scale = self.log_scale.exp();
+        let [x, y] = [0, 1].map(|k| (seen[k] - self.centre[k]) / scale);
+        Vector3::new(x, y, 1.0)
+    }
+
     /// Gradient, by the point's position, of the projected point's coordinate along the image direction `[nx, ny]`.
     pub fn gradient(&self, point: Vector3<f64>, [nx, ny]: [f64; 2]) -> Vector3<f64> {
         let scale = self.log_scale.exp() / point.z;

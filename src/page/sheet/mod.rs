@@ -16,6 +16,7 @@ mod place_table;
 mod plane;
 mod polyline;
 mod problem;
+mod ruled;
 mod search;
 mod sheet_page;
 mod view;

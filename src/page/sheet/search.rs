@@ -105,25 +105,35 @@ pub(super) fn find_sheet(
     let apparent = apparent_ratio(edges);
     let homography = Homography::new(corners(edges))?;
     let start = homography.sheet(COARSE_GRID_COLS[0], &prior, apparent)?;
+    let depth = start.nodes.iter().map(|p| p.z).sum::<f64>() / start.nodes.len() as f64;
+    let ruled = [false, true].into_iter().filter_map(|sideways| {
+        homography.ruled_sheet(COARSE_GRID_COLS[0], edges, sideways, &prior, apparent)
+    });
+    let starts: Vec<FittedSheet> = std::iter::once(start)
+        .chain(ruled)
+        .map(FittedSheet::new)
+        .collect();
     let mut problem = SheetProblem {
         edges: edges.clone(),
         lines: Vec::new(),
         prior,
         ratio: prior.ratio(apparent),
-        depth: start.nodes.iter().map(|p| p.z).sum::<f64>() / start.nodes.len() as f64,
+        depth,
         weights: SheetWeights {
             isometry: INITIAL_ISOMETRY_FACTOR * FIRM_PAPER_WEIGHTS.isometry,
             bending: INITIAL_BENDING_FACTOR * FIRM_PAPER_WEIGHTS.bending,
             ..FIRM_PAPER_WEIGHTS
         },
     };
-    let coarse = problem.solve(FittedSheet::new(start), MAX_SHEET_FIT_STEPS, COST_TOLERANCE)?;
+    let plane_start = starts[0].clone();
+    let limp = problem.solve(plane_start, MAX_SHEET_FIT_STEPS, COST_TOLERANCE)?;
     problem.weights = FIRM_PAPER_WEIGHTS;
-    let coarse = problem.refined(coarse, &COARSE_GRID_COLS)?;
+    let coarse = problem.refined(limp, &COARSE_GRID_COLS)?;
+    let coarse = problem.with_lowest_cost(coarse, &starts[1..]);
     let table = PlaceTable::new(&coarse.grid, view).ok()?;
     let photo = PageView::from_places(|share| Some(table.at(share))).reduce(photo);
     let photo = photo.as_ref();
-    let (mut sheet, mut figures) = problem.with_lines(coarse.clone(), view, photo)?;
+    let (mut sheet, mut figures) = problem.with_lines(coarse.clone(), &starts, view, photo)?;
     let mut model = PageModel::Sheet;
     let max_outline = (MAX_PLANE_OUTLINE_RATIO * figures.outline)
         .clamp(SMALL_PLANE_OUTLINE_MISFIT, MAX_PLANE_OUTLINE_MISFIT);
@@ -132,7 +142,9 @@ pub(super) fn find_sheet(
         crumpled.weights = CRUMPLED_PAPER_WEIGHTS;
         crumpled.lines.clear();
         let refined = crumpled.refined(coarse, &COARSE_GRID_COLS);
-        if let Some(found) = refined.and_then(|coarse| crumpled.with_lines(coarse, view, photo)) {
+        if let Some(found) =
+            refined.and_then(|coarse| crumpled.with_lines(coarse, &starts, view, photo))
+        {
             (sheet, figures) = found;
             (problem, model) = (crumpled, PageModel::SoftSheet);
         }
@@ -169,18 +181,47 @@ impl SheetProblem {
         Some(sheet)
     }
 
+    /// Fits coarse sheets from the initial guesses `starts`, with the lines of print where `sheet` has them; returns that
+    /// with the lowest cost, or `sheet` itself if its cost is not higher.
+    fn with_lowest_cost(&self, sheet: FittedSheet, starts: &[FittedSheet]) -> FittedSheet {
+        let levels = sheet.levels.clone();
+        let fits = starts.iter().filter_map(|start| {
+            let start = FittedSheet {
+                levels: levels.clone(),
+                ..start.clone()
+            };
+            self.refined(start, &COARSE_GRID_COLS)
+        });
+        fits.fold(
+            sheet,
+            |best, found| {
+                if found.cost < best.cost { found } else { best }
+            },
+        )
+    }
+
     /// Detects lines of print in the photo as flattened by a sheet, fits the sheet on the fine grid to outline and
-    /// lines, and repeats that; returns it with its measures.
+    /// lines, and repeats that; returns it with its measures. When lines are known, the search begins once more from the
+    /// initial guesses `starts`, because the outline alone may have led to a local minimum.
     fn with_lines(
         &mut self,
         mut sheet: FittedSheet,
+        starts: &[FittedSheet],
         view: &PhotoView,
         photo: Option<&GreyPhoto>,
     ) -> Option<(FittedSheet, SheetFigures)> {
-        for _ in 0..LINE_DETECTION_ROUNDS {
+        for round in 0..LINE_DETECTION_ROUNDS {
             let table = PlaceTable::new(&sheet.grid, view).ok()?;
             self.lines = photo.map_or_else(Vec::new, |photo| find_level_lines(&table, view, photo));
             sheet.levels = self.lines.iter().map(|line| line.level).collect();
+            if round > 0 {
+                let coarse = self.refined(sheet.clone(), &COARSE_GRID_COLS[1..])?;
+                let cost = coarse.cost;
+                let best = self.with_lowest_cost(coarse, starts);
+                if best.cost < cost {
+                    sheet = best;
+                }
+            }
             sheet = self.refined(sheet, &[FINE_GRID_COLS])?;
         }
         let figures = self.figures(&sheet)?;

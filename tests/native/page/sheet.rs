@@ -199,10 +199,10 @@ fn a_plane_stays_a_plane() {
 #[test]
 fn known_sheets_are_found() {
     for (shape, most) in [
-        (curled as Shape, 1.2),
+        (curled as Shape, 0.9),
         (curled_askew, 6.2),
-        (cone, 0.8),
-        (thirds, 1.3),
+        (cone, 0.5),
+        (thirds, 0.5),
     ] {
         let (error, report) = fitted(shape, true);
         assert!(error < most, "{error}");

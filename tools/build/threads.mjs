@@ -1,0 +1,98 @@
+/** The solver's wasm for several threads: the same crate, built for atomic operations and a shared memory. */
+import { createHash } from 'node:crypto';
+import { existsSync } from 'node:fs';
+import { chmod, mkdtemp, readFile, readdir, rename, rm, writeFile } from 'node:fs/promises';
+import { join } from 'node:path';
+import { target } from '../setup/wasm-target.mjs';
+import { pkg, pkgThreads, root } from '../util/paths.mjs';
+import { bindgenArguments, checkSize, moduleFile, must, wasmOpt } from './wasm.mjs';
+import { alignStorage } from './tls.mjs';
+
+/** The most bytes that a server may have to send, gzipped. */
+const SIZE_LIMIT = 300_000;
+
+/** Kept apart, so that neither build has the other compiled again. */
+const targetFolder = join(root, 'target/threads');
+
+/** Name of the file that says what the others were made from. */
+const MADE_FROM = 'made-from';
+
+/**
+ * The memory is shared and imported, with a maximum of 4 GiB. What the linker defines of threads is exported, for
+ * wasm-bindgen asks for it; so is the stack pointer, which each helper sets.
+ */
+const flags = [
+  'target-feature=+simd128,+atomics,+bulk-memory,+mutable-globals',
+  'llvm-args=-inline-threshold=50', // as .cargo/config.toml has it
+  ...['--shared-memory', '--import-memory', '--max-memory=4294967296'].map((arg) => `link-arg=${arg}`),
+  ...['__heap_base', '__wasm_init_tls', '__tls_size', '__tls_align', '__tls_base', '__stack_pointer'].map((name) => `link-arg=--export=${name}`),
+].map((flag) => `-C ${flag}`);
+
+/**
+ * Builds it, unless it was built of the same sources already. The standard library is the ordinary one, for one thread: with
+ * `lto = "fat"` it is compiled together with the rest.
+ * @param {import('./wasm.mjs').Tools} tools
+ */
+export async function buildThreads({ env, bindgen }) {
+  const origin = await sourceHash();
+  if (!await isBuiltOf(origin)) {
+    const args = [
+      'build', '--release', '--target', target, '--target-dir', targetFolder, '--config', 'profile.release.lto="fat"',
+      '--package', 'developable-wasm-solver', '--features', 'developable-wasm-solver/threads',
+    ];
+    await must('cargo', args, { ...env, CARGO_TARGET_WASM32_UNKNOWN_UNKNOWN_RUSTFLAGS: flags.join(' ') });
+    const module = join(targetFolder, target, 'release', moduleFile('solver'));
+    const bytes = await readFile(module);
+    alignStorage(bytes);
+    const aligned = join(targetFolder, 'aligned.wasm');
+    await writeFile(aligned, bytes);
+    await replace(async (folder) => {
+      await must(bindgen, bindgenArguments(folder, 'threads', aligned), process.env);
+      const packed = join(folder, 'threads_bg.wasm');
+      await must(process.execPath, [wasmOpt, '-O1', packed, '-o', packed], process.env);
+      await writeFile(join(folder, MADE_FROM), origin);
+    });
+  }
+  await checkSize(pkgThreads, 'threads', SIZE_LIMIT);
+}
+
+/** In place of a build that is missing or out of date: glue with which no solver starts, so that there is one thread. */
+export async function leaveThreadsOut() {
+  if (await isBuiltOf(await sourceHash())) return;
+  const text = "export function initSync() {\n  throw new Error('the wasm for several threads was not built');\n}\n";
+  await replace((folder) => writeFile(join(folder, 'threads.js'), text));
+}
+
+/**
+ * Writes the package's folder anew, beside the old one, so that who reads there finds one or the other.
+ * @param {(folder: string) => Promise<void>} write
+ */
+async function replace(write) {
+  const draft = await mkdtemp(join(pkg, 'threads-draft-'));
+  try {
+    await write(draft);
+    // `mkdtemp` lets nobody else in.
+    await chmod(draft, 0o755);
+    await rm(pkgThreads, { recursive: true, force: true });
+    await rename(draft, pkgThreads);
+  } finally {
+    await rm(draft, { recursive: true, force: true });
+  }
+}
+
+/** @param {string} origin */
+async function isBuiltOf(origin) {
+  return existsSync(join(pkgThreads, 'threads_bg.wasm')) && await readFile(join(pkgThreads, MADE_FROM), 'utf8').catch(() => '') === origin;
+}
+
+/** Changes with any source of the build. */
+async function sourceHash() {
+  const hash = createHash('sha256');
+  for (const name of ['Cargo.toml', 'Cargo.lock']) hash.update(await readFile(join(root, name)));
+  for (const folder of ['src', 'wasm/common', 'wasm/solver', 'tools/build']) {
+    const entries = await readdir(join(root, folder), { recursive: true, withFileTypes: true });
+    const files = entries.filter((entry) => entry.isFile()).map((entry) => join(entry.parentPath, entry.name));
+    for (const file of files.sort()) hash.update(file.slice(root.length)).update(await readFile(file));
+  }
+  return hash.digest('hex');
+}

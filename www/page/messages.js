@@ -1,0 +1,100 @@
+/** What is said of photos of pages, and of the flat pages made from them. */
+import { count, percent } from '../format.js';
+
+/** @import {PageReport} from '../api.js' */
+
+/** What the page says of a photo of a page. */
+export const PAGE_WORDS = {
+  working: 'Flattening the page…',
+  unfound: 'I found no page in this photo. If it shows one, drag the four corners onto it.',
+  unfoundDetail: 'The flat page appears as soon as you move a corner.',
+  noFlat: 'No flat page from this outline.',
+  startAgain: 'Discard your changes to the outline?',
+  unflattened: 'This outline cannot be made flat.',
+  several: 'I found several pages. Take',
+  /** @param {number} n */
+  choosePage: (n) => `Page ${n}`,
+  /** @param {string} edge */
+  tooFarOutside: (edge) => `The ${edge} edge lies too far outside the photo. Take the photo anew, with the whole page in it`,
+  /** @param {string} paper */
+  looksLike: (paper) => `Looks like ${paper}: use it`,
+  keptLight: 'The page is not mostly paper, so I kept its light.',
+};
+
+/** What is said of several photos that become one PDF. */
+export const BOOK_WORDS = {
+  /** @param {number} n */
+  photos: (n) => `${count(n)} photos, one PDF:`,
+  /** @param {number} n */
+  number: (n) => String(n),
+  /** @param {number} n @param {string} name */
+  page: (n, name) => `Photo ${n}, ${name}`,
+  remove: 'Remove this photo',
+  unfound: 'I did not find the page. Show this photo and drag the four corners onto its page',
+  /** @param {number} n */
+  pdf: (n) => `all ${count(n)} photos, a page each`,
+  /** @param {number} n @param {number} all */
+  writing: (n, all) => `Flattening photo ${n} of ${all}…`,
+};
+
+/** What is known of the camera's focal length. */
+export const FOCAL_WORDS = {
+  unknown: 'The focal length is not known: the photo’s file does not tell it, or the photo was cropped. I find it from the perspective, or assume a field of view of 65°.',
+  /** @param {string} film35 */
+  told: (film35) => `The photo’s file says ${film35} mm (35 mm film).`,
+  fov: 'This is the angle across the photo’s longer side: 65 to 80° on most phones.',
+  film35: 'This is the focal length for 35 mm film: 23 to 28 mm on most phones.',
+  pixels: 'This is the focal length in pixels of the photo.',
+};
+
+/** @param {readonly string[]} words one or more */
+function listed(words) {
+  return words.length < 2 ? words.join('') : `${words.slice(0, -1).join(', ')} and ${words[words.length - 1]}`;
+}
+
+/**
+ * What came of making a page flat by its edges.
+ * @param {PageReport} report
+ */
+export function pageVerdict({ verdict, model, lines }) {
+  const text = lines > 0 ? ' and lines of text' : '';
+  switch (verdict) {
+    case 'flat': return 'Made flat: the page lay flat, and only the perspective was removed.';
+    case 'unrolled': return model === 'sheet' || model === 'softSheet' ? `Made flat: folds and bends follow its edges${text}.` : `Made flat: its edges${text} agree.`;
+    case 'unchecked': return 'Made flat, but nothing checks the bend.';
+    case 'doubtful': return 'Made flat, but doubtful: compare it with the photo.';
+    default: return 'Not reliable: the edges do not fit one page.';
+  }
+}
+
+/**
+ * How far the flat page is to be trusted.
+ * @param {PageReport} report
+ */
+export function pageErrors({ verdict, error, pinholeErrorBound, lines, linesFound }) {
+  const text = lines + linesFound > 0 ? ' and lines of text' : '';
+  const likely = `points are off by about ${percent(error / 100)} of the page’s width (in 95 of 100 photos by less than ${percent(pinholeErrorBound / 100)}, unless the lens distorts)`;
+  switch (verdict) {
+    case 'flat': case 'unrolled': return `If the outline is right, ${likely}.`;
+    case 'unchecked': return `One edge looks straight from here, or has few points, so that nothing checks the bend. If the page is curled one way, ${likely}.`;
+    case 'doubtful': return `The photo leaves the bend uncertain, the edges${text} disagree, or the page hides a part of itself: ${likely}. Correct the outline, or choose the page’s format.`;
+    default: return `The edges${text} contradict each other. Correct the outline where it leaves the page.`;
+  }
+}
+
+/**
+ * What else has to be known about a flat page.
+ * @param {object} about
+ * @param {readonly string[]} about.outside corners that the photo does not show
+ * @param {readonly string[]} about.weak edges that it hardly shows
+ * @param {boolean} about.assumed whether the focal length is a guess
+ * @param {number} about.unplaced corners of a page that was not found, which are still where they were at first
+ */
+export function pageCautions({ outside, weak, assumed, unplaced }) {
+  return [
+    ...(unplaced > 0 ? [`Drag the other ${unplaced === 1 ? 'corner' : `${count(unplaced)} corners`}, too.`] : []),
+    ...(outside.length > 0 ? [outside.length === 1 ? `The ${outside[0]} corner is outside the photo, so its place is a guess.` : `The ${listed(outside)} corners are outside the photo, so their places are guesses.`] : []),
+    ...(weak.length > 0 ? [`The ${listed(weak)} ${weak.length === 1 ? 'edge is' : 'edges are'} hardly seen: check ${weak.length === 1 ? 'it' : 'them'}.`] : []),
+    ...(assumed ? ['The camera is not known, so I assume a field of view of 65°.'] : []),
+  ];
+}

@@ -20,11 +20,13 @@ const HELPER_STACK_BYTES: usize = 1 << 20;
 /// Alignment of the top of a stack in bytes.
 const STACK_ALIGNMENT: usize = 16;
 
-/// Number of times that an idle helper looks for a job before it sleeps: longer than most work between two jobs takes.
-const MAX_IDLE_LOOKS: u32 = 1 << 16;
+/// Number of times that an idle helper looks for a job before it sleeps: about a millisecond, longer than nearly all work
+/// between two jobs. To sleep and wake up takes longer than most jobs.
+const MAX_IDLE_LOOKS: u32 = 1 << 20;
 
-/// Number of times that the solver looks whether helpers have finished before it lets other processes have its core.
-const MAX_BUSY_LOOKS: u32 = 1 << 12;
+/// Number of times that the solver looks whether helpers have finished before it lets other processes have its core: about a
+/// millisecond, so that it does so only where helpers do not have a core of their own.
+const MAX_BUSY_LOOKS: u32 = 1 << 20;
 
 /// Bit of [`GATE`] that is set while helpers may begin to work at the job; the others count those at work.
 const OPEN: u32 = 1 << 31;

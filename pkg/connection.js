@@ -66,7 +66,7 @@ export class Connection {
     this.#thread = thread;
     thread.hold(this.#pending.size > 0);
     const remote = /** @type {Remote} */ (wrap(thread.endpoint));
-    const init = wasm.then((sources) => this.#init(remote, sources, begin, copies));
+    const init = wasm.then((sources) => this.#init(thread, remote, sources, begin, copies));
     const failure = await Promise.race([init, thread.ended]);
     if (failure !== undefined) {
       this.#team?.dismiss();
@@ -78,14 +78,19 @@ export class Connection {
 
   /**
    * Loads the worker's solver, with helpers where several threads were asked for.
+   * @param {Thread} thread of the worker
    * @param {Remote} remote
    * @param {Source[]} sources
    * @param {() => Thread} begin
    * @param {MessagePort} [copies]
    */
-  async #init(remote, sources, begin, copies) {
+  async #init(thread, remote, sources, begin, copies) {
+    // The connection may have been closed, or begun with another script, while the sources were fetched.
+    if (this.#end || this.#thread !== thread) return;
     const team = this.#threads === undefined ? undefined : new Team(this.#threads);
     this.#team = team;
+    // Helpers load the same script, which is in the cache once the worker answers.
+    if (team) await remote.setThreadLimit(team.limit);
     await team?.start(begin);
     if (this.#end) team?.dismiss();
     const seats = await remote.init(sources, copies && transfer(copies, [copies]), team?.size);

@@ -13,8 +13,6 @@ import { compile, compileOwn } from './wasm-source.js';
  * }} Glue
  */
 
-/** @typedef {{ module: WebAssembly.Module, memory: WebAssembly.Memory }} SharedStart */
-
 /** @template {Glue} G */
 export class Instance {
   /** @type {G | undefined} */
@@ -73,14 +71,13 @@ export class Instance {
   }
 
   /**
-   * Takes another build of the file in its place, and a memory that other threads share.
-   * @param {Omit<G, 'default' | 'initSync'> & { initSync: (input: SharedStart) => Exports }} glue
-   * @param {WebAssembly.Module} module
-   * @param {WebAssembly.Memory} memory
+   * Takes another build of the file, started by the caller, in its place.
+   * @param {Omit<G, 'default' | 'initSync'>} glue
+   * @param {Exports} exports
    */
-  initShared(glue, module, memory) {
-    // It is not started again.
-    this.#start(/** @type {G} */ (/** @type {unknown} */ (glue)), glue.initSync({ module, memory }));
+  take(glue, exports) {
+    this.#start(/** @type {G} */ (/** @type {unknown} */ (glue)), exports);
+    // A later `init` loads nothing.
     this.#loading = Promise.resolve();
   }
 

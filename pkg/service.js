@@ -33,7 +33,7 @@ export const service = {
    * @param {Place[]} sources of the solver's wasm, the files', the images', the meshes', of fits to meshes, the unrolling's and the patterns'
    * @param {MessagePort} [copies] where to get copies of them, where nothing lies beside this script
    * @param {number} [helpers] number of workers that are to help the solver
-   * @returns {Promise<import('./shared-solver.js').Seat[] | undefined>} a seat for each; nothing where the solver takes none
+   * @returns {Promise<import('./seat.js').Seat[] | undefined>} a seat for each; nothing where the solver takes none
    */
   async init([wasm, files, images, meshes, fitmesh, unroll, patterns], copies, helpers = 0) {
     if (copies) {

@@ -3,20 +3,17 @@
  * solver's jobs. See `wasm/solver/src/team.rs`.
  */
 import { solver } from './instances.js';
+import { reportCrash } from './seat.js';
 import * as glue from './threads/threads.js';
 import { compile } from './wasm-source.js';
 
-/**
- * @typedef {object} Seat what a helper needs to join
- * @property {WebAssembly.Module} module
- * @property {WebAssembly.Memory} memory
- * @property {number} stack address of the top of the helper's stack
- * @property {number} jobs address of the number of jobs
- * @property {number} crashes address of the number of helpers that have crashed
- */
+/** @import {Seat} from './seat.js' */
 
 /** Pages of 64 KiB that the memory begins with: more than the module's own data take. */
 const INITIAL_MEMORY_PAGES = 64;
+
+/** Minimum number of pages that the memory must be able to grow to (1 GiB): with less, one thread solves larger inputs. */
+const MIN_MAX_MEMORY_PAGES = 16384;
 
 /** Pages that the memory can grow to where that can be had: all that 32 bits address. */
 const MAX_MEMORY_PAGES = 65536;
@@ -32,16 +29,17 @@ const PAUSE_MS = 0.05;
 export async function startSharedSolver(helpers) {
   const module = await compile(new URL('./threads/threads_bg.wasm', import.meta.url));
   const memory = sharedMemory(MAX_MEMORY_PAGES);
-  solver.initShared(glue, module, memory);
-  return solver.call(() => {
-    const words = new Int32Array(memory.buffer);
-    /** @type {Uint32Array} */
-    const [jobs, crashes] = glue.leadTeam(
-      (/** @type {number} */ count) => Atomics.notify(words, jobs / 4, count),
-      () => Atomics.wait(words, crashes / 4, 0, PAUSE_MS),
-    );
-    return Array.from({ length: helpers }, () => ({ module, memory, stack: glue.helperStack(), jobs, crashes }));
-  });
+  const exports = glue.initSync({ module, memory });
+  const words = new Int32Array(memory.buffer);
+  /** @type {Uint32Array} */
+  const [jobs, crashes] = glue.leadTeam(
+    (/** @type {number} */ count) => Atomics.notify(words, jobs / 4, count),
+    () => Atomics.wait(words, crashes / 4, 0, PAUSE_MS),
+  );
+  const seats = Array.from({ length: helpers }, () => ({ module, memory, stack: glue.helperStack(), jobs, crashes }));
+  // What fails before leaves the solver for one thread in place.
+  solver.take(glue, exports);
+  return seats;
 }
 
 /**
@@ -53,7 +51,7 @@ function sharedMemory(maximum) {
   try {
     return new WebAssembly.Memory({ initial: INITIAL_MEMORY_PAGES, maximum, shared: true });
   } catch (error) {
-    if (maximum / 2 < INITIAL_MEMORY_PAGES) throw error;
+    if (maximum / 2 < MIN_MAX_MEMORY_PAGES) throw error;
     return sharedMemory(maximum / 2);
   }
 }
@@ -62,7 +60,8 @@ function sharedMemory(maximum) {
  * Makes this worker a helper, for the rest of its life.
  * @param {Seat} seat
  */
-export function becomeHelper({ module, memory, stack, jobs, crashes }) {
+export function becomeHelper(seat) {
+  const { module, memory, stack, jobs } = seat;
   const { exports } = new WebAssembly.Instance(module, helperImports(module, memory));
   const { __stack_pointer, join_team, help } = /** @type {HelperExports} */ (/** @type {unknown} */ (exports));
   const words = new Int32Array(memory.buffer);
@@ -73,8 +72,7 @@ export function becomeHelper({ module, memory, stack, jobs, crashes }) {
     try {
       for (;;) Atomics.wait(words, jobs / 4, help());
     } catch (error) {
-      Atomics.add(words, crashes / 4, 1);
-      Atomics.notify(words, crashes / 4);
+      reportCrash(seat);
       throw error;
     }
   });

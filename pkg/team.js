@@ -1,4 +1,5 @@
 /** Helpers of a worker's solver: further workers with the same script, probed before they are relied on. */
+import { reportCrash } from './seat.js';
 import { wrap } from './wire.js';
 
 /**
@@ -7,7 +8,7 @@ import { wrap } from './wire.js';
  * @typedef {'options' | 'isolation' | 'build' | 'system'} ThreadLimit why a solve does not run on more threads
  */
 
-/** Milliseconds that a helper may take to start, and again to join. */
+/** Milliseconds that a helper may take to start, and all helpers to join. */
 const HELPER_START_LIMIT_MS = 3000;
 
 export class Team {
@@ -56,10 +57,18 @@ export class Team {
 
   /**
    * Lets the helpers join the solver's team.
-   * @param {import('./shared-solver.js').Seat[]} seats
+   * @param {import('./seat.js').Seat[]} seats
    */
   async join(seats) {
-    await this.#keep(({ remote }, index) => remote.becomeHelper(seats[index]));
+    const joined = Promise.all(this.#helpers.map(async ({ thread, remote }, index) => {
+      const seat = seats[index];
+      // Without this the solver would wait for ever for a helper that is killed at work.
+      thread.ended.then(() => reportCrash(seat));
+      await remote.becomeHelper(seat);
+    }));
+    // A late helper joins all the same: to end it might end it at work.
+    const all = await Promise.race([joined.then(() => true, () => false), timeLimit()]);
+    if (!all) this.#limit = 'system';
   }
 
   /** Ends all helpers. @param {ThreadLimit} [limit] why */
@@ -81,7 +90,7 @@ export class Team {
     }));
     helpers.forEach(({ thread }, index) => kept[index] || thread.terminate());
     if (kept.includes(false)) this.#limit = 'system';
-    // It may have been dismissed meanwhile.
+    // The team may have been dismissed meanwhile.
     this.#helpers = this.#helpers.filter((_, index) => kept[index]);
   }
 }

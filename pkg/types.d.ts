@@ -759,7 +759,7 @@ export interface UnrollReport {
 
 /**
  * Whether a flat layout is to be trusted: the surface was flat to begin with, and faced the viewer
- * (`'flat'`); it was bent, and lengths are right (`'unrolled'`); or it cannot be laid flat without a mean strain above 1 %,
+ * (`'flat'`); it was bent, and lengths are right (`'unrolled'`); or it cannot be laid flat without a root mean square strain above 1 %,
  * more than 3 % of its area being strained by more than 1 %, or more than 0.3 % of it overlapping (`'stretched'`). A flat image is `'doubtful'` where what was cropped is
  * hardly the page: more than 5 % of it are missing, or the crop reaches beyond the page that the photo shows.
  */

@@ -104,7 +104,7 @@ export const sections = {
       array: { value: 'NAME', help: 'the array of an NPZ file, where it holds several' },
       mask: {
         value: 'FILE',
-        help: 'image of the same shape; 0 takes a value out. Of depths it may have any size, as one that was drawn on the photo',
+        help: 'image of the same shape; heights where it is 0 are discarded. Of depths it may have any size, as one that was drawn on the photo',
       },
       'no-data': { value: 'V', help: 'value that means no data, besides NaN' },
     },
@@ -141,7 +141,7 @@ export const sections = {
         value: 'FILE',
         help: 'how far each height is to be trusted: whole numbers as shares of their largest, so that white is 1 and ' +
           'black 0; others as they are. Of depths it may have any size, and whole numbers up to 2 are the levels of a ' +
-          'phone: 0 takes a depth out, 1 gives it a fourth of the weight, 2 all',
+          'phone: 0 discards a depth, 1 counts a quarter, 2 counts fully',
       },
       constraints: {
         value: 'FILE',

@@ -289,10 +289,12 @@ export async function dewarp(task, signal) {
     process.stderr.write('developable: the photo shows the page flat to begin with, and can be used as it is\n');
   } else if (flat.verdict === 'stretched') {
     const { distortion: { rms, above, flipped }, crossings } = flat.report;
-    const overlaps = flipped + crossings > 0 ? ', and parts of the sheet lie on others' : '';
+    const reasons = [
+      ...(above > 0 ? [`its sheet is stretched by ${percent(rms, 2)} on average and by more than 1 % in ${percent(above, 2)} of its area`] : []),
+      ...(flipped + crossings > 0 ? ['parts of the sheet lie on others'] : []),
+    ];
     process.stderr.write(
-      `developable: warning: the surface cannot be laid flat as it is: its sheet is stretched by ${percent(rms, 2)} on average and by more ` +
-        `than 1 % in ${percent(above, 2)} of its area${overlaps}; lengths on the flat image may be wrong\n`,
+      `developable: warning: the surface cannot be laid flat as it is: ${reasons.join(', and ')}; lengths on the flat image may be wrong\n`,
     );
   }
 }

@@ -21,7 +21,7 @@ export const threading = {
     flag: {
       section: 'output',
       value: 'N',
-      help: 'fit on so many threads, for large inputs (default 1); the result is the same',
+      help: 'number of threads of a fit, for large inputs (default 1); the result is the same, to rounding',
     },
   },
 };
@@ -45,10 +45,11 @@ export const solver = {
    * `'small'` 1e5 (heavy noise, few large patches), `'medium'` 1e6, `'big'` 1e7
    * (nearly developable input), a number from 1e-12 to 1e15, or `'auto'`.
    *
-   * `'auto'` finds it from the size of the heights' noise. With the energy `'huber'` its parameters are those that predict
-   * held-out heights best, by some solves on a coarser lattice. Where the surface is farther from the heights than noise
-   * explains, lambda is raised. An input whose noise cannot be measured, as a design, has 1e6. `report.lambdaChoice` tells
-   * what was found. All that costs about as much as one solve.
+   * `'auto'` finds it from the size of the heights' noise. With the energy `'huber'` it tries four sets of parameters on a
+   * coarse lattice, and takes the one that predicts held-out heights best. Where the surface is farther from the heights than
+   * noise explains, lambda is raised. An input whose noise cannot be measured, such as a design, has 1e6.
+   * `report.lambdaChoice` tells what was found. The whole fit takes 1.3 times as long as one with a given lambda at 200 pixels,
+   * and up to twice as long on small inputs.
    */
   lambda: {
     kind: either(choice('small', 'medium', 'big', 'auto'), number),
@@ -56,8 +57,8 @@ export const solver = {
     flag: {
       section: 'energy',
       value: 'L',
-      help: 'how closely to follow the input: small (1e5), medium (1e6), big (1e7), any number above zero, or auto: by the noise of ' +
-        'the input, and medium where it has none, as a design (default: auto)',
+      help: 'how closely to follow the input: small (1e5), medium (1e6), big (1e7), a number from 1e-12 to 1e15, or auto, which ' +
+        'measures the noise of the input (medium where there is none, as in a design) (default: auto)',
     },
   },
   /** The penalty that is minimised besides the fidelity term. For a design the default is `'nuclear'`. */
@@ -87,30 +88,30 @@ export const solver = {
     },
   },
   /**
-   * For the energy `'huber'`, and refused with others: bends of a larger radius cost their square, others their size, in
-   * normalised coordinates, from 1e-6 to 1e6. Default: found with `lambda: 'auto'`, else 0.1.
+   * Bend radius of the energy `'huber'`, refused with others, as a share of the longer side, from 1e-6 to 1e6: gentler bends are
+   * penalised by the square of their curvature, tighter ones in proportion to it. Default: found with `lambda: 'auto'`, else 0.1.
    */
   bendRadius: {
     kind: number,
     flag: {
       section: 'energy',
       value: 'R',
-      help: 'huber: bends of a larger radius, as a share of the longer side, cost their square (default: from the noise with ' +
-        '--lambda auto, else 0.1)',
+      help: 'huber: bends gentler than this radius, as a share of the longer side, are penalised by the square of their curvature ' +
+        '(default: from the noise with --lambda auto, else 0.1)',
     },
   },
   /**
-   * For the energy `'huber'`, and refused with others: the slope that the cost of bends begins with, from 0 (nothing is quite
-   * flat) to 1 (the nuclear norm). Default: found with `lambda: 'auto'`, else 0.3, and more where lambda is large
-   * for the noise of the input.
+   * Flatness of the energy `'huber'`, refused with others: slope of the penalty at zero curvature, from 0 (no patch becomes
+   * exactly flat) to 1 (the nuclear norm). Default: found with `lambda: 'auto'`; with a number for lambda 0.3, and up to 1 where
+   * lambda is too large for the noise of the input.
    */
   flatness: {
     kind: number,
     flag: {
       section: 'energy',
       value: 'A',
-      help: 'huber: from 0 (nothing is quite flat) to 1 (the nuclear norm) (default: from the noise; 0.3 where --lambda is a ' +
-        'number that suits it)',
+      help: 'huber: slope of the penalty at zero curvature, from 0 (no patch becomes exactly flat) to 1 (the nuclear norm) (default: ' +
+        'from the data with --lambda auto; with a number 0.3, and up to 1 where that is too large for the noise)',
     },
   },
   /**
@@ -185,16 +186,17 @@ export const solver = {
   },
   ...resampling,
   /**
-   * Looks for occlusions first, as {@link OcclusionOptions.threshold} says; they come to those
-   * that the input names. `'auto'` is the authors' value, 4e4. Default: none are looked for. A design
-   * has no heights to find any in.
+   * Also finds occlusions (jumps) by their curvature, as {@link OcclusionOptions.threshold} says, and adds them to the
+   * `occlusions` of the input. `'auto'` is the authors' value, 4e4. Default: no search. A design has no heights to find
+   * any in.
    */
   occlusionThreshold: {
     kind: threshold,
     flag: {
       section: 'known',
       value: 'T',
-      help: "look for more such places: where it bends by more than T; auto is the authors' value, 4e4",
+      help: "find jumps where the curvature, in coordinates scaled to the unit square, exceeds T; auto is the authors' value, 4e4 " +
+        '(default: no search)',
     },
   },
   /**
@@ -227,9 +229,9 @@ export const meshSolver = {
   gap: { kind: number, default: 0.01, flag: solver.gap.flag },
   /** Most ADMM iterations for each linearisation. */
   maxIterations: { kind: whole, default: 1000, flag: solver.maxIterations.flag },
-  /** Bends of a larger radius cost their square, others their size. */
+  /** Bends gentler than this radius are penalised by the square of their curvature, tighter ones in proportion to it. */
   bendRadius: { kind: number, default: 0.1, flag: solver.bendRadius.flag },
-  /** The slope that the cost of bends begins with, from 0 (nothing is quite flat) to 1. */
+  /** Slope of the penalty at zero curvature, from 0 (no patch becomes exactly flat) to 1. */
   flatness: { kind: number, default: 0.3, flag: solver.flatness.flag },
   /** Radius below which a bend is a crease. */
   creaseRadius: { kind: number, default: 0.1, flag: solver.creaseRadius.flag },
@@ -248,7 +250,7 @@ export const occlusions = {
   threshold: {
     kind: number,
     default: 4e4,
-    flag: { section: 'known', value: 'T', help: 'where it bends by more than T, it is torn (default 4e4)' },
+    flag: { section: 'known', value: 'T', help: 'curvature, in coordinates scaled to the unit square, above which the surface is torn (default 4e4)' },
   },
   ...resampling,
   /** Whether the threshold is meant for the unit square. */

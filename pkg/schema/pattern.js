@@ -12,8 +12,8 @@ const paper = either(
 /** How sheets may be strained. @satisfies {Options} */
 export const limits = {
   /**
-   * The most strain that a sheet may be laid flat with, as a share (root of the mean square); what is strained by more
-   * is cut.
+   * Maximum strain of a sheet, as a share: root mean square over the sheet, so that single lengths may be off by more. A
+   * sheet with more strain is cut.
    */
   maxStrain: {
     kind: number,
@@ -21,7 +21,7 @@ export const limits = {
     flag: {
       section: 'shape',
       value: 'S',
-      help: 'the most strain that a sheet may be laid flat with, as a share; what has more is cut (default 0.01)',
+      help: 'maximum strain of a sheet, as a share (root mean square over the sheet); a sheet with more is cut (default 0.01)',
     },
   },
 };
@@ -64,8 +64,8 @@ export const drawing = {
     flag: { section: 'shape', value: 'MM', help: 'what is left outside of all edges to be sewn or bent over (default 0)' },
   },
   /**
-   * Thickness of metal, in millimetres: sheets get what bends take along the neutral line, and lose what they save
-   * beside the crease. The surface is the upper side of the metal. Folds have to be straight and go from edge to edge.
+   * Thickness of sheet metal, in millimetres. Each bend is given its bend allowance along the neutral line, and the setbacks on
+   * both sides are subtracted (bend deduction). The surface is the upper side of the metal. Folds have to be straight and go from edge to edge.
    * Default: none is taken into account.
    */
   thickness: {
@@ -73,7 +73,8 @@ export const drawing = {
     flag: {
       section: 'shape',
       value: 'MM',
-      help: 'thickness of metal: sheets get what its bends take; folds must be straight from edge to edge (default: none)',
+      help: 'thickness of sheet metal: bend allowances are added and setbacks subtracted; folds must be straight from edge to edge ' +
+        '(default: none)',
     },
   },
   /** Inner radius of bends, in millimetres. Default: the thickness. */
@@ -87,19 +88,19 @@ export const drawing = {
       help: 'where the neutral line is within the thickness, from the inside of a bend (default 0.44)',
     },
   },
-  /** How far smooth lines may be from those that were found on the lattice, in cells; 0 takes them as they are. */
+  /** Maximum distance of smoothed lines from those found on the lattice, in lattice spacings; 0 draws these as they are. */
   smoothing: {
     kind: number,
     default: 0.5,
     flag: {
       section: 'shape',
-      value: 'CELLS',
-      help: 'how far smooth lines may be from those that were found, in cells of the lattice; 0 takes these (default 0.5)',
+      value: 'SPACINGS',
+      help: 'maximum distance of smoothed lines from those found, in lattice spacings; 0 draws these as they are (default 0.5)',
     },
   },
   /**
-   * Pages to lay the sheets on, each whole on one where it fits, turned if it fits better so; paper that it is too
-   * large for is put together. Default: no pages, the sheets beside each other.
+   * Paper size. Each sheet is put on one page if it fits, turned where that helps. On A4 and letter a larger sheet covers
+   * several pages, which are joined at the printed crosses. Default: no pages, the sheets beside each other.
    */
   stock: {
     kind: paper,
@@ -107,9 +108,9 @@ export const drawing = {
     flag: {
       section: 'shape',
       value: 'P',
-      help: 'a4, letter, WIDTHxHEIGHT of plates or WIDTHx of a roll, in millimetres: lay the sheets on pages of that size, each ' +
-        'whole on one where it fits; on a4 and letter larger ones on pages that are put together by the crosses on them ' +
-        '(default: none, all beside each other)',
+      help: 'a4, letter, WIDTHxHEIGHT of plates or WIDTHx of a roll, in millimetres: each sheet is put on one page if it fits; on a4 ' +
+        'and letter a larger sheet covers several pages, which are joined at the printed crosses (default: none, all beside each ' +
+        'other)',
     },
   },
   /** Whether to tell how the sheets are put together. */
@@ -131,8 +132,8 @@ export const pattern = {
   ...unroll,
   ...drawing,
   /**
-   * How far the two sides of a fold may be from each other on the flat sheet, as a share of its
-   * length; a quarter of the lattice's spacing is always allowed.
+   * Maximum seam gap of a fold: root mean square distance between its two sides on the flat sheet, as a share of its length.
+   * A quarter of the lattice's spacing is always allowed.
    */
   gap: { kind: number, default: 0.005 },
   /**
@@ -147,8 +148,8 @@ export const unrollMesh = {
   ...meshPatches,
   ...meshUnrolling,
   /**
-   * How far the two sides of a fold may be from each other on the flat sheet, as a share of its
-   * length; a quarter of the mean length of edges is always allowed.
+   * Maximum seam gap of a fold: root mean square distance between its two sides on the flat sheet, as a share of its length.
+   * A quarter of the mean length of edges is always allowed.
    */
   gap: { kind: number, default: 0.005 },
   ...limits,

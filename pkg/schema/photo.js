@@ -41,16 +41,17 @@ const otherCamera = optionsIn(photoCamera, 'must be a camera: { fx, fy, cx, cy, 
  */
 export const depths = {
   /**
-   * How far each depth is to be trusted. Whole numbers up to 2 are the levels that ARKit tells: 0 takes the depth out, 1
-   * gives it a fourth of the weight, 2 all of it. Others are shares of the largest of their type (255 of bytes, as
-   * ARCore tells), floats are factors from 0 to 1 themselves; 0 takes the depth out. It goes along to `fit`.
+   * How far each depth is to be trusted. Whole numbers up to 2 are the levels that ARKit tells: 0 discards the depth, 1
+   * counts a quarter, 2 counts fully. Other whole numbers are shares of the largest of their type (255 of bytes, as
+   * ARCore tells), floats are weights from 0 to 1; 0 discards the depth. `fit` takes the weights over.
    */
   confidence: { kind: anything, type: 'Pixels' },
-  /** 0 takes out; of the depths, or of the photo. */
+  /** Mask, as large as the depths or with the photo's proportions: depths where it is 0 are discarded. */
   mask: { kind: anything, type: 'Pixels' },
   /**
-   * Corners [x, y] of the part of the photo that is wanted, in its pixels: depths beside it are taken out, and what of the
-   * rest is small and apart, as what is seen behind a bent edge. Four are the corners of a page, whose edges may be bent.
+   * Corners [x, y] of the wanted part of the photo, in its pixels. Depths outside of the corners are discarded, and so are
+   * small separate pieces inside, such as background seen past a bent edge. Four are the corners of a page, whose edges may
+   * be bent.
    */
   crop: { kind: corners },
   /** The size of the photo that `crop` is about. */
@@ -112,7 +113,7 @@ export const dewarp = {
   ...mapping,
   /**
    * `'even'` makes paper white, without shadows and the lamp's colour, and keeps the colours of print; `'keep'` leaves the light as it
-   * was photographed, as does a surface that is not mostly paper. Of photos of pages, which are documents, the default is `'even'`.
+   * was photographed, as does a surface that is not mostly paper. (`dewarpPage` has the default `'even'`.)
    */
   light: {
     kind: LIGHT_KIND,
@@ -208,11 +209,11 @@ export const dewarpPage = {
   ruler: { kind: anything, type: '{ from: readonly [number, number]; to: readonly [number, number]; length: number }' },
   /** Where the camera's axis meets the photo, in its pixels. Default: the middle. Of a cropped photo, the whole one's. */
   centre: { kind: numbers(2, 'two numbers: x and y in the photo') },
-  /** How near to the edge traced points are meant to be, in pixels. Default: 1/2500 of the photo's diagonal. */
+  /** Expected error of traced points, in pixels of the photo. Default: 1/2500 of the photo's diagonal. */
   accuracy: { kind: positive },
   /**
-   * Whether lines of text are looked for in the photo: where print stands on lines that agree with the edges, they make
-   * the page more exact, and where they do not, the verdict says so. Default: if `lines` are given of no page.
+   * Whether to search the photo for lines of text. They make the result more exact where they agree with the edges; where
+   * they do not, the verdict says so. Default: true, unless the edges of a page include `lines`.
    */
   findLines: { kind: flag },
   /**

@@ -11,8 +11,7 @@ const MAX_FLAT_STRAIN: f64 = 0.002;
 const MAX_UNROLLED_STRAIN: f64 = 0.01;
 
 /// Maximum share of the sheet's area that is strained by more than 1 % for the verdict `Unrolled`: paper does not stretch
-/// by that, so that the surface is not the page's. Of simulated phone captures most wrong images are above, see
-/// `benches/verdicts.md`.
+/// by that, so that the surface is not the page's. `benches/verdicts.md` has the simulated phone captures that chose it.
 const MAX_STRAINED_SHARE: f64 = 0.03;
 
 /// Maximum distance by which a crop may reach beyond the page, as a share of the page's side. Of simulated phone captures all

@@ -1,6 +1,6 @@
 //! Finds the sides of the surface's border that are straight but for the steps of the lattice.
 
-use super::line_corners::{CORNER_ANGLE, Sample, turning_angle};
+use super::line_corners::{CORNER_ANGLE, Sample, distance_along, turning_angle};
 use crate::unroll::flat_triangle::Point;
 
 /// Length of an outline before and after a corner, in lattice spacings, over which the corner between two sides is
@@ -14,13 +14,17 @@ const MIN_SIDE_LENGTH_SPACINGS: f64 = 8.0;
 /// that crosses the lattice's rows is a staircase with steps of one edge of the lattice.
 const SIDE_OFFSET_TOLERANCES: f64 = 1.5;
 
-/// Maximum length of a step of such a staircase, in lattice spacings: where the surface is steep, edges of the lattice
-/// are longer than the spacing.
+/// Maximum length of a step of a side that crosses the lattice's rows, in lattice spacings: where the surface is steep,
+/// edges of the lattice are longer than the spacing.
 const MAX_STEP_SPACINGS: f64 = 2.0;
 
 /// Length at either end of a side, in lattice spacings, where the lattice may have cut its corner off: samples there may
 /// be twice as far from the line.
 const SIDE_END_SPACINGS: f64 = 4.0;
+
+/// Minimum distance between the ends of a straight side, as a share of the length of its steps: the longest staircase of
+/// the lattice has 0.87.
+const MIN_CHORD_SHARE: f64 = 0.8;
 
 /// Maximum bow of a straight side, in lattice spacings: distance between the means of the middle third of its samples
 /// and of the others.
@@ -42,11 +46,6 @@ pub(super) fn side_ends(
     spacing: f64,
 ) -> Vec<usize> {
     let arm = SIDE_ARM_SPACINGS * spacing;
-    let whole = line[line.len() - 1].along;
-    let apart = |i: usize, k: usize| {
-        let d = (line[i].along - line[k].along).abs();
-        if closed { d.min(whole - d) } else { d }
-    };
     let mut order: Vec<(usize, f64)> = (corners.iter())
         .map(|i| (*i, turning_angle(line, *i, arm, closed)))
         .filter(|(_, turn)| *turn > CORNER_ANGLE)
@@ -54,7 +53,10 @@ pub(super) fn side_ends(
     order.sort_by(|a, b| b.1.total_cmp(&a.1));
     let mut found: Vec<usize> = Vec::new();
     for (i, _) in order {
-        if found.iter().all(|k| apart(i, *k) >= arm) {
+        if found
+            .iter()
+            .all(|k| distance_along(line, i, *k, closed) >= arm)
+        {
             found.push(i);
         }
     }
@@ -66,7 +68,8 @@ pub(super) fn side_ends(
 /// straight line, and on the whole it does not bend.
 pub(super) fn is_straight_side(line: &[Sample], tolerance: f64, spacing: f64) -> bool {
     let length = line[line.len() - 1].along - line[0].along;
-    if length < MIN_SIDE_LENGTH_SPACINGS * spacing {
+    let chord = (line[line.len() - 1].place - line[0].place).norm();
+    if length < MIN_SIDE_LENGTH_SPACINGS * spacing || chord < MIN_CHORD_SHARE * length {
         return false;
     }
     let [from, to] = axis(line);

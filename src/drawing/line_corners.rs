@@ -92,10 +92,7 @@ pub(super) fn corners(line: &[Sample], closed: bool, spacing: f64) -> Vec<usize>
             }
         })
         .collect();
-    let apart = |i: usize, k: usize| {
-        let d = (line[i].along - line[k].along).abs();
-        if closed { d.min(whole - d) } else { d }
-    };
+    let apart = |i: usize, k: usize| distance_along(line, i, k, closed);
     let mut order: Vec<usize> = (0..last).filter(|i| turns[*i] > CORNER_ANGLE).collect();
     order.sort_by(|a, b| turns[*b].total_cmp(&turns[*a]));
     let mut found: Vec<usize> = Vec::new();
@@ -118,6 +115,15 @@ pub(super) fn corners(line: &[Sample], closed: bool, spacing: f64) -> Vec<usize>
     found.sort_unstable();
     found.dedup();
     found
+}
+
+/// Computes the distance between two samples along a line, the shorter way around if it is closed.
+pub(super) fn distance_along(line: &[Sample], i: usize, k: usize, closed: bool) -> f64 {
+    let distance = (line[i].along - line[k].along).abs();
+    match closed {
+        true => distance.min(line[line.len() - 1].along - distance),
+        false => distance,
+    }
 }
 
 /// Computes the angle between a line's directions before and after one of its samples, each over the length `arm`.

@@ -23,7 +23,8 @@ const NEGLIGIBLE_RESIDUAL_SPACINGS: f64 = 0.03;
 /// tolerance.
 const MAX_CORNER_TOLERANCES: f64 = 1.5;
 
-/// The same for two sides of the surface's border, of whose corner the lattice may have cut off a cell.
+/// Maximum distance of the intersection of two sides of the surface's border from the corner that it replaces, as a multiple
+/// of the tolerance: the lattice may have cut off a cell there.
 const MAX_SIDE_CORNER_TOLERANCES: f64 = 4.0;
 
 /// Tolerances of a smooth line, as shares of [`DrawingOptions::smoothing`](super::DrawingOptions::smoothing), tried in
@@ -181,9 +182,13 @@ fn smooth_line(points: &[[f64; 2]], tolerance: f64, spacing: f64, is_border: boo
         ends.insert(0, 0);
     }
     ends.push(last);
-    let sides: Vec<[usize; 2]> = (ends.windows(2).map(|pair| [pair[0], pair[1]]))
+    let mut sides: Vec<[usize; 2]> = (ends.windows(2).map(|pair| [pair[0], pair[1]]))
         .filter(|[from, to]| is_border && is_straight_side(&line[*from..=*to], tolerance, spacing))
         .collect();
+    // Two straight sides alone would enclose no area.
+    if closed && sides.len() + 1 == ends.len() && sides.len() < 3 {
+        sides.clear();
+    }
     corners.retain(|i| !sides.iter().any(|[from, to]| from < i && i < to));
     let sections = || corners.windows(2).map(|ends| &line[ends[0]..=ends[1]]);
     let mut curves: Vec<Option<Curve>> = sections()
@@ -337,6 +342,20 @@ mod tests {
             assert!(curve.pieces().any(|p| matches!(p, Piece::Bezier(_))));
             let middle = curve.points(1e-3).iter().map(|p| p[1]).fold(0.0, f64::max);
             assert!((middle - rise).abs() < 0.1, "{middle}");
+        }
+    }
+
+    #[test]
+    fn a_narrow_hole_keeps_its_area() {
+        for wide in [8.0, 20.0] {
+            let mut hole = rectangle(wide, 1.0, 1.0, 0.0, 0.3);
+            hole.dedup();
+            let curve = smooth_line(&hole, 0.5, 1.0, true);
+            let points = curve.points(1e-3);
+            let twice: f64 = (points.windows(2))
+                .map(|p| p[0][0] * p[1][1] - p[1][0] * p[0][1])
+                .sum();
+            assert!((0.5 * twice - wide).abs() < 0.4 * wide, "{wide}: {twice}");
         }
     }
 }

@@ -9,7 +9,7 @@ export const root = fileURLToPath(new URL('../..', import.meta.url));
 export const pkg = join(root, 'pkg');
 /** What wasm-bindgen and wasm-opt write. */
 export const pkgWasm = join(pkg, 'wasm');
-/** The same of the solver for several threads. */
+/** The folder of the generated files of the solver for several threads. */
 export const pkgThreads = join(pkg, 'threads');
 /** Copies of both the worker and the wasm as JavaScript. */
 export const pkgInline = join(pkg, 'inline');

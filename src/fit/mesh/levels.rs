@@ -93,6 +93,7 @@ impl MeshLevels {
             None => zero_matrices(&linear)?,
         };
         let finest = linear.spacing;
+        let has_v_cycles = linear.vertices.len() >= MIN_V_CYCLE_VERTICES;
         let mut levels = vec![MeshLevel {
             linear,
             start,
@@ -117,10 +118,13 @@ impl MeshLevels {
             };
             let fine = &level.linear;
             let start = restrict(fine, &level.start, &clusters, &linear, &is_creased)?;
-            let to_finer = Arc::new(interpolation(&linear, &clusters, fine, sides));
+            let to_finer =
+                has_v_cycles.then(|| Arc::new(interpolation(&linear, &clusters, fine, sides)));
             level.clusters = Some(clusters);
-            for level in &mut levels {
-                level.interpolations.push(to_finer.clone());
+            if let Some(to_finer) = to_finer {
+                for level in &mut levels {
+                    level.interpolations.push(to_finer.clone());
+                }
             }
             levels.push(MeshLevel {
                 linear,

@@ -214,8 +214,10 @@ impl SheetProblem {
             let table = PlaceTable::new(&sheet.grid, view).ok()?;
             self.lines = photo.map_or_else(Vec::new, |photo| find_level_lines(&table, view, photo));
             sheet.levels = self.lines.iter().map(|line| line.level).collect();
-            if round > 0 {
-                let coarse = self.refined(sheet.clone(), &COARSE_GRID_COLS[1..])?;
+            if round > 0
+                && !self.lines.is_empty()
+                && let Some(coarse) = self.refined(sheet.clone(), &COARSE_GRID_COLS[1..])
+            {
                 let cost = coarse.cost;
                 let best = self.with_lowest_cost(coarse, starts);
                 if best.cost < cost {

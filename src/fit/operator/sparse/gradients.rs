@@ -362,7 +362,13 @@ impl ZStepSolver<SparseOperator> for SparseGradients {
             self.gradients.direction.fill(0.0);
         }
         let done = (0..JACOBI_STEPS).take_while(|_| self.gradients.step(operator));
-        done.count() > 0
+        let has_moved = done.count() > 0;
+        if self.v_cycle.is_some() {
+            // Directions of one preconditioner are not conjugate to those of the other.
+            self.gradients.previous = 0.0;
+            self.gradients.direction.fill(0.0);
+        }
+        has_moved
     }
 
     fn correct(&mut self, operator: &SparseOperator, z: &mut [f64]) {

@@ -1,0 +1,20 @@
+/** What a helper of the solver needs to join its team, and what the team has to know of its end. */
+
+/**
+ * @typedef {object} Seat
+ * @property {WebAssembly.Module} module
+ * @property {WebAssembly.Memory} memory
+ * @property {number} stack address of the top of the helper's stack
+ * @property {number} jobs address of the number of jobs
+ * @property {number} crashes address of the number of helpers that have crashed
+ */
+
+/**
+ * Tells the solver, which may be waiting for a helper, that the helper has ended.
+ * @param {Seat} seat
+ */
+export function reportCrash({ memory, crashes }) {
+  const words = new Int32Array(memory.buffer);
+  Atomics.add(words, crashes / 4, 1);
+  Atomics.notify(words, crashes / 4);
+}

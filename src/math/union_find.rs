@@ -24,6 +24,7 @@ impl UnionFind {
     }
 
     /// Returns the representative of the set that holds `member`: its smallest number.
+    #[inline]
     pub(crate) fn find(&mut self, mut member: u32) -> u32 {
         while self.parents[member as usize] != member {
             let grandparent = self.parents[self.parents[member as usize] as usize];

@@ -213,6 +213,7 @@ impl FlatPatch {
 
     /// Returns the triangles of the patch, each in a plane of its own, with the numbers of their corners. A
     /// triangle with only one corner that belongs to the patch is left out, unless there are no others.
+    #[inline]
     pub(super) fn pieces(&self) -> impl Iterator<Item = (FlatTriangle, [u32; 3])> + '_ {
         let mesh = &self.mesh;
         let inside = |corners: &[u32; 3]| {
@@ -291,6 +292,7 @@ impl FlatPatch {
     }
 
     /// Returns row and column in the whole lattice of one of the patch's vertices.
+    #[inline]
     pub(super) fn vertex(&self, number: usize) -> [usize; 2] {
         let (index, cols) = (
             self.mesh.vertices()[number] as usize,
@@ -304,6 +306,7 @@ impl FlatPatch {
 
     /// Returns the number within the patch of a vertex, given by its row and column in the whole lattice; `None` if the
     /// vertex is not in the patch.
+    #[inline]
     pub(super) fn number(&self, vertex: [usize; 2]) -> Option<usize> {
         let [row, col] = vertex;
         let lattice = self.mesh.lattice();

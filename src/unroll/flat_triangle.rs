@@ -57,6 +57,7 @@ impl FlatTriangle {
     }
 
     /// Creates the triangle between three points in space, in their unit; all fields are 0 if it has no area.
+    #[inline]
     pub(crate) fn from_points([a, b, c]: [[f64; 3]; 3]) -> Self {
         let edge = |p: [f64; 3], q: [f64; 3]| [0, 1, 2].map(|k| q[k] - p[k]);
         let dot = |u: [f64; 3], v: [f64; 3]| u[0] * v[0] + u[1] * v[1] + u[2] * v[2];
@@ -94,6 +95,7 @@ impl FlatTriangle {
 
     /// Computes the singular values `[σ₁, σ₂]` of the linear map from this triangle to three points of the plane; `σ₂`
     /// is negative where the map turns the triangle over.
+    #[inline]
     pub(crate) fn singular_values(&self, [a, b, c]: [Point; 3]) -> [f64; 2] {
         // The map is e ↦ αe + βē.
         let sum = (b - a) / self.second;

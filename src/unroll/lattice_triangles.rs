@@ -65,6 +65,7 @@ impl LatticeTriangles {
     }
 
     /// Returns the cells (indices into the padded lattice) of a triangle's three corners.
+    #[inline]
     pub(super) fn corners(&self, (cell, side): TriangleId) -> [usize; 3] {
         let offsets = self.grid.offsets(self.grid.vertex(cell).0);
         let south_east = cell.wrapping_add_signed(offsets.south_east);
@@ -79,6 +80,7 @@ impl LatticeTriangles {
     }
 
     /// Lists the triangles of the lattice around a vertex.
+    #[inline]
     pub(super) fn around(&self, cell: usize) -> impl Iterator<Item = TriangleId> + '_ {
         let offsets = self.grid.offsets(self.grid.vertex(cell).0);
         let ne = cell.wrapping_add_signed(offsets.north_east);

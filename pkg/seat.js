@@ -1,4 +1,4 @@
-/** What a helper of the solver needs to join its team, and what the team has to know of its end. */
+/** A helper's seat in the solver's team, and the report of its end. */
 
 /**
  * @typedef {object} Seat

@@ -1,9 +1,9 @@
-/** What is said of photos of pages, and of the flat pages made from them. */
+/** Texts about photos of pages, and about the flat pages made from them. */
 import { count, percent } from '../format.js';
 
 /** @import {PageReport} from '../api.js' */
 
-/** What the page says of a photo of a page. */
+/** Texts about a photo of a page. */
 export const PAGE_WORDS = {
   working: 'Flattening the page…',
   unfound: 'I found no page in this photo. If it shows one, drag the four corners onto it.',
@@ -21,7 +21,7 @@ export const PAGE_WORDS = {
   keptLight: 'The page is not mostly paper, so I kept its light.',
 };
 
-/** What is said of several photos that become one PDF. */
+/** Texts about several photos that become one PDF. */
 export const BOOK_WORDS = {
   /** @param {number} n */
   photos: (n) => `${count(n)} photos, one PDF:`,

@@ -16,7 +16,7 @@ const SPAN = 0.99;
 
 /** @typedef {{ before: Curvatures | null, after: Curvatures }} Both */
 
-/** What an arrow between figures means. */
+/** Explanation of the arrow between two figures. */
 const ARROW = '; figures: input → result';
 
 /**

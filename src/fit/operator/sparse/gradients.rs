@@ -158,8 +158,7 @@ impl<T: Precision> Gradients<T> {
     /// Starts conjugate gradients with the residual as it is, and 0 as the solution.
     fn start(&mut self) {
         self.solution.fill(T::default());
-        self.direction.fill(T::default());
-        self.previous = 0.0;
+        self.forget_direction();
         self.measure();
     }
 
@@ -198,6 +197,12 @@ impl<T: Precision> Gradients<T> {
             *direction = *more + beta * *direction;
         }
         self.advance(operator, energy)
+    }
+
+    /// Lets the next iteration follow its preconditioned residual alone.
+    fn forget_direction(&mut self) {
+        self.previous = 0.0;
+        self.direction.fill(T::default());
     }
 
     /// Goes to the minimum along the direction; `energy` is the product of residual and preconditioned residual.
@@ -259,19 +264,20 @@ impl SparseGradients {
     ) -> Result<Self> {
         let mut solver = SparseGradients::new(problem, rho)?;
         if !interpolations.is_empty() {
-            let mut v_cycle = VCycle::new(&problem.operator, interpolations)?;
-            let Gradients {
-                rho,
-                fidelity,
-                inverse,
-                ..
-            } = &solver.gradients;
-            v_cycle.set_matrix(*rho, fidelity, inverse);
-            solver.v_cycle = Some(v_cycle);
+            solver.v_cycle = Some(VCycle::new(&problem.operator, interpolations)?);
+            solver.set_v_cycle_matrix();
             solver.preconditioned =
                 try_filled("conjugate gradients", problem.operator.vertex_cells(), 0.0)?;
         }
         Ok(solver)
+    }
+
+    /// Hands the matrix over to the V-cycle, if there is one.
+    fn set_v_cycle_matrix(&mut self) {
+        if let Some(v_cycle) = &mut self.v_cycle {
+            let own = &self.gradients;
+            v_cycle.set_matrix(own.rho, &own.fidelity, &own.inverse);
+        }
     }
 
     pub(crate) fn new(problem: &Problem<SparseOperator>, rho: f64) -> Result<Self> {
@@ -324,15 +330,7 @@ impl ZStepSolver<SparseOperator> for SparseGradients {
     fn restart(&mut self, operator: &SparseOperator) {
         if std::mem::take(&mut self.stale) {
             self.gradients.take(operator, &self.system);
-            if let Some(v_cycle) = &mut self.v_cycle {
-                let Gradients {
-                    rho,
-                    fidelity,
-                    inverse,
-                    ..
-                } = &self.gradients;
-                v_cycle.set_matrix(*rho, fidelity, inverse);
-            }
+            self.set_v_cycle_matrix();
         }
         self.gradients.residual.copy_from_slice(&self.residual);
         self.gradients.start();
@@ -358,15 +356,13 @@ impl ZStepSolver<SparseOperator> for SparseGradients {
                 return true;
             }
             // Rounding may have made the V-cycle indefinite.
-            self.gradients.previous = 0.0;
-            self.gradients.direction.fill(0.0);
+            self.gradients.forget_direction();
         }
         let done = (0..JACOBI_STEPS).take_while(|_| self.gradients.step(operator));
         let has_moved = done.count() > 0;
         if self.v_cycle.is_some() {
             // Directions of one preconditioner are not conjugate to those of the other.
-            self.gradients.previous = 0.0;
-            self.gradients.direction.fill(0.0);
+            self.gradients.forget_direction();
         }
         has_moved
     }

@@ -250,4 +250,15 @@ pageTest('PNG and OBJ are what they are called', async (page) => {
     .flatMap((line) => line.slice(2).trim().split(/\s+/).map((corner) => Number.parseInt(corner)));
   assert.ok(corners.length > 3 * vertices, 'about two triangles for each vertex');
   assert.ok(corners.every((corner) => corner >= 1 && corner <= vertices));
+
+  // Writing that takes long shows a bar, which must not move the formats away from under the pointer.
+  await page.locator('#end-file').click();
+  const tops = await page.locator('#save-formats').evaluate((formats) => {
+    const bar = /** @type {HTMLElement} */ (document.getElementById('writing'));
+    return [true, false].map((hidden) => {
+      bar.hidden = hidden;
+      return formats.getBoundingClientRect().top;
+    });
+  });
+  assert.equal(tops[0], tops[1]);
 });

@@ -4,6 +4,7 @@
 /** @typedef {import('../pkg/types.js').DepthOptions} DepthOptions */
 /** @typedef {import('../pkg/types.js').Energy} Energy */
 /** @typedef {import('../pkg/types.js').ExampleName} ExampleName */
+/** @typedef {import('../pkg/types.js').ExampleOptions} ExampleOptions */
 /** @typedef {import('../pkg/types.js').Heightfield} Heightfield */
 /** @typedef {import('../pkg/index.js').OpenSolver} OpenSolver */
 /** @typedef {import('../pkg/types.js').DetectedOcclusions} Occlusions */
@@ -21,7 +22,7 @@
 /** @typedef {import('../pkg/types.js').SampleMeshOptions} SampleMeshOptions */
 
 /**
- * Loads the package and starts its worker.
+ * Loads the package.
  *
  * A dynamic import, so that a browser that cannot load it still gets a page that says so.
  * @returns {Promise<Api>}
@@ -29,8 +30,5 @@
 export async function connect() {
   if (typeof WebAssembly !== 'object') throw new Error('this browser has no WebAssembly');
   if (typeof Worker !== 'function') throw new Error('this browser has no web workers');
-  /** @type {Api} */
-  const api = await import(new URL('./pkg/index.js', import.meta.url).href);
-  await api.init();
-  return api;
+  return import(new URL('./pkg/index.js', import.meta.url).href);
 }

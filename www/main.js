@@ -30,6 +30,7 @@ import { complaint } from './messages.js';
 
 async function start() {
   const session = new Session(await connect());
+  const started = session.start();
   const analyses = new Analyses(session.api);
   const whole = new Whole(session.api);
   const { show, space } = viewsPanel(session);
@@ -74,6 +75,7 @@ async function start() {
     adopt, choose: views.choose, openExample: openNamed, openFiles, openRecent: openHeights, understand, gallery, mode, openPhoto: page.open,
     beginPhoto: page.begin, whole, solvedWhole,
   });
+  await started;
   await keep.begin();
 }
 

@@ -50,6 +50,15 @@ export class Live {
     this.#events = events;
   }
 
+  /** Starts the worker before there is anything to show. What fails here fails again, and is told, where it is needed. */
+  start() {
+    this.#own().init().catch(() => {});
+  }
+
+  #own() {
+    return this.#worker?.connected ? this.#worker : (this.#worker = new this.#api.DevelopableWorker());
+  }
+
   /**
    * @param {Input} input
    * @param {Settings} settings
@@ -126,7 +135,7 @@ export class Live {
 
   /** The rung for an input, which goes on from its last answer where only heights have changed. @param {Input} input @param {number} side */
   #rung(input, side) {
-    const worker = this.#worker?.connected ? this.#worker : (this.#worker = new this.#api.DevelopableWorker());
+    const worker = this.#own();
     const found = this.#rungs.get(side);
     if (found?.input === input) return found;
     const { pixelSize, heights } = reducedTo(input, side);

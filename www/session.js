@@ -15,7 +15,7 @@ import { lookAt, lookAtOnce, lookInto } from './surface/known.js';
 
 /** @import {Design} from './design.js' */
 /** @import {Preview} from './preview.js' */
-/** @import {Api, DepthOptions, Energy, Heightfield, Mesh, OpenSolver, Occlusions, Progress, SampledMesh, SampleMeshOptions, Surface} from './api.js' */
+/** @import {Api, DepthOptions, Energy, ExampleName, ExampleOptions, Heightfield, Mesh, OpenSolver, Occlusions, Progress, SampledMesh, SampleMeshOptions, Surface} from './api.js' */
 
 /**
  * @typedef {object} Input
@@ -143,6 +143,25 @@ export class Session extends Events {
         if (this.#following && !this.#job) void this.run();
       },
     });
+  }
+
+  /**
+   * Starts the workers of the solver and of previews, while there is no input yet.
+   * @throws where the solver cannot be started
+   */
+  async start() {
+    const solver = this.#own().init();
+    this.#live.start();
+    await solver;
+  }
+
+  /**
+   * An example of the package, made by the worker that will solve it unless that has something to do.
+   * @param {ExampleName} name
+   * @param {ExampleOptions} options
+   */
+  example(name, options) {
+    return (this.#job ? this.api : this.#own()).example(name, options);
   }
 
   /** @param {Phase} phase */

@@ -61,7 +61,7 @@ export function sourcePanel(session, { choose, usePhoto }, opened, openPage) {
     const opened = await session.open('The example could not be made', async () => {
       if (radio.value === 'design') return designInput();
       const name = /** @type {ExampleName} */ (radio.value);
-      const { input, truth } = await session.api.example(name, options);
+      const { input, truth } = await session.example(name, options);
       const { width, height, data, pixelSize: side = 1, heightScale: step = 1 } = input;
       return { name, width, height, data, pixelSize: side, heightScale: step, truth };
     });

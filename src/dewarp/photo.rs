@@ -80,6 +80,7 @@ impl<'a> Photo<'a> {
     /// Averages the colour, as RGBA bytes, of the parallelogram around a place in the photo whose sides are the vectors
     /// `across` and `down`, all in pixels; `[0, 0]` is the centre of the upper left pixel. Transparent outside of the
     /// photo.
+    #[inline]
     pub(super) fn sample(&self, [x, y]: [f32; 2], [across, down]: [[f32; 2]; 2]) -> [u8; 4] {
         let samples = |[dx, dy]: [f32; 2]| {
             let square = dx * dx + dy * dy;
@@ -109,6 +110,7 @@ impl<'a> Photo<'a> {
 
     /// Interpolates the colour at a place in the photo bilinearly, premultiplied by alpha, which is from 0 to 255. Up
     /// to half a pixel beyond the outermost pixel centres the photo has the colour at its border.
+    #[inline]
     fn bilinear(&self, [x, y]: [f32; 2]) -> [f32; 4] {
         let [right, bottom] = [self.width, self.height].map(|n| n as f32 - 0.5);
         if !((-0.5..=right).contains(&x) && (-0.5..=bottom).contains(&y)) {
@@ -129,10 +131,11 @@ impl<'a> Photo<'a> {
         for (row, down) in rows.into_iter().zip([1.0 - fy, fy]) {
             let line = &pixels[row * self.width..][..self.width];
             for (column, across) in columns.into_iter().zip([1.0 - fx, fx]) {
-                let [r, g, b, a] = line[column].map(f32::from);
-                let alpha = across * down * a;
-                for (sum, value) in sum.iter_mut().zip([r, g, b, 1.0]) {
-                    *sum += alpha * value;
+                let mut colour = line[column].map(f32::from);
+                let alpha = across * down * colour[3];
+                colour[3] = 1.0;
+                for k in 0..4 {
+                    sum[k] += alpha * colour[k];
                 }
             }
         }
@@ -141,6 +144,7 @@ impl<'a> Photo<'a> {
 }
 
 /// Converts a sum of premultiplied colours over some number of samples to the RGBA bytes of their mean.
+#[inline]
 fn to_bytes([r, g, b, a]: [f32; 4], samples: f32) -> [u8; 4] {
     if a <= 0.0 {
         return [0; 4];

@@ -282,6 +282,7 @@ impl WarpMap {
 
     /// Difference of the places in the photo, in pixels, between a pixel and its next neighbour along a row or column,
     /// or its previous one if the next has no place; 0 if neither has.
+    #[inline]
     fn step(&self, i: usize, next: Option<usize>, previous: Option<usize>) -> [f32; 2] {
         let way = |from: usize, to: usize| {
             let (from, to) = (self.places[from], self.places[to]);

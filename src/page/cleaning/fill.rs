@@ -8,30 +8,36 @@ const FILL_RADII: [usize; 4] = [400, 96, 24, 6];
 /// Weight of the estimate by the next larger radius, relative to a window of known values.
 const COARSE_WEIGHT: f32 = 0.02;
 
-/// Replaces values that are not known by weighted means of known values around them, over windows of several sizes;
-/// leaves the plane as it is where nothing is known.
-pub(super) fn fill_gaps(plane: &mut [f32], known: &[bool], width: usize, height: usize) {
+/// Replaces values of planes that are not known by weighted means of known values around them, over windows of several
+/// sizes; leaves the planes as they are where nothing is known.
+pub(super) fn fill_gaps(planes: &mut [Vec<f32>], known: &[bool], width: usize, height: usize) {
     let count = known.iter().filter(|known| **known).count();
-    if count == 0 || count == plane.len() {
+    if count == 0 || count == known.len() {
         return;
     }
-    let sum: f64 = (plane.iter().zip(known))
-        .filter(|(_, known)| **known)
-        .map(|(value, _)| f64::from(*value))
-        .sum();
-    let mut estimate = vec![(sum / count as f64) as f32; plane.len()];
+    let mean = |plane: &Vec<f32>| {
+        let values = plane.iter().zip(known).filter(|(_, known)| **known);
+        (values.map(|(value, _)| f64::from(*value)).sum::<f64>() / count as f64) as f32
+    };
+    let mut estimates: Vec<Vec<f32>> = planes.iter().map(|p| vec![mean(p); p.len()]).collect();
     for radius in FILL_RADII {
         let mut weights: Vec<f32> = known.iter().map(|known| f32::from(*known)).collect();
-        let mut values: Vec<f32> = (plane.iter().zip(&weights)).map(|(v, w)| v * w).collect();
         box_mean(&mut weights, width, height, radius);
-        box_mean(&mut values, width, height, radius);
-        for ((estimate, value), weight) in estimate.iter_mut().zip(&values).zip(&weights) {
-            *estimate = (value + COARSE_WEIGHT * *estimate) / (weight + COARSE_WEIGHT);
+        for (plane, estimate) in planes.iter().zip(&mut estimates) {
+            let mut values: Vec<f32> = (plane.iter().zip(known))
+                .map(|(value, known)| if *known { *value } else { 0.0 })
+                .collect();
+            box_mean(&mut values, width, height, radius);
+            for ((estimate, value), weight) in estimate.iter_mut().zip(&values).zip(&weights) {
+                *estimate = (value + COARSE_WEIGHT * *estimate) / (weight + COARSE_WEIGHT);
+            }
         }
     }
-    for ((value, known), estimate) in plane.iter_mut().zip(known).zip(estimate) {
-        if !known {
-            *value = estimate;
+    for (plane, estimate) in planes.iter_mut().zip(estimates) {
+        for ((value, known), estimate) in plane.iter_mut().zip(known).zip(estimate) {
+            if !known {
+                *value = estimate;
+            }
         }
     }
 }
@@ -47,10 +53,12 @@ mod tests {
         let known: Vec<bool> = (0..width * height)
             .map(|i| !(20..30).contains(&(i % width)) || !(10..20).contains(&(i / width)))
             .collect();
-        let mut plane: Vec<f32> = (0..width * height)
+        let plane: Vec<f32> = (0..width * height)
             .map(|i| if known[i] { ramp(i) } else { 9.0 })
             .collect();
-        fill_gaps(&mut plane, &known, width, height);
+        let mut planes = [plane];
+        fill_gaps(&mut planes, &known, width, height);
+        let [plane] = planes;
         for i in 0..plane.len() {
             let off = (plane[i] - ramp(i)).abs();
             assert!(if known[i] { off == 0.0 } else { off < 0.06 }, "{i}: {off}");

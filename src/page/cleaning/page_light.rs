@@ -87,9 +87,7 @@ impl LightEstimator {
             channels: [0, 1, 2].map(|k| self.sums.iter().map(|sum| logarithm(sum, k)).collect()),
             scale: self.cell as f64,
         };
-        for plane in &mut raw.channels {
-            fill_gaps(plane, &known, columns, rows);
-        }
+        fill_gaps(&mut raw.channels, &known, columns, rows);
         let longer = columns.max(rows) as f64;
         let radius = (0.5 * MAX_STROKE_SHARE * longer) as usize;
         let mut paper = closed(&raw, radius);
@@ -102,8 +100,8 @@ impl LightEstimator {
                 ..self.into()
             };
         }
+        fill_gaps(&mut paper.channels, &known, columns, rows);
         let gains = paper.channels.each_mut().map(|plane| {
-            fill_gaps(plane, &known, columns, rows);
             box_mean(plane, columns, rows, SMOOTHING_RADIUS);
             let gain = |light: &f32| 255.0 / (WHITE_SHARE * (light.exp() - LOG_OFFSET).max(1.0));
             plane.iter().map(gain).collect()
@@ -189,6 +187,7 @@ impl PageLight {
 }
 
 /// Returns the cells before and after a pixel's centre along one axis, and its place between their centres, from 0 to 1.
+#[inline]
 fn neighbours(pixel: usize, cell: usize, cells: usize) -> (usize, usize, f32) {
     let place = ((pixel as f32 + 0.5) / cell as f32 - 0.5).clamp(0.0, (cells - 1) as f32);
     let before = place as usize;

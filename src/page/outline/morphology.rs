@@ -2,54 +2,63 @@
 
 use super::planes::Planes;
 
-/// Applies a filter of one line of pixels to all rows, then to all columns.
-fn apply_separably(
-    plane: &mut [f32],
-    width: usize,
-    height: usize,
-    mut filter: impl FnMut(&mut [f32]),
-) {
-    for row in plane.chunks_exact_mut(width) {
-        filter(row);
-    }
-    let mut column = vec![0.0; height];
-    for x in 0..width {
-        for (value, row) in column.iter_mut().zip(plane.chunks_exact(width)) {
-            *value = row[x];
-        }
-        filter(&mut column);
-        for (value, row) in column.iter().zip(plane.chunks_exact_mut(width)) {
-            row[x] = *value;
+/// Number of rows that are transposed together: what is written to a row of the result fills a line of the cache.
+const TRANSPOSED_ROWS: usize = 16;
+
+/// Exchanges rows and columns of a plane.
+fn transposed(plane: &[f32], width: usize) -> Vec<f32> {
+    let height = plane.len() / width;
+    let mut out = vec![0.0; plane.len()];
+    for (band, rows) in plane.chunks(TRANSPOSED_ROWS * width).enumerate() {
+        for (x, column) in out.chunks_exact_mut(height).enumerate() {
+            let column = &mut column[band * TRANSPOSED_ROWS..];
+            for (value, row) in column.iter_mut().zip(rows.chunks_exact(width)) {
+                *value = row[x];
+            }
         }
     }
+    out
 }
 
-/// Replaces each pixel of a line by the extreme value (as the function `extreme` chooses) among itself and `radius`
-/// neighbours on either side, by the algorithm of van Herk, Gil and Werman.
-fn running_extreme(line: &mut [f32], radius: usize, extreme: fn(f32, f32) -> f32) {
-    let (n, window) = (line.len(), 2 * radius + 1);
-    let padded = |i: usize| line[i.saturating_sub(radius).min(n - 1)];
-    let total = n + 2 * radius;
-    let mut prefix: Vec<f32> = (0..total).map(padded).collect();
+/// Replaces each pixel by the extreme value (as the function `extreme` chooses) among itself and `radius` neighbours above
+/// and below it, by the algorithm of van Herk, Gil and Werman.
+fn vertical_extreme(
+    plane: &mut [f32],
+    width: usize,
+    radius: usize,
+    extreme: impl Fn(f32, f32) -> f32,
+) {
+    let (height, window) = (plane.len() / width, 2 * radius + 1);
+    let total = height + 2 * radius;
+    let row = |i: usize| &plane[i.saturating_sub(radius).min(height - 1) * width..][..width];
+    let mut prefix: Vec<f32> = (0..total).flat_map(row).copied().collect();
     let mut suffix = prefix.clone();
+    let extend = |values: &mut [f32], by: &[f32]| {
+        for (value, by) in values.iter_mut().zip(by) {
+            *value = extreme(*value, *by);
+        }
+    };
     for i in 1..total {
         if !i.is_multiple_of(window) {
-            prefix[i] = extreme(prefix[i], prefix[i - 1]);
+            let (before, from) = prefix.split_at_mut(i * width);
+            extend(&mut from[..width], &before[(i - 1) * width..]);
         }
         let j = total - 1 - i;
         if !(j + 1).is_multiple_of(window) {
-            suffix[j] = extreme(suffix[j], suffix[j + 1]);
+            let (until, after) = suffix.split_at_mut((j + 1) * width);
+            extend(&mut until[j * width..], &after[..width]);
         }
     }
-    for (i, value) in line.iter_mut().enumerate() {
-        *value = extreme(suffix[i], prefix[i + 2 * radius]);
-    }
+    plane.copy_from_slice(&suffix[..plane.len()]);
+    extend(plane, &prefix[2 * radius * width..]);
 }
 
 /// Applies a grey closing by a square with sides of `2 radius + 1` pixels: dark print narrower than that takes the
 /// paper's colour. The image is continued beyond its rim, so that a narrow strip of background along the rim remains.
 pub(in crate::page) fn closed(planes: &Planes, radius: usize) -> Planes {
     let (width, height) = (planes.width + 2 * radius, planes.height + 2 * radius);
+    let max = |a: f32, b: f32| if a > b { a } else { b };
+    let min = |a: f32, b: f32| if a < b { a } else { b };
     let channels = planes.channels.each_ref().map(|plane| {
         let row = |y: usize| {
             let y = y.saturating_sub(radius).min(planes.height - 1);
@@ -62,11 +71,12 @@ pub(in crate::page) fn closed(planes: &Planes, radius: usize) -> Planes {
             padded.extend(own);
             padded.extend(std::iter::repeat_n(own[planes.width - 1], radius));
         }
-        for extreme in [f32::max, f32::min] {
-            apply_separably(&mut padded, width, height, |line| {
-                running_extreme(line, radius, extreme);
-            });
-        }
+        vertical_extreme(&mut padded, width, radius, max);
+        let mut across = transposed(&padded, width);
+        vertical_extreme(&mut across, height, radius, max);
+        vertical_extreme(&mut across, height, radius, min);
+        let mut padded = transposed(&across, height);
+        vertical_extreme(&mut padded, width, radius, min);
         (padded.chunks_exact(width).skip(radius).take(planes.height))
             .flat_map(|row| row[radius..radius + planes.width].iter().copied())
             .collect()
@@ -79,21 +89,36 @@ pub(in crate::page) fn closed(planes: &Planes, radius: usize) -> Planes {
 
 /// Replaces each pixel by the mean over a square with sides of `2 radius + 1` pixels around it, clipped to the image.
 pub(in crate::page) fn box_mean(plane: &mut [f32], width: usize, height: usize, radius: usize) {
-    let mut sums = Vec::new();
-    apply_separably(plane, width, height, |line| {
-        sums.clear();
-        sums.push(0.0);
-        let mut sum = 0.0_f64;
-        for value in line.iter() {
-            sum += f64::from(*value);
-            sums.push(sum);
+    vertical_mean(plane, width, radius);
+    let mut across = transposed(plane, width);
+    vertical_mean(&mut across, height, radius);
+    plane.copy_from_slice(&transposed(&across, height));
+}
+
+/// Replaces each pixel by the mean of itself and `radius` neighbours above and below it, clipped to the image.
+fn vertical_mean(plane: &mut [f32], width: usize, radius: usize) {
+    let height = plane.len() / width;
+    let source = plane.to_vec();
+    let row = |y: usize| &source[y * width..][..width];
+    let mut sums = vec![0.0_f64; width];
+    let mut end = 0;
+    for (y, out) in plane.chunks_exact_mut(width).enumerate() {
+        while end < (y + radius + 1).min(height) {
+            for (sum, value) in sums.iter_mut().zip(row(end)) {
+                *sum += f64::from(*value);
+            }
+            end += 1;
         }
-        let n = line.len();
-        for (i, value) in line.iter_mut().enumerate() {
-            let (from, to) = (i.saturating_sub(radius), (i + radius + 1).min(n));
-            *value = ((sums[to] - sums[from]) / (to - from) as f64) as f32;
+        if let Some(left) = y.checked_sub(radius + 1) {
+            for (sum, value) in sums.iter_mut().zip(row(left)) {
+                *sum -= f64::from(*value);
+            }
         }
-    });
+        let count = (end - y.saturating_sub(radius)) as f64;
+        for (value, sum) in out.iter_mut().zip(&sums) {
+            *value = (sum / count) as f32;
+        }
+    }
 }
 
 #[cfg(test)]
@@ -101,19 +126,45 @@ mod tests {
     use super::*;
 
     #[test]
-    fn extremes_and_means_are_those_of_each_window() {
-        let line: Vec<f32> = (0..23).map(|i| ((i * 7919) % 31) as f32).collect();
+    fn closings_and_means_are_those_of_each_window() {
+        let (width, height) = (23, 17);
+        let plane: Vec<f32> = (0..width * height)
+            .map(|i| ((i * 7919) % 31) as f32)
+            .collect();
+        let at = |plane: &[f32], x: isize, y: isize| {
+            let [x, y] =
+                [(x, width), (y, height)].map(|(v, n)| v.clamp(0, n as isize - 1) as usize);
+            plane[y * width + x]
+        };
         for radius in [1, 2, 5, 30] {
-            let window = |i: usize| &line[i.saturating_sub(radius)..(i + radius + 1).min(23)];
-            let mut largest = line.clone();
-            running_extreme(&mut largest, radius, f32::max);
-            let mut mean = line.clone();
-            box_mean(&mut mean, 23, 1, radius);
-            for i in 0..23 {
-                let expected = window(i).iter().copied().fold(f32::MIN, f32::max);
-                assert_eq!(largest[i], expected, "{i} of {radius}");
-                let expected = window(i).iter().sum::<f32>() / window(i).len() as f32;
-                assert!((mean[i] - expected).abs() < 1e-4, "{i} of {radius}");
+            let r = radius as isize;
+            let window = move |x: isize, y: isize| {
+                (y - r..=y + r).flat_map(move |v| (x - r..=x + r).map(move |u| (u, v)))
+            };
+            let planes = Planes {
+                width,
+                height,
+                channels: [const { Vec::new() }; 3].map(|_: Vec<f32>| plane.clone()),
+                scale: 1.0,
+            };
+            let closing = closed(&planes, radius);
+            let mut mean = plane.clone();
+            box_mean(&mut mean, width, height, radius);
+            let largest = |x, y| {
+                let values = window(x, y).map(|(u, v)| at(&plane, u, v));
+                values.fold(f32::MIN, f32::max)
+            };
+            for (i, found) in mean.iter().enumerate() {
+                let (x, y) = ((i % width) as isize, (i / width) as isize);
+                let expected = window(x, y).map(|(u, v)| largest(u, v));
+                let expected = expected.fold(f32::MAX, f32::min);
+                assert_eq!(closing.channels[1][i], expected, "{i} of {radius}");
+                let inside = window(x, y).filter(|(u, v)| {
+                    (0..width as isize).contains(u) && (0..height as isize).contains(v)
+                });
+                let values: Vec<f32> = inside.map(|(u, v)| at(&plane, u, v)).collect();
+                let expected = values.iter().sum::<f32>() / values.len() as f32;
+                assert!((found - expected).abs() < 1e-4, "{i} of {radius}");
             }
         }
     }

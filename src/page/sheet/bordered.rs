@@ -146,6 +146,7 @@ impl BorderedSystem {
 }
 
 /// Inner product of two vectors, by four partial sums that the compiler vectorises.
+#[inline]
 fn dot(a: &[f64], b: &[f64]) -> f64 {
     let (a4, a_rest) = a.as_chunks::<4>();
     let (b4, b_rest) = b.as_chunks::<4>();

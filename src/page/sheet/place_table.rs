@@ -38,6 +38,7 @@ impl PlaceTable {
     }
 
     /// Interpolates the place in the photo, in pixels, at shares of the page's width and height.
+    #[inline]
     pub fn at(&self, share: [f64; 2]) -> [f64; 2] {
         let sides = [self.cols, self.rows];
         let [(i, s), (j, t)] = [0, 1].map(|k| {

@@ -204,12 +204,12 @@ impl SheetPage {
         let size = self.flat_size();
         let (resolution, [width, height]) = flat_image_size(size, options, || self.table.area())?;
         let mut places = try_filled("flat image", width * height, [f32::NAN; 2])?;
-        for (i, place) in places.iter_mut().enumerate() {
-            let share = [
-                ((i % width) as f64 + 0.5) / width as f64,
-                ((i / width) as f64 + 0.5) / height as f64,
-            ];
-            *place = self.table.at(share).map(lanes::single);
+        for (row, line) in places.chunks_exact_mut(width).enumerate() {
+            let down = (row as f64 + 0.5) / height as f64;
+            for (col, place) in line.iter_mut().enumerate() {
+                let share = [(col as f64 + 0.5) / width as f64, down];
+                *place = self.table.at(share).map(lanes::single);
+            }
         }
         let corner = [0.0, size[1]];
         Ok(WarpMap::from_places(

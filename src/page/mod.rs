@@ -59,6 +59,7 @@ mod curled_page;
 mod cylinder;
 mod edges;
 mod error_estimate;
+mod flat_image;
 mod huber;
 mod in_photo;
 mod known_sizes;
@@ -79,6 +80,7 @@ mod traces;
 
 pub use curled_page::CurledPage;
 pub use edges::{Edges, Trace};
+pub use flat_image::FlatImage;
 pub use options::{FocalLength, Format, PageOptions, Ruler};
 pub use outline::{OutlineReason, OutlineReport, OutlineVerdict, PageOutline, find_outline};
 pub use report::{PageModel, PageReport, PageVerdict};

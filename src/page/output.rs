@@ -1,9 +1,12 @@
 //! Outputs of a curled page: size of the flat page, warp map and mesh in space.
 
+use std::ops::Range;
+
 use super::curled_page::CurledPage;
 use super::cylinder::SampledCurve;
+use super::flat_image::FlatImage;
 use crate::dewarp::{DewarpOptions, WarpMap};
-use crate::error::{Error, Result, checked_cells, positive, try_filled};
+use crate::error::{Error, Result, try_filled};
 use crate::math::lanes;
 use crate::scene::mesh::Mesh;
 
@@ -88,33 +91,39 @@ impl CurledPage {
     /// [`Error::Option`] for a resolution that is not positive and finite, [`Error::TooLarge`] for an
     /// image of more than [`MAX_CELLS`](crate::MAX_CELLS) pixels, [`Error::OutOfMemory`].
     pub fn warp_map(&self, options: &DewarpOptions) -> Result<WarpMap> {
-        let size = self.flat_size();
-        let (resolution, [width, height]) = flat_image_size(size, options, || self.seen_area())?;
-        let mut places = try_filled("flat image", width * height, [f32::NAN; 2])?;
+        let flat = self.flat_image(options)?;
+        self.warp_rows(&flat, 0..flat.height)
+    }
+
+    /// Size and resolution of the flat image.
+    ///
+    /// # Errors
+    /// Those of [`CurledPage::warp_map`].
+    pub(super) fn flat_image(&self, options: &DewarpOptions) -> Result<FlatImage> {
+        FlatImage::new(self.flat_size(), options, || self.seen_area())
+    }
+
+    /// Computes some rows of the [warp map](CurledPage::warp_map).
+    ///
+    /// # Errors
+    /// [`Error::OutOfMemory`].
+    pub(super) fn warp_rows(&self, flat: &FlatImage, rows: Range<usize>) -> Result<WarpMap> {
         let curve = self.cylinder.curve();
-        let along = if self.sideways { height } else { width };
-        let mut line = try_filled("flat image", along, [0.0; 2])?;
-        for (i, on) in line.iter_mut().enumerate() {
+        let (range, along) = match self.sideways {
+            true => (rows.clone(), flat.height),
+            false => (0..flat.width, flat.width),
+        };
+        let mut line = try_filled("flat image", range.len(), [0.0; 2])?;
+        for (on, i) in line.iter_mut().zip(range) {
             *on = self.on_curve(&curve, (i as f64 + 0.5) / along as f64);
         }
-        for (i, place) in places.iter_mut().enumerate() {
-            let (col, row) = (i % width, i / width);
-            let share = [
-                (col as f64 + 0.5) / width as f64,
-                (row as f64 + 0.5) / height as f64,
-            ];
-            let on = line[if self.sideways { row } else { col }];
+        let first = rows.start;
+        flat.warp_rows(rows, |[col, row], share| {
+            let on = line[if self.sideways { row - first } else { col }];
             let (_, down) = self.curve_shares(share);
-            if let Some(seen) = self.cylinder.project(on, down * self.cylinder.length) {
-                *place = seen.map(lanes::single);
-            }
-        }
-        Ok(WarpMap::from_places(
-            [width, height],
-            resolution,
-            [0.0, size[1]],
-            places,
-        ))
+            let seen = self.cylinder.project(on, down * self.cylinder.length);
+            seen.map_or([f32::NAN; 2], |place| place.map(lanes::single))
+        })
     }
 
     /// Area of the photo that the page covers, in pixels.
@@ -184,26 +193,6 @@ impl CurledPage {
         }
         grid_mesh(positions, uvs, cols)
     }
-}
-
-/// Computes a flat image's resolution (pixels per unit of length) and its width and height in pixels from the page's
-/// `size`. The resolution is that of `options`, or by default the one that gives the image as many pixels as the page
-/// covers in the photo, `seen_area`.
-///
-/// # Errors
-/// [`Error::Option`] for a resolution that is not positive and finite, [`Error::TooLarge`].
-pub(super) fn flat_image_size(
-    size: [f64; 2],
-    options: &DewarpOptions,
-    seen_area: impl Fn() -> f64,
-) -> Result<(f64, [usize; 2])> {
-    let resolution = match options.dots {
-        Some(dots) => positive("dots", dots)?,
-        None => (seen_area() / (size[0] * size[1])).sqrt(),
-    };
-    let [width, height] = size.map(|side| (side * resolution).round().max(1.0) as usize);
-    checked_cells("flat image", height, width)?;
-    Ok((resolution, [width, height]))
 }
 
 /// Converts a place in a photo, in pixels, to texture coordinates; `photo` is the photo's width and height.

@@ -1,7 +1,10 @@
 //! Surface of a page in space, by the plainest model that explains its edges and lines in a photo.
 
+use std::ops::Range;
+
 use super::curled_page::CurledPage;
 use super::edges::{Edges, Trace};
+use super::flat_image::FlatImage;
 use super::options::PageOptions;
 use super::report::{PageReport, PageVerdict};
 use super::sheet::SheetPage;
@@ -98,6 +101,43 @@ impl PageSurface {
             PageSurface::Curled(page) => page.warp_map(options),
             PageSurface::Sheet(page) => page.warp_map(options),
         }
+    }
+
+    /// Size and resolution of the flat image.
+    ///
+    /// # Errors
+    /// Those of [`CurledPage::warp_map`].
+    pub fn flat_image(&self, options: &DewarpOptions) -> Result<FlatImage> {
+        match self {
+            PageSurface::Curled(page) => page.flat_image(options),
+            PageSurface::Sheet(page) => page.flat_image(options),
+        }
+    }
+
+    /// Resamples a photo to some rows of the flat image, as [`WarpMap::image_rows`] of the whole map does, with the map of
+    /// these rows alone in memory.
+    ///
+    /// # Errors
+    /// [`Error::OutOfMemory`].
+    ///
+    /// # Panics
+    /// If `rgba` does not have four bytes for each pixel of these rows, or the image not as many rows.
+    pub fn image_rows(
+        &self,
+        flat: &FlatImage,
+        photo: &Photo<'_>,
+        rows: Range<usize>,
+        rgba: &mut [u8],
+    ) -> Result<()> {
+        // How finely a pixel samples the photo depends on the next row's places.
+        let band = rows.start.saturating_sub(1)..(rows.end + 1).min(flat.height);
+        let within = rows.start - band.start..rows.end - band.start;
+        let map = match self {
+            PageSurface::Curled(page) => page.warp_rows(flat, band)?,
+            PageSurface::Sheet(page) => page.warp_rows(flat, band)?,
+        };
+        map.image_rows(photo, within, rgba);
+        Ok(())
     }
 
     /// Makes a mesh of the page in space, with texture coordinates for the photo.

@@ -1,5 +1,7 @@
 //! A page of any shape in space, from its four edges in one photo.
 
+use std::ops::Range;
+
 use nalgebra::Vector3;
 
 use super::grid::SheetGrid;
@@ -9,13 +11,14 @@ use super::polyline::Polyline;
 use super::search::{FoundSheet, find_sheet};
 use super::view::PhotoView;
 use crate::dewarp::{DewarpOptions, Photo, WarpMap};
-use crate::error::{Error, Result, positive, try_filled};
+use crate::error::{Error, Result, positive};
 use crate::math::lanes;
 use crate::page::curled_page::MAX_CENTRE_DIAGONALS;
 use crate::page::edges::{Edges, Trace};
+use crate::page::flat_image::FlatImage;
 use crate::page::known_sizes::{Sides, focal_length, sides};
 use crate::page::options::{Format, PageOptions};
-use crate::page::output::{back_project, flat_image_size, grid_mesh, texture_coordinates};
+use crate::page::output::{back_project, grid_mesh, texture_coordinates};
 use crate::page::read_traces::read_traces;
 use crate::page::report::{PageModel, PageReport, PageVerdict};
 use crate::page::traced_line::{TracedLine, distance};
@@ -201,23 +204,28 @@ impl SheetPage {
     /// # Errors
     /// Those of [`CurledPage::warp_map`](super::super::CurledPage::warp_map).
     pub fn warp_map(&self, options: &DewarpOptions) -> Result<WarpMap> {
-        let size = self.flat_size();
-        let (resolution, [width, height]) = flat_image_size(size, options, || self.table.area())?;
-        let mut places = try_filled("flat image", width * height, [f32::NAN; 2])?;
-        for (row, line) in places.chunks_exact_mut(width).enumerate() {
-            let down = (row as f64 + 0.5) / height as f64;
-            for (col, place) in line.iter_mut().enumerate() {
-                let share = [(col as f64 + 0.5) / width as f64, down];
-                *place = self.table.at(share).map(lanes::single);
-            }
-        }
-        let corner = [0.0, size[1]];
-        Ok(WarpMap::from_places(
-            [width, height],
-            resolution,
-            corner,
-            places,
-        ))
+        let flat = self.flat_image(options)?;
+        self.warp_rows(&flat, 0..flat.height)
+    }
+
+    /// Size and resolution of the flat image.
+    ///
+    /// # Errors
+    /// Those of [`SheetPage::warp_map`].
+    pub(in crate::page) fn flat_image(&self, options: &DewarpOptions) -> Result<FlatImage> {
+        FlatImage::new(self.flat_size(), options, || self.table.area())
+    }
+
+    /// Computes some rows of the [warp map](SheetPage::warp_map).
+    ///
+    /// # Errors
+    /// [`Error::OutOfMemory`].
+    pub(in crate::page) fn warp_rows(
+        &self,
+        flat: &FlatImage,
+        rows: Range<usize>,
+    ) -> Result<WarpMap> {
+        flat.warp_rows(rows, |_, share| self.table.at(share).map(lanes::single))
     }
 
     /// Makes a mesh of the page in space, with texture coordinates for the photo, row by row from the upper left

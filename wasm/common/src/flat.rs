@@ -9,20 +9,20 @@ use serde_wasm_bindgen::preserve;
 use super::Result;
 use super::options::{Given, option, renamed};
 use developable::checks::try_filled;
-use developable::dewarp::{Photo, WarpGrid, WarpMap};
+use developable::dewarp::{WarpGrid, WarpMap};
 use developable::page::cleaning::{CleaningOptions, Light, LightEstimator, binarise, luminance};
 
 /// Number of rows of the flat image that are computed at a time and copied to JavaScript.
 const BAND_ROWS: usize = 64;
 
-/// Computes the flat image in JavaScript's memory, a band of rows at a time, so that the wasm module holds no copy of
-/// it; cleans it as the options say, and returns what happened to its light.
+/// Computes a flat image of `width` by `height` pixels in JavaScript's memory, a band of rows at a time, so that the wasm
+/// module holds no copy of it; cleans it as the options say, and returns what happened to its light. `image_rows` writes the
+/// RGBA bytes of some rows, transparent before the call.
 pub fn flat_image(
-    map: &WarpMap,
-    photo: &Photo<'_>,
+    [width, height]: [usize; 2],
+    image_rows: impl Fn(Range<usize>, &mut [u8]) -> Result<()>,
     cleaning: &CleaningOptions,
 ) -> Result<(Uint8ClampedArray, Light)> {
-    let (width, height) = (map.width(), map.height());
     let line = 4 * width;
     let image = Uint8ClampedArray::new_with_length((line * height) as u32);
     let mut band = try_filled("flat image", line * BAND_ROWS.min(height), 0)?;
@@ -40,7 +40,7 @@ pub fn flat_image(
     for rows in bands() {
         let rgba = &mut band[..line * rows.len()];
         rgba.fill(0);
-        map.image_rows(photo, rows.clone(), rgba);
+        image_rows(rows.clone(), rgba)?;
         place(&rows).copy_from(rgba);
         if let Some(estimator) = &mut estimator {
             for (row, pixels) in rows.zip(rgba.chunks_exact(line)) {
@@ -126,16 +126,22 @@ impl MapOptions {
         }
     }
 
+    /// Whether a warp map is to be returned, in full or on a grid.
+    pub fn any(&self) -> bool {
+        self.map || self.grid.is_some()
+    }
+
     /// Places in the photo of all pixels of the flat image, as pairs of coordinates; empty unless the full map is
     /// wanted.
-    pub fn places(&self, map: &WarpMap) -> Float32Array {
-        let places = if self.map { map.places() } else { &[] };
+    pub fn places(&self, map: Option<&WarpMap>) -> Float32Array {
+        let places = map.filter(|_| self.map).map_or(&[][..], WarpMap::places);
         places.as_flattened().into()
     }
 
-    pub fn grid(&self, map: &WarpMap) -> Result<Option<GridOutput>> {
-        let found = (self.grid)
-            .map(|tolerance| map.grid(tolerance, MAX_GRID_NODES))
+    /// The map on a grid, if that is wanted.
+    pub fn grid(&self, map: Option<&WarpMap>) -> Result<Option<GridOutput>> {
+        let found = (self.grid.zip(map))
+            .map(|(tolerance, map)| map.grid(tolerance, MAX_GRID_NODES))
             .transpose()
             .map_err(|error| renamed(error, "tolerance", "grid"))?;
         Ok(found.as_ref().map(GridOutput::new))

@@ -236,15 +236,22 @@ pub fn dewarp(field: JsValue, photo: JsValue, options: JsValue) -> Result<JsValu
     )?;
     let map = map.cut(crop.as_deref(), deskew, trim)?;
     let overreach = overreach(&photo, crop.as_deref());
-    let (data, light) = flat_image(&map, &photo, &cleaning)?;
+    let (data, light) = flat_image(
+        [map.width(), map.height()],
+        |rows, rgba| {
+            map.image_rows(&photo, rows, rgba);
+            Ok(())
+        },
+        &cleaning,
+    )?;
     Ok(to_value(&DewarpedOutput {
         width: map.width(),
         height: map.height(),
         resolution: map.resolution(),
         corner: map.corner(),
         data,
-        map: maps.places(&map),
-        grid: maps.grid(&map)?,
+        map: maps.places(Some(&map)),
+        grid: maps.grid(Some(&map))?,
         loss: map.loss(),
         overreach,
         light,

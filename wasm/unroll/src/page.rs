@@ -1,5 +1,7 @@
 //! Photos of pages made flat by the pages' edges, for JavaScript.
 
+use std::ops::Range;
+
 use js_sys::{Float32Array, Float64Array, Uint8ClampedArray, Uint32Array};
 use serde::{Deserialize, Serialize};
 use serde_wasm_bindgen::{from_value, preserve, to_value};
@@ -261,17 +263,20 @@ pub fn dewarp_page(photo: JsValue, edges: JsValue, options: JsValue) -> Result<J
             .map(PageSurface::Curled)
     }
     .map_err(|error| renamed(error, "format", "page"))?;
-    let map = page.warp_map(&wanted)?;
+    let flat = page.flat_image(&wanted)?;
     let mesh = page.mesh()?;
-    let (data, light) = flat_image(&map, &photo, &cleaning)?;
+    let image_rows =
+        |rows: Range<usize>, rgba: &mut [u8]| Ok(page.image_rows(&flat, &photo, rows, rgba)?);
+    let (data, light) = flat_image([flat.width, flat.height], image_rows, &cleaning)?;
+    let map = maps.any().then(|| page.warp_map(&wanted)).transpose()?;
     Ok(to_value(&PageOutput {
-        width: map.width(),
-        height: map.height(),
-        resolution: map.resolution(),
-        corner: map.corner(),
+        width: flat.width,
+        height: flat.height,
+        resolution: flat.resolution,
+        corner: flat.corner,
         data,
-        map: maps.places(&map),
-        grid: maps.grid(&map)?,
+        map: maps.places(map.as_ref()),
+        grid: maps.grid(map.as_ref())?,
         size: page.flat_size(),
         unit: if page.is_millimetres() { "mm" } else { "page" },
         mesh: MeshOutput {

@@ -273,5 +273,22 @@ fn the_plainest_model_is_taken() {
         assert!((height - 297.0).abs() < 1.5, "{height}");
         let mesh = page.mesh().unwrap();
         assert_eq!(mesh.uvs().unwrap().len(), mesh.positions().len());
+
+        // Bands of rows, each by its own map, make the image of the whole map.
+        let options = DewarpOptions::default().dots(0.5);
+        let flat = page.flat_image(&options).unwrap();
+        let map = page.warp_map(&options).unwrap();
+        assert_eq!([map.width(), map.height()], [flat.width, flat.height]);
+        assert_eq!(
+            (map.resolution(), map.corner()),
+            (flat.resolution, flat.corner)
+        );
+        let mut image = vec![0; 4 * flat.width * flat.height];
+        for rows in [0..1, 1..40, 40..flat.height] {
+            let bytes = 4 * flat.width * rows.start..4 * flat.width * rows.end;
+            page.image_rows(&flat, &photo, rows, &mut image[bytes])
+                .unwrap();
+        }
+        assert!(image == map.image(&photo).unwrap());
     }
 }

@@ -8,7 +8,7 @@
 use std::sync::Arc;
 
 use super::matrix::SparseMatrix;
-use super::{EntryGroup, Rows, SparseOperator, normal};
+use super::{EntryGroup, SparseOperator, normal};
 use crate::error::{Result, try_filled};
 use crate::fit::operator::Operator;
 
@@ -60,19 +60,18 @@ fn interpolated_rows(
     operator: &SparseOperator,
     interpolation: &SparseMatrix<f32>,
 ) -> Result<SparseMatrix<[f32; 3]>> {
-    let rows: &Rows<f32> = &operator.single;
-    let mut scaled = SparseMatrix::new(operator.vertex_cells());
-    for (stencil, weight) in operator.single_rho_weights.iter().enumerate() {
+    let weights = operator.single_rho_weights.iter().enumerate();
+    let rows = weights.map(|(stencil, weight)| {
         let root = weight.sqrt();
-        let lanes = |four: &EntryGroup<f32>| {
+        let lanes = move |four: &EntryGroup<f32>| {
             let EntryGroup { vertices, entries } = *four;
             std::array::from_fn::<_, { super::ROW_GROUP_ENTRIES }, _>(|lane| {
                 (vertices[lane], entries.map(|row| root * row[lane]))
             })
         };
-        scaled.push(rows.row(stencil).iter().flat_map(lanes));
-    }
-    scaled.multiply(interpolation, |sum: &mut [f32; 3], row, factor| {
+        operator.single.row(stencil).iter().flat_map(lanes)
+    });
+    interpolation.premultiply(rows, |sum: &mut [f32; 3], row, factor| {
         for (sum, entry) in sum.iter_mut().zip(row) {
             *sum += entry * factor;
         }

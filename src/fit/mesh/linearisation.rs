@@ -13,6 +13,7 @@ use super::topology::Topology;
 use crate::error::{Error, Result, try_filled};
 use crate::fit::energy::problem;
 use crate::fit::energy::spectral_penalty::{HuberParameters, PenaltyKind};
+use crate::fit::operator::sparse::matrix::SparseMatrix;
 use crate::fit::operator::sparse::{Parts, Rows, SparseOperator};
 use crate::lattice::per_cell::PerCell;
 use crate::math::index::NO_INDEX;
@@ -161,13 +162,15 @@ impl Linearisation {
             Some(way) => scales[directions.all[way as usize].0 as usize],
             None => scales.get(unknown as usize).copied().unwrap_or(1.0),
         });
-        let beside = centres.iter().map(|vertex| {
+        let mut beside = SparseMatrix::new(centres.len());
+        for vertex in &centres {
             let ring = adjacency.around(*vertex as usize).iter();
             let ring = ring.map(|other| about[*other as usize]);
-            ring.filter(|stencil| *stencil != NO_INDEX).collect()
-        });
+            let stencils = ring.filter(|stencil| *stencil != NO_INDEX);
+            beside.push(stencils.map(|stencil| (stencil, ())));
+        }
         let operator = SparseOperator::new(Parts {
-            beside: beside.collect(),
+            beside,
             areas: centres
                 .iter()
                 .map(|vertex| share(*vertex as usize))

@@ -77,8 +77,8 @@ impl Quadratic {
             for (i, row) in matrix.iter_mut().enumerate() {
                 let weighted = weight * terms[i];
                 right[i] += weighted * height;
-                for j in 0..=i {
-                    row[j] += weighted * terms[j];
+                for (entry, term) in row.iter_mut().zip(&terms[..=i]) {
+                    *entry += weighted * term;
                 }
             }
             samples.push(Sample {

@@ -21,6 +21,7 @@ use crate::fit::linear::z_step_solver::SolvableOperator;
 use crate::fit::operator::Operator;
 use crate::fit::operator::lattice::position;
 use crate::fit::operator::sparse::gradients::SparseGradients;
+use crate::math::sym2::Sym2;
 use crate::scene::view::Frame as Frame3;
 use crate::{Error, Heightfield, Input, Lattice, Mesh, Options, Triangulation};
 

@@ -1,10 +1,11 @@
 //! Segmentation of a triangle mesh into smooth parts, by the angles between its triangles.
 
 use std::cmp::Reverse;
+use std::collections::BinaryHeap;
 use std::collections::hash_map::Entry;
-use std::collections::{BinaryHeap, HashMap};
 
 use nalgebra::Vector3;
+use rustc_hash::FxHashMap;
 
 use crate::error::{Result, try_filled};
 use crate::math::index::NO_INDEX;
@@ -48,11 +49,16 @@ impl Facets {
         }
         let mut angles = try_filled("patches", twins.len(), 0.0)?;
         let mut lengths = try_filled("patches", twins.len(), 0.0)?;
-        for side in 0..twins.len() {
+        for (side, twin) in twins.iter().enumerate() {
+            let twin = *twin as usize;
+            if twin < side {
+                (lengths[side], angles[side]) = (lengths[twin], angles[twin]);
+                continue;
+            }
             let [a, b] = half_edge_ends(&triangles, side as u32).map(|v| places[v as usize]);
             lengths[side] = (b - a).norm();
-            if twins[side] != NO_INDEX {
-                let [m, n] = [side, twins[side] as usize].map(|side| normals[side / 3]);
+            if twin < twins.len() {
+                let [m, n] = [side, twin].map(|side| normals[side / 3]);
                 angles[side] = m.cross(&n).norm().atan2(m.dot(&n));
             }
         }
@@ -166,7 +172,7 @@ impl Facets {
             for side in 3 * t..3 * t + 3 {
                 let twin = self.twins[side];
                 if twin != NO_INDEX && open[twin as usize / 3] {
-                    queue.push(Reverse((way(side).to_bits(), twin, side)));
+                    queue.push(Reverse((way(side).to_bits(), twin, side as u32)));
                 }
             }
         };
@@ -176,7 +182,7 @@ impl Facets {
         while let Some(Reverse((_, twin, side))) = queue.pop() {
             let to = twin as usize / 3;
             if std::mem::take(&mut open[to]) {
-                labels[to] = labels[side / 3];
+                labels[to] = labels[side as usize / 3];
                 ways(to, &open, &mut queue);
             }
         }
@@ -199,7 +205,7 @@ impl Facets {
     fn merge(&self, labels: &mut [u32], fold: f64) -> Result<()> {
         let mut sets = UnionFind::new("patches", labels.len())?;
         let mut regions = Regions {
-            between: HashMap::new(),
+            between: FxHashMap::default(),
             around: try_filled("patches", labels.len(), Vec::new())?,
             queue: BinaryHeap::new(),
             fold,
@@ -229,7 +235,7 @@ impl Facets {
 /// and its length.
 struct Regions {
     /// Integral of the angle and length of each border, by the labels of both parts, the lower one first.
-    between: HashMap<(u32, u32), [f64; 2]>,
+    between: FxHashMap<(u32, u32), [f64; 2]>,
     /// Labels of each part's neighbours, some of which may have been merged into others.
     around: Vec<Vec<u32>>,
     /// Queue of pairs of parts, ordered by their mean angle at the time when they were added.

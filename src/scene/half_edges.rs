@@ -18,21 +18,40 @@ pub(crate) fn next_half_edge(half_edge: u32) -> u32 {
 }
 
 /// Finds the twin of each half-edge: the half-edge of the neighbouring triangle with the same ends; [`NO_INDEX`] on the
-/// border. At most two triangles may share an edge. Costs a sort of the half-edges.
+/// border. At most two triangles may share an edge. Costs `O(half-edges)` on meshes whose vertices have few triangles.
 pub(crate) fn twin_half_edges(triangles: &[[u32; 3]]) -> Vec<u32> {
     let half_edges = 0..3 * triangles.len() as u32;
-    let mut sorted: Vec<(u32, u32, u32)> = half_edges
-        .map(|half_edge| {
-            let [a, b] = half_edge_ends(triangles, half_edge);
-            (a.min(b), a.max(b), half_edge)
-        })
-        .collect();
-    sorted.sort_unstable();
+    let ends = |half_edge: u32| {
+        let [a, b] = half_edge_ends(triangles, half_edge);
+        [a.min(b), a.max(b)]
+    };
+    // Half-edges in the order of the lower ones of their ends, by counting.
+    let vertices = triangles.as_flattened().iter().max();
+    let vertices = vertices.map_or(0, |vertex| *vertex as usize + 1);
+    let mut next = vec![0u32; vertices + 1];
+    for half_edge in half_edges.clone() {
+        next[ends(half_edge)[0] as usize + 1] += 1;
+    }
+    for vertex in 0..vertices {
+        next[vertex + 1] += next[vertex];
+    }
+    let mut sorted = vec![(0, 0); half_edges.len()];
+    for half_edge in half_edges {
+        let [low, high] = ends(half_edge);
+        sorted[next[low as usize] as usize] = (high, half_edge);
+        next[low as usize] += 1;
+    }
     let mut twins = vec![NO_INDEX; sorted.len()];
-    for pair in sorted.chunk_by(|a, b| (a.0, a.1) == (b.0, b.1)) {
-        if let [(.., one), (.., other)] = pair {
-            (twins[*one as usize], twins[*other as usize]) = (*other, *one);
+    let mut start = 0;
+    for end in &next[..vertices] {
+        let at_vertex = &mut sorted[start..*end as usize];
+        at_vertex.sort_unstable();
+        for pair in at_vertex.chunk_by(|a, b| a.0 == b.0) {
+            if let [(_, one), (_, other)] = pair {
+                (twins[*one as usize], twins[*other as usize]) = (*other, *one);
+            }
         }
+        start = *end as usize;
     }
     twins
 }

@@ -42,7 +42,7 @@ pub(crate) trait ZStepSolver<O: Operator>: Clone + Debug {
     /// Residual relative to the right-hand side `2λw z̃`, both in the norm of the matrix's inverse diagonal.
     fn relative_residual(&self, problem: &Problem<O>) -> f64;
 
-    /// Takes one conjugate-gradient iteration; returns `false`, with nothing changed, when nothing is left to improve.
+    /// Takes one iteration, of conjugate gradients or a V-cycle; returns `false`, with nothing changed, when nothing is left to improve.
     fn step(&mut self, operator: &O) -> bool;
 
     /// Adds the correction `δ` found so far to the heights `z`.

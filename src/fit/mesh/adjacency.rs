@@ -49,10 +49,10 @@ impl Adjacency {
         let ring = self.around(vertex);
         to.clear();
         for neighbour in ring {
-            to.extend(self.around(*neighbour as usize));
+            let around = self.around(*neighbour as usize).iter().copied();
+            to.extend(around.filter(|other| *other != vertex as u32 && !ring.contains(other)));
         }
         to.sort_unstable();
         to.dedup();
-        to.retain(|other| *other != vertex as u32 && !ring.contains(other));
     }
 }

@@ -30,7 +30,7 @@ const MIN_COARSENED_VERTICES: usize = 4000;
 /// Minimum ratio of the vertices of a level to those of the next coarser one at which that saves time.
 const MIN_COARSENING_RATIO: f64 = 2.0;
 
-/// Minimum number of vertices of a level whose z-steps are preconditioned by a V-cycle. On smaller levels it saves hardly
+/// Minimum number of vertices of a level whose z-steps are V-cycles. On smaller levels it saves hardly
 /// any time, because making its matrices takes as long as the iterations that it saves (`benches/whole.md`).
 const MIN_V_CYCLE_VERTICES: usize = 100_000;
 

@@ -13,10 +13,10 @@ use super::topology::Topology;
 use crate::error::{Error, Result, try_filled};
 use crate::fit::energy::problem;
 use crate::fit::energy::spectral_penalty::{HuberParameters, PenaltyKind};
+use crate::fit::operator::sparse::matrix::SparseMatrix;
 use crate::fit::operator::sparse::{Parts, Rows, SparseOperator};
 use crate::lattice::per_cell::PerCell;
 use crate::math::index::NO_INDEX;
-use crate::math::sym2::Sym2;
 
 pub(super) type Problem = problem::Problem<SparseOperator>;
 
@@ -109,20 +109,18 @@ impl Linearisation {
                 continue;
             };
             row.clear();
-            let mut own = Sym2::default();
             for (k, other) in ring.iter().enumerate() {
                 let change = fit.change(&frame, k, frames[*other as usize].normal);
                 row.push((*other, change.coordinates()));
-                own = own - fit.change(&frame, k, ray.normal);
                 for (way, along) in directions.at_vertex(*other as usize) {
                     row.push((across + way, fit.change(&frame, k, along).coordinates()));
                 }
             }
             for (way, along) in directions.at_vertex(vertex) {
-                let all = (0..ring.len()).map(|k| fit.change(&frame, k, along));
-                let own = all.fold(Sym2::default(), |sum, change| sum - change);
+                let own = fit.change_at_centre(&frame, along);
                 row.push((across + way, own.coordinates()));
             }
+            let own = fit.change_at_centre(&frame, ray.normal);
             row.push((vertex as u32, own.coordinates()));
             row.push((constant, fit.hessian().coordinates()));
             if row
@@ -164,13 +162,15 @@ impl Linearisation {
             Some(way) => scales[directions.all[way as usize].0 as usize],
             None => scales.get(unknown as usize).copied().unwrap_or(1.0),
         });
-        let beside = centres.iter().map(|vertex| {
+        let mut beside = SparseMatrix::new(centres.len());
+        for vertex in &centres {
             let ring = adjacency.around(*vertex as usize).iter();
             let ring = ring.map(|other| about[*other as usize]);
-            ring.filter(|stencil| *stencil != NO_INDEX).collect()
-        });
+            let stencils = ring.filter(|stencil| *stencil != NO_INDEX);
+            beside.push(stencils.map(|stencil| (stencil, ())));
+        }
         let operator = SparseOperator::new(Parts {
-            beside: beside.collect(),
+            beside,
             areas: centres
                 .iter()
                 .map(|vertex| share(*vertex as usize))

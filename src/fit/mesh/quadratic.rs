@@ -29,30 +29,32 @@ pub(super) struct Neighbour {
 #[derive(Debug, Clone)]
 pub(crate) struct Quadratic {
     samples: Vec<Sample>,
+    /// Inverse of the matrix of the normal equations.
     inverse: [[f64; COEFFICIENT_COUNT]; COEFFICIENT_COUNT],
     coefficients: [f64; COEFFICIENT_COUNT],
     scale: f64,
 }
 
-/// A neighbour's contribution to the fit of a quadratic.
+/// A neighbour's contribution to the fit of a quadratic, in units of the quadratic's `scale`.
 #[derive(Debug, Clone)]
 struct Sample {
-    /// Derivatives of the quadratic's coefficients with respect to the neighbour's height.
-    column: [f64; COEFFICIENT_COUNT],
-    /// Coordinates of the neighbour in the tangent plane, in units of the quadratic's `scale`.
-    place: [f64; 2],
+    /// Terms of the quadratic at the neighbour.
+    terms: [f64; COEFFICIENT_COUNT],
+    /// Height of the neighbour above the tangent plane.
+    height: f64,
     weight: f64,
-    residual: f64,
 }
 
 /// Returns the terms `½x²`, `xy`, `½y²`, `x` and `y` of a quadratic at the point `(x, y)`.
+#[inline]
 fn terms([x, y]: [f64; 2]) -> [f64; COEFFICIENT_COUNT] {
     [0.5 * x * x, x * y, 0.5 * y * y, x, y]
 }
 
 /// Returns the inner product of two coefficient vectors.
+#[inline]
 fn inner(a: &[f64; COEFFICIENT_COUNT], b: &[f64; COEFFICIENT_COUNT]) -> f64 {
-    a.iter().zip(b).map(|(a, b)| a * b).sum()
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2] + a[3] * b[3] + a[4] * b[4]
 }
 
 impl Quadratic {
@@ -65,47 +67,41 @@ impl Quadratic {
         if !(scale > 0.0 && scale.is_finite()) {
             return None;
         }
+        // The lower triangle of the matrix is enough, because it is symmetric.
         let mut matrix = [[0.0; COEFFICIENT_COUNT]; COEFFICIENT_COUNT];
+        let mut right = [0.0; COEFFICIENT_COUNT];
         let mut samples = Vec::with_capacity(neighbours.len());
         for Neighbour { offset, weight } in neighbours {
-            let [x, y, height] = frame.coordinates(offset / scale);
-            let q = terms([x, y]);
-            for (row, a) in matrix.iter_mut().zip(q) {
-                for (entry, b) in row.iter_mut().zip(q) {
-                    *entry += weight * a * b;
+            let [x, y, height] = frame.coordinates(*offset).map(|x| x / scale);
+            let terms = terms([x, y]);
+            for (i, row) in matrix.iter_mut().enumerate() {
+                let weighted = weight * terms[i];
+                right[i] += weighted * height;
+                for (entry, term) in row.iter_mut().zip(&terms[..=i]) {
+                    *entry += weighted * term;
                 }
             }
             samples.push(Sample {
-                column: [0.0; COEFFICIENT_COUNT],
-                place: [x, y],
+                terms,
+                height,
                 weight: *weight,
-                residual: height,
             });
         }
         let inverse = inverse(&matrix)?;
-        let mut coefficients = [0.0; COEFFICIENT_COUNT];
-        for sample in &mut samples {
-            let q = terms(sample.place);
-            sample.column = std::array::from_fn(|k| sample.weight * inner(&inverse[k], &q));
-            for (coefficient, entry) in coefficients.iter_mut().zip(&sample.column) {
-                *coefficient += entry * sample.residual;
-            }
-        }
-        for sample in &mut samples {
-            sample.residual -= inner(&coefficients, &terms(sample.place));
-        }
         Some(Quadratic {
             samples,
+            coefficients: inverse.map(|row| inner(&row, &right)),
             inverse,
-            coefficients,
             scale,
         })
     }
 
     /// Returns the noise variance of the second derivatives, relative to that on the six-ring of a hexagonal lattice.
     pub(super) fn amplification(&self) -> f64 {
-        let columns = self.samples.iter().map(|sample| sample.column);
-        let squares = columns.map(|c| c[0] * c[0] + 2.0 * c[1] * c[1] + c[2] * c[2]);
+        let squares = self.samples.iter().map(|sample| {
+            let [xx, xy, yy, ..] = self.inverse.map(|row| inner(&row, &sample.terms));
+            sample.weight.powi(2) * (xx * xx + 2.0 * xy * xy + yy * yy)
+        });
         squares.sum::<f64>() / HEXAGONAL_AMPLIFICATION
     }
 
@@ -135,55 +131,74 @@ impl Quadratic {
 
     /// Returns the change of the second derivatives, to first order, when the `k`-th neighbour moves by `v` relative to
     /// the vertex.
+    #[inline]
     pub(super) fn change(&self, frame: &Frame, k: usize, v: Point) -> Sym2 {
-        let [dx, dy, dz] = frame.coordinates(v);
-        let sample = &self.samples[k];
-        let [x, y] = sample.place;
+        self.solve(self.right_change(&self.samples[k], frame.coordinates(v)))
+    }
+
+    /// Returns the change of the second derivatives, to first order, when the vertex itself moves by `v`.
+    pub(super) fn change_at_centre(&self, frame: &Frame, v: Point) -> Sym2 {
+        let back = frame.coordinates(-v);
+        let mut sum = [0.0; COEFFICIENT_COUNT];
+        for sample in &self.samples {
+            let change = self.right_change(sample, back);
+            (0..COEFFICIENT_COUNT).for_each(|k| sum[k] += change[k]);
+        }
+        self.solve(sum)
+    }
+
+    /// Returns the change of the normal equations' residual, to first order, when a neighbour moves by `[dx, dy, dz]` in
+    /// the frame's coordinates.
+    #[inline]
+    fn right_change(&self, sample: &Sample, [dx, dy, dz]: [f64; 3]) -> [f64; COEFFICIENT_COUNT] {
+        let Sample {
+            terms,
+            height,
+            weight,
+        } = sample;
+        let [.., x, y] = *terms;
         let along = [x * dx, x * dy + y * dx, y * dy, dx, dy];
-        let rise = dz - inner(&along, &self.coefficients);
-        let pull = sample.weight * sample.residual;
-        let [xx, xy, yy] = std::array::from_fn(|row| {
-            sample.column[row] * rise + pull * inner(&self.inverse[row], &along)
-        });
+        let rise = weight * (dz - inner(&along, &self.coefficients));
+        let pull = weight * (height - inner(terms, &self.coefficients));
+        std::array::from_fn(|k| terms[k] * rise + along[k] * pull)
+    }
+
+    /// Solves the normal equations for a right-hand side, and returns the second derivatives of the solution.
+    #[inline]
+    fn solve(&self, right: [f64; COEFFICIENT_COUNT]) -> Sym2 {
+        let [xx, xy, yy] = std::array::from_fn(|row| inner(&self.inverse[row], &right));
         Sym2::new(xx, xy, yy).scale(self.scale.powi(-2))
     }
 }
 
-/// Inverts a symmetric matrix by Cholesky's factorisation; `None` unless the matrix is well positive definite.
+/// Inverts a symmetric matrix, given by its lower triangle, by Cholesky's factorisation; `None` unless the matrix is well
+/// positive definite.
 fn inverse(
     matrix: &[[f64; COEFFICIENT_COUNT]; COEFFICIENT_COUNT],
 ) -> Option<[[f64; COEFFICIENT_COUNT]; COEFFICIENT_COUNT]> {
+    // The factor and the inverse of the factor, both lower triangles.
     let mut l = [[0.0; COEFFICIENT_COUNT]; COEFFICIENT_COUNT];
+    let mut m = l;
     for i in 0..COEFFICIENT_COUNT {
-        for j in 0..=i {
+        for j in 0..i {
             let sum: f64 = matrix[i][j] - (0..j).map(|k| l[i][k] * l[j][k]).sum::<f64>();
-            if i == j {
-                if sum.is_nan() || sum <= MIN_PIVOT_SHARE * matrix[i][i] {
-                    return None;
-                }
-                l[i][i] = sum.sqrt();
-            } else {
-                l[i][j] = sum / l[j][j];
-            }
+            l[i][j] = sum * m[j][j];
+        }
+        let pivot = matrix[i][i] - (0..i).map(|k| l[i][k] * l[i][k]).sum::<f64>();
+        if pivot.is_nan() || pivot <= MIN_PIVOT_SHARE * matrix[i][i] {
+            return None;
+        }
+        m[i][i] = 1.0 / pivot.sqrt();
+        for j in 0..i {
+            m[i][j] = -m[i][i] * (j..i).map(|k| l[i][k] * m[k][j]).sum::<f64>();
         }
     }
-    let mut inverse = [[0.0; COEFFICIENT_COUNT]; COEFFICIENT_COUNT];
-    for column in 0..COEFFICIENT_COUNT {
-        let mut x = [0.0; COEFFICIENT_COUNT];
-        for i in 0..COEFFICIENT_COUNT {
-            let unit = f64::from(u8::from(i == column));
-            x[i] = (unit - (0..i).map(|k| l[i][k] * x[k]).sum::<f64>()) / l[i][i];
-        }
-        for i in (0..COEFFICIENT_COUNT).rev() {
-            x[i] = (x[i]
-                - (i + 1..COEFFICIENT_COUNT)
-                    .map(|k| l[k][i] * x[k])
-                    .sum::<f64>())
-                / l[i][i];
-        }
-        for (row, x) in inverse.iter_mut().zip(x) {
-            row[column] = x;
-        }
-    }
-    Some(inverse)
+    let entry = |i: usize, j: usize| {
+        (i.max(j)..COEFFICIENT_COUNT)
+            .map(|k| m[k][i] * m[k][j])
+            .sum()
+    };
+    Some(std::array::from_fn(|i| {
+        std::array::from_fn(|j| entry(i, j))
+    }))
 }

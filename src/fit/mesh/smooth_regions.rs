@@ -39,9 +39,13 @@ impl SmoothRegions {
             vertex_fans: VertexFans::new(topology),
             labels,
         };
-        for vertex in 0..topology.len() {
-            if let [one] = sides.around(vertex)[..] {
-                sides.region[vertex] = one;
+        for (vertex, region) in sides.region.iter_mut().enumerate() {
+            let fan = sides.vertex_fans.around(vertex).iter();
+            let mut labels = fan.map(|t| sides.labels[*t as usize]);
+            if let Some(first) = labels.next()
+                && labels.all(|label| label == first)
+            {
+                *region = first;
             }
         }
         Ok(sides)

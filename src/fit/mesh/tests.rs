@@ -21,6 +21,7 @@ use crate::fit::linear::z_step_solver::SolvableOperator;
 use crate::fit::operator::Operator;
 use crate::fit::operator::lattice::position;
 use crate::fit::operator::sparse::gradients::SparseGradients;
+use crate::math::sym2::Sym2;
 use crate::scene::view::Frame as Frame3;
 use crate::{Error, Heightfield, Input, Lattice, Mesh, Options, Triangulation};
 
@@ -293,20 +294,26 @@ fn the_change_of_a_fit_is_its_derivative() {
             Quadratic::fit(&frame, &neighbours).unwrap()
         };
         let own = fit(&offsets);
-        for k in 0..valence {
-            let v = Vector3::new(random(), random(), random());
-            let moved = |t: f64| {
-                let mut offsets = offsets.clone();
-                offsets[k] += t * v;
-                fit(&offsets).hessian()
-            };
+        let check = |found: Sym2, moved: &dyn Fn(f64) -> Vec<Point>| {
             let t = 1e-5;
-            let expected = (moved(t) - moved(-t)).scale(0.5 / t).entries();
-            let found = own.change(&frame, k, v).entries();
-            for (found, expected) in found.into_iter().zip(expected) {
+            let change = fit(&moved(t)).hessian() - fit(&moved(-t)).hessian();
+            let expected = change.scale(0.5 / t).entries();
+            for (found, expected) in found.entries().into_iter().zip(expected) {
                 assert!((found - expected).abs() < 1e-4 * (1.0 + expected.abs()));
             }
+        };
+        for k in 0..valence {
+            let v = Vector3::new(random(), random(), random());
+            check(own.change(&frame, k, v), &|t| {
+                let mut offsets = offsets.clone();
+                offsets[k] += t * v;
+                offsets
+            });
         }
+        let v = Vector3::new(random(), random(), random());
+        check(own.change_at_centre(&frame, v), &|t| {
+            offsets.iter().map(|offset| offset - t * v).collect()
+        });
     }
 }
 

@@ -1,5 +1,8 @@
-//! The z-step's solver for operators given as a sparse matrix: conjugate gradients, preconditioned by a V-cycle where
-//! there are coarser levels and by Jacobi's preconditioner where there are none.
+//! The z-step's solver for operators given as a sparse matrix: V-cycles where there are coarser levels, and conjugate
+//! gradients with Jacobi's preconditioner where there are none.
+//!
+//! The V-cycle is taken as it is, without a line search: then ADMM converges with a single V-cycle in each z-step (see
+//! [`v_cycle`](super::v_cycle)), and one product with the matrix is saved.
 
 use super::v_cycle::{Interpolations, VCycle};
 use super::{MAX_RUN_LENGTH, Rows, SparseOperator, normal};
@@ -158,7 +161,19 @@ impl<T: Precision> Gradients<T> {
     /// Starts conjugate gradients with the residual as it is, and 0 as the solution.
     fn start(&mut self) {
         self.solution.fill(T::default());
-        self.forget_direction();
+        self.direction.fill(T::default());
+        self.previous = 0.0;
+        self.measure();
+    }
+
+    /// Computes the residual of the solution so far, for the right-hand side `right`.
+    fn compute_residual(&mut self, operator: &SparseOperator, right: &[T]) {
+        let (rows, weights) = T::rows(operator);
+        normal(rows, weights, &self.solution, &mut self.image);
+        for (i, residual) in self.residual.iter_mut().enumerate() {
+            let image = self.fidelity[i] * self.solution[i] + self.rho * self.image[i];
+            *residual = right[i] - image;
+        }
         self.measure();
     }
 
@@ -180,49 +195,21 @@ impl<T: Precision> Gradients<T> {
         for (i, direction) in self.direction.iter_mut().enumerate() {
             *direction = self.inverse[i] * self.residual[i] + beta * *direction;
         }
-        self.advance(operator, self.energy)
-    }
-
-    /// Takes one conjugate-gradient iteration with another preconditioner, which has turned the residual into
-    /// `preconditioned`; returns `false` if nothing is left to improve.
-    fn step_along(&mut self, operator: &SparseOperator, preconditioned: &[T]) -> bool {
-        let energy = T::dot(&self.residual, preconditioned);
-        let beta = if self.previous > 0.0 {
-            energy / self.previous
-        } else {
-            0.0
-        };
-        let beta = T::from_f64(beta);
-        for (direction, more) in self.direction.iter_mut().zip(preconditioned) {
-            *direction = *more + beta * *direction;
-        }
-        self.advance(operator, energy)
-    }
-
-    /// Lets the next iteration follow its preconditioned residual alone.
-    fn forget_direction(&mut self) {
-        self.previous = 0.0;
-        self.direction.fill(T::default());
-    }
-
-    /// Goes to the minimum along the direction; `energy` is the product of residual and preconditioned residual.
-    fn advance(&mut self, operator: &SparseOperator, energy: f64) -> bool {
         let (rows, weights) = T::rows(operator);
         normal(rows, weights, &self.direction, &mut self.image);
         for (i, image) in self.image.iter_mut().enumerate() {
             *image = self.fidelity[i] * self.direction[i] + self.rho * *image;
         }
         let curvature = T::dot(&self.direction, &self.image);
-        // As what a NaN is not.
-        if !(curvature > 0.0 && energy > 0.0) {
+        if curvature.is_nan() || curvature <= 0.0 {
             return false;
         }
-        let alpha = T::from_f64(energy / curvature);
+        let alpha = T::from_f64(self.energy / curvature);
         for (i, residual) in self.residual.iter_mut().enumerate() {
             self.solution[i] = self.solution[i] + alpha * self.direction[i];
             *residual = *residual - alpha * self.image[i];
         }
-        self.previous = energy;
+        self.previous = self.energy;
         self.measure();
         true
     }
@@ -248,12 +235,12 @@ pub(crate) struct SparseGradients {
     /// Largest absolute target height, by which heights in the linear system are divided.
     unit: f64,
     v_cycle: Option<VCycle>,
-    /// Residual that is preconditioned by the V-cycle.
-    preconditioned: Vec<f32>,
+    /// Whether a V-cycle has moved the solution since the residual was computed.
+    has_moved: bool,
 }
 
 impl SparseGradients {
-    /// Makes the solver with a V-cycle as the preconditioner, unless there are no `interpolations` from coarser levels.
+    /// Makes the solver with V-cycles, unless there are no `interpolations` from coarser levels.
     ///
     /// # Errors
     /// [`Error::OutOfMemory`](crate::Error::OutOfMemory).
@@ -266,8 +253,6 @@ impl SparseGradients {
         if !interpolations.is_empty() {
             solver.v_cycle = Some(VCycle::new(&problem.operator, interpolations)?);
             solver.set_v_cycle_matrix();
-            solver.preconditioned =
-                try_filled("conjugate gradients", problem.operator.vertex_cells(), 0.0)?;
         }
         Ok(solver)
     }
@@ -304,7 +289,7 @@ impl SparseGradients {
             residual: try_filled("conjugate gradients", cells, 0.0)?,
             unit: if largest > 0.0 { largest } else { 1.0 },
             v_cycle: None,
-            preconditioned: Vec::new(),
+            has_moved: false,
         })
     }
 }
@@ -334,6 +319,7 @@ impl ZStepSolver<SparseOperator> for SparseGradients {
         }
         self.gradients.residual.copy_from_slice(&self.residual);
         self.gradients.start();
+        self.has_moved = false;
     }
 
     fn energy(&self) -> f64 {
@@ -349,22 +335,16 @@ impl ZStepSolver<SparseOperator> for SparseGradients {
     }
 
     fn step(&mut self, operator: &SparseOperator) -> bool {
-        if let Some(v_cycle) = &mut self.v_cycle {
-            let residual = &self.gradients.residual;
-            v_cycle.apply(operator, residual, &mut self.preconditioned);
-            if self.gradients.step_along(operator, &self.preconditioned) {
-                return true;
-            }
-            // Rounding may have made the V-cycle indefinite.
-            self.gradients.forget_direction();
+        let Some(v_cycle) = &mut self.v_cycle else {
+            let done = (0..JACOBI_STEPS).take_while(|_| self.gradients.step(operator));
+            return done.count() > 0;
+        };
+        if std::mem::replace(&mut self.has_moved, true) {
+            self.gradients.compute_residual(operator, &self.residual);
         }
-        let done = (0..JACOBI_STEPS).take_while(|_| self.gradients.step(operator));
-        let has_moved = done.count() > 0;
-        if self.v_cycle.is_some() {
-            // Directions of one preconditioner are not conjugate to those of the other.
-            self.gradients.forget_direction();
-        }
-        has_moved
+        let own = &mut self.gradients;
+        v_cycle.add_solution(operator, &own.residual, &mut own.solution);
+        true
     }
 
     fn correct(&mut self, operator: &SparseOperator, z: &mut [f64]) {

@@ -85,25 +85,40 @@ impl<T: Copy> SparseMatrix<T> {
         other: &SparseMatrix<U>,
         add: impl Fn(&mut V, &T, &U),
     ) -> Result<SparseMatrix<V>> {
-        let mut product = SparseMatrix::new(other.columns);
-        // Index among the row's entries of each column that the row has.
-        let mut places = try_filled("sparse matrix", other.columns, NO_INDEX)?;
-        let mut row: Vec<(u32, V)> = Vec::new();
-        for own in 0..self.rows() {
-            for (middle, left) in self.row(own) {
-                for (column, right) in other.row(*middle as usize) {
+        let rows = (0..self.rows()).map(|row| self.row(row).iter().copied());
+        other.premultiply(rows, add)
+    }
+
+    /// Returns the product of the matrix with `rows` of entries on its left; `add` adds the product of two entries to an
+    /// entry of the result.
+    ///
+    /// # Errors
+    /// [`Error::OutOfMemory`](crate::Error::OutOfMemory).
+    pub(super) fn premultiply<U, V: Copy + Default>(
+        &self,
+        rows: impl Iterator<Item = impl Iterator<Item = (u32, U)>>,
+        add: impl Fn(&mut V, &U, &T),
+    ) -> Result<SparseMatrix<V>> {
+        let mut product = SparseMatrix::new(self.columns);
+        // Index among the product's entries of each column that its last row has.
+        let mut places = try_filled("sparse matrix", self.columns, NO_INDEX)?;
+        let entries = &mut product.entries;
+        for row in rows {
+            let start = entries.len();
+            for (middle, left) in row {
+                for (column, right) in self.row(middle as usize) {
                     let place = &mut places[*column as usize];
                     if *place == NO_INDEX {
-                        *place = row.len() as u32;
-                        row.push((*column, V::default()));
+                        *place = (entries.len() - start) as u32;
+                        entries.push((*column, V::default()));
                     }
-                    add(&mut row[*place as usize].1, left, right);
+                    add(&mut entries[start + *place as usize].1, &left, right);
                 }
             }
-            for (column, _) in &row {
+            for (column, _) in &entries[start..] {
                 places[*column as usize] = NO_INDEX;
             }
-            product.push(row.drain(..));
+            product.first.push(entries.len());
         }
         Ok(product)
     }

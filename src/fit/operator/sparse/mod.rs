@@ -8,6 +8,7 @@ pub(crate) mod v_cycle;
 
 use std::sync::Arc;
 
+use self::matrix::SparseMatrix;
 use super::{Hessians, Matrices, Operator, Sums};
 use crate::error::{Result, try_filled};
 use crate::lattice::bands::Bands;
@@ -173,7 +174,7 @@ pub(crate) struct Parts {
     /// Area of each stencil, its weight in every sum over stencils; empty if each is 1.
     pub areas: Vec<f64>,
     /// Indices of the neighbouring stencils of each stencil.
-    pub beside: Vec<Vec<u32>>,
+    pub beside: SparseMatrix<()>,
     /// Vertex whose height is constant and so makes `C` affine; its column does not count for the operator's norm.
     pub constant: Option<u32>,
     pub places: Vec<[f64; 2]>,
@@ -199,7 +200,7 @@ pub(crate) struct SparseOperator {
     single_rho_weights: Vec<f32>,
     vertices: RowRuns,
     stencils: RowRuns,
-    beside: Arc<Vec<Vec<u32>>>,
+    beside: Arc<SparseMatrix<()>>,
     places: Vec<[f64; 2]>,
     spacing: f64,
     size: f64,
@@ -536,9 +537,10 @@ impl Operator for SparseOperator {
 
     fn spread(&self, values: &mut [f64]) {
         let old = values.to_vec();
-        for (stencil, beside) in self.beside.iter().enumerate() {
+        for stencil in 0..self.beside.rows() {
             let start = (2.0 * old[stencil], 2.0);
-            let (sum, weight) = beside.iter().fold(start, |(sum, weight), other| {
+            let beside = self.beside.row(stencil).iter();
+            let (sum, weight) = beside.fold(start, |(sum, weight), (other, ())| {
                 (sum + old[*other as usize], weight + 1.0)
             });
             values[stencil] = sum / weight;

@@ -1,14 +1,18 @@
-//! Multigrid V-cycle, the preconditioner of the z-step on meshes.
+//! Multigrid V-cycle, the solver of the z-step on large meshes.
 //!
 //! The coarse stiffness matrices are Galerkin products `PᵀCᵀCP`, so that the coarse correction does not overshoot, whatever
 //! the interpolation `P`. Chebyshev's polynomial smooths before and after the correction. It is scaled by a diagonal
 //! matrix that bounds the level's matrix from above, because an estimate of the largest eigenvalue may be too small
-//! beside creases, and the cycle would not be positive definite. As it is, conjugate gradients may use it.
+//! beside creases, and the cycle would not be positive definite.
+//!
+//! So the V-cycle is the exact solution for a symmetric matrix `M` in the place of the z-step's matrix `A`, with `M − A`
+//! positive semidefinite. A z-step of one V-cycle minimises ADMM's Lagrangian plus `½‖z − zₖ‖²` in the norm of `M − A`,
+//! and ADMM converges with it as with exact z-steps (proximal ADMM; Fazel, Pong, Sun and Tseng 2013).
 
 use std::sync::Arc;
 
 use super::matrix::SparseMatrix;
-use super::{EntryGroup, Rows, SparseOperator, normal};
+use super::{EntryGroup, SparseOperator, normal};
 use crate::error::{Result, try_filled};
 use crate::fit::operator::Operator;
 
@@ -16,7 +20,7 @@ use crate::fit::operator::Operator;
 pub(crate) type Interpolations = [Arc<SparseMatrix<f32>>];
 
 /// Number of smoothing steps of a V-cycle on each level before and after the coarse correction.
-const SMOOTHING_STEPS: usize = 2;
+const SMOOTHING_STEPS: usize = 1;
 
 /// Ratio of the largest to the smallest eigenvalue whose error the smoother reduces; the coarse level reduces the errors of
 /// smaller eigenvalues.
@@ -60,19 +64,18 @@ fn interpolated_rows(
     operator: &SparseOperator,
     interpolation: &SparseMatrix<f32>,
 ) -> Result<SparseMatrix<[f32; 3]>> {
-    let rows: &Rows<f32> = &operator.single;
-    let mut scaled = SparseMatrix::new(operator.vertex_cells());
-    for (stencil, weight) in operator.single_rho_weights.iter().enumerate() {
+    let weights = operator.single_rho_weights.iter().enumerate();
+    let rows = weights.map(|(stencil, weight)| {
         let root = weight.sqrt();
-        let lanes = |four: &EntryGroup<f32>| {
+        let lanes = move |four: &EntryGroup<f32>| {
             let EntryGroup { vertices, entries } = *four;
             std::array::from_fn::<_, { super::ROW_GROUP_ENTRIES }, _>(|lane| {
                 (vertices[lane], entries.map(|row| root * row[lane]))
             })
         };
-        scaled.push(rows.row(stencil).iter().flat_map(lanes));
-    }
-    scaled.multiply(interpolation, |sum: &mut [f32; 3], row, factor| {
+        operator.single.row(stencil).iter().flat_map(lanes)
+    });
+    interpolation.premultiply(rows, |sum: &mut [f32; 3], row, factor| {
         for (sum, entry) in sum.iter_mut().zip(row) {
             *sum += entry * factor;
         }
@@ -154,11 +157,18 @@ impl VCycle {
         }
     }
 
-    /// Computes the V-cycle's approximate solution for a residual.
-    pub(super) fn apply(&mut self, operator: &SparseOperator, residual: &[f32], to: &mut [f32]) {
+    /// Adds the V-cycle's approximate solution for a residual to `to`.
+    pub(super) fn add_solution(
+        &mut self,
+        operator: &SparseOperator,
+        residual: &[f32],
+        to: &mut [f32],
+    ) {
         self.levels[0].right.copy_from_slice(residual);
         self.run(operator, 0);
-        to.copy_from_slice(&self.levels[0].x);
+        for (to, more) in to.iter_mut().zip(&self.levels[0].x) {
+            *to += more;
+        }
     }
 
     fn run(&mut self, operator: &SparseOperator, k: usize) {

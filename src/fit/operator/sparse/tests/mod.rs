@@ -5,6 +5,7 @@ mod scattered;
 use std::sync::Arc;
 
 use super::gradients::SparseGradients;
+use super::matrix::SparseMatrix;
 use super::{Parts, Rows, SparseOperator};
 use crate::error::Result;
 use crate::fit::admm::iterate::Iterate;
@@ -58,7 +59,7 @@ fn operator_of(
     for (stencil, centre) in centres.iter().enumerate() {
         about[*centre] = Some(stencil as u32);
     }
-    let (mut rows, mut beside) = (Rows::new(), Vec::new());
+    let (mut rows, mut beside) = (Rows::new(), SparseMatrix::new(centres.len()));
     for (stencil, centre) in centres.iter().enumerate() {
         let mut entries = std::collections::BTreeMap::<usize, [f64; 3]>::new();
         for k in 0..3 {
@@ -67,7 +68,7 @@ fn operator_of(
             }
         }
         let others = entries.keys().filter(|vertex| *vertex != centre);
-        beside.push(others.filter_map(|vertex| about[*vertex]).collect());
+        beside.push(others.filter_map(|vertex| Some((about[*vertex]?, ()))));
         rows.push(entries.into_iter().map(|(vertex, [xx, xy, yy])| {
             (vertex as u32, crate::Sym2::new(xx, xy, yy).coordinates())
         }));

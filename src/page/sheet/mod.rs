@@ -10,7 +10,9 @@ mod bordered;
 mod camera;
 mod figures;
 mod fit;
+mod folds;
 mod grid;
+
 mod level_lines;
 mod place_table;
 mod plane;

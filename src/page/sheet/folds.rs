@@ -21,8 +21,7 @@ const ROWS: usize = 480;
 /// Width of the margin at the upper and lower edge without folds, in rows: edges are traced with errors.
 const MARGIN_ROWS: usize = 29;
 
-/// Maximum number of rows between the print's upper and lower edge for which the paper's brightness is taken from beside
-/// it, halved.
+/// Half width, in rows, of the window of the grey closing by which print is removed.
 const PRINT_RADIUS_ROWS: usize = 4;
 
 /// Standard deviation of the Gaussian by which the brightness is smoothed along a strip, in rows.

@@ -12,7 +12,6 @@ mod figures;
 mod fit;
 mod folds;
 mod grid;
-
 mod level_lines;
 mod place_table;
 mod plane;

@@ -135,7 +135,9 @@ impl SheetProblem {
         self.visit_outline(grid, robust, sink)?;
         self.visit_lines(grid, levels, robust, sink)?;
         let first = self.lines.len();
-        for (number, (fold, level)) in (first..).zip(self.folds.iter().zip(&levels[first..])) {
+        for (number, (fold, level)) in
+            (first..).zip(self.folds.iter().zip(levels.iter().skip(first)))
+        {
             self.visit_line(grid, fold, (number, *level), robust, sink)?;
         }
         let prior = &self.prior;

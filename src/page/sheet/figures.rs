@@ -64,7 +64,7 @@ impl SheetProblem {
     /// line in the photo best. None if the sheet is not in front of the camera.
     pub fn with_levels(&self, sheet: &FittedSheet) -> Option<FittedSheet> {
         let mut sheet = sheet.clone();
-        sheet.levels = self.lines.iter().map(|line| line.level).collect();
+        sheet.levels = self.expected_levels();
         for _ in 0..LEVEL_ROUNDS {
             let mut sums = vec![[0.0; 2]; sheet.levels.len()];
             let mut sink = |row: &ResidualRow| {

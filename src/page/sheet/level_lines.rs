@@ -27,6 +27,7 @@ pub(super) fn find_level_lines(
             let shares: Vec<_> = line.iter().step_by(thin).collect();
             LevelLine {
                 level: shares.iter().map(|p| p[1]).sum::<f64>() / shares.len() as f64,
+                level_deviation: None,
                 points: (shares.iter())
                     .map(|share| view.to_normalised(table.at(**share)))
                     .collect(),

@@ -10,6 +10,7 @@ mod bordered;
 mod camera;
 mod figures;
 mod fit;
+mod folds;
 mod grid;
 mod level_lines;
 mod place_table;

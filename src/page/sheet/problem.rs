@@ -7,14 +7,17 @@ use super::grid::SheetGrid;
 use super::plane::CameraPrior;
 use super::polyline::Polyline;
 
-/// A line of the print that runs across the flat page: a line of text or a rule.
+/// A line that runs across the flat page, parallel to its upper edge: a line of text, a rule or a fold.
 #[derive(Debug, Clone)]
 pub(super) struct LevelLine {
     /// Points of the line in the photo, in normalised image coordinates (pixels from the principal point, over the
     /// focal length).
     pub points: Vec<[f64; 2]>,
-    /// Initial position of the line on the flat page: share of the page's height.
+    /// Expected position of the line on the flat page: share of the page's height.
     pub level: f64,
+    /// Standard deviation of the line's position, if its expected one is prior knowledge; None if it is only an initial
+    /// guess.
+    pub level_deviation: Option<f64>,
     /// Length of the line on the flat page, in widths of the page.
     pub length: f64,
 }
@@ -35,7 +38,10 @@ pub(super) struct SheetProblem {
     /// Upper, lower, left and right edge of the page in the photo, in normalised image coordinates (pixels from the
     /// principal point, over the focal length).
     pub edges: [Polyline; 4],
+    /// Lines of print across the page.
     pub lines: Vec<LevelLine>,
+    /// Folds across the page, along which it bends freely.
+    pub folds: Vec<LevelLine>,
     pub prior: CameraPrior,
     /// Expected logarithm of the page's height over its width, and its standard deviation.
     pub ratio: [f64; 2],
@@ -54,8 +60,8 @@ pub(super) struct ResidualRow {
     /// Derivatives of the residual by the logarithm of the focal length, the principal point (2) and the logarithm of
     /// the page's height over its width.
     pub globals: [f64; 4],
-    /// Number of a line of print, and the derivative of the residual by this line's level; None if it depends on no
-    /// line.
+    /// Number of a line of print, or of a fold, which are counted after these, and the derivative of the residual by this
+    /// line's level; None if it depends on no line.
     pub level: Option<(usize, f64)>,
 }
 
@@ -108,6 +114,13 @@ impl ResidualRow {
 }
 
 impl SheetProblem {
+    /// Expected levels of the lines of print and, after them, of the folds.
+    pub fn expected_levels(&self) -> Vec<f64> {
+        (self.lines.iter().chain(&self.folds))
+            .map(|line| line.level)
+            .collect()
+    }
+
     /// Calls `sink` with each residual of a sheet whose lines of print have the given levels. None if part of the sheet
     /// is not in front of the camera.
     pub fn visit(
@@ -121,6 +134,12 @@ impl SheetProblem {
         self.visit_bending(grid, robust, sink);
         self.visit_outline(grid, robust, sink)?;
         self.visit_lines(grid, levels, robust, sink)?;
+        let first = self.lines.len();
+        for (number, (fold, level)) in
+            (first..).zip(self.folds.iter().zip(levels.iter().skip(first)))
+        {
+            self.visit_line(grid, fold, (number, *level), robust, sink)?;
+        }
         let prior = &self.prior;
         let off = [
             (grid.camera.log_scale - prior.log_scale) / prior.scale_deviation,
@@ -177,7 +196,7 @@ impl SheetProblem {
     }
 
     /// Calls `sink` with the bending residuals: second differences of the sheet's nodes, reweighted by their sizes so
-    /// that large bends count linearly.
+    /// that large bends count linearly. Bending across a fold is free.
     pub fn visit_bending(
         &self,
         grid: &SheetGrid,
@@ -201,13 +220,18 @@ impl SheetProblem {
                 sink(&row);
             }
         };
+        let last = (rows - 1) as f64;
+        let is_folded = |y: usize| {
+            let mut distances = self.folds.iter().map(|fold| fold.level * last - y as f64);
+            distances.any(|distance| distance.abs() < 1.0)
+        };
         for i in 0..cols * rows {
             let (x, y) = (i % cols, i / cols);
             if x > 0 && x + 1 < cols {
                 let nodes = [(i - 1, 1.0), (i, -2.0), (i + 1, 1.0), (i, 0.0)];
                 stencil(nodes, 1.0 / (across * across));
             }
-            if y > 0 && y + 1 < rows {
+            if y > 0 && y + 1 < rows && !is_folded(y) {
                 let nodes = [(i - cols, 1.0), (i, -2.0), (i + cols, 1.0), (i, 0.0)];
                 stencil(nodes, 1.0 / (down * down));
             }
@@ -279,36 +303,54 @@ impl SheetProblem {
         sink: &mut dyn FnMut(&ResidualRow),
     ) -> Option<()> {
         for (number, (line, level)) in self.lines.iter().zip(levels).enumerate() {
-            let share = |along: f64| [along, *level];
-            let count = grid.cols;
-            let seen: Option<Vec<_>> = (0..count)
-                .map(|i| {
-                    grid.camera
-                        .project(grid.at(share(i as f64 / (count - 1) as f64)))
-                })
-                .collect();
-            let seen = Polyline::new(seen?);
-            let weight =
-                self.weights.lines * self.depth * (line.length / line.points.len() as f64).sqrt();
-            for point in &line.points {
-                let near = seen.nearest(*point)?;
-                let place = grid.place(share(near.position / (count - 1) as f64));
-                let at = grid.sum(&place.nodes, &place.weights);
-                // The projection is at the nearest point: its distance from the traced one has the other sign.
-                let distance = -near.distance;
-                let size = self.depth * distance / LINE_OUTLIER_DISTANCE;
-                let own = weight * robust.next(size, -0.25);
-                let gradient = grid.camera.gradient(at, near.normal) * own;
-                let mut row = ResidualRow::new(own * distance);
-                for k in 0..4 {
-                    row.nodes[k] = (place.nodes[k], gradient * place.weights[k]);
-                }
-                let down = grid.sum(&place.nodes, &place.derivative_down);
-                row.level = Some((number, gradient.dot(&down)));
-                let projected = grid.camera.project(at)?;
-                row.globals = camera_derivatives(grid, projected, near.normal).map(|d| d * own);
-                sink(&row);
+            self.visit_line(grid, line, (number, *level), robust, sink)?;
+        }
+        Some(())
+    }
+
+    /// Calls `sink` with the residuals of one line: distances of its points in the photo from the sheet's projected line
+    /// at the given level. `level` is the line's number with its level.
+    fn visit_line(
+        &self,
+        grid: &SheetGrid,
+        line: &LevelLine,
+        (number, level): (usize, f64),
+        robust: &mut RobustWeights,
+        sink: &mut dyn FnMut(&ResidualRow),
+    ) -> Option<()> {
+        if let Some(deviation) = line.level_deviation {
+            let mut row = ResidualRow::new((level - line.level) / deviation);
+            row.level = Some((number, 1.0 / deviation));
+            sink(&row);
+        }
+        let count = grid.cols;
+        let seen: Option<Vec<_>> = (0..count)
+            .map(|i| {
+                grid.camera
+                    .project(grid.at([i as f64 / (count - 1) as f64, level]))
+            })
+            .collect();
+        let seen = Polyline::new(seen?);
+        let weight =
+            self.weights.lines * self.depth * (line.length / line.points.len() as f64).sqrt();
+        for point in &line.points {
+            let near = seen.nearest(*point)?;
+            let place = grid.place([near.position / (count - 1) as f64, level]);
+            let at = grid.sum(&place.nodes, &place.weights);
+            // The projection is at the nearest point: its distance from the traced one has the other sign.
+            let distance = -near.distance;
+            let size = self.depth * distance / LINE_OUTLIER_DISTANCE;
+            let own = weight * robust.next(size, -0.25);
+            let gradient = grid.camera.gradient(at, near.normal) * own;
+            let mut row = ResidualRow::new(own * distance);
+            for k in 0..4 {
+                row.nodes[k] = (place.nodes[k], gradient * place.weights[k]);
             }
+            let down = grid.sum(&place.nodes, &place.derivative_down);
+            row.level = Some((number, gradient.dot(&down)));
+            let projected = grid.camera.project(at)?;
+            row.globals = camera_derivatives(grid, projected, near.normal).map(|d| d * own);
+            sink(&row);
         }
         Some(())
     }

@@ -3,6 +3,7 @@
 
 use super::figures::SheetFigures;
 use super::fit::FittedSheet;
+use super::folds::find_folds;
 use super::level_lines::find_level_lines;
 use super::place_table::PlaceTable;
 use super::plane::{CameraPrior, Homography, grid_rows};
@@ -35,6 +36,10 @@ const FINE_GRID_COLS: usize = 25;
 
 /// Number of times that lines of print are detected in the flattened photo and the sheet is fitted to them.
 const LINE_DETECTION_ROUNDS: usize = 2;
+
+/// Standard deviation of a fold that halves the page from its middle, as a share of the page's height, if the fit of the
+/// sheet has a cost of 1. It is smaller for a higher cost, by which the sheet's other residuals are less certain.
+const HALF_FOLD_DEVIATION: f64 = 0.02;
 
 /// Maximum number of Levenberg–Marquardt steps in one fit of a sheet to a photo.
 const MAX_SHEET_FIT_STEPS: usize = 15;
@@ -116,6 +121,7 @@ pub(super) fn find_sheet(
     let mut problem = SheetProblem {
         edges: edges.clone(),
         lines: Vec::new(),
+        folds: Vec::new(),
         prior,
         ratio: prior.ratio(apparent),
         depth,
@@ -141,6 +147,7 @@ pub(super) fn find_sheet(
         let mut crumpled = problem.clone();
         crumpled.weights = CRUMPLED_PAPER_WEIGHTS;
         crumpled.lines.clear();
+        crumpled.folds.clear();
         let refined = crumpled.refined(coarse, &COARSE_GRID_COLS);
         if let Some(found) =
             refined.and_then(|coarse| crumpled.with_lines(coarse, &starts, view, photo))
@@ -200,8 +207,8 @@ impl SheetProblem {
         )
     }
 
-    /// Detects lines of print in the photo as flattened by a sheet, fits the sheet on the fine grid to outline and
-    /// lines, and repeats that; returns it with its measures. When lines are known, the search begins once more from the
+    /// Detects lines of print and folds in the photo as flattened by a sheet, fits the sheet on the fine grid to outline
+    /// and lines, and repeats that; returns it with its measures. When lines are known, the search begins once more from the
     /// initial guesses `starts`, because the outline alone may have led to a local minimum.
     fn with_lines(
         &mut self,
@@ -213,7 +220,11 @@ impl SheetProblem {
         for round in 0..LINE_DETECTION_ROUNDS {
             let table = PlaceTable::new(&sheet.grid, view).ok()?;
             self.lines = photo.map_or_else(Vec::new, |photo| find_level_lines(&table, view, photo));
-            sheet.levels = self.lines.iter().map(|line| line.level).collect();
+            let half_deviation = HALF_FOLD_DEVIATION / sheet.cost.max(1e-9).sqrt();
+            self.folds = photo.map_or_else(Vec::new, |photo| {
+                find_folds(&table, view, photo, half_deviation)
+            });
+            sheet.levels = self.expected_levels();
             if round > 0
                 && !self.lines.is_empty()
                 && let Some(coarse) = self.refined(sheet.clone(), &COARSE_GRID_COLS[1..])

@@ -1,0 +1,243 @@
+//! Detection of folds across a page: steps of brightness that run from the left edge to the right one in the flattened
+//! photo. A sheet bends freely along them. Outline and lines of print leave open where along the page the print is; a page
+//! that is folded once across is folded in its middle, which tells it.
+
+use std::ops::Range;
+
+use super::place_table::PlaceTable;
+use super::problem::LevelLine;
+use super::view::PhotoView;
+use crate::page::text::GreyPhoto;
+
+/// Number of vertical strips of the page in each of which steps of brightness are searched.
+const STRIPS: usize = 40;
+
+/// Number of columns of each strip at which the brightness is sampled.
+const SAMPLES_PER_STRIP: usize = 6;
+
+/// Number of rows of the page at which the brightness is sampled.
+const ROWS: usize = 480;
+
+/// Width of the margin at the upper and lower edge without folds, in rows: edges are traced with errors.
+const MARGIN_ROWS: usize = 29;
+
+/// Half width, in rows, of the window of the grey closing by which print is removed.
+const PRINT_RADIUS_ROWS: usize = 4;
+
+/// Standard deviation of the Gaussian by which the brightness is smoothed along a strip, in rows.
+const SMOOTHING_ROWS: f64 = 1.7;
+
+/// Step of brightness at which a fold is fully visible, as a multiple of the strip's median one.
+const VISIBLE_STEP_RATIO: f32 = 6.0;
+
+/// Addition to a strip's median step of logarithmic brightness: noise of evenly bright paper.
+const MIN_STEP_NOISE: f32 = 0.004;
+
+/// Cost of a change by one row from strip to strip, where a fully visible fold earns 1 in each strip.
+const ROW_CHANGE_COST: f32 = 0.04;
+
+/// Minimum mean visibility of a fold, from 0 to 1.
+const MIN_FOLD_VISIBILITY: f32 = 0.8;
+
+/// Minimum mean visibility of a fold in the outer strips: bars of tables end before them.
+const MIN_OUTER_VISIBILITY: f32 = 0.7;
+
+/// Number of strips at the left and at the right edge in which a fold is visible and print is not.
+const OUTER_STRIPS: usize = 3;
+
+/// Minimum distance of two folds, in rows.
+const MIN_FOLD_DISTANCE_ROWS: usize = 20;
+
+/// Maximum distance of a fold that halves the page from the middle of the flattened photo, as a share of its height.
+const MAX_HALF_FOLD_OFFSET: f64 = 0.06;
+
+/// Path of a fold across the page: its row in each strip.
+type FoldPath = Vec<usize>;
+
+/// Finds the folds across the page in the photo as flattened by a sheet. `table` gives the photo's places of the flat page;
+/// `half_deviation` is the standard deviation of the position of a fold that halves the page, as a share of its height.
+pub(super) fn find_folds(
+    table: &PlaceTable,
+    view: &PhotoView,
+    photo: &GreyPhoto,
+    half_deviation: f64,
+) -> Vec<LevelLine> {
+    let paths = visible_paths(strips(|share| photo.at(table.at(share))));
+    let level =
+        |path: &FoldPath| path.iter().map(|row| row_share(*row)).sum::<f64>() / STRIPS as f64;
+    let halves = paths.len() == 1 && (level(&paths[0]) - 0.5).abs() < MAX_HALF_FOLD_OFFSET;
+    (paths.iter())
+        .map(|path| LevelLine {
+            points: (path.iter().enumerate())
+                .map(|(strip, row)| [(strip as f64 + 0.5) / STRIPS as f64, row_share(*row)])
+                .map(|share| view.to_normalised(table.at(share)))
+                .collect(),
+            level: if halves { 0.5 } else { level(path) },
+            level_deviation: halves.then_some(half_deviation),
+            length: 1.0,
+        })
+        .collect()
+}
+
+/// Computes how visible a fold is in each strip and row of the page. `brightness` gives the flattened photo's, by shares of
+/// the page's width and height.
+fn strips(brightness: impl Fn([f64; 2]) -> f32) -> Vec<Vec<f32>> {
+    (0..STRIPS)
+        .map(|strip| {
+            visibility(|sample, row| {
+                let across = strip as f64 + (sample as f64 + 0.5) / SAMPLES_PER_STRIP as f64;
+                brightness([across / STRIPS as f64, row_share(row)])
+            })
+        })
+        .collect()
+}
+
+/// Finds the paths across all strips along which a fold is visible, the most visible one first.
+fn visible_paths(mut strips: Vec<Vec<f32>>) -> Vec<FoldPath> {
+    let mut folds = Vec::new();
+    loop {
+        let path = most_visible_path(&strips);
+        let mut visible = [0.0; STRIPS];
+        for ((row, strip), visible) in path.iter().zip(&mut strips).zip(&mut visible) {
+            *visible = strip[*row];
+            strip[near(*row, MIN_FOLD_DISTANCE_ROWS)].fill(0.0);
+        }
+        let outer = [&visible[..OUTER_STRIPS], &visible[STRIPS - OUTER_STRIPS..]].concat();
+        if mean(&visible) < MIN_FOLD_VISIBILITY {
+            return folds;
+        }
+        if mean(&outer) >= MIN_OUTER_VISIBILITY {
+            folds.push(path);
+        }
+    }
+}
+
+/// Position of the middle of a row on the page: share of the page's height.
+fn row_share(row: usize) -> f64 {
+    (row as f64 + 0.5) / ROWS as f64
+}
+
+/// Rows up to `radius` away from a row.
+fn near(row: usize, radius: usize) -> Range<usize> {
+    row.saturating_sub(radius)..(row + radius + 1).min(ROWS)
+}
+
+/// Computes how visible a fold is in each row of a strip, from 0 to 1: the steps of the paper's logarithmic brightness
+/// relative to the strip's median one. `brightness` gives the photo's by numbers of sample and row.
+fn visibility(brightness: impl Fn(usize, usize) -> f32) -> Vec<f32> {
+    let bright: Vec<f32> = (0..ROWS)
+        .map(|row| {
+            // The second brightest sample is paper, unless print covers the strip.
+            let mut brightest = [0.0_f32; 2];
+            for value in (0..SAMPLES_PER_STRIP).map(|sample| brightness(sample, row)) {
+                if value > brightest[0] {
+                    brightest = [value, brightest[0]];
+                } else if value > brightest[1] {
+                    brightest[1] = value;
+                }
+            }
+            (brightest[1] + 1.0).ln()
+        })
+        .collect();
+    let extremes = |values: &[f32], pick: fn(f32, f32) -> f32| -> Vec<f32> {
+        (0..ROWS)
+            .map(|row| values[near(row, PRINT_RADIUS_ROWS)].iter().copied())
+            .map(|values| values.reduce(pick).unwrap_or(0.0))
+            .collect()
+    };
+    let paper = extremes(&extremes(&bright, f32::max), f32::min);
+    let reach = (3.0 * SMOOTHING_ROWS) as usize + 1;
+    let kernel: Vec<f32> = (0..=reach)
+        .map(|i| (i as f64 * (-0.5 * (i as f64 / SMOOTHING_ROWS).powi(2)).exp()) as f32)
+        .collect();
+    let norm: f32 = kernel.iter().sum();
+    let steps: Vec<f32> = (0..ROWS)
+        .map(|row| {
+            let differences = (kernel.iter().enumerate()).map(|(i, weight)| {
+                weight * (paper[(row + i).min(ROWS - 1)] - paper[row.saturating_sub(i)])
+            });
+            differences.sum::<f32>().abs() / norm
+        })
+        .collect();
+    let mut sorted = steps.clone();
+    sorted.sort_by(f32::total_cmp);
+    let visible = VISIBLE_STEP_RATIO * (sorted[ROWS / 2] + MIN_STEP_NOISE);
+    let mut found = vec![0.0; ROWS];
+    for row in MARGIN_ROWS..ROWS - MARGIN_ROWS {
+        found[row] = (steps[row] / visible).min(1.0);
+    }
+    found
+}
+
+/// Finds the most visible path across all strips by dynamic programming.
+fn most_visible_path(strips: &[Vec<f32>]) -> FoldPath {
+    let highest = |rows: Range<usize>, value: &dyn Fn(usize) -> f32| {
+        let first = rows.start;
+        rows.fold(
+            first,
+            |best, row| if value(row) > value(best) { row } else { best },
+        )
+    };
+    let mut sums = strips[0].clone();
+    let mut sources: Vec<FoldPath> = Vec::new();
+    for strip in &strips[1..] {
+        let before = sums;
+        let reached = |from: usize, row: usize| {
+            before[from] - if from == row { 0.0 } else { ROW_CHANGE_COST }
+        };
+        let source: FoldPath = (0..ROWS)
+            .map(|row| highest(near(row, 1), &|from| reached(from, row)))
+            .collect();
+        sums = (0..ROWS)
+            .map(|row| reached(source[row], row) + strip[row])
+            .collect();
+        sources.push(source);
+    }
+    let mut path = vec![highest(0..ROWS, &|row| sums[row])];
+    for source in sources.iter().rev() {
+        path.push(source[path[path.len() - 1]]);
+    }
+    path.reverse();
+    path
+}
+
+/// Mean of some values.
+fn mean(values: &[f32]) -> f32 {
+    values.iter().sum::<f32>() / values.len() as f32
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Brightness of evenly lit paper with noise, rows of print and a filled bar from margin to margin.
+    fn printed([x, y]: [f64; 2]) -> f32 {
+        let noise = ((1e4 * x).sin() * (1e4 * y).cos()) as f32;
+        let is_printed =
+            (0.1..0.9).contains(&x) && (y * 40.0).fract() < 0.2 && (x * 60.0).fract() < 0.7;
+        let is_bar = (0.1..0.9).contains(&x) && (0.3..0.36).contains(&y);
+        let paper = if is_bar || is_printed { 60.0 } else { 200.0 };
+        paper + noise
+    }
+
+    #[test]
+    fn folds_from_edge_to_edge_are_found_and_print_is_not() {
+        assert!(visible_paths(strips(printed)).is_empty());
+        // The fold's light changes sides where a second fold crosses it.
+        let at = |x: f64| 0.52 + 0.03 * x;
+        let folded =
+            |[x, y]: [f64; 2]| printed([x, y]) * if (y < at(x)) == (x < 0.4) { 1.0 } else { 0.9 };
+        let found = visible_paths(strips(folded));
+        assert_eq!(found.len(), 1);
+        for (strip, row) in found[0].iter().enumerate() {
+            let expected = at((strip as f64 + 0.5) / STRIPS as f64);
+            let row = row_share(*row);
+            // Rows of print beside the fold move it by up to the radius of the closing.
+            let tolerance = (PRINT_RADIUS_ROWS + 1) as f64 / ROWS as f64;
+            assert!(
+                (row - expected).abs() < tolerance,
+                "{strip}: {row} {expected}"
+            );
+        }
+    }
+}

@@ -29,6 +29,8 @@ pub(super) struct Limits {
     /// Change of the layout's energy over its area in one iteration, without unit, below which the layout has
     /// converged.
     pub tolerance: f64,
+    /// Change of the energy in one iteration, as a share of it, below which the layout has converged.
+    pub relative_tolerance: f64,
     pub max_iterations: usize,
     /// Energy over area, without unit, that the layout should reach: a layout that stalls well above it is given up.
     /// Infinite if no energy is wanted.
@@ -50,7 +52,8 @@ pub(super) fn minimise_energy(
     let mut iteration = Iteration::new(positions)?;
     while iteration.steps < limits.max_iterations {
         let energy = triangles.energy(positions, &mut descent) / triangles.area;
-        let converges = iteration.converges(energy, limits.tolerance);
+        let tolerance = limits.tolerance.max(limits.relative_tolerance * energy);
+        let converges = iteration.converges(energy, tolerance);
         let stalls = iteration.steps > MIN_STEPS_BEFORE_GIVING_UP
             && iteration.decrease.abs() < STALLED_RELATIVE_CHANGE * energy;
         if converges || stalls && energy > HOPELESS_ENERGY_FACTOR * limits.wanted_energy {

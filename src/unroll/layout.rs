@@ -16,6 +16,10 @@ use crate::lattice::hexagonal::{ROW_SPACING, shift};
 use crate::scene::triangulation::Triangulation;
 use crate::scene::view::Frame;
 
+/// Change of the energy in one iteration, as a share of it, below which a layout has converged whose strain is only
+/// compared with a limit.
+const RELATIVE_TOLERANCE: f64 = 1e-4;
+
 /// Lays a surface flat with as little strain as possible.
 ///
 /// Costs tens of iterations of `O(vertices)`, and 300 bytes for each vertex. Deterministic.
@@ -41,6 +45,7 @@ pub(crate) fn unroll_mesh(
 ) -> Result<Unrolling> {
     let limits = Limits {
         tolerance: positive("tolerance", options.tolerance)?,
+        relative_tolerance: limit.map_or(0.0, |_| RELATIVE_TOLERANCE),
         max_iterations: options.max_iterations,
         // The energy is the sum of both squared principal strains.
         wanted_energy: limit.map_or(f64::INFINITY, |limit| 2.0 * limit * limit),

@@ -222,3 +222,24 @@ fn is_deep_inside(place: Point, lines: &[Vec<Point>], distance: f64) -> bool {
     });
     around.count() % 2 == 1 && segments.all(|ends| distance_to_segment(place, ends) > distance)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_point_in_a_ring_is_as_deep_as_it_is_far_from_both_circles() {
+        let circle = |radius: f64| -> Vec<Point> {
+            (0..360)
+                .map(|k| Point::from_polar(radius, f64::from(k).to_radians()))
+                .collect()
+        };
+        let ring = [circle(10.0), circle(4.0)];
+        let is_deep =
+            |radius: f64, distance| is_deep_inside(Point::from_polar(radius, 1.0), &ring, distance);
+        assert!(is_deep(7.0, 2.9) && !is_deep(7.0, 3.1));
+        assert!(is_deep(9.0, 0.9) && !is_deep(9.0, 1.1));
+        assert!(!is_deep(3.0, 0.5), "in the hole");
+        assert!(!is_deep(12.0, 0.5), "outside");
+    }
+}

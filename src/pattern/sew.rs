@@ -6,6 +6,7 @@ use std::collections::VecDeque;
 use super::check::{Tied, are_close, strain_along, strains};
 use super::fault::{SHEET_RELAXATION, fault, folds_of};
 use super::layout::{Arrangement, fits, longest_first, motion_to_join, seam_gap};
+use super::outline::Layout;
 use super::seam_graph::{NEGLIGIBLE_GAP_LENGTHS, SeamGraph};
 use crate::error::Result;
 use crate::math::planar::polyline_length;
@@ -221,23 +222,28 @@ fn close_cut(
     {
         return Ok(false);
     }
-    let mut is_hopeless = false;
+    let is_valid = |net: &SeamGraph, layout: &Layout| {
+        // A large strain in a small place hardly changes the strain of the whole sheet, so it is checked separately.
+        strain_along(net, seam) <= MAX_SEAM_STRAIN_FACTOR * limit
+            && (ties.iter())
+                .all(|seam| seam_gap(net, layout, *seam) <= NEGLIGIBLE_GAP_LENGTHS * net.spacing)
+            && fault(net, layout, &members, most).is_none()
+    };
+    let mut is_closed = !joined && is_valid(net, &layout);
     if joined {
         let mut sheet = Tied::new(net, &layout, &members, &ties)?;
-        let mut work = sheet.relax(net, &mut layout, trial)?;
         // Most trials fail, and a few steps show that.
-        is_hopeless = fault(net, &layout, &members, TRIAL_STRAIN_FACTOR * most).is_some();
-        if !is_hopeless {
-            work += sheet.relax(net, &mut layout, SHEET_RELAXATION)?;
+        for until in [trial, SHEET_RELAXATION] {
+            let work = sheet.relax(net, &mut layout, until)?;
+            *budget = budget.saturating_sub(work);
+            is_closed = is_valid(net, &layout);
+            let hopeless = TRIAL_STRAIN_FACTOR * most;
+            if is_closed || fault(net, &layout, &members, hopeless).is_some() {
+                break;
+            }
         }
-        *budget = budget.saturating_sub(work);
     }
-    let tight =
-        |seam: &usize| seam_gap(net, &layout, *seam) <= NEGLIGIBLE_GAP_LENGTHS * net.spacing;
-    // A large strain in a small place hardly changes the strain of the whole sheet, so it is checked separately.
-    let even = strain_along(net, seam) <= MAX_SEAM_STRAIN_FACTOR * limit;
-    let valid = |layout| fault(net, layout, &members, most).is_none();
-    if !is_hopeless && even && ties.iter().all(tight) && valid(&layout) {
+    if is_closed {
         arrangement.layout = layout;
         arrangement.sheets[a] = members;
         if a != b {

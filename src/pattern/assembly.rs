@@ -41,7 +41,7 @@ pub(super) struct Assembled {
 
 /// Stopping criteria of the solver that lays a sheet flat when its patches start near their final positions.
 const SHEET_SETTLING: StoppingCriteria = StoppingCriteria {
-    relative_tolerance: 5e-3,
+    relative_tolerance: 2e-3,
     max_steps: 12,
     ..SHEET_RELAXATION
 };
@@ -116,7 +116,7 @@ pub(super) enum Settled {
 }
 
 /// Lays the patches of each sheet flat together, and opens folds of invalid sheets unless removing a few
-/// border vertices would make them valid.
+/// border vertices would make them valid. Sheets that have not changed since are kept.
 pub(super) fn settle(
     parts: &Parts,
     net: &mut SeamGraph,
@@ -131,7 +131,8 @@ pub(super) fn settle(
             .iter()
             .filter_map(|p| Some(net.flat_patches[*p as usize].as_ref()?.relaxation))
             .collect();
-        if relaxations.iter().all(|how| *how == Relaxation::WithSheet) {
+        let is_relaxed = relaxations.iter().all(|how| *how == Relaxation::WithSheet);
+        if is_relaxed {
             arrangement.sheets.push(members);
             continue;
         }

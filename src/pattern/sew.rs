@@ -52,9 +52,9 @@ const TRIAL_RELAXATION: StoppingCriteria = StoppingCriteria {
     ..SHEET_RELAXATION
 };
 
-/// Strain after the first steps of a trial, as a multiple of its limit, above which it is abandoned: later steps hardly
-/// lower the strain of a sheet that will be valid.
-const TRIAL_STRAIN_FACTOR: f64 = 1.05;
+/// Factor of the limits for strains and gaps after the first steps of a trial, above which it is abandoned. Later
+/// steps hardly lower the strain of a sheet; with 1.02 range keeps a sheet more.
+const TRIAL_LIMIT_FACTOR: f64 = 1.05;
 
 /// Closes cuts again where the sheets stay valid, the longest first; a cut that cannot be closed as a whole is
 /// halved, and each half is tried. Only cuts of the wanted parts are tried, by at most so many relaxation steps for each
@@ -222,23 +222,25 @@ fn close_cut(
     {
         return Ok(false);
     }
-    let is_valid = |net: &SeamGraph, layout: &Layout| {
+    // Whether the sheet is valid with limits that are larger by a factor.
+    let is_valid = |net: &SeamGraph, layout: &Layout, factor: f64| {
+        let most_gap = factor * NEGLIGIBLE_GAP_LENGTHS * net.spacing;
         // A large strain in a small place hardly changes the strain of the whole sheet, so it is checked separately.
-        strain_along(net, seam) <= MAX_SEAM_STRAIN_FACTOR * limit
-            && (ties.iter())
-                .all(|seam| seam_gap(net, layout, *seam) <= NEGLIGIBLE_GAP_LENGTHS * net.spacing)
-            && fault(net, layout, &members, most).is_none()
+        strain_along(net, seam) <= factor * MAX_SEAM_STRAIN_FACTOR * limit
+            && ties
+                .iter()
+                .all(|seam| seam_gap(net, layout, *seam) <= most_gap)
+            && fault(net, layout, &members, factor * most).is_none()
     };
-    let mut is_closed = !joined && is_valid(net, &layout);
+    let mut is_closed = !joined && is_valid(net, &layout, 1.0);
     if joined {
         let mut sheet = Tied::new(net, &layout, &members, &ties)?;
         // Most trials fail, and a few steps show that.
         for until in [trial, SHEET_RELAXATION] {
             let work = sheet.relax(net, &mut layout, until)?;
             *budget = budget.saturating_sub(work);
-            is_closed = is_valid(net, &layout);
-            let hopeless = TRIAL_STRAIN_FACTOR * most;
-            if is_closed || fault(net, &layout, &members, hopeless).is_some() {
+            is_closed = is_valid(net, &layout, 1.0);
+            if is_closed || !is_valid(net, &layout, TRIAL_LIMIT_FACTOR) {
                 break;
             }
         }

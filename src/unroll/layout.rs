@@ -157,7 +157,7 @@ mod tests {
         let mesh = Triangulation::new(&cap.unwrap(), &Frame::default()).unwrap();
         let lay = |limit| {
             let flat = unroll_mesh(mesh.clone(), &UnrollOptions::default(), limit);
-            flat.unwrap().report().clone()
+            *flat.unwrap().report()
         };
         let [exact, enough, strict] = [None, Some(0.5), Some(1e-3)].map(lay);
         assert!(enough.iterations < exact.iterations);

@@ -3,7 +3,7 @@
 use super::check::{Tied, are_close, strains};
 use super::faces::faces;
 use super::fault::{Fault, SHEET_RELAXATION, fault, folds_of};
-use super::flat_patch::FlatPatch;
+use super::flat_patch::Relaxation;
 use super::layout::{Arrangement, arrange_patches, seam_gap};
 use super::meeting::Meetings;
 use super::options::PatternOptions;
@@ -54,20 +54,25 @@ pub(super) fn assemble_sheets(
     options: &PatternOptions,
 ) -> Result<Assembly> {
     let (mut parts, patches) = parts.numbered(patches)?;
-    let flat_patches = std::mem::take(&mut parts.flat_patches);
+    let mut flat_patches = std::mem::take(&mut parts.flat_patches);
+    // Sheets are arranged anew.
+    for flat_patch in flat_patches.iter_mut().flatten() {
+        if flat_patch.relaxation == Relaxation::WithSheet {
+            flat_patch.relaxation = Relaxation::Alone;
+        }
+    }
     let decided = parts.finest * parts.surface.lattice().spacing();
     let mut net = SeamGraph::new(&parts.surface, &parts.labels, flat_patches, decided)?;
     net.divide_by_fit(options.gap);
     // A part that is invalid by itself is found without unrolling its sheet.
     let limit = options.max_strain;
     let loose = Layout::loose(&net);
-    let by_itself = |flat_patch: &Option<FlatPatch>| {
-        flat_patch
-            .as_ref()
-            .is_some_and(|flat_patch| !flat_patch.is_rough())
-    };
-    let alone = (0..net.flat_patches.len() as u32)
-        .filter(|part| by_itself(&net.flat_patches[*part as usize]));
+    let alone = (0..)
+        .zip(&net.flat_patches)
+        .filter_map(|(part, flat_patch)| {
+            let relaxation = flat_patch.as_ref()?.relaxation;
+            (relaxation != Relaxation::Outstanding).then_some(part)
+        });
     let mut wrong: Vec<(u32, String)> = alone
         .filter_map(|part| Some((part, fault(&net, &loose, &[part], limit)?.reason(limit))))
         .collect();
@@ -111,7 +116,7 @@ pub(super) enum Settled {
 }
 
 /// Lays the patches of each sheet flat together, and opens folds of invalid sheets unless removing a few
-/// border vertices would make them valid.
+/// border vertices would make them valid. Sheets that have not changed since are kept.
 pub(super) fn settle(
     parts: &Parts,
     net: &mut SeamGraph,
@@ -122,12 +127,17 @@ pub(super) fn settle(
     let layout = &mut arrangement.layout;
     let mut wrong = Vec::new();
     while let Some(members) = pending.pop() {
-        let folded = folds_of(net, layout, &members);
-        let flat_patches = members
+        let relaxations: Vec<Relaxation> = members
             .iter()
-            .filter_map(|p| net.flat_patches[*p as usize].as_ref());
-        let rough = flat_patches.clone().any(FlatPatch::is_rough);
-        if rough || !are_close(net, layout, &folded) {
+            .filter_map(|p| Some(net.flat_patches[*p as usize].as_ref()?.relaxation))
+            .collect();
+        let is_relaxed = relaxations.iter().all(|how| *how == Relaxation::WithSheet);
+        if is_relaxed {
+            arrangement.sheets.push(members);
+            continue;
+        }
+        let folded = folds_of(net, layout, &members);
+        if relaxations.contains(&Relaxation::Outstanding) || !are_close(net, layout, &folded) {
             let mut tied = Tied::new(net, layout, &members, &folded)?;
             tied.relax(net, layout, SHEET_SETTLING)?;
             // Most sheets are within the strain limit already.
@@ -156,6 +166,11 @@ pub(super) fn settle(
             other => {
                 let reason = other.map(|fault| (members[0], fault.reason(limit)));
                 wrong.extend(reason);
+                for part in &members {
+                    if let Some(flat_patch) = &mut net.flat_patches[*part as usize] {
+                        flat_patch.relaxation = Relaxation::WithSheet;
+                    }
+                }
                 arrangement.sheets.push(members);
             }
         }

@@ -162,10 +162,11 @@ mod tests {
     use crate::pattern::PatternOptions;
     use crate::pattern::heightfield::{DIRECT_OUTLINE_DETAIL, find_sheets};
     use crate::shape::patches::PatchOptions;
+    use crate::unroll::flat_triangle::Point;
 
-    /// Sheets of a folded card on its own lattice, decided on the coarse one, and the number of vertices left out. Some
-    /// vertices of its border, on no coarse lattice, are drawn down.
-    fn torn_card(columns: &[usize]) -> (Vec<Vec<u32>>, usize) {
+    /// A folded card on its own lattice, cut as decided on the coarse one. Some vertices of its border, on no coarse
+    /// lattice, are drawn down.
+    fn torn_card(columns: &[usize]) -> Assembled {
         let lattice = Lattice::new(140, 160, 1.0).unwrap();
         let torn: Vec<[f64; 2]> = columns
             .iter()
@@ -188,22 +189,36 @@ mod tests {
         .unwrap();
         let parts = Parts::none(&surface, &options);
         let found = refine_sheets(&surface, &patches, &coarse, &rough, parts, true).unwrap();
-        let found = found.unwrap_or_else(|reason| panic!("{reason}"));
-        (found.arrangement.sheets, found.parts.left_out())
+        found.unwrap_or_else(|reason| panic!("{reason}"))
     }
 
     #[test]
     fn what_only_the_fine_lattice_shows_torn_is_left_out_there() {
-        let (sheets, out) = torn_card(&[81]);
-        assert_eq!(sheets, [[0, 1]]);
+        let card = torn_card(&[81]);
+        assert_eq!(card.arrangement.sheets, [[0, 1]]);
+        let out = card.parts.left_out();
         assert!((1..=16).contains(&out), "{out}");
+    }
+
+    #[test]
+    fn a_sheet_that_has_not_changed_is_not_laid_flat_again() {
+        let mut card = torn_card(&[]);
+        let places = |card: &Assembled| -> Vec<Vec<Point>> {
+            let all = card.net.flat_patches.iter().flatten();
+            all.map(|flat_patch| flat_patch.places().to_vec()).collect()
+        };
+        let before = places(&card);
+        settle(&card.parts, &mut card.net, &mut card.arrangement).unwrap();
+        assert_eq!(places(&card), before);
     }
 
     #[test]
     fn a_part_that_is_invalid_on_the_fine_lattice_alone_is_mended_and_joined_again() {
         // More torn vertices than may be left out of a sheet whose other parts are valid.
-        let (sheets, out) = torn_card(&[81, 91, 101, 111, 121, 131]);
+        let card = torn_card(&[81, 91, 101, 111, 121, 131]);
+        let sheets = &card.arrangement.sheets;
         assert_eq!(sheets.len(), 1, "{sheets:?}");
+        let out = card.parts.left_out();
         assert!(out <= 140 * 160 / 50, "{out}");
     }
 }

@@ -23,6 +23,18 @@ pub(super) const MIN_TEAR_GAP_SPACINGS: f64 = 0.5;
 /// Minimum number of vertices of a part that may be cut into smaller parts.
 pub(super) const MIN_CUT_VERTICES: usize = 24;
 
+/// How a patch's flat positions were relaxed last.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum Relaxation {
+    /// The patch still has to be laid flat on this lattice: its positions come from a coarser one, or from before some
+    /// vertices were left out.
+    Outstanding,
+    /// The patch was laid flat by itself.
+    Alone,
+    /// The patch was laid flat together with its sheet, and the sheet checked.
+    WithSheet,
+}
+
 /// A patch, extended one cell beyond its creases and laid flat by itself.
 pub(super) struct FlatPatch {
     mesh: Triangulation,
@@ -30,8 +42,7 @@ pub(super) struct FlatPatch {
     /// differ, are in `places`.
     alone: Vec<Point>,
     places: Vec<Point>,
-    /// Whether the patch still has to be laid flat on this lattice: its positions come from a coarser one.
-    rough: bool,
+    pub relaxation: Relaxation,
     window: Window,
     /// Whether each vertex of the flat layout belongs to the patch itself, and not to a neighbour.
     own: Vec<bool>,
@@ -88,7 +99,7 @@ impl FlatPatch {
             mesh: flat.into_mesh(),
             alone: places.clone(),
             places,
-            rough: false,
+            relaxation: Relaxation::Alone,
             window,
             own,
         }))
@@ -118,7 +129,7 @@ impl FlatPatch {
             mesh,
             alone: places.clone(),
             places,
-            rough: true,
+            relaxation: Relaxation::Outstanding,
             window,
             own,
         }))
@@ -171,11 +182,6 @@ impl FlatPatch {
         let own = mesh.vertices().iter();
         let own = own.map(|v| of[index(*v as usize)] == patch).collect();
         Ok(Some((mesh, own)))
-    }
-
-    /// Returns whether the patch still has to be laid flat on this lattice: its positions come from a coarser one.
-    pub(super) fn is_rough(&self) -> bool {
-        self.rough
     }
 
     pub(super) fn places(&self) -> &[Point] {

@@ -1,6 +1,7 @@
 //! Rigid motions of the patches on a sheet, and the closed lines around them.
 
 use super::seam_graph::{Node, SeamGraph, is_triangle};
+use crate::math::planar::{distance_to_segment, polygon_contains};
 use crate::unroll::flat_triangle::Point;
 use crate::unroll::overlap::crossings;
 use rustc_hash::FxHashMap;
@@ -71,6 +72,9 @@ pub(super) struct Corner {
 /// Maximum number of corners between two segments of one outline whose crossing is ignored: at the end of a slit
 /// its two sides may cross.
 const SLIT_END_CORNERS: usize = 8;
+
+/// Number of corners from one that is probed for an overlap of two sheets to the next.
+const PROBED_CORNER_STEP: usize = 3;
 
 impl Layout {
     /// Creates the layout in which no seam is a fold and no patch is moved.
@@ -168,6 +172,26 @@ impl Layout {
         outlines
     }
 
+    /// Returns whether two sheets reach into each other by more than a distance: whether a corner of one outline is inside
+    /// of the other one and farther from it than that. Every few corners are probed.
+    pub(super) fn reach_into_each_other(
+        &self,
+        net: &SeamGraph,
+        [one, other]: [&[u32]; 2],
+        distance: f64,
+    ) -> bool {
+        let [one, other] = [one, other].map(|patches| {
+            let outlines = self.outlines(net, patches).into_iter();
+            let closed = outlines.map(|line| line.iter().map(|corner| corner.place).collect());
+            closed.collect::<Vec<Vec<Point>>>()
+        });
+        let is_inside = |points: &[Vec<Point>], around: &[Vec<Point>]| {
+            let mut probes = points.iter().flatten().step_by(PROBED_CORNER_STEP);
+            probes.any(|place| is_deep_inside(*place, around, distance))
+        };
+        is_inside(&one, &other) || is_inside(&other, &one)
+    }
+
     /// Returns whether some of the given patches overlap where the layout puts them in the plane.
     pub(super) fn overlaps(&self, net: &SeamGraph, patches: &[u32]) -> bool {
         let outlines = self.outlines(net, patches);
@@ -186,5 +210,36 @@ impl Layout {
             let apart = i.abs_diff(k);
             one != other || apart.min(outlines[one].len() - apart) > SLIT_END_CORNERS
         })
+    }
+}
+
+/// Returns whether a point is inside of closed lines and farther from them than a distance.
+fn is_deep_inside(place: Point, lines: &[Vec<Point>], distance: f64) -> bool {
+    let around = lines.iter().filter(|line| polygon_contains(line, place));
+    let mut segments = lines.iter().flat_map(|line| {
+        let ends = line.iter().cycle().skip(1);
+        line.iter().zip(ends).map(|(p, q)| [*p, *q])
+    });
+    around.count() % 2 == 1 && segments.all(|ends| distance_to_segment(place, ends) > distance)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_point_in_a_ring_is_as_deep_as_it_is_far_from_both_circles() {
+        let circle = |radius: f64| -> Vec<Point> {
+            (0..360)
+                .map(|k| Point::from_polar(radius, f64::from(k).to_radians()))
+                .collect()
+        };
+        let ring = [circle(10.0), circle(4.0)];
+        let is_deep =
+            |radius: f64, distance| is_deep_inside(Point::from_polar(radius, 1.0), &ring, distance);
+        assert!(is_deep(7.0, 2.9) && !is_deep(7.0, 3.1));
+        assert!(is_deep(9.0, 0.9) && !is_deep(9.0, 1.1));
+        assert!(!is_deep(3.0, 0.5), "in the hole");
+        assert!(!is_deep(12.0, 0.5), "outside");
     }
 }

@@ -6,6 +6,7 @@ use std::collections::VecDeque;
 use super::check::{Tied, are_close, strain_along, strains};
 use super::fault::{SHEET_RELAXATION, fault, folds_of};
 use super::layout::{Arrangement, fits, longest_first, motion_to_join, seam_gap};
+use super::outline::Layout;
 use super::seam_graph::{NEGLIGIBLE_GAP_LENGTHS, SeamGraph};
 use crate::error::Result;
 use crate::math::planar::polyline_length;
@@ -39,6 +40,11 @@ const HOPELESS_STRAIN_FACTOR: f64 = 1.6;
 /// cuts closed on the scans of `benches/patterns.md` the largest ratio was 0.96.
 const MAX_CLOSED_GAP_RATIO: f64 = 2.0;
 
+/// Maximum depth, in lattice spacings, by which two sheets may reach into each other where the cut between them is tried to
+/// be closed: laying them flat together moves their outlines by less. Of the cuts closed on the scans of
+/// `benches/patterns.md` the largest depth was 1.44.
+const MAX_CLOSED_OVERLAP_SPACINGS: f64 = 2.0;
+
 /// Stopping criteria for the first steps of a trial, which show whether it is worth more.
 const TRIAL_RELAXATION: StoppingCriteria = StoppingCriteria {
     relative_tolerance: 0.01,
@@ -46,9 +52,9 @@ const TRIAL_RELAXATION: StoppingCriteria = StoppingCriteria {
     ..SHEET_RELAXATION
 };
 
-/// Strain after the first steps of a trial, as a multiple of its limit, above which it is abandoned: later steps hardly
-/// lower the strain of a sheet that will be valid.
-const TRIAL_STRAIN_FACTOR: f64 = 1.05;
+/// Factor of the limits for strains and gaps after the first steps of a trial, above which it is abandoned. Later
+/// steps hardly lower the strain of a sheet; with 1.02 range keeps a sheet more.
+const TRIAL_LIMIT_FACTOR: f64 = 1.05;
 
 /// Closes cuts again where the sheets stay valid, the longest first; a cut that cannot be closed as a whole is
 /// halved, and each half is tried. Only cuts of the wanted parts are tried, by at most so many relaxation steps for each
@@ -158,6 +164,11 @@ fn close_cut(
     if a != b {
         let motion = motion_to_join(net, &layout, seam);
         layout.carry(&arrangement.sheets[b], &motion);
+        let sheets = [a, b].map(|sheet| &arrangement.sheets[sheet][..]);
+        let depth = MAX_CLOSED_OVERLAP_SPACINGS * net.spacing;
+        if layout.reach_into_each_other(net, sheets, depth) {
+            return Ok(false);
+        }
         members.extend(&arrangement.sheets[b]);
         members.sort_unstable();
     }
@@ -211,23 +222,30 @@ fn close_cut(
     {
         return Ok(false);
     }
-    let mut is_hopeless = false;
+    // Whether the sheet is valid with limits that are larger by a factor.
+    let is_valid = |net: &SeamGraph, layout: &Layout, factor: f64| {
+        let most_gap = factor * NEGLIGIBLE_GAP_LENGTHS * net.spacing;
+        // A large strain in a small place hardly changes the strain of the whole sheet, so it is checked separately.
+        strain_along(net, seam) <= factor * MAX_SEAM_STRAIN_FACTOR * limit
+            && ties
+                .iter()
+                .all(|seam| seam_gap(net, layout, *seam) <= most_gap)
+            && fault(net, layout, &members, factor * most).is_none()
+    };
+    let mut is_closed = !joined && is_valid(net, &layout, 1.0);
     if joined {
         let mut sheet = Tied::new(net, &layout, &members, &ties)?;
-        let mut work = sheet.relax(net, &mut layout, trial)?;
         // Most trials fail, and a few steps show that.
-        is_hopeless = fault(net, &layout, &members, TRIAL_STRAIN_FACTOR * most).is_some();
-        if !is_hopeless {
-            work += sheet.relax(net, &mut layout, SHEET_RELAXATION)?;
+        for until in [trial, SHEET_RELAXATION] {
+            let work = sheet.relax(net, &mut layout, until)?;
+            *budget = budget.saturating_sub(work);
+            is_closed = is_valid(net, &layout, 1.0);
+            if is_closed || !is_valid(net, &layout, TRIAL_LIMIT_FACTOR) {
+                break;
+            }
         }
-        *budget = budget.saturating_sub(work);
     }
-    let tight =
-        |seam: &usize| seam_gap(net, &layout, *seam) <= NEGLIGIBLE_GAP_LENGTHS * net.spacing;
-    // A large strain in a small place hardly changes the strain of the whole sheet, so it is checked separately.
-    let even = strain_along(net, seam) <= MAX_SEAM_STRAIN_FACTOR * limit;
-    let valid = |layout| fault(net, layout, &members, most).is_none();
-    if !is_hopeless && even && ties.iter().all(tight) && valid(&layout) {
+    if is_closed {
         arrangement.layout = layout;
         arrangement.sheets[a] = members;
         if a != b {

@@ -33,6 +33,8 @@ pub(super) struct Limits {
     /// Energy over area, without unit, that the layout should reach: a layout that stalls well above it is given up.
     /// Infinite if no energy is wanted.
     pub wanted_energy: f64,
+    /// Change of the energy in one iteration, as a share of it, below which a layout of the wanted energy has converged.
+    pub relative_tolerance: f64,
 }
 
 /// Moves the vertices of a flat layout from given positions, in units of the spacing, to those that minimise the
@@ -50,7 +52,11 @@ pub(super) fn minimise_energy(
     let mut iteration = Iteration::new(positions)?;
     while iteration.steps < limits.max_iterations {
         let energy = triangles.energy(positions, &mut descent) / triangles.area;
-        let converges = iteration.converges(energy, limits.tolerance);
+        let tolerance = match energy < limits.wanted_energy {
+            true => limits.tolerance.max(limits.relative_tolerance * energy),
+            false => limits.tolerance,
+        };
+        let converges = iteration.converges(energy, tolerance);
         let stalls = iteration.steps > MIN_STEPS_BEFORE_GIVING_UP
             && iteration.decrease.abs() < STALLED_RELATIVE_CHANGE * energy;
         if converges || stalls && energy > HOPELESS_ENERGY_FACTOR * limits.wanted_energy {

@@ -197,11 +197,13 @@ fn matrix(
     triangles: &[(FlatTriangle, [u32; 3])],
     ties: &[[BarycentricPoint; 2]],
 ) -> Result<SparseRows> {
-    let mut entries = Vec::with_capacity(12 * triangles.len() + 36 * ties.len());
+    let mut diagonal = try_filled("unrolling", count, 0.0)?;
+    let mut entries = Vec::with_capacity(6 * triangles.len() + 30 * ties.len() + count);
     for (triangle, corners) in triangles {
         for (k, weight) in triangle.weights.into_iter().enumerate() {
             let [a, b] = [k, (k + 1) % 3].map(|k| corners[k]);
-            entries.extend([([a, a], weight), ([b, b], weight)]);
+            diagonal[a as usize] += weight;
+            diagonal[b as usize] += weight;
             entries.extend([([a, b], -weight), ([b, a], -weight)]);
         }
     }
@@ -215,6 +217,7 @@ fn matrix(
             }
         }
     }
+    entries.extend((0..).zip(diagonal).map(|(v, weight)| ([v, v], weight)));
     SparseRows::new(count, &entries)
 }
 

@@ -3,24 +3,33 @@
 //! The vertices are ordered by nested dissection (George 1973): a set of vertices is cut in two halves by position, and
 //! those of one half with a neighbour in the other are eliminated after both. The factorisation is multifrontal (Duff and
 //! Reid 1983): the columns that are eliminated together are a dense front, to which the fronts below it have been added.
-
-use std::ops::{Mul, SubAssign};
+//!
+//! The matrix is factorised in double precision. The factor is kept, and systems are solved, in single precision, which
+//! halves the memory that a solve reads: the error of one global step is in the next one's right-hand side.
 
 use super::flat_triangle::Point;
 use super::sparse_rows::SparseRows;
 use crate::error::{Result, try_filled};
+use crate::math::lanes;
 
 /// Maximum number of vertices of a set that is not cut in two further: a small dense front costs less than its indices.
 const MAX_UNDIVIDED_VERTICES: usize = 32;
 
-/// Share of its diagonal that is added to the matrix, which is singular: it lets all vertices move together.
+/// Share of its diagonal that is added to the matrix, for components that are eliminated before the last front.
 const DIAGONAL_SHIFT: f64 = 1e-9;
+
+/// Factor of the diagonal of the last vertex of a component. The matrix is singular, as it lets all vertices of a component
+/// move together; with this factor that vertex stays where it is.
+const FIXED_VERTEX_FACTOR: f64 = 2.0;
 
 /// Number of columns that are subtracted from another one at once.
 const BLOCK_COLUMNS: usize = 4;
 
 /// Number of independent sums of an inner product.
-const DOT_LANES: usize = 4;
+const DOT_LANES: usize = 8;
+
+/// Values of both coordinates of the plane.
+type Planes<T> = [T; 2];
 
 /// Cholesky factor of a symmetric positive semidefinite matrix.
 pub(super) struct Cholesky {
@@ -28,9 +37,9 @@ pub(super) struct Cholesky {
     order: Vec<u32>,
     fronts: Vec<Front>,
     /// Right-hand side and solution in the order of elimination.
-    values: Vec<Point>,
+    values: Planes<Vec<f32>>,
     /// Values at the rows of one front.
-    local: Vec<Point>,
+    local: Planes<Vec<f32>>,
 }
 
 /// Columns of the factor that are eliminated together.
@@ -42,7 +51,7 @@ struct Front {
     /// Rows of the front, ascending; the first ones are those of its columns.
     rows: Vec<u32>,
     /// The columns, each with a value for each row; the diagonal holds its inverse.
-    columns: Vec<f64>,
+    columns: Vec<f32>,
 }
 
 impl Cholesky {
@@ -65,18 +74,22 @@ impl Cholesky {
         let Dissection { order, starts, .. } = dissection;
         let fronts = factorise(matrix, &order, &starts)?;
         let most = fronts.iter().map(|front| front.rows.len()).max();
+        let zeros = |count| try_filled("unrolling", count, 0.0f32);
+        let most = most.unwrap_or(0);
         Ok(Cholesky {
             fronts,
-            values: try_filled("unrolling", count, Point::default())?,
-            local: try_filled("unrolling", most.unwrap_or(0), Point::default())?,
+            values: [zeros(count)?, zeros(count)?],
+            local: [zeros(most)?, zeros(most)?],
             order,
         })
     }
 
     /// Solves for both coordinates of the right-hand side at once.
     pub(super) fn solve(&mut self, right: &[Point], solution: &mut [Point]) {
-        for (value, vertex) in self.values.iter_mut().zip(&self.order) {
-            *value = right[*vertex as usize];
+        let [x, y] = &mut self.values;
+        for (vertex, (x, y)) in self.order.iter().zip(x.iter_mut().zip(y)) {
+            let value = right[*vertex as usize];
+            (*x, *y) = (lanes::single(value.re), lanes::single(value.im));
         }
         for front in &self.fronts {
             front.eliminate(&mut self.values, &mut self.local);
@@ -84,67 +97,88 @@ impl Cholesky {
         for front in self.fronts.iter().rev() {
             front.substitute(&mut self.values, &mut self.local);
         }
-        for (value, vertex) in self.values.iter().zip(&self.order) {
-            solution[*vertex as usize] = *value;
+        let [x, y] = &self.values;
+        for (vertex, (x, y)) in self.order.iter().zip(x.iter().zip(y)) {
+            solution[*vertex as usize] = Point::new(lanes::double(*x), lanes::double(*y));
         }
     }
 }
 
 impl Front {
     /// Forward substitution by the columns of this front.
-    fn eliminate(&self, values: &mut [Point], local: &mut [Point]) {
+    fn eliminate(&self, values: &mut Planes<Vec<f32>>, local: &mut Planes<Vec<f32>>) {
         let size = self.rows.len();
-        let below = &mut local[..size - self.own];
-        below.fill(Point::default());
-        let own = &mut values[self.start..self.start + self.own];
+        let [x, y] = values;
+        let [below_x, below_y] = local.each_mut().map(|local| &mut local[..size - self.own]);
+        below_x.fill(0.0);
+        below_y.fill(0.0);
+        let range = self.start..self.start + self.own;
+        let (own_x, own_y) = (&mut x[range.clone()], &mut y[range]);
         for (k, column) in self.columns.chunks_exact(size).enumerate() {
-            let value = own[k] * column[k];
-            own[k] = value;
-            subtract(&mut own[k + 1..], &column[k + 1..self.own], value);
-            subtract(below, &column[self.own..], value);
+            (own_x[k], own_y[k]) = (own_x[k] * column[k], own_y[k] * column[k]);
+            let factors = [own_x[k], own_y[k]];
+            let (inner, outer) = column[k + 1..].split_at(self.own - k - 1);
+            subtract([&mut own_x[k + 1..], &mut own_y[k + 1..]], inner, factors);
+            subtract([&mut *below_x, &mut *below_y], outer, factors);
         }
-        for (row, value) in self.rows[self.own..].iter().zip(below) {
-            values[*row as usize] += *value;
+        for (row, (below_x, below_y)) in self.rows[self.own..]
+            .iter()
+            .zip(below_x.iter().zip(&*below_y))
+        {
+            x[*row as usize] += below_x;
+            y[*row as usize] += below_y;
         }
     }
 
     /// Back substitution by the columns of this front.
-    fn substitute(&self, values: &mut [Point], local: &mut [Point]) {
+    fn substitute(&self, values: &mut Planes<Vec<f32>>, local: &mut Planes<Vec<f32>>) {
         let size = self.rows.len();
-        let below = &mut local[..size - self.own];
-        for (row, value) in self.rows[self.own..].iter().zip(&mut *below) {
-            *value = values[*row as usize];
+        let [x, y] = values;
+        let [below_x, below_y] = local.each_mut().map(|local| &mut local[..size - self.own]);
+        for (row, (below_x, below_y)) in self.rows[self.own..]
+            .iter()
+            .zip(below_x.iter_mut().zip(&mut *below_y))
+        {
+            (*below_x, *below_y) = (x[*row as usize], y[*row as usize]);
         }
-        let own = &mut values[self.start..self.start + self.own];
+        let range = self.start..self.start + self.own;
+        let (own_x, own_y) = (&mut x[range.clone()], &mut y[range]);
         for (k, column) in self.columns.chunks_exact(size).enumerate().rev() {
-            let known =
-                dot(&column[k + 1..self.own], &own[k + 1..]) + dot(&column[self.own..], below);
-            own[k] = (own[k] - known) * column[k];
+            let (inner, outer) = column[k + 1..].split_at(self.own - k - 1);
+            let one = dot(inner, [&own_x[k + 1..], &own_y[k + 1..]]);
+            let other = dot(outer, [&*below_x, &*below_y]);
+            own_x[k] = (own_x[k] - (one[0] + other[0])) * column[k];
+            own_y[k] = (own_y[k] - (one[1] + other[1])) * column[k];
         }
     }
 }
 
-/// Subtracts a multiple of a column from other values.
-fn subtract<T: Copy + Mul<f64, Output = T> + SubAssign>(from: &mut [T], column: &[f64], factor: T) {
-    for (value, entry) in from.iter_mut().zip(column) {
-        *value -= factor * *entry;
+/// Subtracts multiples of a column from the values of both coordinates.
+fn subtract([x, y]: Planes<&mut [f32]>, column: &[f32], factors: Planes<f32>) {
+    for ((x, y), entry) in x.iter_mut().zip(y).zip(column) {
+        *x -= factors[0] * entry;
+        *y -= factors[1] * entry;
     }
 }
 
-/// The sum of values, weighted by a column. Additions run in a fixed number of lanes, so that they vectorise.
-fn dot(column: &[f64], values: &[Point]) -> Point {
-    let mut lanes = [Point::default(); DOT_LANES];
-    let (a, b) = (
-        column.chunks_exact(DOT_LANES),
-        values.chunks_exact(DOT_LANES),
-    );
-    let tail = a.remainder().iter().zip(b.remainder());
-    for (a, b) in a.zip(b) {
-        for (lane, (x, y)) in lanes.iter_mut().zip(a.iter().zip(b)) {
-            *lane += y * *x;
+/// The sums of the values of both coordinates, weighted by a column. Additions run in a fixed number of lanes, so that
+/// they vectorise.
+fn dot(column: &[f32], [x, y]: Planes<&[f32]>) -> Planes<f32> {
+    let mut sums = [[0.0f32; DOT_LANES]; 2];
+    let whole = column.len() / DOT_LANES * DOT_LANES;
+    let chunks = column.chunks_exact(DOT_LANES);
+    let planes = x.chunks_exact(DOT_LANES).zip(y.chunks_exact(DOT_LANES));
+    for (column, (x, y)) in chunks.zip(planes) {
+        for k in 0..DOT_LANES {
+            sums[0][k] += column[k] * x[k];
+            sums[1][k] += column[k] * y[k];
         }
     }
-    lanes.iter().sum::<Point>() + tail.map(|(x, y)| y * *x).sum::<Point>()
+    for (k, entry) in column[whole..].iter().enumerate() {
+        sums[0][k] += entry * x[whole + k];
+        sums[1][k] += entry * y[whole + k];
+    }
+    sums.map(|[a, b, c, d, e, f, g, h]| ((a + e) + (b + f)) + ((c + g) + (d + h)))
 }
 
 /// The state of ordering the vertices by nested dissection.
@@ -256,12 +290,12 @@ fn factorise(matrix: &SparseRows, order: &[u32], starts: &[usize]) -> Result<Vec
                 if place < start + column {
                     continue;
                 }
-                let shift = if other == *vertex {
-                    1.0 + DIAGONAL_SHIFT
-                } else {
-                    1.0
+                let factor = match other == *vertex {
+                    true if column + 1 == size => FIXED_VERTEX_FACTOR,
+                    true => 1.0 + DIAGONAL_SHIFT,
+                    false => 1.0,
                 };
-                values[column * size + locals[place] as usize] += shift * weight;
+                values[column * size + locals[place] as usize] += factor * weight;
             }
         }
         for (others, update) in updates {
@@ -280,13 +314,13 @@ fn factorise(matrix: &SparseRows, order: &[u32], starts: &[usize]) -> Result<Vec
             let update = lower.copied().collect();
             below[front_of[*first as usize] as usize].push((rest, update));
         }
-        values.truncate(own * size);
-        values.shrink_to_fit();
+        let mut columns = try_filled("unrolling", own * size, 0.0f32)?;
+        lanes::narrow(&values[..own * size], &mut columns);
         fronts.push(Front {
             start,
             own,
             rows,
-            columns: values,
+            columns,
         });
     }
     Ok(fronts)
@@ -307,7 +341,10 @@ fn eliminate_columns(values: &mut [f64], size: usize, own: usize) {
             }
         }
         for other in blocks.remainder().chunks_exact(size) {
-            subtract(column, &other[k..], other[k]);
+            let factor = other[k];
+            for (value, entry) in column.iter_mut().zip(&other[k..]) {
+                *value -= factor * entry;
+            }
         }
         if k < own {
             let pivot = column[0];
@@ -363,9 +400,16 @@ mod tests {
             right.push(Point::default());
             let mut solution = vec![Point::default(); count + 1];
             factor.solve(&right, &mut solution);
-            for (x, b) in solution.iter().zip(&right) {
-                assert!((x * eigenvalue - b).norm() < 1e-4, "{p} {q}: {x} {b}");
+            // The solution is unique but for a translation of the grid.
+            let expected: Vec<Point> = right.iter().map(|b| b / eigenvalue).collect();
+            let shift = solution[0] - expected[0];
+            for (x, y) in solution[..count].iter().zip(&expected) {
+                assert!(
+                    (x - y - shift).norm() * eigenvalue < 1e-4,
+                    "{p} {q}: {x} {y}"
+                );
             }
+            assert_eq!(solution[count], Point::default());
         }
     }
 }

@@ -89,6 +89,9 @@ struct Sheets<'a> {
     at: Vec<Point>,
     /// For each seam whether its two sides are joined on a sheet.
     whole: Vec<bool>,
+    /// For each seam whether sheets were invalid that were joined along this seam together with another one. It is then
+    /// tried only by itself.
+    doubtful: Vec<bool>,
 }
 
 impl<'a> Sheets<'a> {
@@ -105,6 +108,7 @@ impl<'a> Sheets<'a> {
             settled: vec![false; parts.len()],
             at: vec![Point::default(); 3 * body.triangles.len()],
             whole: vec![false; seams.all.len()],
+            doubtful: vec![false; seams.all.len()],
             body,
             seams,
             limits,
@@ -151,7 +155,7 @@ impl<'a> Sheets<'a> {
     /// Lays two sheets flat together, joined along a seam and along all other seams that then fit; `None` if the
     /// result is not a valid sheet.
     fn together(
-        &self,
+        &mut self,
         seam: usize,
         numbers: [usize; 2],
         order: &[usize],
@@ -163,13 +167,18 @@ impl<'a> Sheets<'a> {
         // Other seams may fit as well, such as the last one around a vertex whose angles sum to 2π.
         let others = order
             .iter()
-            .filter(|other| **other != seam && both.has(**other));
+            .filter(|other| **other != seam && !self.doubtful[**other] && both.has(**other));
         let also = others.filter_map(|other| Some((*other, both.fits(*other)?)));
         let all: Vec<(usize, f64)> = std::iter::once((seam, apart)).chain(also).collect();
-        match both.laid(&all)? {
-            None if all.len() > 1 => both.laid(&all[..1]),
-            found => Ok(found),
+        let found = both.laid(&all)?;
+        if found.is_some() || all.len() == 1 {
+            return Ok(found);
         }
+        let found = both.laid(&all[..1]);
+        for (other, _) in &all[1..] {
+            self.doubtful[*other] = true;
+        }
+        found
     }
 
     /// Lays a sheet flat until convergence. Returns false if that was done before.

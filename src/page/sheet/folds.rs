@@ -51,6 +51,10 @@ const MIN_FOLD_DISTANCE_ROWS: usize = 20;
 /// Maximum distance of a fold that halves the page from the middle of the flattened photo, as a share of its height.
 const MAX_HALF_FOLD_OFFSET: f64 = 0.06;
 
+/// Length, in widths of the page, by which a fold at an unknown position counts as a line across the page: folds by hand are
+/// neither quite straight nor quite parallel to the edge.
+const UNKNOWN_FOLD_LENGTH: f64 = 0.5;
+
 /// Path of a fold across the page: its row in each strip.
 type FoldPath = Vec<usize>;
 
@@ -74,7 +78,7 @@ pub(super) fn find_folds(
                 .collect(),
             level: if halves { 0.5 } else { level(path) },
             level_deviation: halves.then_some(half_deviation),
-            length: 1.0,
+            length: if halves { 1.0 } else { UNKNOWN_FOLD_LENGTH },
         })
         .collect()
 }

@@ -814,8 +814,8 @@ export interface MeshUnrolling {
   patches: { vertices: number; area: number }[];
   /** The creases between them. */
   creases: Crease[];
-  /** `strain` (root of the mean square) and `gap` (between the sides of folds) are those of the worst sheet. */
-  report: { sheets: number; area: number; strain: number; gap: number };
+  /** `strain` (root of the mean square) and `seamGap` (between the sides of folds) are those of the worst sheet. */
+  report: { sheets: number; area: number; strain: number; seamGap: number };
 }
 
 /** A line to fold along. */
@@ -926,7 +926,7 @@ export interface Drawing {
     /** The largest strain of a sheet, as a share (root of the mean square). */
     strain: number;
     /** Most that the two sides of a fold are apart (root of the mean square). */
-    gap: number;
+    seamGap: number;
     /** Small loops in which outlines crossed themselves, and which were cut off. */
     loops: number;
     /** How far sheets that were folded back are from the surface at most (root of the mean square), with `refold`. */

@@ -135,7 +135,7 @@ export const pattern = {
    * Maximum seam gap of a fold: root mean square distance between its two sides on the flat sheet, as a share of its length.
    * A quarter of the lattice's spacing is always allowed.
    */
-  gap: { kind: number, default: 0.005 },
+  maxSeamGap: { kind: number, default: 0.005 },
   /**
    * Whether sheets are folded back to see how near they come to the surface (`summary.refolding`). Takes about as long
    * as laying them flat.
@@ -151,7 +151,7 @@ export const unrollMesh = {
    * Maximum seam gap of a fold: root mean square distance between its two sides on the flat sheet, as a share of its length.
    * A quarter of the mean length of edges is always allowed.
    */
-  gap: { kind: number, default: 0.005 },
+  maxSeamGap: { kind: number, default: 0.005 },
   ...limits,
 };
 

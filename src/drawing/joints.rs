@@ -378,7 +378,7 @@ mod tests {
             spacing: 1.0,
             area: 50.0,
             strain: 0.0,
-            gap: 0.0,
+            seam_gap: 0.0,
             loops: 0,
             refolding: None,
         }

@@ -62,7 +62,7 @@ pub struct Totals {
     /// exactly developable.
     pub strain: f64,
     /// Largest seam gap of a fold in millimetres: root mean square distance between the fold's two sides.
-    pub gap: f64,
+    pub seam_gap: f64,
     /// Number of small loops that were cut off where outlines crossed themselves.
     pub loops: usize,
     /// Largest root mean square distance between a refolded sheet and the surface, in millimetres; `None` unless
@@ -179,7 +179,11 @@ pub(super) fn summary(
         valley_length: folds(Direction::Valley),
         area: scale * scale * area,
         strain: sheets.iter().map(|sheet| sheet.strain).fold(0.0, f64::max),
-        gap: scale * sheets.iter().map(|sheet| sheet.gap).fold(0.0, f64::max),
+        seam_gap: scale
+            * sheets
+                .iter()
+                .map(|sheet| sheet.seam_gap)
+                .fold(0.0, f64::max),
         loops: sheets.iter().map(|sheet| sheet.loops).sum(),
         refolding: (sheets.iter().filter_map(|sheet| sheet.refolding))
             .map(|refolding| scale * refolding.rms)

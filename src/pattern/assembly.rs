@@ -63,7 +63,7 @@ pub(super) fn assemble_sheets(
     }
     let decided = parts.finest * parts.surface.lattice().spacing();
     let mut net = SeamGraph::new(&parts.surface, &parts.labels, flat_patches, decided)?;
-    net.divide_by_fit(options.gap);
+    net.divide_by_fit(options.max_seam_gap);
     // A part that is invalid by itself is found without unrolling its sheet.
     let limit = options.max_strain;
     let loose = Layout::loose(&net);
@@ -77,7 +77,7 @@ pub(super) fn assemble_sheets(
         .filter_map(|part| Some((part, fault(&net, &loose, &[part], limit)?.reason(limit))))
         .collect();
     if wrong.is_empty() {
-        let mut arrangement = arrange_patches(&net, options.gap);
+        let mut arrangement = arrange_patches(&net, options.max_seam_gap);
         match settle(&parts, &mut net, &mut arrangement)? {
             Settled::Opened(found) => wrong = found,
             Settled::Removable(part, removed) => {
@@ -279,7 +279,7 @@ pub(super) fn draw_sheets(surface: &Heightfield, whole: &Assembled) -> Result<Pa
             spacing: net.spacing,
             area: members.iter().map(own).sum(),
             strain: strain.rms(),
-            gap: gaps.fold(0.0, f64::max),
+            seam_gap: gaps.fold(0.0, f64::max),
             patches: members.clone(),
             loops,
             refolding: match parts.options.refold {

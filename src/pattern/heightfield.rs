@@ -44,7 +44,7 @@ pub fn pattern(
     options: &PatternOptions,
 ) -> Result<Pattern> {
     patches.check_of(surface)?;
-    positive("gap", options.gap)?;
+    positive("maxSeamGap", options.max_seam_gap)?;
     positive("maxStrain", options.max_strain)?;
     draw_sheets(
         surface,

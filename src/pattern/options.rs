@@ -3,7 +3,7 @@
 use crate::unroll::UnrollOptions;
 
 /// Default maximum seam gap, as a share of the fold's length: half a millimetre on 10 cm. No table chose it.
-const DEFAULT_MAX_GAP_SHARE: f64 = 0.005;
+const DEFAULT_MAX_SEAM_GAP_SHARE: f64 = 0.005;
 
 /// Default maximum root mean square strain of a sheet: lengths on the sheet are wrong by 1 %, 2 mm on a page of A4, as
 /// in a layout that counts as unrolled. No table chose it; the patterns in `benches/choices.md` keep to it.
@@ -20,7 +20,7 @@ const DEFAULT_MAX_STRAIN: f64 = 0.01;
 pub struct PatternOptions {
     /// Maximum seam gap of a fold: root mean square distance between its two sides on the flat sheet, as a share of
     /// the fold's length. A quarter of the lattice's spacing is always allowed. Default 0.005.
-    pub gap: f64,
+    pub max_seam_gap: f64,
     /// Maximum strain of a sheet, root mean square over its area. Default 0.01.
     pub max_strain: f64,
     /// Stopping criteria of the solver that lays patches flat.
@@ -34,7 +34,7 @@ pub struct PatternOptions {
 impl Default for PatternOptions {
     fn default() -> Self {
         PatternOptions {
-            gap: DEFAULT_MAX_GAP_SHARE,
+            max_seam_gap: DEFAULT_MAX_SEAM_GAP_SHARE,
             max_strain: DEFAULT_MAX_STRAIN,
             unrolling: UnrollOptions::default(),
             refold: false,
@@ -44,8 +44,11 @@ impl Default for PatternOptions {
 
 impl PatternOptions {
     /// Sets the maximum seam gap, as a share of the fold's length, and returns the options.
-    pub fn gap(self, gap: f64) -> Self {
-        PatternOptions { gap, ..self }
+    pub fn max_seam_gap(self, max_seam_gap: f64) -> Self {
+        PatternOptions {
+            max_seam_gap,
+            ..self
+        }
     }
 
     /// Sets the maximum root mean square strain of a sheet, and returns the options.

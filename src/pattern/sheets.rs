@@ -66,7 +66,7 @@ pub struct Sheet {
     pub strain: f64,
     /// Largest seam gap of a fold: root mean square distance between its two sides along the fold. The drawn fold
     /// lies halfway between the sides.
-    pub gap: f64,
+    pub seam_gap: f64,
     /// Number of small loops that were cut off where the sheet's outlines crossed themselves.
     pub loops: usize,
     /// Distance of the refolded sheet from the surface; `None` unless

@@ -63,10 +63,10 @@ fn a_folded_card_is_as_large_as_the_flat_one() {
             let sheet = &sheets[0];
             assert_eq!((sheet.patches.len(), sheet.folds.len()), (2, 1));
             assert!(
-                sheet.strain < 1e-5 && sheet.gap < 1e-4,
+                sheet.strain < 1e-5 && sheet.seam_gap < 1e-4,
                 "{} {}",
                 sheet.strain,
-                sheet.gap
+                sheet.seam_gap
             );
             let fold = &sheet.folds[0];
             let direction = if slope > 0.0 {
@@ -204,9 +204,9 @@ fn a_vertex_with_a_full_turn_around_it_is_folded_flat() {
     let shape: Vec<usize> = sheet.outlines.iter().map(Vec::len).collect();
     assert_eq!(shape, [1], "one line around it all");
     assert!(
-        sheet.gap < 0.001 && sheet.strain < 0.001,
+        sheet.seam_gap < 0.001 && sheet.strain < 0.001,
         "{} {}",
-        sheet.gap,
+        sheet.seam_gap,
         sheet.strain
     );
     // All four meet at the same slope.
@@ -241,11 +241,9 @@ fn nonsense_is_refused() {
     let field = unit_square(20, |x, _| 0.5 * (x - 0.5).abs());
     let patches = Patches::new(&field, &PatchOptions::default()).unwrap();
     for gap in [0.0, -1.0, f64::NAN, f64::INFINITY] {
-        let options = PatternOptions::default().gap(gap);
-        assert_eq!(
-            pattern(&field, &patches, &options).unwrap_err().code(),
-            "OPTION"
-        );
+        let options = PatternOptions::default().max_seam_gap(gap);
+        let error = pattern(&field, &patches, &options).unwrap_err();
+        assert!(error.code() == "OPTION" && error.to_string().contains("maxSeamGap"));
         let options = PatternOptions::default().max_strain(gap);
         let error = pattern(&field, &patches, &options).unwrap_err();
         assert!(error.code() == "OPTION" && error.to_string().contains("maxStrain"));

@@ -120,7 +120,7 @@ fn a_box_has_six_faces_and_one_net() {
         assert!(sheet.folds.iter().all(|fold| {
             fold.seam.direction == developable::pattern::Direction::Mountain && !fold.seam.slit
         }));
-        assert!(sheet.strain < 1e-12 && sheet.gap < 1e-12);
+        assert!(sheet.strain < 1e-12 && sheet.seam_gap < 1e-12);
         assert!((enclosed(sheet) - 22.0).abs() < 1e-9, "{}", enclosed(sheet));
         // Each of the other seven edges is there twice.
         let cuts: Vec<_> = sheet

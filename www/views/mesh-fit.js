@@ -97,7 +97,7 @@ export async function patches(whole, mesh, surface) {
 
 /** @param {Whole} whole @param {Mesh} mesh @param {MeshSurface} surface @returns {Promise<WholeShown>} */
 export async function sheet(whole, mesh, surface) {
-  const { triangles, places, positions, report: { sheets, strain, gap } } = await whole.unrolled(surface);
+  const { triangles, places, positions, report: { sheets, strain, seamGap } } = await whole.unrolled(surface);
   const picture = await work('flatPixels', { triangles, places, positions });
   const { width, height, pixels, extent, most, read } = picture;
   const unit = mesh.unit ?? 'units';
@@ -111,7 +111,7 @@ export async function sheet(whole, mesh, surface) {
     about: [
       say(`${words}.`),
       colourBar('Strain: blue is compressed, red is stretched', linear(most, signed)),
-      figures([['Largest strain', percent(strain)], ['Gap at folds', `${numberAgainst(gap, extent.width)} ${unit}`]]),
+      figures([['Largest strain', percent(strain)], ['Gap at folds', `${numberAgainst(seamGap, extent.width)} ${unit}`]]),
     ],
   };
 }

@@ -174,7 +174,7 @@ fn draw(body: &Body, seams: &Seams, meetings: &Meetings, sheet: &Joined) -> Shee
         spacing: body.spacing,
         area: laid.area,
         strain: laid.strain,
-        gap: sheet.gap,
+        seam_gap: sheet.gap,
         loops: 0,
         refolding: None,
     }

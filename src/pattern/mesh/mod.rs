@@ -64,7 +64,7 @@ pub fn pattern_mesh(
         1,
         patches.labels().len(),
     )?;
-    let gap = positive("gap", options.gap)?;
+    let gap = positive("maxSeamGap", options.max_seam_gap)?;
     let strain = positive("maxStrain", options.max_strain)?;
     let until = StoppingCriteria {
         tolerance: positive("tolerance", options.unrolling.tolerance)?,

@@ -154,11 +154,12 @@ struct UnrollingOutput<'a> {
 }
 
 #[derive(Serialize)]
+#[serde(rename_all = "camelCase")]
 struct UnrollingReport {
     sheets: usize,
     area: f64,
     strain: f64,
-    gap: f64,
+    seam_gap: f64,
 }
 
 /// Cuts a mesh into flat sheets and lays them side by side; returns JavaScript's `MeshUnrolling` object.
@@ -196,7 +197,7 @@ pub fn unroll_mesh(mesh: JsValue, options: JsValue) -> Result<JsValue> {
             sheets: found.sheets.len(),
             area: found.sheets.iter().map(|sheet| sheet.area).sum(),
             strain: most(|sheet| sheet.strain),
-            gap: most(|sheet| sheet.gap),
+            seam_gap: most(|sheet| sheet.seam_gap),
         },
     })?)
 }

@@ -1091,9 +1091,17 @@ export type PageVerdict = 'flat' | 'unrolled' | 'unchecked' | 'doubtful' | 'notT
  */
 export type PageModel = 'plane' | 'cylinder' | 'sheet' | 'softSheet';
 
+/**
+ * Why a page is doubtful: its expected error is above 1 % of its width; a part hides another part; edges and lines of text
+ * disagree; fewer than eight lines of text show how a sheet of any shape is bent; it is crumpled; it is bent strongly.
+ */
+export type PageDoubt = 'largeError' | 'hiddenPart' | 'disagreement' | 'fewLines' | 'crumpled' | 'strongBend';
+
 /** How a page was found. */
 export interface PageReport {
   verdict: PageVerdict;
+  /** Main reason for the verdict `doubtful`; missing with others. */
+  doubt?: PageDoubt;
   model: PageModel;
   /** Expected displacement on the flat page (root mean square after the best similarity), in % of a page's width. */
   error: number;

@@ -86,20 +86,22 @@ function outlineWords({ verdict, reasons, pages }) {
 /** Smallest disagreement that is told as a share of the page's width, in %: less is no reason. */
 const MIN_TOLD_DISAGREEMENT = 0.005;
 
-/** Largest expected error of a page that is not doubtful for it, in % of its width, as the library has it. */
-const MAX_TRUSTED_ERROR = 1;
-
-/** Smallest number of lines of text by which a sheet of any shape is trusted, as the library has it. */
-const MIN_TRUSTED_LINES = 8;
-
 /**
- * Why a page that was fitted as a sheet of any shape is doubtful.
+ * Why a flat page is doubtful, with the words before what it means.
  * @param {import('../types.js').PageReport} report
+ * @param {string} disagreement that its edges disagree, and by how much
  */
-function sheetDoubt({ model, linesFound }) {
-  if (linesFound === 0) return 'it shows no lines of text, and its outline alone does not tell how it is bent';
-  if (linesFound < MIN_TRUSTED_LINES) return `few lines of text (${linesFound}) tell how it is bent`;
-  return model === 'softSheet' ? 'it is crumpled, or bent strongly' : 'it is bent strongly, or its outline is not exact';
+function doubtWords({ doubt, linesFound }, disagreement) {
+  switch (doubt) {
+    case 'hiddenPart': return 'a part of it hides another part; ';
+    case 'disagreement': return `${disagreement}; `;
+    case 'fewLines':
+      return linesFound === 0 ? 'it shows no lines of text, and its outline alone does not tell how it is bent; '
+        : `few lines of text (${linesFound}) tell how it is bent; `;
+    case 'crumpled': return 'it is crumpled; ';
+    case 'strongBend': return 'it is bent strongly; ';
+    default: return '';
+  }
 }
 
 /** @param {import('../types.js').PageReport} report */
@@ -118,9 +120,7 @@ function words(report) {
       return `warning: nothing checks the page's bend, for too few points were traced, or one edge looks straight ` +
         `however the page is bent; if it is curled one way, its places are wrong by ${likely}`;
     case 'doubtful':
-      if (isSheet) return `warning: the flat page is doubtful: ${sheetDoubt(report)}; its places are wrong by ${likely}`;
-      if (error > MAX_TRUSTED_ERROR) return `warning: the flat page is doubtful: its places are wrong by ${likely}`;
-      return `warning: the flat page is doubtful: it hides a part of itself, or its edges${text} disagree (${off})`;
+      return `warning: the flat page is doubtful: ${doubtWords(report, `its edges${text} disagree (${off})`)}its places are wrong by ${likely}`;
     case 'notThisKind':
       if (isSheet) return `warning: no sheet of paper has these edges (off ${off}): correct them, and give them with --edges FILE`;
       return `warning: this is no page that is curled one way: its edges${text} disagree (${off}); ` +

@@ -3,7 +3,7 @@
 use super::curled_page::CurledPage;
 use super::edges::{Edges, Trace};
 use super::options::PageOptions;
-use super::report::PageVerdict;
+use super::report::{PageDoubt, PageVerdict};
 use super::text;
 use crate::dewarp::Photo;
 use crate::error::Result;
@@ -70,23 +70,22 @@ impl CurledPage {
         // Lines that are more exact than the edges show the errors of these, and make the page better.
         let calm = report.verdict == PageVerdict::Doubtful && report.lines_disagreement == 0.0;
         if calm && report.error <= by_itself.error {
-            report.verdict = by_itself.verdict;
+            (report.verdict, report.doubt) = (by_itself.verdict, by_itself.doubt);
         }
-        let doubtful = |verdict: &mut PageVerdict| {
-            if *verdict != PageVerdict::NotThisKind {
-                *verdict = PageVerdict::Doubtful;
-            }
-        };
         match both {
             // Neighbouring lines have their residuals in common.
             Ok(both) if both.report.verdict == PageVerdict::NotThisKind => {
-                report.verdict = PageVerdict::NotThisKind;
+                (report.verdict, report.doubt) = (PageVerdict::NotThisKind, None);
                 report.residual = report.residual.max(both.report.residual);
                 report.disagreement = report.disagreement.max(both.report.disagreement);
                 report.lines_disagreement = both.report.lines_disagreement;
             }
             Ok(both) if both.found_residual < MAX_FOUND_RESIDUAL => {}
-            _ => doubtful(&mut report.verdict),
+            _ if report.verdict == PageVerdict::NotThisKind => {}
+            _ => {
+                report.verdict = PageVerdict::Doubtful;
+                report.doubt.get_or_insert(PageDoubt::Disagreement);
+            }
         }
         page.found = found;
         page

@@ -83,6 +83,6 @@ pub use edges::{Edges, Trace};
 pub use flat_image::FlatImage;
 pub use options::{FocalLength, Format, PageOptions, Ruler};
 pub use outline::{OutlineReason, OutlineReport, OutlineVerdict, PageOutline, find_outline};
-pub use report::{PageModel, PageReport, PageVerdict};
+pub use report::{PageDoubt, PageModel, PageReport, PageVerdict};
 pub use sheet::SheetPage;
 pub use surface::PageSurface;

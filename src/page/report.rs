@@ -32,6 +32,29 @@ pub enum PageVerdict {
     NotThisKind,
 }
 
+/// Main reason why a flat page is doubtful ([`PageVerdict::Doubtful`]).
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize),
+    serde(rename_all = "camelCase")
+)]
+#[non_exhaustive]
+pub enum PageDoubt {
+    /// The expected error is above 1 % of the page's width.
+    LargeError,
+    /// A part of the page hides another part from the camera.
+    HiddenPart,
+    /// Edges and lines of text disagree by about the accuracy of the traced points.
+    Disagreement,
+    /// Fewer than eight lines of text were detected, and a sheet of any shape is not determined by its edges alone.
+    FewLines,
+    /// The page is crumpled: its model is a sheet that is strained.
+    Crumpled,
+    /// The page is bent so strongly that its model may be wrong between edges and lines.
+    StrongBend,
+}
+
 /// Model of a page's shape, from the plainest to the most general.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[cfg_attr(
@@ -62,6 +85,9 @@ pub enum PageModel {
 pub struct PageReport {
     /// Whether the flat page can be trusted.
     pub verdict: PageVerdict,
+    /// Main reason for the verdict `Doubtful`; None for other verdicts.
+    #[cfg_attr(feature = "serde", serde(skip_serializing_if = "Option::is_none"))]
+    pub doubt: Option<PageDoubt>,
     /// Model that was fitted to the page's shape: plane, cylinder or sheet.
     pub model: PageModel,
     /// Expected displacement of points on the flat page: the root mean square after the best
@@ -170,8 +196,8 @@ pub(super) struct VerdictFigures {
 }
 
 impl VerdictFigures {
-    /// Derives the verdict on a page from the measures of its fit.
-    pub fn verdict(&self) -> PageVerdict {
+    /// Derives the verdict on a page from the measures of its fit, and the reason if it is `Doubtful`.
+    pub fn verdict(&self) -> (PageVerdict, Option<PageDoubt>) {
         let accuracy = self.accuracy.max(MIN_ACCURACY_SHARE * self.edge_length);
         let max_residual = MAX_EDGE_RESIDUAL + EDGE_RESIDUAL_SCATTER / self.fewest_points.sqrt();
         let has_common_residual = |limit: f64| {
@@ -193,25 +219,33 @@ impl VerdictFigures {
             || self.text.iter().any(far)
             || ResidualStatistics::pooled(&self.text).is_some_and(|all| far(&all))
         {
-            return PageVerdict::NotThisKind;
+            return (PageVerdict::NotThisKind, None);
         }
-        if self.estimate.expected > MAX_TRUSTED_ERROR
-            || self.hidden
-            || has_common_residual(MAX_TRUSTED_COMMON_RESIDUAL)
-        {
-            return PageVerdict::Doubtful;
+        let doubts = [
+            (
+                self.estimate.expected > MAX_TRUSTED_ERROR,
+                PageDoubt::LargeError,
+            ),
+            (self.hidden, PageDoubt::HiddenPart),
+            (
+                has_common_residual(MAX_TRUSTED_COMMON_RESIDUAL),
+                PageDoubt::Disagreement,
+            ),
+        ];
+        if let Some((_, doubt)) = doubts.into_iter().find(|(applies, _)| *applies) {
+            return (PageVerdict::Doubtful, Some(doubt));
         }
         let straight = MAX_STRAIGHT_BOW * self.accuracy;
         if self.fewest_points < MIN_CHECKED_POINTS
             || (self.bow[0] > MIN_CHECKED_BOW_RATIO * straight
                 && self.bow[1] < MIN_CHECKING_BOW * self.accuracy)
         {
-            return PageVerdict::Unchecked;
+            return (PageVerdict::Unchecked, None);
         }
         if self.bow[0] < straight {
-            PageVerdict::Flat
+            (PageVerdict::Flat, None)
         } else {
-            PageVerdict::Unrolled
+            (PageVerdict::Unrolled, None)
         }
     }
 }
@@ -264,8 +298,10 @@ pub(super) fn report(
         fewest_points: fewest,
         hidden: cylinder.has_hidden_part(),
     };
+    let (verdict, doubt) = findings.verdict();
     PageReport {
-        verdict: findings.verdict(),
+        verdict,
+        doubt,
         model: PageModel::Cylinder,
         error: 100.0 * estimate.expected,
         pinhole_error_bound: 100.0 * estimate.bound,
@@ -280,5 +316,47 @@ pub(super) fn report(
         lines_used: lines_found,
         lines_disagreement: 100.0 * common.sqrt() / seen,
         ratio: cylinder.length,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_doubtful_page_has_a_reason_and_others_have_none() {
+        let figures = |expected: f64, hidden: bool, common: f64| VerdictFigures {
+            estimate: ErrorEstimate {
+                expected,
+                bound: 2.0 * expected,
+                focal: 0.0,
+            },
+            edges: Vec::new(),
+            text: Vec::new(),
+            common,
+            accuracy: 1.0,
+            edge_length: 1000.0,
+            bow: [80.0, 70.0],
+            fewest_points: 12.0,
+            hidden,
+        };
+        let trusted_common = TEXT_COMMON_RESIDUAL_RATIO * MAX_TRUSTED_COMMON_RESIDUAL;
+        let disagreeing = (1.1 * trusted_common).powi(2);
+        let doubtful = |doubt| (PageVerdict::Doubtful, Some(doubt));
+        for (found, expected) in [
+            (figures(0.001, false, 0.0), (PageVerdict::Unrolled, None)),
+            (figures(0.02, false, 0.0), doubtful(PageDoubt::LargeError)),
+            (figures(0.001, true, 0.0), doubtful(PageDoubt::HiddenPart)),
+            (
+                figures(0.001, false, disagreeing),
+                doubtful(PageDoubt::Disagreement),
+            ),
+            (
+                figures(0.02, true, 4.0 * disagreeing),
+                (PageVerdict::NotThisKind, None),
+            ),
+        ] {
+            assert_eq!(found.verdict(), expected);
+        }
     }
 }

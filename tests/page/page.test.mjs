@@ -230,9 +230,16 @@ test('where nothing tells the focal length, that of a phone is assumed, and said
     'The upper left corner is outside the photo, so its place is a guess.', 'The lower and right edges are hardly seen: check them.',
     'The camera is not known, so I assume a field of view of 65°.',
   ]);
-  // Which of the reasons it is, the report does not say.
-  const doubtful = /** @type {import('../../www/api.js').PageReport} */ ({ verdict: 'doubtful', error: 1.8, pinholeErrorBound: 4.4, lines: 0, linesFound: 13 });
-  assert.match(pageErrors(doubtful), /^The photo leaves the bend uncertain, the edges and lines of text disagree, or .*about 1\.8\s%.*less than 4\.4\s%/);
+  const doubts = /** @type {const} */ ([
+    ['largeError', 13, /^The photo leaves the bend uncertain:/], ['hiddenPart', 13, /^A part of the page hides another part:/],
+    ['disagreement', 13, /^The edges and lines of text disagree:/], ['fewLines', 0, /^The page shows no lines of text/],
+    ['fewLines', 1, /^Only 1 line of text tells/], ['crumpled', 13, /^The page is crumpled:/], ['strongBend', 13, /^The page is bent strongly:/],
+  ]);
+  for (const [doubt, linesFound, words] of doubts) {
+    const report = /** @type {import('../../www/api.js').PageReport} */ ({ verdict: 'doubtful', doubt, error: 1.8, pinholeErrorBound: 4.4, lines: 0, linesFound });
+    assert.match(pageErrors(report), words);
+    assert.match(pageErrors(report), /about 1\.8\s%.*less than 4\.4\s%/);
+  }
 });
 
 pageTest('of several pages one is taken, and another by a click', async (page) => {

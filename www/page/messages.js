@@ -71,14 +71,31 @@ export function pageVerdict({ verdict, model, lines }) {
  * How far the flat page is to be trusted.
  * @param {PageReport} report
  */
-export function pageErrors({ verdict, error, pinholeErrorBound, lines, linesFound }) {
+export function pageErrors(report) {
+  const { verdict, error, pinholeErrorBound, lines, linesFound } = report;
   const text = lines + linesFound > 0 ? ' and lines of text' : '';
   const likely = `points are off by about ${percent(error / 100)} of the page’s width (in 95 of 100 photos by less than ${percent(pinholeErrorBound / 100)}, unless the lens distorts)`;
   switch (verdict) {
     case 'flat': case 'unrolled': return `If the outline is right, ${likely}.`;
     case 'unchecked': return `One edge looks straight from here, or has few points, so that nothing checks the bend. If the page is curled one way, ${likely}.`;
-    case 'doubtful': return `The photo leaves the bend uncertain, the edges${text} disagree, or the page hides a part of itself: ${likely}. Correct the outline, or choose the page’s format.`;
+    case 'doubtful': return `${doubtWords(report, text)}: ${likely}. Correct the outline, or choose the page’s format.`;
     default: return `The edges${text} contradict each other. Correct the outline where it leaves the page.`;
+  }
+}
+
+/**
+ * Why a flat page is doubtful.
+ * @param {PageReport} report
+ * @param {string} text what disagrees with the edges besides each other
+ */
+function doubtWords({ doubt, linesFound }, text) {
+  switch (doubt) {
+    case 'hiddenPart': return 'A part of the page hides another part';
+    case 'disagreement': return `The edges${text} disagree`;
+    case 'fewLines': return linesFound === 0 ? 'The page shows no lines of text, and its outline alone leaves the bend uncertain' : `Only ${linesFound} ${linesFound === 1 ? 'line of text tells' : 'lines of text tell'} how the page is bent`;
+    case 'crumpled': return 'The page is crumpled';
+    case 'strongBend': return 'The page is bent strongly';
+    default: return 'The photo leaves the bend uncertain';
   }
 }
 

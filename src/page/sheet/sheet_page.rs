@@ -20,7 +20,7 @@ use crate::page::known_sizes::{Sides, focal_length, sides};
 use crate::page::options::{Format, PageOptions};
 use crate::page::output::{back_project, grid_mesh, texture_coordinates};
 use crate::page::read_traces::read_traces;
-use crate::page::report::{PageModel, PageReport, PageVerdict};
+use crate::page::report::{PageDoubt, PageModel, PageReport, PageVerdict};
 use crate::page::traced_line::{TracedLine, distance};
 use crate::scene::camera::has_camera_proportions;
 use crate::scene::mesh::Mesh;
@@ -346,27 +346,38 @@ fn report(found: &FoundSheet, view: &PhotoView, focal_deviation: f64) -> PageRep
         .iter()
         .zip(&grid.nodes)
         .any(|(normal, node)| normal.dot(node) <= 0.0);
-    let verdict = if figures.outline > MAX_OUTLINE_MISFIT {
-        PageVerdict::NotThisKind
+    let trusted = [
+        (!hidden, PageDoubt::HiddenPart),
+        (lines >= MIN_TRUSTED_LINES, PageDoubt::FewLines),
+        (
+            found.model == PageModel::Sheet && figures.strain < MAX_TRUSTED_STRAIN,
+            PageDoubt::Crumpled,
+        ),
+        (
+            figures.curvature < MAX_TRUSTED_CURVATURE,
+            PageDoubt::StrongBend,
+        ),
+        (
+            figures.outline < MAX_TRUSTED_OUTLINE_MISFIT && figures.lines < MAX_TRUSTED_LINE_MISFIT,
+            PageDoubt::Disagreement,
+        ),
+    ];
+    let untrusted = trusted.into_iter().find(|(applies, _)| !applies);
+    let (verdict, doubt) = if figures.outline > MAX_OUTLINE_MISFIT {
+        (PageVerdict::NotThisKind, None)
     } else if found.model == PageModel::Plane {
-        PageVerdict::Flat
-    } else if figures.outline < MAX_TRUSTED_OUTLINE_MISFIT
-        && figures.lines < MAX_TRUSTED_LINE_MISFIT
-        && figures.curvature < MAX_TRUSTED_CURVATURE
-        && figures.strain < MAX_TRUSTED_STRAIN
-        && lines >= MIN_TRUSTED_LINES
-        && found.model == PageModel::Sheet
-        && !hidden
-    {
-        PageVerdict::Unrolled
+        (PageVerdict::Flat, None)
+    } else if let Some((_, doubt)) = untrusted {
+        (PageVerdict::Doubtful, Some(doubt))
     } else {
-        PageVerdict::Doubtful
+        (PageVerdict::Unrolled, None)
     };
     let misfit = ERROR_PER_MISFIT * figures.outline.hypot(figures.lines);
     let error = 100.0 * misfit.hypot(ERROR_PER_CURVATURE * figures.curvature);
     let focal = view.focal * grid.camera.log_scale.exp();
     PageReport {
         verdict,
+        doubt,
         model: found.model,
         error,
         pinhole_error_bound: ERROR_BOUND_RATIO * error,

@@ -2,8 +2,8 @@
 
 use developable::dewarp::{DewarpOptions, Photo};
 use developable::page::{
-    Edges, FocalLength, Format, PageModel, PageOptions, PageReport, PageSurface, PageVerdict,
-    SheetPage, Trace,
+    Edges, FocalLength, Format, PageDoubt, PageModel, PageOptions, PageReport, PageSurface,
+    PageVerdict, SheetPage, Trace,
 };
 use oorandom::Rand64;
 
@@ -215,6 +215,7 @@ fn known_sheets_are_found() {
 fn a_sheet_without_lines_is_not_trusted() {
     let (_, report) = fitted(curled_askew, false);
     assert_eq!((report.verdict, report.lines), (PageVerdict::Doubtful, 0));
+    assert_eq!(report.doubt, Some(PageDoubt::FewLines));
 }
 
 #[test]

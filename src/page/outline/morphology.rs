@@ -127,7 +127,7 @@ mod tests {
 
     #[test]
     fn closings_and_means_are_those_of_each_window() {
-        let (width, height) = (23, 17);
+        let (width, height) = (13, 9);
         let plane: Vec<f32> = (0..width * height)
             .map(|i| ((i * 7919) % 31) as f32)
             .collect();
@@ -136,7 +136,7 @@ mod tests {
                 [(x, width), (y, height)].map(|(v, n)| v.clamp(0, n as isize - 1) as usize);
             plane[y * width + x]
         };
-        for radius in [1, 2, 5, 30] {
+        for radius in [1, 2, 7] {
             let r = radius as isize;
             let window = move |x: isize, y: isize| {
                 (y - r..=y + r).flat_map(move |v| (x - r..=x + r).map(move |u| (u, v)))

@@ -925,7 +925,7 @@ export interface Drawing {
     area: number;
     /** The largest strain of a sheet, as a share (root of the mean square). */
     strain: number;
-    /** Most that the two sides of a fold are apart (root of the mean square). */
+    /** Largest seam gap of a fold, in millimetres: distance between its two sides (root of the mean square). */
     seamGap: number;
     /** Small loops in which outlines crossed themselves, and which were cut off. */
     loops: number;

@@ -53,6 +53,7 @@ export class Live {
   /** Starts the worker before there is anything to show. What fails here fails again, and is told, where it is needed. */
   start() {
     this.#own().init().catch(() => {});
+    this.#rest();
   }
 
   #own() {
@@ -108,6 +109,11 @@ export class Live {
       this.#events.rested(settings);
     }
     this.#climbing = false;
+    this.#rest();
+  }
+
+  /** Gives the worker's memory back, unless there is another wish before. */
+  #rest() {
     this.#resting = window.setTimeout(() => {
       this.#worker?.dispose();
       this.#worker = null;

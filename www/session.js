@@ -156,12 +156,14 @@ export class Session extends Events {
   }
 
   /**
-   * An example of the package, made by the worker that will solve it unless that has something to do.
+   * An example of the package, made by the worker that will solve it unless that has something to do, or may be given back
+   * meanwhile.
    * @param {ExampleName} name
    * @param {ExampleOptions} options
    */
   example(name, options) {
-    return (this.#job ? this.api : this.#own()).example(name, options);
+    const isFree = !this.#job && !(this.#kept && isLarge(this.#kept.input));
+    return (isFree ? this.#own() : this.api).example(name, options);
   }
 
   /** @param {Phase} phase */

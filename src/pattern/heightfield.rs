@@ -35,7 +35,7 @@ const MAX_MERGE_ROUNDS: usize = 24;
 /// two or three more of parts that are cut again, and up to 800 steps of `O(vertices)` for closing cuts.
 ///
 /// # Errors
-/// [`Error::Shape`] or [`Error::Mismatch`] if the patches belong to another surface, [`Error::Option`] for a gap or
+/// [`Error::Shape`] or [`Error::Mismatch`] if the patches belong to another surface, [`Error::Option`] for a seam gap or
 /// a strain that is not positive and finite, [`Error::NotFlat`] for a part that no cut makes flat, and the errors
 /// of [`unroll`](crate::unroll::unroll).
 pub fn pattern(

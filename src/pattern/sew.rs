@@ -53,7 +53,7 @@ const TRIAL_RELAXATION: StoppingCriteria = StoppingCriteria {
 };
 
 /// Factor of the limits for strains and gaps after the first steps of a trial, above which it is abandoned. Later
-/// steps hardly lower the strain of a sheet; with 1.02 range keeps a sheet more.
+/// steps hardly lower the strain of a sheet; with 1.02 the scan `range` of `benches/patterns.md` has one sheet more.
 const TRIAL_LIMIT_FACTOR: f64 = 1.05;
 
 /// Closes cuts again where the sheets stay valid, the longest first; a cut that cannot be closed as a whole is

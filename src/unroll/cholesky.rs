@@ -11,15 +11,13 @@ use super::flat_triangle::Point;
 use super::sparse_rows::SparseRows;
 use crate::error::{Result, try_filled};
 use crate::math::lanes;
+use crate::math::union_find::UnionFind;
 
 /// Maximum number of vertices of a set that is not cut in two further: a small dense front costs less than its indices.
 const MAX_UNDIVIDED_VERTICES: usize = 32;
 
-/// Share of its diagonal that is added to the matrix, for components that are eliminated before the last front.
-const DIAGONAL_SHIFT: f64 = 1e-9;
-
-/// Factor of the diagonal of the last vertex of a component. The matrix is singular, as it lets all vertices of a component
-/// move together; with this factor that vertex stays where it is.
+/// Factor of the diagonal of the vertex of each component that is eliminated last. The matrix is singular, as it lets all
+/// vertices of a component move together; with this factor that vertex stays where it is.
 const FIXED_VERTEX_FACTOR: f64 = 2.0;
 
 /// Number of columns that are subtracted from another one at once.
@@ -247,6 +245,23 @@ impl Dissection<'_> {
     }
 }
 
+/// Finds the vertex of each component that is eliminated last; returns for each place in the order of elimination whether
+/// it has such a vertex.
+fn last_of_components(matrix: &SparseRows, order: &[u32]) -> Result<Vec<bool>> {
+    let mut components = UnionFind::new("unrolling", order.len())?;
+    for vertex in 0..order.len() as u32 {
+        for (other, _) in matrix.row(vertex as usize) {
+            components.union(vertex, other);
+        }
+    }
+    let mut is_seen = vec![false; order.len()];
+    let mut is_last: Vec<bool> = (order.iter().rev())
+        .map(|vertex| !std::mem::replace(&mut is_seen[components.find(*vertex) as usize], true))
+        .collect();
+    is_last.reverse();
+    Ok(is_last)
+}
+
 /// Factorises a matrix front by front.
 fn factorise(matrix: &SparseRows, order: &[u32], starts: &[usize]) -> Result<Vec<Front>> {
     let count = order.len();
@@ -262,6 +277,7 @@ fn factorise(matrix: &SparseRows, order: &[u32], starts: &[usize]) -> Result<Vec
     // What the fronts below each front add to it: their rows further up, and a matrix for these.
     let mut below: Vec<Vec<(Vec<u32>, Vec<f64>)>> = starts.iter().map(|_| Vec::new()).collect();
     let mut fronts = Vec::with_capacity(starts.len());
+    let is_last = last_of_components(matrix, order)?;
     // Place in the current front of each row.
     let mut locals = try_filled("unrolling", count, 0u32)?;
     for (number, (start, end)) in starts.iter().zip(&ends).enumerate() {
@@ -290,11 +306,8 @@ fn factorise(matrix: &SparseRows, order: &[u32], starts: &[usize]) -> Result<Vec
                 if place < start + column {
                     continue;
                 }
-                let factor = match other == *vertex {
-                    true if column + 1 == size => FIXED_VERTEX_FACTOR,
-                    true => 1.0 + DIAGONAL_SHIFT,
-                    false => 1.0,
-                };
+                let is_fixed = other == *vertex && is_last[start + column];
+                let factor = if is_fixed { FIXED_VERTEX_FACTOR } else { 1.0 };
                 values[column * size + locals[place] as usize] += factor * weight;
             }
         }
@@ -380,10 +393,22 @@ mod tests {
     }
 
     #[test]
-    fn solutions_on_a_grid_are_its_waves() {
-        // The product of cosines is an eigenvector, in closed form; one vertex beside the grid has no entries.
+    fn solutions_on_grids_are_their_waves() {
+        // The product of cosines is an eigenvector, in closed form. A second grid lies between the vertices of the first, so
+        // that fronts have vertices of both; one vertex beside them has no entries.
         let size = 37u32;
-        let (entries, mut places) = grid(size);
+        let (mut entries, mut places) = grid(size);
+        let one = places.len();
+        let shifted = |vertex: u32| vertex + one as u32;
+        entries.extend_from_within(..);
+        let half = entries.len() / 2;
+        for (pair, _) in &mut entries[half..] {
+            *pair = pair.map(shifted);
+        }
+        places.extend_from_within(..);
+        for place in &mut places[one..] {
+            *place += Point::new(0.3, 0.4);
+        }
         places.push(Point::new(3.2, 1.1));
         let matrix = SparseRows::new(places.len(), &entries).unwrap();
         let mut factor = Cholesky::new(&matrix, &places).unwrap();
@@ -393,21 +418,27 @@ mod tests {
             let wave = |place: &Point| (a * (place.re + 0.5)).cos() * (b * (place.im + 0.5)).cos();
             let eigenvalue = 4.0 - 2.0 * a.cos() - 2.0 * b.cos();
             let count = places.len() - 1;
-            let mut right: Vec<Point> = places[..count]
+            let mut right: Vec<Point> = [&places[..one], &places[..one]]
+                .concat()
                 .iter()
                 .map(|place| Point::new(wave(place), -2.0 * wave(place)))
                 .collect();
             right.push(Point::default());
             let mut solution = vec![Point::default(); count + 1];
             factor.solve(&right, &mut solution);
-            // The solution is unique but for a translation of the grid.
-            let expected: Vec<Point> = right.iter().map(|b| b / eigenvalue).collect();
-            let shift = solution[0] - expected[0];
-            for (x, y) in solution[..count].iter().zip(&expected) {
-                assert!(
-                    (x - y - shift).norm() * eigenvalue < 1e-4,
-                    "{p} {q}: {x} {y}"
-                );
+            // The solution is unique but for a translation of each grid, which its vertex that is held limits.
+            for grid in [0..one, one..count] {
+                let expected: Vec<Point> =
+                    right[grid.clone()].iter().map(|b| b / eigenvalue).collect();
+                let found = &solution[grid];
+                let shift = found[0] - expected[0];
+                assert!(shift.norm() * eigenvalue < 4.0, "{p} {q}: {shift}");
+                for (x, y) in found.iter().zip(&expected) {
+                    assert!(
+                        (x - y - shift).norm() * eigenvalue < 1e-4,
+                        "{p} {q}: {x} {y}"
+                    );
+                }
             }
             assert_eq!(solution[count], Point::default());
         }

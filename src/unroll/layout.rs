@@ -16,9 +16,9 @@ use crate::lattice::hexagonal::{ROW_SPACING, shift};
 use crate::scene::triangulation::Triangulation;
 use crate::scene::view::Frame;
 
-/// Change of the energy in one iteration, as a share of it, below which a layout has converged whose strain is below the
-/// limit that it is compared with.
-const RELATIVE_TOLERANCE: f64 = 1e-4;
+/// Maximum change of the energy in one iteration, as a share of it, at which a layout has converged whose strain is below
+/// the limit that it is compared with: further iterations would only lower a strain that is small enough.
+const RELATIVE_ENERGY_TOLERANCE: f64 = 1e-4;
 
 /// Lays a surface flat with as little strain as possible.
 ///
@@ -48,7 +48,7 @@ pub(crate) fn unroll_mesh(
         max_iterations: options.max_iterations,
         // The energy is the sum of both squared principal strains.
         wanted_energy: limit.map_or(f64::INFINITY, |limit| 2.0 * limit * limit),
-        relative_tolerance: limit.map_or(0.0, |_| RELATIVE_TOLERANCE),
+        relative_tolerance: limit.map_or(0.0, |_| RELATIVE_ENERGY_TOLERANCE),
     };
     let lattice = *mesh.lattice();
     let spacing = lattice.spacing();

@@ -61,6 +61,8 @@ test('a drawing in millimetres', async () => {
   near(summary.mountainLength, flat.height);
   near(summary.area, flat.width * flat.height, 0.01);
   assert.deepEqual([summary.valleyLength, summary.seams, summary.folds, summary.tabs], [0, 0, 1, 0]);
+  // The two sides of the fold are at most the default apart.
+  assert.ok(summary.seamGap >= 0 && summary.seamGap <= 0.005 * flat.height, `${summary.seamGap}`);
   // The other way round it is a groove.
   const groove = lattice(rows, cols, (x) => slope * Math.abs(x - 40.3));
   assert.equal(direct.pattern(groove).sheets[0].folds[0].direction, 'valley');

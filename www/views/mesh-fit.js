@@ -111,7 +111,7 @@ export async function sheet(whole, mesh, surface) {
     about: [
       say(`${words}.`),
       colourBar('Strain: blue is compressed, red is stretched', linear(most, signed)),
-      figures([['Largest strain', percent(strain)], ['Gap at folds', `${numberAgainst(seamGap, extent.width)} ${unit}`]]),
+      figures([['Largest strain', percent(strain)], ['Seam gap of folds', `${numberAgainst(seamGap, extent.width)} ${unit}`]]),
     ],
   };
 }

@@ -33,7 +33,7 @@ pub(crate) trait ZStepSolver<O: Operator>: Clone + Debug {
     /// Factor by which the residual `b − A z` is multiplied in the solver.
     fn residual_scale(&self) -> f64;
 
-    /// Starts conjugate gradients again from the residual that was just written.
+    /// Starts the iterations again from the residual that was just written.
     fn restart(&mut self, operator: &O);
 
     /// Squared residual `‖r‖²` in the norm of the matrix's inverse diagonal.

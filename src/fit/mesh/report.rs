@@ -30,7 +30,8 @@ pub struct Repairs {
 pub struct MeshPass {
     /// Number of ADMM iterations of the pass, on the mesh and on coarser levels together.
     pub iterations: usize,
-    /// Number of conjugate-gradient steps of the pass, over all z-steps of all levels.
+    /// Number of conjugate-gradient steps of the pass, over all z-steps of all levels; V-cycles on levels that are solved by
+    /// these.
     pub cg_iterations: usize,
     /// Objective of the best iterate, in the linearised problem.
     pub objective: f64,

@@ -56,9 +56,16 @@ mod tests {
         let plane: Vec<f32> = (0..width * height)
             .map(|i| if known[i] { ramp(i) } else { 9.0 })
             .collect();
-        let mut planes = [plane];
+        let negated: Vec<f32> = plane.iter().map(|value| -value).collect();
+        let mut planes = [plane, negated];
         fill_gaps(&mut planes, &known, width, height);
-        let [plane] = planes;
+        let [plane, negated] = planes;
+        assert!(
+            plane
+                .iter()
+                .zip(&negated)
+                .all(|(one, other)| *one == -other)
+        );
         for i in 0..plane.len() {
             let off = (plane[i] - ramp(i)).abs();
             assert!(if known[i] { off == 0.0 } else { off < 0.06 }, "{i}: {off}");

@@ -54,7 +54,8 @@ fn vertical_extreme(
 }
 
 /// Applies a grey closing by a square with sides of `2 radius + 1` pixels: dark print narrower than that takes the
-/// paper's colour. The image is continued beyond its rim, so that a narrow strip of background along the rim remains.
+/// paper's colour. The image is continued beyond its rim, so that a narrow strip of background along the rim remains. All
+/// values have to be finite.
 pub(in crate::page) fn closed(planes: &Planes, radius: usize) -> Planes {
     let (width, height) = (planes.width + 2 * radius, planes.height + 2 * radius);
     let max = |a: f32, b: f32| if a > b { a } else { b };

@@ -14,7 +14,7 @@ pub(super) struct SheetFigures {
     pub lines: f64,
     /// Root mean square strain (relative change of length) of the sheet.
     pub strain: f64,
-    /// Root mean square curvature of the sheet, in reciprocal widths of the page.
+    /// Root mean square curvature of the sheet without bends across its folds, in reciprocal widths of the page.
     pub curvature: f64,
 }
 
@@ -40,7 +40,8 @@ impl SheetProblem {
         unit.visit_outline(grid, &mut robust(), &mut |row| {
             sums[0] += row.value * row.value
         })?;
-        unit.visit_lines(grid, &sheet.levels, &mut robust(), &mut |row| {
+        let lines = self.lines.iter().zip(&sheet.levels);
+        unit.visit_lines(grid, lines, &mut robust(), &mut |row| {
             sums[1] += row.value * row.value;
         })?;
         unit.visit_isometry(grid, &mut |row| {
@@ -61,7 +62,7 @@ impl SheetProblem {
     }
 
     /// Returns the sheet with each line of print at the level (share of the page's height or width) where it fits the
-    /// line in the photo best. None if the sheet is not in front of the camera.
+    /// line in the photo best, and with folds at their expected levels. None if the sheet is not in front of the camera.
     pub fn with_levels(&self, sheet: &FittedSheet) -> Option<FittedSheet> {
         let mut sheet = sheet.clone();
         sheet.levels = self.expected_levels();
@@ -75,7 +76,7 @@ impl SheetProblem {
             };
             self.visit_lines(
                 &sheet.grid,
-                &sheet.levels,
+                self.lines.iter().zip(&sheet.levels),
                 &mut RobustWeights::default(),
                 &mut sink,
             )?;

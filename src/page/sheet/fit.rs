@@ -26,7 +26,7 @@ const DAMPING_INCREASE: f64 = 5.0;
 const CAMERA_UNKNOWNS: usize = 4;
 
 /// A sheet in space that was fitted to a photo of a page, with the position on the page (share of its height or width)
-/// of each line of print.
+/// of each line of print and, after these, of each fold.
 #[derive(Debug, Clone)]
 pub(super) struct FittedSheet {
     pub grid: SheetGrid,

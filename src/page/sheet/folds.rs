@@ -1,6 +1,7 @@
 //! Detection of folds across a page: steps of brightness that run from the left edge to the right one in the flattened
 //! photo. A sheet bends freely along them. Outline and lines of print leave open where along the page the print is; a page
-//! that is folded once across is folded in its middle, which tells it.
+//! that is folded once across is folded in its middle, which tells it. `benches/page.md`, Folds, says how the constants were
+//! chosen.
 
 use std::ops::Range;
 
@@ -10,22 +11,25 @@ use super::view::PhotoView;
 use crate::page::text::GreyPhoto;
 
 /// Number of vertical strips of the page in each of which steps of brightness are searched.
-const STRIPS: usize = 40;
+const STRIP_COUNT: usize = 40;
 
 /// Number of columns of each strip at which the brightness is sampled.
 const SAMPLES_PER_STRIP: usize = 6;
 
 /// Number of rows of the page at which the brightness is sampled.
-const ROWS: usize = 480;
+const PROFILE_ROWS: usize = 480;
 
 /// Width of the margin at the upper and lower edge without folds, in rows: edges are traced with errors.
-const MARGIN_ROWS: usize = 29;
+const FOLD_FREE_MARGIN_ROWS: usize = 29;
 
 /// Half width, in rows, of the window of the grey closing by which print is removed.
 const PRINT_RADIUS_ROWS: usize = 4;
 
 /// Standard deviation of the Gaussian by which the brightness is smoothed along a strip, in rows.
-const SMOOTHING_ROWS: f64 = 1.7;
+const SMOOTHING_DEVIATION_ROWS: f64 = 1.7;
+
+/// Number of rows on either side that the smoothing reaches: three standard deviations.
+const KERNEL_ROWS: usize = 6;
 
 /// Step of brightness at which a fold is fully visible, as a multiple of the strip's median one.
 const VISIBLE_STEP_RATIO: f32 = 6.0;
@@ -43,7 +47,7 @@ const MIN_FOLD_VISIBILITY: f32 = 0.8;
 const MIN_OUTER_VISIBILITY: f32 = 0.7;
 
 /// Number of strips at the left and at the right edge in which a fold is visible and print is not.
-const OUTER_STRIPS: usize = 3;
+const OUTER_STRIP_COUNT: usize = 3;
 
 /// Minimum distance of two folds, in rows.
 const MIN_FOLD_DISTANCE_ROWS: usize = 20;
@@ -68,12 +72,12 @@ pub(super) fn find_folds(
 ) -> Vec<LevelLine> {
     let paths = visible_paths(strips(|share| photo.at(table.at(share))));
     let level =
-        |path: &FoldPath| path.iter().map(|row| row_share(*row)).sum::<f64>() / STRIPS as f64;
+        |path: &FoldPath| path.iter().map(|row| row_share(*row)).sum::<f64>() / STRIP_COUNT as f64;
     let halves = paths.len() == 1 && (level(&paths[0]) - 0.5).abs() < MAX_HALF_FOLD_OFFSET;
     (paths.iter())
         .map(|path| LevelLine {
             points: (path.iter().enumerate())
-                .map(|(strip, row)| [(strip as f64 + 0.5) / STRIPS as f64, row_share(*row)])
+                .map(|(strip, row)| [(strip as f64 + 0.5) / STRIP_COUNT as f64, row_share(*row)])
                 .map(|share| view.to_normalised(table.at(share)))
                 .collect(),
             level: if halves { 0.5 } else { level(path) },
@@ -86,11 +90,11 @@ pub(super) fn find_folds(
 /// Computes how visible a fold is in each strip and row of the page. `brightness` gives the flattened photo's, by shares of
 /// the page's width and height.
 fn strips(brightness: impl Fn([f64; 2]) -> f32) -> Vec<Vec<f32>> {
-    (0..STRIPS)
+    (0..STRIP_COUNT)
         .map(|strip| {
             visibility(|sample, row| {
                 let across = strip as f64 + (sample as f64 + 0.5) / SAMPLES_PER_STRIP as f64;
-                brightness([across / STRIPS as f64, row_share(row)])
+                brightness([across / STRIP_COUNT as f64, row_share(row)])
             })
         })
         .collect()
@@ -101,12 +105,16 @@ fn visible_paths(mut strips: Vec<Vec<f32>>) -> Vec<FoldPath> {
     let mut folds = Vec::new();
     loop {
         let path = most_visible_path(&strips);
-        let mut visible = [0.0; STRIPS];
+        let mut visible = [0.0; STRIP_COUNT];
         for ((row, strip), visible) in path.iter().zip(&mut strips).zip(&mut visible) {
             *visible = strip[*row];
             strip[near(*row, MIN_FOLD_DISTANCE_ROWS)].fill(0.0);
         }
-        let outer = [&visible[..OUTER_STRIPS], &visible[STRIPS - OUTER_STRIPS..]].concat();
+        let outer = [
+            &visible[..OUTER_STRIP_COUNT],
+            &visible[STRIP_COUNT - OUTER_STRIP_COUNT..],
+        ]
+        .concat();
         if mean(&visible) < MIN_FOLD_VISIBILITY {
             return folds;
         }
@@ -118,18 +126,18 @@ fn visible_paths(mut strips: Vec<Vec<f32>>) -> Vec<FoldPath> {
 
 /// Position of the middle of a row on the page: share of the page's height.
 fn row_share(row: usize) -> f64 {
-    (row as f64 + 0.5) / ROWS as f64
+    (row as f64 + 0.5) / PROFILE_ROWS as f64
 }
 
 /// Rows up to `radius` away from a row.
 fn near(row: usize, radius: usize) -> Range<usize> {
-    row.saturating_sub(radius)..(row + radius + 1).min(ROWS)
+    row.saturating_sub(radius)..(row + radius + 1).min(PROFILE_ROWS)
 }
 
 /// Computes how visible a fold is in each row of a strip, from 0 to 1: the steps of the paper's logarithmic brightness
 /// relative to the strip's median one. `brightness` gives the photo's by numbers of sample and row.
 fn visibility(brightness: impl Fn(usize, usize) -> f32) -> Vec<f32> {
-    let bright: Vec<f32> = (0..ROWS)
+    let mut bright: Vec<f32> = (0..PROFILE_ROWS)
         .map(|row| {
             // The second brightest sample is paper, unless print covers the strip.
             let mut brightest = [0.0_f32; 2];
@@ -140,34 +148,52 @@ fn visibility(brightness: impl Fn(usize, usize) -> f32) -> Vec<f32> {
                     brightest[1] = value;
                 }
             }
-            (brightest[1] + 1.0).ln()
+            if brightest[1] > 0.0 {
+                (brightest[1] + 1.0).ln()
+            } else {
+                f32::NAN
+            }
         })
         .collect();
+    if bright.iter().all(|value| value.is_nan()) {
+        return vec![0.0; PROFILE_ROWS];
+    }
+    // Beyond the photo the brightness goes on as at its rim, so that the rim is no step.
+    for row in 1..PROFILE_ROWS {
+        if bright[row].is_nan() {
+            bright[row] = bright[row - 1];
+        }
+    }
+    for row in (1..PROFILE_ROWS).rev() {
+        if bright[row - 1].is_nan() {
+            bright[row - 1] = bright[row];
+        }
+    }
     let extremes = |values: &[f32], pick: fn(f32, f32) -> f32| -> Vec<f32> {
-        (0..ROWS)
+        (0..PROFILE_ROWS)
             .map(|row| values[near(row, PRINT_RADIUS_ROWS)].iter().copied())
             .map(|values| values.reduce(pick).unwrap_or(0.0))
             .collect()
     };
     let paper = extremes(&extremes(&bright, f32::max), f32::min);
-    let reach = (3.0 * SMOOTHING_ROWS) as usize + 1;
+    let reach = KERNEL_ROWS;
     let kernel: Vec<f32> = (0..=reach)
-        .map(|i| (i as f64 * (-0.5 * (i as f64 / SMOOTHING_ROWS).powi(2)).exp()) as f32)
+        .map(|i| (i as f64 * (-0.5 * (i as f64 / SMOOTHING_DEVIATION_ROWS).powi(2)).exp()) as f32)
         .collect();
     let norm: f32 = kernel.iter().sum();
-    let steps: Vec<f32> = (0..ROWS)
+    let steps: Vec<f32> = (0..PROFILE_ROWS)
         .map(|row| {
             let differences = (kernel.iter().enumerate()).map(|(i, weight)| {
-                weight * (paper[(row + i).min(ROWS - 1)] - paper[row.saturating_sub(i)])
+                weight * (paper[(row + i).min(PROFILE_ROWS - 1)] - paper[row.saturating_sub(i)])
             });
             differences.sum::<f32>().abs() / norm
         })
         .collect();
     let mut sorted = steps.clone();
     sorted.sort_by(f32::total_cmp);
-    let visible = VISIBLE_STEP_RATIO * (sorted[ROWS / 2] + MIN_STEP_NOISE);
-    let mut found = vec![0.0; ROWS];
-    for row in MARGIN_ROWS..ROWS - MARGIN_ROWS {
+    let visible = VISIBLE_STEP_RATIO * (sorted[PROFILE_ROWS / 2] + MIN_STEP_NOISE);
+    let mut found = vec![0.0; PROFILE_ROWS];
+    for row in FOLD_FREE_MARGIN_ROWS..PROFILE_ROWS - FOLD_FREE_MARGIN_ROWS {
         found[row] = (steps[row] / visible).min(1.0);
     }
     found
@@ -189,15 +215,15 @@ fn most_visible_path(strips: &[Vec<f32>]) -> FoldPath {
         let reached = |from: usize, row: usize| {
             before[from] - if from == row { 0.0 } else { ROW_CHANGE_COST }
         };
-        let source: FoldPath = (0..ROWS)
+        let source: FoldPath = (0..PROFILE_ROWS)
             .map(|row| highest(near(row, 1), &|from| reached(from, row)))
             .collect();
-        sums = (0..ROWS)
+        sums = (0..PROFILE_ROWS)
             .map(|row| reached(source[row], row) + strip[row])
             .collect();
         sources.push(source);
     }
-    let mut path = vec![highest(0..ROWS, &|row| sums[row])];
+    let mut path = vec![highest(0..PROFILE_ROWS, &|row| sums[row])];
     for source in sources.iter().rev() {
         path.push(source[path[path.len() - 1]]);
     }
@@ -227,6 +253,15 @@ mod tests {
     #[test]
     fn folds_from_edge_to_edge_are_found_and_print_is_not() {
         assert!(visible_paths(strips(printed)).is_empty());
+        // A page that leaves the photo below ends there without a step.
+        let cut = |share: [f64; 2]| {
+            if share[1] < 0.8 {
+                printed(share)
+            } else {
+                f32::NAN
+            }
+        };
+        assert!(visible_paths(strips(cut)).is_empty());
         // The fold's light changes sides where a second fold crosses it.
         let at = |x: f64| 0.52 + 0.03 * x;
         let folded =
@@ -234,10 +269,10 @@ mod tests {
         let found = visible_paths(strips(folded));
         assert_eq!(found.len(), 1);
         for (strip, row) in found[0].iter().enumerate() {
-            let expected = at((strip as f64 + 0.5) / STRIPS as f64);
+            let expected = at((strip as f64 + 0.5) / STRIP_COUNT as f64);
             let row = row_share(*row);
             // Rows of print beside the fold move it by up to the radius of the closing.
-            let tolerance = (PRINT_RADIUS_ROWS + 1) as f64 / ROWS as f64;
+            let tolerance = (PRINT_RADIUS_ROWS + 1) as f64 / PROFILE_ROWS as f64;
             assert!(
                 (row - expected).abs() < tolerance,
                 "{strip}: {row} {expected}"

@@ -121,8 +121,8 @@ impl SheetProblem {
             .collect()
     }
 
-    /// Calls `sink` with each residual of a sheet whose lines of print have the given levels. None if part of the sheet
-    /// is not in front of the camera.
+    /// Calls `sink` with each residual of a sheet whose lines of print, and after these folds, have the given levels. None if
+    /// part of the sheet is not in front of the camera.
     pub fn visit(
         &self,
         grid: &SheetGrid,
@@ -133,13 +133,8 @@ impl SheetProblem {
         self.visit_isometry(grid, sink);
         self.visit_bending(grid, robust, sink);
         self.visit_outline(grid, robust, sink)?;
-        self.visit_lines(grid, levels, robust, sink)?;
-        let first = self.lines.len();
-        for (number, (fold, level)) in
-            (first..).zip(self.folds.iter().zip(levels.iter().skip(first)))
-        {
-            self.visit_line(grid, fold, (number, *level), robust, sink)?;
-        }
+        let lines = self.lines.iter().chain(&self.folds);
+        self.visit_lines(grid, lines.zip(levels), robust, sink)?;
         let prior = &self.prior;
         let off = [
             (grid.camera.log_scale - prior.log_scale) / prior.scale_deviation,
@@ -293,16 +288,16 @@ impl SheetProblem {
         Some(())
     }
 
-    /// Calls `sink` with the residuals of lines of print: distances of their points in the photo from the sheet's
-    /// projected lines at the given levels.
-    pub fn visit_lines(
+    /// Calls `sink` with the residuals of lines, each with its level: distances of their points in the photo from the
+    /// sheet's projected lines at these levels.
+    pub fn visit_lines<'a>(
         &self,
         grid: &SheetGrid,
-        levels: &[f64],
+        lines: impl Iterator<Item = (&'a LevelLine, &'a f64)>,
         robust: &mut RobustWeights,
         sink: &mut dyn FnMut(&ResidualRow),
     ) -> Option<()> {
-        for (number, (line, level)) in self.lines.iter().zip(levels).enumerate() {
+        for (number, (line, level)) in lines.enumerate() {
             self.visit_line(grid, line, (number, *level), robust, sink)?;
         }
         Some(())

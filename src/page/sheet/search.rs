@@ -38,7 +38,7 @@ const FINE_GRID_COLS: usize = 25;
 const LINE_DETECTION_ROUNDS: usize = 2;
 
 /// Standard deviation of a fold that halves the page from its middle, as a share of the page's height, if the fit of the
-/// sheet has a cost of 1. It is smaller for a higher cost, by which the sheet's other residuals are less certain.
+/// sheet has a cost of 1; it is divided by the square root of the cost (`benches/page.md`, Folds).
 const HALF_FOLD_DEVIATION: f64 = 0.02;
 
 /// Maximum number of Levenberg–Marquardt steps in one fit of a sheet to a photo.

@@ -81,7 +81,8 @@ const MAX_TRUSTED_OUTLINE_MISFIT: f64 = 0.003;
 /// verdict `Unrolled`.
 const MAX_TRUSTED_LINE_MISFIT: f64 = 0.003;
 
-/// Maximum root mean square curvature, in reciprocal widths of the page, for the verdict `Unrolled`.
+/// Maximum root mean square curvature without bends across folds, in reciprocal widths of the page, for the verdict
+/// `Unrolled`.
 const MAX_TRUSTED_CURVATURE: f64 = 0.55;
 
 /// Maximum root mean square strain for the verdict `Unrolled`.
@@ -93,7 +94,8 @@ const MIN_TRUSTED_LINES: usize = 8;
 /// Ratio of the expected displacement of the flat page to the misfit of outline and lines, both in widths of the page.
 const ERROR_PER_MISFIT: f64 = 3.0;
 
-/// Ratio of the expected displacement of the flat page, in widths of the page, to the root mean square curvature.
+/// Ratio of the expected displacement of the flat page, in widths of the page, to the root mean square curvature without
+/// bends across folds.
 const ERROR_PER_CURVATURE: f64 = 0.02;
 
 /// Ratio of the displacement that is not exceeded in 95 of 100 cases to the expected one.

@@ -50,7 +50,7 @@ const MESH_RELATIVE_TOLERANCE: f64 = 1e-4;
 ///
 /// # Errors
 /// [`Error::Shape`](crate::Error::Shape) if the patches belong to another mesh,
-/// [`Error::Option`](crate::Error::Option) for a gap or a strain that is not positive and finite,
+/// [`Error::Option`](crate::Error::Option) for a seam gap or a strain that is not positive and finite,
 /// [`Error::Topology`](crate::Error::Topology) for a mesh that is not a surface,
 /// [`Error::Unsupported`](crate::Error::Unsupported) if more than 500 parts would be needed.
 pub fn pattern_mesh(

@@ -9,7 +9,7 @@ const paper = either(
   either(numbers(2, '[width, height] of plates'), numbers(1, '[width] of a roll, in millimetres')),
 );
 
-/** How sheets may be strained. @satisfies {Options} */
+/** How far sheets may be from exact. @satisfies {Options} */
 export const limits = {
   /**
    * Maximum strain of a sheet, as a share: root mean square over the sheet, so that single lengths may be off by more. A
@@ -22,6 +22,19 @@ export const limits = {
       section: 'shape',
       value: 'S',
       help: 'maximum strain of a sheet, as a share (root mean square over the sheet); a sheet with more is cut (default 0.01)',
+    },
+  },
+  /**
+   * Maximum seam gap of a fold: root mean square distance between its two sides on the flat sheet, as a share of its length.
+   * A quarter of the lattice's spacing, or of a mesh's mean edge, is always allowed.
+   */
+  maxSeamGap: {
+    kind: number,
+    default: 0.005,
+    flag: {
+      section: 'shape',
+      value: 'S',
+      help: 'maximum distance between the two sides of a fold, as a share of its length; a crease with more is cut (default 0.005)',
     },
   },
 };
@@ -132,11 +145,6 @@ export const pattern = {
   ...unroll,
   ...drawing,
   /**
-   * Maximum seam gap of a fold: root mean square distance between its two sides on the flat sheet, as a share of its length.
-   * A quarter of the lattice's spacing is always allowed.
-   */
-  maxSeamGap: { kind: number, default: 0.005 },
-  /**
    * Whether sheets are folded back to see how near they come to the surface (`summary.refolding`). Takes about as long
    * as laying them flat.
    */
@@ -147,11 +155,6 @@ export const pattern = {
 export const unrollMesh = {
   ...meshPatches,
   ...meshUnrolling,
-  /**
-   * Maximum seam gap of a fold: root mean square distance between its two sides on the flat sheet, as a share of its length.
-   * A quarter of the mean length of edges is always allowed.
-   */
-  maxSeamGap: { kind: number, default: 0.005 },
   ...limits,
 };
 

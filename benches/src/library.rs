@@ -2,28 +2,33 @@
 
 use std::error::Error;
 
-use developable::{Heightfield, Normalization, Options, Report, fit};
+use developable::{Bridging, Heightfield, Input, Normalization, Options, Report, fit};
 
 use crate::task::{Outcome, Schedule, Settings};
 
 pub fn options(settings: &Settings) -> Options {
-    Options::paper()
+    let options = Options::paper()
         .lambda(settings.lambda)
-        .schedule(match settings.schedule {
-            Schedule::Default => developable::Schedule::Default,
-            Schedule::Paper => developable::Schedule::Paper,
-        })
-        .gap(settings.gap)
         .max_iterations(settings.max_iterations)
         .normalization(if settings.normalize {
             Normalization::UnitSquare
         } else {
             Normalization::Off
-        })
+        });
+    match settings.schedule {
+        Schedule::Default => options.gap(settings.gap),
+        // It stops on its residuals.
+        Schedule::Paper => options.schedule(developable::Schedule::Paper),
+    }
+}
+
+/// The input's own vertices: other programs fill no holes.
+pub fn input(field: &Heightfield) -> developable::Result<Input> {
+    Input::new(field.clone()).with_bridging(Bridging::Off)
 }
 
 pub fn solve(field: &Heightfield, settings: &Settings) -> Result<Outcome, Box<dyn Error>> {
-    outcome(fit(field, &options(settings))?.report())
+    outcome(fit(input(field)?, &options(settings))?.report())
 }
 
 pub fn outcome(report: &Report) -> Result<Outcome, Box<dyn Error>> {

@@ -5,7 +5,7 @@ use std::time::Instant;
 
 use developable::{Heightfield, Solver, Status};
 
-use crate::library::{options, outcome};
+use crate::library::{input, options, outcome};
 use crate::task::{Outcome, Settings};
 
 pub fn solve(
@@ -13,7 +13,7 @@ pub fn solve(
     from: &Settings,
     to: &Settings,
 ) -> Result<Outcome, Box<dyn Error>> {
-    let mut solver = Solver::new(field, &options(from))?;
+    let mut solver = Solver::new(input(field)?, &options(from))?;
     run(&mut solver)?;
     let start = Instant::now();
     solver.restart(&options(to))?;

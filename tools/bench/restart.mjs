@@ -1,5 +1,6 @@
 /** A solve in wasm from where an earlier one has left the solver. */
 import { Solver } from '../../pkg/direct.js';
+import { optionsOf } from './task.mjs';
 
 /** @typedef {import('./task.mjs').Settings} Settings */
 
@@ -9,11 +10,11 @@ import { Solver } from '../../pkg/direct.js';
  * @param {Settings} to
  */
 export function restart(input, from, to) {
-  const solver = new Solver(input, from);
+  const solver = new Solver(input, optionsOf(from));
   try {
     while (solver.advance(50));
     const start = performance.now();
-    solver.restart(to);
+    solver.restart(optionsOf(to));
     while (solver.advance(50));
     const surface = solver.surface();
     return { surface, seconds: (performance.now() - start) / 1000 };

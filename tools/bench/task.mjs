@@ -61,6 +61,15 @@ export const rule = `the fastest of ${RUNS} solves, or of as many as take a seco
   + `after ${LONG} seconds there are no more`;
 
 /**
+ * The package's options of a solve with the paper's energy, on the input's own vertices. The paper's schedule stops on its
+ * residuals, not on a gap.
+ * @param {Settings} settings
+ */
+export function optionsOf({ schedule, gap, ...settings }) {
+  return { paper: true, bridge: false, ...settings, ...(schedule === 'paper' ? { schedule } : { gap }) };
+}
+
+/**
  * Certified relative gap.
  * @param {Measurement} measurement
  */

@@ -6,7 +6,7 @@ import { readFile } from 'node:fs/promises';
 import { fit, init, load, read } from '../../pkg/direct.js';
 import solverGlue from '../../pkg/wasm/solver.js';
 import { restart } from './restart.mjs';
-import { fastest } from './task.mjs';
+import { fastest, optionsOf } from './task.mjs';
 
 /**
  * @typedef {import('./task.mjs').Task} Task
@@ -39,10 +39,10 @@ async function readInput({ file, lattice, spacing, noData }) {
 
 /**
  * @param {Field} field
- * @param {import('./task.mjs').Settings} options
+ * @param {import('./task.mjs').Settings} settings
  */
-function cold(field, options) {
-  const surface = fit(field, options);
+function cold(field, settings) {
+  const surface = fit(field, optionsOf(settings));
   return { surface, seconds: surface.report.seconds.total };
 }
 

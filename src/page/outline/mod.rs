@@ -20,7 +20,7 @@ mod search;
 mod straight_lines;
 mod tracing;
 
-pub(super) use morphology::{box_mean, closed};
+pub(super) use morphology::{box_mean, closed, vertical_extreme};
 pub use outline_report::{OutlineReason, OutlineReport, OutlineVerdict, PageOutline};
 pub(super) use planes::Planes;
 pub use search::find_outline;

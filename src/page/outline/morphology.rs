@@ -22,7 +22,7 @@ fn transposed(plane: &[f32], width: usize) -> Vec<f32> {
 
 /// Replaces each pixel by the extreme value (as the function `extreme` chooses) among itself and `radius` neighbours above
 /// and below it, by the algorithm of van Herk, Gil and Werman.
-fn vertical_extreme(
+pub(in crate::page) fn vertical_extreme(
     plane: &mut [f32],
     width: usize,
     radius: usize,

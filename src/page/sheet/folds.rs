@@ -8,6 +8,7 @@ use std::ops::Range;
 use super::place_table::PlaceTable;
 use super::problem::LevelLine;
 use super::view::PhotoView;
+use crate::page::outline::vertical_extreme;
 use crate::page::text::GreyPhoto;
 
 /// Number of vertical strips of the page in each of which steps of brightness are searched.
@@ -29,7 +30,7 @@ const PRINT_RADIUS_ROWS: usize = 4;
 const SMOOTHING_DEVIATION_ROWS: f64 = 1.7;
 
 /// Number of rows on either side that the smoothing reaches: three standard deviations.
-const KERNEL_ROWS: usize = 6;
+const KERNEL_ROWS: usize = (3.0 * SMOOTHING_DEVIATION_ROWS) as usize + 1;
 
 /// Step of brightness at which a fold is fully visible, as a multiple of the strip's median one.
 const VISIBLE_STEP_RATIO: f32 = 6.0;
@@ -169,15 +170,10 @@ fn visibility(brightness: impl Fn(usize, usize) -> f32) -> Vec<f32> {
             bright[row - 1] = bright[row];
         }
     }
-    let extremes = |values: &[f32], pick: fn(f32, f32) -> f32| -> Vec<f32> {
-        (0..PROFILE_ROWS)
-            .map(|row| values[near(row, PRINT_RADIUS_ROWS)].iter().copied())
-            .map(|values| values.reduce(pick).unwrap_or(0.0))
-            .collect()
-    };
-    let paper = extremes(&extremes(&bright, f32::max), f32::min);
-    let reach = KERNEL_ROWS;
-    let kernel: Vec<f32> = (0..=reach)
+    let mut paper = bright;
+    vertical_extreme(&mut paper, 1, PRINT_RADIUS_ROWS, f32::max);
+    vertical_extreme(&mut paper, 1, PRINT_RADIUS_ROWS, f32::min);
+    let kernel: Vec<f32> = (0..=KERNEL_ROWS)
         .map(|i| (i as f64 * (-0.5 * (i as f64 / SMOOTHING_DEVIATION_ROWS).powi(2)).exp()) as f32)
         .collect();
     let norm: f32 = kernel.iter().sum();

@@ -11,6 +11,9 @@ import { alignStorage } from './tls.mjs';
 /** The most bytes that a server may have to send, gzipped. */
 const SIZE_LIMIT = 265_000;
 
+/** Functions of the glue that the package imports. */
+const IMPORTED = ['initSync', 'leadTeam', 'helperStack'];
+
 /** Kept apart, so that neither build has the other compiled again. */
 const targetFolder = join(root, 'target/threads');
 
@@ -59,7 +62,9 @@ export async function buildThreads({ env, bindgen }) {
 /** In place of a build that is missing or out of date: glue with which no solver starts, so that there is one thread. */
 export async function leaveThreadsOut() {
   if (await isBuiltOf(await sourceHash())) return;
-  const text = "export function initSync() {\n  throw new Error('the wasm for several threads was not built');\n}\n";
+  const body = "{\n  throw new Error('the wasm for several threads was not built');\n}\n";
+  // A bundler warns of an import that is missing.
+  const text = IMPORTED.map((name) => `export function ${name}() ${body}`).join('');
   await replace((folder) => writeFile(join(folder, 'threads.js'), text));
 }
 

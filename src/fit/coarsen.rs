@@ -4,12 +4,13 @@
 use nalgebra::{Matrix3, Vector3};
 
 use super::input::Input;
-use crate::error::Result;
+use crate::error::{Result, try_filled};
 use crate::heights::heightfield::Heightfield;
 use crate::heights::occlusions::Occlusions;
 use crate::lattice::coarsening::{coarse_lattice, fine_vertex};
 use crate::lattice::domain::{Domain, Role};
 use crate::lattice::hexagonal::{NEIGHBOUR_DIRECTIONS, ROW_SPACING};
+use crate::math::fork;
 
 /// Offsets (x, y) from a lattice vertex to its neighbours W, E, NW, NE, SW and SE, in spacings.
 const NEIGHBOUR_OFFSETS: [[f64; 2]; 6] = [
@@ -49,43 +50,40 @@ pub(crate) fn coarsen(input: &Input, domain: &Domain) -> Result<Input> {
             .cell_of(vertex, |role| role == Role::Interior)
             .is_some()
     };
-    let mut coarse = Input::new(Heightfield::new(lattice, vec![f64::NAN; lattice.len()])?);
-    let mut field = Vec::with_capacity(lattice.len());
-    let mut torn = Vec::with_capacity(lattice.len());
-    for row in 0..lattice.rows() {
-        for col in 0..lattice.cols() {
+    let mut merged = try_filled("coarse vertices", lattice.len(), Merged::default())?;
+    let mut torn = try_filled("coarse occlusions", lattice.len(), 0u8)?;
+    let rows = merged.chunks_mut(lattice.cols());
+    let mut rows: Vec<_> = rows.zip(torn.chunks_mut(lattice.cols())).collect();
+    fork::for_each(&mut rows, |row, (merged, torn)| {
+        for (col, (merged, torn)) in merged.iter_mut().zip(torn.iter_mut()).enumerate() {
             let centre = fine_vertex(row, col);
             let around = NEIGHBOUR_DIRECTIONS.map(|t| t.step(centre.0, centre.1));
             let (own, ring) = (vertex(centre), around.map(vertex));
             let share = |own: bool, ring: usize| f64::from(u8::from(own)) + 0.5 * ring as f64;
             let valid = share(own.is_some(), ring.into_iter().flatten().count());
             let stencils = around.into_iter().filter(|v| has_stencil(*v)).count();
-            let occluded = |v: usize| input.is_occluded(v);
-            torn.push(u8::from(
-                share(has_stencil(centre), stencils) < HALF_COARSE_WEIGHT
-                    || own
-                        .into_iter()
-                        .chain(ring.into_iter().flatten())
-                        .any(occluded),
-            ));
-            let merged = match own.is_some() || valid >= HALF_COARSE_WEIGHT {
-                true => input.merged(own, ring),
-                false => Merged::default(),
-            };
-            field.push(merged.height);
-            if !input.confidence.is_empty() {
-                coarse.confidence.push(merged.confidence);
-            }
-            if !input.constrained.is_empty() {
-                coarse.constrained.push(merged.constrained);
+            let mut given = own.into_iter().chain(ring.into_iter().flatten());
+            let is_torn = share(has_stencil(centre), stencils) < HALF_COARSE_WEIGHT
+                || given.any(|v| input.is_occluded(v));
+            *torn = u8::from(is_torn);
+            if own.is_some() || valid >= HALF_COARSE_WEIGHT {
+                *merged = input.merged(own, ring);
             }
         }
+    });
+    let heights = merged.iter().map(|merged| merged.height).collect();
+    let mut coarse = Input::new(Heightfield::new(lattice, heights)?);
+    if !input.confidence.is_empty() {
+        coarse.confidence = merged.iter().map(|merged| merged.confidence).collect();
     }
-    coarse.field = Heightfield::new(lattice, field)?;
+    if !input.constrained.is_empty() {
+        coarse.constrained = merged.iter().map(|merged| merged.constrained).collect();
+    }
     coarse.with_occlusions(Occlusions::from_vertices(&lattice, &torn)?)
 }
 
 /// Height, confidence and constraint of a coarse vertex, merged from fine vertices.
+#[derive(Debug, Clone, Copy)]
 struct Merged {
     height: f64,
     confidence: f64,
@@ -108,47 +106,47 @@ impl Input {
     fn merged(&self, own: Option<usize>, ring: [Option<usize>; 6]) -> Merged {
         let heights = self.field.heights();
         // Weights 2 and 1: those of linear interpolation, transposed.
-        let pairs = [(0, 1), (2, 5), (3, 4)].map(|(a, b)| ring[a].zip(ring[b]).map(|_| [a, b]));
-        let mut terms: Vec<([f64; 2], f64, usize)> =
-            own.map(|v| ([0.0; 2], 2.0, v)).into_iter().collect();
-        for k in pairs.into_iter().flatten().flatten() {
-            terms.extend(ring[k].map(|v| (NEIGHBOUR_OFFSETS[k], 1.0, v)));
+        let mut terms = [None; 7];
+        terms[0] = own.map(|v| ([0.0; 2], 2.0, v));
+        for (a, b) in [(0, 1), (2, 5), (3, 4)] {
+            if let Some((v, w)) = ring[a].zip(ring[b]) {
+                terms[1 + a] = Some((NEIGHBOUR_OFFSETS[a], 1.0, v));
+                terms[1 + b] = Some((NEIGHBOUR_OFFSETS[b], 1.0, w));
+            }
         }
-        let count: f64 = terms.iter().map(|(_, share, _)| share).sum();
-        let plain: f64 = terms.iter().map(|(_, share, v)| share * heights[*v]).sum();
+        let given = || terms.iter().flatten();
+        let count: f64 = given().map(|(_, share, _)| share).sum();
+        let plain: f64 = given().map(|(_, share, v)| share * heights[*v]).sum();
         let (height, weight) = match self.confidence.is_empty() {
             true => (plain / count, count),
             false => self
-                .plane(&terms)
+                .plane(given())
                 .unwrap_or((own.map_or(plain / count, |v| heights[v]), 0.0)),
         };
         let held = |v: &usize| self.is_constrained(*v);
-        let constraints: Vec<f64> = match own.filter(held) {
-            Some(own) => vec![heights[own]],
-            None => ring
-                .into_iter()
-                .flatten()
-                .filter(held)
-                .map(|v| heights[v])
-                .collect(),
+        let constraint = match own.filter(held) {
+            Some(own) => Some(heights[own]),
+            None => {
+                let held = || ring.into_iter().flatten().filter(held);
+                let sum: f64 = held().map(|v| heights[v]).sum();
+                (held().count() > 0).then(|| sum / held().count() as f64)
+            }
         };
-        let constrained = !constraints.is_empty();
         Merged {
-            height: if constrained {
-                constraints.iter().sum::<f64>() / constraints.len() as f64
-            } else {
-                height
-            },
+            height: constraint.unwrap_or(height),
             confidence: weight / count,
-            constrained,
+            constrained: constraint.is_some(),
         }
     }
 
     /// Fits a plane to the heights of vertices at given offsets, weighted by their shares and confidence; returns its
     /// height at the origin and the weight of that height, or `None` if all weights vanish.
-    fn plane(&self, terms: &[([f64; 2], f64, usize)]) -> Option<(f64, f64)> {
+    fn plane<'a>(
+        &self,
+        terms: impl Iterator<Item = &'a ([f64; 2], f64, usize)> + Clone,
+    ) -> Option<(f64, f64)> {
         let (mut normal, mut right) = (Matrix3::zeros(), Vector3::zeros());
-        let first = self.field.heights()[terms.first()?.2];
+        let first = self.field.heights()[terms.clone().next()?.2];
         for ([x, y], share, vertex) in terms {
             let weight = share * self.weight(*vertex);
             let row = Vector3::new(1.0, *x, *y);

@@ -4,7 +4,6 @@ use nalgebra::Vector3;
 
 use super::input::Input;
 use crate::lattice::domain::Domain;
-use crate::math::fork;
 use crate::math::least_squares::LeastSquares;
 
 /// Normalised coordinates of a component: lengths times `scale`, heights relative to the best-fit plane. The energy
@@ -26,21 +25,16 @@ pub(crate) struct Plane {
 
 impl Plane {
     /// Fits a plane to weighted points (x, y, height) by least squares.
-    pub(crate) fn fit(points: impl Iterator<Item = ([f64; 3], f64)> + Clone + Sync) -> Self {
+    pub(crate) fn fit(points: impl Iterator<Item = ([f64; 3], f64)> + Clone) -> Self {
         let total: f64 = points.clone().map(|(_, weight)| weight).sum();
         let points = points.map(|(point, weight)| (point, weight / total));
-        let mut means = [0.0; 3];
-        fork::for_each(&mut means, |k, mean| {
-            *mean = points.clone().map(|(at, weight)| weight * at[k]).sum();
+        let [x0, y0, z0] = points.clone().fold([0.0; 3], |means, (at, weight)| {
+            std::array::from_fn(|k| means[k] + weight * at[k])
         });
-        let [x0, y0, z0] = means;
-        let away = |from: f64, k: usize| {
-            let distances = points.clone().map(|(at, _)| (at[k] - from).abs());
-            distances.fold(0.0, f64::max)
-        };
         // Of unit size, so that squares neither over- nor underflow.
-        let (width, height) = fork::join(|| away(x0, 0), || away(y0, 1));
-        let size = f64::max(width, height);
+        let size = points.clone().fold(0.0f64, |size, ([x, y, _], _)| {
+            size.max((x - x0).abs()).max((y - y0).abs())
+        });
         let mut plane = LeastSquares::<3>::new();
         for ([x, y, z], weight) in points.clone() {
             let row = Vector3::new(1.0, (x - x0) / size, (y - y0) / size);

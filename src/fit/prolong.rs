@@ -9,6 +9,7 @@ use crate::error::Result;
 use crate::lattice::coarsening::parents;
 use crate::lattice::domain::{Domain, Role};
 use crate::lattice::hexagonal::{NEIGHBOUR_DIRECTIONS, Towards};
+use crate::math::fork;
 use crate::math::sym2::Sym2;
 
 /// Makes an iterate on the fine lattice by interpolation of one on the coarse lattice. A fine vertex without coarse
@@ -25,41 +26,47 @@ pub(crate) fn prolong(
     let roles = coarse.operator.domain.roles();
     let domain = &fine.operator.domain;
     let (top, left) = domain.corner();
-    for row in 1..=domain.rows() {
-        let sources = [0, 1]
-            .map(|col| Sources::new(&coarse.operator.domain, parents(top + row - 1, left + col)));
-        for i in domain
-            .active()
-            .row(row)
-            .iter()
-            .flat_map(|run| run.start..run.end)
-        {
-            let col = i - row * domain.stride() - 1;
-            let sources = &sources[col % 2];
-            let cell = |offset: isize| sources.cell(col / 2, offset, &coarse.operator.domain);
-            let (a, b) = (cell(0), cell(sources.other));
-            if let (Some(a), Some(b)) = (a, b)
-                && roles[a].is_active()
-                && roles[b].is_active()
-            {
-                iterate.z[i] = 0.5 * (from.z[a] + from.z[b]);
-            }
-            if domain.roles()[i] == Role::Interior {
-                let (mut sum, mut total) = (Sym2::default(), 0.0);
-                for (offset, weight) in &sources.weights {
-                    if let Some(cell) = cell(*offset)
-                        && roles[cell] == Role::Interior
+    let bands = domain.bands();
+    let matrices = iterate.v.split(bands);
+    let mut states: Vec<_> = bands.split(&mut iterate.z).zip(matrices).collect();
+    fork::for_each(&mut states, |band, (z, matrices)| {
+        for row in bands.rows(band, domain.rows()) {
+            let sources = [0, 1].map(|col| {
+                Sources::new(&coarse.operator.domain, parents(top + row - 1, left + col))
+            });
+            for run in domain.active().row(row) {
+                let z = z.run_mut(*run);
+                let mut matrices = matrices.run(*run);
+                for (k, i) in (run.start..run.end).enumerate() {
+                    let col = i - row * domain.stride() - 1;
+                    let sources = &sources[col % 2];
+                    let cell =
+                        |offset: isize| sources.cell(col / 2, offset, &coarse.operator.domain);
+                    let (a, b) = (cell(0), cell(sources.other));
+                    if let (Some(a), Some(b)) = (a, b)
+                        && roles[a].is_active()
+                        && roles[b].is_active()
                     {
-                        sum = sum + v.get(cell).scale(*weight);
-                        total += weight;
+                        z[k] = 0.5 * (from.z[a] + from.z[b]);
                     }
-                }
-                if total > 0.0 {
-                    iterate.v.set(i, sum.scale(1.0 / total));
+                    if domain.roles()[i] == Role::Interior {
+                        let (mut sum, mut total) = (Sym2::default(), 0.0);
+                        for (offset, weight) in &sources.weights {
+                            if let Some(cell) = cell(*offset)
+                                && roles[cell] == Role::Interior
+                            {
+                                sum = sum + v.get(cell).scale(*weight);
+                                total += weight;
+                            }
+                        }
+                        if total > 0.0 {
+                            matrices.set(k, sum.scale(1.0 / total));
+                        }
+                    }
                 }
             }
         }
-    }
+    });
     for cell in &fine.constrained {
         iterate.z[*cell as usize] = fine.target[*cell as usize];
     }

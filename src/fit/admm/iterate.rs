@@ -42,7 +42,7 @@ pub(crate) struct MatrixField {
 }
 
 /// The part of a [`MatrixField`] that belongs to one band of stencils.
-pub(super) struct MatrixBand<'a> {
+pub(crate) struct MatrixBand<'a> {
     mean: BandSlice<'a, f64>,
     diff: BandSlice<'a, f64>,
     off: BandSlice<'a, f64>,
@@ -50,7 +50,7 @@ pub(super) struct MatrixBand<'a> {
 
 impl MatrixBand<'_> {
     #[inline(always)]
-    pub(super) fn run(&mut self, run: Run) -> MatrixRun<'_> {
+    pub(crate) fn run(&mut self, run: Run) -> MatrixRun<'_> {
         MatrixRun {
             mean: self.mean.run_mut(run),
             diff: self.diff.run_mut(run),
@@ -60,7 +60,7 @@ impl MatrixBand<'_> {
 }
 
 /// The part of a [`MatrixField`] that belongs to one run of stencils.
-pub(super) struct MatrixRun<'a> {
+pub(crate) struct MatrixRun<'a> {
     mean: &'a mut [f64],
     diff: &'a mut [f64],
     off: &'a mut [f64],
@@ -115,7 +115,7 @@ impl MatrixField {
     }
 
     /// Splits the field into the parts of its bands.
-    pub(super) fn split<'a>(
+    pub(crate) fn split<'a>(
         &'a mut self,
         bands: &'a Bands,
     ) -> impl Iterator<Item = MatrixBand<'a>> + 'a {
@@ -137,7 +137,7 @@ impl MatrixRun<'_> {
     }
 
     #[inline(always)]
-    pub(super) fn set(&mut self, i: usize, value: Sym2) {
+    pub(crate) fn set(&mut self, i: usize, value: Sym2) {
         self.mean[i] = value.mean;
         self.diff[i] = value.diff;
         self.off[i] = value.off;

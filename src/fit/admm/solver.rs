@@ -16,7 +16,7 @@ use crate::fit::options::Schedule;
 use crate::fit::report::{LevelReport, StopReason};
 
 /// Number of ADMM iterations that a surface takes to adapt to a load on its border.
-const LOAD_WARMUP_ITERATIONS: usize = 10;
+const LOAD_WARMUP_ITERATIONS: usize = 5;
 
 /// ADMM on one multigrid level, with the schedule that it follows.
 #[derive(Debug, Clone)]

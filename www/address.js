@@ -1,88 +1,89 @@
-/** What the page shows, as the part of its address after the #: to be shared, gone back to, and reloaded. */
-import { shortest } from './format.js';
-import { ENERGIES, VIEWS } from './messages.js';
+/** Encoding of the page's state in the fragment of its address (after the #), for links, the history and reloads. */
+import { shortLambda } from './format.js';
+import { ENERGIES, VIEW_WORDS } from './messages.js';
 
 /** @import {Energy} from './api.js' */
 /** @import {Settings} from './session.js' */
 
 /**
  * @typedef {object} State
- * @property {string} [card] of the gallery
+ * @property {string} [card] id of a card of the gallery
  * @property {{ name: string, size: number, noise: number }} [example]
- * @property {number} [file] by its number among those that are kept
- * @property {{ pixelSize?: number, heightScale?: number, zeros?: boolean, hexagonal?: boolean }} [stored] how it is understood
- * @property {Partial<Settings>} settings that are not the defaults
- * @property {boolean} [whole] a mesh is solved whole
- * @property {boolean} [photo] a photo of a page is made flat
- * @property {boolean} [unkept] the file was too large to be kept, or the browser keeps nothing
+ * @property {number} [file] id of the file in the storage of recent files
+ * @property {{ pixelSize?: number, heightScale?: number, zeros?: boolean, hexagonal?: boolean }} [stored] interpretation of the file
+ * @property {Partial<Settings>} settings settings that differ from the defaults
+ * @property {boolean} [whole] whether a whole mesh is fitted
+ * @property {boolean} [photo] whether a photo of a page is made flat
+ * @property {boolean} [unkept] whether the file could not be stored
  * @property {string} [view]
  */
 
-/** @type {readonly (keyof Settings)[]} */
-const NUMBERS = ['gap', 'coarsening', 'reweighting', 'occlusionThreshold'];
+/** Settings that are positive numbers. @type {readonly (keyof Settings)[]} */
+const NUMERIC_SETTINGS = ['gap', 'coarsening', 'reweighting', 'occlusionThreshold'];
 
 /**
+ * Encodes a state as a fragment.
  * @param {State} state
  * @param {Readonly<Settings>} defaults
- * @returns {string} with its #
+ * @returns {string} fragment with its #
  */
 export function addressOf({ card, example, file, stored, settings, whole, photo, unkept, view }, defaults) {
-  const words = new URLSearchParams();
+  const parameters = new URLSearchParams();
   if (example) {
-    words.set('example', example.name);
-    words.set('size', String(example.size));
-    words.set('noise', String(example.noise));
+    parameters.set('example', example.name);
+    parameters.set('size', String(example.size));
+    parameters.set('noise', String(example.noise));
   }
-  if (file !== undefined) words.set('file', String(file));
-  for (const [name, value] of Object.entries(stored ?? {})) words.set(name, String(Number(value)));
+  if (file !== undefined) parameters.set('file', String(file));
+  for (const [name, value] of Object.entries(stored ?? {})) parameters.set(name, String(Number(value)));
   for (const [name, value] of Object.entries(settings)) {
     if (value === undefined || value === defaults[/** @type {keyof Settings} */ (name)]) continue;
-    words.set(name, typeof value === 'number' && name === 'lambda' ? shortest(value) : String(value));
+    parameters.set(name, typeof value === 'number' && name === 'lambda' ? shortLambda(value) : String(value));
   }
-  if (unkept) words.set('unkept', '1');
-  if (photo) words.set('photo', '1');
-  if (whole) words.set('whole', '1');
-  if (view && view !== 'shaded') words.set('view', view);
-  return `#${[...(card ? [card] : []), ...(words.size > 0 ? [words] : [])].join('&')}`;
+  if (unkept) parameters.set('unkept', '1');
+  if (photo) parameters.set('photo', '1');
+  if (whole) parameters.set('whole', '1');
+  if (view && view !== 'shaded') parameters.set('view', view);
+  return `#${[...(card ? [card] : []), ...(parameters.size > 0 ? [parameters] : [])].join('&')}`;
 }
 
 /**
- * Takes what it understands, and leaves the rest.
+ * Decodes a fragment; unknown or invalid parts are ignored.
  * @param {string} hash
  * @returns {State}
  */
 export function stateOf(hash) {
-  const words = new URLSearchParams(hash.replace(/^#/, ''));
+  const parameters = new URLSearchParams(hash.replace(/^#/, ''));
   /** @param {string} name */
   const positive = (name) => {
-    const value = Number(words.get(name) ?? NaN);
+    const value = Number(parameters.get(name) ?? NaN);
     return value > 0 && Number.isFinite(value) ? value : undefined;
   };
   /** @type {Partial<Settings>} */
   const settings = {};
-  const lambda = words.get('lambda') === 'auto' ? 'auto' : positive('lambda');
+  const lambda = parameters.get('lambda') === 'auto' ? 'auto' : positive('lambda');
   if (lambda !== undefined) settings.lambda = lambda;
-  for (const name of NUMBERS) {
+  for (const name of NUMERIC_SETTINGS) {
     const value = positive(name);
     if (value !== undefined) Object.assign(settings, { [name]: value });
   }
-  const energy = words.get('energy') ?? '';
+  const energy = parameters.get('energy') ?? '';
   if (Object.hasOwn(ENERGIES, energy)) settings.energy = /** @type {Energy} */ (energy);
-  if (words.get('schedule') === 'paper') settings.schedule = 'paper';
-  const view = words.get('view') ?? undefined;
-  const name = words.get('example');
-  const [card] = [...words.entries()].find(([, value]) => value === '') ?? [];
-  const flags = ['zeros', 'hexagonal'].filter((flag) => words.has(flag)).map((flag) => [flag, words.get(flag) === '1']);
-  const scales = ['pixelSize', 'heightScale'].filter((scale) => Number(words.get(scale))).map((scale) => [scale, Number(words.get(scale))]);
+  if (parameters.get('schedule') === 'paper') settings.schedule = 'paper';
+  const view = parameters.get('view') ?? undefined;
+  const name = parameters.get('example');
+  const [card] = [...parameters.entries()].find(([, value]) => value === '') ?? [];
+  const flags = ['zeros', 'hexagonal'].filter((flag) => parameters.has(flag)).map((flag) => [flag, parameters.get(flag) === '1']);
+  const scales = ['pixelSize', 'heightScale'].filter((scale) => Number(parameters.get(scale))).map((scale) => [scale, Number(parameters.get(scale))]);
   return {
     card,
-    example: name ? { name, size: positive('size') ?? 400, noise: Math.max(0, Number(words.get('noise') ?? 0.02)) || 0 } : undefined,
+    example: name ? { name, size: positive('size') ?? 400, noise: Math.max(0, Number(parameters.get('noise') ?? 0.02)) || 0 } : undefined,
     file: positive('file'),
     stored: flags.length + scales.length > 0 ? Object.fromEntries([...flags, ...scales]) : undefined,
     settings,
-    whole: words.get('whole') === '1' || undefined,
-    photo: words.get('photo') === '1' || undefined,
-    unkept: words.get('unkept') === '1' || undefined,
-    view: view && Object.hasOwn(VIEWS, view) ? view : undefined,
+    whole: parameters.get('whole') === '1' || undefined,
+    photo: parameters.get('photo') === '1' || undefined,
+    unkept: parameters.get('unkept') === '1' || undefined,
+    view: view && Object.hasOwn(VIEW_WORDS, view) ? view : undefined,
   };
 }

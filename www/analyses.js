@@ -1,53 +1,56 @@
 /**
- * What can be asked about a result, each question once.
+ * Analyses of a result: curvatures, patches, rulings, unrolling, patterns and dewarping. Each is computed once.
  *
- * In a worker of its own: an answer may take seconds, and meanwhile the next run goes on. What is
- * no longer wanted is stopped with the worker.
+ * They run in a worker of their own, in parallel to the next run. Disposing of the worker cancels those that are no
+ * longer needed.
  */
 
-import { coarse } from './surface/coarse.js';
-import { resultImage } from './surface/known.js';
+import { downsample } from './surface/downsampling.js';
+import { resultImage } from './surface/derived-data.js';
 import { gridOf } from './surface/lattice.js';
-import { CREASED } from './surface/roundness.js';
-import { handOver, work } from './surface/work.js';
+import { MAX_SHEET_CURVATURE_RADIANS } from './surface/gaussian-curvature.js';
+import { transferToWorker, callWorker } from './surface/worker-client.js';
+import { AnswerCache } from './worker-task.js';
 
 /** @import {Api, Surface} from './api.js' */
 /** @import {Input, Result} from './session.js' */
 
 /** @typedef {import('../pkg/types.js').Analysis} Analysis */
-/** @typedef {ReturnType<typeof import('./surface/roundness.js').curvaturesOf>} Curvatures */
+/** @typedef {ReturnType<typeof import('./surface/gaussian-curvature.js').curvaturesOf>} Curvatures */
 /** @typedef {import('../pkg/types.js').Drawing} Drawing */
 /** @typedef {import('../pkg/types.js').PatternOptions} PatternOptions */
 /** @typedef {import('../pkg/types.js').Photo} Photo */
 /** @typedef {InstanceType<Api['DevelopableWorker']>} Worker */
 /**
  * @typedef {object} FlatOptions
- * @property {number} [dots]
+ * @property {number} [dots] resolution
  * @property {boolean} trim
- * @property {[number, number][]} [crop]
+ * @property {[number, number][]} [crop] corners of a polygon
  */
 
-/**
- * Pixels along the longer side of what is unfolded, whole and in pieces, and of what is cut into sheets: half a millimetre
- * of a piece of 20 cm.
- */
-const [UNFOLDED, APART] = [90, 120];
-/** The longer side of what is unfolded in pieces, in millimetres. */
-const APART_SIDE = 300;
-const CUT = 450;
+/** Longer side of the lattice of an unfolding in one piece, in pixels. */
+const UNFOLDING_SIDE_PIXELS = 90;
+/** Longer side of the lattice of an unfolding in sheets, in pixels. */
+const SHEETS_UNFOLDING_SIDE_PIXELS = 120;
+/** Longer side of the surface that is unfolded in sheets, in millimetres. The pattern's gap between sheets is small only for a large surface. */
+const SHEETS_UNFOLDING_SIDE_MM = 300;
+/** Longer side of the lattice that is cut into sheets, in pixels: a pixel is half a millimetre for a piece of 20 cm. */
+const PATTERN_SIDE_PIXELS = 450;
+/** Largest ratio of a lattice's longer side to `PATTERN_SIDE_PIXELS` for which the lattice is not reduced. */
+const MAX_UNREDUCED_RATIO = 1.2;
 
-/** Milliseconds without a question after which the worker goes. */
-const REST = 2000;
+/** Idle time after which the worker is disposed of, in milliseconds. */
+const WORKER_IDLE_MS = 2000;
 
 export class Analyses {
   #api;
   /** @type {Worker | null} */
   #worker = null;
-  /** Questions without an answer yet. */
-  #open = 0;
-  #resting = 0;
-  /** @type {WeakMap<object, Map<string, Promise<any>>>} */
-  #known = new WeakMap();
+  /** Number of running tasks. */
+  #runningTasks = 0;
+  /** Timer that disposes of the idle worker. */
+  #idleTimer = 0;
+  #cache = new AnswerCache();
 
   /** @param {Api} api */
   constructor(api) {
@@ -56,64 +59,57 @@ export class Analyses {
 
   /**
    * @template T
-   * @param {(worker: Worker) => Promise<T>} question
+   * @param {(worker: Worker) => Promise<T>} task
    */
-  async #ask(question) {
-    clearTimeout(this.#resting);
+  async #runTask(task) {
+    clearTimeout(this.#idleTimer);
     const worker = (this.#worker ??= new this.#api.DevelopableWorker());
-    this.#open++;
+    this.#runningTasks++;
     try {
-      return await question(worker);
+      return await task(worker);
     } finally {
-      if (worker === this.#worker && --this.#open === 0) this.#rest();
+      if (worker === this.#worker && --this.#runningTasks === 0) this.#disposeWhenIdle();
     }
   }
 
   /**
+   * The cached answer to a question, or the answer of a new task.
    * @template T
-   * @param {object} about
-   * @param {string} name of the question
-   * @param {(worker: Worker) => Promise<T>} question
+   * @param {object} subject
+   * @param {string} question
+   * @param {(worker: Worker) => Promise<T>} task
    * @returns {Promise<T>}
    */
-  #once(about, name, question) {
-    const answers = this.#known.get(about) ?? new Map();
-    this.#known.set(about, answers);
-    const found = answers.get(name);
-    if (found) return found;
-    const answer = this.#ask(question);
-    answers.set(name, answer);
-    // What failed may be asked again.
-    answer.catch(() => answers.delete(name));
-    return answer;
+  #cached(subject, question, task) {
+    return this.#cache.answer(subject, question, () => this.#runTask(task));
   }
 
-  /** Gives its memory back when nobody has asked for a while. */
-  #rest() {
-    this.#resting = window.setTimeout(() => {
+  /** Disposes of the worker, and frees its memory, after it has been idle for a while. */
+  #disposeWhenIdle() {
+    this.#idleTimer = window.setTimeout(() => {
       this.#worker?.dispose();
       this.#worker = null;
-    }, REST);
+    }, WORKER_IDLE_MS);
   }
 
-  /** Stops what is still being worked out; those who wait for it are told so. */
+  /** Cancels all running tasks; their promises reject. */
   stop() {
-    if (this.#open === 0) return;
+    if (this.#runningTasks === 0) return;
     this.#worker?.dispose();
     this.#worker = null;
-    this.#open = 0;
+    this.#runningTasks = 0;
   }
 
   /**
-   * Curvatures before, on the same lattice, and after. Of a design there is no before.
+   * Curvatures of the input and of the result, on the same lattice; those of a design's input are null.
    * @param {Result} result
    * @returns {Promise<{ before: Curvatures | null, after: Curvatures }>}
    */
   async curvatures({ input, surface }) {
     const { spacing } = surface;
     const [before, after] = await Promise.all([
-      input.design ? null : this.#once(input, `curvatures ${spacing}`, (worker) =>
-        worker.analyze(heightsAlone(input), input.lattice ? {} : { spacing }).then(shown)),
+      input.design ? null : this.#cached(input, `curvatures ${spacing}`, (worker) =>
+        worker.analyze(heightsAlone(input), input.lattice ? {} : { spacing }).then(shownCurvatures)),
       this.curvature(surface),
     ]);
     return { before, after };
@@ -121,128 +117,128 @@ export class Analyses {
 
   /** @param {Surface} surface */
   curvature(surface) {
-    return this.#once(surface, 'curvatures', (worker) => worker.analyze(surface).then(shown));
+    return this.#cached(surface, 'curvatures', (worker) => worker.analyze(surface).then(shownCurvatures));
   }
 
   /** @param {Result} result */
   patches({ surface }) {
-    return this.#once(surface, 'patches', (worker) => worker.patches(surface));
+    return this.#cached(surface, 'patches', (worker) => worker.patches(surface));
   }
 
   /**
-   * How many smooth pieces there are, and creases between them: without end where they are too small to be told apart.
+   * The number of smooth patches, infinite if the surface is creased all over, and the number of creases between them.
    * @param {Result} result
    */
-  async pieces(result) {
+  async patchCount(result) {
     const [map, { gaussian }] = await Promise.all([this.patches(result), this.curvature(result.surface)]);
-    return { count: await smoothPieces(map, { gaussian }), creases: map.creases.length };
+    return { count: await smoothPatchCount(map, { gaussian }), creases: map.creases.length };
   }
 
   /** @param {Result} result */
   rulings({ surface }) {
-    return this.#once(surface, 'rulings', (worker) => worker.rulings(surface));
+    return this.#cached(surface, 'rulings', (worker) => worker.rulings(surface));
   }
 
   /**
-   * A picture of the sheet, and its figures; what they are made of is too much to be kept.
+   * A picture of the unrolled sheet, and its figures. The mesh of the sheet is not kept, because it is large.
    * @param {Result} result
    */
   unroll({ surface }) {
-    return this.#once(surface, 'sheet', async (worker) => {
+    return this.#cached(surface, 'sheet', async (worker) => {
       const { triangles, places, stretches, report, verdict } = await worker.unroll(surface);
-      const picture = await handOver('sheetPixels', [triangles, places, stretches], triangles, places, stretches);
+      const picture = await transferToWorker('sheetStrainImage', [triangles, places, stretches], triangles, places, stretches);
       return { picture, report, verdict };
     });
   }
 
   /**
-   * The surface on its way to the sheet, on a coarser lattice.
+   * An animation of the surface that is unrolled, on a coarser lattice.
    * @param {Result} result
-   * @param {number} most strain at the end of the colours
+   * @param {number} maxStrain strain at the end of the colour scale
    */
-  unfold(result, most) {
-    return this.#once(result.surface, 'unfolding', async (worker) => {
-      const small = smaller(result, UNFOLDED);
-      // Without creases it still unfolds.
+  unfold(result, maxStrain) {
+    return this.#cached(result.surface, 'unfolding', async (worker) => {
+      const small = reducedImage(result, UNFOLDING_SIDE_PIXELS);
+      // The creases are only drawn on it, so an error there is ignored.
       const [sheet, { creases }] = await Promise.all([worker.unroll(small), this.patches(result).catch(() => ({ creases: [] }))]);
-      return work('unfolding', sheet, most, cornerOf(result, small), creases.map(({ points }) => points));
+      return callWorker('computeUnfolding', sheet, maxStrain, lowerLeftCorner(result, small), creases.map(({ points }) => points));
     });
   }
 
   /**
-   * The same, cut into sheets that lie beside each other in the end.
+   * An animation of the surface that is cut into sheets and laid flat, on a coarser lattice.
    * @param {Result} result
-   * @param {number} maxStrain
-   * @param {number} most strain at the end of the colours
+   * @param {number} maxStrain strain limit of the sheets
+   * @param {number} maxShownStrain strain at the end of the colour scale
    */
-  unfoldInPieces(result, maxStrain, most) {
-    return this.#once(result.surface, `unfolding in pieces ${maxStrain}`, async (worker) => {
-      const small = smaller(result, APART);
-      // Between sheets there is room for scissors, which is little only beside large ones.
-      const scale = APART_SIDE / (Math.max(small.width, small.height) * small.pixelSize);
+  unfoldInSheets(result, maxStrain, maxShownStrain) {
+    return this.#cached(result.surface, `unfolding in sheets ${maxStrain}`, async (worker) => {
+      const small = reducedImage(result, SHEETS_UNFOLDING_SIDE_PIXELS);
+      const scale = SHEETS_UNFOLDING_SIDE_MM / (Math.max(small.width, small.height) * small.pixelSize);
       const { assembly } = await worker.pattern(small, { scale, maxStrain, assembly: true });
       if (!assembly) throw new Error('nothing is said of how it is put together');
-      return work('unfoldingInPieces', assembly.model, scale / 1000, most, cornerOf(result, small));
+      return callWorker('computeUnfoldingInPieces', assembly.model, scale / 1000, maxShownStrain, lowerLeftCorner(result, small));
     });
   }
 
   /**
-   * The surface cut into sheets: a large one as it is on a coarser lattice.
+   * A pattern of the surface; a large surface is reduced to a coarser lattice first.
    * @param {Result} result
    * @param {PatternOptions} options
    */
   pattern(result, options) {
     const { surface } = result;
-    const cut = this.cutsAsItIs(result) ? surface : smaller(result, CUT);
-    return this.#once(surface, `pattern ${JSON.stringify(options)}`, (worker) => worker.pattern(cut, options));
+    const source = this.isUnreducedInPattern(result) ? surface : reducedImage(result, PATTERN_SIDE_PIXELS);
+    return this.#cached(surface, `pattern ${JSON.stringify(options)}`, (worker) => worker.pattern(source, options));
   }
 
-  /** Whether sheets are those of the result's own lattice. @param {Result} result */
-  cutsAsItIs(result) {
+  /** Whether a pattern is made from the result's own lattice. @param {Result} result */
+  isUnreducedInPattern(result) {
     const { width, height } = resultImage(result);
-    return Math.max(width, height) < 1.2 * CUT;
+    return Math.max(width, height) < MAX_UNREDUCED_RATIO * PATTERN_SIDE_PIXELS;
   }
 
   /** @param {Drawing} drawing */
   svg(drawing) {
-    return this.#once(drawing, 'svg', (worker) => worker.writeSvg(drawing));
+    return this.#cached(drawing, 'svg', (worker) => worker.writeSvg(drawing));
   }
 
   /**
-   * An example's true surface with something printed on it, seen from above.
+   * A photo of an example's true surface with a page of text printed on it, seen from above.
    * @param {Input & { truth: Float64Array }} input
    */
-  printOf(input) {
-    return this.#once(input.truth, 'print', async (worker) => {
+  printedPhoto(input) {
+    return this.#cached(input.truth, 'print', async (worker) => {
       const { width, height, pixelSize, heightScale, truth } = input;
       const { triangles, positions, places } = await worker.unroll({ ...heightsAlone(input), data: truth });
       const known = { width, height, pixelSize, heightScale, truth };
-      return handOver('photographed', [triangles, positions, places], known, { triangles, positions, places });
+      return transferToWorker('photographExample', [triangles, positions, places], known, { triangles, positions, places });
     });
   }
 
   /**
-   * By one profile for all rulings, where the heights have one.
+   * The photo made flat by the surface, or by a cylinder if the heights are those of one.
    * @param {Result} result
    * @param {Photo} photo
    * @param {FlatOptions} options
    */
   dewarp(result, photo, options) {
     const { surface } = result;
-    return this.#once(surface, `dewarp ${numberOf(photo)} ${JSON.stringify(options)}`, async (worker) => {
+    return this.#cached(surface, `dewarp ${photoId(photo)} ${JSON.stringify(options)}`, async (worker) => {
       const cylinder = await this.#cylinder(result);
       return { ...await worker.dewarp(cylinder ?? surface, photo, { ...options, map: false, grid: true }), parallel: cylinder !== undefined };
     });
   }
 
   /**
-   * The cylinder that was seen, if it is one. What is said of the surface is about one that is fitted by its energy.
+   * The cylinder that fits the heights of a lattice, or undefined if they are not those of a cylinder, or if the
+   * settings ask for another surface.
    * @param {Result} result
    */
   #cylinder({ input: { lattice }, settings: { lambda, energy, occlusionThreshold }, surface }) {
-    const asSeen = lattice && lambda === 'auto' && (energy ?? 'huber') === 'huber' && occlusionThreshold === undefined;
-    if (!asSeen || lattice.constraints || lattice.occlusions || lattice.brokenEdges) return undefined;
-    return this.#once(surface, 'cylinder', async (worker) => {
+    const hasDefaultSettings = lattice && lambda === 'auto' && (energy ?? 'huber') === 'huber' && occlusionThreshold === undefined;
+    if (!hasDefaultSettings || lattice.constraints || lattice.occlusions || lattice.brokenEdges) return undefined;
+    return this.#cached(surface, 'cylinder', async (worker) => {
       try {
         const found = await worker.fitCylinder(lattice);
         return found.report.verdict === 'cylinder' ? found : undefined;
@@ -255,56 +251,56 @@ export class Analyses {
 }
 
 /**
- * The number of smooth pieces; without end where they are creased all over, too finely to be told apart.
+ * The number of smooth patches; infinite if the surface is creased all over, so that no patch is smooth.
  * @param {import('../pkg/types.js').PatchMap} map
  * @param {{ gaussian: ArrayLike<number> }} curvature
  */
-export async function smoothPieces({ rows, cols, labels, spacing, patches }, { gaussian }) {
-  const round = await work('roundness', { rows, cols, labels, spacing }, { gaussian });
-  return round < CREASED ? patches.length : Infinity;
+export async function smoothPatchCount({ rows, cols, labels, spacing, patches }, { gaussian }) {
+  const roundness = await callWorker('totalGaussianCurvature', { rows, cols, labels, spacing }, { gaussian });
+  return roundness < MAX_SHEET_CURVATURE_RADIANS ? patches.length : Infinity;
 }
 
-/** What is shown of an analysis. @param {Analysis} analysis */
-function shown(analysis) {
+/** The curvatures of an analysis, for display. @param {Analysis} analysis */
+function shownCurvatures(analysis) {
   const { gaussian, kappa1, kappa2 } = analysis;
-  return handOver('curvaturesOf', [gaussian, kappa1, kappa2], analysis);
+  return transferToWorker('curvaturesOf', [gaussian, kappa1, kappa2], analysis);
 }
 
 /**
- * A result's pixels on fewer of them.
+ * The image of a result, reduced to fewer pixels.
  * @param {Result} result
- * @param {number} side most along the longer side
+ * @param {number} side maximum number of pixels along the longer side
  */
-function smaller(result, side) {
+function reducedImage(result, side) {
   const { width, pixelSize, ...image } = resultImage(result);
-  const small = coarse({ width, ...image }, side);
+  const small = downsample({ width, ...image }, side);
   return { ...small, pixelSize: (pixelSize * width) / small.width };
 }
 
 /**
- * Where the lower left corner of the plane is that an image is over.
+ * The lower left corner of an image in the coordinates of the surface.
  * @param {Result} result
  * @param {{ height: number, pixelSize: number }} small
  * @returns {[number, number]}
  */
-function cornerOf({ input }, { height, pixelSize }) {
+function lowerLeftCorner({ input }, { height, pixelSize }) {
   const { left, top } = gridOf(input);
   return [left, top - height * pixelSize];
 }
 
-let photos = 0;
+let lastPhotoId = 0;
 /** @type {WeakMap<Photo, number>} */
-const numbers = new WeakMap();
+const photoIds = new WeakMap();
 
-/** A number that no other photo has: answers are kept with the surface, and go with it. @param {Photo} photo */
-function numberOf(photo) {
-  const number = numbers.get(photo) ?? ++photos;
-  numbers.set(photo, number);
-  return number;
+/** An id of a photo, which makes it a part of a question in the cache. @param {Photo} photo */
+function photoId(photo) {
+  const id = photoIds.get(photo) ?? ++lastPhotoId;
+  photoIds.set(photo, id);
+  return id;
 }
 
 /**
- * An input without what else is known of it.
+ * The heights of an input, without confidence and constraints.
  * @param {Input} input
  */
 function heightsAlone({ width, height, data, pixelSize, heightScale, lattice }) {

@@ -1,4 +1,4 @@
-/** The one place that knows where the package is: `pkg/` beside this page. */
+/** The package's types, and how it is loaded. No other module knows that it lies in `pkg/`. */
 
 /** @typedef {typeof import('../pkg/index.js')} Api */
 /** @typedef {import('../pkg/types.js').DepthOptions} DepthOptions */
@@ -22,9 +22,7 @@
 /** @typedef {import('../pkg/types.js').SampleMeshOptions} SampleMeshOptions */
 
 /**
- * Loads the package.
- *
- * A dynamic import, so that a browser that cannot load it still gets a page that says so.
+ * Loads the package. The import is dynamic, so that the page can report an error of a browser that cannot load it.
  * @returns {Promise<Api>}
  */
 export async function connect() {

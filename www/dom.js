@@ -1,11 +1,12 @@
-/** Typed look-up of the page's elements. */
+/** Typed look-up of the page's elements, and small helpers for the DOM. */
 
 /**
- * The element with this id; the markup and the modules must agree, so its absence is a mistake.
+ * The element with an id.
  * @template {Element} T
  * @param {string} id
  * @param {new () => T} type
  * @returns {T}
+ * @throws if there is none of this type, since the markup and the modules then disagree
  */
 export function element(id, type) {
   const found = document.getElementById(id);
@@ -14,7 +15,7 @@ export function element(id, type) {
 }
 
 /**
- * All elements of one type that match.
+ * All elements of one type that match a selector.
  * @template {Element} T
  * @param {string} selector
  * @param {new () => T} type
@@ -27,59 +28,59 @@ export function elements(selector, type) {
 }
 
 /**
- * Lets a button open the file dialog.
+ * Makes a button open the file dialog for one file.
  * @param {HTMLButtonElement} button
  * @param {HTMLInputElement} input
- * @param {(file: File) => unknown} take
+ * @param {(file: File) => unknown} onFile
  */
-export function choosesFile(button, input, take) {
-  choosesFiles(button, input, ([file]) => take(file));
+export function onFileChosen(button, input, onFile) {
+  onFilesChosen(button, input, ([file]) => onFile(file));
 }
 
 /**
- * The same for several at once.
+ * Makes a button open the file dialog for several files.
  * @param {HTMLButtonElement} button
  * @param {HTMLInputElement} input
- * @param {(files: File[]) => unknown} take at least one
+ * @param {(files: File[]) => unknown} onFiles called with at least one file
  */
-export function choosesFiles(button, input, take) {
+export function onFilesChosen(button, input, onFiles) {
   button.addEventListener('click', () => input.click());
   input.addEventListener('change', () => {
     const files = [...input.files ?? []];
-    // So that choosing the same file again, perhaps mended, is a change.
+    // The field is emptied, so that choosing the same file again counts as a change.
     input.value = '';
-    if (files.length > 0) take(files);
+    if (files.length > 0) onFiles(files);
   });
 }
 
 /**
- * At most one call per frame, however often it is asked for.
+ * Throttles a function to one call per animation frame.
  * @param {() => void} draw
  * @returns {() => void}
  */
-export function eachFrame(draw) {
-  let asked = false;
+export function oncePerFrame(draw) {
+  let scheduled = false;
   return () => {
-    if (asked) return;
-    asked = true;
+    if (scheduled) return;
+    scheduled = true;
     requestAnimationFrame(() => {
-      asked = false;
+      scheduled = false;
       draw();
     });
   };
 }
 
-/** Lets the browser draw and listen before more is done. */
-export function breath() {
+/** Waits for the next task of the event loop, so that the browser can draw and handle input before. */
+export function nextTask() {
   return new Promise((resolve) => setTimeout(resolve));
 }
 
 /**
- * Sizes the canvas' pixels to the device's, and calls back whenever they change.
+ * Keeps the resolution of a canvas at that of the device.
  * @param {HTMLCanvasElement} canvas
- * @param {() => void} changed
+ * @param {() => void} onResize called after every change, which clears the canvas
  */
-export function followDevicePixels(canvas, changed) {
+export function matchDevicePixels(canvas, onResize) {
   const fit = () => {
     const ratio = window.devicePixelRatio;
     const width = Math.max(1, Math.round(canvas.clientWidth * ratio));
@@ -87,15 +88,15 @@ export function followDevicePixels(canvas, changed) {
     if (canvas.width === width && canvas.height === height) return;
     canvas.width = width;
     canvas.height = height;
-    changed();
+    onResize();
   };
   new ResizeObserver(fit).observe(canvas);
-  // Zooming and moving to another screen change the ratio without changing the box.
+  // Zooming the page and moving it to another screen change the pixel ratio without changing the element's size.
   window.addEventListener('resize', fit);
 }
 
 /**
- * A new element.
+ * Creates an element.
  * @template {keyof HTMLElementTagNameMap} T
  * @param {T} tag
  * @param {string} className
@@ -110,7 +111,7 @@ export function make(tag, className, ...children) {
 }
 
 /**
- * Hands a file to the browser's downloads.
+ * Downloads a file.
  * @param {Uint8Array<ArrayBuffer> | Blob | string} content
  * @param {string} type
  * @param {string} name
@@ -120,6 +121,6 @@ export function download(content, type, name) {
   link.href = URL.createObjectURL(new Blob([content], { type }));
   link.download = name;
   link.click();
-  // Once the browser has taken hold of it.
+  // By then the browser has started the download.
   setTimeout(() => URL.revokeObjectURL(link.href), 10_000);
 }

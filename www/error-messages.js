@@ -1,23 +1,25 @@
-/** What went wrong with a file, without the words of the library that reads it. */
+/** Error messages about files, without the wording of the libraries that read them. */
 
-/** How messages of our own begin; what else follows “cannot read this as” is a library's. */
-const OWN = /^(it|its|the file|there|an attribute|a) /;
-/** What libraries say of files that end too early. */
-const SHORT = /end of file|unexpected end|EOF|EOCD|fill whole buffer|missing bytes|completely read|too short|exceeds that of slice|truncated/i;
-const AGAIN = 'copy, download or export it again';
+/** Beginnings of the package's own messages; any other text after “cannot read this as …:” comes from a library. */
+const OWN_MESSAGE_START = /^(it|its|the file|there|an attribute|a) /;
+/** Wordings of libraries for a file that ends too early. */
+const TRUNCATED_FILE = /end of file|unexpected end|EOF|EOCD|fill whole buffer|missing bytes|completely read|too short|exceeds that of slice|truncated/i;
+/** Advice for a damaged file. */
+const COPY_AGAIN = 'copy, download or export it again';
 
 /**
- * @param {string} message of an error
- * @returns {string} the same without a stop at its end
+ * Rewrites the message of an error for the user.
+ * @param {string} message
+ * @returns {string} a sentence without its full stop
  */
-export function plainly(message) {
+export function plainMessage(message) {
   const [, format, reason] = /^cannot read this as (?:an? )?(.+?): (.*)$/s.exec(message) ?? [];
   if (format) {
-    if (SHORT.test(reason)) return `the ${format} file is cut short: it ends before all of it is there; ${AGAIN}`;
-    if (OWN.test(reason)) return reason;
+    if (TRUNCATED_FILE.test(reason)) return `the ${format} file is cut short: it ends before all of it is there; ${COPY_AGAIN}`;
+    if (OWN_MESSAGE_START.test(reason)) return reason;
     const [, line] = /\b[Ll]ine:? (\d+)/.exec(reason) ?? [];
     if (/index out of bounds/.test(reason)) return 'the file is damaged: one of its faces has a corner that is not in the file';
-    return `the file is damaged, or not of the format ${format}: ${line ? `line ${line} of it` : 'a part of it'} cannot be read; ${AGAIN}`;
+    return `the file is damaged, or not of the format ${format}: ${line ? `line ${line} of it` : 'a part of it'} cannot be read; ${COPY_AGAIN}`;
   }
   const [, row] = /^vertex position of the mesh is .* at row (\d+)/.exec(message) ?? [];
   if (row) return `vertex ${Number(row) + 1} of the mesh is at no place (“not a number” or infinite); repair the mesh, or take the vertex out`;

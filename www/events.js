@@ -1,9 +1,10 @@
-/** Who is told of what, by the names of what happens. @template E */
+/** Event emitter whose type parameter maps names of events to their values. @template E */
 export class Events {
   /** @type {{ [K in keyof E]?: ((value: E[K]) => void)[] }} */
   #listeners = {};
 
   /**
+   * Adds a listener to an event.
    * @template {keyof E} K
    * @param {K} event
    * @param {(value: E[K]) => void} listener
@@ -14,7 +15,7 @@ export class Events {
   }
 
   /**
-   * For the one whose events they are.
+   * Calls the listeners of an event; for subclasses.
    * @protected
    * @template {keyof E} K
    * @param {K} event

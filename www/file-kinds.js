@@ -1,14 +1,14 @@
-/** What a file is, by its name, and which part of the page takes it. */
+/** Kinds of files, by the ending of their names. */
 
-/** Endings of what the page reads. */
-export const MESH = /\.(obj|ply|stl|glb|gltf)$/i;
-const MATERIAL = /\.mtl$/i;
-const HEIGHTS = /\.(tiff?|exr|pfm|npy|npz)$/i;
-const PICTURE = /\.(png|jpe?g|webp|avif|heic|gif|bmp)$/i;
-const CAMERA = /\.(json|csv|txt)$/i;
+/** Endings of mesh files. */
+export const MESH_ENDING = /\.(obj|ply|stl|glb|gltf)$/i;
+const MATERIAL_ENDING = /\.mtl$/i;
+const HEIGHTS_ENDING = /\.(tiff?|exr|pfm|npy|npz)$/i;
+const PICTURE_ENDING = /\.(png|jpe?g|webp|avif|heic|gif|bmp)$/i;
+const CAMERA_ENDING = /\.(json|csv|txt)$/i;
 
-/** What else people drop, in words. @type {readonly (readonly [RegExp, string])[]} */
-const OTHERS = [
+/** Endings of files that the page cannot read, with a description for the message. @type {readonly (readonly [RegExp, string])[]} */
+const UNREADABLE_KINDS = [
   [/\.(docx?|odt|rtf|pages)$/i, 'a text document'],
   [/\.(xlsx?|ods|numbers)$/i, 'a spreadsheet'],
   [/\.(pptx?|odp|key)$/i, 'a presentation'],
@@ -21,23 +21,23 @@ const OTHERS = [
   [/\.(step|stp|iges|igs|fbx|dae|blend|skp|usdz?)$/i, 'a 3D file of a kind that is not read; export it as OBJ, STL, PLY or GLB'],
 ];
 
-/** @param {string} name of a file */
+/** Whether a file is a mesh. @param {string} name */
 export function isMesh(name) {
-  return MESH.test(name);
+  return MESH_ENDING.test(name);
 }
 
 /** @typedef {'mesh' | 'heights' | 'picture' | 'camera' | 'other'} FileKind */
 
-/** @param {{ name: string }} file @returns {FileKind | null} nothing where its name does not tell */
+/** @param {{ name: string }} file @returns {FileKind | null} null if the name does not tell */
 export function kindByName({ name }) {
-  if (isMesh(name) || MATERIAL.test(name)) return 'mesh';
-  if (HEIGHTS.test(name)) return 'heights';
-  if (PICTURE.test(name)) return 'picture';
-  if (CAMERA.test(name)) return 'camera';
-  return OTHERS.some(([ending]) => ending.test(name)) ? 'other' : null;
+  if (isMesh(name) || MATERIAL_ENDING.test(name)) return 'mesh';
+  if (HEIGHTS_ENDING.test(name)) return 'heights';
+  if (PICTURE_ENDING.test(name)) return 'picture';
+  if (CAMERA_ENDING.test(name)) return 'camera';
+  return UNREADABLE_KINDS.some(([ending]) => ending.test(name)) ? 'other' : null;
 }
 
-/** What a file is that the page does not read. @param {{ name: string }} file */
-export function otherInWords({ name }) {
-  return OTHERS.find(([ending]) => ending.test(name))?.[1] ?? 'of a kind that is not read';
+/** A description of a file that the page cannot read. @param {{ name: string }} file */
+export function unreadableKindInWords({ name }) {
+  return UNREADABLE_KINDS.find(([ending]) => ending.test(name))?.[1] ?? 'of a kind that is not read';
 }

@@ -1,27 +1,29 @@
-/** Numbers as people read them. */
+/** Formats numbers and quantities for display. */
 
-const NARROW = '\u202f';
-const BREAKLESS = '\u00a0';
-const SUPERSCRIPTS = '⁰¹²³⁴⁵⁶⁷⁸⁹';
+const NARROW_NO_BREAK_SPACE = '\u202f';
+const NO_BREAK_SPACE = '\u00a0';
+/** Maximum size of a rounding error, relative to a typical value. */
+const MAX_RELATIVE_ROUNDING = 1e-9;
+const SUPERSCRIPT_DIGITS = '⁰¹²³⁴⁵⁶⁷⁸⁹';
 
-/** @param {number} n */
+/** An integer with separated thousands. @param {number} n */
 export function count(n) {
-  return n.toLocaleString('en', { maximumFractionDigits: 0 }).replaceAll(',', NARROW);
+  return n.toLocaleString('en', { maximumFractionDigits: 0 }).replaceAll(',', NARROW_NO_BREAK_SPACE);
 }
 
 /**
- * A number of a quantity of which a typical size is known: 0 where it is a rounding error.
+ * A number, or 0 if it is a rounding error compared with a typical value of its quantity.
  * @param {number} value
- * @param {number} size
+ * @param {number} typicalValue
  */
-export function numberAgainst(value, size) {
-  return number(Math.abs(value) < 1e-9 * Math.abs(size) ? 0 : value, 2);
+export function numberAgainst(value, typicalValue) {
+  return number(Math.abs(value) < MAX_RELATIVE_ROUNDING * Math.abs(typicalValue) ? 0 : value, 2);
 }
 
 /**
- * Three significant digits, by powers of ten where that is shorter.
+ * A number, by a power of ten if it is very large or very small.
  * @param {number} value
- * @param {number} [digits]
+ * @param {number} [digits] maximum number of significant digits
  */
 export function number(value, digits = 3) {
   if (!Number.isFinite(value)) return '–';
@@ -29,7 +31,7 @@ export function number(value, digits = 3) {
   if (size !== 0 && (size >= 1e6 || size < 1e-4)) return scientific(value, digits);
   return value
     .toLocaleString('en', { maximumSignificantDigits: digits })
-    .replaceAll(',', NARROW)
+    .replaceAll(',', NARROW_NO_BREAK_SPACE)
     .replace('-', '−');
 }
 
@@ -41,77 +43,77 @@ function scientific(value, digits) {
   const [mantissa, exponent] = value.toExponential(digits - 1).split('e');
   const short = String(Number(mantissa)).replace('-', '−');
   const power = superscript(Number(exponent));
-  return short === '1' ? `10${power}` : `${short}${NARROW}·${NARROW}10${power}`;
+  return short === '1' ? `10${power}` : `${short}${NARROW_NO_BREAK_SPACE}·${NARROW_NO_BREAK_SPACE}10${power}`;
 }
 
-/** @param {number} n an integer */
+/** An integer in superscript digits. @param {number} n */
 export function superscript(n) {
-  const digits = [...String(Math.abs(n))].map((digit) => SUPERSCRIPTS[Number(digit)]);
+  const digits = [...String(Math.abs(n))].map((digit) => SUPERSCRIPT_DIGITS[Number(digit)]);
   return (n < 0 ? '⁻' : '') + digits.join('');
 }
 
 /**
- * A bound in percent, if there is one. Rounded up, for what is certified must not be overstated.
+ * An upper bound in percent, rounded up, so that it stays a bound; a dash if there is none.
  * @param {number | undefined} share
  */
 export function percentAtMost(share) {
   if (share === undefined || !Number.isFinite(share)) return '–';
   const percent = 100 * share;
-  if (percent <= 0) return `0${BREAKLESS}%`;
+  if (percent <= 0) return `0${NO_BREAK_SPACE}%`;
   const unit = 10 ** (Math.floor(Math.log10(percent)) - 1);
-  const up = Math.ceil(percent / unit - 1e-9) * unit;
-  return `${number(up, 2)}${BREAKLESS}%`;
+  const roundedUp = Math.ceil(percent / unit - 1e-9) * unit;
+  return `${number(roundedUp, 2)}${NO_BREAK_SPACE}%`;
 }
 
-/** Shares below this are rounding errors. */
+/** Minimum size of a share that is not a rounding error. */
 const MIN_SHARE = 1e-7;
 
-/** @param {number} share */
+/** A share in percent. @param {number} share */
 export function percent(share) {
-  if (Math.abs(share) < MIN_SHARE) return `0${BREAKLESS}%`;
-  return `${number(100 * share, 2)}${BREAKLESS}%`;
+  if (Math.abs(share) < MIN_SHARE) return `0${NO_BREAK_SPACE}%`;
+  return `${number(100 * share, 2)}${NO_BREAK_SPACE}%`;
 }
 
-/** @param {number} share with its sign */
-export function signed(share) {
+/** A share in percent, with its sign. @param {number} share */
+export function signedPercent(share) {
   return `${share >= MIN_SHARE ? '+' : ''}${percent(share)}`;
 }
 
-/** What is under the pointer on a sheet. @param {number} strain NaN beside it */
+/** The strain at the pointer, in words. @param {number} strain NaN outside of the sheet */
 export function strainInWords(strain) {
-  return Number.isNaN(strain) ? '' : `strain ${signed(strain)}`;
+  return Number.isNaN(strain) ? '' : `strain ${signedPercent(strain)}`;
 }
 
-/** @param {number} angle in radians */
+/** An angle in degrees. @param {number} angle in radians */
 export function degrees(angle) {
   return `${number((angle * 180) / Math.PI, 2)}°`;
 }
 
-/** @param {number} s */
+/** A duration in seconds or milliseconds. @param {number} s in seconds */
 export function seconds(s) {
-  return s < 0.1 ? `${number(1000 * s, 2)}${BREAKLESS}ms` : `${number(s, s < 100 ? 2 : 3)}${BREAKLESS}s`;
+  return s < 0.1 ? `${number(1000 * s, 2)}${NO_BREAK_SPACE}ms` : `${number(s, s < 100 ? 2 : 3)}${NO_BREAK_SPACE}s`;
 }
 
 /**
- * λ as a person would type it: 1e6, 2.5e6.
+ * λ with two significant digits, as it is typed: 1e6, 2.5e6.
  * @param {number} lambda
  */
-export function shortest(lambda) {
+export function shortLambda(lambda) {
   return Number(lambda.toPrecision(2)).toExponential().replace('e+', 'e');
 }
 
 /**
- * What is under the pointer.
- * @param {number} height NaN where there is none
+ * The height at the pointer, in words.
+ * @param {number} height NaN is no data
  * @param {string} [unit]
- * @param {string} [value] what else is known there
+ * @param {string} [value] a further value at the same place
  */
-export function readingOf(height, unit = 'units', value = '') {
+export function heightReading(height, unit = 'units', value = '') {
   return Number.isNaN(height) ? '' : [`height ${number(height)} ${unit}`, value].filter(Boolean).join(' · ');
 }
 
-/** @param {number} bytes */
+/** The size of a file. @param {number} bytes */
 export function fileSize(bytes) {
-  if (bytes < 1e3) return `${count(bytes)}${BREAKLESS}bytes`;
-  return bytes < 1e6 ? `${number(bytes / 1e3, 2)}${BREAKLESS}kB` : `${number(bytes / 1e6, 2)}${BREAKLESS}MB`;
+  if (bytes < 1e3) return `${count(bytes)}${NO_BREAK_SPACE}bytes`;
+  return bytes < 1e6 ? `${number(bytes / 1e3, 2)}${NO_BREAK_SPACE}kB` : `${number(bytes / 1e6, 2)}${NO_BREAK_SPACE}MB`;
 }

@@ -1,21 +1,24 @@
-/** What is drawn on the heights by hand: which pixels it means, and what becomes of them. */
+/** Edits of heights by brush and lasso: the pixels of a stroke, their new values, and undo. */
 
 /** @import {Input} from './session.js' */
-/** @typedef {readonly [number, number]} Place in pixels, (0, 0) the upper left corner */
-/** @typedef {'out' | 'doubt' | 'hold' | 'crop'} Effect */
+/** @typedef {readonly [number, number]} Place position in pixels; (0, 0) is the upper left corner */
+/** @typedef {'out' | 'doubt' | 'hold' | 'crop'} Effect removes heights, lowers their confidence, makes them constraints, or removes all heights outside */
 /** @typedef {'data' | 'confidence' | 'constraints'} Field */
-/** @typedef {{ field: Field, pixels: Uint32Array, values: Float64Array | null }} Past of a field: what its pixels were; null where there was none */
+/**
+ * Values of a field before an edit; null if the input did not have the field.
+ * @typedef {{ field: Field, pixels: Uint32Array, values: Float64Array | null }} UndoStep
+ */
 
-/** How far a height is trusted that is trusted less. */
-const DOUBT = 0.1;
+/** Maximum confidence of a height after the user has marked it as doubtful. */
+const MAX_DOUBTFUL_CONFIDENCE = 0.1;
 
 /**
- * Pixels within so many of a line.
+ * Pixels within a distance of a polyline.
  * @param {{ width: number, height: number }} size
  * @param {readonly Place[]} line
- * @param {number} radius
+ * @param {number} radius in pixels
  */
-export function brushed({ width, height }, line, radius) {
+export function pixelsAlong({ width, height }, line, radius) {
   /** @type {Set<number>} */
   const found = new Set();
   line.forEach(([bx, by], i) => {
@@ -35,12 +38,12 @@ export function brushed({ width, height }, line, radius) {
 }
 
 /**
- * Pixels that a closed line goes around.
+ * Pixels inside a polygon (even-odd rule).
  * @param {{ width: number, height: number }} size
  * @param {readonly Place[]} line
- * @param {boolean} [outside] those that it does not, instead
+ * @param {boolean} [outside] whether the pixels outside of it are returned instead
  */
-export function enclosed({ width, height }, line, outside = false) {
+export function pixelsInside({ width, height }, line, outside = false) {
   const found = [];
   for (let row = 0; row < height; row++) {
     const y = row + 0.5;
@@ -60,33 +63,33 @@ export function enclosed({ width, height }, line, outside = false) {
 }
 
 /**
- * An input with something done to some of its pixels, and the way back.
+ * The effect of an edit on an input: the changed field, and the step that undoes it.
  * @param {Input} input
  * @param {Uint32Array} pixels
  * @param {Effect} effect
- * @param {(pixel: number) => number} heightAt of what is held, in steps of height
+ * @param {(pixel: number) => number} heightAt height of a new constraint, in steps of `heightScale`
  */
-export function affected(input, pixels, effect, heightAt) {
+export function applyEdit(input, pixels, effect, heightAt) {
   const field = /** @type {const} */ ({ out: 'data', crop: 'data', doubt: 'confidence', hold: 'constraints' })[effect];
   const known = input[field];
   const values = known?.slice() ?? new Float64Array(input.data.length).fill(effect === 'doubt' ? 1 : NaN);
   for (const pixel of pixels) {
     if (field === 'data') values[pixel] = NaN;
-    else if (field === 'confidence') values[pixel] = Math.min(values[pixel], DOUBT);
+    else if (field === 'confidence') values[pixel] = Math.min(values[pixel], MAX_DOUBTFUL_CONFIDENCE);
     else values[pixel] = heightAt(pixel);
   }
-  /** @type {Past} */
-  const past = { field, pixels, values: known ? Float64Array.from(pixels, (pixel) => known[pixel]) : null };
-  return { change: /** @type {Partial<Pick<Input, Field>>} */ ({ [field]: values }), past };
+  /** @type {UndoStep} */
+  const undo = { field, pixels, values: known ? Float64Array.from(pixels, (pixel) => known[pixel]) : null };
+  return { change: /** @type {Partial<Pick<Input, Field>>} */ ({ [field]: values }), undo };
 }
 
 /**
- * What takes it back.
+ * The change that undoes an edit.
  * @param {Input} input
- * @param {Past} past
+ * @param {UndoStep} step
  * @returns {Partial<Pick<Input, Field>>}
  */
-export function takenBack(input, { field, pixels, values }) {
+export function undoEdit(input, { field, pixels, values }) {
   const now = input[field]?.slice();
   if (!values || !now) return { [field]: undefined };
   pixels.forEach((pixel, i) => (now[pixel] = values[i]));

@@ -1,79 +1,80 @@
-/** A file of heights as the input, with what else is known of it. */
-import { apart } from './worker-task.js';
-import { pixelsOf } from './pixels.js';
-import { keepLook } from './surface/known.js';
-import { handOver } from './surface/work.js';
-import { takenOver } from './import-interpretation.js';
+/** Reads a file of heights as an input, with the photo, confidence and mask that belong to it. */
+import { runInWorker } from './worker-task.js';
+import { readPicture } from './pixels.js';
+import { storeSurfaceData } from './surface/derived-data.js';
+import { transferToWorker } from './surface/worker-client.js';
+import { toInput } from './import-interpretation.js';
 
 /** @import {Api} from './api.js' */
 /** @import {Worker} from './worker-task.js' */
-/** @import {Beside, Input} from './session.js' */
-/** @import {Together} from './dropped-files.js' */
+/** @import {DepthCompanions, Input} from './session.js' */
+/** @import {FileRoles} from './dropped-files.js' */
 
-/** A picture in colour is a photo, and no heights. */
-export class InColour extends Error {
+/** Error: the file is a picture in colour, which is a photo and has no heights. */
+export class ColourPictureError extends Error {
   constructor() {
     super('it is in colour, and no heights follow from that. A photo alone is made flat under “A photo of a page”; with its depths, open both together');
   }
 }
 
 /**
+ * Reads a file of heights as an input.
  * @param {Api} api
  * @param {File} file
- * @param {AbortSignal} signal it is given up
- * @param {string} [wanted] array of it
- * @param {Pick<Together, 'photo' | 'confidence' | 'mask'>} [others] that go with it
+ * @param {AbortSignal} signal
+ * @param {string} [arrayName] name of the array to read, for an NPZ file with several
+ * @param {Pick<FileRoles, 'photo' | 'confidence' | 'mask'>} [companionFiles]
  * @returns {Promise<Input>}
  */
-export async function inputOf(api, file, signal, wanted, { photo: picture, ...others } = {}) {
-  const { names, read, beside } = await apart(api, signal, async (reader) => {
-    const names = await arraysOf(reader, file);
-    const options = names.length > 1 ? { array: wanted ?? names[0] } : undefined;
+export async function readInput(api, file, signal, arrayName, { photo: photoFile, ...companionFiles } = {}) {
+  const { names, read, companions } = await runInWorker(api, signal, async (reader) => {
+    const names = await heightArrayNames(reader, file);
+    const options = names.length > 1 ? { array: arrayName ?? names[0] } : undefined;
     const read = await reader.read(file, options).catch((error) => {
-      throw error instanceof Error && /colour/.test(error.message) ? new InColour() : error;
+      throw error instanceof Error && /colour/.test(error.message) ? new ColourPictureError() : error;
     });
-    return { names, read, beside: await besideOf(reader, others) };
+    return { names, read, companions: await readCompanions(reader, companionFiles) };
   });
   const { format, dataType } = read;
-  const photo = picture && { name: picture.name, image: await pixelsOf(picture) };
-  const { look, ...through } = await handOver('lookedThrough', [read.data], read, file.name);
-  const found = takenOver(through);
-  keepLook(found, look);
+  const photo = photoFile && { name: photoFile.name, image: await readPicture(photoFile) };
+  const { look, ...interpretation } = await transferToWorker('interpretFile', [read.data], read, file.name);
+  const input = toInput(interpretation);
+  storeSurfaceData(input, look);
   return {
-    ...found,
+    ...input,
     name: file.name.replace(/\.[^.]*$/, '') || 'heights',
-    kind: `${format.toUpperCase()}, ${typeInWords(dataType)}`,
+    kind: `${format.toUpperCase()}, ${numberTypeInWords(dataType)}`,
     dataType,
     photo,
-    beside,
-    array: names.length > 1 ? { file, names, name: wanted ?? names[0] } : undefined,
+    companions,
+    array: names.length > 1 ? { file, names, name: arrayName ?? names[0] } : undefined,
   };
 }
 
 /**
- * The names of the arrays of an NPZ that may be heights; other files have none.
+ * Names of the two-dimensional arrays of an NPZ file; an empty list for other files.
  * @param {Worker} reader
  * @param {File} file
  */
-async function arraysOf(reader, file) {
+async function heightArrayNames(reader, file) {
   if (!/\.npz$/i.test(file.name)) return [];
   const arrays = await reader.npzArrays(file);
   return arrays.filter(({ shape, dataType }) => shape.length === 2 && /^[uif]\d+$/.test(dataType)).map(({ name }) => name);
 }
 
 /**
- * What is known of depths besides, as it is stored.
+ * Reads the images that belong to depths, without converting their values.
  * @param {Worker} reader
- * @param {Pick<Together, 'confidence' | 'mask'>} files
- * @returns {Promise<Beside | undefined>}
+ * @param {Pick<FileRoles, 'confidence' | 'mask'>} files
+ * @returns {Promise<DepthCompanions | undefined>}
  */
-async function besideOf(reader, { confidence, mask }) {
+async function readCompanions(reader, { confidence, mask }) {
   /** @param {File} [file] */
   const read = async (file) => {
     if (!file) return undefined;
     try {
       const { width, height, data, dataType } = await reader.read(file);
-      // Whole numbers are levels, or shares of the largest.
+      // The package takes integers as levels or as shares of the largest value, by the type of the array.
       if (dataType === 'u8') return { width, height, data: Uint8Array.from(data, (value) => value || 0) };
       if (dataType === 'u16') return { width, height, data: Uint16Array.from(data, (value) => value || 0) };
       return { width, height, data };
@@ -85,8 +86,8 @@ async function besideOf(reader, { confidence, mask }) {
   return names.length === 0 ? undefined : { confidence: await read(confidence), mask: await read(mask), names };
 }
 
-/** @param {string} type such as u16 */
-function typeInWords(type) {
+/** @param {string} type such as `u16` */
+function numberTypeInWords(type) {
   const [, letter, bits] = /^([a-z]+)(\d+)$/.exec(type) ?? [];
   /** @type {Record<string, string>} */
   const names = { u: 'integers', i: 'signed integers', f: 'floats' };

@@ -1,83 +1,91 @@
-/** How a file of numbers is understood: what is guessed of it at first, and the one way or the other afterwards. */
-import { coarseningFor, depthsIn, guessedPixel, isHexagonal, isNoDepth, zeroIsNothing } from './metadata-guess.js';
+/** Interpretation of a file of numbers as heights: guessed when it is opened, and changed by the user afterwards. */
+import { coarseningFor, depthUnitOf, guessPixelSize, isHexagonal, isNoDepth, isZeroNoData } from './metadata-guess.js';
 import { number } from './format.js';
 import { GUESS_WORDS } from './messages.js';
-import { gridOver, interpolated } from './surface/lattice.js';
-import { firstLook, small } from './surface/look.js';
+import { gridOverLattice, interpolateToGrid } from './surface/lattice.js';
+import { computeSurfaceDataAndPreview, reduceForPreview } from './surface/textures.js';
 
 /** @import {Api} from './api.js' */
 /** @import {Input} from './session.js' */
 /** @typedef {Awaited<ReturnType<Api['read']>>} Read */
 
 /**
- * What a file holds, and how it is understood.
- * @typedef {object} Stored
- * @property {number} width
- * @property {number} height
- * @property {Float64Array} data steps of height
+ * Contents of a file, and how they are interpreted.
+ * @typedef {object} StoredHeights
+ * @property {number} width pixels
+ * @property {number} height pixels
+ * @property {Float64Array} data heights in steps of `heightScale`
  * @property {number} pixelSize
  * @property {number} heightScale
- * @property {boolean} zeros are “no data”
- * @property {boolean} hexagonal the numbers are at the vertices of a lattice
- * @property {boolean} design few heights are given, and the surface passes through them
- * @property {boolean} levels are whole numbers whose height nobody has said
- * @property {string} told what was guessed
- * @property {number} coarsening that suits its size
+ * @property {boolean} zeros whether 0 is no data
+ * @property {boolean} hexagonal whether the values are at the vertices of a hexagonal lattice
+ * @property {boolean} design whether the few heights are constraints of a design
+ * @property {boolean} levels whether the values are integers whose height scale is not in the file
+ * @property {string} guesses message that says what was guessed
+ * @property {number} coarsening lattice spacing in pixels that suits the size of the image
  */
 
-/** Distance of the rows of a hexagonal lattice, in spacings of its vertices. */
+/** Distance of the rows of a hexagonal lattice, in spacings. */
 const HEXAGONAL_ROW_SPACING = Math.sqrt(3) / 2;
-/** Share of pixels with a height, below which they are lines and points to pass through. */
-const FEW = 0.2;
+/** Minimum share of pixels with a height in measured data; where there are fewer, they are constraints of a design. */
+const MIN_MEASURED_SHARE = 0.2;
 
 /**
- * What was read, as it is understood at first. Takes a while for a large file.
+ * Guesses the interpretation of a file.
  * @param {Read} read
- * @param {string} name of the file
- * @returns {Understood}
+ * @param {string} name name of the file
+ * @returns {InterpretedHeights}
  */
-function understoodFirst(read, name) {
+function firstInterpretation(read, name) {
   const { width, height, unit } = read;
-  const depths = depthsIn(name, read) ?? undefined;
-  const data = depths ? read.data.map((depth) => (isNoDepth(depth) ? NaN : depth)) : read.data;
+  const depthUnit = depthUnitOf(name, read) ?? undefined;
+  const data = depthUnit ? read.data.map((depth) => (isNoDepth(depth) ? NaN : depth)) : read.data;
   if (!data.some(Number.isFinite)) throw new Error('it has no heights, every pixel is “no data” (NaN)');
   if (data.some((value) => Math.abs(value) === Infinity)) throw new Error('it has infinite heights; mark them as NaN, “no data”');
   if (width < 3 || height < 3) throw new Error(`it is ${width} × ${height} pixels; a surface needs at least 3 × 3`);
-  const stored = guessed({ ...read, data }, depths !== undefined);
+  const stored = guessStoredHeights({ ...read, data }, depthUnit !== undefined);
   const { pixelSize, heightScale, design } = stored;
-  const first = { ...stored, zeros: false, hexagonal: false };
-  return understood({ width, height, data, pixelSize, heightScale, unit: unit ?? undefined, depths, stored: first, design }, stored);
+  const unchanged = { ...stored, zeros: false, hexagonal: false };
+  return reinterpret({ width, height, data, pixelSize, heightScale, unit: unit ?? undefined, depthUnit, stored: unchanged, design }, stored);
 }
 
-/** The same with what else takes a while to find of it, in the page's worker. @param {Parameters<typeof understoodFirst>} read */
-export function lookedThrough(...read) {
-  const input = understoodFirst(...read);
+/**
+ * Guesses the interpretation of a file, and prepares its display. This takes long for a large file, so it runs in the
+ * page's worker.
+ * @param {Parameters<typeof firstInterpretation>} file
+ */
+export function interpretFile(...file) {
+  const input = firstInterpretation(...file);
   const { data, width, height, heightScale, pixelSize } = input;
-  return { ...input, reach: reachOf(data), look: firstLook(data, width, height, heightScale, pixelSize) };
+  return { ...input, range: rangeOf(data), look: computeSurfaceDataAndPreview(data, width, height, heightScale, pixelSize) };
 }
 
-/** What the worker has found. @param {Omit<ReturnType<typeof lookedThrough>, 'look'>} found @returns {Understood} */
-export function takenOver({ reach, ...input }) {
-  reaches.set(input.data, reach);
+/**
+ * Converts the worker's answer to an input, and caches the range of its heights.
+ * @param {Omit<ReturnType<typeof interpretFile>, 'look'>} answer
+ * @returns {InterpretedHeights}
+ */
+export function toInput({ range, ...input }) {
+  ranges.set(input.data, range);
   return input;
 }
 
 /**
  * @param {Read} read
- * @param {boolean} depths
- * @returns {Stored}
+ * @param {boolean} depths whether the values are depths from a camera
+ * @returns {StoredHeights}
  */
-function guessed(read, depths) {
+function guessStoredHeights(read, depths) {
   const { width, height, data, pixelSize, heightScale, dataType } = read;
-  const zeros = !depths && zeroIsNothing(data);
+  const zeros = !depths && isZeroNoData(data);
   const valid = { ...read, data: zeros ? withoutZeros(data) : data };
-  // A photo or a scan has holes; what is nearly all hole has lines and points that were drawn.
+  // A scan has holes, but an image without data at most pixels holds drawn points and curves.
   const given = valid.data.reduce((sum, value) => sum + Number(Number.isFinite(value)), 0);
-  const design = !depths && given < FEW * data.length;
+  const design = !depths && given < MIN_MEASURED_SHARE * data.length;
   const hexagonal = !design && !depths && isHexagonal(valid);
-  const pixel = depths || design ? null : guessedPixel({ ...valid, rowSpacing: hexagonal ? HEXAGONAL_ROW_SPACING : 1 });
+  const pixel = depths || design ? null : guessPixelSize({ ...valid, rowSpacing: hexagonal ? HEXAGONAL_ROW_SPACING : 1 });
   const coarsening = hexagonal ? 1 : coarseningFor(read);
-  const told = [
+  const guesses = [
     ...(pixel ? [pixel.words] : []),
     ...(design ? [GUESS_WORDS.few] : []),
     ...(zeros ? [GUESS_WORDS.zeros] : []),
@@ -85,30 +93,30 @@ function guessed(read, depths) {
     ...(coarsening > 1 ? [GUESS_WORDS.coarse(coarsening)] : []),
   ].join(' ');
   const levels = /^u/.test(dataType);
-  return { width, height, data, pixelSize: pixel?.pixelSize ?? pixelSize, heightScale, zeros, hexagonal, design, levels, told, coarsening };
+  return { width, height, data, pixelSize: pixel?.pixelSize ?? pixelSize, heightScale, zeros, hexagonal, design, levels, guesses, coarsening };
 }
 
-/** @typedef {Omit<Input, 'name'>} Understood */
+/** @typedef {Omit<Input, 'name'>} InterpretedHeights */
 
 /**
- * The same file, understood otherwise.
- * @template {Understood} I
+ * Changes the interpretation of a file's contents.
+ * @template {InterpretedHeights} I
  * @param {I} input
- * @param {Partial<Stored>} change
+ * @param {Partial<StoredHeights>} change
  * @returns {I}
  */
-export function understood(input, change) {
+export function reinterpret(input, change) {
   if (!input.stored) return input;
   const stored = { ...input.stored, ...change };
   const { width, height, pixelSize, heightScale, zeros, hexagonal } = stored;
-  // What was changed by hand stays, where only the scale is another.
-  const kept = zeros === input.stored.zeros && !hexagonal && !input.stored.hexagonal;
-  const data = kept ? input.data : zeros ? withoutZeros(stored.data) : stored.data;
+  // A change of the scale alone keeps edits that were made by hand.
+  const keepsEdits = zeros === input.stored.zeros && !hexagonal && !input.stored.hexagonal;
+  const data = keepsEdits ? input.data : zeros ? withoutZeros(stored.data) : stored.data;
   if (!data.some(Number.isFinite)) throw new Error('nothing else would be left');
   if (!hexagonal) return { ...input, stored, width, height, data, pixelSize, heightScale, lattice: undefined };
   const lattice = { rows: height, cols: width, spacing: pixelSize, heights: data.map((step) => step * heightScale), unit: /** @type {'mm' | 'm' | undefined} */ (input.unit) };
-  const grid = gridOver(lattice);
-  return { ...input, stored, ...grid, heightScale: 1, data: interpolated(lattice, lattice.heights, grid), lattice };
+  const grid = gridOverLattice(lattice);
+  return { ...input, stored, ...grid, heightScale: 1, data: interpolateToGrid(lattice, lattice.heights, grid), lattice };
 }
 
 /** @param {Float64Array} data */
@@ -116,41 +124,41 @@ function withoutZeros(data) {
   return data.map((value) => (value === 0 ? NaN : value));
 }
 
-/** Differences of the highest and the lowest, which take a while for large inputs. @type {WeakMap<Float64Array, number>} */
-const reaches = new WeakMap();
+/** Cached ranges of heights. @type {WeakMap<Float64Array, number>} */
+const ranges = new WeakMap();
 
-/** @param {Float64Array} data */
-export function reachOf(data) {
-  const known = reaches.get(data);
-  if (known !== undefined) return known;
+/** Difference between the highest and the lowest height. @param {Float64Array} data */
+function rangeOf(data) {
+  const cached = ranges.get(data);
+  if (cached !== undefined) return cached;
   let [low, high] = [Infinity, -Infinity];
   for (let i = 0; i < data.length; i++) {
     if (data[i] < low) low = data[i];
     if (data[i] > high) high = data[i];
   }
-  reaches.set(data, high - low);
+  ranges.set(data, high - low);
   return high - low;
 }
 
-/** What the lengths come to. @param {Input} input */
+/** The width, depth and height of an input as a sentence. @param {Input} input */
 export function spanInWords({ data, width, height, pixelSize, heightScale }) {
-  const depth = reachOf(data) * Math.abs(heightScale);
-  return `Spans ${number(width * pixelSize)} × ${number(height * pixelSize)}, and ${number(depth)} in height.`;
+  const range = rangeOf(data) * Math.abs(heightScale);
+  return `Spans ${number(width * pixelSize)} × ${number(height * pixelSize)}, and ${number(range)} in height.`;
 }
 
-/** An image of confidence: white is 1; other numbers than whole ones are taken as they are. @param {Read} image */
+/** Converts an image to confidence: an integer is divided by the largest value of its type, a float stays. @param {Read} image */
 export function confidenceOf({ width, height, data, dataType }) {
   const [, bits] = /^u(\d+)$/.exec(dataType) ?? [];
   const largest = bits ? 2 ** Number(bits) - 1 : 1;
-  // No more digits are needed.
+  // Single precision is enough for weights.
   const confidence = Float32Array.from(data, (value) => (Number.isNaN(value) ? 0 : value / largest));
   if (confidence.some((value) => value < 0)) throw new Error('it has values below 0');
-  return { values: confidence, small: small({ width, height, data: confidence }) };
+  return { values: confidence, small: reduceForPreview({ width, height, data: confidence }) };
 }
 
-/** An image of heights to be met. @param {Read} image */
+/** Converts an image to constraints: 0 is no data. @param {Read} image */
 export function constraintsOf({ width, height, data }) {
   const constraints = data.map((value) => (value === 0 ? NaN : value));
   if (constraints.every(Number.isNaN)) throw new Error('it holds nothing: every pixel is 0 or “no data”');
-  return { values: constraints, small: small({ width, height, data: constraints }) };
+  return { values: constraints, small: reduceForPreview({ width, height, data: constraints }) };
 }

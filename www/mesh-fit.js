@@ -1,8 +1,8 @@
 /**
- * A mesh as it is, without a view: solved, and what is asked about the result. Each in a worker of its own, which ends
- * with what is given up.
+ * The fit of a whole mesh, and analyses of the result. Each runs in a worker of its own, which is disposed of when it is
+ * cancelled.
  */
-import { apart } from './worker-task.js';
+import { AnswerCache, runInWorker } from './worker-task.js';
 import { Events } from './events.js';
 
 /** @import {Api, Mesh} from './api.js' */
@@ -10,34 +10,33 @@ import { Events } from './events.js';
 /** @typedef {import('../pkg/types.js').MeshSurface} MeshSurface */
 /** @typedef {import('../pkg/types.js').Progress} Progress */
 
-/** Of rulings as far apart as they are drawn, so many go along the longest side, however coarse the mesh. */
-const RULINGS = 30;
+/** Number of rulings along the longest side of the mesh, which sets their separation. */
+const RULINGS_PER_LONGEST_SIDE = 30;
 
 /**
- * @typedef {object} WholeEvents
- * @property {Mesh} start it is being solved
+ * @typedef {object} MeshFitEvents
+ * @property {Mesh} start a solve has begun
  * @property {Progress} progress
  * @property {MeshSurface} result
- * @property {unknown} failure why there is none
- * @property {null} left nothing of it is wanted any more
+ * @property {unknown} failure error of a solve
+ * @property {null} left the mesh was closed
  */
 
-/** @extends {Events<WholeEvents>} */
-export class Whole extends Events {
+/** @extends {Events<MeshFitEvents>} */
+export class MeshFit extends Events {
   /** @type {Mesh | null} */
   mesh = null;
-  /** What it is solved with. @type {number | 'auto'} */
+  /** λ of the last solve. @type {number | 'auto'} */
   lambda = 'auto';
-  /** @type {MeshSurface | null} */
+  /** The result; null during a solve. @type {MeshSurface | null} */
   surface = null;
-  /** Of the same mesh, before the solve under way. @type {MeshSurface | null} */
-  #before = null;
-  /** The solve under way, or the last one. @type {object | null} */
-  #turn = null;
-  /** What is worked out now. @type {Set<AbortController>} */
-  #open = new Set();
-  /** Answers by their question. @type {WeakMap<object, Map<string, Promise<any>>>} */
-  #known = new WeakMap();
+  /** The result of the same mesh before the present solve. @type {MeshSurface | null} */
+  #previousSurface = null;
+  /** Identity of the newest solve; results of older solves are discarded. @type {object | null} */
+  #newestSolve = null;
+  /** Tasks that are running. @type {Set<AbortController>} */
+  #runningTasks = new Set();
+  #cache = new AnswerCache();
 
   /** @param {Api} api */
   constructor(api) {
@@ -45,127 +44,129 @@ export class Whole extends Events {
     this.api = api;
   }
 
-  /** @param {Mesh} mesh @param {number | 'auto'} lambda */
+  /** Fits a mesh, and cancels the solve before. @param {Mesh} mesh @param {number | 'auto'} lambda */
   async solve(mesh, lambda) {
     this.stop();
-    const turn = (this.#turn = {});
-    this.#before = this.mesh === mesh ? this.surface ?? this.#before : null;
+    const solve = (this.#newestSolve = {});
+    this.#previousSurface = this.mesh === mesh ? this.surface ?? this.#previousSurface : null;
     this.mesh = mesh;
     this.lambda = lambda;
     this.surface = null;
     this.emit('start', mesh);
     try {
-      const surface = await this.#apart((worker, signal) => worker.fitMesh(mesh, {
+      const surface = await this.#runTask((worker, signal) => worker.fitMesh(mesh, {
         lambda,
         onProgress: (progress) => {
           if (!signal.aborted) this.emit('progress', progress);
         },
       }));
-      if (!surface || this.#turn !== turn) return;
+      if (!surface || this.#newestSolve !== solve) return;
       this.surface = surface;
       this.emit('result', surface);
     } catch (error) {
-      if (this.#turn === turn) this.emit('failure', error);
+      if (this.#newestSolve === solve) this.emit('failure', error);
     }
   }
 
-  /** Takes the surface before the solve that was stopped. @returns {boolean} whether there is one */
+  /** Restores the result before the solve that was stopped. @returns {boolean} whether there is a result now */
   restore() {
-    if (!this.surface && this.#before) {
-      this.surface = this.#before;
+    if (!this.surface && this.#previousSurface) {
+      this.surface = this.#previousSurface;
       this.emit('result', this.surface);
     }
     return this.surface !== null;
   }
 
-  /** Ends whatever is being worked out; those who wait for it are told so. */
+  /** Cancels all running tasks; their promises reject. */
   stop() {
-    for (const abort of this.#open) abort.abort();
-    this.#open.clear();
+    for (const abort of this.#runningTasks) abort.abort();
+    this.#runningTasks.clear();
   }
 
+  /** Closes the mesh and discards its result. */
   leave() {
     this.stop();
     if (!this.mesh) return;
-    this.#turn = null;
+    this.#newestSolve = null;
     this.mesh = this.surface = null;
     this.emit('left', null);
   }
 
   /** @param {Mesh} mesh */
   curvatures(mesh) {
-    return this.#once(mesh, 'curvatures', (worker) => worker.analyzeMesh(shapeOf(mesh)));
+    return this.#cached(mesh, 'curvatures', (worker) => worker.analyzeMesh(geometryOf(mesh)));
   }
 
   /** @param {Mesh} mesh */
   rulings(mesh) {
-    return this.#once(mesh, 'rulings', (worker) => worker.meshRulings(shapeOf(mesh), { separation: longestSide(mesh) / RULINGS }));
+    return this.#cached(mesh, 'rulings', (worker) => worker.meshRulings(geometryOf(mesh), { separation: longestSide(mesh) / RULINGS_PER_LONGEST_SIDE }));
   }
 
   /** @param {Mesh} mesh */
   unrolled(mesh) {
-    return this.#once(mesh, 'unrolled', (worker) => worker.unrollMesh(shapeOf(mesh)));
+    return this.#cached(mesh, 'unrolled', (worker) => worker.unrollMesh(geometryOf(mesh)));
   }
 
   /** @param {Mesh} mesh @param {import('../pkg/types.js').MeshPatternOptions} options */
   pattern(mesh, options) {
-    return this.#once(mesh, `pattern ${JSON.stringify(options)}`, (worker) => worker.patternMesh(shapeOf(mesh), options));
+    return this.#cached(mesh, `pattern ${JSON.stringify(options)}`, (worker) => worker.patternMesh(geometryOf(mesh), options));
   }
 
   /** @param {import('../pkg/types.js').Drawing} drawing */
   svg(drawing) {
-    return this.#once(drawing, 'svg', (worker) => worker.writeSvg(drawing));
+    return this.#cached(drawing, 'svg', (worker) => worker.writeSvg(drawing));
   }
 
   /**
+   * The cached answer to a question, or the answer of a new task.
    * @template T
-   * @param {object} about
+   * @param {object} subject
    * @param {string} question
-   * @param {(worker: Worker) => Promise<T>} work
+   * @param {(worker: Worker) => Promise<T>} task
    * @returns {Promise<T>}
    */
-  #once(about, question, work) {
-    const answers = this.#known.get(about) ?? new Map();
-    this.#known.set(about, answers);
-    const answer = answers.get(question) ?? this.#apart(work).then((found) => found ?? Promise.reject(new Error('it was cancelled')));
-    answers.set(question, answer);
-    // What failed may be asked again.
-    answer.catch(() => answers.delete(question));
-    return answer;
+  #cached(subject, question, task) {
+    return this.#cache.answer(subject, question, () =>
+      this.#runTask(task).then((found) => found ?? Promise.reject(new Error('it was cancelled'))));
   }
 
   /**
    * @template T
-   * @param {(worker: Worker, signal: AbortSignal) => Promise<T>} work
-   * @returns {Promise<T | undefined>} nothing where it was given up
+   * @param {(worker: Worker, signal: AbortSignal) => Promise<T>} task
+   * @returns {Promise<T | undefined>} undefined if it was cancelled
    */
-  async #apart(work) {
+  async #runTask(task) {
     const abort = new AbortController();
-    this.#open.add(abort);
+    this.#runningTasks.add(abort);
     try {
-      return await apart(this.api, abort.signal, (worker) => work(worker, abort.signal));
+      return await runInWorker(this.api, abort.signal, (worker) => task(worker, abort.signal));
     } catch (error) {
       if (abort.signal.aborted) return undefined;
       throw error;
     } finally {
-      this.#open.delete(abort);
+      this.#runningTasks.delete(abort);
     }
   }
 }
 
-/** @param {Mesh} mesh */
-function shapeOf({ positions, triangles, unit }) {
+/** The geometry of a mesh, without its texture. @param {Mesh} mesh */
+function geometryOf({ positions, triangles, unit }) {
   return { positions, triangles, unit };
 }
 
-/** @param {Mesh} mesh */
-export function longestSide({ positions }) {
-  return Math.max(...[0, 1, 2].map((k) => {
+/** Sides of the bounding box of a mesh, along x, y and z. @param {Pick<Mesh, 'positions'>} mesh */
+export function boundingBoxSides({ positions }) {
+  return [0, 1, 2].map((k) => {
     let [low, high] = [Infinity, -Infinity];
     for (let i = k; i < positions.length; i += 3) {
       low = Math.min(low, positions[i]);
       high = Math.max(high, positions[i]);
     }
     return high - low;
-  }));
+  });
+}
+
+/** Longest side of the bounding box of a mesh. @param {Pick<Mesh, 'positions'>} mesh */
+export function longestSide(mesh) {
+  return Math.max(...boundingBoxSides(mesh));
 }

@@ -1,11 +1,12 @@
-/** A connected part of a mesh: the one that a place of its picture shows. */
+/** The connected part of a mesh that a place of its texture belongs to. */
 
 /** @import {Mesh} from './api.js' */
 
 /**
+ * The connected part that contains the vertex whose texture coordinates are nearest to a place. Parts are found by union-find.
  * @param {Mesh} mesh with texture coordinates
- * @param {readonly [u: number, v: number]} place from the left and from the bottom of the picture, as shares
- * @returns {Mesh | null} none where there is but one part
+ * @param {readonly [u: number, v: number]} place texture coordinates, from the lower left corner
+ * @returns {Mesh | null} null if the mesh is connected
  */
 export function partAt(mesh, [u, v]) {
   const { positions, triangles, uvs, colors, textureOf } = mesh;
@@ -21,32 +22,32 @@ export function partAt(mesh, [u, v]) {
     roots[root(triangles[t + 1])] = root(triangles[t]);
     roots[root(triangles[t + 2])] = root(triangles[t]);
   }
-  let [nearest, least] = [-1, Infinity];
+  let [nearest, minDistance] = [-1, Infinity];
   for (const i of triangles) {
-    const off = (uvs[2 * i] - u) ** 2 + (uvs[2 * i + 1] - v) ** 2;
-    if (off < least) [nearest, least] = [i, off];
+    const distance = (uvs[2 * i] - u) ** 2 + (uvs[2 * i + 1] - v) ** 2;
+    if (distance < minDistance) [nearest, minDistance] = [i, distance];
   }
   if (nearest < 0) return null;
-  const wanted = root(nearest);
-  const kept = [...Array(triangles.length / 3).keys()].filter((t) => root(triangles[3 * t]) === wanted);
-  if (3 * kept.length === triangles.length) return null;
-  // Vertices of the part alone, for what else there is would count as seen.
+  const partRoot = root(nearest);
+  const partTriangles = [...Array(triangles.length / 3).keys()].filter((t) => root(triangles[3 * t]) === partRoot);
+  if (3 * partTriangles.length === triangles.length) return null;
+  // Vertices of the other parts are removed, since vertices without triangles would be sampled as points.
   const numbers = new Int32Array(count).fill(-1);
   /** @type {number[]} */
   const vertices = [];
-  const corners = kept.flatMap((t) => [3 * t, 3 * t + 1, 3 * t + 2].map((at) => {
+  const corners = partTriangles.flatMap((t) => [3 * t, 3 * t + 1, 3 * t + 2].map((at) => {
     const i = triangles[at];
     if (numbers[i] < 0) numbers[i] = vertices.push(i) - 1;
     return numbers[i];
   }));
   /** @param {ArrayLike<number>} values @param {number} width */
-  const of = (values, width) => vertices.flatMap((i) => Array.from({ length: width }, (_, k) => values[width * i + k]));
+  const valuesOf = (values, width) => vertices.flatMap((i) => Array.from({ length: width }, (_, k) => values[width * i + k]));
   return {
     ...mesh,
-    positions: Float64Array.from(of(positions, 3)),
+    positions: Float64Array.from(valuesOf(positions, 3)),
     triangles: Uint32Array.from(corners),
-    uvs: Float32Array.from(of(uvs, 2)),
-    ...(colors && { colors: Float32Array.from(of(colors, 3)) }),
-    ...(textureOf && { textureOf: Int32Array.from(kept, (t) => textureOf[t]) }),
+    uvs: Float32Array.from(valuesOf(uvs, 2)),
+    ...(colors && { colors: Float32Array.from(valuesOf(colors, 3)) }),
+    ...(textureOf && { textureOf: Int32Array.from(partTriangles, (t) => textureOf[t]) }),
   };
 }

@@ -1,35 +1,36 @@
-/** The heights that are seen of a mesh, as the input. */
-import { apart } from './worker-task.js';
-import { gridOver } from './surface/lattice.js';
-import { work } from './surface/work.js';
+/** Heights that are sampled from a mesh, seen from one side, as the input. */
+import { runInWorker } from './worker-task.js';
+import { gridOverLattice } from './surface/lattice.js';
+import { callWorker } from './surface/worker-client.js';
 
 /** @import {Mesh, SampleMeshOptions} from './api.js' */
-/** @import {Input, Session, Slow} from './session.js' */
-/** @typedef {Pick<Input, 'name' | 'kind' | 'photo' | 'depthSource' | 'assumed'>} Called */
+/** @import {Input, Session, TimedTask} from './session.js' */
+/** @typedef {Pick<Input, 'name' | 'kind' | 'photo' | 'depthSource' | 'cameraAssumption'>} InputOrigin */
 
-/** Milliseconds for a vertex of a mesh that is drawn into a lattice, until that was measured. */
-const EACH = 1e-3;
+/** Initial guess of the time that sampling takes, in milliseconds per vertex of the mesh. */
+const SAMPLING_MS_PER_VERTEX = 1e-3;
 
-/** A mesh that is seen from another side. @param {Mesh} mesh @returns {Slow} */
-export function drawingOf({ positions }) {
-  return { words: 'Looking at it from there', kind: 'mesh', size: positions.length / 3, each: EACH };
+/** The task of sampling a mesh from another view, for a progress bar. @param {Mesh} mesh @returns {TimedTask} */
+export function samplingTask({ positions }) {
+  return { label: 'Looking at it from there', kind: 'mesh', size: positions.length / 3, msPerUnit: SAMPLING_MS_PER_VERTEX };
 }
 
 /**
+ * Samples a mesh from a view and opens its heights as the input.
  * @param {Session} session
- * @param {Called} file
+ * @param {InputOrigin} origin
  * @param {(signal: AbortSignal) => Promise<Mesh>} load
  * @param {SampleMeshOptions} options
- * @param {string} doing for the message if it fails
- * @param {{ whole?: Mesh, slow?: Slow }} [from] what the mesh is a part of, what takes long
+ * @param {string} doing what could not be done, for the message if it fails
+ * @param {{ wholeMesh?: Mesh, task?: TimedTask }} [more] `wholeMesh`: the mesh of which this one is a connected part
  */
-export function see(session, file, load, options, doing, { whole, slow } = {}) {
+export function openSampledMesh(session, origin, load, options, doing, { wholeMesh, task } = {}) {
   return session.open(doing, async (signal) => {
     const mesh = await load(signal);
-    const lattice = await apart(session.api, signal, (worker) => worker.sampleMesh(mesh, options));
-    const grid = gridOver(lattice);
-    const data = await work('interpolated', lattice, lattice.heights, grid);
+    const lattice = await runInWorker(session.api, signal, (worker) => worker.sampleMesh(mesh, options));
+    const grid = gridOverLattice(lattice);
+    const data = await callWorker('interpolateToGrid', lattice, lattice.heights, grid);
     if (!lattice.heights.some(Number.isFinite)) throw new Error('nothing of it is seen from there');
-    return { ...file, ...grid, heightScale: 1, data, lattice, unit: lattice.unit ?? undefined, seen: { mesh, options, whole } };
-  }, slow);
+    return { ...origin, ...grid, heightScale: 1, data, lattice, unit: lattice.unit ?? undefined, sampling: { mesh, options, wholeMesh } };
+  }, task);
 }

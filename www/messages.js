@@ -1,11 +1,11 @@
-/** What happened, in plain words. */
-import { count, number, percent, percentAtMost, seconds, shortest } from './format.js';
-import { plainly } from './error-messages.js';
+/** Sentences of the page: results, errors, hints and labels. */
+import { count, number, percent, percentAtMost, seconds, shortLambda } from './format.js';
+import { plainMessage } from './error-messages.js';
 
 /** @import {MeshSurface} from './mesh-fit.js' */
 /** @import {Energy, Report, StopReason, Verdict} from './api.js' */
 
-/** @type {Record<StopReason, string>} */
+/** Why a solve stopped. @type {Record<StopReason, string>} */
 export const STOP_REASONS = {
   gap: 'the requested gap was proven',
   residuals: 'the residuals were small enough (the paper’s rule)',
@@ -16,7 +16,7 @@ export const STOP_REASONS = {
 };
 
 /** What each view shows, in one sentence. @type {Record<string, string>} */
-export const VIEWS = {
+export const VIEW_WORDS = {
   shaded: 'Input and result stand in the same light. Smooth pieces shine evenly, creases are sharp lines.',
   gaussian: 'Colour shows how much a place bends both ways at once. Places without colour can be laid flat.',
   kappa2: 'Colour shows the smaller principal curvature. It is 0 where the surface bends one way only.',
@@ -27,7 +27,7 @@ export const VIEWS = {
   dewarped: 'You see a photo of the surface, and the same photo made flat.',
 };
 
-/** What is said of files that the part of the page they came to does not take. */
+/** Messages about files that were dropped on the wrong part of the page, or that cannot be read. */
 export const FILE_WORDS = {
   /** @param {string} name @param {string} what */
   unread: (name, what) => `“${name}” is ${what}. This page opens photos of pages (JPEG, PNG, WebP), heights and depths (TIFF, EXR, PFM, NPY, NPZ, grey PNG), and meshes and point clouds (OBJ, PLY, STL, GLB).`,
@@ -46,7 +46,7 @@ export const FILE_WORDS = {
   openAtHalf: 'Open it at half size',
 };
 
-/** What is said of depths from a camera. */
+/** Messages about depths from a camera. */
 export const DEPTH_WORDS = {
   /** @param {string} angle @param {number} scale */
   assumed: (angle, scale) => `Assumed: ${angle}° field of view, depths in ${scale === 1 ? 'metres' : scale === 0.001 ? 'millimetres' : `steps of ${number(scale)} m`}. Correct it under “Input” if lengths are off.`,
@@ -55,7 +55,7 @@ export const DEPTH_WORDS = {
   building: 'Building the 3D surface',
 };
 
-/** What is said of a file's numbers where the size of a pixel is guessed. */
+/** Messages about guessed metadata of a file. */
 export const GUESS_WORDS = {
   /** @param {string} relief @param {boolean} steep */
   side: (relief, steep) => `Assumed: the longer side is 1 long. With pixels 1 wide, the relief of ${relief} (without extremes) would be too ${steep ? 'steep' : 'flat'}.`,
@@ -71,8 +71,8 @@ export const GUESS_WORDS = {
   relief: (flat) => `Is this right? The heights differ ${flat ? 'very little compared with' : 'by more than'} the width. Give the pixel size in the unit of the heights, or tick that these are depths from a camera.`,
 };
 
-/** What is marked on the input, by how many there are. */
-export const MARKS = {
+/** Legends of the marks on the input, with their number. */
+export const MARK_WORDS = {
   /** @param {number} n */
   torn: (n) => (n > 0 ? `torn at ${count(n)} ${n === 1 ? 'vertex' : 'vertices'}` : 'no jumps found'),
   /** @param {number} n */
@@ -81,7 +81,7 @@ export const MARKS = {
   held: (n) => `held at ${count(n)} ${n === 1 ? 'pixel' : 'pixels'}`,
 };
 
-/** @type {Record<Energy, string>} */
+/** Explanations of the energies. @type {Record<Energy, string>} */
 export const ENERGIES = {
   nuclear: 'The paper’s energy, nuclear norms of the Hessians: each piece bends one way only, and noisy bends become facets.',
   frobenius: 'Frobenius norms of the Hessians: smooth where it should crease, for comparison.',
@@ -91,7 +91,7 @@ export const ENERGIES = {
   huber: 'Gentle bends count by their square, creases by their size: bends stay round and creases sharp. The proof is for the last pass over the creases.',
 };
 
-/** What came of laying a surface flat. @type {Record<Verdict, string>} */
+/** Verdicts on an unrolled surface. @type {Record<Verdict, string>} */
 export const VERDICTS = {
   flat: 'The surface was flat already.',
   unrolled: 'Laid flat: lengths on the sheet are those on the surface.',
@@ -99,31 +99,31 @@ export const VERDICTS = {
   doubtful: 'The flat sheet may be wrong: see the figures.',
 };
 
-/** What came of making a photo flat. @type {Record<Verdict, string>} */
-export const FLATTENED = {
+/** Verdicts on a dewarped photo. @type {Record<Verdict, string>} */
+export const DEWARP_VERDICTS = {
   flat: 'The page was flat already: the photo can be used as it is.',
   unrolled: 'Made flat: lengths are those on the page.',
   stretched: 'Made flat with stretch, because the surface cannot be laid flat as a whole: see the figures.',
   doubtful: 'The corners do not seem to be those of the page: a part of it is missing, or something beside it is shown. Move them onto the page.',
 };
 
-/** Of a page that is bent about parallel rulings. */
-export const PARALLEL = 'The surface bends in one direction only, so one profile was used for all of it.';
+/** Note on a photo that was dewarped by a cylinder. */
+export const CYLINDER_NOTE = 'The surface bends in one direction only, so one profile was used for all of it.';
 
-/** What is said of addresses. */
+/** Messages about the file of an address. */
 export const ADDRESS_WORDS = {
   lost: 'This browser has not kept the file of this address. Open the file again.',
   unkept: 'This browser could not keep the file (it is too large, or this is a private window). Open the file again.',
 };
 
-/** What is said of one of five λ. */
+/** Figures below each of the five pictures with different λ. */
 export const STRIP_WORDS = {
-  /** @param {number} pieces infinite where it is creased all over @param {number} distance from the input, as a share of the width */
+  /** @param {number} pieces infinite if the surface is creased all over @param {number} distance distance from the input, as a share of the width */
   figures: (pieces, distance) => `${Number.isFinite(pieces) ? `${count(pieces)} ${pieces === 1 ? 'piece' : 'pieces'}` : 'creased all over'}, off by ${percent(distance)}`,
 };
 
-/** What is said of a mesh that is solved whole. */
-export const WHOLE_WORDS = {
+/** Messages about the fit of a whole mesh. */
+export const MESH_FIT_WORDS = {
   kept: 'Cancelled. You see the surface from before.',
   solving: 'Solving the whole mesh…',
   /** @param {number} n */
@@ -145,7 +145,7 @@ export const WHOLE_WORDS = {
   proof: (passes, gap) => `The last of ${count(passes)} steps is proven within ${gap} of its optimum. This says nothing about the shape as a whole.`,
 };
 
-/** What is said of sheets to cut out. */
+/** Labels and messages about sheets to cut out. */
 export const SHEET_WORDS = {
   units: 'The file is in',
   /** @param {string} unit */
@@ -197,7 +197,7 @@ export const FORMAT_WORDS = {
   flatMesh: 'all sheets as one flat mesh',
 };
 
-/** What the dialog says that saves. */
+/** Messages and labels of the save dialog. */
 export const SAVE_WORDS = {
   pdf: 'to print or to send',
   write: 'Writing the file',
@@ -215,10 +215,10 @@ export const SAVE_WORDS = {
   papers: { a4: 'A4', letter: 'Letter', a5: 'A5', a3: 'A3', 'a4-wide': 'A4, lengthwise', 'letter-wide': 'Letter, lengthwise' },
 };
 
-/** A gap above this says little: the objective could be twice the optimum. */
-const USEFUL = 0.5;
+/** Maximum duality gap that messages mention. At this gap the objective may be twice the optimum. */
+const MAX_MENTIONED_GAP = 0.5;
 
-/** The headline before its pieces are counted. */
+/** Headlines, except those with the number of pieces. */
 export const HEADLINE_WORDS = {
   solved: 'The surface is made of pieces that bend like paper.',
   unsolved: 'The surface is not solved.',
@@ -228,7 +228,7 @@ export const HEADLINE_WORDS = {
   opened: (name) => `Opened ${name}.`,
 };
 
-/** What is said of a solve under way. */
+/** Messages about the progress of a run. */
 export const RUN_WORDS = {
   begun: 'Solving…',
   stopping: 'Stopping…',
@@ -237,16 +237,16 @@ export const RUN_WORDS = {
   coarse: (level, time) => `Coarse solve, ${count(level)} finer ${level === 1 ? 'one' : 'ones'} to come, ${time}`,
   /** @param {number | undefined} gap @param {number} iterations @param {string} time */
   fine: (gap, iterations, time) =>
-    `${gap !== undefined && gap < USEFUL ? `Within ${percentAtMost(gap)} of the best possible, ` : ''}${count(iterations)} iterations, ${time}`,
+    `${gap !== undefined && gap < MAX_MENTIONED_GAP ? `Within ${percentAtMost(gap)} of the best possible, ` : ''}${count(iterations)} iterations, ${time}`,
 };
 
 /**
- * The one sentence that matters.
+ * The certificate of a result as one sentence.
  * @param {Report} report
  */
-export function verdict({ gap, seconds: { total }, stopReason }) {
+export function certificateInWords({ gap, seconds: { total }, stopReason }) {
   const time = seconds(total);
-  const within = gap !== undefined && gap < USEFUL ? `proven within ${percentAtMost(gap)} of the best possible` : '';
+  const within = gap !== undefined && gap < MAX_MENTIONED_GAP ? `proven within ${percentAtMost(gap)} of the best possible` : '';
   if (stopReason === 'cancelled') {
     return `Cancelled after ${time}: ${within || 'too early to tell how far the surface is from the best possible'}.`;
   }
@@ -255,22 +255,22 @@ export function verdict({ gap, seconds: { total }, stopReason }) {
 }
 
 /**
- * How much closer to the truth the result is than the input was.
- * @param {number | undefined} factor undefined where the truth is not known
+ * The reduction of the noise as a sentence.
+ * @param {number | undefined} factor error of the input divided by that of the result; undefined if the truth is unknown
  */
-export function closer(factor) {
+export function noiseReductionInWords(factor) {
   if (factor === undefined) return '';
   if (factor >= 1.05) return `${factor >= 10 ? count(factor) : factor.toFixed(1)}× less noise (against the noise-free example).`;
   return 'No less noise (against the noise-free example).';
 }
 
 /**
- * What has come of it, in one sentence.
- * @param {number} pieces smooth ones; infinite where they are too small to be told apart
+ * The number of smooth pieces and creases as a sentence.
+ * @param {number} pieces number of smooth pieces; infinite if the surface is creased all over
  * @param {number} creases
- * @param {boolean} [oneSide] whether it is a mesh of which one side is seen
+ * @param {boolean} [oneSide] whether the surface is one side of a mesh
  */
-export function outcome(pieces, creases, oneSide = false) {
+export function piecesInWords(pieces, creases, oneSide = false) {
   const smooth = pieces === 1 ? 'One smooth piece' : `${count(pieces)} smooth pieces`;
   const none = oneSide ? ', no crease told apart' : ' without a crease';
   const meet = creases === 0
@@ -281,7 +281,7 @@ export function outcome(pieces, creases, oneSide = false) {
 }
 
 /**
- * When to use which λ: the paper's heuristic (Sec. 5), continued to both sides.
+ * What a λ is good for: the paper's heuristic (Sec. 5), extended to smaller and larger λ.
  * @param {number} lambda
  */
 export function lambdaHint(lambda) {
@@ -293,14 +293,14 @@ export function lambdaHint(lambda) {
   return 'Very close: keeps the input, and its noise.';
 }
 
-/** In its place, before it is known. */
-export const BY_NOISE = 'The page chooses λ from the noise of the input. This takes a few more solves.';
+/** Hint for automatic λ, before it is chosen. */
+export const AUTO_LAMBDA_HINT = 'The page chooses λ from the noise of the input. This takes a few more solves.';
 
 /**
- * How λ came about.
+ * How λ was chosen automatically; empty if it was given.
  * @param {Report} report
  */
-export function lambdaFound({ lambda, lambdaChoice }) {
+export function lambdaChoiceInWords({ lambda, lambdaChoice }) {
   if (!lambdaChoice) return '';
   const { reason, sigma, step, solves, correlationLength, ambiguous, residualExceedsNoise, residualRatio } = lambdaChoice;
   const length = correlationLength > 0 ? `, alike over distances of ${number(correlationLength)}` : '';
@@ -313,24 +313,24 @@ export function lambdaFound({ lambda, lambdaChoice }) {
     case 'prediction': return `Chosen automatically (${count(solves)} trial solves). ${noise}, in the unit of the heights.${doubt}`;
     case 'noise': return `Chosen automatically. ${noise}, in the unit of the heights.${doubt}`;
     case 'noNoise': return 'The input has no noise. A simpler surface (smaller λ) has fewer, larger sheets.';
-    default: return `Too few heights to measure their noise: λ = ${shortest(lambda)}.`;
+    default: return `Too few heights to measure their noise: λ = ${shortLambda(lambda)}.`;
   }
 }
 
-/** The same of a mesh solved whole. @param {MeshSurface['report']} report */
-export function wholeLambdaFound({ lambda, sigma }) {
-  if (sigma === undefined) return `Too few vertices to measure their noise: λ = ${shortest(lambda)}.`;
+/** How λ of a whole mesh was chosen automatically. @param {MeshSurface['report']} report */
+export function meshLambdaChoiceInWords({ lambda, sigma }) {
+  if (sigma === undefined) return `Too few vertices to measure their noise: λ = ${shortLambda(lambda)}.`;
   return `Chosen automatically. Noise: ${number(sigma)} along the normals, in the unit of the mesh.`;
 }
 
-/** In the place of a hint, where there are only constraints. */
-export const NO_FIDELITY = 'A design has no input to stay close to, so λ has no effect.';
+/** Hint for λ of a design. */
+export const DESIGN_LAMBDA_HINT = 'A design has no input to stay close to, so λ has no effect.';
 
 /**
- * A failure as one message.
+ * The message about an error.
  * @param {string} doing what could not be done
  * @param {unknown} error
  */
-export function complaint(doing, error) {
-  return `${doing}: ${plainly(error instanceof Error ? error.message : String(error))}.`;
+export function errorMessage(doing, error) {
+  return `${doing}: ${plainMessage(error instanceof Error ? error.message : String(error))}.`;
 }

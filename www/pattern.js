@@ -1,106 +1,111 @@
-/** A surface as sheets to cut out: how large, and what they are like in words. */
+/** Sheets to cut out of a surface: their size, options, figures and pictures. */
 import { count, number, numberAgainst, percent } from './format.js';
 
 /** @import {Analyses} from './analyses.js' */
 /** @import {Result} from './session.js' */
 /** @typedef {import('../pkg/types.js').Drawing} Drawing */
 
-/** @typedef {{ side: number } & Pick<import('../pkg/types.js').PatternOptions, 'tabs' | 'thickness' | 'innerRadius' | 'kFactor' | 'assembly'>} Cut all in millimetres; `side`: the longer one */
+/**
+ * Options of a pattern, with lengths in millimetres; `side` is the longer side of the finished surface.
+ * @typedef {{ side: number } & Pick<import('../pkg/types.js').PatternOptions, 'tabs' | 'thickness' | 'innerRadius' | 'kFactor' | 'assembly'>} CutOptions
+ */
 
-/** Strain that a sheet may have, and what is tried where no cut makes it so flat. */
-const STRAINS = [0.01, 0.1];
-/** Millimetres along the longer side, of what has no unit or could not be held. */
-const HANDY = 180;
+/** Maximum strains of the sheets, tried one after the other: the second only if no cut satisfies the first. */
+const STRAIN_LIMITS = [0.01, 0.1];
+/** Longer side of a finished surface without a unit, or whose true size is impractical, in millimetres. */
+const DEFAULT_FINISHED_SIDE_MM = 180;
 
-/** Of the result's plan. @param {Result} result */
+/** Longer side of a result seen from above, in the unit of its input. @param {Result} result */
 export function longerSide({ input: { width, height, pixelSize } }) {
   return Math.max(width, height) * pixelSize;
 }
 
 /**
- * How long the longer side is to be in millimetres, where nobody has said: in true size, if that can be held.
+ * The suggested longer side of a finished surface, in millimetres.
  * @param {Result} result
  */
-export function handySide(result) {
-  return handyLength(longerSide(result), result.input.unit);
+export function suggestedSideOf(result) {
+  return suggestedSide(longerSide(result), result.input.unit);
 }
 
-/** Millimetres in the units that a file may be in. */
-export const MILLIMETRES = { mm: 1, cm: 10, m: 1000, inch: 25.4 };
-/** Bounds of a longer side in millimetres that is taken in true size. */
-const [MIN_HANDY, MAX_HANDY] = [30, 2000];
-/** Bounds of a longer side in millimetres by which the unit of a file is guessed: what people cut at home. */
-const [MIN_LIKELY, MAX_LIKELY] = [80, 1000];
+/** Millimetres per unit of length. */
+export const MM_PER_UNIT = { mm: 1, cm: 10, m: 1000, inch: 25.4 };
+/** Bounds of a longer side for which true size is suggested, in millimetres. */
+const [MIN_TRUE_SIZE_SIDE_MM, MAX_TRUE_SIZE_SIDE_MM] = [30, 2000];
+/** Bounds of a longer side by which the unit of a file is guessed, in millimetres: sizes that people cut at home. */
+const [MIN_LIKELY_SIDE_MM, MAX_LIKELY_SIDE_MM] = [80, 1000];
 
-/** @typedef {keyof typeof MILLIMETRES} LengthUnit */
+/** @typedef {keyof typeof MM_PER_UNIT} LengthUnit */
 
 /**
- * A longer side in millimetres: in true size, if that can be held.
- * @param {number} length
+ * The suggested longer side of a finished surface, in millimetres: its true size, if that is practical.
+ * @param {number} length longer side in its unit
  * @param {string | null} [unit]
  */
-export function handyLength(length, unit) {
-  const side = length * (MILLIMETRES[/** @type {LengthUnit} */ (unit ?? '')] ?? NaN);
-  return side >= MIN_HANDY && side <= MAX_HANDY ? Number(side.toPrecision(4)) : HANDY;
+export function suggestedSide(length, unit) {
+  const side = length * (MM_PER_UNIT[/** @type {LengthUnit} */ (unit ?? '')] ?? NaN);
+  return side >= MIN_TRUE_SIZE_SIDE_MM && side <= MAX_TRUE_SIZE_SIDE_MM ? Number(side.toPrecision(4)) : DEFAULT_FINISHED_SIDE_MM;
 }
 
 /**
- * The unit in which a length of a file that does not say it can be held: millimetres, if possible.
- * @param {number} length
+ * The likely unit of a file that does not give one: the smallest in which its longer side has a size that people cut at home.
+ * @param {number} length longer side
  * @returns {LengthUnit | 'none'}
  */
 export function likelyUnit(length) {
   const units = /** @type {LengthUnit[]} */ (['mm', 'cm', 'm']);
-  return units.find((unit) => length * MILLIMETRES[unit] >= MIN_LIKELY && length * MILLIMETRES[unit] <= MAX_LIKELY) ?? 'none';
+  return units.find((unit) => length * MM_PER_UNIT[unit] >= MIN_LIKELY_SIDE_MM && length * MM_PER_UNIT[unit] <= MAX_LIKELY_SIDE_MM) ?? 'none';
 }
 
-/** The unit of an input, for what is cut of it. @param {{ unit?: string, kind?: string }} input @returns {LengthUnit | 'none' | 'unknown'} */
-export function unitOf({ unit, kind }) {
+/** The unit of an input: `none` for an example, `unknown` for a file that does not give one. @param {{ unit?: string, kind?: string }} input @returns {LengthUnit | 'none' | 'unknown'} */
+export function lengthUnitOf({ unit, kind }) {
   if (kind === undefined) return 'none';
-  return unit !== undefined && Object.hasOwn(MILLIMETRES, unit) ? /** @type {LengthUnit} */ (unit) : 'unknown';
+  return unit !== undefined && Object.hasOwn(MM_PER_UNIT, unit) ? /** @type {LengthUnit} */ (unit) : 'unknown';
 }
 
 /**
+ * Cuts a result into sheets, by the smallest of the strain limits that can be met.
  * @param {Analyses} analyses
  * @param {Result} result
- * @param {Cut} cut
- * @returns {Promise<Drawing>} with as little strain as it can be had with
+ * @param {CutOptions} options
+ * @returns {Promise<Drawing>}
  */
-export async function piecesOf(analyses, result, { side, ...options }) {
+export async function cutSheets(analyses, result, { side, ...options }) {
   const scale = side / longerSide(result);
-  const { count: pieces } = await analyses.pieces(result);
-  // Of what is creased all over no sheet is flat: to look for them takes a minute.
-  for (const maxStrain of Number.isFinite(pieces) ? STRAINS : STRAINS.slice(-1)) {
+  const { count: patches } = await analyses.patchCount(result);
+  // A surface that is creased all over cannot meet the first limit, and trying takes a minute.
+  for (const maxStrain of Number.isFinite(patches) ? STRAIN_LIMITS : STRAIN_LIMITS.slice(-1)) {
     try {
       return await analyses.pattern(result, { scale, ...options, maxStrain });
     } catch (error) {
-      const more = maxStrain !== STRAINS.at(-1) && error instanceof Error && 'code' in error && error.code === 'NOT_FLAT';
-      if (!more) throw error;
+      const hasNextLimit = maxStrain !== STRAIN_LIMITS.at(-1) && error instanceof Error && 'code' in error && error.code === 'NOT_FLAT';
+      if (!hasNextLimit) throw error;
     }
   }
   throw new Error('no cut lays it flat');
 }
 
-/** With how much strain it was to be had. @param {Drawing} drawing */
-export function strainOf({ summary: { strain } }) {
-  return STRAINS.find((most) => strain <= most) ?? STRAINS[STRAINS.length - 1];
+/** The strain limit that a drawing meets. @param {Drawing} drawing */
+export function strainLimitOf({ summary: { strain } }) {
+  return STRAIN_LIMITS.find((limit) => strain <= limit) ?? STRAIN_LIMITS[STRAIN_LIMITS.length - 1];
 }
 
-/** @param {Drawing} drawing */
-export function piecesInWords({ summary: { sheets, seams, folds, slits, strain } }) {
+/** The number of sheets, folds, seams and slits as a sentence. @param {Drawing} drawing */
+export function sheetsInWords({ summary: { sheets, seams, folds, slits, strain } }) {
   const cut = seams === 0 ? '' : `, to be joined along ${seams === 1 ? 'one cut' : `${count(seams)} cuts`}`;
   const fold = folds === 0 ? '' : `, with ${folds === 1 ? 'one fold' : `${count(folds)} folds`}`;
   const slit = slits === 0 ? '' : ` ${slits === 1 ? 'One slit lets' : `${count(slits)} slits let`} ${sheets === 1 ? 'it' : 'them'} lie flat.`;
-  const stretch = strain > STRAINS[0] ? ` Paper has to give by ${percent(strain)}: use something that stretches, or a smaller λ.` : '';
+  const stretch = strain > STRAIN_LIMITS[0] ? ` Paper has to give by ${percent(strain)}: use something that stretches, or a smaller λ.` : '';
   return `${sheets === 1 ? 'One sheet' : `${count(sheets)} sheets`}${fold}${cut}.${slit}${stretch}`;
 }
 
 /**
+ * Figures of a drawing: names and values.
  * @param {Drawing} drawing
  * @returns {[string, string][]}
  */
-export function piecesInFigures({ width, height, summary: { cutLength, mountainLength, valleyLength, area, strain, mismatch, worstAngle, a4, letter } }) {
-  const off = worstAngle && Math.abs(worstAngle.flat - worstAngle.surface);
+export function sheetFigures({ width, height, summary: { cutLength, mountainLength, valleyLength, area, strain, mismatch, worstAngle, a4, letter } }) {
+  const angleMismatch = worstAngle && Math.abs(worstAngle.flat - worstAngle.surface);
   return [
     ['Drawing', `${number(width, 3)} × ${number(height, 3)} mm`],
     ['Pages', `${count(a4)} of A4, ${count(letter)} of Letter`],
@@ -109,32 +114,32 @@ export function piecesInFigures({ width, height, summary: { cutLength, mountainL
     ['Area', `${number(area / 100)} cm²`],
     ['Largest strain', percent(strain)],
     ['Length mismatch of joints', percent(mismatch)],
-    ...(off === undefined ? [] : [/** @type {[string, string]} */ (['Angle mismatch of joints', `${numberAgainst(off, 360)}°`])]),
+    ...(angleMismatch === undefined ? [] : [/** @type {[string, string]} */ (['Angle mismatch of joints', `${numberAgainst(angleMismatch, 360)}°`])]),
   ];
 }
 
 /**
- * A drawing to be looked at, as the SVG that is saved.
+ * Displays a drawing as an image element, made from the SVG file.
  * @param {(drawing: Drawing) => Promise<Uint8Array<ArrayBuffer>>} svg
  * @param {Drawing} drawing
  */
-export async function previewOf(svg, drawing) {
+export async function drawingImage(svg, drawing) {
   const image = await imageOf(await svg(drawing));
-  image.alt = piecesInWords(drawing);
+  image.alt = sheetsInWords(drawing);
   return image;
 }
 
-/** How sheets are put together, as a GLB file. @param {Drawing} drawing */
-export function modelOf(drawing) {
+/** An animation of the assembly, as a GLB file. @param {Drawing} drawing */
+export function assemblyModel(drawing) {
   return assemblyOf(drawing).model;
 }
 
 /**
- * The finished piece at an angle, with the numbers of sheets and the letters of joints: a PNG file on white.
+ * A picture of the assembled sheets, seen at an angle, with the numbers of sheets and the letters of joints: a PNG file.
  * @param {Drawing} drawing
  * @returns {Promise<Uint8Array<ArrayBuffer>>}
  */
-export async function numberedPicture(drawing) {
+export async function assemblyPicture(drawing) {
   const { model, picture } = assemblyOf(drawing);
   const { builtPicture } = await import('./surface/built-picture.js');
   const png = await builtPicture(model, new TextDecoder().decode(picture)).convertToBlob({ type: 'image/png' });

@@ -1,23 +1,24 @@
-/** Pictures as pixels: read and reduced in the page's worker. */
-import { work } from './surface/work.js';
+/** Reads and reduces pictures in the page's worker. */
+import { callWorker } from './surface/worker-client.js';
 
 /** @typedef {{ width: number, height: number, data: Uint8ClampedArray<ArrayBuffer> }} Pixels RGBA */
 
 /**
- * Whatever pictures the browser knows.
+ * Reads a picture of any format that the browser supports.
  * @param {File} file
- * @param {number} [times] by which the sides are reduced
+ * @param {number} [reduction] factor by which the sides are reduced
  */
-export async function pixelsOf(file, times) {
-  const { width, height, data } = await work('pictureOf', file, times);
+export async function readPicture(file, reduction) {
+  const { width, height, data } = await callWorker('decodePicture', file, reduction);
   return new ImageData(data, width, height);
 }
 
 /**
+ * Reduces a photo, and converts the result to grey.
  * @param {Pixels} pixels
- * @param {number} scale at most 1
+ * @param {number} scale factor of its sides, at most 1
  */
 export async function reducedPhoto(pixels, scale) {
-  const { width, height, data, grey } = await work('photoAt', pixels, scale);
+  const { width, height, data, grey } = await callWorker('reducePhoto', pixels, scale);
   return { small: new ImageData(data, width, height), grey: { width, height, scale, data: grey } };
 }

@@ -7,7 +7,7 @@ import { number, superscript } from './format.js';
  * @typedef {object} Curve
  * @property {string} colour
  * @property {string} label
- * @property {readonly (readonly [number, number])[]} points a NaN lifts the pen
+ * @property {readonly (readonly [number, number])[]} points a value of NaN interrupts the line
  */
 
 /**
@@ -20,10 +20,12 @@ import { number, superscript } from './format.js';
  * @property {{ ink: string, muted: string, line: string }} palette
  */
 
-/** Least distance between the ticks' labels. */
-const ROOM = { across: 64, up: 22 };
+/** Minimum distance of the tick labels on the x-axis, in CSS pixels. */
+const MIN_X_TICK_DISTANCE_PX = 64;
+/** Minimum distance of the tick labels on the y-axis, in CSS pixels. */
+const MIN_Y_TICK_DISTANCE_PX = 22;
 
-/** @param {Axes} axes */
+/** Functions from values to positions on the canvas. @param {Axes} axes */
 export function scales({ box, xMax, yRange: [low, high] }) {
   const [from, to] = [Math.log(low), Math.log(high)];
   return {
@@ -35,6 +37,7 @@ export function scales({ box, xMax, yRange: [low, high] }) {
 }
 
 /**
+ * Draws axes with ticks, labels and a title.
  * @param {CanvasRenderingContext2D} context
  * @param {Axes} axes
  */
@@ -47,16 +50,16 @@ export function drawAxes(context, axes) {
   context.fillStyle = palette.muted;
   context.textBaseline = 'middle';
   context.textAlign = 'right';
-  for (const tick of logTicks(yRange, box.height / ROOM.up)) {
+  for (const tick of logTicks(yRange, box.height / MIN_Y_TICK_DISTANCE_PX)) {
     const at = Math.round(y(tick)) + 0.5;
-    rule(context, box.left, at, box.left + box.width, at);
+    drawLine(context, box.left, at, box.left + box.width, at);
     context.fillText(tickLabel(tick), box.left - 6, at);
   }
   context.textAlign = 'center';
   context.textBaseline = 'top';
-  for (const tick of linearTicks(xMax, box.width / ROOM.across)) {
+  for (const tick of linearTicks(xMax, box.width / MIN_X_TICK_DISTANCE_PX)) {
     const at = Math.round(x(tick)) + 0.5;
-    rule(context, at, box.top, at, bottom);
+    drawLine(context, at, box.top, at, bottom);
     context.fillText(number(tick), at, bottom + 5);
   }
   context.textAlign = 'right';
@@ -68,6 +71,7 @@ export function drawAxes(context, axes) {
 }
 
 /**
+ * Draws a curve, with a dot at its last point.
  * @param {CanvasRenderingContext2D} context
  * @param {Axes} axes
  * @param {Curve} curve
@@ -82,7 +86,7 @@ export function drawCurve(context, axes, { colour, points }) {
   context.beginPath();
   let drawing = false;
   for (const [at, value] of points) {
-    // What is below the range, perhaps not even positive, comes in from below.
+    // Values below the range may be negative; clamping keeps their logarithm finite.
     const [px, py] = [x(at), y(Math.max(value, yRange[0] / 100))];
     if (drawing) context.lineTo(px, py);
     else context.moveTo(px, py);
@@ -103,7 +107,7 @@ export function drawCurve(context, axes, { colour, points }) {
 }
 
 /**
- * The curves' names in their colours, from the right end of the title's line.
+ * Draws a legend of curves, right-aligned in the line of the title.
  * @param {CanvasRenderingContext2D} context
  * @param {Axes} axes
  * @param {readonly Curve[]} curves
@@ -123,7 +127,7 @@ export function drawLegend(context, { box, palette }, curves) {
 }
 
 /**
- * A dashed level with its name.
+ * Draws a dashed horizontal line at a value, with a label.
  * @param {CanvasRenderingContext2D} context
  * @param {Axes} axes
  * @param {number} value
@@ -135,7 +139,7 @@ export function drawLevel(context, axes, value, label) {
   context.save();
   context.setLineDash([4, 4]);
   context.strokeStyle = palette.muted;
-  rule(context, box.left, at, box.left + box.width, at);
+  drawLine(context, box.left, at, box.left + box.width, at);
   context.restore();
   context.fillStyle = palette.muted;
   context.textAlign = 'left';
@@ -144,10 +148,11 @@ export function drawLevel(context, axes, value, label) {
 }
 
 /**
+ * Draws a straight line.
  * @param {CanvasRenderingContext2D} context
  * @param {number} x0 @param {number} y0 @param {number} x1 @param {number} y1
  */
-function rule(context, x0, y0, x1, y1) {
+function drawLine(context, x0, y0, x1, y1) {
   context.beginPath();
   context.moveTo(x0, y0);
   context.lineTo(x1, y1);
@@ -155,25 +160,25 @@ function rule(context, x0, y0, x1, y1) {
 }
 
 /**
- * Round values from 0 to `max`, at most about `most` of them.
- * @param {number} max
- * @param {number} most
+ * Ticks of a linear axis: multiples of a round step from 0 on.
+ * @param {number} max end of the axis
+ * @param {number} maxCount approximate maximum number of ticks
  */
-export function linearTicks(max, most) {
-  const rough = max / Math.max(1, most);
-  const power = 10 ** Math.floor(Math.log10(rough));
-  const step = [1, 2, 5, 10].map((m) => m * power).find((s) => s >= rough) ?? rough;
+export function linearTicks(max, maxCount) {
+  const minStep = max / Math.max(1, maxCount);
+  const power = 10 ** Math.floor(Math.log10(minStep));
+  const step = [1, 2, 5, 10].map((m) => m * power).find((s) => s >= minStep) ?? minStep;
   const ticks = [];
   for (let k = 0; k * step <= max * (1 + 1e-9); k++) ticks.push(k * step);
   return ticks;
 }
 
 /**
- * Powers of ten within the range, with round multiples of them where there is room.
+ * Ticks of a logarithmic axis: powers of ten, and round multiples of them where these fit.
  * @param {readonly [number, number]} range
- * @param {number} most
+ * @param {number} maxCount maximum number of ticks
  */
-export function logTicks([low, high], most) {
+export function logTicks([low, high], maxCount) {
   const ticks = (/** @type {readonly number[]} */ multiples) => {
     const found = [];
     for (let e = Math.floor(Math.log10(low)); e <= Math.log10(high); e++) {
@@ -182,10 +187,10 @@ export function logTicks([low, high], most) {
     return found.filter((tick) => tick >= low * 0.999 && tick <= high * 1.001);
   };
   const choices = [[1, 1.2, 1.5, 2, 2.5, 3, 4, 5, 6, 8], [1, 2, 5], [1, 3], [1]].map(ticks);
-  const fitting = choices.find((choice) => choice.length <= most);
+  const fitting = choices.find((choice) => choice.length <= maxCount);
   if (fitting) return fitting;
   const powers = choices[choices.length - 1];
-  const every = Math.ceil(powers.length / Math.max(1, most));
+  const every = Math.ceil(powers.length / Math.max(1, maxCount));
   return powers.filter((_, i) => i % every === 0);
 }
 

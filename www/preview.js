@@ -1,178 +1,183 @@
 /**
- * Pictures of what a setting gives, while the certified answer is still to come: the same input on
- * lattices from coarse to fine, in a worker of its own.
+ * Previews: approximate results of an input on lattices from coarse to fine, solved in a worker of their own while the
+ * certified result is still being computed.
  *
- * The coarsest run always ends, so that each of many wishes in a row is followed by a picture; a finer one
- * gives way to a newer wish.
+ * The coarsest solve always finishes, so that each of many requests in a row yields a preview; a finer one is aborted by
+ * a newer request.
  */
 import { settingsFor } from './design.js';
-import { coarse } from './surface/coarse.js';
-import { smallOf } from './surface/known.js';
-import { PREVIEW } from './surface/look.js';
+import { downsample } from './surface/downsampling.js';
+import { previewHeightsOf } from './surface/derived-data.js';
+import { PREVIEW_SIDE_PIXELS } from './surface/textures.js';
 
 /** @import {Api, OpenSolver} from './api.js' */
 /** @import {Input, Settings} from './session.js' */
 /** @typedef {{ width: number, height: number, pixelSize: number, data: ArrayLike<number> }} Image */
 /** @typedef {{ input: Input, lambda: number, image: Image }} Preview */
-/** @typedef {{ input: Input, pixelSize: number, solver: Promise<OpenSolver> }} Rung */
+/** @typedef {{ input: Input, pixelSize: number, solver: Promise<OpenSolver> }} PreviewLevel */
 
-/** Pixels along the longer side: some 30 ms of work, and four and four times as much. */
-const SIDES = [96, 192, PREVIEW];
-/** A design has nothing to begin with but its pins, and takes longer: a small one, then itself, from the last one for so many iterations. */
-const DESIGN = [48, 100];
-const DESIGN_ITERATIONS = 8;
-/** Milliseconds without a wish after which the worker's memory is given back. */
-const REST = 10_000;
-/** What a picture needs no better than. */
-const GAP = 0.1;
+/** Longer sides of the lattices from coarse to fine, in pixels: the first takes about 30 ms, each further one four times as long. */
+const PREVIEW_SIDES_PIXELS = [96, 192, PREVIEW_SIDE_PIXELS];
+/** Longer sides for a design, in pixels. They are smaller because its few constraints need more iterations. */
+const DESIGN_PREVIEW_SIDES_PIXELS = [48, 100];
+/** Maximum number of iterations of a design's finer preview, which starts warm from the last one. */
+const MAX_DESIGN_PREVIEW_ITERATIONS = 8;
+/** Idle time after which the worker is disposed of, in milliseconds. */
+const WORKER_IDLE_MS = 10_000;
+/** Duality gap at which a preview stops. */
+const PREVIEW_GAP = 0.1;
 
-export class Live {
+export class PreviewSolver {
   #api;
-  #events;
+  #callbacks;
   /** @type {InstanceType<Api['DevelopableWorker']> | null} */
   #worker = null;
-  /** Those that were needed so far, by the side. @type {Map<number, Rung>} */
-  #rungs = new Map();
-  /** @type {{ input: Input, settings: Settings, lambda?: number, abort: AbortController } | null} */
-  #wish = null;
-  #climbing = false;
-  #resting = 0;
-  /** The last that was followed to the end. @type {{ input: Input, settings: Settings } | null} */
-  #done = null;
+  /** Open solvers by the longer side of their lattice. @type {Map<number, PreviewLevel>} */
+  #levels = new Map();
+  /** The newest request, until its finest preview is ready. @type {{ input: Input, settings: Settings, lambda?: number, abort: AbortController } | null} */
+  #request = null;
+  #isSolving = false;
+  /** Timer that disposes of the idle worker. */
+  #idleTimer = 0;
+  /** The last request that was finished. @type {{ input: Input, settings: Settings } | null} */
+  #finished = null;
 
   /**
    * @param {Api} api
-   * @param {{ shown: (preview: Preview) => void, rested: (settings: Settings) => void }} events
-   *   `rested`: the finest picture of the newest wish is there
+   * @param {{ onPreview: (preview: Preview) => void, onFinished: (settings: Settings) => void }} callbacks
+   *   `onFinished`: the finest preview of the newest request is ready
    */
-  constructor(api, events) {
+  constructor(api, callbacks) {
     this.#api = api;
-    this.#events = events;
+    this.#callbacks = callbacks;
   }
 
-  /** Starts the worker before there is anything to show. What fails here fails again, and is told, where it is needed. */
+  /** Starts the worker before the first request. An error here is ignored: it occurs again, and is reported, where the worker is needed. */
   start() {
-    this.#own().init().catch(() => {});
-    this.#rest();
+    this.#connectedWorker().init().catch(() => {});
+    this.#disposeWhenIdle();
   }
 
-  #own() {
+  #connectedWorker() {
     return this.#worker?.connected ? this.#worker : (this.#worker = new this.#api.DevelopableWorker());
   }
 
   /**
+   * Requests previews of an input, in place of those requested before.
    * @param {Input} input
    * @param {Settings} settings
-   * @param {number} [lambda] in the place of `auto`, where one was found before
+   * @param {number} [lambda] λ of the last result, which replaces `auto`
    */
-  wish(input, settings, lambda) {
-    if ([this.#wish, this.#done].some((one) => one?.input === input && one.settings === settings)) return;
-    this.#wish?.abort.abort();
-    this.#wish = { input, settings, lambda, abort: new AbortController() };
-    if (!this.#climbing) void this.#climb();
+  request(input, settings, lambda) {
+    if ([this.#request, this.#finished].some((one) => one?.input === input && one.settings === settings)) return;
+    this.#request?.abort.abort();
+    this.#request = { input, settings, lambda, abort: new AbortController() };
+    if (!this.#isSolving) void this.#solveRequests();
   }
 
-  /** Whether there is more to come of the newest wish. */
+  /** Whether the newest request is not finished yet. */
   get busy() {
-    return this.#wish !== null;
+    return this.#request !== null;
   }
 
-  /** No more pictures are wanted. */
-  stop() {
-    this.#wish?.abort.abort();
-    this.#wish = null;
+  /** Cancels the newest request. */
+  cancel() {
+    this.#request?.abort.abort();
+    this.#request = null;
   }
 
-  /** From rung to rung for one wish, then for the newest one, until there is none. */
-  async #climb() {
-    this.#climbing = true;
-    clearTimeout(this.#resting);
-    for (let wish = this.#wish; wish; wish = this.#wish) {
-      const { input, settings, abort } = wish;
+  /** Solves the newest request on all its lattices, from coarse to fine, until there is no request left. */
+  async #solveRequests() {
+    this.#isSolving = true;
+    clearTimeout(this.#idleTimer);
+    for (let request = this.#request; request; request = this.#request) {
+      const { input, settings, abort } = request;
       const wanted = settingsFor(input, settings);
-      /** The coarsest lattice tells the finer ones what it has found. @type {Settings['lambda']} */
-      let lambda = wanted.lambda === 'auto' ? wish.lambda ?? 'auto' : wanted.lambda;
-      const sides = input.design ? DESIGN : SIDES.filter((side, i) => i === 0 || 1.5 * side < Math.max(input.width, input.height));
+      /** The coarsest lattice chooses λ for the finer ones. @type {Settings['lambda']} */
+      let lambda = wanted.lambda === 'auto' ? request.lambda ?? 'auto' : wanted.lambda;
+      const sides = input.design
+        ? DESIGN_PREVIEW_SIDES_PIXELS
+        : PREVIEW_SIDES_PIXELS.filter((side, i) => i === 0 || 1.5 * side < Math.max(input.width, input.height));
       for (let i = 0; i < sides.length && (i === 0 || !abort.signal.aborted); i++) {
         try {
-          const picture = await this.#solve(input, { ...wanted, lambda }, sides[i], i === 0 ? undefined : abort.signal);
-          lambda = picture.lambda;
-          if (this.#wish?.input === input) this.#events.shown(picture);
+          const preview = await this.#solve(input, { ...wanted, lambda }, sides[i], i === 0 ? undefined : abort.signal);
+          lambda = preview.lambda;
+          if (this.#request?.input === input) this.#callbacks.onPreview(preview);
         } catch {
-          // The run that certifies says what is wrong, if anything is.
+          // The certified run reports the error.
           break;
         }
       }
-      if (this.#wish !== wish) continue;
-      this.#wish = null;
-      this.#done = wish;
-      this.#events.rested(settings);
+      if (this.#request !== request) continue;
+      this.#request = null;
+      this.#finished = request;
+      this.#callbacks.onFinished(settings);
     }
-    this.#climbing = false;
-    this.#rest();
+    this.#isSolving = false;
+    this.#disposeWhenIdle();
   }
 
-  /** Gives the worker's memory back, unless there is another wish before. */
-  #rest() {
-    this.#resting = window.setTimeout(() => {
+  /** Disposes of the worker, and frees its memory, unless there is another request before. */
+  #disposeWhenIdle() {
+    this.#idleTimer = window.setTimeout(() => {
       this.#worker?.dispose();
       this.#worker = null;
-      this.#rungs.clear();
-    }, REST);
+      this.#levels.clear();
+    }, WORKER_IDLE_MS);
   }
 
   /**
    * @param {Input} input
    * @param {Pick<ReturnType<typeof settingsFor>, 'lambda' | 'energy'>} settings
-   * @param {number} side
+   * @param {number} side longer side of the lattice in pixels
    * @param {AbortSignal} [signal]
    * @returns {Promise<Preview>}
    */
   async #solve(input, { lambda, energy }, side, signal) {
-    const { pixelSize, solver } = this.#rung(input, side);
-    // Passes at creases are for the answer.
+    const { pixelSize, solver } = this.#levelFor(input, side);
+    // Crease passes are left to the certified run.
     const passes = energy === 'huber' ? { creasePasses: 0 } : {};
-    const few = input.design && side > DESIGN[0] ? { maxIterations: DESIGN_ITERATIONS } : {};
-    const surface = await (await solver).fit({ lambda, energy, ...passes, ...few, gap: GAP, signal });
+    const limit = input.design && side > DESIGN_PREVIEW_SIDES_PIXELS[0] ? { maxIterations: MAX_DESIGN_PREVIEW_ITERATIONS } : {};
+    const surface = await (await solver).fit({ lambda, energy, ...passes, ...limit, gap: PREVIEW_GAP, signal });
     const { image, report } = surface;
     if (!image) throw new Error('it has no image');
     return { input, lambda: report.lambda, image: { ...image, pixelSize } };
   }
 
-  /** The rung for an input, which goes on from its last answer where only heights have changed. @param {Input} input @param {number} side */
-  #rung(input, side) {
-    const worker = this.#own();
-    const found = this.#rungs.get(side);
+  /** The level for an input; if only its heights have changed, its solver starts warm from the last preview. @param {Input} input @param {number} side */
+  #levelFor(input, side) {
+    const worker = this.#connectedWorker();
+    const found = this.#levels.get(side);
     if (found?.input === input) return found;
     const { pixelSize, heights } = reducedTo(input, side);
-    const again = found && isAlike(found.input, input) && worker.connected;
-    const solver = again
+    const reusable = found && hasSameFrame(found.input, input) && worker.connected;
+    const solver = reusable
       ? found.solver.then((open) => open.replace(heights).then(() => open))
       : worker.open(heights);
-    if (found && !again) found.solver.then((open) => open.dispose(), () => {});
-    // Told where it is waited for.
-    solver.catch(() => this.#rungs.delete(side));
-    const rung = { input, pixelSize, solver };
-    this.#rungs.set(side, rung);
-    return rung;
+    if (found && !reusable) found.solver.then((open) => open.dispose(), () => {});
+    // Whoever awaits the solver handles its error.
+    solver.catch(() => this.#levels.delete(side));
+    const level = { input, pixelSize, solver };
+    this.#levels.set(side, level);
+    return level;
   }
 }
 
-/** @param {Input} a @param {Input} b */
-function isAlike(a, b) {
+/** Whether two inputs differ in their heights at most. @param {Input} a @param {Input} b */
+function hasSameFrame(a, b) {
   return ['width', 'height', 'pixelSize', 'heightScale', 'design'].every((name) => a[/** @type {keyof Input} */ (name)] === b[/** @type {keyof Input} */ (name)]);
 }
 
 /**
- * An input on fewer pixels, as the package takes it.
+ * Reduces an input to fewer pixels.
  * @param {Input} input
- * @param {number} side
+ * @param {number} side longer side in pixels
  */
-function reducedTo({ width, height, data, pixelSize: each, heightScale, design, confidence, constraints }, side) {
+function reducedTo({ width, height, data, pixelSize: inputPixelSize, heightScale, design, confidence, constraints }, side) {
   /** @param {ArrayLike<number>} values */
-  const reduced = (values) => coarse(smallOf({ width, height, data: values }), side);
+  const reduced = (values) => downsample(previewHeightsOf({ width, height, data: values }), side);
   const heights = reduced(data);
-  const pixelSize = (each * width) / heights.width;
+  const pixelSize = (inputPixelSize * width) / heights.width;
   const frame = { width: heights.width, height: heights.height, pixelSize, heightScale };
   const known = { confidence: confidence && reduced(confidence).data, constraints: constraints && reduced(constraints).data };
   return { pixelSize, heights: design ? { ...frame, constraints: heights.data } : { ...frame, data: heights.data, ...known } };

@@ -1,33 +1,37 @@
-/** Files that were opened last, kept in this browser, so that a reload finds them again. */
+/** Storage of the files that were opened last, in IndexedDB, so that a reload of the page can open them again. */
 
-/** @typedef {{ id?: number, files: File[], time: number }} Kept */
+/** @typedef {{ id?: number, files: File[], time: number }} RecentFiles */
 
-const [NAME, STORE] = ['developable', 'files'];
-/** How many are kept, and bytes of all together. */
-const [MOST, ROOM] = [6, 256e6];
+const DATABASE_NAME = 'developable';
+const STORE_NAME = 'files';
+/** Maximum number of entries in the storage. */
+const MAX_ENTRIES = 6;
+/** Maximum size of all stored files together, in bytes. */
+const MAX_STORED_BYTES = 256e6;
 
 /** @returns {Promise<IDBDatabase>} */
 function database() {
   return new Promise((resolve, reject) => {
-    const request = indexedDB.open(NAME, 1);
-    request.onupgradeneeded = () => request.result.createObjectStore(STORE, { keyPath: 'id', autoIncrement: true });
+    const request = indexedDB.open(DATABASE_NAME, 1);
+    request.onupgradeneeded = () => request.result.createObjectStore(STORE_NAME, { keyPath: 'id', autoIncrement: true });
     request.onsuccess = () => resolve(request.result);
     request.onerror = () => reject(request.error);
   });
 }
 
 /**
+ * Makes one request to the storage, in a transaction of its own.
  * @template T
  * @param {IDBTransactionMode} mode
- * @param {(store: IDBObjectStore) => IDBRequest<T>} ask
+ * @param {(store: IDBObjectStore) => IDBRequest<T>} makeRequest
  * @returns {Promise<T>}
  */
-async function store(mode, ask) {
+async function requestStore(mode, makeRequest) {
   const open = await database();
   try {
     return await new Promise((resolve, reject) => {
-      const transaction = open.transaction(STORE, mode);
-      const request = ask(transaction.objectStore(STORE));
+      const transaction = open.transaction(STORE_NAME, mode);
+      const request = makeRequest(transaction.objectStore(STORE_NAME));
       transaction.oncomplete = () => resolve(request.result);
       transaction.onabort = transaction.onerror = () => reject(transaction.error);
     });
@@ -36,37 +40,37 @@ async function store(mode, ask) {
   }
 }
 
-/** The latest first. @returns {Promise<(Kept & { id: number })[]>} none where the browser keeps nothing */
+/** All entries of the storage, the newest first. @returns {Promise<(RecentFiles & { id: number })[]>} empty if the browser stores nothing */
 export async function recentFiles() {
-  const all = await store('readonly', (files) => files.getAll()).catch(() => []);
+  const all = await requestStore('readonly', (files) => files.getAll()).catch(() => []);
   return all.sort((a, b) => b.time - a.time);
 }
 
-/** @param {number} id */
-export async function keptFiles(id) {
-  const kept = await store('readonly', (files) => files.get(id)).catch(() => undefined);
-  return /** @type {Kept | undefined} */ (kept)?.files;
+/** The files of one entry, or undefined if there is none. @param {number} id */
+export async function storedFiles(id) {
+  const entry = await requestStore('readonly', (files) => files.get(id)).catch(() => undefined);
+  return /** @type {RecentFiles | undefined} */ (entry)?.files;
 }
 
 /**
- * Keeps what was opened, and lets go of the oldest.
+ * Stores files that were opened, and deletes the oldest entries where there are too many.
  * @param {readonly File[]} opened
- * @returns {Promise<number | undefined>} its number, where it could be kept
+ * @returns {Promise<number | undefined>} id of the entry; undefined if the files could not be stored
  */
-export async function keepFiles(opened) {
+export async function storeFiles(opened) {
   const size = sizeOf(opened);
-  if (size > ROOM / 2) return undefined;
+  if (size > MAX_STORED_BYTES / 2) return undefined;
   try {
     const recent = await recentFiles();
-    const same = recent.find(({ files }) => marksOf(files) === marksOf(opened));
-    let room = ROOM - size;
+    const same = recent.find(({ files }) => fingerprint(files) === fingerprint(opened));
+    let freeBytes = MAX_STORED_BYTES - size;
     for (const [i, { id, files }] of recent.filter((one) => one !== same).entries()) {
-      room -= sizeOf(files);
-      if (i >= MOST - 1 || room < 0) await store('readwrite', (all) => all.delete(id));
+      freeBytes -= sizeOf(files);
+      if (i >= MAX_ENTRIES - 1 || freeBytes < 0) await requestStore('readwrite', (all) => all.delete(id));
     }
-    return Number(await store('readwrite', (all) => all.put({ ...(same && { id: same.id }), files: [...opened], time: Date.now() })));
+    return Number(await requestStore('readwrite', (all) => all.put({ ...(same && { id: same.id }), files: [...opened], time: Date.now() })));
   } catch {
-    // A private window, or a full disk: it works without.
+    // A private window, or a full disk: the page works without the storage.
     return undefined;
   }
 }
@@ -76,12 +80,12 @@ export function namesOf(files) {
   return files.map(({ name }) => name).join(', ');
 }
 
-/** What tells files from others. @param {readonly File[]} files */
-function marksOf(files) {
+/** A key that is equal for equal files. @param {readonly File[]} files */
+function fingerprint(files) {
   return files.map(({ name, size, lastModified }) => `${name} ${size} ${lastModified}`).sort().join();
 }
 
-/** @param {readonly File[]} files */
+/** Size of all files together, in bytes. @param {readonly File[]} files */
 function sizeOf(files) {
   return files.reduce((sum, { size }) => sum + size, 0);
 }

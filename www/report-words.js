@@ -1,7 +1,7 @@
-/** What each row of the report means, in plain words. */
+/** Explanations of the rows of the report. */
 import { count } from './format.js';
 
-/** Meanings of the rows, by what the row is about. */
+/** Explanations, by the quantity of the row. */
 export const REPORT_WORDS = {
   gap: 'No surface has an energy that is lower by more than this share.',
   noGap: 'The energy is almost zero, so a share of it would say nothing.',

@@ -1,21 +1,23 @@
-/** A page of text to be laid on examples. */
+/** A picture of a page of text, which is printed on the surfaces of examples. */
 
-/** Pixels along its longer side. */
-const PRINT = 1400;
+/** Longer side of the page, in pixels. */
+const PAGE_SIDE_PIXELS = 1400;
 
-const TEXT = 'What bends like paper can be laid flat again without a stretch or a tear. '
+/** Text of the page, which is repeated until the page is full. */
+const PAGE_TEXT = 'What bends like paper can be laid flat again without a stretch or a tear. '
   + 'Seen from above, lines that were printed straight become curves, and what slants away becomes narrow. '
   + 'From the heights it follows how far each point is from its neighbours along the sheet, and so where it was before the sheet was bent. ';
 
 /**
- * @param {number} wide
- * @param {number} high
+ * Draws the page.
+ * @param {number} wide width, in any unit
+ * @param {number} high height, in the same unit
  * @returns {ImageData}
  */
-export function printed(wide, high) {
-  const scale = (PRINT - 1) / Math.max(wide, high);
+export function samplePage(wide, high) {
+  const scale = (PAGE_SIDE_PIXELS - 1) / Math.max(wide, high);
   const [width, height] = [Math.ceil(wide * scale) + 1, Math.ceil(high * scale) + 1];
-  // In a worker, too.
+  // An offscreen canvas also exists in workers.
   const context = new OffscreenCanvas(width, height).getContext('2d', { willReadFrequently: true });
   if (!context) return new ImageData(width, height);
   context.fillStyle = '#fbfaf5';
@@ -26,7 +28,7 @@ export function printed(wide, high) {
   context.fillText('On laying paper flat', margin, margin + line * 1.4);
   context.fillStyle = '#23282d';
   context.font = `${line * 0.78}px serif`;
-  const words = TEXT.repeat(12).split(' ');
+  const words = PAGE_TEXT.repeat(12).split(' ');
   const foot = height - margin - 4 * line;
   for (let y = margin + 3.6 * line; y < foot; y += line) {
     let text = '';

@@ -1,17 +1,15 @@
 /**
- * What the page is about, without any of its elements: one input, its settings,
- * at most one run, and the last result.
+ * The state of the page, without its elements: one input, its settings, at most one run, and the last result.
  *
- * Two rules keep it simple. The newest wish wins: a second run, or another input,
- * ends the one before. And once an input has been run, every change of a setting
- * runs it again, so that what is seen is what is set. Until the answer is there, and while a setting is
- * still being chosen, previews show what it is about (`preview.js`).
+ * Two rules hold. The newest request wins: a second run, or another input, aborts the run before it. Once an input has
+ * been solved, every change of a setting solves it again, so that the result always belongs to the settings shown.
+ * Until a result is ready, and while a slider is dragged, `preview.js` shows approximate results.
  */
 import { settingsFor } from './design.js';
-import { breath } from './dom.js';
+import { nextTask } from './dom.js';
 import { Events } from './events.js';
-import { Live } from './preview.js';
-import { lookAt, lookAtOnce, lookInto } from './surface/known.js';
+import { PreviewSolver } from './preview.js';
+import { prepareInput, prepareSmallInput, prepareResult } from './surface/derived-data.js';
 
 /** @import {Design} from './design.js' */
 /** @import {Preview} from './preview.js' */
@@ -19,86 +17,95 @@ import { lookAt, lookAtOnce, lookInto } from './surface/known.js';
 
 /**
  * @typedef {object} Input
- * @property {string} name what to call it, and what saved files are named after
- * @property {number} width
- * @property {number} height
- * @property {Float64Array} data steps of height, row by row, NaN for no data
- * @property {boolean} [design] the data are constraints, and there is nothing else
- * @property {Float64Array | Float32Array} [confidence] how far each height is to be trusted
- * @property {Float64Array} [constraints] steps of height to be met exactly, NaN for none
+ * @property {string} name its title, and the first part of the names of saved files
+ * @property {number} width pixels
+ * @property {number} height pixels
+ * @property {Float64Array} data heights in steps of `heightScale`, row by row; NaN is no data
+ * @property {boolean} [design] whether `data` are constraints, without measured heights
+ * @property {Float64Array | Float32Array} [confidence] weight of each height
+ * @property {Float64Array} [constraints] heights that are met exactly, in steps of `heightScale`; NaN is none
  * @property {number} pixelSize
  * @property {number} heightScale
- * @property {string} [unit] of lengths, where it is known
- * @property {Heightfield & Partial<SampledMesh> & { heights: Float64Array }} [lattice] what is solved in the place of the pixels, which show it
- * @property {{ file: File, names: readonly string[], name: string }} [array] of a file with several
- * @property {{ mesh: Mesh, options: SampleMeshOptions, whole?: Mesh }} [seen] the mesh, what it is a part of, and how the
- *   lattice was taken from it
- * @property {Float64Array} [truth] the surface without noise, where it is known
- * @property {string} [kind] of file, in words; examples have none
- * @property {string} [dataType] what the file stores, such as `u16`
- * @property {'mm' | 'm'} [depths] that a camera has seen, and what they seem to be counted in
- * @property {import('./import-interpretation.js').Stored} [stored] what the file holds, and how it is understood
- * @property {{ name: string, image: ImageData }} [photo] that came with it
- * @property {Design} [drawn] what a design was made of
- * @property {Beside} [beside] what came with depths, besides
- * @property {Input} [depthSource] the depths that a mesh was built from
- * @property {string} [assumed] what was guessed of their camera
+ * @property {string} [unit] unit of lengths, if known
+ * @property {Heightfield & Partial<SampledMesh> & { heights: Float64Array }} [lattice] solved instead of the pixels, which then only display it
+ * @property {{ file: File, names: readonly string[], name: string }} [array] the array that is open, for a file with several
+ * @property {MeshSampling} [sampling] for heights that were sampled from a mesh
+ * @property {Float64Array} [truth] the surface without noise, if known
+ * @property {string} [kind] kind of file, in words; an example has none
+ * @property {string} [dataType] number type of the file, such as `u16`
+ * @property {'mm' | 'm'} [depthUnit] probable unit of the values, if they look like depths from a camera
+ * @property {import('./import-interpretation.js').StoredHeights} [stored] contents of the file, and how they are interpreted
+ * @property {{ name: string, image: ImageData }} [photo] photo that was opened together with it
+ * @property {Design} [designShape] pins and curves of a design
+ * @property {DepthCompanions} [companions] images that were opened together with depths
+ * @property {Input} [depthSource] depths from which the mesh was built
+ * @property {string} [cameraAssumption] message that says what was assumed about the camera of the depths
  */
 
 /**
- * @typedef {object} Beside
+ * The mesh that heights were sampled from.
+ * @typedef {object} MeshSampling
+ * @property {Mesh} mesh
+ * @property {SampleMeshOptions} options
+ * @property {Mesh} [wholeMesh] the mesh of which `mesh` is a connected part
+ */
+
+/**
+ * Images that belong to depths.
+ * @typedef {object} DepthCompanions
  * @property {DepthOptions['confidence']} [confidence]
  * @property {DepthOptions['mask']} [mask]
- * @property {string[]} names of their files
+ * @property {string[]} names names of their files
  */
 
 /**
  * @typedef {object} Settings
  * @property {number | 'auto'} lambda
- * @property {number} gap certified gap to stop at, of the default schedule
+ * @property {number} gap duality gap at which the default schedule stops
  * @property {'default' | 'paper'} schedule
  * @property {number} coarsening lattice spacing in pixels
- * @property {Energy} [energy] default: by the input
- * @property {number} reweighting passes
- * @property {number} [occlusionThreshold] none are looked for without it
+ * @property {Energy} [energy] default: the input decides
+ * @property {number} reweighting number of reweighting passes
+ * @property {number} [occlusionThreshold] without it, no occlusions are detected
  */
 
 /** @typedef {{ input: Input, settings: Settings, surface: Surface }} Result */
 /**
- * What may take long.
- * @typedef {object} Slow
- * @property {string} words what is done
- * @property {string} kind what takes as long as others of it
- * @property {number} size vertices, or bytes
- * @property {number} each milliseconds for one of these, until that was measured
+ * A task whose duration is estimated from its size, for a progress bar.
+ * @typedef {object} TimedTask
+ * @property {string} label text that says what is done
+ * @property {string} kind key of the measured rate: tasks of one kind take equally long per unit of size
+ * @property {number} size number of vertices, pixels or bytes
+ * @property {number} msPerUnit initial guess of milliseconds per unit of size, until a task of this kind was measured
  */
 /** @typedef {'starting' | 'idle' | 'running' | 'failed'} Phase */
 
 /**
  * @typedef {object} SessionEvents
- * @property {Input} input another input, or the same understood otherwise
- * @property {Settings} settings they have changed
+ * @property {Input} input another input was opened, or the present one was interpreted in another way
+ * @property {Settings} settings the settings have changed
  * @property {Settings} start a run has begun
  * @property {Progress} progress
- * @property {Preview} preview of the result to come, on a coarser lattice
+ * @property {Preview} preview approximate result on a coarser lattice
  * @property {Result} result
- * @property {null} cleared the last result is gone, for another input is there
- * @property {Occlusions | null} occlusions where the present input is torn, if that was asked for
+ * @property {null} cleared the last result was discarded because another input was opened
+ * @property {Occlusions | null} occlusions occlusions of the present input; null without a threshold
  * @property {Phase} phase
- * @property {Slow | null} opening something is being opened, or nothing is any more
- * @property {null} unsolved a run has ended with nothing
+ * @property {TimedTask | null} opening a file is being opened; null when that has ended
+ * @property {null} unsolved a run has ended without a result
  * @property {{ doing: string, error: unknown }} failure
  */
 
-/** Between two λ whose answers are hardly told apart. */
-const CLOSE = 1.3;
-/** Fewer pixels than this are solved in a moment. */
-const MANY = 150 ** 2;
-/** From so many pixels on, a solver that rests for so many milliseconds is given up. */
-const LARGE = 500 ** 2;
-const REST = 5000;
-/** Milliseconds that a cancelled run of so many pixels has for its last surface. */
-const SOON = 150;
+/** Maximum ratio of two λ whose results look alike: a run is not aborted for such a change while a slider is dragged. */
+const MAX_SIMILAR_LAMBDA_RATIO = 1.3;
+/** Minimum number of pixels of an input whose run is accompanied by previews; a smaller one is solved almost at once. */
+const MIN_PREVIEWED_PIXELS = 150 ** 2;
+/** Minimum number of pixels of a large input, whose solver holds so much memory that it is disposed of when idle. */
+const MIN_LARGE_INPUT_PIXELS = 500 ** 2;
+/** Idle time after which the solver of a large input is disposed of, in milliseconds. */
+const LARGE_SOLVER_IDLE_MS = 5000;
+/** Time that a cancelled run of a large input has to return its best surface, in milliseconds. */
+const CANCEL_TIMEOUT_MS = 150;
 /** @extends {Events<SessionEvents>} */
 export class Session extends Events {
   /** @type {Readonly<Settings>} */
@@ -112,69 +119,69 @@ export class Session extends Events {
   /** @type {Phase} */
   phase = 'starting';
 
-  /** The run under way, and whether it has come to the finest lattice. @type {{ abort: AbortController, input: Input, settings: Settings, finest: boolean } | null} */
+  /** The present run; `finest`: it has reached the finest lattice. @type {{ abort: AbortController, input: Input, settings: Settings, finest: boolean } | null} */
   #job = null;
-  /** Whether a setting is still being chosen. */
-  #following = false;
-  #live;
-  /** The solver, which remembers its last answer, in a worker of its own. @type {{ input: Input, solver: Promise<OpenSolver> } | null} */
-  #kept = null;
+  /** Whether a change is being previewed and its run has not begun yet. */
+  #runPending = false;
+  #previews;
+  /** The solver of an input, in a worker of its own; it starts warm from its last result. @type {{ input: Input, solver: Promise<OpenSolver> } | null} */
+  #openSolver = null;
   /** @type {InstanceType<Api['DevelopableWorker']> | null} */
   #worker = null;
-  #resting = 0;
-  /** What is being opened. @type {AbortController | null} */
+  /** Timer that disposes of an idle worker. */
+  #idleTimer = 0;
+  /** Cancels the file that is being opened. @type {AbortController | null} */
   #opening = null;
-  /** Counts what was looked for in the input, likewise. */
-  #looked = 0;
-  /** Whether the present input has been run. */
-  #tried = false;
-  /** Whether heights are looked at. */
-  #watched = true;
+  /** Number of the newest request for occlusions; answers to older requests are discarded. */
+  #occlusionRequest = 0;
+  /** Whether the present input has been solved, or is being solved: changes of settings then start a run. */
+  #runRequested = false;
+  /** Whether changes of settings start a run now. */
+  #autoRun = true;
 
   /** @param {Api} api */
   constructor(api) {
     super();
     this.api = api;
-    this.#live = new Live(api, {
-      shown: (preview) => {
+    this.#previews = new PreviewSolver(api, {
+      onPreview: (preview) => {
         if (this.phase === 'running') this.emit('preview', preview);
       },
-      rested: () => {
-        if (this.#following && !this.#job) void this.run();
+      onFinished: () => {
+        if (this.#runPending && !this.#job) void this.run();
       },
     });
   }
 
   /**
-   * Starts the workers of the solver and of previews, while there is no input yet.
-   * @throws where the solver cannot be started
+   * Starts the workers of the solver and of the previews, before there is an input.
+   * @throws if the solver cannot be started
    */
   async start() {
-    const solver = this.#own().init();
-    this.#live.start();
+    const solver = this.#connectedWorker().init();
+    this.#previews.start();
     await solver;
   }
 
   /**
-   * An example of the package, made by the worker that will solve it unless that has something to do, or may be given back
-   * meanwhile.
+   * An example of the package. The solver's worker makes it, unless that worker is busy or about to be disposed of.
    * @param {ExampleName} name
    * @param {ExampleOptions} options
    */
   example(name, options) {
-    const isFree = !this.#job && !(this.#kept && isLarge(this.#kept.input));
-    return (isFree ? this.#own() : this.api).example(name, options);
+    const isFree = !this.#job && !(this.#openSolver && isLarge(this.#openSolver.input));
+    return (isFree ? this.#connectedWorker() : this.api).example(name, options);
   }
 
   /** @param {Phase} phase */
-  #enter(phase) {
+  #setPhase(phase) {
     if (this.phase === phase) return;
     this.phase = phase;
     this.emit('phase', phase);
   }
 
   /**
-   * Tells everyone what went wrong; nothing else changes.
+   * Reports an error to all panels; the state of the session does not change.
    * @param {string} doing what could not be done
    * @param {unknown} error
    */
@@ -183,43 +190,43 @@ export class Session extends Events {
   }
 
   /**
-   * Takes another input. If it cannot be had, what is there stays, and so does a run that is under way.
-   * @param {string} doing for the message if it fails
-   * @param {(signal: AbortSignal) => Promise<Input>} load `signal`: it is given up
-   * @param {Slow} [slow] for what is said meanwhile
-   * @returns {Promise<boolean>} whether it is the input now
+   * Loads another input and makes it the present one. If loading fails, the present input and its run stay.
+   * @param {string} doing what could not be done, for the message if loading fails
+   * @param {(signal: AbortSignal) => Promise<Input>} load `signal` aborts when another file is opened instead
+   * @param {TimedTask} [task] for the progress bar
+   * @returns {Promise<boolean>} whether the input was opened
    */
-  async open(doing, load, slow) {
-    const opened = await this.obtain(doing, async (signal) => {
+  async open(doing, load, task) {
+    const opened = await this.load(doing, async (signal) => {
       const input = await load(signal);
-      await lookAt(input);
+      await prepareInput(input);
       if (signal.aborted) return false;
       this.#stop();
-      this.#forget();
+      this.#disposeSolver();
       this.input = input;
       this.result = null;
-      this.#tried = false;
+      this.#runRequested = false;
       this.emit('input', input);
       this.emit('cleared', null);
-      void this.#look();
+      void this.#detectOcclusions();
       return true;
-    }, slow);
-    if (this.phase === 'starting') this.#enter('idle');
+    }, task);
+    if (this.phase === 'starting') this.#setPhase('idle');
     return opened ?? false;
   }
 
   /**
-   * Something from a file, in the place of what is being opened.
+   * Loads the contents of a file, and cancels whatever else is being opened. Errors are reported.
    * @template T
-   * @param {string} doing for the message if it fails
-   * @param {(signal: AbortSignal) => Promise<T>} load `signal`: it is given up
-   * @param {Slow} [slow] for what is said meanwhile
-   * @returns {Promise<T | undefined>} nothing where it failed, or was given up
+   * @param {string} doing what could not be done, for the message if loading fails
+   * @param {(signal: AbortSignal) => Promise<T>} load `signal` aborts when another file is opened instead
+   * @param {TimedTask} [task] for the progress bar
+   * @returns {Promise<T | undefined>} undefined if it failed or was cancelled
    */
-  async obtain(doing, load, slow) {
-    this.giveUp();
+  async load(doing, load, task) {
+    this.cancelOpening();
     const opening = (this.#opening = new AbortController());
-    if (slow) this.emit('opening', slow);
+    if (task) this.emit('opening', task);
     try {
       const found = await load(opening.signal);
       return opening.signal.aborted ? undefined : found;
@@ -227,12 +234,12 @@ export class Session extends Events {
       if (!opening.signal.aborted) this.fail(doing, error);
       return undefined;
     } finally {
-      if (this.#opening === opening) this.giveUp();
+      if (this.#opening === opening) this.cancelOpening();
     }
   }
 
-  /** Nothing is being opened any more; what is there stays. */
-  giveUp() {
+  /** Cancels the file that is being opened; the present input stays. */
+  cancelOpening() {
     if (!this.#opening) return;
     this.#opening.abort();
     this.#opening = null;
@@ -240,102 +247,105 @@ export class Session extends Events {
   }
 
   /**
-   * The same input, understood otherwise.
+   * Changes properties of the present input, and solves it again if it has been solved.
    * @param {Partial<Omit<Input, 'name'>>} change
    */
-  async amend(change) {
+  async updateInput(change) {
     if (!this.input) return;
     const input = (this.input = { ...this.input, ...change });
-    await lookAt(input);
-    // Another one may have been opened, or this one amended again.
+    await prepareInput(input);
+    // Another input may have been opened meanwhile, or this one changed again.
     if (this.input !== input) return;
     this.emit('input', input);
-    void this.#look();
-    if (this.#tried) void this.run();
+    void this.#detectOcclusions();
+    if (this.#runRequested) void this.run();
   }
 
-  /** @param {Partial<Settings>} change */
-  set(change) {
+  /**
+   * Changes settings, and solves the input with them if it has been solved before.
+   * @param {Partial<Settings>} change
+   */
+  updateSettings(change) {
     this.settings = { ...this.settings, ...change };
     this.emit('settings', this.settings);
-    if ('occlusionThreshold' in change || 'coarsening' in change) void this.#look();
-    if (!this.#tried || !this.#watched) return;
-    // It may have been run, or be under way, since it was first thought of.
-    if (this.#job?.input === this.input && isSame(this.#job.settings, this.settings)) this.#following = false;
+    if ('occlusionThreshold' in change || 'coarsening' in change) void this.#detectOcclusions();
+    if (!this.#runRequested || !this.#autoRun) return;
+    // The present run may have these settings already, from a preview of them.
+    if (this.#job?.input === this.input && isSame(this.#job.settings, this.settings)) this.#runPending = false;
     else void this.run();
   }
 
   /**
-   * What is being chosen, and may be another in a moment: a preview follows, and the run when the choice
-   * rests. One that is under way is let finish where its λ is close.
-   * @param {{ lambda: number }} change
+   * Previews a λ while a slider is dragged; the run follows once the finest preview is ready. The present run
+   * continues if its λ is similar.
+   * @param {number} lambda
    */
-  follow({ lambda }) {
+  previewLambda(lambda) {
     const { input } = this;
     this.settings = { ...this.settings, lambda };
-    if (!input || !this.#tried || !this.#watched) return;
-    if (this.#job && !isClose(this.#job.settings.lambda, lambda)) this.#drop();
-    this.#awaitRest(input);
+    if (!input || !this.#runRequested || !this.#autoRun) return;
+    if (this.#job && !isSimilar(this.#job.settings.lambda, lambda)) this.#abortRun();
+    this.#previewThenRun(input);
   }
 
-  /** While heights are not looked at, settings are taken for later. @param {boolean} watched */
-  watch(watched) {
-    if (this.#watched === watched) return;
-    this.#watched = watched;
+  /** Lets changes of settings start runs, or defers these while a whole mesh is shown. @param {boolean} enabled */
+  setAutoRun(enabled) {
+    if (this.#autoRun === enabled) return;
+    this.#autoRun = enabled;
     const last = this.#job?.settings ?? this.result?.settings;
-    if (watched && this.#tried && last && !isSame(last, this.settings)) void this.run();
+    if (enabled && this.#runRequested && last && !isSame(last, this.settings)) void this.run();
   }
 
   /**
-   * Heights that are being changed by hand, likewise.
-   * @param {Partial<Pick<Input, 'data' | 'drawn'>>} change
+   * Previews heights while pins of a design are dragged; the run follows once the finest preview is ready.
+   * @param {Partial<Pick<Input, 'data' | 'designShape'>>} change
    */
-  reshape(change) {
+  previewInput(change) {
     if (!this.input) return;
     const input = (this.input = { ...this.input, ...change });
-    lookAtOnce(input);
+    prepareSmallInput(input);
     this.emit('input', input);
-    if (!this.#tried) return;
-    this.#drop();
-    this.#awaitRest(input);
+    if (!this.#runRequested) return;
+    this.#abortRun();
+    this.#previewThenRun(input);
   }
 
-  /** What was being chosen is chosen. */
-  settle() {
-    if (this.#following && !this.#job) void this.run();
+  /** Starts the run of a previewed change now, without waiting for its finest preview. */
+  runPending() {
+    if (this.#runPending && !this.#job) void this.run();
   }
 
   /** @param {Input} input */
-  #awaitRest(input) {
-    this.#following = true;
+  #previewThenRun(input) {
+    this.#runPending = true;
     if (this.phase !== 'running') this.emit('start', this.settings);
-    this.#enter('running');
-    this.#wish(input);
+    this.#setPhase('running');
+    this.#requestPreview(input);
   }
 
   /** @param {Input} input */
-  #wish(input) {
-    this.#live.wish(input, this.settings, this.result?.surface.report.lambda);
+  #requestPreview(input) {
+    this.#previews.request(input, this.settings, this.result?.surface.report.lambda);
   }
 
-  /** Solves the present input, from the last answer if there is one; ends a run that is under way. */
+  /** Solves the present input, warm-started from its last result if there is one; aborts the present run. */
   async run() {
     const { input, settings } = this;
     if (!input) return;
     const abort = new AbortController();
     const job = (this.#job = { abort, input, settings, finest: /** @type {boolean} */ (false) });
-    this.#tried = true;
-    this.#following = false;
-    clearTimeout(this.#resting);
+    this.#runRequested = true;
+    this.#runPending = false;
+    clearTimeout(this.#idleTimer);
     this.emit('start', settings);
-    this.#enter('running');
-    if (input.width * input.height > MANY) this.#wish(input);
+    this.#setPhase('running');
+    if (input.width * input.height > MIN_PREVIEWED_PIXELS) this.#requestPreview(input);
     const { coarsening, ...options } = settingsFor(input, settings);
     try {
-      // A large input is copied for the solver: not within the same moment as all else that is done with it.
-      if (this.#kept?.input !== input) await breath();
+      // Copying a large input to the worker takes time: let the browser draw first.
+      if (this.#openSolver?.input !== input) await nextTask();
       if (this.#job !== job) return;
-      const solver = await this.#solverOf(input);
+      const solver = await this.#solverFor(input);
       if (this.#job !== job) return;
       const surface = await solver.fit({
         ...options,
@@ -348,73 +358,73 @@ export class Session extends Events {
         },
       });
       const result = { input, settings, surface };
-      await lookInto(result);
+      await prepareResult(result);
       if (this.#job !== job) return;
-      if (!this.#following) this.#live.stop();
+      if (!this.#runPending) this.#previews.cancel();
       this.result = result;
       this.emit('result', this.result);
     } catch (error) {
       if (this.#job !== job) return;
       this.#stop();
-      this.#forget();
+      this.#disposeSolver();
       this.emit('unsolved', null);
       this.fail('This could not be solved', error);
     } finally {
       if (this.#job === job) {
         this.#job = null;
-        this.#rest(input);
-        if (!this.#following) this.#enter('idle');
-        // What was chosen meanwhile.
-        else if (!this.#live.busy) void this.run();
+        this.#disposeWhenIdle(input);
+        if (!this.#runPending) this.#setPhase('idle');
+        // A change was previewed during this run, and its finest preview is ready.
+        else if (!this.#previews.busy) void this.run();
       }
     }
   }
 
   /**
-   * The solver of an input; of the same one understood otherwise it goes on from the last answer.
+   * The solver of an input. After a change of the input it starts warm from the last result.
    * @param {Input} input
    * @returns {Promise<OpenSolver>}
    */
-  #solverOf(input) {
-    const kept = this.#kept;
-    if (kept?.input === input) return kept.solver;
-    const solver = kept
-      ? kept.solver.then(async (open) => {
+  #solverFor(input) {
+    const present = this.#openSolver;
+    if (present?.input === input) return present.solver;
+    const solver = present
+      ? present.solver.then(async (open) => {
           await open.replace(heightsOf(input));
           return open;
         })
-      : this.#own().open(heightsOf(input));
-    this.#kept = { input, solver };
+      : this.#connectedWorker().open(heightsOf(input));
+    this.#openSolver = { input, solver };
     return solver;
   }
 
-  #own() {
+  #connectedWorker() {
     return this.#worker?.connected ? this.#worker : (this.#worker = new this.api.DevelopableWorker());
   }
 
-  /** A solver of many vertices holds much memory: it is given back when nothing is asked of it for a while. @param {Input} input */
-  #rest(input) {
-    if (isLarge(input)) this.#resting = window.setTimeout(() => this.#giveBack(), REST);
+  /** Frees the memory of a large input's solver after it has been idle for a while. @param {Input} input */
+  #disposeWhenIdle(input) {
+    if (isLarge(input)) this.#idleTimer = window.setTimeout(() => this.#disposeWorker(), LARGE_SOLVER_IDLE_MS);
   }
 
-  /** Gives the solver up: the next run starts from nothing. */
-  #forget() {
-    clearTimeout(this.#resting);
-    if (this.#kept && isLarge(this.#kept.input)) this.#giveBack();
-    this.#kept?.solver.then((solver) => solver.dispose(), () => {});
-    this.#kept = null;
+  /** Disposes of the solver: the next run has no warm start. */
+  #disposeSolver() {
+    clearTimeout(this.#idleTimer);
+    if (this.#openSolver && isLarge(this.#openSolver.input)) this.#disposeWorker();
+    this.#openSolver?.solver.then((solver) => solver.dispose(), () => {});
+    this.#openSolver = null;
   }
 
-  /** Only a worker's end gives its memory back. */
-  #giveBack() {
-    this.#kept = null;
+  /** Ends the worker: its memory is not freed in any other way. */
+  #disposeWorker() {
+    this.#openSolver = null;
     this.#worker?.dispose();
     this.#worker = null;
   }
 
-  /** Looks where the present input is torn, if that is wanted. */
-  async #look() {
-    const turn = ++this.#looked;
+  /** Detects the occlusions of the present input, if the settings have a threshold. */
+  async #detectOcclusions() {
+    const request = ++this.#occlusionRequest;
     const { input, settings: { occlusionThreshold: threshold, coarsening } } = this;
     if (!input || input.design || threshold === undefined) {
       this.emit('occlusions', null);
@@ -422,50 +432,50 @@ export class Session extends Events {
     }
     try {
       const found = await this.api.occlusions(heightsOf(input), { threshold, ...spacingOf(input, coarsening) });
-      if (turn === this.#looked) this.emit('occlusions', found);
+      if (request === this.#occlusionRequest) this.emit('occlusions', found);
     } catch (error) {
-      if (turn !== this.#looked) return;
+      if (request !== this.#occlusionRequest) return;
       this.emit('occlusions', null);
       this.fail('Occlusions could not be looked for', error);
     }
   }
 
-  /** Ends the run; its best surface so far becomes the result, if it can be had soon. */
+  /** Cancels the run; its best surface so far becomes the result, if the solver returns it soon. */
   cancel() {
-    this.#following = false;
-    this.#live.stop();
+    this.#runPending = false;
+    this.#previews.cancel();
     const job = this.#job;
     if (job) {
       job.abort.abort();
-      // Before the finest lattice is reached, that surface is no better than a preview, and takes long to be certified.
-      if (isLarge(job.input) && !job.finest) setTimeout(() => this.#job === job && this.#leave(), SOON);
+      // On a coarser lattice the best surface is no better than a preview, and certifying it takes long.
+      if (isLarge(job.input) && !job.finest) setTimeout(() => this.#job === job && this.#terminateRun(), CANCEL_TIMEOUT_MS);
     } else if (this.phase === 'running') {
-      // There were previews only.
+      // The phase is `running` because of previews; the run itself has not begun.
       this.#stop();
       this.emit('unsolved', null);
     }
   }
 
-  /** Ends the run and forgets it. */
-  #drop() {
+  /** Aborts the run; its result is discarded. */
+  #abortRun() {
     const job = this.#job;
     this.#job = null;
     job?.abort.abort();
   }
 
-  /** Ends the run with its worker. */
-  #leave() {
-    this.#giveBack();
+  /** Ends the run together with its worker. */
+  #terminateRun() {
+    this.#disposeWorker();
     this.#stop();
     this.emit('unsolved', null);
   }
 
-  /** Ends the run and forgets it; nothing else is to come. */
+  /** Aborts the run and the previews, and cancels a pending run. */
   #stop() {
-    this.#drop();
-    this.#following = false;
-    this.#live.stop();
-    if (this.phase === 'running') this.#enter('idle');
+    this.#abortRun();
+    this.#runPending = false;
+    this.#previews.cancel();
+    if (this.phase === 'running') this.#setPhase('idle');
   }
 }
 
@@ -478,17 +488,17 @@ function isSame(a, b) {
  * @param {number | 'auto'} a
  * @param {number} b
  */
-function isClose(a, b) {
-  return a !== 'auto' && Math.abs(Math.log(a / b)) <= Math.log(CLOSE);
+function isSimilar(a, b) {
+  return a !== 'auto' && Math.abs(Math.log(a / b)) <= Math.log(MAX_SIMILAR_LAMBDA_RATIO);
 }
 
 /** @param {Input} input */
 function isLarge({ width, height }) {
-  return width * height >= LARGE;
+  return width * height >= MIN_LARGE_INPUT_PIXELS;
 }
 
 /**
- * A lattice has its own.
+ * The lattice spacing of a solve, as an option of the package; an input that is a lattice already has one.
  * @param {Input} input
  * @param {number} coarsening
  */
@@ -497,7 +507,7 @@ function spacingOf({ pixelSize, lattice }, coarsening) {
 }
 
 /**
- * An input as the package takes it.
+ * Converts an input to a height image or heightfield of the package.
  * @param {Input} input
  */
 export function heightsOf({ width, height, data, pixelSize, heightScale, lattice, design, confidence, constraints }) {

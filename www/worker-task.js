@@ -1,33 +1,59 @@
-/** What may be given up, each in a worker of its own, which ends with it. */
+/** Tasks that can be cancelled, each in a worker of its own, which ends with it; and a cache of their answers. */
 
 /** @import {Api} from './api.js' */
-/** @import {Slow} from './session.js' */
+/** @import {TimedTask} from './session.js' */
 /** @typedef {InstanceType<Api['DevelopableWorker']>} Worker */
 
-/** Milliseconds for a byte of a file, until that was measured. */
-const EACH = 2e-5;
+/** Initial guess of the time that reading a file takes, in milliseconds per byte. */
+const FILE_READ_MS_PER_BYTE = 2e-5;
 
-/** @param {File} file @returns {Slow} */
-export function readingOf({ name, size }) {
-  return { words: 'Reading the file', kind: name.slice(name.lastIndexOf('.') + 1).toLowerCase(), size, each: EACH };
+/** The task of reading a file, for a progress bar. @param {File} file @returns {TimedTask} */
+export function fileReadTask({ name, size }) {
+  return { label: 'Reading the file', kind: name.slice(name.lastIndexOf('.') + 1).toLowerCase(), size, msPerUnit: FILE_READ_MS_PER_BYTE };
 }
 
 /**
+ * Runs a task in a new worker, which is disposed of when the task ends or is aborted.
  * @template T
  * @param {Api} api
  * @param {AbortSignal} signal
- * @param {(worker: Worker) => Promise<T>} work
+ * @param {(worker: Worker) => Promise<T>} task
  * @returns {Promise<T>}
  */
-export async function apart(api, signal, work) {
+export async function runInWorker(api, signal, task) {
   signal.throwIfAborted();
   const worker = new api.DevelopableWorker();
-  const end = () => worker.dispose();
-  signal.addEventListener('abort', end);
+  const dispose = () => worker.dispose();
+  signal.addEventListener('abort', dispose);
   try {
-    return await work(worker);
+    return await task(worker);
   } finally {
-    signal.removeEventListener('abort', end);
-    end();
+    signal.removeEventListener('abort', dispose);
+    dispose();
+  }
+}
+
+/** Cache of answers to questions about objects. The answers about an object are freed together with it. */
+export class AnswerCache {
+  /** @type {WeakMap<object, Map<string, Promise<any>>>} */
+  #answers = new WeakMap();
+
+  /**
+   * The answer to a question: the cached one, or a new one. A failed answer is not kept, so that the question may be asked again.
+   * @template T
+   * @param {object} subject
+   * @param {string} question key of the question
+   * @param {() => Promise<T>} compute
+   * @returns {Promise<T>}
+   */
+  answer(subject, question, compute) {
+    const answers = this.#answers.get(subject) ?? new Map();
+    this.#answers.set(subject, answers);
+    const cached = answers.get(question);
+    if (cached) return cached;
+    const answer = compute();
+    answers.set(question, answer);
+    answer.catch(() => answers.delete(question));
+    return answer;
   }
 }

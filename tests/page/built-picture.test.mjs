@@ -1,7 +1,7 @@
 /** The picture of a pattern put together: what its raster shows of a known mesh, and what the page saves. */
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
-import { axesOf, rasterised } from '../../www/surface/built-picture.js';
+import { axesOf, rasterise } from '../../www/surface/built-picture.js';
 import { pageTest, saveAs } from './support/page.mjs';
 
 /** A unit square at height 1 above the middle of a square of twice its side. */
@@ -12,7 +12,7 @@ const TABLE = {
 
 test('a raster shows as much of a square as its slant leaves, and hides what is behind', () => {
   for (const elevation of [90, 60, 30]) {
-    const { width, triangle, depth, project } = rasterised(TABLE, axesOf(-20, elevation), 800, 10);
+    const { width, triangle, depth, project } = rasterise(TABLE, axesOf(-20, elevation), 800, 10);
     const sine = Math.sin((elevation * Math.PI) / 180);
     const [from, to] = [project([0, 0, 0]), project([1, 0, 0])];
     const perUnit = Math.hypot(to[0] - from[0], (to[1] - from[1]) / sine);

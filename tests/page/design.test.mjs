@@ -1,6 +1,6 @@
 /** Designs: pins dragged in space, and the surface after them. */
 import assert from 'node:assert/strict';
-import { constraintsOf, curvePlaces, designInput, STARTS } from '../../www/design.js';
+import { constraintsOf, curvePlaces, designInput, START_DESIGNS } from '../../www/design.js';
 import { test } from 'node:test';
 import { parsed } from './support/numbers.mjs';
 import { pageTest, runBy, save, settled } from './support/page.mjs';
@@ -21,7 +21,7 @@ test('what is held is where it was drawn, the edge too where it is clamped', () 
   const clamped = constraintsOf({ pins: [], curves: [], clamped: true });
   const held = clamped.reduce((sum, z) => sum + (z === 0 ? 1 : 0), 0);
   assert.equal(held, 2 * (width + height) - 4);
-  for (const start of Object.values(STARTS)) assert.ok(constraintsOf(start).some((z) => !Number.isNaN(z)));
+  for (const start of Object.values(START_DESIGNS)) assert.ok(constraintsOf(start).some((z) => !Number.isNaN(z)));
 });
 
 pageTest('a pin is dragged up, the surface follows, and Undo takes it back', async (page) => {

@@ -1,7 +1,7 @@
 /** Brush and lasso. */
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
-import { affected, brushed, enclosed, takenBack } from '../../www/height-edits.js';
+import { applyEdit, pixelsAlong, pixelsInside, undoEdit } from '../../www/height-edits.js';
 import { pageTest, reported, runBy } from './support/page.mjs';
 import { parsed } from './support/numbers.mjs';
 
@@ -9,31 +9,31 @@ import { parsed } from './support/numbers.mjs';
 
 test('a brush means the pixels beside its line, a lasso those it goes around', () => {
   const size = { width: 60, height: 50 };
-  const disk = brushed(size, [[30, 25]], 10);
+  const disk = pixelsAlong(size, [[30, 25]], 10);
   assert.ok(Math.abs(disk.length / (Math.PI * 100) - 1) < 0.05, `${disk.length}`);
-  const bar = brushed(size, [[10, 25], [50, 25]], 5);
+  const bar = pixelsAlong(size, [[10, 25], [50, 25]], 5);
   assert.ok(Math.abs(bar.length / (40 * 10 + Math.PI * 25) - 1) < 0.05, `${bar.length}`);
-  assert.equal(brushed(size, [[-50, -50]], 5).length, 0);
-  const triangle = enclosed(size, [[10, 10], [50, 10], [10, 40]]);
+  assert.equal(pixelsAlong(size, [[-50, -50]], 5).length, 0);
+  const triangle = pixelsInside(size, [[10, 10], [50, 10], [10, 40]]);
   assert.ok(Math.abs(triangle.length / 600 - 1) < 0.05, `${triangle.length}`);
-  assert.equal(enclosed(size, [[10, 10], [50, 10], [10, 40]], true).length, 60 * 50 - triangle.length);
+  assert.equal(pixelsInside(size, [[10, 10], [50, 10], [10, 40]], true).length, 60 * 50 - triangle.length);
   // A line that crosses itself goes around two parts.
-  const bow = enclosed(size, [[10, 10], [50, 40], [50, 10], [10, 40]]);
+  const bow = pixelsInside(size, [[10, 10], [50, 40], [50, 10], [10, 40]]);
   assert.ok(bow.includes(25 * 60 + 15) && bow.includes(25 * 60 + 45) && !bow.includes(12 * 60 + 30));
 });
 
 test('what is done to pixels can be taken back', () => {
   const input = /** @type {Input} */ ({ name: '', width: 3, height: 1, data: Float64Array.of(1, 2, NaN), pixelSize: 1, heightScale: 1 });
   const pixels = Uint32Array.of(1, 2);
-  const out = affected(input, pixels, 'out', () => 0);
+  const out = applyEdit(input, pixels, 'out', () => 0);
   assert.deepEqual(out.change.data, Float64Array.of(1, NaN, NaN));
-  assert.deepEqual(takenBack({ ...input, ...out.change }, out.past).data, input.data);
-  const doubt = affected(input, pixels, 'doubt', () => 0);
+  assert.deepEqual(undoEdit({ ...input, ...out.change }, out.undo).data, input.data);
+  const doubt = applyEdit(input, pixels, 'doubt', () => 0);
   assert.ok(doubt.change.confidence?.[0] === 1 && doubt.change.confidence[1] < 0.5);
-  assert.equal(takenBack({ ...input, ...doubt.change }, doubt.past).confidence, undefined);
-  const twice = affected({ ...input, ...doubt.change }, Uint32Array.of(0), 'doubt', () => 0);
-  assert.deepEqual(takenBack({ ...input, ...twice.change }, twice.past).confidence, doubt.change.confidence);
-  assert.deepEqual(affected(input, pixels, 'hold', (pixel) => 10 * pixel).change.constraints, Float64Array.of(NaN, 10, 20));
+  assert.equal(undoEdit({ ...input, ...doubt.change }, doubt.undo).confidence, undefined);
+  const twice = applyEdit({ ...input, ...doubt.change }, Uint32Array.of(0), 'doubt', () => 0);
+  assert.deepEqual(undoEdit({ ...input, ...twice.change }, twice.undo).confidence, doubt.change.confidence);
+  assert.deepEqual(applyEdit(input, pixels, 'hold', (pixel) => 10 * pixel).change.constraints, Float64Array.of(NaN, 10, 20));
 });
 
 pageTest('heights are taken out, trusted less, held and cropped by hand, and all is undone', async (page) => {

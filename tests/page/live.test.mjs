@@ -84,8 +84,8 @@ pageTest('what grows with the size of a result is done in workers, and a picture
     .flatMap(({ functions }) => functions)
     .filter(({ functionName }) => functionName !== '' && (!name || functionName === name))
     .reduce((sum, { ranges: [{ count }] }) => sum + count, 0);
-  assert.ok(calls('surface/raster.js', 'rasterOf') > 0, 'it does count');
-  for (const file of ['surface/compare.js', 'surface/pixels.js', 'surface/roundness.js', 'surface/unfolding.js', 'views/print.js']) assert.equal(calls(file), 0, file);
+  assert.ok(calls('surface/raster.js', 'rasteriseNormals') > 0, 'it does count');
+  for (const file of ['surface/compare.js', 'surface/colour-images.js', 'surface/gaussian-curvature.js', 'surface/unfolding.js', 'views/printed-example.js']) assert.equal(calls(file), 0, file);
   assert.equal(calls('surface/triangles.js', 'fillTriangles'), 0);
   // Of previews only, which are small.
   assert.ok(calls('surface/normals.js', 'normalsOf') <= 2 * previews, `${calls('surface/normals.js', 'normalsOf')} for ${previews} previews`);

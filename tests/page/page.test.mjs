@@ -2,7 +2,7 @@
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import { pageCautions, pageErrors } from '../../www/page/messages.js';
-import { ASSUMED_FIELD_OF_VIEW, Flattening } from '../../www/page/flatten.js';
+import { ASSUMED_FIELD_OF_VIEW, PageFlattener } from '../../www/page/flatten.js';
 import { readPdf, readPdfPicture } from '../js/support/drawings.mjs';
 import { parsed } from './support/numbers.mjs';
 import { choose, drop, dropAll, ended, look, pageTest, painted, saveAs } from './support/page.mjs';
@@ -218,12 +218,12 @@ test('where nothing tells the focal length, that of a phone is assumed, and said
     },
   });
   const line = /** @type {[number, number][]} */ ([[0, 0], [9, 0]]);
-  const wish = /** @type {any} */ ({
-    photo: { small: { width: 10, height: 10, data: [] }, grey: { scale: 1 } }, traces: [[line], [line], [line], [line]], text: [[]], options: {}, moving: false,
+  const request = /** @type {any} */ ({
+    photo: { reduced: { width: 10, height: 10, data: [] }, grey: { scale: 1 } }, traces: [[line], [line], [line], [line]], textLines: [[]], options: {}, moving: false,
   });
   /** @type {any} */
-  const done = await new Promise((resolve) => void new Flattening(worker).preview(wish, resolve));
-  assert.equal(done.assumed, true);
+  const done = await new Promise((resolve) => void new PageFlattener(worker).preview(request, resolve));
+  assert.equal(done.focalAssumed, true);
   assert.deepEqual(asked.map((one) => /** @type {any} */ (one)[1]), [undefined, ASSUMED_FIELD_OF_VIEW]);
   const told = pageCautions({ outside: ['upper left'], weak: ['lower', 'right'], assumed: true, unplaced: 0 });
   assert.deepEqual(told, [

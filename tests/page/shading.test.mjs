@@ -1,22 +1,22 @@
 /** The page's modules that need no browser. */
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
-import { count, number, percentAtMost, shortest } from '../../www/format.js';
+import { count, number, percentAtMost, shortLambda } from '../../www/format.js';
 import { linearTicks, logTicks } from '../../www/plot.js';
 import { meanAngle, rmsError } from '../../www/surface/compare.js';
-import { linear, logarithmic, magnitude } from '../../www/surface/colours.js';
-import { gridOver, interpolated, nearest } from '../../www/surface/lattice.js';
+import { linearScale, logarithmicScale, magnitudeQuantile } from '../../www/surface/colours.js';
+import { gridOverLattice, interpolateToGrid, nearestVertices } from '../../www/surface/lattice.js';
 import { Light } from '../../www/surface/light.js';
-import { HOLE, UNIT, normalsOf } from '../../www/surface/normals.js';
-import { NOTHING, SIDE, rasterOf } from '../../www/surface/raster.js';
+import { NO_NORMAL, NORMAL_SCALE, normalsOf } from '../../www/surface/normals.js';
+import { EMPTY_ENTRY, TABLE_SIDE, rasteriseNormals } from '../../www/surface/raster.js';
 import { fillTriangles } from '../../www/surface/triangles.js';
-import { lambdaHint, verdict } from '../../www/messages.js';
+import { lambdaHint, certificateInWords } from '../../www/messages.js';
 import { gapsByLevel } from '../../www/panels/curve.js';
 import { grid } from './support/files.mjs';
 import { parsed } from './support/numbers.mjs';
 
 /** @param {import('../../www/surface/normals.js').Normals} normals @param {number} i */
-const normal = ({ xy }, i) => [xy[2 * i] / UNIT, xy[2 * i + 1] / UNIT];
+const normal = ({ xy }, i) => [xy[2 * i] / NORMAL_SCALE, xy[2 * i + 1] / NORMAL_SCALE];
 
 test('gaps on coarser lattices are not joined across a solve on the finest one', () => {
   const moments = [[2, 0.5], [1, 0.2], [1, 0.1], [0, 0.3], [0, 0.01], [1, 0.4], [0, 0.02]].map(([level, gap], i) => (
@@ -42,7 +42,7 @@ test('normals beside a hole come from the other side, and a lone pixel is level'
   for (let row = 0; row < 3; row++) heights[7 * row + 3] = NaN;
   const normals = normalsOf(heights, 7, 3, 1);
   for (const i of [0, 2, 4, 6]) assert.ok(Math.abs(normal(normals, i)[0] - -3 / Math.hypot(3, 1)) < 1e-4);
-  assert.equal(normals.xy[2 * 3], HOLE);
+  assert.equal(normals.xy[2 * 3], NO_NORMAL);
 
   const lone = normalsOf([NaN, NaN, NaN, NaN, 5, NaN, NaN, NaN, NaN], 3, 3, 1);
   assert.deepEqual(normal(lone, 4), [0, 0]);
@@ -53,23 +53,23 @@ test('the raster is about as dense as the screen, and its holes are the image’
   heights[15 * 40 + 20] = NaN;
   const normals = normalsOf(heights, 40, 30, 1);
   for (const density of [0.1, 0.3, 0.9, 1, 1.4, 2, 3.7]) {
-    const { width, height, index } = rasterOf(normals, density);
+    const { width, height, index } = rasteriseNormals(normals, density);
     assert.equal(index.length, width * height);
     assert.ok(width >= 40 * density && width <= Math.max(40, 4 * 40 * density), `${width} at ${density}`);
-    const holes = index.filter((entry) => entry === NOTHING).length;
+    const holes = index.filter((entry) => entry === EMPTY_ENTRY).length;
     if (density > 0.5) assert.equal(holes, (width / 40) ** 2);
-    for (const entry of index) assert.ok(entry <= NOTHING);
+    for (const entry of index) assert.ok(entry <= EMPTY_ENTRY);
   }
 });
 
 test('refining goes smoothly through the normals, but not across a hole', () => {
-  const half = Math.round(UNIT / 2);
-  const normals = { width: 3, height: 1, xy: Int16Array.of(-half, 0, half, 0, HOLE, 0) };
+  const half = Math.round(NORMAL_SCALE / 2);
+  const normals = { width: 3, height: 1, xy: Int16Array.of(-half, 0, half, 0, NO_NORMAL, 0) };
   // An odd number of parts, so that one of them has the pixel's own centre.
   const parts = 5;
-  const { width, index } = rasterOf(normals, parts);
-  const xs = Array.from(index.subarray(0, width), (entry) => (entry === NOTHING ? NaN : ((entry % SIDE) / (SIDE - 1)) * 2 - 1));
-  const quantum = 2 / (SIDE - 1);
+  const { width, index } = rasteriseNormals(normals, parts);
+  const xs = Array.from(index.subarray(0, width), (entry) => (entry === EMPTY_ENTRY ? NaN : ((entry % TABLE_SIDE) / (TABLE_SIDE - 1)) * 2 - 1));
+  const quantum = 2 / (TABLE_SIDE - 1);
   const [left, right] = [2, parts + 2];
   assert.ok(Math.abs(xs[left] - -0.5) <= quantum && Math.abs(xs[right] - 0.5) <= quantum, `${xs}`);
   for (let i = left + 1; i <= right; i++) assert.ok(xs[i] >= xs[i - 1] - quantum, `${xs}`);
@@ -83,11 +83,11 @@ test('the light is brightest where the surface mirrors it, and stays above the h
   light.moveTo(0.6, 0);
   // Halfway between the view and the light.
   const tilt = Math.asin(0.6) / 2;
-  const entry = Math.round(((0 + 1) / 2) * (SIDE - 1)) * SIDE + Math.round(((Math.sin(tilt) + 1) / 2) * (SIDE - 1));
+  const entry = Math.round(((0 + 1) / 2) * (TABLE_SIDE - 1)) * TABLE_SIDE + Math.round(((Math.sin(tilt) + 1) / 2) * (TABLE_SIDE - 1));
   const colours = light.colours();
   const green = (/** @type {number} */ colour) => (colour >> 8) & 255;
   assert.equal(green(colours[entry]), colours.reduce((most, colour) => Math.max(most, green(colour)), 0));
-  assert.equal(colours[NOTHING], 0);
+  assert.equal(colours[EMPTY_ENTRY], 0);
 });
 
 test('errors are measured where both surfaces are', () => {
@@ -111,8 +111,8 @@ test('numbers read well', () => {
   assert.equal(number(-2.5), '−2.5');
   assert.equal(number(1e6), '10⁶');
   assert.equal(number(2.5e-7), '2.5\u202f·\u202f10⁻⁷');
-  assert.equal(shortest(1e6), '1e6');
-  assert.equal(shortest(2.51e5), '2.5e5');
+  assert.equal(shortLambda(1e6), '1e6');
+  assert.equal(shortLambda(2.51e5), '2.5e5');
 });
 
 test('ticks are round, within the range and not too many', () => {
@@ -127,11 +127,11 @@ test('each λ and each way to stop has words of its own', () => {
   assert.equal(new Set([1e3, 1e5, 1e6, 1e7, 1e9].map(lambdaHint)).size, 5);
   const seconds = { setup: 0, zStep: 0, hStep: 0, certificate: 0, total: 0.42 };
   const report = /** @type {import('../../pkg/types.js').Report} */ ({ gap: 0.009, stopReason: 'gap', seconds });
-  assert.equal(verdict(report).replaceAll('\u00a0', ' '), 'Proven within 0.9 % of the best possible, in 0.42 s.');
-  assert.match(verdict({ ...report, stopReason: 'cancelled' }), /^Cancelled/);
-  assert.match(verdict({ ...report, stopReason: 'cancelled', gap: 1 }), /too early/);
+  assert.equal(certificateInWords(report).replaceAll('\u00a0', ' '), 'Proven within 0.9 % of the best possible, in 0.42 s.');
+  assert.match(certificateInWords({ ...report, stopReason: 'cancelled' }), /^Cancelled/);
+  assert.match(certificateInWords({ ...report, stopReason: 'cancelled', gap: 1 }), /too early/);
   for (const stopReason of /** @type {const} */ (['gap', 'rounding', 'maxIterations', 'diverged', 'cancelled'])) {
-    assert.doesNotMatch(verdict({ ...report, stopReason, gap: undefined }), /[Pp]roven within|NaN/);
+    assert.doesNotMatch(certificateInWords({ ...report, stopReason, gap: undefined }), /[Pp]roven within|NaN/);
   }
 });
 
@@ -146,9 +146,9 @@ function latticeOf(value) {
 test('what is linear on the lattice is so on the pixels that show it', () => {
   const plane = (/** @type {number} */ x, /** @type {number} */ y) => 2 * x - 3 * y;
   const { lattice, values } = latticeOf(plane);
-  const whole = gridOver(lattice);
+  const whole = gridOverLattice(lattice);
   for (const area of [whole, { ...whole, pixelSize: whole.pixelSize / 3, width: 3 * whole.width, height: 3 * whole.height }]) {
-    const found = interpolated(lattice, values, area);
+    const found = interpolateToGrid(lattice, values, area);
     let inner = 0;
     found.forEach((z, i) => {
       const [x, y] = [area.left + (i % area.width + 0.5) * area.pixelSize, area.top - (Math.floor(i / area.width) + 0.5) * area.pixelSize];
@@ -164,22 +164,22 @@ test('what is linear on the lattice is so on the pixels that show it', () => {
 test('a hole in the lattice is a hole in the image, and as large', () => {
   const { lattice, values } = latticeOf(() => 1);
   values[4 * 12 + 6] = NaN;
-  const grid = gridOver(lattice);
-  const holes = interpolated(lattice, values, grid).filter(Number.isNaN).length;
+  const grid = gridOverLattice(lattice);
+  const holes = interpolateToGrid(lattice, values, grid).filter(Number.isNaN).length;
   assert.ok(holes >= 1 && holes <= 4, `${holes}`);
-  assert.equal(nearest(lattice, grid)[0], 0, 'the first pixel shows the first vertex');
+  assert.equal(nearestVertices(lattice, grid)[0], 0, 'the first pixel shows the first vertex');
 });
 
 test('scales are symmetric, and a share of the values is within them', () => {
-  for (const scale of [logarithmic(1e-3, 250), linear(0.02, String)]) {
+  for (const scale of [logarithmicScale(1e-3, 250), linearScale(0.02, String)]) {
     const places = scale.ticks.map(({ value }) => scale.place(value));
     assert.ok(places.every((place, i) => Math.abs(place + places[places.length - 1 - i]) < 1e-12));
     assert.ok(places.every((place, i) => Math.abs(place) <= 1 + 1e-12 && (i === 0 || place > places[i - 1])));
   }
-  const log = logarithmic(1e-3, 250);
+  const log = logarithmicScale(1e-3, 250);
   assert.ok(Math.abs(log.place(250) - 1) < 1e-9 && log.place(1e-5) < 0.01);
-  assert.equal(magnitude([[-5, 1, NaN], [2, -3, 4]], 0.5), 3);
-  assert.equal(magnitude([[NaN]], 0.5), 0);
+  assert.equal(magnitudeQuantile([[-5, 1, NaN], [2, -3, 4]], 0.5), 3);
+  assert.equal(magnitudeQuantile([[NaN]], 0.5), 0);
 });
 
 test('triangles that share an edge leave no gap, and their weights say where a pixel lies', () => {

@@ -3,9 +3,9 @@ import assert from 'node:assert/strict';
 import { readFileSync } from 'node:fs';
 import { test } from 'node:test';
 import { initSync, loadSync, pattern } from '../../pkg/sync.js';
-import { assembled, bordersOf } from '../../www/surface/assembled.js';
-import { anchored, linesAt, valueOnMesh } from '../../www/surface/anchors.js';
-import { unfolding } from '../../www/surface/unfolding.js';
+import { readAssemblyMesh, borderLines } from '../../www/surface/assembly-mesh.js';
+import { anchorLines, morphLines, valueOnRay } from '../../www/surface/anchored-lines.js';
+import { computeUnfolding } from '../../www/surface/unfolding.js';
 
 test('a cylinder unfolds as cylinders of ever larger radius, without stretch', () => {
   const [cols, rows, radius, step] = [25, 6, 3, 0.2];
@@ -27,7 +27,7 @@ test('a cylinder unfolds as cylinders of ever larger radius, without stretch', (
     }
   }
   const stretches = new Float64Array((2 * triangles.length) / 3).fill(1);
-  const { forms, colours } = unfolding({
+  const { forms, colours } = computeUnfolding({
     positions: Float64Array.from(positions), places: Float64Array.from(places), triangles: Uint32Array.from(triangles), stretches,
   }, 0.01, [10, 20]);
   assert.equal(colours.length, 4 * rows * cols);
@@ -59,25 +59,25 @@ test('lines go along with a mesh that moves, and values are read from it where i
   const up = Float32Array.from([0, 0, 0, 1, 0, 0, 1, 0, 1, 0, 1, 0, 1, 1, 0, 1, 1, 1]);
   const forms = [Float32Array.from(positions), up];
   const look = () => /** @type {const} */ ({ colour: [0, 0, 0], width: 1 });
-  const lines = anchored([[[0.25, 0.5, 0], [1.75, 0.5, 0]], [[0.5, 0.5, 0], [1.5, 0.25, 0], [3, 0.25, 0]], [[5, 5, 0]]], positions, triangles);
+  const lines = anchorLines([[[0.25, 0.5, 0], [1.75, 0.5, 0]], [[0.5, 0.5, 0], [1.5, 0.25, 0], [3, 0.25, 0]], [[5, 5, 0]]], positions, triangles);
   assert.deepEqual([...lines.lengths], [2, 2], 'a line ends with the mesh');
-  assert.deepEqual([...lines.of], [0, 1]);
-  const [first, second] = linesAt(lines, forms, 1, look).map(({ points }) => points);
+  assert.deepEqual([...lines.lineIndices], [0, 1]);
+  const [first, second] = morphLines(lines, forms, 1, look).map(({ points }) => points);
   for (const [found, expected] of [[first[0], [0.25, 0.5, 0]], [first[1], [1, 0.5, 0.75]], [second[1], [1, 0.25, 0.5]]]) {
     found.forEach((value, k) => assert.ok(Math.abs(value - expected[k]) < 1e-6, `${found} for ${expected}`));
   }
-  assert.ok(Math.abs(linesAt(lines, forms, 0.5, look)[0].points[1][2] - 0.375) < 1e-6, 'half way');
+  assert.ok(Math.abs(morphLines(lines, forms, 0.5, look)[0].points[1][2] - 0.375) < 1e-6, 'half way');
 
   const mesh = { triangles, forms };
   const values = [0, 1, 2, 0, 1, 2];
   const above = /** @type {const} */ ({ point: [1.5, 0.5, 9], towards: [0, 0, 1] });
-  assert.ok(Math.abs(valueOnMesh(mesh, 0, above, values) - 1.5) < 1e-6);
-  assert.ok(Number.isNaN(valueOnMesh(mesh, 1, above, values)), 'there is nothing any more');
+  assert.ok(Math.abs(valueOnRay(mesh, 0, above, values) - 1.5) < 1e-6);
+  assert.ok(Number.isNaN(valueOnRay(mesh, 1, above, values)), 'there is nothing any more');
   const aside = /** @type {const} */ ({ point: [-3, 0.5, 0.5], towards: [1, 0, 0] });
-  assert.ok(Math.abs(valueOnMesh(mesh, 1, aside, values) - 1.5) < 1e-6, 'the wall');
+  assert.ok(Math.abs(valueOnRay(mesh, 1, aside, values) - 1.5) < 1e-6, 'the wall');
   // Seen from the right and above, the wall hides what is behind its foot.
   const slant = /** @type {const} */ ({ point: [0.8, 0.5, 0], towards: [1, 0, 1] });
-  assert.ok(Math.abs(valueOnMesh(mesh, 1, slant, values) - 1.2) < 1e-6, `${valueOnMesh(mesh, 1, slant, values)}`);
+  assert.ok(Math.abs(valueOnRay(mesh, 1, slant, values) - 1.2) < 1e-6, `${valueOnRay(mesh, 1, slant, values)}`);
 });
 
 test('sheets of a pyramid are where it is, and lie flat beside each other in their true size', () => {
@@ -89,7 +89,7 @@ test('sheets of a pyramid are where it is, and lie flat beside each other in the
   const data = Float64Array.from({ length: side * side }, (_, i) => height(((i % side) + 0.5) * pixel, (side - Math.floor(i / side) - 0.5) * pixel));
   const { assembly } = pattern({ width: side, height: side, data, pixelSize: pixel }, { scale: 10, assembly: true });
   assert.ok(assembly);
-  const { positions, places, triangles, stretches } = assembled(assembly.model, 0.01);
+  const { positions, places, triangles, stretches } = readAssemblyMesh(assembly.model, 0.01);
   let off = 0;
   for (let i = 0; i < positions.length; i += 3) off = Math.max(off, Math.abs(positions[i + 2] - height(positions[i], positions[i + 1])));
   assert.ok(off < 0.3 * pixel, `${off} off the pyramid`);
@@ -106,12 +106,12 @@ test('sheets of a pyramid are where it is, and lie flat beside each other in the
   const whole = ((side - 1) * pixel) ** 2 * Math.hypot(1, slope);
   assert.ok(Math.abs(area / whole - 1) < 0.05, `${area} for ${whole}`);
   // Borders are closed, and no edge inside is one.
-  const { corners, lengths } = bordersOf(triangles);
+  const { corners, lengths } = borderLines(triangles);
   let at = 0;
   for (const length of lengths) {
     assert.equal(corners[3 * at], corners[3 * (at + length - 1)]);
     at += length;
   }
   assert.equal(3 * at, corners.length);
-  assert.deepEqual([...bordersOf(Uint32Array.from([0, 1, 2, 0, 2, 3])).corners].filter((_, i) => i % 3 === 0), [0, 1, 2, 3, 0]);
+  assert.deepEqual([...borderLines(Uint32Array.from([0, 1, 2, 0, 2, 3])).corners].filter((_, i) => i % 3 === 0), [0, 1, 2, 3, 0]);
 });

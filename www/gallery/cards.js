@@ -1,35 +1,35 @@
-/** The gallery: what people come for first, then what the paper's figures show, each with an input made in code. */
+/** Cards of the gallery: common uses first, then the paper's figures. Their inputs are generated. */
 import { designInput } from '../design.js';
-import { designed, sampled } from './inputs.js';
-import { bench, bust, canopy, cathedral, fandisk, hall, hidden, note, pleats, tent, terrain, tower, turned } from './shapes.js';
+import { designOf, sampledInput } from './inputs.js';
+import { bench, bust, canopy, cathedral, crumpledNote, fandisk, hall, occludedWall, pleats, rotated, tent, terrain, tower } from './shapes.js';
 
 /** @import {ExampleName} from '../api.js' */
 /** @import {Input, Settings} from '../session.js' */
 
 /**
  * @typedef {object} Card
- * @property {string} id also its address
- * @property {string} [figure] of the paper
+ * @property {string} id id, which is also its address
+ * @property {string} [figure] figure of the paper
  * @property {string} title
- * @property {string} words two sentences
- * @property {string} look what to look at
- * @property {{ name: ExampleName, size: number, noise: number }} [example] of the package
- * @property {(size: number) => Input} [input] made here, by the pixels along its side
- * @property {(size: number) => Input} [sketch] for its picture, where the input is but lines
- * @property {'photo' | 'sheets'} [shows] what its picture shows of the result, where it is not the surface
- * @property {number} size of it
- * @property {Partial<Settings>} settings where they are not the defaults
+ * @property {string} words description in two sentences
+ * @property {string} look what the result shows
+ * @property {{ name: ExampleName, size: number, noise: number }} [example] example of the package
+ * @property {(size: number) => Input} [input] generates the input, by the pixels along its side
+ * @property {(size: number) => Input} [sketch] surface that the picture shows in place of an input that consists of curves only
+ * @property {'photo' | 'sheets'} [shows] what the picture shows in place of the resulting surface
+ * @property {number} size pixels along the side of the input
+ * @property {Partial<Settings>} settings settings that differ from the defaults
  * @property {string} view
- * @property {'strip' | 'drawer'} [opens] what else is shown
+ * @property {'strip' | 'drawer'} [opens] part of the page that is opened with it
  */
 
-/** Away from the middle of the design's edges: the curves of a cathedral's roof. */
-const RIDGES = 0.006;
+/** Half the width of the ridges of the cathedral's roof, where heights are constrained, in sides of the square. */
+const RIDGE_HALF_WIDTH = 0.006;
 
-/** The paper's energy and its medium λ, where the page would look for λ by itself. */
-const PAPER = /** @type {const} */ ({ lambda: 1e6, energy: 'nuclear' });
+/** Settings of the paper: the nuclear norm and a medium λ. */
+const PAPER_SETTINGS = /** @type {const} */ ({ lambda: 1e6, energy: 'nuclear' });
 
-/** @type {readonly Card[]} */
+/** All cards, in the order of the gallery. @type {readonly Card[]} */
 export const CARDS = [
   {
     id: 'dewarp', title: 'A curled page made flat',
@@ -41,7 +41,7 @@ export const CARDS = [
     id: 'canopy', title: 'A canopy to cut from card',
     words: 'You fix the edges of a canopy on four masts. The page fills in a surface that bends like paper, and cuts it into sheets.',
     look: 'Press “Make cut-out sheets” below, then print, cut and fold.',
-    input: (size) => designed('canopy', canopy, size, (x, y) => Math.max(Math.abs(x), Math.abs(y)) > 0.5 - 1.1 / size || Math.hypot(x, y) < 0.8 / size), sketch: (size) => sampled('canopy', canopy, size), shows: 'sheets', size: 100, settings: PAPER, view: 'sheet',
+    input: (size) => designOf('canopy', canopy, size, (x, y) => Math.max(Math.abs(x), Math.abs(y)) > 0.5 - 1.1 / size || Math.hypot(x, y) < 0.8 / size), sketch: (size) => sampledInput('canopy', canopy, size), shows: 'sheets', size: 100, settings: PAPER_SETTINGS, view: 'sheet',
   },
   {
     id: 'auto', title: 'A noisy house, cleaned by itself',
@@ -53,13 +53,13 @@ export const CARDS = [
     id: 'fig-11', figure: 'Fig. 11', title: 'A crumpled note, facet by facet',
     words: 'A phone has scanned a note that was in somebody’s pocket. The facets between its folds become flat, and the folds sharp.',
     look: 'Each facet between the sharper folds has one colour.',
-    input: (size) => sampled('note', note, size, { noise: 0.02 }), size: 200, settings: PAPER, view: 'patches',
+    input: (size) => sampledInput('note', crumpledNote, size, { noise: 0.02 }), size: 200, settings: PAPER_SETTINGS, view: 'patches',
   },
   {
     id: 'dropouts', title: 'Pleats with dead pixels, mended',
     words: 'The sensor has lost a tenth of the pixels. The surface goes on across narrow holes.',
     look: 'No hole is left, and the creases stay in place.',
-    input: (size) => sampled('pleats', turned(pleats, 25), size, { noise: 0.02, dropouts: 0.1 }), size: 200, settings: PAPER, view: 'shaded',
+    input: (size) => sampledInput('pleats', rotated(pleats, 25), size, { noise: 0.02, dropouts: 0.1 }), size: 200, settings: PAPER_SETTINGS, view: 'shaded',
   },
   {
     id: 'smooth-bends', title: 'A noisy cone without facets',
@@ -71,104 +71,104 @@ export const CARDS = [
     id: 'certificate', title: 'An oloid, proven to a thousandth',
     words: 'Every result comes with a proof of how near it is to the best possible surface. Here the solve goes on until that is a thousandth.',
     look: 'The curves of result and bound approach each other.',
-    example: { name: 'oloid', size: 200, noise: 0.02 }, size: 200, settings: { ...PAPER, gap: 0.001 }, view: 'shaded', opens: 'drawer',
+    example: { name: 'oloid', size: 200, noise: 0.02 }, size: 200, settings: { ...PAPER_SETTINGS, gap: 0.001 }, view: 'shaded', opens: 'drawer',
   },
   {
     id: 'fig-4', figure: 'Fig. 4', title: 'A roof, coarse or fine: the same pieces',
     words: 'This is a noisy scan of two vaults and a tower. The same λ gives the same surface, on a coarse image and on a fine one.',
     look: 'Change the size under “Input”: the pieces and creases stay where they are.',
-    example: { name: 'roof', size: 200, noise: 0.02 }, size: 200, settings: PAPER, view: 'patches',
+    example: { name: 'roof', size: 200, noise: 0.02 }, size: 200, settings: PAPER_SETTINGS, view: 'patches',
   },
   {
     id: 'fig-5', figure: 'Fig. 5', title: 'Steel sails behind blocks',
     words: 'The input shows the steel sails of a concert hall as large blocks. The result is made of sheets that bend one way.',
     look: 'Creases appear between the sails, which no block shows.',
-    input: (size) => sampled('hall', hall, size, { voxels: 30 }), size: 180, settings: { ...PAPER, lambda: 1e5 }, view: 'shaded',
+    input: (size) => sampledInput('hall', hall, size, { voxels: 30 }), size: 180, settings: { ...PAPER_SETTINGS, lambda: 1e5 }, view: 'shaded',
   },
   {
     id: 'fig-6', figure: 'Fig. 6', title: 'Pleats in any direction',
     words: 'These noisy pleats are turned by ten degrees against the pixels. Their creases follow the pleats and not the pixels.',
     look: 'The creases are straight, without steps along the rows.',
-    input: (size) => sampled('pleats', turned(pleats, 10), size, { noise: 0.02 }), size: 200, settings: PAPER, view: 'shaded',
+    input: (size) => sampledInput('pleats', rotated(pleats, 10), size, { noise: 0.02 }), size: 200, settings: PAPER_SETTINGS, view: 'shaded',
   },
   {
     id: 'fig-7', figure: 'Fig. 7', title: 'A bench, by another energy',
     words: 'The seat of a bench folds up into its back. An energy with exact curvature (the second fundamental form) gives nearly the same result, in several times the time.',
     look: 'Set the energy back to the nuclear norm under “More options”: hardly anything moves.',
-    input: (size) => sampled('bench', bench, size, { noise: 0.02 }), size: 160, settings: { ...PAPER, energy: 'secondForm' }, view: 'shaded',
+    input: (size) => sampledInput('bench', bench, size, { noise: 0.02 }), size: 160, settings: { ...PAPER_SETTINGS, energy: 'secondForm' }, view: 'shaded',
   },
   {
     id: 'fig-8', figure: 'Fig. 8', title: 'A bust, from one sheet to every hair',
     words: 'A small λ makes a bust from a few large sheets. A large one keeps every detail.',
     look: 'Click one of the five pictures below to take its λ.',
-    input: (size) => sampled('bust', bust, size), size: 240, settings: { ...PAPER, lambda: 3e5 }, view: 'shaded', opens: 'strip',
+    input: (size) => sampledInput('bust', bust, size), size: 240, settings: { ...PAPER_SETTINGS, lambda: 3e5 }, view: 'shaded', opens: 'strip',
   },
   {
     id: 'fig-9', figure: 'Fig. 9', title: 'A column in front of a wall',
     words: 'A depth camera sees a column and a leaf in front of a wall. The surface is torn where the heights jump, so that edges stay clean.',
     look: 'Clean edges from above: untick “Tear where it jumps” to see them smeared.',
-    input: (size) => sampled('scene', hidden, size, { noise: 0.005, known: false }), size: 200, settings: { ...PAPER, occlusionThreshold: 2e3 }, view: 'shaded',
+    input: (size) => sampledInput('scene', occludedWall, size, { noise: 0.005, known: false }), size: 200, settings: { ...PAPER_SETTINGS, occlusionThreshold: 2e3 }, view: 'shaded',
   },
   {
     id: 'fig-10', figure: 'Fig. 10', title: 'The scan of a page, laid flat',
     words: 'The scan of a page has noise of a tenth of its height. The result has the lengths of the paper again.',
     look: 'The page lies flat: a rectangle with the proportions of A4, with hardly any stretch.',
-    example: { name: 'page', size: 200, noise: 0.1 }, size: 200, settings: { ...PAPER, lambda: 1e5 }, view: 'sheet',
+    example: { name: 'page', size: 200, noise: 0.1 }, size: 200, settings: { ...PAPER_SETTINGS, lambda: 1e5 }, view: 'sheet',
   },
   {
     id: 'fig-16', figure: 'Fig. 16', title: 'A machine part from few triangles',
     words: 'The mesh of a machine part has only eighteen triangles along its side. The result has the round bends that these stand for.',
     look: 'The flanks are round, without facets.',
-    input: (size) => sampled('part', fandisk, size, { facets: 18 }), size: 200, settings: { ...PAPER, lambda: 1e5 }, view: 'shaded',
+    input: (size) => sampledInput('part', fandisk, size, { facets: 18 }), size: 200, settings: { ...PAPER_SETTINGS, lambda: 1e5 }, view: 'shaded',
   },
   {
     id: 'fig-18', figure: 'Fig. 18', title: 'A surface through points and curves',
     words: 'You fix two edges and three points, and nothing else. The surface through them finds its folds by itself.',
     look: 'Straight lines lead from the edges to the pins, and across.',
-    input: () => designInput(), sketch: (size) => sampled('design', tent, size), size: 120, settings: PAPER, view: 'rulings',
+    input: () => designInput(), sketch: (size) => sampledInput('design', tent, size), size: 120, settings: PAPER_SETTINGS, view: 'rulings',
   },
   {
     id: 'fig-19', figure: 'Fig. 19', title: 'A cathedral’s roof from its ridges',
     words: 'You fix two ridges and the pointed arches at their ends. The surface between them finds its pieces by itself.',
     look: 'Curved creases that nobody has drawn.',
-    input: (size) => designed('cathedral', cathedral, size, (x, y) => Math.min(Math.abs(x), Math.abs(y)) < RIDGES || Math.max(Math.abs(x), Math.abs(y)) > 0.5 - 1.1 / size),
-    sketch: (size) => sampled('cathedral', cathedral, size), size: 120, settings: PAPER, view: 'shaded',
+    input: (size) => designOf('cathedral', cathedral, size, (x, y) => Math.min(Math.abs(x), Math.abs(y)) < RIDGE_HALF_WIDTH || Math.max(Math.abs(x), Math.abs(y)) > 0.5 - 1.1 / size),
+    sketch: (size) => sampledInput('cathedral', cathedral, size), size: 120, settings: PAPER_SETTINGS, view: 'shaded',
   },
   {
     id: 'fig-22', figure: 'Figs. 20, 22', title: 'A tilted cylinder without facets',
     words: 'The axis of a noisy cylinder lies askew to the pixels. Methods that bend along the edges of a mesh crease it; this one does not.',
     look: 'The result is one piece without a crease.',
-    example: { name: 'cylinder', size: 200, noise: 0.02 }, size: 200, settings: PAPER, view: 'rulings',
+    example: { name: 'cylinder', size: 200, noise: 0.02 }, size: 200, settings: PAPER_SETTINGS, view: 'rulings',
   },
   {
     id: 'fig-21', figure: 'Fig. 21', title: 'A house with smeared ridges',
     words: 'An energy of squares spreads bends out. It smears the ridges of a house, which then cannot be laid flat.',
     look: 'Blue and red stand beside the ridges. They vanish with the nuclear norm under “More options”.',
-    example: { name: 'house', size: 200, noise: 0.01 }, size: 200, settings: { ...PAPER, energy: 'squaredNuclear' }, view: 'gaussian',
+    example: { name: 'house', size: 200, noise: 0.01 }, size: 200, settings: { ...PAPER_SETTINGS, energy: 'squaredNuclear' }, view: 'gaussian',
   },
   {
     id: 'fig-23', figure: 'Fig. 23', title: 'Mountains as if folded from paper',
     words: 'Mountains have ridges of every size and do not bend like paper. Even so there is one best surface, and the page finds it.',
     look: 'The mountains look as if folded from paper.',
-    input: (size) => sampled('mountains', terrain, size), size: 260, settings: PAPER, view: 'shaded',
+    input: (size) => sampledInput('mountains', terrain, size), size: 260, settings: PAPER_SETTINGS, view: 'shaded',
   },
   {
     id: 'fig-24', figure: 'Fig. 24', title: 'A hall with holes',
     words: 'The noisy scan of the hall has holes. The page makes nothing up there, and little changes beside them.',
     look: 'The pieces are the same as without holes.',
-    input: (size) => sampled('hall', hall, size, { noise: 0.02, hole: (x, y) => Math.hypot(x - 0.1, y - 0.15) < 0.09 || Math.hypot(x + 0.2, y + 0.18) < 0.07 || (Math.abs(x - 0.28) < 0.03 && y < 0) }),
-    size: 200, settings: PAPER, view: 'shaded',
+    input: (size) => sampledInput('hall', hall, size, { noise: 0.02, hole: (x, y) => Math.hypot(x - 0.1, y - 0.15) < 0.09 || Math.hypot(x + 0.2, y + 0.18) < 0.07 || (Math.abs(x - 0.28) < 0.03 && y < 0) }),
+    size: 200, settings: PAPER_SETTINGS, view: 'shaded',
   },
   {
     id: 'fig-25', figure: 'Fig. 25', title: 'Where a bust bends both ways',
     words: 'A bust bends both ways at once. The result gathers this in narrow bands, and what is between them can be laid flat.',
     look: 'Colours are all over before, and in few bands after.',
-    input: (size) => sampled('bust', bust, size), size: 200, settings: { ...PAPER, lambda: 3e4 }, view: 'gaussian',
+    input: (size) => sampledInput('bust', bust, size), size: 200, settings: { ...PAPER_SETTINGS, lambda: 3e4 }, view: 'gaussian',
   },
   {
     id: 'fig-26', figure: 'Fig. 26', title: 'A lattice tower, where it fails',
     words: 'The bars of a lattice tower are hardly wider than the grain of the noise. The page cannot tell them apart there.',
     look: 'Noise stays on the legs.',
-    input: (size) => sampled('tower', tower, size, { noise: 0.04 }), size: 200, settings: PAPER, view: 'shaded',
+    input: (size) => sampledInput('tower', tower, size, { noise: 0.04 }), size: 200, settings: PAPER_SETTINGS, view: 'shaded',
   },
 ];

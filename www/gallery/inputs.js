@@ -1,65 +1,69 @@
-/** Inputs of the gallery: heights at pixels, with noise, steps, holes or only where they are held. */
+/** Inputs of the gallery: height images with noise, steps or holes, and designs. */
 
 /** @import {Input} from '../session.js' */
 /** @import {Heights} from './shapes.js' */
 
+/** Seed of the noise and the dropouts. */
+const NOISE_SEED = 17;
+
 /**
+ * An image of heights, with defects.
  * @param {string} name
- * @param {Heights} heights over the unit square
+ * @param {Heights} heights
  * @param {number} size pixels along a side
- * @param {object} [spoils]
- * @param {number} [spoils.noise] standard deviation, as a share of the height range
- * @param {number} [spoils.voxels] heights and pixels come in steps of one of so many along a side
- * @param {number} [spoils.facets] linear between so many points along a side, as on a coarse mesh
- * @param {(x: number, y: number) => boolean} [spoils.hole] where there is no data
- * @param {number} [spoils.dropouts] share of pixels without data
- * @param {boolean} [spoils.known] whether it is the surface without these that is looked for
+ * @param {object} [defects]
+ * @param {number} [defects.noise] standard deviation, as a share of the range of heights
+ * @param {number} [defects.voxels] voxels along a side, to which heights are rounded
+ * @param {number} [defects.facets] facets along a side, on which heights are linear as on a coarse mesh
+ * @param {(x: number, y: number) => boolean} [defects.hole] where there is no data
+ * @param {number} [defects.dropouts] share of pixels without data
+ * @param {boolean} [defects.known] whether the true surface is the one without defects
  * @returns {Input}
  */
-export function sampled(name, heights, size, { noise = 0, voxels, facets, hole, dropouts = 0, known = noise > 0 || voxels !== undefined } = {}) {
+export function sampledInput(name, heights, size, { noise = 0, voxels, facets, hole, dropouts = 0, known = noise > 0 || voxels !== undefined } = {}) {
   const truth = image(heights, size);
-  const given = voxels ? image(inVoxels(heights, voxels), size) : facets ? image(inFacets(heights, facets), size) : truth;
-  const random = generator(17);
+  const given = voxels ? image(voxelHeights(heights, voxels), size) : facets ? image(facetedHeights(heights, facets), size) : truth;
+  const random = randomGenerator(NOISE_SEED);
   const range = rangeOf(truth);
   const data = given.map((z, i) => {
-    const noisy = z + noise * range * gauss(random);
-    const [x, y] = placeOf(i, size);
+    const noisy = z + noise * range * normalSample(random);
+    const [x, y] = pixelCentre(i, size);
     return hole?.(x, y) || random() < dropouts ? NaN : noisy;
   });
   return { name, width: size, height: size, data, pixelSize: 1 / size, heightScale: 1, ...(known && { truth }) };
 }
 
 /**
- * A design: the surface passes through what is held, and is free elsewhere.
+ * A design: heights are constraints at some pixels, and free elsewhere.
  * @param {string} name
  * @param {Heights} heights
- * @param {number} size
- * @param {(x: number, y: number) => boolean} held
+ * @param {number} size pixels along a side
+ * @param {(x: number, y: number) => boolean} isConstrained
  * @returns {Input}
  */
-export function designed(name, heights, size, held) {
-  const data = image(heights, size).map((z, i) => (held(...placeOf(i, size)) ? z : NaN));
+export function designOf(name, heights, size, isConstrained) {
+  const data = image(heights, size).map((z, i) => (isConstrained(...pixelCentre(i, size)) ? z : NaN));
   return { name, width: size, height: size, data, pixelSize: 1 / size, heightScale: 1, design: true };
 }
 
-/** @param {Heights} heights @param {number} size */
+/** Heights at the centres of all pixels. @param {Heights} heights @param {number} size */
 function image(heights, size) {
-  return Float64Array.from({ length: size * size }, (_, i) => heights(...placeOf(i, size)));
+  return Float64Array.from({ length: size * size }, (_, i) => heights(...pixelCentre(i, size)));
 }
 
-/** From the middle, y up. @param {number} i @param {number} size @returns {[number, number]} */
-function placeOf(i, size) {
+/** Coordinates of a pixel: from the middle of the square, y up. @param {number} i index of the pixel @param {number} size @returns {[number, number]} */
+function pixelCentre(i, size) {
   return [(i % size + 0.5) / size - 0.5, 0.5 - (Math.floor(i / size) + 0.5) / size];
 }
 
-/** @param {Heights} heights @param {number} count @returns {Heights} */
-function inVoxels(heights, count) {
+/** Heights rounded to voxels. @param {Heights} heights @param {number} count voxels along a side @returns {Heights} */
+function voxelHeights(heights, count) {
   const middle = (/** @type {number} */ at) => (Math.floor(at * count) + 0.5) / count;
   return (x, y) => Math.round(heights(middle(x), middle(y)) * count) / count;
 }
 
-/** @param {Heights} heights @param {number} count @returns {Heights} */
-function inFacets(heights, count) {
+/** Heights interpolated on a coarse mesh. @param {Heights} heights @param {number} count facets along a side @returns {Heights} */
+function facetedHeights(heights, count) {
   return (x, y) => {
     const [u, v] = [(x + 0.5) * count, (y + 0.5) * count];
     const [i, j] = [Math.floor(u), Math.floor(v)];
@@ -81,8 +85,8 @@ function rangeOf(values) {
   return high - low;
 }
 
-/** Numbers between 0 and 1, the same for the same seed. @param {number} seed */
-function generator(seed) {
+/** A pseudo-random generator of numbers between 0 and 1. @param {number} seed */
+function randomGenerator(seed) {
   let state = seed >>> 0;
   return () => {
     state = (state + 0x6d2b79f5) >>> 0;
@@ -92,7 +96,7 @@ function generator(seed) {
   };
 }
 
-/** Normally distributed, by Box and Muller. @param {() => number} random */
-function gauss(random) {
+/** A normally distributed number (Box-Muller transform). @param {() => number} random */
+function normalSample(random) {
   return Math.sqrt(-2 * Math.log(1 - random())) * Math.cos(2 * Math.PI * random());
 }

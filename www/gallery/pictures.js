@@ -1,11 +1,11 @@
-/** Pictures of the gallery's cards: the input on the left and what comes of it on the right, solved roughly. */
+/** Pictures of the gallery's cards: input and result side by side, solved on few pixels. */
 import { settingsFor } from '../design.js';
 import { make } from '../dom.js';
-import { previewOf } from '../pattern.js';
+import { drawingImage } from '../pattern.js';
 import { heightsOf } from '../session.js';
-import { drawBeside, drawHalves, drawThumbnail } from '../surface/thumbnail.js';
-import { handOver } from '../surface/work.js';
-import { canvasOf } from '../views/dewarped.js';
+import { drawPair, drawHalves, drawThumbnail } from '../surface/thumbnail.js';
+import { transferToWorker } from '../surface/worker-client.js';
+import { canvasFromImage } from '../surface/layer.js';
 
 /** @import {Api, Surface} from '../api.js' */
 /** @import {Card} from './cards.js' */
@@ -13,49 +13,51 @@ import { canvasOf } from '../views/dewarped.js';
 /** @typedef {InstanceType<Api['DevelopableWorker']>} Worker */
 
 /** Pixels along a side of the heights that a card's picture shows. */
-const PICTURE = 112;
-/** Duality gap at which a card's picture is good enough. */
+const PICTURE_SIDE_PIXELS = 112;
+/** Duality gap at which the solve for a picture stops. */
 const PICTURE_GAP = 0.05;
-/** Millimetres along the longer side of a design whose sheets a picture shows: little, so that lines of a fixed width are seen. */
-const SHEETS_SIDE = 50;
+/** Longer side of a design whose sheets a picture shows, in millimetres: so small that lines of a fixed width are visible. */
+const SHEETS_SIDE_MM = 50;
 
 /**
+ * The input of a card.
  * @param {Api} api
  * @param {Card} card
- * @param {number} size
+ * @param {number} size pixels along its side
  * @returns {Promise<Input>}
  */
-export async function inputOf(api, { example, input }, size) {
+export async function cardInput(api, { example, input }, size) {
   if (input) return input(size);
   if (!example) throw new Error('it has neither');
   const { name, noise } = example;
-  const made = await api.example(name, { size, noise });
-  const { width, height, data, pixelSize = 1, heightScale = 1 } = made.input;
-  return { name, width, height, data: Float64Array.from(data), pixelSize, heightScale, truth: Float64Array.from(made.truth) };
+  const generated = await api.example(name, { size, noise });
+  const { width, height, data, pixelSize = 1, heightScale = 1 } = generated.input;
+  return { name, width, height, data: Float64Array.from(data), pixelSize, heightScale, truth: Float64Array.from(generated.truth) };
 }
 
 /**
+ * Draws the picture of a card.
  * @param {Api} api
  * @param {Readonly<Settings>} defaults
  * @param {Card} card
  * @param {HTMLCanvasElement} canvas
  */
 export async function drawPicture(api, defaults, card, canvas) {
-  const input = await inputOf(api, card, PICTURE).catch(() => null);
+  const input = await cardInput(api, card, PICTURE_SIDE_PIXELS).catch(() => null);
   if (!input) return;
-  const sketch = card.sketch?.(PICTURE) ?? input;
+  const sketch = card.sketch?.(PICTURE_SIDE_PIXELS) ?? input;
   drawThumbnail(canvas, sketch, sketch.heightScale / sketch.pixelSize);
-  // What cannot be had leaves the input alone.
-  await inTurn(api, async (worker) => {
-    const { coarsening: _, ...options } = settingsFor(input, { ...defaults, ...card.settings, gap: PICTURE_GAP });
+  // If the solve fails, the picture shows the input alone.
+  await enqueue(api, async (worker) => {
+    const { coarsening: _coarsening, ...options } = settingsFor(input, { ...defaults, ...card.settings, gap: PICTURE_GAP });
     const surface = await worker.fit(heightsOf(input), options);
     if (card.shows === 'photo') return drawPhotos(canvas, worker, input, surface);
     const { image } = surface;
     if (!image) return;
     const [before, after] = [make('canvas', ''), make('canvas', '')];
     drawThumbnail(after, image, 1 / image.pixelSize);
-    if (card.shows === 'sheets') return drawBeside(canvas, after, await sheetsOf(worker, surface, image));
-    // Of a design there is nothing to be seen before.
+    if (card.shows === 'sheets') return drawPair(canvas, after, await sheetsImage(worker, surface, image));
+    // The input of a design is not a surface, so the picture shows the result alone.
     if (input.design) return drawThumbnail(canvas, image, 1 / image.pixelSize);
     drawThumbnail(before, input, input.heightScale / input.pixelSize);
     drawHalves(canvas, before, after);
@@ -71,32 +73,32 @@ export async function drawPicture(api, defaults, card, canvas) {
  */
 async function drawPhotos(canvas, worker, { width, height, pixelSize, heightScale, truth = new Float64Array() }, surface) {
   const { triangles, positions, places } = await worker.unroll({ width, height, pixelSize, heightScale, data: truth });
-  const photo = await handOver('photographed', [triangles, positions, places], { width, height, pixelSize, heightScale, truth }, { triangles, positions, places });
+  const photo = await transferToWorker('photographExample', [triangles, positions, places], { width, height, pixelSize, heightScale, truth }, { triangles, positions, places });
   const flat = await worker.dewarp(surface, photo, { map: false });
-  drawBeside(canvas, canvasOf(photo), canvasOf(new ImageData(flat.data, flat.width)));
+  drawPair(canvas, canvasFromImage(photo), canvasFromImage(new ImageData(flat.data, flat.width)));
 }
 
-/** @param {Worker} worker @param {Surface} surface @param {{ width: number, height: number, pixelSize: number }} image of the surface */
-async function sheetsOf(worker, surface, { width, height, pixelSize }) {
-  const drawing = await worker.pattern(surface, { scale: SHEETS_SIDE / (Math.max(width, height) * pixelSize) });
-  return previewOf((own) => worker.writeSvg(own), drawing);
+/** An image of the sheets that are cut from a surface. @param {Worker} worker @param {Surface} surface @param {{ width: number, height: number, pixelSize: number }} image of the surface */
+async function sheetsImage(worker, surface, { width, height, pixelSize }) {
+  const drawing = await worker.pattern(surface, { scale: SHEETS_SIDE_MM / (Math.max(width, height) * pixelSize) });
+  return drawingImage((own) => worker.writeSvg(own), drawing);
 }
 
-/** The worker of the pictures, while there are some to come, and the last one. */
-const small = { worker: /** @type {Worker | null} */ (null), open: 0, last: Promise.resolve() };
+/** Queue of the pictures: their worker, the number of waiting pictures, and the last of them. */
+const queue = { worker: /** @type {Worker | null} */ (null), waiting: 0, last: Promise.resolve() };
 
 /**
- * One picture after the other, in one worker.
+ * Draws a picture after those that were requested before, in the same worker.
  * @param {Api} api
  * @param {(worker: Worker) => Promise<void>} draw
  */
-function inTurn(api, draw) {
-  small.open++;
-  const mine = small.last.then(() => draw(small.worker ??= new api.DevelopableWorker())).finally(() => {
-    if (--small.open > 0) return;
-    small.worker?.dispose();
-    small.worker = null;
+function enqueue(api, draw) {
+  queue.waiting++;
+  const job = queue.last.then(() => draw(queue.worker ??= new api.DevelopableWorker())).finally(() => {
+    if (--queue.waiting > 0) return;
+    queue.worker?.dispose();
+    queue.worker = null;
   });
-  small.last = mine.catch(() => {});
-  return mine;
+  queue.last = job.catch(() => {});
+  return job;
 }

@@ -1,17 +1,12 @@
-/** Surfaces as heights over the unit square, x to the right and y up from its middle: what the gallery shows. */
+/** Surfaces of the gallery, as heights over the unit square. Coordinates start at its middle, x to the right and y up. */
 
-/** @typedef {(x: number, y: number) => number} Heights NaN beyond the shape */
+/** @typedef {(x: number, y: number) => number} Heights NaN outside of the shape */
 
-/** @param {Heights} heights @param {number} degrees counter-clockwise @returns {Heights} */
-export function turned(heights, degrees) {
+/** Heights rotated about the middle. @param {Heights} heights @param {number} degrees counter-clockwise @returns {Heights} */
+export function rotated(heights, degrees) {
   const angle = (degrees * Math.PI) / 180;
   const [cos, sin] = [Math.cos(angle), Math.sin(angle)];
   return (x, y) => heights(cos * x + sin * y, cos * y - sin * x);
-}
-
-/** An arc over an axis, down to 0 at its sides. @param {number} off @param {number} radius @param {number} half */
-function vault(off, radius, half) {
-  return Math.abs(off) < half ? Math.sqrt(radius ** 2 - off ** 2) - Math.sqrt(radius ** 2 - half ** 2) : 0;
 }
 
 /** Sails of a concert hall: parts of cylinders that lean against each other, each a sheet of steel. @type {Heights} */
@@ -54,41 +49,41 @@ export function bust(x, y) {
   return 0.02;
 }
 
-/** @param {number} x @param {number} y @param {number} z */
+/** Approximate signed distance from the bust. @param {number} x @param {number} y @param {number} z */
 function bustDistance(x, y, z) {
   const side = Math.abs(x);
   /** @param {number} u @param {number} v @param {number} w @param {readonly [number, number, number]} radii */
-  const ball = (u, v, w, [a, b, c]) => {
+  const ellipsoid = (u, v, w, [a, b, c]) => {
     const scaled = Math.hypot(u / a, v / b, w / c);
     const steep = Math.hypot(u / a ** 2, v / b ** 2, w / c ** 2) || 1;
     return (scaled * (scaled - 1)) / steep;
   };
-  const head = ball(x, y - 0.12, z - 0.12, [0.21, 0.28, 0.27]);
-  const jaw = ball(x, y + 0.06, z - 0.16, [0.13, 0.13, 0.19]);
-  const nose = ball(x, y - 0.06 + 0.3 * (z - 0.38), z - 0.38, [0.035, 0.075, 0.065]);
-  const brow = ball(side - 0.08, y - 0.155, z - 0.335, [0.075, 0.022, 0.04]);
-  const eye = ball(side - 0.08, y - 0.1, z - 0.385, [0.05, 0.035, 0.05]);
-  const cheek = ball(side - 0.1, y + 0.0, z - 0.28, [0.07, 0.08, 0.07]);
-  const lip = ball(x, y + 0.065, z - 0.345, [0.06, 0.02, 0.03]);
-  const chin = ball(x, y + 0.13, z - 0.29, [0.055, 0.045, 0.06]);
-  const ear = ball(side - 0.215, y - 0.08, z - 0.1, [0.03, 0.07, 0.05]);
-  const hair = ball(x, y - 0.27, z - 0.12, [0.24, 0.17, 0.2]);
+  const head = ellipsoid(x, y - 0.12, z - 0.12, [0.21, 0.28, 0.27]);
+  const jaw = ellipsoid(x, y + 0.06, z - 0.16, [0.13, 0.13, 0.19]);
+  const nose = ellipsoid(x, y - 0.06 + 0.3 * (z - 0.38), z - 0.38, [0.035, 0.075, 0.065]);
+  const brow = ellipsoid(side - 0.08, y - 0.155, z - 0.335, [0.075, 0.022, 0.04]);
+  const eye = ellipsoid(side - 0.08, y - 0.1, z - 0.385, [0.05, 0.035, 0.05]);
+  const cheek = ellipsoid(side - 0.1, y + 0.0, z - 0.28, [0.07, 0.08, 0.07]);
+  const lip = ellipsoid(x, y + 0.065, z - 0.345, [0.06, 0.02, 0.03]);
+  const chin = ellipsoid(x, y + 0.13, z - 0.29, [0.055, 0.045, 0.06]);
+  const ear = ellipsoid(side - 0.215, y - 0.08, z - 0.1, [0.03, 0.07, 0.05]);
+  const hair = ellipsoid(x, y - 0.27, z - 0.12, [0.24, 0.17, 0.2]);
   const neck = Math.max(Math.hypot(x, z - 0.08) - 0.12, y - 0.1);
-  const chest = ball(x, y + 0.55, z - 0.02, [0.46, 0.27, 0.2]);
-  let face = smooth(smooth(head, jaw, 0.05), cheek, 0.04);
+  const chest = ellipsoid(x, y + 0.55, z - 0.02, [0.46, 0.27, 0.2]);
+  let face = smoothMinimum(smoothMinimum(head, jaw, 0.05), cheek, 0.04);
   face = Math.max(face, -eye + 0.012);
-  face = smooth(smooth(smooth(smooth(face, nose, 0.02), brow, 0.02), lip, 0.015), chin, 0.03);
-  return smooth(smooth(smooth(Math.min(face, ear), hair, 0.02), neck, 0.03), chest, 0.06);
+  face = smoothMinimum(smoothMinimum(smoothMinimum(smoothMinimum(face, nose, 0.02), brow, 0.02), lip, 0.015), chin, 0.03);
+  return smoothMinimum(smoothMinimum(smoothMinimum(Math.min(face, ear), hair, 0.02), neck, 0.03), chest, 0.06);
 }
 
-/** The smaller of both, rounded where they meet. @param {number} a @param {number} b @param {number} k */
-function smooth(a, b, k) {
+/** Smooth minimum of two distances. @param {number} a @param {number} b @param {number} k width of the transition */
+function smoothMinimum(a, b, k) {
   const share = Math.max(k - Math.abs(a - b), 0) / k;
   return Math.min(a, b) - (share * share * k) / 4;
 }
 
 /** A column and a leaf in front of a wall that leans: seen from the front they hide a part of it. @type {Heights} */
-export function hidden(x, y) {
+export function occludedWall(x, y) {
   const wall = 0.12 * y - 0.1;
   if (Math.abs(x + 0.2) < 0.1) return 0.32 + Math.sqrt(0.1 ** 2 - (x + 0.2) ** 2) * 0.9;
   const [u, v] = [x - 0.16, y + 0.04];
@@ -97,13 +92,14 @@ export function hidden(x, y) {
 }
 
 /** A note that was crumpled and spread again: facets between folds in all directions. @type {Heights} */
-export function note(x, y) {
+export function crumpledNote(x, y) {
   if (Math.abs(x) > 0.36 || Math.abs(y) > 0.46) return NaN;
   let z = 0;
-  for (const [angle, place, fold] of FOLDS) z += fold * Math.abs(Math.cos(angle) * x + Math.sin(angle) * y - place);
+  for (const [angle, place, fold] of NOTE_FOLDS) z += fold * Math.abs(Math.cos(angle) * x + Math.sin(angle) * y - place);
   return z;
 }
-const FOLDS = /** @type {const} */ ([
+/** Folds of the note: direction of the normal in radians, distance from the middle, and slope. */
+const NOTE_FOLDS = /** @type {const} */ ([
   [0.3, 0.05, 0.16], [1.2, -0.12, -0.14], [2.1, 0.1, 0.12], [2.7, -0.2, -0.1], [0.9, 0.22, 0.11], [1.7, 0.2, -0.13], [0.05, -0.18, 0.09], [1.5, -0.3, 0.1],
 ]);
 
@@ -127,7 +123,7 @@ export function terrain(x, y) {
   return z - 0.15;
 }
 
-/** Smooth noise between 0 and 1. @param {number} x @param {number} y */
+/** Value noise: random values on a grid, interpolated smoothly, between 0 and 1. @param {number} x @param {number} y */
 function valueNoise(x, y) {
   const [i, j] = [Math.floor(x), Math.floor(y)];
   const [u, v] = [x - i, y - j].map((t) => t * t * (3 - 2 * t));
@@ -140,7 +136,7 @@ function valueNoise(x, y) {
   return (at(i, j) * (1 - u) + at(i + 1, j) * u) * (1 - v) + (at(i, j + 1) * (1 - u) + at(i + 1, j + 1) * u) * v;
 }
 
-/** A lattice tower seen from the front: legs that are hardly wider than the noise is fine. @type {Heights} */
+/** A lattice tower seen from the front: legs that are only a few pixels wide. @type {Heights} */
 export function tower(x, y) {
   const up = y + 0.5;
   const half = 0.34 * (1 - up) ** 1.6 + 0.02;

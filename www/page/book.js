@@ -1,7 +1,7 @@
-/** Several photos of pages that become one PDF: each with its outline, as it was found or corrected. */
+/** Several photos of pages that become one PDF, each with the state of its outline. */
 import { BOOK_WORDS } from './messages.js';
-import { apart } from '../worker-task.js';
-import { whole } from './flatten.js';
+import { runInWorker } from '../worker-task.js';
+import { flattenWholePhoto } from './flatten.js';
 import { pictureFiles } from './paper.js';
 import { openPhoto } from './photo.js';
 
@@ -14,67 +14,68 @@ import { openPhoto } from './photo.js';
 /**
  * @typedef {object} BookPhoto
  * @property {File} file
- * @property {PageState | null} state what was done to its outline; nothing yet, if it was not looked at
+ * @property {PageState | null} state changes to its outline; null if the photo was not shown yet
  */
 
 export class Book {
   /** @type {BookPhoto[]} */
   photos = [];
-  /** The number of the photo that is shown. */
-  at = 0;
+  /** Index of the photo that is shown. */
+  index = 0;
 
-  /** Another book, or none: one photo alone. @param {readonly File[]} files */
-  begin(files) {
-    [this.photos, this.at] = [files.map((file) => ({ file, state: null })), 0];
+  /** Replaces all photos; a single file is a photo alone. @param {readonly File[]} files */
+  setFiles(files) {
+    [this.photos, this.index] = [files.map((file) => ({ file, state: null })), 0];
   }
 
-  /** Keeps what was done to the photo that is shown. @param {PageSession} session */
-  keep(session) {
-    const shown = this.photos[this.at];
-    if (shown && session.photo) shown.state = session.state();
+  /** Saves the state of the photo that is shown. @param {PageSession} session */
+  saveState(session) {
+    const photo = this.photos[this.index];
+    if (photo && session.photo) photo.state = session.state();
   }
 
-  /** Takes the photo that is shown out. */
+  /** Removes the photo that is shown. */
   remove() {
-    this.photos.splice(this.at, 1);
-    this.at = Math.min(this.at, this.photos.length - 1);
+    this.photos.splice(this.index, 1);
+    this.index = Math.min(this.index, this.photos.length - 1);
   }
 
   /**
-   * The files of all pages' pictures, with all pixels of the photos: one after the other, since there may not be memory for all.
+   * Flattens all photos at full resolution, one after the other to save memory.
    * @param {Api} api
-   * @param {PageSession} session of the photo that is shown
+   * @param {PageSession} session session of the photo that is shown
    * @param {Worker} worker
-   * @param {readonly [number, number] | null} paper in millimetres, or true size without one
-   * @param {(done: number) => void} tell
+   * @param {readonly [number, number] | null} paper size in millimetres; null for true size
+   * @param {(index: number) => void} onPhoto called before each photo
+   * @returns the picture file and the size of each page
    */
-  async pages(api, session, worker, paper, tell) {
-    this.keep(session);
+  async flatPages(api, session, worker, paper, onPhoto) {
+    this.saveState(session);
     const { signal } = new AbortController();
-    const made = [];
+    const pages = [];
     for (const [i, { file, state }] of this.photos.entries()) {
-      tell(i);
+      onPhoto(i);
       try {
         const photo = await openPhoto(api, file, signal);
-        const { quarters, outline, traces, text } = state ?? { quarters: 0, outline: { pages: 1 }, traces: tracesOf(photo), text: [[]] };
-        const { options, finding } = session;
-        const wish = { photo, traces, text, options: { ...options, findLines: finding }, moving: false };
-        const flat = await apart(api, signal, (own) => whole(own, wish));
-        made.push(...await pictureFiles(worker, flat, outline.pages, quarters, paper, options.ink));
+        const { quarters, outline, traces, textLines } = state ?? { quarters: 0, outline: { pages: 1 }, traces: detectedTraces(photo), textLines: [[]] };
+        const { options, findsTextLines } = session;
+        const request = { photo, traces, textLines, options: { ...options, findLines: findsTextLines }, moving: false };
+        const flat = await runInWorker(api, signal, (own) => flattenWholePhoto(own, request));
+        pages.push(...await pictureFiles(worker, flat, outline.pages, quarters, paper, options.ink));
       } catch (error) {
         throw new Error(`${file.name}: ${error instanceof Error ? error.message : String(error)}`, { cause: error });
       }
     }
-    return made;
+    return pages;
   }
 }
 
 /**
- * The edges of the page that was found in a photo.
+ * The edges of the page that was detected in a photo.
  * @param {PagePhoto} photo
  * @returns {Traces}
  */
-function tracesOf({ outlines: { verdict, pages: [found] } }) {
+function detectedTraces({ outlines: { verdict, pages: [found] } }) {
   if (verdict === 'notFound' || !found) throw new Error(BOOK_WORDS.unfound);
   const { top, bottom, left, right } = found.edges;
   return [[top], [bottom], [left], [right]];

@@ -1,23 +1,26 @@
-/** Photos of printed pages in space, made by a camera that is known: something to make flat at once. */
-import { printed } from '../sample-page.js';
+/** Example photos of printed pages, rendered by a pinhole camera. */
+import { samplePage } from '../sample-page.js';
 import { fillTriangles } from '../surface/triangles.js';
 
 /** @typedef {'curled' | 'book'} ExampleName */
 
-/** The photo's size, and the camera's focal length in its pixels, as a phone has it. */
-const [WIDTH, HEIGHT, FOCAL] = [960, 1280, 1150];
-/** The page in millimetres. */
-const [WIDE, HIGH] = [210, 297];
-/** Cells of the page that are drawn, in each direction, and vertices in a row of them. */
-const STEPS = 100;
-const ROW = STEPS + 1;
+/** Size of an upright photo. */
+const [PHOTO_WIDTH_PIXELS, PHOTO_HEIGHT_PIXELS] = [960, 1280];
+/** Focal length of the camera, about that of a phone. */
+const FOCAL_LENGTH_PIXELS = 1150;
+/** Size of a page: A4. */
+const [PAGE_WIDTH_MM, PAGE_HEIGHT_MM] = [210, 297];
+/** Number of cells of the rendered page in each direction. */
+const PAGE_CELLS = 100;
+/** Number of vertices in a row of cells. */
+const ROW_VERTICES = PAGE_CELLS + 1;
 
 /**
  * @typedef {object} Scene
- * @property {number} pages beside each other
- * @property {(s: number) => number} slope angle of the page along its upper edge, from 0 to 1, in radians
- * @property {number} distance of the camera from the page's middle
- * @property {readonly [number, number, number]} turn of the camera about its axes x, y, z in radians
+ * @property {number} pages number of pages side by side
+ * @property {(s: number) => number} slope angle of the page in radians, by the position along its upper edge from 0 to 1
+ * @property {number} distance of the camera from the centre of the page, in millimetres
+ * @property {readonly [number, number, number]} turn rotation of the camera about its axes x, y and z, in radians
  */
 
 /** @type {Record<ExampleName, Scene>} */
@@ -30,7 +33,7 @@ const SCENES = {
   },
   book: {
     pages: 2,
-    // Nearly flat outside, steep at the gutter.
+    // Nearly flat at the outer edges, steep at the gutter.
     slope: (s) => (s < 0.5 ? -1 : 1) * (1.05 * Math.exp(-Math.abs(s - 0.5) / 0.09) - 0.16),
     distance: 450,
     turn: [0.05, 0.04, -0.03],
@@ -38,82 +41,84 @@ const SCENES = {
 };
 
 /**
+ * Renders an example photo.
  * @param {ExampleName} name
  * @returns {{ image: ImageData, film35: number, pages: number }}
  */
 export function examplePhoto(name) {
   const scene = SCENES[name];
   const { pages } = scene;
-  // An open book is held the other way.
-  const [width, height] = pages === 2 ? [HEIGHT, WIDTH] : [WIDTH, HEIGHT];
-  const image = table(width, height);
-  const page = printed(WIDE, HIGH);
-  const { triangles, places, ahead, slopes } = seen(scene, width, height);
+  // An open book needs a landscape photo.
+  const [width, height] = pages === 2 ? [PHOTO_HEIGHT_PIXELS, PHOTO_WIDTH_PIXELS] : [PHOTO_WIDTH_PIXELS, PHOTO_HEIGHT_PIXELS];
+  const image = drawTable(width, height);
+  const page = samplePage(PAGE_WIDTH_MM, PAGE_HEIGHT_MM);
+  const { triangles, places, depths, slopes } = projectPage(scene, width, height);
   fillTriangles({ width, height }, triangles, places, (pixel, t, a, b, c) => {
     const [i, j, k] = [triangles[3 * t], triangles[3 * t + 1], triangles[3 * t + 2]];
-    // Weights as they are on the page, not in the photo.
-    const [u, v, w] = [a / ahead[i], b / ahead[j], c / ahead[k]];
-    const across = (u * (i % ROW) + v * (j % ROW) + w * (k % ROW)) / (u + v + w) / STEPS;
-    const down = (u * Math.floor(i / ROW) + v * Math.floor(j / ROW) + w * Math.floor(k / ROW)) / (u + v + w) / STEPS;
-    const light = 0.78 + 0.22 * Math.cos(slopes[i % ROW] + 0.5);
-    copy(page, ((across * pages) % 1) * (page.width - 1), down * (page.height - 1), light, image.data, 4 * pixel);
+    // Perspective-correct weights: those on the page, not those in the photo.
+    const [u, v, w] = [a / depths[i], b / depths[j], c / depths[k]];
+    const across = (u * (i % ROW_VERTICES) + v * (j % ROW_VERTICES) + w * (k % ROW_VERTICES)) / (u + v + w) / PAGE_CELLS;
+    const down = (u * Math.floor(i / ROW_VERTICES) + v * Math.floor(j / ROW_VERTICES) + w * Math.floor(k / ROW_VERTICES)) / (u + v + w) / PAGE_CELLS;
+    const light = 0.78 + 0.22 * Math.cos(slopes[i % ROW_VERTICES] + 0.5);
+    copyColour(page, ((across * pages) % 1) * (page.width - 1), down * (page.height - 1), light, image.data, 4 * pixel);
   });
-  return { image: softened(image), film35: (FOCAL * Math.hypot(36, 24)) / Math.hypot(width, height), pages };
+  return { image: blur(image), film35: (FOCAL_LENGTH_PIXELS * Math.hypot(36, 24)) / Math.hypot(width, height), pages };
 }
 
 /**
- * Where the page's points are in the photo.
+ * Projects the vertices of the page into the photo.
  * @param {Scene} scene
  * @param {number} width
  * @param {number} height
  */
-function seen({ pages, slope, distance, turn }, width, height) {
-  // The curve of the upper edge, by the trapezoidal rule.
-  const [xs, zs] = [new Float64Array(ROW), new Float64Array(ROW)];
-  const slopes = Float64Array.from({ length: ROW }, (_, i) => slope((i + 1e-6) / STEPS));
-  for (let i = 1; i < ROW; i++) {
-    const middle = slope((i - 0.5) / STEPS);
-    xs[i] = xs[i - 1] + (pages * WIDE / STEPS) * Math.cos(middle);
-    zs[i] = zs[i - 1] + (pages * WIDE / STEPS) * Math.sin(middle);
+function projectPage({ pages, slope, distance, turn }, width, height) {
+  // The curve of the upper edge, integrated by the midpoint rule.
+  const [xs, zs] = [new Float64Array(ROW_VERTICES), new Float64Array(ROW_VERTICES)];
+  const slopes = Float64Array.from({ length: ROW_VERTICES }, (_, i) => slope((i + 1e-6) / PAGE_CELLS));
+  for (let i = 1; i < ROW_VERTICES; i++) {
+    const middle = slope((i - 0.5) / PAGE_CELLS);
+    xs[i] = xs[i - 1] + (pages * PAGE_WIDTH_MM / PAGE_CELLS) * Math.cos(middle);
+    zs[i] = zs[i - 1] + (pages * PAGE_WIDTH_MM / PAGE_CELLS) * Math.sin(middle);
   }
-  const [left, level] = [xs[STEPS] / 2, (Math.min(...zs) + Math.max(...zs)) / 2];
+  const [left, middleDepth] = [xs[PAGE_CELLS] / 2, (Math.min(...zs) + Math.max(...zs)) / 2];
   const rotate = rotation(turn);
-  const places = new Float64Array(2 * ROW * ROW);
-  const ahead = new Float64Array(ROW * ROW);
-  for (let j = 0; j < ROW; j++) {
-    for (let i = 0; i < ROW; i++) {
-      const [x, y, z] = rotate(xs[i] - left, HIGH * (j / STEPS - 0.5), -(zs[i] - level));
-      const at = j * ROW + i;
-      ahead[at] = z + distance;
-      places[2 * at] = width / 2 + (FOCAL * x) / ahead[at];
-      places[2 * at + 1] = height / 2 + (FOCAL * y) / ahead[at];
+  const places = new Float64Array(2 * ROW_VERTICES * ROW_VERTICES);
+  const depths = new Float64Array(ROW_VERTICES * ROW_VERTICES);
+  for (let j = 0; j < ROW_VERTICES; j++) {
+    for (let i = 0; i < ROW_VERTICES; i++) {
+      const [x, y, z] = rotate(xs[i] - left, PAGE_HEIGHT_MM * (j / PAGE_CELLS - 0.5), -(zs[i] - middleDepth));
+      const at = j * ROW_VERTICES + i;
+      depths[at] = z + distance;
+      places[2 * at] = width / 2 + (FOCAL_LENGTH_PIXELS * x) / depths[at];
+      places[2 * at + 1] = height / 2 + (FOCAL_LENGTH_PIXELS * y) / depths[at];
     }
   }
-  const triangles = new Uint32Array(6 * STEPS * STEPS);
-  for (let cell = 0; cell < STEPS * STEPS; cell++) {
-    const at = Math.floor(cell / STEPS) * ROW + (cell % STEPS);
-    triangles.set([at, at + 1, at + ROW, at + 1, at + ROW + 1, at + ROW], 6 * cell);
+  const triangles = new Uint32Array(6 * PAGE_CELLS * PAGE_CELLS);
+  for (let cell = 0; cell < PAGE_CELLS * PAGE_CELLS; cell++) {
+    const at = Math.floor(cell / PAGE_CELLS) * ROW_VERTICES + (cell % PAGE_CELLS);
+    triangles.set([at, at + 1, at + ROW_VERTICES, at + 1, at + ROW_VERTICES + 1, at + ROW_VERTICES], 6 * cell);
   }
-  return { triangles, places, ahead, slopes };
+  return { triangles, places, depths, slopes };
 }
 
 /**
- * @param {readonly [number, number, number]} turn
+ * The rotation about the axes x, y and z, one after the other.
+ * @param {readonly [number, number, number]} turn angles in radians
  * @returns {(x: number, y: number, z: number) => [number, number, number]}
  */
 function rotation([about, over, roll]) {
   /** @param {number} a @param {number} b @param {number} angle */
-  const by = (a, b, angle) => [a * Math.cos(angle) - b * Math.sin(angle), a * Math.sin(angle) + b * Math.cos(angle)];
+  const rotateInPlane = (a, b, angle) => [a * Math.cos(angle) - b * Math.sin(angle), a * Math.sin(angle) + b * Math.cos(angle)];
   return (x, y, z) => {
-    const [y1, z1] = by(y, z, about);
-    const [z2, x1] = by(z1, x, over);
-    const [x2, y2] = by(x1, y1, roll);
+    const [y1, z1] = rotateInPlane(y, z, about);
+    const [z2, x1] = rotateInPlane(z1, x, over);
+    const [x2, y2] = rotateInPlane(x1, y1, roll);
     return [x2, y2, z2];
   };
 }
 
 /**
- * The colour of a picture between its pixels.
+ * Copies the bilinearly interpolated colour at a place of an image, dimmed by the light.
  * @param {ImageData} image
  * @param {number} x
  * @param {number} y
@@ -121,7 +126,7 @@ function rotation([about, over, roll]) {
  * @param {Uint8ClampedArray} out
  * @param {number} place
  */
-function copy({ width, height, data }, x, y, light, out, place) {
+function copyColour({ width, height, data }, x, y, light, out, place) {
   const [i, j] = [Math.min(width - 2, Math.floor(x)), Math.min(height - 2, Math.floor(y))];
   const [a, b] = [x - i, y - j];
   const [upper, lower] = [4 * (j * width + i), 4 * ((j + 1) * width + i)];
@@ -132,8 +137,8 @@ function copy({ width, height, data }, x, y, light, out, place) {
   }
 }
 
-/** A dark table. @param {number} width @param {number} height */
-function table(width, height) {
+/** The background: a dark wooden table. @param {number} width @param {number} height */
+function drawTable(width, height) {
   const image = new ImageData(width, height);
   const { data } = image;
   for (let i = 0; i < width * height; i++) {
@@ -147,18 +152,18 @@ function table(width, height) {
   return image;
 }
 
-/** As a lens softens edges. @param {ImageData} image */
-function softened(image) {
+/** Blurs a photo slightly, as a lens does. @param {ImageData} image */
+function blur(image) {
   const { width, height } = image;
   const [sharp, soft] = [document.createElement('canvas'), document.createElement('canvas')];
   for (const canvas of [sharp, soft]) Object.assign(canvas, { width, height });
   sharp.getContext('2d')?.putImageData(image, 0, 0);
   const context = soft.getContext('2d', { willReadFrequently: true });
   if (!context) return image;
-  // Where there are no filters it stays sharp.
+  // A browser without canvas filters leaves the photo sharp.
   context.filter = 'blur(0.7px)';
   context.drawImage(sharp, 0, 0);
-  // The rim is opaque all the same.
+  // Blurring makes the border transparent: restore its opacity.
   const softer = context.getImageData(0, 0, width, height);
   for (let i = 3; i < softer.data.length; i += 4) softer.data[i] = 255;
   return softer;

@@ -1,8 +1,8 @@
 /**
- * Pages made flat in a worker of their own: of a reduced photo while edges are moved, where the newest wish wins, and of
- * the whole one to be saved.
+ * Flattens pages in a worker: the reduced photo for previews while edges are moved, where only the newest request counts, and
+ * the whole photo for saving.
  */
-import { rescaled } from './grey.js';
+import { rescalePixel } from './grey.js';
 
 /** @import {Api} from '../api.js' */
 /** @import {PagePhoto} from './photo.js' */
@@ -10,23 +10,23 @@ import { rescaled } from './grey.js';
 /** @typedef {import('../../pkg/types.js').DewarpPageOptions} Options */
 /** @typedef {import('../../pkg/types.js').PageEdges} PageEdges */
 /** @typedef {[number, number][]} Line */
-/** @typedef {[Line[], Line[], Line[], Line[]]} Traces for the upper, lower, left and right edge those of each page */
+/** @typedef {[Line[], Line[], Line[], Line[]]} Traces of the upper, lower, left and right edge, each as one line per page */
 /**
- * @typedef {object} Wish
+ * @typedef {object} FlattenRequest
  * @property {PagePhoto} photo
  * @property {Traces} traces
- * @property {Line[][]} text lines of text that are drawn, by page
+ * @property {Line[][]} textLines lines of text drawn by hand, by page
  * @property {Options} options
- * @property {boolean} moving whether something is being dragged: then lines of text are not looked for, which takes longer
+ * @property {boolean} moving whether something is being dragged: then lines of text are not searched, which would take longer
  */
-/** @typedef {{ flat: DewarpedPage, assumed: boolean }} Flat `assumed`: the focal length is a guess */
+/** @typedef {{ flat: DewarpedPage, focalAssumed: boolean }} FlattenedPage `focalAssumed`: whether the focal length is assumed */
 
-/** Field of view of a phone's main camera along the photo's longer side, in degrees, where nothing tells it. */
+/** Assumed field of view along the photo's longer side where the focal length is unknown, in degrees: that of a phone's main camera. */
 export const ASSUMED_FIELD_OF_VIEW = 65;
 
-export class Flattening {
-  /** @type {Wish | null} */
-  #next = null;
+export class PageFlattener {
+  /** @type {FlattenRequest | null} */
+  #waiting = null;
   #busy = false;
 
   /** @param {InstanceType<Api['DevelopableWorker']>} worker */
@@ -35,77 +35,79 @@ export class Flattening {
   }
 
   /**
-   * @param {Wish} wish
-   * @param {(done: { wish: Wish } & (Flat | { error: unknown })) => void} tell of those that were not overtaken
+   * Flattens the reduced photo. A request that waits is replaced by a newer one.
+   * @param {FlattenRequest} request
+   * @param {(done: { request: FlattenRequest } & (FlattenedPage | { error: unknown })) => void} onResult gets each result, and an error unless a newer request waits
    */
-  async preview(wish, tell) {
-    this.#next = wish;
+  async preview(request, onResult) {
+    this.#waiting = request;
     if (this.#busy) return;
     this.#busy = true;
-    for (let now = this.#take(); now; now = this.#take()) {
-      const { photo: { small, grey: { scale }, film35 }, traces, text, options, moving } = now;
-      const { width, height, data } = small;
+    for (let current = this.#takeWaiting(); current; current = this.#takeWaiting()) {
+      const { photo: { reduced, grey: { scale }, film35 }, traces, textLines, options, moving } = current;
+      const { width, height, data } = reduced;
       try {
-        const own = { ...atScale(options, scale), ...(moving && { findLines: false }) };
-        tell({ wish: now, ...await dewarped(this.worker, { width, height, data, film35 }, edgesOf(traces, text, scale), own) });
+        const scaledOptions = { ...scaleOptions(options, scale), ...(moving && { findLines: false }) };
+        onResult({ request: current, ...await dewarp(this.worker, { width, height, data, film35 }, toPageEdges(traces, textLines, scale), scaledOptions) });
       } catch (error) {
-        if (!this.#next) tell({ wish: now, error });
+        if (!this.#waiting) onResult({ request: current, error });
       }
     }
     this.#busy = false;
   }
 
-  #take() {
-    const next = this.#next;
-    this.#next = null;
+  #takeWaiting() {
+    const next = this.#waiting;
+    this.#waiting = null;
     return next;
   }
 }
 
 /**
- * All pixels of the photo.
+ * Flattens the photo with all its pixels.
  * @param {InstanceType<Api['DevelopableWorker']>} worker
- * @param {Wish} wish
+ * @param {FlattenRequest} wish
  */
-export async function whole(worker, { photo, traces, text, options }) {
+export async function flattenWholePhoto(worker, { photo, traces, textLines, options }) {
   const { width, height, data, film35 } = photo;
-  return (await dewarped(worker, { width, height, data, film35 }, edgesOf(traces, text, 1), { ...options, map: false })).flat;
+  return (await dewarp(worker, { width, height, data, film35 }, toPageEdges(traces, textLines, 1), { ...options, map: false })).flat;
 }
 
 /**
- * The flat page, by a usual focal length where the edges do not tell it.
+ * Flattens a page. If the edges do not determine the focal length, the call is repeated with an assumed one.
  * @param {InstanceType<Api['DevelopableWorker']>} worker
  * @param {Parameters<Api['dewarpPage']>[0]} photo
  * @param {PageEdges[]} edges
  * @param {Options} options
- * @returns {Promise<Flat>}
+ * @returns {Promise<FlattenedPage>}
  */
-async function dewarped(worker, photo, edges, options) {
+async function dewarp(worker, photo, edges, options) {
   try {
-    return { flat: await worker.dewarpPage(photo, edges, options), assumed: false };
+    return { flat: await worker.dewarpPage(photo, edges, options), focalAssumed: false };
   } catch (error) {
     if (!(error instanceof Error && 'code' in error && error.code === 'FOCAL_LENGTH')) throw error;
-    return { flat: await worker.dewarpPage(photo, edges, { ...options, fieldOfView: ASSUMED_FIELD_OF_VIEW }), assumed: true };
+    return { flat: await worker.dewarpPage(photo, edges, { ...options, fieldOfView: ASSUMED_FIELD_OF_VIEW }), focalAssumed: true };
   }
 }
 
 /**
- * Of one page all four edges; of two pages those that both have, for a gutter is no edge that can be seen.
+ * The edges of each page. One page has four; two pages of a book have only upper and lower edges, since no edge is visible at
+ * the gutter.
  * @param {Traces} traces
- * @param {Line[][]} text
+ * @param {Line[][]} textLines
  * @param {number} scale
  * @returns {PageEdges[]}
  */
-function edgesOf([upper, lower, [left], [right]], text, scale) {
+function toPageEdges([upper, lower, [left], [right]], textLines, scale) {
   /** @param {Line} line */
-  const scaled = (line) => line.map(([x, y]) => /** @type {[number, number]} */ ([rescaled(x, scale), rescaled(y, scale)]));
+  const scaled = (line) => line.map(([x, y]) => /** @type {[number, number]} */ ([rescalePixel(x, scale), rescalePixel(y, scale)]));
   return upper.map((line, i) => {
-    const bent = { top: scaled(line), bottom: scaled(lower[i]), lines: (text[i] ?? []).map(scaled) };
+    const bent = { top: scaled(line), bottom: scaled(lower[i]), lines: (textLines[i] ?? []).map(scaled) };
     return upper.length > 1 ? bent : { ...bent, left: scaled(left), right: scaled(right) };
   });
 }
 
-/** Of what counts in pixels of the photo. @param {Options} options @param {number} scale */
-function atScale({ focalLength, dots, ...options }, scale) {
+/** Converts options in pixels of the photo to the reduced photo. @param {Options} options @param {number} scale */
+function scaleOptions({ focalLength, dots, ...options }, scale) {
   return focalLength === undefined ? options : { ...options, focalLength: focalLength * scale };
 }

@@ -1,31 +1,32 @@
-/** A photo in grey, reduced, in which edges are looked for. */
+/** The reduced grey image of a photo in which edges are traced. */
 
 /**
- * @typedef {object} Grey
+ * @typedef {object} GreyImage
  * @property {number} width
  * @property {number} height
- * @property {number} scale its pixels for one of the photo
+ * @property {number} scale pixels of the grey image per pixel of the photo
  * @property {Float32Array} data brightness from 0 to 255
  */
 
 /**
+ * Converts a reduced photo to grey (ITU-R BT.601 luma).
  * @param {{ width: number, height: number, data: Uint8ClampedArray }} pixels RGBA
- * @param {number} scale
- * @returns {Grey}
+ * @param {number} scale pixels of the grey image per pixel of the photo
+ * @returns {GreyImage}
  */
-export function greyOf({ width, height, data }, scale) {
+export function toGrey({ width, height, data }, scale) {
   const grey = new Float32Array(width * height);
   for (let i = 0; i < grey.length; i++) grey[i] = 0.299 * data[4 * i] + 0.587 * data[4 * i + 1] + 0.114 * data[4 * i + 2];
   return { width, height, scale, data: grey };
 }
 
 /**
- * Brightness between pixels, of the nearest one outside.
- * @param {Grey} grey
- * @param {number} x in pixels of the grey picture
+ * Brightness at a place, bilinear between pixel centres; outside the image that of the nearest border pixel.
+ * @param {GreyImage} grey
+ * @param {number} x in pixels of the grey image
  * @param {number} y
  */
-export function brightness({ width, height, data }, x, y) {
+export function brightnessAt({ width, height, data }, x, y) {
   const u = Math.min(Math.max(x, 0), width - 1);
   const v = Math.min(Math.max(y, 0), height - 1);
   const [i, j] = [Math.min(Math.floor(u), width - 2), Math.min(Math.floor(v), height - 2)];
@@ -35,10 +36,10 @@ export function brightness({ width, height, data }, x, y) {
 }
 
 /**
- * From pixels of a photo to those of the same one at another scale: centres of pixels stay what they are.
- * @param {number} at
- * @param {number} scale
+ * Converts a pixel coordinate to that of the same image at another scale. Coordinate 0 is the centre of the first pixel.
+ * @param {number} coordinate
+ * @param {number} scale new pixels per old pixel
  */
-export function rescaled(at, scale) {
-  return (at + 0.5) * scale - 0.5;
+export function rescalePixel(coordinate, scale) {
+  return (coordinate + 0.5) * scale - 0.5;
 }

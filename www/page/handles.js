@@ -1,99 +1,98 @@
 /**
- * Points on a photo that are dragged by mouse, pen or finger, or moved by the arrow keys, and the lines through them,
- * which can be pulled into new points.
+ * Handles over a photo: points that are dragged by mouse, pen or finger, or moved by the arrow keys, and the lines through
+ * them. Dragging a line makes a new point.
  */
 import { make } from '../dom.js';
+import { ARROW_DIRECTIONS } from '../surface/view-keys.js';
 import { Magnifier } from './magnifier.js';
 
 /** @import {Pixels} from './magnifier.js' */
 /** @typedef {readonly [x: number, y: number]} Place in pixels of the photo */
-/** @typedef {{ x: number, y: number, name: string, kind: 'corner' | 'bend' | 'text', held?: boolean }} Handle */
-/** @typedef {{ points: readonly Place[], kind: 'edge' | 'side' | 'text' | 'text drawn' | 'text against', pulls?: number }} Line `pulls`: what is told when it is pulled */
-/** @typedef {{ handles: readonly Handle[], lines: readonly Line[] }} Drawing */
+/** @typedef {{ x: number, y: number, name: string, kind: 'corner' | 'bend' | 'text', pinned?: boolean }} Handle */
+/** @typedef {{ points: readonly Place[], kind: 'edge' | 'side' | 'text' | 'text drawn' | 'text against', pullId?: number }} Line `pullId`: passed to `pull` when the line is dragged; without it the line cannot be dragged */
+/** @typedef {{ handles: readonly Handle[], lines: readonly Line[] }} HandleOverlay */
 /**
- * @typedef {object} Doings
+ * @typedef {object} HandleCallbacks
  * @property {(handle: number, to: [number, number], how: { key: boolean, ended: boolean }) => void} move
- * @property {(pulls: number, place: [number, number]) => number} [pull] makes a handle there, and tells which it is
+ * @property {(pulls: number, place: [number, number]) => number} [pull] makes a handle at a place of a line and returns its index
  * @property {(handle: number) => void} [remove]
- * @property {(handle: number) => void} [choose] it has the focus now
- * @property {(place: [number, number]) => number} [begin] makes a handle where the photo itself is dragged, and tells which it
- *   is; none, if it says less than 0
+ * @property {(handle: number) => void} [choose] the handle has got the focus
+ * @property {(place: [number, number]) => number} [beginLine] starts a line where the photo itself is dragged and returns the
+ *   index of the handle at its end; a negative number if it starts none
  */
 
-/** Pixels of the page for a press of an arrow key; with Shift it is ten times as much. */
-const STEP = 0.5;
-/** Pixels of the page by which a line is pulled before that counts. */
-const PULL = 4;
-/** Room around places outside the photo, as a share of its side. */
-const RIM = 0.03;
-/** @type {Record<string, readonly [number, number]>} */
-const ARROWS = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1] };
+/** Movement for a press of an arrow key, in CSS pixels; ten times as much with Shift. */
+const ARROW_STEP_PIXELS = 0.5;
+/** Distance that the pointer must move before a line counts as dragged, in CSS pixels. */
+const MIN_PULL_PIXELS = 4;
+/** Margin around places outside the photo, as a share of the photo's side. */
+const OUTSIDE_MARGIN_SHARE = 0.03;
 
 export class Handles {
   /** @type {Pixels} */
   #photo = { width: 1, height: 1, data: new Uint8ClampedArray(4) };
-  /** @type {Drawing} */
-  #drawing = { handles: [], lines: [] };
+  /** @type {HandleOverlay} */
+  #overlay = { handles: [], lines: [] };
   /** @type {HTMLButtonElement[]} */
   #buttons = [];
-  /** Whether a drag over the photo begins something new. */
-  drawing = false;
-  #svg = shape('svg', { 'aria-hidden': 'true' });
+  /** Whether dragging over the photo starts a new line. */
+  startsLines = false;
+  #svg = svgElement('svg', { 'aria-hidden': 'true' });
   #magnifier;
-  #doings;
+  #callbacks;
 
   /**
-   * @param {HTMLElement} box exactly over the photo
-   * @param {Doings} doings
+   * @param {HTMLElement} box element that covers the photo exactly
+   * @param {HandleCallbacks} callbacks
    */
-  constructor(box, doings) {
+  constructor(box, callbacks) {
     this.box = box;
-    this.#doings = doings;
+    this.#callbacks = callbacks;
     box.append(this.#svg);
     this.#magnifier = new Magnifier(box);
-    this.#pulled();
+    this.#listenForPulls();
   }
 
-  /** @param {Pixels} photo */
-  on(photo) {
+  /** Sets the photo that the handles are on. @param {Pixels} photo */
+  setPhoto(photo) {
     this.#photo = photo;
     this.#magnifier.hide();
     this.#svg.setAttribute('viewBox', `-0.5 -0.5 ${photo.width} ${photo.height}`);
     this.box.style.setProperty('--aspect', String(photo.width / photo.height));
   }
 
-  /** @param {Drawing} drawing */
-  draw(drawing) {
-    this.#drawing = drawing;
-    const { handles, lines } = drawing;
+  /** Draws handles and lines in place of the earlier ones. @param {HandleOverlay} overlay */
+  draw(overlay) {
+    this.#overlay = overlay;
+    const { handles, lines } = overlay;
     while (this.#buttons.length > handles.length) this.#buttons.pop()?.remove();
-    while (this.#buttons.length < handles.length) this.#add(this.#buttons.length);
-    handles.forEach(({ x, y, name, kind, held = false }, i) => {
+    while (this.#buttons.length < handles.length) this.#addHandle(this.#buttons.length);
+    handles.forEach(({ x, y, name, kind, pinned: held = false }, i) => {
       const button = this.#buttons[i];
       button.className = `handle ${kind}${held ? ' held' : ''}`;
       button.style.setProperty('--x', String((x + 0.5) / this.#photo.width));
       button.style.setProperty('--y', String((y + 0.5) / this.#photo.height));
       button.setAttribute('aria-label', `${name}, at ${Math.round(x)}, ${Math.round(y)}`);
     });
-    this.#svg.replaceChildren(...lines.flatMap(({ points, kind, pulls }) => {
+    this.#svg.replaceChildren(...lines.flatMap(({ points, kind, pullId }) => {
       const d = `M${points.map(([x, y]) => `${x.toFixed(1)} ${y.toFixed(1)}`).join('L')}`;
-      // What is found lies close together: no rim, or nothing is left of the photo.
-      const rims = kind === 'text' || kind === 'text against' ? [] : [shape('path', { d, class: 'under' })];
-      const seen = [...rims, shape('path', { d, class: kind })];
-      return pulls === undefined ? seen : [...seen, shape('path', { d, class: 'grip', 'data-pulls': String(pulls) })];
+      // Detected lines of text lie close together: without a halo, or they would cover the photo.
+      const halo = kind === 'text' || kind === 'text against' ? [] : [svgElement('path', { d, class: 'under' })];
+      const drawn = [...halo, svgElement('path', { d, class: kind })];
+      return pullId === undefined ? drawn : [...drawn, svgElement('path', { d, class: 'grip', 'data-pulls': String(pullId) })];
     }));
   }
 
   /**
-   * Reduces the photo in its frame until places outside of it are in the frame, too.
+   * Shrinks the photo inside its frame until places outside the photo are visible in the frame.
    * @param {readonly Place[]} places
    */
-  fit(places) {
+  showWithin(places) {
     const { width, height } = this.#photo;
-    // From the middle, in sides of the photo.
-    const far = places.map(([x, y]) => [(x + 0.5) / width - 0.5, (y + 0.5) / height - 0.5]);
-    const bounds = [0, 1].map((k) => [Math.min(-0.5, ...far.map((place) => place[k] - RIM)), Math.max(0.5, ...far.map((place) => place[k] + RIM))]);
-    const outside = far.some((place) => Math.max(...place.map(Math.abs)) > 0.5);
+    // Relative to the centre, as shares of the photo's sides.
+    const positions = places.map(([x, y]) => [(x + 0.5) / width - 0.5, (y + 0.5) / height - 0.5]);
+    const bounds = [0, 1].map((k) => [Math.min(-0.5, ...positions.map((place) => place[k] - OUTSIDE_MARGIN_SHARE)), Math.max(0.5, ...positions.map((place) => place[k] + OUTSIDE_MARGIN_SHARE))]);
+    const outside = positions.some((place) => Math.max(...place.map(Math.abs)) > 0.5);
     const zoom = outside ? 1 / Math.max(...bounds.map(([low, high]) => high - low)) : 1;
     this.box.style.setProperty('--zoom', String(zoom));
     ['--across', '--down'].forEach((name, k) => {
@@ -106,55 +105,55 @@ export class Handles {
     this.#buttons[handle]?.focus();
   }
 
-  /** Pixels of the photo for one of the page. */
+  /** Pixels of the photo per CSS pixel. */
   get #scale() {
     return this.#photo.width / this.box.clientWidth;
   }
 
-  /** @param {number} handle */
+  /** Shows the magnifier at a handle. @param {number} handle */
   #magnify(handle) {
-    const { handles, lines } = this.#drawing;
+    const { handles, lines } = this.#overlay;
     const { x, y } = handles[handle];
     this.#magnifier.show(this.#photo, [x, y], lines.map(({ points }) => points));
   }
 
   /**
-   * Where in the photo something happened.
+   * The place of a pointer event in pixels of the photo.
    * @param {MouseEvent} event
    * @returns {[number, number]}
    */
-  place({ clientX, clientY }) {
+  photoPosition({ clientX, clientY }) {
     const { left, top } = this.box.getBoundingClientRect();
     return [(clientX - left) * this.#scale - 0.5, (clientY - top) * this.#scale - 0.5];
   }
 
-  /** Of handles that overlap, as they do under a finger, the one that is meant. @param {PointerEvent} event */
+  /** The index of the handle nearest to an event: handles overlap under a finger. @param {PointerEvent} event */
   #nearest(event) {
-    const [x, y] = this.place(event);
-    const off = this.#drawing.handles.map((handle) => Math.hypot(handle.x - x, handle.y - y));
+    const [x, y] = this.photoPosition(event);
+    const off = this.#overlay.handles.map((handle) => Math.hypot(handle.x - x, handle.y - y));
     return off.indexOf(Math.min(...off));
   }
 
-  /** @param {number} handle */
-  #add(handle) {
+  /** Creates the button of a handle. @param {number} handle its index */
+  #addHandle(handle) {
     const button = make('button', 'handle');
     button.type = 'button';
     this.#buttons.push(button);
     this.box.append(button);
-    button.addEventListener('focus', () => this.#doings.choose?.(handle));
+    button.addEventListener('focus', () => this.#callbacks.choose?.(handle));
     button.addEventListener('blur', () => this.#magnifier.hide());
     button.addEventListener('pointerdown', (event) => {
       if (event.button === 0) this.#drag(event, button, this.#nearest(event));
     });
     button.addEventListener('keydown', (event) => {
-      const arrow = ARROWS[event.key];
+      const arrow = ARROW_DIRECTIONS[event.key];
       if (arrow) {
-        const step = Math.max(1, STEP * this.#scale) * (event.shiftKey ? 10 : 1);
-        const { x, y } = this.#drawing.handles[handle];
-        this.#doings.move(handle, [x + step * arrow[0], y + step * arrow[1]], { key: true, ended: true });
+        const step = Math.max(1, ARROW_STEP_PIXELS * this.#scale) * (event.shiftKey ? 10 : 1);
+        const { x, y } = this.#overlay.handles[handle];
+        this.#callbacks.move(handle, [x + step * arrow[0], y - step * arrow[1]], { key: true, ended: true });
         this.#magnify(handle);
       } else if (event.key === 'Delete' || event.key === 'Backspace') {
-        this.#doings.remove?.(handle);
+        this.#callbacks.remove?.(handle);
       } else if (event.key === 'Escape') {
         this.#magnifier.hide();
       } else return;
@@ -163,82 +162,83 @@ export class Handles {
   }
 
   /**
-   * From where it is taken hold of, so that the finger may stay beside it.
-   * @param {PointerEvent} event
-   * @param {Element} holder of the pointer
+   * Drags a handle until the pointer is lifted. The handle keeps its offset from the pointer, so that a finger need not cover it.
+   * @param {PointerEvent} event that started the drag
+   * @param {Element} holder element that captures the pointer
    * @param {number} handle
-   * @param {PointerEvent} [since] where the pointer is by now
+   * @param {PointerEvent} [since] latest move of the pointer, if it has moved already
    */
   #drag(event, holder, handle, since) {
-    const { x, y } = this.#drawing.handles[handle];
-    const [px, py] = this.place(event);
+    const { x, y } = this.#overlay.handles[handle];
+    const [px, py] = this.photoPosition(event);
     /** @param {PointerEvent} moved @returns {[number, number]} */
     const to = (moved) => {
-      const [u, v] = this.place(moved);
+      const [u, v] = this.photoPosition(moved);
       return [x + u - px, y + v - py];
     };
     holder.setPointerCapture(event.pointerId);
     this.#buttons[handle]?.focus({ preventScroll: true });
     this.#magnify(handle);
-    const over = new AbortController();
+    const drag = new AbortController();
     /** @param {Event} next */
     const follow = (next) => {
       const moved = /** @type {PointerEvent} */ (next);
       if (moved.pointerId !== event.pointerId) return;
-      this.#doings.move(handle, to(moved), { key: false, ended: false });
+      this.#callbacks.move(handle, to(moved), { key: false, ended: false });
       this.#magnify(handle);
     };
     /** @param {Event} next */
     const end = (next) => {
       const last = /** @type {PointerEvent} */ (next);
       if (last.pointerId !== event.pointerId) return;
-      over.abort();
+      drag.abort();
       this.#magnifier.hide();
-      const now = this.#drawing.handles[handle];
-      // A click alone moves nothing.
-      if (now.x !== x || now.y !== y) this.#doings.move(handle, [now.x, now.y], { key: false, ended: true });
+      const now = this.#overlay.handles[handle];
+      // A click without a move does not move the handle.
+      if (now.x !== x || now.y !== y) this.#callbacks.move(handle, [now.x, now.y], { key: false, ended: true });
     };
-    const { signal } = over;
+    const { signal } = drag;
     holder.addEventListener('pointermove', follow, { signal });
     for (const type of ['pointerup', 'pointercancel']) holder.addEventListener(type, end, { signal });
-    // A quick finger is heard of once before it leaves.
+    // A quick drag may have only one move event, which has already happened.
     if (since) follow(since);
     event.preventDefault();
   }
 
-  /** Lets lines be pulled. */
-  #pulled() {
+  /** Starts a drag when a line is pulled, or when a new line is drawn over the photo. */
+  #listenForPulls() {
     const svg = this.#svg;
     svg.addEventListener('pointerdown', (event) => {
       const pulls = event.target instanceof Element ? event.target.getAttribute('data-pulls') : null;
-      const { pull, begin } = this.#doings;
+      const { pull, beginLine } = this.#callbacks;
       if (event.button !== 0) return;
       /** @param {[number, number]} place */
-      const start = (place) => begin?.(place) ?? -1;
-      const make = this.drawing ? start : pulls !== null && pull ? (/** @type {[number, number]} */ place) => pull(Number(pulls), place) : null;
+      const start = (place) => beginLine?.(place) ?? -1;
+      const make = this.startsLines ? start : pulls !== null && pull ? (/** @type {[number, number]} */ place) => pull(Number(pulls), place) : null;
       if (!make) return;
-      // The line itself is drawn anew meanwhile.
+      // The root element captures the pointer: the line's own element is replaced while it is dragged.
       svg.setPointerCapture(event.pointerId);
-      const over = new AbortController();
-      const { signal } = over;
+      const pending = new AbortController();
+      const { signal } = pending;
       svg.addEventListener('pointermove', (moved) => {
-        if (moved.pointerId !== event.pointerId || Math.hypot(moved.clientX - event.clientX, moved.clientY - event.clientY) < PULL) return;
-        over.abort();
-        const handle = make(this.place(event));
+        if (moved.pointerId !== event.pointerId || Math.hypot(moved.clientX - event.clientX, moved.clientY - event.clientY) < MIN_PULL_PIXELS) return;
+        pending.abort();
+        const handle = make(this.photoPosition(event));
         if (handle >= 0) this.#drag(event, svg, handle, moved);
       }, { signal });
-      for (const type of /** @type {const} */ (['pointerup', 'pointercancel'])) svg.addEventListener(type, () => over.abort(), { signal });
+      for (const type of /** @type {const} */ (['pointerup', 'pointercancel'])) svg.addEventListener(type, () => pending.abort(), { signal });
       event.preventDefault();
     });
   }
 }
 
 /**
+ * Creates an SVG element.
  * @template {keyof SVGElementTagNameMap} T
  * @param {T} name
  * @param {Record<string, string>} attributes
  */
-function shape(name, attributes) {
+function svgElement(name, attributes) {
   const made = document.createElementNS('http://www.w3.org/2000/svg', name);
   for (const [key, value] of Object.entries(attributes)) made.setAttribute(key, value);
   return made;

@@ -1,14 +1,16 @@
-/** What is under the finger, enlarged, beside it. */
+/** A magnifier: enlarges the part of the photo under the finger, and shows it beside the finger. */
 
-/** Its size and how much it enlarges what is seen of the photo. */
-const [SIZE, ENLARGED] = [128, 4];
+/** Side of the magnifier, in CSS pixels. */
+const MAGNIFIER_SIZE_PIXELS = 128;
+/** Enlargement of the photo as it is displayed. */
+const MAGNIFICATION = 4;
 
 /** @typedef {{ width: number, height: number, data: Uint8ClampedArray<ArrayBuffer> }} Pixels */
 
 export class Magnifier {
   #source = document.createElement('canvas');
 
-  /** @param {HTMLElement} box over the whole photo, of which its parent may show a part */
+  /** @param {HTMLElement} box element that covers the whole photo; its parent may show only a part of it */
   constructor(box) {
     this.box = box;
     this.canvas = document.createElement('canvas');
@@ -23,26 +25,27 @@ export class Magnifier {
   }
 
   /**
+   * Shows the surroundings of a place of the photo.
    * @param {Pixels} photo
-   * @param {readonly [number, number]} place
-   * @param {readonly (readonly (readonly [number, number])[])[]} lines to be drawn over it
+   * @param {readonly [number, number]} place in pixels of the photo
+   * @param {readonly (readonly (readonly [number, number])[])[]} lines drawn over it
    */
   show(photo, [x, y], lines) {
     const { canvas, box } = this;
     const perPixel = photo.width / box.clientWidth;
-    // In pixels of the photo, at least a few of them.
-    const side = Math.max(12, Math.round((SIZE / ENLARGED) * perPixel));
+    // The shown square in pixels of the photo, at least 12.
+    const side = Math.max(12, Math.round((MAGNIFIER_SIZE_PIXELS / MAGNIFICATION) * perPixel));
     const [left, top] = [Math.round(x - side / 2), Math.round(y - side / 2)];
     const ratio = window.devicePixelRatio;
-    canvas.width = canvas.height = Math.round(SIZE * ratio);
+    canvas.width = canvas.height = Math.round(MAGNIFIER_SIZE_PIXELS * ratio);
     canvas.hidden = false;
-    // On the side where the finger is not.
+    // The magnifier is on the side of the frame opposite to the finger.
     const [whole, shown] = [box, box.parentElement ?? box].map((one) => one.getBoundingClientRect());
     canvas.classList.toggle('right', whole.left + (x / photo.width) * whole.width < shown.left + shown.width / 2);
     const context = canvas.getContext('2d');
     if (!context) return;
     this.#source.width = this.#source.height = side;
-    this.#source.getContext('2d')?.putImageData(part(photo, left, top, side), 0, 0);
+    this.#source.getContext('2d')?.putImageData(cropSquare(photo, left, top, side), 0, 0);
     context.imageSmoothingEnabled = canvas.width / side < 6;
     context.drawImage(this.#source, 0, 0, canvas.width, canvas.height);
     const scale = canvas.width / side;
@@ -71,13 +74,13 @@ export class Magnifier {
 }
 
 /**
- * A square of a photo, transparent beyond its rim.
+ * A square part of a photo, transparent where it exceeds the photo.
  * @param {Pixels} photo
  * @param {number} left
  * @param {number} top
  * @param {number} side
  */
-function part({ width, height, data }, left, top, side) {
+function cropSquare({ width, height, data }, left, top, side) {
   const image = new ImageData(side, side);
   for (let row = 0; row < side; row++) {
     const y = top + row;

@@ -1,4 +1,4 @@
-/** Texts about photos of pages, and about the flat pages made from them. */
+/** Texts about photos of pages and their flat pages. */
 import { count, percent } from '../format.js';
 
 /** @import {PageReport} from '../api.js' */
@@ -37,7 +37,7 @@ export const BOOK_WORDS = {
   writing: (n, all) => `Flattening photo ${n} of ${all}…`,
 };
 
-/** What is known of the camera's focal length. */
+/** Texts about the focal length of the camera. */
 export const FOCAL_WORDS = {
   unknown: 'The focal length is not known: the photo’s file does not tell it, or the photo was cropped. I find it from the perspective, or assume a field of view of 65°.',
   /** @param {string} film35 */
@@ -47,13 +47,13 @@ export const FOCAL_WORDS = {
   pixels: 'This is the focal length in pixels of the photo.',
 };
 
-/** @param {readonly string[]} words one or more */
-function listed(words) {
+/** Joins words by commas and “and”. @param {readonly string[]} words one or more */
+function joinWords(words) {
   return words.length < 2 ? words.join('') : `${words.slice(0, -1).join(', ')} and ${words[words.length - 1]}`;
 }
 
 /**
- * What came of making a page flat by its edges.
+ * The verdict on a flat page, in a sentence.
  * @param {PageReport} report
  */
 export function pageVerdict({ verdict, model, lines }) {
@@ -68,7 +68,7 @@ export function pageVerdict({ verdict, model, lines }) {
 }
 
 /**
- * How far the flat page is to be trusted.
+ * The expected errors of a flat page, and what to do if they are large.
  * @param {PageReport} report
  */
 export function pageErrors(report) {
@@ -86,7 +86,7 @@ export function pageErrors(report) {
 /**
  * Why a flat page is doubtful.
  * @param {PageReport} report
- * @param {string} text what disagrees with the edges besides each other
+ * @param {string} text “ and lines of text” if the page has any
  */
 function doubtWords({ doubt, linesFound }, text) {
   switch (doubt) {
@@ -100,18 +100,18 @@ function doubtWords({ doubt, linesFound }, text) {
 }
 
 /**
- * What else has to be known about a flat page.
+ * Cautions about a flat page.
  * @param {object} about
- * @param {readonly string[]} about.outside corners that the photo does not show
- * @param {readonly string[]} about.weak edges that it hardly shows
- * @param {boolean} about.assumed whether the focal length is a guess
- * @param {number} about.unplaced corners of a page that was not found, which are still where they were at first
+ * @param {readonly string[]} about.outside names of the corners outside the photo
+ * @param {readonly string[]} about.weak names of the edges that are hardly visible
+ * @param {boolean} about.assumed whether the focal length is assumed
+ * @param {number} about.unplaced number of corners that were not dragged yet, if no page was found
  */
 export function pageCautions({ outside, weak, assumed, unplaced }) {
   return [
     ...(unplaced > 0 ? [`Drag the other ${unplaced === 1 ? 'corner' : `${count(unplaced)} corners`}, too.`] : []),
-    ...(outside.length > 0 ? [outside.length === 1 ? `The ${outside[0]} corner is outside the photo, so its place is a guess.` : `The ${listed(outside)} corners are outside the photo, so their places are guesses.`] : []),
-    ...(weak.length > 0 ? [`The ${listed(weak)} ${weak.length === 1 ? 'edge is' : 'edges are'} hardly seen: check ${weak.length === 1 ? 'it' : 'them'}.`] : []),
+    ...(outside.length > 0 ? [outside.length === 1 ? `The ${outside[0]} corner is outside the photo, so its place is a guess.` : `The ${joinWords(outside)} corners are outside the photo, so their places are guesses.`] : []),
+    ...(weak.length > 0 ? [`The ${joinWords(weak)} ${weak.length === 1 ? 'edge is' : 'edges are'} hardly seen: check ${weak.length === 1 ? 'it' : 'them'}.`] : []),
     ...(assumed ? ['The camera is not known, so I assume a field of view of 65°.'] : []),
   ];
 }

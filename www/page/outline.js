@@ -1,42 +1,44 @@
 /**
- * The outline of a page, or of the two pages of an open book, in pixels of its photo, (0, 0) being the centre of the
- * upper left one.
+ * The outline of a page, or of the two pages of an open book, in pixels of its photo; (0, 0) is the centre of the upper left
+ * pixel.
  *
- * Four edges go through nodes: the upper and the lower one from left to right, the left and the right one from top to
- * bottom. Corners are nodes of two edges; those between two pages are the ends of the gutter.
+ * Four edges pass through nodes: the upper and the lower one from left to right, the left and the right one from top to
+ * bottom. Two edges share each corner. The corners between two pages are the ends of the gutter.
  */
-import { through } from './curve.js';
+import { splineThrough } from './spline.js';
 
 /** @typedef {[x: number, y: number]} Point */
 /**
  * @typedef {object} Node
  * @property {number} x
  * @property {number} y
- * @property {Point} home where it was put, near which it is drawn to what the photo shows
+ * @property {Point} home where the node was put; snapping moves it only near this place
  * @property {boolean} corner
- * @property {boolean} held whether it was put where it is, and is not to be moved by what the photo shows
+ * @property {boolean} pinned whether snapping leaves the node where it is
  */
-/** @typedef {0 | 1 | 2 | 3} Edge the upper, lower, left and right one */
-/** @typedef {{ edge: Edge, node: number }} Which */
-/** @typedef {[Node[], Node[], Node[], Node[]]} Edges corners are shared by two of them */
-/** @typedef {Pick<import('../../pkg/types.js').PageOutline, 'edges'>} FoundEdges */
+/** @typedef {0 | 1 | 2 | 3} Edge index of the upper, lower, left or right edge */
+/** @typedef {{ edge: Edge, node: number }} NodeIndex */
+/** @typedef {[Node[], Node[], Node[], Node[]]} Edges nodes of the four edges; two edges share each corner */
+/** @typedef {Pick<import('../../pkg/types.js').PageOutline, 'edges'>} DetectedEdges */
 
 /** Names of the edges. */
 export const EDGE_NAMES = /** @type {const} */ (['upper', 'lower', 'left', 'right']);
-/** All edges, by their numbers. */
+/** Indices of all edges. */
 export const EDGES = /** @type {const} */ ([0, 1, 2, 3]);
-/** Nodes between two corners, at first, and of an edge that bends more often. */
-const [BETWEEN, MAX_BETWEEN] = [3, 7];
-/** Largest distance of a curve through nodes from the edge that was found, as a share of its chord. */
-const MAX_NODE_CURVE_OFFSET = 0.012;
+/** Number of nodes between two corners of a new outline. */
+const INNER_NODES = 3;
+/** Number of nodes between two corners of a detected edge that {@link INNER_NODES} do not follow. */
+const MAX_INNER_NODES = 7;
+/** Maximum distance of the curve through the nodes from a detected edge, in chords of the edge. */
+const MAX_NODE_CURVE_OFFSET_CHORDS = 0.012;
 
 export class Outline {
   /** @type {Edges} */
   edges;
-  /** Exact courses of the edges, as they were found in the photo; none once an edge is changed by hand. @type {(Point[] | null)[]} */
-  found = [null, null, null, null];
+  /** The edges as they were detected in the photo; null once an edge is changed by hand. @type {(Point[] | null)[]} */
+  detectedEdges = [null, null, null, null];
 
-  /** @param {Edges} edges corners are shared here */
+  /** @param {Edges} edges the corners of the left and right edge are replaced by those of the other two */
   constructor([upper, lower, left, right]) {
     const side = (/** @type {Node[]} */ nodes, /** @type {number} */ end) => [
       /** @type {Node} */ (upper.at(end)), ...nodes.filter(({ corner }) => !corner), /** @type {Node} */ (lower.at(end))];
@@ -47,52 +49,54 @@ export class Outline {
    * The quadrilateral of four corners.
    * @param {readonly Point[]} corners upper left, upper right, lower right, lower left
    */
-  static between([ul, ur, lr, ll]) {
-    return new Outline([straight(ul, ur), straight(ll, lr), straight(ul, ll), straight(ur, lr)]);
+  static fromCorners([ul, ur, lr, ll]) {
+    return new Outline([straightNodes(ul, ur), straightNodes(ll, lr), straightNodes(ul, ll), straightNodes(ur, lr)]);
   }
 
   /**
-   * Where nothing better is known.
+   * The default outline for a photo without a detected page: a rectangle in its middle.
    * @param {{ width: number, height: number }} photo
    */
-  static within({ width, height }) {
+  static defaultFor({ width, height }) {
     /** @type {(x: number, y: number) => Point} */
     const at = (x, y) => [x * (width - 1), y * (height - 1)];
-    return Outline.between([at(0.15, 0.15), at(0.85, 0.15), at(0.85, 0.85), at(0.15, 0.85)]);
+    return Outline.fromCorners([at(0.15, 0.15), at(0.85, 0.15), at(0.85, 0.85), at(0.15, 0.85)]);
   }
 
-  /** An outline that was found, with nodes along its edges. @param {FoundEdges} page */
-  static from({ edges: { top, bottom, left, right } }) {
+  /** The outline of a detected page. @param {DetectedEdges} page */
+  static fromDetected({ edges: { top, bottom, left, right } }) {
     const lines = [top, bottom, left, right];
-    const made = new Outline(/** @type {Edges} */ (lines.map(nodesAlong)));
-    made.found = lines;
-    return made;
+    const outline = new Outline(/** @type {Edges} */ (lines.map(nodesAlong)));
+    outline.detectedEdges = lines;
+    return outline;
   }
 
+  /** A deep copy. */
   copy() {
     /** @type {Map<Node, Node>} */
     const copies = new Map();
-    const made = new Outline(/** @type {Edges} */ (this.edges.map((nodes) => nodes.map((node) => {
+    const outline = new Outline(/** @type {Edges} */ (this.edges.map((nodes) => nodes.map((node) => {
       const copy = copies.get(node) ?? { ...node };
       copies.set(node, copy);
       return copy;
     }))));
-    made.found = [...this.found];
-    return made;
+    outline.detectedEdges = [...this.detectedEdges];
+    return outline;
   }
 
+  /** Number of pages: 1 or 2. */
   get pages() {
     return this.edges[0].filter(({ corner }) => corner).length - 1;
   }
 
-  /** The four corners of the whole: upper left, upper right, lower right, lower left. */
+  /** The four outer corners: upper left, upper right, lower right, lower left. */
   get corners() {
     const [upper, lower] = this.edges;
     return [upper[0], upper[upper.length - 1], lower[lower.length - 1], lower[0]];
   }
 
   /**
-   * The nodes of each page's part of an edge, corners included.
+   * The nodes of each page along an edge, corners included.
    * @param {Edge} edge
    */
   spans(edge) {
@@ -101,182 +105,183 @@ export class Outline {
     return ends.slice(1).map((end, k) => nodes.slice(ends[k], end + 1));
   }
 
-  /** The two ends of an open book's gutter. @returns {[Node, Node] | null} */
+  /** The upper and lower end of the gutter; null for one page. @returns {[Node, Node] | null} */
   gutter() {
     if (this.pages < 2) return null;
     const [upper, lower] = this.edges.map((nodes) => nodes.slice(1, -1).find(({ corner }) => corner));
     return upper && lower ? [upper, lower] : null;
   }
 
-  /** The two pages as one. */
-  joined() {
+  /** A copy whose two pages are joined into one. */
+  withoutGutter() {
     const copy = this.copy();
     for (const nodes of copy.edges.slice(0, 2)) nodes.forEach((node, i) => (node.corner = i === 0 || i === nodes.length - 1));
     return copy;
   }
 
   /**
-   * Two pages in the place of one.
-   * @param {readonly [Point, Point]} gutter its ends on both edges
+   * A copy whose page is divided into two.
+   * @param {readonly [Point, Point]} gutter its ends on the upper and the lower edge
    */
-  divided(gutter) {
-    const { edges, found } = this.copy();
+  withGutter(gutter) {
+    const { edges, detectedEdges } = this.copy();
     const [upper, lower] = edges.slice(0, 2).map((nodes, edge) => {
       const [first, last] = [nodes[0], nodes[nodes.length - 1]];
       const [from, to] = [first, last].map(({ x, y }) => /** @type {Point} */ ([x, y]));
-      // As bent as they were.
-      const curve = through(nodes.map(({ x, y }) => [x, y]), 40);
-      const between = [...straight(from, gutter[edge], 2), ...straight(gutter[edge], to, 2).slice(1)].slice(1, -1).map((node) =>
-        (node.corner ? node : nodeAt(nearestAcross(curve, node, from, to), false)));
+      // The nodes lie on the earlier curve, so that the edge keeps its shape.
+      const curve = splineThrough(nodes.map(({ x, y }) => [x, y]), 40);
+      const between = [...straightNodes(from, gutter[edge], 2), ...straightNodes(gutter[edge], to, 2).slice(1)].slice(1, -1).map((node) =>
+        (node.corner ? node : nodeAt(pointAlongChord(curve, node, from, to), false)));
       return [first, ...between, last];
     });
-    const made = new Outline([upper, lower, edges[2], edges[3]]);
-    made.found = [null, null, found[2], found[3]];
-    return made;
+    const outline = new Outline([upper, lower, edges[2], edges[3]]);
+    outline.detectedEdges = [null, null, detectedEdges[2], detectedEdges[3]];
+    return outline;
   }
 
   /**
-   * Moves a node; of a corner, what is free of its edges goes along.
-   * @param {Which} which
+   * Moves a node. The inner nodes of the edges at a corner move with it unless they are pinned.
+   * @param {NodeIndex} index
    * @param {Point} to
    */
-  move(which, [x, y]) {
-    const moved = this.at(which);
+  move(index, [x, y]) {
+    const moved = this.nodeOf(index);
     const before = { x: moved.x, y: moved.y };
     Object.assign(moved, { x, y, home: [x, y] });
     for (const edge of EDGES) {
       if (!this.edges[edge].includes(moved)) continue;
-      this.found[edge] = null;
-      if (moved.corner) for (const nodes of this.spans(edge)) follow(nodes, moved, before);
+      this.detectedEdges[edge] = null;
+      if (moved.corner) for (const nodes of this.spans(edge)) transformInnerNodes(nodes, moved, before);
     }
   }
 
   /**
-   * A further node at its place along the edge.
+   * Adds a node to an edge.
    * @param {Edge} edge
    * @param {Point} place
-   * @returns {Which}
+   * @returns {NodeIndex}
    */
   add(edge, [x, y]) {
     const nodes = this.edges[edge];
-    const axis = direction(nodes);
+    const axis = chordOf(nodes);
     const along = (/** @type {{ x: number, y: number }} */ node) => axis[0] * node.x + axis[1] * node.y;
     const found = nodes.findIndex((node) => along(node) > along({ x, y }));
     const node = found <= 0 ? (found === 0 ? 1 : nodes.length - 1) : found;
     nodes.splice(node, 0, nodeAt([x, y], false));
-    this.found[edge] = null;
+    this.detectedEdges[edge] = null;
     return { edge, node };
   }
 
   /**
-   * Takes a node away that is no corner.
-   * @param {Which} which
+   * Removes a node that is not a corner.
+   * @param {NodeIndex} which
    */
   remove({ edge, node }) {
     if (this.edges[edge][node]?.corner !== false) return;
     this.edges[edge].splice(node, 1);
-    this.found[edge] = null;
+    this.detectedEdges[edge] = null;
   }
 
-  /** @param {Which} which */
-  at({ edge, node }) {
+  /** The node with an index. @param {NodeIndex} which */
+  nodeOf({ edge, node }) {
     return this.edges[edge][node];
   }
 
   /**
-   * What a node is called.
-   * @param {Which} which
+   * The name of a node for screen readers.
+   * @param {NodeIndex} which
    */
   name({ edge, node }) {
     const nodes = this.edges[edge];
     if (!nodes[node].corner) return `Point ${node} of the ${EDGE_NAMES[edge]} edge`;
-    if (node > 0 && node < nodes.length - 1) return `${capital(EDGE_NAMES[edge])} end of the gutter`;
-    return `${capital(EDGE_NAMES[edge])} ${node === 0 ? 'left' : 'right'} corner`;
+    if (node > 0 && node < nodes.length - 1) return `${capitalise(EDGE_NAMES[edge])} end of the gutter`;
+    return `${capitalise(EDGE_NAMES[edge])} ${node === 0 ? 'left' : 'right'} corner`;
   }
 }
 
-/** @param {Point} place @param {boolean} corner @returns {Node} */
+/** A node that was not moved yet. @param {Point} place @param {boolean} corner @returns {Node} */
 export function nodeAt([x, y], corner) {
-  return { x, y, home: [x, y], corner, held: false };
+  return { x, y, home: [x, y], corner, pinned: false };
 }
 
 /**
+ * The nodes of a straight edge between two corners.
  * @param {Point} from
  * @param {Point} to
- * @param {number} [between]
+ * @param {number} [innerNodes] number of nodes between them
  * @returns {Node[]}
  */
-function straight(from, to, between = BETWEEN) {
-  return Array.from({ length: between + 2 }, (_, i) => {
-    const t = i / (between + 1);
-    return nodeAt([from[0] + t * (to[0] - from[0]), from[1] + t * (to[1] - from[1])], i === 0 || i === between + 1);
+function straightNodes(from, to, innerNodes = INNER_NODES) {
+  return Array.from({ length: innerNodes + 2 }, (_, i) => {
+    const t = i / (innerNodes + 1);
+    return nodeAt([from[0] + t * (to[0] - from[0]), from[1] + t * (to[1] - from[1])], i === 0 || i === innerNodes + 1);
   });
 }
 
 /**
- * Nodes along an edge that was found: few, or more where it bends often.
+ * Nodes along a detected edge: few, or more if a curve through few does not follow the edge.
  * @param {Point[]} line
  * @returns {Node[]}
  */
 function nodesAlong(line) {
-  const nodes = evenly(line, BETWEEN);
+  const nodes = evenNodes(line, INNER_NODES);
   const [from, to] = [line[0], line[line.length - 1]];
-  const curve = through(nodes.map(({ x, y }) => [x, y]), 200);
-  const far = MAX_NODE_CURVE_OFFSET * Math.hypot(to[0] - from[0], to[1] - from[1]);
-  const follows = line.every(([x, y]) => curve.some(([u, v]) => Math.hypot(u - x, v - y) < far));
-  return follows ? nodes : evenly(line, MAX_BETWEEN);
+  const curve = splineThrough(nodes.map(({ x, y }) => [x, y]), 200);
+  const tolerance = MAX_NODE_CURVE_OFFSET_CHORDS * Math.hypot(to[0] - from[0], to[1] - from[1]);
+  const follows = line.every(([x, y]) => curve.some(([u, v]) => Math.hypot(u - x, v - y) < tolerance));
+  return follows ? nodes : evenNodes(line, MAX_INNER_NODES);
 }
 
-/** @param {Point[]} line @param {number} between */
-function evenly(line, between) {
-  return Array.from({ length: between + 2 }, (_, k) =>
-    nodeAt(line[Math.round((k / (between + 1)) * (line.length - 1))], k === 0 || k === between + 1));
+/** Nodes at evenly spaced points of a line. @param {Point[]} line @param {number} innerNodes */
+function evenNodes(line, innerNodes) {
+  return Array.from({ length: innerNodes + 2 }, (_, k) =>
+    nodeAt(line[Math.round((k / (innerNodes + 1)) * (line.length - 1))], k === 0 || k === innerNodes + 1));
 }
 
 /**
- * Moves the free nodes of an edge with one of its ends, by the similarity that keeps the other one.
+ * Moves the inner nodes of an edge with one of its ends, by the similarity transform that fixes the other end.
  * @param {readonly Node[]} nodes
- * @param {Node} moved
- * @param {{ x: number, y: number }} before where that end was
+ * @param {Node} moved the end that was moved
+ * @param {{ x: number, y: number }} before its place before
  */
-function follow(nodes, moved, before) {
+function transformInnerNodes(nodes, moved, before) {
   const [first, last] = [nodes[0], nodes[nodes.length - 1]];
   if (first !== moved && last !== moved) return;
   const fixed = first === moved ? last : first;
-  // As a complex factor.
+  // The similarity transform as a complex factor.
   const [ax, ay, bx, by] = [before.x - fixed.x, before.y - fixed.y, moved.x - fixed.x, moved.y - fixed.y];
   const square = ax * ax + ay * ay;
   if (square === 0) return;
   const [re, im] = [(bx * ax + by * ay) / square, (by * ax - bx * ay) / square];
   for (const node of nodes.slice(1, -1)) {
-    if (node.held) continue;
+    if (node.pinned) continue;
     const [dx, dy] = [node.x - fixed.x, node.y - fixed.y];
     [node.x, node.y] = [fixed.x + re * dx - im * dy, fixed.y + im * dx + re * dy];
     node.home = [node.x, node.y];
   }
 }
 
-/** @param {readonly Node[]} nodes */
-function direction(nodes) {
+/** The vector from the first node to the last. @param {readonly Node[]} nodes */
+function chordOf(nodes) {
   const [from, to] = [nodes[0], nodes[nodes.length - 1]];
   return [to.x - from.x, to.y - from.y];
 }
 
 /**
- * The place of a curve that is as far along a chord as another place.
+ * The point of a curve whose projection onto a chord is that of a place.
  * @param {readonly Point[]} curve
  * @param {{ x: number, y: number }} place
  * @param {Point} from
  * @param {Point} to
  */
-function nearestAcross(curve, place, from, to) {
+function pointAlongChord(curve, place, from, to) {
   const along = (/** @type {number} */ x, /** @type {number} */ y) => (to[0] - from[0]) * x + (to[1] - from[1]) * y;
   const wanted = along(place.x, place.y);
   const off = (/** @type {Point} */ [x, y]) => Math.abs(along(x, y) - wanted);
   return curve.reduce((best, point) => (off(point) < off(best) ? point : best));
 }
 
-/** @param {string} word */
-function capital(word) {
+/** The word with a capital first letter. @param {string} word */
+function capitalise(word) {
   return word[0].toUpperCase() + word.slice(1);
 }

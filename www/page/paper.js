@@ -1,54 +1,55 @@
-/** Paper sizes for a flat page: which one it looks like, and the pages of a PDF in that size. */
+/** Paper sizes of flat pages: the most similar size, and the pictures of a PDF's pages. */
 
-import { turnedPicture } from './quarter-turn.js';
+import { turnPicture } from './quarter-turn.js';
 
 /** @import {Worker} from '../worker-task.js' */
 /** @import {DewarpedPage} from './flatten.js' */
 
 /** @typedef {keyof typeof PAPERS} PaperName */
 
-/** Width and height of paper in millimetres. */
+/** Width and height of paper sizes in millimetres. */
 export const PAPERS = /** @type {const} */ ({
   a4: [210, 297], letter: [215.9, 279.4], a5: [148, 210], a3: [297, 420], 'a4-wide': [297, 210], 'letter-wide': [279.4, 215.9],
 });
-/** Largest difference of a page's proportions from those of a paper size, as a share, for the page to look like it. */
+/** Maximum difference between the logarithms of two similar aspect ratios. */
 const MAX_RATIO_DIFFERENCE = 0.03;
+
 /**
- * The paper size with a page's proportions, if there is one.
- * @param {number} width of one page, in any unit
+ * The paper size whose aspect ratio is that of a page; null if none is similar.
+ * @param {number} width width of one page, in any unit
  * @param {number} height
  * @returns {PaperName | null}
  */
 export function similarPaper(width, height) {
-  const off = (/** @type {PaperName} */ name) => Math.abs(Math.log((width / height) * (PAPERS[name][1] / PAPERS[name][0])));
+  const ratioDifference = (/** @type {PaperName} */ name) => Math.abs(Math.log((width / height) * (PAPERS[name][1] / PAPERS[name][0])));
   const names = /** @type {PaperName[]} */ (['a4', 'letter', 'a4-wide', 'letter-wide']);
-  const nearest = names.reduce((best, name) => (off(name) < off(best) ? name : best));
-  return off(nearest) < MAX_RATIO_DIFFERENCE ? nearest : null;
+  const nearest = names.reduce((best, name) => (ratioDifference(name) < ratioDifference(best) ? name : best));
+  return ratioDifference(nearest) < MAX_RATIO_DIFFERENCE ? nearest : null;
 }
 
 /**
- * The pages of a PDF of a flat photo, one for each page that it shows, in a paper size or in true size without one.
+ * Encodes each page of a flat photo as a picture for a PDF.
  * @param {Worker} worker
  * @param {DewarpedPage} flat
- * @param {number} pages that it shows side by side
- * @param {number} quarters by which each is turned clockwise
- * @param {readonly [number, number] | null} paper in millimetres
- * @param {boolean} [ink] whether it is black and white
+ * @param {number} pages number of pages side by side
+ * @param {number} quarters clockwise quarter turns of each page
+ * @param {readonly [number, number] | null} paper size in millimetres; null for true size
+ * @param {boolean} [ink] whether the flat photo is black and white
  */
 export async function pictureFiles(worker, flat, pages, quarters, paper, ink = false) {
   const columns = Array.from({ length: pages }, (_, i) => [Math.round((i * flat.width) / pages), Math.round(((i + 1) * flat.width) / pages)]);
-  const made = [];
+  const pictures = [];
   for (const [from, to] of columns) {
-    const { width, height, data } = turnedPicture(columnsOf(flat, from, to), quarters);
+    const { width, height, data } = turnPicture(columnsOf(flat, from, to), quarters);
     const picture = await worker.writePhoto({ width, height, data }, { format: ink ? 'png' : 'jpeg' });
     const size = /** @type {[number, number]} */ (paper ? [...paper] : [width / flat.resolution, height / flat.resolution]);
-    made.push({ picture, size });
+    pictures.push({ picture, size });
   }
-  return made;
+  return pictures;
 }
 
 /**
- * A part of a picture, from one column to another.
+ * The columns `from` to `to` of a picture.
  * @param {{ width: number, height: number, data: Uint8ClampedArray<ArrayBuffer> }} picture RGBA
  * @param {number} from
  * @param {number} to

@@ -1,70 +1,72 @@
-/** A photo that was opened: its pixels once, and a reduced copy of them to show and to look for edges in. */
-import { apart } from '../worker-task.js';
-import { pixelsOf, reducedPhoto } from '../pixels.js';
-import { rescaled } from './grey.js';
+/** Opens a photo of a page: its pixels, a reduced copy for display and edge tracing, and the outlines of the pages in it. */
+import { runInWorker } from '../worker-task.js';
+import { readPicture, reducedPhoto } from '../pixels.js';
+import { rescalePixel } from './grey.js';
 
 /** @import {Api} from '../api.js' */
-/** @import {Grey} from './grey.js' */
+/** @import {GreyImage} from './grey.js' */
 /** @typedef {import('../../pkg/types.js').PageOutlines} PageOutlines */
 
-/** Pixels along the longer side of the reduced copy, at most. */
-const SMALL = 1280;
+/** Maximum length of the reduced copy's longer side, in pixels. */
+const MAX_REDUCED_SIDE_PIXELS = 1280;
 
 /**
  * @typedef {object} PagePhoto
- * @property {string} name of its file, without its ending
+ * @property {string} name of its file without the extension
  * @property {number} width
  * @property {number} height
  * @property {Uint8ClampedArray<ArrayBuffer>} data
- * @property {number} [film35] focal length as for a film of 36 by 24 mm, where its file tells it
- * @property {ImageData} small
- * @property {Grey} grey the same, whose `scale` is its pixels for one of the photo
- * @property {PageOutlines} outlines of the pages that were found, in its pixels
+ * @property {number} [film35] focal length for 35 mm film, if the file contains it
+ * @property {ImageData} reduced
+ * @property {GreyImage} grey the reduced copy in grey
+ * @property {PageOutlines} outlines of the detected pages, in pixels of the photo
  */
 
 /**
+ * Opens a photo and detects the pages in it.
  * @param {Api} api
  * @param {File} file
- * @param {AbortSignal} signal it is given up
- * @param {boolean} [half] whether its sides are halved, as it has too many pixels
+ * @param {AbortSignal} signal
+ * @param {boolean} [half] whether the photo is read at half its width and height
  * @returns {Promise<PagePhoto>}
  */
 export async function openPhoto(api, file, signal, half = false) {
-  const photo = half ? await pixelsOf(file, 2) : await apart(api, signal, (worker) => worker.readPhoto(file)).catch((/** @type {unknown} */ error) => {
+  const photo = half ? await readPicture(file, 2) : await runInWorker(api, signal, (worker) => worker.readPhoto(file)).catch((/** @type {unknown} */ error) => {
     signal.throwIfAborted();
     if (isTooLarge(error)) throw error;
-    // The browser may know kinds of pictures that the package does not.
-    return pixelsOf(file).catch(() => {
+    // Fall back on the browser, which may decode formats that the package cannot.
+    return readPicture(file).catch(() => {
       throw error;
     });
   });
   signal.throwIfAborted();
-  return photoOf(api, photo, file.name.replace(/\.[^.]*$/, '') || 'photo', signal);
+  return preparePhoto(api, photo, file.name.replace(/\.[^.]*$/, '') || 'photo', signal);
 }
 
 /**
+ * Reduces decoded pixels and detects the pages in them.
  * @param {Api} api
  * @param {{ width: number, height: number, data: Uint8ClampedArray<ArrayBuffer>, film35?: number }} pixels
  * @param {string} name
- * @param {AbortSignal} signal it is given up
+ * @param {AbortSignal} signal
  * @returns {Promise<PagePhoto>}
  */
-export async function photoOf(api, { width, height, data, film35 }, name, signal) {
+export async function preparePhoto(api, { width, height, data, film35 }, name, signal) {
   if (width < 16 || height < 16) throw new Error(`it is ${width} × ${height} pixels, too few to show a page`);
-  const { small, grey } = await reducedPhoto({ width, height, data }, Math.min(1, SMALL / Math.max(width, height)));
-  const outlines = await apart(api, signal, (worker) => worker.findPage(small));
-  return { name, width, height, data, film35, small, grey, outlines: enlarged(outlines, 1 / grey.scale) };
+  const { small: reduced, grey } = await reducedPhoto({ width, height, data }, Math.min(1, MAX_REDUCED_SIDE_PIXELS / Math.max(width, height)));
+  const outlines = await runInWorker(api, signal, (worker) => worker.findPage(reduced));
+  return { name, width, height, data, film35, reduced, grey, outlines: rescaleOutlines(outlines, 1 / grey.scale) };
 }
 
-/** Whether a file has more pixels than the package takes. @param {unknown} error */
+/** Whether an error says that a photo has too many pixels for the package. @param {unknown} error */
 export function isTooLarge(error) {
   return error instanceof Error && 'code' in error && error.code === 'TOO_LARGE';
 }
 
-/** @param {PageOutlines} outlines @param {number} scale @returns {PageOutlines} */
-function enlarged({ pages, ...found }, scale) {
+/** Converts outlines to another scale of the photo. @param {PageOutlines} outlines @param {number} scale @returns {PageOutlines} */
+function rescaleOutlines({ pages, ...found }, scale) {
   /** @param {[number, number][]} line */
-  const at = (line) => line.map(([x, y]) => /** @type {[number, number]} */ ([rescaled(x, scale), rescaled(y, scale)]));
+  const at = (line) => line.map(([x, y]) => /** @type {[number, number]} */ ([rescalePixel(x, scale), rescalePixel(y, scale)]));
   return {
     ...found,
     pages: pages.map(({ corners, edges: { top, bottom, left, right }, ...page }) => (

@@ -1,12 +1,15 @@
-/** Polynomials by least squares. */
+/** Polynomials fitted by least squares. */
+
+/** Share of the points that a robust fit keeps. */
+const INLIER_SHARE = 0.8;
 
 /**
- * The polynomial t(s) that fits points [s, t] best.
+ * The polynomial t(s) that fits points [s, t] best, by the normal equations.
  * @param {number[][]} points
  * @param {number} degree
  * @returns {(s: number) => number}
  */
-export function polynomial(points, degree) {
+export function fitPolynomial(points, degree) {
   const n = degree + 1;
   const rows = Array.from({ length: n }, (_, i) => [
     ...Array.from({ length: n }, (_, j) => points.reduce((sum, [s]) => sum + s ** (i + j), 0)),
@@ -23,14 +26,14 @@ export function polynomial(points, degree) {
 }
 
 /**
- * The same without the worst fifth of the points.
+ * The least-squares polynomial after the fifth of the points with the largest residuals was discarded.
  * @param {number[][]} points
  * @param {number} degree
  * @returns {(s: number) => number}
  */
-export function robust(points, degree) {
-  const first = polynomial(points, degree);
-  const off = (/** @type {number[]} */ [s, t]) => Math.abs(first(s) - t);
-  const kept = points.toSorted((a, b) => off(a) - off(b)).slice(0, Math.max(degree + 2, Math.ceil(0.8 * points.length)));
-  return polynomial(kept, degree);
+export function fitPolynomialRobustly(points, degree) {
+  const first = fitPolynomial(points, degree);
+  const residual = (/** @type {number[]} */ [s, t]) => Math.abs(first(s) - t);
+  const inliers = points.toSorted((a, b) => residual(a) - residual(b)).slice(0, Math.max(degree + 2, Math.ceil(INLIER_SHARE * points.length)));
+  return fitPolynomial(inliers, degree);
 }

@@ -1,95 +1,96 @@
-/** What the photo's side of the page is about, without its elements: a photo, the outline of the page in it, what is known. */
+/** The state of “Flatten a photo of a page” without its elements: a photo, the outline of the page in it, and the options. */
 import { Events } from '../events.js';
-import { Flattening } from './flatten.js';
-import { gutterOf } from './gutter.js';
-import { rescaled } from './grey.js';
-import { flatPlace, lineBetween } from './lines.js';
+import { PageFlattener } from './flatten.js';
+import { findGutter } from './gutter.js';
+import { rescalePixel } from './grey.js';
+import { flatPixelAt, textLineBetween } from './text-lines.js';
 import { EDGE_NAMES, EDGES, Outline } from './outline.js';
-import { settle, traced } from './snap.js';
+import { snapOutline, traceEdge } from './edge-snapping.js';
 
 /** @import {Api} from '../api.js' */
-/** @import {Flat, Line, Options, Traces, Wish} from './flatten.js' */
-/** @import {Ends} from './lines.js' */
+/** @import {FlattenedPage, Line, Options, Traces, FlattenRequest} from './flatten.js' */
+/** @import {Ends} from './text-lines.js' */
 /** @import {PagePhoto} from './photo.js' */
-/** @import {Edge, Point, Which} from './outline.js' */
+/** @import {Edge, Point, NodeIndex} from './outline.js' */
 
 /**
  * @typedef {object} PageEvents
- * @property {PagePhoto} photo another one
- * @property {{ outline: Outline, traces: Traces, moving: boolean }} outline
- * @property {boolean} working whether a newer flat page is to come
- * @property {Flat & { moving: boolean }} flat of the reduced photo; `moving`: something is being dragged
- * @property {null} unfound there is no outline yet: corners have to be put onto the page first
- * @property {null} lines of text: others are drawn, or found
- * @property {unknown} problem why there is none
+ * @property {PagePhoto} photo another photo is shown
+ * @property {{ outline: Outline, traces: Traces, moving: boolean }} outline the outline has changed; `moving`: something is being dragged
+ * @property {boolean} working whether a flat page is being computed
+ * @property {FlattenedPage & { moving: boolean }} flat a new flat page of the reduced photo; `moving`: something is being dragged
+ * @property {null} unfound no page was detected: the user has to put the corners onto it first
+ * @property {null} lines the drawn or the detected lines of text have changed
+ * @property {unknown} problem error that prevents a flat page
  */
 /** @typedef {{ ends: Ends, points: Line }} DrawnLine */
-/** @typedef {{ outline: Outline, drawn: DrawnLine[], moved: ReadonlySet<number>, chosen: number }} Snapshot */
-/** @typedef {Snapshot & { quarters: number, traces: Traces, text: Line[][] }} PageState what was done to a photo's outline, without its pixels */
+/** @typedef {{ outline: Outline, drawnLines: DrawnLine[], movedCorners: ReadonlySet<number>, pageIndex: number }} Snapshot */
+/** @typedef {Snapshot & { quarters: number, traces: Traces, textLines: Line[][] }} PageState the outline and lines of a photo, without its pixels */
 
-/** Lines of text that are shorter than this share of the photo are none. */
-const SHORT = 0.02;
-/** How far a corner may be put beyond the photo's border, as a share of its diagonal: less than the package takes. */
-const MAX_OUTSIDE_SHARE = 0.045;
-/** Share of an edge's length that shows contrast, below which the edge is called weak. */
-const MIN_SEEN_SHARE = 0.5;
+/** Minimum length of a line of text, in widths of the photo; shorter ones are discarded. */
+const MIN_TEXT_LINE_WIDTHS = 0.02;
+/** Maximum distance of a corner outside the photo, in diagonals of the photo: less than what the package accepts. */
+const MAX_CORNER_OUTSIDE_DIAGONALS = 0.045;
+/** Minimum share of an edge's length with a visible gradient; below it the edge is called weak. */
+const MIN_VISIBLE_SHARE = 0.5;
 
 /** @extends {Events<PageEvents>} */
 export class PageSession extends Events {
   /** @type {PagePhoto | null} */
   photo = null;
   /** @type {Outline} */
-  outline = Outline.within({ width: 1, height: 1 });
-  /** Which of several pages that were found is made flat. */
-  chosen = 0;
-  /** The corners that were put where they are by hand. @type {ReadonlySet<number>} */
-  moved = new Set();
-  /** Names of edges that the photo hardly shows. @type {string[]} */
-  weak = [];
-  /** Whether edges are drawn to what the photo shows. */
-  snapping = true;
-  /** Whether lines of text are looked for. */
-  finding = true;
-  /** Lines of text that are drawn. @type {DrawnLine[]} */
-  drawn = [];
-  /** Those that were found. @type {Line[]} */
-  found = [];
-  /** Whether the page was found by these, or against them. */
-  agreed = true;
+  outline = Outline.defaultFor({ width: 1, height: 1 });
+  /** Index of the detected page that is flattened. */
+  pageIndex = 0;
+  /** Indices of the corners that were moved by hand. @type {ReadonlySet<number>} */
+  movedCorners = new Set();
+  /** Names of the edges that the photo hardly shows. @type {string[]} */
+  weakEdges = [];
+  /** Whether edges snap to the gradients of the photo. */
+  snapsToEdges = true;
+  /** Whether lines of text are detected. */
+  findsTextLines = true;
+  /** Lines of text drawn by hand. @type {DrawnLine[]} */
+  drawnLines = [];
+  /** Detected lines of text. @type {Line[]} */
+  foundLines = [];
+  /** Whether the flat page uses all detected lines of text. */
+  usesFoundLines = true;
   /** @type {Options} */
   options = {};
 
-  /** Quarter turns by which the flat page is turned clockwise. */
+  /** Number of clockwise quarter turns of the flat page. */
   quarters = 0;
 
   #flattening;
-  /** The newest flat page. @type {Flat | null} */
-  #made = null;
-  /** @type {Wish | null} */
-  #newest = null;
-  /** What the outline was before each change. @type {Snapshot[]} */
-  #past = [];
-  /** Whether the change under way is remembered already. */
+  /** The newest flat page. @type {FlattenedPage | null} */
+  #flat = null;
+  /** @type {FlattenRequest | null} */
+  #latestRequest = null;
+  /** Snapshots from before each change, for undo. @type {Snapshot[]} */
+  #history = [];
+  /** Whether a drag is under way, whose snapshot was saved already. */
   #dragging = false;
 
   /** @param {Api} api */
   constructor(api) {
     super();
     this.worker = new api.DevelopableWorker();
-    this.#flattening = new Flattening(this.worker);
+    this.#flattening = new PageFlattener(this.worker);
   }
 
-  /** Whether no page was found, and no corner was put onto it yet. */
-  get unfound() {
-    return this.photo?.outlines.verdict === 'notFound' && this.moved.size === 0;
+  /** Whether no page was detected and no corner was moved by hand yet. */
+  get isPageMissing() {
+    return this.photo?.outlines.verdict === 'notFound' && this.movedCorners.size === 0;
   }
 
-  get changed() {
-    return this.#past.length > 0;
+  /** Whether there is a change to undo. */
+  get canUndo() {
+    return this.#history.length > 0;
   }
 
-  /** Names of the corners that are outside the photo. */
-  get outside() {
+  /** Names of the corners outside the photo. */
+  get outsideCorners() {
     const { photo, outline } = this;
     if (!photo) return [];
     const names = ['upper left', 'upper right', 'lower right', 'lower left'];
@@ -100,264 +101,271 @@ export class PageSession extends Events {
   }
 
   /**
+   * Shows another photo.
    * @param {PagePhoto} photo
-   * @param {number} [pages] that it shows
-   * @param {PageState | null} [state] what was done to it before
+   * @param {number} [pages] number of pages in the photo
+   * @param {PageState | null} [state] earlier state of the photo, which is restored
    */
   show(photo, pages = 1, state = null) {
     this.photo = photo;
-    [this.drawn, this.found, this.#made, this.#past] = [[], [], null, []];
-    [this.chosen, this.#dragging, this.quarters] = [0, false, 0];
-    this.#begin(photo, pages);
+    [this.drawnLines, this.foundLines, this.#flat, this.#history] = [[], [], null, []];
+    [this.pageIndex, this.#dragging, this.quarters] = [0, false, 0];
+    this.#resetOutline(photo, pages);
     if (state) {
-      const { outline, drawn, moved, chosen, quarters } = state;
-      Object.assign(this, { outline: outline.copy(), drawn: [...drawn], moved, chosen, quarters });
+      const { outline, drawnLines, movedCorners, pageIndex, quarters } = state;
+      Object.assign(this, { outline: outline.copy(), drawnLines: [...drawnLines], movedCorners, pageIndex, quarters });
     }
     this.emit('photo', photo);
-    this.#changed();
+    this.#update();
   }
 
-  /** Another of the pages that were found. @param {number} page */
-  choose(page) {
+  /** Selects another detected page. @param {number} page its index */
+  choosePage(page) {
     if (!this.photo?.outlines.pages[page]) return;
-    this.#remember();
-    this.chosen = page;
-    this.#begin(this.photo, 1);
-    this.#changed();
+    this.#saveSnapshot();
+    this.pageIndex = page;
+    this.#resetOutline(this.photo, 1);
+    this.#update();
   }
 
-  /** An outline to start from, again. */
-  suggest() {
+  /** Discards all changes to outline and lines. */
+  reset() {
     if (!this.photo) return;
-    this.#past = [];
-    this.drawn = [];
-    this.#begin(this.photo, this.outline.pages);
-    this.#changed();
+    this.#history = [];
+    this.drawnLines = [];
+    this.#resetOutline(this.photo, this.outline.pages);
+    this.#update();
   }
 
-  /** @param {PagePhoto} photo @param {number} pages */
-  #begin(photo, pages) {
-    const found = photo.outlines.verdict === 'notFound' ? undefined : photo.outlines.pages[this.chosen];
-    this.outline = found ? Outline.from(found) : Outline.within(photo);
-    this.moved = new Set();
-    if (pages === 2) this.#divide(photo);
+  /** Sets the outline to the detected or the default one. @param {PagePhoto} photo @param {number} pages */
+  #resetOutline(photo, pages) {
+    const found = photo.outlines.verdict === 'notFound' ? undefined : photo.outlines.pages[this.pageIndex];
+    this.outline = found ? Outline.fromDetected(found) : Outline.defaultFor(photo);
+    this.movedCorners = new Set();
+    if (pages === 2) this.#splitAtGutter(photo);
   }
 
-  #remember() {
+  /** Saves a snapshot for undo. */
+  #saveSnapshot() {
     this.#dragging = false;
-    const { outline, drawn, moved, chosen } = this;
-    this.#past.push({ outline: outline.copy(), drawn: [...drawn], moved, chosen });
+    const { outline, drawnLines, movedCorners, pageIndex } = this;
+    this.#history.push({ outline: outline.copy(), drawnLines: [...drawnLines], movedCorners, pageIndex });
   }
 
-  /** What was done to the photo's outline, if it has one. @returns {PageState | null} */
+  /** The state to restore when the photo is shown again; null without an outline. @returns {PageState | null} */
   state() {
-    const { outline, drawn, moved, chosen, quarters } = this;
-    const wish = this.unfound ? null : this.wish();
-    return wish && { outline: outline.copy(), drawn: [...drawn], moved, chosen, quarters, traces: wish.traces, text: wish.text };
+    const { outline, drawnLines, movedCorners, pageIndex, quarters } = this;
+    const request = this.isPageMissing ? null : this.request();
+    return request && { outline: outline.copy(), drawnLines: [...drawnLines], movedCorners, pageIndex, quarters, traces: request.traces, textLines: request.textLines };
   }
 
-  /** Takes the last change of outline or lines back. */
+  /** Undoes the last change of outline or lines. */
   undo() {
-    const before = this.#past.pop();
+    const before = this.#history.pop();
     if (!before) return;
     Object.assign(this, before);
     this.#dragging = false;
-    this.#changed();
+    this.#update();
   }
 
-  divide() {
+  /** Divides the page into two at its gutter. */
+  addGutter() {
     if (!this.photo) return;
-    this.#remember();
-    this.#divide(this.photo);
-    this.#changed();
+    this.#saveSnapshot();
+    this.#splitAtGutter(this.photo);
+    this.#update();
   }
 
   /** @param {PagePhoto} photo */
-  #divide({ grey }) {
-    this.outline = this.outline.divided(gutterOf(this.outline, this.snapping ? grey : null));
-    if (this.snapping) settle(grey, this.outline);
+  #splitAtGutter({ grey }) {
+    this.outline = this.outline.withGutter(findGutter(this.outline, this.snapsToEdges ? grey : null));
+    if (this.snapsToEdges) snapOutline(grey, this.outline);
   }
 
-  join() {
-    this.#remember();
-    this.outline = this.outline.joined();
-    this.#settled();
+  /** Joins two pages into one. */
+  removeGutter() {
+    this.#saveSnapshot();
+    this.outline = this.outline.withoutGutter();
+    this.#snapAndUpdate();
   }
 
-  /** Turns the flat page clockwise by a quarter. */
+  /** Turns the flat page clockwise by a quarter turn. */
   turn() {
     this.quarters = (this.quarters + 1) % 4;
-    if (this.#made) this.emit('flat', { ...this.#made, moving: false });
+    if (this.#flat) this.emit('flat', { ...this.#flat, moving: false });
   }
 
-  /** @param {boolean} snapping */
-  snap(snapping) {
-    this.snapping = snapping;
-    this.#settled();
+  /** Sets whether edges snap to the gradients of the photo. @param {boolean} snapping */
+  setSnapsToEdges(snapping) {
+    this.snapsToEdges = snapping;
+    this.#snapAndUpdate();
   }
 
-  /** @param {Options} options */
-  know(options) {
+  /** Sets the options of flattening. @param {Options} options */
+  setOptions(options) {
     this.options = options;
-    this.#changed();
+    this.#update();
   }
 
   /**
-   * A node was moved, or is being moved.
-   * @param {Which} which
+   * Moves a node.
+   * @param {NodeIndex} index
    * @param {readonly [number, number]} to
-   * @param {{ held: boolean, ended: boolean }} how `held`: whether it is to stay there
+   * @param {{ pinned: boolean, ended: boolean }} how `pinned`: snapping leaves the node there; `ended`: the drag has ended
    */
-  move(which, [x, y], { held, ended }) {
+  move(index, [x, y], { pinned, ended }) {
     const { photo, outline } = this;
-    const node = outline.at(which);
+    const node = outline.nodeOf(index);
     if (!photo || !node) return;
-    if (!this.#dragging) this.#remember();
+    if (!this.#dragging) this.#saveSnapshot();
     this.#dragging = !ended;
-    const outside = MAX_OUTSIDE_SHARE * Math.hypot(photo.width, photo.height);
+    const outside = MAX_CORNER_OUTSIDE_DIAGONALS * Math.hypot(photo.width, photo.height);
     const within = (/** @type {number} */ at, /** @type {number} */ side) => Math.min(Math.max(at, -outside), side + outside);
-    outline.move(which, [within(x, photo.width), within(y, photo.height)]);
-    node.held = held || !this.snapping;
+    outline.move(index, [within(x, photo.width), within(y, photo.height)]);
+    node.pinned = pinned || !this.snapsToEdges;
     const corner = outline.corners.indexOf(node);
-    if (corner >= 0) this.moved = new Set([...this.moved, corner]);
-    if (ended && this.snapping && !node.held) settle(photo.grey, outline);
-    this.#changed(!ended);
+    if (corner >= 0) this.movedCorners = new Set([...this.movedCorners, corner]);
+    if (ended && this.snapsToEdges && !node.pinned) snapOutline(photo.grey, outline);
+    this.#update(!ended);
   }
 
-  /** @param {boolean} finding */
-  find(finding) {
-    this.finding = finding;
-    this.#changed();
+  /** Sets whether lines of text are detected. @param {boolean} finding */
+  setFindsTextLines(finding) {
+    this.findsTextLines = finding;
+    this.#update();
   }
 
   /**
-   * A line of text, drawn from one place to another; the newest if it has no number yet.
+   * Draws a line of text, or changes a drawn one.
    * @param {Ends} ends
-   * @param {{ line?: number, ended: boolean }} how
+   * @param {{ line?: number, ended: boolean }} how `line`: its index, a new line by default; `ended`: the drag has ended
+   * @returns the index of the line
    */
-  drawLine(ends, { line = this.drawn.length, ended }) {
+  drawLine(ends, { line = this.drawnLines.length, ended }) {
     if (!this.photo) return line;
-    if (!this.#dragging) this.#remember();
+    if (!this.#dragging) this.#saveSnapshot();
     this.#dragging = !ended;
-    const { photo: { grey, width, height }, snapping } = this;
+    const { photo: { grey, width, height }, snapsToEdges } = this;
     const within = ends.map(([x, y]) => [Math.min(Math.max(x, 0), width - 1), Math.min(Math.max(y, 0), height - 1)]);
     const [from, to] = /** @type {Ends} */ (within);
-    this.drawn[line] = { ends: [from, to], points: lineBetween(grey, [from, to], this.#made?.flat ?? null, snapping && ended) };
-    if (ended && Math.hypot(to[0] - from[0], to[1] - from[1]) < SHORT * width) this.drawn.splice(line, 1);
+    this.drawnLines[line] = { ends: [from, to], points: textLineBetween(grey, [from, to], this.#flat?.flat ?? null, snapsToEdges && ended) };
+    if (ended && Math.hypot(to[0] - from[0], to[1] - from[1]) < MIN_TEXT_LINE_WIDTHS * width) this.drawnLines.splice(line, 1);
     this.emit('lines', null);
-    if (ended) this.#changed();
+    if (ended) this.#update();
     return line;
   }
 
-  /** @param {number} line */
+  /** Removes a drawn line of text. @param {number} line its index */
   removeLine(line) {
-    this.#remember();
-    this.drawn.splice(line, 1);
+    this.#saveSnapshot();
+    this.drawnLines.splice(line, 1);
     this.emit('lines', null);
-    this.#changed();
+    this.#update();
   }
 
-  /** The page that a line of text is on. @param {Ends} ends */
-  #leaf([from, to]) {
+  /** The index of the page that a line of text is on. @param {Ends} ends */
+  #pageOfLine([from, to]) {
     const { pages } = this.outline;
-    const flat = this.#made?.flat;
+    const flat = this.#flat?.flat;
     const middle = /** @type {Point} */ ([(from[0] + to[0]) / 2, (from[1] + to[1]) / 2]);
-    const place = flat && this.photo && flatPlace(flat, middle, this.photo.grey.scale);
+    const place = flat && this.photo && flatPixelAt(flat, middle, this.photo.grey.scale);
     if (pages === 1 || !place) return 0;
     return Math.min(pages - 1, Math.floor((place[0] / flat.width) * pages));
   }
 
   /**
+   * Adds a node to an edge.
    * @param {Edge} edge
    * @param {[number, number]} place
-   * @param {boolean} [pulled] whether the new point is being dragged already
+   * @param {boolean} [pulled] whether the new node is being dragged already
    */
   add(edge, place, pulled = false) {
-    this.#remember();
+    this.#saveSnapshot();
     this.#dragging = pulled;
-    const which = this.outline.add(edge, place);
-    this.#changed();
-    return which;
+    const index = this.outline.add(edge, place);
+    this.#update();
+    return index;
   }
 
-  /** @param {Which} which */
-  remove(which) {
-    this.#remember();
-    this.outline.remove(which);
-    this.#changed();
+  /** Removes a node. @param {NodeIndex} index */
+  remove(index) {
+    this.#saveSnapshot();
+    this.outline.remove(index);
+    this.#update();
   }
 
-  /** The wish for the whole photo made flat. @returns {Wish | null} */
-  wish(moving = false) {
-    const { photo, options, finding, drawn } = this;
+  /** The request to flatten the photo; null without a photo. @param {boolean} [moving] whether something is being dragged @returns {FlattenRequest | null} */
+  request(moving = false) {
+    const { photo, options, findsTextLines, drawnLines } = this;
     if (!photo) return null;
     /** @type {Line[][]} */
-    const text = Array.from({ length: this.outline.pages }, () => []);
-    for (const { ends, points } of drawn) {
-      if (Math.hypot(ends[1][0] - ends[0][0], ends[1][1] - ends[0][1]) >= SHORT * photo.width) text[this.#leaf(ends)].push(points);
+    const textLines = Array.from({ length: this.outline.pages }, () => []);
+    for (const { ends, points } of drawnLines) {
+      if (Math.hypot(ends[1][0] - ends[0][0], ends[1][1] - ends[0][1]) >= MIN_TEXT_LINE_WIDTHS * photo.width) textLines[this.#pageOfLine(ends)].push(points);
     }
-    return { photo, traces: this.#traces(photo), text, options: { ...options, findLines: finding }, moving };
+    return { photo, traces: this.#traces(photo), textLines, options: { ...options, findLines: findsTextLines }, moving };
   }
 
-  /** @param {Flat} made @param {Wish} wish */
-  #show({ flat, assumed }, { photo, moving }) {
-    this.#made = { flat, assumed };
-    // While something is dragged, the lines stay as they were.
+  /** Shows a flat page and its detected lines of text. @param {FlattenedPage} result @param {FlattenRequest} request */
+  #showFlat({ flat, focalAssumed }, { photo, moving }) {
+    this.#flat = { flat, focalAssumed };
+    // While something is dragged, no lines are detected and the earlier ones stay.
     if (!moving) {
-      const back = (/** @type {number} */ at) => rescaled(at, 1 / photo.grey.scale);
-      this.found = flat.lines.flat().map((line) => line.map(([x, y]) => [back(x), back(y)]));
-      this.agreed = flat.report.linesUsed === flat.report.linesFound;
+      const toPhoto = (/** @type {number} */ at) => rescalePixel(at, 1 / photo.grey.scale);
+      this.foundLines = flat.lines.flat().map((line) => line.map(([x, y]) => [toPhoto(x), toPhoto(y)]));
+      this.usesFoundLines = flat.report.linesUsed === flat.report.linesFound;
     }
-    this.emit('flat', { flat, assumed, moving });
+    this.emit('flat', { flat, focalAssumed, moving });
   }
 
-  #settled() {
-    if (this.photo && this.snapping) settle(this.photo.grey, this.outline);
-    this.#changed();
+  /** Snaps the outline if that is on, and updates the flat page. */
+  #snapAndUpdate() {
+    if (this.photo && this.snapsToEdges) snapOutline(this.photo.grey, this.outline);
+    this.#update();
   }
 
-  /** @param {boolean} [moving] whether this goes on */
-  #changed(moving = false) {
-    const wish = this.wish(moving);
-    if (!wish) return;
-    this.#newest = wish;
-    this.emit('outline', { outline: this.outline, traces: wish.traces, moving });
-    if (this.unfound) {
-      [this.found, this.#made] = [[], null];
+  /** Announces the changed outline and requests a new flat page. @param {boolean} [moving] whether something is being dragged */
+  #update(moving = false) {
+    const request = this.request(moving);
+    if (!request) return;
+    this.#latestRequest = request;
+    this.emit('outline', { outline: this.outline, traces: request.traces, moving });
+    if (this.isPageMissing) {
+      [this.foundLines, this.#flat] = [[], null];
       this.emit('unfound', null);
       this.emit('lines', null);
       this.emit('working', false);
       return;
     }
     this.emit('working', true);
-    void this.#flattening.preview(wish, (done) => {
-      if (done.wish.photo !== this.photo || this.unfound) return;
-      if ('flat' in done) this.#show(done, done.wish);
+    void this.#flattening.preview(request, (done) => {
+      if (done.request.photo !== this.photo || this.isPageMissing) return;
+      if ('flat' in done) this.#showFlat(done, done.request);
       else {
-        [this.found, this.#made] = [[], null];
+        [this.foundLines, this.#flat] = [[], null];
         this.emit('problem', done.error);
       }
       this.emit('lines', null);
-      if (done.wish === this.#newest) this.emit('working', false);
+      if (done.request === this.#latestRequest) this.emit('working', false);
     });
   }
 
   /**
-   * The points of the edges: those that were found or that the photo shows, or else the nodes as they are.
+   * The points of each edge: the detected edge, else the traced one, else the nodes themselves.
    * @param {PagePhoto} photo
    * @returns {Traces}
    */
   #traces({ grey }) {
     const { outline } = this;
-    this.weak = [];
-    // Edges of a page that was not found follow nothing.
-    if (this.unfound) return /** @type {Traces} */ (EDGES.map((edge) => outline.spans(edge).map((nodes) => nodes.map(({ x, y }) => /** @type {Point} */ ([x, y])))));
+    this.weakEdges = [];
+    // Without a detected page the edges are not traced.
+    if (this.isPageMissing) return /** @type {Traces} */ (EDGES.map((edge) => outline.spans(edge).map((nodes) => nodes.map(({ x, y }) => /** @type {Point} */ ([x, y])))));
     return /** @type {Traces} */ (EDGES.map((edge) => {
-      const traces = outline.spans(edge).map((nodes) => ({ nodes, ...traced(grey, nodes) }));
-      if (traces.some(({ seen }) => seen < MIN_SEEN_SHARE)) this.weak.push(EDGE_NAMES[edge]);
-      const found = outline.found[edge];
+      const traces = outline.spans(edge).map((nodes) => ({ nodes, ...traceEdge(grey, nodes) }));
+      if (traces.some(({ visibleShare }) => visibleShare < MIN_VISIBLE_SHARE)) this.weakEdges.push(EDGE_NAMES[edge]);
+      const found = outline.detectedEdges[edge];
       if (found) return [found];
-      return traces.map(({ nodes, points, seen }) => (this.snapping && seen >= MIN_SEEN_SHARE ? points : nodes.map(({ x, y }) => /** @type {Point} */ ([x, y]))));
+      return traces.map(({ nodes, points, visibleShare }) => (this.snapsToEdges && visibleShare >= MIN_VISIBLE_SHARE ? points : nodes.map(({ x, y }) => /** @type {Point} */ ([x, y]))));
     }));
   }
 }

@@ -1,206 +1,207 @@
-/** What is shown stands in the address: shared by a link, undone by going back, there again after a reload. */
+/** Keeps the page's address up to date with its state, for links, the history and reloads; and lists recent files. */
 import { addressOf, stateOf } from '../address.js';
 import { element, elements, make } from '../dom.js';
 import { ADDRESS_WORDS } from '../messages.js';
-import { keepFiles, keptFiles, namesOf, recentFiles } from '../recent-files.js';
+import { storeFiles, storedFiles, namesOf, recentFiles } from '../recent-files.js';
 import { showNotice } from './notice.js';
 
 /** @import {State} from '../address.js' */
 /** @import {Mode} from './mode.js' */
 /** @import {Card} from '../gallery/cards.js' */
 /** @import {Session, Settings} from '../session.js' */
-/** @import {Stored} from '../import-interpretation.js' */
-/** @import {Whole} from '../mesh-fit.js' */
+/** @import {StoredHeights} from '../import-interpretation.js' */
+/** @import {MeshFit} from '../mesh-fit.js' */
 
-/** How long a result stands, in milliseconds, before it is worth going back to. */
-const REST = 400;
+/** Delay after a result before it gets an entry in the history, in milliseconds. */
+const HISTORY_DELAY_MS = 400;
 
 /**
  * @param {Session} session
  * @param {object} page
  * @param {(settings: Settings) => void} page.adopt
- * @param {(view: string) => void} page.choose
+ * @param {(view: string) => void} page.choose shows a view
  * @param {(name: string, options: { size: number, noise: number }) => Promise<void>} page.openExample
  * @param {(files: File[]) => Promise<unknown>} page.openFiles
- * @param {(files: File[]) => unknown} page.openRecent likewise, or as a photo of a page
- * @param {(change: Partial<Stored>) => void} page.understand
+ * @param {(files: File[]) => unknown} page.openRecent opens recent files, as heights or as a photo of a page
+ * @param {(change: Partial<StoredHeights>) => void} page.reinterpretFile
  * @param {{ find: (id: string) => Card | undefined, show: (card: Card, settings?: Partial<Settings>, view?: string) => Promise<void>, present: Card | null }} page.gallery
  * @param {{ readonly now: Mode, show: (mode: Mode) => void }} page.mode
- * @param {(file: File) => Promise<unknown>} page.openPhoto of a page
- * @param {() => void} page.beginPhoto shows an example, where no photo is open
- * @param {Whole} page.whole a mesh solved whole, and how that is shown
- * @param {{ readonly view?: string, enter: (view: string) => void, leave: () => void }} page.solvedWhole
+ * @param {(file: File) => Promise<unknown>} page.openPhoto opens a photo of a page
+ * @param {() => void} page.beginPhoto shows an example if no photo of a page is open
+ * @param {MeshFit} page.meshFit
+ * @param {{ readonly view?: string, enter: (view: string) => void, leave: () => void }} page.meshFitView
  */
-export function keepPanel(session, page) {
+export function addressSyncPanel(session, page) {
   const views = elements('input[name="view"]', HTMLInputElement);
   const view = () => views.find((radio) => radio.checked)?.value ?? 'shaded';
-  /** The number of the open file, where it is kept. @type {number | undefined} */
-  let file;
-  let rest = 0;
-  /** What is shown is being taken from an address. */
-  let taking = false;
-  /** The file that is open could not be kept. */
-  let unkept = false;
-  /** The photo of a page that is open, by its number where it is kept. @type {number | undefined} */
-  let photo;
-  /** What the address in the history is about, without its view. */
-  let subject = '';
+  /** Id of the open file in the storage of recent files. @type {number | undefined} */
+  let fileId;
+  let writeTimer = 0;
+  /** Whether the state of an address is being shown; the address is not written meanwhile. */
+  let isRestoring = false;
+  /** Whether the open file could not be stored. */
+  let isUnstored = false;
+  /** Id of the open photo of a page in the storage of recent files. @type {number | undefined} */
+  let photoId;
+  /** The present address without its view. */
+  let addressWithoutView = '';
 
-  /** @returns {State} */
-  const present = () => {
+  /** The present state. @returns {State} */
+  const presentState = () => {
     const { input, settings } = session;
-    if (page.mode.now === 'photo') return { photo: true, file: photo, unkept: unkept || undefined, settings: {} };
+    if (page.mode.now === 'photo') return { photo: true, file: photoId, unkept: isUnstored || undefined, settings: {} };
     const card = page.gallery.present;
     if (card) {
-      const own = { ...session.defaults, ...card.settings };
-      const changed = Object.entries(settings).filter(([name, value]) => value !== own[/** @type {keyof Settings} */ (name)]);
+      const cardSettings = { ...session.defaults, ...card.settings };
+      const changed = Object.entries(settings).filter(([name, value]) => value !== cardSettings[/** @type {keyof Settings} */ (name)]);
       return { card: card.id, settings: Object.fromEntries(changed), view: view() === card.view ? undefined : view() };
     }
     if (input?.kind !== undefined) {
       const { pixelSize, heightScale, zeros, hexagonal } = input.stored ?? {};
-      const { view: wholly } = page.solvedWhole;
-      const whole = wholly === undefined ? undefined : true;
-      return { file, unkept: (file === undefined && unkept) || undefined, stored: input.stored && { pixelSize, heightScale, zeros, hexagonal }, settings, whole, view: wholly ?? view() };
+      const { view: meshView } = page.meshFitView;
+      const whole = meshView === undefined ? undefined : true;
+      return { file: fileId, unkept: (fileId === undefined && isUnstored) || undefined, stored: input.stored && { pixelSize, heightScale, zeros, hexagonal }, settings, whole, view: meshView ?? view() };
     }
     const [size, noise] = ['size', 'noise'].map((name) => Number(element(name, HTMLSelectElement).value));
     return { example: { name: input?.name ?? 'roof', size, noise }, settings, view: view() };
   };
 
-  const write = (push = true) => {
-    if (taking || !session.input) return;
-    const state = present();
+  /** Writes the state to the address. @param {boolean} [push] whether it is a new entry of the history */
+  const writeAddress = (push = true) => {
+    if (isRestoring || !session.input) return;
+    const state = presentState();
     const address = addressOf(state, session.defaults);
-    const now = addressOf({ ...state, view: undefined }, session.defaults);
-    // A view that is chosen before its input stands in the address does not take the place of the input before.
-    const other = now !== subject;
-    subject = now;
+    const withoutView = addressOf({ ...state, view: undefined }, session.defaults);
+    // If more than the view differs, the entry of the last input must stay in the history.
+    const isOther = withoutView !== addressWithoutView;
+    addressWithoutView = withoutView;
     if (address === location.hash) return;
-    if ((push || other) && location.hash !== '') history.pushState(null, '', address);
+    if ((push || isOther) && location.hash !== '') history.pushState(null, '', address);
     else history.replaceState(null, '', address);
   };
   const writeSoon = () => {
-    clearTimeout(rest);
-    rest = window.setTimeout(write, REST);
+    clearTimeout(writeTimer);
+    writeTimer = window.setTimeout(writeAddress, HISTORY_DELAY_MS);
   };
   session.on('result', writeSoon);
-  page.whole.on('result', writeSoon);
-  page.whole.on('left', writeSoon);
+  page.meshFit.on('result', writeSoon);
+  page.meshFit.on('left', writeSoon);
   session.on('input', ({ kind }) => {
-    if (kind !== undefined || file === undefined) return;
-    file = undefined;
-    void tell();
+    if (kind !== undefined || fileId === undefined) return;
+    fileId = undefined;
+    void updateRecentFiles();
   });
-  // Another look is nothing to undo.
+  // A change of the view gets no entry of its own in the history.
   for (const radio of [...views, ...elements('input[name="whole-view"]', HTMLInputElement)]) {
-    radio.addEventListener('change', () => write(false));
+    radio.addEventListener('change', () => writeAddress(false));
   }
 
-  /** Shows what an address says. @param {State} state */
-  const take = async (state) => {
-    taking = true;
-    clearTimeout(rest);
+  /** Shows the state of an address. @param {State} state */
+  const restoreState = async (state) => {
+    isRestoring = true;
+    clearTimeout(writeTimer);
     try {
       if (state.photo) {
         page.mode.show('photo');
-        const files = state.file === undefined || state.file === photo ? undefined : await keptFiles(state.file);
+        const files = state.file === undefined || state.file === photoId ? undefined : await storedFiles(state.file);
         if (files) await page.openPhoto(files[0]);
-        else if (state.file !== undefined && state.file !== photo) showNotice(ADDRESS_WORDS.lost);
+        else if (state.file !== undefined && state.file !== photoId) showNotice(ADDRESS_WORDS.lost);
         else if (state.unkept) showNotice(ADDRESS_WORDS.unkept);
         if (!files) page.beginPhoto();
         return;
       }
       page.mode.show('heights');
-      const before = present();
+      const previous = presentState();
       const settings = { ...session.defaults, ...state.settings };
       const card = state.card ? page.gallery.find(state.card) : undefined;
       if (card && page.gallery.present !== card) return await page.gallery.show(card, { ...card.settings, ...state.settings }, state.view);
-      const same = card !== undefined || (state.file !== undefined ? state.file === file : JSON.stringify(state.example) === JSON.stringify(before.example));
+      const isSameInput = card !== undefined || (state.file !== undefined ? state.file === fileId : JSON.stringify(state.example) === JSON.stringify(previous.example));
       const wanted = card ? { ...session.defaults, ...card.settings, ...state.settings } : settings;
-      // What is as it was is not solved again.
-      if (!same || Object.entries(wanted).some(([name, value]) => session.settings[/** @type {keyof Settings} */ (name)] !== value)) page.adopt(wanted);
-      if (!same && state.file !== undefined) {
-        const files = await keptFiles(state.file);
+      // The input is solved only if it or the settings have changed.
+      if (!isSameInput || Object.entries(wanted).some(([name, value]) => session.settings[/** @type {keyof Settings} */ (name)] !== value)) page.adopt(wanted);
+      if (!isSameInput && state.file !== undefined) {
+        const files = await storedFiles(state.file);
         if (files) await page.openFiles(files);
         else showNotice(ADDRESS_WORDS.lost);
-      } else if (!same && state.example) {
+      } else if (!isSameInput && state.example) {
         await page.openExample(state.example.name, state.example);
       }
       if (state.stored && session.input?.stored) {
         const { stored } = session.input;
-        const other = Object.entries(state.stored).some(([name, value]) => stored[/** @type {'zeros'} */ (name)] !== value);
-        if (other) page.understand(state.stored);
+        const isReinterpreted = Object.entries(state.stored).some(([name, value]) => stored[/** @type {'zeros'} */ (name)] !== value);
+        if (isReinterpreted) page.reinterpretFile(state.stored);
       }
-      if (state.whole) return page.solvedWhole.enter(state.view ?? 'shaded');
-      page.solvedWhole.leave();
+      if (state.whole) return page.meshFitView.enter(state.view ?? 'shaded');
+      page.meshFitView.leave();
       page.choose(state.view ?? 'shaded');
     } finally {
-      taking = false;
-      if (session.input) subject = addressOf({ ...present(), view: undefined }, session.defaults);
+      isRestoring = false;
+      if (session.input) addressWithoutView = addressOf({ ...presentState(), view: undefined }, session.defaults);
     }
   };
-  addEventListener('popstate', () => void take(stateOf(location.hash)));
+  addEventListener('popstate', () => void restoreState(stateOf(location.hash)));
 
   const list = element('recent', HTMLElement);
-  const tell = async () => {
+  const updateRecentFiles = async () => {
     const all = await recentFiles();
-    // What is open now was not opened before.
-    const open = page.mode.now === 'photo' ? photo : file;
-    const kept = all.filter(({ id }) => id !== open);
-    list.hidden = kept.length === 0;
-    list.replaceChildren('Opened before: ', ...kept.map(({ files }) => {
+    // The open file is not listed.
+    const openId = page.mode.now === 'photo' ? photoId : fileId;
+    const closed = all.filter(({ id }) => id !== openId);
+    list.hidden = closed.length === 0;
+    list.replaceChildren('Opened before: ', ...closed.map(({ files }) => {
       const button = make('button', 'plain small', namesOf(files));
       button.type = 'button';
       button.addEventListener('click', () => void page.openRecent(files));
       return button;
     }));
   };
-  void tell();
+  void updateRecentFiles();
 
   const share = async () => {
-    write(false);
-    const state = present();
-    // A file stays on this machine: its number means nothing elsewhere.
+    writeAddress(false);
+    const state = presentState();
+    // The id of a file has no meaning on another machine.
     const address = new URL(addressOf({ ...state, file: undefined, stored: undefined }, session.defaults), location.href).href;
-    const told = state.example || state.card ? '' : ' It holds the settings; the file stays on this machine.';
+    const fileNote = state.example || state.card ? '' : ' It holds the settings; the file stays on this machine.';
     try {
       await navigator.clipboard.writeText(address);
-      showNotice(`The link is copied.${told}`, 'note');
+      showNotice(`The link is copied.${fileNote}`, 'note');
     } catch {
-      showNotice(`${address} – copy this link.${told}`, 'note');
+      showNotice(`${address} – copy this link.${fileNote}`, 'note');
     }
   };
   for (const id of ['share', 'whole-share']) element(id, HTMLButtonElement).addEventListener('click', share);
 
   return {
-    /** Shows what the address asks for, or an example. */
+    /** Shows the state of the address, or an example. */
     async begin() {
       const state = stateOf(location.hash);
-      await take(state);
+      await restoreState(state);
       if (session.input !== null) return;
-      // Something to see at once.
+      // The address has no input, or none that could be opened.
       await page.openExample('roof', { size: 400, noise: 0.02 });
-      if (state.photo) write(false);
+      if (state.photo) writeAddress(false);
       else if (state.file !== undefined) showNotice(ADDRESS_WORDS.lost);
       else if (state.unkept) showNotice(ADDRESS_WORDS.unkept);
     },
-    /** Keeps what was opened. @param {readonly File[]} files */
-    async remember(files) {
-      file = await keepFiles(files);
-      unkept = file === undefined;
-      void tell();
-      write();
+    /** Stores files that were opened. @param {readonly File[]} files */
+    async rememberFiles(files) {
+      fileId = await storeFiles(files);
+      isUnstored = fileId === undefined;
+      void updateRecentFiles();
+      writeAddress();
     },
-    /** The same of a photo of a page. @param {File | null} opened an example, if there is none */
-    async rememberPhoto(opened) {
-      const kept = opened ? await keepFiles([opened]) : undefined;
-      [photo, unkept] = [kept, opened !== null && kept === undefined];
-      void tell();
-      write();
+    /** Stores a photo of a page that was opened. @param {File | null} file null for an example */
+    async rememberPhoto(file) {
+      photoId = file ? await storeFiles([file]) : undefined;
+      isUnstored = file !== null && photoId === undefined;
+      void updateRecentFiles();
+      writeAddress();
     },
-    /** The other part of the page was entered. */
-    entered() {
-      write();
-      void tell();
+    /** Updates the address after the other part of the page was shown. */
+    onModeChange() {
+      writeAddress();
+      void updateRecentFiles();
     },
   };
 }

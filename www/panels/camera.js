@@ -1,99 +1,102 @@
-/** Depths from a camera, put where it has seen them: a mesh, of which a view is taken. */
-import { apart } from '../worker-task.js';
-import { choosesFile, element } from '../dom.js';
+/** Camera of depths: back-projects them to a mesh in space, which is then sampled from a view. */
+import { runInWorker } from '../worker-task.js';
+import { onFileChosen, element } from '../dom.js';
 import { number } from '../format.js';
 import { DEPTH_WORDS } from '../messages.js';
 
 /** @import {Mesh, PhotoCamera} from '../api.js' */
-/** @import {Called} from '../mesh-sampling.js' */
-/** @import {Input, Session, Slow} from '../session.js' */
+/** @import {InputOrigin} from '../mesh-sampling.js' */
+/** @import {Input, Session, TimedTask} from '../session.js' */
 
-/** Milliseconds for a depth that a surface is built from, until that was measured. */
-const EACH = 2e-3;
-/** Depths that are larger than that are no metres. */
-const FAR = 100;
+/** Initial guess of the time that back-projection takes, in milliseconds per depth. */
+const BACK_PROJECTION_MS_PER_DEPTH = 2e-3;
+/** Maximum depth in metres; larger values are taken for millimetres. */
+const MAX_DEPTH_METRES = 100;
+/** Field of view that is assumed at first, in degrees along the longer side: about that of a phone. */
+const ASSUMED_FIELD_OF_VIEW_DEGREES = 60;
 
 /**
  * @param {Session} session
- * @param {(file: Called, load: (signal: AbortSignal) => Promise<Mesh>, doing: string, slow: Slow) => Promise<boolean>} take
+ * @param {(origin: InputOrigin, load: (signal: AbortSignal) => Promise<Mesh>, doing: string, task: TimedTask) => Promise<boolean>} openLoadedMesh
  */
-export function cameraPanel(session, take) {
-  const wanted = element('is-depth', HTMLInputElement);
+export function cameraPanel(session, openLoadedMesh) {
+  const depthCheckbox = element('is-depth', HTMLInputElement);
   const panel = element('camera', HTMLElement);
   const [fx, fy, cx, cy, scale] = ['fx', 'fy', 'cx', 'cy', 'scale'].map((name) => element(`camera-${name}`, HTMLInputElement));
   const fields = [fx, fy, cx, cy, scale];
   const angle = element('camera-angle', HTMLInputElement);
   const about = element('camera-about', HTMLElement);
   const span = element('camera-span', HTMLElement);
-  const source = () => session.input?.depthSource ?? session.input;
-  /** What a file says besides what is shown: the images that its numbers are for, the lens. @type {Partial<PhotoCamera>} */
-  let further = {};
+  /** The input whose values are the depths. */
+  const depthInput = () => session.input?.depthSource ?? session.input;
+  /** Properties of the camera that have no field: the size of its images, and lens distortion. @type {Partial<PhotoCamera>} */
+  let hiddenProperties = {};
 
-  const tell = () => {
-    const input = source();
+  const describe = () => {
+    const input = depthInput();
     if (!input) return;
-    const { width = input.width, height = input.height, k1, k2, k3, p1, p2 } = further;
+    const { width = input.width, height = input.height, k1, k2, k3, p1, p2 } = hiddenProperties;
     const lens = [k1, k2, k3, p1, p2].some((value) => value) ? ', and a lens that distorts' : '';
-    const beside = input.beside ? ` With ${input.beside.names.map((name) => `“${name}”`).join(' and ')}.` : '';
-    about.textContent = `For images of ${width} × ${height} pixels${lens}.${beside}`;
-    const [near, far] = rangeOf(input.data).map((depth) => depth * scale.valueAsNumber);
+    const companionWords = input.companions ? ` With ${input.companions.names.map((name) => `“${name}”`).join(' and ')}.` : '';
+    about.textContent = `For images of ${width} × ${height} pixels${lens}.${companionWords}`;
+    const [near, far] = depthRange(input.data).map((depth) => depth * scale.valueAsNumber);
     span.textContent = Number.isFinite(near) ? `With this scale, what is seen is ${number(near)} to ${number(far)} away.` : '';
   };
-  /** Focal lengths of the angle that is set. @param {number} width @param {number} height */
-  const widen = (width, height) => {
+  /** Sets the focal lengths that belong to the field of view. @param {number} width @param {number} height */
+  const setFocalLengths = (width, height) => {
     fx.value = fy.value = String(Number((Math.max(width, height) / 2 / Math.tan((angle.valueAsNumber * Math.PI) / 360)).toPrecision(6)));
   };
-  /** Most cameras look through the middle. @param {Input} input */
-  const begin = ({ width, height, data, dataType = '', depths }) => {
-    further = {};
+  /** Fills the fields with a typical camera, whose principal point is the middle of the image. @param {Input} input */
+  const assumeCamera = ({ width, height, data, dataType = '', depthUnit }) => {
+    hiddenProperties = {};
     cx.value = String((width - 1) / 2);
     cy.value = String((height - 1) / 2);
-    // About a phone's.
-    angle.value = '60';
-    widen(width, height);
-    // Whole numbers are millimetres, and what is small is metres.
-    scale.value = depths === 'm' || (dataType.startsWith('f') && rangeOf(data)[1] < FAR) ? '1' : '0.001';
-    tell();
+    angle.value = String(ASSUMED_FIELD_OF_VIEW_DEGREES);
+    setFocalLengths(width, height);
+    // Integers are taken for millimetres, small floats for metres.
+    scale.value = depthUnit === 'm' || (dataType.startsWith('f') && depthRange(data)[1] < MAX_DEPTH_METRES) ? '1' : '0.001';
+    describe();
   };
-  const ask = () => {
-    wanted.checked = true;
+  /** Shows the fields, filled with a typical camera. */
+  const show = () => {
+    depthCheckbox.checked = true;
     panel.hidden = false;
-    const input = source();
-    if (input) begin(input);
+    const input = depthInput();
+    if (input) assumeCamera(input);
   };
-  /** @param {PhotoCamera} camera */
+  /** Fills the fields with a camera. @param {PhotoCamera} camera */
   const fill = ({ fx: x, fy: y, cx: across, cy: down, depthScale, rotation, translation, ...rest }) => {
-    further = rest;
+    hiddenProperties = rest;
     angle.value = '';
     [x, y, across, down, depthScale ?? scale.valueAsNumber].forEach((value, i) => (fields[i].value = String(value)));
-    tell();
+    describe();
   };
 
-  wanted.addEventListener('change', () => {
-    const depths = session.input?.depthSource;
-    if (wanted.checked) ask();
-    // Not depths after all: the heights that the file holds.
-    else if (depths) void session.open('The heights could not be taken', async () => ({ ...depths, depths: undefined })).then((opened) => {
+  depthCheckbox.addEventListener('change', () => {
+    const depthSource = session.input?.depthSource;
+    if (depthCheckbox.checked) show();
+    // The values are heights after all.
+    else if (depthSource) void session.open('The heights could not be taken', async () => ({ ...depthSource, depthUnit: undefined })).then((opened) => {
         if (opened) void session.run();
       });
     else panel.hidden = true;
   });
-  scale.addEventListener('change', tell);
+  scale.addEventListener('change', describe);
   angle.addEventListener('change', () => {
-    const input = source();
-    const sound = angle.valueAsNumber > 0 && angle.valueAsNumber < 180;
-    angle.setCustomValidity(sound || angle.value === '' ? '' : 'It must be an angle above 0° and below 180°.');
-    if (!angle.reportValidity() || !sound || !input) return;
-    widen(further.width ?? input.width, further.height ?? input.height);
+    const input = depthInput();
+    const isValid = angle.valueAsNumber > 0 && angle.valueAsNumber < 180;
+    angle.setCustomValidity(isValid || angle.value === '' ? '' : 'It must be an angle above 0° and below 180°.');
+    if (!angle.reportValidity() || !isValid || !input) return;
+    setFocalLengths(hiddenProperties.width ?? input.width, hiddenProperties.height ?? input.height);
   });
-  /** @param {File} file */
-  const read = async (file) => {
-    const input = source();
+  /** Reads the camera from a file. @param {File} file */
+  const readCamera = async (file) => {
+    const input = depthInput();
     if (!input) return false;
     try {
       const camera = session.api.parseCamera(await file.text(), [input, ...(input.photo ? [input.photo.image] : [])].map(({ width, height }) => ({ width, height })));
-      if (source() !== input) return false;
-      ask();
+      if (depthInput() !== input) return false;
+      show();
       fill(camera);
       return true;
     } catch (error) {
@@ -101,40 +104,40 @@ export function cameraPanel(session, take) {
       return false;
     }
   };
-  choosesFile(element('camera-open', HTMLButtonElement), element('camera-file', HTMLInputElement), read);
+  onFileChosen(element('camera-open', HTMLButtonElement), element('camera-file', HTMLInputElement), readCamera);
 
-  /** @param {boolean} [guessed] whether nobody has said what the camera was */
-  const project = async (guessed = false) => {
-    const input = source();
+  /** Builds the mesh from the depths. @param {boolean} [isAssumed] whether the camera was assumed, not given */
+  const backProject = async (isAssumed = false) => {
+    const input = depthInput();
     if (!input) return false;
     for (const field of fields) {
-      const sound = Number.isFinite(field.valueAsNumber) && (field === cx || field === cy || field.valueAsNumber > 0);
-      field.setCustomValidity(sound ? '' : `It must be a number${field === cx || field === cy ? '' : ' above 0'}.`);
+      const isValid = Number.isFinite(field.valueAsNumber) && (field === cx || field === cy || field.valueAsNumber > 0);
+      field.setCustomValidity(isValid ? '' : `It must be a number${field === cx || field === cy ? '' : ' above 0'}.`);
       if (!field.reportValidity()) return false;
     }
     const [x, y, across, down, depthScale] = fields.map((field) => field.valueAsNumber);
-    const { name, width, height, data, photo, beside } = input;
-    const camera = { ...further, fx: x, fy: y, cx: across, cy: down, depthScale };
-    const known = beside && { confidence: beside.confidence, mask: beside.mask };
-    const kind = beside ? `depths, with ${beside.names.join(' and ')}` : 'depths';
-    const unit = input.depths ? { unit: /** @type {const} */ ('m') } : {};
-    const assumed = guessed ? DEPTH_WORDS.assumed(number(angle.valueAsNumber), depthScale) : undefined;
-    return take({ name, kind, photo: session.input?.photo ?? photo, depthSource: input, assumed },
-      (signal) => apart(session.api, signal, async (worker) => ({ ...await worker.backProject({ width, height, data }, camera, known), ...unit })),
-      DEPTH_WORDS.failed, { words: DEPTH_WORDS.building, kind: 'depths', size: width * height, each: EACH });
+    const { name, width, height, data, photo, companions } = input;
+    const camera = { ...hiddenProperties, fx: x, fy: y, cx: across, cy: down, depthScale };
+    const options = companions && { confidence: companions.confidence, mask: companions.mask };
+    const kind = companions ? `depths, with ${companions.names.join(' and ')}` : 'depths';
+    const unit = input.depthUnit ? { unit: /** @type {const} */ ('m') } : {};
+    const cameraAssumption = isAssumed ? DEPTH_WORDS.assumed(number(angle.valueAsNumber), depthScale) : undefined;
+    return openLoadedMesh({ name, kind, photo: session.input?.photo ?? photo, depthSource: input, cameraAssumption },
+      (signal) => runInWorker(session.api, signal, async (worker) => ({ ...await worker.backProject({ width, height, data }, camera, options), ...unit })),
+      DEPTH_WORDS.failed, { label: DEPTH_WORDS.building, kind: 'depths', size: width * height, msPerUnit: BACK_PROJECTION_MS_PER_DEPTH });
   };
   element('back-project', HTMLButtonElement).addEventListener('click', async () => {
-    if (await project()) void session.run();
+    if (await backProject()) void session.run();
   });
   session.on('cleared', () => {
-    wanted.checked = session.input?.depthSource !== undefined;
-    panel.hidden = !wanted.checked;
+    depthCheckbox.checked = session.input?.depthSource !== undefined;
+    panel.hidden = !depthCheckbox.checked;
   });
-  return { ask, read, project };
+  return { show, readCamera, backProject };
 }
 
-/** Without what is no depth. @param {Float64Array} data */
-function rangeOf(data) {
+/** The smallest and the largest depth. @param {Float64Array} data */
+function depthRange(data) {
   let [near, far] = [Infinity, -Infinity];
   for (const depth of data) {
     if (!(depth > 0 && depth < Infinity)) continue;

@@ -1,18 +1,18 @@
-/** Which part of a photo is wanted: what lies within a polygon whose corners are dragged, or where it was clicked. */
+/** Crop of a photo: a polygon whose corners are dragged, and clicks on the photo. */
 import { element } from '../dom.js';
 import { Handles } from '../page/handles.js';
 
-/** @typedef {[x: number, y: number]} Place */
+/** @typedef {[x: number, y: number]} Place in pixels of the photo */
 
-/** Where the polygon's corners are for a start, as shares of the photo. @type {Place[]} */
-const BEGIN = [[0.15, 0.15], [0.85, 0.15], [0.85, 0.85], [0.15, 0.85]];
+/** Initial corners of the polygon, as shares of the photo's sides. @type {Place[]} */
+const INITIAL_CORNERS = [[0.15, 0.15], [0.85, 0.15], [0.85, 0.85], [0.15, 0.85]];
 
 /**
- * @param {object} doings
- * @param {() => void} doings.changed the polygon is another
- * @param {(place: Place) => void} doings.click the photo was clicked there
+ * @param {object} callbacks
+ * @param {() => void} callbacks.onChange called when the polygon has changed
+ * @param {(place: Place) => void} callbacks.onClick called when the photo is clicked
  */
-export function cropPanel({ changed, click }) {
+export function cropPanel({ onChange, onClick }) {
   const over = element('photo-over', HTMLElement);
   const toggle = element('crop', HTMLButtonElement);
   /** @type {ImageData | null} */
@@ -25,7 +25,7 @@ export function cropPanel({ changed, click }) {
       if (!photo) return;
       polygon[corner] = [Math.min(Math.max(x, -0.5), photo.width - 0.5), Math.min(Math.max(y, -0.5), photo.height - 0.5)];
       draw();
-      if (ended) changed();
+      if (ended) onChange();
     },
     pull: (side, place) => {
       polygon.splice(side + 1, 0, place);
@@ -37,17 +37,17 @@ export function cropPanel({ changed, click }) {
       polygon.splice(corner, 1);
       draw();
       handles.focus(corner % polygon.length);
-      changed();
+      onChange();
     },
   });
   const draw = () => {
     toggle.setAttribute('aria-pressed', String(polygon.length > 0));
     handles.draw({
       handles: polygon.map(([x, y], i) => ({ x, y, name: `Corner ${i + 1} of the crop`, kind: 'corner' })),
-      lines: polygon.map((place, i) => ({ points: [place, polygon[(i + 1) % polygon.length]], kind: 'edge', pulls: i })),
+      lines: polygon.map((place, i) => ({ points: [place, polygon[(i + 1) % polygon.length]], kind: 'edge', pullId: i })),
     });
   };
-  const forget = () => {
+  const clear = () => {
     polygon = [];
     draw();
   };
@@ -55,27 +55,27 @@ export function cropPanel({ changed, click }) {
   toggle.addEventListener('click', () => {
     if (!photo) return;
     const { width, height } = photo;
-    polygon = polygon.length > 0 ? [] : BEGIN.map(([x, y]) => [x * (width - 1), y * (height - 1)]);
+    polygon = polygon.length > 0 ? [] : INITIAL_CORNERS.map(([x, y]) => [x * (width - 1), y * (height - 1)]);
     draw();
-    changed();
+    onChange();
   });
   over.addEventListener('click', (event) => {
-    // Not at the end of a drag.
+    // A drag of a handle ends with a click, too, which is ignored.
     if (!photo || !(event.target instanceof Element) || event.target.closest('.handle, svg')) return;
-    click(handles.place(event));
+    onClick(handles.photoPosition(event));
   });
 
   return {
-    /** @param {ImageData | null} shown */
-    show(shown) {
-      over.hidden = shown === null;
-      if (!shown || shown === photo) return;
-      photo = shown;
-      handles.on(shown);
-      forget();
+    /** Shows the crop of a photo; null hides it. @param {ImageData | null} image */
+    show(image) {
+      over.hidden = image === null;
+      if (!image || image === photo) return;
+      photo = image;
+      handles.setPhoto(image);
+      clear();
     },
-    forget,
-    /** Corners, where there are any. @returns {Place[] | undefined} */
+    clear,
+    /** Corners of the polygon, if there is one. @returns {Place[] | undefined} */
     get polygon() {
       return polygon.length > 0 ? polygon.map(([x, y]) => /** @type {Place} */ ([x, y])) : undefined;
     },

@@ -1,5 +1,5 @@
-/** Objective, dual bound and gap as they approach each other, live. */
-import { eachFrame, element, followDevicePixels } from '../dom.js';
+/** Plots of the objective, the dual bound and the duality gap during a run. */
+import { oncePerFrame, element, matchDevicePixels } from '../dom.js';
 import { count, percentAtMost, seconds } from '../format.js';
 import { drawAxes, drawCurve, drawLegend, drawLevel } from '../plot.js';
 
@@ -9,11 +9,12 @@ import { drawAxes, drawCurve, drawLegend, drawLevel } from '../plot.js';
 
 /** @typedef {Pick<Progress, 'level' | 'iteration' | 'elapsed' | 'objective' | 'dualBound' | 'gap'>} Moment */
 
-const MARGIN = { left: 54, right: 10, top: 22, bottom: 38 };
-/** From this width on the two plots stand side by side. */
-const WIDE = 600;
-/** How much of what lies beyond the final value is shown, as a factor. */
-const REACH = 4;
+/** Margins around a plot, in CSS pixels. */
+const PLOT_MARGIN = { left: 54, right: 10, top: 22, bottom: 38 };
+/** Minimum width of the canvas for two plots side by side, in CSS pixels. */
+const MIN_SIDE_BY_SIDE_WIDTH_PX = 600;
+/** Range of the energies that are plotted, as a factor of the final value upwards and downwards. */
+const ENERGY_RANGE_FACTOR = 4;
 
 /** @param {Session} session */
 export function curvePanel(session) {
@@ -23,8 +24,8 @@ export function curvePanel(session) {
   let moments = [];
   let target = session.settings.gap;
 
-  const draw = () => drawMoments(canvas, moments, axis.value === 'iteration' ? 'iteration' : 'elapsed', target);
-  const drawSoon = eachFrame(draw);
+  const draw = () => drawPlots(canvas, moments, axis.value === 'iteration' ? 'iteration' : 'elapsed', target);
+  const drawSoon = oncePerFrame(draw);
   /** @param {Moment} moment */
   const add = (moment) => {
     if (Number.isFinite(moment.objective) && moment.objective > 0) moments.push(moment);
@@ -43,21 +44,21 @@ export function curvePanel(session) {
   session.on('cleared', clear);
   session.on('progress', add);
   session.on('result', ({ surface: { report } }) => {
-    add(lastMoment(report));
-    canvas.setAttribute('aria-label', inWords(moments));
+    add(finalMoment(report));
+    canvas.setAttribute('aria-label', gapsInWords(moments));
   });
   axis.addEventListener('change', drawSoon);
-  followDevicePixels(canvas, draw);
+  matchDevicePixels(canvas, draw);
   matchMedia('(prefers-color-scheme: dark)').addEventListener('change', drawSoon);
 }
 
 /** @param {Report} report @returns {Moment} */
-function lastMoment({ iterations, objective, dualBound, gap, seconds: { total } }) {
+function finalMoment({ iterations, objective, dualBound, gap, seconds: { total } }) {
   return { level: 0, iteration: iterations, elapsed: total, objective, dualBound, gap };
 }
 
-/** @param {readonly Moment[]} moments */
-function inWords(moments) {
+/** The plots as a sentence, for screen readers. @param {readonly Moment[]} moments */
+function gapsInWords(moments) {
   const certified = moments.filter((moment) => moment.level === 0);
   const [first, last] = [certified[0], certified[certified.length - 1]];
   if (!first) return 'Nothing to show';
@@ -70,7 +71,7 @@ function inWords(moments) {
  * @param {'iteration' | 'elapsed'} along
  * @param {number} target
  */
-function drawMoments(canvas, moments, along, target) {
+function drawPlots(canvas, moments, along, target) {
   const context = canvas.getContext('2d');
   if (!context) return;
   const ratio = canvas.width / canvas.clientWidth;
@@ -85,39 +86,39 @@ function drawMoments(canvas, moments, along, target) {
 
   const last = moments[moments.length - 1];
   const xMax = Math.max(last?.[along] ?? 0, along === 'iteration' ? 10 : 0.01);
-  const wide = width >= WIDE;
-  const cell = { width: wide ? width / 2 : width, height: wide ? height : height / 2 };
+  const isSideBySide = width >= MIN_SIDE_BY_SIDE_WIDTH_PX;
+  const cell = { width: isSideBySide ? width / 2 : width, height: isSideBySide ? height : height / 2 };
   /** @param {number} col @param {number} row */
   const box = (col, row) => ({
-    left: col * cell.width + MARGIN.left,
-    top: row * cell.height + MARGIN.top,
-    width: cell.width - MARGIN.left - MARGIN.right,
-    height: cell.height - MARGIN.top - MARGIN.bottom,
+    left: col * cell.width + PLOT_MARGIN.left,
+    top: row * cell.height + PLOT_MARGIN.top,
+    width: cell.width - PLOT_MARGIN.left - PLOT_MARGIN.right,
+    height: cell.height - PLOT_MARGIN.top - PLOT_MARGIN.bottom,
   });
-  const common = { xMax, palette, xLabel: along === 'iteration' ? 'iterations' : 'seconds' };
-  // Coarser lattices pose smaller problems: their gaps compare with the final ones, their energies do not.
-  const fine = moments.filter((moment) => moment.level === 0);
+  const sharedAxes = { xMax, palette, xLabel: along === 'iteration' ? 'iterations' : 'seconds' };
+  // Energies of coarser lattices are not comparable with the final ones, but their gaps are.
+  const finest = moments.filter((moment) => moment.level === 0);
   /** @type {(some: readonly Moment[], key: 'objective' | 'dualBound') => [number, number][]} */
   const points = (some, key) => some.map((m) => [m[along], m[key]]);
 
   /** @type {Axes} */
   const energy = {
-    ...common, title: 'Energy', yRange: energyRange(fine), box: box(0, 0),
+    ...sharedAxes, title: 'Energy', yRange: energyRange(finest), box: box(0, 0),
   };
   /** @type {Curve[]} */
   const bounds = [
-    { label: 'objective', colour: colour('--curve-objective'), points: points(fine, 'objective') },
-    { label: 'dual bound', colour: colour('--curve-bound'), points: points(fine, 'dualBound') },
+    { label: 'objective', colour: colour('--curve-objective'), points: points(finest, 'objective') },
+    { label: 'dual bound', colour: colour('--curve-bound'), points: points(finest, 'dualBound') },
   ];
   drawAxes(context, energy);
   drawLegend(context, energy, bounds);
   for (const curve of bounds) drawCurve(context, energy, curve);
 
-  const least = Math.min(target, ...fine.map((m) => m.gap ?? 0).filter((gap) => gap > 0));
+  const minGap = Math.min(target, ...finest.map((m) => m.gap ?? 0).filter((gap) => gap > 0));
   /** @type {Axes} */
   const gap = {
-    ...common, title: 'Gap in %', yRange: [50 * least, 150],
-    box: wide ? box(1, 0) : box(0, 1),
+    ...sharedAxes, title: 'Gap in %', yRange: [50 * minGap, 150],
+    box: isSideBySide ? box(1, 0) : box(0, 1),
   };
   const coarse = { label: 'on coarser lattices', colour: colour('--edge'), points: gapsByLevel(moments, along, false) };
   drawAxes(context, gap);
@@ -149,7 +150,7 @@ export function gapsByLevel(moments, along, finest) {
 }
 
 /**
- * Around the last objective; the first ones can be so far off that nothing else would be seen.
+ * The range of energies around the last objective: the first ones may be so much larger that the last ones would look equal.
  * @param {readonly Moment[]} moments
  * @returns {[number, number]}
  */
@@ -160,7 +161,7 @@ function energyRange(moments) {
   const highest = Math.max(...moments.map((m) => m.objective));
   const lowest = Math.min(...moments.map((m) => m.dualBound).filter((bound) => bound > 0), objective);
   return [
-    Math.max(lowest, objective / REACH) / 1.2,
-    Math.min(highest, objective * REACH) * 1.2,
+    Math.max(lowest, objective / ENERGY_RANGE_FACTOR) / 1.2,
+    Math.min(highest, objective * ENERGY_RANGE_FACTOR) * 1.2,
   ];
 }

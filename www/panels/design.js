@@ -1,20 +1,21 @@
-/** Pins and curves of a design, dragged in space; the surface follows. */
-import { changed, constraintsOf, designInput, handlesOf, pinAt, STARTS } from '../design.js';
+/** Pins and curves of a design, which are dragged in space; the surface is solved meanwhile. */
+import { constraintsOf, designInput, handlesOf, pinAt, START_DESIGNS, withPin } from '../design.js';
 import { element, elements } from '../dom.js';
 import { number } from '../format.js';
+import { clampToUnit } from '../surface/relief.js';
 
 /** @import {Design, Handle, Pin} from '../design.js' */
 /** @import {Session} from '../session.js' */
 /** @typedef {ReturnType<typeof import('./space.js').spacePanel>} SpacePanel */
 
-/** In sides of the square, for each press of an arrow key. */
-const KEY_STEP = 0.02;
-/** Seen from closer to straight above than this, heights cannot be dragged: pins go sideways. */
-const STEEP = 0.2;
-/** The highest and the lowest that a pin goes. */
-const REACH = 1;
-/** Pins of a new curve. */
-const PINS = 4;
+/** Distance that an arrow key moves a pin, in sides of the square. */
+const KEY_STEP_SIDES = 0.02;
+/** Minimum tilt of the camera at which a drag changes a pin's height, in radians from straight above; below it a drag moves the pin sideways. */
+const MIN_HEIGHT_DRAG_TILT = 0.2;
+/** Maximum absolute height of a pin that is reported to screen readers, in sides of the square. */
+const MAX_REPORTED_HEIGHT_SIDES = 1;
+/** Number of pins of a new curve. */
+const NEW_CURVE_PINS = 4;
 
 /**
  * @param {Session} session
@@ -25,88 +26,88 @@ export function designPanel(session, space) {
   const layer = element('handles', HTMLElement);
   const clamped = element('clamped', HTMLInputElement);
   const undo = element('design-undo', HTMLButtonElement);
-  const away = element('take-away', HTMLButtonElement);
-  const adds = { pin: element('add-pin', HTMLButtonElement), curve: element('add-curve', HTMLButtonElement) };
-  /** What was before each change, oldest first. @type {Design[]} */
-  let past = [];
+  const removeButton = element('take-away', HTMLButtonElement);
+  const addButtons = { pin: element('add-pin', HTMLButtonElement), curve: element('add-curve', HTMLButtonElement) };
+  /** Designs before each change, the newest last. @type {Design[]} */
+  let undoStack = [];
   /** @type {{ handle: Handle, knob: HTMLButtonElement }[]} */
   let knobs = [];
-  /** The pin that was touched last. @type {Handle | null} */
-  let touched = null;
-  /** What the next drag over the surface makes. @type {'pin' | 'curve' | null} */
+  /** The pin that was focused last. @type {Handle | null} */
+  let selected = null;
+  /** What the next drag over the surface adds. @type {'pin' | 'curve' | null} */
   let adding = null;
 
-  const drawn = () => session.input?.drawn;
+  const presentDesign = () => session.input?.designShape;
 
-  /** @param {Design} design @param {boolean} [done] */
-  const put = (design, done = true) => {
-    session.reshape({ drawn: design, data: constraintsOf(design) });
-    if (done) session.settle();
+  /** Makes a design the input. @param {Design} design @param {boolean} [done] false while a pin is dragged */
+  const setDesign = (design, done = true) => {
+    session.previewInput({ designShape: design, data: constraintsOf(design) });
+    if (done) session.runPending();
   };
-  const remember = () => {
-    const design = drawn();
-    if (design) past.push(design);
-    undo.disabled = past.length === 0;
+  const saveUndo = () => {
+    const design = presentDesign();
+    if (design) undoStack.push(design);
+    undo.disabled = undoStack.length === 0;
   };
-  /** @param {Design} design */
-  const renew = (design) => {
-    remember();
-    put(design);
+  /** Makes a design the input, with undo. @param {Design} design */
+  const changeDesign = (design) => {
+    saveUndo();
+    setDesign(design);
   };
 
   for (const button of elements('button[data-start]', HTMLButtonElement)) {
-    button.addEventListener('click', () => renew(STARTS[button.dataset.start ?? 'flat']));
+    button.addEventListener('click', () => changeDesign(START_DESIGNS[button.dataset.start ?? 'flat']));
   }
   clamped.addEventListener('change', () => {
-    const design = drawn();
-    if (design) renew({ ...design, clamped: clamped.checked });
+    const design = presentDesign();
+    if (design) changeDesign({ ...design, clamped: clamped.checked });
   });
-  const back = () => {
-    const before = past.pop();
-    undo.disabled = past.length === 0;
-    if (before) put(before);
+  const undoLast = () => {
+    const before = undoStack.pop();
+    undo.disabled = undoStack.length === 0;
+    if (before) setDesign(before);
   };
-  undo.addEventListener('click', back);
+  undo.addEventListener('click', undoLast);
   document.addEventListener('keydown', (event) => {
     const typing = event.target instanceof HTMLInputElement && event.target.type === 'text';
     if (tools.hidden || typing || event.key !== 'z' || !(event.ctrlKey || event.metaKey)) return;
     event.preventDefault();
-    back();
+    undoLast();
   });
 
-  /** @param {typeof adding} what */
-  const add = (what) => {
+  /** Sets what the next drag adds. @param {typeof adding} what */
+  const setAdding = (what) => {
     adding = what;
-    for (const [name, button] of Object.entries(adds)) button.setAttribute('aria-pressed', String(name === what));
+    for (const [name, button] of Object.entries(addButtons)) button.setAttribute('aria-pressed', String(name === what));
   };
   for (const name of /** @type {const} */ (['pin', 'curve'])) {
-    // By mouse the next drag says where; by keyboard it goes to the middle.
-    adds[name].addEventListener('click', ({ detail }) => {
-      if (detail > 0) return add(adding === name ? null : name);
+    // After a click by mouse the next drag gives the position; by keyboard the middle is taken.
+    addButtons[name].addEventListener('click', ({ detail }) => {
+      if (detail > 0) return setAdding(adding === name ? null : name);
       const middle = { x: 0.5, y: 0.5, z: space.heightAt(0.5, 0.5) };
-      place(name, name === 'pin' ? [middle] : line({ ...middle, x: 0.1 }, { ...middle, x: 0.9 }));
+      addPins(name, name === 'pin' ? [middle] : curvePins({ ...middle, x: 0.1 }, { ...middle, x: 0.9 }));
     });
   }
-  /** @param {'pin' | 'curve'} what @param {Pin[]} pins */
-  const place = (what, pins) => {
-    const design = drawn();
-    add(null);
+  /** Adds a pin or a curve, and focuses its last pin. @param {'pin' | 'curve'} what @param {Pin[]} pins */
+  const addPins = (what, pins) => {
+    const design = presentDesign();
+    setAdding(null);
     if (!design) return;
-    renew(what === 'pin' ? { ...design, pins: [...design.pins, ...pins] } : { ...design, curves: [...design.curves, pins] });
+    changeDesign(what === 'pin' ? { ...design, pins: [...design.pins, ...pins] } : { ...design, curves: [...design.curves, pins] });
     const last = knobs.findLast(({ handle }) => (handle.curve === null) === (what === 'pin'));
     last?.knob.focus();
   };
-  /** Between two places on the surface. @param {Pin} from @param {Pin} to */
-  const line = (from, to) => Array.from({ length: PINS }, (_, i) => {
-    const t = i / (PINS - 1);
+  /** Pins on the surface between two others. @param {Pin} from @param {Pin} to */
+  const curvePins = (from, to) => Array.from({ length: NEW_CURVE_PINS }, (_, i) => {
+    const t = i / (NEW_CURVE_PINS - 1);
     const [x, y] = [from.x + t * (to.x - from.x), from.y + t * (to.y - from.y)];
     return { x, y, z: space.heightAt(x, y) };
   });
-  /** @type {Pin | null} */
+  /** Start of a drag over the surface. @type {Pin | null} */
   let from = null;
-  /** @type {Pin | null} */
+  /** End of a drag over the surface. @type {Pin | null} */
   let to = null;
-  space.takes({
+  space.addDragHandler({
     begin: (x, y) => {
       if (!adding || tools.hidden) return false;
       from = to = space.placeAt(x, y);
@@ -114,29 +115,29 @@ export function designPanel(session, space) {
     },
     move: (x, y) => (to = space.placeAt(x, y) ?? to),
     end: () => {
-      if (adding && from && to) place(adding, adding === 'pin' ? [to] : line(from, to));
-      else add(null);
+      if (adding && from && to) addPins(adding, adding === 'pin' ? [to] : curvePins(from, to));
+      else setAdding(null);
     },
   });
 
   /** @param {Handle | null} handle */
-  const touch = (handle) => {
-    touched = handle;
-    away.disabled = handle === null;
+  const selectPin = (handle) => {
+    selected = handle;
+    removeButton.disabled = handle === null;
   };
   /** @param {Handle} handle */
-  const takeAway = (handle) => {
-    const design = drawn();
+  const removePin = (handle) => {
+    const design = presentDesign();
     if (!design) return;
-    renew(changed(design, handle, null));
+    changeDesign(withPin(design, handle, null));
     knobs[0]?.knob.focus();
   };
-  away.addEventListener('click', () => {
-    if (touched) takeAway(touched);
+  removeButton.addEventListener('click', () => {
+    if (selected) removePin(selected);
   });
 
-  /** @param {Handle} handle @param {number} number */
-  const knobOf = (handle, number) => {
+  /** The button by which a pin is dragged. @param {Handle} handle @param {number} number */
+  const makeKnob = (handle, number) => {
     const knob = document.createElement('button');
     knob.type = 'button';
     knob.className = 'knob';
@@ -144,81 +145,81 @@ export function designPanel(session, space) {
     knob.setAttribute('role', 'slider');
     knob.setAttribute('aria-orientation', 'vertical');
     knob.setAttribute('aria-label', handle.curve === null ? `Pin ${number}` : `Pin ${handle.index + 1} of curve ${handle.curve + 1}`);
-    knob.setAttribute('aria-valuemin', String(-REACH));
-    knob.setAttribute('aria-valuemax', String(REACH));
+    knob.setAttribute('aria-valuemin', String(-MAX_REPORTED_HEIGHT_SIDES));
+    knob.setAttribute('aria-valuemax', String(MAX_REPORTED_HEIGHT_SIDES));
     /** @param {Partial<Pin>} change @param {boolean} done */
     const move = (change, done) => {
-      const design = drawn();
-      if (design) put(changed(design, handle, change), done);
+      const design = presentDesign();
+      if (design) setDesign(withPin(design, handle, change), done);
     };
-    const own = () => {
-      const design = drawn();
+    const presentPin = () => {
+      const design = presentDesign();
       return design ? pinAt(design, handle) : null;
     };
-    knob.addEventListener('focus', () => touch(handle));
-    /** @type {{ x: number, y: number, pin: Pin } | null} */
-    let held = null;
+    knob.addEventListener('focus', () => selectPin(handle));
+    /** Start of the present drag, in pixels of the page. @type {{ x: number, y: number, pin: Pin } | null} */
+    let dragStart = null;
     knob.addEventListener('pointerdown', (event) => {
-      const pin = own();
+      const pin = presentPin();
       if (event.button !== 0 || !pin) return;
       knob.setPointerCapture(event.pointerId);
-      // Not every browser focuses what is pressed.
-      touch(handle);
-      remember();
-      held = { x: event.clientX, y: event.clientY, pin };
+      // Not every browser focuses a button when it is pressed.
+      selectPin(handle);
+      saveUndo();
+      dragStart = { x: event.clientX, y: event.clientY, pin };
     });
     knob.addEventListener('pointermove', (event) => {
-      if (!held) return;
-      const [across, up] = [event.clientX - held.x, held.y - event.clientY];
-      move(space.dragged(held.pin, across, up, event.shiftKey || space.tip() < STEEP), false);
+      if (!dragStart) return;
+      const [across, up] = [event.clientX - dragStart.x, dragStart.y - event.clientY];
+      move(space.movePin(dragStart.pin, across, up, event.shiftKey || space.cameraTilt() < MIN_HEIGHT_DRAG_TILT), false);
     });
-    const drop = () => {
-      if (held) session.settle();
-      held = null;
+    const endDrag = () => {
+      if (dragStart) session.runPending();
+      dragStart = null;
     };
-    knob.addEventListener('pointerup', drop);
-    knob.addEventListener('pointercancel', drop);
+    knob.addEventListener('pointerup', endDrag);
+    knob.addEventListener('pointercancel', endDrag);
     knob.addEventListener('keydown', (event) => {
-      const pin = own();
-      const design = drawn();
+      const pin = presentPin();
+      const design = presentDesign();
       if (!pin || !design) return;
       if (event.key === 'Delete' || event.key === 'Backspace') {
         event.preventDefault();
-        takeAway(handle);
+        removePin(handle);
         return;
       }
       const step = { ArrowUp: [0, 1], ArrowDown: [0, -1], ArrowLeft: [-1, 0], ArrowRight: [1, 0] }[event.key];
       if (!step) return;
       event.preventDefault();
-      if (!event.repeat) remember();
-      const [across, up] = step.map((by) => by * KEY_STEP);
-      move(event.shiftKey || across !== 0 ? within({ x: pin.x + across, y: pin.y + (event.shiftKey ? up : 0) }) : { z: pin.z + up }, !event.repeat);
+      if (!event.repeat) saveUndo();
+      const [across, up] = step.map((by) => by * KEY_STEP_SIDES);
+      move(event.shiftKey || across !== 0 ? clampToSquare({ x: pin.x + across, y: pin.y + (event.shiftKey ? up : 0) }) : { z: pin.z + up }, !event.repeat);
     });
-    knob.addEventListener('keyup', () => session.settle());
+    knob.addEventListener('keyup', () => session.runPending());
     return { handle, knob };
   };
 
-  const follow = () => {
-    const design = drawn();
-    layer.hidden = !design || !space.there();
+  const positionKnobs = () => {
+    const design = presentDesign();
+    layer.hidden = !design || !space.isShown();
     if (!design || layer.hidden) return;
     for (const { handle, knob } of knobs) {
       const pin = pinAt(design, handle);
       if (!pin) continue;
-      const [x, y] = space.seenAt(pin);
+      const [x, y] = space.screenPosition(pin);
       Object.assign(knob.style, { left: `${x}px`, top: `${y}px` });
       knob.setAttribute('aria-valuenow', pin.z.toFixed(2));
       knob.setAttribute('aria-valuetext', `height ${number(100 * pin.z, 2)} % of a side`);
     }
   };
-  space.onDraw(follow);
+  space.onDraw(positionKnobs);
 
-  session.on('input', ({ drawn: design, kind }) => {
+  session.on('input', ({ designShape: design, kind }) => {
     tools.hidden = !design || kind !== undefined;
     if (!design) {
-      past = [];
+      undoStack = [];
       undo.disabled = true;
-      add(null);
+      setAdding(null);
       layer.replaceChildren();
       knobs = [];
       layer.hidden = true;
@@ -228,15 +229,15 @@ export function designPanel(session, space) {
     const handles = handlesOf(design);
     const same = handles.length === knobs.length && handles.every(({ curve, index }, i) => curve === knobs[i].handle.curve && index === knobs[i].handle.index);
     if (!same) {
-      knobs = handles.map((handle, i) => knobOf(handle, i + 1));
+      knobs = handles.map((handle, i) => makeKnob(handle, i + 1));
       layer.replaceChildren(...knobs.map(({ knob }) => knob));
-      touch(null);
+      selectPin(null);
     }
-    follow();
+    positionKnobs();
   });
 }
 
-/** @param {{ x: number, y: number }} place */
-function within({ x, y }) {
-  return { x: Math.min(1, Math.max(0, x)), y: Math.min(1, Math.max(0, y)) };
+/** The nearest point of the unit square. @param {{ x: number, y: number }} place */
+function clampToSquare({ x, y }) {
+  return { x: clampToUnit(x), y: clampToUnit(y) };
 }

@@ -1,23 +1,23 @@
-/** Files dropped anywhere on the page. */
+/** Files and folders that are dropped on the page. */
 import { element } from '../dom.js';
 
-/** @param {(files: File[]) => void} take */
-export function watchDrops(take) {
-  const veil = element('drop', HTMLElement);
-  /** Entering a child comes before leaving its parent, so the two are counted. */
+/** @param {(files: File[]) => void} onFiles */
+export function watchDrops(onFiles) {
+  const overlay = element('drop', HTMLElement);
+  /** Number of elements entered but not left: a child is entered before its parent is left. */
   let depth = 0;
 
   /** @param {DragEvent} event */
   const hasFiles = (event) => event.dataTransfer?.types.includes('Files') ?? false;
   const leave = () => {
     depth = 0;
-    veil.hidden = true;
+    overlay.hidden = true;
   };
 
   addEventListener('dragenter', (event) => {
     if (!hasFiles(event)) return;
     depth++;
-    veil.hidden = false;
+    overlay.hidden = false;
   });
   addEventListener('dragleave', (event) => {
     if (hasFiles(event) && --depth <= 0) leave();
@@ -30,40 +30,41 @@ export function watchDrops(take) {
     event.preventDefault();
     leave();
     void filesOf(event).then((files) => {
-      if (files.length > 0) take(files);
+      if (files.length > 0) onFiles(files);
     });
   });
 }
 
 /**
- * What was dropped, and what lies in dropped folders.
+ * The dropped files, and those in dropped folders.
  * @param {DragEvent} event
  * @returns {Promise<File[]>}
  */
 async function filesOf({ dataTransfer }) {
-  // Asked for at once: after a wait the browser forgets them.
+  // The browser clears `dataTransfer` when the event handler returns, so it is read before any `await`.
   const files = [...dataTransfer?.files ?? []];
   const entries = [...dataTransfer?.items ?? []].map((item) => item.webkitGetAsEntry?.());
   const folders = /** @type {FileSystemDirectoryEntry[]} */ (entries.filter((entry) => entry?.isDirectory));
   if (folders.length === 0) return files;
-  const within = await Promise.all(folders.map(filesIn));
+  const folderFiles = await Promise.all(folders.map(filesIn));
   const names = folders.map(({ name }) => name);
-  return [...files.filter(({ name }) => !names.includes(name)), ...within.flat()];
+  return [...files.filter(({ name }) => !names.includes(name)), ...folderFiles.flat()];
 }
 
 /**
+ * The files of a folder, without hidden files and subfolders.
  * @param {FileSystemDirectoryEntry} folder
- * @returns {Promise<File[]>} those right in it that are not hidden
+ * @returns {Promise<File[]>}
  */
 async function filesIn(folder) {
   const reader = folder.createReader();
   /** @type {FileSystemEntry[]} */
   const entries = [];
   for (;;) {
-    const some = await new Promise((/** @type {(entries: FileSystemEntry[]) => void} */ resolve, reject) => reader.readEntries(resolve, reject));
-    if (some.length === 0) break;
-    entries.push(...some);
+    const batch = await new Promise((/** @type {(entries: FileSystemEntry[]) => void} */ resolve, reject) => reader.readEntries(resolve, reject));
+    if (batch.length === 0) break;
+    entries.push(...batch);
   }
-  const shown = /** @type {FileSystemFileEntry[]} */ (entries.filter(({ isFile, name }) => isFile && !name.startsWith('.')));
-  return Promise.all(shown.map((entry) => new Promise((/** @type {(file: File) => void} */ resolve, reject) => entry.file(resolve, reject))));
+  const visible = /** @type {FileSystemFileEntry[]} */ (entries.filter(({ isFile, name }) => isFile && !name.startsWith('.')));
+  return Promise.all(visible.map((entry) => new Promise((/** @type {(file: File) => void} */ resolve, reject) => entry.file(resolve, reject))));
 }

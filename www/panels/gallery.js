@@ -1,7 +1,7 @@
-/** The gallery: cards with pictures, each of which opens an input with its settings and says what to look at. */
+/** The gallery: cards with pictures. A card opens an input with settings and a view, and tells its story. */
 import { element, make } from '../dom.js';
 import { CARDS } from '../gallery/cards.js';
-import { drawPicture, inputOf } from '../gallery/pictures.js';
+import { drawPicture, cardInput } from '../gallery/pictures.js';
 
 /** @import {Card} from '../gallery/cards.js' */
 /** @import {Session, Settings} from '../session.js' */
@@ -10,21 +10,21 @@ import { drawPicture, inputOf } from '../gallery/pictures.js';
  * @param {Session} session
  * @param {object} page
  * @param {(settings: Settings) => void} page.adopt
- * @param {(view: string) => void} page.choose a view
- * @param {(wanted: boolean) => void} page.strip shows the same at five λ, or does not
- * @param {() => void} page.enter the part of the page that shows it
+ * @param {(view: string) => void} page.choose shows a view
+ * @param {(wanted: boolean) => void} page.strip shows or hides the results with five λ
+ * @param {() => void} page.enter shows the part of the page for heights
  */
 export function galleryPanel(session, { adopt, choose, strip, enter }) {
   const dialog = element('gallery', HTMLDialogElement);
   const list = element('gallery-cards', HTMLElement);
   const story = element('story', HTMLElement);
-  /** @type {Card | null} */
+  /** The card that is open. @type {Card | null} */
   let present = null;
-  /** The name of its input: what else is opened ends the story. */
-  let named = '';
+  /** Name of the card's input; another input closes the card. */
+  let inputName = '';
 
   const open = () => {
-    if (list.childElementCount === 0) fill(session, list, (card) => void show(card));
+    if (list.childElementCount === 0) addCards(session, list, (card) => void show(card));
     dialog.showModal();
   };
   element('gallery-open', HTMLButtonElement).addEventListener('click', open);
@@ -39,7 +39,7 @@ export function galleryPanel(session, { adopt, choose, strip, enter }) {
   element('story-before', HTMLButtonElement).addEventListener('click', () => go(-1));
   element('story-next', HTMLButtonElement).addEventListener('click', () => go(1));
 
-  const tell = () => {
+  const showStory = () => {
     story.hidden = present === null;
     if (!present) return;
     element('story-title', HTMLElement).textContent = `${present.title}${present.figure ? ` (${present.figure} of the paper)` : ''}.`;
@@ -49,17 +49,17 @@ export function galleryPanel(session, { adopt, choose, strip, enter }) {
 
   /**
    * @param {Card} card
-   * @param {Partial<Settings>} [settings] in the place of its own
+   * @param {Partial<Settings>} [settings] default: the card's own
    * @param {string} [view]
    */
   const show = async (card, settings = card.settings, view = card.view) => {
     dialog.close();
     enter();
-    const opened = await session.open('The gallery’s input could not be made', () => inputOf(session.api, card, card.size));
+    const opened = await session.open('The gallery’s input could not be made', () => cardInput(session.api, card, card.size));
     if (!opened) return;
     present = card;
-    named = session.input?.name ?? '';
-    tell();
+    inputName = session.input?.name ?? '';
+    showStory();
     adopt({ ...session.defaults, ...settings });
     choose(view);
     strip(card.opens === 'strip');
@@ -68,14 +68,14 @@ export function galleryPanel(session, { adopt, choose, strip, enter }) {
   };
 
   session.on('input', (input) => {
-    if (present && input.name === named && input.kind === undefined) return;
+    if (present && input.name === inputName && input.kind === undefined) return;
     if (present) strip(false);
     present = null;
-    tell();
+    showStory();
   });
 
   return {
-    /** The card with an address. @param {string} id */
+    /** The card with an id. @param {string} id */
     find: (id) => CARDS.find((card) => card.id === id || (id === 'fig-20' && card.id === 'fig-22')),
     show,
     open,
@@ -88,17 +88,17 @@ export function galleryPanel(session, { adopt, choose, strip, enter }) {
 /**
  * @param {Session} session
  * @param {HTMLElement} list
- * @param {(card: Card) => void} take
+ * @param {(card: Card) => void} onChosen
  */
-function fill(session, list, take) {
+function addCards(session, list, onChosen) {
   for (const card of CARDS) {
     const canvas = make('canvas', '');
     canvas.setAttribute('aria-hidden', 'true');
     const button = make('button', 'card', canvas, make('strong', '', card.title), make('span', 'small', card.words), ...(card.figure ? [make('span', 'muted small', `${card.figure} of the paper`)] : []));
     button.type = 'button';
-    button.addEventListener('click', () => take(card));
+    button.addEventListener('click', () => onChosen(card));
     list.append(button);
-    // When it comes into sight, one after the other.
+    // The picture is drawn when the card is scrolled into view.
     new IntersectionObserver((entries, observer) => {
       if (!entries.some(({ isIntersecting }) => isIntersecting)) return;
       observer.disconnect();

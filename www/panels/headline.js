@@ -1,30 +1,33 @@
-/** The outcome up front, in plain words, its certificate, and messages about what went wrong. */
+/** The headline: the result in one sentence, its certificate, and error messages. */
 import { element } from '../dom.js';
 import { count } from '../format.js';
-import { accuracyOf } from '../surface/known.js';
-import { closer, HEADLINE_WORDS, outcome, verdict } from '../messages.js';
-import { hideNotice, showFailure } from './notice.js';
+import { accuracyOf } from '../surface/derived-data.js';
+import { certificateInWords, HEADLINE_WORDS, noiseReductionInWords, piecesInWords } from '../messages.js';
+import { hideNotice, showError } from './notice.js';
 
 /** @import {Analyses} from '../analyses.js' */
 /** @import {Result, Session} from '../session.js' */
 
-/** How long a result stands, in milliseconds, before its pieces are counted: while λ is dragged one follows the other. */
-const REST = 150;
+/** Delay before the pieces of a result are counted, in milliseconds: while λ is dragged, results follow each other quickly. */
+const PIECE_COUNT_DELAY_MS = 150;
+/** Maximum number of attempts to count the pieces: other analyses may cancel one. */
+const MAX_PIECE_COUNT_ATTEMPTS = 3;
+
 /**
  * @param {Session} session
  * @param {Analyses} analyses
  */
-export function headline(session, analyses) {
+export function headlinePanel(session, analyses) {
   const main = element('verdict', HTMLElement);
   const detail = element('verdict-detail', HTMLElement);
   const page = element('page', HTMLElement);
   const chip = element('certificate', HTMLButtonElement);
   const drawer = element('drawer', HTMLElement);
-  let rest = 0;
-  /** @param {string} first @param {string} second */
-  const say = (first, second) => {
-    main.textContent = first;
-    detail.textContent = second;
+  let pieceCountTimer = 0;
+  /** @param {string} sentence @param {string} details */
+  const say = (sentence, details) => {
+    main.textContent = sentence;
+    detail.textContent = details;
   };
 
   chip.addEventListener('click', () => {
@@ -34,13 +37,12 @@ export function headline(session, analyses) {
   });
 
   /** @param {Result} result */
-  const tellPieces = async (result) => {
-    // Another question may have stopped the worker before it answered.
-    for (let turn = 0; turn < 3 && session.result === result; turn++) {
-      const pieces = await analyses.pieces(result).catch(() => null);
+  const showPieces = async (result) => {
+    for (let attempt = 0; attempt < MAX_PIECE_COUNT_ATTEMPTS && session.result === result; attempt++) {
+      const pieces = await analyses.patchCount(result).catch(() => null);
       if (session.result !== result) return;
       if (!pieces) continue;
-      main.textContent = outcome(pieces.count, pieces.creases, result.input.seen !== undefined);
+      main.textContent = piecesInWords(pieces.count, pieces.creases, result.input.sampling !== undefined);
       break;
     }
     if (session.result === result) main.setAttribute('aria-busy', 'false');
@@ -52,18 +54,18 @@ export function headline(session, analyses) {
   });
   session.on('start', () => {
     hideNotice();
-    // What stands there is replaced by what comes of the run.
-    if (!session.result) say(HEADLINE_WORDS.solving, describe(session));
+    // A headline of an earlier result stays until the run ends.
+    if (!session.result) say(HEADLINE_WORDS.solving, detailsOf(session));
   });
   session.on('result', (result) => {
     const { report } = result.surface;
     chip.hidden = false;
-    chip.textContent = verdict(report);
+    chip.textContent = certificateInWords(report);
     chip.dataset.mark = report.stopReason === 'cancelled' || (report.gap === undefined && report.stopReason !== 'rounding') ? 'doubt' : 'sure';
-    say(HEADLINE_WORDS.solved, describe(session));
+    say(HEADLINE_WORDS.solved, detailsOf(session));
     main.setAttribute('aria-busy', 'true');
-    clearTimeout(rest);
-    rest = window.setTimeout(() => void tellPieces(result), REST);
+    clearTimeout(pieceCountTimer);
+    pieceCountTimer = window.setTimeout(() => void showPieces(result), PIECE_COUNT_DELAY_MS);
   });
   session.on('cleared', () => {
     chip.hidden = true;
@@ -77,19 +79,19 @@ export function headline(session, analyses) {
     say(HEADLINE_WORDS.unsolved, session.result ? HEADLINE_WORDS.stays : '');
     main.setAttribute('aria-busy', 'false');
   });
-  session.on('failure', ({ doing, error }) => showFailure(doing, error));
+  session.on('failure', ({ doing, error }) => showError(doing, error));
 }
 
-/** @param {Session} session */
-function describe({ input, result }) {
+/** Noise reduction, size and assumptions, for the line below the headline. @param {Session} session */
+function detailsOf({ input, result }) {
   if (!input) return '';
   const report = result?.input === input ? result.surface.report : null;
   const size = report ? `${count(report.interior + report.boundary)} vertices.` : `${count(input.width * input.height)} pixels.`;
-  return [report ? closer(factorOf(/** @type {Result} */ (result))) : '', size, input.assumed].filter(Boolean).join(' ');
+  return [report ? noiseReductionInWords(noiseReduction(/** @type {Result} */ (result))) : '', size, input.cameraAssumption].filter(Boolean).join(' ');
 }
 
-/** How many times closer to the truth the result is than the input, where that is known. @param {Result} result */
-function factorOf(result) {
+/** Error of the input divided by the error of the result; undefined if the truth is unknown. @param {Result} result */
+function noiseReduction(result) {
   const heights = accuracyOf(result)?.heights;
   return heights && heights.after > 0 && heights.before > 0 ? heights.before / heights.after : undefined;
 }

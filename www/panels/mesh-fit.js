@@ -1,14 +1,14 @@
-/** A mesh solved whole: before and after in space, what is known of it, and its files. */
+/** The fit of a whole mesh: mesh and result in space, views of the result, and files to save. */
 import { download, element, elements, make } from '../dom.js';
 import { percent } from '../format.js';
-import { unitOf } from '../pattern.js';
-import { plainly } from '../error-messages.js';
-import { FORMAT_WORDS, WHOLE_WORDS } from '../messages.js';
+import { lengthUnitOf } from '../pattern.js';
+import { plainMessage } from '../error-messages.js';
+import { FORMAT_WORDS, MESH_FIT_WORDS } from '../messages.js';
 import { MeshView } from '../surface/mesh-view.js';
-import { PictureView } from '../surface/picture.js';
-import { work } from '../surface/work.js';
+import { PictureView } from '../surface/picture-view.js';
+import { callWorker } from '../surface/worker-client.js';
 import { Zoom } from '../surface/zoom.js';
-import { gaussian, patches, readingAt, rulings, shaded, sheet, wholeInWords } from '../views/mesh-fit.js';
+import { gaussian, patches, readingAt, rulings, shaded, sheet, meshFitSummary } from '../views/mesh-fit.js';
 import { longestSide } from '../mesh-fit.js';
 import { offerToSave } from './save-dialog.js';
 import { offerSheets } from './sheets.js';
@@ -16,20 +16,20 @@ import { waitingPanel } from './waiting.js';
 
 /** @import {Mesh} from '../api.js' */
 /** @import {Session} from '../session.js' */
-/** @import {MeshSurface, Whole} from '../mesh-fit.js' */
-/** @import {WholeShown} from '../views/mesh-fit.js' */
+/** @import {MeshSurface, MeshFit} from '../mesh-fit.js' */
+/** @import {MeshViewContent} from '../views/mesh-fit.js' */
 
-/** Milliseconds for a vertex, until that was measured. */
-const EACH = 0.1;
-/** Share of a mesh behind what is seen of it, from which on it is better solved whole. */
-const MUCH = 0.1;
-/** Where the viewer looks at first: no side is seen straight. */
-const OBLIQUE = /** @type {const} */ ([-0.5, -0.45, -0.75]);
-/** @type {Record<string, (whole: Whole, mesh: Mesh, surface: MeshSurface) => Promise<WholeShown>>} */
+/** Initial guess of the time that a fit or a view takes, in milliseconds per vertex. */
+const MESH_TASK_MS_PER_VERTEX = 0.1;
+/** Minimum share of a mesh hidden from the chosen side for which the page suggests to fit the whole mesh. */
+const MIN_SUGGESTION_HIDDEN_SHARE = 0.1;
+/** Initial direction of the view, oblique to all axes. */
+const INITIAL_VIEW_DIRECTION = /** @type {const} */ ([-0.5, -0.45, -0.75]);
+/** Functions that prepare the views, by their names. @type {Record<string, (meshFit: MeshFit, mesh: Mesh, surface: MeshSurface) => Promise<MeshViewContent>>} */
 const VIEWS = { shaded, gaussian, rulings, patches, sheet };
 
-/** @param {Session} session @param {Whole} whole */
-export function wholePanel(session, whole) {
+/** @param {Session} session @param {MeshFit} meshFit */
+export function meshFitPanel(session, meshFit) {
   const side = element('heights-side', HTMLElement);
   const stage = element('whole', HTMLElement);
   const canvas = element('whole-canvas', HTMLCanvasElement);
@@ -49,44 +49,44 @@ export function wholePanel(session, whole) {
   const picture = new PictureView(element('whole-picture', HTMLCanvasElement), new Zoom());
   /** @type {Promise<MeshView | null> | null} */
   let viewer = null;
-  /** Counts what was asked for, to tell the newest. */
-  let asked = 0;
-  /** The mesh that the input is seen of. @type {Mesh | null} */
-  let present = null;
-  /** The one that was turned. @type {Mesh | null} */
-  let looked = null;
-  /** What is told of a place. @type {WholeShown['read']} */
-  let read;
+  /** Number of the newest update; answers to older ones are discarded. */
+  let newestUpdate = 0;
+  /** The mesh that the input was sampled from, if it has triangles. @type {Mesh | null} */
+  let inputMesh = null;
+  /** The mesh that the viewer has been turned to. @type {Mesh | null} */
+  let viewedMesh = null;
+  /** Reads the view's value at a place of the surface. @type {MeshViewContent['read']} */
+  let readValue;
 
   const waiting = waitingPanel(element('whole-waiting', HTMLElement), () => {
-    asked++;
-    whole.stop();
+    newestUpdate++;
+    meshFit.stop();
     waiting.end();
-    const solving = !whole.surface;
-    const kept = whole.restore();
+    const wasSolving = !meshFit.surface;
+    const isRestored = meshFit.restore();
     again.hidden = false;
-    again.toggleAttribute('data-solves', solving);
-    if (!kept) say('Cancelled.', '');
-    else if (solving) detail.textContent = WHOLE_WORDS.kept;
+    again.toggleAttribute('data-solves', wasSolving);
+    if (!isRestored) say('Cancelled.', '');
+    else if (wasSolving) detail.textContent = MESH_FIT_WORDS.kept;
     else about.replaceChildren(make('p', 'muted', 'Cancelled.'));
     stage.setAttribute('aria-busy', 'false');
     again.focus();
   });
-  /** @param {Mesh} mesh @param {string} words @param {string} kind */
-  const slow = (mesh, words, kind) => ({ words, kind, size: mesh.positions.length / 3, each: EACH });
-  /** @param {string} words @param {string} more */
-  const say = (words, more) => {
-    verdict.textContent = words;
-    detail.textContent = more;
+  /** A task on a mesh, for the progress bar. @param {Mesh} mesh @param {string} label @param {string} kind */
+  const taskOn = (mesh, label, kind) => ({ label, kind, size: mesh.positions.length / 3, msPerUnit: MESH_TASK_MS_PER_VERTEX });
+  /** @param {string} sentence @param {string} details */
+  const say = (sentence, details) => {
+    verdict.textContent = sentence;
+    detail.textContent = details;
   };
 
-  /** @param {WholeShown} shown */
-  const put = async ({ before, after, lines, flat: laid, read: told, about: nodes }) => {
-    read = told;
+  /** @param {MeshViewContent} shown */
+  const display = async ({ before, after, lines, flat: laid, read, about: nodes }) => {
+    readValue = read;
     about.replaceChildren(...nodes);
     picture.show(laid ?? null);
     reading.textContent = '';
-    viewer ??= MeshView.on(canvas, () => {}, { flatShading: true }).catch(() => null);
+    viewer ??= MeshView.create(canvas, () => {}, { flatShading: true }).catch(() => null);
     const view = await viewer;
     missing.hidden = view !== null || laid !== undefined;
     canvas.hidden = view === null || laid !== undefined;
@@ -98,47 +98,49 @@ export function wholePanel(session, whole) {
   };
 
   const update = async () => {
-    const turn = ++asked;
-    const { mesh, surface } = whole;
+    const turn = ++newestUpdate;
+    const { mesh, surface } = meshFit;
     if (!mesh || !surface) return;
     const name = radios.find(({ checked }) => checked)?.value ?? 'shaded';
-    const doing = slow(mesh, 'Preparing this view', `whole ${name}`);
+    const task = taskOn(mesh, 'Preparing this view', `whole ${name}`);
     stage.setAttribute('aria-busy', 'true');
     again.hidden = true;
-    if (name !== 'shaded') waiting.begin(doing);
+    if (name !== 'shaded') waiting.begin(task);
     try {
-      const shown = await VIEWS[name](whole, mesh, surface);
-      if (turn !== asked) return;
-      waiting.end(name === 'shaded' ? undefined : doing);
-      await put(shown);
+      const shown = await VIEWS[name](meshFit, mesh, surface);
+      if (turn !== newestUpdate) return;
+      waiting.end(name === 'shaded' ? undefined : task);
+      await display(shown);
     } catch (error) {
-      if (turn !== asked) return;
+      if (turn !== newestUpdate) return;
       waiting.end();
       session.fail('This view could not be worked out', error);
     } finally {
-      if (turn === asked) stage.setAttribute('aria-busy', 'false');
+      if (turn === newestUpdate) stage.setAttribute('aria-busy', 'false');
     }
   };
 
   /** @param {boolean} ready */
   const enable = (ready) => {
-    for (const end of [file, sheets, flat, report]) end.disabled = !ready;
+    for (const button of [file, sheets, flat, report]) button.disabled = !ready;
     for (const radio of radios) radio.disabled = !ready;
   };
 
+  /** Shows the whole mesh and fits it. */
   const solve = () => {
-    if (!present) return;
-    session.watch(false);
+    if (!inputMesh) return;
+    session.setAutoRun(false);
     side.dataset.whole = '';
     stage.hidden = false;
     for (const radio of ways) radio.checked = radio.value === 'whole';
-    void whole.solve(present, session.settings.lambda);
+    void meshFit.solve(inputMesh, session.settings.lambda);
   };
+  /** Returns to the input that was sampled from the mesh. */
   const leave = () => {
     if (stage.hidden) return;
-    asked++;
-    whole.leave();
-    session.watch(true);
+    newestUpdate++;
+    meshFit.leave();
+    session.setAutoRun(true);
     waiting.end();
     stage.hidden = true;
     delete side.dataset.whole;
@@ -149,77 +151,77 @@ export function wholePanel(session, whole) {
     for (const radio of radios) radio.checked = radio.value === view;
     if (!radios.some(({ checked }) => checked)) radios[0].checked = true;
   };
-  /** @param {string} view */
+  /** Shows a view of the whole mesh, and fits it if that has not been done. @param {string} view */
   const enter = (view) => {
     choose(view);
-    if (whole.mesh === null || whole.mesh !== present) solve();
-    else if (whole.surface) void update();
+    if (meshFit.mesh === null || meshFit.mesh !== inputMesh) solve();
+    else if (meshFit.surface) void update();
   };
   session.on('settings', ({ lambda }) => {
-    if (whole.mesh && lambda !== whole.lambda) solve();
+    if (meshFit.mesh && lambda !== meshFit.lambda) solve();
   });
 
-  whole.on('start', (mesh) => {
-    asked++;
-    say(WHOLE_WORDS.solving, '');
+  meshFit.on('start', (mesh) => {
+    newestUpdate++;
+    say(MESH_FIT_WORDS.solving, '');
     enable(false);
     again.hidden = true;
     stage.setAttribute('aria-busy', 'true');
-    waiting.begin(slow(mesh, 'Solving', 'whole'));
-    void put({ before: mesh, about: [] }).then(async () => {
-      // Solved once more, it stays as it was turned.
-      if (looked !== mesh) (await viewer)?.look(OBLIQUE);
-      looked = mesh;
+    waiting.begin(taskOn(mesh, 'Solving', 'whole'));
+    void display({ before: mesh, about: [] }).then(async () => {
+      // A further solve of the same mesh keeps the view.
+      if (viewedMesh !== mesh) (await viewer)?.setDirection(INITIAL_VIEW_DIRECTION);
+      viewedMesh = mesh;
     });
   });
-  whole.on('progress', ({ iteration }) => {
-    detail.textContent = WHOLE_WORDS.iterations(iteration);
+  meshFit.on('progress', ({ iteration }) => {
+    detail.textContent = MESH_FIT_WORDS.iterations(iteration);
   });
-  whole.on('result', (surface) => {
-    if (!whole.mesh) return;
-    waiting.end(slow(whole.mesh, '', 'whole'));
-    say(WHOLE_WORDS.solved, wholeInWords(whole.mesh, surface));
+  meshFit.on('result', (surface) => {
+    if (!meshFit.mesh) return;
+    waiting.end(taskOn(meshFit.mesh, '', 'whole'));
+    say(MESH_FIT_WORDS.solved, meshFitSummary(meshFit.mesh, surface));
     enable(true);
     void update();
   });
-  whole.on('failure', (error) => {
+  meshFit.on('failure', (error) => {
     waiting.end();
     stage.setAttribute('aria-busy', 'false');
-    const words = plainly(error instanceof Error ? error.message : String(error));
-    say(WHOLE_WORDS.unsolved, `${words[0].toUpperCase()}${words.slice(1)}.`);
+    const words = plainMessage(error instanceof Error ? error.message : String(error));
+    say(MESH_FIT_WORDS.unsolved, `${words[0].toUpperCase()}${words.slice(1)}.`);
   });
 
   report.addEventListener('click', () => {
-    if (whole.surface) download(`${JSON.stringify(whole.surface.report, null, 2)}\n`, 'application/json', `${stem()}-report.json`);
+    if (meshFit.surface) download(`${JSON.stringify(meshFit.surface.report, null, 2)}\n`, 'application/json', `${stem()}-report.json`);
   });
   divider.addEventListener('input', async () => (await viewer)?.divide(divider.valueAsNumber));
   for (const radio of radios) radio.addEventListener('change', () => void update());
-  again.addEventListener('click', () => (whole.surface && !again.hasAttribute('data-solves') ? void update() : solve()));
+  again.addEventListener('click', () => (meshFit.surface && !again.hasAttribute('data-solves') ? void update() : solve()));
   for (const radio of ways) radio.addEventListener('change', () => (radio.value === 'whole' ? enter('shaded') : leave()));
-  /** The newest place of the pointer, which is looked at once in a frame. @type {{ offsetX: number, offsetY: number } | null} */
-  let pointed = null;
+  /** Newest position of the pointer; the value there is read once per frame. @type {{ offsetX: number, offsetY: number } | null} */
+  let pointer = null;
   let frame = 0;
-  const point = async () => {
+  const updateReading = async () => {
     frame = 0;
     const view = await viewer;
-    const { mesh, surface } = whole;
-    const place = pointed && view?.under(pointed);
-    reading.textContent = place && mesh && surface ? readingAt(mesh, surface, place, read?.(place)) : '';
+    const { mesh, surface } = meshFit;
+    const place = pointer && view?.pick(pointer);
+    reading.textContent = place && mesh && surface ? readingAt(mesh, surface, place, readValue?.(place)) : '';
   };
   /** @param {PointerEvent} event */
-  const pointAt = ({ type, buttons, offsetX, offsetY }) => {
-    // While it is turned, there is nothing to be read.
-    pointed = type === 'pointermove' && buttons === 0 ? { offsetX, offsetY } : null;
-    frame ||= requestAnimationFrame(() => void point());
+  const onPointer = ({ type, buttons, offsetX, offsetY }) => {
+    // No value is shown while the mesh is turned.
+    pointer = type === 'pointermove' && buttons === 0 ? { offsetX, offsetY } : null;
+    frame ||= requestAnimationFrame(() => void updateReading());
   };
-  canvas.addEventListener('pointermove', pointAt);
-  canvas.addEventListener('pointerleave', pointAt);
+  canvas.addEventListener('pointermove', onPointer);
+  canvas.addEventListener('pointerleave', onPointer);
   picture.canvas.addEventListener('pointermove', (event) => (reading.textContent = picture.read(event)));
   picture.canvas.addEventListener('pointerleave', () => (reading.textContent = ''));
 
   const stem = () => `${session.input?.name ?? 'mesh'}-developable`;
   file.addEventListener('click', () => {
-    const { surface } = whole;
+    const { surface } = meshFit;
     if (!surface) return;
     offerToSave(session.api, {
       title: '3D file',
@@ -234,7 +236,7 @@ export function wholePanel(session, whole) {
     });
   });
   flat.addEventListener('click', () => {
-    const { surface } = whole;
+    const { surface } = meshFit;
     if (!surface) return;
     offerToSave(session.api, {
       title: 'Laid flat',
@@ -243,49 +245,49 @@ export function wholePanel(session, whole) {
       formats: [{
         value: 'obj', name: 'OBJ', words: FORMAT_WORDS.flatMesh, type: 'model/obj',
         write: async (worker) => {
-          const { places, triangles } = await whole.unrolled(surface);
+          const { places, triangles } = await meshFit.unrolled(surface);
           const positions = Float64Array.from({ length: (places.length / 2) * 3 }, (_, i) => (i % 3 === 2 ? 0 : places[2 * Math.floor(i / 3) + (i % 3)]));
           return worker.writeObj({ positions, triangles });
         },
       }],
-      closed: () => whole.stop(),
+      closed: () => meshFit.stop(),
     });
   });
   sheets.addEventListener('click', () => {
-    const { surface } = whole;
+    const { surface } = meshFit;
     if (!surface) return;
     const longest = longestSide(surface);
     offerSheets(session.api, {
       stem: stem(),
       size: surface.positions.length / 3,
       length: longest,
-      unit: unitOf({ ...session.input, kind: 'mesh', unit: surface.unit ?? undefined }),
-      cut: ({ side: length, ...options }) => whole.pattern(surface, { scale: length / longest, ...options }),
-      svg: (drawing) => whole.svg(drawing),
-      stop: () => whole.stop(),
+      unit: lengthUnitOf({ ...session.input, kind: 'mesh', unit: surface.unit ?? undefined }),
+      cut: ({ side: length, ...options }) => meshFit.pattern(surface, { scale: length / longest, ...options }),
+      svg: (drawing) => meshFit.svg(drawing),
+      stop: () => meshFit.stop(),
     });
   });
 
-  session.on('input', async ({ seen, lattice }) => {
-    const mesh = seen?.mesh ?? null;
-    if (mesh !== present && !stage.hidden) leave();
-    present = mesh && mesh.triangles.length > 0 ? mesh : null;
-    element('mesh-ways', HTMLElement).hidden = present === null;
+  session.on('input', async ({ sampling, lattice }) => {
+    const mesh = sampling?.mesh ?? null;
+    if (mesh !== inputMesh && !stage.hidden) leave();
+    inputMesh = mesh && mesh.triangles.length > 0 ? mesh : null;
+    element('mesh-ways', HTMLElement).hidden = inputMesh === null;
     hint.textContent = '';
-    if (!mesh || !present || !lattice?.frame) return;
+    if (!mesh || !inputMesh || !lattice?.frame) return;
     const { rows, cols, spacing, origin = [0, 0], heights, frame } = lattice;
     const { positions, triangles } = mesh;
-    const hidden = await work('hiddenShare', { positions, triangles }, { rows, cols, spacing, origin, heights, frame });
-    if (session.input?.lattice !== lattice || hidden < MUCH) return;
-    hint.textContent = WHOLE_WORDS.hidden(percent(hidden));
+    const hidden = await callWorker('hiddenAreaShare', { positions, triangles }, { rows, cols, spacing, origin, heights, frame });
+    if (session.input?.lattice !== lattice || hidden < MIN_SUGGESTION_HIDDEN_SHARE) return;
+    hint.textContent = MESH_FIT_WORDS.hidden(percent(hidden));
   });
 
   return {
-    /** What is shown of it, if it is shown. */
+    /** Name of the view; undefined unless a whole mesh is shown. */
     get view() {
-      return whole.mesh ? radios.find(({ checked }) => checked)?.value : undefined;
+      return meshFit.mesh ? radios.find(({ checked }) => checked)?.value : undefined;
     },
-    /** How much of the mesh is not seen from the chosen side; empty where that is little. */
+    /** Sentence that says how much of the mesh is hidden from the chosen side; empty if that is little. */
     get hiddenInWords() {
       return hint.textContent ?? '';
     },

@@ -1,17 +1,18 @@
-/** Meshes and point clouds: turned, and seen as heights from a direction. */
-import { apart, readingOf } from '../worker-task.js';
+/** Meshes and point clouds: turned by hand, and sampled as heights from a view. */
+import { fileReadTask, runInWorker } from '../worker-task.js';
 import { element, elements } from '../dom.js';
-import { MESH } from '../file-kinds.js';
+import { MESH_ENDING } from '../file-kinds.js';
 import { count, number } from '../format.js';
-import { drawingOf, see } from '../mesh-sampling.js';
+import { boundingBoxSides } from '../mesh-fit.js';
+import { openSampledMesh, samplingTask } from '../mesh-sampling.js';
 import { MeshView } from '../surface/mesh-view.js';
 
 /** @import {Mesh, SampleMeshOptions} from '../api.js' */
-/** @import {Called} from '../mesh-sampling.js' */
-/** @import {Input, Session, Slow} from '../session.js' */
+/** @import {InputOrigin} from '../mesh-sampling.js' */
+/** @import {Input, Session, TimedTask} from '../session.js' */
 
-/** How long the hand rests, in milliseconds, before what it has turned to is solved. */
-const REST = 180;
+/** Delay after the mesh was turned before it is sampled, in milliseconds. */
+const TURN_DELAY_MS = 180;
 
 /** @param {Session} session */
 export function meshPanel(session) {
@@ -21,61 +22,64 @@ export function meshPanel(session) {
   const name = element('mesh-name', HTMLElement);
   const span = element('mesh-span', HTMLElement);
   const resolution = element('mesh-resolution', HTMLInputElement);
-  const turned = element('mesh-turned', HTMLButtonElement);
+  const turnedButton = element('mesh-turned', HTMLButtonElement);
   const buttons = elements('button[data-view]', HTMLButtonElement);
   /** @type {Promise<MeshView | null> | null} */
   let viewer = null;
-  /** @type {Mesh | null} */
-  let shown = null;
+  /** The mesh that is displayed. @type {Mesh | null} */
+  let shownMesh = null;
 
-  /** The package knows what suits a mesh, and what a point cloud. */
-  const wanted = () => (resolution.value === '' ? undefined : resolution.valueAsNumber);
+  /** The resolution that was typed; undefined lets the package choose. */
+  const resolutionOption = () => (resolution.value === '' ? undefined : resolution.valueAsNumber);
 
-  /** @param {SampleMeshOptions} change */
-  const again = async (change) => {
+  /** Samples the mesh with changed options. @param {SampleMeshOptions} change */
+  const resample = async (change) => {
     const { input } = session;
-    if (!input?.seen) return;
-    const { mesh, options, whole } = input.seen;
-    if (await see(session, calledAs(input), async () => mesh, { ...options, ...change }, 'The mesh could not be seen so', { whole, slow: drawingOf(mesh) })) void session.run();
+    if (!input?.sampling) return;
+    const { mesh, options, wholeMesh } = input.sampling;
+    const opened = await openSampledMesh(
+      session, originOf(input), async () => mesh, { ...options, ...change }, 'The mesh could not be seen so', { wholeMesh, task: samplingTask(mesh) },
+    );
+    if (opened) void session.run();
   };
-  let rest = 0;
-  /** Solved from the new side while it is turned, whenever the hand rests. @param {MeshView} view */
-  const follow = (view) => {
-    clearTimeout(rest);
-    rest = window.setTimeout(() => again({ view: view.direction }), REST);
+  let turnTimer = 0;
+  /** Samples the mesh from the new view after it was turned. @param {MeshView} view */
+  const onTurn = (view) => {
+    clearTimeout(turnTimer);
+    turnTimer = window.setTimeout(() => resample({ view: view.direction }), TURN_DELAY_MS);
   };
   for (const button of buttons) {
-    button.addEventListener('click', () => again({ view: /** @type {SampleMeshOptions['view']} */ (button.dataset.view) }));
+    button.addEventListener('click', () => resample({ view: /** @type {SampleMeshOptions['view']} */ (button.dataset.view) }));
   }
-  turned.addEventListener('click', async () => {
+  turnedButton.addEventListener('click', async () => {
     const view = await viewer;
-    if (view) again({ view: view.direction });
+    if (view) resample({ view: view.direction });
   });
   resolution.addEventListener('change', () => {
-    const number = wanted();
-    const sound = number === undefined || (Number.isInteger(number) && number >= 3);
-    resolution.setCustomValidity(sound ? '' : 'It must be a whole number, at least 3, or empty.');
-    if (resolution.reportValidity()) again({ resolution: number });
+    const number = resolutionOption();
+    const isValid = number === undefined || (Number.isInteger(number) && number >= 3);
+    resolution.setCustomValidity(isValid ? '' : 'It must be a whole number, at least 3, or empty.');
+    if (resolution.reportValidity()) resample({ resolution: number });
   });
 
-  session.on('input', async ({ seen, lattice, name: called, kind }) => {
-    panel.hidden = seen === undefined;
-    if (!seen || !lattice?.frame) return;
+  session.on('input', async ({ sampling, lattice, name: title, kind }) => {
+    panel.hidden = sampling === undefined;
+    if (!sampling || !lattice?.frame) return;
     const { towards } = lattice.frame;
-    const { mesh, options } = seen;
-    name.textContent = `${called} (${kind})`;
+    const { mesh, options } = sampling;
+    name.textContent = `${title} (${kind})`;
     span.textContent = spanInWords(mesh);
     for (const button of buttons) button.setAttribute('aria-pressed', String(button.dataset.view === options.view));
-    turned.setAttribute('aria-pressed', String(typeof options.view !== 'string'));
-    viewer ??= MeshView.on(canvas, follow).catch(() => null);
+    turnedButton.setAttribute('aria-pressed', String(typeof options.view !== 'string'));
+    viewer ??= MeshView.create(canvas, onTurn).catch(() => null);
     const view = await viewer;
-    canvas.hidden = turned.hidden = view === null;
+    canvas.hidden = turnedButton.hidden = view === null;
     missing.hidden = view !== null;
-    if (session.input?.seen !== seen || !view) return;
+    if (session.input?.sampling !== sampling || !view) return;
     try {
-      if (shown !== mesh) view.show(mesh);
-      shown = mesh;
-      if (typeof options.view === 'string') view.look([-towards[0], -towards[1], -towards[2]]);
+      if (shownMesh !== mesh) view.show(mesh);
+      shownMesh = mesh;
+      if (typeof options.view === 'string') view.setDirection([-towards[0], -towards[1], -towards[2]]);
     } catch (error) {
       session.fail('The mesh could not be shown', error);
     }
@@ -83,43 +87,38 @@ export function meshPanel(session) {
 
   return {
     /**
-     * @param {Called} file
+     * Opens a mesh, sampled from its best-fit view.
+     * @param {InputOrigin} origin
      * @param {(signal: AbortSignal) => Promise<Mesh>} load
-     * @param {string} doing
-     * @param {Slow} [slow]
+     * @param {string} doing what could not be done, for the message if it fails
+     * @param {TimedTask} [task]
      */
-    take: (file, load, doing, slow) => see(session, file, load, { view: 'best-fit', resolution: wanted() }, doing, { slow }),
+    openLoaded: (origin, load, doing, task) => openSampledMesh(session, origin, load, { view: 'best-fit', resolution: resolutionOption() }, doing, { task }),
     /**
+     * Opens the mesh of a file.
      * @param {File} file
-     * @param {readonly File[]} [beside] what it may name: materials, textures, buffers
+     * @param {readonly File[]} [referencedFiles] files that it may refer to: materials, textures, buffers
      */
-    open(file, beside = []) {
-      const kind = MESH.exec(file.name)?.[1].toUpperCase();
-      const called = file.name.replace(MESH, '') || 'mesh';
-      return this.take({ name: called, kind }, async (signal) => {
-        const files = new Map(await Promise.all(beside.map(async (one) => /** @type {const} */ ([one.name, await one.arrayBuffer()]))));
-        return apart(session.api, signal, (reader) => reader.readMesh(file, { files }));
-      }, `“${file.name}” could not be read`, readingOf(file));
+    openFile(file, referencedFiles = []) {
+      const kind = MESH_ENDING.exec(file.name)?.[1].toUpperCase();
+      const name = file.name.replace(MESH_ENDING, '') || 'mesh';
+      return this.openLoaded({ name, kind }, async (signal) => {
+        const files = new Map(await Promise.all(referencedFiles.map(async (one) => /** @type {const} */ ([one.name, await one.arrayBuffer()]))));
+        return runInWorker(session.api, signal, (reader) => reader.readMesh(file, { files }));
+      }, `“${file.name}” could not be read`, fileReadTask(file));
     },
   };
 }
 
-/** @param {Input} input @returns {Called} */
-function calledAs({ name, kind, photo, depthSource, assumed }) {
-  return { name, kind, photo, depthSource, assumed };
+/** @param {Input} input @returns {InputOrigin} */
+function originOf({ name, kind, photo, depthSource, cameraAssumption }) {
+  return { name, kind, photo, depthSource, cameraAssumption };
 }
 
-/** @param {Mesh} mesh */
+/** The number of triangles or points and the bounding box as a sentence. @param {Mesh} mesh */
 function spanInWords({ positions, triangles, missing = [] }) {
-  const sides = [0, 1, 2].map((k) => {
-    let [low, high] = [Infinity, -Infinity];
-    for (let i = k; i < positions.length; i += 3) {
-      low = Math.min(low, positions[i]);
-      high = Math.max(high, positions[i]);
-    }
-    return number(high - low);
-  });
-  const what = triangles.length > 0 ? `${count(triangles.length / 3)} triangles` : `${count(positions.length / 3)} points`;
+  const sides = boundingBoxSides({ positions }).map((side) => number(side));
+  const size = triangles.length > 0 ? `${count(triangles.length / 3)} triangles` : `${count(positions.length / 3)} points`;
   const without = missing.length > 0 ? ` Without ${missing.join(', ')}, which were not opened with it.` : '';
-  return `${what}; x, y and z span ${sides.join(', ')}.${without}`;
+  return `${size}; x, y and z span ${sides.join(', ')}.${without}`;
 }

@@ -1,10 +1,10 @@
-/** The two ways to start: from heights, or from a photo of a page alone. */
+/** Switch between the two parts of the page: heights, and photos of pages. */
 import { element, elements } from '../dom.js';
 
 /** @typedef {'heights' | 'photo'} Mode */
 
-/** @param {(mode: Mode) => void} entered */
-export function modePanel(entered) {
+/** @param {(mode: Mode) => void} onEnter */
+export function modePanel(onEnter) {
   const radios = elements('input[name="mode"]', HTMLInputElement);
   const sides = { heights: element('heights-side', HTMLElement), photo: element('page-side', HTMLElement) };
   /** @param {Mode} mode */
@@ -18,12 +18,13 @@ export function modePanel(entered) {
   /** @param {Mode} mode */
   const enter = (mode) => {
     show(mode);
-    entered(mode);
+    onEnter(mode);
   };
   for (const radio of radios) radio.addEventListener('change', () => enter(/** @type {Mode} */ (radio.value)));
   return {
+    /** Shows a part of the page, and calls `onEnter`. */
     enter,
-    /** Without what else happens when it is entered: something is opened there anyway. */
+    /** Shows a part of the page without calling `onEnter`. */
     show,
     /** @returns {Mode} */
     get now() {

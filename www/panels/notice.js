@@ -1,37 +1,42 @@
-/** What went wrong, at the top of the page. */
+/** Notices and error messages at the top of the page. */
 import { element } from '../dom.js';
-import { complaint } from '../messages.js';
+import { errorMessage } from '../messages.js';
 
 /**
- * @typedef {object} Offer what can be done about it
- * @property {string} label of a button
+ * Button of a notice.
+ * @typedef {object} NoticeAction
+ * @property {string} label
  * @property {() => void} act
- *
+ */
+
+/**
+ * Shows a notice in the place of the last one.
  * @param {string} message
  * @param {'alert' | 'note'} [kind]
- * @param {Offer} [offer]
+ * @param {NoticeAction} [action]
  */
-export function showNotice(message, kind = 'alert', offer) {
+export function showNotice(message, kind = 'alert', action) {
   const notice = element('notice', HTMLElement);
   element('notice-text', HTMLElement).textContent = message;
   const button = element('notice-act', HTMLButtonElement);
-  button.hidden = offer === undefined;
-  button.textContent = offer?.label ?? '';
+  button.hidden = action === undefined;
+  button.textContent = action?.label ?? '';
   button.onclick = () => {
     hideNotice();
-    offer?.act();
+    action?.act();
   };
   notice.dataset.kind = kind;
   notice.hidden = false;
-  // Whoever is further down would not know.
+  // The notice may lie above the visible part of the page.
   if (kind === 'alert') notice.scrollIntoView({ block: 'nearest' });
 }
 
-/** @param {string} doing what could not be done @param {unknown} error */
-export function showFailure(doing, error) {
-  showNotice(complaint(doing, error));
+/** Shows an error. @param {string} doing what could not be done @param {unknown} error */
+export function showError(doing, error) {
+  showNotice(errorMessage(doing, error));
 }
 
+/** Hides the notice. */
 export function hideNotice() {
   element('notice', HTMLElement).hidden = true;
 }

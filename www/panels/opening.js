@@ -1,17 +1,17 @@
-/** How far it is with what is being opened, and a way to do without it. */
+/** Progress of the file that is being opened, and a button that cancels it. */
 import { element } from '../dom.js';
-import { SOON, waitingPanel } from './waiting.js';
+import { PROGRESS_DELAY_MS, waitingPanel } from './waiting.js';
 
-/** @import {Session, Slow} from '../session.js' */
+/** @import {Session, TimedTask} from '../session.js' */
 
 /** @param {Session} session */
 export function openingPanel(session) {
-  /** @type {Slow | null} */
+  /** @type {TimedTask | null} */
   let present = null;
-  const waiting = waitingPanel(element('opening', HTMLElement), () => session.giveUp(), SOON);
-  session.on('opening', (slow) => {
-    if (slow) waiting.begin(slow);
+  const waiting = waitingPanel(element('opening', HTMLElement), () => session.cancelOpening(), PROGRESS_DELAY_MS);
+  session.on('opening', (task) => {
+    if (task) waiting.begin(task);
     else if (present) waiting.end(present);
-    present = slow;
+    present = task;
   });
 }

@@ -1,4 +1,4 @@
-/** The photos of a book, to be gone through: one button each, and one more to add others. */
+/** Buttons for the photos of a book: one for each photo, and one that removes the present photo. */
 import { element, make } from '../dom.js';
 import { BOOK_WORDS } from '../page/messages.js';
 
@@ -6,15 +6,15 @@ import { BOOK_WORDS } from '../page/messages.js';
 
 /**
  * @param {Book} book
- * @param {(at: number) => void} show
- * @param {() => void} remove the photo that is shown
+ * @param {(at: number) => void} show opens a photo by its index
+ * @param {() => void} remove removes the present photo
  */
 export function pageBookPanel(book, show, remove) {
   const list = element('book', HTMLElement);
   return {
-    /** Tells which photos there are, and which of them is shown. */
+    /** Updates the buttons after a change of the book. */
     renew() {
-      const { photos, at } = book;
+      const { photos, index } = book;
       list.hidden = photos.length < 2;
       if (list.hidden) return list.replaceChildren();
       const buttons = photos.map(({ file }, i) => {
@@ -22,14 +22,14 @@ export function pageBookPanel(book, show, remove) {
         button.type = 'button';
         button.title = file.name;
         button.setAttribute('aria-label', BOOK_WORDS.page(i + 1, file.name));
-        button.setAttribute('aria-pressed', String(i === at));
+        button.setAttribute('aria-pressed', String(i === index));
         button.addEventListener('click', () => show(i));
         return button;
       });
-      const out = make('button', 'plain', BOOK_WORDS.remove);
-      out.type = 'button';
-      out.addEventListener('click', remove);
-      list.replaceChildren(BOOK_WORDS.photos(photos.length), ...buttons, out);
+      const removeButton = make('button', 'plain', BOOK_WORDS.remove);
+      removeButton.type = 'button';
+      removeButton.addEventListener('click', remove);
+      list.replaceChildren(BOOK_WORDS.photos(photos.length), ...buttons, removeButton);
     },
   };
 }

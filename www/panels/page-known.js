@@ -1,4 +1,4 @@
-/** What is known of a page and of the camera that took the photo. */
+/** Options of a photo of a page: paper size, light, number of pages, and focal length of the camera. */
 import { element, elements } from '../dom.js';
 import { number } from '../format.js';
 import { FOCAL_WORDS } from '../page/messages.js';
@@ -7,11 +7,14 @@ import { PAPERS } from '../page/paper.js';
 /** @import {PageSession} from '../page/session.js' */
 /** @typedef {import('../../pkg/types.js').DewarpPageOptions} Options */
 
-/** What may be typed of the camera, and what of it can be. @type {Record<string, { hint: string, most: number, options: (value: number) => Options }>} */
-const CAMERAS = {
-  fov: { hint: FOCAL_WORDS.fov, most: 179, options: (fieldOfView) => ({ fieldOfView }) },
-  film35: { hint: FOCAL_WORDS.film35, most: Infinity, options: (film35) => ({ film35 }) },
-  pixels: { hint: FOCAL_WORDS.pixels, most: Infinity, options: (focalLength) => ({ focalLength }) },
+/**
+ * Ways to give the focal length, with their hints and upper bounds.
+ * @type {Record<string, { hint: string, upperBound: number, options: (value: number) => Options }>}
+ */
+const FOCAL_LENGTH_KINDS = {
+  fov: { hint: FOCAL_WORDS.fov, upperBound: 179, options: (fieldOfView) => ({ fieldOfView }) },
+  film35: { hint: FOCAL_WORDS.film35, upperBound: Infinity, options: (film35) => ({ film35 }) },
+  pixels: { hint: FOCAL_WORDS.pixels, upperBound: Infinity, options: (focalLength) => ({ focalLength }) },
 };
 
 /** @param {PageSession} session */
@@ -26,19 +29,19 @@ export function pageKnownPanel(session) {
   const light = element('page-light', HTMLSelectElement);
   const pages = elements('input[name="pages"]', HTMLInputElement);
 
-  /** @param {HTMLInputElement} input @param {number} [most] */
-  const sound = (input, most = Infinity) => {
+  /** @param {HTMLInputElement} input @param {number} [upperBound] */
+  const isValid = (input, upperBound = Infinity) => {
     const number = input.valueAsNumber;
-    input.setCustomValidity(input.value === '' || (number > 0 && number < most) ? '' : `It must be a number above 0${most < Infinity ? ` and below ${most}` : ''}.`);
+    input.setCustomValidity(input.value === '' || (number > 0 && number < upperBound) ? '' : `It must be a number above 0${upperBound < Infinity ? ` and below ${upperBound}` : ''}.`);
     return input.value !== '' && input.reportValidity();
   };
-  /** @returns {Options} */
-  const read = () => {
+  /** The options that are chosen. @returns {Options} */
+  const readOptions = () => {
     sides.hidden = format.value !== 'own';
-    const known = CAMERAS[camera.value];
-    field.hidden = known === undefined;
+    const kind = FOCAL_LENGTH_KINDS[camera.value];
+    field.hidden = kind === undefined;
     const { photo } = session;
-    hint.textContent = known?.hint ?? (photo?.film35 === undefined
+    hint.textContent = kind?.hint ?? (photo?.film35 === undefined
       ? FOCAL_WORDS.unknown
       : FOCAL_WORDS.told(number(photo.film35)));
     /** @type {Options} */
@@ -46,25 +49,25 @@ export function pageKnownPanel(session) {
     if (light.value === 'ink') options.ink = true;
     else if (light.value === 'keep') options.light = 'keep';
     if (format.value === 'a4' || format.value === 'letter') options.page = format.value;
-    else if (format.value === 'own' && sound(wide) && sound(high)) options.page = [wide.valueAsNumber, high.valueAsNumber];
+    else if (format.value === 'own' && isValid(wide) && isValid(high)) options.page = [wide.valueAsNumber, high.valueAsNumber];
     else if (format.value === 'a4-wide' || format.value === 'letter-wide') options.page = [...PAPERS[format.value]];
-    if (known && sound(value, known.most)) Object.assign(options, known.options(value.valueAsNumber));
+    if (kind && isValid(value, kind.upperBound)) Object.assign(options, kind.options(value.valueAsNumber));
     return options;
   };
-  const update = () => session.know(read());
+  const update = () => session.setOptions(readOptions());
   for (const control of [format, light, wide, high, value]) control.addEventListener('change', update);
   camera.addEventListener('change', () => {
     value.value = '';
     update();
   });
   for (const radio of pages) {
-    radio.addEventListener('change', () => (radio.value === '2' ? session.divide() : session.join()));
+    radio.addEventListener('change', () => (radio.value === '2' ? session.addGutter() : session.removeGutter()));
   }
 
   session.on('photo', () => {
-    // Another photo may be another camera's.
+    // The next photo may be from another camera.
     camera.value = 'auto';
-    session.options = read();
+    session.options = readOptions();
   });
   session.on('outline', ({ outline }) => {
     for (const radio of pages) radio.checked = radio.value === String(outline.pages);

@@ -1,13 +1,13 @@
-/** The photo with the outline of the page on it, to be dragged. */
-import { element, followDevicePixels, make } from '../dom.js';
+/** The photo of a page with its outline and lines of text, whose points are dragged. */
+import { element, matchDevicePixels, make } from '../dom.js';
 import { number } from '../format.js';
 import { PAGE_WORDS } from '../page/messages.js';
 import { Handles } from '../page/handles.js';
 import { EDGES } from '../page/outline.js';
-import { canvasOf } from '../views/dewarped.js';
+import { canvasFromImage } from '../surface/layer.js';
 
 /** @import {PageSession} from '../page/session.js' */
-/** @import {Edge, Which} from '../page/outline.js' */
+/** @import {Edge, NodeIndex} from '../page/outline.js' */
 /** @import {Line} from '../page/handles.js' */
 
 /** @param {PageSession} session */
@@ -23,39 +23,39 @@ export function pagePhotoPanel(session) {
   const findLines = element('find-lines', HTMLInputElement);
   const undo = element('page-undo', HTMLButtonElement);
   const several = element('several', HTMLElement);
-  /** Which node each handle is. @type {Which[]} */
+  /** The node of the outline that each handle moves. @type {NodeIndex[]} */
   let nodes = [];
-  /** The handle that had the focus last. */
+  /** Index of the handle that had the focus last. */
   let chosen = -1;
 
   const handles = new Handles(box, {
     move: (handle, to, { key, ended }) => {
       const end = endOf(handle);
-      if (!end) return session.move(nodes[handle], to, { held: key, ended });
-      const { ends: [from, last] } = session.drawn[end.line];
+      if (!end) return session.move(nodes[handle], to, { pinned: key, ended });
+      const { ends: [from, last] } = session.drawnLines[end.line];
       session.drawLine(end.end === 0 ? [to, last] : [from, to], { line: end.line, ended });
     },
-    begin: (place) => nodes.length + 2 * session.drawLine([place, place], { ended: false }) + 1,
+    beginLine: (place) => nodes.length + 2 * session.drawLine([place, place], { ended: false }) + 1,
     pull: (edge, place) => handleOf(session.add(/** @type {Edge} */ (edge), place, true)),
     remove: (handle) => remove(handle),
     choose: (handle) => {
       chosen = handle;
-      tell();
+      updateButtons();
     },
   });
-  /** @param {Which} which */
+  /** @param {NodeIndex} which */
   const handleOf = ({ edge, node }) => nodes.findIndex((one) => one.edge === edge && one.node === node);
-  /** Which line of text a handle is an end of. @param {number} handle */
+  /** The line of text, and its end, that a handle moves; null for other handles. @param {number} handle */
   const endOf = (handle) => {
     const [line, end] = [(handle - nodes.length) >> 1, (handle - nodes.length) & 1];
-    return line >= 0 && line < session.drawn.length ? { line, end } : null;
+    return line >= 0 && line < session.drawnLines.length ? { line, end } : null;
   };
-  const bend = () => nodes[chosen] !== undefined && !session.outline.at(nodes[chosen])?.corner;
-  const tell = () => {
-    // Only said to be disabled, so that the keyboard's focus is not lost.
-    fewer.setAttribute('aria-disabled', String(!bend()));
+  const isBendChosen = () => nodes[chosen] !== undefined && !session.outline.nodeOf(nodes[chosen])?.corner;
+  const updateButtons = () => {
+    // `aria-disabled` in the place of `disabled`, so that the button keeps the focus.
+    fewer.setAttribute('aria-disabled', String(!isBendChosen()));
     for (const button of [more, drawLine]) button.setAttribute('aria-disabled', String(session.photo === null));
-    undo.setAttribute('aria-disabled', String(!session.changed));
+    undo.setAttribute('aria-disabled', String(!session.canUndo));
     removeLine.setAttribute('aria-disabled', String(endOf(chosen) === null));
   };
   /** @param {number} handle */
@@ -63,11 +63,11 @@ export function pagePhotoPanel(session) {
     const end = endOf(handle);
     if (end) {
       session.removeLine(end.line);
-      if (session.drawn.length > 0) handles.focus(nodes.length + 2 * Math.max(0, end.line - 1));
+      if (session.drawnLines.length > 0) handles.focus(nodes.length + 2 * Math.max(0, end.line - 1));
       else drawLine.focus();
       return;
     }
-    if (session.outline.at(nodes[handle])?.corner !== false) return;
+    if (session.outline.nodeOf(nodes[handle])?.corner !== false) return;
     session.remove(nodes[handle]);
     handles.focus(handle - 1);
   };
@@ -75,20 +75,20 @@ export function pagePhotoPanel(session) {
   more.addEventListener('click', () => {
     if (!session.photo) return;
     const edge = nodes[chosen]?.edge ?? 0;
-    handles.focus(handleOf(session.add(edge, widest(session, edge))));
+    handles.focus(handleOf(session.add(edge, longestSegmentMiddle(session, edge))));
   });
-  fewer.addEventListener('click', () => bend() && remove(chosen));
+  fewer.addEventListener('click', () => isBendChosen() && remove(chosen));
   removeLine.addEventListener('click', () => endOf(chosen) && remove(chosen));
   /** @param {boolean} drawing */
   const draw = (drawing) => {
-    handles.drawing = drawing;
+    handles.startsLines = drawing;
     box.classList.toggle('drawing', drawing);
     drawLine.setAttribute('aria-pressed', String(drawing));
   };
   drawLine.addEventListener('click', (event) => {
     if (!session.photo) return;
-    // By keyboard there is a line at once, to be moved by its ends.
-    if (event.detail !== 0) return draw(!handles.drawing);
+    // By keyboard a line is added at once; its ends can then be moved.
+    if (event.detail !== 0) return draw(!handles.startsLines);
     const { corners } = session.outline;
     const [x, y] = [Math.min(...corners.map((one) => one.x)), Math.min(...corners.map((one) => one.y))];
     const [u, v] = [Math.max(...corners.map((one) => one.x)), Math.max(...corners.map((one) => one.y))];
@@ -96,11 +96,11 @@ export function pagePhotoPanel(session) {
     const at = (s) => [x + s * (u - x), (y + v) / 2];
     handles.focus(nodes.length + 2 * session.drawLine([at(0.25), at(0.75)], { ended: true }));
   });
-  findLines.addEventListener('change', () => session.find(findLines.checked));
-  snap.addEventListener('change', () => session.snap(snap.checked));
+  findLines.addEventListener('change', () => session.setFindsTextLines(findLines.checked));
+  snap.addEventListener('change', () => session.setSnapsToEdges(snap.checked));
   element('page-turn', HTMLButtonElement).addEventListener('click', () => session.turn());
   element('suggest', HTMLButtonElement).addEventListener('click', () => {
-    if (!session.changed || confirm(PAGE_WORDS.startAgain)) session.suggest();
+    if (!session.canUndo || confirm(PAGE_WORDS.startAgain)) session.reset();
   });
   undo.addEventListener('click', () => session.undo());
   document.addEventListener('keydown', (event) => {
@@ -114,21 +114,21 @@ export function pagePhotoPanel(session) {
     const context = canvas.getContext('2d');
     if (!context || !session.photo) return;
     context.imageSmoothingQuality = 'high';
-    context.drawImage(canvasOf(session.photo.small), 0, 0, canvas.width, canvas.height);
+    context.drawImage(canvasFromImage(session.photo.reduced), 0, 0, canvas.width, canvas.height);
   };
-  followDevicePixels(canvas, paint);
+  matchDevicePixels(canvas, paint);
 
   session.on('photo', (photo) => {
     chosen = -1;
     draw(false);
-    handles.on(photo);
+    handles.setPhoto(photo);
     box.hidden = false;
     const { verdict, pages } = photo.outlines;
     several.hidden = verdict !== 'several' || pages.length < 2;
     several.replaceChildren(PAGE_WORDS.several, ...pages.map((_, i) => {
       const button = make('button', '', PAGE_WORDS.choosePage(i + 1));
       button.type = 'button';
-      button.addEventListener('click', () => session.choose(i));
+      button.addEventListener('click', () => session.choosePage(i));
       return button;
     }));
     element('page-empty', HTMLElement).hidden = true;
@@ -141,21 +141,21 @@ export function pagePhotoPanel(session) {
   const redraw = () => {
     const { outline } = session;
     /** @type {Line[]} */
-    const found = session.found.map((points) => ({ kind: session.agreed ? 'text' : 'text against', points }));
+    const found = session.foundLines.map((points) => ({ kind: session.usesFoundLines ? 'text' : 'text against', points }));
     /** @type {Line[]} */
-    const drawn = session.drawn.map(({ points }) => ({ kind: 'text drawn', points }));
+    const drawn = session.drawnLines.map(({ points }) => ({ kind: 'text drawn', points }));
     handles.draw({
       handles: [
         ...nodes.map((which) => {
-          const { x, y, corner, held } = outline.at(which);
-          return { x, y, name: outline.name(which), kind: /** @type {'corner' | 'bend'} */ (corner ? 'corner' : 'bend'), held };
+          const { x, y, corner, pinned } = outline.nodeOf(which);
+          return { x, y, name: outline.name(which), kind: /** @type {'corner' | 'bend'} */ (corner ? 'corner' : 'bend'), pinned };
         }),
-        ...session.drawn.flatMap(({ ends }, line) => ends.map(([x, y], end) => (
+        ...session.drawnLines.flatMap(({ ends }, line) => ends.map(([x, y], end) => (
           { x, y, name: `Line of text ${line + 1}, ${end === 0 ? 'beginning' : 'end'}`, kind: /** @type {const} */ ('text') }))),
       ],
       lines: [...found, ...drawn, ...outlined],
     });
-    tell();
+    updateButtons();
   };
   session.on('lines', redraw);
   session.on('outline', ({ outline, traces, moving }) => {
@@ -165,24 +165,24 @@ export function pagePhotoPanel(session) {
     /** @type {Line[]} */
     const gutters = gutter ? [{ kind: 'side', points: gutter.map(({ x, y }) => /** @type {[number, number]} */ ([x, y])) }] : [];
     /** @type {Line[]} */
-    const edges = traces.flatMap((spans, edge) => spans.map((points) => ({ kind: /** @type {const} */ ('edge'), points, pulls: edge })));
+    const edges = traces.flatMap((spans, edge) => spans.map((points) => ({ kind: /** @type {const} */ ('edge'), points, pullId: edge })));
     outlined = [...gutters, ...edges];
-    // Not under the finger.
-    if (!moving) handles.fit(outline.corners.map(({ x, y }) => [x, y]));
+    // The visible part does not change during a drag.
+    if (!moving) handles.showWithin(outline.corners.map(({ x, y }) => [x, y]));
     redraw();
   });
-  tell();
+  updateButtons();
 }
 
 /**
- * The middle of an edge's longest part without a point.
+ * The middle of the longest segment between two neighbouring nodes of an edge.
  * @param {PageSession} session
  * @param {Edge} edge
  * @returns {[number, number]}
  */
-function widest({ outline }, edge) {
+function longestSegmentMiddle({ outline }, edge) {
   const nodes = outline.edges[edge];
-  const gaps = nodes.slice(1).map((node, i) => Math.hypot(node.x - nodes[i].x, node.y - nodes[i].y));
-  const i = gaps.indexOf(Math.max(...gaps));
+  const lengths = nodes.slice(1).map((node, i) => Math.hypot(node.x - nodes[i].x, node.y - nodes[i].y));
+  const i = lengths.indexOf(Math.max(...lengths));
   return [(nodes[i].x + nodes[i + 1].x) / 2, (nodes[i].y + nodes[i + 1].y) / 2];
 }

@@ -1,12 +1,12 @@
-/** The flat page beside its photo: what it is worth in words, its figures, and its files. */
+/** The flat page: its verdict, figures and files. */
 import { element, make } from '../dom.js';
 import { degrees, number, numberAgainst, percent } from '../format.js';
-import { whole } from '../page/flatten.js';
+import { flattenWholePhoto } from '../page/flatten.js';
 import { PAPERS, pictureFiles, similarPaper } from '../page/paper.js';
-import { turnedPicture } from '../page/quarter-turn.js';
-import { imagePicture, PictureView } from '../surface/picture.js';
+import { turnPicture } from '../page/quarter-turn.js';
+import { imagePicture, PictureView } from '../surface/picture-view.js';
 import { Zoom } from '../surface/zoom.js';
-import { canvasOf } from '../views/dewarped.js';
+import { canvasFromImage } from '../surface/layer.js';
 import { figures } from '../views/legend.js';
 import { FORMAT_WORDS, SAVE_WORDS } from '../messages.js';
 import { BOOK_WORDS, PAGE_WORDS, pageCautions, pageErrors, pageVerdict } from '../page/messages.js';
@@ -22,10 +22,10 @@ import { offerToSave } from './save-dialog.js';
 /**
  * @param {Api} api
  * @param {PageSession} session
- * @param {Book} book the photo's, of which it may be one of several
- * @param {(flat: DewarpedPage, name: string) => void} goOn with the page as a surface
+ * @param {Book} book the photos that are open
+ * @param {(flat: DewarpedPage, name: string) => void} openAsSurface opens the page as a surface
  */
-export function pageResultPanel(api, session, book, goOn) {
+export function pageResultPanel(api, session, book, openAsSurface) {
   const figure = element('flat-view', HTMLElement);
   const view = new PictureView(element('flat-canvas', HTMLCanvasElement), new Zoom());
   const empty = element('flat-empty', HTMLElement);
@@ -45,17 +45,17 @@ export function pageResultPanel(api, session, book, goOn) {
   const enable = (ready) => {
     save.disabled = surface.disabled = !ready;
   };
-  /** @param {string} words @param {string} [more] */
-  const say = (words, more = '') => {
-    verdict.textContent = words;
-    detail.textContent = more;
+  /** @param {string} sentence @param {string} [details] */
+  const say = (sentence, details = '') => {
+    verdict.textContent = sentence;
+    detail.textContent = details;
   };
-  /** @param {string} instead what is said in the place of the flat page */
-  const clear = (instead) => {
+  /** Removes the flat page. @param {string} message shown in its place */
+  const clear = (message) => {
     shown = null;
     view.show(null);
     empty.hidden = false;
-    empty.textContent = instead;
+    empty.textContent = message;
     caption.textContent = '';
     about.replaceChildren();
     facts.hidden = proposal.hidden = true;
@@ -66,28 +66,28 @@ export function pageResultPanel(api, session, book, goOn) {
     say(PAGE_WORDS.working);
   });
   session.on('outline', ({ moving }) => {
-    // Nothing moves away under the hand.
-    if (!moving) side.dataset.state = session.unfound ? 'unfound' : 'found';
+    // The layout of the page does not change during a drag.
+    if (!moving) side.dataset.state = session.isPageMissing ? 'unfound' : 'found';
   });
   session.on('working', (working) => figure.setAttribute('aria-busy', String(working)));
   session.on('unfound', () => {
     clear(PAGE_WORDS.unfoundDetail);
     say(PAGE_WORDS.unfound, PAGE_WORDS.unfoundDetail);
   });
-  session.on('flat', ({ flat, assumed, moving }) => {
+  session.on('flat', ({ flat, focalAssumed, moving }) => {
     shown = flat;
     const { report } = flat;
-    const { width, height, data } = turnedPicture(flat, session.quarters);
-    view.show(imagePicture(canvasOf(new ImageData(data, width, height)), 'Flat', 'The page made flat'));
+    const { width, height, data } = turnPicture(flat, session.quarters);
+    view.show(imagePicture(canvasFromImage(new ImageData(data, width, height)), 'Flat', 'The page made flat'));
     empty.hidden = true;
     enable(true);
-    // Without lines of text the figures are others: they wait until the hand rests.
+    // During a drag the page is flattened without its lines of text, so that the figures would differ.
     if (moving) return;
     caption.textContent = flat.unit === 'mm' ? sizeOf(flat, session.quarters) : '';
-    const unplaced = session.photo?.outlines.verdict === 'notFound' ? 4 - session.moved.size : 0;
-    const cautions = pageCautions({ outside: session.outside, weak: session.weak, assumed, unplaced });
-    const kept = flat.light === 'keep' && session.options.light !== 'keep' ? [PAGE_WORDS.keptLight] : [];
-    say(pageVerdict(report), [...cautions, pageErrors(report), ...kept].join(' '));
+    const unplaced = session.photo?.outlines.verdict === 'notFound' ? 4 - session.movedCorners.size : 0;
+    const cautions = pageCautions({ outside: session.outsideCorners, weak: session.weakEdges, assumed: focalAssumed, unplaced });
+    const lightNote = flat.light === 'keep' && session.options.light !== 'keep' ? [PAGE_WORDS.keptLight] : [];
+    say(pageVerdict(report), [...cautions, pageErrors(report), ...lightNote].join(' '));
     facts.hidden = false;
     const similar = flat.unit === 'mm' ? null : similarPaper(flat.size[0] / session.outline.pages, flat.size[1]);
     proposal.hidden = similar === null;
@@ -96,11 +96,11 @@ export function pageResultPanel(api, session, book, goOn) {
   });
   session.on('problem', (error) => {
     clear(PAGE_WORDS.noFlat);
-    say(PAGE_WORDS.unflattened, sentence(error));
+    say(PAGE_WORDS.unflattened, errorSentence(error));
   });
 
   save.addEventListener('click', () => {
-    const wish = session.wish();
+    const wish = session.request();
     if (!wish || !shown) return;
     const { outline: { pages }, quarters } = session;
     const measured = shown.unit === 'mm';
@@ -111,15 +111,15 @@ export function pageResultPanel(api, session, book, goOn) {
     paper.value = measured ? '' : similar ?? 'a4';
     const several = book.photos.length > 1;
     const status = element('save-size', HTMLElement);
-    const tell = (/** @type {number} */ done) => {
+    const showProgress = (/** @type {number} */ done) => {
       status.textContent = BOOK_WORDS.writing(done + 1, book.photos.length);
     };
-    /** With all pixels of the photo: made once for all formats. @type {DewarpedPage | null} */
+    /** The flat page with all pixels of the photo, which is made once for all formats. @type {DewarpedPage | null} */
     let flat = null;
     /** @param {'png' | 'jpeg'} format */
-    const written = (format) => async (/** @type {Worker} */ worker) => {
-      flat ??= await whole(worker, wish);
-      return worker.writePhoto({ ...flat, ...turnedPicture(flat, quarters) }, { format });
+    const writeImage = (format) => async (/** @type {Worker} */ worker) => {
+      flat ??= await flattenWholePhoto(worker, wish);
+      return worker.writePhoto({ ...flat, ...turnPicture(flat, quarters) }, { format });
     };
     const offer = offerToSave(api, {
       title: 'Flat page',
@@ -128,12 +128,12 @@ export function pageResultPanel(api, session, book, goOn) {
       formats: [
         { value: 'pdf', name: 'PDF', words: several ? BOOK_WORDS.pdf(book.photos.length) : pages > 1 ? SAVE_WORDS.pdfOfTwo : SAVE_WORDS.pdf, type: 'application/pdf', write: async (worker) => {
           const size = paper.value === '' ? null : PAPERS[/** @type {PaperName} */ (paper.value)];
-          if (several) return worker.writeBook(await book.pages(api, session, worker, size, tell));
-          flat ??= await whole(worker, wish);
+          if (several) return worker.writeBook(await book.flatPages(api, session, worker, size, showProgress));
+          flat ??= await flattenWholePhoto(worker, wish);
           return worker.writeBook(await pictureFiles(worker, flat, pages, quarters, size, wish.options.ink));
         } },
-        { value: 'jpg', name: 'JPEG', words: FORMAT_WORDS.jpg, type: 'image/jpeg', write: written('jpeg') },
-        { value: 'png', name: 'PNG', words: FORMAT_WORDS.png, type: 'image/png', write: written('png') },
+        { value: 'jpg', name: 'JPEG', words: FORMAT_WORDS.jpg, type: 'image/jpeg', write: writeImage('jpeg') },
+        { value: 'png', name: 'PNG', words: FORMAT_WORDS.png, type: 'image/png', write: writeImage('png') },
       ],
       extra: [make('label', 'field', SAVE_WORDS.paper(similar !== null && !measured ? SAVE_WORDS.papers[similar] : ''), paper)],
     });
@@ -146,30 +146,31 @@ export function pageResultPanel(api, session, book, goOn) {
     format.focus();
   });
   surface.addEventListener('click', () => {
-    if (shown) goOn(shown, session.photo?.name ?? 'page');
+    if (shown) openAsSurface(shown, session.photo?.name ?? 'page');
   });
 }
 
-/** @param {DewarpedPage} flat @param {number} quarters */
+/** Size of the flat page in words. @param {DewarpedPage} flat @param {number} quarters number of quarter turns */
 function sizeOf({ size, unit }, quarters) {
   const [wide, high] = quarters % 2 === 0 ? size : size.toReversed();
   return unit === 'mm' ? `${number(wide, 4)} × ${number(high, 4)} mm` : `${number(wide / high, 3)} : 1`;
 }
 
 /**
+ * Figures of the flat page: names and values.
  * @param {DewarpedPage} flat
- * @param {number} quarters
- * @param {number} scale pixels of the reduced photo for one of the whole one
+ * @param {number} quarters number of quarter turns
+ * @param {number} scale side of the reduced photo divided by that of the full one
  * @returns {[string, string][]}
  */
 function factsOf(flat, quarters, scale) {
   const { verdict, error, pinholeErrorBound, focalLength, focalDeviation, tilt, bend, disagreement, residual, lines, linesFound } = flat.report;
-  const wrong = verdict === 'notThisKind';
+  const isOtherKind = verdict === 'notThisKind';
   return [
-    ['Likely error', wrong ? '–' : `${percent(error / 100)} of the width`],
-    ['95 % limit', wrong ? '–' : percent(pinholeErrorBound / 100)],
+    ['Likely error', isOtherKind ? '–' : `${percent(error / 100)} of the width`],
+    ['95 % limit', isOtherKind ? '–' : percent(pinholeErrorBound / 100)],
     ['Edges disagree', `${percent(disagreement / 100)} of the width`],
-    ...(lines + linesFound === 0 ? [] : [/** @type {[string, string]} */ (['Lines of text', linesFacts(flat.report)])]),
+    ...(lines + linesFound === 0 ? [] : [/** @type {[string, string]} */ (['Lines of text', linesInWords(flat.report)])]),
     ['Edge residual', `${numberAgainst(residual / scale, 1000)} pixels`],
     ['Bend', degrees((bend * Math.PI) / 180)],
     ['Tilt', degrees((tilt * Math.PI) / 180)],
@@ -178,16 +179,16 @@ function factsOf(flat, quarters, scale) {
   ];
 }
 
-/** @param {DewarpedPage['report']} report */
-function linesFacts({ lines, linesFound, linesUsed, linesDisagreement }) {
+/** The lines of text in words. @param {DewarpedPage['report']} report */
+function linesInWords({ lines, linesFound, linesUsed, linesDisagreement }) {
   const drawn = lines - linesUsed;
   const count = [...(linesFound > 0 ? [`${linesFound} found`] : []), ...(drawn > 0 ? [`${drawn} drawn`] : [])].join(', ');
   if (linesDisagreement > 0) return `${count}, off by ${percent(linesDisagreement / 100)}`;
   return `${count}, ${linesUsed < linesFound ? 'not used' : 'as the edges'}`;
 }
 
-/** @param {unknown} error */
-function sentence(error) {
+/** The message of an error as a sentence. @param {unknown} error */
+function errorSentence(error) {
   const message = error instanceof Error ? error.message : String(error);
   const [, edge] = /the (\w+) edge has a point at .* outside of the photo/.exec(message) ?? [];
   const words = edge ? PAGE_WORDS.tooFarOutside(edge) : message;

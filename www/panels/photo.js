@@ -1,10 +1,10 @@
-/** The photo that is to be made flat: opened, or printed on an example; and what comes of it, saved. */
-import { readingOf } from '../worker-task.js';
-import { choosesFile, element } from '../dom.js';
+/** Dewarping of a photo of the surface: opens the photo, or prints one on an example, and saves the flat one. */
+import { fileReadTask } from '../worker-task.js';
+import { onFileChosen, element } from '../dom.js';
 import { FORMAT_WORDS } from '../messages.js';
 import { partAt } from '../mesh-part.js';
-import { pixelsOf } from '../pixels.js';
-import { drawingOf, see } from '../mesh-sampling.js';
+import { readPicture } from '../pixels.js';
+import { openSampledMesh, samplingTask } from '../mesh-sampling.js';
 import { cropPanel } from './crop.js';
 import { offerToSave } from './save-dialog.js';
 
@@ -13,14 +13,14 @@ import { offerToSave } from './save-dialog.js';
 /** @typedef {import('../../pkg/types.js').Dewarped} Dewarped */
 
 /** @typedef {import('../analyses.js').FlatOptions} FlatOptions */
-/** @typedef {{ photo: ImageData, options: FlatOptions }} Wish */
+/** @typedef {{ photo: ImageData, options: FlatOptions }} DewarpRequest */
 
 /**
  * @param {Session} session
  * @param {Analyses} analyses
- * @param {() => void} changed what is to be shown is another
+ * @param {() => void} onChange called when another photo, or other options, are to be shown
  */
-export function photoPanel(session, analyses, changed) {
+export function photoPanel(session, analyses, onChange) {
   const panel = element('photo', HTMLElement);
   const file = element('photo-file', HTMLInputElement);
   const open = element('photo-open', HTMLButtonElement);
@@ -34,55 +34,56 @@ export function photoPanel(session, analyses, changed) {
   /** @type {Dewarped | null} */
   let flat = null;
 
-  const all = element('all-parts', HTMLButtonElement);
-  const crop = cropPanel({ changed, click: (place) => void onlyPart(place) });
+  const allParts = element('all-parts', HTMLButtonElement);
+  const crop = cropPanel({ onChange, onClick: (place) => void selectPart(place) });
 
   /**
-   * Takes the part of the mesh that the photo shows at a place, or all of it.
+   * Opens the connected part of the mesh that the photo shows at a place, or the whole mesh.
    * @param {readonly [number, number] | null} place
    */
-  const onlyPart = async (place) => {
+  const selectPart = async (place) => {
     const { input } = session;
-    if (!input?.seen || !photo) return;
-    const { mesh, options, whole = mesh } = input.seen;
-    const part = place && partAt(whole, [(place[0] + 0.5) / photo.width, 1 - (place[1] + 0.5) / photo.height]);
+    if (!input?.sampling || !photo) return;
+    const { mesh, options, wholeMesh = mesh } = input.sampling;
+    const part = place && partAt(wholeMesh, [(place[0] + 0.5) / photo.width, 1 - (place[1] + 0.5) / photo.height]);
     if (place && !part) return;
     const own = { name: name.textContent ?? '', image: photo };
-    const taken = await see(
-      session, { name: input.name, kind: input.kind, photo: own, depthSource: input.depthSource, assumed: input.assumed }, async () => part ?? whole, options,
-      'This part could not be taken', { whole: part ? whole : undefined, slow: drawingOf(whole) },
+    const { name: title, kind, depthSource, cameraAssumption } = input;
+    const opened = await openSampledMesh(
+      session, { name: title, kind, photo: own, depthSource, cameraAssumption }, async () => part ?? wholeMesh, options,
+      'This part could not be taken', { wholeMesh: part ? wholeMesh : undefined, task: samplingTask(wholeMesh) },
     );
-    if (taken) await session.run();
+    if (opened) await session.run();
   };
-  all.addEventListener('click', () => void onlyPart(null));
+  allParts.addEventListener('click', () => void selectPart(null));
 
   session.on('cleared', () => {
     const own = session.input?.photo;
     photo = own?.image ?? null;
     name.textContent = own?.name ?? hint;
-    all.hidden = session.input?.seen?.whole === undefined;
-    crop.forget();
+    allParts.hidden = session.input?.sampling?.wholeMesh === undefined;
+    crop.clear();
   });
 
-  /** @param {string} called @param {ImageData} image */
-  const use = (called, image) => {
+  /** Sets the photo. @param {string} title @param {ImageData} image */
+  const setPhoto = (title, image) => {
     photo = image;
-    name.textContent = called;
+    name.textContent = title;
   };
-  choosesFile(open, file, async (chosen) => {
+  onFileChosen(open, file, async (chosen) => {
     const { result } = session;
     if (!result) return;
-    const read = await session.obtain(`“${chosen.name}” could not be used`, () => pixelsOf(chosen), readingOf(chosen));
+    const read = await session.load(`“${chosen.name}” could not be used`, () => readPicture(chosen), fileReadTask(chosen));
     if (!read || session.input !== result.input) return;
-    use(chosen.name, read);
-    changed();
+    setPhoto(chosen.name, read);
+    onChange();
   });
   dots.addEventListener('change', () => {
-    const sound = dots.value === '' || dots.valueAsNumber > 0;
-    dots.setCustomValidity(sound ? '' : 'It must be a number above 0, or empty.');
-    if (dots.reportValidity()) changed();
+    const isValid = dots.value === '' || dots.valueAsNumber > 0;
+    dots.setCustomValidity(isValid ? '' : 'It must be a number above 0, or empty.');
+    if (dots.reportValidity()) onChange();
   });
-  trim.addEventListener('change', changed);
+  trim.addEventListener('change', onChange);
 
   save.addEventListener('click', () => {
     if (!flat || !photo) return;
@@ -106,18 +107,18 @@ export function photoPanel(session, analyses, changed) {
   });
 
   return {
-    use,
-    /** @param {boolean} wanted */
-    show: (wanted) => {
-      panel.hidden = !wanted;
-      if (!wanted) crop.show(null);
+    setPhoto,
+    /** Shows or hides the panel. @param {boolean} visible */
+    show: (visible) => {
+      panel.hidden = !visible;
+      if (!visible) crop.show(null);
     },
     /**
-     * The photo that there is, or else a print, where the true surface is known.
+     * The photo to dewarp, with its options: the opened one, else the texture of the scan, else a page printed on the true surface.
      * @param {Result} result
-     * @returns {Promise<Wish | null>}
+     * @returns {Promise<DewarpRequest | null>}
      */
-    async wish({ input, surface }) {
+    async dewarpRequest({ input, surface }) {
       if (!photo && surface.texture) {
         const { data, width } = await session.api.readPhoto(surface.texture);
         if (session.input === input && !photo) {
@@ -126,8 +127,7 @@ export function photoPanel(session, analyses, changed) {
         }
       }
       if (!photo && input.truth) {
-        const known = { ...input, truth: input.truth };
-        const printed = await analyses.printOf(known);
+        const printed = await analyses.printedPhoto({ ...input, truth: input.truth });
         if (session.input === input && !photo) {
           photo = printed;
           name.textContent = 'a page printed on the true surface';
@@ -136,16 +136,16 @@ export function photoPanel(session, analyses, changed) {
       crop.show(photo);
       return photo && { photo, options: { dots: dots.value === '' ? undefined : dots.valueAsNumber, trim: trim.checked, crop: crop.polygon } };
     },
-    /** @param {Dewarped | null} made what can be saved */
-    made: (made) => {
-      flat = made;
-      save.disabled = made === null;
+    /** Sets the flat photo that can be saved. @param {Dewarped | null} dewarped */
+    setFlat: (dewarped) => {
+      flat = dewarped;
+      save.disabled = dewarped === null;
     },
   };
 }
 
 /**
- * The warp map on a grid, null where there is no sheet: what the command writes, too.
+ * The warp map on a grid as JSON, in the format that the command writes; null outside of the sheet.
  * @param {Dewarped} flat
  * @param {{ width: number, height: number }} photo
  */

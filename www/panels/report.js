@@ -1,15 +1,15 @@
-/** The report as a table, each line with a word on what it means. */
+/** The report as a table, with an explanation of each row. */
 import { download, element } from '../dom.js';
 import { count, number, percentAtMost, seconds } from '../format.js';
-import { accuracyOf } from '../surface/known.js';
-import { ENERGIES, STOP_REASONS, lambdaFound } from '../messages.js';
+import { accuracyOf } from '../surface/derived-data.js';
+import { ENERGIES, STOP_REASONS, lambdaChoiceInWords } from '../messages.js';
 import { REPORT_WORDS } from '../report-words.js';
 
 /** @import {Report} from '../api.js' */
 /** @import {Result, Session} from '../session.js' */
 
-/** @typedef {{ name: string, value: string, meaning: string, told: boolean }} Line */
-/** @typedef {{ title: string, lines: Line[] }} Group */
+/** @typedef {{ name: string, value: string, meaning: string, isShown: boolean }} Row */
+/** @typedef {{ title: string, rows: Row[] }} Group */
 
 /** @param {Session} session */
 export function reportPanel(session) {
@@ -22,7 +22,7 @@ export function reportPanel(session) {
   session.on('result', (result) => {
     const { report } = result.surface;
     const groups = [certificate(report), domain(report), work(report), accuracy(result)];
-    table.replaceChildren(...groups.filter((group) => group.lines.length > 0).map(rowGroup));
+    table.replaceChildren(...groups.filter((group) => group.rows.length > 0).map(rowGroup));
     table.hidden = element('report-save', HTMLElement).hidden = false;
     empty.hidden = true;
   });
@@ -36,14 +36,14 @@ export function reportPanel(session) {
 function certificate(report) {
   return {
     title: 'Certificate',
-    lines: [
-      line('Gap', percentAtMost(report.gap), report.gap === undefined ? REPORT_WORDS.noGap : REPORT_WORDS.gap),
-      line('Objective', number(report.objective, 5), REPORT_WORDS.objective),
-      line('Fidelity', number(report.fidelity, 4), REPORT_WORDS.fidelity),
-      line('Nuclear norms', number(report.nuclearNorm, 4), REPORT_WORDS.nuclearNorm, report.energy === 'nuclear'),
-      line('Bending', number(report.nuclearNorm, 4), ENERGIES[report.energy], report.energy !== 'nuclear'),
-      line('Dual bound', number(report.dualBound, 5), REPORT_WORDS.dualBound),
-      line('Stopped by', STOP_REASONS[report.stopReason], ''),
+    rows: [
+      row('Gap', percentAtMost(report.gap), report.gap === undefined ? REPORT_WORDS.noGap : REPORT_WORDS.gap),
+      row('Objective', number(report.objective, 5), REPORT_WORDS.objective),
+      row('Fidelity', number(report.fidelity, 4), REPORT_WORDS.fidelity),
+      row('Nuclear norms', number(report.nuclearNorm, 4), REPORT_WORDS.nuclearNorm, report.energy === 'nuclear'),
+      row('Bending', number(report.nuclearNorm, 4), ENERGIES[report.energy], report.energy !== 'nuclear'),
+      row('Dual bound', number(report.dualBound, 5), REPORT_WORDS.dualBound),
+      row('Stopped by', STOP_REASONS[report.stopReason], ''),
     ],
   };
 }
@@ -52,14 +52,14 @@ function certificate(report) {
 function domain(report) {
   return {
     title: 'Vertices',
-    lines: [
-      line('Interior', count(report.interior), REPORT_WORDS.interior),
-      line('Boundary', count(report.boundary), REPORT_WORDS.boundary),
-      line('Omitted', count(report.omitted), REPORT_WORDS.omitted),
-      line('Torn', count(report.occluded), REPORT_WORDS.torn, report.occluded > 0),
-      line('Held', count(report.constrained), REPORT_WORDS.held, report.constrained > 0),
-      line('Free', count(report.free), REPORT_WORDS.free, report.free > 0),
-      line('Parts', count(report.components), REPORT_WORDS.parts, report.components > 1),
+    rows: [
+      row('Interior', count(report.interior), REPORT_WORDS.interior),
+      row('Boundary', count(report.boundary), REPORT_WORDS.boundary),
+      row('Omitted', count(report.omitted), REPORT_WORDS.omitted),
+      row('Torn', count(report.occluded), REPORT_WORDS.torn, report.occluded > 0),
+      row('Held', count(report.constrained), REPORT_WORDS.held, report.constrained > 0),
+      row('Free', count(report.free), REPORT_WORDS.free, report.free > 0),
+      row('Parts', count(report.components), REPORT_WORDS.parts, report.components > 1),
     ],
   };
 }
@@ -69,46 +69,46 @@ function work(report) {
   const { setup, zStep, hStep, certificate: check, total } = report.seconds;
   return {
     title: 'Work',
-    lines: [
-      line('λ', number(report.lambda), REPORT_WORDS.lambda),
-      line('Noise, σ', number(report.lambdaChoice?.sigma ?? 0), lambdaFound(report), report.lambdaChoice?.sigma !== undefined),
-      line('Reweighted', count(report.reweighting), REPORT_WORDS.reweighted, report.reweighting > 0),
-      line('Creases', count(report.huber?.creases ?? 0), REPORT_WORDS.creases(report.huber?.creasePasses ?? 0), report.huber !== undefined),
-      line('Lattices', count(report.levels.length), REPORT_WORDS.lattices(report.levels.map(({ interior }) => interior))),
-      line('Iterations', count(report.iterations), REPORT_WORDS.iterations(report.levels.at(-1)?.iterations ?? 0)),
-      line('CG iterations', count(report.cgIterations), REPORT_WORDS.cgIterations),
-      line('ρ', number(report.rho), REPORT_WORDS.rho),
-      line('Scale', number(report.scale, 4), REPORT_WORDS.scale),
-      line('Time', seconds(total), REPORT_WORDS.time(seconds(setup), seconds(zStep), seconds(hStep), seconds(check))),
+    rows: [
+      row('λ', number(report.lambda), REPORT_WORDS.lambda),
+      row('Noise, σ', number(report.lambdaChoice?.sigma ?? 0), lambdaChoiceInWords(report), report.lambdaChoice?.sigma !== undefined),
+      row('Reweighted', count(report.reweighting), REPORT_WORDS.reweighted, report.reweighting > 0),
+      row('Creases', count(report.huber?.creases ?? 0), REPORT_WORDS.creases(report.huber?.creasePasses ?? 0), report.huber !== undefined),
+      row('Lattices', count(report.levels.length), REPORT_WORDS.lattices(report.levels.map(({ interior }) => interior))),
+      row('Iterations', count(report.iterations), REPORT_WORDS.iterations(report.levels.at(-1)?.iterations ?? 0)),
+      row('CG iterations', count(report.cgIterations), REPORT_WORDS.cgIterations),
+      row('ρ', number(report.rho), REPORT_WORDS.rho),
+      row('Scale', number(report.scale, 4), REPORT_WORDS.scale),
+      row('Time', seconds(total), REPORT_WORDS.time(seconds(setup), seconds(zStep), seconds(hStep), seconds(check))),
     ],
   };
 }
 
 /**
- * Against the known truth, for examples.
+ * Errors against the true surface, which is known for examples.
  * @param {Result} result
  * @returns {Group}
  */
 function accuracy(result) {
-  const known = accuracyOf(result);
-  if (!known) return { title: '', lines: [] };
-  const { heights, normals } = known;
+  const errors = accuracyOf(result);
+  if (!errors) return { title: '', rows: [] };
+  const { heights, normals } = errors;
   return {
     title: 'Error against the true surface, input → result',
-    lines: [
-      line('Heights', `${number(heights.before)} → ${number(heights.after)}`, REPORT_WORDS.heights),
-      line('Normals', `${number(normals.before)}° → ${number(normals.after)}°`, REPORT_WORDS.normals),
+    rows: [
+      row('Heights', `${number(heights.before)} → ${number(heights.after)}`, REPORT_WORDS.heights),
+      row('Normals', `${number(normals.before)}° → ${number(normals.after)}°`, REPORT_WORDS.normals),
     ],
   };
 }
 
-/** @param {string} name @param {string} value @param {string} meaning @param {boolean} [told] whether it says something @returns {Line} */
-function line(name, value, meaning, told = true) {
-  return { name, value, meaning, told };
+/** @param {string} name @param {string} value @param {string} meaning @param {boolean} [isShown] @returns {Row} */
+function row(name, value, meaning, isShown = true) {
+  return { name, value, meaning, isShown };
 }
 
 /** @param {Group} group */
-function rowGroup({ title, lines }) {
+function rowGroup({ title, rows }) {
   const body = document.createElement('tbody');
   const head = body.insertRow();
   head.className = 'group';
@@ -117,16 +117,16 @@ function rowGroup({ title, lines }) {
   heading.scope = 'rowgroup';
   heading.textContent = title;
   head.append(heading);
-  for (const { name, value, meaning } of lines.filter(({ told }) => told)) {
-    const row = body.insertRow();
+  for (const { name, value, meaning } of rows.filter(({ isShown }) => isShown)) {
+    const line = body.insertRow();
     const header = document.createElement('th');
     header.scope = 'row';
     header.textContent = name;
-    row.append(header);
-    const figure = row.insertCell();
+    line.append(header);
+    const figure = line.insertCell();
     figure.textContent = value;
-    if (meaning) row.insertCell().textContent = meaning;
-    // A value in words needs the room of its missing explanation.
+    if (meaning) line.insertCell().textContent = meaning;
+    // A value without an explanation takes its cell, too.
     else figure.colSpan = 2;
   }
   return body;

@@ -1,12 +1,12 @@
-/** Run, cancel, and how far it is. */
+/** Buttons that start and cancel a run, and its progress. */
 import { element } from '../dom.js';
 import { seconds } from '../format.js';
 import { RUN_WORDS } from '../messages.js';
 
 /** @import {Session} from '../session.js' */
 
-/** What the coarser lattices take of the bar. */
-const COARSE = 0.25;
+/** Share of the progress bar for the coarser lattices. */
+const COARSE_LATTICES_SHARE = 0.25;
 
 /** @param {Session} session */
 export function runPanel(session) {
@@ -14,16 +14,18 @@ export function runPanel(session) {
   const cancel = element('cancel', HTMLButtonElement);
   const bar = element('progress', HTMLProgressElement);
   const text = element('progress-text', HTMLElement);
-  /** The first gap below 1 on the finest lattice, and where the bar was then. */
-  let first = NaN;
-  let begin = 0;
+  /** First gap below 1 on the finest lattice. */
+  let firstGap = NaN;
+  /** Value of the progress bar at the first gap. */
+  let firstShare = 0;
+  /** Number of coarser lattices so far. */
   let levels = 0;
 
   form.addEventListener('submit', (event) => {
     event.preventDefault();
     if (form.reportValidity()) void session.run();
   });
-  // Only said to be disabled, so that the keyboard's focus is not lost when a run ends.
+  // `aria-disabled` in the place of `disabled`, so that the button keeps the focus when a run ends.
   cancel.addEventListener('click', () => {
     if (session.phase !== 'running') return;
     text.textContent = RUN_WORDS.stopping;
@@ -34,7 +36,7 @@ export function runPanel(session) {
   session.on('phase', (phase) => cancel.setAttribute('aria-disabled', String(phase !== 'running')));
   session.on('start', () => {
     cancel.setAttribute('aria-disabled', 'false');
-    first = NaN;
+    firstGap = NaN;
     levels = 0;
     bar.value = 0;
     text.textContent = RUN_WORDS.begun;
@@ -42,18 +44,18 @@ export function runPanel(session) {
   session.on('progress', ({ level, iteration, gap, elapsed }) => {
     if (level > 0) {
       levels = Math.max(levels, level);
-      // The search for λ is on coarser lattices than the solve begins with, or on finer ones.
-      bar.value = Math.max(bar.value, COARSE * (1 - level / (levels + 1)));
+      // The bar must not move back: λ may be chosen on finer lattices than the solve then begins with.
+      bar.value = Math.max(bar.value, COARSE_LATTICES_SHARE * (1 - level / (levels + 1)));
       text.textContent = RUN_WORDS.coarse(level, seconds(elapsed));
       return;
     }
-    const known = gap !== undefined && gap < 1;
-    if (known && Number.isNaN(first)) {
-      first = gap;
-      begin = levels > 0 ? COARSE : 0;
+    const isCertified = gap !== undefined && gap < 1;
+    if (isCertified && Number.isNaN(firstGap)) {
+      firstGap = gap;
+      firstShare = levels > 0 ? COARSE_LATTICES_SHARE : 0;
     }
-    if (known && first > 0) {
-      const share = begin + (1 - begin) * reached(gap, first, session.settings.gap);
+    if (isCertified && firstGap > 0) {
+      const share = firstShare + (1 - firstShare) * gapProgress(gap, firstGap, session.settings.gap);
       bar.value = Math.max(bar.value, share);
     }
     text.textContent = RUN_WORDS.fine(gap, iteration, seconds(elapsed));
@@ -72,13 +74,13 @@ export function runPanel(session) {
 }
 
 /**
- * Share of the way from the first gap to the wanted one. The gap falls about
- * geometrically, so logarithms make the bar move about evenly.
+ * Progress from the first gap to the requested one, from 0 to 1. The gap falls about geometrically, so that its
+ * logarithm falls about linearly.
  * @param {number} gap
- * @param {number} first
- * @param {number} wanted
+ * @param {number} firstGap
+ * @param {number} requestedGap
  */
-function reached(gap, first, wanted) {
-  if (!(gap > wanted)) return 1;
-  return Math.min(1, Math.max(0, Math.log(first / gap) / Math.log(first / wanted)));
+function gapProgress(gap, firstGap, requestedGap) {
+  if (!(gap > requestedGap)) return 1;
+  return Math.min(1, Math.max(0, Math.log(firstGap / gap) / Math.log(firstGap / requestedGap)));
 }

@@ -1,47 +1,48 @@
-/** One dialog for whatever is saved: formats to choose from, how large the file will be, and then the file. */
-import { apart } from '../worker-task.js';
+/** The save dialog: choice of a format, size of the file, and its download. */
+import { runInWorker } from '../worker-task.js';
 import { download, element, make } from '../dom.js';
 import { fileSize } from '../format.js';
-import { plainly } from '../error-messages.js';
+import { plainMessage } from '../error-messages.js';
 import { SAVE_WORDS } from '../messages.js';
-import { SOON, waitingPanel } from './waiting.js';
+import { PROGRESS_DELAY_MS, waitingPanel } from './waiting.js';
 
 /** @import {Worker} from '../worker-task.js' */
 /** @import {Api} from '../api.js' */
 
 /**
  * @typedef {object} Format
- * @property {string} value the ending of the file's name
+ * @property {string} value ending of the file's name
  * @property {string} name
- * @property {string} words what it is for
- * @property {string} type
- * @property {string} [without] why it cannot be had now
+ * @property {string} words purpose of the format
+ * @property {string} type media type
+ * @property {string} [without] reason why the format is not available
  * @property {(worker: Worker) => Promise<Uint8Array<ArrayBuffer> | string>} write
  *
- * @typedef {object} Offer
+ * @typedef {object} SaveOffer
  * @property {string} title
- * @property {string} stem of the file's name
- * @property {number} size pixels, or vertices
- * @property {() => Promise<unknown>} [ready] what has to be there before anything can be written
+ * @property {string} stem file name without its ending
+ * @property {number} size number of pixels or vertices
+ * @property {() => Promise<unknown>} [ready] resolves when the file can be written
  * @property {readonly Format[]} formats
- * @property {readonly Node[]} [extra] above the formats
- * @property {() => void} [closed] when nothing of it is wanted any more
+ * @property {readonly Node[]} [extra] elements above the formats
+ * @property {() => void} [closed] called when the dialog is closed
  */
 
-/** Milliseconds for each of what is written, until that was measured. */
-const EACH = 1e-3;
+/** Initial guess of the time that writing takes, in milliseconds per pixel or vertex. */
+const WRITE_MS_PER_ELEMENT = 1e-3;
 
-/** What is being written. @type {AbortController | null} */
+/** The file that is being written. @type {AbortController | null} */
 let present = null;
-/** Made with the first offer. @type {ReturnType<typeof waitingPanel> | null} */
+/** Created with the first dialog. @type {ReturnType<typeof waitingPanel> | null} */
 let waiting = null;
-/** The format that was taken last, by the dialog's title. @type {Map<string, string>} */
-const taken = new Map();
+/** Formats that were chosen last, by the title of the dialog. @type {Map<string, string>} */
+const lastFormats = new Map();
 
 /**
+ * Opens the dialog, and writes the file in the format that was chosen last.
  * @param {Api} api
- * @param {Offer} offer
- * @returns {{ renew: () => void }} to be called when what is offered has changed
+ * @param {SaveOffer} offer
+ * @returns {{ renew: () => void }} `renew` writes the file again, after its contents have changed
  */
 export function offerToSave(api, { title, stem, size: amount, ready = async () => {}, formats, extra = [], closed = () => {} }) {
   const dialog = element('save-dialog', HTMLDialogElement);
@@ -50,73 +51,73 @@ export function offerToSave(api, { title, stem, size: amount, ready = async () =
   const save = element('save-now', HTMLButtonElement);
   element('save-title', HTMLElement).textContent = title;
   element('save-extra', HTMLElement).replaceChildren(...extra);
-  const possible = formats.filter(({ without }) => !without);
-  const wanted = possible.find(({ value }) => value === taken.get(title)) ?? possible[0];
+  const available = formats.filter(({ without }) => !without);
+  const initial = available.find(({ value }) => value === lastFormats.get(title)) ?? available[0];
   const radios = formats.map(({ value, name, words, without }) => {
     const radio = make('input', '');
-    Object.assign(radio, { type: 'radio', name: 'save-format', value, checked: value === wanted?.value, disabled: without !== undefined });
+    Object.assign(radio, { type: 'radio', name: 'save-format', value, checked: value === initial?.value, disabled: without !== undefined });
     radio.addEventListener('change', () => void write());
     return make('label', 'format', radio, make('span', '', make('strong', '', name), ` ${without ?? words}`));
   });
   list.replaceChildren(...radios);
 
-  const again = element('save-again', HTMLButtonElement);
-  const wait = (waiting ??= waitingPanel(element('writing', HTMLElement), () => {
-    giveUp();
+  const retryButton = element('save-again', HTMLButtonElement);
+  const progress = (waiting ??= waitingPanel(element('writing', HTMLElement), () => {
+    cancelWriting();
     element('save-size', HTMLElement).textContent = SAVE_WORDS.cancelled;
-    again.hidden = false;
-    again.focus();
-  }, SOON));
-  const giveUp = () => {
+    retryButton.hidden = false;
+    retryButton.focus();
+  }, PROGRESS_DELAY_MS));
+  const cancelWriting = () => {
     present?.abort();
     present = null;
-    wait.end();
+    progress.end();
   };
 
   const write = async () => {
-    giveUp();
-    const mine = (present = new AbortController());
-    again.hidden = true;
+    cancelWriting();
+    const job = (present = new AbortController());
+    retryButton.hidden = true;
     const value = list.querySelector('input:checked')?.getAttribute('value');
     const format = formats.find((one) => one.value === value);
     save.disabled = true;
     if (!format) return;
-    taken.set(title, format.value);
+    lastFormats.set(title, format.value);
     size.textContent = '';
     try {
       await ready();
-      if (mine !== present) return;
+      if (job !== present) return;
       size.textContent = SAVE_WORDS.working;
-      const slow = { words: SAVE_WORDS.write, kind: `${title}, ${format.value}`, size: amount, each: EACH };
-      wait.begin(slow);
-      const content = await apart(api, mine.signal, format.write);
-      if (mine !== present) return;
-      wait.end(slow);
+      const task = { label: SAVE_WORDS.write, kind: `${title}, ${format.value}`, size: amount, msPerUnit: WRITE_MS_PER_ELEMENT };
+      progress.begin(task);
+      const content = await runInWorker(api, job.signal, format.write);
+      if (job !== present) return;
+      progress.end(task);
       size.textContent = `${stem}.${format.value}, ${fileSize(new Blob([content]).size)}`;
       save.disabled = false;
       save.onclick = () => {
         download(content, format.type, `${stem}.${format.value}`);
-        // It stays open: the next format is of the same size.
+        // The dialog stays open, so that further formats can be saved.
         size.textContent = SAVE_WORDS.saved(`${stem}.${format.value}`);
       };
     } catch (error) {
-      if (mine !== present) return;
-      wait.end();
-      const reason = plainly(error instanceof Error ? error.message : String(error));
+      if (job !== present) return;
+      progress.end();
+      const reason = plainMessage(error instanceof Error ? error.message : String(error));
       size.textContent = SAVE_WORDS.unwritten(reason);
     }
   };
   dialog.onclose = () => {
-    giveUp();
+    cancelWriting();
     save.onclick = null;
     element('save-extra', HTMLElement).replaceChildren();
     closed();
   };
-  // Beside it is as good as its cross.
+  // A click outside of the dialog closes it.
   dialog.onclick = (event) => {
     if (event.target === dialog) dialog.close();
   };
-  again.onclick = () => void write();
+  retryButton.onclick = () => void write();
   if (!dialog.open) dialog.showModal();
   void write();
   return { renew: () => void write() };

@@ -1,47 +1,47 @@
-/** What to do with the result, one click each: a 3D file, sheets to cut out, a flat photo. */
+/** Buttons that save the result: a 3D file, sheets to cut out, a flat photo. */
 import { element } from '../dom.js';
-import { shortest } from '../format.js';
+import { shortLambda } from '../format.js';
 import { FORMAT_WORDS } from '../messages.js';
-import { longerSide, piecesOf, unitOf } from '../pattern.js';
-import { resultImage } from '../surface/known.js';
+import { longerSide, cutSheets, lengthUnitOf } from '../pattern.js';
+import { resultImage } from '../surface/derived-data.js';
 import { offerToSave } from './save-dialog.js';
 import { offerSheets } from './sheets.js';
 
 /** @import {Analyses} from '../analyses.js' */
 /** @import {Api} from '../api.js' */
 /** @import {Result, Session} from '../session.js' */
-/** @import {Cutter} from './sheets.js' */
+/** @import {SheetSource} from './sheets.js' */
 
 /**
  * @param {Session} session
  * @param {Analyses} analyses
- * @param {(view: string) => void} choose a view of the result
- * @param {{ hiddenInWords: string }} whole what is not seen of a mesh
+ * @param {(view: string) => void} chooseView shows a view of the result
+ * @param {{ hiddenInWords: string }} meshFitView
  */
-export function savePanel(session, analyses, choose, whole) {
-  const ends = ['file', 'sheets', 'photo'].map((name) => element(`end-${name}`, HTMLButtonElement));
-  const [file, sheets, photo] = ends;
+export function savePanel(session, analyses, chooseView, meshFitView) {
+  const buttons = ['file', 'sheets', 'photo'].map((name) => element(`end-${name}`, HTMLButtonElement));
+  const [file, sheets, photo] = buttons;
   file.addEventListener('click', () => {
     if (session.result) offerFile(session.api, session.result);
   });
   sheets.addEventListener('click', () => {
     const { result } = session;
-    if (result) offerSheets(session.api, { ...cutterOf(result, analyses), note: whole.hiddenInWords });
+    if (result) offerSheets(session.api, { ...sheetSource(result, analyses), note: meshFitView.hiddenInWords });
   });
   photo.addEventListener('click', () => {
-    choose('dewarped');
+    chooseView('dewarped');
     element('views', HTMLElement).scrollIntoView({ block: 'nearest' });
   });
   /** @param {boolean} ready */
   const enable = (ready) => {
-    for (const end of ends) end.disabled = !ready;
+    for (const button of buttons) button.disabled = !ready;
   };
   session.on('result', () => enable(true));
   session.on('cleared', () => enable(false));
 }
 
 /**
- * Images at the input's pixels, meshes on the lattice.
+ * Offers the result as a file: images have the pixels of the input, meshes the vertices of the lattice.
  * @param {Api} api
  * @param {Result} result
  */
@@ -65,22 +65,22 @@ function offerFile(api, result) {
   });
 }
 
-/** @param {Result} result @param {Analyses} analyses @returns {Cutter} */
-function cutterOf(result, analyses) {
+/** @param {Result} result @param {Analyses} analyses @returns {SheetSource} */
+function sheetSource(result, analyses) {
   return {
     stem: fileStem(result),
     size: result.surface.heights.length,
     length: longerSide(result),
-    unit: unitOf(result.input),
-    cut: (options) => piecesOf(analyses, result, options),
+    unit: lengthUnitOf(result.input),
+    cut: (options) => cutSheets(analyses, result, options),
     svg: (drawing) => analyses.svg(drawing),
     stop: () => analyses.stop(),
   };
 }
 
-/** @param {Result} result */
+/** Name of the saved file without its ending. @param {Result} result */
 function fileStem({ input, surface }) {
-  const lambda = input.design ? '' : `-${shortest(surface.report.lambda)}`;
+  const lambda = input.design ? '' : `-${shortLambda(surface.report.lambda)}`;
   const cancelled = surface.report.stopReason === 'cancelled' ? '-cancelled' : '';
   return `${input.name}-developable${lambda}${cancelled}`;
 }

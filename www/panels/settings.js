@@ -1,15 +1,15 @@
-/** λ on a logarithmic slider with the paper's presets, and the further options. */
+/** Settings of the solve: λ on a logarithmic slider with the paper's presets, and further options. */
 import { energyFor } from '../design.js';
 import { element, elements } from '../dom.js';
-import { shortest } from '../format.js';
-import { BY_NOISE, ENERGIES, NO_FIDELITY, lambdaFound, lambdaHint, wholeLambdaFound } from '../messages.js';
+import { shortLambda } from '../format.js';
+import { AUTO_LAMBDA_HINT, ENERGIES, DESIGN_LAMBDA_HINT, lambdaChoiceInWords, lambdaHint, meshLambdaChoiceInWords } from '../messages.js';
 
 /** @import {Energy} from '../api.js' */
 /** @import {Session, Settings} from '../session.js' */
-/** @import {Whole} from '../mesh-fit.js' */
+/** @import {MeshFit} from '../mesh-fit.js' */
 
-/** @param {Session} session @param {Whole} whole */
-export function settingsPanel(session, whole) {
+/** @param {Session} session @param {MeshFit} meshFit */
+export function settingsPanel(session, meshFit) {
   const slider = element('lambda', HTMLInputElement);
   const field = element('lambda-value', HTMLInputElement);
   const hint = element('lambda-hint', HTMLElement);
@@ -18,150 +18,150 @@ export function settingsPanel(session, whole) {
 
   const auto = element('lambda-auto', HTMLButtonElement);
 
-  /** What λ means, or how it came about. */
-  const explain = () => {
+  /** Shows what λ means, or how it was chosen. */
+  const updateHint = () => {
     const { input, result, settings: { lambda } } = session;
-    if (input?.design) hint.textContent = NO_FIDELITY;
+    if (input?.design) hint.textContent = DESIGN_LAMBDA_HINT;
     else if (lambda !== 'auto') hint.textContent = lambdaHint(lambda);
-    else if (whole.mesh) hint.textContent = (whole.surface && wholeLambdaFound(whole.surface.report)) || BY_NOISE;
-    else hint.textContent = (result?.settings.lambda === 'auto' && lambdaFound(result.surface.report)) || BY_NOISE;
+    else if (meshFit.mesh) hint.textContent = (meshFit.surface && meshLambdaChoiceInWords(meshFit.surface.report)) || AUTO_LAMBDA_HINT;
+    else hint.textContent = (result?.settings.lambda === 'auto' && lambdaChoiceInWords(result.surface.report)) || AUTO_LAMBDA_HINT;
   };
-  /** @param {number} lambda */
-  const display = (lambda) => {
+  /** Shows λ in the controls. @param {number} lambda */
+  const showLambda = (lambda) => {
     slider.value = String(Math.log10(lambda));
-    slider.setAttribute('aria-valuetext', `λ = ${shortest(lambda)}`);
-    if (Number(field.value) !== lambda) field.value = shortest(lambda);
+    slider.setAttribute('aria-valuetext', `λ = ${shortLambda(lambda)}`);
+    if (Number(field.value) !== lambda) field.value = shortLambda(lambda);
     field.setCustomValidity('');
     hint.textContent = lambdaHint(lambda);
     for (const preset of presets) {
       preset.setAttribute('aria-pressed', String(10 ** Number(preset.dataset.exponent) === lambda));
     }
   };
-  /** @param {number} lambda */
-  const choose = (lambda) => {
-    display(lambda);
+  /** Sets λ in the session. @param {number} lambda */
+  const setLambda = (lambda) => {
+    showLambda(lambda);
     auto.setAttribute('aria-pressed', 'false');
-    if (lambda !== session.settings.lambda) session.set({ lambda });
+    if (lambda !== session.settings.lambda) session.updateSettings({ lambda });
   };
-  // To the digits that are shown.
-  const fromSlider = () => Number(shortest(10 ** slider.valueAsNumber));
+  /** λ of the slider, rounded to the digits that are shown. */
+  const sliderLambda = () => Number(shortLambda(10 ** slider.valueAsNumber));
 
-  // While the pointer or a key is held, what it says may be another in a moment.
-  let held = false;
-  slider.addEventListener('keydown', ({ repeat }) => (held = repeat));
+  /** Whether an arrow key is held: the slider then changes repeatedly, and λ is set when the key is released. */
+  let isKeyHeld = false;
+  slider.addEventListener('keydown', ({ repeat }) => (isKeyHeld = repeat));
   slider.addEventListener('keyup', () => {
-    if (held) session.set({ lambda: fromSlider() });
-    held = false;
+    if (isKeyHeld) session.updateSettings({ lambda: sliderLambda() });
+    isKeyHeld = false;
   });
   slider.addEventListener('input', () => {
-    display(fromSlider());
+    showLambda(sliderLambda());
     auto.setAttribute('aria-pressed', 'false');
-    session.follow({ lambda: fromSlider() });
+    session.previewLambda(sliderLambda());
   });
   slider.addEventListener('change', () => {
-    if (!held) session.set({ lambda: fromSlider() });
+    if (!isKeyHeld) session.updateSettings({ lambda: sliderLambda() });
   });
   for (const preset of presets) {
-    preset.addEventListener('click', () => choose(10 ** Number(preset.dataset.exponent)));
+    preset.addEventListener('click', () => setLambda(10 ** Number(preset.dataset.exponent)));
   }
   field.addEventListener('change', () => {
     const lambda = Number(field.value.trim() || NaN);
-    const sound = lambda > 0 && Number.isFinite(lambda);
-    field.setCustomValidity(sound ? '' : 'λ must be a number above 0, such as 2.5e6.');
-    if (sound) choose(lambda);
+    const isValid = lambda > 0 && Number.isFinite(lambda);
+    field.setCustomValidity(isValid ? '' : 'λ must be a number above 0, such as 2.5e6.');
+    if (isValid) setLambda(lambda);
     else field.reportValidity();
   });
-  if (session.settings.lambda !== 'auto') display(session.settings.lambda);
+  if (session.settings.lambda !== 'auto') showLambda(session.settings.lambda);
   session.on('input', ({ design, lattice }) => {
     fieldset.disabled = design === true;
     coarsening.disabled = lattice !== undefined;
-    explain();
+    updateHint();
   });
-  session.on('cleared', explain);
+  session.on('cleared', updateHint);
   session.on('result', ({ settings, surface }) => {
-    // Where the slider goes on from.
-    if (settings.lambda === 'auto' && session.settings.lambda === 'auto' && !whole.mesh) display(surface.report.lambda);
-    explain();
+    // The slider moves to the λ that was chosen automatically.
+    if (settings.lambda === 'auto' && session.settings.lambda === 'auto' && !meshFit.mesh) showLambda(surface.report.lambda);
+    updateHint();
   });
-  whole.on('start', explain);
-  whole.on('result', ({ report }) => {
-    if (whole.lambda === 'auto' && session.settings.lambda === 'auto') display(report.lambda);
-    explain();
+  meshFit.on('start', updateHint);
+  meshFit.on('result', ({ report }) => {
+    if (meshFit.lambda === 'auto' && session.settings.lambda === 'auto') showLambda(report.lambda);
+    updateHint();
   });
-  whole.on('left', () => {
-    if (session.result && session.settings.lambda === 'auto') display(session.result.surface.report.lambda);
-    explain();
+  meshFit.on('left', () => {
+    if (session.result && session.settings.lambda === 'auto') showLambda(session.result.surface.report.lambda);
+    updateHint();
   });
 
   const gap = element('gap', HTMLSelectElement);
-  gap.addEventListener('change', () => session.set({ gap: Number(gap.value) }));
+  gap.addEventListener('change', () => session.updateSettings({ gap: Number(gap.value) }));
   const schedule = element('schedule', HTMLSelectElement);
-  // The paper's schedule stops on its residuals.
-  const showSchedule = () => {
+  // The paper's schedule stops on residuals, so the gap has no effect.
+  const updateGapField = () => {
     gap.disabled = schedule.value === 'paper';
   };
   schedule.addEventListener('change', () => {
-    showSchedule();
-    session.set({ schedule: schedule.value === 'paper' ? 'paper' : 'default' });
+    updateGapField();
+    session.updateSettings({ schedule: schedule.value === 'paper' ? 'paper' : 'default' });
   });
   const coarsening = element('coarsening', HTMLSelectElement);
-  coarsening.addEventListener('change', () => session.set({ coarsening: Number(coarsening.value) }));
+  coarsening.addEventListener('change', () => session.updateSettings({ coarsening: Number(coarsening.value) }));
 
   const reweighting = element('reweighting', HTMLSelectElement);
   const energy = element('energy', HTMLSelectElement);
   const energyHint = element('energy-hint', HTMLElement);
-  const chosen = () => /** @type {Energy} */ (energy.value);
+  const chosenEnergy = () => /** @type {Energy} */ (energy.value);
   energy.addEventListener('change', () => {
-    energyHint.textContent = ENERGIES[chosen()];
-    // It has passes of its own.
-    reweighting.disabled = chosen() === 'huber';
-    session.set({ energy: chosen(), reweighting: reweighting.disabled ? 0 : Number(reweighting.value) });
+    energyHint.textContent = ENERGIES[chosenEnergy()];
+    // The Huber penalty has crease passes, which take the place of reweighting passes.
+    reweighting.disabled = chosenEnergy() === 'huber';
+    session.updateSettings({ energy: chosenEnergy(), reweighting: reweighting.disabled ? 0 : Number(reweighting.value) });
   });
   /** @param {Settings['energy']} wanted */
   const showEnergy = (wanted) => {
     energy.value = energyFor(session.input, wanted);
-    energyHint.textContent = ENERGIES[chosen()];
-    reweighting.disabled = chosen() === 'huber';
+    energyHint.textContent = ENERGIES[chosenEnergy()];
+    reweighting.disabled = chosenEnergy() === 'huber';
   };
   showEnergy(session.settings.energy);
   session.on('input', () => showEnergy(session.settings.energy));
   auto.addEventListener('click', () => {
     auto.setAttribute('aria-pressed', 'true');
     for (const preset of presets) preset.setAttribute('aria-pressed', 'false');
-    session.set({ lambda: 'auto' });
-    explain();
+    session.updateSettings({ lambda: 'auto' });
+    updateHint();
   });
-  reweighting.addEventListener('change', () => session.set({ reweighting: Number(reweighting.value) }));
+  reweighting.addEventListener('change', () => session.updateSettings({ reweighting: Number(reweighting.value) }));
 
-  const find = element('find-occlusions', HTMLInputElement);
+  const findOcclusions = element('find-occlusions', HTMLInputElement);
   const threshold = element('threshold', HTMLInputElement);
-  const tear = () => {
-    element('threshold-field', HTMLElement).hidden = !find.checked;
+  const updateThreshold = () => {
+    element('threshold-field', HTMLElement).hidden = !findOcclusions.checked;
     const value = Number(threshold.value.trim() || NaN);
-    const sound = value > 0 && Number.isFinite(value);
-    threshold.setCustomValidity(sound || !find.checked ? '' : 'It must be a number above 0, such as 4e4.');
-    if (threshold.reportValidity()) session.set({ occlusionThreshold: find.checked ? value : undefined });
+    const isValid = value > 0 && Number.isFinite(value);
+    threshold.setCustomValidity(isValid || !findOcclusions.checked ? '' : 'It must be a number above 0, such as 4e4.');
+    if (threshold.reportValidity()) session.updateSettings({ occlusionThreshold: findOcclusions.checked ? value : undefined });
   };
-  find.addEventListener('change', tear);
-  threshold.addEventListener('change', tear);
+  findOcclusions.addEventListener('change', updateThreshold);
+  threshold.addEventListener('change', updateThreshold);
 
   return {
-    /** Takes settings from elsewhere, into the controls, too. @param {Settings} settings */
+    /** Sets all settings, in the session and in the controls. @param {Settings} settings */
     adopt(settings) {
       const { lambda, energy: wanted, occlusionThreshold } = settings;
-      if (lambda !== 'auto') display(lambda);
+      if (lambda !== 'auto') showLambda(lambda);
       auto.setAttribute('aria-pressed', String(lambda === 'auto'));
       gap.value = String(settings.gap);
       schedule.value = settings.schedule;
-      showSchedule();
+      updateGapField();
       coarsening.value = String(settings.coarsening);
       reweighting.value = String(settings.reweighting);
       showEnergy(wanted);
-      find.checked = occlusionThreshold !== undefined;
-      element('threshold-field', HTMLElement).hidden = !find.checked;
-      if (occlusionThreshold !== undefined) threshold.value = shortest(occlusionThreshold);
-      session.set(settings);
-      explain();
+      findOcclusions.checked = occlusionThreshold !== undefined;
+      element('threshold-field', HTMLElement).hidden = !findOcclusions.checked;
+      if (occlusionThreshold !== undefined) threshold.value = shortLambda(occlusionThreshold);
+      session.updateSettings(settings);
+      updateHint();
     },
   };
 }

@@ -1,14 +1,14 @@
-/** Where the heights come from: an example, or a file with its scale. */
-import { readingOf } from '../worker-task.js';
+/** Source of the heights: an example, or files with their scale and interpretation. */
+import { fileReadTask } from '../worker-task.js';
 import { designInput } from '../design.js';
-import { doubtOf } from '../unit-check.js';
-import { choosesFiles, element, elements } from '../dom.js';
-import { InColour, inputOf } from '../height-file.js';
+import { scaleQuestion } from '../unit-check.js';
+import { onFilesChosen, element, elements } from '../dom.js';
+import { ColourPictureError, readInput } from '../height-file.js';
 import { hasColours } from '../views/photo.js';
-import { spanInWords, understood } from '../import-interpretation.js';
-import { pixelsOf } from '../pixels.js';
-import { isCamera, together } from '../dropped-files.js';
-import { isMesh, kindByName, otherInWords } from '../file-kinds.js';
+import { reinterpret, spanInWords } from '../import-interpretation.js';
+import { readPicture } from '../pixels.js';
+import { fileRoles, isCameraFile } from '../dropped-files.js';
+import { isMesh, kindByName, unreadableKindInWords } from '../file-kinds.js';
 import { DEPTH_WORDS, FILE_WORDS } from '../messages.js';
 import { areSurelyDepths } from '../metadata-guess.js';
 import { cameraPanel } from './camera.js';
@@ -17,17 +17,17 @@ import { hideNotice, showNotice } from './notice.js';
 
 /** @import {ExampleName} from '../api.js' */
 /** @import {Session} from '../session.js' */
-/** @import {Together} from '../dropped-files.js' */
+/** @import {FileRoles} from '../dropped-files.js' */
 
 /**
  * @param {Session} session
- * @param {object} result
- * @param {(view: string) => void} result.choose a view of it
- * @param {(name: string, image: ImageData) => void} result.usePhoto lays a photo on it
- * @param {(files: readonly File[]) => void} opened files that are the input now
+ * @param {object} views
+ * @param {(view: string) => void} views.choose shows a view of the result
+ * @param {(name: string, image: ImageData) => void} views.usePhoto dewarps a photo of the result
+ * @param {(files: readonly File[]) => void} onOpened called when files have become the input
  * @param {(photo: File) => void} openPage makes a photo of a page flat
  */
-export function sourcePanel(session, { choose, usePhoto }, opened, openPage) {
+export function sourcePanel(session, { choose, usePhoto }, onOpened, openPage) {
   const radios = elements('input[name="example"]', HTMLInputElement);
   const size = element('size', HTMLSelectElement);
   const noise = element('noise', HTMLSelectElement);
@@ -38,23 +38,23 @@ export function sourcePanel(session, { choose, usePhoto }, opened, openPage) {
   const pixelSize = element('pixel-size', HTMLInputElement);
   const heightScale = element('height-scale', HTMLInputElement);
   const span = element('scale-span', HTMLElement);
-  const doubt = element('scale-doubt', HTMLElement);
-  const zero = element('zero-is-nothing', HTMLInputElement);
-  const hex = element('is-hexagonal', HTMLInputElement);
-  const told = element('guessed', HTMLElement);
+  const scaleDoubt = element('scale-doubt', HTMLElement);
+  const zeroCheckbox = element('zero-is-nothing', HTMLInputElement);
+  const hexagonalCheckbox = element('is-hexagonal', HTMLInputElement);
+  const guesses = element('guessed', HTMLElement);
   const design = element('is-design', HTMLInputElement);
   const arrayField = element('array-field', HTMLElement);
   const array = element('array', HTMLSelectElement);
   const mesh = meshPanel(session);
-  const camera = cameraPanel(session, mesh.take);
+  const camera = cameraPanel(session, mesh.openLoaded);
   const designHint = element('design-hint', HTMLElement);
-  /** The file whose scale was asked about. */
-  let doubted = '';
-  /** A photo that was opened before what it shows. @type {File | null} */
-  let waiting = null;
+  /** Name of the input whose scale is questioned; empty if none is. */
+  let questionedName = '';
+  /** A photo that was opened before the heights it shows. @type {File | null} */
+  let pendingPhoto = null;
 
-  /** Generates the chosen example and, as it is quick and needs no further word, solves it. */
-  const openExample = async () => {
+  /** Opens the chosen example and solves it. */
+  const openChosenExample = async () => {
     const radio = radios.find((button) => button.checked);
     if (!radio) return;
     const options = { size: Number(size.value), noise: Number(noise.value) };
@@ -69,109 +69,108 @@ export function sourcePanel(session, { choose, usePhoto }, opened, openPage) {
   };
 
   /**
-   * Opens a file and solves it, unless it has to be asked about first.
+   * Opens a file and solves it. Depths are not solved yet if their camera's file is opened together with them.
    * @param {File} chosen
-   * @param {string} [wanted] array of it
-   * @param {Pick<Together, 'photo' | 'confidence' | 'mask'>} [others] that go with it
-   * @param {boolean} [known] whether the camera's file comes with it
+   * @param {string} [arrayName] name of the array to open, for a file with several
+   * @param {Pick<FileRoles, 'photo' | 'confidence' | 'mask'>} [companions] files that belong to it
+   * @param {boolean} [hasCamera] whether the camera's file is opened together with it
    */
-  const openFile = async (chosen, wanted, others = {}, known = false) => {
+  const openFile = async (chosen, arrayName, companions = {}, hasCamera = false) => {
     if (isMesh(chosen.name)) return openMesh(chosen);
     const kind = kindByName(chosen);
-    // Without depths a text has nothing to say.
+    // A text file can only be the camera of depths that are open.
     if (kind === 'other' || (/\.txt$/i.test(chosen.name) && !session.input?.kind)) {
-      showNotice(FILE_WORDS.unread(chosen.name, otherInWords(chosen)));
+      showNotice(FILE_WORDS.unread(chosen.name, unreadableKindInWords(chosen)));
       return false;
     }
-    if (isCamera(chosen)) return camera.read(chosen);
-    const photo = others.photo ?? waiting ?? undefined;
-    /** @type {unknown} */
-    let coloured = null;
+    if (isCameraFile(chosen)) return camera.readCamera(chosen);
+    const photo = companions.photo ?? pendingPhoto ?? undefined;
+    let isColourPicture = false;
     const opened = await session.open(`“${chosen.name}” could not be read`, async (signal) => {
       try {
-        return await inputOf(session.api, chosen, signal, wanted, { ...others, photo });
+        return await readInput(session.api, chosen, signal, arrayName, { ...companions, photo });
       } catch (error) {
-        if (error instanceof InColour && wanted === undefined) coloured = error;
+        if (error instanceof ColourPictureError && arrayName === undefined) isColourPicture = true;
         throw error;
       }
-    }, readingOf(chosen));
-    if (coloured) return takePhoto(chosen);
+    }, fileReadTask(chosen));
+    if (isColourPicture) return openPhoto(chosen);
     if (!opened || !session.input) return false;
-    waiting = null;
-    const { depths, stored, data } = session.input;
+    pendingPhoto = null;
+    const { depthUnit, stored, data } = session.input;
     setCoarsening(stored?.coarsening ?? 1);
-    if (!depths) {
+    if (!depthUnit) {
       void session.run();
       return true;
     }
-    camera.ask();
-    if (known) return true;
+    camera.show();
+    if (hasCamera) return true;
     if (!areSurelyDepths(chosen.name, data)) {
       void session.run();
       return true;
     }
-    if (!(await camera.project(true))) return true;
+    if (!(await camera.backProject(true))) return true;
     void session.run();
     choose(hasColours(session.input) ? 'photo' : 'shaded');
     return true;
   };
 
-  /** @param {File} file @param {readonly File[]} [beside] */
-  const openMesh = async (file, beside) => {
-    const opened = await mesh.open(file, beside);
+  /** @param {File} file @param {readonly File[]} [referencedFiles] */
+  const openMesh = async (file, referencedFiles) => {
+    const opened = await mesh.openFile(file, referencedFiles);
     if (opened) void session.run();
     return opened;
   };
 
-  /** A picture in colour belongs to the heights that are there, or to those that come next. @param {File} file */
-  const takePhoto = async (file) => {
+  /** Opens a picture in colour: the photo of the present heights, or of those that are opened next. @param {File} file */
+  const openPhoto = async (file) => {
     const { input, result } = session;
     hideNotice();
     if (input?.kind === undefined) {
-      waiting = file;
+      pendingPhoto = file;
       showNotice(FILE_WORDS.pageNoHeights(file.name), 'alert', { label: FILE_WORDS.openAsPage, act: () => openPage(file) });
       return true;
     }
-    const image = await session.obtain(`“${file.name}” could not be used`, () => pixelsOf(file), readingOf(file));
+    const image = await session.load(`“${file.name}” could not be used`, () => readPicture(file), fileReadTask(file));
     if (!image || session.input !== input) return false;
     if (result) usePhoto(file.name, image);
-    else session.amend({ photo: { name: file.name, image } });
+    else session.updateInput({ photo: { name: file.name, image } });
     return true;
   };
 
-  /** @param {number} step */
+  /** @param {number} step lattice spacing in pixels */
   const setCoarsening = (step) => {
     if (step === session.settings.coarsening) return;
     element('coarsening', HTMLSelectElement).value = String(step);
-    session.set({ coarsening: step });
+    session.updateSettings({ coarsening: step });
   };
 
-  /** What belongs together, or one file. @param {readonly File[]} files */
+  /** Opens files that belong together, or one file. @param {readonly File[]} files */
   const openFiles = async (files) => {
-    // The camera's file alone, or a photo, is about what is there.
-    const alone = files.length === 1 && session.input?.kind !== undefined && isCamera(files[0]);
+    // The camera's file alone changes the present input, and is not an input itself.
+    const isCameraAlone = files.length === 1 && session.input?.kind !== undefined && isCameraFile(files[0]);
     const before = session.input;
-    if (!(await put(files)) || alone || session.input === before || !session.input?.kind) return;
-    opened(files);
+    if (!(await openTogether(files)) || isCameraAlone || session.input === before || !session.input?.kind) return;
+    onOpened(files);
   };
 
   /** @param {readonly File[]} files @returns {Promise<boolean>} */
-  const put = async (files) => {
+  const openTogether = async (files) => {
     if (files.length === 1) return openFile(files[0]);
-    const { mesh: scan, depths, camera: numbers, others, ...beside } = await together(files);
-    if (scan) return openMesh(scan, files.filter((file) => file !== scan));
+    const { mesh: meshFile, depths, camera: cameraFile, others, ...companions } = await fileRoles(files);
+    if (meshFile) return openMesh(meshFile, files.filter((file) => file !== meshFile));
     if (!depths) {
       session.fail('These files could not be put together', new Error('there are neither a mesh nor heights or depths (a TIFF, EXR, PFM, NPY or grey PNG) among them'));
       return false;
     }
-    if (!(await openFile(depths, undefined, beside, numbers !== undefined))) return false;
-    if (!session.input?.depthSource && (numbers || beside.confidence || beside.mask)) camera.ask();
-    if (numbers && !(await camera.read(numbers))) return true;
-    if (numbers && !(await camera.project())) return true;
-    // All that is needed is there.
-    const run = numbers && beside.photo ? session.run() : undefined;
+    if (!(await openFile(depths, undefined, companions, cameraFile !== undefined))) return false;
+    if (!session.input?.depthSource && (cameraFile || companions.confidence || companions.mask)) camera.show();
+    if (cameraFile && !(await camera.readCamera(cameraFile))) return true;
+    if (cameraFile && !(await camera.backProject())) return true;
+    // With a camera and a photo, the photo can be dewarped.
+    const run = cameraFile && companions.photo ? session.run() : undefined;
     if (run) choose('dewarped');
-    // A run takes away what was said before.
+    // The start of a run hides the notice, so it is shown afterwards.
     if (others.length > 0) {
       const names = others.map(({ name }) => `“${name}”`).join(', ');
       showNotice(`Not used: ${names}. With depths go one photo, the camera’s file, and images whose names tell that they are their confidence or a mask.`);
@@ -180,12 +179,12 @@ export function sourcePanel(session, { choose, usePhoto }, opened, openPage) {
     return true;
   };
 
-  /** @param {Parameters<typeof understood>[1]} change */
-  const understand = (change) => {
+  /** Changes the interpretation of the open file. @param {Parameters<typeof reinterpret>[1]} change */
+  const reinterpretFile = (change) => {
     const { input } = session;
     if (!input) return;
     try {
-      session.amend(understood(input, change));
+      session.updateInput(reinterpret(input, change));
     } catch (error) {
       session.fail('It could not be taken so', error);
     }
@@ -195,25 +194,25 @@ export function sourcePanel(session, { choose, usePhoto }, opened, openPage) {
     pixelSize.setCustomValidity(pixelSize.valueAsNumber > 0 ? '' : 'The pixel size must be above 0.');
     heightScale.setCustomValidity(Math.abs(heightScale.valueAsNumber) > 0 ? '' : 'The height scale must not be 0.');
     if (!pixelSize.reportValidity() || !heightScale.reportValidity()) return;
-    understand({ pixelSize: pixelSize.valueAsNumber, heightScale: heightScale.valueAsNumber, told: '' });
+    reinterpretFile({ pixelSize: pixelSize.valueAsNumber, heightScale: heightScale.valueAsNumber, guesses: '' });
   };
-  /** @param {number} factor of the relief against the width */
-  const steepen = (factor) => {
+  /** Scales the relief of the heights. @param {number} factor of height per width */
+  const scaleRelief = (factor) => {
     const stored = session.input?.stored;
     if (!stored) return;
-    // Of levels nobody knows the height; of numbers the pixels' size.
+    // For integer levels the height scale is unknown, for other values the pixel size.
     const { levels, heightScale: step, pixelSize: side } = stored;
-    understand(levels ? { heightScale: step * factor } : { pixelSize: side / factor });
+    reinterpretFile(levels ? { heightScale: step * factor } : { pixelSize: side / factor });
   };
 
-  for (const control of [...radios, size, noise]) control.addEventListener('change', openExample);
+  for (const control of [...radios, size, noise]) control.addEventListener('change', openChosenExample);
   for (const control of [pixelSize, heightScale]) control.addEventListener('change', rescale);
-  zero.addEventListener('change', () => understand({ zeros: zero.checked }));
-  hex.addEventListener('change', () => understand({ hexagonal: hex.checked }));
-  element('flatter', HTMLButtonElement).addEventListener('click', () => steepen(0.5));
-  element('steeper', HTMLButtonElement).addEventListener('click', () => steepen(2));
-  design.addEventListener('change', () => session.amend({ design: design.checked }));
-  choosesFiles(element('open', HTMLButtonElement), file, openFiles);
+  zeroCheckbox.addEventListener('change', () => reinterpretFile({ zeros: zeroCheckbox.checked }));
+  hexagonalCheckbox.addEventListener('change', () => reinterpretFile({ hexagonal: hexagonalCheckbox.checked }));
+  element('flatter', HTMLButtonElement).addEventListener('click', () => scaleRelief(0.5));
+  element('steeper', HTMLButtonElement).addEventListener('click', () => scaleRelief(2));
+  design.addEventListener('change', () => session.updateInput({ design: design.checked }));
+  onFilesChosen(element('open', HTMLButtonElement), file, openFiles);
   array.addEventListener('change', () => {
     const several = session.input?.array;
     if (several) void openFile(several.file, array.value);
@@ -223,54 +222,55 @@ export function sourcePanel(session, { choose, usePhoto }, opened, openPage) {
     const isFile = input.kind !== undefined;
     exampleOptions.hidden = isFile || input.design === true || !radios.some(({ value }) => value === input.name);
     designHint.hidden = isFile || !input.design;
-    const built = input.depthSource !== undefined;
-    fileOptions.hidden = !isFile || (input.seen !== undefined && !built);
-    fileOptions.toggleAttribute('data-built', built);
+    const isBackProjected = input.depthSource !== undefined;
+    fileOptions.hidden = !isFile || (input.sampling !== undefined && !isBackProjected);
+    fileOptions.toggleAttribute('data-built', isBackProjected);
     for (const radio of radios) radio.checked = !isFile && radio.value === input.name;
     if (fileOptions.hidden) return;
-    if (built) {
-      told.textContent = input.assumed ?? '';
-      told.hidden = told.textContent === '';
+    if (isBackProjected) {
+      guesses.textContent = input.cameraAssumption ?? '';
+      guesses.hidden = guesses.textContent === '';
     }
     const { array: several } = input;
     arrayField.hidden = several === undefined;
     array.replaceChildren(...(several?.names ?? []).map((name) => new Option(name, name, false, name === several?.name)));
     fileName.textContent = `${input.name} (${input.kind})`;
     if (!input.stored) return;
-    pixelSize.value = plain(input.stored.pixelSize);
-    heightScale.value = plain(input.stored.heightScale);
-    zero.checked = input.stored.zeros;
+    pixelSize.value = fieldText(input.stored.pixelSize);
+    heightScale.value = fieldText(input.stored.heightScale);
+    zeroCheckbox.checked = input.stored.zeros;
     design.checked = input.design === true;
-    hex.checked = input.stored.hexagonal;
-    told.textContent = input.depths ? DEPTH_WORDS.maybe : input.stored.told;
-    told.hidden = told.textContent === '';
+    hexagonalCheckbox.checked = input.stored.hexagonal;
+    guesses.textContent = input.depthUnit ? DEPTH_WORDS.maybe : input.stored.guesses;
+    guesses.hidden = guesses.textContent === '';
     span.textContent = spanInWords(input);
-    const words = doubtOf(input);
-    // Its room is kept while the same file is scaled, or what is clicked next would move away.
-    if (words === '' && doubted === input.name) doubt.dataset.settled = '';
+    const question = scaleQuestion(input);
+    // While the same file is scaled the question keeps its space, so that the buttons below do not move.
+    if (question === '' && questionedName === input.name) scaleDoubt.dataset.settled = '';
     else {
-      delete doubt.dataset.settled;
-      doubt.hidden = words === '';
-      doubt.textContent = words;
-      doubted = words === '' ? '' : input.name;
+      delete scaleDoubt.dataset.settled;
+      scaleDoubt.hidden = question === '';
+      scaleDoubt.textContent = question;
+      questionedName = question === '' ? '' : input.name;
     }
   });
 
   return {
     /**
+     * Opens an example by its name.
      * @param {string} name
-     * @param {{ size: number, noise: number }} options the nearest that can be chosen
+     * @param {{ size: number, noise: number }} options replaced by the nearest ones of the menus
      */
-    async openNamed(name, options) {
+    async openExample(name, options) {
       for (const radio of radios) radio.checked = radio.value === name;
       if (!radios.some(({ checked }) => checked)) radios[0].checked = true;
       chooseNearest(size, options.size);
       chooseNearest(noise, options.noise);
-      await openExample();
+      await openChosenExample();
     },
     openFiles,
-    understand,
-    takeMesh: mesh.take,
+    reinterpretFile,
+    openLoadedMesh: mesh.openLoaded,
   };
 }
 
@@ -281,7 +281,7 @@ function chooseNearest(select, value) {
   select.value = String(nearest);
 }
 
-/** A number as an input field takes it, without the digits that only binary fractions have. @param {number} value */
-function plain(value) {
+/** A number for an input field, rounded to 12 digits so that binary rounding is not shown. @param {number} value */
+function fieldText(value) {
   return String(Number(value.toPrecision(12)));
 }

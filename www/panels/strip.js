@@ -1,15 +1,18 @@
-/** The same input at five λ, small and side by side: a click takes one. */
+/** Results with five λ, as small pictures side by side; a click takes the λ of one. */
 import { element, make } from '../dom.js';
-import { shortest } from '../format.js';
-import { smoothPieces } from '../analyses.js';
+import { shortLambda } from '../format.js';
+import { smoothPatchCount } from '../analyses.js';
 import { STRIP_WORDS } from '../messages.js';
 import { drawThumbnail } from '../surface/thumbnail.js';
 
 /** @import {Input, Session, Settings} from '../session.js' */
 
-const LAMBDAS = [1e4, 1e5, 1e6, 1e7, 1e8];
-/** Pixels along the longer side: enough to tell them apart, and soon there. */
-const SIDE = 120;
+/** λ of the five pictures. */
+const STRIP_LAMBDAS = [1e4, 1e5, 1e6, 1e7, 1e8];
+/** Longer side of the reduced input, in pixels: small enough for five quick solves. */
+const STRIP_SIDE_PIXELS = 120;
+/** Duality gap at which the five solves stop. */
+const STRIP_GAP = 0.03;
 
 /**
  * @param {Session} session
@@ -19,33 +22,33 @@ export function stripPanel(session, adopt) {
   const strip = element('strip', HTMLElement);
   const list = /** @type {HTMLElement} */ (strip.firstElementChild);
   const button = element('strip-open', HTMLButtonElement);
-  /** What is worked out now. @type {AbortController | null} */
+  /** Aborts the solves that are running. @type {AbortController | null} */
   let job = null;
-  /** @type {Input | null} */
-  let shown = null;
+  /** The input of the pictures. @type {Input | null} */
+  let shownInput = null;
 
-  const pictures = LAMBDAS.map((lambda) => {
+  const pictures = STRIP_LAMBDAS.map((lambda) => {
     const canvas = make('canvas', '');
     canvas.setAttribute('aria-hidden', 'true');
     const figures = make('span', 'muted', '\u00a0');
-    const choice = make('button', 'strip-one', canvas, make('span', '', `λ = ${shortest(lambda)}`), figures);
+    const choice = make('button', 'strip-one', canvas, make('span', '', `λ = ${shortLambda(lambda)}`), figures);
     choice.type = 'button';
     choice.addEventListener('click', () => adopt({ ...session.settings, lambda }));
     list.append(choice);
     return { lambda, canvas, choice, figures };
   });
 
-  const press = () => {
+  const markChosen = () => {
     for (const { lambda, choice } of pictures) choice.setAttribute('aria-pressed', String(session.settings.lambda === lambda));
   };
 
   const draw = async () => {
     const { input } = session;
-    if (strip.hidden || !input || shown === input) return;
+    if (strip.hidden || !input || shownInput === input) return;
     job?.abort();
     const mine = (job = new AbortController());
-    shown = input;
-    const small = thinned(input);
+    shownInput = input;
+    const small = subsampled(input);
     for (const { canvas, figures } of pictures) {
       drawThumbnail(canvas, small, small.heightScale / small.pixelSize);
       figures.textContent = '\u00a0';
@@ -53,14 +56,14 @@ export function stripPanel(session, adopt) {
     strip.setAttribute('aria-busy', 'true');
     const worker = new session.api.DevelopableWorker();
     try {
-      // The energy and whatever else is set stays the same.
-      const { lambda: _, coarsening: __, ...options } = session.settings;
+      // All settings except λ, spacing and gap are those of the session.
+      const { lambda: _lambda, coarsening: _coarsening, ...options } = session.settings;
       for (const { lambda, canvas, figures } of pictures) {
-        const surface = await worker.fit(small, { ...options, gap: 0.03, spacing: small.pixelSize, lambda, signal: mine.signal });
+        const surface = await worker.fit(small, { ...options, gap: STRIP_GAP, spacing: small.pixelSize, lambda, signal: mine.signal });
         const { image } = surface;
         drawThumbnail(canvas, image, 1 / image.pixelSize);
         const [map, curvatures] = await Promise.all([worker.patches(surface), worker.analyze(surface)]);
-        figures.textContent = STRIP_WORDS.figures(await smoothPieces(map, curvatures), distance(small, image));
+        figures.textContent = STRIP_WORDS.figures(await smoothPatchCount(map, curvatures), rmsDistance(small, image));
       }
     } catch (error) {
       if (job === mine && !mine.signal.aborted) session.fail('The five pictures could not be made', error);
@@ -76,19 +79,19 @@ export function stripPanel(session, adopt) {
     button.setAttribute('aria-expanded', String(wanted));
     if (!wanted) {
       job?.abort();
-      shown = null;
+      shownInput = null;
     }
-    press();
+    markChosen();
     void draw();
   };
   button.addEventListener('click', () => show(strip.hidden === true));
   session.on('input', (input) => {
-    // A design has no input to stay close to.
+    // λ has no effect on a design.
     button.disabled = input.design === true;
     if (input.design) show(false);
   });
   session.on('result', () => {
-    press();
+    markChosen();
     void draw();
   });
   return { show };
@@ -96,27 +99,27 @@ export function stripPanel(session, adopt) {
 
 /**
  * Distance of a surface from its input, root mean square, as a share of the input's width.
- * @param {ReturnType<typeof thinned>} input
+ * @param {ReturnType<typeof subsampled>} input
  * @param {{ data: Float64Array }} image of the surface
  */
-function distance({ width, data, pixelSize, heightScale }, image) {
+function rmsDistance({ width, data, pixelSize, heightScale }, image) {
   let [sum, count] = [0, 0];
   data.forEach((step, i) => {
-    const off = step * heightScale - image.data[i];
-    if (!Number.isFinite(off)) return;
-    sum += off * off;
+    const difference = step * heightScale - image.data[i];
+    if (!Number.isFinite(difference)) return;
+    sum += difference * difference;
     count++;
   });
   return Math.sqrt(sum / Math.max(1, count)) / (width * pixelSize);
 }
 
 /**
- * Every so many-th pixel of an input.
+ * An input reduced to every n-th pixel.
  * @param {Input} input
  */
-function thinned({ width, height, data, pixelSize, heightScale }) {
-  const step = Math.max(1, Math.ceil(Math.max(width, height) / SIDE));
+function subsampled({ width, height, data, pixelSize, heightScale }) {
+  const step = Math.max(1, Math.ceil(Math.max(width, height) / STRIP_SIDE_PIXELS));
   const [cols, rows] = [Math.floor(width / step), Math.floor(height / step)];
-  const some = Float64Array.from({ length: cols * rows }, (_, i) => data[Math.floor(i / cols) * step * width + (i % cols) * step]);
-  return { width: cols, height: rows, data: some, pixelSize: pixelSize * step, heightScale };
+  const sampled = Float64Array.from({ length: cols * rows }, (_, i) => data[Math.floor(i / cols) * step * width + (i % cols) * step]);
+  return { width: cols, height: rows, data: sampled, pixelSize: pixelSize * step, heightScale };
 }

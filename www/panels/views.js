@@ -1,20 +1,23 @@
-/** Input and result side by side under one light. */
+/** Input and result side by side, under one light; or in space. */
 import { download, element, elements } from '../dom.js';
-import { number, readingOf, shortest } from '../format.js';
-import { gridOf, nearest } from '../surface/lattice.js';
-import { inputNormals, resultImage, resultNormals } from '../surface/known.js';
+import { number, heightReading, shortLambda } from '../format.js';
+import { gridOf, nearestVertices } from '../surface/lattice.js';
+import { inputNormals, resultImage, resultNormals } from '../surface/derived-data.js';
 import { normalsOf } from '../surface/normals.js';
 import { Light } from '../surface/light.js';
-import { PictureView } from '../surface/picture.js';
-import { SurfaceView } from '../surface/view.js';
+import { PictureView } from '../surface/picture-view.js';
+import { SurfaceView } from '../surface/surface-view.js';
 import { Zoom } from '../surface/zoom.js';
-import { MARKS } from '../messages.js';
+import { MARK_WORDS } from '../messages.js';
 import { spacePanel } from './space.js';
 
 /** @import {Occlusions} from '../api.js' */
 /** @import {Input, Session} from '../session.js' */
-/** @import {Marks} from '../surface/marks.js' */
-/** @import {Shown} from '../views/shown.js' */
+/** @import {PixelMarks} from '../surface/marks.js' */
+/** @import {ViewContent} from '../views/view-content.js' */
+
+/** Confidence below which heights are marked. */
+const MAX_MARKED_CONFIDENCE = 0.5;
 
 /** @param {Session} session */
 export function viewsPanel(session) {
@@ -30,11 +33,11 @@ export function viewsPanel(session) {
     for (const [name, value] of Object.entries({ zoom: scale, across: shift.x, down: shift.y })) over.style.setProperty(`--${name}`, String(value));
   });
   session.on('cleared', () => photoZoom.reset());
-  // What the keyboard comes to is seen.
+  // A handle that gets the keyboard focus outside of the visible part resets the zoom.
   over.addEventListener('focusin', ({ target }) => {
     const [knob, frame] = [target, over.parentElement].map((one) => (one instanceof Element ? one.getBoundingClientRect() : new DOMRect()));
-    const seen = knob.right > frame.left && knob.left < frame.right && knob.bottom > frame.top && knob.top < frame.bottom;
-    if (!seen) photoZoom.reset();
+    const isVisible = knob.right > frame.left && knob.left < frame.right && knob.bottom > frame.top && knob.top < frame.bottom;
+    if (!isVisible) photoZoom.reset();
   });
   const flat = new PictureView(element('result-picture', HTMLCanvasElement), new Zoom());
   const space = spacePanel(session, light);
@@ -46,23 +49,23 @@ export function viewsPanel(session) {
   const empty = element('result-empty', HTMLElement);
   const legend = element('input-legend', HTMLElement);
   /** @type {Occlusions | null} */
-  let torn = null;
+  let occlusions = null;
 
-  /** @type {Partial<Shown>} */
-  let now = {};
+  /** What is shown over the surfaces, or in their places. @type {Partial<ViewContent>} */
+  let present = {};
   const reading = element('flat-reading', HTMLElement);
-  for (const [view, over] of /** @type {const} */ ([[before, 'input'], [after, 'result']])) {
+  for (const [view, side] of /** @type {const} */ ([[before, 'input'], [after, 'result']])) {
     view.canvas.addEventListener('pointermove', (event) => {
       const { input, result } = session;
-      const place = view.under(event);
-      const shown = over === 'result' ? result && resultImage(result) : input;
+      const place = view.positionAt(event);
+      const shown = side === 'result' ? result && resultImage(result) : input;
       if (!input || !shown || !place) {
         reading.textContent = '\u00a0';
         return;
       }
       const { width, height, pixelSize, left, top } = gridOf(input);
-      const z = shown.data[Math.floor(place[1] * height) * width + Math.floor(place[0] * width)] * (over === 'input' ? input.heightScale : 1);
-      reading.textContent = readingOf(z, input.unit, now[over]?.read?.(left + place[0] * width * pixelSize, top - place[1] * height * pixelSize)) || '\u00a0';
+      const z = shown.data[Math.floor(place[1] * height) * width + Math.floor(place[0] * width)] * (side === 'input' ? input.heightScale : 1);
+      reading.textContent = heightReading(z, input.unit, present[side]?.read?.(left + place[0] * width * pixelSize, top - place[1] * height * pixelSize)) || '\u00a0';
     });
     view.canvas.addEventListener('pointerleave', () => (reading.textContent = '\u00a0'));
   }
@@ -70,11 +73,11 @@ export function viewsPanel(session) {
   flat.canvas.addEventListener('pointermove', (event) => (reading.textContent = flat.read(event) || '\u00a0'));
   flat.canvas.addEventListener('pointerleave', () => (reading.textContent = '\u00a0'));
 
-  const mark = () => {
+  const updateMarks = () => {
     const { input } = session;
-    const marks = input ? marksOf(input, torn, getComputedStyle(views)) : [];
-    before.mark(marks);
-    space.mark(marks);
+    const marks = input ? marksOf(input, occlusions, getComputedStyle(views)) : [];
+    before.setMarks(marks);
+    space.setMarks(marks);
     legend.replaceChildren(...marks.map(({ colour, words }) => {
       const item = document.createElement('span');
       item.className = 'key';
@@ -89,12 +92,12 @@ export function viewsPanel(session) {
     before.show(inputNormals(input), !input.design);
     views.style.setProperty('--aspect', String(width / height));
     inputCaption.textContent = `${name}, ${number(width, 6)} × ${number(height, 6)}`;
-    torn = null;
-    mark();
+    occlusions = null;
+    updateMarks();
   });
   session.on('occlusions', (found) => {
-    torn = found;
-    mark();
+    occlusions = found;
+    updateMarks();
   });
   session.on('cleared', () => {
     show(null);
@@ -102,9 +105,9 @@ export function viewsPanel(session) {
   });
   session.on('preview', ({ input, lambda, image: { width, height, pixelSize, data } }) => {
     after.show(normalsOf(data, width, height, 1 / pixelSize), true, input);
-    // Its colours and lines are those of the result before.
-    after.cover(null);
-    caption.textContent = input.design ? '' : `λ = ${shortest(lambda)}`;
+    // The layers belong to the last result, not to the preview.
+    after.setLayer(null);
+    caption.textContent = input.design ? '' : `λ = ${shortLambda(lambda)}`;
     figure.dataset.preview = '';
     stamp.textContent = 'preview';
     stamp.hidden = false;
@@ -120,17 +123,17 @@ export function viewsPanel(session) {
       return;
     }
     after.show(resultNormals(result));
-    // λ has no say in a design.
-    caption.textContent = result.input.design ? '' : `λ = ${shortest(result.surface.report.lambda)}`;
+    // λ has no effect on a design.
+    caption.textContent = result.input.design ? '' : `λ = ${shortLambda(result.surface.report.lambda)}`;
     stamp.textContent = result.surface.report.stopReason === 'cancelled' ? 'cancelled' : '';
     stamp.hidden = !stamp.textContent;
     empty.hidden = true;
   };
   session.on('result', show);
-  // Previews of it are no more.
+  // The last result replaces the previews.
   session.on('unsolved', () => {
     show(session.result);
-    after.cover(now.result ?? null);
+    after.setLayer(present.result ?? null);
   });
   session.on('phase', (phase) => {
     figure.setAttribute('aria-busy', String(phase === 'running'));
@@ -139,7 +142,7 @@ export function viewsPanel(session) {
 
   const save = element('view-save', HTMLButtonElement);
   save.addEventListener('click', async () => {
-    const shown = space.there() ? [space.drawn()] : elements('#views canvas', HTMLCanvasElement).filter((canvas) => canvas.checkVisibility());
+    const shown = space.isShown() ? [space.drawnCanvas()] : elements('#views canvas', HTMLCanvasElement).filter((canvas) => canvas.checkVisibility());
     const picture = new OffscreenCanvas(shown.reduce((sum, { width }) => sum + width, 0), Math.max(...shown.map(({ height }) => height)));
     const context = picture.getContext('2d');
     if (!context) return;
@@ -158,15 +161,15 @@ export function viewsPanel(session) {
   return {
     space,
     /**
-     * Draws over the surfaces, or puts pictures in their places.
-     * @param {Partial<Shown>} shown
+     * Shows layers over the surfaces, or pictures in their places.
+     * @param {Partial<ViewContent>} shown
      */
     show: (shown) => {
       const { input, result, before: left, after: right } = shown;
-      now = shown;
+      present = shown;
       space.show(shown);
-      before.cover(input ?? null);
-      after.cover(result ?? null);
+      before.setLayer(input ?? null);
+      after.setLayer(result ?? null);
       photo.show(left ?? null);
       flat.show(right ?? null);
       element('input-title', HTMLElement).textContent = left?.title ?? 'Input';
@@ -178,15 +181,15 @@ export function viewsPanel(session) {
 }
 
 /**
- * What is drawn over the input: where it is torn, where it is not trusted, and where it is held.
+ * Marks on the input: low confidence, occlusions and constraints.
  * @param {Input} input
- * @param {Occlusions | null} torn
+ * @param {Occlusions | null} occlusions
  * @param {CSSStyleDeclaration} style
- * @returns {(Marks & { words: string })[]}
+ * @returns {(PixelMarks & { words: string })[]}
  */
-function marksOf(input, torn, style) {
+function marksOf(input, occlusions, style) {
   const { width, height, data, design, confidence, constraints } = input;
-  const held = design ? data : constraints;
+  const constrained = design ? data : constraints;
   /** @param {string} name @param {(pixel: number) => boolean} has @param {(number: number) => string} words */
   const marks = (name, has, words) => {
     /** @type {number[]} */
@@ -196,9 +199,9 @@ function marksOf(input, torn, style) {
     return { width, height, pixels, colour: style.getPropertyValue(name).trim(), words: words(pixels.length) };
   };
   const found = [];
-  if (confidence) found.push(marks('--mark-doubt', (i) => confidence[i] < 0.5 && !Number.isNaN(data[i]), MARKS.doubted));
-  const flags = torn && (torn.image ?? nearest(torn, gridOf(input)).map((vertex) => torn.vertices[vertex] ?? 0));
-  if (torn && flags) found.push({ ...marks('--mark-torn', (i) => flags[i] !== 0, String), words: MARKS.torn(torn.count) });
-  if (held) found.push(marks('--mark-held', (i) => !Number.isNaN(held[i]), MARKS.held));
+  if (confidence) found.push(marks('--mark-doubt', (i) => confidence[i] < MAX_MARKED_CONFIDENCE && !Number.isNaN(data[i]), MARK_WORDS.doubted));
+  const flags = occlusions && (occlusions.image ?? nearestVertices(occlusions, gridOf(input)).map((vertex) => occlusions.vertices[vertex] ?? 0));
+  if (occlusions && flags) found.push({ ...marks('--mark-torn', (i) => flags[i] !== 0, String), words: MARK_WORDS.torn(occlusions.count) });
+  if (constrained) found.push(marks('--mark-held', (i) => !Number.isNaN(constrained[i]), MARK_WORDS.held));
   return found;
 }

@@ -1,22 +1,24 @@
-/** How long an answer may still take, by what others of its kind took, and a way to do without it. */
+/** Progress bar of a task, whose duration is estimated from earlier tasks of its kind, with a button that cancels it. */
 import { make } from '../dom.js';
 import { count } from '../format.js';
 
-/** Milliseconds between two looks at the clock. */
-const LOOK = 200;
-/** What takes fewer milliseconds is done before anybody could read about it. */
-export const SOON = 150;
-/** The fewest milliseconds that are a measurement. */
-const LEAST = 100;
+/** Interval between two updates of the progress bar, in milliseconds. */
+const UPDATE_INTERVAL_MS = 200;
+/** Delay before the progress of a task is shown, in milliseconds: shorter tasks end before anybody could read it. */
+export const PROGRESS_DELAY_MS = 150;
+/** Minimum duration of a task that is measured, in milliseconds; it is also the minimum of the estimated duration. */
+const MIN_MEASURED_MS = 100;
+/** Time before the text shows figures, in milliseconds. */
+const FIGURES_DELAY_MS = 400;
 
-/** @import {Slow} from '../session.js' */
+/** @import {TimedTask} from '../session.js' */
 
 /**
- * @param {HTMLElement} panel empty
+ * @param {HTMLElement} panel empty element
  * @param {() => void} cancel
- * @param {number} [after] so many milliseconds it is shown
+ * @param {number} [delay] time before it is shown, in milliseconds
  */
-export function waitingPanel(panel, cancel, after = 0) {
+export function waitingPanel(panel, cancel, delay = 0) {
   const bar = make('progress', '');
   bar.max = 1;
   bar.setAttribute('aria-label', 'How far this is, by what others took');
@@ -25,43 +27,43 @@ export function waitingPanel(panel, cancel, after = 0) {
   Object.assign(button, { type: 'button', id: `${panel.id}-cancel` });
   button.addEventListener('click', cancel);
   panel.append(bar, text, button);
-  /** Milliseconds for each of what an answer goes through, by its kind. @type {Map<string, number>} */
+  /** Measured milliseconds per unit of size, by the kind of task. @type {Map<string, number>} */
   const rates = new Map();
-  let [start, expected, clock, shown] = [0, 0, 0, 0];
-  let doing = '';
-  /** Whether others of its kind were measured: a guess of the time left is not told. */
-  let measured = false;
+  let [start, expected, updateTimer, showTimer] = [0, 0, 0, 0];
+  let label = '';
+  /** Whether a task of this kind was measured: without that, the remaining time is not shown. */
+  let isMeasured = false;
 
-  const look = () => {
-    const gone = performance.now() - start;
-    // Slower towards an end that nobody knows.
-    bar.value = gone < 0.8 * expected ? gone / expected : 1 - 0.2 * Math.exp(-(gone / expected - 0.8) / 0.4);
-    const left = Math.ceil((expected - gone) / 1000);
-    if (gone < 400) text.textContent = `${doing}…`;
-    else if (!measured) text.textContent = `${doing}, ${count(Math.floor(gone / 1000))} s`;
-    else text.textContent = left >= 1 ? `${doing}, about ${count(left)} s left` : `${doing}, soon done`;
+  const update = () => {
+    const elapsed = performance.now() - start;
+    // The bar slows down near its end, and never reaches it before the task ends.
+    bar.value = elapsed < 0.8 * expected ? elapsed / expected : 1 - 0.2 * Math.exp(-(elapsed / expected - 0.8) / 0.4);
+    const left = Math.ceil((expected - elapsed) / 1000);
+    if (elapsed < FIGURES_DELAY_MS) text.textContent = `${label}…`;
+    else if (!isMeasured) text.textContent = `${label}, ${count(Math.floor(elapsed / 1000))} s`;
+    else text.textContent = left >= 1 ? `${label}, about ${count(left)} s left` : `${label}, soon done`;
   };
 
   return {
-    /** @param {Slow} slow */
-    begin({ kind, size, each, words }) {
+    /** Shows the progress of a task. @param {TimedTask} task */
+    begin(task) {
       start = performance.now();
-      doing = words;
-      measured = rates.has(kind);
-      expected = Math.max(LEAST, size * (rates.get(kind) ?? each));
-      clearTimeout(shown);
-      if (after === 0) panel.hidden = false;
-      else shown = window.setTimeout(() => (panel.hidden = false), after);
-      clearInterval(clock);
-      clock = window.setInterval(look, LOOK);
-      look();
+      label = task.label;
+      isMeasured = rates.has(task.kind);
+      expected = Math.max(MIN_MEASURED_MS, task.size * (rates.get(task.kind) ?? task.msPerUnit));
+      clearTimeout(showTimer);
+      if (delay === 0) panel.hidden = false;
+      else showTimer = window.setTimeout(() => (panel.hidden = false), delay);
+      clearInterval(updateTimer);
+      updateTimer = window.setInterval(update, UPDATE_INTERVAL_MS);
+      update();
     },
-    /** @param {Slow} [done] what has got its answer */
-    end(done) {
-      const gone = performance.now() - start;
-      if (done && gone > LEAST) rates.set(done.kind, gone / Math.max(1, done.size));
-      clearInterval(clock);
-      clearTimeout(shown);
+    /** Hides the progress. @param {Pick<TimedTask, 'kind' | 'size'>} [finished] the task, if it was finished: its duration is then measured */
+    end(finished) {
+      const elapsed = performance.now() - start;
+      if (finished && elapsed > MIN_MEASURED_MS) rates.set(finished.kind, elapsed / Math.max(1, finished.size));
+      clearInterval(updateTimer);
+      clearTimeout(showTimer);
       panel.hidden = true;
     },
   };

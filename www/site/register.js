@@ -1,11 +1,11 @@
-/** Keeps the page for use without a network, and changes to a new version only as a whole. */
+/** Registers the service worker, which keeps the page for use without a network, and offers new versions. */
 const { serviceWorker } = navigator;
 
-/** @param {ServiceWorkerRegistration} registration */
+/** Offers a new version when it is installed. @param {ServiceWorkerRegistration} registration */
 function watch(registration) {
   const offer = () => {
     const { waiting } = registration;
-    // The first one is no news.
+    // The first installation is not an update.
     if (!waiting || !serviceWorker.controller) return;
     const button = document.createElement('button');
     button.className = 'primary renew';
@@ -19,8 +19,8 @@ function watch(registration) {
 
 if (serviceWorker) {
   const controlled = serviceWorker.controller !== null;
-  // All tabs at once, for the files of the old version are gone; what they show stands in their address.
+  // All tabs reload, because the files of the old version are deleted; the address keeps their state.
   serviceWorker.addEventListener('controllerchange', () => controlled && location.reload());
-  // The page itself comes first.
+  // Registration waits until the page is loaded.
   addEventListener('load', () => serviceWorker.register('./sw.js').then(watch, () => {}));
 }

@@ -1,36 +1,36 @@
 /**
- * Serves one version of the site without a network. The page and the guides are kept when it is installed; pictures of
- * guides and pages of the reference are kept when they are opened.
+ * The service worker: serves one version of the site without a network. The page and the guides are cached at installation;
+ * pictures of guides and pages of the reference are cached when they are opened.
  */
 /**
- * @typedef {Event & { waitUntil: (done: Promise<unknown>) => void, request: Request, respondWith: (response: Promise<Response>) => void }} Occasion
+ * @typedef {Event & { waitUntil: (done: Promise<unknown>) => void, request: Request, respondWith: (response: Promise<Response>) => void }} WorkerEvent
  * @typedef {typeof globalThis & { SITE: { version: string, files: string[] }, skipWaiting: () => Promise<void> }} Globals
  */
 const worker = /** @type {Globals} */ (globalThis);
 const { version, files } = worker.SITE;
-const PREFIX = 'developable ';
-const NAME = PREFIX + version;
+const CACHE_PREFIX = 'developable ';
+const CACHE_NAME = CACHE_PREFIX + version;
 
-/** @param {string} name @param {(event: Occasion) => void} act */
-const on = (name, act) => worker.addEventListener(name, (event) => act(/** @type {Occasion} */ (event)));
+/** @param {string} name @param {(event: WorkerEvent) => void} act */
+const listen = (name, act) => worker.addEventListener(name, (event) => act(/** @type {WorkerEvent} */ (event)));
 
-on('install', (event) => {
-  // From the server, not from what the browser has kept of an older version.
-  event.waitUntil(caches.open(NAME).then((cache) => cache.addAll(files.map((file) => new Request(file, { cache: 'reload' })))));
+listen('install', (event) => {
+  // The browser's own cache may hold files of an older version, so it is bypassed.
+  event.waitUntil(caches.open(CACHE_NAME).then((cache) => cache.addAll(files.map((file) => new Request(file, { cache: 'reload' })))));
 });
-on('activate', (event) => {
+listen('activate', (event) => {
   event.waitUntil(caches.keys().then((names) =>
-    Promise.all(names.filter((name) => name.startsWith(PREFIX) && name !== NAME).map((name) => caches.delete(name)))));
+    Promise.all(names.filter((name) => name.startsWith(CACHE_PREFIX) && name !== CACHE_NAME).map((name) => caches.delete(name)))));
 });
 worker.addEventListener('message', ({ data }) => {
   if (data === 'take over') void worker.skipWaiting();
 });
 const scope = new URL('./', location.href);
 
-/** Whether an address is that of a document: a guide or a page of the reference, or what belongs to one. @param {URL} url */
+/** Whether an address belongs to a guide or to the reference. @param {URL} url */
 const isDocument = ({ href }) => ['guide/', 'reference/'].some((folder) => href.startsWith(new URL(folder, scope).href));
 
-on('fetch', (event) => {
+listen('fetch', (event) => {
   const { request } = event;
   const url = new URL(request.url);
   if (request.method !== 'GET' || url.origin !== location.origin) return;
@@ -38,12 +38,12 @@ on('fetch', (event) => {
 });
 
 /**
- * An answer with the headers by which browsers isolate a page from others, so that its memory may be shared with its workers:
- * a server of static files seldom sends them.
+ * Adds the headers of cross-origin isolation to a response. Shared memory needs them, and servers of static files seldom send
+ * them.
  * @param {Response} response
  */
 function isolated(response) {
-  // A redirection is the browser's own affair.
+  // An opaque response, such as a redirection, cannot be changed.
   if (response.status === 0) return response;
   const headers = new Headers(response.headers);
   headers.set('Cross-Origin-Opener-Policy', 'same-origin');
@@ -51,28 +51,28 @@ function isolated(response) {
   return new Response(response.body, { status: response.status, statusText: response.statusText, headers });
 }
 
-/** The page or one of its files. @param {Request} request */
+/** The response for the page or one of its files. @param {Request} request */
 async function fileFor(request) {
   const wanted = new URL(request.url).pathname === scope.pathname ? './index.html' : request;
-  return (await found(wanted)) ?? fetch(request);
+  return (await cachedResponse(wanted)) ?? fetch(request);
 }
 
-/** A document, which is kept from now on. @param {Request} request */
+/** The response for a document, which is cached. @param {Request} request */
 async function documentFor(request) {
-  const kept = await found(request);
+  const kept = await cachedResponse(request);
   if (kept) return kept;
   try {
     const response = await fetch(request);
-    if (response.ok) await (await caches.open(NAME)).put(request, response.clone());
+    if (response.ok) await (await caches.open(CACHE_NAME)).put(request, response.clone());
     return response;
   } catch (error) {
-    const instead = request.mode === 'navigate' && await found('./guide/offline.html');
+    const instead = request.mode === 'navigate' && await cachedResponse('./guide/offline.html');
     if (instead) return instead;
     throw error;
   }
 }
 
-/** @param {Request | string} wanted */
-async function found(wanted) {
-  return (await caches.open(NAME)).match(wanted, { ignoreSearch: true, ignoreVary: true });
+/** The cached response for a request. @param {Request | string} wanted */
+async function cachedResponse(wanted) {
+  return (await caches.open(CACHE_NAME)).match(wanted, { ignoreSearch: true, ignoreVary: true });
 }

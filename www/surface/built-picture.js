@@ -1,35 +1,35 @@
-/** A pattern put together, seen at an angle: its sheets in their colours, shaded, with their numbers and letters. */
-import { assembled, bordersOf } from './assembled.js';
+/** Draws a picture of an assembled pattern at an angle: its sheets shaded in their colours, with numbers and letters. */
+import { readAssemblyMesh, borderLines } from './assembly-mesh.js';
 
-/** Direction of the view in degrees: turned about the vertical, and above the ground. */
+/** Direction of the view: angle about the vertical, and above the ground. */
 const [AZIMUTH_DEGREES, ELEVATION_DEGREES] = [-28, 42];
-/** Pixels along the longer side of the picture; its surfaces are drawn with twice as many, and averaged. */
+/** Length of the picture's longer side, and the factor by which its surfaces are drawn larger and then averaged. */
 const [PICTURE_PIXELS, OVERSAMPLING] = [2000, 2];
-/** Pixels of the plan that a mark may lie beside the surface: lines are smoothed there. */
+/** Maximum distance of a mark beside the surface, in pixels of the plan: lines of the plan are smoothed. */
 const MAX_PLAN_OFFSET_PIXELS = 12;
-/** Distance that something may be behind the surface and still be drawn on it, as a share of the mesh's size. */
-const MAX_HIDDEN_SHARE = 0.006;
-/** Brightness of a surface that the light only grazes; one that faces it has 1. */
+/** Maximum depth of a visible line behind the surface, as a share of the picture's size. */
+const MAX_HIDDEN_DEPTH_SHARE = 0.006;
+/** Brightness of a surface parallel to the light; one that faces it has brightness 1. */
 const AMBIENT_LIGHT = 0.5;
-/** Colour of a sheet whose colour is not known. */
+/** Colour of a sheet without a known colour. */
 const NO_COLOUR = [160, 160, 160];
-/** Direction to the light: over the viewer's left shoulder, by the axes of the view. */
-const LIGHT = [-0.42, 0.5, 0.757];
+/** Direction to the light along the axes of the view: over the viewer's left shoulder. */
+const LIGHT_DIRECTION = [-0.42, 0.5, 0.757];
 
 /** @typedef {readonly [number, number, number]} Vector */
-/** @typedef {{ right: Vector, up: Vector, toward: Vector }} Axes of a view, all of length 1 */
+/** @typedef {{ right: Vector, up: Vector, toward: Vector }} Axes unit vectors of a view */
 /** @typedef {{ positions: Float64Array, triangles: Uint32Array }} Mesh */
 /**
- * @typedef {object} Raster
+ * @typedef {object} DepthBuffer
  * @property {number} width
  * @property {number} height
- * @property {Float32Array} depth of each pixel towards the viewer; −∞ where there is nothing
- * @property {Int32Array} triangle of each pixel; −1 where there is none
- * @property {Float32Array} light of each pixel, up to 1
- * @property {(place: ArrayLike<number>) => Vector} project a point in space to column, row and depth
+ * @property {Float32Array} depth of each pixel towards the viewer; −∞ without a surface
+ * @property {Int32Array} triangle index of each pixel's triangle; −1 without one
+ * @property {Float32Array} light brightness of each pixel, up to 1
+ * @property {(place: ArrayLike<number>) => Vector} project maps a point in space to column, row and depth
  */
 
-/** @param {number} azimuth @param {number} elevation both in degrees @returns {Axes} */
+/** The axes of a view. @param {number} azimuth @param {number} elevation both in degrees @returns {Axes} */
 export function axesOf(azimuth, elevation) {
   const [a, e] = [azimuth, elevation].map((degrees) => (degrees * Math.PI) / 180);
   const [ca, sa, ce, se] = [Math.cos(a), Math.sin(a), Math.cos(e), Math.sin(e)];
@@ -37,27 +37,27 @@ export function axesOf(azimuth, elevation) {
 }
 
 /**
- * A mesh in parallel projection, with the nearest triangle of each pixel.
+ * Rasterises a mesh in parallel projection with a depth buffer.
  * @param {Mesh} mesh
  * @param {Axes} axes
  * @param {number} size pixels along the longer side
  * @param {number} margin pixels
- * @returns {Raster}
+ * @returns {DepthBuffer}
  */
-export function rasterised({ positions, triangles }, axes, size, margin) {
+export function rasterise({ positions, triangles }, axes, size, margin) {
   const sides = [axes.right, axes.up, axes.toward];
   /** @param {ArrayLike<number>} place @returns {Vector} */
-  const seen = (place) => /** @type {any} */ (sides.map((axis) => axis[0] * place[0] + axis[1] * place[1] + axis[2] * place[2]));
+  const toViewAxes = (place) => /** @type {any} */ (sides.map((axis) => axis[0] * place[0] + axis[1] * place[1] + axis[2] * place[2]));
   const [low, high] = [[Infinity, Infinity], [-Infinity, -Infinity]];
   for (let i = 0; i < positions.length; i += 3) {
-    const at = seen(positions.subarray(i, i + 3));
+    const at = toViewAxes(positions.subarray(i, i + 3));
     for (const k of [0, 1]) [low[k], high[k]] = [Math.min(low[k], at[k]), Math.max(high[k], at[k])];
   }
   const scale = (size - 2 * margin) / Math.max(high[0] - low[0], high[1] - low[1]);
   const [width, height] = [0, 1].map((k) => Math.ceil(scale * (high[k] - low[k]) + 2 * margin));
   /** @param {ArrayLike<number>} place @returns {Vector} */
   const project = (place) => {
-    const [x, y, z] = seen(place);
+    const [x, y, z] = toViewAxes(place);
     return [margin + scale * (x - low[0]), margin + scale * (high[1] - y), scale * z];
   };
   const raster = {
@@ -68,17 +68,17 @@ export function rasterised({ positions, triangles }, axes, size, margin) {
   };
   const corners = new Float64Array(positions.length);
   for (let i = 0; i < positions.length; i += 3) corners.set(project(positions.subarray(i, i + 3)), i);
-  const lights = lightsOf(corners, triangles);
-  for (let t = 0; t < triangles.length; t += 3) fill(raster, t / 3, [...triangles.subarray(t, t + 3)], corners, lights);
+  const lights = vertexBrightness(corners, triangles);
+  for (let t = 0; t < triangles.length; t += 3) fillTriangle(raster, t / 3, [...triangles.subarray(t, t + 3)], corners, lights);
   return raster;
 }
 
 /**
- * The light on each vertex, from either side, by the mean normal of its triangles.
+ * The brightness of each vertex by its normal, the same on both sides of the surface.
  * @param {Float64Array} corners column, row and depth of each vertex
  * @param {Uint32Array} triangles
  */
-function lightsOf(corners, triangles) {
+function vertexBrightness(corners, triangles) {
   const normals = new Float64Array(corners.length);
   for (let t = 0; t < triangles.length; t += 3) {
     const [a, b, c] = [0, 1, 2].map((k) => 3 * triangles[t + k]);
@@ -88,21 +88,22 @@ function lightsOf(corners, triangles) {
   }
   return Float64Array.from({ length: corners.length / 3 }, (_, i) => {
     const [x, y, z] = normals.subarray(3 * i, 3 * i + 3);
-    // Towards the viewer; rows count down.
+    // The normal is turned towards the viewer; y is negative because rows count downwards.
     const side = z < 0 ? -1 : 1;
-    const facing = (side * (LIGHT[0] * x - LIGHT[1] * y + LIGHT[2] * z)) / (Math.hypot(x, y, z) || 1);
+    const facing = (side * (LIGHT_DIRECTION[0] * x - LIGHT_DIRECTION[1] * y + LIGHT_DIRECTION[2] * z)) / (Math.hypot(x, y, z) || 1);
     return AMBIENT_LIGHT + (1 - AMBIENT_LIGHT) * Math.max(0, facing);
   });
 }
 
 /**
- * @param {Raster} raster
- * @param {number} number of the triangle
+ * Rasterises one triangle.
+ * @param {DepthBuffer} raster
+ * @param {number} number index of the triangle
  * @param {readonly number[]} vertices
  * @param {Float64Array} corners
  * @param {Float64Array} lights
  */
-function fill({ width, height, depth, triangle, light }, number, vertices, corners, lights) {
+function fillTriangle({ width, height, depth, triangle, light }, number, vertices, corners, lights) {
   const [[ax, ay, az], [bx, by, bz], [cx, cy, cz]] = vertices.map((v) => corners.subarray(3 * v, 3 * v + 3));
   const area = (bx - ax) * (cy - ay) - (by - ay) * (cx - ax);
   if (area === 0) return;
@@ -126,12 +127,12 @@ function fill({ width, height, depth, triangle, light }, number, vertices, corne
 }
 
 /**
- * The nearest depth within some pixels of a place; −∞ where there is nothing.
- * @param {Raster} raster
+ * The largest depth at the nearest ring of pixels around a place that shows a surface; −∞ if none does.
+ * @param {DepthBuffer} raster
  * @param {ArrayLike<number>} place
- * @param {number} reach
+ * @param {number} reach maximum radius of a ring, in pixels
  */
-function depthNear({ width, height, depth }, place, reach) {
+function nearestDepth({ width, height, depth }, place, reach) {
   const [col, row] = [Math.floor(place[0]), Math.floor(place[1])];
   for (let ring = 0; ring <= reach; ring++) {
     let most = -Infinity;
@@ -144,28 +145,29 @@ function depthNear({ width, height, depth }, place, reach) {
 }
 
 /**
- * @param {Uint8Array} model a pattern's assembly, a GLB file
- * @param {string} plan its picture from above, an SVG file: colours, numbers, letters and folds are taken from it
+ * Draws a pattern's assembly.
+ * @param {Uint8Array} model the assembly, a GLB file
+ * @param {string} plan the assembly plan seen from above, an SVG file with colours, numbers, letters and folds
  * @returns {OffscreenCanvas}
  */
 export function builtPicture(model, plan) {
-  const mesh = assembled(model, 1);
+  const mesh = readAssemblyMesh(model, 1);
   const drawn = new DOMParser().parseFromString(plan, 'image/svg+xml');
   const margin = PICTURE_PIXELS / 40;
-  const raster = rasterised(mesh, axesOf(AZIMUTH_DEGREES, ELEVATION_DEGREES), OVERSAMPLING * PICTURE_PIXELS, OVERSAMPLING * margin);
+  const raster = rasterise(mesh, axesOf(AZIMUTH_DEGREES, ELEVATION_DEGREES), OVERSAMPLING * PICTURE_PIXELS, OVERSAMPLING * margin);
   const canvas = new OffscreenCanvas(Math.round(raster.width / OVERSAMPLING), Math.round(raster.height / OVERSAMPLING));
-  const context = contextOf(canvas);
+  const context = context2d(canvas);
   context.fillStyle = 'white';
   context.fillRect(0, 0, canvas.width, canvas.height);
   context.imageSmoothingQuality = 'high';
-  context.drawImage(shaded(raster, mesh, coloursOf(drawn)), 0, 0, canvas.width, canvas.height);
+  context.drawImage(drawShaded(raster, mesh, sheetColours(drawn)), 0, 0, canvas.width, canvas.height);
 
-  const hidden = MAX_HIDDEN_SHARE * OVERSAMPLING * PICTURE_PIXELS;
-  /** Where a point is drawn, and nothing where it is hidden. @param {ArrayLike<number>} place */
+  const hidden = MAX_HIDDEN_DEPTH_SHARE * OVERSAMPLING * PICTURE_PIXELS;
+  /** The pixel of a point, null if the surface hides it. @param {ArrayLike<number>} place */
   const visible = (place) => {
     const at = raster.project(place);
     if (!at.every(Number.isFinite)) return null;
-    return depthNear(raster, at, 2) <= at[2] + hidden ? [at[0] / OVERSAMPLING, at[1] / OVERSAMPLING] : null;
+    return nearestDepth(raster, at, 2) <= at[2] + hidden ? [at[0] / OVERSAMPLING, at[1] / OVERSAMPLING] : null;
   };
   /** @param {(number[] | null)[]} places */
   const stroke = (places) => {
@@ -177,7 +179,7 @@ export function builtPicture(model, plan) {
     context.stroke();
   };
   Object.assign(context, { strokeStyle: '#222', lineWidth: 2.5, lineJoin: 'round', lineCap: 'round' });
-  const { corners, lengths } = bordersOf(mesh.triangles);
+  const { corners, lengths } = borderLines(mesh.triangles);
   for (let line = 0, first = 0; line < lengths.length; first += lengths[line++]) {
     stroke(Array.from({ length: lengths[line] }, (_, i) => {
       const vertex = 3 * corners[3 * (first + i)];
@@ -185,13 +187,13 @@ export function builtPicture(model, plan) {
     }));
   }
 
-  const over = marksOf(drawn, mesh);
+  const marks = planMarks(drawn, mesh);
   context.setLineDash([10, 8]);
   context.lineWidth = 2;
-  for (const fold of over.folds) stroke(fold.map(visible));
+  for (const fold of marks.folds) stroke(fold.map(visible));
   context.setLineDash([]);
   Object.assign(context, { textAlign: 'center', textBaseline: 'middle', fillStyle: 'black', strokeStyle: 'white' });
-  for (const { text, place, size } of over.texts) {
+  for (const { text, place, size } of marks.texts) {
     const at = visible(place);
     if (!at) continue;
     context.font = `600 ${size}px Helvetica, Arial, sans-serif`;
@@ -203,17 +205,17 @@ export function builtPicture(model, plan) {
 }
 
 /** @param {OffscreenCanvas} canvas */
-function contextOf(canvas) {
+function context2d(canvas) {
   const context = canvas.getContext('2d');
   if (!context) throw new Error('this browser draws no pictures');
   return context;
 }
 
-/** The colour of each sheet. @param {Document} drawn */
-function coloursOf(drawn) {
+/** The colour of each sheet in the plan. @param {Document} plan */
+function sheetColours(plan) {
   /** @type {number[][]} */
   const colours = [];
-  for (const path of drawn.querySelectorAll('path[data-sheet]')) {
+  for (const path of plan.querySelectorAll('path[data-sheet]')) {
     const fill = Number.parseInt((path.getAttribute('fill') ?? '').slice(1), 16);
     colours[Number(path.getAttribute('data-sheet')) - 1] = [fill >> 16, (fill >> 8) & 255, fill & 255];
   }
@@ -221,11 +223,11 @@ function coloursOf(drawn) {
 }
 
 /**
- * @param {Raster} raster
+ * @param {DepthBuffer} raster
  * @param {Mesh & { sheets: Uint32Array }} mesh
  * @param {readonly number[][]} colours
  */
-function shaded({ width, height, triangle, light }, { triangles, sheets }, colours) {
+function drawShaded({ width, height, triangle, light }, { triangles, sheets }, colours) {
   const pixels = new ImageData(width, height);
   const { data } = pixels;
   for (let i = 0; i < triangle.length; i++) {
@@ -235,33 +237,33 @@ function shaded({ width, height, triangle, light }, { triangles, sheets }, colou
     data[4 * i + 3] = 255;
   }
   const canvas = new OffscreenCanvas(width, height);
-  contextOf(canvas).putImageData(pixels, 0, 0);
+  context2d(canvas).putImageData(pixels, 0, 0);
   return canvas;
 }
 
 /**
- * Folds and texts of the plan on the surface.
- * @param {Document} drawn
+ * The folds and texts of the plan, lifted onto the surface.
+ * @param {Document} plan
  * @param {Mesh} mesh
  */
-function marksOf(drawn, mesh) {
-  // The plan begins at the origin, with a margin around it.
-  const [margin, , width, height] = (drawn.documentElement.getAttribute('viewBox') ?? '').split(/[ ,]+/).map(Number);
+function planMarks(plan, mesh) {
+  // The first number of the view box is the negative margin around the plan.
+  const [margin, , width, height] = (plan.documentElement.getAttribute('viewBox') ?? '').split(/[ ,]+/).map(Number);
   const size = Math.round(Math.max(width, height) + 2 * margin);
-  // The heights of its marks are found in a raster as large as the plan.
-  const raster = rasterised(mesh, axesOf(0, 90), size, 0);
+  // A raster of the plan's size gives the heights of its marks.
+  const raster = rasterise(mesh, axesOf(0, 90), size, 0);
   const [left, top, zero] = raster.project([0, 0, 0]);
   const perUnit = raster.project([1, 0, 0])[0] - left;
-  /** @param {readonly (string | null)[]} at on the plan */
-  const lifted = (at) => {
+  /** The point of the surface at a place of the plan. @param {readonly (string | null)[]} at */
+  const liftToSurface = (at) => {
     const [x, y] = at.map(Number);
-    return [(x - left) / perUnit, (top - y) / perUnit, (depthNear(raster, [x, y], MAX_PLAN_OFFSET_PIXELS) - zero) / perUnit];
+    return [(x - left) / perUnit, (top - y) / perUnit, (nearestDepth(raster, [x, y], MAX_PLAN_OFFSET_PIXELS) - zero) / perUnit];
   };
-  const folds = [...drawn.querySelectorAll('#folds polyline')].map((line) =>
-    (line.getAttribute('points') ?? '').trim().split(/\s+/).map((pair) => lifted(pair.split(','))));
-  const texts = [...drawn.querySelectorAll('#numbers text')].map((text) => ({
+  const folds = [...plan.querySelectorAll('#folds polyline')].map((line) =>
+    (line.getAttribute('points') ?? '').trim().split(/\s+/).map((pair) => liftToSurface(pair.split(','))));
+  const texts = [...plan.querySelectorAll('#numbers text')].map((text) => ({
     text: text.textContent ?? '',
-    place: lifted([text.getAttribute('x'), text.getAttribute('y')]),
+    place: liftToSurface([text.getAttribute('x'), text.getAttribute('y')]),
     size: (Number(text.getAttribute('font-size')) * PICTURE_PIXELS) / size,
   }));
   return { folds, texts };

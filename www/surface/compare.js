@@ -1,14 +1,14 @@
-/** How far a surface is from the known truth. */
-import { HOLE, UNIT } from './normals.js';
+/** Errors of a surface against the known truth. */
+import { NO_NORMAL, NORMAL_SCALE } from './normals.js';
 
 /** @import {Normals} from './normals.js' */
 
 /**
- * Root mean square of the differences, over the pixels that both have.
+ * Root mean square of the height differences, over the pixels with data in both.
  * @param {ArrayLike<number>} heights
- * @param {number} scale of `heights`
+ * @param {number} scale unit of length per unit of `heights`
  * @param {ArrayLike<number>} truth
- * @param {number} truthScale
+ * @param {number} truthScale unit of length per unit of `truth`
  */
 export function rmsError(heights, scale, truth, truthScale) {
   let sum = 0;
@@ -23,7 +23,7 @@ export function rmsError(heights, scale, truth, truthScale) {
 }
 
 /**
- * Mean angle between normals in degrees, over the pixels that both have.
+ * Mean angle between normals in degrees, over the pixels with data in both.
  * @param {Normals} a
  * @param {Normals} b
  */
@@ -31,15 +31,15 @@ export function meanAngle(a, b) {
   let sum = 0;
   let count = 0;
   for (let i = 0; i < a.xy.length; i += 2) {
-    if (a.xy[i] === HOLE || b.xy[i] === HOLE) continue;
-    const ax = a.xy[i] / UNIT;
-    const ay = a.xy[i + 1] / UNIT;
-    const bx = b.xy[i] / UNIT;
-    const by = b.xy[i + 1] / UNIT;
+    if (a.xy[i] === NO_NORMAL || b.xy[i] === NO_NORMAL) continue;
+    const ax = a.xy[i] / NORMAL_SCALE;
+    const ay = a.xy[i + 1] / NORMAL_SCALE;
+    const bx = b.xy[i] / NORMAL_SCALE;
+    const by = b.xy[i + 1] / NORMAL_SCALE;
     const dx = ax - bx;
     const dy = ay - by;
     const dz = Math.sqrt(Math.max(0, 1 - ax * ax - ay * ay)) - Math.sqrt(Math.max(0, 1 - bx * bx - by * by));
-    // By the chord, which is accurate where the cosine is not: at small angles.
+    // The angle from the chord: at small angles it is more accurate than from the cosine.
     sum += 2 * Math.asin(Math.min(1, Math.sqrt(dx * dx + dy * dy + dz * dz) / 2));
     count++;
   }

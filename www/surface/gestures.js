@@ -1,16 +1,16 @@
-/** A camera in the hands of a mouse, a touch screen or a keyboard. */
+/** Controls a camera by mouse, touch screen or keyboard. */
+import { ARROW_DIRECTIONS, wheelZoomFactor } from './view-keys.js';
 
 /** @import {Camera} from './camera.js' */
 
-/** Radians for each press of an arrow key, and how much nearer for each of + and −. */
-const KEY_TURN = Math.PI / 24;
-const KEY_ZOOM = 1.2;
-/** @type {Record<string, readonly [number, number]>} to the right and up */
-const ARROWS = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] };
+/** Rotation for a press of an arrow key. */
+const KEY_TURN_RADIANS = Math.PI / 24;
+/** Enlargement for a press of + or −. */
+const KEY_ZOOM_FACTOR = 1.2;
 
 /**
- * @typedef {object} Taken over by who wants to drag something else
- * @property {(x: number, y: number) => boolean} begin at a place in the canvas' pixels
+ * @typedef {object} DragTarget something else on the canvas that can be dragged
+ * @property {(x: number, y: number) => boolean} begin whether a drag from this place, in the canvas' pixels, moves it
  * @property {(x: number, y: number) => void} move
  * @property {() => void} end
  */
@@ -18,27 +18,27 @@ const ARROWS = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowD
 /**
  * @param {HTMLCanvasElement} canvas
  * @param {Camera} camera
- * @param {{ changed: () => void, relight: (x: number, y: number) => void, tilt: (x: number, y: number) => void, unlit: () => void, lights: () => boolean, other: Taken }} ask
- *   `relight`: the light, as a place of the disk; `tilt`: by so much
+ * @param {{ onChange: () => void, moveLight: (x: number, y: number) => void, shiftLight: (x: number, y: number) => void, resetLight: () => void, controlsLight: () => boolean, dragTarget: DragTarget }} ask
+ *   `moveLight`: to a place of the unit disk; `shiftLight`: by a difference; `controlsLight`: whether drags and keys move the light
  */
-export function takeInHand(canvas, camera, { changed, relight, tilt, unlit, lights, other }) {
+export function controlCamera(canvas, camera, { onChange, moveLight, shiftLight, resetLight, controlsLight, dragTarget }) {
   /** @type {Map<number, { x: number, y: number }>} */
   const fingers = new Map();
   /** @type {'turn' | 'move' | 'light' | 'other'} */
-  let doing = 'turn';
+  let gesture = 'turn';
 
-  /** In the canvas' pixels. @param {MouseEvent} event */
+  /** The place of an event in the canvas' pixels. @param {MouseEvent} event */
   const placeOf = (event) => {
     const box = canvas.getBoundingClientRect();
     const ratio = canvas.width / box.width;
     return { x: (event.clientX - box.left) * ratio, y: (event.clientY - box.top) * ratio };
   };
-  /** @param {{ x: number, y: number }} place */
-  const shine = ({ x, y }) => {
+  /** Moves the light to a place of the canvas. @param {{ x: number, y: number }} place */
+  const lightFrom = ({ x, y }) => {
     const radius = Math.min(canvas.width, canvas.height) / 2;
-    relight((x - canvas.width / 2) / radius, (canvas.height / 2 - y) / radius);
+    moveLight((x - canvas.width / 2) / radius, (canvas.height / 2 - y) / radius);
   };
-  /** Middle of all fingers, and how far they are apart. */
+  /** The mean place of all fingers, and the distance of the first two. */
   const span = () => {
     const all = [...fingers.values()];
     const [x, y] = [0, 1].map((k) => all.reduce((sum, finger) => sum + (k ? finger.y : finger.x), 0) / all.length);
@@ -51,10 +51,10 @@ export function takeInHand(canvas, camera, { changed, relight, tilt, unlit, ligh
     const place = placeOf(event);
     fingers.set(event.pointerId, place);
     if (fingers.size > 1) return;
-    if (event.button > 0 || event.shiftKey) doing = 'move';
-    else if (other.begin(place.x, place.y)) doing = 'other';
-    else doing = lights() || event.altKey ? 'light' : 'turn';
-    if (doing === 'light') shine(place);
+    if (event.button > 0 || event.shiftKey) gesture = 'move';
+    else if (dragTarget.begin(place.x, place.y)) gesture = 'other';
+    else gesture = controlsLight() || event.altKey ? 'light' : 'turn';
+    if (gesture === 'light') lightFrom(place);
   });
   canvas.addEventListener('pointermove', (event) => {
     if (!fingers.has(event.pointerId)) return;
@@ -64,50 +64,50 @@ export function takeInHand(canvas, camera, { changed, relight, tilt, unlit, ligh
     fingers.set(event.pointerId, place);
     if (fingers.size > 1) {
       const after = span();
-      camera.move(after.x - before.x, after.y - before.y);
-      if (before.apart > 0) camera.scaleAt(after.apart / before.apart, after.x, after.y);
-      changed();
-    } else if (doing === 'move') {
-      camera.move(place.x - last.x, place.y - last.y);
-      changed();
-    } else if (doing === 'light') shine(place);
-    else if (doing === 'other') other.move(place.x, place.y);
+      camera.pan(after.x - before.x, after.y - before.y);
+      if (before.apart > 0) camera.zoomAt(after.apart / before.apart, after.x, after.y);
+      onChange();
+    } else if (gesture === 'move') {
+      camera.pan(place.x - last.x, place.y - last.y);
+      onChange();
+    } else if (gesture === 'light') lightFrom(place);
+    else if (gesture === 'other') dragTarget.move(place.x, place.y);
     else {
       const radius = Math.min(canvas.width, canvas.height) / 2;
       camera.rotate((place.x - last.x) / radius, (place.y - last.y) / radius);
-      changed();
+      onChange();
     }
   });
   /** @param {PointerEvent} event */
-  const lift = ({ pointerId }) => {
+  const endPointer = ({ pointerId }) => {
     if (!fingers.delete(pointerId)) return;
-    if (doing === 'other' && fingers.size === 0) other.end();
+    if (gesture === 'other' && fingers.size === 0) dragTarget.end();
   };
-  canvas.addEventListener('pointerup', lift);
-  canvas.addEventListener('pointercancel', lift);
+  canvas.addEventListener('pointerup', endPointer);
+  canvas.addEventListener('pointercancel', endPointer);
   canvas.addEventListener('contextmenu', (event) => event.preventDefault());
 
   canvas.addEventListener('wheel', (event) => {
-    // A page that is scrolled past it goes on being scrolled.
+    // Without focus the wheel scrolls the page.
     if (!event.ctrlKey && document.activeElement !== canvas) return;
     event.preventDefault();
     const { x, y } = placeOf(event);
-    camera.scaleAt(Math.exp(-event.deltaY * (event.deltaMode === 1 ? 0.05 : 0.0015)), x, y);
-    changed();
+    camera.zoomAt(wheelZoomFactor(event), x, y);
+    onChange();
   }, { passive: false });
 
   canvas.addEventListener('keydown', (event) => {
-    const arrow = ARROWS[event.key];
+    const arrow = ARROW_DIRECTIONS[event.key];
     const [x, y] = [canvas.width / 2, canvas.height / 2];
-    if (arrow && (event.altKey || lights())) tilt(...arrow);
-    else if (arrow && event.shiftKey) camera.move(0.05 * canvas.width * arrow[0], -0.05 * canvas.height * arrow[1]);
-    else if (arrow) camera.rotate(KEY_TURN * arrow[0], -KEY_TURN * arrow[1]);
-    else if (event.key === '+' || event.key === '=') camera.scaleAt(KEY_ZOOM, x, y);
-    else if (event.key === '-') camera.scaleAt(1 / KEY_ZOOM, x, y);
-    else if (event.key === 'Home' && lights()) unlit();
-    else if (event.key === 'Home') camera.oblique();
+    if (arrow && (event.altKey || controlsLight())) shiftLight(...arrow);
+    else if (arrow && event.shiftKey) camera.pan(0.05 * canvas.width * arrow[0], -0.05 * canvas.height * arrow[1]);
+    else if (arrow) camera.rotate(KEY_TURN_RADIANS * arrow[0], -KEY_TURN_RADIANS * arrow[1]);
+    else if (event.key === '+' || event.key === '=') camera.zoomAt(KEY_ZOOM_FACTOR, x, y);
+    else if (event.key === '-') camera.zoomAt(1 / KEY_ZOOM_FACTOR, x, y);
+    else if (event.key === 'Home' && controlsLight()) resetLight();
+    else if (event.key === 'Home') camera.viewObliquely();
     else return;
     event.preventDefault();
-    changed();
+    onChange();
   });
 }

@@ -1,14 +1,15 @@
-/** What WebGL draws: programs, textures, lines, and meshes between two of their forms. */
+/** WebGL resources: programs, textures, and the buffers of lines and morphing meshes. */
 
 /** @import {Line} from './layer.js' */
-/** @import {Sheet} from './space.js' */
+/** @import {MorphingMesh} from './surface-renderer.js' */
 
-/** @typedef {{ program: WebGLProgram, at: (uniform: string) => WebGLUniformLocation | null }} Program */
+/** @typedef {{ program: WebGLProgram, uniform: (uniform: string) => WebGLUniformLocation | null }} Program */
 
 /**
+ * Compiles and links a program.
  * @param {WebGL2RenderingContext} gl
- * @param {string} vertex
- * @param {string} fragment
+ * @param {string} vertex source of the vertex shader
+ * @param {string} fragment source of the fragment shader
  * @returns {Program}
  */
 export function programOf(gl, vertex, fragment) {
@@ -19,7 +20,7 @@ export function programOf(gl, vertex, fragment) {
     gl.shaderSource(shader, source);
     gl.compileShader(shader);
     gl.attachShader(program, shader);
-    // Only where linking fails is it worth asking.
+    // Compilation is checked only if linking fails: a check would wait for the compiler.
   }
   gl.linkProgram(program);
   if (!gl.getProgramParameter(program, gl.LINK_STATUS)) {
@@ -27,20 +28,21 @@ export function programOf(gl, vertex, fragment) {
     throw new Error(`a shader could not be built: ${[gl.getProgramInfoLog(program), ...logs].join(' ')}`);
   }
   /** @type {Map<string, WebGLUniformLocation | null>} */
-  const places = new Map();
+  const locations = new Map();
   return {
     program,
-    at: (uniform) => {
-      if (!places.has(uniform)) places.set(uniform, gl.getUniformLocation(program, uniform));
-      return places.get(uniform) ?? null;
+    uniform: (uniform) => {
+      if (!locations.has(uniform)) locations.set(uniform, gl.getUniformLocation(program, uniform));
+      return locations.get(uniform) ?? null;
     },
   };
 }
 
 /**
+ * Creates a texture.
  * @param {WebGL2RenderingContext} gl
- * @param {number} filter
- * @param {() => void} fill
+ * @param {number} filter of minification and magnification
+ * @param {() => void} fill uploads the image
  */
 export function textureOf(gl, filter, fill) {
   const texture = gl.createTexture();
@@ -55,8 +57,8 @@ export function textureOf(gl, filter, fill) {
   return texture;
 }
 
-/** Buffers of a vertex array, which go together. */
-class Arrays {
+/** A vertex array with its buffers. */
+class VertexArray {
   /** @type {WebGLBuffer[]} */
   #buffers = [];
   #array;
@@ -68,8 +70,8 @@ class Arrays {
     this.#array = gl.createVertexArray();
   }
 
-  /** @param {number} target @param {AllowSharedBufferSource} data */
-  put(target, data) {
+  /** Creates a buffer. @param {number} target @param {AllowSharedBufferSource} data */
+  addBuffer(target, data) {
     const { gl } = this;
     const buffer = gl.createBuffer();
     if (buffer) this.#buffers.push(buffer);
@@ -79,20 +81,21 @@ class Arrays {
   }
 
   /**
+   * Binds an attribute of the program to a buffer.
    * @param {string} name
-   * @param {number} count
-   * @param {number} type
+   * @param {number} count number of components
+   * @param {number} type of the components
    * @param {WebGLBuffer | null} buffer
-   * @param {{ stride?: number, offset?: number, each?: boolean }} [where] `each`: one for an instance
+   * @param {{ stride?: number, offset?: number, perInstance?: boolean }} [where] in bytes; `perInstance`: one value per instance, not per vertex
    */
-  point(name, count, type, buffer, { stride = 0, offset = 0, each = false } = {}) {
+  bindAttribute(name, count, type, buffer, { stride = 0, offset = 0, perInstance = false } = {}) {
     const { gl } = this;
     const place = gl.getAttribLocation(this.program, name);
     if (place < 0) return;
     gl.bindBuffer(gl.ARRAY_BUFFER, buffer);
     gl.enableVertexAttribArray(place);
     gl.vertexAttribPointer(place, count, type, type === gl.UNSIGNED_BYTE, stride, offset);
-    gl.vertexAttribDivisor(place, each ? 1 : 0);
+    gl.vertexAttribDivisor(place, perInstance ? 1 : 0);
   }
 
   bind() {
@@ -105,7 +108,8 @@ class Arrays {
   }
 }
 
-export class Lines {
+/** Polylines as instanced segments. */
+export class LineBuffers {
   #arrays;
   #count;
 
@@ -125,14 +129,14 @@ export class Lines {
         colours.set([...colour, 255], 4 * segment);
       }
     }
-    const arrays = (this.#arrays = new Arrays(gl, program));
+    const arrays = (this.#arrays = new VertexArray(gl, program));
     arrays.bind();
-    const places = arrays.put(gl.ARRAY_BUFFER, numbers);
-    const each = /** @type {const} */ ({ stride: 28, each: true });
-    arrays.point('a', 3, gl.FLOAT, places, each);
-    arrays.point('b', 3, gl.FLOAT, places, { ...each, offset: 12 });
-    arrays.point('width', 1, gl.FLOAT, places, { ...each, offset: 24 });
-    arrays.point('colour', 4, gl.UNSIGNED_BYTE, arrays.put(gl.ARRAY_BUFFER, colours), { each: true });
+    const places = arrays.addBuffer(gl.ARRAY_BUFFER, numbers);
+    const instanced = /** @type {const} */ ({ stride: 28, perInstance: true });
+    arrays.bindAttribute('a', 3, gl.FLOAT, places, instanced);
+    arrays.bindAttribute('b', 3, gl.FLOAT, places, { ...instanced, offset: 12 });
+    arrays.bindAttribute('width', 1, gl.FLOAT, places, { ...instanced, offset: 24 });
+    arrays.bindAttribute('colour', 4, gl.UNSIGNED_BYTE, arrays.addBuffer(gl.ARRAY_BUFFER, colours), { perInstance: true });
     gl.bindVertexArray(null);
   }
 
@@ -148,7 +152,8 @@ export class Lines {
   }
 }
 
-export class Mesh {
+/** A mesh with several forms, drawn between two of them. */
+export class MeshBuffers {
   #arrays;
   #program;
   #forms;
@@ -157,28 +162,28 @@ export class Mesh {
   /**
    * @param {WebGL2RenderingContext} gl
    * @param {Program} program
-   * @param {Sheet} sheet
+   * @param {MorphingMesh} sheet
    */
   constructor(gl, program, { triangles, forms, colours }) {
     this.#program = program;
     this.#count = triangles.length;
-    const arrays = (this.#arrays = new Arrays(gl, program));
+    const arrays = (this.#arrays = new VertexArray(gl, program));
     arrays.bind();
-    arrays.put(gl.ELEMENT_ARRAY_BUFFER, triangles);
-    arrays.point('colour', 4, gl.UNSIGNED_BYTE, arrays.put(gl.ARRAY_BUFFER, colours));
-    this.#forms = forms.map((form) => arrays.put(gl.ARRAY_BUFFER, form));
+    arrays.addBuffer(gl.ELEMENT_ARRAY_BUFFER, triangles);
+    arrays.bindAttribute('colour', 4, gl.UNSIGNED_BYTE, arrays.addBuffer(gl.ARRAY_BUFFER, colours));
+    this.#forms = forms.map((form) => arrays.addBuffer(gl.ARRAY_BUFFER, form));
     gl.bindVertexArray(null);
   }
 
-  /** @param {number} share of the way through all forms */
+  /** @param {number} share position between the first form, 0, and the last, 1 */
   draw(share) {
     const { gl } = this.#arrays;
     const place = share * (this.#forms.length - 1);
     const first = Math.min(this.#forms.length - 2, Math.floor(place));
     this.#arrays.bind();
-    this.#arrays.point('from', 3, gl.FLOAT, this.#forms[first]);
-    this.#arrays.point('to', 3, gl.FLOAT, this.#forms[first + 1]);
-    gl.uniform1f(this.#program.at('share'), place - first);
+    this.#arrays.bindAttribute('from', 3, gl.FLOAT, this.#forms[first]);
+    this.#arrays.bindAttribute('to', 3, gl.FLOAT, this.#forms[first + 1]);
+    gl.uniform1f(this.#program.uniform('share'), place - first);
     gl.drawElements(gl.TRIANGLES, this.#count, gl.UNSIGNED_INT, 0);
     gl.bindVertexArray(null);
   }
@@ -189,19 +194,19 @@ export class Mesh {
 }
 
 /**
- * When the graphics card has done what it was asked for. Nothing waits meanwhile.
+ * Resolves when the graphics card has finished all commands, by polling a fence.
  * @param {WebGL2RenderingContext} gl
  * @returns {Promise<void>}
  */
-export function finished(gl) {
+export function waitForGpu(gl) {
   const fence = gl.fenceSync(gl.SYNC_GPU_COMMANDS_COMPLETE, 0);
   gl.flush();
   return new Promise((resolve) => {
-    const look = () => {
-      if (fence && gl.clientWaitSync(fence, 0, 0) === gl.TIMEOUT_EXPIRED) return void setTimeout(look, 1);
+    const poll = () => {
+      if (fence && gl.clientWaitSync(fence, 0, 0) === gl.TIMEOUT_EXPIRED) return void setTimeout(poll, 1);
       gl.deleteSync(fence);
       resolve();
     };
-    setTimeout(look, 1);
+    setTimeout(poll, 1);
   });
 }

@@ -1,9 +1,9 @@
-/** Values at the vertices of a hexagonal lattice, as images of the page. */
+/** Converts values at the vertices of a hexagonal lattice to images. */
 
 /** @import {Input} from '../session.js' */
 
 /**
- * @typedef {object} Lattice row 0 at the top, odd rows half a spacing to the left
+ * @typedef {object} Lattice row 0 is at the top; odd rows are shifted to the left by half a spacing
  * @property {number} rows
  * @property {number} cols
  * @property {number} spacing
@@ -11,7 +11,7 @@
  */
 
 /**
- * @typedef {object} Grid where the pixels of an image lie on the same plane
+ * @typedef {object} Grid the pixels of an image in the plane of the lattice
  * @property {number} width
  * @property {number} height
  * @property {number} pixelSize
@@ -19,66 +19,67 @@
  * @property {number} top
  */
 
-const ROW = Math.sqrt(3) / 2;
+/** Distance of two rows of the lattice, in spacings. */
+export const ROW_SPACING_RATIO = Math.sqrt(3) / 2;
 
 /**
- * Where an input's pixels lie.
+ * The pixels of an input, or those that show its lattice.
  * @param {Pick<Input, 'width' | 'height' | 'pixelSize' | 'lattice'>} input
  * @returns {Grid}
  */
 export function gridOf({ width, height, pixelSize, lattice }) {
-  return lattice ? gridOver(lattice) : { width, height, pixelSize, left: 0, top: height * pixelSize };
+  return lattice ? gridOverLattice(lattice) : { width, height, pixelSize, left: 0, top: height * pixelSize };
 }
 
 /**
- * Pixels as wide as the lattice's spacing, over all of it.
+ * Pixels that cover a lattice and are as wide as its spacing.
  * @param {Lattice} lattice
  * @returns {Grid}
  */
-export function gridOver({ rows, cols, spacing, origin = [0, 0] }) {
+export function gridOverLattice({ rows, cols, spacing, origin = [0, 0] }) {
   return {
     width: cols,
-    height: Math.max(1, Math.round((rows - 1) * ROW) + 1),
+    height: Math.max(1, Math.round((rows - 1) * ROW_SPACING_RATIO) + 1),
     pixelSize: spacing,
-    // Vertices of even rows lie at pixels' centres, and so does the top row.
+    // The vertices of the top row lie at the centres of pixels.
     left: origin[0] - 0.5 * spacing,
     top: origin[1] + 0.5 * spacing,
   };
 }
 
 /**
- * Linear along the rows of the lattice and between them; NaN outside and beside NaN.
+ * Interpolates values of a lattice at the pixels of a grid, linearly along and between rows; NaN outside and beside NaN.
  * @param {Lattice} lattice
  * @param {ArrayLike<number>} values
  * @param {Grid} grid
  */
-export function interpolated({ rows, cols, spacing, origin = [0, 0] }, values, { width, height, pixelSize, left, top }) {
+export function interpolateToGrid({ rows, cols, spacing, origin = [0, 0] }, values, { width, height, pixelSize, left, top }) {
   const out = new Float64Array(width * height).fill(NaN);
   /** @param {number} row @param {number} x in spacings, from the even rows' first vertex */
   const along = (row, x) => {
-    const place = within(x + 0.5 * (row % 2), cols);
+    const place = clampToRange(x + 0.5 * (row % 2), cols);
     const col = Math.floor(place);
     const from = row * cols + col;
-    return between(values[from], values[from + 1], place - col);
+    return interpolate(values[from], values[from + 1], place - col);
   };
   for (let i = 0, pixel = 0; i < height; i++) {
-    const down = within((origin[1] - top + (i + 0.5) * pixelSize) / (spacing * ROW), rows);
+    const down = clampToRange((origin[1] - top + (i + 0.5) * pixelSize) / (spacing * ROW_SPACING_RATIO), rows);
     const row = Math.floor(down);
     for (let k = 0; k < width; k++, pixel++) {
       if (Number.isNaN(down)) continue;
       const x = (left + (k + 0.5) * pixelSize - origin[0]) / spacing;
-      out[pixel] = down === row ? along(row, x) : between(along(row, x), along(row + 1, x), down - row);
+      out[pixel] = down === row ? along(row, x) : interpolate(along(row, x), along(row + 1, x), down - row);
     }
   }
   return out;
 }
 
 /**
- * A place among so many, NaN outside; a bit beyond the ends, as far as pixels reach, counts as them.
+ * An index clamped to the range of `count` items; NaN if it is farther outside than pixels of the border reach.
  * @param {number} place
  * @param {number} count
  */
-function within(place, count) {
+function clampToRange(place, count) {
   const inside = Math.min(count - 1, Math.max(0, place));
   return Math.abs(place - inside) < 0.6 ? inside : NaN;
 }
@@ -89,20 +90,20 @@ function within(place, count) {
  * @param {number} b
  * @param {number} share
  */
-function between(a, b, share) {
+function interpolate(a, b, share) {
   if (share < 1e-9) return a;
   return share > 1 - 1e-9 ? b : a * (1 - share) + b * share;
 }
 
 /**
- * The number of the vertex nearest to each pixel, -1 where that is more than a spacing away.
+ * The index of the vertex nearest to each pixel; -1 if it is more than a spacing away.
  * @param {Lattice} lattice
  * @param {Grid} grid
  */
-export function nearest({ rows, cols, spacing, origin = [0, 0] }, { width, height, pixelSize, left, top }) {
+export function nearestVertices({ rows, cols, spacing, origin = [0, 0] }, { width, height, pixelSize, left, top }) {
   const out = new Int32Array(width * height).fill(-1);
   for (let i = 0, pixel = 0; i < height; i++) {
-    const down = (origin[1] - top + (i + 0.5) * pixelSize) / (spacing * ROW);
+    const down = (origin[1] - top + (i + 0.5) * pixelSize) / (spacing * ROW_SPACING_RATIO);
     const row = Math.min(rows - 1, Math.max(0, Math.round(down)));
     if (Math.abs(down - row) > 1) continue;
     for (let k = 0; k < width; k++, pixel++) {

@@ -1,17 +1,21 @@
-/** The one light that both surfaces share. */
-import { NOTHING } from './raster.js';
-import { fillSteel } from './steel.js';
+/** The light, which input and result share. */
+import { EMPTY_ENTRY } from './raster.js';
+import { fillSteelTable } from './steel.js';
 
-/** How far from the middle the light may go: not quite down to the horizon. */
-const RIM = 0.96;
-const START = { x: -0.38, y: 0.42 };
-const SIDES = ['right', 'upper right', 'above', 'upper left', 'left', 'lower left', 'below', 'lower right'];
+/** Maximum distance of the light from the centre of the unit disk: not quite at the horizon. */
+const MAX_LIGHT_RADIUS = 0.96;
+/** Initial place of the light in the unit disk, y up. */
+const DEFAULT_POSITION = { x: -0.38, y: 0.42 };
+/** Names of directions, counter-clockwise in steps of 45°. */
+const DIRECTION_NAMES = ['right', 'upper right', 'above', 'upper left', 'left', 'lower left', 'below', 'lower right'];
+/** Maximum elevation at which the light has a direction; above, it is overhead. */
+const MAX_NAMED_ELEVATION_DEGREES = 82;
 
 export class Light {
-  x = START.x;
-  y = START.y;
-  /** Colours by normal, for the present direction. */
-  table = new Uint32Array(NOTHING + 1);
+  x = DEFAULT_POSITION.x;
+  y = DEFAULT_POSITION.y;
+  /** Colour of each normal under the light, as in `steel.js`. */
+  table = new Uint32Array(EMPTY_ENTRY + 1);
   /** @type {(() => void)[]} */
   #listeners = [];
   #stale = true;
@@ -22,12 +26,12 @@ export class Light {
   }
 
   /**
-   * Puts the light above a point of the disk of radius 1, `y` up.
+   * Moves the light above a point of the unit disk, `y` up.
    * @param {number} x
    * @param {number} y
    */
   moveTo(x, y) {
-    const shrink = Math.min(1, RIM / Math.max(Math.hypot(x, y), 1e-9));
+    const shrink = Math.min(1, MAX_LIGHT_RADIUS / Math.max(Math.hypot(x, y), 1e-9));
     this.x = x * shrink;
     this.y = y * shrink;
     this.#stale = true;
@@ -35,33 +39,33 @@ export class Light {
   }
 
   reset() {
-    this.moveTo(START.x, START.y);
+    this.moveTo(DEFAULT_POSITION.x, DEFAULT_POSITION.y);
   }
 
-  /** The colours for the present direction; made when they are asked for. */
+  /** The colour of each normal under the light; computed when needed. */
   colours() {
     if (this.#stale) {
       const z = Math.sqrt(1 - this.x * this.x - this.y * this.y);
-      fillSteel(this.table, [this.x, this.y, z]);
+      fillSteelTable(this.table, [this.x, this.y, z]);
       this.#stale = false;
     }
     return this.table;
   }
 
-  /** Degrees counter-clockwise from the right, 0 to 359. */
+  /** Azimuth in degrees, counter-clockwise from the right, 0 to 359. */
   get azimuth() {
     return (Math.round((Math.atan2(this.y, this.x) * 180) / Math.PI) + 360) % 360;
   }
 
-  /** Degrees above the surface. */
+  /** Elevation above the surface in degrees. */
   get elevation() {
     return Math.round((Math.acos(Math.min(1, Math.hypot(this.x, this.y))) * 180) / Math.PI);
   }
 
-  /** The direction in words. */
+  /** The direction of the light in words, for screen readers. */
   toString() {
-    if (this.elevation > 82) return 'light from straight overhead';
-    const side = SIDES[Math.round(this.azimuth / 45) % SIDES.length];
+    if (this.elevation > MAX_NAMED_ELEVATION_DEGREES) return 'light from straight overhead';
+    const side = DIRECTION_NAMES[Math.round(this.azimuth / 45) % DIRECTION_NAMES.length];
     return `light from ${side}, ${this.elevation}° above the surface`;
   }
 }

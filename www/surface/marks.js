@@ -1,24 +1,24 @@
-/** Pixels that are marked on top of a surface. */
+/** Marked pixels on top of a surface. */
 
 /**
- * @typedef {object} Marks
+ * @typedef {object} PixelMarks
  * @property {number} width
  * @property {number} height
  * @property {ArrayLike<number> & Iterable<number>} pixels
  * @property {string} colour
  */
 
-/** Least side of a mark, in pixels of the page: a single one is still seen. */
-const LEAST = 4;
+/** Minimum side of a mark in CSS pixels, so that a single one is visible. */
+const MIN_MARK_SIDE_PIXELS = 4;
 
 /**
- * All marks on a canvas of the surface's size on the screen.
- * @param {readonly Marks[]} marks
+ * Draws marks on a canvas of the size that the surface has on the screen.
+ * @param {readonly PixelMarks[]} marks
  * @param {number} width
  * @param {number} height
- * @param {number} ratio pixels of the screen for one of the page
+ * @param {number} ratio device pixels per CSS pixel
  */
-export function markedCanvas(marks, width, height, ratio) {
+export function drawMarks(marks, width, height, ratio) {
   const canvas = document.createElement('canvas');
   canvas.width = width;
   canvas.height = height;
@@ -27,7 +27,7 @@ export function markedCanvas(marks, width, height, ratio) {
   for (const { width: cols, height: rows, pixels, colour } of marks) {
     context.fillStyle = colour;
     const [across, down] = [width / cols, height / rows];
-    const [w, h] = [Math.max(across, LEAST * ratio), Math.max(down, LEAST * ratio)];
+    const [w, h] = [Math.max(across, MIN_MARK_SIDE_PIXELS * ratio), Math.max(down, MIN_MARK_SIDE_PIXELS * ratio)];
     for (const i of pixels) {
       const [x, y] = [(i % cols + 0.5) * across, (Math.floor(i / cols) + 0.5) * down];
       context.fillRect(x - w / 2, y - h / 2, w, h);

@@ -1,22 +1,23 @@
-/** A mesh to be turned, drawn by three.js, which is loaded when the first mesh is there. */
-import { Lines, programOf } from './gl.js';
+/** Shows a mesh that can be turned, by three.js, which is loaded with the first mesh. */
+import { LineBuffers, programOf } from './gl.js';
 import { lineFragment, lineVertex } from './shaders.js';
+import { ARROW_DIRECTIONS } from './view-keys.js';
 
 /** @import {Mesh} from '../api.js' */
 /** @import {Program} from './gl.js' */
 /** @import {Line} from './layer.js' */
 /** @typedef {readonly [number, number, number]} Vector */
 
-/** Radius of the mesh as it is drawn, and of what is seen at first. */
-const RADIUS = 1;
-const SEEN = 1.04;
-const DISTANCE = 10;
-/** What is seen lies so far before and behind the middle; the less, the nearer lines lie to what they are drawn on. */
-const DEPTH = 2;
-/** Turned by each press of an arrow key, in radians. */
-const KEY_STEP = Math.PI / 24;
-/** @type {Record<string, readonly [number, number]>} left and up */
-const ARROWS = { ArrowLeft: [1, 0], ArrowRight: [-1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] };
+/** Radius of the drawn mesh, which is scaled to it. */
+const MESH_RADIUS = 1;
+/** Half of the initial view's shorter side, in units of the drawn mesh. */
+const VIEW_HALF_WIDTH = 1.04;
+/** Distance of the camera from the centre. */
+const CAMERA_DISTANCE = 10;
+/** Half of the visible depth range. A smaller one brings lines nearer to the surface they are drawn on. */
+const VIEW_HALF_DEPTH = 2;
+/** Rotation for a press of an arrow key. */
+const KEY_TURN_RADIANS = Math.PI / 24;
 
 export class MeshView {
   #three;
@@ -24,28 +25,29 @@ export class MeshView {
   #scene;
   #camera;
   #controls;
-  /** What is shown left and right of the divider. @type {any[]} */
-  #shown = [];
+  /** The objects left and right of the divider. @type {any[]} */
+  #objects = [];
   #divider = 1;
   #material;
-  /** On what is right of the divider. @type {Lines | null} */
+  /** Lines on the object right of the divider. @type {LineBuffers | null} */
   #lines = null;
   /** @type {Program | null} */
-  #liner = null;
+  #lineProgram = null;
   /** @type {any} */
-  #ray = null;
-  /** It is not turned by hand now. */
-  #looking = false;
-  /** The direction at the last change. */
-  #last = '';
+  #raycaster = null;
+  /** Whether `setDirection` is turning the mesh, and not the user. */
+  #isSettingDirection = false;
+  /** The direction of view at the last change, as a string. */
+  #lastDirection = '';
 
   /**
+   * Creates a view on a canvas.
    * @param {HTMLCanvasElement} canvas
-   * @param {(view: MeshView) => void} [turned] by hand or by keys
-   * @param {Record<string, unknown>} [material] of surfaces, as three.js has it
-   * @throws where there is no WebGL
+   * @param {(view: MeshView) => void} [turned] called when the user has turned the mesh
+   * @param {Record<string, unknown>} [material] parameters of three.js for the material of surfaces
+   * @throws without WebGL
    */
-  static async on(canvas, turned = () => {}, material = {}) {
+  static async create(canvas, turned = () => {}, material = {}) {
     const three = await import(new URL('../vendor/three.js', import.meta.url).href);
     return new MeshView(canvas, three, turned, material);
   }
@@ -62,8 +64,8 @@ export class MeshView {
     this.#three = three;
     this.#renderer = new three.WebGLRenderer({ canvas, antialias: true, alpha: true });
     this.#scene = new three.Scene();
-    this.#camera = new three.OrthographicCamera(-SEEN, SEEN, SEEN, -SEEN, DISTANCE - DEPTH, DISTANCE + DEPTH);
-    // The light comes along with the viewer.
+    this.#camera = new three.OrthographicCamera(-VIEW_HALF_WIDTH, VIEW_HALF_WIDTH, VIEW_HALF_WIDTH, -VIEW_HALF_WIDTH, CAMERA_DISTANCE - VIEW_HALF_DEPTH, CAMERA_DISTANCE + VIEW_HALF_DEPTH);
+    // The light moves with the camera.
     const light = new three.DirectionalLight(0xffffff, 2.6);
     light.position.set(-0.9, 0.8, 0.7);
     this.#camera.add(light);
@@ -73,61 +75,62 @@ export class MeshView {
     this.#controls.addEventListener('change', () => {
       this.#draw();
       const now = String(this.direction);
-      // Zooming turns nothing.
-      if (!this.#looking && now !== this.#last) turned(this);
-      this.#last = now;
+      // Zooming does not change the direction.
+      if (!this.#isSettingDirection && now !== this.#lastDirection) turned(this);
+      this.#lastDirection = now;
     });
     new ResizeObserver(() => this.#draw()).observe(canvas);
     canvas.addEventListener('keydown', (event) => {
-      const arrow = ARROWS[event.key];
+      const arrow = ARROW_DIRECTIONS[event.key];
       if (!arrow) return;
       event.preventDefault();
-      this.#controls.rotateLeft(KEY_STEP * arrow[0]);
-      this.#controls.rotateUp(KEY_STEP * arrow[1]);
+      this.#controls.rotateLeft(-KEY_TURN_RADIANS * arrow[0]);
+      this.#controls.rotateUp(KEY_TURN_RADIANS * arrow[1]);
       this.#controls.update();
     });
-    this.look([0, 0, -1]);
+    this.setDirection([0, 0, -1]);
   }
 
   /**
+   * Shows a mesh, or two meshes on both sides of the divider.
    * @param {Mesh} mesh
-   * @param {Mesh} [after] at the same place, on the other side of the divider
-   * @param {readonly Line[]} [lines] on what is after
+   * @param {Mesh} [after] mesh right of the divider, in the same coordinates
+   * @param {readonly Line[]} [lines] lines on the mesh right of the divider
    */
   show(mesh, after, lines = []) {
-    for (const { geometry, material } of this.#shown) {
+    for (const { geometry, material } of this.#objects) {
       geometry.dispose();
       material.dispose();
     }
-    this.#scene.remove(...this.#shown);
-    const frame = frameOf(mesh.positions);
-    this.#shown = [mesh, ...(after ? [after] : [])].map((one) => this.#made(one, frame));
-    this.#scene.add(...this.#shown);
-    this.#rule(lines, frame);
+    this.#scene.remove(...this.#objects);
+    const frame = normalisingFrame(mesh.positions);
+    this.#objects = [mesh, ...(after ? [after] : [])].map((one) => this.#createObject(one, frame));
+    this.#scene.add(...this.#objects);
+    this.#setLines(lines, frame);
     this.#draw();
   }
 
-  /** @param {readonly Line[]} lines @param {Frame} frame */
-  #rule(lines, frame) {
+  /** Replaces the lines. @param {readonly Line[]} lines @param {Frame} frame */
+  #setLines(lines, frame) {
     this.#lines?.dispose();
     this.#lines = null;
     if (lines.length > 0) {
       const gl = this.#renderer.getContext();
-      this.#liner ??= programOf(gl, lineVertex, lineFragment);
+      this.#lineProgram ??= programOf(gl, lineVertex, lineFragment);
       const { middle, scale } = frame;
       /** @param {readonly number[]} point */
       const placed = (point) => /** @type {[number, number, number]} */ (point.map((value, k) => (value - middle[k]) * scale));
-      this.#lines = new Lines(gl, this.#liner, lines.map((line) => ({ ...line, points: line.points.map(placed) })));
+      this.#lines = new LineBuffers(gl, this.#lineProgram, lines.map((line) => ({ ...line, points: line.points.map(placed) })));
     }
-    // three.js keeps in mind what was bound.
+    // three.js caches the state of WebGL, which has changed.
     this.#renderer.resetState();
   }
 
-  /** @param {Mesh} mesh @param {Frame} frame */
-  #made({ positions, triangles, colors }, frame) {
+  /** Creates the object of three.js for a mesh or a point cloud. @param {Mesh} mesh @param {Frame} frame */
+  #createObject({ positions, triangles, colors }, frame) {
     const three = this.#three;
     const geometry = new three.BufferGeometry();
-    geometry.setAttribute('position', new three.BufferAttribute(within(frame, positions), 3));
+    geometry.setAttribute('position', new three.BufferAttribute(normalise(frame, positions), 3));
     if (colors) geometry.setAttribute('color', new three.BufferAttribute(colors, 3));
     const paint = colors ? { vertexColors: true } : { color: 0x9fb2c4 };
     if (triangles.length === 0) return new three.Points(geometry, new three.PointsMaterial({ ...paint, size: 2, sizeAttenuation: false }));
@@ -136,45 +139,45 @@ export class MeshView {
     return new three.Mesh(geometry, new three.MeshLambertMaterial({ ...paint, ...this.#material, side: three.DoubleSide }));
   }
 
-  /** @param {number} share of the canvas that shows what was before */
+  /** Moves the divider. @param {number} share of the canvas left of it */
   divide(share) {
     this.#divider = share;
     this.#draw();
   }
 
   /**
-   * What is seen at a place of the canvas: which side of the divider, and where on which triangle.
+   * Finds the triangle at a place of the canvas.
    * @param {{ offsetX: number, offsetY: number }} place
-   * @returns {{ after: boolean, triangle: number, shares: Vector } | null} `shares`: of its three corners
+   * @returns {{ after: boolean, triangle: number, shares: Vector } | null} `after`: right of the divider; `shares`: barycentric coordinates; null without a triangle
    */
-  under({ offsetX, offsetY }) {
+  pick({ offsetX, offsetY }) {
     const { clientWidth: width, clientHeight: height } = this.canvas;
-    const after = this.#shown.length > 1 && offsetX >= this.#divider * width;
-    const shown = this.#shown[after ? 1 : 0];
-    if (!shown?.isMesh || width === 0) return null;
-    this.#ray ??= new this.#three.Raycaster();
-    this.#ray.setFromCamera({ x: (2 * offsetX) / width - 1, y: 1 - (2 * offsetY) / height }, this.#camera);
-    const [first] = this.#ray.intersectObject(shown, false);
+    const after = this.#objects.length > 1 && offsetX >= this.#divider * width;
+    const object = this.#objects[after ? 1 : 0];
+    if (!object?.isMesh || width === 0) return null;
+    this.#raycaster ??= new this.#three.Raycaster();
+    this.#raycaster.setFromCamera({ x: (2 * offsetX) / width - 1, y: 1 - (2 * offsetY) / height }, this.#camera);
+    const [first] = this.#raycaster.intersectObject(object, false);
     if (!first) return null;
     const { x, y, z } = first.barycoord;
     return { after, triangle: first.faceIndex, shares: [x, y, z] };
   }
 
-  /** Where the viewer looks. @returns {[number, number, number]} */
+  /** The direction of view. @returns {[number, number, number]} */
   get direction() {
     const { x, y, z } = this.#camera.position;
     const length = Math.hypot(x, y, z);
     return [-x / length, -y / length, -z / length];
   }
 
-  /** @param {Vector} direction */
-  look([x, y, z]) {
+  /** Sets the direction of view, and resets the zoom. @param {Vector} direction */
+  setDirection([x, y, z]) {
     this.#camera.zoom = 1;
     this.#camera.updateProjectionMatrix();
-    this.#camera.position.set(-x, -y, -z).normalize().multiplyScalar(DISTANCE);
-    this.#looking = true;
+    this.#camera.position.set(-x, -y, -z).normalize().multiplyScalar(CAMERA_DISTANCE);
+    this.#isSettingDirection = true;
     this.#controls.update();
-    this.#looking = false;
+    this.#isSettingDirection = false;
     this.#draw();
   }
 
@@ -183,58 +186,58 @@ export class MeshView {
     if (width === 0) return;
     this.#renderer.setPixelRatio(window.devicePixelRatio);
     this.#renderer.setSize(width, height, false);
-    const across = SEEN * Math.max(1, width / height);
-    const up = SEEN * Math.max(1, height / width);
+    const across = VIEW_HALF_WIDTH * Math.max(1, width / height);
+    const up = VIEW_HALF_WIDTH * Math.max(1, height / width);
     Object.assign(this.#camera, { left: -across, right: across, top: up, bottom: -up });
     this.#camera.updateProjectionMatrix();
-    const line = this.#shown.length > 1 ? Math.round(this.#divider * width) : width;
+    const line = this.#objects.length > 1 ? Math.round(this.#divider * width) : width;
     this.#renderer.setScissorTest(true);
     for (const [i, from, to] of [[0, 0, line], [1, line, width]]) {
       if (to <= from) continue;
-      this.#shown.forEach((one, which) => (one.visible = which === i));
+      this.#objects.forEach((one, which) => (one.visible = which === i));
       this.#renderer.setScissor(from, 0, to - from, height);
       this.#renderer.render(this.#scene, this.#camera);
       if (i === 1) this.#drawLines();
     }
   }
 
-  /** Over what three.js has drawn, by the same camera. */
+  /** Draws the lines over the picture of three.js, by the same camera. */
   #drawLines() {
-    if (!this.#lines || !this.#liner) return;
+    if (!this.#lines || !this.#lineProgram) return;
     const gl = this.#renderer.getContext();
-    const { program, at } = this.#liner;
+    const { program, uniform } = this.#lineProgram;
     const [right, up, towards] = [0, 4, 8].map((column) => this.#camera.matrixWorld.elements.slice(column, column + 3));
     const { elements: projection } = this.#camera.projectionMatrix;
     gl.enable(gl.DEPTH_TEST);
     gl.disable(gl.BLEND);
     gl.disable(gl.CULL_FACE);
     gl.useProgram(program);
-    gl.uniformMatrix3fv(at('axes'), false, [...right, ...up, ...towards]);
-    gl.uniform3f(at('middle'), 0, 0, 0);
-    gl.uniform1f(at('exaggeration'), 1);
-    gl.uniform3f(at('scale'), projection[0], projection[5], -projection[10]);
-    gl.uniform2f(at('shift'), 0, 0);
-    gl.uniform2f(at('canvas'), this.canvas.width, this.canvas.height);
-    gl.uniform1f(at('ratio'), window.devicePixelRatio);
+    gl.uniformMatrix3fv(uniform('axes'), false, [...right, ...up, ...towards]);
+    gl.uniform3f(uniform('middle'), 0, 0, 0);
+    gl.uniform1f(uniform('exaggeration'), 1);
+    gl.uniform3f(uniform('scale'), projection[0], projection[5], -projection[10]);
+    gl.uniform2f(uniform('shift'), 0, 0);
+    gl.uniform2f(uniform('canvas'), this.canvas.width, this.canvas.height);
+    gl.uniform1f(uniform('ratio'), window.devicePixelRatio);
     this.#lines.draw();
     this.#renderer.resetState();
   }
 }
 
-/** @typedef {{ middle: number[], scale: number }} Frame into the ball that is seen */
+/** @typedef {{ middle: number[], scale: number }} Frame maps a mesh to the ball that the view shows */
 
-/** @param {Float64Array} positions @returns {Frame} */
-function frameOf(positions) {
+/** The frame that centres positions and scales them to the radius of the drawn mesh. @param {Float64Array} positions @returns {Frame} */
+function normalisingFrame(positions) {
   const [low, high] = [[Infinity, Infinity, Infinity], [-Infinity, -Infinity, -Infinity]];
   positions.forEach((value, i) => {
     low[i % 3] = Math.min(low[i % 3], value);
     high[i % 3] = Math.max(high[i % 3], value);
   });
-  const scale = (2 * RADIUS) / (Math.hypot(...low.map((value, k) => high[k] - value)) || 1);
+  const scale = (2 * MESH_RADIUS) / (Math.hypot(...low.map((value, k) => high[k] - value)) || 1);
   return { middle: low.map((value, k) => (value + high[k]) / 2), scale };
 }
 
-/** Moved and scaled: 32-bit floats are enough for that. @param {Frame} frame @param {Float64Array} positions */
-function within({ middle, scale }, positions) {
+/** Centres and scales positions, after which 32-bit floats are precise enough. @param {Frame} frame @param {Float64Array} positions */
+function normalise({ middle, scale }, positions) {
   return Float32Array.from(positions, (value, i) => (value - middle[i % 3]) * scale);
 }

@@ -1,17 +1,19 @@
-/** Unit normals of a height image, once per surface. */
+/** Unit normals of a height image. */
 
 /**
  * @typedef {object} Normals
  * @property {number} width
  * @property {number} height
- * @property {Int16Array} xy x and y of each unit normal times {@link UNIT}; x is {@link HOLE} where there is none
+ * @property {Int16Array} xy x and y of each unit normal times {@link NORMAL_SCALE}; x is {@link NO_NORMAL} without data
  */
 
-export const UNIT = 32767;
-export const HOLE = -32768;
+/** Factor from components of a unit normal to 16-bit integers. */
+export const NORMAL_SCALE = 32767;
+/** x of a pixel without a normal. */
+export const NO_NORMAL = -32768;
 
 /**
- * Central differences; one-sided beside a hole or the border, level where a pixel stands alone.
+ * Computes normals by central differences, one-sided beside a hole or the border. An isolated pixel has a vertical normal.
  * @param {ArrayLike<number>} heights row by row, top row first, NaN for no data
  * @param {number} width
  * @param {number} height
@@ -24,7 +26,7 @@ export function normalsOf(heights, width, height, steepness) {
     for (let col = 0; col < width; col++, i++) {
       const z = heights[i];
       if (Number.isNaN(z)) {
-        xy[2 * i] = HOLE;
+        xy[2 * i] = NO_NORMAL;
         continue;
       }
       const west = col > 0 ? heights[i - 1] : NaN;
@@ -33,7 +35,7 @@ export function normalsOf(heights, width, height, steepness) {
       const north = row > 0 ? heights[i - width] : NaN;
       const x = -steepness * difference(west, z, east);
       const y = -steepness * difference(south, z, north);
-      const scale = UNIT / Math.sqrt(x * x + y * y + 1);
+      const scale = NORMAL_SCALE / Math.sqrt(x * x + y * y + 1);
       xy[2 * i] = Math.round(x * scale);
       xy[2 * i + 1] = Math.round(y * scale);
     }
@@ -42,6 +44,7 @@ export function normalsOf(heights, width, height, steepness) {
 }
 
 /**
+ * The central difference; one-sided beside NaN, 0 between two NaN.
  * @param {number} before
  * @param {number} here
  * @param {number} after

@@ -1,17 +1,17 @@
-/** How surfaces, lines and points in space are drawn, for WebGL 2. */
-import { STUDIO } from './steel.js';
+/** The shaders for surfaces, meshes and lines in space, in GLSL ES 3.00. */
+import { STUDIO_GLSL } from './steel.js';
 
-/** Heights at or below this are none. */
+/** Height of a texel without data. */
 export const NO_HEIGHT = -1e30;
 
-/** From lengths to the screen, the same for all. */
+/** The projection from space to the screen, which all vertex shaders share. */
 const CAMERA = `#version 300 es
 precision highp float;
 precision highp sampler2D;
 uniform mat3 axes; // columns: to the right, up, towards the viewer
 uniform vec3 middle;
 uniform float exaggeration;
-uniform vec3 scale; // of the screen, and of depth
+uniform vec3 scale; // of x and y on the screen, and of depth
 uniform vec2 shift;
 vec4 placed(vec3 point, float nearer) {
   vec3 d = (point - middle) * vec3(1.0, 1.0, exaggeration);
@@ -20,7 +20,7 @@ vec4 placed(vec3 point, float nearer) {
 }
 `;
 
-/** A strip for each row, without arrays: heights come from a texture. */
+/** A triangle strip for each row of quads. There are no attributes: heights come from a texture. */
 export const surfaceVertex = `${CAMERA}
 uniform sampler2D heights;
 uniform vec4 extent; // left, top, width, height
@@ -43,7 +43,7 @@ void main() {
     float weight = (step.x == 1 ? t.x : 1.0 - t.x) * (step.y == 1 ? t.y : 1.0 - t.y) + 1e-4;
     if (z > ${NO_HEIGHT.toExponential()} * 0.5) sum += weight * vec2(z, 1.0);
   }
-  // Beyond an edge, as high as the surface beside it.
+  // Without data here, take the mean height of nearby texels.
   ivec2 reach = max(size / cells, ivec2(1));
   for (int r = 1; r <= 2 && sum.y == 0.0; r++) for (int k = 0; k < 9; k++) {
     float z = heightAt(corner + r * reach * ivec2(k % 3 - 1, k / 3 - 1), size);
@@ -53,11 +53,11 @@ void main() {
   gl_Position = placed(vec3(extent.x + place.x * extent.z, extent.y - place.y * extent.w, z), 0.0);
 }`;
 
-/** Steel, or colours with the shape showing through as the flat picture has it. */
+/** The colour of steel under the light, and its blend with other colours by soft light, as in `surface-view.js`. */
 const SHADE = `
 uniform vec3 light; // in the viewer's coordinates
 uniform mat3 axes;
-${STUDIO}
+${STUDIO_GLSL}
 vec3 softLight(vec3 base, vec3 top) {
   vec3 d = mix(sqrt(base), ((16.0 * base - 12.0) * base + 4.0) * base, vec3(lessThanEqual(base, vec3(0.25))));
   vec3 dark = base - (1.0 - 2.0 * top) * base * (1.0 - base);
@@ -94,7 +94,7 @@ void main() {
   pixel = vec4(coloured ? covered(metal, texture(colours, place)) : metal, 1.0);
 }`;
 
-/** A mesh between two of its positions, with a colour for each vertex. */
+/** A mesh between two forms, with a colour for each vertex. */
 export const meshVertex = `${CAMERA}
 in vec3 from;
 in vec3 to;
@@ -119,7 +119,7 @@ void main() {
   pixel = vec4(covered(shaded(normalize(cross(dFdx(point), dFdy(point)))), tint), 1.0);
 }`;
 
-/** A segment as a bar of even width on the screen; one whose ends are the same is a square. */
+/** A line segment as a bar of constant width on the screen; a segment of length 0 is a square. */
 export const lineVertex = `${CAMERA}
 in vec3 a;
 in vec3 b;

@@ -1,15 +1,16 @@
-/** A small picture of heights, lit from the upper left. */
-import { HOLE, normalsOf, UNIT } from './normals.js';
+/** Small pictures of heights, lit from the upper left. */
+import { NO_NORMAL, normalsOf, NORMAL_SCALE } from './normals.js';
 
-const LIGHT = [-0.5, 0.55, 0.67];
-/** Pixels along a side of a picture of two: twice what it is shown with, for lines of text are fine. */
-const BESIDE = 224;
+/** Unit vector to the light, y up. */
+const LIGHT_DIRECTION = [-0.5, 0.55, 0.67];
+/** Side of a picture of a pair: twice its displayed size, so that lines of text stay visible. */
+const PAIR_SIDE_PIXELS = 224;
 
 /**
- * One surface on the left half of a picture, and another on the right half.
+ * Draws the left half of one picture and the right half of another.
  * @param {HTMLCanvasElement} canvas
  * @param {HTMLCanvasElement} before
- * @param {HTMLCanvasElement} after as large
+ * @param {HTMLCanvasElement} after of the same size
  */
 export function drawHalves(canvas, before, after) {
   const { width, height } = before;
@@ -24,31 +25,32 @@ export function drawHalves(canvas, before, after) {
 }
 
 /**
- * Two whole pictures beside each other.
+ * Draws two whole pictures side by side.
  * @param {HTMLCanvasElement} canvas
  * @param {HTMLCanvasElement | HTMLImageElement} before
  * @param {HTMLCanvasElement | HTMLImageElement} after
  */
-export function drawBeside(canvas, before, after) {
-  Object.assign(canvas, { width: BESIDE, height: BESIDE });
+export function drawPair(canvas, before, after) {
+  Object.assign(canvas, { width: PAIR_SIDE_PIXELS, height: PAIR_SIDE_PIXELS });
   const context = canvas.getContext('2d');
   if (!context) return;
-  const half = BESIDE / 2;
+  const half = PAIR_SIDE_PIXELS / 2;
   context.fillStyle = '#fff';
-  context.fillRect(half, 0, half, BESIDE);
+  context.fillRect(half, 0, half, PAIR_SIDE_PIXELS);
   [before, after].forEach((picture, side) => {
-    const scale = Math.min(half / picture.width, BESIDE / picture.height);
+    const scale = Math.min(half / picture.width, PAIR_SIDE_PIXELS / picture.height);
     const [width, height] = [scale * picture.width, scale * picture.height];
-    context.drawImage(picture, side * half + (half - width) / 2, (BESIDE - height) / 2, width, height);
+    context.drawImage(picture, side * half + (half - width) / 2, (PAIR_SIDE_PIXELS - height) / 2, width, height);
   });
   context.fillStyle = '#4a90c2';
-  context.fillRect(half - 1, 0, 2, BESIDE);
+  context.fillRect(half - 1, 0, 2, PAIR_SIDE_PIXELS);
 }
 
 /**
- * @param {HTMLCanvasElement} canvas becomes as large as the heights
+ * Draws shaded heights.
+ * @param {HTMLCanvasElement} canvas gets the size of the heights
  * @param {{ width: number, height: number, data: ArrayLike<number> }} heights
- * @param {number} slope height of a step over the side of a pixel
+ * @param {number} slope unit of the heights over the side of a pixel
  */
 export function drawThumbnail(canvas, { width, height, data }, slope) {
   Object.assign(canvas, { width, height });
@@ -57,9 +59,9 @@ export function drawThumbnail(canvas, { width, height, data }, slope) {
   const { xy } = normalsOf(Float64Array.from(data), width, height, slope);
   const image = context.createImageData(width, height);
   for (let i = 0; i < width * height; i++) {
-    if (xy[2 * i] === HOLE) continue;
-    const [x, y] = [xy[2 * i] / UNIT, xy[2 * i + 1] / UNIT];
-    const light = x * LIGHT[0] + y * LIGHT[1] + Math.sqrt(Math.max(0, 1 - x * x - y * y)) * LIGHT[2];
+    if (xy[2 * i] === NO_NORMAL) continue;
+    const [x, y] = [xy[2 * i] / NORMAL_SCALE, xy[2 * i + 1] / NORMAL_SCALE];
+    const light = x * LIGHT_DIRECTION[0] + y * LIGHT_DIRECTION[1] + Math.sqrt(Math.max(0, 1 - x * x - y * y)) * LIGHT_DIRECTION[2];
     const grey = 40 + 205 * Math.max(0, light) ** 1.3;
     image.data.set([grey * 0.94, grey * 0.97, grey, 255], 4 * i);
   }

@@ -1,11 +1,11 @@
-/** Triangles as pixels: more of them than a canvas draws in a moment. */
+/** Rasterises triangles, faster than a canvas draws many of them. */
 
 /**
- * Visits the pixels whose centres lie in a triangle, for each triangle; those on an edge, in both.
+ * Visits the pixels whose centres lie in a triangle, for each triangle. A pixel on a common edge is visited for both.
  * @param {{ width: number, height: number }} image
  * @param {ArrayLike<number>} triangles three corners each
  * @param {ArrayLike<number>} places x, y of each corner in pixels, y down, (0, 0) the upper left corner
- * @param {(pixel: number, triangle: number, a: number, b: number, c: number) => void} visit with the corners' weights
+ * @param {(pixel: number, triangle: number, a: number, b: number, c: number) => void} visit gets the barycentric coordinates a, b, c
  */
 export function fillTriangles({ width, height }, triangles, places, visit) {
   for (let t = 0; 3 * t < triangles.length; t++) {
@@ -23,7 +23,7 @@ export function fillTriangles({ width, height }, triangles, places, visit) {
         const x = col + 0.5;
         const b = ((x - ax) * (cy - ay) - (y - ay) * (cx - ax)) / area;
         const c = ((bx - ax) * (y - ay) - (by - ay) * (x - ax)) / area;
-        // So that rounding leaves no gap between neighbours.
+        // The tolerance prevents gaps between neighbours by rounding.
         if (b > -1e-6 && c > -1e-6 && b + c < 1 + 1e-6) visit(row * width + col, t, 1 - b - c, b, c);
       }
     }
@@ -32,7 +32,7 @@ export function fillTriangles({ width, height }, triangles, places, visit) {
 
 /** @typedef {{ left: number, top: number, width: number, height: number }} Extent y up */
 
-/** Around places on the plane. @param {ArrayLike<number>} places x, y and what else there is @param {number} [stride] numbers for each */
+/** The bounding rectangle of places in the plane. @param {ArrayLike<number>} places x, y and further coordinates @param {number} [stride] coordinates per place */
 export function extentOf(places, stride = 2) {
   let [left, right, bottom, top] = [Infinity, -Infinity, Infinity, -Infinity];
   for (let i = 0; i < places.length; i += stride) {

@@ -1,75 +1,79 @@
 /**
- * The way of a surface from its bent form to the flat one, in steps that stretch it as little as may be.
+ * Unfolds a surface: the forms between its bent and its flat form, with as little stretch as possible.
  *
- * Each triangle's map from the sheet to space is a rotation times a stretch, and is interpolated as such; the
- * vertices follow by least squares over the edges (as-rigid-as-possible interpolation, Alexa et al. 2000).
+ * Each triangle's map from the sheet to space is a rotation times a stretch (polar decomposition); both are interpolated. The
+ * vertices follow by least squares over the edges (as-rigid-as-possible shape interpolation, Alexa et al. 2000).
  */
-import { anchored } from './anchors.js';
+import { anchorLines } from './anchored-lines.js';
 import { divergingPixel } from './colours.js';
 
-/** Steps from bent to flat. */
-const STEPS = 20;
-const ITERATIONS = 400;
-const TOLERANCE = 2e-4;
+/** Number of intervals between the bent and the flat form. */
+const MORPH_STEPS = 20;
+/** Maximum number of iterations of conjugate gradients per form. */
+const MAX_CG_ITERATIONS = 400;
+/** Relative residual at which conjugate gradients stop. */
+const CG_TOLERANCE = 2e-4;
 
 /**
+ * Computes the forms of an unfolding, coloured by strain.
  * @param {object} unrolling
  * @param {Float64Array} unrolling.positions x, y, z of each vertex
  * @param {Float64Array} unrolling.places x, y on the sheet
  * @param {Uint32Array} unrolling.triangles
- * @param {Float64Array} unrolling.stretches
- * @param {number} most strain at the end of the colours
- * @param {readonly [number, number]} offset of the plane that the surface is over
- * @param {Parameters<typeof anchored>[0]} [lines] on the surface
+ * @param {Float64Array} unrolling.stretches singular values of each triangle's map to the sheet
+ * @param {number} most strain at the end of the colour scale
+ * @param {readonly [number, number]} offset added to x and y of the positions
+ * @param {Parameters<typeof anchorLines>[0]} [lines] lines on the surface
  */
-export function unfolding({ positions, places, triangles, stretches }, most, [left, bottom], lines = []) {
+export function computeUnfolding({ positions, places, triangles, stretches }, most, [left, bottom], lines = []) {
   const n = places.length / 2;
   const bent = positions.map((value, i) => value + [left, bottom, 0][i % 3]);
   const flat = new Float64Array(3 * n);
   const middle = mean(bent, 3);
   const [px, py] = mean(places, 2);
   for (let i = 0; i < n; i++) flat.set([places[2 * i] - px + middle[0], places[2 * i + 1] - py + middle[1], middle[2]], 3 * i);
-  const maps = mapsOf(flat, bent, triangles);
-  const graph = graphOf(triangles, n);
-  // Least squares leave open where each part is: where it would be on a straight way. So what is solved for is how far
-  // each form is off that way, which goes on from form to form.
+  const maps = triangleMaps(flat, bent, triangles);
+  const graph = edgeGraph(triangles, n);
+  // Least squares do not determine the translation of a connected part, which is interpolated linearly instead. The solver
+  // starts from the linear interpolation plus its deviation extrapolated from the two forms before.
   let [before, last] = [new Float64Array(3 * n), new Float64Array(3 * n)];
-  const forms = Array.from({ length: STEPS + 1 }, (_, step) => {
-    const share = 1 - step / STEPS;
-    if (step === 0 || step === STEPS) return Float32Array.from(step === 0 ? bent : flat);
+  const forms = Array.from({ length: MORPH_STEPS + 1 }, (_, step) => {
+    const share = 1 - step / MORPH_STEPS;
+    if (step === 0 || step === MORPH_STEPS) return Float32Array.from(step === 0 ? bent : flat);
     const straight = flat.map((value, i) => value + share * (bent[i] - value));
     const form = straight.map((value, i) => value + 2 * last[i] - before[i]);
-    solve(graph, rightSide(maps, flat, triangles, share), form);
+    solveLaplacian(graph, rightHandSide(maps, flat, triangles, share), form);
     [before, last] = [last, form.map((value, i) => value - straight[i])];
     return Float32Array.from(form);
   });
-  const strains = strainsOf(triangles, stretches, n);
+  const strains = vertexStrains(triangles, stretches, n);
   const colours = new Uint8Array(Uint32Array.from(strains, (strain) => divergingPixel(strain / most)).buffer);
-  return { triangles, forms, strains, colours, lines: anchored(lines, bent, triangles) };
+  return { triangles, forms, strains, colours, lines: anchorLines(lines, bent, triangles) };
 }
 
-/** @param {Float64Array} values @param {number} size of each */
+/** The mean of points. @param {Float64Array} values @param {number} size number of coordinates */
 function mean(values, size) {
   const sums = new Float64Array(size);
   values.forEach((value, i) => (sums[i % size] += value));
   return sums.map((sum) => (sum * size) / values.length);
 }
 
-/** @typedef {{ axis: [number, number, number], angle: number, stretch: [number, number, number] }} Map3 stretch: xx, xy, yy */
+/** @typedef {{ axis: [number, number, number], angle: number, stretch: [number, number, number] }} TriangleMap polar decomposition of a triangle's map; stretch: xx, xy, yy */
 
 /**
+ * The polar decomposition of each triangle's map from the flat to the bent form.
  * @param {Float64Array} flat
  * @param {Float64Array} bent
  * @param {Uint32Array} triangles
- * @returns {Map3[]}
+ * @returns {TriangleMap[]}
  */
-function mapsOf(flat, bent, triangles) {
+function triangleMaps(flat, bent, triangles) {
   return Array.from({ length: triangles.length / 3 }, (_, t) => {
     const [i, j, k] = [3 * triangles[3 * t], 3 * triangles[3 * t + 1], 3 * triangles[3 * t + 2]];
     const [ax, ay, bx, by] = [flat[j] - flat[i], flat[j + 1] - flat[i + 1], flat[k] - flat[i], flat[k + 1] - flat[i + 1]];
     const area = ax * by - ay * bx;
     if (!(Math.abs(area) > 1e-12 * (ax * ax + ay * ay + bx * bx + by * by))) return { axis: [1, 0, 0], angle: 0, stretch: [1, 0, 1] };
-    // Columns of the map: where the sheet's axes go.
+    // Columns of the map: the images of the sheet's axes.
     const [first, second] = [j, k].map((corner) => [0, 1, 2].map((d) => bent[corner + d] - bent[i + d]));
     const columns = [
       first.map((value, d) => (value * by - second[d] * ay) / area),
@@ -97,12 +101,13 @@ function dot(a, b) {
 }
 
 /**
- * @param {Map3[]} maps
+ * The right-hand side of the least-squares problem: the divergence of the interpolated edge vectors.
+ * @param {TriangleMap[]} maps
  * @param {Float64Array} flat
  * @param {Uint32Array} triangles
- * @param {number} share of the way from flat to bent
+ * @param {number} share position between flat, 0, and bent, 1
  */
-function rightSide(maps, flat, triangles, share) {
+function rightHandSide(maps, flat, triangles, share) {
   const out = new Float64Array(flat.length);
   maps.forEach(({ axis: [u, v, w], angle, stretch: [xx, xy, yy] }, t) => {
     const [c, s] = [Math.cos(share * angle), Math.sin(share * angle)];
@@ -112,7 +117,7 @@ function rightSide(maps, flat, triangles, share) {
       const [i, j] = [3 * triangles[3 * t + corner], 3 * triangles[3 * t + ((corner + 1) % 3)]];
       const [ex, ey] = [flat[j] - flat[i], flat[j + 1] - flat[i + 1]];
       const [x, y] = [sxx * ex + sxy * ey, sxy * ex + syy * ey];
-      // Turned about the axis (Rodrigues).
+      // Rotation about the axis (Rodrigues' formula).
       const along = d * (u * x + v * y);
       const edge = [c * x + along * u - s * w * y, c * y + along * v + s * w * x, along * w + s * (u * y - v * x)];
       for (let k = 0; k < 3; k++) {
@@ -126,8 +131,8 @@ function rightSide(maps, flat, triangles, share) {
 
 /** @typedef {{ from: Uint32Array, to: Uint32Array, weight: Float64Array, degree: Float64Array }} Graph */
 
-/** @param {Uint32Array} triangles @param {number} n @returns {Graph} */
-function graphOf(triangles, n) {
+/** The edges of a mesh, weighted by their number of triangles. @param {Uint32Array} triangles @param {number} n number of vertices @returns {Graph} */
+function edgeGraph(triangles, n) {
   /** @type {Map<number, number>} */
   const edges = new Map();
   const degree = new Float64Array(n);
@@ -150,15 +155,15 @@ function graphOf(triangles, n) {
 }
 
 /**
- * Conjugate gradients with the graph's Laplacian, for three coordinates at once.
+ * Solves a system with the graph's Laplacian for three coordinates at once, by conjugate gradients with Jacobi preconditioning.
  * @param {Graph} graph
  * @param {Float64Array} right
- * @param {Float64Array} x from where to start, and the answer
+ * @param {Float64Array} x initial guess, replaced by the solution
  */
-function solve(graph, right, x) {
+function solveLaplacian(graph, right, x) {
   const { degree } = graph;
   const [residual, scaled, image] = [right.slice(), new Float64Array(x.length), new Float64Array(x.length)];
-  laplacian(graph, x, image);
+  applyLaplacian(graph, x, image);
   for (let i = 0; i < x.length; i++) residual[i] -= image[i];
   const scale = () => {
     let sum = 0;
@@ -168,29 +173,30 @@ function solve(graph, right, x) {
     }
     return sum;
   };
-  let size = scale();
+  let residualSize = scale();
   const direction = scaled.slice();
-  let enough = 0;
-  for (let i = 0; i < x.length; i++) enough += (TOLERANCE ** 2 * right[i] ** 2) / degree[(i / 3) | 0];
-  for (let iteration = 0; iteration < ITERATIONS && size > enough; iteration++) {
-    const step = size / laplacian(graph, direction, image);
+  let squaredTolerance = 0;
+  for (let i = 0; i < x.length; i++) squaredTolerance += (CG_TOLERANCE ** 2 * right[i] ** 2) / degree[(i / 3) | 0];
+  for (let iteration = 0; iteration < MAX_CG_ITERATIONS && residualSize > squaredTolerance; iteration++) {
+    const step = residualSize / applyLaplacian(graph, direction, image);
     for (let i = 0; i < x.length; i++) {
       x[i] += step * direction[i];
       residual[i] -= step * image[i];
     }
     const next = scale();
-    for (let i = 0; i < x.length; i++) direction[i] = scaled[i] + (next / size) * direction[i];
-    size = next;
+    for (let i = 0; i < x.length; i++) direction[i] = scaled[i] + (next / residualSize) * direction[i];
+    residualSize = next;
   }
 }
 
 /**
+ * Applies the graph's Laplacian.
  * @param {Graph} graph
  * @param {Float64Array} values
- * @param {Float64Array} out the graph's Laplacian of them
- * @returns {number} their product
+ * @param {Float64Array} out gets the result
+ * @returns {number} dot product of `values` and `out`
  */
-function laplacian({ from, to, weight }, values, out) {
+function applyLaplacian({ from, to, weight }, values, out) {
   out.fill(0);
   let product = 0;
   for (let e = 0; e < from.length; e++) {
@@ -206,26 +212,26 @@ function laplacian({ from, to, weight }, values, out) {
 }
 
 /**
- * Of each vertex the mean of its triangles'.
+ * The strain of each vertex: the mean over its triangles.
  * @param {Uint32Array} triangles
  * @param {Float64Array} stretches
  * @param {number} n
  */
-function strainsOf(triangles, stretches, n) {
+function vertexStrains(triangles, stretches, n) {
   const [sums, counts] = [new Float64Array(n), new Float64Array(n)];
   triangles.forEach((vertex, i) => {
-    sums[vertex] += strainOf(stretches, Math.floor(i / 3));
+    sums[vertex] += triangleStrain(stretches, Math.floor(i / 3));
     counts[vertex]++;
   });
   return Float32Array.from(sums, (sum, i) => sum / (counts[i] || 1));
 }
 
 /**
- * The strain of larger magnitude: above 0 where a triangle is stretched.
+ * The principal strain of larger magnitude of a triangle; positive where it is stretched.
  * @param {Float64Array} stretches singular values, two for each triangle
- * @param {number} t
+ * @param {number} t index of the triangle
  */
-export function strainOf(stretches, t) {
+export function triangleStrain(stretches, t) {
   const [large, small] = [stretches[2 * t] - 1, stretches[2 * t + 1] - 1];
   return Math.abs(large) >= Math.abs(small) ? large : small;
 }

@@ -1,33 +1,33 @@
-/** The worker in which the page works out what it shows; `work.js` is its other end. */
-import { confidenceOf, constraintsOf, lookedThrough } from '../import-interpretation.js';
-import { photographed } from '../views/print.js';
-import { assembled, bordersOf } from './assembled.js';
+/** The worker in which the page computes what it shows; `worker-client.js` calls it. */
+import { confidenceOf, constraintsOf, interpretFile } from '../import-interpretation.js';
+import { photographExample } from '../views/printed-example.js';
+import { readAssemblyMesh, borderLines } from './assembly-mesh.js';
 import { meanAngle, rmsError } from './compare.js';
-import { interpolated } from './lattice.js';
-import { hiddenShare } from './hidden.js';
-import { firstLook, lookedAt } from './look.js';
+import { interpolateToGrid } from './lattice.js';
+import { hiddenAreaShare } from './hidden-area.js';
+import { computeSurfaceDataAndPreview, computeSurfaceData } from './textures.js';
 import { normalsOf } from './normals.js';
-import { photoAt, pictureOf } from './pictures.js';
-import { drawnStrains, flatPixels, labelPixels, photoPixels, sheetPixels, valuePixels } from './pixels.js';
-import { curvaturesOf, roundness } from './roundness.js';
-import { unfolding } from './unfolding.js';
+import { reducePhoto, decodePicture } from './photo-decoding.js';
+import { drawingStrainImage, meshStrainImage, labelPixels, photoPixels, sheetStrainImage, valuePixels } from './colour-images.js';
+import { curvaturesOf, totalGaussianCurvature } from './gaussian-curvature.js';
+import { computeUnfolding } from './unfolding.js';
 
 /**
- * Sheets on their way, each by itself, with the lines along which they were cut.
+ * The unfolding of a pattern's sheets, with the cut lines around them.
  * @param {Uint8Array} model
  * @param {number} scale
  * @param {number} most
- * @param {Parameters<typeof unfolding>[2]} offset
+ * @param {Parameters<typeof computeUnfolding>[2]} offset
  */
-function unfoldingInPieces(model, scale, most, offset) {
-  const sheets = assembled(model, scale);
-  return { ...unfolding(sheets, most, offset), lines: bordersOf(sheets.triangles) };
+function computeUnfoldingInPieces(model, scale, most, offset) {
+  const sheets = readAssemblyMesh(model, scale);
+  return { ...computeUnfolding(sheets, most, offset), lines: borderLines(sheets.triangles) };
 }
 
-/** What can be asked for, by name. Arrays of an answer are handed over. */
+/** The tasks by name. The buffers of arrays in an answer are transferred. */
 export const tasks = {
-  confidenceOf, constraintsOf, curvaturesOf, drawnStrains, firstLook, flatPixels, hiddenShare, interpolated, labelPixels, lookedAt, lookedThrough, meanAngle, normalsOf,
-  photoAt, photoPixels, photographed, pictureOf, rmsError, roundness, sheetPixels, unfolding, unfoldingInPieces, valuePixels,
+  confidenceOf, constraintsOf, curvaturesOf, drawingStrainImage, computeSurfaceDataAndPreview, meshStrainImage, hiddenAreaShare, interpolateToGrid, labelPixels, computeSurfaceData, interpretFile, meanAngle, normalsOf,
+  reducePhoto, photoPixels, photographExample, decodePicture, rmsError, totalGaussianCurvature, sheetStrainImage, computeUnfolding, computeUnfoldingInPieces, valuePixels,
 };
 
 globalThis.addEventListener('message', async ({ data: { id, task, args } }) => {

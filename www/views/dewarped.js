@@ -1,34 +1,36 @@
-/** A photo of the surface, and the same made flat. */
-import { doubtOf } from '../unit-check.js';
+/** The view of a photo of the surface and the flat photo. */
+import { scaleQuestion } from '../unit-check.js';
 import { count, number, percent } from '../format.js';
-import { imagePicture } from '../surface/picture.js';
-import { FLATTENED, PARALLEL } from '../messages.js';
-import { figures, say } from './legend.js';
+import { canvasFromImage } from '../surface/layer.js';
+import { imagePicture } from '../surface/picture-view.js';
+import { DEWARP_VERDICTS, CYLINDER_NOTE } from '../messages.js';
+import { figures, statement } from './legend.js';
 
 /** @import {Analyses, FlatOptions} from '../analyses.js' */
 /** @import {Result} from '../session.js' */
-/** @import {Shown} from './shown.js' */
+/** @import {ViewContent} from './view-content.js' */
 /** @typedef {import('../../pkg/types.js').Dewarped} Dewarped */
 
 /**
+ * Dewarps a photo by a result.
  * @param {Analyses} analyses
  * @param {Result} result
  * @param {ImageData} photo
  * @param {FlatOptions} options
- * @returns {Promise<Shown & { flat: Dewarped }>}
+ * @returns {Promise<ViewContent & { flat: Dewarped }>}
  */
 export async function dewarped(analyses, result, photo, options) {
   const flat = await analyses.dewarp(result, photo, options);
   const { width, height, data, resolution, verdict, parallel, report: { distortion, parts, crossings } } = flat;
-  const doubt = doubtOf(result.input);
+  const doubt = scaleQuestion(result.input);
   const unit = result.input.unit ?? 'unit';
   return {
     flat,
     before: photoPicture(photo),
-    after: imagePicture(canvasOf(new ImageData(data, width)), 'Made flat', `The photo made flat, ${width} × ${height} pixels`,
+    after: imagePicture(canvasFromImage(new ImageData(data, width)), 'Made flat', `The photo made flat, ${width} × ${height} pixels`,
       (x, y) => `${number(x / resolution)}, ${number(y / resolution)} ${result.input.unit ?? 'units'} from the upper left corner`),
     about: [
-      say(doubt || `${FLATTENED[verdict]}${parallel ? ` ${PARALLEL}` : ''}`),
+      statement(doubt || `${DEWARP_VERDICTS[verdict]}${parallel ? ` ${CYLINDER_NOTE}` : ''}`),
       figures([
         ['Flat image', `${width} × ${height} pixels`],
         ['Resolution', `${number(resolution, 4)} pixels per ${unit}`],
@@ -42,16 +44,7 @@ export async function dewarped(analyses, result, photo, options) {
   };
 }
 
-/** @param {ImageData} photo */
+/** A picture of the photo. @param {ImageData} photo */
 export function photoPicture(photo) {
-  return imagePicture(canvasOf(photo), 'Photo', `The photo, ${photo.width} × ${photo.height} pixels`);
-}
-
-/** @param {ImageData} image */
-export function canvasOf(image) {
-  const canvas = document.createElement('canvas');
-  canvas.width = image.width;
-  canvas.height = image.height;
-  canvas.getContext('2d')?.putImageData(image, 0, 0);
-  return canvas;
+  return imagePicture(canvasFromImage(photo), 'Photo', `The photo, ${photo.width} × ${photo.height} pixels`);
 }

@@ -1,6 +1,6 @@
-/** What stands below the views: colour bars, figures, tables. */
+/** Elements below the views: colour bars, figures, tables and sentences. */
 import { make } from '../dom.js';
-import { css, diverging } from '../surface/colours.js';
+import { toCss, divergingColour } from '../surface/colours.js';
 
 /** @import {Scale} from '../surface/colours.js' */
 
@@ -11,7 +11,7 @@ import { css, diverging } from '../surface/colours.js';
  */
 export function colourBar(title, scale) {
   const bar = make('div', 'bar');
-  const stops = Array.from({ length: 21 }, (_, i) => css(diverging(i / 10 - 1)));
+  const stops = Array.from({ length: 21 }, (_, i) => toCss(divergingColour(i / 10 - 1)));
   bar.style.background = `linear-gradient(to right, ${stops.join(', ')})`;
   const ticks = make('div', 'ticks');
   for (const { value, label } of scale.ticks) {
@@ -23,7 +23,7 @@ export function colourBar(title, scale) {
 }
 
 /**
- * Names and values.
+ * A list of figures with their names.
  * @param {readonly (readonly [name: string, value: string])[]} figures
  */
 export function figures(figures) {
@@ -32,6 +32,7 @@ export function figures(figures) {
 }
 
 /**
+ * A table.
  * @param {string} caption
  * @param {readonly string[]} head
  * @param {readonly (readonly (string | Node)[])[]} rows the first cell is the row's name
@@ -56,14 +57,14 @@ export function table(caption, head, rows) {
   return made;
 }
 
-/** A patch of colour with words. @param {string} colour @param {string} words */
+/** An entry of a legend: a colour and its meaning. @param {string} colour @param {string} words */
 export function key(colour, words) {
   const made = make('span', 'key', words);
   made.style.setProperty('--colour', colour);
   return made;
 }
 
-/** A sentence that matters. @param {string} words */
-export function say(words) {
+/** A sentence above the figures. @param {string} words */
+export function statement(words) {
   return make('p', 'said', words);
 }

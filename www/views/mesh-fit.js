@@ -1,57 +1,55 @@
-/** What is shown of a whole mesh and its result: their colours, and what stands below. */
-import { count, number, numberAgainst, percent, seconds, signed } from '../format.js';
-import { css, diverging, linear, logarithmic, magnitude, patchColour } from '../surface/colours.js';
-import { canvasOf } from '../surface/layer.js';
-import { imagePicture } from '../surface/picture.js';
-import { work } from '../surface/work.js';
-import { WHOLE_WORDS } from '../messages.js';
-import { colourBar, figures, key, say } from './legend.js';
-import { ruledBy } from './rulings.js';
+/** The views of a whole mesh and its result. */
+import { count, number, numberAgainst, percent, seconds, signedPercent } from '../format.js';
+import { COLOUR_SCALE_QUANTILE, toCss, divergingColour, linearScale, logarithmicScale, magnitudeQuantile, patchColour } from '../surface/colours.js';
+import { canvasFromPixels } from '../surface/layer.js';
+import { imagePicture } from '../surface/picture-view.js';
+import { callWorker } from '../surface/worker-client.js';
+import { MESH_FIT_WORDS } from '../messages.js';
+import { colourBar, figures, key, statement } from './legend.js';
+import { rulingContent } from './rulings.js';
 import { make } from '../dom.js';
 
 /** @import {Mesh} from '../api.js' */
 /** @import {Colour} from '../surface/colours.js' */
 /** @import {Line} from '../surface/layer.js' */
-/** @import {Picture} from '../surface/picture.js' */
-/** @import {MeshSurface, Whole} from '../mesh-fit.js' */
+/** @import {Picture} from '../surface/picture-view.js' */
+/** @import {MeshSurface, MeshFit} from '../mesh-fit.js' */
 
-/** @typedef {NonNullable<ReturnType<import('../surface/mesh-view.js').MeshView['under']>>} Place */
+/** @typedef {NonNullable<ReturnType<import('../surface/mesh-view.js').MeshView['pick']>>} Place */
 
 /**
- * @typedef {object} WholeShown
+ * @typedef {object} MeshViewContent
  * @property {Mesh} before
  * @property {Mesh} [after]
- * @property {readonly Line[]} [lines] on what is after
- * @property {Picture} [flat] in the place of both
+ * @property {readonly Line[]} [lines] lines on `after`
+ * @property {Picture} [flat] picture in place of both meshes
  * @property {(place: Place) => string} [read] the value at a place, with its name and unit
- * @property {readonly Node[]} about
+ * @property {readonly Node[]} about elements below the view
  */
 
-/** The share of the values that the scale spans. */
-const SPAN = 0.99;
-/** Patches that are named. */
-const MOST = 12;
+/** Maximum number of patches in the legend. */
+const MAX_NAMED_PATCHES = 12;
 
-/** @param {Whole} whole @param {Mesh} mesh @param {MeshSurface} surface @returns {Promise<WholeShown>} */
+/** @param {MeshFit} whole @param {Mesh} mesh @param {MeshSurface} surface @returns {Promise<MeshViewContent>} */
 export async function shaded(whole, mesh, surface) {
-  return { before: mesh, after: surface, about: [figures(factsOf(mesh, surface))] };
+  return { before: mesh, after: surface, about: [figures(meshFacts(mesh, surface))] };
 }
 
-/** @param {Whole} whole @param {Mesh} mesh @param {MeshSurface} surface @returns {Promise<WholeShown>} */
+/** @param {MeshFit} whole @param {Mesh} mesh @param {MeshSurface} surface @returns {Promise<MeshViewContent>} */
 export async function gaussian(whole, mesh, surface) {
   const [before, after] = await Promise.all([whole.curvatures(mesh), whole.curvatures(surface)]);
   const { size, threshold } = after.summary;
   const area = size ** 2;
   const inverse = `1/${mesh.unit ?? 'unit'}²`;
-  const scale = logarithmic(1 / area, magnitude([before.gaussian, after.gaussian], SPAN));
+  const scale = logarithmicScale(1 / area, magnitudeQuantile([before.gaussian, after.gaussian], COLOUR_SCALE_QUANTILE));
   /** @param {Float64Array} values @param {Mesh} of */
-  const coloured = (values, of) => ({ ...of, colors: colorsOf(values.length, (i) => diverging(Number.isNaN(values[i]) ? 0 : scale.place(values[i]))) });
+  const coloured = (values, of) => ({ ...of, colors: linearColors(values.length, (i) => divergingColour(Number.isNaN(values[i]) ? 0 : scale.place(values[i]))) });
   return {
     before: coloured(before.gaussian, mesh),
     after: coloured(after.gaussian, surface),
     read: (place) => {
-      // Beside a border it is known at some corners only.
-      const value = between(mesh, place, (vertex) => (place.after ? after : before).gaussian[vertex]);
+      // At a border only some corners have a value.
+      const value = interpolateAt(mesh, place, (vertex) => (place.after ? after : before).gaussian[vertex]);
       return Number.isNaN(value) ? '' : `K ${numberAgainst(value, 1 / area)} ${inverse}`;
     },
     about: [
@@ -64,22 +62,22 @@ export async function gaussian(whole, mesh, surface) {
   };
 }
 
-/** @param {Whole} whole @param {Mesh} mesh @param {MeshSurface} surface @returns {Promise<WholeShown>} */
+/** @param {MeshFit} whole @param {Mesh} mesh @param {MeshSurface} surface @returns {Promise<MeshViewContent>} */
 export async function rulings(whole, mesh, surface) {
   const { lines } = await whole.rulings(surface);
-  return { before: mesh, after: surface, ...ruledBy(lines, mesh.unit) };
+  return { before: mesh, after: surface, ...rulingContent(lines, mesh.unit) };
 }
 
-/** @param {Whole} whole @param {Mesh} mesh @param {MeshSurface} surface @returns {Promise<WholeShown>} */
+/** @param {MeshFit} whole @param {Mesh} mesh @param {MeshSurface} surface @returns {Promise<MeshViewContent>} */
 export async function patches(whole, mesh, surface) {
   const { labels, patches: found, creases } = await whole.unrolled(surface);
   const { triangles, positions } = surface;
   const total = found.reduce((sum, { area }) => sum + area, 0);
-  // Each triangle has corners of its own, for patches end between triangles.
+  // Triangles share no corners here, since patches end between triangles.
   const corners = {
     triangles: Uint32Array.from(triangles, (_, i) => i),
     positions: Float64Array.from({ length: 3 * triangles.length }, (_, i) => positions[3 * triangles[Math.floor(i / 3)] + (i % 3)]),
-    colors: colorsOf(triangles.length, (i) => {
+    colors: linearColors(triangles.length, (i) => {
       const label = labels[Math.floor(i / 3)];
       return label < 0 ? [160, 160, 160] : patchColour(label);
     }),
@@ -90,34 +88,34 @@ export async function patches(whole, mesh, surface) {
     read: ({ after, triangle }) => (after && labels[triangle] >= 0 ? `patch ${count(labels[triangle] + 1)}` : ''),
     about: [
       figures([['Patches', count(found.length)], ['Creases', count(creases.length)], ['Area', `${number(total)} ${mesh.unit ? `${mesh.unit}²` : 'square units'}`]]),
-      make('p', 'keys', ...found.slice(0, MOST).map(({ area }, i) => key(css(patchColour(i)), `${i + 1}: ${percent(area / total)}`))),
+      make('p', 'keys', ...found.slice(0, MAX_NAMED_PATCHES).map(({ area }, i) => key(toCss(patchColour(i)), `${i + 1}: ${percent(area / total)}`))),
     ],
   };
 }
 
-/** @param {Whole} whole @param {Mesh} mesh @param {MeshSurface} surface @returns {Promise<WholeShown>} */
+/** @param {MeshFit} whole @param {Mesh} mesh @param {MeshSurface} surface @returns {Promise<MeshViewContent>} */
 export async function sheet(whole, mesh, surface) {
   const { triangles, places, positions, report: { sheets, strain, seamGap } } = await whole.unrolled(surface);
-  const picture = await work('flatPixels', { triangles, places, positions });
-  const { width, height, pixels, extent, most, read } = picture;
+  const picture = await callWorker('meshStrainImage', { triangles, places, positions });
+  const { width, height, pixels, extent, maxStrain, readout } = picture;
   const unit = mesh.unit ?? 'units';
   const words = `${sheets === 1 ? 'One sheet' : `${count(sheets)} sheets`}, ${number(extent.width, 4)} × ${number(extent.height, 4)} ${unit}`;
   return {
     before: mesh,
-    flat: imagePicture(canvasOf({ width, height }, pixels), 'Laid flat', words, (x, y) => {
-      const strains = read.strains[Math.floor((y / height) * read.height) * read.width + Math.floor((x / width) * read.width)];
-      return Number.isNaN(strains) ? '' : `strain ${signed(strains)}`;
+    flat: imagePicture(canvasFromPixels({ width, height }, pixels), 'Laid flat', words, (x, y) => {
+      const strains = readout.strains[Math.floor((y / height) * readout.height) * readout.width + Math.floor((x / width) * readout.width)];
+      return Number.isNaN(strains) ? '' : `strain ${signedPercent(strains)}`;
     }),
     about: [
-      say(`${words}.`),
-      colourBar('Strain: blue is compressed, red is stretched', linear(most, signed)),
+      statement(`${words}.`),
+      colourBar('Strain: blue is compressed, red is stretched', linearScale(maxStrain, signedPercent)),
       figures([['Largest strain', percent(strain)], ['Seam gap of folds', `${numberAgainst(seamGap, extent.width)} ${unit}`]]),
     ],
   };
 }
 
 /**
- * What is under the pointer: the place, how far its vertices were moved on average, and what the view knows there.
+ * The reading under the pointer: the place, its displacement by the solve, and the value of the view.
  * @param {Mesh} mesh
  * @param {MeshSurface} surface
  * @param {Place} place
@@ -126,7 +124,7 @@ export async function sheet(whole, mesh, surface) {
 export function readingAt(mesh, surface, place, value = '') {
   const unit = mesh.unit ?? 'units';
   /** @param {Mesh} of */
-  const at = (of) => [0, 1, 2].map((k) => between(mesh, place, (vertex) => of.positions[3 * vertex + k]));
+  const at = (of) => [0, 1, 2].map((k) => interpolateAt(mesh, place, (vertex) => of.positions[3 * vertex + k]));
   const [before, after] = [at(mesh), at(surface)];
   const xyz = (place.after ? after : before).map((coordinate, k) => `${'xyz'[k]} ${number(coordinate)}`).join(', ');
   const moved = Math.hypot(...after.map((coordinate, k) => coordinate - before[k]));
@@ -139,27 +137,27 @@ export function readingAt(mesh, surface, place, value = '') {
  * @param {Place} place
  * @param {(vertex: number) => number} value
  */
-function between({ triangles }, { triangle, shares }, value) {
+function interpolateAt({ triangles }, { triangle, shares }, value) {
   return shares.reduce((sum, share, corner) => sum + share * value(triangles[3 * triangle + corner]), 0);
 }
 
-/** What is said first. @param {Mesh} mesh @param {MeshSurface} surface */
-export function wholeInWords(mesh, { report }) {
+/** The summary of a solve in sentences. @param {Mesh} mesh @param {MeshSurface} surface */
+export function meshFitSummary(mesh, { report }) {
   const { passes, seconds: { total }, stopReason, flipped, entangled, repairs: { turned, degenerate, repeated } } = report;
   const gap = passes.at(-1)?.gap;
   const mended = turned + degenerate + repeated;
   return [
-    WHOLE_WORDS.vertices(count(report.vertices), seconds(total)),
-    gap === undefined ? '' : WHOLE_WORDS.proof(passes.length, percent(gap)),
-    stopReason === 'maxIterations' ? WHOLE_WORDS.maxIterations : stopReason === 'diverged' ? WHOLE_WORDS.diverged : '',
-    mended > 0 ? WHOLE_WORDS.repaired(mended) : '',
-    entangled.length > 0 ? WHOLE_WORDS.entangled(entangled.length, entangled[0].position.map((at) => number(at, 3)).join(', ')) : '',
-    entangled.length === 0 && flipped[1] > 0 ? WHOLE_WORDS.flipped(flipped[1]) : '',
+    MESH_FIT_WORDS.vertices(count(report.vertices), seconds(total)),
+    gap === undefined ? '' : MESH_FIT_WORDS.proof(passes.length, percent(gap)),
+    stopReason === 'maxIterations' ? MESH_FIT_WORDS.maxIterations : stopReason === 'diverged' ? MESH_FIT_WORDS.diverged : '',
+    mended > 0 ? MESH_FIT_WORDS.repaired(mended) : '',
+    entangled.length > 0 ? MESH_FIT_WORDS.entangled(entangled.length, entangled[0].position.map((at) => number(at, 3)).join(', ')) : '',
+    entangled.length === 0 && flipped[1] > 0 ? MESH_FIT_WORDS.flipped(flipped[1]) : '',
   ].filter(Boolean).join(' ');
 }
 
 /** @param {Mesh} mesh @param {MeshSurface} surface @returns {[string, string][]} */
-function factsOf({ unit, triangles }, { report: { vertices, border, components, sigma, lambda, passes, volume, area, flipped } }) {
+function meshFacts({ unit, triangles }, { report: { vertices, border, components, sigma, lambda, passes, volume, area, flipped } }) {
   const lengths = unit ?? 'units';
   const last = passes.at(-1);
   return [
@@ -177,11 +175,11 @@ function factsOf({ unit, triangles }, { report: { vertices, border, components, 
 }
 
 /**
- * Colours as a renderer counts with them: of light, not of the screen.
+ * Colours in linear light, as a renderer needs them.
  * @param {number} length
  * @param {(i: number) => Colour} colour
  */
-function colorsOf(length, colour) {
+function linearColors(length, colour) {
   const colors = new Float32Array(3 * length);
   for (let i = 0; i < length; i++) {
     const rgb = colour(i);

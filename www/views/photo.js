@@ -1,24 +1,25 @@
-/** The photo that came with depths, or the colours of a scan, on the surface. */
+/** The view of the surface's photo or the colours of its scan. */
 import { gridOf } from '../surface/lattice.js';
-import { canvasOf } from '../surface/layer.js';
-import { work } from '../surface/work.js';
+import { canvasFromPixels } from '../surface/layer.js';
+import { callWorker } from '../surface/worker-client.js';
 
 /** @import {Analyses} from '../analyses.js' */
 /** @import {Input, Result} from '../session.js' */
-/** @import {Shown} from './shown.js' */
+/** @import {ViewContent} from './view-content.js' */
 
-/** Pixels along the longer side of what is drawn over a surface, at least. */
+/** Minimum length of a layer's longer side, in pixels. */
 const MIN_LAYER_PIXELS = 900;
 
-/** Whether an input has colours of its own. @param {Input} input */
+/** Whether an input has a photo or colours. @param {Input} input */
 export function hasColours({ photo, lattice }) {
   return (photo !== undefined && lattice?.uvs !== undefined) || lattice?.colors !== undefined;
 }
 
 /**
+ * The view of photo or colours.
  * @param {Analyses} _
  * @param {Result} result
- * @returns {Promise<Shown>}
+ * @returns {Promise<ViewContent>}
  */
 export async function photo(_, { input }) {
   const { lattice } = input;
@@ -29,6 +30,6 @@ export async function photo(_, { input }) {
   const { rows, cols, spacing, origin, uvs, colors } = lattice;
   const image = input.photo?.image;
   const seen = image && uvs ? { image: { width: image.width, height: image.height, data: image.data }, uvs } : { colors };
-  const layer = { grid, image: canvasOf(grid, await work('photoPixels', { rows, cols, spacing, origin }, seen, grid)) };
+  const layer = { grid, image: canvasFromPixels(grid, await callWorker('photoPixels', { rows, cols, spacing, origin }, seen, grid)) };
   return { input: layer, result: layer, about: [] };
 }

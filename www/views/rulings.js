@@ -1,7 +1,7 @@
-/** The lines along which the surface is straight, over its shading. */
-import { breath } from '../dom.js';
+/** The view of the rulings over the shaded surface. */
+import { nextTask } from '../dom.js';
 import { count, number, percent } from '../format.js';
-import { css } from '../surface/colours.js';
+import { toCss } from '../surface/colours.js';
 import { gridOf } from '../surface/lattice.js';
 import { figures, key } from './legend.js';
 
@@ -10,40 +10,41 @@ import { figures, key } from './legend.js';
 /** @import {Ruling} from '../api.js' */
 /** @import {Colour} from '../surface/colours.js' */
 /** @import {Line} from '../surface/layer.js' */
-/** @import {Shown} from './shown.js' */
+/** @import {ViewContent} from './view-content.js' */
 
-/** Seen on bright steel as on dark. @type {Colour} */
-const COLOUR = [232, 89, 12];
+/** Colour of rulings, visible on bright and dark steel. @type {Colour} */
+const RULING_COLOUR = [232, 89, 12];
 
 /**
+ * The view of the rulings.
  * @param {Analyses} analyses
  * @param {Result} result
- * @returns {Promise<Shown>}
+ * @returns {Promise<ViewContent>}
  */
 export async function rulings(analyses, result) {
   const { lines } = await analyses.rulings(result);
-  await breath();
+  await nextTask();
   const { input } = result;
-  const ruled = ruledBy(lines, input.unit);
+  const ruled = rulingContent(lines, input.unit);
   return { result: { grid: gridOf(input), lines: ruled.lines }, about: ruled.about };
 }
 
 /**
- * Rulings of whatever surface: how they are drawn, and what is told of them.
+ * The lines and figures of the rulings of a heightfield or mesh.
  * @param {readonly Ruling[]} lines
  * @param {string | null} [unit]
  * @returns {{ lines: Line[], about: Node[] }}
  */
-export function ruledBy(lines, unit) {
-  const bent = lines.map(({ deviation }) => deviation).sort((a, b) => a - b);
+export function rulingContent(lines, unit) {
+  const deviations = lines.map(({ deviation }) => deviation).sort((a, b) => a - b);
   return {
-    lines: lines.map(({ points }) => ({ points, colour: COLOUR, width: 1.25 })),
+    lines: lines.map(({ points }) => ({ points, colour: RULING_COLOUR, width: 1.25 })),
     about: [
-      key(css(COLOUR), 'Rulings'),
+      key(toCss(RULING_COLOUR), 'Rulings'),
       figures([
         ['Lines', count(lines.length)],
         ['Longest', lines.length > 0 ? `${number(lines.reduce((most, { length }) => Math.max(most, length), 0))} ${unit ?? 'units'}` : '–'],
-        ['Median deviation from straight', bent.length > 0 ? `${percent(bent[bent.length >> 1])} of the length` : '–'],
+        ['Median deviation from straight', deviations.length > 0 ? `${percent(deviations[deviations.length >> 1])} of the length` : '–'],
       ]),
     ],
   };

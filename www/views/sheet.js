@@ -1,35 +1,36 @@
-/** The surface laid flat, to scale, each triangle in the colour of its strain. */
-import { count, number, percent, signed, strainInWords } from '../format.js';
-import { CREASE, linear } from '../surface/colours.js';
-import { canvasOf } from '../surface/layer.js';
+/** The view of the surface laid flat in one piece, to scale and coloured by strain. */
+import { count, number, percent, signedPercent, strainInWords } from '../format.js';
+import { CREASE_COLOUR, linearScale } from '../surface/colours.js';
+import { canvasFromPixels } from '../surface/layer.js';
 import { VERDICTS } from '../messages.js';
-import { colourBar, figures, say } from './legend.js';
+import { colourBar, figures, statement } from './legend.js';
 
 /** @import {Analyses} from '../analyses.js' */
 /** @import {Result} from '../session.js' */
-/** @import {Picture} from '../surface/picture.js' */
-/** @import {Shown} from './shown.js' */
-/** @typedef {ReturnType<typeof import('../surface/pixels.js').sheetPixels>} Sheet */
+/** @import {Picture} from '../surface/picture-view.js' */
+/** @import {ViewContent} from './view-content.js' */
+/** @typedef {ReturnType<typeof import('../surface/colour-images.js').sheetStrainImage>} Sheet */
 
-/** Free room around the sheet, in pixels of the page, at the sides and below. */
+/** Margins around the sheet, in CSS pixels. */
 const MARGIN = { side: 12, below: 34 };
 
 /**
+ * The view of the flat surface.
  * @param {Analyses} analyses
  * @param {Result} result
- * @returns {Promise<Shown>}
+ * @returns {Promise<ViewContent>}
  */
 export async function sheet(analyses, result) {
   const { picture, report: { distortion, crossings, parts, plan }, verdict } = await analyses.unroll(result);
-  const { extent, most } = picture;
+  const { extent, maxStrain } = picture;
   const unit = result.input.unit ?? 'units';
-  const scale = linear(most, signed);
+  const scale = linearScale(maxStrain, signedPercent);
   const size = `${number(extent.width, 4)} × ${number(extent.height, 4)} ${unit}`;
   return {
     after: pictureOf(picture, unit, `The surface laid flat, ${size}`),
-    unfolding: { ...await analyses.unfold(result, most), look: () => ({ colour: CREASE, width: 1.5 }) },
+    unfolding: { ...await analyses.unfold(result, maxStrain), lineStyle: () => ({ colour: CREASE_COLOUR, width: 1.5 }) },
     about: [
-      say(VERDICTS[verdict]),
+      statement(VERDICTS[verdict]),
       colourBar('Strain: blue is compressed, red is stretched', scale),
       figures([
         ['Sheet size', size],
@@ -46,15 +47,16 @@ export async function sheet(analyses, result) {
 }
 
 /**
+ * The picture of a sheet with a scale bar.
  * @param {Sheet} sheet
  * @param {string} unit
  * @param {string} words
  * @returns {Picture}
  */
-function pictureOf({ extent, width: cols, height: rows, pixels, read }, unit, words) {
-  const image = canvasOf({ width: cols, height: rows }, pixels);
-  /** Where it is drawn. @param {{ width: number, height: number }} canvas @param {number} ratio */
-  const placed = ({ width, height }, ratio) => {
+function pictureOf({ extent, width: cols, height: rows, pixels, readout }, unit, words) {
+  const image = canvasFromPixels({ width: cols, height: rows }, pixels);
+  /** The rectangle of the sheet on a canvas. @param {{ width: number, height: number }} canvas @param {number} ratio */
+  const fittedBox = ({ width, height }, ratio) => {
     const room = { width: width - 2 * MARGIN.side * ratio, height: height - (MARGIN.side + MARGIN.below) * ratio };
     const dots = Math.min(room.width / extent.width, room.height / extent.height);
     const [wide, high] = [extent.width * dots, extent.height * dots];
@@ -64,30 +66,30 @@ function pictureOf({ extent, width: cols, height: rows, pixels, read }, unit, wo
     title: 'Laid flat',
     words,
     paint: (context, ratio) => {
-      const { dots, left, top, wide, high } = placed(context.canvas, ratio);
+      const { dots, left, top, wide, high } = fittedBox(context.canvas, ratio);
       if (!(dots > 0)) return;
       context.imageSmoothingQuality = 'high';
       context.drawImage(image, left, top, wide, high);
       drawRuler(context, dots, unit, ratio);
     },
     read: (canvas, ratio, x, y) => {
-      const { left, top, wide, high } = placed(canvas, ratio);
-      const [col, row] = [Math.floor(((x - left) / wide) * read.width), Math.floor(((y - top) / high) * read.height)];
-      const inside = col >= 0 && row >= 0 && col < read.width && row < read.height;
-      return strainInWords(inside ? read.strains[row * read.width + col] : NaN);
+      const { left, top, wide, high } = fittedBox(canvas, ratio);
+      const [col, row] = [Math.floor(((x - left) / wide) * readout.width), Math.floor(((y - top) / high) * readout.height)];
+      const inside = col >= 0 && row >= 0 && col < readout.width && row < readout.height;
+      return strainInWords(inside ? readout.strains[row * readout.width + col] : NaN);
     },
   };
 }
 
 /**
- * A length to compare with, in the lower left corner.
+ * Draws a scale bar in the lower left corner.
  * @param {CanvasRenderingContext2D} context
- * @param {number} dots pixels for each unit of length
+ * @param {number} pixelsPerUnit device pixels per unit of length
  * @param {string} unit
  * @param {number} ratio
  */
-function drawRuler(context, dots, unit, ratio) {
-  const rough = (0.25 * context.canvas.width) / dots;
+function drawRuler(context, pixelsPerUnit, unit, ratio) {
+  const rough = (0.25 * context.canvas.width) / pixelsPerUnit;
   const power = 10 ** Math.floor(Math.log10(rough));
   const length = ([5, 2, 1].find((m) => m * power <= rough) ?? 1) * power;
   const style = getComputedStyle(context.canvas);
@@ -97,8 +99,8 @@ function drawRuler(context, dots, unit, ratio) {
   context.beginPath();
   context.moveTo(x, y - 4 * ratio);
   context.lineTo(x, y);
-  context.lineTo(x + length * dots, y);
-  context.lineTo(x + length * dots, y - 4 * ratio);
+  context.lineTo(x + length * pixelsPerUnit, y);
+  context.lineTo(x + length * pixelsPerUnit, y - 4 * ratio);
   context.stroke();
   context.font = `${12 * ratio}px ${style.fontFamily}`;
   context.textBaseline = 'bottom';

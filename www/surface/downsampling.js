@@ -1,4 +1,4 @@
-/** The same heights on fewer pixels. */
+/** Reduces height images. */
 
 /**
  * @typedef {object} Heights
@@ -8,12 +8,12 @@
  */
 
 /**
- * The mean of the values in each block of pixels, NaN where there is none.
+ * The mean of the values in each block of pixels; NaN for a block without data.
  * @param {Heights} image
- * @param {number} side most blocks along the longer side
+ * @param {number} maxBlocks maximum number of blocks along the longer side
  */
-export function coarse({ width, height, data }, side) {
-  const share = Math.min(1, side / Math.max(width, height));
+export function downsample({ width, height, data }, maxBlocks) {
+  const share = Math.min(1, maxBlocks / Math.max(width, height));
   const [cols, rows] = [Math.max(3, Math.round(width * share)), Math.max(3, Math.round(height * share))];
   const sums = new Float64Array(cols * rows);
   const counts = new Uint32Array(cols * rows);

@@ -1,14 +1,14 @@
-/** Smooth curves through a few points. */
+/** Natural cubic splines through points, and normals of polylines. */
 
 /** @typedef {import('./outline.js').Point} Point */
 
 /**
- * Places along a natural cubic spline through points, whose parameter is the length of its chords.
+ * Points along the natural cubic spline through points, parametrised by the length of the chords.
  * @param {readonly Point[]} points at least two
- * @param {number} steps how many places are wanted, less one
- * @returns {Point[]} evenly spaced in the parameter, both ends included
+ * @param {number} steps number of intervals between the returned points
+ * @returns {Point[]} `steps + 1` points, evenly spaced in the parameter, both ends included
  */
-export function through(points, steps) {
+export function splineThrough(points, steps) {
   const distinct = points.filter(([x, y], i) => i === 0 || x !== points[i - 1][0] || y !== points[i - 1][1]);
   const lengths = [0];
   for (let i = 1; i < distinct.length; i++) {
@@ -20,17 +20,18 @@ export function through(points, steps) {
 }
 
 /**
- * @param {readonly number[]} at ascending
+ * The natural cubic spline through values as a function of the parameter.
+ * @param {readonly number[]} parameters ascending
  * @param {readonly number[]} values
  * @returns {(t: number) => number}
  */
-function spline(at, values) {
-  const n = at.length;
+function spline(parameters, values) {
+  const n = parameters.length;
   if (n < 2) return () => values[0];
-  // Second derivatives, by elimination in the tridiagonal system.
+  // Second derivatives at the knots, by elimination in the tridiagonal system.
   const [second, factor] = [new Float64Array(n), new Float64Array(n)];
   for (let i = 1; i < n - 1; i++) {
-    const [before, after] = [at[i] - at[i - 1], at[i + 1] - at[i]];
+    const [before, after] = [parameters[i] - parameters[i - 1], parameters[i + 1] - parameters[i]];
     const pivot = 2 * (before + after) - before * factor[i - 1];
     const jump = (values[i + 1] - values[i]) / after - (values[i] - values[i - 1]) / before;
     factor[i] = after / pivot;
@@ -39,20 +40,20 @@ function spline(at, values) {
   for (let i = n - 2; i > 0; i--) second[i] -= factor[i] * second[i + 1];
   return (t) => {
     let i = 0;
-    while (i < n - 2 && t > at[i + 1]) i++;
-    const step = at[i + 1] - at[i];
-    const b = (t - at[i]) / step;
+    while (i < n - 2 && t > parameters[i + 1]) i++;
+    const step = parameters[i + 1] - parameters[i];
+    const b = (t - parameters[i]) / step;
     const a = 1 - b;
     return a * values[i] + b * values[i + 1] + ((a ** 3 - a) * second[i] + (b ** 3 - b) * second[i + 1]) * (step * step) / 6;
   };
 }
 
 /**
- * Unit normals of a polyline, a quarter turn clockwise from its course as y points down.
+ * The unit normals of a polyline: its direction turned clockwise by a right angle, where y points down.
  * @param {readonly Point[]} line
  * @returns {Point[]}
  */
-export function normals(line) {
+export function polylineNormals(line) {
   return line.map((_, i) => {
     const [p, q] = [line[Math.max(0, i - 1)], line[Math.min(line.length - 1, i + 1)]];
     const [x, y] = [q[0] - p[0], q[1] - p[1]];

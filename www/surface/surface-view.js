@@ -1,43 +1,42 @@
-/** One surface on a canvas, lit by the shared light, which can be moved from here. */
-import { eachFrame, followDevicePixels } from '../dom.js';
+/** Shows a surface on a canvas under the shared light, which can be moved from here. */
+import { oncePerFrame, matchDevicePixels } from '../dom.js';
 import { drawLines } from './layer.js';
-import { markedCanvas } from './marks.js';
-import { rasterOf } from './raster.js';
-import { zoomable } from './zoom.js';
+import { drawMarks } from './marks.js';
+import { rasteriseNormals } from './raster.js';
+import { ARROW_DIRECTIONS } from './view-keys.js';
+import { makeZoomable } from './zoom.js';
 
 /** @import {Light} from './light.js' */
 /** @import {Normals} from './normals.js' */
 /** @import {Layer} from './layer.js' */
-/** @import {Marks} from './marks.js' */
-/** @import {Raster} from './raster.js' */
+/** @import {PixelMarks} from './marks.js' */
+/** @import {NormalRaster} from './raster.js' */
 /** @import {Zoom} from './zoom.js' */
 
-/** Pixels for each one of a picture that is soon replaced by a finer one. */
-const COARSE = 2;
-/** Of the way from the middle to the rim, for each press of an arrow key. */
-const KEY_STEP = 0.08;
-/** @type {Record<string, readonly [number, number]>} */
-const ARROWS = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] };
+/** Maximum number of raster pixels per pixel of a preview, along a side: a finer picture replaces it soon. */
+const MAX_PREVIEW_DENSITY = 2;
+/** Movement of the light for a press of an arrow key, in radii of the disk. */
+const KEY_LIGHT_STEP = 0.08;
 
 export class SurfaceView {
   /** @type {Normals | null} */
   #normals = null;
   /** @type {{ width: number, height: number } | null} */
   #frame = null;
-  /** @type {Raster | null} */
+  /** @type {NormalRaster | null} */
   #raster = null;
-  /** The raster, shaded; the canvas shows it reduced to its own pixels. */
-  #shaded = document.createElement('canvas');
+  /** The shaded raster, which the canvas shows at its own size. */
+  #shadedCanvas = document.createElement('canvas');
   /** @type {ImageData | null} */
   #pixels = null;
-  /** What is drawn over the surface. @type {readonly Marks[]} */
+  /** Marked pixels over the surface. @type {readonly PixelMarks[]} */
   #marks = [];
-  /** The same in the canvas' pixels. @type {HTMLCanvasElement | null} */
+  /** The marks drawn in the canvas' pixels; null until they are. @type {HTMLCanvasElement | null} */
   #overlay = null;
   /** @type {Layer | null} */
   #layer = null;
-  #lit = false;
-  #paintSoon = eachFrame(() => this.#paint());
+  #hasLight = false;
+  #paintSoon = oncePerFrame(() => this.#paint());
 
   /**
    * @param {HTMLCanvasElement} canvas
@@ -53,63 +52,65 @@ export class SurfaceView {
     this.sun = sun instanceof HTMLElement ? sun : null;
     canvas.setAttribute('aria-valuemin', '0');
     canvas.setAttribute('aria-valuemax', '359');
-    followDevicePixels(canvas, () => {
+    matchDevicePixels(canvas, () => {
       this.#raster = null;
       this.#overlay = null;
-      // At once, for a resized canvas is blank.
+      // Without delay, since resizing clears the canvas.
       this.#paint();
     });
     light.onMove(() => {
       this.#paintSoon();
-      this.#tell();
+      this.#describeLight();
     });
     this.#listen();
-    this.#tell();
+    this.#describeLight();
   }
 
   /**
+   * Shows a surface.
    * @param {Normals | null} normals
-   * @param {boolean} [lit] whether there is much to be lit
-   * @param {{ width: number, height: number } | null} [frame] in whose proportions, where there are coarser normals
+   * @param {boolean} [lit] whether the position of the light is shown
+   * @param {{ width: number, height: number } | null} [frame] full size of the surface, if the normals are those of a preview
    */
   show(normals, lit = normals !== null, frame = normals) {
     this.#normals = normals;
     this.#frame = frame;
     this.#raster = null;
     this.#overlay = null;
-    this.#lit = lit;
-    this.#shine();
+    this.#hasLight = lit;
+    this.#updateSun();
     this.#paintSoon();
   }
 
   /**
-   * Makes room for a picture in its place.
+   * Hides the surface where a picture is shown instead.
    * @param {boolean} aside
    */
   setAside(aside) {
     this.canvas.hidden = aside;
-    this.#shine();
+    this.#updateSun();
   }
 
-  #shine() {
-    if (this.sun) this.sun.hidden = !this.#lit || this.canvas.hidden;
+  /** Shows the position of the light only on a visible surface. */
+  #updateSun() {
+    if (this.sun) this.sun.hidden = !this.#hasLight || this.canvas.hidden;
   }
 
   /**
-   * Marks pixels of what is shown.
-   * @param {readonly Marks[]} marks
+   * Marks pixels of the surface.
+   * @param {readonly PixelMarks[]} marks
    */
-  mark(marks) {
+  setMarks(marks) {
     this.#marks = marks;
     this.#overlay = null;
     this.#paintSoon();
   }
 
   /**
-   * Draws a layer over the surface, until another is drawn.
+   * Replaces the layer over the surface.
    * @param {Layer | null} layer
    */
-  cover(layer) {
+  setLayer(layer) {
     this.#layer = layer;
     this.#paintSoon();
   }
@@ -124,20 +125,20 @@ export class SurfaceView {
     const fit = Math.min(canvas.width / frame.width, canvas.height / frame.height);
     const coarse = frame !== normals;
     const density = (fit * frame.width) / normals.width;
-    this.#raster ??= rasterOf(normals, coarse ? Math.min(density, COARSE) : density);
+    this.#raster ??= rasteriseNormals(normals, coarse ? Math.min(density, MAX_PREVIEW_DENSITY) : density);
     this.#shade(this.#raster);
-    const plain = { width: Math.max(1, Math.round(frame.width * fit)), height: Math.max(1, Math.round(frame.height * fit)) };
-    const { left, top, width, height } = this.#place(plain);
+    const unzoomed = { width: Math.max(1, Math.round(frame.width * fit)), height: Math.max(1, Math.round(frame.height * fit)) };
+    const { left, top, width, height } = this.#placement(unzoomed);
     context.imageSmoothingEnabled = this.#raster.width !== width || this.#raster.height !== height;
     context.imageSmoothingQuality = 'medium';
     const layer = this.#layer;
     if (layer?.image) {
       context.drawImage(layer.image, left, top, width, height);
-      // The shape shows through, and the colours stay what they are in the legend, nearly.
+      // Soft light at half opacity shows the shape and nearly keeps the colours of the legend.
       context.globalCompositeOperation = 'soft-light';
       context.globalAlpha = 0.5;
     }
-    context.drawImage(this.#shaded, left, top, width, height);
+    context.drawImage(this.#shadedCanvas, left, top, width, height);
     context.globalCompositeOperation = 'source-over';
     context.globalAlpha = 1;
     if (layer?.lines) {
@@ -146,41 +147,41 @@ export class SurfaceView {
       drawLines(context, (x, y) => [left + (x - grid.left) * scale, top + (grid.top - y) * scale], lines, window.devicePixelRatio);
     }
     if (this.#marks.length === 0) return;
-    this.#overlay ??= markedCanvas(this.#marks, plain.width, plain.height, window.devicePixelRatio);
+    this.#overlay ??= drawMarks(this.#marks, unzoomed.width, unzoomed.height, window.devicePixelRatio);
     context.drawImage(this.#overlay, left, top, width, height);
   }
 
-  /** Where the surface is on the canvas. @param {{ width: number, height: number }} size as it is without zoom */
-  #place({ width, height }) {
+  /** The rectangle of the surface on the canvas. @param {{ width: number, height: number }} size without zoom */
+  #placement({ width, height }) {
     const { canvas } = this;
-    return this.zoom.placed(canvas, {
+    return this.zoom.transformBox(canvas, {
       left: Math.floor((canvas.width - width) / 2), top: Math.floor((canvas.height - height) / 2), width, height,
     });
   }
 
   /**
-   * What is under the pointer, in shares of the surface from its upper left corner.
+   * The place under the pointer, as shares of the surface's width and height from its upper left corner; null outside.
    * @param {MouseEvent} event
    * @returns {[number, number] | null}
    */
-  under({ offsetX, offsetY }) {
+  positionAt({ offsetX, offsetY }) {
     const { canvas } = this;
     const frame = this.#frame;
     if (!frame) return null;
     const fit = Math.min(canvas.width / frame.width, canvas.height / frame.height);
-    const { left, top, width, height } = this.#place({ width: frame.width * fit, height: frame.height * fit });
+    const { left, top, width, height } = this.#placement({ width: frame.width * fit, height: frame.height * fit });
     const ratio = canvas.width / canvas.clientWidth;
     const [x, y] = [(offsetX * ratio - left) / width, (offsetY * ratio - top) / height];
     return x >= 0 && y >= 0 && x < 1 && y < 1 ? [x, y] : null;
   }
 
-  /** @param {Raster} raster */
+  /** Colours a raster under the light. @param {NormalRaster} raster */
   #shade({ width, height, index }) {
-    const context = this.#shaded.getContext('2d');
+    const context = this.#shadedCanvas.getContext('2d');
     if (!context) return;
     if (this.#pixels?.width !== width || this.#pixels.height !== height) {
-      this.#shaded.width = width;
-      this.#shaded.height = height;
+      this.#shadedCanvas.width = width;
+      this.#shadedCanvas.height = height;
       this.#pixels = context.createImageData(width, height);
     }
     const pixels = this.#pixels;
@@ -190,8 +191,8 @@ export class SurfaceView {
     context.putImageData(pixels, 0, 0);
   }
 
-  /** Says and shows where the light is. */
-  #tell() {
+  /** Updates the direction of the light for screen readers and the mark of its position. */
+  #describeLight() {
     const { canvas, light, sun } = this;
     canvas.setAttribute('aria-valuenow', String(light.azimuth));
     canvas.setAttribute('aria-valuetext', String(light));
@@ -210,7 +211,7 @@ export class SurfaceView {
         (box.top + box.height / 2 - event.clientY) / radius,
       );
     };
-    const zooms = zoomable(canvas, this.zoom);
+    const zooms = makeZoomable(canvas, this.zoom);
     canvas.addEventListener('pointerdown', (event) => {
       if (event.button === 0 && !zooms()) follow(event);
     });
@@ -218,8 +219,8 @@ export class SurfaceView {
       if (canvas.hasPointerCapture(event.pointerId) && !zooms()) follow(event);
     });
     canvas.addEventListener('keydown', (event) => {
-      const arrow = ARROWS[event.key];
-      if (arrow) light.moveTo(light.x + KEY_STEP * arrow[0], light.y + KEY_STEP * arrow[1]);
+      const arrow = ARROW_DIRECTIONS[event.key];
+      if (arrow) light.moveTo(light.x + KEY_LIGHT_STEP * arrow[0], light.y + KEY_LIGHT_STEP * arrow[1]);
       else if (event.key === 'Home') light.reset();
       else return;
       event.preventDefault();

@@ -1,28 +1,29 @@
-/** Places of a mesh that moves: lines that are drawn on it go along, and values are read from it. */
+/** Lines and values on a morphing mesh: lines are anchored to its triangles, and values are read by ray casting. */
 import { extentOf } from './triangles.js';
 
 /** @import {Line} from './layer.js' */
 /** @import {Vector} from './camera.js' */
 
 /**
- * Lines as shares of the corners of triangles, three for each point.
- * @typedef {object} Anchored
- * @property {Uint32Array} corners
- * @property {Float32Array} shares
- * @property {Uint32Array} lengths points of each line
- * @property {Uint32Array} of which of the lines that were given each one is, or is a part of
+ * Lines whose points have barycentric coordinates in triangles.
+ * @typedef {object} AnchoredLines
+ * @property {Uint32Array} corners three vertices for each point
+ * @property {Float32Array} shares barycentric coordinates, three for each point
+ * @property {Uint32Array} lengths number of points of each line
+ * @property {Uint32Array} lineIndices index of the original line of which each line is a part
  */
 
-/** A mesh on its way. @typedef {{ triangles: Uint32Array, forms: readonly Float32Array[] }} Moving */
+/** A mesh with several forms. @typedef {{ triangles: Uint32Array, forms: readonly Float32Array[] }} MorphForms */
 
 /**
- * @param {readonly (readonly (readonly [number, number, number])[])[]} lines over the plane
- * @param {Float64Array} positions x, y, z of each vertex; from above no triangle is behind another
+ * Anchors lines to the triangles that lie below or above their points. Lines end where there is no triangle.
+ * @param {readonly (readonly (readonly [number, number, number])[])[]} lines whose x and y count
+ * @param {Float64Array} positions x, y, z of each vertex; seen from above, triangles must not overlap
  * @param {Uint32Array} triangles
- * @returns {Anchored} without points beside the mesh, at which lines end
+ * @returns {AnchoredLines}
  */
-export function anchored(lines, positions, triangles) {
-  const find = finderOf(positions, triangles);
+export function anchorLines(lines, positions, triangles) {
+  const find = triangleFinder(positions, triangles);
   /** @type {number[]} */
   const corners = [];
   /** @type {number[]} */
@@ -30,7 +31,7 @@ export function anchored(lines, positions, triangles) {
   /** @type {number[]} */
   const lengths = [];
   /** @type {number[]} */
-  const of = [];
+  const indices = [];
   lines.forEach((line, number) => {
     let length = 0;
     for (const [x, y] of line) {
@@ -42,25 +43,25 @@ export function anchored(lines, positions, triangles) {
       }
       if (found || length === 0) continue;
       lengths.push(length);
-      of.push(number);
+      indices.push(number);
       length = 0;
     }
     if (length === 0) return;
     lengths.push(length);
-    of.push(number);
+    indices.push(number);
   });
-  return { of: Uint32Array.from(of), corners: Uint32Array.from(corners), shares: Float32Array.from(shares), lengths: Uint32Array.from(lengths) };
+  return { lineIndices: Uint32Array.from(indices), corners: Uint32Array.from(corners), shares: Float32Array.from(shares), lengths: Uint32Array.from(lengths) };
 }
 
 /**
- * Triangles by the cells of a grid over the plane that they touch.
+ * Returns a function that finds the triangle at a place of the plane, by a uniform grid of the triangles.
  * @param {Float64Array} positions
  * @param {Uint32Array} triangles
  */
-function finderOf(positions, triangles) {
+function triangleFinder(positions, triangles) {
   const { left, top, width, height } = extentOf(positions, 3);
   const side = Math.max(1, Math.ceil(Math.sqrt(triangles.length / 6)));
-  /** @param {number} share of the way across or down */
+  /** @param {number} share position across or down, 0 to 1 */
   const cell = (share) => Math.min(side - 1, Math.max(0, Math.floor(share * side)));
   const colOf = (/** @type {number} */ x) => cell((x - left) / (width || 1));
   const rowOf = (/** @type {number} */ y) => cell((top - y) / (height || 1));
@@ -89,11 +90,11 @@ function finderOf(positions, triangles) {
 }
 
 /**
- * Between two forms.
+ * Returns a function that interpolates one coordinate linearly between two forms.
  * @param {readonly Float32Array[]} forms
- * @param {number} share of the way through all of them
+ * @param {number} share position between the first form, 0, and the last, 1
  */
-export function formAt(forms, share) {
+export function interpolateForms(forms, share) {
   const place = share * (forms.length - 1);
   const first = Math.min(forms.length - 2, Math.floor(place));
   const [from, to, part] = [forms[first], forms[first + 1], place - first];
@@ -102,18 +103,18 @@ export function formAt(forms, share) {
 }
 
 /**
- * Where anchored lines are now.
- * @param {Anchored} lines
+ * The polylines of anchored lines on a morphing mesh.
+ * @param {AnchoredLines} lines
  * @param {readonly Float32Array[]} forms
  * @param {number} share
- * @param {(line: number) => Pick<Line, 'colour' | 'width'>} look of each line that was given
+ * @param {(line: number) => Pick<Line, 'colour' | 'width'>} lineStyle colour and width of each original line
  * @returns {Line[]}
  */
-export function linesAt({ corners, shares, lengths, of }, forms, share, look) {
-  const at = formAt(forms, share);
+export function morphLines({ corners, shares, lengths, lineIndices }, forms, share, lineStyle) {
+  const at = interpolateForms(forms, share);
   let point = 0;
   return Array.from(lengths, (length, n) => ({
-    ...look(of[n]),
+    ...lineStyle(lineIndices[n]),
     points: Array.from({ length }, () => {
       const i = 3 * point++;
       /** @param {number} k */
@@ -124,14 +125,14 @@ export function linesAt({ corners, shares, lengths, of }, forms, share, look) {
 }
 
 /**
- * The value at the place of a mesh that is seen first along a line of sight, NaN beside it (Möller and Trumbore 1997).
- * @param {Moving} mesh
+ * The value at the first intersection of a ray with a mesh, NaN without one (Möller and Trumbore 1997).
+ * @param {MorphForms} mesh
  * @param {number} share
  * @param {{ point: Vector, towards: Vector }} sight
  * @param {ArrayLike<number>} values of the vertices
  */
-export function valueOnMesh({ triangles, forms }, share, { point: [px, py, pz], towards: [dx, dy, dz] }, values) {
-  const at = formAt(forms, share);
+export function valueOnRay({ triangles, forms }, share, { point: [px, py, pz], towards: [dx, dy, dz] }, values) {
+  const at = interpolateForms(forms, share);
   let [nearest, value] = [-Infinity, NaN];
   for (let t = 0; t < triangles.length; t += 3) {
     const [i, j, k] = [3 * triangles[t], 3 * triangles[t + 1], 3 * triangles[t + 2]];

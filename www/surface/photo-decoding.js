@@ -1,41 +1,44 @@
-/** Pictures as pixels, in a worker. */
-import { greyOf } from '../page/grey.js';
+/** Decodes and reduces photos by the browser, in a worker. */
+import { toGrey } from '../page/grey.js';
 
 /** @import {Pixels} from '../pixels.js' */
 
 /**
+ * Decodes a picture.
  * @param {File} file
- * @param {number} [times] by which the sides are reduced
+ * @param {number} [times] divisor of the width and height
  * @returns {Promise<Pixels>}
  */
-export async function pictureOf(file, times = 1) {
+export async function decodePicture(file, times = 1) {
   const bitmap = await createImageBitmap(file).catch(() => {
     throw new Error('it is no picture that this browser can read');
   });
-  const pixels = drawn(bitmap, bitmap.width / times, bitmap.height / times);
+  const pixels = drawPixels(bitmap, bitmap.width / times, bitmap.height / times);
   bitmap.close();
   return pixels;
 }
 
 /**
- * A photo on fewer pixels, in colour and in grey.
+ * Reduces a photo, in colour and in grey.
  * @param {Pixels} pixels
  * @param {number} scale
  */
-export async function photoAt({ width, height, data }, scale) {
+export async function reducePhoto({ width, height, data }, scale) {
   const bitmap = await createImageBitmap(new ImageData(data, width, height));
-  const small = drawn(bitmap, width * scale, height * scale);
+  const small = drawPixels(bitmap, width * scale, height * scale);
   bitmap.close();
-  return { ...small, grey: greyOf(small, scale).data };
+  return { ...small, grey: toGrey(small, scale).data };
 }
 
 /**
+ * Draws a bitmap at a size and returns its pixels. The size is rounded down, but not the scale, so that both directions have the
+ * same scale.
  * @param {ImageBitmap} bitmap
- * @param {number} wide what the whole picture is drawn to
+ * @param {number} wide
  * @param {number} high
- * @returns {Pixels} whole pixels, so that both directions have the same scale
+ * @returns {Pixels}
  */
-function drawn(bitmap, wide, high) {
+function drawPixels(bitmap, wide, high) {
   const [width, height] = [Math.floor(wide), Math.floor(high)];
   const context = new OffscreenCanvas(width, height).getContext('2d', { willReadFrequently: true });
   if (!context) throw new Error('the browser gives no canvas of that size');

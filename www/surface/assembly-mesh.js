@@ -1,17 +1,17 @@
-/** The sheets of a pattern as one mesh, bent as they are built and flat as they lie beside each other. */
+/** Reads the sheets of a pattern's assembly as one mesh, with assembled positions and places in the flat layout. */
 
-/** @import {Anchored} from './anchors.js' */
+/** @import {AnchoredLines} from './anchored-lines.js' */
 
 /**
- * Its root's rotation is left out: z is up, as everywhere here.
+ * Reads an assembly. The rotation of its root node is ignored, so that z is up.
  * @param {Uint8Array} model a pattern's assembly, a GLB file in metres
- * @param {number} scale metres for each unit of length
+ * @param {number} scale metres per unit of length
  */
-export function assembled(model, scale) {
+export function readAssemblyMesh(model, scale) {
   const file = new DataView(model.buffer, model.byteOffset, model.byteLength);
   const length = file.getUint32(12, true);
   const { meshes, accessors, bufferViews, nodes, animations } = JSON.parse(new TextDecoder().decode(model.subarray(20, 20 + length)));
-  /** @param {number} index of numbers, all of four bytes */
+  /** The numbers of an accessor, four bytes each. @param {number} index of the accessor */
   const numbers = (index) => {
     const { bufferView, componentType } = accessors[index];
     const { byteOffset, byteLength } = bufferViews[bufferView];
@@ -19,48 +19,48 @@ export function assembled(model, scale) {
     return componentType === 5126 ? new Float32Array(bytes.buffer) : new Uint32Array(bytes.buffer);
   };
   const { samplers, channels } = animations[0];
-  /** Where a node is at last. @param {number} node @param {string} path */
-  const last = (node, path) => {
+  /** The last keyframe of a node's animation. @param {number} node @param {string} path */
+  const finalValue = (node, path) => {
     const { sampler } = channels.find((/** @type {any} */ { target }) => target.node === node && target.path === path);
     const values = numbers(samplers[sampler].output);
     return values.subarray(values.length / 2);
   };
   /** @type {[number[], number[], number[]]} */
   const [positions, places, triangles] = [[], [], []];
-  /** Which sheet each vertex is of. @type {number[]} */
+  /** Index of the sheet of each vertex. @type {number[]} */
   const sheets = [];
   let sheet = 0;
   for (const [number, { translation, rotation, mesh }] of nodes.entries()) {
     if (mesh === undefined) continue;
     const { attributes, indices, targets } = meshes[mesh].primitives[0];
     const [flat, bends] = [numbers(attributes.POSITION), numbers(targets[0].POSITION)];
-    const [turn, shift] = [last(number, 'rotation'), last(number, 'translation')];
+    const [turn, shift] = [finalValue(number, 'rotation'), finalValue(number, 'translation')];
     const first = places.length / 2;
     for (let i = 0; i < flat.length; i += 3) {
-      const [x, y] = moved([flat[i], flat[i + 1], flat[i + 2]], rotation, translation);
+      const [x, y] = applyPose([flat[i], flat[i + 1], flat[i + 2]], rotation, translation);
       places.push(x / scale, y / scale);
       sheets.push(sheet);
-      positions.push(...moved([0, 1, 2].map((k) => flat[i + k] + bends[i + k]), turn, shift).map((value) => value / scale));
+      positions.push(...applyPose([0, 1, 2].map((k) => flat[i + k] + bends[i + k]), turn, shift).map((value) => value / scale));
     }
     for (const corner of numbers(indices)) triangles.push(first + corner);
     sheet++;
   }
   const mesh = { positions: Float64Array.from(positions), places: Float64Array.from(places), triangles: Uint32Array.from(triangles) };
-  return { ...mesh, sheets: Uint32Array.from(sheets), stretches: stretchesOf(mesh) };
+  return { ...mesh, sheets: Uint32Array.from(sheets), stretches: principalStretches(mesh) };
 }
 
 /**
- * The closed lines around the parts of a mesh.
+ * The border lines of a mesh, each closed.
  * @param {Uint32Array} triangles
- * @returns {Anchored}
+ * @returns {AnchoredLines}
  */
-export function bordersOf(triangles) {
+export function borderLines(triangles) {
   /** @type {Map<number, Set<number>>} */
   const next = new Map();
   for (let t = 0; t < triangles.length; t += 3) {
     for (let corner = 0; corner < 3; corner++) {
       const [a, b] = [triangles[t + corner], triangles[t + ((corner + 1) % 3)]];
-      // Inside, each edge is there in both directions.
+      // An inner edge occurs in both directions, a border edge in one.
       if (next.get(b)?.delete(a)) continue;
       if (!next.has(a)) next.set(a, new Set());
       next.get(a)?.add(b);
@@ -83,22 +83,22 @@ export function bordersOf(triangles) {
     corners: Uint32Array.from(corners),
     shares: Float32Array.from(corners, (_, i) => (i % 3 === 0 ? 1 : 0)),
     lengths: Uint32Array.from(lengths),
-    of: new Uint32Array(lengths.length),
+    lineIndices: new Uint32Array(lengths.length),
   };
 }
 
-/** Turned by a quaternion, then shifted. @param {number[]} place @param {ArrayLike<number>} turn @param {ArrayLike<number>} shift */
-function moved([x, y, z], turn, shift) {
+/** Rotates a point by a quaternion, then translates it. @param {number[]} place @param {ArrayLike<number>} turn @param {ArrayLike<number>} shift */
+function applyPose([x, y, z], turn, shift) {
   const [a, b, c, w] = Array.from(turn);
   const [u, v, t] = [2 * (b * z - c * y), 2 * (c * x - a * z), 2 * (a * y - b * x)];
   return [x + w * u + b * t - c * v + shift[0], y + w * v + c * u - a * t + shift[1], z + w * t + a * v - b * u + shift[2]];
 }
 
 /**
- * Singular values of each triangle's map to the plane, the larger one first.
+ * The singular values of each triangle's map from space to the plane, the larger one first.
  * @param {{ positions: Float64Array, places: Float64Array, triangles: Uint32Array }} mesh
  */
-export function stretchesOf({ positions, places, triangles }) {
+export function principalStretches({ positions, places, triangles }) {
   const stretches = new Float64Array((2 * triangles.length) / 3);
   for (let t = 0; t < triangles.length; t += 3) {
     const [i, j, k] = triangles.subarray(t, t + 3);
@@ -108,7 +108,7 @@ export function stretchesOf({ positions, places, triangles }) {
     const dot = (/** @type {number[]} */ p, /** @type {number[]} */ q) => p[0] * q[0] + p[1] * q[1] + p[2] * q[2];
     const [ee, ef, ff] = [dot(e, e), dot(e, f), dot(f, f)];
     const determinant = ee * ff - ef * ef;
-    // Of the metric on the sheet by that on the surface: eigenvalues are the squares.
+    // Eigenvalues of the sheet's metric relative to the surface's metric: the squares of the singular values.
     const [p, q, r] = [ax * ax + ay * ay, ax * bx + ay * by, bx * bx + by * by];
     const half = (ff * p - 2 * ef * q + ee * r) / (2 * determinant);
     const root = Math.sqrt(Math.max(0, half * half - (p * r - q * q) / determinant));

@@ -1,14 +1,14 @@
-/** A picture in the place of a surface: a photo, or a flat sheet. */
-import { eachFrame, followDevicePixels } from '../dom.js';
-import { zoomable } from './zoom.js';
+/** Shows a picture in place of a surface: a photo or a flat sheet. */
+import { oncePerFrame, matchDevicePixels } from '../dom.js';
+import { makeZoomable } from './zoom.js';
 
 /** @import {Zoom} from './zoom.js' */
 
 /**
  * @typedef {object} Picture
- * @property {string} title in the place of “Input” or “Result”
- * @property {string} words what is seen
- * @property {(context: CanvasRenderingContext2D, ratio: number) => void} paint `ratio`: pixels of the screen for one of the page
+ * @property {string} title shown in place of “Input” or “Result”
+ * @property {string} words description for screen readers
+ * @property {(context: CanvasRenderingContext2D, ratio: number) => void} paint `ratio`: device pixels per CSS pixel
  * @property {(canvas: { width: number, height: number }, ratio: number, x: number, y: number) => string} [read] the value at
  *   a place of the canvas, with its name and unit
  */
@@ -16,24 +16,24 @@ import { zoomable } from './zoom.js';
 export class PictureView {
   /** @type {Picture | null} */
   #picture = null;
-  #paintSoon = eachFrame(() => this.#paint());
+  #paintSoon = oncePerFrame(() => this.#paint());
 
   /**
    * @param {HTMLCanvasElement} canvas
    * @param {Zoom} [zoom]
-   * @param {HTMLElement} [over] what lies over the picture
+   * @param {HTMLElement} [over] element over the picture that gets the pointer events
    */
   constructor(canvas, zoom, over = canvas) {
     this.canvas = canvas;
     this.zoom = zoom;
     zoom?.onChange(this.#paintSoon);
-    if (zoom) zoomable(over, zoom, { alone: true });
-    // At once, for a resized canvas is blank.
-    followDevicePixels(canvas, () => this.#paint());
+    if (zoom) makeZoomable(over, zoom, { exclusive: true });
+    // Without delay, since resizing clears the canvas.
+    matchDevicePixels(canvas, () => this.#paint());
     matchMedia('(prefers-color-scheme: dark)').addEventListener('change', this.#paintSoon);
   }
 
-  /** @param {Picture | null} picture */
+  /** Shows a picture, or none. @param {Picture | null} picture */
   show(picture) {
     this.#picture = picture;
     this.canvas.hidden = picture === null;
@@ -41,20 +41,20 @@ export class PictureView {
     this.#paintSoon();
   }
 
-  /** What is under the pointer. @param {MouseEvent} event */
+  /** The value under the pointer. @param {MouseEvent} event */
   read({ offsetX, offsetY }) {
     const { canvas } = this;
     const ratio = canvas.width / canvas.clientWidth;
-    const { left, top, width, height } = this.#placed();
+    const { left, top, width, height } = this.#zoomedFrame();
     const [x, y] = [((offsetX * ratio - left) / width) * canvas.width, ((offsetY * ratio - top) / height) * canvas.height];
     return this.#picture?.read?.(canvas, ratio, x, y) ?? '';
   }
 
-  /** Where the canvas' own frame is after zooming. */
-  #placed() {
+  /** The rectangle of the whole canvas after zooming. */
+  #zoomedFrame() {
     const { canvas: { width, height } } = this;
     const frame = { left: 0, top: 0, width, height };
-    return this.zoom?.placed(frame, frame) ?? frame;
+    return this.zoom?.transformBox(frame, frame) ?? frame;
   }
 
   #paint() {
@@ -64,7 +64,7 @@ export class PictureView {
     context.clearRect(0, 0, canvas.width, canvas.height);
     context.save();
     if (this.zoom) {
-      const { left, top, width, height } = this.#placed();
+      const { left, top, width, height } = this.#zoomedFrame();
       context.setTransform(width / canvas.width, 0, 0, height / canvas.height, left, top);
     }
     this.#picture.paint(context, canvas.width / canvas.clientWidth);
@@ -73,7 +73,7 @@ export class PictureView {
 }
 
 /**
- * An image as a picture, as large as there is room.
+ * A picture of an image, scaled to fit the canvas.
  * @param {HTMLCanvasElement} image
  * @param {string} title
  * @param {string} words
@@ -81,8 +81,8 @@ export class PictureView {
  * @returns {Picture}
  */
 export function imagePicture(image, title, words, value) {
-  /** @param {{ width: number, height: number }} canvas */
-  const placed = ({ width, height }) => {
+  /** The rectangle of the image on a canvas. @param {{ width: number, height: number }} canvas */
+  const fittedBox = ({ width, height }) => {
     const scale = Math.min(width / image.width, height / image.height);
     const [w, h] = [image.width * scale, image.height * scale];
     return { scale, left: (width - w) / 2, top: (height - h) / 2, w, h };
@@ -91,13 +91,13 @@ export function imagePicture(image, title, words, value) {
     title,
     words,
     paint: (context) => {
-      const { scale, left, top, w, h } = placed(context.canvas);
+      const { scale, left, top, w, h } = fittedBox(context.canvas);
       context.imageSmoothingEnabled = scale < 4;
       context.imageSmoothingQuality = 'high';
       context.drawImage(image, left, top, w, h);
     },
     read: value && ((canvas, _, x, y) => {
-      const { scale, left, top, w, h } = placed(canvas);
+      const { scale, left, top, w, h } = fittedBox(canvas);
       return x < left || y < top || x >= left + w || y >= top + h ? '' : value((x - left) / scale, (y - top) / scale);
     }),
   };

@@ -1,0 +1,130 @@
+/** Images of values in colour, as pixels of a canvas; a pixel without a value is 0. */
+import { COLOUR_SCALE_QUANTILE, divergingPixel, logarithmicScale, magnitudeQuantile } from './colours.js';
+import { interpolateToGrid, nearestVertices } from './lattice.js';
+import { readAssemblyMesh, principalStretches } from './assembly-mesh.js';
+import { extentOf, fillTriangles } from './triangles.js';
+import { triangleStrain } from './unfolding.js';
+
+/** @import {Grid, Lattice} from './lattice.js' */
+
+/** Length of the longer side of a sheet's image, in pixels. */
+const SHEET_SIDE_PIXELS = 1600;
+/** Side of a square of pixels with one readable strain. */
+const READOUT_CELL_PIXELS = 4;
+/** Minimum strain at the end of the colour scale; a smaller one would show rounding errors. */
+const MIN_STRAIN_RANGE = 1e-3;
+
+/**
+ * Values of a lattice on a logarithmic colour scale.
+ * @param {Lattice} lattice
+ * @param {ArrayLike<number>} values
+ * @param {Grid} grid
+ * @param {number} linearLimit value at which the linear part of the scale ends
+ * @param {number} maximum value at the end of the scale
+ */
+export function valuePixels(lattice, values, grid, linearLimit, maximum) {
+  const { place } = logarithmicScale(linearLimit, maximum);
+  return Uint32Array.from(interpolateToGrid(lattice, values, grid), (value) => (Number.isNaN(value) ? 0 : divergingPixel(place(value))));
+}
+
+/**
+ * Labels of a lattice, each in its colour.
+ * @param {Lattice} lattice
+ * @param {ArrayLike<number>} labels negative for none
+ * @param {Grid} grid
+ * @param {readonly number[]} colours of the labels
+ */
+export function labelPixels(lattice, labels, grid, colours) {
+  return Uint32Array.from(nearestVertices(lattice, grid), (vertex) => {
+    if (vertex < 0) return 0;
+    // At the border the nearest vertex may have no label while a neighbour has one.
+    const near = labels[vertex] >= 0 ? vertex : labels[vertex - 1] >= 0 ? vertex - 1 : vertex + 1;
+    return labels[near] >= 0 ? colours[labels[near]] : 0;
+  });
+}
+
+/**
+ * The photo on a surface, or the colours of its vertices.
+ * @param {Lattice} lattice
+ * @param {{ image?: { width: number, height: number, data: Uint8ClampedArray }, uvs?: ArrayLike<number>, colors?: ArrayLike<number> }} seen
+ *   `uvs`: places in the image, as shares of its width from the left and of its height from below; `colors`: from 0 to 1
+ * @param {Grid} grid
+ */
+export function photoPixels(lattice, { image, uvs, colors }, grid) {
+  const values = image && uvs ? uvs : colors ?? [];
+  const channels = image && uvs ? 2 : 3;
+  const count = lattice.rows * lattice.cols;
+  const planes = Array.from({ length: channels }, (_, k) =>
+    interpolateToGrid(lattice, Float64Array.from({ length: count }, (_, i) => values[channels * i + k]), grid));
+  const out = new Uint8ClampedArray(4 * grid.width * grid.height);
+  for (let i = 0; i < grid.width * grid.height; i++) {
+    const place = planes.map((plane) => plane[i]);
+    if (place.some(Number.isNaN)) continue;
+    out[4 * i + 3] = 255;
+    if (image) {
+      const col = Math.min(image.width - 1, Math.max(0, Math.floor(place[0] * image.width)));
+      const row = Math.min(image.height - 1, Math.max(0, Math.floor((1 - place[1]) * image.height)));
+      for (let k = 0; k < 3; k++) out[4 * i + k] = image.data[4 * (row * image.width + col) + k];
+    } else for (let k = 0; k < 3; k++) out[4 * i + k] = 255 * place[k];
+  }
+  return new Uint32Array(out.buffer);
+}
+
+/**
+ * A flat sheet coloured by strain, with the strains for reading.
+ * @param {Uint32Array} triangles
+ * @param {Float64Array} places
+ * @param {Float64Array} stretches
+ */
+export function sheetStrainImage(triangles, places, stretches) {
+  const strains = Float64Array.from({ length: triangles.length / 3 }, (_, t) => triangleStrain(stretches, t));
+  const maxStrain = Math.max(MIN_STRAIN_RANGE, magnitudeQuantile([strains], COLOUR_SCALE_QUANTILE));
+  const extent = extentOf(places);
+  const pixelsPerUnit = SHEET_SIDE_PIXELS / Math.max(extent.width, extent.height);
+  const [width, height] = [Math.max(1, Math.ceil(extent.width * pixelsPerUnit)), Math.max(1, Math.ceil(extent.height * pixelsPerUnit))];
+  const onImage = places.map((value, i) => (i % 2 === 0 ? value - extent.left : extent.top - value) * pixelsPerUnit);
+  const pixels = new Uint32Array(width * height);
+  const colours = Uint32Array.from(strains, (strain) => divergingPixel(strain / maxStrain));
+  fillTriangles({ width, height }, triangles, onImage, (pixel, triangle) => (pixels[pixel] = colours[triangle]));
+  const readout = { width: Math.ceil(width / READOUT_CELL_PIXELS), height: Math.ceil(height / READOUT_CELL_PIXELS), strains: new Float32Array(0) };
+  readout.strains = new Float32Array(readout.width * readout.height).fill(NaN);
+  fillTriangles(readout, triangles, onImage.map((value) => value / READOUT_CELL_PIXELS), (pixel, triangle) => (readout.strains[pixel] = strains[triangle]));
+  return { extent, maxStrain, width, height, pixels, readout };
+}
+
+/** A flat mesh coloured by strain. @param {{ positions: Float64Array, places: Float64Array, triangles: Uint32Array }} mesh */
+export function meshStrainImage(mesh) {
+  return sheetStrainImage(mesh.triangles, mesh.places, principalStretches(mesh));
+}
+
+/**
+ * The strain of a drawing's sheets at their places in the drawing, in colours and as numbers.
+ * @param {Uint8Array} model the drawing's assembly, in metres
+ * @param {{ width: number, height: number, bounds: readonly (readonly [readonly [number, number], readonly [number, number]])[] }} drawing
+ *   in millimetres; `bounds`: lower left and upper right corner of each sheet
+ */
+export function drawingStrainImage(model, { width: wide, height: high, bounds }) {
+  const { places, triangles, sheets, stretches } = readAssemblyMesh(model, 1 / 1000);
+  const middles = bounds.map(() => [Infinity, Infinity, -Infinity, -Infinity]);
+  sheets.forEach((sheet, i) => {
+    const [x, y, box] = [places[2 * i], places[2 * i + 1], middles[sheet]];
+    middles[sheet] = [Math.min(box[0], x), Math.min(box[1], y), Math.max(box[2], x), Math.max(box[3], y)];
+  });
+  const pixelsPerMillimetre = SHEET_SIDE_PIXELS / Math.max(wide, high);
+  const [width, height] = [Math.ceil(wide * pixelsPerMillimetre), Math.ceil(high * pixelsPerMillimetre)];
+  const onImage = places.map((value, i) => {
+    const [k, box, [lower, upper]] = [i % 2, middles[sheets[i >> 1]], bounds[sheets[i >> 1]]];
+    const place = value + (lower[k] + upper[k] - box[k] - box[k + 2]) / 2;
+    return (k === 0 ? place : high - place) * pixelsPerMillimetre;
+  });
+  const strains = Float64Array.from({ length: triangles.length / 3 }, (_, t) => triangleStrain(stretches, t));
+  const maxStrain = Math.max(MIN_STRAIN_RANGE, magnitudeQuantile([strains], COLOUR_SCALE_QUANTILE));
+  const colours = Uint32Array.from(strains, (strain) => divergingPixel(strain / maxStrain));
+  const pixels = new Uint32Array(width * height);
+  const values = new Float32Array(width * height).fill(NaN);
+  fillTriangles({ width, height }, triangles, onImage, (pixel, triangle) => {
+    pixels[pixel] = colours[triangle];
+    values[pixel] = strains[triangle];
+  });
+  return { width, height, pixels, values, maxStrain };
+}

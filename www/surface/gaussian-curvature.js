@@ -1,0 +1,55 @@
+/** The total Gaussian curvature of a surface's patches, which is near 0 if they are developable, and the curvatures that are shown. */
+import { magnitudeQuantile } from './colours.js';
+import { ROW_SPACING_RATIO } from './lattice.js';
+
+/** @typedef {import('../../pkg/types.js').Analysis} Analysis */
+/** @typedef {import('../../pkg/types.js').PatchMap} PatchMap */
+
+/**
+ * Maximum total curvature of patches that are sheets. Examples made of sheets have 0.4 at most, a bust 0.7 and 1.8, mountains
+ * 10.
+ */
+export const MAX_SHEET_CURVATURE_RADIANS = 0.6;
+/** Share of the vertices that are counted. The others have the largest curvature: tips of cones and lines. */
+const KEPT_VERTEX_SHARE = 0.95;
+/** Maximum number of sampled vertices. */
+const MAX_SAMPLED_VERTICES = 40_000;
+/** Distance from a crease within which vertices are not counted, in cells. */
+const CREASE_MARGIN_CELLS = 3;
+
+/**
+ * The integral of the absolute Gaussian curvature away from creases and tips, in radians: 2π for a hemisphere.
+ * @param {Pick<PatchMap, 'rows' | 'cols' | 'labels' | 'spacing'>} patches
+ * @param {{ gaussian: ArrayLike<number> }} analysis on the same lattice
+ */
+export function totalGaussianCurvature({ rows, cols, labels, spacing }, { gaussian }) {
+  const step = Math.ceil(labels.length / MAX_SAMPLED_VERTICES);
+  /** @type {number[]} */
+  const found = [];
+  for (let row = CREASE_MARGIN_CELLS; row < rows - CREASE_MARGIN_CELLS; row++) {
+    for (let i = row * cols + CREASE_MARGIN_CELLS + (row % step); i < (row + 1) * cols - CREASE_MARGIN_CELLS; i += step) {
+      const label = labels[i];
+      const curvature = gaussian[i];
+      if (label < 0 || !(Math.abs(curvature) < Infinity)) continue;
+      const [up, down] = [i - CREASE_MARGIN_CELLS * cols, i + CREASE_MARGIN_CELLS * cols];
+      if (labels[i - CREASE_MARGIN_CELLS] !== label || labels[i + CREASE_MARGIN_CELLS] !== label || labels[up] !== label || labels[down] !== label) continue;
+      if (labels[up - CREASE_MARGIN_CELLS] !== label || labels[up + CREASE_MARGIN_CELLS] !== label || labels[down - CREASE_MARGIN_CELLS] !== label || labels[down + CREASE_MARGIN_CELLS] !== label) continue;
+      found.push(Math.abs(curvature));
+    }
+  }
+  const kept = Float64Array.from(found).sort().subarray(0, Math.floor(KEPT_VERTEX_SHARE * found.length));
+  return kept.reduce((sum, value) => sum + value, 0) * step * spacing * spacing * ROW_SPACING_RATIO;
+}
+
+/**
+ * The parts of an analysis that are shown, as 32-bit floats.
+ * @param {Analysis} analysis
+ */
+export function curvaturesOf({ rows, cols, spacing, origin, gaussian, kappa1, kappa2, summary }) {
+  return {
+    rows, cols, spacing, origin, summary,
+    gaussian: new Float32Array(gaussian),
+    kappa2: new Float32Array(kappa2),
+    medianKappa1: magnitudeQuantile([kappa1], 0.5),
+  };
+}

@@ -213,6 +213,48 @@ fn paper_becomes_white_and_colours_stay_under_every_lamp() {
     }
 }
 
+/// Colour of the head of a table.
+const BAR: [f64; 3] = [130.0, 55.0, 85.0];
+
+#[test]
+fn a_tilted_head_of_a_table_of_ten_millimetres_keeps_its_colour() {
+    let [width, height] = SIZE;
+    // A bar of 40 pixels that falls by one in fifty, with pale letters and edges that the lens blurs over four pixels.
+    let share = |x: usize, y: usize| {
+        let from = y as f64 - 400.0 - 0.02 * x as f64;
+        let inside = (from / 4.0).min((40.0 - from) / 4.0).clamp(0.0, 1.0);
+        let is_letter = (14.0..26.0).contains(&from) && x / 60 % 3 == 1 && x % 9 < 3;
+        if (90..750).contains(&x) && !is_letter {
+            inside
+        } else {
+            0.0
+        }
+    };
+    let mut random = Rand64::new(6);
+    let mut found = Vec::new();
+    let mut bar = Vec::new();
+    for i in 0..width * height {
+        let (x, y) = (i % width, i / width);
+        let share = share(x, y);
+        if share == 1.0 {
+            bar.push(i);
+        }
+        for k in 0..3 {
+            let noise = 6.0 * (random.rand_float() - 0.5);
+            let colour = PAPER[k] + share * (BAR[k] - PAPER[k]);
+            found.push((0.8 * colour + noise) as u8);
+        }
+        found.push(255);
+    }
+    let light = clean(width, height, &mut found, &CleaningOptions::default()).unwrap();
+    assert_eq!(light, Light::Even);
+    let [mean, deviation] = luminance(&found, &bar);
+    let expected = 0.299 * BAR[0] + 0.587 * BAR[1] + 0.114 * BAR[2];
+    let expected = 255.0 / PAPER[1] * expected;
+    assert!((mean - expected).abs() < 10.0, "{mean} {expected}");
+    assert!(deviation < 5.0, "{deviation}");
+}
+
 #[test]
 fn black_and_white_recalls_print_under_every_lamp() {
     for (number, (name, lamp)) in LAMPS.into_iter().enumerate() {

@@ -10,6 +10,8 @@ mod bordered;
 mod camera;
 mod figures;
 mod fit;
+#[cfg(test)]
+mod fold_tests;
 mod folds;
 mod grid;
 mod level_lines;

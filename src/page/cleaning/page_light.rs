@@ -11,7 +11,8 @@ use crate::page::outline::{Planes, box_mean, closed};
 const CELLS_ALONG_SIDE: usize = 800;
 
 /// Maximum width of a stroke or a bar of print, as a share of the page's longer side, that does not count as paper whatever its
-/// colour: 12 mm on A4. Heads of tables have up to 10 mm, and their edges are blurred and tilted. A narrower shadow is taken for print, too.
+/// colour: 12 mm on A4, since heads of tables have 10 mm, with edges that are blurred and tilted. A narrower shadow is taken
+/// for print, too.
 const MAX_STROKE_SHARE: f64 = 0.042;
 
 /// Number added to a colour component (0 to 255) before its logarithm is taken, so that noise of dark pixels counts

@@ -6,7 +6,7 @@
 //! Factor and solutions are in single precision, which doubles the columns' values in a register and halves the memory
 //! that a solve reads: the error of one global step is in the next one's right-hand side.
 
-use super::dense_front::{Front, Planes, eliminate_columns};
+use super::dense_front::{BLOCK, Front, Planes, Rows, blocks, eliminate_columns};
 use super::flat_triangle::Point;
 use super::nested_dissection::Order;
 use super::sparse_rows::SparseRows;
@@ -26,7 +26,7 @@ pub(super) struct Cholesky {
     /// Right-hand side and solution in the order of elimination.
     values: Planes<Vec<f32>>,
     /// Values at the rows of one front.
-    local: Planes<Vec<f32>>,
+    local: Planes<Vec<Rows>>,
 }
 
 impl Cholesky {
@@ -38,13 +38,13 @@ impl Cholesky {
         let count = positions.len();
         let Order { vertices, starts } = Order::new(matrix, positions)?;
         let fronts = factorise(matrix, &vertices, &starts)?;
-        let most = fronts.iter().map(|front| front.rows.len()).max();
-        let zeros = |count| try_filled("unrolling", count, 0.0f32);
-        let most = most.unwrap_or(0);
+        let most = fronts.iter().map(Front::row_blocks).max().unwrap_or(0);
+        let zeros = || try_filled("unrolling", count, 0.0f32);
+        let local = || try_filled("unrolling", most, [0.0f32; BLOCK]);
         Ok(Cholesky {
             fronts,
-            values: [zeros(count)?, zeros(count)?],
-            local: [zeros(most)?, zeros(most)?],
+            values: [zeros()?, zeros()?],
+            local: [local()?, local()?],
             order: vertices,
         })
     }
@@ -103,31 +103,34 @@ fn factorise(matrix: &SparseRows, order: &[u32], starts: &[usize]) -> Result<Vec
     let mut fronts = Vec::with_capacity(starts.len());
     let is_last = last_of_components(matrix, order)?;
     // The current front's matrix, and the place in it of each row.
-    let mut space: Vec<f32> = Vec::new();
+    let mut space: Vec<Rows> = Vec::new();
     let mut locals = try_filled("unrolling", count, 0u32)?;
     for (number, (start, end)) in starts.iter().zip(&ends).enumerate() {
         let (start, end) = (*start, *end);
         let own = end - start;
         let updates = std::mem::take(&mut below[number]);
-        let mut rows: Vec<u32> = (start as u32..end as u32).collect();
+        let mut above: Vec<u32> = Vec::new();
         for vertex in &order[start..end] {
             let columns = matrix.row(*vertex as usize);
-            let further = columns.map(|(column, _)| places[column as usize]);
-            rows.extend(further.filter(|place| *place as usize >= end));
+            above.extend(columns.map(|(column, _)| places[column as usize]));
         }
-        for (others, _) in &updates {
-            rows.extend(others.iter().filter(|place| **place as usize >= end));
+        above.extend(updates.iter().flat_map(|(rows, _)| rows));
+        above.retain(|place| *place as usize >= end);
+        above.sort_unstable();
+        above.dedup();
+        let (own_blocks, row_blocks) = (blocks(own), blocks(own) + blocks(above.len()));
+        let first = BLOCK * own_blocks;
+        for (local, row) in (0..own).zip(start..) {
+            locals[row] = local as u32;
         }
-        rows[own..].sort_unstable();
-        rows.dedup();
-        let size = rows.len();
-        for (local, row) in rows.iter().enumerate() {
-            locals[*row as usize] = local as u32;
+        for (local, row) in (first as u32..).zip(&above) {
+            locals[*row as usize] = local;
         }
-        if space.len() < size * size {
-            space = try_filled("unrolling", size * size, 0.0f32)?;
+        let size = BLOCK * row_blocks;
+        if space.len() < size * row_blocks {
+            space = try_filled("unrolling", size * row_blocks, [0.0; BLOCK])?;
         }
-        let values = &mut space[..size * size];
+        let values = space[..size * row_blocks].as_flattened_mut();
         values.fill(0.0);
         for (column, vertex) in order[start..end].iter().enumerate() {
             for (other, weight) in matrix.row(*vertex as usize) {
@@ -150,21 +153,21 @@ fn factorise(matrix: &SparseRows, order: &[u32], starts: &[usize]) -> Result<Vec
                 }
             }
         }
-        eliminate_columns(values, size, own);
-        let rest = rows[own..].to_vec();
-        if let Some(first) = rest.first() {
-            let mut update = Vec::with_capacity(rest.len() * (rest.len() + 1) / 2);
-            for k in own..size {
-                update.extend_from_slice(&values[k * size + k..(k + 1) * size]);
+        eliminate_columns(&mut space[..size * row_blocks], row_blocks, own_blocks);
+        if let Some(next) = above.first() {
+            let values = space.as_flattened();
+            let mut update = Vec::with_capacity(above.len() * (above.len() + 1) / 2);
+            for k in first..first + above.len() {
+                update.extend_from_slice(&values[k * size + k..k * size + first + above.len()]);
             }
-            below[front_of[*first as usize] as usize].push((rest, update));
+            below[front_of[*next as usize] as usize].push((above.clone(), update));
         }
-        let mut columns = try_filled("unrolling", own * size, 0.0f32)?;
-        columns.copy_from_slice(&values[..own * size]);
+        let mut columns = try_filled("unrolling", first * row_blocks, [0.0; BLOCK])?;
+        columns.copy_from_slice(&space[..first * row_blocks]);
         fronts.push(Front {
             start,
             own,
-            rows,
+            above,
             columns,
         });
     }

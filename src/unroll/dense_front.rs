@@ -1,212 +1,241 @@
 //! Dense fronts of a sparse Cholesky factor: elimination of a front's columns, and both substitutions by them.
 //!
-//! All loops run down several columns at once, so that a value that has been loaded is used several times.
+//! Columns come in blocks of four and rows in blocks of four. All loops run down the four columns of a block at once, so that
+//! a value that has been loaded is used several times.
 
-/// Number of columns that are used at once.
-const BLOCK_COLUMNS: usize = 4;
+use wide::f32x4;
+
+/// Number of columns, and of rows, of a block.
+pub(super) const BLOCK: usize = 4;
+
+/// Values of four consecutive rows.
+pub(super) type Rows = [f32; BLOCK];
 
 /// Values of both coordinates of the plane.
 pub(super) type Planes<T> = [T; 2];
 
 /// Columns of the factor that are eliminated together.
+///
+/// The rows of a front are those of its own columns, padded to whole blocks, and then those further up in the order of
+/// elimination. Rows and columns of the padding are 0.
 pub(super) struct Front {
     /// Number of the first column.
     pub start: usize,
     /// Number of columns.
     pub own: usize,
-    /// Rows of the front, ascending; the first ones are those of its columns.
-    pub rows: Vec<u32>,
-    /// The columns, each with a value for each row; the diagonal holds its inverse.
-    pub columns: Vec<f32>,
+    /// Numbers of the rows further up in the order of elimination, ascending.
+    pub above: Vec<u32>,
+    /// The columns, one after the other; the diagonal holds its inverse, and values above it have no meaning.
+    pub columns: Vec<Rows>,
+}
+
+/// Number of whole blocks that hold a number of rows.
+pub(super) fn blocks(rows: usize) -> usize {
+    rows.div_ceil(BLOCK)
 }
 
 impl Front {
+    /// Number of blocks of rows.
+    pub(super) fn row_blocks(&self) -> usize {
+        blocks(self.own) + blocks(self.above.len())
+    }
+
+    /// The columns of a block, from a block of rows on.
+    fn block(&self, block: usize, first: usize) -> [&[Rows]; BLOCK] {
+        let rows = self.row_blocks();
+        columns_from(&self.columns[BLOCK * block * rows..][..BLOCK * rows], rows, first)
+    }
+
+    /// Copies the values at the front's own rows; those of the padding and of the rows further up become 0.
+    fn load(&self, values: &[f32], local: &mut [Rows]) {
+        local.fill([0.0; BLOCK]);
+        let own = self.start..self.start + self.own;
+        local.as_flattened_mut()[..self.own].copy_from_slice(&values[own]);
+    }
+
     /// Forward substitution by the columns of this front.
-    pub(super) fn eliminate(&self, values: &mut Planes<Vec<f32>>, local: &mut Planes<Vec<f32>>) {
-        let (size, own) = (self.rows.len(), self.own);
-        for (local, values) in local.iter_mut().zip(&*values) {
-            local[..own].copy_from_slice(&values[self.start..self.start + own]);
-            local[own..size].fill(0.0);
-        }
-        let [x, y] = local.each_mut().map(|local| &mut local[..size]);
-        for k in (0..own).step_by(BLOCK_COLUMNS) {
-            let end = (k + BLOCK_COLUMNS).min(own);
-            // The triangle of the block's own rows.
-            for i in k..end {
-                let column = &self.columns[i * size..(i + 1) * size];
-                (x[i], y[i]) = (x[i] * column[i], y[i] * column[i]);
-                let factors = [x[i], y[i]];
-                for j in i + 1..end {
-                    x[j] -= factors[0] * column[j];
-                    y[j] -= factors[1] * column[j];
+    pub(super) fn eliminate(&self, values: &mut Planes<Vec<f32>>, local: &mut Planes<Vec<Rows>>) {
+        let own = blocks(self.own);
+        let [x, y] = local
+            .each_mut()
+            .map(|local| &mut local[..self.row_blocks()]);
+        self.load(&values[0], x);
+        self.load(&values[1], y);
+        for block in 0..own {
+            let columns = self.block(block, block);
+            let (diagonal, below) = diagonal_and_below(columns);
+            let ((x, rest_x), (y, rest_y)) = (split(x, block), split(y, block));
+            for i in 0..BLOCK {
+                (x[i], y[i]) = (x[i] * diagonal[i][i], y[i] * diagonal[i][i]);
+                for j in i + 1..BLOCK {
+                    x[j] -= x[i] * diagonal[i][j];
+                    y[j] -= y[i] * diagonal[i][j];
                 }
             }
-            let ([done_x, x], [done_y, y]) = (split(x, end), split(y, end));
-            if end == k + BLOCK_COLUMNS {
-                let columns = [0, 1, 2, 3].map(|i| &self.columns[(k + i) * size..][end..size]);
-                let factors = [&done_x[k..], &done_y[k..]].map(|f| [f[0], f[1], f[2], f[3]]);
-                subtract_block([x, y], columns, factors);
-            } else {
-                for i in k..end {
-                    let column = &self.columns[i * size + end..(i + 1) * size];
-                    subtract([&mut *x, &mut *y], column, [done_x[i], done_y[i]]);
-                }
-            }
+            subtract_block([rest_x, rest_y], below, [*x, *y]);
         }
-        for (local, values) in local.iter().zip(values) {
-            values[self.start..self.start + own].copy_from_slice(&local[..own]);
-            for (row, value) in self.rows[own..].iter().zip(&local[own..]) {
+        for (local, values) in [x, y].into_iter().zip(values) {
+            let own_values = &local.as_flattened()[..self.own];
+            values[self.start..self.start + self.own].copy_from_slice(own_values);
+            for (row, value) in self.above.iter().zip(local[own..].as_flattened()) {
                 values[*row as usize] += value;
             }
         }
     }
 
     /// Back substitution by the columns of this front.
-    pub(super) fn substitute(&self, values: &mut Planes<Vec<f32>>, local: &mut Planes<Vec<f32>>) {
-        let (size, own) = (self.rows.len(), self.own);
+    pub(super) fn substitute(&self, values: &mut Planes<Vec<f32>>, local: &mut Planes<Vec<Rows>>) {
+        let own = blocks(self.own);
         for (local, values) in local.iter_mut().zip(&*values) {
-            local[..own].copy_from_slice(&values[self.start..self.start + own]);
-            for (row, value) in self.rows[own..].iter().zip(&mut local[own..]) {
+            let local = &mut local[..self.row_blocks()];
+            self.load(values, local);
+            let above = local[own..].as_flattened_mut();
+            for (row, value) in self.above.iter().zip(above) {
                 *value = values[*row as usize];
             }
         }
-        let [x, y] = local.each_mut().map(|local| &mut local[..size]);
-        for k in (0..own).step_by(BLOCK_COLUMNS).rev() {
-            let end = (k + BLOCK_COLUMNS).min(own);
-            // Columns beyond the front's own ones are read again, without effect.
-            let columns = [0, 1, 2, 3].map(|i| &self.columns[(k + i).min(end - 1) * size..][end..size]);
-            let sums = dot_block(columns, [&x[end..], &y[end..]]);
-            for i in (k..end).rev() {
-                let column = &self.columns[i * size..(i + 1) * size];
-                let mut sum = sums.map(|sums| sums[i - k]);
-                for j in i + 1..end {
-                    sum[0] += column[j] * x[j];
-                    sum[1] += column[j] * y[j];
+        let [x, y] = local
+            .each_mut()
+            .map(|local| &mut local[..self.row_blocks()]);
+        for block in (0..own).rev() {
+            let columns = self.block(block, block);
+            let (diagonal, below) = diagonal_and_below(columns);
+            let ((x, rest_x), (y, rest_y)) = (split(x, block), split(y, block));
+            let [sum_x, sum_y] = dot_block(below, [rest_x, rest_y]);
+            for i in (0..BLOCK).rev() {
+                let (mut a, mut b) = (x[i] - sum_x[i], y[i] - sum_y[i]);
+                for j in i + 1..BLOCK {
+                    a -= diagonal[i][j] * x[j];
+                    b -= diagonal[i][j] * y[j];
                 }
-                x[i] = (x[i] - sum[0]) * column[i];
-                y[i] = (y[i] - sum[1]) * column[i];
+                (x[i], y[i]) = (a * diagonal[i][i], b * diagonal[i][i]);
             }
         }
-        for (local, values) in local.iter().zip(values) {
-            values[self.start..self.start + own].copy_from_slice(&local[..own]);
+        for (local, values) in [x, y].into_iter().zip(values) {
+            let own_values = &local.as_flattened()[..self.own];
+            values[self.start..self.start + self.own].copy_from_slice(own_values);
         }
     }
 }
 
-fn split(values: &mut [f32], at: usize) -> [&mut [f32]; 2] {
-    let (first, second) = values.split_at_mut(at);
-    [first, second]
+/// Returns a block of rows and all that come after it.
+fn split(values: &mut [Rows], block: usize) -> (&mut Rows, &mut [Rows]) {
+    let (first, rest) = values[block..].split_at_mut(1);
+    (&mut first[0], rest)
 }
 
-/// Subtracts multiples of a column from the values of both coordinates.
-fn subtract([x, y]: Planes<&mut [f32]>, column: &[f32], factors: Planes<f32>) {
-    for ((x, y), entry) in x.iter_mut().zip(y).zip(column) {
-        *x -= factors[0] * entry;
-        *y -= factors[1] * entry;
-    }
+// Arrays are written out: a closure that maps them is not inlined everywhere, and costs more than what it does.
+
+/// The four columns of a block of the factor, from a block of rows on.
+#[inline(always)]
+fn columns_from(block: &[Rows], rows: usize, first: usize) -> [&[Rows]; BLOCK] {
+    let (ab, cd) = block.split_at(2 * rows);
+    let ((a, b), (c, d)) = (ab.split_at(rows), cd.split_at(rows));
+    [&a[first..], &b[first..], &c[first..], &d[first..]]
 }
 
-/// Subtracts multiples of four columns from the values of both coordinates.
+/// Divides four columns that begin in their diagonal block into that block and what is below.
+#[inline(always)]
+fn diagonal_and_below([a, b, c, d]: [&[Rows]; BLOCK]) -> ([Rows; BLOCK], [&[Rows]; BLOCK]) {
+    let below = [&a[1..], &b[1..], &c[1..], &d[1..]];
+    ([a[0], b[0], c[0], d[0]], below)
+}
+
+/// Loads four blocks of rows.
+#[inline(always)]
+fn vectors([a, b, c, d]: [Rows; BLOCK]) -> [f32x4; BLOCK] {
+    [f32x4::from(a), f32x4::from(b), f32x4::from(c), f32x4::from(d)]
+}
+
+/// Vectors of which all lanes are equal.
+#[inline(always)]
+fn splats([a, b, c, d]: [f32; BLOCK]) -> [f32x4; BLOCK] {
+    [f32x4::splat(a), f32x4::splat(b), f32x4::splat(c), f32x4::splat(d)]
+}
+
+/// Subtracts multiples of four columns from two others, or from the values of both coordinates.
+#[inline(always)]
 fn subtract_block(
-    [x, y]: Planes<&mut [f32]>,
-    [a, b, c, d]: [&[f32]; BLOCK_COLUMNS],
-    [[xa, xb, xc, xd], [ya, yb, yc, yd]]: Planes<[f32; BLOCK_COLUMNS]>,
+    [x, y]: [&mut [Rows]; 2],
+    [a, b, c, d]: [&[Rows]; BLOCK],
+    [xs, ys]: [[f32; BLOCK]; 2],
 ) {
+    let ([xa, xb, xc, xd], [ya, yb, yc, yd]) = (splats(xs), splats(ys));
     let terms = a.iter().zip(b).zip(c.iter().zip(d));
     for ((x, y), ((a, b), (c, d))) in x.iter_mut().zip(y).zip(terms) {
-        *x -= (xa * a + xb * b) + (xc * c + xd * d);
-        *y -= (ya * a + yb * b) + (yc * c + yd * d);
+        let [a, b, c, d] = vectors([*a, *b, *c, *d]);
+        *x = (f32x4::from(*x) - ((xa * a + xb * b) + (xc * c + xd * d))).to_array();
+        *y = (f32x4::from(*y) - ((ya * a + yb * b) + (yc * c + yd * d))).to_array();
     }
 }
 
-/// Number of independent sums of an inner product.
-const DOT_LANES: usize = 4;
-
-/// The sums of the values of both coordinates, weighted by each of four columns. Additions run in a fixed number of lanes,
-/// so that they vectorise.
-fn dot_block(
-    columns: [&[f32]; BLOCK_COLUMNS],
-    planes: Planes<&[f32]>,
-) -> Planes<[f32; BLOCK_COLUMNS]> {
-    let mut sums = [[[0.0f32; DOT_LANES]; BLOCK_COLUMNS]; 2];
-    let [a, b, c, d] = columns.map(|column| column.chunks_exact(DOT_LANES));
-    let [x, y] = planes.map(|plane| plane.chunks_exact(DOT_LANES));
-    let tails = [a.remainder(), b.remainder(), c.remainder(), d.remainder()];
-    let rests = [x.remainder(), y.remainder()];
-    for ((x, y), ((a, b), (c, d))) in x.zip(y).zip(a.zip(b).zip(c.zip(d))) {
-        for (sums, plane) in sums.iter_mut().zip([x, y]) {
-            for (sums, column) in sums.iter_mut().zip([a, b, c, d]) {
-                for lane in 0..DOT_LANES {
-                    sums[lane] += column[lane] * plane[lane];
-                }
-            }
-        }
+/// The inner products of four columns and the values of both coordinates. The lanes are added in a fixed order.
+#[inline(always)]
+fn dot_block([a, b, c, d]: [&[Rows]; BLOCK], [x, y]: Planes<&[Rows]>) -> Planes<[f32; BLOCK]> {
+    let zero = f32x4::splat(0.0);
+    let [mut xa, mut xb, mut xc, mut xd] = [zero; BLOCK];
+    let [mut ya, mut yb, mut yc, mut yd] = [zero; BLOCK];
+    let terms = a.iter().zip(b).zip(c.iter().zip(d));
+    for ((x, y), ((a, b), (c, d))) in x.iter().zip(y).zip(terms) {
+        let (x, y) = (f32x4::from(*x), f32x4::from(*y));
+        let [a, b, c, d] = vectors([*a, *b, *c, *d]);
+        (xa, xb, xc, xd) = (xa + x * a, xb + x * b, xc + x * c, xd + x * d);
+        (ya, yb, yc, yd) = (ya + y * a, yb + y * b, yc + y * c, yd + y * d);
     }
-    for (sums, plane) in sums.iter_mut().zip(rests) {
-        for (sums, column) in sums.iter_mut().zip(tails) {
-            for (sum, (entry, value)) in sums.iter_mut().zip(column.iter().zip(plane)) {
-                *sum += entry * value;
-            }
-        }
-    }
-    sums.map(|sums| sums.map(|[a, b, c, d]| (a + b) + (c + d)))
+    let [xa, xb, xc, xd] = f32x4::transpose([xa, xb, xc, xd]);
+    let [ya, yb, yc, yd] = f32x4::transpose([ya, yb, yc, yd]);
+    let (x, y) = ((xa + xb) + (xc + xd), (ya + yb) + (yc + yd));
+    [x.to_array(), y.to_array()]
 }
 
-/// Eliminates the first columns of a dense symmetric matrix of which the lower half is given, two columns at a time.
-pub(super) fn eliminate_columns(values: &mut [f32], size: usize, own: usize) {
-    for k in (0..size).step_by(2) {
-        let (done, rest) = values.split_at_mut(k * size);
-        let done = &done[..k.min(own) * size];
-        if k + 1 == size {
-            subtract_columns(&mut rest[k..], done, size, k);
-            scale(&mut rest[k..], k < own);
-            return;
+/// Eliminates the first blocks of columns of a dense symmetric matrix of which the lower half is given, column by column,
+/// in `row_blocks` blocks of rows and as many of columns.
+pub(super) fn eliminate_columns(values: &mut [Rows], row_blocks: usize, own_blocks: usize) {
+    for target in 0..row_blocks {
+        let (done, rest) = values.split_at_mut(BLOCK * target * row_blocks);
+        let mut columns = rest[..BLOCK * row_blocks].chunks_exact_mut(row_blocks);
+        let mut next = || columns.next().map_or(&mut [][..], |c| &mut c[target..]);
+        let [a, b, c, d] = [next(), next(), next(), next()];
+        for source in done.chunks_exact(BLOCK * row_blocks).take(own_blocks) {
+            let source = columns_from(source, row_blocks, target);
+            let [ka, kb, kc, kd] = [source[0][0], source[1][0], source[2][0], source[3][0]];
+            let factors = |row: usize| [ka[row], kb[row], kc[row], kd[row]];
+            subtract_block([&mut *a, &mut *b], source, [factors(0), factors(1)]);
+            subtract_block([&mut *c, &mut *d], source, [factors(2), factors(3)]);
         }
-        let (first, second) = rest.split_at_mut(size);
-        let (first, second) = (&mut first[k..], &mut second[k + 1..size]);
-        subtract_columns(&mut first[..1], done, size, k);
-        subtract_column_pairs([&mut first[1..], second], done, size, k);
-        scale(first, k < own);
-        if k < own {
-            let factor = first[1];
-            for (value, entry) in second.iter_mut().zip(&first[1..]) {
-                *value -= factor * entry;
-            }
+        if target < own_blocks {
+            eliminate_block([a, b, c, d]);
         }
-        scale(second, k + 1 < own);
     }
 }
 
-/// Divides a column by the root of its pivot if it is eliminated; its diagonal becomes the root's inverse.
-fn scale(column: &mut [f32], is_eliminated: bool) {
-    if is_eliminated {
-        let pivot = column[0];
+/// Eliminates four columns, from their diagonal block on, from which all columns before have been subtracted.
+fn eliminate_block([a, b, c, d]: [&mut [Rows]; BLOCK]) {
+    let mut diagonal = [a[0], b[0], c[0], d[0]];
+    for i in 0..BLOCK {
+        let pivot = diagonal[i][i];
         // A vertex without triangles has no pivot, and does not move.
         let inverse = if pivot > 0.0 { 1.0 / pivot.sqrt() } else { 0.0 };
-        column[1..].iter_mut().for_each(|value| *value *= inverse);
-        column[0] = inverse;
-    }
-}
-
-/// Subtracts from column `k`, from its diagonal on, the columns that are eliminated before it.
-fn subtract_columns(column: &mut [f32], done: &[f32], size: usize, k: usize) {
-    for other in done.chunks_exact(size) {
-        let factor = other[k];
-        for (value, entry) in column.iter_mut().zip(&other[k..]) {
-            *value -= factor * entry;
+        diagonal[i][i] = inverse;
+        for j in i + 1..BLOCK {
+            diagonal[i][j] *= inverse;
+        }
+        for k in i + 1..BLOCK {
+            for j in k..BLOCK {
+                diagonal[k][j] -= diagonal[i][k] * diagonal[i][j];
+            }
         }
     }
-}
-
-/// Subtracts from columns `k` and `k + 1`, both from row `k + 1` on, the columns that are eliminated before them.
-fn subtract_column_pairs([x, y]: [&mut [f32]; 2], done: &[f32], size: usize, k: usize) {
-    let mut blocks = done.chunks_exact(BLOCK_COLUMNS * size);
-    for block in &mut blocks {
-        let columns = [0, 1, 2, 3].map(|i| &block[i * size + k + 1..(i + 1) * size]);
-        let factors = [k, k + 1].map(|row| [0, 1, 2, 3].map(|i| block[i * size + row]));
-        subtract_block([&mut *x, &mut *y], columns, factors);
-    }
-    for other in blocks.remainder().chunks_exact(size) {
-        subtract([&mut *x, &mut *y], &other[k + 1..], [other[k], other[k + 1]]);
+    [a[0], b[0], c[0], d[0]] = diagonal;
+    let [ra, rb] = [splats(diagonal[0]), splats(diagonal[1])];
+    let [rc, rd] = [splats(diagonal[2]), splats(diagonal[3])];
+    let columns = a[1..].iter_mut().zip(&mut b[1..]);
+    for ((a, b), (c, d)) in columns.zip(c[1..].iter_mut().zip(&mut d[1..])) {
+        let first = f32x4::from(*a) * ra[0];
+        let second = (f32x4::from(*b) - first * ra[1]) * rb[1];
+        let third = (f32x4::from(*c) - (first * ra[2] + second * rb[2])) * rc[2];
+        let fourth = f32x4::from(*d) - ((first * ra[3] + second * rb[3]) + third * rc[3]);
+        (*a, *b) = (first.to_array(), second.to_array());
+        (*c, *d) = (third.to_array(), (fourth * rd[3]).to_array());
     }
 }

@@ -43,7 +43,11 @@ impl Front {
     /// The columns of a block, from a block of rows on.
     fn block(&self, block: usize, first: usize) -> [&[Rows]; BLOCK] {
         let rows = self.row_blocks();
-        columns_from(&self.columns[BLOCK * block * rows..][..BLOCK * rows], rows, first)
+        columns_from(
+            &self.columns[BLOCK * block * rows..][..BLOCK * rows],
+            rows,
+            first,
+        )
     }
 
     /// Copies the values at the front's own rows; those of the padding and of the rows further up become 0.
@@ -144,13 +148,23 @@ fn diagonal_and_below([a, b, c, d]: [&[Rows]; BLOCK]) -> ([Rows; BLOCK], [&[Rows
 /// Loads four blocks of rows.
 #[inline(always)]
 fn vectors([a, b, c, d]: [Rows; BLOCK]) -> [f32x4; BLOCK] {
-    [f32x4::from(a), f32x4::from(b), f32x4::from(c), f32x4::from(d)]
+    [
+        f32x4::from(a),
+        f32x4::from(b),
+        f32x4::from(c),
+        f32x4::from(d),
+    ]
 }
 
 /// Vectors of which all lanes are equal.
 #[inline(always)]
 fn splats([a, b, c, d]: [f32; BLOCK]) -> [f32x4; BLOCK] {
-    [f32x4::splat(a), f32x4::splat(b), f32x4::splat(c), f32x4::splat(d)]
+    [
+        f32x4::splat(a),
+        f32x4::splat(b),
+        f32x4::splat(c),
+        f32x4::splat(d),
+    ]
 }
 
 /// Subtracts multiples of four columns from two others, or from the values of both coordinates.

@@ -14,7 +14,7 @@ use crate::scene::triangulation::Triangulation;
 use crate::scene::view::Frame;
 use crate::shape::patches::extrapolate::extrapolated_height;
 use crate::unroll::flat_triangle::{FlatTriangle, Point};
-use crate::unroll::{UnrollOptions, Unrolling, unroll_mesh};
+use crate::unroll::{UnrollOptions, unroll_mesh};
 
 /// Distance in space between the two sides of a seam, in lattice spacings, above which the surface counts as torn
 /// there.
@@ -95,29 +95,18 @@ impl FlatPatch {
             return Ok(None);
         };
         let triangles = flat_triangles(&mesh);
-        let flat = unroll_mesh(mesh, options, Some(limit), None)?;
+        let flat = unroll_mesh(mesh, options, Some(limit))?;
+        let places = flat.places().iter();
+        let places: Vec<Point> = places.map(|[x, y]| Point::new(*x, *y)).collect();
         Ok(Some(FlatPatch {
             triangles,
             relaxation: Relaxation::Alone,
             window,
             own,
-            places: points(&flat),
-            alone: points(&flat),
+            alone: places.clone(),
+            places,
             mesh: flat.into_mesh(),
         }))
-    }
-
-    /// Lays a patch flat by itself, from its current flat positions on. The relaxation stops early once the strain is
-    /// sure to exceed `limit`.
-    pub(super) fn laid_alone(self, options: &UnrollOptions, limit: f64) -> Result<FlatPatch> {
-        let flat = unroll_mesh(self.mesh, options, Some(limit), Some(&self.places))?;
-        Ok(FlatPatch {
-            relaxation: Relaxation::Alone,
-            places: points(&flat),
-            alone: points(&flat),
-            mesh: flat.into_mesh(),
-            ..self
-        })
     }
 
     /// Creates a patch with given positions, which is not relaxed. Vertices without a given position are placed next to
@@ -354,12 +343,6 @@ fn flat_triangles(mesh: &Triangulation) -> Vec<FlatTriangle> {
     corners
         .map(|corners| FlatTriangle::from_points(corners.map(|v| mesh.positions()[v as usize])))
         .collect()
-}
-
-/// The flat positions of an unrolled mesh's vertices.
-fn points(flat: &Unrolling) -> Vec<Point> {
-    let places = flat.places().iter();
-    places.map(|[x, y]| Point::new(*x, *y)).collect()
 }
 
 /// Completes the flat positions of a mesh's vertices from some known positions: in each triangle two known corners

@@ -2,6 +2,7 @@
 import { basename, extname } from 'node:path';
 import * as developable from '../index.js';
 import { solver } from '../schema/fit.js';
+import { isMesh } from './arguments.js';
 import { readCamera } from './camera.js';
 import { checkPlaces, readBytes, writeWhole } from './files.js';
 import { solve } from './fit.js';
@@ -101,9 +102,20 @@ async function drawnOnce(task, signal) {
   if (task.sheets === undefined) {
     const { surface, options } = await flattened(task, signal);
     const refold = task.report !== undefined;
-    return { drawing: await developable.pattern(surface, { ...options, ...drawingOptions(task), refold }) };
+    const drawing = developable.pattern(surface, { ...options, ...drawingOptions(task), refold });
+    return { drawing: await drawing.catch((problem) => { throw withRemedy(problem, task.input); }) };
   }
   return chosenOf(task, await explored(task, signal));
+}
+
+/**
+ * The problem of a pattern, with what else can be done about a mesh: only the view of it from one side was to be laid flat.
+ * @param {unknown} problem
+ * @param {string} input
+ */
+function withRemedy(problem, input) {
+  if (!(problem instanceof developable.DevelopableError) || problem.code !== 'NOT_FLAT' || !isMesh(input)) return problem;
+  return new Problem(status.input, `${problem.message}; or give --surface: it lays the whole mesh flat, and not a view of it from one side`);
 }
 
 /**

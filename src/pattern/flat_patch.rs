@@ -38,6 +38,8 @@ pub(super) enum Relaxation {
 /// A patch, extended one cell beyond its creases and laid flat by itself.
 pub(super) struct FlatPatch {
     mesh: Triangulation,
+    /// The mesh's triangles, each in a plane of its own.
+    triangles: Vec<FlatTriangle>,
     /// Flat positions of the vertices from when the patch was laid flat by itself; the current positions, which may
     /// differ, are in `places`.
     alone: Vec<Point>,
@@ -92,16 +94,18 @@ impl FlatPatch {
         let Some((mesh, own)) = FlatPatch::mesh(surface, labels, patch, window)? else {
             return Ok(None);
         };
+        let triangles = flat_triangles(&mesh);
         let flat = unroll_mesh(mesh, options, Some(limit))?;
         let places = flat.places().iter();
         let places: Vec<Point> = places.map(|[x, y]| Point::new(*x, *y)).collect();
         Ok(Some(FlatPatch {
-            mesh: flat.into_mesh(),
-            alone: places.clone(),
-            places,
+            triangles,
             relaxation: Relaxation::Alone,
             window,
             own,
+            alone: places.clone(),
+            places,
+            mesh: flat.into_mesh(),
         }))
     }
 
@@ -126,6 +130,7 @@ impl FlatPatch {
             return Ok(None);
         };
         Ok(Some(FlatPatch {
+            triangles: flat_triangles(&mesh),
             mesh,
             alone: places.clone(),
             places,
@@ -221,27 +226,19 @@ impl FlatPatch {
     /// triangle with only one corner that belongs to the patch is left out, unless there are no others.
     #[inline]
     pub(super) fn pieces(&self) -> impl Iterator<Item = (FlatTriangle, [u32; 3])> + '_ {
-        let mesh = &self.mesh;
         let inside = |corners: &[u32; 3]| {
             let own = corners.iter().filter(|v| self.own[**v as usize]);
             own.count() > 1
         };
-        let some = mesh.triangles().iter().any(inside);
-        let corners = mesh.triangles().iter();
-        let corners = corners.filter(move |corners| !some || inside(corners));
-        corners.map(move |corners| {
-            let points = corners.map(|v| mesh.positions()[v as usize]);
-            (FlatTriangle::from_points(points), *corners)
-        })
+        let some = self.mesh.triangles().iter().any(inside);
+        self.all_pieces()
+            .filter(move |(_, corners)| !some || inside(corners))
     }
 
     /// Returns all triangles of the extended patch, each in a plane of its own, with the numbers of their corners.
     pub(super) fn all_pieces(&self) -> impl Iterator<Item = (FlatTriangle, [u32; 3])> + '_ {
-        let mesh = &self.mesh;
-        mesh.triangles().iter().map(|corners| {
-            let points = corners.map(|v| mesh.positions()[v as usize]);
-            (FlatTriangle::from_points(points), *corners)
-        })
+        let corners = self.mesh.triangles().iter().copied();
+        self.triangles.iter().copied().zip(corners)
     }
 
     /// Computes the strain of the patch at the current flat positions of its vertices.
@@ -338,6 +335,14 @@ impl FlatPatch {
         self.number(vertex)
             .map_or(Point::new(f64::NAN, f64::NAN), |n| self.places[n])
     }
+}
+
+/// Moves each triangle of a mesh to a plane of its own.
+fn flat_triangles(mesh: &Triangulation) -> Vec<FlatTriangle> {
+    let corners = mesh.triangles().iter();
+    corners
+        .map(|corners| FlatTriangle::from_points(corners.map(|v| mesh.positions()[v as usize])))
+        .collect()
 }
 
 /// Completes the flat positions of a mesh's vertices from some known positions: in each triangle two known corners

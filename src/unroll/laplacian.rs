@@ -9,6 +9,7 @@ use super::lattice_triangles::LatticeTriangles;
 use super::padded_lattice::PaddedLattice;
 use crate::error::{Result, try_filled};
 use crate::math::lanes;
+use wide::f32x4;
 
 /// The cotangent Laplacian of a heightfield on the padded lattice, stored as the weights of the edges from each cell to
 /// its neighbours in the east, south-west and south-east.
@@ -126,8 +127,16 @@ impl Laplacian {
             let near = RowStencil::new(self, row, x);
             let (b, inverse) = (&b[cells.clone()], &self.inverse[cells.clone()]);
             let next = &mut next[cells];
-            for i in 0..next.len() {
-                next[i] = near.centre[i] + omega * inverse[i] * (b[i] - near.product(i));
+            let (blocks, tail) = next.as_chunks_mut::<LANES>();
+            let mut first = 0;
+            for next in blocks {
+                let (b, inverse) = (load(b, first), load(inverse, first));
+                let step = f32x4::splat(omega) * inverse * (b - near.products(first));
+                *next = (load(near.centre, first) + step).to_array();
+                first += LANES;
+            }
+            for (i, next) in (first..).zip(tail) {
+                *next = near.centre[i] + omega * inverse[i] * (b[i] - near.product(i));
             }
         }
     }
@@ -137,10 +146,10 @@ impl Laplacian {
         for row in 0..self.grid.rows() {
             let cells = self.grid.row(row);
             let near = RowStencil::new(self, row, x);
-            let b = &b[cells.clone()];
-            let out = &mut out[cells];
-            for i in 0..out.len() {
-                out[i] = b[i] - near.product(i);
+            let (b, out) = (&b[cells.clone()], &mut out[cells]);
+            near.write_products(out);
+            for (out, b) in out.iter_mut().zip(b) {
+                *out = b - *out;
             }
         }
     }
@@ -150,14 +159,23 @@ impl Laplacian {
         let mut product = 0.0;
         for row in 0..self.grid.rows() {
             let cells = self.grid.row(row);
-            let near = RowStencil::new(self, row, x);
             let out = &mut out[cells.clone()];
-            for (i, out) in out.iter_mut().enumerate() {
-                *out = near.product(i);
-            }
+            RowStencil::new(self, row, x).write_products(out);
             product += lanes::dot(&x[cells], out);
         }
         product
+    }
+}
+
+/// Number of cells of a row whose products are computed at once.
+const LANES: usize = 4;
+
+/// Loads consecutive values of a row.
+#[inline(always)]
+fn load(values: &[f32], first: usize) -> f32x4 {
+    match values[first..].first_chunk::<LANES>() {
+        Some(lanes) => f32x4::from(*lanes),
+        None => f32x4::splat(0.0),
     }
 }
 
@@ -200,6 +218,31 @@ impl<'a> RowStencil<'a> {
         let ([a, b, c, d, e, f], [p, q, r, s, t, u]) = (self.weights, self.values);
         let around = (a[i] * p[i] + b[i] * q[i]) + (c[i] * r[i] + d[i] * s[i]);
         self.diagonal[i] * self.centre[i] - (around + (e[i] * t[i] + f[i] * u[i]))
+    }
+
+    /// Computes the products of [`LANES`] cells at once. The compiler for wasm does not vectorise [`RowStencil::product`].
+    #[inline(always)]
+    fn products(&self, first: usize) -> f32x4 {
+        let ([a, b, c, d, e, f], [p, q, r, s, t, u]) = (self.weights, self.values);
+        let at = first;
+        let around = (load(a, at) * load(p, at) + load(b, at) * load(q, at))
+            + (load(c, at) * load(r, at) + load(d, at) * load(s, at));
+        let further = load(e, at) * load(t, at) + load(f, at) * load(u, at);
+        load(self.diagonal, at) * load(self.centre, at) - (around + further)
+    }
+
+    /// Writes the product of each cell of the row.
+    #[inline(always)]
+    fn write_products(&self, out: &mut [f32]) {
+        let (blocks, tail) = out.as_chunks_mut::<LANES>();
+        let mut first = 0;
+        for out in blocks {
+            *out = self.products(first).to_array();
+            first += LANES;
+        }
+        for (i, out) in (first..).zip(tail) {
+            *out = self.product(i);
+        }
     }
 }
 

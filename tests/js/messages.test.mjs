@@ -144,3 +144,10 @@ test('no figure or message is not a number where a mesh is all in one place, on 
     }
   }
 });
+
+test('where a view of a mesh cannot be laid flat, the command names the flag for the whole mesh', async () => {
+  await writeFile(join(folder, 'dome.obj'), direct.writeObj(lattice(12, 12, (x, y) => -0.08 * ((x - 5.5) ** 2 + (y + 4.8) ** 2))));
+  const { status, stderr } = await run(folder, 'pattern dome.obj -o o.svg --max-strain 1e-7 --resolution 20'.split(' '));
+  assert.equal(status, 3, stderr);
+  assert.match(stderr, /cannot be laid flat: .*; or give --surface/);
+});

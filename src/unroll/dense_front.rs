@@ -231,8 +231,8 @@ fn eliminate_block([a, b, c, d]: [&mut [Rows]; BLOCK]) {
         // A vertex without triangles has no pivot, and does not move.
         let inverse = if pivot > 0.0 { 1.0 / pivot.sqrt() } else { 0.0 };
         diagonal[i][i] = inverse;
-        for j in i + 1..BLOCK {
-            diagonal[i][j] *= inverse;
+        for value in &mut diagonal[i][i + 1..] {
+            *value *= inverse;
         }
         for k in i + 1..BLOCK {
             for j in k..BLOCK {

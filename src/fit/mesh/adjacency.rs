@@ -44,15 +44,31 @@ impl Adjacency {
     }
 
     /// Finds the second ring of a vertex: its neighbours' neighbours that are no neighbours themselves. Writes them to
-    /// `to`, in ascending order.
+    /// `to`.
     pub(crate) fn second_ring(&self, vertex: usize, to: &mut Vec<u32>) {
-        let ring = self.around(vertex);
         to.clear();
+        self.add_second_ring(vertex, to, |_| true);
+    }
+
+    /// Appends those vertices of a vertex's second ring to `to` for which `is_wanted` holds.
+    pub(super) fn add_second_ring(
+        &self,
+        vertex: usize,
+        to: &mut Vec<u32>,
+        is_wanted: impl Fn(u32) -> bool,
+    ) {
+        let ring = self.around(vertex);
+        let start = to.len();
         for neighbour in ring {
-            let around = self.around(*neighbour as usize).iter().copied();
-            to.extend(around.filter(|other| *other != vertex as u32 && !ring.contains(other)));
+            for other in self.around(*neighbour as usize) {
+                let is_new = *other != vertex as u32
+                    && !ring.contains(other)
+                    && !to[start..].contains(other)
+                    && is_wanted(*other);
+                if is_new {
+                    to.push(*other);
+                }
+            }
         }
-        to.sort_unstable();
-        to.dedup();
     }
 }

@@ -234,16 +234,17 @@ impl SparseOperator {
             areas.iter().map(|area| 2.0 * area).collect()
         };
         let unit = spacing * spacing;
-        let narrow = |four: &EntryGroup<f64>| EntryGroup {
-            vertices: four.vertices,
-            entries: four
-                .entries
-                .map(|row| row.map(|entry| lanes::single(unit * entry))),
+        let narrow = |four: &EntryGroup<f64>| {
+            let scaled = four.entries.map(|row| row.map(|entry| unit * entry));
+            let mut entries = [[0.0; ROW_GROUP_ENTRIES]; 3];
+            lanes::narrow(scaled.as_flattened(), entries.as_flattened_mut());
+            EntryGroup {
+                vertices: four.vertices,
+                entries,
+            }
         };
-        let single_weights: Vec<f32> = weights
-            .iter()
-            .map(|weight| lanes::single(*weight))
-            .collect();
+        let mut single_weights = try_filled("areas", rows.len(), 0.0)?;
+        lanes::narrow(&weights, &mut single_weights);
         let mut operator = SparseOperator {
             single: Arc::new(Rows {
                 first: rows.first.clone(),

@@ -267,16 +267,11 @@ fn fit_quadratic_on_side(
     vertex: usize,
     is_beside: impl Fn(u32) -> bool,
 ) -> Option<(Quadratic, Vec<u32>, Frame)> {
-    let neighbour = |other: &u32, weight| Neighbour {
-        offset: x[*other as usize] - x[vertex],
-        weight,
-    };
     let ring = adjacency.around(vertex);
-    let first = || ring.iter().map(|other| neighbour(other, 1.0));
     let mut vertices = Vec::with_capacity(STENCIL_ROW_CAPACITY);
     vertices.extend_from_slice(ring);
     let mut fit = match ring.len() >= MIN_RING_VERTICES {
-        true => Quadratic::fit(frame, first()),
+        true => Quadratic::fit(frame, weighted_neighbours(x, vertex, ring, 1.0)),
         false => None,
     };
     if fit
@@ -284,11 +279,14 @@ fn fit_quadratic_on_side(
         .is_none_or(|fit| fit.amplification() > MAX_RING_AMPLIFICATION)
     {
         adjacency.add_second_ring(vertex, &mut vertices, is_beside);
-        let second = vertices[ring.len()..].iter();
-        let second = second.map(|other| neighbour(other, SECOND_RING_FIT_WEIGHT));
+        let second =
+            weighted_neighbours(x, vertex, &vertices[ring.len()..], SECOND_RING_FIT_WEIGHT);
         fit = match fit {
             Some(fit) => fit.with_neighbours(frame, second),
-            None => Quadratic::fit(frame, first().chain(second)),
+            None => Quadratic::fit(
+                frame,
+                weighted_neighbours(x, vertex, ring, 1.0).chain(second),
+            ),
         };
     }
     let fit = fit?;
@@ -296,11 +294,27 @@ fn fit_quadratic_on_side(
     if a.hypot(b) > MAX_FRAME_SLOPE {
         let [t1, t2] = &frame.tangents;
         let turned = Frame::from_normal((frame.normal - a * t1 - b * t2).normalize(), *t1);
-        let second = vertices[ring.len()..].iter();
-        let second = second.map(|other| neighbour(other, SECOND_RING_FIT_WEIGHT));
-        if let Some(fit) = Quadratic::fit(&turned, first().chain(second)) {
+        let second =
+            weighted_neighbours(x, vertex, &vertices[ring.len()..], SECOND_RING_FIT_WEIGHT);
+        if let Some(fit) = Quadratic::fit(
+            &turned,
+            weighted_neighbours(x, vertex, ring, 1.0).chain(second),
+        ) {
             return Some((fit, vertices, turned));
         }
     }
     Some((fit, vertices, frame.clone()))
+}
+
+/// Iterates over some vertices as neighbours of a vertex that a quadratic is fitted at.
+fn weighted_neighbours<'a>(
+    x: &'a [Point],
+    vertex: usize,
+    others: &'a [u32],
+    weight: f64,
+) -> impl Iterator<Item = Neighbour> + Clone + 'a {
+    others.iter().map(move |other| Neighbour {
+        offset: x[*other as usize] - x[vertex],
+        weight,
+    })
 }

@@ -77,7 +77,10 @@ fn inner(a: &[f64; COEFFICIENT_COUNT], b: &[f64; COEFFICIENT_COUNT]) -> f64 {
 impl Quadratic {
     /// Fits a quadratic through a vertex to its neighbours by least squares, over the tangent plane of `frame`; `None`
     /// where the neighbours do not determine one.
-    pub(super) fn fit(frame: &Frame, neighbours: impl Iterator<Item = Neighbour> + Clone) -> Option<Self> {
+    pub(super) fn fit(
+        frame: &Frame,
+        neighbours: impl Iterator<Item = Neighbour> + Clone,
+    ) -> Option<Self> {
         let full = neighbours.clone().filter(|n| n.weight == 1.0);
         let (sum, count) = full.fold((0.0, 0.0), |(sum, count), n| {
             (sum + n.offset.norm_squared(), count + 1.0)

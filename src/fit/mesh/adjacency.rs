@@ -72,3 +72,28 @@ impl Adjacency {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_second_ring_has_each_vertex_once_and_no_neighbours() {
+        let edges = [
+            [0, 1],
+            [0, 2],
+            [1, 2],
+            [1, 3],
+            [2, 3],
+            [2, 4],
+            [3, 4],
+            [4, 5],
+        ];
+        let adjacency = Adjacency::from_edges(6, edges.into_iter()).unwrap();
+        let mut ring = vec![7];
+        adjacency.second_ring(0, &mut ring);
+        assert_eq!(ring, [3, 4]);
+        adjacency.add_second_ring(5, &mut ring, |other| other != 3);
+        assert_eq!(ring, [3, 4, 2]);
+    }
+}

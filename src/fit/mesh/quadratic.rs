@@ -257,3 +257,31 @@ fn inverse(
         std::array::from_fn(|j| entry(i, j))
     }))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn neighbours_added_later_count_like_those_at_first() {
+        let frame = Frame::from_normal(Point::z(), Point::x());
+        let neighbours = (0..12).map(|k| {
+            let (angle, weight) = (0.5 * f64::from(k), if k < 6 { 1.0 } else { 0.03 });
+            Neighbour {
+                offset: Point::new(angle.cos(), 2.0 * angle.sin(), (3.0 * angle).sin())
+                    / weight.sqrt(),
+                weight,
+            }
+        });
+        let at_once = Quadratic::fit(&frame, neighbours.clone()).unwrap();
+        let first = Quadratic::fit(&frame, neighbours.clone().take(6)).unwrap();
+        let later = first.with_neighbours(&frame, neighbours.skip(6)).unwrap();
+        assert_eq!(later.coefficients, at_once.coefficients);
+        let v = Point::new(0.3, -0.2, 0.5);
+        // The centre moves against all neighbours.
+        let all = (0..12).map(|k| at_once.change(&frame, k, -v));
+        let sum = all.fold(Sym2::default(), |sum, change| sum + change);
+        let own = at_once.change_at_centre(&frame, v);
+        assert!((own - sum).spectral_norm() < 1e-12 * (1.0 + sum.spectral_norm()));
+    }
+}

@@ -266,7 +266,7 @@ mod tests {
     fn neighbours_added_later_count_like_those_at_first() {
         let frame = Frame::from_normal(Point::z(), Point::x());
         let neighbours = (0..12).map(|k| {
-            let (angle, weight) = (0.5 * f64::from(k), if k < 6 { 1.0 } else { 0.03 });
+            let (angle, weight) = (0.5 * f64::from(k), if k < 6 { 1.0f64 } else { 0.03 });
             Neighbour {
                 offset: Point::new(angle.cos(), 2.0 * angle.sin(), (3.0 * angle).sin())
                     / weight.sqrt(),

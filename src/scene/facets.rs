@@ -167,12 +167,18 @@ impl Facets {
     fn flood(&self, labels: &mut [u32], mut open: Vec<bool>, way: impl Fn(usize) -> f64) {
         // The bits of positive floats have their order.
         let mut queue = BinaryHeap::new();
-        // Only triangles without a label are queued, which are few.
-        let ways = |t: usize, open: &[bool], queue: &mut BinaryHeap<_>| {
+        // A triangle is queued again only with a smaller way, because the smallest one gives it its label.
+        let mut smallest = vec![(u64::MAX, NO_INDEX); labels.len()];
+        let mut ways = |t: usize, open: &[bool], queue: &mut BinaryHeap<_>| {
             for side in 3 * t..3 * t + 3 {
                 let twin = self.twins[side];
                 if twin != NO_INDEX && open[twin as usize / 3] {
-                    queue.push(Reverse((way(side).to_bits(), twin, side as u32)));
+                    let key = (way(side).to_bits(), twin);
+                    let smallest = &mut smallest[twin as usize / 3];
+                    if key < *smallest {
+                        *smallest = key;
+                        queue.push(Reverse((key.0, twin, side as u32)));
+                    }
                 }
             }
         };

@@ -44,15 +44,56 @@ impl Adjacency {
     }
 
     /// Finds the second ring of a vertex: its neighbours' neighbours that are no neighbours themselves. Writes them to
-    /// `to`, in ascending order.
+    /// `to`.
     pub(crate) fn second_ring(&self, vertex: usize, to: &mut Vec<u32>) {
-        let ring = self.around(vertex);
         to.clear();
+        self.add_second_ring(vertex, to, |_| true);
+    }
+
+    /// Appends those vertices of a vertex's second ring to `to` for which `is_wanted` holds.
+    pub(super) fn add_second_ring(
+        &self,
+        vertex: usize,
+        to: &mut Vec<u32>,
+        is_wanted: impl Fn(u32) -> bool,
+    ) {
+        let ring = self.around(vertex);
+        let start = to.len();
         for neighbour in ring {
-            let around = self.around(*neighbour as usize).iter().copied();
-            to.extend(around.filter(|other| *other != vertex as u32 && !ring.contains(other)));
+            for other in self.around(*neighbour as usize) {
+                let is_new = *other != vertex as u32
+                    && !ring.contains(other)
+                    && !to[start..].contains(other)
+                    && is_wanted(*other);
+                if is_new {
+                    to.push(*other);
+                }
+            }
         }
-        to.sort_unstable();
-        to.dedup();
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_second_ring_has_each_vertex_once_and_no_neighbours() {
+        let edges = [
+            [0, 1],
+            [0, 2],
+            [1, 2],
+            [1, 3],
+            [2, 3],
+            [2, 4],
+            [3, 4],
+            [4, 5],
+        ];
+        let adjacency = Adjacency::from_edges(6, edges.into_iter()).unwrap();
+        let mut ring = vec![7];
+        adjacency.second_ring(0, &mut ring);
+        assert_eq!(ring, [3, 4]);
+        adjacency.add_second_ring(5, &mut ring, |other| other != 3);
+        assert_eq!(ring, [3, 4, 2]);
     }
 }

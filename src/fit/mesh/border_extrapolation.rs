@@ -103,7 +103,7 @@ pub(super) fn continue_surface(
     if neighbours.iter().filter(|n| n.weight == 1.0).count() < 2 {
         return None;
     }
-    let fit = Quadratic::fit(frame, &neighbours)
+    let fit = Quadratic::fit(frame, neighbours.iter().copied())
         .filter(|fit| fit.amplification() <= MAX_CONTINUATION_AMPLIFICATION)?;
     let [a, b, height] = frame.coordinates(at - x[inner]);
     let [along, across] = fit.gradient([a, b]);

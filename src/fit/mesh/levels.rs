@@ -34,6 +34,10 @@ const MIN_COARSENING_RATIO: f64 = 2.0;
 /// any time, because making its matrices takes as long as the iterations that it saves (`benches/whole.md`).
 const MIN_V_CYCLE_VERTICES: usize = 100_000;
 
+/// Number of ADMM iterations of a level before dual ascent is tried: the start of a level is farther from its optimum than
+/// a gap that ends the solve.
+const FIRST_ASCENT_ITERATION: usize = 1;
+
 /// Ratio of ρ in spacings at the start of a level to that at the end of the next coarser one.
 const RHO_SPACING_RATIO: f64 = 2.0;
 
@@ -317,7 +321,10 @@ impl MeshLevel {
             false => &[],
         };
         let solver = SparseGradients::with_v_cycle(&problem, rho, interpolations)?;
-        let (mut solver, reason) = AdmmSolver::new(problem, iterate, solver, parameters, 0, false)?;
+        let parameters = parameters.with_v_cycles(!interpolations.is_empty());
+        let first = FIRST_ASCENT_ITERATION;
+        let (mut solver, reason) =
+            AdmmSolver::new(problem, iterate, solver, parameters, first, false)?;
         Ok(match self.loaded {
             // One round between checks is enough, since the base is near the solution.
             true => {

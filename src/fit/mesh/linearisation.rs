@@ -267,40 +267,54 @@ fn fit_quadratic_on_side(
     vertex: usize,
     is_beside: impl Fn(u32) -> bool,
 ) -> Option<(Quadratic, Vec<u32>, Frame)> {
-    let offset = |other: &u32, weight| Neighbour {
-        offset: x[*other as usize] - x[vertex],
-        weight,
-    };
     let ring = adjacency.around(vertex);
-    let mut vertices = Vec::with_capacity(4 * ring.len());
+    let mut vertices = Vec::with_capacity(STENCIL_ROW_CAPACITY);
     vertices.extend_from_slice(ring);
-    let mut neighbours = Vec::with_capacity(4 * ring.len());
-    neighbours.extend(ring.iter().map(|other| offset(other, 1.0)));
-    let mut fit = match vertices.len() >= MIN_RING_VERTICES {
-        true => Quadratic::fit(frame, &neighbours)
-            .filter(|fit| fit.amplification() <= MAX_RING_AMPLIFICATION),
+    let mut fit = match ring.len() >= MIN_RING_VERTICES {
+        true => Quadratic::fit(frame, weighted_neighbours(x, vertex, ring, 1.0)),
         false => None,
     };
-    if fit.is_none() {
-        let mut second = Vec::with_capacity(8 * ring.len());
-        adjacency.second_ring(vertex, &mut second);
-        second.retain(|other| is_beside(*other));
-        neighbours.extend(
-            second
-                .iter()
-                .map(|other| offset(other, SECOND_RING_FIT_WEIGHT)),
-        );
-        vertices.extend(second);
-        fit = Quadratic::fit(frame, &neighbours);
+    if fit
+        .as_ref()
+        .is_none_or(|fit| fit.amplification() > MAX_RING_AMPLIFICATION)
+    {
+        adjacency.add_second_ring(vertex, &mut vertices, is_beside);
+        let second =
+            weighted_neighbours(x, vertex, &vertices[ring.len()..], SECOND_RING_FIT_WEIGHT);
+        fit = match fit {
+            Some(fit) => fit.with_neighbours(frame, second),
+            None => Quadratic::fit(
+                frame,
+                weighted_neighbours(x, vertex, ring, 1.0).chain(second),
+            ),
+        };
     }
     let fit = fit?;
     let [a, b] = fit.slope();
     if a.hypot(b) > MAX_FRAME_SLOPE {
         let [t1, t2] = &frame.tangents;
         let turned = Frame::from_normal((frame.normal - a * t1 - b * t2).normalize(), *t1);
-        if let Some(fit) = Quadratic::fit(&turned, &neighbours) {
+        let second =
+            weighted_neighbours(x, vertex, &vertices[ring.len()..], SECOND_RING_FIT_WEIGHT);
+        if let Some(fit) = Quadratic::fit(
+            &turned,
+            weighted_neighbours(x, vertex, ring, 1.0).chain(second),
+        ) {
             return Some((fit, vertices, turned));
         }
     }
     Some((fit, vertices, frame.clone()))
+}
+
+/// Iterates over some vertices as neighbours of a vertex that a quadratic is fitted at.
+fn weighted_neighbours<'a>(
+    x: &'a [Point],
+    vertex: usize,
+    others: &'a [u32],
+    weight: f64,
+) -> impl Iterator<Item = Neighbour> + Clone + 'a {
+    others.iter().map(move |other| Neighbour {
+        offset: x[*other as usize] - x[vertex],
+        weight,
+    })
 }

@@ -15,6 +15,9 @@ const HEXAGONAL_AMPLIFICATION: f64 = 20.0 / 3.0;
 /// determine the quadratic: half of the digits of double precision are left.
 const MIN_PIVOT_SHARE: f64 = 1e-8;
 
+/// Number of neighbours for which memory is reserved: two rings of a hexagonal mesh and some more.
+const SAMPLE_CAPACITY: usize = 24;
+
 /// Weight of a second-ring vertex in a quadratic fit, relative to a first-ring vertex.
 pub(super) const SECOND_RING_FIT_WEIGHT: f64 = 0.03;
 
@@ -29,10 +32,24 @@ pub(super) struct Neighbour {
 #[derive(Debug, Clone)]
 pub(crate) struct Quadratic {
     samples: Vec<Sample>,
+    equations: NormalEquations,
     /// Inverse of the matrix of the normal equations.
     inverse: [[f64; COEFFICIENT_COUNT]; COEFFICIENT_COUNT],
     coefficients: [f64; COEFFICIENT_COUNT],
     scale: f64,
+}
+
+/// Normal equations of the fit of a quadratic, and the sums that its change is computed from when the vertex moves.
+#[derive(Debug, Clone, Default)]
+struct NormalEquations {
+    /// Matrix `Σ w t tᵀ` of the terms `t`, whose lower triangle is enough because it is symmetric.
+    matrix: [[f64; COEFFICIENT_COUNT]; COEFFICIENT_COUNT],
+    /// Right-hand side `Σ w t z` for the heights `z`.
+    right: [f64; COEFFICIENT_COUNT],
+    /// Weighted sum of the terms.
+    terms: [f64; COEFFICIENT_COUNT],
+    /// Weighted sum of the heights.
+    height: f64,
 }
 
 /// A neighbour's contribution to the fit of a quadratic, in units of the quadratic's `scale`.
@@ -60,40 +77,47 @@ fn inner(a: &[f64; COEFFICIENT_COUNT], b: &[f64; COEFFICIENT_COUNT]) -> f64 {
 impl Quadratic {
     /// Fits a quadratic through a vertex to its neighbours by least squares, over the tangent plane of `frame`; `None`
     /// where the neighbours do not determine one.
-    pub(super) fn fit(frame: &Frame, neighbours: &[Neighbour]) -> Option<Self> {
-        let full = neighbours.iter().filter(|n| n.weight == 1.0);
-        let count = full.clone().count() as f64;
-        let scale = (full.map(|n| n.offset.norm_squared()).sum::<f64>() / count).sqrt();
+    pub(super) fn fit(
+        frame: &Frame,
+        neighbours: impl Iterator<Item = Neighbour> + Clone,
+    ) -> Option<Self> {
+        let full = neighbours.clone().filter(|n| n.weight == 1.0);
+        let (sum, count) = full.fold((0.0, 0.0), |(sum, count), n| {
+            (sum + n.offset.norm_squared(), count + 1.0)
+        });
+        let scale = f64::sqrt(sum / count);
         if !(scale > 0.0 && scale.is_finite()) {
             return None;
         }
-        // The lower triangle of the matrix is enough, because it is symmetric.
-        let mut matrix = [[0.0; COEFFICIENT_COUNT]; COEFFICIENT_COUNT];
-        let mut right = [0.0; COEFFICIENT_COUNT];
-        let mut samples = Vec::with_capacity(neighbours.len());
-        for Neighbour { offset, weight } in neighbours {
-            let [x, y, height] = frame.coordinates(*offset).map(|x| x / scale);
-            let terms = terms([x, y]);
-            for (i, row) in matrix.iter_mut().enumerate() {
-                let weighted = weight * terms[i];
-                right[i] += weighted * height;
-                for (entry, term) in row.iter_mut().zip(&terms[..=i]) {
-                    *entry += weighted * term;
-                }
-            }
-            samples.push(Sample {
-                terms,
-                height,
-                weight: *weight,
-            });
-        }
-        let inverse = inverse(&matrix)?;
-        Some(Quadratic {
-            samples,
-            coefficients: inverse.map(|row| inner(&row, &right)),
-            inverse,
+        let fit = Quadratic {
+            samples: Vec::with_capacity(SAMPLE_CAPACITY),
+            equations: NormalEquations::default(),
+            inverse: [[0.0; COEFFICIENT_COUNT]; COEFFICIENT_COUNT],
+            coefficients: [0.0; COEFFICIENT_COUNT],
             scale,
-        })
+        };
+        fit.with_neighbours(frame, neighbours)
+    }
+
+    /// Fits the quadratic to further neighbours as well, over the tangent plane of the same frame.
+    pub(super) fn with_neighbours(
+        mut self,
+        frame: &Frame,
+        neighbours: impl Iterator<Item = Neighbour>,
+    ) -> Option<Self> {
+        for Neighbour { offset, weight } in neighbours {
+            let [x, y, height] = frame.coordinates(offset).map(|x| x / self.scale);
+            let sample = Sample {
+                terms: terms([x, y]),
+                height,
+                weight,
+            };
+            self.equations.add(&sample);
+            self.samples.push(sample);
+        }
+        self.inverse = inverse(&self.equations.matrix)?;
+        self.coefficients = self.inverse.map(|row| inner(&row, &self.equations.right));
+        Some(self)
     }
 
     /// Returns the noise variance of the second derivatives, relative to that on the six-ring of a hexagonal lattice.
@@ -136,15 +160,26 @@ impl Quadratic {
         self.solve(self.right_change(&self.samples[k], frame.coordinates(v)))
     }
 
-    /// Returns the change of the second derivatives, to first order, when the vertex itself moves by `v`.
+    /// Returns the change of the second derivatives, to first order, when the vertex itself moves by `v`: the sum of
+    /// the changes when all neighbours move by `−v`, in which the moments of the residuals vanish.
     pub(super) fn change_at_centre(&self, frame: &Frame, v: Point) -> Sym2 {
-        let back = frame.coordinates(-v);
-        let mut sum = [0.0; COEFFICIENT_COUNT];
-        for sample in &self.samples {
-            let change = self.right_change(sample, back);
-            (0..COEFFICIENT_COUNT).for_each(|k| sum[k] += change[k]);
-        }
-        self.solve(sum)
+        let [dx, dy, dz] = frame.coordinates(-v);
+        let [xx, xy, yy, x, y] = self.coefficients;
+        let NormalEquations {
+            matrix: [.., m3, m4],
+            terms,
+            height,
+            ..
+        } = &self.equations;
+        let rise = dz - dx * x - dy * y;
+        let (along, across) = (dx * xx + dy * xy, dx * xy + dy * yy);
+        let moments_x = [m3[0], m3[1], m3[2], m3[3], m4[3]];
+        let mut right: [f64; COEFFICIENT_COUNT] =
+            std::array::from_fn(|k| rise * terms[k] - along * moments_x[k] - across * m4[k]);
+        let residual = height - inner(terms, &self.coefficients);
+        right[3] += dx * residual;
+        right[4] += dy * residual;
+        self.solve(right)
     }
 
     /// Returns the change of the normal equations' residual, to first order, when a neighbour moves by `[dx, dy, dz]` in
@@ -168,6 +203,26 @@ impl Quadratic {
     fn solve(&self, right: [f64; COEFFICIENT_COUNT]) -> Sym2 {
         let [xx, xy, yy] = std::array::from_fn(|row| inner(&self.inverse[row], &right));
         Sym2::new(xx, xy, yy).scale(self.scale.powi(-2))
+    }
+}
+
+impl NormalEquations {
+    #[inline]
+    fn add(&mut self, sample: &Sample) {
+        let Sample {
+            terms,
+            height,
+            weight,
+        } = sample;
+        for (i, row) in self.matrix.iter_mut().enumerate() {
+            let weighted = weight * terms[i];
+            self.terms[i] += weighted;
+            self.right[i] += weighted * height;
+            for (entry, term) in row.iter_mut().zip(&terms[..=i]) {
+                *entry += weighted * term;
+            }
+        }
+        self.height += weight * height;
     }
 }
 
@@ -201,4 +256,32 @@ fn inverse(
     Some(std::array::from_fn(|i| {
         std::array::from_fn(|j| entry(i, j))
     }))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn neighbours_added_later_count_like_those_at_first() {
+        let frame = Frame::from_normal(Point::z(), Point::x());
+        let neighbours = (0..12).map(|k| {
+            let (angle, weight) = (0.5 * f64::from(k), if k < 6 { 1.0f64 } else { 0.03 });
+            Neighbour {
+                offset: Point::new(angle.cos(), 2.0 * angle.sin(), (3.0 * angle).sin())
+                    / weight.sqrt(),
+                weight,
+            }
+        });
+        let at_once = Quadratic::fit(&frame, neighbours.clone()).unwrap();
+        let first = Quadratic::fit(&frame, neighbours.clone().take(6)).unwrap();
+        let later = first.with_neighbours(&frame, neighbours.skip(6)).unwrap();
+        assert_eq!(later.coefficients, at_once.coefficients);
+        let v = Point::new(0.3, -0.2, 0.5);
+        // The centre moves against all neighbours.
+        let all = (0..12).map(|k| at_once.change(&frame, k, -v));
+        let sum = all.fold(Sym2::default(), |sum, change| sum + change);
+        let own = at_once.change_at_centre(&frame, v);
+        assert!((own - sum).spectral_norm() < 1e-12 * (1.0 + sum.spectral_norm()));
+    }
 }

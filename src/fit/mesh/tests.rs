@@ -291,7 +291,7 @@ fn the_change_of_a_fit_is_its_derivative() {
                     weight: 1.0,
                 })
                 .collect();
-            Quadratic::fit(&frame, &neighbours).unwrap()
+            Quadratic::fit(&frame, neighbours.into_iter()).unwrap()
         };
         let own = fit(&offsets);
         let check = |found: Sym2, moved: &dyn Fn(f64) -> Vec<Point>| {

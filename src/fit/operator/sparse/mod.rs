@@ -21,8 +21,8 @@ use crate::math::sym2::Sym2;
 const MAX_RUN_LENGTH: usize = 256;
 
 /// Number of power iterations that estimate the operator's norm. Only the speed of dual ascent depends on their
-/// accuracy, not the validity of its dual bound.
-const POWER_ITERATIONS: usize = 10;
+/// accuracy, not the validity of its dual bound: ascents from 10 iterations take as many steps.
+const POWER_ITERATIONS: usize = 5;
 /// Factor that turns the power iterations' lower estimate of the operator's norm into an upper bound.
 const NORM_ESTIMATE_MARGIN: f32 = 1.1;
 
@@ -234,16 +234,17 @@ impl SparseOperator {
             areas.iter().map(|area| 2.0 * area).collect()
         };
         let unit = spacing * spacing;
-        let narrow = |four: &EntryGroup<f64>| EntryGroup {
-            vertices: four.vertices,
-            entries: four
-                .entries
-                .map(|row| row.map(|entry| lanes::single(unit * entry))),
+        let narrow = |four: &EntryGroup<f64>| {
+            let scaled = four.entries.map(|row| row.map(|entry| unit * entry));
+            let mut entries = [[0.0; ROW_GROUP_ENTRIES]; 3];
+            lanes::narrow(scaled.as_flattened(), entries.as_flattened_mut());
+            EntryGroup {
+                vertices: four.vertices,
+                entries,
+            }
         };
-        let single_weights: Vec<f32> = weights
-            .iter()
-            .map(|weight| lanes::single(*weight))
-            .collect();
+        let mut single_weights = try_filled("areas", rows.len(), 0.0)?;
+        lanes::narrow(&weights, &mut single_weights);
         let mut operator = SparseOperator {
             single: Arc::new(Rows {
                 first: rows.first.clone(),

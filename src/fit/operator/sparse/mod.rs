@@ -21,8 +21,8 @@ use crate::math::sym2::Sym2;
 const MAX_RUN_LENGTH: usize = 256;
 
 /// Number of power iterations that estimate the operator's norm. Only the speed of dual ascent depends on their
-/// accuracy, not the validity of its dual bound: ascents from 10 iterations take as many steps.
-const POWER_ITERATIONS: usize = 5;
+/// accuracy, not the validity of its dual bound; with fewer the estimate is not an upper bound on a lattice.
+const POWER_ITERATIONS: usize = 8;
 /// Factor that turns the power iterations' lower estimate of the operator's norm into an upper bound.
 const NORM_ESTIMATE_MARGIN: f32 = 1.1;
 

@@ -27,8 +27,7 @@ const MAX_CG_ITERATIONS: usize = 1;
 /// Maximum number of conjugate-gradient iterations in a z-step on a lattice while the duality gap is large.
 const MAX_CG_ITERATIONS_LARGE_GAP: usize = 2;
 
-/// Maximum number of V-cycles in the first z-step of a multigrid level; where there are none, more than in other z-steps
-/// save no iterations of ADMM (`benches/whole.md`).
+/// Maximum number of conjugate-gradient iterations in the first z-step of a multigrid level.
 const MAX_CG_ITERATIONS_FIRST: usize = 3;
 
 /// Maximum number of conjugate-gradient iterations in a z-step where some vertices have hardly any fidelity weight,
@@ -330,7 +329,7 @@ fn z_step_accuracy<O: SolvableOperator>(admm: &Admm<O>) -> ZStepAccuracy {
     let is_weak = admm.problem.has_weak_fidelity;
     let max_iterations = if is_weak {
         MAX_CG_ITERATIONS_WEAK_FIDELITY
-    } else if admm.iteration == 0 && admm.parameters.has_v_cycles {
+    } else if admm.iteration == 0 {
         MAX_CG_ITERATIONS_FIRST
     } else if !admm.parameters.is_mesh && admm.incumbent.gap() > EXTRA_CG_GAP {
         MAX_CG_ITERATIONS_LARGE_GAP

@@ -14,8 +14,6 @@ pub(crate) struct AdmmParameters {
     pub(super) is_coarse: bool,
     /// Whether the problem is that of a mesh, not of a lattice.
     pub(super) is_mesh: bool,
-    /// Whether the z-steps are V-cycles or preconditioned by them.
-    pub(super) has_v_cycles: bool,
     /// Whether the penalty weights are computed anew from the current surface's normals ([`Energy::SecondForm`]).
     pub(super) follows_normals: bool,
 }
@@ -44,7 +42,6 @@ impl AdmmParameters {
             max_iterations: options.max_iterations,
             is_coarse: false,
             is_mesh: false,
-            has_v_cycles: true,
             follows_normals: options.energy_or_default() == Energy::SecondForm,
         }
     }
@@ -53,14 +50,6 @@ impl AdmmParameters {
     pub(crate) fn for_mesh(self) -> Self {
         AdmmParameters {
             is_mesh: true,
-            ..self
-        }
-    }
-
-    /// Returns these parameters for a level whose z-steps have V-cycles or not.
-    pub(crate) fn with_v_cycles(self, has_v_cycles: bool) -> Self {
-        AdmmParameters {
-            has_v_cycles,
             ..self
         }
     }

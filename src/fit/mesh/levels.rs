@@ -321,7 +321,6 @@ impl MeshLevel {
             false => &[],
         };
         let solver = SparseGradients::with_v_cycle(&problem, rho, interpolations)?;
-        let parameters = parameters.with_v_cycles(!interpolations.is_empty());
         let first = FIRST_ASCENT_ITERATION;
         let (mut solver, reason) =
             AdmmSolver::new(problem, iterate, solver, parameters, first, false)?;

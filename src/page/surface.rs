@@ -6,7 +6,7 @@ use super::curled_page::CurledPage;
 use super::edges::{Edges, Trace};
 use super::flat_image::FlatImage;
 use super::options::PageOptions;
-use super::report::{PageReport, PageVerdict};
+use super::report::{PageModel, PageReport, PageVerdict};
 use super::sheet::SheetPage;
 use crate::dewarp::{DewarpOptions, Photo, WarpMap};
 use crate::error::{Error, Result};
@@ -24,7 +24,8 @@ pub enum PageSurface {
 
 impl PageSurface {
     /// Finds the page whose edges are traced in a photo. A cylinder is tried first, by [`CurledPage::in_photo`]. If it
-    /// does not explain the page, and all four edges of one page are given, [`SheetPage::in_photo`] finds a sheet.
+    /// does not explain the page, and all four edges of one page are given, [`SheetPage::in_photo`] finds a sheet. A bent
+    /// cylinder that no line confirms gives way to a plane, if that search finds one.
     ///
     /// # Errors
     /// Those of [`CurledPage::in_photo`] and [`SheetPage::in_photo`].
@@ -48,6 +49,11 @@ impl PageSurface {
         let sheet = match (&curled, edges) {
             (Ok(page), [edges @ Edges::All { .. }]) if is_untrusted(page.report().verdict) => {
                 SheetPage::in_photo(edges, photo, options).ok()
+            }
+            // Errors of a flat page's outline look like a bend.
+            (Ok(page), [edges @ Edges::All { .. }]) if has_unconfirmed_bend(page.report()) => {
+                let sheet = SheetPage::in_photo(edges, photo, options).ok();
+                sheet.filter(|sheet| sheet.report().model == PageModel::Plane)
             }
             (Err(Error::Edges { .. } | Error::FocalLength), [edges @ Edges::All { .. }]) => {
                 Some(SheetPage::in_photo(edges, photo, options)?)
@@ -155,4 +161,9 @@ impl PageSurface {
 /// Whether a verdict says that a cylinder does not explain the page, or hardly does.
 fn is_untrusted(verdict: PageVerdict) -> bool {
     matches!(verdict, PageVerdict::NotThisKind | PageVerdict::Doubtful)
+}
+
+/// Whether a cylinder is bent by its edges alone, without lines of print or traced ones.
+fn has_unconfirmed_bend(report: &PageReport) -> bool {
+    report.bend > 0.0 && report.lines == 0
 }

@@ -256,6 +256,42 @@ fn edges_of_no_sheet_are_not_trusted() {
     }
 }
 
+/// Edges as a detector finds them: all of a page's horizontal edges bow alike, by some pixels in the middle.
+fn bowed_edges(shape: Shape, bow: f64) -> Edges {
+    let edge = |at: fn(f64) -> [f64; 2], bow: f64| {
+        let point = |i: usize| {
+            let share = i as f64 / 60.0;
+            let [x, y] = seen(shape, at(share));
+            [x, y + 4.0 * bow * share * (1.0 - share)]
+        };
+        Trace::Points((0..=60).map(point).collect())
+    };
+    Edges::All {
+        top: edge(|t| [t, 0.0], bow),
+        bottom: edge(|t| [t, 1.0], bow),
+        left: edge(|t| [0.0, t], 0.0),
+        right: edge(|t| [1.0, t], 0.0),
+    }
+}
+
+/// Outlines of flat pages bow by errors of their detection or of the lens; without lines of print nothing contradicts a
+/// cylinder there, but a plane is as likely.
+#[test]
+fn a_small_bow_of_the_outline_alone_bends_no_page() {
+    let options = PageOptions::default().format(Format::A4);
+    for (shape, bow, model) in [
+        (flat as Shape, 1.6, PageModel::Plane),
+        (curled, 0.0, PageModel::Cylinder),
+    ] {
+        let pixels = photo(shape, false);
+        let photo = Photo::new(PHOTO[0], PHOTO[1], &pixels).unwrap();
+        let edges = bowed_edges(shape, bow);
+        let page = PageSurface::in_photo(&[edges], &[], &photo, &options).unwrap();
+        let report = page.report();
+        assert_eq!((report.model, report.lines), (model, 0), "{report:?}");
+    }
+}
+
 #[test]
 fn the_plainest_model_is_taken() {
     for (shape, model) in [

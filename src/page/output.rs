@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use super::curled_page::CurledPage;
 use super::cylinder::SampledCurve;
-use super::flat_image::FlatImage;
+use super::pixel_grid::PixelGrid;
 use crate::dewarp::{DewarpOptions, WarpMap};
 use crate::error::{Error, Result, try_filled};
 use crate::math::lanes;
@@ -91,7 +91,7 @@ impl CurledPage {
     /// [`Error::Option`] for a resolution that is not positive and finite, [`Error::TooLarge`] for an
     /// image of more than [`MAX_CELLS`](crate::MAX_CELLS) pixels, [`Error::OutOfMemory`].
     pub fn warp_map(&self, options: &DewarpOptions) -> Result<WarpMap> {
-        let flat = self.flat_image(options)?;
+        let flat = self.pixel_grid(options)?;
         self.warp_rows(&flat, 0..flat.height)
     }
 
@@ -99,15 +99,15 @@ impl CurledPage {
     ///
     /// # Errors
     /// Those of [`CurledPage::warp_map`].
-    pub(super) fn flat_image(&self, options: &DewarpOptions) -> Result<FlatImage> {
-        FlatImage::new(self.flat_size(), options, || self.seen_area())
+    pub(super) fn pixel_grid(&self, options: &DewarpOptions) -> Result<PixelGrid> {
+        PixelGrid::new(self.flat_size(), options, || self.seen_area())
     }
 
     /// Computes some rows of the [warp map](CurledPage::warp_map).
     ///
     /// # Errors
     /// [`Error::OutOfMemory`].
-    pub(super) fn warp_rows(&self, flat: &FlatImage, rows: Range<usize>) -> Result<WarpMap> {
+    pub(super) fn warp_rows(&self, flat: &PixelGrid, rows: Range<usize>) -> Result<WarpMap> {
         let curve = self.cylinder.curve();
         let (range, along) = match self.sideways {
             true => (rows.clone(), flat.height),

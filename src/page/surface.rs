@@ -4,8 +4,8 @@ use std::ops::Range;
 
 use super::curled_page::CurledPage;
 use super::edges::{Edges, Trace};
-use super::flat_image::FlatImage;
 use super::options::PageOptions;
+use super::pixel_grid::PixelGrid;
 use super::report::{PageModel, PageReport, PageVerdict};
 use super::sheet::SheetPage;
 use crate::dewarp::{DewarpOptions, Photo, WarpMap};
@@ -109,14 +109,14 @@ impl PageSurface {
         }
     }
 
-    /// Size and resolution of the flat image.
+    /// Makes the pixel grid of the flat image.
     ///
     /// # Errors
     /// Those of [`CurledPage::warp_map`].
-    pub fn flat_image(&self, options: &DewarpOptions) -> Result<FlatImage> {
+    pub fn pixel_grid(&self, options: &DewarpOptions) -> Result<PixelGrid> {
         match self {
-            PageSurface::Curled(page) => page.flat_image(options),
-            PageSurface::Sheet(page) => page.flat_image(options),
+            PageSurface::Curled(page) => page.pixel_grid(options),
+            PageSurface::Sheet(page) => page.pixel_grid(options),
         }
     }
 
@@ -130,7 +130,7 @@ impl PageSurface {
     /// If `rgba` does not have four bytes for each pixel of these rows, or the image not as many rows.
     pub fn image_rows(
         &self,
-        flat: &FlatImage,
+        flat: &PixelGrid,
         photo: &Photo<'_>,
         rows: Range<usize>,
         rgba: &mut [u8],

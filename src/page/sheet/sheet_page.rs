@@ -15,10 +15,10 @@ use crate::error::{Error, Result, positive};
 use crate::math::lanes;
 use crate::page::curled_page::MAX_CENTRE_DIAGONALS;
 use crate::page::edges::{Edges, Trace};
-use crate::page::flat_image::FlatImage;
 use crate::page::known_sizes::{Sides, focal_length, sides};
 use crate::page::options::{Format, PageOptions};
 use crate::page::output::{back_project, grid_mesh, texture_coordinates};
+use crate::page::pixel_grid::PixelGrid;
 use crate::page::read_traces::read_traces;
 use crate::page::report::{PageDoubt, PageModel, PageReport, PageVerdict};
 use crate::page::traced_line::{TracedLine, distance};
@@ -206,7 +206,7 @@ impl SheetPage {
     /// # Errors
     /// Those of [`CurledPage::warp_map`](super::super::CurledPage::warp_map).
     pub fn warp_map(&self, options: &DewarpOptions) -> Result<WarpMap> {
-        let flat = self.flat_image(options)?;
+        let flat = self.pixel_grid(options)?;
         self.warp_rows(&flat, 0..flat.height)
     }
 
@@ -214,8 +214,8 @@ impl SheetPage {
     ///
     /// # Errors
     /// Those of [`SheetPage::warp_map`].
-    pub(in crate::page) fn flat_image(&self, options: &DewarpOptions) -> Result<FlatImage> {
-        FlatImage::new(self.flat_size(), options, || self.table.area())
+    pub(in crate::page) fn pixel_grid(&self, options: &DewarpOptions) -> Result<PixelGrid> {
+        PixelGrid::new(self.flat_size(), options, || self.table.area())
     }
 
     /// Computes some rows of the [warp map](SheetPage::warp_map).
@@ -224,7 +224,7 @@ impl SheetPage {
     /// [`Error::OutOfMemory`].
     pub(in crate::page) fn warp_rows(
         &self,
-        flat: &FlatImage,
+        flat: &PixelGrid,
         rows: Range<usize>,
     ) -> Result<WarpMap> {
         flat.warp_rows(rows, |_, share| self.table.at(share).map(lanes::single))

@@ -313,7 +313,7 @@ fn the_plainest_model_is_taken() {
 
         // Bands of rows, each by its own map, make the image of the whole map.
         let options = DewarpOptions::default().dots(0.5);
-        let flat = page.flat_image(&options).unwrap();
+        let flat = page.pixel_grid(&options).unwrap();
         let map = page.warp_map(&options).unwrap();
         assert_eq!([map.width(), map.height()], [flat.width, flat.height]);
         assert_eq!(

@@ -263,7 +263,7 @@ pub fn dewarp_page(photo: JsValue, edges: JsValue, options: JsValue) -> Result<J
             .map(PageSurface::Curled)
     }
     .map_err(|error| renamed(error, "format", "page"))?;
-    let flat = page.flat_image(&wanted)?;
+    let flat = page.pixel_grid(&wanted)?;
     let mesh = page.mesh()?;
     let image_rows =
         |rows: Range<usize>, rgba: &mut [u8]| Ok(page.image_rows(&flat, &photo, rows, rgba)?);

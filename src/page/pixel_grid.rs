@@ -1,14 +1,14 @@
-//! Size of a page's flat image, and its warp map some rows at a time.
+//! Pixel grid of a page's flat image: its size, resolution and corner, and its warp map some rows at a time.
 
 use std::ops::Range;
 
 use crate::dewarp::{DewarpOptions, WarpMap};
 use crate::error::{Result, checked_cells, positive, try_filled};
 
-/// Size and resolution of a page's flat image.
+/// Pixel grid of a page's flat image: its size, resolution and corner.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
-pub struct FlatImage {
+pub struct PixelGrid {
     /// Number of columns.
     pub width: usize,
     /// Number of rows.
@@ -19,8 +19,8 @@ pub struct FlatImage {
     pub corner: [f64; 2],
 }
 
-impl FlatImage {
-    /// Makes the flat image of a page of the given size. The resolution is that of `options`, or by default the one that
+impl PixelGrid {
+    /// Makes the pixel grid of a page of the given size. The resolution is that of `options`, or by default the one that
     /// gives the image as many pixels as the page covers in the photo, `seen_area`.
     ///
     /// # Errors
@@ -37,7 +37,7 @@ impl FlatImage {
         };
         let [width, height] = size.map(|side| (side * resolution).round().max(1.0) as usize);
         checked_cells("flat image", height, width)?;
-        Ok(FlatImage {
+        Ok(PixelGrid {
             width,
             height,
             resolution,

@@ -281,7 +281,7 @@ export function piecesInWords(pieces, creases, oneSide = false) {
 }
 
 /**
- * What a λ is good for: the paper's heuristic (Sec. 5), extended to smaller and larger λ.
+ * Describes the inputs that a λ suits: the paper's heuristic (Sec. 5), extended to smaller and larger λ.
  * @param {number} lambda
  */
 export function lambdaHint(lambda) {

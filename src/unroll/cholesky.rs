@@ -6,7 +6,7 @@
 //! Factor and solutions are in single precision, which doubles the columns' values in a register and halves the memory
 //! that a solve reads: the error of one global step is in the next one's right-hand side.
 
-use super::dense_front::{BLOCK, Front, Planes, Rows, blocks, eliminate_columns};
+use super::dense_front::{BLOCK_SIDE, Front, Planes, Rows, blocks, eliminate_columns};
 use super::flat_triangle::Point;
 use super::nested_dissection::Order;
 use super::sparse_rows::SparseRows;
@@ -40,7 +40,7 @@ impl Cholesky {
         let fronts = factorise(matrix, &vertices, &starts)?;
         let most = fronts.iter().map(Front::row_blocks).max().unwrap_or(0);
         let zeros = || try_filled("unrolling", count, 0.0f32);
-        let local = || try_filled("unrolling", most, [0.0f32; BLOCK]);
+        let local = || try_filled("unrolling", most, [0.0f32; BLOCK_SIDE]);
         Ok(Cholesky {
             fronts,
             values: [zeros()?, zeros()?],
@@ -119,16 +119,16 @@ fn factorise(matrix: &SparseRows, order: &[u32], starts: &[usize]) -> Result<Vec
         above.sort_unstable();
         above.dedup();
         let (own_blocks, row_blocks) = (blocks(own), blocks(own) + blocks(above.len()));
-        let first = BLOCK * own_blocks;
+        let first = BLOCK_SIDE * own_blocks;
         for (local, row) in (0..own).zip(start..) {
             locals[row] = local as u32;
         }
         for (local, row) in (first as u32..).zip(&above) {
             locals[*row as usize] = local;
         }
-        let size = BLOCK * row_blocks;
+        let size = BLOCK_SIDE * row_blocks;
         if space.len() < size * row_blocks {
-            space = try_filled("unrolling", size * row_blocks, [0.0; BLOCK])?;
+            space = try_filled("unrolling", size * row_blocks, [0.0; BLOCK_SIDE])?;
         }
         let values = space[..size * row_blocks].as_flattened_mut();
         values.fill(0.0);
@@ -162,7 +162,7 @@ fn factorise(matrix: &SparseRows, order: &[u32], starts: &[usize]) -> Result<Vec
             }
             below[front_of[*next as usize] as usize].push((above.clone(), update));
         }
-        let mut columns = try_filled("unrolling", first * row_blocks, [0.0; BLOCK])?;
+        let mut columns = try_filled("unrolling", first * row_blocks, [0.0; BLOCK_SIDE])?;
         columns.copy_from_slice(&space[..first * row_blocks]);
         fronts.push(Front {
             start,

@@ -6,10 +6,10 @@
 use wide::f32x4;
 
 /// Number of columns, and of rows, of a block.
-pub(super) const BLOCK: usize = 4;
+pub(super) const BLOCK_SIDE: usize = 4;
 
 /// Values of four consecutive rows.
-pub(super) type Rows = [f32; BLOCK];
+pub(super) type Rows = [f32; BLOCK_SIDE];
 
 /// Values of both coordinates of the plane.
 pub(super) type Planes<T> = [T; 2];
@@ -31,7 +31,7 @@ pub(super) struct Front {
 
 /// Number of whole blocks that hold a number of rows.
 pub(super) fn blocks(rows: usize) -> usize {
-    rows.div_ceil(BLOCK)
+    rows.div_ceil(BLOCK_SIDE)
 }
 
 impl Front {
@@ -41,10 +41,10 @@ impl Front {
     }
 
     /// The columns of a block, from a block of rows on.
-    fn block(&self, block: usize, first: usize) -> [&[Rows]; BLOCK] {
+    fn block(&self, block: usize, first: usize) -> [&[Rows]; BLOCK_SIDE] {
         let rows = self.row_blocks();
         columns_from(
-            &self.columns[BLOCK * block * rows..][..BLOCK * rows],
+            &self.columns[BLOCK_SIDE * block * rows..][..BLOCK_SIDE * rows],
             rows,
             first,
         )
@@ -52,7 +52,7 @@ impl Front {
 
     /// Copies the values at the front's own rows; those of the padding and of the rows further up become 0.
     fn load(&self, values: &[f32], local: &mut [Rows]) {
-        local.fill([0.0; BLOCK]);
+        local.fill([0.0; BLOCK_SIDE]);
         let own = self.start..self.start + self.own;
         local.as_flattened_mut()[..self.own].copy_from_slice(&values[own]);
     }
@@ -69,9 +69,9 @@ impl Front {
             let columns = self.block(block, block);
             let (diagonal, below) = diagonal_and_below(columns);
             let ((x, rest_x), (y, rest_y)) = (split(x, block), split(y, block));
-            for i in 0..BLOCK {
+            for i in 0..BLOCK_SIDE {
                 (x[i], y[i]) = (x[i] * diagonal[i][i], y[i] * diagonal[i][i]);
-                for j in i + 1..BLOCK {
+                for j in i + 1..BLOCK_SIDE {
                     x[j] -= x[i] * diagonal[i][j];
                     y[j] -= y[i] * diagonal[i][j];
                 }
@@ -106,9 +106,9 @@ impl Front {
             let (diagonal, below) = diagonal_and_below(columns);
             let ((x, rest_x), (y, rest_y)) = (split(x, block), split(y, block));
             let [sum_x, sum_y] = dot_block(below, [rest_x, rest_y]);
-            for i in (0..BLOCK).rev() {
+            for i in (0..BLOCK_SIDE).rev() {
                 let (mut a, mut b) = (x[i] - sum_x[i], y[i] - sum_y[i]);
-                for j in i + 1..BLOCK {
+                for j in i + 1..BLOCK_SIDE {
                     a -= diagonal[i][j] * x[j];
                     b -= diagonal[i][j] * y[j];
                 }
@@ -132,7 +132,7 @@ fn split(values: &mut [Rows], block: usize) -> (&mut Rows, &mut [Rows]) {
 
 /// The four columns of a block of the factor, from a block of rows on.
 #[inline(always)]
-fn columns_from(block: &[Rows], rows: usize, first: usize) -> [&[Rows]; BLOCK] {
+fn columns_from(block: &[Rows], rows: usize, first: usize) -> [&[Rows]; BLOCK_SIDE] {
     let (ab, cd) = block.split_at(2 * rows);
     let ((a, b), (c, d)) = (ab.split_at(rows), cd.split_at(rows));
     [&a[first..], &b[first..], &c[first..], &d[first..]]
@@ -140,14 +140,16 @@ fn columns_from(block: &[Rows], rows: usize, first: usize) -> [&[Rows]; BLOCK] {
 
 /// Divides four columns that begin in their diagonal block into that block and what is below.
 #[inline(always)]
-fn diagonal_and_below([a, b, c, d]: [&[Rows]; BLOCK]) -> ([Rows; BLOCK], [&[Rows]; BLOCK]) {
+fn diagonal_and_below(
+    [a, b, c, d]: [&[Rows]; BLOCK_SIDE],
+) -> ([Rows; BLOCK_SIDE], [&[Rows]; BLOCK_SIDE]) {
     let below = [&a[1..], &b[1..], &c[1..], &d[1..]];
     ([a[0], b[0], c[0], d[0]], below)
 }
 
 /// Loads four blocks of rows.
 #[inline(always)]
-fn vectors([a, b, c, d]: [Rows; BLOCK]) -> [f32x4; BLOCK] {
+fn vectors([a, b, c, d]: [Rows; BLOCK_SIDE]) -> [f32x4; BLOCK_SIDE] {
     [
         f32x4::from(a),
         f32x4::from(b),
@@ -158,7 +160,7 @@ fn vectors([a, b, c, d]: [Rows; BLOCK]) -> [f32x4; BLOCK] {
 
 /// Vectors of which all lanes are equal.
 #[inline(always)]
-fn splats([a, b, c, d]: [f32; BLOCK]) -> [f32x4; BLOCK] {
+fn splats([a, b, c, d]: [f32; BLOCK_SIDE]) -> [f32x4; BLOCK_SIDE] {
     [
         f32x4::splat(a),
         f32x4::splat(b),
@@ -171,8 +173,8 @@ fn splats([a, b, c, d]: [f32; BLOCK]) -> [f32x4; BLOCK] {
 #[inline(always)]
 fn subtract_block(
     [x, y]: [&mut [Rows]; 2],
-    [a, b, c, d]: [&[Rows]; BLOCK],
-    [xs, ys]: [[f32; BLOCK]; 2],
+    [a, b, c, d]: [&[Rows]; BLOCK_SIDE],
+    [xs, ys]: [[f32; BLOCK_SIDE]; 2],
 ) {
     let ([xa, xb, xc, xd], [ya, yb, yc, yd]) = (splats(xs), splats(ys));
     let terms = a.iter().zip(b).zip(c.iter().zip(d));
@@ -185,10 +187,13 @@ fn subtract_block(
 
 /// The inner products of four columns and the values of both coordinates. The lanes are added in a fixed order.
 #[inline(always)]
-fn dot_block([a, b, c, d]: [&[Rows]; BLOCK], [x, y]: Planes<&[Rows]>) -> Planes<[f32; BLOCK]> {
+fn dot_block(
+    [a, b, c, d]: [&[Rows]; BLOCK_SIDE],
+    [x, y]: Planes<&[Rows]>,
+) -> Planes<[f32; BLOCK_SIDE]> {
     let zero = f32x4::splat(0.0);
-    let [mut xa, mut xb, mut xc, mut xd] = [zero; BLOCK];
-    let [mut ya, mut yb, mut yc, mut yd] = [zero; BLOCK];
+    let [mut xa, mut xb, mut xc, mut xd] = [zero; BLOCK_SIDE];
+    let [mut ya, mut yb, mut yc, mut yd] = [zero; BLOCK_SIDE];
     let terms = a.iter().zip(b).zip(c.iter().zip(d));
     for ((x, y), ((a, b), (c, d))) in x.iter().zip(y).zip(terms) {
         let (x, y) = (f32x4::from(*x), f32x4::from(*y));
@@ -206,11 +211,11 @@ fn dot_block([a, b, c, d]: [&[Rows]; BLOCK], [x, y]: Planes<&[Rows]>) -> Planes<
 /// in `row_blocks` blocks of rows and as many of columns.
 pub(super) fn eliminate_columns(values: &mut [Rows], row_blocks: usize, own_blocks: usize) {
     for target in 0..row_blocks {
-        let (done, rest) = values.split_at_mut(BLOCK * target * row_blocks);
-        let mut columns = rest[..BLOCK * row_blocks].chunks_exact_mut(row_blocks);
+        let (done, rest) = values.split_at_mut(BLOCK_SIDE * target * row_blocks);
+        let mut columns = rest[..BLOCK_SIDE * row_blocks].chunks_exact_mut(row_blocks);
         let mut next = || columns.next().map_or(&mut [][..], |c| &mut c[target..]);
         let [a, b, c, d] = [next(), next(), next(), next()];
-        for source in done.chunks_exact(BLOCK * row_blocks).take(own_blocks) {
+        for source in done.chunks_exact(BLOCK_SIDE * row_blocks).take(own_blocks) {
             let source = columns_from(source, row_blocks, target);
             let [ka, kb, kc, kd] = [source[0][0], source[1][0], source[2][0], source[3][0]];
             let factors = |row: usize| [ka[row], kb[row], kc[row], kd[row]];
@@ -224,9 +229,9 @@ pub(super) fn eliminate_columns(values: &mut [Rows], row_blocks: usize, own_bloc
 }
 
 /// Eliminates four columns, from their diagonal block on, from which all columns before have been subtracted.
-fn eliminate_block([a, b, c, d]: [&mut [Rows]; BLOCK]) {
+fn eliminate_block([a, b, c, d]: [&mut [Rows]; BLOCK_SIDE]) {
     let mut diagonal = [a[0], b[0], c[0], d[0]];
-    for i in 0..BLOCK {
+    for i in 0..BLOCK_SIDE {
         let pivot = diagonal[i][i];
         // A vertex without triangles has no pivot, and does not move.
         let inverse = if pivot > 0.0 { 1.0 / pivot.sqrt() } else { 0.0 };
@@ -234,8 +239,8 @@ fn eliminate_block([a, b, c, d]: [&mut [Rows]; BLOCK]) {
         for value in &mut diagonal[i][i + 1..] {
             *value *= inverse;
         }
-        for k in i + 1..BLOCK {
-            for j in k..BLOCK {
+        for k in i + 1..BLOCK_SIDE {
+            for j in k..BLOCK_SIDE {
                 diagonal[k][j] -= diagonal[i][k] * diagonal[i][j];
             }
         }

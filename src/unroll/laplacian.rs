@@ -127,13 +127,13 @@ impl Laplacian {
             let near = RowStencil::new(self, row, x);
             let (b, inverse) = (&b[cells.clone()], &self.inverse[cells.clone()]);
             let next = &mut next[cells];
-            let (blocks, tail) = next.as_chunks_mut::<LANES>();
+            let (blocks, tail) = next.as_chunks_mut::<CELLS_PER_VECTOR>();
             let mut first = 0;
             for next in blocks {
                 let (b, inverse) = (load(b, first), load(inverse, first));
                 let step = f32x4::splat(omega) * inverse * (b - near.products(first));
                 *next = (load(near.centre, first) + step).to_array();
-                first += LANES;
+                first += CELLS_PER_VECTOR;
             }
             for (i, next) in (first..).zip(tail) {
                 *next = near.centre[i] + omega * inverse[i] * (b[i] - near.product(i));
@@ -168,12 +168,12 @@ impl Laplacian {
 }
 
 /// Number of cells of a row whose products are computed at once.
-const LANES: usize = 4;
+const CELLS_PER_VECTOR: usize = 4;
 
 /// Loads consecutive values of a row.
 #[inline(always)]
 fn load(values: &[f32], first: usize) -> f32x4 {
-    match values[first..].first_chunk::<LANES>() {
+    match values[first..].first_chunk::<CELLS_PER_VECTOR>() {
         Some(lanes) => f32x4::from(*lanes),
         None => f32x4::splat(0.0),
     }
@@ -220,7 +220,7 @@ impl<'a> RowStencil<'a> {
         self.diagonal[i] * self.centre[i] - (around + (e[i] * t[i] + f[i] * u[i]))
     }
 
-    /// Computes the products of [`LANES`] cells at once. The compiler for wasm does not vectorise [`RowStencil::product`].
+    /// Computes the products of [`CELLS_PER_VECTOR`] cells at once. The compiler for wasm does not vectorise [`RowStencil::product`].
     #[inline(always)]
     fn products(&self, first: usize) -> f32x4 {
         let ([a, b, c, d, e, f], [p, q, r, s, t, u]) = (self.weights, self.values);
@@ -234,11 +234,11 @@ impl<'a> RowStencil<'a> {
     /// Writes the product of each cell of the row.
     #[inline(always)]
     fn write_products(&self, out: &mut [f32]) {
-        let (blocks, tail) = out.as_chunks_mut::<LANES>();
+        let (blocks, tail) = out.as_chunks_mut::<CELLS_PER_VECTOR>();
         let mut first = 0;
         for out in blocks {
             *out = self.products(first).to_array();
-            first += LANES;
+            first += CELLS_PER_VECTOR;
         }
         for (i, out) in (first..).zip(tail) {
             *out = self.product(i);

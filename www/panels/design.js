@@ -34,7 +34,7 @@ export function designPanel(session, space) {
   let knobs = [];
   /** The pin that was focused last. @type {Handle | null} */
   let selected = null;
-  /** What the next drag over the surface adds. @type {'pin' | 'curve' | null} */
+  /** Element that the next drag over the surface adds to the design. @type {'pin' | 'curve' | null} */
   let adding = null;
 
   const presentDesign = () => session.input?.designShape;

@@ -51,7 +51,7 @@ export function viewsPanel(session) {
   /** @type {Occlusions | null} */
   let occlusions = null;
 
-  /** What is shown over the surfaces, or in their places. @type {Partial<ViewContent>} */
+  /** Content of the current view that is drawn over the surfaces, or in their place. @type {Partial<ViewContent>} */
   let present = {};
   const reading = element('flat-reading', HTMLElement);
   for (const [view, side] of /** @type {const} */ ([[before, 'input'], [after, 'result']])) {

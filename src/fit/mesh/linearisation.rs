@@ -271,7 +271,7 @@ fn fit_quadratic_on_side(
     let mut vertices = Vec::with_capacity(STENCIL_ROW_CAPACITY);
     vertices.extend_from_slice(ring);
     let mut fit = match ring.len() >= MIN_RING_VERTICES {
-        true => Quadratic::fit(frame, weighted_neighbours(x, vertex, ring, 1.0)),
+        true => Quadratic::fit(frame, weighted_neighbours(x, vertex, ring, ring.len())),
         false => None,
     };
     if fit
@@ -279,14 +279,10 @@ fn fit_quadratic_on_side(
         .is_none_or(|fit| fit.amplification() > MAX_RING_AMPLIFICATION)
     {
         adjacency.add_second_ring(vertex, &mut vertices, is_beside);
-        let second =
-            weighted_neighbours(x, vertex, &vertices[ring.len()..], SECOND_RING_FIT_WEIGHT);
+        let neighbours = weighted_neighbours(x, vertex, &vertices, ring.len());
         fit = match fit {
-            Some(fit) => fit.with_neighbours(frame, second),
-            None => Quadratic::fit(
-                frame,
-                weighted_neighbours(x, vertex, ring, 1.0).chain(second),
-            ),
+            Some(fit) => fit.with_neighbours(frame, neighbours.skip(ring.len())),
+            None => Quadratic::fit(frame, neighbours),
         };
     }
     let fit = fit?;
@@ -294,27 +290,27 @@ fn fit_quadratic_on_side(
     if a.hypot(b) > MAX_FRAME_SLOPE {
         let [t1, t2] = &frame.tangents;
         let turned = Frame::from_normal((frame.normal - a * t1 - b * t2).normalize(), *t1);
-        let second =
-            weighted_neighbours(x, vertex, &vertices[ring.len()..], SECOND_RING_FIT_WEIGHT);
-        if let Some(fit) = Quadratic::fit(
-            &turned,
-            weighted_neighbours(x, vertex, ring, 1.0).chain(second),
-        ) {
+        let neighbours = weighted_neighbours(x, vertex, &vertices, ring.len());
+        if let Some(fit) = Quadratic::fit(&turned, neighbours) {
             return Some((fit, vertices, turned));
         }
     }
     Some((fit, vertices, frame.clone()))
 }
 
-/// Iterates over some vertices as neighbours of a vertex that a quadratic is fitted at.
+/// Iterates over vertices as neighbours of a vertex that a quadratic is fitted at: the first `ring_len` have full weight,
+/// and the others that of the second ring.
 fn weighted_neighbours<'a>(
     x: &'a [Point],
     vertex: usize,
     others: &'a [u32],
-    weight: f64,
+    ring_len: usize,
 ) -> impl Iterator<Item = Neighbour> + Clone + 'a {
-    others.iter().map(move |other| Neighbour {
+    others.iter().enumerate().map(move |(k, other)| Neighbour {
         offset: x[*other as usize] - x[vertex],
-        weight,
+        weight: match k < ring_len {
+            true => 1.0,
+            false => SECOND_RING_FIT_WEIGHT,
+        },
     })
 }

@@ -9,26 +9,26 @@ use super::plane::CameraPrior;
 use super::polyline::Polyline;
 use super::problem::{LevelLine, ResidualRow, RobustWeights, SheetProblem, SheetWeights};
 
-const RATIO: f64 = 1.4;
+const PAGE_RATIO: f64 = 1.4;
 
 /// Numbers of columns and rows of the grid: row 6 is in the middle.
-const SIZE: [usize; 2] = [9, 13];
+const GRID_SIZE: [usize; 2] = [9, 13];
 
 /// A sheet at a distance of three widths, bent by `shape`, which maps a place on the flat page (from its middle, in widths
 /// of the page) to space.
 fn sheet(shape: impl Fn([f64; 2]) -> Vector3<f64>) -> SheetGrid {
-    let [cols, rows] = SIZE;
+    let [cols, rows] = GRID_SIZE;
     let nodes = (0..cols * rows)
         .map(|i| {
             let x = (i % cols) as f64 / (cols - 1) as f64 - 0.5;
-            let y = RATIO * ((i / cols) as f64 / (rows - 1) as f64 - 0.5);
+            let y = PAGE_RATIO * ((i / cols) as f64 / (rows - 1) as f64 - 0.5);
             shape([x, y]) + Vector3::new(0.0, 0.0, 3.0)
         })
         .collect();
     SheetGrid {
         cols,
         rows,
-        log_ratio: RATIO.ln(),
+        log_ratio: PAGE_RATIO.ln(),
         camera: SheetCamera {
             log_scale: 0.0,
             centre: [0.0; 2],
@@ -84,7 +84,7 @@ fn problem(grid: &SheetGrid, lines: Vec<LevelLine>, folds: Vec<LevelLine>) -> Sh
             centre_deviation: 0.01,
             log_ratio: None,
         },
-        ratio: [RATIO.ln(), 0.002],
+        ratio: [PAGE_RATIO.ln(), 0.002],
         depth: 3.0,
         weights: SheetWeights {
             isometry: 300.0,
@@ -117,7 +117,7 @@ fn bending_across_a_fold_is_free_and_other_bending_is_not() {
     assert!(bending(&middle, &[5.1 / 12.0]) < 1e-20);
     assert_eq!(bending(&middle, &[7.1 / 12.0]), bending(&middle, &[]));
     // A crease between two rows bends at both of them.
-    let between = sheet(|at| folded(at, 0.4 * RATIO / 12.0));
+    let between = sheet(|at| folded(at, 0.4 * PAGE_RATIO / 12.0));
     assert!(bending(&between, &[6.4 / 12.0]) < 1e-20);
     assert!(bending(&between, &[7.2 / 12.0]) > 0.01);
     // A curl across the page is not free.
@@ -174,7 +174,7 @@ fn residuals_of_folds_depend_on_their_own_levels() {
 #[test]
 fn a_fold_that_halves_the_page_is_moved_to_the_middle_as_far_as_its_deviation_says() {
     // The photo shows the fold at 0.47 of the height where the outline says so.
-    let grid = sheet(|at| folded(at, -0.03 * RATIO));
+    let grid = sheet(|at| folded(at, -0.03 * PAGE_RATIO));
     let level = |deviation: Option<f64>| {
         let fold = line(&grid, 0.47, 0.5, deviation);
         let problem = problem(&grid, Vec::new(), vec![fold]);

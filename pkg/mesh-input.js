@@ -4,7 +4,7 @@ import { asBytes, asCamera, asLattice, numbers, optionalFloats, typed, unitOf } 
 import { asPhoto } from './sheet-input.js';
 import { isRecord, reading, record, refuseUnknown, show, typeOf } from './values.js';
 
-const MESH = /** @type {const} */ (['positions', 'triangles', 'colors', 'uvs', 'textures', 'textureOf', 'missing', 'camera', 'unit', 'confidence', 'report']);
+const MESH = /** @type {const} */ (['positions', 'triangles', 'colors', 'uvs', 'textures', 'textureOf', 'missing', 'assumptions', 'camera', 'unit', 'confidence', 'report']);
 
 /**
  * @param {import('./types.js').Mesh} mesh

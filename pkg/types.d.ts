@@ -105,6 +105,18 @@ export interface Frame {
   towards: readonly [number, number, number];
 }
 
+/**
+ * Something that a reader assumed because the file does not say it. The command and the page show each of them.
+ */
+export interface Assumption {
+  /** The kind of the assumption, such as `'noData'`: stable, for programs. */
+  code: string;
+  /** One sentence without a full stop that follows the word "assumed", such as `'-9999 is no data (412 pixels)'`. */
+  words: string;
+  /** Name of the option that decides it instead, such as `'noData'`; absent where there is none. */
+  option?: string;
+}
+
 /** Triangles in space, or points alone. */
 export interface Mesh {
   /** x, y, z of each vertex. */
@@ -121,6 +133,8 @@ export interface Mesh {
   textureOf?: Int32Array;
   /** Names of materials and textures that a file names and that were not given with it. */
   missing?: string[];
+  /** What the reader assumed because the file does not say it; absent where it assumed nothing. */
+  assumptions?: Assumption[];
   /** The camera that has seen it, if it is what one has. */
   camera?: PhotoCamera;
   /** The unit of all lengths, where it is known: metres of glTF. */
@@ -660,6 +674,8 @@ export interface DecodedPhoto extends Photo {
    * tell it and the photo was not cropped.
    */
   film35?: number;
+  /** What the reader assumed because the file does not say it. */
+  assumptions: Assumption[];
 }
 
 /** Curvatures at the vertices of a mesh, NaN where triangles do not go all around one; above 0 where it bends as a ball. */
@@ -1210,6 +1226,8 @@ export interface ReadResult {
   heightScale: number;
   /** The type the file stores: `'u8'`, `'u16'`, `'f32'`, `'f64'`, ... */
   dataType: string;
+  /** What the reader assumed because the file does not say it. */
+  assumptions: Assumption[];
 }
 
 /**

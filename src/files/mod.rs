@@ -2,6 +2,7 @@
 
 #[cfg(feature = "patterns")]
 pub mod assembly;
+mod assumption;
 #[cfg(any(feature = "formats", feature = "meshes", feature = "patterns"))]
 mod buffer;
 #[cfg(feature = "patterns")]
@@ -14,3 +15,5 @@ pub mod meshes;
 mod points;
 #[cfg(feature = "formats")]
 pub mod wavefront;
+
+pub use assumption::Assumption;

@@ -2,6 +2,7 @@
 
 use super::format::Format;
 use crate::error::{Error, Result};
+use crate::files::Assumption;
 use crate::heights::heightfield::HeightImage;
 
 /// Unit of length of the pixel size that an image file states.
@@ -52,6 +53,8 @@ pub struct Decoded {
     pub height_scale: f64,
     /// Type of number that the file stores for each pixel: `"u8"`, `"u16"`, `"f32"`, `"f64"`, …
     pub data_type: &'static str,
+    /// What the reader assumed because the file does not say it.
+    pub assumptions: Vec<Assumption>,
 }
 
 impl Decoded {

@@ -5,6 +5,7 @@ use ::png::{ColorType, Transformations};
 use super::format::Format;
 use super::png::Pixels;
 use crate::error::{Error, Result, try_filled};
+use crate::files::Assumption;
 
 /// A decoded photo: its pixels in colour, and what its metadata say about the camera.
 #[derive(Debug, Clone, PartialEq)]
@@ -21,6 +22,8 @@ pub struct PhotoFile {
     pub film35: Option<f64>,
     /// Orientation that the file's Exif data state, from 1 (upright) to 8; the pixels are upright already.
     pub orientation: u16,
+    /// What the reader assumed because the file does not say it.
+    pub assumptions: Vec<Assumption>,
 }
 
 impl PhotoFile {
@@ -32,6 +35,7 @@ impl PhotoFile {
             rgba: rgba.into_flattened(),
             film35: None,
             orientation: 1,
+            assumptions: Vec::new(),
         }
     }
 }
@@ -76,5 +80,6 @@ fn decode_png(bytes: &[u8]) -> Result<PhotoFile> {
         rgba,
         film35: None,
         orientation: 1,
+        assumptions: Vec::new(),
     })
 }

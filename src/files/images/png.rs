@@ -140,6 +140,7 @@ pub(super) fn decode(bytes: &[u8]) -> Result<Decoded> {
         unit: None,
         height_scale,
         data_type,
+        assumptions: Vec::new(),
     })
 }
 

@@ -16,6 +16,7 @@ mod ply;
 mod stl;
 
 use crate::error::{Error, Result};
+use crate::files::Assumption;
 use crate::scene::mesh::Mesh;
 
 use beside::Beside;
@@ -36,6 +37,8 @@ pub struct MeshFile {
     pub textures: Vec<Texture>,
     /// Names of material and texture files that the mesh file refers to but that were not given.
     pub missing: Vec<String>,
+    /// What the reader assumed because the file does not say it.
+    pub assumptions: Vec<Assumption>,
 }
 
 /// Reads a mesh file of the given format (`None`: the format detected from its contents), without any files beside it;
@@ -93,5 +96,6 @@ pub fn read_mesh_beside(
         mesh: parts.into_mesh(format.title(), format != MeshFormat::Stl)?,
         textures,
         missing: beside.missing(),
+        assumptions: Vec::new(),
     })
 }

@@ -7,6 +7,7 @@ use wasm_bindgen::prelude::*;
 
 use super::options::{entries, option, unknown};
 use super::{Failure, Result};
+use developable::files::Assumption;
 use developable::files::images::{Decoded, FORMAT_NAMES, Format, PhotoFile};
 
 /// Options of reading an image file: JavaScript's `ReadOptions` object.
@@ -57,6 +58,7 @@ struct ReadOutput {
     unit: JsValue,
     height_scale: f64,
     data_type: &'static str,
+    assumptions: Vec<Assumption>,
 }
 
 pub fn output(file: Decoded) -> Result<JsValue> {
@@ -69,12 +71,13 @@ pub fn output(file: Decoded) -> Result<JsValue> {
         unit: file.unit.map_or(JsValue::NULL, |unit| unit.symbol().into()),
         height_scale: file.height_scale,
         data_type: file.data_type,
+        assumptions: file.assumptions,
     })?)
 }
 
 /// A photo, written as JavaScript's `Photo` object.
 #[derive(Serialize)]
-struct PhotoOutput {
+struct PhotoOutput<'a> {
     width: usize,
     height: usize,
     #[serde(with = "preserve")]
@@ -83,6 +86,7 @@ struct PhotoOutput {
     film35: Option<f64>,
     #[serde(skip_serializing_if = "Option::is_none")]
     orientation: Option<u16>,
+    assumptions: &'a [Assumption],
 }
 
 pub fn photo_output(photo: &PhotoFile) -> Result<JsValue> {
@@ -92,5 +96,6 @@ pub fn photo_output(photo: &PhotoFile) -> Result<JsValue> {
         data: photo.rgba.as_slice().into(),
         film35: photo.film35,
         orientation: (photo.orientation != 1).then_some(photo.orientation),
+        assumptions: &photo.assumptions,
     })?)
 }

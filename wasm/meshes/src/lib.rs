@@ -12,6 +12,7 @@ use developable::Error;
 use developable::Mesh;
 use developable::View;
 use developable::checks::check_count;
+use developable::files::Assumption;
 use developable::files::meshes::{MeshFormat, read_mesh_beside};
 use developable::{Resolution, sample};
 use developable_wasm::Result;
@@ -41,6 +42,8 @@ struct MeshOutput {
     confidence: JsValue,
     #[serde(skip_serializing_if = "Vec::is_empty")]
     missing: Vec<String>,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    assumptions: Vec<Assumption>,
 }
 
 /// A mesh sampled from a view, written as JavaScript's `SampledMesh` object, with the number of the texture at each
@@ -99,6 +102,7 @@ pub fn read_mesh_file(bytes: &Uint8Array, files: &Array, options: JsValue) -> Re
             JsValue::UNDEFINED
         },
         missing: file.missing,
+        assumptions: file.assumptions,
         ..MeshOutput::new(&file.mesh)
     })?)
 }
@@ -116,6 +120,7 @@ impl MeshOutput {
             textures: JsValue::UNDEFINED,
             confidence: JsValue::UNDEFINED,
             missing: Vec::new(),
+            assumptions: Vec::new(),
         }
     }
 }

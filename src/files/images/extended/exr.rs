@@ -127,6 +127,7 @@ pub(super) fn decode(bytes: &[u8]) -> Result<Decoded> {
         unit: None,
         height_scale: default_scale(size, pixel_size, data_type),
         data_type,
+        assumptions: Vec::new(),
     })
 }
 

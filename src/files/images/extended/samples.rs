@@ -101,6 +101,7 @@ pub(super) fn picture(
         unit: None,
         height_scale: default_scale(size, 1.0, "u8"),
         data_type: "u8",
+        assumptions: Vec::new(),
     })
 }
 

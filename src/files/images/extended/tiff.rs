@@ -85,6 +85,7 @@ pub(super) fn decode(bytes: &[u8]) -> Result<Decoded> {
         unit: about.unit,
         height_scale: default_scale((width, height), about.pixel_size, type_name(kind)),
         data_type: type_name(kind),
+        assumptions: Vec::new(),
     })
 }
 

@@ -1,14 +1,16 @@
 /** Several inputs, each by a process of its own, and one summary. */
 import { spawn } from 'node:child_process';
 import { statSync } from 'node:fs';
-import { mkdir, stat } from 'node:fs/promises';
+import { mkdir } from 'node:fs/promises';
 import { availableParallelism } from 'node:os';
-import { dirname, extname, basename, join } from 'node:path';
+import { dirname, extname, basename, join, sep } from 'node:path';
 import { fileURLToPath } from 'node:url';
+import { globSync } from '../vendor/tinyglobby.mjs';
 import { show } from '../values.js';
 import { defaultExtension, isBook, parse, wholeNumber } from './arguments.js';
 import { commandNamed } from './commands.js';
 import { failed } from './files.js';
+import { isRecorded, record } from './fingerprint.js';
 import { split, usage } from './flags.js';
 import { Problem, status } from './problem.js';
 import { print, say, statusLine } from './terminal.js';
@@ -19,6 +21,7 @@ import { print, say, statusLine } from './terminal.js';
  * @typedef {object} BatchItem
  * @property {string} input
  * @property {string[]} args the command line for this input alone
+ * @property {string[]} read the files that it reads, as far as the command line names them
  * @property {string[]} written the files that it writes
  *
  * @typedef {{ items: BatchItem[], jobs: number, overwrite: boolean }} Batch
@@ -34,6 +37,9 @@ const NAMING_FLAGS = /** @type {const} */ ([
 /** Flags that name a file which the command writes. @type {readonly string[]} */
 const WRITTEN_FLAGS = ['output', 'report', 'map', 'mtl', 'assembly'];
 
+/** Environment variable that tells a process that it does one input of a batch, and so starts no batch itself. */
+const CHILD_VARIABLE = 'DEVELOPABLE_BATCH_CHILD';
+
 /** Maximum number of characters that are kept of what one process says. */
 const MAX_KEPT_OUTPUT = 1 << 24;
 
@@ -44,9 +50,11 @@ const MAX_KEPT_OUTPUT = 1 << 24;
  * @returns {Batch | undefined}
  */
 export function batchOf(args) {
+  if (process.env[CHILD_VARIABLE] !== undefined) return undefined;
   const { values, positionals } = split(args);
-  const [name, ...inputs] = positionals;
-  if (values.version || values.help || name === undefined || name === 'help' || inputs.length === 0) return undefined;
+  const [name, ...named] = positionals;
+  if (values.version || values.help || name === undefined || name === 'help' || named.length === 0) return undefined;
+  const inputs = named.flatMap(filesOf);
   const { output } = values;
   if (inputs.length === 1 && !(output !== undefined && (isFolderName(output) || output.includes('*')))) return undefined;
   const command = commandNamed(name);
@@ -71,10 +79,24 @@ export function batchOf(args) {
       }
       owners.set(path, input);
     }
-    return { input, args: line, written };
+    const known = NAMING_FLAGS.filter((flag) => !WRITTEN_FLAGS.includes(flag)).flatMap((flag) => own[flag] ?? []);
+    return { input, args: line, read: [input, ...known], written };
   });
   const most = jobs === undefined ? availableParallelism() : wholeNumber('jobs', jobs);
   return { items, jobs: Math.min(most, items.length), overwrite };
+}
+
+/**
+ * The files that an input stands for: those that match it, where it is a pattern that the shell did not expand.
+ * @param {string} input
+ * @returns {string[]}
+ */
+function filesOf(input) {
+  if (!/[*?]/.test(input) || statSync(input, { throwIfNoEntry: false }) !== undefined) return [input];
+  const pattern = (sep === '/' ? input : input.replaceAll(sep, '/')).replace(/[[\]{}()!\\]/g, '\\$&');
+  const matches = globSync(pattern, { expandDirectories: false }).sort();
+  if (matches.length === 0) throw new Problem(status.input, `no file matches ${input}`);
+  return matches;
 }
 
 /**
@@ -134,7 +156,7 @@ export async function runBatch({ items, jobs, overwrite }, signal) {
   const work = async () => {
     for (const item of waiting) {
       if (signal.aborted) return;
-      if (!overwrite && (await isDone(item))) {
+      if (!overwrite && (await isRecorded(item))) {
         counts.skipped += 1;
       } else {
         const { code, stdout, stderr } = await ending(item, signal);
@@ -143,6 +165,7 @@ export async function runBatch({ items, jobs, overwrite }, signal) {
         const words = stderr.replace(/^developable: /gm, '').trim();
         if (words !== '') say(`${item.input}: ${words}`);
         else if (code !== status.success) say(`${item.input}: the process ended with ${code ?? 'a signal'}`);
+        if (code === status.success) await record(item);
         counts[code === status.success ? 'done' : 'failed'] += 1;
         if (code !== status.success) codes.push(code ?? status.failure);
       }
@@ -168,16 +191,6 @@ export async function runBatch({ items, jobs, overwrite }, signal) {
 }
 
 /**
- * Whether all that an input is made into is there, and not older than it. Files appear whole, so none is half done.
- * @param {BatchItem} item
- */
-async function isDone({ input, written }) {
-  if (written.length === 0) return false;
-  const [from, ...made] = await Promise.all([input, ...written].map((path) => stat(path).catch(() => undefined)));
-  return from !== undefined && made.every((file) => file !== undefined && file.isFile() && file.mtimeMs >= from.mtimeMs);
-}
-
-/**
  * How a process ends that does one input.
  * @param {BatchItem} item
  * @param {AbortSignal} signal
@@ -192,9 +205,14 @@ async function ending({ args, written }, signal) {
       return { code: problem.status, stdout: '', stderr: problem.message };
     }
   }
+  // An interruption may have come meanwhile, when there was no process to end.
+  if (signal.aborted) return { code: null, stdout: '', stderr: '' };
   const command = fileURLToPath(new URL('../bin/developable.js', import.meta.url));
   return new Promise((resolve) => {
-    const child = spawn(process.execPath, [...process.execArgv, command, ...args], { stdio: ['ignore', 'pipe', 'pipe'] });
+    const child = spawn(process.execPath, [...process.execArgv, command, ...args], {
+      stdio: ['ignore', 'pipe', 'pipe'],
+      env: { ...process.env, [CHILD_VARIABLE]: '1' },
+    });
     let [stdout, stderr] = ['', ''];
     child.stdout.setEncoding('utf8').on('data', (text) => (stdout = (stdout + text).slice(0, MAX_KEPT_OUTPUT)));
     child.stderr.setEncoding('utf8').on('data', (text) => (stderr = (stderr + text).slice(0, MAX_KEPT_OUTPUT)));

@@ -2,7 +2,7 @@
 import * as developable from '../index.js';
 import { readBytes } from './files.js';
 import { isMesh } from './arguments.js';
-import { about, readMeshFile } from './inputs.js';
+import { about, assumptionsInWords, readMeshFile } from './inputs.js';
 import { print } from './terminal.js';
 
 /** @typedef {import('../types.js').ReadResult} ReadResult */
@@ -13,7 +13,8 @@ export async function info({ input, array }) {
   const lines = await about(input, async () => {
     if (isMesh(input)) return meshInWords(await readMeshFile(input, bytes));
     if (isArchive(bytes) && array === undefined) return arraysInWords(await developable.npzArrays(bytes));
-    return imageInWords(await developable.read(bytes, { array }));
+    const file = await developable.read(bytes, { array });
+    return [...imageInWords(file), ...assumptionsInWords(file).map((words) => ['assumed', words])];
   });
   await print(lines.map(([name, value]) => `${`${name}:`.padEnd(14)}${value}\n`).join(''));
 }

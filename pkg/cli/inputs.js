@@ -4,7 +4,7 @@ import { dirname, join, resolve, sep } from 'node:path';
 import * as developable from '../index.js';
 import { readCamera } from './camera.js';
 import { readBytes } from './files.js';
-import { asFlags } from './flags.js';
+import { asFlags, flagOf } from './flags.js';
 import { Problem, status } from './problem.js';
 import { confirmSize } from './size.js';
 import { during, say } from './terminal.js';
@@ -290,7 +290,7 @@ export async function readMeshFile(input, bytes, written = []) {
     const mesh = await about(input, () => developable.readMesh(bytes, { files }));
     // The materials that were found name textures in turn.
     names = (mesh.missing ?? []).filter((name) => !tried.has(name));
-    if (names.length === 0) return mesh;
+    if (names.length === 0) return tellAssumptions(input, mesh);
   }
 }
 
@@ -354,7 +354,30 @@ async function whyMissing(folder, name) {
  */
 async function readImage(path, array) {
   const bytes = await readBytes(path);
-  return about(path, () => developable.read(bytes, { array }));
+  return tellAssumptions(path, await about(path, () => developable.read(bytes, { array })));
+}
+
+/**
+ * Tells what a reader assumed of a file, and which flag decides it instead.
+ * @template {{ assumptions?: import('../types.js').Assumption[] }} T
+ * @param {string} path
+ * @param {T} file what was read of it
+ * @returns {T}
+ */
+export function tellAssumptions(path, file) {
+  for (const line of assumptionsInWords(file)) say(`${path}: assumed: ${line}`);
+  return file;
+}
+
+/**
+ * What a reader assumed, a line each.
+ * @param {{ assumptions?: import('../types.js').Assumption[] }} file
+ */
+export function assumptionsInWords({ assumptions = [] }) {
+  return assumptions.map(({ words, option }) => {
+    const flag = option === undefined ? undefined : flagOf(option);
+    return flag === undefined ? words : `${words} (${flag} decides it)`;
+  });
 }
 
 /**

@@ -1,18 +1,18 @@
 /** The command: what to do, how it ends. */
-import { readFile } from 'node:fs/promises';
-import { DevelopableError, dispose, init } from '../index.js';
-import { messageOf } from '../errors.js';
+import { dispose, init } from '../index.js';
 import { Problem, status } from './problem.js';
+import { asProblem } from './explain.js';
 import { parse } from './arguments.js';
 import { batchOf, runBatch } from './batch.js';
 import { fit } from './fit.js';
-import { asFlags, asSpelled } from './flags.js';
+import { asSpelled } from './flags.js';
 import { helpOn, overview } from './help.js';
 import { info } from './info.js';
 import { occlusions } from './occlusions.js';
 import { page } from './page.js';
 import { dewarp, pattern, unroll } from './sheets.js';
 import { analyze, patches, rulings } from './tell.js';
+import { version } from './version.js';
 import { whole } from './whole.js';
 import { print } from './terminal.js';
 
@@ -36,7 +36,7 @@ export async function main(args) {
     await perform(task, interruption.signal);
     return status.success;
   } catch (error) {
-    const problem = interruption.signal.aborted ? interruption.signal.reason : explain(error);
+    const problem = interruption.signal.aborted ? interruption.signal.reason : asProblem(error);
     if (problem.message) process.stderr.write(`developable: ${asSpelled(problem.message, args)}\n`);
     return problem.status;
   } finally {
@@ -78,30 +78,4 @@ async function perform(task, signal) {
     default:
       return fit(task, signal);
   }
-}
-
-/**
- * @param {unknown} error
- * @returns {Problem}
- */
-function explain(error) {
-  if (error instanceof Problem) return error;
-  if (!(error instanceof DevelopableError)) {
-    return new Problem(status.failure, error instanceof Error && error.stack ? error.stack : messageOf(error));
-  }
-  switch (error.code) {
-    case 'OPTION':
-      return new Problem(status.usage, asFlags(error.message));
-    case 'INIT':
-    case 'TRAP':
-    case 'WORKER':
-      return new Problem(status.failure, error.message);
-    default:
-      return new Problem(status.input, error.message);
-  }
-}
-
-async function version() {
-  const manifest = await readFile(new URL('../package.json', import.meta.url), 'utf8');
-  return JSON.parse(manifest).version;
 }

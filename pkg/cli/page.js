@@ -1,11 +1,12 @@
 /** `developable dewarp PHOTO`, with or without `--edges EDGES`. */
 import * as developable from '../index.js';
 import { messageOf } from '../errors.js';
+import { asProblem } from './explain.js';
 import { checkPlaces, readBytes, writeWhole } from './files.js';
-import { about } from './inputs.js';
+import { about, tellAssumptions } from './inputs.js';
 import { Problem, status } from './problem.js';
 import { json, mapFile, mapOptions, printed } from './sheets.js';
-import { percent } from './terminal.js';
+import { percent, say } from './terminal.js';
 
 /** Width and height of a PDF's pages where no size is given, in millimetres: A4. */
 const DEFAULT_PAPER = /** @type {const} */ ([210, 297]);
@@ -18,18 +19,21 @@ export async function page(task, signal) {
   await checkPlaces(...task.written);
   const edges = task.edges === undefined ? undefined : await readEdges(task.edges);
   const options = Object.fromEntries(Object.entries(task.options).filter(([, value]) => value !== undefined));
+  /** @type {{ path: string, bytes: Uint8Array }[]} */
   const files = [];
   const reports = [];
   /** @type {import('../types.js').BookPage[]} */
   const book = [];
+  /** @type {{ input: string, problem: Problem }[]} */
+  const failures = [];
   const several = task.inputs.length > 1;
-  for (const input of task.inputs) {
-    signal.throwIfAborted();
+  /** @param {string} input */
+  const flatten = async (input) => {
     const bytes = await readBytes(input);
-    const photo = await about(input, () => developable.readPhoto(bytes));
+    const photo = tellAssumptions(input, await about(input, () => developable.readPhoto(bytes)));
     const { width, height } = photo;
-    const flatten = () => developable.dewarpPage(photo, edges, { ...options, ...mapOptions(task.map), transfer: true });
-    const flat = await (several ? about(input, flatten) : flatten());
+    const dewarp = () => developable.dewarpPage(photo, edges, { ...options, ...mapOptions(task.map), transfer: true });
+    const flat = await (several ? about(input, dewarp) : dewarp());
     if (task.map !== undefined) files.push({ path: task.map, bytes: mapFile(flat, { width, height }) });
     const { size, unit, report, outline, light } = flat;
     reports.push({ ...(several && { input }), ...report, size, unit, light, ...(outline && { outline }) });
@@ -42,12 +46,30 @@ export async function page(task, signal) {
       files.push({ path: task.output, bytes: await printed(task, flat) });
     }
     for (const told of [outline && outlineWords(outline), words(report), lightWords(task, light)]) {
-      if (told !== undefined) process.stderr.write(`developable: ${several ? `${input}: ` : ''}${told}\n`);
+      if (told !== undefined) say(`${several ? `${input}: ` : ''}${told}`);
+    }
+  };
+  for (const input of task.inputs) {
+    signal.throwIfAborted();
+    try {
+      await flatten(input);
+    } catch (error) {
+      const problem = asProblem(error);
+      if (!several || problem.status !== status.input) throw error;
+      // The other pages of a book are worth having.
+      failures.push({ input, problem });
+      reports.push({ input, failure: problem.message });
+      say(problem.message);
     }
   }
+  if (several && book.length === 0) throw new Problem(status.input, 'none of the photos was flattened');
   if (book.length > 0) files.push({ path: task.output, bytes: await developable.writeBook(book) });
   if (task.report !== undefined) files.push({ path: task.report, bytes: json(several ? reports : reports[0]) });
   await writeWhole(files, signal);
+  if (several) say(`${task.output}: ${book.length} of ${task.inputs.length} photos`);
+  if (failures.length > 0) {
+    throw new Problem(status.failure, `not in ${task.output}: ${failures.map(({ input }) => input).join(', ')}`);
+  }
 }
 
 /**

@@ -24,6 +24,8 @@ beforeEach(async () => {
 
 /** @param {string[]} args */
 const developable = (...args) => run(folder, args);
+/** Names in a folder, without the fingerprints. @param {string} name */
+const made = async (name) => (await readdir(join(folder, name))).filter((file) => file !== '.developable');
 /** @param {string} name */
 const changed = async (name) => (await stat(join(folder, name))).mtimeMs;
 
@@ -33,19 +35,16 @@ test('a file that cannot be read stops none of the others, and the summary and t
   assert.match(ended.stderr, /^developable: bad\.npy: bad\.npy: /m);
   assert.match(ended.stderr, /^developable: gone\.npy: cannot read gone\.npy: there is no such file/m);
   assert.match(ended.stderr, /developable: 4 files: 2 done, 2 failed\n$/);
-  assert.deepEqual(await readdir(join(folder, 'out')), ['a.npy', 'c.npy']);
-  assert.deepEqual(await readdir(join(folder, 'told')), ['a.json', 'c.json']);
+  assert.deepEqual(await made('out'), ['a.npy', 'c.npy']);
+  assert.deepEqual(await made('told'), ['a.json', 'c.json']);
   // A plane is its own fit.
-  const made = direct.read(await readFile(join(folder, 'out/a.npy')));
-  assert.ok(deviation(made.data, ramp.data) < 1e-9);
+  const fitted = direct.read(await readFile(join(folder, 'out/a.npy')));
+  assert.ok(deviation(fitted.data, ramp.data) < 1e-9);
 });
 
-test('what is done is skipped, unless it is older than its input or --overwrite is given', async () => {
-  const args = ['fit', 'a.npy', 'b.npy', '-o', 'out/'];
+test('what the same options have made of the same input is skipped, and everything else is made anew', async () => {
+  const args = ['fit', 'a.npy', 'b.npy', '-o', 'out/', '--lambda', '1e7'];
   assert.equal((await developable(...args)).status, 0);
-  const past = new Date(Date.now() - 3600e3);
-  for (const name of ['a.npy', 'b.npy']) await utimes(join(folder, name), new Date(0), new Date(0));
-  for (const name of ['out/a.npy', 'out/b.npy']) await utimes(join(folder, name), past, past);
   const first = await Promise.all(['out/a.npy', 'out/b.npy'].map(changed));
 
   const again = await developable(...args, 'c.npy');
@@ -53,13 +52,54 @@ test('what is done is skipped, unless it is older than its input or --overwrite 
   assert.match(again.stderr, /3 files: 1 done, 2 done before \(--overwrite does them again\), 0 failed/);
   assert.deepEqual(await Promise.all(['out/a.npy', 'out/b.npy'].map(changed)), first);
 
-  await utimes(join(folder, 'b.npy'), new Date(), new Date());
+  // Another input, another option, another output in its place.
+  await writeFile(join(folder, 'b.npy'), direct.writeNpy(image(24, 20, (x, y) => 2 * plane(x, y))));
   assert.match((await developable(...args)).stderr, /2 files: 1 done, 1 done before/);
   assert.equal(await changed('out/a.npy'), first[0]);
-  assert.ok((await changed('out/b.npy')) > first[1]);
+  assert.match((await developable(...args.with(-1, '1e4'))).stderr, /2 files: 2 done, 0 failed/);
+  await writeFile(join(folder, 'out/a.npy'), direct.writeNpy(ramp));
+  assert.match((await developable(...args.with(-1, '1e4'))).stderr, /2 files: 1 done, 1 done before/);
 
   assert.match((await developable(...args, '--overwrite')).stderr, /2 files: 2 done, 0 failed/);
-  assert.ok((await changed('out/a.npy')) > first[0]);
+  // In place the input is another one each time.
+  const inPlace = ['fit', 'a.npy', 'b.npy', '-o', '*.npy', '--force'];
+  assert.match((await developable(...inPlace)).stderr, /2 files: 2 done, 0 failed/);
+});
+
+test('patterns that the shell did not expand are expanded, and one without a match starts nothing', async () => {
+  await writeFile(join(folder, 'odd*.npy'), direct.writeNpy(ramp));
+  const ended = await developable('fit', '?.npy', 'odd*.npy', '-o', 'out/');
+  assert.match(ended.stderr, /4 files: 4 done, 0 failed/);
+  assert.deepEqual(await made('out'), ['a.npy', 'b.npy', 'c.npy', 'odd*.npy']);
+  for (const args of [['gone/*.npy', '-o', 'other/'], ['gone/*.npy', '-o', 'other/*.npy', '--jobs', '4']]) {
+    const nothing = await developable('fit', ...args);
+    assert.equal(nothing.stderr, 'developable: no file matches gone/*.npy\n');
+    assert.equal(nothing.status, 3);
+  }
+  assert.ok(!(await readdir(folder)).includes('other'));
+});
+
+test('a process that does one input of a batch starts no batch', { skip: process.platform !== 'linux' }, async () => {
+  await writeFile(join(folder, 'odd*.npy'), direct.writeNpy(ramp));
+  /** @type {number[]} */
+  const counts = [];
+  /** @param {number} parent @returns {Promise<number>} processes that it started, and those that these did */
+  const descendants = async (parent) => {
+    const text = await readFile(`/proc/${parent}/task/${parent}/children`, 'utf8').catch(() => '');
+    const children = text.trim().split(' ').filter(Boolean).map(Number);
+    const further = await Promise.all(children.map(descendants));
+    return children.length + further.reduce((sum, count) => sum + count, 0);
+  };
+  /** @param {import('node:child_process').ChildProcess} child */
+  const count = async ({ pid = 0, exitCode }) => {
+    if (exitCode === null) counts.push(await descendants(pid));
+  };
+  /** @type {NodeJS.Timeout | undefined} */
+  let timer;
+  const ended = await run(folder, ['fit', 'odd*.npy', '-o', 'out/'], { onStart: (child) => (timer = setInterval(count, 20, child)) });
+  clearInterval(timer);
+  assert.equal(ended.status, 0, ended.stderr);
+  assert.equal(Math.max(...counts), 1);
 });
 
 test('a failure leaves what an earlier run has written', async () => {
@@ -68,14 +108,14 @@ test('a failure leaves what an earlier run has written', async () => {
   await utimes(join(folder, 'out/bad.npy'), new Date(0), new Date(0));
   assert.equal((await developable('fit', 'bad.npy', 'a.npy', '-o', 'out')).status, 3);
   assert.equal(await readFile(join(folder, 'out/bad.npy'), 'utf8'), 'from before');
-  assert.deepEqual(await readdir(join(folder, 'out')), ['a.npy', 'bad.npy']);
+  assert.deepEqual(await made('out'), ['a.npy', 'bad.npy']);
 });
 
 test('other commands take several inputs, and what they tell comes in the order of these', async () => {
   const info = await developable('info', 'b.npy', 'a.npy');
   assert.match(info.stdout, /^==> b\.npy <==\n[^]*24[^]*==> a\.npy <==\n/);
-  const made = await developable('patches', 'a.npy', 'b.npy', '--as-is', '-o', 'areas of *.json');
-  assert.equal(made.status, 0, made.stderr);
+  const areas = await developable('patches', 'a.npy', 'b.npy', '--as-is', '-o', 'areas of *.json');
+  assert.equal(areas.status, 0, areas.stderr);
   const { patches } = JSON.parse(await readFile(join(folder, 'areas of b.json'), 'utf8'));
   assert.equal(patches.length, 1);
 });
@@ -113,8 +153,8 @@ test('an interruption ends all processes, and what was done before stays', async
   await until('the process starts', async () => (await readdir(folder)).includes('begun'));
   children[0].kill('SIGINT');
   assert.equal((await running).status, 130);
-  assert.deepEqual(await readdir(join(folder, 'begun')), []);
-  assert.deepEqual(await readdir(join(folder, 'out')), ['a.npy', 'b.npy']);
+  assert.deepEqual(await made('begun'), []);
+  assert.deepEqual(await made('out'), ['a.npy', 'b.npy']);
 });
 
 
@@ -128,10 +168,10 @@ test('the array job in the documentation shares the inputs among its tasks', { s
   await writeFile(join(folder, 'bin/npx'), `#!/bin/sh\nshift\nexec '${process.execPath}' '${command}' "$@"\n`, { mode: 0o755 });
   await writeFile(join(folder, 'fit.sh'), script);
   const PATH = `${join(folder, 'bin')}:${process.env.PATH}`;
-  for (const [task, made] of [['0', ['a.npy', 'c d.npy']], ['1', ['a.npy', 'b.npy', 'c d.npy']]]) {
+  for (const [task, expected] of [['0', ['a.npy', 'c d.npy']], ['1', ['a.npy', 'b.npy', 'c d.npy']]]) {
     const env = { PATH, SLURM_ARRAY_TASK_COUNT: '2', SLURM_ARRAY_TASK_ID: String(task), SLURM_CPUS_PER_TASK: '2' };
     const ended = await run(folder, [], { program: ['/bin/sh', 'fit.sh'], env });
     assert.equal(ended.status, 0, ended.stderr);
-    assert.deepEqual(await readdir(join(folder, 'out')), made);
+    assert.deepEqual(await made('out'), expected);
   }
 });

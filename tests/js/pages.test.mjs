@@ -378,8 +378,27 @@ test('the command makes one PDF of several photos, in black and white if that is
   }
 });
 
+/** The table on which the sheet lies, without a page. */
+const table = { ...sheet, data: sheet.data.map((_, i) => (i % 4 === 3 ? 255 : 70 + ((i >> 2) % 3))) };
+
+test('a photo without a page is left out of a book, named, and loses none of the others', async () => {
+  const folder = await temporaryFolder();
+  for (const [name, one] of Object.entries({ a: sheet, b: table, c: shaded })) await writeFile(join(folder, `${name}.png`), direct.writePhoto(one));
+  const { status, stderr } = await run(folder, 'dewarp a.png b.png c.png gone.png -o book.pdf --report report.json'.split(' '));
+  assert.equal(status, 1);
+  assert.match(stderr, /^developable: b\.png: I did not find the page/m);
+  assert.match(stderr, /^developable: cannot read gone\.png: there is no such file/m);
+  assert.match(stderr, /developable: book\.pdf: 2 of 4 photos\ndevelopable: not in book\.pdf: b\.png, gone\.png\n$/);
+  assert.equal((await readPdf(await readFile(join(folder, 'book.pdf')))).length, 2);
+  const reports = JSON.parse(await readFile(join(folder, 'report.json'), 'utf8'));
+  assert.deepEqual(reports.map((/** @type {any} */ { input, failure }) => [input, failure !== undefined]),
+    [['a.png', false], ['b.png', true], ['c.png', false], ['gone.png', true]]);
+  const none = await run(folder, 'dewarp b.png gone.png -o none.pdf'.split(' '));
+  assert.equal(none.status, 3);
+  assert.match(none.stderr, /none of the photos was flattened/);
+});
+
 test('a photo without a page is refused', () => {
-  const table = { ...sheet, data: sheet.data.map((_, i) => (i % 4 === 3 ? 255 : 70 + ((i >> 2) % 3))) };
   assert.equal(direct.findPage(table).verdict, 'notFound');
   assert.throws(() => direct.dewarpPage(table), error('NO_PAGE', /trace its edges, or take the photo anew/));
 });

@@ -1,6 +1,6 @@
 /**
- * Libraries that come along: comlink, copied into the package with its types and licence, for the
- * package has no dependencies; and for the page what it needs of three.js, as one file.
+ * Libraries that come along, with their licences, for the package has no dependencies: comlink with its types, and tinyglobby
+ * for the command, as one file; and for the page what it needs of three.js.
  */
 import { copyFile, mkdir, readFile, writeFile } from 'node:fs/promises';
 import { join } from 'node:path';
@@ -9,8 +9,14 @@ import { pkgVendor, root, wwwVendor } from '../util/paths.mjs';
 
 const from = join(root, 'node_modules/comlink');
 
+/** Types of what the command uses of tinyglobby: its own need those of its libraries. */
+const GLOB_TYPES = `/** Paths of the files that match a pattern. */
+export function globSync(pattern: string, options?: { expandDirectories?: boolean }): string[];
+`;
+
 export async function buildVendor() {
   await copyComlink();
+  await bundleGlob();
   await bundleThree();
 }
 
@@ -28,6 +34,16 @@ async function copyComlink() {
   }
   await copyFile(join(from, 'dist/esm/protocol.d.ts'), join(pkgVendor, 'protocol.d.ts'));
   await copyFile(join(from, 'LICENSE'), join(pkgVendor, 'LICENSE-comlink'));
+}
+
+async function bundleGlob() {
+  const { rolldown } = await import('rolldown');
+  const bundle = await rolldown({ input: join(root, 'node_modules/tinyglobby/dist/index.mjs'), platform: 'node' });
+  await bundle.write({ file: join(pkgVendor, 'tinyglobby.mjs'), format: 'esm', minify: true });
+  await writeFile(join(pkgVendor, 'tinyglobby.d.mts'), GLOB_TYPES);
+  for (const name of ['tinyglobby', 'fdir', 'picomatch']) {
+    await copyFile(join(root, 'node_modules', name, 'LICENSE'), join(pkgVendor, `LICENSE-${name}`));
+  }
 }
 
 async function bundleThree() {

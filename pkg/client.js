@@ -158,8 +158,9 @@ export class DevelopableWorker {
     for (const [name, { send }] of Object.entries(CALLS)) {
       /** @this {DevelopableWorker} @param {any[]} given */
       const method = async function (...given) {
+        const caller = new Error();
         const sent = await /** @type {import('./calls.js').Call['send']} */ (send)(...given);
-        return this.#request((remote) => remote.answer(/** @type {keyof typeof CALLS} */ (name), ...sent));
+        return this.#request((remote) => remote.answer(/** @type {keyof typeof CALLS} */ (name), ...sent), caller);
       };
       Object.defineProperty(method, 'name', { value: name });
       Object.defineProperty(this.prototype, name, { value: method, configurable: true, writable: true });
@@ -169,10 +170,11 @@ export class DevelopableWorker {
   /**
    * @template T
    * @param {(remote: Remote) => Promise<T>} run
+   * @param {Error} [caller]
    * @returns {Promise<T>}
    */
-  async #request(run) {
-    return this.#connect().request(run);
+  async #request(run, caller) {
+    return this.#connect().request(run, caller);
   }
 
   /** The worker that runs, or else a new one. */

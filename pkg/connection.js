@@ -113,11 +113,20 @@ export class Connection {
    * Calls the worker once it is ready. Ends with the connection: Comlink alone would wait for ever.
    * @template T
    * @param {(remote: Remote) => Promise<T>} run
+   * @param {Error} [caller] whose stack tells who asked
    * @returns {Promise<T>}
    */
-  async request(run) {
+  async request(run, caller = new Error()) {
     if (this.#end) throw this.#end;
-    return this.#settled(this.#ready.then(() => run(/** @type {Remote} */ (this.#remote))));
+    const work = async () => {
+      await this.#ready;
+      try {
+        return await run(/** @type {Remote} */ (this.#remote));
+      } catch (error) {
+        throw calledBy(error, caller);
+      }
+    };
+    return this.#settled(work());
   }
 
   /**
@@ -157,6 +166,16 @@ export class Connection {
       this.#thread?.hold(this.#pending.size > 0);
     }
   }
+}
+
+/**
+ * An error of another thread, whose stack goes on with that of the call here.
+ * @param {unknown} error
+ * @param {Error} caller
+ */
+function calledBy(error, caller) {
+  if (error instanceof DevelopableError) error.stack += `\n${caller.stack?.replace(/^Error\n/, '')}`;
+  return error;
 }
 
 /** Where a worker gets copies of the wasm from. */

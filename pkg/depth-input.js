@@ -31,13 +31,18 @@ function sizeOf(what, image) {
   return { width: count(`width of ${what}`, width), height: count(`height of ${what}`, height) };
 }
 
-/** An image of any numbers. @param {string} what @param {unknown} image */
+/** The types of arrays of integers, as `read` names those of a file. @type {Record<string, string>} */
+const TYPES = {
+  Uint8Array: 'u8', Uint8ClampedArray: 'u8', Int8Array: 'i8', Uint16Array: 'u16', Int16Array: 'i16', Uint32Array: 'u32', Int32Array: 'i32',
+};
+
+/** An image of any numbers, and their type in its file, if they are integers or that is known. @param {string} what @param {unknown} image */
 function imageOf(what, image) {
   const size = sizeOf(what, image);
-  const { data } = record('INPUT', what, image, ['data']);
+  const { data, dataType } = record('INPUT', what, image, ['data', 'dataType']);
   const values = numbers(`data of ${what}`, data);
   const expected = cells(what, size.width, size.height);
-  if (values.length === expected) return { ...size, data: values };
+  if (values.length === expected) return { size, data: values, dataType: typeof dataType === 'string' ? dataType : TYPES[values.constructor.name] };
   throw new DevelopableError(
     'SHAPE',
     `${what} has ${values.length} values where ${size.width} × ${size.height} pixels need ${expected}`,
@@ -46,7 +51,7 @@ function imageOf(what, image) {
 
 /** @param {unknown} image */
 function asFlags(image) {
-  const { data, ...size } = imageOf('the mask', image);
+  const { size, data } = imageOf('the mask', image);
   return { ...size, data: Uint8Array.from(data, (value) => (value === 0 || Number.isNaN(value) ? 0 : 1)) };
 }
 
@@ -55,11 +60,11 @@ function asFlags(image) {
  * @param {unknown} image
  */
 function asConfidence(image) {
-  const { data, ...size } = imageOf('the confidence', image);
-  const bits = /^(?:Ui|I)nt(\d+)/.exec(data.constructor.name)?.[1];
+  const { size, data, dataType } = imageOf('the confidence', image);
+  const [, sign, bits] = /^([ui])(\d+)$/.exec(dataType ?? '') ?? [];
   let largest = 0;
   for (const value of data) largest = Math.max(largest, value);
-  const white = bits === undefined ? 1 : 2 ** (Number(bits) - (data.constructor.name.startsWith('I') ? 1 : 0)) - 1;
+  const white = bits === undefined ? 1 : 2 ** (Number(bits) - (sign === 'i' ? 1 : 0)) - 1;
   const levels = bits !== undefined && largest < LEVELS.length;
   const weights = Float32Array.from(data, (value) => (levels ? LEVELS[value] ?? 0 : value / white) || 0);
   const odd = weights.findIndex((weight) => weight < 0 || weight > 1);

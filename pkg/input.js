@@ -4,7 +4,7 @@
  */
 import { DevelopableError } from './errors.js';
 import { optionsOf } from './options.js';
-import { isRecord, reading, record, refuseUnknown, show, typeOf, viewOf } from './values.js';
+import { isRecord, reading, record, refuseMisspelled, show, typeOf, viewOf } from './values.js';
 
 /**
  * @typedef {import('./types.js').HeightImage} HeightImage
@@ -44,7 +44,7 @@ function read(input) {
   const said = record('INPUT', 'the input', isRecord(input) ? input : {}, [...IMAGE, ...LATTICE, 'image']);
   const lattice = said.heights !== undefined || (said.data === undefined && said.rows !== undefined);
   const known = lattice ? [...LATTICE, ...RESULTS.lattice] : [...IMAGE, ...RESULTS.image, 'brokenEdges'];
-  refuseUnknown('INPUT', `property of ${lattice ? 'the heights on the lattice' : 'the image'}`, input, known);
+  refuseMisspelled(lattice ? 'the heights on the lattice' : 'the image', input, known, [...IMAGE, ...LATTICE]);
   return { said, lattice };
 }
 
@@ -434,7 +434,11 @@ function each(name, size, vertices, array) {
 function flags(name, value) {
   if (value === undefined) return undefined;
   if (typeOf(value) === 'Uint8Array') return /** @type {Uint8Array} */ (viewOf(name, value));
-  throw new DevelopableError('INPUT', `${name} must be a Uint8Array, but is ${show(value)}`);
+  return reading('INPUT', name, () => {
+    const list = Array.isArray(value) && value.every((flag) => typeof flag === 'boolean') ? value.map(Number) : numbers(name, value);
+    // What is not a number is no flag.
+    return Uint8Array.from(list, (flag) => (flag ? 1 : 0));
+  });
 }
 
 /**

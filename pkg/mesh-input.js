@@ -2,7 +2,7 @@
 import { DevelopableError } from './errors.js';
 import { asBytes, asCamera, asLattice, numbers, optionalFloats, typed, unitOf } from './input.js';
 import { asPhoto } from './sheet-input.js';
-import { isRecord, reading, record, refuseUnknown, show, typeOf } from './values.js';
+import { isRecord, reading, record, refuseMisspelled, show, typeOf } from './values.js';
 
 const MESH = /** @type {const} */ (['positions', 'triangles', 'colors', 'uvs', 'textures', 'textureOf', 'missing', 'assumptions', 'camera', 'unit', 'confidence', 'report']);
 
@@ -12,7 +12,7 @@ const MESH = /** @type {const} */ (['positions', 'triangles', 'colors', 'uvs', '
  */
 export function asMesh(mesh) {
   const { positions, triangles, colors, uvs, textureOf, textures, camera, unit, confidence } = record('INPUT', 'the mesh', mesh, MESH);
-  refuseUnknown('INPUT', 'property of the mesh', mesh, MESH);
+  refuseMisspelled('the mesh', mesh, MESH);
   if (positions === undefined) {
     throw new DevelopableError(
       'INPUT',

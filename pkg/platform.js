@@ -1,6 +1,7 @@
 /**
  * @typedef {{
  *   'node:fs/promises': typeof import('node:fs/promises'),
+ *   'node:os': typeof import('node:os'),
  *   'node:worker_threads': typeof import('node:worker_threads'),
  *   'node:url': typeof import('node:url'),
  * }} Builtins
@@ -17,6 +18,14 @@
 export function builtin(name) {
   const node = /** @type {{ process?: NodeJS.Process }} */ (globalThis).process;
   return /** @type {Builtins[K] | undefined} */ (node?.getBuiltinModule?.(name));
+}
+
+/** Type of the message by which a worker of a browser says that it closes itself, of which there is no event. */
+export const CLOSED = 'developable: closed';
+
+/** Number of threads that run at the same time here, where that can be known. @returns {number} */
+export function hardwareThreads() {
+  return globalThis.navigator?.hardwareConcurrency ?? builtin('node:os')?.availableParallelism() ?? Infinity;
 }
 
 /**

@@ -1,11 +1,12 @@
 /** Helpers of a worker's solver: further workers with the same script, probed before they are relied on. */
+import { hardwareThreads } from './platform.js';
 import { reportCrash } from './seat.js';
 import { wrap } from './wire.js';
 
 /**
  * @typedef {import('./connection.js').Remote} Remote
  * @typedef {import('./thread.js').Thread} Thread
- * @typedef {'options' | 'isolation' | 'build' | 'system'} ThreadLimit why a solve does not run on more threads
+ * @typedef {'options' | 'isolation' | 'build' | 'system' | 'cores'} ThreadLimit why a solve does not run on more threads
  */
 
 /** Milliseconds that a helper may take to start, and all helpers to join. */
@@ -20,7 +21,9 @@ export class Team {
 
   /** @param {number} threads that were asked for, the solver's own among them */
   constructor(threads) {
-    this.#wanted = threads - 1;
+    const usable = Math.min(threads, hardwareThreads());
+    this.#wanted = usable - 1;
+    if (usable < threads) this.#limit = 'cores';
   }
 
   /** Why there are not more helpers. */

@@ -1,6 +1,6 @@
 /** The thread that a worker's script runs in: a module worker, or in Node a worker thread. */
 import { messageOf } from './errors.js';
-import { builtin } from './platform.js';
+import { builtin, CLOSED } from './platform.js';
 import nodeEndpoint from './vendor/node-adapter.mjs';
 import { locate } from './wasm-source.js';
 
@@ -29,12 +29,12 @@ export function spawn(url) {
   if (threads) return ofNode(new threads.Worker(url ?? ownScript(), { execArgv: [] }));
   const place = url === undefined ? optional(ownScript) : locate(url);
   if (place && isForeign(place)) return ofImport(place.href);
-  return ofBrowser(
+  return ofBrowser(trusted(() => (
     url !== undefined
       ? new Worker(url, { type: 'module', name: 'developable' })
       : // Bundlers look for exactly this.
-        new Worker(new URL('./worker.js', import.meta.url), { type: 'module' }),
-  );
+        new Worker(new URL('./worker.js', import.meta.url), { type: 'module' })
+  )));
 }
 
 /**
@@ -49,7 +49,41 @@ export function spawnCode(code) {
   return ofNode(new threads.Worker(new URL(`data:text/javascript,${text}`), { execArgv: [] }));
 }
 
-const threadsOfNode = () => (typeof Worker === 'undefined' ? builtin('node:worker_threads') : undefined);
+/**
+ * The worker threads of Node, and of Deno, whose own workers keep the process alive.
+ */
+const threadsOfNode = () => (typeof Worker === 'undefined' || 'Deno' in globalThis ? builtin('node:worker_threads') : undefined);
+
+/**
+ * The package's policy of Trusted Types, without which a page that requires them starts no worker.
+ * @type {{ createScriptURL: (url: string) => any } | undefined}
+ */
+let policy;
+
+/**
+ * Starts a worker whose address is trusted, where the page asks for that. A bundler finds only `new Worker(new URL(…))`, so the
+ * address is vouched for within that call.
+ * @param {() => Worker} start
+ * @returns {Worker}
+ */
+function trusted(start) {
+  const scope = /** @type {any} */ (globalThis);
+  if (!scope.trustedTypes) return start();
+  const { Worker: Plain } = globalThis;
+  try {
+    policy ??= scope.trustedTypes.createPolicy('developable', { createScriptURL: (/** @type {string} */ url) => url });
+  } catch {
+    return start(); // the page allows no such policy
+  }
+  scope.Worker = function (/** @type {string | URL} */ url, /** @type {WorkerOptions} */ options) {
+    return new Plain(policy?.createScriptURL(String(url)), options);
+  };
+  try {
+    return start();
+  } finally {
+    scope.Worker = Plain;
+  }
+}
 
 /**
  * Nothing where a bundle knows of no such place.
@@ -81,7 +115,7 @@ const ofImport = (href) => ofScript(`import ${JSON.stringify(href)};`);
 /** @param {BlobPart} code */
 function ofScript(code) {
   const url = URL.createObjectURL(new Blob([code], { type: 'text/javascript' }));
-  const worker = new Worker(url, { type: 'module', name: 'developable' });
+  const worker = trusted(() => new Worker(url, { type: 'module', name: 'developable' }));
   worker.addEventListener('message', () => URL.revokeObjectURL(url), { once: true });
   return ofBrowser(worker);
 }
@@ -98,8 +132,16 @@ function ofBrowser(worker) {
       resolve(event.message || 'its script could not be loaded');
     });
     worker.addEventListener('messageerror', () => resolve('it sent what cannot be received'));
+    worker.addEventListener('message', ({ data }) => data?.type === CLOSED && resolve('it closed itself'));
   });
-  return { endpoint: worker, ended, terminate: () => worker.terminate(), hold: () => {} };
+  // Bun's workers keep the process alive unless they are told not to.
+  const { ref, unref } = /** @type {{ ref?: () => void, unref?: () => void }} */ (/** @type {unknown} */ (worker));
+  return {
+    endpoint: worker,
+    ended,
+    terminate: () => worker.terminate(),
+    hold: (busy) => (busy ? ref : unref)?.call(worker),
+  };
 }
 
 /**

@@ -10,6 +10,9 @@ export type Numbers =
   | Uint8Array | Uint8ClampedArray | Uint16Array | Uint32Array
   | readonly number[];
 
+/** A flag for each pixel or vertex: of numbers, those that are neither 0 nor NaN are set. */
+export type Flags = Numbers | readonly boolean[];
+
 /** What may be known about an input besides its heights: one value for each pixel or vertex. */
 export interface Known {
   /**
@@ -36,7 +39,7 @@ export interface Known {
    * Not 0 where the surface is torn: no Hessian is taken there, so that it may jump or crease at
    * no cost. Of an image, each vertex has its nearest pixel's.
    */
-  occlusions?: Uint8Array;
+  occlusions?: Flags;
 }
 
 /** The unit of all lengths of an input or result: what true sizes take. */
@@ -49,7 +52,7 @@ export interface HeightImage extends Known {
   /** `width * height` values. NaN is no data. May be left out if there are `constraints`. */
   data?: Numbers;
   /** One value for each pixel; 0 takes the pixel out. */
-  mask?: Uint8Array;
+  mask?: Flags;
   /** A value that means "no data" (besides NaN). */
   noData?: number;
   /** Side length of a pixel, in the unit of the result. Default 1. */
@@ -71,7 +74,7 @@ export interface Heightfield extends Known {
   /** Position `[x, y]` of vertex (0, 0), `y` up. Default `[0, 0]`. */
   origin?: readonly [number, number];
   /** One value for each vertex; 0 takes the vertex out. */
-  mask?: Uint8Array;
+  mask?: Flags;
   /** A value that means "no data" (besides NaN). */
   noData?: number;
   /**

@@ -3,7 +3,7 @@
  * when it is read, and an exception from there must not cross the wasm.
  */
 import { DevelopableError, messageOf } from './errors.js';
-import { unknownName } from './nearest.js';
+import { nearest, unknownName } from './nearest.js';
 
 /**
  * @typedef {import('./errors.js').ErrorCode} ErrorCode
@@ -58,6 +58,21 @@ export function refuseUnknown(code, what, given, known, former = []) {
   if (!isRecord(given)) return; // what it must be instead is said where it is used
   const stray = reading(code, `what is given as ${what}`, () => Object.keys(Object(given)).find((name) => !known.includes(name) && !former.includes(name)));
   if (stray !== undefined) throw new DevelopableError(code, unknownName(what, stray, known));
+}
+
+/**
+ * Refuses an input with a property that nearly is one that is missing, or that is for another kind of input. Others are the caller's own.
+ * @param {string} what such a property is of, as in `the image`
+ * @param {unknown} given
+ * @param {readonly string[]} known
+ * @param {readonly string[]} [foreign] properties of other kinds of input
+ */
+export function refuseMisspelled(what, given, known, foreign = []) {
+  if (!isRecord(given)) return;
+  const names = reading('INPUT', `what is given as ${what}`, () => Object.keys(Object(given)));
+  const missing = known.filter((name) => !names.includes(name));
+  const slip = names.find((name) => !known.includes(name) && (foreign.includes(name) || nearest(name, missing) !== undefined));
+  if (slip !== undefined) throw new DevelopableError('INPUT', unknownName(`property of ${what}`, slip, missing));
 }
 
 /**

@@ -3,7 +3,7 @@ import assert from 'node:assert/strict';
 import { readFile, writeFile } from 'node:fs/promises';
 import { join } from 'node:path';
 import { after, before, test } from 'node:test';
-import { isolation } from '../../tools/serve.mjs';
+import { isolation, serve as serveFolders } from '../../tools/serve.mjs';
 import { launch, openPage, serve, skip } from './support/browser.mjs';
 import { temporaryFolder } from './support/command.mjs';
 import { pkg, wasmFile } from './support/paths.mjs';
@@ -240,4 +240,38 @@ inPage('photos are ImageData, in and out', async (page) => {
     return found;
   })()`);
   assert.deepEqual(result, { direct: [true, true, true, 0], developable: [true, true, true, 0] });
+});
+
+test('a page that requires Trusted Types starts the worker under the policy `developable`', { skip }, async () => {
+  const own = await serveFolders({
+    folders: { '/pkg/': pkg, '/': site },
+    policy: "default-src 'none'; script-src 'self' 'wasm-unsafe-eval'; connect-src 'self'; worker-src 'self'; img-src data:; "
+      + "require-trusted-types-for 'script'; trusted-types developable",
+  });
+  after(() => own.close());
+  const { page, incidents } = await openPage(browser, own.url);
+  const reason = await page.evaluate('developable.fit(plane(9, 9)).then(({ report }) => report.stopReason)');
+  assert.equal(reason, 'rounding');
+  assert.deepEqual(incidents, []);
+  await page.close();
+});
+
+test('a worker that closes itself ends its calls, and the next call has a new one', { skip }, async () => {
+  await writeFile(join(site, 'closing.js'), `
+    import '/pkg/worker.js';
+    addEventListener('message', ({ data }) => data.path?.[0] === 'start' && setTimeout(() => self.close(), 50));
+  `);
+  const { page } = await openPage(browser, server.url);
+  const outcomes = await page.evaluate(`(async () => {
+    const worker = new developable.DevelopableWorker({ workerUrl: '/closing.js' });
+    const { input, options } = await endless();
+    const first = await worker.fit(input, options).catch(({ code, message }) => ({ code, message }));
+    const next = await worker.writeNpy(plane(3, 3));
+    worker.dispose();
+    return { first, length: next.length };
+  })()`);
+  assert.equal(outcomes.first.code, 'WORKER');
+  assert.match(outcomes.first.message, /closed itself/);
+  assert.ok(outcomes.length > 72);
+  await page.close();
 });

@@ -12,6 +12,9 @@ import { cylinder, image, noisy } from './support/shapes.mjs';
 
 const folder = await temporaryFolder();
 
+// Threads are not limited by the cores of the machine that tests.
+Object.defineProperty(globalThis, 'navigator', { value: { hardwareConcurrency: 64 }, configurable: true });
+
 /** Large enough for three bands of rows. */
 const large = image(190, 190, noisy(cylinder(190), 0.4));
 const options = { lambda: 1e6 };

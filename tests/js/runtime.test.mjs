@@ -1,0 +1,57 @@
+/** What callers see of the runtime: where errors come from, how many threads there are, what inputs may bring along. */
+import assert from 'node:assert/strict';
+import { test } from 'node:test';
+import * as direct from '../../pkg/direct.js';
+import { DevelopableWorker, dispose, fit, read } from '../../pkg/index.js';
+import { asDepthOptions } from '../../pkg/depth-input.js';
+import { cylinder, image } from './support/shapes.mjs';
+
+await direct.init();
+const bent = image(12, 12, cylinder(12));
+
+test('an error of the worker tells who called', async () => {
+  async function caller() {
+    return fit({ width: 1, height: 1, data: [0] });
+  }
+  await assert.rejects(caller(), (/** @type {Error} */ { stack }) => /NO_INTERIOR|interior/.test(String(stack)) && /runtime\.test\.mjs/.test(String(stack)));
+  await assert.rejects(read(new Uint8Array(9)), (/** @type {Error} */ { stack }) => /runtime\.test\.mjs/.test(String(stack)));
+  dispose();
+});
+
+test('no more threads are started than run at the same time', async () => {
+  const { navigator } = globalThis;
+  Object.defineProperty(globalThis, 'navigator', { value: { hardwareConcurrency: 2 }, configurable: true });
+  const worker = new DevelopableWorker({ threads: 64 });
+  try {
+    const { report } = await worker.fit(image(190, 190, cylinder(190)), { lambda: 1e6 });
+    assert.deepEqual([report.threads, report.threadLimit], [2, 'cores']);
+  } finally {
+    worker.dispose();
+    Object.defineProperty(globalThis, 'navigator', { value: navigator, configurable: true });
+  }
+});
+
+test("an input may have properties of the caller's own, but none misspelled", () => {
+  class Scan {
+    constructor() {
+      Object.assign(this, bent, { name: 'scan', date: '2026', sensor: { id: 3 } });
+    }
+  }
+  assert.deepEqual(direct.fit(/** @type {any} */ (new Scan())).heights, direct.fit(bent).heights);
+  assert.throws(() => direct.fit(/** @type {any} */ ({ ...bent, nodata: -1 })), { code: 'INPUT', message: /`nodata`.*`noData`/ });
+});
+
+test('flags may be any numbers or booleans', () => {
+  const on = Array.from(bent.data ?? [], (_, i) => i % 12 > 2);
+  const same = (/** @type {any} */ mask) => direct.fit({ ...bent, mask }).heights;
+  const expected = same(Uint8Array.from(on, Number));
+  for (const mask of [on, Uint8ClampedArray.from(on, (set) => (set ? 255 : 0)), Float64Array.from(on, (set) => (set ? 1 : NaN))]) {
+    assert.deepEqual(same(mask), expected);
+  }
+});
+
+test('a confidence that was read has the type of its file', () => {
+  const file = { width: 3, height: 1, data: Float64Array.of(0, 1, 2), dataType: 'u8' };
+  const { confidence } = asDepthOptions({ confidence: /** @type {any} */ (file) });
+  assert.deepEqual([.../** @type {any} */ (confidence).data], [0, 0.25, 1]);
+});

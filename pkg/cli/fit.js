@@ -5,7 +5,7 @@ import { readCamera } from './camera.js';
 import { checkPlaces, readBytes, writeWhole } from './files.js';
 import { about, readForFit } from './inputs.js';
 import { Problem, status } from './problem.js';
-import { announce, during, percent, progressLine } from './terminal.js';
+import { announce, during, percent, progressLine, toStderr } from './terminal.js';
 
 /**
  * @typedef {import('./arguments.js').FitTask} FitTask
@@ -37,18 +37,18 @@ export async function fit(task, signal) {
   announce(task.output, report);
   const { residualExceedsNoise, residualRatio } = report.lambdaChoice ?? {};
   if (residualExceedsNoise) {
-    process.stderr.write(
+    toStderr(
       `developable: warning: the surface is farther from the heights than their noise explains (${residualRatio?.toFixed(1)} times): a part of ` +
       `the shape is lost; a larger --lambda than ${Number(report.lambda.toPrecision(2))} keeps more of it\n`,
     );
   }
   const certainty = report.gap === undefined ? 'without a known gap' : `with a gap of ${percent(report.gap)}`;
   if (report.stopReason === 'maxIterations') {
-    process.stderr.write(
+    toStderr(
       `developable: warning: stopped after ${report.iterations} iterations ${certainty}; --max-iterations allows more\n`,
     );
   } else if (report.stopReason === 'diverged') {
-    process.stderr.write(`developable: warning: the iterations diverged; the best surface before is ${certainty}\n`);
+    toStderr(`developable: warning: the iterations diverged; the best surface before is ${certainty}\n`);
   }
 }
 

@@ -7,7 +7,7 @@ import { readBytes } from './files.js';
 import { asFlags, flagOf } from './flags.js';
 import { Problem, status } from './problem.js';
 import { confirmSize } from './size.js';
-import { during, say } from './terminal.js';
+import { during, say, toStderr } from './terminal.js';
 
 /**
  * @typedef {import('./arguments.js').InputTask} InputTask
@@ -225,7 +225,7 @@ function turnOf(depths, photo) {
     );
   }
   if (turn === 180) {
-    process.stderr.write(
+    toStderr(
       'developable: warning: the photo was turned upside down, as its Exif data say, and its size does not tell whether the ' +
         'depths were, too: they are taken as they are; --turn 180 turns them, and 0 says that this is right\n',
     );

@@ -14,34 +14,53 @@ import { dewarp, pattern, unroll } from './sheets.js';
 import { analyze, patches, rulings } from './tell.js';
 import { version } from './version.js';
 import { whole } from './whole.js';
-import { print } from './terminal.js';
+import { print, toStderr, withStreams } from './terminal.js';
 
 /** Signals that end the work in good order, without drafts left beside the output, and the exit status of each. */
 const SIGNALS = { SIGHUP: status.hungUp, SIGINT: status.interrupted, SIGTERM: status.terminated };
 
 /**
- * @param {string[]} args
+ * The command as the whole of this process.
  * @returns {Promise<number>} the exit status
  */
-export async function main(args) {
+export async function runProcess() {
   const interruption = new AbortController();
   // Once each: a second signal of the same kind ends the process at once.
   for (const [signal, code] of Object.entries(SIGNALS)) {
     process.once(signal, () => interruption.abort(new Problem(code, '')));
   }
+  const { stdin, stdout, stderr } = process;
   try {
-    const batch = batchOf(args);
-    if (batch !== undefined) return await runBatch(batch, interruption.signal);
-    const task = parse(args);
-    await perform(task, interruption.signal);
-    return status.success;
-  } catch (error) {
-    const problem = interruption.signal.aborted ? interruption.signal.reason : asProblem(error);
-    if (problem.message) process.stderr.write(`developable: ${asSpelled(problem.message, args)}\n`);
-    return problem.status;
+    return await main(process.argv.slice(2), { stdin, stdout, stderr, signal: interruption.signal });
   } finally {
     dispose();
   }
+}
+
+/**
+ * The command within a process that goes on: it keeps the package's worker, and reads and writes the streams that it is given.
+ * @param {string[]} args
+ * @param {import('./terminal.js').Streams & { signal?: AbortSignal }} caller `signal` interrupts it
+ * @returns {Promise<number>} the exit status
+ */
+export function main(args, { signal = new AbortController().signal, ...given }) {
+  return withStreams(given, async () => {
+    try {
+      const batch = batchOf(args);
+      if (batch !== undefined) return await runBatch(batch, signal);
+      await perform(parse(args), signal);
+      return status.success;
+    } catch (error) {
+      const problem = signal.aborted ? interrupted(signal.reason) : asProblem(error);
+      if (problem.message) toStderr(`developable: ${asSpelled(problem.message, args)}\n`);
+      return problem.status;
+    }
+  });
+}
+
+/** @param {unknown} reason of an interruption */
+function interrupted(reason) {
+  return reason instanceof Problem ? reason : new Problem(status.interrupted, '');
 }
 
 /**
@@ -49,7 +68,20 @@ export async function main(args) {
  * @param {AbortSignal} signal
  */
 async function perform(task, signal) {
-  if ('threads' in task) await init({ threads: task.threads });
+  if ('threads' in task && task.threads !== undefined) {
+    // A worker that a command before has left may have another number of them.
+    dispose();
+    await init({ threads: task.threads });
+    return act(task, signal).finally(dispose);
+  }
+  return act(task, signal);
+}
+
+/**
+ * @param {ReturnType<typeof parse>} task
+ * @param {AbortSignal} signal
+ */
+async function act(task, signal) {
   switch (task.command) {
     case 'help':
       return print(task.about === undefined ? overview() : helpOn(task.about));

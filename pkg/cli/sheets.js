@@ -8,7 +8,7 @@ import { checkPlaces, readBytes, writeWhole } from './files.js';
 import { solve } from './fit.js';
 import { about, readForFit, readInput } from './inputs.js';
 import { Problem, status } from './problem.js';
-import { percent, print, statusLine } from './terminal.js';
+import { percent, print, statusLine, toStderr } from './terminal.js';
 
 /**
  * @typedef {import('./arguments.js').SheetTask} SheetTask
@@ -66,7 +66,7 @@ export async function patternFiles(task, drawing, plan) {
 export function reportPattern(drawing, plan) {
   reportFit(drawing);
   if (plan !== undefined) {
-    process.stderr.write(
+    toStderr(
       `developable: ${counted(drawing.summary.sheets, 'sheet')} with --lambda ${Number(plan.lambda.toPrecision(6))} and --smallest ` +
         `${plan.smallest}, ${Number(plan.distance.toPrecision(3))} from the input (root mean square)\n`,
     );
@@ -78,7 +78,7 @@ export function reportPattern(drawing, plan) {
 /** What it takes besides the creases. @param {import('../types.js').Drawing['summary']} summary */
 function reportSlits({ slits, slitLength, sheets, strain }) {
   if (slits === 0) return;
-  process.stderr.write(
+  toStderr(
     `developable: ${counted(sheets, 'sheet')}, strained by ${percent(strain, 2)} at most; that takes ${counted(slits, 'slit')} ` +
       `besides the creases, ${slitLength.toFixed(0)} mm long\n`,
   );
@@ -202,7 +202,7 @@ function reportFit({ summary: { mismatch, worstJoint, worstAngle } }) {
   if (worstAngle !== undefined) {
     words.push(`angles of the pieces around each point come to that of the surface to ${Math.abs(worstAngle.flat - worstAngle.surface).toFixed(1)}°`);
   }
-  if (words.length > 0) process.stderr.write(`developable: ${words.join(', ')}\n`);
+  if (words.length > 0) toStderr(`developable: ${words.join(', ')}\n`);
 }
 
 /** What is on no sheet, and what was cut off. @param {import('../types.js').Drawing['summary']} summary */
@@ -216,7 +216,7 @@ function reportMissing({ missing, loops }) {
     words.push(`the walls of ${counted(missing.steps, 'step')} (about ${squares(missing.stepArea)}) on no sheet`);
   }
   if (loops > 0) words.push(`${counted(loops, 'small loop')} in which outlines crossed themselves cut off`);
-  if (words.length > 0) process.stderr.write(`developable: warning: ${words.join('; ')}\n`);
+  if (words.length > 0) toStderr(`developable: warning: ${words.join('; ')}\n`);
 }
 
 /** @param {number} count @param {string} what @param {string} [several] */
@@ -277,35 +277,35 @@ export async function dewarp(task, signal) {
   }
   await writeWhole(files, signal);
   if (task.camera !== undefined && crop === undefined && reachesRim(surface)) {
-    process.stderr.write(
+    toStderr(
       'developable: warning: what was made flat goes on to the rim of the depths: it is all that they show, such as a page and ' +
         'the table that it lies on; --crop x,y,x,y,... with the corners of the page in the photo takes it alone, and so does --mask\n',
     );
   }
   if (cylinder?.verdict === 'other') {
-    process.stderr.write(
+    toStderr(
       'developable: warning: the heights are not those of a cylinder: what is made flat may be wrong; without --shape cylinder ' +
         'any surface that unrolls is fitted\n',
     );
   }
   if (crop?.length === 4 && flat.loss > MAX_UNMENTIONED_LOSS) {
-    process.stderr.write(`developable: warning: ${percent(flat.loss, 2)} of the page between the corners of --crop is missing: there are no depths of it\n`);
+    toStderr(`developable: warning: ${percent(flat.loss, 2)} of the page between the corners of --crop is missing: there are no depths of it\n`);
   }
   if (flat.verdict === 'doubtful' && flat.overreach > 0) {
-    process.stderr.write(
+    toStderr(
       `developable: warning: --crop reaches beyond the page that the photo shows, by up to ${percent(flat.overreach, 2)} of its side: the flat ` +
         'image may show what lies beside the page, and be bent by it; place the corners on the page\n',
     );
   }
   if (flat.verdict === 'flat') {
-    process.stderr.write('developable: the photo shows the page flat to begin with, and can be used as it is\n');
+    toStderr('developable: the photo shows the page flat to begin with, and can be used as it is\n');
   } else if (flat.verdict === 'stretched') {
     const { distortion: { rms, above, flipped }, crossings } = flat.report;
     const reasons = [
       ...(above > 0 ? [`its sheet is stretched by ${percent(rms, 2)} on average and by more than 1 % in ${percent(above, 2)} of its area`] : []),
       ...(flipped + crossings > 0 ? ['parts of the sheet lie on others'] : []),
     ];
-    process.stderr.write(
+    toStderr(
       `developable: warning: the surface cannot be laid flat as it is: ${reasons.join(', and ')}; lengths on the flat image may be wrong\n`,
     );
   }

@@ -1,7 +1,7 @@
 /** A question before a fit of very many vertices, which a slip of the keyboard in --resolution may have asked for. */
 import { createInterface } from 'node:readline/promises';
 import { Problem, status } from './problem.js';
-import { say } from './terminal.js';
+import { say, streams } from './terminal.js';
 
 /** Maximum number of vertices that are fitted without a question. More of them take minutes, and gigabytes of memory. */
 export const MAX_VERTICES_UNASKED = 2_000_000;
@@ -63,12 +63,14 @@ function vertexCount({ lattice, spacing = 1 }, input) {
 /** Somebody at a terminal. @type {User} */
 const terminalUser = {
   get answers() {
-    return process.stdin.isTTY === true && process.stderr.isTTY === true;
+    const { stdin, stderr } = streams();
+    return stdin.isTTY === true && stderr.isTTY === true;
   },
 
   async ask(question, signal) {
     // Not as a terminal of readline's, which would take the key that interrupts for itself.
-    const lines = createInterface({ input: process.stdin, output: process.stderr, terminal: false });
+    const { stdin, stderr } = streams();
+    const lines = createInterface({ input: stdin, output: stderr, terminal: false });
     const closed = new Promise((resolve) => lines.once('close', () => resolve('')));
     try {
       return /** @type {string} */ (await Promise.race([lines.question(question, { signal }), closed]));

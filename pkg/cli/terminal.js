@@ -1,10 +1,37 @@
 /** What people see: results on standard output, and on a terminal how the work goes, so that scripts get silence. */
+import { AsyncLocalStorage } from 'node:async_hooks';
 import { failed } from './files.js';
 
-const terminal = process.stderr;
+/**
+ * Standard input, output and error of the command: the process's own, or those of a caller within the process.
+ * @typedef {object} Streams
+ * @property {NodeJS.ReadableStream & { isTTY?: boolean }} stdin
+ * @property {NodeJS.WritableStream & { isTTY?: boolean }} stdout
+ * @property {NodeJS.WritableStream & { isTTY?: boolean }} stderr
+ */
 
-// What cannot be written is said where it was asked for, and of standard error there is nobody to tell.
-for (const stream of [process.stdout, process.stderr]) stream.on('error', () => {});
+/** @type {AsyncLocalStorage<Streams>} */
+const current = new AsyncLocalStorage();
+
+/** The streams of the command that runs. @returns {Streams} */
+export const streams = () => current.getStore() ?? process;
+
+/**
+ * Runs a command with streams of the caller's.
+ * @template T
+ * @param {Streams} given
+ * @param {() => Promise<T>} run
+ */
+export function withStreams(given, run) {
+  // What cannot be written is said where it was asked for, and of standard error there is nobody to tell.
+  for (const stream of new Set([given.stdout, given.stderr])) {
+    if (stream.listenerCount('error') === 0) stream.on('error', () => {});
+  }
+  return current.run(given, run);
+}
+
+/** Writes to standard error. @param {string} text */
+export const toStderr = (text) => void streams().stderr.write(text);
 
 /**
  * @param {string} text
@@ -12,7 +39,7 @@ for (const stream of [process.stdout, process.stderr]) stream.on('error', () => 
  */
 export function print(text) {
   return new Promise((resolve, reject) => {
-    process.stdout.write(text, (error) => {
+    streams().stdout.write(text, (/** @type {Error | null | undefined} */ error) => {
       // Who has read enough, as `head` has, closes the pipe.
       if (!error || /** @type {NodeJS.ErrnoException} */ (error).code === 'EPIPE') resolve();
       else reject(failed('cannot write to standard output', error));
@@ -22,11 +49,13 @@ export function print(text) {
 
 /** Says something on standard error, in the place of what a terminal shows of the work. @param {string} text */
 export function say(text) {
-  terminal.write(`${terminal.isTTY ? '\r\x1b[K' : ''}developable: ${text}\n`);
+  toStderr(`${streams().stderr.isTTY ? '\r\x1b[K' : ''}developable: ${text}\n`);
 }
 
 /** One line that is written over and over. */
 export function statusLine() {
+  // News may come from where no command runs.
+  const terminal = streams().stderr;
   const shown = terminal.isTTY === true;
   return {
     shown,
@@ -75,10 +104,10 @@ export function progressLine() {
  * @param {import('../types.js').Report} report
  */
 export function announce(output, { interior, boundary, omitted, iterations, gap, seconds }) {
-  if (!terminal.isTTY) return;
+  if (!streams().stderr.isTTY) return;
   const vertices = interior + boundary + omitted;
   const quality = gap === undefined ? 'the optimum up to rounding' : `within ${percent(gap)} of the optimum`;
-  terminal.write(
+  toStderr(
     `${output}: ${vertices} vertices, ${quality} ` +
       `after ${iterations} iterations and ${seconds.total.toFixed(1)} s\n`,
   );
@@ -89,11 +118,11 @@ export function announce(output, { interior, boundary, omitted, iterations, gap,
  * @param {import('../types.js').MeshReport} report
  */
 export function announceMesh(output, { vertices, passes, seconds }) {
-  if (!terminal.isTTY) return;
+  if (!streams().stderr.isTTY) return;
   const iterations = passes.reduce((sum, pass) => sum + pass.iterations, 0);
   const gap = passes.at(-1)?.gap;
   const quality = gap === undefined ? '' : `, the last of ${passes.length} linearised problems within ${percent(gap)} of its optimum`;
-  terminal.write(`${output}: ${vertices} vertices${quality} after ${iterations} iterations and ${seconds.total.toFixed(1)} s\n`);
+  toStderr(`${output}: ${vertices} vertices${quality} after ${iterations} iterations and ${seconds.total.toFixed(1)} s\n`);
 }
 
 /** @param {number} share */

@@ -3,7 +3,7 @@ import * as developable from '../index.js';
 import { checkPlaces, writeWhole } from './files.js';
 import { readMesh } from './inputs.js';
 import { chosenOf, drawingOptions, flatObj, json, linesObj, patternFiles, plainArrays, reportPattern, tellPlans, withPlans } from './sheets.js';
-import { announceMesh, percent, print, progressLine } from './terminal.js';
+import { announceMesh, percent, print, progressLine, toStderr } from './terminal.js';
 
 /**
  * @typedef {import('./arguments.js').MeshTask} MeshTask
@@ -100,26 +100,26 @@ async function planned(task, mesh, signal) {
 function tell(task, { report }, mesh) {
   announceMesh(task.output, report);
   if (report.stopReason === 'maxIterations') {
-    process.stderr.write('developable: warning: stopped before the wanted gap; --max-iterations allows more\n');
+    toStderr('developable: warning: stopped before the wanted gap; --max-iterations allows more\n');
   } else if (report.stopReason === 'diverged') {
-    process.stderr.write('developable: warning: the iterations diverged; this is the best surface before\n');
+    toStderr('developable: warning: the iterations diverged; this is the best surface before\n');
   }
   const { turned, degenerate, repeated } = report.repairs;
   if (turned + degenerate + repeated > 0) {
-    process.stderr.write(
+    toStderr(
       `developable: warning: ${task.input} was mended for the fit: ${turned} triangles faced the wrong side, ${degenerate} had ` +
         `two corners at one place, ${repeated} were there twice\n`,
     );
   }
   if (report.flipped[1] > 0) {
-    process.stderr.write(
+    toStderr(
       `developable: warning: ${report.flipped[1]} triangles of ${task.output} are folded over (${percent(report.flipped[1] / (mesh.triangles.length / 3))})\n`,
     );
   }
   const [first] = report.entangled;
   if (first) {
     const place = first.position.map((x) => Number(x.toPrecision(4))).join(', ');
-    process.stderr.write(
+    toStderr(
       `developable: warning: ${report.entangled.length} triangles of ${task.output} are folded over or cross others, as far as the noise ` +
         `tells; the first is number ${first.triangle}, at (${place}); report.entangled has all\n`,
     );

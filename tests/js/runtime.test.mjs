@@ -1,9 +1,12 @@
 /** What callers see of the runtime: where errors come from, how many threads there are, what inputs may bring along. */
 import assert from 'node:assert/strict';
+import { writeFile } from 'node:fs/promises';
+import { join } from 'node:path';
 import { test } from 'node:test';
 import * as direct from '../../pkg/direct.js';
-import { DevelopableWorker, dispose, fit, read } from '../../pkg/index.js';
+import { DevelopableWorker, dispose, fit, read, writeNpy } from '../../pkg/index.js';
 import { asDepthOptions } from '../../pkg/depth-input.js';
+import { runHere, temporaryFolder } from './support/command.mjs';
 import { cylinder, image } from './support/shapes.mjs';
 
 await direct.init();
@@ -54,4 +57,23 @@ test('a confidence that was read has the type of its file', () => {
   const file = { width: 3, height: 1, data: Float64Array.of(0, 1, 2), dataType: 'u8' };
   const { confidence } = asDepthOptions({ confidence: /** @type {any} */ (file) });
   assert.deepEqual([.../** @type {any} */ (confidence).data], [0, 0.25, 1]);
+});
+
+test('the command runs within a process, with streams of the caller', async () => {
+  const folder = await temporaryFolder();
+  await writeFile(join(folder, 'bent.npy'), await writeNpy(bent));
+  try {
+    for (const threads of ['1', '2']) {
+      const { status, stdout, stderr } = await runHere(folder, ['fit', 'bent.npy', '-o', 'flat.npy', '--threads', threads, '--report', 'r.json']);
+      assert.deepEqual([status, stdout, stderr], [0, '', '']);
+    }
+    assert.match((await runHere(folder, ['info', 'flat.npy'])).stdout, /format: +npy/);
+    const wrong = await runHere(folder, ['fit', 'none.npy', '-o', 'x.npy']);
+    assert.equal(wrong.status, 3);
+    assert.match(wrong.stderr, /^developable: cannot read none\.npy/);
+    const interrupted = await runHere(folder, ['fit', 'bent.npy', '-o', 'late.npy'], AbortSignal.abort());
+    assert.deepEqual([interrupted.status, interrupted.stderr], [130, '']);
+  } finally {
+    dispose();
+  }
 });

@@ -1,9 +1,12 @@
-/** Runs the command as a child process. */
+/** Runs the command: as a child process, or in this one. */
 import { spawn } from 'node:child_process';
 import { mkdtemp, rm } from 'node:fs/promises';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
+import { PassThrough } from 'node:stream';
+import { text } from 'node:stream/consumers';
 import { after } from 'node:test';
+import { main } from '../../../pkg/cli/main.js';
 import { pkg } from './paths.mjs';
 
 export const command = join(pkg, 'bin/developable.js');
@@ -38,4 +41,28 @@ export function run(folder, args, { onStart, program = [process.execPath, comman
     child.on('close', (status) => resolve({ status, stdout, stderr }));
     onStart?.(child);
   });
+}
+
+/**
+ * The command within this process, whose folder it works in: one at a time, and without the start of a process.
+ * @param {string} folder
+ * @param {string[]} args
+ * @param {AbortSignal} [signal] interrupts it
+ * @returns {Promise<{ status: number, stdout: string, stderr: string }>}
+ */
+export async function runHere(folder, args, signal) {
+  const [stdin, stdout, stderr] = [new PassThrough(), new PassThrough(), new PassThrough()];
+  const said = Promise.all([text(stdout), text(stderr)]);
+  const before = process.cwd();
+  process.chdir(folder);
+  try {
+    stdin.end();
+    const status = await main(args, { stdin, stdout, stderr, signal });
+    stdout.end();
+    stderr.end();
+    const [output, errors] = await said;
+    return { status, stdout: output, stderr: errors };
+  } finally {
+    process.chdir(before);
+  }
 }

@@ -1,12 +1,13 @@
 /** What callers see of the runtime: where errors come from, how many threads there are, what inputs may bring along. */
 import assert from 'node:assert/strict';
-import { writeFile } from 'node:fs/promises';
+import { cp, writeFile } from 'node:fs/promises';
 import { join } from 'node:path';
 import { test } from 'node:test';
 import * as direct from '../../pkg/direct.js';
 import { DevelopableWorker, dispose, fit, read, writeNpy } from '../../pkg/index.js';
 import { asDepthOptions } from '../../pkg/depth-input.js';
-import { runHere, temporaryFolder } from './support/command.mjs';
+import { run, runHere, temporaryFolder } from './support/command.mjs';
+import { pkg, root } from './support/paths.mjs';
 import { cylinder, image } from './support/shapes.mjs';
 
 await direct.init();
@@ -76,4 +77,14 @@ test('the command runs within a process, with streams of the caller', async () =
   } finally {
     dispose();
   }
+});
+
+test('a package that is not built cannot be packed', async () => {
+  const folder = await temporaryFolder();
+  await cp(join(pkg, 'package.json'), join(folder, 'package.json'));
+  const prepack = [process.execPath, join(root, 'tools/prepack.mjs')];
+  const empty = await run(folder, [], { program: prepack });
+  assert.equal(empty.status, 1);
+  assert.match(empty.stderr, /not complete: .*wasm\/solver_bg\.wasm.*threads\/threads\.js.*npm run build/);
+  assert.deepEqual(await run(pkg, [], { program: prepack }), { status: 0, stdout: '', stderr: '' });
 });

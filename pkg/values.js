@@ -61,7 +61,7 @@ export function refuseUnknown(code, what, given, known, former = []) {
 }
 
 /**
- * Refuses an input with a property that nearly is one that is missing, or that is for another kind of input. Others are the caller's own.
+ * Refuses an input with a property that nearly is one that there is, or that is for another kind of input. Others are the caller's own.
  * @param {string} what such a property is of, as in `the image`
  * @param {unknown} given
  * @param {readonly string[]} known
@@ -70,9 +70,8 @@ export function refuseUnknown(code, what, given, known, former = []) {
 export function refuseMisspelled(what, given, known, foreign = []) {
   if (!isRecord(given)) return;
   const names = reading('INPUT', `what is given as ${what}`, () => Object.keys(Object(given)));
-  const missing = known.filter((name) => !names.includes(name));
-  const slip = names.find((name) => !known.includes(name) && (foreign.includes(name) || nearest(name, missing) !== undefined));
-  if (slip !== undefined) throw new DevelopableError('INPUT', unknownName(`property of ${what}`, slip, missing));
+  const slip = names.find((name) => !known.includes(name) && (foreign.includes(name) || nearest(name, known) !== undefined));
+  if (slip !== undefined) throw new DevelopableError('INPUT', unknownName(`property of ${what}`, slip, known));
 }
 
 /**

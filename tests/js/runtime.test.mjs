@@ -38,7 +38,7 @@ test('no more threads are started than run at the same time', async () => {
 test("an input may have properties of the caller's own, but none misspelled", () => {
   class Scan {
     constructor() {
-      Object.assign(this, bent, { name: 'scan', date: '2026', sensor: { id: 3 } });
+      Object.assign(this, bent, { name: 'scan', operator: 'me', sensor: { id: 3 } });
     }
   }
   assert.deepEqual(direct.fit(/** @type {any} */ (new Scan())).heights, direct.fit(bent).heights);

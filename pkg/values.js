@@ -52,11 +52,10 @@ export function record(code, what, given, names) {
  * @param {string} what such a name is of, as in `option`
  * @param {unknown} given
  * @param {readonly string[]} known
- * @param {readonly string[]} [former] names that go on working, and are not told
  */
-export function refuseUnknown(code, what, given, known, former = []) {
+export function refuseUnknown(code, what, given, known) {
   if (!isRecord(given)) return; // what it must be instead is said where it is used
-  const stray = reading(code, `what is given as ${what}`, () => Object.keys(Object(given)).find((name) => !known.includes(name) && !former.includes(name)));
+  const stray = reading(code, `what is given as ${what}`, () => Object.keys(Object(given)).find((name) => !known.includes(name)));
   if (stray !== undefined) throw new DevelopableError(code, unknownName(what, stray, known));
 }
 

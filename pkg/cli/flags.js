@@ -250,49 +250,6 @@ export function asFlags(message) {
     }));
 }
 
-/** Names that flags had before, which go on working and are not in the help. @type {ReadonlyMap<string, Flag>} */
-const FORMER_NAMES = new Map([
-  ['reweight', 'reweighting'],
-  ['occlusion-mask', 'occlusions'],
-  ['focal', 'focal-length'],
-  ['fov', 'field-of-view'],
-  ['rotate-depth', 'turn'],
-]);
-
-/**
- * The command line with the names that flags have now, and how those were spelled that had another one before.
- * @param {string[]} args
- */
-function withCurrentNames(args) {
-  /** @type {Map<string, string>} */
-  const spelled = new Map();
-  const end = args.includes('--') ? args.indexOf('--') : args.length;
-  const renamed = args.map((arg, i) => {
-    const [, name, value] = /^--([^=]+)(?:=([^]*))?$/.exec(i < end ? arg : '') ?? [];
-    // What is a number or auto is a threshold, for which `--occlusions` stood once.
-    const now = name === 'occlusions' && isThreshold(value ?? args[i + 1]) ? 'occlusion-threshold' : FORMER_NAMES.get(name);
-    if (now === undefined) return arg;
-    spelled.set(now, name);
-    return `--${now}${value === undefined ? '' : `=${value}`}`;
-  });
-  return { renamed, spelled };
-}
-
-/** @param {string | undefined} value */
-function isThreshold(value = '') {
-  return value.toLowerCase() === 'auto' || (value.trim() !== '' && !Number.isNaN(Number(value)));
-}
-
-/**
- * A message with the flags named as they were spelled on the command line.
- * @param {string} message
- * @param {string[]} args
- */
-export function asSpelled(message, args) {
-  const { spelled } = withCurrentNames(joined(args));
-  return message.replace(/--([a-z][a-z-]*)/g, (whole, flag) => (spelled.has(flag) ? `--${spelled.get(flag)}` : whole));
-}
-
 /**
  * @param {string[]} args
  * @returns {{ values: Values, positionals: string[] }}
@@ -305,7 +262,7 @@ export function split(args) {
     ]),
   );
   try {
-    const { values, positionals } = parseArgs({ args: withCurrentNames(joined(args)).renamed, options, allowPositionals: true });
+    const { values, positionals } = parseArgs({ args: withNegatives(args), options, allowPositionals: true });
     const bare = Object.keys(values).find((flag) => values[flag] === '');
     if (bare !== undefined) throw new Error(`--${bare} is empty: it needs a value, as in --${bare} ${flags[/** @type {Flag} */ (bare)].value}`);
     return { values: /** @type {Values} */ (values), positionals };
@@ -322,16 +279,12 @@ export function split(args) {
  * Joins negative numbers and axes to the flags before them, which `parseArgs` would take for flags.
  * @param {string[]} args
  */
-function joined(args) {
+function withNegatives(args) {
   /** @type {string[]} */
   const out = [];
   for (const arg of args) {
     const last = out.at(-1);
-    const [, stock] = /^--paper=(.*)$/is.exec(arg) ?? [];
-    if (stock !== undefined) out.push(`--stock=${stock}`);
-    // The old name of --stock, whose value tells it from the paper's setting.
-    else if (last === '--paper' && args.includes('pattern') && !/^-|\.[a-z]/i.test(arg)) out[out.length - 1] = `--stock=${arg}`;
-    else if (last?.startsWith('--') && /^-(\.?\d|inf|nan|[xyz]$)/i.test(arg)) out[out.length - 1] = `${last}=${arg}`;
+    if (last?.startsWith('--') && /^-(\.?\d|inf|nan|[xyz]$)/i.test(arg)) out[out.length - 1] = `${last}=${arg}`;
     else out.push(arg);
   }
   return out;

@@ -5,7 +5,6 @@ import { asProblem } from './explain.js';
 import { parse } from './arguments.js';
 import { batchOf, runBatch } from './batch.js';
 import { fit } from './fit.js';
-import { asSpelled } from './flags.js';
 import { helpOn, overview } from './help.js';
 import { info } from './info.js';
 import { occlusions } from './occlusions.js';
@@ -52,7 +51,7 @@ export function main(args, { signal = new AbortController().signal, ...given }) 
       return status.success;
     } catch (error) {
       const problem = signal.aborted ? interrupted(signal.reason) : asProblem(error);
-      if (problem.message) toStderr(`developable: ${asSpelled(problem.message, args)}\n`);
+      if (problem.message) toStderr(`developable: ${problem.message}\n`);
       return problem.status;
     }
   });

@@ -235,9 +235,6 @@ export const optionsIn = (options, must = 'must be an object of options') => ({
   take: (value) => (isRecord(value) ? readOptions(options, /** @type {object} */ (value)) : undefined),
 });
 
-/** Names of options that have another one now, and go on working. @type {Record<string, string>} */
-const FORMER_NAMES = { paper: 'stock' };
-
 /**
  * What is given of some options, as a plain object without anything that is undefined.
  * @param {Options} options
@@ -251,13 +248,9 @@ export function readOptions(options, given) {
       throw new DevelopableError('OPTION', `the options must be an object, but are ${show(given)}`);
     }
     const names = Object.keys(options);
-    const former = Object.keys(FORMER_NAMES).filter((name) => !(name in options) && FORMER_NAMES[name] in options);
-    refuseUnknown('OPTION', 'option', given, names, former);
-    const entries = Object.entries(record('OPTION', 'the options', given, [...names, ...former]));
-    return Object.fromEntries(entries.map(([given, value]) => {
-      const name = given in options ? given : FORMER_NAMES[given];
-      return [name, taken(given, options[name].kind, value)];
-    }));
+    refuseUnknown('OPTION', 'option', given, names);
+    const entries = Object.entries(record('OPTION', 'the options', given, names));
+    return Object.fromEntries(entries.map(([name, value]) => [name, taken(name, options[name].kind, value)]));
   });
 }
 

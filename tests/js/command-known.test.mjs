@@ -34,15 +34,15 @@ test('energies, passes and thresholds reach the solver', async () => {
   const paper = await report('fit step.npy -o out.npy --paper');
   assert.deepEqual([paper.energy, paper.lambda], ['nuclear', 1e6]);
   assert.equal((await report('fit step.npy -o out.npy --energy frobenius')).energy, 'frobenius');
-  assert.equal((await report('fit step.npy -o out.npy --energy nuclear --reweight 2')).reweighting, 2);
+  assert.equal((await report('fit step.npy -o out.npy --energy nuclear --reweighting 2')).reweighting, 2);
   const huber = await report('fit step.npy -o out.npy --energy huber --bend-radius 0.2 --flatness 0.5 --crease-passes 0');
   assert.deepEqual([huber.huber.bendRadius, huber.huber.flatness, huber.huber.creasePasses], [0.2, 0.5, 0]);
   const own = await report('fit step.npy -o out.npy --lambda auto');
   assert.equal(own.lambdaChoice.reason, 'noNoise');
-  const torn = await report('fit step.npy -o out.npy --occlusions 150');
+  const torn = await report('fit step.npy -o out.npy --occlusion-threshold 150');
   assert.ok(torn.occluded > 20 && torn.objective < 1e-6);
   assert.ok(deviation((await load('out.npy')).data, step.data) < 9.1);
-  assert.equal((await report('fit step.npy -o out.npy --occlusions auto')).occluded, 0);
+  assert.equal((await report('fit step.npy -o out.npy --occlusion-threshold auto')).occluded, 0);
 });
 
 test('occlusions are written as a mask that can be given back', async () => {
@@ -57,7 +57,7 @@ test('occlusions are written as a mask that can be given back', async () => {
   assert.deepEqual([...(await load('mask.npy')).data], [...found.image]);
   await command('occlusions step.npy -o none.png', '0\n');
   assert.ok((await load('none.png')).data.every((level) => level === 0));
-  const { occluded, objective } = await report('fit step.npy -o out.npy --occlusion-mask mask.png');
+  const { occluded, objective } = await report('fit step.npy -o out.npy --occlusions mask.png');
   const plain = await report('fit step.npy -o out.npy');
   assert.ok(occluded > 20 && objective < plain.objective / 5);
 

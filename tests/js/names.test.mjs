@@ -1,15 +1,10 @@
-/** One name for one thing: flags are named as the package's options, old names go on working, and values are of any case. */
+/** One name for one thing: flags are named as the package's options, and values are of any case. */
 import assert from 'node:assert/strict';
-import { writeFile } from 'node:fs/promises';
-import { join } from 'node:path';
 import { test } from 'node:test';
 import { parse } from '../../pkg/cli/arguments.js';
-import { commands } from '../../pkg/cli/commands.js';
 import { sections } from '../../pkg/cli/flags.js';
-import { helpOn } from '../../pkg/cli/help.js';
 import * as direct from '../../pkg/direct.js';
 import { OPTIONS, optionsOf } from '../../pkg/options.js';
-import { run, temporaryFolder } from './support/command.mjs';
 import { image, plane } from './support/shapes.mjs';
 
 await Promise.all([direct.init(), direct.load('files')]);
@@ -44,50 +39,6 @@ test('a flag has the name of its option, in lower case with hyphens', () => {
   }
 });
 
-/** What each old name stood for. */
-const formerly = [
-  ['fit a.npy -o x.npy --reweight 2', 'fit a.npy -o x.npy --reweighting 2'],
-  ['fit a.npy -o x.npy --reweight=2', 'fit a.npy -o x.npy --reweighting=2'],
-  ['fit a.npy -o x.npy --occlusions 150', 'fit a.npy -o x.npy --occlusion-threshold 150'],
-  ['fit a.npy -o x.npy --occlusions=1e3', 'fit a.npy -o x.npy --occlusion-threshold=1e3'],
-  ['fit a.npy -o x.npy --occlusions auto', 'fit a.npy -o x.npy --occlusion-threshold auto'],
-  ['fit a.npy -o x.npy --occlusion-mask t.png', 'fit a.npy -o x.npy --occlusions t.png'],
-  ['fit a.npy -o x.npy --occlusions auto --occlusion-mask t.png', 'fit a.npy -o x.npy --occlusion-threshold auto --occlusions t.png'],
-  ['dewarp p.png --edges e.json -o x.png --focal 900', 'dewarp p.png --edges e.json -o x.png --focal-length 900'],
-  ['dewarp p.png --edges e.json -o x.png --fov 60', 'dewarp p.png --edges e.json -o x.png --field-of-view 60'],
-  ['fit d.npy -o x.npy --intrinsics 1,1,1,1 --rotate-depth 90', 'fit d.npy -o x.npy --intrinsics 1,1,1,1 --turn 90'],
-];
-
-test('old names of flags go on working, and are in no help', () => {
-  for (const [before, now] of formerly) assert.deepEqual(parse(before.split(' ')), parse(now.split(' ')), before);
-  const told = /** @type {import('../../pkg/cli/commands.js').Command[]} */ (Object.keys(commands)).map(helpOn).join('');
-  for (const name of ['reweight', 'occlusion-mask', 'focal', 'fov', 'rotate-depth']) {
-    assert.doesNotMatch(told, new RegExp(`--${name}(?![\\w-])`), name);
-  }
-  // A name after two hyphens alone is that of a file.
-  assert.throws(() => parse(['fit', '-o', 'x.npy', '--', 'a.npy', '--reweight']), { message: /what is "--reweight"/ });
-});
-
-test('a message names a flag as it was written', async () => {
-  const folder = await temporaryFolder();
-  await writeFile(join(folder, 'ramp.npy'), direct.writeNpy(image(24, 20, plane)));
-  /** @type {[string, RegExp][]} */
-  const cases = [
-    ['fit ramp.npy -o x.npy --reweight 99', /: --reweight is 99/],
-    ['fit ramp.npy -o x.npy --reweighting 99', /: --reweighting is 99/],
-    ['fit ramp.npy -o x.npy --reweight many', /: --reweight must be a number/],
-    ['fit ramp.npy -o x.npy --occlusions -1', /: --occlusions is -1/],
-    ['fit ramp.npy -o x.npy --occlusion-threshold -1', /: --occlusion-threshold is -1/],
-    ['design ramp.npy -o x.npy --occlusions 3', /: --occlusions is not for "design"/],
-    ['dewarp p.png --edges e.json -o x.png --focal 1 --field-of-view 60', /: --focal and --field-of-view say the same/],
-  ];
-  for (const [args, message] of cases) {
-    const { status, stderr } = await run(folder, args.split(' '));
-    assert.equal(status, 2, stderr);
-    assert.match(stderr, message);
-  }
-});
-
 test('values are of any case, in the command and in the package', () => {
   for (const [args, lower] of [
     ['fit a.npy -o x.npy --lambda AUTO', 'fit a.npy -o x.npy --lambda auto'],
@@ -95,7 +46,7 @@ test('values are of any case, in the command and in the package', () => {
     ['fit a.npy -o x.npy --energy SquaredNuclear', 'fit a.npy -o x.npy --energy squaredNuclear'],
     ['fit a.npy -o x.npy --occlusion-threshold Auto --bridge NONE', 'fit a.npy -o x.npy --occlusion-threshold auto --bridge none'],
     ['dewarp a.npy --texture p.png -o x.png --lattice HEX --unit MM', 'dewarp a.npy --texture p.png -o x.png --lattice hex --unit mm'],
-    ['pattern a.npy -o x.svg --stock A4', 'pattern a.npy -o x.svg --paper A4'],
+    ['pattern a.npy -o x.svg --stock A4', 'pattern a.npy -o x.svg --stock a4'],
     ['pattern a.npy -o x.svg --stock None', 'pattern a.npy -o x.svg --stock none'],
     ['dewarp a.npy --texture p.png -o x.png --lattice hex --shape CYLINDER', 'dewarp a.npy --texture p.png -o x.png --lattice hex --shape cylinder'],
     ['dewarp p.png --edges e.json -o x.png --page Letter', 'dewarp p.png --edges e.json -o x.png --page letter'],

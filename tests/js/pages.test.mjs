@@ -167,7 +167,7 @@ test('the command', async () => {
   /** @param {string} args */
   const command = (args) => run(folder, args.split(' '));
 
-  const told = 'dewarp photo.png --edges edges.json --focal 480 --page a4 --dots 1 -o page.png --map map.npy --report report.json';
+  const told = 'dewarp photo.png --edges edges.json --focal-length 480 --page a4 --dots 1 -o page.png --map map.npy --report report.json';
   assert.deepEqual(await command(told), silent);
   const flat = direct.readPhoto(await readFile(join(folder, 'page.png')));
   assert.deepEqual([flat.width, flat.height], [210, 297]);
@@ -179,13 +179,13 @@ test('the command', async () => {
   const report = JSON.parse(await readFile(join(folder, 'report.json'), 'utf8'));
   assert.ok(report.verdict === 'unrolled' && report.unit === 'mm' && report.error < report.pinholeErrorBound, JSON.stringify(report));
 
-  assert.deepEqual(await command('dewarp photo.png --edges edges.json --fov 67.4 --page 210x297 -o page.png'), silent);
+  assert.deepEqual(await command('dewarp photo.png --edges edges.json --field-of-view 67.4 --page 210x297 -o page.png'), silent);
 
   // Corners alone.
   await writeFile(join(folder, 'corners.json'), JSON.stringify({
     top: [[60, 60], [420, 60]], bottom: [[60, 580], [420, 580]],
   }));
-  const corners = await command('dewarp photo.png --edges corners.json --focal 480 -o page.png');
+  const corners = await command('dewarp photo.png --edges corners.json --focal-length 480 -o page.png');
   assert.equal(corners.status, 0, corners.stderr);
   assert.match(corners.stderr, /nothing checks/);
 
@@ -193,13 +193,13 @@ test('the command', async () => {
     ['dewarp photo.png --edges swapped.json -o f.png', 3, /exchange/],
     ['dewarp photo.png --edges broken.json -o f.png', 3, /broken\.json.*JSON/],
     ['dewarp photo.png --edges none.json -o f.png', 3, /none\.json/],
-    ['dewarp photo.png --edges edges.json --focal 0 -o f.png', 2, /--focal is 0/],
-    ['dewarp photo.png --edges edges.json --focal 480 --fov 60 -o f.png', 2, /one of them/],
+    ['dewarp photo.png --edges edges.json --focal-length 0 -o f.png', 2, /--focal-length is 0/],
+    ['dewarp photo.png --edges edges.json --focal-length 480 --field-of-view 60 -o f.png', 2, /one of them/],
     ['dewarp photo.png --edges edges.json --page a3 -o f.png', 2, /--page must be/],
-    ['dewarp photo.png --edges edges.json --page 100x100 --focal 480 -o f.png', 3, /format/],
+    ['dewarp photo.png --edges edges.json --page 100x100 --focal-length 480 -o f.png', 3, /format/],
     ['dewarp photo.png --edges edges.json --lambda big -o f.png', 2, /--lambda is for heights/],
     ['dewarp photo.png --edges edges.json -o edges.json', 2, /\.png/],
-    ['dewarp photo.png --texture photo.png --fov 60 -o f.png', 2, /--fov is for a photo alone/],
+    ['dewarp photo.png --texture photo.png --field-of-view 60 -o f.png', 2, /--field-of-view is for a photo alone/],
   ])) {
     const { status: found, stderr } = await command(args);
     assert.equal(found, status, `${args}: ${stderr}`);
@@ -281,7 +281,7 @@ test('lines of text, and all four edges', async () => {
   const folder = await temporaryFolder();
   await writeFile(join(folder, 'photo.png'), direct.writePhoto(photo));
   await writeFile(join(folder, 'edges.json'), JSON.stringify({ ...edges, lines: levels.map((t) => line(t, 0.03)) }));
-  const told = await run(folder, ['dewarp', 'photo.png', '--edges', 'edges.json', '--focal', String(focal), '-o', 'page.png']);
+  const told = await run(folder, ['dewarp', 'photo.png', '--edges', 'edges.json', '--focal-length', String(focal), '-o', 'page.png']);
   assert.equal(told.status, 0);
   assert.match(told.stderr, /its edges and lines of text disagree \(by .*folded or crumpled/);
 });

@@ -450,7 +450,7 @@ test('the command', async () => {
   const { summary } = direct.pattern(card, { scale, refold: true });
   assert.deepEqual(report, { ...summary, assembly: [{ sheet: 0, joints: [] }] });
   assert.ok(/** @type {number} */ (summary.refolding) < 1e-3);
-  assert.deepEqual(await command(`${from} -o card.pdf --scale ${scale} --paper letter`), silent);
+  assert.deepEqual(await command(`${from} -o card.pdf --scale ${scale} --stock letter`), silent);
   assert.equal((await readPdf(await readFile(join(folder, 'card.pdf')))).length, drawing.summary.letter);
   assert.deepEqual(await command(`${from} -o card.dxf --tabs 5`), silent);
   assert.equal(readDxf(await readFile(join(folder, 'card.dxf'))).unit, 4);
@@ -476,11 +476,11 @@ test('the command', async () => {
     [`${small} -o few.svg --sheets 2 --lambda big`, 2, /leave --lambda out/],
     [`${small} -o few.svg --assembly few.obj`, 2, /\.glb or \.svg/],
     [`${from} -o card.png`, 2, /\.svg, \.pdf, \.dxf or \.json/],
-    [`${from} -o card.svg --paper 40x`, 3, /Sheet 1 takes/],
-    [`${from} -o card.pdf --paper a5`, 2, /--stock must be a4, letter, none/],
+    [`${from} -o card.svg --stock 40x`, 3, /Sheet 1 takes/],
+    [`${from} -o card.pdf --stock a5`, 2, /--stock must be a4, letter, none/],
     [`${from} -o card.svg --scale -2`, 2, /--scale is -2/],
     [`${from} -o card.svg --tabs none`, 2, /--tabs must be a number/],
-    [`${from} -o card.pdf --scale 100 --paper a4`, 3, /pages/],
+    [`${from} -o card.pdf --scale 100 --stock a4`, 3, /pages/],
     ['unroll card.npy -o card.obj --scale 2', 2, /--scale is not for "unroll"/],
   ])) {
     const { status: found, stderr } = await command(args);

@@ -188,7 +188,7 @@ test('the command writes pages in true size', async () => {
   // By its edges.
   const line = (/** @type {number} */ y) => [[200, y], [500, y], [800, y]];
   await writeFile(join(folder, 'edges.json'), JSON.stringify({ top: line(100), bottom: line(948.5) }));
-  const edges = ['dewarp', 'photo.png', '--edges', 'edges.json', '--focal', '1000', '-o'];
+  const edges = ['dewarp', 'photo.png', '--edges', 'edges.json', '--focal-length', '1000', '-o'];
   await command(...edges, 'edges.pdf', '--page', 'a4');
   const a4 = await readPdfPicture(await readFile(join(folder, 'edges.pdf')));
   assert.ok(Math.abs(a4.size[0] - 210) < 1 && Math.abs(a4.size[1] - 297) < 1, String(a4.size));

@@ -1,30 +1,65 @@
 /** Cameras from the files that programs for capturing and calibrating write. Documented in `camera-file.d.ts`. */
+import { cameraTree } from './camera-text.js';
 import { DevelopableError } from './errors.js';
 import { count } from './input.js';
 import { asText, reading, record } from './values.js';
 
 /** @typedef {import('./types.js').PhotoCamera} PhotoCamera */
+/** @typedef {{ width: number, height: number }} Size */
+/** @typedef {Record<string, unknown>} Fields */
 
 const FORMS =
-  'fx, fy, cx and cy in JSON, a matrix of three by three in JSON or CSV, or fl_x, fl_y, cx and cy as in transforms.json';
+  'focal lengths and the axis (fx, fy, cx, cy, or fl_x, fl_y as in transforms.json), a matrix of three rows, four numbers, ' +
+  'or a field of view, as JSON, CSV, YAML, XML, INI or cameras.txt';
+
+/** How far from the middle of an image the axis of its camera may be, as a share of the image's sides. */
+const FARTHEST_AXIS = 0.25;
+
+/** By how much the axis of another camera of a file must be nearer to the middle for that one to be preferred. */
+const SURELY_NEARER = 0.1;
 
 /** @type {typeof import('./camera-file.js').parseCamera} */
 export function parseCamera(given, images = []) {
   const sizes = sizesOf(images);
-  const found = cameraOf(asText('INPUT', 'the camera file', given));
-  if (found === undefined) throw new DevelopableError('INPUT', `there is no camera in it: it should have ${FORMS}`);
-  if (found.width !== undefined && found.height !== undefined) return found;
-  /** @param {{ width: number, height: number }} image */
-  const off = ({ width, height }) => Math.max(Math.abs(found.cx / width - 0.5), Math.abs(found.cy / height - 0.5));
-  const [nearest] = [...sizes].sort((a, b) => off(a) - off(b));
-  if (nearest === undefined) return found;
-  if (off(nearest) <= 0.25) return { ...found, width: nearest.width, height: nearest.height };
-  throw new DevelopableError(
-    'INPUT',
-    `the camera looks at (${found.cx}, ${found.cy}), which is far from the middle of ` +
-      `${sizes.map(({ width, height }) => `${width} × ${height}`).join(' and of ')} pixels: ` +
+  const cameras = camerasOf(cameraTree(asText('INPUT', 'the camera file', given)), sizes);
+  if (cameras.length === 0) throw problem(`there is no camera in it: it should have ${FORMS}`);
+  const fits = cameras.map((camera) => {
+    const stated = camera.width !== undefined && camera.height !== undefined;
+    const ranked = sizes.map((size) => ({ size, off: stated ? misfit(camera, size) : axisOff(camera, size) }));
+    const [nearest] = ranked.sort((a, b) => a.off - b.off);
+    return { camera, stated, size: nearest?.size, off: nearest?.off ?? 0 };
+  });
+  // Of several cameras the first one that is about as good as the best: left of a pair, the first of many frames.
+  const least = Math.min(...fits.map(({ off }) => off));
+  const best = /** @type {typeof fits[number]} */ (fits.find(({ off }) => off <= least + SURELY_NEARER));
+  if (best.stated || best.size === undefined) return best.camera;
+  const { camera, size: { width, height } } = best;
+  if (best.off <= FARTHEST_AXIS) return { ...camera, width, height };
+  throw problem(
+    `the camera looks at (${camera.cx}, ${camera.cy}), which is far from the middle of ` +
+      `${sizes.map((size) => `${size.width} × ${size.height}`).join(' and of ')} pixels: ` +
       'say in it which width and height its numbers are for',
   );
+}
+
+/** @param {string} words */
+function problem(words) {
+  return new DevelopableError('INPUT', words);
+}
+
+/** @param {PhotoCamera} camera @param {Size} size */
+function axisOff({ cx, cy }, { width, height }) {
+  return Math.max(Math.abs(cx / width - 0.5), Math.abs(cy / height - 0.5));
+}
+
+/**
+ * How far the size that a camera states is from that of an image, up to a common factor.
+ * @param {PhotoCamera} camera
+ * @param {Size} size
+ */
+function misfit({ width = 1, height = 1 }, size) {
+  const finer = Math.log(size.width / width);
+  return Math.abs(Math.log(size.height / height) - finer) + Math.min(Math.abs(finer), 1) / 4;
 }
 
 /** @param {unknown} images */
@@ -39,70 +74,133 @@ function sizesOf(images) {
 }
 
 /**
- * @param {string} given
- * @returns {PhotoCamera | undefined}
+ * All cameras of a file: one of its own, or those of the parts that it has, which have its fields, too.
+ * @param {unknown} part
+ * @param {Size[]} images
+ * @param {Fields} [around] fields of what the part is in
+ * @returns {PhotoCamera[]}
  */
-function cameraOf(given) {
-  // A byte order mark, with which some programs begin their files, is no JSON.
-  const text = given.replace(/^\uFEFF/, '');
-  if (!/^\s*[{[]/.test(text)) {
-    const rows = text.trim().split(/\r?\n/).map((line) => line.split(/[\s,;]+/).filter((part) => part !== '').map(Number));
-    return matrix(rows);
+function camerasOf(part, images, around = {}) {
+  if (typeof part !== 'object' || part === null) return [];
+  if (Array.isArray(part)) {
+    const own = cameraOf({ ...around, k: part }, images);
+    return own ? [own] : part.flatMap((inner) => (Array.isArray(inner) ? [] : camerasOf(inner, images, around)));
   }
-  /** @type {unknown} */
-  let value;
-  try {
-    value = JSON.parse(text);
-  } catch {
-    return undefined;
-  }
-  return Array.isArray(value) ? matrix(value) : fields(/** @type {Record<string, unknown>} */ (value));
+  const fields = { ...around, ...Object.fromEntries(Object.entries(part).map(([name, value]) => [plainName(name), value])) };
+  const own = cameraOf(fields, images);
+  if (own) return [own];
+  const inherited = Object.fromEntries(Object.entries(fields).filter(([, value]) => typeof value !== 'object'));
+  return Object.values(part).flatMap((inner) => camerasOf(inner, images, inherited));
 }
 
 /**
- * @param {Record<string, unknown>} file
+ * A name without what programs write differently: `Camera.fx`, `Camera_Matrix` and `cameraMatrix` are `fx` and `cameramatrix`.
+ * @param {string} name
+ */
+function plainName(name) {
+  return name.replace(/^.*\./, '').replace(/[_\s-]/g, '').toLowerCase();
+}
+
+/** Plain names of the matrix of a camera; the last ones are those of rectified images. */
+const MATRIX = ['k', 'intrinsicmatrix', 'cameramatrix', 'intrinsics', 'intrinsic', 'mtx', 'm1', 'projectionmatrix', 'p', 'p0'];
+
+/** Plain names of the list of a lens' distortion, in OpenCV's order. */
+const LENS = ['distortioncoefficients', 'distortioncoeffs', 'distortion', 'distcoeffs', 'coeffs', 'dist', 'd', 'd1'];
+
+/**
+ * @param {Fields} file fields with plain names
+ * @param {Size[]} images
  * @returns {PhotoCamera | undefined}
  */
-function fields(file) {
-  /** @param {...string} names */
-  const first = (...names) => names.map((name) => file[name]).find((value) => value !== undefined);
+function cameraOf(file, images) {
   /** @param {...string} names @returns {number | undefined} */
   const number = (...names) => {
-    const value = first(...names);
+    const value = names.map((name) => file[name]).find((each) => typeof each === 'number');
     return typeof value === 'number' ? value : undefined;
   };
-  const given = first('K', 'intrinsic_matrix', 'intrinsicMatrix', 'camera_matrix', 'cameraMatrix', 'intrinsics');
-  const nested = /** @type {{ data?: unknown }} */ (Object(given)).data ?? given;
-  const own = Array.isArray(nested) ? matrix(nested) : undefined;
-  const [fx, fy] = [own?.fx ?? number('fx', 'fl_x', 'f'), own?.fy ?? number('fy', 'fl_y', 'fx', 'fl_x', 'f')];
-  const [cx, cy] = [own?.cx ?? number('cx', 'ppx'), own?.cy ?? number('cy', 'ppy')];
-  if (fx === undefined || fy === undefined || cx === undefined || cy === undefined) {
-    // Such as those of several cameras, or one within what else is known.
-    const inner = typeof given === 'object' && given !== null && !Array.isArray(nested) ? given : file.camera;
-    return typeof inner === 'object' && inner !== null ? fields(/** @type {Record<string, unknown>} */ (inner)) : undefined;
+  const own = MATRIX.map((name) => matrix(listOf(file[name]))).find((found) => found !== undefined);
+  const [wide, high] = Array.isArray(file.resolution) ? file.resolution : [];
+  const width = number('width', 'w', 'imagewidth') ?? wide;
+  const height = number('height', 'h', 'imageheight') ?? high;
+  const size = width > 0 && height > 0 ? { width, height } : images[0];
+  /** @type {(number | undefined)[]} */
+  const angles = [number('fovx', 'hfov', 'horizontalfov', 'cameraanglex'), number('fovy', 'vfov', 'verticalfov', 'cameraangley')];
+  if (!angles.some((angle) => angle !== undefined) && size) angles[size.width < size.height ? 1 : 0] = number('fov', 'fieldofview');
+  const byWidth = size && focal(size.width, angles[0]);
+  const byHeight = size && focal(size.height, angles[1]);
+  let fx = own?.fx ?? number('fx', 'flx', 'f') ?? byWidth ?? byHeight;
+  let fy = own?.fy ?? number('fy', 'fly', 'fx', 'flx', 'f') ?? byHeight ?? byWidth;
+  let cx = own?.cx ?? number('cx', 'ppx');
+  let cy = own?.cy ?? number('cy', 'ppy');
+  if (fx === undefined || fy === undefined) {
+    if (angles.some((angle) => angle !== undefined)) throw problem('a field of view makes a camera only with the size of the images that it is about');
+    return undefined;
   }
-  const lens = first('distortion_coefficients', 'distortion', 'coeffs');
-  const listed = /** @type {{ data?: unknown }} */ (Object(lens)).data ?? lens;
-  const [k1, k2, p1, p2, k3] = Array.isArray(listed) ? listed.flat() : ['k1', 'k2', 'p1', 'p2', 'k3'].map((name) => number(name));
+  let [k1, k2, p1, p2, k3, ...more] = lens(file, number);
+  const metashape = (file.projection ?? file.type) === 'frame';
+  if (size && (metashape || cx === undefined || cy === undefined)) {
+    [cx, cy] = [size.width / 2 + (cx ?? 0), size.height / 2 + (cy ?? 0)];
+  }
+  if (metashape) [fx, p1, p2] = [fx + (number('b1') ?? 0), p2, p1];
+  if (cx === undefined || cy === undefined) return undefined;
+  if (size && Math.max(cx, cy) < 1) [fx, fy, cx, cy] = [fx * size.width, fy * size.height, cx * size.width, cy * size.height];
+  const model = String(file.distortionmodel ?? file.cameramodel ?? file.cameratype ?? file.model ?? '');
+  if (/fish.?eye|equidistant|kannala|fov|thin.?prism/i.test(model) || more.some((k) => k !== 0 && k !== undefined)) {
+    throw problem(
+      `its lens (${model || 'with more than five coefficients'}) bends the picture in a way that is not known here: ` +
+        'undistort the images by the program that made it',
+    );
+  }
+  const stated = width > 0 && height > 0 || byWidth !== undefined || byHeight !== undefined ? size : undefined;
   const { rotation, translation } = file;
   const camera = {
-    fx, fy, cx, cy, k1, k2, p1, p2, k3, rotation, translation,
-    width: number('width', 'w', 'image_width', 'imageWidth'),
-    height: number('height', 'h', 'image_height', 'imageHeight'),
-    depthScale: number('depthScale', 'depth_scale'),
+    fx, fy, cx, cy, k1, k2, p1, p2, k3, rotation, translation, ...stated, depthScale: number('depthscale'),
   };
   return /** @type {PhotoCamera} */ (Object.fromEntries(Object.entries(camera).filter(([, value]) => value !== undefined)));
 }
 
 /**
- * From a camera matrix by rows, or by columns, as Apple's programs have it.
- * @param {unknown[]} given
- * @returns {PhotoCamera | undefined}
+ * @param {Fields} file
+ * @param {(...names: string[]) => number | undefined} number
+ * @returns {(number | undefined)[]} k1, k2, p1, p2, k3, and what follows them
  */
-function matrix(given) {
-  const values = given.flat().map(Number);
-  if (values.length !== 9 || values.some((value) => !Number.isFinite(value)) || values[8] !== 1) return undefined;
-  const [fx, , right, , fy, down, below, beside] = values;
+function lens(file, number) {
+  const listed = LENS.map((name) => listOf(file[name])).find((list) => list !== undefined);
+  return listed ?? ['k1', 'k2', 'p1', 'p2', 'k3', 'k4', 'k5', 'k6'].map((name) => number(name));
+}
+
+/**
+ * Numbers of a list, of a list of rows, or of what OpenCV writes about a matrix.
+ * @param {unknown} given
+ * @returns {number[] | undefined}
+ */
+function listOf(given) {
+  const data = /** @type {{ data?: unknown }} */ (Object(given)).data ?? given;
+  const values = Array.isArray(data) ? data.flat().map(Number) : [];
+  return values.length > 0 && values.every(Number.isFinite) ? values : undefined;
+}
+
+/** @param {number} side @param {number | undefined} angle in degrees, or in radians where that is far less than any camera's */
+function focal(side, angle) {
+  if (angle === undefined) return undefined;
+  return side / 2 / Math.tan((angle < Math.PI ? angle : angle * Math.PI / 180) / 2);
+}
+
+/**
+ * From fx, fy, cx, cy, or a camera matrix of 3 × 3, 3 × 4 or 4 × 4 by rows, or of 3 × 3 by columns, as Apple's programs have it.
+ * @param {number[] | undefined} values
+ */
+function matrix(values = []) {
+  const columns = { 4: 0, 9: 3, 12: 4, 16: 4 }[values.length];
+  if (columns === undefined) return undefined;
+  if (columns === 0) {
+    const [fx, fy, cx, cy] = values;
+    return fx > 0 && fy > 0 ? { fx, fy, cx, cy } : undefined;
+  }
+  const [fx, right] = [values[0], values[2]];
+  const [fy, down] = [values[columns + 1], values[columns + 2]];
+  const [below, beside, one] = values.slice(2 * columns, 2 * columns + 3);
+  if (one !== 1 || !(fx > 0 && fy > 0)) return undefined;
   const byColumns = right === 0 && down === 0;
   return { fx, fy, cx: byColumns ? below : right, cy: byColumns ? beside : down };
 }

@@ -459,6 +459,9 @@ function checkKind(kind, command, values) {
   }
 }
 
+/** Endings of the files that `parseCamera` reads. */
+const CAMERA_FILE = /\.(json|ya?ml|xml|csv|conf|ini|txt)$/i;
+
 /**
  * Four or five numbers with commas between them, or a file.
  * @param {Values} values
@@ -467,10 +470,10 @@ function checkKind(kind, command, values) {
 function intrinsics({ intrinsics: text = '', ray = false, turn: rotate }) {
   const turn = [0, 90, 180, 270].find((degrees) => rotate !== undefined && String(degrees) === rotate);
   if (rotate !== undefined && turn === undefined) throw usage(`--turn must be 90, 180 or 270, but is ${show(rotate)}`);
-  if (/\.(json|csv|txt)$/i.test(text)) return { file: text, ray, turn: /** @type {CameraTask['turn']} */ (turn) };
+  if (CAMERA_FILE.test(text)) return { file: text, ray, turn: /** @type {CameraTask['turn']} */ (turn) };
   const numbers = list(text);
   if (numbers.length < 4 || numbers.length > 5 || numbers.some(Number.isNaN)) {
-    throw usage(`--intrinsics must be fx,fy,cx,cy or fx,fy,cx,cy,scale or a file .json, .csv or .txt, but is ${show(text)}`);
+    throw usage(`--intrinsics must be fx,fy,cx,cy or fx,fy,cx,cy,scale or a file .json, .yaml, .xml, .csv, .conf or .txt, but is ${show(text)}`);
   }
   const [fx, fy, cx, cy, depthScale] = numbers;
   return { numbers: { fx, fy, cx, cy, depthScale }, ray, turn: /** @type {CameraTask['turn']} */ (turn) };

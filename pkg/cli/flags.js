@@ -123,8 +123,8 @@ export const sections = {
         help: 'INPUT holds the depths that a camera with these numbers (in pixels; the centre of the top left one is ' +
           '0,0) has seen; 0 and below are none. It is taken for a mesh, in which jumps are not bridged; scale makes ' +
           'metres of depths. x is to the right, y up, the axis along -z. Or the file that a capture app or a ' +
-          'calibration has written: .json with fx, fy, cx, cy or a camera matrix (and width, height, distortion), .csv ' +
-          'with the matrix; whole numbers are millimetres then, others metres',
+          'calibration has written (.json, .yaml, .xml, .csv, .conf or .txt, as of ROS, OpenCV, COLMAP, nerfstudio or ' +
+          'Metashape); whole numbers are millimetres then, others metres',
       },
       turn: {
         value: 'DEGREES',

@@ -223,3 +223,51 @@ test('cameras from the files of other programs', () => {
       error instanceof developable.DevelopableError && error.code === 'INPUT' && message.test(error.message), text);
   }
 });
+
+test('cameras as ROS, OpenCV, COLMAP, nerfstudio, Metashape, ZED and others write them', () => {
+  const images = [{ width: 640, height: 480 }, { width: 4000, height: 3000 }];
+  const plain = { fx: 525, fy: 520, cx: 319.5, cy: 239.5, width: 640, height: 480 };
+  const lens = { k1: 0.1, k2: -0.2, p1: 0.001, p2: 0.002, k3: 0 };
+  const list = '525.0, 0.0, 319.5, 0.0, 520.0, 239.5, 0.0, 0.0, 1.0';
+  const angle = (/** @type {number} */ side) => 2 * Math.atan(side / 2 / 700);
+  const wide = { fx: 700, fy: 700, cx: 320, cy: 240, width: 640, height: 480 };
+  /** @type {[string, string, object][]} */
+  const known = [
+    ['ROS', `image_width: 640\nimage_height: 480\ncamera_name: head\ncamera_matrix:\n  rows: 3\n  cols: 3\n  data: [${list}]\n` +
+      'distortion_model: plumb_bob\ndistortion_coefficients:\n  rows: 1\n  cols: 5\n  data: [0.1, -0.2, 0.001,\n     0.002, 0.0]\n' +
+      'rectification_matrix:\n  rows: 3\n  cols: 3\n  data: [1, 0, 0, 0, 1, 0, 0, 0, 1]\n', { ...plain, ...lens }],
+    ['ROS 2 by `topic echo`', `height: 480\nwidth: 640\ndistortion_model: plumb_bob\nd:\n- 0.1\n- -0.2\n- 0.001\n- 0.002\n- 0.0\nk:\n- ${list.split(', ').join('\n- ')}\nr:\n- 1.0\n`,
+      { ...plain, ...lens }],
+    ['OpenCV, YAML', `%YAML:1.0\n---\ncamera_matrix: !!opencv-matrix\n   rows: 3\n   cols: 3\n   dt: d\n   data: [ 525., 0., 319.5, 0., 520., 239.5, 0., 0., 1. ]\n`, plain],
+    ['OpenCV, XML', '<?xml version="1.0"?>\n<opencv_storage>\n<Camera_Matrix type_id="opencv-matrix">\n  <rows>3</rows>\n  <cols>3</cols>\n  <dt>d</dt>\n' +
+      '  <data>\n    525. 0. 319.5 0. 520. 239.5 0. 0. 1.</data></Camera_Matrix>\n</opencv_storage>', plain],
+    ['COLMAP', '# Camera list with one line of data per camera:\n#   CAMERA_ID, MODEL, WIDTH, HEIGHT, PARAMS[]\n1 OPENCV 640 480 525 520 319.5 239.5 0.1 -0.2 0.001 0.002\n',
+      { ...plain, ...lens, k3: undefined }],
+    ['COLMAP, one focal length', '3 SIMPLE_RADIAL 640 480 525 319.5 239.5 0.1\n', { ...plain, fy: 525, k1: 0.1 }],
+    ['nerfstudio', JSON.stringify({ camera_model: 'OPENCV', w: 640, h: 480, frames: [{ file_path: 'a.png', fl_x: 525, fl_y: 520, cx: 319.5, cy: 239.5, transform_matrix: [[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]] }] }), plain],
+    ['instant-ngp', JSON.stringify({ camera_angle_x: angle(640), w: 640, h: 480, frames: [] }), wide],
+    ['MoGe, of images of the same proportions', JSON.stringify({ fov_x: angle(640) * 180 / Math.PI, fov_y: angle(480) * 180 / Math.PI }), wide],
+    ['a field of view of the longer side', JSON.stringify({ fov: angle(640) * 180 / Math.PI }), wide],
+    ['shares of the sides', JSON.stringify({ intrinsics: [[700 / 640, 0, 0.5], [0, 700 / 480, 0.5], [0, 0, 1]] }), wide],
+    ['Metashape: the axis from the middle, p1 and p2 the other way round', '<?xml version="1.0" encoding="UTF-8"?>\n<calibration>\n  <projection>frame</projection>\n  <width>640</width>\n' +
+      '  <height>480</height>\n  <f>520</f>\n  <cx>-0.5</cx>\n  <cy>-0.5</cy>\n  <b1>5</b1>\n  <k1>0.1</k1>\n  <k2>-0.2</k2>\n  <k3>0</k3>\n  <p1>0.002</p1>\n  <p2>0.001</p2>\n</calibration>', { ...plain, ...lens }],
+    ['ZED', '[LEFT_CAM_2K]\nfx=1396\nfy=1396\ncx=1104\ncy=611\n\n[LEFT_CAM_VGA]\nfx=525\nfy=520\ncx=319.5\ncy=239.5\n\n[RIGHT_CAM_VGA]\nfx=351\nfy=351\ncx=320\ncy=240\n\n[STEREO]\nBaseline=120\n', plain],
+    ['ORB-SLAM', '%YAML:1.0\n# of the left one\nCamera.fx: 525.0\nCamera.fy: 520.0\nCamera.cx: 319.5\nCamera.cy: 239.5\n', plain],
+    ['Kalibr', 'cam0:\n  camera_model: pinhole\n  distortion_coeffs: [0.1, -0.2, 0.001, 0.002]\n  distortion_model: radtan\n  intrinsics: [525, 520, 319.5, 239.5]\n  resolution: [640, 480]\n', { ...plain, ...lens, k3: undefined }],
+    ['four numbers', '525.0 520.0 319.5 239.5\n', plain],
+    ['3 × 4', '525 0 319.5 0\n0 520 239.5 0\n0 0 1 0\n', plain],
+    ['KITTI', 'P0: 5.25e+02 0 3.195e+02 0 0 5.2e+02 2.395e+02 0 0 0 1 0\n', plain],
+    ['NumPy, printed', '[[525.   0.  319.5]\n [  0.  520.  239.5]\n [  0.    0.    1. ]]', plain],
+  ];
+  for (const [name, text, expected] of known) {
+    const found = /** @type {any} */ (developable.parseCamera(text, images));
+    const wanted = Object.entries(expected).filter(([, value]) => value !== undefined);
+    assert.deepEqual(Object.keys(found).sort(), wanted.map(([key]) => key).sort(), name);
+    for (const [key, value] of wanted) assert.ok(Math.abs(found[key] - value) < 1e-9, `${name}: ${key} is ${found[key]}`);
+  }
+  for (const [text, message] of /** @type {[string, RegExp][]} */ ([
+    ['1 OPENCV_FISHEYE 640 480 500 500 320 240 0.1 0 0 0', /lens.*OPENCV_FISHEYE.*undistort/],
+    ['1 FULL_OPENCV 640 480 500 500 320 240 0.1 0 0 0 0 0.2 0 0', /lens.*undistort/],
+  ])) assert.throws(() => developable.parseCamera(text, images), message);
+  assert.throws(() => developable.parseCamera('{"fov_x": 60}'), /size of the images/);
+});

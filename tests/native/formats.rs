@@ -200,7 +200,7 @@ fn huge_declared_sizes_are_refused_before_they_are_allocated() {
     );
     assert_eq!(code(&shaped("(-1, 4)")), "FORMAT");
     assert_eq!(code(&shaped("()")), "UNSUPPORTED");
-    assert_eq!(code(&npy_header(&"(".repeat(9000))), "UNSUPPORTED");
+    assert_eq!(code(&npy_header(&"(".repeat(9000))), "FORMAT");
     // Version 2 can claim a header of 4 GiB.
     assert_eq!(code(b"\x93NUMPY\x02\0\xff\xff\xff\xff{"), "FORMAT");
     assert_eq!(code(b"\x93NUMPY\x09\0\xff\xff{}"), "UNSUPPORTED");

@@ -1,8 +1,6 @@
-//! Reads and writes NumPy's file of one array (NPY) by the `npyz` crate.
+//! Reads and writes NumPy's file of one array (NPY): a line of text about the array, then its numbers.
 
-use std::io;
-
-use npyz::{DType, Deserialize, NpyFile, NpyHeader, Order, TypeChar, WriteOptions, WriterBuilder};
+use std::io::{self, Write};
 
 use super::decoded::Decoded;
 use super::format::Format;
@@ -12,76 +10,70 @@ use crate::files::buffer::Buffer;
 /// Maximum length of the header of an NPY file, in bytes; NumPy has the same limit.
 const MAX_HEADER_BYTES: usize = 10_000;
 
-/// Maximum number of brackets in the header of an NPY file: a plain array has 2, `{` and `(`. The parser recurses
-/// on brackets, so that this also bounds the parser's use of the stack.
-const MAX_HEADER_BRACKETS: usize = 8;
+/// Number of bytes at a multiple of which the numbers begin, so that NumPy can map the file into memory.
+const ALIGNMENT: usize = 64;
 
-/// Maximum number of digits in the header of an NPY file, so that no product of the sizes in the header overflows
-/// 64 bits.
-const MAX_HEADER_DIGITS: usize = 19;
+/// Types of numbers that are read: NumPy's kind and number of bytes, and the name of the type.
+const TYPES: [(&str, &str); 12] = [
+    ("b1", "bool"),
+    ("i1", "i8"),
+    ("i2", "i16"),
+    ("i4", "i32"),
+    ("i8", "i64"),
+    ("u1", "u8"),
+    ("u2", "u16"),
+    ("u4", "u32"),
+    ("u8", "u64"),
+    ("f2", "f16"),
+    ("f4", "f32"),
+    ("f8", "f64"),
+];
 
 pub(super) fn decode(bytes: &[u8]) -> Result<Decoded> {
-    let start = check_header(bytes)?;
-    let header = NpyHeader::from_reader(&bytes[..start]).map_err(|e| damaged(e.to_string()))?;
-
-    let (height, width) = match *header.shape() {
-        [rows, cols] | [rows, cols, 1] => (rows, cols),
-        _ => {
-            return Err(unsupported(format!(
-                "an array of shape {:?}; only two-dimensional arrays (rows, columns) are read",
-                header.shape()
-            )));
-        }
-    };
-    let bounded = |n: u64| usize::try_from(n).unwrap_or(usize::MAX);
-    let (height, width) = (bounded(height), bounded(width));
+    let (header, stored) = Header::read(bytes)?;
+    let (height, width) = header.rows_and_columns().ok_or_else(|| {
+        unsupported(format!(
+            "an array of shape {:?}; only two-dimensional arrays (rows, columns) are read",
+            header.shape
+        ))
+    })?;
     let len = checked_cells("NPY array", height, width)?;
     if len == 0 {
         return Err(Error::Empty { what: "NPY array" });
     }
-
-    let descr = header.dtype().descr();
-    let plain = match header.dtype() {
-        DType::Plain(plain) => (plain.type_char(), plain.size_field()),
-        _ => {
-            return Err(unsupported(
-                "an array of records; only arrays of plain numbers are read".into(),
-            ));
-        }
-    };
-    let needed = len.saturating_mul(bounded(plain.1));
-    let present = bytes.len() - start;
-    if !matches!(plain.0, TypeChar::Object | TypeChar::UnicodeStr) && present < needed {
+    let descr = header.descr;
+    if descr.starts_with('[') {
+        return Err(unsupported(
+            "an array of records; only arrays of plain numbers are read".into(),
+        ));
+    }
+    let (kind, size, data_type) = header.number_type().ok_or_else(|| {
+        unsupported(format!(
+            "values of type {descr}; booleans, integers and floats of 16, 32 or 64 bits are read"
+        ))
+    })?;
+    let needed = len * size;
+    if stored.len() < needed {
         return Err(damaged(format!(
             "it is cut short: {height} × {width} values of type {descr} take {needed} bytes, \
-             {present} are there"
+             {} are there",
+            stored.len()
         )));
     }
-
-    let order = header.order();
-    let file = NpyFile::with_header(header, &bytes[start..]);
-    let (data_type, stored) = match plain {
-        (TypeChar::Bool, 1) => ("bool", read(file, |v: bool| f64::from(u8::from(v)))),
-        (TypeChar::Int, 1) => ("i8", read(file, |v: i8| v.into())),
-        (TypeChar::Int, 2) => ("i16", read(file, |v: i16| v.into())),
-        (TypeChar::Int, 4) => ("i32", read(file, |v: i32| v.into())),
-        (TypeChar::Int, 8) => ("i64", read(file, |v: i64| v as f64)),
-        (TypeChar::Uint, 1) => ("u8", read(file, |v: u8| v.into())),
-        (TypeChar::Uint, 2) => ("u16", read(file, |v: u16| v.into())),
-        (TypeChar::Uint, 4) => ("u32", read(file, |v: u32| v.into())),
-        (TypeChar::Uint, 8) => ("u64", read(file, |v: u64| v as f64)),
-        (TypeChar::Float, 2) => ("f16", read(file, |v: npyz::half::f16| v.into())),
-        (TypeChar::Float, 4) => ("f32", read(file, |v: f32| v.into())),
-        (TypeChar::Float, 8) => ("f64", read(file, |v: f64| v)),
-        _ => return Err(unsupported_type(&descr)),
-    };
-    let mut values = stored?;
-    if order == Order::Fortran {
-        let mut rows = try_filled("NPY array", len, 0.0)?;
-        for (i, z) in rows.iter_mut().enumerate() {
-            *z = values[(i % width) * height + i / width];
+    let big_endian = descr.starts_with('>');
+    let mut values = try_filled("NPY array", len, 0.0)?;
+    for (i, number) in stored[..needed].chunks_exact(size).enumerate() {
+        let mut bytes = [0; 8];
+        bytes[..size].copy_from_slice(number);
+        if big_endian {
+            bytes[..size].reverse();
         }
-        values = rows;
+        let place = if header.by_columns {
+            i % height * width + i / height
+        } else {
+            i
+        };
+        values[place] = to_float(u64::from_le_bytes(bytes), kind, size);
     }
     Ok(Decoded {
         format: Format::Npy,
@@ -102,70 +94,143 @@ pub(super) fn describe(bytes: &[u8]) -> Result<(Vec<u64>, String)> {
     if Format::detect(bytes) != Some(Format::Npy) {
         return Err(damaged("it does not begin like an NPY file".into()));
     }
-    let start = check_header(bytes)?;
-    let header = NpyHeader::from_reader(&bytes[..start]).map_err(|e| damaged(e.to_string()))?;
-    let data_type = match header.dtype() {
-        DType::Plain(plain) => {
-            let bits = plain.size_field().saturating_mul(8);
-            match plain.type_char() {
-                TypeChar::Bool => "bool".into(),
-                TypeChar::Int => format!("i{bits}"),
-                TypeChar::Uint => format!("u{bits}"),
-                TypeChar::Float => format!("f{bits}"),
-                _ => header.dtype().descr().trim_matches('\'').into(),
-            }
-        }
-        other => other.descr(),
-    };
-    Ok((header.shape().to_vec(), data_type))
+    let (header, _) = Header::read(bytes)?;
+    let data_type = header
+        .number_type()
+        .map_or(header.descr, |(_, _, name)| name);
+    Ok((header.shape.clone(), data_type.into()))
 }
 
-/// Checks that the header of an NPY file is safe to parse. Returns the offset of the data.
-///
-/// The parser allocates as much as the header states, multiplies sizes unchecked and recurses on brackets; crafted
-/// files must not exploit that.
-fn check_header(bytes: &[u8]) -> Result<usize> {
-    let cut = || damaged("it is cut short within its header".into());
-    let at = |i: usize| bytes.get(i).copied().map(usize::from).ok_or_else(cut);
-    let (begin, length) = match at(6)? {
-        1 => (10, at(8)? | at(9)? << 8),
-        2 | 3 => (12, at(8)? | at(9)? << 8 | at(10)? << 16 | at(11)? << 24),
-        other => {
-            return Err(unsupported(format!(
-                "version {other} of the format; versions 1 to 3 are read"
+/// What the header of an NPY file says, a literal of Python: `{'descr': '<f8', 'fortran_order': False, 'shape': (3, 4), }`.
+struct Header<'a> {
+    /// Byte order, kind and size of the numbers; for records a list.
+    descr: &'a str,
+    /// Whether the numbers are stored column by column.
+    by_columns: bool,
+    shape: Vec<u64>,
+}
+
+impl<'a> Header<'a> {
+    /// Reads the header at the start of a file. Returns it and the bytes after it.
+    fn read(bytes: &'a [u8]) -> Result<(Self, &'a [u8])> {
+        let cut = || damaged("it is cut short within its header".into());
+        let at = |i: usize| bytes.get(i).copied().map(usize::from).ok_or_else(cut);
+        let (begin, length) = match at(6)? {
+            1 => (10, at(8)? | at(9)? << 8),
+            2 | 3 => (12, at(8)? | at(9)? << 8 | at(10)? << 16 | at(11)? << 24),
+            other => {
+                return Err(unsupported(format!(
+                    "version {other} of the format; versions 1 to 3 are read"
+                )));
+            }
+        };
+        if length > MAX_HEADER_BYTES {
+            return Err(damaged(format!(
+                "its header claims {length} bytes, where {MAX_HEADER_BYTES} are the most"
             )));
         }
-    };
-    if length > MAX_HEADER_BYTES {
-        return Err(damaged(format!(
-            "its header claims {length} bytes, where {MAX_HEADER_BYTES} are the most"
-        )));
-    }
-    let header = bytes.get(begin..begin + length).ok_or_else(cut)?;
-    let count = |of: &dyn Fn(u8) -> bool| header.iter().filter(|b| of(**b)).count();
-    if count(&|b| b"([{".contains(&b)) > MAX_HEADER_BRACKETS {
-        return Err(unsupported(
-            "an array of structures; only arrays of plain numbers are read".into(),
-        ));
-    }
-    if count(&|b| b.is_ascii_digit()) > MAX_HEADER_DIGITS {
-        return Err(Error::TooLarge {
-            what: "NPY array",
-            requested: usize::MAX,
-            limit: crate::MAX_CELLS,
+        let text = bytes.get(begin..begin + length).ok_or_else(cut)?;
+        let text = str::from_utf8(text).map_err(|_| damaged("its header is no text".into()))?;
+        let entry = |key: &str| {
+            let (_, value) = text.split_once(&format!("'{key}':"))?;
+            Some(value.trim_start())
+        };
+        let missing = |key: &str| damaged(format!("its header has no valid `{key}`"));
+
+        let descr = entry("descr").and_then(|value| match value.strip_prefix('\'') {
+            Some(quoted) => quoted.split('\'').next(),
+            // A list of the fields of a record, which ends where the next entry begins.
+            None => value.starts_with('[').then(|| {
+                let end = value.find("'fortran_order'").unwrap_or(value.len());
+                value[..end].trim_end_matches([' ', ','])
+            }),
         });
+        let order = entry("fortran_order").and_then(|value| {
+            let word = value.split([',', '}']).next()?;
+            word.trim().to_lowercase().parse().ok()
+        });
+        let listed = entry("shape")
+            .and_then(|value| value.strip_prefix('(')?.split_once(')'))
+            .ok_or_else(|| missing("shape"))?
+            .0;
+        let shape = listed.split(',').map(str::trim).filter(|n| !n.is_empty());
+        Ok((
+            Header {
+                descr: descr.ok_or_else(|| missing("descr"))?,
+                by_columns: order.ok_or_else(|| missing("fortran_order"))?,
+                shape: shape.map(extent).collect::<Result<_>>()?,
+            },
+            &bytes[begin + length..],
+        ))
     }
-    Ok(begin + length)
+
+    /// Numbers of rows and columns, without axes of length 1 before and after those two.
+    fn rows_and_columns(&self) -> Option<(usize, usize)> {
+        let mut axes = &self.shape[..];
+        while axes.len() > 2 {
+            axes = match axes {
+                [rest @ .., 1] | [1, rest @ ..] => rest,
+                _ => return None,
+            };
+        }
+        let [rows, cols] = *axes else { return None };
+        let bounded = |n: u64| usize::try_from(n).unwrap_or(usize::MAX);
+        Some((bounded(rows), bounded(cols)))
+    }
+
+    /// Kind, number of bytes and name of the numbers, if they are read.
+    fn number_type(&self) -> Option<(u8, usize, &'static str)> {
+        let plain = self.descr.trim_start_matches(['<', '>', '=', '|']);
+        let (known, name) = TYPES.into_iter().find(|(known, _)| *known == plain)?;
+        let [kind, digit] = *known.as_bytes() else {
+            return None;
+        };
+        Some((kind, usize::from(digit - b'0'), name))
+    }
 }
 
-/// Reads all values of an NPY file in their stored order.
-fn read<T: Deserialize>(file: NpyFile<&[u8]>, convert: impl Fn(T) -> f64) -> Result<Vec<f64>> {
-    let mut values = try_filled("NPY array", file.len() as usize, 0.0)?;
-    let stored = file.data::<T>().map_err(|e| damaged(e.to_string()))?;
-    for (z, v) in values.iter_mut().zip(stored) {
-        *z = convert(v.map_err(|e| damaged(e.to_string()))?);
+/// Parses one extent of a shape; Python 2 wrote an `L` after it.
+fn extent(number: &str) -> Result<u64> {
+    let digits = number.trim_end_matches('L');
+    if digits.is_empty() || !digits.bytes().all(|b| b.is_ascii_digit()) {
+        return Err(damaged(format!("its shape has the extent `{number}`")));
     }
-    Ok(values)
+    digits.parse().map_err(|_| Error::TooLarge {
+        what: "NPY array",
+        requested: usize::MAX,
+        limit: crate::MAX_CELLS,
+    })
+}
+
+/// Converts the bits of a number of a given kind and number of bytes to a 64-bit float.
+fn to_float(bits: u64, kind: u8, size: usize) -> f64 {
+    match (kind, size) {
+        (b'f', 8) => f64::from_bits(bits),
+        (b'f', 4) => f32::from_bits(bits as u32).into(),
+        (b'f', _) => half_to_float(bits as u16),
+        (b'i', _) => {
+            let unused = 64 - 8 * size as u32;
+            ((bits << unused) as i64 >> unused) as f64
+        }
+        (b'b', _) => f64::from(u8::from(bits != 0)),
+        _ => bits as f64,
+    }
+}
+
+/// Converts the bits of a 16-bit float: a sign, five bits of exponent, ten of fraction.
+fn half_to_float(bits: u16) -> f64 {
+    let (exponent, fraction) = (i32::from(bits >> 10 & 31), f64::from(bits & 1023) / 1024.0);
+    let magnitude = match exponent {
+        31 if fraction > 0.0 => f64::NAN,
+        31 => f64::INFINITY,
+        0 => fraction * 2f64.powi(-14),
+        _ => (1.0 + fraction) * 2f64.powi(exponent - 15),
+    };
+    if bits >> 15 == 1 {
+        -magnitude
+    } else {
+        magnitude
+    }
 }
 
 fn damaged(reason: String) -> Error {
@@ -180,12 +245,6 @@ fn unsupported(reason: String) -> Error {
         format: "NPY",
         reason,
     }
-}
-
-fn unsupported_type(descr: &str) -> Error {
-    unsupported(format!(
-        "values of type {descr}; booleans, integers and floats of 16, 32 or 64 bits are read"
-    ))
 }
 
 /// Writes `rows` rows of `cols` values as an NPY file of 64-bit floats in C order: heights of an image or of a lattice,
@@ -206,11 +265,89 @@ pub fn write_npy(rows: usize, cols: usize, values: &[f64]) -> Result<Vec<u8>> {
 }
 
 fn write(file: &mut Buffer, rows: usize, cols: usize, values: &[f64]) -> io::Result<()> {
-    let mut writer = WriteOptions::new()
-        .default_dtype()
-        .shape(&[rows as u64, cols as u64])
-        .writer(file)
-        .begin_nd()?;
-    writer.extend(values.iter().copied())?;
-    writer.finish()
+    let header = format!("{{'descr': '<f8', 'fortran_order': False, 'shape': ({rows}, {cols}), }}");
+    let before = b"\x93NUMPY\x01\0".len() + 2;
+    let length = (before + header.len() + 1).next_multiple_of(ALIGNMENT) - before;
+    file.write_all(b"\x93NUMPY\x01\0")?;
+    file.write_all(&(length as u16).to_le_bytes())?;
+    writeln!(file, "{header:<0$}", length - 1)?;
+    for value in values {
+        file.write_all(&value.to_le_bytes())?;
+    }
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A file of one byte per value, with a header as NumPy or another program writes it.
+    fn file(header: &str, values: &[u8]) -> Vec<u8> {
+        let mut bytes = b"\x93NUMPY\x01\0".to_vec();
+        bytes.extend((header.len() as u16).to_le_bytes());
+        bytes.extend(header.as_bytes());
+        bytes.extend(values);
+        bytes
+    }
+
+    #[test]
+    fn axes_of_length_one_around_rows_and_columns_are_left_out() {
+        for (order, expected) in [
+            ("False", [1., 2., 3., 4., 5., 6.]),
+            ("True", [1., 3., 5., 2., 4., 6.]),
+        ] {
+            for shape in [
+                "(2, 3)",
+                "(1, 2, 3)",
+                "(2, 3, 1)",
+                "(1, 1, 2, 3)",
+                "(1, 2, 3, 1)",
+                "(2L,3L)",
+            ] {
+                let header =
+                    format!("{{'shape': {shape}, 'fortran_order': {order}, 'descr': '|u1'}}\n");
+                let found = decode(&file(&header, &[1, 2, 3, 4, 5, 6])).unwrap();
+                assert_eq!((found.width, found.height), (3, 2), "{shape}");
+                assert_eq!(found.values, expected, "{shape} {order}");
+            }
+        }
+        let header = "{'descr': '|u1', 'fortran_order': False, 'shape': (3, 2, 2), }";
+        assert_eq!(
+            decode(&file(header, &[0; 12])).unwrap_err().code(),
+            "UNSUPPORTED"
+        );
+    }
+
+    #[cfg(feature = "images")]
+    #[test]
+    fn every_16_bit_float_is_what_the_crate_half_makes_of_it() {
+        for bits in 0..=u16::MAX {
+            let (own, theirs) = (
+                half_to_float(bits),
+                ::exr::prelude::f16::from_bits(bits).to_f64(),
+            );
+            assert!(
+                own.to_bits() == theirs.to_bits() || own.is_nan() && theirs.is_nan(),
+                "{bits:04x}"
+            );
+        }
+    }
+
+    #[test]
+    fn headers_that_say_nothing_are_damage() {
+        for header in [
+            "",
+            "{}",
+            "{'descr': 3}",
+            "{'descr': '<f8', 'fortran_order': 1, 'shape': (2, 2)}",
+            "{'descr': '<f8', 'fortran_order': False, 'shape': (2, x)}",
+            "{'descr': '<f8', 'fortran_order': False, 'shape': 2}",
+        ] {
+            assert_eq!(
+                decode(&file(header, &[0; 64])).unwrap_err().code(),
+                "FORMAT",
+                "{header}"
+            );
+        }
+    }
 }

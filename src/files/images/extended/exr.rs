@@ -8,9 +8,8 @@ use ::exr::error::Error as ExrError;
 use ::exr::meta::attribute::{AttributeValue, ChannelDescription, SampleType, Text};
 use ::exr::meta::header::{Header, LayerAttributes};
 use ::exr::prelude::{
-    AnyChannel, AnyChannels, Encoding, FlatSamples, Image, Layer, Vec2, WritableImage,
+    AnyChannel, AnyChannels, Encoding, FlatSamples, Image, Layer, Vec2, WritableImage, f16,
 };
-use npyz::half::f16;
 
 use super::samples::{
     Channels, check_length, damaged, default_scale, grey, narrowed, room, unsupported,

@@ -2,11 +2,11 @@
 
 use std::io::Cursor;
 
+use ::exr::prelude::f16;
 use ::tiff::decoder::{Decoder, DecodingSampleType, Limits};
 use ::tiff::encoder::{TiffEncoder, colortype};
 use ::tiff::tags::Tag;
 use ::tiff::{ColorType, TiffError};
-use npyz::half::f16;
 
 use super::samples::{
     Channels, check_length, damaged, default_scale, grey, narrowed, room, unsupported,

@@ -2,7 +2,7 @@
 import { DevelopableError } from './errors.js';
 
 /** The formats that the wasm of the images reads; it is not loaded for any other. */
-const IMAGES = ['tiff', 'exr', 'pfm', 'npz', 'jpeg', 'webp'];
+const IMAGES = ['tiff', 'exr', 'pfm', 'npz', 'jpeg', 'webp', 'text'];
 
 /** First bytes of those formats, as Latin-1; a `?` stands for any byte. */
 const MAGIC = [
@@ -19,8 +19,14 @@ const MAGIC = [
 export function isImage(bytes, options) {
   const { format } = Object(options);
   if (format !== undefined) return IMAGES.includes(format);
-  return MAGIC.some((magic) =>
+  return isText(bytes) || MAGIC.some((magic) =>
     [...magic].every((letter, i) => letter === '?' || bytes[i] === letter.charCodeAt(0)));
+}
+
+/** Whether a file begins with text, as grids of numbers do. @param {Uint8Array} bytes */
+function isText(bytes) {
+  const head = bytes.subarray(0, 64);
+  return head.length > 0 && head.every((byte) => byte === 9 || byte === 10 || byte === 13 || byte >= 32);
 }
 
 /** How mesh files begin; for an OBJ, its first line that is no comment. */
@@ -32,7 +38,7 @@ const MESHES = { PLY: /^ply\s/, STL: /^solid\b/, GLB: /^glTF/, glTF: /^\{/, OBJ:
  * @param {{ format?: string }} options those of `read`
  */
 export function refuseMesh(bytes, options) {
-  if (options.format !== undefined || isImage(bytes) || bytes[0] >= 0x80) return;
+  if (options.format !== undefined || (isImage(bytes) && !isText(bytes)) || bytes[0] >= 0x80) return;
   const lines = String.fromCharCode(...bytes.subarray(0, 2000)).split('\n').map((line) => line.trim());
   const first = lines.find((line) => line !== '' && !line.startsWith('#')) ?? '';
   const name = Object.entries(MESHES).find(([, start]) => start.test(`${first} `))?.[0] ?? (isBinaryStl(bytes) && 'STL');

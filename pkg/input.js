@@ -4,7 +4,7 @@
  */
 import { DevelopableError } from './errors.js';
 import { optionsOf } from './options.js';
-import { isRecord, reading, record, refuseMisspelled, show, typeOf, viewOf } from './values.js';
+import { isRecord, plainCopy, reading, record, refuseMisspelled, show, typeOf, viewOf } from './values.js';
 
 /**
  * @typedef {import('./types.js').HeightImage} HeightImage
@@ -23,7 +23,7 @@ const ARRAYS = [
 /** What an image and heights on the lattice may both have; `kind` is what tells them apart once they are checked. */
 const COMMON = /** @type {const} */ (['kind', 'mask', 'noData', 'confidence', 'constraints', 'occlusions', 'unit']);
 
-const IMAGE = /** @type {const} */ ([...COMMON, 'width', 'height', 'data', 'pixelSize', 'heightScale']);
+const IMAGE = /** @type {const} */ ([...COMMON, 'width', 'height', 'data', 'pixelSize', 'heightScale', 'georeference']);
 
 const LATTICE = /** @type {const} */ ([
   ...COMMON, 'rows', 'cols', 'spacing', 'origin', 'heights', 'brokenEdges', 'frame', 'camera', 'colors', 'uvs', 'texture',
@@ -135,7 +135,8 @@ export function asHeights(input) {
 
 /** @param {Said} said @returns {Image} */
 function imageHeights(said) {
-  return { ...pixels(said), data: numbers('data', said.data) };
+  const georeference = said.georeference === undefined ? undefined : plainCopy('georeference', said.georeference);
+  return { ...pixels(said), data: numbers('data', said.data), georeference };
 }
 
 /** @param {Said} said @returns {Lattice} */

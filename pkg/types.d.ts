@@ -61,6 +61,23 @@ export interface HeightImage extends Known {
   heightScale?: number;
   /** That unit, where it is known; flat images and files have their true size by it. */
   unit?: Unit | null;
+  /** Where the pixels lie on a map, as `read` gives it of a GeoTIFF; `writeTiff` writes it. */
+  georeference?: Georeference;
+}
+
+/** Where the pixels of an image lie on a map: it is read from a GeoTIFF, and written to one. */
+export interface Georeference {
+  /**
+   * Affine transformation `[a, b, c, d, e, f]` from the column `i` and the row `j` of a pixel's upper left corner to map
+   * coordinates: `x = a i + b j + c`, `y = d i + e j + f`, in the unit of the coordinate system.
+   */
+  transformation: number[];
+  /** Numbers of the tag GeoKeyDirectory, which names the coordinate system. */
+  keys: number[];
+  /** Numbers of the tag GeoDoubleParams. */
+  doubles: number[];
+  /** Text of the tag GeoAsciiParams. */
+  text: string;
 }
 
 /** Heights at the vertices of a hexagonal lattice: row 0 at the top, odd rows half a spacing to the left. */
@@ -1224,11 +1241,13 @@ export interface ReadResult {
   data: Float64Array;
   /** Side length of a pixel; 1 where the file does not say. */
   pixelSize: number;
-  /** The unit of `pixelSize`, where the file says it: a TIFF's resolution, or a GeoTIFF. */
+  /** The unit of `pixelSize`: millimetres of a TIFF's resolution, metres of a map; `null` where it is not known. */
   unit: 'mm' | 'm' | null;
   heightScale: number;
   /** The type the file stores: `'u8'`, `'u16'`, `'f32'`, `'f64'`, ... */
   dataType: string;
+  /** Where the pixels lie on a map; absent unless the file is a GeoTIFF. */
+  georeference?: Georeference;
   /** What the reader assumed because the file does not say it. */
   assumptions: Assumption[];
 }

@@ -169,7 +169,8 @@ export function parse(args) {
     pixelSize: number('pixel-size', values),
     heightScale: heightScale(values),
     unit: values.unit === undefined ? undefined : choice('unit', values.unit, units),
-    noData: number('no-data', values),
+    noData: values['no-data'] === 'none' ? undefined : number('no-data', values),
+    assumeNoData: values['no-data'] === undefined,
     normalize: !values['no-normalize'],
   };
   if (values.surface) return whole(/** @type {WholeCommand} */ (command), about, values);

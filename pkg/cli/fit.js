@@ -20,11 +20,13 @@ export async function fit(task, signal) {
   await checkPlaces(...task.written);
   const texture = task.texture === undefined ? undefined : await readBytes(task.texture);
   const { photo, camera } = texture === undefined ? {} : await seenBy(task, texture);
-  const bare = await solve(task, await readForFit({ ...task, photo }, signal), { signal, transfer: true });
+  const input = await readForFit({ ...task, photo }, signal);
+  const map = 'georeference' in input ? input.georeference : undefined;
+  const bare = await solve(task, input, { signal, transfer: true });
   const surface = texture === undefined
     ? bare
     : await about(String(task.texture), () => developable.paint(bare, texture, camera && { camera }));
-  const files = [{ path: task.output, bytes: await during(`making ${task.output}`, () => encode(task, surface)) }];
+  const files = [{ path: task.output, bytes: await during(`making ${task.output}`, () => encode(task, surface, map)) }];
   if (task.mtl !== undefined) {
     files.push({ path: task.mtl, bytes: await developable.writeMtl(from(task.mtl, String(task.texture))) });
   }
@@ -105,8 +107,9 @@ export async function solve(task, input, control) {
 /**
  * @param {FitTask} task
  * @param {Surface} surface
+ * @param {import('../types.js').Georeference} [map] where the input's pixels lie
  */
-function encode({ extension, output, mtl }, surface) {
+function encode({ extension, output, mtl }, surface, map) {
   switch (extension) {
     case '.obj': return developable.writeObj(surface, mtl === undefined ? {} : { materials: from(output, mtl) });
     case '.ply': return developable.writePly(surface);
@@ -120,7 +123,7 @@ function encode({ extension, output, mtl }, surface) {
     case '.png': return developable.writePng(image);
     case '.exr': return developable.writeExr(image);
     case '.tif':
-    case '.tiff': return developable.writeTiff(image);
+    case '.tiff': return developable.writeTiff(map === undefined ? image : { ...image, georeference: map });
     default: return developable.writeNpy(image);
   }
 }

@@ -106,7 +106,7 @@ export const sections = {
         value: 'FILE',
         help: 'image of the same shape; heights where it is 0 are discarded. Of depths it may have any size, as one that was drawn on the photo',
       },
-      'no-data': { value: 'V', help: 'value that means no data, besides NaN' },
+      'no-data': { value: 'V', help: 'value that means no data, besides NaN; none: only NaN does' },
     },
   },
   mesh: {

@@ -36,7 +36,7 @@ export async function readForFit(task, signal) {
  */
 export async function readInput(task) {
   if (task.lattice === 'mesh') return readSampled(task);
-  const file = await readImage(task.input, task.array);
+  const file = tellUndecided(task, await readImage(task.input, task));
   const { mask, confidence, constraints, occlusionMask } = task;
   const known = {
     mask: mask && flags(await readBeside('mask', mask, file)),
@@ -57,6 +57,7 @@ export async function readInput(task) {
       heightScale,
       // Pixels of another size may be in another unit.
       unit: task.unit ?? (task.pixelSize === undefined ? file.unit : undefined),
+      georeference: file.georeference,
       ...known,
       ...(task.design ? {} : { data: file.data, noData: asStored(task.noData, file) }),
       constraints: pins && pinned(pins, task.free),
@@ -86,28 +87,16 @@ const MAX_USUAL_RELIEF_SHARE = 1;
 /** Largest share of the longer side that is taken for a steep fold, with a warning: a slope of 88 degrees all the way across. */
 const MAX_STEEP_RELIEF_SHARE = 30;
 
-/** Commands whose results are lengths. */
-const MEASURING = ['unroll', 'pattern', 'dewarp'];
-
 /**
- * Refuses heights that cannot be in the unit of the pixels, and says where their scale is a guess.
- * @param {InputTask & { command?: string }} task
+ * Refuses heights that cannot be in the unit of the pixels.
+ * @param {InputTask} task
  * @param {ReadResult} file
  */
-function checkScale({ input, noData, command = '' }, file) {
+function checkScale({ input, noData }, file) {
   const { width, height, pixelSize, unit, heightScale, dataType } = file;
   const side = Math.max(width, height);
-  const [, kind, bits] = /^([ui])(\d+)$/.exec(dataType) ?? [];
-  if (kind !== undefined) {
-    const guess = (pixelSize * side) / 4 / (2 ** Number(bits) - 1);
-    if (MEASURING.includes(command) && Math.abs(heightScale / guess - 1) < 1e-9) {
-      say(
-        `warning: ${input} does not say how high its levels are: white is taken for a quarter of the longer ` +
-          'side above black, and lengths on the sheet depend on that; --height-scale says it, --intrinsics that these are depths',
-      );
-    }
-    return;
-  }
+  // Of levels the assumption is told.
+  if (/^[ui]/.test(dataType)) return;
   if (unit !== null || pixelSize !== 1) return;
   const nothing = asStored(noData, file);
   // Without outliers, and of so many values as is quickly sorted.
@@ -177,7 +166,8 @@ async function readSampled(task) {
  * The mesh itself, or what a depth camera has seen. The numbers of a camera may be about the photo.
  * @param {InputTask & Partial<KnownTask> & { photo?: Size }} task
  */
-export async function readMesh({ input, array, camera, mask, confidence, noData, written, force, photo }) {
+export async function readMesh(task) {
+  const { input, camera, mask, confidence, noData, written, force, photo } = task;
   if (!camera) {
     const mesh = await readMeshFile(input, await readBytes(input), force ? [] : written);
     for (const name of mesh.missing ?? []) {
@@ -185,7 +175,8 @@ export async function readMesh({ input, array, camera, mask, confidence, noData,
     }
     return mesh;
   }
-  const file = await readImage(input, array);
+  // Of depths the camera says what a level is.
+  const file = tellUndecided({ ...task, heightScale: 1 }, await readImage(input, task));
   const { width, height, data } = file;
   const turn = camera.turn ?? turnOf(file, photo);
   const stored = photo && turn % 180 === 90 ? { width: photo.height, height: photo.width } : photo;
@@ -349,12 +340,23 @@ async function whyMissing(folder, name) {
 
 /**
  * @param {string} path
- * @param {string} [array] of an NPZ file
+ * @param {Pick<InputTask, 'array'> & Partial<Pick<InputTask, 'assumeNoData'>>} [task]
  * @returns {Promise<ReadResult>}
  */
-async function readImage(path, array) {
+async function readImage(path, { array, assumeNoData } = {}) {
   const bytes = await readBytes(path);
-  return tellAssumptions(path, await about(path, () => developable.read(bytes, { array })));
+  return about(path, () => developable.read(bytes, { array, assumeNoData }));
+}
+
+/**
+ * Tells what a reader assumed of heights and the flags do not decide.
+ * @param {InputTask & { command?: string }} task
+ * @param {ReadResult} file
+ */
+function tellUndecided(task, file) {
+  const decided = /** @type {Record<string, unknown>} */ (task);
+  tellAssumptions(task.input, { assumptions: file.assumptions.filter(({ option }) => option === undefined || decided[option] === undefined) });
+  return file;
 }
 
 /**

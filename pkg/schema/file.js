@@ -1,14 +1,19 @@
 /** Options of files that are read, of meshes seen from one side, and of examples. Each comment is what the types say; the default is added there. */
-import { anything, choice, either, number, numbers, text, whole } from './kinds.js';
+import { anything, choice, either, flag, number, numbers, text, whole } from './kinds.js';
 
 /** @typedef {import('./kinds.js').Options} Options */
 
 /** @satisfies {Options} */
 export const read = {
   /** Taken from the bytes where it is not given. */
-  format: { kind: choice('png', 'npy', 'tiff', 'exr', 'pfm', 'npz', 'jpeg', 'webp'), type: 'Format' },
+  format: { kind: choice('png', 'npy', 'tiff', 'exr', 'pfm', 'npz', 'jpeg', 'webp', 'text'), type: 'Format' },
   /** Name of the array to read from an NPZ file; needed only where the file holds several. */
   array: { kind: text },
+  /**
+   * Whether values that nobody would measure, such as -9999 or infinity standing alone far from the rest, become NaN. Each is
+   * listed in `assumptions`.
+   */
+  assumeNoData: { kind: flag, default: true },
 };
 
 /** @satisfies {Options} */

@@ -483,7 +483,7 @@ proptest! {
             .and_then(|image| image.with_pixel_size(side))
             .unwrap();
         for (bytes, format) in [
-            (write_tiff(&image).unwrap(), Format::Tiff),
+            (write_tiff(&image, None).unwrap(), Format::Tiff),
             (write_exr(&image).unwrap(), Format::Exr),
         ] {
             let back = decode(&bytes, Some(format)).unwrap();
@@ -500,7 +500,7 @@ proptest! {
 fn heights_beyond_32_bits_are_refused() {
     let image = HeightImage::new(2, 1, vec![1.0, 1e39]).unwrap();
     for error in [
-        write_tiff(&image).unwrap_err(),
+        write_tiff(&image, None).unwrap_err(),
         write_exr(&image).unwrap_err(),
     ] {
         assert_eq!(error.code(), "NOT_FINITE");

@@ -1,6 +1,8 @@
 //! The result of decoding an image: the stored pixel values, and how they become heights.
 
 use super::format::Format;
+use super::georeference::Georeference;
+use super::no_data::assume_no_data;
 use crate::error::{Error, Result};
 use crate::files::Assumption;
 use crate::heights::heightfield::HeightImage;
@@ -43,21 +45,28 @@ pub struct Decoded {
     /// Side length of a pixel in `unit`, or in an unknown unit: as recorded by [`write_png`](super::write_png) and the
     /// like, or by a TIFF's resolution or GeoTIFF scale; else 1.
     pub pixel_size: f64,
-    /// The unit of `pixel_size`, where the file says it: millimetres if a TIFF
-    /// has a resolution, metres if a GeoTIFF says so.
+    /// The unit of `pixel_size`: millimetres if a TIFF has a resolution, metres if it lies on a map.
     pub unit: Option<Unit>,
     /// Factor from the stored values to heights: `height = values · height_scale`. For NPY, NPZ and floats it is 1, or
-    /// the scale that a PFM states; for PNG as recorded by [`write_png`](super::write_png). For the integers of other
-    /// pictures it is a suggestion: the one that makes their full range (from black to white) a quarter of the image's
-    /// longer side.
+    /// the scale that a PFM states; for PNG as recorded by [`write_png`](super::write_png); for a GeoTIFF as its tags say, else
+    /// metres. For the integers of other pictures it is a suggestion, which is one of the assumptions: the one that makes their
+    /// full range (from black to white) a quarter of the image's longer side.
     pub height_scale: f64,
     /// Type of number that the file stores for each pixel: `"u8"`, `"u16"`, `"f32"`, `"f64"`, …
     pub data_type: &'static str,
+    /// Where the pixels lie on a map, if the file says it.
+    pub georeference: Option<Georeference>,
     /// What the reader assumed because the file does not say it.
     pub assumptions: Vec<Assumption>,
 }
 
 impl Decoded {
+    /// Replaces values that nobody would measure by NaN, such as -9999, 1e10 or infinity standing alone far from the rest,
+    /// and adds to the assumptions which ones. Costs `O(pixels)`.
+    pub fn assume_no_data(&mut self) {
+        self.assumptions.extend(assume_no_data(&mut self.values));
+    }
+
     /// Converts the stored values to heights by `height_scale`, and returns them as a height image.
     ///
     /// # Errors
@@ -76,6 +85,12 @@ const SUGGESTED_RELIEF: f64 = 0.25;
 /// Suggests a factor from grey values of a given range to heights, where the file records none.
 pub(super) fn suggested_scale(width: usize, height: usize, range: f64) -> f64 {
     SUGGESTED_RELIEF * width.max(height) as f64 / range
+}
+
+/// The assumption that a picture's levels have the suggested scale.
+pub(super) fn assumed_levels() -> Assumption {
+    let words = "from black to white is a quarter of the longer side";
+    Assumption::new("heightScale", words, "heightScale")
 }
 
 /// Creates the error for a picture with colours, which cannot be read as heights; it names the first coloured

@@ -24,10 +24,12 @@ pub enum Format {
     Jpeg,
     /// WebP, only grey pictures.
     WebP,
+    /// Text: an ESRI ASCII grid, points on a grid (XYZ), or a matrix.
+    Text,
 }
 
 /// Image formats with their names in options and their titles in messages.
-const FORMAT_TITLES: [(Format, &str, &str); 8] = [
+const FORMAT_TITLES: [(Format, &str, &str); 9] = [
     (Format::Png, "png", "PNG"),
     (Format::Npy, "npy", "NPY"),
     (Format::Tiff, "tiff", "TIFF"),
@@ -36,6 +38,7 @@ const FORMAT_TITLES: [(Format, &str, &str); 8] = [
     (Format::Npz, "npz", "NPZ"),
     (Format::Jpeg, "jpeg", "JPEG"),
     (Format::WebP, "webp", "WebP"),
+    (Format::Text, "text", "text"),
 ];
 
 /// Signatures of the image formats: the first bytes of a file of each format; a `?` stands for any byte.
@@ -62,8 +65,8 @@ impl Format {
         matches!(self, Format::Png | Format::Npy)
     }
 
-    /// Returns the format's name in lower case: `"png"`, `"npy"`, `"tiff"`, `"exr"`, `"pfm"`, `"npz"`, `"jpeg"` or
-    /// `"webp"`.
+    /// Returns the format's name in lower case: `"png"`, `"npy"`, `"tiff"`, `"exr"`, `"pfm"`, `"npz"`, `"jpeg"`,
+    /// `"webp"` or `"text"`.
     pub fn name(self) -> &'static str {
         self.entry().1
     }
@@ -76,6 +79,7 @@ impl Format {
         MAGIC_BYTES
             .into_iter()
             .find_map(|(magic, format)| announces(magic).then_some(format))
+            .or_else(|| is_text_grid(bytes).then_some(Format::Text))
     }
 
     pub(super) fn title(self) -> &'static str {
@@ -101,7 +105,40 @@ impl FromStr for Format {
 
 /// Permitted values of the option `format`, as they are listed in the error about a wrong value.
 pub const FORMAT_NAMES: &str =
-    "must be `png`, `npy`, `tiff`, `exr`, `pfm`, `npz`, `jpeg` or `webp`";
+    "must be `png`, `npy`, `tiff`, `exr`, `pfm`, `npz`, `jpeg`, `webp` or `text`";
+
+/// Number of bytes at the start of a file by which it is recognised as a grid of numbers in text.
+const TEXT_GRID_HEAD_BYTES: usize = 1024;
+
+/// Whether a file begins like a grid of numbers: with the head of an ESRI ASCII grid, or a line of two or more numbers
+/// within its first lines, and no letters but those of a first line of names.
+fn is_text_grid(bytes: &[u8]) -> bool {
+    let head = &bytes[..bytes.len().min(TEXT_GRID_HEAD_BYTES)];
+    let is_text = |byte: &u8| matches!(byte, b'\t' | b'\r' | b'\n' | b' '..=b'~' | 0x80..);
+    let Some(head) = std::str::from_utf8(head)
+        .ok()
+        .filter(|_| head.iter().all(is_text))
+    else {
+        return false;
+    };
+    let head = head.trim_start_matches('\u{feff}');
+    if head.get(..5).is_some_and(|word| {
+        word.eq_ignore_ascii_case("ncols") || word.eq_ignore_ascii_case("nrows")
+    }) {
+        return true;
+    }
+    let lines = head
+        .lines()
+        .filter(|line| !line.trim().is_empty() && !line.starts_with('#'));
+    let is_number = |word: &str| word.replace(',', ".").parse::<f64>().is_ok();
+    let divides = |letter: char| letter.is_whitespace() || letter == ';';
+    // A comma may divide numbers, or be a decimal one.
+    lines.take(2).any(|line| {
+        let words = || line.split(divides).filter(|word| !word.is_empty());
+        words().count() > 1 && words().all(is_number)
+            || line.contains(',') && line.split(',').all(|word| is_number(word.trim()))
+    })
+}
 
 /// Detects the format of an image file from its first bytes, and checks that it is the stated format, if one is stated.
 ///
@@ -121,7 +158,7 @@ pub fn announced(bytes: &[u8], stated: Option<Format>) -> Result<Format> {
         (None, None) => Err(Error::Unsupported {
             format: "this file",
             reason: format!(
-                "{} cannot be read; PNG, NPY, TIFF, EXR, PFM, NPZ, JPEG and WebP can",
+                "{} cannot be read; PNG, NPY, TIFF, EXR, PFM, NPZ, JPEG, WebP and text can",
                 guess(bytes)
             ),
         }),
@@ -134,7 +171,19 @@ pub fn announced(bytes: &[u8], stated: Option<Format>) -> Result<Format> {
 
 /// Guesses from a file's first bytes which kind of file it is, such as a PDF or a GIF, for error messages only.
 fn guess(bytes: &[u8]) -> &'static str {
-    let known: [(&[u8], &str); 6] = [
+    let known: [(&[u8], &str); 9] = [
+        (
+            b"GWYO",
+            "a Gwyddion file (`gwyddion --convert-to-gsf`, or export an image of 32-bit floats there)",
+        ),
+        (
+            b"GWYP",
+            "an old Gwyddion file (export an image of 32-bit floats there)",
+        ),
+        (
+            b"Lerc",
+            "a LERC file (`gdal_translate IN OUT.tif` converts it)",
+        ),
         (b"\x89PNG", "a PNG file damaged in transfer"),
         (b"Pf", "a PFM file whose header is damaged"),
         (b"GIF8", "a GIF file"),
@@ -151,6 +200,7 @@ fn guess(bytes: &[u8]) -> &'static str {
         Some(Format::Npz) => "a zip archive (perhaps NPZ)",
         Some(Format::Jpeg) => "a JPEG file",
         Some(Format::WebP) => "a WebP file",
+        Some(Format::Text) => "text",
         None => known
             .iter()
             .find(|(magic, _)| bytes.starts_with(magic))

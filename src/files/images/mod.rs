@@ -13,12 +13,16 @@ mod decoded;
 #[cfg(feature = "images")]
 pub mod extended;
 mod format;
+mod georeference;
+mod no_data;
 mod npy;
 mod photo;
 mod photo_pdf;
 mod picture_data;
 mod png;
 mod print;
+#[cfg(feature = "images")]
+mod square_pixels;
 
 use crate::error::{Error, Result};
 
@@ -26,6 +30,7 @@ pub use decoded::{Decoded, Unit};
 #[cfg(feature = "images")]
 pub use extended::{NpzArray, decode_npz, npz_arrays, write_exr, write_tiff};
 pub use format::{FORMAT_NAMES, Format, announced};
+pub use georeference::Georeference;
 pub use npy::write_npy;
 pub use photo::{PhotoFile, decode_photo_basic};
 pub use photo_pdf::{BookPage, write_book, write_photo_pdf};
@@ -53,6 +58,8 @@ pub use print::{PhotoOptions, PhotoRows, write_photo, write_photo_jpeg};
 ///   `Y`, else `R`, `G`, `B` where all are equal, or the only one there is.
 /// - **PFM**: grey, either byte order.
 /// - **NPZ**: the only array; [`decode_npz`] chooses one by name.
+/// - **Text**: an ESRI ASCII grid, points on a grid (XYZ) in any order, or a
+///   matrix, with blanks, tabs, semicolons or commas between its numbers.
 /// - **JPEG**, **WebP**: grey pictures, and RGB as long as every pixel is grey.
 ///   The orientation that a JPEG's Exif data state is honoured.
 ///

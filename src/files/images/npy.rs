@@ -84,6 +84,7 @@ pub(super) fn decode(bytes: &[u8]) -> Result<Decoded> {
         unit: None,
         height_scale: 1.0,
         data_type,
+        georeference: None,
         assumptions: Vec::new(),
     })
 }

@@ -7,7 +7,7 @@ use ::png::{
     Transformations, text_metadata::TEXtChunk,
 };
 
-use super::decoded::{Decoded, coloured, suggested_scale};
+use super::decoded::{Decoded, assumed_levels, coloured, suggested_scale};
 use super::format::Format;
 use crate::error::{Error, Result, checked_cells, try_filled};
 use crate::files::buffer::Buffer;
@@ -140,7 +140,11 @@ pub(super) fn decode(bytes: &[u8]) -> Result<Decoded> {
         unit: None,
         height_scale,
         data_type,
-        assumptions: Vec::new(),
+        georeference: None,
+        assumptions: match recorded.scale {
+            Some(_) => Vec::new(),
+            None => vec![assumed_levels()],
+        },
     })
 }
 

@@ -11,6 +11,7 @@ use developable::HeightImage;
 use developable::Heightfield;
 use developable::Lattice;
 use developable::checks::{check_shape, try_filled};
+use developable::files::images::Georeference;
 
 /// Fields of JavaScript's `HeightImage` object that every call reads; a solve reads further ones.
 #[derive(Deserialize)]
@@ -25,6 +26,7 @@ pub struct ImageInput {
     pub no_data: Option<f64>,
     pixel_size: Option<f64>,
     height_scale: Option<f64>,
+    pub georeference: Option<Georeference>,
 }
 
 impl ImageInput {

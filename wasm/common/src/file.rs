@@ -8,18 +8,23 @@ use wasm_bindgen::prelude::*;
 use super::options::{entries, option, unknown};
 use super::{Failure, Result};
 use developable::files::Assumption;
-use developable::files::images::{Decoded, FORMAT_NAMES, Format, PhotoFile};
+use developable::files::images::{Decoded, FORMAT_NAMES, Format, Georeference, PhotoFile};
 
 /// Options of reading an image file: JavaScript's `ReadOptions` object.
-#[derive(Default)]
 pub struct ReadOptions {
     pub format: Option<Format>,
     pub array: Option<String>,
+    /// Whether values that nobody would measure are no data.
+    pub assume_no_data: bool,
 }
 
 impl ReadOptions {
     pub fn new(options: &JsValue) -> Result<Self> {
-        let mut read = ReadOptions::default();
+        let mut read = ReadOptions {
+            format: None,
+            array: None,
+            assume_no_data: true,
+        };
         for (name, value) in entries(options)? {
             match name.as_str() {
                 "format" => {
@@ -27,7 +32,10 @@ impl ReadOptions {
                     read.format = Some(name.parse()?);
                 }
                 "array" => read.array = Some(option("array", value, "must be a name")?),
-                _ => return Err(unknown(&name, "format and array")),
+                "assumeNoData" => {
+                    read.assume_no_data = option("assume_no_data", value, "must be true or false")?;
+                }
+                _ => return Err(unknown(&name, "format, array and assumeNoData")),
             }
         }
         Ok(read)
@@ -58,10 +66,15 @@ struct ReadOutput {
     unit: JsValue,
     height_scale: f64,
     data_type: &'static str,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    georeference: Option<Georeference>,
     assumptions: Vec<Assumption>,
 }
 
-pub fn output(file: Decoded) -> Result<JsValue> {
+pub fn output(mut file: Decoded, options: &ReadOptions) -> Result<JsValue> {
+    if options.assume_no_data {
+        file.assume_no_data();
+    }
     Ok(to_value(&ReadOutput {
         format: file.format.name(),
         width: file.width,
@@ -71,6 +84,7 @@ pub fn output(file: Decoded) -> Result<JsValue> {
         unit: file.unit.map_or(JsValue::NULL, |unit| unit.symbol().into()),
         height_scale: file.height_scale,
         data_type: file.data_type,
+        georeference: file.georeference,
         assumptions: file.assumptions,
     })?)
 }

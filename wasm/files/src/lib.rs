@@ -28,7 +28,8 @@ pub fn read(bytes: &Uint8Array, options: JsValue) -> Result<JsValue> {
     let options = ReadOptions::new(&options)?;
     options.without_array()?;
     let file = copied(bytes)?;
-    output(decode_basic(&file, announced(&file, options.format)?)?)
+    let decoded = decode_basic(&file, announced(&file, options.format)?)?;
+    output(decoded, &options)
 }
 
 /// Writes the heights of a height image to an NPY file.

@@ -19,10 +19,10 @@ pub fn read_image(bytes: &Uint8Array, options: JsValue) -> Result<JsValue> {
     let options = ReadOptions::new(&options)?;
     let file = copied(bytes)?;
     match announced(&file, options.format)? {
-        Format::Npz => output(decode_npz(&file, options.array.as_deref())?),
+        Format::Npz => output(decode_npz(&file, options.array.as_deref())?, &options),
         format => {
             options.without_array()?;
-            output(extended::decode(&file, format)?)
+            output(extended::decode(&file, format)?, &options)
         }
     }
 }
@@ -60,11 +60,14 @@ pub fn arrays(bytes: &Uint8Array) -> Result<JsValue> {
     Ok(to_value(&arrays)?)
 }
 
-/// Writes the heights of a height image to a TIFF file.
+/// Writes the heights of a height image to a TIFF file, with its georeference if it has one.
 #[wasm_bindgen(js_name = writeTiff)]
 pub fn write_tiff_file(image: JsValue) -> Result<Uint8Array> {
-    let image = from_value::<ImageInput>(image)?.into_image()?;
-    Ok(write_tiff(&image)?.as_slice().into())
+    let mut input = from_value::<ImageInput>(image)?;
+    let map = input.georeference.take();
+    Ok(write_tiff(&input.into_image()?, map.as_ref())?
+        .as_slice()
+        .into())
 }
 
 /// Writes the heights of a height image to an EXR file.

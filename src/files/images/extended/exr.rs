@@ -15,7 +15,7 @@ use super::samples::{
     Channels, check_length, damaged, default_scale, grey, narrowed, room, unsupported,
 };
 use crate::error::{Error, Result, checked_cells, try_filled};
-use crate::files::images::decoded::Decoded;
+use crate::files::images::decoded::{Decoded, assumed_levels};
 use crate::files::images::format::Format;
 use crate::heights::heightfield::HeightImage;
 
@@ -126,7 +126,11 @@ pub(super) fn decode(bytes: &[u8]) -> Result<Decoded> {
         unit: None,
         height_scale: default_scale(size, pixel_size, data_type),
         data_type,
-        assumptions: Vec::new(),
+        georeference: None,
+        assumptions: (data_type == "u32")
+            .then(assumed_levels)
+            .into_iter()
+            .collect(),
     })
 }
 
@@ -194,9 +198,13 @@ fn heights_among(channels: &[ChannelDescription]) -> Option<ChosenChannels> {
             .iter()
             .position(|(its_group, its_name)| its_group == group && its_name == name)
     };
+    // Blender calls the value of its depth pass `Depth.Z` or `Depth.V`.
+    let depth = (names.iter())
+        .position(|(group, name)| name == "v" && group.rsplit('.').next() == Some("depth"));
     let single = ["z", "depth", "y"]
         .into_iter()
-        .find_map(|wanted| names.iter().position(|(_, name)| name == wanted));
+        .find_map(|wanted| names.iter().position(|(_, name)| name == wanted))
+        .or(depth);
     let grey = || {
         names.iter().find_map(|(group, _)| {
             ["r", "g", "b"]

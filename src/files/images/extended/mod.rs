@@ -5,6 +5,7 @@ mod jpeg;
 mod npz;
 mod pfm;
 mod samples;
+mod text_grid;
 mod tiff;
 mod tiff_tags;
 mod webp;
@@ -31,6 +32,7 @@ pub fn decode(bytes: &[u8], format: Format) -> Result<Decoded> {
         Format::Npz => npz::decode_npz(bytes, None),
         Format::Jpeg => jpeg::decode(bytes),
         Format::WebP => webp::decode(bytes),
+        Format::Text => text_grid::decode(bytes),
         Format::Png | Format::Npy => Err(Error::Unsupported {
             format: format.title(),
             reason: "it is decoded elsewhere".into(),

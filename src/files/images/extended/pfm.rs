@@ -68,6 +68,7 @@ pub(super) fn decode(bytes: &[u8]) -> Result<Decoded> {
         unit: None,
         height_scale: scale.abs(),
         data_type: "f32",
+        georeference: None,
         assumptions: Vec::new(),
     })
 }

@@ -1,7 +1,7 @@
 //! Converts the samples of a decoded picture to heights and colours, and reports errors, for several decoders.
 
 use crate::error::{Error, Result, try_filled};
-use crate::files::images::decoded::{Decoded, coloured, suggested_scale};
+use crate::files::images::decoded::{Decoded, assumed_levels, coloured, suggested_scale};
 use crate::files::images::format::Format;
 use crate::heights::heightfield::HeightImage;
 use crate::math::lanes;
@@ -101,7 +101,8 @@ pub(super) fn picture(
         unit: None,
         height_scale: default_scale(size, 1.0, "u8"),
         data_type: "u8",
-        assumptions: Vec::new(),
+        georeference: None,
+        assumptions: vec![assumed_levels()],
     })
 }
 

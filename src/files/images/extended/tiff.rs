@@ -1,10 +1,10 @@
 //! Reads heights from one channel of TIFF images and writes them, by the `tiff` crate.
 
-use std::io::Cursor;
+use std::io::{Cursor, Seek, Write};
 
 use ::exr::prelude::f16;
 use ::tiff::decoder::{Decoder, DecodingSampleType, Limits};
-use ::tiff::encoder::{TiffEncoder, colortype};
+use ::tiff::encoder::{DirectoryEncoder, TiffEncoder, TiffKind, colortype};
 use ::tiff::tags::Tag;
 use ::tiff::{ColorType, TiffError};
 
@@ -13,8 +13,11 @@ use super::samples::{
 };
 use super::tiff_tags::{self, File, failed, oriented};
 use crate::error::{Error, Result, checked_cells, try_filled};
-use crate::files::images::decoded::Decoded;
+use crate::files::Assumption;
+use crate::files::images::decoded::{Decoded, assumed_levels};
 use crate::files::images::format::Format;
+use crate::files::images::georeference::Georeference;
+use crate::files::images::square_pixels::{NEGLIGIBLE_SIDE_DIFFERENCE, square_pixels};
 use crate::heights::heightfield::HeightImage;
 
 /// Maximum ratio of the size of a TIFF image in memory to that of its file: more than any of the format's compressions
@@ -62,30 +65,73 @@ pub(super) fn decode(bytes: &[u8]) -> Result<Decoded> {
         return Err(damaged(Format::Tiff, "its sizes contradict each other"));
     }
     check_length(Format::Tiff, bytes, needed, MAX_COMPRESSION_RATIO)?;
-    let about = tiff_tags::read(&mut file, type_name(kind))?;
+    let about = tiff_tags::read(&mut file, stored, type_name(kind))?;
 
     let mut raw = try_filled("TIFF image", needed, 0u8)?;
     file.read_image_bytes(&mut raw).map_err(failed)?;
     let values = grey(Format::Tiff, stored, &channels, |i, k| {
         number(kind, &raw[size * (samples * i + k)..][..size])
     })?;
-    let (mut values, (width, height)) = oriented(values, stored, about.orientation)?;
+    let (mut values, size) = oriented(values, stored, about.orientation)?;
     if let Some(level) = about.no_data {
         values
             .iter_mut()
             .filter(|z| **z == level)
             .for_each(|z| *z = f64::NAN);
     }
+    let mut assumptions = about.assumptions;
+    // What is turned after all lies elsewhere on the map.
+    let mut georeference = about.georeference.filter(|_| about.orientation == 1);
+    if let Some(map) = georeference.as_mut().filter(|map| map.is_mirrored()) {
+        map.reverse_rows(size.1);
+        let rows: Vec<&[f64]> = values.chunks_exact(size.0).rev().collect();
+        values = rows.concat();
+    }
+    let [x, y] = about.sides;
+    let sides = if about.orientation >= 5 {
+        [y, x]
+    } else {
+        [x, y]
+    };
+    let square = square_pixels(values, size, sides)?;
+    if (x - y).abs() > NEGLIGIBLE_SIDE_DIFFERENCE * x.max(y) {
+        let how = if square.size == size {
+            "taken for"
+        } else {
+            "resampled to"
+        };
+        let words = format!("pixels of {x} × {y} are {how} squares of {}", square.side);
+        assumptions.push(Assumption::new("squarePixels", words, "pixelSize"));
+    }
+    if let Some(map) = &mut georeference {
+        map.stretch(square.stretch);
+    }
+    let (width, height) = square.size;
+    let data_type = type_name(kind);
+    let height_scale = match about.heights.scale {
+        Some(scale) => scale,
+        None if data_type.starts_with('f') => 1.0,
+        None => {
+            assumptions.push(assumed_levels());
+            default_scale(square.size, square.side, data_type)
+        }
+    };
+    let offset = about.heights.offset / height_scale;
+    let mut values = square.values;
+    if offset != 0.0 {
+        values.iter_mut().for_each(|z| *z += offset);
+    }
     Ok(Decoded {
         format: Format::Tiff,
         width,
         height,
         values,
-        pixel_size: about.pixel_size,
+        pixel_size: square.side,
         unit: about.unit,
-        height_scale: default_scale((width, height), about.pixel_size, type_name(kind)),
-        data_type: type_name(kind),
-        assumptions: Vec::new(),
+        height_scale,
+        data_type,
+        georeference: georeference.filter(|map| !map.keys.is_empty()),
+        assumptions,
     })
 }
 
@@ -164,17 +210,17 @@ fn size_of(kind: DecodingSampleType) -> usize {
 /// Writes a height image as a TIFF file of 32-bit floats, uncompressed, which are NaN where there is no data (which
 /// `GDAL_NODATA` says too). Exact for heights that are 32-bit floats; others are rounded to the nearest one.
 ///
-/// The tag `ModelPixelScale` records the pixel size, so that
-/// [`decode`](crate::files::images::decode) gives it back.
+/// Tags record the pixel size, so that [`decode`](crate::files::images::decode) gives it back: with a georeference those of
+/// the map, as they were read of an image with as many pixels.
 ///
 /// # Errors
 /// [`Error::NotFinite`] for heights beyond 3.4·10³⁸, [`Error::OutOfMemory`].
-pub fn write_tiff(image: &HeightImage) -> Result<Vec<u8>> {
+pub fn write_tiff(image: &HeightImage, map: Option<&Georeference>) -> Result<Vec<u8>> {
     let heights = narrowed("TIFF image", image)?;
     // A strip has at least one row, and takes two numbers.
     let enough = 4 * heights.len() + 16 * image.height() + 4096;
     let mut file = Cursor::new(room("TIFF file", enough)?);
-    write(&mut file, image, &heights).map_err(failed)?;
+    write(&mut file, image, &heights, map).map_err(failed)?;
     Ok(file.into_inner())
 }
 
@@ -182,13 +228,45 @@ fn write(
     file: &mut Cursor<Vec<u8>>,
     image: &HeightImage,
     heights: &[f32],
+    map: Option<&Georeference>,
 ) -> std::result::Result<(), TiffError> {
     let mut encoder = TiffEncoder::new(file)?;
     let mut picture =
         encoder.new_image::<colortype::Gray32Float>(image.width() as u32, image.height() as u32)?;
     let side = image.pixel_size();
     let tags = picture.encoder();
-    tags.write_tag(Tag::ModelPixelScaleTag, &[side, side, 0.0][..])?;
+    match map {
+        Some(map) => write_map(tags, map)?,
+        None => tags.write_tag(Tag::ModelPixelScaleTag, &[side, side, 0.0][..])?,
+    }
     tags.write_tag(Tag::GdalNodata, "nan")?;
     picture.write_data(heights)
+}
+
+/// Writes the tags of a georeference.
+fn write_map<W: Write + Seek, K: TiffKind>(
+    tags: &mut DirectoryEncoder<'_, W, K>,
+    map: &Georeference,
+) -> std::result::Result<(), TiffError> {
+    let [a, b, c, d, e, f] = map.transformation;
+    if b == 0.0 && d == 0.0 && e < 0.0 {
+        tags.write_tag(Tag::ModelPixelScaleTag, &[a, -e, 0.0][..])?;
+        tags.write_tag(Tag::ModelTiepointTag, &[0.0, 0.0, 0.0, c, f, 0.0][..])?;
+    } else {
+        let rows = [
+            [a, b, 0.0, c],
+            [d, e, 0.0, f],
+            [0.0; 4],
+            [0.0, 0.0, 0.0, 1.0],
+        ];
+        tags.write_tag(Tag::ModelTransformationTag, rows.as_flattened())?;
+    }
+    tags.write_tag(Tag::GeoKeyDirectoryTag, &map.keys[..])?;
+    if !map.doubles.is_empty() {
+        tags.write_tag(Tag::GeoDoubleParamsTag, &map.doubles[..])?;
+    }
+    if !map.text.is_empty() {
+        tags.write_tag(Tag::GeoAsciiParamsTag, map.text.as_str())?;
+    }
+    Ok(())
 }

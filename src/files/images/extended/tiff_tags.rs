@@ -2,15 +2,17 @@
 
 use std::io::Cursor;
 
-use ::tiff::TiffError;
 use ::tiff::decoder::Decoder;
 use ::tiff::decoder::ifd::Value;
 use ::tiff::tags::Tag;
+use ::tiff::{TiffError, TiffUnsupportedError};
 
 use super::samples::{damaged, unsupported};
 use crate::error::{Error, Result, try_filled};
+use crate::files::Assumption;
 use crate::files::images::decoded::Unit;
 use crate::files::images::format::Format;
+use crate::files::images::georeference::Georeference;
 
 pub(super) type File<'a> = Decoder<Cursor<&'a [u8]>>;
 
@@ -25,31 +27,53 @@ const RESOLUTION_UNIT_NONE: u16 = 1;
 const PER_INCH: u16 = 2;
 const PER_CENTIMETRE: u16 = 3;
 
-/// Number of the GeoTIFF key `GTModelTypeGeoKey`, which tells whether coordinates are lengths or degrees.
-const MODEL_TYPE_KEY: u16 = 1024;
-
-/// Value of the GeoTIFF key `GTModelTypeGeoKey` for degrees of longitude and latitude.
-const MODEL_TYPE_GEOGRAPHIC: u16 = 2;
-const LINEAR_UNIT: u16 = 3076;
-
-/// Value of the GeoTIFF key `ProjLinearUnitsGeoKey` for metres.
-const LINEAR_UNIT_METRE: u16 = 9001;
-
-/// Maximum difference between a pixel's width and height, as a share of the larger one, at which the pixel counts as
-/// square.
-const NEGLIGIBLE_SIDE_DIFFERENCE: f64 = 1e-6;
+/// Number of the TIFF tag `GDAL_METADATA`, an XML text with the scale, the offset and the unit of heights.
+const GDAL_METADATA: Tag = Tag::Unknown(42112);
 
 /// What the tags of a TIFF file say about its pixels: their size and its unit, the value of no data, the orientation.
 pub(super) struct PixelTags {
-    pub(super) pixel_size: f64,
+    /// Width and height of a pixel, in `unit`.
+    pub(super) sides: [f64; 2],
     pub(super) unit: Option<Unit>,
+    /// Where the pixels lie on a map, as they are stored.
+    pub(super) georeference: Option<Georeference>,
+    /// How stored values become heights, if tags say it.
+    pub(super) heights: HeightTags,
+    /// What is assumed about the units.
+    pub(super) assumptions: Vec<Assumption>,
     pub(super) no_data: Option<f64>,
     /// Orientation of the image, from 1 to 8, as the TIFF tag `Orientation` numbers it.
     pub(super) orientation: u16,
 }
 
-pub(super) fn read(file: &mut File, data_type: &str) -> Result<PixelTags> {
-    let (pixel_size, unit) = pixel_size(file)?;
+/// How stored values become heights: `height = scale · stored + offset`, in the unit of the pixel size.
+#[derive(Default)]
+pub(super) struct HeightTags {
+    pub(super) scale: Option<f64>,
+    pub(super) offset: f64,
+}
+
+pub(super) fn read(file: &mut File, size: (usize, usize), data_type: &str) -> Result<PixelTags> {
+    let georeference = georeference(file)?;
+    let mut assumptions = Vec::new();
+    let (sides, unit) = match &georeference {
+        Some(map) => map_sides(map, size, &mut assumptions)?,
+        None => resolution_sides(file)?,
+    };
+    let mut heights = gdal_heights(file)?;
+    if let Some(map) = georeference.as_ref().filter(|map| !map.keys.is_empty()) {
+        let unit = height_unit(file, map)?;
+        if unit.is_none() {
+            assumptions.push(Assumption::new(
+                "heightUnit",
+                "heights are in metres",
+                "heightScale",
+            ));
+        }
+        let unit = unit.unwrap_or(1.0);
+        heights.scale = Some(unit * heights.scale.unwrap_or(1.0));
+        heights.offset *= unit;
+    }
     let no_data = no_data(file, data_type)?;
     let inverted = unsigned(file, Tag::PhotometricInterpretation)? == Some(0);
     if inverted && (no_data.is_some() || !data_type.starts_with('u')) {
@@ -66,8 +90,11 @@ pub(super) fn read(file: &mut File, data_type: &str) -> Result<PixelTags> {
         ));
     }
     Ok(PixelTags {
-        pixel_size,
+        sides,
         unit,
+        georeference,
+        heights,
+        assumptions,
         no_data,
         orientation,
     })
@@ -78,23 +105,103 @@ pub(super) fn has_alpha(file: &mut File) -> Result<bool> {
     Ok(matches!(unsigned(file, Tag::ExtraSamples)?, Some(1 | 2)))
 }
 
-fn pixel_size(file: &mut File) -> Result<(f64, Option<Unit>)> {
-    if let Some(scale) = file.find_tag(Tag::ModelPixelScaleTag).map_err(failed)? {
-        let sides = scale.into_f64_vec().map_err(failed)?;
-        let [x, y, ..] = sides[..] else {
-            return Err(damaged(Format::Tiff, "its pixel scale lacks a number"));
-        };
-        return Ok((square(x, y)?, geographic_unit(file)?));
+/// Reads where the pixels lie on a map; `None` if no tag says how large they are there.
+fn georeference(file: &mut File) -> Result<Option<Georeference>> {
+    let mut numbers = |tag| -> Result<Option<Vec<f64>>> {
+        let value = file.find_tag(tag).map_err(failed)?;
+        value
+            .map(|value| value.into_f64_vec().map_err(failed))
+            .transpose()
+    };
+    let transformation = match (
+        numbers(Tag::ModelTransformationTag)?,
+        numbers(Tag::ModelPixelScaleTag)?,
+    ) {
+        (Some(m), _) if m.len() >= 8 => [m[0], m[1], m[3], m[4], m[5], m[7]],
+        (_, Some(sides)) => {
+            let [x, y, ..] = sides[..] else {
+                return Err(damaged(Format::Tiff, "its pixel scale lacks a number"));
+            };
+            // Without a tie point the pixels lie anywhere.
+            let tie = numbers(Tag::ModelTiepointTag)?.unwrap_or_default();
+            let [i, j, u, v] = match tie[..] {
+                [i, j, _, u, v, ..] => [i, j, u, v],
+                _ => [0.0; 4],
+            };
+            [x, 0.0, u - i * x, 0.0, -y, v + j * y]
+        }
+        (Some(_), None) => {
+            return Err(damaged(
+                Format::Tiff,
+                "its transformation to the map lacks a number",
+            ));
+        }
+        (None, None) => return Ok(None),
+    };
+    let doubles = numbers(Tag::GeoDoubleParamsTag)?.unwrap_or_default();
+    let keys = match file.find_tag(Tag::GeoKeyDirectoryTag).map_err(failed)? {
+        Some(directory) => directory.into_u16_vec().map_err(failed)?,
+        None => Vec::new(),
+    };
+    let text = match file.find_tag(Tag::GeoAsciiParamsTag).map_err(failed)? {
+        Some(text) => text.into_string().map_err(failed)?,
+        None => String::new(),
+    };
+    Ok(Some(Georeference {
+        transformation,
+        keys,
+        doubles,
+        text,
+    }))
+}
+
+/// Width and height of the pixels of an image on a map, and their unit.
+fn map_sides(
+    map: &Georeference,
+    size: (usize, usize),
+    assumptions: &mut Vec<Assumption>,
+) -> Result<([f64; 2], Option<Unit>)> {
+    let sides = map.pixel_sides(size);
+    if !sides.iter().all(|side| side.is_finite() && *side > 0.0) {
+        let [x, y] = sides;
+        let reason = format!("its pixels are {x} wide and {y} high, no sound numbers");
+        return Err(damaged(Format::Tiff, reason));
     }
+    if map.is_geographic() {
+        let latitude = map.latitude(size);
+        let words = format!("degrees are metres at the latitude {latitude:.4} of the middle");
+        assumptions.push(Assumption::new("degrees", words, "pixelSize"));
+        return Ok((sides, Some(Unit::Metre)));
+    }
+    // Without a coordinate system nothing is known of the unit.
+    if map.keys.is_empty() {
+        return Ok((sides, None));
+    }
+    let unit = map.linear_unit();
+    if unit.is_none() {
+        assumptions.push(Assumption::new(
+            "mapUnit",
+            "map coordinates are in metres",
+            "pixelSize",
+        ));
+    }
+    Ok((
+        sides.map(|side| side * unit.unwrap_or(1.0)),
+        Some(Unit::Metre),
+    ))
+}
+
+/// Width and height of the pixels by the resolution of a picture, and their unit.
+fn resolution_sides(file: &mut File) -> Result<([f64; 2], Option<Unit>)> {
     let (Some(x), Some(y)) = (
         resolution(file, Tag::XResolution)?,
         resolution(file, Tag::YResolution)?,
     ) else {
-        return Ok((1.0, None));
+        return Ok(([1.0; 2], None));
     };
     let per = match unsigned(file, Tag::ResolutionUnit)?.unwrap_or(PER_INCH) {
         // Without a unit, resolutions state the proportions of a pixel only.
-        RESOLUTION_UNIT_NONE => return square(1.0 / x, 1.0 / y).map(|_| (1.0, None)),
+        RESOLUTION_UNIT_NONE => return Ok(([1.0, x / y], None)),
         PER_INCH => INCH_MM,
         PER_CENTIMETRE => CENTIMETRE_MM,
         other => {
@@ -104,24 +211,52 @@ fn pixel_size(file: &mut File) -> Result<(f64, Option<Unit>)> {
             ));
         }
     };
-    Ok((square(per / x, per / y)?, Some(Unit::Millimetre)))
+    Ok(([per / x, per / y], Some(Unit::Millimetre)))
 }
 
-/// Checks that a pixel's width and height are equal, and returns them as the side length of the pixel.
-fn square(x: f64, y: f64) -> Result<f64> {
-    if !(x.is_finite() && x > 0.0 && y.is_finite() && y > 0.0) {
-        return Err(damaged(
-            Format::Tiff,
-            format!("its pixels are {x} wide and {y} high, no sound numbers"),
-        ));
-    }
-    if (x - y).abs() > NEGLIGIBLE_SIDE_DIFFERENCE * x.max(y) {
-        return Err(unsupported(
-            Format::Tiff,
-            format!("its pixels are {x} wide and {y} high; only square ones are read: resample it"),
-        ));
-    }
-    Ok(x)
+/// Length of the unit of heights in metres, by the coordinate system or GDAL's metadata; where only the unit of the map
+/// is known and is no metre, by that.
+fn height_unit(file: &mut File, map: &Georeference) -> Result<Option<f64>> {
+    let named = gdal_item(file, "unittype")?.and_then(|name| match name.to_lowercase().as_str() {
+        "m" | "metre" | "meter" | "metres" | "meters" => Some(1.0),
+        "ft" | "foot" | "feet" => Some(0.3048),
+        "us survey foot" | "ussurveyfoot" | "us-ft" | "ftus" => Some(1200.0 / 3937.0),
+        "cm" => Some(0.01),
+        "dm" => Some(0.1),
+        "mm" => Some(0.001),
+        _ => None,
+    });
+    let of_map = map.linear_unit().filter(|unit| *unit != 1.0);
+    Ok(named.or(map.vertical_unit()).or(of_map))
+}
+
+/// Scale and offset of heights by GDAL's metadata.
+fn gdal_heights(file: &mut File) -> Result<HeightTags> {
+    let mut number = |role| -> Result<Option<f64>> {
+        let text = gdal_item(file, role)?;
+        Ok(text
+            .and_then(|text| text.parse().ok())
+            .filter(|value: &f64| value.is_finite()))
+    };
+    Ok(HeightTags {
+        scale: number("scale")?.filter(|scale| *scale != 0.0),
+        offset: number("offset")?.unwrap_or(0.0),
+    })
+}
+
+/// Text of an item of GDAL's metadata with the given role, of the first channel or of all.
+fn gdal_item(file: &mut File, role: &str) -> Result<Option<String>> {
+    let Some(metadata) = file.find_tag(GDAL_METADATA).map_err(failed)? else {
+        return Ok(None);
+    };
+    let metadata = metadata.into_string().map_err(failed)?;
+    let role = format!("role=\"{role}\"");
+    let item = metadata.split("<Item").skip(1).find_map(|item| {
+        let (attributes, rest) = item.split_once('>')?;
+        let is_first = !attributes.contains("sample=") || attributes.contains("sample=\"0\"");
+        (is_first && attributes.contains(&role)).then(|| rest.split('<').next().unwrap_or_default())
+    });
+    Ok(item.map(|text| text.trim().to_owned()))
 }
 
 /// Reads a TIFF tag that states the number of pixels per unit of length; programs that do not know it write 0, which
@@ -135,29 +270,6 @@ fn resolution(file: &mut File, tag: Tag) -> Result<Option<f64>> {
         other => other.into_f64().map_err(failed)?,
     };
     Ok(Some(ratio).filter(|ratio| ratio.is_finite() && *ratio > 0.0))
-}
-
-fn geographic_unit(file: &mut File) -> Result<Option<Unit>> {
-    let Some(directory) = file.find_tag(Tag::GeoKeyDirectoryTag).map_err(failed)? else {
-        return Ok(None);
-    };
-    let numbers = directory.into_u16_vec().map_err(failed)?;
-    // Four numbers each: key, where its value is (0: here), how many there are, the value.
-    let key = |wanted| {
-        numbers
-            .chunks_exact(4)
-            .skip(1)
-            .find(|entry| entry[0] == wanted && entry[1] == 0)
-            .map(|entry| entry[3])
-    };
-    if key(MODEL_TYPE_KEY) == Some(MODEL_TYPE_GEOGRAPHIC) {
-        return Err(unsupported(
-            Format::Tiff,
-            "its pixels are degrees of longitude and latitude, which are no lengths: project it \
-             to a map first",
-        ));
-    }
-    Ok((key(LINEAR_UNIT) == Some(LINEAR_UNIT_METRE)).then_some(Unit::Metre))
 }
 
 fn no_data(file: &mut File, data_type: &str) -> Result<Option<f64>> {
@@ -221,6 +333,15 @@ pub(super) fn oriented<T: Copy + Default>(
 
 pub(super) fn failed(error: TiffError) -> Error {
     match error {
+        TiffError::UnsupportedError(TiffUnsupportedError::UnsupportedCompressionMethod(method)) => {
+            unsupported(
+                Format::Tiff,
+                format!(
+                    "the compression {method:?}; `gdal_translate -co COMPRESS=DEFLATE IN.tif OUT.tif` \
+                     writes one that is read"
+                ),
+            )
+        }
         TiffError::UnsupportedError(what) => unsupported(Format::Tiff, what),
         other => damaged(Format::Tiff, other),
     }

@@ -1,0 +1,281 @@
+//! Reads grids of heights that are text: ESRI ASCII grids, points on a grid (XYZ) and plain matrices.
+
+use super::samples::damaged;
+use crate::error::{Result, checked_cells, try_filled};
+use crate::files::Assumption;
+use crate::files::images::decoded::Decoded;
+use crate::files::images::format::Format;
+use crate::files::images::square_pixels::square_pixels;
+
+/// Maximum distance of a point from its place on the grid, as a share of the grid's spacing.
+const MAX_OFF_GRID_SHARE: f64 = 0.02;
+
+/// A grid of heights with the sides of its cells.
+struct Grid {
+    values: Vec<f64>,
+    size: (usize, usize),
+    sides: [f64; 2],
+}
+
+pub(super) fn decode(bytes: &[u8]) -> Result<Decoded> {
+    let text = String::from_utf8_lossy(bytes);
+    let text = text.trim_start_matches('\u{feff}');
+    let (grid, no_data) = match esri_grid(text)? {
+        Some(found) => found,
+        None => (table(text)?, None),
+    };
+    let mut values = grid.values;
+    for value in values.iter_mut().filter(|value| Some(**value) == no_data) {
+        *value = f64::NAN;
+    }
+    let square = square_pixels(values, grid.size, grid.sides)?;
+    let mut assumptions = Vec::new();
+    if square.size != grid.size {
+        let [x, y] = grid.sides;
+        let words = format!(
+            "cells of {x} × {y} are resampled to squares of {}",
+            square.side
+        );
+        assumptions.push(Assumption::new("squarePixels", words, "pixelSize"));
+    }
+    Ok(Decoded {
+        format: Format::Text,
+        width: square.size.0,
+        height: square.size.1,
+        values: square.values,
+        pixel_size: square.side,
+        unit: None,
+        height_scale: 1.0,
+        data_type: "f64",
+        georeference: None,
+        assumptions,
+    })
+}
+
+/// Reads an ESRI ASCII grid and its value of no data; `None` if the text does not begin like one.
+fn esri_grid(text: &str) -> Result<Option<(Grid, Option<f64>)>> {
+    let mut head = std::collections::HashMap::new();
+    let mut rest = text;
+    while let Some((line, after)) = rest.split_once('\n') {
+        let mut words = line.split_whitespace();
+        let (Some(name), Some(value), None) = (words.next(), words.next(), words.next()) else {
+            break;
+        };
+        if !name.starts_with(|letter: char| letter.is_ascii_alphabetic()) {
+            break;
+        }
+        head.insert(name.to_lowercase(), value);
+        rest = after;
+    }
+    let number = |name: &str| -> Result<Option<f64>> {
+        let Some(value) = head.get(name) else {
+            return Ok(None);
+        };
+        match value.replace(',', ".").parse() {
+            Ok(value) => Ok(Some(value)),
+            Err(_) => Err(damaged(
+                Format::Text,
+                format!("its {name} is `{value}`, no number"),
+            )),
+        }
+    };
+    let (Some(cols), Some(rows)) = (number("ncols")?, number("nrows")?) else {
+        return Ok(None);
+    };
+    let size = (cols as usize, rows as usize);
+    let cell = number("cellsize")?.unwrap_or(1.0);
+    let sides = [number("dx")?.unwrap_or(cell), number("dy")?.unwrap_or(cell)];
+    if !sides.iter().all(|side| side.is_finite() && *side > 0.0) {
+        return Err(damaged(Format::Text, "its cells have no size"));
+    }
+    let count = checked_cells("ASCII grid", size.1, size.0)?;
+    let values = numbers(rest, true)?;
+    if values.len() != count || count == 0 {
+        let reason = format!("it has {} values, but {rows} rows of {cols}", values.len());
+        return Err(damaged(Format::Text, reason));
+    }
+    Ok(Some((
+        Grid {
+            values,
+            size,
+            sides,
+        },
+        number("nodata_value")?,
+    )))
+}
+
+/// Reads lines of equally many numbers: points on a grid if there are three and the first two are their places, else a
+/// matrix. Lines before the first number are names of columns or comments.
+fn table(text: &str) -> Result<Grid> {
+    // A comma is a decimal one wherever something else divides the numbers.
+    let is_divided = text.lines().any(|line| {
+        line.contains(';')
+            || line.contains('\t')
+            || line.trim().contains(' ') && !line.contains(", ")
+    });
+    let mut values: Vec<f64> = Vec::new();
+    let (mut cols, mut rows) = (0, 0);
+    for (k, line) in text.lines().enumerate() {
+        let Ok(row) = numbers(line, is_divided) else {
+            if rows == 0 {
+                continue;
+            }
+            return Err(damaged(
+                Format::Text,
+                format!("line {} is no row of numbers", k + 1),
+            ));
+        };
+        if row.is_empty() {
+            continue;
+        }
+        if rows > 0 && row.len() != cols {
+            let reason = format!(
+                "line {} has {} numbers, where the lines before have {cols}",
+                k + 1,
+                row.len()
+            );
+            return Err(damaged(Format::Text, reason));
+        }
+        cols = row.len();
+        rows += 1;
+        values.extend(row);
+    }
+    checked_cells("matrix", rows, cols)?;
+    if rows == 0 {
+        return Err(damaged(Format::Text, "it has no numbers"));
+    }
+    let points = match cols {
+        3 => points_on_grid(&values)?,
+        _ => None,
+    };
+    Ok(points.unwrap_or(Grid {
+        values,
+        size: (cols, rows),
+        sides: [1.0; 2],
+    }))
+}
+
+/// Numbers of a text, between blanks and semicolons and, unless commas are decimal, commas.
+fn numbers(text: &str, decimal_commas: bool) -> Result<Vec<f64>> {
+    let divides =
+        |letter: char| letter.is_whitespace() || letter == ';' || letter == ',' && !decimal_commas;
+    text.split(divides)
+        .filter(|word| !word.is_empty())
+        .map(|word| {
+            let plain = if decimal_commas {
+                word.replace(',', ".")
+            } else {
+                word.to_owned()
+            };
+            plain
+                .parse()
+                .map_err(|_| damaged(Format::Text, format!("`{word}` is no number")))
+        })
+        .collect()
+}
+
+/// Arranges points `x, y, z` as a grid with y upwards, NaN where there is none; `None` if they do not lie on a grid.
+fn points_on_grid(values: &[f64]) -> Result<Option<Grid>> {
+    let points = values.as_chunks::<3>().0;
+    let axis = |k: usize| {
+        let mut places: Vec<f64> = points.iter().map(|point| point[k]).collect();
+        places.sort_by(f64::total_cmp);
+        let (first, last) = (places[0], places[places.len() - 1]);
+        let tolerance = 1e-9 * (last - first);
+        let step = (places.windows(2))
+            .map(|pair| pair[1] - pair[0])
+            .filter(|step| *step > tolerance)
+            .fold(f64::INFINITY, f64::min);
+        let count = ((last - first) / step).round() + 1.0;
+        (step.is_finite() && first.is_finite() && last.is_finite() && count <= 1e6).then_some((
+            first,
+            step,
+            count as usize,
+        ))
+    };
+    let (Some((left, dx, width)), Some((bottom, dy, height))) = (axis(0), axis(1)) else {
+        return Ok(None);
+    };
+    // Scattered points would fill a small part of a fine grid.
+    if width < 2 || height < 2 || (width * height) / 16 > points.len() {
+        return Ok(None);
+    }
+    let mut grid = try_filled(
+        "grid of points",
+        checked_cells("grid of points", height, width)?,
+        f64::NAN,
+    )?;
+    for [x, y, z] in points {
+        let [col, row] = [(x - left) / dx, (y - bottom) / dy];
+        if (col - col.round()).abs().max((row - row.round()).abs()) > MAX_OFF_GRID_SHARE {
+            return Ok(None);
+        }
+        let place = &mut grid[(height - 1 - row.round() as usize) * width + col.round() as usize];
+        // Two heights at one place are no grid: a matrix of three columns, perhaps.
+        if !place.is_nan() {
+            return Ok(None);
+        }
+        *place = *z;
+    }
+    Ok(Some(Grid {
+        values: grid,
+        size: (width, height),
+        sides: [dx, dy],
+    }))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn read(text: &str) -> (usize, usize, f64, Vec<f64>) {
+        let file = decode(text.as_bytes()).unwrap();
+        (file.width, file.height, file.pixel_size, file.values)
+    }
+
+    #[test]
+    fn esri_grids_are_read() {
+        let head = "ncols 3\nnrows 2\nxllcorner 4\nyllcorner 5\ncellsize 2.5\nNODATA_value -9999\n";
+        let (width, height, side, values) = read(&format!("{head}1 2 3\n4 -9999 6.5\n"));
+        assert_eq!((width, height, side), (3, 2, 2.5));
+        assert_eq!((&values[..4], values[5]), (&[1.0, 2.0, 3.0, 4.0][..], 6.5));
+        assert!(values[4].is_nan());
+        // Windows' line ends, capitals, decimal commas, values in lines of any length.
+        let odd = "NCOLS 2\r\nNROWS 2\r\nXLLCENTER 0,5\r\nYLLCENTER 0,5\r\nCELLSIZE 0,5\r\n1,5\r\n2 3 4\r\n";
+        assert_eq!(read(odd), (2, 2, 0.5, vec![1.5, 2.0, 3.0, 4.0]));
+        let error = decode(b"ncols 3\nnrows 2\n1 2 3\n4 5\n")
+            .unwrap_err()
+            .to_string();
+        assert!(error.contains("5 values, but 2 rows of 3"), "{error}");
+    }
+
+    #[test]
+    fn points_on_a_grid_are_read_in_any_order() {
+        let text = "x;y;z\n10,0;7,0;1,5\n10,5;7,0;2\n10,5;6,5;4\n11,0;6,5;5\n11,0;7,0;3\n";
+        let (width, height, side, values) = read(text);
+        assert_eq!((width, height, side), (3, 2, 0.5));
+        assert_eq!(values[..3], [1.5, 2.0, 3.0]);
+        assert!(values[3].is_nan());
+        assert_eq!(values[4..], [4.0, 5.0]);
+    }
+
+    #[test]
+    fn matrices_are_read() {
+        for text in [
+            "1.5 2 3 4\n5 6 7 8\n",
+            "# heights\n1.5, 2, 3, 4\n5, 6, 7, 8",
+            "1,5\t2\t3\t4\r\n5\t6\t7\t8\r\n",
+            "1,5; 2; 3; 4\n5; 6; 7; 8\n",
+            "1.5,2,3,4\n5,6,7,8\n",
+        ] {
+            assert_eq!(
+                read(text),
+                (4, 2, 1.0, vec![1.5, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0]),
+                "{text}"
+            );
+        }
+        // Three columns that are no places.
+        assert_eq!(read("1 1 5\n1 1 6\n1 1 7\n1 1 8\n").0, 3);
+        assert!(decode(b"1 2\n3\n").is_err() && decode(b"a b\n").is_err());
+    }
+}

@@ -1,0 +1,141 @@
+//! Values that programs write where nothing was measured, and that no tag of the file names.
+
+use crate::files::Assumption;
+
+/// Smallest magnitude that no height, depth or level has: it stands for no data wherever it is the largest value.
+const MIN_IMPOSSIBLE_MAGNITUDE: f64 = 1e9;
+
+/// Number of times that an extreme value repeats at least for it to be no data: one such value may be an outlier.
+const MIN_REPETITIONS: usize = 2;
+
+/// Replaces values that nobody would measure by NaN, and returns what was assumed of them.
+///
+/// Infinities are no data. So is the smallest or the largest value if it is a number by which programs mark missing
+/// values ([`is_marker`]), repeats exactly, and lies farther from all other values than these lie from each other.
+pub(super) fn assume_no_data(values: &mut [f64]) -> Vec<Assumption> {
+    let mut assumptions = Vec::new();
+    let mut remove = |values: &mut [f64], name: String, is_missing: &dyn Fn(f64) -> bool| {
+        let mut count = 0;
+        for value in values.iter_mut().filter(|value| is_missing(**value)) {
+            *value = f64::NAN;
+            count += 1;
+        }
+        if count > 0 {
+            let pixels = if count == 1 { "pixel" } else { "pixels" };
+            let words = format!("{name} is no data ({count} {pixels})");
+            assumptions.push(Assumption::new("noData", words, "noData"));
+        }
+    };
+    remove(values, "infinity".into(), &f64::is_infinite);
+    while let Some(marker) = marker_of(values) {
+        remove(values, format!("{marker}"), &|value| value == marker);
+    }
+    assumptions
+}
+
+/// The extreme value that stands for no data, if there is one.
+fn marker_of(values: &[f64]) -> Option<f64> {
+    // The two smallest and the two largest of the distinct values.
+    let [mut low, mut high] = [[f64::INFINITY; 2], [f64::NEG_INFINITY; 2]];
+    for value in values.iter().copied().filter(|value| !value.is_nan()) {
+        if value < low[0] {
+            low = [value, low[0]];
+        } else if value > low[0] && value < low[1] {
+            low[1] = value;
+        }
+        if value > high[0] {
+            high = [value, high[0]];
+        } else if value < high[0] && value > high[1] {
+            high[1] = value;
+        }
+    }
+    let candidates = [
+        (low[0], low[1] - low[0], high[0] - low[1]),
+        (high[0], high[0] - high[1], high[1] - low[0]),
+        // Both ends may be markers.
+        (low[0], low[1] - low[0], high[1] - low[1]),
+        (high[0], high[0] - high[1], high[1] - low[1]),
+    ];
+    (candidates.into_iter())
+        .filter(|(value, gap, range)| {
+            is_marker(*value) && gap.is_finite() && *range >= 0.0 && gap > range
+        })
+        .map(|(value, ..)| value)
+        .find(|value| values.iter().filter(|other| *other == value).count() >= MIN_REPETITIONS)
+}
+
+/// Whether a number is one by which programs mark missing values: beyond what anybody measures, three or more nines with
+/// nothing else, or a limit of a number type of 16 or more bits.
+fn is_marker(value: f64) -> bool {
+    let is_nines = || {
+        let digits = format!("{}", value.abs()).replace('.', "");
+        digits.len() >= 3 && digits.bytes().all(|digit| digit == b'9')
+    };
+    let is_limit = || {
+        [65_504.0, 65_535.0, 32_767.0, 32_768.0, 2_147_483_647.0]
+            .iter()
+            .any(|limit| (value.abs() - limit).abs() <= 1.0)
+    };
+    value.abs() >= MIN_IMPOSSIBLE_MAGNITUDE || is_nines() || is_limit()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Heights between 200 and 4800, and what is to be no data or not.
+    fn assumed(more: &[f64]) -> Vec<String> {
+        let mut values: Vec<f64> = (0..100).map(|i| 200.0 + 46.0 * f64::from(i)).collect();
+        values.extend(more);
+        let before = values.iter().filter(|value| value.is_nan()).count();
+        let words: Vec<String> = assume_no_data(&mut values)
+            .into_iter()
+            .map(|one| one.words)
+            .collect();
+        let missing = values.iter().filter(|value| value.is_nan()).count() - before;
+        assert_eq!(words.is_empty(), missing == 0);
+        words
+    }
+
+    #[test]
+    fn what_programs_write_for_no_data_is_none() {
+        for marker in [
+            -9999.0,
+            -32768.0,
+            -32767.0,
+            65535.0,
+            -3.402_823_466_385_288_6e38,
+            1e10,
+            1e20,
+            -99999.0,
+        ] {
+            assert_eq!(
+                assumed(&[marker; 3]),
+                [format!("{marker} is no data (3 pixels)")]
+            );
+        }
+        assert_eq!(assumed(&[f64::INFINITY]), ["infinity is no data (1 pixel)"]);
+        assert_eq!(assumed(&[-9999.0, 1e20, -9999.0, 1e20]).len(), 2);
+    }
+
+    #[test]
+    fn what_may_have_been_measured_stays() {
+        // Zero, a single outlier, round numbers, and a marker within the range of the others.
+        for more in [
+            &[0.0; 9][..],
+            &[-9999.0],
+            &[-10000.0; 3],
+            &[20000.0; 9],
+            &[999.0; 5],
+        ] {
+            assert_eq!(assumed(more), [""; 0]);
+        }
+        // Terraces of two heights.
+        let mut terraces = [0.0, 99.0, 0.0, 99.0];
+        assert!(assume_no_data(&mut terraces).is_empty());
+        assert_eq!(terraces, [0.0, 99.0, 0.0, 99.0]);
+        let mut bathymetry: Vec<f64> = (0..2000).map(|i| -11_000.0 + 9.0 * f64::from(i)).collect();
+        bathymetry.extend([-9999.0; 4]);
+        assert!(assume_no_data(&mut bathymetry).is_empty());
+    }
+}

@@ -1,10 +1,11 @@
 /** The promise API, over a worker of its own. Documented in `index.d.ts`. */
-import { CALLS, copyOfFile, handedOver, isBlob } from './calls.js';
+import { CALLS, handedOver } from './calls.js';
 import { contextOf, put } from './canvas.js';
 import { Connection } from './connection.js';
 import { controlOf } from './control.js';
 import { DevelopableError, messageOf } from './errors.js';
 import { explored, exploredMesh } from './explore.js';
+import { copyOfFile, isBlob } from './file-bytes.js';
 import { asInput, asLattice, checkLengths } from './input.js';
 import { asPicture, wholeOf } from './mesh-input.js';
 import { OpenSolver } from './open.js';

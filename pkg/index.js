@@ -6,6 +6,7 @@ import { reading } from './values.js';
 
 export { parseCamera } from './camera-file.js';
 export { DevelopableError } from './errors.js';
+export { describePage } from './page-words.js';
 export { DevelopableWorker };
 
 /** @typedef {import('./types.js').InitInput} InitInput */

@@ -17,11 +17,29 @@ const SIDES = /** @type {const} */ (['top', 'bottom', 'left', 'right']);
 const [MOST, LINES] = [100_000, 500];
 
 /**
- * The edges of one page, or of the two pages of a spread.
+ * The edges and the options of a call, whose edges may be left out: an object without edges is the options.
+ * @param {any} second
+ * @param {any} third
+ * @returns {[unknown, (Options & import('./index.js').HandOver) | undefined]}
+ */
+export function edgesAndOptions(second, third) {
+  if (second === null) return [undefined, third];
+  if (third !== undefined || !isRecord(second)) return [second, third];
+  const hasEdges = reading('INPUT', 'the edges', () => [...SIDES, 'lines'].some((side) => side in second));
+  return hasEdges ? [second, third] : [undefined, second];
+}
+
+/**
+ * The edges of one page, by its four corners or traced, or of the two pages of a spread.
  * @param {unknown} given
  * @returns {EdgesInput[]}
  */
 export function asEdges(given) {
+  const corners = reading('INPUT', 'the corners', () => (Array.isArray(given) && given.length === 4 ? [...given] : undefined));
+  if (corners) {
+    const [a, b, c, d] = corners;
+    return [asPair({ top: [a, b], bottom: [d, c], left: [a, d], right: [b, c] })];
+  }
   const pages = reading('INPUT', 'the edges', () => (Array.isArray(given) ? given.slice(0, 3) : [given]));
   if (pages.length !== 1 && pages.length !== 2) {
     throw new DevelopableError('INPUT', 'the edges must be those of one page, or a list of the edges of both pages of a spread');

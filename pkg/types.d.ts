@@ -640,7 +640,25 @@ export interface Photo {
   data: Uint8ClampedArray | Uint8Array;
 }
 
-/** A PNG, JPEG or WebP file, or its pixels. */
+/** What of a web page a canvas can draw: an `<img>` that is loaded, a canvas, an `ImageBitmap`, a `<video>` or a `VideoFrame`. */
+export type Drawable = Canvas
+  | { readonly naturalWidth: number; readonly naturalHeight: number }
+  | { readonly videoWidth: number; readonly videoHeight: number }
+  | { readonly displayWidth: number; readonly displayHeight: number }
+  | { readonly width: number; readonly height: number; close(): void };
+
+/**
+ * A photo's file: its bytes, a `Blob` or `File`, a `Response`, or its address. JPEG, PNG, WebP, GIF (the first picture), BMP and
+ * TIFF files are read; HEIC and AVIF files where the browser can show them, as `await createImageBitmap(file)`.
+ */
+export type PhotoSource = Uint8Array | ArrayBuffer | Blob | Response | URL | string;
+
+/** Four corners of a page in a photo's pixels: upper left, upper right, lower right, lower left, as the page is read. */
+export type PageCorners = readonly [
+  readonly [number, number], readonly [number, number], readonly [number, number], readonly [number, number],
+];
+
+/** A photo's file as bytes, or its pixels. */
 export type Picture = Uint8Array | ArrayBuffer | Photo;
 
 /** A photo that may say how large what it shows is, as flat images do. */

@@ -1,7 +1,7 @@
 //! Pixel grid of a page's flat image: its size, resolution and corner.
 
 use crate::dewarp::DewarpOptions;
-use crate::error::{Result, checked_cells, positive};
+use crate::error::{MAX_PHOTO_PIXELS, Result, checked_pixels, positive};
 
 /// Pixel grid of a page's flat image: its size, resolution and corner.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -31,10 +31,14 @@ impl PixelGrid {
     ) -> Result<Self> {
         let resolution = match options.dots {
             Some(dots) => positive("dots", dots)?,
-            None => (seen_area() / (size[0] * size[1])).sqrt(),
+            // Less than what is allowed by as much as rounding adds.
+            None => {
+                let most = 0.999 * MAX_PHOTO_PIXELS as f64;
+                (seen_area().min(most) / (size[0] * size[1])).sqrt()
+            }
         };
         let [width, height] = size.map(|side| (side * resolution).round().max(1.0) as usize);
-        checked_cells("flat image", height, width)?;
+        checked_pixels("flat image", height, width)?;
         Ok(PixelGrid {
             width,
             height,

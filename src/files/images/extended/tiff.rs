@@ -11,10 +11,11 @@ use npyz::half::f16;
 use super::samples::{
     Channels, check_length, damaged, default_scale, grey, narrowed, room, unsupported,
 };
-use super::tiff_tags::{self, File, failed, oriented};
+use super::tiff_tags::{self, File, failed};
 use crate::error::{Error, Result, checked_cells, try_filled};
 use crate::files::images::decoded::Decoded;
 use crate::files::images::format::Format;
+use crate::files::images::orientation::oriented;
 use crate::heights::heightfield::HeightImage;
 
 /// Maximum ratio of the size of a TIFF image in memory to that of its file: more than any of the format's compressions

@@ -17,17 +17,18 @@ import { transfer } from './wire.js';
 /**
  * @typedef {import('./direct.js').PartName} PartName
  * @typedef {keyof typeof import('./options.js').OPTIONS} OptionsName
+ * @typedef {PartName | 'solver'} Part a wasm file
  * @typedef {any[]} Arguments of a call, as the caller or the client gives them
  *
  * @typedef {object} Call
  * @property {(...given: Arguments) => Arguments | Promise<Arguments>} send checked copies of a caller's arguments, for the worker
- * @property {readonly PartName[] | ((...sent: Arguments) => readonly PartName[])} parts wasm files that it takes besides the solver's
+ * @property {readonly Part[] | ((...sent: Arguments) => readonly Part[])} parts wasm files that it takes
  */
 
 /**
  * A call about heights, and its options.
  * @param {OptionsName} name of its options
- * @param {readonly PartName[]} parts
+ * @param {readonly Part[]} parts
  * @returns {Call}
  */
 const aboutHeights = (name, parts) => ({
@@ -41,7 +42,7 @@ const aboutHeights = (name, parts) => ({
 /**
  * A call about a whole mesh, and its options.
  * @param {OptionsName} name of its options
- * @param {readonly PartName[]} parts
+ * @param {readonly Part[]} parts
  * @returns {Call}
  */
 const aboutMesh = (name, parts) => ({
@@ -55,7 +56,7 @@ const aboutMesh = (name, parts) => ({
 /**
  * A call that writes a file of one thing.
  * @param {(input: any) => any} take checks and copies it
- * @param {readonly PartName[]} parts
+ * @param {readonly Part[]} parts
  * @returns {Call}
  */
 const writing = (take, parts) => ({ parts, send: (input) => [take(input)] });
@@ -65,7 +66,7 @@ const drawing = (drawing) => plainCopy('the drawing', drawing);
 
 /** @satisfies {Record<string, Call>} */
 export const CALLS = {
-  occlusions: aboutHeights('occlusions', []),
+  occlusions: aboutHeights('occlusions', ['solver']),
   read: {
     parts: (bytes, options) => [isImage(asBytes(bytes), options) ? 'images' : 'files'],
     async send(bytes, given) {
@@ -160,7 +161,7 @@ export const CALLS = {
     },
   },
   rulings: aboutHeights('rulings', ['unroll']),
-  fitCylinder: writing((input) => handedOver(asHeights(input)), []),
+  fitCylinder: writing((input) => handedOver(asHeights(input)), ['solver']),
   unroll: aboutHeights('unroll', ['unroll']),
   pattern: aboutHeights('pattern', ['patterns']),
   analyzeMesh: aboutMesh('analyzeMesh', ['fitmesh']),
@@ -196,7 +197,7 @@ export const CALLS = {
     send: async (photo) => [sentPhoto(await photoOf(photo))],
   },
   example: {
-    parts: [],
+    parts: ['solver'],
     send(name, given) {
       const options = optionsOf('example', given);
       return [asText('OPTION', 'the name of the example', name), options];

@@ -45,8 +45,15 @@ export class DevelopableWorker {
     this.#options = optionsOf('worker', options);
   }
 
-  init() {
-    return this.#request(async () => {});
+  async init() {
+    const connection = this.#connect();
+    try {
+      await connection.request((remote) => remote.loadSolver());
+    } catch (error) {
+      // So that it can be tried again with another place.
+      if (error instanceof DevelopableError && error.code === 'INIT') connection.close(error);
+      throw error;
+    }
   }
 
   /**

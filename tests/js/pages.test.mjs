@@ -1,6 +1,7 @@
 /** Photos of curled pages made flat by their edges; directly, in a worker and by the command. */
 import assert from 'node:assert/strict';
 import { readFile, writeFile } from 'node:fs/promises';
+import { createServer } from 'node:http';
 import { join } from 'node:path';
 import { after, test } from 'node:test';
 import * as developable from '../../pkg/index.js';
@@ -342,6 +343,44 @@ const sheet = {
     return i % 4 === 3 ? 255 : onPage ? (onText ? 60 : 230) : 70;
   }),
 };
+
+test('photos come as files, corners as points, and options without edges', async () => {
+  const known = /** @type {const} */ ({ focalLength: 700, page: 'a4', dots: 1 });
+  const flat = direct.dewarpPage(sheet, undefined, known);
+  assert.deepEqual(direct.dewarpPage(sheet, known), flat);
+  assert.deepEqual(direct.dewarpPage(sheet, null, known), flat);
+  assert.throws(() => direct.dewarpPage(sheet, /** @type {any} */ ({ pages: 'a4' })), error('OPTION', /pages.*page/));
+
+  const corners = /** @type {const} */ ([[99.5, 79.5], [499.5, 79.5], [499.5, 645.5], [99.5, 645.5]]);
+  const [a, b, c, d] = corners;
+  const byCorners = direct.dewarpPage(sheet, corners, known);
+  assert.deepEqual(byCorners, direct.dewarpPage(sheet, { top: [a, b], bottom: [d, c], left: [a, d], right: [b, c] }, known));
+  assert.deepEqual(await developable.dewarpPage(sheet, corners, known), byCorners);
+
+  const png = direct.writePhoto(sheet);
+  const server = createServer((_, response) => response.end(png));
+  await new Promise((listening) => server.listen(0, '127.0.0.1', () => listening(undefined)));
+  const { port } = /** @type {import('node:net').AddressInfo} */ (server.address());
+  const address = `http://127.0.0.1:${port}/`;
+  try {
+    for (const source of [png, new Uint8Array(png).buffer, new Blob([png]), new File([png], 'a.png'), new Response(png), address, new URL(address)]) {
+      assert.deepEqual(await developable.dewarpPage(source, known), flat, String(source));
+      // A response can be read once.
+      assert.deepEqual(await developable.readPhoto(source instanceof Response ? new Response(png) : source), direct.readPhoto(png));
+    }
+    assert.deepEqual(await developable.findPage(new Blob([png])), direct.findPage(sheet));
+    assert.deepEqual(direct.dewarpPage(png, known), flat);
+  } finally {
+    server.close();
+  }
+  await assert.rejects(developable.readPhoto(new Response('', { status: 404 })), error('INPUT', /404/));
+
+  // A rectangle seen straight on is flat whatever the focal length is.
+  const edgesOnly = direct.dewarpPage(sheet, { top: [a, b], bottom: [d, c] }, { page: 'a4' });
+  assert.equal(edgesOnly.verdict, 'flat');
+  assert.match(developable.describePage(edgesOnly.report), /only the perspective/);
+  assert.match(direct.describePage({ ...flat.report, verdict: 'doubtful', doubt: 'crumpled', error: 1.234 }), /doubtful: it is crumpled.*1\.2 %/);
+});
 
 test('the page in a photo is found, and made flat without edges', async () => {
   const found = direct.findPage(sheet);

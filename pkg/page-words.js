@@ -1,5 +1,8 @@
 /** The verdict on a flat page in words. */
 
+import { DevelopableError } from './errors.js';
+import { record } from './values.js';
+
 /** @typedef {import('./types.js').PageReport} PageReport */
 
 /** Smallest disagreement that is told as a share of the page's width, in %: less is no reason. */
@@ -26,8 +29,16 @@ function doubtWords({ doubt, linesFound }, disagreement) {
   }
 }
 
+/** Figures of a report that sentences state. */
+const FIGURES = /** @type {const} */ (['error', 'pinholeErrorBound', 'disagreement', 'residual', 'lines', 'linesFound']);
+
 /** @type {typeof import('./index.js').describePage} */
-export function describePage(report) {
+export function describePage(given) {
+  const said = record('INPUT', 'the report', given, [...FIGURES, 'verdict', 'doubt', 'model']);
+  if (!FIGURES.every((name) => typeof said[name] === 'number')) {
+    throw new DevelopableError('INPUT', 'the report must be that of a page, as `dewarpPage` returns it');
+  }
+  const report = /** @type {PageReport} */ (said);
   const { verdict, model, error, pinholeErrorBound, disagreement, residual, lines, linesFound } = report;
   const isSheet = model === 'sheet' || model === 'softSheet';
   const text = lines + linesFound > 0 ? ' and lines of text' : '';

@@ -376,7 +376,8 @@ test('photos come as files, corners as points, and options without edges', async
   await assert.rejects(developable.readPhoto(new Response('', { status: 404 })), error('INPUT', /404/));
 
   // A rectangle seen straight on is flat whatever the focal length is.
-  const edgesOnly = direct.dewarpPage(sheet, { top: [a, b], bottom: [d, c] }, { page: 'a4' });
+  const level = (/** @type {number} */ y) => Array.from({ length: 12 }, (_, i) => /** @type {[number, number]} */ ([99.5 + (400 * i) / 11, y]));
+  const edgesOnly = direct.dewarpPage(sheet, { top: level(79.5), bottom: level(645.5) }, { page: 'a4' });
   assert.equal(edgesOnly.verdict, 'flat');
   assert.match(developable.describePage(edgesOnly.report), /only the perspective/);
   assert.match(direct.describePage({ ...flat.report, verdict: 'doubtful', doubt: 'crumpled', error: 1.234 }), /doubtful: it is crumpled.*1\.2 %/);

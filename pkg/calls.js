@@ -3,30 +3,32 @@
  * service loads by it, and the promise API forwards by it; what a call does is in `direct.js`. A new call is one row here.
  */
 import { asDepthOptions } from './depth-input.js';
-import { DevelopableError, messageOf } from './errors.js';
-import { isImage } from './formats.js';
+import { copyOfFile } from './file-bytes.js';
+import { isImage, isImagePhoto } from './formats.js';
 import { asBytes, asField, asHeights, asImage, asPixels, detached } from './input.js';
 import { asFiles, asMesh, asMeshOrLattice, asPicture, wholeOf } from './mesh-input.js';
 import { optionsOf } from './options.js';
-import { asEdges, pageOptions, plainEdges } from './page-input.js';
-import { asBook, asPhoto, placedOptions, printOptions } from './sheet-input.js';
-import { asText, plainCopy, reading } from './values.js';
+import { asEdges, asFoundPage, edgesAndOptions, pageOptions, plainEdges } from './page-input.js';
+import { fileOf as photoFileOf, photoOf } from './photo-source.js';
+import { asBook, placedOptions, printOptions } from './sheet-input.js';
+import { asText, plainCopy } from './values.js';
 import { transfer } from './wire.js';
 
 /**
  * @typedef {import('./direct.js').PartName} PartName
  * @typedef {keyof typeof import('./options.js').OPTIONS} OptionsName
+ * @typedef {PartName | 'solver'} Part a wasm file
  * @typedef {any[]} Arguments of a call, as the caller or the client gives them
  *
  * @typedef {object} Call
  * @property {(...given: Arguments) => Arguments | Promise<Arguments>} send checked copies of a caller's arguments, for the worker
- * @property {readonly PartName[] | ((...sent: Arguments) => readonly PartName[])} parts wasm files that it takes besides the solver's
+ * @property {readonly Part[] | ((...sent: Arguments) => readonly Part[])} parts wasm files that it takes
  */
 
 /**
  * A call about heights, and its options.
  * @param {OptionsName} name of its options
- * @param {readonly PartName[]} parts
+ * @param {readonly Part[]} parts
  * @returns {Call}
  */
 const aboutHeights = (name, parts) => ({
@@ -40,7 +42,7 @@ const aboutHeights = (name, parts) => ({
 /**
  * A call about a whole mesh, and its options.
  * @param {OptionsName} name of its options
- * @param {readonly PartName[]} parts
+ * @param {readonly Part[]} parts
  * @returns {Call}
  */
 const aboutMesh = (name, parts) => ({
@@ -54,7 +56,7 @@ const aboutMesh = (name, parts) => ({
 /**
  * A call that writes a file of one thing.
  * @param {(input: any) => any} take checks and copies it
- * @param {readonly PartName[]} parts
+ * @param {readonly Part[]} parts
  * @returns {Call}
  */
 const writing = (take, parts) => ({ parts, send: (input) => [take(input)] });
@@ -64,7 +66,7 @@ const drawing = (drawing) => plainCopy('the drawing', drawing);
 
 /** @satisfies {Record<string, Call>} */
 export const CALLS = {
-  occlusions: aboutHeights('occlusions', []),
+  occlusions: aboutHeights('occlusions', ['solver']),
   read: {
     parts: (bytes, options) => [isImage(asBytes(bytes), options) ? 'images' : 'files'],
     async send(bytes, given) {
@@ -120,7 +122,13 @@ export const CALLS = {
       return [await fileOf(bytes), { ...options, files: beside }];
     },
   },
-  readPhoto: { parts: (bytes) => forPictures([bytes]), send: async (bytes) => [await fileOf(bytes)] },
+  readPhoto: {
+    parts: (bytes) => forPictures([bytes]),
+    async send(bytes) {
+      const file = await photoFileOf(bytes);
+      return [transfer(file, [file.buffer])];
+    },
+  },
   sampleMesh: {
     parts: (mesh) => ['meshes', ...(mesh.textures ? forPictures(mesh.textures) : [])],
     send(mesh, given) {
@@ -153,7 +161,7 @@ export const CALLS = {
     },
   },
   rulings: aboutHeights('rulings', ['unroll']),
-  fitCylinder: writing((input) => handedOver(asHeights(input)), []),
+  fitCylinder: writing((input) => handedOver(asHeights(input)), ['solver']),
   unroll: aboutHeights('unroll', ['unroll']),
   pattern: aboutHeights('pattern', ['patterns']),
   analyzeMesh: aboutMesh('analyzeMesh', ['fitmesh']),
@@ -168,16 +176,28 @@ export const CALLS = {
     },
   },
   dewarpPage: {
-    parts: ['unroll'],
-    send(photo, edges, given) {
+    parts: (photo) => ['unroll', ...partsOfPhoto(photo)],
+    async send(photo, second, third) {
+      const [edges, given] = edgesAndOptions(second, third);
       const { transfer: handOver, ...options } = /** @type {import('./index.js').HandOver} */ (pageOptions(photo, given));
       const pages = edges === undefined ? undefined : plainEdges(asEdges(edges));
-      return [sentPhoto(photo, handOver), pages, options];
+      return [sentPhoto(await photoOf(photo), handOver), pages, options];
     },
   },
-  findPage: { parts: ['unroll'], send: (photo) => [sentPhoto(photo, false)] },
+  flattenPhoto: {
+    parts: (photo) => ['unroll', ...partsOfPhoto(photo)],
+    async send(photo, page, given) {
+      const { transfer: handOver, ...options } = /** @type {import('./index.js').HandOver} */ (optionsOf('flattenPhoto', given));
+      const found = asFoundPage(page);
+      return [sentPhoto(await photoOf(photo), handOver), found, options];
+    },
+  },
+  findPage: {
+    parts: (photo) => ['unroll', ...partsOfPhoto(photo)],
+    send: async (photo) => [sentPhoto(await photoOf(photo))],
+  },
   example: {
-    parts: [],
+    parts: ['solver'],
     send(name, given) {
       const options = optionsOf('example', given);
       return [asText('OPTION', 'the name of the example', name), options];
@@ -193,7 +213,7 @@ export const CALLS = {
 export function forPictures(pictures) {
   const others = pictures.some((picture) => {
     const given = asPicture(picture);
-    return given instanceof Uint8Array && isImage(given);
+    return given instanceof Uint8Array && isImagePhoto(given);
   });
   return ['files', ...(others ? [/** @type {const} */ ('images')] : [])];
 }
@@ -209,13 +229,21 @@ export function handedOver(input, options) {
   return transfer(field, buffers);
 }
 
+/** What it takes to read a photo, if it is a file and no pixels. @param {unknown} photo @returns {readonly PartName[]} */
+const partsOfPhoto = (photo) => (photo instanceof Uint8Array ? forPictures([photo]) : []);
+
 /**
- * A photo on its way to the worker: itself, if it is to be handed over and that is possible, or a copy.
- * @param {import('./types.js').Photo} photo
+ * A photo on its way to the worker: itself, if it is to be handed over and that is possible, or a copy; of a file its bytes.
+ * @param {import('./types.js').Photo | Uint8Array | ArrayBuffer} photo
  * @param {boolean} [handOver]
  */
 function sentPhoto(photo, handOver = false) {
-  const { width, height, data } = asPhoto(photo);
+  const given = asPicture(photo);
+  if (given instanceof Uint8Array) {
+    const file = new Uint8Array(given);
+    return transfer(file, [file.buffer]);
+  }
+  const { width, height, data } = given;
   const whole = data.buffer instanceof ArrayBuffer && data.byteLength === data.buffer.byteLength;
   const own = handOver && whole ? data : new Uint8Array(data);
   return transfer({ width, height, data: own }, [/** @type {ArrayBuffer} */ (own.buffer)]);
@@ -225,25 +253,4 @@ function sentPhoto(photo, handOver = false) {
 async function fileOf(bytes) {
   const file = await copyOfFile(bytes);
   return transfer(file, [file.buffer]);
-}
-
-/**
- * A copy of a file's bytes.
- * @param {Uint8Array | ArrayBuffer | Blob} bytes
- */
-export async function copyOfFile(bytes) {
-  if (!isBlob(bytes)) return new Uint8Array(asBytes(bytes));
-  try {
-    return new Uint8Array(await bytes.arrayBuffer());
-  } catch (cause) {
-    throw new DevelopableError('INPUT', `the file could not be read: ${messageOf(cause)}`, { cause });
-  }
-}
-
-/**
- * @param {unknown} value
- * @returns {value is Blob}
- */
-export function isBlob(value) {
-  return typeof Blob === 'function' && reading('INPUT', 'the file', () => value instanceof Blob);
 }

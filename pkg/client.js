@@ -1,10 +1,11 @@
 /** The promise API, over a worker of its own. Documented in `index.d.ts`. */
-import { CALLS, copyOfFile, handedOver, isBlob } from './calls.js';
+import { CALLS, handedOver } from './calls.js';
 import { contextOf, put } from './canvas.js';
 import { Connection } from './connection.js';
 import { controlOf } from './control.js';
 import { DevelopableError, messageOf } from './errors.js';
 import { explored, exploredMesh } from './explore.js';
+import { copyOfFile, isBlob } from './file-bytes.js';
 import { asInput, asLattice, checkLengths } from './input.js';
 import { asPicture, wholeOf } from './mesh-input.js';
 import { OpenSolver } from './open.js';
@@ -44,8 +45,15 @@ export class DevelopableWorker {
     this.#options = optionsOf('worker', options);
   }
 
-  init() {
-    return this.#request(async () => {});
+  async init() {
+    const connection = this.#connect();
+    try {
+      await connection.request((remote) => remote.loadSolver());
+    } catch (error) {
+      // So that it can be tried again with another place.
+      if (error instanceof DevelopableError && error.code === 'INIT') connection.close(error);
+      throw error;
+    }
   }
 
   /**

@@ -4,7 +4,7 @@
  */
 import type {
   Analysis, AnalyzeOptions, BookPage, Canvas, DecodedPhoto, DepthOptions, DetectedOcclusions, Dewarped, DewarpedPage, DewarpOptions,
-  DewarpPageOptions, Drawing, Example, ExampleName, ExampleOptions, FittedCylinder, Heightfield, HeightImage, ImageSurface, InitInput, Intrinsics, LatticeSurface, Mesh, MeshAnalysis, MeshAnalyzeOptions,
+  DewarpPageOptions, Drawing, Example, ExampleName, ExampleOptions, FittedCylinder, FlatPage, FlattenPhotoOptions, PageCorners, PageReport, FoundPage, Heightfield, HeightImage, ImageSurface, InitInput, Intrinsics, LatticeSurface, Mesh, MeshAnalysis, MeshAnalyzeOptions,
   MeshPatternOptions, MeshRulingOptions, MeshRulings, MeshSolverOptions, MeshSurface, MeshUnrolling, MeshUnrollOptions, NpzArray,
   OcclusionOptions, PageEdges, PageOutlines, Painted, PaintOptions, PatchMap, PatchOptions, PatternOptions, Photo, Picture,
   PictureOptions, Progress,
@@ -195,14 +195,22 @@ export function writeDxf(drawing: Drawing): Uint8Array<ArrayBuffer>;
 /** Makes a photo of a surface flat. */
 export function dewarp(input: HeightImage | Heightfield, photo: Photo, options?: DewarpOptions): Dewarped;
 /**
- * Makes a photo of a page flat that is curled one way, or of the two pages of a spread, by the two
- * edges that are bent: without depth. Without edges, those of the one page that is found in the photo.
+ * Makes a photo of a page flat that is curled, folded or crumpled, or of the two pages of a spread, without depth: by the page's
+ * corners, or by its edges, two of which are bent or all four. Without them, by those of the one page that is found in the photo.
  */
+export function dewarpPage(photo: Picture | (Photo & { film35?: number }), options?: DewarpPageOptions): DewarpedPage;
 export function dewarpPage(
-  photo: Photo & { film35?: number }, edges?: PageEdges | readonly PageEdges[], options?: DewarpPageOptions,
+  photo: Picture | (Photo & { film35?: number }), edges?: PageEdges | readonly PageEdges[] | PageCorners | null, options?: DewarpPageOptions,
 ): DewarpedPage;
+/**
+ * Makes a photo of any resolution flat by a page that `dewarpPage` has found in the same picture: the whole photo for a file,
+ * after a reduced one for a preview. Costs little more than resampling, and differs from the preview in resolution alone.
+ */
+export function flattenPhoto(photo: Picture, page: FoundPage, options?: FlattenPhotoOptions): FlatPage;
+/** The verdict on a flat page in a sentence, from its `report`: whether it can be trusted, why not, and how large its error is. */
+export function describePage(report: PageReport): string;
 /** Finds the page in a photo: its corners and edges, which can be corrected and given to `dewarpPage`. */
-export function findPage(photo: Photo): PageOutlines;
+export function findPage(photo: Picture): PageOutlines;
 /**
  * Decodes a PNG, JPEG (the way up that its Exif data state) or WebP file as RGBA bytes; all but PNG
  * take `load('images')`.

@@ -4,17 +4,18 @@ import { DevelopableError } from './errors.js';
 import { isGltf, isImage, refuseMesh } from './formats.js';
 import { asBytes, asField, asHeights, asImage, asInput, asLattice, asPixels, carriedOf } from './input.js';
 import { files, images, meshFits, meshes, partOf, patterns, sheets, solver } from './instances.js';
-import { asFiles, asMesh, asMeshOrLattice, wholeOf } from './mesh-input.js';
+import { asFiles, asMesh, asMeshOrLattice, asPicture, wholeOf } from './mesh-input.js';
 import { optionsOf } from './options.js';
-import { asEdges, pageOptions } from './page-input.js';
+import { asEdges, asFoundPage, edgesAndOptions, pageOptions } from './page-input.js';
 import { inColour, paintOf, readPhoto } from './paint.js';
 import { makeDisposable } from './platform.js';
 import { Steps } from './steps.js';
 import { asBook, asPhoto, placeOf, placedOptions, printOptions } from './sheet-input.js';
-import { asText, isRecord, plainCopy, reading, show } from './values.js';
+import { asText, isRecord, plainCopy, reading, record, show } from './values.js';
 
 export { parseCamera } from './camera-file.js';
 export { DevelopableError } from './errors.js';
+export { describePage } from './page-words.js';
 export { readPhoto };
 
 /** @type {typeof import('./direct.js').init} */
@@ -384,16 +385,43 @@ export function dewarp(input, photo, given) {
   return { ...sheets.call((wasm) => wasm.dewarp(field, pixels, placed)), ...(unit && { unit }) };
 }
 
-/** @type {typeof import('./direct.js').dewarpPage} */
-export function dewarpPage(photo, edges, given) {
-  const { transfer, ...options } = /** @type {Handed<ReturnType<typeof pageOptions>>} */ (pageOptions(photo, given));
-  const [pixels, pages] = [asPhoto(photo), edges === undefined ? undefined : asEdges(edges)];
-  return sheets.call((wasm) => wasm.dewarpPage(pixels, pages, options));
+/**
+ * The pixels of a photo, which may be a file.
+ * @param {unknown} photo
+ * @returns {import('./sheet-input.js').Pixels & { film35?: number }}
+ */
+function photoPixels(photo) {
+  const given = asPicture(photo);
+  const { film35 } = record('INPUT', 'the photo', photo, ['film35']);
+  if (!(given instanceof Uint8Array)) return { ...given, ...(typeof film35 === 'number' && { film35 }) };
+  const { data, ...read } = readPhoto(given);
+  return { ...read, data: new Uint8Array(data.buffer, data.byteOffset, data.byteLength) };
+}
+
+/** @param {any} photo @param {any} [second] @param {any} [third] @returns {any} */
+export function dewarpPage(photo, second, third) {
+  const [edges, given] = edgesAndOptions(second, third);
+  const pages = edges === undefined ? undefined : asEdges(edges);
+  const { film35, ...pixels } = photoPixels(photo);
+  const { transfer, ...options } = /** @type {Handed<ReturnType<typeof pageOptions>>} */ (pageOptions({ film35 }, given));
+  const { dots, map, grid, light, ink, ...known } = options;
+  const page = sheets.call((wasm) => wasm.pageSurface(pixels, pages, known));
+  const image = sheets.call((wasm) => wasm.flattenPhoto(pixels, page, optionsOf('flattenPhoto', { dots, map, grid, light, ink })));
+  return { ...page, ...image };
+}
+
+/** @type {typeof import('./direct.js').flattenPhoto} */
+export function flattenPhoto(photo, page, given) {
+  const { transfer, ...options } = /** @type {Handed<typeof given>} */ (optionsOf('flattenPhoto', given));
+  const { size, unit, warp } = asFoundPage(page);
+  const pixels = photoPixels(photo);
+  const image = sheets.call((wasm) => wasm.flattenPhoto(pixels, { size, unit, warp }, options));
+  return { ...image, size, unit };
 }
 
 /** @type {typeof import('./direct.js').findPage} */
 export function findPage(photo) {
-  const pixels = asPhoto(photo);
+  const pixels = photoPixels(photo);
   return sheets.call((wasm) => wasm.findPage(pixels));
 }
 

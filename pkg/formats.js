@@ -19,8 +19,7 @@ const MAGIC = [
 export function isImage(bytes, options) {
   const { format } = Object(options);
   if (format !== undefined) return IMAGES.includes(format);
-  return isText(bytes) || MAGIC.some((magic) =>
-    [...magic].every((letter, i) => letter === '?' || bytes[i] === letter.charCodeAt(0)));
+  return isText(bytes) || MAGIC.some((magic) => beginsWith(bytes, magic));
 }
 
 /** Whether a file begins with text, as grids of numbers do. @param {Uint8Array} bytes */
@@ -28,6 +27,18 @@ function isText(bytes) {
   const head = bytes.subarray(0, 64);
   return head.length > 0 && head.every((byte) => byte === 9 || byte === 10 || byte === 13 || byte >= 32);
 }
+
+/** First bytes of the photos that the wasm of the images reads; that of the files reads all others. */
+const IMAGE_PHOTOS = ['II*\0', 'MM\0*', 'II+\0', 'MM\0+', 'RIFF????WEBP', 'GIF8', 'BM'];
+
+/**
+ * Whether the wasm of the images is to read this photo.
+ * @param {Uint8Array} bytes
+ */
+export const isImagePhoto = (bytes) => IMAGE_PHOTOS.some((magic) => beginsWith(bytes, magic));
+
+/** Whether a file begins with these letters, of which a `?` stands for any byte. @param {Uint8Array} bytes @param {string} magic */
+const beginsWith = (bytes, magic) => [...magic].every((letter, i) => letter === '?' || bytes[i] === letter.charCodeAt(0));
 
 /** How mesh files begin; for an OBJ, its first line that is no comment. */
 const MESHES = { PLY: /^ply\s/, STL: /^solid\b/, GLB: /^glTF/, glTF: /^\{/, OBJ: /^(v|vn|vt|vp|f|o|g|s|mtllib|usemtl)\s/ };

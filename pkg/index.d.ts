@@ -4,7 +4,7 @@
  */
 import type {
   Analysis, AnalyzeOptions, BookPage, Canvas, DecodedPhoto, DepthOptions, DetectedOcclusions, Dewarped, DewarpedPage, DewarpOptions,
-  DewarpPageOptions, Drawing, Example, ExampleName, ExampleOptions, FittedCylinder, Heightfield, HeightImage, ImageSurface, InitInput, Intrinsics, LatticeSurface, Mesh, MeshAnalysis, MeshAnalyzeOptions,
+  DewarpPageOptions, Drawing, Example, ExampleName, ExampleOptions, FittedCylinder, FlatPage, FlattenPhotoOptions, Drawable, PageCorners, PageReport, PhotoSource, FoundPage, Heightfield, HeightImage, ImageSurface, InitInput, Intrinsics, LatticeSurface, Mesh, MeshAnalysis, MeshAnalyzeOptions,
   MeshPatternOptions, MeshRulingOptions, MeshRulings, MeshSolverOptions, MeshSurface, MeshUnrolling, MeshUnrollOptions, NpzArray,
   ExploredPatterns, OcclusionOptions, PageEdges, PageOutlines, Painted, PaintOptions, PatchMap, PatchOptions, PatternOptions, PatternPlan, Photo, Picture,
   PictureOptions, Progress,
@@ -215,15 +215,27 @@ export function writeDxf(drawing: Drawing): Promise<Uint8Array<ArrayBuffer>>;
 /** Makes a photo of a surface flat. */
 export function dewarp(input: HeightImage | Heightfield, photo: Photo, options?: DewarpOptions & HandOver): Promise<Dewarped>;
 /**
- * Makes a photo of a page flat that is curled one way, or of the two pages of a spread, by the two
- * edges that are bent: without depth. Without edges, those of the one page that is found in the photo.
+ * Makes a photo of a page flat that is curled, folded or crumpled, or of the two pages of a spread, without depth: by the page's
+ * corners, or by its edges, two of which are bent or all four. Without them, by those of the one page that is found in the photo.
  */
+export function dewarpPage(photo: (Photo & { film35?: number }) | PhotoSource | Drawable, options?: DewarpPageOptions & HandOver): Promise<DewarpedPage>;
 export function dewarpPage(
-  photo: Photo & { film35?: number }, edges?: PageEdges | readonly PageEdges[], options?: DewarpPageOptions & HandOver,
+  photo: (Photo & { film35?: number }) | PhotoSource | Drawable, edges?: PageEdges | readonly PageEdges[] | PageCorners | null, options?: DewarpPageOptions & HandOver,
 ): Promise<DewarpedPage>;
+/**
+ * Makes a photo of any resolution flat by a page that `dewarpPage` has found in the same picture: the whole photo for a file,
+ * after a reduced one for a preview. Costs little more than resampling, and differs from the preview in resolution alone.
+ */
+export function flattenPhoto(photo: Photo | PhotoSource | Drawable, page: FoundPage, options?: FlattenPhotoOptions & HandOver): Promise<FlatPage>;
+/** The verdict on a flat page in a sentence, from its `report`: whether it can be trusted, why not, and how large its error is. */
+export function describePage(report: PageReport): string;
 /** Finds the page in a photo: its corners and edges, which can be corrected and given to `dewarpPage`. */
-export function findPage(photo: Photo): Promise<PageOutlines>;
-export function readPhoto(bytes: Uint8Array | ArrayBuffer | Blob): Promise<DecodedPhoto>;
+export function findPage(photo: Photo | PhotoSource | Drawable): Promise<PageOutlines>;
+/**
+ * Reads a photo upright, with the focal length that its Exif data state. One of more than 26 megapixels is halved until it has
+ * fewer, which `assumptions` says (code `reducedPhoto`).
+ */
+export function readPhoto(file: PhotoSource): Promise<DecodedPhoto>;
 export function writePhoto(photo: SizedPhoto, options?: WritePhotoOptions & HandOver): Promise<Uint8Array<ArrayBuffer>>;
 /** A PDF with a page for each picture, a file of JPEG or PNG that is taken over without loss. */
 export function writeBook(pages: readonly BookPage[]): Promise<Uint8Array<ArrayBuffer>>;
@@ -250,5 +262,5 @@ export class DevelopableWorker {
 
 /** The functions of this module, of one's own worker. */
 export interface DevelopableWorker extends Omit<
-  typeof import('./index.js'), 'DevelopableError' | 'DevelopableWorker' | 'dispose' | 'init' | 'parseCamera'
+  typeof import('./index.js'), 'DevelopableError' | 'DevelopableWorker' | 'describePage' | 'dispose' | 'init' | 'parseCamera'
 > {}

@@ -1,5 +1,6 @@
 /** Edges of pages as they were traced in a photo: checked as far as JS has to. */
 import { DevelopableError } from './errors.js';
+import { count, tuple, typed } from './input.js';
 import { optionsOf } from './options.js';
 import { isRecord, reading, record, refuseUnknown, show } from './values.js';
 
@@ -16,11 +17,29 @@ const SIDES = /** @type {const} */ (['top', 'bottom', 'left', 'right']);
 const [MOST, LINES] = [100_000, 500];
 
 /**
- * The edges of one page, or of the two pages of a spread.
+ * The edges and the options of a call, whose edges may be left out: an object without edges is the options.
+ * @param {any} second
+ * @param {any} third
+ * @returns {[unknown, (Options & import('./index.js').HandOver) | undefined]}
+ */
+export function edgesAndOptions(second, third) {
+  if (second === null) return [undefined, third];
+  if (third !== undefined || !isRecord(second)) return [second, third];
+  const hasEdges = reading('INPUT', 'the edges', () => [...SIDES, 'lines'].some((side) => side in second));
+  return hasEdges ? [second, third] : [undefined, second];
+}
+
+/**
+ * The edges of one page, by its four corners or traced, or of the two pages of a spread.
  * @param {unknown} given
  * @returns {EdgesInput[]}
  */
 export function asEdges(given) {
+  const corners = reading('INPUT', 'the corners', () => (Array.isArray(given) && given.length === 4 ? [...given] : undefined));
+  if (corners) {
+    const [a, b, c, d] = corners;
+    return [asPair({ top: [a, b], bottom: [d, c], left: [a, d], right: [b, c] })];
+  }
   const pages = reading('INPUT', 'the edges', () => (Array.isArray(given) ? given.slice(0, 3) : [given]));
   if (pages.length !== 1 && pages.length !== 2) {
     throw new DevelopableError('INPUT', 'the edges must be those of one page, or a list of the edges of both pages of a spread');
@@ -110,6 +129,24 @@ export function plainEdges(pages) {
     const all = { ...Object.fromEntries(own), ...(!open && { lines: traces.slice(edges).map(plain) }) };
     return /** @type {import('./types.js').PageEdges} */ (/** @type {unknown} */ (all));
   });
+}
+
+/**
+ * What is needed of a page that was found in a photo, to flatten another photo of the same picture by it.
+ * @param {unknown} given
+ * @returns {Pick<import('./types.js').FlatPage, 'size' | 'unit'> & { warp: import('./types.js').PageWarp }}
+ */
+export function asFoundPage(given) {
+  const { size, unit, warp } = record('INPUT', 'the page', given, ['size', 'unit', 'warp']);
+  if ((unit !== 'mm' && unit !== 'page') || !isRecord(warp)) {
+    throw new DevelopableError('INPUT', 'the page must be what `dewarpPage` has returned: { size, unit, warp }');
+  }
+  const { columns, rows, places } = record('INPUT', 'the warp of the page', warp, ['columns', 'rows', 'places']);
+  return {
+    size: /** @type {[number, number]} */ (tuple('size of the page', 2, size)),
+    unit,
+    warp: { columns: count('columns of the warp', columns), rows: count('rows of the warp', rows), places: typed(Float32Array, 'places of the warp', places) },
+  };
 }
 
 /**

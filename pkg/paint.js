@@ -1,6 +1,6 @@
 /** Colours at the vertices of a lattice, from the pictures that their texture coordinates are about. */
 import { DevelopableError } from './errors.js';
-import { isImage } from './formats.js';
+import { isImagePhoto } from './formats.js';
 import { asLattice } from './input.js';
 import { files, images, meshes } from './instances.js';
 import { asPicture } from './mesh-input.js';
@@ -16,7 +16,7 @@ import { extentOf, placeOf } from './sheet-input.js';
 /** @type {typeof import('./direct.js').readPhoto} */
 export function readPhoto(bytes) {
   const file = /** @type {Uint8Array} */ (asPicture(bytes));
-  return isImage(file) ? images.call((wasm) => wasm.readImagePhoto(file)) : files.call((wasm) => wasm.readPhoto(file));
+  return isImagePhoto(file) ? images.call((wasm) => wasm.readImagePhoto(file)) : files.call((wasm) => wasm.readPhoto(file));
 }
 
 /**

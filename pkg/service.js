@@ -22,7 +22,7 @@ const kept = new Map();
 
 /** @typedef {import('./direct.js').PartName} PartName */
 
-/** Where the other wasm files are, each loaded when it is needed. @type {Partial<Record<PartName, Place>>} */
+/** Where the wasm files are, each loaded when it is needed. @type {Partial<Record<import('./calls.js').Part, Place>>} */
 let places = {};
 
 /** Why solves do not run on more threads, where `init` was asked for some. @type {import('./team.js').ThreadLimit | undefined} */
@@ -41,11 +41,12 @@ export const service = {
       const ask = wrap(copies);
       takeCopiesFrom((name) => ask(name));
     }
-    places = { files, images, meshes, fitmesh, unroll, patterns };
-    const seats = helpers > 0 ? await startSharedSolver(helpers).catch(() => undefined) : undefined;
-    if (!seats) await direct.init(wasm);
-    return seats;
+    places = { solver: wasm, files, images, meshes, fitmesh, unroll, patterns };
+    return helpers > 0 ? startSharedSolver(helpers).catch(() => undefined) : undefined;
   },
+
+  /** Loads the solver, for those who want to wait for it before their first call. */
+  loadSolver: () => loaded(['solver']),
 
   countIn,
   becomeHelper,
@@ -59,7 +60,8 @@ export const service = {
    * Rejects options that no solve would take: asked before the caller's arrays are handed over.
    * @param {import('./types.js').SolverOptions} options
    */
-  check(options) {
+  async check(options) {
+    await loaded(['solver']);
     solver.call(({ checkOptions }) => checkOptions(options));
   },
 
@@ -71,7 +73,11 @@ export const service = {
    * @param {number} interval milliseconds between two pieces of news, at least
    */
   start(id, input, options, interval) {
-    jobs.set(id, new Job(() => new direct.Solver(input, options), interval));
+    const begin = async () => {
+      await loaded(['solver']);
+      return new direct.Solver(input, options);
+    };
+    jobs.set(id, new Job(begin, interval));
   },
 
   /**
@@ -94,7 +100,8 @@ export const service = {
    * @param {number} solver
    * @param {Input} input
    */
-  open(solver, input) {
+  async open(solver, input) {
+    await loaded(['solver']);
     kept.set(solver, new KeptSolver(input));
   },
 
@@ -200,8 +207,10 @@ function keptSolver(solver) {
   return found;
 }
 
-/** @param {readonly PartName[]} parts */
-const loaded = (parts) => direct.load(...parts.map((part) => ({ [part]: places[part] })));
+/** Loads wasm files that are not loaded yet. @param {readonly import('./calls.js').Part[]} parts */
+async function loaded(parts) {
+  await Promise.all(parts.map((part) => (part === 'solver' ? direct.init(places.solver) : direct.load({ [part]: places[part] }))));
+}
 
 /**
  * The buffers of a result's arrays, which go to the client: of its own properties, and of the plain objects among them.

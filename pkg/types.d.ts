@@ -660,7 +660,25 @@ export interface Photo {
   data: Uint8ClampedArray | Uint8Array;
 }
 
-/** A PNG, JPEG or WebP file, or its pixels. */
+/** What of a web page a canvas can draw: an `<img>` that is loaded, a canvas, an `ImageBitmap`, a `<video>` or a `VideoFrame`. */
+export type Drawable = Canvas
+  | { readonly naturalWidth: number; readonly naturalHeight: number }
+  | { readonly videoWidth: number; readonly videoHeight: number }
+  | { readonly displayWidth: number; readonly displayHeight: number }
+  | { readonly width: number; readonly height: number; close(): void };
+
+/**
+ * A photo's file: its bytes, a `Blob` or `File`, a `Response`, or its address. JPEG, PNG, WebP, GIF (the first picture), BMP and
+ * TIFF files are read; HEIC and AVIF files where the browser can show them, as `await createImageBitmap(file)`.
+ */
+export type PhotoSource = Uint8Array | ArrayBuffer | Blob | Response | URL | string;
+
+/** Four corners of a page in a photo's pixels: upper left, upper right, lower right, lower left, as the page is read. */
+export type PageCorners = readonly [
+  readonly [number, number], readonly [number, number], readonly [number, number], readonly [number, number],
+];
+
+/** A photo's file as bytes, or its pixels. */
 export type Picture = Uint8Array | ArrayBuffer | Photo;
 
 /** A photo that may say how large what it shows is, as flat images do. */
@@ -1056,7 +1074,7 @@ export interface WarpGrid {
 }
 
 /** A flat image, transparent where there is no sheet; `new ImageData(data, width)` shows it. */
-export interface Dewarped extends DecodedPhoto {
+export interface Dewarped extends Omit<DecodedPhoto, 'orientation' | 'film35' | 'assumptions'> {
   /** Pixels per unit of length. */
   resolution: number;
   /** That unit, where the surface's is known. */
@@ -1166,12 +1184,36 @@ export interface PageReport {
   ratio: number;
 }
 
-/** A flat page, or both of a spread beside each other. */
-export interface DewarpedPage extends Omit<Dewarped, 'verdict' | 'report' | 'unit' | 'loss' | 'overreach'> {
+/** The image of a flat page, or of both of a spread beside each other. */
+export interface FlatPage extends Omit<Dewarped, 'verdict' | 'report' | 'unit' | 'loss' | 'overreach'> {
   /** Width and height of the flat page, or of both together. */
   size: [number, number];
   /** The unit of all lengths: millimetres where a format or a ruler is given, else a page's width. */
   unit: 'mm' | 'page';
+}
+
+/** The warp map of a page by shares, which holds for any resolution of the picture and of the flat page. */
+export interface PageWarp {
+  /** Number of nodes of the grid in each row: the first at the page's left edge, the last at its right edge. */
+  columns: number;
+  /** Number of rows of the grid, from the page's upper edge to its lower one. */
+  rows: number;
+  /**
+   * Place of each node in the photo, row by row: pairs of shares of the photo's width from the left and of its height from the
+   * top. Bilinear in between; NaN where the photo cannot show the node.
+   */
+  places: Float32Array;
+}
+
+/** What `flattenPhoto` needs of a page that was found in a photo: a `DewarpedPage` has it. */
+export interface FoundPage extends Pick<FlatPage, 'size' | 'unit'> {
+  warp: PageWarp;
+}
+
+/** A flat page, or both of a spread beside each other, with the page in space and the verdict on it. */
+export interface DewarpedPage extends FlatPage {
+  /** The warp map by shares, with which `flattenPhoto` flattens the same picture at another resolution. */
+  warp: PageWarp;
   /**
    * The page in space, with texture coordinates for the photo, to be sampled (`{ view: 'best-fit' }`),
    * shown and written: x to the right, y up, the camera at the origin, looking along -z.

@@ -144,7 +144,7 @@ pub enum Error {
     #[error(
         "the camera's focal length cannot be found from these edges, for they show too little \
          perspective; give it in pixels, as Exif's focal length in 35 mm film, or as a field of \
-         view, or give the page's format"
+         view, or trace all four edges"
     )]
     FocalLength,
 
@@ -299,6 +299,30 @@ impl Error {
 /// and for its lattice, which has 2/√3 times as many vertices. The solver holds them in less than the 4 GiB that a
 /// wasm32 memory can grow to.
 pub const MAX_CELLS: usize = 5 << 22;
+
+/// Maximum number of pixels of one photo and of a flat image: 25 · 2²⁰, as cameras of 26 megapixels have. Nothing is solved at
+/// them, so that there may be more than [`MAX_CELLS`].
+pub const MAX_PHOTO_PIXELS: usize = 25 << 20;
+
+/// Checks that a photo has `4 · rows · cols` bytes and at most [`MAX_PHOTO_PIXELS`] pixels. `what` names it, `found` is the
+/// number of pixels that its bytes are.
+pub fn check_photo(what: &'static str, rows: usize, cols: usize, found: usize) -> Result<()> {
+    checked_pixels(what, rows, cols)?;
+    check_count(what, rows, cols, found)
+}
+
+/// Returns `rows · cols`, or [`Error::TooLarge`] if that exceeds [`MAX_PHOTO_PIXELS`]. `what` names the photo.
+pub(crate) fn checked_pixels(what: &'static str, rows: usize, cols: usize) -> Result<usize> {
+    let (requested, limit) = (rows.saturating_mul(cols), MAX_PHOTO_PIXELS);
+    if requested > limit {
+        return Err(Error::TooLarge {
+            what,
+            requested,
+            limit,
+        });
+    }
+    Ok(requested)
+}
 
 /// Returns `rows · cols`, or [`Error::TooLarge`] if that exceeds [`MAX_CELLS`]. `what` names the array.
 pub(crate) fn checked_cells(what: &'static str, rows: usize, cols: usize) -> Result<usize> {

@@ -6,7 +6,7 @@ import { checkPlaces, readBytes, writeWhole } from './files.js';
 import { about, tellAssumptions } from './inputs.js';
 import { Problem, status } from './problem.js';
 import { json, mapFile, mapOptions, printed } from './sheets.js';
-import { percent, say } from './terminal.js';
+import { say } from './terminal.js';
 
 /** Width and height of a PDF's pages where no size is given, in millimetres: A4. */
 const DEFAULT_PAPER = /** @type {const} */ ([210, 297]);
@@ -45,7 +45,7 @@ export async function page(task, signal) {
     } else {
       files.push({ path: task.output, bytes: await printed(task, flat) });
     }
-    for (const told of [outline && outlineWords(outline), words(report), lightWords(task, light)]) {
+    for (const told of [outline && outlineWords(outline), verdictWords(report), lightWords(task, light)]) {
       if (told !== undefined) say(`${several ? `${input}: ` : ''}${told}`);
     }
   };
@@ -81,6 +81,13 @@ function lightWords({ options }, light) {
   return 'the light was kept, since the page is not mostly paper';
 }
 
+/** The verdict, unless nothing is to be said about it. @param {import('../types.js').PageReport} report */
+function verdictWords(report) {
+  if (report.verdict === 'unrolled') return undefined;
+  const words = developable.describePage(report);
+  return report.verdict === 'flat' ? words : `warning: ${words}`;
+}
+
 /** @type {Record<import('../types.js').OutlineReason, string>} */
 const reasonWords = {
   cornerOutside: 'a corner is outside of the photo, and was extrapolated',
@@ -100,53 +107,6 @@ function outlineWords({ verdict, reasons, pages }) {
     case 'several':
       return `warning: there are ${pages.length} pages in the photo, and the clearest one was made flat: cut the photo, or choose ` +
         'with --edges one of those that --report FILE has';
-    default:
-      return undefined;
-  }
-}
-
-/** Smallest disagreement that is told as a share of the page's width, in %: less is no reason. */
-const MIN_TOLD_DISAGREEMENT = 0.005;
-
-/**
- * Why a flat page is doubtful, with the words before what it means.
- * @param {import('../types.js').PageReport} report
- * @param {string} disagreement that its edges disagree, and by how much
- */
-function doubtWords({ doubt, linesFound }, disagreement) {
-  switch (doubt) {
-    case 'hiddenPart': return 'a part of it hides another part; ';
-    case 'disagreement': return `${disagreement}; `;
-    case 'fewLines':
-      return linesFound === 0 ? 'it shows no lines of text, and its outline alone does not tell how it is bent; '
-        : `few lines of text (${linesFound}) tell how it is bent; `;
-    case 'crumpled': return 'it is crumpled; ';
-    case 'strongBend': return 'it is bent strongly; ';
-    default: return '';
-  }
-}
-
-/** @param {import('../types.js').PageReport} report */
-function words(report) {
-  const { verdict, model, error, pinholeErrorBound, disagreement, residual, lines, linesFound } = report;
-  const isSheet = model === 'sheet' || model === 'softSheet';
-  const text = lines + linesFound > 0 ? ' and lines of text' : '';
-  const likely = `${percent(error / 100, 2)} of its width (at most ${percent(pinholeErrorBound / 100, 2)} in 95 of 100 cases, if the lens does not distort)`;
-  // Where both edges agree on the whole, single points are off.
-  const off = disagreement < MIN_TOLD_DISAGREEMENT ? `by ${residual.toFixed(1)} pixels` : `by ${percent(disagreement / 100, 2)} of its width`;
-  switch (verdict) {
-    case 'flat':
-      if (model === 'plane') return 'the page lay flat: only the perspective was taken out';
-      return 'both edges are straight: only the perspective was taken out; folds that run along them do not show in them';
-    case 'unchecked':
-      return `warning: nothing checks the page's bend, for too few points were traced, or one edge looks straight ` +
-        `however the page is bent; if it is curled one way, its places are wrong by ${likely}`;
-    case 'doubtful':
-      return `warning: the flat page is doubtful: ${doubtWords(report, `its edges${text} disagree (${off})`)}its places are wrong by ${likely}`;
-    case 'notThisKind':
-      if (isSheet) return `warning: no sheet of paper has these edges (off ${off}): correct them, and give them with --edges FILE`;
-      return `warning: this is no page that is curled one way: its edges${text} disagree (${off}); ` +
-        'it is folded or crumpled, for which depth is needed, or an edge is traced wrongly';
     default:
       return undefined;
   }

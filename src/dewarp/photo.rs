@@ -1,6 +1,6 @@
 //! Photos as RGBA bytes, and their resampling.
 
-use crate::error::{Error, Result, check_shape};
+use crate::error::{Error, Result, checked_pixels};
 
 /// A photo: RGBA bytes, row by row, top row first.
 #[derive(Debug, Clone, Copy)]
@@ -37,7 +37,7 @@ impl<'a> Photo<'a> {
                 found: rgba.len(),
             });
         }
-        check_shape("photo", height, width, rgba.len() / 4)?;
+        checked_pixels("photo", height, width)?;
         Ok(Photo {
             width,
             height,

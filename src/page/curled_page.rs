@@ -5,7 +5,7 @@ use super::cylinder::Cylinder;
 use super::edges::{Edges, Trace};
 use super::error_estimate::estimate_error;
 use super::known_sizes::{focal_length, sides};
-use super::options::{Format, PageOptions};
+use super::options::{FocalLength, Format, PageOptions};
 use super::prior::Prior;
 use super::read_traces::read_traces;
 use super::report::{PageReport, report};
@@ -63,6 +63,14 @@ const PRINCIPAL_POINT_DEVIATION: f64 = 0.004;
 
 /// Maximum absolute coordinate of a principal point, in diagonals of the photo.
 pub(in crate::page) const MAX_CENTRE_DIAGONALS: f64 = 10.0;
+
+/// Field of view along the photo's longer side that a page seen straight on is given, in degrees: that of a phone's main
+/// camera.
+const USUAL_FIELD_OF_VIEW_DEGREES: f64 = 65.0;
+
+/// Maximum distance of a page's edges from those of a rectangle that faces the camera, in standard deviations of a traced
+/// point.
+const MAX_FRONTAL_DEVIATIONS: f64 = 3.0;
 
 /// Initial focal lengths of the search where none is given, as multiples of the photo's longer side.
 const INITIAL_FOCAL_RATIOS: [f64; 5] = [0.5, 0.75, 1.1, 2.0, 5.0];
@@ -149,6 +157,11 @@ impl CurledPage {
         let (all, sideways) = read_traces(edges, text, photo)?;
         let traces = Traces::new(&all, sideways)?;
         let pages: Vec<[TracedLine; 2]> = all.into_iter().map(|page| page.pair).collect();
+        if focal.is_none() && is_frontal_rectangle(&pages, accuracy) {
+            // Its flat page is the same by any focal length.
+            let usual = FocalLength::FieldOfView(USUAL_FIELD_OF_VIEW_DEGREES);
+            return Self::solved(edges, text, photo, &options.focal_length(usual));
+        }
         let mut prior = Prior {
             focal: focal.map(|[value, deviation]| [value.ln(), deviation]),
             ratio: None,
@@ -296,6 +309,33 @@ impl CurledPage {
         }
         Ok(())
     }
+}
+
+/// Whether the edges of a page are those of a rectangle that faces the camera: straight, at right angles and of equal lengths
+/// on opposite sides, up to a few standard deviations `accuracy` of a traced point.
+fn is_frontal_rectangle(pages: &[[TracedLine; 2]], accuracy: f64) -> bool {
+    let [[first, second]] = pages else {
+        return false;
+    };
+    let tolerance = MAX_FRONTAL_DEVIATIONS * accuracy;
+    let is_straight = |line: &TracedLine| {
+        let [from, to] = line.ends();
+        let (chord, normal) = (line.chord(), [from[1] - to[1], to[0] - from[0]]);
+        (line.points.iter()).all(|p| {
+            let off = (p[0] - from[0]) * normal[0] + (p[1] - from[1]) * normal[1];
+            off.abs() <= tolerance * chord
+        })
+    };
+    let ([a, b], [d, c]) = (first.ends(), second.ends());
+    let side = |p: [f64; 2], q: [f64; 2]| [q[0] - p[0], q[1] - p[1]];
+    let (across, down) = (side(a, b), side(a, d));
+    let slip = [0, 1].map(|k| c[k] - d[k] - across[k]);
+    let skew = across[0] * down[0] + across[1] * down[1];
+    let shorter = across[0].hypot(across[1]).min(down[0].hypot(down[1]));
+    is_straight(first)
+        && is_straight(second)
+        && slip[0].hypot(slip[1]) <= tolerance
+        && skew.abs() <= tolerance * shorter
 }
 
 /// The error for edges that no curled page explains.

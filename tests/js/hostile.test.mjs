@@ -91,6 +91,8 @@ const calls = {
   writeDxf: { args: { drawing } },
   dewarp: { args: { input: bent, photo }, options: 'dewarp' },
   dewarpPage: { args: { photo: pagePhoto, edges }, options: 'dewarpPage' },
+  flattenPhoto: { args: { photo: pagePhoto, page: direct.dewarpPage(pagePhoto, /** @type {any} */ (edges)) }, options: 'flattenPhoto' },
+  describePage: { args: { report: direct.dewarpPage(pagePhoto, /** @type {any} */ (edges)).report } },
   findPage: { args: { photo: pagePhoto } },
   readPhoto: { args: { bytes: direct.writePhoto(photo) } },
   writePhoto: { args: { photo } },

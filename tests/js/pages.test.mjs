@@ -1,6 +1,7 @@
 /** Photos of curled pages made flat by their edges; directly, in a worker and by the command. */
 import assert from 'node:assert/strict';
 import { readFile, writeFile } from 'node:fs/promises';
+import { createServer } from 'node:http';
 import { join } from 'node:path';
 import { after, test } from 'node:test';
 import * as developable from '../../pkg/index.js';
@@ -239,6 +240,51 @@ test('lines of text are found where the photo shows print', async () => {
   assert.throws(() => direct.dewarpPage(page, edges, /** @type {any} */ ({ findLines: 'yes' })), error('OPTION', /findLines/));
 });
 
+/** A photo with each pixel repeated. @param {typeof photo} photo @param {number} times */
+function enlarged({ width, height, data }, times) {
+  const [from, to] = [new Uint32Array(data.buffer), new Uint32Array(width * height * times * times)];
+  for (let i = 0; i < to.length; i += 1) {
+    const [x, y] = [i % (width * times), Math.floor(i / (width * times))].map((at) => Math.floor(at / times));
+    to[i] = from[y * width + x];
+  }
+  return { width: width * times, height: height * times, data: new Uint8ClampedArray(to.buffer) };
+}
+
+test('a page is found at one resolution, and flattened at any', async () => {
+  // 6 times 640 pixels are more than those in which pages are found, 3 times are half of that.
+  const [small, large] = [3, 6].map((times) => enlarged(photo, times));
+  /** @param {number} times @returns {[import('../../pkg/types.js').PageEdges, { focalLength: number }]} */
+  const known = (times) => {
+    const at = (/** @type {[number, number][]} */ line) => line.map((point) => point.map((v) => times * (v + 0.5) - 0.5));
+    return [/** @type {any} */ ({ top: at(edges.top), bottom: at(edges.bottom) }), { focalLength: times * focal }];
+  };
+  const image = /** @type {const} */ ({ page: 'a4', light: 'keep' });
+  const [byEdges, focalSmall] = known(3);
+  const preview = direct.dewarpPage(small, byEdges, { ...focalSmall, ...image, dots: 1 });
+  const [largeEdges, focalLarge] = known(6);
+  const whole = direct.dewarpPage(large, largeEdges, { ...focalLarge, ...image, dots: 1 });
+  assert.deepEqual([whole.warp.columns, whole.warp.rows], [preview.warp.columns, preview.warp.rows]);
+  assert.ok(whole.warp.places.every((place, i) => Math.abs(place - preview.warp.places[i]) < 1e-6));
+  const close = (/** @type {number} */ a, /** @type {number} */ b) => assert.ok(Math.abs(a / b - 1) < 1e-9, `${a} for ${b}`);
+  close(whole.report.focalLength, 2 * preview.report.focalLength);
+  close(whole.report.residual, 2 * preview.report.residual);
+  close(whole.report.error, preview.report.error);
+
+  // The file of the whole photo by the preview's page: the same places, to a tenth of a pixel of the photo.
+  const file = direct.flattenPhoto(large, preview, { light: 'keep', dots: 1 });
+  assert.deepEqual([file.width, file.height, file.size, file.unit], [210, 297, preview.size, 'mm']);
+  assert.ok(file.map.every((at, i) => Math.abs(at - 2 * (preview.map[i] + 0.5) + 0.5) < 0.1));
+  assert.ok(file.data.every((value, i) => Math.abs(value - preview.data[i]) <= 2));
+  const fine = direct.flattenPhoto(large, preview, { light: 'keep' });
+  assert.ok(fine.width > 1000 && fine.resolution > 5, String(fine.width));
+  // As a program keeps the page: by its size and warp alone.
+  const { size, unit, warp } = structuredClone(preview);
+  assert.deepEqual(await developable.flattenPhoto(large, { size, unit, warp }, { light: 'keep' }), fine);
+  assert.throws(() => direct.flattenPhoto(large, /** @type {any} */ ({ size })), error('INPUT', /dewarpPage/));
+  assert.throws(() => direct.flattenPhoto(large, { size, unit, warp: { ...warp, rows: 3 } }), error('SHAPE', /warp/));
+  assert.throws(() => direct.flattenPhoto(large, preview, /** @type {any} */ ({ page: 'a4' })), error('OPTION', /page/));
+});
+
 test('lines of text, and all four edges', async () => {
   /** @param {number} t @param {number} [bent] down the page, by its middle */
   const line = (t, bent = 0) => Array.from({ length: 12 }, (_, i) => {
@@ -297,6 +343,45 @@ const sheet = {
     return i % 4 === 3 ? 255 : onPage ? (onText ? 60 : 230) : 70;
   }),
 };
+
+test('photos come as files, corners as points, and options without edges', async () => {
+  const known = /** @type {const} */ ({ focalLength: 700, page: 'a4', dots: 1 });
+  const flat = direct.dewarpPage(sheet, undefined, known);
+  assert.deepEqual(direct.dewarpPage(sheet, known), flat);
+  assert.deepEqual(direct.dewarpPage(sheet, null, known), flat);
+  assert.throws(() => direct.dewarpPage(sheet, /** @type {any} */ ({ pages: 'a4' })), error('OPTION', /pages.*page/));
+
+  const corners = /** @type {const} */ ([[99.5, 79.5], [499.5, 79.5], [499.5, 645.5], [99.5, 645.5]]);
+  const [a, b, c, d] = corners;
+  const byCorners = direct.dewarpPage(sheet, corners, known);
+  assert.deepEqual(byCorners, direct.dewarpPage(sheet, { top: [a, b], bottom: [d, c], left: [a, d], right: [b, c] }, known));
+  assert.deepEqual(await developable.dewarpPage(sheet, corners, known), byCorners);
+
+  const png = direct.writePhoto(sheet);
+  const server = createServer((_, response) => response.end(png));
+  await new Promise((listening) => server.listen(0, '127.0.0.1', () => listening(undefined)));
+  const { port } = /** @type {import('node:net').AddressInfo} */ (server.address());
+  const address = `http://127.0.0.1:${port}/`;
+  try {
+    for (const source of [png, new Uint8Array(png).buffer, new Blob([png]), new File([png], 'a.png'), new Response(png), address, new URL(address)]) {
+      assert.deepEqual(await developable.dewarpPage(source, known), flat, String(source));
+      // A response can be read once.
+      assert.deepEqual(await developable.readPhoto(source instanceof Response ? new Response(png) : source), direct.readPhoto(png));
+    }
+    assert.deepEqual(await developable.findPage(new Blob([png])), direct.findPage(sheet));
+    assert.deepEqual(direct.dewarpPage(png, known), flat);
+  } finally {
+    server.close();
+  }
+  await assert.rejects(developable.readPhoto(new Response('', { status: 404 })), error('INPUT', /404/));
+
+  // A rectangle seen straight on is flat whatever the focal length is.
+  const level = (/** @type {number} */ y) => Array.from({ length: 12 }, (_, i) => /** @type {[number, number]} */ ([99.5 + (400 * i) / 11, y]));
+  const edgesOnly = direct.dewarpPage(sheet, { top: level(79.5), bottom: level(645.5) }, { page: 'a4' });
+  assert.equal(edgesOnly.verdict, 'flat');
+  assert.match(developable.describePage(edgesOnly.report), /only the perspective/);
+  assert.match(direct.describePage({ ...flat.report, verdict: 'doubtful', doubt: 'crumpled', error: 1.234 }), /doubtful: it is crumpled.*1\.2 %/);
+});
 
 test('the page in a photo is found, and made flat without edges', async () => {
   const found = direct.findPage(sheet);

@@ -507,3 +507,90 @@ fn heights_beyond_32_bits_are_refused() {
         assert!(error.to_string().contains("column 1"), "{error}");
     }
 }
+
+/// Red on the left, green in the middle, white above blue on the right: `tests/data/make-photos.py`.
+#[test]
+fn photos_of_other_kinds_have_their_colours() {
+    let [red, green, blue, white] = [[220, 30, 30], [30, 200, 40], [40, 50, 210], [250; 3]];
+    for name in ["photo.bmp", "photo.gif", "photo-lzw.tif", "photo-cmyk.jpg"] {
+        let photo = decode_photo(&file(name)).unwrap_or_else(|e| panic!("{name}: {e}"));
+        assert_eq!((photo.width, photo.height), (24, 16), "{name}");
+        for ([x, y], colour) in [
+            ([3, 3], red),
+            ([12, 9], green),
+            ([20, 12], blue),
+            ([20, 3], white),
+        ] {
+            let [r, g, b, a] = photo.rgba.as_chunks::<4>().0[24 * y + x];
+            let off = [r, g, b]
+                .iter()
+                .zip(colour)
+                .map(|(a, b)| a.abs_diff(b))
+                .max();
+            assert!(
+                off < Some(12) && a == 255,
+                "{name} at {x}, {y}: {r} {g} {b} {a}"
+            );
+        }
+    }
+    let bits = decode_photo(&file("photo-bits.tif")).unwrap();
+    assert!(bits.rgba.iter().all(|value| *value == 255));
+}
+
+#[test]
+fn exif_data_of_png_and_webp_turn_the_photo_and_tell_the_focal_length() {
+    for name in ["photo-exif6.png", "photo-exif6.webp"] {
+        let photo = decode_photo(&file(name)).unwrap_or_else(|e| panic!("{name}: {e}"));
+        assert_eq!((photo.width, photo.height), (16, 24), "{name}");
+        assert_eq!((photo.orientation, photo.film35), (6, Some(26.0)), "{name}");
+        // Turned by 90° clockwise: what was on the left is above.
+        assert_eq!(photo.rgba[..4], [220, 30, 30, 255], "{name}");
+    }
+}
+
+#[test]
+fn a_photo_with_too_many_pixels_is_reduced_and_says_so() {
+    let photo = decode_photo(&file("photo-33mp.png")).unwrap();
+    assert_eq!((photo.width, photo.height), (4096, 2048));
+    let line = &photo.rgba[..4 * 4096];
+    assert_eq!(
+        (line[0], line[4 * 2047], line[4 * 2048], line[4 * 4095]),
+        (0, 0, 255, 255)
+    );
+    let [assumed] = &photo.assumptions[..] else {
+        panic!("{:?}", photo.assumptions)
+    };
+    assert_eq!(assumed.code, "reducedPhoto");
+    assert!(
+        assumed
+            .words
+            .contains("4096 × 2048 of the photo's 8192 × 4096")
+    );
+    assert!(
+        decode_photo(&file("photo.bmp"))
+            .unwrap()
+            .assumptions
+            .is_empty()
+    );
+}
+
+#[test]
+fn photos_that_are_not_read_are_named_with_what_to_do() {
+    let message = |bytes: &[u8]| decode_photo(bytes).unwrap_err().to_string();
+    for (bytes, name, advice) in [
+        (&b"\0\0\0\x18ftypheic\0\0\0\0"[..], "HEIC", "as JPEG"),
+        (b"\0\0\0\x1cftypavif\0\0\0\0", "AVIF", "as JPEG"),
+        (b"%PDF-1.7\n", "PDF", "pdftoppm"),
+        (
+            b"\x93NUMPY\x01\0",
+            "this file",
+            "JPEG, PNG, WebP, GIF, BMP and TIFF",
+        ),
+    ] {
+        let message = message(bytes);
+        assert!(
+            message.starts_with(name) && message.contains(advice),
+            "{message}"
+        );
+    }
+}

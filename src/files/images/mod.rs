@@ -1,8 +1,8 @@
 //! Height images and photos from and to files held in memory.
 //!
-//! Reads PNG and NPY ([`decode`]) and photos ([`decode_photo`]); writes NPY,
+//! Reads PNG and NPY ([`decode`]) and photos as PNG and JPEG ([`decode_photo`]); writes NPY,
 //! 16-bit PNG, and photos as PNG, JPEG and PDF. With the cargo feature `images` also reads TIFF,
-//! EXR, PFM, NPZ, JPEG and WebP (these two as photos, too), and writes TIFF and EXR. Nothing here touches a
+//! EXR, PFM, NPZ, JPEG and WebP, photos as WebP, GIF, BMP and TIFF, too, and writes TIFF and EXR. Nothing here touches a
 //! file system, so that all of it works in a browser too.
 //!
 //! Damaged files are errors, never panics, and no more memory is asked for than
@@ -12,10 +12,13 @@
 mod decoded;
 #[cfg(feature = "images")]
 pub mod extended;
+mod failure;
 mod format;
 mod georeference;
+mod jpeg;
 mod no_data;
 mod npy;
+mod orientation;
 mod photo;
 mod photo_pdf;
 mod picture_data;
@@ -32,7 +35,7 @@ pub use extended::{NpzArray, decode_npz, npz_arrays, write_exr, write_tiff};
 pub use format::{FORMAT_NAMES, Format, announced};
 pub use georeference::Georeference;
 pub use npy::write_npy;
-pub use photo::{PhotoFile, decode_photo_basic};
+pub use photo::{PhotoFile, decode_photo, decode_photo_basic};
 pub use photo_pdf::{BookPage, write_book, write_photo_pdf};
 pub use png::write_png;
 pub use print::{PhotoOptions, PhotoRows, write_photo, write_photo_jpeg};
@@ -90,21 +93,6 @@ pub fn decode_basic(bytes: &[u8], format: Format) -> Result<Decoded> {
             format: other.title(),
             reason: "only PNG and NPY are read here; the cargo feature `images` adds it".into(),
         }),
-    }
-}
-
-/// Decodes a PNG file of any kind to RGBA bytes, 16 bits cut to 8; with the cargo feature `images`
-/// also JPEG (the way up that its Exif data state) and WebP files.
-///
-/// # Errors
-/// [`Error::Unsupported`] for other files,
-/// [`Error::Format`], [`Error::TooLarge`],
-/// [`Error::OutOfMemory`].
-pub fn decode_photo(bytes: &[u8]) -> Result<PhotoFile> {
-    match announced(bytes, None)? {
-        #[cfg(feature = "images")]
-        other if other != Format::Png => extended::decode_photo(bytes, other),
-        format => decode_photo_basic(bytes, format),
     }
 }
 

@@ -42,27 +42,8 @@ pub(super) struct Pixels<'a> {
 
 impl<'a> Pixels<'a> {
     pub(super) fn decode(bytes: &'a [u8], transformations: Transformations) -> Result<Self> {
-        let limits = Limits {
-            bytes: MAX_DECODER_BYTES,
-        };
-        let mut decoder = Decoder::new_with_limits(Cursor::new(bytes), limits);
-        decoder.set_transformations(transformations);
-        decoder.set_ignore_iccp_chunk(true);
-
-        let info = decoder.read_header_info().map_err(damaged)?;
-        let (width, height) = (info.width as usize, info.height as usize);
+        let (mut reader, [width, height]) = open(bytes, transformations)?;
         checked_cells("PNG image", height, width)?;
-        if info.raw_bytes() / DEFLATE_RATIO > bytes.len() {
-            return Err(Error::Format {
-                format: "PNG",
-                reason: format!(
-                    "{} bytes cannot hold {width} × {height} pixels",
-                    bytes.len()
-                ),
-            });
-        }
-
-        let mut reader = decoder.read_info().map_err(damaged)?;
         let size = reader
             .output_buffer_size()
             .ok_or_else(|| damaged(DecodingError::LimitsExceeded))?;
@@ -77,6 +58,31 @@ impl<'a> Pixels<'a> {
             height,
         })
     }
+}
+
+/// Opens a PNG file; returns the reader of its pixels, and their width and height.
+pub(super) fn open(
+    bytes: &[u8],
+    transformations: Transformations,
+) -> Result<(Reader<Cursor<&[u8]>>, [usize; 2])> {
+    let limits = Limits {
+        bytes: MAX_DECODER_BYTES,
+    };
+    let mut decoder = Decoder::new_with_limits(Cursor::new(bytes), limits);
+    decoder.set_transformations(transformations);
+    decoder.set_ignore_iccp_chunk(true);
+    let info = decoder.read_header_info().map_err(damaged)?;
+    let (width, height) = (info.width as usize, info.height as usize);
+    if info.raw_bytes() / DEFLATE_RATIO > bytes.len() {
+        return Err(Error::Format {
+            format: "PNG",
+            reason: format!(
+                "{} bytes cannot hold {width} × {height} pixels",
+                bytes.len()
+            ),
+        });
+    }
+    Ok((decoder.read_info().map_err(damaged)?, [width, height]))
 }
 
 pub(super) fn decode(bytes: &[u8]) -> Result<Decoded> {
@@ -185,7 +191,7 @@ impl RecordedMetadata {
     }
 }
 
-fn damaged(error: DecodingError) -> Error {
+pub(super) fn damaged(error: DecodingError) -> Error {
     Error::Format {
         format: "PNG",
         reason: error.to_string(),

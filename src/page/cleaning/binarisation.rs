@@ -1,6 +1,6 @@
 //! Binarisation of flat pages: black ink on white paper.
 
-use crate::error::{Result, check_shape, try_filled};
+use crate::error::{Result, check_photo, try_filled};
 
 /// Radius of the window that a pixel is compared with, as a share of the page's longer side: the window is 7 mm on A4.
 const WINDOW_RADIUS_SHARE: f64 = 0.012;
@@ -34,7 +34,7 @@ const MIN_PAPER_LUMINANCE: u8 = 235;
 /// [`Error::Shape`](crate::Error::Shape) for a wrong number of pixels,
 /// [`Error::OutOfMemory`](crate::Error::OutOfMemory).
 pub fn binarise(width: usize, height: usize, luminance: &mut [u8], even: bool) -> Result<()> {
-    check_shape("flat page", height, width, luminance.len())?;
+    check_photo("flat page", height, width, luminance.len())?;
     if luminance.is_empty() {
         return Ok(());
     }

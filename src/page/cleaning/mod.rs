@@ -11,7 +11,7 @@ mod paper;
 pub use binarisation::binarise;
 pub use page_light::{LightEstimator, PageLight};
 
-use crate::error::{Result, check_shape, try_filled};
+use crate::error::{Result, check_photo, try_filled};
 
 /// What happens to the light on a flat page.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -65,7 +65,7 @@ pub fn clean(
     rgba: &mut [u8],
     options: &CleaningOptions,
 ) -> Result<Light> {
-    check_shape("flat page", height, width, rgba.len() / 4)?;
+    check_photo("flat page", height, width, rgba.len() / 4)?;
     if !options.needs_light() {
         return Ok(Light::Keep);
     }

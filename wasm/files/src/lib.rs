@@ -6,7 +6,7 @@ use serde_wasm_bindgen::{from_value, preserve};
 use wasm_bindgen::prelude::*;
 
 use developable::Error;
-use developable::checks::{check_count, check_shape};
+use developable::checks::{check_count, check_photo};
 use developable::dewarp::{self, Extent};
 use developable::files::images::{
     BookPage, PhotoOptions, PhotoRows, announced, decode_basic, decode_photo_basic, write_book,
@@ -78,11 +78,11 @@ pub fn write_mtl_file(picture: &str) -> Result<Uint8Array> {
     Ok(write_mtl(picture)?.as_slice().into())
 }
 
-/// Decodes a PNG file to a photo; returns JavaScript's `Photo` object.
+/// Decodes a PNG or JPEG file to a photo; returns JavaScript's `Photo` object.
 #[wasm_bindgen(js_name = readPhoto)]
 pub fn read_photo(bytes: &Uint8Array) -> Result<JsValue> {
     let file = copied(bytes)?;
-    photo_output(&decode_photo_basic(&file, announced(&file, None)?)?)
+    photo_output(&decode_photo_basic(&file)?)
 }
 
 /// Computes texture coordinates of a lattice's vertices in a photo that shows a rectangle of the plane: `extent` has
@@ -165,7 +165,7 @@ pub fn write_photo_file(
         }
     }
     // Checks that the photo has the right number of bytes, and at least one.
-    check_shape("photo", height, width, rgba.length() as usize / 4)?;
+    check_photo("photo", height, width, rgba.length() as usize / 4)?;
     if width == 0 || height == 0 {
         return Err(Error::Empty { what: "photo" }.into());
     }

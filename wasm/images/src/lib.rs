@@ -6,7 +6,7 @@ use serde_wasm_bindgen::{from_value, to_value};
 use wasm_bindgen::prelude::*;
 
 use developable::files::images::{
-    Format, announced, decode_npz, extended, npz_arrays, write_exr, write_tiff,
+    Format, announced, decode_npz, decode_photo, extended, npz_arrays, write_exr, write_tiff,
 };
 use developable_wasm::Result;
 use developable_wasm::bytes::copied;
@@ -27,11 +27,11 @@ pub fn read_image(bytes: &Uint8Array, options: JsValue) -> Result<JsValue> {
     }
 }
 
-/// Decodes a JPEG or WebP file to a photo; returns JavaScript's `Photo` object.
+/// Decodes a WebP, GIF, BMP or TIFF file to a photo; returns JavaScript's `Photo` object.
 #[wasm_bindgen(js_name = readImagePhoto)]
 pub fn read_image_photo(bytes: &Uint8Array) -> Result<JsValue> {
     let file = copied(bytes)?;
-    photo_output(&extended::decode_photo(&file, announced(&file, None)?)?)
+    photo_output(&decode_photo(&file)?)
 }
 
 /// Name, shape and type of an array in an NPZ file, written as JavaScript's `NpzArray` object.

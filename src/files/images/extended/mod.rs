@@ -1,19 +1,17 @@
 //! Decoders of height and depth images other than PNG and NPY.
 
 mod exr;
-mod jpeg;
 mod npz;
 mod pfm;
-mod samples;
+pub(super) mod samples;
 mod text_grid;
 mod tiff;
-mod tiff_tags;
-mod webp;
+pub(super) mod tiff_tags;
+pub(super) mod webp;
 
-use self::samples::unsupported;
 use super::decoded::Decoded;
 use super::format::Format;
-use super::photo::PhotoFile;
+use super::jpeg;
 use crate::error::{Error, Result};
 
 pub use exr::write_exr;
@@ -37,20 +35,5 @@ pub fn decode(bytes: &[u8], format: Format) -> Result<Decoded> {
             format: format.title(),
             reason: "it is decoded elsewhere".into(),
         }),
-    }
-}
-
-/// Decodes a JPEG or WebP photo to RGBA bytes.
-///
-/// # Errors
-/// As [`decode_photo`](super::decode_photo); [`Error::Unsupported`] for all others.
-pub fn decode_photo(bytes: &[u8], format: Format) -> Result<PhotoFile> {
-    match format {
-        Format::Jpeg => jpeg::decode_photo(bytes),
-        Format::WebP => webp::decode_photo(bytes),
-        other => Err(unsupported(
-            other,
-            "photos are read from PNG, JPEG and WebP files",
-        )),
     }
 }

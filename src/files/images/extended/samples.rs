@@ -2,21 +2,10 @@
 
 use crate::error::{Error, Result, try_filled};
 use crate::files::images::decoded::{Decoded, assumed_levels, coloured, suggested_scale};
+pub(super) use crate::files::images::failure::{check_length, damaged, unsupported};
 use crate::files::images::format::Format;
 use crate::heights::heightfield::HeightImage;
 use crate::math::lanes;
-
-/// Converts 8-bit samples (grey or colours, with or without alpha) to the red, green, blue and alpha of each pixel.
-pub(super) fn rgba_of(format: Format, samples: &[u8], stride: usize) -> Result<Vec<[u8; 4]>> {
-    let mut rgba = try_filled(format.title(), samples.len() / stride, [u8::MAX; 4])?;
-    for (out, pixel) in rgba.iter_mut().zip(samples.chunks_exact(stride)) {
-        match pixel {
-            [grey] => out[..3].fill(*grey),
-            other => out[..stride].copy_from_slice(other),
-        }
-    }
-    Ok(rgba)
-}
 
 /// Layout of a pixel's samples: the first `colours` samples are one of grey or three of colour; `alpha` is the index of
 /// the alpha sample.
@@ -48,18 +37,6 @@ pub(super) fn grey(
     Ok(values)
 }
 
-/// Checks that decoded data of a given number of bytes can come from a file of a given length, if the compression
-/// shrinks data by a factor of at most `ratio`.
-pub(super) fn check_length(format: Format, file: &[u8], needed: usize, ratio: usize) -> Result<()> {
-    if needed / ratio <= file.len() {
-        return Ok(());
-    }
-    Err(damaged(
-        format,
-        format!("{} bytes cannot hold that many pixels", file.len()),
-    ))
-}
-
 /// Computes the difference between the largest and the smallest value of an integer type, given by its name; `None`
 /// for floats.
 fn integer_range(data_type: &str) -> Option<f64> {
@@ -79,7 +56,7 @@ pub(super) fn default_scale(
 }
 
 /// Converts 8-bit samples, with `colours` colour samples and perhaps one of alpha per pixel, to a decoded grey image.
-pub(super) fn picture(
+pub(in crate::files::images) fn picture(
     format: Format,
     size: (usize, usize),
     samples: &[u8],
@@ -131,18 +108,4 @@ pub(super) fn room(what: &'static str, bytes: usize) -> Result<Vec<u8>> {
     file.try_reserve_exact(bytes)
         .map_err(|_| Error::OutOfMemory { what, bytes })?;
     Ok(file)
-}
-
-pub(super) fn damaged(format: Format, reason: impl ToString) -> Error {
-    Error::Format {
-        format: format.title(),
-        reason: reason.to_string(),
-    }
-}
-
-pub(super) fn unsupported(format: Format, reason: impl ToString) -> Error {
-    Error::Unsupported {
-        format: format.title(),
-        reason: reason.to_string(),
-    }
 }

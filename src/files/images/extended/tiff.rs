@@ -11,12 +11,13 @@ use ::tiff::{ColorType, TiffError};
 use super::samples::{
     Channels, check_length, damaged, default_scale, grey, narrowed, room, unsupported,
 };
-use super::tiff_tags::{self, File, failed, oriented};
+use super::tiff_tags::{self, File, failed};
 use crate::error::{Error, Result, checked_cells, try_filled};
 use crate::files::Assumption;
 use crate::files::images::decoded::{Decoded, assumed_levels};
 use crate::files::images::format::Format;
 use crate::files::images::georeference::Georeference;
+use crate::files::images::orientation::oriented;
 use crate::files::images::square_pixels::{NEGLIGIBLE_SIDE_DIFFERENCE, square_pixels};
 use crate::heights::heightfield::HeightImage;
 

@@ -8,7 +8,7 @@ use ::tiff::tags::Tag;
 use ::tiff::{TiffError, TiffUnsupportedError};
 
 use super::samples::{damaged, unsupported};
-use crate::error::{Error, Result, try_filled};
+use crate::error::{Error, Result};
 use crate::files::Assumption;
 use crate::files::images::decoded::Unit;
 use crate::files::images::format::Format;
@@ -295,43 +295,7 @@ fn unsigned(file: &mut File, tag: Tag) -> Result<Option<u16>> {
     file.find_tag_unsigned(tag).map_err(failed)
 }
 
-/// Rotates or mirrors an image's values by its orientation number, so that the image is upright, and returns them with
-/// the new width and height.
-pub(super) fn oriented<T: Copy + Default>(
-    values: Vec<T>,
-    (width, height): (usize, usize),
-    orientation: u16,
-) -> Result<(Vec<T>, (usize, usize))> {
-    if orientation == 1 {
-        return Ok((values, (width, height)));
-    }
-    // In orientations from 5 on, stored rows are displayed as columns.
-    let turned = orientation >= 5;
-    let (cols, rows) = if turned {
-        (height, width)
-    } else {
-        (width, height)
-    };
-    let mut seen = try_filled("turned image", values.len(), T::default())?;
-    for (i, out) in seen.iter_mut().enumerate() {
-        let (row, col) = (i / cols, i % cols);
-        let (x, y) = (col, row);
-        let (across, down) = (cols - 1 - col, rows - 1 - row);
-        let (from_row, from_col) = match orientation {
-            2 => (y, across),
-            3 => (down, across),
-            4 => (down, x),
-            5 => (x, y),
-            6 => (across, y),
-            7 => (across, down),
-            _ => (x, down),
-        };
-        *out = values[from_row * width + from_col];
-    }
-    Ok((seen, (cols, rows)))
-}
-
-pub(super) fn failed(error: TiffError) -> Error {
+pub(in crate::files::images) fn failed(error: TiffError) -> Error {
     match error {
         TiffError::UnsupportedError(TiffUnsupportedError::UnsupportedCompressionMethod(method)) => {
             unsupported(

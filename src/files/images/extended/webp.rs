@@ -4,30 +4,35 @@ use std::io::Cursor;
 
 use image_webp::{DecodingError, WebPDecoder};
 
-use super::samples::{damaged, picture, rgba_of, unsupported};
+use super::samples::{damaged, picture, unsupported};
 use crate::error::{Result, checked_cells, try_filled};
 use crate::files::images::decoded::Decoded;
 use crate::files::images::format::Format;
-use crate::files::images::photo::PhotoFile;
+use crate::files::images::photo::{PhotoFile, PhotoPixels, PhotoTags};
 
 /// Maximum memory that the WebP decoder may allocate for metadata, in bytes.
 const MAX_DECODER_BYTES: usize = 1 << 24;
 
 pub(super) fn decode(bytes: &[u8]) -> Result<Decoded> {
-    let (samples, stride, size) = pixels(bytes)?;
+    let mut decoder = open(bytes)?;
+    let (width, height) = decoder.dimensions();
+    let size = (width as usize, height as usize);
+    checked_cells("WebP image", size.1, size.0)?;
+    let (samples, stride) = samples(&mut decoder)?;
     picture(Format::WebP, size, &samples, stride)
 }
 
-pub(super) fn decode_photo(bytes: &[u8]) -> Result<PhotoFile> {
-    let (samples, stride, size) = pixels(bytes)?;
-    Ok(PhotoFile::new(
-        size,
-        rgba_of(Format::WebP, &samples, stride)?,
-    ))
+pub(in crate::files::images) fn decode_photo(bytes: &[u8]) -> Result<PhotoFile> {
+    let mut decoder = open(bytes)?;
+    let (width, height) = decoder.dimensions();
+    let mut pixels = PhotoPixels::new([width as usize, height as usize])?;
+    // Damaged metadata need not mean a damaged picture.
+    let exif = decoder.exif_metadata().ok().flatten();
+    pixels.push_rows(&samples(&mut decoder)?.0);
+    pixels.finish(&PhotoTags::read(exif.as_deref()))
 }
 
-/// Decodes a WebP file: returns its samples, the number of samples per pixel, and width and height in pixels.
-fn pixels(bytes: &[u8]) -> Result<(Vec<u8>, usize, (usize, usize))> {
+fn open(bytes: &[u8]) -> Result<WebPDecoder<Cursor<&[u8]>>> {
     // The decoder fills in missing data at the end; the header has the length.
     let length = bytes.get(4..8).map_or(0, |length| {
         u32::from_le_bytes([length[0], length[1], length[2], length[3]])
@@ -43,13 +48,16 @@ fn pixels(bytes: &[u8]) -> Result<(Vec<u8>, usize, (usize, usize))> {
             "an animation; only still pictures are read",
         ));
     }
-    let (width, height) = decoder.dimensions();
-    let (width, height) = (width as usize, height as usize);
-    let len = checked_cells("WebP image", height, width)?;
+    Ok(decoder)
+}
+
+/// Decodes the samples of a WebP file, and their number per pixel.
+fn samples(decoder: &mut WebPDecoder<Cursor<&[u8]>>) -> Result<(Vec<u8>, usize)> {
     let stride = if decoder.has_alpha() { 4 } else { 3 };
-    let mut samples = try_filled("WebP image", stride * len, 0u8)?;
+    let (width, height) = decoder.dimensions();
+    let mut samples = try_filled("WebP image", stride * width as usize * height as usize, 0u8)?;
     decoder.read_image(&mut samples).map_err(failed)?;
-    Ok((samples, stride, (width, height)))
+    Ok((samples, stride))
 }
 
 fn failed(error: DecodingError) -> crate::error::Error {

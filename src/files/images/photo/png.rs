@@ -1,0 +1,44 @@
+//! Decodes PNG photos by the `png` crate, row by row, so that large ones need no more memory than what is kept of them.
+
+use ::png::{ColorType, Transformations};
+
+use super::{PhotoFile, PhotoPixels, PhotoTags};
+use crate::error::{Error, Result};
+use crate::files::images::png::{Pixels, damaged, open};
+
+/// Transformations by which all PNG files become 8-bit grey or colours with alpha.
+fn transformations() -> Transformations {
+    Transformations::normalize_to_color8() | Transformations::ALPHA
+}
+
+pub(super) fn decode(bytes: &[u8]) -> Result<PhotoFile> {
+    let (mut reader, size) = open(bytes, transformations())?;
+    let mut pixels = PhotoPixels::new(size)?;
+    let tags = if reader.info().interlaced {
+        let Pixels {
+            reader, samples, ..
+        } = Pixels::decode(bytes, transformations())?;
+        pixels.push_rows(&samples);
+        tags(reader.info())
+    } else {
+        let mut line = Vec::new();
+        while let Some(row) = reader.next_row().map_err(damaged)? {
+            pixels.push_row(row.data(), &mut line);
+        }
+        // Reads to the end of the file: a truncated file must be an error, and metadata may follow the pixels.
+        reader.finish().map_err(damaged)?;
+        tags(reader.info())
+    };
+    // After the transformations only these two colour types remain.
+    let known = [ColorType::GrayscaleAlpha, ColorType::Rgba];
+    if !known.contains(&reader.output_color_type().0) {
+        let reason = "its colours could not be converted".into();
+        let format = "PNG";
+        return Err(Error::Unsupported { format, reason });
+    }
+    pixels.finish(&tags)
+}
+
+fn tags(info: &::png::Info<'_>) -> PhotoTags {
+    PhotoTags::read(info.exif_metadata.as_deref())
+}

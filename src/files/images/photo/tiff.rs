@@ -1,0 +1,76 @@
+//! Decodes TIFF photos, such as scans, by the `tiff` crate.
+
+use std::io::Cursor;
+
+use ::tiff::ColorType;
+use ::tiff::decoder::{Decoder, DecodingResult, Limits};
+use ::tiff::tags::Tag;
+
+use super::{PhotoFile, PhotoPixels, PhotoTags};
+use crate::error::Result;
+use crate::files::images::extended::tiff_tags::failed;
+use crate::files::images::failure::unsupported;
+use crate::files::images::format::Format;
+
+/// Maximum memory that the TIFF decoder may allocate, in bytes.
+const MAX_DECODER_BYTES: usize = 1 << 30;
+
+pub(super) fn decode(bytes: &[u8]) -> Result<PhotoFile> {
+    let mut limits = Limits::default();
+    limits.decoding_buffer_size = MAX_DECODER_BYTES;
+    limits.intermediate_buffer_size = MAX_DECODER_BYTES;
+    let mut file = Decoder::new(Cursor::new(bytes))
+        .map_err(failed)?
+        .with_limits(limits);
+    let (width, height) = file.dimensions().map_err(failed)?;
+    let [width, height] = [width, height].map(|side| side as usize);
+    let mut pixels = PhotoPixels::new([width, height])?;
+    let colour = file.colortype().map_err(failed)?;
+    let orientation = file
+        .find_tag_unsigned::<u16>(Tag::Orientation)
+        .map_err(failed)?;
+    let samples = match file.read_image().map_err(failed)? {
+        DecodingResult::U8(samples) => samples,
+        DecodingResult::U16(samples) => samples.iter().map(|v| (v >> 8) as u8).collect(),
+        _ => return Err(unsupported(Format::Tiff, refused(colour))),
+    };
+    let samples = match colour {
+        ColorType::Gray(8 | 16)
+        | ColorType::GrayA(8 | 16)
+        | ColorType::RGB(8 | 16)
+        | ColorType::RGBA(8 | 16) => samples,
+        // Rows of bits begin at a byte.
+        ColorType::Gray(1) => (samples.chunks_exact(width.div_ceil(8)))
+            .flat_map(|row| {
+                (0..width).map(|x| {
+                    if row[x / 8] << (x % 8) & 0x80 > 0 {
+                        255
+                    } else {
+                        0
+                    }
+                })
+            })
+            .collect(),
+        ColorType::CMYK(8 | 16) => (samples.as_chunks::<4>().0.iter())
+            .flat_map(|[c, m, y, k]| [c, m, y].map(|ink| printed(*ink, *k)))
+            .collect(),
+        other => return Err(unsupported(Format::Tiff, refused(other))),
+    };
+    pixels.push_rows(&samples);
+    let mut tags = PhotoTags::read(None);
+    if let Some(turn @ 1..=8) = orientation {
+        tags.orientation = turn;
+    }
+    pixels.finish(&tags)
+}
+
+/// Reason why pixels of a kind are not read.
+fn refused(colour: ColorType) -> String {
+    format!("pixels of kind {colour:?}; grey, RGB and CMYK of 8 and 16 bits are read as photos")
+}
+
+/// Light of one colour that is left by an ink and by black.
+fn printed(ink: u8, black: u8) -> u8 {
+    let [ink, black] = [ink, black].map(|ink| u32::from(u8::MAX - ink));
+    ((ink * black + 127) / 255) as u8
+}

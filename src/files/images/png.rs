@@ -9,7 +9,7 @@ use ::png::{
 
 use super::decoded::{Decoded, assumed_levels, coloured, suggested_scale};
 use super::format::Format;
-use crate::error::{Error, Result, checked_cells, try_filled};
+use crate::error::{Error, MAX_CELLS, Result, try_filled};
 use crate::files::buffer::Buffer;
 use crate::heights::heightfield::HeightImage;
 
@@ -42,8 +42,7 @@ pub(super) struct Pixels<'a> {
 
 impl<'a> Pixels<'a> {
     pub(super) fn decode(bytes: &'a [u8], transformations: Transformations) -> Result<Self> {
-        let (mut reader, [width, height]) = open(bytes, transformations)?;
-        checked_cells("PNG image", height, width)?;
+        let (mut reader, [width, height]) = open(bytes, transformations, MAX_CELLS)?;
         let size = reader
             .output_buffer_size()
             .ok_or_else(|| damaged(DecodingError::LimitsExceeded))?;
@@ -60,10 +59,11 @@ impl<'a> Pixels<'a> {
     }
 }
 
-/// Opens a PNG file; returns the reader of its pixels, and their width and height.
+/// Opens a PNG file of at most `max_pixels` pixels; returns the reader of its pixels, and their width and height.
 pub(super) fn open(
     bytes: &[u8],
     transformations: Transformations,
+    max_pixels: usize,
 ) -> Result<(Reader<Cursor<&[u8]>>, [usize; 2])> {
     let limits = Limits {
         bytes: MAX_DECODER_BYTES,
@@ -73,6 +73,14 @@ pub(super) fn open(
     decoder.set_ignore_iccp_chunk(true);
     let info = decoder.read_header_info().map_err(damaged)?;
     let (width, height) = (info.width as usize, info.height as usize);
+    let requested = width.saturating_mul(height);
+    if requested > max_pixels {
+        return Err(Error::TooLarge {
+            what: "PNG image",
+            requested,
+            limit: max_pixels,
+        });
+    }
     if info.raw_bytes() / DEFLATE_RATIO > bytes.len() {
         return Err(Error::Format {
             format: "PNG",

@@ -2,7 +2,7 @@
 
 use ::png::{ColorType, Transformations};
 
-use super::{PhotoFile, PhotoPixels, PhotoTags};
+use super::{MAX_FILE_PIXELS, PhotoFile, PhotoPixels, PhotoTags};
 use crate::error::{Error, Result};
 use crate::files::images::png::{Pixels, damaged, open};
 
@@ -12,7 +12,7 @@ fn transformations() -> Transformations {
 }
 
 pub(super) fn decode(bytes: &[u8]) -> Result<PhotoFile> {
-    let (mut reader, size) = open(bytes, transformations())?;
+    let (mut reader, size) = open(bytes, transformations(), MAX_FILE_PIXELS)?;
     let mut pixels = PhotoPixels::new(size)?;
     let tags = if reader.info().interlaced {
         let Pixels {

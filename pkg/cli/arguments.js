@@ -71,7 +71,7 @@ import { refuseSameFiles } from './same-file.js';
  *   options: import('../types.js').DewarpPageOptions,
  * }} PageTask
  * @typedef {{
- *   command: 'surface', make: WholeCommand, input: string, output: string, extension: Extension, written: string[], force: boolean, report?: string,
+ *   command: 'surface', make: WholeCommand, input: string, output: string, extension: Extension, written: string[], force: boolean, unit?: import('../types.js').ReadMeshOptions['unit'], report?: string,
  *   asIs: boolean, threshold?: number, tracing: import('../types.js').MeshRulingOptions, drawing: Drawing, assembly?: string, explore: boolean, sheets?: number,
  *   options: import('../types.js').MeshSolverOptions,
  * }} MeshTask

@@ -127,12 +127,15 @@ function checkScale({ input, noData, command = '' }, file) {
   throw new Problem(status.input, `${range}are they in another unit than the pixels? ${size}, ${others}`);
 }
 
+/** Whether depths may have this unit. @param {string | undefined} unit @returns {unit is import('../types.js').Unit} */
+const isUnit = (unit) => unit === 'mm' || unit === 'm';
+
 /** What is seen of a mesh. @param {InputTask & { photo?: Size }} task */
 async function readSampled(task) {
   const { view, resolution, spacing } = task;
   const mesh = await during(`reading ${task.input}`, () => readMesh(task));
   const seen = await during(`looking at ${task.input}`, () =>
-    developable.sampleMesh(task.camera ? { ...mesh, unit: task.unit ?? mesh.unit } : mesh, { view, resolution, spacing }));
+    developable.sampleMesh({ ...mesh, unit: task.camera && isUnit(task.unit) ? task.unit : mesh.unit }, { view, resolution, spacing }));
   const { hidden = 0 } = seen;
   if (hidden > 0 && !task.camera) {
     say(

@@ -4,14 +4,13 @@ use std::fmt::Display;
 
 use super::beside::Texture;
 use crate::error::{Error, MAX_CELLS, Result};
-use crate::files::{Assumption, Unit};
 use crate::scene::mesh::Mesh;
 
 /// Colour of a vertex for which the mesh file states no colour.
 pub(super) const DEFAULT_VERTEX_COLOUR: [f32; 3] = [1.0; 3];
 
 /// Texture coordinates, far outside of any picture, that mark a vertex without texture coordinates.
-const NO_UV: [f32; 2] = [f32::MIN; 2];
+pub(super) const NO_UV: [f32; 2] = [f32::MIN; 2];
 
 /// Texture number of a triangle that has no texture.
 pub(super) const NO_TEXTURE: i32 = -1;
@@ -26,10 +25,6 @@ pub(super) struct MeshBuilder {
     /// Texture number of each triangle; shorter than the list of triangles where the last ones have no texture.
     pub(super) textures: Vec<i32>,
     pub(super) pictures: Vec<Texture>,
-    /// Unit of length that the file states, if it states one.
-    pub(super) unit: Option<Unit>,
-    /// What the reader assumed because the file does not say it.
-    pub(super) assumptions: Vec<Assumption>,
     /// Number of bytes left for further texture pictures; all pictures together may not exceed the size of the given
     /// files.
     pub(super) room: usize,
@@ -51,6 +46,15 @@ impl MeshBuilder {
         };
         rest.windows(2)
             .try_for_each(|edge| self.triangle([*first, edge[0], edge[1]]))
+    }
+
+    /// Adds a strip of triangles, each of which shares an edge with the one before.
+    pub(super) fn strip(&mut self, corners: &[u32]) -> Result<()> {
+        let mut triangles = corners.windows(3).enumerate();
+        triangles.try_for_each(|(i, t)| match i % 2 {
+            0 => self.triangle([t[0], t[1], t[2]]),
+            _ => self.triangle([t[1], t[0], t[2]]),
+        })
     }
 
     /// Sets the colour of all vertices that were added since vertex number `start`.

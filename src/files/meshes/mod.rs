@@ -1,4 +1,4 @@
-//! Meshes from and to files held in memory: reads OBJ, PLY, STL, glTF and GLB, writes PLY, STL
+//! Meshes from and to files held in memory: reads OBJ, PLY, STL, glTF, GLB, 3MF and OFF, writes PLY, STL
 //! and GLB. (OBJ is written by [`formats`](super::images).)
 //!
 //! Damaged files are errors, never panics, and no more memory is asked for than
@@ -7,13 +7,18 @@
 
 mod beside;
 mod builder;
+mod corners;
 mod format;
 mod glb;
 mod gltf;
+mod mtl;
 mod narrow;
 mod obj;
+mod off;
 mod ply;
 mod stl;
+mod text;
+mod threemf;
 mod unit;
 
 use crate::error::{Error, Result};
@@ -81,7 +86,7 @@ pub fn read_mesh_beside(
         None => {
             return Err(Error::Unsupported {
                 format: "a mesh file of unknown format",
-                reason: "OBJ, PLY, STL, glTF and GLB can be read".into(),
+                reason: unknown(bytes).into(),
             });
         }
     };
@@ -90,29 +95,53 @@ pub fn read_mesh_beside(
         ..MeshBuilder::default()
     };
     let beside = Beside::new(files);
+    let mut stated = None;
     match format {
         MeshFormat::Obj => obj::read(bytes, &beside, &mut parts)?,
         MeshFormat::Ply => ply::read(bytes, &beside, &mut parts)?,
         MeshFormat::Stl => stl::read(bytes, &mut parts)?,
-        MeshFormat::Gltf => gltf::read(bytes, &beside, &mut parts)?,
+        MeshFormat::Gltf => {
+            gltf::read(bytes, &beside, &mut parts)?;
+            stated = Some(FileUnit::METRES);
+        }
+        MeshFormat::ThreeMf => stated = Some(threemf::read(bytes, &mut parts)?),
+        MeshFormat::Off => off::read(bytes, &mut parts)?,
     }
     let textures = std::mem::take(&mut parts.pictures);
-    let mut assumptions = std::mem::take(&mut parts.assumptions);
-    let stated = parts.unit;
     let mesh = parts.into_mesh(format.title(), format != MeshFormat::Stl)?;
-    let unit = match stated {
-        Some(_) => stated,
-        None => {
-            let (unit, assumption) = unit::assumed_unit(&mesh);
-            assumptions.push(assumption);
-            unit
-        }
-    };
-    Ok(MeshFile {
+    let mut file = MeshFile {
         mesh,
         textures,
         missing: beside.missing(),
-        unit,
-        assumptions,
-    })
+        unit: None,
+        assumptions: Vec::new(),
+    };
+    if let Some(unit) = stated {
+        return file.in_unit(unit);
+    }
+    let (unit, assumption) = unit::assumed_unit(&file.mesh);
+    file.unit = unit;
+    file.assumptions.push(assumption);
+    Ok(file)
+}
+
+/// Says what to do with a file of unknown format, by its first bytes.
+fn unknown(bytes: &[u8]) -> &'static str {
+    let text = String::from_utf8_lossy(&bytes[..bytes.len().min(1000)]);
+    let begins = |start: &str| text.trim_start().starts_with(start);
+    if text.contains("<COLLADA") {
+        "it is Collada; let a 3D program such as Blender save it as GLB"
+    } else if begins("Kaydara FBX") || begins("; FBX") {
+        "it is FBX; let a 3D program such as Blender save it as GLB"
+    } else if begins("ISO-10303-21") {
+        "it is STEP; let a CAD program such as FreeCAD save it as a mesh (STL or 3MF)"
+    } else if begins("0\nSECTION") || begins("0\r\nSECTION") {
+        "it is DXF; let a CAD program save it as a mesh (STL or OBJ)"
+    } else if begins("#VRML") || text.contains("<X3D") {
+        "it is VRML or X3D; let MeshLab save it as PLY"
+    } else if begins("BLENDER") {
+        "it is Blender's own format; export it as GLB or PLY"
+    } else {
+        "OBJ, PLY, STL, glTF, GLB, 3MF and OFF can be read"
+    }
 }

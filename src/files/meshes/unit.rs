@@ -20,6 +20,12 @@ pub struct FileUnit {
 }
 
 impl FileUnit {
+    /// Metres, as in every glTF file.
+    pub(super) const METRES: FileUnit = FileUnit {
+        factor: 1.0,
+        unit: Unit::Metre,
+    };
+
     /// Returns the unit of a given name: `mm`, `cm`, `m` or `inch`, or as 3MF spells units. Lengths in metres stay
     /// metres, all others become millimetres.
     ///

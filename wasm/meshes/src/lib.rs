@@ -83,7 +83,7 @@ pub fn read_mesh_file(bytes: &Uint8Array, files: &Array, options: JsValue) -> Re
     for (name, value) in entries(&options)? {
         match name.as_str() {
             "format" => {
-                let requirement = "must be `obj`, `ply`, `stl`, `gltf` or `glb`";
+                let requirement = "must be `obj`, `ply`, `stl`, `gltf`, `glb`, `3mf` or `off`";
                 let name: String = option("format", value, requirement)?;
                 format = Some(name.parse::<MeshFormat>()?);
             }

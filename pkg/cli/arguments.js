@@ -36,7 +36,7 @@ import { refuseSameFiles } from './same-file.js';
  * @property {number} [spacing]
  * @property {number} [pixelSize]
  * @property {number} [heightScale]
- * @property {import('../types.js').Unit} [unit]
+ * @property {import('../types.js').ReadMeshOptions['unit']} [unit] cm and inch of meshes only
  * @property {number} [noData]
  * @property {boolean} normalize
  *
@@ -71,7 +71,7 @@ import { refuseSameFiles } from './same-file.js';
  *   options: import('../types.js').DewarpPageOptions,
  * }} PageTask
  * @typedef {{
- *   command: 'surface', make: WholeCommand, input: string, output: string, extension: Extension, written: string[], force: boolean, report?: string,
+ *   command: 'surface', make: WholeCommand, input: string, output: string, extension: Extension, written: string[], force: boolean, unit?: import('../types.js').ReadMeshOptions['unit'], report?: string,
  *   asIs: boolean, threshold?: number, tracing: import('../types.js').MeshRulingOptions, drawing: Drawing, assembly?: string, explore: boolean, sheets?: number,
  *   options: import('../types.js').MeshSolverOptions,
  * }} MeshTask
@@ -82,6 +82,9 @@ const surfaces = /** @type {const} */ (['.npy', '.png', '.tif', '.tiff', '.exr',
 const drawings = /** @type {const} */ (['.svg', '.pdf', '.dxf']);
 const lattices = /** @type {const} */ (['square', 'hex']);
 const units = /** @type {const} */ (['mm', 'm']);
+
+/** Units of the lengths of a mesh's file, which become millimetres or metres. */
+const meshUnits = /** @type {const} */ (['mm', 'cm', 'm', 'inch']);
 const shapes = /** @type {const} */ (['auto', 'cylinder', 'developable']);
 const formats = /** @type {const} */ (['a4', 'letter']);
 
@@ -168,7 +171,7 @@ export function parse(args) {
     ...given(sampleMesh, values, { view }),
     pixelSize: number('pixel-size', values),
     heightScale: heightScale(values),
-    unit: values.unit === undefined ? undefined : choice('unit', values.unit, units),
+    unit: values.unit === undefined ? undefined : choice('unit', values.unit, kind === 'mesh' ? meshUnits : units),
     noData: values['no-data'] === 'none' ? undefined : number('no-data', values),
     assumeNoData: values['no-data'] === undefined,
     normalize: !values['no-normalize'],
@@ -258,7 +261,7 @@ function shape(values, lattice) {
 }
 
 /** Options of a fit over a whole mesh. */
-const wholeFlags = ['surface', 'output', 'force', 'report', 'jobs', 'overwrite', ...flagNames(meshSolver)];
+const wholeFlags = ['surface', 'unit', 'output', 'force', 'report', 'jobs', 'overwrite', ...flagNames(meshSolver)];
 
 /** What else commands take that go on with it. @satisfies {Record<string, readonly Flag[]>} */
 const wholeCommands = {
@@ -278,7 +281,7 @@ const wholeCommands = {
  * @param {Values} values
  * @returns {MeshTask}
  */
-function whole(make, { input, output, written, force, extension: kind }, values) {
+function whole(make, { input, output, written, force, unit, extension: kind }, values) {
   /** @type {readonly string[]} */
   const known = [...wholeFlags, ...wholeCommands[make]];
   const stray = Object.keys(values).find((flag) => !known.includes(flag));
@@ -293,6 +296,7 @@ function whole(make, { input, output, written, force, extension: kind }, values)
     output,
     written,
     force,
+    unit,
     extension: kind,
     report: values.report,
     asIs: values['as-is'] === true,
@@ -424,7 +428,7 @@ function stock(text) {
 
 /** @param {string} input */
 export function isMesh(input) {
-  return ['.obj', '.ply', '.stl', '.glb', '.gltf'].includes(extname(input).toLowerCase());
+  return ['.obj', '.ply', '.stl', '.glb', '.gltf', '.3mf', '.off'].includes(extname(input).toLowerCase());
 }
 
 /** Flags that are not for an input of this kind. @type {Record<'image' | 'mesh' | 'depths', readonly Flag[]>} */

@@ -34,6 +34,8 @@ mod invariance;
 mod irregular;
 mod mesh_crossings;
 #[cfg(feature = "meshes")]
+mod mesh_files;
+#[cfg(feature = "meshes")]
 mod meshes;
 mod noise;
 mod occlusions;

@@ -170,19 +170,18 @@ fn parts_without_textures_need_no_coordinates() {
 }
 
 #[test]
-fn damaged_materials_and_textures_are_errors() {
+fn damaged_materials_are_left_out_and_damaged_textures_are_errors() {
     let with = |mtl: &[u8]| {
         let files = [("my own.mtl", mtl), ("a.png", b"A"), ("b c.png", b"B")];
         read_mesh_beside(MATERIALS.as_bytes(), None, &files)
     };
-    for bad in [
+    // A mesh is not refused for its looks.
+    for odd in [
         "newmtl red\nKd 1 0.25\n",
         "newmtl\n",
         "newmtl red\nmap_Kd\n",
     ] {
-        let error = with(bad.as_bytes()).unwrap_err();
-        assert_eq!(error.code(), "FORMAT", "{bad}");
-        assert!(error.to_string().contains("MTL"), "{error}");
+        assert!(with(odd.as_bytes()).is_ok(), "{odd}");
     }
     for length in 0..MTL.len() {
         let _ = with(&MTL.as_bytes()[..length]);

@@ -10,7 +10,7 @@ use crate::scene::mesh::Mesh;
 pub(super) const DEFAULT_VERTEX_COLOUR: [f32; 3] = [1.0; 3];
 
 /// Texture coordinates, far outside of any picture, that mark a vertex without texture coordinates.
-const NO_UV: [f32; 2] = [f32::MIN; 2];
+pub(super) const NO_UV: [f32; 2] = [f32::MIN; 2];
 
 /// Texture number of a triangle that has no texture.
 pub(super) const NO_TEXTURE: i32 = -1;
@@ -46,6 +46,15 @@ impl MeshBuilder {
         };
         rest.windows(2)
             .try_for_each(|edge| self.triangle([*first, edge[0], edge[1]]))
+    }
+
+    /// Adds a strip of triangles, each of which shares an edge with the one before.
+    pub(super) fn strip(&mut self, corners: &[u32]) -> Result<()> {
+        let mut triangles = corners.windows(3).enumerate();
+        triangles.try_for_each(|(i, t)| match i % 2 {
+            0 => self.triangle([t[0], t[1], t[2]]),
+            _ => self.triangle([t[1], t[0], t[2]]),
+        })
     }
 
     /// Sets the colour of all vertices that were added since vertex number `start`.

@@ -2,7 +2,7 @@
 
 use std::str::FromStr;
 
-use super::{obj, stl};
+use super::{obj, off, stl};
 use crate::error::{Error, Result};
 
 /// A mesh file format that can be read.
@@ -21,34 +21,52 @@ pub enum MeshFormat {
     /// their nodes' transforms applied, and the base colours and textures of
     /// their materials.
     Gltf,
+    /// 3D Manufacturing Format: the objects that are to be built, with their transforms and the file's unit.
+    ThreeMf,
+    /// Object File Format in text, with or without colours and normals at the vertices.
+    Off,
 }
 
 impl MeshFormat {
-    /// Returns the name of the mesh format: `"obj"`, `"ply"`, `"stl"` or `"gltf"`.
+    /// Returns the name of the mesh format: `"obj"`, `"ply"`, `"stl"`, `"gltf"`, `"3mf"` or `"off"`.
     pub fn name(self) -> &'static str {
         match self {
             MeshFormat::Obj => "obj",
             MeshFormat::Ply => "ply",
             MeshFormat::Stl => "stl",
             MeshFormat::Gltf => "gltf",
+            MeshFormat::ThreeMf => "3mf",
+            MeshFormat::Off => "off",
         }
     }
 
     /// Detects the format of a mesh file from the file's contents. OBJ has no signature: a line that begins with `v`
     /// and a blank is taken for OBJ.
     pub fn detect(bytes: &[u8]) -> Option<MeshFormat> {
-        if bytes.starts_with(b"ply\n") || bytes.starts_with(b"ply\r") {
+        if bytes.starts_with(b"ply") && bytes.get(3).is_some_and(u8::is_ascii_whitespace) {
             return Some(MeshFormat::Ply);
         }
-        if bytes.starts_with(b"glTF") || bytes.trim_ascii_start().starts_with(b"{") {
+        let text = bytes
+            .strip_prefix(b"\xef\xbb\xbf")
+            .unwrap_or(bytes)
+            .trim_ascii_start();
+        if bytes.starts_with(b"glTF") || text.starts_with(b"{") {
             return Some(MeshFormat::Gltf);
         }
-        if stl::is_binary(bytes) || bytes.starts_with(b"solid") {
+        if bytes.starts_with(b"PK\x03\x04") {
+            return Some(MeshFormat::ThreeMf);
+        }
+        if off::detect(bytes) {
+            return Some(MeshFormat::Off);
+        }
+        if stl::is_binary(bytes)
+            || text
+                .get(..5)
+                .is_some_and(|word| word.eq_ignore_ascii_case(b"solid"))
+        {
             return Some(MeshFormat::Stl);
         }
-        obj::lines(bytes)
-            .any(|line| obj::is_vertex(&line))
-            .then_some(MeshFormat::Obj)
+        obj::detect(bytes).then_some(MeshFormat::Obj)
     }
 
     pub(super) fn title(self) -> &'static str {
@@ -57,6 +75,8 @@ impl MeshFormat {
             MeshFormat::Ply => "PLY",
             MeshFormat::Stl => "STL",
             MeshFormat::Gltf => "glTF",
+            MeshFormat::ThreeMf => "3MF",
+            MeshFormat::Off => "OFF",
         }
     }
 }
@@ -71,10 +91,12 @@ impl FromStr for MeshFormat {
             "ply" => Ok(MeshFormat::Ply),
             "stl" => Ok(MeshFormat::Stl),
             "gltf" | "glb" => Ok(MeshFormat::Gltf),
+            "3mf" => Ok(MeshFormat::ThreeMf),
+            "off" => Ok(MeshFormat::Off),
             _ => Err(Error::option(
                 "format",
                 name,
-                "must be `obj`, `ply`, `stl`, `gltf` or `glb`",
+                "must be `obj`, `ply`, `stl`, `gltf`, `glb`, `3mf` or `off`",
             )),
         }
     }

@@ -1,4 +1,4 @@
-//! Meshes from and to files held in memory: reads OBJ, PLY, STL, glTF and GLB, writes PLY, STL
+//! Meshes from and to files held in memory: reads OBJ, PLY, STL, glTF, GLB, 3MF and OFF, writes PLY, STL
 //! and GLB. (OBJ is written by [`formats`](super::images).)
 //!
 //! Damaged files are errors, never panics, and no more memory is asked for than
@@ -7,16 +7,22 @@
 
 mod beside;
 mod builder;
+mod corners;
 mod format;
 mod glb;
 mod gltf;
+mod mtl;
 mod narrow;
 mod obj;
+mod off;
 mod ply;
 mod stl;
+mod text;
+mod threemf;
+mod unit;
 
 use crate::error::{Error, Result};
-use crate::files::Assumption;
+use crate::files::{Assumption, Unit};
 use crate::scene::mesh::Mesh;
 
 use beside::Beside;
@@ -26,6 +32,7 @@ pub use format::MeshFormat;
 pub use glb::write_glb;
 pub use ply::write_ply;
 pub use stl::write_stl;
+pub use unit::FileUnit;
 
 /// A mesh read from a file, with the pictures of its textures.
 #[derive(Debug, Clone, PartialEq)]
@@ -37,6 +44,9 @@ pub struct MeshFile {
     pub textures: Vec<Texture>,
     /// Names of material and texture files that the mesh file refers to but that were not given.
     pub missing: Vec<String>,
+    /// Unit of all lengths: the one that the file states, or one that its size suggests, which is then among the
+    /// assumptions. `None` where neither tells.
+    pub unit: Option<Unit>,
     /// What the reader assumed because the file does not say it.
     pub assumptions: Vec<Assumption>,
 }
@@ -76,7 +86,7 @@ pub fn read_mesh_beside(
         None => {
             return Err(Error::Unsupported {
                 format: "a mesh file of unknown format",
-                reason: "OBJ, PLY, STL, glTF and GLB can be read".into(),
+                reason: unknown(bytes).into(),
             });
         }
     };
@@ -85,17 +95,53 @@ pub fn read_mesh_beside(
         ..MeshBuilder::default()
     };
     let beside = Beside::new(files);
+    let mut stated = None;
     match format {
         MeshFormat::Obj => obj::read(bytes, &beside, &mut parts)?,
         MeshFormat::Ply => ply::read(bytes, &beside, &mut parts)?,
         MeshFormat::Stl => stl::read(bytes, &mut parts)?,
-        MeshFormat::Gltf => gltf::read(bytes, &beside, &mut parts)?,
+        MeshFormat::Gltf => {
+            gltf::read(bytes, &beside, &mut parts)?;
+            stated = Some(FileUnit::METRES);
+        }
+        MeshFormat::ThreeMf => stated = Some(threemf::read(bytes, &mut parts)?),
+        MeshFormat::Off => off::read(bytes, &mut parts)?,
     }
     let textures = std::mem::take(&mut parts.pictures);
-    Ok(MeshFile {
-        mesh: parts.into_mesh(format.title(), format != MeshFormat::Stl)?,
+    let mesh = parts.into_mesh(format.title(), format != MeshFormat::Stl)?;
+    let mut file = MeshFile {
+        mesh,
         textures,
         missing: beside.missing(),
+        unit: None,
         assumptions: Vec::new(),
-    })
+    };
+    if let Some(unit) = stated {
+        return file.in_unit(unit);
+    }
+    let (unit, assumption) = unit::assumed_unit(&file.mesh);
+    file.unit = unit;
+    file.assumptions.push(assumption);
+    Ok(file)
+}
+
+/// Says what to do with a file of unknown format, by its first bytes.
+fn unknown(bytes: &[u8]) -> &'static str {
+    let text = String::from_utf8_lossy(&bytes[..bytes.len().min(1000)]);
+    let begins = |start: &str| text.trim_start().starts_with(start);
+    if text.contains("<COLLADA") {
+        "it is Collada; let a 3D program such as Blender save it as GLB"
+    } else if begins("Kaydara FBX") || begins("; FBX") {
+        "it is FBX; let a 3D program such as Blender save it as GLB"
+    } else if begins("ISO-10303-21") {
+        "it is STEP; let a CAD program such as FreeCAD save it as a mesh (STL or 3MF)"
+    } else if begins("0\nSECTION") || begins("0\r\nSECTION") {
+        "it is DXF; let a CAD program save it as a mesh (STL or OBJ)"
+    } else if begins("#VRML") || text.contains("<X3D") {
+        "it is VRML or X3D; let MeshLab save it as PLY"
+    } else if begins("BLENDER") {
+        "it is Blender's own format; export it as GLB or PLY"
+    } else {
+        "OBJ, PLY, STL, glTF, GLB, 3MF and OFF can be read"
+    }
 }

@@ -1,160 +1,170 @@
-//! Reads Wavefront OBJ meshes and their materials by the `tobj` crate.
-
-use std::path::Path;
-
-use tobj::{LoadError, LoadOptions, MTLLoadResult, Material, load_mtl_buf, load_obj_buf};
+//! Reads Wavefront OBJ meshes.
 
 use super::beside::Beside;
-use super::builder::{DEFAULT_VERTEX_COLOUR, MeshBuilder, NO_TEXTURE, damaged};
+use super::builder::{MeshBuilder, NO_TEXTURE, damaged, unsupported};
+use super::corners::{CornerMaterial, Corners};
+use super::mtl::{self, Material};
+use super::text::{decoded, lines};
 use crate::error::Result;
 
+/// Statements of curves and surfaces that are no meshes.
+const FREE_FORM_STATEMENTS: [&str; 5] = ["cstype", "curv", "curv2", "surf", "bzp"];
+
 pub(super) fn read(bytes: &[u8], beside: &Beside, parts: &mut MeshBuilder) -> Result<()> {
-    // Names may be in any encoding.
-    let mut text = String::from_utf8_lossy(bytes);
-    check_indices(&text)?;
-    let cloud = !lines(bytes).any(|line| line.starts_with(b"f"));
-    let options = LoadOptions {
-        triangulate: true,
-        single_index: true,
-        ignore_points: !cloud,
-        ignore_lines: true,
-    };
-    if cloud {
-        // `tobj` gives the vertices of faces only: here each is one.
-        let points = lines(bytes).filter(is_vertex).count();
-        let faces = (1..=points).map(|i| format!("\nf {i}"));
-        text.to_mut().extend(faces);
-    }
-    let materials = |path: &Path| -> MTLLoadResult {
-        let file = beside.find(&path.to_string_lossy());
-        let (_, file) = file.ok_or(LoadError::OpenFileFailed)?;
-        load_mtl_buf(&mut looks(file).ok_or(LoadError::ColorParseError)?.as_bytes())
-    };
-    let (models, materials) = load_obj_buf(&mut text.as_bytes(), &options, materials)
-        .map_err(|error| damaged("OBJ", error))?;
-    let materials = match materials {
-        Err(LoadError::OpenFileFailed) => Vec::new(),
-        other => other.map_err(|error| damaged("MTL", error))?,
-    };
-    for model in models {
-        let mesh = model.mesh;
-        let start = parts.positions.len() as u32;
-        for p in mesh.positions.chunks_exact(3) {
-            parts.position([p[0], p[1], p[2]])?;
-        }
-        for t in mesh.indices.chunks_exact(3).filter(|_| !cloud) {
-            parts.triangle([0, 1, 2].map(|k| start + t[k]))?;
-        }
-        let material = mesh.material_id.and_then(|id| materials.get(id));
-        if mesh.vertex_color.is_empty() {
-            let diffuse = material.and_then(|material| material.diffuse);
-            let color = diffuse.map_or(DEFAULT_VERTEX_COLOUR, |color| color.map(|v| v as f32));
-            parts.material(start as usize, color);
-        }
-        let colors = mesh.vertex_color.chunks_exact(3);
-        parts
-            .colors
-            .extend(colors.map(|c| [0, 1, 2].map(|k| c[k] as f32)));
-        let picture = material.and_then(texture);
-        let number = match picture.and_then(|name| beside.find(name)) {
-            Some((name, bytes)) => parts.picture(name, bytes)?,
-            None => NO_TEXTURE,
-        };
-        parts.texture(number);
-        let uvs = mesh.texcoords.chunks_exact(2);
-        parts.uvs.extend(uvs.map(|c| [c[0] as f32, c[1] as f32]));
-        if mesh.texcoords.is_empty() {
-            parts.no_uvs();
-        }
-    }
-    Ok(())
-}
-
-/// Copies from a material file (MTL) the lines with names, colours and pictures, so that `tobj` can parse them; a
-/// colour of one number is written with three. `None` if a colour has another number of components, for which `tobj`
-/// would panic.
-fn looks(bytes: &[u8]) -> Option<String> {
-    let mut kept = String::new();
-    for line in lines(bytes) {
-        let line = String::from_utf8_lossy(line);
-        let words = line.split_whitespace().count();
-        let second = line.split_whitespace().nth(1);
-        match line.split_whitespace().next() {
-            // A colour given as a spectrum or in another colour space is not supported.
-            Some("Kd") if matches!(second, Some("spectral" | "xyz")) => {}
-            Some("Kd") if words == 2 => {
-                let grey = second.unwrap_or_default();
-                kept.push_str(&format!("Kd {grey} {grey} {grey}\n"));
-            }
-            Some("Kd") if words != 4 => return None,
-            Some("Kd" | "map_Kd" | "newmtl") => {
-                kept.push_str(line.trim());
-                kept.push('\n');
-            }
-            _ => {}
-        }
-    }
-    Some(kept)
-}
-
-/// Returns the file name of a material's texture picture, without the options before it (`-s 1 1 1`).
-fn texture(material: &Material) -> Option<&str> {
-    let name = material.diffuse_texture.as_deref()?;
-    match name.strip_prefix('-') {
-        Some(options) => options.split_whitespace().last(),
-        None => Some(name),
-    }
-}
-
-/// Iterates over the lines of an OBJ or MTL file, without blanks at their beginnings.
-pub(super) fn lines(bytes: &[u8]) -> impl Iterator<Item = &[u8]> {
-    bytes.split(|b| *b == b'\n').map(<[u8]>::trim_ascii_start)
-}
-
-/// Returns whether a line of an OBJ file states a vertex.
-pub(super) fn is_vertex(line: &&[u8]) -> bool {
-    line.starts_with(b"v ") || line.starts_with(b"v\t")
-}
-
-/// Checks that no index in an OBJ file exceeds the length of the file, and that no relative index reaches back beyond
-/// the elements so far: `tobj` computes with indices unchecked, which could overflow.
-fn check_indices(text: &str) -> Result<()> {
-    // Of positions, texture coordinates and normals, which a corner names in this order.
-    let mut counts = [0; 3];
-    for (i, line) in text.lines().enumerate() {
-        let mut words = line.split_whitespace();
+    let text = decoded(bytes);
+    let mut reader = Reader::default();
+    let (mut uvs, mut has_faces, mut free_form) = (Vec::new(), false, None);
+    for (row, line) in lines(&text) {
+        let mut words = words(&line);
         match words.next() {
-            Some("v") => counts[0] += 1,
-            Some("vt") => counts[1] += 1,
-            Some("vn") => counts[2] += 1,
-            Some("f" | "l" | "p") => {
-                let fits = |corner: &str| {
-                    let numbers = corner.split('/').zip(counts);
-                    numbers
-                        .into_iter()
-                        .all(|(number, count)| match number.strip_prefix('-') {
-                            Some(back) => whole(back) <= count,
-                            None => whole(number) <= text.len(),
-                        })
-                };
-                if !words.all(fits) {
-                    return Err(damaged(
-                        "OBJ",
-                        format!("line {} names a vertex that cannot be there", i + 1),
-                    ));
-                }
+            Some("v") => reader.vertex(row, words)?,
+            Some("vt") => {
+                let numbers = numbers(row, words.take(2))?;
+                uvs.push([0, 1].map(|k| numbers.get(k).copied().unwrap_or_default() as f32));
             }
+            Some("f" | "fo") => has_faces = true,
+            Some(name) if FREE_FORM_STATEMENTS.contains(&name) => free_form = Some(row),
             _ => {}
         }
     }
-    Ok(())
+    if let (Some(row), false) = (free_form, has_faces) {
+        let reason = format!(
+            "line {row} begins a free-form surface, and there are no faces; let a CAD program \
+             save it as a mesh"
+        );
+        return Err(unsupported("OBJ", reason));
+    }
+    if !has_faces {
+        // Without faces its points are a cloud.
+        for point in 0..reader.corners.positions.len() {
+            reader
+                .corners
+                .vertex(point, None, CornerMaterial::default(), parts)?;
+        }
+        return Ok(());
+    }
+    reader.faces(&text, &uvs, beside, parts)
 }
 
-/// Parses the digits of a number in an OBJ file and saturates where it is too large; what is not a digit is left to the
-/// later parser.
-fn whole(text: &str) -> usize {
-    let digits = text.bytes().filter(u8::is_ascii_digit);
-    digits.fold(0, |n, digit| {
-        n.saturating_mul(10).saturating_add((digit - b'0').into())
+/// What an OBJ file has stated so far.
+#[derive(Default)]
+struct Reader {
+    corners: Corners,
+    materials: Vec<Material>,
+}
+
+impl Reader {
+    /// Reads a vertex: a position, perhaps its weight, and perhaps a colour.
+    fn vertex<'a>(&mut self, row: usize, words: impl Iterator<Item = &'a str>) -> Result<()> {
+        let numbers = numbers(row, words)?;
+        let [x, y, z, rest @ ..] = numbers.as_slice() else {
+            return Err(damaged(
+                "OBJ",
+                format!("line {row} has too few coordinates"),
+            ));
+        };
+        self.corners.positions.push([*x, *y, *z]);
+        let color = match rest {
+            [r, g, b] | [_, r, g, b] => Some([*r, *g, *b].map(|v| v as f32)),
+            _ => None,
+        };
+        self.corners.colors.push(color);
+        Ok(())
+    }
+
+    /// Reads the faces, each with the material before it. The vertices are known already.
+    fn faces(
+        &mut self,
+        text: &str,
+        uvs: &[[f32; 2]],
+        beside: &Beside,
+        parts: &mut MeshBuilder,
+    ) -> Result<()> {
+        let mut counts = [0; 2];
+        let (mut material, mut texture) = (CornerMaterial::default(), NO_TEXTURE);
+        let mut face = Vec::new();
+        for (row, line) in lines(text) {
+            let mut words = words(&line);
+            match words.next() {
+                Some("v") => counts[0] += 1,
+                Some("vt") => counts[1] += 1,
+                Some("mtllib") => self.materials.extend(mtl::library(rest_of(&line), beside)),
+                Some("usemtl") => {
+                    parts.texture(texture);
+                    let name = rest_of(&line);
+                    let number = self.materials.iter().position(|m| m.name == name);
+                    let found = number.map(|number| &self.materials[number]);
+                    material = CornerMaterial {
+                        number: number.map_or(0, |number| number + 1),
+                        color: found.map_or(CornerMaterial::default().color, |m| m.color),
+                    };
+                    let picture = found.and_then(|m| m.picture.as_deref());
+                    texture = match picture.and_then(|name| beside.find(name)) {
+                        Some((name, bytes)) => parts.picture(name, bytes)?,
+                        None => NO_TEXTURE,
+                    };
+                }
+                Some("f" | "fo") => {
+                    face.clear();
+                    for corner in words {
+                        let mut indices = corner.split('/');
+                        let position = index(indices.next(), counts[0]);
+                        let position = position
+                            .filter(|i| *i < self.corners.positions.len())
+                            .ok_or_else(|| {
+                                let reason = format!(
+                                    "line {row} names the vertex {corner:?}, which is not there"
+                                );
+                                damaged("OBJ", reason)
+                            })?;
+                        let uv = index(indices.next(), counts[1]);
+                        let uv = uv.and_then(|i| uvs.get(i)).copied();
+                        face.push(self.corners.vertex(position, uv, material, parts)?);
+                    }
+                    parts.fan(&face)?;
+                }
+                _ => {}
+            }
+        }
+        parts.texture(texture);
+        Ok(())
+    }
+}
+
+/// Parses an index from 1, or one that counts back from the last of `count` elements; returns it from 0.
+fn index(word: Option<&str>, count: usize) -> Option<usize> {
+    match word?.parse::<i64>().ok()? {
+        0 => None,
+        back if back < 0 => count.checked_sub(usize::try_from(back.unsigned_abs()).ok()?),
+        number => usize::try_from(number - 1).ok(),
+    }
+}
+
+/// Iterates over the words of a line up to a comment.
+fn words(line: &str) -> impl Iterator<Item = &str> {
+    line.split_whitespace()
+        .take_while(|word| !word.starts_with('#'))
+}
+
+/// Returns a line without its first word.
+fn rest_of(line: &str) -> &str {
+    let line = line.trim();
+    line.split_once(char::is_whitespace)
+        .map_or("", |(_, rest)| rest.trim())
+}
+
+fn numbers<'a>(row: usize, words: impl Iterator<Item = &'a str>) -> Result<Vec<f64>> {
+    let number = |word: &'a str| {
+        let reason = || format!("line {row} has {word:?} where a number should stand");
+        word.parse().map_err(|_| damaged("OBJ", reason()))
+    };
+    words.map(number).collect()
+}
+
+/// Returns whether a file has a line that states a vertex as an OBJ file does.
+pub(super) fn detect(bytes: &[u8]) -> bool {
+    lines(&decoded(bytes)).any(|(_, line)| {
+        let mut words = words(&line);
+        words.next() == Some("v") && words.next().is_some_and(|word| word.parse::<f64>().is_ok())
     })
 }

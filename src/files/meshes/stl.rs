@@ -7,6 +7,7 @@ use stl_io::{Normal, Triangle, Vertex, create_stl_reader};
 
 use super::builder::{MeshBuilder, damaged, unsupported};
 use super::narrow::narrowed;
+use super::text::{decoded, lines};
 use crate::error::Result;
 use crate::files::buffer::Buffer;
 use crate::scene::mesh::Mesh;
@@ -35,7 +36,14 @@ fn length(triangles: usize) -> Option<usize> {
 }
 
 pub(super) fn read(bytes: &[u8], parts: &mut MeshBuilder) -> Result<()> {
-    if bytes.starts_with(b"solid") && !is_binary(bytes) {
+    let text = bytes
+        .strip_prefix(b"\xef\xbb\xbf")
+        .unwrap_or(bytes)
+        .trim_ascii_start();
+    let begins = text
+        .get(..5)
+        .is_some_and(|word| word.eq_ignore_ascii_case(b"solid"));
+    if begins && !is_binary(bytes) {
         return ascii(bytes, parts);
     }
     match triangles(bytes).and_then(length) {
@@ -59,21 +67,30 @@ pub(super) fn read(bytes: &[u8], parts: &mut MeshBuilder) -> Result<()> {
     collect(&file, parts)
 }
 
-/// Reads all solids of an ASCII STL file, of which `stl_io` reads only one.
+/// Reads the vertices of all solids of an ASCII STL file, three for each triangle.
 fn ascii(bytes: &[u8], parts: &mut MeshBuilder) -> Result<()> {
-    let ends = bytes.iter().enumerate().filter(|(_, b)| **b == b'\n');
-    let lines = std::iter::once(0).chain(ends.map(|(i, _)| i + 1));
-    let starts: Vec<usize> = lines
-        .filter(|i| bytes[*i..].starts_with(b"solid"))
-        .collect();
-    for (i, start) in starts.iter().enumerate() {
-        let end = starts.get(i + 1).copied().unwrap_or(bytes.len());
-        let solid = &bytes[*start..end];
-        let line = solid.iter().position(|b| *b == b'\n');
-        // A name is optional and may be in any encoding, but `stl_io` requires a blank.
-        let mut file = b"solid \n".to_vec();
-        file.extend_from_slice(&solid[line.map_or(solid.len(), |at| at + 1)..]);
-        collect(&file, parts)?;
+    let text = decoded(bytes);
+    let mut ended = false;
+    for (row, line) in lines(&text) {
+        let mut words = line.split_whitespace();
+        let first = words.next().unwrap_or_default();
+        ended |= first.eq_ignore_ascii_case("endsolid");
+        if !first.eq_ignore_ascii_case("vertex") {
+            continue;
+        }
+        let mut number = || words.next().and_then(|word| word.parse().ok());
+        let (Some(x), Some(y), Some(z)) = (number(), number(), number()) else {
+            let reason = format!("line {row} has not the three numbers of a vertex");
+            return Err(damaged("STL", reason));
+        };
+        parts.position([x, y, z])?;
+        let end = parts.positions.len() as u32;
+        if end.is_multiple_of(3) {
+            parts.triangle([end - 3, end - 2, end - 1])?;
+        }
+    }
+    if !ended || !parts.positions.len().is_multiple_of(3) {
+        return Err(damaged("STL", "the file ends within a solid"));
     }
     Ok(())
 }

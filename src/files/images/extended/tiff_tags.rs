@@ -9,10 +9,9 @@ use ::tiff::{TiffError, TiffUnsupportedError};
 
 use super::samples::{damaged, unsupported};
 use crate::error::{Error, Result};
-use crate::files::Assumption;
-use crate::files::images::decoded::Unit;
 use crate::files::images::format::Format;
 use crate::files::images::georeference::Georeference;
+use crate::files::{Assumption, Unit};
 
 pub(super) type File<'a> = Decoder<Cursor<&'a [u8]>>;
 

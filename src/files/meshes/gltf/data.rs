@@ -4,10 +4,9 @@ use std::borrow::Cow;
 
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
-use gltf::Accessor;
-use gltf::accessor::{DataType, Dimensions};
 
-use crate::error::Result;
+use super::json::{Accessor, Root};
+use crate::error::{MAX_CELLS, Result, try_filled};
 use crate::files::meshes::builder::{damaged, unsupported};
 
 /// Name of the glTF format in error messages.
@@ -48,86 +47,161 @@ pub(super) fn plain(uri: &str) -> String {
     String::from_utf8_lossy(&bytes).into_owned()
 }
 
-/// Reads the first `N` components of each element of a glTF accessor (a typed array) as floats; integers become shares
-/// of their type's maximum.
-pub(super) fn floats<const N: usize>(
-    accessor: &Accessor,
-    buffers: &[Cow<[u8]>],
-) -> Result<Vec<[f64; N]>> {
-    let kind = accessor.data_type();
-    let (width, components) = (kind.size(), count(accessor.dimensions()));
-    if components < N {
-        return Err(damaged(FORMAT_NAME, "an attribute has too few components"));
-    }
-    let component = |bytes: &[u8]| match (kind, bytes) {
-        (DataType::F32, [a, b, c, d]) => Some(f64::from(f32::from_le_bytes([*a, *b, *c, *d]))),
-        (DataType::U8, [a]) => Some(f64::from(*a) / f64::from(u8::MAX)),
-        (DataType::U16, [a, b]) => {
-            Some(f64::from(u16::from_le_bytes([*a, *b])) / f64::from(u16::MAX))
+/// The numbers and bytes that a glTF file refers to: its text part, and the bytes of its buffers.
+pub(super) struct Data<'a> {
+    pub(super) root: &'a Root,
+    pub(super) buffers: &'a [Cow<'a, [u8]>],
+}
+
+/// Bytes of an array's elements, and from each one to the next.
+struct Elements<'a> {
+    bytes: &'a [u8],
+    stride: usize,
+}
+
+impl Data<'_> {
+    /// Reads the first `N` components of each element of an accessor (a typed array) as floats; normalised integers
+    /// become shares of their type's maximum. What the accessor states apart (sparse) is put in its place.
+    pub(super) fn floats<const N: usize>(&self, number: usize) -> Result<Vec<[f64; N]>> {
+        let accessor = self.accessor(number)?;
+        let kind = accessor.component_type;
+        let components = components(&accessor.dimensions).unwrap_or(0);
+        if components < N {
+            return Err(damaged(FORMAT_NAME, "an attribute has too few components"));
         }
-        _ => None,
-    };
-    elements(accessor, buffers)?
-        .map(|element| {
-            let mut out = [0.0; N];
-            for (out, bytes) in out.iter_mut().zip(element.chunks_exact(width)) {
-                *out = component(bytes)
-                    .ok_or_else(|| unsupported(FORMAT_NAME, "an attribute has an unusual type"))?;
+        let width = width(kind)?;
+        let element = |bytes: &[u8]| -> [f64; N] {
+            std::array::from_fn(|k| component(kind, accessor.normalized, &bytes[k * width..]))
+        };
+        let size = width * components;
+        let mut values = match accessor.buffer_view {
+            Some(view) => {
+                let found =
+                    self.elements(view, accessor.byte_offset, accessor.count, size, true)?;
+                found.bytes.chunks(found.stride).map(element).collect()
             }
-            Ok(out)
-        })
-        .collect()
-}
+            None if accessor.count <= MAX_CELLS => try_filled("mesh", accessor.count, [0.0; N])?,
+            None => return Err(damaged(FORMAT_NAME, "an accessor has too many elements")),
+        };
+        if let Some(sparse) = &accessor.sparse {
+            let (at, new) = (&sparse.indices, &sparse.values);
+            let wide = self::width(at.component_type)?;
+            let places =
+                self.elements(at.buffer_view, at.byte_offset, sparse.count, wide, false)?;
+            let news =
+                self.elements(new.buffer_view, new.byte_offset, sparse.count, size, false)?;
+            let places = places.bytes.chunks(wide);
+            for (place, bytes) in places.zip(news.bytes.chunks(size)) {
+                let place = component(at.component_type, false, place) as usize;
+                *(values.get_mut(place))
+                    .ok_or_else(|| damaged(FORMAT_NAME, "a sparse accessor has a wrong index"))? =
+                    element(bytes);
+            }
+        }
+        Ok(values)
+    }
 
-pub(super) fn whole(accessor: &Accessor, buffers: &[Cow<[u8]>]) -> Result<Vec<u32>> {
-    elements(accessor, buffers)?
-        .map(|element| match (accessor.data_type(), element) {
-            (DataType::U8, [a]) => Ok(u32::from(*a)),
-            (DataType::U16, [a, b]) => Ok(u32::from(u16::from_le_bytes([*a, *b]))),
-            (DataType::U32, [a, b, c, d]) => Ok(u32::from_le_bytes([*a, *b, *c, *d])),
-            _ => Err(damaged(FORMAT_NAME, "indices are not single whole numbers")),
-        })
-        .collect()
-}
+    /// Reads the indices that an accessor has.
+    pub(super) fn whole(&self, number: usize) -> Result<Vec<u32>> {
+        let accessor = self.accessor(number)?;
+        let whole = matches!(
+            accessor.component_type,
+            UNSIGNED_BYTE | UNSIGNED_SHORT | UNSIGNED_INT
+        );
+        if !whole || components(&accessor.dimensions) != Some(1) {
+            return Err(damaged(FORMAT_NAME, "indices are not single whole numbers"));
+        }
+        let values = self.floats::<1>(number)?;
+        Ok(values.iter().map(|[value]| *value as u32).collect())
+    }
 
-fn count(dimensions: Dimensions) -> usize {
-    match dimensions {
-        Dimensions::Scalar => 1,
-        Dimensions::Vec2 => 2,
-        Dimensions::Vec3 => 3,
-        Dimensions::Vec4 | Dimensions::Mat2 => 4,
-        Dimensions::Mat3 => 9,
-        Dimensions::Mat4 => 16,
+    fn accessor(&self, number: usize) -> Result<&Accessor> {
+        let missing = || damaged(FORMAT_NAME, "an accessor that it names is not there");
+        self.root.accessors.get(number).ok_or_else(missing)
+    }
+
+    /// Returns the bytes of a buffer view.
+    pub(super) fn view(&self, number: usize) -> Option<&[u8]> {
+        let view = self.root.buffer_views.get(number)?;
+        let end = view.byte_offset.checked_add(view.byte_length)?;
+        self.buffers.get(view.buffer)?.get(view.byte_offset..end)
+    }
+
+    /// Finds so many elements of a size in bytes in a buffer view; the view states how far they are from each other
+    /// where `strided`.
+    fn elements(
+        &self,
+        number: usize,
+        offset: usize,
+        count: usize,
+        size: usize,
+        strided: bool,
+    ) -> Result<Elements<'_>> {
+        let stride = || self.root.buffer_views.get(number)?.byte_stride;
+        let stride = stride().filter(|_| strided).unwrap_or(size);
+        let whole = || {
+            let bytes = self.view(number)?.get(offset..)?;
+            let last = count.checked_sub(1)?;
+            let needed = last.checked_mul(stride)?.checked_add(size)?;
+            (stride >= size).then_some(bytes.get(..needed)?)
+        };
+        let bytes = whole().ok_or_else(|| {
+            damaged(
+                FORMAT_NAME,
+                "an accessor reaches beyond its buffer, which may have been cut short",
+            )
+        })?;
+        Ok(Elements { bytes, stride })
     }
 }
 
-/// Returns the bytes of each element of a glTF accessor (a typed array).
-fn elements<'a>(
-    accessor: &Accessor,
-    buffers: &'a [Cow<'a, [u8]>],
-) -> Result<impl Iterator<Item = &'a [u8]>> {
-    if accessor.sparse().is_some() {
-        return Err(unsupported(FORMAT_NAME, "sparse accessors are not read"));
+/// Codes of the types of components, as glTF has them.
+const BYTE: u32 = 5120;
+const UNSIGNED_BYTE: u32 = 5121;
+const SHORT: u32 = 5122;
+const UNSIGNED_SHORT: u32 = 5123;
+const UNSIGNED_INT: u32 = 5125;
+const FLOAT: u32 = 5126;
+
+/// Returns the number of bytes of a component of a given type.
+fn width(kind: u32) -> Result<usize> {
+    match kind {
+        BYTE | UNSIGNED_BYTE => Ok(1),
+        SHORT | UNSIGNED_SHORT => Ok(2),
+        UNSIGNED_INT | FLOAT => Ok(4),
+        _ => Err(unsupported(FORMAT_NAME, "an attribute has an unusual type")),
     }
-    let Some(view) = accessor.view() else {
-        return Err(unsupported(FORMAT_NAME, "an accessor has no buffer view"));
+}
+
+/// Reads a component from the beginning of some bytes, which must be long enough for its type; 0 where they are not.
+fn component(kind: u32, normalized: bool, bytes: &[u8]) -> f64 {
+    let (value, most) = match (kind, bytes) {
+        (BYTE, [a, ..]) => (f64::from(i8::from_le_bytes([*a])), i8::MAX.into()),
+        (UNSIGNED_BYTE, [a, ..]) => (f64::from(*a), u8::MAX.into()),
+        (SHORT, [a, b, ..]) => (f64::from(i16::from_le_bytes([*a, *b])), i16::MAX.into()),
+        (UNSIGNED_SHORT, [a, b, ..]) => (f64::from(u16::from_le_bytes([*a, *b])), u16::MAX.into()),
+        (UNSIGNED_INT, [a, b, c, d, ..]) => (
+            f64::from(u32::from_le_bytes([*a, *b, *c, *d])),
+            u32::MAX.into(),
+        ),
+        (FLOAT, [a, b, c, d, ..]) => (f64::from(f32::from_le_bytes([*a, *b, *c, *d])), 1.0),
+        _ => (0.0, 1.0),
     };
-    let size = accessor.data_type().size() * count(accessor.dimensions());
-    let stride = view.stride().unwrap_or(size);
-    let whole = || {
-        let buffer = buffers.get(view.buffer().index())?;
-        let view = buffer.get(view.offset()..view.offset().checked_add(view.length())?)?;
-        let bytes = view.get(accessor.offset()..)?;
-        let last = accessor.count().checked_sub(1)?;
-        let needed = last.checked_mul(stride)?.checked_add(size)?;
-        (stride >= size).then_some(bytes.get(..needed)?)
-    };
-    let bytes = whole().ok_or_else(|| {
-        damaged(
-            FORMAT_NAME,
-            "an accessor reaches beyond its buffer, which may have been cut short",
-        )
-    })?;
-    // The last one may be shorter than the stride.
-    Ok(bytes.chunks(stride).map(move |element| &element[..size]))
+    match normalized {
+        true => (value / most).max(-1.0), // the lowest integer lies below the range
+        false => value,
+    }
+}
+
+/// Returns the number of components of each element of a typed array.
+fn components(dimensions: &str) -> Option<usize> {
+    Some(match dimensions {
+        "SCALAR" => 1,
+        "VEC2" => 2,
+        "VEC3" => 3,
+        "VEC4" | "MAT2" => 4,
+        "MAT3" => 9,
+        "MAT4" => 16,
+        _ => return None,
+    })
 }

@@ -1,77 +1,48 @@
-//! glTF 2.0 and GLB: the scene is read by the `gltf` crate, its buffers directly, because their ranges may
-//! differ from those that the file states.
+//! Reads glTF 2.0 and GLB.
 
 mod data;
+mod json;
 
 use std::borrow::Cow;
+use std::collections::BTreeSet;
 
-use gltf::buffer::Source;
-use gltf::json::{Image, Root};
-use gltf::mesh::Mode;
-use gltf::{Document, Glb, Primitive, Semantic};
-use nalgebra::{Matrix4, Vector4};
+use nalgebra::{Matrix4, Quaternion, UnitQuaternion, Vector4};
 
-use self::data::{FORMAT_NAME, embedded, floats, plain, whole};
+use self::data::{Data, FORMAT_NAME, embedded, plain};
+use self::json::{Image, Node, Primitive, Root, TextureTransform};
 use super::beside::Beside;
 use super::builder::{DEFAULT_VERTEX_COLOUR, MeshBuilder, NO_TEXTURE, damaged, unsupported};
 use crate::error::{Error, Result};
 
+/// Extensions without which the triangles of a file that requires them cannot be read. All others are about looks, or
+/// say how numbers are stored that are read as they are.
+const GEOMETRY_EXTENSIONS: [&str; 4] = [
+    "KHR_draco_mesh_compression",
+    "EXT_meshopt_compression",
+    "KHR_meshopt_compression",
+    "EXT_mesh_gpu_instancing",
+];
+
 pub(super) fn read(bytes: &[u8], beside: &Beside, parts: &mut MeshBuilder) -> Result<()> {
-    let binary = bytes.starts_with(b"glTF");
-    let (json, bin) = if binary {
-        // `gltf` subtracts the header's own length from the stated length.
-        let length = bytes.get(8..12).and_then(|length| length.try_into().ok());
-        if length.is_none_or(|length| u32::from_le_bytes(length) < 12) {
-            return Err(damaged(
-                FORMAT_NAME,
-                "its header states a length that cannot be",
-            ));
-        }
-        let glb = Glb::from_slice(bytes).map_err(|error| damaged(FORMAT_NAME, error))?;
-        (glb.json, glb.bin)
-    } else {
-        (bytes.into(), None)
+    let (json, bin) = match bytes.starts_with(b"glTF") {
+        true => chunks(bytes)?,
+        false => (bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes), None),
     };
-    let root: Root =
-        gltf::json::deserialize::from_slice(&json).map_err(|error| damaged(FORMAT_NAME, error))?;
-    if let Some(name) = root.extensions_required.first() {
-        return Err(unsupported(
-            FORMAT_NAME,
-            format!(
-                "the file cannot be read without the extension {}; save it without, or without \
-                 compression",
-                name.chars().take(60).collect::<String>()
-            ),
-        ));
+    let root: Root = serde_json::from_slice(json).map_err(|error| damaged(FORMAT_NAME, error))?;
+    let mut required = root.extensions_required.iter();
+    if let Some(name) = required.find(|name| GEOMETRY_EXTENSIONS.contains(&name.as_str())) {
+        let reason = format!(
+            "its triangles are stored by the extension {name}; `gltf-transform copy IN.glb \
+             OUT.glb` writes a file without compression"
+        );
+        return Err(unsupported(FORMAT_NAME, reason));
     }
-    // The crate's validation looks indices up unchecked.
-    let attributes = |mesh: &gltf::json::Mesh| {
-        let primitives = mesh.primitives.iter();
-        primitives
-            .map(|p| p.attributes.values().map(|i| i.value()).max())
-            .max()
-            .flatten()
-    };
-    if root
-        .meshes
-        .iter()
-        .filter_map(attributes)
-        .any(|i| i >= root.accessors.len())
-    {
-        return Err(damaged(
-            FORMAT_NAME,
-            "an attribute names an accessor that is not there",
-        ));
-    }
-    let document = Document::from_json(root).map_err(|error| damaged(FORMAT_NAME, error))?;
-    let buffers = document
-        .buffers()
-        .map(|buffer| match buffer.source() {
-            Source::Bin => bin
-                .as_deref()
+    let buffers = (root.buffers.iter())
+        .map(|buffer| match &buffer.uri {
+            None => bin
                 .map(Cow::Borrowed)
                 .ok_or_else(|| damaged(FORMAT_NAME, "there is no binary chunk")),
-            Source::Uri(uri) => match embedded(uri)? {
+            Some(uri) => match embedded(uri)? {
                 Some(bytes) => Ok(Cow::Owned(bytes)),
                 None => match beside.find(&plain(uri)) {
                     Some((_, bytes)) => Ok(Cow::Borrowed(bytes)),
@@ -80,12 +51,33 @@ pub(super) fn read(bytes: &[u8], beside: &Beside, parts: &mut MeshBuilder) -> Re
             },
         })
         .collect::<Result<Vec<_>>>()?;
-    let scene = Scene {
-        document: &document,
+    let data = Data {
+        root: &root,
         buffers: &buffers,
-        beside,
     };
+    let scene = Scene { data, beside };
     scene.visit(parts)
+}
+
+/// Splits a GLB file into its text part and its binary part, if it has one.
+fn chunks(bytes: &[u8]) -> Result<(&[u8], Option<&[u8]>)> {
+    let damaged = || damaged(FORMAT_NAME, "its chunks are not as its header states");
+    if bytes.get(4..8) != Some(&[2, 0, 0, 0]) {
+        return Err(unsupported(FORMAT_NAME, "only version 2 is read"));
+    }
+    let mut rest = bytes.get(12..).ok_or_else(damaged)?;
+    let (mut json, mut bin) = (None, None);
+    while let Some((head, tail)) = rest.split_first_chunk::<8>() {
+        let length = u32::from_le_bytes([head[0], head[1], head[2], head[3]]) as usize;
+        let chunk = tail.get(..length).ok_or_else(damaged)?;
+        match &head[4..] {
+            b"JSON" => json = json.or(Some(chunk)),
+            b"BIN\0" => bin = bin.or(Some(chunk)),
+            _ => {}
+        }
+        rest = &tail[length..];
+    }
+    Ok((json.ok_or_else(damaged)?, bin))
 }
 
 fn elsewhere(uri: &str) -> Error {
@@ -98,54 +90,71 @@ fn elsewhere(uri: &str) -> Error {
 
 /// A glTF document with the bytes of its buffers.
 struct Scene<'a> {
-    document: &'a Document,
-    buffers: &'a [Cow<'a, [u8]>],
+    data: Data<'a>,
     beside: &'a Beside<'a>,
 }
 
 /// A texture picture: the name of its file, empty for an embedded picture, and the file's bytes.
 type NamedPicture<'a> = (&'a str, Cow<'a, [u8]>);
 
-/// Appearance of a primitive (triangles of one material) by its material: a base colour, the number of a texture, and
-/// which set of texture coordinates that texture uses.
+/// Appearance of a primitive (triangles of one material) by its material: a base colour, the number of a texture,
+/// which set of texture coordinates that texture uses, and their transform.
 struct Appearance {
     color: [f32; 3],
     texture: i32,
     set: u32,
+    transform: TextureTransform,
 }
 
 impl Scene<'_> {
     /// Visits every node of the glTF scene, with the product of the transforms of all nodes above it.
     fn visit(&self, parts: &mut MeshBuilder) -> Result<()> {
-        let document = self.document;
-        let Some(scene) = document
-            .default_scene()
-            .or_else(|| document.scenes().next())
-        else {
-            return Err(unsupported(FORMAT_NAME, "there is no scene in it"));
-        };
-        let mut pictures = vec![None; document.as_json().images.len()];
-        let mut seen = vec![false; document.nodes().len()];
-        let mut open: Vec<_> = scene
-            .nodes()
-            .map(|node| (node, Matrix4::identity()))
+        let root = self.data.root;
+        let mut pictures = vec![None; root.images.len()];
+        let mut seen = vec![false; root.nodes.len()];
+        let mut open: Vec<_> = self
+            .top()?
+            .into_iter()
+            .map(|n| (n, Matrix4::identity()))
             .collect();
-        while let Some((node, above)) = open.pop() {
-            if std::mem::replace(&mut seen[node.index()], true) {
+        while let Some((number, above)) = open.pop() {
+            let missing = || damaged(FORMAT_NAME, format!("node {number} is not there"));
+            let node = root.nodes.get(number).ok_or_else(missing)?;
+            if std::mem::replace(&mut seen[number], true) {
                 return Err(damaged(
                     FORMAT_NAME,
                     "a node has two parents, or is its own ancestor",
                 ));
             }
-            let own = Matrix4::from(node.transform().matrix()).cast::<f64>();
-            let transform = above * own;
-            for primitive in node.mesh().iter().flat_map(|mesh| mesh.primitives()) {
-                let look = self.look(&primitive, &mut pictures, parts)?;
-                self.add(&primitive, &transform, &look, parts)?;
+            let transform = above * matrix(node);
+            if let Some(number) = node.mesh {
+                let missing = || damaged(FORMAT_NAME, format!("mesh {number} is not there"));
+                let mesh = root.meshes.get(number).ok_or_else(missing)?;
+                for primitive in &mesh.primitives {
+                    let look = self.look(primitive, &mut pictures, parts)?;
+                    self.add(primitive, &transform, &look, parts)?;
+                }
             }
-            open.extend(node.children().map(|child| (child, transform)));
+            open.extend(node.children.iter().map(|child| (*child, transform)));
         }
         Ok(())
+    }
+
+    /// Returns the nodes of the default scene or else of the first one; without scenes those that are below no other.
+    fn top(&self) -> Result<Vec<usize>> {
+        let root = self.data.root;
+        if let Some(scene) = root.scenes.get(root.scene.unwrap_or(0)) {
+            return Ok(scene.nodes.clone());
+        }
+        if root.scene.is_some() {
+            return Err(damaged(FORMAT_NAME, "its default scene is not there"));
+        }
+        let below: BTreeSet<usize> = (root.nodes.iter())
+            .flat_map(|n| n.children.iter().copied())
+            .collect();
+        Ok((0..root.nodes.len())
+            .filter(|number| !below.contains(number))
+            .collect())
     }
 
     /// Reads the base colour and the texture of a primitive's material; each texture is read once.
@@ -159,37 +168,37 @@ impl Scene<'_> {
             color: DEFAULT_VERTEX_COLOUR,
             texture: NO_TEXTURE,
             set: 0,
+            transform: TextureTransform::default(),
         };
-        let root = self.document.as_json();
-        let material = primitive.material().index();
-        let Some(material) = material.and_then(|index| root.materials.get(index)) else {
+        let root = self.data.root;
+        let Some(material) = primitive
+            .material
+            .and_then(|number| root.materials.get(number))
+        else {
             return Ok(look);
         };
         let base = &material.pbr_metallic_roughness;
-        let [r, g, b, _] = base.base_color_factor.0;
-        look.color = [r, g, b];
+        if let Some([r, g, b, _]) = base.base_color_factor {
+            look.color = [r, g, b];
+        }
         let Some(info) = &base.base_color_texture else {
             return Ok(look);
         };
-        let texture = root.textures.get(info.index.value());
-        let Some(image) = texture.map(|texture| texture.source.value()) else {
+        let texture = root.textures.get(info.index);
+        let source = texture.and_then(|texture| texture.source.or(texture.extensions.webp.source));
+        let Some((number, image)) = source.and_then(|n| Some((n, root.images.get(n)?))) else {
             return Ok(look);
         };
-        let (Some(picture), Some(known)) = (root.images.get(image), pictures.get_mut(image)) else {
-            return Ok(look);
+        look.transform = info.extensions.transform.unwrap_or_default();
+        look.set = look.transform.tex_coord.unwrap_or(info.tex_coord);
+        look.texture = match pictures[number] {
+            Some(known) => known,
+            None => match self.picture(image)? {
+                Some((name, bytes)) => parts.picture(name, &bytes)?,
+                None => NO_TEXTURE,
+            },
         };
-        look.set = info.tex_coord;
-        look.texture = match *known {
-            Some(number) => number,
-            None => {
-                let number = match self.picture(picture)? {
-                    Some((name, bytes)) => parts.picture(name, &bytes)?,
-                    None => NO_TEXTURE,
-                };
-                *known = Some(number);
-                number
-            }
-        };
+        pictures[number] = Some(look.texture);
         Ok(look)
     }
 
@@ -204,16 +213,9 @@ impl Scene<'_> {
                     .map(|(name, b)| (name, b.into()))),
             };
         }
-        let view = image.buffer_view.map(|index| index.value());
-        let views = &self.document.as_json().buffer_views;
-        let bytes = || {
-            let view = views.get(view?)?;
-            let start = usize::try_from(view.byte_offset.unwrap_or_default().0).ok()?;
-            let end = start.checked_add(usize::try_from(view.byte_length.0).ok()?)?;
-            self.buffers.get(view.buffer.value())?.get(start..end)
-        };
+        let bytes = image.buffer_view.and_then(|number| self.data.view(number));
         let bytes =
-            bytes().ok_or_else(|| damaged(FORMAT_NAME, "an image reaches beyond its buffer"))?;
+            bytes.ok_or_else(|| damaged(FORMAT_NAME, "an image reaches beyond its buffer"))?;
         Ok(Some(("", bytes.into())))
     }
 
@@ -224,46 +226,46 @@ impl Scene<'_> {
         look: &Appearance,
         parts: &mut MeshBuilder,
     ) -> Result<()> {
-        let buffers = self.buffers;
-        let mode = primitive.mode();
-        if !matches!(
-            mode,
-            Mode::Points | Mode::Triangles | Mode::TriangleStrip | Mode::TriangleFan
-        ) {
+        let mode = primitive.mode.unwrap_or(TRIANGLES);
+        if !matches!(mode, POINTS | TRIANGLES | TRIANGLE_STRIP | TRIANGLE_FAN) {
             return Ok(()); // lines
         }
-        let Some(positions) = primitive.get(&Semantic::Positions) else {
+        let attribute = |name: &str| primitive.attributes.get(name).copied();
+        let Some(positions) = attribute("POSITION") else {
             return Ok(());
         };
         let start = parts.positions.len();
-        for p in floats::<3>(&positions, buffers)? {
+        for p in self.data.floats::<3>(positions)? {
             let point = transform * Vector4::new(p[0], p[1], p[2], 1.0);
             parts.position([point.x, point.y, point.z])?;
         }
         let vertices = parts.positions.len() - start;
-        if let Some(colors) = primitive.get(&Semantic::Colors(0)) {
-            let colors = floats::<3>(&colors, buffers)?;
-            parts
-                .colors
-                .extend(colors.iter().take(vertices).map(|c| c.map(|v| v as f32)));
-        } else {
-            parts.material(start, look.color);
+        match attribute("COLOR_0") {
+            Some(colors) => {
+                let colors = self.data.floats::<3>(colors)?;
+                let colors = colors.iter().take(vertices);
+                parts.colors.extend(colors.map(|c| c.map(|v| v as f32)));
+            }
+            None => parts.material(start, look.color),
         }
-        if let Some(uvs) = primitive.get(&Semantic::TexCoords(look.set)) {
-            let uvs = floats::<2>(&uvs, buffers)?;
-            parts.uvs.extend(
-                uvs.iter()
+        match attribute(&format!("TEXCOORD_{}", look.set)) {
+            Some(uvs) => {
+                let uvs = self.data.floats::<2>(uvs)?;
+                let uvs = uvs
+                    .iter()
                     .take(vertices)
-                    .map(|[u, v]| [*u as f32, (1.0 - v) as f32]),
-            );
-        } else {
-            parts.no_uvs();
+                    .map(|uv| look.transform.apply(*uv));
+                parts
+                    .uvs
+                    .extend(uvs.map(|[u, v]| [u as f32, (1.0 - v) as f32]));
+            }
+            None => parts.no_uvs(),
         }
-        if mode == Mode::Points {
+        if mode == POINTS {
             return Ok(());
         }
-        let indices = match primitive.indices() {
-            Some(accessor) => whole(&accessor, buffers)?,
+        let indices = match primitive.indices {
+            Some(number) => self.data.whole(number)?,
             None => (0..vertices as u32).collect(),
         };
         if let Some(outside) = indices.iter().find(|i| **i as usize >= vertices) {
@@ -274,20 +276,46 @@ impl Scene<'_> {
         }
         let indices: Vec<u32> = indices.iter().map(|i| i + start as u32).collect();
         match mode {
-            Mode::TriangleFan => parts.fan(&indices),
-            Mode::TriangleStrip => indices.windows(3).enumerate().try_for_each(|(i, t)| {
-                let [a, b] = if i % 2 == 0 {
-                    [t[0], t[1]]
-                } else {
-                    [t[1], t[0]]
-                };
-                parts.triangle([a, b, t[2]])
-            }),
+            TRIANGLE_FAN => parts.fan(&indices),
+            TRIANGLE_STRIP => parts.strip(&indices),
             _ => indices
                 .chunks_exact(3)
                 .try_for_each(|t| parts.triangle([t[0], t[1], t[2]])),
         }?;
         parts.texture(look.texture);
         Ok(())
+    }
+}
+
+/// Modes of primitives, as glTF numbers them.
+const POINTS: u32 = 0;
+const TRIANGLES: u32 = 4;
+const TRIANGLE_STRIP: u32 = 5;
+const TRIANGLE_FAN: u32 = 6;
+
+/// Returns the transform of a node: its matrix, or its scale, rotation and translation in this order.
+fn matrix(node: &Node) -> Matrix4<f64> {
+    if let Some(matrix) = &node.matrix {
+        return Matrix4::from_column_slice(matrix);
+    }
+    let rotation = node.rotation.map_or(Matrix4::identity(), |[x, y, z, w]| {
+        UnitQuaternion::from_quaternion(Quaternion::new(w, x, y, z)).to_homogeneous()
+    });
+    let scale = node.scale.unwrap_or([1.0; 3]);
+    Matrix4::new_translation(&node.translation.into())
+        * rotation
+        * Matrix4::new_nonuniform_scaling(&scale.into())
+}
+
+impl TextureTransform {
+    /// Transforms texture coordinates, of which the second counts from the top of the picture.
+    fn apply(&self, uv: [f64; 2]) -> [f64; 2] {
+        let scale = self.scale.unwrap_or([1.0; 2]);
+        let [u, v] = [uv[0] * scale[0], uv[1] * scale[1]];
+        let (sin, cos) = self.rotation.sin_cos();
+        [
+            cos * u + sin * v + self.offset[0],
+            cos * v - sin * u + self.offset[1],
+        ]
     }
 }

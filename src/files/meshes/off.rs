@@ -1,0 +1,102 @@
+//! Reads meshes in the Object File Format (OFF), in text.
+
+use super::builder::{MeshBuilder, damaged, unsupported};
+use super::text::{decoded, lines};
+use crate::error::Result;
+
+/// Returns whether a file begins with a header of OFF.
+pub(super) fn detect(bytes: &[u8]) -> bool {
+    let text = bytes
+        .strip_prefix(b"\xef\xbb\xbf")
+        .unwrap_or(bytes)
+        .trim_ascii_start();
+    let end = text
+        .iter()
+        .position(u8::is_ascii_whitespace)
+        .unwrap_or(text.len());
+    [
+        "OFF", "COFF", "NOFF", "CNOFF", "STOFF", "STCOFF", "STNOFF", "STCNOFF",
+    ]
+    .iter()
+    .any(|header| text[..end] == *header.as_bytes())
+}
+
+pub(super) fn read(bytes: &[u8], parts: &mut MeshBuilder) -> Result<()> {
+    let text = decoded(bytes);
+    let content = |line: &str| line.split('#').next().unwrap_or_default().trim().to_owned();
+    let mut rows = lines(&text)
+        .map(|(row, line)| (row, content(&line)))
+        .filter(|(_, line)| !line.is_empty());
+    let mut next = || {
+        rows.next()
+            .ok_or_else(|| damaged("OFF", "the file ends too early"))
+    };
+    let (_, first) = next()?;
+    let (header, rest) = first.split_once("OFF").unwrap_or(("", &first));
+    if rest.contains("BINARY") {
+        return Err(unsupported(
+            "OFF",
+            "binary files are not read; save it as text, or as PLY",
+        ));
+    }
+    let counts = match rest.trim() {
+        "" => next()?.1,
+        counts => counts.to_owned(),
+    };
+    let counts: Vec<usize> = counts
+        .split_whitespace()
+        .map_while(|word| word.parse().ok())
+        .collect();
+    let [vertices, faces, ..] = counts[..] else {
+        return Err(damaged(
+            "OFF",
+            "its header does not state the numbers of vertices and faces",
+        ));
+    };
+    // Normals come before colours, which are the last but for texture coordinates.
+    let before = if header.contains('N') { 3 } else { 0 };
+    for _ in 0..vertices {
+        let (row, line) = next()?;
+        let numbers = numbers(row, &line, usize::MAX)?;
+        let [x, y, z, rest @ ..] = numbers.as_slice() else {
+            return Err(damaged(
+                "OFF",
+                format!("line {row} has too few coordinates"),
+            ));
+        };
+        parts.position([*x, *y, *z])?;
+        if header.contains('C')
+            && let [r, g, b, ..] = rest.get(before..).unwrap_or_default()
+        {
+            parts.colors.push([*r, *g, *b].map(|v| v as f32));
+        }
+    }
+    // Colours of whole numbers go up to 255.
+    if parts.colors.as_flattened().iter().any(|v| *v > 1.0) {
+        for color in &mut parts.colors {
+            *color = color.map(|v| v / 255.0);
+        }
+    }
+    for _ in 0..faces {
+        let (row, line) = next()?;
+        let count = numbers(row, &line, 1)?
+            .first()
+            .map_or(0, |count| *count as usize);
+        let corners = numbers(row, &line, count.saturating_add(1))?;
+        if corners.len() <= count {
+            return Err(damaged("OFF", format!("line {row} has too few vertices")));
+        }
+        let corners: Vec<u32> = corners[1..].iter().map(|corner| *corner as u32).collect();
+        parts.fan(&corners)?;
+    }
+    Ok(())
+}
+
+/// Parses the first numbers of a line.
+fn numbers(row: usize, line: &str, most: usize) -> Result<Vec<f64>> {
+    let number = |word: &str| {
+        let reason = || format!("line {row} has {word:?} where a number should stand");
+        word.parse().map_err(|_| damaged("OFF", reason()))
+    };
+    line.split_whitespace().take(most).map(number).collect()
+}

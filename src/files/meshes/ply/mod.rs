@@ -1,0 +1,240 @@
+//! Reads and writes meshes in the Stanford format (PLY).
+
+mod header;
+mod values;
+
+use std::io::{self, Write};
+
+use self::header::{Element, Header};
+use self::values::Values;
+use super::beside::Beside;
+use super::builder::{MeshBuilder, NO_TEXTURE, damaged, unsupported};
+use super::corners::{CornerMaterial, Corners};
+use super::narrow::byte;
+use crate::error::Result;
+use crate::files::buffer::Buffer;
+use crate::scene::mesh::Mesh;
+
+pub(super) fn read(bytes: &[u8], beside: &Beside, parts: &mut MeshBuilder) -> Result<()> {
+    let (header, rest) = Header::parse(bytes)?;
+    let mut values = Values::new(rest, header.encoding);
+    let mut pictures = Vec::new();
+    for name in &header.textures {
+        pictures.push(match beside.find(name) {
+            Some((name, bytes)) => parts.picture(name, bytes)?,
+            None => NO_TEXTURE,
+        });
+    }
+    let mut faces = Faces {
+        pictures,
+        corners: None,
+    };
+    // An element without properties takes no bytes, however many there are.
+    for element in header.elements.iter().filter(|e| !e.properties.is_empty()) {
+        let has = |name: &str| element.properties.iter().any(|p| p.name == name);
+        let polygons = matches!(element.name.as_str(), "face" | "tristrips");
+        if polygons && !has("vertex_indices") && !has("vertex_index") {
+            let reason = format!(
+                "elements `{}` have no list of whole numbers `vertex_indices`",
+                element.name
+            );
+            return Err(damaged("PLY", reason));
+        }
+        for _ in 0..element.count {
+            match element.name.as_str() {
+                "vertex" => vertex(element, &mut values, parts)?,
+                "face" | "tristrips" => faces.read(element, &mut values, parts)?,
+                _ => each_value(element, &mut values, |_, _, _| Ok(()))?,
+            }
+        }
+    }
+    Ok(())
+}
+
+/// Reads an element and calls a function with each value, its property's name, and the value that would be white.
+fn each_value(
+    element: &Element,
+    values: &mut Values,
+    mut take: impl FnMut(&str, f64, f64) -> Result<()>,
+) -> Result<()> {
+    for property in &element.properties {
+        let count = match property.length {
+            Some(kind) => whole(values.next(kind)?)?,
+            None => 1,
+        };
+        for _ in 0..count {
+            take(
+                &property.name,
+                values.next(property.kind)?,
+                property.kind.white(),
+            )?;
+        }
+    }
+    Ok(())
+}
+
+/// Converts a number to the whole number that it must be.
+fn whole(value: f64) -> Result<u32> {
+    if value.fract() == 0.0 && (0.0..=f64::from(u32::MAX)).contains(&value) {
+        return Ok(value as u32);
+    }
+    Err(damaged(
+        "PLY",
+        format!("{value} is no number of a vertex and no length of a list"),
+    ))
+}
+
+/// Reads a vertex, and adds it to the mesh with what it has of colours and texture coordinates.
+fn vertex(element: &Element, values: &mut Values, parts: &mut MeshBuilder) -> Result<()> {
+    let (mut position, mut color, mut uv) = ([f64::NAN; 3], [f32::NAN; 3], [f32::NAN; 2]);
+    each_value(element, values, |name, value, white| {
+        let share = (value / white) as f32;
+        match name {
+            "x" => position[0] = value,
+            "y" => position[1] = value,
+            "z" => position[2] = value,
+            "red" | "r" | "diffuse_red" => color[0] = share,
+            "green" | "g" | "diffuse_green" => color[1] = share,
+            "blue" | "b" | "diffuse_blue" => color[2] = share,
+            "s" | "u" | "texture_u" => uv[0] = value as f32,
+            "t" | "v" | "texture_v" => uv[1] = value as f32,
+            _ => {}
+        }
+        Ok(())
+    })?;
+    parts.position(position)?;
+    if !color.iter().any(|c| c.is_nan()) {
+        parts.colors.push(color);
+    }
+    if !uv.iter().any(|c| c.is_nan()) {
+        parts.uvs.push(uv);
+    }
+    Ok(())
+}
+
+/// Reads the faces and triangle strips of a file, which may have texture coordinates at their corners.
+struct Faces {
+    /// Number of each texture that the header names.
+    pictures: Vec<i32>,
+    /// The vertices as the file has them, where texture coordinates at corners make others of them.
+    corners: Option<Corners>,
+}
+
+impl Faces {
+    fn read(
+        &mut self,
+        element: &Element,
+        values: &mut Values,
+        parts: &mut MeshBuilder,
+    ) -> Result<()> {
+        let (mut indices, mut uvs, mut texture) = (Vec::new(), Vec::new(), 0.0);
+        each_value(element, values, |name, value, _| {
+            match name {
+                "vertex_indices" | "vertex_index" => indices.push(value),
+                "texcoord" => uvs.push(value as f32),
+                "texnumber" => texture = value,
+                _ => {}
+            }
+            Ok(())
+        })?;
+        if element.name == "tristrips" {
+            // -1 begins another strip.
+            for strip in indices.split(|index| *index == -1.0) {
+                let strip = strip
+                    .iter()
+                    .map(|i| whole(*i))
+                    .collect::<Result<Vec<_>>>()?;
+                parts.strip(&strip)?;
+            }
+        } else {
+            let mut face = indices
+                .iter()
+                .map(|i| whole(*i))
+                .collect::<Result<Vec<_>>>()?;
+            if element.properties.iter().any(|p| p.name == "texcoord") {
+                self.split(&mut face, &uvs, parts)?;
+            }
+            parts.fan(&face)?;
+        }
+        // Numbers below 0 stand for none.
+        let picture = (texture >= 0.0)
+            .then(|| self.pictures.get(texture as usize))
+            .flatten();
+        parts.texture(picture.copied().unwrap_or(NO_TEXTURE));
+        Ok(())
+    }
+
+    /// Replaces the corners of a face by vertices that have the corners' texture coordinates.
+    fn split(&mut self, face: &mut [u32], uvs: &[f32], parts: &mut MeshBuilder) -> Result<()> {
+        let corners = self.corners.get_or_insert_with(|| {
+            parts.uvs.clear();
+            Corners {
+                positions: std::mem::take(&mut parts.positions),
+                colors: parts.colors.drain(..).map(Some).collect(),
+                ..Corners::default()
+            }
+        });
+        for (k, index) in face.iter_mut().enumerate() {
+            if *index as usize >= corners.positions.len() {
+                let reason = format!("a face names vertex {index} of {}", corners.positions.len());
+                return Err(damaged("PLY", reason));
+            }
+            let uv = uvs.get(2 * k..2 * k + 2).map(|uv| [uv[0], uv[1]]);
+            *index = corners.vertex(*index as usize, uv, CornerMaterial::default(), parts)?;
+        }
+        Ok(())
+    }
+}
+
+/// Writes a mesh as a PLY file (binary, little-endian).
+///
+/// Positions are written as 64-bit floats, exactly; normals and texture
+/// coordinates (`s`, `t`) as 32-bit floats; colours as bytes, 0 to 255 for 0 to
+/// 1. What the mesh does not have is left out. Costs `O(vertices + triangles)`.
+///
+/// # Errors
+/// [`Error::Unsupported`](crate::Error::Unsupported) from 2³¹ vertices,
+/// [`Error::OutOfMemory`](crate::Error::OutOfMemory).
+pub fn write_ply(mesh: &Mesh) -> Result<Vec<u8>> {
+    if mesh.positions().len() > i32::MAX as usize {
+        return Err(unsupported("PLY", "more than 2³¹ vertices are not written"));
+    }
+    let mut file = Buffer::default();
+    let written = write(&mut file, mesh);
+    file.finish("PLY file", written)
+}
+
+fn write(file: &mut Buffer, mesh: &Mesh) -> io::Result<()> {
+    writeln!(file, "ply\nformat binary_little_endian 1.0")?;
+    writeln!(file, "element vertex {}", mesh.positions().len())?;
+    let groups = [
+        (true, "double", ["x", "y", "z"].as_slice()),
+        (mesh.normals().is_some(), "float", &["nx", "ny", "nz"]),
+        (mesh.colors().is_some(), "uchar", &["red", "green", "blue"]),
+        (mesh.uvs().is_some(), "float", &["s", "t"]),
+    ];
+    for (_, kind, names) in groups.iter().filter(|(there, ..)| *there) {
+        for name in *names {
+            writeln!(file, "property {kind} {name}")?;
+        }
+    }
+    writeln!(file, "element face {}", mesh.triangles().len())?;
+    writeln!(file, "property list uchar int vertex_indices\nend_header")?;
+    for (i, position) in mesh.positions().iter().enumerate() {
+        file.write_all(position.map(f64::to_le_bytes).as_flattened())?;
+        if let Some(normals) = mesh.normals() {
+            file.write_all(normals[i].map(f32::to_le_bytes).as_flattened())?;
+        }
+        if let Some(colors) = mesh.colors() {
+            file.write_all(&colors[i].map(byte))?;
+        }
+        if let Some(uvs) = mesh.uvs() {
+            file.write_all(uvs[i].map(f32::to_le_bytes).as_flattened())?;
+        }
+    }
+    for triangle in mesh.triangles() {
+        file.write_all(&[3])?;
+        file.write_all(triangle.map(u32::to_le_bytes).as_flattened())?;
+    }
+    Ok(())
+}

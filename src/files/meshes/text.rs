@@ -1,0 +1,37 @@
+//! The text of mesh files in whatever encoding and with whatever line ends.
+
+use std::borrow::Cow;
+
+/// Decodes text: UTF-8, or UTF-16 of either byte order that begins with its mark. What is not valid becomes `�`, because
+/// names may be in any encoding.
+pub(super) fn decoded(bytes: &[u8]) -> Cow<'_, str> {
+    let wide = |from: fn([u8; 2]) -> u16| {
+        let units = bytes[2..].chunks_exact(2).map(move |b| from([b[0], b[1]]));
+        let characters = char::decode_utf16(units);
+        characters.map(|c| c.unwrap_or(char::REPLACEMENT_CHARACTER))
+    };
+    match bytes {
+        [0xef, 0xbb, 0xbf, rest @ ..] => String::from_utf8_lossy(rest),
+        [0xff, 0xfe, ..] => wide(u16::from_le_bytes).collect(),
+        [0xfe, 0xff, ..] => wide(u16::from_be_bytes).collect(),
+        _ => String::from_utf8_lossy(bytes),
+    }
+}
+
+/// Iterates over the lines of a text with LF, CR or both at their ends, with the number of each line's first row, from
+/// 1; a `\` at the end of a line joins the next one to it.
+pub(super) fn lines(text: &str) -> impl Iterator<Item = (usize, Cow<'_, str>)> {
+    let text = text
+        .split('\n')
+        .flat_map(|line| line.strip_suffix('\r').unwrap_or(line).split('\r'));
+    let mut rows = text.enumerate();
+    std::iter::from_fn(move || {
+        let (row, first) = rows.next()?;
+        let mut line = Cow::Borrowed(first);
+        while let Some(end) = line.trim_ascii_end().strip_suffix('\\').map(str::len) {
+            let Some((_, next)) = rows.next() else { break };
+            line = Cow::Owned(format!("{} {next}", &line[..end]));
+        }
+        Some((row + 1, line))
+    })
+}

@@ -1,0 +1,157 @@
+//! Reads 3MF meshes: a ZIP archive with a model in XML, which states its unit.
+
+use std::collections::HashMap;
+use std::io::{Cursor, Read};
+
+use nalgebra::{Matrix4, Vector4};
+use roxmltree::{Document, Node};
+use zip::ZipArchive;
+
+use super::builder::{MeshBuilder, damaged, unsupported};
+use super::unit::FileUnit;
+use crate::error::{Error, MAX_CELLS, Result};
+
+/// Name of the format in error messages.
+const FORMAT_NAME: &str = "3MF";
+
+/// Maximum size of the text of a model, in bytes: about that of the largest mesh.
+const MAX_MODEL_BYTES: u64 = 64 * MAX_CELLS as u64;
+
+/// Maximum number of components within components.
+const MAX_COMPONENT_DEPTH: usize = 16;
+
+pub(super) fn read(bytes: &[u8], parts: &mut MeshBuilder) -> Result<FileUnit> {
+    let text = model(bytes)?;
+    let document = Document::parse(&text).map_err(|error| damaged(FORMAT_NAME, error))?;
+    let root = document.root_element();
+    let unit = FileUnit::new(root.attribute("unit").unwrap_or("millimeter"))
+        .map_err(|_| damaged(FORMAT_NAME, "the unit of its model is not known"))?;
+    let objects = (root.descendants())
+        .filter(|node| node.tag_name().name() == "object")
+        .filter_map(|node| Some((node.attribute("id")?, node)))
+        .collect();
+    let mut model = Model { objects, parts };
+    let items = (root.descendants()).filter(|node| node.tag_name().name() == "item");
+    for item in items {
+        model.add(item, &transform(item)?, 0)?;
+    }
+    Ok(unit)
+}
+
+/// Returns the text of the model in the archive.
+fn model(bytes: &[u8]) -> Result<String> {
+    let damaged = |error: &dyn std::fmt::Display| damaged(FORMAT_NAME, error);
+    let mut archive = ZipArchive::new(Cursor::new(bytes)).map_err(|error| damaged(&error))?;
+    let name = (archive.file_names())
+        .filter(|name| name.to_ascii_lowercase().ends_with(".model"))
+        // Further models, in folders below, belong to the first one.
+        .min_by_key(|name| name.len())
+        .map(String::from)
+        .ok_or_else(|| damaged(&"there is no model in the archive"))?;
+    let file = archive.by_name(&name).map_err(|error| damaged(&error))?;
+    let mut text = String::new();
+    let read = file.take(MAX_MODEL_BYTES + 1).read_to_string(&mut text);
+    read.map_err(|error| damaged(&error))?;
+    if text.len() as u64 > MAX_MODEL_BYTES {
+        return Err(Error::TooLarge {
+            what: "mesh",
+            requested: text.len(),
+            limit: MAX_MODEL_BYTES as usize,
+        });
+    }
+    Ok(text)
+}
+
+/// The objects of a model, by their names, and the mesh that is built of them.
+struct Model<'a, 'b> {
+    objects: HashMap<&'a str, Node<'a, 'a>>,
+    parts: &'b mut MeshBuilder,
+}
+
+impl<'a> Model<'a, '_> {
+    /// Adds the object that a build item or a component names.
+    fn add(&mut self, item: Node<'a, 'a>, transform: &Matrix4<f64>, depth: usize) -> Result<()> {
+        if depth > MAX_COMPONENT_DEPTH {
+            return Err(damaged(FORMAT_NAME, "its components are within each other"));
+        }
+        if item
+            .attributes()
+            .any(|attribute| attribute.name() == "path")
+        {
+            let reason = "its model is in several files; export it with one, or as STL";
+            return Err(unsupported(FORMAT_NAME, reason));
+        }
+        let object = item
+            .attribute("objectid")
+            .and_then(|id| self.objects.get(id))
+            .copied();
+        let object = object.ok_or_else(|| damaged(FORMAT_NAME, "an object is not there"))?;
+        for child in object.children() {
+            match child.tag_name().name() {
+                "mesh" => self.mesh(child, transform)?,
+                "components" => {
+                    for component in child.children().filter(Node::is_element) {
+                        self.add(
+                            component,
+                            &(transform * self::transform(component)?),
+                            depth + 1,
+                        )?;
+                    }
+                }
+                _ => {}
+            }
+        }
+        Ok(())
+    }
+
+    fn mesh(&mut self, mesh: Node, transform: &Matrix4<f64>) -> Result<()> {
+        let start = self.parts.positions.len();
+        for node in mesh.descendants() {
+            match node.tag_name().name() {
+                "vertex" => {
+                    let [x, y, z] = ["x", "y", "z"].map(|name| number::<f64>(node, name));
+                    let point = transform * Vector4::new(x?, y?, z?, 1.0);
+                    self.parts.position([point.x, point.y, point.z])?;
+                }
+                "triangle" => {
+                    let [a, b, c] = ["v1", "v2", "v3"].map(|name| number::<u32>(node, name));
+                    let [a, b, c] = [a?, b?, c?].map(|v| v.saturating_add(start as u32));
+                    self.parts.triangle([a, b, c])?;
+                }
+                _ => {}
+            }
+        }
+        Ok(())
+    }
+}
+
+fn number<T: std::str::FromStr>(node: Node, name: &str) -> Result<T> {
+    let value = node
+        .attribute(name)
+        .and_then(|text| text.trim().parse().ok());
+    value.ok_or_else(|| {
+        damaged(
+            FORMAT_NAME,
+            format!("a vertex or triangle has no number `{name}`"),
+        )
+    })
+}
+
+/// Reads the transform of a build item or component: four rows of three numbers, by which a row (x, y, z, 1) is
+/// multiplied.
+fn transform(node: Node) -> Result<Matrix4<f64>> {
+    let Some(text) = node.attribute("transform") else {
+        return Ok(Matrix4::identity());
+    };
+    let numbers: Vec<f64> = text
+        .split_whitespace()
+        .map_while(|word| word.parse().ok())
+        .collect();
+    let rows: [f64; 12] = (numbers.try_into())
+        .map_err(|_| damaged(FORMAT_NAME, "a transform does not have twelve numbers"))?;
+    let mut matrix = Matrix4::identity();
+    for (i, value) in rows.into_iter().enumerate() {
+        matrix[(i % 3, i / 3)] = value;
+    }
+    Ok(matrix)
+}

@@ -1,0 +1,143 @@
+//! Mesh files as other programs write them: small ones, with what is known of them.
+
+use developable::files::Unit;
+use developable::files::meshes::{FileUnit, MeshFile, read_mesh, read_mesh_beside};
+use developable::{Resolution, View, sample};
+
+fn read(text: &str) -> MeshFile {
+    read_mesh_beside(text.as_bytes(), None, &[]).unwrap_or_else(|error| panic!("{error}: {text}"))
+}
+
+const SQUARE: &str = "element vertex 4\nproperty float x\nproperty float y\nproperty float z\n";
+const CORNERS: &str = "0 0 0\n9 0 0\n9 9 0\n0 9 0\n";
+
+#[test]
+fn ply_with_every_line_end_and_further_elements() {
+    let header = format!(
+        "ply \nformat  ascii 1.0\nobj_info made by hand\n{SQUARE}element edge 1\nproperty int \
+         vertex1\nproperty int vertex2\nelement  face 1\nproperty list uint8 int32 \
+         vertex_indices\nproperty uchar flags\ncomment late\nelement material 0\nproperty int \
+         id\nend_header\n"
+    );
+    for end in ["\n", "\r\n", "\r"] {
+        let text = format!("{header}{CORNERS}0 1\n4 0 1 2 3 7\n").replace('\n', end);
+        let mesh = read(&text).mesh;
+        assert_eq!(mesh.positions().len(), 4, "{end:?}");
+        assert_eq!(mesh.triangles(), [[0, 1, 2], [0, 2, 3]]);
+    }
+}
+
+#[test]
+fn ply_with_triangle_strips() {
+    let text = format!(
+        "ply\nformat ascii 1.0\n{SQUARE}element tristrips 1\nproperty list int int \
+         vertex_indices\nend_header\n{CORNERS}8 0 1 3 2 -1 0 1 2\n"
+    );
+    assert_eq!(
+        read(&text).mesh.triangles(),
+        [[0, 1, 3], [3, 1, 2], [0, 1, 2]]
+    );
+}
+
+#[test]
+fn ply_with_texture_coordinates_at_corners() {
+    let text = format!(
+        "ply\nformat ascii 1.0\ncomment TextureFile a.png\ncomment TextureFile b \
+         c.png\n{SQUARE}element face 2\nproperty list uchar int vertex_indices\nproperty list \
+         uchar float texcoord\nproperty int texnumber\nend_header\n{CORNERS}3 0 1 2 6 0 0 1 0 1 \
+         1 1\n3 0 2 3 6 0 0 1 1 0 0.5 0\n"
+    );
+    let files = [("a.png", &b"A"[..]), ("b c.png", b"B")];
+    let file = read_mesh_beside(text.as_bytes(), None, &files).unwrap();
+    let mesh = &file.mesh;
+    // Corners with the same coordinates share their vertex.
+    assert_eq!(mesh.positions().len(), 4);
+    assert_eq!(mesh.uvs().unwrap()[3], [0.0, 0.5]);
+    assert_eq!(mesh.textures().unwrap(), [1, 0]);
+    assert_eq!(file.textures.len(), 2);
+}
+
+#[test]
+fn obj_is_not_refused_for_its_looks() {
+    let text = "mtllib none.mtl\nv 0 0 0 1 0 0\nv 9 0 0\nv 9 9 0\nv 0 9 0\nusemtl\nf 1 2 \\\n3 \
+                4\nf -4/7/8 -3 -2 # comment\nl 1 2\n";
+    let file = read(text);
+    assert_eq!(file.mesh.triangles().len(), 3);
+    assert_eq!(file.missing, ["none.mtl"]);
+    assert_eq!(
+        file.mesh.colors().unwrap()[..2],
+        [[1.0, 0.0, 0.0], [1.0; 3]]
+    );
+    let wide: Vec<u8> = ("\u{feff}".to_owned() + text)
+        .encode_utf16()
+        .flat_map(u16::to_le_bytes)
+        .collect();
+    assert_eq!(read_mesh(&wide, None).unwrap(), file.mesh);
+    let form = "v 0 0 0\nv 1 0 0\ncstype bezier\ndeg 1\ncurv 0 1 1 2\nend\n";
+    let error = read_mesh(form.as_bytes(), None).unwrap_err();
+    assert!(error.to_string().contains("free-form"), "{error}");
+}
+
+#[test]
+fn off_with_colours_and_normals() {
+    let faces = "4 0 1 2 3\n";
+    let plain = format!("OFF\n# comment\n4 1 0\n\n{CORNERS}{faces}");
+    assert_eq!(read(&plain).mesh.triangles(), [[0, 1, 2], [0, 2, 3]]);
+    let rows = "0 0 0  0 0 1  255 0 0 255\n9 0 0  0 0 1  0 255 0 255\n9 9 0  0 0 1  0 0 0 255\n";
+    let colored = format!("CNOFF 3 1 0\n{rows}3 0 1 2 9 9 9\n");
+    let colors = read(&colored).mesh.colors().unwrap()[0];
+    assert_eq!(colors, [1.0, 0.0, 0.0]);
+}
+
+/// A glTF file of one triangle with 8-bit positions, whose second corner stands apart (sparse).
+const SPARSE: &str = r#"{"asset":{"version":"2.0"},
+"extensionsRequired":["KHR_materials_unlit","KHR_mesh_quantization"],
+"nodes":[{"mesh":0,"rotation":[0,0,1,0],"translation":[0,0,5]}],
+"meshes":[{"primitives":[{"attributes":{"POSITION":0,"_FEATURE_ID_0":1}}]}],
+"accessors":[{"bufferView":0,"componentType":5120,"count":3,"type":"VEC3","sparse":{"count":1,
+"indices":{"bufferView":1,"componentType":5121},"values":{"bufferView":1,"byteOffset":1}}},
+{"componentType":5126,"count":3,"type":"SCALAR"}],
+"bufferViews":[{"buffer":0,"byteLength":12,"byteStride":4},{"buffer":0,"byteOffset":12,"byteLength":4}],
+"buffers":[{"byteLength":16,"uri":"data:;base64,AAAAAAEAAAAAAgAAAQMAAA=="}]}"#;
+
+#[test]
+fn gltf_is_not_refused_for_its_looks() {
+    let file = read(SPARSE);
+    // Half a turn about z, then 5 up.
+    let expected = [[0.0, 0.0, 5.0], [-3.0, 0.0, 5.0], [0.0, -2.0, 5.0]];
+    let positions = file.mesh.positions().as_flattened();
+    for (found, wanted) in positions.iter().zip(expected.as_flattened()) {
+        assert!((found - wanted).abs() < 1e-12, "{positions:?}");
+    }
+    assert_eq!(file.unit, Some(Unit::Metre));
+    assert!(file.assumptions.is_empty());
+}
+
+#[test]
+fn units_by_what_the_file_says_or_by_its_size() {
+    let square = |side: f64| read(&format!("v 0 0 0\nv {side} 0 0\nv 0 {side} 0\nf 1 2 3\n"));
+    for (side, unit, word) in [
+        (60.0, Some(Unit::Millimetre), "lengths are millimetres"),
+        (0.06, Some(Unit::Metre), "lengths are metres"),
+        (1.2e4, None, "no unit"),
+    ] {
+        let file = square(side);
+        assert_eq!(file.unit, unit, "{side}");
+        assert!(file.assumptions[0].words.contains(word), "{side}");
+        assert_eq!(file.assumptions[0].option, Some("unit"));
+    }
+    let inches = square(2.5).in_unit(FileUnit::new("inch").unwrap()).unwrap();
+    assert_eq!(inches.unit, Some(Unit::Millimetre));
+    assert_eq!(inches.mesh.positions()[1], [63.5, 0.0, 0.0]);
+    assert!(inches.assumptions.is_empty());
+}
+
+#[test]
+fn half_of_a_folded_sheet_is_hidden() {
+    let text = "v 0 0 0\nv 10 0 0\nv 10 10 0\nv 0 10 0\nv 0 0 5\nv 10 0 5\nv 10 10 5\nv 0 10 \
+                5\nf 1 2 3 4\nf 5 6 7 8\n";
+    let mesh = read(text).mesh;
+    let down = View::Along([0.0, 0.0, -1.0]);
+    let samples = sample(&mesh, down, Resolution::Across(40)).unwrap();
+    assert!((samples.hidden_share(&mesh) - 0.5).abs() < 1e-12);
+}

@@ -8,7 +8,7 @@ import { toInput } from './import-interpretation.js';
 /** @import {Api} from './api.js' */
 /** @import {Worker} from './worker-task.js' */
 /** @import {DepthCompanions, Input} from './session.js' */
-/** @import {FileRoles} from './dropped-files.js' */
+/** @import {FileRoles} from './file-routing.js' */
 
 /** Error: the file is a picture in colour, which is a photo and has no heights. */
 export class ColourPictureError extends Error {

@@ -31,19 +31,18 @@ export const VIEW_WORDS = {
 export const FILE_WORDS = {
   /** @param {string} name @param {string} what */
   unread: (name, what) => `“${name}” is ${what}. This page opens photos of pages (JPEG, PNG, WebP), heights and depths (TIFF, EXR, PFM, NPY, NPZ, grey PNG), and meshes and point clouds (OBJ, PLY, STL, GLB).`,
-  /** @param {string} name */
-  meshNoPhoto: (name) => `“${name}” is a mesh or a point cloud, not a photo of a page.`,
-  /** @param {string} name */
-  heightsNoPhoto: (name) => `“${name}” holds heights or depths. It is not a photo of a page.`,
-  /** @param {string} name */
-  maybeHeights: (name) => `I found no page in “${name}”. It is grey with 16 bits, as depth cameras write their images: is it heights or depths?`,
-  /** @param {string} name */
-  pageNoHeights: (name) => `“${name}” is a photo in colour, which has no heights. Open the depths that belong to it, or flatten it as a photo of a page.`,
-  openAsHeights: 'Open it under “Heights, depth, scans”',
+  /** @param {number} n */
+  takenForPages: (n) => (n === 1 ? 'Taken for a photo of a page.' : 'Taken for photos of pages.'),
+  heightsInstead: 'Heights instead?',
+  takenForHeights: 'Taken for heights.',
+  takenForTheirPhoto: 'Taken for the photo of these heights.',
   openAsPage: 'Flatten it as a page',
   /** @param {string} name */
-  tooLarge: (name) => `“${name}” has more pixels than this page can open.`,
-  openAtHalf: 'Open it at half size',
+  awaitsHeights: (name) => `“${name}” is in colour and has no heights. Open the depths that belong to it, and it is shown on them.`,
+  /** @param {string} names @param {boolean} areDepths */
+  leftOut: (names, areDepths) => `Left out: ${names}.${areDepths ? ' With depths go one photo, the camera’s file, and images whose names tell that they are their confidence or a mask.' : ''}`,
+  /** @param {readonly { name: string }[]} files */
+  openInstead: (files) => (files.length === 1 ? `Open “${files[0].name}” instead` : 'Open these instead'),
 };
 
 /** Messages about depths from a camera. */

@@ -15,6 +15,8 @@ import { PROGRESS_DELAY_MS, waitingPanel } from './waiting.js';
  * @property {string} name
  * @property {string} words purpose of the format
  * @property {string} type media type
+ * @property {string} [stem] file name without its ending, where it differs from that of the offer
+ * @property {() => string} [note] sentence about the file that was written, such as what it lacks
  * @property {string} [without] reason why the format is not available
  * @property {(worker: Worker) => Promise<Uint8Array<ArrayBuffer> | string>} write
  *
@@ -30,6 +32,9 @@ import { PROGRESS_DELAY_MS, waitingPanel } from './waiting.js';
 
 /** Initial guess of the time that writing takes, in milliseconds per pixel or vertex. */
 const WRITE_MS_PER_ELEMENT = 1e-3;
+
+/** Maximum time between the clicks of a double click, in milliseconds. */
+const DOUBLE_CLICK_MS = 500;
 
 /** The file that is being written. @type {AbortController | null} */
 let present = null;
@@ -93,12 +98,14 @@ export function offerToSave(api, { title, stem, size: amount, ready = async () =
       const content = await runInWorker(api, job.signal, format.write);
       if (job !== present) return;
       progress.end(task);
-      size.textContent = `${stem}.${format.value}, ${fileSize(new Blob([content]).size)}`;
+      const name = `${format.stem ?? stem}.${format.value}`;
+      const note = format.note?.() ?? '';
+      size.textContent = [`${name}, ${fileSize(new Blob([content]).size)}${note && '.'}`, note].filter(Boolean).join(' ');
       save.disabled = false;
       save.onclick = () => {
-        download(content, format.type, `${stem}.${format.value}`);
+        download(content, format.type, name);
         // The dialog stays open, so that further formats can be saved.
-        size.textContent = SAVE_WORDS.saved(`${stem}.${format.value}`);
+        size.textContent = [SAVE_WORDS.saved(name), note].filter(Boolean).join(' ');
       };
     } catch (error) {
       if (job !== present) return;
@@ -113,9 +120,10 @@ export function offerToSave(api, { title, stem, size: amount, ready = async () =
     element('save-extra', HTMLElement).replaceChildren();
     closed();
   };
-  // A click outside of the dialog closes it.
+  const opened = performance.now();
+  // A click outside of the dialog closes it, unless it is the second one of a double click that opened it.
   dialog.onclick = (event) => {
-    if (event.target === dialog) dialog.close();
+    if (event.target === dialog && performance.now() - opened > DOUBLE_CLICK_MS) dialog.close();
   };
   retryButton.onclick = () => void write();
   if (!dialog.open) dialog.showModal();

@@ -35,7 +35,7 @@ export async function readInput(api, file, signal, arrayName, { photo: photoFile
     });
     return { names, read, companions: await readCompanions(reader, companionFiles) };
   });
-  const { format, dataType } = read;
+  const { format, dataType, assumptions } = read;
   const photo = photoFile && { name: photoFile.name, image: await readPicture(photoFile) };
   const { look, ...interpretation } = await transferToWorker('interpretFile', [read.data], read, file.name);
   const input = toInput(interpretation);
@@ -45,6 +45,7 @@ export async function readInput(api, file, signal, arrayName, { photo: photoFile
     name: file.name.replace(/\.[^.]*$/, '') || 'heights',
     kind: `${format.toUpperCase()}, ${numberTypeInWords(dataType)}`,
     dataType,
+    assumptions,
     photo,
     companions,
     array: names.length > 1 ? { file, names, name: arrayName ?? names[0] } : undefined,

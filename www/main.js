@@ -47,7 +47,7 @@ async function start() {
   const views = analysisPanel(session, analyses, show);
   headlinePanel(session, analyses);
   savePanel(session, analyses, views.choose, meshFitView);
-  const source = sourcePanel(session, views, (files) => void addressSync.rememberFiles(files), (file) => void files.openColour(file));
+  const source = sourcePanel(session, views, (files) => void addressSync.rememberFiles(files), meshFitView.begin, (file) => void files.openColour(file));
   const page = pagePanel(session.api, ({ mesh }, name) => {
     mode.enter('heights');
     source.openLoadedMesh({ name, kind: 'photo' }, async () => mesh, 'The page could not be taken as a surface');

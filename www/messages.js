@@ -3,6 +3,7 @@ import { count, number, percent, percentAtMost, seconds, shortLambda } from './f
 import { plainMessage } from './error-messages.js';
 
 /** @import {MeshSurface} from './mesh-fit.js' */
+/** @typedef {import('../pkg/types.js').Assumption} Assumption */
 /** @import {Energy, Report, StopReason, Verdict} from './api.js' */
 
 /** Why a solve stopped. @type {Record<StopReason, string>} */
@@ -53,6 +54,11 @@ export const DEPTH_WORDS = {
   failed: 'The 3D surface could not be built',
   building: 'Building the 3D surface',
 };
+
+/** What a reader has assumed of a file, as a sentence; empty if nothing. @param {readonly Assumption[]} [assumptions] */
+export function assumedInWords(assumptions = []) {
+  return assumptions.length > 0 ? `Assumed: ${assumptions.map(({ words }) => words).join('; ')}.` : '';
+}
 
 /** Messages about guessed metadata of a file. */
 export const GUESS_WORDS = {
@@ -152,6 +158,10 @@ export const SHEET_WORDS = {
   ownSize: 'no unit: choose the size',
   figures: 'Figures',
   title: 'Cut-out sheets',
+  /** @param {string} side @param {number} pages */
+  headline: (side, pages) => `Cut-out sheets: ${side} mm, ${pages === 1 ? '1 page' : `${count(pages)} pages`}`,
+  /** @param {number} pages */
+  manyPages: (pages) => `These are ${count(pages)} pages. Is the unit of the file right? A smaller longer side needs fewer.`,
   card: 'card or paper',
   metal: 'sheet metal',
   tabs: 'Tabs to glue',
@@ -275,6 +285,7 @@ export function piecesInWords(pieces, creases, oneSide = false) {
   const meet = creases === 0
     ? `${smooth}${pieces === 1 ? none : ', apart from each other'}`
     : `${smooth} ${pieces === 1 ? 'with' : 'meet in'} ${creases === 1 ? 'one crease' : `${count(creases)} creases`}`;
+  if (oneSide && !Number.isFinite(pieces)) return 'You see one side of it. “Whole mesh” solves all of it.';
   const words = Number.isFinite(pieces) ? meet : 'Creased all over, too finely to count its pieces';
   return oneSide ? `From this side: ${words[0].toLowerCase()}${words.slice(1)}.` : `${words}.`;
 }
@@ -321,6 +332,11 @@ export function meshLambdaChoiceInWords({ lambda, sigma }) {
   if (sigma === undefined) return `Too few vertices to measure their noise: λ = ${shortLambda(lambda)}.`;
   return `Chosen automatically. Noise: ${number(sigma)} along the normals, in the unit of the mesh.`;
 }
+
+/** Messages about the field for λ. */
+export const LAMBDA_WORDS = {
+  invalid: 'λ must be a number from 1e-12 to 1e15, such as 2.5e6. You see the result for the last λ.',
+};
 
 /** Hint for λ of a design. */
 export const DESIGN_LAMBDA_HINT = 'A design has no input to stay close to, so λ has no effect.';

@@ -169,21 +169,42 @@ pageTest('photos that are opened together become one PDF, each with its own outl
   assert.equal(await numbers.nth(1).getAttribute('aria-pressed'), 'true');
   assert.notDeepEqual(await placeOf(page, 'Upper left corner'), placed);
   await page.getByRole('button', { name: 'Save the flat page…' }).click();
-  await page.locator('#save-size', { hasText: 'none.png: I did not find the page' }).waitFor();
+  await page.locator('#save-size', { hasText: /one-pages\.pdf, .*\. Without “none\.png”: I did not find its page/ }).waitFor();
   await page.locator('#save-dialog').evaluate((dialog) => /** @type {HTMLDialogElement} */ (dialog).close());
+  assert.match(await numbers.nth(2).getAttribute('aria-label') ?? '', /not in the PDF/);
   await numbers.nth(2).click();
   await page.locator('#page-side[data-state="unfound"]').waitFor();
+  // Removed, brought back, and moved to the front.
   await page.getByRole('button', { name: 'Remove this photo' }).click();
   await page.locator('#page-caption', { hasText: 'two' }).waitFor();
-  await flattened(page);
+  assert.equal(await numbers.count(), 2);
+  await page.getByRole('alert').getByRole('button', { name: 'Undo' }).click();
+  await page.locator('#page-caption', { hasText: 'none' }).waitFor();
+  assert.equal(await numbers.count(), 3);
+  await page.getByRole('button', { name: 'Earlier' }).click();
+  assert.match(await numbers.nth(1).getAttribute('aria-label') ?? '', /^Photo 2, none\.png/);
   await numbers.nth(0).click();
   await page.locator('#page-caption', { hasText: 'one' }).waitFor();
   await flattened(page);
   assert.deepEqual(await placeOf(page, 'Upper left corner'), placed, 'as it was left');
   const { name, bytes } = await savedPage(page, 'PDF');
   assert.equal(name, 'one-pages.pdf');
+  await page.locator('#save-dialog').evaluate((dialog) => /** @type {HTMLDialogElement} */ (dialog).close());
   const pages = await readPdf(bytes);
   assert.deepEqual(pages.map(({ size }) => size.map(Math.round)), [[210, 297], [210, 297]]);
+  // Another photo is added; all of them are there after a reload, as they were left.
+  await drop(page, 'four.png', photo);
+  await page.locator('#page-caption', { hasText: 'four' }).waitFor();
+  await flattened(page);
+  assert.equal(await numbers.count(), 4);
+  await page.waitForURL(/file=\d+&photo=1/);
+  // Outlines are stored half a second after their last change.
+  await page.waitForTimeout(1000);
+  await page.reload();
+  await page.locator('#page-caption', { hasText: 'one' }).waitFor();
+  await flattened(page);
+  assert.equal(await numbers.count(), 4);
+  assert.deepEqual(await placeOf(page, 'Upper left corner'), placed, 'as it was left');
 });
 
 pageTest('paper is white, or as it was photographed, or the page is black and white', async (page) => {

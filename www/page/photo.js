@@ -20,6 +20,7 @@ const MAX_REDUCED_SIDE_PIXELS = 1280;
  * @property {number} height
  * @property {Uint8ClampedArray<ArrayBuffer>} data
  * @property {number} [film35] focal length for 35 mm film, if the file contains it
+ * @property {readonly import('../../pkg/types.js').Assumption[]} [assumptions] what the reader of the file has assumed
  * @property {ImageData} reduced
  * @property {GreyImage} grey the reduced copy in grey
  * @property {PageOutlines} outlines of the detected pages, in pixels of the photo
@@ -47,16 +48,16 @@ export async function openPhoto(api, file, signal) {
 /**
  * Reduces decoded pixels and detects the pages in them.
  * @param {Api} api
- * @param {{ width: number, height: number, data: Uint8ClampedArray<ArrayBuffer>, film35?: number }} pixels
+ * @param {{ width: number, height: number, data: Uint8ClampedArray<ArrayBuffer>, film35?: number, assumptions?: PagePhoto['assumptions'] }} pixels
  * @param {string} name
  * @param {AbortSignal} signal
  * @returns {Promise<PagePhoto>}
  */
-export async function preparePhoto(api, { width, height, data, film35 }, name, signal) {
+export async function preparePhoto(api, { width, height, data, film35, assumptions }, name, signal) {
   if (width < 16 || height < 16) throw new Error(`it is ${width} × ${height} pixels, too few to show a page`);
   const { small: reduced, grey } = await reducedPhoto({ width, height, data }, Math.min(1, MAX_REDUCED_SIDE_PIXELS / Math.max(width, height)));
   const outlines = await runInWorker(api, signal, (worker) => worker.findPage(reduced));
-  return { name, width, height, data, film35, reduced, grey, outlines: rescaleOutlines(outlines, 1 / grey.scale) };
+  return { name, width, height, data, film35, assumptions, reduced, grey, outlines: rescaleOutlines(outlines, 1 / grey.scale) };
 }
 
 /** Converts outlines to another scale of the photo. @param {PageOutlines} outlines @param {number} scale @returns {PageOutlines} */

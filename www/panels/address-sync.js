@@ -16,6 +16,8 @@ import { showNotice } from './notice.js';
 
 /** Delay after a result before it gets an entry in the history, in milliseconds. */
 const HISTORY_DELAY_MS = 400;
+/** Time for which the note about a copied link is shown, in milliseconds. */
+const COPIED_NOTE_MS = 4000;
 
 /**
  * @param {Session} session
@@ -61,10 +63,10 @@ export function addressSyncPanel(session, page) {
       return { card: card.id, settings: Object.fromEntries(changed), view: view() === card.view ? undefined : view() };
     }
     if (input?.kind !== undefined) {
-      const { pixelSize, heightScale, zeros, hexagonal } = input.stored ?? {};
+      const { pixelSize, heightScale, zeros, noData, hexagonal } = input.stored ?? {};
       const { view: meshView } = page.meshFitView;
       const whole = meshView === undefined ? undefined : true;
-      return { file: fileId, unkept: (fileId === undefined && isUnstored) || undefined, stored: input.stored && { pixelSize, heightScale, zeros, hexagonal }, settings, whole, view: meshView ?? view() };
+      return { file: fileId, unkept: (fileId === undefined && isUnstored) || undefined, stored: input.stored && { pixelSize, heightScale, zeros, noData, hexagonal }, settings, whole, view: meshView ?? view() };
     }
     const [size, noise] = ['size', 'noise'].map((name) => Number(element(name, HTMLSelectElement).value));
     return { example: { name: input?.name ?? 'roof', size, noise }, settings, view: view() };
@@ -173,7 +175,8 @@ export function addressSyncPanel(session, page) {
   };
   void updateRecentFiles();
 
-  const share = async () => {
+  /** @param {HTMLButtonElement} button */
+  const share = async (button) => {
     writeAddress(false);
     const state = presentState();
     // The id of a file has no meaning on another machine.
@@ -181,12 +184,18 @@ export function addressSyncPanel(session, page) {
     const fileNote = state.example || state.card ? '' : ' It holds the settings; the file stays on this machine.';
     try {
       await navigator.clipboard.writeText(address);
-      showNotice(`The link is copied.${fileNote}`, 'note');
+      const note = make('span', 'copied small', `The link is copied.${fileNote}`);
+      note.setAttribute('role', 'status');
+      button.after(note);
+      setTimeout(() => note.remove(), COPIED_NOTE_MS);
     } catch {
       showNotice(`${address} – copy this link.${fileNote}`, 'note');
     }
   };
-  for (const id of ['share', 'whole-share']) element(id, HTMLButtonElement).addEventListener('click', share);
+  for (const id of ['share', 'whole-share']) {
+    const button = element(id, HTMLButtonElement);
+    button.addEventListener('click', () => void share(button));
+  }
 
   return {
     /** Shows the state of the address, or an example. */

@@ -21,10 +21,15 @@ import { waitingPanel } from './waiting.js';
 
 /** Initial guess of the time that a fit or a view takes, in milliseconds per vertex. */
 const MESH_TASK_MS_PER_VERTEX = 0.1;
-/** Minimum share of a mesh hidden from the chosen side for which the page suggests to fit the whole mesh. */
-const MIN_SUGGESTION_HIDDEN_SHARE = 0.1;
-/** Initial direction of the view, oblique to all axes. */
-const INITIAL_VIEW_DIRECTION = /** @type {const} */ ([-0.5, -0.45, -0.75]);
+/** Maximum share of a mesh hidden from the chosen side for which its heights from there are fitted, and not the whole mesh. */
+const MAX_HIDDEN_SHARE = 0.03;
+/** Initial view of a mesh, from the front right and above: the axis that points upwards, and the direction. */
+const INITIAL_VIEWS = /** @type {const} */ ({
+  y: { up: [0, 1, 0], direction: [-0.5, -0.45, -0.75] },
+  z: { up: [0, 0, 1], direction: [-0.5, 0.75, -0.45] },
+});
+/** Kinds of files whose programs take y for the axis that points upwards; those of the others take z. */
+const Y_UP_KINDS = ['OBJ', 'GLB', 'GLTF'];
 /** Functions that prepare the views, by their names. @type {Record<string, (meshFit: MeshFit, mesh: Mesh, surface: MeshSurface) => Promise<MeshViewContent>>} */
 const VIEWS = { shaded, gaussian, rulings, patches, sheet };
 
@@ -55,6 +60,8 @@ export function meshFitPanel(session, meshFit) {
   let inputMesh = null;
   /** The mesh that the viewer has been turned to. @type {Mesh | null} */
   let viewedMesh = null;
+  /** Share of the mesh that is hidden from the chosen side. @type {Promise<number>} */
+  let hiddenShare = Promise.resolve(0);
   /** Reads the view's value at a place of the surface. @type {MeshViewContent['read']} */
   let readValue;
 
@@ -146,6 +153,12 @@ export function meshFitPanel(session, meshFit) {
     delete side.dataset.whole;
     for (const radio of ways) radio.checked = radio.value === 'seen';
   };
+  /** Returns to one side of the mesh, and solves it if that has not been done. */
+  const showOneSide = () => {
+    if (stage.hidden) return;
+    leave();
+    if (!session.result) void session.run();
+  };
   /** @param {string} view */
   const choose = (view) => {
     for (const radio of radios) radio.checked = radio.value === view;
@@ -170,7 +183,11 @@ export function meshFitPanel(session, meshFit) {
     waiting.begin(taskOn(mesh, 'Solving', 'whole'));
     void display({ before: mesh, about: [] }).then(async () => {
       // A further solve of the same mesh keeps the view.
-      if (viewedMesh !== mesh) (await viewer)?.setDirection(INITIAL_VIEW_DIRECTION);
+      const view = await viewer;
+      if (viewedMesh === mesh || !view) return;
+      const { up, direction } = INITIAL_VIEWS[Y_UP_KINDS.includes(session.input?.kind ?? '') ? 'y' : 'z'];
+      view.setUp(up);
+      view.setDirection(direction);
       viewedMesh = mesh;
     });
   });
@@ -197,7 +214,7 @@ export function meshFitPanel(session, meshFit) {
   divider.addEventListener('input', async () => (await viewer)?.divide(divider.valueAsNumber));
   for (const radio of radios) radio.addEventListener('change', () => void update());
   again.addEventListener('click', () => (meshFit.surface && !again.hasAttribute('data-solves') ? void update() : solve()));
-  for (const radio of ways) radio.addEventListener('change', () => (radio.value === 'whole' ? enter('shaded') : leave()));
+  for (const radio of ways) radio.addEventListener('change', () => (radio.value === 'whole' ? enter('shaded') : showOneSide()));
   /** Newest position of the pointer; the value there is read once per frame. @type {{ offsetX: number, offsetY: number } | null} */
   let pointer = null;
   let frame = 0;
@@ -277,8 +294,9 @@ export function meshFitPanel(session, meshFit) {
     if (!mesh || !inputMesh || !lattice?.frame) return;
     const { rows, cols, spacing, origin = [0, 0], heights, frame } = lattice;
     const { positions, triangles } = mesh;
-    const hidden = await callWorker('hiddenAreaShare', { positions, triangles }, { rows, cols, spacing, origin, heights, frame });
-    if (session.input?.lattice !== lattice || hidden < MIN_SUGGESTION_HIDDEN_SHARE) return;
+    hiddenShare = callWorker('hiddenAreaShare', { positions, triangles }, { rows, cols, spacing, origin, heights, frame });
+    const hidden = await hiddenShare;
+    if (session.input?.lattice !== lattice || hidden <= MAX_HIDDEN_SHARE) return;
     hint.textContent = MESH_FIT_WORDS.hidden(percent(hidden));
   });
 
@@ -292,6 +310,12 @@ export function meshFitPanel(session, meshFit) {
       return hint.textContent ?? '';
     },
     enter,
-    leave,
+    leave: showOneSide,
+    /** Solves a mesh that was opened: its heights from one side, or the whole of it if much is hidden from there. */
+    async begin() {
+      const { input } = session;
+      if (inputMesh && await hiddenShare > MAX_HIDDEN_SHARE && session.input === input) enter('shaded');
+      else if (session.input === input) void session.run();
+    },
   };
 }

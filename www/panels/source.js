@@ -9,7 +9,7 @@ import { reinterpret, spanInWords } from '../import-interpretation.js';
 import { readPicture } from '../pixels.js';
 import { fileRoles, isCameraFile } from '../file-routing.js';
 import { isMesh, unreadableKindInWords } from '../file-kinds.js';
-import { DEPTH_WORDS, FILE_WORDS } from '../messages.js';
+import { assumedInWords, DEPTH_WORDS, FILE_WORDS } from '../messages.js';
 import { areSurelyDepths } from '../metadata-guess.js';
 import { cameraPanel } from './camera.js';
 import { meshPanel } from './mesh.js';
@@ -25,9 +25,10 @@ import { hideNotice, showNotice } from './notice.js';
  * @param {(view: string) => void} views.choose shows a view of the result
  * @param {(name: string, image: ImageData) => void} views.usePhoto dewarps a photo of the result
  * @param {(files: readonly File[]) => void} onOpened called when files have become the input
+ * @param {() => Promise<void>} solveMesh solves the mesh that was opened
  * @param {(file: File) => unknown} openColour opens a file that is no heights, but a picture in colour
  */
-export function sourcePanel(session, { choose, usePhoto }, onOpened, openColour) {
+export function sourcePanel(session, { choose, usePhoto }, onOpened, solveMesh, openColour) {
   const radios = elements('input[name="example"]', HTMLInputElement);
   const size = element('size', HTMLSelectElement);
   const noise = element('noise', HTMLSelectElement);
@@ -39,6 +40,7 @@ export function sourcePanel(session, { choose, usePhoto }, onOpened, openColour)
   const span = element('scale-span', HTMLElement);
   const scaleDoubt = element('scale-doubt', HTMLElement);
   const zeroCheckbox = element('zero-is-nothing', HTMLInputElement);
+  const noData = element('no-data', HTMLInputElement);
   const hexagonalCheckbox = element('is-hexagonal', HTMLInputElement);
   const guesses = element('guessed', HTMLElement);
   const design = element('is-design', HTMLInputElement);
@@ -119,7 +121,7 @@ export function sourcePanel(session, { choose, usePhoto }, onOpened, openColour)
   /** @param {File} file @param {readonly File[]} [referencedFiles] */
   const openMesh = async (file, referencedFiles) => {
     const opened = await mesh.openFile(file, referencedFiles);
-    if (opened) void session.run();
+    if (opened) await solveMesh();
     return opened;
   };
 
@@ -198,6 +200,7 @@ export function sourcePanel(session, { choose, usePhoto }, onOpened, openColour)
   for (const control of [...radios, size, noise]) control.addEventListener('change', openChosenExample);
   for (const control of [pixelSize, heightScale]) control.addEventListener('change', rescale);
   zeroCheckbox.addEventListener('change', () => reinterpretFile({ zeros: zeroCheckbox.checked }));
+  noData.addEventListener('change', () => reinterpretFile({ noData: noData.value === '' ? undefined : noData.valueAsNumber }));
   hexagonalCheckbox.addEventListener('change', () => reinterpretFile({ hexagonal: hexagonalCheckbox.checked }));
   element('flatter', HTMLButtonElement).addEventListener('click', () => scaleRelief(0.5));
   element('steeper', HTMLButtonElement).addEventListener('click', () => scaleRelief(2));
@@ -215,11 +218,10 @@ export function sourcePanel(session, { choose, usePhoto }, onOpened, openColour)
     fileOptions.hidden = !isFile || (input.sampling !== undefined && !isBackProjected);
     fileOptions.toggleAttribute('data-built', isBackProjected);
     for (const radio of radios) radio.checked = !isFile && radio.value === input.name;
+    const guessed = input.depthUnit ? DEPTH_WORDS.maybe : isBackProjected ? input.cameraAssumption : input.stored?.guesses;
+    guesses.textContent = [assumedInWords(input.assumptions), guessed].filter(Boolean).join(' ');
+    guesses.hidden = guesses.textContent === '';
     if (fileOptions.hidden) return;
-    if (isBackProjected) {
-      guesses.textContent = input.cameraAssumption ?? '';
-      guesses.hidden = guesses.textContent === '';
-    }
     const { array: several } = input;
     arrayField.hidden = several === undefined;
     array.replaceChildren(...(several?.names ?? []).map((name) => new Option(name, name, false, name === several?.name)));
@@ -230,8 +232,7 @@ export function sourcePanel(session, { choose, usePhoto }, onOpened, openColour)
     zeroCheckbox.checked = input.stored.zeros;
     design.checked = input.design === true;
     hexagonalCheckbox.checked = input.stored.hexagonal;
-    guesses.textContent = input.depthUnit ? DEPTH_WORDS.maybe : input.stored.guesses;
-    guesses.hidden = guesses.textContent === '';
+    noData.value = input.stored.noData === undefined ? '' : fieldText(input.stored.noData);
     span.textContent = spanInWords(input);
     const question = scaleQuestion(input);
     // While the same file is scaled the question keeps its space, so that the buttons below do not move.

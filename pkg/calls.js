@@ -8,7 +8,7 @@ import { isImage } from './formats.js';
 import { asBytes, asField, asHeights, asImage, asPixels, detached } from './input.js';
 import { asFiles, asMesh, asMeshOrLattice, asPicture, wholeOf } from './mesh-input.js';
 import { optionsOf } from './options.js';
-import { asEdges, pageOptions, plainEdges } from './page-input.js';
+import { asEdges, asFoundPage, pageOptions, plainEdges } from './page-input.js';
 import { asBook, asPhoto, placedOptions, printOptions } from './sheet-input.js';
 import { asText, plainCopy, reading } from './values.js';
 import { transfer } from './wire.js';
@@ -173,6 +173,13 @@ export const CALLS = {
       const { transfer: handOver, ...options } = /** @type {import('./index.js').HandOver} */ (pageOptions(photo, given));
       const pages = edges === undefined ? undefined : plainEdges(asEdges(edges));
       return [sentPhoto(photo, handOver), pages, options];
+    },
+  },
+  flattenPhoto: {
+    parts: ['unroll'],
+    send(photo, page, given) {
+      const { transfer: handOver, ...options } = /** @type {import('./index.js').HandOver} */ (optionsOf('flattenPhoto', given));
+      return [sentPhoto(photo, handOver), asFoundPage(page), options];
     },
   },
   findPage: { parts: ['unroll'], send: (photo) => [sentPhoto(photo, false)] },

@@ -4,7 +4,7 @@
  */
 import type {
   Analysis, AnalyzeOptions, BookPage, Canvas, DecodedPhoto, DepthOptions, DetectedOcclusions, Dewarped, DewarpedPage, DewarpOptions,
-  DewarpPageOptions, Drawing, Example, ExampleName, ExampleOptions, FittedCylinder, Heightfield, HeightImage, ImageSurface, InitInput, Intrinsics, LatticeSurface, Mesh, MeshAnalysis, MeshAnalyzeOptions,
+  DewarpPageOptions, Drawing, Example, ExampleName, ExampleOptions, FittedCylinder, FlatPage, FlattenPhotoOptions, FoundPage, Heightfield, HeightImage, ImageSurface, InitInput, Intrinsics, LatticeSurface, Mesh, MeshAnalysis, MeshAnalyzeOptions,
   MeshPatternOptions, MeshRulingOptions, MeshRulings, MeshSolverOptions, MeshSurface, MeshUnrolling, MeshUnrollOptions, NpzArray,
   OcclusionOptions, PageEdges, PageOutlines, Painted, PaintOptions, PatchMap, PatchOptions, PatternOptions, Photo, Picture,
   PictureOptions, Progress,
@@ -201,6 +201,11 @@ export function dewarp(input: HeightImage | Heightfield, photo: Photo, options?:
 export function dewarpPage(
   photo: Photo & { film35?: number }, edges?: PageEdges | readonly PageEdges[], options?: DewarpPageOptions,
 ): DewarpedPage;
+/**
+ * Makes a photo of any resolution flat by a page that `dewarpPage` has found in the same picture: the whole photo for a file,
+ * after a reduced one for a preview. Costs little more than resampling, and differs from the preview in resolution alone.
+ */
+export function flattenPhoto(photo: Photo, page: FoundPage, options?: FlattenPhotoOptions): FlatPage;
 /** Finds the page in a photo: its corners and edges, which can be corrected and given to `dewarpPage`. */
 export function findPage(photo: Photo): PageOutlines;
 /**

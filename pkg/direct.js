@@ -6,7 +6,7 @@ import { asBytes, asField, asHeights, asImage, asInput, asLattice, asPixels, car
 import { files, images, meshFits, meshes, partOf, patterns, sheets, solver } from './instances.js';
 import { asFiles, asMesh, asMeshOrLattice, wholeOf } from './mesh-input.js';
 import { optionsOf } from './options.js';
-import { asEdges, pageOptions } from './page-input.js';
+import { asEdges, asFoundPage, pageOptions } from './page-input.js';
 import { inColour, paintOf, readPhoto } from './paint.js';
 import { makeDisposable } from './platform.js';
 import { Steps } from './steps.js';
@@ -387,8 +387,19 @@ export function dewarp(input, photo, given) {
 /** @type {typeof import('./direct.js').dewarpPage} */
 export function dewarpPage(photo, edges, given) {
   const { transfer, ...options } = /** @type {Handed<ReturnType<typeof pageOptions>>} */ (pageOptions(photo, given));
+  const { dots, map, grid, light, ink, ...known } = options;
   const [pixels, pages] = [asPhoto(photo), edges === undefined ? undefined : asEdges(edges)];
-  return sheets.call((wasm) => wasm.dewarpPage(pixels, pages, options));
+  const page = sheets.call((wasm) => wasm.pageSurface(pixels, pages, known));
+  const image = sheets.call((wasm) => wasm.flattenPhoto(pixels, page, optionsOf('flattenPhoto', { dots, map, grid, light, ink })));
+  return { ...page, ...image };
+}
+
+/** @type {typeof import('./direct.js').flattenPhoto} */
+export function flattenPhoto(photo, page, given) {
+  const { transfer, ...options } = /** @type {Handed<typeof given>} */ (optionsOf('flattenPhoto', given));
+  const [pixels, { size, unit, warp }] = [asPhoto(photo), asFoundPage(page)];
+  const image = sheets.call((wasm) => wasm.flattenPhoto(pixels, { size, unit, warp }, options));
+  return { ...image, size, unit };
 }
 
 /** @type {typeof import('./direct.js').findPage} */

@@ -38,7 +38,7 @@ export const {
   fit, open, occlusions, read, writeNpy, writePng, npzArrays, writeTiff, writeExr, writeObj, writeMtl, writePly, writeStl,
   writeGlb, readMesh, sampleMesh, fitMesh, backProject, analyzeMesh, meshRulings, unrollMesh, patternMesh, paint, analyze,
   patches, picture, draw, rulings, fitCylinder, unroll, pattern, explorePattern, explorePatternMesh, writeSvg, writePdf,
-  writeDxf, dewarp, dewarpPage, findPage, readPhoto, writePhoto, writeBook, example,
+  writeDxf, dewarp, dewarpPage, flattenPhoto, findPage, readPhoto, writePhoto, writeBook, example,
 } = /** @type {typeof import('./index.js')} */ (/** @type {unknown} */ (forwarded));
 
 /** @type {typeof import('./index.js').dispose} */

@@ -231,7 +231,7 @@ export function asCamera(given) {
  * @param {number} length
  * @param {unknown} given
  */
-function tuple(name, length, given) {
+export function tuple(name, length, given) {
   const list = reading('INPUT', name, () => {
     const found = /** @type {ArrayLike<unknown>} */ (Object(given));
     return found.length === length ? Array.from({ length }, (_, i) => found[i]) : [];

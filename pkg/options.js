@@ -37,6 +37,7 @@ export const OPTIONS = {
   ...photo,
   dewarp: { ...photo.dewarp, ...handOver },
   dewarpPage: { ...photo.dewarpPage, ...handOver },
+  flattenPhoto: { ...photo.flattenPhoto, ...handOver },
   writePhoto: { ...photo.writePhoto, ...handOver },
   pattern: sheets.pattern,
   unrollMesh: sheets.unrollMesh,

@@ -1,5 +1,6 @@
 /** Edges of pages as they were traced in a photo: checked as far as JS has to. */
 import { DevelopableError } from './errors.js';
+import { count, tuple, typed } from './input.js';
 import { optionsOf } from './options.js';
 import { isRecord, reading, record, refuseUnknown, show } from './values.js';
 
@@ -110,6 +111,24 @@ export function plainEdges(pages) {
     const all = { ...Object.fromEntries(own), ...(!open && { lines: traces.slice(edges).map(plain) }) };
     return /** @type {import('./types.js').PageEdges} */ (/** @type {unknown} */ (all));
   });
+}
+
+/**
+ * What is needed of a page that was found in a photo, to flatten another photo of the same picture by it.
+ * @param {unknown} given
+ * @returns {Pick<import('./types.js').FlatPage, 'size' | 'unit'> & { warp: import('./types.js').PageWarp }}
+ */
+export function asFoundPage(given) {
+  const { size, unit, warp } = record('INPUT', 'the page', given, ['size', 'unit', 'warp']);
+  if ((unit !== 'mm' && unit !== 'page') || !isRecord(warp)) {
+    throw new DevelopableError('INPUT', 'the page must be what `dewarpPage` has returned: { size, unit, warp }');
+  }
+  const { columns, rows, places } = record('INPUT', 'the warp of the page', warp, ['columns', 'rows', 'places']);
+  return {
+    size: /** @type {[number, number]} */ (tuple('size of the page', 2, size)),
+    unit,
+    warp: { columns: count('columns of the warp', columns), rows: count('rows of the warp', rows), places: typed(Float32Array, 'places of the warp', places) },
+  };
 }
 
 /**

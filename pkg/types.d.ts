@@ -1036,7 +1036,7 @@ export interface WarpGrid {
 }
 
 /** A flat image, transparent where there is no sheet; `new ImageData(data, width)` shows it. */
-export interface Dewarped extends DecodedPhoto {
+export interface Dewarped extends Omit<DecodedPhoto, 'orientation' | 'film35' | 'assumptions'> {
   /** Pixels per unit of length. */
   resolution: number;
   /** That unit, where the surface's is known. */
@@ -1146,12 +1146,36 @@ export interface PageReport {
   ratio: number;
 }
 
-/** A flat page, or both of a spread beside each other. */
-export interface DewarpedPage extends Omit<Dewarped, 'verdict' | 'report' | 'unit' | 'loss' | 'overreach'> {
+/** The image of a flat page, or of both of a spread beside each other. */
+export interface FlatPage extends Omit<Dewarped, 'verdict' | 'report' | 'unit' | 'loss' | 'overreach'> {
   /** Width and height of the flat page, or of both together. */
   size: [number, number];
   /** The unit of all lengths: millimetres where a format or a ruler is given, else a page's width. */
   unit: 'mm' | 'page';
+}
+
+/** The warp map of a page by shares, which holds for any resolution of the picture and of the flat page. */
+export interface PageWarp {
+  /** Number of nodes of the grid in each row: the first at the page's left edge, the last at its right edge. */
+  columns: number;
+  /** Number of rows of the grid, from the page's upper edge to its lower one. */
+  rows: number;
+  /**
+   * Place of each node in the photo, row by row: pairs of shares of the photo's width from the left and of its height from the
+   * top. Bilinear in between; NaN where the photo cannot show the node.
+   */
+  places: Float32Array;
+}
+
+/** What `flattenPhoto` needs of a page that was found in a photo: a `DewarpedPage` has it. */
+export interface FoundPage extends Pick<FlatPage, 'size' | 'unit'> {
+  warp: PageWarp;
+}
+
+/** A flat page, or both of a spread beside each other, with the page in space and the verdict on it. */
+export interface DewarpedPage extends FlatPage {
+  /** The warp map by shares, with which `flattenPhoto` flattens the same picture at another resolution. */
+  warp: PageWarp;
   /**
    * The page in space, with texture coordinates for the photo, to be sampled (`{ view: 'best-fit' }`),
    * shown and written: x to the right, y up, the camera at the origin, looking along -z.

@@ -173,6 +173,18 @@ export const dewarp = {
   camera: { kind: otherCamera, type: 'PhotoCamera' },
 };
 
+/** The flat image of a page. @satisfies {Options} */
+export const flattenPhoto = {
+  /**
+   * `'even'` makes paper white, without shadows and the lamp's colour, and keeps the colours of print; `'keep'` leaves the light as it
+   * was photographed, as does a page that is not mostly paper.
+   */
+  light: { kind: LIGHT_KIND, default: 'even' },
+  /** Black and white, for print: the light is evened, and each pixel becomes ink or paper. */
+  ink: { kind: flag, default: false },
+  ...mapping,
+};
+
 /** @satisfies {Options} */
 export const dewarpPage = {
   /** The camera's focal length, in pixels of the photo. */
@@ -216,14 +228,7 @@ export const dewarpPage = {
    * they do not, the verdict says so. Default: true, unless the edges of a page include `lines`.
    */
   findLines: { kind: flag },
-  /**
-   * `'even'` makes paper white, without shadows and the lamp's colour, and keeps the colours of print; `'keep'` leaves the light as it
-   * was photographed, as does a page that is not mostly paper.
-   */
-  light: { kind: LIGHT_KIND, default: 'even' },
-  /** Black and white, for print: the light is evened, and each pixel becomes ink or paper. */
-  ink: { kind: flag, default: false },
-  ...mapping,
+  ...flattenPhoto,
 };
 
 /** @satisfies {Options} */

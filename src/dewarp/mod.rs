@@ -28,6 +28,7 @@
 //! # }
 //! ```
 
+mod box_reduction;
 mod charts;
 mod continuation;
 mod crop;
@@ -43,6 +44,7 @@ mod verdict;
 mod warp_grid;
 mod warp_map;
 
+pub use box_reduction::BoxReduction;
 pub use extent::Extent;
 pub use options::DewarpOptions;
 pub use photo::{Photo, paint};

@@ -12,6 +12,17 @@ pub enum Trace {
     Beziers(Vec<[f64; 2]>),
 }
 
+impl Trace {
+    /// Returns this trace with each of its points replaced.
+    pub(super) fn map_points(&self, map: impl Fn([f64; 2]) -> [f64; 2]) -> Trace {
+        let mapped = |points: &[[f64; 2]]| points.iter().map(|point| map(*point)).collect();
+        match self {
+            Trace::Points(points) => Trace::Points(mapped(points)),
+            Trace::Beziers(points) => Trace::Beziers(mapped(points)),
+        }
+    }
+}
+
 /// The traced edges of a page: the two that are bent, or all four. Each runs from left to right, or from top to bottom;
 /// if all run the other way, they are reversed.
 #[derive(Debug, Clone, PartialEq)]

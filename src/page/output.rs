@@ -1,10 +1,9 @@
 //! Outputs of a curled page: size of the flat page, warp map and mesh in space.
 
-use std::ops::Range;
-
 use super::curled_page::CurledPage;
 use super::cylinder::SampledCurve;
-use super::pixel_grid::PixelGrid;
+use super::page_warp::PageWarp;
+use super::working_photo::PhotoScale;
 use crate::dewarp::{DewarpOptions, WarpMap};
 use crate::error::{Error, Result, try_filled};
 use crate::math::lanes;
@@ -46,9 +45,26 @@ impl CurledPage {
     /// Projects a place on the flat page to the photo, in pixels; `from_left` and `from_top` are shares of the page's
     /// width and height. None if the place is not in front of the camera.
     pub fn photo_place(&self, [from_left, from_top]: [f64; 2]) -> Option<[f64; 2]> {
-        let (along, down) = self.curve_shares([from_left, from_top]);
-        let on = self.on_curve(&self.cylinder.curve(), along);
+        self.photo_place_on(&self.cylinder.curve(), [from_left, from_top])
+    }
+
+    /// Projects a place on the flat page to the photo by the curve of [`Cylinder::curve`](super::cylinder::Cylinder::curve).
+    fn photo_place_on(&self, curve: &SampledCurve, share: [f64; 2]) -> Option<[f64; 2]> {
+        let (along, down) = self.curve_shares(share);
+        let on = self.on_curve(curve, along);
         self.cylinder.project(on, down * self.cylinder.length)
+    }
+
+    /// Returns this page as it is seen in the photo itself instead of its working photo.
+    pub(super) fn in_full_photo(mut self, scale: PhotoScale) -> Self {
+        self.cylinder.focal *= scale.block;
+        self.cylinder.centre = scale.to_photo(self.cylinder.centre);
+        self.photo = scale.photo;
+        self.report = self.report.in_full_photo(scale);
+        for line in self.found.iter_mut().flatten() {
+            *line = line.map_points(|point| scale.to_photo(point));
+        }
+        self
     }
 
     /// Converts a place on the flat page, in shares of its width and height, to shares of the curve's length and of the
@@ -82,6 +98,17 @@ impl CurledPage {
         Some([share[0] * size[0], share[1] * size[1]])
     }
 
+    /// Computes the page's warp map, which holds for photos of any resolution.
+    ///
+    /// # Errors
+    /// [`Error::OutOfMemory`].
+    pub fn warp(&self) -> Result<PageWarp> {
+        let curve = self.cylinder.curve();
+        PageWarp::from_projection(self.flat_size(), self.millimetres, self.photo, |share| {
+            self.photo_place_on(&curve, share)
+        })
+    }
+
     /// Computes the warp map of the flat page: for each pixel of the flat image its place in the photo. `dots` are
     /// pixels per unit of [`CurledPage::flat_size`], by default as many as give the flat image the number of pixels
     /// that the page covers in the photo; `trim` has no effect, because the page fills its image. The flat image is
@@ -91,61 +118,7 @@ impl CurledPage {
     /// [`Error::Option`] for a resolution that is not positive and finite, [`Error::TooLarge`] for an
     /// image of more than [`MAX_CELLS`](crate::MAX_CELLS) pixels, [`Error::OutOfMemory`].
     pub fn warp_map(&self, options: &DewarpOptions) -> Result<WarpMap> {
-        let flat = self.pixel_grid(options)?;
-        self.warp_rows(&flat, 0..flat.height)
-    }
-
-    /// Size and resolution of the flat image.
-    ///
-    /// # Errors
-    /// Those of [`CurledPage::warp_map`].
-    pub(super) fn pixel_grid(&self, options: &DewarpOptions) -> Result<PixelGrid> {
-        PixelGrid::new(self.flat_size(), options, || self.seen_area())
-    }
-
-    /// Computes some rows of the [warp map](CurledPage::warp_map).
-    ///
-    /// # Errors
-    /// [`Error::OutOfMemory`].
-    pub(super) fn warp_rows(&self, flat: &PixelGrid, rows: Range<usize>) -> Result<WarpMap> {
-        let curve = self.cylinder.curve();
-        let (range, along) = match self.sideways {
-            true => (rows.clone(), flat.height),
-            false => (0..flat.width, flat.width),
-        };
-        let mut line = try_filled("flat image", range.len(), [0.0; 2])?;
-        for (on, i) in line.iter_mut().zip(range) {
-            *on = self.on_curve(&curve, (i as f64 + 0.5) / along as f64);
-        }
-        let first = rows.start;
-        flat.warp_rows(rows, |[col, row], share| {
-            let on = line[if self.sideways { row - first } else { col }];
-            let (_, down) = self.curve_shares(share);
-            let seen = self.cylinder.project(on, down * self.cylinder.length);
-            seen.map_or([f32::NAN; 2], |place| place.map(lanes::single))
-        })
-    }
-
-    /// Area of the photo that the page covers, in pixels.
-    fn seen_area(&self) -> f64 {
-        /// Number of quadrilaterals along each side of the page by whose areas the page's area in the photo is
-        /// measured.
-        const AREA_CELLS_PER_SIDE: usize = 16;
-        let mut area = 0.0;
-        for i in 0..AREA_CELLS_PER_SIDE * AREA_CELLS_PER_SIDE {
-            let corner = |dx: usize, dy: usize| {
-                let at = [
-                    (i % AREA_CELLS_PER_SIDE + dx) as f64,
-                    (i / AREA_CELLS_PER_SIDE + dy) as f64,
-                ];
-                self.photo_place(at.map(|v| v / AREA_CELLS_PER_SIDE as f64))
-                    .unwrap_or([0.0; 2])
-            };
-            let [a, b, c, d] = [corner(0, 0), corner(1, 0), corner(1, 1), corner(0, 1)];
-            let cross = (c[0] - a[0]) * (d[1] - b[1]) - (c[1] - a[1]) * (d[0] - b[0]);
-            area += 0.5 * cross.abs();
-        }
-        area.max(1.0)
+        self.warp()?.warp_map(self.photo, options)
     }
 
     /// Makes a mesh of the page in space, with texture coordinates for the photo: 97 vertices along each page's curve,

@@ -1,9 +1,7 @@
-//! Pixel grid of a page's flat image: its size, resolution and corner, and its warp map some rows at a time.
+//! Pixel grid of a page's flat image: its size, resolution and corner.
 
-use std::ops::Range;
-
-use crate::dewarp::{DewarpOptions, WarpMap};
-use crate::error::{Result, checked_cells, positive, try_filled};
+use crate::dewarp::DewarpOptions;
+use crate::error::{Result, checked_cells, positive};
 
 /// Pixel grid of a page's flat image: its size, resolution and corner.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -43,30 +41,5 @@ impl PixelGrid {
             resolution,
             corner: [0.0, size[1]],
         })
-    }
-
-    /// Makes the warp map of some rows. `place` gives the place in the photo of a pixel, by its column and row and by the
-    /// shares of the page's width and height at its centre.
-    ///
-    /// # Errors
-    /// [`Error::OutOfMemory`](crate::Error::OutOfMemory).
-    pub(super) fn warp_rows(
-        &self,
-        rows: Range<usize>,
-        place: impl Fn([usize; 2], [f64; 2]) -> [f32; 2],
-    ) -> Result<WarpMap> {
-        let size = [self.width, rows.len()];
-        let corner = [
-            self.corner[0],
-            self.corner[1] - rows.start as f64 / self.resolution,
-        ];
-        let mut places = try_filled("flat image", self.width * rows.len(), [f32::NAN; 2])?;
-        for (line, row) in places.chunks_exact_mut(self.width).zip(rows) {
-            let down = (row as f64 + 0.5) / self.height as f64;
-            for (col, found) in line.iter_mut().enumerate() {
-                *found = place([col, row], [(col as f64 + 0.5) / self.width as f64, down]);
-            }
-        }
-        Ok(WarpMap::from_places(size, self.resolution, corner, places))
     }
 }

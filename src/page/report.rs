@@ -5,6 +5,7 @@ use super::error_estimate::ErrorEstimate;
 use super::residual_statistics::ResidualStatistics;
 use super::traced_line::TracedLine;
 use super::traces::{Residuals, Traces};
+use super::working_photo::PhotoScale;
 
 /// Verdict on a flat page: whether it can be trusted.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -123,6 +124,17 @@ pub struct PageReport {
     pub lines_disagreement: f64,
     /// Ratio of the page's height to its width as the edges show it, without use of a given format.
     pub ratio: f64,
+}
+
+impl PageReport {
+    /// Converts what is in pixels of the working photo to pixels of the photo.
+    pub(super) fn in_full_photo(self, scale: PhotoScale) -> Self {
+        PageReport {
+            focal_length: scale.block * self.focal_length,
+            residual: scale.block * self.residual,
+            ..self
+        }
+    }
 }
 
 /// Maximum expected error of the flat page for a verdict other than `Doubtful`, as a share of the page's width.

@@ -1,14 +1,13 @@
 //! Surface of a page in space, by the plainest model that explains its edges and lines in a photo.
 
-use std::ops::Range;
-
 use super::curled_page::CurledPage;
 use super::edges::{Edges, Trace};
 use super::options::PageOptions;
-use super::pixel_grid::PixelGrid;
+use super::page_warp::PageWarp;
 use super::report::{PageModel, PageReport, PageVerdict};
 use super::sheet::SheetPage;
-use crate::dewarp::{DewarpOptions, Photo, WarpMap};
+use super::working_photo::WorkingPhoto;
+use crate::dewarp::Photo;
 use crate::error::{Error, Result};
 use crate::scene::mesh::Mesh;
 
@@ -23,13 +22,41 @@ pub enum PageSurface {
 }
 
 impl PageSurface {
-    /// Finds the page whose edges are traced in a photo. A cylinder is tried first, by [`CurledPage::in_photo`]. If it
-    /// does not explain the page, and all four edges of one page are given, [`SheetPage::in_photo`] finds a sheet. A bent
-    /// cylinder that no line confirms gives way to a plane, if that search finds one.
+    /// Finds the page whose edges are traced in a photo, at a resolution that does not depend on the photo's: photos of up to
+    /// 3072 pixels a side are taken as they are, larger ones are halved for the search. Results are in the photo's own pixels.
+    ///
+    /// A cylinder is tried first, by [`CurledPage::in_photo`]. If it does not explain the page, and all four edges of one page
+    /// are given, [`SheetPage::in_photo`] finds a sheet. A bent cylinder that no line confirms gives way to a plane, if that
+    /// search finds one.
     ///
     /// # Errors
     /// Those of [`CurledPage::in_photo`] and [`SheetPage::in_photo`].
     pub fn in_photo(
+        edges: &[Edges],
+        given: &[Vec<Trace>],
+        photo: &Photo<'_>,
+        options: &PageOptions,
+    ) -> Result<Self> {
+        let working = WorkingPhoto::new(photo);
+        let scale = working.scale;
+        let edges: Vec<Edges> = edges
+            .iter()
+            .map(|edges| scale.working_edges(edges))
+            .collect();
+        let given: Vec<Vec<Trace>> = (given.iter())
+            .map(|lines| lines.iter().map(|line| scale.working_trace(line)).collect())
+            .collect();
+        let [width, height] = working.size();
+        let photo = Photo::new(width, height, working.rgba())?;
+        let found = Self::solved(&edges, &given, &photo, &scale.working_options(options))?;
+        Ok(match found {
+            PageSurface::Curled(page) => PageSurface::Curled(page.in_full_photo(scale)),
+            PageSurface::Sheet(page) => PageSurface::Sheet(page.in_full_photo(scale)),
+        })
+    }
+
+    /// Finds the page in a working photo.
+    fn solved(
         edges: &[Edges],
         given: &[Vec<Trace>],
         photo: &Photo<'_>,
@@ -98,52 +125,15 @@ impl PageSurface {
         }
     }
 
-    /// Computes the warp map of the flat page: for each pixel of the flat image its place in the photo.
-    ///
-    /// # Errors
-    /// Those of [`CurledPage::warp_map`].
-    pub fn warp_map(&self, options: &DewarpOptions) -> Result<WarpMap> {
-        match self {
-            PageSurface::Curled(page) => page.warp_map(options),
-            PageSurface::Sheet(page) => page.warp_map(options),
-        }
-    }
-
-    /// Makes the pixel grid of the flat image.
-    ///
-    /// # Errors
-    /// Those of [`CurledPage::warp_map`].
-    pub fn pixel_grid(&self, options: &DewarpOptions) -> Result<PixelGrid> {
-        match self {
-            PageSurface::Curled(page) => page.pixel_grid(options),
-            PageSurface::Sheet(page) => page.pixel_grid(options),
-        }
-    }
-
-    /// Resamples a photo to some rows of the flat image, as [`WarpMap::image_rows`] of the whole map does, with the map of
-    /// these rows alone in memory.
+    /// Computes the page's warp map, which holds for photos of any resolution of the picture.
     ///
     /// # Errors
     /// [`Error::OutOfMemory`].
-    ///
-    /// # Panics
-    /// If `rgba` does not have four bytes for each pixel of these rows, or the image not as many rows.
-    pub fn image_rows(
-        &self,
-        flat: &PixelGrid,
-        photo: &Photo<'_>,
-        rows: Range<usize>,
-        rgba: &mut [u8],
-    ) -> Result<()> {
-        // How finely a pixel samples the photo depends on the next row's places.
-        let band = rows.start.saturating_sub(1)..(rows.end + 1).min(flat.height);
-        let within = rows.start - band.start..rows.end - band.start;
-        let map = match self {
-            PageSurface::Curled(page) => page.warp_rows(flat, band)?,
-            PageSurface::Sheet(page) => page.warp_rows(flat, band)?,
-        };
-        map.image_rows(photo, within, rgba);
-        Ok(())
+    pub fn warp(&self) -> Result<PageWarp> {
+        match self {
+            PageSurface::Curled(page) => page.warp(),
+            PageSurface::Sheet(page) => page.warp(),
+        }
     }
 
     /// Makes a mesh of the page in space, with texture coordinates for the photo.

@@ -91,6 +91,7 @@ const calls = {
   writeDxf: { args: { drawing } },
   dewarp: { args: { input: bent, photo }, options: 'dewarp' },
   dewarpPage: { args: { photo: pagePhoto, edges }, options: 'dewarpPage' },
+  flattenPhoto: { args: { photo: pagePhoto, page: direct.dewarpPage(pagePhoto, /** @type {any} */ (edges)) }, options: 'flattenPhoto' },
   findPage: { args: { photo: pagePhoto } },
   readPhoto: { args: { bytes: direct.writePhoto(photo) } },
   writePhoto: { args: { photo } },

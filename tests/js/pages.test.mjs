@@ -239,6 +239,51 @@ test('lines of text are found where the photo shows print', async () => {
   assert.throws(() => direct.dewarpPage(page, edges, /** @type {any} */ ({ findLines: 'yes' })), error('OPTION', /findLines/));
 });
 
+/** A photo with each pixel repeated. @param {typeof photo} photo @param {number} times */
+function enlarged({ width, height, data }, times) {
+  const [from, to] = [new Uint32Array(data.buffer), new Uint32Array(width * height * times * times)];
+  for (let i = 0; i < to.length; i += 1) {
+    const [x, y] = [i % (width * times), Math.floor(i / (width * times))].map((at) => Math.floor(at / times));
+    to[i] = from[y * width + x];
+  }
+  return { width: width * times, height: height * times, data: new Uint8ClampedArray(to.buffer) };
+}
+
+test('a page is found at one resolution, and flattened at any', async () => {
+  // 6 times 640 pixels are more than those in which pages are found, 3 times are half of that.
+  const [small, large] = [3, 6].map((times) => enlarged(photo, times));
+  /** @param {number} times @returns {[import('../../pkg/types.js').PageEdges, { focalLength: number }]} */
+  const known = (times) => {
+    const at = (/** @type {[number, number][]} */ line) => line.map((point) => point.map((v) => times * (v + 0.5) - 0.5));
+    return [/** @type {any} */ ({ top: at(edges.top), bottom: at(edges.bottom) }), { focalLength: times * focal }];
+  };
+  const image = /** @type {const} */ ({ page: 'a4', light: 'keep' });
+  const [byEdges, focalSmall] = known(3);
+  const preview = direct.dewarpPage(small, byEdges, { ...focalSmall, ...image, dots: 1 });
+  const [largeEdges, focalLarge] = known(6);
+  const whole = direct.dewarpPage(large, largeEdges, { ...focalLarge, ...image, dots: 1 });
+  assert.deepEqual([whole.warp.columns, whole.warp.rows], [preview.warp.columns, preview.warp.rows]);
+  assert.ok(whole.warp.places.every((place, i) => Math.abs(place - preview.warp.places[i]) < 1e-6));
+  const close = (/** @type {number} */ a, /** @type {number} */ b) => assert.ok(Math.abs(a / b - 1) < 1e-9, `${a} for ${b}`);
+  close(whole.report.focalLength, 2 * preview.report.focalLength);
+  close(whole.report.residual, 2 * preview.report.residual);
+  close(whole.report.error, preview.report.error);
+
+  // The file of the whole photo by the preview's page: the same places, to a tenth of a pixel of the photo.
+  const file = direct.flattenPhoto(large, preview, { light: 'keep', dots: 1 });
+  assert.deepEqual([file.width, file.height, file.size, file.unit], [210, 297, preview.size, 'mm']);
+  assert.ok(file.map.every((at, i) => Math.abs(at - 2 * (preview.map[i] + 0.5) + 0.5) < 0.1));
+  assert.ok(file.data.every((value, i) => Math.abs(value - preview.data[i]) <= 2));
+  const fine = direct.flattenPhoto(large, preview, { light: 'keep' });
+  assert.ok(fine.width > 1000 && fine.resolution > 5, String(fine.width));
+  // As a program keeps the page: by its size and warp alone.
+  const { size, unit, warp } = structuredClone(preview);
+  assert.deepEqual(await developable.flattenPhoto(large, { size, unit, warp }, { light: 'keep' }), fine);
+  assert.throws(() => direct.flattenPhoto(large, /** @type {any} */ ({ size })), error('INPUT', /dewarpPage/));
+  assert.throws(() => direct.flattenPhoto(large, { size, unit, warp: { ...warp, rows: 3 } }), error('SHAPE', /warp/));
+  assert.throws(() => direct.flattenPhoto(large, preview, /** @type {any} */ ({ page: 'a4' })), error('OPTION', /page/));
+});
+
 test('lines of text, and all four edges', async () => {
   /** @param {number} t @param {number} [bent] down the page, by its middle */
   const line = (t, bent = 0) => Array.from({ length: 12 }, (_, i) => {

@@ -109,6 +109,7 @@ const results = [
   ['Drawing', () => direct.patternMesh(mesh)],
   ['Dewarped', () => direct.dewarp(image(40, 32, roof), photo, { grid: true })],
   ['DewarpedPage', () => direct.dewarpPage(page, { top: edge(100), bottom: edge(560) }, { focalLength: 480, page: 'a4', grid: true })],
+  ['FlatPage', () => direct.flattenPhoto(page, direct.dewarpPage(page, { top: edge(100), bottom: edge(560) }, { focalLength: 480 }))],
   ['SampledMesh', () => direct.sampleMesh(mesh)],
   ['ReadResult', () => direct.read(direct.writeNpy(scan))],
   ['DecodedPhoto', () => direct.readPhoto(direct.writePhoto(photo))],

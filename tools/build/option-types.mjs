@@ -19,7 +19,8 @@ const MODULES = {
   },
   pattern: { pattern: 'PatternOptions', unrollMesh: 'MeshUnrollOptions', patternMesh: 'MeshPatternOptions', writePdf: 'WritePdfOptions' },
   photo: {
-    depths: 'DepthOptions', paint: 'PaintOptions', dewarp: 'DewarpOptions', dewarpPage: 'DewarpPageOptions', writePhoto: 'WritePhotoOptions',
+    depths: 'DepthOptions', paint: 'PaintOptions', dewarp: 'DewarpOptions', dewarpPage: 'DewarpPageOptions', flattenPhoto: 'FlattenPhotoOptions',
+    writePhoto: 'WritePhotoOptions',
   },
   file: { read: 'ReadOptions', readMesh: 'ReadMeshOptions', sampleMesh: 'SampleMeshOptions', example: 'ExampleOptions' },
 };

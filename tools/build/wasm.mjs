@@ -28,7 +28,7 @@ const files = [
   { name: 'images', limit: 525_000 },
   { name: 'meshes', limit: 287_000 },
   { name: 'fitmesh', limit: 213_000 },
-  { name: 'unroll', limit: 345_000 },
+  { name: 'unroll', limit: 352_000 },
   { name: 'patterns', limit: 510_000 },
 ];
 

@@ -1,6 +1,7 @@
 //! Reduced photos as planes of logarithmic red, green and blue.
 
 use crate::dewarp::Photo;
+use crate::page::working_photo::WorkingPhoto;
 
 /// Maximum length of a reduced photo's longer side, in pixels: the page's edges are found to a tenth of such a pixel,
 /// and twelve megapixels cost one pass over the photo.
@@ -27,7 +28,8 @@ pub(in crate::page) struct Planes {
 impl Planes {
     /// Reduces a photo by averages of square blocks of pixels, to a longer side of at most 800 pixels.
     pub fn from_photo(photo: &Photo<'_>) -> Self {
-        let (w, h) = (photo.width(), photo.height());
+        let photo = WorkingPhoto::new(photo);
+        let [w, h] = photo.size();
         let block = w.max(h).div_ceil(MAX_REDUCED_SIDE);
         let (width, height) = ((w / block).max(1), (h / block).max(1));
         let mut channels = [const { Vec::new() }; 3];
@@ -61,7 +63,7 @@ impl Planes {
             width,
             height,
             channels,
-            scale: block as f64,
+            scale: block as f64 * photo.scale.block,
         }
     }
 

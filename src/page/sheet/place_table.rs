@@ -37,6 +37,14 @@ impl PlaceTable {
         Ok(PlaceTable { cols, rows, places })
     }
 
+    /// Returns this table with each place in the photo replaced.
+    pub fn map_places(mut self, map: impl Fn([f64; 2]) -> [f64; 2]) -> Self {
+        for place in &mut self.places {
+            *place = map(*place);
+        }
+        self
+    }
+
     /// Interpolates the place in the photo, in pixels, at shares of the page's width and height.
     #[inline]
     pub fn at(&self, share: [f64; 2]) -> [f64; 2] {
@@ -55,20 +63,5 @@ impl PlaceTable {
         ];
         [0, 1]
             .map(|k| (1.0 - t) * ((1.0 - s) * a[k] + s * b[k]) + t * ((1.0 - s) * c[k] + s * d[k]))
-    }
-
-    /// Area of the photo that the page covers, in pixels.
-    pub fn area(&self) -> f64 {
-        let mut area = 0.0;
-        for j in 1..self.rows {
-            for i in 1..self.cols {
-                let at = j * self.cols + i;
-                let node = |back: usize| self.places[at - back];
-                let [a, b, c, d] = [node(self.cols + 1), node(self.cols), node(1), node(0)];
-                let (p, q) = ([d[0] - a[0], d[1] - a[1]], [c[0] - b[0], c[1] - b[1]]);
-                area += 0.5 * (p[0] * q[1] - p[1] * q[0]).abs();
-            }
-        }
-        area
     }
 }

@@ -1,7 +1,5 @@
 //! A page of any shape in space, from its four edges in one photo.
 
-use std::ops::Range;
-
 use nalgebra::Vector3;
 
 use super::grid::SheetGrid;
@@ -12,16 +10,16 @@ use super::search::{FoundSheet, find_sheet};
 use super::view::PhotoView;
 use crate::dewarp::{DewarpOptions, Photo, WarpMap};
 use crate::error::{Error, Result, positive};
-use crate::math::lanes;
 use crate::page::curled_page::MAX_CENTRE_DIAGONALS;
 use crate::page::edges::{Edges, Trace};
 use crate::page::known_sizes::{Sides, focal_length, sides};
 use crate::page::options::{Format, PageOptions};
 use crate::page::output::{back_project, grid_mesh, texture_coordinates};
-use crate::page::pixel_grid::PixelGrid;
+use crate::page::page_warp::PageWarp;
 use crate::page::read_traces::read_traces;
 use crate::page::report::{PageDoubt, PageModel, PageReport, PageVerdict};
 use crate::page::traced_line::{TracedLine, distance};
+use crate::page::working_photo::PhotoScale;
 use crate::scene::camera::has_camera_proportions;
 use crate::scene::mesh::Mesh;
 
@@ -200,34 +198,38 @@ impl SheetPage {
         &self.lines
     }
 
+    /// Computes the page's warp map, which holds for photos of any resolution.
+    ///
+    /// # Errors
+    /// [`Error::OutOfMemory`].
+    pub fn warp(&self) -> Result<PageWarp> {
+        let (size, place) = (self.flat_size(), |share| Some(self.table.at(share)));
+        PageWarp::from_projection(size, self.millimetres, self.photo, place)
+    }
+
     /// Computes the warp map of the flat page: for each pixel of the flat image its place in the photo, as
     /// [`CurledPage::warp_map`](super::super::CurledPage::warp_map) does.
     ///
     /// # Errors
     /// Those of [`CurledPage::warp_map`](super::super::CurledPage::warp_map).
     pub fn warp_map(&self, options: &DewarpOptions) -> Result<WarpMap> {
-        let flat = self.pixel_grid(options)?;
-        self.warp_rows(&flat, 0..flat.height)
+        self.warp()?.warp_map(self.photo, options)
     }
 
-    /// Size and resolution of the flat image.
-    ///
-    /// # Errors
-    /// Those of [`SheetPage::warp_map`].
-    pub(in crate::page) fn pixel_grid(&self, options: &DewarpOptions) -> Result<PixelGrid> {
-        PixelGrid::new(self.flat_size(), options, || self.table.area())
-    }
-
-    /// Computes some rows of the [warp map](SheetPage::warp_map).
-    ///
-    /// # Errors
-    /// [`Error::OutOfMemory`].
-    pub(in crate::page) fn warp_rows(
-        &self,
-        flat: &PixelGrid,
-        rows: Range<usize>,
-    ) -> Result<WarpMap> {
-        flat.warp_rows(rows, |_, share| self.table.at(share).map(lanes::single))
+    /// Returns this page as it is seen in the photo itself instead of its working photo.
+    pub(in crate::page) fn in_full_photo(self, scale: PhotoScale) -> Self {
+        let line = |line: &Trace| line.map_points(|point| scale.to_photo(point));
+        let lines = self
+            .lines
+            .iter()
+            .map(|lines| lines.iter().map(line).collect());
+        SheetPage {
+            table: self.table.map_places(|place| scale.to_photo(place)),
+            photo: scale.photo,
+            lines: lines.collect(),
+            report: self.report.in_full_photo(scale),
+            ..self
+        }
     }
 
     /// Makes a mesh of the page in space, with texture coordinates for the photo, row by row from the upper left

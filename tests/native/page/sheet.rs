@@ -313,8 +313,9 @@ fn the_plainest_model_is_taken() {
 
         // Bands of rows, each by its own map, make the image of the whole map.
         let options = DewarpOptions::default().dots(0.5);
-        let flat = page.pixel_grid(&options).unwrap();
-        let map = page.warp_map(&options).unwrap();
+        let warp = page.warp().unwrap();
+        let flat = warp.pixel_grid(PHOTO, &options).unwrap();
+        let map = warp.warp_map(PHOTO, &options).unwrap();
         assert_eq!([map.width(), map.height()], [flat.width, flat.height]);
         assert_eq!(
             (map.resolution(), map.corner()),
@@ -323,7 +324,7 @@ fn the_plainest_model_is_taken() {
         let mut image = vec![0; 4 * flat.width * flat.height];
         for rows in [0..1, 1..40, 40..flat.height] {
             let bytes = 4 * flat.width * rows.start..4 * flat.width * rows.end;
-            page.image_rows(&flat, &photo, rows, &mut image[bytes])
+            warp.image_rows(&flat, &photo, rows, &mut image[bytes])
                 .unwrap();
         }
         assert!(image == map.image(&photo).unwrap());

@@ -11,7 +11,8 @@ use developable::dewarp::DewarpOptions;
 use developable::page::cleaning::Light;
 use developable::page::{
     CurledPage, Edges, FocalLength, Format, OutlineReason, OutlineReport, OutlineVerdict,
-    PageOptions, PageOutline, PageReport, PageSurface, PageVerdict, Ruler, Trace, find_outline,
+    PageOptions, PageOutline, PageReport, PageSurface, PageVerdict, PageWarp, Ruler, Trace,
+    find_outline,
 };
 use developable_wasm::flat::{GridOutput, MapOptions, cleaning_from, flat_image};
 use developable_wasm::options::{Given, entries, option, renamed, unknown};
@@ -87,9 +88,52 @@ struct RulerInput {
     length: f64,
 }
 
-/// A flat page of a photo with its warp map, mesh and report, written as JavaScript's `DewarpedPage` object.
+/// A page that was found in a photo, with its warp map by shares, mesh and report: what JavaScript's `DewarpedPage` object has
+/// besides the flat image.
 #[derive(Serialize)]
 struct PageOutput {
+    size: [f64; 2],
+    unit: Unit,
+    warp: WarpOutput,
+    mesh: MeshOutput,
+    /// Lines of text that were detected in the photo, a list for each page, as points in the photo's pixels.
+    lines: Vec<Vec<Vec<[f64; 2]>>>,
+    verdict: PageVerdict,
+    report: PageReport,
+    /// Outlines of pages that were found in the photo, if no edges were given.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    outline: Option<OutlinesOutput>,
+}
+
+/// The unit of a flat page's lengths: millimetres or the width of a page.
+#[derive(Serialize, Deserialize, PartialEq)]
+enum Unit {
+    #[serde(rename = "mm")]
+    Millimetre,
+    #[serde(rename = "page")]
+    Page,
+}
+
+/// The warp map of a page by shares, as JavaScript's `PageWarp` object.
+#[derive(Serialize, Deserialize)]
+struct WarpOutput {
+    columns: usize,
+    rows: usize,
+    #[serde(with = "preserve")]
+    places: Float32Array,
+}
+
+/// What is read of a page that was found in a photo: the same in JavaScript's `DewarpedPage` object.
+#[derive(Deserialize)]
+struct PageInput {
+    size: [f64; 2],
+    unit: Unit,
+    warp: WarpOutput,
+}
+
+/// A flat image with its warp map, written as JavaScript's `FlatPage` object without size and unit.
+#[derive(Serialize)]
+struct FlatOutput {
     width: usize,
     height: usize,
     resolution: f64,
@@ -100,18 +144,8 @@ struct PageOutput {
     map: Float32Array,
     #[serde(skip_serializing_if = "Option::is_none")]
     grid: Option<GridOutput>,
-    size: [f64; 2],
-    unit: &'static str,
-    mesh: MeshOutput,
-    /// Lines of text that were detected in the photo, a list for each page, as points in the photo's pixels.
-    lines: Vec<Vec<Vec<[f64; 2]>>>,
     /// What happened to the light on the flat page.
     light: Light,
-    verdict: PageVerdict,
-    report: PageReport,
-    /// Outlines of pages that were found in the photo, if no edges were given.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    outline: Option<OutlinesOutput>,
 }
 
 #[derive(Serialize)]
@@ -185,20 +219,16 @@ pub fn find_page(photo: JsValue) -> Result<JsValue> {
     Ok(to_value(&OutlinesOutput::from(&report))?)
 }
 
-/// Makes a photo of a page, or of a spread, flat by the page's traced edges, or if none are given by those found in the
-/// photo; returns JavaScript's `DewarpedPage` object.
-#[wasm_bindgen(js_name = dewarpPage)]
-pub fn dewarp_page(photo: JsValue, edges: JsValue, options: JsValue) -> Result<JsValue> {
-    let (mut wanted, mut known) = (DewarpOptions::default(), PageOptions::default());
-    let mut given = Given::new(&options)?;
-    let maps = MapOptions::new(&mut given);
-    let cleaning = cleaning_from(&mut given, Light::default())?;
+/// Finds the surface of a page, or of a spread, by the page's traced edges, or if none are given by those found in the
+/// photo; returns what JavaScript's `DewarpedPage` object has besides the flat image.
+#[wasm_bindgen(js_name = pageSurface)]
+pub fn page_surface(photo: JsValue, edges: JsValue, options: JsValue) -> Result<JsValue> {
+    let mut known = PageOptions::default();
     let mut focal = Vec::new();
     let mut finding = None;
     for (name, value) in entries(&options)? {
         let number = "must be a number";
         match name.as_str() {
-            "dots" => wanted = wanted.dots(option("dots", value, number)?),
             "focalLength" => {
                 focal.push(FocalLength::Pixels(option("focal_length", value, number)?))
             }
@@ -220,10 +250,9 @@ pub fn dewarp_page(photo: JsValue, edges: JsValue, options: JsValue) -> Result<J
             "centre" => known = known.centre(option("centre", value, "must be two numbers")?),
             "findLines" => finding = Some(option("findLines", value, "must be true or false")?),
             "accuracy" => known = known.accuracy(option("accuracy", value, number)?),
-            "map" | "grid" | "light" | "ink" => {}
             _ => {
-                let names = "dots, map, grid, light, ink, focalLength, fieldOfView, film35, page, ruler, centre, accuracy and \
-                    findLines";
+                let names =
+                    "focalLength, fieldOfView, film35, page, ruler, centre, accuracy and findLines";
                 return Err(unknown(&name, names));
             }
         }
@@ -263,22 +292,19 @@ pub fn dewarp_page(photo: JsValue, edges: JsValue, options: JsValue) -> Result<J
             .map(PageSurface::Curled)
     }
     .map_err(|error| renamed(error, "format", "page"))?;
-    let flat = page.pixel_grid(&wanted)?;
-    let mesh = page.mesh()?;
-    let image_rows =
-        |rows: Range<usize>, rgba: &mut [u8]| Ok(page.image_rows(&flat, &photo, rows, rgba)?);
-    let (data, light) = flat_image([flat.width, flat.height], image_rows, &cleaning)?;
-    let map = maps.any().then(|| page.warp_map(&wanted)).transpose()?;
+    let (warp, mesh) = (page.warp()?, page.mesh()?);
+    let [columns, rows] = warp.nodes();
     Ok(to_value(&PageOutput {
-        width: flat.width,
-        height: flat.height,
-        resolution: flat.resolution,
-        corner: flat.corner,
-        data,
-        map: maps.places(map.as_ref()),
-        grid: maps.grid(map.as_ref())?,
         size: page.flat_size(),
-        unit: if page.is_millimetres() { "mm" } else { "page" },
+        unit: match page.is_millimetres() {
+            true => Unit::Millimetre,
+            false => Unit::Page,
+        },
+        warp: WarpOutput {
+            columns,
+            rows,
+            places: warp.places().as_flattened().into(),
+        },
         mesh: MeshOutput {
             positions: mesh.positions().as_flattened().into(),
             triangles: mesh.triangles().as_flattened().into(),
@@ -287,10 +313,50 @@ pub fn dewarp_page(photo: JsValue, edges: JsValue, options: JsValue) -> Result<J
         lines: (page.text().iter())
             .map(|lines| lines.iter().map(points).collect())
             .collect(),
-        light,
         verdict: page.report().verdict,
         report: *page.report(),
         outline,
+    })?)
+}
+
+/// Makes a photo of any resolution flat by a page that was found in the same picture; returns JavaScript's `FlatPage` object
+/// without size and unit.
+#[wasm_bindgen(js_name = flattenPhoto)]
+pub fn flatten_photo(photo: JsValue, page: JsValue, options: JsValue) -> Result<JsValue> {
+    let mut given = Given::new(&options)?;
+    let maps = MapOptions::new(&mut given);
+    let cleaning = cleaning_from(&mut given, Light::default())?;
+    let mut wanted = DewarpOptions::default();
+    for (name, value) in entries(&options)? {
+        match name.as_str() {
+            "dots" => wanted = wanted.dots(option("dots", value, "must be a number")?),
+            "map" | "grid" | "light" | "ink" => {}
+            _ => return Err(unknown(&name, "dots, map, grid, light and ink")),
+        }
+    }
+    let PageInput { size, unit, warp } = from_value(page)?;
+    let places = warp.places.to_vec().as_chunks().0.to_vec();
+    let nodes = [warp.columns, warp.rows];
+    let warp = PageWarp::new(size, unit == Unit::Millimetre, nodes, places)?;
+    let pixels = Pixels::new(photo)?;
+    let photo = pixels.photo()?;
+    let photo_size = [photo.width(), photo.height()];
+    let flat = warp.pixel_grid(photo_size, &wanted)?;
+    let image_rows =
+        |rows: Range<usize>, rgba: &mut [u8]| Ok(warp.image_rows(&flat, &photo, rows, rgba)?);
+    let (data, light) = flat_image([flat.width, flat.height], image_rows, &cleaning)?;
+    let map = (maps.any())
+        .then(|| warp.warp_map(photo_size, &wanted))
+        .transpose()?;
+    Ok(to_value(&FlatOutput {
+        width: flat.width,
+        height: flat.height,
+        resolution: flat.resolution,
+        corner: flat.corner,
+        data,
+        map: maps.places(map.as_ref()),
+        grid: maps.grid(map.as_ref())?,
+        light,
     })?)
 }
 

@@ -2,7 +2,7 @@
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import { pageCautions, pageErrors } from '../../www/page/messages.js';
-import { ASSUMED_FIELD_OF_VIEW, PageFlattener } from '../../www/page/flatten.js';
+import { ASSUMED_FIELD_OF_VIEW, flattenWholePhoto, PageFlattener } from '../../www/page/flatten.js';
 import { readPdf, readPdfPicture } from '../js/support/drawings.mjs';
 import { parsed } from './support/numbers.mjs';
 import { choose, drop, dropAll, ended, look, pageTest, painted, saveAs } from './support/page.mjs';
@@ -261,6 +261,33 @@ test('where nothing tells the focal length, that of a phone is assumed, and said
     assert.match(pageErrors(report), words);
     assert.match(pageErrors(report), /about 1\.8\s%.*less than 4\.4\s%/);
   }
+});
+
+test('a file is made by the page that is shown, and no page is searched for it again', async () => {
+  /** @type {unknown[]} */
+  const asked = [];
+  const worker = /** @type {any} */ ({ flattenPhoto: async (/** @type {unknown[]} */ ...given) => asked.push(given) });
+  const photo = { width: 4000, height: 3000, data: new Uint8ClampedArray(4), reduced: { width: 1280, height: 960 }, film35: 26 };
+  const shown = /** @type {any} */ ({ size: [1, 1.4], unit: 'page', warp: {} });
+  await flattenWholePhoto(worker, /** @type {any} */ ({ photo, options: { light: 'keep', ink: false, focalLength: 3000 } }), shown);
+  const { width, height, data } = photo;
+  assert.deepEqual(asked, [[{ width, height, data }, shown, { light: 'keep', ink: false }]]);
+});
+
+pageTest('a file of all pixels has the proportions of the flat page that is shown', async (page) => {
+  const { width, height, data } = parsePng(photo);
+  // Three times as fine as the photo, which is then reduced for what is shown.
+  const fine = new Uint8Array(4 * 9 * width * height);
+  for (let i = 0; i < 9 * width * height; i++) {
+    const at = 4 * (Math.floor(i / (9 * width)) * width + Math.floor((i % (3 * width)) / 3));
+    fine.set(data.subarray(at, at + 4), 4 * i);
+  }
+  await openPhoto(page, 'fine.png', png({ width: 3 * width, height: 3 * height, data: fine }));
+  const shown = parsed(await told(page, 'Width to height'));
+  const flat = await flatPng(page);
+  assert.ok(flat.width > 700, `${flat.width} pixels`);
+  assert.ok(Math.abs(flat.width / flat.height / shown - 1) < 0.002, `${flat.width} × ${flat.height} for ${shown}`);
+  assert.ok(misplaced(flat) < 0.003);
 });
 
 pageTest('of several pages one is taken, and another by a click', async (page) => {

@@ -2,7 +2,7 @@
 import { plainMessage } from '../error-messages.js';
 import { BOOK_WORDS } from './messages.js';
 import { runInWorker } from '../worker-task.js';
-import { flattenWholePhoto } from './flatten.js';
+import { flattenReducedPhoto, flattenWholePhoto } from './flatten.js';
 import { pictureFiles } from './paper.js';
 import { openPhoto } from './photo.js';
 
@@ -87,7 +87,7 @@ export class Book {
         const { quarters, traces, textLines } = state ?? { quarters: 0, traces: detectedTraces(photo), textLines: [[]] };
         const { options, findsTextLines } = session;
         const request = { photo, traces, textLines, options: { ...options, findLines: findsTextLines }, moving: false };
-        const flat = await runInWorker(api, signal, (own) => flattenWholePhoto(own, request));
+        const flat = await runInWorker(api, signal, async (own) => flattenWholePhoto(own, request, (await flattenReducedPhoto(own, request)).flat));
         pages.push(...await pictureFiles(worker, flat, traces[0].length, quarters, paper, options.ink));
       } catch (error) {
         entry.problem = plainMessage(error instanceof Error ? error.message : String(error));

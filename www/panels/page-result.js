@@ -15,7 +15,7 @@ import { PROGRESS_DELAY_MS } from './waiting.js';
 
 /** @import {Api} from '../api.js' */
 /** @import {Worker} from '../worker-task.js' */
-/** @import {DewarpedPage} from '../page/flatten.js' */
+/** @import {DewarpedPage, FlatPage} from '../page/flatten.js' */
 /** @import {PageSession} from '../page/session.js' */
 /** @import {Book} from '../page/book.js' */
 /** @import {PaperName} from '../page/paper.js' */
@@ -115,13 +115,13 @@ export function pageResultPanel(api, session, book, openAsSurface, onWritten) {
   });
 
   save.addEventListener('click', () => {
-    const wish = session.request();
-    if (!wish || !shown) return;
+    const [wish, found] = [session.request(), shown];
+    if (!wish || !found) return;
     const { outline: { pages }, quarters } = session;
-    const measured = shown.unit === 'mm';
-    const [wide, high] = [shown.size[0] / pages, shown.size[1]];
+    const measured = found.unit === 'mm';
+    const [wide, high] = [found.size[0] / pages, found.size[1]];
     const similar = quarters % 2 === 0 ? similarPaper(wide, high) : similarPaper(high, wide);
-    const paper = make('select', '', ...(measured ? [new Option(SAVE_WORDS.trueSize(sizeOf(shown, quarters)), '')] : []),
+    const paper = make('select', '', ...(measured ? [new Option(SAVE_WORDS.trueSize(sizeOf(found, quarters)), '')] : []),
       ...Object.entries(SAVE_WORDS.papers).map(([name, words]) => new Option(words, name)));
     paper.value = measured ? '' : similar ?? 'a4';
     const several = book.photos.length > 1;
@@ -129,11 +129,11 @@ export function pageResultPanel(api, session, book, openAsSurface, onWritten) {
     const showProgress = (/** @type {number} */ done) => {
       status.textContent = BOOK_WORDS.writing(done + 1, book.photos.length);
     };
-    /** The flat page with all pixels of the photo, which is made once for all formats. @type {DewarpedPage | null} */
+    /** The flat page with all pixels of the photo, which is made once for all formats. @type {FlatPage | null} */
     let flat = null;
     /** @param {'png' | 'jpeg'} format */
     const writeImage = (format) => async (/** @type {Worker} */ worker) => {
-      flat ??= await flattenWholePhoto(worker, wish);
+      flat ??= await flattenWholePhoto(worker, wish, found);
       return worker.writePhoto({ ...flat, ...turnPicture(flat, quarters) }, { format });
     };
     const offer = offerToSave(api, {
@@ -144,7 +144,7 @@ export function pageResultPanel(api, session, book, openAsSurface, onWritten) {
         { value: 'pdf', name: 'PDF', ...(several && { stem: `${book.photos[0].file.name.replace(/\.[^.]*$/, '')}-pages`, note: () => withoutInWords(book) }), words: several ? BOOK_WORDS.pdf(book.photos.length) : pages > 1 ? SAVE_WORDS.pdfOfTwo : SAVE_WORDS.pdf, type: 'application/pdf', write: async (worker) => {
           const size = paper.value === '' ? null : PAPERS[/** @type {PaperName} */ (paper.value)];
           if (several) return worker.writeBook(await book.flatPages(api, session, worker, size, showProgress).finally(onWritten));
-          flat ??= await flattenWholePhoto(worker, wish);
+          flat ??= await flattenWholePhoto(worker, wish, found);
           return worker.writeBook(await pictureFiles(worker, flat, pages, quarters, size, wish.options.ink));
         } },
         { value: 'jpg', name: 'JPEG', words: FORMAT_WORDS.jpg, type: 'image/jpeg', write: writeImage('jpeg') },

@@ -147,7 +147,7 @@ export const MESH_FIT_WORDS = {
   /** @param {number} n */
   flipped: (n) => `${count(n)} ${n === 1 ? 'triangle' : 'triangles'} of the result ${n === 1 ? 'is' : 'are'} folded over.`,
   /** @param {number} passes @param {string} gap */
-  proof: (passes, gap) => `The last of ${count(passes)} steps is proven within ${gap} of its optimum. This says nothing about the shape as a whole.`,
+  proof: (passes, gap) => `The last of ${count(passes)} steps is proven within ${gap} of its optimum.`,
 };
 
 /** Labels and messages about sheets to cut out. */

@@ -62,6 +62,8 @@ export function meshFitPanel(session, meshFit) {
   let viewedMesh = null;
   /** Share of the mesh that is hidden from the chosen side. @type {Promise<number>} */
   let hiddenShare = Promise.resolve(0);
+  /** Whether the mesh is solved whole without being asked for: if that fails, it is shown from one side. */
+  let isFirstSolve = false;
   /** Reads the view's value at a place of the surface. @type {MeshViewContent['read']} */
   let readValue;
 
@@ -136,6 +138,7 @@ export function meshFitPanel(session, meshFit) {
   /** Shows the whole mesh and fits it. */
   const solve = () => {
     if (!inputMesh) return;
+    isFirstSolve = false;
     session.setAutoRun(false);
     side.dataset.whole = '';
     stage.hidden = false;
@@ -206,6 +209,9 @@ export function meshFitPanel(session, meshFit) {
     stage.setAttribute('aria-busy', 'false');
     const words = plainMessage(error instanceof Error ? error.message : String(error));
     say(MESH_FIT_WORDS.unsolved, `${words[0].toUpperCase()}${words.slice(1)}.`);
+    if (!isFirstSolve) return;
+    showOneSide();
+    hint.textContent = `${MESH_FIT_WORDS.unsolved} ${detail.textContent}`;
   });
 
   report.addEventListener('click', () => {
@@ -314,8 +320,12 @@ export function meshFitPanel(session, meshFit) {
     /** Solves a mesh that was opened: its heights from one side, or the whole of it if much is hidden from there. */
     async begin() {
       const { input } = session;
-      if (inputMesh && await hiddenShare > MAX_HIDDEN_SHARE && session.input === input) enter('shaded');
-      else if (session.input === input) void session.run();
+      if (inputMesh && await hiddenShare > MAX_HIDDEN_SHARE && session.input === input) {
+        enter('shaded');
+        isFirstSolve = true;
+      } else if (session.input === input) {
+        void session.run();
+      }
     },
   };
 }

@@ -121,9 +121,14 @@ export function offerToSave(api, { title, stem, size: amount, ready = async () =
     closed();
   };
   const opened = performance.now();
-  // A click outside of the dialog closes it, unless it is the second one of a double click that opened it.
+  // The second click of a double click that opened the dialog neither closes it nor selects anything in it.
+  const isSecondClick = () => performance.now() - opened < DOUBLE_CLICK_MS;
+  dialog.onmousedown = (event) => {
+    if (isSecondClick()) event.preventDefault();
+  };
+  // A click outside of the dialog closes it.
   dialog.onclick = (event) => {
-    if (event.target === dialog && performance.now() - opened > DOUBLE_CLICK_MS) dialog.close();
+    if (event.target === dialog && !isSecondClick()) dialog.close();
   };
   retryButton.onclick = () => void write();
   if (!dialog.open) dialog.showModal();

@@ -74,6 +74,7 @@ export function settingsPanel(session, meshFit) {
     preset.addEventListener('click', () => setLambda(10 ** Number(preset.dataset.exponent)));
   }
   field.addEventListener('change', () => {
+    if (field.value.trim() === '') return auto.click();
     const lambda = Number(field.value.trim().replace(/^(\d*),(\d+)/, '$1.$2') || NaN);
     const isValid = lambda >= MIN_LAMBDA && lambda <= MAX_LAMBDA;
     if (isValid) return setLambda(lambda);

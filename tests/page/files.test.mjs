@@ -83,6 +83,16 @@ pageTest('zeros become holes on request, and heights again', async (page) => {
   assert.ok(parseNpy((await save(page, 'NPY')).bytes).values.every(Number.isFinite));
 });
 
+pageTest('a value that means no data is given by hand, and stands in the address', async (page) => {
+  const marked = plane.map((value, i) => (i % WIDTH < 8 ? -9999 : value));
+  await open(page, 'marked.npy', npy(WIDTH, marked));
+  const field = page.getByLabel('Number that means no data');
+  await runBy(page, () => field.fill('-9999').then(() => field.blur()));
+  const { values } = parseNpy((await save(page, 'NPY')).bytes);
+  assert.deepEqual(values.map(Number.isNaN), marked.map((value) => value === -9999));
+  await page.waitForURL(/noData=-9999/);
+});
+
 pageTest('heights along one line are refused with the reason', async (page) => {
   await open(page, 'line.npy', npy(WIDTH, plane.map((value, i) => (i < WIDTH ? value : NaN))));
   await run(page);

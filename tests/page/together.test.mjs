@@ -65,7 +65,7 @@ pageTest('what is known of depths is dropped with them, and what is not is said'
     'IMG_1.png': photo, 'depth.npy': npy(256, scene), 'camera.json': numbers,
     'confidence.png': png16(256, trust), 'IMG_1_mask.png': png16(256, mask), 'notes.md': Buffer.from('a page'),
   }));
-  await page.getByRole('alert').filter({ hasText: 'Not used: “notes.md”' }).waitFor();
+  await page.getByRole('alert').filter({ hasText: 'Left out: “notes.md”' }).waitFor();
   assert.equal(await page.locator('#mesh-name').innerText(), 'depth (depths, with confidence.png and IMG_1_mask.png)');
   const flat = await flatPng(page);
   const error = misplaced(flat);

@@ -1,7 +1,7 @@
 /** The synchronous API: runs where it is called. Documented in `direct.d.ts`. */
 import { asDepthOptions } from './depth-input.js';
 import { DevelopableError } from './errors.js';
-import { isGltf, isImage, refuseMesh } from './formats.js';
+import { isImage, refuseMesh } from './formats.js';
 import { asBytes, asField, asHeights, asImage, asInput, asLattice, asPixels, carriedOf } from './input.js';
 import { files, images, meshFits, meshes, partOf, patterns, sheets, solver } from './instances.js';
 import { asFiles, asMesh, asMeshOrLattice, wholeOf } from './mesh-input.js';
@@ -273,9 +273,7 @@ export function readMesh(bytes, given) {
   const file = asBytes(bytes);
   const { files: beside, ...options } = optionsOf('readMesh', given);
   const pairs = asFiles(beside);
-  const mesh = meshes.call((wasm) => wasm.readMesh(file, pairs, options));
-  // The only one of the formats that says what its lengths are.
-  return isGltf(file, options) ? { ...mesh, unit: /** @type {const} */ ('m') } : mesh;
+  return meshes.call((wasm) => wasm.readMesh(file, pairs, options));
 }
 
 /** @type {typeof import('./direct.js').sampleMesh} */

@@ -39,17 +39,6 @@ export function refuseMesh(bytes, options) {
   if (name) throw new DevelopableError('UNSUPPORTED', `this is a mesh (${name}), and no image of heights: readMesh reads it`);
 }
 
-/**
- * Whether it is a glTF file, whose lengths are metres.
- * @param {Uint8Array} bytes
- * @param {{ format?: string }} options those of `readMesh`
- */
-export function isGltf(bytes, { format }) {
-  if (format !== undefined) return format === 'gltf' || format === 'glb';
-  const first = bytes.find((byte) => byte > 0x20) ?? 0;
-  return first === 0x7b || String.fromCharCode(...bytes.subarray(0, 4)) === 'glTF';
-}
-
 /** A binary STL says nothing of itself but how many triangles it has. @param {Uint8Array} bytes */
 function isBinaryStl(bytes) {
   if (bytes.length < 84) return false;

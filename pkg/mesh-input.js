@@ -44,7 +44,7 @@ export function wholeOf(mesh) {
   const copies = { triangles, colors, uvs, textureOf, confidence };
   const own = Object.entries(copies).flatMap(([name, array]) => (array === undefined ? [] : [[name, array.slice()]]));
   const carried = Object.entries({ textures, camera, unit }).filter(([, value]) => value !== undefined);
-  return { shape: { positions, triangles, confidence }, own: Object.fromEntries([...own, ...carried]) };
+  return { shape: { positions, triangles, confidence, unit }, own: Object.fromEntries([...own, ...carried]) };
 }
 
 /**

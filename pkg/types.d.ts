@@ -137,7 +137,7 @@ export interface Mesh {
   assumptions?: Assumption[];
   /** The camera that has seen it, if it is what one has. */
   camera?: PhotoCamera;
-  /** The unit of all lengths, where it is known: metres of glTF. */
+  /** The unit of all lengths, where it is known: what the file says, else what its size suggests, by the `assumptions`. */
   unit?: Unit | null;
   /** How far each vertex is to be trusted, from 0 to 1. */
   confidence?: Float32Array;
@@ -292,6 +292,8 @@ export interface SampledMesh extends Heightfield {
   confidence?: Float32Array;
   /** Its texture, where all that is seen has the same one and that is a PNG or JPEG file. */
   texture?: Uint8Array;
+  /** The share of the mesh's area that lies behind these heights, where it is at least a tenth. */
+  hidden?: number;
 }
 
 /**

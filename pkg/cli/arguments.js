@@ -36,7 +36,7 @@ import { refuseSameFiles } from './same-file.js';
  * @property {number} [spacing]
  * @property {number} [pixelSize]
  * @property {number} [heightScale]
- * @property {import('../types.js').Unit} [unit]
+ * @property {import('../types.js').ReadMeshOptions['unit']} [unit] cm and inch of meshes only
  * @property {number} [noData]
  * @property {boolean} normalize
  *
@@ -82,6 +82,9 @@ const surfaces = /** @type {const} */ (['.npy', '.png', '.tif', '.tiff', '.exr',
 const drawings = /** @type {const} */ (['.svg', '.pdf', '.dxf']);
 const lattices = /** @type {const} */ (['square', 'hex']);
 const units = /** @type {const} */ (['mm', 'm']);
+
+/** Units of the lengths of a mesh's file, which become millimetres or metres. */
+const meshUnits = /** @type {const} */ (['mm', 'cm', 'm', 'inch']);
 const shapes = /** @type {const} */ (['auto', 'cylinder', 'developable']);
 const formats = /** @type {const} */ (['a4', 'letter']);
 
@@ -168,7 +171,7 @@ export function parse(args) {
     ...given(sampleMesh, values, { view }),
     pixelSize: number('pixel-size', values),
     heightScale: heightScale(values),
-    unit: values.unit === undefined ? undefined : choice('unit', values.unit, units),
+    unit: values.unit === undefined ? undefined : choice('unit', values.unit, kind === 'mesh' ? meshUnits : units),
     noData: number('no-data', values),
     normalize: !values['no-normalize'],
   };
@@ -257,7 +260,7 @@ function shape(values, lattice) {
 }
 
 /** Options of a fit over a whole mesh. */
-const wholeFlags = ['surface', 'output', 'force', 'report', 'jobs', 'overwrite', ...flagNames(meshSolver)];
+const wholeFlags = ['surface', 'unit', 'output', 'force', 'report', 'jobs', 'overwrite', ...flagNames(meshSolver)];
 
 /** What else commands take that go on with it. @satisfies {Record<string, readonly Flag[]>} */
 const wholeCommands = {
@@ -277,7 +280,7 @@ const wholeCommands = {
  * @param {Values} values
  * @returns {MeshTask}
  */
-function whole(make, { input, output, written, force, extension: kind }, values) {
+function whole(make, { input, output, written, force, unit, extension: kind }, values) {
   /** @type {readonly string[]} */
   const known = [...wholeFlags, ...wholeCommands[make]];
   const stray = Object.keys(values).find((flag) => !known.includes(flag));
@@ -292,6 +295,7 @@ function whole(make, { input, output, written, force, extension: kind }, values)
     output,
     written,
     force,
+    unit,
     extension: kind,
     report: values.report,
     asIs: values['as-is'] === true,
@@ -423,7 +427,7 @@ function stock(text) {
 
 /** @param {string} input */
 export function isMesh(input) {
-  return ['.obj', '.ply', '.stl', '.glb', '.gltf'].includes(extname(input).toLowerCase());
+  return ['.obj', '.ply', '.stl', '.glb', '.gltf', '.3mf', '.off'].includes(extname(input).toLowerCase());
 }
 
 /** Flags that are not for an input of this kind. @type {Record<'image' | 'mesh' | 'depths', readonly Flag[]>} */

@@ -38,7 +38,7 @@ const page = ['edges', ...flagNames(dewarpPage, 'page')];
 const general = ['jobs', 'overwrite', 'help', 'version'];
 
 /** Of all commands that fit a surface. @satisfies {readonly Flag[]} */
-const fitted = ['output', 'force', ...energy, ...heights, ...mesh, ...known, ...general];
+const fitted = ['output', 'force', 'unit', ...energy, ...heights, ...mesh, ...known, ...general];
 
 /** Of those that go on with it. @satisfies {readonly Flag[]} */
 const shaped = [...fitted, 'as-is'];

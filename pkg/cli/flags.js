@@ -93,8 +93,8 @@ export const sections = {
       },
       unit: {
         value: 'U',
-        help: 'mm or m: the unit of these lengths, for true sizes (default: what the file says; m of depths in metres or ' +
-          'with a scale, mm of others in whole numbers)',
+        help: 'mm or m, of a mesh also cm or inch: the unit of these lengths, for true sizes (default: what the file says; m of ' +
+          'depths in metres or with a scale, mm of others in whole numbers; of a mesh what its size suggests)',
       },
       'height-scale': {
         value: 'S',

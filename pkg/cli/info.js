@@ -32,7 +32,7 @@ function arraysInWords(arrays) {
 }
 
 /** @param {import('../types.js').Mesh} mesh */
-function meshInWords({ positions, triangles, colors, uvs, textures = [], missing = [] }) {
+function meshInWords({ positions, triangles, colors, uvs, textures = [], missing = [], unit, assumptions = [] }) {
   const ranges = ['x', 'y', 'z'].map((axis, k) => {
     let [low, high] = [Infinity, -Infinity];
     for (let i = k; i < positions.length; i += 3) {
@@ -45,9 +45,11 @@ function meshInWords({ positions, triangles, colors, uvs, textures = [], missing
     ['vertices', `${positions.length / 3}`],
     ['triangles', triangles.length === 0 ? 'none: a point cloud' : `${triangles.length / 3}`],
     ...ranges,
+    ['unit', unit ?? 'not known'],
     ['colours', colors ? 'yes' : 'no'],
     ['texture', uvs ? `has coordinates, ${textures.length || 'no'} picture${textures.length === 1 ? '' : 's'}` : 'no coordinates'],
     ...missing.map((name) => ['missing', JSON.stringify(name)]),
+    ...assumptions.map(({ words, option }) => ['assumed', option ? `${words} (--${option} decides)` : words]),
   ];
 }
 

@@ -127,46 +127,16 @@ function checkScale({ input, noData, command = '' }, file) {
   throw new Problem(status.input, `${range}are they in another unit than the pixels? ${size}, ${others}`);
 }
 
-/** Share of a mesh's area behind which there may be more than a rough outline. */
-const HIDDEN = 0.1;
-
-/**
- * The share of a mesh's area that is behind what is seen of it.
- * @param {import('../types.js').Mesh} mesh
- * @param {import('../types.js').SampledMesh} seen
- */
-function hiddenShare({ positions, triangles }, { rows, cols, spacing, origin, heights, frame }) {
-  const axes = [frame.right, frame.up, frame.towards];
-  let [whole, hidden] = [0, 0];
-  for (let i = 0; i < triangles.length; i += 3) {
-    const [a, b, c] = [0, 1, 2].map((k) => {
-      const at = 3 * triangles[i + k];
-      return axes.map((axis) => axis[0] * positions[at] + axis[1] * positions[at + 1] + axis[2] * positions[at + 2]);
-    });
-    const [u, v] = [b, c].map((corner) => corner.map((x, j) => x - a[j]));
-    const area = Math.hypot(u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]);
-    const [x, y, z] = a.map((first, j) => (first + b[j] + c[j]) / 3);
-    const row = Math.round((origin[1] - y) / (spacing * Math.sqrt(0.75)));
-    const col = Math.round((x - origin[0]) / spacing + (row % 2) / 2);
-    const inside = row >= 0 && row < rows && col >= 0 && col < cols;
-    const height = inside ? heights[row * cols + col] : NaN;
-    if (!Number.isFinite(area)) continue;
-    whole += area;
-    if (height - z > 3 * spacing) hidden += area;
-  }
-  return whole > 0 ? hidden / whole : 0;
-}
-
 /** What is seen of a mesh. @param {InputTask & { photo?: Size }} task */
 async function readSampled(task) {
   const { view, resolution, spacing } = task;
   const mesh = await during(`reading ${task.input}`, () => readMesh(task));
   const seen = await during(`looking at ${task.input}`, () =>
-    developable.sampleMesh({ ...mesh, unit: task.unit ?? mesh.unit }, { view, resolution, spacing }));
-  const lost = task.camera ? 0 : hiddenShare(mesh, seen);
-  if (lost > HIDDEN) {
+    developable.sampleMesh(task.camera ? { ...mesh, unit: task.unit ?? mesh.unit } : mesh, { view, resolution, spacing }));
+  const { hidden = 0 } = seen;
+  if (hidden > 0 && !task.camera) {
     say(
-      `warning: ${Math.round(100 * lost)} % of the area of ${task.input} is not seen in this view, and not in the ` +
+      `warning: ${Math.round(100 * hidden)} % of the area of ${task.input} is not seen in this view, and not in the ` +
         'result; fit --surface fits the whole mesh as it is',
     );
   }
@@ -177,9 +147,9 @@ async function readSampled(task) {
  * The mesh itself, or what a depth camera has seen. The numbers of a camera may be about the photo.
  * @param {InputTask & Partial<KnownTask> & { photo?: Size }} task
  */
-export async function readMesh({ input, array, camera, mask, confidence, noData, written, force, photo }) {
+export async function readMesh({ input, array, camera, unit, mask, confidence, noData, written, force, photo }) {
   if (!camera) {
-    const mesh = await readMeshFile(input, await readBytes(input), force ? [] : written);
+    const mesh = await readMeshFile(input, await readBytes(input), force ? [] : written, unit);
     for (const name of mesh.missing ?? []) {
       say(`warning: ${input} names ${JSON.stringify(name)}, ${await whyMissing(dirname(input), name)}`);
     }
@@ -265,8 +235,9 @@ async function depthCamera({ numbers, file: path, ray }, file, photo) {
  * @param {string} input
  * @param {Uint8Array} bytes
  * @param {string[]} [written] what is going to be written, which must be none of them
+ * @param {import('../types.js').ReadMeshOptions['unit']} [unit] of its lengths, where the file does not say it
  */
-export async function readMeshFile(input, bytes, written = []) {
+export async function readMeshFile(input, bytes, written = [], unit = undefined) {
   /** @type {Map<string, Uint8Array>} */
   const files = new Map();
   /** @type {Set<string>} */
@@ -287,7 +258,7 @@ export async function readMeshFile(input, bytes, written = []) {
       }
       files.set(name, await readBytes(path));
     }
-    const mesh = await about(input, () => developable.readMesh(bytes, { files }));
+    const mesh = await about(input, () => developable.readMesh(bytes, { files, unit }));
     // The materials that were found name textures in turn.
     names = (mesh.missing ?? []).filter((name) => !tried.has(name));
     if (names.length === 0) return mesh;

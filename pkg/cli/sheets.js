@@ -65,6 +65,7 @@ export async function patternFiles(task, drawing, plan) {
  */
 export function reportPattern(drawing, plan) {
   reportFit(drawing);
+  reportSize(drawing);
   if (plan !== undefined) {
     process.stderr.write(
       `developable: ${counted(drawing.summary.sheets, 'sheet')} with --lambda ${Number(plan.lambda.toPrecision(6))} and --smallest ` +
@@ -73,6 +74,12 @@ export function reportPattern(drawing, plan) {
   }
   reportSlits(drawing.summary);
   reportMissing(drawing.summary);
+}
+
+/** How large the drawing is, and on how many pages. @param {import('../types.js').Drawing} drawing */
+function reportSize({ width, height, pages, summary: { sheets } }) {
+  const paper = pages === undefined ? '' : ` on ${counted(pages.pages.length, 'page')}`;
+  process.stderr.write(`developable: ${counted(sheets, 'sheet')}, together ${Math.ceil(width)} × ${Math.ceil(height)} mm${paper}\n`);
 }
 
 /** What it takes besides the creases. @param {import('../types.js').Drawing['summary']} summary */

@@ -14,7 +14,12 @@ export const read = {
 /** @satisfies {Options} */
 export const readMesh = {
   /** Taken from the bytes where it is not given. */
-  format: { kind: choice('obj', 'ply', 'stl', 'gltf', 'glb') },
+  format: { kind: choice('obj', 'ply', 'stl', 'gltf', 'glb', '3mf', 'off') },
+  /**
+   * The unit of the file's lengths; the mesh is in metres for `'m'`, else in millimetres. Default: what the file says,
+   * else what its size suggests: millimetres, metres below 2, none above 5000, which is among the mesh's `assumptions`.
+   */
+  unit: { kind: choice('mm', 'cm', 'm', 'inch') },
   /**
    * Files beside the mesh's, by name: the materials (MTL) and textures of an OBJ, the texture of a
    * PLY, the buffers and textures of a glTF. A name is looked for as it is and then without its

@@ -41,11 +41,10 @@ export const limits = {
 
 /** @satisfies {Options} */
 export const drawing = {
-  /** Millimetres for each unit of length. */
+  /** Millimetres for each unit of length. Default: true size, that is 1000 where the unit is metres, else 1. */
   scale: {
     kind: number,
-    default: 1,
-    flag: { section: 'shape', value: 'MM', help: 'millimetres of the pattern for each unit of length (default 1)' },
+    flag: { section: 'shape', value: 'MM', help: 'millimetres of the pattern for each unit of length (default: true size; 1 where the unit is not known)' },
   },
   ...limits,
   /** Depth of tabs along cut creases, in millimetres; short ones where these are curved. 0 for none. */

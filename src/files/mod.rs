@@ -13,7 +13,9 @@ pub mod images;
 pub mod meshes;
 #[cfg(any(feature = "formats", feature = "patterns"))]
 mod points;
+mod unit;
 #[cfg(feature = "formats")]
 pub mod wavefront;
 
 pub use assumption::Assumption;
+pub use unit::Unit;

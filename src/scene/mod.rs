@@ -5,6 +5,7 @@ mod depth;
 pub(crate) mod facets;
 mod footprint;
 pub(crate) mod half_edges;
+mod hidden;
 pub(crate) mod mesh;
 mod parts;
 pub(crate) mod quarter;

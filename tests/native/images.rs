@@ -1,8 +1,9 @@
 //! Height and depth images: those of other programs, exact round trips, damage.
 
 use developable::dewarp::Photo;
+use developable::files::Unit;
 use developable::files::images::{
-    Decoded, Format, PhotoOptions, Unit, decode, decode_npz, decode_photo, npz_arrays, write_exr,
+    Decoded, Format, PhotoOptions, decode, decode_npz, decode_photo, npz_arrays, write_exr,
     write_photo_jpeg, write_tiff,
 };
 use developable::{Error, HeightImage};

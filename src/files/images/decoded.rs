@@ -2,28 +2,8 @@
 
 use super::format::Format;
 use crate::error::{Error, Result};
-use crate::files::Assumption;
+use crate::files::{Assumption, Unit};
 use crate::heights::heightfield::HeightImage;
-
-/// Unit of length of the pixel size that an image file states.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-#[non_exhaustive]
-pub enum Unit {
-    /// Millimetre, 10⁻³ m.
-    Millimetre,
-    /// Metre, the SI unit of length.
-    Metre,
-}
-
-impl Unit {
-    /// Returns the symbol of the unit of length, `"mm"` or `"m"`.
-    pub fn symbol(self) -> &'static str {
-        match self {
-            Unit::Millimetre => "mm",
-            Unit::Metre => "m",
-        }
-    }
-}
 
 /// A decoded image file: its stored values, and the scale that converts these to heights.
 ///

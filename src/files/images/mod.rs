@@ -22,7 +22,7 @@ mod print;
 
 use crate::error::{Error, Result};
 
-pub use decoded::{Decoded, Unit};
+pub use decoded::Decoded;
 #[cfg(feature = "images")]
 pub use extended::{NpzArray, decode_npz, npz_arrays, write_exr, write_tiff};
 pub use format::{FORMAT_NAMES, Format, announced};

@@ -4,6 +4,7 @@ use std::fmt::Display;
 
 use super::beside::Texture;
 use crate::error::{Error, MAX_CELLS, Result};
+use crate::files::{Assumption, Unit};
 use crate::scene::mesh::Mesh;
 
 /// Colour of a vertex for which the mesh file states no colour.
@@ -25,6 +26,10 @@ pub(super) struct MeshBuilder {
     /// Texture number of each triangle; shorter than the list of triangles where the last ones have no texture.
     pub(super) textures: Vec<i32>,
     pub(super) pictures: Vec<Texture>,
+    /// Unit of length that the file states, if it states one.
+    pub(super) unit: Option<Unit>,
+    /// What the reader assumed because the file does not say it.
+    pub(super) assumptions: Vec<Assumption>,
     /// Number of bytes left for further texture pictures; all pictures together may not exceed the size of the given
     /// files.
     pub(super) room: usize,

@@ -14,9 +14,10 @@ mod narrow;
 mod obj;
 mod ply;
 mod stl;
+mod unit;
 
 use crate::error::{Error, Result};
-use crate::files::Assumption;
+use crate::files::{Assumption, Unit};
 use crate::scene::mesh::Mesh;
 
 use beside::Beside;
@@ -26,6 +27,7 @@ pub use format::MeshFormat;
 pub use glb::write_glb;
 pub use ply::write_ply;
 pub use stl::write_stl;
+pub use unit::FileUnit;
 
 /// A mesh read from a file, with the pictures of its textures.
 #[derive(Debug, Clone, PartialEq)]
@@ -37,6 +39,9 @@ pub struct MeshFile {
     pub textures: Vec<Texture>,
     /// Names of material and texture files that the mesh file refers to but that were not given.
     pub missing: Vec<String>,
+    /// Unit of all lengths: the one that the file states, or one that its size suggests, which is then among the
+    /// assumptions. `None` where neither tells.
+    pub unit: Option<Unit>,
     /// What the reader assumed because the file does not say it.
     pub assumptions: Vec<Assumption>,
 }
@@ -92,10 +97,22 @@ pub fn read_mesh_beside(
         MeshFormat::Gltf => gltf::read(bytes, &beside, &mut parts)?,
     }
     let textures = std::mem::take(&mut parts.pictures);
+    let mut assumptions = std::mem::take(&mut parts.assumptions);
+    let stated = parts.unit;
+    let mesh = parts.into_mesh(format.title(), format != MeshFormat::Stl)?;
+    let unit = match stated {
+        Some(_) => stated,
+        None => {
+            let (unit, assumption) = unit::assumed_unit(&mesh);
+            assumptions.push(assumption);
+            unit
+        }
+    };
     Ok(MeshFile {
-        mesh: parts.into_mesh(format.title(), format != MeshFormat::Stl)?,
+        mesh,
         textures,
         missing: beside.missing(),
-        assumptions: Vec::new(),
+        unit,
+        assumptions,
     })
 }

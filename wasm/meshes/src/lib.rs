@@ -12,8 +12,8 @@ use developable::Error;
 use developable::Mesh;
 use developable::View;
 use developable::checks::check_count;
-use developable::files::Assumption;
-use developable::files::meshes::{MeshFormat, read_mesh_beside};
+use developable::files::meshes::{FileUnit, MeshFormat, read_mesh_beside};
+use developable::files::{Assumption, Unit};
 use developable::{Resolution, sample};
 use developable_wasm::Result;
 use developable_wasm::arrays::groups;
@@ -42,9 +42,14 @@ struct MeshOutput {
     confidence: JsValue,
     #[serde(skip_serializing_if = "Vec::is_empty")]
     missing: Vec<String>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    unit: Option<&'static str>,
     #[serde(skip_serializing_if = "Vec::is_empty")]
     assumptions: Vec<Assumption>,
 }
+
+/// Minimum share of a mesh's area behind its heights that is reported: less is a rough outline.
+const MIN_REPORTED_HIDDEN_SHARE: f64 = 0.1;
 
 /// A mesh sampled from a view, written as JavaScript's `SampledMesh` object, with the number of the texture at each
 /// vertex, by which `direct.js` colours it.
@@ -58,6 +63,8 @@ struct SampledOutput {
     #[serde(with = "preserve")]
     heights: Float64Array,
     frame: FrameFields,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    hidden: Option<f64>,
     #[serde(with = "preserve")]
     colors: JsValue,
     #[serde(with = "preserve")]
@@ -72,7 +79,7 @@ struct SampledOutput {
 /// it refers to.
 #[wasm_bindgen(js_name = readMesh)]
 pub fn read_mesh_file(bytes: &Uint8Array, files: &Array, options: JsValue) -> Result<JsValue> {
-    let mut format = None;
+    let (mut format, mut unit) = (None, None);
     for (name, value) in entries(&options)? {
         match name.as_str() {
             "format" => {
@@ -80,7 +87,11 @@ pub fn read_mesh_file(bytes: &Uint8Array, files: &Array, options: JsValue) -> Re
                 let name: String = option("format", value, requirement)?;
                 format = Some(name.parse::<MeshFormat>()?);
             }
-            _ => return Err(unknown(&name, "format and files")),
+            "unit" => {
+                let name: String = option("unit", value, "must be `mm`, `cm`, `m` or `inch`")?;
+                unit = Some(FileUnit::new(&name)?);
+            }
+            _ => return Err(unknown(&name, "format, unit and files")),
         }
     }
     let mut beside = Vec::new();
@@ -91,7 +102,10 @@ pub fn read_mesh_file(bytes: &Uint8Array, files: &Array, options: JsValue) -> Re
     let beside: Vec<_> = (beside.iter())
         .map(|(name, bytes)| (name.as_str(), bytes.as_slice()))
         .collect();
-    let file = read_mesh_beside(&copied(bytes)?, format, &beside)?;
+    let mut file = read_mesh_beside(&copied(bytes)?, format, &beside)?;
+    if let Some(unit) = unit {
+        file = file.in_unit(unit)?;
+    }
     let textures: Array = (file.textures.iter())
         .map(|texture| Uint8Array::from(texture.bytes.as_slice()))
         .collect();
@@ -102,6 +116,7 @@ pub fn read_mesh_file(bytes: &Uint8Array, files: &Array, options: JsValue) -> Re
             JsValue::UNDEFINED
         },
         missing: file.missing,
+        unit: file.unit.map(Unit::symbol),
         assumptions: file.assumptions,
         ..MeshOutput::new(&file.mesh)
     })?)
@@ -120,6 +135,7 @@ impl MeshOutput {
             textures: JsValue::UNDEFINED,
             confidence: JsValue::UNDEFINED,
             missing: Vec::new(),
+            unit: None,
             assumptions: Vec::new(),
         }
     }
@@ -191,6 +207,8 @@ pub fn sample_mesh(mesh: JsValue, options: JsValue) -> Result<JsValue> {
         origin: lattice.origin(),
         heights: samples.heightfield().heights().into(),
         frame: (*samples.frame()).into(),
+        hidden: Some(samples.hidden_share(&mesh))
+            .filter(|share| *share >= MIN_REPORTED_HIDDEN_SHARE),
         colors: floats(colors.as_deref()),
         uvs: floats(uvs.as_deref()),
         confidence: floats(confidence.as_deref()),

@@ -8,6 +8,7 @@ use wasm_bindgen::prelude::*;
 use developable::assembly::Assembly;
 use developable::drawing::{Bending, Drawing, DrawingOptions, Stock};
 use developable::explore::ExploreOptions;
+use developable::files::Unit;
 use developable::files::assembly::{write_animation, write_assembly_svg};
 use developable::files::drawings::{PdfOptions, write_dxf, write_pdf, write_svg};
 use developable::patches::{Crease, MeshPatches, Patch, PatchOptions, Patches};
@@ -30,11 +31,17 @@ struct Wanted {
 }
 
 impl Wanted {
-    fn of(options: &JsValue) -> Result<Self> {
+    /// Reads the options of a pattern. Without a scale a surface whose unit is known is drawn in true size.
+    fn of(surface: &JsValue, options: &JsValue) -> Result<Self> {
         let mut given = Given::new(options)?;
+        let unit = Reflect::get(surface, &"unit".into())
+            .ok()
+            .and_then(|unit| Unit::from_symbol(&unit.as_string()?));
+        let scale = given.number("scale").or(unit.map(Unit::millimetres));
         let unrolling: UnrollOptions = given.read()?;
         let (patches, sheets): (PatchOptions, PatternOptions) = (given.read()?, given.read()?);
         let mut drawing: DrawingOptions = given.read()?;
+        drawing.scale = scale.unwrap_or(drawing.scale);
         let metal = bending(
             given.number("thickness"),
             given.number("innerRadius"),
@@ -85,7 +92,7 @@ impl Wanted {
 /// Cuts a surface into flat sheets and draws them; returns JavaScript's `Drawing` object.
 #[wasm_bindgen(js_name = pattern)]
 pub fn draw_pattern(field: JsValue, options: JsValue) -> Result<JsValue> {
-    let wanted = Wanted::of(&options)?;
+    let wanted = Wanted::of(&field, &options)?;
     check_spacing(wanted.spacing, is_image(&field)?)?;
     let surface = Scene::new(field, wanted.spacing)?.surface;
     let patches = Patches::new(&surface, &wanted.patches)?;
@@ -130,7 +137,7 @@ pub fn trials(given: JsValue) -> Result<JsValue> {
 /// Cuts a whole mesh into flat sheets and draws them; returns JavaScript's `Drawing` object.
 #[wasm_bindgen(js_name = patternMesh)]
 pub fn draw_pattern_of_mesh(mesh: JsValue, options: JsValue) -> Result<JsValue> {
-    let wanted = Wanted::of(&options)?;
+    let wanted = Wanted::of(&mesh, &options)?;
     let (_, found) = sheets_of(mesh, &wanted)?;
     wanted.draw(&found.sheets, &Missing::default())
 }
@@ -165,7 +172,7 @@ struct UnrollingReport {
 /// Cuts a mesh into flat sheets and lays them side by side; returns JavaScript's `MeshUnrolling` object.
 #[wasm_bindgen(js_name = unrollMesh)]
 pub fn unroll_mesh(mesh: JsValue, options: JsValue) -> Result<JsValue> {
-    let wanted = Wanted::of(&options)?;
+    let wanted = Wanted::of(&mesh, &options)?;
     let (patches, found) = sheets_of(mesh, &wanted)?;
     let labels: Vec<i32> = patches.labels().iter().map(|label| *label as i32).collect();
     let (mut positions, mut places, mut triangles, mut sheets) =

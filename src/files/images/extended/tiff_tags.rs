@@ -9,7 +9,7 @@ use ::tiff::tags::Tag;
 
 use super::samples::{damaged, unsupported};
 use crate::error::{Error, Result, try_filled};
-use crate::files::images::decoded::Unit;
+use crate::files::Unit;
 use crate::files::images::format::Format;
 
 pub(super) type File<'a> = Decoder<Cursor<&'a [u8]>>;

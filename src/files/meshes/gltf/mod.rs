@@ -15,8 +15,10 @@ use self::data::{FORMAT_NAME, embedded, floats, plain, whole};
 use super::beside::Beside;
 use super::builder::{DEFAULT_VERTEX_COLOUR, MeshBuilder, NO_TEXTURE, damaged, unsupported};
 use crate::error::{Error, Result};
+use crate::files::Unit;
 
 pub(super) fn read(bytes: &[u8], beside: &Beside, parts: &mut MeshBuilder) -> Result<()> {
+    parts.unit = Some(Unit::Metre);
     let binary = bytes.starts_with(b"glTF");
     let (json, bin) = if binary {
         // `gltf` subtracts the header's own length from the stated length.

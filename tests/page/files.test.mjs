@@ -177,7 +177,7 @@ pageTest('the kind of a file chooses the part of the page, and what does not bel
   await dropAll(page, { 'IMG_7.png': photo, 'letter.docx': Buffer.from('PK\x03\x04') });
   await page.locator('#page-caption', { hasText: 'IMG_7' }).waitFor();
   assert.ok(await page.getByRole('radio', { name: 'A photo of a page' }).isChecked());
-  await alert.filter({ hasText: /^Taken for a photo of a page\. Left out: “letter\.docx” \(a text document\)\./ }).waitFor();
+  await alert.filter({ hasText: /Taken for a photo of a page\. Left out: “letter\.docx” \(a text document\)\./ }).waitFor();
   assert.equal(await page.locator('#notice').getAttribute('data-kind'), 'note');
   await alert.getByRole('button', { name: 'Heights instead?' }).click();
   assert.ok(await page.getByRole('radio', { name: 'Heights, depth, scans' }).isChecked());

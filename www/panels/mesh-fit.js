@@ -6,7 +6,6 @@ import { plainMessage } from '../error-messages.js';
 import { FORMAT_WORDS, MESH_FIT_WORDS } from '../messages.js';
 import { MeshView } from '../surface/mesh-view.js';
 import { PictureView } from '../surface/picture-view.js';
-import { callWorker } from '../surface/worker-client.js';
 import { Zoom } from '../surface/zoom.js';
 import { gaussian, patches, readingAt, rulings, shaded, sheet, meshFitSummary } from '../views/mesh-fit.js';
 import { longestSide } from '../mesh-fit.js';
@@ -21,8 +20,6 @@ import { waitingPanel } from './waiting.js';
 
 /** Initial guess of the time that a fit or a view takes, in milliseconds per vertex. */
 const MESH_TASK_MS_PER_VERTEX = 0.1;
-/** Maximum share of a mesh hidden from the chosen side for which its heights from there are fitted, and not the whole mesh. */
-const MAX_HIDDEN_SHARE = 0.03;
 /** Initial view of a mesh, from the front right and above: the axis that points upwards, and the direction. */
 const INITIAL_VIEWS = /** @type {const} */ ({
   y: { up: [0, 1, 0], direction: [-0.5, -0.45, -0.75] },
@@ -60,8 +57,6 @@ export function meshFitPanel(session, meshFit) {
   let inputMesh = null;
   /** The mesh that the viewer has been turned to. @type {Mesh | null} */
   let viewedMesh = null;
-  /** Share of the mesh that is hidden from the chosen side. @type {Promise<number>} */
-  let hiddenShare = Promise.resolve(0);
   /** Whether the mesh is solved whole without being asked for: if that fails, it is shown from one side. */
   let isFirstSolve = false;
   /** Reads the view's value at a place of the surface. @type {MeshViewContent['read']} */
@@ -291,19 +286,13 @@ export function meshFitPanel(session, meshFit) {
     });
   });
 
-  session.on('input', async ({ sampling, lattice }) => {
+  session.on('input', ({ sampling, lattice }) => {
     const mesh = sampling?.mesh ?? null;
     if (mesh !== inputMesh && !stage.hidden) leave();
     inputMesh = mesh && mesh.triangles.length > 0 ? mesh : null;
     element('mesh-ways', HTMLElement).hidden = inputMesh === null;
     hint.textContent = '';
-    if (!mesh || !inputMesh || !lattice?.frame) return;
-    const { rows, cols, spacing, origin = [0, 0], heights, frame } = lattice;
-    const { positions, triangles } = mesh;
-    hiddenShare = callWorker('hiddenAreaShare', { positions, triangles }, { rows, cols, spacing, origin, heights, frame });
-    const hidden = await hiddenShare;
-    if (session.input?.lattice !== lattice || hidden <= MAX_HIDDEN_SHARE) return;
-    hint.textContent = MESH_FIT_WORDS.hidden(percent(hidden));
+    if (inputMesh && lattice?.hidden) hint.textContent = MESH_FIT_WORDS.hidden(percent(lattice.hidden));
   });
 
   return {
@@ -318,14 +307,10 @@ export function meshFitPanel(session, meshFit) {
     enter,
     leave: showOneSide,
     /** Solves a mesh that was opened: its heights from one side, or the whole of it if much is hidden from there. */
-    async begin() {
-      const { input } = session;
-      if (inputMesh && await hiddenShare > MAX_HIDDEN_SHARE && session.input === input) {
-        enter('shaded');
-        isFirstSolve = true;
-      } else if (session.input === input) {
-        void session.run();
-      }
+    begin() {
+      if (!inputMesh || !session.input?.lattice?.hidden) return void session.run();
+      enter('shaded');
+      isFirstSolve = true;
     },
   };
 }

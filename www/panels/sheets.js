@@ -1,7 +1,7 @@
 /** Dialog of sheets to cut out: size, paper, material and tabs, with a preview of the drawing that is saved. */
 import { element, make } from '../dom.js';
 import { number } from '../format.js';
-import { assemblyModel, assemblyPicture, drawingImage, likelyUnit, MM_PER_UNIT, sheetFigures, sheetsInWords, suggestedSide } from '../pattern.js';
+import { assemblyModel, assemblyPicture, drawingImage, MM_PER_UNIT, sheetFigures, sheetsInWords, suggestedSide } from '../pattern.js';
 import { plainMessage } from '../error-messages.js';
 import { SHEET_WORDS } from '../messages.js';
 import { figures } from '../views/legend.js';
@@ -47,7 +47,7 @@ const [MIN_SIDE_MM, MAX_SIDE_MM] = [10, 5000];
  * @param {SheetSource} source
  */
 export function offerSheets(api, { stem, size, note = '', length, unit, cut, svg, stop }) {
-  const last = lastSizes.get(stem) ?? { unit: unit === 'unknown' ? likelyUnit(length) : unit, side: NaN };
+  const last = lastSizes.get(stem) ?? { unit: unit === 'unknown' ? 'none' : unit, side: NaN };
   const side = numberField(Number.isNaN(last.side) ? suggestedSide(length, last.unit) : last.side, MIN_SIDE_MM, MAX_SIDE_MM);
   const units = make('select', '', ...Object.keys(MM_PER_UNIT).map((name) => new Option(SHEET_WORDS.unit(name), name)), new Option(SHEET_WORDS.ownSize, 'none'));
   units.value = last.unit;

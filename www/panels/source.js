@@ -25,7 +25,7 @@ import { hideNotice, showNotice } from './notice.js';
  * @param {(view: string) => void} views.choose shows a view of the result
  * @param {(name: string, image: ImageData) => void} views.usePhoto dewarps a photo of the result
  * @param {(files: readonly File[]) => void} onOpened called when files have become the input
- * @param {() => Promise<void>} solveMesh solves the mesh that was opened
+ * @param {() => void} solveMesh solves the mesh that was opened
  * @param {(file: File) => unknown} openColour opens a file that is no heights, but a picture in colour
  */
 export function sourcePanel(session, { choose, usePhoto }, onOpened, solveMesh, openColour) {
@@ -121,7 +121,7 @@ export function sourcePanel(session, { choose, usePhoto }, onOpened, solveMesh, 
   /** @param {File} file @param {readonly File[]} [referencedFiles] */
   const openMesh = async (file, referencedFiles) => {
     const opened = await mesh.openFile(file, referencedFiles);
-    if (opened) await solveMesh();
+    if (opened) solveMesh();
     return opened;
   };
 

@@ -124,7 +124,7 @@ export const ADDRESS_WORDS = {
 /** Figures below each of the five pictures with different λ. */
 export const STRIP_WORDS = {
   /** @param {number} pieces infinite if the surface is creased all over @param {number} distance distance from the input, as a share of the width */
-  figures: (pieces, distance) => `${Number.isFinite(pieces) ? `${count(pieces)} ${pieces === 1 ? 'piece' : 'pieces'}` : 'creased all over'}, off by ${percent(distance)}`,
+  figures: (pieces, distance) => `${Number.isFinite(pieces) ? `${count(pieces)} ${pieces === 1 ? 'piece' : 'pieces'}` : 'many small pieces'}, ${percent(distance)} from the input`,
 };
 
 /** Messages about the fit of a whole mesh. */
@@ -215,6 +215,8 @@ export const SAVE_WORDS = {
   working: 'Writing the file…',
   /** @param {string} name */
   saved: (name) => `Saved ${name}. Choose another format, or close the dialog.`,
+  /** @param {string} unit */
+  unit: (unit) => `Lengths in the file are in ${SHEET_WORDS.unit(unit)}${unit === 'mm' ? '' : '; programs for 3D printing take them for millimetres'}.`,
   /** @param {string} reason */
   unwritten: (reason) => `The file was not written: ${reason}.`,
   /** @param {string} looksLike */
@@ -286,7 +288,7 @@ export function piecesInWords(pieces, creases, oneSide = false) {
     ? `${smooth}${pieces === 1 ? none : ', apart from each other'}`
     : `${smooth} ${pieces === 1 ? 'with' : 'meet in'} ${creases === 1 ? 'one crease' : `${count(creases)} creases`}`;
   if (oneSide && !Number.isFinite(pieces)) return 'You see one side of it. “Whole mesh” solves all of it.';
-  const words = Number.isFinite(pieces) ? meet : 'Creased all over, too finely to count its pieces';
+  const words = Number.isFinite(pieces) ? meet : 'Its pieces are too small to count';
   return oneSide ? `From this side: ${words[0].toLowerCase()}${words.slice(1)}.` : `${words}.`;
 }
 

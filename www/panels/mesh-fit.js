@@ -245,6 +245,7 @@ export function meshFitPanel(session, meshFit) {
       title: '3D file',
       stem: stem(),
       size: surface.positions.length / 3,
+      unit: surface.unit,
       formats: [
         { value: 'obj', name: 'OBJ', words: FORMAT_WORDS.obj, type: 'model/obj', write: (worker) => worker.writeObj(surface) },
         { value: 'stl', name: 'STL', words: FORMAT_WORDS.stl, type: 'model/stl', write: (worker) => worker.writeStl(surface) },

@@ -26,6 +26,7 @@ import { PROGRESS_DELAY_MS, waitingPanel } from './waiting.js';
  * @property {number} size number of pixels or vertices
  * @property {() => Promise<unknown>} [ready] resolves when the file can be written
  * @property {readonly Format[]} formats
+ * @property {string | null} [unit] unit of the lengths in the file, if it is known
  * @property {readonly Node[]} [extra] elements above the formats
  * @property {() => void} [closed] called when the dialog is closed
  */
@@ -49,13 +50,13 @@ const lastFormats = new Map();
  * @param {SaveOffer} offer
  * @returns {{ renew: () => void }} `renew` writes the file again, after its contents have changed
  */
-export function offerToSave(api, { title, stem, size: amount, ready = async () => {}, formats, extra = [], closed = () => {} }) {
+export function offerToSave(api, { title, stem, size: amount, ready = async () => {}, formats, unit, extra = [], closed = () => {} }) {
   const dialog = element('save-dialog', HTMLDialogElement);
   const list = element('save-formats', HTMLElement);
   const size = element('save-size', HTMLElement);
   const save = element('save-now', HTMLButtonElement);
   element('save-title', HTMLElement).textContent = title;
-  element('save-extra', HTMLElement).replaceChildren(...extra);
+  element('save-extra', HTMLElement).replaceChildren(...(unit ? [make('p', 'muted small', SAVE_WORDS.unit(unit))] : []), ...extra);
   const available = formats.filter(({ without }) => !without);
   const initial = available.find(({ value }) => value === lastFormats.get(title)) ?? available[0];
   const radios = formats.map(({ value, name, words, without }) => {

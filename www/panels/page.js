@@ -133,16 +133,22 @@ export function pagePanel(api, openAsSurface, onOpened, onChanged) {
     /** @type {string[]} */
     const problems = [];
     let isShown = false;
-    for (const [k, at] of indices.map((at) => book.photos[at]).entries()) {
+    const opened = indices.map((at) => book.photos[at]);
+    /** @param {BookPhoto} photo */
+    const leaveOut = (photo) => {
+      book.remove(book.photos.indexOf(photo));
+      list.renew();
+    };
+    for (const photo of opened) {
       try {
-        // Cancelled by the user, or another photo was chosen meanwhile.
-        if (!(await openAt(book.photos.indexOf(at)))) return null;
-        isShown = true;
-        break;
+        isShown = await openAt(book.photos.indexOf(photo));
+        if (isShown) break;
+        // Another photo was chosen meanwhile, or the user has cancelled.
+        if (opening?.signal.aborted) opened.filter((_, k) => indices[k] >= before).forEach(leaveOut);
+        return null;
       } catch (error) {
-        problems.push(errorMessage(`“${files[k].name}” could not be opened`, error));
-        book.remove(book.photos.indexOf(at));
-        list.renew();
+        problems.push(errorMessage(`“${photo.file.name}” could not be opened`, error));
+        leaveOut(photo);
       }
     }
     const words = problems.join(' ');

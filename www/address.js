@@ -10,7 +10,7 @@ import { ENERGIES, VIEW_WORDS } from './messages.js';
  * @property {string} [card] id of a card of the gallery
  * @property {{ name: string, size: number, noise: number }} [example]
  * @property {number} [file] id of the file in the storage of recent files
- * @property {{ pixelSize?: number, heightScale?: number, zeros?: boolean, hexagonal?: boolean }} [stored] interpretation of the file
+ * @property {{ pixelSize?: number, heightScale?: number, noData?: number, zeros?: boolean, hexagonal?: boolean }} [stored] interpretation of the file
  * @property {Partial<Settings>} settings settings that differ from the defaults
  * @property {boolean} [whole] whether a whole mesh is fitted
  * @property {boolean} [photo] whether a photo of a page is made flat
@@ -35,7 +35,7 @@ export function addressOf({ card, example, file, stored, settings, whole, photo,
     parameters.set('noise', String(example.noise));
   }
   if (file !== undefined) parameters.set('file', String(file));
-  for (const [name, value] of Object.entries(stored ?? {})) parameters.set(name, String(Number(value)));
+  for (const [name, value] of Object.entries(stored ?? {})) if (value !== undefined) parameters.set(name, String(Number(value)));
   for (const [name, value] of Object.entries(settings)) {
     if (value === undefined || value === defaults[/** @type {keyof Settings} */ (name)]) continue;
     parameters.set(name, typeof value === 'number' && name === 'lambda' ? shortLambda(value) : String(value));
@@ -74,7 +74,7 @@ export function stateOf(hash) {
   const name = parameters.get('example');
   const [card] = [...parameters.entries()].find(([, value]) => value === '') ?? [];
   const flags = ['zeros', 'hexagonal'].filter((flag) => parameters.has(flag)).map((flag) => [flag, parameters.get(flag) === '1']);
-  const scales = ['pixelSize', 'heightScale'].filter((scale) => Number(parameters.get(scale))).map((scale) => [scale, Number(parameters.get(scale))]);
+  const scales = ['pixelSize', 'heightScale', 'noData'].filter((scale) => Number(parameters.get(scale))).map((scale) => [scale, Number(parameters.get(scale))]);
   return {
     card,
     example: name ? { name, size: positive('size') ?? 400, noise: Math.max(0, Number(parameters.get('noise') ?? 0.02)) || 0 } : undefined,

@@ -8,7 +8,7 @@ import { toInput } from './import-interpretation.js';
 /** @import {Api} from './api.js' */
 /** @import {Worker} from './worker-task.js' */
 /** @import {DepthCompanions, Input} from './session.js' */
-/** @import {FileRoles} from './dropped-files.js' */
+/** @import {FileRoles} from './file-routing.js' */
 
 /** Error: the file is a picture in colour, which is a photo and has no heights. */
 export class ColourPictureError extends Error {
@@ -35,7 +35,7 @@ export async function readInput(api, file, signal, arrayName, { photo: photoFile
     });
     return { names, read, companions: await readCompanions(reader, companionFiles) };
   });
-  const { format, dataType } = read;
+  const { format, dataType, assumptions } = read;
   const photo = photoFile && { name: photoFile.name, image: await readPicture(photoFile) };
   const { look, ...interpretation } = await transferToWorker('interpretFile', [read.data], read, file.name);
   const input = toInput(interpretation);
@@ -45,6 +45,7 @@ export async function readInput(api, file, signal, arrayName, { photo: photoFile
     name: file.name.replace(/\.[^.]*$/, '') || 'heights',
     kind: `${format.toUpperCase()}, ${numberTypeInWords(dataType)}`,
     dataType,
+    assumptions,
     photo,
     companions,
     array: names.length > 1 ? { file, names, name: arrayName ?? names[0] } : undefined,

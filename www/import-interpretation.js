@@ -18,6 +18,7 @@ import { computeSurfaceDataAndPreview, reduceForPreview } from './surface/textur
  * @property {number} pixelSize
  * @property {number} heightScale
  * @property {boolean} zeros whether 0 is no data
+ * @property {number} [noData] another value that is no data
  * @property {boolean} hexagonal whether the values are at the vertices of a hexagonal lattice
  * @property {boolean} design whether the few heights are constraints of a design
  * @property {boolean} levels whether the values are integers whose height scale is not in the file
@@ -78,7 +79,7 @@ export function toInput({ range, ...input }) {
 function guessStoredHeights(read, depths) {
   const { width, height, data, pixelSize, heightScale, dataType } = read;
   const zeros = !depths && isZeroNoData(data);
-  const valid = { ...read, data: zeros ? withoutZeros(data) : data };
+  const valid = { ...read, data: without(data, zeros ? [0] : []) };
   // A scan has holes, but an image without data at most pixels holds drawn points and curves.
   const given = valid.data.reduce((sum, value) => sum + Number(Number.isFinite(value)), 0);
   const design = !depths && given < MIN_MEASURED_SHARE * data.length;
@@ -108,10 +109,10 @@ function guessStoredHeights(read, depths) {
 export function reinterpret(input, change) {
   if (!input.stored) return input;
   const stored = { ...input.stored, ...change };
-  const { width, height, pixelSize, heightScale, zeros, hexagonal } = stored;
+  const { width, height, pixelSize, heightScale, zeros, noData, hexagonal } = stored;
   // A change of the scale alone keeps edits that were made by hand.
-  const keepsEdits = zeros === input.stored.zeros && !hexagonal && !input.stored.hexagonal;
-  const data = keepsEdits ? input.data : zeros ? withoutZeros(stored.data) : stored.data;
+  const keepsEdits = zeros === input.stored.zeros && noData === input.stored.noData && !hexagonal && !input.stored.hexagonal;
+  const data = keepsEdits ? input.data : without(stored.data, [...(zeros ? [0] : []), ...(noData === undefined ? [] : [noData])]);
   if (!data.some(Number.isFinite)) throw new Error('nothing else would be left');
   if (!hexagonal) return { ...input, stored, width, height, data, pixelSize, heightScale, lattice: undefined };
   const lattice = { rows: height, cols: width, spacing: pixelSize, heights: data.map((step) => step * heightScale), unit: /** @type {'mm' | 'm' | undefined} */ (input.unit) };
@@ -119,9 +120,9 @@ export function reinterpret(input, change) {
   return { ...input, stored, ...grid, heightScale: 1, data: interpolateToGrid(lattice, lattice.heights, grid), lattice };
 }
 
-/** @param {Float64Array} data */
-function withoutZeros(data) {
-  return data.map((value) => (value === 0 ? NaN : value));
+/** Replaces values that are no data by NaN. @param {Float64Array} data @param {readonly number[]} values */
+function without(data, values) {
+  return values.length > 0 ? data.map((value) => (values.includes(value) ? NaN : value)) : data;
 }
 
 /** Cached ranges of heights. @type {WeakMap<Float64Array, number>} */
@@ -141,9 +142,10 @@ function rangeOf(data) {
 }
 
 /** The width, depth and height of an input as a sentence. @param {Input} input */
-export function spanInWords({ data, width, height, pixelSize, heightScale }) {
+export function spanInWords({ data, width, height, pixelSize, heightScale, unit }) {
   const range = rangeOf(data) * Math.abs(heightScale);
-  return `Spans ${number(width * pixelSize)} × ${number(height * pixelSize)}, and ${number(range)} in height.`;
+  const inUnit = unit ? ` ${unit}` : '';
+  return `Spans ${number(width * pixelSize)} × ${number(height * pixelSize)}${inUnit}, and ${number(range)}${inUnit} in height.`;
 }
 
 /** Converts an image to confidence: an integer is divided by the largest value of its type, a float stays. @param {Read} image */

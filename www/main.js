@@ -1,14 +1,14 @@
 /** Entry point of the page: creates the session and its panels, and connects them. */
 import { Analyses } from './analyses.js';
 import { connect } from './api.js';
-import { element } from './dom.js';
-import { kindByName } from './file-kinds.js';
+import { element, onFilesChosen } from './dom.js';
 import { analysisPanel } from './panels/analysis.js';
 import { inputImagesPanel } from './panels/input-images.js';
 import { curvePanel } from './panels/curve.js';
 import { designPanel } from './panels/design.js';
 import { watchDrops } from './panels/drop.js';
 import { editPanel } from './panels/edit.js';
+import { filesPanel } from './panels/files.js';
 import { galleryPanel } from './panels/gallery.js';
 import { headlinePanel } from './panels/headline.js';
 import { addressSyncPanel } from './panels/address-sync.js';
@@ -47,33 +47,27 @@ async function start() {
   const views = analysisPanel(session, analyses, show);
   headlinePanel(session, analyses);
   savePanel(session, analyses, views.choose, meshFitView);
-  const { openExample, openFiles, reinterpretFile, openLoadedMesh } = sourcePanel(session, views, (files) => void addressSync.rememberFiles(files), (photo) => {
-    mode.show('photo');
-    void page.open(photo);
-  });
-  /** @param {File[]} files */
-  const openHeights = (files) => {
-    mode.enter('heights');
-    void openFiles(files);
-  };
+  const source = sourcePanel(session, views, (files) => void addressSync.rememberFiles(files), meshFitView.begin, (file) => void files.openColour(file));
   const page = pagePanel(session.api, ({ mesh }, name) => {
     mode.enter('heights');
-    openLoadedMesh({ name, kind: 'photo' }, async () => mesh, 'The page could not be taken as a surface');
-  }, openHeights, (file) => void addressSync.rememberPhoto(file));
+    source.openLoadedMesh({ name, kind: 'photo' }, async () => mesh, 'The page could not be taken as a surface');
+  }, (photos) => void addressSync.rememberPhotos(photos), (states) => addressSync.rememberOutlines(states));
   const mode = modePanel((entered) => {
     if (entered === 'photo') page.begin();
     addressSync.onModeChange();
   });
+  const files = filesPanel(session, mode, source, page);
   const gallery = galleryPanel(session, { adopt, choose: views.choose, strip: strip.show, enter: () => mode.enter('heights') });
   element('notice-close', HTMLButtonElement).addEventListener('click', hideNotice);
-  watchDrops((files) => {
-    if (mode.now === 'photo' && (files.length === 1 || files.every((file) => kindByName(file) === 'picture'))) return void page.openAll(files);
-    // Several files of other kinds are heights or a mesh with the files that belong to them.
-    openHeights(files);
-  });
+  watchDrops(files.open);
+  for (const [button, input] of [['open', 'file'], ['page-open', 'page-file']]) onFilesChosen(element(button, HTMLButtonElement), element(input, HTMLInputElement), files.open);
   const addressSync = addressSyncPanel(session, {
-    adopt, choose: views.choose, openExample, openFiles, openRecent: openHeights, reinterpretFile, gallery, mode, openPhoto: page.open,
-    beginPhoto: page.begin, meshFit, meshFitView,
+    adopt, choose: views.choose, openExample: source.openExample, openFiles: source.openFiles, reinterpretFile: source.reinterpretFile, gallery, mode,
+    openHeights: (stored) => {
+      mode.enter('heights');
+      void source.openFiles(stored);
+    },
+    openPhotos: page.openStored, beginPhoto: page.begin, meshFit, meshFitView,
   });
   await started;
   await addressSync.begin();

@@ -31,6 +31,6 @@ export function openSampledMesh(session, origin, load, options, doing, { wholeMe
     const grid = gridOverLattice(lattice);
     const data = await callWorker('interpolateToGrid', lattice, lattice.heights, grid);
     if (!lattice.heights.some(Number.isFinite)) throw new Error('nothing of it is seen from there');
-    return { ...origin, ...grid, heightScale: 1, data, lattice, unit: lattice.unit ?? undefined, sampling: { mesh, options, wholeMesh } };
+    return { ...origin, ...grid, heightScale: 1, data, lattice, unit: lattice.unit ?? undefined, assumptions: mesh.assumptions, sampling: { mesh, options, wholeMesh } };
   }, task);
 }

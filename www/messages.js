@@ -3,6 +3,7 @@ import { count, number, percent, percentAtMost, seconds, shortLambda } from './f
 import { plainMessage } from './error-messages.js';
 
 /** @import {MeshSurface} from './mesh-fit.js' */
+/** @typedef {import('../pkg/types.js').Assumption} Assumption */
 /** @import {Energy, Report, StopReason, Verdict} from './api.js' */
 
 /** Why a solve stopped. @type {Record<StopReason, string>} */
@@ -31,19 +32,18 @@ export const VIEW_WORDS = {
 export const FILE_WORDS = {
   /** @param {string} name @param {string} what */
   unread: (name, what) => `“${name}” is ${what}. This page opens photos of pages (JPEG, PNG, WebP), heights and depths (TIFF, EXR, PFM, NPY, NPZ, grey PNG), and meshes and point clouds (OBJ, PLY, STL, GLB).`,
-  /** @param {string} name */
-  meshNoPhoto: (name) => `“${name}” is a mesh or a point cloud, not a photo of a page.`,
-  /** @param {string} name */
-  heightsNoPhoto: (name) => `“${name}” holds heights or depths. It is not a photo of a page.`,
-  /** @param {string} name */
-  maybeHeights: (name) => `I found no page in “${name}”. It is grey with 16 bits, as depth cameras write their images: is it heights or depths?`,
-  /** @param {string} name */
-  pageNoHeights: (name) => `“${name}” is a photo in colour, which has no heights. Open the depths that belong to it, or flatten it as a photo of a page.`,
-  openAsHeights: 'Open it under “Heights, depth, scans”',
+  /** @param {number} n */
+  takenForPages: (n) => (n === 1 ? 'Taken for a photo of a page.' : 'Taken for photos of pages.'),
+  heightsInstead: 'Heights instead?',
+  takenForHeights: 'Taken for heights.',
+  takenForTheirPhoto: 'Taken for the photo of these heights.',
   openAsPage: 'Flatten it as a page',
   /** @param {string} name */
-  tooLarge: (name) => `“${name}” has more pixels than this page can open.`,
-  openAtHalf: 'Open it at half size',
+  awaitsHeights: (name) => `“${name}” is in colour and has no heights. Open the depths that belong to it, and it is shown on them.`,
+  /** @param {string} names @param {boolean} areDepths */
+  leftOut: (names, areDepths) => `Left out: ${names}.${areDepths ? ' With depths go one photo, the camera’s file, and images whose names tell that they are their confidence or a mask.' : ''}`,
+  /** @param {readonly { name: string }[]} files */
+  openInstead: (files) => (files.length === 1 ? `Open “${files[0].name}” instead` : 'Open these instead'),
 };
 
 /** Messages about depths from a camera. */
@@ -54,6 +54,11 @@ export const DEPTH_WORDS = {
   failed: 'The 3D surface could not be built',
   building: 'Building the 3D surface',
 };
+
+/** What a reader has assumed of a file, as a sentence; empty if nothing. @param {readonly Assumption[]} [assumptions] */
+export function assumedInWords(assumptions = []) {
+  return assumptions.length > 0 ? `Assumed: ${assumptions.map(({ words }) => words).join('; ')}.` : '';
+}
 
 /** Messages about guessed metadata of a file. */
 export const GUESS_WORDS = {
@@ -119,7 +124,7 @@ export const ADDRESS_WORDS = {
 /** Figures below each of the five pictures with different λ. */
 export const STRIP_WORDS = {
   /** @param {number} pieces infinite if the surface is creased all over @param {number} distance distance from the input, as a share of the width */
-  figures: (pieces, distance) => `${Number.isFinite(pieces) ? `${count(pieces)} ${pieces === 1 ? 'piece' : 'pieces'}` : 'creased all over'}, off by ${percent(distance)}`,
+  figures: (pieces, distance) => `${Number.isFinite(pieces) ? `${count(pieces)} ${pieces === 1 ? 'piece' : 'pieces'}` : 'many small pieces'}, ${percent(distance)} from the input`,
 };
 
 /** Messages about the fit of a whole mesh. */
@@ -142,7 +147,7 @@ export const MESH_FIT_WORDS = {
   /** @param {number} n */
   flipped: (n) => `${count(n)} ${n === 1 ? 'triangle' : 'triangles'} of the result ${n === 1 ? 'is' : 'are'} folded over.`,
   /** @param {number} passes @param {string} gap */
-  proof: (passes, gap) => `The last of ${count(passes)} steps is proven within ${gap} of its optimum. This says nothing about the shape as a whole.`,
+  proof: (passes, gap) => `The last of ${count(passes)} steps is proven within ${gap} of its optimum.`,
 };
 
 /** Labels and messages about sheets to cut out. */
@@ -153,6 +158,10 @@ export const SHEET_WORDS = {
   ownSize: 'no unit: choose the size',
   figures: 'Figures',
   title: 'Cut-out sheets',
+  /** @param {string} side @param {number} pages */
+  headline: (side, pages) => `Cut-out sheets: ${side} mm, ${pages === 1 ? '1 page' : `${count(pages)} pages`}`,
+  /** @param {number} pages */
+  manyPages: (pages) => `These are ${count(pages)} pages. Is the unit of the file right? A smaller longer side needs fewer.`,
   card: 'card or paper',
   metal: 'sheet metal',
   tabs: 'Tabs to glue',
@@ -206,6 +215,8 @@ export const SAVE_WORDS = {
   working: 'Writing the file…',
   /** @param {string} name */
   saved: (name) => `Saved ${name}. Choose another format, or close the dialog.`,
+  /** @param {string} unit */
+  unit: (unit) => `Lengths in the file are in ${SHEET_WORDS.unit(unit)}${unit === 'mm' ? '' : '; programs for 3D printing take them for millimetres'}.`,
   /** @param {string} reason */
   unwritten: (reason) => `The file was not written: ${reason}.`,
   /** @param {string} looksLike */
@@ -276,7 +287,8 @@ export function piecesInWords(pieces, creases, oneSide = false) {
   const meet = creases === 0
     ? `${smooth}${pieces === 1 ? none : ', apart from each other'}`
     : `${smooth} ${pieces === 1 ? 'with' : 'meet in'} ${creases === 1 ? 'one crease' : `${count(creases)} creases`}`;
-  const words = Number.isFinite(pieces) ? meet : 'Creased all over, too finely to count its pieces';
+  if (oneSide && !Number.isFinite(pieces)) return 'You see one side of it. “Whole mesh” solves all of it.';
+  const words = Number.isFinite(pieces) ? meet : 'Its pieces are too small to count';
   return oneSide ? `From this side: ${words[0].toLowerCase()}${words.slice(1)}.` : `${words}.`;
 }
 
@@ -322,6 +334,11 @@ export function meshLambdaChoiceInWords({ lambda, sigma }) {
   if (sigma === undefined) return `Too few vertices to measure their noise: λ = ${shortLambda(lambda)}.`;
   return `Chosen automatically. Noise: ${number(sigma)} along the normals, in the unit of the mesh.`;
 }
+
+/** Messages about the field for λ. */
+export const LAMBDA_WORDS = {
+  invalid: 'λ must be a number from 1e-12 to 1e15, such as 2.5e6. You see the result for the last λ.',
+};
 
 /** Hint for λ of a design. */
 export const DESIGN_LAMBDA_HINT = 'A design has no input to stay close to, so λ has no effect.';

@@ -32,9 +32,6 @@ export function suggestedSideOf(result) {
 export const MM_PER_UNIT = { mm: 1, cm: 10, m: 1000, inch: 25.4 };
 /** Bounds of a longer side for which true size is suggested, in millimetres. */
 const [MIN_TRUE_SIZE_SIDE_MM, MAX_TRUE_SIZE_SIDE_MM] = [30, 2000];
-/** Bounds of a longer side by which the unit of a file is guessed, in millimetres: sizes that people cut at home. */
-const [MIN_LIKELY_SIDE_MM, MAX_LIKELY_SIDE_MM] = [80, 1000];
-
 /** @typedef {keyof typeof MM_PER_UNIT} LengthUnit */
 
 /**
@@ -47,17 +44,7 @@ export function suggestedSide(length, unit) {
   return side >= MIN_TRUE_SIZE_SIDE_MM && side <= MAX_TRUE_SIZE_SIDE_MM ? Number(side.toPrecision(4)) : DEFAULT_FINISHED_SIDE_MM;
 }
 
-/**
- * The likely unit of a file that does not give one: the smallest in which its longer side has a size that people cut at home.
- * @param {number} length longer side
- * @returns {LengthUnit | 'none'}
- */
-export function likelyUnit(length) {
-  const units = /** @type {LengthUnit[]} */ (['mm', 'cm', 'm']);
-  return units.find((unit) => length * MM_PER_UNIT[unit] >= MIN_LIKELY_SIDE_MM && length * MM_PER_UNIT[unit] <= MAX_LIKELY_SIDE_MM) ?? 'none';
-}
-
-/** The unit of an input: `none` for an example, `unknown` for a file that does not give one. @param {{ unit?: string, kind?: string }} input @returns {LengthUnit | 'none' | 'unknown'} */
+/** The unit of an input: `none` for an example, `unknown` for a file whose unit neither it nor its size tells. @param {{ unit?: string, kind?: string }} input @returns {LengthUnit | 'none' | 'unknown'} */
 export function lengthUnitOf({ unit, kind }) {
   if (kind === undefined) return 'none';
   return unit !== undefined && Object.hasOwn(MM_PER_UNIT, unit) ? /** @type {LengthUnit} */ (unit) : 'unknown';

@@ -6,10 +6,10 @@ import { callWorker } from './surface/worker-client.js';
 /**
  * Reads a picture of any format that the browser supports.
  * @param {File} file
- * @param {number} [reduction] factor by which the sides are reduced
+ * @param {number} [maxPixels] maximum number of pixels; a larger picture is reduced
  */
-export async function readPicture(file, reduction) {
-  const { width, height, data } = await callWorker('decodePicture', file, reduction);
+export async function readPicture(file, maxPixels) {
+  const { width, height, data } = await callWorker('decodePicture', file, maxPixels);
   return new ImageData(data, width, height);
 }
 

@@ -33,6 +33,7 @@ import { prepareInput, prepareSmallInput, prepareResult } from './surface/derive
  * @property {Float64Array} [truth] the surface without noise, if known
  * @property {string} [kind] kind of file, in words; an example has none
  * @property {string} [dataType] number type of the file, such as `u16`
+ * @property {readonly import('../pkg/types.js').Assumption[]} [assumptions] what the reader of the file has assumed
  * @property {'mm' | 'm'} [depthUnit] probable unit of the values, if they look like depths from a camera
  * @property {import('./import-interpretation.js').StoredHeights} [stored] contents of the file, and how they are interpreted
  * @property {{ name: string, image: ImageData }} [photo] photo that was opened together with it

@@ -8,7 +8,7 @@ import { serve } from '../../tools/serve.mjs';
 import { writeGuide } from '../../tools/site/guide.mjs';
 import { noisyBox } from './support/box.mjs';
 import { obj } from './support/files.mjs';
-import { choose, drop, inChromium, open, pageTest, painted, runBy } from './support/page.mjs';
+import { choose, drop, inChromium, openFromOneSide, pageTest, painted, runBy } from './support/page.mjs';
 import { dottedPhoto } from './support/photos.mjs';
 
 /** @typedef {import('playwright-core').Page} Page */
@@ -105,7 +105,7 @@ pageTest('axe finds nothing wrong with a photo of a page', async (page) => {
 });
 
 pageTest('axe finds nothing wrong with a whole mesh', async (page) => {
-  await open(page, 'box.obj', obj(noisyBox(5, 0.02)));
+  await openFromOneSide(page, 'box.obj', obj(noisyBox(5, 0.02)));
   await soundEverywhere(page, 'a mesh');
   await choose(page.getByRole('radio', { name: 'Whole mesh', exact: true }));
   for (const view of ['shaded', 'gaussian', 'patches', 'sheet']) {

@@ -2,7 +2,7 @@
 import assert from 'node:assert/strict';
 import { grid, npy, obj, parseNpy, png16 } from './support/files.mjs';
 import { parsed } from './support/numbers.mjs';
-import { choose, drop, look, open, pageTest, reported, runBy, save, settled } from './support/page.mjs';
+import { choose, drop, dropAll, look, open, pageTest, reported, runBy, save, settled } from './support/page.mjs';
 import { dottedPhoto } from './support/photos.mjs';
 
 /** @typedef {import('playwright-core').Page} Page */
@@ -83,6 +83,16 @@ pageTest('zeros become holes on request, and heights again', async (page) => {
   assert.ok(parseNpy((await save(page, 'NPY')).bytes).values.every(Number.isFinite));
 });
 
+pageTest('a value that means no data is given by hand, and stands in the address', async (page) => {
+  const marked = plane.map((value, i) => (i % WIDTH < 8 ? -9999 : value));
+  await open(page, 'marked.npy', npy(WIDTH, marked));
+  const field = page.getByLabel('Number that means no data');
+  await runBy(page, () => field.fill('-9999').then(() => field.blur()));
+  const { values } = parseNpy((await save(page, 'NPY')).bytes);
+  assert.deepEqual(values.map(Number.isNaN), marked.map((value) => value === -9999));
+  await page.waitForURL(/noData=-9999/);
+});
+
 pageTest('heights along one line are refused with the reason', async (page) => {
   await open(page, 'line.npy', npy(WIDTH, plane.map((value, i) => (i < WIDTH ? value : NaN))));
   await run(page);
@@ -152,33 +162,47 @@ pageTest('the file button opens a file', async (page) => {
 pageTest('a file of the wrong kind is named, and the part of the page that takes it is one click away', async (page) => {
   const alert = page.getByRole('alert');
   for (const [name, says] of /** @type {const} */ ([
-    ['notes.txt', /“notes.txt” is a text\. This page opens/], ['letter.docx', /“letter.docx” is a text document/], ['part.step', /export it as OBJ/],
+    ['letter.docx', /“letter.docx” is a text document\. This page opens/], ['notes.txt', /“notes.txt” is a text/], ['part.step', /export it as OBJ/],
   ])) {
     await drop(page, name, Buffer.from('PK\x03\x04'));
     assert.match(await alert.innerText(), says);
   }
-  await drop(page, 'IMG_7.png', dottedPhoto({ page: 240, ground: 60 }, [1, 0.9, 0.8]));
-  await alert.getByRole('button', { name: 'Flatten it as a page' }).click();
+});
+
+pageTest('the kind of a file chooses the part of the page, and what does not belong to it is named', async (page) => {
+  const alert = page.getByRole('alert');
+  const photo = dottedPhoto({ page: 240, ground: 60 }, [1, 0.9, 0.8]);
+  const ramp = obj({ points: [[0, 0, 0], [3, 0, 0], [3, 2, 1], [0, 2, 1]], triangles: [[0, 1, 2], [0, 2, 3]] });
+  // A photo on the first screen, beside something that cannot be read.
+  await dropAll(page, { 'IMG_7.png': photo, 'letter.docx': Buffer.from('PK\x03\x04') });
   await page.locator('#page-caption', { hasText: 'IMG_7' }).waitFor();
-  assert.equal(await alert.isVisible(), false);
   assert.ok(await page.getByRole('radio', { name: 'A photo of a page' }).isChecked());
-  await drop(page, 'notes.txt', Buffer.from('a letter'));
-  assert.match(await alert.innerText(), /is a text/);
-  await drop(page, 'ramp.obj', obj({ points: [[0, 0, 0], [3, 0, 0], [3, 2, 1], [0, 2, 1]], triangles: [[0, 1, 2], [0, 2, 3]] }));
-  assert.match(await alert.innerText(), /a mesh or a point cloud, not a photo/);
-  await alert.getByRole('button', { name: 'Open it under' }).click();
+  await alert.filter({ hasText: /Taken for a photo of a page\. Left out: “letter\.docx” \(a text document\)\./ }).waitFor();
+  assert.equal(await page.locator('#notice').getAttribute('data-kind'), 'note');
+  await alert.getByRole('button', { name: 'Heights instead?' }).click();
+  assert.ok(await page.getByRole('radio', { name: 'Heights, depth, scans' }).isChecked());
+  assert.match(await alert.innerText(), /has no heights\. Open the depths that belong to it/);
+  // A photo that cannot be read does not keep the next one from being opened, and is named.
+  await dropAll(page, { 'IMG_8.heic': Buffer.from('\0\0\0\x18ftypheic\0\0\0\0heicmif1', 'latin1'), 'IMG_9.png': photo });
+  await page.locator('#page-caption', { hasText: 'IMG_9' }).waitFor();
+  await alert.filter({ hasText: '“IMG_8.heic” could not be opened' }).waitFor();
+  // A mesh with another one and a photo that it does not name.
+  await dropAll(page, { 'ramp.obj': ramp, 'other.obj': ramp, 'IMG_7.png': photo });
   await page.locator('#input-caption', { hasText: 'ramp' }).waitFor();
+  await settled(page);
+  assert.match(await alert.innerText(), /^Left out: “other\.obj”, “IMG_7\.png”\./);
+  await alert.getByRole('button', { name: 'Open these instead' }).click();
+  await page.locator('#input-caption', { hasText: 'other' }).waitFor();
   await settled(page);
   // What a depth camera writes is a picture, too.
   await choose(page.locator('input[name="mode"][value="photo"]'));
   await drop(page, 'scan.png', png16(WIDTH, plane));
-  assert.match(await alert.innerText(), /no page in “scan.png”.* heights or depths\?/);
-  await alert.getByRole('button', { name: 'Open it under' }).click();
   await page.locator('#input-caption', { hasText: 'scan' }).waitFor();
   await settled(page);
+  assert.match(await alert.innerText(), /^Taken for heights\./);
 });
 
-pageTest('a photo with too many pixels is opened at half size by a click', async (page) => {
+pageTest('a photo with more pixels than the package reads is reduced without a question', async (page) => {
   await choose(page.locator('input[name="mode"][value="photo"]'));
   await page.locator('#page-caption', { hasText: 'curled' }).waitFor();
   // 5000 × 4400 pixels of one grey.
@@ -193,9 +217,8 @@ pageTest('a photo with too many pixels is opened at half size by a click', async
     input.files = files.files;
     input.dispatchEvent(new Event('change', { bubbles: true }));
   });
-  const alert = page.getByRole('alert').filter({ hasText: 'more pixels than this page can open' });
-  await alert.getByRole('button', { name: 'Open it at half size' }).click();
-  await page.locator('#page-caption', { hasText: /large, 2.500 × 2.200/ }).waitFor();
+  await page.locator('#page-caption', { hasText: /large, .* × / }).waitFor();
+  assert.equal(await page.getByRole('alert').isVisible(), false);
 });
 
 /** @type {{ what: string, name: string, bytes: Buffer, says: RegExp }[]} */

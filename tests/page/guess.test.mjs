@@ -1,6 +1,7 @@
 /** What is guessed about a file of numbers, and what is said of a broken one. */
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
+import { assumedInWords } from '../../www/messages.js';
 import { coarseningFor, depthUnitOf, guessPixelSize, isHexagonal, isZeroNoData } from '../../www/metadata-guess.js';
 import { plainMessage } from '../../www/error-messages.js';
 import { grid } from './support/files.mjs';
@@ -69,4 +70,10 @@ test('no message has the words of a library', () => {
     assert.doesNotMatch(plainMessage(said), /[{}[\]"]|Error|EOCD|parse|strict|column/);
   }
   assert.equal(plainMessage('cannot read this as PFM: it is cut short: 4 × 4 pixels take 64 bytes, 26 are there'), 'it is cut short: 4 × 4 pixels take 64 bytes, 26 are there');
+});
+
+test('what a reader has assumed is one sentence', () => {
+  assert.equal(assumedInWords([]), '');
+  const assumptions = [{ code: 'noData', words: '-9999 is no data (412 pixels)', option: 'noData' }, { code: 'unit', words: 'lengths are in millimetres' }];
+  assert.equal(assumedInWords(assumptions), 'Assumed: -9999 is no data (412 pixels); lengths are in millimetres.');
 });

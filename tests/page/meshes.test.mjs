@@ -1,7 +1,7 @@
 /** Meshes and point clouds, seen from a direction of one's choice; files with several arrays. */
 import assert from 'node:assert/strict';
 import { grid, npy, npz, obj, parseNpy, ply } from './support/files.mjs';
-import { drop, look, open, pageTest, painted, runBy, save, settled } from './support/page.mjs';
+import { drop, look, open, openFromOneSide, pageTest, painted, runBy, save, settled } from './support/page.mjs';
 
 /** @typedef {import('playwright-core').Page} Page */
 /** @typedef {import('./support/files.mjs').Mesh} Mesh */
@@ -56,7 +56,7 @@ function assertHeights(points, expected, tolerance) {
 
 for (const { format, bytes } of [{ format: 'OBJ', bytes: obj(wedge) }, { format: 'PLY', bytes: ply(wedge) }]) {
   pageTest(`a dropped ${format} is turned, and its heights are those seen from there`, async (page) => {
-    await open(page, `wedge.${format.toLowerCase()}`, bytes);
+    await openFromOneSide(page, `wedge.${format.toLowerCase()}`, bytes);
     assert.match(await page.locator('#mesh-name').innerText(), new RegExp(`wedge \\(${format}\\)`));
     assert.match(await page.locator('#mesh-span').innerText(), /12 triangles; x, y and z span 3, 2, 2\.9\./);
     assert.equal(await page.locator('#mesh-missing').isVisible(), false);
@@ -78,7 +78,7 @@ for (const { format, bytes } of [{ format: 'OBJ', bytes: obj(wedge) }, { format:
 }
 
 pageTest('a mesh is seen as it is turned, and as finely as is wished', async (page) => {
-  await open(page, 'wedge.obj', obj(wedge));
+  await openFromOneSide(page, 'wedge.obj', obj(wedge));
   await from(page, '+z');
   await settled(page);
   const before = (await look(page, '#input-canvas')).hash;
@@ -135,7 +135,7 @@ pageTest('without WebGL a mesh is not shown, but seen all the same', async (page
     };
     console.error = () => {};
   });
-  await open(page, 'wedge.obj', obj(wedge));
+  await openFromOneSide(page, 'wedge.obj', obj(wedge));
   await page.locator('#mesh-missing').waitFor();
   await from(page, '+z');
   assert.ok((await look(page, '#input-canvas')).covered > 0.3);

@@ -2,7 +2,7 @@
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import { pageCautions, pageErrors } from '../../www/page/messages.js';
-import { ASSUMED_FIELD_OF_VIEW, PageFlattener } from '../../www/page/flatten.js';
+import { ASSUMED_FIELD_OF_VIEW, flattenWholePhoto, PageFlattener } from '../../www/page/flatten.js';
 import { readPdf, readPdfPicture } from '../js/support/drawings.mjs';
 import { parsed } from './support/numbers.mjs';
 import { choose, drop, dropAll, ended, look, pageTest, painted, saveAs } from './support/page.mjs';
@@ -169,21 +169,42 @@ pageTest('photos that are opened together become one PDF, each with its own outl
   assert.equal(await numbers.nth(1).getAttribute('aria-pressed'), 'true');
   assert.notDeepEqual(await placeOf(page, 'Upper left corner'), placed);
   await page.getByRole('button', { name: 'Save the flat page…' }).click();
-  await page.locator('#save-size', { hasText: 'none.png: I did not find the page' }).waitFor();
+  await page.locator('#save-size', { hasText: /one-pages\.pdf, .*\. Without “none\.png”: I did not find its page/ }).waitFor();
   await page.locator('#save-dialog').evaluate((dialog) => /** @type {HTMLDialogElement} */ (dialog).close());
+  assert.match(await numbers.nth(2).getAttribute('aria-label') ?? '', /not in the PDF/);
   await numbers.nth(2).click();
   await page.locator('#page-side[data-state="unfound"]').waitFor();
+  // Removed, brought back, and moved to the front.
   await page.getByRole('button', { name: 'Remove this photo' }).click();
   await page.locator('#page-caption', { hasText: 'two' }).waitFor();
-  await flattened(page);
+  assert.equal(await numbers.count(), 2);
+  await page.getByRole('alert').getByRole('button', { name: 'Undo' }).click();
+  await page.locator('#page-caption', { hasText: 'none' }).waitFor();
+  assert.equal(await numbers.count(), 3);
+  await page.getByRole('button', { name: 'Earlier' }).click();
+  assert.match(await numbers.nth(1).getAttribute('aria-label') ?? '', /^Photo 2, none\.png/);
   await numbers.nth(0).click();
   await page.locator('#page-caption', { hasText: 'one' }).waitFor();
   await flattened(page);
   assert.deepEqual(await placeOf(page, 'Upper left corner'), placed, 'as it was left');
   const { name, bytes } = await savedPage(page, 'PDF');
   assert.equal(name, 'one-pages.pdf');
+  await page.locator('#save-dialog').evaluate((dialog) => /** @type {HTMLDialogElement} */ (dialog).close());
   const pages = await readPdf(bytes);
   assert.deepEqual(pages.map(({ size }) => size.map(Math.round)), [[210, 297], [210, 297]]);
+  // Another photo is added; all of them are there after a reload, as they were left.
+  await drop(page, 'four.png', photo);
+  await page.locator('#page-caption', { hasText: 'four' }).waitFor();
+  await flattened(page);
+  assert.equal(await numbers.count(), 4);
+  await page.waitForURL(/file=\d+&photo=1/);
+  // Outlines are stored half a second after their last change.
+  await page.waitForTimeout(1000);
+  await page.reload();
+  await page.locator('#page-caption', { hasText: 'one' }).waitFor();
+  await flattened(page);
+  assert.equal(await numbers.count(), 4);
+  assert.deepEqual(await placeOf(page, 'Upper left corner'), placed, 'as it was left');
 });
 
 pageTest('paper is white, or as it was photographed, or the page is black and white', async (page) => {
@@ -240,6 +261,33 @@ test('where nothing tells the focal length, that of a phone is assumed, and said
     assert.match(pageErrors(report), words);
     assert.match(pageErrors(report), /about 1\.8\s%.*less than 4\.4\s%/);
   }
+});
+
+test('a file is made by the page that is shown, and no page is searched for it again', async () => {
+  /** @type {unknown[]} */
+  const asked = [];
+  const worker = /** @type {any} */ ({ flattenPhoto: async (/** @type {unknown[]} */ ...given) => asked.push(given) });
+  const photo = { width: 4000, height: 3000, data: new Uint8ClampedArray(4), reduced: { width: 1280, height: 960 }, film35: 26 };
+  const shown = /** @type {any} */ ({ size: [1, 1.4], unit: 'page', warp: {} });
+  await flattenWholePhoto(worker, /** @type {any} */ ({ photo, options: { light: 'keep', ink: false, focalLength: 3000 } }), shown);
+  const { width, height, data } = photo;
+  assert.deepEqual(asked, [[{ width, height, data }, shown, { light: 'keep', ink: false }]]);
+});
+
+pageTest('a file of all pixels has the proportions of the flat page that is shown', async (page) => {
+  const { width, height, data } = parsePng(photo);
+  // Three times as fine as the photo, which is then reduced for what is shown.
+  const fine = new Uint8Array(4 * 9 * width * height);
+  for (let i = 0; i < 9 * width * height; i++) {
+    const at = 4 * (Math.floor(i / (9 * width)) * width + Math.floor((i % (3 * width)) / 3));
+    fine.set(data.subarray(at, at + 4), 4 * i);
+  }
+  await openPhoto(page, 'fine.png', png({ width: 3 * width, height: 3 * height, data: fine }));
+  const shown = parsed(await told(page, 'Width to height'));
+  const flat = await flatPng(page);
+  assert.ok(flat.width > 700, `${flat.width} pixels`);
+  assert.ok(Math.abs(flat.width / flat.height / shown - 1) < 0.002, `${flat.width} × ${flat.height} for ${shown}`);
+  assert.ok(misplaced(flat) < 0.003);
 });
 
 pageTest('of several pages one is taken, and another by a click', async (page) => {

@@ -146,3 +146,19 @@ pageTest('λ can be typed, and a wrong one is refused in place', async (page) =>
   assert.equal(await field.evaluate((input) => /** @type {HTMLInputElement} */ (input).validity.valid), false);
   assert.equal(await page.locator('#verdict').innerText(), before);
 });
+
+pageTest('a λ that is no number is said at its field, a decimal comma is one, and nothing typed is the automatic one', async (page) => {
+  const [field, hint] = [page.getByLabel('λ as a number'), page.locator('#lambda-hint')];
+  for (const wrong of ['abc', '0', '1e30']) {
+    await field.fill(wrong);
+    await field.press('Tab');
+    assert.match(await hint.innerText(), /^λ must be a number from 1e-12 to 1e15/);
+    assert.equal(await field.getAttribute('aria-invalid'), 'true');
+    assert.equal(await page.getByRole('alert').isVisible(), false);
+  }
+  await runBy(page, () => field.fill('1,5e6').then(() => field.blur()));
+  assert.equal(parsed(await reported(page, 'λ')), 1.5e6);
+  assert.equal(await field.getAttribute('aria-invalid'), null);
+  await runBy(page, () => field.fill('').then(() => field.blur()));
+  assert.equal(await page.locator('#lambda-auto').getAttribute('aria-pressed'), 'true');
+});

@@ -65,7 +65,7 @@ pageTest('what is known of depths is dropped with them, and what is not is said'
     'IMG_1.png': photo, 'depth.npy': npy(256, scene), 'camera.json': numbers,
     'confidence.png': png16(256, trust), 'IMG_1_mask.png': png16(256, mask), 'notes.md': Buffer.from('a page'),
   }));
-  await page.getByRole('alert').filter({ hasText: 'Not used: “notes.md”' }).waitFor();
+  await page.getByRole('alert').filter({ hasText: 'Left out: “notes.md”' }).waitFor();
   assert.equal(await page.locator('#mesh-name').innerText(), 'depth (depths, with confidence.png and IMG_1_mask.png)');
   const flat = await flatPng(page);
   const error = misplaced(flat);
@@ -205,7 +205,9 @@ pageTest('a scan in OBJ brings its material and texture along', async (page) => 
 pageTest('heights in another unit, and levels that are guessed, are asked about', async (page) => {
   // A photo before what it shows.
   await drop(page, 'holiday.png', coloured);
-  await page.getByRole('alert').filter({ hasText: 'holiday.png' }).filter({ hasText: 'A photo of a page' }).waitFor();
+  await page.locator('#page-caption', { hasText: 'holiday' }).waitFor();
+  await page.getByRole('alert').getByRole('button', { name: 'Heights instead?' }).click();
+  await page.getByRole('alert').filter({ hasText: 'holiday.png' }).filter({ hasText: 'Open the depths' }).waitFor();
   const doubt = page.locator('#scale-doubt');
   await open(page, 'metres.npy', npy(60, grid(60, 40, (col) => 0.08 * Math.sin(col / 20))));
   assert.match(await page.locator('#guessed').innerText(), /longer side is 1 long.*0\.0\d.*too flat/s);
@@ -228,11 +230,6 @@ pageTest('heights in another unit, and levels that are guessed, are asked about'
   await drop(page, 'later.png', coloured);
   await page.locator('#photo-name', { hasText: 'later.png' }).waitFor();
   await flattened(page);
-});
-
-pageTest('what does not belong together gets a message', async (page) => {
-  await dropAll(page, { 'a.jpg': photo, 'b.jpg': photo });
-  await page.getByRole('alert').filter({ hasText: 'neither a mesh nor heights' }).waitFor();
 });
 
 /** The flat page itself. @param {number} wide @param {number} high */

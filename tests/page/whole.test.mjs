@@ -3,7 +3,7 @@ import assert from 'node:assert/strict';
 import { noisyBox, offBox, SIDES } from './support/box.mjs';
 import { obj } from './support/files.mjs';
 import { parsed } from './support/numbers.mjs';
-import { choose, look, open, pageTest, reported, saveAs, settled } from './support/page.mjs';
+import { choose, look, open, openFromOneSide, openWhole, pageTest, reported, saveAs, settled } from './support/page.mjs';
 import { parsePng } from './support/photos.mjs';
 
 /** @typedef {import('playwright-core').Page} Page */
@@ -116,7 +116,7 @@ async function canvasPixels(page) {
 }
 
 pageTest('a closed mesh is solved whole, shown before and after, laid flat and saved', async (page) => {
-  await open(page, 'box.obj', obj(box));
+  await openFromOneSide(page, 'box.obj', obj(box));
   const hint = await page.locator('#whole-hint').innerText();
   const hidden = parsed(/([\d.]+)\s% of the surface is hidden/.exec(hint)?.[1] ?? '');
   // From above all but one side, though some of the upright ones may be seen at the rim.
@@ -127,7 +127,7 @@ pageTest('a closed mesh is solved whole, shown before and after, laid flat and s
   await page.keyboard.press('Escape');
   await solve(page);
   assert.match(await page.locator('#whole-verdict').innerText(), /^The whole mesh is solved/);
-  assert.match(await page.locator('#whole-detail').innerText(), /of \d+ steps is proven within .* says nothing about the shape/);
+  assert.match(await page.locator('#whole-detail').innerText(), /of \d+ steps is proven within/);
   assert.equal(await page.locator('section[aria-label="Surfaces"]').isVisible(), false, 'no heights');
   assert.equal(await page.locator('.controls .more').isVisible(), false, 'nor their settings');
   assert.ok(await page.locator('#lambda').isVisible(), 'but for λ');
@@ -197,7 +197,7 @@ pageTest('a closed mesh is solved whole, shown before and after, laid flat and s
 });
 
 pageTest('a whole solve tells how far it is and can be done without; what is no surface is said', async (page) => {
-  await open(page, 'box.obj', obj(noisyBox(20, 0.01)));
+  await openFromOneSide(page, 'box.obj', obj(noisyBox(20, 0.01)));
   const cancelled = await page.evaluate(() => {
     const radio = /** @type {HTMLInputElement} */ (document.querySelector('input[name="mesh-way"][value="whole"]'));
     radio.checked = true;
@@ -227,15 +227,14 @@ pageTest('a whole solve tells how far it is and can be done without; what is no 
   // Three triangles at one edge.
   const fan = { points: [[0, 0, 0], [1, 0, 0], [0, 1, 0.2], [0, -1, 0.1], [0, 0.2, 1]], triangles: [[0, 1, 2], [1, 0, 3], [0, 1, 4]] };
   await open(page, 'fan.obj', obj(/** @type {any} */ (fan)));
-  assert.equal(await page.locator('#whole').isVisible(), false, 'another mesh is seen first');
+  assert.equal(await page.locator('#whole').isVisible(), false, 'what cannot be solved whole is shown from one side');
   await solve(page);
   assert.match(await page.locator('#whole-verdict').innerText(), /cannot be solved as a whole/);
   assert.match(await page.locator('#whole-detail').innerText(), /edge/);
 });
 
 pageTest('rulings of a whole mesh are drawn on its result only, along the axis of a tube', async (page) => {
-  await open(page, 'tube.obj', obj(noisyTube(60, 0.01)));
-  await solve(page);
+  await openWhole(page, 'tube.obj', obj(noisyTube(60, 0.01)));
   const divider = page.locator('#whole-divider');
   await divider.fill('0');
   assert.equal((await drawnRulings(page)).pixels, 0);
@@ -265,7 +264,8 @@ const offTube = (points) => Math.sqrt(points.reduce((sum, [, y, z]) => sum + (Ma
 
 pageTest('a whole mesh is solved with the λ that is chosen, which stands in the address, and Back undoes it', async (page) => {
   const tube = noisyTube(40, 0.02);
-  await open(page, 'tube.obj', obj(tube));
+  await openFromOneSide(page, 'tube.obj', obj(tube));
+  await page.waitForURL(/file=\d+$/);
   const saved = async () => {
     await page.locator('#whole-file').click();
     return offTube(parseObj((await saveAs(page, 'OBJ')).bytes).points);
@@ -322,8 +322,7 @@ pageTest('a whole mesh is solved with the λ that is chosen, which stands in the
 });
 
 pageTest('where a whole mesh is under the pointer, how far it was moved, and what the view knows there', async (page) => {
-  await open(page, 'tube.obj', obj(noisyTube(60, 0.01)));
-  await solve(page);
+  await openWhole(page, 'tube.obj', obj(noisyTube(60, 0.01)));
   await page.locator('#whole-divider').fill('0');
   const canvas = page.locator('#whole-canvas');
   const { width, height } = /** @type {{ width: number, height: number }} */ (await canvas.boundingBox());
@@ -363,4 +362,23 @@ pageTest('where a whole mesh is under the pointer, how far it was moved, and wha
   await page.locator('#whole-divider').fill('0');
   await view(page, 'patches');
   assert.match(await pointAt(0.5, 0.5), /moved by \S+ · patch 1$/);
+});
+
+pageTest('sheets of a model without a unit are in millimetres, and the headline says their size and pages', async (page) => {
+  // A house of 60 × 40 × 50, as from any CAD program.
+  const points = /** @type {[number, number, number][]} */ ([
+    [0, 0, 0], [60, 0, 0], [60, 40, 0], [0, 40, 0], [0, 0, 30], [60, 0, 30], [60, 40, 30], [0, 40, 30], [0, 20, 50], [60, 20, 50]]);
+  const triangles = /** @type {[number, number, number][]} */ ([
+    [0, 3, 2], [0, 2, 1], [0, 1, 5], [0, 5, 4], [2, 3, 7], [2, 7, 6], [1, 2, 6], [1, 6, 5], [5, 6, 9], [3, 0, 4], [3, 4, 7], [7, 4, 8],
+    [4, 5, 9], [4, 9, 8], [6, 7, 8], [6, 8, 9]]);
+  await openWhole(page, 'house.obj', obj({ points, triangles }));
+  // The second click of a double click does not close the dialog.
+  await page.locator('#whole-sheets').dblclick();
+  const title = page.locator('#save-title');
+  await title.filter({ hasText: /: 60 mm, 1 page$/ }).waitFor();
+  const warning = page.locator('.sheets .doubt');
+  assert.equal(await warning.isVisible(), false);
+  await page.getByLabel('Longer side when finished, mm').fill('600');
+  await title.filter({ hasText: /: 600 mm, \d\d pages$/ }).waitFor();
+  assert.match(await warning.innerText(), /\d\d pages\. Is the unit of the file right\?/);
 });

@@ -1,7 +1,8 @@
-/** Several photos of pages that become one PDF, each with the state of its outline. */
+/** The photos of pages that are open: a single one, or several that become one PDF, each with the state of its outline. */
+import { plainMessage } from '../error-messages.js';
 import { BOOK_WORDS } from './messages.js';
 import { runInWorker } from '../worker-task.js';
-import { flattenWholePhoto } from './flatten.js';
+import { flattenReducedPhoto, flattenWholePhoto } from './flatten.js';
 import { pictureFiles } from './paper.js';
 import { openPhoto } from './photo.js';
 
@@ -15,6 +16,7 @@ import { openPhoto } from './photo.js';
  * @typedef {object} BookPhoto
  * @property {File} file
  * @property {PageState | null} state changes to its outline; null if the photo was not shown yet
+ * @property {string} [problem] why it is not in the PDF that was written last
  */
 
 export class Book {
@@ -23,50 +25,81 @@ export class Book {
   /** Index of the photo that is shown. */
   index = 0;
 
-  /** Replaces all photos; a single file is a photo alone. @param {readonly File[]} files */
-  setFiles(files) {
-    [this.photos, this.index] = [files.map((file) => ({ file, state: null })), 0];
+  /** Replaces all photos. @param {readonly File[]} files @param {readonly (PageState | null)[]} [states] */
+  setFiles(files, states = []) {
+    [this.photos, this.index] = [files.map((file, i) => ({ file, state: states[i] ?? null })), 0];
+  }
+
+  /**
+   * Adds photos at the end. A photo that is there already is not added again.
+   * @param {readonly File[]} files
+   * @returns {number[]} indices of the photos
+   */
+  addFiles(files) {
+    return files.map((file) => {
+      const at = this.photos.findIndex(({ file: { name, size, lastModified } }) => name === file.name && size === file.size && lastModified === file.lastModified);
+      return at >= 0 ? at : this.photos.push({ file, state: null }) - 1;
+    });
   }
 
   /** Saves the state of the photo that is shown. @param {PageSession} session */
   saveState(session) {
     const photo = this.photos[this.index];
-    if (photo && session.photo) photo.state = session.state();
+    if (photo && session.photo?.file === photo.file) photo.state = session.state();
   }
 
-  /** Removes the photo that is shown. */
-  remove() {
-    this.photos.splice(this.index, 1);
-    this.index = Math.min(this.index, this.photos.length - 1);
+  /** Removes a photo. @param {number} at its index */
+  remove(at) {
+    const [photo] = this.photos.splice(at, 1);
+    if (at < this.index || this.index === this.photos.length) this.index = Math.max(0, this.index - 1);
+    return photo;
+  }
+
+  /** Moves the photo that is shown to an earlier or later place. @param {-1 | 1} step */
+  move(step) {
+    const to = this.index + step;
+    if (!this.photos[to]) return;
+    [this.photos[this.index], this.photos[to]] = [this.photos[to], this.photos[this.index]];
+    this.index = to;
   }
 
   /**
-   * Flattens all photos at full resolution, one after the other to save memory.
+   * Flattens all photos at full resolution, one after the other to save memory. Photos that cannot be flattened are left out,
+   * and their `problem` says why.
    * @param {Api} api
    * @param {PageSession} session session of the photo that is shown
    * @param {Worker} worker
    * @param {readonly [number, number] | null} paper size in millimetres; null for true size
    * @param {(index: number) => void} onPhoto called before each photo
    * @returns the picture file and the size of each page
+   * @throws if no photo can be flattened
    */
   async flatPages(api, session, worker, paper, onPhoto) {
     this.saveState(session);
     const { signal } = new AbortController();
     const pages = [];
-    for (const [i, { file, state }] of this.photos.entries()) {
+    for (const [i, entry] of this.photos.entries()) {
       onPhoto(i);
+      delete entry.problem;
       try {
+        const { file, state } = entry;
         const photo = await openPhoto(api, file, signal);
-        const { quarters, outline, traces, textLines } = state ?? { quarters: 0, outline: { pages: 1 }, traces: detectedTraces(photo), textLines: [[]] };
+        const { quarters, traces, textLines } = state ?? { quarters: 0, traces: detectedTraces(photo), textLines: [[]] };
         const { options, findsTextLines } = session;
         const request = { photo, traces, textLines, options: { ...options, findLines: findsTextLines }, moving: false };
-        const flat = await runInWorker(api, signal, (own) => flattenWholePhoto(own, request));
-        pages.push(...await pictureFiles(worker, flat, outline.pages, quarters, paper, options.ink));
+        const flat = await runInWorker(api, signal, async (own) => flattenWholePhoto(own, request, (await flattenReducedPhoto(own, request)).flat));
+        pages.push(...await pictureFiles(worker, flat, traces[0].length, quarters, paper, options.ink));
       } catch (error) {
-        throw new Error(`${file.name}: ${error instanceof Error ? error.message : String(error)}`, { cause: error });
+        entry.problem = plainMessage(error instanceof Error ? error.message : String(error));
       }
     }
+    if (pages.length === 0) throw new Error(this.problemsInWords());
     return pages;
+  }
+
+  /** The photos that are not in the PDF, each with the reason; empty if all are. */
+  problemsInWords() {
+    return this.photos.flatMap(({ file: { name }, problem }) => (problem ? [`“${name}”: ${problem}`] : [])).join('; ');
   }
 }
 

@@ -1,12 +1,14 @@
 /**
  * Flattens pages in a worker: the reduced photo for previews while edges are moved, where only the newest request counts, and
- * the whole photo for saving.
+ * by its result the whole photo for saving.
  */
 import { rescalePixel } from './grey.js';
 
 /** @import {Api} from '../api.js' */
 /** @import {PagePhoto} from './photo.js' */
+/** @import {Worker} from '../worker-task.js' */
 /** @typedef {import('../../pkg/types.js').DewarpedPage} DewarpedPage */
+/** @typedef {import('../../pkg/types.js').FlatPage} FlatPage */
 /** @typedef {import('../../pkg/types.js').DewarpPageOptions} Options */
 /** @typedef {import('../../pkg/types.js').PageEdges} PageEdges */
 /** @typedef {[number, number][]} Line */
@@ -29,7 +31,7 @@ export class PageFlattener {
   #waiting = null;
   #busy = false;
 
-  /** @param {InstanceType<Api['DevelopableWorker']>} worker */
+  /** @param {Worker} worker */
   constructor(worker) {
     this.worker = worker;
   }
@@ -44,11 +46,8 @@ export class PageFlattener {
     if (this.#busy) return;
     this.#busy = true;
     for (let current = this.#takeWaiting(); current; current = this.#takeWaiting()) {
-      const { photo: { reduced, grey: { scale }, film35 }, traces, textLines, options, moving } = current;
-      const { width, height, data } = reduced;
       try {
-        const scaledOptions = { ...scaleOptions(options, scale), ...(moving && { findLines: false }) };
-        onResult({ request: current, ...await dewarp(this.worker, { width, height, data, film35 }, toPageEdges(traces, textLines, scale), scaledOptions) });
+        onResult({ request: current, ...await flattenReducedPhoto(this.worker, current) });
       } catch (error) {
         if (!this.#waiting) onResult({ request: current, error });
       }
@@ -64,18 +63,29 @@ export class PageFlattener {
 }
 
 /**
- * Flattens the photo with all its pixels.
- * @param {InstanceType<Api['DevelopableWorker']>} worker
- * @param {FlattenRequest} wish
+ * Finds the page of a request in the reduced photo, and flattens it.
+ * @param {Worker} worker
+ * @param {FlattenRequest} request
  */
-export async function flattenWholePhoto(worker, { photo, traces, textLines, options }) {
-  const { width, height, data, film35 } = photo;
-  return (await dewarp(worker, { width, height, data, film35 }, toPageEdges(traces, textLines, 1), { ...options, map: false })).flat;
+export function flattenReducedPhoto(worker, { photo: { reduced, grey: { scale }, film35 }, traces, textLines, options, moving }) {
+  const { width, height, data } = reduced;
+  return dewarp(worker, { width, height, data, film35 }, toPageEdges(traces, textLines, scale), { ...scaleOptions(options, scale), ...(moving && { findLines: false }) });
+}
+
+/**
+ * Flattens the photo with all its pixels by the page that was found in its reduced copy: what is saved is what was shown.
+ * @param {Worker} worker
+ * @param {FlattenRequest} request
+ * @param {DewarpedPage} found
+ * @returns {Promise<FlatPage>}
+ */
+export function flattenWholePhoto(worker, { photo: { width, height, data }, options: { light, ink } }, found) {
+  return worker.flattenPhoto({ width, height, data }, found, { light, ink });
 }
 
 /**
  * Flattens a page. If the edges do not determine the focal length, the call is repeated with an assumed one.
- * @param {InstanceType<Api['DevelopableWorker']>} worker
+ * @param {Worker} worker
  * @param {Parameters<Api['dewarpPage']>[0]} photo
  * @param {PageEdges[]} edges
  * @param {Options} options

@@ -25,12 +25,20 @@ export const PAGE_WORDS = {
 export const BOOK_WORDS = {
   /** @param {number} n */
   photos: (n) => `${count(n)} photos, one PDF:`,
-  /** @param {number} n */
-  number: (n) => String(n),
-  /** @param {number} n @param {string} name */
-  page: (n, name) => `Photo ${n}, ${name}`,
+  /** @param {number} n @param {string} name @param {string} [problem] */
+  page: (n, name, problem) => `Photo ${n}, ${name}${problem ? ` (not in the PDF: ${problem})` : ''}`,
+  earlier: '‹ Earlier',
+  later: 'Later ›',
   remove: 'Remove this photo',
-  unfound: 'I did not find the page. Show this photo and drag the four corners onto its page',
+  undo: 'Undo',
+  /** @param {string} name */
+  removed: (name) => `“${name}” is removed.`,
+  /** @param {number} added @param {number} all */
+  added: (added, all) => `${added === 1 ? 'The photo is' : `${count(added)} photos are`} added: ${count(all)} photos, one PDF.`,
+  alone: 'Open it alone',
+  unfound: 'I did not find its page. Show this photo and drag the four corners onto the page',
+  /** @param {string} problems */
+  without: (problems) => `Without ${problems}.`,
   /** @param {number} n */
   pdf: (n) => `all ${count(n)} photos, a page each`,
   /** @param {number} n @param {number} all */

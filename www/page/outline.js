@@ -71,17 +71,22 @@ export class Outline {
     return outline;
   }
 
-  /** A deep copy. */
-  copy() {
+  /** A deep copy of an outline, or of its fields. @param {Pick<Outline, 'edges' | 'detectedEdges'>} fields */
+  static copyOf({ edges, detectedEdges }) {
     /** @type {Map<Node, Node>} */
     const copies = new Map();
-    const outline = new Outline(/** @type {Edges} */ (this.edges.map((nodes) => nodes.map((node) => {
+    const outline = new Outline(/** @type {Edges} */ (edges.map((nodes) => nodes.map((node) => {
       const copy = copies.get(node) ?? { ...node };
       copies.set(node, copy);
       return copy;
     }))));
-    outline.detectedEdges = [...this.detectedEdges];
+    outline.detectedEdges = [...detectedEdges];
     return outline;
+  }
+
+  /** A deep copy. */
+  copy() {
+    return Outline.copyOf(this);
   }
 
   /** Number of pages: 1 or 2. */

@@ -3,7 +3,7 @@
 import { turnPicture } from './quarter-turn.js';
 
 /** @import {Worker} from '../worker-task.js' */
-/** @import {DewarpedPage} from './flatten.js' */
+/** @import {FlatPage} from './flatten.js' */
 
 /** @typedef {keyof typeof PAPERS} PaperName */
 
@@ -30,7 +30,7 @@ export function similarPaper(width, height) {
 /**
  * Encodes each page of a flat photo as a picture for a PDF.
  * @param {Worker} worker
- * @param {DewarpedPage} flat
+ * @param {FlatPage} flat
  * @param {number} pages number of pages side by side
  * @param {number} quarters clockwise quarter turns of each page
  * @param {readonly [number, number] | null} paper size in millimetres; null for true size

@@ -7,16 +7,20 @@ import { rescalePixel } from './grey.js';
 /** @import {GreyImage} from './grey.js' */
 /** @typedef {import('../../pkg/types.js').PageOutlines} PageOutlines */
 
+/** Maximum number of pixels of a photo that the browser decodes because it is too large for the package. */
+const MAX_REDUCED_PHOTO_PIXELS = 16e6;
 /** Maximum length of the reduced copy's longer side, in pixels. */
 const MAX_REDUCED_SIDE_PIXELS = 1280;
 
 /**
  * @typedef {object} PagePhoto
  * @property {string} name of its file without the extension
+ * @property {File} [file] an example has none
  * @property {number} width
  * @property {number} height
  * @property {Uint8ClampedArray<ArrayBuffer>} data
  * @property {number} [film35] focal length for 35 mm film, if the file contains it
+ * @property {readonly import('../../pkg/types.js').Assumption[]} [assumptions] what the reader of the file has assumed
  * @property {ImageData} reduced
  * @property {GreyImage} grey the reduced copy in grey
  * @property {PageOutlines} outlines of the detected pages, in pixels of the photo
@@ -27,40 +31,33 @@ const MAX_REDUCED_SIDE_PIXELS = 1280;
  * @param {Api} api
  * @param {File} file
  * @param {AbortSignal} signal
- * @param {boolean} [half] whether the photo is read at half its width and height
  * @returns {Promise<PagePhoto>}
  */
-export async function openPhoto(api, file, signal, half = false) {
-  const photo = half ? await readPicture(file, 2) : await runInWorker(api, signal, (worker) => worker.readPhoto(file)).catch((/** @type {unknown} */ error) => {
+export async function openPhoto(api, file, signal) {
+  const photo = await runInWorker(api, signal, (worker) => worker.readPhoto(file)).catch((/** @type {unknown} */ error) => {
     signal.throwIfAborted();
-    if (isTooLarge(error)) throw error;
-    // Fall back on the browser, which may decode formats that the package cannot.
-    return readPicture(file).catch(() => {
+    // Fall back on the browser, which may decode formats that the package cannot, and reduces photos that are too large.
+    return readPicture(file, MAX_REDUCED_PHOTO_PIXELS).catch(() => {
       throw error;
     });
   });
   signal.throwIfAborted();
-  return preparePhoto(api, photo, file.name.replace(/\.[^.]*$/, '') || 'photo', signal);
+  return { ...await preparePhoto(api, photo, file.name.replace(/\.[^.]*$/, '') || 'photo', signal), file };
 }
 
 /**
  * Reduces decoded pixels and detects the pages in them.
  * @param {Api} api
- * @param {{ width: number, height: number, data: Uint8ClampedArray<ArrayBuffer>, film35?: number }} pixels
+ * @param {{ width: number, height: number, data: Uint8ClampedArray<ArrayBuffer>, film35?: number, assumptions?: PagePhoto['assumptions'] }} pixels
  * @param {string} name
  * @param {AbortSignal} signal
  * @returns {Promise<PagePhoto>}
  */
-export async function preparePhoto(api, { width, height, data, film35 }, name, signal) {
+export async function preparePhoto(api, { width, height, data, film35, assumptions }, name, signal) {
   if (width < 16 || height < 16) throw new Error(`it is ${width} × ${height} pixels, too few to show a page`);
   const { small: reduced, grey } = await reducedPhoto({ width, height, data }, Math.min(1, MAX_REDUCED_SIDE_PIXELS / Math.max(width, height)));
   const outlines = await runInWorker(api, signal, (worker) => worker.findPage(reduced));
-  return { name, width, height, data, film35, reduced, grey, outlines: rescaleOutlines(outlines, 1 / grey.scale) };
-}
-
-/** Whether an error says that a photo has too many pixels for the package. @param {unknown} error */
-export function isTooLarge(error) {
-  return error instanceof Error && 'code' in error && error.code === 'TOO_LARGE';
+  return { name, width, height, data, film35, assumptions, reduced, grey, outlines: rescaleOutlines(outlines, 1 / grey.scale) };
 }
 
 /** Converts outlines to another scale of the photo. @param {PageOutlines} outlines @param {number} scale @returns {PageOutlines} */

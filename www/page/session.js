@@ -17,7 +17,7 @@ import { snapOutline, traceEdge } from './edge-snapping.js';
  * @typedef {object} PageEvents
  * @property {PagePhoto} photo another photo is shown
  * @property {{ outline: Outline, traces: Traces, moving: boolean }} outline the outline has changed; `moving`: something is being dragged
- * @property {boolean} working whether a flat page is being computed
+ * @property {boolean} working whether a flat page is being computed, or another photo is being opened
  * @property {FlattenedPage & { moving: boolean }} flat a new flat page of the reduced photo; `moving`: something is being dragged
  * @property {null} unfound no page was detected: the user has to put the corners onto it first
  * @property {null} lines the drawn or the detected lines of text have changed
@@ -25,7 +25,7 @@ import { snapOutline, traceEdge } from './edge-snapping.js';
  */
 /** @typedef {{ ends: Ends, points: Line }} DrawnLine */
 /** @typedef {{ outline: Outline, drawnLines: DrawnLine[], movedCorners: ReadonlySet<number>, pageIndex: number }} Snapshot */
-/** @typedef {Snapshot & { quarters: number, traces: Traces, textLines: Line[][] }} PageState the outline and lines of a photo, without its pixels */
+/** @typedef {Snapshot & { quarters: number, traces: Traces, textLines: Line[][] }} PageState the outline and lines of a photo, without its pixels; what a browser has kept of it is data without methods */
 
 /** Minimum length of a line of text, in widths of the photo; shorter ones are discarded. */
 const MIN_TEXT_LINE_WIDTHS = 0.02;
@@ -113,10 +113,20 @@ export class PageSession extends Events {
     this.#resetOutline(photo, pages);
     if (state) {
       const { outline, drawnLines, movedCorners, pageIndex, quarters } = state;
-      Object.assign(this, { outline: outline.copy(), drawnLines: [...drawnLines], movedCorners, pageIndex, quarters });
+      Object.assign(this, { outline: Outline.copyOf(outline), drawnLines: [...drawnLines], movedCorners, pageIndex, quarters });
     }
     this.emit('photo', photo);
     this.#update();
+  }
+
+  /** Announces that another photo is being opened: the flat page shown is no longer the one that is wanted. */
+  beginOpening() {
+    this.emit('working', true);
+  }
+
+  /** Announces that no other photo was opened after all. */
+  endOpening() {
+    this.emit('working', false);
   }
 
   /** Selects another detected page. @param {number} page its index */
@@ -340,6 +350,8 @@ export class PageSession extends Events {
     this.emit('working', true);
     void this.#flattening.preview(request, (done) => {
       if (done.request.photo !== this.photo || this.isPageMissing) return;
+      // While nothing is dragged, only the flat page of the newest outline and options is shown.
+      if (done.request !== this.#latestRequest && !done.request.moving) return;
       if ('flat' in done) this.#showFlat(done, done.request);
       else {
         [this.foundLines, this.#flat] = [[], null];

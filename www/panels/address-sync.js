@@ -2,18 +2,22 @@
 import { addressOf, stateOf } from '../address.js';
 import { element, elements, make } from '../dom.js';
 import { ADDRESS_WORDS } from '../messages.js';
-import { storeFiles, storedFiles, namesOf, recentFiles } from '../recent-files.js';
+import { namesOf, recentFiles, storedFiles, storedOutlines, storeFiles, storeOutlines } from '../recent-files.js';
 import { showNotice } from './notice.js';
 
 /** @import {State} from '../address.js' */
 /** @import {Mode} from './mode.js' */
 /** @import {Card} from '../gallery/cards.js' */
 /** @import {Session, Settings} from '../session.js' */
+/** @import {BookPhoto} from '../page/book.js' */
+/** @import {PageState} from '../page/session.js' */
 /** @import {StoredHeights} from '../import-interpretation.js' */
 /** @import {MeshFit} from '../mesh-fit.js' */
 
 /** Delay after a result before it gets an entry in the history, in milliseconds. */
 const HISTORY_DELAY_MS = 400;
+/** Time for which the note about a copied link is shown, in milliseconds. */
+const COPIED_NOTE_MS = 4000;
 
 /**
  * @param {Session} session
@@ -22,11 +26,11 @@ const HISTORY_DELAY_MS = 400;
  * @param {(view: string) => void} page.choose shows a view
  * @param {(name: string, options: { size: number, noise: number }) => Promise<void>} page.openExample
  * @param {(files: File[]) => Promise<unknown>} page.openFiles
- * @param {(files: File[]) => unknown} page.openRecent opens recent files, as heights or as a photo of a page
+ * @param {(files: File[]) => unknown} page.openHeights opens recent files that are no photos of pages
  * @param {(change: Partial<StoredHeights>) => void} page.reinterpretFile
  * @param {{ find: (id: string) => Card | undefined, show: (card: Card, settings?: Partial<Settings>, view?: string) => Promise<void>, present: Card | null }} page.gallery
  * @param {{ readonly now: Mode, show: (mode: Mode) => void }} page.mode
- * @param {(file: File) => Promise<unknown>} page.openPhoto opens a photo of a page
+ * @param {(files: readonly File[], states: readonly (PageState | null)[]) => Promise<unknown>} page.openPhotos opens photos of pages that were stored
  * @param {() => void} page.beginPhoto shows an example if no photo of a page is open
  * @param {MeshFit} page.meshFit
  * @param {{ readonly view?: string, enter: (view: string) => void, leave: () => void }} page.meshFitView
@@ -41,8 +45,10 @@ export function addressSyncPanel(session, page) {
   let isRestoring = false;
   /** Whether the open file could not be stored. */
   let isUnstored = false;
-  /** Id of the open photo of a page in the storage of recent files. @type {number | undefined} */
+  /** Id of the open photos of pages in the storage of recent files. @type {number | undefined} */
   let photoId;
+  /** The open photos of pages, in their order. @type {readonly File[]} */
+  let photos = [];
   /** The present address without its view. */
   let addressWithoutView = '';
 
@@ -57,10 +63,10 @@ export function addressSyncPanel(session, page) {
       return { card: card.id, settings: Object.fromEntries(changed), view: view() === card.view ? undefined : view() };
     }
     if (input?.kind !== undefined) {
-      const { pixelSize, heightScale, zeros, hexagonal } = input.stored ?? {};
+      const { pixelSize, heightScale, zeros, noData, hexagonal } = input.stored ?? {};
       const { view: meshView } = page.meshFitView;
       const whole = meshView === undefined ? undefined : true;
-      return { file: fileId, unkept: (fileId === undefined && isUnstored) || undefined, stored: input.stored && { pixelSize, heightScale, zeros, hexagonal }, settings, whole, view: meshView ?? view() };
+      return { file: fileId, unkept: (fileId === undefined && isUnstored) || undefined, stored: input.stored && { pixelSize, heightScale, zeros, noData, hexagonal }, settings, whole, view: meshView ?? view() };
     }
     const [size, noise] = ['size', 'noise'].map((name) => Number(element(name, HTMLSelectElement).value));
     return { example: { name: input?.name ?? 'roof', size, noise }, settings, view: view() };
@@ -96,6 +102,15 @@ export function addressSyncPanel(session, page) {
     radio.addEventListener('change', () => writeAddress(false));
   }
 
+  /** Opens stored photos of pages. @param {number} id @returns {Promise<boolean>} whether they were stored */
+  const openStoredPhotos = async (id) => {
+    const files = await storedFiles(id);
+    if (!files) return false;
+    [photoId, photos] = [id, files];
+    await page.openPhotos(files, await storedOutlines(id));
+    return true;
+  };
+
   /** Shows the state of an address. @param {State} state */
   const restoreState = async (state) => {
     isRestoring = true;
@@ -103,11 +118,10 @@ export function addressSyncPanel(session, page) {
     try {
       if (state.photo) {
         page.mode.show('photo');
-        const files = state.file === undefined || state.file === photoId ? undefined : await storedFiles(state.file);
-        if (files) await page.openPhoto(files[0]);
-        else if (state.file !== undefined && state.file !== photoId) showNotice(ADDRESS_WORDS.lost);
+        if (state.file !== undefined && state.file !== photoId && await openStoredPhotos(state.file)) return;
+        if (state.file !== undefined && state.file !== photoId) showNotice(ADDRESS_WORDS.lost);
         else if (state.unkept) showNotice(ADDRESS_WORDS.unkept);
-        if (!files) page.beginPhoto();
+        page.beginPhoto();
         return;
       }
       page.mode.show('heights');
@@ -148,16 +162,21 @@ export function addressSyncPanel(session, page) {
     const openId = page.mode.now === 'photo' ? photoId : fileId;
     const closed = all.filter(({ id }) => id !== openId);
     list.hidden = closed.length === 0;
-    list.replaceChildren('Opened before: ', ...closed.map(({ files }) => {
+    list.replaceChildren('Opened before: ', ...closed.map(({ id, files, arePhotos }) => {
       const button = make('button', 'plain small', namesOf(files));
       button.type = 'button';
-      button.addEventListener('click', () => void page.openRecent(files));
+      button.addEventListener('click', () => {
+        if (!arePhotos) return void page.openHeights(files);
+        page.mode.show('photo');
+        void openStoredPhotos(id);
+      });
       return button;
     }));
   };
   void updateRecentFiles();
 
-  const share = async () => {
+  /** @param {HTMLButtonElement} button */
+  const share = async (button) => {
     writeAddress(false);
     const state = presentState();
     // The id of a file has no meaning on another machine.
@@ -165,12 +184,18 @@ export function addressSyncPanel(session, page) {
     const fileNote = state.example || state.card ? '' : ' It holds the settings; the file stays on this machine.';
     try {
       await navigator.clipboard.writeText(address);
-      showNotice(`The link is copied.${fileNote}`, 'note');
+      const note = make('span', 'copied small', `The link is copied.${fileNote}`);
+      note.setAttribute('role', 'status');
+      button.after(note);
+      setTimeout(() => note.remove(), COPIED_NOTE_MS);
     } catch {
       showNotice(`${address} – copy this link.${fileNote}`, 'note');
     }
   };
-  for (const id of ['share', 'whole-share']) element(id, HTMLButtonElement).addEventListener('click', share);
+  for (const id of ['share', 'whole-share']) {
+    const button = element(id, HTMLButtonElement);
+    button.addEventListener('click', () => void share(button));
+  }
 
   return {
     /** Shows the state of the address, or an example. */
@@ -191,12 +216,21 @@ export function addressSyncPanel(session, page) {
       void updateRecentFiles();
       writeAddress();
     },
-    /** Stores a photo of a page that was opened. @param {File | null} file null for an example */
-    async rememberPhoto(file) {
-      photoId = file ? await storeFiles([file]) : undefined;
-      isUnstored = file !== null && photoId === undefined;
+    /** Stores the photos of pages that are open, with their outlines. @param {readonly BookPhoto[]} opened none for an example */
+    async rememberPhotos(opened) {
+      const before = photos;
+      photos = opened.map(({ file }) => file);
+      // Photos that are added, moved or removed change the entry of those that were open.
+      const id = photos.some((file) => before.includes(file)) ? photoId : undefined;
+      if (photos.length !== before.length || photos.some((file, i) => file !== before[i])) photoId = photos.length > 0 ? await storeFiles(photos, { arePhotos: true, id }) : undefined;
+      isUnstored = photos.length > 0 && photoId === undefined;
+      this.rememberOutlines(opened.map(({ state }) => state));
       void updateRecentFiles();
       writeAddress();
+    },
+    /** Stores the outlines of the photos of pages that are open. @param {(PageState | null)[]} states */
+    rememberOutlines(states) {
+      if (photoId !== undefined) void storeOutlines(photoId, states);
     },
     /** Updates the address after the other part of the page was shown. */
     onModeChange() {

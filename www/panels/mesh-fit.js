@@ -6,7 +6,6 @@ import { plainMessage } from '../error-messages.js';
 import { FORMAT_WORDS, MESH_FIT_WORDS } from '../messages.js';
 import { MeshView } from '../surface/mesh-view.js';
 import { PictureView } from '../surface/picture-view.js';
-import { callWorker } from '../surface/worker-client.js';
 import { Zoom } from '../surface/zoom.js';
 import { gaussian, patches, readingAt, rulings, shaded, sheet, meshFitSummary } from '../views/mesh-fit.js';
 import { longestSide } from '../mesh-fit.js';
@@ -21,10 +20,13 @@ import { waitingPanel } from './waiting.js';
 
 /** Initial guess of the time that a fit or a view takes, in milliseconds per vertex. */
 const MESH_TASK_MS_PER_VERTEX = 0.1;
-/** Minimum share of a mesh hidden from the chosen side for which the page suggests to fit the whole mesh. */
-const MIN_SUGGESTION_HIDDEN_SHARE = 0.1;
-/** Initial direction of the view, oblique to all axes. */
-const INITIAL_VIEW_DIRECTION = /** @type {const} */ ([-0.5, -0.45, -0.75]);
+/** Initial view of a mesh, from the front right and above: the axis that points upwards, and the direction. */
+const INITIAL_VIEWS = /** @type {const} */ ({
+  y: { up: [0, 1, 0], direction: [-0.5, -0.45, -0.75] },
+  z: { up: [0, 0, 1], direction: [-0.5, 0.75, -0.45] },
+});
+/** Kinds of files whose programs take y for the axis that points upwards; those of the others take z. */
+const Y_UP_KINDS = ['OBJ', 'GLB', 'GLTF'];
 /** Functions that prepare the views, by their names. @type {Record<string, (meshFit: MeshFit, mesh: Mesh, surface: MeshSurface) => Promise<MeshViewContent>>} */
 const VIEWS = { shaded, gaussian, rulings, patches, sheet };
 
@@ -55,6 +57,8 @@ export function meshFitPanel(session, meshFit) {
   let inputMesh = null;
   /** The mesh that the viewer has been turned to. @type {Mesh | null} */
   let viewedMesh = null;
+  /** Whether the mesh is solved whole without being asked for: if that fails, it is shown from one side. */
+  let isFirstSolve = false;
   /** Reads the view's value at a place of the surface. @type {MeshViewContent['read']} */
   let readValue;
 
@@ -129,6 +133,7 @@ export function meshFitPanel(session, meshFit) {
   /** Shows the whole mesh and fits it. */
   const solve = () => {
     if (!inputMesh) return;
+    isFirstSolve = false;
     session.setAutoRun(false);
     side.dataset.whole = '';
     stage.hidden = false;
@@ -145,6 +150,12 @@ export function meshFitPanel(session, meshFit) {
     stage.hidden = true;
     delete side.dataset.whole;
     for (const radio of ways) radio.checked = radio.value === 'seen';
+  };
+  /** Returns to one side of the mesh, and solves it if that has not been done. */
+  const showOneSide = () => {
+    if (stage.hidden) return;
+    leave();
+    if (!session.result) void session.run();
   };
   /** @param {string} view */
   const choose = (view) => {
@@ -170,7 +181,11 @@ export function meshFitPanel(session, meshFit) {
     waiting.begin(taskOn(mesh, 'Solving', 'whole'));
     void display({ before: mesh, about: [] }).then(async () => {
       // A further solve of the same mesh keeps the view.
-      if (viewedMesh !== mesh) (await viewer)?.setDirection(INITIAL_VIEW_DIRECTION);
+      const view = await viewer;
+      if (viewedMesh === mesh || !view) return;
+      const { up, direction } = INITIAL_VIEWS[Y_UP_KINDS.includes(session.input?.kind ?? '') ? 'y' : 'z'];
+      view.setUp(up);
+      view.setDirection(direction);
       viewedMesh = mesh;
     });
   });
@@ -189,6 +204,9 @@ export function meshFitPanel(session, meshFit) {
     stage.setAttribute('aria-busy', 'false');
     const words = plainMessage(error instanceof Error ? error.message : String(error));
     say(MESH_FIT_WORDS.unsolved, `${words[0].toUpperCase()}${words.slice(1)}.`);
+    if (!isFirstSolve) return;
+    showOneSide();
+    hint.textContent = `${MESH_FIT_WORDS.unsolved} ${detail.textContent}`;
   });
 
   report.addEventListener('click', () => {
@@ -197,7 +215,7 @@ export function meshFitPanel(session, meshFit) {
   divider.addEventListener('input', async () => (await viewer)?.divide(divider.valueAsNumber));
   for (const radio of radios) radio.addEventListener('change', () => void update());
   again.addEventListener('click', () => (meshFit.surface && !again.hasAttribute('data-solves') ? void update() : solve()));
-  for (const radio of ways) radio.addEventListener('change', () => (radio.value === 'whole' ? enter('shaded') : leave()));
+  for (const radio of ways) radio.addEventListener('change', () => (radio.value === 'whole' ? enter('shaded') : showOneSide()));
   /** Newest position of the pointer; the value there is read once per frame. @type {{ offsetX: number, offsetY: number } | null} */
   let pointer = null;
   let frame = 0;
@@ -227,6 +245,7 @@ export function meshFitPanel(session, meshFit) {
       title: '3D file',
       stem: stem(),
       size: surface.positions.length / 3,
+      unit: surface.unit,
       formats: [
         { value: 'obj', name: 'OBJ', words: FORMAT_WORDS.obj, type: 'model/obj', write: (worker) => worker.writeObj(surface) },
         { value: 'stl', name: 'STL', words: FORMAT_WORDS.stl, type: 'model/stl', write: (worker) => worker.writeStl(surface) },
@@ -268,18 +287,13 @@ export function meshFitPanel(session, meshFit) {
     });
   });
 
-  session.on('input', async ({ sampling, lattice }) => {
+  session.on('input', ({ sampling, lattice }) => {
     const mesh = sampling?.mesh ?? null;
     if (mesh !== inputMesh && !stage.hidden) leave();
     inputMesh = mesh && mesh.triangles.length > 0 ? mesh : null;
     element('mesh-ways', HTMLElement).hidden = inputMesh === null;
     hint.textContent = '';
-    if (!mesh || !inputMesh || !lattice?.frame) return;
-    const { rows, cols, spacing, origin = [0, 0], heights, frame } = lattice;
-    const { positions, triangles } = mesh;
-    const hidden = await callWorker('hiddenAreaShare', { positions, triangles }, { rows, cols, spacing, origin, heights, frame });
-    if (session.input?.lattice !== lattice || hidden < MIN_SUGGESTION_HIDDEN_SHARE) return;
-    hint.textContent = MESH_FIT_WORDS.hidden(percent(hidden));
+    if (inputMesh && lattice?.hidden) hint.textContent = MESH_FIT_WORDS.hidden(percent(lattice.hidden));
   });
 
   return {
@@ -292,6 +306,12 @@ export function meshFitPanel(session, meshFit) {
       return hint.textContent ?? '';
     },
     enter,
-    leave,
+    leave: showOneSide,
+    /** Solves a mesh that was opened: its heights from one side, or the whole of it if much is hidden from there. */
+    begin() {
+      if (!inputMesh || !session.input?.lattice?.hidden) return void session.run();
+      enter('shaded');
+      isFirstSolve = true;
+    },
   };
 }

@@ -3,6 +3,9 @@ import { element, elements } from '../dom.js';
 
 /** @typedef {'heights' | 'photo'} Mode */
 
+/** Addresses of the guide to each part. @type {Record<Mode, string>} */
+const GUIDES = { heights: './guide/docs/page.html', photo: './guide/docs/dewarp.html' };
+
 /** @param {(mode: Mode) => void} onEnter */
 export function modePanel(onEnter) {
   const radios = elements('input[name="mode"]', HTMLInputElement);
@@ -13,7 +16,7 @@ export function modePanel(onEnter) {
     sides.heights.hidden = mode !== 'heights';
     sides.photo.hidden = mode !== 'photo';
     for (const [id, own] of /** @type {const} */ ([['open', 'heights'], ['page-open', 'photo']])) element(id, HTMLElement).hidden = own !== mode;
-    for (const name of /** @type {const} */ (['heights', 'photo'])) element(`drop-${name}`, HTMLElement).hidden = name !== mode;
+    element('guide', HTMLAnchorElement).href = GUIDES[mode];
   };
   /** @param {Mode} mode */
   const enter = (mode) => {

@@ -1,6 +1,7 @@
 /** The photo of a page with its outline and lines of text, whose points are dragged. */
 import { element, matchDevicePixels, make } from '../dom.js';
 import { number } from '../format.js';
+import { assumedInWords } from '../messages.js';
 import { PAGE_WORDS } from '../page/messages.js';
 import { Handles } from '../page/handles.js';
 import { EDGES } from '../page/outline.js';
@@ -23,6 +24,7 @@ export function pagePhotoPanel(session) {
   const findLines = element('find-lines', HTMLInputElement);
   const undo = element('page-undo', HTMLButtonElement);
   const several = element('several', HTMLElement);
+  const assumed = element('page-assumed', HTMLElement);
   /** The node of the outline that each handle moves. @type {NodeIndex[]} */
   let nodes = [];
   /** Index of the handle that had the focus last. */
@@ -132,6 +134,8 @@ export function pagePhotoPanel(session) {
       return button;
     }));
     element('page-empty', HTMLElement).hidden = true;
+    assumed.textContent = assumedInWords(photo.assumptions);
+    assumed.hidden = assumed.textContent === '';
     caption.textContent = `${photo.name}, ${number(photo.width, 6)} × ${number(photo.height, 6)}`;
     canvas.setAttribute('aria-label', `The photo ${photo.name}`);
     paint();

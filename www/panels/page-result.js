@@ -11,10 +11,11 @@ import { figures } from '../views/legend.js';
 import { FORMAT_WORDS, SAVE_WORDS } from '../messages.js';
 import { BOOK_WORDS, PAGE_WORDS, pageCautions, pageErrors, pageVerdict } from '../page/messages.js';
 import { offerToSave } from './save-dialog.js';
+import { PROGRESS_DELAY_MS } from './waiting.js';
 
 /** @import {Api} from '../api.js' */
 /** @import {Worker} from '../worker-task.js' */
-/** @import {DewarpedPage} from '../page/flatten.js' */
+/** @import {DewarpedPage, FlatPage} from '../page/flatten.js' */
 /** @import {PageSession} from '../page/session.js' */
 /** @import {Book} from '../page/book.js' */
 /** @import {PaperName} from '../page/paper.js' */
@@ -24,8 +25,9 @@ import { offerToSave } from './save-dialog.js';
  * @param {PageSession} session
  * @param {Book} book the photos that are open
  * @param {(flat: DewarpedPage, name: string) => void} openAsSurface opens the page as a surface
+ * @param {() => void} onWritten called when a PDF was written, which may lack some photos
  */
-export function pageResultPanel(api, session, book, openAsSurface) {
+export function pageResultPanel(api, session, book, openAsSurface, onWritten) {
   const figure = element('flat-view', HTMLElement);
   const view = new PictureView(element('flat-canvas', HTMLCanvasElement), new Zoom());
   const empty = element('flat-empty', HTMLElement);
@@ -40,6 +42,10 @@ export function pageResultPanel(api, session, book, openAsSurface) {
   const surface = element('flat-surface', HTMLButtonElement);
   /** @type {DewarpedPage | null} */
   let shown = null;
+  /** The last verdict, and the details below it. */
+  let said = [verdict.textContent ?? '', ''];
+  let isMoving = false;
+  let workingTimer = 0;
 
   /** @param {boolean} ready */
   const enable = (ready) => {
@@ -47,8 +53,8 @@ export function pageResultPanel(api, session, book, openAsSurface) {
   };
   /** @param {string} sentence @param {string} [details] */
   const say = (sentence, details = '') => {
-    verdict.textContent = sentence;
-    detail.textContent = details;
+    clearTimeout(workingTimer);
+    [verdict.textContent, detail.textContent] = said = [sentence, details];
   };
   /** Removes the flat page. @param {string} message shown in its place */
   const clear = (message) => {
@@ -66,10 +72,19 @@ export function pageResultPanel(api, session, book, openAsSurface) {
     say(PAGE_WORDS.working);
   });
   session.on('outline', ({ moving }) => {
+    isMoving = moving;
     // The layout of the page does not change during a drag.
     if (!moving) side.dataset.state = session.isPageMissing ? 'unfound' : 'found';
   });
-  session.on('working', (working) => figure.setAttribute('aria-busy', String(working)));
+  session.on('working', (working) => {
+    figure.setAttribute('aria-busy', String(working));
+    clearTimeout(workingTimer);
+    if (!working) [verdict.textContent, detail.textContent] = said;
+    if (isMoving) return;
+    enable(!working && shown !== null);
+    // Until the new flat page is there, nothing is said of the old one.
+    if (working) workingTimer = window.setTimeout(() => [verdict.textContent, detail.textContent] = [PAGE_WORDS.working, ''], PROGRESS_DELAY_MS);
+  });
   session.on('unfound', () => {
     clear(PAGE_WORDS.unfoundDetail);
     say(PAGE_WORDS.unfound, PAGE_WORDS.unfoundDetail);
@@ -80,7 +95,7 @@ export function pageResultPanel(api, session, book, openAsSurface) {
     const { width, height, data } = turnPicture(flat, session.quarters);
     view.show(imagePicture(canvasFromImage(new ImageData(data, width, height)), 'Flat', 'The page made flat'));
     empty.hidden = true;
-    enable(true);
+    if (moving) enable(true);
     // During a drag the page is flattened without its lines of text, so that the figures would differ.
     if (moving) return;
     caption.textContent = flat.unit === 'mm' ? sizeOf(flat, session.quarters) : '';
@@ -100,13 +115,13 @@ export function pageResultPanel(api, session, book, openAsSurface) {
   });
 
   save.addEventListener('click', () => {
-    const wish = session.request();
-    if (!wish || !shown) return;
+    const [wish, found] = [session.request(), shown];
+    if (!wish || !found) return;
     const { outline: { pages }, quarters } = session;
-    const measured = shown.unit === 'mm';
-    const [wide, high] = [shown.size[0] / pages, shown.size[1]];
+    const measured = found.unit === 'mm';
+    const [wide, high] = [found.size[0] / pages, found.size[1]];
     const similar = quarters % 2 === 0 ? similarPaper(wide, high) : similarPaper(high, wide);
-    const paper = make('select', '', ...(measured ? [new Option(SAVE_WORDS.trueSize(sizeOf(shown, quarters)), '')] : []),
+    const paper = make('select', '', ...(measured ? [new Option(SAVE_WORDS.trueSize(sizeOf(found, quarters)), '')] : []),
       ...Object.entries(SAVE_WORDS.papers).map(([name, words]) => new Option(words, name)));
     paper.value = measured ? '' : similar ?? 'a4';
     const several = book.photos.length > 1;
@@ -114,22 +129,22 @@ export function pageResultPanel(api, session, book, openAsSurface) {
     const showProgress = (/** @type {number} */ done) => {
       status.textContent = BOOK_WORDS.writing(done + 1, book.photos.length);
     };
-    /** The flat page with all pixels of the photo, which is made once for all formats. @type {DewarpedPage | null} */
+    /** The flat page with all pixels of the photo, which is made once for all formats. @type {FlatPage | null} */
     let flat = null;
     /** @param {'png' | 'jpeg'} format */
     const writeImage = (format) => async (/** @type {Worker} */ worker) => {
-      flat ??= await flattenWholePhoto(worker, wish);
+      flat ??= await flattenWholePhoto(worker, wish, found);
       return worker.writePhoto({ ...flat, ...turnPicture(flat, quarters) }, { format });
     };
     const offer = offerToSave(api, {
       title: 'Flat page',
-      stem: several ? `${book.photos[0].file.name.replace(/\.[^.]*$/, '')}-pages` : `${wish.photo.name}-flat`,
+      stem: `${wish.photo.name}-flat`,
       size: wish.photo.width * wish.photo.height * Math.max(1, book.photos.length),
       formats: [
-        { value: 'pdf', name: 'PDF', words: several ? BOOK_WORDS.pdf(book.photos.length) : pages > 1 ? SAVE_WORDS.pdfOfTwo : SAVE_WORDS.pdf, type: 'application/pdf', write: async (worker) => {
+        { value: 'pdf', name: 'PDF', ...(several && { stem: `${book.photos[0].file.name.replace(/\.[^.]*$/, '')}-pages`, note: () => withoutInWords(book) }), words: several ? BOOK_WORDS.pdf(book.photos.length) : pages > 1 ? SAVE_WORDS.pdfOfTwo : SAVE_WORDS.pdf, type: 'application/pdf', write: async (worker) => {
           const size = paper.value === '' ? null : PAPERS[/** @type {PaperName} */ (paper.value)];
-          if (several) return worker.writeBook(await book.flatPages(api, session, worker, size, showProgress));
-          flat ??= await flattenWholePhoto(worker, wish);
+          if (several) return worker.writeBook(await book.flatPages(api, session, worker, size, showProgress).finally(onWritten));
+          flat ??= await flattenWholePhoto(worker, wish, found);
           return worker.writeBook(await pictureFiles(worker, flat, pages, quarters, size, wish.options.ink));
         } },
         { value: 'jpg', name: 'JPEG', words: FORMAT_WORDS.jpg, type: 'image/jpeg', write: writeImage('jpeg') },
@@ -148,6 +163,12 @@ export function pageResultPanel(api, session, book, openAsSurface) {
   surface.addEventListener('click', () => {
     if (shown) openAsSurface(shown, session.photo?.name ?? 'page');
   });
+}
+
+/** The photos that are not in the PDF of a book as a sentence; empty if all are. @param {Book} book */
+function withoutInWords(book) {
+  const problems = book.problemsInWords();
+  return problems && BOOK_WORDS.without(problems);
 }
 
 /** Size of the flat page in words. @param {DewarpedPage} flat @param {number} quarters number of quarter turns */

@@ -1,13 +1,12 @@
 /** The part of the page that makes photos of pages flat: opens photos and examples, and holds the panels of a photo. */
 import { fileReadTask } from '../worker-task.js';
-import { onFilesChosen, element, elements } from '../dom.js';
+import { element, elements } from '../dom.js';
 import { Book } from '../page/book.js';
 import { examplePhoto } from '../page/example.js';
-import { isTooLarge, openPhoto, preparePhoto } from '../page/photo.js';
+import { BOOK_WORDS } from '../page/messages.js';
+import { openPhoto, preparePhoto } from '../page/photo.js';
 import { PageSession } from '../page/session.js';
-import { isGrey16Png } from '../dropped-files.js';
-import { kindByName, unreadableKindInWords } from '../file-kinds.js';
-import { FILE_WORDS } from '../messages.js';
+import { errorMessage } from '../messages.js';
 import { hideNotice, showError, showNotice } from './notice.js';
 import { pageBookPanel } from './page-book.js';
 import { pageKnownPanel } from './page-known.js';
@@ -16,19 +15,23 @@ import { pageResultPanel } from './page-result.js';
 import { PROGRESS_DELAY_MS, waitingPanel } from './waiting.js';
 
 /** @import {Api} from '../api.js' */
+/** @import {BookPhoto} from '../page/book.js' */
 /** @import {ExampleName} from '../page/example.js' */
 /** @import {PagePhoto} from '../page/photo.js' */
 /** @import {DewarpedPage} from '../page/flatten.js' */
 /** @import {PageState} from '../page/session.js' */
 /** @import {TimedTask} from '../session.js' */
 
+/** Delay after a change of an outline before the outlines are stored, in milliseconds. */
+const STORE_DELAY_MS = 500;
+
 /**
  * @param {Api} api
  * @param {(flat: DewarpedPage, name: string) => void} openAsSurface opens the page as a surface
- * @param {(files: File[]) => void} openHeights opens files that are not photos of pages
- * @param {(file: File | null) => void} onOpened called when a photo was opened; null for an example
+ * @param {(photos: readonly BookPhoto[]) => void} onOpened called when photos were opened, added, moved or removed; none for an example
+ * @param {(states: (PageState | null)[]) => void} onChanged called when outlines of the photos have changed
  */
-export function pagePanel(api, openAsSurface, openHeights, onOpened) {
+export function pagePanel(api, openAsSurface, onOpened, onChanged) {
   /** Created with the first photo. @type {PageSession | null} */
   let session = null;
   const examples = elements('input[name="page-example"]', HTMLInputElement);
@@ -37,92 +40,128 @@ export function pagePanel(api, openAsSurface, openHeights, onOpened) {
   let opening = null;
   const waiting = waitingPanel(element('page-opening', HTMLElement), () => {
     opening?.abort();
+    session?.endOpening();
     waiting.end();
   }, PROGRESS_DELAY_MS);
+  let storeTimer = 0;
 
   const ensureSession = () => {
     if (session) return session;
     const created = (session = new PageSession(api));
     pagePhotoPanel(created);
     pageKnownPanel(created);
-    pageResultPanel(api, created, book, openAsSurface);
+    pageResultPanel(api, created, book, openAsSurface, list.renew);
+    created.on('flat', ({ moving }) => {
+      if (moving || !created.photo?.file) return;
+      clearTimeout(storeTimer);
+      storeTimer = window.setTimeout(() => {
+        book.saveState(created);
+        onChanged(book.photos.map(({ state }) => state));
+      }, STORE_DELAY_MS);
+    });
     return created;
   };
 
   /**
    * Opens a photo in the place of the last one.
-   * @param {string} doing what could not be done, for the message if it fails
    * @param {(signal: AbortSignal) => Promise<PagePhoto>} load
-   * @param {number} [pages]
-   * @param {TimedTask} [task] for the progress bar
-   * @param {File} [file] file of the photo; it may be opened at half size if it is too large
-   * @param {PageState | null} [state] edits of the photo, when it was open before
-   * @returns {Promise<AbortSignal>} aborted if another photo was opened meanwhile
+   * @param {{ pages?: number, task?: TimedTask, state?: PageState | null }} [more] `task`: for the progress bar; `state`: edits of the photo, when it was open before
+   * @returns {Promise<boolean>} false if it was cancelled, or another photo was opened meanwhile
+   * @throws if the photo cannot be opened
    */
-  const show = async (doing, load, pages, task, file, state) => {
+  const show = async (load, { pages, task, state } = {}) => {
     opening?.abort();
     const { signal } = (opening = new AbortController());
     const pageSession = ensureSession();
     waiting.end();
     if (task) waiting.begin(task);
+    pageSession.beginOpening();
     try {
       const photo = await load(signal);
-      if (signal.aborted) return signal;
+      if (signal.aborted) return false;
       hideNotice();
       pageSession.show(photo, pages, state);
-      onOpened(file ?? null);
+      return true;
     } catch (error) {
-      if (signal.aborted) return signal;
-      if (file && isTooLarge(error)) showNotice(FILE_WORDS.tooLarge(file.name), 'alert', { label: FILE_WORDS.openAtHalf, act: () => void open(file, true) });
-      else showError(doing, error);
+      if (signal.aborted) return false;
+      pageSession.endOpening();
+      throw error;
     } finally {
       if (!signal.aborted) waiting.end(task);
     }
-    return signal;
   };
 
-  /** @param {File} file @param {boolean} [half] at half size */
-  const open = async (file, half) => {
-    book.setFiles([file]);
-    list.renew();
-    await openOne(file, half);
-  };
-  /** @param {File} file @param {boolean} [half] at half size @param {PageState | null} [state] edits of the photo, when it was open before */
-  const openOne = async (file, half, state) => {
-    const kind = kindByName(file);
-    if (kind === 'other' || kind === 'camera') return showNotice(FILE_WORDS.unread(file.name, unreadableKindInWords(file)));
-    if (kind === 'mesh' || kind === 'heights') {
-      const words = kind === 'mesh' ? FILE_WORDS.meshNoPhoto(file.name) : FILE_WORDS.heightsNoPhoto(file.name);
-      return showNotice(words, 'alert', { label: FILE_WORDS.openAsHeights, act: () => openHeights([file]) });
-    }
-    let isProbablyDepth = false;
-    const signal = await show(`“${file.name}” could not be opened`, async (signal) => {
-      const photo = await openPhoto(api, file, signal, half);
-      for (const radio of examples) radio.checked = radio.checked && signal.aborted;
-      isProbablyDepth = photo.outlines.verdict === 'notFound' && await isGrey16Png(file);
-      return photo;
-    }, 1, fileReadTask(file), file, state);
-    if (isProbablyDepth && !signal.aborted) showNotice(FILE_WORDS.maybeHeights(file.name), 'alert', { label: FILE_WORDS.openAsHeights, act: () => openHeights([file]) });
-  };
-  /** Opens a photo of the book by its index. @param {number} at */
-  const showPhoto = async (at) => {
+  /** Opens a photo of the book by its index. @param {number} at @throws if it cannot be opened */
+  const openAt = async (at) => {
     if (session) book.saveState(session);
+    const { file, state } = book.photos[at];
+    if (!(await show((signal) => openPhoto(api, file, signal), { task: fileReadTask(file), state }))) return false;
+    for (const radio of examples) radio.checked = false;
     book.index = at;
     list.renew();
-    const { file, state } = book.photos[at];
-    await openOne(file, false, state);
+    onOpened(book.photos);
+    return true;
   };
-  const list = pageBookPanel(book, showPhoto, () => {
-    book.remove();
+  /** Opens a photo of the book that the user has chosen. @param {number} at */
+  const showPhoto = (at) => openAt(at).catch((error) => showError(`“${book.photos[at].file.name}” could not be opened`, error));
+  const list = pageBookPanel(book, showPhoto, async () => {
+    const { index } = book;
+    if (session) book.saveState(session);
+    const photo = book.remove(index);
+    await showPhoto(book.index);
+    showNotice(BOOK_WORDS.removed(photo.file.name), 'note', {
+      label: BOOK_WORDS.undo,
+      act: () => {
+        book.photos.splice(index, 0, photo);
+        void showPhoto(index);
+      },
+    });
+  }, () => onOpened(book.photos));
+
+  /**
+   * Opens photos, and adds them to those that are open.
+   * @param {readonly File[]} files
+   * @param {boolean} [alone] whether they replace those that are open
+   * @returns {Promise<string | null>} a note about them; null if none was opened
+   */
+  const openAll = async (files, alone = false) => {
+    if (alone) book.setFiles([]);
+    const before = book.photos.length;
+    const indices = book.addFiles(files);
+    const added = book.photos.length - before;
     list.renew();
-    const { file, state } = book.photos[book.index];
-    void openOne(file, false, state);
-  });
-  /** Opens one photo, or several that become one PDF. @param {readonly File[]} files */
-  const openAll = async (files) => {
-    book.setFiles(files);
-    list.renew();
-    await openOne(files[0]);
+    /** @type {string[]} */
+    const problems = [];
+    let isShown = false;
+    const opened = indices.map((at) => book.photos[at]);
+    /** @param {BookPhoto} photo */
+    const leaveOut = (photo) => {
+      book.remove(book.photos.indexOf(photo));
+      list.renew();
+    };
+    for (const photo of opened) {
+      try {
+        isShown = await openAt(book.photos.indexOf(photo));
+        if (isShown) break;
+        // Another photo was chosen meanwhile, or the user has cancelled.
+        if (opening?.signal.aborted) opened.filter((_, k) => indices[k] >= before).forEach(leaveOut);
+        return null;
+      } catch (error) {
+        problems.push(errorMessage(`“${photo.file.name}” could not be opened`, error));
+        leaveOut(photo);
+      }
+    }
+    const words = problems.join(' ');
+    if (!isShown) {
+      showNotice(words, 'note');
+      return null;
+    }
+    const isAdded = before > 0 && added > problems.length;
+    if (isAdded && added === 1) {
+      showNotice(BOOK_WORDS.added(1, book.photos.length), 'note', { label: BOOK_WORDS.alone, act: () => void openAll(files, true) });
+      return '';
+    }
+    return [isAdded ? BOOK_WORDS.added(added - problems.length, book.photos.length) : '', words].filter(Boolean).join(' ');
   };
   const openExample = async () => {
     book.setFiles([]);
@@ -130,13 +169,21 @@ export function pagePanel(api, openAsSurface, openHeights, onOpened) {
     const name = /** @type {ExampleName} */ (examples.find((radio) => radio.checked)?.value ?? 'curled');
     const { image, film35, pages } = examplePhoto(name);
     const pixels = { width: image.width, height: image.height, data: image.data, film35 };
-    await show('The example could not be made', (signal) => preparePhoto(api, pixels, name, signal), pages);
+    try {
+      if (await show((signal) => preparePhoto(api, pixels, name, signal), { pages })) onOpened([]);
+    } catch (error) {
+      showError('The example could not be made', error);
+    }
   };
   for (const radio of examples) radio.addEventListener('change', openExample);
-  onFilesChosen(element('page-open', HTMLButtonElement), element('page-file', HTMLInputElement), openAll);
   return {
-    open,
     openAll,
+    /** Opens photos that this browser has kept, with their outlines. @param {readonly File[]} files @param {readonly (PageState | null)[]} states */
+    async openStored(files, states) {
+      book.setFiles(files, states);
+      list.renew();
+      await showPhoto(0);
+    },
     /** Opens an example if no photo was opened yet. */
     begin: () => {
       if (!opening) void openExample();

@@ -15,6 +15,8 @@ import { PROGRESS_DELAY_MS, waitingPanel } from './waiting.js';
  * @property {string} name
  * @property {string} words purpose of the format
  * @property {string} type media type
+ * @property {string} [stem] file name without its ending, where it differs from that of the offer
+ * @property {() => string} [note] sentence about the file that was written, such as what it lacks
  * @property {string} [without] reason why the format is not available
  * @property {(worker: Worker) => Promise<Uint8Array<ArrayBuffer> | string>} write
  *
@@ -24,12 +26,16 @@ import { PROGRESS_DELAY_MS, waitingPanel } from './waiting.js';
  * @property {number} size number of pixels or vertices
  * @property {() => Promise<unknown>} [ready] resolves when the file can be written
  * @property {readonly Format[]} formats
+ * @property {string | null} [unit] unit of the lengths in the file, if it is known
  * @property {readonly Node[]} [extra] elements above the formats
  * @property {() => void} [closed] called when the dialog is closed
  */
 
 /** Initial guess of the time that writing takes, in milliseconds per pixel or vertex. */
 const WRITE_MS_PER_ELEMENT = 1e-3;
+
+/** Maximum time between the clicks of a double click, in milliseconds. */
+const DOUBLE_CLICK_MS = 500;
 
 /** The file that is being written. @type {AbortController | null} */
 let present = null;
@@ -44,13 +50,13 @@ const lastFormats = new Map();
  * @param {SaveOffer} offer
  * @returns {{ renew: () => void }} `renew` writes the file again, after its contents have changed
  */
-export function offerToSave(api, { title, stem, size: amount, ready = async () => {}, formats, extra = [], closed = () => {} }) {
+export function offerToSave(api, { title, stem, size: amount, ready = async () => {}, formats, unit, extra = [], closed = () => {} }) {
   const dialog = element('save-dialog', HTMLDialogElement);
   const list = element('save-formats', HTMLElement);
   const size = element('save-size', HTMLElement);
   const save = element('save-now', HTMLButtonElement);
   element('save-title', HTMLElement).textContent = title;
-  element('save-extra', HTMLElement).replaceChildren(...extra);
+  element('save-extra', HTMLElement).replaceChildren(...(unit ? [make('p', 'muted small', SAVE_WORDS.unit(unit))] : []), ...extra);
   const available = formats.filter(({ without }) => !without);
   const initial = available.find(({ value }) => value === lastFormats.get(title)) ?? available[0];
   const radios = formats.map(({ value, name, words, without }) => {
@@ -93,12 +99,14 @@ export function offerToSave(api, { title, stem, size: amount, ready = async () =
       const content = await runInWorker(api, job.signal, format.write);
       if (job !== present) return;
       progress.end(task);
-      size.textContent = `${stem}.${format.value}, ${fileSize(new Blob([content]).size)}`;
+      const name = `${format.stem ?? stem}.${format.value}`;
+      const note = format.note?.() ?? '';
+      size.textContent = [`${name}, ${fileSize(new Blob([content]).size)}${note && '.'}`, note].filter(Boolean).join(' ');
       save.disabled = false;
       save.onclick = () => {
-        download(content, format.type, `${stem}.${format.value}`);
+        download(content, format.type, name);
         // The dialog stays open, so that further formats can be saved.
-        size.textContent = SAVE_WORDS.saved(`${stem}.${format.value}`);
+        size.textContent = [SAVE_WORDS.saved(name), note].filter(Boolean).join(' ');
       };
     } catch (error) {
       if (job !== present) return;
@@ -113,9 +121,15 @@ export function offerToSave(api, { title, stem, size: amount, ready = async () =
     element('save-extra', HTMLElement).replaceChildren();
     closed();
   };
+  const opened = performance.now();
+  // The second click of a double click that opened the dialog neither closes it nor selects anything in it.
+  const isSecondClick = () => performance.now() - opened < DOUBLE_CLICK_MS;
+  dialog.onmousedown = (event) => {
+    if (isSecondClick()) event.preventDefault();
+  };
   // A click outside of the dialog closes it.
   dialog.onclick = (event) => {
-    if (event.target === dialog) dialog.close();
+    if (event.target === dialog && !isSecondClick()) dialog.close();
   };
   retryButton.onclick = () => void write();
   if (!dialog.open) dialog.showModal();

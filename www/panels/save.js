@@ -52,6 +52,7 @@ function offerFile(api, result) {
     title: '3D file',
     stem: fileStem(result),
     size: surface.heights.length,
+    unit: result.input.unit,
     formats: [
       { value: 'obj', name: 'OBJ', words: FORMAT_WORDS.obj, type: 'model/obj', write: (worker) => worker.writeObj(surface) },
       { value: 'stl', name: 'STL', words: FORMAT_WORDS.stl, type: 'model/stl', write: (worker) => worker.writeStl(surface) },

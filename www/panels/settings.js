@@ -2,11 +2,14 @@
 import { energyFor } from '../design.js';
 import { element, elements } from '../dom.js';
 import { shortLambda } from '../format.js';
-import { AUTO_LAMBDA_HINT, ENERGIES, DESIGN_LAMBDA_HINT, lambdaChoiceInWords, lambdaHint, meshLambdaChoiceInWords } from '../messages.js';
+import { AUTO_LAMBDA_HINT, ENERGIES, DESIGN_LAMBDA_HINT, LAMBDA_WORDS, lambdaChoiceInWords, lambdaHint, meshLambdaChoiceInWords } from '../messages.js';
 
 /** @import {Energy} from '../api.js' */
 /** @import {Session, Settings} from '../session.js' */
 /** @import {MeshFit} from '../mesh-fit.js' */
+
+/** Bounds of λ, as the package checks them. */
+const [MIN_LAMBDA, MAX_LAMBDA] = [1e-12, 1e15];
 
 /** @param {Session} session @param {MeshFit} meshFit */
 export function settingsPanel(session, meshFit) {
@@ -17,6 +20,11 @@ export function settingsPanel(session, meshFit) {
   const presets = elements('button[data-exponent]', HTMLButtonElement);
 
   const auto = element('lambda-auto', HTMLButtonElement);
+  /** Says beside the field that its λ is invalid. */
+  const showInvalid = () => {
+    field.setAttribute('aria-invalid', 'true');
+    hint.textContent = LAMBDA_WORDS.invalid;
+  };
 
   /** Shows what λ means, or how it was chosen. */
   const updateHint = () => {
@@ -32,6 +40,7 @@ export function settingsPanel(session, meshFit) {
     slider.setAttribute('aria-valuetext', `λ = ${shortLambda(lambda)}`);
     if (Number(field.value) !== lambda) field.value = shortLambda(lambda);
     field.setCustomValidity('');
+    field.removeAttribute('aria-invalid');
     hint.textContent = lambdaHint(lambda);
     for (const preset of presets) {
       preset.setAttribute('aria-pressed', String(10 ** Number(preset.dataset.exponent) === lambda));
@@ -65,11 +74,13 @@ export function settingsPanel(session, meshFit) {
     preset.addEventListener('click', () => setLambda(10 ** Number(preset.dataset.exponent)));
   }
   field.addEventListener('change', () => {
-    const lambda = Number(field.value.trim() || NaN);
-    const isValid = lambda > 0 && Number.isFinite(lambda);
-    field.setCustomValidity(isValid ? '' : 'λ must be a number above 0, such as 2.5e6.');
-    if (isValid) setLambda(lambda);
-    else field.reportValidity();
+    if (field.value.trim() === '') return auto.click();
+    const lambda = Number(field.value.trim().replace(/^(\d*),(\d+)/, '$1.$2') || NaN);
+    const isValid = lambda >= MIN_LAMBDA && lambda <= MAX_LAMBDA;
+    if (isValid) return setLambda(lambda);
+    field.setCustomValidity(LAMBDA_WORDS.invalid);
+    showInvalid();
+    field.reportValidity();
   });
   if (session.settings.lambda !== 'auto') showLambda(session.settings.lambda);
   session.on('input', ({ design, lattice }) => {

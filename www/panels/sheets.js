@@ -1,6 +1,7 @@
 /** Dialog of sheets to cut out: size, paper, material and tabs, with a preview of the drawing that is saved. */
-import { make } from '../dom.js';
-import { assemblyModel, assemblyPicture, drawingImage, likelyUnit, MM_PER_UNIT, sheetFigures, sheetsInWords, suggestedSide } from '../pattern.js';
+import { element, make } from '../dom.js';
+import { number } from '../format.js';
+import { assemblyModel, assemblyPicture, drawingImage, MM_PER_UNIT, sheetFigures, sheetsInWords, suggestedSide } from '../pattern.js';
 import { plainMessage } from '../error-messages.js';
 import { SHEET_WORDS } from '../messages.js';
 import { figures } from '../views/legend.js';
@@ -22,6 +23,8 @@ const INPUT_DELAY_MS = 300;
 const lastOptions = { paper: /^en-(US|CA)/.test(navigator.language) ? 'letter' : 'a4', tabs: true, depth: DEFAULT_TAB_DEPTH_MM, metal: false, thickness: 1, radius: NaN, kFactor: 0.44 };
 /** Sizes and units that were chosen last, by the stem of the file's name. @type {Map<string, { side: number, unit: string }>} */
 const lastSizes = new Map();
+/** Maximum number of pages that are printed without a question. */
+const MAX_EXPECTED_PAGES = 12;
 /** Bounds of the longer side, in millimetres. */
 const [MIN_SIDE_MM, MAX_SIDE_MM] = [10, 5000];
 
@@ -44,7 +47,7 @@ const [MIN_SIDE_MM, MAX_SIDE_MM] = [10, 5000];
  * @param {SheetSource} source
  */
 export function offerSheets(api, { stem, size, note = '', length, unit, cut, svg, stop }) {
-  const last = lastSizes.get(stem) ?? { unit: unit === 'unknown' ? likelyUnit(length) : unit, side: NaN };
+  const last = lastSizes.get(stem) ?? { unit: unit === 'unknown' ? 'none' : unit, side: NaN };
   const side = numberField(Number.isNaN(last.side) ? suggestedSide(length, last.unit) : last.side, MIN_SIDE_MM, MAX_SIDE_MM);
   const units = make('select', '', ...Object.keys(MM_PER_UNIT).map((name) => new Option(SHEET_WORDS.unit(name), name)), new Option(SHEET_WORDS.ownSize, 'none'));
   units.value = last.unit;
@@ -95,6 +98,8 @@ export function offerSheets(api, { stem, size, note = '', length, unit, cut, svg
   Object.assign(again, { type: 'button', hidden: true });
   again.addEventListener('click', () => void draw());
   const about = make('div', '');
+  const pageWarning = make('p', 'doubt small');
+  pageWarning.hidden = true;
   const task = { label: SHEET_WORDS.cutting, kind: 'sheets', size, msPerUnit: PATTERN_MS_PER_VERTEX };
   /** @type {Promise<Drawing>} */
   let drawing;
@@ -104,6 +109,14 @@ export function offerSheets(api, { stem, size, note = '', length, unit, cut, svg
     drawing.catch(() => {});
   };
   setMissing(SHEET_WORDS.nothingYet);
+
+  /** Shows the size of the finished surface and the number of pages. @param {Drawing} finished */
+  const showSize = ({ summary }) => {
+    const pages = paper.value === 'a4' || paper.value === 'letter' ? summary[paper.value] : 1;
+    element('save-title', HTMLElement).textContent = SHEET_WORDS.headline(number(side.valueAsNumber, 4), pages);
+    pageWarning.hidden = pages <= MAX_EXPECTED_PAGES;
+    pageWarning.textContent = SHEET_WORDS.manyPages(pages);
+  };
 
   const draw = async () => {
     const invalid = [side, ...(metal.value ? [thickness, radius, kFactor] : [depth])].find((field) => !field.checkValidity());
@@ -130,6 +143,7 @@ export function offerSheets(api, { stem, size, note = '', length, unit, cut, svg
       if (requested !== drawing) return;
       const finished = await requested;
       waiting.end(task);
+      showSize(finished);
       preview.replaceChildren(image);
       status.textContent = sheetsInWords(finished);
       about.replaceChildren(figures(sheetFigures(finished)));
@@ -168,6 +182,7 @@ export function offerSheets(api, { stem, size, note = '', length, unit, cut, svg
   }
   paper.addEventListener('change', () => {
     lastOptions.paper = paper.value;
+    void drawing.then(showSize, () => {});
     offer.renew();
   });
 
@@ -182,6 +197,7 @@ export function offerSheets(api, { stem, size, note = '', length, unit, cut, svg
       preview,
       make('div', 'sheets-options',
         status,
+        pageWarning,
         ...(note ? [make('p', 'small', note)] : []),
         waitingElement,
         again,

@@ -2,14 +2,14 @@
 import { fileReadTask } from '../worker-task.js';
 import { designInput } from '../design.js';
 import { scaleQuestion } from '../unit-check.js';
-import { onFilesChosen, element, elements } from '../dom.js';
+import { element, elements } from '../dom.js';
 import { ColourPictureError, readInput } from '../height-file.js';
 import { hasColours } from '../views/photo.js';
 import { reinterpret, spanInWords } from '../import-interpretation.js';
 import { readPicture } from '../pixels.js';
-import { fileRoles, isCameraFile } from '../dropped-files.js';
-import { isMesh, kindByName, unreadableKindInWords } from '../file-kinds.js';
-import { DEPTH_WORDS, FILE_WORDS } from '../messages.js';
+import { fileRoles, isCameraFile } from '../file-routing.js';
+import { isMesh, unreadableKindInWords } from '../file-kinds.js';
+import { assumedInWords, DEPTH_WORDS, FILE_WORDS } from '../messages.js';
 import { areSurelyDepths } from '../metadata-guess.js';
 import { cameraPanel } from './camera.js';
 import { meshPanel } from './mesh.js';
@@ -17,7 +17,7 @@ import { hideNotice, showNotice } from './notice.js';
 
 /** @import {ExampleName} from '../api.js' */
 /** @import {Session} from '../session.js' */
-/** @import {FileRoles} from '../dropped-files.js' */
+/** @import {FileRoles} from '../file-routing.js' */
 
 /**
  * @param {Session} session
@@ -25,13 +25,13 @@ import { hideNotice, showNotice } from './notice.js';
  * @param {(view: string) => void} views.choose shows a view of the result
  * @param {(name: string, image: ImageData) => void} views.usePhoto dewarps a photo of the result
  * @param {(files: readonly File[]) => void} onOpened called when files have become the input
- * @param {(photo: File) => void} openPage makes a photo of a page flat
+ * @param {() => void} solveMesh solves the mesh that was opened
+ * @param {(file: File) => unknown} openColour opens a file that is no heights, but a picture in colour
  */
-export function sourcePanel(session, { choose, usePhoto }, onOpened, openPage) {
+export function sourcePanel(session, { choose, usePhoto }, onOpened, solveMesh, openColour) {
   const radios = elements('input[name="example"]', HTMLInputElement);
   const size = element('size', HTMLSelectElement);
   const noise = element('noise', HTMLSelectElement);
-  const file = element('file', HTMLInputElement);
   const exampleOptions = element('example-options', HTMLElement);
   const fileOptions = element('file-options', HTMLElement);
   const fileName = element('file-name', HTMLElement);
@@ -40,6 +40,7 @@ export function sourcePanel(session, { choose, usePhoto }, onOpened, openPage) {
   const span = element('scale-span', HTMLElement);
   const scaleDoubt = element('scale-doubt', HTMLElement);
   const zeroCheckbox = element('zero-is-nothing', HTMLInputElement);
+  const noData = element('no-data', HTMLInputElement);
   const hexagonalCheckbox = element('is-hexagonal', HTMLInputElement);
   const guesses = element('guessed', HTMLElement);
   const design = element('is-design', HTMLInputElement);
@@ -77,9 +78,8 @@ export function sourcePanel(session, { choose, usePhoto }, onOpened, openPage) {
    */
   const openFile = async (chosen, arrayName, companions = {}, hasCamera = false) => {
     if (isMesh(chosen.name)) return openMesh(chosen);
-    const kind = kindByName(chosen);
     // A text file can only be the camera of depths that are open.
-    if (kind === 'other' || (/\.txt$/i.test(chosen.name) && !session.input?.kind)) {
+    if (/\.txt$/i.test(chosen.name) && !session.input?.kind) {
       showNotice(FILE_WORDS.unread(chosen.name, unreadableKindInWords(chosen)));
       return false;
     }
@@ -94,7 +94,10 @@ export function sourcePanel(session, { choose, usePhoto }, onOpened, openPage) {
         throw error;
       }
     }, fileReadTask(chosen));
-    if (isColourPicture) return openPhoto(chosen);
+    if (isColourPicture) {
+      void openColour(chosen);
+      return false;
+    }
     if (!opened || !session.input) return false;
     pendingPhoto = null;
     const { depthUnit, stored, data } = session.input;
@@ -118,19 +121,14 @@ export function sourcePanel(session, { choose, usePhoto }, onOpened, openPage) {
   /** @param {File} file @param {readonly File[]} [referencedFiles] */
   const openMesh = async (file, referencedFiles) => {
     const opened = await mesh.openFile(file, referencedFiles);
-    if (opened) void session.run();
+    if (opened) solveMesh();
     return opened;
   };
 
-  /** Opens a picture in colour: the photo of the present heights, or of those that are opened next. @param {File} file */
+  /** Shows a photo on the present heights. @param {File} file */
   const openPhoto = async (file) => {
     const { input, result } = session;
     hideNotice();
-    if (input?.kind === undefined) {
-      pendingPhoto = file;
-      showNotice(FILE_WORDS.pageNoHeights(file.name), 'alert', { label: FILE_WORDS.openAsPage, act: () => openPage(file) });
-      return true;
-    }
     const image = await session.load(`“${file.name}” could not be used`, () => readPicture(file), fileReadTask(file));
     if (!image || session.input !== input) return false;
     if (result) usePhoto(file.name, image);
@@ -150,32 +148,26 @@ export function sourcePanel(session, { choose, usePhoto }, onOpened, openPage) {
     // The camera's file alone changes the present input, and is not an input itself.
     const isCameraAlone = files.length === 1 && session.input?.kind !== undefined && isCameraFile(files[0]);
     const before = session.input;
-    if (!(await openTogether(files)) || isCameraAlone || session.input === before || !session.input?.kind) return;
-    onOpened(files);
+    const isOpened = await openTogether(files);
+    if (isOpened && !isCameraAlone && session.input !== before && session.input?.kind) onOpened(files);
+    return isOpened;
   };
 
   /** @param {readonly File[]} files @returns {Promise<boolean>} */
   const openTogether = async (files) => {
     if (files.length === 1) return openFile(files[0]);
-    const { mesh: meshFile, depths, camera: cameraFile, others, ...companions } = await fileRoles(files);
+    const { mesh: meshFile, depths, camera: cameraFile, ...companions } = await fileRoles(files);
     if (meshFile) return openMesh(meshFile, files.filter((file) => file !== meshFile));
-    if (!depths) {
-      session.fail('These files could not be put together', new Error('there are neither a mesh nor heights or depths (a TIFF, EXR, PFM, NPY or grey PNG) among them'));
-      return false;
-    }
+    if (!depths) return false;
     if (!(await openFile(depths, undefined, companions, cameraFile !== undefined))) return false;
     if (!session.input?.depthSource && (cameraFile || companions.confidence || companions.mask)) camera.show();
     if (cameraFile && !(await camera.readCamera(cameraFile))) return true;
     if (cameraFile && !(await camera.backProject())) return true;
     // With a camera and a photo, the photo can be dewarped.
-    const run = cameraFile && companions.photo ? session.run() : undefined;
-    if (run) choose('dewarped');
-    // The start of a run hides the notice, so it is shown afterwards.
-    if (others.length > 0) {
-      const names = others.map(({ name }) => `“${name}”`).join(', ');
-      showNotice(`Not used: ${names}. With depths go one photo, the camera’s file, and images whose names tell that they are their confidence or a mask.`);
+    if (cameraFile && companions.photo) {
+      void session.run();
+      choose('dewarped');
     }
-    await run;
     return true;
   };
 
@@ -208,11 +200,11 @@ export function sourcePanel(session, { choose, usePhoto }, onOpened, openPage) {
   for (const control of [...radios, size, noise]) control.addEventListener('change', openChosenExample);
   for (const control of [pixelSize, heightScale]) control.addEventListener('change', rescale);
   zeroCheckbox.addEventListener('change', () => reinterpretFile({ zeros: zeroCheckbox.checked }));
+  noData.addEventListener('change', () => reinterpretFile({ noData: noData.value === '' ? undefined : noData.valueAsNumber }));
   hexagonalCheckbox.addEventListener('change', () => reinterpretFile({ hexagonal: hexagonalCheckbox.checked }));
   element('flatter', HTMLButtonElement).addEventListener('click', () => scaleRelief(0.5));
   element('steeper', HTMLButtonElement).addEventListener('click', () => scaleRelief(2));
   design.addEventListener('change', () => session.updateInput({ design: design.checked }));
-  onFilesChosen(element('open', HTMLButtonElement), file, openFiles);
   array.addEventListener('change', () => {
     const several = session.input?.array;
     if (several) void openFile(several.file, array.value);
@@ -226,11 +218,10 @@ export function sourcePanel(session, { choose, usePhoto }, onOpened, openPage) {
     fileOptions.hidden = !isFile || (input.sampling !== undefined && !isBackProjected);
     fileOptions.toggleAttribute('data-built', isBackProjected);
     for (const radio of radios) radio.checked = !isFile && radio.value === input.name;
+    const guessed = input.depthUnit ? DEPTH_WORDS.maybe : isBackProjected ? input.cameraAssumption : input.stored?.guesses;
+    guesses.textContent = [assumedInWords(input.assumptions), guessed].filter(Boolean).join(' ');
+    guesses.hidden = guesses.textContent === '';
     if (fileOptions.hidden) return;
-    if (isBackProjected) {
-      guesses.textContent = input.cameraAssumption ?? '';
-      guesses.hidden = guesses.textContent === '';
-    }
     const { array: several } = input;
     arrayField.hidden = several === undefined;
     array.replaceChildren(...(several?.names ?? []).map((name) => new Option(name, name, false, name === several?.name)));
@@ -241,8 +232,7 @@ export function sourcePanel(session, { choose, usePhoto }, onOpened, openPage) {
     zeroCheckbox.checked = input.stored.zeros;
     design.checked = input.design === true;
     hexagonalCheckbox.checked = input.stored.hexagonal;
-    guesses.textContent = input.depthUnit ? DEPTH_WORDS.maybe : input.stored.guesses;
-    guesses.hidden = guesses.textContent === '';
+    noData.value = input.stored.noData === undefined ? '' : fieldText(input.stored.noData);
     span.textContent = spanInWords(input);
     const question = scaleQuestion(input);
     // While the same file is scaled the question keeps its space, so that the buttons below do not move.
@@ -269,6 +259,9 @@ export function sourcePanel(session, { choose, usePhoto }, onOpened, openPage) {
       await openChosenExample();
     },
     openFiles,
+    usePhoto: openPhoto,
+    /** Shows a photo on the heights that are opened next. @param {File} file */
+    awaitHeights: (file) => void (pendingPhoto = file),
     reinterpretFile,
     openLoadedMesh: mesh.openLoaded,
   };

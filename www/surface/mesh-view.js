@@ -21,6 +21,7 @@ const KEY_TURN_RADIANS = Math.PI / 24;
 
 export class MeshView {
   #three;
+  #turned;
   #renderer;
   #scene;
   #camera;
@@ -70,15 +71,8 @@ export class MeshView {
     light.position.set(-0.9, 0.8, 0.7);
     this.#camera.add(light);
     this.#scene.add(this.#camera, new three.HemisphereLight(0xffffff, 0x8a94a0, 0.7));
-    this.#controls = new three.OrbitControls(this.#camera, canvas);
-    this.#controls.enablePan = false;
-    this.#controls.addEventListener('change', () => {
-      this.#draw();
-      const now = String(this.direction);
-      // Zooming does not change the direction.
-      if (!this.#isSettingDirection && now !== this.#lastDirection) turned(this);
-      this.#lastDirection = now;
-    });
+    this.#turned = turned;
+    this.#controls = this.#createControls();
     new ResizeObserver(() => this.#draw()).observe(canvas);
     canvas.addEventListener('keydown', (event) => {
       const arrow = ARROW_DIRECTIONS[event.key];
@@ -89,6 +83,27 @@ export class MeshView {
       this.#controls.update();
     });
     this.setDirection([0, 0, -1]);
+  }
+
+  #createControls() {
+    const controls = new this.#three.OrbitControls(this.#camera, this.canvas);
+    controls.enablePan = false;
+    controls.addEventListener('change', () => {
+      this.#draw();
+      const now = String(this.direction);
+      // Zooming does not change the direction.
+      if (!this.#isSettingDirection && now !== this.#lastDirection) this.#turned(this);
+      this.#lastDirection = now;
+    });
+    return controls;
+  }
+
+  /** Sets the axis that points upwards; `setDirection` has to follow. @param {Vector} axis */
+  setUp([x, y, z]) {
+    this.#camera.up.set(x, y, z);
+    // The controls read the axis only when they are created.
+    this.#controls.dispose();
+    this.#controls = this.#createControls();
   }
 
   /**

@@ -6,14 +6,15 @@ import { toGrey } from '../page/grey.js';
 /**
  * Decodes a picture.
  * @param {File} file
- * @param {number} [times] divisor of the width and height
+ * @param {number} [maxPixels] maximum number of pixels; a larger picture is reduced
  * @returns {Promise<Pixels>}
  */
-export async function decodePicture(file, times = 1) {
+export async function decodePicture(file, maxPixels = Infinity) {
   const bitmap = await createImageBitmap(file).catch(() => {
     throw new Error('it is no picture that this browser can read');
   });
-  const pixels = drawPixels(bitmap, bitmap.width / times, bitmap.height / times);
+  const scale = Math.min(1, Math.sqrt(maxPixels / (bitmap.width * bitmap.height)));
+  const pixels = drawPixels(bitmap, bitmap.width * scale, bitmap.height * scale);
   bitmap.close();
   return pixels;
 }

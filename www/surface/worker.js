@@ -4,7 +4,6 @@ import { photographExample } from '../views/printed-example.js';
 import { readAssemblyMesh, borderLines } from './assembly-mesh.js';
 import { meanAngle, rmsError } from './compare.js';
 import { interpolateToGrid } from './lattice.js';
-import { hiddenAreaShare } from './hidden-area.js';
 import { computeSurfaceDataAndPreview, computeSurfaceData } from './textures.js';
 import { normalsOf } from './normals.js';
 import { reducePhoto, decodePicture } from './photo-decoding.js';
@@ -26,7 +25,7 @@ function computeUnfoldingInPieces(model, scale, most, offset) {
 
 /** The tasks by name. The buffers of arrays in an answer are transferred. */
 export const tasks = {
-  confidenceOf, constraintsOf, curvaturesOf, drawingStrainImage, computeSurfaceDataAndPreview, meshStrainImage, hiddenAreaShare, interpolateToGrid, labelPixels, computeSurfaceData, interpretFile, meanAngle, normalsOf,
+  confidenceOf, constraintsOf, curvaturesOf, drawingStrainImage, computeSurfaceDataAndPreview, meshStrainImage, interpolateToGrid, labelPixels, computeSurfaceData, interpretFile, meanAngle, normalsOf,
   reducePhoto, photoPixels, photographExample, decodePicture, rmsError, totalGaussianCurvature, sheetStrainImage, computeUnfolding, computeUnfoldingInPieces, valuePixels,
 };
 

@@ -319,6 +319,31 @@ export async function open(page, name, bytes) {
 }
 
 /**
+ * Drops a mesh of which much is hidden from one side, and waits until it is solved whole.
+ * @param {Page} page
+ * @param {string} name
+ * @param {Buffer} bytes
+ */
+export async function openWhole(page, name, bytes) {
+  await drop(page, name, bytes);
+  await page.locator('#mesh-name', { hasText: name.replace(/\.\w+$/, '') }).waitFor();
+  await page.locator('#whole').waitFor();
+  await page.locator('#whole[aria-busy="false"]').waitFor();
+}
+
+/**
+ * Drops such a mesh, and waits until it is solved from one side.
+ * @param {Page} page
+ * @param {string} name
+ * @param {Buffer} bytes
+ */
+export async function openFromOneSide(page, name, bytes) {
+  await openWhole(page, name, bytes);
+  await choose(page.getByRole('radio', { name: 'From one side', exact: true }));
+  await settled(page);
+}
+
+/**
  * The result as a 3D file, as the dialog saves it.
  * @param {Page} page
  * @param {string} format

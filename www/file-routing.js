@@ -1,0 +1,162 @@
+/** What files that were opened together are: photos of pages, a mesh with its textures, or heights and depths with their photo, camera and masks. */
+import { isMesh, kindByName, unreadableKindInWords } from './file-kinds.js';
+
+/**
+ * @typedef {object} FileRoles
+ * @property {File} [mesh]
+ * @property {File} [depths]
+ * @property {File} [photo]
+ * @property {File} [camera]
+ * @property {File} [confidence] confidence of the depths
+ * @property {File} [mask] mask of the depths, or one that was drawn on the photo
+ * @property {File[]} others files without a role
+ */
+
+/**
+ * @typedef {object} FileRoute
+ * @property {'photos' | 'heights' | 'photoOfHeights' | 'none'} to photos of pages; heights, depths or a mesh; the photo of the heights that are open; or nothing that can be opened
+ * @property {File[]} files the files that are opened
+ * @property {File[]} left the files that do not belong to them
+ */
+
+/** Length of a mesh file's beginning that is searched for the names of its materials and textures, in bytes. */
+const SEARCHED_MESH_BYTES = 1e6;
+/** Side of the reduced picture whose colours are looked at, in pixels. */
+const SAMPLE_SIDE_PIXELS = 64;
+/** Minimum difference between the channels of a pixel in colour, of 255. */
+const MIN_CHANNEL_DIFFERENCE = 12;
+
+/** Whether a file's name is that of a text with camera intrinsics. @param {File} file */
+export function isCameraFile(file) {
+  return kindByName(file) === 'camera';
+}
+
+/**
+ * Decides what files are, and which of them belong together.
+ * @param {readonly File[]} files
+ * @param {object} state
+ * @param {boolean} state.inPhotoMode whether photos of pages are shown now, where a grey picture is a photo, too
+ * @param {boolean} state.takesPhoto whether heights are open that a single photo in colour can belong to
+ * @returns {Promise<FileRoute>}
+ */
+export async function routeFiles(files, { inPhotoMode, takesPhoto }) {
+  const without = (/** @type {readonly File[]} */ taken) => files.filter((file) => !taken.includes(file));
+  const mesh = files.find(({ name }) => isMesh(name));
+  if (mesh) {
+    const taken = [mesh, ...await filesNamedBy(mesh, without([mesh]))];
+    return { to: 'heights', files: taken, left: without(taken) };
+  }
+  const roles = await fileRoles(files);
+  if (roles.depths) return { to: 'heights', files: without(roles.others), left: roles.others };
+  const pictures = files.filter((file) => kindByName(file) === 'picture');
+  if (pictures.length > 0) {
+    const areAlways = inPhotoMode || pictures.length > 1;
+    const to = !areAlways && !(await isPhoto(pictures[0])) ? 'heights' : !areAlways && takesPhoto ? 'photoOfHeights' : 'photos';
+    return { to, files: pictures, left: without(pictures) };
+  }
+  const readable = files.filter((file) => kindByName(file) !== 'other').slice(0, 1);
+  return { to: readable.length > 0 ? 'heights' : 'none', files: readable, left: without(readable) };
+}
+
+/** Names of files that were not opened, each with what it is if it can never be. @param {readonly File[]} files */
+export function namesOfLeft(files) {
+  return files.map((file) => `“${file.name}”${kindByName(file) === 'other' ? ` (${unreadableKindInWords(file)})` : ''}`).join(', ');
+}
+
+/**
+ * Finds the role of each file, by its name and, for a PNG, by its header.
+ * @param {readonly File[]} files
+ * @returns {Promise<FileRoles>}
+ */
+export async function fileRoles(files) {
+  /** @type {FileRoles} */
+  const roles = { others: [] };
+  for (const file of files) {
+    const role = await roleOf(file);
+    if (role && !roles[role]) roles[role] = file;
+    else roles.others.push(file);
+  }
+  // A grey PNG that was opened together with one photo in colour holds its depths.
+  if (!roles.depths && !roles.mesh) {
+    const pictures = files.filter((file) => file === roles.photo || (roles.others.includes(file) && kindByName(file) === 'picture'));
+    const grey = await Promise.all(pictures.map(isGreyPng));
+    if (pictures.length === 2 && grey[0] !== grey[1]) {
+      [roles.depths, roles.photo] = grey[0] ? pictures : pictures.toReversed();
+      roles.others = files.filter((file) => !Object.values(roles).includes(file));
+    }
+  }
+  return roles;
+}
+
+/**
+ * @param {File} file
+ * @returns {Promise<Exclude<keyof FileRoles, 'others'> | null>}
+ */
+async function roleOf(file) {
+  const { name } = file;
+  if (isMesh(name)) return 'mesh';
+  const kind = kindByName(file);
+  if (kind === 'camera') return 'camera';
+  if (kind === 'heights' || kind === 'picture') {
+    if (/conf/i.test(name)) return 'confidence';
+    if (/mask|matte|segment/i.test(name)) return 'mask';
+  }
+  if (kind === 'heights') return 'depths';
+  if ((/\.png$/i.test(name) && /depth/i.test(name)) || await isGrey16Png(file)) return 'depths';
+  return kind === 'picture' ? 'photo' : null;
+}
+
+/** Whether a file is a grey PNG with 16 bits per pixel, as depth cameras write it. @param {File} file */
+async function isGrey16Png(file) {
+  const { bits, colour } = await pngHeader(file);
+  return bits === 16 && colour === 0;
+}
+
+/** Whether a file is a grey PNG, with transparency or without. @param {File} file */
+async function isGreyPng(file) {
+  const { colour } = await pngHeader(file);
+  return colour === 0 || colour === 4;
+}
+
+/** Bit depth and colour type of a PNG; empty for other files. @param {File} file @returns {Promise<{ bits?: number, colour?: number }>} */
+async function pngHeader(file) {
+  if (!/\.png$/i.test(file.name)) return {};
+  const header = new Uint8Array(await file.slice(0, 26).arrayBuffer());
+  return { bits: header[24], colour: header[25] };
+}
+
+/** Whether a picture is a photo and not heights, which are kept as a grey PNG if as a picture at all. @param {File} file */
+async function isPhoto(file) {
+  return !/\.png$/i.test(file.name) || isInColour(file);
+}
+
+/**
+ * Whether a picture has a pixel in colour. Those that the browser cannot decode are taken for photos in colour unless they are
+ * PNGs, whose readers say what is wrong with them.
+ * @param {File} file
+ */
+export async function isInColour(file) {
+  const bitmap = await createImageBitmap(file, { resizeWidth: SAMPLE_SIDE_PIXELS, resizeHeight: SAMPLE_SIDE_PIXELS }).catch(() => null);
+  const context = new OffscreenCanvas(SAMPLE_SIDE_PIXELS, SAMPLE_SIDE_PIXELS).getContext('2d', { willReadFrequently: true });
+  if (!bitmap || !context) return !/\.png$/i.test(file.name);
+  context.drawImage(bitmap, 0, 0);
+  bitmap.close();
+  const { data } = context.getImageData(0, 0, SAMPLE_SIDE_PIXELS, SAMPLE_SIDE_PIXELS);
+  for (let i = 0; i < data.length; i += 4) {
+    const [low, high] = [Math.min(data[i], data[i + 1], data[i + 2]), Math.max(data[i], data[i + 1], data[i + 2])];
+    if (high - low >= MIN_CHANNEL_DIFFERENCE) return true;
+  }
+  return false;
+}
+
+/**
+ * The files that a mesh refers to by their names, directly or in its materials.
+ * @param {File} mesh
+ * @param {readonly File[]} others
+ */
+async function filesNamedBy(mesh, others) {
+  const materials = others.filter(({ name }) => /\.mtl$/i.test(name));
+  const texts = await Promise.all([/\.gltf$/i.test(mesh.name) ? mesh : mesh.slice(0, SEARCHED_MESH_BYTES), ...materials].map((part) => part.text()));
+  const text = texts.join('\n').toLowerCase();
+  return others.filter((file) => materials.includes(file) || text.includes(file.name.toLowerCase()) || text.includes(encodeURI(file.name).toLowerCase()));
+}

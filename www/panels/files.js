@@ -1,0 +1,78 @@
+/** Opens files of any kind, wherever they come from: the kind of a file chooses the part of the page. */
+import { kindByName, unreadableKindInWords } from '../file-kinds.js';
+import { isInColour, namesOfLeft, routeFiles } from '../file-routing.js';
+import { FILE_WORDS } from '../messages.js';
+import { showNotice } from './notice.js';
+
+/** @import {Session} from '../session.js' */
+/** @import {Mode} from './mode.js' */
+/** @import {NoticeAction} from './notice.js' */
+
+/**
+ * @param {Session} session
+ * @param {{ readonly now: Mode, show: (mode: Mode) => void, enter: (mode: Mode) => void }} mode
+ * @param {object} source
+ * @param {(files: readonly File[]) => Promise<unknown>} source.openFiles opens heights or a mesh
+ * @param {(file: File) => Promise<unknown>} source.usePhoto shows a photo on the heights that are open
+ * @param {(file: File) => void} source.awaitHeights shows a photo on the heights that are opened next
+ * @param {{ openAll: (files: readonly File[]) => Promise<string | null> }} page opens photos of pages; the answer is a note, or null if none could be opened
+ */
+export function filesPanel(session, mode, source, page) {
+  /** @param {string} words @param {NoticeAction} [action] */
+  const note = (words, action) => {
+    if (words) showNotice(words, 'note', action);
+  };
+
+  /**
+   * Opens photos of pages.
+   * @param {readonly File[]} files
+   * @param {string} [leftOut] words about files that were left out
+   */
+  const openPhotos = async (files, leftOut = '') => {
+    const isOtherMode = mode.now !== 'photo';
+    mode.show('photo');
+    const pageNote = await page.openAll(files);
+    if (pageNote === null) return;
+    const taken = isOtherMode ? FILE_WORDS.takenForPages(files.length) : '';
+    note([taken, pageNote, leftOut].filter(Boolean).join(' '), isOtherMode && files.length === 1 ? {
+      label: FILE_WORDS.heightsInstead,
+      act: async () => {
+        mode.enter('heights');
+        if (!(await isInColour(files[0]))) return source.openFiles(files);
+        source.awaitHeights(files[0]);
+        note(FILE_WORDS.awaitsHeights(files[0].name), { label: FILE_WORDS.openAsPage, act: () => void openPhotos(files) });
+      },
+    } : undefined);
+  };
+
+  /** @param {File} file */
+  const usePhoto = async (file) => {
+    if (await source.usePhoto(file)) note(FILE_WORDS.takenForTheirPhoto, { label: FILE_WORDS.openAsPage, act: () => void openPhotos([file]) });
+  };
+  /** Whether a single photo in colour belongs to the heights that are open. */
+  const takesPhoto = () => {
+    const { input } = session;
+    return mode.now === 'heights' && input?.kind !== undefined && (input.sampling === undefined || input.depthSource !== undefined);
+  };
+
+  /** @param {readonly File[]} files */
+  const open = async (files) => {
+    const { to, files: taken, left } = await routeFiles(files, { inPhotoMode: mode.now === 'photo', takesPhoto: takesPhoto() });
+    if (to === 'none') return showNotice(FILE_WORDS.unread(files[0].name, unreadableKindInWords(files[0])));
+    const leftOut = left.length > 0 ? FILE_WORDS.leftOut(namesOfLeft(left), to === 'heights' && kindByName(taken[0]) !== 'mesh') : '';
+    if (to === 'photos') return openPhotos(taken, leftOut);
+    if (to === 'photoOfHeights') return usePhoto(taken[0]);
+    if (mode.now !== 'heights') mode.enter('heights');
+    // The start of a run hides the notice, so it is shown afterwards.
+    if (!(await source.openFiles(taken))) return;
+    const openable = left.filter((file) => kindByName(file) !== 'other');
+    if (openable.length > 0) note(leftOut, { label: FILE_WORDS.openInstead(openable), act: () => void open(openable) });
+    else if (taken.length === 1 && kindByName(taken[0]) === 'picture') note([FILE_WORDS.takenForHeights, leftOut].filter(Boolean).join(' '), { label: FILE_WORDS.openAsPage, act: () => void openPhotos(taken) });
+    else note(leftOut);
+  };
+  return {
+    open,
+    /** Opens a file of heights that turned out to be a picture in colour. @param {File} file */
+    openColour: (file) => (takesPhoto() ? usePhoto(file) : openPhotos([file])),
+  };
+}

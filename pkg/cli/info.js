@@ -11,10 +11,10 @@ import { print } from './terminal.js';
 export async function info({ input, array }) {
   const bytes = await readBytes(input);
   const lines = await about(input, async () => {
-    if (isMesh(input)) return meshInWords(await readMeshFile(input, bytes));
-    if (isArchive(bytes) && array === undefined) return arraysInWords(await developable.npzArrays(bytes));
-    const file = await developable.read(bytes, { array });
-    return [...imageInWords(file), ...assumptionsInWords(file).map((words) => ['assumed', words])];
+    if (isArchive(bytes) && !isMesh(input) && array === undefined) return arraysInWords(await developable.npzArrays(bytes));
+    const file = isMesh(input) ? await readMeshFile(input, bytes) : await developable.read(bytes, { array });
+    const told = 'positions' in file ? meshInWords(file) : imageInWords(file);
+    return [...told, ...assumptionsInWords(file).map((words) => ['assumed', words])];
   });
   await print(lines.map(([name, value]) => `${`${name}:`.padEnd(14)}${value}\n`).join(''));
 }
@@ -33,7 +33,7 @@ function arraysInWords(arrays) {
 }
 
 /** @param {import('../types.js').Mesh} mesh */
-function meshInWords({ positions, triangles, colors, uvs, textures = [], missing = [], unit, assumptions = [] }) {
+function meshInWords({ positions, triangles, colors, uvs, textures = [], missing = [], unit }) {
   const ranges = ['x', 'y', 'z'].map((axis, k) => {
     let [low, high] = [Infinity, -Infinity];
     for (let i = k; i < positions.length; i += 3) {
@@ -50,7 +50,6 @@ function meshInWords({ positions, triangles, colors, uvs, textures = [], missing
     ['colours', colors ? 'yes' : 'no'],
     ['texture', uvs ? `has coordinates, ${textures.length || 'no'} picture${textures.length === 1 ? '' : 's'}` : 'no coordinates'],
     ...missing.map((name) => ['missing', JSON.stringify(name)]),
-    ...assumptions.map(({ words, option }) => ['assumed', option ? `${words} (--${option} decides)` : words]),
   ];
 }
 

@@ -142,7 +142,7 @@ async function readSampled(task) {
 export async function readMesh(task) {
   const { input, camera, unit, mask, confidence, noData, written, force, photo } = task;
   if (!camera) {
-    const mesh = await readMeshFile(input, await readBytes(input), force ? [] : written, unit);
+    const mesh = tellAssumptions(input, await readMeshFile(input, await readBytes(input), force ? [] : written, unit));
     for (const name of mesh.missing ?? []) {
       say(`warning: ${input} names ${JSON.stringify(name)}, ${await whyMissing(dirname(input), name)}`);
     }
@@ -255,7 +255,7 @@ export async function readMeshFile(input, bytes, written = [], unit = undefined)
     const mesh = await about(input, () => developable.readMesh(bytes, { files, unit }));
     // The materials that were found name textures in turn.
     names = (mesh.missing ?? []).filter((name) => !tried.has(name));
-    if (names.length === 0) return tellAssumptions(input, mesh);
+    if (names.length === 0) return mesh;
   }
 }
 

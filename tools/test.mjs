@@ -1,6 +1,6 @@
 /**
  * `npm test`: sets up and runs every test there is; `npm test -- NAME...` those whose name contains one of the words;
- * `npm test -- --quick` what two minutes are enough for once it was compiled.
+ * `npm test -- --quick` what one minute is enough for once it was compiled.
  */
 import { compileWasm } from './build/wasm.mjs';
 import { setupTests } from './setup.mjs';

@@ -13,6 +13,10 @@ import { Skip, check } from './step.mjs';
 /** @typedef {import('./step.mjs').Context} Context */
 /** @typedef {import('./step.mjs').Env} Env */
 
+export async function size() {
+  await check(process.execPath, [join(root, 'tools/size.mjs')], process.env);
+}
+
 export async function types() {
   await buildOptionTypes();
   await check(process.execPath, [join(root, 'node_modules/typescript/bin/tsc')], process.env);

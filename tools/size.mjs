@@ -36,7 +36,7 @@ const sizeFile = join(root, 'benches/size.md');
 function roomOf(path) {
   const [top, second, ...rest] = path.split('/');
   if (top === 'src') return rest.length > 0 ? `src/${second}` : 'src';
-  return ['benches', 'examples', 'fuzz'].includes(top) ? 'benches' : top;
+  return ['benches', 'examples'].includes(top) ? 'benches' : top;
 }
 
 /** What chose a constant; empty if its documentation does not say. @param {string} doc */

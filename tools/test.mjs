@@ -22,12 +22,14 @@ await main(async () => {
   const compile = chosen.some(({ name }) => name === 'build') ? compileWasm : undefined;
   const context = await timed('Set-up', () => setupTests(compile));
 
+  /** @type {Map<import('./test/step.mjs').Step, ReturnType<typeof attempt>>} */
+  const begun = new Map(chosen.filter(({ early }) => early).map((step) => [step, attempt(() => step.run(context))]));
   /** @type {Outcome[]} */
   const outcomes = [];
   for (const step of chosen) {
     const start = performance.now();
     heading(`${step.name}: ${step.what} (about ${duration(step.seconds)})`);
-    const outcome = await attempt(() => step.run(context));
+    const outcome = await (begun.get(step) ?? attempt(() => step.run(context)));
     const seconds = (performance.now() - start) / 1000;
     console.log(`${outcome.state} in ${seconds.toFixed(1)} s${outcome.remark && `: ${outcome.remark}`}`);
     outcomes.push({ name: step.name, seconds, ...outcome });

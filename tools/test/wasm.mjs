@@ -30,7 +30,7 @@ export const inNode = (name) => ({ env }) => inFolder(async (folder) => {
 export const inBrowser = (name) => async ({ env, browser: { chrome, driver } }) => {
   if (!chrome) throw new Skip('no Chromium or Chrome was found (CHROME can name one)');
   if (!driver) throw new Skip('no chromedriver was found (CHROMEDRIVER can name one)');
-  const capabilities = JSON.parse(await readFile(join(root, 'webdriver.json'), 'utf8'));
+  const capabilities = JSON.parse(await readFile(join(root, 'tests/wasm/webdriver.json'), 'utf8'));
   capabilities['goog:chromeOptions'].binary = chrome;
   await inFolder(async (folder) => {
     const file = join(folder, 'webdriver.json');

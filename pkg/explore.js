@@ -110,8 +110,7 @@ async function drawn(pattern) {
   try {
     return { drawing: await pattern };
   } catch (error) {
-    // Of meshes, what takes too many parts is unsupported.
-    if (error instanceof DevelopableError && ['NOT_FLAT', 'UNSUPPORTED'].includes(error.code)) return { problem: error.message };
+    if (error instanceof DevelopableError && error.code === 'NOT_FLAT') return { problem: error.message };
     throw error;
   }
 }

@@ -70,7 +70,7 @@ export function becomeHelper(seat) {
   // The answer leaves first.
   setTimeout(() => {
     try {
-      for (;;) Atomics.wait(words, jobs / 4, help());
+      for (;;) Atomics.wait(words, jobs / 4, help(stack));
     } catch (error) {
       reportCrash(seat);
       throw error;
@@ -78,7 +78,7 @@ export function becomeHelper(seat) {
   });
 }
 
-/** @typedef {{ __stack_pointer: WebAssembly.Global<'i32'>, join_team: () => void, help: () => number }} HelperExports */
+/** @typedef {{ __stack_pointer: WebAssembly.Global<'i32'>, join_team: () => void, help: (stack: number) => number }} HelperExports */
 
 /**
  * The module's imports for a helper, which calls no JavaScript: a call is a panic's.

@@ -159,15 +159,12 @@ pub enum Error {
 
     /// A part of a surface stays strained too much however it is cut, within the limits that the options set.
     #[error(
-        "the part of the surface around row {row}, column {col} ({vertices} vertices) cannot be laid \
-         flat: {reason}; smooth the surface more (a smaller lambda), take larger patches or allow \
-         more strain"
+        "the part of the surface around {place} ({vertices} vertices) cannot be laid flat: {reason}; smooth the \
+         surface more (a smaller lambda), take larger patches or allow more strain"
     )]
     NotFlat {
-        /// Lattice row of a vertex in the part's middle.
-        row: usize,
-        /// Lattice column of a vertex in the part's middle.
-        col: usize,
+        /// A place on the part: row and column of a lattice, or coordinates on a mesh.
+        place: String,
         /// Number of the part's vertices.
         vertices: usize,
         /// The limit that is not met, and by how much.

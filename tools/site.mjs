@@ -19,11 +19,10 @@ const IMPORTS = [
 ];
 
 /**
- * Writes the site from what is built.
+ * Bundles the page and the package from what is built.
  * @param {string} folder is made anew
- * @param {{ references?: boolean }} [options] whether the API reference belongs to it, which takes a while; default: no
  */
-export async function writeSite(folder, { references = false } = {}) {
+export async function bundlePage(folder) {
   // Only now: on a fresh clone it has just been installed.
   const { build: bundle } = await import('vite');
   const found = new Set();
@@ -52,7 +51,15 @@ export async function writeSite(folder, { references = false } = {}) {
     },
   });
   if (found.size < IMPORTS.length) throw new Problem('An import that the site needs is no longer where tools/site.mjs looks for it.');
+}
 
+/**
+ * Writes the site from what is built.
+ * @param {string} folder is made anew
+ * @param {{ references?: boolean }} [options] whether the API reference belongs to it, which takes a while; default: no
+ */
+export async function writeSite(folder, { references = false } = {}) {
+  await bundlePage(folder);
   for (const name of ['register.js', 'manifest.webmanifest']) await copyFile(join(www, 'site', name), join(folder, name));
   await copyFile(join(www, 'icon.svg'), join(folder, 'icon.svg'));
   for (const name of ['LICENSE-MIT', 'LICENSE-APACHE']) await copyFile(join(root, name), join(folder, name));

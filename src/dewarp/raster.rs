@@ -3,6 +3,7 @@
 use super::charts::ChartSeams;
 use super::registration::PhotoProjection;
 use crate::error::{Result, try_filled};
+use crate::math::index::NO_INDEX;
 use crate::unroll::Unrolling;
 
 /// A corner of a triangle that is rasterised into the flat image.
@@ -25,9 +26,23 @@ pub(super) struct Canvas {
     pub corner: [f64; 2],
 }
 
+/// Pixels of the flat image, row by row.
+struct Pixels<'a> {
+    size: [usize; 2],
+    /// Places in the photo.
+    places: &'a mut [[f32; 2]],
+    /// Index of the first triangle over each pixel; [`NO_INDEX`] where there is none.
+    owners: Vec<u32>,
+    /// Number of pixels that have an owner.
+    covered: usize,
+    /// Number of pixels' coverings by triangles apart from their owners.
+    repeated: usize,
+}
+
 /// Rasterises the sheet's triangles: writes to `places`, for each pixel of the flat image that has no place yet, its
-/// place in the photo. Where components of the sheet overlap, pixels show the larger one. Costs `O(pixels + n log n)`
-/// for `n` triangles.
+/// place in the photo. Where components of the sheet overlap, pixels show the larger one. Returns the share of the
+/// sheet's pixels that lie on another part of it, whether they are in the photo or not. Triangles with a common vertex
+/// overlap where one of them is turned over. Costs `O(pixels + n log n)` for `n` triangles.
 ///
 /// # Errors
 /// [`Error::OutOfMemory`](crate::Error::OutOfMemory).
@@ -36,7 +51,18 @@ pub(super) fn rasterise(
     projection: &PhotoProjection,
     canvas: &Canvas,
     places: &mut [[f32; 2]],
-) -> Result<()> {
+) -> Result<f64> {
+    let mut pixels = Pixels {
+        size: canvas.size,
+        owners: try_filled("flat image", places.len(), NO_INDEX)?,
+        places,
+        covered: 0,
+        repeated: 0,
+    };
+    let is_turned_over = |t: &[u32; 3]| {
+        let [p, q, r] = t.map(|v| sheet.places()[v as usize]);
+        doubled_area(p, q, r) < 0.0
+    };
     let mesh = sheet.mesh();
     let triangles = mesh.triangles();
     let part = |triangle: usize| sheet.parts()[triangles[triangle][0] as usize];
@@ -47,6 +73,10 @@ pub(super) fn rasterise(
     }
     order.sort_by_key(|triangle| part(*triangle));
     let seams = ChartSeams::new(sheet, projection)?;
+    let overlap = |triangle: u32, owner: u32| {
+        let [own, other] = [triangle, owner].map(|t| &triangles[t as usize]);
+        !own.iter().any(|v| other.contains(v)) || is_turned_over(own) != is_turned_over(other)
+    };
     for triangle in order {
         let corners = triangles[triangle].map(|v| {
             let [x, y] = sheet.places()[v as usize];
@@ -60,15 +90,15 @@ pub(super) fn rasterise(
             }
         });
         match seams.as_ref().filter(|seams| seams.crosses(triangle)) {
-            None => rasterise_triangle(&corners, projection, canvas.size, places),
+            None => pixels.cover(triangle as u32, &corners, projection, overlap),
             Some(seams) => {
                 for piece in nearest_pieces(seams, canvas, &triangles[triangle], &corners) {
-                    rasterise_triangle(&piece, projection, canvas.size, places);
+                    pixels.cover(triangle as u32, &piece, projection, overlap);
                 }
             }
         }
     }
-    Ok(())
+    Ok(pixels.repeated as f64 / (pixels.covered + pixels.repeated).max(1) as f64)
 }
 
 /// Cuts a triangle that crosses from one chart of the texture to another into six pieces: the points of each are
@@ -107,64 +137,78 @@ fn doubled_area(p: [f64; 2], q: [f64; 2], r: [f64; 2]) -> f64 {
     (q[0] - p[0]) * (r[1] - p[1]) - (q[1] - p[1]) * (r[0] - p[0])
 }
 
-/// Writes the places in the photo of the flat image's pixels in one triangle, where there is none yet.
-fn rasterise_triangle(
-    corners: &[RasterCorner; 3],
-    projection: &PhotoProjection,
-    [width, height]: [usize; 2],
-    places: &mut [[f32; 2]],
-) {
-    let [a, b, c] = corners.map(|corner| corner.at);
-    let area = doubled_area(a, b, c);
-    if area == 0.0 || !area.is_finite() {
-        return;
-    }
-    /// Distance, in pixels, outside of a triangle up to which a pixel counts as inside, so that none falls between two
-    /// triangles.
-    const MAX_OUTSIDE_PIXELS: f64 = 1e-6;
-    let slack = (MAX_OUTSIDE_PIXELS * area.abs().sqrt() + 1e-12) / area.abs();
-    // Barycentric coordinates are linear along a row, and so are the interpolated attributes.
-    let edges = [(b, c), (c, a), (a, b)];
-    let slopes = edges.map(|(from, to)| (from[1] - to[1]) / area);
-    let along = interpolate(corners, slopes);
-    let top = a[1].min(b[1]).min(c[1]) - MAX_OUTSIDE_PIXELS;
-    let bottom = a[1].max(b[1]).max(c[1]) + MAX_OUTSIDE_PIXELS;
-    // Casts saturate; an empty range is one that ends before it starts.
-    let rows =
-        top.ceil().max(0.0) as usize..(bottom.floor() + 1.0).clamp(0.0, height as f64) as usize;
-    for row in rows {
-        // From the corner that is nearest to the left, so that little is lost by rounding.
-        let start = a[0].min(b[0]).min(c[0]).floor().max(0.0);
-        let pixel = [start, row as f64];
-        let weights = edges.map(|(from, to)| doubled_area(from, to, pixel) / area);
-        let (mut first, mut last) = (0.0, width as f64 - 1.0 - start);
-        for (weight, slope) in weights.into_iter().zip(slopes) {
-            let end = -(weight + slack) / slope;
-            if slope > 0.0 {
-                first = end.max(first);
-            } else if slope < 0.0 {
-                last = end.min(last);
-            } else if weight < -slack {
-                last = -1.0;
+impl Pixels<'_> {
+    /// Covers the pixels in one triangle: writes their places in the photo, where there is none yet. `overlap` says
+    /// whether a triangle lies on another one where both cover a pixel.
+    fn cover(
+        &mut self,
+        triangle: u32,
+        corners: &[RasterCorner; 3],
+        projection: &PhotoProjection,
+        overlap: impl Fn(u32, u32) -> bool,
+    ) {
+        let [width, height] = self.size;
+        let [a, b, c] = corners.map(|corner| corner.at);
+        let area = doubled_area(a, b, c);
+        if area == 0.0 || !area.is_finite() {
+            return;
+        }
+        /// Distance, in pixels, outside of a triangle up to which a pixel counts as inside, so that none falls between two
+        /// triangles.
+        const MAX_OUTSIDE_PIXELS: f64 = 1e-6;
+        let slack = (MAX_OUTSIDE_PIXELS * area.abs().sqrt() + 1e-12) / area.abs();
+        // Barycentric coordinates are linear along a row, and so are the interpolated attributes.
+        let edges = [(b, c), (c, a), (a, b)];
+        let slopes = edges.map(|(from, to)| (from[1] - to[1]) / area);
+        let along = interpolate(corners, slopes);
+        let top = a[1].min(b[1]).min(c[1]) - MAX_OUTSIDE_PIXELS;
+        let bottom = a[1].max(b[1]).max(c[1]) + MAX_OUTSIDE_PIXELS;
+        // Casts saturate; an empty range is one that ends before it starts.
+        let rows =
+            top.ceil().max(0.0) as usize..(bottom.floor() + 1.0).clamp(0.0, height as f64) as usize;
+        for row in rows {
+            // From the corner that is nearest to the left, so that little is lost by rounding.
+            let start = a[0].min(b[0]).min(c[0]).floor().max(0.0);
+            let pixel = [start, row as f64];
+            let weights = edges.map(|(from, to)| doubled_area(from, to, pixel) / area);
+            let (mut first, mut last) = (0.0, width as f64 - 1.0 - start);
+            for (weight, slope) in weights.into_iter().zip(slopes) {
+                let end = -(weight + slack) / slope;
+                if slope > 0.0 {
+                    first = end.max(first);
+                } else if slope < 0.0 {
+                    last = end.min(last);
+                } else if weight < -slack {
+                    last = -1.0;
+                }
             }
-        }
-        let (first, last) = (first.ceil(), last.floor());
-        if last < first {
-            continue;
-        }
-        let mut from = interpolate(corners, weights);
-        for k in 0..3 {
-            from[k] += first * along[k];
-        }
-        let begin = row * width + (start + first) as usize;
-        for place in &mut places[begin..=begin + (last - first) as usize] {
-            if place[0].is_nan()
-                && let Some(found) = projection.project(from)
-            {
-                *place = found;
+            let (first, last) = (first.ceil(), last.floor());
+            if last < first {
+                continue;
             }
+            let mut from = interpolate(corners, weights);
             for k in 0..3 {
-                from[k] += along[k];
+                from[k] += first * along[k];
+            }
+            let begin = row * width + (start + first) as usize;
+            let pixels = begin..=begin + (last - first) as usize;
+            for (place, owner) in
+                (self.places[pixels.clone()].iter_mut()).zip(&mut self.owners[pixels])
+            {
+                if *owner == NO_INDEX {
+                    *owner = triangle;
+                    self.covered += 1;
+                } else if *owner != triangle && overlap(triangle, *owner) {
+                    self.repeated += 1;
+                }
+                if place[0].is_nan()
+                    && let Some(found) = projection.project(from)
+                {
+                    *place = found;
+                }
+                for k in 0..3 {
+                    from[k] += along[k];
+                }
             }
         }
     }

@@ -9,7 +9,6 @@ use super::raster::{Canvas, rasterise};
 use super::registration::{PhotoProjection, Registration};
 use super::verdict::Verdict;
 use crate::error::{Error, Result, checked_cells, positive, try_filled};
-use crate::math::planar::polygon_area;
 use crate::unroll::{UnrollReport, Unrolling};
 
 /// A warp map: for each pixel of a flat image its place in the photo.
@@ -80,17 +79,15 @@ impl WarpMap {
             corner: [min[0], max[1]],
         };
         let mut found = try_filled("flat image", width * height, NO_PLACE)?;
-        rasterise(sheet, &projection, &canvas, &mut found)?;
+        let overlap = rasterise(sheet, &projection, &canvas, &mut found)?;
         if found.iter().all(|place| place[0].is_nan()) {
             return Err(Error::Unsupported {
                 format: "flat image",
                 reason: "no pixel lies on the sheet; choose a higher resolution".into(),
             });
         }
-        let covered = found.iter().filter(|place| !place[0].is_nan()).count();
         let mut map = WarpMap::from_places(canvas.size, resolution, canvas.corner, found);
-        let area = sheet_area(sheet) * resolution * resolution;
-        map.overlap = (1.0 - covered as f64 / area).max(0.0);
+        map.overlap = overlap;
         if options.trim { map.trimmed() } else { Ok(map) }
     }
 
@@ -208,9 +205,10 @@ impl WarpMap {
         (rest / count).sqrt() / count.sqrt()
     }
 
-    /// Derives the verdict on the flat image: stretched if the sheet is, by [`Verdict::from_report`], except for an
-    /// overlap of less than 0.3 % of its area; flat if [`WarpMap::displacement`] is below 0.2 %; else unrolled. A page of which more than
-    /// 5 % are lost is doubtful instead of flat or unrolled.
+    /// Derives the verdict on the flat image: stretched if the sheet's strain is large, as [`Verdict::from_report`] says,
+    /// or if more than 0.3 % of it lie on another part of it, triangles that are turned over included; flat if
+    /// [`WarpMap::displacement`] is below 0.2 %; else unrolled. A page of which more than 5 % are lost is doubtful
+    /// instead of flat or unrolled.
     pub fn verdict(&self, sheet: &UnrollReport) -> Verdict {
         let verdict = self.verdict_on_known(sheet);
         if self.page_cropped && self.loss > MAX_PAGE_LOSS {
@@ -222,14 +220,12 @@ impl WarpMap {
 
     /// Verdict on what the flat image shows, whatever is lost.
     fn verdict_on_known(&self, sheet: &UnrollReport) -> Verdict {
-        match Verdict::from_report(sheet) {
+        if Verdict::has_large_strain(sheet) || self.overlap > MAX_OVERLAP_SHARE {
             Verdict::Stretched
-                if Verdict::has_large_strain(sheet) || self.overlap > MAX_OVERLAP_SHARE =>
-            {
-                Verdict::Stretched
-            }
-            _ if self.displacement() < MAX_FLAT_DISPLACEMENT => Verdict::Flat,
-            _ => Verdict::Unrolled,
+        } else if self.displacement() < MAX_FLAT_DISPLACEMENT {
+            Verdict::Flat
+        } else {
+            Verdict::Unrolled
         }
     }
 
@@ -326,13 +322,6 @@ impl WarpMap {
         self.places = places;
         Ok(())
     }
-}
-
-/// Area of all triangles of a sheet, folded ones included, in squared units of the surface.
-fn sheet_area(sheet: &Unrolling) -> f64 {
-    let corners = sheet.mesh().triangles().iter();
-    let corners = corners.map(|t| t.map(|v| sheet.places()[v as usize]));
-    corners.map(|places| polygon_area(&places).abs()).sum()
 }
 
 /// Mean resolution of the photo over the sheet, in pixels per unit of length: the default resolution of the flat image.

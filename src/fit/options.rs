@@ -18,7 +18,7 @@ const RADIUS_RANGE: std::ops::RangeInclusive<f64> = 1e-6..=1e6;
 const MAX_PASSES: usize = 20;
 
 /// Default of [`Options::gap`], the relative duality gap at which a solve stops.
-const DEFAULT_GAP: f64 = 0.01;
+pub(crate) const DEFAULT_GAP: f64 = 0.01;
 
 /// Default of [`Options::tie_break`], the weight that holds free vertices.
 const DEFAULT_TIE_BREAK: f64 = 0.01;

@@ -20,11 +20,18 @@ pub(super) struct ResidualStatistics {
 }
 
 impl ResidualStatistics {
-    /// Computes the statistics of at least two residuals, `distances` in pixels, that count as `independent`
-    /// independent ones.
+    /// Computes the statistics of residuals, `distances` in pixels, that count as `independent` independent ones. Fewer
+    /// than two have no covariance, and none have the mean square 0.
     pub fn new(distances: &[f64], independent: f64) -> Self {
         let count = distances.len();
-        let mean_square = distances.iter().map(|d| d * d).sum::<f64>() / count as f64;
+        let mean_square = distances.iter().map(|d| d * d).sum::<f64>() / count.max(1) as f64;
+        if count < 2 {
+            return ResidualStatistics {
+                mean_square,
+                common: 0.0,
+                independent,
+            };
+        }
         // The lag of one independent point, at which white noise has no correlation.
         let lag = (count as f64 / independent.max(1.0)).round() as usize;
         let lag = lag.clamp(1, count - 1);
@@ -64,5 +71,18 @@ impl ResidualStatistics {
     pub fn points_per_error(&self) -> f64 {
         let share = (self.common / self.mean_square.max(1e-12)).min(MAX_CORRELATION);
         (1.0 + share) / (1.0 - share)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_single_residual_has_a_mean_square_and_no_covariance() {
+        let one = ResidualStatistics::new(&[2.0], 1.0);
+        assert_eq!((one.mean_square, one.common), (4.0, 0.0));
+        let none = ResidualStatistics::new(&[], 0.0);
+        assert_eq!((none.mean_square, none.common), (0.0, 0.0));
     }
 }

@@ -467,8 +467,7 @@ impl Parts {
         let members = self.members(part);
         let middle = members.get(members.len() / 2).copied().unwrap_or(0);
         Error::NotFlat {
-            row: middle / cols,
-            col: middle % cols,
+            place: format!("row {}, column {}", middle / cols, middle % cols),
             vertices: members.len(),
             reason,
         }

@@ -1,10 +1,8 @@
 /** The Node command, as a child process. */
 import assert from 'node:assert/strict';
-import { execFileSync } from 'node:child_process';
 import { mkdir, readFile, readdir, readlink, symlink, writeFile } from 'node:fs/promises';
 import { join } from 'node:path';
 import { test } from 'node:test';
-import { setTimeout as sleep } from 'node:timers/promises';
 import { parse } from '../../pkg/cli/arguments.js';
 import { commands } from '../../pkg/cli/commands.js';
 import { writeWhole } from '../../pkg/cli/files.js';
@@ -340,15 +338,12 @@ for (const [signal, expected] of /** @type {const} */ ([['SIGINT', 130], ['SIGTE
   test(`${signal} ends the work with status ${expected} and leaves nothing`, async () => {
     await writeFile(join(folder, 'kept.npy'), 'kept');
     const endlessly = ['--gap', '1e-12', '--lambda', 'small', '--max-iterations', '1e9'];
-    const args = ['fit', `${signal}.npy`, '-o', 'kept.npy', '--report', 'kept.json', ...endlessly];
-    // What is written into the pipe has gone once the command reads it.
-    execFileSync('mkfifo', [join(folder, `${signal}.npy`)]);
+    const args = ['fit', 'endless.npy', '-o', 'kept.npy', '--report', 'kept.json', ...endlessly];
+    const tell = new URL('support/tell-start.mjs', import.meta.url).href;
     const { status, stdout, stderr } = await run(folder, args, {
-      onStart: async (child) => {
-        await writeFile(join(folder, `${signal}.npy`), await readFile(join(folder, 'endless.npy')));
-        await sleep(500);
-        child.kill(signal);
-      },
+      program: [process.execPath, '--import', tell, command],
+      channel: true,
+      onStart: (child) => child.once('message', () => child.kill(signal)),
     });
     assert.deepEqual([status, stdout, stderr], [expected, '', '']);
     assert.equal(await readFile(join(folder, 'kept.npy'), 'utf8'), 'kept');

@@ -74,7 +74,13 @@ test('numbers of threads that cannot be are refused', async () => {
   }
 });
 
-test('a helper that crashes ends the solve with an error', async () => {
+/** What makes a helper crash: no stack at all, and one that has overflowed into the guard below it. */
+const FATAL_STACKS = {
+  missing: '{ ...seat, stack: 0 }',
+  overflowed: '(new Uint8Array(seat.memory.buffer).fill(0, seat.stack - (1 << 20) - 8, seat.stack - (1 << 20)), seat)',
+};
+
+for (const [what, seat] of Object.entries(FATAL_STACKS)) test(`a helper whose stack is ${what} ends the solve with an error`, async () => {
   const script = `
     import { Solver } from ${JSON.stringify(pathToFileURL(join(pkg, 'direct.js')).href)};
     import { startSharedSolver } from ${JSON.stringify(pathToFileURL(join(pkg, 'shared-solver.js')).href)};
@@ -83,7 +89,7 @@ test('a helper that crashes ends the solve with an error', async () => {
     const [seat] = await startSharedSolver(1);
     const helper = spawn();
     helper.hold(true);
-    await wrap(helper.endpoint).becomeHelper({ ...seat, stack: 0 });
+    await wrap(helper.endpoint).becomeHelper(${seat});
     const data = Float64Array.from({ length: 300 * 300 }, (_, i) => Math.abs(i % 300 - 75) + Math.sin(i));
     try {
       for (;;) {

@@ -1,7 +1,7 @@
 //! Photos of synthetic pages made flat, against where things are on the page.
 
 use crate::common::{noisy, unit_square};
-use developable::dewarp::{DewarpOptions, Extent, Photo, Verdict, WarpMap};
+use developable::dewarp::{DewarpOptions, Extent, Photo, Registration, Verdict, WarpMap};
 use developable::unroll::{UnrollOptions, unroll};
 use developable::{Heightfield, Options, fit};
 
@@ -158,6 +158,38 @@ fn a_word_tells_whether_to_trust_it() {
     report.crossings = 1;
     assert_eq!(Verdict::from_report(&report), Verdict::Stretched);
     assert_eq!(map.verdict(&report), Verdict::Unrolled);
+}
+
+#[test]
+fn only_what_lies_on_another_part_of_the_sheet_counts_as_overlap() {
+    let sheet = unroll(&curled(), &UnrollOptions::default()).unwrap();
+    let mut crossing = *sheet.report();
+    crossing.crossings = 1;
+    // A few pixels, whose number is not that of the area in pixels.
+    let coarse = map_of(&curled(), &DewarpOptions::default().dots(31.0));
+    assert_eq!(coarse.verdict(&crossing), Verdict::Unrolled);
+    // A fifth of the page has no place in the photo, as behind a camera.
+    let surface = curled();
+    let lattice = surface.lattice();
+    let seen = |i: usize| {
+        let [x, y] = lattice.position(i / lattice.cols(), i % lattice.cols());
+        if x < 0.8 {
+            [x as f32, y as f32]
+        } else {
+            [f32::NAN; 2]
+        }
+    };
+    let uvs: Vec<[f32; 2]> = (0..lattice.len()).map(seen).collect();
+    let photo = Registration::Uvs(&uvs);
+    let options = DewarpOptions::default().dots(400.0).trim(false);
+    let map = WarpMap::new(&sheet, photo, [400, 400], &options).unwrap();
+    let unseen = map
+        .places()
+        .iter()
+        .filter(|place| place[0].is_nan())
+        .count();
+    assert!(unseen as f64 > 0.15 * map.places().len() as f64);
+    assert_eq!(map.verdict(&crossing), Verdict::Unrolled);
 }
 
 #[test]

@@ -35,7 +35,10 @@ fn finer_lattices_and_searches_for_a_bound_are_begun_and_pursued_in_steps_of_the
         before = now;
     }
     assert_eq!(entries, levels);
-    assert!(looks >= 4, "{looks}");
+    assert!(
+        looks > 1,
+        "begun in one step and pursued in others, not in {looks}"
+    );
 }
 
 #[test]

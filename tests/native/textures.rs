@@ -184,7 +184,9 @@ fn damaged_materials_are_left_out_and_damaged_textures_are_errors() {
         assert!(with(odd.as_bytes()).is_ok(), "{odd}");
     }
     for length in 0..MTL.len() {
-        let _ = with(&MTL.as_bytes()[..length]);
+        if let Err(error) = with(&MTL.as_bytes()[..length]) {
+            assert_eq!(error.code(), "FORMAT", "{length} bytes: {error}");
+        }
     }
     // One number is a grey, and colours by other means are none.
     let grey = with(b"newmtl red\nKd 0.5\n").unwrap().mesh;

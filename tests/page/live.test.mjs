@@ -89,7 +89,7 @@ pageTest('what grows with the size of a result is done in workers, and a picture
   assert.equal(calls('surface/triangles.js', 'fillTriangles'), 0);
   // Of previews only, which are small.
   assert.ok(calls('surface/normals.js', 'normalsOf') <= 2 * previews, `${calls('surface/normals.js', 'normalsOf')} for ${previews} previews`);
-}, { start: '' });
+}, { start: '', sources: true });
 
 pageTest('the solver of a large input gives its memory back when it rests, and comes again', async (page) => {
   await page.evaluate(() => {

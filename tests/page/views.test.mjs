@@ -406,7 +406,7 @@ pageTest('a view that cannot be worked out says so, and the surface stays', asyn
   await page.unrouteAll();
   await view(page, 'Rulings');
   assert.ok(parsed(await told(page, 'Lines')) > 10, 'it can be tried again');
-});
+}, { sources: true });
 
 pageTest('further formats are what they are called', async (page) => {
   await example(page, 'cone', { size: '100' });

@@ -23,7 +23,7 @@ import { verdicts } from './comparisons/verdicts.mjs';
  * @type {Record<string, { title: string, tables: Record<string, Comparison> }>}
  */
 export const documents = {
-  'BENCHMARKS.md': {
+  'benches/README.md': {
     title: 'Benchmarks',
     tables: {
       schedules,
@@ -53,7 +53,7 @@ export const documents = {
  * Every comparison there is, by the name that chooses it.
  * @type {Record<string, Comparison>}
  */
-export const tables = { ...documents['BENCHMARKS.md'].tables, ...documents['benches/dewarping.md'].tables, verdicts, pymeshlab };
+export const tables = { ...documents['benches/README.md'].tables, ...documents['benches/dewarping.md'].tables, verdicts, pymeshlab };
 
 /** Comparisons with other programs: the authors' algorithm, a conic solver, and filters of pymeshlab. */
 export const peers = ['schedules', 'conic', 'pymeshlab'];

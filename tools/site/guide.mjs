@@ -33,11 +33,11 @@ const REFERENCES = [
 
 /** For people who change the code. */
 const MORE = [
-  { name: 'Benchmarks', path: 'BENCHMARKS.md' },
+  { name: 'Benchmarks', path: 'benches/README.md' },
   { name: 'Architecture', path: 'ARCHITECTURE.md' },
   { name: 'Contributing', path: 'CONTRIBUTING.md' },
   { name: 'Changes', path: 'CHANGELOG.md' },
-  { name: 'Security', path: 'SECURITY.md' },
+  { name: 'Security', path: 'docs/SECURITY.md' },
 ];
 
 /** @param {string} path of a document */

@@ -19,14 +19,13 @@ export async function lint() {
   await check('cargo', ['clippy', ...all, '--', '-D', 'warnings'], native);
 }
 
-export async function unitTests() {
-  // They are small: as they are compiled by default they take a second or two to run, and a sixth of the time to
-  // compile.
-  await check('cargo', ['test', '--profile', 'dev', '--lib'], native);
-}
-
-export async function nativeTests() {
-  await check('cargo', ['test', '--test', 'native'], native);
+/** The tests beside the code, and those of the whole library: compiled side by side. */
+export async function rustTests() {
+  const which = ['--lib', '--test', 'native'];
+  const { ok } = await run('cargo', ['nextest', '--version'], { env: native });
+  // It names the tests that are slow.
+  if (ok) await check('cargo', ['nextest', 'run', '--config-file', 'tools/test/nextest.toml', ...which], native);
+  else await check('cargo', ['test', ...which], native);
 }
 
 export async function docTests() {

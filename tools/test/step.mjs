@@ -18,6 +18,7 @@ import { run } from '../util/process.mjs';
  * @property {string} what
  * @property {number} seconds that it takes on two idle cores, about
  * @property {boolean} [quick] it is among the few of `npm test -- --quick`
+ * @property {boolean} [early] it begins with the first step, for it leaves a core idle most of the time
  * @property {(context: Context) => Promise<void>} run throws where something is wrong
  */
 

@@ -6,21 +6,23 @@ import { buildInline } from '../build/inline.mjs';
 import { buildThreads } from '../build/threads.mjs';
 import { buildVendor } from '../build/vendor.mjs';
 import { buildWasm } from '../build/wasm.mjs';
-import { docs, docTests, format, lint, nativeTests, unitTests } from './rust.mjs';
-import { nodeTests, pageTests, types } from './javascript.mjs';
-import { inBrowser, inNode, sameBindings } from './wasm.mjs';
+import { docs, docTests, format, lint, rustTests } from './rust.mjs';
+import { nodeTests, pageTests, size, types } from './javascript.mjs';
+import { inBrowser, inNode } from './wasm.mjs';
 
 /** @type {import('./step.mjs').Step[]} */
 export const steps = [
   { name: 'format', seconds: 2, quick: true, what: 'the layout of the Rust code', run: format },
+  { name: 'size', seconds: 1, quick: true, what: 'lines and tuned constants beside their budgets', run: size },
+  { name: 'types', seconds: 3, quick: true, what: 'TypeScript over all JavaScript', run: types },
   { name: 'lint', seconds: 67, quick: true, what: 'clippy', run: lint },
-  { name: 'rust-unit', seconds: 90, what: 'the tests beside the code', run: unitTests },
-  { name: 'rust-native', seconds: 180, what: 'the tests of the whole library', run: nativeTests },
+  { name: 'rust', seconds: 180, what: 'the tests beside the code, and those of the whole library', run: rustTests },
   { name: 'rust-doc', seconds: 5, what: 'the examples in the documentation', run: docTests },
-  { name: 'docs', seconds: 20, quick: true, what: "the documentation's links and examples", run: docs },
+  { name: 'docs', seconds: 20, what: "the documentation's links and examples", run: docs },
   {
     name: 'build',
-    seconds: 120,
+    seconds: 20,
+    early: true,
     what: 'the package, and the size of its wasm',
     run: async (context) => {
       await buildVendor();
@@ -29,11 +31,9 @@ export const steps = [
       await buildInline();
     },
   },
-  { name: 'bindings', seconds: 7, what: "tools/bindgen beside wasm-bindgen's own command", run: sameBindings },
   { name: 'wasm-node', seconds: 7, what: 'the wasm in Node', run: inNode('wasm_node') },
   { name: 'wasm-browser', seconds: 5, what: "the wasm in Chromium's main thread", run: inBrowser('wasm_browser') },
   { name: 'wasm-worker', seconds: 5, what: 'the wasm in a dedicated worker in Chromium', run: inBrowser('wasm_worker') },
-  { name: 'types', seconds: 3, quick: true, what: 'TypeScript over all JavaScript', run: types },
-  { name: 'js', seconds: 165, what: 'the package and its command in Node', run: nodeTests },
-  { name: 'page', seconds: 500, what: 'the page in Chromium', run: pageTests },
+  { name: 'js', seconds: 125, what: 'the package and its command in Node', run: nodeTests },
+  { name: 'page', seconds: 290, what: 'the page in Chromium', run: pageTests },
 ];

@@ -1,9 +1,9 @@
 /** wasm-bindgen's tests: those in tests/NAME.rs, compiled to wasm, run in Node and in a browser. */
-import { mkdir, mkdtemp, readFile, readdir, rm, writeFile } from 'node:fs/promises';
+import { mkdtemp, readFile, rm, writeFile } from 'node:fs/promises';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { stripVTControlCharacters } from 'node:util';
-import { bindgenArguments, crates, moduleFile, modulesFolder, names } from '../build/wasm.mjs';
+import { crates } from '../build/wasm.mjs';
 import { target } from '../setup/wasm-target.mjs';
 import { without } from '../util/env.mjs';
 import { root } from '../util/paths.mjs';
@@ -30,7 +30,7 @@ export const inNode = (name) => ({ env }) => inFolder(async (folder) => {
 export const inBrowser = (name) => async ({ env, browser: { chrome, driver } }) => {
   if (!chrome) throw new Skip('no Chromium or Chrome was found (CHROME can name one)');
   if (!driver) throw new Skip('no chromedriver was found (CHROMEDRIVER can name one)');
-  const capabilities = JSON.parse(await readFile(join(root, 'webdriver.json'), 'utf8'));
+  const capabilities = JSON.parse(await readFile(join(root, 'tests/wasm/webdriver.json'), 'utf8'));
   capabilities['goog:chromeOptions'].binary = chrome;
   await inFolder(async (folder) => {
     const file = join(folder, 'webdriver.json');
@@ -40,31 +40,6 @@ export const inBrowser = (name) => async ({ env, browser: { chrome, driver } }) 
     await cargoTest(name, { ...own, CHROMEDRIVER: driver, WASM_BINDGEN_TEST_WEBDRIVER_JSON: file });
   });
 };
-
-/**
- * The program in tools/bindgen writes, of each module, the very files that wasm-bindgen's own command writes.
- * @param {Context} context
- */
-export const sameBindings = ({ env, bindgen }) => inFolder(async (folder) => {
-  const from = await modulesFolder(env);
-  const programs = { own: bindgen, command: 'wasm-bindgen' };
-  for (const name of names) {
-    /** @type {Record<string, string[]>} */
-    const found = {};
-    for (const [key, program] of Object.entries(programs)) {
-      const out = join(folder, key, name);
-      await mkdir(out, { recursive: true });
-      await check(program, bindgenArguments(out, name, join(from, moduleFile(name))), env);
-      found[key] = (await readdir(out)).sort();
-    }
-    const [own, command] = [found.own.join(', '), found.command.join(', ')];
-    if (own !== command) throw new Problem(`of ${name} tools/bindgen writes ${own}, and wasm-bindgen's command ${command}`);
-    for (const file of found.own) {
-      const [one, other] = await Promise.all(Object.keys(programs).map((key) => readFile(join(folder, key, name, file))));
-      if (!one.equals(other)) throw new Problem(`${file} is another one by wasm-bindgen's command than by tools/bindgen`);
-    }
-  }
-});
 
 /**
  * Does something with a temporary folder.

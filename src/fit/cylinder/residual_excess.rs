@@ -32,7 +32,7 @@ const MAX_LAG_PARTS: usize = 6;
 const DEPTH_NOISE_PRODUCT: f64 = 4.7;
 
 /// Maximum excess of the residuals' correlation at which a surface counts as a cylinder. Chosen on the pages of
-/// BENCHMARKS.md and three more draws of their noise.
+/// `benches/README.md` and three more draws of their noise.
 pub(super) const MAX_CYLINDER_EXCESS: f64 = 1.95;
 
 /// Residual of one height from the fitted cylinder.

@@ -205,21 +205,41 @@ mod tests {
         Some((fine, coarse.domain().ok()?))
     }
 
+    /// The difference between ⟨Px, y⟩ and ⟨x, Pᵀy⟩; None where a lattice has no stencils.
+    fn asymmetry(field: &Heightfield) -> Option<f64> {
+        let (fine, coarse) = domains(field)?;
+        let transfer = Transfer::new(&fine, &coarse);
+        let (x, y) = (fill(&coarse, 0.3), fill(&fine, 0.4));
+        let (mut px, mut work) = (vec![0.0; fine.cells()], vec![0.0; fine.cells()]);
+        transfer.prolong((&coarse, &x), (&fine, &mut px, &mut work));
+        let mut pty = vec![0.0; coarse.cells()];
+        let mut clean = vec![0.0; fine.cells()];
+        transfer.restrict((&fine, &y, &mut clean), (&coarse, &mut pty), 1.0);
+        Some((dot(&fine, &px, &y) - dot(&coarse, &x, &pty)).abs())
+    }
+
     proptest! {
         #[test]
         fn restriction_is_the_transposed_prolongation(field in arbitrary_field()) {
-            if let Some((fine, coarse)) = domains(&field) {
-                let transfer = Transfer::new(&fine, &coarse);
-                let (x, y) = (fill(&coarse, 0.3), fill(&fine, 0.4));
-                let (mut px, mut work) = (vec![0.0; fine.cells()], vec![0.0; fine.cells()]);
-                transfer.prolong((&coarse, &x), (&fine, &mut px, &mut work));
-                let mut pty = vec![0.0; coarse.cells()];
-                let mut clean = vec![0.0; fine.cells()];
-                transfer.restrict((&fine, &y, &mut clean), (&coarse, &mut pty), 1.0);
-                let (left, right) = (dot(&fine, &px, &y), dot(&coarse, &x, &pty));
-                prop_assert!((left - right).abs() < 1e-5, "{left} {right}");
-            }
+            let off = asymmetry(&field);
+            prop_assert!(off.is_none_or(|off| off < 1e-5), "{off:?}");
         }
+    }
+
+    #[test]
+    fn restriction_is_the_transposed_prolongation_beside_a_bay_of_the_border() {
+        // Once found by the test above: the upper left corner and the end of a row are missing.
+        const PRESENT: [&str; 7] = [
+            ".......", ".......", "...x.x.", ".xxxxxx", "xxxxxxx", "xx..xxx", "xxxxxxx",
+        ];
+        let present = PRESENT.concat();
+        let heights = present.char_indices().map(|(i, cell)| match cell {
+            'x' => (1.7 * i as f64).sin(),
+            _ => f64::NAN,
+        });
+        let lattice = crate::Lattice::new(7, 7, 1.8622251202170843).unwrap();
+        let field = Heightfield::new(lattice, heights.collect()).unwrap();
+        assert!(asymmetry(&field).unwrap() < 1e-5);
     }
 
     #[test]

@@ -1,7 +1,7 @@
 //! Options of a mesh's fit.
 
 use crate::error::{Error, Result};
-use crate::fit::options::{DEFAULT_CREASE_PASSES, Energy, Lambda, Options};
+use crate::fit::options::{Bending, DEFAULT_CREASE_PASSES, DEFAULT_GAP, Energy, Lambda, Options};
 use crate::math::sym2::Sym2;
 
 /// Excess of a dual's size over the flatness at which the bend there counts in full towards the border's moments.
@@ -27,13 +27,18 @@ pub struct MeshOptions {
 
 impl Default for MeshOptions {
     fn default() -> Self {
+        let Bending {
+            bend_radius,
+            flatness,
+            crease_radius,
+        } = Bending::SMOOTH;
         MeshOptions {
             lambda: Lambda::Auto,
-            gap: 0.01,
+            gap: DEFAULT_GAP,
             max_iterations: 1000,
-            bend_radius: 0.1,
-            flatness: 0.3,
-            crease_radius: 0.1,
+            bend_radius,
+            flatness,
+            crease_radius,
             crease_passes: None,
         }
     }

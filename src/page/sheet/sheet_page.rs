@@ -9,7 +9,7 @@ use super::polyline::Polyline;
 use super::search::{FoundSheet, find_sheet};
 use super::view::PhotoView;
 use crate::dewarp::{DewarpOptions, Photo, WarpMap};
-use crate::error::{Error, Result, positive};
+use crate::error::{Error, Readable, Result, positive};
 use crate::page::curled_page::MAX_CENTRE_DIAGONALS;
 use crate::page::edges::{Edges, Trace};
 use crate::page::known_sizes::{Sides, focal_length, sides};
@@ -271,7 +271,7 @@ impl SheetPage {
             let length = positive("ruler.length", ruler.length)?;
             let end = |pixel| back_project(|share| Some(self.table.at(share)), pixel);
             let (Some(from), Some(to)) = (end(ruler.from), end(ruler.to)) else {
-                let ends = format!("from {:?} to {:?}", ruler.from, ruler.to);
+                let ends = format!("from {} to {}", ruler.from.readable(), ruler.to.readable());
                 return Err(Error::option(
                     "ruler",
                     ends,

@@ -3,7 +3,7 @@
 //! On the flat page that the edges show, lines of text are nearly level. There the ink is summed along the rows of
 //! narrow vertical strips. A line of text is a band of ink that continues from strip to strip; its lower edge is the
 //! baseline. Bands that scatter too much, or are not parallel to those above and below, are discarded. Thresholds were
-//! chosen on the shapes and layouts of BENCHMARKS.md (flat pages from a photo alone), at half their resolution.
+//! chosen on the shapes and layouts of `benches/README.md` (flat pages from a photo alone), at half their resolution.
 
 mod bands;
 mod baseline;

@@ -196,6 +196,16 @@ impl Body {
         self.part(&members, &labels)
     }
 
+    /// Middle of a triangle.
+    pub(super) fn middle(&self, triangle: u32) -> Place {
+        let corners = self.triangles[triangle as usize];
+        corners
+            .map(|v| self.places[v as usize])
+            .iter()
+            .sum::<Place>()
+            / 3.0
+    }
+
     /// Separates some triangles from a part of the mesh, as parts of their own. Returns the part numbers of all pieces.
     pub(super) fn set_apart(&mut self, part: u32, apart: &[u32]) -> Result<Vec<u32>> {
         let members = self.members(part);

@@ -13,6 +13,8 @@ mod seams;
 
 use std::collections::BTreeMap;
 
+use rustc_hash::FxHashSet;
+
 use super::options::PatternOptions;
 use crate::error::{Error, Result, check_count, positive, rounded};
 use crate::fit::mesh::topology::Topology;
@@ -52,7 +54,7 @@ const MESH_RELATIVE_TOLERANCE: f64 = 1e-4;
 /// [`Error::Shape`](crate::Error::Shape) if the patches belong to another mesh,
 /// [`Error::Option`](crate::Error::Option) for a seam gap or a strain that is not positive and finite,
 /// [`Error::Topology`](crate::Error::Topology) for a mesh that is not a surface,
-/// [`Error::Unsupported`](crate::Error::Unsupported) if more than 500 parts would be needed.
+/// [`Error::NotFlat`](crate::Error::NotFlat) if more than 500 parts would be needed.
 pub fn pattern_mesh(
     mesh: &Mesh,
     patches: &MeshPatches,
@@ -117,10 +119,12 @@ fn flat_parts(mut body: Body, limits: Limits) -> Result<(Body, Vec<FlatPart>)> {
         };
         if !removed.is_empty() {
             open.extend(body.set_apart(part, &removed)?);
+            if body.count > MAX_PARTS {
+                return Err(too_many_parts(&body, &laid));
+            }
             continue;
         }
-        let worst = body.triangles[laid.members[laid.worst] as usize];
-        let worst = worst.map(|v| body.places[v as usize]).iter().sum::<Place>() / 3.0;
+        let worst = body.middle(laid.members[laid.worst]);
         let mut best: Option<(f64, Plane)> = None;
         let alone = body.alone(&laid.members);
         for plane in body.planes(&laid.members, worst) {
@@ -143,14 +147,7 @@ fn flat_parts(mut body: Body, limits: Limits) -> Result<(Body, Vec<FlatPart>)> {
             }
         }
         let Some((_, plane)) = best else {
-            let [x, y, z] = <[f64; 3]>::from(worst).map(rounded);
-            return Err(Error::Unsupported {
-                format: "pattern",
-                reason: format!(
-                    "the mesh around ({x}, {y}, {z}) cannot be laid flat within {MAX_PARTS} parts; smooth it more \
-                     (a smaller lambda), take larger patches or allow more strain"
-                ),
-            });
+            return Err(too_many_parts(&body, &laid));
         };
         open.extend(body.cut(part, &plane)?);
     }
@@ -163,13 +160,38 @@ fn flat_parts(mut body: Body, limits: Limits) -> Result<(Body, Vec<FlatPart>)> {
     Ok((body, parts))
 }
 
+/// The error for a part that would have to be cut further than [`MAX_PARTS`] allows, with its most strained place.
+fn too_many_parts(body: &Body, laid: &FlatPart) -> Error {
+    let [x, y, z] = <[f64; 3]>::from(body.middle(laid.members[laid.worst])).map(rounded);
+    let vertices: FxHashSet<u32> = (laid.members.iter())
+        .flat_map(|t| body.triangles[*t as usize])
+        .collect();
+    Error::NotFlat {
+        place: format!("({x}, {y}, {z})"),
+        vertices: vertices.len(),
+        reason: format!("the mesh would have to be cut into more than {MAX_PARTS} parts"),
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    #[test]
-    fn a_tooth_that_would_lie_on_its_sheet_is_set_apart_alone() {
-        // A disk of ten rings without 30 degrees, and a triangle that stands upright on one side of the gap.
+    const UNTIL: StoppingCriteria = StoppingCriteria {
+        tolerance: 1e-12,
+        relative_tolerance: 0.0,
+        target_energy: 0.0,
+        hopeless_energy: f64::INFINITY,
+        max_steps: 200,
+    };
+    const LIMITS: Limits = Limits {
+        gap: 0.02,
+        strain: 0.01,
+        until: UNTIL,
+    };
+
+    /// A disk of ten rings without 30 degrees, and a triangle, the last one, that stands upright on one side of the gap.
+    fn disk_with_tooth() -> (Vec<Place>, Vec<[u32; 3]>) {
         let (rings, sectors) = (10u32, 5u32);
         let place = |ring: u32, sector: u32| {
             let (far, angle) = (
@@ -198,28 +220,41 @@ mod tests {
         let up = Place::new(0.75, 0.0, 0.45);
         places.push(up);
         triangles.push([foot[1], places.len() as u32 - 1, foot[0]]);
+        (places, triangles)
+    }
+
+    #[test]
+    fn a_tooth_that_would_lie_on_its_sheet_is_set_apart_alone() {
+        let (places, triangles) = disk_with_tooth();
         let tooth = triangles.len() as u32 - 1;
         let labels = vec![0; triangles.len()];
         let body = Body::new(places, triangles, labels).unwrap();
-        let until = StoppingCriteria {
-            tolerance: 1e-12,
-            relative_tolerance: 0.0,
-            target_energy: 0.0,
-            hopeless_energy: f64::INFINITY,
-            max_steps: 200,
-        };
-        let limits = Limits {
-            gap: 0.02,
-            strain: 0.01,
-            until,
-        };
-        let whole = FlatPart::whole(&body, body.members(0), until).unwrap();
+        let whole = FlatPart::whole(&body, body.members(0), UNTIL).unwrap();
         assert!(whole.strain < 1e-9 && whole.overlaps());
-        let (_, parts) = flat_parts(body, limits).unwrap();
+        let (_, parts) = flat_parts(body, LIMITS).unwrap();
         let [disk, alone] = &parts[..] else {
             panic!("{} parts", parts.len());
         };
         assert!(!disk.overlaps() && disk.strain < 1e-9);
         assert_eq!(alone.members, [tooth]);
+    }
+
+    #[test]
+    fn a_tooth_is_not_set_apart_where_there_are_as_many_parts_as_can_be_assembled() {
+        let (mut places, mut triangles) = disk_with_tooth();
+        for k in 1..MAX_PARTS {
+            let first = places.len() as u32;
+            let far = 2.0 + f64::from(k);
+            places.extend(
+                [[far, 0.0], [far + 0.5, 0.0], [far, 0.5]].map(|[x, y]| Place::new(x, y, 0.0)),
+            );
+            triangles.push([first, first + 1, first + 2]);
+        }
+        let labels = vec![0; triangles.len()];
+        let body = Body::new(places, triangles, labels).unwrap();
+        assert_eq!(body.count, MAX_PARTS);
+        let error = flat_parts(body, LIMITS).err().unwrap();
+        assert_eq!(error.code(), "NOT_FLAT");
+        assert!(error.to_string().contains("more than 500 parts"), "{error}");
     }
 }

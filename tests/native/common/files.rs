@@ -53,3 +53,30 @@ pub fn of_every_type() -> impl Iterator<Item = (&'static str, &'static str, Vec<
         (name, data_type, values)
     })
 }
+
+/// Reads an image of any format: as many heights as its size says, or one of the errors that a file can deserve.
+pub fn check_decoded(bytes: &[u8]) -> Result<(), proptest::test_runner::TestCaseError> {
+    use developable::files::images::{Decoded, decode};
+    use proptest::prop_assert;
+    match decode(bytes, None).and_then(Decoded::into_image) {
+        Ok(image) => prop_assert!(image.values().len() == image.width() * image.height()),
+        Err(error) => {
+            let deserved = [
+                "FORMAT",
+                "UNSUPPORTED",
+                "EMPTY",
+                "NOT_FINITE",
+                "TOO_LARGE",
+                "SHAPE",
+                "OPTION",
+            ];
+            prop_assert!(
+                deserved.contains(&error.code()),
+                "{} {}",
+                error.code(),
+                error
+            );
+        }
+    }
+    Ok(())
+}

@@ -3,7 +3,7 @@
 use developable::dewarp::{DewarpOptions, Photo};
 use developable::page::{
     Edges, FocalLength, Format, PageDoubt, PageModel, PageOptions, PageReport, PageSurface,
-    PageVerdict, SheetPage, Trace,
+    PageVerdict, Ruler, SheetPage, Trace,
 };
 use oorandom::Rand64;
 
@@ -209,6 +209,23 @@ fn known_sheets_are_found() {
         assert_ne!(report.model, PageModel::Plane);
         assert!(report.lines > 8, "{report:?}");
     }
+}
+
+#[test]
+fn a_ruler_beside_a_sheet_is_refused_in_plain_numbers() {
+    let pixels = photo(thirds, true);
+    let photo = Photo::new(PHOTO[0], PHOTO[1], &pixels).unwrap();
+    let ruler = Ruler {
+        from: [0.0; 2],
+        to: [10.0; 2],
+        length: 1.0,
+    };
+    let options = PageOptions::default().focal_length(FocalLength::Pixels(FOCAL));
+    let error =
+        SheetPage::in_photo(&edges(thirds, 0.4), &photo, &options.ruler(ruler)).unwrap_err();
+    let text = error.to_string();
+    assert!(text.contains("begin and end on the page"), "{text}");
+    assert!(text.contains("[0, 0]") && !text.contains("0.0"), "{text}");
 }
 
 #[test]

@@ -7,6 +7,8 @@ import { join } from 'node:path';
 import { after, before, test } from 'node:test';
 import { chromium } from 'playwright-core';
 import { isolation, serve } from '../../../tools/serve.mjs';
+import { bundlePage } from '../../../tools/site.mjs';
+import { pkg, www } from '../../../tools/util/paths.mjs';
 
 /** @typedef {import('playwright-core').Page} Page */
 
@@ -18,6 +20,9 @@ const args = [
 
 /** The page's first example, so small that it is solved at once: for tests of what is opened after it. */
 const SMALL_EXAMPLE = '#example=cylinder&size=64&noise=0.02';
+
+/** Where the page is served as `npm start` serves it, file by file; elsewhere it is bundled, as on the site. */
+const SOURCES = 'sources/';
 
 /** Time for anything to happen, on a machine that may be busy. */
 const PATIENCE = 60_000;
@@ -33,20 +38,29 @@ let browser;
 let shared;
 /** @type {string | undefined} */
 let profile;
+/** @type {string | undefined} */
+let ownBundle;
 /** @type {Awaited<ReturnType<typeof serve>>} */
 let server;
 
 const missing = browserMissing();
 if (!missing) {
   before(async () => {
-    // The files don't change during a test run: they may be cached, with the code that was compiled from them.
-    server = await serve({ port: 0, headers: { ...isolation, 'Cache-Control': 'max-age=3600' } });
+    // `npm test` has bundled it for all files.
+    const bundle = process.env.DEVELOPABLE_PAGE || (ownBundle = await mkdtemp(join(tmpdir(), 'developable-page-')));
+    if (ownBundle) await bundlePage(ownBundle);
+    server = await serve({
+      port: 0,
+      // The files don't change during a test run: they may be cached, with the code that was compiled from them.
+      headers: { ...isolation, 'Cache-Control': 'max-age=3600' },
+      folders: { '/': bundle, '/pkg/': pkg, [`/${SOURCES}`]: www, [`/${SOURCES}pkg/`]: pkg },
+    });
   });
   after(async () => {
     await (await shared)?.close();
     await (await browser)?.close();
     await server?.close();
-    if (profile) await rm(profile, { recursive: true, force: true, maxRetries: 5 });
+    for (const folder of [profile, ownBundle]) if (folder) await rm(folder, { recursive: true, force: true, maxRetries: 5 });
   });
 }
 
@@ -92,15 +106,15 @@ function browserMissing() {
  * breaks its security policy (which Chromium reports as errors) or asks any other origin.
  * @param {string} name
  * @param {(page: Page) => Promise<void>} body
- * @param {import('playwright-core').BrowserContextOptions & { arrangement?: 'space' | 'flat', start?: string }} [options]
+ * @param {import('playwright-core').BrowserContextOptions & { arrangement?: 'space' | 'flat', start?: string, sources?: boolean }} [options]
  *   side by side unless said otherwise, where what canvases show can be read; the part of the address after the #,
- *   which is a small example unless said otherwise
+ *   which is a small example unless said otherwise; whether the page is served file by file
  */
-export function pageTest(name, body, { arrangement = 'flat', start = SMALL_EXAMPLE, ...options } = {}) {
+export function pageTest(name, body, { arrangement = 'flat', start = SMALL_EXAMPLE, sources = false, ...options } = {}) {
   inChromium(name, async (page) => {
     const incidents = watch(page);
     await page.addInitScript((chosen) => localStorage.setItem('developable: arrangement', chosen), arrangement);
-    await page.goto(server.url + start);
+    await page.goto(server.url + (sources ? SOURCES : '') + start);
     await settled(page);
     await body(page);
     assert.deepEqual(incidents, []);
@@ -119,7 +133,7 @@ export function brokenStartTest(name, spoil, body) {
     const uncaught = [];
     page.on('pageerror', (error) => uncaught.push(error.message));
     await spoil(page);
-    await page.goto(server.url);
+    await page.goto(server.url + SOURCES);
     await page.locator('#page[data-phase="failed"]').waitFor();
     await body(page);
     assert.deepEqual(uncaught, []);

@@ -3,6 +3,8 @@
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::sync::atomic::{AtomicBool, Ordering};
 
+use crate::team::has_crashed;
+
 #[global_allocator]
 static ALLOCATOR: LockedAllocator = LockedAllocator {
     is_locked: AtomicBool::new(false),
@@ -14,9 +16,12 @@ struct LockedAllocator {
 }
 
 impl LockedAllocator {
-    /// Calls `allocate` while no other thread allocates.
+    /// Calls `allocate` while no other thread allocates. Traps if a helper has crashed, which may hold the lock for ever.
     fn locked<T>(&self, allocate: impl FnOnce() -> T) -> T {
         while self.is_locked.swap(true, Ordering::Acquire) {
+            if has_crashed() {
+                std::process::abort();
+            }
             std::hint::spin_loop();
         }
         let result = allocate();

@@ -20,6 +20,12 @@ const HELPER_STACK_BYTES: usize = 1 << 20;
 /// Alignment of the top of a stack in bytes.
 const STACK_ALIGNMENT: usize = 16;
 
+/// Size of the guard below a stack in bytes, which no frame reaches: wasm has no pages that trap.
+const GUARD_BYTES: usize = 1 << 10;
+
+/// Value of each byte of a guard, and of a stack that nobody has used.
+const GUARD_BYTE: u8 = 0xa5;
+
 /// Number of times that an idle helper looks for a job before it sleeps: about a millisecond, longer than nearly all work
 /// between two jobs. To sleep and wake up takes longer than most jobs.
 const MAX_IDLE_LOOKS: u32 = 1 << 20;
@@ -69,6 +75,11 @@ static SLEEPING_COUNT: AtomicU32 = AtomicU32::new(0);
 /// Number of helpers that have crashed: JavaScript counts them.
 static CRASH_COUNT: AtomicU32 = AtomicU32::new(0);
 
+/// Whether a helper has crashed.
+pub(crate) fn has_crashed() -> bool {
+    CRASH_COUNT.load(Ordering::Relaxed) > 0
+}
+
 thread_local! {
     /// The solver's functions [`wake` and `pause`](lead_team).
     static FUNCTIONS: RefCell<Option<[Function; 2]>> = const { RefCell::new(None) };
@@ -106,10 +117,7 @@ impl ThreadTeam for Team {
         GATE.fetch_and(!OPEN, Ordering::AcqRel);
         let mut looks = 0;
         while GATE.load(Ordering::Acquire) != 0 {
-            assert!(
-                CRASH_COUNT.load(Ordering::Relaxed) == 0,
-                "a helper of the team has crashed"
-            );
+            assert!(!has_crashed(), "a helper of the team has crashed");
             if looks < MAX_BUSY_LOOKS {
                 looks += 1;
                 std::hint::spin_loop();
@@ -150,11 +158,23 @@ pub fn lead_team(wake: Function, pause: Function) -> Vec<usize> {
     vec![JOB_COUNT.as_ptr() as usize, CRASH_COUNT.as_ptr() as usize]
 }
 
-/// Allocates the stack of a helper and returns the address of its top.
+/// Allocates the stack of a helper, with a guard below it, and returns the address of its top.
 #[wasm_bindgen(js_name = helperStack)]
 pub fn helper_stack() -> Result<usize> {
-    let stack = try_filled("stack of a thread", HELPER_STACK_BYTES, 0u8)?.leak();
-    Ok(stack.as_ptr_range().end as usize / STACK_ALIGNMENT * STACK_ALIGNMENT)
+    let size = GUARD_BYTES + HELPER_STACK_BYTES + STACK_ALIGNMENT;
+    let memory = try_filled("stack of a thread", size, GUARD_BYTE)?.leak();
+    let top = memory.as_ptr_range().end as usize / STACK_ALIGNMENT * STACK_ALIGNMENT;
+    Ok(top)
+}
+
+/// Traps if a helper whose stack has this top has written below it.
+fn check_guard(top: usize) {
+    let guard = (top - HELPER_STACK_BYTES - GUARD_BYTES) as *const u8;
+    // SAFETY: `helper_stack` has allocated these bytes for good, and only a helper that overflows writes them.
+    let is_sound = |i| unsafe { guard.add(i).read_volatile() } == GUARD_BYTE;
+    if !(0..GUARD_BYTES).all(is_sound) {
+        std::process::abort();
+    }
 }
 
 /// Joins the team as a helper; [`help`] is called next.
@@ -164,10 +184,10 @@ pub extern "C" fn join_team() {
     HELPER_COUNT.fetch_add(1, Ordering::SeqCst);
 }
 
-/// Helps with jobs until there has been none for a while. Returns the number of jobs by then, whose change the caller
-/// waits for before the next call.
+/// Helps with jobs until there has been none for a while, on the stack with this [top](helper_stack). Returns the number
+/// of jobs by then, whose change the caller waits for before the next call.
 #[unsafe(no_mangle)]
-pub extern "C" fn help() -> u32 {
+pub extern "C" fn help(stack: usize) -> u32 {
     SLEEPING_COUNT.fetch_sub(1, Ordering::SeqCst);
     let mut last = None;
     let mut looks = 0;
@@ -181,6 +201,8 @@ pub extern "C" fn help() -> u32 {
                 if let Some(work) = job.work {
                     run_pieces(job.count, work);
                 }
+                // While the solver waits for this helper: it hears of the crash.
+                check_guard(stack);
                 GATE.fetch_sub(1, Ordering::Release);
             }
             looks = 0;

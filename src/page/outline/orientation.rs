@@ -1,12 +1,13 @@
 //! Orientation of a page by its print: lines of text run from left to right, and the upper half has more print.
 
 use super::planes::Planes;
+use crate::math::planar::distance;
 
-/// Number of samples along each side of a page when the orientation of its print is determined.
-const SAMPLES_PER_SIDE: usize = 320;
+/// Number of samples along the longer side of a page when the orientation of its print is determined.
+const SAMPLES_ALONG_LONGER_SIDE: usize = 320;
 
-/// Number of strips into which the page's width is divided when rows of print are detected, so that lines may be bent.
-const PRINT_STRIPS: usize = 10;
+/// Width of the strips in which rows of print are detected, in samples: narrow enough that lines may be bent.
+const STRIP_SAMPLES: usize = 32;
 
 /// Share of the page's side at each edge that is left out when the orientation is determined, because of shadows.
 const MARGIN_SHARE: f64 = 0.05;
@@ -17,21 +18,19 @@ const MIN_ENERGY_RATIO: f64 = 1.6;
 /// Minimum mean darkness of the print, in logarithmic colour, for a page to have an orientation.
 const MIN_MEAN_PRINT: f64 = 0.003;
 
-/// Contrast energy of print in one direction: the sum, over parallel strips of the image `print`, of squared
-/// differences between neighbouring values of the strip's profile. `at` gives the index of a sample in `print` by its
-/// place along the profile and across it.
-fn profile_energy(print: &[f32], at: impl Fn(usize, usize) -> usize) -> f64 {
-    let width = SAMPLES_PER_SIDE / PRINT_STRIPS;
+/// Contrast energy of print in one direction: the sum, over parallel strips of the image, of squared differences between
+/// neighbouring values of the strip's profile, which is `length` long; all strips together are `across` wide. `print`
+/// gives the print by its place along the profile and across it.
+fn profile_energy(length: usize, across: usize, print: impl Fn(usize, usize) -> f32) -> f64 {
     let mut energy = 0.0;
-    for strip in 0..PRINT_STRIPS {
-        let mut before = None;
-        for row in 0..SAMPLES_PER_SIDE {
-            let sum: f32 = (0..width).map(|k| print[at(row, strip * width + k)]).sum();
-            if let Some(last) = before {
-                energy += f64::from(sum - last).powi(2);
-            }
-            before = Some(sum);
-        }
+    for start in (0..across).step_by(STRIP_SAMPLES) {
+        let strip = start..(start + STRIP_SAMPLES).min(across);
+        let profile: Vec<f32> = (0..length)
+            .map(|i| strip.clone().map(|k| print(i, k)).sum())
+            .collect();
+        energy += (profile.windows(2))
+            .map(|pair| f64::from(pair[1] - pair[0]).powi(2))
+            .sum::<f64>();
     }
     energy
 }
@@ -41,13 +40,23 @@ fn profile_energy(print: &[f32], at: impl Fn(usize, usize) -> usize) -> f64 {
 /// the same without print.
 pub(super) fn quarter_turns(raw: &Planes, clean: &Planes, corners: &[[f64; 2]; 4]) -> usize {
     let [a, b, c, d] = corners;
-    let share = |i: usize| {
-        MARGIN_SHARE + (1.0 - 2.0 * MARGIN_SHARE) * (i as f64 + 0.5) / SAMPLES_PER_SIDE as f64
+    // Samples are about square on the page: a squeezed page would have more contrast along its lines.
+    let sides = [
+        distance(*a, *b) + distance(*c, *d),
+        distance(*b, *c) + distance(*d, *a),
+    ];
+    let longer = sides[0].max(sides[1]).max(1e-9);
+    let [width, height] = sides.map(|side| {
+        let samples = SAMPLES_ALONG_LONGER_SIDE as f64 * side / longer;
+        (samples.round() as usize).max(1)
+    });
+    let share = |i: usize, n: usize| {
+        MARGIN_SHARE + (1.0 - 2.0 * MARGIN_SHARE) * (i as f64 + 0.5) / n as f64
     };
-    let mut print = vec![0.0_f32; SAMPLES_PER_SIDE * SAMPLES_PER_SIDE];
+    let mut print = vec![0.0_f32; width * height];
     let (mut total, mut right) = (0.0, 0.0);
     for (i, value) in print.iter_mut().enumerate() {
-        let (u, v) = (share(i % SAMPLES_PER_SIDE), share(i / SAMPLES_PER_SIDE));
+        let (u, v) = (share(i % width, width), share(i / width, height));
         let [x, y] = [0, 1]
             .map(|k| (1.0 - v) * ((1.0 - u) * a[k] + u * b[k]) + v * ((1.0 - u) * d[k] + u * c[k]));
         let pixel = |at: f64, size: usize| at.round().clamp(0.0, size as f64 - 1.0) as usize;
@@ -59,8 +68,8 @@ pub(super) fn quarter_turns(raw: &Planes, clean: &Planes, corners: &[[f64; 2]; 4
     if total < MIN_MEAN_PRINT * print.len() as f64 {
         return 0;
     }
-    let rows = profile_energy(&print, |row, col| row * SAMPLES_PER_SIDE + col);
-    let cols = profile_energy(&print, |row, col| col * SAMPLES_PER_SIDE + row);
+    let rows = profile_energy(height, width, |row, col| print[row * width + col]);
+    let cols = profile_energy(width, height, |col, row| print[row * width + col]);
     if cols < MIN_ENERGY_RATIO * rows {
         return 0;
     }

@@ -42,7 +42,7 @@ const MIN_ALIGNMENT: f32 = 0.9;
 
 /// Minimum difference of logarithmic colour between a pixel and the same pixel with print suppressed for it to count as
 /// print.
-const MIN_PRINT_CONTRAST: f32 = 0.2;
+pub(super) const MIN_PRINT_CONTRAST: f32 = 0.2;
 
 /// Vote of an edge pixel near print in the Hough transform, where one of anything else is 1: there is more print than
 /// edges of pages.

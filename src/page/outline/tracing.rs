@@ -152,10 +152,12 @@ pub(super) fn traced(
     };
     let mut edges = edges.iter().map(thinned);
     let edges = [edges.next()?, edges.next()?, edges.next()?, edges.next()?];
+    let clarity = support * visible * contrast;
     Some(PageOutline {
         corners: corners.map(place),
         edges,
-        score: likeness * support * visible * contrast,
+        score: likeness * clarity,
+        clarity,
         reasons,
     })
 }

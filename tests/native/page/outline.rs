@@ -364,6 +364,48 @@ fn a_page_that_lies_sideways_is_turned_by_its_print() {
 }
 
 #[test]
+fn a_wide_page_is_not_turned_by_its_print() {
+    // A card that is four times as wide as high, with three lines of words.
+    let card = [
+        [120.0, 380.0],
+        [1080.0, 390.0],
+        [1085.0, 630.0],
+        [115.0, 620.0],
+    ];
+    let words = |[u, v]: [f64; 2]| {
+        let word = (u * 40.0) as usize;
+        let is_text = (0.08..0.92).contains(&u)
+            && (0.2..0.8).contains(&v)
+            && ((v - 0.2) * 5.0).fract() < 0.5
+            && !(word + (v * 5.0) as usize).is_multiple_of(4);
+        if is_text { [50.0; 3] } else { PAPER }
+    };
+    check("card", &photo(pages(&[card], words, wood), even), &card);
+}
+
+/// A page that is folded in thirds, so that its outline is far from a rectangle.
+#[test]
+fn a_clear_outline_is_not_refused_for_its_shape() {
+    let shift = |v: f64| 170.0 * ((3.0 * v).rem_euclid(2.0) - 1.0).abs();
+    let inside = |[x, y]: [f64; 2]| {
+        let v = (y - 120.0) / 760.0;
+        let u = (x - 250.0 - shift(v)) / 540.0;
+        ((0.0..1.0).contains(&u) && (0.0..1.0).contains(&v)).then_some([u, v])
+    };
+    let colour = |place: [f64; 2]| inside(place).map_or_else(|| wood(place), letter);
+    let report = found(&photo(colour, even));
+    assert_eq!(report.verdict, OutlineVerdict::Doubtful);
+    let truth = [
+        [420.0, 120.0],
+        [960.0, 120.0],
+        [790.0, 880.0],
+        [250.0, 880.0],
+    ];
+    let error = corner_error(&report.pages[0], &truth);
+    assert!(error < 4.0, "{error}");
+}
+
+#[test]
 fn photos_of_any_size_and_content_are_answered() {
     let mut rng = Rand64::new(9);
     for (width, height) in [

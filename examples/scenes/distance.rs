@@ -2,11 +2,10 @@
 
 use developable::{Heightfield, Quadratic};
 
-/// Mean angle between normals, in degrees, and root mean square of the difference in height.
+/// Mean angle between normals, in degrees.
 #[derive(Debug, Clone, Copy)]
 pub struct Distance {
     pub normals: f64,
-    pub heights: f64,
 }
 
 impl Distance {
@@ -22,12 +21,8 @@ impl Distance {
                 }
             }
         }
-        let pairs = truth.heights().iter().zip(surface.heights());
-        let valid = pairs.filter(|(a, b)| !a.is_nan() && !b.is_nan());
-        let squares: Vec<f64> = valid.map(|(a, b)| (a - b).powi(2)).collect();
         Distance {
             normals: angles / count,
-            heights: (squares.iter().sum::<f64>() / squares.len() as f64).sqrt(),
         }
     }
 }
@@ -49,4 +44,18 @@ fn angle([ax, ay]: [f64; 2], [bx, by]: [f64; 2]) -> f64 {
     let cross = [ay - by, bx - ax, ax * by - ay * bx];
     let size = cross.iter().map(|x| x * x).sum::<f64>().sqrt();
     size.atan2(ax * bx + ay * by + 1.0)
+}
+
+/// Mean angle between the normals of two surfaces, in degrees, over the vertices that `counts`.
+pub fn mean_angle(truth: &Heightfield, surface: &Heightfield, counts: &[bool]) -> f64 {
+    let lattice = truth.lattice();
+    let (mut angles, mut count) = (0.0, 0.0);
+    for vertex in (0..lattice.len()).filter(|vertex| counts[*vertex]) {
+        let (row, col) = (vertex / lattice.cols(), vertex % lattice.cols());
+        if let [Some(a), Some(b)] = [truth, surface].map(|field| slope(field, row, col)) {
+            angles += angle(a, b).to_degrees();
+            count += 1.0;
+        }
+    }
+    angles / count
 }

@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use developable::{Heightfield, Lattice};
+use developable::Heightfield;
 
 /// Sizes are shares of the height range.
 #[derive(Debug, Clone, Copy)]
@@ -11,8 +11,6 @@ pub enum Noise {
     White(f64),
     /// Smoothed over about a cell, as that of depth cameras is.
     Correlated(f64),
-    /// White noise after a Gaussian blur of so many spacings along rows and across them, scaled to its size again.
-    Blurred(f64, [f64; 2]),
     /// Rounded to one of many levels, which are so far apart.
     Voxels(f64),
 }
@@ -22,10 +20,6 @@ impl fmt::Display for Noise {
         match self {
             Noise::White(share) => write!(f, "white, {} %", 100.0 * share),
             Noise::Correlated(share) => write!(f, "correlated, {} %", 100.0 * share),
-            Noise::Blurred(share, [x, y]) if x == y => {
-                write!(f, "blurred {x}, {} %", 100.0 * share)
-            }
-            Noise::Blurred(share, [x, y]) => write!(f, "lines {x} {y}, {} %", 100.0 * share),
             Noise::Voxels(share) => write!(f, "voxels, {} %", 100.0 * share),
         }
     }
@@ -41,9 +35,7 @@ impl Noise {
     /// Standard deviation.
     pub fn sigma(self, truth: &Heightfield) -> f64 {
         match self {
-            Noise::White(share) | Noise::Correlated(share) | Noise::Blurred(share, _) => {
-                share * range(truth)
-            }
+            Noise::White(share) | Noise::Correlated(share) => share * range(truth),
             Noise::Voxels(share) => share * range(truth) / 12f64.sqrt(),
         }
     }
@@ -61,10 +53,6 @@ impl Noise {
             }
             Noise::White(_) => {
                 let noise = normal(lattice.len());
-                heights.zip(noise).map(|(z, n)| z + sigma * n).collect()
-            }
-            Noise::Blurred(_, blur) => {
-                let noise = blurred(&lattice, &normal(lattice.len()), blur);
                 heights.zip(noise).map(|(z, n)| z + sigma * n).collect()
             }
             Noise::Correlated(_) => {
@@ -122,29 +110,4 @@ fn smooth(field: &Heightfield, values: &mut [f64]) {
         let (sum, weight) = ring.fold((2.0 * old[i], 2.0), |(s, n), x| (s + x, n + 1.0));
         *value = sum / weight;
     }
-}
-
-/// Noise of variance 1, blurred along rows and across them; what leaves the lattice on one side comes in on the other.
-fn blurred(lattice: &Lattice, noise: &[f64], [along, across]: [f64; 2]) -> Vec<f64> {
-    let (rows, cols) = (lattice.rows() as isize, lattice.cols() as isize);
-    let pass = |values: &[f64], blur: f64, [down, right]: [isize; 2]| -> Vec<f64> {
-        let reach = (3.5 * blur).ceil() as isize;
-        let weight = |step: isize| (-0.5 * (step as f64 / blur.max(1e-9)).powi(2)).exp();
-        let at = |vertex: usize, step: isize| {
-            let row = (vertex as isize / cols + step * down).rem_euclid(rows);
-            let col = (vertex as isize % cols + step * right).rem_euclid(cols);
-            values[(row * cols + col) as usize]
-        };
-        let sum = |vertex| {
-            (-reach..=reach)
-                .map(|step| weight(step) * at(vertex, step))
-                .sum()
-        };
-        (0..values.len()).map(sum).collect()
-    };
-    let rows_apart = lattice.row_spacing() / lattice.spacing();
-    let noise = pass(&pass(noise, along, [0, 1]), across / rows_apart, [1, 0]);
-    let squares: f64 = noise.iter().map(|n| n * n).sum();
-    let size = (squares / noise.len() as f64).sqrt();
-    noise.iter().map(|n| n / size).collect()
 }

@@ -9,10 +9,12 @@ use developable::files::images::{PhotoOptions, write_photo};
 use developable::picture::{Picture, PictureOptions};
 use developable::{HeightImage, Heightfield, Lattice, Options, fit};
 
-use super::DECADES;
 use super::distance::Distance;
 use super::noise::Noise;
 use super::shapes::{self, Scene};
+
+/// Half-decades about `8/σh` among which the best λ is picked.
+const DECADES: [f64; 8] = [-2.0, -1.5, -1.0, -0.5, 0.0, 0.5, 1.0, 1.5];
 
 /// Which scenes, under which noise.
 const SHOWN: [(&str, Noise); 6] = [

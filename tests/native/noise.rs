@@ -2,8 +2,8 @@
 
 use crate::common::{Noise, cut, noisy, rms_difference, unit_square};
 use developable::{
-    Energy, HeightImage, Heightfield, Input, Lambda, LambdaReason, Lattice, Options, Report,
-    Solver, Status, fit,
+    Bridging, Energy, HeightImage, Heightfield, Input, Lambda, LambdaReason, Lattice, Options,
+    Report, Solver, Status, fit,
 };
 
 /// Two faces and a smooth bend.
@@ -391,4 +391,41 @@ fn impulses_do_not_raise_lambda() {
     };
     let [with, without] = [choice(&input), choice(&plain)];
     assert!(with.raises <= without.raises, "{with:?} {without:?}");
+}
+
+/// Impulses inside of an image are holes: the surface is about as near as without them.
+#[test]
+fn impulses_are_no_data() {
+    const SIZE: usize = 64;
+    let image = |share: f64| {
+        let mut noise = Noise::new(23);
+        let pixel = |i: usize| {
+            let [x, y] = [i % SIZE, i / SIZE].map(|k| k as f64 / SIZE as f64);
+            let height = scene(x, y) + 0.002 * normal(&mut noise);
+            let [kind, value] = [noise.sample(), noise.sample()];
+            let is_inside = [x, y].iter().all(|place| (0.04..0.95).contains(place));
+            match is_inside && kind < 2.0 * share - 1.0 {
+                true => height + 0.3 * value.signum(),
+                false => height,
+            }
+        };
+        HeightImage::new(SIZE, SIZE, (0..SIZE * SIZE).map(pixel).collect())
+            .unwrap()
+            .with_pixel_size(1.0 / SIZE as f64)
+            .unwrap()
+    };
+    let surface = |share: f64| {
+        let bridged = image(share).bridged(Bridging::default()).unwrap();
+        let input = Input::from_bridged(&bridged, None).unwrap();
+        solve(input, &Options::default()).0
+    };
+    let lattice = *surface(0.0).lattice();
+    let truth = Heightfield::from_fn(lattice, |x, y| {
+        // Pixel (0, 0) is at the top left, half a pixel inside.
+        let half = 0.5 / SIZE as f64;
+        scene(x - half, 1.0 - half - y)
+    });
+    let truth = truth.unwrap();
+    let [clean, spoilt] = [0.0, 0.03].map(|share| rms_difference(&truth, &surface(share)));
+    assert!(spoilt < 1.3 * clean, "{clean} {spoilt}");
 }

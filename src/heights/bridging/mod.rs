@@ -8,12 +8,14 @@ mod crossing;
 mod holes;
 mod raster;
 mod sites;
+mod spikes;
 
 use super::heightfield::{HeightImage, Heightfield};
 use crate::error::{Error, Result, check_shape, try_filled};
 use crossing::Crossings;
 use holes::narrow;
 use raster::Raster;
+use spikes::remove_spikes;
 
 /// Which holes in the data are bridged (filled before the solve), by their width.
 ///
@@ -27,12 +29,15 @@ use raster::Raster;
 /// hole differs from the slopes beside it by more than noise and bends explain. So a hole between two levels of depth
 /// stays a hole. Nor is a hole bridged next to a known occlusion, or where a mask excludes the surface.
 ///
+/// Spikes, single heights far from all around them, count as holes, and offsets of whole rows or columns of an image are
+/// taken out.
+///
 /// Bridged vertices are part of the surface. They start from the plane that fits the data around best, and have a small
 /// confidence: a fifth of the data's next to it, less further away.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Bridging {
-    /// No hole is bridged: a vertex without a height is not part of the surface.
+    /// No hole is bridged, and heights stay as they are: a vertex without a height is not part of the surface.
     Off,
     /// Holes of at most this width, in vertices or pixels, are bridged: 1 to 16.
     UpTo(usize),
@@ -105,10 +110,15 @@ impl Surroundings<'_> {
     }
 
     fn bridges(&self, raster: Raster, width: usize, spacing: f64) -> Result<Vec<Bridge>> {
-        if width == 0 || !self.heights.iter().any(|z| z.is_nan()) {
+        if width == 0 {
             return Ok(Vec::new());
         }
-        let heights = raster.padded(self.heights, f64::NAN)?;
+        let mut heights = raster.padded(self.heights, f64::NAN)?;
+        if remove_spikes(&raster, &mut heights).is_empty()
+            && !self.heights.iter().any(|z| z.is_nan())
+        {
+            return Ok(Vec::new());
+        }
         let mut holes = narrow(&raster, &heights, width)?;
         holes.retain(|cell| self.may_be_bridged(&raster, *cell));
         // Heights of confidence 0 are part of the surface, but carry no information about it.
@@ -210,14 +220,19 @@ impl HeightImage {
             let found = found.unwrap_or(self.values().len());
             check_shape(what, self.height(), self.width(), found)?;
         }
+        let levelled = match bridging {
+            Bridging::Off => None,
+            Bridging::UpTo(_) => self.without_line_offsets()?,
+        };
+        let image = levelled.as_ref().unwrap_or(self);
         let surroundings = Surroundings {
-            heights: self.values(),
+            heights: image.values(),
             confidence: confidence.map_or(&[], HeightImage::values),
             outside: &|pixel| keep.is_some_and(|keep| keep[pixel] == 0),
             torn: &|pixel| torn.is_some_and(|torn| torn[pixel] != 0),
         };
         let bridges = surroundings.on_image(self, bridging.width()?)?;
-        let mut values = self.values().to_vec();
+        let mut values = image.values().to_vec();
         let mut trust = match confidence {
             Some(image) => image.values().to_vec(),
             None if bridges.is_empty() => Vec::new(),

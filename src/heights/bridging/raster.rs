@@ -120,6 +120,17 @@ impl Raster {
         (cell / self.stride) % 2 == 1
     }
 
+    /// Number of a cell's neighbours.
+    pub(super) fn directions(&self) -> usize {
+        self.offsets[0].len()
+    }
+
+    /// The neighbour of a cell in a direction, counted by angle, so that opposite ones are half of all apart.
+    pub(super) fn neighbour(&self, cell: usize, direction: usize) -> usize {
+        let offsets = &self.offsets[usize::from(self.is_odd(cell))];
+        cell.wrapping_add_signed(offsets[direction])
+    }
+
     pub(super) fn neighbours(&self, cell: usize) -> impl Iterator<Item = usize> {
         let offsets = &self.offsets[usize::from(self.is_odd(cell))];
         offsets.iter().map(move |o| cell.wrapping_add_signed(*o))

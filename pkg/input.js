@@ -135,7 +135,7 @@ export function asHeights(input) {
 
 /** @param {Said} said @returns {Image} */
 function imageHeights(said) {
-  const georeference = said.georeference === undefined ? undefined : plainCopy('georeference', said.georeference);
+  const georeference = said.georeference == null ? undefined : /** @type {import('./types.js').Georeference} */ (plainCopy('georeference', said.georeference));
   return { ...pixels(said), data: numbers('data', said.data), georeference };
 }
 

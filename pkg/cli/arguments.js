@@ -38,6 +38,7 @@ import { refuseSameFiles } from './same-file.js';
  * @property {number} [heightScale]
  * @property {import('../types.js').ReadMeshOptions['unit']} [unit] cm and inch of meshes only
  * @property {number} [noData]
+ * @property {boolean} assumeNoData whether values that nobody would measure are no data
  * @property {boolean} normalize
  *
  * @typedef {object} KnownTask what there may be besides the heights

@@ -265,7 +265,7 @@ const wholeCommands = {
   analyze: ['as-is', 'threshold'],
   rulings: ['as-is', ...flagNames(rulings)],
   unroll: ['as-is'],
-  pattern: ['as-is', ...flagNames(meshPatches), ...flagNames(drawing), 'explore', 'sheets'],
+  pattern: ['as-is', ...flagNames(meshPatches), ...flagNames(drawing), 'size', 'explore', 'sheets'],
 };
 
 /** @typedef {keyof typeof wholeCommands} WholeCommand */

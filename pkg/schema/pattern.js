@@ -111,6 +111,8 @@ export const drawing = {
       help: 'maximum distance of smoothed lines from those found, in lattice spacings; 0 draws these as they are (default 0.5)',
     },
   },
+  /** Whether all texts are left out, except the names of sheets. */
+  plain: { kind: flag, default: false, flag: { section: 'shape', help: 'without texts, except the names of sheets' } },
   /**
    * Paper size. Each sheet is put on one page if it fits, turned where that helps. On A4 and letter a larger sheet covers
    * several pages, which are joined at the printed crosses. Default: no pages, the sheets beside each other.

@@ -104,6 +104,10 @@ impl DrawnSheet {
             let letter = letters.get(&tab.seam.crease)?;
             Some(Label::tab(letter, tab))
         }));
+        if options.plain {
+            labels.clear();
+            leaders.clear();
+        }
         let sheet = DrawnSheet {
             name,
             patches: sheet.patches.clone(),
@@ -123,7 +127,7 @@ impl DrawnSheet {
                 .flat_map(|(run, curve)| seam_marks(run, curve, marks))
                 .collect(),
             leaders,
-            labels,
+            labels: Label::without_collisions(labels),
         };
         Ok(sheet.moved(&Place::IDENTITY))
     }

@@ -27,7 +27,7 @@ pub use recognition::has_exact_faces;
 /// Costs some seconds at most for the search, and `O(triangles log triangles)` beside it.
 ///
 /// # Errors
-/// [`Error::Unsupported`](crate::Error::Unsupported) if all triangles have two corners at one place.
+/// [`Error::Unsupported`](crate::Error::Unsupported) if the triangles have no area.
 pub fn pattern_exact(mesh: &Mesh, room: Option<[f64; 2]>) -> Result<MeshPattern> {
     let solid = Polyhedron::new(mesh)?;
     let net = Net::new(&solid, room);

@@ -14,6 +14,9 @@ const SEARCH_WORK: usize = 12_000_000;
 /// Largest distance, in facets, from the hinge about which the search takes a net apart.
 const MAX_RUIN_RADIUS: u64 = 3;
 
+/// Minimum size of the cells of a piece's grid, in multiples of the rounding: a thousandth of the mesh's diagonal.
+const MIN_CELL_ROUNDINGS: f64 = 1000.0;
+
 /// A rigid motion of the plane: a rotation, then a translation.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Motion {
@@ -141,7 +144,7 @@ impl<'a> Net<'a> {
             pieces: vec![Piece::default(); count],
             cell: (area / solid.triangles.len() as f64)
                 .sqrt()
-                .max(f64::MIN_POSITIVE),
+                .max(MIN_CELL_ROUNDINGS * solid.rounding),
             room,
             work: 0,
         };

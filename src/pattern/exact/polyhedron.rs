@@ -42,7 +42,7 @@ impl Polyhedron {
     /// Joins the vertices at one place, turns triangles to one side where they can be, and finds the facets.
     ///
     /// # Errors
-    /// [`Error::Unsupported`] for a mesh without a triangle that has an area.
+    /// [`Error::Unsupported`] for a mesh whose triangles have no area.
     pub(super) fn new(mesh: &Mesh) -> Result<Polyhedron> {
         let rounding = rounding(mesh.positions());
         let (places, joined) = join(mesh.positions(), rounding);
@@ -50,12 +50,6 @@ impl Polyhedron {
         let mut triangles: Vec<[u32; 3]> = triangles
             .filter(|[a, b, c]| a != b && b != c && c != a)
             .collect();
-        if triangles.is_empty() {
-            return Err(Error::Unsupported {
-                format: "pattern",
-                reason: "all triangles of the mesh have two corners at one place".into(),
-            });
-        }
         let twins = oriented_twins(&places, &mut triangles, rounding);
         let mut solid = Polyhedron {
             facets: vec![NO_INDEX; triangles.len()],
@@ -68,7 +62,13 @@ impl Polyhedron {
             rounding,
         };
         solid.find_facets();
-        Ok(solid)
+        match solid.areas.iter().sum::<f64>() > solid.rounding * solid.rounding {
+            true => Ok(solid),
+            false => Err(Error::Unsupported {
+                format: "pattern",
+                reason: "the triangles of the mesh have no area".into(),
+            }),
+        }
     }
 
     pub(super) fn corners(&self, triangle: usize) -> [Place; 3] {

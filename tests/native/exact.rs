@@ -63,7 +63,7 @@ fn block_with_hole() -> Mesh {
             [-30.0, 20.0, z],
         ]);
         points.extend((0..sides).map(|i| {
-            let (sin, cos) = (TAU * f64::from(i) / f64::from(sides) - 0.75 * PI).sin_cos();
+            let (sin, cos) = (TAU * f64::from(i) / f64::from(sides) - PI).sin_cos();
             [8.0 * cos, 8.0 * sin, z]
         }));
     }

@@ -28,7 +28,7 @@ export function init(input?: InitInput): Promise<void>;
  * - `meshes`: `readMesh`, `sampleMesh`, `backProject`, `writePly`, `writeStl` and `writeGlb`;
  * - `fitmesh`: `fitMesh`, `MeshSolver`, `analyzeMesh` and `meshRulings`;
  * - `unroll`: `analyze`, `patches`, `picture`, `draw`, `rulings`, `unroll` and `dewarp`;
- * - `patterns`: `pattern`, `patternMesh`, `unrollMesh`, `writeSvg`, `writePdf` and `writeDxf`.
+ * - `patterns`: `pattern`, `patternMesh`, `hasExactFaces`, `unrollMesh`, `writeSvg`, `writePdf` and `writeDxf`.
  *
  * Where nothing can be awaited, `developable/sync` has `initSync` and `loadSync`.
  */
@@ -183,6 +183,11 @@ export function meshRulings(mesh: Mesh, options?: MeshRulingOptions): MeshRuling
 export function unrollMesh(mesh: Mesh, options?: MeshUnrollOptions): MeshUnrolling;
 /** The same drawn in millimetres, as `pattern` does for heights. */
 export function patternMesh(mesh: Mesh, options?: MeshPatternOptions): Drawing;
+/**
+ * Whether the faces of a mesh are exact (CAD, low-poly models), so that nothing is gained by a fit. `patternMesh` moves such faces into
+ * the plane as they are.
+ */
+export function hasExactFaces(mesh: Mesh): boolean;
 /** SVG of a drawing, in millimetres, with the layers `cut`, `mountain`, `valley`, `tab` and `label`. */
 export function writeSvg(drawing: Drawing): Uint8Array<ArrayBuffer>;
 /**

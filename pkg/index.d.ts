@@ -199,6 +199,11 @@ export function unrollMesh(mesh: Mesh, options?: MeshUnrollOptions): Promise<Mes
 /** The same drawn in millimetres, as `pattern` does for heights. */
 export function patternMesh(mesh: Mesh, options?: MeshPatternOptions): Promise<Drawing>;
 /**
+ * Whether the faces of a mesh are exact (CAD, low-poly models), so that nothing is gained by a fit. `patternMesh` moves such faces into
+ * the plane as they are.
+ */
+export function hasExactFaces(mesh: Mesh): Promise<boolean>;
+/**
  * Patterns at several λ and sizes of patches, from the surface nearest to the input to the plainest. Takes one solve
  * for each λ, which start from each other, and one `pattern` for each plan. Surfaces that cannot be laid flat are plans
  * with a `problem`; whatever else `fit` and `pattern` have to say rejects.

@@ -178,7 +178,7 @@ export const service = {
     const { parts } = /** @type {import('./calls.js').Call} */ (CALLS[name]);
     await loaded(typeof parts === 'function' ? parts(...sent) : parts);
     const result = /** @type {(...args: any[]) => any} */ (direct[name])(...sent);
-    return transfer(result, [...buffersIn(result)]);
+    return typeof result === 'object' ? transfer(result, [...buffersIn(result)]) : result;
   },
 
   /**

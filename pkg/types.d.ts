@@ -952,6 +952,8 @@ export interface Drawing {
     seams: number;
     folds: number;
     tabs: number;
+    /** Seams that are cut and have a tab on neither side, for want of room; 0 if no tabs are wanted. */
+    untabbed: number;
     /** Cuts through what was one patch, because it cannot be laid flat in one piece. */
     slits: number;
     /** Length of the creases that are cut, and of the slits, each line counted once. */

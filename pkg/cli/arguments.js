@@ -38,7 +38,7 @@ import { refuseSameFiles } from './same-file.js';
  * @property {number} [heightScale]
  * @property {import('../types.js').ReadMeshOptions['unit']} [unit] cm and inch of meshes only
  * @property {number} [noData]
- * @property {boolean} assumeNoData whether values that nobody would measure are no data
+ * @property {boolean} [assumeNoData] whether values that nobody would measure are no data (default: yes)
  * @property {boolean} normalize
  *
  * @typedef {object} KnownTask what there may be besides the heights
@@ -270,7 +270,7 @@ const wholeCommands = {
   analyze: ['as-is', 'threshold'],
   rulings: ['as-is', ...flagNames(rulings)],
   unroll: ['as-is'],
-  pattern: ['as-is', ...flagNames(meshPatches), ...flagNames(drawing), 'explore', 'sheets'],
+  pattern: ['as-is', ...flagNames(meshPatches), ...flagNames(drawing), 'size', 'explore', 'sheets'],
 };
 
 /** @typedef {keyof typeof wholeCommands} WholeCommand */

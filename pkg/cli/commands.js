@@ -136,7 +136,7 @@ export const commands = {
     summary: 'cut it into sheets of paper or metal',
     about: 'Fits a surface and cuts it along its creases into sheets to be made of paper or metal.',
     terms: { INPUT, PATTERN: '.svg, .pdf or .dxf in true size, or .json' },
-    flags: [...shaped, 'surface', 'report', ...flagNames(meshPatches), ...flagNames(drawing), 'explore', 'sheets'],
+    flags: [...shaped, 'surface', 'report', ...flagNames(meshPatches), ...flagNames(drawing), 'size', 'explore', 'sheets'],
     words: { report: 'JSON file for the figures of the pattern' },
     examples: ['pattern roof.png -o roof.pdf --scale 2 --tabs 8 --stock a4', 'pattern scan.png --explore', 'pattern scan.png -o scan.svg --sheets 8', 'pattern scan.ply -o sheets.pdf --surface'],
   },

@@ -4,7 +4,7 @@ import { messageOf } from '../errors.js';
 import { nearest } from '../nearest.js';
 import { sampleMesh } from '../schema/file.js';
 import { occlusions, solver, threading } from '../schema/fit.js';
-import { drawing } from '../schema/pattern.js';
+import { drawing, model } from '../schema/pattern.js';
 import { dewarp, dewarpPage, writePhoto } from '../schema/photo.js';
 import { meshPatches, rulings } from '../schema/shape.js';
 import { Problem, status } from './problem.js';
@@ -178,6 +178,7 @@ export const sections = {
       ...flagsFor(meshPatches),
       ...flagsFor(rulings),
       ...flagsFor(drawing),
+      ...flagsFor(model),
       explore: {
         help: 'try several lambda and sizes of patches, and tell for each how many sheets, folds and cuts it takes, how far the ' +
           'surface is from the input, and what time it took: as a table, or as OUTPUT.json',

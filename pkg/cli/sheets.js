@@ -74,6 +74,8 @@ export function reportPattern(drawing, plan) {
   }
   reportSlits(drawing.summary);
   reportMissing(drawing.summary);
+  const { untabbed } = drawing.summary;
+  if (untabbed > 0) process.stderr.write(`developable: warning: ${counted(untabbed, 'seam')} without a tab, for want of room on both sides\n`);
 }
 
 /** How large the drawing is, and on how many pages. @param {import('../types.js').Drawing} drawing */

@@ -3,7 +3,7 @@ import * as developable from '../index.js';
 import { checkPlaces, writeWhole } from './files.js';
 import { readMesh } from './inputs.js';
 import { chosenOf, drawingOptions, flatObj, json, linesObj, patternFiles, plainArrays, reportPattern, tellPlans, withPlans } from './sheets.js';
-import { announceMesh, percent, print, progressLine, toStderr } from './terminal.js';
+import { announceMesh, percent, print, progressLine, say, toStderr } from './terminal.js';
 
 /**
  * @typedef {import('./arguments.js').MeshTask} MeshTask
@@ -19,7 +19,9 @@ export async function whole(task, signal) {
   await checkPlaces(...task.written);
   const mesh = await readMesh({ ...task, lattice: 'mesh', normalize: true });
   if (task.explore || task.sheets !== undefined) return planned(task, mesh, signal);
-  const surface = task.asIs ? undefined : await fitted(task, mesh, signal);
+  const exact = task.make === 'pattern' && await developable.hasExactFaces(mesh);
+  if (exact) say(`${task.input} is taken as it is: its faces are exact`);
+  const surface = task.asIs || exact ? undefined : await fitted(task, mesh, signal);
   const files = await made[task.make](task, surface ?? mesh, mesh);
   const shown = task.output === '' ? files.shift() : undefined;
   await writeWhole(files, signal);
@@ -39,6 +41,9 @@ function fitted(task, mesh, signal) {
     .fitMesh(mesh, { ...task.options, signal, onProgress: line.shown ? line.show : undefined })
     .finally(() => line.clear());
 }
+
+/** Millimetres in each unit that a file may say. */
+const MILLIMETRES = { mm: 1, m: 1000 };
 
 /** What each command writes. @type {Record<MeshTask['make'], (task: MeshTask, surface: Mesh, mesh: Mesh) => Promise<File[]>>} */
 const made = {
@@ -67,8 +72,10 @@ const made = {
     return [{ path: output, bytes }, ...(path === undefined ? [] : [{ path, bytes: json({ ...report, patches, creases }) }])];
   },
 
-  async pattern(task, surface) {
-    const pattern = await developable.patternMesh(surface, drawingOptions(task));
+  async pattern(task, surface, mesh) {
+    const { scale, size, ...options } = drawingOptions(task);
+    const sized = size === undefined ? { scale: scale ?? MILLIMETRES[mesh.unit ?? 'mm'] } : { scale, size };
+    const pattern = await developable.patternMesh(surface, { ...options, ...sized, exact: surface === mesh ? undefined : false });
     reportPattern(pattern);
     return patternFiles(task, pattern);
   },

@@ -1,5 +1,5 @@
 /** Options of patterns and their drawings. Each comment is what the types say; the default is added there. */
-import { choice, either, flag, number, numbers, text } from './kinds.js';
+import { choice, either, flag, number, numbers, positive, text } from './kinds.js';
 import { meshPatches, meshUnrolling, unroll } from './shape.js';
 
 /** @typedef {import('./kinds.js').Options} Options */
@@ -110,6 +110,8 @@ export const drawing = {
       help: 'maximum distance of smoothed lines from those found, in lattice spacings; 0 draws these as they are (default 0.5)',
     },
   },
+  /** Whether all texts are left out, except the names of sheets. */
+  plain: { kind: flag, default: false, flag: { section: 'shape', help: 'without texts, except the names of sheets' } },
   /**
    * Paper size. Each sheet is put on one page if it fits, turned where that helps. On A4 and letter a larger sheet covers
    * several pages, which are joined at the printed crosses. Default: no pages, the sheets beside each other.
@@ -157,8 +159,26 @@ export const unrollMesh = {
   ...limits,
 };
 
+/** Options of models with faces. @satisfies {Options} */
+export const model = {
+  /** Largest extent of the model, in millimetres, instead of `scale`. Default: the scale's. */
+  size: {
+    kind: positive,
+    flag: { section: 'shape', value: 'MM', help: 'largest extent of the model in millimetres, instead of --scale, for --surface' },
+  },
+  /**
+   * Whether the mesh's faces are moved into the plane as they are, without strain, and not laid flat as a smooth surface.
+   * Default: what `hasExactFaces` says.
+   */
+  exact: { kind: flag },
+};
+
 /** Options of the drawing of a mesh as it is laid flat. @satisfies {Options} */
-export const patternMesh = { ...unrollMesh, ...drawing };
+export const patternMesh = {
+  ...unrollMesh,
+  ...drawing,
+  ...model,
+};
 
 /** @satisfies {Options} */
 export const writePdf = {

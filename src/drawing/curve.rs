@@ -1,6 +1,6 @@
 //! Curves of straight lines and cubic Bézier curves: their length, points on them, and division into parts.
 
-use crate::math::planar::distance;
+use crate::math::planar::{circle_through, distance};
 
 /// A curve of straight lines and cubic Bézier curves, each of which begins where the one before ends, as `3n + 1`
 /// control points. A closed curve ends where it begins. The inner control points of a straight line lie at its
@@ -48,10 +48,33 @@ impl Curve {
         self.0.len() % 3 == 1
     }
 
+    /// Centre and radius of the circle that the curve is, if it is closed and one.
+    pub fn circle(&self) -> Option<([f64; 2], f64)> {
+        let pieces: Vec<Piece> = self.pieces().collect();
+        let is_round =
+            pieces.len() > 2 && pieces.iter().all(|piece| matches!(piece, Piece::Bezier(_)));
+        if !is_round || distance(*self.0.first()?, *self.0.last()?) > CIRCLE_TOLERANCE_MM {
+            return None;
+        }
+        let points: Vec<[f64; 2]> = pieces
+            .iter()
+            .flat_map(|piece| [0.0, 0.5].map(|t| piece.at(t)))
+            .collect();
+        let third = points.len() / 3;
+        let (centre, radius) = circle_through([points[0], points[third], points[2 * third]])?;
+        let is_on = |p: &[f64; 2]| (distance(*p, centre) - radius).abs() <= CIRCLE_TOLERANCE_MM;
+        points.iter().all(is_on).then_some((centre, radius))
+    }
+
     /// Iterates over the curve's pieces, from its beginning to its end.
     pub fn pieces(&self) -> impl Iterator<Item = Piece> + '_ {
         let starts = (0..self.0.len().saturating_sub(1)).step_by(3);
         starts.filter_map(|i| Some(Piece::of(self.0.get(i..i + 4)?.try_into().ok()?)))
+    }
+
+    /// Appends a Bézier curve: its two inner control points and its end.
+    pub(super) fn bezier_to(&mut self, controls: [[f64; 2]; 3]) {
+        self.0.extend(controls);
     }
 
     pub(super) fn line_to(&mut self, to: [f64; 2]) {
@@ -140,6 +163,9 @@ impl Curve {
         }
     }
 }
+
+/// Maximum distance of a curve from a circle that it counts as, in millimetres.
+const CIRCLE_TOLERANCE_MM: f64 = 0.002;
 
 /// Minimum turning angle, in radians, at a point of a polyline that counts as a corner; a polyline that turns by less
 /// approximates a curve there.

@@ -1,6 +1,6 @@
 //! Draws single sheets in millimetres, with tabs and labels, before they are placed in the drawing.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use super::curve::Curve;
 use super::label::Label;
@@ -42,6 +42,8 @@ pub(crate) fn letters(sheets: &[Sheet]) -> BTreeMap<usize, String> {
 pub(super) struct SeamAnnotations {
     pub letters: BTreeMap<usize, String>,
     pub marks: BTreeMap<usize, usize>,
+    /// Creases whose tabs are on the side of the patch with the higher number.
+    pub swapped: BTreeSet<usize>,
 }
 
 impl DrawnSheet {
@@ -50,10 +52,14 @@ impl DrawnSheet {
         sheet: &Sheet,
         lines: &Lines<'_>,
         options: &DrawingOptions,
-        SeamAnnotations { letters, marks }: &SeamAnnotations,
+        SeamAnnotations {
+            letters,
+            marks,
+            swapped,
+        }: &SeamAnnotations,
     ) -> Result<Self> {
         let scale = options.scale;
-        let (plain, flaps) = add_tabs(&lines.outlines, options.tabs);
+        let (plain, flaps) = add_tabs(&lines.outlines, options.tabs, swapped);
         let out = options.allowance + 0.5 * options.kerf;
         let name = format!("Sheet {}", number + 1);
         let curves = match out > 0.0 {
@@ -75,6 +81,10 @@ impl DrawnSheet {
             .collect();
         let (mut labels, mut leaders): (Vec<Label>, Vec<Curve>) = Default::default();
         for spot in &sheet.spots {
+            // Of a model of many small faces only the larger ones have numbers.
+            if sheet.exact && Label::is_cramped(scale * spot.room) {
+                continue;
+            }
             let (place, room) = (spot.place.map(|v| scale * v), scale * spot.room);
             let label = Label::patch(spot.patch, place, room);
             let outside = match Label::is_cramped(room) {
@@ -94,6 +104,10 @@ impl DrawnSheet {
             let letter = letters.get(&tab.seam.crease)?;
             Some(Label::tab(letter, tab))
         }));
+        if options.plain {
+            labels.clear();
+            leaders.clear();
+        }
         let sheet = DrawnSheet {
             name,
             patches: sheet.patches.clone(),
@@ -113,7 +127,7 @@ impl DrawnSheet {
                 .flat_map(|(run, curve)| seam_marks(run, curve, marks))
                 .collect(),
             leaders,
-            labels,
+            labels: Label::without_collisions(labels),
         };
         Ok(sheet.moved(&Place::IDENTITY))
     }

@@ -1,5 +1,7 @@
 //! Draws the sheets of a pattern beside each other or on pages, in millimetres.
 
+use std::collections::BTreeSet;
+
 use super::bend::apply_bend_allowance;
 use super::draft::{SeamAnnotations, letters};
 use super::joints::matched_lines;
@@ -9,6 +11,7 @@ use super::options::{DrawingOptions, MAX_SIZE};
 use super::pack::{Place, pack_rows};
 use super::pages::{Arranged, MAX_PAGES, Pages, Stock, arrange_on_pages, page_count};
 use super::sheet::DrawnSheet;
+use super::tabs::swapped_tabs;
 use super::totals::{Totals, summary};
 use crate::error::{Error, Result, positive};
 use crate::pattern::{Missing, Sheet};
@@ -29,6 +32,19 @@ pub struct Drawing {
     pub pages: Option<Pages>,
     /// Summary of the drawing: numbers of sheets, seams, folds and tabs, and their total lengths.
     pub summary: Totals,
+}
+
+/// Number of creases that are cut and glued, and have no tab.
+fn untabbed(sheets: &[Sheet], drawn: &[DrawnSheet]) -> usize {
+    let runs = sheets
+        .iter()
+        .flat_map(|sheet| sheet.outlines.iter().flatten());
+    let glued = runs.filter_map(|run| run.seam.filter(|seam| !seam.torn).map(|seam| seam.crease));
+    let mut creases: BTreeSet<usize> = glued.collect();
+    for tab in drawn.iter().flat_map(|sheet| &sheet.tabs) {
+        creases.remove(&tab.crease);
+    }
+    creases.len()
 }
 
 impl Drawing {
@@ -63,6 +79,10 @@ impl Drawing {
         let named = SeamAnnotations {
             letters,
             marks: marks.unwrap_or_default(),
+            swapped: {
+                let outlines: Vec<_> = lines.iter().map(|own| &own.outlines[..]).collect();
+                swapped_tabs(&outlines, tabs)
+            },
         };
         let drawn: Vec<DrawnSheet> = (sheets.iter().zip(&lines).enumerate())
             .map(|(number, (sheet, own))| DrawnSheet::new(number, sheet, own, &options, &named))
@@ -82,6 +102,9 @@ impl Drawing {
             .map(|(sheet, place)| sheet.moved(place))
             .collect();
         let mut summary = summary(&drawn, sheets, &lines, scale);
+        if tabs.is_some() {
+            summary.untabbed = untabbed(sheets, &drawn);
+        }
         summary.a4 = page_count(&drawn, Stock::A4);
         summary.letter = page_count(&drawn, Stock::Letter);
         Ok(Drawing {

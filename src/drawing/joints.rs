@@ -120,9 +120,9 @@ pub(super) fn matched_lines<'a>(sheets: &'a [Sheet], options: &DrawingOptions) -
 }
 
 /// Makes the two sides of each joint equally long, as far as the limits of the sides' shifts allow; changes nothing
-/// where smoothing is disabled.
+/// where smoothing is disabled, or sheets are exact.
 fn equalise_joints(sheets: &[Sheet], lines: &mut [Lines<'_>], options: &DrawingOptions) {
-    if options.smoothing == 0.0 {
+    if options.smoothing == 0.0 || sheets.iter().any(|sheet| sheet.exact) {
         return;
     }
     let mut outlines = Outlines::new(sheets, lines, options);
@@ -381,6 +381,7 @@ mod tests {
             seam_gap: 0.0,
             loops: 0,
             refolding: None,
+            exact: false,
         }
     }
 

@@ -3,7 +3,7 @@
 use super::curve::Curve;
 use super::line::{FLATTENING_TOLERANCE_MM, Line, place_at};
 use super::tabs::Tab;
-use crate::math::planar::{distance, polyline_length};
+use crate::math::planar::{Point2, cross, distance, polyline_length};
 use crate::pattern::Direction;
 
 /// Font size of a text beside a sheet, and maximum font size of a text along a line, in millimetres.
@@ -92,6 +92,55 @@ impl Label {
         ];
         let at = |x: f64, y: f64| [self.place[0] + x * half[0], self.place[1] + y * half[1]];
         vec![at(-1.0, -1.0), at(1.0, -1.0), at(1.0, 1.0), at(-1.0, 1.0)]
+    }
+
+    /// Corners of the text's bounding box, turned with the text.
+    fn turned_corners(&self) -> Vec<Point2> {
+        let (sin, cos) = self.turn.to_radians().sin_cos();
+        let middle = Point2::new(self.place[0], self.place[1]);
+        let turned =
+            |[x, y]: [f64; 2]| middle + Point2::new(cos, sin) * (Point2::new(x, y) - middle);
+        self.corners().into_iter().map(turned).collect()
+    }
+
+    /// Returns whether two texts lie on each other.
+    fn touches(&self, other: &Label) -> bool {
+        let (one, two) = (self.turned_corners(), other.turned_corners());
+        let is_apart = |p: &[Point2], q: &[Point2]| {
+            (0..4).any(|k| {
+                let (from, along) = (p[k], p[(k + 1) % 4] - p[k]);
+                q.iter().all(|v| cross(along, v - from) <= 0.0)
+            })
+        };
+        !is_apart(&one, &two) && !is_apart(&two, &one)
+    }
+
+    /// Makes texts smaller that lie on others, and leaves out those for which that is not enough: angles of folds first,
+    /// then numbers. Letters of seams stay.
+    pub(super) fn without_collisions(mut labels: Vec<Label>) -> Vec<Label> {
+        let rank = |label: &Label| match label.kind {
+            LabelKind::Seam => 0,
+            LabelKind::Fold => 2,
+            _ => 1,
+        };
+        labels.sort_by_key(rank);
+        let mut out: Vec<Label> = Vec::new();
+        for label in labels {
+            let is_free = |label: &Label| !out.iter().any(|other| label.touches(other));
+            let smallest = Label {
+                size: label.size.min(MIN_TEXT_SIZE_MM),
+                ..label.clone()
+            };
+            let smaller = Label {
+                size: 0.5 * (label.size + smallest.size),
+                ..label.clone()
+            };
+            let must_stay = label.kind == LabelKind::Seam;
+            let mut tried = [label, smaller, smallest.clone()].into_iter();
+            let kept = tried.find(is_free);
+            out.extend(kept.or_else(|| must_stay.then_some(smallest)));
+        }
+        out
     }
 
     /// Creates the label with the letter of a cut crease, to the left of the middle of the crease's line.

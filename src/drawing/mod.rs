@@ -22,6 +22,7 @@ mod angles;
 mod bend;
 mod bending;
 mod border_side;
+mod circle;
 mod curve;
 mod draft;
 mod draw;

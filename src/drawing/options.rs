@@ -34,6 +34,8 @@ pub struct DrawingOptions {
     /// spacings; 0 disables smoothing. The two sides of joints may be moved by the same distance again to become
     /// equally long. Default 0.5.
     pub smoothing: f64,
+    /// Whether all texts are left out except the sheets' names. Default `false`.
+    pub plain: bool,
 }
 
 impl Default for DrawingOptions {
@@ -46,6 +48,7 @@ impl Default for DrawingOptions {
             allowance: 0.0,
             bending: None,
             smoothing: 0.5,
+            plain: false,
         }
     }
 }
@@ -131,5 +134,10 @@ impl DrawingOptions {
     /// options.
     pub fn smoothing(self, smoothing: f64) -> Self {
         DrawingOptions { smoothing, ..self }
+    }
+
+    /// Sets whether all texts are left out except the sheets' names, and returns the options.
+    pub fn plain(self, plain: bool) -> Self {
+        DrawingOptions { plain, ..self }
     }
 }

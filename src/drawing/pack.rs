@@ -1,6 +1,8 @@
 //! Rotates sheets to their smallest bounding boxes and lays these beside each other in rows, the tallest first.
 //! (Shelves are not the least area, but near it for few sheets, and everybody sees what comes where.)
 
+use crate::math::planar::LeastBox;
+
 /// Width of the empty margin around each sheet in a drawing, in millimetres.
 const SHEET_MARGIN_MM: f64 = 10.0;
 
@@ -12,10 +14,6 @@ pub(super) struct Place {
     shift: [f64; 2],
     size: [f64; 2],
 }
-
-/// Minimum share of a sheet's bounding box's area that a rotation must save; otherwise the sheet stays upright, which
-/// is easier to recognise.
-const MIN_TURN_AREA_SAVING: f64 = 0.03;
 
 impl Place {
     /// The placement that moves nothing: no rotation and no translation.
@@ -64,39 +62,12 @@ impl Place {
     /// Finds the rotation that gives points the bounding box of least area, which aligns an edge of their convex hull
     /// with an axis, and the translation that moves the box's lower left corner to the origin.
     pub(super) fn around(lines: &[Vec<[f64; 2]>]) -> Place {
-        let hull = hull(lines.iter().flatten().copied().collect());
-        let boxed = |turn: [f64; 2]| {
-            let turned = Place {
-                turn,
-                shift: [0.0; 2],
-                size: [0.0; 2],
-            };
-            let points = || hull.iter().map(|p| turned.of(*p));
-            let low = [0, 1].map(|k| points().map(|p| p[k]).fold(f64::INFINITY, f64::min));
-            let high = [0, 1].map(|k| points().map(|p| p[k]).fold(f64::NEG_INFINITY, f64::max));
-            Place {
-                turn,
-                shift: low.map(|v| -v),
-                size: [high[0] - low[0], high[1] - low[1]],
-            }
-        };
-        let area = |place: &Place| place.size[0] * place.size[1];
-        let upright = boxed([1.0, 0.0]);
-        let mut best = upright;
-        for i in 0..hull.len() {
-            let [p, q] = [hull[i], hull[(i + 1) % hull.len()]];
-            let (x, y) = (q[0] - p[0], q[1] - p[1]);
-            let long = x.hypot(y);
-            if long > 0.0 {
-                let place = boxed([x / long, -y / long]);
-                if area(&place) < (1.0 - 1e-9) * area(&best) {
-                    best = place;
-                }
-            }
-        }
-        match area(&best) < (1.0 - MIN_TURN_AREA_SAVING) * area(&upright) {
-            true => best,
-            false => upright,
+        let LeastBox { turn, low, size } =
+            LeastBox::around(lines.iter().flatten().copied().collect());
+        Place {
+            turn,
+            shift: low.map(|v| -v),
+            size,
         }
     }
 }
@@ -140,35 +111,6 @@ pub(super) fn pack_rows(boxes: &[Place]) -> (Vec<Place>, [f64; 2]) {
         place.shift[1] += height;
     }
     (out, [width + SHEET_MARGIN_MM, height])
-}
-
-/// Computes the corners of the convex hull of points, counter-clockwise (Andrew 1979).
-fn hull(mut points: Vec<[f64; 2]>) -> Vec<[f64; 2]> {
-    points.sort_by(|p, q| p[0].total_cmp(&q[0]).then(p[1].total_cmp(&q[1])));
-    points.dedup();
-    if points.len() < 3 {
-        return points;
-    }
-    let side = |p: [f64; 2], q: [f64; 2], r: [f64; 2]| {
-        (q[0] - p[0]) * (r[1] - p[1]) - (q[1] - p[1]) * (r[0] - p[0])
-    };
-    let half = |points: &mut dyn Iterator<Item = [f64; 2]>| {
-        let mut out: Vec<[f64; 2]> = Vec::new();
-        for point in points {
-            while let [.., p, q] = out[..] {
-                if side(p, q, point) > 0.0 {
-                    break;
-                }
-                out.pop();
-            }
-            out.push(point);
-        }
-        out.pop();
-        out
-    };
-    let mut out = half(&mut points.iter().copied());
-    out.extend(half(&mut points.iter().rev().copied()));
-    out
 }
 
 #[cfg(test)]

@@ -36,6 +36,12 @@ pub enum Stock {
 }
 
 impl Stock {
+    /// Width and height in millimetres of what may lie on one page; `None` for a roll, which has room for any length.
+    pub fn room(self) -> Option<[f64; 2]> {
+        let free = self.size(&[]).ok()?.map(|side| side - 2.0 * self.blank());
+        (!matches!(self, Stock::Roll(_)) && free.iter().all(|side| *side > 0.0)).then_some(free)
+    }
+
     /// Returns width and height of the material in millimetres, the shorter side first for paper; a roll is as long as
     /// the sheets on it need.
     fn size(self, sheets: &[DrawnSheet]) -> Result<[f64; 2]> {

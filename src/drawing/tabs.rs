@@ -1,5 +1,7 @@
 //! Adds tabs (glued flaps) along cut creases: trapezoids outside of the sheet, a comb of short ones along a curve.
 
+use std::collections::{BTreeMap, BTreeSet};
+
 use super::curve::{Curve, POLYLINE_CORNER_ANGLE};
 use super::line::FLATTENING_TOLERANCE_MM;
 use crate::math::planar::{distance, polyline_length, segments_intersect};
@@ -35,20 +37,76 @@ const TAB_CLEARANCE_MM: f64 = 0.1;
 const MIN_TABBED_SHARE: f64 = 0.9;
 
 /// Maximum number of times that the depth of a tab that does not fit is halved.
-const MAX_TAB_HALVINGS: usize = 2;
+const MAX_TAB_HALVINGS: usize = 3;
+
+/// Slopes of a tab's two ends where the tabs of its run end, in insets for each depth, in the order in which they are tried:
+/// 45°, then flatter ones for narrow notches.
+const TAB_END_SLOPES: [[f64; 2]; 9] = [
+    [1.0, 1.0],
+    [1.0, 2.0],
+    [2.0, 1.0],
+    [2.0, 2.0],
+    [1.0, 5.0],
+    [5.0, 1.0],
+    [2.0, 5.0],
+    [5.0, 2.0],
+    [5.0, 5.0],
+];
 
 /// The closed outline of a sheet as a list of runs (pieces along one side of a crease or along the border), each with
 /// its curve in millimetres.
 type Outline<'a> = Vec<(&'a Run, Curve)>;
 
-/// Adds tabs (glued flaps) to the outlines of a sheet where there is room. Returns the cut lines and the tabs.
-pub(super) fn add_tabs(outlines: &[Outline<'_>], depth: Option<f64>) -> (Vec<Curve>, Vec<Tab>) {
+/// Length of tabs along each crease, on the side of the patch with the lower number except for the `swapped` creases.
+fn tabbed_lengths(
+    outlines: &[&[Outline<'_>]],
+    depth: Option<f64>,
+    swapped: &BTreeSet<usize>,
+) -> BTreeMap<usize, f64> {
+    let mut lengths = BTreeMap::new();
+    for outlines in outlines {
+        for tab in add_tabs(outlines, depth, swapped).1 {
+            *lengths.entry(tab.seam.crease).or_default() += tab.base.length();
+        }
+    }
+    lengths
+}
+
+/// The creases whose tabs have more room on the side of the patch with the higher number; `outlines` are those of each
+/// sheet.
+pub(super) fn swapped_tabs(outlines: &[&[Outline<'_>]], depth: Option<f64>) -> BTreeSet<usize> {
+    let first = tabbed_lengths(outlines, depth, &BTreeSet::new());
+    let length = |lengths: &BTreeMap<usize, f64>, crease: &usize| {
+        lengths.get(crease).copied().unwrap_or(0.0)
+    };
+    let runs = outlines.iter().copied().flatten().flatten();
+    let lacking: BTreeSet<usize> = runs
+        .filter_map(|(run, curve)| {
+            let crease = run.seam.filter(|seam| !seam.torn)?.crease;
+            let enough = MIN_TABBED_SHARE * curve.length();
+            (depth.is_some() && length(&first, &crease) < enough).then_some(crease)
+        })
+        .collect();
+    let second = tabbed_lengths(outlines, depth, &lacking);
+    let is_better = |crease: &usize| length(&second, crease) > length(&first, crease);
+    lacking.into_iter().filter(is_better).collect()
+}
+
+/// Adds tabs (glued flaps) to the outlines of a sheet where there is room: on the side of the patch with the lower number,
+/// of `swapped` creases on the other. Returns the cut lines and the tabs.
+pub(super) fn add_tabs(
+    outlines: &[Outline<'_>],
+    depth: Option<f64>,
+    swapped: &BTreeSet<usize>,
+) -> (Vec<Curve>, Vec<Tab>) {
     let mut tabs = Vec::new();
-    // Tabs are on the side of the patch with the lower number. The two sides of a step are not glued, so they have
-    // no tabs.
+    // The two sides of a step are not glued, so they have no tabs.
     let tabbed = |run: &Run| {
-        let first = |seam: &Seam| run.patch == Some(seam.patches[0]) && !seam.torn;
-        let own = run.seam.filter(first);
+        let has_tab = |seam: &Seam| {
+            let side = usize::from(swapped.contains(&seam.crease));
+            run.patch == Some(seam.patches[side]) && !seam.torn
+        };
+        let own = run.seam.filter(has_tab);
         depth.zip(own)
     };
     let parts = |(run, curve): &(&Run, Curve)| match tabbed(run) {
@@ -81,12 +139,18 @@ pub(super) fn add_tabs(outlines: &[Outline<'_>], depth: Option<f64>) -> (Vec<Cur
             let runs: Vec<Vec<[f64; 2]>> = (bases.iter())
                 .map(|base| base.points(FLATTENING_TOLERANCE_MM))
                 .collect();
-            let own = common_depth(&runs, depth, &walls);
+            let near = walls_near(&runs, depth, &walls);
+            let own = common_depth(&runs, depth, &near);
             for (number, base) in bases.into_iter().enumerate() {
                 let points = &runs[number];
                 let turns = end_turns(&runs, number);
-                let tab = (0..=MAX_TAB_HALVINGS)
-                    .find_map(|k| flap(points, turns, own / f64::from(1 << k), &walls));
+                let near = walls_near(&runs[number..=number], depth, &walls);
+                let tab = (0..=MAX_TAB_HALVINGS).find_map(|k| {
+                    let flap = |slopes: &[f64; 2]| {
+                        flap(points, turns, own / f64::from(1 << k), *slopes, &near)
+                    };
+                    TAB_END_SLOPES.iter().find_map(flap)
+                });
                 let Some((depth, flap)) = tab else {
                     cut.append(&base);
                     continue;
@@ -105,6 +169,20 @@ pub(super) fn add_tabs(outlines: &[Outline<'_>], depth: Option<f64>) -> (Vec<Cur
         cuts.push(cut);
     }
     (cuts, tabs)
+}
+
+/// The walls that a tab along some lines may touch.
+fn walls_near(runs: &[Vec<[f64; 2]>], depth: f64, walls: &[[[f64; 2]; 2]]) -> Vec<[[f64; 2]; 2]> {
+    let ends = |k: usize| {
+        let all = runs.iter().flatten().map(|p| p[k]);
+        let low = all.clone().fold(f64::INFINITY, f64::min);
+        [low - depth, all.fold(f64::NEG_INFINITY, f64::max) + depth]
+    };
+    let boxed = [0, 1].map(ends);
+    let is_near = |[a, b]: &&[[f64; 2]; 2]| {
+        (0..2).all(|k| a[k].max(b[k]) >= boxed[k][0] && a[k].min(b[k]) <= boxed[k][1])
+    };
+    walls.iter().filter(is_near).copied().collect()
 }
 
 /// Divides a curve into fold lines of tabs: each line turns by at most [`MAX_TAB_BEND`] and, where possible, is at
@@ -142,7 +220,16 @@ fn common_depth(runs: &[Vec<[f64; 2]>], depth: f64, walls: &[[[f64; 2]; 2]]) -> 
         .collect();
     let tabbed = |depth: &f64| -> f64 {
         (0..runs.len())
-            .filter(|i| flap(&runs[*i], end_turns(runs, *i), *depth, walls).is_some())
+            .filter(|i| {
+                flap(
+                    &runs[*i],
+                    end_turns(runs, *i),
+                    *depth,
+                    TAB_END_SLOPES[0],
+                    walls,
+                )
+                .is_some()
+            })
             .map(|i| polyline_length(&runs[i]))
             .sum()
     };
@@ -169,12 +256,13 @@ fn end_turns(runs: &[Vec<[f64; 2]>], number: usize) -> [Option<f64>; 2] {
 }
 
 /// Computes the outer corners of a tab to the right of its fold line; `None` if the fold line is too short or something
-/// is in the way. At an end of a run the tab is cut at 45°; where the next tab follows it is cut along the bisector if
+/// is in the way. At an end of a run the tab is cut by the given slope; where the next tab follows it is cut along the bisector if
 /// the two would overlap, and otherwise at a right angle.
 fn flap(
     base: &[[f64; 2]],
     turns: [Option<f64>; 2],
     depth: f64,
+    slopes: [f64; 2],
     walls: &[[[f64; 2]; 2]],
 ) -> Option<(f64, [[f64; 2]; 2])> {
     let (from, to) = (base[0], base[base.len() - 1]);
@@ -182,8 +270,8 @@ fn flap(
     if long * MAX_TAB_DEPTH_SHARE < depth || long == 0.0 {
         return None;
     }
-    let insets = turns.map(|turn| match turn {
-        None => depth.min(MAX_TAB_INSET_SHARE * long),
+    let insets = [0, 1].map(|end| match turns[end] {
+        None => (slopes[end] * depth).min(slopes[end].sqrt().min(1.5) * MAX_TAB_INSET_SHARE * long),
         Some(turn) if turn < 0.0 => {
             let bisector = depth * (-0.5 * turn).tan() + TAB_CLEARANCE_MM;
             bisector.min(MAX_TAB_INSET_SHARE * long)
@@ -238,7 +326,8 @@ mod tests {
         let own = common_depth(&runs, depth, &[]);
         (0..runs.len())
             .map(|i| {
-                let (depth, corners) = flap(&runs[i], end_turns(&runs, i), own, &[]).unwrap();
+                let (depth, corners) =
+                    flap(&runs[i], end_turns(&runs, i), own, TAB_END_SLOPES[0], &[]).unwrap();
                 (runs[i].clone(), depth, corners)
             })
             .collect()

@@ -50,6 +50,8 @@ pub struct Totals {
     pub folds: usize,
     /// Number of tabs (glued flaps) on the drawing.
     pub tabs: usize,
+    /// Number of creases that are cut and have a tab on neither side, for want of room; 0 if no tabs are wanted.
+    pub untabbed: usize,
     /// Total length of all cut lines, in millimetres.
     pub cut_length: f64,
     /// Total length of all mountain folds, without those of tabs, in millimetres.
@@ -174,6 +176,7 @@ pub(super) fn summary(
         worst_angle: (angles.into_iter()).max_by(|a, b| a.difference().total_cmp(&b.difference())),
         folds: drawn.iter().map(|sheet| sheet.folds.len()).sum(),
         tabs: drawn.iter().map(|sheet| sheet.tabs.len()).sum(),
+        untabbed: 0,
         cut_length: drawn.iter().flat_map(|sheet| &sheet.cuts).map(around).sum(),
         mountain_length: folds(Direction::Mountain),
         valley_length: folds(Direction::Valley),

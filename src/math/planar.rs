@@ -84,6 +84,22 @@ pub(crate) fn line_intersection<P: Planar>(
     Some(P::from_xy([x + u[0] * t, y + u[1] * t]))
 }
 
+/// Centre and radius of the circle through three points; `None` if they are on a line.
+pub(crate) fn circle_through<P: Planar>([a, b, c]: [P; 3]) -> Option<(P, f64)> {
+    let (u, v) = (difference(a, b), difference(a, c));
+    let twice = 2.0 * cross(u, v);
+    let (uu, vv) = (u[0] * u[0] + u[1] * u[1], v[0] * v[0] + v[1] * v[1]);
+    let off = [
+        (v[1] * uu - u[1] * vv) / twice,
+        (u[0] * vv - v[0] * uu) / twice,
+    ];
+    let [x, y] = a.xy();
+    let radius = off[0].hypot(off[1]);
+    radius
+        .is_finite()
+        .then(|| (P::from_xy([x + off[0], y + off[1]]), radius))
+}
+
 /// Shortest distance from a point to a segment.
 pub(crate) fn distance_to_segment<P: Planar>(point: P, [a, b]: [P; 2]) -> f64 {
     let (u, v) = (difference(a, b), difference(a, point));
@@ -141,6 +157,91 @@ pub(crate) fn polygon_contains<P: Planar>(polygon: &[P], point: P) -> bool {
         (py > y) != (qy > y) && x < (qx - px) * (y - py) / (qy - py) + px
     });
     crossings.count() % 2 == 1
+}
+
+/// Minimum share of a bounding box's area that a rotation must save; otherwise a box stays upright, in which things are
+/// easier to recognise.
+const MIN_TURN_AREA_SAVING: f64 = 0.03;
+
+/// The bounding box of least area of points.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct LeastBox {
+    /// Cosine and sine of the rotation after which the box is upright.
+    pub turn: [f64; 2],
+    /// Lower left corner of the upright box.
+    pub low: [f64; 2],
+    /// Width and height of the upright box.
+    pub size: [f64; 2],
+}
+
+impl LeastBox {
+    /// Finds the box of least area around points, which aligns an edge of their convex hull with an axis.
+    pub(crate) fn around(points: Vec<[f64; 2]>) -> LeastBox {
+        let hull = convex_hull(points);
+        let boxed = |turn: [f64; 2]| {
+            let turned = hull.iter().map(|[x, y]| {
+                let [cos, sin] = turn;
+                [cos * x - sin * y, sin * x + cos * y]
+            });
+            let start = [[f64::INFINITY; 2], [f64::NEG_INFINITY; 2]];
+            let [low, high] = turned.fold(start, |[low, high], p| {
+                let ends = |k: usize| [low[k].min(p[k]), high[k].max(p[k])];
+                let [[a, b], [c, d]] = [ends(0), ends(1)];
+                [[a, c], [b, d]]
+            });
+            LeastBox {
+                turn,
+                low,
+                size: [high[0] - low[0], high[1] - low[1]],
+            }
+        };
+        let area = |found: &LeastBox| found.size[0] * found.size[1];
+        let upright = boxed([1.0, 0.0]);
+        let mut best = upright;
+        for [p, q] in polygon_edges(&hull) {
+            let [x, y] = difference(p, q);
+            let long = x.hypot(y);
+            if long > 0.0 {
+                let found = boxed([x / long, -y / long]);
+                if area(&found) < (1.0 - 1e-9) * area(&best) {
+                    best = found;
+                }
+            }
+        }
+        match area(&best) < (1.0 - MIN_TURN_AREA_SAVING) * area(&upright) {
+            true => best,
+            false => upright,
+        }
+    }
+}
+
+/// Computes the corners of the convex hull of points, counter-clockwise (Andrew 1979).
+fn convex_hull(mut points: Vec<[f64; 2]>) -> Vec<[f64; 2]> {
+    points.sort_by(|p, q| p[0].total_cmp(&q[0]).then(p[1].total_cmp(&q[1])));
+    points.dedup();
+    if points.len() < 3 {
+        return points;
+    }
+    let side = |p: [f64; 2], q: [f64; 2], r: [f64; 2]| {
+        (q[0] - p[0]) * (r[1] - p[1]) - (q[1] - p[1]) * (r[0] - p[0])
+    };
+    let half = |points: &mut dyn Iterator<Item = [f64; 2]>| {
+        let mut out: Vec<[f64; 2]> = Vec::new();
+        for point in points {
+            while let [.., p, q] = out[..] {
+                if side(p, q, point) > 0.0 {
+                    break;
+                }
+                out.pop();
+            }
+            out.push(point);
+        }
+        out.pop();
+        out
+    };
+    let mut out = half(&mut points.iter().copied());
+    out.extend(half(&mut points.iter().rev().copied()));
+    out
 }
 
 #[cfg(test)]

@@ -286,6 +286,7 @@ pub(super) fn draw_sheets(surface: &Heightfield, whole: &Assembled) -> Result<Pa
                 true => Some(refold_sheet(net, members, &folded)?),
                 false => None,
             },
+            exact: false,
         })
     });
     let mut sheets = sheets.collect::<Result<Vec<Sheet>>>()?;

@@ -28,6 +28,7 @@ mod assembly;
 mod check;
 mod coarse;
 mod cut;
+mod exact;
 mod faces;
 mod fault;
 mod fine;
@@ -52,6 +53,7 @@ mod transfer;
 mod trim;
 mod window;
 
+pub use exact::{has_exact_faces, pattern_exact};
 pub use faces::Faces;
 pub use heightfield::pattern;
 pub use meeting::Meeting;

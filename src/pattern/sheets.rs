@@ -72,6 +72,8 @@ pub struct Sheet {
     /// Distance of the refolded sheet from the surface; `None` unless
     /// [`PatternOptions::refold`](super::PatternOptions::refold) is set.
     pub refolding: Option<Refolding>,
+    /// Whether the sheet consists of faces moved into the plane as they are, so that its lines are drawn without smoothing.
+    pub exact: bool,
 }
 
 /// Distance between the surface and a sheet that was folded along its folds and bent in space with the least

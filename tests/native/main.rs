@@ -21,6 +21,8 @@ mod dewarp;
 mod drawing;
 mod dropouts;
 mod energies;
+#[cfg(feature = "patterns")]
+mod exact;
 mod examples;
 mod explore;
 mod fixtures;

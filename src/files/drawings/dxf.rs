@@ -32,8 +32,8 @@ const INSUNITS_MILLIMETRES: u8 = 4;
 /// Height of a capital letter, in font sizes: DXF gives text heights as the height of capitals.
 const CAPITAL_HEIGHT: f64 = 0.72;
 
-/// Writes a drawing as a DXF file (AutoCAD R12, ASCII) in millimetres, with polylines of straight pieces and arcs
-/// within a hundredth of a millimetre of the drawing's curves, and texts, on the layers `CUT`, `MOUNTAIN`, `VALLEY`,
+/// Writes a drawing as a DXF file (AutoCAD R12, ASCII) in millimetres, with circles, polylines of straight pieces and
+/// arcs within a hundredth of a millimetre of the drawing's curves, and texts, on the layers `CUT`, `MOUNTAIN`, `VALLEY`,
 /// `TAB`, `EDGE`, `MARK`, `LEADER` and `LABEL`.
 ///
 /// # Errors
@@ -73,7 +73,10 @@ fn write(file: &mut GroupCodes, drawing: &Drawing) -> io::Result<()> {
     file.section("ENTITIES", |file| {
         for (kind, lines) in layers(drawing) {
             for (curve, closed) in lines {
-                file.polyline(layer(kind), &arcs(curve), closed)?;
+                match curve.circle().filter(|_| closed) {
+                    Some((centre, radius)) => file.circle(layer(kind), centre, radius)?,
+                    None => file.polyline(layer(kind), &arcs(curve), closed)?,
+                }
             }
         }
         let labels = drawing.sheets.iter().flat_map(|sheet| &sheet.labels);
@@ -118,6 +121,13 @@ impl GroupCodes {
         self.pair(2, name)?;
         content(self)?;
         self.pair(0, "ENDSEC")
+    }
+
+    fn circle(&mut self, layer: &str, centre: [f64; 2], radius: f64) -> io::Result<()> {
+        self.pair(0, "CIRCLE")?;
+        self.pair(8, layer)?;
+        self.point(10, centre)?;
+        self.pair(40, radius)
     }
 
     /// Writes a polyline to the DXF file; the last corner of a closed one, which repeats the first, is left out.

@@ -3,7 +3,7 @@
 //!
 //! | | cut | mountain fold | valley fold | fold of a tab | edge within an allowance | mark | leader, text |
 //! |---|---|---|---|---|---|---|---|
-//! | SVG and PDF | black | red, dash-dot | blue, dashed | black, dashed | orange, dashed | green | grey |
+//! | SVG and PDF | black | red, dash-dot | blue, dashed | purple, dashed | orange, dashed | green | grey |
 //! | layers of SVG | `cut` | `mountain` | `valley` | `tab` | `edge` | `mark` | `leader`, `label` |
 //! | layers of DXF, their colours | `CUT`, 7 | `MOUNTAIN`, 1 | `VALLEY`, 5 | `TAB`, 8 | `EDGE`, 30 | `MARK`, 3 | `LEADER`, `LABEL`, 9 |
 //!
@@ -82,7 +82,8 @@ impl Kind {
         match self {
             Kind::Mountain => [200, 0, 0],
             Kind::Valley => [0, 60, 200],
-            Kind::Tab | Kind::Cut => [0, 0, 0],
+            Kind::Tab => [160, 0, 160],
+            Kind::Cut => [0, 0, 0],
             Kind::Edge => [200, 120, 0],
             Kind::Mark => [0, 140, 0],
             Kind::Leader => [TEXT_GREY_LEVEL; 3],

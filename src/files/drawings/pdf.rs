@@ -30,8 +30,9 @@ const MIN_SCALED_PAGE_MM: f64 = 150.0;
 /// page of its size, in millimetres.
 const FOOT_MM: f64 = 10.0;
 
-/// Height of the scale line above the page's lower edge, in millimetres: most printers can print there.
-const SCALE_LINE_HEIGHT_MM: f64 = 6.0;
+/// Height of the scale line above the page's lower edge, in millimetres: text and ticks stay 5 mm from it, which most
+/// printers leave blank.
+const SCALE_LINE_HEIGHT_MM: f64 = 7.0;
 
 /// The text beside the scale line.
 const SCALE_WORDS: &str = "100 mm: print at 100 %";

@@ -162,7 +162,7 @@ mod tests {
         let rounded = |row: usize, col: usize| (noise(row, col) * 1.2 + 0.1 * row as f64).round();
         for hexagonal in [false, true] {
             let shift = if hexagonal { 0.5 } else { 0.0 };
-            assert_eq!(spikes(hexagonal, tip(shift)), []);
+            assert!(spikes(hexagonal, tip(shift)).is_empty());
             assert!(spikes(hexagonal, ridge).is_empty());
             assert!(spikes(hexagonal, step).is_empty());
             assert!(spikes(hexagonal, rounded).is_empty());

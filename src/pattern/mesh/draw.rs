@@ -177,6 +177,7 @@ fn draw(body: &Body, seams: &Seams, meetings: &Meetings, sheet: &Joined) -> Shee
         seam_gap: sheet.gap,
         loops: 0,
         refolding: None,
+        exact: false,
     }
 }
 

@@ -5,6 +5,7 @@ use serde::{Deserialize, Serialize};
 use serde_wasm_bindgen::{from_value, preserve, to_value};
 use wasm_bindgen::prelude::*;
 
+use developable::Mesh;
 use developable::assembly::Assembly;
 use developable::drawing::{Bending, Drawing, DrawingOptions, Stock};
 use developable::explore::ExploreOptions;
@@ -12,7 +13,10 @@ use developable::files::Unit;
 use developable::files::assembly::{write_animation, write_assembly_svg};
 use developable::files::drawings::{PdfOptions, write_dxf, write_pdf, write_svg};
 use developable::patches::{Crease, MeshPatches, Patch, PatchOptions, Patches};
-use developable::pattern::{MeshPattern, Missing, PatternOptions, Sheet, pattern, pattern_mesh};
+use developable::pattern::{
+    MeshPattern, Missing, PatternOptions, Sheet, has_exact_faces, pattern, pattern_exact,
+    pattern_mesh,
+};
 use developable::unroll::UnrollOptions;
 use developable_wasm::mesh::MeshInput;
 use developable_wasm::options::{Given, read};
@@ -28,6 +32,11 @@ struct Wanted {
     stock: Option<Stock>,
     assembled: bool,
     spacing: Option<f64>,
+    exact: Option<bool>,
+    /// Largest extent of the model, in millimetres.
+    size: Option<f64>,
+    /// Whether the options give a scale.
+    is_scaled: bool,
 }
 
 impl Wanted {
@@ -37,7 +46,8 @@ impl Wanted {
         let unit = Reflect::get(surface, &"unit".into())
             .ok()
             .and_then(|unit| Unit::from_symbol(&unit.as_string()?));
-        let scale = given.number("scale").or(unit.map(Unit::millimetres));
+        let asked = given.number("scale");
+        let scale = asked.or(unit.map(Unit::millimetres));
         let unrolling: UnrollOptions = given.read()?;
         let (patches, sheets): (PatchOptions, PatternOptions) = (given.read()?, given.read()?);
         let mut drawing: DrawingOptions = given.read()?;
@@ -50,6 +60,7 @@ impl Wanted {
         let stock = stock_from(given.value("stock"))?;
         let assembled = given.flag("assembly").unwrap_or_default();
         let spacing = given.number("spacing");
+        let (exact, size) = (given.flag("exact"), given.number("size"));
         given.finish()?;
         // 0 means no tabs, or no marks.
         drawing.tabs = drawing.tabs.filter(|depth| *depth != 0.0);
@@ -64,7 +75,43 @@ impl Wanted {
             stock,
             assembled,
             spacing,
+            exact,
+            size,
+            is_scaled: asked.is_some(),
         })
+    }
+
+    /// Sets the scale at which a mesh is as large as is wanted.
+    fn scale_to(&mut self, mesh: &Mesh) -> Result<()> {
+        let Some(size) = self.size else {
+            return Ok(());
+        };
+        let extent = |k: usize| {
+            let all = mesh.positions().iter().map(|p| p[k]);
+            all.clone().fold(f64::NEG_INFINITY, f64::max) - all.fold(f64::INFINITY, f64::min)
+        };
+        let largest = (0..3).map(extent).fold(0.0, f64::max);
+        if self.is_scaled || !(size > 0.0) {
+            return Err(Failure {
+                code: "OPTION",
+                message:
+                    "option `size` must be above 0, and instead of `scale`: give one of the two"
+                        .into(),
+            });
+        }
+        self.drawing = self.drawing.scale(size / largest);
+        Ok(())
+    }
+
+    /// Width and height, in the mesh's units, that a sheet may have to lie on one page with its tabs.
+    fn room(&self) -> Option<[f64; 2]> {
+        let beside =
+            2.0 * (self.drawing.tabs.unwrap_or(0.0) + self.drawing.allowance + self.drawing.kerf);
+        let sides = self
+            .stock?
+            .room()?
+            .map(|side| (side - beside) / self.drawing.scale);
+        Some(sides)
     }
 
     /// Draws sheets of a pattern; returns JavaScript's `Drawing` object, with the assembly if it is wanted.
@@ -137,9 +184,21 @@ pub fn trials(given: JsValue) -> Result<JsValue> {
 /// Cuts a whole mesh into flat sheets and draws them; returns JavaScript's `Drawing` object.
 #[wasm_bindgen(js_name = patternMesh)]
 pub fn draw_pattern_of_mesh(mesh: JsValue, options: JsValue) -> Result<JsValue> {
-    let wanted = Wanted::of(&mesh, &options)?;
-    let (_, found) = sheets_of(mesh, &wanted)?;
+    let mut wanted = Wanted::of(&mesh, &options)?;
+    let mesh = from_value::<MeshInput>(mesh)?.into_mesh()?;
+    wanted.scale_to(&mesh)?;
+    let found = match wanted.exact.unwrap_or_else(|| has_exact_faces(&mesh)) {
+        true => pattern_exact(&mesh, wanted.room())?,
+        false => sheets_of(&mesh, &wanted)?.1,
+    };
     wanted.draw(&found.sheets, &Missing::default())
+}
+
+/// Returns whether the faces of a mesh are exact, so that it is laid flat as it is.
+#[wasm_bindgen(js_name = hasExactFaces)]
+pub fn has_exact_faces_of(mesh: JsValue) -> Result<bool> {
+    let mesh = from_value::<MeshInput>(mesh)?.into_mesh()?;
+    Ok(has_exact_faces(&mesh))
 }
 
 /// Sheets of a mesh laid flat side by side, written as JavaScript's `MeshUnrolling` object.
@@ -173,7 +232,8 @@ struct UnrollingReport {
 #[wasm_bindgen(js_name = unrollMesh)]
 pub fn unroll_mesh(mesh: JsValue, options: JsValue) -> Result<JsValue> {
     let wanted = Wanted::of(&mesh, &options)?;
-    let (patches, found) = sheets_of(mesh, &wanted)?;
+    let mesh = from_value::<MeshInput>(mesh)?.into_mesh()?;
+    let (patches, found) = sheets_of(&mesh, &wanted)?;
     let labels: Vec<i32> = patches.labels().iter().map(|label| *label as i32).collect();
     let (mut positions, mut places, mut triangles, mut sheets) =
         (Vec::new(), Vec::new(), Vec::<[u32; 3]>::new(), Vec::new());
@@ -209,10 +269,9 @@ pub fn unroll_mesh(mesh: JsValue, options: JsValue) -> Result<JsValue> {
     })?)
 }
 
-fn sheets_of(mesh: JsValue, wanted: &Wanted) -> Result<(MeshPatches, MeshPattern)> {
-    let mesh = from_value::<MeshInput>(mesh)?.into_mesh()?;
-    let patches = MeshPatches::new(&mesh, &wanted.patches)?;
-    let found = pattern_mesh(&mesh, &patches, &wanted.sheets)?;
+fn sheets_of(mesh: &Mesh, wanted: &Wanted) -> Result<(MeshPatches, MeshPattern)> {
+    let patches = MeshPatches::new(mesh, &wanted.patches)?;
+    let found = pattern_mesh(mesh, &patches, &wanted.sheets)?;
     Ok((patches, found))
 }
 

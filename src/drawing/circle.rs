@@ -1,0 +1,127 @@
+//! Arcs of circles in lines of straight pieces, as CAD divides them.
+
+use super::curve::Curve;
+use crate::math::planar::{circle_through, distance};
+
+/// Maximum angle, in radians, between pieces of an arc: circles of 16 pieces or more.
+const MAX_ARC_STEP: f64 = 0.4;
+
+/// Maximum distance of an arc's points from its circle, as a share of the radius.
+const ARC_TOLERANCE_SHARE: f64 = 2e-4;
+
+/// Minimum number of pieces of an arc; any three may be on a circle.
+const MIN_ARC_PIECES: usize = 4;
+
+/// Maximum angle, in radians, of a Bézier curve that stands for an arc: it is off by four millionths of the radius.
+const MAX_BEZIER_ANGLE: f64 = std::f64::consts::FRAC_PI_4;
+
+/// Makes a curve of a line's straight pieces, with Bézier curves along the pieces that lie on a circle.
+pub(super) fn with_arcs(points: &[[f64; 2]]) -> Curve {
+    let mut curve = Curve::through(&points[..1]);
+    let mut start = 0;
+    while start + 1 < points.len() {
+        match longest_arc(&points[start..]) {
+            Some((pieces, centre)) => {
+                add_arc(&mut curve, &points[start..=start + pieces], centre);
+                start += pieces;
+            }
+            None => {
+                start += 1;
+                curve.line_to(points[start]);
+            }
+        }
+    }
+    curve
+}
+
+/// Number of pieces, from the first point on, that lie on one circle, and its centre.
+fn longest_arc(points: &[[f64; 2]]) -> Option<(usize, [f64; 2])> {
+    let (centre, radius) = circle_through(points.get(..3)?.try_into().ok()?)?;
+    let arm = |p: [f64; 2]| [p[0] - centre[0], p[1] - centre[1]];
+    // Angle of a piece as seen from the centre.
+    let step = |from: [f64; 2], to: [f64; 2]| {
+        let ([a, b], [c, d]) = (arm(from), arm(to));
+        (a * d - b * c).atan2(a * c + b * d)
+    };
+    let way = step(points[0], points[1]).signum();
+    let is_on = |pair: &[[f64; 2]]| {
+        let angle = way * step(pair[0], pair[1]);
+        let away = (distance(pair[1], centre) - radius).abs();
+        angle > 0.0 && angle <= MAX_ARC_STEP && away <= ARC_TOLERANCE_SHARE * radius
+    };
+    let pieces = points.windows(2).take_while(|pair| is_on(pair)).count();
+    (pieces >= MIN_ARC_PIECES).then_some((pieces, centre))
+}
+
+/// Adds Bézier curves along the arc around a centre through points.
+fn add_arc(curve: &mut Curve, points: &[[f64; 2]], centre: [f64; 2]) {
+    let angle = |p: [f64; 2]| (p[1] - centre[1]).atan2(p[0] - centre[0]);
+    let turn = |pair: &[[f64; 2]]| {
+        let turn = angle(pair[1]) - angle(pair[0]);
+        turn.sin().atan2(turn.cos())
+    };
+    let whole: f64 = points.windows(2).map(turn).sum();
+    let (first, last) = (points[0], points[points.len() - 1]);
+    let radius = distance(first, centre);
+    let count = (whole.abs() / MAX_BEZIER_ANGLE).ceil().max(1.0) as usize;
+    let part = whole / count as f64;
+    // Length of the control arms along the tangents.
+    let arm = 4.0 / 3.0 * (part / 4.0).tan() * radius;
+    let at = |i: usize| {
+        let (sin, cos) = (angle(first) + part * i as f64).sin_cos();
+        (
+            [centre[0] + radius * cos, centre[1] + radius * sin],
+            [-arm * sin, arm * cos],
+        )
+    };
+    for i in 0..count {
+        let ((from, out), (to, back)) = (at(i), at(i + 1));
+        let to = if i + 1 == count { last } else { to };
+        let from = if i == 0 { first } else { from };
+        curve.bezier_to([
+            [from[0] + out[0], from[1] + out[1]],
+            [to[0] - back[0], to[1] - back[1]],
+            to,
+        ]);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A polygon of corners on a circle of radius 8 about (3, 4), closed.
+    fn polygon(corners: usize) -> Vec<[f64; 2]> {
+        let at = |i: usize| {
+            let (sin, cos) =
+                (std::f64::consts::TAU * (i % corners) as f64 / corners as f64).sin_cos();
+            [3.0 + 8.0 * cos, 4.0 + 8.0 * sin]
+        };
+        (0..=corners).map(at).collect()
+    }
+
+    #[test]
+    fn a_polygon_of_many_sides_is_a_circle_and_one_of_few_is_not() {
+        let (centre, radius) = with_arcs(&polygon(48)).circle().unwrap();
+        assert!(
+            (radius - 8.0).abs() < 1e-4 && distance(centre, [3.0, 4.0]) < 1e-4,
+            "{centre:?} {radius}"
+        );
+        assert_eq!(with_arcs(&polygon(12)), Curve::through(&polygon(12)));
+    }
+
+    #[test]
+    fn straight_pieces_beside_an_arc_stay_straight() {
+        let mut line = vec![[30.0, 4.0]];
+        line.extend(&polygon(32)[..17]);
+        line.push([-30.0, 4.0]);
+        let curve = with_arcs(&line);
+        let half = std::f64::consts::PI * 8.0;
+        assert_eq!(curve.controls().len(), 3 * (1 + 4 + 1) + 1);
+        assert!(
+            (curve.length() - (19.0 + half + 25.0)).abs() < 1e-3,
+            "{}",
+            curve.length()
+        );
+    }
+}

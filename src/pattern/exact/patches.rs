@@ -1,0 +1,165 @@
+//! The patches of a net: facets, and strips of narrow facets that bend as one.
+
+use super::net::Net;
+use super::polyhedron::Polyhedron;
+use crate::error::Result;
+use crate::math::index::NO_INDEX;
+use crate::math::union_find::UnionFind;
+
+/// Largest angle between neighbouring facets of a bend, in radians: circles of 16 sides or more.
+const MAX_BEND_STEP: f64 = 0.4;
+
+/// Largest ratio of the angles on both sides of a facet of a bend.
+const MAX_BEND_STEP_RATIO: f64 = 3.0;
+
+/// The patch of each facet: a facet alone, or neighbouring facets of one bend.
+pub(super) struct FlatPatches {
+    pub of: Vec<u32>,
+    /// Area and vertices of each patch.
+    pub areas: Vec<f64>,
+}
+
+impl FlatPatches {
+    pub(super) fn new(solid: &Polyhedron, net: &Net) -> Result<FlatPatches> {
+        let is_bent = bent_facets(solid);
+        let mut forest = UnionFind::new("facets", solid.normals.len())?;
+        // The folds of bends, in an order in which a bend is known as a path.
+        let folds = inner_sides(solid).filter(|side| {
+            net.is_closed(*side)
+                && is_step(solid, *side)
+                && [*side, solid.twins[*side as usize]]
+                    .iter()
+                    .all(|s| is_bent[solid.facet(*s) as usize])
+        });
+        let folds: Vec<[u32; 2]> = folds
+            .map(|side| [side, solid.twins[side as usize]].map(|s| solid.facet(s)))
+            .collect();
+        folds.iter().for_each(|[a, b]| forest.union(*a, *b));
+        // A bend all around is cut along one line, and both sides of a cut belong to different patches: it is halved.
+        let mut halved: Vec<u32> = inner_sides(solid)
+            .filter(|side| !net.is_closed(*side))
+            .map(|side| [side, solid.twins[side as usize]].map(|s| forest.find(solid.facet(s))))
+            .filter(|[a, b]| a == b)
+            .map(|[a, _]| a)
+            .collect();
+        halved.sort_unstable();
+        halved.dedup();
+        let mut halves = UnionFind::new("facets", solid.normals.len())?;
+        for own in folds.chunk_by(|a, b| a == b).map(|pair| pair[0]) {
+            if halved.binary_search(&forest.find(own[0])).is_err() {
+                halves.union(own[0], own[1]);
+            }
+        }
+        for bend in halved {
+            let half = first_half(&folds, solid, net, |facet| forest.find(facet) == bend);
+            for [a, b] in &folds {
+                if forest.find(*a) == bend && half.contains(a) == half.contains(b) {
+                    halves.union(*a, *b);
+                }
+            }
+        }
+        // Patches by area, the largest first.
+        let count = solid.normals.len();
+        let mut sums = vec![0.0; count];
+        for facet in 0..count {
+            sums[halves.find(facet as u32) as usize] += solid.areas[facet];
+        }
+        let mut order: Vec<u32> = (0..count as u32)
+            .filter(|f| halves.find(*f) == *f)
+            .collect();
+        order.sort_by(|a, b| {
+            sums[*b as usize]
+                .total_cmp(&sums[*a as usize])
+                .then(a.cmp(b))
+        });
+        let mut numbers = vec![NO_INDEX; count];
+        for (number, root) in (0u32..).zip(&order) {
+            numbers[*root as usize] = number;
+        }
+        Ok(FlatPatches {
+            of: (0..count as u32)
+                .map(|f| numbers[halves.find(f) as usize])
+                .collect(),
+            areas: order.iter().map(|root| sums[*root as usize]).collect(),
+        })
+    }
+}
+
+/// One half-edge of each edge with two facets.
+pub(super) fn inner_sides(solid: &Polyhedron) -> impl Iterator<Item = u32> + '_ {
+    (0u32..).zip(&solid.twins).filter_map(|(side, twin)| {
+        let is_first = *twin != NO_INDEX && side < *twin;
+        (is_first && solid.facet(side) != solid.facet(*twin)).then_some(side)
+    })
+}
+
+fn is_step(solid: &Polyhedron, side: u32) -> bool {
+    solid.angle(side).abs() <= MAX_BEND_STEP
+}
+
+/// The facets that each facet meets at a small angle, each with the angle.
+pub(super) fn bend_steps(solid: &Polyhedron) -> Vec<Vec<(u32, f64)>> {
+    let mut steps: Vec<Vec<(u32, f64)>> = vec![Vec::new(); solid.normals.len()];
+    for side in inner_sides(solid).filter(|side| is_step(solid, *side)) {
+        let [a, b] = [side, solid.twins[side as usize]].map(|s| solid.facet(s));
+        for (own, other) in [(a, b), (b, a)] {
+            if steps[own as usize].iter().all(|(facet, _)| *facet != other) {
+                steps[own as usize].push((other, solid.angle(side)));
+            }
+        }
+    }
+    steps
+}
+
+/// Whether each facet is part of a bend: it meets two others at small, similar angles of one sign, and the rest at large
+/// ones.
+fn bent_facets(solid: &Polyhedron) -> Vec<bool> {
+    let steps = bend_steps(solid);
+    let is_even = |a: f64, b: f64| {
+        let (low, high) = (a.abs().min(b.abs()), a.abs().max(b.abs()));
+        a * b > 0.0 && high <= MAX_BEND_STEP_RATIO * low
+    };
+    let is_between = |facet: usize| match steps[facet][..] {
+        [(_, a), (_, b)] => is_even(a, b),
+        _ => false,
+    };
+    let between: Vec<bool> = (0..steps.len()).map(is_between).collect();
+    // Two facets between others make a bend; a single one may be any polyhedron's.
+    let is_bent = |facet: usize| {
+        between[facet]
+            && steps[facet]
+                .iter()
+                .any(|(other, _)| between[*other as usize])
+    };
+    (0..steps.len()).map(is_bent).collect()
+}
+
+/// The facets of a bend up to its middle, from one side of its cut on.
+fn first_half(
+    folds: &[[u32; 2]],
+    solid: &Polyhedron,
+    net: &Net,
+    mut is_own: impl FnMut(u32) -> bool,
+) -> Vec<u32> {
+    let cut = inner_sides(solid).find(|side| {
+        let both = [*side, solid.twins[*side as usize]].map(|s| solid.facet(s));
+        !net.is_closed(*side) && both.iter().all(|facet| is_own(*facet))
+    });
+    let mut half: Vec<u32> = cut.map(|side| solid.facet(side)).into_iter().collect();
+    let own: Vec<[u32; 2]> = folds.iter().copied().filter(|[a, _]| is_own(*a)).collect();
+    let mut all: Vec<u32> = own.as_flattened().to_vec();
+    all.sort_unstable();
+    all.dedup();
+    let mut next = 0;
+    while let Some(facet) = half.get(next).copied() {
+        next += 1;
+        for [a, b] in &own {
+            for (one, other) in [(a, b), (b, a)] {
+                if *one == facet && !half.contains(other) && 2 * half.len() < all.len() {
+                    half.push(*other);
+                }
+            }
+        }
+    }
+    half
+}

@@ -1,0 +1,346 @@
+//! A mesh as a polyhedron: flat facets of coplanar triangles, and the edges along which these meet.
+
+use std::f64::consts::PI;
+
+use nalgebra::Vector3;
+use rustc_hash::FxHashMap;
+
+use crate::error::{Error, Result};
+use crate::math::index::NO_INDEX;
+use crate::math::planar::Point2;
+use crate::scene::half_edges::half_edge_ends;
+use crate::scene::mesh::Mesh;
+
+pub(super) type Place = Vector3<f64>;
+
+/// Distance below which points are one and a point lies in a plane, as a share of the mesh's diagonal: files have six
+/// digits or more.
+const ROUNDING_SHARE: f64 = 1e-6;
+
+/// The same in units of the last place of the largest coordinate, where all coordinates are numbers of 32 bits.
+const ROUNDING_F32_UNITS: f64 = 4.0;
+
+/// A mesh whose triangles belong to flat facets. Half-edges are numbered as in [`half_edge_ends`].
+pub(super) struct Polyhedron {
+    pub places: Vec<Place>,
+    pub triangles: Vec<[u32; 3]>,
+    /// The twin of each half-edge; [`NO_INDEX`] on the border, and where more than two triangles meet.
+    pub twins: Vec<u32>,
+    /// Number of the facet of each triangle.
+    pub facets: Vec<u32>,
+    /// Unit normal of each facet.
+    pub normals: Vec<Place>,
+    /// Area of each facet.
+    pub areas: Vec<f64>,
+    /// Position of each triangle's corners in the plane of its facet, seen from the side that the normal points to.
+    pub flat: Vec<[Point2; 3]>,
+    /// Distance below which points are one.
+    pub rounding: f64,
+}
+
+impl Polyhedron {
+    /// Joins the vertices at one place, turns triangles to one side where they can be, and finds the facets.
+    ///
+    /// # Errors
+    /// [`Error::Unsupported`] for a mesh whose triangles have no area.
+    pub(super) fn new(mesh: &Mesh) -> Result<Polyhedron> {
+        let rounding = rounding(mesh.positions());
+        let (places, joined) = join(mesh.positions(), rounding);
+        let triangles = (mesh.triangles().iter()).map(|t| t.map(|v| joined[v as usize]));
+        let mut triangles: Vec<[u32; 3]> = triangles
+            .filter(|[a, b, c]| a != b && b != c && c != a)
+            .collect();
+        let twins = oriented_twins(&places, &mut triangles, rounding);
+        let mut solid = Polyhedron {
+            facets: vec![NO_INDEX; triangles.len()],
+            normals: Vec::new(),
+            areas: Vec::new(),
+            flat: vec![[Point2::default(); 3]; triangles.len()],
+            places,
+            triangles,
+            twins,
+            rounding,
+        };
+        solid.find_facets();
+        match solid.areas.iter().sum::<f64>() > solid.rounding * solid.rounding {
+            true => Ok(solid),
+            false => Err(Error::Unsupported {
+                format: "pattern",
+                reason: "the triangles of the mesh have no area".into(),
+            }),
+        }
+    }
+
+    pub(super) fn corners(&self, triangle: usize) -> [Place; 3] {
+        self.triangles[triangle].map(|v| self.places[v as usize])
+    }
+
+    pub(super) fn ends(&self, half_edge: u32) -> [Place; 2] {
+        half_edge_ends(&self.triangles, half_edge).map(|v| self.places[v as usize])
+    }
+
+    pub(super) fn facet(&self, half_edge: u32) -> u32 {
+        self.facets[half_edge as usize / 3]
+    }
+
+    /// Positions of a half-edge's ends in the plane of its facet.
+    pub(super) fn flat_ends(&self, half_edge: u32) -> [Point2; 2] {
+        let (corners, k) = (&self.flat[half_edge as usize / 3], half_edge as usize % 3);
+        [corners[k], corners[(k + 1) % 3]]
+    }
+
+    /// Angle between the facets on both sides of a half-edge with a twin, in radians: above 0 at a ridge.
+    pub(super) fn angle(&self, half_edge: u32) -> f64 {
+        let [m, n] = [half_edge, self.twins[half_edge as usize]]
+            .map(|side| self.normals[self.facet(side) as usize]);
+        let [from, to] = self.ends(half_edge);
+        let along = (to - from).normalize();
+        let turn = m.cross(&n);
+        let angle = turn.norm().atan2(m.dot(&n));
+        // Facets that lie on each other are folded at the rim by half a turn.
+        if turn.dot(&along) >= 0.0 || angle > PI - 1e-9 {
+            angle
+        } else {
+            -angle
+        }
+    }
+
+    /// Grows facets from the largest triangles on: a triangle belongs to a facet if all its corners lie in its plane.
+    fn find_facets(&mut self) {
+        let areas: Vec<Place> = (0..self.triangles.len())
+            .map(|t| {
+                let [a, b, c] = self.corners(t);
+                0.5 * (b - a).cross(&(c - a))
+            })
+            .collect();
+        let mut order: Vec<usize> = (0..areas.len()).collect();
+        order.sort_by(|a, b| areas[*b].norm().total_cmp(&areas[*a].norm()));
+        for seed in order {
+            if self.facets[seed] != NO_INDEX {
+                continue;
+            }
+            let number = self.normals.len() as u32;
+            let [origin, to, _] = self.corners(seed);
+            let size = areas[seed].norm();
+            let normal = match size > 0.0 {
+                true => areas[seed] / size,
+                false => {
+                    // A line has no plane of its own: any through it will do.
+                    let along = (to - origin).normalize();
+                    let axis = Place::ith(along.iamin(), 1.0);
+                    along.cross(&axis).normalize()
+                }
+            };
+            // The plane of a slender triangle is the less certain the farther from it.
+            let height = 2.0 * size / longest_side(self.corners(seed)).max(f64::MIN_POSITIVE);
+            let is_in_plane = |p: &Place| {
+                let off = p - origin;
+                normal.dot(&off).abs()
+                    <= self.rounding * (1.0 + off.norm() / height.max(self.rounding))
+            };
+            let (mut members, mut next) = (vec![seed], 0);
+            self.facets[seed] = number;
+            while let Some(t) = members.get(next).copied() {
+                next += 1;
+                for side in 3 * t..3 * t + 3 {
+                    let twin = self.twins[side];
+                    if twin == NO_INDEX || self.facets[twin as usize / 3] != NO_INDEX {
+                        continue;
+                    }
+                    let other = twin as usize / 3;
+                    let [a, b] = self.ends(twin);
+                    // A triangle without a height faces no side.
+                    let is_needle = 2.0 * areas[other].norm() <= self.rounding * (b - a).norm();
+                    if self.corners(other).iter().all(is_in_plane)
+                        && (is_needle || areas[other].dot(&normal) > 0.0)
+                    {
+                        self.facets[other] = number;
+                        members.push(other);
+                    }
+                }
+            }
+            let sum: Place = members.iter().map(|t| areas[*t]).sum();
+            let normal = match sum.norm() > 0.0 {
+                true => sum.normalize(),
+                false => normal,
+            };
+            let x = (to - origin - normal * normal.dot(&(to - origin))).normalize();
+            let y = normal.cross(&x);
+            let mut area = 0.0;
+            for t in members {
+                area += areas[t].norm();
+                self.flat[t] = self.corners(t).map(|p| {
+                    let from = p - origin;
+                    Point2::new(x.dot(&from), y.dot(&from))
+                });
+            }
+            self.normals.push(normal);
+            self.areas.push(area);
+        }
+    }
+}
+
+fn longest_side([a, b, c]: [Place; 3]) -> f64 {
+    [(a, b), (b, c), (c, a)]
+        .iter()
+        .map(|(p, q)| (q - p).norm())
+        .fold(0.0, f64::max)
+}
+
+/// Distance below which points of a mesh are one.
+fn rounding(positions: &[[f64; 3]]) -> f64 {
+    let ends = |k: usize| {
+        let all = positions.iter().map(|p| p[k]);
+        all.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], v| {
+            [low.min(v), high.max(v)]
+        })
+    };
+    let boxed = [0, 1, 2].map(ends);
+    let diagonal = (boxed
+        .iter()
+        .map(|[low, high]| (high - low).powi(2))
+        .sum::<f64>())
+    .sqrt();
+    let largest = (boxed.as_flattened().iter()).fold(0.0f64, |most, v| most.max(v.abs()));
+    let is_f32 = (positions.as_flattened().iter()).all(|v| f64::from(*v as f32) == *v);
+    let unit = if is_f32 {
+        largest * f64::from(f32::EPSILON)
+    } else {
+        0.0
+    };
+    (ROUNDING_SHARE * diagonal).max(ROUNDING_F32_UNITS * unit)
+}
+
+/// Joins points nearer to each other than the rounding; returns them and the number of each given point among them.
+fn join(positions: &[[f64; 3]], rounding: f64) -> (Vec<Place>, Vec<u32>) {
+    let mut cells: FxHashMap<[i64; 3], Vec<u32>> = FxHashMap::default();
+    let mut places: Vec<Place> = Vec::new();
+    let size = rounding.max(f64::MIN_POSITIVE);
+    let low = [0, 1, 2].map(|k| positions.iter().map(|p| p[k]).fold(f64::INFINITY, f64::min));
+    let joined = positions.iter().map(|p| {
+        let place = Place::from(*p);
+        let cell = [0, 1, 2].map(|k| ((p[k] - low[k]) / size).floor() as i64);
+        let around = (0..27i64).map(|i| {
+            let by = [i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1];
+            [0, 1, 2].map(|k| cell[k] + by[k])
+        });
+        let near = |v: &&u32| (places[**v as usize] - place).norm() <= size;
+        let found = around.filter_map(|cell| cells.get(&cell)?.iter().find(near));
+        let found = found.copied().next();
+        found.unwrap_or_else(|| {
+            let number = places.len() as u32;
+            places.push(place);
+            cells.entry(cell).or_default().push(number);
+            number
+        })
+    });
+    let joined = joined.collect();
+    (places, joined)
+}
+
+/// Turns triangles so that neighbours face one side, and finds the twins of their half-edges. Where more than two
+/// triangles meet at an edge only those in one plane stay together; where a surface has one side only it is cut.
+fn oriented_twins(places: &[Place], triangles: &mut [[u32; 3]], rounding: f64) -> Vec<u32> {
+    let mut edges: FxHashMap<[u32; 2], Vec<u32>> = FxHashMap::default();
+    for side in 0..3 * triangles.len() as u32 {
+        let [a, b] = half_edge_ends(triangles, side);
+        edges.entry([a.min(b), a.max(b)]).or_default().push(side);
+    }
+    // The third corner of a half-edge's triangle, as seen from the edge.
+    let away = |triangles: &[[u32; 3]], side: u32| {
+        let [a, b] = half_edge_ends(triangles, side).map(|v| places[v as usize]);
+        let c = triangles[side as usize / 3][(side as usize + 2) % 3];
+        let (along, off) = ((b - a).normalize(), places[c as usize] - a);
+        off - along * along.dot(&off)
+    };
+    let mut keys: Vec<_> = edges.keys().copied().collect();
+    keys.sort_unstable();
+    let mut pairs = vec![NO_INDEX; 3 * triangles.len()];
+    for key in keys {
+        let mut sides = edges[&key].clone();
+        if sides.len() > 2 {
+            // Pairs of opposite triangles in one plane; of doubled faces none, which has no single opposite.
+            let opposite = |a: u32, b: u32| {
+                let (p, q) = (away(triangles, a), away(triangles, b));
+                p.cross(&q).norm() <= rounding * p.norm().max(q.norm()) && p.dot(&q) < 0.0
+            };
+            let all = sides.clone();
+            sides.retain(|a| all.iter().filter(|b| opposite(*a, **b)).count() == 1);
+            while let Some(a) = sides.pop() {
+                let Some(at) = sides.iter().position(|b| opposite(a, *b)) else {
+                    continue;
+                };
+                let b = sides.swap_remove(at);
+                (pairs[a as usize], pairs[b as usize]) = (b, a);
+            }
+        } else if let [a, b] = sides[..] {
+            (pairs[a as usize], pairs[b as usize]) = (b, a);
+        }
+    }
+    // Which triangles are turned.
+    let mut turned: Vec<Option<bool>> = vec![None; triangles.len()];
+    for first in 0..triangles.len() {
+        if turned[first].is_some() {
+            continue;
+        }
+        turned[first] = Some(false);
+        let mut component = vec![first];
+        let mut next = 0;
+        while let Some(t) = component.get(next).copied() {
+            next += 1;
+            for side in 3 * t as u32..3 * t as u32 + 3 {
+                let twin = pairs[side as usize];
+                if twin == NO_INDEX || turned[twin as usize / 3].is_some() {
+                    continue;
+                }
+                let same = half_edge_ends(triangles, side) == half_edge_ends(triangles, twin);
+                turned[twin as usize / 3] = Some(same != (turned[t] == Some(true)));
+                component.push(twin as usize / 3);
+            }
+        }
+        // A closed surface faces outwards, an open one as most of its triangles do.
+        let is_closed =
+            (component.iter()).all(|t| (3 * t..3 * t + 3).all(|side| pairs[side] != NO_INDEX));
+        let sign = |t: usize| if turned[t] == Some(true) { -1.0 } else { 1.0 };
+        let origin = places[triangles[first][0] as usize];
+        let sum: f64 = (component.iter())
+            .map(|t| {
+                let [a, b, c] = triangles[*t].map(|v| places[v as usize] - origin);
+                let measure = match is_closed {
+                    true => a.dot(&b.cross(&c)),
+                    false => (b - a).cross(&(c - a)).norm(),
+                };
+                sign(*t) * measure
+            })
+            .sum();
+        if sum < 0.0 {
+            for t in component {
+                turned[t] = turned[t].map(|turned| !turned);
+            }
+        }
+    }
+    // Half-edges of a turned triangle: the corners (a, b, c) become (a, c, b).
+    let moved = |side: u32| match turned[side as usize / 3] {
+        Some(true) => side / 3 * 3 + 2 - side % 3,
+        _ => side,
+    };
+    let mut twins = vec![NO_INDEX; pairs.len()];
+    for (side, twin) in (0u32..).zip(&pairs) {
+        if *twin != NO_INDEX {
+            twins[moved(side) as usize] = moved(*twin);
+        }
+    }
+    for (t, corners) in triangles.iter_mut().enumerate() {
+        if turned[t] == Some(true) {
+            corners.swap(1, 2);
+        }
+    }
+    // Where both still run the same way the surface has one side only.
+    for side in 0..twins.len() as u32 {
+        let twin = twins[side as usize];
+        if twin != NO_INDEX && half_edge_ends(triangles, side) == half_edge_ends(triangles, twin) {
+            (twins[side as usize], twins[twin as usize]) = (NO_INDEX, NO_INDEX);
+        }
+    }
+    twins
+}

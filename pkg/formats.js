@@ -22,10 +22,10 @@ export function isImage(bytes, options) {
   return isText(bytes) || MAGIC.some((magic) => beginsWith(bytes, magic));
 }
 
-/** Whether a file begins with text, as grids of numbers do. @param {Uint8Array} bytes */
+/** Whether a file begins with text that has digits, as grids of numbers do. @param {Uint8Array} bytes */
 function isText(bytes) {
-  const head = bytes.subarray(0, 64);
-  return head.length > 0 && head.every((byte) => byte === 9 || byte === 10 || byte === 13 || byte >= 32);
+  const head = bytes.subarray(0, 256);
+  return head.some((byte) => byte >= 0x30 && byte <= 0x39) && head.every((byte) => byte === 9 || byte === 10 || byte === 13 || byte >= 32);
 }
 
 /** First bytes of the photos that the wasm of the images reads; that of the files reads all others. */

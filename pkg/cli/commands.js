@@ -25,7 +25,7 @@ import { flagNames, usage } from './flags.js';
 /** @satisfies {readonly Flag[]} */
 const heights = ['lattice', ...flagNames(sampleMesh, 'heights'), 'pixel-size', 'height-scale', 'array', 'mask', 'no-data'];
 /** Of photos that are written. @satisfies {readonly Flag[]} */
-const printed = ['unit', 'quality'];
+const printed = ['quality'];
 /** @satisfies {readonly Flag[]} */
 const mesh = [...flagNames(sampleMesh, 'mesh'), 'intrinsics', 'turn', 'ray'];
 /** @satisfies {readonly Flag[]} */

@@ -158,8 +158,8 @@ export async function readMesh(task) {
     await depthCamera(camera, file, stored),
     {
       turn,
-      mask: mask === undefined ? undefined : await readImage(mask),
-      confidence: confidence === undefined ? undefined : asTyped(await readImage(confidence)),
+      mask: mask === undefined ? undefined : await readImage(mask, { assumeNoData: false }),
+      confidence: confidence === undefined ? undefined : asTyped(await readImage(confidence, { assumeNoData: false })),
       crop: photo?.wanted,
       photo,
       camera: photo?.camera,
@@ -380,7 +380,8 @@ export async function about(path, read) {
  * @param {ReadResult} input
  */
 async function readBeside(what, path, input) {
-  const file = await readImage(path);
+  // What is beside the heights says by its values which pixels it means.
+  const file = await readImage(path, { assumeNoData: false });
   if (file.width === input.width && file.height === input.height) return file;
   const [verb, its] = [what.endsWith('s') ? 'have' : 'has', `${file.width} × ${file.height}`];
   throw new Problem(

@@ -8,7 +8,7 @@ import { checkPlaces, readBytes, writeWhole } from './files.js';
 import { solve } from './fit.js';
 import { about, readForFit, readInput } from './inputs.js';
 import { Problem, status } from './problem.js';
-import { percent, print, statusLine, toStderr } from './terminal.js';
+import { isTerminal, percent, print, say, statusLine, toStderr } from './terminal.js';
 
 /**
  * @typedef {import('./arguments.js').SheetTask} SheetTask
@@ -75,13 +75,13 @@ export function reportPattern(drawing, plan) {
   reportSlits(drawing.summary);
   reportMissing(drawing.summary);
   const { untabbed } = drawing.summary;
-  if (untabbed > 0) process.stderr.write(`developable: warning: ${counted(untabbed, 'seam')} without a tab, for want of room on both sides\n`);
+  if (untabbed > 0) say(`warning: ${counted(untabbed, 'seam')} without a tab, for want of room on both sides`);
 }
 
 /** How large the drawing is, and on how many pages. @param {import('../types.js').Drawing} drawing */
 function reportSize({ width, height, pages, summary: { sheets } }) {
   const paper = pages === undefined ? '' : ` on ${counted(pages.pages.length, 'page')}`;
-  process.stderr.write(`developable: ${counted(sheets, 'sheet')}, together ${Math.ceil(width)} × ${Math.ceil(height)} mm${paper}\n`);
+  if (isTerminal()) say(`${counted(sheets, 'sheet')}, together ${Math.ceil(width)} × ${Math.ceil(height)} mm${paper}`);
 }
 
 /** What it takes besides the creases. @param {import('../types.js').Drawing['summary']} summary */

@@ -52,6 +52,11 @@ export function say(text) {
   toStderr(`${streams().stderr.isTTY ? '\r\x1b[K' : ''}developable: ${text}\n`);
 }
 
+/** Whether what is said on standard error is read on a terminal: scripts get no news of success. */
+export function isTerminal() {
+  return streams().stderr.isTTY === true;
+}
+
 /** One line that is written over and over. */
 export function statusLine() {
   // News may come from where no command runs.

@@ -199,7 +199,7 @@ impl Input {
         let surroundings = Surroundings {
             heights: self.field.heights(),
             confidence: &self.confidence,
-            outside: &|v| self.outside.get(v) == Some(&true) || self.is_constrained(v),
+            outside: &|v| self.outside.get(v) == Some(&true),
             torn: &|v| self.is_occluded(v),
         };
         let bridges = surroundings.on_lattice(&self.field, width)?;

@@ -466,6 +466,11 @@ impl Options {
         self.lambda.unwrap_or_default()
     }
 
+    /// Whether λ is chosen from the input, with the options as they are.
+    pub fn chooses_lambda(&self) -> bool {
+        self.lambda_or_default() == Lambda::Auto
+    }
+
     /// Certified relative duality gap to stop at: the given one or the default.
     pub(crate) fn gap_or_default(&self) -> f64 {
         self.gap.unwrap_or(DEFAULT_GAP)

@@ -7,7 +7,7 @@ use web_time::Instant;
 
 use super::component_solver::{ComponentSolver, PreparedInput, StartMode, Status};
 use super::input::Input;
-use super::options::{Lambda, Options};
+use super::options::Options;
 use super::report::{LambdaChoice, LambdaReason, Progress, StopReason};
 use super::surface::Surface;
 use super::threads::Threads;
@@ -82,7 +82,7 @@ impl Solver {
         let known = Known::of(&prepared.input, &asked)?;
         let Known { scale, noise } = known;
         let (mut options, mut choice, mut search) = (asked, None, None);
-        if asked.lambda_or_default() == Lambda::Auto {
+        if asked.chooses_lambda() {
             let (first, found) = closed_form::initial_options(&asked, noise, scale);
             if found.reason == LambdaReason::Noise {
                 search = Search::new(&prepared.input, &first, known)?;

@@ -122,7 +122,8 @@ test('wrong inputs and options are named', () => {
   assert.throws(fit({ width, height, data: 'abc' }), error('INPUT', /data.*"abc"/));
   assert.throws(fit({ width, height, data: new BigInt64Array(120) }), error('INPUT', /data.*BigInt64Array/));
   assert.throws(fit({ width, height, data: [1, null] }), error('INPUT', /data\[1\].*null/));
-  assert.throws(fit({ ...ramp, mask: [1] }), error('INPUT', /mask/));
+  assert.throws(fit({ ...ramp, mask: 'all' }), error('INPUT', /mask/));
+  assert.throws(fit({ ...ramp, mask: [1] }), error('SHAPE', /mask/));
   assert.throws(fit({ ...ramp, mask: new Uint8Array(3) }), error('SHAPE', /mask/));
   assert.throws(fit({ ...ramp, noData: '0' }), error('INPUT', /noData/));
   assert.throws(fit({ ...ramp, pixelSize: 0 }), error('OPTION', /pixelSize/));

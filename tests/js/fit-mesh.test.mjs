@@ -153,14 +153,14 @@ test('an abort stops it, or keeps the best surface so far', async () => {
 test('the command fits whole meshes, and says so where a view would lose much', async () => {
   const folder = await temporaryFolder();
   await writeFile(join(folder, 'scan.ply'), direct.writePly(noisy));
-  const done = await run(folder, ['fit', 'scan.ply', '-o', 'whole.ply', '--surface', '--report', 'r.json']);
+  const done = await run(folder, ['fit', 'scan.ply', '--unit', 'mm', '-o', 'whole.ply', '--surface', '--report', 'r.json']);
   assert.deepEqual(done, { status: 0, stdout: '', stderr: '' });
   const report = JSON.parse(await readFile(join(folder, 'r.json'), 'utf8'));
   assert.equal(report.vertices, noisy.positions.length / 3);
   const found = direct.readMesh(await readFile(join(folder, 'whole.ply')));
   assert.ok(off(found.positions) < 0.4 * sigma);
   for (const output of ['whole.obj', 'whole.stl', 'whole.glb']) {
-    assert.equal((await run(folder, ['fit', 'scan.ply', '-o', output, '--surface'])).stderr, '');
+    assert.equal((await run(folder, ['fit', 'scan.ply', '--unit', 'mm', '-o', output, '--surface'])).stderr, '');
     const other = direct.readMesh(await readFile(join(folder, output)));
     assert.equal(other.triangles.length, noisy.triangles.length, output);
   }
@@ -303,7 +303,7 @@ test('the command traces rulings of whole meshes', async () => {
   await direct.load('meshes');
   const folder = await temporaryFolder();
   await writeFile(join(folder, 'scan.ply'), direct.writePly(noisy));
-  const done = await run(folder, ['rulings', 'scan.ply', '-o', 'r.obj', '--surface', '--separation', '0.4', '--report', 'r.json']);
+  const done = await run(folder, ['rulings', 'scan.ply', '--unit', 'mm', '-o', 'r.obj', '--surface', '--separation', '0.4', '--report', 'r.json']);
   assert.deepEqual(done, { status: 0, stdout: '', stderr: '' });
   /** @type {{ lines: import('../../pkg/types.js').Ruling[] }} */
   const { lines } = JSON.parse(await readFile(join(folder, 'r.json'), 'utf8'));
@@ -328,7 +328,7 @@ test('the command lays whole meshes flat', async () => {
   const { sheets, strain } = JSON.parse(await text('a.json'));
   assert.ok(sheets >= 1 && sheets <= 4 && strain <= 0.01, `${sheets} sheets, ${strain}`);
   assert.match(await text('a.svg'), /<svg/);
-  const flat = await run(folder, ['unroll', 'scan.ply', '-o', 'flat.obj', '--surface', '--report', 'flat.json']);
+  const flat = await run(folder, ['unroll', 'scan.ply', '--unit', 'mm', '-o', 'flat.obj', '--surface', '--report', 'flat.json']);
   assert.deepEqual(flat, { status: 0, stdout: '', stderr: '' });
   const report = JSON.parse(await text('flat.json'));
   assert.deepEqual([report.sheets, report.patches.length], [sheets, 2]);

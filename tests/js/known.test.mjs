@@ -212,7 +212,7 @@ test('wrong inputs and options are named', () => {
     assert.throws(fit({ ...input, confidence: spoilt(-0.5) }), error('OPTION', /confidence.*-0\.5.*row 1, column 2/));
     assert.throws(fit({ ...input, confidence: spoilt(NaN) }), error('NOT_FINITE', /confidence.*row 1, column 2/));
     assert.throws(fit({ ...input, confidence: spoilt(Infinity) }), error('NOT_FINITE', /confidence.*row 1, column 2/));
-    assert.throws(fit({ ...input, occlusions: [1] }), error('INPUT', /occlusions/));
+    assert.throws(fit({ ...input, occlusions: [1] }), error('SHAPE', /occlusions/));
     assert.throws(fit({ ...input, occlusions: new Uint8Array(7) }), error('SHAPE', /occlusions/));
   }
   assert.throws(fit({ ...hex, brokenEdges: new Uint8Array(7) }), error('SHAPE', /edges/));

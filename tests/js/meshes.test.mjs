@@ -192,14 +192,14 @@ test('the command fits a mesh in its own axes', async () => {
   const fit = (args) => run(folder, ['fit', ...args.split(' ')]);
   const silent = { status: 0, stdout: '', stderr: '' };
   for (const view of ['-z', '+y', '-1,-2,-4', 'best-fit']) {
-    assert.deepEqual(await fit(`plane.obj --view ${view} --resolution 25 --lambda big -o out.obj`), silent);
+    assert.deepEqual(await fit(`plane.obj --unit mm --view ${view} --resolution 25 --lambda big -o out.obj`), silent);
     const points = verticesOf(await readFile(join(folder, 'out.obj'), 'utf8'));
     assert.ok(points.length > 100 && points.every((point) => offPlane(point) < 1e-6), view);
   }
-  assert.deepEqual(await fit('cloud.obj --view best-fit --lambda big -o out.obj'), silent);
+  assert.deepEqual(await fit('cloud.obj --unit mm --view best-fit --lambda big -o out.obj'), silent);
   const points = verticesOf(await readFile(join(folder, 'out.obj'), 'utf8'));
   assert.ok(points.length > 20 && points.every((point) => offPlane(point) < 1e-6));
-  assert.deepEqual(await fit('plane.obj --spacing 0.1 -o out.npy'), silent);
+  assert.deepEqual(await fit('plane.obj --unit mm --spacing 0.1 -o out.npy'), silent);
   /** @type {[string, number, RegExp][]} */
   const wrong = [
     ['plane.obj --view top -o out.obj', 2, /--view/],

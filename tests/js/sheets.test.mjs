@@ -129,8 +129,8 @@ test('rulings of a tube', async () => {
 
 test('photos from and to files', async () => {
   const bytes = direct.writePhoto(photo);
-  assert.deepEqual(direct.readPhoto(bytes), photo);
-  assert.deepEqual(await developable.readPhoto(bytes), photo);
+  assert.deepEqual(direct.readPhoto(bytes), { ...photo, assumptions: [] });
+  assert.deepEqual(await developable.readPhoto(bytes), { ...photo, assumptions: [] });
   assert.deepEqual(await developable.writePhoto(photo), bytes);
 });
 

@@ -197,7 +197,7 @@ test('the command writes each by its ending', async () => {
   }
   // A mesh's colours stay with it.
   await writeFile(join(folder, 'coloured.ply'), files.ply);
-  const args = ['fit', 'coloured.ply', '--view', '-y', '--spacing', '0.1', '--lambda', 'big', '-o', 'again.ply'];
+  const args = ['fit', 'coloured.ply', '--unit', 'mm', '--view', '-y', '--spacing', '0.1', '--lambda', 'big', '-o', 'again.ply'];
   assert.deepEqual(await run(folder, args), { status: 0, stdout: '', stderr: '' });
   const { colors, positions } = direct.readMesh(await readFile(join(folder, 'again.ply')));
   assert.equal(colors?.length, positions.length);

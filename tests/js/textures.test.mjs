@@ -100,7 +100,8 @@ test('several textures, pixels in the place of files, and what has none', async 
 test('what is missing or damaged', async () => {
   assert.deepEqual(direct.readMesh(obj).missing, ['textured.mtl']);
   assert.deepEqual(direct.readMesh(obj, { files: { 'textured.mtl': mtl } }).missing, ['sheet.png']);
-  assert.throws(() => direct.readMesh(obj, { files: { 'textured.mtl': new TextEncoder().encode('newmtl a\nKd 1 1') } }), error('FORMAT', /MTL/));
+  // Damage to what only looks are made of refuses no mesh.
+  assert.deepEqual(direct.readMesh(obj, { files: { 'textured.mtl': new TextEncoder().encode('newmtl a\nKd 1 1') } }).positions, direct.readMesh(obj).positions);
   const damaged = { ...direct.readMesh(glb), textures: [png.subarray(0, 40)] };
   assert.throws(() => direct.sampleMesh(damaged), error('FORMAT', /PNG/));
   await assert.rejects(developable.sampleMesh(damaged), error('FORMAT', /PNG/));
@@ -201,12 +202,12 @@ test('the command reads what lies beside a mesh, and nothing else', async () => 
   const silent = { status: 0, stdout: '', stderr: '' };
   /** @param {string} args */
   const command = (args) => run(folder, args.split(' '));
-  assert.deepEqual(await command('fit scan/textured.obj --resolution 40 --lambda big -o out.ply'), silent);
+  assert.deepEqual(await command('fit scan/textured.obj --unit mm --resolution 40 --lambda big -o out.ply'), silent);
   const { colors = [], positions } = direct.readMesh(await readFile(join(folder, 'out.ply')));
   for (let i = 0; i < positions.length; i += 3) {
     shade(positions[i], positions[i + 1]).forEach((value, k) => assert.ok(Math.abs(colors[i + k] - value) < 0.003));
   }
-  assert.deepEqual(await command('fit scan/textured.obj --resolution 40 -o out.glb'), silent);
+  assert.deepEqual(await command('fit scan/textured.obj --unit mm --resolution 40 -o out.glb'), silent);
   assert.deepEqual(direct.readMesh(await readFile(join(folder, 'out.glb'))).textures, [png]);
   assert.match((await command('info scan/textured.obj')).stdout, /^texture: +has coordinates, 1 picture$/m);
   // What the mesh is read with is not overwritten.
@@ -219,7 +220,7 @@ test('the command reads what lies beside a mesh, and nothing else', async () => 
   await symlink(join(folder, 'secret.png'), join(inner, 'link.png'));
   for (const [name, found] of /** @type {const} */ ([['C:\\Users\\me\\sheet.png', true], ['../secret.png', false], ['link.png', false]])) {
     await writeFile(join(inner, 'textured.mtl'), `newmtl sheet\nmap_Kd ${name}\n`);
-    const { status, stderr } = await command('fit scan/textured.obj --resolution 40 -o out.ply');
+    const { status, stderr } = await command('fit scan/textured.obj --unit mm --resolution 40 -o out.ply');
     assert.equal(status, 0);
     if (found) assert.equal(stderr, '');
     else assert.match(stderr, new RegExp(`warning: scan/textured\\.obj names ".*${name.slice(-8)}", which is outside of its folder`));

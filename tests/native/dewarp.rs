@@ -188,7 +188,9 @@ fn only_what_lies_on_another_part_of_the_sheet_counts_as_overlap() {
         .iter()
         .filter(|place| place[0].is_nan())
         .count();
-    assert!(unseen as f64 > 0.15 * map.places().len() as f64);
+    let share = unseen as f64 / map.places().len() as f64;
+    // More than the overlap that a flat page may have, which they would be counted as.
+    assert!(share > 0.005, "{share}");
     assert_eq!(map.verdict(&crossing), Verdict::Unrolled);
 }
 

@@ -112,9 +112,20 @@ fn tiffs_say_how_large_a_pixel_is_and_what_is_no_data() {
     close("geo-metres.tif", 0.5, Some(Unit::Metre));
     close("geo.tif", 0.5, None);
     close("no-data.tif", 1.0, None);
-    refused("unequal.tif", "UNSUPPORTED", "0.254 wide and 0.127 high");
-    refused("geo-unequal.tif", "UNSUPPORTED", "0.5 wide and 0.25 high");
-    refused("geo-degrees.tif", "UNSUPPORTED", "degrees");
+    // 0.254 wide and 0.127 high, and 0.5 and 0.25 on a map: rows are averaged in pairs.
+    for (name, side) in [("unequal.tif", 0.254), ("geo-unequal.tif", 0.5)] {
+        let found = read(name);
+        assert_eq!((found.width, found.height), (4, 1), "{name}");
+        assert!((found.pixel_size - side).abs() < 1e-12, "{name}");
+        assert_eq!(
+            found.assumptions.last().unwrap().code,
+            "squarePixels",
+            "{name}"
+        );
+    }
+    let degrees = read("geo-degrees.tif");
+    assert_eq!(degrees.unit, Some(Unit::Metre));
+    assert_eq!(degrees.assumptions[0].code, "degrees");
 }
 
 #[test]

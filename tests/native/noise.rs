@@ -415,7 +415,8 @@ fn impulses_are_no_data() {
             .unwrap()
     };
     let surface = |share: f64| {
-        let bridged = image(share).bridged(Bridging::default()).unwrap();
+        let repaired = image(share).repaired().unwrap();
+        let bridged = repaired.bridged(Bridging::default()).unwrap();
         let input = Input::from_bridged(&bridged, None).unwrap();
         solve(input, &Options::default()).0
     };

@@ -58,7 +58,7 @@ for (const { format, bytes } of [{ format: 'OBJ', bytes: obj(wedge) }, { format:
   pageTest(`a dropped ${format} is turned, and its heights are those seen from there`, async (page) => {
     await openFromOneSide(page, `wedge.${format.toLowerCase()}`, bytes);
     assert.match(await page.locator('#mesh-name').innerText(), new RegExp(`wedge \\(${format}\\)`));
-    assert.match(await page.locator('#mesh-span').innerText(), /12 triangles; x, y and z span 3, 2, 2\.9\./);
+    assert.match(await page.locator('#mesh-span').innerText(), /12 triangles; x, y and z span 3, 2, 2\.9 mm\./);
     assert.equal(await page.locator('#mesh-missing').isVisible(), false);
     assert.equal(await page.locator('#result-empty').isVisible(), false, 'solved at once');
 
@@ -179,7 +179,7 @@ pageTest('depths from a camera are put where it has seen them', async (page) => 
   assert.equal(await page.locator('#guessed').isVisible(), false, 'nothing is guessed any more');
   // In metres, the depths' range among them.
   const range = (Math.max(...depths) - Math.min(...depths)) / 1000;
-  const spans = (await page.locator('#mesh-span').innerText()).match(/[\d.]+(?=[,.]( |$))/g)?.map(Number) ?? [];
+  const spans = (await page.locator('#mesh-span').innerText()).match(/[\d.]+(?=(?: m)?[,.](?: |$))/g)?.map(Number) ?? [];
   assert.ok(Math.abs(spans[2] / range - 1) < 0.01, `${spans} against ${range}`);
   const { points } = await solved(page);
   const seen = points.map(({ z }) => z).filter(Number.isFinite);

@@ -23,13 +23,13 @@ import { run } from '../util/process.mjs';
  * have to send, gzipped.
  */
 const files = [
-  { name: 'solver', limit: 255_000 },
+  { name: 'solver', limit: 259_000 },
   { name: 'files', limit: 292_000 },
   { name: 'images', limit: 560_000 },
   { name: 'meshes', limit: 318_000 },
   { name: 'fitmesh', limit: 213_000 },
   { name: 'unroll', limit: 352_000 },
-  { name: 'patterns', limit: 510_000 },
+  { name: 'patterns', limit: 568_000 },
 ];
 
 /**

@@ -71,6 +71,7 @@ export function offerToSave(api, { title, stem, size: amount, ready = async () =
   const progress = (waiting ??= waitingPanel(element('writing', HTMLElement), () => {
     cancelWriting();
     element('save-size', HTMLElement).textContent = SAVE_WORDS.cancelled;
+    element('save-now', HTMLButtonElement).disabled = true;
     retryButton.hidden = false;
     retryButton.focus();
   }, PROGRESS_DELAY_MS));

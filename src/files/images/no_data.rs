@@ -11,7 +11,8 @@ const MIN_REPETITIONS: usize = 2;
 /// Replaces values that nobody would measure by NaN, and returns what was assumed of them.
 ///
 /// Infinities are no data. So is the smallest or the largest value if it is a number by which programs mark missing
-/// values ([`is_marker`]), repeats exactly, and lies farther from all other values than these lie from each other.
+/// values ([`is_marker`]), repeats exactly, and lies farther from all other values than these, of which there are several, lie
+/// from each other.
 pub(super) fn assume_no_data(values: &mut [f64]) -> Vec<Assumption> {
     let mut assumptions = Vec::new();
     let mut remove = |values: &mut [f64], name: String, is_missing: &dyn Fn(f64) -> bool| {
@@ -58,7 +59,7 @@ fn marker_of(values: &[f64]) -> Option<f64> {
     ];
     (candidates.into_iter())
         .filter(|(value, gap, range)| {
-            is_marker(*value) && gap.is_finite() && *range >= 0.0 && gap > range
+            is_marker(*value) && gap.is_finite() && *range > 0.0 && gap > range
         })
         .map(|(value, ..)| value)
         .find(|value| values.iter().filter(|other| *other == value).count() >= MIN_REPETITIONS)
@@ -134,6 +135,9 @@ mod tests {
         let mut terraces = [0.0, 99.0, 0.0, 99.0];
         assert!(assume_no_data(&mut terraces).is_empty());
         assert_eq!(terraces, [0.0, 99.0, 0.0, 99.0]);
+        // A mask of 16 bits.
+        let mut mask = [0.0, 65535.0, 65535.0, 0.0, 65535.0];
+        assert!(assume_no_data(&mut mask).is_empty());
         let mut bathymetry: Vec<f64> = (0..2000).map(|i| -11_000.0 + 9.0 * f64::from(i)).collect();
         bathymetry.extend([-9999.0; 4]);
         assert!(assume_no_data(&mut bathymetry).is_empty());

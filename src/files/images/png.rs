@@ -34,7 +34,7 @@ const MAX_HEIGHT_LEVEL: f64 = 65535.0;
 
 /// The decoded samples of a PNG file, its width and height in pixels, and the reader that holds its metadata.
 pub(super) struct Pixels<'a> {
-    pub reader: Reader<Cursor<&'a [u8]>>,
+    pub reader: PixelReader<'a>,
     pub samples: Vec<u8>,
     pub width: usize,
     pub height: usize,
@@ -59,12 +59,15 @@ impl<'a> Pixels<'a> {
     }
 }
 
+/// Reader of the pixels of a PNG file in memory.
+type PixelReader<'a> = Reader<Cursor<&'a [u8]>>;
+
 /// Opens a PNG file of at most `max_pixels` pixels; returns the reader of its pixels, and their width and height.
 pub(super) fn open(
     bytes: &[u8],
     transformations: Transformations,
     max_pixels: usize,
-) -> Result<(Reader<Cursor<&[u8]>>, [usize; 2])> {
+) -> Result<(PixelReader<'_>, [usize; 2])> {
     let limits = Limits {
         bytes: MAX_DECODER_BYTES,
     };

@@ -11,6 +11,7 @@ mod corners;
 mod format;
 mod glb;
 mod gltf;
+mod mesh_file;
 mod mtl;
 mod narrow;
 mod obj;
@@ -22,7 +23,6 @@ mod threemf;
 mod unit;
 
 use crate::error::{Error, Result};
-use crate::files::{Assumption, Unit};
 use crate::scene::mesh::Mesh;
 
 use beside::Beside;
@@ -30,26 +30,10 @@ pub use beside::Texture;
 use builder::{MeshBuilder, damaged};
 pub use format::MeshFormat;
 pub use glb::write_glb;
+pub use mesh_file::MeshFile;
 pub use ply::write_ply;
 pub use stl::write_stl;
 pub use unit::FileUnit;
-
-/// A mesh read from a file, with the pictures of its textures.
-#[derive(Debug, Clone, PartialEq)]
-#[non_exhaustive]
-pub struct MeshFile {
-    /// The mesh that was read. Where there are textures, [`Mesh::textures`] says which triangle has which.
-    pub mesh: Mesh,
-    /// The pictures of all textures, each once, in the order of the numbers that [`Mesh::textures`] uses.
-    pub textures: Vec<Texture>,
-    /// Names of material and texture files that the mesh file refers to but that were not given.
-    pub missing: Vec<String>,
-    /// Unit of all lengths: the one that the file states, or one that its size suggests, which is then among the
-    /// assumptions. `None` where neither tells.
-    pub unit: Option<Unit>,
-    /// What the reader assumed because the file does not say it.
-    pub assumptions: Vec<Assumption>,
-}
 
 /// Reads a mesh file of the given format (`None`: the format detected from its contents), without any files beside it;
 /// see [`read_mesh_beside`].

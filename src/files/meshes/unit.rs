@@ -1,6 +1,6 @@
 //! Units of length of mesh files: what a file states, what its size suggests, and what the caller says.
 
-use super::MeshFile;
+use super::mesh_file::MeshFile;
 use crate::error::{Error, Result};
 use crate::files::{Assumption, Unit};
 use crate::scene::mesh::Mesh;

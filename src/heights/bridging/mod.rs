@@ -29,15 +29,12 @@ use spikes::remove_spikes;
 /// hole differs from the slopes beside it by more than noise and bends explain. So a hole between two levels of depth
 /// stays a hole. Nor is a hole bridged next to a known occlusion, or where a mask excludes the surface.
 ///
-/// Spikes, single heights far from all around them, count as holes, and offsets of whole rows or columns of an image are
-/// taken out.
-///
 /// Bridged vertices are part of the surface. They start from the plane that fits the data around best, and have a small
 /// confidence: a fifth of the data's next to it, less further away.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Bridging {
-    /// No hole is bridged, and heights stay as they are: a vertex without a height is not part of the surface.
+    /// No hole is bridged: a vertex without a height is not part of the surface.
     Off,
     /// Holes of at most this width, in vertices or pixels, are bridged: 1 to 16.
     UpTo(usize),
@@ -83,6 +80,9 @@ pub(crate) struct Bridge {
     pub confidence: f64,
 }
 
+/// Width of the padding of a raster in which spikes are searched, in cells: they are compared with neighbours so far away.
+const SPIKE_PADDING: usize = 4;
+
 /// Heights of a field, and what is known about each of them, for bridging its holes.
 pub(crate) struct Surroundings<'a> {
     /// Heights, row by row; NaN where there is none.
@@ -110,15 +110,10 @@ impl Surroundings<'_> {
     }
 
     fn bridges(&self, raster: Raster, width: usize, spacing: f64) -> Result<Vec<Bridge>> {
-        if width == 0 {
+        if width == 0 || !self.heights.iter().any(|z| z.is_nan()) {
             return Ok(Vec::new());
         }
-        let mut heights = raster.padded(self.heights, f64::NAN)?;
-        if remove_spikes(&raster, &mut heights).is_empty()
-            && !self.heights.iter().any(|z| z.is_nan())
-        {
-            return Ok(Vec::new());
-        }
+        let heights = raster.padded(self.heights, f64::NAN)?;
         let mut holes = narrow(&raster, &heights, width)?;
         holes.retain(|cell| self.may_be_bridged(&raster, *cell));
         // Heights of confidence 0 are part of the surface, but carry no information about it.
@@ -197,6 +192,29 @@ impl HeightImage {
         self.bridged_where(bridging, None, None, None)
     }
 
+    /// Returns the image without faults of a sensor: offsets of whole rows or columns are taken out, and spikes, single
+    /// heights far from all around them, are no data. Linear cost.
+    ///
+    /// # Errors
+    /// [`Error::OutOfMemory`].
+    pub fn repaired(&self) -> Result<HeightImage> {
+        let mut image = match self.without_line_offsets()? {
+            Some(levelled) => levelled,
+            None => self.clone(),
+        };
+        let raster = Raster::square(image.height(), image.width(), SPIKE_PADDING)?;
+        let mut padded = raster.padded(image.values(), f64::NAN)?;
+        let found = remove_spikes(&raster, &mut padded);
+        if !found.is_empty() {
+            let mut values = image.values().to_vec();
+            found
+                .iter()
+                .for_each(|cell| values[raster.index(*cell)] = f64::NAN);
+            image = image.with_values(values)?;
+        }
+        Ok(image)
+    }
+
     /// Bridges small holes of the image with more information about its pixels: the confidence of each height (NaN or 0
     /// where it does not count), `keep`, which is 0 where there is no surface, and `torn`, which is not 0 at an
     /// occlusion.
@@ -220,19 +238,14 @@ impl HeightImage {
             let found = found.unwrap_or(self.values().len());
             check_shape(what, self.height(), self.width(), found)?;
         }
-        let levelled = match bridging {
-            Bridging::Off => None,
-            Bridging::UpTo(_) => self.without_line_offsets()?,
-        };
-        let image = levelled.as_ref().unwrap_or(self);
         let surroundings = Surroundings {
-            heights: image.values(),
+            heights: self.values(),
             confidence: confidence.map_or(&[], HeightImage::values),
             outside: &|pixel| keep.is_some_and(|keep| keep[pixel] == 0),
             torn: &|pixel| torn.is_some_and(|torn| torn[pixel] != 0),
         };
         let bridges = surroundings.on_image(self, bridging.width()?)?;
-        let mut values = image.values().to_vec();
+        let mut values = self.values().to_vec();
         let mut trust = match confidence {
             Some(image) => image.values().to_vec(),
             None if bridges.is_empty() => Vec::new(),

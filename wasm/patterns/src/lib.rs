@@ -91,7 +91,7 @@ impl Wanted {
             all.clone().fold(f64::NEG_INFINITY, f64::max) - all.fold(f64::INFINITY, f64::min)
         };
         let largest = (0..3).map(extent).fold(0.0, f64::max);
-        if self.is_scaled || !(size > 0.0) {
+        if self.is_scaled || size.is_nan() || size <= 0.0 {
             return Err(Failure {
                 code: "OPTION",
                 message:

@@ -166,7 +166,13 @@ impl Image {
             true => Bridging::Off,
             false => settings.bridging,
         };
-        let bridged = self.heights.bridged_where(
+        // Faults of the sensor are found where λ is, and stay where the caller says what is to be trusted.
+        let is_repaired = settings.options.chooses_lambda()
+            && bridging != Bridging::Off
+            && self.confidence.is_none()
+            && self.constraints.is_none();
+        let repaired = is_repaired.then(|| self.heights.repaired()).transpose()?;
+        let bridged = repaired.as_ref().unwrap_or(&self.heights).bridged_where(
             bridging,
             self.confidence.as_ref(),
             self.mask.as_deref(),

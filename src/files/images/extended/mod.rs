@@ -1,6 +1,7 @@
 //! Decoders of height and depth images other than PNG and NPY.
 
 mod exr;
+mod map_pixels;
 mod npz;
 mod pfm;
 pub(super) mod samples;

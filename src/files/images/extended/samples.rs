@@ -56,7 +56,7 @@ pub(super) fn default_scale(
 }
 
 /// Converts 8-bit samples, with `colours` colour samples and perhaps one of alpha per pixel, to a decoded grey image.
-pub(in crate::files::images) fn picture(
+pub(crate) fn picture(
     format: Format,
     size: (usize, usize),
     samples: &[u8],

@@ -109,9 +109,9 @@ fn esri_grid(text: &str) -> Result<Option<(Grid, Option<f64>)>> {
 fn table(text: &str) -> Result<Grid> {
     // A comma is a decimal one wherever something else divides the numbers.
     let is_divided = text.lines().any(|line| {
-        line.contains(';')
-            || line.contains('\t')
-            || line.trim().contains(' ') && !line.contains(", ")
+        let has_digits = line.contains(|letter: char| letter.is_ascii_digit());
+        let is_blank_divided = line.trim().contains(' ') && !line.contains(", ");
+        has_digits && (line.contains([';', '\t']) || is_blank_divided)
     });
     let mut values: Vec<f64> = Vec::new();
     let (mut cols, mut rows) = (0, 0);

@@ -294,7 +294,7 @@ fn unsigned(file: &mut File, tag: Tag) -> Result<Option<u16>> {
     file.find_tag_unsigned(tag).map_err(failed)
 }
 
-pub(in crate::files::images) fn failed(error: TiffError) -> Error {
+pub(crate) fn failed(error: TiffError) -> Error {
     match error {
         TiffError::UnsupportedError(TiffUnsupportedError::UnsupportedCompressionMethod(method)) => {
             unsupported(

@@ -22,7 +22,7 @@ pub(super) fn decode(bytes: &[u8]) -> Result<Decoded> {
     picture(Format::WebP, size, &samples, stride)
 }
 
-pub(in crate::files::images) fn decode_photo(bytes: &[u8]) -> Result<PhotoFile> {
+pub(crate) fn decode_photo(bytes: &[u8]) -> Result<PhotoFile> {
     let mut decoder = open(bytes)?;
     let (width, height) = decoder.dimensions();
     let mut pixels = PhotoPixels::new([width as usize, height as usize])?;

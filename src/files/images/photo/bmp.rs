@@ -4,7 +4,8 @@ use zune_bmp::{BmpDecoder, BmpDecoderErrors};
 use zune_core::bytestream::ZCursor;
 use zune_core::options::DecoderOptions;
 
-use super::{PhotoFile, PhotoPixels, PhotoTags};
+use super::exif::PhotoTags;
+use super::pixels::{PhotoFile, PhotoPixels};
 use crate::error::{Error, Result, try_filled};
 
 pub(super) fn decode(bytes: &[u8]) -> Result<PhotoFile> {

@@ -5,7 +5,7 @@ use ::exif::{Exif, In, Reader, Tag};
 use crate::scene::camera::has_camera_proportions;
 
 /// What a photo's tags say about how it was taken.
-pub(in crate::files::images) struct PhotoTags {
+pub(crate) struct PhotoTags {
     /// How the camera was held, as TIFF's orientation number from 1 (upright) to 8. An invalid number counts as 1, since
     /// damaged metadata need not mean a damaged picture.
     pub orientation: u16,

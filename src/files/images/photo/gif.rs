@@ -4,7 +4,8 @@ use std::io::Cursor;
 
 use ::gif::{ColorOutput, DecodeOptions, DecodingError, MemoryLimit};
 
-use super::{MAX_FILE_PIXELS, PhotoFile, PhotoPixels, PhotoTags};
+use super::exif::PhotoTags;
+use super::pixels::{MAX_FILE_PIXELS, PhotoFile, PhotoPixels};
 use crate::error::{Error, Result, try_filled};
 
 pub(super) fn decode(bytes: &[u8]) -> Result<PhotoFile> {

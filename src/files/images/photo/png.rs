@@ -2,7 +2,8 @@
 
 use ::png::{ColorType, Transformations};
 
-use super::{MAX_FILE_PIXELS, PhotoFile, PhotoPixels, PhotoTags};
+use super::exif::PhotoTags;
+use super::pixels::{MAX_FILE_PIXELS, PhotoFile, PhotoPixels};
 use crate::error::{Error, Result};
 use crate::files::images::png::{Pixels, damaged, open};
 

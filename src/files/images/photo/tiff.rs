@@ -6,7 +6,8 @@ use ::tiff::ColorType;
 use ::tiff::decoder::{Decoder, DecodingResult, Limits};
 use ::tiff::tags::Tag;
 
-use super::{PhotoFile, PhotoPixels, PhotoTags};
+use super::exif::PhotoTags;
+use super::pixels::{PhotoFile, PhotoPixels};
 use crate::error::Result;
 use crate::files::images::extended::tiff_tags::failed;
 use crate::files::images::failure::unsupported;

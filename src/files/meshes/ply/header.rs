@@ -2,17 +2,9 @@
 
 use std::collections::VecDeque;
 
-use super::values::Scalar;
+use super::values::{Encoding, Scalar};
 use crate::error::Result;
 use crate::files::meshes::builder::damaged;
-
-/// Encoding of the values after the header.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Encoding {
-    Ascii,
-    LittleEndian,
-    BigEndian,
-}
 
 /// A property of an element: one value, or a list whose length comes first.
 pub(super) struct Property {

@@ -1,8 +1,15 @@
 //! The values of a PLY file after its header.
 
-use super::header::Encoding;
 use crate::error::Result;
 use crate::files::meshes::builder::damaged;
+
+/// Encoding of the values after the header.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Encoding {
+    Ascii,
+    LittleEndian,
+    BigEndian,
+}
 
 /// Type of a value.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -1,0 +1,137 @@
+//! How large the pixels of an image are on a map, in metres, and how they lie there.
+
+use crate::files::images::georeference::Georeference;
+
+/// Number of the GeoTIFF key `GTModelTypeGeoKey`, which tells whether coordinates are lengths or degrees.
+const MODEL_TYPE_KEY: u16 = 1024;
+
+/// Value of the GeoTIFF key `GTModelTypeGeoKey` for degrees of longitude and latitude.
+const MODEL_TYPE_GEOGRAPHIC: u16 = 2;
+
+/// Number of the GeoTIFF key `ProjLinearUnitsGeoKey`, the unit of map coordinates.
+const LINEAR_UNIT_KEY: u16 = 3076;
+
+/// Number of the GeoTIFF key `VerticalUnitsGeoKey`, the unit of heights.
+const VERTICAL_UNIT_KEY: u16 = 4099;
+
+/// Lengths of units in metres, by their numbers in GeoTIFF keys: metre, international foot, US survey foot.
+const UNIT_METRES: [(u16, f64); 3] = [(9001, 1.0), (9002, 0.3048), (9003, 1200.0 / 3937.0)];
+
+/// Semi-major axis of the ellipsoid WGS 84, in metres.
+const ELLIPSOID_AXIS_METRES: f64 = 6_378_137.0;
+
+/// Square of the first eccentricity of the ellipsoid WGS 84.
+const ELLIPSOID_ECCENTRICITY_SQUARED: f64 = 0.006_694_379_990_14;
+
+impl Georeference {
+    /// Value of a GeoTIFF key that is stored in the directory itself.
+    fn key(&self, wanted: u16) -> Option<u16> {
+        // Four numbers each: key, where its value is (0: here), how many there are, the value.
+        (self.keys.chunks_exact(4).skip(1))
+            .find(|entry| entry[0] == wanted && entry[1] == 0)
+            .map(|entry| entry[3])
+    }
+
+    /// Whether map coordinates are degrees of longitude and latitude.
+    pub(super) fn is_geographic(&self) -> bool {
+        self.key(MODEL_TYPE_KEY) == Some(MODEL_TYPE_GEOGRAPHIC)
+    }
+
+    /// Length of the unit of map coordinates in metres, if the file says it.
+    pub(super) fn linear_unit(&self) -> Option<f64> {
+        metres(self.key(LINEAR_UNIT_KEY)?)
+    }
+
+    /// Length of the unit of heights in metres, if the file says it.
+    pub(super) fn vertical_unit(&self) -> Option<f64> {
+        metres(self.key(VERTICAL_UNIT_KEY)?)
+    }
+
+    /// Latitude of the middle of an image of the given size, in degrees, if coordinates are degrees.
+    pub(super) fn latitude(&self, (width, height): (usize, usize)) -> f64 {
+        let [.., d, e, f] = self.transformation;
+        d * width as f64 / 2.0 + e * height as f64 / 2.0 + f
+    }
+
+    /// Width and height of a pixel: in metres for degrees, else in the unit of map coordinates.
+    pub(super) fn pixel_sides(&self, size: (usize, usize)) -> [f64; 2] {
+        let [a, b, _, d, e, _] = self.transformation;
+        let [x, y] = if self.is_geographic() {
+            metres_per_degree(self.latitude(size))
+        } else {
+            [1.0, 1.0]
+        };
+        [(a * x).hypot(d * y), (b * x).hypot(e * y)]
+    }
+
+    /// Whether the image is a mirror image of the map, as with rows from south to north.
+    pub(super) fn is_mirrored(&self) -> bool {
+        let [a, b, _, d, e, _] = self.transformation;
+        a * e - b * d > 0.0
+    }
+
+    /// Reverses the rows of an image of `height` rows.
+    pub(super) fn reverse_rows(&mut self, height: usize) {
+        let [_, b, c, _, e, f] = &mut self.transformation;
+        *c += *b * height as f64;
+        *f += *e * height as f64;
+        (*b, *e) = (-*b, -*e);
+    }
+
+    /// Makes pixels wider and higher by these factors.
+    pub(super) fn stretch(&mut self, [across, down]: [f64; 2]) {
+        let [a, b, _, d, e, _] = &mut self.transformation;
+        (*a, *d) = (*a * across, *d * across);
+        (*b, *e) = (*b * down, *e * down);
+    }
+}
+
+/// Length of a unit in metres, by its number in GeoTIFF keys.
+fn metres(unit: u16) -> Option<f64> {
+    (UNIT_METRES.into_iter()).find_map(|(number, length)| (number == unit).then_some(length))
+}
+
+/// Lengths of a degree of longitude and of latitude on the ellipsoid, in metres, at a latitude in degrees.
+fn metres_per_degree(latitude: f64) -> [f64; 2] {
+    let (sin, cos) = latitude.to_radians().sin_cos();
+    let w = 1.0 - ELLIPSOID_ECCENTRICITY_SQUARED * sin * sin;
+    let radius = ELLIPSOID_AXIS_METRES / w.sqrt();
+    [
+        radius * cos,
+        radius * (1.0 - ELLIPSOID_ECCENTRICITY_SQUARED) / w,
+    ]
+    .map(f64::to_radians)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn degrees_have_the_lengths_of_tables() {
+        // Lengths of a degree at 45 degrees on WGS 84: 78.847 km and 111.132 km.
+        let [x, y] = metres_per_degree(45.0);
+        assert!(
+            (x - 78_847.0).abs() < 1.0 && (y - 111_132.0).abs() < 1.0,
+            "{x} {y}"
+        );
+    }
+
+    #[test]
+    fn reversed_rows_lie_where_they_lay() {
+        let mut map = Georeference {
+            transformation: [2.0, 0.5, 100.0, 0.25, 3.0, 200.0],
+            keys: Vec::new(),
+            doubles: Vec::new(),
+            text: String::new(),
+        };
+        let corner = |map: &Georeference, i: f64, j: f64| {
+            let [a, b, c, d, e, f] = map.transformation;
+            [a * i + b * j + c, d * i + e * j + f]
+        };
+        let before = corner(&map, 3.0, 0.0);
+        map.reverse_rows(7);
+        assert_eq!(corner(&map, 3.0, 7.0), before);
+        assert!(!map.is_mirrored());
+    }
+}

@@ -40,8 +40,9 @@ function colmapCamera(line) {
   const [, model, width, height, numbers] = /^\s*\d+\s+([A-Z_]+)\s+(\d+)\s+(\d+)\s+(.*)$/.exec(line) ?? [];
   if (numbers === undefined) return [];
   const values = numbers.trim().split(/\s+/).map(Number);
-  // Of other models only that they are other ones is of use.
-  const names = (COLMAP[model] ?? 'fx').split(' ');
+  // Of other models only that they are other ones is of use: more coefficients than a lens with five has.
+  if (!Object.hasOwn(COLMAP, model)) return [{ model, width: Number(width), height: Number(height), fx: 1, cx: 1, cy: 1, k4: 1 }];
+  const names = COLMAP[model].split(' ');
   return [{ model, width: Number(width), height: Number(height), ...Object.fromEntries(names.map((name, i) => [name, values[i]])) }];
 }
 

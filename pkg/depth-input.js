@@ -63,7 +63,7 @@ function asConfidence(image) {
   const { size, data, dataType } = imageOf('the confidence', image);
   const [, sign, bits] = /^([ui])(\d+)$/.exec(dataType ?? '') ?? [];
   let largest = 0;
-  for (const value of data) largest = Math.max(largest, value);
+  for (const value of data) if (value > largest) largest = value;
   const white = bits === undefined ? 1 : 2 ** (Number(bits) - (sign === 'i' ? 1 : 0)) - 1;
   const levels = bits !== undefined && largest < LEVELS.length;
   const weights = Float32Array.from(data, (value) => (levels ? LEVELS[value] ?? 0 : value / white) || 0);

@@ -22,9 +22,9 @@ export function init(input?: InitInput): Promise<void>;
 
 /**
  * Loads other parts, likewise: `load('files', 'meshes')`, or from another place, `load({ files: url })`.
- * - `files`: `read` and the `write…` functions for PNG, NPY, OBJ and MTL, photos in PNG, `paint`, and `sampleMesh` of a
+ * - `files`: `read` and the `write…` functions for PNG, NPY, OBJ and MTL, photos in PNG and JPEG, `paint`, and `sampleMesh` of a
  *   mesh with textures;
- * - `images`: all other height images, and photos in JPEG and WebP;
+ * - `images`: all other height images, and photos in WebP, GIF, BMP and TIFF;
  * - `meshes`: `readMesh`, `sampleMesh`, `backProject`, `writePly`, `writeStl` and `writeGlb`;
  * - `fitmesh`: `fitMesh`, `MeshSolver`, `analyzeMesh` and `meshRulings`;
  * - `unroll`: `analyze`, `patches`, `picture`, `draw`, `rulings`, `unroll` and `dewarp`;

@@ -2,7 +2,7 @@
 import { DevelopableError } from './errors.js';
 
 /** The formats that the wasm of the images reads; it is not loaded for any other. */
-const IMAGES = ['tiff', 'exr', 'pfm', 'npz', 'jpeg', 'webp', 'text'];
+const IMAGES = ['tiff', 'exr', 'pfm', 'npz', 'jpeg', 'webp', 'text', 'colmap'];
 
 /** First bytes of those formats, as Latin-1; a `?` stands for any byte. */
 const MAGIC = [
@@ -19,8 +19,11 @@ const MAGIC = [
 export function isImage(bytes, options) {
   const { format } = Object(options);
   if (format !== undefined) return IMAGES.includes(format);
-  return isText(bytes) || MAGIC.some((magic) => beginsWith(bytes, magic));
+  return isText(bytes) || isColmap(bytes) || MAGIC.some((magic) => beginsWith(bytes, magic));
 }
+
+/** Whether a file is a depth map of COLMAP: `width&height&channels&` comes first. @param {Uint8Array} bytes */
+const isColmap = (bytes) => /^\d+&\d+&\d+&/.test(String.fromCharCode(...bytes.subarray(0, 32)));
 
 /** Whether a file begins with text that has digits, as grids of numbers do. @param {Uint8Array} bytes */
 function isText(bytes) {

@@ -1264,7 +1264,7 @@ export interface PageOutlines {
 }
 
 /** What can be read. */
-export type Format = 'png' | 'npy' | 'tiff' | 'exr' | 'pfm' | 'npz' | 'jpeg' | 'webp';
+export type Format = 'png' | 'npy' | 'tiff' | 'exr' | 'pfm' | 'npz' | 'jpeg' | 'webp' | 'text' | 'colmap';
 
 /** An array of an NPZ file. */
 export interface NpzArray {

@@ -301,7 +301,7 @@ pub const MAX_CELLS: usize = 5 << 22;
 /// them, so that there may be more than [`MAX_CELLS`].
 pub const MAX_PHOTO_PIXELS: usize = 25 << 20;
 
-/// Checks that a photo has `4 · rows · cols` bytes and at most [`MAX_PHOTO_PIXELS`] pixels. `what` names it, `found` is the
+/// Checks that a photo has `4 · rows · cols` bytes and at most `MAX_PHOTO_PIXELS` pixels. `what` names it, `found` is the
 /// number of pixels that its bytes are.
 pub fn check_photo(what: &'static str, rows: usize, cols: usize, found: usize) -> Result<()> {
     checked_pixels(what, rows, cols)?;

@@ -74,12 +74,14 @@ export function stateOf(hash) {
   const name = parameters.get('example');
   const [card] = [...parameters.entries()].find(([, value]) => value === '') ?? [];
   const flags = ['zeros', 'hexagonal'].filter((flag) => parameters.has(flag)).map((flag) => [flag, parameters.get(flag) === '1']);
-  const scales = ['pixelSize', 'heightScale', 'noData'].filter((scale) => Number(parameters.get(scale))).map((scale) => [scale, Number(parameters.get(scale))]);
+  const scales = ['pixelSize', 'heightScale'].filter((scale) => Number(parameters.get(scale))).map((scale) => [scale, Number(parameters.get(scale))]);
+  const noData = parameters.has('noData') ? Number(parameters.get('noData')) : undefined;
+  const isStored = flags.length + scales.length > 0 || noData !== undefined;
   return {
     card,
     example: name ? { name, size: positive('size') ?? 400, noise: Math.max(0, Number(parameters.get('noise') ?? 0.02)) || 0 } : undefined,
     file: positive('file'),
-    stored: flags.length + scales.length > 0 ? Object.fromEntries([...flags, ...scales]) : undefined,
+    stored: isStored ? { ...Object.fromEntries([...flags, ...scales]), noData: Number.isFinite(noData) ? noData : undefined } : undefined,
     settings,
     whole: parameters.get('whole') === '1' || undefined,
     photo: parameters.get('photo') === '1' || undefined,

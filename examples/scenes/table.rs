@@ -117,9 +117,7 @@ fn measure(
         ]
         .map(|c| c * pixel)
     };
-    let pixels = (0..size * size)
-        .map(centre)
-        .map(|[x, y]| height(x, y));
+    let pixels = (0..size * size).map(centre).map(|[x, y]| height(x, y));
     let pixels: Vec<f64> = pixels.collect();
     let values = match fault {
         "none" => pixels.clone(),

@@ -8,6 +8,7 @@ import { meshPatches, rulings } from '../schema/shape.js';
 import { show } from '../values.js';
 import { checkFlags, commandNamed } from './commands.js';
 import { flagName, flagNames, split, usage } from './flags.js';
+import { filesOf } from './patterns.js';
 import { refuseSameFiles } from './same-file.js';
 
 /**
@@ -128,12 +129,13 @@ const telling = ['analyze', 'patches', 'rulings'];
 export function parse(args) {
   const { values, positionals } = split(args);
   if (values.version) return { command: 'version' };
-  const [name, input, ...more] = positionals;
-  if (name === 'help') return { command: 'help', about: input === undefined ? undefined : commandNamed(input) };
+  const [name, ...named] = positionals;
+  if (name === 'help') return { command: 'help', about: named[0] === undefined ? undefined : commandNamed(named[0]) };
   if (values.help) return { command: 'help', about: name === undefined ? undefined : commandNamed(name) };
   if (name === undefined) throw usage('there is nothing to do');
   const command = commandNamed(name);
   checkFlags(command, values);
+  const [input, ...more] = named.flatMap(filesOf);
   if (input === undefined) throw usage('the input is missing', command);
   if (isBook(command, [input, ...more], values)) return page([input, ...more], values.output ?? '', undefined, values);
   if (more.length > 0) throw usage(`one input at a time: what is ${show(more[0])}?`, command);
@@ -229,10 +231,11 @@ export function parse(args) {
     case 'unroll':
       return { command, ...fitting, asIs };
     case 'pattern':
+      if (values.size !== undefined) throw usage('--size is for whole meshes: add --surface, or give --scale', command);
       return { command, ...fitting, asIs, ...patterned(values), ...exploring(values, about.extension) };
     case 'dewarp':
       if (texture === undefined && kind !== 'mesh') {
-        throw usage("the photo is missing: --texture PHOTO; or INPUT is a photo of a page: .jpg, .png or .webp");
+        throw usage("the photo is missing: --texture PHOTO; or INPUT is a photo of a page: .jpg, .png, .webp, .gif or .bmp");
       }
       if (map !== undefined) extension('map', map, ['.npy', '.json']);
       return {
@@ -318,7 +321,7 @@ const pageFlags = flagNames(dewarpPage, 'page');
  * @param {Values} values
  */
 function isPhotoAlone(input, values) {
-  return values.texture === undefined && ['.jpg', '.jpeg', '.png', '.webp'].includes(extname(input).toLowerCase()) &&
+  return values.texture === undefined && ['.jpg', '.jpeg', '.png', '.webp', '.gif', '.bmp'].includes(extname(input).toLowerCase()) &&
     values.intrinsics === undefined;
 }
 
@@ -466,7 +469,7 @@ function checkKind(kind, command, values) {
 }
 
 /** Endings of the files that `parseCamera` reads. */
-const CAMERA_FILE = /\.(json|ya?ml|xml|csv|conf|ini|txt)$/i;
+export const CAMERA_FILE = /\.(json|ya?ml|xml|csv|conf|ini|txt)$/i;
 
 /**
  * Four or five numbers with commas between them, or a file.

@@ -3,15 +3,15 @@ import { spawn } from 'node:child_process';
 import { statSync } from 'node:fs';
 import { mkdir } from 'node:fs/promises';
 import { availableParallelism } from 'node:os';
-import { dirname, extname, basename, join, sep } from 'node:path';
+import { dirname, extname, basename, join } from 'node:path';
 import { fileURLToPath } from 'node:url';
-import { globSync } from '../vendor/tinyglobby.mjs';
 import { show } from '../values.js';
-import { defaultExtension, isBook, parse, wholeNumber } from './arguments.js';
+import { CAMERA_FILE, defaultExtension, isBook, parse, wholeNumber } from './arguments.js';
 import { commandNamed } from './commands.js';
 import { failed } from './files.js';
 import { isRecorded, record } from './fingerprint.js';
 import { split, usage } from './flags.js';
+import { filesOf } from './patterns.js';
 import { Problem, status } from './problem.js';
 import { print, say, statusLine } from './terminal.js';
 
@@ -79,24 +79,13 @@ export function batchOf(args) {
       }
       owners.set(path, input);
     }
-    const known = NAMING_FLAGS.filter((flag) => !WRITTEN_FLAGS.includes(flag)).flatMap((flag) => own[flag] ?? []);
+    const known = NAMING_FLAGS.filter((flag) => !WRITTEN_FLAGS.includes(flag)).flatMap((flag) => own[flag] ?? [])
+      // The numbers of a camera are no file.
+      .filter((path) => path !== own.intrinsics || CAMERA_FILE.test(path));
     return { input, args: line, read: [input, ...known], written };
   });
   const most = jobs === undefined ? availableParallelism() : wholeNumber('jobs', jobs);
   return { items, jobs: Math.min(most, items.length), overwrite };
-}
-
-/**
- * The files that an input stands for: those that match it, where it is a pattern that the shell did not expand.
- * @param {string} input
- * @returns {string[]}
- */
-function filesOf(input) {
-  if (!/[*?]/.test(input) || statSync(input, { throwIfNoEntry: false }) !== undefined) return [input];
-  const pattern = (sep === '/' ? input : input.replaceAll(sep, '/')).replace(/[[\]{}()!\\]/g, '\\$&');
-  const matches = globSync(pattern, { expandDirectories: false }).sort();
-  if (matches.length === 0) throw new Problem(status.input, `no file matches ${input}`);
-  return matches;
 }
 
 /**

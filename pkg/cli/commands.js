@@ -148,7 +148,7 @@ export const commands = {
       'above, for depths by their camera, and for scans by their texture coordinates. Or makes a photo alone of a curled ' +
       'page flat, by the edges of the page, which are found in it or given.',
     terms: {
-      INPUT: `${INPUT}. Without --texture a photo of a page: .jpg, .png or .webp`,
+      INPUT: `${INPUT}. Without --texture a photo of a page: .jpg, .png, .webp, .gif or .bmp`,
       PHOTO: 'a PNG, JPEG or WebP of what the heights show, with as many pixels as it likes; a textured mesh has its own',
       IMAGE:
         '.png, transparent where there is no sheet, .jpg or .pdf, white there. A page of a .pdf has the true size, and the ' +

@@ -64,7 +64,7 @@ export async function readInput(task) {
     });
   }
   // On the lattice 0 is no data unless something else is, and no constraint likewise.
-  const noData = asStored(task.noData, file) ?? 0;
+  const noData = asStored(task.noData, file) ?? (task.assumeNoData === false ? NaN : 0);
   /** @param {Float64Array} values */
   const scaled = (values) => values.map((value) => value * heightScale);
   return /** @type {Input} */ ({

@@ -6,7 +6,7 @@ import { anything, choice, either, flag, number, numbers, text, whole } from './
 /** @satisfies {Options} */
 export const read = {
   /** Taken from the bytes where it is not given. */
-  format: { kind: choice('png', 'npy', 'tiff', 'exr', 'pfm', 'npz', 'jpeg', 'webp', 'text'), type: 'Format' },
+  format: { kind: choice('png', 'npy', 'tiff', 'exr', 'pfm', 'npz', 'jpeg', 'webp', 'text', 'colmap'), type: 'Format' },
   /** Name of the array to read from an NPZ file; needed only where the file holds several. */
   array: { kind: text },
   /**

@@ -206,7 +206,7 @@ impl Solver {
         }
     }
 
-    /// Returns the progress at the last check. Before the first one, and while λ is [chosen](Lambda::Auto), the figures
+    /// Returns the progress at the last check. Before the first one, and while λ is [chosen](super::options::Lambda::Auto), the figures
     /// are those of the input, on a level above 0; iterations of the search are counted. On a coarse level objective
     /// and dual bound are scaled by the number of vertices: they estimate those of the finest level, which alone
     /// certifies. Components not yet solved count with the input's objective and the bound 0.

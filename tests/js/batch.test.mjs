@@ -71,6 +71,10 @@ test('patterns that the shell did not expand are expanded, and one without a mat
   const ended = await developable('fit', '?.npy', 'odd*.npy', '-o', 'out/');
   assert.match(ended.stderr, /4 files: 4 done, 0 failed/);
   assert.deepEqual(await made('out'), ['a.npy', 'b.npy', 'c.npy', 'odd*.npy']);
+  // One match is one input.
+  const one = await developable('info', 'odd*.npy');
+  assert.match(one.stdout, /^size: +24 × 20 pixels$/m);
+  assert.equal((await developable('fit', 'a*.npy', '-o', 'one.npy')).status, 0);
   for (const args of [['gone/*.npy', '-o', 'other/'], ['gone/*.npy', '-o', 'other/*.npy', '--jobs', '4']]) {
     const nothing = await developable('fit', ...args);
     assert.equal(nothing.stderr, 'developable: no file matches gone/*.npy\n');

@@ -41,6 +41,7 @@ pageTest('the site works under any path and without a network, and is renewed as
     await guide.reload();
     await guide.getByRole('navigation', { name: 'Documentation' }).getByRole('link').click();
     await guide.getByRole('heading', { name: 'The web page', level: 1 }).waitFor();
+    await guide.goto(new URL('meshes.html', guide.url()).href);
     await loaded(guide);
     await context.setOffline(true);
     await server.close();

@@ -354,10 +354,10 @@ pageTest('where a whole mesh is under the pointer, how far it was moved, and wha
   }
   assert.equal(await pointAt(0.03, 0.5), '', 'beside it');
   await view(page, 'gaussian');
-  const curved = /· K (\S+) 1\/unit²$/.exec(await pointAt(0.5, 0.5));
+  const curved = /· K (\S+) 1\/mm²$/.exec(await pointAt(0.5, 0.5));
   assert.ok(curved && Math.abs(parsed(curved[1])) < 0.1, String(curved));
   await page.locator('#whole-divider').fill('1');
-  const rough = /· K (\S+) 1\/unit²$/.exec(await pointAt(0.5, 0.5));
+  const rough = /· K (\S+) 1\/mm²$/.exec(await pointAt(0.5, 0.5));
   assert.ok(rough && Math.abs(parsed(rough[1])) > 10 * Math.abs(parsed(/** @type {RegExpExecArray} */ (curved)[1])), `${rough} against ${curved}`);
   await page.locator('#whole-divider').fill('0');
   await view(page, 'patches');

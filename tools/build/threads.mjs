@@ -14,6 +14,14 @@ const SIZE_LIMIT = 268_000;
 /** Functions of the glue that the package imports. */
 const IMPORTED = ['initSync', 'leadTeam', 'helperStack'];
 
+/** Their types, where they were not built: the rest of the glue is as that of the solver for one thread. */
+const TYPES = `import type { InitOutput } from '../wasm/solver.js';
+export * from '../wasm/solver.js';
+export function initSync(given: { module: WebAssembly.Module, memory: WebAssembly.Memory }): InitOutput;
+export function leadTeam(wake: Function, pause: Function): Uint32Array;
+export function helperStack(): number;
+`;
+
 /** Kept apart, so that neither build has the other compiled again. */
 const targetFolder = join(root, 'target/threads');
 
@@ -65,7 +73,10 @@ export async function leaveThreadsOut() {
   const body = "{\n  throw new Error('the wasm for several threads was not built');\n}\n";
   // A bundler warns of an import that is missing.
   const text = IMPORTED.map((name) => `export function ${name}() ${body}`).join('');
-  await replace((folder) => writeFile(join(folder, 'threads.js'), text));
+  await replace(async (folder) => {
+    await writeFile(join(folder, 'threads.js'), text);
+    await writeFile(join(folder, 'threads.d.ts'), TYPES);
+  });
 }
 
 /**

@@ -26,10 +26,12 @@ pub enum Format {
     WebP,
     /// Text: an ESRI ASCII grid, points on a grid (XYZ), or a matrix.
     Text,
+    /// Depth map of COLMAP.
+    Colmap,
 }
 
 /// Image formats with their names in options and their titles in messages.
-const FORMAT_TITLES: [(Format, &str, &str); 9] = [
+const FORMAT_TITLES: [(Format, &str, &str); 10] = [
     (Format::Png, "png", "PNG"),
     (Format::Npy, "npy", "NPY"),
     (Format::Tiff, "tiff", "TIFF"),
@@ -39,6 +41,7 @@ const FORMAT_TITLES: [(Format, &str, &str); 9] = [
     (Format::Jpeg, "jpeg", "JPEG"),
     (Format::WebP, "webp", "WebP"),
     (Format::Text, "text", "text"),
+    (Format::Colmap, "colmap", "COLMAP depths"),
 ];
 
 /// Signatures of the image formats: the first bytes of a file of each format; a `?` stands for any byte.
@@ -66,7 +69,7 @@ impl Format {
     }
 
     /// Returns the format's name in lower case: `"png"`, `"npy"`, `"tiff"`, `"exr"`, `"pfm"`, `"npz"`, `"jpeg"`,
-    /// `"webp"` or `"text"`.
+    /// `"webp"`, `"text"` or `"colmap"`.
     pub fn name(self) -> &'static str {
         self.entry().1
     }
@@ -80,6 +83,7 @@ impl Format {
             .into_iter()
             .find_map(|(magic, format)| announces(magic).then_some(format))
             .or_else(|| is_text_grid(bytes).then_some(Format::Text))
+            .or_else(|| colmap_head(bytes).map(|_| Format::Colmap))
     }
 
     pub(super) fn title(self) -> &'static str {
@@ -105,7 +109,23 @@ impl FromStr for Format {
 
 /// Permitted values of the option `format`, as they are listed in the error about a wrong value.
 pub const FORMAT_NAMES: &str =
-    "must be `png`, `npy`, `tiff`, `exr`, `pfm`, `npz`, `jpeg`, `webp` or `text`";
+    "must be `png`, `npy`, `tiff`, `exr`, `pfm`, `npz`, `jpeg`, `webp`, `text` or `colmap`";
+
+/// Width, height and number of channels in the head of a depth map of COLMAP, and the length of the head in bytes.
+pub(super) fn colmap_head(bytes: &[u8]) -> Option<([usize; 3], usize)> {
+    let mut numbers = [0; 3];
+    let mut start = 0;
+    for number in &mut numbers {
+        let length = bytes[start..]
+            .iter()
+            .take(10)
+            .position(|byte| *byte == b'&')?;
+        let digits = std::str::from_utf8(&bytes[start..start + length]).ok()?;
+        *number = digits.parse().ok()?;
+        start += length + 1;
+    }
+    Some((numbers, start))
+}
 
 /// Number of bytes at the start of a file by which it is recognised as a grid of numbers in text.
 const TEXT_GRID_HEAD_BYTES: usize = 1024;
@@ -113,7 +133,12 @@ const TEXT_GRID_HEAD_BYTES: usize = 1024;
 /// Whether a file begins like a grid of numbers: with the head of an ESRI ASCII grid, or a line of two or more numbers
 /// within its first lines, and no letters but those of a first line of names.
 fn is_text_grid(bytes: &[u8]) -> bool {
-    let head = &bytes[..bytes.len().min(TEXT_GRID_HEAD_BYTES)];
+    // Up to the last number that is whole.
+    let divides = |byte: &u8| byte.is_ascii_whitespace() || matches!(byte, b',' | b';');
+    let head = match bytes.get(..TEXT_GRID_HEAD_BYTES) {
+        Some(head) => &head[..head.iter().rposition(divides).unwrap_or(head.len())],
+        None => bytes,
+    };
     let is_text = |byte: &u8| matches!(byte, b'\t' | b'\r' | b'\n' | b' '..=b'~' | 0x80..);
     let Some(head) = std::str::from_utf8(head)
         .ok()
@@ -158,7 +183,7 @@ pub fn announced(bytes: &[u8], stated: Option<Format>) -> Result<Format> {
         (None, None) => Err(Error::Unsupported {
             format: "this file",
             reason: format!(
-                "{} cannot be read; PNG, NPY, TIFF, EXR, PFM, NPZ, JPEG, WebP and text can",
+                "{} cannot be read; PNG, NPY, TIFF, EXR, PFM, NPZ, JPEG, WebP, text and depths of COLMAP can",
                 guess(bytes)
             ),
         }),
@@ -201,6 +226,7 @@ fn guess(bytes: &[u8]) -> &'static str {
         Some(Format::Jpeg) => "a JPEG file",
         Some(Format::WebP) => "a WebP file",
         Some(Format::Text) => "text",
+        Some(Format::Colmap) => "a depth map of COLMAP",
         None => known
             .iter()
             .find(|(magic, _)| bytes.starts_with(magic))

@@ -6,8 +6,8 @@
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub struct Georeference {
-    /// Affine transformation `[a, b, c, d, e, f]` from the column `i` and the row `j` of a pixel's upper left corner to map
-    /// coordinates: `x = a·i + b·j + c`, `y = d·i + e·j + f`, in the unit of the coordinate system.
+    /// Affine transformation `[a, b, c, d, e, f]` from the column `i` and the row `j` of a pixel's upper left corner (of its
+    /// middle, if the keys say so) to map coordinates: `x = a·i + b·j + c`, `y = d·i + e·j + f`, in the unit of the coordinate system.
     pub transformation: [f64; 6],
     /// Numbers of the tag `GeoKeyDirectory`, which names the coordinate system; empty if there is none.
     pub keys: Vec<u16>,

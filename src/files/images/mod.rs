@@ -63,6 +63,7 @@ pub use print::{PhotoOptions, PhotoRows, write_photo, write_photo_jpeg};
 /// - **NPZ**: the only array; [`decode_npz`] chooses one by name.
 /// - **Text**: an ESRI ASCII grid, points on a grid (XYZ) in any order, or a
 ///   matrix, with blanks, tabs, semicolons or commas between its numbers.
+/// - **COLMAP**: depth maps (`.bin`), whose zeros have no data.
 /// - **JPEG**, **WebP**: grey pictures, and RGB as long as every pixel is grey.
 ///   The orientation that a JPEG's Exif data state is honoured.
 ///

@@ -19,4 +19,6 @@ pub struct MeshFile {
     pub unit: Option<Unit>,
     /// What the reader assumed because the file does not say it.
     pub assumptions: Vec<Assumption>,
+    /// Factor from the file's lengths to those of the mesh.
+    pub(super) factor: f64,
 }

@@ -17,6 +17,7 @@ mod narrow;
 mod obj;
 mod off;
 mod ply;
+mod precision;
 mod stl;
 mod text;
 mod threemf;
@@ -94,11 +95,12 @@ pub fn read_mesh_beside(
     let textures = std::mem::take(&mut parts.pictures);
     let mesh = parts.into_mesh(format.title(), format != MeshFormat::Stl)?;
     let mut file = MeshFile {
+        assumptions: precision::coarse_coordinates(&mesh).into_iter().collect(),
         mesh,
         textures,
         missing: beside.missing(),
         unit: None,
-        assumptions: Vec::new(),
+        factor: 1.0,
     };
     if let Some(unit) = stated {
         return file.in_unit(unit);

@@ -86,6 +86,14 @@ pub(super) fn read(bytes: &[u8], parts: &mut MeshBuilder) -> Result<()> {
         if corners.len() <= count {
             return Err(damaged("OFF", format!("line {row} has too few vertices")));
         }
+        let is_number =
+            |corner: &f64| corner.fract() == 0.0 && (0.0..=f64::from(u32::MAX)).contains(corner);
+        if !corners[1..].iter().all(is_number) {
+            return Err(damaged(
+                "OFF",
+                format!("line {row} has a vertex that is no whole number"),
+            ));
+        }
         let corners: Vec<u32> = corners[1..].iter().map(|corner| *corner as u32).collect();
         parts.fan(&corners)?;
     }

@@ -30,7 +30,10 @@ pub(super) fn lines(text: &str) -> impl Iterator<Item = (usize, Cow<'_, str>)> {
         let mut line = Cow::Borrowed(first);
         while let Some(end) = line.trim_ascii_end().strip_suffix('\\').map(str::len) {
             let Some((_, next)) = rows.next() else { break };
-            line = Cow::Owned(format!("{} {next}", &line[..end]));
+            let whole = line.to_mut();
+            whole.truncate(end);
+            whole.push(' ');
+            whole.push_str(next);
         }
         Some((row + 1, line))
     })

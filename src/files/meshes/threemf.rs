@@ -20,6 +20,9 @@ const MAX_MODEL_BYTES: u64 = 64 * MAX_CELLS as u64;
 /// Maximum number of components within components.
 const MAX_COMPONENT_DEPTH: usize = 16;
 
+/// Maximum number of components of a model, each counted as often as it is used.
+const MAX_COMPONENTS: usize = 1_000_000;
+
 pub(super) fn read(bytes: &[u8], parts: &mut MeshBuilder) -> Result<FileUnit> {
     let text = model(bytes)?;
     let document = Document::parse(&text).map_err(|error| damaged(FORMAT_NAME, error))?;
@@ -30,7 +33,11 @@ pub(super) fn read(bytes: &[u8], parts: &mut MeshBuilder) -> Result<FileUnit> {
         .filter(|node| node.tag_name().name() == "object")
         .filter_map(|node| Some((node.attribute("id")?, node)))
         .collect();
-    let mut model = Model { objects, parts };
+    let mut model = Model {
+        objects,
+        parts,
+        added: 0,
+    };
     let items = (root.descendants()).filter(|node| node.tag_name().name() == "item");
     for item in items {
         model.add(item, &transform(item)?, 0)?;
@@ -66,6 +73,8 @@ fn model(bytes: &[u8]) -> Result<String> {
 struct Model<'a, 'b> {
     objects: HashMap<&'a str, Node<'a, 'a>>,
     parts: &'b mut MeshBuilder,
+    /// Number of components that were added.
+    added: usize,
 }
 
 impl<'a> Model<'a, '_> {
@@ -73,6 +82,10 @@ impl<'a> Model<'a, '_> {
     fn add(&mut self, item: Node<'a, 'a>, transform: &Matrix4<f64>, depth: usize) -> Result<()> {
         if depth > MAX_COMPONENT_DEPTH {
             return Err(damaged(FORMAT_NAME, "its components are within each other"));
+        }
+        self.added += 1;
+        if self.added > MAX_COMPONENTS {
+            return Err(damaged(FORMAT_NAME, "its components repeat too often"));
         }
         if item
             .attributes()

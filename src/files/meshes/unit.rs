@@ -55,13 +55,16 @@ impl MeshFile {
     /// # Errors
     /// [`Error::NotFinite`] where a coordinate becomes too large.
     pub fn in_unit(mut self, given: FileUnit) -> Result<Self> {
-        if given.factor != 1.0 {
-            let scaled = |p: &[f64; 3]| p.map(|v| v * given.factor);
+        // The file's own unit is in the mesh already.
+        let factor = given.factor / self.factor;
+        if factor != 1.0 {
+            let scaled = |p: &[f64; 3]| p.map(|v| v * factor);
             let positions = self.mesh.positions().iter().map(scaled).collect();
             self.mesh = self.mesh.moved_to(positions)?;
         }
         self.assumptions.retain(|known| known.code != CODE);
         self.unit = Some(given.unit);
+        self.factor = given.factor;
         Ok(self)
     }
 }

@@ -32,7 +32,7 @@ export async function phoneCommand({ quick }) {
       ['cropped', [...depth, '--crop', crop]],
       ['cropped, with the warp map', [...depth, '--crop', crop, '--map', 'map.npy']],
       ['cropped, λ medium', [...depth, '--crop', crop, '--lambda', 'medium']],
-      ['photo and edges', ['dewarp', 'photo.jpg', '--edges', edges, '--focal', String(camera.fx), '--page', 'a4', '-o', 'page.png']],
+      ['photo and edges', ['dewarp', 'photo.jpg', '--edges', edges, '--focal-length', String(camera.fx), '--page', 'a4', '-o', 'page.png']],
     ];
     const rows = [];
     for (const [name, args] of tasks) {

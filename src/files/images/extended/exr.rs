@@ -198,13 +198,14 @@ fn heights_among(channels: &[ChannelDescription]) -> Option<ChosenChannels> {
             .iter()
             .position(|(its_group, its_name)| its_group == group && its_name == name)
     };
-    // Blender calls the value of its depth pass `Depth.Z` or `Depth.V`.
-    let depth = (names.iter())
-        .position(|(group, name)| name == "v" && group.rsplit('.').next() == Some("depth"));
-    let single = ["z", "depth", "y"]
-        .into_iter()
-        .find_map(|wanted| names.iter().position(|(_, name)| name == wanted))
-        .or(depth);
+    // Blender calls the value of its depth pass `Depth.Z` or `Depth.V`; other passes have a `Z` of their own.
+    let depth = (names.iter()).position(|(group, name)| {
+        matches!(name.as_str(), "v" | "z") && group.rsplit('.').next() == Some("depth")
+    });
+    let single = depth.or_else(|| {
+        (["z", "depth", "y"].into_iter())
+            .find_map(|wanted| names.iter().position(|(_, name)| name == wanted))
+    });
     let grey = || {
         names.iter().find_map(|(group, _)| {
             ["r", "g", "b"]

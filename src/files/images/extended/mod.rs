@@ -1,5 +1,6 @@
 //! Decoders of height and depth images other than PNG and NPY.
 
+mod colmap;
 mod exr;
 mod map_pixels;
 mod npz;
@@ -32,6 +33,7 @@ pub fn decode(bytes: &[u8], format: Format) -> Result<Decoded> {
         Format::Jpeg => jpeg::decode(bytes),
         Format::WebP => webp::decode(bytes),
         Format::Text => text_grid::decode(bytes),
+        Format::Colmap => colmap::decode(bytes),
         Format::Png | Format::Npy => Err(Error::Unsupported {
             format: format.title(),
             reason: "it is decoded elsewhere".into(),

@@ -70,6 +70,12 @@ pub fn decode_npz(bytes: &[u8], array: Option<&str>) -> Result<Decoded> {
     let mut archive = open(bytes)?;
     let names = names(&archive)?;
     let name = match (array, names.as_slice()) {
+        (_, []) if archive.file_names().any(|name| name.ends_with("main.xml")) => {
+            return Err(unsupported(
+                Format::Npz,
+                "there are no arrays in it, but a surface (X3P): export it as text or as TIFF of 32-bit floats",
+            ));
+        }
         (_, []) => return Err(unsupported(Format::Npz, "there are no arrays in it")),
         (Some(wanted), names) if names.iter().any(|name| name == wanted) => wanted,
         (None, [only]) => only,

@@ -5,7 +5,8 @@ use crate::error::{Result, checked_cells, try_filled};
 use crate::files::Assumption;
 use crate::files::images::decoded::Decoded;
 use crate::files::images::format::Format;
-use crate::files::images::square_pixels::square_pixels;
+use crate::files::images::no_data::assume_no_data;
+use crate::files::images::square_pixels::{is_resampled, square_pixels};
 
 /// Maximum distance of a point from its place on the grid, as a share of the grid's spacing.
 const MAX_OFF_GRID_SHARE: f64 = 0.02;
@@ -15,6 +16,7 @@ struct Grid {
     values: Vec<f64>,
     size: (usize, usize),
     sides: [f64; 2],
+    assumptions: Vec<Assumption>,
 }
 
 pub(super) fn decode(bytes: &[u8]) -> Result<Decoded> {
@@ -28,8 +30,11 @@ pub(super) fn decode(bytes: &[u8]) -> Result<Decoded> {
     for value in values.iter_mut().filter(|value| Some(**value) == no_data) {
         *value = f64::NAN;
     }
+    let mut assumptions = grid.assumptions;
+    if is_resampled(grid.sides) {
+        assumptions.extend(assume_no_data(&mut values));
+    }
     let square = square_pixels(values, grid.size, grid.sides)?;
-    let mut assumptions = Vec::new();
     if square.size != grid.size {
         let [x, y] = grid.sides;
         let words = format!(
@@ -99,6 +104,7 @@ fn esri_grid(text: &str) -> Result<Option<(Grid, Option<f64>)>> {
             values,
             size,
             sides,
+            assumptions: Vec::new(),
         },
         number("nodata_value")?,
     )))
@@ -109,9 +115,12 @@ fn esri_grid(text: &str) -> Result<Option<(Grid, Option<f64>)>> {
 fn table(text: &str) -> Result<Grid> {
     // A comma is a decimal one wherever something else divides the numbers.
     let is_divided = text.lines().any(|line| {
-        let has_digits = line.contains(|letter: char| letter.is_ascii_digit());
+        // Names of columns and comments are no rows; a number may have an exponent.
+        let is_row = !line.contains(|letter: char| {
+            letter == '#' || letter.is_alphabetic() && !"eEnNaA".contains(letter)
+        });
         let is_blank_divided = line.trim().contains(' ') && !line.contains(", ");
-        has_digits && (line.contains([';', '\t']) || is_blank_divided)
+        is_row && (line.contains([';', '\t']) || is_blank_divided)
     });
     let mut values: Vec<f64> = Vec::new();
     let (mut cols, mut rows) = (0, 0);
@@ -148,10 +157,20 @@ fn table(text: &str) -> Result<Grid> {
         3 => points_on_grid(&values)?,
         _ => None,
     };
+    let assumptions = (points.is_none() && (3..=7).contains(&cols) && rows > cols)
+        .then(|| {
+            let words = format!(
+                "lines of {cols} numbers are rows of a matrix: they are no points on a grid"
+            );
+            Assumption::new("matrix", words, None)
+        })
+        .into_iter()
+        .collect();
     Ok(points.unwrap_or(Grid {
         values,
         size: (cols, rows),
         sides: [1.0; 2],
+        assumptions,
     }))
 }
 
@@ -197,7 +216,7 @@ fn points_on_grid(values: &[f64]) -> Result<Option<Grid>> {
         return Ok(None);
     };
     // Scattered points would fill a small part of a fine grid.
-    if width < 2 || height < 2 || (width * height) / 16 > points.len() {
+    if width < 2 || height < 2 || width.saturating_mul(height) / 16 > points.len() {
         return Ok(None);
     }
     let mut grid = try_filled(
@@ -221,6 +240,7 @@ fn points_on_grid(values: &[f64]) -> Result<Option<Grid>> {
         values: grid,
         size: (width, height),
         sides: [dx, dy],
+        assumptions: Vec::new(),
     }))
 }
 

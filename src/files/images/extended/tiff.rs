@@ -17,8 +17,11 @@ use crate::files::Assumption;
 use crate::files::images::decoded::{Decoded, assumed_levels};
 use crate::files::images::format::Format;
 use crate::files::images::georeference::Georeference;
+use crate::files::images::no_data::assume_no_data;
 use crate::files::images::orientation::oriented;
-use crate::files::images::square_pixels::{NEGLIGIBLE_SIDE_DIFFERENCE, square_pixels};
+use crate::files::images::square_pixels::{
+    NEGLIGIBLE_SIDE_DIFFERENCE, is_resampled, square_pixels,
+};
 use crate::heights::heightfield::HeightImage;
 
 /// Maximum ratio of the size of a TIFF image in memory to that of its file: more than any of the format's compressions
@@ -94,6 +97,9 @@ pub(super) fn decode(bytes: &[u8]) -> Result<Decoded> {
     } else {
         [x, y]
     };
+    if is_resampled(sides) {
+        assumptions.extend(assume_no_data(&mut values));
+    }
     let square = square_pixels(values, size, sides)?;
     if (x - y).abs() > NEGLIGIBLE_SIDE_DIFFERENCE * x.max(y) {
         let how = if square.size == size {
@@ -244,6 +250,10 @@ fn write(
     picture.write_data(heights)
 }
 
+/// GDAL's metadata of heights in metres.
+const METRES_METADATA: &str =
+    "<GDALMetadata><Item name=\"UNITTYPE\" sample=\"0\" role=\"unittype\">m</Item></GDALMetadata>";
+
 /// Writes the tags of a georeference.
 fn write_map<W: Write + Seek, K: TiffKind>(
     tags: &mut DirectoryEncoder<'_, W, K>,
@@ -262,6 +272,8 @@ fn write_map<W: Write + Seek, K: TiffKind>(
         ];
         tags.write_tag(Tag::ModelTransformationTag, rows.as_flattened())?;
     }
+    // Heights are in metres, whatever the keys say of those that were read.
+    tags.write_tag(tiff_tags::GDAL_METADATA, METRES_METADATA)?;
     tags.write_tag(Tag::GeoKeyDirectoryTag, &map.keys[..])?;
     if !map.doubles.is_empty() {
         tags.write_tag(Tag::GeoDoubleParamsTag, &map.doubles[..])?;

@@ -27,7 +27,7 @@ const PER_INCH: u16 = 2;
 const PER_CENTIMETRE: u16 = 3;
 
 /// Number of the TIFF tag `GDAL_METADATA`, an XML text with the scale, the offset and the unit of heights.
-const GDAL_METADATA: Tag = Tag::Unknown(42112);
+pub(super) const GDAL_METADATA: Tag = Tag::Unknown(42112);
 
 /// What the tags of a TIFF file say about its pixels: their size and its unit, the value of no data, the orientation.
 pub(super) struct PixelTags {
@@ -62,14 +62,15 @@ pub(super) fn read(file: &mut File, size: (usize, usize), data_type: &str) -> Re
     let mut heights = gdal_heights(file)?;
     if let Some(map) = georeference.as_ref().filter(|map| !map.keys.is_empty()) {
         let unit = height_unit(file, map)?;
+        let of_map = map.linear_unit().filter(|unit| *unit != 1.0);
         if unit.is_none() {
-            assumptions.push(Assumption::new(
-                "heightUnit",
-                "heights are in metres",
-                "heightScale",
-            ));
+            let words = match of_map {
+                Some(_) => "heights are in the unit of the map",
+                None => "heights are in metres",
+            };
+            assumptions.push(Assumption::new("heightUnit", words, "heightScale"));
         }
-        let unit = unit.unwrap_or(1.0);
+        let unit = unit.or(of_map).unwrap_or(1.0);
         heights.scale = Some(unit * heights.scale.unwrap_or(1.0));
         heights.offset *= unit;
     }
@@ -213,8 +214,7 @@ fn resolution_sides(file: &mut File) -> Result<([f64; 2], Option<Unit>)> {
     Ok(([per / x, per / y], Some(Unit::Millimetre)))
 }
 
-/// Length of the unit of heights in metres, by the coordinate system or GDAL's metadata; where only the unit of the map
-/// is known and is no metre, by that.
+/// Length of the unit of heights in metres, by the coordinate system or GDAL's metadata.
 fn height_unit(file: &mut File, map: &Georeference) -> Result<Option<f64>> {
     let named = gdal_item(file, "unittype")?.and_then(|name| match name.to_lowercase().as_str() {
         "m" | "metre" | "meter" | "metres" | "meters" => Some(1.0),
@@ -225,8 +225,7 @@ fn height_unit(file: &mut File, map: &Georeference) -> Result<Option<f64>> {
         "mm" => Some(0.001),
         _ => None,
     });
-    let of_map = map.linear_unit().filter(|unit| *unit != 1.0);
-    Ok(named.or(map.vertical_unit()).or(of_map))
+    Ok(named.or(map.vertical_unit()))
 }
 
 /// Scale and offset of heights by GDAL's metadata.

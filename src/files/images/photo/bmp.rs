@@ -8,6 +8,9 @@ use super::exif::PhotoTags;
 use super::pixels::{PhotoFile, PhotoPixels};
 use crate::error::{Error, Result, try_filled};
 
+/// Maximum ratio of the size of a BMP image in memory to that of its file: more than run lengths reach.
+const MAX_COMPRESSION_RATIO: usize = 4096;
+
 pub(super) fn decode(bytes: &[u8]) -> Result<PhotoFile> {
     let options = DecoderOptions::default()
         .set_strict_mode(true)
@@ -18,6 +21,9 @@ pub(super) fn decode(bytes: &[u8]) -> Result<PhotoFile> {
     let (width, height) = (decoder.dimensions()).ok_or_else(|| damaged("it has no header"))?;
     let mut pixels = PhotoPixels::new([width, height])?;
     let size = (decoder.output_buf_size()).ok_or_else(|| damaged("it has no pixels"))?;
+    if size / MAX_COMPRESSION_RATIO > bytes.len() {
+        return Err(damaged("its bytes cannot hold that many pixels"));
+    }
     let mut samples = try_filled("BMP image", size, 0)?;
     decoder.decode_into(&mut samples).map_err(failed)?;
     pixels.push_rows(&samples);

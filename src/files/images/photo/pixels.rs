@@ -53,7 +53,7 @@ impl PhotoPixels {
             return Err(Error::Unsupported { format, reason });
         }
         let mut block = 1;
-        while (width / block) * (height / block) > MAX_PHOTO_PIXELS {
+        while (width / block).max(1) * (height / block).max(1) > MAX_PHOTO_PIXELS {
             block *= 2;
         }
         let reduction = BoxReduction::new([width, height], block);

@@ -10,11 +10,15 @@ use super::exif::PhotoTags;
 use super::pixels::{PhotoFile, PhotoPixels};
 use crate::error::Result;
 use crate::files::images::extended::tiff_tags::failed;
-use crate::files::images::failure::unsupported;
+use crate::files::images::failure::{check_length, unsupported};
 use crate::files::images::format::Format;
 
 /// Maximum memory that the TIFF decoder may allocate, in bytes.
 const MAX_DECODER_BYTES: usize = 1 << 30;
+
+/// Maximum ratio of the size of a TIFF image in memory to that of its file: more than any of the format's compressions
+/// reaches.
+const MAX_COMPRESSION_RATIO: usize = 4096;
 
 pub(super) fn decode(bytes: &[u8]) -> Result<PhotoFile> {
     let mut limits = Limits::default();
@@ -30,6 +34,12 @@ pub(super) fn decode(bytes: &[u8]) -> Result<PhotoFile> {
     let orientation = file
         .find_tag_unsigned::<u16>(Tag::Orientation)
         .map_err(failed)?;
+    let layout = file.image_buffer_layout().map_err(failed)?;
+    if layout.planes > 1 {
+        let reason = "channels stored one after the other; write them pixel by pixel";
+        return Err(unsupported(Format::Tiff, reason));
+    }
+    check_length(Format::Tiff, bytes, layout.len, MAX_COMPRESSION_RATIO)?;
     let samples = match file.read_image().map_err(failed)? {
         DecodingResult::U8(samples) => samples,
         DecodingResult::U16(samples) => samples.iter().map(|v| (v >> 8) as u8).collect(),

@@ -1,0 +1,79 @@
+//! Reads depth maps of COLMAP: `width&height&channels&`, then 32-bit floats, row by row.
+
+use super::samples::{damaged, unsupported};
+use crate::error::{Result, checked_cells, try_filled};
+use crate::files::Assumption;
+use crate::files::images::decoded::Decoded;
+use crate::files::images::format::{Format, colmap_head};
+
+pub(super) fn decode(bytes: &[u8]) -> Result<Decoded> {
+    let Some(([width, height, channels], head)) = colmap_head(bytes) else {
+        return Err(damaged(
+            Format::Colmap,
+            "its head is no `width&height&channels&`",
+        ));
+    };
+    if channels != 1 {
+        let reason = format!("it has {channels} channels, and depths have one");
+        return Err(unsupported(Format::Colmap, reason));
+    }
+    let count = checked_cells("COLMAP depth map", height, width)?;
+    let (samples, rest) = bytes[head..].as_chunks::<4>();
+    if samples.len() != count || !rest.is_empty() || count == 0 {
+        let found = bytes.len() - head;
+        let reason = format!(
+            "it has {found} bytes of depths, where {width} × {height} pixels take {}",
+            4 * count
+        );
+        return Err(damaged(Format::Colmap, reason));
+    }
+    let mut values = try_filled("COLMAP depth map", count, f64::NAN)?;
+    let mut missing = 0;
+    for (value, sample) in values.iter_mut().zip(samples) {
+        let depth = f32::from_le_bytes(*sample);
+        if depth > 0.0 {
+            *value = f64::from(depth);
+        } else {
+            missing += 1;
+        }
+    }
+    let words = format!("0 is no data ({missing} pixels), as COLMAP writes it");
+    Ok(Decoded {
+        format: Format::Colmap,
+        width,
+        height,
+        values,
+        pixel_size: 1.0,
+        unit: None,
+        height_scale: 1.0,
+        data_type: "f32",
+        georeference: None,
+        assumptions: (missing > 0)
+            .then(|| Assumption::new("noData", words, None))
+            .into_iter()
+            .collect(),
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn depths_are_read_row_by_row() {
+        let depths = [1.5_f32, 0.0, 2.5, 3.0, 4.0, 5.0];
+        let mut file = b"3&2&1&".to_vec();
+        depths
+            .iter()
+            .for_each(|depth| file.extend(depth.to_le_bytes()));
+        assert_eq!(Format::detect(&file), Some(Format::Colmap));
+        let found = decode(&file).unwrap();
+        assert_eq!((found.width, found.height), (3, 2));
+        assert!(found.values[1].is_nan());
+        assert_eq!(found.values[2..], [2.5, 3.0, 4.0, 5.0]);
+        assert_eq!(found.assumptions[0].code, "noData");
+        let error = decode(&file[..file.len() - 1]).unwrap_err();
+        assert!(error.to_string().contains("23 bytes of depths"), "{error}");
+        assert_eq!(decode(b"3&2&3&").unwrap_err().code(), "UNSUPPORTED");
+    }
+}

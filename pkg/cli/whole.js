@@ -42,9 +42,6 @@ function fitted(task, mesh, signal) {
     .finally(() => line.clear());
 }
 
-/** Millimetres in each unit that a file may say. */
-const MILLIMETRES = { mm: 1, m: 1000 };
-
 /** What each command writes. @type {Record<MeshTask['make'], (task: MeshTask, surface: Mesh, mesh: Mesh) => Promise<File[]>>} */
 const made = {
   async fit({ output, extension, report: path }, surface) {
@@ -73,9 +70,7 @@ const made = {
   },
 
   async pattern(task, surface, mesh) {
-    const { scale, size, ...options } = drawingOptions(task);
-    const sized = size === undefined ? { scale: scale ?? MILLIMETRES[mesh.unit ?? 'mm'] } : { scale, size };
-    const pattern = await developable.patternMesh(surface, { ...options, ...sized, exact: surface === mesh ? undefined : false });
+    const pattern = await developable.patternMesh(surface, { ...drawingOptions(task), exact: surface === mesh ? undefined : false });
     reportPattern(pattern);
     return patternFiles(task, pattern);
   },

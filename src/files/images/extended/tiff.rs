@@ -3,7 +3,7 @@
 use std::io::{Cursor, Seek, Write};
 
 use ::exr::prelude::f16;
-use ::tiff::decoder::{Decoder, DecodingSampleType, Limits};
+use ::tiff::decoder::DecodingSampleType;
 use ::tiff::encoder::{DirectoryEncoder, TiffEncoder, TiffKind, colortype};
 use ::tiff::tags::Tag;
 use ::tiff::{ColorType, TiffError};
@@ -24,20 +24,11 @@ use crate::files::images::square_pixels::{
 };
 use crate::heights::heightfield::HeightImage;
 
-/// Maximum ratio of the size of a TIFF image in memory to that of its file: more than any of the format's compressions
-/// reaches.
-const MAX_COMPRESSION_RATIO: usize = 4096;
-
 /// Maximum memory that the TIFF decoder itself may allocate, in bytes: a compressed strip, and the values of a tag.
 const MAX_DECODER_BYTES: usize = 1 << 28;
 
 pub(super) fn decode(bytes: &[u8]) -> Result<Decoded> {
-    let mut limits = Limits::default();
-    limits.decoding_buffer_size = MAX_DECODER_BYTES;
-    limits.intermediate_buffer_size = MAX_DECODER_BYTES;
-    let mut file = Decoder::new(Cursor::new(bytes))
-        .map_err(failed)?
-        .with_limits(limits);
+    let mut file = tiff_tags::open(bytes, MAX_DECODER_BYTES)?;
     let (width, height) = file.dimensions().map_err(failed)?;
     let stored = (width as usize, height as usize);
     let len = checked_cells("TIFF image", stored.1, stored.0)?;
@@ -47,7 +38,7 @@ pub(super) fn decode(bytes: &[u8]) -> Result<Decoded> {
 
     let color = file.colortype().map_err(failed)?;
     let (samples, bits, channels) = channels(&mut file, color)?;
-    let layout = file.image_buffer_layout().map_err(failed)?;
+    let layout = tiff_tags::chunky_layout(&mut file)?;
     let kind = layout.sample_type.filter(|kind| size_of(*kind) * 8 == bits);
     let Some(kind) = kind else {
         return Err(unsupported(
@@ -58,17 +49,16 @@ pub(super) fn decode(bytes: &[u8]) -> Result<Decoded> {
         ));
     };
     let size = size_of(kind);
-    if layout.planes > 1 {
-        return Err(unsupported(
-            Format::Tiff,
-            "channels stored one after the other; write them pixel by pixel",
-        ));
-    }
     let needed = len.saturating_mul(samples * size);
     if layout.len != needed {
         return Err(damaged(Format::Tiff, "its sizes contradict each other"));
     }
-    check_length(Format::Tiff, bytes, needed, MAX_COMPRESSION_RATIO)?;
+    check_length(
+        Format::Tiff,
+        bytes,
+        needed,
+        tiff_tags::MAX_COMPRESSION_RATIO,
+    )?;
     let about = tiff_tags::read(&mut file, stored, type_name(kind))?;
 
     let mut raw = try_filled("TIFF image", needed, 0u8)?;

@@ -2,8 +2,8 @@
 
 use std::io::Cursor;
 
-use ::tiff::decoder::Decoder;
 use ::tiff::decoder::ifd::Value;
+use ::tiff::decoder::{BufferLayoutPreference, Decoder, Limits};
 use ::tiff::tags::Tag;
 use ::tiff::{TiffError, TiffUnsupportedError};
 
@@ -13,7 +13,32 @@ use crate::files::images::format::Format;
 use crate::files::images::georeference::Georeference;
 use crate::files::{Assumption, Unit};
 
-pub(super) type File<'a> = Decoder<Cursor<&'a [u8]>>;
+pub(crate) type File<'a> = Decoder<Cursor<&'a [u8]>>;
+
+/// Maximum ratio of the size of a TIFF image in memory to that of its file: more than any of the format's compressions
+/// reaches.
+pub(crate) const MAX_COMPRESSION_RATIO: usize = 4096;
+
+/// Opens a TIFF file with a decoder that may allocate `max_bytes` itself: for a compressed strip, and the values of a tag.
+pub(crate) fn open(bytes: &[u8], max_bytes: usize) -> Result<File<'_>> {
+    let mut limits = Limits::default();
+    limits.decoding_buffer_size = max_bytes;
+    limits.intermediate_buffer_size = max_bytes;
+    let file = Decoder::new(Cursor::new(bytes)).map_err(failed)?;
+    Ok(file.with_limits(limits))
+}
+
+/// Checks that the channels of each pixel are stored together, and returns the layout of the image in memory.
+pub(crate) fn chunky_layout(file: &mut File) -> Result<BufferLayoutPreference> {
+    let layout = file.image_buffer_layout().map_err(failed)?;
+    if layout.planes > 1 {
+        return Err(unsupported(
+            Format::Tiff,
+            "channels stored one after the other; write them pixel by pixel",
+        ));
+    }
+    Ok(layout)
+}
 
 /// Length of an inch, in millimetres.
 const INCH_MM: f64 = 25.4;

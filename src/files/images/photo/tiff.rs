@@ -1,32 +1,23 @@
 //! Decodes TIFF photos, such as scans, by the `tiff` crate.
 
-use std::io::Cursor;
-
 use ::tiff::ColorType;
-use ::tiff::decoder::{Decoder, DecodingResult, Limits};
+use ::tiff::decoder::DecodingResult;
 use ::tiff::tags::Tag;
 
 use super::exif::PhotoTags;
 use super::pixels::{PhotoFile, PhotoPixels};
 use crate::error::Result;
-use crate::files::images::extended::tiff_tags::failed;
+use crate::files::images::extended::tiff_tags::{
+    MAX_COMPRESSION_RATIO, chunky_layout, failed, open,
+};
 use crate::files::images::failure::{check_length, unsupported};
 use crate::files::images::format::Format;
 
 /// Maximum memory that the TIFF decoder may allocate, in bytes.
 const MAX_DECODER_BYTES: usize = 1 << 30;
 
-/// Maximum ratio of the size of a TIFF image in memory to that of its file: more than any of the format's compressions
-/// reaches.
-const MAX_COMPRESSION_RATIO: usize = 4096;
-
 pub(super) fn decode(bytes: &[u8]) -> Result<PhotoFile> {
-    let mut limits = Limits::default();
-    limits.decoding_buffer_size = MAX_DECODER_BYTES;
-    limits.intermediate_buffer_size = MAX_DECODER_BYTES;
-    let mut file = Decoder::new(Cursor::new(bytes))
-        .map_err(failed)?
-        .with_limits(limits);
+    let mut file = open(bytes, MAX_DECODER_BYTES)?;
     let (width, height) = file.dimensions().map_err(failed)?;
     let [width, height] = [width, height].map(|side| side as usize);
     let mut pixels = PhotoPixels::new([width, height])?;
@@ -34,11 +25,7 @@ pub(super) fn decode(bytes: &[u8]) -> Result<PhotoFile> {
     let orientation = file
         .find_tag_unsigned::<u16>(Tag::Orientation)
         .map_err(failed)?;
-    let layout = file.image_buffer_layout().map_err(failed)?;
-    if layout.planes > 1 {
-        let reason = "channels stored one after the other; write them pixel by pixel";
-        return Err(unsupported(Format::Tiff, reason));
-    }
+    let layout = chunky_layout(&mut file)?;
     check_length(Format::Tiff, bytes, layout.len, MAX_COMPRESSION_RATIO)?;
     let samples = match file.read_image().map_err(failed)? {
         DecodingResult::U8(samples) => samples,

@@ -15,8 +15,7 @@ use crate::files::{Assumption, Unit};
 
 pub(crate) type File<'a> = Decoder<Cursor<&'a [u8]>>;
 
-/// Maximum ratio of the size of a TIFF image in memory to that of its file: more than any of the format's compressions
-/// reaches.
+/// Maximum ratio of the size of a TIFF image in memory to that of its file, which no compression of the format reaches.
 pub(crate) const MAX_COMPRESSION_RATIO: usize = 4096;
 
 /// Opens a TIFF file with a decoder that may allocate `max_bytes` itself: for a compressed strip, and the values of a tag.
@@ -32,10 +31,8 @@ pub(crate) fn open(bytes: &[u8], max_bytes: usize) -> Result<File<'_>> {
 pub(crate) fn chunky_layout(file: &mut File) -> Result<BufferLayoutPreference> {
     let layout = file.image_buffer_layout().map_err(failed)?;
     if layout.planes > 1 {
-        return Err(unsupported(
-            Format::Tiff,
-            "channels stored one after the other; write them pixel by pixel",
-        ));
+        let reason = "channels stored one after the other; write them pixel by pixel";
+        return Err(unsupported(Format::Tiff, reason));
     }
     Ok(layout)
 }

@@ -193,7 +193,7 @@ impl HeightImage {
     }
 
     /// Returns the image without faults of a sensor: offsets of whole rows or columns are taken out, and spikes, single
-    /// heights far from all around them, are no data. Costs `O(pixels)`, and the squares of the numbers of rows and of columns.
+    /// heights far from all around them, are no data. Linear cost.
     ///
     /// # Errors
     /// [`Error::OutOfMemory`].

@@ -1,5 +1,7 @@
 /** Serves the page at `/` and the package at `/pkg/`, with the strict policy that it has to live with. */
+import { existsSync } from 'node:fs';
 import { STATUS_CODES, createServer } from 'node:http';
+import { extname, join } from 'node:path';
 import send from 'send';
 import { pkg, www } from './util/paths.mjs';
 
@@ -18,6 +20,15 @@ export const isolation = {
   'Cross-Origin-Opener-Policy': 'same-origin',
   'Cross-Origin-Embedder-Policy': 'require-corp',
 };
+
+/** Media types of the files that may lie compressed beside themselves. @type {Record<string, string>} */
+const MEDIA_TYPES = {
+  '.html': 'text/html; charset=utf-8', '.js': 'text/javascript; charset=utf-8', '.css': 'text/css; charset=utf-8', '.wasm': 'application/wasm',
+  '.svg': 'image/svg+xml', '.webmanifest': 'application/manifest+json',
+};
+
+/** Encodings by the ends of such files' names, the shortest first. */
+const ENCODINGS = /** @type {const} */ ([['br', '.br'], ['gzip', '.gz']]);
 
 /**
  * @typedef {import('node:http').IncomingMessage} Request
@@ -63,7 +74,8 @@ export async function serve({
  */
 function answer({ method, url = '', headers: asked }, response, { folders, policy, headers }) {
   response.setHeader('Content-Security-Policy', policy);
-  response.setHeader('Cache-Control', 'no-store');
+  // The names of a bundle's files change with what is in them.
+  response.setHeader('Cache-Control', /\/assets\//.test(url) ? 'public, max-age=31536000, immutable' : 'no-store');
   response.setHeader('X-Content-Type-Options', 'nosniff');
   for (const [name, value] of Object.entries(headers)) response.setHeader(name, value);
   if (method !== 'GET' && method !== 'HEAD') {
@@ -74,10 +86,28 @@ function answer({ method, url = '', headers: asked }, response, { folders, polic
   // The folder with the longest path that fits.
   const prefix = Object.keys(folders).filter((one) => path.startsWith(one)).sort((a, b) => b.length - a.length)[0];
   if (prefix === undefined) return refuse(response, 400);
-  send(/** @type {Request} */ ({ method, headers: asked }), `/${path.slice(prefix.length)}`, { root: folders[prefix], cacheControl: false })
+  const name = `/${path.slice(prefix.length) || 'index.html'}`;
+  const end = compressedEnd(join(folders[prefix], name), response, String(asked['accept-encoding'] ?? ''));
+  send(/** @type {Request} */ ({ method, headers: asked }), name + end, { root: folders[prefix], cacheControl: false })
     .on('error', ({ status }) => (response.headersSent ? response.destroy() : refuse(response, status ?? 500)))
     .on('directory', () => refuse(response, 404))
     .pipe(response);
+}
+
+/**
+ * How the name of a compressed copy goes on that the browser takes, for which the headers are set; nothing without one.
+ * @param {string} file
+ * @param {Response} response
+ * @param {string} accepted the encodings that the browser takes
+ */
+function compressedEnd(file, response, accepted) {
+  const type = MEDIA_TYPES[extname(file)];
+  const found = type && ENCODINGS.find(([encoding, end]) => new RegExp(`\\b${encoding}\\b`).test(accepted) && existsSync(file + end));
+  if (!found) return '';
+  response.setHeader('Content-Type', type);
+  response.setHeader('Content-Encoding', found[0]);
+  response.setHeader('Vary', 'Accept-Encoding');
+  return found[1];
 }
 
 /**

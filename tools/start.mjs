@@ -1,19 +1,23 @@
 /**
- * `npm start`: sets up, builds, and serves the page until Ctrl-C. `npm run dev` does so with a build that
- * is quick to repeat.
+ * `npm start`: sets up, builds, and serves the bundled page until Ctrl-C. `npm run dev` serves its files as they are, with a
+ * build that is quick to repeat.
  */
 import { join } from 'node:path';
 import { build } from './build.mjs';
+import { bundlePage, compressFiles } from './site.mjs';
 import { writeGuide } from './site/guide.mjs';
 import { pkg, root, www } from './util/paths.mjs';
 import { main, Problem } from './util/problem.mjs';
 
 /** Where the guides that the page links to are written. */
 const documents = join(root, 'target/documents');
+/** Where the bundled page is written. */
+const bundle = join(root, 'target/page');
+const isQuick = process.argv.includes('--quick');
 
 await main(async () => {
   const ports = candidates(process.env.PORT);
-  await build(process.argv.includes('--quick') ? 'quick' : 'release', { threads: false });
+  await build(isQuick ? 'quick' : 'release', { threads: false });
   const server = await open(ports);
   console.log(`\nThe page is at ${server.url} (Ctrl-C ends this)`);
   for (const signal of ['SIGINT', 'SIGTERM', 'SIGHUP']) {
@@ -40,7 +44,11 @@ async function open(ports) {
   // Only now: on a fresh clone the server's library has just been installed.
   const { isolation, serve } = await import('./serve.mjs');
   await writeGuide(documents, { references: false });
-  const folders = { '/': www, '/pkg/': pkg, '/guide/': join(documents, 'guide') };
+  if (!isQuick) {
+    await bundlePage(bundle);
+    await compressFiles(bundle);
+  }
+  const folders = { '/': isQuick ? www : bundle, '/pkg/': pkg, '/guide/': join(documents, 'guide') };
   for (const port of ports) {
     try {
       return await serve({ port, host: process.env.HOST || undefined, folders, headers: isolation });

@@ -22,11 +22,19 @@
 /** @typedef {import('../pkg/types.js').SampleMeshOptions} SampleMeshOptions */
 
 /**
- * Loads the package. The import is dynamic, so that the page can report an error of a browser that cannot load it.
+ * Loads the package, whose workers share one compiled solver. The import is dynamic, so that the page can report an error
+ * of a browser that cannot load it.
  * @returns {Promise<Api>}
  */
 export async function connect() {
   if (typeof WebAssembly !== 'object') throw new Error('this browser has no WebAssembly');
   if (typeof Worker !== 'function') throw new Error('this browser has no web workers');
-  return import(new URL('./pkg/index.js', import.meta.url).href);
+  const solver = new URL('./pkg/wasm/solver_bg.wasm', import.meta.url);
+  // Streaming insists on the media type, which not every server sends.
+  const wasm = WebAssembly.compileStreaming(fetch(solver)).catch(async () => WebAssembly.compile(await (await fetch(solver)).arrayBuffer()));
+  // Whoever awaits it reports the error.
+  wasm.catch(() => {});
+  /** @type {Api} */
+  const api = await import(new URL('./pkg/index.js', import.meta.url).href);
+  return { ...api, DevelopableWorker: class extends api.DevelopableWorker { constructor() { super({ wasm }); } } };
 }

@@ -1,11 +1,12 @@
 /** The page as a folder of static files: under a path of its own, with few requests, without a network, and renewed as a whole. */
 import assert from 'node:assert/strict';
+import { subscribe, unsubscribe } from 'node:diagnostics_channel';
 import { mkdtemp, readFile, rm, writeFile } from 'node:fs/promises';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { serve } from '../../tools/serve.mjs';
-import { writeSite } from '../../tools/site.mjs';
-import { pageTest, settled } from './support/page.mjs';
+import { bundlePage, compressFiles, writeSite } from '../../tools/site.mjs';
+import { inChromium, pageTest, settled } from './support/page.mjs';
 
 /** Waits for the pictures of a guide. @param {import('playwright-core').Page} page */
 async function loaded(page) {
@@ -70,6 +71,7 @@ pageTest('the site works under any path and without a network, and is renewed as
     try {
       for (const [name, before, after] of [['index.html', '<h1>developable', '<h1>developable 2'], ['sw.js', '"version":"', '"version":"2']]) {
         const file = join(folder, name);
+        for (const end of ['.br', '.gz']) await rm(file + end);
         await writeFile(file, (await readFile(file, 'utf8')).replace(before, after));
       }
       await visit.reload();
@@ -89,3 +91,38 @@ pageTest('the site works under any path and without a network, and is renewed as
   }
   // With options the browser is not the one that keeps a profile: contexts can be added to it.
 }, { serviceWorkers: 'allow' });
+
+/** What the first picture may take: requests of the server, and kilobytes as they are sent. */
+const MAX_FIRST_REQUESTS = 12;
+const MAX_FIRST_KB = 450;
+
+inChromium('the first picture takes few requests and bytes', async (page) => {
+  const folder = await mkdtemp(join(tmpdir(), 'developable-loading-'));
+  await bundlePage(folder);
+  await compressFiles(folder);
+  const server = await serve({ folders: { '/': folder } });
+  /** @type {{ path: string, bytes: number }[]} */
+  const sent = [];
+  /** @param {unknown} message */
+  const onSent = (message) => {
+    const { request, response } = /** @type {any} */ (message);
+    if (request.socket.localPort === Number(new URL(server.url).port)) sent.push({ path: request.url, bytes: Number(response.getHeader('Content-Length')) });
+  };
+  subscribe('http.server.response.finish', onSent);
+  try {
+    await page.goto(`${server.url}#example=roof`);
+    await page.locator('#certificate', { hasText: 'Proven' }).waitFor();
+    // The pieces of what is shown already are counted by the unrolling's wasm.
+    const solved = sent.filter(({ path }) => !path.includes('unroll_bg'));
+    const list = solved.map(({ path, bytes }) => `${path} ${bytes}`).join('\n');
+    assert.ok(solved.length <= MAX_FIRST_REQUESTS, `${solved.length} requests:\n${list}`);
+    const kB = solved.reduce((sum, { bytes }) => sum + bytes, 0) / 1000;
+    assert.ok(kB <= MAX_FIRST_KB, `${kB} kB:\n${list}`);
+    assert.equal(solved.filter(({ path }) => path.includes('solver_bg')).length, 1, list);
+    assert.ok(!list.includes('three'), list);
+  } finally {
+    unsubscribe('http.server.response.finish', onSent);
+    await server.close();
+    await rm(folder, { recursive: true, force: true });
+  }
+});

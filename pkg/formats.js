@@ -44,7 +44,7 @@ export const isImagePhoto = (bytes) => IMAGE_PHOTOS.some((magic) => beginsWith(b
 const beginsWith = (bytes, magic) => [...magic].every((letter, i) => letter === '?' || bytes[i] === letter.charCodeAt(0));
 
 /** How mesh files begin; for an OBJ, its first line that is no comment. */
-const MESHES = { PLY: /^ply\s/, STL: /^solid\b/, GLB: /^glTF/, glTF: /^\{/, OBJ: /^(v|vn|vt|vp|f|o|g|s|mtllib|usemtl)\s/ };
+const MESHES = { PLY: /^ply\s/, STL: /^solid\b/, GLB: /^glTF/, glTF: /^\{/, OFF: /^OFF\s/, OBJ: /^(v|vn|vt|vp|f|o|g|s|mtllib|usemtl)\s/ };
 
 /**
  * Says of a mesh's file that another function reads it.
@@ -52,11 +52,32 @@ const MESHES = { PLY: /^ply\s/, STL: /^solid\b/, GLB: /^glTF/, glTF: /^\{/, OBJ:
  * @param {{ format?: string }} options those of `read`
  */
 export function refuseMesh(bytes, options) {
-  if (options.format !== undefined || (isImage(bytes) && !isText(bytes)) || bytes[0] >= 0x80) return;
+  const name = options.format === undefined ? meshFormat(bytes) : undefined;
+  if (name) throw new DevelopableError('UNSUPPORTED', `this is a mesh (${name}), and no image of heights: readMesh reads it`);
+}
+
+/**
+ * The kind of a mesh's file; nothing of other files.
+ * @param {Uint8Array} bytes
+ */
+function meshFormat(bytes) {
+  if ((isImage(bytes) && !isText(bytes)) || bytes[0] >= 0x80) return undefined;
   const lines = String.fromCharCode(...bytes.subarray(0, 2000)).split('\n').map((line) => line.trim());
   const first = lines.find((line) => line !== '' && !line.startsWith('#')) ?? '';
-  const name = Object.entries(MESHES).find(([, start]) => start.test(`${first} `))?.[0] ?? (isBinaryStl(bytes) && 'STL');
-  if (name) throw new DevelopableError('UNSUPPORTED', `this is a mesh (${name}), and no image of heights: readMesh reads it`);
+  return Object.entries(MESHES).find(([, start]) => start.test(`${first} `))?.[0] ?? (isBinaryStl(bytes) ? 'STL' : undefined);
+}
+
+/** First bytes of photos, by the ending of their files. */
+const PHOTOS = { '.png': '\x89PNG', '.jpg': '\xff\xd8\xff', '.webp': 'RIFF????WEBP', '.gif': 'GIF8', '.bmp': 'BM' };
+
+/**
+ * The ending that a file's name would have, of photos and meshes; an empty one of all others.
+ * @param {Uint8Array} bytes
+ */
+export function endingOf(bytes) {
+  const photo = Object.entries(PHOTOS).find(([, magic]) => beginsWith(bytes, magic));
+  const mesh = meshFormat(bytes);
+  return photo?.[0] ?? (mesh === undefined ? '' : `.${mesh.toLowerCase()}`);
 }
 
 /** A binary STL says nothing of itself but how many triangles it has. @param {Uint8Array} bytes */

@@ -10,7 +10,7 @@ const named = [
   ...Object.values(bin),
   ...Object.keys(alias),
   // What modules of the package import, and no entry names.
-  'threads/threads.js', 'threads/threads_bg.wasm', 'vendor/comlink.mjs', 'vendor/tinyglobby.mjs',
+  'threads/threads.js', 'threads/threads_bg.wasm', 'vendor/comlink.mjs', 'vendor/commander.mjs', 'vendor/tinyglobby.mjs',
 ];
 const missing = named.filter((path) => !existsSync(join(folder, path)));
 if (missing.length > 0) {

@@ -6,18 +6,14 @@ import { availableParallelism } from 'node:os';
 import { dirname, extname, basename, join } from 'node:path';
 import { fileURLToPath } from 'node:url';
 import { show } from '../values.js';
-import { CAMERA_FILE, defaultExtension, isBook, parse, wholeNumber } from './arguments.js';
-import { commandNamed } from './commands.js';
-import { failed } from './files.js';
 import { isRecorded, record } from './fingerprint.js';
-import { split, usage } from './flags.js';
-import { filesOf } from './patterns.js';
+import { CAMERA_FILE, readFlag, usage, valueName } from './flags.js';
 import { Problem, status } from './problem.js';
+import { failed } from './system-errors.js';
+import { defaultExtension, isBook, taskOf } from './task.js';
 import { print, say, statusLine } from './terminal.js';
 
 /**
- * @typedef {import('./flags.js').Values} Values
- *
  * @typedef {object} BatchItem
  * @property {string} input
  * @property {string[]} args the command line for this input alone
@@ -29,10 +25,10 @@ import { print, say, statusLine } from './terminal.js';
  */
 
 /** Flags that name a file, in which `*` stands for the name of the input without folder and ending. */
-const NAMING_FLAGS = /** @type {const} */ ([
+const NAMING_FLAGS = [
   'output', 'report', 'map', 'mtl', 'assembly', 'mask', 'confidence', 'constraints', 'occlusions', 'texture', 'photo-camera',
   'intrinsics', 'edges',
-]);
+];
 
 /** Flags that name a file which the command writes. @type {readonly string[]} */
 const WRITTEN_FLAGS = ['output', 'report', 'map', 'mtl', 'assembly'];
@@ -46,32 +42,28 @@ const MAX_KEPT_OUTPUT = 1 << 24;
 /**
  * The batch that a command line asks for; nothing where it has one input and one output. All of it is checked before any
  * of it is started.
- * @param {string[]} args
+ * @param {import('./command-line.js').CommandLine} line with the files that its inputs stand for
  * @returns {Batch | undefined}
  */
-export function batchOf(args) {
-  if (process.env[CHILD_VARIABLE] !== undefined) return undefined;
-  const { values, positionals } = split(args);
-  const [name, ...named] = positionals;
-  if (values.version || values.help || name === undefined || name === 'help' || named.length === 0) return undefined;
-  const inputs = named.flatMap(filesOf);
-  const { output } = values;
+export function batchOf({ command, inputs, values, texts }) {
+  const { output, jobs = availableParallelism(), overwrite = false } = values;
+  if (process.env[CHILD_VARIABLE] !== undefined || inputs.length === 0 || command === 'completion') return undefined;
   if (inputs.length === 1 && !(output !== undefined && (isFolderName(output) || output.includes('*')))) return undefined;
-  const command = commandNamed(name);
   if (isBook(command, inputs, values)) return undefined;
-  const { jobs, overwrite = false, ...others } = values;
-  if (command !== 'info' && output === undefined) {
+  if (command !== 'info' && (output === undefined || output === '-')) {
     throw usage('the output of several inputs is missing: -o FOLDER/, or a name with * for that of the input, as in -o "FOLDER/*.json"', command);
   }
   /** @type {Map<string, string>} */
   const owners = new Map();
   const items = inputs.map((input) => {
-    const own = ownValues(command, input, others, inputs.length > 1);
-    const line = [command, ...Object.entries(own).map(([flag, value]) => (value === true ? `--${flag}` : `--${flag}=${value}`))];
+    const named = namesFor(command, input, values, texts, inputs.length > 1);
+    const own = { ...texts, ...named };
+    const flags = Object.entries(own).filter(([flag]) => flag !== 'jobs' && flag !== 'overwrite');
+    const line = [command, ...flags.map(([flag, text]) => (text === null ? `--${flag}` : `--${flag}=${text}`))];
     // A name that begins with a hyphen is no flag.
-    line.push(input.startsWith('-') ? join('.', input).replace(/^-/, './-') : input);
-    const task = parse(line);
-    const written = 'written' in task ? task.written : [];
+    line.push(input.startsWith('-') ? `./${input}` : input);
+    const read = Object.entries(named).map(([flag, text]) => [valueName(flag), readFlag(flag, text)]);
+    const { written } = taskOf(command, [input], { ...values, ...Object.fromEntries(read) });
     for (const path of written) {
       const other = owners.get(path);
       if (other !== undefined) {
@@ -84,23 +76,24 @@ export function batchOf(args) {
       .filter((path) => path !== own.intrinsics || CAMERA_FILE.test(path));
     return { input, args: line, read: [input, ...known], written };
   });
-  const most = jobs === undefined ? availableParallelism() : wholeNumber('jobs', jobs);
-  return { items, jobs: Math.min(most, items.length), overwrite };
+  return { items, jobs: Math.min(jobs, items.length), overwrite };
 }
 
 /**
- * The flags for one of the inputs.
- * @param {import('./commands.js').Command} command
+ * The names of files for one of the inputs, by their flags.
+ * @param {import('./commands.js').CommandName} command
  * @param {string} input
- * @param {Values} values
+ * @param {import('./task.js').Values} values
+ * @param {Record<string, string | null>} texts
  * @param {boolean} several whether there are other inputs
- * @returns {Values}
+ * @returns {Record<string, string>}
  */
-function ownValues(command, input, values, several) {
+function namesFor(command, input, values, texts, several) {
   const stem = basename(input, extname(input));
-  const own = { ...values };
+  /** @type {Record<string, string>} */
+  const own = {};
   for (const flag of NAMING_FLAGS) {
-    const path = values[flag];
+    const path = texts[flag] ?? undefined;
     if (path === undefined) continue;
     if (path.includes('*')) {
       own[flag] = path.replaceAll('*', () => stem);

@@ -1,7 +1,7 @@
 /** Cameras from files. */
 import { parseCamera } from '../index.js';
+import { about } from './explain.js';
 import { readBytes } from './files.js';
-import { about } from './inputs.js';
 
 /**
  * A camera from a file. Numbers that are about another image than the one they are used with need its size; where

@@ -1,52 +1,44 @@
 /** The commands: what each does, reads, writes and takes. */
-import { nearest } from '../nearest.js';
-import { show } from '../values.js';
 import { sampleMesh } from '../schema/file.js';
 import { solver, threading } from '../schema/fit.js';
 import { drawing } from '../schema/pattern.js';
 import { dewarp, dewarpPage } from '../schema/photo.js';
 import { meshPatches, rulings } from '../schema/shape.js';
-import { flagNames, usage } from './flags.js';
+import { flagNames } from './flags.js';
 
 /**
- * @typedef {import('./flags.js').Flag} Flag
- * @typedef {import('./flags.js').Values} Values
- *
  * @typedef {object} CommandInfo
  * @property {string} usage what follows the command's name
  * @property {string} summary in a few words
  * @property {string} about
- * @property {Record<string, string>} [terms] the names in its usage
- * @property {readonly Flag[]} flags
- * @property {Partial<Record<Flag, string>>} [words] what some of them mean here
+ * @property {string} input what it reads
+ * @property {readonly string[]} writes the endings of its output, the usual one first
+ * @property {boolean} [tells] whether it writes to standard output where nothing says to what file
+ * @property {readonly string[]} flags
+ * @property {Record<string, string>} [words] what some of them mean here
  * @property {readonly string[]} examples
  */
 
-/** @satisfies {readonly Flag[]} */
 const heights = ['lattice', ...flagNames(sampleMesh, 'heights'), 'pixel-size', 'height-scale', 'array', 'mask', 'no-data'];
-/** Of photos that are written. @satisfies {readonly Flag[]} */
-const printed = ['quality'];
-/** @satisfies {readonly Flag[]} */
 const mesh = [...flagNames(sampleMesh, 'mesh'), 'intrinsics', 'turn', 'ray'];
-/** @satisfies {readonly Flag[]} */
 const energy = [...flagNames(solver, 'energy'), ...flagNames(solver, 'stop'), ...flagNames(threading)];
-/** @satisfies {readonly Flag[]} */
 const known = ['confidence', 'constraints', 'free', 'occlusions', ...flagNames(solver, 'known')];
-/** @satisfies {readonly Flag[]} */
-const page = ['edges', ...flagNames(dewarpPage, 'page')];
-/** @satisfies {readonly Flag[]} */
-const general = ['jobs', 'overwrite', 'help', 'version'];
+const output = ['output', 'to', 'force'];
+const general = ['jobs', 'overwrite', 'quiet', 'help'];
 
-/** Of all commands that fit a surface. @satisfies {readonly Flag[]} */
-const fitted = ['output', 'force', 'unit', ...energy, ...heights, ...mesh, ...known, ...general];
+/** Of all commands that fit a surface. */
+const fitted = [...output, 'unit', ...energy, ...heights, ...mesh, ...known, ...general];
 
-/** Of those that go on with it. @satisfies {readonly Flag[]} */
+/** Of those that go on with it. */
 const shaped = [...fitted, 'as-is'];
+
+/** Kinds of files that hold a surface. */
+const SURFACES = ['.npy', '.png', '.tif', '.tiff', '.exr', '.obj', '.ply', '.stl', '.glb'];
 
 const INPUT =
   'heights: TIFF, EXR, PFM, NPY or NPZ, or a grey picture (PNG, JPEG, WebP); or a mesh or point cloud, of which what is ' +
   'seen from one side is taken: .obj, .ply, .stl, .glb, .gltf. Materials, textures and buffers that it names are read ' +
-  'from its folder or below; what is not there is warned of';
+  'from its folder or below; what is not there is warned of. - is standard input';
 
 const OUTPUT =
   ".npy, .png, .tif or .exr (heights at the input's pixels) or .obj, .ply, .stl or .glb (a mesh). Of a mesh, the latter " +
@@ -58,8 +50,10 @@ export const commands = {
     usage: 'INPUT -o OUTPUT [options]',
     summary: 'fit a surface to heights',
     about: 'Fits a piecewise-developable surface to heights, with a certified bound of how far from the optimum it can be.',
-    terms: { INPUT, OUTPUT },
+    input: INPUT,
+    writes: SURFACES,
     flags: [...fitted, 'surface', 'report', 'texture', 'photo-camera', 'mtl'],
+    words: { output: OUTPUT },
     examples: [
       'fit scan.tif -o surface.obj --lambda big --report report.json',
       'fit scan.ply -o surface.glb --view -z',
@@ -71,9 +65,11 @@ export const commands = {
     usage: 'CONSTRAINTS -o OUTPUT [options]',
     summary: 'make a surface through given heights',
     about: 'Makes a surface that passes through heights and is free elsewhere.',
-    terms: { CONSTRAINTS: 'heights, as an image of any kind; transparent pixels and NaN are free', OUTPUT },
+    input: 'heights, as an image of any kind; transparent pixels and NaN are free',
+    writes: SURFACES,
+    words: { output: OUTPUT },
     flags: [
-      'output', 'force', 'report', ...energy, 'lattice', 'spacing', 'pixel-size', 'height-scale', 'array', 'mask', 'free', 'occlusions', ...general,
+      ...output, 'report', ...energy, 'lattice', 'spacing', 'pixel-size', 'height-scale', 'array', 'mask', 'free', 'occlusions', ...general,
     ],
     examples: ['design pins.png -o surface.obj --free 0 --height-scale 0.1'],
   },
@@ -81,63 +77,75 @@ export const commands = {
     usage: 'INPUT -o MASK [options]',
     summary: 'look for places where a surface is torn',
     about: 'Looks for places where a surface is torn, and prints how many vertices it has found.',
-    terms: { INPUT, MASK: '.png or .npy, white (or 1) where the surface is torn' },
-    flags: ['output', 'force', 'threshold', 'no-normalize', ...heights, ...mesh, ...general],
-    words: { 'no-normalize': 'take the coordinates as they are, instead of scaling them to the unit square' },
+    input: INPUT,
+    writes: ['.png', '.npy'],
+    flags: [...output, 'threshold', 'no-normalize', ...heights, ...mesh, ...general],
+    words: {
+      output: '.png or .npy, white (or 1) where the surface is torn',
+      'no-normalize': 'take the coordinates as they are, instead of scaling them to the unit square',
+    },
     examples: ['occlusions scan.png -o torn.png', 'occlusions scan.png -o torn.npy --threshold 1e4'],
   },
   analyze: {
     usage: 'INPUT [-o FIGURES] [options]',
     summary: 'tell how developable it is',
     about: 'Tells how developable the input is, and the surface fitted to it.',
-    terms: { INPUT, FIGURES: '.json (default: standard output)' },
+    input: INPUT,
+    writes: ['.json'],
+    tells: true,
     flags: [...shaped, 'surface', 'threshold'],
-    words: { threshold: 'Gaussian curvature that counts (default 1)' },
+    words: { output: '.json (default: standard output)', threshold: 'Gaussian curvature that counts (default 1)' },
     examples: ['analyze scan.png -o figures.json', 'analyze scan.png --as-is'],
   },
   patches: {
     usage: 'INPUT [-o PATCHES] [options]',
     summary: 'find the smooth patches and the creases between them',
     about: 'Fits a surface, and finds its smooth patches and the creases between them.',
-    terms: {
-      INPUT,
-      PATCHES:
+    input: INPUT,
+    writes: ['.json', '.npy', '.obj', '.ply', '.glb'],
+    tells: true,
+    words: {
+      report: 'JSON file for the patches and creases, beside another output',
+      output:
         '.json: areas of patches, and the creases with their course, length and fold angle (default: standard output); ' +
         '.npy: the patch of each vertex on the lattice, from 0, -1 for none; .obj, .ply or .glb: the surface with a ' +
         'colour for each patch',
     },
     flags: [...shaped, 'report', ...flagNames(meshPatches)],
-    words: { report: 'JSON file for the patches and creases, beside another output' },
     examples: ['patches roof.png -o patches.json', 'patches roof.png -o patches.ply --report patches.json'],
   },
   rulings: {
     usage: 'INPUT [-o RULINGS] [options]',
     summary: 'find the lines along which it is straight',
     about: 'Fits a surface, and traces its rulings: straight lines along which it does not bend.',
-    terms: {
-      INPUT,
-      RULINGS: '.json: the points of each line, its length and how straight it is (default: standard output); .obj: lines',
+    input: INPUT,
+    writes: ['.json', '.obj'],
+    tells: true,
+    words: {
+      report: 'JSON file for the lines, beside another output',
+      output: '.json: the points of each line, its length and how straight it is (default: standard output); .obj: lines',
     },
     flags: [...shaped, 'surface', 'report', ...flagNames(rulings)],
-    words: { report: 'JSON file for the lines, beside another output' },
     examples: ['rulings page.tif -o rulings.obj --separation 20', 'rulings page.tif', 'rulings scan.ply -o rulings.obj --surface'],
   },
   unroll: {
     usage: 'INPUT -o SHEET [options]',
     summary: 'lay it flat',
     about: 'Fits a surface and lays it flat, as rigidly as it goes.',
-    terms: { INPUT, SHEET: '.obj (a flat mesh) or .json (with stretch and overlaps)' },
+    input: INPUT,
+    writes: ['.obj', '.json'],
     flags: [...shaped, 'surface', 'report'],
-    words: { report: 'JSON file for the strain and the verdict' },
+    words: { output: '.obj (a flat mesh) or .json (with stretch and overlaps)', report: 'JSON file for the strain and the verdict' },
     examples: ['unroll scan.png -o sheet.obj --report sheet.json', 'unroll scan.ply -o sheets.obj --surface'],
   },
   pattern: {
     usage: 'INPUT [-o PATTERN] [options]',
     summary: 'cut it into sheets of paper or metal',
     about: 'Fits a surface and cuts it along its creases into sheets to be made of paper or metal.',
-    terms: { INPUT, PATTERN: '.svg, .pdf or .dxf in true size, or .json' },
+    input: INPUT,
+    writes: ['.svg', '.pdf', '.dxf', '.json'],
     flags: [...shaped, 'surface', 'report', ...flagNames(meshPatches), ...flagNames(drawing), 'size', 'explore', 'sheets'],
-    words: { report: 'JSON file for the figures of the pattern' },
+    words: { output: '.svg, .pdf or .dxf in true size, or .json', report: 'JSON file for the figures of the pattern' },
     examples: ['pattern roof.png -o roof.pdf --scale 2 --tabs 8 --stock a4', 'pattern scan.png --explore', 'pattern scan.png -o scan.svg --sheets 8', 'pattern scan.ply -o sheets.pdf --surface'],
   },
   dewarp: {
@@ -147,16 +155,17 @@ export const commands = {
       'Fits a surface and makes a photo of it flat. What the photo shows where is known for heights seen straight from ' +
       'above, for depths by their camera, and for scans by their texture coordinates. Or makes a photo alone of a curled ' +
       'page flat, by the edges of the page, which are found in it or given.',
-    terms: {
-      INPUT: `${INPUT}. Without --texture a photo of a page: .jpg, .png, .webp, .gif or .bmp`,
-      PHOTO: 'a PNG, JPEG or WebP of what the heights show, with as many pixels as it likes; a textured mesh has its own',
-      IMAGE:
+    input: `${INPUT}. Without --texture a photo of a page: .jpg, .png, .webp, .gif or .bmp`,
+    writes: ['.png', '.jpg', '.jpeg', '.pdf'],
+    words: {
+      texture: 'PHOTO: a PNG, JPEG or WebP of what the heights show, with as many pixels as it likes; a textured mesh has its own',
+      report: 'JSON file for the strain and the verdict',
+      output:
         '.png, transparent where there is no sheet, .jpg or .pdf, white there. A page of a .pdf has the true size, and the ' +
         'others state their resolution, where the unit of lengths is known: --unit, or of a page --page. Without --page, ' +
         'photos of pages are fitted to A4. Several photos of pages become one .pdf, a page each',
     },
-    flags: [...shaped, 'report', 'texture', 'photo-camera', 'shape', ...flagNames(dewarp), ...printed, ...page],
-    words: { texture: 'the photo', report: 'JSON file for the strain and the verdict' },
+    flags: [...shaped, 'report', 'texture', 'photo-camera', 'shape', ...flagNames(dewarp), 'quality', 'edges', ...flagNames(dewarpPage, 'page')],
     examples: [
       'dewarp scan.png --texture photo.png -o page.png --trim',
       'dewarp d.png --intrinsics cam.csv --texture photo.jpg -o page.pdf',
@@ -170,33 +179,27 @@ export const commands = {
     usage: 'FILE [--array NAME]',
     summary: 'tell what is in a file',
     about: 'Tells what is in a file of heights or a mesh: size, type, range, units.',
+    input: 'heights or a mesh',
+    writes: [],
     flags: ['array', ...general],
     examples: ['info scan.tif', 'info arrays.npz --array depth'],
   },
+  completion: {
+    usage: 'bash|zsh|fish',
+    summary: 'print what makes a shell complete commands and options',
+    about: 'Prints a script that makes a shell complete commands, options and names of files: source it where the shell starts.',
+    input: 'the shell: bash, zsh or fish',
+    writes: [],
+    flags: ['quiet', 'help'],
+    examples: ['completion bash'],
+  },
 };
 
-/** @typedef {keyof typeof commands} Command */
+/** @typedef {keyof typeof commands} CommandName */
 
 /**
+ * The command of a name.
  * @param {string} name
- * @returns {Command}
+ * @returns {CommandInfo | undefined}
  */
-export function commandNamed(name) {
-  const names = /** @type {Command[]} */ (Object.keys(commands));
-  const command = names.find((known) => known === name);
-  if (command) return command;
-  const near = nearest(name, names);
-  throw usage(`there is no command ${show(name)}, ${near === undefined ? `only ${names.join(', ')}` : `did you mean "${near}"?`}`);
-}
-
-/**
- * Refuses flags that are for other commands.
- * @param {Command} command
- * @param {Values} values
- */
-export function checkFlags(command, values) {
-  /** @type {readonly string[]} */
-  const taken = commands[command].flags;
-  const stray = Object.keys(values).find((flag) => !taken.includes(flag));
-  if (stray !== undefined) throw usage(`--${stray} is not for "${command}"`, command);
-}
+export const commandNamed = (name) => (Object.hasOwn(commands, name) ? commands[/** @type {CommandName} */ (name)] : undefined);

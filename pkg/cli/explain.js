@@ -25,3 +25,20 @@ export function asProblem(error) {
       return new Problem(status.input, error.message);
   }
 }
+
+/**
+ * Names the file in what is wrong with it.
+ * @template T
+ * @param {string} path
+ * @param {() => Promise<T>} read
+ */
+export async function about(path, read) {
+  try {
+    return await read();
+  } catch (error) {
+    if (error instanceof DevelopableError && error.code !== 'TRAP') {
+      throw new Problem(status.input, `${path}: ${asFlags(error.message).replace(/^this file: |: readMesh reads it$/g, '')}`);
+    }
+    throw error;
+  }
+}

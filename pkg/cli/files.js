@@ -3,8 +3,8 @@ import { randomBytes } from 'node:crypto';
 import { constants } from 'node:fs';
 import { access, copyFile, link, open, readFile, readlink, realpath, rename, rm, stat } from 'node:fs/promises';
 import { dirname, join, resolve } from 'node:path';
-import { messageOf } from '../errors.js';
-import { Problem, status } from './problem.js';
+import { codeOf, failed, reasons } from './system-errors.js';
+import { print, readStandardInput } from './terminal.js';
 
 /**
  * @typedef {import('node:fs').Stats} Stats
@@ -20,6 +20,7 @@ import { Problem, status } from './problem.js';
  * @returns {Promise<Uint8Array>}
  */
 export async function readBytes(path) {
+  if (path === '-') return readStandardInput();
   try {
     return await readFile(path);
   } catch (error) {
@@ -32,12 +33,12 @@ export async function readBytes(path) {
  * @param {string[]} paths
  */
 export async function checkPlaces(...paths) {
-  for (const path of paths) await placeOf(path);
+  for (const path of paths) if (path !== '-') await placeOf(path);
 }
 
 /**
  * Writes all of these files, or none: each into a draft in the same folder, down to the disk, and only then over what
- * was there, which is put back if the next one cannot be written.
+ * was there, which is put back if the next one cannot be written. What is for `-` goes to standard output last.
  * @param {{ path: string, bytes: Uint8Array }[]} files
  * @param {AbortSignal} signal
  */
@@ -47,7 +48,7 @@ export async function writeWhole(files, signal) {
   /** @type {Replaced[]} */
   const replaced = [];
   try {
-    for (const { path, bytes } of files) {
+    for (const { path, bytes } of files.filter(({ path }) => path !== '-')) {
       const place = await placeOf(path);
       const draft = beside(place.target);
       drafts.push({ ...place, draft });
@@ -69,6 +70,7 @@ export async function writeWhole(files, signal) {
   } finally {
     await Promise.all(drafts.map(({ draft }) => remove(draft)));
   }
+  for (const { path, bytes } of files) if (path === '-') await print(bytes);
 }
 
 /**
@@ -78,6 +80,7 @@ export async function writeWhole(files, signal) {
  */
 async function placeOf(path) {
   return writing(path, async () => {
+    if (path.includes('\ufffd')) throw new Refusal(reasons.NOT_UTF8);
     const target = await followed(path);
     const folder = dirname(target);
     if (!(await stat(folder)).isDirectory()) throw new Refusal(reasons.ENOTDIR);
@@ -180,40 +183,4 @@ async function writing(path, run) {
   } catch (error) {
     throw failed(`cannot write ${path}`, error);
   }
-}
-
-/** @type {Record<string, string>} */
-const reasons = {
-  ENOENT: 'there is no such file or folder',
-  EISDIR: 'it is a folder',
-  ENOTDIR: 'a part of the path is no folder',
-  EACCES: 'permission denied',
-  EPERM: 'not permitted',
-  EROFS: 'the file system is read-only',
-  ENOSPC: 'the disk is full',
-  EDQUOT: 'the disk quota is exceeded',
-  EFBIG: 'it would be too large a file',
-  EIO: 'the disk failed',
-  EBUSY: 'it is in use',
-  EMFILE: 'too many files are open',
-  ENFILE: 'too many files are open',
-  ELOOP: 'its links go in a circle',
-  ENAMETOOLONG: 'the name is too long',
-  ERR_INVALID_ARG_VALUE: 'no file can have this name',
-};
-
-/**
- * What went wrong with a file, without the system's own names for it.
- * @param {string} what
- * @param {unknown} error
- */
-export function failed(what, error) {
-  if (error instanceof Problem) return error;
-  const reason = reasons[codeOf(error)] ?? messageOf(error).replace(/^E[A-Z0-9]+: (.*?)(, \w+( '.*)?)?$/s, '$1');
-  return new Problem(status.input, `${what}: ${reason}`);
-}
-
-/** @param {unknown} error */
-function codeOf(error) {
-  return /** @type {NodeJS.ErrnoException} */ (error).code ?? '';
 }

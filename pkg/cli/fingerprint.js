@@ -44,7 +44,7 @@ function placeOf({ written: [first] }) {
  * @param {Made} item
  */
 async function fingerprintOf({ args, read, written }) {
-  const hash = createHash('sha256').update(JSON.stringify([await version(), args]));
+  const hash = createHash('sha256').update(JSON.stringify([version, args]));
   try {
     for (const path of [...read, ...written]) hash.update(createHash('sha256').update(await readFile(path)).digest());
   } catch {

@@ -1,19 +1,22 @@
 /** `developable fit` and `developable design`. */
 import { dirname, relative, sep } from 'node:path';
 import * as developable from '../index.js';
+import { solver } from '../schema/fit.js';
 import { readCamera } from './camera.js';
 import { checkPlaces, readBytes, writeWhole } from './files.js';
-import { about, readForFit } from './inputs.js';
+import { about } from './explain.js';
+import { readForFit } from './inputs.js';
 import { Problem, status } from './problem.js';
-import { announce, during, percent, progressLine, toStderr } from './terminal.js';
+import { optionsFrom } from './task.js';
+import { during, fitInWords, percent, progressLine, succeed, toStderr } from './terminal.js';
 
 /**
- * @typedef {import('./arguments.js').FitTask} FitTask
+ * @typedef {import('./task.js').Task} Task
  * @typedef {import('../types.js').Surface} Surface
  */
 
 /**
- * @param {FitTask} task
+ * @param {Task} task
  * @param {AbortSignal} signal
  */
 export async function fit(task, signal) {
@@ -36,7 +39,7 @@ export async function fit(task, signal) {
     files.push({ path: task.report, bytes: new TextEncoder().encode(text) });
   }
   await writeWhole(files, signal);
-  announce(task.output, report);
+  succeed(task.output, fitInWords(report));
   const { residualExceedsNoise, residualRatio } = report.lambdaChoice ?? {};
   if (residualExceedsNoise) {
     toStderr(
@@ -57,7 +60,7 @@ export async function fit(task, signal) {
 /**
  * What depths and meshes have to know of the picture before they are read: cameras' numbers may be about it, and it may lie
  * otherwise.
- * @param {FitTask} task
+ * @param {Task} task
  * @param {Uint8Array} texture
  */
 async function seenBy({ texture: path, camera: depths, photoCamera, mtl }, texture) {
@@ -88,13 +91,13 @@ function from(file, other) {
 
 /**
  * Solves, with news on a terminal.
- * @param {Pick<FitTask, 'lattice' | 'options' | 'spacing'>} task
+ * @param {Task} task
  * @param {import('./inputs.js').Input} input
  * @param {{ signal: AbortSignal, transfer?: boolean }} control
  * @returns {Promise<Surface>}
  */
 export async function solve(task, input, control) {
-  const options = task.lattice !== 'square' ? task.options : { ...task.options, spacing: task.spacing };
+  const options = { ...optionsFrom(solver, task), ...(task.lattice === 'square' && { spacing: task.spacing }) };
   const line = progressLine();
   line.begin();
   try {
@@ -105,7 +108,7 @@ export async function solve(task, input, control) {
 }
 
 /**
- * @param {FitTask} task
+ * @param {Task} task
  * @param {Surface} surface
  * @param {import('../types.js').Georeference} [map] where the input's pixels lie
  */

@@ -1,9 +1,9 @@
-/** The flags: what there is, in the order in which they are explained, and the command line taken apart. */
-import { parseArgs } from 'node:util';
-import { messageOf } from '../errors.js';
+/** The flags: what there is, in the order in which they are explained, and how the text after each is read. */
 import { nearest } from '../nearest.js';
+import { show } from '../values.js';
 import { sampleMesh } from '../schema/file.js';
 import { occlusions, solver, threading } from '../schema/fit.js';
+import { choice, flag, number, text } from '../schema/kinds.js';
 import { drawing, model } from '../schema/pattern.js';
 import { dewarp, dewarpPage, writePhoto } from '../schema/photo.js';
 import { meshPatches, rulings } from '../schema/shape.js';
@@ -11,6 +11,7 @@ import { Problem, status } from './problem.js';
 
 /**
  * @typedef {import('../schema/kinds.js').Options} Options
+ * @typedef {import('../schema/kinds.js').Reading} Reading
  *
  * @typedef {object} FlagInfo
  * @property {string} help
@@ -18,50 +19,122 @@ import { Problem, status } from './problem.js';
  * @property {string} [short]
  * @property {string} [section] of the help, for the flag of an option
  * @property {string} [name] of the flag of an option, where that is not the option's in lower case with hyphens
+ * @property {Reading} [reading] of the text after it; without one it is taken as it is
  */
 
 /**
- * An option's name in lower case with hyphens.
- * @template {string} S
- * @typedef {S extends `${infer First}${infer Rest}` ? `${First extends Lowercase<First> ? First : `-${Lowercase<First>}`}${Kebab<Rest>}` : ''} Kebab
- */
-
-/**
- * The flag of an option.
+ * The flag of an option: its name in lower case with hyphens, unless the schema has another one.
  * @param {string} name
- * @param {Pick<import('../schema/kinds.js').Option, 'flag'>} option
+ * @param {Pick<import('../schema/kinds.js').Option, 'flag'>} [option]
  */
-export const flagName = (name, { flag }) => flag?.name ?? name.replace(/[A-Z]/g, (letter) => `-${letter.toLowerCase()}`);
+export const flagName = (name, { flag } = {}) => flag?.name ?? name.replace(/[A-Z]/g, (letter) => `-${letter.toLowerCase()}`);
+
+/** The name under which the value of a flag is kept. @param {string} flag */
+export const valueName = (flag) => flag.replace(/-(\w)/g, (_, letter) => letter.toUpperCase());
 
 /**
  * The flags that some options have in a section, or in all.
- * @template {Options} O
- * @param {O} options
+ * @param {Options} options
  * @param {string} [section]
- * @returns {Record<Kebab<keyof O & string>, FlagInfo>}
+ * @returns {Record<string, FlagInfo>}
  */
 function flagsFor(options, section) {
-  const found = Object.entries(options).flatMap(([name, option]) =>
-    (option.flag && (section ?? option.flag.section) === option.flag.section ? [[flagName(name, option), option.flag]] : []));
+  const found = Object.entries(options).flatMap(([name, option]) => {
+    const { flag: info, kind } = option;
+    if (info === undefined || (section ?? info.section) !== info.section) return [];
+    // Where the library is told whether something is wanted, the command is told where to write it.
+    const reading = readings[name] ?? (info.value === 'FILE' ? text : kind.typed ?? kind);
+    return [[flagName(name, option), { ...info, reading }]];
+  });
   return Object.fromEntries(found);
 }
 
 /**
  * Their names.
- * @template {Options} O
- * @param {O} options
+ * @param {Options} options
  * @param {string} [section]
  */
-export const flagNames = (options, section) => /** @type {Kebab<keyof O & string>[]} */ (Object.keys(flagsFor(options, section)));
+export const flagNames = (options, section) => Object.keys(flagsFor(options, section));
 
-/** @satisfies {Record<string, { title: string, flags: Record<string, FlagInfo> }>} */
+/** Numbers with commas between them, where these are all numbers. @param {unknown} value */
+const list = (value) => String(value).split(',').map((part) => (part.trim() === '' ? NaN : Number(part)));
+
+/** Sides with an x between them, none of which is missing but the last. @param {unknown} value */
+const sides = (value) => /^(-?[\d.e]+)x(-?[\d.e]+)?$/i.exec(String(value))?.slice(1).flatMap((side) => (side === undefined ? [] : [Number(side)]));
+
+const paper = choice('a4', 'letter');
+
+/** Readings of options whose text is not that of their kind. @type {Record<string, Reading>} */
+const readings = {
+  crop: {
+    must: 'must be three or more corners as in x,y,x,y,x,y',
+    take(value) {
+      const numbers = list(value);
+      if (numbers.length < 6 || numbers.length % 2 !== 0 || numbers.some(Number.isNaN)) return undefined;
+      return Array.from({ length: numbers.length / 2 }, (_, i) => [numbers[2 * i], numbers[2 * i + 1]]);
+    },
+  },
+  view: {
+    must: 'must be a name or three numbers as in 0,-1,-1',
+    take(value) {
+      const vector = list(value);
+      // Names are checked by the call that takes them.
+      if (vector.length === 1) return value;
+      return vector.length === 3 && !vector.some(Number.isNaN) ? vector : undefined;
+    },
+  },
+  page: {
+    must: 'must be a4, letter or WIDTHxHEIGHT in millimetres',
+    take: (value) => paper.take(value) ?? (sides(value)?.length === 2 ? sides(value) : undefined),
+  },
+  stock: {
+    must: 'must be a4, letter, WIDTHxHEIGHT or, for a roll, WIDTHx in millimetres',
+    take: (value) => paper.take(value) ?? sides(value),
+  },
+};
+
+/** @type {Reading} */
+const numeral = /** @type {Reading} */ (number.typed);
+
+/** Endings of the files that `parseCamera` reads. */
+export const CAMERA_FILE = /\.(json|ya?ml|xml|csv|conf|ini|txt)$/i;
+
+/** Numbers of a camera, or the name of a file of them. @type {Reading} */
+const intrinsics = {
+  must: 'must be fx,fy,cx,cy or fx,fy,cx,cy,scale or a file .json, .yaml, .xml, .csv, .conf or .txt',
+  take(value) {
+    const name = String(value);
+    if (CAMERA_FILE.test(name)) return { file: name };
+    const numbers = list(name);
+    if (numbers.length < 4 || numbers.length > 5 || numbers.some(Number.isNaN)) return undefined;
+    const [fx, fy, cx, cy, depthScale] = numbers;
+    return { numbers: { fx, fy, cx, cy, depthScale } };
+  },
+};
+
+/** @type {Record<string, { title: string, flags: Record<string, FlagInfo> }>} */
 export const sections = {
   output: {
     title: 'What to write',
     flags: {
-      output: { short: 'o', value: 'FILE', help: 'the file to write, which appears whole or not at all' },
+      output: { short: 'o', value: 'FILE', help: 'the file to write, which appears whole or not at all; - for standard output' },
+      to: {
+        value: 'ENDING',
+        reading: {
+          must: 'must be an ending as in npy',
+          take: (value) => (/^\.?\w+$/.test(String(value)) ? `.${String(value).replace('.', '').toLowerCase()}` : undefined),
+        },
+        help: 'what is written to standard output, as in --to ply; a file has its ending',
+      },
       report: { value: 'FILE', help: 'JSON file for the figures of the solve' },
-      jobs: { value: 'N', help: 'of several inputs, how many are worked on at a time, each by a process of its own (default: as many as there are cores)' },
+      jobs: {
+        value: 'N',
+        reading: {
+          must: 'must be a whole number from 1 on',
+          take: (value) => (Number.isInteger(Number(value)) && Number(value) > 0 ? Number(value) : undefined),
+        },
+        help: 'of several inputs, how many are worked on at a time, each by a process of its own (default: as many as there are cores)',
+      },
       ...flagsFor(threading, 'output'),
       overwrite: { help: 'of several inputs, do those again, too, whose outputs are there and not older than they are' },
       force: {
@@ -82,21 +155,25 @@ export const sections = {
     title: 'How to read the heights',
     flags: {
       lattice: {
+        reading: choice('square', 'hex'),
         value: 'L',
         help: 'square (the default): INPUT is an image; hex: its values are on the hexagonal lattice already (odd rows ' +
           'half a spacing to the left, 0 or NaN is no data), and so are those of OUTPUT',
       },
       ...flagsFor(sampleMesh, 'heights'),
       'pixel-size': {
+        reading: numeral,
         value: 'P',
         help: 'width of a pixel in the unit of the heights (default: what the file says, or else 1)',
       },
       unit: {
+        reading: choice('mm', 'cm', 'm', 'inch'),
         value: 'U',
         help: 'mm or m, of a mesh also cm or inch: the unit of these lengths, for true sizes (default: what the file says; m of ' +
           'depths in metres or with a scale, mm of others in whole numbers; of a mesh what its size suggests)',
       },
       'height-scale': {
+        reading: { must: 'must be a number other than 0, which leaves no heights', take: (value) => numeral.take(value) || undefined },
         value: 'S',
         help: "factor from the file's values to heights (default: what the file says, 1 for floats, NPY and NPZ; for " +
           'other whole numbers white is a quarter of the longer side above black)',
@@ -106,7 +183,7 @@ export const sections = {
         value: 'FILE',
         help: 'image of the same shape; heights where it is 0 are discarded. Of depths it may have any size, as one that was drawn on the photo',
       },
-      'no-data': { value: 'V', help: 'value that means no data, besides NaN; none: only NaN does' },
+      'no-data': { reading: { must: 'must be none or a number', take: (value) => choice('none').take(value) ?? numeral.take(value) }, value: 'V', help: 'value that means no data, besides NaN; none: only NaN does' },
     },
   },
   mesh: {
@@ -119,6 +196,7 @@ export const sections = {
       },
       ...flagsFor(sampleMesh, 'mesh'),
       intrinsics: {
+        reading: intrinsics,
         value: 'fx,fy,cx,cy[,scale]|FILE',
         help: 'INPUT holds the depths that a camera with these numbers (in pixels; the centre of the top left one is ' +
           '0,0) has seen; 0 and below are none. It is taken for a mesh, in which jumps are not bridged; scale makes ' +
@@ -127,6 +205,7 @@ export const sections = {
           'Metashape); whole numbers are millimetres then, others metres',
       },
       turn: {
+        reading: { must: 'must be 90, 180 or 270', take: (value) => [0, 90, 180, 270].find((degrees) => String(degrees) === value) },
         value: 'DEGREES',
         help: '90, 180 or 270: turn the depths clockwise first, to lie as the photo does (default: as the Exif data of the ' +
           'photo say that it was turned, if its proportions show that the depths were not)',
@@ -147,7 +226,7 @@ export const sections = {
         value: 'FILE',
         help: "heights to be met exactly, in the input's scale; transparent pixels and NaN are free",
       },
-      free: { value: 'V', help: 'value of the constraints that means free, besides' },
+      free: { reading: numeral, value: 'V', help: 'value of the constraints that means free, besides' },
       occlusions: { value: 'FILE', help: 'not 0 where the surface is torn' },
       ...flagsFor(solver, 'known'),
       ...flagsFor(occlusions, 'known'),
@@ -183,8 +262,9 @@ export const sections = {
         help: 'try several lambda and sizes of patches, and tell for each how many sheets, folds and cuts it takes, how far the ' +
           'surface is from the input, and what time it took: as a table, or as OUTPUT.json',
       },
-      sheets: { value: 'N', help: 'the same, to write the pattern nearest to the input that has at most N sheets' },
+      sheets: { reading: numeral, value: 'N', help: 'the same, to write the pattern nearest to the input that has at most N sheets' },
       shape: {
+        reading: choice('auto', 'cylinder', 'developable'),
         value: 'S',
         help: 'what is fitted: cylinder (bent about parallel rulings, as curled sheets, pages of books and parallel folds are), developable, ' +
           'or auto: of depths and meshes a cylinder where what it leaves of them is noise, and where the options of the energy ' +
@@ -210,21 +290,14 @@ export const sections = {
   general: {
     title: 'Besides',
     flags: {
+      quiet: { short: 'q', help: 'say nothing on standard error but why it failed' },
       help: { short: 'h', help: 'this text' },
-      version: { help: 'the version' },
     },
   },
 };
 
-/**
- * @typedef {{ [S in keyof typeof sections]: keyof (typeof sections)[S]['flags'] }[keyof typeof sections] | 'min-confidence' | 'no-normalize'} Flag
- * @typedef {'force' | 'overwrite' | 'paper' | 'no-normalize' | 'surface' | 'ray' | 'as-is' | 'explore' | 'trim' | 'deskew' | 'ink' | 'help' | 'version'} PlainFlag those without a value
- * @typedef {Partial<Record<Exclude<Flag, PlainFlag>, string> & Record<PlainFlag, boolean>>} Values
- */
-
-const flags = /** @type {Record<Flag, FlagInfo>} */ (
-  Object.assign({}, ...Object.values(sections).map((section) => section.flags))
-);
+/** @type {Record<string, FlagInfo>} */
+const flags = Object.assign({}, ...Object.values(sections).map((section) => section.flags));
 
 /** Flags by the names of their options, where those differ. */
 const renamed = new Map([solver, rulings].flatMap((options) =>
@@ -235,7 +308,7 @@ const renamed = new Map([solver, rulings].flatMap((options) =>
  * @param {string} option
  */
 export function flagOf(option) {
-  const flag = renamed.get(option) ?? flagName(option, {});
+  const flag = renamed.get(option) ?? flagName(option);
   return flag in flags ? `--${flag}` : undefined;
 }
 
@@ -251,44 +324,22 @@ export function asFlags(message) {
     }));
 }
 
-/**
- * @param {string[]} args
- * @returns {{ values: Values, positionals: string[] }}
- */
-export function split(args) {
-  const options = Object.fromEntries(
-    Object.entries(flags).map(([name, { value, short }]) => [
-      name,
-      { type: value === undefined ? /** @type {const} */ ('boolean') : /** @type {const} */ ('string'), ...(short && { short }) },
-    ]),
-  );
-  try {
-    const { values, positionals } = parseArgs({ args: withNegatives(args), options, allowPositionals: true });
-    const bare = Object.keys(values).find((flag) => values[flag] === '');
-    if (bare !== undefined) throw new Error(`--${bare} is empty: it needs a value, as in --${bare} ${flags[/** @type {Flag} */ (bare)].value}`);
-    return { values: /** @type {Values} */ (values), positionals };
-  } catch (error) {
-    const message = messageOf(error).replace(/\. To specify a positional.*$/s, '');
-    const [, unknown] = /^Unknown option '(-[^']*)'/.exec(message) ?? [];
-    if (unknown === undefined) throw usage(message);
-    const near = nearest(unknown.replace(/^-+/, ''), Object.keys(flags));
-    throw usage(`unknown option ${unknown}${near === undefined ? '' : `: did you mean --${near}?`}`);
-  }
-}
+/** @param {string | undefined} name */
+export const flagInfo = (name = '') => (Object.hasOwn(flags, name) ? flags[name] : undefined);
 
 /**
- * Joins negative numbers and axes to the flags before them, which `parseArgs` would take for flags.
- * @param {string[]} args
+ * The value of a flag.
+ * @param {string} name
+ * @param {string | null} written nothing where no text follows the flag
  */
-function withNegatives(args) {
-  /** @type {string[]} */
-  const out = [];
-  for (const arg of args) {
-    const last = out.at(-1);
-    if (last?.startsWith('--') && /^-(\.?\d|inf|nan|[xyz]$)/i.test(arg)) out[out.length - 1] = `${last}=${arg}`;
-    else out.push(arg);
-  }
-  return out;
+export function readFlag(name, written) {
+  const { value, reading = text } = flags[name];
+  if (value === undefined || written === null) return true;
+  if (written === '') throw usage(`--${name} is empty: it needs a value, as in --${name} ${value}`);
+  if (written.startsWith('--')) throw usage(`--${name} needs a value, as in --${name} ${value}, and ${written} follows it`);
+  const read = reading.take(written);
+  if (read === undefined) throw usage(`--${name} ${reading.must}, but is ${show(written)}`);
+  return read;
 }
 
 /**

@@ -1,13 +1,14 @@
 /** `developable info`: what is in a file. */
 import * as developable from '../index.js';
+import { about } from './explain.js';
 import { readBytes } from './files.js';
-import { isMesh } from './arguments.js';
-import { about, assumptionsInWords, readMeshFile } from './inputs.js';
+import { assumptionsInWords, readMeshFile } from './inputs.js';
+import { isMesh } from './task.js';
 import { print } from './terminal.js';
 
 /** @typedef {import('../types.js').ReadResult} ReadResult */
 
-/** @param {import('./arguments.js').InfoTask} task */
+/** @param {import('./task.js').Task} task */
 export async function info({ input, array }) {
   const bytes = await readBytes(input);
   const lines = await about(input, async () => {

@@ -4,14 +4,14 @@ import { dirname, join, resolve, sep } from 'node:path';
 import * as developable from '../index.js';
 import { readCamera } from './camera.js';
 import { readBytes } from './files.js';
-import { asFlags, flagOf } from './flags.js';
+import { about } from './explain.js';
+import { flagOf } from './flags.js';
 import { Problem, status } from './problem.js';
 import { confirmSize } from './size.js';
 import { during, say, toStderr } from './terminal.js';
 
 /**
- * @typedef {import('./arguments.js').InputTask} InputTask
- * @typedef {import('./arguments.js').KnownTask} KnownTask
+ * @typedef {import('./task.js').Task} Task
  * @typedef {import('../types.js').ReadResult} ReadResult
  * @typedef {{
  *   width: number, height: number, orientation?: number, wanted?: [number, number][], camera?: import('../types.js').PhotoCamera,
@@ -21,7 +21,7 @@ import { during, say, toStderr } from './terminal.js';
 
 /**
  * An input that is going to be fitted. Whether that is meant is asked where it would take very long.
- * @param {InputTask & Partial<KnownTask> & { photo?: Size }} task
+ * @param {Task & { photo?: Size }} task
  * @param {AbortSignal} signal
  */
 export async function readForFit(task, signal) {
@@ -31,25 +31,25 @@ export async function readForFit(task, signal) {
 }
 
 /**
- * @param {InputTask & Partial<KnownTask> & { photo?: Size }} task `photo`: of one that goes with it
+ * @param {Task & { photo?: Size }} task `photo`: of one that goes with it
  * @returns {Promise<Input>}
  */
 export async function readInput(task) {
   if (task.lattice === 'mesh') return readSampled(task);
   const file = tellUndecided(task, await readImage(task.input, task));
-  const { mask, confidence, constraints, occlusionMask } = task;
+  const { mask, confidence, constraints, occlusions: torn } = task;
   const known = {
     mask: mask && flags(await readBeside('mask', mask, file)),
     confidence: confidence && weights(await readBeside('confidence', confidence, file)),
-    occlusions: occlusionMask && flags(await readBeside('occlusion mask', occlusionMask, file)),
+    occlusions: torn && flags(await readBeside('occlusion mask', torn, file)),
   };
-  const pins = task.design ? file : constraints && (await readBeside('constraints', constraints, file));
+  const pins = (task.command === 'design') ? file : constraints && (await readBeside('constraints', constraints, file));
   const heightScale = task.heightScale ?? file.heightScale;
   const pixelSize = task.pixelSize ?? file.pixelSize;
   if (task.lattice === 'square') {
     const scaled = task.heightScale !== undefined || task.pixelSize !== undefined;
     // With confidences, what is far off may be known to be wrong.
-    if (!task.design && !scaled && confidence === undefined) checkScale(task, file);
+    if (!(task.command === 'design') && !scaled && confidence === undefined) checkScale(task, file);
     return /** @type {Input} */ ({
       width: file.width,
       height: file.height,
@@ -59,7 +59,7 @@ export async function readInput(task) {
       unit: task.unit ?? (task.pixelSize === undefined ? file.unit : undefined),
       georeference: file.georeference,
       ...known,
-      ...(task.design ? {} : { data: file.data, noData: asStored(task.noData, file) }),
+      ...((task.command === 'design') ? {} : { data: file.data, noData: asStored(task.noData, file) }),
       constraints: pins && pinned(pins, task.free),
     });
   }
@@ -73,7 +73,7 @@ export async function readInput(task) {
     spacing: task.spacing ?? pixelSize,
     unit: task.unit,
     ...known,
-    ...(task.design ? {} : { heights: scaled(without(file.data, noData)) }),
+    ...((task.command === 'design') ? {} : { heights: scaled(without(file.data, noData)) }),
     constraints: pins && scaled(pinned(pins, task.free ?? noData)),
   });
 }
@@ -89,7 +89,7 @@ const MAX_STEEP_RELIEF_SHARE = 30;
 
 /**
  * Refuses heights that cannot be in the unit of the pixels.
- * @param {InputTask} task
+ * @param {Task} task
  * @param {ReadResult} file
  */
 function checkScale({ input, noData }, file) {
@@ -119,7 +119,7 @@ function checkScale({ input, noData }, file) {
 /** Whether depths may have this unit. @param {string | undefined} unit @returns {unit is import('../types.js').Unit} */
 const isUnit = (unit) => unit === 'mm' || unit === 'm';
 
-/** What is seen of a mesh. @param {InputTask & { photo?: Size }} task */
+/** What is seen of a mesh. @param {Task & { photo?: Size }} task */
 async function readSampled(task) {
   const { view, resolution, spacing } = task;
   const mesh = await during(`reading ${task.input}`, () => readMesh(task));
@@ -137,7 +137,7 @@ async function readSampled(task) {
 
 /**
  * The mesh itself, or what a depth camera has seen. The numbers of a camera may be about the photo.
- * @param {InputTask & Partial<KnownTask> & { photo?: Size }} task
+ * @param {Task & { photo?: Size }} task
  */
 export async function readMesh(task) {
   const { input, camera, unit, mask, confidence, noData, written, force, photo } = task;
@@ -206,7 +206,7 @@ function asTyped({ width, height, data, dataType }) {
 
 /**
  * Depths in whole numbers are millimetres, if nothing says otherwise, and those of floats in metres; a scale makes metres.
- * @param {import('./arguments.js').CameraTask} camera
+ * @param {import('./task.js').CameraTask} camera
  * @param {ReadResult} file
  * @param {Size} [photo]
  * @returns {Promise<import('../types.js').Intrinsics>}
@@ -314,7 +314,7 @@ async function whyMissing(folder, name) {
 
 /**
  * @param {string} path
- * @param {Pick<InputTask, 'array'> & Partial<Pick<InputTask, 'assumeNoData'>>} [task]
+ * @param {Partial<Pick<Task, 'array' | 'assumeNoData'>>} [task]
  * @returns {Promise<ReadResult>}
  */
 async function readImage(path, { array, assumeNoData } = {}) {
@@ -324,7 +324,7 @@ async function readImage(path, { array, assumeNoData } = {}) {
 
 /**
  * Tells what a reader assumed of heights and the flags do not decide.
- * @param {InputTask & { command?: string }} task
+ * @param {Task} task
  * @param {ReadResult} file
  */
 function tellUndecided(task, file) {
@@ -354,23 +354,6 @@ export function assumptionsInWords({ assumptions = [] }) {
     const flag = option === undefined ? undefined : flagOf(option);
     return flag === undefined ? words : `${words} (${flag} decides it)`;
   });
-}
-
-/**
- * Names the file in what is wrong with it.
- * @template T
- * @param {string} path
- * @param {() => Promise<T>} read
- */
-export async function about(path, read) {
-  try {
-    return await read();
-  } catch (error) {
-    if (error instanceof developable.DevelopableError && error.code !== 'TRAP') {
-      throw new Problem(status.input, `${path}: ${asFlags(error.message).replace(/^this file: |: readMesh reads it$/g, '')}`);
-    }
-    throw error;
-  }
 }
 
 /**

@@ -1,19 +1,20 @@
 /** The command: what to do, how it ends. */
 import { dispose, init } from '../index.js';
-import { Problem, status } from './problem.js';
+import { analyze, patches, rulings } from './tell.js';
 import { asProblem } from './explain.js';
-import { parse } from './arguments.js';
 import { batchOf, runBatch } from './batch.js';
+import { split } from './command-line.js';
+import { completionFor } from './completion.js';
 import { fit } from './fit.js';
-import { helpOn, overview } from './help.js';
 import { info } from './info.js';
 import { occlusions } from './occlusions.js';
 import { page } from './page.js';
+import { filesOf } from './patterns.js';
+import { Problem, status } from './problem.js';
 import { dewarp, pattern, unroll } from './sheets.js';
-import { analyze, patches, rulings } from './tell.js';
-import { version } from './version.js';
+import { taskOf } from './task.js';
+import { print, readStandardInput, streams, withStreams } from './terminal.js';
 import { whole } from './whole.js';
-import { print, toStderr, withStreams } from './terminal.js';
 
 /** Signals that end the work in good order, without drafts left beside the output, and the exit status of each. */
 const SIGNALS = { SIGHUP: status.hungUp, SIGINT: status.interrupted, SIGTERM: status.terminated };
@@ -45,13 +46,10 @@ export async function runProcess() {
 export function main(args, { signal = new AbortController().signal, ...given }) {
   return withStreams(given, async () => {
     try {
-      const batch = batchOf(args);
-      if (batch !== undefined) return await runBatch(batch, signal);
-      await perform(parse(args), signal);
-      return status.success;
+      return await perform(args, signal);
     } catch (error) {
       const problem = signal.aborted ? interrupted(signal.reason) : asProblem(error);
-      if (problem.message) toStderr(`developable: ${problem.message}\n`);
+      if (problem.message) streams().stderr.write(`developable: ${problem.message}\n`);
       return problem.status;
     }
   });
@@ -62,51 +60,42 @@ function interrupted(reason) {
   return reason instanceof Problem ? reason : new Problem(status.interrupted, '');
 }
 
+/** @typedef {(task: import('./task.js').Task, signal: AbortSignal) => Promise<void>} Action */
+
+/** What each command does with one input. @type {Record<import('./commands.js').CommandName, Action>} */
+const actions = {
+  fit, design: fit, occlusions, analyze, patches, rulings, unroll, pattern, dewarp, info,
+  completion: ({ input }) => print(completionFor(input)),
+};
+
+/** What all commands do with inputs of some modes. @type {Partial<Record<import('./task.js').Mode, Action>>} */
+const modeActions = { photo: page, surface: whole };
+
 /**
- * @param {ReturnType<typeof parse>} task
+ * @param {string[]} args
  * @param {AbortSignal} signal
+ * @returns {Promise<number>} the exit status
  */
-async function perform(task, signal) {
-  if ('threads' in task && task.threads !== undefined) {
+async function perform(args, signal) {
+  const line = split(args);
+  if ('printed' in line) {
+    await print(line.printed);
+    return status.success;
+  }
+  streams().quiet = line.values.quiet;
+  if (line.inputs.includes('-')) await readStandardInput();
+  const inputs = line.inputs.flatMap(filesOf);
+  const batch = batchOf({ ...line, inputs });
+  if (batch !== undefined) return runBatch(batch, signal);
+  const task = taskOf(line.command, inputs, line.values);
+  const action = modeActions[task.mode] ?? actions[task.command];
+  if (task.threads === undefined) {
+    await action(task, signal);
+  } else {
     // A worker that a command before has left may have another number of them.
     dispose();
     await init({ threads: task.threads });
-    return act(task, signal).finally(dispose);
+    await action(task, signal).finally(dispose);
   }
-  return act(task, signal);
-}
-
-/**
- * @param {ReturnType<typeof parse>} task
- * @param {AbortSignal} signal
- */
-async function act(task, signal) {
-  switch (task.command) {
-    case 'help':
-      return print(task.about === undefined ? overview() : helpOn(task.about));
-    case 'version':
-      return print(`${await version()}\n`);
-    case 'info':
-      return info(task);
-    case 'occlusions':
-      return occlusions(task, signal);
-    case 'analyze':
-      return analyze(task, signal);
-    case 'patches':
-      return patches(task, signal);
-    case 'rulings':
-      return rulings(task, signal);
-    case 'unroll':
-      return unroll(task, signal);
-    case 'pattern':
-      return pattern(task, signal);
-    case 'dewarp':
-      return dewarp(task, signal);
-    case 'surface':
-      return whole(task, signal);
-    case 'page':
-      return page(task, signal);
-    default:
-      return fit(task, signal);
-  }
+  return status.success;
 }

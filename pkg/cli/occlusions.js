@@ -3,15 +3,15 @@ import { crc32, deflateSync } from 'node:zlib';
 import * as developable from '../index.js';
 import { checkPlaces, writeWhole } from './files.js';
 import { readInput } from './inputs.js';
-import { print } from './terminal.js';
+import { print, succeed } from './terminal.js';
 
 /**
  * Prints how many vertices there are, and writes where.
- * @param {import('./arguments.js').OcclusionsTask} task
+ * @param {import('./task.js').Task} task
  * @param {AbortSignal} signal
  */
 export async function occlusions(task, signal) {
-  await checkPlaces(task.output);
+  await checkPlaces(...task.written);
   const input = await readInput(task);
   const { threshold, normalize, spacing } = task;
   const options = task.lattice !== 'square' ? { threshold, normalize } : { threshold, normalize, spacing };
@@ -23,7 +23,8 @@ export async function occlusions(task, signal) {
     ? maskPng(width, height, flags)
     : await developable.writeNpy({ width, height, data: flags });
   await writeWhole([{ path: task.output, bytes }], signal);
-  await print(`${count}\n`);
+  succeed(task.output, `${count} vertices where the surface is torn`);
+  if (task.output !== '-') await print(`${count}\n`);
 }
 
 /**

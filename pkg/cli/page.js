@@ -1,24 +1,27 @@
 /** `developable dewarp PHOTO`, with or without `--edges EDGES`. */
 import * as developable from '../index.js';
 import { messageOf } from '../errors.js';
-import { asProblem } from './explain.js';
+import { dewarp as flattening, dewarpPage } from '../schema/photo.js';
+import { about, asProblem } from './explain.js';
 import { checkPlaces, readBytes, writeWhole } from './files.js';
-import { about, tellAssumptions } from './inputs.js';
+import { tellAssumptions } from './inputs.js';
 import { Problem, status } from './problem.js';
-import { json, mapFile, mapOptions, printed } from './sheets.js';
-import { say } from './terminal.js';
+import { json, mapFile, mapOptions, printed, sizeInWords } from './sheets.js';
+import { optionsFrom } from './task.js';
+import { during, say, succeed } from './terminal.js';
 
 /** Width and height of a PDF's pages where no size is given, in millimetres: A4. */
 const DEFAULT_PAPER = /** @type {const} */ ([210, 297]);
 
 /**
- * @param {import('./arguments.js').PageTask} task
+ * @param {import('./task.js').Task} task
  * @param {AbortSignal} signal
  */
 export async function page(task, signal) {
   await checkPlaces(...task.written);
   const edges = task.edges === undefined ? undefined : await readEdges(task.edges);
-  const options = Object.fromEntries(Object.entries(task.options).filter(([, value]) => value !== undefined));
+  const { light: lighting, ink } = flattening;
+  const options = { ...optionsFrom({ light: lighting, ink }, task), ...optionsFrom(dewarpPage, task) };
   /** @type {{ path: string, bytes: Uint8Array }[]} */
   const files = [];
   const reports = [];
@@ -27,19 +30,21 @@ export async function page(task, signal) {
   /** @type {{ input: string, problem: Problem }[]} */
   const failures = [];
   const several = task.inputs.length > 1;
+  let figures = '';
   /** @param {string} input */
   const flatten = async (input) => {
     const bytes = await readBytes(input);
     const photo = tellAssumptions(input, await about(input, () => developable.readPhoto(bytes)));
     const { width, height } = photo;
     const dewarp = () => developable.dewarpPage(photo, edges, { ...options, ...mapOptions(task.map), transfer: true });
-    const flat = await (several ? about(input, dewarp) : dewarp());
+    const flat = await during(`flattening ${input}`, () => (several ? about(input, dewarp) : dewarp()));
     if (task.map !== undefined) files.push({ path: task.map, bytes: mapFile(flat, { width, height }) });
     const { size, unit, report, outline, light } = flat;
+    figures = sizeInWords(flat);
     reports.push({ ...(several && { input }), ...report, size, unit, light, ...(outline && { outline }) });
     if (task.extension === '.pdf') {
       const paper = flat.width > flat.height ? [DEFAULT_PAPER[1], DEFAULT_PAPER[0]] : DEFAULT_PAPER;
-      const extension = task.options.ink ? '.png' : '.jpg';
+      const extension = task.ink ? '.png' : '.jpg';
       const picture = await printed({ extension, quality: task.quality }, flat);
       book.push({ picture, size: unit === 'mm' ? size : /** @type {[number, number]} */ (paper) });
     } else {
@@ -67,17 +72,18 @@ export async function page(task, signal) {
   if (task.report !== undefined) files.push({ path: task.report, bytes: json(several ? reports : reports[0]) });
   await writeWhole(files, signal);
   if (several) say(`${task.output}: ${book.length} of ${task.inputs.length} photos`);
+  else succeed(task.output, figures);
   if (failures.length > 0) {
     throw new Problem(status.failure, `not in ${task.output}: ${failures.map(({ input }) => input).join(', ')}`);
   }
 }
 
 /**
- * @param {import('./arguments.js').PageTask} task
+ * @param {import('./task.js').Task} task
  * @param {'even' | 'keep'} light what happened to it
  */
-function lightWords({ options }, light) {
-  if (light === 'even' || options.light === 'keep') return undefined;
+function lightWords(task, light) {
+  if (light === 'even' || task.light === 'keep') return undefined;
   return 'the light was kept, since the page is not mostly paper';
 }
 

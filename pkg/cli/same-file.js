@@ -21,7 +21,8 @@ export function refuseSameFiles({ written, read, force = false }) {
     }
   });
   if (force) return;
-  const inputs = located(read);
+  // Standard input is another stream than standard output.
+  const inputs = located(read).filter(({ path }) => path !== '-');
   for (const { name, path, place } of outputs) {
     const source = inputs.find((other) => other.place === place);
     if (source !== undefined) {

@@ -2,36 +2,39 @@
 import { basename, extname } from 'node:path';
 import * as developable from '../index.js';
 import { solver } from '../schema/fit.js';
-import { isMesh } from './arguments.js';
+import { patternMesh } from '../schema/pattern.js';
+import { dewarp as flattening } from '../schema/photo.js';
 import { readCamera } from './camera.js';
 import { checkPlaces, readBytes, writeWhole } from './files.js';
 import { solve } from './fit.js';
-import { about, readForFit, readInput } from './inputs.js';
+import { about } from './explain.js';
+import { readForFit, readInput } from './inputs.js';
 import { Problem, status } from './problem.js';
-import { isTerminal, percent, print, say, statusLine, toStderr } from './terminal.js';
+import { TABLE, isMesh, optionsFrom } from './task.js';
+import { during, percent, say, statusLine, succeed, toStderr } from './terminal.js';
 
 /**
- * @typedef {import('./arguments.js').SheetTask} SheetTask
- * @typedef {import('./arguments.js').PatternTask} PatternTask
+ * @typedef {import('./task.js').Task} Task
  * @typedef {Pick<import('../types.js').PatternPlan, 'lambda' | 'smallest' | 'distance'>} Plan how a pattern came about, of several that were tried
  * @typedef {import('./inputs.js').Input} Input
  * @typedef {import('../types.js').Unrolling} Unrolling
  */
 
 /**
- * @param {import('./arguments.js').UnrollTask} task
+ * @param {Task} task
  * @param {AbortSignal} signal
  */
 export async function unroll(task, signal) {
   await checkPlaces(...task.written);
   const { surface, options } = await flattened(task, signal);
-  const sheet = await developable.unroll(surface, options);
+  const sheet = await during('laying it flat', () => developable.unroll(surface, options));
   const bytes = task.extension === '.obj' ? flatObj(sheet) : json(plainArrays(sheet));
   await writeWhole([{ path: task.output, bytes }, ...reported(task, sheet)], signal);
+  succeed(task.output, `${sheet.triangles.length / 3} triangles laid flat, strained by ${percent(sheet.report.distortion.rms, 2)}`);
 }
 
 /**
- * @param {import('./arguments.js').PatternTask} task
+ * @param {Task} task
  * @param {AbortSignal} signal
  */
 export async function pattern(task, signal) {
@@ -39,11 +42,11 @@ export async function pattern(task, signal) {
   if (task.explore) return tellPlans(task, (await explored(task, signal)).plans, signal);
   const { drawing, plan } = await drawnOnce(task, signal);
   await writeWhole(await patternFiles(task, drawing, plan), signal);
-  reportPattern(drawing, plan);
+  reportPattern(task, drawing, plan);
 }
 
 /**
- * @param {{ output: string, extension: import('./arguments.js').Extension, report?: string, assembly?: string }} task
+ * @param {Task} task
  * @param {import('../types.js').Drawing} drawing
  * @param {Plan} [plan]
  */
@@ -60,12 +63,13 @@ export async function patternFiles(task, drawing, plan) {
 }
 
 /**
+ * @param {Task} task
  * @param {import('../types.js').Drawing} drawing
  * @param {Plan} [plan]
  */
-export function reportPattern(drawing, plan) {
+export function reportPattern({ output }, drawing, plan) {
   reportFit(drawing);
-  reportSize(drawing);
+  reportSize(output, drawing);
   if (plan !== undefined) {
     toStderr(
       `developable: ${counted(drawing.summary.sheets, 'sheet')} with --lambda ${Number(plan.lambda.toPrecision(6))} and --smallest ` +
@@ -78,10 +82,14 @@ export function reportPattern(drawing, plan) {
   if (untabbed > 0) say(`warning: ${counted(untabbed, 'seam')} without a tab, for want of room on both sides`);
 }
 
-/** How large the drawing is, and on how many pages. @param {import('../types.js').Drawing} drawing */
-function reportSize({ width, height, pages, summary: { sheets } }) {
+/**
+ * How large the drawing is, and on how many pages.
+ * @param {string} output
+ * @param {import('../types.js').Drawing} drawing
+ */
+function reportSize(output, { width, height, pages, summary: { sheets } }) {
   const paper = pages === undefined ? '' : ` on ${counted(pages.pages.length, 'page')}`;
-  if (isTerminal()) say(`${counted(sheets, 'sheet')}, together ${Math.ceil(width)} × ${Math.ceil(height)} mm${paper}`);
+  succeed(output, `${counted(sheets, 'sheet')}, together ${Math.ceil(width)} × ${Math.ceil(height)} mm${paper}`);
 }
 
 /** What it takes besides the creases. @param {import('../types.js').Drawing['summary']} summary */
@@ -95,15 +103,15 @@ function reportSlits({ slits, slitLength, sheets, strain }) {
 
 /**
  * The options of a pattern.
- * @param {Pick<PatternTask, 'drawing' | 'assembly' | 'report'>} task
+ * @param {Task} task
  */
-export function drawingOptions({ drawing, assembly, report }) {
-  return { ...drawing, assembly: assembly !== undefined || report !== undefined };
+export function drawingOptions(task) {
+  return { ...optionsFrom(patternMesh, task), assembly: task.assembly !== undefined || task.report !== undefined };
 }
 
 /**
  * The pattern that is asked for, and how it came about where several were tried.
- * @param {PatternTask} task
+ * @param {Task} task
  * @param {AbortSignal} signal
  * @returns {Promise<{ drawing: import('../types.js').Drawing, plan?: Plan }>}
  */
@@ -111,8 +119,8 @@ async function drawnOnce(task, signal) {
   if (task.sheets === undefined) {
     const { surface, options } = await flattened(task, signal);
     const refold = task.report !== undefined;
-    const drawing = developable.pattern(surface, { ...options, ...drawingOptions(task), refold });
-    return { drawing: await drawing.catch((problem) => { throw withRemedy(problem, task.input); }) };
+    const draw = () => developable.pattern(surface, { ...options, ...drawingOptions(task), refold });
+    return { drawing: await during('cutting it into sheets', draw).catch((problem) => { throw withRemedy(problem, task.input); }) };
   }
   return chosenOf(task, await explored(task, signal));
 }
@@ -147,14 +155,14 @@ export function chosenOf(task, { plans, chosen }) {
 }
 
 /**
- * @param {PatternTask} task
+ * @param {Task} task
  * @param {AbortSignal} signal
  */
 async function explored(task, signal) {
   const input = await readForFit(task, signal);
-  const { lambda, ...solver } = { ...task.options, ...spacing(task) };
+  const { lambda, ...fitting } = { ...optionsFrom(solver, task), ...spacing(task) };
   const { smallest, ...pattern } = drawingOptions(task);
-  return withPlans((onPlan) => developable.explorePattern(input, { solver, pattern, sheets: task.sheets, signal, onPlan }));
+  return withPlans((onPlan) => developable.explorePattern(input, { solver: fitting, pattern, sheets: task.sheets, signal, onPlan }));
 }
 
 /**
@@ -185,12 +193,12 @@ function told({ sheets, folds, slits, cutLength, strain }) {
 
 /**
  * All plans, as a table or as JSON.
- * @param {{ output: string }} task
+ * @param {Task} task
  * @param {import('../types.js').PatternPlan[]} plans
  * @param {AbortSignal} signal
  */
-export async function tellPlans({ output }, plans, signal) {
-  if (output !== '') {
+export async function tellPlans({ output, extension }, plans, signal) {
+  if (extension !== TABLE) {
     const figures = plans.map(({ drawing, ...plan }) => ({ ...plan, summary: drawing?.summary }));
     await writeWhole([{ path: output, bytes: json(figures) }], signal);
     return;
@@ -198,7 +206,7 @@ export async function tellPlans({ output }, plans, signal) {
   const rows = [COLUMNS, ...plans.map(row)];
   const widths = COLUMNS.map((_, i) => Math.max(...rows.map((cells) => (i === 2 && cells[3] === '' ? 0 : cells[i].length))));
   const lines = rows.map((cells) => cells.map((cell, i) => (cells[3] === '' && i === 2 ? cell : cell.padStart(widths[i]))).join('  '));
-  await print(`${lines.join('\n')}\n`);
+  await writeWhole([{ path: output, bytes: new TextEncoder().encode(`${lines.join('\n')}\n`) }], signal);
 }
 
 /** How well what is joined fits. @param {import('../types.js').Drawing} drawing */
@@ -233,7 +241,7 @@ const counted = (count, what, several = `${what}s`) => `${count} ${count === 1 ?
 
 /**
  * @param {import('../types.js').Drawing} drawing
- * @param {import('./arguments.js').Extension} extension
+ * @param {string} extension
  * @param {string} title
  */
 export async function drawn(drawing, extension, title) {
@@ -261,30 +269,32 @@ function checkPlace(path, input) {
 }
 
 /**
- * @param {import('./arguments.js').DewarpTask} task
+ * @param {Task} task
  * @param {AbortSignal} signal
  */
 export async function dewarp(task, signal) {
   await checkPlaces(...task.written);
-  const given = task.texture === undefined ? undefined : await readPhoto(task.texture);
+  const texture = task.texture === undefined ? undefined : await readPhoto(task.texture);
   const { photoCamera } = task;
-  const elsewhere = photoCamera !== undefined && given !== undefined ? await readCamera(photoCamera, [given]) : undefined;
-  const { width = 0, height = 0, orientation } = given ?? {};
-  const seen = given && { width, height, orientation, wanted: task.crop, camera: elsewhere };
+  const elsewhere = photoCamera !== undefined && texture !== undefined ? await readCamera(photoCamera, [texture]) : undefined;
+  const { width = 0, height = 0, orientation } = texture ?? {};
+  const seen = texture && { width, height, orientation, wanted: task.crop, camera: elsewhere };
   const { surface, options } = await flattened({ ...task, photo: seen }, signal, (input) => {
     if (task.extension === '.pdf') checkUnit(input);
-    if (given !== undefined && photoCamera === undefined) checkPlace(task.input, input);
+    if (texture !== undefined && photoCamera === undefined) checkPlace(task.input, input);
   });
   const cylinder = cylinderOf(surface);
-  const photo = given ?? await textureOf(task.input, surface);
+  const photo = texture ?? await textureOf(task.input, surface);
   const camera = elsewhere ?? (photoCamera === undefined ? undefined : await readCamera(photoCamera, [photo]));
-  const { dots, trim, deskew, crop, light, ink } = task;
-  const flat = await developable.dewarp(surface, photo, { ...options, ...mapOptions(task.map), dots, trim, deskew, crop, light, ink, camera, transfer: true });
+  const { crop } = task;
+  const given = { ...options, ...optionsFrom(flattening, task), ...mapOptions(task.map) };
+  const flat = await during('flattening the photo', () => developable.dewarp(surface, photo, { ...given, camera, transfer: true }));
   const files = [{ path: task.output, bytes: await printed(task, flat) }, ...reported(task, { ...flat, report: { ...flat.report, ...(cylinder && { cylinder }) } })];
   if (task.map !== undefined) {
     files.push({ path: task.map, bytes: mapFile(flat, photo) });
   }
   await writeWhole(files, signal);
+  succeed(task.output, sizeInWords(flat));
   if (task.camera !== undefined && crop === undefined && reachesRim(surface)) {
     toStderr(
       'developable: warning: what was made flat goes on to the rim of the depths: it is all that they show, such as a page and ' +
@@ -357,12 +367,19 @@ function checkUnit({ unit }) {
 
 /**
  * A flat image in a file of the kind that its name says.
- * @param {{ extension: import('./arguments.js').Extension, quality?: number }} task
+ * @param {{ extension: string, quality?: number }} task
  * @param {import('../types.js').SizedPhoto} flat
  */
 export function printed({ extension, quality }, flat) {
   const formats = /** @type {const} */ ({ '.png': 'png', '.pdf': 'pdf', '.jpg': 'jpeg', '.jpeg': 'jpeg' });
   return developable.writePhoto(flat, { format: formats[/** @type {keyof typeof formats} */ (extension)], quality, transfer: true });
+}
+
+/** The size of a flat image. @param {import('../types.js').SizedPhoto} flat */
+export function sizeInWords({ width, height, resolution = 1, unit }) {
+  const size = [width, height].map((pixels) => Number((pixels / resolution).toPrecision(4)));
+  const lengths = unit === 'mm' || unit === 'm' ? `, ${size.join(' × ')} ${unit}` : '';
+  return `${width} × ${height} pixels${lengths}`;
 }
 
 /** @param {string} path */
@@ -387,7 +404,7 @@ async function textureOf(input, surface) {
 
 /**
  * What is to be laid flat, and how it is resampled if it is no lattice yet.
- * @param {SheetTask & { photo?: import('./inputs.js').Size, shape?: import('./arguments.js').Shape }} task
+ * @param {Task & { photo?: import('./inputs.js').Size }} task
  * @param {AbortSignal} signal
  * @param {(input: Input) => void} [check] whether it will do, before the work
  */
@@ -416,16 +433,17 @@ const DEFAULT_BRIDGE_PIXELS = 4;
 
 /**
  * The cylinder that is to be laid flat, if it is one.
- * @param {SheetTask & { shape?: import('./arguments.js').Shape }} task
+ * @param {Task} task
  * @param {Input} input
  */
-async function cylinderFor({ shape, lattice, options }, input) {
+async function cylinderFor(task, input) {
+  const shape = task.command === 'dewarp' ? task.shape ?? 'auto' : undefined;
   if (shape === undefined || shape === 'developable') return undefined;
   const field = /** @type {import('../types.js').Heightfield} */ (input);
   if (shape === 'cylinder') return developable.fitCylinder(field);
   // What is said about the energy is about a surface that is fitted by it.
-  const said = Object.entries(options).some(asksForAnotherFit);
-  if (said || lattice !== 'mesh' || field.constraints !== undefined || field.occlusions !== undefined) return undefined;
+  const said = Object.entries(optionsFrom(solver, task)).some(asksForAnotherFit);
+  if (said || task.lattice !== 'mesh' || field.constraints !== undefined || field.occlusions !== undefined) return undefined;
   try {
     const found = await developable.fitCylinder(field);
     return found.report.verdict === 'cylinder' ? found : undefined;
@@ -441,13 +459,13 @@ function cylinderOf(surface) {
   return report !== undefined && 'rulings' in report ? report : undefined;
 }
 
-/** @param {SheetTask} task */
+/** @param {Task} task */
 export function spacing(task) {
   return task.lattice === 'square' ? { spacing: task.spacing } : {};
 }
 
 /**
- * @param {SheetTask} task
+ * @param {Task} task
  * @param {{ report: import('../types.js').UnrollReport, verdict: import('../types.js').Verdict, loss?: number, overreach?: number }} result
  */
 function reported({ report: path }, { report, verdict, loss, overreach }) {

@@ -1,20 +1,22 @@
 /** `developable analyze`, `developable patches` and `developable rulings`: what a surface is like. */
 import * as developable from '../index.js';
+import { meshPatches, rulings as tracing } from '../schema/shape.js';
 import { checkPlaces, writeWhole } from './files.js';
 import { solve } from './fit.js';
 import { readForFit, readInput } from './inputs.js';
 import { flattened, json, linesObj, spacing } from './sheets.js';
-import { print } from './terminal.js';
+import { optionsFrom } from './task.js';
+import { during, succeed } from './terminal.js';
 
 /**
- * @typedef {import('../types.js').PatchMap} PatchMap
+ * @typedef {import('./task.js').Task} Task
  * @typedef {import('../types.js').Surface} Surface
  * @typedef {{ path: string, bytes: Uint8Array }} File
  */
 
 /**
  * The figures of the input, and of the surface fitted to it.
- * @param {import('./arguments.js').AnalyzeTask} task
+ * @param {Task} task
  * @param {AbortSignal} signal
  */
 export async function analyze(task, signal) {
@@ -29,18 +31,18 @@ export async function analyze(task, signal) {
     const after = await developable.analyze(surface, { threshold, reference: input, ...spacing(task) });
     Object.assign(figures, { output: after.summary, deviation: after.deviation });
   }
-  await tell(task, json(figures), undefined, signal);
+  await tell(task, json(figures), undefined, `figures of ${task.input}`, signal);
 }
 
 /**
- * @param {import('./arguments.js').PatchesTask} task
+ * @param {Task} task
  * @param {AbortSignal} signal
  */
 export async function patches(task, signal) {
   await checkPlaces(...task.written);
   const { surface, options } = await flattened(task, signal);
-  const { labels, ...map } = await developable.patches(surface, { ...options, ...task.patching });
-  await tell(task, json(map), await drawn(), signal);
+  const { labels, ...map } = await developable.patches(surface, { ...options, ...optionsFrom(meshPatches, task) });
+  await tell(task, json(map), await drawn(), `${map.patches.length} patches, ${map.creases.length} creases`, signal);
 
   async function drawn() {
     const { rows, cols, spacing } = map;
@@ -56,31 +58,31 @@ export async function patches(task, signal) {
 }
 
 /**
- * @param {import('./arguments.js').RulingsTask} task
+ * @param {Task} task
  * @param {AbortSignal} signal
  */
 export async function rulings(task, signal) {
   await checkPlaces(...task.written);
   const { surface, options } = await flattened(task, signal);
-  const { directions, confidence, ...field } = await developable.rulings(surface, { ...options, ...task.tracing });
+  const { directions, confidence, ...field } = await developable.rulings(surface, { ...options, ...optionsFrom(tracing, task) });
   const frame = 'frame' in surface ? surface.frame : undefined;
-  await tell(task, json(field), task.extension === '.obj' ? linesObj(field.lines, frame) : undefined, signal);
+  await tell(task, json(field), task.extension === '.obj' ? linesObj(field.lines, frame) : undefined, `${field.lines.length} rulings`, signal);
 }
 
 /**
- * Writes a report, to standard output if nowhere else, and what was drawn of it.
- * @param {import('./arguments.js').SheetTask} task
+ * Writes a report, and what was drawn of it.
+ * @param {Task} task
  * @param {Uint8Array} report
  * @param {Uint8Array | undefined} drawn
+ * @param {string} figures in a few words
  * @param {AbortSignal} signal
  */
-async function tell({ output, report: path }, report, drawn, signal) {
+async function tell({ output, report: path }, report, drawn, figures, signal) {
   /** @type {File[]} */
-  const files = [];
-  if (output !== '') files.push({ path: output, bytes: drawn ?? report });
+  const files = [{ path: output, bytes: drawn ?? report }];
   if (path !== undefined) files.push({ path, bytes: report });
   await writeWhole(files, signal);
-  if (output === '') await print(new TextDecoder().decode(report));
+  if (output !== '-') succeed(output, figures);
 }
 
 /**

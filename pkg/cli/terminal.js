@@ -1,6 +1,6 @@
 /** What people see: results on standard output, and on a terminal how the work goes, so that scripts get silence. */
 import { AsyncLocalStorage } from 'node:async_hooks';
-import { failed } from './files.js';
+import { failed } from './system-errors.js';
 
 /**
  * Standard input, output and error of the command: the process's own, or those of a caller within the process.
@@ -8,13 +8,18 @@ import { failed } from './files.js';
  * @property {NodeJS.ReadableStream & { isTTY?: boolean }} stdin
  * @property {NodeJS.WritableStream & { isTTY?: boolean }} stdout
  * @property {NodeJS.WritableStream & { isTTY?: boolean }} stderr
+ * @property {Buffer} [input] what standard input had, once it is read
+ * @property {boolean} [quiet] whether nothing is said but why the command failed
  */
 
 /** @type {AsyncLocalStorage<Streams>} */
 const current = new AsyncLocalStorage();
 
 /** The streams of the command that runs. @returns {Streams} */
-export const streams = () => current.getStore() ?? process;
+export const streams = () => current.getStore() ?? own;
+
+/** @type {Streams} */
+const own = process;
 
 /**
  * Runs a command with streams of the caller's.
@@ -27,14 +32,23 @@ export function withStreams(given, run) {
   for (const stream of new Set([given.stdout, given.stderr])) {
     if (stream.listenerCount('error') === 0) stream.on('error', () => {});
   }
-  return current.run(given, run);
+  return current.run({ ...given }, run);
 }
 
-/** Writes to standard error. @param {string} text */
-export const toStderr = (text) => void streams().stderr.write(text);
+/** Writes to standard error, unless nothing is to be said. @param {string} text */
+export const toStderr = (text) => void (streams().quiet || streams().stderr.write(text));
+
+/** All of standard input, which `-` stands for among names of files. */
+export async function readStandardInput() {
+  const all = streams();
+  /** @type {Buffer[]} */
+  const chunks = [];
+  if (all.input === undefined) for await (const chunk of all.stdin) chunks.push(Buffer.from(chunk));
+  return (all.input ??= Buffer.concat(chunks));
+}
 
 /**
- * @param {string} text
+ * @param {string | Uint8Array} text
  * @returns {Promise<void>}
  */
 export function print(text) {
@@ -52,16 +66,26 @@ export function say(text) {
   toStderr(`${streams().stderr.isTTY ? '\r\x1b[K' : ''}developable: ${text}\n`);
 }
 
-/** Whether what is said on standard error is read on a terminal: scripts get no news of success. */
-export function isTerminal() {
-  return streams().stderr.isTTY === true;
+/** Whether somebody reads standard error on a terminal: scripts get no news of success. */
+function isWatched() {
+  const { stderr, quiet } = streams();
+  return stderr.isTTY === true && !quiet;
+}
+
+/**
+ * Says on a terminal what was made.
+ * @param {string} output
+ * @param {string} figures of it
+ */
+export function succeed(output, figures) {
+  if (isWatched()) toStderr(`${output === '-' ? 'standard output' : output}: ${figures}\n`);
 }
 
 /** One line that is written over and over. */
 export function statusLine() {
   // News may come from where no command runs.
   const terminal = streams().stderr;
-  const shown = terminal.isTTY === true;
+  const shown = isWatched();
   return {
     shown,
     /** @param {string} text */
@@ -89,45 +113,44 @@ export async function during(text, work) {
   }
 }
 
-/** How a solve goes on, in one line. */
+/**
+ * How a solve goes on, in one line whose numbers only grow: gaps are of one lattice or pass each, and iterations are counted
+ * anew for each.
+ */
 export function progressLine() {
   const line = statusLine();
+  const start = performance.now();
+  let [iterations, before] = [0, 0];
   return {
     ...line,
     /** Before there is any progress, which may take long where there are many vertices. */
     begin: () => line.shown && line.show('setting up...'),
     /** @param {import('../types.js').Progress} progress */
-    show({ level, iteration, gap, elapsed }) {
-      const state = level > 0 ? `coarse lattice, ${level} finer to come` : gap === undefined ? 'gap unknown' : `gap ${percent(gap)}`;
-      line.show(`iteration ${iteration}, ${state}, ${elapsed.toFixed(1)} s`);
+    show({ iteration }) {
+      iterations += iteration < before ? iteration : iteration - before;
+      before = iteration;
+      line.show(`fitting: ${iterations} iterations, ${((performance.now() - start) / 1000).toFixed(1)} s`);
     },
   };
 }
 
 /**
- * @param {string} output
+ * What to say of a fit.
  * @param {import('../types.js').Report} report
  */
-export function announce(output, { interior, boundary, omitted, iterations, gap, seconds }) {
-  if (!streams().stderr.isTTY) return;
-  const vertices = interior + boundary + omitted;
+export function fitInWords({ interior, boundary, omitted, gap, seconds }) {
   const quality = gap === undefined ? 'the optimum up to rounding' : `within ${percent(gap)} of the optimum`;
-  toStderr(
-    `${output}: ${vertices} vertices, ${quality} ` +
-      `after ${iterations} iterations and ${seconds.total.toFixed(1)} s\n`,
-  );
+  return `${interior + boundary + omitted} vertices, ${quality}, ${seconds.total.toFixed(1)} s`;
 }
 
 /**
- * @param {string} output
+ * What to say of a fit over a whole mesh.
  * @param {import('../types.js').MeshReport} report
  */
-export function announceMesh(output, { vertices, passes, seconds }) {
-  if (!streams().stderr.isTTY) return;
-  const iterations = passes.reduce((sum, pass) => sum + pass.iterations, 0);
+export function meshFitInWords({ vertices, passes, seconds }) {
   const gap = passes.at(-1)?.gap;
   const quality = gap === undefined ? '' : `, the last of ${passes.length} linearised problems within ${percent(gap)} of its optimum`;
-  toStderr(`${output}: ${vertices} vertices${quality} after ${iterations} iterations and ${seconds.total.toFixed(1)} s\n`);
+  return `${vertices} vertices${quality}, ${seconds.total.toFixed(1)} s`;
 }
 
 /** @param {number} share */

@@ -1,8 +1,4 @@
 /** The version of the package. */
-import { readFile } from 'node:fs/promises';
+import { readFileSync } from 'node:fs';
 
-/** @returns {Promise<string>} */
-export async function version() {
-  const manifest = await readFile(new URL('../package.json', import.meta.url), 'utf8');
-  return JSON.parse(manifest).version;
-}
+export const version = JSON.parse(readFileSync(new URL('../package.json', import.meta.url), 'utf8')).version;

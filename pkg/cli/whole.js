@@ -1,36 +1,37 @@
 /** `--surface`: a mesh as it is, without a view, fitted and what is made of it. */
 import * as developable from '../index.js';
+import { meshSolver } from '../schema/fit.js';
+import { meshRulings } from '../schema/shape.js';
 import { checkPlaces, writeWhole } from './files.js';
 import { readMesh } from './inputs.js';
 import { chosenOf, drawingOptions, flatObj, json, linesObj, patternFiles, plainArrays, reportPattern, tellPlans, withPlans } from './sheets.js';
-import { announceMesh, percent, print, progressLine, say, toStderr } from './terminal.js';
+import { optionsFrom } from './task.js';
+import { meshFitInWords, percent, progressLine, say, succeed, toStderr } from './terminal.js';
 
 /**
- * @typedef {import('./arguments.js').MeshTask} MeshTask
+ * @typedef {import('./task.js').Task} Task
  * @typedef {import('../types.js').Mesh} Mesh
  * @typedef {{ path: string, bytes: Uint8Array }} File
  */
 
 /**
- * @param {MeshTask} task
+ * @param {Task} task
  * @param {AbortSignal} signal
  */
 export async function whole(task, signal) {
   await checkPlaces(...task.written);
-  const mesh = await readMesh({ ...task, lattice: 'mesh', normalize: true });
+  const mesh = await readMesh(task);
   if (task.explore || task.sheets !== undefined) return planned(task, mesh, signal);
-  const exact = task.make === 'pattern' && await developable.hasExactFaces(mesh);
+  const exact = task.command === 'pattern' && await developable.hasExactFaces(mesh);
   if (exact) say(`${task.input} is taken as it is: its faces are exact`);
   const surface = task.asIs || exact ? undefined : await fitted(task, mesh, signal);
-  const files = await made[task.make](task, surface ?? mesh, mesh);
-  const shown = task.output === '' ? files.shift() : undefined;
+  const files = await made[task.command](task, surface ?? mesh, mesh);
   await writeWhole(files, signal);
   if (surface !== undefined) tell(task, surface, mesh);
-  if (shown !== undefined) await print(new TextDecoder().decode(shown.bytes));
 }
 
 /**
- * @param {MeshTask} task
+ * @param {Task} task
  * @param {Mesh} mesh
  * @param {AbortSignal} signal
  */
@@ -38,11 +39,11 @@ function fitted(task, mesh, signal) {
   const line = progressLine();
   line.begin();
   return developable
-    .fitMesh(mesh, { ...task.options, signal, onProgress: line.shown ? line.show : undefined })
+    .fitMesh(mesh, { ...optionsFrom(meshSolver, task), signal, onProgress: line.shown ? line.show : undefined })
     .finally(() => line.clear());
 }
 
-/** What each command writes. @type {Record<MeshTask['make'], (task: MeshTask, surface: Mesh, mesh: Mesh) => Promise<File[]>>} */
+/** What each command writes. @type {Record<string, (task: Task, surface: Mesh, mesh: Mesh) => Promise<File[]>>} */
 const made = {
   async fit({ output, extension, report: path }, surface) {
     const { report } = /** @type {import('../types.js').MeshSurface} */ (surface);
@@ -55,8 +56,9 @@ const made = {
     return [{ path: output, bytes: json({ ...figures, ...after }) }];
   },
 
-  async rulings({ output, extension, report: path, tracing }, surface) {
-    const { lines } = await developable.meshRulings(surface, tracing);
+  async rulings(task, surface) {
+    const { output, extension, report: path } = task;
+    const { lines } = await developable.meshRulings(surface, optionsFrom(meshRulings, task));
     const report = json({ lines });
     const bytes = extension === '.obj' ? linesObj(lines) : report;
     return [{ path: output, bytes }, ...(path === undefined ? [] : [{ path, bytes: report }])];
@@ -71,36 +73,36 @@ const made = {
 
   async pattern(task, surface, mesh) {
     const pattern = await developable.patternMesh(surface, { ...drawingOptions(task), exact: surface === mesh ? undefined : false });
-    reportPattern(pattern);
+    reportPattern(task, pattern);
     return patternFiles(task, pattern);
   },
 };
 
 /**
  * Patterns at several λ: all are told, or the first one with few enough sheets is written.
- * @param {MeshTask} task
+ * @param {Task} task
  * @param {Mesh} mesh
  * @param {AbortSignal} signal
  */
 async function planned(task, mesh, signal) {
-  const { lambda, ...solver } = task.options;
+  const { lambda, ...solver } = optionsFrom(meshSolver, task);
   const { smallest, ...pattern } = drawingOptions(task);
   const { sheets } = task;
   const found = await withPlans((onPlan) => developable.explorePatternMesh(mesh, { solver, pattern, sheets, signal, onPlan }));
   if (task.explore) return tellPlans(task, found.plans, signal);
   const { drawing, plan } = chosenOf(task, found);
   await writeWhole(await patternFiles(task, drawing, plan), signal);
-  reportPattern(drawing, plan);
+  reportPattern(task, drawing, plan);
 }
 
 /**
  * Says how the fit went.
- * @param {MeshTask} task
+ * @param {Task} task
  * @param {import('../types.js').MeshSurface} surface
  * @param {Mesh} mesh
  */
 function tell(task, { report }, mesh) {
-  announceMesh(task.output, report);
+  succeed(task.output, meshFitInWords(report));
   if (report.stopReason === 'maxIterations') {
     toStderr('developable: warning: stopped before the wanted gap; --max-iterations allows more\n');
   } else if (report.stopReason === 'diverged') {
@@ -129,7 +131,7 @@ function tell(task, { report }, mesh) {
 }
 
 /**
- * @param {import('./arguments.js').Extension} extension
+ * @param {string} extension
  * @param {Mesh} surface
  */
 function encode(extension, surface) {

@@ -5,7 +5,7 @@ import { join } from 'node:path';
 import { beforeEach, test } from 'node:test';
 import { batchOf } from '../../pkg/cli/batch.js';
 import * as direct from '../../pkg/direct.js';
-import { command, run, temporaryFolder } from './support/command.mjs';
+import { command, runProcess, temporaryFolder } from './support/command.mjs';
 import { deviation, endless, image, plane } from './support/shapes.mjs';
 import { until } from './support/waiting.mjs';
 
@@ -23,7 +23,7 @@ beforeEach(async () => {
 });
 
 /** @param {string[]} args */
-const developable = (...args) => run(folder, args);
+const developable = (...args) => runProcess(folder, args);
 /** Names in a folder, without the fingerprints. @param {string} name */
 const made = async (name) => (await readdir(join(folder, name))).filter((file) => file !== '.developable');
 /** @param {string} name */
@@ -100,7 +100,7 @@ test('a process that does one input of a batch starts no batch', { skip: process
   };
   /** @type {NodeJS.Timeout | undefined} */
   let timer;
-  const ended = await run(folder, ['fit', 'odd*.npy', '-o', 'out/'], { onStart: (child) => (timer = setInterval(count, 20, child)) });
+  const ended = await runProcess(folder, ['fit', 'odd*.npy', '-o', 'out/'], { onStart: (child) => (timer = setInterval(count, 20, child)) });
   clearInterval(timer);
   assert.equal(ended.status, 0, ended.stderr);
   assert.equal(Math.max(...counts), 1);
@@ -152,7 +152,7 @@ test('an interruption ends all processes, and what was done before stays', async
   /** @type {import('node:child_process').ChildProcess[]} */
   const children = [];
   const onStart = (/** @type {import('node:child_process').ChildProcess} */ child) => children.push(child);
-  const running = run(folder, ['fit', 'long.npy', '-o', 'begun/', ...endlessly], { onStart });
+  const running = runProcess(folder, ['fit', 'long.npy', '-o', 'begun/', ...endlessly], { onStart });
   // The folder is made just before the process is started.
   await until('the process starts', async () => (await readdir(folder)).includes('begun'));
   children[0].kill('SIGINT');
@@ -174,7 +174,7 @@ test('the array job in the documentation shares the inputs among its tasks', { s
   const PATH = `${join(folder, 'bin')}:${process.env.PATH}`;
   for (const [task, expected] of [['0', ['a.npy', 'c d.npy']], ['1', ['a.npy', 'b.npy', 'c d.npy']]]) {
     const env = { PATH, SLURM_ARRAY_TASK_COUNT: '2', SLURM_ARRAY_TASK_ID: String(task), SLURM_CPUS_PER_TASK: '2' };
-    const ended = await run(folder, [], { program: ['/bin/sh', 'fit.sh'], env });
+    const ended = await runProcess(folder, [], { program: ['/bin/sh', 'fit.sh'], env });
     assert.equal(ended.status, 0, ended.stderr);
     assert.deepEqual(await made('out'), expected);
   }

@@ -1,15 +1,14 @@
-/** The Node command, as a child process. */
+/** The Node command. */
 import assert from 'node:assert/strict';
 import { mkdir, readFile, readdir, readlink, symlink, writeFile } from 'node:fs/promises';
 import { join } from 'node:path';
 import { test } from 'node:test';
-import { parse } from '../../pkg/cli/arguments.js';
 import { commands } from '../../pkg/cli/commands.js';
 import { writeWhole } from '../../pkg/cli/files.js';
 import { flagOf, sections } from '../../pkg/cli/flags.js';
 import * as direct from '../../pkg/direct.js';
 import { OPTIONS } from '../../pkg/options.js';
-import { command, run, temporaryFolder } from './support/command.mjs';
+import { command, parse, run, runProcess, temporaryFolder } from './support/command.mjs';
 import { cylinder, deviation, endless, image, lattice, noisy, plane } from './support/shapes.mjs';
 
 await Promise.all([direct.init(), direct.load('files')]);
@@ -51,7 +50,7 @@ test('help and version', async () => {
   assert.deepEqual([help.status, help.stderr], [0, '']);
   assert.deepEqual(await run(folder, ['help']), help);
   const { version } = JSON.parse(await readFile(new URL('../../pkg/package.json', import.meta.url), 'utf8'));
-  assert.deepEqual(await run(folder, ['--version']), { status: 0, stdout: `${version}\n`, stderr: '' });
+  assert.deepEqual(await runProcess(folder, ['--version']), { status: 0, stdout: `${version}\n`, stderr: '' });
 });
 
 test('each command has a help of its own, with its flags, an example and how it can end', async () => {
@@ -221,17 +220,21 @@ test('wrong usage: status 2, what is wrong, and no output', async () => {
   /** @type {[string, RegExp][]} */
   const cases = [
     ['', /nothing to do/],
-    ['solve ramp.npy -o x.npy', /"solve".*fit, design, occlusions/],
+    ['solve ramp.npy -o x.npy', /unknown command 'solve'/],
     ['fit', /input is missing/],
     ['fit ramp.npy', /output is missing/],
     ['fit ramp.npy more.npy -o x.npy', /x\.npy.*several inputs/],
     ['fit ramp.npy -o x.jpg', /\.npy, \.png.*x\.jpg/],
     ['fit ramp.npy -o', /output/],
-    ['fit ramp.npy -o x.npy --colour red', /unknown option --colour\n/],
-    ['fit ramp.npy -o x.npy --lamda 3', /unknown option --lamda: did you mean --lambda\?/],
-    ['ptches ramp.npy', /no command "ptches", did you mean "patches"\?/],
-    ['help fti', /did you mean "fit"\?/],
-    ['fit ramp.npy -o x.npy --thresh 3', /unknown option --thresh/],
+    ['fit ramp.npy -o x.npy --colour red', /unknown option '--colour'/],
+    ['fit ramp.npy -o x.npy --lamda 3', /unknown option '--lamda' \(Did you mean --lambda\?\)/],
+    ['ptches ramp.npy', /unknown command 'ptches' \(Did you mean patches\?\)/],
+    ['help fti', /Did you mean fit\?/],
+    ['fit ramp.npy -o x.npy --thresh 3', /unknown option '--thresh'/],
+    // The option that was given is named, and no other.
+    ['fit --stock a4 ramp.npy -o x.npy', /^developable: --stock is not for "fit"\n/],
+    ['fit --paper ramp.npy -o x.xyz', /^developable: the output must end in/],
+    ['fit ramp.npy -o --report r.json', /--output needs a value.*--report follows it/],
     ['fit ramp.npy -o x.npy --lambda huge', /--lambda.*small.*huge/],
     ['fit ramp.npy -o x.npy --lambda -3', /--lambda.*-3/],
     ['fit ramp.npy -o x.npy --gap 2', /--gap.*2/],
@@ -240,7 +243,7 @@ test('wrong usage: status 2, what is wrong, and no output', async () => {
     ['fit ramp.npy -o x.npy --spacing 0', /--spacing.*0/],
     ['fit ramp.npy -o x.npy --schedule fast', /--schedule.*default or paper.*fast/],
     ['fit ramp.npy -o x.npy --lattice cubic', /--lattice.*cubic/],
-    ['fit ramp.npy -o x.npy --no-normalize=yes', /no-normalize/],
+    ['fit ramp.npy -o x.npy --no-normalize=yes', /--no-normalize takes no value/],
     ['fit ramp.npy -o x.npy --report ./x.npy', /same file/],
     ['fit ramp.npy -o x.npy --report ./ramp.npy', /input and the report are the same file/],
     ['fit ramp.npy -o mask.npy --mask mask.npy', /mask and the output are the same file/],
@@ -340,7 +343,7 @@ for (const [signal, expected] of /** @type {const} */ ([['SIGINT', 130], ['SIGTE
     const endlessly = ['--gap', '1e-12', '--lambda', 'small', '--max-iterations', '1e9'];
     const args = ['fit', 'endless.npy', '-o', 'kept.npy', '--report', 'kept.json', ...endlessly];
     const tell = new URL('support/tell-start.mjs', import.meta.url).href;
-    const { status, stdout, stderr } = await run(folder, args, {
+    const { status, stdout, stderr } = await runProcess(folder, args, {
       program: [process.execPath, '--import', tell, command],
       channel: true,
       onStart: (child) => child.once('message', () => child.kill(signal)),
@@ -351,13 +354,90 @@ for (const [signal, expected] of /** @type {const} */ ([['SIGINT', 130], ['SIGTE
   });
 }
 
-test('a terminal sees progress and a summary', async (t) => {
-  const line = `${process.execPath} ${command} fit endless.npy -o tty.npy --max-iterations 60 --gap 1e-9`;
-  /** @type {{ status: number | null, stdout: string } | undefined} */
-  const result = await run(folder, ['-qec', line, '/dev/null'], { program: ['script'] }).catch(() => undefined);
-  if (!result) return t.skip('there is no `script` to make a terminal with');
-  assert.equal(result.status, 0);
-  assert.match(result.stdout, /\r\x1b\[Kiteration \d+, gap [\d.e-]+ %, [\d.]+ s/);
-  assert.match(result.stdout, /tty\.npy: \d+ vertices, within [\d.]+ % of the optimum/);
-  assert.match(result.stdout, /warning/);
+test('a terminal sees progress that never goes back, and what was made', async () => {
+  const args = ['fit', 'endless.npy', '-o', 'tty.npy', '--max-iterations', '60', '--gap', '1e-9', '--lambda', 'big'];
+  const { status, stderr } = await run(folder, args, { terminal: true });
+  assert.equal(status, 0);
+  const shown = [...stderr.matchAll(/\r\x1b\[Kfitting: (\d+) iterations, ([\d.]+) s/g)].map(([, ...numbers]) => numbers.map(Number));
+  assert.ok(shown.length > 2, stderr);
+  for (const k of [0, 1]) assert.deepEqual(shown.map((numbers) => numbers[k]), shown.map((numbers) => numbers[k]).sort((a, b) => a - b));
+  assert.match(stderr, /tty\.npy: \d+ vertices, within [\d.]+ % of the optimum, [\d.]+ s\n/);
+  assert.match(stderr, /warning/);
+});
+
+test('a terminal is told of each command that it went well, and with --quiet nobody is told anything but errors', async () => {
+  /** @type {[string, RegExp][]} */
+  const cases = [
+    ['design pins.npy -o done.npy', /^done\.npy: \d+ vertices/m],
+    ['occlusions ramp.npy -o done.png', /^done\.png: 0 vertices/m],
+    ['analyze ramp.npy --as-is -o done.json', /^done\.json: figures of ramp\.npy/m],
+    ['patches ramp.npy --as-is -o done.json', /^done\.json: 1 patches, 0 creases/m],
+    ['rulings rough.npy --as-is -o done.json', /^done\.json: \d+ rulings/m],
+    ['unroll ramp.npy --as-is -o done.obj', /^done\.obj: \d+ triangles laid flat, strained by/m],
+    ['pattern ramp.npy --as-is -o done.svg --unit mm', /^done\.svg: 1 sheet, together \d+ × \d+ mm/m],
+    ['dewarp ramp.npy --as-is --texture photo.png -o done.png', /^done\.png: \d+ × \d+ pixels/m],
+  ];
+  await writeFile(join(folder, 'pins.npy'), direct.writeNpy({ ...ramp, data: ramp.data.map((z, i) => (i % 7 === 0 ? z : NaN)) }));
+  await writeFile(join(folder, 'photo.png'), direct.writePng({ width: 24, height: 20, data: mask, noData: 0 }));
+  for (const [args, told] of cases) {
+    const { status, stderr } = await run(folder, args.split(' '), { terminal: true });
+    assert.equal(status, 0, stderr);
+    assert.match(stderr.replace(/.*\r\x1b\[K/g, ''), told, args);
+    assert.equal((await run(folder, [...args.split(' '), '--quiet', '--force'], { terminal: true })).stderr, '', args);
+  }
+  const refused = await run(folder, ['fit', 'gone.npy', '-o', 'done.npy', '--quiet']);
+  assert.deepEqual([refused.status, refused.stderr], [3, 'developable: cannot read gone.npy: there is no such file or folder\n']);
+});
+
+test('- is standard input and output', async () => {
+  const input = await readFile(join(folder, 'ramp.npy'));
+  const told = await run(folder, ['info', '-'], { input });
+  assert.match(told.stdout, /^size: +24 × 20 pixels$/m);
+  // What it holds says how it is taken.
+  const mesh = direct.writeObj(lattice(12, 12, plane));
+  assert.match((await run(folder, ['info', '-'], { input: mesh })).stdout, /^vertices: +144$/m);
+  await silently(run(folder, ['fit', '-', '-o', 'piped.npy'], { input }));
+  await silently(fit('ramp.npy', '-o', 'named.npy'));
+  assert.deepEqual(await readFile(join(folder, 'piped.npy')), await readFile(join(folder, 'named.npy')));
+  const written = await run(folder, ['fit', 'ramp.npy', '-o', '-', '--to', 'obj']);
+  assert.match(written.stdout, /^v -?[\d.e-]+ /m);
+  assert.equal(written.stderr, '');
+  const line = `"$0" "$1" fit - -o - --to .npy < ramp.npy > both.npy`;
+  await silently(runProcess(folder, ['-c', line, process.execPath, command], { program: ['sh'] }));
+  assert.deepEqual(await readFile(join(folder, 'both.npy')), await readFile(join(folder, 'named.npy')));
+  /** @type {[string, RegExp][]} */
+  const wrong = [
+    ['fit - -o -', /--to says what is written to standard output: \.npy/],
+    ['fit - -o - --to jpg', /output must end in .*"-\.jpg"/],
+    ['fit - -o x.npy --to npy', /--to says what is written to standard output: leave it out/],
+    ['fit - -o - --to npy --report -', /output and the report are the same file/],
+  ];
+  for (const [args, message] of wrong) {
+    const { status, stdout, stderr } = await run(folder, args.split(' '), { input });
+    assert.deepEqual([status, stdout], [2, ''], args);
+    assert.match(stderr, message);
+  }
+});
+
+test('a name that is not UTF-8 is refused in words that say so', { skip: process.platform !== 'linux' }, async () => {
+  const shell = (/** @type {string} */ line) => runProcess(folder, ['-c', line, process.execPath, command], { program: ['sh'] });
+  const read = await shell(`cp ramp.npy "$(printf 'r\\351.npy')" && exec "$0" "$1" fit "$(printf 'r\\351.npy')" -o x.npy`);
+  assert.deepEqual([read.status, /its name is not UTF-8/.test(read.stderr)], [3, true], read.stderr);
+  const written = await shell(`exec "$0" "$1" fit ramp.npy -o "$(printf 'w\\351.npy')"`);
+  assert.deepEqual([written.status, /its name is not UTF-8/.test(written.stderr)], [3, true], written.stderr);
+  assert.ok(!(await readdir(folder)).some((name) => name.startsWith('w')));
+});
+
+test('a shell completes commands and flags', async (t) => {
+  const { stdout } = await run(folder, ['completion', 'bash']);
+  const ask = async (/** @type {string[]} */ ...words) => {
+    const script = `${stdout}\nCOMP_WORDS=(${words.map((word) => `'${word}'`).join(' ')}); COMP_CWORD=${words.length - 1}; _developable; printf '%s\\n' "\${COMPREPLY[@]}"`;
+    return (await runProcess(folder, ['-c', script], { program: ['bash'] })).stdout.trim().split('\n');
+  };
+  if (await ask('developable', 'f').then(() => false, () => true)) return t.skip('there is no bash');
+  assert.deepEqual(await ask('developable', 'pa'), ['patches', 'pattern']);
+  assert.deepEqual(await ask('developable', 'fit', 'a.npy', '--lam'), ['--lambda']);
+  assert.deepEqual(await ask('developable', 'unroll', '--stock'), ['']);
+  for (const shell of ['zsh', 'fish']) assert.match((await run(folder, ['completion', shell])).stdout, /occlusion-threshold/);
+  assert.equal((await run(folder, ['completion', 'tcsh'])).status, 2);
 });

@@ -5,9 +5,7 @@ import { dirname, join, relative, resolve } from 'node:path';
 import { test } from 'node:test';
 import * as api from '../../pkg/index.js';
 import * as direct from '../../pkg/direct.js';
-import { parse } from '../../pkg/cli/arguments.js';
-import { batchOf } from '../../pkg/cli/batch.js';
-import { temporaryFolder } from './support/command.mjs';
+import { parse, temporaryFolder } from './support/command.mjs';
 import { root } from './support/paths.mjs';
 
 const skipped = new Set(['node_modules', 'target', 'site', 'test-results', '.git']);
@@ -86,7 +84,7 @@ test('commands in documents are understood', async () => {
       count += 1;
       try {
         const args = words.split(' ').map((word) => word.replace(/^'(.*)'$/, '$1'));
-        if (batchOf(args) === undefined) parse(args);
+        parse(args);
       } catch (error) {
         wrong.push(`${relative(root, path)}: ${line}: ${error instanceof Error ? error.message : error}`);
       }

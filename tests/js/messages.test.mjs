@@ -3,12 +3,11 @@ import assert from 'node:assert/strict';
 import { mkdir, writeFile } from 'node:fs/promises';
 import { join } from 'node:path';
 import { test } from 'node:test';
-import { parse } from '../../pkg/cli/arguments.js';
 import { commands } from '../../pkg/cli/commands.js';
 import { asFlags, sections } from '../../pkg/cli/flags.js';
 import { Problem } from '../../pkg/cli/problem.js';
 import * as direct from '../../pkg/direct.js';
-import { run, temporaryFolder } from './support/command.mjs';
+import { parse, run, temporaryFolder } from './support/command.mjs';
 import { cylinder, image, lattice, plane } from './support/shapes.mjs';
 
 await direct.init();

@@ -4,8 +4,9 @@ import { mkdirSync, renameSync } from 'node:fs';
 import { chmod, mkdir, readFile, readdir, readlink, rm, stat, symlink, writeFile } from 'node:fs/promises';
 import { join } from 'node:path';
 import { test } from 'node:test';
-import { checkPlaces, failed, readBytes, writeWhole } from '../../pkg/cli/files.js';
-import { command, run, temporaryFolder } from './support/command.mjs';
+import { checkPlaces, readBytes, writeWhole } from '../../pkg/cli/files.js';
+import { failed } from '../../pkg/cli/system-errors.js';
+import { command, runProcess, temporaryFolder } from './support/command.mjs';
 
 const folder = await temporaryFolder();
 const never = new AbortController().signal;
@@ -119,7 +120,7 @@ test('a limit on the size of files, a full output and a closed one are told plai
   await writeFile(at('ramp.pfm'), Buffer.concat([bytes('Pf\n4 4\n-1\n'), Buffer.from(new Float32Array(16).buffer)]));
   /** @param {string} script @param {string[]} args */
   const shell = (script, args) =>
-    run(folder, ['-c', `${script} "$@"`, 'sh', process.execPath, command, ...args], { program: ['sh'] });
+    runProcess(folder, ['-c', `${script} "$@"`, 'sh', process.execPath, command, ...args], { program: ['sh'] });
   await writeFile(at('big.npy'), 'old');
   const limited = await shell('ulimit -f 0; exec', ['fit', 'ramp.pfm', '-o', 'big.npy']);
   assert.deepEqual([limited.status, limited.stdout], [3, '']);
@@ -127,10 +128,10 @@ test('a limit on the size of files, a full output and a closed one are told plai
   assert.equal(await text('big.npy'), 'old');
   assert.deepEqual(await drafts(), []);
   // A reader that wants no more.
-  const cut = await run(folder, ['-c', `"$0" "$1" --help | :`, process.execPath, command], { program: ['sh'] });
+  const cut = await runProcess(folder, ['-c', `"$0" "$1" --help | :`, process.execPath, command], { program: ['sh'] });
   assert.deepEqual(cut, { status: 0, stdout: '', stderr: '' });
   if (!(await stat('/dev/full').catch(() => undefined))) return;
-  const full = await run(folder, ['-c', `exec "$0" "$1" --help > /dev/full`, process.execPath, command], { program: ['sh'] });
+  const full = await runProcess(folder, ['-c', `exec "$0" "$1" --help > /dev/full`, process.execPath, command], { program: ['sh'] });
   assert.deepEqual([full.status, full.stderr], [3, 'developable: cannot write to standard output: the disk is full\n']);
 });
 
@@ -141,7 +142,7 @@ for (const [signal, expected] of /** @type {const} */ ([['SIGHUP', 129], ['SIGIN
     await writeFile(at('surface.npy'), 'old');
     const pause = new URL('support/pause-at-draft.mjs', import.meta.url).href;
     let seen = -1;
-    const result = await run(folder, ['fit', 'scan.pfm', '-o', 'surface.npy', '--report', 'surface.json'], {
+    const result = await runProcess(folder, ['fit', 'scan.pfm', '-o', 'surface.npy', '--report', 'surface.json'], {
       program: [process.execPath, '--import', pause, command],
       env: { AWAITED_SIGNAL: signal },
       channel: true,

@@ -3,9 +3,8 @@ import assert from 'node:assert/strict';
 import { mkdir, readFile, symlink, writeFile } from 'node:fs/promises';
 import { join } from 'node:path';
 import { test } from 'node:test';
-import { parse } from '../../pkg/cli/arguments.js';
 import * as direct from '../../pkg/direct.js';
-import { run, temporaryFolder } from './support/command.mjs';
+import { parse, run, temporaryFolder } from './support/command.mjs';
 import { deviation, image, plane } from './support/shapes.mjs';
 
 await Promise.all([direct.init(), direct.load('files')]);

@@ -477,7 +477,7 @@ test('the command', async () => {
     [`${small} -o few.svg --assembly few.obj`, 2, /\.glb or \.svg/],
     [`${from} -o card.png`, 2, /\.svg, \.pdf, \.dxf or \.json/],
     [`${from} -o card.svg --stock 40x`, 3, /Sheet 1 takes/],
-    [`${from} -o card.pdf --stock a5`, 2, /--stock must be a4, letter, none/],
+    [`${from} -o card.pdf --stock a5`, 2, /--stock must be a4, letter, WIDTHxHEIGHT/],
     [`${from} -o card.svg --scale -2`, 2, /--scale is -2/],
     [`${from} -o card.svg --tabs none`, 2, /--tabs must be a number/],
     [`${from} -o card.pdf --scale 100 --stock a4`, 3, /pages/],

@@ -6,7 +6,7 @@ import { test } from 'node:test';
 import * as direct from '../../pkg/direct.js';
 import { DevelopableWorker, dispose, fit, read, writeNpy } from '../../pkg/index.js';
 import { asDepthOptions } from '../../pkg/depth-input.js';
-import { run, runHere, temporaryFolder } from './support/command.mjs';
+import { run, runProcess, temporaryFolder } from './support/command.mjs';
 import { pkg, root } from './support/paths.mjs';
 import { cylinder, image } from './support/shapes.mjs';
 
@@ -65,14 +65,14 @@ test('the command runs within a process, with streams of the caller', async () =
   await writeFile(join(folder, 'bent.npy'), await writeNpy(bent));
   try {
     for (const threads of ['1', '2']) {
-      const { status, stdout, stderr } = await runHere(folder, ['fit', 'bent.npy', '-o', 'flat.npy', '--threads', threads, '--report', 'r.json']);
+      const { status, stdout, stderr } = await run(folder, ['fit', 'bent.npy', '-o', 'flat.npy', '--threads', threads, '--report', 'r.json']);
       assert.deepEqual([status, stdout, stderr], [0, '', '']);
     }
-    assert.match((await runHere(folder, ['info', 'flat.npy'])).stdout, /format: +npy/);
-    const wrong = await runHere(folder, ['fit', 'none.npy', '-o', 'x.npy']);
+    assert.match((await run(folder, ['info', 'flat.npy'])).stdout, /format: +npy/);
+    const wrong = await run(folder, ['fit', 'none.npy', '-o', 'x.npy']);
     assert.equal(wrong.status, 3);
     assert.match(wrong.stderr, /^developable: cannot read none\.npy/);
-    const interrupted = await runHere(folder, ['fit', 'bent.npy', '-o', 'late.npy'], AbortSignal.abort());
+    const interrupted = await run(folder, ['fit', 'bent.npy', '-o', 'late.npy'], { signal: AbortSignal.abort() });
     assert.deepEqual([interrupted.status, interrupted.stderr], [130, '']);
   } finally {
     dispose();
@@ -83,8 +83,8 @@ test('a package that is not built cannot be packed', async () => {
   const folder = await temporaryFolder();
   await cp(join(pkg, 'package.json'), join(folder, 'package.json'));
   const prepack = [process.execPath, join(root, 'tools/prepack.mjs')];
-  const empty = await run(folder, [], { program: prepack });
+  const empty = await runProcess(folder, [], { program: prepack });
   assert.equal(empty.status, 1);
   assert.match(empty.stderr, /not complete: .*wasm\/solver_bg\.wasm.*threads\/threads\.js.*npm run build/);
-  assert.deepEqual(await run(pkg, [], { program: prepack }), { status: 0, stdout: '', stderr: '' });
+  assert.deepEqual(await runProcess(pkg, [], { program: prepack }), { status: 0, stdout: '', stderr: '' });
 });

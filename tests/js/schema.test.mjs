@@ -3,8 +3,8 @@ import assert from 'node:assert/strict';
 import { readFile } from 'node:fs/promises';
 import { test } from 'node:test';
 import { commands } from '../../pkg/cli/commands.js';
+import { helpOn } from '../../pkg/cli/command-line.js';
 import { flagName } from '../../pkg/cli/flags.js';
-import { helpOn } from '../../pkg/cli/help.js';
 import { OPTIONS } from '../../pkg/options.js';
 import { optionTypes, optionTypesFile } from '../../tools/build/option-types.mjs';
 
@@ -20,14 +20,14 @@ test('the types of options are those of the schema', async () => {
 });
 
 test('each flag of the schema is in the help of a command, with its value and what it does', () => {
-  const told = /** @type {import('../../pkg/cli/commands.js').Command[]} */ (Object.keys(commands)).map(helpOn).join('').replace(/\s+/g, ' ');
+  const told = /** @type {import('../../pkg/cli/commands.js').CommandName[]} */ (Object.keys(commands)).map(helpOn).join('').replace(/\s+/g, ' ');
   let count = 0;
   for (const options of /** @type {Options[]} */ (Object.values(OPTIONS))) {
     for (const [name, option] of Object.entries(options)) {
       const { flag } = option;
       if (flag === undefined) continue;
       count += 1;
-      const spelled = `--${flagName(name, option)}${flag.value === undefined ? '' : ` ${flag.value}`}`;
+      const spelled = `--${flagName(name, option)}${flag.value === undefined ? '' : ` <${flag.value}>`}`;
       assert.ok(told.includes(spelled), spelled);
       // A command may have words of its own for it.
       assert.ok(told.includes(flag.help) || name === 'threshold', flag.help);

@@ -4,7 +4,7 @@ import { readdir, writeFile } from 'node:fs/promises';
 import { join } from 'node:path';
 import { test } from 'node:test';
 import { MAX_VERTICES_UNASKED, confirmSize } from '../../pkg/cli/size.js';
-import { command, run, temporaryFolder } from './support/command.mjs';
+import { command, runProcess, temporaryFolder } from './support/command.mjs';
 
 const { signal } = new AbortController();
 
@@ -71,7 +71,7 @@ test('a terminal is asked before the fit, and sees what is done', async (t) => {
   /** @param {string} typed @param {string} args */
   const typing = (typed, args) => {
     const line = `${process.execPath} ${command} fit two.obj -o ${args}`;
-    return run(folder, ['-c', `printf '${typed}' | script -qec '${line}' /dev/null`], { program: ['sh'] }).catch(() => undefined);
+    return runProcess(folder, ['-c', `printf '${typed}' | script -qec '${line}' /dev/null`], { program: ['sh'] }).catch(() => undefined);
   };
   const refused = await typing('n\\n', 'large.obj --resolution 1600');
   if (!refused || /script: not found/.test(refused.stderr)) return t.skip('there is no `script` to make a terminal with');

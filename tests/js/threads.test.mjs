@@ -6,7 +6,7 @@ import { test } from 'node:test';
 import { pathToFileURL } from 'node:url';
 import * as direct from '../../pkg/direct.js';
 import { DevelopableWorker } from '../../pkg/index.js';
-import { run, temporaryFolder } from './support/command.mjs';
+import { runProcess, temporaryFolder } from './support/command.mjs';
 import { pkg } from './support/paths.mjs';
 import { cylinder, image, noisy } from './support/shapes.mjs';
 
@@ -102,7 +102,7 @@ for (const [what, seat] of Object.entries(FATAL_STACKS)) test(`a helper whose st
     }
     helper.terminate();
   `;
-  const { stdout, stderr } = await run(folder, ['--input-type=module', '-e', script], { program: [process.execPath] });
+  const { stdout, stderr } = await runProcess(folder, ['--input-type=module', '-e', script], { program: [process.execPath] });
   assert.match(stdout, /^TRAP [^]*a helper of the team has crashed/, stderr);
 });
 
@@ -122,7 +122,7 @@ async function fitElsewhere({ packageFolder = pkg, first = '', init = '{ threads
     const { report } = await fit({ width: 150, height: 150, data }, { lambda: 1e6 });
     console.log(report.threads, report.threadLimit);
   `;
-  const { status, stdout, stderr } = await run(folder, ['--input-type=module', '-e', script], { program: [process.execPath] });
+  const { status, stdout, stderr } = await runProcess(folder, ['--input-type=module', '-e', script], { program: [process.execPath] });
   assert.equal(status, 0, stderr);
   return stdout.trim();
 }
@@ -161,11 +161,11 @@ test('the command takes a number of threads', async () => {
   await direct.load('files');
   await writeFile(join(folder, 'in.npy'), direct.writeNpy({ width: 150, height: 150, data: Float64Array.from(values) }));
   const args = ['fit', 'in.npy', '-o', 'out.npy', '--lambda', '1e6', '--report', 'report.json', '--threads'];
-  const { status, stderr } = await run(folder, [...args, '2']);
+  const { status, stderr } = await runProcess(folder, [...args, '2']);
   assert.equal(status, 0, stderr);
   const report = JSON.parse(await readFile(join(folder, 'report.json'), 'utf8'));
   assert.deepEqual([report.threads, report.threadLimit], [2, 'options']);
-  const refused = await run(folder, [...args, '0']);
+  const refused = await runProcess(folder, [...args, '0']);
   assert.equal(refused.status, 2);
   assert.match(refused.stderr, /--threads .*from 1 to 64/);
 });

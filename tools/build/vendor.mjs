@@ -1,6 +1,6 @@
 /**
- * Libraries that come along, with their licences, for the package has no dependencies: comlink with its types, and tinyglobby
- * for the command, as one file; and for the page what it needs of three.js.
+ * Libraries that come along, with their licences, for the package has no dependencies: comlink with its types; commander and
+ * tinyglobby for the command, as one file each; and for the page what it needs of three.js.
  */
 import { copyFile, mkdir, readFile, writeFile } from 'node:fs/promises';
 import { join } from 'node:path';
@@ -16,7 +16,8 @@ export function globSync(pattern: string, options?: { expandDirectories?: boolea
 
 export async function buildVendor() {
   await copyComlink();
-  await bundleGlob();
+  await bundle('tinyglobby', 'dist/index.mjs', GLOB_TYPES, ['fdir', 'picomatch']);
+  await bundle('commander', 'esm.mjs', await readFile(join(root, 'node_modules/commander/typings/index.d.ts'), 'utf8'));
   await bundleThree();
 }
 
@@ -36,13 +37,20 @@ async function copyComlink() {
   await copyFile(join(from, 'LICENSE'), join(pkgVendor, 'LICENSE-comlink'));
 }
 
-async function bundleGlob() {
+/**
+ * A library as one file, with its types and licences.
+ * @param {string} name
+ * @param {string} entry its module
+ * @param {string} types
+ * @param {string[]} [parts] other libraries that it holds
+ */
+async function bundle(name, entry, types, parts = []) {
   const { rolldown } = await import('rolldown');
-  const bundle = await rolldown({ input: join(root, 'node_modules/tinyglobby/dist/index.mjs'), platform: 'node' });
-  await bundle.write({ file: join(pkgVendor, 'tinyglobby.mjs'), format: 'esm', minify: true });
-  await writeFile(join(pkgVendor, 'tinyglobby.d.mts'), GLOB_TYPES);
-  for (const name of ['tinyglobby', 'fdir', 'picomatch']) {
-    await copyFile(join(root, 'node_modules', name, 'LICENSE'), join(pkgVendor, `LICENSE-${name}`));
+  const built = await rolldown({ input: join(root, 'node_modules', name, entry), platform: 'node' });
+  await built.write({ file: join(pkgVendor, `${name}.mjs`), format: 'esm', minify: true });
+  await writeFile(join(pkgVendor, `${name}.d.mts`), types);
+  for (const part of [name, ...parts]) {
+    await copyFile(join(root, 'node_modules', part, 'LICENSE'), join(pkgVendor, `LICENSE-${part}`));
   }
 }
 

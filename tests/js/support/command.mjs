@@ -6,10 +6,25 @@ import { join } from 'node:path';
 import { PassThrough } from 'node:stream';
 import { text } from 'node:stream/consumers';
 import { after } from 'node:test';
+import { batchOf } from '../../../pkg/cli/batch.js';
+import { split } from '../../../pkg/cli/command-line.js';
 import { main } from '../../../pkg/cli/main.js';
+import { filesOf } from '../../../pkg/cli/patterns.js';
+import { taskOf } from '../../../pkg/cli/task.js';
 import { pkg } from './paths.mjs';
 
 export const command = join(pkg, 'bin/developable.js');
+
+/**
+ * What a command line asks for: a batch, a task, or a text that is printed.
+ * @param {string[]} args
+ */
+export function parse(args) {
+  const line = split(args);
+  if ('printed' in line) return line;
+  const inputs = line.inputs.flatMap(filesOf);
+  return batchOf({ ...line, inputs }) ?? taskOf(line.command, inputs, line.values);
+}
 
 /** A folder that goes away with the tests of the file. */
 export async function temporaryFolder() {
@@ -19,6 +34,7 @@ export async function temporaryFolder() {
 }
 
 /**
+ * A process of its own.
  * @param {string} folder
  * @param {string[]} args
  * @param {object} [options]
@@ -28,7 +44,7 @@ export async function temporaryFolder() {
  * @param {boolean} [options.channel] whether the child can send messages
  * @returns {Promise<{ status: number | null, stdout: string, stderr: string }>}
  */
-export function run(folder, args, { onStart, program = [process.execPath, command], env, channel = false } = {}) {
+export function runProcess(folder, args, { onStart, program = [process.execPath, command], env, channel = false } = {}) {
   return new Promise((resolve, reject) => {
     const [file, ...first] = program;
     /** @type {import('node:child_process').StdioOptions} */
@@ -43,20 +59,33 @@ export function run(folder, args, { onStart, program = [process.execPath, comman
   });
 }
 
+/** The command that runs within this process, whose folder it works in. @type {Promise<unknown>} */
+let running = Promise.resolve();
+
 /**
- * The command within this process, whose folder it works in: one at a time, and without the start of a process.
+ * The command within this process: one at a time, and without the start of a process.
  * @param {string} folder
  * @param {string[]} args
- * @param {AbortSignal} [signal] interrupts it
+ * @param {object} [options]
+ * @param {AbortSignal} [options.signal] interrupts it
+ * @param {Uint8Array} [options.input] what is on standard input
+ * @param {boolean} [options.terminal] whether somebody reads standard error on a terminal
  * @returns {Promise<{ status: number, stdout: string, stderr: string }>}
  */
-export async function runHere(folder, args, signal) {
-  const [stdin, stdout, stderr] = [new PassThrough(), new PassThrough(), new PassThrough()];
+export function run(folder, args, options = {}) {
+  const result = running.then(() => runHere(folder, args, options));
+  running = result.catch(() => {});
+  return result;
+}
+
+/** @type {(...of: Required<Parameters<typeof run>>) => ReturnType<typeof run>} */
+async function runHere(folder, args, { signal, input, terminal = false }) {
+  const [stdin, stdout, stderr] = [new PassThrough(), new PassThrough(), Object.assign(new PassThrough(), { isTTY: terminal })];
   const said = Promise.all([text(stdout), text(stderr)]);
   const before = process.cwd();
   process.chdir(folder);
   try {
-    stdin.end();
+    stdin.end(input);
     const status = await main(args, { stdin, stdout, stderr, signal });
     stdout.end();
     stderr.end();

@@ -12,8 +12,9 @@ import { OpenSolver } from './open.js';
 import { optionsOf } from './options.js';
 import { makeDisposable } from './platform.js';
 import { extentOf } from './sheet-input.js';
+import { readOptions, signal as signalKind } from './schema/kinds.js';
 import { orAborted, solve } from './solve.js';
-import { reading } from './values.js';
+import { isRecord, reading } from './values.js';
 import { compile, locate } from './wasm-source.js';
 
 /**
@@ -38,6 +39,10 @@ export class DevelopableWorker {
   #connection;
   /** @type {Promise<import('./connection.js').Source[]> | undefined} */
   #wasm;
+  /** The second worker, while no call runs in it. @type {Connection | undefined} */
+  #idle;
+  /** Workers of calls that can be aborted. @type {Set<Connection>} */
+  #abortables = new Set();
   #disposed = false;
 
   /** @param {WorkerOptions} [options] */
@@ -159,7 +164,8 @@ export class DevelopableWorker {
 
   dispose() {
     this.#disposed = true;
-    this.#connection?.close(new DevelopableError('DISPOSED', 'this worker has been disposed'));
+    const error = new DevelopableError('DISPOSED', 'this worker has been disposed');
+    for (const connection of [this.#connection, this.#idle, ...this.#abortables]) connection?.close(error);
   }
 
   static {
@@ -167,8 +173,12 @@ export class DevelopableWorker {
       /** @this {DevelopableWorker} @param {any[]} given */
       const method = async function (...given) {
         const caller = new Error();
-        const sent = await /** @type {import('./calls.js').Call['send']} */ (send)(...given);
-        return this.#request((remote) => remote.answer(/** @type {keyof typeof CALLS} */ (name), ...sent), caller);
+        const { signal, others } = withoutSignal(given);
+        signal?.throwIfAborted();
+        const sent = await /** @type {import('./calls.js').Call['send']} */ (send)(...others);
+        /** @param {Remote} remote */
+        const ask = (remote) => remote.answer(/** @type {keyof typeof CALLS} */ (name), ...sent);
+        return signal ? this.#abortable(ask, signal, caller) : this.#request(ask, caller);
       };
       Object.defineProperty(method, 'name', { value: name });
       Object.defineProperty(this.prototype, name, { value: method, configurable: true, writable: true });
@@ -185,20 +195,68 @@ export class DevelopableWorker {
     return this.#connect().request(run, caller);
   }
 
+  /**
+   * Has a second worker answer, which an abort ends: what runs in wasm cannot be stopped otherwise, and other calls go on.
+   * @template T
+   * @param {(remote: Remote) => Promise<T>} run
+   * @param {AbortSignal} signal
+   * @param {Error} caller
+   * @returns {Promise<T>}
+   */
+  async #abortable(run, signal, caller) {
+    const connection = this.#takeIdle() ?? this.#newConnection();
+    this.#abortables.add(connection);
+    const stop = () => connection.close(new DevelopableError('DISPOSED', 'the call was aborted'));
+    signal.addEventListener('abort', stop, { once: true });
+    if (signal.aborted) stop();
+    try {
+      return await connection.request(run, caller);
+    } catch (error) {
+      signal.throwIfAborted();
+      throw error;
+    } finally {
+      signal.removeEventListener('abort', stop);
+      this.#abortables.delete(connection);
+      // One is kept for the next such call.
+      this.#takeIdle()?.close(new DevelopableError('DISPOSED', 'one idle worker is enough'));
+      this.#idle = connection;
+    }
+  }
+
+  #takeIdle() {
+    const idle = this.#idle;
+    this.#idle = undefined;
+    return idle?.open ? idle : undefined;
+  }
+
   /** The worker that runs, or else a new one. */
   #connect() {
-    if (this.#disposed) throw new DevelopableError('DISPOSED', 'this worker has been disposed');
-    if (!this.#connection?.open) {
-      const { threads, wasm, filesWasm, imagesWasm, meshesWasm, fitmeshWasm, unrollWasm, patternsWasm } = this.#options;
-      const sources = [wasm, filesWasm, imagesWasm, meshesWasm, fitmeshWasm, unrollWasm, patternsWasm];
-      this.#wasm ??= Promise.all(sources.map(portable));
-      this.#wasm.catch(() => (this.#wasm = undefined));
-      this.#connection = new Connection(this.#options.workerUrl, this.#wasm, threads);
-    }
+    if (this.#disposed || !this.#connection?.open) this.#connection = this.#newConnection();
     return this.#connection;
+  }
+
+  #newConnection() {
+    if (this.#disposed) throw new DevelopableError('DISPOSED', 'this worker has been disposed');
+    const { threads, wasm, filesWasm, imagesWasm, meshesWasm, fitmeshWasm, unrollWasm, patternsWasm } = this.#options;
+    const sources = [wasm, filesWasm, imagesWasm, meshesWasm, fitmeshWasm, unrollWasm, patternsWasm];
+    this.#wasm ??= Promise.all(sources.map(portable));
+    this.#wasm.catch(() => (this.#wasm = undefined));
+    return new Connection(this.#options.workerUrl, this.#wasm, threads);
   }
 }
 makeDisposable(DevelopableWorker);
+
+/**
+ * Takes the signal out of the options, which are the last argument.
+ * @param {any[]} given
+ * @returns {{ signal?: AbortSignal, others: any[] }}
+ */
+function withoutSignal(given) {
+  const last = given.at(-1);
+  if (!isRecord(last) || !Object.hasOwn(last, 'signal')) return { others: given };
+  const { signal, ...options } = reading('OPTION', 'the options', () => ({ .../** @type {{ signal?: unknown }} */ (last) }));
+  return { ...readOptions({ signal: { kind: signalKind } }, { signal }), others: [...given.slice(0, -1), options] };
+}
 
 /**
  * What a worker can be told about where the wasm is, again and again.

@@ -69,6 +69,11 @@ export interface HandOver {
   transfer?: boolean;
 }
 
+export interface Abortable {
+  /** Stops the work itself: a call with a signal runs in a second worker, which an abort ends. The call rejects with the signal's reason. */
+  signal?: AbortSignal;
+}
+
 export interface FitMeshOptions extends MeshSolverOptions {
   /** Stops the work itself, not only the waiting. */
   signal?: AbortSignal;
@@ -187,17 +192,17 @@ export function rulings(input: HeightImage | Heightfield, options?: RulingOption
  */
 export function fitCylinder(input: Heightfield): Promise<FittedCylinder>;
 /** Lays a surface flat, as rigidly as it goes. */
-export function unroll(input: HeightImage | Heightfield, options?: UnrollOptions): Promise<Unrolling>;
+export function unroll(input: HeightImage | Heightfield, options?: UnrollOptions & Abortable): Promise<Unrolling>;
 /** Cuts a surface along its creases into sheets that lie flat, and draws them in millimetres. */
-export function pattern(input: HeightImage | Heightfield, options?: PatternOptions): Promise<Drawing>;
+export function pattern(input: HeightImage | Heightfield, options?: PatternOptions & Abortable): Promise<Drawing>;
 /** How developable a mesh is, as it is: curvatures and rulings at its vertices, and what they come to. */
 export function analyzeMesh(mesh: Mesh, options?: MeshAnalyzeOptions): Promise<MeshAnalysis>;
 /** The rulings of a mesh, as it is: along what its surface does not bend, and straight lines along that. */
 export function meshRulings(mesh: Mesh, options?: MeshRulingOptions): Promise<MeshRulings>;
 /** Lays a mesh flat, as it is: in sheets, cut along its creases and where it does not lie flat otherwise. */
-export function unrollMesh(mesh: Mesh, options?: MeshUnrollOptions): Promise<MeshUnrolling>;
+export function unrollMesh(mesh: Mesh, options?: MeshUnrollOptions & Abortable): Promise<MeshUnrolling>;
 /** The same drawn in millimetres, as `pattern` does for heights. */
-export function patternMesh(mesh: Mesh, options?: MeshPatternOptions): Promise<Drawing>;
+export function patternMesh(mesh: Mesh, options?: MeshPatternOptions & Abortable): Promise<Drawing>;
 /**
  * Whether the faces of a mesh are exact (CAD, low-poly models), so that nothing is gained by a fit. `patternMesh` moves such faces into
  * the plane as they are.
@@ -218,24 +223,24 @@ export function writeSvg(drawing: Drawing): Promise<Uint8Array<ArrayBuffer>>;
 export function writePdf(drawing: Drawing, options?: WritePdfOptions): Promise<Uint8Array<ArrayBuffer>>;
 export function writeDxf(drawing: Drawing): Promise<Uint8Array<ArrayBuffer>>;
 /** Makes a photo of a surface flat. */
-export function dewarp(input: HeightImage | Heightfield, photo: Photo, options?: DewarpOptions & HandOver): Promise<Dewarped>;
+export function dewarp(input: HeightImage | Heightfield, photo: Photo, options?: DewarpOptions & HandOver & Abortable): Promise<Dewarped>;
 /**
  * Makes a photo of a page flat that is curled, folded or crumpled, or of the two pages of a spread, without depth: by the page's
  * corners, or by its edges, two of which are bent or all four. Without them, by those of the one page that is found in the photo.
  */
-export function dewarpPage(photo: (Photo & { film35?: number }) | PhotoSource | Drawable, options?: DewarpPageOptions & HandOver): Promise<DewarpedPage>;
+export function dewarpPage(photo: (Photo & { film35?: number }) | PhotoSource | Drawable, options?: DewarpPageOptions & HandOver & Abortable): Promise<DewarpedPage>;
 export function dewarpPage(
-  photo: (Photo & { film35?: number }) | PhotoSource | Drawable, edges?: PageEdges | readonly PageEdges[] | PageCorners | null, options?: DewarpPageOptions & HandOver,
+  photo: (Photo & { film35?: number }) | PhotoSource | Drawable, edges?: PageEdges | readonly PageEdges[] | PageCorners | null, options?: DewarpPageOptions & HandOver & Abortable,
 ): Promise<DewarpedPage>;
 /**
  * Makes a photo of any resolution flat by a page that `dewarpPage` has found in the same picture: the whole photo for a file,
  * after a reduced one for a preview. Costs little more than resampling, and differs from the preview in resolution alone.
  */
-export function flattenPhoto(photo: Photo | PhotoSource | Drawable, page: FoundPage, options?: FlattenPhotoOptions & HandOver): Promise<FlatPage>;
+export function flattenPhoto(photo: Photo | PhotoSource | Drawable, page: FoundPage, options?: FlattenPhotoOptions & HandOver & Abortable): Promise<FlatPage>;
 /** The verdict on a flat page in a sentence, from its `report`: whether it can be trusted, why not, and how large its error is. */
 export function describePage(report: PageReport): string;
 /** Finds the page in a photo: its corners and edges, which can be corrected and given to `dewarpPage`. */
-export function findPage(photo: Photo | PhotoSource | Drawable): Promise<PageOutlines>;
+export function findPage(photo: Photo | PhotoSource | Drawable, options?: Abortable): Promise<PageOutlines>;
 /**
  * Reads a photo upright, with the focal length that its Exif data state. One of more than 26 megapixels is halved until it has
  * fewer, which `assumptions` says (code `reducedPhoto`).

@@ -51,6 +51,25 @@ test('errors arrive with their code, as errors of the package', async () => {
   await assert.rejects(developable.example(/** @type {any} */ ('torus')), error('OPTION', /torus/));
 });
 
+test('any call can be aborted: its work ends, and calls beside it go on', async () => {
+  const worker = new DevelopableWorker();
+  after(() => worker.dispose());
+  const { input } = await worker.example('roof', { size: 400 });
+  const beside = worker.unroll(image(40, 40, plane));
+  const controller = new AbortController();
+  const reason = new Error('enough');
+  // It would take minutes.
+  const laid = worker.unroll(input, { maxIterations: 1e6, tolerance: 1e-300, signal: controller.signal });
+  setTimeout(() => controller.abort(reason), 300);
+  await assert.rejects(laid, (error) => error === reason);
+  await beside;
+  await rest(); // no thread goes on with it
+  await assert.rejects(worker.unroll(input, { signal: AbortSignal.abort(reason) }), (error) => error === reason);
+  const unharmed = await worker.unroll(image(40, 40, plane), { signal: new AbortController().signal });
+  assert.deepEqual(unharmed.places, (await beside).places);
+  await assert.rejects(worker.unroll(input, { signal: /** @type {any} */ ('now') }), { code: 'OPTION', message: /signal/ });
+});
+
 test('an abort rejects at once and stops the work', async () => {
   const { input, options } = endless();
   const controller = new AbortController();

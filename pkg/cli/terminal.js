@@ -113,23 +113,17 @@ export async function during(text, work) {
   }
 }
 
-/**
- * How a solve goes on, in one line whose numbers only grow: gaps are of one lattice or pass each, and iterations are counted
- * anew for each.
- */
+/** How a solve goes on, in one line whose numbers only grow: a gap is about one lattice and one pass, and jumps at the next. */
 export function progressLine() {
   const line = statusLine();
   const start = performance.now();
-  let [iterations, before] = [0, 0];
   return {
     ...line,
     /** Before there is any progress, which may take long where there are many vertices. */
     begin: () => line.shown && line.show('setting up...'),
     /** @param {import('../types.js').Progress} progress */
     show({ iteration }) {
-      iterations += iteration < before ? iteration : iteration - before;
-      before = iteration;
-      line.show(`fitting: ${iterations} iterations, ${((performance.now() - start) / 1000).toFixed(1)} s`);
+      line.show(`fitting: ${iteration} iterations, ${((performance.now() - start) / 1000).toFixed(1)} s`);
     },
   };
 }

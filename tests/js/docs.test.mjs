@@ -21,7 +21,8 @@ async function documents(folder) {
   return found.flat();
 }
 
-const paths = await documents(root);
+// What is there while the package is packed is a copy.
+const paths = (await documents(root)).filter((path) => !path.startsWith(join(root, 'pkg/docs')));
 const texts = new Map(await Promise.all(paths.map(async (path) => /** @type {const} */ ([path, await readFile(path, 'utf8')]))));
 
 /** @param {string} text */

@@ -2,7 +2,7 @@
 import assert from 'node:assert/strict';
 import { execFile } from 'node:child_process';
 import { cp, mkdir, readdir, readFile, writeFile } from 'node:fs/promises';
-import { join } from 'node:path';
+import { join, posix } from 'node:path';
 import { dirname, join as joinPaths, normalize } from 'node:path/posix';
 import { after, before, test } from 'node:test';
 import { promisify } from 'node:util';
@@ -55,6 +55,22 @@ test('the package holds whatever its package.json names', async () => {
   const empty = files.filter((/** @type {string} */ pattern) => !paths().some((path) => matches(path, pattern)));
   assert.deepEqual(empty, []);
   for (const path of ['README.md', 'LICENSE-MIT', 'LICENSE-APACHE', 'vendor/LICENSE-comlink']) assert.ok(held.has(path), path);
+});
+
+test('links of the README and the guides lead to files of the package', async () => {
+  const held = new Set(paths());
+  const broken = [];
+  let count = 0;
+  for (const path of paths().filter((one) => one.endsWith('.md'))) {
+    const text = await readFile(join(app, 'node_modules/developable', path), 'utf8');
+    for (const [, target] of text.replace(/^```[^]*?^```/gm, '').matchAll(/\]\(([^()\s#]+)[^()\s]*\)/g)) {
+      if (/^[a-z]+:/.test(target)) continue;
+      count += 1;
+      if (!held.has(posix.join(posix.dirname(path), target))) broken.push(`${path}: ${target}`);
+    }
+  }
+  assert.ok(count > 10, `${count} links`);
+  assert.deepEqual(broken, []);
 });
 
 test('each wasm file has its JavaScript, the types of both, and a copy', () => {

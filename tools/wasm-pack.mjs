@@ -22,6 +22,7 @@ await main(async () => {
 
   await check('wasm-pack', ['build', 'wasm/solver', '--out-dir', '../../target/wasm-pack'], path);
   await check('wasm-pack', ['test', '--node'], tests);
+  await check('wasm-pack', ['test', '--node', 'examples/apps/wasm-pack'], tests);
   if (!browser.chrome || !browser.driver) {
     throw new Problem('No browser with a driver was found for wasm-pack test --headless --chrome: install Chromium and chromedriver.');
   }

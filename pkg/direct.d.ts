@@ -153,7 +153,7 @@ export function backProject(image: HeightImage, camera: Intrinsics, options?: De
  * colours stay as they are. Takes `load('files')`, for JPEG and WebP `load('images')`, by a camera `load('meshes')`.
  */
 export function paint<F extends Heightfield>(input: F, picture: Picture, options?: PaintOptions): Painted<F>;
-/** How developable a surface is: curvatures at its vertices, and what they come to. */
+/** How developable a surface is: curvatures at its vertices, and a summary of them. */
 export function analyze(input: HeightImage | Heightfield, options?: AnalyzeOptions): Analysis;
 /** The smooth patches of a surface, and the creases between them. */
 export function patches(input: HeightImage | Heightfield, options?: PatchOptions): PatchMap;
@@ -175,7 +175,7 @@ export function unroll(input: HeightImage | Heightfield, options?: UnrollOptions
  * draws them beside each other in millimetres.
  */
 export function pattern(input: HeightImage | Heightfield, options?: PatternOptions): Drawing;
-/** How developable a mesh is, as it is: curvatures and rulings at its vertices, and what they come to. */
+/** How developable a mesh is, as it is: curvatures and rulings at its vertices, and a summary of them. */
 export function analyzeMesh(mesh: Mesh, options?: MeshAnalyzeOptions): MeshAnalysis;
 /** The rulings of a mesh, as it is: along what its surface does not bend, and straight lines along that. */
 export function meshRulings(mesh: Mesh, options?: MeshRulingOptions): MeshRulings;

@@ -176,7 +176,7 @@ export function sampleMesh(mesh: Mesh, options?: SampleMeshOptions): Promise<Sam
 export function backProject(image: HeightImage, camera: Intrinsics, options?: DepthOptions): Promise<Mesh>;
 /** Gives a surface the colours of a picture of it. */
 export function paint<F extends Heightfield>(input: F, picture: Picture | Blob, options?: PaintOptions): Promise<Painted<F>>;
-/** How developable a surface is: curvatures at its vertices, and what they come to. */
+/** How developable a surface is: curvatures at its vertices, and a summary of them. */
 export function analyze(input: HeightImage | Heightfield, options?: AnalyzeOptions): Promise<Analysis>;
 /** The smooth patches of a surface, and the creases between them. */
 export function patches(input: HeightImage | Heightfield, options?: PatchOptions): Promise<PatchMap>;
@@ -195,7 +195,7 @@ export function fitCylinder(input: Heightfield): Promise<FittedCylinder>;
 export function unroll(input: HeightImage | Heightfield, options?: UnrollOptions & Abortable): Promise<Unrolling>;
 /** Cuts a surface along its creases into sheets that lie flat, and draws them in millimetres. */
 export function pattern(input: HeightImage | Heightfield, options?: PatternOptions & Abortable): Promise<Drawing>;
-/** How developable a mesh is, as it is: curvatures and rulings at its vertices, and what they come to. */
+/** How developable a mesh is, as it is: curvatures and rulings at its vertices, and a summary of them. */
 export function analyzeMesh(mesh: Mesh, options?: MeshAnalyzeOptions): Promise<MeshAnalysis>;
 /** The rulings of a mesh, as it is: along what its surface does not bend, and straight lines along that. */
 export function meshRulings(mesh: Mesh, options?: MeshRulingOptions): Promise<MeshRulings>;

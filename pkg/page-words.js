@@ -42,7 +42,7 @@ export function describePage(given) {
   const { verdict, model, error, pinholeErrorBound, disagreement, residual, lines, linesFound } = report;
   const isSheet = model === 'sheet' || model === 'softSheet';
   const text = lines + linesFound > 0 ? ' and lines of text' : '';
-  const likely = `${percent(error)} of its width (at most ${percent(pinholeErrorBound)} in 95 of 100 cases, if the lens does not distort)`;
+  const likely = `expected error ${percent(error)} of its width (95 %: below ${percent(pinholeErrorBound)}, for an undistorted lens)`;
   // Where both edges agree on the whole, single points are off.
   const off = disagreement < MIN_TOLD_DISAGREEMENT ? `by ${residual.toFixed(1)} pixels` : `by ${percent(disagreement)} of its width`;
   switch (verdict) {
@@ -51,14 +51,14 @@ export function describePage(given) {
       return 'both edges are straight: only the perspective was taken out; folds that run along them do not show in them';
     case 'unchecked':
       return "nothing checks the page's bend, for too few points were traced, or one edge looks straight " +
-        `however the page is bent; if it is curled one way, its places are wrong by ${likely}`;
+        `however the page is bent; if it is curled one way: ${likely}`;
     case 'doubtful':
-      return `the flat page is doubtful: ${doubtWords(report, `its edges${text} disagree (${off})`)}its places are wrong by ${likely}`;
+      return `the flat page is doubtful: ${doubtWords(report, `its edges${text} disagree (${off})`)}${likely}`;
     case 'notThisKind':
       if (isSheet) return `no sheet of paper has these edges (off ${off}): correct them`;
       return `this is no page that is curled one way: its edges${text} disagree (${off}); ` +
         'it is folded or crumpled, for which depth is needed, or an edge is traced wrongly';
     default:
-      return `the page is flat; its places are wrong by ${likely}`;
+      return `the page is flat; ${likely}`;
   }
 }

@@ -416,7 +416,7 @@ export interface LambdaChoice {
    */
   correlationLength: number;
   /**
-   * Whether the noise is alike over distances at which the shape bends, too, so that they could not be told apart:
+   * Whether the noise is correlated over distances at which the shape bends, so that noise and shape could not be told apart:
    * sigma and lambda are uncertain.
    */
   ambiguous: boolean;

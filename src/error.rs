@@ -115,7 +115,7 @@ pub enum Error {
     },
 
     /// Edges traced in a photo cannot be the edges of one page.
-    #[error("these edges are no page's: {reason}")]
+    #[error("these edges do not outline a page: {reason}")]
     Edges {
         /// What is wrong with the edges, and what to do about it.
         reason: String,
@@ -135,8 +135,8 @@ pub enum Error {
 
     /// No page can be told from the background in a photo.
     #[error(
-        "I did not find the page in the photo; trace its edges, or take the photo anew, with the \
-         whole page on a ground of another colour"
+        "no page was found in the photo; trace its edges, or take the photo again with the whole page \
+         on a contrasting background"
     )]
     NoPage,
 

@@ -36,9 +36,9 @@ const shaped = [...fitted, 'as-is'];
 const SURFACES = ['.npy', '.png', '.tif', '.tiff', '.exr', '.obj', '.ply', '.stl', '.glb'];
 
 const INPUT =
-  'heights: TIFF, EXR, PFM, NPY or NPZ, or a grey picture (PNG, JPEG, WebP); or a mesh or point cloud, of which what is ' +
-  'seen from one side is taken: .obj, .ply, .stl, .glb, .gltf. Materials, textures and buffers that it names are read ' +
-  'from its folder or below; what is not there is warned of. - is standard input';
+  'heights: TIFF, EXR, PFM, NPY or NPZ, or a grey picture (PNG, JPEG, WebP); or a mesh or point cloud, seen ' +
+  'from one side: .obj, .ply, .stl, .glb, .gltf. Materials, textures and buffers that it names are read from its folder ' +
+  'or below; a warning names missing ones. - is standard input';
 
 const OUTPUT =
   ".npy, .png, .tif or .exr (heights at the input's pixels) or .obj, .ply, .stl or .glb (a mesh). Of a mesh, the latter " +
@@ -75,8 +75,8 @@ export const commands = {
   },
   occlusions: {
     usage: 'INPUT -o MASK [options]',
-    summary: 'look for places where a surface is torn',
-    about: 'Looks for places where a surface is torn, and prints how many vertices it has found.',
+    summary: 'find tears in a surface',
+    about: 'Finds tears in a surface, and prints the number of vertices beside them.',
     input: INPUT,
     writes: ['.png', '.npy'],
     flags: [...output, 'threshold', 'no-normalize', ...heights, ...mesh, ...general],
@@ -88,7 +88,7 @@ export const commands = {
   },
   analyze: {
     usage: 'INPUT [-o FIGURES] [options]',
-    summary: 'tell how developable it is',
+    summary: 'report how developable the surface is',
     about: 'Tells how developable the input is, and the surface fitted to it.',
     input: INPUT,
     writes: ['.json'],

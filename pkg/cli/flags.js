@@ -138,8 +138,8 @@ export const sections = {
       ...flagsFor(threading, 'output'),
       overwrite: { help: 'of several inputs, do those again, too, whose outputs are there and not older than they are' },
       force: {
-        help: 'let a file that is written replace one that is read, such as INPUT; and fit more than 2,000,000 vertices that --resolution ' +
-          'or --spacing makes without a question (in a terminal) or a warning',
+        help: 'let an output replace a file that is read, such as INPUT; and let --resolution or --spacing make more than 2,000,000 ' +
+          'vertices without a question (in a terminal) or a warning',
       },
     },
   },
@@ -190,7 +190,7 @@ export const sections = {
     title: 'How to look at a mesh',
     flags: {
       surface: {
-        help: 'do not look at it along a view: fit the whole mesh as it is, closed, overhanging or open. Of "fit" OUTPUT is the ' +
+        help: 'the mesh is not projected along a view, but fitted whole as it is, closed, overhanging or open. Of "fit" OUTPUT is the ' +
           'same mesh (.obj, .ply, .stl or .glb), its vertices moved; lambda is auto unless it is given, and radii are shares ' +
           'of the diameter of a ball about it',
       },

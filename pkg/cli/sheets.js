@@ -214,10 +214,10 @@ function reportFit({ summary: { mismatch, worstJoint, worstAngle } }) {
   const words = [];
   if (worstJoint !== undefined) {
     const [a, b] = worstJoint.lengths.map((long) => long.toFixed(2));
-    words.push(`both sides of each joint are equally long to ${percent(mismatch, 2)} (${a} and ${b} mm)`);
+    words.push(`the two sides of a joint differ in length by at most ${percent(mismatch, 2)} (${a} and ${b} mm)`);
   }
   if (worstAngle !== undefined) {
-    words.push(`angles of the pieces around each point come to that of the surface to ${Math.abs(worstAngle.flat - worstAngle.surface).toFixed(1)}°`);
+    words.push(`the angles of the pieces around a point differ from those on the surface by at most ${Math.abs(worstAngle.flat - worstAngle.surface).toFixed(1)}°`);
   }
   if (words.length > 0) toStderr(`developable: ${words.join(', ')}\n`);
 }
@@ -297,8 +297,8 @@ export async function dewarp(task, signal) {
   succeed(task.output, sizeInWords(flat));
   if (task.camera !== undefined && crop === undefined && reachesRim(surface)) {
     toStderr(
-      'developable: warning: what was made flat goes on to the rim of the depths: it is all that they show, such as a page and ' +
-        'the table that it lies on; --crop x,y,x,y,... with the corners of the page in the photo takes it alone, and so does --mask\n',
+      'developable: warning: the whole depth image was flattened, with what the page lies on; --crop x,y,x,y,... with the corners of ' +
+        'the page in the photo selects the page, and so does --mask\n',
     );
   }
   if (cylinder?.verdict === 'other') {

@@ -137,7 +137,7 @@ export const solver = {
     flag: {
       section: 'energy',
       value: 'N',
-      help: 'huber: most passes that give creases their angle back (default: 2, or 0 where lambda is too large for the noise)',
+      help: 'huber: maximum number of passes that restore the angles of creases (default: 2, or 0 where lambda is too large for the noise)',
     },
   },
   /**
@@ -166,7 +166,7 @@ export const solver = {
   gap: {
     kind: number,
     default: 0.01,
-    flag: { section: 'stop', value: 'G', help: "certified relative gap to stop at (default 0.01), which the paper's schedule has not" },
+    flag: { section: 'stop', value: 'G', help: "certified relative gap to stop at (default 0.01); not for the paper's schedule" },
   },
   /** `'default'` stops on the certified gap; `'paper'` follows Sec. 4.1 and stops on residuals. */
   schedule: {

@@ -471,7 +471,7 @@ test('a photo without a page is left out of a book, named, and loses none of the
   for (const [name, one] of Object.entries({ a: sheet, b: table, c: shaded })) await writeFile(join(folder, `${name}.png`), direct.writePhoto(one));
   const { status, stderr } = await run(folder, 'dewarp a.png b.png c.png gone.png -o book.pdf --report report.json'.split(' '));
   assert.equal(status, 1);
-  assert.match(stderr, /^developable: b\.png: I did not find the page/m);
+  assert.match(stderr, /^developable: b\.png: no page was found in the photo/m);
   assert.match(stderr, /^developable: cannot read gone\.png: there is no such file/m);
   assert.match(stderr, /developable: book\.pdf: 2 of 4 photos\ndevelopable: not in book\.pdf: b\.png, gone\.png\n$/);
   assert.equal((await readPdf(await readFile(join(folder, 'book.pdf')))).length, 2);

@@ -140,7 +140,7 @@ test('the command takes what capture apps write', async () => {
   const table = ['dewarp', 'table.exr', '--intrinsics', 'transforms.json', ...common, '-o', 'page.png'];
   const all = await run(folder, table);
   assert.equal(all.status, 0, all.stderr);
-  assert.match(all.stderr, /goes on to the rim of the depths: it is all that they show.*--crop/);
+  assert.match(all.stderr, /the whole depth image was flattened.*--crop/);
   const cropped = [...table, '--crop', cornersAt(0.1, 0.9).join(), '--report', 'report.json'];
   const loss = async () => JSON.parse(await readFile(join(folder, 'report.json'), 'utf8')).loss;
   assert.doesNotMatch((await run(folder, cropped)).stderr, /rim|missing/);

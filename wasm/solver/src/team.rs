@@ -1,8 +1,8 @@
 //! Team of threads in one memory: the solver's own, and helpers, which are further instances of this module in workers of
 //! their own, each with its own stack.
 //!
-//! Only the solver's instance uses JavaScript's objects and the standard library's thread-locals and locks: it is built
-//! for one thread. Helpers run pieces of a job, which are numerics, and the allocator has a lock.
+//! Only the solver's instance uses JavaScript's objects and the standard library's thread-locals: it is built for one
+//! thread. A mutex of the standard library is locked on helpers, too (`src/math/fork/team.rs`). Helpers run pieces of a job, which are numerics, and the allocator has a lock.
 
 use std::cell::{RefCell, UnsafeCell};
 use std::sync::atomic::{AtomicU32, AtomicUsize, Ordering};

@@ -3,7 +3,7 @@ import assert from 'node:assert/strict';
 import { existsSync, readFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { test } from 'node:test';
-import { circles, graphOf, moduleGraph } from '../../tools/docs/modules.mjs';
+import { circles, moduleGraph } from '../../tools/docs/modules.mjs';
 import { moduleSentences } from '../../tools/docs/module-sentences.mjs';
 import { root } from './support/paths.mjs';
 
@@ -47,25 +47,4 @@ test('ARCHITECTURE.md is short, has every room, and names no file that is not th
   assert.ok(named.length > 80, `${named.length} files are named`);
   const folders = ['', 'src', 'src/fit', 'src/unroll', 'src/pattern'];
   assert.deepEqual(named.filter((path) => !folders.some((folder) => existsSync(join(root, folder, path)))), []);
-});
-
-test('dependencies are found behind re-exports, in nested imports and in paths, but not in tests', () => {
-  const graph = graphOf(new Map(Object.entries({
-    'lib.rs': 'pub mod a;\nmod b;\npub use a::leaf::Leaf;\n',
-    'a/mod.rs': 'mod leaf;\nmod user;\npub use leaf::Leaf; // "use crate::b"\n',
-    'a/leaf.rs': 'pub struct Leaf;\n#[cfg(test)]\nmod tests {\n    use super::super::user::User;\n}\n',
-    'a/user.rs': 'use super::Leaf;\nuse crate::{\n    Leaf as Other,\n    b::{self, deep::{Deep, Other}},\n};\n',
-    'b/mod.rs': 'mod deep;\nfn f() { deep::g() }\n',
-    'b/deep.rs': 'fn g() -> crate::a::Leaf { std::mem::take(b) }\n',
-  })));
-  const plain = Object.fromEntries([...graph].map(([name, targets]) => [name, [...targets].sort()]));
-  assert.deepEqual(plain, {
-    a: [], 'a::leaf': [], 'a::user': ['a::leaf', 'b', 'b::deep'], b: ['b::deep'], 'b::deep': ['a::leaf'],
-  });
-});
-
-test('circles are found, and what only leads to them is left out', () => {
-  const graph = new Map(Object.entries({ a: ['b'], b: ['c'], c: ['a'], d: ['a'], e: ['f'], f: ['e'], g: [] })
-    .map(([name, targets]) => /** @type {const} */ ([name, new Set(targets)])));
-  assert.deepEqual(circles(graph), [['a', 'b', 'c'], ['e', 'f']]);
 });

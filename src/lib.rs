@@ -135,7 +135,7 @@ pub use shape::{analysis, patches, rulings};
 /// Checks of arguments, for the bindings in `wasm/`, which make the same checks as the library.
 #[doc(hidden)]
 pub mod checks {
-    pub use crate::error::{check_count, check_photo, check_shape, positive, try_filled};
+    pub use crate::error::{Readable, check_count, check_photo, check_shape, positive, try_filled};
     pub use crate::fit::input::check_confidence;
 }
 

@@ -23,6 +23,14 @@ const PAGE_GAP_MM: f64 = 20.0;
 
 /// Material on which a pattern is printed or from which it is cut, with its size in millimetres.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Deserialize),
+    serde(
+        rename_all = "camelCase",
+        expecting = "expected `a4`, `letter`, [width, height] of plates or [width] of a roll"
+    )
+)]
 #[non_exhaustive]
 pub enum Stock {
     /// A4 paper, 210 × 297 mm, with a blank margin of 10 mm.
@@ -30,9 +38,16 @@ pub enum Stock {
     /// US Letter paper, 8½ × 11 inches, with a blank margin of 10 mm.
     Letter,
     /// Plates of a material such as metal or plywood, of a given width and height in millimetres.
+    #[cfg_attr(feature = "serde", serde(untagged))]
     Plate([f64; 2]),
     /// A roll of a material, of a given width in millimetres.
+    #[cfg_attr(feature = "serde", serde(untagged, deserialize_with = "roll_width"))]
     Roll(f64),
+}
+
+#[cfg(feature = "serde")]
+fn roll_width<'de, D: serde::Deserializer<'de>>(sides: D) -> std::result::Result<f64, D::Error> {
+    serde::Deserialize::deserialize(sides).map(|[width]: [f64; 1]| width)
 }
 
 impl Stock {

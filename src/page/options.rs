@@ -18,23 +18,39 @@ pub enum FocalLength {
 
 /// What is known about a page's size: its paper format, its width and height, or their ratio.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Deserialize),
+    serde(
+        rename_all = "camelCase",
+        expecting = "expected `a4`, `letter` or width and height in millimetres"
+    )
+)]
 #[non_exhaustive]
 pub enum Format {
     /// The size is not known: the page's width is the unit of length.
     #[default]
+    #[cfg_attr(feature = "serde", serde(skip))]
     Unknown,
     /// A4: 210 by 297 mm, portrait or landscape, whichever is nearer to the traced edges.
     A4,
     /// US letter: 8.5 by 11 inches, portrait or landscape, whichever is nearer to the traced edges.
     Letter,
-    /// Width and height of a page, in millimetres.
-    Millimetres([f64; 2]),
     /// Ratio of the page's height to its width; the page's width is the unit of length.
+    #[cfg_attr(feature = "serde", serde(skip))]
     Ratio(f64),
+    /// Width and height of a page, in millimetres.
+    #[cfg_attr(feature = "serde", serde(untagged))]
+    Millimetres([f64; 2]),
 }
 
 /// A known distance on the flat page, which sets the scale in millimetres.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Deserialize),
+    serde(expecting = "{ from, to, length }: two places in the photo, and millimetres")
+)]
 pub struct Ruler {
     /// Position of the first end in the photo, in pixels.
     pub from: [f64; 2],

@@ -18,6 +18,11 @@ pub(crate) fn has_camera_proportions(size: [usize; 2]) -> bool {
 
 /// What the values of a depth image measure: the distance along the camera's axis or along the line of sight.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Deserialize),
+    serde(rename_all = "camelCase")
+)]
 #[non_exhaustive]
 pub enum Depth {
     /// Distance in the direction of the camera's axis, as most depth cameras and depth buffers give it.

@@ -6,6 +6,7 @@ use crate::heights::heightfield::HeightImage;
 
 /// A clockwise rotation of an image by quarter turns.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Deserialize), serde(try_from = "u32"))]
 #[non_exhaustive]
 pub enum Turn {
     /// No rotation of the image.
@@ -17,6 +18,21 @@ pub enum Turn {
     Half,
     /// Rotation by 270 degrees clockwise: the right side becomes the top.
     ThreeQuarters,
+}
+
+impl TryFrom<u32> for Turn {
+    type Error = &'static str;
+
+    /// Converts from an angle in degrees, which is 0, 90, 180 or 270.
+    fn try_from(degrees: u32) -> std::result::Result<Self, Self::Error> {
+        match degrees {
+            0 => Ok(Turn::None),
+            90 => Ok(Turn::Quarter),
+            180 => Ok(Turn::Half),
+            270 => Ok(Turn::ThreeQuarters),
+            _ => Err("expected 0, 90, 180 or 270 degrees"),
+        }
+    }
 }
 
 impl Turn {

@@ -421,7 +421,7 @@ test('depths that lie as the sensor does, and a photo that was turned', async ()
   assert.ok(z < 0);
   for (const [k, value] of [y, -x, z].entries()) assert.ok(Math.abs(turned.positions[3 * same + k] - value) < 1e-12);
   assert.equal(turned.triangles.length, plain.triangles.length);
-  assert.throws(() => direct.backProject(depths(), numbers, { turn: /** @type {any} */ (45) }), error('OPTION', /turn/));
+  assert.throws(() => direct.backProject(depths(), numbers, { turn: /** @type {any} */ (45) }), error('OPTION', /^option `turn` is 45, but must be 0, 90, 180 or 270 degrees/));
 });
 
 test('a textured scan brings its photo along', async () => {

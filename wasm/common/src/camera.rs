@@ -1,15 +1,16 @@
 //! Cameras read from JavaScript objects.
 
+use serde::Deserialize;
 use wasm_bindgen::prelude::*;
 
-use super::options::{entries, option, unknown};
+use super::options::read;
 use super::{Failure, Result};
-use developable::{Camera, Depth, Error, Intrinsics, Pose};
+use developable::{Camera, Depth, Distortion, Intrinsics, Pose};
 
 /// Reads the intrinsics of a depth camera from JavaScript's `Intrinsics` object; a pose (`rotation` or `translation`)
 /// is an error.
 pub fn intrinsics(camera: &JsValue) -> Result<Intrinsics> {
-    let Camera { intrinsics, pose } = read(camera)?;
+    let Camera { intrinsics, pose } = photo_camera(camera)?;
     if pose == Pose::default() {
         return Ok(intrinsics);
     }
@@ -18,55 +19,45 @@ pub fn intrinsics(camera: &JsValue) -> Result<Intrinsics> {
     ))
 }
 
-/// Reads a camera that takes photos, with its pose, from JavaScript's `PhotoCamera` object.
-pub fn photo_camera(camera: &JsValue) -> Result<Camera> {
-    read(camera)
+/// Numbers of a camera, read from JavaScript's `Intrinsics` or `PhotoCamera` object.
+#[derive(Default, Deserialize)]
+#[serde(default, rename_all = "camelCase")]
+struct CameraInput {
+    fx: Option<f64>,
+    fy: Option<f64>,
+    cx: Option<f64>,
+    cy: Option<f64>,
+    width: Option<usize>,
+    height: Option<usize>,
+    k1: f64,
+    k2: f64,
+    p1: f64,
+    p2: f64,
+    k3: f64,
+    depth_scale: Option<f64>,
+    depth: Depth,
+    margin: Option<usize>,
+    rotation: Option<[[f64; 3]; 3]>,
+    translation: Option<[f64; 3]>,
 }
 
-/// Names of a camera's fields that are single numbers.
-const NUMBER_FIELDS: [&str; 9] = ["fx", "fy", "cx", "cy", "k1", "k2", "p1", "p2", "k3"];
-/// Names of all fields of a camera, for the error about an unknown one.
-const FIELD_NAMES: &str = "fx, fy, cx, cy, width, height, k1, k2, p1, p2, k3, depthScale, depth, margin, rotation and translation";
-
-fn read(camera: &JsValue) -> Result<Camera> {
-    let mut found = [None; 9];
-    let (mut width, mut height) = (None, None);
-    let mut own = Camera::new(Intrinsics::new(1.0, 1.0, 0.0, 0.0));
-    for (name, value) in entries(camera)? {
-        if let Some(k) = NUMBER_FIELDS.iter().position(|known| *known == name) {
-            found[k] = Some(option(NUMBER_FIELDS[k], value, "must be a number")?);
-            continue;
-        }
-        let size = "must be a whole number of pixels";
-        let Camera { intrinsics, pose } = &mut own;
-        match name.as_str() {
-            "width" => width = Some(option("width", value, size)?),
-            "height" => height = Some(option("height", value, size)?),
-            "depthScale" => {
-                let requirement = "must be a finite number above zero";
-                intrinsics.depth_scale = option("depthScale", value, requirement)?;
-            }
-            "depth" => intrinsics.depth = kind(value)?,
-            "margin" => intrinsics.margin = option("margin", value, size)?,
-            "rotation" => {
-                pose.rotation = option("rotation", value, "must be three rows of three numbers")?
-            }
-            "translation" => {
-                pose.translation = option("translation", value, "must be three numbers")?
-            }
-            _ => return Err(unknown(&name, FIELD_NAMES)),
-        }
-    }
-    let [Some(fx), Some(fy), Some(cx), Some(cy), lens @ ..] = found else {
+/// Reads a camera that takes photos, with its pose, from JavaScript's `PhotoCamera` object.
+pub fn photo_camera(camera: &JsValue) -> Result<Camera> {
+    let input: CameraInput = read(camera)?;
+    let (Some(fx), Some(fy), Some(cx), Some(cy)) = (input.fx, input.fy, input.cx, input.cy) else {
         return Err(Failure::option(
             "a camera needs its focal lengths and centre in pixels: fx, fy, cx and cy",
         ));
     };
-    let [k1, k2, p1, p2, k3] = lens.map(|value| value.unwrap_or(0.0));
-    let intrinsics = &mut own.intrinsics;
-    [intrinsics.fx, intrinsics.fy, intrinsics.cx, intrinsics.cy] = [fx, fy, cx, cy];
-    intrinsics.distortion = developable::Distortion { k1, k2, p1, p2, k3 };
-    intrinsics.size = match (width, height) {
+    let CameraInput {
+        k1, k2, p1, p2, k3, ..
+    } = input;
+    let mut intrinsics = Intrinsics::new(fx, fy, cx, cy);
+    intrinsics.distortion = Distortion { k1, k2, p1, p2, k3 };
+    intrinsics.depth_scale = input.depth_scale.unwrap_or(intrinsics.depth_scale);
+    intrinsics.depth = input.depth;
+    intrinsics.margin = input.margin.unwrap_or(intrinsics.margin);
+    intrinsics.size = match (input.width, input.height) {
         (Some(width), Some(height)) => Some([width, height]),
         (None, None) => None,
         _ => {
@@ -75,15 +66,9 @@ fn read(camera: &JsValue) -> Result<Camera> {
             ));
         }
     };
-    Ok(own)
-}
-
-fn kind(value: JsValue) -> Result<Depth> {
-    let requirement = "must be `planar` or `ray`";
-    let name: String = option("depth", value, requirement)?;
-    match name.as_str() {
-        "planar" => Ok(Depth::Planar),
-        "ray" => Ok(Depth::Ray),
-        _ => Err(Error::option("depth", name, requirement).into()),
-    }
+    let own = Pose::default();
+    Ok(Camera::new(intrinsics).at(Pose {
+        rotation: input.rotation.unwrap_or(own.rotation),
+        translation: input.translation.unwrap_or(own.translation),
+    }))
 }

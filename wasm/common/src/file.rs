@@ -1,44 +1,38 @@
 //! Options of reading an image file, from JavaScript, and the file's contents, to JavaScript.
 
 use js_sys::{Float64Array, Uint8ClampedArray};
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 use serde_wasm_bindgen::{preserve, to_value};
 use wasm_bindgen::prelude::*;
 
-use super::options::{entries, option, unknown};
 use super::{Failure, Result};
 use developable::files::Assumption;
-use developable::files::images::{Decoded, FORMAT_NAMES, Format, Georeference, PhotoFile};
+use developable::files::images::{Decoded, Format, Georeference, PhotoFile};
 
 /// Options of reading an image file: JavaScript's `ReadOptions` object.
+#[derive(Deserialize)]
+#[serde(default, rename_all = "camelCase")]
 pub struct ReadOptions {
-    pub format: Option<Format>,
+    format: Option<String>,
     pub array: Option<String>,
     /// Whether values that nobody would measure are no data.
-    pub assume_no_data: bool,
+    assume_no_data: bool,
 }
 
-impl ReadOptions {
-    pub fn new(options: &JsValue) -> Result<Self> {
-        let mut read = ReadOptions {
+impl Default for ReadOptions {
+    fn default() -> Self {
+        ReadOptions {
             format: None,
             array: None,
             assume_no_data: true,
-        };
-        for (name, value) in entries(options)? {
-            match name.as_str() {
-                "format" => {
-                    let name: String = option("format", value, FORMAT_NAMES)?;
-                    read.format = Some(name.parse()?);
-                }
-                "array" => read.array = Some(option("array", value, "must be a name")?),
-                "assumeNoData" => {
-                    read.assume_no_data = option("assume_no_data", value, "must be true or false")?;
-                }
-                _ => return Err(unknown(&name, "format, array and assumeNoData")),
-            }
         }
-        Ok(read)
+    }
+}
+
+impl ReadOptions {
+    /// Returns the format that the options name, if they do.
+    pub fn format(&self) -> Result<Option<Format>> {
+        Ok(self.format.as_deref().map(str::parse).transpose()?)
     }
 
     /// Returns an error if the options name an array, for file formats without named arrays.

@@ -3,11 +3,11 @@
 use std::ops::Range;
 
 use js_sys::{Float32Array, Uint8ClampedArray};
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 use serde_wasm_bindgen::preserve;
 
 use super::Result;
-use super::options::{Given, option, renamed};
+use super::options::renamed;
 use developable::checks::try_filled;
 use developable::dewarp::{WarpGrid, WarpMap};
 use developable::page::cleaning::{CleaningOptions, Light, LightEstimator, binarise, luminance};
@@ -89,23 +89,46 @@ pub fn flat_image(
     Ok((image, light.kind()))
 }
 
-/// Options of cleaning the flat image, `light` and `ink`; `default` says what happens to the light where nothing is
-/// said of it.
-pub fn cleaning_from(given: &mut Given, default: Light) -> Result<CleaningOptions> {
-    let light = given.value("light");
-    let light = match light.is_undefined() {
-        true => default,
-        false => option("light", light, "must be `even` or `keep`")?,
-    };
-    let ink = given.flag("ink").unwrap_or(false);
-    Ok(CleaningOptions::default().light(light).ink(ink))
+/// Options of cleaning the flat image.
+#[derive(Default, Deserialize)]
+#[serde(default)]
+pub struct CleaningInput {
+    light: Option<Light>,
+    ink: bool,
+}
+
+impl CleaningInput {
+    /// Returns the options of cleaning; `default` says what happens to the light where nothing is said of it.
+    pub fn options(&self, default: Light) -> CleaningOptions {
+        CleaningOptions::default()
+            .light(self.light.unwrap_or(default))
+            .ink(self.ink)
+    }
 }
 
 /// Options of a call that returns a warp map besides the flat image: whether in full, and whether on a grid.
+#[derive(Deserialize)]
+#[serde(default)]
 pub struct MapOptions {
     map: bool,
-    /// Maximum interpolation error between nodes of the warp grid, in pixels of the photo; `None` if no grid is wanted.
-    grid: Option<f64>,
+    grid: Grid,
+}
+
+/// Whether a warp grid is wanted, or the maximum interpolation error between its nodes, in pixels of the photo.
+#[derive(Deserialize)]
+#[serde(untagged, expecting = "expected true, false or a number")]
+enum Grid {
+    Wanted(bool),
+    Tolerance(f64),
+}
+
+impl Default for MapOptions {
+    fn default() -> Self {
+        MapOptions {
+            map: true,
+            grid: Grid::Wanted(false),
+        }
+    }
 }
 
 /// Default of the maximum interpolation error between nodes of a warp grid, in pixels of the photo.
@@ -115,20 +138,17 @@ const DEFAULT_GRID_TOLERANCE: f64 = 0.25;
 const MAX_GRID_NODES: usize = 40_000;
 
 impl MapOptions {
-    pub fn new(given: &mut Given) -> Self {
-        let grid = given.value("grid");
-        MapOptions {
-            map: given.flag("map").unwrap_or(true),
-            grid: match grid.as_bool() {
-                Some(wanted) => wanted.then_some(DEFAULT_GRID_TOLERANCE),
-                None => grid.as_f64(),
-            },
+    /// Maximum interpolation error between nodes of the warp grid, in pixels of the photo; `None` if no grid is wanted.
+    fn tolerance(&self) -> Option<f64> {
+        match self.grid {
+            Grid::Wanted(wanted) => wanted.then_some(DEFAULT_GRID_TOLERANCE),
+            Grid::Tolerance(tolerance) => Some(tolerance),
         }
     }
 
     /// Whether a warp map is to be returned, in full or on a grid.
     pub fn any(&self) -> bool {
-        self.map || self.grid.is_some()
+        self.map || self.tolerance().is_some()
     }
 
     /// Places in the photo of all pixels of the flat image, as pairs of coordinates; empty unless the full map is
@@ -140,7 +160,7 @@ impl MapOptions {
 
     /// The map on a grid, if that is wanted.
     pub fn grid(&self, map: Option<&WarpMap>) -> Result<Option<GridOutput>> {
-        let found = (self.grid.zip(map))
+        let found = (self.tolerance().zip(map))
             .map(|(tolerance, map)| map.grid(tolerance, MAX_GRID_NODES))
             .transpose()
             .map_err(|error| renamed(error, "tolerance", "grid"))?;

@@ -1,6 +1,6 @@
-//! Options of a call, read from a JavaScript object into the structures of the library.
+//! Options of a call, read from a JavaScript object into structures by serde.
 
-use js_sys::{Array, JsString, Object, Reflect};
+use js_sys::{JSON, JsString, Object, Reflect};
 use serde::de::value::Error as NoValue;
 use serde::de::{DeserializeOwned, Deserializer, Error as _, Visitor};
 use serde::forward_to_deserialize_any;
@@ -9,16 +9,17 @@ use wasm_bindgen::prelude::*;
 
 use super::{Failure, Result};
 use developable::Error;
+use developable::checks::Readable;
 
-/// Options of a call as JavaScript passes them, which can be read into several structures; each takes the options that
-/// its fields are named after. JavaScript has checked ranges and types before, in `pkg/schema/`.
-pub struct Given {
+/// Reader of a call's options, which several structures take; each takes the options that its fields are named after.
+/// Every field has a default, for an option that is not given. JavaScript has checked types before, in `pkg/schema/`.
+pub struct OptionReader {
     options: Object,
-    /// Names of the options that have been read.
+    /// Names of the options that a structure has taken.
     known: Vec<&'static str>,
 }
 
-impl Given {
+impl OptionReader {
     pub fn new(options: &JsValue) -> Result<Self> {
         let options = match options.is_undefined() {
             true => Some(Object::new()),
@@ -26,43 +27,54 @@ impl Given {
         };
         let known = Vec::new();
         match options {
-            Some(options) => Ok(Given { options, known }),
+            Some(options) => Ok(OptionReader { options, known }),
             None => Err(Failure::option("the options must be an object")),
         }
     }
 
-    /// Reads a structure from the options; fields for options that are not given have their defaults.
+    /// Reads a structure from the options that its fields are named after.
     pub fn read<T: DeserializeOwned>(&mut self) -> Result<T> {
         let mut names: &[&str] = &[];
         // Always fails, which is not an error: it is called for the field names alone.
         let _ = T::deserialize(FieldNames(&mut names));
         self.known.extend(names);
-        Ok(from_value(self.options.clone().into())?)
+        from_value(self.options.clone().into()).map_err(|error| {
+            let fault = names.iter().find_map(|name| self.fault::<T>(name));
+            fault.unwrap_or_else(|| error.into())
+        })
     }
 
-    /// Returns the value of one option; `undefined` if it is not given.
-    pub fn value(&mut self, name: &'static str) -> JsValue {
-        self.known.push(name);
-        // Cannot fail: `options.js` has made the object, without getters.
-        Reflect::get(&self.options, &name.into()).unwrap_or_default()
+    /// Returns the error of an option that the structure cannot be read with; `None` if this one is right.
+    fn fault<T: DeserializeOwned>(&self, name: &str) -> Option<Failure> {
+        // Neither can fail: `pkg/options.js` has made the object, without getters, and the other one is new.
+        let value = Reflect::get(&self.options, &name.into()).ok()?;
+        if value.is_undefined() {
+            return None;
+        }
+        let alone = Object::new();
+        Reflect::set(&alone, &name.into(), &value).ok()?;
+        let error = from_value::<T>(alone.into()).err()?.to_string();
+        let requirement = match error.split_once("expected ") {
+            Some((_, "f64")) => "must be a number".into(),
+            Some((_, "usize" | "u32" | "u8")) => "must be a whole number".into(),
+            Some((_, what)) => format!("must be {what}"),
+            None => format!("cannot be read: {error}"),
+        };
+        Some(Failure::option(format!(
+            "option `{name}` is {}, but {requirement}",
+            shown(&value)
+        )))
     }
 
-    /// Returns the value of an option that is a number; `None` if it is not given.
-    pub fn number(&mut self, name: &'static str) -> Option<f64> {
-        self.value(name).as_f64()
-    }
-
-    /// Returns the value of an option that is true or false; `None` if it is not given.
-    pub fn flag(&mut self, name: &'static str) -> Option<bool> {
-        self.value(name).as_bool()
-    }
-
-    /// Returns an error if an option was given that nothing has read.
+    /// Returns an error if an option was given that no structure has taken.
     pub fn finish(self) -> Result<()> {
         let names = Object::keys(&self.options);
         let mut names = names.iter().map(|name| String::from(JsString::from(name)));
         match names.find(|name| !self.known.contains(&name.as_str())) {
-            Some(name) => Err(unknown(&name, &self.known.join(", "))),
+            Some(name) => Err(Failure::option(format!(
+                "there is no option `{name}`, only {}",
+                self.known.join(", ")
+            ))),
             None => Ok(()),
         }
     }
@@ -70,9 +82,9 @@ impl Given {
 
 /// Reads all options of a call into one structure; an option that is not one of its fields is an error.
 pub fn read<T: DeserializeOwned>(options: &JsValue) -> Result<T> {
-    let mut given = Given::new(options)?;
-    let found = given.read()?;
-    given.finish()?;
+    let mut reader = OptionReader::new(options)?;
+    let found = reader.read()?;
+    reader.finish()?;
     Ok(found)
 }
 
@@ -102,38 +114,15 @@ impl<'de> Deserializer<'de> for FieldNames<'_> {
     }
 }
 
-/// Lists the names and values of an options object, without those that are `undefined`. For options whose values need
-/// checks of their own.
-pub fn entries(options: &JsValue) -> Result<Vec<(String, JsValue)>> {
-    let Given { options, .. } = Given::new(options)?;
-    Ok(Object::entries(&options)
-        .iter()
-        .map(|entry| Array::from(&entry))
-        .filter(|entry| !entry.get(1).is_undefined())
-        .map(|entry| (String::from(JsString::from(entry.get(0))), entry.get(1)))
-        .collect())
-}
-
-/// Reads the value of the option `name` into a type that says what is allowed; the error for another value states the
-/// `requirement`.
-pub fn option<T: DeserializeOwned>(
-    name: &'static str,
-    value: JsValue,
-    requirement: &'static str,
-) -> Result<T> {
-    from_value(value.clone()).map_err(|_| {
-        // JSON has no infinity and no NaN. For `undefined`, functions and symbols, `stringify` returns no string.
-        if let Some(number) = value.as_f64() {
-            return Failure::from(Error::option(name, number, requirement));
-        }
-        let json = js_sys::JSON::stringify(&value);
-        let shown = json.ok().and_then(|text| JsValue::from(text).as_string());
-        Failure::from(Error::option(
-            name,
-            shown.unwrap_or_else(|| format!("{value:?}")),
-            requirement,
-        ))
-    })
+/// Returns a value as messages show it.
+fn shown(value: &JsValue) -> String {
+    // JSON has no infinity and no NaN. For `undefined`, functions and symbols, `stringify` returns no string.
+    if let Some(number) = value.as_f64() {
+        return number.readable();
+    }
+    let json = JSON::stringify(value).ok().map(JsValue::from);
+    json.and_then(|text| text.as_string())
+        .unwrap_or_else(|| format!("{value:?}"))
 }
 
 /// Renames the option in an error from its name in Rust to its name in JavaScript, where these differ.
@@ -144,8 +133,4 @@ pub fn renamed(mut error: Error, rust: &str, js: &'static str) -> Failure {
         *name = js;
     }
     error.into()
-}
-
-pub fn unknown(name: &str, known: &str) -> Failure {
-    Failure::option(format!("there is no option `{name}`, only {known}"))
 }

@@ -7,7 +7,6 @@ use wasm_bindgen::prelude::*;
 
 use super::Result;
 use super::bytes::copied;
-use super::options::option;
 use developable::Error;
 use developable::dewarp::{Extent, Photo};
 
@@ -46,13 +45,13 @@ impl Pixels {
     }
 }
 
-/// Reads the option `extent`: the left, bottom, right and top side of the rectangle of the plane that a photo shows.
-pub fn extent_from(value: JsValue) -> Result<Extent> {
-    let requirement = "must be four numbers: left, bottom, right and top, left less than right and bottom less than top";
-    let sides: [f64; 4] = option("extent", value, requirement)?;
+/// Makes an extent of the option `extent`: the left, bottom, right and top side of the rectangle of the plane that a photo
+/// shows.
+pub fn extent_from(sides: [f64; 4]) -> Result<Extent> {
     let [left, bottom, right, top] = sides;
     let has_area = left < right && bottom < top;
     if !has_area || sides.iter().any(|side| !side.is_finite()) {
+        let requirement = "must be four numbers: left, bottom, right and top, left less than right and bottom less than top";
         return Err(Error::option("extent", sides, requirement).into());
     }
     Ok(Extent {

@@ -25,6 +25,14 @@ struct Kind {
     kind: String,
 }
 
+/// The option that the calls about surfaces share.
+#[derive(Default, Deserialize)]
+#[serde(default)]
+pub struct SpacingInput {
+    /// Spacing of the lattice that a height image is resampled to; `None`: its pixel size.
+    pub spacing: Option<f64>,
+}
+
 /// Whether a JavaScript field is a height image, for which the option `spacing` is allowed; otherwise it is a
 /// heightfield or `undefined`.
 pub fn is_image(field: &JsValue) -> Result<bool> {

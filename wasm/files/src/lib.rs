@@ -18,17 +18,17 @@ use developable_wasm::arrays::filled;
 use developable_wasm::bytes::copied;
 use developable_wasm::fields::{ImageInput, LatticeInput};
 use developable_wasm::file::{ReadOptions, output, photo_output};
-use developable_wasm::options::{entries, option, unknown};
+use developable_wasm::options::read as read_options;
 use developable_wasm::photo::{Pixels, extent_from};
 use developable_wasm::triangulation::mesh_of;
 
 /// Decodes a PNG or NPY file of heights; returns JavaScript's `ReadResult` object.
 #[wasm_bindgen]
 pub fn read(bytes: &Uint8Array, options: JsValue) -> Result<JsValue> {
-    let options = ReadOptions::new(&options)?;
+    let options: ReadOptions = read_options(&options)?;
     options.without_array()?;
     let file = copied(bytes)?;
-    let decoded = decode_basic(&file, announced(&file, options.format)?)?;
+    let decoded = decode_basic(&file, announced(&file, options.format()?)?)?;
     output(decoded, &options)
 }
 
@@ -56,19 +56,19 @@ pub fn write_png_file(image: JsValue) -> Result<Uint8Array> {
     Ok(write_png(&image)?.as_slice().into())
 }
 
-/// Writes a heightfield or mesh to an OBJ file, in the axes of its frame. The option `materials` is the name of the
-/// material file that it refers to.
+/// Options of writing an OBJ file: JavaScript's `WriteObjOptions` object.
+#[derive(Default, Deserialize)]
+#[serde(default)]
+struct ObjInput {
+    /// Name of the material file that the OBJ file refers to.
+    materials: Option<String>,
+}
+
+/// Writes a heightfield or mesh to an OBJ file, in the axes of its frame.
 #[wasm_bindgen(js_name = writeObj)]
 pub fn write_obj_file(field: JsValue, options: JsValue) -> Result<Uint8Array> {
-    let mut material = None;
-    for (name, value) in entries(&options)? {
-        match name.as_str() {
-            "materials" => material = Some(option("materials", value, "must be a file's name")?),
-            _ => return Err(unknown(&name, "materials")),
-        }
-    }
-    let material: Option<String> = material;
-    let file = write_obj_textured(&mesh_of(field)?, material.as_deref())?;
+    let ObjInput { materials } = read_options(&options)?;
+    let file = write_obj_textured(&mesh_of(field)?, materials.as_deref())?;
     Ok(file.as_slice().into())
 }
 
@@ -90,9 +90,9 @@ pub fn read_photo(bytes: &Uint8Array) -> Result<JsValue> {
 #[wasm_bindgen(js_name = planeUvs)]
 pub fn plane_uvs(field: JsValue, extent: JsValue) -> Result<Float32Array> {
     let field = from_value::<LatticeInput>(field)?.into_heightfield()?;
-    let extent = match extent.is_undefined() {
-        true => Extent::from_heightfield(&field),
-        false => extent_from(extent)?,
+    let extent = match from_value(extent)? {
+        None => Extent::from_heightfield(&field),
+        Some(sides) => extent_from(sides)?,
     };
     let uvs = extent.uvs(field.lattice())?;
     Ok(uvs.as_flattened().into())
@@ -140,6 +140,25 @@ impl PhotoRows for Rows<'_> {
     }
 }
 
+/// Options of writing a photo: JavaScript's `WritePhotoOptions` object.
+#[derive(Default, Deserialize)]
+#[serde(default, rename_all = "camelCase")]
+struct WritePhotoInput {
+    format: PhotoFormat,
+    quality: Option<u8>,
+    dots_per_millimetre: Option<f64>,
+}
+
+/// Kind of a file that a photo is written to.
+#[derive(Default, Deserialize)]
+#[serde(rename_all = "camelCase")]
+enum PhotoFormat {
+    #[default]
+    Png,
+    Jpeg,
+    Pdf,
+}
+
 /// Writes a photo to a PNG, JPEG or PDF file, as the option `format` says.
 #[wasm_bindgen(js_name = writePhoto)]
 pub fn write_photo_file(
@@ -148,22 +167,10 @@ pub fn write_photo_file(
     rgba: &Uint8Array,
     options: JsValue,
 ) -> Result<Uint8Array> {
-    let (mut format, mut wanted) = (String::from("png"), PhotoOptions::default());
-    let formats = "must be `png`, `jpeg` or `pdf`";
-    for (name, value) in entries(&options)? {
-        match name.as_str() {
-            "format" => format = option("format", value, formats)?,
-            "quality" => {
-                let requirement = "must be a whole number from 1 to 100";
-                wanted = wanted.quality(option("quality", value, requirement)?);
-            }
-            "dotsPerMillimetre" => {
-                let dots = option("dots_per_millimetre", value, "must be a number")?;
-                wanted = wanted.dots_per_millimetre(dots);
-            }
-            _ => return Err(unknown(&name, "format, quality and dotsPerMillimetre")),
-        }
-    }
+    let input: WritePhotoInput = read_options(&options)?;
+    let mut wanted = PhotoOptions::default();
+    wanted.quality = input.quality.unwrap_or(wanted.quality);
+    wanted.dots_per_millimetre = input.dots_per_millimetre;
     // Checks that the photo has the right number of bytes, and at least one.
     check_photo("photo", height, width, rgba.length() as usize / 4)?;
     if width == 0 || height == 0 {
@@ -171,11 +178,10 @@ pub fn write_photo_file(
     }
     let size = [width, height];
     let photo = Rows { size, rgba };
-    let file = match format.as_str() {
-        "png" => write_photo(&photo, &wanted)?,
-        "jpeg" => write_photo_jpeg(&photo, &wanted)?,
-        "pdf" => write_photo_pdf(&photo, &wanted)?,
-        _ => return Err(Error::option("format", format, formats).into()),
+    let file = match input.format {
+        PhotoFormat::Png => write_photo(&photo, &wanted)?,
+        PhotoFormat::Jpeg => write_photo_jpeg(&photo, &wanted)?,
+        PhotoFormat::Pdf => write_photo_pdf(&photo, &wanted)?,
     };
     Ok(file.as_slice().into())
 }

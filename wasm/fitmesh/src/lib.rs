@@ -1,7 +1,7 @@
 //! Solver for whole meshes, which fits surfaces in space without a view, and their curvatures and rulings.
 
 use js_sys::{Float64Array, Uint8Array};
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 use serde_wasm_bindgen::{from_value, preserve, to_value};
 use wasm_bindgen::prelude::*;
 
@@ -12,7 +12,7 @@ use developable_wasm::Result;
 use developable_wasm::arrays::groups;
 use developable_wasm::bytes::copied;
 use developable_wasm::mesh::MeshInput;
-use developable_wasm::options::{Given, read};
+use developable_wasm::options::{OptionReader, read};
 
 /// Positions of a fitted surface's vertices and the report, written as fields of JavaScript's `MeshSurface` object; the
 /// rest of the mesh stays as it was.
@@ -21,6 +21,14 @@ struct Output<'a> {
     #[serde(with = "preserve")]
     positions: Float64Array,
     report: &'a MeshReport,
+}
+
+/// The option of a fit that marks vertices which keep their positions: a `Uint8Array`, or `undefined` for none.
+#[derive(Default, Deserialize)]
+#[serde(default)]
+struct HeldInput {
+    #[serde(with = "preserve")]
+    held: JsValue,
 }
 
 /// A solve over a whole mesh that runs in steps, so that JavaScript can show progress and cancel it.
@@ -41,10 +49,10 @@ impl MeshSolver {
             known = known.with_confidence(confidence.collect())?;
         }
         let mesh = mesh.into_mesh()?;
-        let mut given = Given::new(&options)?;
-        let settings: MeshOptions = given.read()?;
-        let held = given.value("held");
-        given.finish()?;
+        let mut reader = OptionReader::new(&options)?;
+        let settings: MeshOptions = reader.read()?;
+        let HeldInput { held } = reader.read()?;
+        reader.finish()?;
         if let Some(held) = held.dyn_ref::<Uint8Array>() {
             let held = copied(held)?;
             known = known.with_held(held.into_iter().map(|held| held != 0).collect());
@@ -97,12 +105,17 @@ struct AnalysisOutput {
     summary: Summary,
 }
 
+/// Options of an analysis: JavaScript's `MeshAnalyzeOptions` object.
+#[derive(Default, Deserialize)]
+#[serde(default)]
+struct ThresholdInput {
+    threshold: Option<f64>,
+}
+
 /// Computes curvatures at a mesh's vertices, and statistics that say how developable the mesh is.
 #[wasm_bindgen(js_name = analyzeMesh)]
 pub fn analyze_mesh(mesh: JsValue, options: JsValue) -> Result<JsValue> {
-    let mut given = Given::new(&options)?;
-    let threshold = given.number("threshold");
-    given.finish()?;
+    let ThresholdInput { threshold } = read(&options)?;
     let mesh = from_value::<MeshInput>(mesh)?.into_mesh()?;
     let found = MeshCurvatures::new(&mesh)?;
     Ok(to_value(&AnalysisOutput {

@@ -12,13 +12,14 @@ use developable_wasm::Result;
 use developable_wasm::bytes::copied;
 use developable_wasm::fields::ImageInput;
 use developable_wasm::file::{ReadOptions, output, photo_output};
+use developable_wasm::options::read;
 
 /// Decodes a file of heights of any format except PNG and NPY; returns JavaScript's `ReadResult` object.
 #[wasm_bindgen(js_name = readImage)]
 pub fn read_image(bytes: &Uint8Array, options: JsValue) -> Result<JsValue> {
-    let options = ReadOptions::new(&options)?;
+    let options: ReadOptions = read(&options)?;
     let file = copied(bytes)?;
-    match announced(&file, options.format)? {
+    match announced(&file, options.format()?)? {
         Format::Npz => output(decode_npz(&file, options.array.as_deref())?, &options),
         format => {
             options.without_array()?;

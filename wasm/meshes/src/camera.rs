@@ -1,6 +1,6 @@
 //! Depth images made to meshes, and texture coordinates by a camera, for JavaScript.
 
-use js_sys::{Float32Array, Uint8Array};
+use js_sys::Float32Array;
 use serde::{Deserialize, Serialize};
 use serde_wasm_bindgen::{from_value, preserve, to_value};
 use wasm_bindgen::prelude::*;
@@ -8,13 +8,13 @@ use wasm_bindgen::prelude::*;
 use super::MeshOutput;
 use developable::checks::check_count;
 use developable::dewarp::Registration;
-use developable::{Camera, Error, Frame, HeightImage, Intrinsics, Region, Turn, resampled};
+use developable::{Frame, HeightImage, Intrinsics, Region, Turn, resampled};
 use developable_wasm::Result;
 use developable_wasm::bytes::copied;
 use developable_wasm::camera::{intrinsics, photo_camera};
 use developable_wasm::fields::{ImageInput, LatticeInput, values};
 use developable_wasm::frame::FrameFields;
-use developable_wasm::options::{entries, option, unknown};
+use developable_wasm::options::read;
 
 /// Back-projects a depth image to a mesh in space; returns JavaScript's `Mesh` object and the camera, rotated as the
 /// option `turn` says.
@@ -26,7 +26,7 @@ pub fn back_project(image: JsValue, camera: JsValue, options: JsValue) -> Result
     // The depth scale of the camera counts, not the height scale of the image.
     let depths = values(what, image.height, image.width, &image.data, image.no_data)?;
     let depths = image.image(what, depths)?;
-    let known = Known::read(&options)?;
+    let known: DepthInput = read(&options)?;
     let stored = [depths.width(), depths.height()];
     let camera = known.turn.camera(&camera, stored);
     let mut depths = known.turn.image(&depths)?;
@@ -38,9 +38,9 @@ pub fn back_project(image: JsValue, camera: JsValue, options: JsValue) -> Result
         }
     }
     let confidence = match &known.confidence {
-        Some(Sized { size: own, data }) => {
-            check_count("confidence", own[1], own[0], data.len())?;
-            let (data, own) = known.turn.values(data, *own)?;
+        Some(weights) => {
+            let floats = |data: &Float32Array| Ok(data.to_vec());
+            let (data, own) = weights.turned("confidence", floats, known.turn)?;
             let weights = resampled("confidence", &data, own, size)?;
             let keep: Vec<u8> = weights
                 .iter()
@@ -120,93 +120,50 @@ impl Seen {
     }
 }
 
-/// Requirement of the option `turn`, for its error.
-const TURN_REQUIREMENT: &str = "must be 0, 90, 180 or 270 degrees";
-
 /// Values at the pixels of an image, with its width and height.
-struct Sized<T> {
-    size: [usize; 2],
-    data: Vec<T>,
-}
-
 #[derive(Deserialize)]
-struct SizedInput {
+#[serde(expecting = "an image: { width, height, data }")]
+struct PixelsInput {
     width: usize,
     height: usize,
+    /// Values as a typed array, row by row; `undefined` where only the size counts.
     #[serde(default, with = "preserve")]
     data: JsValue,
 }
 
-impl<T> Sized<T> {
-    fn read(
-        name: &'static str,
-        value: JsValue,
-        list: impl FnOnce(JsValue) -> Result<Vec<T>>,
-    ) -> Result<Self> {
-        let requirement = "must be an image: { width, height, data }";
-        let SizedInput {
-            width,
-            height,
-            data,
-        } = option(name, value, requirement)?;
-        Ok(Sized {
-            size: [width, height],
-            data: list(data)?,
-        })
+impl PixelsInput {
+    fn size(&self) -> [usize; 2] {
+        [self.width, self.height]
+    }
+
+    /// Copies the values by `copy`, and turns them.
+    fn turned<T: Copy, A: JsCast>(
+        &self,
+        what: &'static str,
+        copy: impl Fn(&A) -> Result<Vec<T>>,
+        turn: Turn,
+    ) -> Result<(Vec<T>, [usize; 2])> {
+        let data = copy(self.data.unchecked_ref())?;
+        check_count(what, self.height, self.width, data.len())?;
+        Ok(turn.values(&data, self.size())?)
     }
 }
 
 /// Options of back-projecting a depth image, read from JavaScript's `DepthOptions` object, as the function
 /// `asDepthOptions` in `pkg/` has checked it.
-#[derive(Default)]
-struct Known {
-    confidence: Option<Sized<f32>>,
-    mask: Option<Sized<u8>>,
+#[derive(Default, Deserialize)]
+#[serde(default)]
+struct DepthInput {
+    confidence: Option<PixelsInput>,
+    mask: Option<PixelsInput>,
     crop: Option<Vec<[f64; 2]>>,
-    photo: Option<[usize; 2]>,
-    camera: Option<Camera>,
+    photo: Option<PixelsInput>,
+    #[serde(with = "preserve")]
+    camera: JsValue,
     turn: Turn,
 }
 
-impl Known {
-    fn read(options: &JsValue) -> Result<Self> {
-        let mut known = Known::default();
-        for (name, value) in entries(options)? {
-            match name.as_str() {
-                "confidence" => {
-                    let floats = |data: JsValue| Ok(data.unchecked_into::<Float32Array>().to_vec());
-                    known.confidence = Some(Sized::read("confidence", value, floats)?);
-                }
-                "mask" => {
-                    let flags = |data: JsValue| copied(data.unchecked_ref::<Uint8Array>());
-                    known.mask = Some(Sized::read("mask", value, flags)?);
-                }
-                "crop" => {
-                    known.crop = Some(option("crop", value, "must be a list of corners [x, y]")?);
-                }
-                "photo" => {
-                    let whole: Sized<()> = Sized::read("photo", value, |_| Ok(Vec::new()))?;
-                    known.photo = Some(whole.size);
-                }
-                "camera" => known.camera = Some(photo_camera(&value)?),
-                "turn" => {
-                    known.turn = match option::<u32>("turn", value.clone(), TURN_REQUIREMENT)? {
-                        0 => Turn::None,
-                        90 => Turn::Quarter,
-                        180 => Turn::Half,
-                        270 => Turn::ThreeQuarters,
-                        other => return Err(Error::option("turn", other, TURN_REQUIREMENT).into()),
-                    }
-                }
-                _ => {
-                    let names = "confidence, mask, crop, photo, camera and turn";
-                    return Err(unknown(&name, names));
-                }
-            }
-        }
-        Ok(known)
-    }
-
+impl DepthInput {
     /// Computes the masks of the depth image that the options `mask` and `crop` ask for: 1 where a depth shows the
     /// wanted region. `stored` is the depth image's size before its rotation.
     fn masks(
@@ -216,19 +173,22 @@ impl Known {
         stored: [usize; 2],
     ) -> Result<Vec<Vec<u8>>> {
         let mut found = Vec::new();
-        let photo = self.camera.as_ref();
-        if let Some(Sized { size, data }) = &self.mask {
+        let photo = match self.camera.is_undefined() {
+            true => None,
+            false => Some(photo_camera(&self.camera)?),
+        };
+        let photo = photo.as_ref();
+        if let Some(mask) = &self.mask {
             // A mask of the depths' own size applies to the depths, whatever the photo's camera has seen, and is
             // turned with them.
-            let own = *size == stored;
+            let own = mask.size() == stored;
             let photo = photo.filter(|_| !own);
             let turn = if own { self.turn } else { Turn::None };
-            check_count("mask", size[1], size[0], data.len())?;
-            let (data, size) = turn.values(data, *size)?;
+            let (data, size) = mask.turned("mask", copied, turn)?;
             found.push(camera.within(depths, &Region::Mask(size, &data), photo)?);
         }
-        if let (Some(corners), Some(size)) = (&self.crop, self.photo) {
-            let region = Region::Polygon(size, corners);
+        if let (Some(corners), Some(photographed)) = (&self.crop, &self.photo) {
+            let region = Region::Polygon(photographed.size(), corners);
             found.push(camera.within(depths, &region, photo)?);
         }
         Ok(found)

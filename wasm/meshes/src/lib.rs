@@ -4,7 +4,7 @@ mod camera;
 mod surfaces;
 
 use js_sys::{Array, Float32Array, Float64Array, Int32Array, Uint8Array, Uint32Array};
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 use serde_wasm_bindgen::{from_value, preserve, to_value};
 use wasm_bindgen::prelude::*;
 
@@ -12,7 +12,7 @@ use developable::Error;
 use developable::Mesh;
 use developable::View;
 use developable::checks::check_count;
-use developable::files::meshes::{FileUnit, MeshFormat, read_mesh_beside};
+use developable::files::meshes::{FileUnit, read_mesh_beside};
 use developable::files::{Assumption, Unit};
 use developable::{Resolution, sample};
 use developable_wasm::Result;
@@ -20,7 +20,7 @@ use developable_wasm::arrays::groups;
 use developable_wasm::bytes::copied;
 use developable_wasm::frame::FrameFields;
 use developable_wasm::mesh::MeshInput;
-use developable_wasm::options::{entries, option, unknown};
+use developable_wasm::options::read;
 
 /// A mesh, written as JavaScript's `Mesh` object.
 #[derive(Serialize)]
@@ -75,25 +75,21 @@ struct SampledOutput {
     confidence: JsValue,
 }
 
+/// Options of reading a mesh file: JavaScript's `ReadMeshOptions` object without the files beside it.
+#[derive(Default, Deserialize)]
+#[serde(default)]
+struct ReadInput {
+    format: Option<String>,
+    unit: Option<String>,
+}
+
 /// Decodes a mesh file; returns JavaScript's `Mesh` object. `files` are pairs of name and bytes of further files that
 /// it refers to.
 #[wasm_bindgen(js_name = readMesh)]
 pub fn read_mesh_file(bytes: &Uint8Array, files: &Array, options: JsValue) -> Result<JsValue> {
-    let (mut format, mut unit) = (None, None);
-    for (name, value) in entries(&options)? {
-        match name.as_str() {
-            "format" => {
-                let requirement = "must be `obj`, `ply`, `stl`, `gltf`, `glb`, `3mf` or `off`";
-                let name: String = option("format", value, requirement)?;
-                format = Some(name.parse::<MeshFormat>()?);
-            }
-            "unit" => {
-                let name: String = option("unit", value, "must be `mm`, `cm`, `m` or `inch`")?;
-                unit = Some(FileUnit::new(&name)?);
-            }
-            _ => return Err(unknown(&name, "format, unit and files")),
-        }
-    }
+    let ReadInput { format, unit } = read(&options)?;
+    let format = format.map(|name| name.parse()).transpose()?;
+    let unit = unit.map(|name| FileUnit::new(&name)).transpose()?;
     let mut beside = Vec::new();
     for file in files.iter().map(|file| Array::from(&file)) {
         let name = file.get(0).as_string().unwrap_or_default();
@@ -141,6 +137,26 @@ impl MeshOutput {
     }
 }
 
+/// Options of sampling a mesh: JavaScript's `SampleMeshOptions` object.
+#[derive(Default, Deserialize)]
+#[serde(default)]
+struct SampleInput {
+    view: Option<ViewInput>,
+    resolution: Option<usize>,
+    spacing: Option<f64>,
+}
+
+/// Direction of a view, by name or as a vector.
+#[derive(Deserialize)]
+#[serde(
+    untagged,
+    expecting = "expected one of the names or a vector of three numbers"
+)]
+enum ViewInput {
+    Named(String),
+    Along([f64; 3]),
+}
+
 /// Samples a mesh from a view: computes heights, colours and texture coordinates at the vertices of a lattice; returns
 /// JavaScript's `SampledMesh` object.
 #[wasm_bindgen(js_name = sampleMesh)]
@@ -156,28 +172,17 @@ pub fn sample_mesh(mesh: JsValue, options: JsValue) -> Result<JsValue> {
             confidence.len(),
         )?;
     }
-    let (mut view, mut across, mut spacing) = (None, None, None);
-    for (name, value) in entries(&options)? {
-        match name.as_str() {
-            "view" => view = Some(view_from(value)?),
-            "resolution" => {
-                across = Some(option(
-                    "resolution",
-                    value,
-                    "must be a whole number, at least 2",
-                )?);
-            }
-            "spacing" => {
-                spacing = Some(option(
-                    "spacing",
-                    value,
-                    "must be a finite number above zero",
-                )?);
-            }
-            _ => return Err(unknown(&name, "view, resolution and spacing")),
-        }
-    }
-    let resolution = match (across, spacing) {
+    let SampleInput {
+        view,
+        resolution,
+        spacing,
+    } = read(&options)?;
+    let view = match view {
+        None => View::Along([0.0, 0.0, -1.0]),
+        Some(ViewInput::Named(name)) => name.parse()?,
+        Some(ViewInput::Along(direction)) => View::Along(direction),
+    };
+    let resolution = match (resolution, spacing) {
         (Some(_), Some(spacing)) => {
             let requirement = "must be left out where there is a resolution";
             return Err(Error::option("spacing", spacing, requirement).into());
@@ -186,7 +191,6 @@ pub fn sample_mesh(mesh: JsValue, options: JsValue) -> Result<JsValue> {
         (Some(across), None) => Resolution::Across(across),
         (None, None) => Resolution::Auto,
     };
-    let view = view.unwrap_or(View::Along([0.0, 0.0, -1.0]));
     let samples = sample(&mesh, view, resolution)?;
     let colors = mesh
         .colors()
@@ -214,16 +218,6 @@ pub fn sample_mesh(mesh: JsValue, options: JsValue) -> Result<JsValue> {
         confidence: floats(confidence.as_deref()),
         texture_of: samples.textures(&mesh)?.as_slice().into(),
     })?)
-}
-
-fn view_from(value: JsValue) -> Result<View> {
-    match value.as_string() {
-        Some(name) => Ok(name.parse()?),
-        None => {
-            let requirement = "must be one of the names or a vector of three numbers";
-            Ok(View::Along(option("view", value, requirement)?))
-        }
-    }
 }
 
 fn floats<const N: usize>(values: Option<&[[f32; N]]>) -> JsValue {

@@ -19,71 +19,65 @@ use developable::pattern::{
 };
 use developable::unroll::UnrollOptions;
 use developable_wasm::mesh::MeshInput;
-use developable_wasm::options::{Given, read};
+use developable_wasm::options::{OptionReader, read};
 use developable_wasm::scene::{Scene, check_spacing, is_image};
 use developable_wasm::{Failure, Result};
 
 /// Options of a pattern (a surface cut into flat sheets) and of its drawing, read from JavaScript.
-#[derive(Default)]
 struct Wanted {
     patches: PatchOptions,
     sheets: PatternOptions,
     drawing: DrawingOptions,
+    own: PatternInput,
+}
+
+/// Options of a pattern besides those of the library's structures.
+#[derive(Default, Deserialize)]
+#[serde(default, rename_all = "camelCase")]
+struct PatternInput {
+    scale: Option<f64>,
+    thickness: Option<f64>,
+    inner_radius: Option<f64>,
+    k_factor: Option<f64>,
     stock: Option<Stock>,
-    assembled: bool,
+    assembly: bool,
     spacing: Option<f64>,
     exact: Option<bool>,
     /// Largest extent of the model, in millimetres.
     size: Option<f64>,
-    /// Whether the options give a scale.
-    is_scaled: bool,
 }
 
 impl Wanted {
     /// Reads the options of a pattern. Without a scale a surface whose unit is known is drawn in true size.
     fn of(surface: &JsValue, options: &JsValue) -> Result<Self> {
-        let mut given = Given::new(options)?;
+        let mut reader = OptionReader::new(options)?;
+        let unrolling: UnrollOptions = reader.read()?;
+        let (patches, sheets): (PatchOptions, PatternOptions) = (reader.read()?, reader.read()?);
+        let mut drawing: DrawingOptions = reader.read()?;
+        let own: PatternInput = reader.read()?;
+        reader.finish()?;
         let unit = Reflect::get(surface, &"unit".into())
             .ok()
             .and_then(|unit| Unit::from_symbol(&unit.as_string()?));
-        let asked = given.number("scale");
-        let scale = asked.or(unit.map(Unit::millimetres));
-        let unrolling: UnrollOptions = given.read()?;
-        let (patches, sheets): (PatchOptions, PatternOptions) = (given.read()?, given.read()?);
-        let mut drawing: DrawingOptions = given.read()?;
+        let scale = own.scale.or(unit.map(Unit::millimetres));
         drawing.scale = scale.unwrap_or(drawing.scale);
-        let metal = bending(
-            given.number("thickness"),
-            given.number("innerRadius"),
-            given.number("kFactor"),
-        );
-        let stock = stock_from(given.value("stock"))?;
-        let assembled = given.flag("assembly").unwrap_or_default();
-        let spacing = given.number("spacing");
-        let (exact, size) = (given.flag("exact"), given.number("size"));
-        given.finish()?;
         // 0 means no tabs, or no marks.
         drawing.tabs = drawing.tabs.filter(|depth| *depth != 0.0);
         drawing.marks = drawing.marks.filter(|distance| *distance != 0.0);
-        if let Some(bending) = metal? {
+        if let Some(bending) = bending(own.thickness, own.inner_radius, own.k_factor)? {
             drawing = drawing.bending(bending);
         }
         Ok(Wanted {
             patches,
             sheets: sheets.unrolling(unrolling),
             drawing,
-            stock,
-            assembled,
-            spacing,
-            exact,
-            size,
-            is_scaled: asked.is_some(),
+            own,
         })
     }
 
     /// Sets the scale at which a mesh is as large as is wanted.
     fn scale_to(&mut self, mesh: &Mesh) -> Result<()> {
-        let Some(size) = self.size else {
+        let Some(size) = self.own.size else {
             return Ok(());
         };
         let extent = |k: usize| {
@@ -91,7 +85,7 @@ impl Wanted {
             all.clone().fold(f64::NEG_INFINITY, f64::max) - all.fold(f64::INFINITY, f64::min)
         };
         let largest = (0..3).map(extent).fold(0.0, f64::max);
-        if self.is_scaled || size.is_nan() || size <= 0.0 {
+        if self.own.scale.is_some() || size.is_nan() || size <= 0.0 {
             return Err(Failure {
                 code: "OPTION",
                 message:
@@ -107,8 +101,7 @@ impl Wanted {
     fn room(&self) -> Option<[f64; 2]> {
         let beside =
             2.0 * (self.drawing.tabs.unwrap_or(0.0) + self.drawing.allowance + self.drawing.kerf);
-        let sides = self
-            .stock?
+        let sides = (self.own.stock?)
             .room()?
             .map(|side| (side - beside) / self.drawing.scale);
         Some(sides)
@@ -118,12 +111,12 @@ impl Wanted {
     fn draw(&self, sheets: &[Sheet], missing: &Missing) -> Result<JsValue> {
         let drawn = Drawing::new(sheets, &self.drawing)?;
         let drawn = drawn.missing(missing, self.drawing.scale);
-        let drawn = match self.stock {
+        let drawn = match self.own.stock {
             Some(stock) => drawn.onto(stock)?,
             None => drawn,
         };
         let value = to_value(&drawn)?;
-        if self.assembled {
+        if self.own.assembly {
             let assembly = Assembly::new(sheets);
             let whole = to_value(&assembly)?;
             let model = write_animation(sheets, &assembly, self.drawing.scale)?;
@@ -140,8 +133,8 @@ impl Wanted {
 #[wasm_bindgen(js_name = pattern)]
 pub fn draw_pattern(field: JsValue, options: JsValue) -> Result<JsValue> {
     let wanted = Wanted::of(&field, &options)?;
-    check_spacing(wanted.spacing, is_image(&field)?)?;
-    let surface = Scene::new(field, wanted.spacing)?.surface;
+    check_spacing(wanted.own.spacing, is_image(&field)?)?;
+    let surface = Scene::new(field, wanted.own.spacing)?.surface;
     let patches = Patches::new(&surface, &wanted.patches)?;
     let found = pattern(&surface, &patches, &wanted.sheets)?;
     wanted.draw(&found.sheets, &found.missing)
@@ -187,7 +180,7 @@ pub fn draw_pattern_of_mesh(mesh: JsValue, options: JsValue) -> Result<JsValue> 
     let mut wanted = Wanted::of(&mesh, &options)?;
     let mesh = from_value::<MeshInput>(mesh)?.into_mesh()?;
     wanted.scale_to(&mesh)?;
-    let found = match wanted.exact.unwrap_or_else(|| has_exact_faces(&mesh)) {
+    let found = match wanted.own.exact.unwrap_or_else(|| has_exact_faces(&mesh)) {
         true => pattern_exact(&mesh, wanted.room())?,
         false => sheets_of(&mesh, &wanted)?.1,
     };
@@ -304,46 +297,24 @@ fn set(object: &JsValue, name: &str, value: &JsValue) -> Result<()> {
     Ok(())
 }
 
-/// Stock on which sheets are laid out (pages, plates or a roll), read from JavaScript's `Stock` value.
-#[derive(Deserialize)]
-#[serde(untagged)]
-enum Paper {
-    Named(Named),
-    Plate([f64; 2]),
-    Roll([f64; 1]),
-}
-
-#[derive(Deserialize)]
-#[serde(rename_all = "lowercase")]
-enum Named {
-    A4,
-    Letter,
-}
-
-/// Reads the option `stock`, on which sheets are laid out; `None` if it is not given.
-fn stock_from(value: JsValue) -> Result<Option<Stock>> {
-    let paper: Option<Paper> = from_value(value)?;
-    Ok(paper.map(|paper| match paper {
-        Paper::Named(Named::A4) => Stock::A4,
-        Paper::Named(Named::Letter) => Stock::Letter,
-        Paper::Plate(sides) => Stock::Plate(sides),
-        Paper::Roll([width]) => Stock::Roll(width),
-    }))
-}
-
 /// Writes a drawing to an SVG file.
 #[wasm_bindgen(js_name = writeSvg)]
 pub fn write_svg_file(drawing: JsValue) -> Result<Uint8Array> {
     Ok(write_svg(&drawn(drawing)?)?.as_slice().into())
 }
 
+/// Options of writing a PDF file: JavaScript's `WritePdfOptions` object.
+#[derive(Default, Deserialize)]
+#[serde(default)]
+struct PdfInput {
+    stock: Option<Stock>,
+    title: Option<String>,
+}
+
 /// Writes a drawing to a PDF file, on one page, or on pages of the option `stock`.
 #[wasm_bindgen(js_name = writePdf)]
 pub fn write_pdf_file(drawing: JsValue, options: JsValue) -> Result<Uint8Array> {
-    let mut given = Given::new(&options)?;
-    let stock = stock_from(given.value("stock"))?;
-    let title = given.value("title").as_string();
-    given.finish()?;
+    let PdfInput { stock, title } = read(&options)?;
     let options = PdfOptions::default().stock(stock).title(title.as_deref());
     Ok(write_pdf(&drawn(drawing)?, &options)?.as_slice().into())
 }

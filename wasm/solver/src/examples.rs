@@ -8,7 +8,7 @@ use wasm_bindgen::prelude::*;
 use super::results::ImageOutput;
 use developable::{Example, ExampleOptions};
 use developable_wasm::Result;
-use developable_wasm::options::{option, read};
+use developable_wasm::options::read;
 
 /// A generated example with noisy and exact heights, written as JavaScript's `Example` object.
 #[derive(Serialize)]
@@ -20,8 +20,7 @@ struct ExampleOutput {
 
 /// Generates an example surface by its name; returns JavaScript's `Example` object.
 #[wasm_bindgen]
-pub fn example(name: JsValue, options: JsValue) -> Result<JsValue> {
-    let name: String = option("example", name, "must be the name of an example")?;
+pub fn example(name: &str, options: JsValue) -> Result<JsValue> {
     let settings: ExampleOptions = read(&options)?;
     let sample = name.parse::<Example>()?.generate(&settings)?;
     Ok(to_value(&ExampleOutput {

@@ -1,11 +1,12 @@
 //! Options of a solve, and of resampling its input, read from JavaScript.
 
+use serde::Deserialize;
 use wasm_bindgen::prelude::*;
 
 use developable::checks::positive;
 use developable::{Bridging, Normalization, Options};
 use developable_wasm::Result;
-use developable_wasm::options::{Given, option};
+use developable_wasm::options::OptionReader;
 
 /// Options of a solve and of resampling its input, read from JavaScript's `SolverOptions` object.
 #[derive(Clone, Copy, Default)]
@@ -18,23 +19,54 @@ pub struct Settings {
     pub bridging: Bridging,
 }
 
+/// Options of a solve besides those of the library's [`Options`].
+#[derive(Default, Deserialize)]
+#[serde(default, rename_all = "camelCase")]
+struct InputOptions {
+    paper: bool,
+    normalize: Normalization,
+    spacing: Option<f64>,
+    occlusion_threshold: Option<f64>,
+    bridge: Bridge,
+}
+
+/// Whether holes are bridged, or the maximum width of those that are.
+#[derive(Deserialize)]
+#[serde(
+    untagged,
+    expecting = "expected a width from 1 to 16 vertices or pixels, or none"
+)]
+enum Bridge {
+    Wanted(bool),
+    Width(usize),
+}
+
+impl Default for Bridge {
+    fn default() -> Self {
+        Bridge::Wanted(true)
+    }
+}
+
 impl Settings {
     pub fn new(options: &JsValue) -> Result<Settings> {
-        let mut given = Given::new(options)?;
-        let options: Options = given.read()?;
-        let settings = Settings {
-            options: match given.flag("paper") {
-                Some(true) => options.or_paper(),
-                _ => options,
+        let mut reader = OptionReader::new(options)?;
+        let options: Options = reader.read()?;
+        let input: InputOptions = reader.read()?;
+        reader.finish()?;
+        Ok(Settings {
+            options: match input.paper {
+                true => options.or_paper(),
+                false => options,
             },
-            normalization: (given.flag("normalize"))
-                .map_or_else(Normalization::default, Normalization::from),
-            spacing: given.number("spacing"),
-            occlusion_threshold: given.number("occlusionThreshold"),
-            bridging: bridging(given.value("bridge"))?,
-        };
-        given.finish()?;
-        Ok(settings)
+            normalization: input.normalize,
+            spacing: input.spacing,
+            occlusion_threshold: input.occlusion_threshold,
+            bridging: match input.bridge {
+                Bridge::Wanted(true) => Bridging::default(),
+                Bridge::Wanted(false) => Bridging::Off,
+                Bridge::Width(width) => Bridging::UpTo(width),
+            },
+        })
     }
 
     /// Returns an error if the value of an option is out of its range, as far as that does not depend on the input.
@@ -63,18 +95,4 @@ impl Settings {
 #[wasm_bindgen(js_name = checkOptions)]
 pub fn check_options(options: JsValue) -> Result<()> {
     Settings::new(&options)?.check()
-}
-
-/// Reads the option `bridge`: the maximum width of holes that are bridged, `true` for the default width, `false` for
-/// none.
-fn bridging(value: JsValue) -> Result<Bridging> {
-    if value.is_undefined() {
-        return Ok(Bridging::default());
-    }
-    let requirement = "must be a width from 1 to 16 vertices or pixels, or none";
-    Ok(match value.as_bool() {
-        Some(true) => Bridging::default(),
-        Some(false) => Bridging::Off,
-        None => Bridging::UpTo(option("bridge", value, requirement)?),
-    })
 }

@@ -20,11 +20,11 @@ use developable::{Frame, Heightfield};
 use developable_wasm::Result;
 use developable_wasm::arrays::groups;
 use developable_wasm::camera::photo_camera;
-use developable_wasm::flat::{GridOutput, MapOptions, cleaning_from, flat_image};
+use developable_wasm::flat::{CleaningInput, GridOutput, MapOptions, flat_image};
 use developable_wasm::frame::FrameFields;
-use developable_wasm::options::Given;
+use developable_wasm::options::OptionReader;
 use developable_wasm::photo::{Pixels, extent_from};
-use developable_wasm::scene::{Scene, check_spacing, is_image};
+use developable_wasm::scene::{Scene, SpacingInput, check_spacing, is_image};
 
 /// Curvatures of a surface and their statistics, written as JavaScript's `Analysis` object.
 #[derive(Serialize)]
@@ -48,26 +48,33 @@ struct AnalysisOutput {
 }
 
 /// Takes the option `spacing`, the only one that is left to read; another one left is an error.
-fn spacing_of(mut given: Given) -> Result<Option<f64>> {
-    let spacing = given.number("spacing");
-    given.finish()?;
+fn spacing_of(mut reader: OptionReader) -> Result<Option<f64>> {
+    let SpacingInput { spacing } = reader.read()?;
+    reader.finish()?;
     Ok(spacing)
 }
 
 /// Reads a surface; a height image is resampled to the lattice with the option `spacing`, the only option left to read.
-fn surface_of(field: JsValue, given: Given) -> Result<Heightfield> {
-    let spacing = spacing_of(given)?;
+fn surface_of(field: JsValue, reader: OptionReader) -> Result<Heightfield> {
+    let spacing = spacing_of(reader)?;
     check_spacing(spacing, is_image(&field)?)?;
     Ok(Scene::new(field, spacing)?.surface)
+}
+
+/// Option of an analysis: JavaScript's `AnalyzeOptions` object without the reference and the spacing.
+#[derive(Default, Deserialize)]
+#[serde(default)]
+struct ThresholdInput {
+    threshold: Option<f64>,
 }
 
 /// Computes curvatures of a surface, their statistics, and the surface's deviation from a reference surface if there is
 /// one; returns JavaScript's `Analysis` object.
 #[wasm_bindgen]
 pub fn analyze(field: JsValue, reference: JsValue, options: JsValue) -> Result<JsValue> {
-    let mut given = Given::new(&options)?;
-    let threshold = given.number("threshold");
-    let spacing = spacing_of(given)?;
+    let mut reader = OptionReader::new(&options)?;
+    let ThresholdInput { threshold } = reader.read()?;
+    let spacing = spacing_of(reader)?;
     check_spacing(spacing, is_image(&field)? || is_image(&reference)?)?;
     let Scene { surface, .. } = Scene::new(field, spacing)?;
     let deviation = if reference.is_undefined() {
@@ -125,9 +132,9 @@ struct UnrollingOutput {
 /// Lays a surface flat without cuts; returns JavaScript's `Unrolling` object.
 #[wasm_bindgen(js_name = unroll)]
 pub fn unroll_surface(field: JsValue, options: JsValue) -> Result<JsValue> {
-    let mut given = Given::new(&options)?;
-    let wanted: UnrollOptions = given.read()?;
-    let surface = surface_of(field, given)?;
+    let mut reader = OptionReader::new(&options)?;
+    let wanted: UnrollOptions = reader.read()?;
+    let surface = surface_of(field, reader)?;
     let sheet = unroll(&surface, &wanted)?;
     let (mesh, lattice) = (sheet.mesh(), surface.lattice());
     Ok(to_value(&UnrollingOutput {
@@ -176,8 +183,7 @@ struct DewarpInput {
     trim: bool,
     deskew: bool,
     crop: Option<Vec<[f64; 2]>>,
-    #[serde(with = "preserve")]
-    extent: JsValue,
+    extent: Option<[f64; 4]>,
     #[serde(with = "preserve")]
     camera: JsValue,
     frame: Option<FrameFields>,
@@ -185,19 +191,14 @@ struct DewarpInput {
     uvs: JsValue,
 }
 
-/// Returns the value, or `None` if it is `undefined` in JavaScript.
-fn some(value: JsValue) -> Option<JsValue> {
-    (!value.is_undefined()).then_some(value)
-}
-
 /// Makes a photo of a surface flat, by unrolling the surface; returns JavaScript's `Dewarped` object.
 #[wasm_bindgen]
 pub fn dewarp(field: JsValue, photo: JsValue, options: JsValue) -> Result<JsValue> {
-    let mut given = Given::new(&options)?;
-    let unrolling: UnrollOptions = given.read()?;
-    let maps = MapOptions::new(&mut given);
+    let mut reader = OptionReader::new(&options)?;
+    let unrolling: UnrollOptions = reader.read()?;
+    let maps: MapOptions = reader.read()?;
     // A surface need not be a document: its shades may mean something.
-    let cleaning = cleaning_from(&mut given, Light::Keep)?;
+    let cleaning = reader.read::<CleaningInput>()?.options(Light::Keep);
     let DewarpInput {
         dots,
         trim,
@@ -207,13 +208,14 @@ pub fn dewarp(field: JsValue, photo: JsValue, options: JsValue) -> Result<JsValu
         camera,
         frame,
         uvs,
-    } = given.read()?;
-    let spacing = spacing_of(given)?;
+    } = reader.read()?;
+    let spacing = spacing_of(reader)?;
     check_spacing(spacing, is_image(&field)?)?;
-    let camera = some(camera)
-        .map(|camera| photo_camera(&camera))
-        .transpose()?;
-    let extent = some(extent).map(extent_from).transpose()?;
+    let camera = match camera.is_undefined() {
+        true => None,
+        false => Some(photo_camera(&camera)?),
+    };
+    let extent = extent.map(extent_from).transpose()?;
     let frame = frame.map_or_else(Frame::default, Frame::from);
     let wanted = dots.map_or_else(DewarpOptions::default, |dots| {
         DewarpOptions::default().dots(dots)
@@ -290,9 +292,9 @@ struct PatchesOutput<'a> {
 /// Segments a surface into patches and finds the creases between them; returns JavaScript's `PatchMap` object.
 #[wasm_bindgen]
 pub fn patches(field: JsValue, options: JsValue) -> Result<JsValue> {
-    let mut given = Given::new(&options)?;
-    let wanted: PatchOptions = given.read()?;
-    let surface = surface_of(field, given)?;
+    let mut reader = OptionReader::new(&options)?;
+    let wanted: PatchOptions = reader.read()?;
+    let surface = surface_of(field, reader)?;
     let found = Patches::new(&surface, &wanted)?;
     // In JavaScript the label of no patch is −1.
     let mut labels = try_filled("patches", found.labels().len(), -1)?;
@@ -330,9 +332,9 @@ struct RulingsOutput<'a> {
 /// JavaScript's `RulingField` object.
 #[wasm_bindgen]
 pub fn rulings(field: JsValue, options: JsValue) -> Result<JsValue> {
-    let mut given = Given::new(&options)?;
-    let wanted: TraceOptions = given.read()?;
-    let surface = surface_of(field, given)?;
+    let mut reader = OptionReader::new(&options)?;
+    let wanted: TraceOptions = reader.read()?;
+    let surface = surface_of(field, reader)?;
     let found = Rulings::new(&surface)?;
     let lines = found.trace(&wanted)?;
     let lattice = surface.lattice();

@@ -14,8 +14,8 @@ use developable::page::{
     PageOptions, PageOutline, PageReport, PageSurface, PageVerdict, PageWarp, Ruler, Trace,
     find_outline,
 };
-use developable_wasm::flat::{GridOutput, MapOptions, cleaning_from, flat_image};
-use developable_wasm::options::{Given, entries, option, renamed, unknown};
+use developable_wasm::flat::{CleaningInput, GridOutput, MapOptions, flat_image};
+use developable_wasm::options::{OptionReader, read, renamed};
 use developable_wasm::photo::Pixels;
 use developable_wasm::{Failure, Result};
 
@@ -81,11 +81,41 @@ impl EdgesInput {
     }
 }
 
-#[derive(Deserialize)]
-struct RulerInput {
-    from: [f64; 2],
-    to: [f64; 2],
-    length: f64,
+/// What is known about a page besides its edges, read from JavaScript's `DewarpPageOptions` object.
+#[derive(Default, Deserialize)]
+#[serde(default, rename_all = "camelCase")]
+struct KnownPage {
+    focal_length: Option<f64>,
+    field_of_view: Option<f64>,
+    film35: Option<f64>,
+    page: Option<Format>,
+    ruler: Option<Ruler>,
+    centre: Option<[f64; 2]>,
+    accuracy: Option<f64>,
+    find_lines: Option<bool>,
+}
+
+impl KnownPage {
+    fn options(&self) -> Result<PageOptions> {
+        let focal = [
+            self.focal_length.map(FocalLength::Pixels),
+            self.field_of_view.map(FocalLength::FieldOfView),
+            self.film35.map(FocalLength::Film35),
+        ];
+        let mut focal = focal.into_iter().flatten();
+        let mut known = PageOptions::default();
+        known.focal_length = focal.next().unwrap_or_default();
+        if focal.next().is_some() {
+            return Err(Failure::option(
+                "options `focalLength`, `fieldOfView` and `film35` say the same: give one of them",
+            ));
+        }
+        known.format = self.page.unwrap_or_default();
+        known.ruler = self.ruler;
+        known.centre = self.centre;
+        known.accuracy = self.accuracy;
+        Ok(known)
+    }
 }
 
 /// A page that was found in a photo, with its warp map by shares, mesh and report: what JavaScript's `DewarpedPage` object has
@@ -223,49 +253,8 @@ pub fn find_page(photo: JsValue) -> Result<JsValue> {
 /// photo; returns what JavaScript's `DewarpedPage` object has besides the flat image.
 #[wasm_bindgen(js_name = pageSurface)]
 pub fn page_surface(photo: JsValue, edges: JsValue, options: JsValue) -> Result<JsValue> {
-    let mut known = PageOptions::default();
-    let mut focal = Vec::new();
-    let mut finding = None;
-    for (name, value) in entries(&options)? {
-        let number = "must be a number";
-        match name.as_str() {
-            "focalLength" => {
-                focal.push(FocalLength::Pixels(option("focal_length", value, number)?))
-            }
-            "fieldOfView" => {
-                focal.push(FocalLength::FieldOfView(option(
-                    "field_of_view",
-                    value,
-                    number,
-                )?));
-            }
-            "film35" => focal.push(FocalLength::Film35(option("film35", value, number)?)),
-            "page" => known = known.format(format_from(value)?),
-            "ruler" => {
-                let requirement =
-                    "must be { from, to, length }: two places in the photo, and millimetres";
-                let RulerInput { from, to, length } = option("ruler", value, requirement)?;
-                known = known.ruler(Ruler { from, to, length });
-            }
-            "centre" => known = known.centre(option("centre", value, "must be two numbers")?),
-            "findLines" => finding = Some(option("findLines", value, "must be true or false")?),
-            "accuracy" => known = known.accuracy(option("accuracy", value, number)?),
-            _ => {
-                let names =
-                    "focalLength, fieldOfView, film35, page, ruler, centre, accuracy and findLines";
-                return Err(unknown(&name, names));
-            }
-        }
-    }
-    match focal[..] {
-        [] => {}
-        [focal] => known = known.focal_length(focal),
-        _ => {
-            return Err(Failure::option(
-                "options `focalLength`, `fieldOfView` and `film35` say the same: give one of them",
-            ));
-        }
-    }
+    let input: KnownPage = read(&options)?;
+    let known = input.options()?;
     let pixels = Pixels::new(photo)?;
     let photo = pixels.photo()?;
     let (mut pages, mut lines, mut find) = (Vec::new(), Vec::new(), true);
@@ -284,7 +273,7 @@ pub fn page_surface(photo: JsValue, edges: JsValue, options: JsValue) -> Result<
         }
         None
     };
-    let find = finding.unwrap_or(find);
+    let find = input.find_lines.unwrap_or(find);
     let page = if find {
         PageSurface::in_photo(&pages, &lines, &photo, &known)
     } else {
@@ -319,21 +308,24 @@ pub fn page_surface(photo: JsValue, edges: JsValue, options: JsValue) -> Result<
     })?)
 }
 
+/// The option that sets the resolution of the flat image.
+#[derive(Default, Deserialize)]
+#[serde(default)]
+struct DotsInput {
+    dots: Option<f64>,
+}
+
 /// Makes a photo of any resolution flat by a page that was found in the same picture; returns JavaScript's `FlatPage` object
 /// without size and unit.
 #[wasm_bindgen(js_name = flattenPhoto)]
 pub fn flatten_photo(photo: JsValue, page: JsValue, options: JsValue) -> Result<JsValue> {
-    let mut given = Given::new(&options)?;
-    let maps = MapOptions::new(&mut given);
-    let cleaning = cleaning_from(&mut given, Light::default())?;
+    let mut reader = OptionReader::new(&options)?;
+    let maps: MapOptions = reader.read()?;
+    let cleaning = reader.read::<CleaningInput>()?.options(Light::default());
+    let DotsInput { dots } = reader.read()?;
+    reader.finish()?;
     let mut wanted = DewarpOptions::default();
-    for (name, value) in entries(&options)? {
-        match name.as_str() {
-            "dots" => wanted = wanted.dots(option("dots", value, "must be a number")?),
-            "map" | "grid" | "light" | "ink" => {}
-            _ => return Err(unknown(&name, "dots, map, grid, light and ink")),
-        }
-    }
+    wanted.dots = dots;
     let PageInput { size, unit, warp } = from_value(page)?;
     let places = warp.places.to_vec().as_chunks().0.to_vec();
     let nodes = [warp.columns, warp.rows];
@@ -364,23 +356,5 @@ fn points(line: &Trace) -> Vec<[f64; 2]> {
     match line {
         Trace::Points(points) => points.clone(),
         _ => Vec::new(),
-    }
-}
-
-/// Reads the option `page`: a paper format's name, or width and height in millimetres.
-fn format_from(value: JsValue) -> Result<Format> {
-    #[derive(Deserialize)]
-    #[serde(untagged)]
-    enum Given {
-        Name(String),
-        Sides([f64; 2]),
-    }
-    let requirement = "must be `a4`, `letter` or width and height in millimetres";
-    let shown = value.clone();
-    match option("page", value, requirement)? {
-        Given::Name(name) if name == "a4" => Ok(Format::A4),
-        Given::Name(name) if name == "letter" => Ok(Format::Letter),
-        Given::Name(_) => option("page", shown, requirement).map(Format::Millimetres),
-        Given::Sides(sides) => Ok(Format::Millimetres(sides)),
     }
 }

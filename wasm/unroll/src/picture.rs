@@ -2,7 +2,6 @@
 
 use js_sys::{Object, Reflect, Uint8ClampedArray, global};
 use serde::Deserialize;
-use serde_wasm_bindgen::preserve;
 use wasm_bindgen::prelude::*;
 use web_sys::{
     CanvasRenderingContext2d, HtmlCanvasElement, ImageData, OffscreenCanvas,
@@ -11,12 +10,12 @@ use web_sys::{
 
 use developable::patches::PatchOptions;
 use developable::picture::{Curvature, Picture, PictureOptions, Style};
-use developable_wasm::options::Given;
+use developable_wasm::options::OptionReader;
 use developable_wasm::photo::extent_from;
 use developable_wasm::scene::{Scene, check_spacing, is_image};
 use developable_wasm::{Failure, Result};
 
-use super::{some, spacing_of};
+use super::spacing_of;
 
 /// Draws a surface seen from above to pixels: returns an `ImageData` where the platform has it, else a plain object
 /// with the same fields.
@@ -49,19 +48,35 @@ pub fn draw(canvas: JsValue, field: JsValue, options: JsValue) -> Result<()> {
 #[derive(Default, Deserialize)]
 #[serde(default)]
 struct PictureInput {
-    style: Option<String>,
+    style: StyleInput,
     light: Option<[f64; 3]>,
-    curvature: Option<String>,
+    curvature: CurvatureInput,
     limit: Option<f64>,
     width: Option<usize>,
-    #[serde(with = "preserve")]
-    extent: JsValue,
+    extent: Option<[f64; 4]>,
+}
+
+#[derive(Default, Deserialize)]
+#[serde(rename_all = "camelCase")]
+enum StyleInput {
+    #[default]
+    Shaded,
+    Curvature,
+    Patches,
+}
+
+#[derive(Default, Deserialize)]
+#[serde(rename_all = "camelCase")]
+enum CurvatureInput {
+    #[default]
+    Gaussian,
+    Kappa2,
 }
 
 /// Draws the picture of a surface that the options ask for.
 fn drawn(field: JsValue, options: JsValue) -> Result<Picture> {
-    let mut given = Given::new(&options)?;
-    let patching: PatchOptions = given.read()?;
+    let mut reader = OptionReader::new(&options)?;
+    let patching: PatchOptions = reader.read()?;
     let PictureInput {
         style,
         light,
@@ -69,23 +84,21 @@ fn drawn(field: JsValue, options: JsValue) -> Result<Picture> {
         limit,
         width,
         extent,
-    } = given.read()?;
-    let spacing = spacing_of(given)?;
+    } = reader.read()?;
+    let spacing = spacing_of(reader)?;
     let mut wanted = PictureOptions::default();
     wanted.width = width;
-    wanted.extent = some(extent).map(extent_from).transpose()?;
-    let style = match style.as_deref().unwrap_or("shaded") {
-        "shaded" => light.map_or(Style::shaded(), |light| Style::Shaded { light }),
-        "curvature" => Style::Curvature {
-            kind: match curvature.as_deref() {
-                None | Some("gaussian") => Curvature::Gaussian,
-                Some("kappa2") => Curvature::Kappa2,
-                Some(_) => return Err(Failure::option("curvature is gaussian or kappa2")),
+    wanted.extent = extent.map(extent_from).transpose()?;
+    let style = match style {
+        StyleInput::Shaded => light.map_or(Style::shaded(), |light| Style::Shaded { light }),
+        StyleInput::Curvature => Style::Curvature {
+            kind: match curvature {
+                CurvatureInput::Gaussian => Curvature::Gaussian,
+                CurvatureInput::Kappa2 => Curvature::Kappa2,
             },
             limit,
         },
-        "patches" => Style::Patches(patching),
-        _ => return Err(Failure::option("style is shaded, curvature or patches")),
+        StyleInput::Patches => Style::Patches(patching),
     };
     let image = is_image(&field)?;
     check_spacing(spacing, image)?;

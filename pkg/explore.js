@@ -1,5 +1,5 @@
 /**
- * Patterns of one input at several λ and sizes of patches, to choose from. What is tried, and in which order, Rust's `explore`
+ * Patterns of one input at several λ and sizes of patches, to choose from. What is tried, and in which order, Rust's `Trials`
  * says; the loop is here, since solves and patterns run in two wasm files, and plans are told and broken off between them.
  */
 import { DevelopableError } from './errors.js';

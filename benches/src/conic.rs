@@ -81,7 +81,7 @@ impl Program {
                 (cone + 2, [0.0, 2.0, 0.0]),
             ]
         };
-        for (row, entries) in energy.c.to_sparse().outer_iterator().enumerate() {
+        for (row, entries) in energy.operator().outer_iterator().enumerate() {
             for (condition, factors) in conditions(row / 3) {
                 let factor = factors[row % 3];
                 for (col, value) in entries.iter().filter(|_| factor != 0.0) {

@@ -2,7 +2,7 @@
 //! input's own coordinates. Vertices outside `I ∪ ∂I` stand apart from the rest, at height 0.
 
 use developable::{Domain, HessianOperator, Sym2};
-use sprs::CsMat;
+use sprs::{CsMat, TriMat};
 
 /// `P(z) = λ Σ (z − z̃)² + Σ ‖Cz‖_*`.
 pub struct Energy<'a> {
@@ -58,9 +58,18 @@ impl<'a> Energy<'a> {
         product - force.iter().map(|f| f * f).sum::<f64>() / (4.0 * self.lambda)
     }
 
+    /// `C` as a sparse matrix.
+    pub fn operator(&self) -> CsMat<f64> {
+        let mut triplets = TriMat::new((3 * self.interior(), self.len()));
+        for (row, column, value) in self.c.triplets() {
+            triplets.add_triplet(row, column, value);
+        }
+        triplets.to_csr()
+    }
+
     /// `CᵀC` in the Frobenius inner product, which counts `h_xy` twice.
     pub fn normal_matrix(&self) -> CsMat<f64> {
-        let c = self.c.to_sparse();
+        let c = self.operator();
         let mut weighted = c.clone();
         for (row, mut entries) in weighted.outer_iterator_mut().enumerate() {
             if row % 3 == 1 {

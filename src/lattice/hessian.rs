@@ -90,10 +90,10 @@ impl<'a> HessianOperator<'a> {
         out
     }
 
-    /// Returns `C` as a sparse matrix: three rows `h_xx, h_xy, h_yy` for each interior vertex, one column for each
-    /// lattice vertex. Remember the factor 2 that `h_xy` carries in the Frobenius inner product.
-    #[cfg(feature = "sprs")]
-    pub fn to_sparse(&self) -> sprs::CsMat<f64> {
+    /// Returns the entries of `C` as row, column and value, for a library of sparse matrices: three rows `h_xx, h_xy, h_yy` for
+    /// each interior vertex, one column for each lattice vertex. Remember the factor 2 that `h_xy` carries in the Frobenius inner
+    /// product.
+    pub fn triplets(&self) -> Vec<(usize, usize, f64)> {
         let lattice = self.domain.lattice();
         let inverse = 1.0 / (lattice.spacing() * lattice.spacing());
         let (third, root) = (inverse / 3.0, inverse / 3f64.sqrt());
@@ -106,20 +106,19 @@ impl<'a> HessianOperator<'a> {
             [0.0, root, 2.0 * third],
             [0.0, -root, 2.0 * third],
         ];
-        let mut triplets =
-            sprs::TriMat::with_capacity((3 * self.domain.interior_len(), lattice.len()), 0);
+        let mut triplets = Vec::new();
         for (i, (row, col)) in self.vertices().enumerate() {
-            triplets.add_triplet(3 * i, lattice.index(row, col), -2.0 * inverse);
-            triplets.add_triplet(3 * i + 2, lattice.index(row, col), -2.0 * inverse);
+            let own = lattice.index(row, col);
+            triplets.extend([3 * i, 3 * i + 2].map(|row| (row, own, -2.0 * inverse)));
             for (neighbour, entries) in lattice.neighbours(row, col).into_iter().zip(ring) {
                 for (k, entry) in entries.into_iter().enumerate() {
                     if let (Some((r, c)), true) = (neighbour, entry != 0.0) {
-                        triplets.add_triplet(3 * i + k, lattice.index(r, c), entry);
+                        triplets.push((3 * i + k, lattice.index(r, c), entry));
                     }
                 }
             }
         }
-        triplets.to_csr()
+        triplets
     }
 }
 
@@ -137,6 +136,17 @@ mod tests {
     use super::*;
     use crate::lattice::domain::tests::{arbitrary_field, single_ring};
     use proptest::prelude::*;
+
+    impl HessianOperator<'_> {
+        pub(crate) fn to_sparse(self) -> sprs::CsMat<f64> {
+            let size = (3 * self.domain.interior_len(), self.domain.lattice().len());
+            let mut matrix = sprs::TriMat::new(size);
+            for (row, column, value) in self.triplets() {
+                matrix.add_triplet(row, column, value);
+            }
+            matrix.to_csr()
+        }
+    }
 
     fn pseudo_random(n: usize) -> impl Iterator<Item = f64> {
         (0..n).scan(0.3f64, |x, _| {

@@ -2,7 +2,7 @@
 
 pub(crate) mod gradients;
 pub(crate) mod matrix;
-#[cfg(all(test, feature = "sprs", not(target_arch = "wasm32")))] // clarabel is native
+#[cfg(all(test, not(target_arch = "wasm32")))] // clarabel is native
 mod tests;
 pub(crate) mod v_cycle;
 

@@ -47,7 +47,7 @@ fn disk(cols: usize) -> Heightfield {
 }
 
 /// Of a matrix with three rows `h_xx, h_xy, h_yy` for each stencil, as
-/// [`HessianOperator::to_sparse`] makes them, and a column for each vertex. `centres` are the vertices in
+/// [`HessianOperator::triplets`] has them, and a column for each vertex. `centres` are the vertices in
 /// the middle of the stencils, whose neighbours are the others that they take heights of.
 fn operator_of(
     matrix: &sprs::CsMat<f64>,

@@ -8,7 +8,7 @@ use wasm_bindgen::prelude::*;
 use developable::Mesh;
 use developable::assembly::Assembly;
 use developable::drawing::{Bending, Drawing, DrawingOptions, Stock};
-use developable::explore::ExploreOptions;
+use developable::explore::Trials;
 use developable::files::Unit;
 use developable::files::assembly::{write_animation, write_assembly_svg};
 use developable::files::drawings::{PdfOptions, write_dxf, write_pdf, write_svg};
@@ -161,14 +161,12 @@ struct TrialsOutput {
 #[wasm_bindgen]
 pub fn trials(given: JsValue) -> Result<JsValue> {
     let given: TrialsInput = read(&given)?;
-    let default =
-        (given.mesh_lambda).map_or_else(ExploreOptions::default, ExploreOptions::for_mesh);
-    let ExploreOptions {
-        lambdas, smallest, ..
-    } = ExploreOptions {
+    let default = given
+        .mesh_lambda
+        .map_or_else(Trials::default, Trials::for_mesh);
+    let Trials { lambdas, smallest } = Trials {
         lambdas: given.lambdas.unwrap_or(default.lambdas),
         smallest: given.smallest.unwrap_or(default.smallest),
-        ..Default::default()
     }
     .in_order();
     Ok(to_value(&TrialsOutput { lambdas, smallest })?)

@@ -14,14 +14,17 @@ import type {
 export { parseCamera } from './camera-file.js';
 export * from './types.js';
 
-/** What is not needed by everybody, each in a wasm file of its own. */
+/** Name of a part that is loaded when it is needed, each from a wasm file of its own. */
 export type PartName = 'files' | 'images' | 'meshes' | 'fitmesh' | 'unroll' | 'patterns';
 
-/** Loads the solver's wasm once; later calls (with anything) return the same promise. May be repeated after a failure. */
+/**
+ * Loads the solver's wasm once; later calls, with any argument, return the same promise. It may be repeated after a
+ * failure.
+ */
 export function init(input?: InitInput): Promise<void>;
 
 /**
- * Loads other parts, likewise: `load('files', 'meshes')`, or from another place, `load({ files: url })`.
+ * Loads other parts once each: `load('files', 'meshes')`, or from another place, `load({ files: url })`.
  * - `files`: `read` and the `write…` functions for PNG, NPY, OBJ and MTL, photos in PNG and JPEG, `paint`, and `sampleMesh` of a
  *   mesh with textures;
  * - `images`: all other height images, and photos in WebP, GIF, BMP and TIFF;
@@ -34,202 +37,269 @@ export function init(input?: InitInput): Promise<void>;
  */
 export function load(...parts: (PartName | Partial<Record<PartName, InitInput>>)[]): Promise<void>;
 
+/** Options of writing a GLB file. */
 export interface WriteGlbOptions {
   /**
-   * A PNG or JPEG file that the texture coordinates are about, to be embedded as it is; it takes the
-   * place of colours. Default: the field's own; `null` for none.
+   * PNG or JPEG file that the texture coordinates are about. It is embedded as it is, and replaces colours. Default: the texture
+   * of the mesh or surface; `null` for none.
    */
   texture?: Uint8Array | ArrayBuffer | null;
 }
 
+/** Options of writing an OBJ file. */
 export interface WriteObjOptions {
-  /** Name of a file that `writeMtl` has made: its picture takes the place of colours. */
+  /** Name of a file that `writeMtl` has written; its picture replaces colours. */
   materials?: string;
 }
 
-/** A fit over a whole mesh that runs in steps. Dispose it (or use `using`) to free its memory. */
+/** Fit of a whole mesh that runs in steps. Dispose of it (or use `using`) to free its memory. */
 export class MeshSolver {
+  /** Prepares the fit of a mesh. */
   constructor(mesh: Mesh, options?: MeshSolverOptions);
-  /** Runs for about `milliseconds` (at least one step); true while there is more to do. */
+  /** Runs for about `milliseconds`, at least one step; returns whether there is more to do. */
   advance(milliseconds: number): boolean;
-  /** Figures of the linearisation under way. */
+  /** Returns the progress of the current linearised problem, one of several that the fit solves in turn. */
   progress(): Progress;
-  /** Stops; `surface()` then gives the best surface so far, marked `'cancelled'`. */
+  /** Stops the fit; `surface()` then returns the best surface so far, with the stop reason `'cancelled'`. */
   cancel(): void;
+  /** Returns the best mesh so far, as a copy. */
   surface(): MeshSurface;
+  /** Whether the solver was disposed of, after which its methods throw. */
   readonly disposed: boolean;
+  /** Frees the memory in the wasm. It may be repeated. */
   dispose(): void;
   [Symbol.dispose](): void;
 }
 
-/** A solver that runs in steps. Dispose it (or use `using`) to free its memory. */
+/** Fit of heights that runs in steps. Dispose of it (or use `using`) to free its memory. */
 export class Solver {
+  /** Prepares the fit of an input. */
   constructor(input: HeightImage | Heightfield, options?: SolverOptions);
   /**
-   * Solves the same input again with other options, from where it stands: much sooner done, where
-   * they differ little. What is left out of the options has its default. Another `spacing` starts
-   * from nothing. If it throws, the solver is as it was.
+   * Restarts with other options on the same input, warm-started from the current surface, which takes less time if they differ
+   * little. Options that are left out have their defaults. Another `spacing` is a cold start. If this throws, nothing has changed.
    */
   restart(options?: SolverOptions): void;
-  /** Solves another input likewise, from where it stands if its lattice has the same shape. */
+  /** Restarts with another input, warm-started from the current surface if the lattices have the same shape. */
   restartWith(input: HeightImage | Heightfield, options?: SolverOptions): void;
-  /** Runs for about `milliseconds` (at least one step); true while there is more to do. */
+  /** Runs for about `milliseconds`, at least one step; returns whether there is more to do. */
   advance(milliseconds: number): boolean;
-  /** Figures of the last check. */
+  /** Returns the figures of the last check. */
   progress(): Progress;
-  /** Stops; `surface()` then gives the best iterate so far, marked `'cancelled'`. */
+  /** Stops the fit; `surface()` then returns the best surface so far, with the stop reason `'cancelled'`. */
   cancel(): void;
-  /** The best surface so far, as a copy. May be called at any time and repeatedly. */
+  /** Returns the best surface so far, as a copy. It may be called at any time. */
   surface(): Surface;
+  /** Whether the solver was disposed of, after which its methods throw. */
   readonly disposed: boolean;
-  /** Frees the wasm memory. Harmless when repeated. */
+  /** Frees the memory in the wasm. It may be repeated. */
   dispose(): void;
   [Symbol.dispose](): void;
 }
 
+/** Options of a fit that runs where it is called. */
 export interface DirectFitOptions extends SolverOptions {
-  /** Called several times a second, and not async; `false` stops and keeps the best surface so far. */
+  /**
+   * Function that is called several times a second; it must not be async. If it returns false the fit stops with the best
+   * surface so far.
+   */
   onProgress?: (progress: Progress) => boolean | void;
 }
 
-/** Solves to the end. */
+/**
+ * Fits a piecewise developable surface to heights. `report.gap` certifies by which share the objective can be above its
+ * minimum at most.
+ */
 export function fit(input: HeightImage, options?: DirectFitOptions): ImageSurface;
+/**
+ * Fits a piecewise developable surface to heights. `report.gap` certifies by which share the objective can be above its
+ * minimum at most.
+ */
 export function fit(input: Heightfield, options?: DirectFitOptions): LatticeSurface;
+/**
+ * Fits a piecewise developable surface to heights. `report.gap` certifies by which share the objective can be above its
+ * minimum at most.
+ */
 export function fit(input: HeightImage | Heightfield, options?: DirectFitOptions): Surface;
-/** The occlusions in heights, to be looked at before a solve. */
+/**
+ * Detects occlusions in heights: places where the surface is torn. `fit` takes them as `occlusions` and `brokenEdges`.
+ */
 export function occlusions(input: HeightImage | Heightfield, options?: OcclusionOptions): DetectedOcclusions;
-/** Decodes a PNG, NPY, TIFF, EXR, PFM, NPZ, JPEG or WebP file; `readMesh` is for meshes. */
+/**
+ * Decodes a file of heights: PNG, NPY, TIFF, EXR, PFM, NPZ, JPEG, WebP, text or a depth map of COLMAP. Meshes are read
+ * by `readMesh`.
+ */
 export function read(bytes: Uint8Array | ArrayBuffer, options?: ReadOptions): ReadResult;
-/** What arrays an NPZ file holds, one of which `read` takes by its name. */
+/** Lists the arrays of an NPZ file, one of which `read` takes by its name. */
 export function npzArrays(bytes: Uint8Array | ArrayBuffer): NpzArray[];
-/** NPY file (float64) of an image or of lattice heights. */
+/** Writes heights, of an image or on a lattice, to an NPY file of 64-bit floats. */
 export function writeNpy(input: HeightImage | Heightfield): Uint8Array<ArrayBuffer>;
-/** 16-bit grey PNG of an image, or of the one that a surface has, whose text chunks record pixel size, height scale and offset; level 0 is no data. */
+/**
+ * Writes an image, or the image of a surface, to a 16-bit grey PNG file. Its text chunks state pixel size, height scale
+ * and offset; level 0 is no data.
+ */
 export function writePng(input: HeightImage | Surface): Uint8Array<ArrayBuffer>;
-/** TIFF (float32, NaN is no data) that records the pixel size; heights are rounded to 32 bits. */
+/**
+ * Writes an image, or the image of a surface, to a TIFF file of 32-bit floats, with the pixel size and the georeference
+ * if there is one; NaN is no data.
+ */
 export function writeTiff(input: HeightImage | Surface): Uint8Array<ArrayBuffer>;
-/** EXR (float32, channel Z, NaN is no data); heights are rounded to 32 bits. */
+/** Writes an image, or the image of a surface, to an EXR file of 32-bit floats in the channel Z; NaN is no data. */
 export function writeExr(input: HeightImage | Surface): Uint8Array<ArrayBuffer>;
 /**
- * OBJ mesh: the lattice's triangles, in the units of the field and the axes of its `frame`, with
- * normals, and with the field's `colors` and `uvs`.
+ * Writes a mesh, or the triangles of a heightfield, to an OBJ file with normals, colours and texture coordinates: in
+ * the axes of its `frame`, in its unit of length.
  */
 export function writeObj(input: Heightfield | Mesh, options?: WriteObjOptions): Uint8Array<ArrayBuffer>;
-/** The MTL file that goes with such an OBJ: one material, with the name of a picture's file. */
+/** Writes an MTL file of one material for an OBJ file. `picture` is the name of the texture's file. */
 export function writeMtl(picture: string): Uint8Array<ArrayBuffer>;
-/** The same mesh as PLY (binary, little-endian): positions in 64 bits, colours as bytes. */
+/**
+ * Writes a mesh, or the triangles of a heightfield, to a binary PLY file: positions as 64-bit floats, colours as bytes.
+ */
 export function writePly(input: Heightfield | Mesh): Uint8Array<ArrayBuffer>;
-/** The same mesh as STL (binary): positions in 32 bits, and nothing else but each triangle's normal. */
+/**
+ * Writes a mesh, or the triangles of a heightfield, to a binary STL file: positions as 32-bit floats and a normal for
+ * each triangle.
+ */
 export function writeStl(input: Heightfield | Mesh): Uint8Array<ArrayBuffer>;
-/** The same mesh as GLB (binary glTF): positions in 32 bits, colours as bytes, and a texture if one is given. */
+/**
+ * Writes a mesh, or the triangles of a heightfield, to a GLB file (binary glTF): positions as 32-bit floats, colours as
+ * bytes, and a texture if one is given.
+ */
 export function writeGlb(input: Heightfield | Mesh, options?: WriteGlbOptions): Uint8Array<ArrayBuffer>;
-/** Decodes an OBJ, PLY, STL, glTF or GLB file, with the files beside it that it names. */
+/**
+ * Decodes a mesh file: OBJ, PLY, STL, glTF, GLB, 3MF or OFF. Polygons become triangles; a file of points alone becomes
+ * a point cloud.
+ */
 export function readMesh(bytes: Uint8Array | ArrayBuffer, options?: ReadMeshOptions): Mesh;
 /**
  * What is seen of a mesh, as heights on a lattice: an input for `fit`. Textures are read as by
  * `readPhoto`, which takes `load('files')` and, but for PNG, `load('images')`.
  */
-/** As in the promise API; `onProgress` may return false to stop with the best surface so far. */
+/**
+ * Fits a piecewise developable surface to a whole mesh, by moving its vertices: no view is needed, and the mesh may be
+ * closed, overhanging, open or in several parts. It must be a surface; otherwise the code is `TOPOLOGY` and the message
+ * says where. `confidence` of the mesh weighs how closely each vertex is followed. `onProgress` may return false to
+ * stop with the best surface so far.
+ */
 export function fitMesh(
   mesh: Mesh,
   options?: MeshSolverOptions & { onProgress?: (progress: Progress) => boolean | void },
 ): MeshSurface;
+/** Samples a mesh or point cloud from a view: returns heights at the vertices of a lattice, which `fit` takes. */
 export function sampleMesh(mesh: Mesh, options?: SampleMeshOptions): SampledMesh;
 /**
- * What a depth camera has seen, as a mesh: vertex i is pixel i (so that a picture of the same size
- * gives its `colors`), and neighbours are joined but for jumps. `data` are depths in steps of
- * `depthScale` (`heightScale` and `pixelSize` do not count); NaN, `noData`, 0 and below are none.
- * The axes are x to the right, y up, z towards the viewer, the origin is the camera, so that the
- * view `'-z'` is along its axis. The texture coordinates are about a picture with the same outline.
- *
- * A jump is where one point lies behind the other by more than ten times their distance across the
- * line of sight.
+ * Makes a mesh of the depth image of a camera. Vertex i is pixel i, so that an image of the same size gives its
+ * `colors`; neighbouring pixels are joined except at jumps, where one point is behind the other by more than ten times
+ * their distance across the line of sight. `data` are depths in steps of `depthScale` (`heightScale` and `pixelSize` do
+ * not count); NaN, `noData` and depths of 0 or less are none. The camera is at the origin; x points to the right, y up
+ * and z to the viewer, so that the view `'-z'` is along the camera's axis.
  */
 export function backProject(image: HeightImage, camera: Intrinsics, options?: DepthOptions): Mesh;
 /**
- * Gives a surface the colours of a picture of it, and texture coordinates: where its camera, or the picture's own, sees its
- * points; without a camera those that it has, or else the picture shows what the heights show. It has as many pixels as it
- * likes. Of a file, `texture` is set, too, upright. Where the picture is transparent, and where the camera does not see,
- * colours stay as they are. Takes `load('files')`, for JPEG and WebP `load('images')`, by a camera `load('meshes')`.
+ * Colours a surface by a picture of it, and gives it texture coordinates. Where in the picture a point is follows from
+ * the camera, or else from the surface's texture coordinates; without both the picture shows the same rectangle as the
+ * heights. The picture may have any resolution; if it is a file, `texture` is set as well. Colours stay as they are
+ * where the picture is transparent or the camera does not see the surface. It needs `load('files')`, for WebP pictures
+ * `load('images')`, and with a camera `load('meshes')`.
  */
 export function paint<F extends Heightfield>(input: F, picture: Picture, options?: PaintOptions): Painted<F>;
-/** How developable a surface is: curvatures at its vertices, and a summary of them. */
+/** Computes curvatures at a surface's vertices, and statistics that say how developable the surface is. */
 export function analyze(input: HeightImage | Heightfield, options?: AnalyzeOptions): Analysis;
-/** The smooth patches of a surface, and the creases between them. */
+/** Segments a surface into smooth patches, and finds the creases between them. */
 export function patches(input: HeightImage | Heightfield, options?: PatchOptions): PatchMap;
-/** A surface as a picture, seen from above. Where pixels are larger than the lattice's spacing, it is sampled. */
+/**
+ * Draws a surface, seen from above, to an image of RGBA bytes. Where pixels are larger than the lattice's spacing, the
+ * surface is sampled.
+ */
 export function picture(input: HeightImage | Heightfield, options?: PictureOptions): SurfacePicture;
-/** The same on a canvas, which becomes as large as the picture. */
+/** Draws a surface, seen from above, on a canvas, which is resized to the picture. */
 export function draw(canvas: Canvas, input: HeightImage | Heightfield, options?: PictureOptions): void;
-/** The rulings of a surface: where it does not bend, and straight lines along that. */
+/**
+ * Computes the rulings of a surface: the direction in which it does not bend at each vertex, and straight lines along
+ * these directions.
+ */
 export function rulings(input: HeightImage | Heightfield, options?: RulingOptions): RulingField;
 /**
- * The cylinder next to heights on the lattice, of whatever profile: for curled sheets, pages of books and parallel folds,
- * whose rulings are all parallel. `report.verdict` says whether they are those of one.
+ * Fits a cylinder with any profile to heights on a lattice: for curled sheets, pages of books and parallel folds, whose
+ * rulings are all parallel. `report.verdict` says whether the surface is a cylinder.
  */
 export function fitCylinder(input: Heightfield): FittedCylinder;
-/** Lays a surface flat, as rigidly as it goes. */
+/** Lays a surface flat without cuts, with as little strain as possible. */
 export function unroll(input: HeightImage | Heightfield, options?: UnrollOptions): Unrolling;
 /**
- * Cuts a surface along its creases into sheets that lie flat, with as few cuts as possible, and
- * draws them beside each other in millimetres.
+ * Makes a pattern of a surface: cuts it along creases into sheets that lie flat, with as few cuts as possible, and
+ * draws the sheets side by side in millimetres.
  */
 export function pattern(input: HeightImage | Heightfield, options?: PatternOptions): Drawing;
-/** How developable a mesh is, as it is: curvatures and rulings at its vertices, and a summary of them. */
+/** Computes curvatures and rulings at the vertices of a mesh, and statistics that say how developable the mesh is. */
 export function analyzeMesh(mesh: Mesh, options?: MeshAnalyzeOptions): MeshAnalysis;
-/** The rulings of a mesh, as it is: along what its surface does not bend, and straight lines along that. */
+/**
+ * Computes the rulings of a mesh: the direction in which it does not bend at each vertex, and straight lines along
+ * these directions.
+ */
 export function meshRulings(mesh: Mesh, options?: MeshRulingOptions): MeshRulings;
-/** Lays a mesh flat, as it is: in sheets, cut along its creases and where it does not lie flat otherwise. */
+/** Lays a mesh flat: cuts it into sheets along its creases, and where it does not lie flat otherwise. */
 export function unrollMesh(mesh: Mesh, options?: MeshUnrollOptions): MeshUnrolling;
-/** The same drawn in millimetres, as `pattern` does for heights. */
+/**
+ * Makes a pattern of a mesh: cuts it into sheets that lie flat, and draws them side by side in millimetres, as
+ * `pattern` does for heights.
+ */
 export function patternMesh(mesh: Mesh, options?: MeshPatternOptions): Drawing;
 /**
- * Whether the faces of a mesh are exact (CAD, low-poly models), so that nothing is gained by a fit. `patternMesh` moves such faces into
- * the plane as they are.
+ * Returns whether the faces of a mesh are exact, as in CAD and low-poly models, so that a fit gains nothing.
+ * `patternMesh` moves such faces into the plane as they are.
  */
 export function hasExactFaces(mesh: Mesh): boolean;
-/** SVG of a drawing, in millimetres, with the layers `cut`, `mountain`, `valley`, `tab` and `label`. */
+/** Writes a drawing to an SVG file in millimetres, with the layers `cut`, `mountain`, `valley`, `tab` and `label`. */
 export function writeSvg(drawing: Drawing): Uint8Array<ArrayBuffer>;
 /**
- * PDF of a drawing in true size, to be printed at 100 %: one page as large as the drawing, or pages
- * of paper that overlap, with crosses by which they are laid on each other.
+ * Writes a drawing to a PDF file in true size, to be printed at 100 %: one page as large as the drawing, or pages of
+ * paper that overlap, with crosses by which they are laid on each other.
  */
 export function writePdf(drawing: Drawing, options?: WritePdfOptions): Uint8Array<ArrayBuffer>;
-/** DXF (AutoCAD 2000) of a drawing, in millimetres, with the same layers in capitals. */
+/** Writes a drawing to a DXF file (AutoCAD 2000) in millimetres, with the layers of the SVG file in capitals. */
 export function writeDxf(drawing: Drawing): Uint8Array<ArrayBuffer>;
-/** Makes a photo of a surface flat. */
+/** Makes a photo of a surface flat, by laying the surface flat. */
 export function dewarp(input: HeightImage | Heightfield, photo: Photo, options?: DewarpOptions): Dewarped;
 /**
- * Makes a photo of a page flat that is curled, folded or crumpled, or of the two pages of a spread, without depth: by the page's
- * corners, or by its edges, two of which are bent or all four. Without them, by those of the one page that is found in the photo.
+ * Makes a photo of a page flat without depths: of a page that is curled, folded or crumpled, or of the two pages of a
+ * spread. It needs the page's corners or its edges, two of which are bent, or all four. Without them it takes the edges
+ * of the one page that it finds in the photo.
  */
 export function dewarpPage(photo: Picture | (Photo & { film35?: number }), options?: DewarpPageOptions): DewarpedPage;
+/**
+ * Makes a photo of a page flat without depths: of a page that is curled, folded or crumpled, or of the two pages of a
+ * spread. It needs the page's corners or its edges, two of which are bent, or all four. Without them it takes the edges
+ * of the one page that it finds in the photo.
+ */
 export function dewarpPage(
   photo: Picture | (Photo & { film35?: number }), edges?: PageEdges | readonly PageEdges[] | PageCorners | null, options?: DewarpPageOptions,
 ): DewarpedPage;
 /**
- * Makes a photo of any resolution flat by a page that `dewarpPage` has found in the same picture: the whole photo for a file,
- * after a reduced one for a preview. Costs little more than resampling, and differs from the preview in resolution alone.
+ * Makes a photo of any resolution flat by a page that `dewarpPage` found in the same picture: the whole photo for a
+ * file, say, after a reduced one for a preview. It costs little more than resampling, and differs from the preview in
+ * resolution alone.
  */
 export function flattenPhoto(photo: Picture, page: FoundPage, options?: FlattenPhotoOptions): FlatPage;
-/** The verdict on a flat page in a sentence, from its `report`: whether it can be trusted, why not, and how large its error is. */
+/** Returns the verdict on a flat page as a sentence: whether it can be trusted, why not, and how large its error is. */
 export function describePage(report: PageReport): string;
 /** Finds the page in a photo: its corners and edges, which can be corrected and given to `dewarpPage`. */
 export function findPage(photo: Picture): PageOutlines;
 /**
- * Decodes a PNG, JPEG (the way up that its Exif data state) or WebP file as RGBA bytes; all but PNG
- * take `load('images')`.
+ * Decodes a photo: JPEG, PNG, WebP, GIF, BMP or TIFF. It is turned upright by its Exif data, which also give its focal
+ * length. It needs `load('files')`, for other files than JPEG and PNG `load('images')`.
  */
 export function readPhoto(bytes: Uint8Array | ArrayBuffer): DecodedPhoto;
 /**
- * A photo or flat image as PNG (with alpha where something is transparent), JPEG or PDF (white there), which state
- * how large it is where that is known.
+ * Writes a photo or a flat image to a PNG (transparent where the image is), JPEG or PDF file (white there). The file
+ * states the true size if that is known.
  */
 export function writePhoto(photo: SizedPhoto, options?: WritePhotoOptions): Uint8Array<ArrayBuffer>;
 /**
- * A PDF with a page for each picture, which is as large as fits, in the middle. Pictures are files of JPEG or PNG without
- * transparency, as `writePhoto` writes them, and are taken over without loss.
+ * Writes a PDF file with one page for each picture, which is centred and as large as fits. Pictures are JPEG files, or
+ * PNG files without transparency, and are taken over without loss.
  */
 export function writeBook(pages: readonly BookPage[]): Uint8Array<ArrayBuffer>;
-/** One of the procedural examples. */
+/** Generates a procedural example: a height image with noise, and the true heights. */
 export function example(name: ExampleName, options?: ExampleOptions): Example;

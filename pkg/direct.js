@@ -3,7 +3,7 @@ import { asDepthOptions } from './depth-input.js';
 import { DevelopableError } from './errors.js';
 import { isImage, refuseMesh } from './formats.js';
 import { asBytes, asField, asHeights, asImage, asInput, asLattice, asPixels, carriedOf } from './input.js';
-import { files, images, meshFits, meshes, partOf, patterns, sheets, solver } from './instances.js';
+import { files, images, meshFits, meshes, partOf, patterns, solver, surfaces } from './instances.js';
 import { asFiles, asMesh, asMeshOrLattice, asPicture, wholeOf } from './mesh-input.js';
 import { optionsOf } from './options.js';
 import { asEdges, asFoundPage, edgesAndOptions, pageOptions } from './page-input.js';
@@ -308,28 +308,28 @@ export function analyze(input, given) {
   const field = asField(input);
   const { reference, ...options } = optionsOf('analyze', given);
   const other = reference === undefined ? undefined : asField(reference);
-  return sheets.call((wasm) => wasm.analyze(field, other, options));
+  return surfaces.call((wasm) => wasm.analyze(field, other, options));
 }
 
 /** @type {typeof import('./direct.js').patches} */
-export const patches = ofHeights('patches', sheets);
+export const patches = ofHeights('patches', surfaces);
 
 /** @type {typeof import('./direct.js').picture} */
 export function picture(input, given) {
   const options = placedOptions('picture', input, given);
   const field = asField(input);
-  return sheets.call((wasm) => wasm.picture(field, options));
+  return surfaces.call((wasm) => wasm.picture(field, options));
 }
 
 /** @type {typeof import('./direct.js').draw} */
 export function draw(canvas, input, given) {
   const options = placedOptions('picture', input, given);
   const field = asField(input);
-  sheets.call((wasm) => wasm.draw(canvas, field, options));
+  surfaces.call((wasm) => wasm.draw(canvas, field, options));
 }
 
 /** @type {typeof import('./direct.js').rulings} */
-export const rulings = ofHeights('rulings', sheets);
+export const rulings = ofHeights('rulings', surfaces);
 
 /** @type {typeof import('./direct.js').fitCylinder} */
 export function fitCylinder(input) {
@@ -338,7 +338,7 @@ export function fitCylinder(input) {
 }
 
 /** @type {typeof import('./direct.js').unroll} */
-export const unroll = ofHeights('unroll', sheets);
+export const unroll = ofHeights('unroll', surfaces);
 
 /** @type {typeof import('./direct.js').pattern} */
 export const pattern = ofHeights('pattern', patterns);
@@ -383,7 +383,7 @@ export function dewarp(input, photo, given) {
   const [field, pixels] = [asField(input), asPhoto(photo)];
   const placed = { ...options, ...placeOf(field, options) };
   const { unit } = carriedOf(field);
-  return { ...sheets.call((wasm) => wasm.dewarp(field, pixels, placed)), ...(unit && { unit }) };
+  return { ...surfaces.call((wasm) => wasm.dewarp(field, pixels, placed)), ...(unit && { unit }) };
 }
 
 /**
@@ -406,8 +406,8 @@ export function dewarpPage(photo, second, third) {
   const { film35, ...pixels } = photoPixels(photo);
   const { transfer, ...options } = /** @type {Handed<ReturnType<typeof pageOptions>>} */ (pageOptions({ film35 }, given));
   const { dots, map, grid, light, ink, ...known } = options;
-  const page = sheets.call((wasm) => wasm.pageSurface(pixels, pages, known));
-  const image = sheets.call((wasm) => wasm.flattenPhoto(pixels, page, optionsOf('flattenPhoto', { dots, map, grid, light, ink })));
+  const page = surfaces.call((wasm) => wasm.pageSurface(pixels, pages, known));
+  const image = surfaces.call((wasm) => wasm.flattenPhoto(pixels, page, optionsOf('flattenPhoto', { dots, map, grid, light, ink })));
   return { ...page, ...image };
 }
 
@@ -416,14 +416,14 @@ export function flattenPhoto(photo, page, given) {
   const { transfer, ...options } = /** @type {Handed<typeof given>} */ (optionsOf('flattenPhoto', given));
   const { size, unit, warp } = asFoundPage(page);
   const pixels = photoPixels(photo);
-  const image = sheets.call((wasm) => wasm.flattenPhoto(pixels, { size, unit, warp }, options));
+  const image = surfaces.call((wasm) => wasm.flattenPhoto(pixels, { size, unit, warp }, options));
   return { ...image, size, unit };
 }
 
 /** @type {typeof import('./direct.js').findPage} */
 export function findPage(photo) {
   const pixels = photoPixels(photo);
-  return sheets.call((wasm) => wasm.findPage(pixels));
+  return surfaces.call((wasm) => wasm.findPage(pixels));
 }
 
 /** @type {typeof import('./direct.js').writePhoto} */

@@ -28,12 +28,15 @@ export type ErrorCode =
   | 'FORMAT' | 'UNSUPPORTED'
   | 'INPUT' | 'NOT_INITIALIZED' | 'INIT' | 'DISPOSED' | 'REPLACED' | 'TRAP' | 'WORKER';
 
-/** What every function of the package throws or rejects with (besides an abort signal's own reason). */
+/** Error that every function of the package throws or rejects with, besides the reason of an abort signal. */
 export class DevelopableError extends Error {
+  /** Name of the class of errors. */
   readonly name: 'DevelopableError';
+  /** Code of the error, stable, for programs. The message is for people. */
   readonly code: ErrorCode;
+  /** Makes an error of the package. */
   constructor(code: ErrorCode, message: string, options?: { cause?: unknown });
 }
 
-/** The message of anything that was thrown. */
+/** Returns the message of anything that was thrown. */
 export function messageOf(thrown: unknown): string;

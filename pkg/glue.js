@@ -2,7 +2,7 @@
  * The glue of all wasm files at once: for workers, whose bundle would have to be split otherwise (which not every bundler
  * does for a worker), and to load wasm synchronously.
  */
-import { files, images, meshFits, meshes, patterns, sheets, solver } from './instances.js';
+import { files, images, meshFits, meshes, patterns, solver, surfaces } from './instances.js';
 import * as filesGlue from './wasm/files.js';
 import * as fitmeshGlue from './wasm/fitmesh.js';
 import * as imagesGlue from './wasm/images.js';
@@ -18,6 +18,6 @@ export function useGlue() {
   images.use(imagesGlue);
   meshes.use(meshesGlue);
   meshFits.use(fitmeshGlue);
-  sheets.use(unrollGlue);
+  surfaces.use(unrollGlue);
   patterns.use(patternsGlue);
 }

@@ -14,263 +14,385 @@ import type {
 export { parseCamera } from './camera-file.js';
 export * from './types.js';
 
+/** Options of a worker: its threads, and where its files are. Each wasm file is loaded when it is needed. */
 export interface WorkerOptions extends ThreadOptions {
-  /** Where the worker's script is; default: `worker.js` beside this module, or else the copy that a bundle has. */
+  /** Address of the worker's script. Default: `worker.js` beside this module, or the copy in a bundle. */
   workerUrl?: string | URL;
-  /** Where the solver's wasm is; default: beside the worker. */
+  /** Wasm of the solver for heights. Default: the file beside the worker. */
   wasm?: InitInput;
-  /**
-   * Where the wasm is that reads and writes PNG, NPY, OBJ and photos, and paints, loaded when it is needed;
-   * default: beside the worker.
-   */
+  /** Wasm that reads and writes PNG, NPY, OBJ and photos, and paints. Default: the file beside the worker. */
   filesWasm?: InitInput;
-  /** Where the wasm is for all other height images and photos, likewise. */
+  /** Wasm that reads and writes all other height images and photos. Default: the file beside the worker. */
   imagesWasm?: InitInput;
-  /** Where the wasm is that reads, samples and writes meshes (but for OBJ out), likewise. */
+  /** Wasm that reads, samples and writes meshes, except writing OBJ. Default: the file beside the worker. */
   meshesWasm?: InitInput;
-  /** Where the wasm is that fits surfaces to whole meshes, likewise. */
+  /** Wasm that fits surfaces to whole meshes. Default: the file beside the worker. */
   fitmeshWasm?: InitInput;
-  /** Where the wasm is that analyses, draws, unrolls and dewarps, likewise. */
+  /** Wasm that analyses, draws, unrolls and dewarps surfaces. Default: the file beside the worker. */
   unrollWasm?: InitInput;
-  /** Where the wasm is that makes patterns and writes them, likewise. */
+  /** Wasm that makes patterns and writes them to files. Default: the file beside the worker. */
   patternsWasm?: InitInput;
 }
 
+/** Options of writing a GLB file. */
 export interface WriteGlbOptions {
   /**
-   * A PNG or JPEG file that the texture coordinates are about, to be embedded as it is; it takes the
-   * place of colours. Default: the field's own; `null` for none.
+   * PNG or JPEG file that the texture coordinates are about. It is embedded as it is, and replaces colours. Default: the texture
+   * of the mesh or surface; `null` for none.
    */
   texture?: Uint8Array | ArrayBuffer | Blob | null;
 }
 
+/** Options of writing an OBJ file. */
 export interface WriteObjOptions {
-  /** Name of a file that `writeMtl` has made: its picture takes the place of colours. */
+  /** Name of a file that `writeMtl` has written; its picture replaces colours. */
   materials?: string;
 }
 
+/** Options of a fit of an open input. */
 export interface OpenFitOptions extends SolverOptions {
-  /** Stops the work itself, not only the waiting: within about 50 ms. */
+  /** Signal that stops the fit itself, within about 50 ms. */
   signal?: AbortSignal;
-  /** What an abort does: reject with the signal's reason (default), or resolve with the best surface so far. */
+  /**
+   * What happens after an abort: the call rejects with the signal's reason (`'reject'`, the default) or resolves with the best
+   * surface so far (`'keep'`).
+   */
   onAbort?: 'reject' | 'keep';
   /**
-   * Called in the caller's thread, several times a second. Where it returns a promise, that is awaited before the next
-   * call and before the result; if it is rejected, so is the call, as with an exception.
+   * Function that is called several times a second, in the caller's thread. If it returns a promise, that is awaited before the next
+   * call and before the result. If it throws or its promise rejects, so does the fit.
    */
   onProgress?: (progress: Progress) => void;
 }
 
+/** Option of the calls whose input may be large. */
 export interface HandOver {
   /**
-   * Hand the buffers of the input, or of the photo, over to the worker instead of copying them (the caller loses them,
-   * but not where an option or a shape is refused). Arrays that are only a part of their buffer are copied all the same.
+   * Whether the buffers of the input or photo are transferred to the worker instead of copied. The caller loses them, unless an
+   * option or a shape is refused. Arrays that are only a part of their buffer are copied. Default false.
    */
   transfer?: boolean;
 }
 
+/** Option of the calls that take long. */
 export interface Abortable {
-  /** Stops the work itself: a call with a signal runs in a second worker, which an abort ends. The call rejects with the signal's reason. */
+  /**
+   * Signal that stops the work itself: a call with a signal runs in a second worker, which an abort ends. The call rejects with the
+   * signal's reason.
+   */
   signal?: AbortSignal;
 }
 
+/** Options of a fit of a whole mesh. */
 export interface FitMeshOptions extends MeshSolverOptions {
-  /** Stops the work itself, not only the waiting. */
+  /** Signal that stops the fit itself. */
   signal?: AbortSignal;
-  /** What an abort does: reject with the signal's reason (default), or resolve with the best surface so far. */
+  /**
+   * What happens after an abort: the call rejects with the signal's reason (`'reject'`, the default) or resolves with the best
+   * mesh so far (`'keep'`).
+   */
   onAbort?: 'reject' | 'keep';
   /**
-   * Called in the caller's thread, several times a second. Where it returns a promise, that is awaited before the next
-   * call and before the result; if it is rejected, so is the call, as with an exception.
+   * Function that is called several times a second, in the caller's thread. If it returns a promise, that is awaited before the next
+   * call and before the result. If it throws or its promise rejects, so does the fit.
    */
   onProgress?: (progress: Progress) => void;
 }
 
+/** Options of a fit. */
 export interface FitOptions extends OpenFitOptions, HandOver {}
 
+/** Options of an exploration of patterns. */
 export interface ExplorePatternOptions {
-  /** λ to try. Default: 1e7, 3e6, 1e6, 3e5, 1e5 and 3e4. */
+  /** Values of λ to try. Default: 1e7, 3e6, 1e6, 3e5, 1e5 and 3e4. */
   lambdas?: readonly number[];
-  /** Sizes that patches have at least to try, as shares of all vertices. Default: 0.005, 0.02 and 0.08. */
+  /** Minimum sizes of a patch to try, as shares of all vertices. Default: 0.005, 0.02 and 0.08. */
   smallest?: readonly number[];
-  /** End with the first plan of at most so many sheets: the one nearest to the input. Default: try all. */
+  /**
+   * Number of sheets that is few enough: the exploration ends with the first plan of at most as many. Default: all plans are
+   * tried.
+   */
   sheets?: number;
-  /** Of the solves, but for λ. */
+  /** Options of each fit, except `lambda`. */
   solver?: Omit<SolverOptions, 'lambda'>;
-  /** Of the patterns, but for the smallest patch. */
+  /** Options of each pattern, except `smallest`. */
   pattern?: Omit<PatternOptions, 'smallest'>;
+  /** Signal that stops the exploration; the call rejects with its reason. */
   signal?: AbortSignal;
-  /** Called with each plan as it is found, and awaited if it returns a promise. */
+  /** Function that is called with each plan when it is made, and awaited if it returns a promise. */
   onPlan?: (plan: PatternPlan) => void;
 }
 
+/** Options of an exploration of patterns of a mesh. */
 export interface ExplorePatternMeshOptions extends Omit<ExplorePatternOptions, 'lambdas' | 'solver' | 'pattern'> {
-  /** λ to try. Default: what the mesh's noise asks for, and 0.3, 0.1 and 0.03 times as much. */
+  /** Values of λ to try. Default: the one that suits the mesh's noise, and 0.3, 0.1 and 0.03 times as much. */
   lambdas?: readonly number[];
-  /** Of the solves, but for λ. */
+  /** Options of each fit, except `lambda`. */
   solver?: Omit<MeshSolverOptions, 'lambda'>;
-  /** Of the patterns, but for the smallest patch. */
+  /** Options of each pattern, except `smallest`. */
   pattern?: Omit<MeshPatternOptions, 'smallest'>;
 }
 
 /**
- * An input that stays in the worker with its solver, to be solved again and again: with other
- * options, as for a slider, or slightly changed.
+ * An input that stays in the worker with its solver, to be fitted repeatedly: with other options, as for a slider, or slightly
+ * changed.
  *
- * If its worker ends, calls under way reject as they do everywhere, and later ones with code
- * `WORKER` (or `DISPOSED`, where the worker was disposed of): open the input again then.
+ * If the worker ends, calls under way reject, and later ones reject with code `WORKER` (or `DISPOSED`, if the worker was disposed
+ * of): then open the input again.
  */
 export interface OpenSolver<I extends HeightImage | Heightfield = HeightImage | Heightfield> {
   /**
-   * Solves: from nothing the first time, later from where the last solve ended, whatever ended it.
-   * What is left out of the options has its default. What is wrong with the input or the options
-   * rejects, and changes nothing.
-   *
-   * The newest wish wins: a new call ends the one under way, which rejects with code `REPLACED`.
+   * Fits the surface: a cold start the first time, later a warm start from the last surface. Options that are left out have their
+   * defaults. If the input or the options are wrong, the call rejects and nothing changes. A new call ends the one under way, which
+   * rejects with code `REPLACED`.
    */
   fit(options?: OpenFitOptions): Promise<SurfaceOf<I>>;
   /**
-   * Another input for the next call of `fit`, which starts from the last answer if the lattice
-   * keeps its shape; a call under way goes on with the one before.
+   * Replaces the input for the next call of `fit`, a warm start from the last surface if the lattice keeps its shape. A call under
+   * way goes on with the input before.
    */
   replace(input: I, options?: HandOver): Promise<void>;
+  /** Whether the solver was disposed of, after which its methods reject. */
   readonly disposed: boolean;
-  /** Frees the memory in the worker; a call under way rejects with code `DISPOSED`. Harmless when repeated. */
+  /** Frees the memory in the worker; a call under way rejects with code `DISPOSED`. It may be repeated. */
   dispose(): void;
   [Symbol.dispose](): void;
 }
 
 /**
- * Starts the shared worker and loads the wasm; optional, idempotent, called by the functions below.
- * Options count where no shared worker runs yet; after a failure they can be given anew.
+ * Starts the shared worker and loads the wasm. It is optional and may be repeated: the functions below call it. Options
+ * count if no shared worker runs yet; after a failure they can be given anew.
  */
 export function init(options?: WorkerOptions | InitInput): Promise<void>;
+/**
+ * Fits a piecewise developable surface to heights. `report.gap` certifies by which share the objective can be above its
+ * minimum at most.
+ */
 export function fit(input: HeightImage, options?: FitOptions): Promise<ImageSurface>;
+/**
+ * Fits a piecewise developable surface to heights. `report.gap` certifies by which share the objective can be above its
+ * minimum at most.
+ */
 export function fit(input: Heightfield, options?: FitOptions): Promise<LatticeSurface>;
+/**
+ * Fits a piecewise developable surface to heights. `report.gap` certifies by which share the objective can be above its
+ * minimum at most.
+ */
 export function fit(input: HeightImage | Heightfield, options?: FitOptions): Promise<Surface>;
-/** Sends an input to the shared worker to stay there. It takes memory until it is disposed of. */
+/** Sends an input to the shared worker, where it stays with its solver until it is disposed of. */
 export function open(input: HeightImage, options?: HandOver): Promise<OpenSolver<HeightImage>>;
+/** Sends an input to the shared worker, where it stays with its solver until it is disposed of. */
 export function open(input: Heightfield, options?: HandOver): Promise<OpenSolver<Heightfield>>;
+/** Sends an input to the shared worker, where it stays with its solver until it is disposed of. */
 export function open(input: HeightImage | Heightfield, options?: HandOver): Promise<OpenSolver>;
-/** The occlusions in heights, to be looked at before a solve. */
+/**
+ * Detects occlusions in heights: places where the surface is torn. `fit` takes them as `occlusions` and `brokenEdges`.
+ */
 export function occlusions(input: HeightImage | Heightfield, options?: OcclusionOptions): Promise<DetectedOcclusions>;
+/**
+ * Decodes a file of heights: PNG, NPY, TIFF, EXR, PFM, NPZ, JPEG, WebP, text or a depth map of COLMAP. Meshes are read
+ * by `readMesh`.
+ */
 export function read(bytes: Uint8Array | ArrayBuffer | Blob, options?: ReadOptions): Promise<ReadResult>;
+/** Lists the arrays of an NPZ file, one of which `read` takes by its name. */
 export function npzArrays(bytes: Uint8Array | ArrayBuffer | Blob): Promise<NpzArray[]>;
+/** Writes heights, of an image or on a lattice, to an NPY file of 64-bit floats. */
 export function writeNpy(input: HeightImage | Heightfield): Promise<Uint8Array<ArrayBuffer>>;
+/**
+ * Writes an image, or the image of a surface, to a 16-bit grey PNG file. Its text chunks state pixel size, height scale
+ * and offset; level 0 is no data.
+ */
 export function writePng(input: HeightImage | Surface): Promise<Uint8Array<ArrayBuffer>>;
+/**
+ * Writes an image, or the image of a surface, to a TIFF file of 32-bit floats, with the pixel size and the georeference
+ * if there is one; NaN is no data.
+ */
 export function writeTiff(input: HeightImage | Surface): Promise<Uint8Array<ArrayBuffer>>;
+/** Writes an image, or the image of a surface, to an EXR file of 32-bit floats in the channel Z; NaN is no data. */
 export function writeExr(input: HeightImage | Surface): Promise<Uint8Array<ArrayBuffer>>;
+/**
+ * Writes a mesh, or the triangles of a heightfield, to an OBJ file with normals, colours and texture coordinates: in
+ * the axes of its `frame`, in its unit of length.
+ */
 export function writeObj(input: Heightfield | Mesh, options?: WriteObjOptions): Promise<Uint8Array<ArrayBuffer>>;
+/** Writes an MTL file of one material for an OBJ file. `picture` is the name of the texture's file. */
 export function writeMtl(picture: string): Promise<Uint8Array<ArrayBuffer>>;
+/**
+ * Writes a mesh, or the triangles of a heightfield, to a binary PLY file: positions as 64-bit floats, colours as bytes.
+ */
 export function writePly(input: Heightfield | Mesh): Promise<Uint8Array<ArrayBuffer>>;
+/**
+ * Writes a mesh, or the triangles of a heightfield, to a binary STL file: positions as 32-bit floats and a normal for
+ * each triangle.
+ */
 export function writeStl(input: Heightfield | Mesh): Promise<Uint8Array<ArrayBuffer>>;
+/**
+ * Writes a mesh, or the triangles of a heightfield, to a GLB file (binary glTF): positions as 32-bit floats, colours as
+ * bytes, and a texture if one is given.
+ */
 export function writeGlb(input: Heightfield | Mesh, options?: WriteGlbOptions): Promise<Uint8Array<ArrayBuffer>>;
+/**
+ * Decodes a mesh file: OBJ, PLY, STL, glTF, GLB, 3MF or OFF. Polygons become triangles; a file of points alone becomes
+ * a point cloud.
+ */
 export function readMesh(bytes: Uint8Array | ArrayBuffer | Blob, options?: ReadMeshOptions): Promise<Mesh>;
 /**
- * Moves the vertices of a mesh so that it is piecewise developable: the whole of it, without a view, whether it is
- * closed, overhanging, open or in parts. The mesh must be a surface (code `TOPOLOGY` otherwise, with the place).
- * `confidence` of the mesh weighs how closely each vertex is followed.
+ * Fits a piecewise developable surface to a whole mesh, by moving its vertices: no view is needed, and the mesh may be
+ * closed, overhanging, open or in several parts. It must be a surface; otherwise the code is `TOPOLOGY` and the message
+ * says where. `confidence` of the mesh weighs how closely each vertex is followed.
  */
 export function fitMesh(mesh: Mesh, options?: FitMeshOptions): Promise<MeshSurface>;
+/** Samples a mesh or point cloud from a view: returns heights at the vertices of a lattice, which `fit` takes. */
 export function sampleMesh(mesh: Mesh, options?: SampleMeshOptions): Promise<SampledMesh>;
+/**
+ * Makes a mesh of the depth image of a camera. Vertex i is pixel i, so that an image of the same size gives its
+ * `colors`; neighbouring pixels are joined except at jumps, where one point is behind the other by more than ten times
+ * their distance across the line of sight. `data` are depths in steps of `depthScale` (`heightScale` and `pixelSize` do
+ * not count); NaN, `noData` and depths of 0 or less are none. The camera is at the origin; x points to the right, y up
+ * and z to the viewer, so that the view `'-z'` is along the camera's axis.
+ */
 export function backProject(image: HeightImage, camera: Intrinsics, options?: DepthOptions): Promise<Mesh>;
-/** Gives a surface the colours of a picture of it. */
+/**
+ * Colours a surface by a picture of it, and gives it texture coordinates. Where in the picture a point is follows from
+ * the camera, or else from the surface's texture coordinates; without both the picture shows the same rectangle as the
+ * heights. The picture may have any resolution; if it is a file, `texture` is set as well. Colours stay as they are
+ * where the picture is transparent or the camera does not see the surface.
+ */
 export function paint<F extends Heightfield>(input: F, picture: Picture | Blob, options?: PaintOptions): Promise<Painted<F>>;
-/** How developable a surface is: curvatures at its vertices, and a summary of them. */
+/** Computes curvatures at a surface's vertices, and statistics that say how developable the surface is. */
 export function analyze(input: HeightImage | Heightfield, options?: AnalyzeOptions): Promise<Analysis>;
-/** The smooth patches of a surface, and the creases between them. */
+/** Segments a surface into smooth patches, and finds the creases between them. */
 export function patches(input: HeightImage | Heightfield, options?: PatchOptions): Promise<PatchMap>;
-/** A surface as a picture, seen from above. Where pixels are larger than the lattice's spacing, it is sampled. */
+/**
+ * Draws a surface, seen from above, to an image of RGBA bytes. Where pixels are larger than the lattice's spacing, the
+ * surface is sampled.
+ */
 export function picture(input: HeightImage | Heightfield, options?: PictureOptions): Promise<SurfacePicture>;
-/** The same on a canvas, which becomes as large as the picture. */
+/** Draws a surface, seen from above, on a canvas, which is resized to the picture. */
 export function draw(canvas: Canvas, input: HeightImage | Heightfield, options?: PictureOptions): Promise<void>;
-/** The rulings of a surface: where it does not bend, and straight lines along that. */
+/**
+ * Computes the rulings of a surface: the direction in which it does not bend at each vertex, and straight lines along
+ * these directions.
+ */
 export function rulings(input: HeightImage | Heightfield, options?: RulingOptions): Promise<RulingField>;
 /**
- * The cylinder next to heights on the lattice, of whatever profile: for curled sheets, pages of books and parallel folds,
- * whose rulings are all parallel. `report.verdict` says whether they are those of one.
+ * Fits a cylinder with any profile to heights on a lattice: for curled sheets, pages of books and parallel folds, whose
+ * rulings are all parallel. `report.verdict` says whether the surface is a cylinder.
  */
 export function fitCylinder(input: Heightfield): Promise<FittedCylinder>;
-/** Lays a surface flat, as rigidly as it goes. */
+/** Lays a surface flat without cuts, with as little strain as possible. */
 export function unroll(input: HeightImage | Heightfield, options?: UnrollOptions & Abortable): Promise<Unrolling>;
-/** Cuts a surface along its creases into sheets that lie flat, and draws them in millimetres. */
+/**
+ * Makes a pattern of a surface: cuts it along creases into sheets that lie flat, with as few cuts as possible, and
+ * draws the sheets side by side in millimetres.
+ */
 export function pattern(input: HeightImage | Heightfield, options?: PatternOptions & Abortable): Promise<Drawing>;
-/** How developable a mesh is, as it is: curvatures and rulings at its vertices, and a summary of them. */
+/** Computes curvatures and rulings at the vertices of a mesh, and statistics that say how developable the mesh is. */
 export function analyzeMesh(mesh: Mesh, options?: MeshAnalyzeOptions): Promise<MeshAnalysis>;
-/** The rulings of a mesh, as it is: along what its surface does not bend, and straight lines along that. */
+/**
+ * Computes the rulings of a mesh: the direction in which it does not bend at each vertex, and straight lines along
+ * these directions.
+ */
 export function meshRulings(mesh: Mesh, options?: MeshRulingOptions): Promise<MeshRulings>;
-/** Lays a mesh flat, as it is: in sheets, cut along its creases and where it does not lie flat otherwise. */
+/** Lays a mesh flat: cuts it into sheets along its creases, and where it does not lie flat otherwise. */
 export function unrollMesh(mesh: Mesh, options?: MeshUnrollOptions & Abortable): Promise<MeshUnrolling>;
-/** The same drawn in millimetres, as `pattern` does for heights. */
+/**
+ * Makes a pattern of a mesh: cuts it into sheets that lie flat, and draws them side by side in millimetres, as
+ * `pattern` does for heights.
+ */
 export function patternMesh(mesh: Mesh, options?: MeshPatternOptions & Abortable): Promise<Drawing>;
 /**
- * Whether the faces of a mesh are exact (CAD, low-poly models), so that nothing is gained by a fit. `patternMesh` moves such faces into
- * the plane as they are.
+ * Returns whether the faces of a mesh are exact, as in CAD and low-poly models, so that a fit gains nothing.
+ * `patternMesh` moves such faces into the plane as they are.
  */
 export function hasExactFaces(mesh: Mesh): Promise<boolean>;
 /**
- * Patterns at several λ and sizes of patches, from the surface nearest to the input to the plainest. Takes one solve
- * for each λ, which start from each other, and one `pattern` for each plan. Surfaces that cannot be laid flat are plans
- * with a `problem`; whatever else `fit` and `pattern` have to say rejects.
+ * Makes patterns at several λ and sizes of patches, from the surface nearest to the input to the plainest one. Each λ
+ * takes one fit, which starts from the one before, and each plan one `pattern`. A surface that cannot be laid flat is a
+ * plan with a `problem`; any other error rejects.
  */
 export function explorePattern(input: HeightImage | Heightfield, options?: ExplorePatternOptions): Promise<ExploredPatterns>;
 /**
- * The same of a mesh as it is: one `fitMesh` for each λ, and one `patternMesh` for each plan. `distance` is how far vertices were
- * moved.
+ * Makes patterns of a mesh at several λ and sizes of patches. Each λ takes one `fitMesh`, and each plan one
+ * `patternMesh`; `distance` says how far vertices were moved.
  */
 export function explorePatternMesh(mesh: Mesh, options?: ExplorePatternMeshOptions): Promise<ExploredPatterns>;
+/** Writes a drawing to an SVG file in millimetres, with the layers `cut`, `mountain`, `valley`, `tab` and `label`. */
 export function writeSvg(drawing: Drawing): Promise<Uint8Array<ArrayBuffer>>;
+/**
+ * Writes a drawing to a PDF file in true size, to be printed at 100 %: one page as large as the drawing, or pages of
+ * paper that overlap, with crosses by which they are laid on each other.
+ */
 export function writePdf(drawing: Drawing, options?: WritePdfOptions): Promise<Uint8Array<ArrayBuffer>>;
+/** Writes a drawing to a DXF file (AutoCAD 2000) in millimetres, with the layers of the SVG file in capitals. */
 export function writeDxf(drawing: Drawing): Promise<Uint8Array<ArrayBuffer>>;
-/** Makes a photo of a surface flat. */
+/** Makes a photo of a surface flat, by laying the surface flat. */
 export function dewarp(input: HeightImage | Heightfield, photo: Photo, options?: DewarpOptions & HandOver & Abortable): Promise<Dewarped>;
 /**
- * Makes a photo of a page flat that is curled, folded or crumpled, or of the two pages of a spread, without depth: by the page's
- * corners, or by its edges, two of which are bent or all four. Without them, by those of the one page that is found in the photo.
+ * Makes a photo of a page flat without depths: of a page that is curled, folded or crumpled, or of the two pages of a
+ * spread. It needs the page's corners or its edges, two of which are bent, or all four. Without them it takes the edges
+ * of the one page that it finds in the photo.
  */
 export function dewarpPage(photo: (Photo & { film35?: number }) | PhotoSource | Drawable, options?: DewarpPageOptions & HandOver & Abortable): Promise<DewarpedPage>;
+/**
+ * Makes a photo of a page flat without depths: of a page that is curled, folded or crumpled, or of the two pages of a
+ * spread. It needs the page's corners or its edges, two of which are bent, or all four. Without them it takes the edges
+ * of the one page that it finds in the photo.
+ */
 export function dewarpPage(
   photo: (Photo & { film35?: number }) | PhotoSource | Drawable, edges?: PageEdges | readonly PageEdges[] | PageCorners | null, options?: DewarpPageOptions & HandOver & Abortable,
 ): Promise<DewarpedPage>;
 /**
- * Makes a photo of any resolution flat by a page that `dewarpPage` has found in the same picture: the whole photo for a file,
- * after a reduced one for a preview. Costs little more than resampling, and differs from the preview in resolution alone.
+ * Makes a photo of any resolution flat by a page that `dewarpPage` found in the same picture: the whole photo for a
+ * file, say, after a reduced one for a preview. It costs little more than resampling, and differs from the preview in
+ * resolution alone.
  */
 export function flattenPhoto(photo: Photo | PhotoSource | Drawable, page: FoundPage, options?: FlattenPhotoOptions & HandOver & Abortable): Promise<FlatPage>;
-/** The verdict on a flat page in a sentence, from its `report`: whether it can be trusted, why not, and how large its error is. */
+/** Returns the verdict on a flat page as a sentence: whether it can be trusted, why not, and how large its error is. */
 export function describePage(report: PageReport): string;
 /** Finds the page in a photo: its corners and edges, which can be corrected and given to `dewarpPage`. */
 export function findPage(photo: Photo | PhotoSource | Drawable, options?: Abortable): Promise<PageOutlines>;
 /**
- * Reads a photo upright, with the focal length that its Exif data state. One of more than 26 megapixels is halved until it has
- * fewer, which `assumptions` says (code `reducedPhoto`).
+ * Decodes a photo: JPEG, PNG, WebP, GIF, BMP or TIFF. It is turned upright by its Exif data, which also give its focal
+ * length. A photo of more than 26 megapixels is halved until it has fewer, which `assumptions` says (code
+ * `reducedPhoto`).
  */
 export function readPhoto(file: PhotoSource): Promise<DecodedPhoto>;
+/**
+ * Writes a photo or a flat image to a PNG (transparent where the image is), JPEG or PDF file (white there). The file
+ * states the true size if that is known.
+ */
 export function writePhoto(photo: SizedPhoto, options?: WritePhotoOptions & HandOver): Promise<Uint8Array<ArrayBuffer>>;
-/** A PDF with a page for each picture, a file of JPEG or PNG that is taken over without loss. */
+/**
+ * Writes a PDF file with one page for each picture, which is centred and as large as fits. Pictures are JPEG files, or
+ * PNG files without transparency, and are taken over without loss.
+ */
 export function writeBook(pages: readonly BookPage[]): Promise<Uint8Array<ArrayBuffer>>;
+/** Generates a procedural example: a height image with noise, and the true heights. */
 export function example(name: ExampleName, options?: ExampleOptions): Promise<Example>;
-/** Stops the shared worker, calls under way reject with code `DISPOSED`; a later call starts a new one. */
+/** Stops the shared worker. Calls under way reject with code `DISPOSED`; a later call starts a new worker. */
 export function dispose(): void;
 
 /**
- * A worker of one's own, with the same functions as methods.
+ * A separate worker, with the functions of this module as methods.
  *
- * Several solves on one worker take turns on its one thread, about 25 ms each; to run them at the
- * same time, give each a worker of its own.
+ * Fits on one worker take turns of about 25 ms on its one thread; to run them at the same time, give each a worker of its own.
  */
 export class DevelopableWorker {
+  /** Prepares a worker, which starts with the first call. */
   constructor(options?: WorkerOptions);
+  /** Starts the worker and loads the wasm of the solver. It is optional and may be repeated. */
   init(): Promise<void>;
-  /** Whether the worker runs. It starts with the first call, and anew with the first one after it crashed. */
+  /** Whether the worker runs. It starts with the first call, and again with the first call after a crash. */
   readonly connected: boolean;
+  /** Whether the worker was disposed of, after which its methods reject. */
   readonly disposed: boolean;
-  /** Stops the worker; calls under way reject with code `DISPOSED`. Harmless when repeated. */
+  /** Stops the worker; calls under way reject with code `DISPOSED`. It may be repeated. */
   dispose(): void;
   [Symbol.dispose](): void;
 }
 
-/** The functions of this module, of one's own worker. */
+/** The functions of this module, as methods of a separate worker. */
 export interface DevelopableWorker extends Omit<
   typeof import('./index.js'), 'DevelopableError' | 'DevelopableWorker' | 'describePage' | 'dispose' | 'init' | 'parseCamera'
 > {}

@@ -35,7 +35,7 @@ export const meshFits = new Instance(
   () => new URL('./wasm/fitmesh_bg.wasm', import.meta.url),
 );
 
-export const sheets = new Instance(
+export const surfaces = new Instance(
   'unroll',
   () => import('./wasm/unroll.js'),
   () => new URL('./wasm/unroll_bg.wasm', import.meta.url),
@@ -48,7 +48,7 @@ export const patterns = new Instance(
 );
 
 /** All of them but the solver, by the names that `load` takes. */
-const parts = { files, images, meshes, fitmesh: meshFits, unroll: sheets, patterns };
+const parts = { files, images, meshes, fitmesh: meshFits, unroll: surfaces, patterns };
 
 /** @typedef {keyof typeof parts} PartName */
 

@@ -6,7 +6,7 @@ import type { PartName } from './direct.js';
 import type { WasmModule } from './types.js';
 export * from './direct.js';
 
-/** Compiles the solver's wasm, once; may be repeated after a failure. */
+/** Compiles the solver's wasm once. It may be repeated after a failure. */
 export function initSync(input: ArrayBuffer | ArrayBufferView | WasmModule): void;
-/** The same for other parts: `loadSync({ files: bytes })`. */
+/** Compiles the wasm of other parts once each: `loadSync({ files: bytes })`. */
 export function loadSync(inputs: Partial<Record<PartName, ArrayBuffer | ArrayBufferView | WasmModule>>): void;

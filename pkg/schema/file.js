@@ -1,12 +1,13 @@
 /** Options of files that are read, of meshes seen from one side, and of examples. Each comment is what the types say; the default is added there. */
 import { anything, choice, either, flag, number, numbers, text, whole } from './kinds.js';
+import { Format } from './names.js';
 
 /** @typedef {import('./kinds.js').Options} Options */
 
-/** @satisfies {Options} */
+/** Options of reading a file of heights. @satisfies {Options} */
 export const read = {
-  /** Taken from the bytes where it is not given. */
-  format: { kind: choice('png', 'npy', 'tiff', 'exr', 'pfm', 'npz', 'jpeg', 'webp', 'text', 'colmap'), type: 'Format' },
+  /** Format of the file. Default: detected from its first bytes. */
+  format: { kind: choice(...Format), type: 'Format' },
   /** Name of the array to read from an NPZ file; needed only where the file holds several. */
   array: { kind: text },
   /**
@@ -16,9 +17,9 @@ export const read = {
   assumeNoData: { kind: flag, default: true },
 };
 
-/** @satisfies {Options} */
+/** Options of reading a mesh file. @satisfies {Options} */
 export const readMesh = {
-  /** Taken from the bytes where it is not given. */
+  /** Format of the file. Default: detected from its first bytes. */
   format: { kind: choice('obj', 'ply', 'stl', 'gltf', 'glb', '3mf', 'off') },
   /**
    * The unit of the file's lengths; the mesh is in metres for `'m'`, else in millimetres. Default: what the file says,
@@ -33,9 +34,9 @@ export const readMesh = {
   files: { kind: anything, type: 'Map<string, Uint8Array | ArrayBuffer> | Record<string, Uint8Array | ArrayBuffer>' },
 };
 
-/** @satisfies {Options} */
+/** Options of sampling a mesh from a view. @satisfies {Options} */
 export const sampleMesh = {
-  /** Distance of neighbours on the lattice, in the place of `resolution`. */
+  /** Distance between neighbouring vertices of the lattice, in the mesh's unit of length, instead of `resolution`. */
   spacing: {
     kind: number,
     flag: {
@@ -63,8 +64,8 @@ export const sampleMesh = {
     },
   },
   /**
-   * Vertices along the longer side of what is seen, at least 2. Default 200; of a point cloud fewer,
-   * where that leaves less than four points for each vertex.
+   * Number of vertices along the longer side of the view, at least 2. Default 200; for a point cloud fewer, if that would leave
+   * less than four points for each vertex.
    */
   resolution: {
     kind: whole,
@@ -76,9 +77,9 @@ export const sampleMesh = {
   },
 };
 
-/** @satisfies {Options} */
+/** Options of a procedural example. @satisfies {Options} */
 export const example = {
-  /** Pixels along the longer side. */
+  /** Number of pixels along the longer side. */
   size: { kind: whole, default: 200 },
   /** Standard deviation of the noise, as a share of the example's height range. */
   noise: { kind: number, default: 0.02 },

@@ -1,9 +1,10 @@
 /** Options of fits, and of the search for occlusions. Each comment is what the types say; the default is added there. */
 import { bridging, choice, either, flag, flags, number, threadCount, threshold, whole } from './kinds.js';
+import { Energy } from './names.js';
 
 /** @typedef {import('./kinds.js').Options} Options */
 
-/** The lattice that an image is resampled to. @satisfies {Options} */
+/** Option of the lattice that an image is resampled to. @satisfies {Options} */
 export const resampling = {
   /** Lattice spacing for an image input, in units of length. Default: its pixel size. */
   spacing: { kind: number },
@@ -12,8 +13,8 @@ export const resampling = {
 /** Options of a worker's threads. @satisfies {Options} */
 export const threading = {
   /**
-   * Number of threads that fits of heightfields run on, from 1 to 64; the result is the same, to rounding. More than one need shared
-   * memory: in Node, and in pages that are cross-origin isolated. Where they cannot be had there is one, and
+   * Number of threads that fits of heightfields run on, from 1 to 64; the result is the same, to rounding. More than one thread needs
+   * shared memory: in Node, and in pages that are cross-origin isolated. Where they cannot be had there is one, and
    * `report.threadLimit` tells why. Default: 1.
    */
   threads: {
@@ -26,11 +27,11 @@ export const threading = {
   },
 };
 
-/** @satisfies {Options} */
+/** Options of a fit of heights. @satisfies {Options} */
 export const solver = {
   /**
-   * The paper's setting, `lambda: 'medium'` and `energy: 'nuclear'`, for what is not given otherwise.
-   * This setting approximates a shape by few large sheets; a smaller `lambda` makes fewer.
+   * Whether options that are not given are those of the paper: `lambda: 'medium'` and `energy: 'nuclear'`. They approximate a
+   * shape by few large sheets; a smaller `lambda` makes fewer.
    */
   paper: {
     kind: flag,
@@ -63,14 +64,13 @@ export const solver = {
   },
   /** The penalty that is minimised besides the fidelity term. For a design the default is `'nuclear'`. */
   energy: {
-    kind: choice('nuclear', 'frobenius', 'squaredNuclear', 'secondFormOfInput', 'secondForm', 'huber'),
+    kind: choice(...Energy),
     type: 'Energy',
     default: 'huber',
     flag: {
       section: 'energy',
       value: 'E',
-      help: 'huber (smooth bends and sharp creases), nuclear, frobenius, squaredNuclear, secondFormOfInput or secondForm (default: ' +
-        'huber; nuclear for a design)',
+      help: `${Energy.join(', ')} (default: huber, for smooth bends and sharp creases; nuclear for a design)`,
     },
   },
   /**
@@ -149,7 +149,7 @@ export const solver = {
     kind: number,
     flag: { section: 'energy', value: 'E', help: 'weight that keeps free vertices near a thin plate, where there are any (default 0.01)' },
   },
-  /** Scale x, y and z by one factor to the unit square before solving (and back after). */
+  /** Whether the coordinates x, y and z are scaled by one factor to the unit square before the solve, and back afterwards. */
   normalize: {
     kind: flag,
     default: true,
@@ -174,7 +174,7 @@ export const solver = {
     default: 'default',
     flag: { section: 'stop', value: 'S', help: 'default, or paper: the published schedule, which stops on residuals' },
   },
-  /** Most ADMM iterations. */
+  /** Maximum number of ADMM iterations. */
   maxIterations: {
     kind: whole,
     default: 20000,
@@ -223,25 +223,31 @@ export const solver = {
  * @satisfies {Options}
  */
 export const meshSolver = {
-  /** How closely to follow the input, in those coordinates. `'auto'`: by the noise of the mesh. */
+  /**
+   * Weight of the fidelity term: how closely the surface follows the input, in coordinates in which the mesh's bounding sphere has
+   * diameter 1. `'auto'` finds it from the noise of the mesh.
+   */
   lambda: { kind: solver.lambda.kind, default: 'auto', flag: solver.lambda.flag },
-  /** Certified relative gap of each linearised problem to stop at. */
+  /** Certified relative duality gap of each linearised problem at which its solve stops. */
   gap: { kind: number, default: 0.01, flag: solver.gap.flag },
-  /** Most ADMM iterations for each linearisation. */
+  /** Maximum number of ADMM iterations for each linearised problem. */
   maxIterations: { kind: whole, default: 1000, flag: solver.maxIterations.flag },
-  /** Bends gentler than this radius are penalised by the square of their curvature, tighter ones in proportion to it. */
+  /**
+   * Bend radius, in the same coordinates as `lambda`: gentler bends are penalised by the square of their curvature, tighter ones
+   * in proportion to it.
+   */
   bendRadius: { kind: number, default: 0.1, flag: solver.bendRadius.flag },
   /** Slope of the penalty at zero curvature, from 0 (no patch becomes exactly flat) to 1. */
   flatness: { kind: number, default: 0.3, flag: solver.flatness.flag },
-  /** Radius below which a bend is a crease. */
+  /** Radius below which a bend is a crease, in the same coordinates as `lambda`. */
   creaseRadius: { kind: number, default: 0.1, flag: solver.creaseRadius.flag },
-  /** Number of crease passes, each of another linearisation. Default: 2, or 0 where lambda is large for the noise. */
+  /** Maximum number of crease passes, each with another linearisation. Default: 2, or 0 if `lambda` is large for the noise. */
   creasePasses: { kind: whole, flag: solver.creasePasses.flag },
-  /** Which vertices stay where they are. */
+  /** Flags of the vertices that keep their positions, one for each vertex. */
   held: { kind: flags },
 };
 
-/** @satisfies {Options} */
+/** Options of the detection of occlusions. @satisfies {Options} */
 export const occlusions = {
   /**
    * Least magnitude of curvature, in normalised coordinates, that counts as a jump: larger than
@@ -253,6 +259,6 @@ export const occlusions = {
     flag: { section: 'known', value: 'T', help: 'curvature, in coordinates scaled to the unit square, above which the surface is torn (default 4e4)' },
   },
   ...resampling,
-  /** Whether the threshold is meant for the unit square. */
+  /** Whether `threshold` is stated for coordinates scaled to the unit square. */
   normalize: { kind: flag, default: true },
 };

@@ -39,7 +39,7 @@ export const limits = {
   },
 };
 
-/** @satisfies {Options} */
+/** Options of the drawing of a pattern. @satisfies {Options} */
 export const drawing = {
   /** Millimetres for each unit of length. Default: true size, that is 1000 where the unit is metres, else 1. */
   scale: {
@@ -69,7 +69,7 @@ export const drawing = {
       help: 'width that a laser or a saw burns away: lines are cut half of it further out (default 0)',
     },
   },
-  /** What is left outside of all edges to be sewn or bent over, in millimetres. */
+  /** Width of the extra material outside of all edges, to be sewn or bent over, in millimetres. */
   allowance: {
     kind: number,
     default: 0,
@@ -91,7 +91,7 @@ export const drawing = {
   },
   /** Inner radius of bends, in millimetres. Default: the thickness. */
   innerRadius: { kind: number, flag: { section: 'shape', value: 'MM', help: 'inner radius of bends (default: the thickness)' } },
-  /** Where the neutral line is, from the inside of a bend, as a share of the thickness. Default 0.44. */
+  /** Position of the neutral line within the thickness, from the inside of a bend, as a share. Default 0.44. */
   kFactor: {
     kind: number,
     flag: {
@@ -127,7 +127,7 @@ export const drawing = {
         'other)',
     },
   },
-  /** Whether to tell how the sheets are put together. */
+  /** Whether the drawing gets an `assembly`: how the sheets are put together. */
   assembly: {
     kind: flag,
     default: false,
@@ -140,19 +140,19 @@ export const drawing = {
   },
 };
 
-/** @satisfies {Options} */
+/** Options of a pattern of a surface. @satisfies {Options} */
 export const pattern = {
   ...meshPatches,
   ...unroll,
   ...drawing,
   /**
-   * Whether sheets are folded back to see how near they come to the surface (`summary.refolding`). Takes about as long
+   * Whether the sheets are folded back, to measure how near they come to the surface (`summary.refolding`). It takes about as long
    * as laying them flat.
    */
   refold: { kind: flag, default: false },
 };
 
-/** Options of a mesh laid flat as it is. `bend` is the angle between triangles, by default at most 0.35. @satisfies {Options} */
+/** Options of laying a mesh flat. `bend` is the angle between triangles, by default at most 0.35. @satisfies {Options} */
 export const unrollMesh = {
   ...meshPatches,
   ...meshUnrolling,
@@ -173,16 +173,16 @@ export const model = {
   exact: { kind: flag },
 };
 
-/** Options of the drawing of a mesh as it is laid flat. @satisfies {Options} */
+/** Options of a pattern of a mesh. @satisfies {Options} */
 export const patternMesh = {
   ...unrollMesh,
   ...drawing,
   ...model,
 };
 
-/** @satisfies {Options} */
+/** Options of writing a drawing to a PDF file. @satisfies {Options} */
 export const writePdf = {
-  /** Lay it on pages of this size first. Default: the drawing's own pages, or one as large as it is. */
+  /** Material on whose pages the drawing is laid first. Default: the drawing's own pages, or one page as large as the drawing. */
   stock: { kind: paper, type: 'Stock' },
   /** Title of the document, which is also written on each page. Default: "Pattern", and none on the pages. */
   title: { kind: text },

@@ -22,10 +22,10 @@ const seeing = {
   margin: { kind: whole },
 };
 
-/** @satisfies {Options} */
+/** Numbers of a camera that measures depths. @satisfies {Options} */
 export const camera = { ...seeing, unit: { kind: choice('mm', 'm') } };
 
-/** @satisfies {Options} */
+/** Numbers of a camera that takes photos. @satisfies {Options} */
 export const photoCamera = {
   ...seeing,
   rotation: { kind: rows(3, numbers(3, 'three numbers'), 'three rows of three numbers: a rotation matrix') },
@@ -54,7 +54,7 @@ export const depths = {
    * be bent.
    */
   crop: { kind: corners },
-  /** The size of the photo that `crop` is about. */
+  /** Size of the photo that `crop` is about, in pixels. */
   photo: { kind: anything, type: '{ width: number; height: number }' },
   /**
    * The camera of the photo, which `mask` (unless it is as large as the depths) and `crop` are seen through. Default: the
@@ -68,7 +68,7 @@ export const depths = {
   turn: { kind: whole, type: '0 | 90 | 180 | 270', default: 0 },
 };
 
-/** @satisfies {Options} */
+/** Options of colouring a surface by a picture. @satisfies {Options} */
 export const paint = {
   /**
    * The part of the plane that the picture shows: left, bottom, right, top. Default: the picture is where the surface's
@@ -84,9 +84,9 @@ export const paint = {
 
 /** The warp map of a flat image. @satisfies {Options} */
 export const mapping = {
-  /** Pixels of the flat image per unit of length. Default: as many as the photo has of the sheet or the page. */
+  /** Number of pixels of the flat image per unit of length. Default: as many as the photo has of the sheet or page. */
   dots: { kind: positive, flag: { section: 'shape', value: 'D', help: 'pixels of the flat image per unit of length (default: as many as the photo has)' } },
-  /** Whether the warp map is wanted in full, which takes eight bytes for each pixel. */
+  /** Whether the result has the full warp map, with eight bytes for each pixel. */
   map: {
     kind: flag,
     default: true,
@@ -98,8 +98,8 @@ export const mapping = {
     },
   },
   /**
-   * Whether it is wanted on a grid of points, too; a number is the largest error that is allowed between
-   * them, in pixels of the photo, which is 0.25 for true.
+   * Whether the result has the warp map on a grid as well. A number is the maximum interpolation error of the grid, in pixels of
+   * the photo; `true` stands for 0.25.
    */
   grid: { kind: either(flag, positive), default: false },
 };
@@ -107,7 +107,7 @@ export const mapping = {
 /** Ways to treat the light of a flat image. */
 const LIGHT_KIND = choice('even', 'keep');
 
-/** @satisfies {Options} */
+/** Options of making a photo of a surface flat. @satisfies {Options} */
 export const dewarp = {
   ...unroll,
   ...mapping,
@@ -125,14 +125,14 @@ export const dewarp = {
         'photographed (default: even for a photo of a page, keep for heights and depths)',
     },
   },
-  /** Black and white, for print: the light is evened, and each pixel becomes ink or paper. */
+  /** Whether the flat image becomes black and white, for print: the light is evened, and each pixel becomes ink or paper. */
   ink: {
     kind: flag,
     default: false,
     flag: { section: 'shape', help: 'black and white, for print: the light is evened, and each pixel becomes ink or paper' },
   },
   /**
-   * Cut off the margins: keep the largest upright rectangle that is all sheet, or, of a `crop` with four corners, the
+   * Whether the margins are cut off, which leaves the largest upright rectangle of the sheet; for a `crop` with four corners, the
    * rectangle that these are on the flat sheet.
    */
   trim: {
@@ -140,7 +140,7 @@ export const dewarp = {
     default: false,
     flag: { section: 'shape', help: 'a clean rectangle: without the margins where there is no sheet, or that of the four corners of --crop' },
   },
-  /** Turn the flat image upright: the sides of `crop`, or the smallest rectangle around the sheet. */
+  /** Whether the flat image is turned upright, by the sides of `crop` or by the smallest rectangle around the sheet. */
   deskew: {
     kind: flag,
     default: false,
@@ -173,19 +173,19 @@ export const dewarp = {
   camera: { kind: otherCamera, type: 'PhotoCamera' },
 };
 
-/** The flat image of a page. @satisfies {Options} */
+/** Options of flattening a photo by a page that was found in the same picture. @satisfies {Options} */
 export const flattenPhoto = {
   /**
    * `'even'` makes paper white, without shadows and the lamp's colour, and keeps the colours of print; `'keep'` leaves the light as it
    * was photographed, as does a page that is not mostly paper.
    */
   light: { kind: LIGHT_KIND, default: 'even' },
-  /** Black and white, for print: the light is evened, and each pixel becomes ink or paper. */
+  /** Whether the flat image becomes black and white, for print: the light is evened, and each pixel becomes ink or paper. */
   ink: { kind: flag, default: false },
   ...mapping,
 };
 
-/** @satisfies {Options} */
+/** Options of making a photo of a page flat: what is known besides its edges. @satisfies {Options} */
 export const dewarpPage = {
   /** The camera's focal length, in pixels of the photo. */
   focalLength: {
@@ -197,17 +197,17 @@ export const dewarpPage = {
         'what the perspective tells)',
     },
   },
-  /** The same as the angle, in degrees, that the photo's longer side covers. */
+  /** The camera's field of view instead of `focalLength`: the angle, in degrees, that the photo's longer side covers. */
   fieldOfView: {
     kind: positive,
     flag: { section: 'page', value: 'DEGREES', help: "the same as the angle that the photo's longer side covers" },
   },
   /**
-   * The same in millimetres, as for a film of 36 by 24 mm. Default: what `readPhoto` has found in the
-   * file. With none of the three it is found from the perspective, if that is strong enough.
+   * The focal length in millimetres, as for film of 36 by 24 mm, instead of `focalLength`. Default: the one that `readPhoto` found
+   * in the file. Without any of the three it is found from the perspective, if that is strong enough.
    */
   film35: { kind: positive },
-  /** The format of the page, or of each page of a spread: by name, or width and height in millimetres. */
+  /** Paper format of the page, of each page of a spread: a name, or width and height in millimetres. */
   page: {
     kind: either(choice('a4', 'letter'), numbers(2, 'width and height in millimetres')),
     flag: {
@@ -219,7 +219,10 @@ export const dewarpPage = {
   },
   /** A known distance on the page, in millimetres, between two places in the photo. */
   ruler: { kind: anything, type: '{ from: readonly [number, number]; to: readonly [number, number]; length: number }' },
-  /** Where the camera's axis meets the photo, in its pixels. Default: the middle. Of a cropped photo, the whole one's. */
+  /**
+   * Principal point, where the camera's axis meets the photo, in pixels. Default: the middle of the photo; for a cropped photo
+   * give the middle of the whole one.
+   */
   centre: { kind: numbers(2, 'two numbers: x and y in the photo') },
   /** Expected error of traced points, in pixels of the photo. Default: 1/2500 of the photo's diagonal. */
   accuracy: { kind: positive },
@@ -231,11 +234,11 @@ export const dewarpPage = {
   ...flattenPhoto,
 };
 
-/** @satisfies {Options} */
+/** Options of writing a photo to a file. @satisfies {Options} */
 export const writePhoto = {
-  /** The kind of file. */
+  /** Format of the file. */
   format: { kind: choice('png', 'jpeg', 'pdf'), default: 'png' },
-  /** Quality of JPEG, and of the picture in a PDF, from 1 to 100. Default 90. */
+  /** Quality of the JPEG compression, in a JPEG file or a PDF, from 1 to 100. Default 90. */
   quality: {
     kind: percentage,
     flag: { section: 'shape', value: 'Q', help: 'of a .jpg, and of the picture in a .pdf: from 1 to 100 (default 90)' },

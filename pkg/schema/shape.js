@@ -4,7 +4,7 @@ import { resampling } from './fit.js';
 
 /** @typedef {import('./kinds.js').Options} Options */
 
-/** @satisfies {Options} */
+/** Options of an analysis of a surface. @satisfies {Options} */
 export const analyze = {
   /**
    * Gaussian curvature, in coordinates scaled to the unit square, above which a vertex counts.
@@ -16,13 +16,13 @@ export const analyze = {
   ...resampling,
 };
 
-/** Options of the figures of a mesh as it is. @satisfies {Options} */
+/** Options of an analysis of a mesh. @satisfies {Options} */
 export const analyzeMesh = {
   /** Gaussian curvature, in coordinates in which the ball about the mesh has the diameter 1, above which a vertex counts. */
   threshold: { kind: number, default: 1 },
 };
 
-/** @satisfies {Options} */
+/** Options of the segmentation of a mesh into patches. @satisfies {Options} */
 export const meshPatches = {
   /**
    * Angle, in radians, by which the surface bends from one vertex to the next on a crease. Default:
@@ -37,13 +37,13 @@ export const meshPatches = {
         'times its median, and at least 0.035)',
     },
   },
-  /** Angle between the two sides of a crease: patches that fold by less are one. */
+  /** Minimum fold angle of a crease, in radians: patches that fold by less are merged. */
   fold: {
     kind: number,
     default: 0.15,
     flag: { section: 'shape', value: 'A', help: 'patches that fold by less, in radians, are one (default 0.15)' },
   },
-  /** Share of all vertices that a patch has at least. */
+  /** Minimum size of a patch, as a share of all vertices. */
   smallest: {
     kind: number,
     default: 0.005,
@@ -51,12 +51,12 @@ export const meshPatches = {
   },
 };
 
-/** @satisfies {Options} */
+/** Options of the segmentation of a surface into patches. @satisfies {Options} */
 export const patches = { ...meshPatches, ...resampling };
 
-/** @satisfies {Options} */
+/** Options of traced rulings. @satisfies {Options} */
 export const rulings = {
-  /** Distance between lines, as seen from above. Default: ten lattice spacings. */
+  /** Distance between lines as seen from above, in the surface's unit of length. Default: ten lattice spacings. */
   separation: {
     kind: number,
     flag: {
@@ -65,7 +65,7 @@ export const rulings = {
       help: 'distance between lines, as seen from above, with --surface in space (default: ten lattice spacings, or lengths of an edge)',
     },
   },
-  /** A line ends where its direction is trusted by less, from 0 to 1. */
+  /** Minimum confidence of a direction, from 0 to 1: a line ends where it is lower. */
   confidence: {
     kind: number,
     default: 0.3,
@@ -76,7 +76,7 @@ export const rulings = {
       help: 'a line ends where its direction is trusted by less, from 0 to 1 (default 0.3)',
     },
   },
-  /** A line ends where the surface bends by more from one vertex to the next, in radians. */
+  /** Maximum bend from one vertex to the next, in radians: a line ends where the surface bends by more. */
   crease: {
     kind: number,
     default: 0.2,
@@ -89,35 +89,35 @@ export const rulings = {
   ...resampling,
 };
 
-/** @satisfies {Options} */
+/** Options of traced rulings of a mesh. @satisfies {Options} */
 export const meshRulings = {
-  /** Distance between lines, in space. Default: ten times the mean length of an edge. */
+  /** Distance between lines in space, in the mesh's unit of length. Default: ten times the mean length of an edge. */
   separation: { kind: number, flag: rulings.separation.flag },
   confidence: rulings.confidence,
   crease: rulings.crease,
 };
 
-/** @satisfies {Options} */
+/** Options of laying a mesh flat. @satisfies {Options} */
 export const meshUnrolling = {
-  /** Stop when an iteration changes the mean of the squared strains by less than this. */
+  /** Change of the mean squared strain in one iteration below which the iterations stop. */
   tolerance: { kind: positive, default: 1e-10 },
-  /** Most iterations. */
+  /** Maximum number of iterations. */
   maxIterations: { kind: whole, default: 500 },
 };
 
-/** @satisfies {Options} */
+/** Options of laying a surface flat. @satisfies {Options} */
 export const unroll = { ...meshUnrolling, ...resampling };
 
-/** @satisfies {Options} */
+/** Options of a picture of a surface. @satisfies {Options} */
 export const picture = {
   ...patches,
   /**
+   * Style of the picture:
    * - `'shaded'`: matt steel under one light;
    * - `'curvature'`: from blue (below 0) over white to red (above 0); grey where there is none, beside
    *   borders;
    * - `'patches'`: a colour for each patch, darker where they meet; `bend`, `fold` and `smallest` are
    *   for this one.
-   *
    */
   style: { kind: choice('shaded', 'curvature', 'patches'), default: 'shaded' },
   /**
@@ -126,14 +126,14 @@ export const picture = {
    * the left.
    */
   light: { kind: numbers(3, 'three numbers: a vector towards the light') },
-  /** Which one: `'gaussian'`, or `'kappa2'`, as `analyze` gives them. */
+  /** Curvature that the style `'curvature'` shows: Gaussian, or the smaller principal curvature, as `analyze` computes them. */
   curvature: { kind: choice('gaussian', 'kappa2'), default: 'gaussian' },
   /**
-   * The curvature at the ends of the colours, in units of the surface; beyond it they stay the same.
-   * Default: that of a sphere as wide as the longer side of the surface.
+   * Curvature at the ends of the colours, in the inverse of the surface's unit of length (squared for the Gaussian one); beyond it
+   * the colours stay the same. Default: that of a sphere as wide as the longer side of the surface.
    */
   limit: { kind: number },
-  /** Pixels across; those down follow. Default: one for each lattice spacing. */
+  /** Number of pixels in a row; the number of rows follows. Default: one pixel for each lattice spacing. */
   width: { kind: whole },
   /**
    * The part of the plane that is drawn: left, bottom, right, top. Default: that of the height

@@ -7,7 +7,11 @@ use crate::pattern::Sheet;
 
 /// The order in which the sheets of a pattern are put together.
 #[derive(Debug, Clone, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize),
+    serde(rename = "AssemblyOrder")
+)]
 #[non_exhaustive]
 pub struct Assembly {
     /// Steps in which the sheets are put together, one for each sheet. The first sheet is the one with the largest
@@ -17,7 +21,11 @@ pub struct Assembly {
 
 /// One step of the assembly: a sheet, and the seams that join it to the sheets of earlier steps or to itself.
 #[derive(Debug, Clone, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize),
+    serde(rename = "AssemblyStep")
+)]
 #[non_exhaustive]
 pub struct Step {
     /// Number of the sheet that is added in this step, counted from 0; names of sheets count from 1.
@@ -28,7 +36,11 @@ pub struct Step {
 
 /// A seam that is joined in a step of the assembly: between two sheets, or of a sheet with itself.
 #[derive(Debug, Clone, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize),
+    serde(rename = "AssemblyJoint")
+)]
 #[non_exhaustive]
 pub struct Joint {
     /// Name of the seam on the drawing: one or more letters.

@@ -9,7 +9,7 @@ use crate::math::planar::{circle_through, distance};
 #[cfg_attr(
     feature = "serde",
     derive(serde::Serialize, serde::Deserialize),
-    serde(transparent)
+    serde(rename = "BezierChain", transparent)
 )]
 pub struct Curve(Vec<[f64; 2]>);
 

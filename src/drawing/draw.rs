@@ -19,7 +19,11 @@ use crate::pattern::{Missing, Sheet};
 /// A drawing of sheets beside each other, in millimetres: the lower left corner is `0, 0`, `x` goes to the right
 /// and `y` up.
 #[derive(Debug, Clone, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(rename = "SheetDrawing")
+)]
 #[non_exhaustive]
 pub struct Drawing {
     /// Width of the drawing, in millimetres.

@@ -17,7 +17,11 @@ const MIN_TEXT_SIZE_MM: f64 = 1.5;
 
 /// A text on a sheet of a drawing or beside it.
 #[derive(Debug, Clone, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(rename = "DrawingLabel")
+)]
 #[non_exhaustive]
 pub struct Label {
     /// Subject of the text: a patch, a cut crease, a fold or a sheet.
@@ -37,7 +41,7 @@ pub struct Label {
 #[cfg_attr(
     feature = "serde",
     derive(serde::Serialize, serde::Deserialize),
-    serde(rename_all = "lowercase")
+    serde(rename = "DrawingLabelKind", rename_all = "lowercase")
 )]
 #[non_exhaustive]
 pub enum LabelKind {

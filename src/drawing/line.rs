@@ -9,7 +9,11 @@ pub(super) const FLATTENING_TOLERANCE_MM: f64 = 0.02;
 
 /// A fold line of a drawn sheet: a line along which the sheet is folded.
 #[derive(Debug, Clone, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(rename = "FoldLine")
+)]
 #[non_exhaustive]
 pub struct Line {
     /// Number of the crease that the fold line follows, its index in

@@ -102,7 +102,11 @@ impl Stock {
 
 /// One printed page or plate, which shows a rectangular part of the drawing.
 #[derive(Debug, Clone, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(rename = "DrawingPage")
+)]
 #[non_exhaustive]
 pub struct Page {
     /// Name of the page: its number if it holds whole sheets; column letter and row number from the upper
@@ -114,7 +118,11 @@ pub struct Page {
 
 /// The printed pages or plates of a drawing, all of one size.
 #[derive(Debug, Clone, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(rename = "DrawingPages")
+)]
 #[non_exhaustive]
 pub struct Pages {
     /// Width and height of the paper or plate, in millimetres.

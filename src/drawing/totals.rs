@@ -18,7 +18,7 @@ const MIN_COMPARED_JOINT_SHARE: f64 = 0.1;
 #[cfg_attr(
     feature = "serde",
     derive(serde::Serialize, serde::Deserialize),
-    serde(rename_all = "camelCase")
+    serde(rename = "DrawingSummary", rename_all = "camelCase")
 )]
 #[non_exhaustive]
 pub struct Totals {

@@ -2,11 +2,14 @@
 
 /// Unit of the lengths of a file or a surface.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub enum Unit {
     /// Millimetre, 10⁻³ m.
+    #[cfg_attr(feature = "serde", serde(rename = "mm"))]
     Millimetre,
     /// Metre, the SI unit of length.
+    #[cfg_attr(feature = "serde", serde(rename = "m"))]
     Metre,
 }
 

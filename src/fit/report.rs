@@ -12,14 +12,14 @@ use super::threads::ThreadLimit;
 )]
 #[non_exhaustive]
 pub enum StopReason {
-    /// The certified relative duality gap reached [`Options::gap`](crate::Options::gap).
+    /// The certified relative duality gap reached the option [`Options::gap`](crate::Options::gap).
     Gap,
-    /// The residuals of [`Schedule::Paper`](crate::Schedule::Paper) fell below its tolerances.
+    /// The residuals fell below the tolerances of the schedule [`Schedule::Paper`](crate::Schedule::Paper).
     Residuals,
     /// Objective and dual bound differ by no more than rounding errors: the surface is optimal as far as double
     /// precision can tell. This is the reason for an affine input.
     Rounding,
-    /// The number of iterations reached [`Options::max_iterations`](crate::Options::max_iterations).
+    /// The number of iterations reached the option [`Options::max_iterations`](crate::Options::max_iterations).
     MaxIterations,
     /// The progress callback, or [`Solver::cancel`](crate::Solver::cancel), asked to stop.
     Cancelled,
@@ -64,7 +64,11 @@ pub struct Progress {
 
 /// Time spent in each phase of a solve, in seconds.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize),
+    serde(rename = "SolveSeconds")
+)]
 #[non_exhaustive]
 pub struct Seconds {
     /// Time for the set-up: domain, normalisation, allocation, in seconds.
@@ -172,11 +176,11 @@ pub struct LambdaChoice {
     pub raises: usize,
     /// Number of solves before the last one: for each penalty that was compared, and before each raise of λ.
     pub solves: usize,
-    /// Number of ADMM iterations of the compared solves, which [`Report::iterations`] does not include.
+    /// Number of ADMM iterations of the compared solves, which the report's own number of iterations does not include.
     pub iterations: usize,
 }
 
-/// Parameters of [`Energy::Huber`] that a solve has used, whether given or chosen.
+/// Parameters of the energy [`Energy::Huber`] that a solve has used, whether given or chosen.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(
     feature = "serde",
@@ -185,11 +189,11 @@ pub struct LambdaChoice {
 )]
 #[non_exhaustive]
 pub struct HuberReport {
-    /// Bend radius in normalised coordinates: see [`Options::bend_radius`](crate::Options::bend_radius).
+    /// Bend radius in normalised coordinates: see the option [`Options::bend_radius`](crate::Options::bend_radius).
     pub bend_radius: f64,
-    /// Flatness, from 0 to 1: see [`Options::flatness`](crate::Options::flatness).
+    /// Flatness, from 0 to 1: see the option [`Options::flatness`](crate::Options::flatness).
     pub flatness: f64,
-    /// Crease radius in normalised coordinates: see [`Options::crease_radius`](crate::Options::crease_radius).
+    /// Crease radius in normalised coordinates: see the option [`Options::crease_radius`](crate::Options::crease_radius).
     pub crease_radius: f64,
     /// Number of crease passes after the first solve.
     pub crease_passes: usize,
@@ -199,12 +203,12 @@ pub struct HuberReport {
 
 /// Report of a solve: what was solved, how well, and at what cost.
 ///
-/// Energies are in normalised coordinates (see [`Normalization`](crate::Normalization)).
+/// Energies are in normalised coordinates ([`Normalization`](crate::Normalization)), in which the surface's longer side is 1.
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(
     feature = "serde",
     derive(serde::Serialize),
-    serde(rename_all = "camelCase")
+    serde(rename = "SolveReport", rename_all = "camelCase")
 )]
 #[non_exhaustive]
 pub struct Report {
@@ -235,20 +239,20 @@ pub struct Report {
     pub energy: Energy,
     /// Number of reweighting passes after the first solve.
     pub reweighting: usize,
-    /// Parameters of [`Energy::Huber`] and the number of its creases; `None` for other energies.
+    /// Parameters of the energy [`Energy::Huber`] and the number of its creases; `None` for other energies.
     #[cfg_attr(feature = "serde", serde(skip_serializing_if = "Option::is_none"))]
     pub huber: Option<HuberReport>,
     /// Objective (fidelity plus penalty) of the returned surface; always finite.
     pub objective: f64,
-    /// Fidelity term `λ Σ (z − z̃)²` of the objective; with [`Border::Loaded`](crate::Border::Loaded) the work of the
-    /// border's moments is subtracted.
+    /// Fidelity term `λ Σ (z − z̃)²` of the objective; with the border condition
+    /// [`Border::Loaded`](crate::Border::Loaded) the work of the border's moments is subtracted.
     pub fidelity: f64,
     /// Penalty term of the objective: `Σ ‖H‖_*`, or the penalty of another energy.
     pub nuclear_norm: f64,
     /// Certified lower bound of the optimal objective; always finite, and 0 where nothing better is known.
     pub dual_bound: f64,
     /// Relative duality gap `(objective − dual_bound) / objective`: the objective exceeds the optimum by at most this
-    /// share of itself. `None` for [`StopReason::Rounding`], and where the objective is a rounding error.
+    /// share of itself. `None` if the solve stopped by [`StopReason::Rounding`], and where the objective is a rounding error.
     pub gap: Option<f64>,
     /// Weight λ of the fidelity term, as a number.
     pub lambda: f64,

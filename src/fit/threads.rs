@@ -15,13 +15,13 @@ pub(crate) const MAX_THREADS: usize = 256;
 )]
 #[non_exhaustive]
 pub enum ThreadLimit {
-    /// No more were asked for by [`Options::threads`](crate::Options::threads).
+    /// No more were asked for by the option [`Options::threads`](crate::Options::threads).
     Options,
     /// The process may use no more cores.
     Cores,
     /// The surface has too few vertices: each thread gets at least some thousand.
     Vertices,
-    /// The library was built without a feature for threads.
+    /// The library was built without a feature for threads, or no other threads were started for it.
     Build,
     /// The system did not start more threads.
     System,

@@ -17,8 +17,8 @@ use super::working_photo::PhotoScale;
 #[non_exhaustive]
 pub enum PageVerdict {
     /// Both bent edges are straight, and so are lines of text if they are known; only the perspective is removed. The
-    /// page was flat, or it is folded along these edges, which they do not show (the other two edges do:
-    /// [`Edges::All`](super::Edges::All)).
+    /// page was flat, or it is folded along these edges, which they do not show (the other two edges do, if
+    /// all four are given).
     Flat,
     /// The page was curled in one direction and is flat now, with lengths as on the page.
     Unrolled,
@@ -86,7 +86,7 @@ pub enum PageModel {
 pub struct PageReport {
     /// Whether the flat page can be trusted.
     pub verdict: PageVerdict,
-    /// Main reason for the verdict `Doubtful`; None for other verdicts.
+    /// Main reason for the verdict [`PageVerdict::Doubtful`]; `None` for other verdicts.
     #[cfg_attr(feature = "serde", serde(skip_serializing_if = "Option::is_none"))]
     pub doubt: Option<PageDoubt>,
     /// Model that was fitted to the page's shape: plane, cylinder or sheet.

@@ -22,7 +22,7 @@ pub struct Pattern {
 #[cfg_attr(
     feature = "serde",
     derive(serde::Serialize, serde::Deserialize),
-    serde(rename_all = "camelCase")
+    serde(rename = "MissingSurface", rename_all = "camelCase")
 )]
 #[non_exhaustive]
 pub struct Missing {
@@ -79,7 +79,6 @@ pub struct Sheet {
 /// Distance between the surface and a sheet that was folded along its folds and bent in space with the least
 /// strain, measured at the sheet's vertices in the surface's units.
 #[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[non_exhaustive]
 pub struct Refolding {
     /// Root mean square distance of the refolded sheet's vertices from the surface, in the surface's units.
@@ -143,7 +142,7 @@ pub struct Seam {
 #[cfg_attr(
     feature = "serde",
     derive(serde::Serialize, serde::Deserialize),
-    serde(rename_all = "lowercase")
+    serde(rename = "FoldDirection", rename_all = "lowercase")
 )]
 #[non_exhaustive]
 pub enum Direction {

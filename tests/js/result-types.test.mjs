@@ -8,7 +8,8 @@ import { gridMesh, image, lattice, noisy } from './support/shapes.mjs';
 /** @typedef {Map<string, { optional: boolean, type: string }>} Members */
 
 /** What the types say, without comments. */
-const declarations = (await readFile(new URL('../../pkg/types.d.ts', import.meta.url), 'utf8')).replace(/\/\*[^]*?\*\//g, '');
+const files = ['types', 'result-types'].map((name) => readFile(new URL(`../../pkg/${name}.d.ts`, import.meta.url), 'utf8'));
+const declarations = (await Promise.all(files)).join('\n').replace(/\/\*[^]*?\*\//g, '');
 
 /** The end of what begins at a place, where its brackets are closed. @param {string} text @param {number} start @param {string} ends */
 function endOf(text, start, ends) {

@@ -2,21 +2,61 @@
 import assert from 'node:assert/strict';
 import { readFile } from 'node:fs/promises';
 import { test } from 'node:test';
+import { parse } from 'rolldown/utils';
 import { commands } from '../../pkg/cli/commands.js';
 import { helpOn } from '../../pkg/cli/command-line.js';
 import { flagName } from '../../pkg/cli/flags.js';
 import { OPTIONS } from '../../pkg/options.js';
 import { optionTypes, optionTypesFile } from '../../tools/build/option-types.mjs';
 
+/** Functions that do something else in each API. */
+const APART = ['init'];
+
 /** @typedef {import('../../pkg/schema/kinds.js').Options} Options */
 
 test('the types of options are those of the schema', async () => {
   const text = await readFile(optionTypesFile, 'utf8');
   assert.equal(text, await optionTypes(), 'build the package again');
-  for (const [, members] of text.matchAll(/^export interface \w+ \{\n([^]*?)^\}/gm)) {
-    const undocumented = members.replace(/ {2}\/\*\*[^]*?\*\/\n {2}\w+\?: .*;\n/g, '');
-    assert.equal(undocumented, '', 'an option has no comment');
+});
+
+/** Names that inherit what is said of them, as their types are only narrower. */
+const INHERITED = ['LatticeSurface.image', 'SampledMesh.origin', 'SampledMesh.heights', 'SampledMesh.frame'];
+
+test('every type, field and function has a comment, and a function says the same in both APIs', async () => {
+  /** What is said of a function by the first API. @type {Map<string, string>} */
+  const functions = new Map();
+  let count = 0;
+  for (const file of ['types', 'option-types', 'result-types', 'index', 'direct', 'sync', 'errors', 'camera-file']) {
+    const source = await readFile(new URL(`../../pkg/${file}.d.ts`, import.meta.url), 'utf8');
+    const { program, comments } = await parse(`${file}.d.ts`, source);
+    /** @param {{ start: number }} node @param {string} name */
+    const said = ({ start }, name) => {
+      const above = comments.find(({ end }) => end < start && source.slice(end, start).trim() === '');
+      assert.ok(above?.value.startsWith('*') || INHERITED.includes(name), `${file}.d.ts: ${name} has no comment`);
+      count += 1;
+      return above?.value ?? '';
+    };
+    for (const node of program.body) {
+      if (node.type !== 'ExportNamedDeclaration' || !node.declaration) continue;
+      const { declaration } = node;
+      if (declaration.type === 'TSDeclareFunction') {
+        const name = declaration.id?.name ?? '';
+        const [sentence] = said(node, name).replace(/^ ?\*+ ?/gm, '').trim().split(/\.\s/);
+        if (APART.includes(name)) continue;
+        assert.equal(functions.get(name) ?? sentence, sentence, `${name} in ${file}.d.ts`);
+        functions.set(name, sentence);
+      } else if ('id' in declaration && declaration.id?.type === 'Identifier') {
+        const { name } = declaration.id;
+        // A second declaration, as of a class and of what it has besides, may leave it to the first.
+        said(node, name);
+        const members = 'body' in declaration && declaration.body && 'body' in declaration.body ? declaration.body.body : [];
+        for (const member of members) {
+          if ('key' in member && member.key.type === 'Identifier' && !('computed' in member && member.computed)) said(member, `${name}.${member.key.name}`);
+        }
+      }
+    }
   }
+  assert.ok(count > 500, `${count} comments`);
 });
 
 test('each flag of the schema is in the help of a command, with its value and what it does', () => {

@@ -2,6 +2,7 @@
 import { readFile, writeFile } from 'node:fs/promises';
 import { join } from 'node:path';
 import { pathToFileURL } from 'node:url';
+import { parse } from 'rolldown/utils';
 import { root } from '../util/paths.mjs';
 import { main } from '../util/problem.mjs';
 
@@ -25,10 +26,6 @@ const MODULES = {
   file: { read: 'ReadOptions', readMesh: 'ReadMeshOptions', sampleMesh: 'SampleMeshOptions', example: 'ExampleOptions' },
 };
 
-/** A set of rows, and a row, each after the comment above it. */
-const SET = /^\/\*\*((?:(?!\*\/)[^])*)\*\/\nexport const (\w+) = (?:\{ .*|\{\n[^]*?\n)\};$/gm;
-const ROW = /^ {2}\/\*\*((?:(?!\*\/)[^])*)\*\/\n {2}(\w+): \{/gm;
-
 /** The text of the file with the types of options. */
 export async function optionTypes() {
   /** What is said of a set or a row. @type {Map<object, string>} */
@@ -39,28 +36,69 @@ export async function optionTypes() {
     const path = join(schema, `${module}.js`);
     /** @type {Record<string, Options>} */
     const sets = await import(pathToFileURL(path).href);
-    for (const [whole, about, name] of (await readFile(path, 'utf8')).matchAll(SET)) {
-      docs.set(sets[name], textOf(about));
-      for (const [, comment, option] of whole.matchAll(ROW)) docs.set(sets[name][option], textOf(comment));
+    for (const { name, doc, rows } of await setsIn(path)) {
+      docs.set(sets[name], doc);
+      for (const row of rows.filter((one) => one.doc)) docs.set(sets[name][row.name], row.doc);
     }
     for (const [name, type] of Object.entries(interfaces)) found.push({ type, options: sets[name] });
   }
   const types = found.map(({ type, options }) => {
+        const doc = docs.get(options);
+    if (!doc) throw new Error(`${type} has no comment in the schema`);
     const members = Object.entries(options).map(([name, option]) => member(`${type}.${name}`, option, docs.get(option)));
-    return `\n${comment(docs.get(options) ?? '')}export interface ${type} {\n${members.join('')}}\n`;
+    return `\n${comment(doc)}export interface ${type} {\n${members.join('')}}\n`;
   });
-  const declared = (await readFile(join(root, 'pkg/types.d.ts'), 'utf8')).matchAll(/^export (?:interface|type) (\w+)/gm);
-  const used = Array.from(declared, ([, name]) => name).filter((name) => new RegExp(`\\?: .*\\b${name}\\b`).test(types.join('')));
+  const used = new Set(types.join('').match(/(?<=\?: [^\n]*)\b[A-Z]\w+\b/g));
+  const known = [...(await declaredIn('types')), ...(await declaredIn('result-types'))].filter((name) => used.has(name)).sort();
   const head = '/** Options of all calls. Made of `schema/` by `tools/build/option-types.mjs`. */\n';
-  return `${head}import type { ${used.sort().join(', ')} } from './types.js';\n${types.join('')}`;
+  return `${head}import type { ${known.join(', ')} } from './types.js';\n${types.join('')}`;
+}
+
+/**
+ * The declarations that a file exports, each with a function that says what the comment above a node of the file says.
+ * @param {string} path
+ */
+async function exportsOf(path) {
+  const source = await readFile(path, 'utf8');
+  const { program, comments, errors } = await parse(path, source);
+  if (errors.length > 0) throw new Error(`${path}: ${errors[0].message}`);
+  /** @param {{ start: number }} node */
+  const docOf = ({ start }) => {
+    const above = comments.find((one) => one.end < start && source.slice(one.end, start).trim() === '');
+    return textOf(above?.value ?? '');
+  };
+  const nodes = program.body.filter((node) => node.type === 'ExportNamedDeclaration');
+  return { nodes, docOf };
+}
+
+/**
+ * The sets of options that a module of the schema exports, each with what is said of it and of its rows.
+ * @param {string} path
+ */
+async function setsIn(path) {
+  const { nodes, docOf } = await exportsOf(path);
+  return nodes.flatMap((node) => {
+    if (node.declaration?.type !== 'VariableDeclaration') return [];
+    const [{ id, init }] = node.declaration.declarations;
+    if (id.type !== 'Identifier' || init?.type !== 'ObjectExpression') return [];
+    const rows = init.properties.flatMap((row) =>
+      row.type === 'Property' && row.key.type === 'Identifier' ? [{ name: row.key.name, doc: docOf(row) }] : []);
+    return [{ name: id.name, doc: docOf(node), rows }];
+  });
+}
+
+/** The names of the types that a file declares. @param {string} file */
+async function declaredIn(file) {
+  const { nodes } = await exportsOf(join(root, `pkg/${file}.d.ts`));
+  return nodes.flatMap(({ declaration }) =>
+    declaration?.type === 'TSInterfaceDeclaration' || declaration?.type === 'TSTypeAliasDeclaration' ? [declaration.id.name] : []);
 }
 
 /** The text of a comment, without what is for the compiler. @param {string} comment */
-const textOf = (comment) => comment.replace(/@\w+ \{.*\}/, '').replace(/^ *\* ?/gm, '').trim();
+const textOf = (comment) => comment.replace(/^\*/, '').replace(/@\w+ \{.*\}/, '').replace(/^ *\* ?/gm, '').trim();
 
 /** A text as a comment. @param {string} text @param {string} [indent] */
 function comment(text, indent = '') {
-  if (text === '') return '';
   if (!text.includes('\n')) return `${indent}/** ${text} */\n`;
   return `${indent}/**\n${text.split('\n').map((line) => `${indent} * ${line}`.trimEnd()).join('\n')}\n${indent} */\n`;
 }

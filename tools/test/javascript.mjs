@@ -6,6 +6,7 @@ import { pathToFileURL } from 'node:url';
 import { stripVTControlCharacters } from 'node:util';
 import { buildOptionTypes } from '../build/option-types.mjs';
 import { bundlePage } from '../site.mjs';
+import { native } from '../util/env.mjs';
 import { root } from '../util/paths.mjs';
 import { Problem } from '../util/problem.mjs';
 import { Skip, check } from './step.mjs';
@@ -18,6 +19,7 @@ export async function size() {
 }
 
 export async function types() {
+  await check('cargo', ['test', '--quiet', '-p', 'developable-types'], native);
   await buildOptionTypes();
   await check(process.execPath, [join(root, 'node_modules/typescript/bin/tsc')], process.env);
 }

@@ -6,6 +6,7 @@ import { rescalePixel } from './grey.js';
 /** @import {Api} from '../api.js' */
 /** @import {GreyImage} from './grey.js' */
 /** @typedef {import('../../pkg/types.js').PageOutlines} PageOutlines */
+/** @typedef {import('../../pkg/types.js').PageOutline} PageOutline */
 
 /** Maximum number of pixels of a photo that the browser decodes because it is too large for the package. */
 const MAX_REDUCED_PHOTO_PIXELS = 16e6;
@@ -64,9 +65,11 @@ export async function preparePhoto(api, { width, height, data, film35, assumptio
 function rescaleOutlines({ pages, ...found }, scale) {
   /** @param {[number, number][]} line */
   const at = (line) => line.map(([x, y]) => /** @type {[number, number]} */ ([rescalePixel(x, scale), rescalePixel(y, scale)]));
+  /** @param {PageOutline['corners']} corners */
+  const moved = (corners) => /** @type {PageOutline['corners']} */ (at(corners));
   return {
     ...found,
     pages: pages.map(({ corners, edges: { top, bottom, left, right }, ...page }) => (
-      { ...page, corners: at(corners), edges: { top: at(top), bottom: at(bottom), left: at(left), right: at(right) } })),
+      { ...page, corners: moved(corners), edges: { top: at(top), bottom: at(bottom), left: at(left), right: at(right) } })),
   };
 }

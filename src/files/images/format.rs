@@ -4,8 +4,13 @@ use std::str::FromStr;
 
 use crate::error::{Error, Result};
 
-/// An image file format that can be read. All but PNG and NPY need the cargo feature `images`.
+/// An image file format that can be read.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize),
+    serde(rename_all = "lowercase")
+)]
 #[non_exhaustive]
 pub enum Format {
     /// Portable Network Graphics, grey, 1 to 16 bits.

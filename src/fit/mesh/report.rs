@@ -4,7 +4,11 @@ use crate::fit::report::{Seconds, StopReason};
 
 /// Repairs of a mesh before its fit. The fitted mesh has the vertices and triangles of the input all the same.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize),
+    serde(rename = "MeshRepairs")
+)]
 #[non_exhaustive]
 pub struct Repairs {
     /// Number of vertices that share their position with an earlier one and move together with it.

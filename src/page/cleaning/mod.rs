@@ -16,7 +16,10 @@ use crate::error::{Result, check_photo, try_filled};
 /// What happens to the light on a flat page.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(rename_all = "camelCase"))]
+#[cfg_attr(
+    feature = "serde",
+    serde(rename = "LightTreatment", rename_all = "camelCase")
+)]
 pub enum Light {
     /// The light is evened: paper becomes white, shadows and the lamp's colour disappear, colours of print stay.
     #[default]

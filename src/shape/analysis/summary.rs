@@ -18,7 +18,7 @@ pub const DEFAULT_GAUSSIAN_THRESHOLD: f64 = 1.0;
 #[cfg_attr(
     feature = "serde",
     derive(serde::Serialize),
-    serde(rename_all = "camelCase")
+    serde(rename = "AnalysisSummary", rename_all = "camelCase")
 )]
 #[non_exhaustive]
 pub struct Summary {

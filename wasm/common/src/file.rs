@@ -1,13 +1,13 @@
 //! Options of reading an image file, from JavaScript, and the file's contents, to JavaScript.
 
 use js_sys::{Float64Array, Uint8ClampedArray};
-use serde::{Deserialize, Serialize};
+use serde::{Deserialize, Serialize, Serializer};
 use serde_wasm_bindgen::{preserve, to_value};
 use wasm_bindgen::prelude::*;
 
 use super::{Failure, Result};
-use developable::files::Assumption;
 use developable::files::images::{Decoded, Format, Georeference, PhotoFile};
+use developable::files::{Assumption, Unit};
 
 /// Options of reading an image file: JavaScript's `ReadOptions` object.
 #[derive(Deserialize)]
@@ -46,22 +46,31 @@ impl ReadOptions {
     }
 }
 
-/// Contents of an image file with heights, written as JavaScript's `ReadResult` object.
+/// A height image as read from a file. If the file stores integers and no scale, `heightScale` is a suggestion.
 #[derive(Serialize)]
-#[serde(rename_all = "camelCase")]
+#[serde(rename = "ReadResult", rename_all = "camelCase")]
 struct ReadOutput {
-    format: &'static str,
+    /// Format of the file.
+    format: Format,
+    /// Number of pixels in a row.
     width: usize,
+    /// Number of rows of pixels.
     height: usize,
+    /// Values as stored, plus `offset / heightScale` if the file states an offset: row by row, the top row first; NaN where there is no data.
     #[serde(with = "preserve")]
     data: Float64Array,
+    /// Side length of a pixel; 1 if the file does not state it.
     pixel_size: f64,
-    #[serde(with = "preserve")]
-    unit: JsValue,
+    /// Unit of `pixelSize`: millimetres for a resolution that a TIFF file states, metres for a map; `null` if it is not known.
+    unit: Nullable<Unit>,
+    /// Factor from values to heights, in the unit of `pixelSize`.
     height_scale: f64,
+    /// Type of number that the file stores: `'u8'`, `'u16'`, `'f32'`, `'f64'` and so on.
     data_type: &'static str,
+    /// Where the pixels lie on a map; absent unless the file is a GeoTIFF.
     #[serde(skip_serializing_if = "Option::is_none")]
     georeference: Option<Georeference>,
+    /// What the reader assumed because the file does not say it.
     assumptions: Vec<Assumption>,
 }
 
@@ -70,12 +79,12 @@ pub fn output(mut file: Decoded, options: &ReadOptions) -> Result<JsValue> {
         file.assume_no_data();
     }
     Ok(to_value(&ReadOutput {
-        format: file.format.name(),
+        format: file.format,
         width: file.width,
         height: file.height,
         data: file.values.as_slice().into(),
         pixel_size: file.pixel_size,
-        unit: file.unit.map_or(JsValue::NULL, |unit| unit.symbol().into()),
+        unit: Nullable(file.unit),
         height_scale: file.height_scale,
         data_type: file.data_type,
         georeference: file.georeference,
@@ -83,17 +92,36 @@ pub fn output(mut file: Decoded, options: &ReadOptions) -> Result<JsValue> {
     })?)
 }
 
-/// A photo, written as JavaScript's `Photo` object.
+/// A value that JavaScript gets as `null` if there is none.
+struct Nullable<T>(Option<T>);
+
+impl<T: Serialize> Serialize for Nullable<T> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> std::result::Result<S::Ok, S::Error> {
+        match &self.0 {
+            Some(value) => value.serialize(serializer),
+            None => preserve::serialize(&JsValue::NULL, serializer),
+        }
+    }
+}
+
+/// A photo decoded from a file: RGBA bytes, upright.
 #[derive(Serialize)]
+#[serde(rename = "DecodedPhoto")]
 struct PhotoOutput<'a> {
+    /// Number of pixels in a row.
     width: usize,
+    /// Number of rows of pixels.
     height: usize,
+    /// `4 * width * height` RGBA bytes, row by row, the top row first.
     #[serde(with = "preserve")]
     data: Uint8ClampedArray,
+    /// Focal length of the camera in millimetres, as for film of 36 by 24 mm; absent if the Exif data do not state it or the photo was cropped.
     #[serde(skip_serializing_if = "Option::is_none")]
     film35: Option<f64>,
+    /// Orientation by which the photo was turned upright, as Exif numbers it from 2 to 8 (6: by 90 degrees clockwise, 3: by 180, 8: by 270); absent if it was stored upright.
     #[serde(skip_serializing_if = "Option::is_none")]
     orientation: Option<u16>,
+    /// What the reader assumed because the file does not say it.
     assumptions: &'a [Assumption],
 }
 

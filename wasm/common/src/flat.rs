@@ -168,15 +168,22 @@ impl MapOptions {
     }
 }
 
-/// A warp map on a grid, written as JavaScript's `WarpGrid` object.
+/// Warp map on a grid over the flat image, bilinear between its nodes. The node in column i of row j is at the pixel `(i * step[0], j * step[1])`, counted from the centre of the upper left one; the last node is at the lower right pixel.
 #[derive(Serialize)]
+#[serde(rename = "WarpGrid")]
 pub struct GridOutput {
+    /// Number of nodes in each row of the grid.
     columns: usize,
+    /// Number of rows of the grid.
     rows: usize,
+    /// Distance between neighbouring nodes to the right and down, in pixels of the flat image.
     step: [f64; 2],
+    /// Place x, y of each node in the photo, in pixels, row by row; NaN where there is no sheet around the node. Nodes just outside of the sheet have an extrapolated place.
     #[serde(with = "preserve")]
     places: Float32Array,
+    /// Root mean square error of the interpolation over the sheet, in pixels of the photo.
     rms: f64,
+    /// Largest error of the interpolation over the sheet, in pixels of the photo. It is above the tolerance where 40000 nodes are not enough, as at sharp creases.
     maximum: f64,
 }
 

@@ -88,20 +88,26 @@ impl MeshSolver {
     }
 }
 
-/// Curvatures of a mesh and their statistics, written as JavaScript's `MeshAnalysis` object.
+/// Curvatures at the vertices of a mesh, positive where it bends as a ball does and NaN where triangles do not surround a vertex, with their statistics.
 #[derive(Serialize)]
-#[serde(rename_all = "camelCase")]
+#[serde(rename = "MeshAnalysis", rename_all = "camelCase")]
 struct AnalysisOutput {
+    /// Gaussian curvature at each vertex: angle deficit divided by the vertex's share of the area, in the surface's unit of length to the power −2.
     #[serde(with = "preserve")]
     gaussian: Float64Array,
+    /// Principal curvature of larger magnitude at each vertex, in the inverse of the surface's unit of length.
     #[serde(with = "preserve")]
     kappa1: Float64Array,
+    /// Principal curvature of smaller magnitude at each vertex; 0 on a developable surface.
     #[serde(with = "preserve")]
     kappa2: Float64Array,
+    /// Density of the energy at each vertex, `|kappa1| + |kappa2|`.
     #[serde(with = "preserve")]
     nuclear_norm: Float64Array,
+    /// Unit vector x, y, z at each vertex along which the mesh bends by `kappa2`, up to its sign; `meshRulings` gives smoothed directions.
     #[serde(with = "preserve")]
     rulings: Float64Array,
+    /// Statistics of the curvatures. `size` is the diameter of the mesh's bounding sphere, and the sum of nuclear norms is weighted by area.
     summary: Summary,
 }
 
@@ -128,13 +134,17 @@ pub fn analyze_mesh(mesh: JsValue, options: JsValue) -> Result<JsValue> {
     })?)
 }
 
-/// Rulings of a mesh, written as JavaScript's `MeshRulings` object.
+/// Rulings of a mesh: the directions in which it does not bend, and lines along them.
 #[derive(Serialize)]
+#[serde(rename = "MeshRulings")]
 struct RulingsOutput<'a> {
+    /// Unit vector x, y, z along the ruling at each vertex, up to its sign; NaN where triangles do not surround the vertex.
     #[serde(with = "preserve")]
     directions: Float64Array,
+    /// Confidence in the direction at each vertex, from 0 to 1.
     #[serde(with = "preserve")]
     confidence: Float64Array,
+    /// Traced rulings, each with a point on every edge that it crosses.
     lines: &'a [Ruling],
 }
 

@@ -35,13 +35,15 @@ pub fn read_image_photo(bytes: &Uint8Array) -> Result<JsValue> {
     photo_output(&decode_photo(&file)?)
 }
 
-/// Name, shape and type of an array in an NPZ file, written as JavaScript's `NpzArray` object.
+/// An array of an NPZ file.
 #[derive(Serialize)]
-#[serde(rename_all = "camelCase")]
+#[serde(rename = "NpzArray", rename_all = "camelCase")]
 struct ArrayOutput {
+    /// Name of the array.
     name: String,
-    /// Shape of the array, as floats, since 64-bit integers would become a `BigInt` in JavaScript.
+    /// Lengths of the array's dimensions.
     shape: Vec<f64>,
+    /// Type of number, such as `'f32'`; NumPy's own name for a type that is no number.
     data_type: String,
 }
 

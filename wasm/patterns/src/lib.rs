@@ -192,30 +192,44 @@ pub fn has_exact_faces_of(mesh: JsValue) -> Result<bool> {
     Ok(has_exact_faces(&mesh))
 }
 
-/// Sheets of a mesh laid flat side by side, written as JavaScript's `MeshUnrolling` object.
+/// Sheets of a mesh laid flat, one to the right of the other, seen from the side that the triangles face. They have more vertices than the mesh, since it is cut.
 #[derive(Serialize)]
+#[serde(rename = "MeshUnrolling")]
 struct UnrollingOutput<'a> {
+    /// Number of the patch of each triangle of the mesh, −1 for none.
     #[serde(with = "preserve")]
     labels: Int32Array,
+    /// Coordinates x, y, z of each vertex of the sheets on the mesh.
     #[serde(with = "preserve")]
     positions: Float64Array,
+    /// Coordinates x, y of each vertex of the sheets in the plane.
     #[serde(with = "preserve")]
     places: Float64Array,
+    /// Three vertices of each triangle, counter-clockwise.
     #[serde(with = "preserve")]
     triangles: Uint32Array,
+    /// Number of the sheet of each vertex, from 0.
     #[serde(with = "preserve")]
     sheets: Uint32Array,
+    /// The patches of the mesh, that with the largest area first.
     patches: &'a [Patch],
+    /// The creases between the patches.
     creases: &'a [Crease],
+    /// Figures of the sheets.
     report: UnrollingReport,
 }
 
+/// Figures of a mesh laid flat.
 #[derive(Serialize)]
-#[serde(rename_all = "camelCase")]
+#[serde(rename = "MeshUnrollingReport", rename_all = "camelCase")]
 struct UnrollingReport {
+    /// Number of sheets.
     sheets: usize,
+    /// Area of the sheets, in the mesh's unit squared.
     area: f64,
+    /// Root mean square strain of the worst sheet, as a share.
     strain: f64,
+    /// Root mean square distance between the two sides of a fold, in the mesh's unit of length, of the worst sheet.
     seam_gap: f64,
 }
 

@@ -10,10 +10,12 @@ use developable::{Example, ExampleOptions};
 use developable_wasm::Result;
 use developable_wasm::options::read;
 
-/// A generated example with noisy and exact heights, written as JavaScript's `Example` object.
+/// A generated example: a height image with noise, and the true heights.
 #[derive(Serialize)]
 struct ExampleOutput {
+    /// The height image with noise, to be fitted.
     input: ImageOutput,
+    /// Heights of the surface without noise at the same pixels, row by row.
     #[serde(with = "preserve")]
     truth: Float64Array,
 }

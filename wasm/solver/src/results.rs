@@ -7,27 +7,39 @@ use serde_wasm_bindgen::preserve;
 use developable::HeightImage;
 use developable::Report;
 
-/// A fitted surface and the report, written as JavaScript's `Surface` object.
+/// Heights of a fitted surface on its lattice, and the report on the fit.
 #[derive(Serialize)]
+#[serde(rename = "FittedHeights")]
 pub struct SurfaceOutput<'a> {
+    /// Number of rows of the lattice.
     pub rows: usize,
+    /// Number of columns of the lattice.
     pub cols: usize,
+    /// Distance between neighbouring vertices of the lattice, in the surface's unit of length.
     pub spacing: f64,
+    /// Position `[x, y]` of the vertex in row 0, column 0, the upper left one; `y` points up.
     pub origin: [f64; 2],
+    /// `rows * cols` heights at the vertices, row by row, the top row first; NaN where the surface has no vertex.
     #[serde(with = "preserve")]
     pub heights: Float64Array,
+    /// The surface at the pixels of the input, if that is an image.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub image: Option<ImageOutput>,
+    /// Report on the fit: what was solved, how well, and at what cost.
     pub report: &'a Report,
 }
 
-/// A height image that is a result, written as JavaScript's `HeightImage` object.
+/// Heights of a surface at the pixels of an image.
 #[derive(Serialize)]
-#[serde(rename_all = "camelCase")]
+#[serde(rename = "SurfaceImage", rename_all = "camelCase")]
 pub struct ImageOutput {
+    /// Number of pixels in a row.
     width: usize,
+    /// Number of rows of pixels.
     height: usize,
+    /// Side length of a pixel, in the unit of the heights.
     pixel_size: f64,
+    /// `width * height` heights at the pixels, row by row, the top row first; NaN where there is no surface.
     #[serde(with = "preserve")]
     data: Float64Array,
 }
@@ -43,18 +55,27 @@ impl From<&HeightImage> for ImageOutput {
     }
 }
 
-/// Detected occlusions, written as JavaScript's `DetectedOcclusions` object.
+/// Occlusions (jumps) that were detected in heights. As part of a heightfield, `vertices` can be given as `occlusions` and `edges` as `brokenEdges`.
 #[derive(Serialize)]
+#[serde(rename = "DetectedOcclusions")]
 pub struct OcclusionsOutput {
+    /// Number of rows of the lattice.
     pub rows: usize,
+    /// Number of columns of the lattice.
     pub cols: usize,
+    /// Distance between neighbouring vertices of the lattice, in the surface's unit of length.
     pub spacing: f64,
+    /// Position `[x, y]` of the vertex in row 0, column 0, the upper left one; `y` points up.
     pub origin: [f64; 2],
+    /// For each vertex, row by row, 1 if a solve would evaluate no Hessian there, else 0.
     #[serde(with = "preserve")]
     pub vertices: Uint8Array,
+    /// Broken edges, six bits for each vertex as in the field `brokenEdges` of a heightfield.
     #[serde(with = "preserve")]
     pub edges: Uint8Array,
+    /// Number of vertices whose flag is 1.
     pub count: usize,
+    /// For an input that is an image: 1 at the pixels with data whose nearest vertex is occluded, else 0.
     #[serde(
         skip_serializing_if = "Option::is_none",
         serialize_with = "preserve_some"

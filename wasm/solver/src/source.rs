@@ -14,7 +14,7 @@ use developable_wasm::{Failure, Result};
 /// Optional fields of JavaScript's `HeightImage` and `Heightfield` objects besides the heights.
 #[derive(Deserialize)]
 #[serde(rename_all = "camelCase")]
-struct Known {
+struct ConditionsInput {
     #[serde(default, with = "preserve")]
     confidence: JsValue,
     #[serde(default, with = "preserve")]
@@ -26,12 +26,12 @@ struct Known {
 }
 
 pub enum Source {
-    Image(Image),
-    Lattice(Parts),
+    Image(ImageSource),
+    Lattice(LatticeSource),
 }
 
 /// Input of a solve that is given at the pixels of an image.
-pub struct Image {
+pub struct ImageSource {
     /// Input heights at the pixels; for a design (a solve from constraints alone) 0 inside of its outline and NaN
     /// outside.
     heights: HeightImage,
@@ -44,7 +44,7 @@ pub struct Image {
 
 /// Input of a solve that is given at the vertices of a lattice.
 #[derive(Clone)]
-pub struct Parts {
+pub struct LatticeSource {
     /// Input heights at the vertices; for a design (a solve from constraints alone) 0 inside of its outline and NaN
     /// outside.
     heights: Heightfield,
@@ -57,7 +57,7 @@ pub struct Parts {
 
 impl Source {
     pub fn image(value: JsValue) -> Result<Source> {
-        let known: Known = from_value(value.clone())?;
+        let known: ConditionsInput = from_value(value.clone())?;
         let input: ImageInput = from_value(value)?;
         let design = input.data.is_undefined();
         let heights = match design {
@@ -74,7 +74,7 @@ impl Source {
         let confidence = given(&known.confidence)
             .map(|value| input.image("confidence", confidence(value, shape, heights.values())?))
             .transpose()?;
-        Ok(Source::Image(Image {
+        Ok(Source::Image(ImageSource {
             heights,
             design,
             mask: bytes(&input.mask),
@@ -85,7 +85,7 @@ impl Source {
     }
 
     pub fn lattice(value: JsValue) -> Result<Source> {
-        let known: Known = from_value(value.clone())?;
+        let known: ConditionsInput = from_value(value.clone())?;
         let input: LatticeInput = from_value(value)?;
         let (rows, cols) = (input.rows, input.cols);
         let design = input.heights.is_undefined();
@@ -106,7 +106,7 @@ impl Source {
         let edges = bytes(&known.broken_edges)
             .map(|bits| Occlusions::from_edges(&lattice, &bits))
             .transpose()?;
-        Ok(Source::Lattice(Parts {
+        Ok(Source::Lattice(LatticeSource {
             heights,
             design,
             mask: bytes(&input.mask),
@@ -160,7 +160,7 @@ fn check_spacing(settings: &Settings) -> Result<()> {
     }
 }
 
-impl Image {
+impl ImageSource {
     fn input(&self, settings: &Settings) -> Result<(Input, HeightImage)> {
         let bridging = match self.design {
             true => Bridging::Off,
@@ -196,7 +196,7 @@ impl Image {
     }
 }
 
-impl Parts {
+impl LatticeSource {
     fn into_input(self, settings: &Settings) -> Result<Input> {
         let mut input = Input::new(self.heights).with_bridging(settings.bridging)?;
         if let Some(mask) = self.mask {

@@ -26,23 +26,33 @@ use developable_wasm::options::OptionReader;
 use developable_wasm::photo::{Pixels, extent_from};
 use developable_wasm::scene::{Scene, SpacingInput, check_spacing, is_image};
 
-/// Curvatures of a surface and their statistics, written as JavaScript's `Analysis` object.
+/// Curvatures of a surface at the lattice's vertices, row by row and NaN where there are none, with their statistics.
 #[derive(Serialize)]
-#[serde(rename_all = "camelCase")]
+#[serde(rename = "Analysis", rename_all = "camelCase")]
 struct AnalysisOutput {
+    /// Number of rows of the lattice.
     rows: usize,
+    /// Number of columns of the lattice.
     cols: usize,
+    /// Distance between neighbouring vertices of the lattice, in the surface's unit of length.
     spacing: f64,
+    /// Position `[x, y]` of the vertex in row 0, column 0, the upper left one; `y` points up.
     origin: [f64; 2],
+    /// Gaussian curvature at each vertex: angle deficit divided by the vertex's share of the area, in the surface's unit of length to the power −2.
     #[serde(with = "preserve")]
     gaussian: Float64Array,
+    /// Principal curvature of larger magnitude at each vertex, in the inverse of the surface's unit of length.
     #[serde(with = "preserve")]
     kappa1: Float64Array,
+    /// Principal curvature of smaller magnitude at each vertex; 0 on a developable surface.
     #[serde(with = "preserve")]
     kappa2: Float64Array,
+    /// Density of the energy at each vertex, `|kappa1| + |kappa2|`.
     #[serde(with = "preserve")]
     nuclear_norm: Float64Array,
+    /// Statistics of the curvatures.
     summary: Summary,
+    /// Deviation of the surface from the option `reference`, if that is given.
     #[serde(skip_serializing_if = "Option::is_none")]
     deviation: Option<Deviation>,
 }
@@ -103,29 +113,42 @@ pub fn analyze(field: JsValue, reference: JsValue, options: JsValue) -> Result<J
     })?)
 }
 
-/// A surface laid flat and the report, written as JavaScript's `Unrolling` object.
+/// A surface laid flat: its triangles, and the positions of their corners in the plane.
 #[derive(Serialize)]
-#[serde(rename_all = "camelCase")]
+#[serde(rename = "Unrolling", rename_all = "camelCase")]
 struct UnrollingOutput {
+    /// Number of rows of the lattice.
     rows: usize,
+    /// Number of columns of the lattice.
     cols: usize,
+    /// Distance between neighbouring vertices of the lattice, in the surface's unit of length.
     spacing: f64,
+    /// Position `[x, y]` of the vertex in row 0, column 0, the upper left one; `y` points up.
     origin: [f64; 2],
+    /// Row-major index in the lattice of each vertex of the triangles, ascending.
     #[serde(with = "preserve")]
     vertices: Uint32Array,
+    /// Coordinates x, y, z of each vertex on the surface.
     #[serde(with = "preserve")]
     positions: Float64Array,
+    /// Three vertices of each triangle, counted from 0, counter-clockwise seen from above.
     #[serde(with = "preserve")]
     triangles: Uint32Array,
+    /// Coordinates x, y of each vertex in the plane. Each connected component lies as near to its place in the view from above as it can.
     #[serde(with = "preserve")]
     places: Float64Array,
+    /// Number of the connected component of each vertex; 0 is the largest one.
     #[serde(with = "preserve")]
     parts: Uint32Array,
+    /// The two singular values of each triangle's map to the plane, the larger one first; the smaller one is negative where the triangle is flipped.
     #[serde(with = "preserve")]
     stretches: Float64Array,
+    /// Four vertices for each pair of border edges that cross in the plane: the ends of both edges.
     #[serde(with = "preserve")]
     overlaps: Uint32Array,
+    /// Whether the flat layout can be trusted.
     verdict: Verdict,
+    /// Report on the layout: iterations, strain and overlaps.
     report: UnrollReport,
 }
 
@@ -154,23 +177,36 @@ pub fn unroll_surface(field: JsValue, options: JsValue) -> Result<JsValue> {
     })?)
 }
 
-/// A flat image of a photo, its warp map and the report, written as JavaScript's `Dewarped` object.
+/// Flat image of a photo of a surface, with its warp map, verdict and report.
 #[derive(Serialize)]
+#[serde(rename = "DewarpedImage")]
 struct DewarpedOutput {
+    /// Number of pixels in a row of the flat image.
     width: usize,
+    /// Number of rows of the flat image.
     height: usize,
+    /// Number of pixels of the flat image per unit of length.
     resolution: f64,
+    /// Position `[x, y]` of the upper left corner on the sheet, in the surface's unit of length; with the option `deskew` in axes that are turned with the image about the origin.
     corner: [f64; 2],
+    /// RGBA bytes of the flat image, row by row, transparent where there is no sheet; `new ImageData(data, width)` shows it.
     #[serde(with = "preserve")]
     data: Uint8ClampedArray,
+    /// Warp map: for each pixel of the flat image its place x, y in the photo, in pixels from the centre of the upper left one; NaN where there is no sheet. Empty if the option `map` is false.
     #[serde(with = "preserve")]
     map: Float32Array,
+    /// The warp map on a grid, if the option `grid` asks for it.
     #[serde(skip_serializing_if = "Option::is_none")]
     grid: Option<GridOutput>,
+    /// Share of the sheet that the option `trim` left out; for a `crop` with four corners, share of the page between them that the flat image does not show; else 0.
     loss: f64,
+    /// Distance by which a `crop` with four corners reaches beyond the page that was found in the photo, as a share of the page's side: above 0.02 the verdict is `'doubtful'`. 0 where no page is found without doubt.
     overreach: f64,
+    /// What happened to the light: `'keep'` also where it was to be evened but the image is not mostly paper.
     light: Light,
+    /// Whether the flat image can be trusted.
     verdict: Verdict,
+    /// Report on laying the surface flat.
     report: UnrollReport,
 }
 
@@ -275,17 +311,26 @@ fn overreach(photo: &Photo, crop: Option<&[[f64; 2]]>) -> f64 {
     }
 }
 
-/// Patches and creases of a surface, written as JavaScript's `PatchMap` object.
+/// Patches of a surface (regions without a crease inside), that with the largest area first, and the creases between them.
 #[derive(Serialize)]
+#[serde(rename = "PatchMap")]
 struct PatchesOutput<'a> {
+    /// Number of rows of the lattice.
     rows: usize,
+    /// Number of columns of the lattice.
     cols: usize,
+    /// Distance between neighbouring vertices of the lattice, in the surface's unit of length.
     spacing: f64,
+    /// Position `[x, y]` of the vertex in row 0, column 0, the upper left one; `y` points up.
     origin: [f64; 2],
+    /// Number of the patch of each vertex, row by row; −1 where there is none.
     #[serde(with = "preserve")]
     labels: Int32Array,
+    /// The patches, in the order of their numbers.
     patches: &'a [Patch],
+    /// The creases between the patches.
     creases: &'a [Crease],
+    /// Angle, in radians, above which the bend from one vertex to the next counted as a crease.
     bend: f64,
 }
 
@@ -314,17 +359,25 @@ pub fn patches(field: JsValue, options: JsValue) -> Result<JsValue> {
     })?)
 }
 
-/// Rulings of a surface, written as JavaScript's `RulingField` object.
+/// Rulings of a surface: the directions in which it does not bend, and lines along them.
 #[derive(Serialize)]
+#[serde(rename = "RulingField")]
 struct RulingsOutput<'a> {
+    /// Number of rows of the lattice.
     rows: usize,
+    /// Number of columns of the lattice.
     cols: usize,
+    /// Distance between neighbouring vertices of the lattice, in the surface's unit of length.
     spacing: f64,
+    /// Position `[x, y]` of the vertex in row 0, column 0, the upper left one; `y` points up.
     origin: [f64; 2],
+    /// Unit vector x, y along the ruling at each vertex, seen from above and up to its sign; NaN where there is none.
     #[serde(with = "preserve")]
     directions: Float64Array,
+    /// Confidence in the direction at each vertex, from 0 to 1.
     #[serde(with = "preserve")]
     confidence: Float64Array,
+    /// Traced rulings.
     lines: &'a [Ruling],
 }
 

@@ -144,11 +144,15 @@ enum Unit {
     Page,
 }
 
-/// The warp map of a page by shares, as JavaScript's `PageWarp` object.
+/// Warp map of a page by shares of its sides, which holds for any resolution of the photo and of the flat page.
 #[derive(Serialize, Deserialize)]
+#[serde(rename = "PageWarp")]
 struct WarpOutput {
+    /// Number of nodes of the grid in each row: the first one at the page's left edge, the last one at its right edge.
     columns: usize,
+    /// Number of rows of the grid, from the page's upper edge to its lower one.
     rows: usize,
+    /// Place of each node in the photo, row by row: shares of the photo's width from the left and of its height from the top. It is bilinear in between; NaN where the photo cannot show the node.
     #[serde(with = "preserve")]
     places: Float32Array,
 }
@@ -161,20 +165,28 @@ struct PageInput {
     warp: WarpOutput,
 }
 
-/// A flat image with its warp map, written as JavaScript's `FlatPage` object without size and unit.
+/// Flat image of a page, with its warp map.
 #[derive(Serialize)]
+#[serde(rename = "FlatImage")]
 struct FlatOutput {
+    /// Number of pixels in a row of the flat image.
     width: usize,
+    /// Number of rows of the flat image.
     height: usize,
+    /// Number of pixels of the flat image per unit of length.
     resolution: f64,
+    /// Position `[x, y]` of the upper left corner on the flat page, in the unit of lengths.
     corner: [f64; 2],
+    /// RGBA bytes of the flat image, row by row, transparent where there is no sheet; `new ImageData(data, width)` shows it.
     #[serde(with = "preserve")]
     data: Uint8ClampedArray,
+    /// Warp map: for each pixel of the flat image its place x, y in the photo, in pixels from the centre of the upper left one; NaN where there is no sheet. Empty if the option `map` is false.
     #[serde(with = "preserve")]
     map: Float32Array,
+    /// The warp map on a grid, if the option `grid` asks for it.
     #[serde(skip_serializing_if = "Option::is_none")]
     grid: Option<GridOutput>,
-    /// What happened to the light on the flat page.
+    /// What happened to the light: `'keep'` also where it was to be evened but the page is not mostly paper.
     light: Light,
 }
 
@@ -188,28 +200,43 @@ struct MeshOutput {
     uvs: Float32Array,
 }
 
-/// Outlines of pages found in a photo, with a verdict, written as JavaScript's `PageOutlines` object.
+/// Outlines of the pages that were found in a photo.
 #[derive(Serialize)]
+#[serde(rename = "PageOutlines")]
 struct OutlinesOutput {
+    /// Whether one page was found, one that is doubtful, several, or none.
     verdict: OutlineVerdict,
+    /// Reasons why the verdict is not `'found'`.
     reasons: Vec<OutlineReason>,
+    /// The outlines, the best one first: several if the verdict is `'several'`; for `'notFound'` the best guess, if there is one.
     pages: Vec<OutlineOutput>,
 }
 
-/// Corners and edges of one page found in a photo, written as JavaScript's `PageOutline` object.
+/// Outline of one page in a photo.
 #[derive(Serialize)]
+#[serde(rename = "PageOutline")]
 struct OutlineOutput {
+    /// Upper left, upper right, lower right and lower left corner of the page, in pixels of the photo; a corner may be outside of the photo.
     corners: [[f64; 2]; 4],
+    /// The four edges, which `dewarpPage` takes.
     edges: EdgesOutput,
+    /// Confidence that this is the outline of a page, from 0 to 1.
     score: f64,
+    /// Reasons why the outline is doubtful.
     reasons: Vec<OutlineReason>,
 }
 
+/// Edges of a page in a photo, as points from corner to corner in the photo's pixels.
 #[derive(Serialize)]
+#[serde(rename = "OutlineEdges")]
 struct EdgesOutput {
+    /// Upper edge, from left to right.
     top: Vec<[f64; 2]>,
+    /// Lower edge, from left to right.
     bottom: Vec<[f64; 2]>,
+    /// Left edge, from top to bottom.
     left: Vec<[f64; 2]>,
+    /// Right edge, from top to bottom.
     right: Vec<[f64; 2]>,
 }
 

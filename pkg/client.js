@@ -246,6 +246,15 @@ export class DevelopableWorker {
 }
 makeDisposable(DevelopableWorker);
 
+/** Whether there is a signal; what cannot be read is left to who takes it. @param {unknown} options */
+function hasSignal(options) {
+  try {
+    return isRecord(options) && Object.hasOwn(/** @type {object} */ (options), 'signal');
+  } catch {
+    return false;
+  }
+}
+
 /**
  * Takes the signal out of the options, which are the last argument.
  * @param {any[]} given
@@ -253,7 +262,7 @@ makeDisposable(DevelopableWorker);
  */
 function withoutSignal(given) {
   const last = given.at(-1);
-  if (!isRecord(last) || !Object.hasOwn(last, 'signal')) return { others: given };
+  if (!hasSignal(last)) return { others: given };
   const { signal, ...options } = reading('OPTION', 'the options', () => ({ .../** @type {{ signal?: unknown }} */ (last) }));
   return { ...readOptions({ signal: { kind: signalKind } }, { signal }), others: [...given.slice(0, -1), options] };
 }

@@ -12,7 +12,7 @@ use super::extrapolate_omitted::extrapolate_omitted;
 use super::heightfields::Problem;
 use super::input::Input;
 use super::multilevel::{Answer, Multilevel, SET_UP_CG_ITERATIONS};
-use super::options::{Bending, Energy, Options};
+use super::options::{Energy, HuberOptions, Options};
 use super::report::{HuberReport, LevelReport, Progress, Report, Seconds, StopReason};
 use super::surface::Surface;
 use super::threads::ThreadLimit;
@@ -403,11 +403,11 @@ impl ComponentSolver {
         };
         let passes = answers().map(|answer| answer.passes).max().unwrap_or(0);
         let at_creases = self.options.energy_or_default() == Energy::Huber;
-        let Bending {
+        let HuberOptions {
             bend_radius,
             flatness,
             crease_radius,
-        } = Bending::SMOOTH.within(&self.options);
+        } = HuberOptions::SMOOTH.within(&self.options);
         let report = Report {
             interior: self.domain.interior_len(),
             boundary: self.domain.boundary_len(),

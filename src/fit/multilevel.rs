@@ -11,7 +11,7 @@ use super::border_load::load_border;
 use super::energy::creases::Creases;
 use super::heightfields::{AdmmSolver, Iterate, Problem};
 use super::linear::cg::ConjugateGradients;
-use super::options::{Bending, Border, Energy, Options};
+use super::options::{Border, Energy, HuberOptions, Options};
 use super::prolong::prolong;
 use super::report::{LevelReport, Seconds, StopReason};
 use crate::error::Result;
@@ -81,7 +81,7 @@ impl Multilevel {
     ) -> Result<Self> {
         let (crease_radius, passes_left) = match options.energy_or_default() {
             Energy::Huber => {
-                let Bending { crease_radius, .. } = Bending::SMOOTH.within(options);
+                let HuberOptions { crease_radius, .. } = HuberOptions::SMOOTH.within(options);
                 (Some(crease_radius), options.crease_passes_or_default())
             }
             _ => (None, options.reweighting),
@@ -97,7 +97,7 @@ impl Multilevel {
             passes_left,
             crease_radius,
             loads_within: (options.border_or_default() == Border::Loaded && !options.is_trial)
-                .then(|| Bending::SMOOTH.within(options).bend_radius),
+                .then(|| HuberOptions::SMOOTH.within(options).bend_radius),
             creases: Creases::default(),
             ends: false,
             reduces_rank: !options.is_trial,

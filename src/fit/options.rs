@@ -230,15 +230,15 @@ pub enum Border {
 
 /// Parameters of the Huber penalty ([`Energy::Huber`]): bend radius, flatness and crease radius.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Bending {
+pub(crate) struct HuberOptions {
     pub bend_radius: f64,
     pub flatness: f64,
     pub crease_radius: f64,
 }
 
-impl Bending {
+impl HuberOptions {
     /// Default Huber parameters, for smooth bends, and creases that are much sharper.
-    pub(crate) const SMOOTH: Bending = Bending {
+    pub(crate) const SMOOTH: HuberOptions = HuberOptions {
         bend_radius: 0.1,
         flatness: 0.3,
         crease_radius: 0.1,
@@ -246,7 +246,7 @@ impl Bending {
 
     /// Parameters for a surface of unknown kind: never far from the best for smooth bends, for creases and for flat
     /// facets.
-    pub(crate) const ANY: Bending = Bending {
+    pub(crate) const ANY: HuberOptions = HuberOptions {
         bend_radius: 0.2,
         flatness: 0.5,
         crease_radius: 0.1,
@@ -254,14 +254,14 @@ impl Bending {
 
     /// Huber parameters that make the penalty the nuclear norm: no bend has a quadratic cost, and none counts as a
     /// crease.
-    pub(crate) const NUCLEAR: Bending = Bending {
+    pub(crate) const NUCLEAR: HuberOptions = HuberOptions {
         bend_radius: 0.1,
         flatness: 1.0,
         crease_radius: *RADIUS_RANGE.start(),
     };
 
     pub(crate) const fn new(bend_radius: f64, flatness: f64, crease_radius: f64) -> Self {
-        Bending {
+        HuberOptions {
             bend_radius,
             flatness,
             crease_radius,
@@ -270,7 +270,7 @@ impl Bending {
 
     /// Returns these parameters, each replaced by the value that `options` give, if they give one.
     pub(crate) fn within(self, options: &Options) -> Self {
-        Bending {
+        HuberOptions {
             bend_radius: options.bend_radius.unwrap_or(self.bend_radius),
             flatness: options.flatness.unwrap_or(self.flatness),
             crease_radius: options.crease_radius.unwrap_or(self.crease_radius),

@@ -4,7 +4,7 @@
 //! needs the step `V = Y + ρH ↦ Y` alone, where `H` minimises `ω f(H) + ρ/2 ‖H − V/ρ‖²`: the dual `Y` is then a
 //! subgradient of `ω f` at `H`. The certificate needs the value of `f` and the conjugate `(ωf)*(Y)`.
 
-use crate::fit::options::{Bending, Energy, Options};
+use crate::fit::options::{Energy, HuberOptions, Options};
 use crate::math::lanes::single;
 use crate::math::real::{Real, larger, smaller};
 use crate::math::sym2::{Sym2, clamp};
@@ -122,11 +122,11 @@ pub(crate) struct HuberParameters {
 impl HuberParameters {
     /// Takes the parameters from the options of a solve, with defaults where none are given.
     pub(crate) fn from_options(options: &Options) -> Self {
-        let Bending {
+        let HuberOptions {
             bend_radius,
             flatness,
             ..
-        } = Bending::SMOOTH.within(options);
+        } = HuberOptions::SMOOTH.within(options);
         HuberParameters {
             flatness,
             delta: 1.0 / bend_radius,

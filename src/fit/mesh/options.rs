@@ -1,7 +1,9 @@
 //! Options of a mesh's fit.
 
 use crate::error::{Error, Result};
-use crate::fit::options::{Bending, DEFAULT_CREASE_PASSES, DEFAULT_GAP, Energy, Lambda, Options};
+use crate::fit::options::{
+    DEFAULT_CREASE_PASSES, DEFAULT_GAP, Energy, HuberOptions, Lambda, Options,
+};
 use crate::math::sym2::Sym2;
 
 /// Excess of a dual's size over the flatness at which the bend there counts in full towards the border's moments.
@@ -27,11 +29,11 @@ pub struct MeshOptions {
 
 impl Default for MeshOptions {
     fn default() -> Self {
-        let Bending {
+        let HuberOptions {
             bend_radius,
             flatness,
             crease_radius,
-        } = Bending::SMOOTH;
+        } = HuberOptions::SMOOTH;
         MeshOptions {
             lambda: Lambda::Auto,
             gap: DEFAULT_GAP,

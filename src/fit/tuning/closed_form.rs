@@ -3,7 +3,7 @@
 use super::noise::Noise;
 use crate::error::Result;
 use crate::fit::input::Input;
-use crate::fit::options::{Bending, Energy, Lambda, Options};
+use crate::fit::options::{Energy, HuberOptions, Lambda, Options};
 use crate::fit::report::{LambdaChoice, LambdaReason};
 
 /// Product `λ σ h` under white noise, in normalised coordinates: σ is the noise's standard deviation, h the spacing. The
@@ -94,15 +94,15 @@ pub(crate) fn with_huber_defaults(options: &Options, noise: Option<Noise>, scale
     let loudness = noise.map_or(0.0, |noise| {
         options.lambda_or_default().value() * noise.product * scale * scale / WHITE_LAMBDA_NOISE
     });
-    at_loudness(options, Bending::SMOOTH, loudness)
+    at_loudness(options, HuberOptions::SMOOTH, loudness)
 }
 
 /// Penalty of [`Energy::Huber`] for a surface of unknown kind. Under correlated noise it is the nuclear norm, as any other
 /// penalty would follow the noise.
-pub(super) fn default_penalty(noise: Option<Noise>) -> Bending {
+pub(super) fn default_penalty(noise: Option<Noise>) -> HuberOptions {
     match noise.is_some_and(|noise| noise.merged > 0) {
-        true => Bending::NUCLEAR,
-        false => Bending::ANY,
+        true => HuberOptions::NUCLEAR,
+        false => HuberOptions::ANY,
     }
 }
 
@@ -110,7 +110,7 @@ pub(super) fn default_penalty(noise: Option<Noise>) -> Bending {
 /// under correlated noise.
 pub(crate) fn without_search(first: &Options, noise: Option<Noise>) -> Options {
     let penalty = default_penalty(noise);
-    let loudness = if penalty == Bending::NUCLEAR {
+    let loudness = if penalty == HuberOptions::NUCLEAR {
         f64::INFINITY
     } else {
         1.0
@@ -118,13 +118,13 @@ pub(crate) fn without_search(first: &Options, noise: Option<Noise>) -> Options {
     at_loudness(first, penalty, loudness)
 }
 
-/// Options with the parameters of `bending` where none are given, restrained so that the surface does not follow
+/// Options with the parameters of `huber` where none are given, restrained so that the surface does not follow
 /// noise. `loudness` is the ratio of λ to the λ that suits the noise: flatness grows in proportion to it, up to 1
 /// (the nuclear norm), and above [`LOUD_NOISE_RATIO`] there are no crease passes.
-fn at_loudness(options: &Options, bending: Bending, loudness: f64) -> Options {
-    let quiet = Bending {
-        flatness: (Bending::SMOOTH.flatness * loudness).clamp(bending.flatness, 1.0),
-        ..bending
+fn at_loudness(options: &Options, huber: HuberOptions, loudness: f64) -> Options {
+    let quiet = HuberOptions {
+        flatness: (HuberOptions::SMOOTH.flatness * loudness).clamp(huber.flatness, 1.0),
+        ..huber
     };
     let mut out = quiet.within(options).of(options);
     if loudness > LOUD_NOISE_RATIO {

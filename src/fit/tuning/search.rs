@@ -14,16 +14,16 @@ use super::noise::Noise;
 use crate::error::Result;
 use crate::fit::component_solver::{ComponentSolver, PreparedInput, StartMode, Status};
 use crate::fit::input::Input;
-use crate::fit::options::{Bending, Energy, Options};
+use crate::fit::options::{Energy, HuberOptions, Options};
 use crate::fit::report::{LambdaChoice, LambdaReason};
 use crate::fit::warm_start::WarmStart;
 
 /// Penalties that are compared to [`default_penalty`], in this order: flat facets with creases, smooth bends, smooth
 /// bends with creases (`benches/choices.md`).
-const OTHER_PENALTIES: [Bending; 3] = [
-    Bending::new(0.1, 1.0, 0.2),
-    Bending::SMOOTH,
-    Bending::new(0.3, 0.3, 0.3),
+const OTHER_PENALTIES: [HuberOptions; 3] = [
+    HuberOptions::new(0.1, 1.0, 0.2),
+    HuberOptions::SMOOTH,
+    HuberOptions::new(0.3, 0.3, 0.3),
 ];
 
 /// Minimum number of standard errors by which a penalty must predict held-out heights better to replace the best one.
@@ -68,7 +68,7 @@ pub(crate) struct Search {
     is_correlated: bool,
     /// Options of the caller, with λ.
     first: Options,
-    penalties: Vec<Bending>,
+    penalties: Vec<HuberOptions>,
     /// Index of the penalty that is tried.
     now: usize,
     /// Index of the best penalty so far, and its squared prediction errors.
@@ -147,7 +147,7 @@ impl Search {
     /// Whether the penalty that was tried replaces the best one so far; `misses` are its squared prediction errors.
     fn is_better(&self, misses: &[f64]) -> bool {
         let [new, old] = [self.now, self.best].map(|index| self.penalties[index]);
-        let sharp = old.crease_radius.max(Bending::SMOOTH.crease_radius);
+        let sharp = old.crease_radius.max(HuberOptions::SMOOTH.crease_radius);
         let was_correlated = self.known.noise.is_some_and(|noise| noise.merged > 0);
         let min_gain = match (self.is_correlated, new.crease_radius > sharp) {
             (true, _) if new.flatness < old.flatness => CORRELATED_FLATNESS_GAIN,
@@ -206,7 +206,7 @@ fn searchable(input: &Input, noise: Noise) -> Result<(Input, bool)> {
 
 /// Options of the solves that are compared: the energy and normalisation that were asked for, a coarse duality gap, and
 /// the shape alone. Parameters of the penalty that the caller gave are left out, so that they change no other parameter.
-fn trial_options(first: &Options, penalty: Bending) -> Options {
+fn trial_options(first: &Options, penalty: HuberOptions) -> Options {
     Options {
         energy: first.energy,
         normalization: first.normalization,

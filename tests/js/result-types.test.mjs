@@ -2,55 +2,43 @@
 import assert from 'node:assert/strict';
 import { readFile } from 'node:fs/promises';
 import { test } from 'node:test';
+import { parse } from 'rolldown/utils';
 import * as direct from '../../pkg/direct.js';
 import { gridMesh, image, lattice, noisy } from './support/shapes.mjs';
 
-/** @typedef {Map<string, { optional: boolean, type: string }>} Members */
+/** @typedef {any} Node of the syntax tree */
+/** @typedef {Map<string, { optional: boolean, type: Node }>} Members */
 
-/** What the types say, without comments. */
-const files = ['types', 'result-types'].map((name) => readFile(new URL(`../../pkg/${name}.d.ts`, import.meta.url), 'utf8'));
-const declarations = (await Promise.all(files)).join('\n').replace(/\/\*[^]*?\*\//g, '');
-
-/** The end of what begins at a place, where its brackets are closed. @param {string} text @param {number} start @param {string} ends */
-function endOf(text, start, ends) {
-  for (let i = start, depth = 0; i < text.length; i++) {
-    if (depth === 0 && ends.includes(text[i])) return i;
-    if ('{[(<'.includes(text[i])) depth++;
-    if ('}])'.includes(text[i]) || (text[i] === '>' && text[i - 1] !== '=')) depth--;
+/** The interfaces of the package, by name. @type {Map<string, Node>} */
+const interfaces = new Map();
+for (const file of ['types', 'result-types']) {
+  const { program } = await parse(`${file}.d.ts`, await readFile(new URL(`../../pkg/${file}.d.ts`, import.meta.url), 'utf8'));
+  for (const { declaration } of /** @type {Node[]} */ (program.body)) {
+    if (declaration?.type === 'TSInterfaceDeclaration') interfaces.set(declaration.id.name, declaration);
   }
-  return text.length;
 }
 
-/** The members of an object type, from what stands between its braces. @param {string} body @returns {Members} */
-function membersOf(body) {
-  /** @type {Members} */
-  const members = new Map();
-  for (let rest = body.trim(); rest !== ''; ) {
-    const end = endOf(rest, 0, ';,');
-    const [, name, optional, type] = /^(?:readonly )?(\w+)(\?)?:\s*([^]*)$/.exec(rest.slice(0, end)) ?? [];
-    if (name !== undefined) members.set(name, { optional: optional !== undefined, type: type.trim() });
-    rest = rest.slice(end + 1).trim();
-  }
-  return members;
-}
+/** @param {Node[]} members @returns {Members} */
+const membersOf = (members) =>
+  new Map(members.map(({ key, optional, typeAnnotation }) => [key.name, { optional, type: typeAnnotation?.typeAnnotation }]));
 
 /** The members of a named interface, with those that it extends. @param {string} name @returns {Members | undefined} */
 function interfaceOf(name) {
-  const [head, bases = ''] = new RegExp(`^export interface ${name}\\b(?:<.*?>)? ?(?:extends (.*?) )?\\{`, 'm').exec(declarations) ?? [];
-  if (head === undefined) return undefined;
-  const start = declarations.indexOf(head) + head.length;
-  const own = membersOf(declarations.slice(start, endOf(declarations, start, '}')));
-  const inherited = bases.split(/, (?![^<]*>)/).filter(Boolean).flatMap((base) => {
-    const [, omitted, names = ''] = /^Omit<(\w+), (.*)>$/.exec(base) ?? [];
-    return [...(interfaceOf(omitted ?? base) ?? [])].filter(([member]) => !names.includes(`'${member}'`));
+  const declaration = interfaces.get(name);
+  if (declaration === undefined) return undefined;
+  const inherited = declaration.extends.flatMap((/** @type {Node} */ { expression, typeArguments }) => {
+    if (expression.name !== 'Omit') return [...(interfaceOf(expression.name) ?? [])];
+    const [base, omitted] = typeArguments.params;
+    const names = (omitted.types ?? [omitted]).map((/** @type {Node} */ { literal }) => literal.value);
+    return [...(interfaceOf(base.typeName.name) ?? [])].filter(([member]) => !names.includes(member));
   });
-  return new Map([...inherited, ...own]);
+  return new Map([...inherited, ...membersOf(declaration.body.body)]);
 }
 
-/** @param {string} type @returns {Members | undefined} */
+/** @param {Node} type @returns {Members | undefined} */
 function shapeOf(type) {
-  if (type.startsWith('{') && endOf(type, 1, '}') === type.length - 1) return membersOf(type.slice(1, -1));
-  return /^\w+$/.test(type) ? interfaceOf(type) : undefined;
+  if (type?.type === 'TSTypeLiteral') return membersOf(type.members);
+  return type?.type === 'TSTypeReference' ? interfaceOf(type.typeName.name) : undefined;
 }
 
 let compared = 0;
@@ -58,13 +46,12 @@ let compared = 0;
 /**
  * Compares a value with its type, and what is in it.
  * @param {unknown} value
- * @param {string} type
+ * @param {Node} type
  * @param {string} path
  */
 function compare(value, type, path) {
-  const list = /^([^]*)\[\]$/.exec(type)?.[1];
-  if (list !== undefined && Array.isArray(value)) {
-    for (const one of value.slice(0, 3)) compare(one, list, `${path}[]`);
+  if (type?.type === 'TSArrayType' && Array.isArray(value)) {
+    for (const one of value.slice(0, 3)) compare(one, type.elementType, `${path}[]`);
     return;
   }
   const members = shapeOf(type);
@@ -72,10 +59,10 @@ function compare(value, type, path) {
   compared += 1;
   const entries = Object.entries(value).filter(([, one]) => one !== undefined);
   const names = entries.map(([name]) => name);
-  assert.deepEqual(names.filter((name) => !members.has(name)), [], `${path} has what ${type} does not declare`);
+  assert.deepEqual(names.filter((name) => !members.has(name)), [], `${path} has what its type does not declare`);
   const required = [...members].filter(([, { optional }]) => !optional).map(([name]) => name);
-  assert.deepEqual(required.filter((name) => !names.includes(name)), [], `${path} lacks what ${type} declares`);
-  for (const [name, one] of entries) compare(one, members.get(name)?.type ?? '', `${path}.${name}`);
+  assert.deepEqual(required.filter((name) => !names.includes(name)), [], `${path} lacks what its type declares`);
+  for (const [name, one] of entries) compare(one, members.get(name)?.type, `${path}.${name}`);
 }
 
 await direct.init();
@@ -120,7 +107,7 @@ const results = [
 test('results have the properties that the types declare', () => {
   for (const [type, result] of results) {
     assert.ok(interfaceOf(type), `there is no interface ${type}`);
-    compare(result(), type, type);
+    compare(result(), { type: 'TSTypeReference', typeName: { name: type } }, type);
   }
   assert.ok(compared > 60, `${compared} objects`);
 });

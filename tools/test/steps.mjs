@@ -14,7 +14,7 @@ import { inBrowser, inNode } from './wasm.mjs';
 export const steps = [
   { name: 'format', seconds: 2, quick: true, what: 'the layout of the Rust code', run: format },
   { name: 'size', seconds: 1, quick: true, what: 'lines and tuned constants beside their budgets', run: size },
-  { name: 'types', seconds: 3, quick: true, what: 'TypeScript over all JavaScript, with the types that Rust gives', run: types },
+  { name: 'types', seconds: 8, quick: true, what: 'TypeScript over all JavaScript, with the types that Rust gives', run: types },
   { name: 'lint', seconds: 67, quick: true, what: 'clippy', run: lint },
   { name: 'rust', seconds: 180, what: 'the tests beside the code, and those of the whole library', run: rustTests },
   { name: 'rust-doc', seconds: 5, what: 'the examples in the documentation', run: docTests },

@@ -35,7 +35,11 @@ export function split(args) {
   let printed = '';
   /** @type {CommandLine | undefined} */
   let line;
-  const program = programFor((text) => (printed += text), (found) => (line = found));
+  const program = programFor((text) => (printed += text));
+  for (const name of /** @type {CommandName[]} */ (Object.keys(commands))) {
+    const command = program.command(name).summary(commands[name].summary);
+    if (name === given[0]) describe(command, name, (found) => (line = found));
+  }
   try {
     program.parse(given, { from: 'user' });
   } catch (error) {
@@ -61,11 +65,11 @@ function refusal({ code, message }, command = '') {
 }
 
 /**
+ * The program without its commands.
  * @param {(text: string) => void} print
- * @param {(line: CommandLine) => void} take
  */
-function programFor(print, take) {
-  const program = new Command('developable')
+function programFor(print) {
+  return new Command('developable')
     .description('Fits piecewise-developable surfaces to heightfields, with a certified bound of how far from the optimum they can be.')
     .usage('COMMAND ...')
     .version(version)
@@ -87,22 +91,20 @@ Most commands fit a surface first, and take what "fit" takes for that.
 
 Examples:
 ${Object.values(commands).map(({ examples: [first] }) => `  developable ${first}\n`).join('')}${exits}`);
-  for (const name of /** @type {CommandName[]} */ (Object.keys(commands))) addCommand(program, name, take);
-  return program;
 }
 
 /**
- * @param {Command} program
+ * Says what a command takes, and what becomes of it.
+ * @param {Command} command
  * @param {CommandName} name
  * @param {(line: CommandLine) => void} take
  */
-function addCommand(program, name, take) {
+function describe(command, name, take) {
   /** @type {import('./commands.js').CommandInfo} */
-  const { usage: shape, summary, about, input, flags: taken, words = {}, examples } = commands[name];
+  const { usage: shape, about, input, flags: taken, words = {}, examples } = commands[name];
   /** @type {Record<string, string | null>} */
   const texts = {};
-  const command = program.command(name).summary(summary).description(about).usage(shape);
-  command.argument(`[${shape.split(' ')[0].replace(/[[\]]/g, '')}...]`, input);
+  command.description(about).usage(shape).argument(`[${shape.split(' ')[0].replace(/[[\]]/g, '')}...]`, input);
   for (const { title, flags } of Object.values(sections)) {
     for (const [flag, { help, short, value }] of Object.entries(flags)) {
       if (!taken.includes(flag)) continue;

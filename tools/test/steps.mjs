@@ -34,6 +34,6 @@ export const steps = [
   { name: 'wasm-node', seconds: 7, what: 'the wasm in Node', run: inNode('wasm_node') },
   { name: 'wasm-browser', seconds: 5, what: "the wasm in Chromium's main thread", run: inBrowser('wasm_browser') },
   { name: 'wasm-worker', seconds: 5, what: 'the wasm in a dedicated worker in Chromium', run: inBrowser('wasm_worker') },
-  { name: 'js', seconds: 125, what: 'the package and its command in Node', run: nodeTests },
+  { name: 'js', seconds: 85, what: 'the package and its command in Node', run: nodeTests },
   { name: 'page', seconds: 290, what: 'the page in Chromium', run: pageTests },
 ];

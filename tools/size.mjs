@@ -5,7 +5,8 @@
  *     node tools/size.mjs --constants         prints each numeric constant with what chose it
  *     node tools/size.mjs --raise "REASON"    sets the budgets of larger rooms to what they have now, with that reason
  *
- * Lines are those of files of code that git tracks, comments, blank ones and unit tests included. A numeric constant (in
+ * Lines are those of files of code that git tracks, comments, blank ones and unit tests included; files that a program of
+ * `tools/` has made are left out. A numeric constant (in
  * Rust outside of tests, and with an upper-case name at the top of a JavaScript module) is tuned unless its documentation
  * says what chose it: a table in `benches/`, or a source outside of the program ({@link GIVEN}).
  */
@@ -26,6 +27,9 @@ const CODE = new Set(['.rs', '.js', '.mjs', '.ts', '.css', '.html', '.py', '.sh'
 
 /** Words by which a constant's documentation says that it was not chosen here: it is the paper's, a format's or a unit's. */
 const GIVEN = /\bEq\. \d+|\bApp\. \w|\bthe paper's|\b(?:formats?|specification|protocol|bits?|bytes|in an? (?:inch|point|metre))\b/i;
+
+/** First line of a file that a program has made. */
+const GENERATED = /^\/\*\* [^\n]*\bMade of\b[^\n]* by `tools\//;
 
 const BENCHES = /`(benches\/[\w-]+\.md)`(?:, ([A-Z][\w -]*))?/;
 
@@ -76,6 +80,7 @@ export function measure() {
   const paths = execFileSync('git', ['ls-files', '-z'], { cwd: root, encoding: 'utf8' }).split('\0');
   for (const path of paths.filter((one) => CODE.has(extname(one)) && one.includes('/')).sort()) {
     const text = readFileSync(join(root, path), 'utf8');
+    if (GENERATED.test(text)) continue;
     const room = (rooms[roomOf(path)] ??= { lines: 0, constants: 0 });
     room.lines += text.split('\n').length - 1;
     if (!/^(?:src|wasm|pkg|www)\//.test(path) || !/\.(?:rs|js)$/.test(path)) continue;

@@ -3,3 +3,7 @@
 export const Energy = ['nuclear', 'frobenius', 'squaredNuclear', 'secondFormOfInput', 'secondForm', 'huber'];
 
 export const Format = ['png', 'npy', 'tiff', 'exr', 'pfm', 'npz', 'jpeg', 'webp', 'text', 'colmap'];
+
+export const LightTreatment = ['even', 'keep'];
+
+export const Unit = ['mm', 'm'];

@@ -1,5 +1,6 @@
 /** Options of photos, and of cameras that have taken them. Each comment is what the types say; the default is added there. */
 import { anything, choice, corners, either, extent, flag, number, numbers, optionsIn, percentage, positive, rows, whole } from './kinds.js';
+import { LightTreatment, Unit } from './names.js';
 import { unroll } from './shape.js';
 
 /** @typedef {import('./kinds.js').Options} Options */
@@ -23,7 +24,7 @@ const seeing = {
 };
 
 /** Numbers of a camera that measures depths. @satisfies {Options} */
-export const camera = { ...seeing, unit: { kind: choice('mm', 'm') } };
+export const camera = { ...seeing, unit: { kind: choice(...Unit) } };
 
 /** Numbers of a camera that takes photos. @satisfies {Options} */
 export const photoCamera = {
@@ -105,7 +106,7 @@ export const mapping = {
 };
 
 /** Ways to treat the light of a flat image. */
-const LIGHT_KIND = choice('even', 'keep');
+const LIGHT_KIND = choice(...LightTreatment);
 
 /** Options of making a photo of a surface flat. @satisfies {Options} */
 export const dewarp = {

@@ -21,7 +21,7 @@ const TYPES_HEAD: &str =
 const NAMES_HEAD: &str = "/** Names that options may have as their values. Made of the enumerations in `src/` by `tools/types`. */\n";
 
 /// Enumerations whose names are values of options.
-const OPTION_VALUES: [&str; 2] = ["Energy", "Format"];
+const OPTION_VALUES: [&str; 4] = ["Energy", "Format", "LightTreatment", "Unit"];
 
 fn main() -> ExitCode {
     let write = |(path, text)| fs::write(path, text).map_err(|error| error.to_string());

@@ -119,7 +119,11 @@ function isFolderName(path) {
 
 /** @param {string} path */
 function isFolder(path) {
-  return statSync(path, { throwIfNoEntry: false })?.isDirectory() === true;
+  try {
+    return statSync(path).isDirectory();
+  } catch {
+    return false; // what is wrong with the path is said where it is written
+  }
 }
 
 /**

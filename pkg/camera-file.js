@@ -105,7 +105,7 @@ function plainName(name) {
 const MATRIX = ['k', 'intrinsicmatrix', 'cameramatrix', 'intrinsics', 'intrinsic', 'mtx', 'm1', 'projectionmatrix', 'p', 'p0'];
 
 /** Plain names of the list of a lens' distortion, in OpenCV's order. */
-const LENS = ['distortioncoefficients', 'distortioncoeffs', 'distortion', 'distcoeffs', 'coeffs', 'dist', 'd', 'd1'];
+const LENS = ['distortioncoefficients', 'distortioncoeffs', 'distortion', 'distcoeffs', 'distcoeff', 'coeffs', 'dist', 'd', 'd1'];
 
 /**
  * @param {Fields} file fields with plain names
@@ -119,7 +119,7 @@ function cameraOf(file, images) {
     return typeof value === 'number' ? value : undefined;
   };
   const own = MATRIX.map((name) => matrix(listOf(file[name]))).find((found) => found !== undefined);
-  const [wide, high] = Array.isArray(file.resolution) ? file.resolution : [];
+  const [wide, high] = listOf(file.resolution) ?? [];
   const width = number('width', 'w', 'imagewidth') ?? wide;
   const height = number('height', 'h', 'imageheight') ?? high;
   const size = width > 0 && height > 0 ? { width, height } : images[0];
@@ -156,7 +156,7 @@ function cameraOf(file, images) {
   const camera = {
     fx, fy, cx, cy, k1, k2, p1, p2, k3, rotation, translation, ...stated, depthScale: number('depthscale'),
   };
-  return /** @type {PhotoCamera} */ (Object.fromEntries(Object.entries(camera).filter(([, value]) => value !== undefined)));
+  return /** @type {PhotoCamera} */ (/** @type {unknown} */ (Object.fromEntries(Object.entries(camera).filter(([, value]) => value !== undefined))));
 }
 
 /**
@@ -175,8 +175,9 @@ function lens(file, number) {
  * @returns {number[] | undefined}
  */
 function listOf(given) {
-  const data = /** @type {{ data?: unknown }} */ (Object(given)).data ?? given;
-  const values = Array.isArray(data) ? data.flat().map(Number) : [];
+  const { data } = /** @type {{ data?: unknown }} */ (Object(given));
+  if (data !== undefined) return listOf(data);
+  const values = Array.isArray(given) ? given.flat().map(Number) : [];
   return values.length > 0 && values.every(Number.isFinite) ? values : undefined;
 }
 

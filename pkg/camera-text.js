@@ -105,7 +105,8 @@ function named(lines) {
       open = [open[0], { indent: -1, fields }];
       continue;
     }
-    const [, , item] = /^(\s*)-\s+([^:]*)$/.exec(line) ?? [];
+    // Lists within lists are rows of a matrix.
+    const [, item] = /^\s*(?:-\s+)+([^:]*)$/.exec(line) ?? [];
     if (item !== undefined) list.push(valueOf(item));
     const [, before, name, rest] = /^(\s*(?:-\s+)?)["']?([A-Za-z][\w. -]*?)["']?\s*(?:=|:(?=\s|$))\s*(.*)$/.exec(line) ?? [];
     if (name === undefined) continue;

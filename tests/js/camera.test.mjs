@@ -254,6 +254,12 @@ test('cameras as ROS, OpenCV, COLMAP, nerfstudio, Metashape, ZED and others writ
     ['ZED', '[LEFT_CAM_2K]\nfx=1396\nfy=1396\ncx=1104\ncy=611\n\n[LEFT_CAM_VGA]\nfx=525\nfy=520\ncx=319.5\ncy=239.5\n\n[RIGHT_CAM_VGA]\nfx=351\nfy=351\ncx=320\ncy=240\n\n[STEREO]\nBaseline=120\n', plain],
     ['ORB-SLAM', '%YAML:1.0\n# of the left one\nCamera.fx: 525.0\nCamera.fy: 520.0\nCamera.cx: 319.5\nCamera.cy: 239.5\n', plain],
     ['Kalibr', 'cam0:\n  camera_model: pinhole\n  distortion_coeffs: [0.1, -0.2, 0.001, 0.002]\n  distortion_model: radtan\n  intrinsics: [525, 520, 319.5, 239.5]\n  resolution: [640, 480]\n', { ...plain, ...lens, k3: undefined }],
+    ['Kalibr, a line for each number', 'cam0:\n  camera_model: pinhole\n  distortion_coeffs:\n  - 0.1\n  - -0.2\n  - 0.001\n  - 0.002\n  intrinsics:\n  - 525\n  - 520\n  - 319.5\n  - 239.5\n' +
+      '  resolution:\n  - 640\n  - 480\n  rostopic: /cam0/image_raw\n', { ...plain, ...lens, k3: undefined }],
+    ['ROS, written anew by PyYAML', `camera_matrix:\n  cols: 3\n  data:\n  - ${list.split(', ').join('\n  - ')}\n  rows: 3\ndistortion_coefficients:\n  cols: 5\n  data:\n  - 0.1\n  - -0.2\n  - 0.001\n  - 0.002\n  - 0.0\n  rows: 1\n` +
+      'image_height: 480\nimage_width: 640\n', { ...plain, ...lens }],
+    ['lists of rows by PyYAML', 'camera_matrix:\n- - 525.0\n  - 0.0\n  - 319.5\n- - 0.0\n  - 520.0\n  - 239.5\n- - 0.0\n  - 0.0\n  - 1.0\ndist_coeff:\n- - 0.1\n  - -0.2\n  - 0.001\n  - 0.002\n  - 0.0\n', { ...plain, ...lens }],
+    ['ROS, within other fields', `left:\n  camera_info:\n    height: 480\n    width: 640\n    K:\n    - ${list.split(', ').join('\n    - ')}\n`, plain],
     ['four numbers', '525.0 520.0 319.5 239.5\n', plain],
     ['3 × 4', '525 0 319.5 0\n0 520 239.5 0\n0 0 1 0\n', plain],
     ['KITTI', 'P0: 5.25e+02 0 3.195e+02 0 0 5.2e+02 2.395e+02 0 0 0 1 0\n', plain],

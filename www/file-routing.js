@@ -46,7 +46,7 @@ export async function routeFiles(files, { inPhotoMode, takesPhoto }) {
     const taken = [mesh, ...await filesNamedBy(mesh, without([mesh]))];
     return { to: 'heights', files: taken, left: without(taken) };
   }
-  const roles = await fileRoles(files);
+  const roles = await fileRoles(files, inPhotoMode);
   if (roles.depths) return { to: 'heights', files: without(roles.others), left: roles.others };
   const pictures = files.filter((file) => kindByName(file) === 'picture');
   if (pictures.length > 0) {
@@ -66,9 +66,10 @@ export function namesOfLeft(files) {
 /**
  * Finds the role of each file, by its name and, for a PNG, by its header.
  * @param {readonly File[]} files
+ * @param {boolean} [inPhotoMode] whether photos of pages are shown now: then a grey picture beside one in colour is a page, too
  * @returns {Promise<FileRoles>}
  */
-export async function fileRoles(files) {
+export async function fileRoles(files, inPhotoMode = false) {
   /** @type {FileRoles} */
   const roles = { others: [] };
   for (const file of files) {
@@ -77,7 +78,7 @@ export async function fileRoles(files) {
     else roles.others.push(file);
   }
   // A grey PNG that was opened together with one photo in colour holds its depths.
-  if (!roles.depths && !roles.mesh) {
+  if (!inPhotoMode && !roles.depths && !roles.mesh) {
     const pictures = files.filter((file) => file === roles.photo || (roles.others.includes(file) && kindByName(file) === 'picture'));
     const grey = await Promise.all(pictures.map(isGreyPng));
     if (pictures.length === 2 && grey[0] !== grey[1]) {

@@ -42,10 +42,10 @@ export class Book {
     });
   }
 
-  /** Saves the state of the photo that is shown. @param {PageSession} session */
+  /** Saves the state of the photo that a session shows, wherever it is among the photos. @param {PageSession} session */
   saveState(session) {
-    const photo = this.photos[this.index];
-    if (photo && session.photo?.file === photo.file) photo.state = session.state();
+    const photo = this.photos.find(({ file }) => file === session.photo?.file);
+    if (photo) photo.state = session.state();
   }
 
   /** Removes a photo. @param {number} at its index */

@@ -95,7 +95,8 @@ export function pageResultPanel(api, session, book, openAsSurface, onWritten) {
     const { width, height, data } = turnPicture(flat, session.quarters);
     view.show(imagePicture(canvasFromImage(new ImageData(data, width, height)), 'Flat', 'The page made flat'));
     empty.hidden = true;
-    if (moving) enable(true);
+    // The result of a drag that is over already must not be saved in place of the final one.
+    if (moving && isMoving) enable(true);
     // During a drag the page is flattened without its lines of text, so that the figures would differ.
     if (moving) return;
     caption.textContent = flat.unit === 'mm' ? sizeOf(flat, session.quarters) : '';

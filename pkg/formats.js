@@ -1,14 +1,14 @@
 /** Which of the two wasm files for images knows a file, by its format's name or its first bytes. */
 import { DevelopableError } from './errors.js';
 
-/** The formats that the wasm of the images reads; it is not loaded for any other. */
-const IMAGES = ['tiff', 'exr', 'pfm', 'npz', 'jpeg', 'webp', 'text', 'colmap'];
-
-/** First bytes of those formats, as Latin-1; a `?` stands for any byte. */
+/** First bytes of the files that the wasm of the images reads, as Latin-1; a `?` stands for any byte. It is not loaded for any other. */
 const MAGIC = [
-  'II*\0', 'MM\0*', 'II+\0', 'MM\0+', '\x76\x2f\x31\x01', 'Pf\n', 'PF\n', 'PK\x03\x04', 'PK\x05\x06', '\xff\xd8\xff',
-  'RIFF????WEBP',
+  'II*\0', 'MM\0*', 'II+\0', 'MM\0+', '\x76\x2f\x31\x01', 'Pf\n', 'PF\n', 'PK\x03\x04', 'PK\x05\x06', 'RIFF????WEBP', 'GIF8',
+  'BM????\0\0\0\0',
 ];
+
+/** First bytes of a JPEG file, of which that wasm reads heights, and the other one photos. */
+const JPEG = '\xff\xd8\xff';
 
 /**
  * Whether the wasm of the images is to read this file. What nobody knows is left to the other one,
@@ -18,8 +18,8 @@ const MAGIC = [
  */
 export function isImage(bytes, options) {
   const { format } = Object(options);
-  if (format !== undefined) return IMAGES.includes(format);
-  return isText(bytes) || isColmap(bytes) || MAGIC.some((magic) => beginsWith(bytes, magic));
+  if (format !== undefined) return format !== 'png' && format !== 'npy';
+  return isText(bytes) || isColmap(bytes) || beginsWith(bytes, JPEG) || isImagePhoto(bytes);
 }
 
 /** Whether a file is a depth map of COLMAP: `width&height&channels&` comes first. @param {Uint8Array} bytes */
@@ -31,14 +31,11 @@ function isText(bytes) {
   return head.some((byte) => byte >= 0x30 && byte <= 0x39) && head.every((byte) => byte === 9 || byte === 10 || byte === 13 || byte >= 32);
 }
 
-/** First bytes of the photos that the wasm of the images reads; that of the files reads all others. */
-const IMAGE_PHOTOS = ['II*\0', 'MM\0*', 'II+\0', 'MM\0+', 'RIFF????WEBP', 'GIF8', 'BM'];
-
 /**
  * Whether the wasm of the images is to read this photo.
  * @param {Uint8Array} bytes
  */
-export const isImagePhoto = (bytes) => IMAGE_PHOTOS.some((magic) => beginsWith(bytes, magic));
+export const isImagePhoto = (bytes) => MAGIC.some((magic) => beginsWith(bytes, magic));
 
 /** Whether a file begins with these letters, of which a `?` stands for any byte. @param {Uint8Array} bytes @param {string} magic */
 const beginsWith = (bytes, magic) => [...magic].every((letter, i) => letter === '?' || bytes[i] === letter.charCodeAt(0));

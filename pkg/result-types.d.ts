@@ -535,8 +535,10 @@ export interface FoldLine {
  * - `'webp'`: WebP, only grey pictures.
  * - `'text'`: Text: an ESRI ASCII grid, points on a grid (XYZ), or a matrix.
  * - `'colmap'`: Depth map of COLMAP.
+ * - `'gif'`: GIF, only grey pictures.
+ * - `'bmp'`: Windows bitmap (BMP), only grey pictures.
  */
-export type Format = 'png' | 'npy' | 'tiff' | 'exr' | 'pfm' | 'npz' | 'jpeg' | 'webp' | 'text' | 'colmap';
+export type Format = 'png' | 'npy' | 'tiff' | 'exr' | 'pfm' | 'npz' | 'jpeg' | 'webp' | 'text' | 'colmap' | 'gif' | 'bmp';
 
 /**
  * Where the pixels of an image lie on a map. It is read from a GeoTIFF and written to one unchanged, but for the rows

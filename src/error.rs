@@ -209,7 +209,7 @@ pub enum Error {
     },
 
     /// The machine could not provide the memory for an array, though its size is within the limit.
-    #[error("out of memory while allocating {} bytes for {what}; use a coarser spacing", count(*.bytes))]
+    #[error("out of memory while allocating {} bytes for {what}; use a coarser spacing, a lower resolution or a smaller input", count(*.bytes))]
     OutOfMemory {
         /// Name of the array that was being allocated.
         what: &'static str,

@@ -26,7 +26,6 @@ export function plainMessage(message) {
   return message
     .replace(/^this file: /, '')
     .replace(/: readMesh reads it$/, '; give its name the ending of a mesh, such as .glb')
-    .replace(/^(\w+): it has no faces; points without any are a point cloud$/, 'there are neither faces nor points in it')
     .replace(/^EXR: too new file feature flags$/, 'this EXR file is of a kind that is not read; save it as a plain one, with one layer')
     .replace(/\.$/, '');
 }

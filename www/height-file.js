@@ -74,11 +74,7 @@ async function readCompanions(reader, { confidence, mask }) {
   const read = async (file) => {
     if (!file) return undefined;
     try {
-      const { width, height, data, dataType } = await reader.read(file);
-      // The package takes integers as levels or as shares of the largest value, by the type of the array.
-      if (dataType === 'u8') return { width, height, data: Uint8Array.from(data, (value) => value || 0) };
-      if (dataType === 'u16') return { width, height, data: Uint16Array.from(data, (value) => value || 0) };
-      return { width, height, data };
+      return await reader.read(file, { assumeNoData: false });
     } catch (error) {
       throw new Error(`its “${file.name}” could not be read: ${error instanceof Error ? error.message : error}`);
     }

@@ -1,5 +1,5 @@
 /** Interpretation of a file of numbers as heights: guessed when it is opened, and changed by the user afterwards. */
-import { coarseningFor, depthUnitOf, guessPixelSize, isHexagonal, isNoDepth, isZeroNoData } from './metadata-guess.js';
+import { coarseningFor, depthUnitOf, isHexagonal, isNoDepth, isZeroNoData } from './metadata-guess.js';
 import { number } from './format.js';
 import { GUESS_WORDS } from './messages.js';
 import { gridOverLattice, interpolateToGrid } from './surface/lattice.js';
@@ -26,8 +26,6 @@ import { computeSurfaceDataAndPreview, reduceForPreview } from './surface/textur
  * @property {number} coarsening lattice spacing in pixels that suits the size of the image
  */
 
-/** Distance of the rows of a hexagonal lattice, in spacings. */
-const HEXAGONAL_ROW_SPACING = Math.sqrt(3) / 2;
 /** Minimum share of pixels with a height in measured data; where there are fewer, they are constraints of a design. */
 const MIN_MEASURED_SHARE = 0.2;
 
@@ -84,23 +82,21 @@ function guessStoredHeights(read, depths) {
   const given = valid.data.reduce((sum, value) => sum + Number(Number.isFinite(value)), 0);
   const design = !depths && given < MIN_MEASURED_SHARE * data.length;
   const hexagonal = !design && !depths && isHexagonal(valid);
-  const pixel = depths || design ? null : guessPixelSize({ ...valid, rowSpacing: hexagonal ? HEXAGONAL_ROW_SPACING : 1 });
   const coarsening = hexagonal ? 1 : coarseningFor(read);
   const guesses = [
-    ...(pixel ? [pixel.words] : []),
     ...(design ? [GUESS_WORDS.few] : []),
     ...(zeros ? [GUESS_WORDS.zeros] : []),
     ...(hexagonal ? [GUESS_WORDS.hexagonal] : []),
     ...(coarsening > 1 ? [GUESS_WORDS.coarse(coarsening)] : []),
   ].join(' ');
   const levels = /^u/.test(dataType);
-  return { width, height, data, pixelSize: pixel?.pixelSize ?? pixelSize, heightScale, zeros, hexagonal, design, levels, guesses, coarsening };
+  return { width, height, data, pixelSize, heightScale, zeros, hexagonal, design, levels, guesses, coarsening };
 }
 
 /** @typedef {Omit<Input, 'name'>} InterpretedHeights */
 
 /**
- * Changes the interpretation of a file's contents.
+ * Changes the interpretation of a file's contents. What it decides is no longer assumed.
  * @template {InterpretedHeights} I
  * @param {I} input
  * @param {Partial<StoredHeights>} change
@@ -109,15 +105,16 @@ function guessStoredHeights(read, depths) {
 export function reinterpret(input, change) {
   if (!input.stored) return input;
   const stored = { ...input.stored, ...change };
+  const assumptions = input.assumptions?.filter(({ option = '' }) => !(option in change));
   const { width, height, pixelSize, heightScale, zeros, noData, hexagonal } = stored;
   // A change of the scale alone keeps edits that were made by hand.
   const keepsEdits = zeros === input.stored.zeros && noData === input.stored.noData && !hexagonal && !input.stored.hexagonal;
   const data = keepsEdits ? input.data : without(stored.data, [...(zeros ? [0] : []), ...(noData === undefined ? [] : [noData])]);
   if (!data.some(Number.isFinite)) throw new Error('nothing else would be left');
-  if (!hexagonal) return { ...input, stored, width, height, data, pixelSize, heightScale, lattice: undefined };
+  if (!hexagonal) return { ...input, stored, assumptions, width, height, data, pixelSize, heightScale, lattice: undefined };
   const lattice = { rows: height, cols: width, spacing: pixelSize, heights: data.map((step) => step * heightScale), unit: /** @type {'mm' | 'm' | undefined} */ (input.unit) };
   const grid = gridOverLattice(lattice);
-  return { ...input, stored, ...grid, heightScale: 1, data: interpolateToGrid(lattice, lattice.heights, grid), lattice };
+  return { ...input, stored, assumptions, ...grid, heightScale: 1, data: interpolateToGrid(lattice, lattice.heights, grid), lattice };
 }
 
 /** Replaces values that are no data by NaN. @param {Float64Array} data @param {readonly number[]} values */

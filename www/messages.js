@@ -62,18 +62,11 @@ export function assumedInWords(assumptions = []) {
 
 /** Messages about guessed metadata of a file. */
 export const GUESS_WORDS = {
-  /** @param {string} relief @param {boolean} steep */
-  side: (relief, steep) => `Assumed: the longer side is 1 long. With pixels 1 wide, the relief of ${relief} (without extremes) would be too ${steep ? 'steep' : 'flat'}.`,
-  /** @param {string} relief @param {boolean} steep @param {string} size */
-  pixels: (relief, steep, size) => `Assumed: pixels are ${size} wide. With pixels 1 wide, the relief of ${relief} (without extremes) would be too ${steep ? 'steep' : 'flat'}.`,
   few: 'Few pixels have a height. The surface passes through them and is free everywhere else.',
   zeros: 'Assumed: 0 means “no data”.',
   hexagonal: 'Assumed: odd rows lie half a step to the left (hexagonal lattice).',
   /** @param {number} step */
   coarse: (step) => `The image is large, so one vertex stands for ${step} × ${step} pixels (“Lattice” under “More options” changes that).`,
-  levels: 'The file does not say how high its levels are. Assumed: from black to white is a quarter of the longer side. Give the height scale, or tick that these are depths from a camera.',
-  /** @param {boolean} flat */
-  relief: (flat) => `Is this right? The heights differ ${flat ? 'very little compared with' : 'by more than'} the width. Give the pixel size in the unit of the heights, or tick that these are depths from a camera.`,
 };
 
 /** Legends of the marks on the input, with their number. */

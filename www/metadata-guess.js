@@ -1,50 +1,13 @@
-/** Guesses of metadata that a file of heights lacks: pixel size, no-data value, lattice, and whether its values are depths. */
-import { number } from './format.js';
-import { GUESS_WORDS } from './messages.js';
+/** Guesses of metadata that a file of heights lacks: no-data value, lattice, and whether its values are depths. */
 
-/** @typedef {{ width: number, height: number, data: Float64Array, pixelSize: number, heightScale: number, unit?: string | null, dataType?: string, rowSpacing?: number }} HeightValues `rowSpacing`: distance of rows in pixels, if it is not 1 */
+/** @typedef {{ width: number, height: number, data: Float64Array, dataType?: string }} HeightValues */
 
-/** Minimum plausible relief, as a share of the longer side, for a file without a pixel size. */
-const MIN_LIKELY_RELIEF_SHARE = 0.01;
-/** Maximum plausible relief, as a share of the longer side: a slope of 76° across the whole image. A larger one is rescaled. */
-const MAX_LIKELY_RELIEF_SHARE = 4;
-/** Relief that is assumed for heights of unknown scale, as a share of the longer side. The package suggests the same for integers. */
-export const ASSUMED_RELIEF_SHARE = 1 / 4;
-/** Range of reliefs for which a longer side of 1 is assumed, in the unit of the heights. */
-const [MIN_UNIT_SIDE_RELIEF, MAX_UNIT_SIDE_RELIEF] = [0.02, 2];
 /** Minimum difference of neighbouring depths at an occlusion, as a share of the smaller depth. */
 const MIN_DEPTH_JUMP_SHARE = 0.15;
 /** Minimum difference of neighbouring depths at an occlusion, in mean differences: a ramp that begins at 0 has no occlusion. */
 const MIN_DEPTH_JUMP_STEPS = 5;
 /** Maximum number of vertices of a solve that takes less than a few minutes. */
 const MAX_QUICK_VERTICES = 1.2e6;
-
-/**
- * Guesses the size of a pixel in the unit of the heights, if it is not in the file and cannot be 1.
- * @param {HeightValues} values
- * @returns {{ pixelSize: number, words: string } | null}
- */
-export function guessPixelSize({ width, height, data, pixelSize, heightScale, unit, dataType = '', rowSpacing = 1 }) {
-  // For integers the package suggests a height scale instead.
-  if (pixelSize !== 1 || unit || heightScale !== 1 || /^u/.test(dataType)) return null;
-  const side = Math.max(width, height * rowSpacing);
-  const relief = reliefOf(data);
-  const share = relief / side;
-  if (relief === 0 || (share >= MIN_LIKELY_RELIEF_SHARE && share <= MAX_LIKELY_RELIEF_SHARE)) return null;
-  const steep = share > MAX_LIKELY_RELIEF_SHARE;
-  if (relief >= MIN_UNIT_SIDE_RELIEF && relief <= MAX_UNIT_SIDE_RELIEF) {
-    return { pixelSize: Number((1 / side).toPrecision(6)), words: GUESS_WORDS.side(number(relief, 2), steep) };
-  }
-  const guessed = Number((relief / ASSUMED_RELIEF_SHARE / side).toPrecision(1));
-  return { pixelSize: guessed, words: GUESS_WORDS.pixels(number(relief, 2), steep, number(guessed)) };
-}
-
-/** Relief: the difference between the 98th and the 2nd percentile of the heights, which leaves outliers out. @param {Float64Array} data */
-export function reliefOf(data) {
-  const step = Math.ceil(data.length / 1e5);
-  const sample = Float64Array.from({ length: Math.ceil(data.length / step) }, (_, i) => data[i * step]).filter(Number.isFinite).sort();
-  return sample.length > 0 ? sample[Math.floor(0.98 * (sample.length - 1))] - sample[Math.ceil(0.02 * (sample.length - 1))] : 0;
-}
 
 /**
  * Whether 0 is probably no data: it is frequent, and all other values lie on one side of it, with a distance.

@@ -128,7 +128,6 @@ export const sections = {
       },
       report: { value: 'FILE', help: 'JSON file for the figures of the solve' },
       jobs: {
-        short: 'j',
         value: 'N',
         reading: {
           must: 'must be a whole number from 1 on',
@@ -171,7 +170,7 @@ export const sections = {
         reading: choice('mm', 'cm', 'm', 'inch'),
         value: 'U',
         help: 'mm or m, of a mesh also cm or inch: the unit of these lengths, for true sizes (default: what the file says; m of ' +
-          'depths in metres or with a scale, mm of others in whole numbers; of a mesh what its size suggests)',
+          'depths in metres or with a scale, mm of others in whole numbers; of a mesh mm from 10 mm to 5 m, else none)',
       },
       'height-scale': {
         reading: { must: 'must be a number other than 0, which leaves no heights', take: (value) => numeral.take(value) || undefined },

@@ -2,12 +2,14 @@
 import { realpath, stat } from 'node:fs/promises';
 import { dirname, join, resolve, sep } from 'node:path';
 import * as developable from '../index.js';
+import { patternMesh } from '../schema/pattern.js';
 import { readCamera } from './camera.js';
 import { readBytes } from './files.js';
 import { about } from './explain.js';
 import { flagOf } from './flags.js';
 import { Problem, status } from './problem.js';
 import { confirmSize } from './size.js';
+import { optionsFrom } from './task.js';
 import { during, say, toStderr } from './terminal.js';
 
 /**
@@ -47,9 +49,6 @@ export async function readInput(task) {
   const heightScale = task.heightScale ?? file.heightScale;
   const pixelSize = task.pixelSize ?? file.pixelSize;
   if (task.lattice === 'square') {
-    const scaled = task.heightScale !== undefined || task.pixelSize !== undefined;
-    // With confidences, what is far off may be known to be wrong.
-    if (!(task.command === 'design') && !scaled && confidence === undefined) checkScale(task, file);
     return /** @type {Input} */ ({
       width: file.width,
       height: file.height,
@@ -59,7 +58,7 @@ export async function readInput(task) {
       unit: task.unit ?? (task.pixelSize === undefined ? file.unit : undefined),
       georeference: file.georeference,
       ...known,
-      ...((task.command === 'design') ? {} : { data: file.data, noData: asStored(task.noData, file) }),
+      ...(task.command === 'design' ? {} : { data: file.data }),
       constraints: pins && pinned(pins, task.free),
     });
   }
@@ -76,44 +75,6 @@ export async function readInput(task) {
     ...((task.command === 'design') ? {} : { heights: scaled(without(file.data, noData)) }),
     constraints: pins && scaled(pinned(pins, task.free ?? noData)),
   });
-}
-
-/** Smallest share of the longer side that a relief of heights in the unit of the pixels may well have. */
-const MIN_RELIEF_SHARE = 1e-3;
-
-/** Largest share of the longer side up to which a relief needs no word: a slope of 45 degrees all the way across. */
-const MAX_USUAL_RELIEF_SHARE = 1;
-
-/** Largest share of the longer side that is taken for a steep fold, with a warning: a slope of 88 degrees all the way across. */
-const MAX_STEEP_RELIEF_SHARE = 30;
-
-/**
- * Refuses heights that cannot be in the unit of the pixels.
- * @param {Task} task
- * @param {ReadResult} file
- */
-function checkScale({ input, noData }, file) {
-  const { width, height, pixelSize, unit, heightScale, dataType } = file;
-  const side = Math.max(width, height);
-  // Of levels the assumption is told.
-  if (/^[ui]/.test(dataType)) return;
-  if (unit !== null || pixelSize !== 1) return;
-  const nothing = asStored(noData, file);
-  // Without outliers, and of so many values as is quickly sorted.
-  const step = Math.ceil(file.data.length / 1e5);
-  const some = file.data.filter((value, i) => i % step === 0 && value !== nothing && Number.isFinite(value)).sort();
-  const relief = some[Math.floor(0.98 * (some.length - 1))] - some[Math.ceil(0.02 * (some.length - 1))];
-  const share = (relief * heightScale) / side;
-  // What is flat is flat in any unit.
-  if (!(relief > 0) || (share >= MIN_RELIEF_SHARE && share <= MAX_USUAL_RELIEF_SHARE)) return;
-  const range = `${input}: the heights range over ${Number(relief.toPrecision(2))}, and the image is ${side} pixels wide or high: `;
-  const size = "--pixel-size P says how wide a pixel is in the heights' unit (--pixel-size 1: as they are)";
-  const others = '--intrinsics that these are the depths of a camera, --no-data V which value means that there is none';
-  if (share >= MIN_RELIEF_SHARE && share <= MAX_STEEP_RELIEF_SHARE) {
-    say(`warning: ${range}a pixel is taken to be 1 wide, so that slopes are steep; ${size}, ${others}`);
-    return;
-  }
-  throw new Problem(status.input, `${range}are they in another unit than the pixels? ${size}, ${others}`);
 }
 
 /** Whether depths may have this unit. @param {string | undefined} unit @returns {unit is import('../types.js').Unit} */
@@ -140,30 +101,46 @@ async function readSampled(task) {
  * @param {Task & { photo?: Size }} task
  */
 export async function readMesh(task) {
-  const { input, camera, unit, mask, confidence, noData, written, force, photo } = task;
+  const { input, camera, unit, mask, confidence, written, force, photo } = task;
   if (!camera) {
     const mesh = tellAssumptions(input, await readMeshFile(input, await readBytes(input), force ? [] : written, unit));
     for (const name of mesh.missing ?? []) {
       say(`warning: ${input} names ${JSON.stringify(name)}, ${await whyMissing(dirname(input), name)}`);
     }
+    checkSize(task, mesh);
     return mesh;
   }
   // Of depths the camera says what a level is.
-  const file = tellUndecided({ ...task, heightScale: 1 }, await readImage(input, task));
+  const file = tellUndecided({ ...task, heightScale: 1, pixelSize: 1 }, await readImage(input, task));
   const { width, height, data } = file;
   const turn = camera.turn ?? turnOf(file, photo);
   const stored = photo && turn % 180 === 90 ? { width: photo.height, height: photo.width } : photo;
   return developable.backProject(
-    { width, height, data, noData: asStored(noData, file) },
+    { width, height, data },
     await depthCamera(camera, file, stored),
     {
       turn,
       mask: mask === undefined ? undefined : await readImage(mask, { assumeNoData: false }),
-      confidence: confidence === undefined ? undefined : asTyped(await readImage(confidence, { assumeNoData: false })),
+      confidence: confidence === undefined ? undefined : await readImage(confidence, { assumeNoData: false }),
       crop: photo?.wanted,
       photo,
       camera: photo?.camera,
     },
+  );
+}
+
+/**
+ * Asks for the size of a drawing of a mesh whose lengths have no unit.
+ * @param {Task} task
+ * @param {import('../types.js').Mesh} mesh
+ */
+function checkSize(task, { unit }) {
+  const { scale, size } = optionsFrom(patternMesh, task);
+  if (task.command !== 'pattern' || task.explore || unit !== undefined || (scale ?? size) !== undefined) return;
+  throw new Problem(
+    status.usage,
+    `${task.input} is too small or too large for millimetres, and nothing says in what unit its lengths are: --unit mm, cm, m or inch ` +
+      'does, or --scale MM for each unit of length',
   );
 }
 
@@ -195,13 +172,6 @@ function turnOf(depths, photo) {
     );
   }
   return 0;
-}
-
-/** Whole numbers in an array of their type, which says what they are. @param {ReadResult} file */
-function asTyped({ width, height, data, dataType }) {
-  if (dataType === 'u8') return { width, height, data: Uint8Array.from(data, (value) => value || 0) };
-  if (dataType === 'u16') return { width, height, data: Uint16Array.from(data, (value) => value || 0) };
-  return { width, height, data };
 }
 
 /**
@@ -314,12 +284,12 @@ async function whyMissing(folder, name) {
 
 /**
  * @param {string} path
- * @param {Partial<Pick<Task, 'array' | 'assumeNoData'>>} [task]
+ * @param {Partial<Pick<Task, 'array' | 'noData' | 'assumeNoData'>>} [task]
  * @returns {Promise<ReadResult>}
  */
-async function readImage(path, { array, assumeNoData } = {}) {
+async function readImage(path, { array, noData, assumeNoData } = {}) {
   const bytes = await readBytes(path);
-  return about(path, () => developable.read(bytes, { array, assumeNoData }));
+  return about(path, () => developable.read(bytes, { array, noData, assumeNoData }));
 }
 
 /**

@@ -10,6 +10,8 @@ export const read = {
   format: { kind: choice(...Format), type: 'Format' },
   /** Name of the array to read from an NPZ file; needed only where the file holds several. */
   array: { kind: text },
+  /** A value that is no data and becomes NaN, rounded as the file stores numbers. */
+  noData: { kind: number },
   /**
    * Whether values that nobody would measure, such as -9999 or infinity standing alone far from the rest, become NaN. Each is
    * listed in `assumptions`.
@@ -23,7 +25,7 @@ export const readMesh = {
   format: { kind: choice('obj', 'ply', 'stl', 'gltf', 'glb', '3mf', 'off') },
   /**
    * The unit of the file's lengths; the mesh is in metres for `'m'`, else in millimetres. Default: what the file says,
-   * else what its size suggests: millimetres, metres below 2, none above 5000, which is among the mesh's `assumptions`.
+   * else millimetres if its longest side is 10 to 5000 long, and none for others, which is among the mesh's `assumptions`.
    */
   unit: { kind: choice('mm', 'cm', 'm', 'inch') },
   /**

@@ -30,3 +30,9 @@ impl Assumption {
         }
     }
 }
+
+/// Rounds a number to a number of digits for a sentence.
+pub(crate) fn rounded(number: f64, digits: usize) -> f64 {
+    let places = digits.saturating_sub(1);
+    format!("{number:.places$e}").parse().unwrap_or(number)
+}

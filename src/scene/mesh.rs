@@ -93,6 +93,23 @@ impl Mesh {
         Ok(self)
     }
 
+    /// Returns the corners of the bounding box of all vertices: the smallest and the largest coordinates.
+    pub(crate) fn bounds(&self) -> [[f64; 3]; 2] {
+        let start = [[f64::INFINITY; 3], [f64::NEG_INFINITY; 3]];
+        self.positions.iter().fold(start, |[low, high], p| {
+            [
+                std::array::from_fn(|k| low[k].min(p[k])),
+                std::array::from_fn(|k| high[k].max(p[k])),
+            ]
+        })
+    }
+
+    /// Returns the longest side of the bounding box of all vertices.
+    pub(crate) fn longest_side(&self) -> f64 {
+        let [low, high] = self.bounds();
+        (0..3).map(|k| high[k] - low[k]).fold(0.0, f64::max)
+    }
+
     /// Returns the mesh with a colour for each vertex: red, green, blue, usually from 0 to 1, in the user's colour
     /// space.
     ///

@@ -224,11 +224,7 @@ fn normal_of_points(mesh: &Mesh) -> Result<Vector3<f64>> {
 
 /// Centre of the bounding box of all vertices, and half the box's longest side, which is never 0.
 fn bounds(mesh: &Mesh) -> ([f64; 3], f64) {
-    let extreme = |k: usize, start: f64, pick: fn(f64, f64) -> f64| {
-        mesh.positions().iter().fold(start, |m, p| pick(m, p[k]))
-    };
-    let min: [f64; 3] = std::array::from_fn(|k| extreme(k, f64::INFINITY, f64::min));
-    let max: [f64; 3] = std::array::from_fn(|k| extreme(k, f64::NEG_INFINITY, f64::max));
+    let [min, max] = mesh.bounds();
     let centre = std::array::from_fn(|k| min[k] / 2.0 + max[k] / 2.0);
     let size = (0..3).fold(f64::MIN_POSITIVE, |m, k| m.max(max[k] / 2.0 - min[k] / 2.0));
     (centre, size)

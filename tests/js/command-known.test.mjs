@@ -73,7 +73,7 @@ test('a file of confidences: whole numbers are shares of the largest', async () 
   const wide = (/** @type {number} */ i) => [-31, -30, -29, -1, 0, 1, 29, 30, 31].some((by) => spoilt(i + by));
   await store('spoilt.npy', { ...ramp, data: ramp.data.map((z, i) => (spoilt(i) ? 40 * Math.sin(i) : z)) });
   await store('trust.npy', { ...ramp, data: ramp.data.map((_, i) => (wide(i) ? 0 : 1)) });
-  await command('fit spoilt.npy -o out.npy --confidence trust.npy');
+  await command('fit spoilt.npy -o out.npy --confidence trust.npy --pixel-size 1');
   const { data } = await load('out.npy');
   assert.ok(deviation(data, ramp.data) < 0.02, `${deviation(data, ramp.data)}`);
   const whole = direct.writeNpy({ ...ramp, data: ramp.data.map((_, i) => (wide(i) ? 0 : 1)) });
@@ -84,7 +84,7 @@ test('a file of confidences: whole numbers are shares of the largest', async () 
     Buffer.from(ramp.data.map((_, i) => (wide(i) ? 0 : 255))),
   ]);
   await writeFile(join(folder, 'bytes.npy'), bytes);
-  await command('fit spoilt.npy -o same.npy --confidence bytes.npy');
+  await command('fit spoilt.npy -o same.npy --confidence bytes.npy --pixel-size 1');
   assert.deepEqual((await load('same.npy')).data, data);
 });
 

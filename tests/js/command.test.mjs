@@ -173,16 +173,17 @@ test('heights are scaled', async () => {
   assert.ok(deviation((await load('out.npy')).data, ramp.data.map((z) => 2.5 * z)) < 1e-9);
 });
 
-test('a fold steeper than 45 degrees is solved as it is, and it is said that its pixels are taken to be 1 wide', async () => {
+test('a fold steeper than 45 degrees is solved as it is, a needle with wider pixels, and either is said', async () => {
   const rise = (/** @type {number} */ slope) => image(24, 20, (x) => slope * Math.min(x, 24 - x));
-  await writeFile(join(folder, 'steep.npy'), direct.writeNpy(rise(4)));
-  const guessed = await fit('steep.npy', '-o', 'steep-fitted.npy');
-  assert.equal(guessed.status, 0, guessed.stderr);
-  assert.match(guessed.stderr, /warning: steep\.npy: .*taken to be 1 wide.*--pixel-size/);
-  await silently(fit('steep.npy', '--pixel-size', '1', '-o', 'told.npy'));
-  assert.deepEqual((await load('steep-fitted.npy')).data, (await load('told.npy')).data);
-  await writeFile(join(folder, 'needle.npy'), direct.writeNpy(rise(400)));
-  assert.equal((await fit('needle.npy', '-o', 'none.npy')).status, 3);
+  for (const [slope, words, pixel] of /** @type {const} */ ([[4, /: assumed: pixels are 1 wide, .*steep/, 1], [400, /: assumed: pixels are 700 wide: .*too steep/, 700]])) {
+    await writeFile(join(folder, 'steep.npy'), direct.writeNpy(rise(slope)));
+    const guessed = await fit('steep.npy', '-o', 'guessed.npy');
+    assert.equal(guessed.status, 0, guessed.stderr);
+    assert.match(guessed.stderr, words);
+    assert.match(guessed.stderr, /--pixel-size decides it/);
+    await silently(fit('steep.npy', '--pixel-size', String(pixel), '-o', 'told.npy'));
+    assert.deepEqual((await load('guessed.npy')).data, (await load('told.npy')).data);
+  }
 });
 
 test('a mask or a value takes pixels out', async () => {

@@ -340,16 +340,41 @@ test('the command lays whole meshes flat', async () => {
   assert.match((await run(folder, ['pattern', 'scan.ply', '-o', 'a.svg', '--surface', '--view', '-z'])).stderr, /--view is for heights/);
   const table = await run(folder, ['pattern', 'scan.ply', '--surface', '--explore']);
   assert.match(table.stdout, /^ *lambda  smallest  sheets .*\n( *[1-9][.\d]*e\+\d  .* %  .*\n){12}$/);
-  const few = await run(folder, ['pattern', 'scan.ply', '-o', 'few.svg', '--surface', '--sheets', '9']);
+  const few = await run(folder, ['pattern', 'scan.ply', '-o', 'few.svg', '--surface', '--sheets', '9', '--scale', '10']);
   assert.match(few.stderr, /sheets? with --lambda \d+(\.\d+)? and --smallest 0\.005, 0\.0\d+ from the input/);
   assert.match(await readFile(join(folder, 'few.svg'), 'utf8'), /<svg/);
   assert.match((await run(folder, ['pattern', 'scan.ply', '--surface', '--explore', '--lambda', '3'])).stderr, /leave --lambda out/);
 });
 
-test('a box is laid flat as it is, at the size that is asked for', async () => {
-  const positions = Float64Array.from({ length: 24 }, (_, i) => [30, 20, 10][i % 3] * ((Math.floor(i / 3) >> i % 3) & 1));
+/** A box from the origin to a corner. @param {number[]} corner */
+function boxTo(corner) {
+  const positions = Float64Array.from({ length: 24 }, (_, i) => corner[i % 3] * ((Math.floor(i / 3) >> i % 3) & 1));
   const quads = [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]];
-  const box = { positions, triangles: Uint32Array.from(quads.flatMap(([a, b, c, d]) => [a, b, c, a, c, d])) };
+  return { positions, triangles: Uint32Array.from(quads.flatMap(([a, b, c, d]) => [a, b, c, a, c, d])) };
+}
+
+test('a block of 2 × 1 × 0.5, as programs for inches write it, is drawn once its unit is said', async () => {
+  await direct.init();
+  await direct.load('meshes');
+  const folder = await temporaryFolder();
+  await writeFile(join(folder, 'block.stl'), direct.writeStl(boxTo([2, 1, 0.5])));
+  assert.match((await run(folder, ['info', 'block.stl'])).stdout, /^unit: +not known$[^]*^assumed: +.*side of 2 is too short for millimetres; are they inches or metres\? \(--unit/m);
+  const asked = ['pattern', 'block.stl', '--surface', '--as-is', '-o', 'block.svg', '--report', 'block.json'];
+  const refused = await run(folder, asked);
+  assert.equal(refused.status, 2);
+  assert.match(refused.stderr, /nothing says in what unit.*--unit mm, cm, m or inch.*--scale/);
+  const area = async (/** @type {string[]} */ ...said) => {
+    const { status, stderr } = await run(folder, [...asked, ...said]);
+    assert.equal(status, 0, stderr);
+    return JSON.parse(await readFile(join(folder, 'block.json'), 'utf8')).area;
+  };
+  // Two faces each of 2 × 1, 2 × 0.5 and 1 × 0.5 square inches.
+  assert.ok(Math.abs(await area('--unit', 'inch') - 7 * 25.4 ** 2) < 0.1);
+  assert.ok(Math.abs(await area('--scale', '10') - 700) < 0.1);
+});
+
+test('a box is laid flat as it is, at the size that is asked for', async () => {
+  const box = boxTo([30, 20, 10]);
   assert.equal(await developable.hasExactFaces(box), true);
   const { summary, sheets } = await developable.patternMesh(box, { size: 60, tabs: 5 });
   // Twice as large; the shortest cut leaves the five longest edges that make a tree: four of 30 are not all of them.

@@ -86,8 +86,8 @@ test('what is wrong with a file is an error', async () => {
   assert.throws(() => direct.read(exr.subarray(0, 300)), error('FORMAT', /EXR/));
   assert.throws(() => direct.read(exr, { format: 'tiff' }), error('FORMAT', /begins like an OpenEXR/));
   await assert.rejects(developable.read(await data('rgb-colour.tif')), error('UNSUPPORTED', /row 2, column 1/));
-  const unknown = /** @type {any} */ ({ format: 'gif' });
-  assert.throws(() => direct.read(exr, unknown), error('OPTION', /or colmap$/));
+  const unknown = /** @type {any} */ ({ format: 'heic' });
+  assert.throws(() => direct.read(exr, unknown), error('OPTION', /or bmp$/));
 });
 
 test('TIFF and EXR come back as they were written', async () => {

@@ -3,8 +3,8 @@
 use developable::dewarp::Photo;
 use developable::files::Unit;
 use developable::files::images::{
-    Decoded, Format, PhotoOptions, decode, decode_npz, decode_photo, npz_arrays, write_exr,
-    write_photo_jpeg, write_tiff,
+    DecodeOptions, Decoded, Format, PhotoOptions, decode, decode_photo, decode_with, npz_arrays,
+    write_exr, write_photo_jpeg, write_tiff,
 };
 use developable::{Error, HeightImage};
 use proptest::prelude::*;
@@ -172,11 +172,16 @@ fn npz_archives_by_name() {
     );
     refused("none.npz", "UNSUPPORTED", "no arrays");
     let several = file("several.npz");
-    let chosen = decode_npz(&several, Some("confidence")).unwrap();
+    let chosen = decode_with(
+        &several,
+        None,
+        &DecodeOptions::default().array("confidence"),
+    )
+    .unwrap();
     assert_eq!((chosen.data_type, chosen.values), ("u8", ramp()));
-    let error = decode_npz(&several, Some("colour")).unwrap_err();
+    let error = decode_with(&several, None, &DecodeOptions::default().array("colour")).unwrap_err();
     assert!(error.to_string().contains("no array `colour`"), "{error}");
-    let error = decode_npz(&several, Some("name")).unwrap_err();
+    let error = decode_with(&several, None, &DecodeOptions::default().array("name")).unwrap_err();
     assert!(error.to_string().contains("array `name`"), "{error}");
     let arrays = npz_arrays(&several).unwrap();
     let told: Vec<_> = arrays
@@ -607,4 +612,96 @@ fn photos_that_are_not_read_are_named_with_what_to_do() {
             "{message}"
         );
     }
+}
+
+/// A Windows bitmap of 3 × 2 grey pixels in 24 bits, the bottom row first and each padded to four bytes.
+fn bitmap(top: [u8; 3], bottom: [u8; 3]) -> Vec<u8> {
+    let mut file = b"BM".to_vec();
+    file.extend(78_u32.to_le_bytes());
+    file.extend([0; 4]);
+    file.extend([54_u32, 40, 3, 2].map(u32::to_le_bytes).concat());
+    file.extend([1_u16, 24].map(u16::to_le_bytes).concat());
+    file.extend([0_u32, 24, 2835, 2835, 0, 0].map(u32::to_le_bytes).concat());
+    for row in [bottom, top] {
+        file.extend(row.iter().flat_map(|level| [*level; 3]));
+        file.extend([0; 3]);
+    }
+    file
+}
+
+#[test]
+fn levels_of_a_bitmap_are_heights() {
+    let file = bitmap([10, 20, 30], [40, 50, 60]);
+    let found = decode(&file, None).unwrap();
+    assert_eq!(
+        (found.format, found.width, found.height),
+        (Format::Bmp, 3, 2)
+    );
+    assert_eq!(found.values, [10.0, 20.0, 30.0, 40.0, 50.0, 60.0]);
+    assert_eq!(found.assumptions[0].code, "heightScale");
+    let mut coloured = file;
+    coloured[54] = 99;
+    assert_eq!(decode(&coloured, None).unwrap_err().code(), "UNSUPPORTED");
+}
+
+/// A chunk of a PNG file: its length, name, bytes, and their CRC-32.
+fn chunk(name: &[u8; 4], bytes: &[u8]) -> Vec<u8> {
+    let named: Vec<u8> = name.iter().chain(bytes).copied().collect();
+    let crc = named.iter().fold(u32::MAX, |crc, byte| {
+        (0..8).fold(crc ^ u32::from(*byte), |crc, _| {
+            (crc >> 1) ^ (0xedb8_8320 & (crc & 1).wrapping_neg())
+        })
+    });
+    let length = bytes.len() as u32;
+    [&length.to_be_bytes()[..], &named, &(!crc).to_be_bytes()].concat()
+}
+
+/// An interlaced PNG file of black pixels in 1 bit, without compression, of a width and height divisible by 8.
+fn interlaced(width: u32, height: u32) -> Vec<u8> {
+    let head = [
+        &width.to_be_bytes()[..],
+        &height.to_be_bytes(),
+        &[1, 0, 0, 0, 1],
+    ]
+    .concat();
+    // The columns and rows of Adam7's passes are every 8th, 8th, 4th, 4th, 2nd, 2nd and each one.
+    let passes = [(8, 8), (8, 8), (4, 8), (4, 4), (2, 4), (2, 2), (1, 2)];
+    let bytes = |(x, y): (u32, u32)| (height / y) * (1 + (width / x).div_ceil(8));
+    let zeros = vec![0; passes.into_iter().map(bytes).sum::<u32>() as usize];
+    let mut data = vec![0x78, 1];
+    let blocks = zeros.chunks(65_535);
+    let last = blocks.len() - 1;
+    for (i, block) in blocks.enumerate() {
+        let length = block.len() as u16;
+        data.push(u8::from(i == last));
+        data.extend([length.to_le_bytes(), (!length).to_le_bytes()].concat());
+        data.extend(block);
+    }
+    // Adler-32 of zeros.
+    data.extend(((zeros.len() % 65_521) as u32 * 65_536 + 1).to_be_bytes());
+    let parts = [
+        chunk(b"IHDR", &head),
+        chunk(b"IDAT", &data),
+        chunk(b"IEND", b""),
+    ];
+    [b"\x89PNG\r\n\x1a\n".to_vec(), parts.concat()].concat()
+}
+
+#[test]
+fn large_interlaced_photos_are_read_and_larger_ones_named_in_words_about_photos() {
+    let photo = decode_photo(&interlaced(5600, 4000)).unwrap();
+    assert_eq!((photo.width, photo.height), (5600, 4000));
+    assert_eq!(photo.rgba[..4], [0, 0, 0, 255]);
+    let mut huge = interlaced(8, 8);
+    let head = [
+        &40_000_u32.to_be_bytes()[..],
+        &20_000_u32.to_be_bytes(),
+        &[1, 0, 0, 0, 1],
+    ];
+    huge.splice(8..33, chunk(b"IHDR", &head.concat()));
+    let error = decode_photo(&huge).unwrap_err().to_string();
+    assert!(
+        error.contains("megapixels") && !error.contains("cells"),
+        "{error}"
+    );
 }

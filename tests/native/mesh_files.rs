@@ -1,5 +1,7 @@
 //! Mesh files as other programs write them: small ones, with what is known of them.
 
+use std::io::{Cursor, Write};
+
 use developable::files::Unit;
 use developable::files::meshes::{FileUnit, MeshFile, read_mesh, read_mesh_beside};
 use developable::{Resolution, View, sample};
@@ -118,7 +120,13 @@ fn units_by_what_the_file_says_or_by_its_size() {
     let square = |side: f64| read(&format!("v 0 0 0\nv {side} 0 0\nv 0 {side} 0\nf 1 2 3\n"));
     for (side, unit, word) in [
         (60.0, Some(Unit::Millimetre), "lengths are millimetres"),
-        (0.06, Some(Unit::Metre), "lengths are metres"),
+        // An inch or a metre: nothing in a file of a few units says which.
+        (
+            2.0,
+            None,
+            "too short for millimetres; are they inches or metres?",
+        ),
+        (0.06, None, "too short for millimetres"),
         (1.2e4, None, "no unit"),
     ] {
         let file = square(side);
@@ -140,4 +148,99 @@ fn half_of_a_folded_sheet_is_hidden() {
     let down = View::Along([0.0, 0.0, -1.0]);
     let samples = sample(&mesh, down, Resolution::Across(40)).unwrap();
     assert!((samples.hidden_share(&mesh) - 0.5).abs() < 1e-12);
+}
+
+/// A 3MF archive as slicers write it: content types, relations, and the model, compressed.
+fn archive(model: &str) -> Vec<u8> {
+    let mut file = zip::ZipWriter::new(Cursor::new(Vec::new()));
+    let compressed = zip::write::SimpleFileOptions::default();
+    for (name, text) in [
+        ("[Content_Types].xml", "<Types/>"),
+        ("_rels/.rels", "<Relationships/>"),
+        ("Metadata/thumbnail.png", "no picture"),
+        ("3D/3dmodel.model", model),
+    ] {
+        file.start_file(name, compressed).unwrap();
+        file.write_all(text.as_bytes()).unwrap();
+    }
+    file.finish().unwrap().into_inner()
+}
+
+/// A model in inches: a triangle, and an object that uses it twice, moved and turned a quarter about z.
+const MODEL: &str = r##"<?xml version="1.0" encoding="UTF-8"?>
+<model unit="inch" xml:lang="en-US" xmlns="http://schemas.microsoft.com/3dmanufacturing/core/2015/02"
+ xmlns:m="http://schemas.microsoft.com/3dmanufacturing/material/2015/02">
+ <metadata name="Application">a slicer</metadata>
+ <resources>
+  <m:colorgroup id="9"><m:color color="#FF0000FF"/></m:colorgroup>
+  <object id="1" type="model" pid="9" pindex="0"><mesh>
+   <vertices><vertex x="0" y="0" z="0"/><vertex x="2" y="0" z="0"/><vertex x="0" y="1" z="0.5"/></vertices>
+   <triangles><triangle v1="0" v2="1" v3="2" p1="0"/></triangles>
+  </mesh></object>
+  <object id="2" type="model"><components>
+   <component objectid="1" transform="1 0 0 0 1 0 0 0 1 10 0 0"/>
+   <component objectid="1" transform="0 1 0 -1 0 0 0 0 1 0 0 3"/>
+  </components></object>
+ </resources>
+ <build><item objectid="2" transform="1 0 0 0 1 0 0 0 1 0 100 0"/></build>
+</model>"##;
+
+#[test]
+fn three_mf_with_its_unit_and_components() {
+    let file = read_mesh_beside(&archive(MODEL), None, &[]).unwrap();
+    assert_eq!(file.unit, Some(Unit::Millimetre));
+    assert!(file.assumptions.is_empty(), "{:?}", file.assumptions);
+    assert_eq!(file.mesh.triangles(), [[0, 1, 2], [3, 4, 5]]);
+    let inches = [
+        [10.0, 100.0, 0.0],
+        [12.0, 100.0, 0.0],
+        [10.0, 101.0, 0.5],
+        [0.0, 100.0, 3.0],
+        [0.0, 102.0, 3.0],
+        [-1.0, 100.0, 3.5],
+    ];
+    let found = file.mesh.positions().as_flattened();
+    for (found, inches) in found.iter().zip(inches.as_flattened()) {
+        assert!((found - 25.4 * inches).abs() < 1e-9, "{found} {inches}");
+    }
+    // Without a unit lengths are millimetres, and a model of several files says so.
+    let plain = MODEL.replace(" unit=\"inch\"", "");
+    let file = read_mesh_beside(&archive(&plain), None, &[]).unwrap();
+    assert_eq!(
+        (file.unit, file.mesh.positions()[1]),
+        (Some(Unit::Millimetre), [12.0, 100.0, 0.0])
+    );
+    let several = MODEL.replace(
+        "<component objectid",
+        "<component p:path=\"/3D/a.model\" objectid",
+    );
+    let several = several.replace("xml:lang", "xmlns:p=\"http://p\" xml:lang");
+    let error = read_mesh_beside(&archive(&several), None, &[]).unwrap_err();
+    assert!(error.to_string().contains("several files"), "{error}");
+    let missing = MODEL.replace("objectid=\"1\"", "objectid=\"7\"");
+    assert!(read_mesh_beside(&archive(&missing), None, &[]).is_err());
+}
+
+/// A glTF file of a square, whose picture is used by a quarter, turned: the example of the specification of
+/// `KHR_texture_transform`, "the lower left quadrant of the source image, rotated clockwise 90°".
+const TURNED: &str = r#"{"asset":{"version":"2.0"},"extensionsUsed":["KHR_texture_transform"],
+"nodes":[{"mesh":0}],"meshes":[{"primitives":[{"material":0,"attributes":{"POSITION":0,"TEXCOORD_0":1}}]}],
+"materials":[{"pbrMetallicRoughness":{"baseColorTexture":{"index":0,"extensions":{"KHR_texture_transform":
+{"offset":[0,1],"rotation":1.57079632679,"scale":[0.5,0.5]}}}}}],
+"textures":[{"source":0}],"images":[{"uri":"a.png"}],
+"accessors":[{"bufferView":0,"componentType":5121,"count":3,"type":"VEC3"},
+{"bufferView":0,"componentType":5121,"count":3,"type":"VEC2"}],
+"bufferViews":[{"buffer":0,"byteLength":12,"byteStride":4}],
+"buffers":[{"byteLength":12,"uri":"data:;base64,AAAAAAEAAAAAAQAA"}]}"#;
+
+#[test]
+fn gltf_turns_texture_coordinates_as_the_specification_says() {
+    let file = read_mesh_beside(TURNED.as_bytes(), None, &[("a.png", b"A")]).unwrap();
+    // The corners (0, 0), (1, 0), (0, 1) lie at the lower left, the left and the bottom of the picture; upwards from its lower
+    // edge, as meshes here count.
+    let expected = [[0.0, 0.0], [0.0, 0.5], [0.5, 0.0]];
+    let found = file.mesh.uvs().unwrap().as_flattened();
+    for (found, expected) in found.iter().zip(expected.as_flattened()) {
+        assert!((found - expected).abs() < 1e-6, "{found} {expected}");
+    }
 }

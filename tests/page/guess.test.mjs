@@ -2,29 +2,17 @@
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import { assumedInWords } from '../../www/messages.js';
-import { coarseningFor, depthUnitOf, guessPixelSize, isHexagonal, isZeroNoData } from '../../www/metadata-guess.js';
+import { coarseningFor, depthUnitOf, isHexagonal, isZeroNoData } from '../../www/metadata-guess.js';
 import { plainMessage } from '../../www/error-messages.js';
+import { routeFiles } from '../../www/file-routing.js';
+import { Book } from '../../www/page/book.js';
 import { grid } from './support/files.mjs';
 
 /** @param {number} width @param {number} height @param {(col: number, row: number) => number} value @param {string} [dataType] */
 const image = (width, height, value, dataType = 'f32') =>
-  ({ width, height, data: Float64Array.from(grid(width, height, value)), pixelSize: 1, heightScale: 1, dataType });
+  ({ width, height, data: Float64Array.from(grid(width, height, value)), dataType });
 /** Hills, as a function of places. @param {number} x @param {number} y */
 const hills = (x, y) => 30 * Math.sin(x / 17) + 20 * Math.cos(y / 13 + x / 31);
-
-test('the size of a pixel is guessed where 1 makes a slab or a needle of the relief, and only there', () => {
-  const scaled = (/** @type {number} */ factor) => guessPixelSize(image(600, 400, (x, y) => factor * hills(x, y)));
-  assert.equal(scaled(1), null);
-  assert.equal(guessPixelSize(image(200, 200, (x) => 4 * Math.min(x, 199 - x))), null, 'a steep fold is as high as it says');
-  const unit = scaled(0.005);
-  assert.ok(unit && Math.abs(unit.pixelSize * 600 - 1) < 1e-3);
-  assert.match(unit.words, /longer side is 1 long.*too flat/);
-  const steep = scaled(100);
-  assert.ok(steep && steep.pixelSize > 10 && steep.pixelSize < 200);
-  assert.match(steep.words, /too steep/);
-  assert.equal(guessPixelSize(image(60, 40, () => 3)), null, 'a plane says nothing');
-  assert.equal(guessPixelSize({ ...image(600, 400, (x, y) => 0.005 * hills(x, y)), unit: 'm' }), null, 'the file says it');
-});
 
 test('a hexagonal lattice shows in its rows, with noise, too', () => {
   const noise = (/** @type {number} */ col, /** @type {number} */ row) => 0.2 * Math.sin(91.7 * col + 47.3 * row * row);
@@ -33,9 +21,6 @@ test('a hexagonal lattice shows in its rows, with noise, too', () => {
   assert.ok(!isHexagonal(image(150, 120, (col, row) => hills(col, row) + noise(col, row))));
   assert.ok(!isHexagonal(image(150, 120, (col, row) => hills(col + 0.5 * (row % 2), row * Math.sqrt(0.75)))), 'shifted the other way');
   assert.ok(!isHexagonal(image(20, 20, () => 1)));
-  // Its rows are closer than its columns: 120 of them span less than 110 columns.
-  const upright = guessPixelSize({ ...image(110, 120, (x, y) => 0.005 * hills(x, y)), rowSpacing: Math.sqrt(0.75) });
-  assert.ok(upright && Math.abs(upright.pixelSize * 110 - 1) < 1e-3);
 });
 
 test('depths are told from heights by their unit and their edges', () => {
@@ -76,4 +61,25 @@ test('what a reader has assumed is one sentence', () => {
   assert.equal(assumedInWords([]), '');
   const assumptions = [{ code: 'noData', words: '-9999 is no data (412 pixels)', option: 'noData' }, { code: 'unit', words: 'lengths are in millimetres' }];
   assert.equal(assumedInWords(assumptions), 'Assumed: -9999 is no data (412 pixels); lengths are in millimetres.');
+});
+
+/** A PNG file's beginning, of the given colour type. @param {string} name @param {number} colour */
+const pngFile = (name, colour) => new File([Uint8Array.of(0x89, 0x50, 0x4e, 0x47, 13, 10, 26, 10, 0, 0, 0, 13, 0x49, 0x48, 0x44, 0x52, 0, 0, 0, 9, 0, 0, 0, 9, 8, colour, 0, 0, 0)], name);
+
+test('a grey PNG beside one in colour holds its depths, but is a page among photos of pages', async () => {
+  const files = [pngFile('scan.png', 0), pngFile('photo.png', 2)];
+  const route = (/** @type {boolean} */ inPhotoMode) => routeFiles(files, { inPhotoMode, takesPhoto: false });
+  assert.deepEqual([(await route(false)).to, (await route(true)).to], ['heights', 'photos']);
+  assert.deepEqual((await route(true)).files, files);
+});
+
+test('the outline of a shown photo is kept when another one is put back before it', () => {
+  const book = new Book();
+  const [first, second] = ['a.jpg', 'b.jpg'].map((name) => new File([name], name));
+  book.setFiles([first, second]);
+  const removed = book.remove(0);
+  const session = /** @type {import('../../www/page/session.js').PageSession} */ (/** @type {unknown} */ ({ photo: { file: second }, state: () => 'edited' }));
+  book.photos.splice(0, 0, removed);
+  book.saveState(session);
+  assert.deepEqual(book.photos.map(({ state }) => state), [null, 'edited']);
 });

@@ -1,7 +1,6 @@
 /** Source of the heights: an example, or files with their scale and interpretation. */
 import { fileReadTask } from '../worker-task.js';
 import { designInput } from '../design.js';
-import { scaleQuestion } from '../unit-check.js';
 import { element, elements } from '../dom.js';
 import { ColourPictureError, readInput } from '../height-file.js';
 import { hasColours } from '../views/photo.js';
@@ -38,7 +37,6 @@ export function sourcePanel(session, { choose, usePhoto }, onOpened, solveMesh, 
   const pixelSize = element('pixel-size', HTMLInputElement);
   const heightScale = element('height-scale', HTMLInputElement);
   const span = element('scale-span', HTMLElement);
-  const scaleDoubt = element('scale-doubt', HTMLElement);
   const zeroCheckbox = element('zero-is-nothing', HTMLInputElement);
   const noData = element('no-data', HTMLInputElement);
   const hexagonalCheckbox = element('is-hexagonal', HTMLInputElement);
@@ -49,8 +47,6 @@ export function sourcePanel(session, { choose, usePhoto }, onOpened, solveMesh, 
   const mesh = meshPanel(session);
   const camera = cameraPanel(session, mesh.openLoaded);
   const designHint = element('design-hint', HTMLElement);
-  /** Name of the input whose scale is questioned; empty if none is. */
-  let questionedName = '';
   /** A photo that was opened before the heights it shows. @type {File | null} */
   let pendingPhoto = null;
 
@@ -234,15 +230,6 @@ export function sourcePanel(session, { choose, usePhoto }, onOpened, solveMesh, 
     hexagonalCheckbox.checked = input.stored.hexagonal;
     noData.value = input.stored.noData === undefined ? '' : fieldText(input.stored.noData);
     span.textContent = spanInWords(input);
-    const question = scaleQuestion(input);
-    // While the same file is scaled the question keeps its space, so that the buttons below do not move.
-    if (question === '' && questionedName === input.name) scaleDoubt.dataset.settled = '';
-    else {
-      delete scaleDoubt.dataset.settled;
-      scaleDoubt.hidden = question === '';
-      scaleDoubt.textContent = question;
-      questionedName = question === '' ? '' : input.name;
-    }
   });
 
   return {

@@ -1,15 +1,17 @@
 /** The view of a photo of the surface and the flat photo. */
-import { scaleQuestion } from '../unit-check.js';
 import { count, number, percent } from '../format.js';
 import { canvasFromImage } from '../surface/layer.js';
 import { imagePicture } from '../surface/picture-view.js';
-import { DEWARP_VERDICTS, CYLINDER_NOTE } from '../messages.js';
+import { DEWARP_VERDICTS, CYLINDER_NOTE, assumedInWords } from '../messages.js';
 import { figures, statement } from './legend.js';
 
 /** @import {Analyses, FlatOptions} from '../analyses.js' */
 /** @import {Result} from '../session.js' */
 /** @import {ViewContent} from './view-content.js' */
 /** @typedef {import('../../pkg/types.js').Dewarped} Dewarped */
+
+/** Codes of the assumptions about the scale of heights: a page is flat only by the right one. */
+const SCALE_ASSUMPTIONS = ['pixelSize', 'heightScale'];
 
 /**
  * Dewarps a photo by a result.
@@ -22,7 +24,7 @@ import { figures, statement } from './legend.js';
 export async function dewarped(analyses, result, photo, options) {
   const flat = await analyses.dewarp(result, photo, options);
   const { width, height, data, resolution, verdict, parallel, report: { distortion, parts, crossings } } = flat;
-  const doubt = scaleQuestion(result.input);
+  const scale = assumedInWords(result.input.assumptions?.filter(({ code }) => SCALE_ASSUMPTIONS.includes(code)));
   const unit = result.input.unit ?? 'unit';
   return {
     flat,
@@ -30,7 +32,7 @@ export async function dewarped(analyses, result, photo, options) {
     after: imagePicture(canvasFromImage(new ImageData(data, width)), 'Made flat', `The photo made flat, ${width} × ${height} pixels`,
       (x, y) => `${number(x / resolution)}, ${number(y / resolution)} ${result.input.unit ?? 'units'} from the upper left corner`),
     about: [
-      statement(doubt || `${DEWARP_VERDICTS[verdict]}${parallel ? ` ${CYLINDER_NOTE}` : ''}`),
+      statement(scale || `${DEWARP_VERDICTS[verdict]}${parallel ? ` ${CYLINDER_NOTE}` : ''}`),
       figures([
         ['Flat image', `${width} × ${height} pixels`],
         ['Resolution', `${number(resolution, 4)} pixels per ${unit}`],

@@ -1,8 +1,11 @@
 //! The result of decoding an image: the stored pixel values, and how they become heights.
 
+use super::decode_options::DecodeOptions;
 use super::format::Format;
 use super::georeference::Georeference;
-use super::no_data::assume_no_data;
+use super::no_data;
+use super::scale::{SUGGESTED_RELIEF_SHARE, assumed_levels, assumed_pixel_size};
+use super::square_pixels::{NEGLIGIBLE_SIDE_DIFFERENCE, square_pixels};
 use crate::error::{Error, Result};
 use crate::files::{Assumption, Unit};
 use crate::heights::heightfield::HeightImage;
@@ -23,7 +26,8 @@ pub struct Decoded {
     /// data. A PNG's recorded offset is contained, as `offset / height_scale`. Integers beyond 2⁵³ are rounded.
     pub values: Vec<f64>,
     /// Side length of a pixel in `unit`, or in an unknown unit: as recorded by [`write_png`](super::write_png) and the
-    /// like, or by a TIFF's resolution or GeoTIFF scale; else 1.
+    /// like, or by a TIFF's resolution or GeoTIFF scale; else 1, unless that makes a slab or a needle of the heights, which is
+    /// one of the assumptions.
     pub pixel_size: f64,
     /// The unit of `pixel_size`: millimetres if a TIFF has a resolution, metres if it lies on a map.
     pub unit: Option<Unit>,
@@ -41,12 +45,6 @@ pub struct Decoded {
 }
 
 impl Decoded {
-    /// Replaces values that nobody would measure by NaN, such as -9999, 1e10 or infinity standing alone far from the rest,
-    /// and adds to the assumptions which ones. Costs `O(pixels)`.
-    pub fn assume_no_data(&mut self) {
-        self.assumptions.extend(assume_no_data(&mut self.values));
-    }
-
     /// Converts the stored values to heights by `height_scale`, and returns them as a height image.
     ///
     /// # Errors
@@ -58,19 +56,128 @@ impl Decoded {
     }
 }
 
-/// Height difference between black and white that is suggested where a file records no height scale, as a share of the
-/// image's longer side.
-const SUGGESTED_RELIEF: f64 = 0.25;
-
-/// Suggests a factor from grey values of a given range to heights, where the file records none.
-pub(super) fn suggested_scale(width: usize, height: usize, range: f64) -> f64 {
-    SUGGESTED_RELIEF * width.max(height) as f64 / range
+/// Contents of an image file as its reader found them, before anything is assumed.
+#[derive(Debug)]
+pub(super) struct StoredImage {
+    pub(super) format: Format,
+    /// Columns and rows.
+    pub(super) size: (usize, usize),
+    /// The pixel values, row by row, top row first; NaN where the file says that there is no data.
+    pub(super) values: Vec<f64>,
+    pub(super) data_type: &'static str,
+    /// Width and height of a pixel in `unit`, if the file says them.
+    pub(super) sides: Option<[f64; 2]>,
+    pub(super) unit: Option<Unit>,
+    /// Scale of `height = scale · value + offset`, if the file says it.
+    pub(super) height_scale: Option<f64>,
+    /// Offset of `height = scale · value + offset`.
+    pub(super) offset: f64,
+    pub(super) georeference: Option<Georeference>,
+    pub(super) assumptions: Vec<Assumption>,
 }
 
-/// The assumption that a picture's levels have the suggested scale.
-pub(super) fn assumed_levels() -> Assumption {
-    let words = "from black to white is a quarter of the longer side";
-    Assumption::new("heightScale", words, "heightScale")
+impl StoredImage {
+    /// Creates an image of numbers of which the file says neither unit nor size.
+    pub(super) fn new(
+        format: Format,
+        size: (usize, usize),
+        values: Vec<f64>,
+        data_type: &'static str,
+    ) -> Self {
+        StoredImage {
+            format,
+            size,
+            values,
+            data_type,
+            sides: None,
+            unit: None,
+            height_scale: None,
+            offset: 0.0,
+            georeference: None,
+            assumptions: Vec::new(),
+        }
+    }
+
+    /// Decides what the file does not say, in the order in which one depends on the other: which values are no data, square
+    /// pixels, the height of levels and the size of pixels. Each is one of the assumptions. Costs `O(pixels)`.
+    ///
+    /// # Errors
+    /// [`Error::OutOfMemory`].
+    pub(super) fn finish(mut self, options: &DecodeOptions) -> Result<Decoded> {
+        let mut assumptions = self.assumptions;
+        // -9999.9 is another number in 32 bits.
+        let stored = |value: f64| match self.data_type {
+            "f32" => f64::from(value as f32),
+            _ => value,
+        };
+        if let Some(missing) = options.no_data.map(stored) {
+            (self.values.iter_mut().filter(|value| **value == missing))
+                .for_each(|value| *value = f64::NAN);
+        }
+        if options.assume_no_data {
+            assumptions.extend(no_data::assume_no_data(&mut self.values));
+        }
+        let [x, y] = self.sides.unwrap_or([1.0; 2]);
+        let square = square_pixels(self.values, self.size, [x, y])?;
+        if (x - y).abs() > NEGLIGIBLE_SIDE_DIFFERENCE * x.max(y) {
+            let how = if square.size == self.size {
+                "taken for"
+            } else {
+                "resampled to"
+            };
+            let words = format!("pixels of {x} × {y} are {how} squares of {}", square.side);
+            assumptions.push(Assumption::new("squarePixels", words, "pixelSize"));
+        }
+        if let Some(map) = &mut self.georeference {
+            map.stretch(square.stretch);
+        }
+        let ((width, height), mut pixel_size) = (square.size, square.side);
+        let mut values = square.values;
+        let side = width.max(height) as f64;
+        let height_scale = match (self.height_scale, levels(self.data_type)) {
+            (Some(scale), _) => scale,
+            (None, None) => 1.0,
+            (None, Some(range)) => {
+                assumptions.push(assumed_levels());
+                pixel_size * SUGGESTED_RELIEF_SHARE * side / range
+            }
+        };
+        let are_heights = self.height_scale.is_some() || levels(self.data_type).is_none();
+        if self.sides.is_none() && are_heights {
+            let found = assumed_pixel_size(&values, height_scale, side);
+            if let Some((size, assumption)) = found {
+                pixel_size = size;
+                assumptions.push(assumption);
+            }
+        }
+        if self.offset != 0.0 {
+            let offset = self.offset / height_scale;
+            values.iter_mut().for_each(|z| *z += offset);
+        }
+        Ok(Decoded {
+            format: self.format,
+            width,
+            height,
+            values,
+            pixel_size,
+            unit: self.unit,
+            height_scale,
+            data_type: self.data_type,
+            georeference: self.georeference,
+            assumptions,
+        })
+    }
+}
+
+/// The sides of pixels of which a writer of this library recorded the size; it records 1 where it knows none.
+pub(super) fn recorded_sides(size: f64) -> Option<[f64; 2]> {
+    (size != 1.0).then_some([size; 2])
+}
+
+/// Difference between the largest and the smallest value of an integer type, given by its name; `None` for floats.
+fn levels(data_type: &str) -> Option<f64> {
+    let bits = data_type.strip_prefix(['u', 'i'])?;
+    Some(bits.parse::<i32>().ok()?).map(|bits| 2f64.powi(bits) - 1.0)
 }
 
 /// Creates the error for a picture with colours, which cannot be read as heights; it names the first coloured

@@ -33,10 +33,14 @@ pub enum Format {
     Text,
     /// Depth map of COLMAP.
     Colmap,
+    /// GIF, only grey pictures.
+    Gif,
+    /// Windows bitmap (BMP), only grey pictures.
+    Bmp,
 }
 
 /// Image formats with their names in options and their titles in messages.
-const FORMAT_TITLES: [(Format, &str, &str); 10] = [
+const FORMAT_TITLES: [(Format, &str, &str); 12] = [
     (Format::Png, "png", "PNG"),
     (Format::Npy, "npy", "NPY"),
     (Format::Tiff, "tiff", "TIFF"),
@@ -47,10 +51,12 @@ const FORMAT_TITLES: [(Format, &str, &str); 10] = [
     (Format::WebP, "webp", "WebP"),
     (Format::Text, "text", "text"),
     (Format::Colmap, "colmap", "COLMAP depths"),
+    (Format::Gif, "gif", "GIF"),
+    (Format::Bmp, "bmp", "BMP"),
 ];
 
 /// Signatures of the image formats: the first bytes of a file of each format; a `?` stands for any byte.
-const MAGIC_BYTES: [(&[u8], Format); 13] = [
+const MAGIC_BYTES: [(&[u8], Format); 15] = [
     (b"\x89PNG\r\n\x1a\n", Format::Png),
     (b"\x93NUMPY", Format::Npy),
     (b"II*\0", Format::Tiff),
@@ -64,6 +70,9 @@ const MAGIC_BYTES: [(&[u8], Format); 13] = [
     (b"PK\x05\x06", Format::Npz),
     (b"\xff\xd8\xff", Format::Jpeg),
     (b"RIFF????WEBP", Format::WebP),
+    (b"GIF8", Format::Gif),
+    // After the size of the file four bytes are reserved.
+    (b"BM????\0\0\0\0", Format::Bmp),
 ];
 
 impl Format {
@@ -74,7 +83,7 @@ impl Format {
     }
 
     /// Returns the format's name in lower case: `"png"`, `"npy"`, `"tiff"`, `"exr"`, `"pfm"`, `"npz"`, `"jpeg"`,
-    /// `"webp"`, `"text"` or `"colmap"`.
+    /// `"webp"`, `"text"`, `"colmap"`, `"gif"` or `"bmp"`.
     pub fn name(self) -> &'static str {
         self.entry().1
     }
@@ -89,6 +98,21 @@ impl Format {
             .find_map(|(magic, format)| announces(magic).then_some(format))
             .or_else(|| is_text_grid(bytes).then_some(Format::Text))
             .or_else(|| colmap_head(bytes).map(|_| Format::Colmap))
+    }
+
+    /// Returns the format of a photo's file, by its first bytes; `None` for other files.
+    pub(super) fn of_photo(bytes: &[u8]) -> Option<Format> {
+        Format::detect(bytes).filter(|format| {
+            matches!(
+                format,
+                Format::Png
+                    | Format::Jpeg
+                    | Format::WebP
+                    | Format::Gif
+                    | Format::Bmp
+                    | Format::Tiff
+            )
+        })
     }
 
     pub(super) fn title(self) -> &'static str {
@@ -113,8 +137,7 @@ impl FromStr for Format {
 }
 
 /// Permitted values of the option `format`, as they are listed in the error about a wrong value.
-pub const FORMAT_NAMES: &str =
-    "must be `png`, `npy`, `tiff`, `exr`, `pfm`, `npz`, `jpeg`, `webp`, `text` or `colmap`";
+pub const FORMAT_NAMES: &str = "must be `png`, `npy`, `tiff`, `exr`, `pfm`, `npz`, `jpeg`, `webp`, `text`, `colmap`, `gif` or `bmp`";
 
 /// Width, height and number of channels in the head of a depth map of COLMAP, and the length of the head in bytes.
 pub(super) fn colmap_head(bytes: &[u8]) -> Option<([usize; 3], usize)> {
@@ -188,7 +211,7 @@ pub fn announced(bytes: &[u8], stated: Option<Format>) -> Result<Format> {
         (None, None) => Err(Error::Unsupported {
             format: "this file",
             reason: format!(
-                "{} cannot be read; PNG, NPY, TIFF, EXR, PFM, NPZ, JPEG, WebP, text and depths of COLMAP can",
+                "{} cannot be read; PNG, NPY, TIFF, EXR, PFM, NPZ, JPEG, WebP, GIF, BMP, text and depths of COLMAP can",
                 guess(bytes)
             ),
         }),
@@ -201,7 +224,7 @@ pub fn announced(bytes: &[u8], stated: Option<Format>) -> Result<Format> {
 
 /// Guesses from a file's first bytes which kind of file it is, such as a PDF or a GIF, for error messages only.
 fn guess(bytes: &[u8]) -> &'static str {
-    let known: [(&[u8], &str); 9] = [
+    let known: [(&[u8], &str); 7] = [
         (
             b"GWYO",
             "a Gwyddion file (`gwyddion --convert-to-gsf`, or export an image of 32-bit floats there)",
@@ -216,10 +239,8 @@ fn guess(bytes: &[u8]) -> &'static str {
         ),
         (b"\x89PNG", "a PNG file damaged in transfer"),
         (b"Pf", "a PFM file whose header is damaged"),
-        (b"GIF8", "a GIF file"),
         (b"RIFF", "a RIFF file that is no WebP"),
         (b"%PDF", "a PDF file"),
-        (b"BM", "a BMP file"),
     ];
     match Format::detect(bytes) {
         Some(Format::Png) => "a PNG file",
@@ -232,6 +253,8 @@ fn guess(bytes: &[u8]) -> &'static str {
         Some(Format::WebP) => "a WebP file",
         Some(Format::Text) => "text",
         Some(Format::Colmap) => "a depth map of COLMAP",
+        Some(Format::Gif) => "a GIF file",
+        Some(Format::Bmp) => "a BMP file",
         None => known
             .iter()
             .find(|(magic, _)| bytes.starts_with(magic))

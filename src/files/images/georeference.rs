@@ -1,5 +1,11 @@
 //! Georeferences of GeoTIFF files: where the pixels of an image lie on a map.
 
+/// Number of the GeoTIFF key `GTRasterTypeGeoKey`, which tells what of a pixel has the coordinates.
+const RASTER_TYPE_KEY: u16 = 1025;
+
+/// Value of the GeoTIFF key `GTRasterTypeGeoKey` for the middles of pixels.
+const RASTER_TYPE_POINT: u16 = 2;
+
 /// Where the pixels of an image lie on a map. It is read from a GeoTIFF and written to one unchanged, but for the rows
 /// or columns that were reversed or resampled.
 #[derive(Debug, Clone, PartialEq)]
@@ -15,4 +21,31 @@ pub struct Georeference {
     pub doubles: Vec<f64>,
     /// Text of the tag `GeoAsciiParams`, to which keys refer.
     pub text: String,
+}
+
+impl Georeference {
+    /// Value of a GeoTIFF key that is stored in the directory itself.
+    pub(super) fn key(&self, wanted: u16) -> Option<u16> {
+        // Four numbers each: key, where its value is (0: here), how many there are, the value.
+        (self.keys.chunks_exact(4).skip(1))
+            .find(|entry| entry[0] == wanted && entry[1] == 0)
+            .map(|entry| entry[3])
+    }
+
+    /// Whether the transformation is about the middles of pixels, not their upper left corners.
+    pub(super) fn is_point(&self) -> bool {
+        self.key(RASTER_TYPE_KEY) == Some(RASTER_TYPE_POINT)
+    }
+
+    /// Makes pixels wider and higher by these factors.
+    pub(super) fn stretch(&mut self, [across, down]: [f64; 2]) {
+        if self.is_point() {
+            let [a, b, c, d, e, f] = self.transformation;
+            let [i, j] = [0.5 * (across - 1.0), 0.5 * (down - 1.0)];
+            self.transformation = [a, b, c + a * i + b * j, d, e, f + d * i + e * j];
+        }
+        let [a, b, _, d, e, _] = &mut self.transformation;
+        (*a, *d) = (*a * across, *d * across);
+        (*b, *e) = (*b * down, *e * down);
+    }
 }

@@ -7,7 +7,7 @@ use zune_jpeg::JpegDecoder;
 use zune_jpeg::errors::DecodeErrors;
 
 #[cfg(feature = "images")]
-use super::decoded::Decoded;
+use super::decoded::StoredImage;
 #[cfg(feature = "images")]
 use super::extended::samples::picture;
 use super::failure::{check_length, damaged, unsupported};
@@ -31,16 +31,15 @@ const JPEG_SCAN_MARKER: u8 = 0xda;
 
 /// Decodes the heights in a grey JPEG file.
 #[cfg(feature = "images")]
-pub(super) fn decode(bytes: &[u8]) -> Result<Decoded> {
+pub(super) fn decode(bytes: &[u8]) -> Result<StoredImage> {
     let mut file = OpenedJpeg::new(bytes)?;
     checked_cells("JPEG image", file.size.1, file.size.0)?;
     let samples = file.decode()?;
     let stored = picture(Format::Jpeg, file.size, &samples, file.stored.1)?;
-    let (values, (width, height)) = oriented(stored.values, file.size, file.tags().orientation)?;
-    Ok(Decoded {
-        width,
-        height,
+    let (values, size) = oriented(stored.values, file.size, file.tags().orientation)?;
+    Ok(StoredImage {
         values,
+        size,
         ..stored
     })
 }

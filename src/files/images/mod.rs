@@ -9,6 +9,7 @@
 //! the bytes that are there can fill. (WebP is the exception: a few bytes may
 //! stand for a large even area, up to [`MAX_CELLS`](crate::MAX_CELLS) pixels.)
 
+mod decode_options;
 mod decoded;
 #[cfg(feature = "images")]
 pub mod extended;
@@ -24,14 +25,15 @@ mod photo_pdf;
 mod picture_data;
 mod png;
 mod print;
-#[cfg(feature = "images")]
+mod scale;
 mod square_pixels;
 
 use crate::error::{Error, Result};
 
+pub use decode_options::DecodeOptions;
 pub use decoded::Decoded;
 #[cfg(feature = "images")]
-pub use extended::{NpzArray, decode_npz, npz_arrays, write_exr, write_tiff};
+pub use extended::{NpzArray, npz_arrays, write_exr, write_tiff};
 pub use format::{FORMAT_NAMES, Format, announced};
 pub use georeference::Georeference;
 pub use npy::write_npy;
@@ -60,14 +62,16 @@ pub use print::{PhotoOptions, PhotoRows, write_photo, write_photo_jpeg};
 /// - **EXR**: of the first layer that has it, the channel `Z` or `depth`, else
 ///   `Y`, else `R`, `G`, `B` where all are equal, or the only one there is.
 /// - **PFM**: grey, either byte order.
-/// - **NPZ**: the only array; [`decode_npz`] chooses one by name.
+/// - **NPZ**: the only array; [`decode_with`] chooses one by name.
 /// - **Text**: an ESRI ASCII grid, points on a grid (XYZ) in any order, or a
 ///   matrix, with blanks, tabs, semicolons or commas between its numbers.
 /// - **COLMAP**: depth maps (`.bin`), whose zeros have no data.
-/// - **JPEG**, **WebP**: grey pictures, and RGB as long as every pixel is grey.
+/// - **JPEG**, **WebP**, **GIF**, **BMP**: grey pictures, and RGB as long as every pixel is grey.
 ///   The orientation that a JPEG's Exif data state is honoured.
 ///
-/// Costs `O(pixels)`.
+/// What a file does not say is assumed, and [`Decoded::assumptions`] says it: values that nobody would measure, such as -9999
+/// or 1e10 standing alone far from the rest, are no data; pixels are square; heights have the unit of pixels 1 wide unless
+/// that makes a slab or a needle of them. Costs `O(pixels)`.
 ///
 /// # Errors
 /// [`Error::Unsupported`] for other formats and contents, [`Error::Format`] for
@@ -75,26 +79,42 @@ pub use print::{PhotoOptions, PhotoRows, write_photo, write_photo_jpeg};
 /// pixels (before anything of that size is allocated), [`Error::Empty`] for an
 /// array without elements.
 pub fn decode(bytes: &[u8], format: Option<Format>) -> Result<Decoded> {
+    decode_with(bytes, format, &DecodeOptions::default())
+}
+
+/// Decodes the heights in an image file as [`decode`] does, with options.
+///
+/// # Errors
+/// As [`decode`], and [`Error::Unsupported`] for an array that is not there; the message lists those that are.
+pub fn decode_with(
+    bytes: &[u8],
+    format: Option<Format>,
+    options: &DecodeOptions,
+) -> Result<Decoded> {
     match announced(bytes, format)? {
         #[cfg(feature = "images")]
-        other if !other.is_basic() => extended::decode(bytes, other),
-        basic => decode_basic(bytes, basic),
+        other if !other.is_basic() => extended::decode(bytes, other, options),
+        basic => decode_basic(bytes, basic, options),
     }
 }
 
 /// Decodes the heights in a PNG or NPY file, and links the decoders of these two formats only.
 ///
 /// # Errors
-/// As [`decode`].
-pub fn decode_basic(bytes: &[u8], format: Format) -> Result<Decoded> {
-    match format {
-        Format::Png => png::decode(bytes),
-        Format::Npy => npy::decode(bytes),
-        other => Err(Error::Unsupported {
-            format: other.title(),
-            reason: "only PNG and NPY are read here; the cargo feature `images` adds it".into(),
-        }),
-    }
+/// As [`decode_with`].
+pub fn decode_basic(bytes: &[u8], format: Format, options: &DecodeOptions) -> Result<Decoded> {
+    let stored = match format {
+        Format::Png => png::decode(bytes)?,
+        Format::Npy => npy::decode(bytes)?,
+        other => {
+            return Err(Error::Unsupported {
+                format: other.title(),
+                reason: "only PNG and NPY are read here; the cargo feature `images` adds it".into(),
+            });
+        }
+    };
+    options.check(format)?;
+    stored.finish(options)
 }
 
 #[cfg(test)]
@@ -104,7 +124,7 @@ mod tests {
     #[test]
     fn other_files_are_named_in_the_error() {
         let message = |bytes: &[u8], format| decode(bytes, format).unwrap_err().to_string();
-        assert!(message(b"GIF89a....", None).contains("GIF"));
+        assert!(message(b"Lerc2 ....", None).contains("gdal_translate"));
         assert!(message(b"PK\x03\x04....", Some(Format::Png)).contains("NPZ"));
         assert!(message(b"\x93NUMPY....", Some(Format::Png)).contains("begins like an NPY"));
         assert!(message(b"", None).contains("empty"));

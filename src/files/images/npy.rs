@@ -2,7 +2,8 @@
 
 use std::io::{self, Write};
 
-use super::decoded::Decoded;
+use super::decoded::StoredImage;
+use super::failure::{damaged, unsupported};
 use super::format::Format;
 use crate::error::{Error, Result, check_shape, checked_cells, try_filled};
 use crate::files::buffer::Buffer;
@@ -29,13 +30,16 @@ const TYPES: [(&str, &str); 12] = [
     ("f8", "f64"),
 ];
 
-pub(super) fn decode(bytes: &[u8]) -> Result<Decoded> {
+pub(super) fn decode(bytes: &[u8]) -> Result<StoredImage> {
     let (header, stored) = Header::read(bytes)?;
     let (height, width) = header.rows_and_columns().ok_or_else(|| {
-        unsupported(format!(
-            "an array of shape {:?}; only two-dimensional arrays (rows, columns) are read",
-            header.shape
-        ))
+        unsupported(
+            Format::Npy,
+            format!(
+                "an array of shape {:?}; only two-dimensional arrays (rows, columns) are read",
+                header.shape
+            ),
+        )
     })?;
     let len = checked_cells("NPY array", height, width)?;
     if len == 0 {
@@ -44,21 +48,25 @@ pub(super) fn decode(bytes: &[u8]) -> Result<Decoded> {
     let descr = header.descr;
     if descr.starts_with('[') {
         return Err(unsupported(
-            "an array of records; only arrays of plain numbers are read".into(),
+            Format::Npy,
+            "an array of records; only arrays of plain numbers are read",
         ));
     }
     let (kind, size, data_type) = header.number_type().ok_or_else(|| {
-        unsupported(format!(
+        unsupported(Format::Npy, format!(
             "values of type {descr}; booleans, integers and floats of 16, 32 or 64 bits are read"
         ))
     })?;
     let needed = len * size;
     if stored.len() < needed {
-        return Err(damaged(format!(
-            "it is cut short: {height} × {width} values of type {descr} take {needed} bytes, \
+        return Err(damaged(
+            Format::Npy,
+            format!(
+                "it is cut short: {height} × {width} values of type {descr} take {needed} bytes, \
              {} are there",
-            stored.len()
-        )));
+                stored.len()
+            ),
+        ));
     }
     let big_endian = descr.starts_with('>');
     let mut values = try_filled("NPY array", len, 0.0)?;
@@ -75,17 +83,9 @@ pub(super) fn decode(bytes: &[u8]) -> Result<Decoded> {
         };
         values[place] = to_float(u64::from_le_bytes(bytes), kind, size);
     }
-    Ok(Decoded {
-        format: Format::Npy,
-        width,
-        height,
-        values,
-        pixel_size: 1.0,
-        unit: None,
-        height_scale: 1.0,
-        data_type,
-        georeference: None,
-        assumptions: Vec::new(),
+    Ok(StoredImage {
+        height_scale: Some(1.0),
+        ..StoredImage::new(Format::Npy, (width, height), values, data_type)
     })
 }
 
@@ -93,7 +93,7 @@ pub(super) fn decode(bytes: &[u8]) -> Result<Decoded> {
 #[cfg(feature = "images")]
 pub(super) fn describe(bytes: &[u8]) -> Result<(Vec<u64>, String)> {
     if Format::detect(bytes) != Some(Format::Npy) {
-        return Err(damaged("it does not begin like an NPY file".into()));
+        return Err(damaged(Format::Npy, "it does not begin like an NPY file"));
     }
     let (header, _) = Header::read(bytes)?;
     let data_type = header
@@ -114,29 +114,32 @@ struct Header<'a> {
 impl<'a> Header<'a> {
     /// Reads the header at the start of a file. Returns it and the bytes after it.
     fn read(bytes: &'a [u8]) -> Result<(Self, &'a [u8])> {
-        let cut = || damaged("it is cut short within its header".into());
+        let cut = || damaged(Format::Npy, "it is cut short within its header");
         let at = |i: usize| bytes.get(i).copied().map(usize::from).ok_or_else(cut);
         let (begin, length) = match at(6)? {
             1 => (10, at(8)? | at(9)? << 8),
             2 | 3 => (12, at(8)? | at(9)? << 8 | at(10)? << 16 | at(11)? << 24),
             other => {
-                return Err(unsupported(format!(
-                    "version {other} of the format; versions 1 to 3 are read"
-                )));
+                return Err(unsupported(
+                    Format::Npy,
+                    format!("version {other} of the format; versions 1 to 3 are read"),
+                ));
             }
         };
         if length > MAX_HEADER_BYTES {
-            return Err(damaged(format!(
-                "its header claims {length} bytes, where {MAX_HEADER_BYTES} are the most"
-            )));
+            return Err(damaged(
+                Format::Npy,
+                format!("its header claims {length} bytes, where {MAX_HEADER_BYTES} are the most"),
+            ));
         }
         let text = bytes.get(begin..begin + length).ok_or_else(cut)?;
-        let text = str::from_utf8(text).map_err(|_| damaged("its header is no text".into()))?;
+        let text =
+            str::from_utf8(text).map_err(|_| damaged(Format::Npy, "its header is no text"))?;
         let entry = |key: &str| {
             let (_, value) = text.split_once(&format!("'{key}':"))?;
             Some(value.trim_start())
         };
-        let missing = |key: &str| damaged(format!("its header has no valid `{key}`"));
+        let missing = |key: &str| damaged(Format::Npy, format!("its header has no valid `{key}`"));
 
         let descr = entry("descr").and_then(|value| match value.strip_prefix('\'') {
             Some(quoted) => quoted.split('\'').next(),
@@ -194,7 +197,10 @@ impl<'a> Header<'a> {
 fn extent(number: &str) -> Result<u64> {
     let digits = number.trim_end_matches('L');
     if digits.is_empty() || !digits.bytes().all(|b| b.is_ascii_digit()) {
-        return Err(damaged(format!("its shape has the extent `{number}`")));
+        return Err(damaged(
+            Format::Npy,
+            format!("its shape has the extent `{number}`"),
+        ));
     }
     digits.parse().map_err(|_| Error::TooLarge {
         what: "NPY array",
@@ -231,20 +237,6 @@ fn half_to_float(bits: u16) -> f64 {
         -magnitude
     } else {
         magnitude
-    }
-}
-
-fn damaged(reason: String) -> Error {
-    Error::Format {
-        format: "NPY",
-        reason,
-    }
-}
-
-fn unsupported(reason: String) -> Error {
-    Error::Unsupported {
-        format: "NPY",
-        reason,
     }
 }
 
@@ -308,7 +300,7 @@ mod tests {
                 let header =
                     format!("{{'shape': {shape}, 'fortran_order': {order}, 'descr': '|u1'}}\n");
                 let found = decode(&file(&header, &[1, 2, 3, 4, 5, 6])).unwrap();
-                assert_eq!((found.width, found.height), (3, 2), "{shape}");
+                assert_eq!(found.size, (3, 2), "{shape}");
                 assert_eq!(found.values, expected, "{shape} {order}");
             }
         }

@@ -7,7 +7,7 @@ use ::png::{
     Transformations, text_metadata::TEXtChunk,
 };
 
-use super::decoded::{Decoded, assumed_levels, coloured, suggested_scale};
+use super::decoded::{StoredImage, coloured, recorded_sides};
 use super::format::Format;
 use crate::error::{Error, MAX_CELLS, Result, try_filled};
 use crate::files::buffer::Buffer;
@@ -41,8 +41,13 @@ pub(super) struct Pixels<'a> {
 }
 
 impl<'a> Pixels<'a> {
-    pub(super) fn decode(bytes: &'a [u8], transformations: Transformations) -> Result<Self> {
-        let (mut reader, [width, height]) = open(bytes, transformations, MAX_CELLS)?;
+    /// Decodes a PNG file of at most `max_pixels` pixels.
+    pub(super) fn decode(
+        bytes: &'a [u8],
+        transformations: Transformations,
+        max_pixels: usize,
+    ) -> Result<Self> {
+        let (mut reader, [width, height]) = open(bytes, transformations, max_pixels)?;
         let size = reader
             .output_buffer_size()
             .ok_or_else(|| damaged(DecodingError::LimitsExceeded))?;
@@ -96,17 +101,17 @@ pub(super) fn open(
     Ok((decoder.read_info().map_err(damaged)?, [width, height]))
 }
 
-pub(super) fn decode(bytes: &[u8]) -> Result<Decoded> {
+pub(super) fn decode(bytes: &[u8]) -> Result<StoredImage> {
     let Pixels {
         reader,
         samples,
         width,
         height,
-    } = Pixels::decode(bytes, Transformations::EXPAND)?;
+    } = Pixels::decode(bytes, Transformations::EXPAND, MAX_CELLS)?;
     let (color, depth) = reader.output_color_type();
-    let (data_type, full, sample_bytes) = match depth {
-        BitDepth::Sixteen => ("u16", 65535.0, 2),
-        _ => ("u8", 255.0, 1),
+    let (data_type, sample_bytes) = match depth {
+        BitDepth::Sixteen => ("u16", 2),
+        _ => ("u8", 1),
     };
     let stride = color.samples() * sample_bytes;
     let mut values = try_filled("PNG image", width * height, f64::NAN)?;
@@ -142,26 +147,11 @@ pub(super) fn decode(bytes: &[u8]) -> Result<Decoded> {
             .filter(|z| **z == level)
             .for_each(|z| *z = f64::NAN);
     }
-    let height_scale = recorded
-        .scale
-        .unwrap_or(suggested_scale(width, height, full));
-    if let Some(offset) = recorded.offset {
-        values.iter_mut().for_each(|z| *z += offset / height_scale);
-    }
-    Ok(Decoded {
-        format: Format::Png,
-        width,
-        height,
-        values,
-        pixel_size: recorded.pixel_size.unwrap_or(1.0),
-        unit: None,
-        height_scale,
-        data_type,
-        georeference: None,
-        assumptions: match recorded.scale {
-            Some(_) => Vec::new(),
-            None => vec![assumed_levels()],
-        },
+    Ok(StoredImage {
+        sides: recorded.pixel_size.and_then(recorded_sides),
+        height_scale: recorded.scale,
+        offset: recorded.offset.unwrap_or(0.0),
+        ..StoredImage::new(Format::Png, (width, height), values, data_type)
     })
 }
 

@@ -19,11 +19,6 @@ pub(super) struct SquarePixels {
     pub(super) stretch: [f64; 2],
 }
 
-/// Whether pixels with these sides are resampled, so that missing values have to be known before.
-pub(super) fn is_resampled([x, y]: [f64; 2]) -> bool {
-    (x - y).abs() > MAX_MEAN_SIDE_DIFFERENCE * x.max(y)
-}
-
 /// Makes pixels square. Sides that differ by less than 0.5 % become their mean; else the direction with the finer pixels is
 /// interpolated linearly at the coarser spacing, so that no detail is made up.
 ///
@@ -35,7 +30,7 @@ pub(super) fn square_pixels(
     [x, y]: [f64; 2],
 ) -> Result<SquarePixels> {
     let side = x.max(y);
-    if !is_resampled([x, y]) {
+    if (x - y).abs() <= MAX_MEAN_SIDE_DIFFERENCE * side {
         return Ok(SquarePixels {
             values,
             size,

@@ -100,6 +100,12 @@ impl MeshBuilder {
             Error::Unsupported { reason, .. } => unsupported(title, reason),
             other => other,
         };
+        if vertices == 0 && triangles == 0 {
+            return Err(unsupported(
+                title,
+                "there are neither faces nor points in it",
+            ));
+        }
         let cloud = self.triangles.is_empty() && vertices > 0 && can_be_cloud;
         let mut mesh = if cloud {
             Mesh::cloud(self.positions)

@@ -33,19 +33,9 @@ const MAX_ORIGIN_DISTANCE_RATIO: f64 = 8.0;
 /// Each coordinate is a number that both 32-bit floats and a few decimal digits hold exactly, so that all readers
 /// agree on it.
 pub(super) fn near_origin(mesh: &Mesh) -> [f64; 3] {
-    let ends = |k: usize| {
-        let (low, high) = (f64::INFINITY, f64::NEG_INFINITY);
-        mesh.positions().iter().fold((low, high), |(low, high), p| {
-            (low.min(p[k]), high.max(p[k]))
-        })
-    };
-    let ends = [0, 1, 2].map(ends);
-    let size = ends
-        .iter()
-        .map(|(low, high)| high - low)
-        .fold(0.0, f64::max);
-    ends.map(|(low, high)| {
-        let middle = low / 2.0 + high / 2.0;
+    let ([low, high], size) = (mesh.bounds(), mesh.longest_side());
+    std::array::from_fn(|k| {
+        let middle = low[k] / 2.0 + high[k] / 2.0;
         let far =
             middle.abs() > MAX_ORIGIN_DISTANCE_RATIO * size && middle.abs() < f64::from(f32::MAX);
         if far { rounded(middle) } else { 0.0 }

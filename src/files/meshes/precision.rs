@@ -10,18 +10,10 @@ const MIN_TOLD_ROUNDING: f64 = 1e-5;
 pub(super) fn coarse_coordinates(mesh: &Mesh) -> Option<Assumption> {
     let all = || mesh.positions().as_flattened().iter().copied();
     let largest = all().map(f64::abs).fold(0.0, f64::max);
-    let longest = (0..3)
-        .map(|k| {
-            let values = mesh.positions().iter().map(|p| p[k]);
-            let [low, high] = values.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], v| {
-                [low.min(v), high.max(v)]
-            });
-            high - low
-        })
-        .fold(0.0, f64::max);
+    let longest = mesh.longest_side();
     let rounding = largest * f64::from(f32::EPSILON);
     let is_narrow = || all().all(|value| f64::from(value as f32) == value);
-    (rounding > MIN_TOLD_ROUNDING * longest && is_narrow()).then(|| {
+    (longest > 0.0 && rounding > MIN_TOLD_ROUNDING * longest && is_narrow()).then(|| {
         let words = format!(
             "coordinates are 32-bit numbers up to {largest:.0}, rounded to {rounding:.1e}: write them from a nearer origin"
         );

@@ -2,13 +2,14 @@
 
 use super::mesh_file::MeshFile;
 use crate::error::{Error, Result};
+use crate::files::assumption::rounded;
 use crate::files::{Assumption, Unit};
 use crate::scene::mesh::Mesh;
 
-/// Minimum longest side of a mesh whose lengths are taken for millimetres; below it they are taken for metres.
-const MIN_MILLIMETRE_SIDE: f64 = 2.0;
+/// Minimum longest side of a mesh whose lengths are taken for millimetres: a smaller model cannot be cut out and folded.
+const MIN_MILLIMETRE_SIDE: f64 = 10.0;
 
-/// Maximum longest side of a mesh whose lengths are taken for millimetres; above it no unit is assumed.
+/// Maximum longest side of a mesh whose lengths are taken for millimetres: a larger model fits no workshop.
 const MAX_MILLIMETRE_SIDE: f64 = 5000.0;
 
 /// A unit in which a mesh file may state lengths, with the unit that its mesh is read in.
@@ -72,40 +73,26 @@ impl MeshFile {
 /// Code of the assumption about the unit.
 const CODE: &str = "unit";
 
-/// Chooses a unit by the size of a mesh whose file does not state one: millimetres unless that is absurd, metres for
-/// what would be tiny, and none for what would be huge.
+/// Chooses a unit by the size of a mesh whose file does not state one: millimetres, or none for what would be too small or
+/// too large a model.
 pub(super) fn assumed_unit(mesh: &Mesh) -> (Option<Unit>, Assumption) {
-    let sides = [0, 1, 2].map(|k| {
-        let values = mesh.positions().iter().map(|p| p[k]);
-        let (low, high) = values.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), v| {
-            (low.min(v), high.max(v))
-        });
-        high - low
-    });
-    let longest = sides.into_iter().fold(0.0, f64::max);
+    let longest = mesh.longest_side();
+    let side = rounded(longest, 4);
     let (unit, words) = if longest > MAX_MILLIMETRE_SIDE {
-        let words = format!(
-            "lengths have no unit: a longest side of {} is too long for millimetres",
-            rounded(longest)
-        );
-        (None, words)
+        (
+            None,
+            format!("lengths have no unit: a longest side of {side} is too long for millimetres"),
+        )
     } else if longest < MIN_MILLIMETRE_SIDE {
         let words = format!(
-            "lengths are metres: the longest side is {} m, too short for millimetres",
-            rounded(longest)
+            "lengths have no unit: a longest side of {side} is too short for millimetres; are they inches or metres?"
         );
-        (Some(Unit::Metre), words)
+        (None, words)
     } else {
-        let words = format!(
-            "lengths are millimetres: the longest side is {} mm",
-            rounded(longest)
-        );
-        (Some(Unit::Millimetre), words)
+        (
+            Some(Unit::Millimetre),
+            format!("lengths are millimetres: the longest side is {side} mm"),
+        )
     };
     (unit, Assumption::new(CODE, words, CODE))
-}
-
-/// Rounds a length to four digits for a sentence.
-fn rounded(length: f64) -> f64 {
-    format!("{length:.3e}").parse().unwrap_or(length)
 }

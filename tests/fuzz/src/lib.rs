@@ -4,7 +4,7 @@
 pub use libfuzzer_sys::fuzz_target;
 
 pub use developable::files::images::Format;
-use developable::files::images::{decode, decode_npz, decode_photo, npz_arrays};
+use developable::files::images::{DecodeOptions, decode, decode_photo, decode_with, npz_arrays};
 pub use developable::files::meshes::MeshFormat;
 use developable::files::meshes::read_mesh_beside;
 use developable::{Resolution, View, sample};
@@ -33,7 +33,7 @@ pub fn read_image(bytes: &[u8], format: Format) {
     }
     if format == Format::Npz {
         for array in npz_arrays(bytes).unwrap_or_default() {
-            let _ = decode_npz(bytes, Some(&array.name));
+            let _ = decode_with(bytes, None, &DecodeOptions::default().array(&array.name));
         }
     }
 }

@@ -5,28 +5,18 @@ use serde::{Deserialize, Serialize, Serializer};
 use serde_wasm_bindgen::{preserve, to_value};
 use wasm_bindgen::prelude::*;
 
-use super::{Failure, Result};
-use developable::files::images::{Decoded, Format, Georeference, PhotoFile};
+use super::Result;
+use developable::files::images::{DecodeOptions, Decoded, Format, Georeference, PhotoFile};
 use developable::files::{Assumption, Unit};
 
 /// Options of reading an image file: JavaScript's `ReadOptions` object.
-#[derive(Deserialize)]
+#[derive(Deserialize, Default)]
 #[serde(default, rename_all = "camelCase")]
 pub struct ReadOptions {
     format: Option<String>,
-    pub array: Option<String>,
-    /// Whether values that nobody would measure are no data.
-    assume_no_data: bool,
-}
-
-impl Default for ReadOptions {
-    fn default() -> Self {
-        ReadOptions {
-            format: None,
-            array: None,
-            assume_no_data: true,
-        }
-    }
+    array: Option<String>,
+    no_data: Option<f64>,
+    assume_no_data: Option<bool>,
 }
 
 impl ReadOptions {
@@ -35,14 +25,12 @@ impl ReadOptions {
         Ok(self.format.as_deref().map(str::parse).transpose()?)
     }
 
-    /// Returns an error if the options name an array, for file formats without named arrays.
-    pub fn without_array(&self) -> Result<()> {
-        match self.array {
-            Some(_) => Err(Failure::option(
-                "the option `array` is for NPZ files, and this is none",
-            )),
-            None => Ok(()),
-        }
+    /// Returns the options of the decoder.
+    pub fn decoding(self) -> DecodeOptions {
+        let mut options = DecodeOptions::default();
+        options.assume_no_data = self.assume_no_data.unwrap_or(options.assume_no_data);
+        (options.array, options.no_data) = (self.array, self.no_data);
+        options
     }
 }
 
@@ -74,10 +62,7 @@ struct ReadOutput {
     assumptions: Vec<Assumption>,
 }
 
-pub fn output(mut file: Decoded, options: &ReadOptions) -> Result<JsValue> {
-    if options.assume_no_data {
-        file.assume_no_data();
-    }
+pub fn output(file: Decoded) -> Result<JsValue> {
     Ok(to_value(&ReadOutput {
         format: file.format,
         width: file.width,

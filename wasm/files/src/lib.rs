@@ -26,10 +26,9 @@ use developable_wasm::triangulation::mesh_of;
 #[wasm_bindgen]
 pub fn read(bytes: &Uint8Array, options: JsValue) -> Result<JsValue> {
     let options: ReadOptions = read_options(&options)?;
-    options.without_array()?;
     let file = copied(bytes)?;
-    let decoded = decode_basic(&file, announced(&file, options.format()?)?)?;
-    output(decoded, &options)
+    let format = announced(&file, options.format()?)?;
+    output(decode_basic(&file, format, &options.decoding())?)
 }
 
 /// Writes the heights of a height image to an NPY file.

@@ -6,7 +6,7 @@ use serde_wasm_bindgen::{from_value, to_value};
 use wasm_bindgen::prelude::*;
 
 use developable::files::images::{
-    Format, announced, decode_npz, decode_photo, extended, npz_arrays, write_exr, write_tiff,
+    Format, announced, decode_photo, extended, npz_arrays, write_exr, write_tiff,
 };
 use developable_wasm::Result;
 use developable_wasm::bytes::copied;
@@ -19,13 +19,8 @@ use developable_wasm::options::read;
 pub fn read_image(bytes: &Uint8Array, options: JsValue) -> Result<JsValue> {
     let options: ReadOptions = read(&options)?;
     let file = copied(bytes)?;
-    match announced(&file, options.format()?)? {
-        Format::Npz => output(decode_npz(&file, options.array.as_deref())?, &options),
-        format => {
-            options.without_array()?;
-            output(extended::decode(&file, format)?, &options)
-        }
-    }
+    let format = announced(&file, options.format()?)?;
+    output(extended::decode(&file, format, &options.decoding())?)
 }
 
 /// Decodes a WebP, GIF, BMP or TIFF file to a photo; returns JavaScript's `Photo` object.

@@ -3,10 +3,10 @@
 use super::samples::{damaged, unsupported};
 use crate::error::{Result, checked_cells, try_filled};
 use crate::files::Assumption;
-use crate::files::images::decoded::Decoded;
+use crate::files::images::decoded::StoredImage;
 use crate::files::images::format::{Format, colmap_head};
 
-pub(super) fn decode(bytes: &[u8]) -> Result<Decoded> {
+pub(super) fn decode(bytes: &[u8]) -> Result<StoredImage> {
     let Some(([width, height, channels], head)) = colmap_head(bytes) else {
         return Err(damaged(
             Format::Colmap,
@@ -37,22 +37,14 @@ pub(super) fn decode(bytes: &[u8]) -> Result<Decoded> {
             missing += 1;
         }
     }
-    let words = format!("0 is no data ({missing} pixels), as COLMAP writes it");
-    Ok(Decoded {
-        format: Format::Colmap,
-        width,
-        height,
-        values,
-        pixel_size: 1.0,
-        unit: None,
-        height_scale: 1.0,
-        data_type: "f32",
-        georeference: None,
-        assumptions: (missing > 0)
-            .then(|| Assumption::new("noData", words, None))
-            .into_iter()
-            .collect(),
-    })
+    let mut image = StoredImage::new(Format::Colmap, (width, height), values, "f32");
+    if missing > 0 {
+        let words = format!("0 is no data ({missing} pixels), as COLMAP writes it");
+        image
+            .assumptions
+            .push(Assumption::new("noData", words, None));
+    }
+    Ok(image)
 }
 
 #[cfg(test)]
@@ -68,7 +60,7 @@ mod tests {
             .for_each(|depth| file.extend(depth.to_le_bytes()));
         assert_eq!(Format::detect(&file), Some(Format::Colmap));
         let found = decode(&file).unwrap();
-        assert_eq!((found.width, found.height), (3, 2));
+        assert_eq!(found.size, (3, 2));
         assert!(found.values[1].is_nan());
         assert_eq!(found.values[2..], [2.5, 3.0, 4.0, 5.0]);
         assert_eq!(found.assumptions[0].code, "noData");

@@ -11,11 +11,9 @@ use ::exr::prelude::{
     AnyChannel, AnyChannels, Encoding, FlatSamples, Image, Layer, Vec2, WritableImage, f16,
 };
 
-use super::samples::{
-    Channels, check_length, damaged, default_scale, grey, narrowed, room, unsupported,
-};
+use super::samples::{Channels, check_length, damaged, grey, narrowed, room, unsupported};
 use crate::error::{Error, Result, checked_cells, try_filled};
-use crate::files::images::decoded::{Decoded, assumed_levels};
+use crate::files::images::decoded::{StoredImage, recorded_sides};
 use crate::files::images::format::Format;
 use crate::heights::heightfield::HeightImage;
 
@@ -26,7 +24,7 @@ const MAX_COMPRESSION_RATIO: usize = 4096;
 /// Name of the OpenEXR attribute that holds the pixel size; only files written by this library have it.
 const PIXEL_SIZE: &str = "developable:pixelSize";
 
-pub(super) fn decode(bytes: &[u8]) -> Result<Decoded> {
+pub(super) fn decode(bytes: &[u8]) -> Result<StoredImage> {
     let reader = ::exr::block::read(Cursor::new(bytes), false).map_err(failed)?;
     let (layer, header, chosen) = choose_layer(reader.headers())?;
     let Vec2(width, height) = header.layer_size;
@@ -43,8 +41,8 @@ pub(super) fn decode(bytes: &[u8]) -> Result<Decoded> {
     )?;
     let data_type = type_name(header.channels.list[chosen.heights[0]].sample_type);
     let pixel_size = match header.own_attributes.other.get(&Text::from(PIXEL_SIZE)) {
-        Some(AttributeValue::F64(size)) if size.is_finite() && *size > 0.0 => *size,
-        _ => 1.0,
+        Some(AttributeValue::F64(size)) if size.is_finite() && *size > 0.0 => Some(*size),
+        _ => None,
     };
 
     let channels = header.channels.clone();
@@ -117,20 +115,9 @@ pub(super) fn decode(bytes: &[u8]) -> Result<Decoded> {
         0 if !whole.is_empty() => whole[i].into(),
         _ => planes[k][i].into(),
     })?;
-    Ok(Decoded {
-        format: Format::Exr,
-        width,
-        height,
-        values,
-        pixel_size,
-        unit: None,
-        height_scale: default_scale(size, pixel_size, data_type),
-        data_type,
-        georeference: None,
-        assumptions: (data_type == "u32")
-            .then(assumed_levels)
-            .into_iter()
-            .collect(),
+    Ok(StoredImage {
+        sides: pixel_size.and_then(recorded_sides),
+        ..StoredImage::new(Format::Exr, size, values, data_type)
     })
 }
 

@@ -8,12 +8,6 @@ const MODEL_TYPE_KEY: u16 = 1024;
 /// Value of the GeoTIFF key `GTModelTypeGeoKey` for degrees of longitude and latitude.
 const MODEL_TYPE_GEOGRAPHIC: u16 = 2;
 
-/// Number of the GeoTIFF key `GTRasterTypeGeoKey`, which tells what of a pixel has the coordinates.
-const RASTER_TYPE_KEY: u16 = 1025;
-
-/// Value of the GeoTIFF key `GTRasterTypeGeoKey` for the middles of pixels.
-const RASTER_TYPE_POINT: u16 = 2;
-
 /// Number of the GeoTIFF key `ProjLinearUnitsGeoKey`, the unit of map coordinates.
 const LINEAR_UNIT_KEY: u16 = 3076;
 
@@ -30,19 +24,6 @@ const ELLIPSOID_AXIS_METRES: f64 = 6_378_137.0;
 const ELLIPSOID_ECCENTRICITY_SQUARED: f64 = 0.006_694_379_990_14;
 
 impl Georeference {
-    /// Value of a GeoTIFF key that is stored in the directory itself.
-    fn key(&self, wanted: u16) -> Option<u16> {
-        // Four numbers each: key, where its value is (0: here), how many there are, the value.
-        (self.keys.chunks_exact(4).skip(1))
-            .find(|entry| entry[0] == wanted && entry[1] == 0)
-            .map(|entry| entry[3])
-    }
-
-    /// Whether the transformation is about the middles of pixels, not their upper left corners.
-    fn is_point(&self) -> bool {
-        self.key(RASTER_TYPE_KEY) == Some(RASTER_TYPE_POINT)
-    }
-
     /// Whether map coordinates are degrees of longitude and latitude.
     pub(super) fn is_geographic(&self) -> bool {
         self.key(MODEL_TYPE_KEY) == Some(MODEL_TYPE_GEOGRAPHIC)
@@ -88,18 +69,6 @@ impl Georeference {
         *c += *b * height as f64;
         *f += *e * height as f64;
         (*b, *e) = (-*b, -*e);
-    }
-
-    /// Makes pixels wider and higher by these factors.
-    pub(super) fn stretch(&mut self, [across, down]: [f64; 2]) {
-        if self.is_point() {
-            let [a, b, c, d, e, f] = self.transformation;
-            let [i, j] = [0.5 * (across - 1.0), 0.5 * (down - 1.0)];
-            self.transformation = [a, b, c + a * i + b * j, d, e, f + d * i + e * j];
-        }
-        let [a, b, _, d, e, _] = &mut self.transformation;
-        (*a, *d) = (*a * across, *d * across);
-        (*b, *e) = (*b * down, *e * down);
     }
 }
 

@@ -8,7 +8,7 @@ use ::zip::result::ZipError;
 use super::samples::{check_length, damaged, room, unsupported};
 use crate::MAX_CELLS;
 use crate::error::{Error, Result};
-use crate::files::images::decoded::Decoded;
+use crate::files::images::decoded::StoredImage;
 use crate::files::images::format::Format;
 use crate::files::images::npy;
 
@@ -60,13 +60,8 @@ pub fn npz_arrays(bytes: &[u8]) -> Result<Vec<NpzArray>> {
         .collect()
 }
 
-/// Decodes one array of an NPZ file, by the rules of [`decode`](crate::files::images::decode) for NPY files: the array
-/// of the given name, or the only array if no name is given.
-///
-/// # Errors
-/// As `decode`, and [`Error::Unsupported`] if there is no such array, or if there are several and no name is given: the
-/// message lists them.
-pub fn decode_npz(bytes: &[u8], array: Option<&str>) -> Result<Decoded> {
+/// Decodes the array of the given name, or the only array if no name is given.
+pub(super) fn decode(bytes: &[u8], array: Option<&str>) -> Result<StoredImage> {
     let mut archive = open(bytes)?;
     let names = names(&archive)?;
     let name = match (array, names.as_slice()) {
@@ -108,7 +103,7 @@ pub fn decode_npz(bytes: &[u8], array: Option<&str>) -> Result<Decoded> {
     let decoded = crate::files::images::format::announced(&file, Some(Format::Npy))
         .and_then(|_| npy::decode(&file))
         .map_err(|e| within(name, e))?;
-    Ok(Decoded {
+    Ok(StoredImage {
         format: Format::Npz,
         ..decoded
     })

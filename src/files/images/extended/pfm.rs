@@ -2,13 +2,13 @@
 
 use super::samples::{Channels, damaged, grey};
 use crate::error::{Error, Result, checked_cells};
-use crate::files::images::decoded::Decoded;
+use crate::files::images::decoded::StoredImage;
 use crate::files::images::format::Format;
 
 /// Maximum length of a number in the header of a PFM file, in bytes.
 const MAX_NUMBER_BYTES: usize = 32;
 
-pub(super) fn decode(bytes: &[u8]) -> Result<Decoded> {
+pub(super) fn decode(bytes: &[u8]) -> Result<StoredImage> {
     let colours = if bytes.starts_with(b"PF") { 3 } else { 1 };
     let mut rest = &bytes[2..];
     let mut number = || -> Result<&str> {
@@ -59,17 +59,10 @@ pub(super) fn decode(bytes: &[u8]) -> Result<Decoded> {
         colours,
         alpha: None,
     };
-    Ok(Decoded {
-        format: Format::Pfm,
-        width,
-        height,
-        values: grey(Format::Pfm, (width, height), &channels, sample)?,
-        pixel_size: 1.0,
-        unit: None,
-        height_scale: scale.abs(),
-        data_type: "f32",
-        georeference: None,
-        assumptions: Vec::new(),
+    let values = grey(Format::Pfm, (width, height), &channels, sample)?;
+    Ok(StoredImage {
+        height_scale: Some(scale.abs()),
+        ..StoredImage::new(Format::Pfm, (width, height), values, "f32")
     })
 }
 

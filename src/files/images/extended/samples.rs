@@ -1,9 +1,10 @@
 //! Converts the samples of a decoded picture to heights and colours, and reports errors, for several decoders.
 
-use crate::error::{Error, Result, try_filled};
-use crate::files::images::decoded::{Decoded, assumed_levels, coloured, suggested_scale};
+use crate::error::{Error, Result, checked_cells, try_filled};
+use crate::files::images::decoded::{StoredImage, coloured};
 pub(super) use crate::files::images::failure::{check_length, damaged, unsupported};
 use crate::files::images::format::Format;
+use crate::files::images::photo::PhotoFile;
 use crate::heights::heightfield::HeightImage;
 use crate::math::lanes;
 
@@ -37,31 +38,13 @@ pub(super) fn grey(
     Ok(values)
 }
 
-/// Computes the difference between the largest and the smallest value of an integer type, given by its name; `None`
-/// for floats.
-fn integer_range(data_type: &str) -> Option<f64> {
-    let bits = data_type.strip_prefix(['u', 'i'])?;
-    Some(bits.parse::<i32>().ok()?).map(|bits| 2f64.powi(bits) - 1.0)
-}
-
-/// Returns the height scale for pixel values of a given type where the file records none.
-pub(super) fn default_scale(
-    (width, height): (usize, usize),
-    pixel_size: f64,
-    data_type: &str,
-) -> f64 {
-    integer_range(data_type).map_or(1.0, |range| {
-        pixel_size * suggested_scale(width, height, range)
-    })
-}
-
 /// Converts 8-bit samples, with `colours` colour samples and perhaps one of alpha per pixel, to a decoded grey image.
 pub(crate) fn picture(
     format: Format,
     size: (usize, usize),
     samples: &[u8],
     stride: usize,
-) -> Result<Decoded> {
+) -> Result<StoredImage> {
     let (colours, alpha) = match stride {
         2 | 4 => (stride - 1, Some(stride - 1)),
         _ => (stride, None),
@@ -69,17 +52,16 @@ pub(crate) fn picture(
     let values = grey(format, size, &Channels { colours, alpha }, |i, k| {
         samples[stride * i + k].into()
     })?;
-    Ok(Decoded {
-        format,
-        width: size.0,
-        height: size.1,
-        values,
-        pixel_size: 1.0,
-        unit: None,
-        height_scale: default_scale(size, 1.0, "u8"),
-        data_type: "u8",
-        georeference: None,
-        assumptions: vec![assumed_levels()],
+    Ok(StoredImage::new(format, size, values, "u8"))
+}
+
+/// Converts a decoded photo to a grey image.
+pub(super) fn from_photo(format: Format, photo: &PhotoFile) -> Result<StoredImage> {
+    let size = (photo.width, photo.height);
+    checked_cells(format.title(), size.1, size.0)?;
+    Ok(StoredImage {
+        assumptions: photo.assumptions.clone(),
+        ..picture(format, size, &photo.rgba, 4)?
     })
 }
 

@@ -3,10 +3,8 @@
 use super::samples::damaged;
 use crate::error::{Result, checked_cells, try_filled};
 use crate::files::Assumption;
-use crate::files::images::decoded::Decoded;
+use crate::files::images::decoded::StoredImage;
 use crate::files::images::format::Format;
-use crate::files::images::no_data::assume_no_data;
-use crate::files::images::square_pixels::{is_resampled, square_pixels};
 
 /// Maximum distance of a point from its place on the grid, as a share of the grid's spacing.
 const MAX_OFF_GRID_SHARE: f64 = 0.02;
@@ -15,11 +13,11 @@ const MAX_OFF_GRID_SHARE: f64 = 0.02;
 struct Grid {
     values: Vec<f64>,
     size: (usize, usize),
-    sides: [f64; 2],
+    sides: Option<[f64; 2]>,
     assumptions: Vec<Assumption>,
 }
 
-pub(super) fn decode(bytes: &[u8]) -> Result<Decoded> {
+pub(super) fn decode(bytes: &[u8]) -> Result<StoredImage> {
     let text = String::from_utf8_lossy(bytes);
     let text = text.trim_start_matches('\u{feff}');
     let (grid, no_data) = match esri_grid(text)? {
@@ -30,30 +28,10 @@ pub(super) fn decode(bytes: &[u8]) -> Result<Decoded> {
     for value in values.iter_mut().filter(|value| Some(**value) == no_data) {
         *value = f64::NAN;
     }
-    let mut assumptions = grid.assumptions;
-    if is_resampled(grid.sides) {
-        assumptions.extend(assume_no_data(&mut values));
-    }
-    let square = square_pixels(values, grid.size, grid.sides)?;
-    if square.size != grid.size {
-        let [x, y] = grid.sides;
-        let words = format!(
-            "cells of {x} × {y} are resampled to squares of {}",
-            square.side
-        );
-        assumptions.push(Assumption::new("squarePixels", words, "pixelSize"));
-    }
-    Ok(Decoded {
-        format: Format::Text,
-        width: square.size.0,
-        height: square.size.1,
-        values: square.values,
-        pixel_size: square.side,
-        unit: None,
-        height_scale: 1.0,
-        data_type: "f64",
-        georeference: None,
-        assumptions,
+    Ok(StoredImage {
+        sides: grid.sides,
+        assumptions: grid.assumptions,
+        ..StoredImage::new(Format::Text, grid.size, values, "f64")
     })
 }
 
@@ -103,7 +81,7 @@ fn esri_grid(text: &str) -> Result<Option<(Grid, Option<f64>)>> {
         Grid {
             values,
             size,
-            sides,
+            sides: Some(sides),
             assumptions: Vec::new(),
         },
         number("nodata_value")?,
@@ -169,7 +147,7 @@ fn table(text: &str) -> Result<Grid> {
     Ok(points.unwrap_or(Grid {
         values,
         size: (cols, rows),
-        sides: [1.0; 2],
+        sides: None,
         assumptions,
     }))
 }
@@ -239,7 +217,7 @@ fn points_on_grid(values: &[f64]) -> Result<Option<Grid>> {
     Ok(Some(Grid {
         values: grid,
         size: (width, height),
-        sides: [dx, dy],
+        sides: Some([dx, dy]),
         assumptions: Vec::new(),
     }))
 }
@@ -247,9 +225,12 @@ fn points_on_grid(values: &[f64]) -> Result<Option<Grid>> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::files::images::DecodeOptions;
 
     fn read(text: &str) -> (usize, usize, f64, Vec<f64>) {
-        let file = decode(text.as_bytes()).unwrap();
+        let file = decode(text.as_bytes())
+            .and_then(|file| file.finish(&DecodeOptions::default()))
+            .unwrap();
         (file.width, file.height, file.pixel_size, file.values)
     }
 

@@ -8,26 +8,20 @@ use ::tiff::encoder::{DirectoryEncoder, TiffEncoder, TiffKind, colortype};
 use ::tiff::tags::Tag;
 use ::tiff::{ColorType, TiffError};
 
-use super::samples::{
-    Channels, check_length, damaged, default_scale, grey, narrowed, room, unsupported,
-};
+use super::samples::{Channels, check_length, damaged, grey, narrowed, room, unsupported};
 use super::tiff_tags::{self, File, failed};
 use crate::error::{Error, Result, checked_cells, try_filled};
 use crate::files::Assumption;
-use crate::files::images::decoded::{Decoded, assumed_levels};
+use crate::files::images::decoded::StoredImage;
 use crate::files::images::format::Format;
 use crate::files::images::georeference::Georeference;
-use crate::files::images::no_data::assume_no_data;
 use crate::files::images::orientation::oriented;
-use crate::files::images::square_pixels::{
-    NEGLIGIBLE_SIDE_DIFFERENCE, is_resampled, square_pixels,
-};
 use crate::heights::heightfield::HeightImage;
 
 /// Maximum memory that the TIFF decoder itself may allocate, in bytes: a compressed strip, and the values of a tag.
 const MAX_DECODER_BYTES: usize = 1 << 28;
 
-pub(super) fn decode(bytes: &[u8]) -> Result<Decoded> {
+pub(super) fn decode(bytes: &[u8]) -> Result<StoredImage> {
     let mut file = tiff_tags::open(bytes, MAX_DECODER_BYTES)?;
     let (width, height) = file.dimensions().map_err(failed)?;
     let stored = (width as usize, height as usize);
@@ -66,6 +60,11 @@ pub(super) fn decode(bytes: &[u8]) -> Result<Decoded> {
     let values = grey(Format::Tiff, stored, &channels, |i, k| {
         number(kind, &raw[size * (samples * i + k)..][..size])
     })?;
+    let mut assumptions = about.assumptions;
+    if tiff_tags::has_more_images(&mut file) {
+        let words = "the first of several images is meant";
+        assumptions.push(Assumption::new("firstImage", words, None));
+    }
     let (mut values, size) = oriented(values, stored, about.orientation)?;
     if let Some(level) = about.no_data {
         values
@@ -73,7 +72,6 @@ pub(super) fn decode(bytes: &[u8]) -> Result<Decoded> {
             .filter(|z| **z == level)
             .for_each(|z| *z = f64::NAN);
     }
-    let mut assumptions = about.assumptions;
     // What is turned after all lies elsewhere on the map.
     let mut georeference = about.georeference.filter(|_| about.orientation == 1);
     if let Some(map) = georeference.as_mut().filter(|map| map.is_mirrored()) {
@@ -81,54 +79,18 @@ pub(super) fn decode(bytes: &[u8]) -> Result<Decoded> {
         let rows: Vec<&[f64]> = values.chunks_exact(size.0).rev().collect();
         values = rows.concat();
     }
-    let [x, y] = about.sides;
-    let sides = if about.orientation >= 5 {
-        [y, x]
-    } else {
-        [x, y]
-    };
-    if is_resampled(sides) {
-        assumptions.extend(assume_no_data(&mut values));
-    }
-    let square = square_pixels(values, size, sides)?;
-    if (x - y).abs() > NEGLIGIBLE_SIDE_DIFFERENCE * x.max(y) {
-        let how = if square.size == size {
-            "taken for"
-        } else {
-            "resampled to"
-        };
-        let words = format!("pixels of {x} × {y} are {how} squares of {}", square.side);
-        assumptions.push(Assumption::new("squarePixels", words, "pixelSize"));
-    }
-    if let Some(map) = &mut georeference {
-        map.stretch(square.stretch);
-    }
-    let (width, height) = square.size;
-    let data_type = type_name(kind);
-    let height_scale = match about.heights.scale {
-        Some(scale) => scale,
-        None if data_type.starts_with('f') => 1.0,
-        None => {
-            assumptions.push(assumed_levels());
-            default_scale(square.size, square.side, data_type)
-        }
-    };
-    let offset = about.heights.offset / height_scale;
-    let mut values = square.values;
-    if offset != 0.0 {
-        values.iter_mut().for_each(|z| *z += offset);
-    }
-    Ok(Decoded {
-        format: Format::Tiff,
-        width,
-        height,
-        values,
-        pixel_size: square.side,
+    let sides = about.sides.map(|[x, y]| match about.orientation {
+        5.. => [y, x],
+        _ => [x, y],
+    });
+    Ok(StoredImage {
+        sides,
         unit: about.unit,
-        height_scale,
-        data_type,
+        height_scale: about.heights.scale,
+        offset: about.heights.offset,
         georeference: georeference.filter(|map| !map.keys.is_empty()),
         assumptions,
+        ..StoredImage::new(Format::Tiff, size, values, type_name(kind))
     })
 }
 
@@ -272,4 +234,35 @@ fn write_map<W: Write + Seek, K: TiffKind>(
         tags.write_tag(Tag::GeoAsciiParamsTag, map.text.as_str())?;
     }
     Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A file of 3 × 3 grey pixels for each kind of image, as the tag `NewSubfileType` numbers it.
+    fn images(kinds: &[u32]) -> Vec<u8> {
+        let mut file = Cursor::new(Vec::new());
+        let mut encoder = TiffEncoder::new(&mut file).unwrap();
+        for kind in kinds {
+            let mut image = encoder.new_image::<colortype::Gray8>(3, 3).unwrap();
+            let tags = image.encoder();
+            tags.write_tag(Tag::NewSubfileType, *kind).unwrap();
+            image.write_data(&[1, 2, 3, 4, 5, 6, 7, 8, 9]).unwrap();
+        }
+        file.into_inner()
+    }
+
+    #[test]
+    fn the_first_of_several_images_is_said_but_no_overview() {
+        let told = |kinds: &[u32]| {
+            let image = decode(&images(kinds)).unwrap();
+            image.assumptions.iter().any(|one| one.code == "firstImage")
+        };
+        assert!(!told(&[0]));
+        assert!(told(&[0, 0]));
+        // GDAL's overview, its mask, and that of the image itself.
+        assert!(!told(&[0, 4, 1, 5]));
+        assert!(told(&[0, 1, 2]));
+    }
 }

@@ -31,10 +31,25 @@ pub(crate) fn open(bytes: &[u8], max_bytes: usize) -> Result<File<'_>> {
 pub(crate) fn chunky_layout(file: &mut File) -> Result<BufferLayoutPreference> {
     let layout = file.image_buffer_layout().map_err(failed)?;
     if layout.planes > 1 {
-        let reason = "channels stored one after the other; write them pixel by pixel";
+        let reason = "channels stored one after the other; `gdal_translate -co INTERLEAVE=PIXEL IN.tif OUT.tif` \
+                      writes them pixel by pixel";
         return Err(unsupported(Format::Tiff, reason));
     }
     Ok(layout)
+}
+
+/// Bits of the TIFF tag `NewSubfileType` of an image that is another one at a lower resolution, or its mask.
+const SUBORDINATE_IMAGE_BITS: u16 = 0b101;
+
+/// Returns whether images of their own follow in a TIFF file; overviews and masks are none.
+pub(super) fn has_more_images(file: &mut File) -> bool {
+    while file.more_images() && file.next_image().is_ok() {
+        let kind = unsigned(file, Tag::NewSubfileType).ok().flatten();
+        if kind.unwrap_or(0) & SUBORDINATE_IMAGE_BITS == 0 {
+            return true;
+        }
+    }
+    false
 }
 
 /// Length of an inch, in millimetres.
@@ -53,8 +68,8 @@ pub(super) const GDAL_METADATA: Tag = Tag::Unknown(42112);
 
 /// What the tags of a TIFF file say about its pixels: their size and its unit, the value of no data, the orientation.
 pub(super) struct PixelTags {
-    /// Width and height of a pixel, in `unit`.
-    pub(super) sides: [f64; 2],
+    /// Width and height of a pixel, in `unit`, if tags say them.
+    pub(super) sides: Option<[f64; 2]>,
     pub(super) unit: Option<Unit>,
     /// Where the pixels lie on a map, as they are stored.
     pub(super) georeference: Option<Georeference>,
@@ -78,7 +93,12 @@ pub(super) fn read(file: &mut File, size: (usize, usize), data_type: &str) -> Re
     let georeference = georeference(file)?;
     let mut assumptions = Vec::new();
     let (sides, unit) = match &georeference {
-        Some(map) => map_sides(map, size, &mut assumptions)?,
+        Some(map) => {
+            let (sides, unit) = map_sides(map, size, &mut assumptions)?;
+            // Without a unit 1 is what is written of pixels of unknown size.
+            let is_known = unit.is_some() || sides != [1.0; 2];
+            (is_known.then_some(sides), unit)
+        }
         None => resolution_sides(file)?,
     };
     let mut heights = gdal_heights(file)?;
@@ -214,16 +234,16 @@ fn map_sides(
 }
 
 /// Width and height of the pixels by the resolution of a picture, and their unit.
-fn resolution_sides(file: &mut File) -> Result<([f64; 2], Option<Unit>)> {
+fn resolution_sides(file: &mut File) -> Result<(Option<[f64; 2]>, Option<Unit>)> {
     let (Some(x), Some(y)) = (
         resolution(file, Tag::XResolution)?,
         resolution(file, Tag::YResolution)?,
     ) else {
-        return Ok(([1.0; 2], None));
+        return Ok((None, None));
     };
     let per = match unsigned(file, Tag::ResolutionUnit)?.unwrap_or(PER_INCH) {
         // Without a unit, resolutions state the proportions of a pixel only.
-        RESOLUTION_UNIT_NONE => return Ok(([1.0, x / y], None)),
+        RESOLUTION_UNIT_NONE => return Ok((Some([1.0, x / y]).filter(|_| x != y), None)),
         PER_INCH => INCH_MM,
         PER_CENTIMETRE => CENTIMETRE_MM,
         other => {
@@ -233,7 +253,7 @@ fn resolution_sides(file: &mut File) -> Result<([f64; 2], Option<Unit>)> {
             ));
         }
     };
-    Ok(([per / x, per / y], Some(Unit::Millimetre)))
+    Ok((Some([per / x, per / y]), Some(Unit::Millimetre)))
 }
 
 /// Length of the unit of heights in metres, by the coordinate system or GDAL's metadata.

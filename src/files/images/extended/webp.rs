@@ -6,14 +6,14 @@ use image_webp::{DecodingError, WebPDecoder};
 
 use super::samples::{damaged, picture, unsupported};
 use crate::error::{Result, checked_cells, try_filled};
-use crate::files::images::decoded::Decoded;
+use crate::files::images::decoded::StoredImage;
 use crate::files::images::format::Format;
 use crate::files::images::photo::{PhotoFile, PhotoPixels, PhotoTags};
 
 /// Maximum memory that the WebP decoder may allocate for metadata, in bytes.
 const MAX_DECODER_BYTES: usize = 1 << 24;
 
-pub(super) fn decode(bytes: &[u8]) -> Result<Decoded> {
+pub(super) fn decode(bytes: &[u8]) -> Result<StoredImage> {
     let mut decoder = open(bytes)?;
     let (width, height) = decoder.dimensions();
     let size = (width as usize, height as usize);

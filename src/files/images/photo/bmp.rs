@@ -7,6 +7,8 @@ use zune_core::options::DecoderOptions;
 use super::exif::PhotoTags;
 use super::pixels::{PhotoFile, PhotoPixels};
 use crate::error::{Error, Result, try_filled};
+use crate::files::images::failure::{check_length, damaged};
+use crate::files::images::format::Format;
 
 /// Maximum ratio of the size of a BMP image in memory to that of its file: more than run lengths reach.
 const MAX_COMPRESSION_RATIO: usize = 4096;
@@ -18,25 +20,18 @@ pub(super) fn decode(bytes: &[u8]) -> Result<PhotoFile> {
         .set_max_height(usize::from(u16::MAX));
     let mut decoder = BmpDecoder::new_with_options(ZCursor::new(bytes), options);
     decoder.decode_headers().map_err(failed)?;
-    let (width, height) = (decoder.dimensions()).ok_or_else(|| damaged("it has no header"))?;
+    let (width, height) =
+        (decoder.dimensions()).ok_or_else(|| damaged(Format::Bmp, "it has no header"))?;
     let mut pixels = PhotoPixels::new([width, height])?;
-    let size = (decoder.output_buf_size()).ok_or_else(|| damaged("it has no pixels"))?;
-    if size / MAX_COMPRESSION_RATIO > bytes.len() {
-        return Err(damaged("its bytes cannot hold that many pixels"));
-    }
+    let size =
+        (decoder.output_buf_size()).ok_or_else(|| damaged(Format::Bmp, "it has no pixels"))?;
+    check_length(Format::Bmp, bytes, size, MAX_COMPRESSION_RATIO)?;
     let mut samples = try_filled("BMP image", size, 0)?;
     decoder.decode_into(&mut samples).map_err(failed)?;
     pixels.push_rows(&samples);
     pixels.finish(&PhotoTags::read(None))
 }
 
-fn damaged(reason: impl ToString) -> Error {
-    Error::Format {
-        format: "BMP",
-        reason: reason.to_string(),
-    }
-}
-
 fn failed(error: BmpDecoderErrors) -> Error {
-    damaged(format!("{error:?}"))
+    damaged(Format::Bmp, format!("{error:?}"))
 }

@@ -7,6 +7,8 @@ use ::gif::{ColorOutput, DecodeOptions, DecodingError, MemoryLimit};
 use super::exif::PhotoTags;
 use super::pixels::{MAX_FILE_PIXELS, PhotoFile, PhotoPixels};
 use crate::error::{Error, Result, try_filled};
+use crate::files::images::failure::damaged;
+use crate::files::images::format::Format;
 
 pub(super) fn decode(bytes: &[u8]) -> Result<PhotoFile> {
     let mut options = DecodeOptions::new();
@@ -15,10 +17,10 @@ pub(super) fn decode(bytes: &[u8]) -> Result<PhotoFile> {
     if let Some(limit) = std::num::NonZeroU64::new(4 * MAX_FILE_PIXELS as u64) {
         options.set_memory_limit(MemoryLimit::Bytes(limit));
     }
-    let mut decoder = options.read_info(Cursor::new(bytes)).map_err(damaged)?;
+    let mut decoder = options.read_info(Cursor::new(bytes)).map_err(failed)?;
     let [width, height] = [decoder.width(), decoder.height()].map(usize::from);
     let mut pixels = PhotoPixels::new([width, height])?;
-    let frame = decoder.read_next_frame().map_err(damaged)?;
+    let frame = decoder.read_next_frame().map_err(failed)?;
     let frame = frame.ok_or(Error::Empty { what: "GIF image" })?;
     // The picture may cover a part of the canvas.
     let mut line = try_filled("GIF image", 4 * width, 0)?;
@@ -38,9 +40,6 @@ pub(super) fn decode(bytes: &[u8]) -> Result<PhotoFile> {
     pixels.finish(&PhotoTags::read(None))
 }
 
-fn damaged(error: DecodingError) -> Error {
-    Error::Format {
-        format: "GIF",
-        reason: error.to_string(),
-    }
+fn failed(error: DecodingError) -> Error {
+    damaged(Format::Gif, error)
 }

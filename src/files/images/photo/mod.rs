@@ -12,9 +12,10 @@ mod png;
 mod tiff;
 
 pub(super) use self::exif::PhotoTags;
-use self::kind::PhotoKind;
+use self::kind::photo_format;
 pub use self::pixels::PhotoFile;
 pub(super) use self::pixels::PhotoPixels;
+use super::format::Format;
 use super::jpeg;
 use crate::error::{Error, Result};
 
@@ -27,18 +28,17 @@ use crate::error::{Error, Result};
 /// [`Error::Unsupported`] for other files, with what to do about them, and for photos of more than a quarter of a gigapixel,
 /// [`Error::Format`] for a damaged file, [`Error::Empty`] for a photo without pixels, [`Error::OutOfMemory`].
 pub fn decode_photo(bytes: &[u8]) -> Result<PhotoFile> {
-    match PhotoKind::of_file(bytes)? {
+    match photo_format(bytes)? {
         #[cfg(feature = "images")]
-        PhotoKind::WebP => super::extended::webp::decode_photo(bytes),
+        Format::WebP => super::extended::webp::decode_photo(bytes),
         #[cfg(feature = "images")]
-        PhotoKind::Gif => gif::decode(bytes),
+        Format::Gif => gif::decode(bytes),
         #[cfg(feature = "images")]
-        PhotoKind::Bmp => bmp::decode(bytes),
+        Format::Bmp => bmp::decode(bytes),
         #[cfg(feature = "images")]
-        PhotoKind::Tiff => tiff::decode(bytes),
-        PhotoKind::Png => png::decode(bytes),
-        PhotoKind::Jpeg => jpeg::decode_photo(bytes),
-        #[cfg(not(feature = "images"))]
+        Format::Tiff => tiff::decode(bytes),
+        Format::Png => png::decode(bytes),
+        Format::Jpeg => jpeg::decode_photo(bytes),
         other => Err(Error::Unsupported {
             format: other.title(),
             reason: "the cargo feature `images` adds it".into(),
@@ -51,9 +51,9 @@ pub fn decode_photo(bytes: &[u8]) -> Result<PhotoFile> {
 /// # Errors
 /// As [`decode_photo`].
 pub fn decode_photo_basic(bytes: &[u8]) -> Result<PhotoFile> {
-    match PhotoKind::of_file(bytes)? {
-        PhotoKind::Png => png::decode(bytes),
-        PhotoKind::Jpeg => jpeg::decode_photo(bytes),
+    match photo_format(bytes)? {
+        Format::Png => png::decode(bytes),
+        Format::Jpeg => jpeg::decode_photo(bytes),
         other => Err(Error::Unsupported {
             format: other.title(),
             reason: "only PNG and JPEG photos are read here".into(),

@@ -13,12 +13,13 @@ fn transformations() -> Transformations {
 }
 
 pub(super) fn decode(bytes: &[u8]) -> Result<PhotoFile> {
-    let (mut reader, size) = open(bytes, transformations(), MAX_FILE_PIXELS)?;
+    let (mut reader, size) = open(bytes, transformations(), usize::MAX)?;
+    // Refuses photos of too many pixels.
     let mut pixels = PhotoPixels::new(size)?;
     let tags = if reader.info().interlaced {
         let Pixels {
             reader, samples, ..
-        } = Pixels::decode(bytes, transformations())?;
+        } = Pixels::decode(bytes, transformations(), MAX_FILE_PIXELS)?;
         pixels.push_rows(&samples);
         tags(reader.info())
     } else {

@@ -1,0 +1,57 @@
+//! Options of decoding an image file of heights.
+
+use super::format::Format;
+use crate::error::{Error, Result};
+
+/// Options of decoding an image file of heights.
+#[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
+pub struct DecodeOptions {
+    /// Name of the array of an NPZ file; `None`: the only one.
+    pub array: Option<String>,
+    /// A value that is no data, rounded as the file stores numbers; `None`: no other than those that the file names.
+    pub no_data: Option<f64>,
+    /// Whether values that nobody would measure are no data.
+    pub assume_no_data: bool,
+}
+
+impl Default for DecodeOptions {
+    fn default() -> Self {
+        DecodeOptions {
+            array: None,
+            no_data: None,
+            assume_no_data: true,
+        }
+    }
+}
+
+impl DecodeOptions {
+    /// Sets the name of the array of an NPZ file, and returns the options.
+    pub fn array(mut self, name: impl Into<String>) -> Self {
+        self.array = Some(name.into());
+        self
+    }
+
+    /// Sets a value that is no data, and returns the options.
+    pub fn no_data(mut self, value: f64) -> Self {
+        self.no_data = Some(value);
+        self
+    }
+
+    /// Sets whether values that nobody would measure are no data, and returns the options.
+    pub fn assume_no_data(mut self, assume: bool) -> Self {
+        self.assume_no_data = assume;
+        self
+    }
+
+    /// Returns an error if an array is named for a file that has no named arrays.
+    pub(super) fn check(&self, format: Format) -> Result<()> {
+        match &self.array {
+            Some(name) if format != Format::Npz => {
+                let requirement = "is for NPZ files, and this is none";
+                Err(Error::option("array", name, requirement))
+            }
+            _ => Ok(()),
+        }
+    }
+}

@@ -65,6 +65,8 @@ pub(super) struct StoredImage {
     /// The pixel values, row by row, top row first; NaN where the file says that there is no data.
     pub(super) values: Vec<f64>,
     pub(super) data_type: &'static str,
+    /// Whether the file names its value of no data.
+    pub(super) names_no_data: bool,
     /// Width and height of a pixel in `unit`, if the file says them.
     pub(super) sides: Option<[f64; 2]>,
     pub(super) unit: Option<Unit>,
@@ -89,6 +91,7 @@ impl StoredImage {
             size,
             values,
             data_type,
+            names_no_data: false,
             sides: None,
             unit: None,
             height_scale: None,
@@ -115,7 +118,10 @@ impl StoredImage {
                 .for_each(|value| *value = f64::NAN);
         }
         if options.assume_no_data {
-            assumptions.extend(no_data::assume_no_data(&mut self.values));
+            assumptions.extend(no_data::assume_no_data(
+                &mut self.values,
+                self.names_no_data,
+            ));
         }
         let [x, y] = self.sides.unwrap_or([1.0; 2]);
         let square = square_pixels(self.values, self.size, [x, y])?;

@@ -10,10 +10,10 @@ const MIN_REPETITIONS: usize = 2;
 
 /// Replaces values that nobody would measure by NaN, and returns what was assumed of them.
 ///
-/// Infinities are no data. So is the smallest or the largest value if it is a number by which programs mark missing
+/// Infinities are no data. So is, unless the file names its own value of no data (`is_named`), the smallest or the largest value if it is a number by which programs mark missing
 /// values ([`is_marker`]), repeats exactly, and lies farther from all other values than these, of which there are several, lie
 /// from each other.
-pub(super) fn assume_no_data(values: &mut [f64]) -> Vec<Assumption> {
+pub(super) fn assume_no_data(values: &mut [f64], is_named: bool) -> Vec<Assumption> {
     let mut assumptions = Vec::new();
     let mut remove = |values: &mut [f64], name: String, is_missing: &dyn Fn(f64) -> bool| {
         let mut count = 0;
@@ -28,7 +28,7 @@ pub(super) fn assume_no_data(values: &mut [f64]) -> Vec<Assumption> {
         }
     };
     remove(values, "infinity".into(), &f64::is_infinite);
-    while let Some(marker) = marker_of(values) {
+    while let Some(marker) = marker_of(values).filter(|_| !is_named) {
         remove(values, format!("{marker}"), &|value| value == marker);
     }
     assumptions
@@ -89,7 +89,7 @@ mod tests {
         let mut values: Vec<f64> = (0..100).map(|i| 200.0 + 46.0 * f64::from(i)).collect();
         values.extend(more);
         let before = values.iter().filter(|value| value.is_nan()).count();
-        let words: Vec<String> = assume_no_data(&mut values)
+        let words: Vec<String> = assume_no_data(&mut values, false)
             .into_iter()
             .map(|one| one.words)
             .collect();
@@ -120,6 +120,14 @@ mod tests {
     }
 
     #[test]
+    fn a_file_that_names_its_value_of_no_data_has_no_other() {
+        // A plateau at the highest level of a picture whose level 0 is no data.
+        let mut levels = [1.0, 900.0, 65535.0, 65535.0, f64::NAN];
+        assert!(assume_no_data(&mut levels, true).is_empty());
+        assert_eq!(levels[2], 65535.0);
+    }
+
+    #[test]
     fn what_may_have_been_measured_stays() {
         // Zero, a single outlier, round numbers, and a marker within the range of the others.
         for more in [
@@ -133,13 +141,13 @@ mod tests {
         }
         // Terraces of two heights.
         let mut terraces = [0.0, 99.0, 0.0, 99.0];
-        assert!(assume_no_data(&mut terraces).is_empty());
+        assert!(assume_no_data(&mut terraces, false).is_empty());
         assert_eq!(terraces, [0.0, 99.0, 0.0, 99.0]);
         // A mask of 16 bits.
         let mut mask = [0.0, 65535.0, 65535.0, 0.0, 65535.0];
-        assert!(assume_no_data(&mut mask).is_empty());
+        assert!(assume_no_data(&mut mask, false).is_empty());
         let mut bathymetry: Vec<f64> = (0..2000).map(|i| -11_000.0 + 9.0 * f64::from(i)).collect();
         bathymetry.extend([-9999.0; 4]);
-        assert!(assume_no_data(&mut bathymetry).is_empty());
+        assert!(assume_no_data(&mut bathymetry, false).is_empty());
     }
 }

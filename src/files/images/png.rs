@@ -149,6 +149,7 @@ pub(super) fn decode(bytes: &[u8]) -> Result<StoredImage> {
     }
     Ok(StoredImage {
         sides: recorded.pixel_size.and_then(recorded_sides),
+        names_no_data: recorded.no_data.is_some(),
         height_scale: recorded.scale,
         offset: recorded.offset.unwrap_or(0.0),
         ..StoredImage::new(Format::Png, (width, height), values, data_type)

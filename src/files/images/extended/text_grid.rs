@@ -29,6 +29,7 @@ pub(super) fn decode(bytes: &[u8]) -> Result<StoredImage> {
         *value = f64::NAN;
     }
     Ok(StoredImage {
+        names_no_data: no_data.is_some(),
         sides: grid.sides,
         assumptions: grid.assumptions,
         ..StoredImage::new(Format::Text, grid.size, values, "f64")

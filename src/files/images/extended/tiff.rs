@@ -84,6 +84,7 @@ pub(super) fn decode(bytes: &[u8]) -> Result<StoredImage> {
         _ => [x, y],
     });
     Ok(StoredImage {
+        names_no_data: about.no_data.is_some(),
         sides,
         unit: about.unit,
         height_scale: about.heights.scale,

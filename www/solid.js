@@ -1,0 +1,152 @@
+/** Solids for 3D printers: an open surface gets a base or a thickness, and all lengths become millimetres. */
+
+import { make } from './dom.js';
+import { SOLID_WORDS } from './messages.js';
+import { suggestedSide } from './pattern.js';
+import { zip } from './zip.js';
+
+/** @import {Mesh} from './api.js' */
+/** @import {Format} from './panels/save-dialog.js' */
+/** @import {Worker} from './worker-task.js' */
+
+/**
+ * How an open surface becomes a solid; lengths in millimetres.
+ * @typedef {{ side: number, thickness: number, onBase: boolean }} SolidOptions `side`: longer side of the printed piece;
+ *   `onBase`: on a flat base at the least this thick, not as a shell of this thickness
+ */
+
+/**
+ * A closed mesh in millimetres, which stands on z = 0.
+ * @param {Pick<Mesh, 'positions' | 'triangles'>} mesh
+ * @param {SolidOptions} options
+ * @returns {{ positions: Float64Array, triangles: Uint32Array, wasOpen: boolean }}
+ */
+export function solidOf({ positions, triangles }, { side, thickness, onBase }) {
+  const [low, high] = boundsOf(positions);
+  const scale = side / Math.max(...high.map((value, k) => value - low[k]));
+  const front = Float64Array.from(positions, (value, i) => (value - low[i % 3]) * scale);
+  const rim = borderEdges(triangles);
+  if (rim.length === 0) return { positions: front, triangles, wasOpen: false };
+  const count = front.length / 3;
+  const directions = onBase ? null : mitreDirections(front, triangles);
+  const back = front.map((value, i) => (directions ? value - thickness * directions[i] : i % 3 === 2 ? 0 : value));
+  // The base lies beneath the lowest point.
+  if (onBase) for (let i = 2; i < front.length; i += 3) front[i] += thickness;
+  const all = new Float64Array(2 * front.length);
+  all.set(front);
+  all.set(back, front.length);
+  const [, , lowest] = boundsOf(all)[0];
+  for (let i = 2; i < all.length; i += 3) all[i] -= lowest;
+  const faces = new Uint32Array(2 * triangles.length + 6 * rim.length);
+  faces.set(triangles);
+  for (let t = 0; t < triangles.length; t += 3) faces.set([triangles[t] + count, triangles[t + 2] + count, triangles[t + 1] + count], triangles.length + t);
+  rim.forEach(([a, b], i) => faces.set([b, a, a + count, b, a + count, b + count], 2 * triangles.length + 6 * i));
+  return { positions: all, triangles: faces, wasOpen: true };
+}
+
+/** The bounding box of positions. @param {Float64Array} positions */
+function boundsOf(positions) {
+  const [low, high] = [[Infinity, Infinity, Infinity], [-Infinity, -Infinity, -Infinity]];
+  positions.forEach((value, i) => {
+    low[i % 3] = Math.min(low[i % 3], value);
+    high[i % 3] = Math.max(high[i % 3], value);
+  });
+  return [low, high];
+}
+
+/** The edges with a triangle on one side only, in its direction. @param {Uint32Array} triangles @returns {[number, number][]} */
+function borderEdges(triangles) {
+  const count = triangles.reduce((most, vertex) => Math.max(most, vertex), 0) + 1;
+  /** @type {Map<number, [number, number]>} */
+  const single = new Map();
+  for (let t = 0; t < triangles.length; t++) {
+    const [a, b] = [triangles[t], triangles[t % 3 === 2 ? t - 2 : t + 1]];
+    if (!single.delete(b * count + a)) single.set(a * count + b, [a, b]);
+  }
+  return [...single.values()];
+}
+
+/** Smallest cosine between a vertex's normal and its faces for which the shell keeps its thickness there; a sharper edge would become a spike. */
+const MIN_MITRE_COSINE = 0.5;
+
+/**
+ * Directions in which the vertices move for a shell whose faces move by 1 along their normals.
+ * @param {Float64Array} positions
+ * @param {Uint32Array} triangles
+ */
+function mitreDirections(positions, triangles) {
+  const directions = new Float64Array(positions.length);
+  const areas = new Float64Array(positions.length / 3);
+  for (let t = 0; t < triangles.length; t += 3) {
+    const [a, b, c] = [0, 1, 2].map((k) => 3 * triangles[t + k]);
+    const [u, v] = [b, c].map((end) => [0, 1, 2].map((k) => positions[end + k] - positions[a + k]));
+    const normal = [u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]];
+    for (const corner of [a, b, c]) {
+      areas[corner / 3] += Math.hypot(...normal);
+      for (const k of [0, 1, 2]) directions[corner + k] += normal[k];
+    }
+  }
+  areas.forEach((area, vertex) => {
+    const mean = directions.subarray(3 * vertex, 3 * vertex + 3);
+    const length = Math.hypot(...mean) || 1;
+    const cosine = Math.max(MIN_MITRE_COSINE, length / (area || 1));
+    mean.forEach((value, k) => (mean[k] = value / (length * cosine)));
+  });
+  return directions;
+}
+
+/**
+ * A mesh as a 3MF file, in millimetres.
+ * @param {{ positions: Float64Array, triangles: Uint32Array }} mesh
+ */
+export async function threeMf({ positions, triangles }) {
+  /** @param {ArrayLike<number>} values @param {string} tag @param {readonly string[]} names */
+  const elements = (values, tag, names) => Array.from({ length: values.length / 3 }, (_, i) =>
+    `<${tag} ${names.map((name, k) => `${name}="${Number(values[3 * i + k].toPrecision(8))}"`).join(' ')}/>`).join('\n');
+  const core = 'http://schemas.microsoft.com/3dmanufacturing/core/2015/02';
+  return zip({
+    '[Content_Types].xml': '<?xml version="1.0" encoding="UTF-8"?>\n<Types xmlns="http://schemas.openxmlformats.org/package/2006/content-types"><Default Extension="rels" ContentType="application/vnd.openxmlformats-package.relationships+xml"/><Default Extension="model" ContentType="application/vnd.ms-package.3dmanufacturing-3dmodel+xml"/></Types>',
+    '_rels/.rels': '<?xml version="1.0" encoding="UTF-8"?>\n<Relationships xmlns="http://schemas.openxmlformats.org/package/2006/relationships"><Relationship Target="/3D/3dmodel.model" Id="rel0" Type="http://schemas.microsoft.com/3dmanufacturing/2013/01/3dmodel"/></Relationships>',
+    '3D/3dmodel.model': `<?xml version="1.0" encoding="UTF-8"?>\n<model unit="millimeter" xml:lang="en-US" xmlns="${core}"><resources><object id="1" type="model"><mesh><vertices>\n${elements(positions, 'vertex', ['x', 'y', 'z'])}\n</vertices><triangles>\n${elements(triangles, 'triangle', ['v1', 'v2', 'v3'])}\n</triangles></mesh></object></resources><build><item objectid="1"/></build></model>`,
+  });
+}
+
+/**
+ * Solids as formats of the save dialog, and the fields for their size.
+ * @param {object} surface
+ * @param {number} surface.length longer side in its unit
+ * @param {string | null} [surface.unit]
+ * @param {boolean} surface.onBase
+ * @param {(worker: Worker) => Promise<Pick<Mesh, 'positions' | 'triangles'>>} surface.mesh
+ * @returns {{ formats: Format[], fields: HTMLElement, onChange: (act: () => void) => void }}
+ */
+export function solidFormats({ length, unit, onBase, mesh }) {
+  /** @param {string} label @param {number} value */
+  const field = (label, value) => {
+    const input = make('input', '');
+    Object.assign(input, { type: 'number', min: '0.1', step: 'any', value: String(value), required: true });
+    return { input, label: make('label', 'field', label, input) };
+  };
+  const side = field(SOLID_WORDS.side, suggestedSide(length, unit));
+  const thickness = field(onBase ? SOLID_WORDS.base : SOLID_WORDS.thickness, 2);
+  let wasOpen = true;
+  /** @param {Worker} worker */
+  const solid = async (worker) => {
+    const invalid = [side, thickness].find(({ input }) => !input.checkValidity());
+    if (invalid) throw new Error(SOLID_WORDS.outOfRange(invalid.label.firstChild?.textContent ?? ''));
+    const made = solidOf(await mesh(worker), { side: side.input.valueAsNumber, thickness: thickness.input.valueAsNumber, onBase });
+    ({ wasOpen } = made);
+    return made;
+  };
+  const note = () => (wasOpen && !onBase ? SOLID_WORDS.shell : '');
+  return {
+    formats: [
+      { value: 'solid.stl', name: 'Solid STL', words: SOLID_WORDS.words, type: 'model/stl', note, write: async (worker) => worker.writeStl(await solid(worker)) },
+      { value: 'solid.3mf', name: 'Solid 3MF', words: SOLID_WORDS.words, type: 'model/3mf', note, write: async (worker) => threeMf(await solid(worker)) },
+    ],
+    fields: make('div', 'pair for-solid', side.label, thickness.label),
+    onChange: (act) => {
+      for (const { input } of [side, thickness]) input.addEventListener('change', act);
+    },
+  };
+}

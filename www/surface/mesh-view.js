@@ -10,8 +10,20 @@ import { ARROW_DIRECTIONS } from './view-keys.js';
 
 /** Radius of the drawn mesh, which is scaled to it. */
 const MESH_RADIUS = 1;
-/** Half of the initial view's shorter side, in units of the drawn mesh. */
+/** Half of the shorter side of a view without zoom, in units of the drawn mesh. */
 const VIEW_HALF_WIDTH = 1.04;
+/** Share of the frame that the mesh fills at first. */
+const FILLED_SHARE = 0.8;
+/** Half of the side of the ground, and the distance of the light that casts the shadow, in units of the drawn mesh. */
+const GROUND_HALF_WIDTH = 1.6;
+const SHADOW_LIGHT_DISTANCE = 3;
+/** Side of the map of the shadow, in pixels. A small one blurs its edge. */
+const SHADOW_MAP_SIDE = 256;
+/** Colour of a surface without colours of its own: paper. */
+const PAPER_COLOUR = 0xe9eef2;
+/** Angle of the first turn, in radians, and its duration, in milliseconds. */
+const FIRST_TURN_RADIANS = 0.7;
+const FIRST_TURN_MS = 1800;
 /** Distance of the camera from the centre. */
 const CAMERA_DISTANCE = 10;
 /** Half of the visible depth range. A smaller one brings lines nearer to the surface they are drawn on. */
@@ -30,6 +42,9 @@ export class MeshView {
   #objects = [];
   #divider = 1;
   #material;
+  #shadowLight;
+  /** The plane beneath the mesh, on which its shadow lies; hidden until the axis is known that points upwards. */
+  #ground;
   /** Lines on the object right of the divider. @type {LineBuffers | null} */
   #lines = null;
   /** @type {Program | null} */
@@ -66,11 +81,20 @@ export class MeshView {
     this.#renderer = new three.WebGLRenderer({ canvas, antialias: true, alpha: true });
     this.#scene = new three.Scene();
     this.#camera = new three.OrthographicCamera(-VIEW_HALF_WIDTH, VIEW_HALF_WIDTH, VIEW_HALF_WIDTH, -VIEW_HALF_WIDTH, CAMERA_DISTANCE - VIEW_HALF_DEPTH, CAMERA_DISTANCE + VIEW_HALF_DEPTH);
-    // The light moves with the camera.
-    const light = new three.DirectionalLight(0xffffff, 2.6);
+    this.#renderer.shadowMap.enabled = true;
+    // One light moves with the camera; the other casts the shadow, from above.
+    const light = new three.DirectionalLight(0xffffff, 1.9);
     light.position.set(-0.9, 0.8, 0.7);
     this.#camera.add(light);
-    this.#scene.add(this.#camera, new three.HemisphereLight(0xffffff, 0x8a94a0, 0.7));
+    this.#shadowLight = new three.DirectionalLight(0xffffff, 0.6);
+    this.#shadowLight.castShadow = true;
+    this.#shadowLight.shadow.mapSize.set(SHADOW_MAP_SIDE, SHADOW_MAP_SIDE);
+    this.#shadowLight.shadow.radius = 6;
+    Object.assign(this.#shadowLight.shadow.camera, { left: -GROUND_HALF_WIDTH, right: GROUND_HALF_WIDTH, top: GROUND_HALF_WIDTH, bottom: -GROUND_HALF_WIDTH, near: 0.1, far: 2 * SHADOW_LIGHT_DISTANCE });
+    this.#ground = new three.Mesh(new three.PlaneGeometry(2 * GROUND_HALF_WIDTH, 2 * GROUND_HALF_WIDTH), new three.ShadowMaterial({ opacity: 0.28 }));
+    this.#ground.receiveShadow = true;
+    this.#ground.visible = false;
+    this.#scene.add(this.#camera, new three.HemisphereLight(0xffffff, 0xa8b2be, 1.1), this.#shadowLight, this.#ground);
     this.#turned = turned;
     this.#controls = this.#createControls();
     new ResizeObserver(() => this.#draw()).observe(canvas);
@@ -104,6 +128,58 @@ export class MeshView {
     // The controls read the axis only when they are created.
     this.#controls.dispose();
     this.#controls = this.#createControls();
+    this.#ground.visible = true;
+    // A little aside, so that the shadow shows at the foot of the mesh.
+    this.#shadowLight.position.set(x + 0.25 * y, y + 0.25 * z, z + 0.25 * x).multiplyScalar(SHADOW_LIGHT_DISTANCE);
+    this.#ground.lookAt(x, y, z);
+    this.#layGround();
+  }
+
+  /** Lays the ground beneath the mesh. */
+  #layGround() {
+    if (!this.#ground.visible || this.#objects.length === 0) return;
+    const { up } = this.#camera;
+    const box = new this.#three.Box3().setFromObject(this.#objects[0]);
+    this.#ground.position.copy(up).multiplyScalar(box.min.dot(up));
+  }
+
+  /** Zooms so that the mesh fills the frame as it is seen now. */
+  fit() {
+    const { clientWidth: width, clientHeight: height } = this.canvas;
+    if (this.#objects.length === 0 || width === 0) return;
+    this.#camera.updateMatrixWorld();
+    const { array } = this.#objects[0].geometry.getAttribute('position');
+    const point = new this.#three.Vector3();
+    let [across, up] = [0, 0];
+    for (let i = 0; i < array.length; i += 3) {
+      point.fromArray(array, i).applyMatrix4(this.#camera.matrixWorldInverse);
+      [across, up] = [Math.max(across, Math.abs(point.x)), Math.max(up, Math.abs(point.y))];
+    }
+    const [halfWidth, halfHeight] = [Math.max(1, width / height), Math.max(1, height / width)].map((side) => FILLED_SHARE * VIEW_HALF_WIDTH * side);
+    this.#camera.zoom = Math.min(halfWidth / (across || 1), halfHeight / (up || 1));
+    this.#draw();
+  }
+
+  /** Turns the mesh slowly to its present direction, once, unless the user takes hold of it or prefers less motion. */
+  turnOnce() {
+    if (matchMedia('(prefers-reduced-motion: reduce)').matches) return;
+    const start = performance.now();
+    let [turned, isHeld] = [0, false];
+    const hold = () => (isHeld = true);
+    for (const event of ['pointerdown', 'keydown', 'wheel']) this.canvas.addEventListener(event, hold, { once: true, passive: true });
+    this.#controls.rotateLeft(FIRST_TURN_RADIANS);
+    /** @param {number} now */
+    const step = (now) => {
+      const share = isHeld ? 1 : Math.min(1, (now - start) / FIRST_TURN_MS);
+      const angle = FIRST_TURN_RADIANS * share * (2 - share);
+      this.#isSettingDirection = true;
+      if (!isHeld) this.#controls.rotateLeft(turned - angle);
+      this.#controls.update();
+      this.#isSettingDirection = false;
+      turned = angle;
+      if (share < 1) requestAnimationFrame(step);
+    };
+    requestAnimationFrame(step);
   }
 
   /**
@@ -121,6 +197,7 @@ export class MeshView {
     const frame = normalisingFrame(mesh.positions);
     this.#objects = [mesh, ...(after ? [after] : [])].map((one) => this.#createObject(one, frame));
     this.#scene.add(...this.#objects);
+    this.#layGround();
     this.#setLines(lines, frame);
     this.#draw();
   }
@@ -147,11 +224,13 @@ export class MeshView {
     const geometry = new three.BufferGeometry();
     geometry.setAttribute('position', new three.BufferAttribute(normalise(frame, positions), 3));
     if (colors) geometry.setAttribute('color', new three.BufferAttribute(colors, 3));
-    const paint = colors ? { vertexColors: true } : { color: 0x9fb2c4 };
+    const paint = colors ? { vertexColors: true } : { color: PAPER_COLOUR };
     if (triangles.length === 0) return new three.Points(geometry, new three.PointsMaterial({ ...paint, size: 2, sizeAttenuation: false }));
     geometry.setIndex(new three.BufferAttribute(triangles, 1));
     geometry.computeVertexNormals();
-    return new three.Mesh(geometry, new three.MeshLambertMaterial({ ...paint, ...this.#material, side: three.DoubleSide }));
+    const object = new three.Mesh(geometry, new three.MeshLambertMaterial({ ...paint, ...this.#material, side: three.DoubleSide }));
+    object.castShadow = true;
+    return object;
   }
 
   /** Moves the divider. @param {number} share of the canvas left of it */

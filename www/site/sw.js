@@ -33,6 +33,7 @@ const isDocument = ({ href }) => ['guide/', 'reference/'].some((folder) => href.
 listen('fetch', (event) => {
   const { request } = event;
   const url = new URL(request.url);
+  if (request.method === 'POST' && url.href === new URL('./share', scope).href) return event.respondWith(takeShared(request));
   if (request.method !== 'GET' || url.origin !== location.origin) return;
   event.respondWith((isDocument(url) ? documentFor(request) : fileFor(request)).then(isolated));
 });
@@ -49,6 +50,14 @@ function isolated(response) {
   headers.set('Cross-Origin-Opener-Policy', 'same-origin');
   headers.set('Cross-Origin-Embedder-Policy', 'require-corp');
   return new Response(response.body, { status: response.status, statusText: response.statusText, headers });
+}
+
+/** Leaves shared files in a cache for the page, which opens them at its start (`panels/incoming.js`). @param {Request} request */
+async function takeShared(request) {
+  const files = (await request.formData()).getAll('files');
+  const cache = await caches.open('shared with developable');
+  for (const file of files) if (file instanceof File) await cache.put(new URL(`./shared/${encodeURIComponent(file.name)}`, scope), new Response(file));
+  return Response.redirect(scope.href, 303);
 }
 
 /** The response for the page or one of its files. @param {Request} request */

@@ -89,7 +89,7 @@ export async function compressFiles(folder) {
  */
 export async function writeSite(folder, { references = false } = {}) {
   await bundlePage(folder);
-  for (const name of ['register.js', 'manifest.webmanifest']) await copyFile(join(www, 'site', name), join(folder, name));
+  for (const name of ['register.js', 'manifest.webmanifest', 'icon-192.png', 'icon-512.png', 'icon-maskable-512.png']) await copyFile(join(www, 'site', name), join(folder, name));
   await copyFile(join(www, 'icon.svg'), join(folder, 'icon.svg'));
   for (const name of ['LICENSE-MIT', 'LICENSE-APACHE']) await copyFile(join(root, name), join(folder, name));
   const page = join(folder, 'index.html');

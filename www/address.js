@@ -47,6 +47,9 @@ export function addressOf({ card, example, file, stored, settings, whole, photo,
   return `#${[...(card ? [card] : []), ...(parameters.size > 0 ? [parameters] : [])].join('&')}`;
 }
 
+/** Whether a fragment leads to the first screen. @param {string} hash */
+export const isStart = (hash) => hash.length <= 1;
+
 /**
  * Decodes a fragment; unknown or invalid parts are ignored.
  * @param {string} hash

@@ -1,16 +1,19 @@
 /** Entry point of the page: creates the session and its panels, and connects them. */
 import { Analyses } from './analyses.js';
 import { connect } from './api.js';
-import { element, onFilesChosen } from './dom.js';
+import { element } from './dom.js';
 import { analysisPanel } from './panels/analysis.js';
 import { inputImagesPanel } from './panels/input-images.js';
 import { curvePanel } from './panels/curve.js';
 import { designPanel } from './panels/design.js';
+import { detailsPanel } from './panels/details.js';
 import { watchDrops } from './panels/drop.js';
 import { editPanel } from './panels/edit.js';
 import { filesPanel } from './panels/files.js';
 import { galleryPanel } from './panels/gallery.js';
+import { watchIncoming } from './panels/incoming.js';
 import { headlinePanel } from './panels/headline.js';
+import { homePanel } from './panels/home.js';
 import { addressSyncPanel } from './panels/address-sync.js';
 import { modePanel } from './panels/mode.js';
 import { hideNotice, showNotice } from './panels/notice.js';
@@ -29,6 +32,7 @@ import { MeshFit } from './mesh-fit.js';
 import { errorMessage } from './messages.js';
 
 async function start() {
+  detailsPanel();
   const session = new Session(await connect());
   const started = session.start();
   const analyses = new Analyses(session.api);
@@ -43,7 +47,7 @@ async function start() {
   inputImagesPanel(session);
   runPanel(session);
   curvePanel(session);
-  reportPanel(session);
+  reportPanel(session, analyses);
   const views = analysisPanel(session, analyses, show);
   headlinePanel(session, analyses);
   savePanel(session, analyses, views.choose, meshFitView);
@@ -52,15 +56,24 @@ async function start() {
     mode.enter('heights');
     source.openLoadedMesh({ name, kind: 'photo' }, async () => mesh, 'The page could not be taken as a surface');
   }, (photos) => void addressSync.rememberPhotos(photos), (states) => addressSync.rememberOutlines(states));
-  const mode = modePanel((entered) => {
+  const mode = modePanel(session, (entered) => {
     if (entered === 'photo') page.begin();
     addressSync.onModeChange();
   });
   const files = filesPanel(session, mode, source, page);
   const gallery = galleryPanel(session, { adopt, choose: views.choose, strip: strip.show, enter: () => mode.enter('heights') });
   element('notice-close', HTMLButtonElement).addEventListener('click', hideNotice);
-  watchDrops(files.open);
-  for (const [button, input] of [['open', 'file'], ['page-open', 'page-file']]) onFilesChosen(element(button, HTMLButtonElement), element(input, HTMLInputElement), files.open);
+  watchDrops((dropped) => void files.open(dropped));
+  homePanel((chosen, door) => void files.open(chosen, door === 'page' || undefined), {
+    page: () => {
+      mode.enter('photo');
+      page.showExample();
+    },
+    scan: () => {
+      mode.enter('heights');
+      void source.openExample('roof', { size: 400, noise: 0.02 });
+    },
+  });
   const addressSync = addressSyncPanel(session, {
     adopt, choose: views.choose, openExample: source.openExample, openFiles: source.openFiles, reinterpretFile: source.reinterpretFile, gallery, mode,
     openHeights: (stored) => {
@@ -71,6 +84,7 @@ async function start() {
   });
   await started;
   await addressSync.begin();
+  watchIncoming((incoming) => void files.open(incoming));
 }
 
 start().catch((error) => {

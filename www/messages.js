@@ -117,7 +117,7 @@ export const ADDRESS_WORDS = {
 /** Figures below each of the five pictures with different λ. */
 export const STRIP_WORDS = {
   /** @param {number} pieces infinite if the surface is creased all over @param {number} distance distance from the input, as a share of the width */
-  figures: (pieces, distance) => `${Number.isFinite(pieces) ? `${count(pieces)} ${pieces === 1 ? 'piece' : 'pieces'}` : 'many small pieces'}, ${percent(distance)} from the input`,
+  figures: (pieces, distance) => `${Number.isFinite(pieces) ? `${count(pieces)} ${pieces === 1 ? 'piece' : 'pieces'}` : 'many small creases'} · ${percent(distance)} from the input`,
 };
 
 /** Messages about the fit of a whole mesh. */
@@ -126,7 +126,7 @@ export const MESH_FIT_WORDS = {
   solving: 'Solving the whole mesh…',
   /** @param {number} n */
   iterations: (n) => `${count(n)} ${n === 1 ? 'iteration' : 'iterations'}.`,
-  solved: 'The whole mesh is solved, on all sides.',
+  solved: 'Done: the whole mesh.',
   unsolved: 'The mesh cannot be solved as a whole.',
   /** @param {string} share */
   hidden: (share) => `From this side ${share} of the surface is hidden. “Whole mesh” solves all of it.`,
@@ -151,8 +151,11 @@ export const SHEET_WORDS = {
   ownSize: 'no unit: choose the size',
   figures: 'Figures',
   title: 'Cut-out sheets',
-  /** @param {string} side @param {number} pages */
-  headline: (side, pages) => `Cut-out sheets: ${side} mm, ${pages === 1 ? '1 page' : `${count(pages)} pages`}`,
+  /** @param {string} side @param {number} pages @param {number} joints @param {string} smallest */
+  headline: (side, pages, joints, smallest) =>
+    `Cut-out sheets: ${side} mm, ${pages === 1 ? '1 page' : `${count(pages)} pages`}, ${joints === 1 ? '1 joint' : `${count(joints)} joints`}, smallest piece ${smallest} mm`,
+  /** @param {string} smallest */
+  small: (smallest) => `Hard to build: the smallest piece is ${smallest} mm long. Make it larger, or its pieces simpler by less detail.`,
   /** @param {number} pages */
   manyPages: (pages) => `These are ${count(pages)} pages. Is the unit of the file right? A smaller longer side needs fewer.`,
   card: 'card or paper',
@@ -199,6 +202,17 @@ export const FORMAT_WORDS = {
   flatMesh: 'all sheets as one flat mesh',
 };
 
+/** Labels and messages about solids for 3D printers. */
+export const SOLID_WORDS = {
+  words: 'closed and in millimetres, for a 3D printer',
+  side: 'Longest side when printed, mm',
+  base: 'Base at its thinnest, mm',
+  thickness: 'Thickness, mm',
+  shell: 'Where it bends more tightly than its thickness, the shell may cross itself.',
+  /** @param {string} field */
+  outOfRange: (field) => `“${field}” has to be at least 0.1`,
+};
+
 /** Messages and labels of the save dialog. */
 export const SAVE_WORDS = {
   pdf: 'to print or to send',
@@ -216,7 +230,7 @@ export const SAVE_WORDS = {
   paper: (looksLike) => `Paper size of the PDF${looksLike ? ` (looks like ${looksLike})` : ''}`,
   /** @param {string} size */
   trueSize: (size) => `true size, ${size}`,
-  papers: { a4: 'A4', letter: 'Letter', a5: 'A5', a3: 'A3', 'a4-wide': 'A4, lengthwise', 'letter-wide': 'Letter, lengthwise' },
+  papers: { a4: 'A4', letter: 'Letter', a5: 'A5', a3: 'A3', 'a4-wide': 'A4 landscape', 'letter-wide': 'Letter landscape' },
 };
 
 /** Maximum duality gap that messages mention. At this gap the objective may be twice the optimum. */
@@ -236,7 +250,6 @@ export const HEADLINE_WORDS = {
 export const RUN_WORDS = {
   begun: 'Solving…',
   stopping: 'Stopping…',
-  unsolved: 'Not solved',
   /** @param {number} level @param {string} time */
   coarse: (level, time) => `Coarse solve, ${count(level)} finer ${level === 1 ? 'one' : 'ones'} to come, ${time}`,
   /** @param {number | undefined} gap @param {number} iterations @param {string} time */
@@ -280,7 +293,7 @@ export function piecesInWords(pieces, creases, oneSide = false) {
   const meet = creases === 0
     ? `${smooth}${pieces === 1 ? none : ', apart from each other'}`
     : `${smooth} ${pieces === 1 ? 'with' : 'meet in'} ${creases === 1 ? 'one crease' : `${count(creases)} creases`}`;
-  if (oneSide && !Number.isFinite(pieces)) return 'You see one side of it. “Whole mesh” solves all of it.';
+  if (oneSide && !Number.isFinite(pieces)) return 'Seen from one side only. Solve the whole mesh?';
   const words = Number.isFinite(pieces) ? meet : 'Its pieces are too small to count';
   return oneSide ? `From this side: ${words[0].toLowerCase()}${words.slice(1)}.` : `${words}.`;
 }
@@ -330,7 +343,7 @@ export function meshLambdaChoiceInWords({ lambda, sigma }) {
 
 /** Messages about the field for λ. */
 export const LAMBDA_WORDS = {
-  invalid: 'λ must be a number from 1e-12 to 1e15, such as 2.5e6. You see the result for the last λ.',
+  invalid: 'λ must be a number from 10⁻¹² to 10¹⁵. Showing the last result.',
 };
 
 /** Hint for λ of a design. */

@@ -81,9 +81,14 @@ export function strainLimitOf({ summary: { strain } }) {
 export function sheetsInWords({ summary: { sheets, seams, folds, slits, strain } }) {
   const cut = seams === 0 ? '' : `, to be joined along ${seams === 1 ? 'one cut' : `${count(seams)} cuts`}`;
   const fold = folds === 0 ? '' : `, with ${folds === 1 ? 'one fold' : `${count(folds)} folds`}`;
-  const slit = slits === 0 ? '' : ` ${slits === 1 ? 'One slit lets' : `${count(slits)} slits let`} ${sheets === 1 ? 'it' : 'them'} lie flat.`;
+  const slit = slits === 0 ? '' : ` ${slits === 1 ? 'One cut' : `${count(slits)} cuts`}, then ${sheets === 1 ? 'it lies' : 'they lie'} flat.`;
   const stretch = strain > STRAIN_LIMITS[0] ? ` Paper has to give by ${percent(strain)}: use something that stretches, or a smaller λ.` : '';
   return `${sheets === 1 ? 'One sheet' : `${count(sheets)} sheets`}${fold}${cut}.${slit}${stretch}`;
+}
+
+/** Longer side of the smallest sheet of a drawing, in millimetres. @param {Drawing} drawing */
+export function smallestPiece({ sheets }) {
+  return Math.min(...sheets.map(({ bounds: [[left, bottom], [right, top]] }) => Math.max(right - left, top - bottom)));
 }
 
 /**

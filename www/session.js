@@ -164,6 +164,11 @@ export class Session extends Events {
     await solver;
   }
 
+  /** Says that the solver waits for an input. */
+  wait() {
+    if (this.phase === 'starting') this.#setPhase('idle');
+  }
+
   /**
    * An example of the package. The solver's worker makes it, unless that worker is busy or about to be disposed of.
    * @param {ExampleName} name

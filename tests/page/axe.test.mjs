@@ -8,7 +8,7 @@ import { serve } from '../../tools/serve.mjs';
 import { writeGuide } from '../../tools/site/guide.mjs';
 import { noisyBox } from './support/box.mjs';
 import { obj } from './support/files.mjs';
-import { choose, drop, inChromium, openFromOneSide, pageTest, painted, runBy } from './support/page.mjs';
+import { choose, drop, enterPages, inChromium, openFromOneSide, pageTest, painted, runBy } from './support/page.mjs';
 import { dottedPhoto } from './support/photos.mjs';
 
 /** @typedef {import('playwright-core').Page} Page */
@@ -71,8 +71,8 @@ pageTest('axe finds nothing wrong with any view', async (page) => {
     await soundEverywhere(page, await radio.inputValue(), { within: 'section[aria-label="Surfaces"]' });
   }
   // It does see what is wrong.
-  await page.locator('#run').evaluate(({ style }) => Object.assign(style, { color: '#777', background: '#888' }));
-  assert.match(String(await violations(page, { rules: NARROW })), /color-contrast.*#run/s);
+  await page.locator('#open').evaluate(({ style }) => Object.assign(style, { color: '#777', background: '#888' }));
+  assert.match(String(await violations(page, { rules: NARROW })), /color-contrast.*#open/s);
 });
 
 pageTest('with more contrast, text has 7 to 1, and borders are seen', async (page) => {
@@ -95,7 +95,7 @@ pageTest('with more contrast, text has 7 to 1, and borders are seen', async (pag
 });
 
 pageTest('axe finds nothing wrong with a photo of a page', async (page) => {
-  await choose(page.locator('input[name="mode"][value="photo"]'));
+  await enterPages(page);
   await drop(page, 'IMG_1.png', dottedPhoto());
   await page.locator('#page-caption', { hasText: 'IMG_1' }).waitFor();
   await page.locator('#flat-view[aria-busy="false"]').waitFor({ state: 'attached' });

@@ -72,11 +72,11 @@ pageTest('a pin is dragged up, the surface follows, and Undo takes it back', asy
   assert.equal(await page.getByRole('slider', { name: 'Pin 1', exact: true }).count(), 0);
   const rest = await page.locator('.knob').count();
   await page.locator('.knob').last().focus();
-  await runBy(page, () => page.getByRole('button', { name: 'Take the pin away' }).click());
+  await runBy(page, () => page.getByRole('button', { name: 'Remove pin' }).click());
   assert.equal(await page.locator('.knob').count(), rest - 1, 'by a finger, too');
   await runBy(page, () => page.getByRole('button', { name: 'Canopy' }).click());
   const before = parsed(await page.locator('#input-legend').innerText().then((text) => text.replace('held at ', '')));
-  await runBy(page, () => page.getByLabel('Hold its edge on the ground').check());
+  await runBy(page, () => page.getByLabel('Fix border at height 0').check());
   const after = parsed(await page.locator('#input-legend').innerText().then((text) => text.replace('held at ', '')));
   assert.ok(after > before);
 }, { arrangement: 'space' });

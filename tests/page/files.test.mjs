@@ -2,7 +2,7 @@
 import assert from 'node:assert/strict';
 import { grid, npy, obj, parseNpy, png16 } from './support/files.mjs';
 import { parsed } from './support/numbers.mjs';
-import { choose, drop, dropAll, look, open, pageTest, reported, runBy, save, settled } from './support/page.mjs';
+import { choose, drop, dropAll, enterPages, look, open, pageTest, reported, runBy, save, settled } from './support/page.mjs';
 import { dottedPhoto } from './support/photos.mjs';
 
 /** @typedef {import('playwright-core').Page} Page */
@@ -176,11 +176,11 @@ pageTest('the kind of a file chooses the part of the page, and what does not bel
   // A photo on the first screen, beside something that cannot be read.
   await dropAll(page, { 'IMG_7.png': photo, 'letter.docx': Buffer.from('PK\x03\x04') });
   await page.locator('#page-caption', { hasText: 'IMG_7' }).waitFor();
-  assert.ok(await page.getByRole('radio', { name: 'A photo of a page' }).isChecked());
+  assert.ok(await page.locator('#page-side').isVisible());
   await alert.filter({ hasText: /Taken for a photo of a page\. Left out: “letter\.docx” \(a text document\)\./ }).waitFor();
   assert.equal(await page.locator('#notice').getAttribute('data-kind'), 'note');
   await alert.getByRole('button', { name: 'Heights instead?' }).click();
-  assert.ok(await page.getByRole('radio', { name: 'Heights, depth, scans' }).isChecked());
+  assert.ok(await page.locator('#heights-side').isVisible());
   assert.match(await alert.innerText(), /has no heights\. Open the depths that belong to it/);
   // A photo that cannot be read does not keep the next one from being opened, and is named.
   await dropAll(page, { 'IMG_8.heic': Buffer.from('\0\0\0\x18ftypheic\0\0\0\0heicmif1', 'latin1'), 'IMG_9.png': photo });
@@ -195,7 +195,8 @@ pageTest('the kind of a file chooses the part of the page, and what does not bel
   await page.locator('#input-caption', { hasText: 'other' }).waitFor();
   await settled(page);
   // What a depth camera writes is a picture, too.
-  await choose(page.locator('input[name="mode"][value="photo"]'));
+  await enterPages(page);
+  await page.locator('#page-caption', { hasText: 'curled' }).waitFor();
   await drop(page, 'scan.png', png16(WIDTH, plane));
   await page.locator('#input-caption', { hasText: 'scan' }).waitFor();
   await settled(page);
@@ -203,7 +204,7 @@ pageTest('the kind of a file chooses the part of the page, and what does not bel
 });
 
 pageTest('a photo with more pixels than the package reads is reduced without a question', async (page) => {
-  await choose(page.locator('input[name="mode"][value="photo"]'));
+  await enterPages(page);
   await page.locator('#page-caption', { hasText: 'curled' }).waitFor();
   // 5000 × 4400 pixels of one grey.
   await page.evaluate(async () => {
@@ -213,7 +214,7 @@ pageTest('a photo with more pixels than the package reads is reduced without a q
     context.fillRect(0, 0, 5000, 4400);
     const files = new DataTransfer();
     files.items.add(new File([await canvas.convertToBlob({ type: 'image/png' })], 'large.png'));
-    const input = /** @type {HTMLInputElement} */ (document.querySelector('#page-file'));
+    const input = /** @type {HTMLInputElement} */ (document.querySelector('#file'));
     input.files = files.files;
     input.dispatchEvent(new Event('change', { bubbles: true }));
   });

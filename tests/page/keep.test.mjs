@@ -5,7 +5,7 @@ import { CARDS } from '../../www/gallery/cards.js';
 import { test } from 'node:test';
 import { grid, npy } from './support/files.mjs';
 import { parsed } from './support/numbers.mjs';
-import { choose, drop, open, pageTest, reported, runBy, settled } from './support/page.mjs';
+import { choose, drop, enterPages, open, pageTest, reported, runBy, settled } from './support/page.mjs';
 import { dottedPhoto } from './support/photos.mjs';
 
 const defaults = /** @type {const} */ ({ lambda: 1e6, gap: 0.01, schedule: 'default', coarsening: 1, energy: 'nuclear', reweighting: 0, occlusionThreshold: undefined });
@@ -59,13 +59,15 @@ pageTest('settings stand in the address, Back undoes them, and a file is there a
   assert.equal(await page.locator('#recent').isVisible(), false, 'it is open, and no other was opened before');
 
   // A photo of a page, too; going back leads to what was there before it.
-  await choose(page.locator('input[name="mode"][value="photo"]'));
+  await enterPages(page);
   await page.locator('#page-caption', { hasText: 'curled' }).waitFor();
   await drop(page, 'letter.png', dottedPhoto());
   await page.waitForURL(/file=\d+&photo=1/);
   await page.reload();
   await page.locator('#page-caption', { hasText: 'letter' }).waitFor();
   await page.goBack();
+  await page.goBack();
+  await page.locator('#home').waitFor();
   await page.goBack();
   await page.locator('#file-name', { hasText: 'slope' }).waitFor();
   await settled(page);
@@ -114,4 +116,4 @@ pageTest('settings stand in the address, Back undoes them, and a file is there a
   await page.locator('#file-name', { hasText: 'other' }).waitFor();
   await settled(page);
   assert.equal(await page.locator('#story').isVisible(), false);
-}, { start: '' });
+}, { start: '#example=roof' });

@@ -14,8 +14,6 @@ const plane = grid(WIDTH, HEIGHT, slope);
 /** @param {Page} page */
 const run = (page) => runBy(page, () => page.getByRole('button', { name: 'Solve', exact: true }).click());
 /** @param {Page} page */
-const more = (page) => page.locator('#controls summary').click();
-/** @param {Page} page */
 const result = async (page) => parseNpy((await save(page, 'NPY')).bytes).values;
 /** @param {Page} page */
 const names = (page) => page.locator('#report-table tr:not(.group) th').allInnerTexts();
@@ -72,7 +70,6 @@ pageTest('where it jumps it is torn, which can be seen before and after', async 
   const step = grid(WIDTH, HEIGHT, (col, row) => slope(col, row) + (col > 20 ? 15 : 0));
   await open(page, 'step.npy', npy(WIDTH, step));
   const plain = (await look(page, '#input-canvas')).hash;
-  await more(page);
   await page.getByLabel('Tear where it jumps').check();
   await page.locator('#input-legend', { hasText: 'no jumps found' }).waitFor(); // at 4e4
   const field = page.getByLabel('Smallest jump');
@@ -99,7 +96,6 @@ pageTest('heights without confidence do not count', async (page) => {
   await open(page, 'spoilt.npy', npy(WIDTH, grid(WIDTH, HEIGHT, (col, row) => slope(col, row) + (spoilt(col, row) ? 30 * Math.sin(col * row) : 0))));
   await run(page);
   assert.ok(deviation(await result(page), plane) > 1);
-  await more(page);
   const trust = grid(WIDTH, HEIGHT, (col, row) => (col > 19 && col < 29 && row > 11 && row < 21 ? 0 : 1));
   await runBy(page, () => choose(page, 'Confidence image', 'trust.npy', npy(WIDTH, trust)));
   assert.ok(deviation(await result(page), plane) < 0.05);
@@ -113,7 +109,6 @@ pageTest('heights without confidence do not count', async (page) => {
 
 pageTest('reading what is known besides can be done without', async (page) => {
   await open(page, 'slope.npy', npy(WIDTH, plane));
-  await more(page);
   // The request to read never reaches the worker, so that reading does not end by itself.
   await page.evaluate(() => {
     const own = Worker.prototype.postMessage;
@@ -136,7 +131,6 @@ pageTest('reading what is known besides can be done without', async (page) => {
 pageTest('constraints hold besides heights, and wrong ones are refused', async (page) => {
   await open(page, 'slope.npy', npy(WIDTH, plane));
   await run(page);
-  await more(page);
   const middle = 18 * WIDTH + 24;
   await choose(page, 'Constraint image', 'small.npy', npy(10, plane.slice(0, 100)));
   assert.match(await page.getByRole('alert').innerText(), /small\.npy.*10 × 10.*48 × 36/);
@@ -152,7 +146,6 @@ pageTest('constraints hold besides heights, and wrong ones are refused', async (
 });
 
 pageTest('another energy, and reweighted passes, are told of', async (page) => {
-  await more(page);
   await runBy(page, () => page.locator('#size').selectOption('100'));
   await runBy(page, () => page.locator('#energy').selectOption('frobenius'));
   assert.ok((await names(page)).includes('Bending') && !(await names(page)).includes('Nuclear norms'));
@@ -195,7 +188,6 @@ pageTest('λ by the noise, and what came of it, beside the slider', async (page)
   assert.equal(await button.getAttribute('aria-pressed'), 'false');
   assert.equal(parsed(await reported(page, 'λ')), 1e7);
   assert.equal(await page.locator('#energy').inputValue(), 'huber', 'λ changes λ alone');
-  await page.locator('#controls summary').click();
   await runBy(page, () => page.locator('#energy').selectOption('nuclear'));
   await runBy(page, () => button.click());
   // λ by the noise changes λ alone.

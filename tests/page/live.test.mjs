@@ -56,7 +56,7 @@ pageTest('while λ is dragged, pictures follow, and the last wish is certified',
   assert.equal(await page.locator('#result-mark').isVisible(), false);
   assert.equal(await page.locator('#result-caption').innerText(), caption);
   assert.match(await page.locator('#verdict').innerText(), /not solved/);
-}, { start: '' });
+}, { start: '#example=roof' });
 
 pageTest('what grows with the size of a result is done in workers, and a picture comes before it where λ is auto', async (page) => {
   // How often each function was called by the main thread, which no other process has a say in.
@@ -89,7 +89,7 @@ pageTest('what grows with the size of a result is done in workers, and a picture
   assert.equal(calls('surface/triangles.js', 'fillTriangles'), 0);
   // Of previews only, which are small.
   assert.ok(calls('surface/normals.js', 'normalsOf') <= 2 * previews, `${calls('surface/normals.js', 'normalsOf')} for ${previews} previews`);
-}, { start: '', sources: true });
+}, { start: '#example=roof', sources: true });
 
 pageTest('the solver of a large input gives its memory back when it rests, and comes again', async (page) => {
   await page.evaluate(() => {

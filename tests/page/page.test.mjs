@@ -5,7 +5,7 @@ import { pageCautions, pageErrors } from '../../www/page/messages.js';
 import { ASSUMED_FIELD_OF_VIEW, flattenWholePhoto, PageFlattener } from '../../www/page/flatten.js';
 import { readPdf, readPdfPicture } from '../js/support/drawings.mjs';
 import { parsed } from './support/numbers.mjs';
-import { choose, drop, dropAll, ended, look, pageTest, painted, saveAs } from './support/page.mjs';
+import { choose, drop, dropAll, ended, enterPages, look, pageTest, painted, saveAs } from './support/page.mjs';
 import { camera, dottedPhoto, misplaced, parsePng, png, seen } from './support/photos.mjs';
 
 /** @typedef {import('playwright-core').Page} Page */
@@ -25,7 +25,7 @@ async function flattened(page) {
 
 /** @param {Page} page @param {string} name @param {Buffer} bytes */
 async function openPhoto(page, name, bytes) {
-  await choose(page.locator('input[name="mode"][value="photo"]'));
+  await enterPages(page);
   await drop(page, name, bytes);
   await page.locator('#page-caption', { hasText: name.replace(/\.\w+$/, '') }).waitFor();
   await flattened(page);
@@ -102,7 +102,7 @@ pageTest('a page on a dark ground is found, and its dots come out evenly', async
 
 pageTest('corners and points are dragged where the outline is doubtful, and edges are drawn to the page', async (page) => {
   await openPhoto(page, 'pale.png', pale);
-  assert.match(await page.locator('#flat-verdict').innerText(), /doubtful|Not reliable/);
+  assert.match(await page.locator('#flat-verdict').innerText(), /check it|Not reliable/);
   for (const [name, s, t] of CORNERS) {
     const [x, y] = seen(s, t);
     await drag(page, name, [x + 3, y - 2]);
@@ -139,7 +139,7 @@ pageTest('a page that is not found has no flat page, no figure and no file until
   await drag(page, 'Upper left corner', seen(0, 0));
   await flattened(page);
   assert.ok(await save.isEnabled());
-  assert.match(await detail.innerText(), /^Drag the other 3 corners, too\..* hardly seen: check them/s);
+  assert.match(await detail.innerText(), /^Drag the other 3 corners, too\..* hard to see/s);
   // Taken back, it is not found again.
   await page.keyboard.press('Control+z');
   await page.locator('#page-side[data-state="unfound"]').waitFor();
@@ -148,7 +148,7 @@ pageTest('a page that is not found has no flat page, no figure and no file until
 });
 
 pageTest('photos that are opened together become one PDF, each with its own outline', async (page) => {
-  await choose(page.locator('input[name="mode"][value="photo"]'));
+  await enterPages(page);
   await dropAll(page, { 'one.png': photo, 'two.png': photo, 'none.png': hidden });
   const numbers = page.locator('#book').getByRole('button', { name: /^Photo \d/ });
   await page.locator('#page-caption', { hasText: 'one' }).waitFor();
@@ -248,7 +248,7 @@ test('where nothing tells the focal length, that of a phone is assumed, and said
   assert.deepEqual(asked.map((one) => /** @type {any} */ (one)[1]), [undefined, ASSUMED_FIELD_OF_VIEW]);
   const told = pageCautions({ outside: ['upper left'], weak: ['lower', 'right'], assumed: true, unplaced: 0 });
   assert.deepEqual(told, [
-    'The upper left corner is outside the photo, so its place is a guess.', 'The lower and right edges are hardly seen: check them.',
+    'The upper left corner is outside the photo.', 'The lower and right edges are hard to see.',
     'The camera is not known, so I assume a field of view of 65°.',
   ]);
   const doubts = /** @type {const} */ ([
@@ -415,11 +415,11 @@ pageTest('an edge is pulled into a further point', async (page) => {
   assert.equal(await points.count(), 4);
   await page.mouse.up();
   await flattened(page);
-  assert.match(await page.locator('#flat-verdict').innerText(), /Not reliable|doubtful|cannot/, 'it was pulled away from the page');
+  assert.match(await page.locator('#flat-verdict').innerText(), /Not reliable|check it|cannot/, 'it was pulled away from the page');
 });
 
 pageTest('lines of text are found, shown and switched off; drawn by mouse and keyboard they change the verdict', async (page) => {
-  await choose(page.locator('input[name="mode"][value="photo"]'));
+  await enterPages(page);
   await page.locator('#page-caption', { hasText: 'curled' }).waitFor();
   await flattened(page);
   await page.locator('#page-side details').evaluateAll((all) => all.forEach((details) => details.setAttribute('open', '')));
@@ -462,7 +462,7 @@ pageTest('lines of text are found, shown and switched off; drawn by mouse and ke
   assert.ok(Math.abs(straight - v) > 8 && Math.hypot(middle[0] - u, middle[1] - v) < 4, `${middle} for ${u}, ${v}`);
   // One that is none.
   await draw(seen(0.3, 0.35), seen(0.8, 0.65));
-  assert.match(await verdict.innerText(), /Not reliable|doubtful|cannot be made flat/);
+  assert.match(await verdict.innerText(), /Not reliable|check it|cannot be made flat/);
   await page.keyboard.press('Delete');
   await flattened(page);
   assert.equal(await ends.count(), 6);
@@ -508,7 +508,7 @@ pageTest('known: format, focal length, what is bent, two pages', async (page) =>
     await page.getByLabel(label).press('Tab');
   }
   await flattened(page);
-  assert.match(await page.locator('#flat-verdict').innerText(), /doubtful|Not reliable|cannot be made flat/);
+  assert.match(await page.locator('#flat-verdict').innerText(), /check it|Not reliable|cannot be made flat/);
   assert.match(await page.locator('#flat-detail').innerText(), /format/);
   await page.getByLabel('Page format').selectOption('');
   await flattened(page);
@@ -521,7 +521,7 @@ pageTest('known: format, focal length, what is bent, two pages', async (page) =>
 });
 
 pageTest('the open book has its gutter where both pages meet', async (page) => {
-  await choose(page.locator('input[name="mode"][value="photo"]'));
+  await enterPages(page);
   await choose(page.locator('input[value="book"]'));
   await page.locator('#page-caption', { hasText: 'book' }).waitFor();
   await flattened(page);
@@ -568,7 +568,7 @@ pageTest('on a phone a finger drags, and nothing scrolls', async (page) => {
     const box = await one.boundingBox();
     assert.ok(box && box.width >= 44 && box.height >= 44, 'large enough for a finger');
   }
-  const low = await page.locator(':is(.ways, #page-side) :is(button, select):not(.handle):visible').evaluateAll((all) =>
+  const low = await page.locator(':is(.masthead, #page-side) :is(button, select):not(.handle):visible').evaluateAll((all) =>
     all.filter((one) => one.getBoundingClientRect().height < 44).map(({ id }) => id));
   assert.deepEqual(low, []);
   const [x, y] = await placeOf(page, 'Lower left corner');
@@ -669,7 +669,7 @@ pageTest('a photo that is being read can be done without', async (page) => {
     const blob = await canvas.convertToBlob({ type: 'image/png' });
     const files = new DataTransfer();
     files.items.add(new File([blob], 'large.png', { type: 'image/png' }));
-    const input = /** @type {HTMLInputElement} */ (document.querySelector('#page-file'));
+    const input = /** @type {HTMLInputElement} */ (document.querySelector('#file'));
     const panel = /** @type {HTMLElement} */ (document.querySelector('#page-opening'));
     const offered = new Promise((resolve) => new MutationObserver(() => !panel.hidden && resolve(null)).observe(panel, { attributes: true }));
     input.files = files.files;

@@ -7,6 +7,7 @@ import { join } from 'node:path';
 import { serve } from '../../tools/serve.mjs';
 import { bundlePage, compressFiles, writeSite } from '../../tools/site.mjs';
 import { inChromium, pageTest, settled } from './support/page.mjs';
+import { dottedPhoto } from './support/photos.mjs';
 
 /** Waits for the pictures of a guide. @param {import('playwright-core').Page} page */
 async function loaded(page) {
@@ -38,9 +39,9 @@ pageTest('the site works under any path and without a network, and is renewed as
     await visit.evaluate(async () => { await navigator.serviceWorker.ready; });
     // Guides are linked from the page, and what of them is opened is kept, pictures too.
     const guide = await context.newPage();
-    await guide.goto(visit.url());
+    await guide.goto(visit.url().replace(/#.*/, ''));
     await guide.reload();
-    await guide.getByRole('navigation', { name: 'Documentation' }).getByRole('link').click();
+    await guide.getByRole('link', { name: 'Guide' }).click();
     await guide.getByRole('heading', { name: 'The web page', level: 1 }).waitFor();
     await guide.goto(new URL('meshes.html', guide.url()).href);
     await loaded(guide);
@@ -56,6 +57,24 @@ pageTest('the site works under any path and without a network, and is renewed as
     await visit.locator('#save-size', { hasText: /glb, \d/ }).waitFor();
     await visit.keyboard.press('Escape');
 
+    // What the system's share sheet hands over is opened, without a network too.
+    const shared = await context.newPage();
+    await shared.goto(`${visit.url().replace(/#.*/, '')}`);
+    await shared.evaluate((content) => {
+      const form = document.createElement('form');
+      Object.assign(form, { method: 'post', enctype: 'multipart/form-data', action: './share' });
+      const input = document.createElement('input');
+      Object.assign(input, { type: 'file', name: 'files' });
+      const files = new DataTransfer();
+      files.items.add(new File([Uint8Array.from(atob(content), (character) => character.charCodeAt(0))], 'IMG 7.png', { type: 'image/png' }));
+      input.files = files.files;
+      form.append(input);
+      document.body.append(form);
+      form.submit();
+    }, dottedPhoto({ page: 240, ground: 60 }, [1, 0.9, 0.8]).toString('base64'));
+    await shared.locator('#page-caption', { hasText: 'IMG 7' }).waitFor();
+    await shared.close();
+
     // Guides: one that was opened, with its picture, one that was not, and what is not kept.
     await guide.reload();
     await loaded(guide);
@@ -69,7 +88,7 @@ pageTest('the site works under any path and without a network, and is renewed as
     await context.setOffline(false);
     const again = await serve({ folders: { '/some/where/': folder }, port: Number(new URL(server.url).port) });
     try {
-      for (const [name, before, after] of [['index.html', '<h1>developable', '<h1>developable 2'], ['sw.js', '"version":"', '"version":"2']]) {
+      for (const [name, before, after] of [['index.html', '>developable</a>', '>developable 2</a>'], ['sw.js', '"version":"', '"version":"2']]) {
         const file = join(folder, name);
         for (const end of ['.br', '.gz']) await rm(file + end);
         await writeFile(file, (await readFile(file, 'utf8')).replace(before, after));

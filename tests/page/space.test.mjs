@@ -14,6 +14,7 @@ import { choose, pageTest, painted, runBy, settled } from './support/page.mjs';
  * @param {[number, number]} [columns] shares of the square that are wanted
  */
 async function brightness(page, selector, places = 30, [from, to] = [0, 1]) {
+  await page.locator(selector).scrollIntoViewIfNeeded();
   await painted(page);
   const box = await page.locator(selector).boundingBox();
   assert.ok(box);
@@ -105,7 +106,7 @@ pageTest('in space the surface is turned, lit and divided, and from above it is 
   // It is what the next visit begins with.
   await choose(page.getByRole('radio', { name: 'In space' }));
   assert.equal(await page.evaluate(() => localStorage.getItem('developable: arrangement')), 'space');
-}, { arrangement: 'space', start: '' });
+}, { arrangement: 'space', start: '#example=roof' });
 
 pageTest('without WebGL the flat pictures are there', async (page) => {
   await page.addInitScript(() => {
@@ -157,7 +158,7 @@ pageTest('an answer that takes long can be done without, and asked for again; th
   assert.equal((await page.locator('#flat-reading').innerText()).trim(), '', 'nothing beside it');
   await choose(page.getByRole('radio', { name: 'Shaded', exact: true }));
   assert.equal(await page.locator('#unfold-field').isVisible(), false);
-}, { arrangement: 'space', start: '' });
+}, { arrangement: 'space', start: '#example=roof' });
 
 pageTest('what rests is drawn finely, once; while λ is dragged there are pictures', async (page) => {
   await page.evaluate(() => {

@@ -13,7 +13,7 @@ pageTest('five λ side by side are smoother the smaller λ is, and a click takes
   const texts = await choices.allInnerTexts();
   assert.deepEqual(texts.map((text) => text.split('\n')[0].trim()), ['1e4', '1e5', '1e6', '1e7', '1e8'].map((lambda) => `λ = ${lambda}`));
   // The larger λ, the closer to the input.
-  const off = texts.map((text) => parsed(/, ([^,]*) from the input/.exec(text)?.[1] ?? ''));
+  const off = texts.map((text) => parsed(/· ([^·]*) from the input/.exec(text)?.[1] ?? ''));
   assert.ok(off.every((value, i) => value > 0 && (i === 0 || value < off[i - 1])), texts.join('; '));
 
   // What is followed more closely has more of the noise.
@@ -34,4 +34,4 @@ pageTest('five λ side by side are smoother the smaller λ is, and a click takes
   assert.notEqual((await look(page, '.strip-one:nth-child(3) canvas')).hash, pictures[2].hash);
   await open.click();
   assert.equal(await strip.isVisible(), false);
-}, { start: '' });
+}, { start: '#example=roof' });

@@ -390,7 +390,7 @@ pageTest('another result takes the place of an answer that is still being worked
   await page.locator('#analysis[aria-busy="false"]').waitFor();
   assert.match(await page.locator('#about-view .said').innerText(), /^Laid flat/);
   assert.equal(await page.locator('#notice').isVisible(), false);
-}, { start: '' });
+}, { start: '#example=roof' });
 
 pageTest('a view that cannot be worked out says so, and the surface stays', async (page) => {
   // Where the file is damaged, the copy in a module would do.

@@ -70,7 +70,7 @@ export function pageVerdict({ verdict, model, lines }) {
     case 'flat': return 'Made flat: the page lay flat, and only the perspective was removed.';
     case 'unrolled': return model === 'sheet' || model === 'softSheet' ? `Made flat: folds and bends follow its edges${text}.` : `Made flat: its edges${text} agree.`;
     case 'unchecked': return 'Made flat, but nothing checks the bend.';
-    case 'doubtful': return 'Made flat, but doubtful: compare it with the photo.';
+    case 'doubtful': return 'Flattened. Please check it against the photo.';
     default: return 'Not reliable: the edges do not fit one page.';
   }
 }
@@ -118,8 +118,8 @@ function doubtWords({ doubt, linesFound }, text) {
 export function pageCautions({ outside, weak, assumed, unplaced }) {
   return [
     ...(unplaced > 0 ? [`Drag the other ${unplaced === 1 ? 'corner' : `${count(unplaced)} corners`}, too.`] : []),
-    ...(outside.length > 0 ? [outside.length === 1 ? `The ${outside[0]} corner is outside the photo, so its place is a guess.` : `The ${joinWords(outside)} corners are outside the photo, so their places are guesses.`] : []),
-    ...(weak.length > 0 ? [`The ${joinWords(weak)} ${weak.length === 1 ? 'edge is' : 'edges are'} hardly seen: check ${weak.length === 1 ? 'it' : 'them'}.`] : []),
+    ...(outside.length > 0 ? [outside.length === 1 ? `The ${outside[0]} corner is outside the photo.` : `The page is partly outside the photo: its ${joinWords(outside)} corners.`] : []),
+    ...(weak.length > 0 ? [`The ${joinWords(weak)} ${weak.length === 1 ? 'edge is' : 'edges are'} hard to see.`] : []),
     ...(assumed ? ['The camera is not known, so I assume a field of view of 65°.'] : []),
   ];
 }

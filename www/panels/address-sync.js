@@ -1,5 +1,5 @@
 /** Keeps the page's address up to date with its state, for links, the history and reloads; and lists recent files. */
-import { addressOf, stateOf } from '../address.js';
+import { addressOf, isStart, stateOf } from '../address.js';
 import { element, elements, make } from '../dom.js';
 import { ADDRESS_WORDS } from '../messages.js';
 import { namesOf, recentFiles, storedFiles, storedOutlines, storeFiles, storeOutlines } from '../recent-files.js';
@@ -55,6 +55,7 @@ export function addressSyncPanel(session, page) {
   /** The present state. @returns {State} */
   const presentState = () => {
     const { input, settings } = session;
+    if (page.mode.now === 'home') return { settings: {} };
     if (page.mode.now === 'photo') return { photo: true, file: photoId, unkept: isUnstored || undefined, settings: {} };
     const card = page.gallery.present;
     if (card) {
@@ -74,7 +75,7 @@ export function addressSyncPanel(session, page) {
 
   /** Writes the state to the address. @param {boolean} [push] whether it is a new entry of the history */
   const writeAddress = (push = true) => {
-    if (isRestoring || !session.input) return;
+    if (isRestoring || page.mode.now === 'home' || (page.mode.now === 'heights' && !session.input)) return;
     const state = presentState();
     const address = addressOf(state, session.defaults);
     const withoutView = addressOf({ ...state, view: undefined }, session.defaults);
@@ -82,7 +83,7 @@ export function addressSyncPanel(session, page) {
     const isOther = withoutView !== addressWithoutView;
     addressWithoutView = withoutView;
     if (address === location.hash) return;
-    if ((push || isOther) && location.hash !== '') history.pushState(null, '', address);
+    if (push || isOther) history.pushState(null, '', address);
     else history.replaceState(null, '', address);
   };
   const writeSoon = () => {
@@ -116,6 +117,7 @@ export function addressSyncPanel(session, page) {
     isRestoring = true;
     clearTimeout(writeTimer);
     try {
+      if (isStart(location.hash)) return page.mode.show('home');
       if (state.photo) {
         page.mode.show('photo');
         if (state.file !== undefined && state.file !== photoId && await openStoredPhotos(state.file)) return;
@@ -129,7 +131,7 @@ export function addressSyncPanel(session, page) {
       const settings = { ...session.defaults, ...state.settings };
       const card = state.card ? page.gallery.find(state.card) : undefined;
       if (card && page.gallery.present !== card) return await page.gallery.show(card, { ...card.settings, ...state.settings }, state.view);
-      const isSameInput = card !== undefined || (state.file !== undefined ? state.file === fileId : JSON.stringify(state.example) === JSON.stringify(previous.example));
+      const isSameInput = session.input !== null && (card !== undefined || (state.file !== undefined ? state.file === fileId : JSON.stringify(state.example) === JSON.stringify(previous.example)));
       const wanted = card ? { ...session.defaults, ...card.settings, ...state.settings } : settings;
       // The input is solved only if it or the settings have changed.
       if (!isSameInput || Object.entries(wanted).some(([name, value]) => session.settings[/** @type {keyof Settings} */ (name)] !== value)) page.adopt(wanted);
@@ -155,23 +157,25 @@ export function addressSyncPanel(session, page) {
   };
   addEventListener('popstate', () => void restoreState(stateOf(location.hash)));
 
-  const list = element('recent', HTMLElement);
+  const lists = elements('.recent', HTMLElement);
   const updateRecentFiles = async () => {
     const all = await recentFiles();
     // The open file is not listed.
     const openId = page.mode.now === 'photo' ? photoId : fileId;
     const closed = all.filter(({ id }) => id !== openId);
-    list.hidden = closed.length === 0;
-    list.replaceChildren('Opened before: ', ...closed.map(({ id, files, arePhotos }) => {
-      const button = make('button', 'plain small', namesOf(files));
-      button.type = 'button';
-      button.addEventListener('click', () => {
-        if (!arePhotos) return void page.openHeights(files);
-        page.mode.show('photo');
-        void openStoredPhotos(id);
-      });
-      return button;
-    }));
+    for (const list of lists) {
+      list.hidden = closed.length === 0;
+      list.replaceChildren('Opened before: ', ...closed.map(({ id, files, arePhotos }) => {
+        const button = make('button', 'plain small', namesOf(files));
+        button.type = 'button';
+        button.addEventListener('click', () => {
+          if (!arePhotos) return void page.openHeights(files);
+          page.mode.show('photo');
+          void openStoredPhotos(id);
+        });
+        return button;
+      }));
+    }
   };
   void updateRecentFiles();
 
@@ -198,15 +202,13 @@ export function addressSyncPanel(session, page) {
   }
 
   return {
-    /** Shows the state of the address, or an example. */
+    /** Shows the state of the address, or an example where that has no input, or none that could be opened. */
     async begin() {
       const state = stateOf(location.hash);
       await restoreState(state);
-      if (session.input !== null) return;
-      // The address has no input, or none that could be opened.
+      if (session.input !== null || page.mode.now !== 'heights') return session.wait();
       await page.openExample('roof', { size: 400, noise: 0.02 });
-      if (state.photo) writeAddress(false);
-      else if (state.file !== undefined) showNotice(ADDRESS_WORDS.lost);
+      if (state.file !== undefined) showNotice(ADDRESS_WORDS.lost);
       else if (state.unkept) showNotice(ADDRESS_WORDS.unkept);
     },
     /** Stores files that were opened. @param {readonly File[]} files */

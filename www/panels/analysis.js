@@ -30,6 +30,7 @@ export function analysisPanel(session, analyses, show) {
   const panel = element('analysis', HTMLElement);
   const about = element('about-view', HTMLElement);
   const description = element('view-says', HTMLElement);
+  const [picture] = elements('.picture', HTMLElement);
   /** Number of the newest update; answers to older ones are discarded. */
   let newestUpdate = 0;
 
@@ -39,6 +40,9 @@ export function analysisPanel(session, analyses, show) {
   const display = (shown) => {
     show(shown);
     about.replaceChildren(...(shown.about ?? []));
+    const isReady = chosen() === 'shaded' || presentResult !== null;
+    description.textContent = isReady ? VIEW_WORDS[chosen()] ?? '' : '';
+    picture.removeAttribute('aria-busy');
     panel.dataset.view = chosen();
     panel.setAttribute('aria-busy', 'false');
   };
@@ -52,7 +56,6 @@ export function analysisPanel(session, analyses, show) {
     const turn = ++newestUpdate;
     const { result } = session;
     const name = chosen();
-    description.textContent = VIEW_WORDS[name] ?? '';
     const isSameView = presentView === name && presentResult === result;
     [presentView, presentResult] = [name, result];
     photo.setFlat(null);
@@ -68,6 +71,8 @@ export function analysisPanel(session, analyses, show) {
       return;
     }
     panel.setAttribute('aria-busy', 'true');
+    picture.setAttribute('aria-busy', 'true');
+    description.textContent = '';
     if (!isSameView) about.replaceChildren();
     const task = { label: 'Preparing this view', kind: name, size: result.surface.heights.length, msPerUnit: VIEW_MS_PER_VERTEX };
     waiting.begin(task);

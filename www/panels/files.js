@@ -55,9 +55,9 @@ export function filesPanel(session, mode, source, page) {
     return mode.now === 'heights' && input?.kind !== undefined && (input.sampling === undefined || input.depthSource !== undefined);
   };
 
-  /** @param {readonly File[]} files */
-  const open = async (files) => {
-    const { to, files: taken, left } = await routeFiles(files, { inPhotoMode: mode.now === 'photo', takesPhoto: takesPhoto() });
+  /** @param {readonly File[]} files @param {boolean} [arePages] whether pictures were opened as pages */
+  const open = async (files, arePages = mode.now === 'photo') => {
+    const { to, files: taken, left } = await routeFiles(files, { inPhotoMode: arePages, takesPhoto: takesPhoto() });
     if (to === 'none') return showNotice(FILE_WORDS.unread(files[0].name, unreadableKindInWords(files[0])));
     const leftOut = left.length > 0 ? FILE_WORDS.leftOut(namesOfLeft(left), to === 'heights' && kindByName(taken[0]) !== 'mesh') : '';
     if (to === 'photos') return openPhotos(taken, leftOut);

@@ -63,7 +63,8 @@ export function galleryPanel(session, { adopt, choose, strip, enter }) {
     adopt({ ...session.defaults, ...settings });
     choose(view);
     strip(card.opens === 'strip');
-    if (card.opens === 'drawer' && element('drawer', HTMLElement).hidden) element('certificate', HTMLButtonElement).click();
+    element('drawer', HTMLElement).hidden = card.opens !== 'drawer';
+    element('certificate', HTMLButtonElement).setAttribute('aria-expanded', String(card.opens === 'drawer'));
     await session.run();
   };
 

@@ -1,37 +1,44 @@
-/** Switch between the two parts of the page: heights, and photos of pages. */
-import { element, elements } from '../dom.js';
+/** Shows one part of the page: the first screen, heights and meshes, or photos of pages. */
+import { element } from '../dom.js';
 
-/** @typedef {'heights' | 'photo'} Mode */
+/** @import {Session} from '../session.js' */
+/** @typedef {'home' | 'heights' | 'photo'} Mode */
 
-/** Addresses of the guide to each part. @type {Record<Mode, string>} */
-const GUIDES = { heights: './guide/docs/page.html', photo: './guide/docs/dewarp.html' };
+/** The guide to each job. */
+const GUIDES = { home: './guide/docs/page.html', photo: './guide/docs/dewarp.html', model: './guide/docs/meshes.html', scan: './guide/docs/scans.html' };
 
-/** @param {(mode: Mode) => void} onEnter */
-export function modePanel(onEnter) {
-  const radios = elements('input[name="mode"]', HTMLInputElement);
-  const sides = { heights: element('heights-side', HTMLElement), photo: element('page-side', HTMLElement) };
+/**
+ * @param {Session} session
+ * @param {(mode: Mode) => void} onEnter
+ */
+export function modePanel(session, onEnter) {
+  const sides = { home: element('home', HTMLElement), heights: element('heights-side', HTMLElement), photo: element('page-side', HTMLElement) };
+  /** @type {Mode} */
+  let now = 'heights';
+  /** Which job the page is set up for. */
+  const showJob = () => {
+    const job = now === 'heights' ? (session.input?.sampling ? 'model' : 'scan') : now;
+    document.body.dataset.job = job;
+    element('guide', HTMLAnchorElement).href = GUIDES[job];
+  };
+  session.on('input', showJob);
   /** @param {Mode} mode */
   const show = (mode) => {
-    for (const radio of radios) radio.checked = radio.value === mode;
-    sides.heights.hidden = mode !== 'heights';
-    sides.photo.hidden = mode !== 'photo';
-    for (const [id, own] of /** @type {const} */ ([['open', 'heights'], ['page-open', 'photo']])) element(id, HTMLElement).hidden = own !== mode;
-    element('guide', HTMLAnchorElement).href = GUIDES[mode];
+    now = mode;
+    for (const [name, side] of Object.entries(sides)) side.hidden = name !== mode;
+    showJob();
   };
-  /** @param {Mode} mode */
-  const enter = (mode) => {
-    show(mode);
-    onEnter(mode);
-  };
-  for (const radio of radios) radio.addEventListener('change', () => enter(/** @type {Mode} */ (radio.value)));
   return {
-    /** Shows a part of the page, and calls `onEnter`. */
-    enter,
+    /** Shows a part of the page, and calls `onEnter`. @param {Mode} mode */
+    enter: (mode) => {
+      show(mode);
+      onEnter(mode);
+    },
     /** Shows a part of the page without calling `onEnter`. */
     show,
     /** @returns {Mode} */
     get now() {
-      return sides.photo.hidden ? 'heights' : 'photo';
+      return now;
     },
   };
 }

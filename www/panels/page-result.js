@@ -67,7 +67,8 @@ export function pageResultPanel(api, session, book, openAsSurface, onWritten) {
     facts.hidden = proposal.hidden = true;
     enable(false);
   };
-  session.on('photo', () => {
+  session.on('photo', ({ file }) => {
+    element('page-examples', HTMLElement).hidden = file !== undefined;
     clear(PAGE_WORDS.working);
     say(PAGE_WORDS.working);
   });
@@ -101,6 +102,7 @@ export function pageResultPanel(api, session, book, openAsSurface, onWritten) {
     if (moving) return;
     caption.textContent = flat.unit === 'mm' ? sizeOf(flat, session.quarters) : '';
     const unplaced = session.photo?.outlines.verdict === 'notFound' ? 4 - session.movedCorners.size : 0;
+    side.toggleAttribute('data-unplaced', unplaced > 0);
     const cautions = pageCautions({ outside: session.outsideCorners, weak: session.weakEdges, assumed: focalAssumed, unplaced });
     const lightNote = flat.light === 'keep' && session.options.light !== 'keep' ? [PAGE_WORDS.keptLight] : [];
     say(pageVerdict(report), [...cautions, pageErrors(report), ...lightNote].join(' '));

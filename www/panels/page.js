@@ -188,5 +188,11 @@ export function pagePanel(api, openAsSurface, onOpened, onChanged) {
     begin: () => {
       if (!opening) void openExample();
     },
+    /** Opens an example, unless it is the one that is open. */
+    showExample: () => {
+      if (examples.some(({ checked }) => checked) && opening) return;
+      examples[0].checked = true;
+      void openExample();
+    },
   };
 }

@@ -4,32 +4,89 @@ import { count, number, percentAtMost, seconds } from '../format.js';
 import { accuracyOf } from '../surface/derived-data.js';
 import { ENERGIES, STOP_REASONS, lambdaChoiceInWords } from '../messages.js';
 import { REPORT_WORDS } from '../report-words.js';
+import { asCode, asCommand } from '../reproduce.js';
+import { showNotice } from './notice.js';
 
+/** @import {Analyses} from '../analyses.js' */
 /** @import {Report} from '../api.js' */
 /** @import {Result, Session} from '../session.js' */
 
 /** @typedef {{ name: string, value: string, meaning: string, isShown: boolean }} Row */
 /** @typedef {{ title: string, rows: Row[] }} Group */
 
-/** @param {Session} session */
-export function reportPanel(session) {
+/** Time for which a button says that it has copied, in milliseconds. */
+const COPIED_MS = 3000;
+
+/** @param {Session} session @param {Analyses} analyses */
+export function reportPanel(session, analyses) {
+  const acts = element('report-acts', HTMLElement);
   const table = element('report-table', HTMLTableElement);
   const empty = element('report-empty', HTMLElement);
-  element('report-save', HTMLButtonElement).addEventListener('click', () => {
-    const { result } = session;
-    if (result) download(`${JSON.stringify(result.surface.report, null, 2)}\n`, 'application/json', `${result.input.name}-report.json`);
+  /** @param {string} id @param {(result: Result) => unknown} act */
+  const on = (id, act) => element(id, HTMLButtonElement).addEventListener('click', () => {
+    if (session.result) act(session.result);
   });
+  on('report-save', async (result) => {
+    download(`${JSON.stringify(await reportFile(analyses, result), null, 2)}\n`, 'application/json', `${result.input.name}-report.json`);
+  });
+  on('report-csv', (result) => {
+    const rows = groupsOf(result).flatMap(({ title, rows: all }) => all.filter(({ isShown }) => isShown).map(({ name, value }) => [title, name, value]));
+    download([['group', 'quantity', 'value'], ...rows].map((cells) => `${cells.map(csvCell).join(',')}\r\n`).join(''), 'text/csv', `${result.input.name}-report.csv`);
+  });
+  on('copy-command', (result) => copy('copy-command', asCommand(result)));
+  on('copy-code', (result) => copy('copy-code', asCode(result, exampleOptions())));
   session.on('result', (result) => {
-    const { report } = result.surface;
-    const groups = [certificate(report), domain(report), work(report), accuracy(result)];
-    table.replaceChildren(...groups.filter((group) => group.rows.length > 0).map(rowGroup));
-    table.hidden = element('report-save', HTMLElement).hidden = false;
+    table.replaceChildren(...groupsOf(result).map(rowGroup));
+    table.hidden = acts.hidden = false;
     empty.hidden = true;
   });
   session.on('cleared', () => {
-    table.hidden = element('report-save', HTMLElement).hidden = true;
+    table.hidden = acts.hidden = true;
     empty.hidden = false;
   });
+}
+
+/** Size and noise that are chosen for examples. */
+function exampleOptions() {
+  const [size, noise] = ['size', 'noise'].map((id) => Number(element(id, HTMLSelectElement).value));
+  return { size, noise };
+}
+
+/** @param {string} id of the button @param {string} text */
+async function copy(id, text) {
+  const button = element(id, HTMLButtonElement);
+  const label = button.textContent;
+  try {
+    await navigator.clipboard.writeText(text);
+    button.textContent = 'Copied';
+    setTimeout(() => (button.textContent = label), COPIED_MS);
+  } catch {
+    showNotice(text, 'note');
+  }
+}
+
+/** @param {string} text */
+const csvCell = (text) => (/[",\r\n]/.test(text) ? `"${text.replaceAll('"', '""')}"` : text);
+
+/** All that the page shows about a result. @param {Analyses} analyses @param {Result} result */
+async function reportFile(analyses, result) {
+  const { input: { name, kind, width, height, pixelSize, heightScale, unit, stored, assumptions }, settings, surface } = result;
+  const [pieces, { before, after }] = await Promise.all([analyses.patchCount(result), analyses.curvatures(result)]);
+  return {
+    ...surface.report,
+    input: { name, kind: kind ?? 'example', ...(kind ? {} : exampleOptions()), width, height, pixelSize, heightScale, unit, noData: stored?.noData, assumptions },
+    settings,
+    pieces: Number.isFinite(pieces.count) ? pieces.count : null,
+    creases: pieces.creases,
+    curvature: { input: before?.summary, result: after.summary },
+    errors: accuracyOf(result) ?? undefined,
+  };
+}
+
+/** The groups of the report that have rows. @param {Result} result */
+function groupsOf(result) {
+  const { report } = result.surface;
+  return [certificate(report), domain(report), work(report), accuracy(result)].filter((group) => group.rows.length > 0);
 }
 
 /** @param {Report} report @returns {Group} */

@@ -14,6 +14,8 @@ export function runPanel(session) {
   const cancel = element('cancel', HTMLButtonElement);
   const bar = element('progress', HTMLProgressElement);
   const text = element('progress-text', HTMLElement);
+  const running = element('running', HTMLElement);
+  const solve = element('run', HTMLButtonElement);
   /** First gap below 1 on the finest lattice. */
   let firstGap = NaN;
   /** Value of the progress bar at the first gap. */
@@ -25,7 +27,7 @@ export function runPanel(session) {
     event.preventDefault();
     if (form.reportValidity()) void session.run();
   });
-  // `aria-disabled` in the place of `disabled`, so that the button keeps the focus when a run ends.
+  // `aria-disabled` in the place of `disabled`, so that the button keeps the focus while a run ends.
   cancel.addEventListener('click', () => {
     if (session.phase !== 'running') return;
     text.textContent = RUN_WORDS.stopping;
@@ -33,7 +35,15 @@ export function runPanel(session) {
     session.cancel();
   });
 
-  session.on('phase', (phase) => cancel.setAttribute('aria-disabled', String(phase !== 'running')));
+  // Solving is the main thing where there is no result, or none that is as good as was asked for.
+  session.on('phase', (phase) => {
+    const isStale = phase === 'idle' && (session.result === null || session.result.surface.report.stopReason === 'cancelled');
+    form.toggleAttribute('data-stale', isStale);
+    solve.classList.toggle('primary', isStale);
+    const hadFocus = document.activeElement === cancel;
+    running.hidden = phase !== 'running';
+    if (hadFocus && running.hidden) (isStale ? solve : element('lambda', HTMLInputElement)).focus();
+  });
   session.on('start', () => {
     cancel.setAttribute('aria-disabled', 'false');
     firstGap = NaN;
@@ -62,14 +72,6 @@ export function runPanel(session) {
   });
   session.on('result', ({ surface: { report } }) => {
     if (report.stopReason !== 'cancelled') bar.value = 1;
-    text.textContent = RUN_WORDS.fine(report.gap, report.iterations, seconds(report.seconds.total));
-  });
-  session.on('unsolved', () => {
-    text.textContent = RUN_WORDS.unsolved;
-  });
-  session.on('cleared', () => {
-    bar.value = 0;
-    text.textContent = '\u00a0';
   });
 }
 

@@ -55,6 +55,7 @@ export function offerToSave(api, { title, stem, size: amount, ready = async () =
   const list = element('save-formats', HTMLElement);
   const size = element('save-size', HTMLElement);
   const save = element('save-now', HTMLButtonElement);
+  const share = element('save-share', HTMLButtonElement);
   element('save-title', HTMLElement).textContent = title;
   element('save-extra', HTMLElement).replaceChildren(...(unit ? [make('p', 'muted small', SAVE_WORDS.unit(unit))] : []), ...extra);
   const available = formats.filter(({ without }) => !without);
@@ -88,6 +89,7 @@ export function offerToSave(api, { title, stem, size: amount, ready = async () =
     const value = list.querySelector('input:checked')?.getAttribute('value');
     const format = formats.find((one) => one.value === value);
     save.disabled = true;
+    share.hidden = true;
     if (!format) return;
     lastFormats.set(title, format.value);
     size.textContent = '';
@@ -104,6 +106,10 @@ export function offerToSave(api, { title, stem, size: amount, ready = async () =
       const note = format.note?.() ?? '';
       size.textContent = [`${name}, ${fileSize(new Blob([content]).size)}${note && '.'}`, note].filter(Boolean).join(' ');
       save.disabled = false;
+      const files = [new File([content], name, { type: format.type })];
+      // The system's share sheet, where it takes such files: on phones.
+      share.hidden = !navigator.canShare?.({ files });
+      share.onclick = () => void navigator.share({ files }).catch(() => {});
       save.onclick = () => {
         download(content, format.type, name);
         // The dialog stays open, so that further formats can be saved.
@@ -134,6 +140,7 @@ export function offerToSave(api, { title, stem, size: amount, ready = async () =
   };
   retryButton.onclick = () => void write();
   if (!dialog.open) dialog.showModal();
+  /** @type {HTMLElement | null} */ (list.querySelector('input:checked'))?.focus({ preventScroll: true });
   void write();
   return { renew: () => void write() };
 }

@@ -16,14 +16,22 @@ export function settingsPanel(session, meshFit) {
   const slider = element('lambda', HTMLInputElement);
   const field = element('lambda-value', HTMLInputElement);
   const hint = element('lambda-hint', HTMLElement);
-  const fieldset = element('fidelity', HTMLFieldSetElement);
+  const fieldsets = ['fidelity', 'fidelity-number'].map((id) => element(id, HTMLFieldSetElement));
+  const wrong = element('lambda-wrong', HTMLElement);
   const presets = elements('button[data-exponent]', HTMLButtonElement);
 
   const auto = element('lambda-auto', HTMLButtonElement);
-  /** Says beside the field that its λ is invalid. */
-  const showInvalid = () => {
-    field.setAttribute('aria-invalid', 'true');
-    hint.textContent = LAMBDA_WORDS.invalid;
+  /** Says at the field whether its λ is invalid. @param {boolean} isInvalid */
+  const markField = (isInvalid) => {
+    if (isInvalid) field.setAttribute('aria-invalid', 'true');
+    else field.removeAttribute('aria-invalid');
+    wrong.textContent = isInvalid ? LAMBDA_WORDS.invalid : '';
+  };
+  /** Whether λ is chosen automatically; the button offers that where it is not. @param {boolean} isAuto */
+  const showAuto = (isAuto) => {
+    if (isAuto && document.activeElement === auto) slider.focus();
+    auto.setAttribute('aria-pressed', String(isAuto));
+    auto.hidden = isAuto;
   };
 
   /** Shows what λ means, or how it was chosen. */
@@ -39,8 +47,7 @@ export function settingsPanel(session, meshFit) {
     slider.value = String(Math.log10(lambda));
     slider.setAttribute('aria-valuetext', `λ = ${shortLambda(lambda)}`);
     if (Number(field.value) !== lambda) field.value = shortLambda(lambda);
-    field.setCustomValidity('');
-    field.removeAttribute('aria-invalid');
+    markField(false);
     hint.textContent = lambdaHint(lambda);
     for (const preset of presets) {
       preset.setAttribute('aria-pressed', String(10 ** Number(preset.dataset.exponent) === lambda));
@@ -49,7 +56,7 @@ export function settingsPanel(session, meshFit) {
   /** Sets λ in the session. @param {number} lambda */
   const setLambda = (lambda) => {
     showLambda(lambda);
-    auto.setAttribute('aria-pressed', 'false');
+    showAuto(false);
     if (lambda !== session.settings.lambda) session.updateSettings({ lambda });
   };
   /** λ of the slider, rounded to the digits that are shown. */
@@ -64,7 +71,7 @@ export function settingsPanel(session, meshFit) {
   });
   slider.addEventListener('input', () => {
     showLambda(sliderLambda());
-    auto.setAttribute('aria-pressed', 'false');
+    showAuto(false);
     session.previewLambda(sliderLambda());
   });
   slider.addEventListener('change', () => {
@@ -77,14 +84,12 @@ export function settingsPanel(session, meshFit) {
     if (field.value.trim() === '') return auto.click();
     const lambda = Number(field.value.trim().replace(/^(\d*),(\d+)/, '$1.$2') || NaN);
     const isValid = lambda >= MIN_LAMBDA && lambda <= MAX_LAMBDA;
-    if (isValid) return setLambda(lambda);
-    field.setCustomValidity(LAMBDA_WORDS.invalid);
-    showInvalid();
-    field.reportValidity();
+    if (isValid) setLambda(lambda);
+    else markField(true);
   });
   if (session.settings.lambda !== 'auto') showLambda(session.settings.lambda);
   session.on('input', ({ design, lattice }) => {
-    fieldset.disabled = design === true;
+    for (const fieldset of fieldsets) fieldset.disabled = design === true;
     coarsening.disabled = lattice !== undefined;
     updateHint();
   });
@@ -137,7 +142,8 @@ export function settingsPanel(session, meshFit) {
   showEnergy(session.settings.energy);
   session.on('input', () => showEnergy(session.settings.energy));
   auto.addEventListener('click', () => {
-    auto.setAttribute('aria-pressed', 'true');
+    showAuto(true);
+    markField(false);
     for (const preset of presets) preset.setAttribute('aria-pressed', 'false');
     session.updateSettings({ lambda: 'auto' });
     updateHint();
@@ -161,7 +167,7 @@ export function settingsPanel(session, meshFit) {
     adopt(settings) {
       const { lambda, energy: wanted, occlusionThreshold } = settings;
       if (lambda !== 'auto') showLambda(lambda);
-      auto.setAttribute('aria-pressed', String(lambda === 'auto'));
+      showAuto(lambda === 'auto');
       gap.value = String(settings.gap);
       schedule.value = settings.schedule;
       updateGapField();

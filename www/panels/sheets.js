@@ -1,7 +1,7 @@
 /** Dialog of sheets to cut out: size, paper, material and tabs, with a preview of the drawing that is saved. */
 import { element, make } from '../dom.js';
 import { number } from '../format.js';
-import { assemblyModel, assemblyPicture, drawingImage, MM_PER_UNIT, sheetFigures, sheetsInWords, suggestedSide } from '../pattern.js';
+import { assemblyModel, assemblyPicture, drawingImage, MM_PER_UNIT, sheetFigures, sheetsInWords, smallestPiece, suggestedSide } from '../pattern.js';
 import { plainMessage } from '../error-messages.js';
 import { SHEET_WORDS } from '../messages.js';
 import { figures } from '../views/legend.js';
@@ -23,6 +23,8 @@ const INPUT_DELAY_MS = 300;
 const lastOptions = { paper: /^en-(US|CA)/.test(navigator.language) ? 'letter' : 'a4', tabs: true, depth: DEFAULT_TAB_DEPTH_MM, metal: false, thickness: 1, radius: NaN, kFactor: 0.44 };
 /** Sizes and units that were chosen last, by the stem of the file's name. @type {Map<string, { side: number, unit: string }>} */
 const lastSizes = new Map();
+/** Length of a piece below which it can hardly be held, folded and glued, in millimetres. */
+const MIN_HANDY_PIECE_MM = 10;
 /** Maximum number of pages that are printed without a question. */
 const MAX_EXPECTED_PAGES = 12;
 /** Bounds of the longer side, in millimetres. */
@@ -111,11 +113,14 @@ export function offerSheets(api, { stem, size, note = '', length, unit, cut, svg
   setMissing(SHEET_WORDS.nothingYet);
 
   /** Shows the size of the finished surface and the number of pages. @param {Drawing} finished */
-  const showSize = ({ summary }) => {
+  const showSize = (finished) => {
+    const { summary } = finished;
+    const smallest = smallestPiece(finished);
     const pages = paper.value === 'a4' || paper.value === 'letter' ? summary[paper.value] : 1;
-    element('save-title', HTMLElement).textContent = SHEET_WORDS.headline(number(side.valueAsNumber, 4), pages);
-    pageWarning.hidden = pages <= MAX_EXPECTED_PAGES;
-    pageWarning.textContent = SHEET_WORDS.manyPages(pages);
+    element('save-title', HTMLElement).textContent = SHEET_WORDS.headline(number(side.valueAsNumber, 4), pages, summary.seams, number(smallest, 2));
+    const warnings = [...(pages > MAX_EXPECTED_PAGES ? [SHEET_WORDS.manyPages(pages)] : []), ...(smallest < MIN_HANDY_PIECE_MM ? [SHEET_WORDS.small(number(smallest, 2))] : [])];
+    pageWarning.hidden = warnings.length === 0;
+    pageWarning.textContent = warnings.join(' ');
   };
 
   const draw = async () => {

@@ -53,6 +53,7 @@ export function spacePanel(session, light) {
   const drag = element('drag', HTMLSelectElement);
   const unfold = element('unfold', HTMLInputElement);
   const unfoldField = element('unfold-field', HTMLElement);
+  const [tools] = elements('.space-tools', HTMLElement);
   const arrangement = elements('input[name="arrangement"]', HTMLInputElement);
   const hints = { flat: element('light-hint', HTMLElement), picture: element('picture-hint', HTMLElement), space: element('space-hint', HTMLElement) };
   const camera = new Camera();
@@ -105,6 +106,7 @@ export function spacePanel(session, light) {
 
   const arrange = () => {
     panel.hidden = !isShown();
+    tools.hidden = !isChosen();
     flat.hidden = isShown();
     hints.space.hidden = panel.hidden;
     element('flat-reading', HTMLElement).hidden = !panel.hidden;

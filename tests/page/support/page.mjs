@@ -21,6 +21,9 @@ const args = [
 /** The page's first example, so small that it is solved at once: for tests of what is opened after it. */
 const SMALL_EXAMPLE = '#example=cylinder&size=64&noise=0.02';
 
+/** What of the page is folded at first. */
+const ALL_PARTS = 'view-more settings-more mesh-more file-more edges-more camera-more';
+
 /** Where the page is served as `npm start` serves it, file by file; elsewhere it is bundled, as on the site. */
 const SOURCES = 'sources/';
 
@@ -106,14 +109,18 @@ function browserMissing() {
  * breaks its security policy (which Chromium reports as errors) or asks any other origin.
  * @param {string} name
  * @param {(page: Page) => Promise<void>} body
- * @param {import('playwright-core').BrowserContextOptions & { arrangement?: 'space' | 'flat', start?: string, sources?: boolean }} [options]
+ * @param {import('playwright-core').BrowserContextOptions & { arrangement?: 'space' | 'flat', start?: string, sources?: boolean, unfolded?: string }} [options]
  *   side by side unless said otherwise, where what canvases show can be read; the part of the address after the #,
- *   which is a small example unless said otherwise; whether the page is served file by file
+ *   which is a small example unless said otherwise; whether the page is served file by file; which parts are unfolded, all
+ *   that are remembered unless said otherwise
  */
-export function pageTest(name, body, { arrangement = 'flat', start = SMALL_EXAMPLE, sources = false, ...options } = {}) {
+export function pageTest(name, body, { arrangement = 'flat', start = SMALL_EXAMPLE, sources = false, unfolded = ALL_PARTS, ...options } = {}) {
   inChromium(name, async (page) => {
     const incidents = watch(page);
-    await page.addInitScript((chosen) => localStorage.setItem('developable: arrangement', chosen), arrangement);
+    await page.addInitScript(([chosen, parts]) => {
+      localStorage.setItem('developable: arrangement', chosen);
+      localStorage.setItem('developable: unfolded', parts);
+    }, [arrangement, unfolded]);
     await page.goto(server.url + (sources ? SOURCES : '') + start);
     await settled(page);
     await body(page);
@@ -203,7 +210,7 @@ export async function ended(page, before) {
 export async function settled(page) {
   await page.locator('#page[data-phase="idle"]').waitFor();
   // The headline counts the pieces after the run.
-  await page.locator('#verdict:not([aria-busy="true"])').waitFor();
+  await page.locator('#verdict:not([aria-busy="true"])').waitFor({ state: 'attached' });
   await painted(page);
 }
 
@@ -241,6 +248,15 @@ export async function choose(radio) {
   const label = radio.locator('..');
   await label.and(label.page().locator('label:has(input:enabled)')).click();
   assert.ok(await radio.isChecked(), 'what was chosen is not the choice');
+}
+
+/**
+ * Goes to the photos of pages, where an example is shown.
+ * @param {Page} page
+ */
+export async function enterPages(page) {
+  await page.getByRole('link', { name: 'developable' }).click();
+  await page.locator('[data-example="page"]').click();
 }
 
 /**
@@ -374,7 +390,7 @@ export async function save(page, format) {
  */
 export async function saveAs(page, format) {
   await page.locator('#save-formats').getByRole('radio', { name: new RegExp(`^${format} `) }).check();
-  await page.locator('#save-size', { hasText: new RegExp(`${format === 'JPEG' ? 'jpg' : format === 'Warp map' ? 'json' : format.toLowerCase()}, .*(bytes|kB|MB)`) }).waitFor();
+  await page.locator('#save-size', { hasText: new RegExp(`${format === 'JPEG' ? 'jpg' : format === 'Warp map' ? 'json' : format.toLowerCase().replace('solid ', 'solid.')}, .*(bytes|kB|MB)`) }).waitFor();
   const file = await downloaded(page, () => page.locator('#save-now').click());
   await page.locator('#save-dialog').getByRole('button', { name: 'Close' }).click();
   return file;

@@ -1,0 +1,101 @@
+/** The first screen: three doors, and the right one for whatever is dropped or pasted. */
+import assert from 'node:assert/strict';
+import { deflateSync } from 'node:zlib';
+import { chunk, grid, npy } from './support/files.mjs';
+import { drop, pageTest, settled } from './support/page.mjs';
+import { dottedPhoto } from './support/photos.mjs';
+
+/** @typedef {import('playwright-core').Page} Page */
+
+/** The most presses of Tab that lead through a job before anything is unfolded. */
+const MAX_TAB_STOPS = 16;
+
+/** How many places the Tab key stops at before it leaves the page. @param {Page} page */
+async function tabStops(page) {
+  await page.evaluate(() => {
+    if (document.activeElement instanceof HTMLElement) document.activeElement.blur();
+    scrollTo(0, 0);
+  });
+  await page.locator('h1').click({ position: { x: 200, y: 5 }, force: true });
+  /** @type {string[]} */
+  const seen = [];
+  for (let presses = 0; presses < 60; presses++) {
+    await page.keyboard.press('Tab');
+    const at = await page.evaluate(() => {
+      const { activeElement: one } = document;
+      if (!one || one === document.body) return '';
+      return one.id || `${one.tagName} ${one.textContent?.trim().slice(0, 30)}`;
+    });
+    if (at === '' || at === seen[0]) return seen;
+    seen.push(at);
+  }
+  return seen;
+}
+
+pageTest('behind each door is an example, one click away, and Back leads to the doors', async (page) => {
+  const home = page.locator('#home');
+  assert.equal(await home.getByRole('article').count(), 3);
+  for (const picture of await home.locator('img').all()) assert.ok(await picture.evaluate((one) => /** @type {HTMLImageElement} */ (one).decode().then(() => true)));
+
+  await page.locator('[data-example="scan"]').click();
+  await page.locator('#certificate', { hasText: 'Proven' }).waitFor();
+  await settled(page);
+  await page.waitForFunction(() => location.hash.includes('example=roof'));
+  await page.goBack();
+  await home.waitFor();
+
+  // A link that is followed from here, and is what the page would show next anyway.
+  await page.evaluate(() => (location.hash = '#example=roof&size=100&noise=0.02'));
+  await page.locator('#certificate', { hasText: 'Proven' }).waitFor();
+  await page.getByRole('link', { name: 'developable' }).click();
+
+  await page.locator('[data-example="model"]').click();
+  await page.locator('#whole[aria-busy="false"]').waitFor();
+  assert.match(await page.locator('#mesh-name').innerText(), /house \(OBJ\)/);
+  assert.equal(await page.locator('.primary:visible').count(), 1, 'one main button');
+  await page.locator('#whole-sheets').click();
+  await page.locator('#save-title', { hasText: /80 mm/ }).waitFor();
+  await page.keyboard.press('Escape');
+  await page.getByRole('link', { name: 'developable' }).click();
+
+  await page.locator('[data-example="page"]').click();
+  await page.locator('#flat-view[aria-busy="false"]').waitFor();
+  await page.goBack();
+  await home.waitFor();
+  assert.match(await home.innerText(), /Opened before: house\.obj/);
+}, { start: '', unfolded: '' });
+
+pageTest('what is dropped or pasted on the first screen opens its door', async (page) => {
+  await drop(page, 'ramp.npy', npy(24, grid(24, 20, (col, row) => 3 * col + row)));
+  await page.locator('#input-caption', { hasText: 'ramp' }).waitFor({ state: 'attached' });
+  assert.ok(await page.locator('#heights-side').isVisible());
+  await page.getByRole('link', { name: 'developable' }).click();
+  // As a screenshot is pasted.
+  await page.evaluate((content) => {
+    const clipboardData = new DataTransfer();
+    clipboardData.items.add(new File([Uint8Array.from(atob(content), (character) => character.charCodeAt(0))], 'image.png', { type: 'image/png' }));
+    document.body.dispatchEvent(new ClipboardEvent('paste', { clipboardData, bubbles: true }));
+  }, dottedPhoto({ page: 240, ground: 60 }, [1, 0.9, 0.8]).toString('base64'));
+  await page.locator('#page-caption', { hasText: 'image' }).waitFor();
+}, { start: '' });
+
+pageTest('a picture that is chosen as a page is one, though it is grey', async (page) => {
+  const [dialog] = await Promise.all([page.waitForEvent('filechooser'), page.locator('[data-open="page"]').click()]);
+  const [width, height] = [160, 120];
+  const head = Buffer.alloc(13);
+  head.writeUInt32BE(width, 0);
+  head.writeUInt32BE(height, 4);
+  // 8 bits of grey.
+  head.set([8, 0], 8);
+  const rows = Buffer.alloc(height * (1 + width), 128);
+  for (let row = 0; row < height; row++) rows[row * (1 + width)] = 0;
+  const buffer = Buffer.concat([Buffer.from('\x89PNG\r\n\x1a\n', 'latin1'), chunk('IHDR', head), chunk('IDAT', deflateSync(rows)), chunk('IEND', Buffer.alloc(0))]);
+  await dialog.setFiles({ name: 'letter.png', mimeType: 'image/png', buffer });
+  await page.locator('#page-caption', { hasText: 'letter' }).waitFor();
+}, { start: '' });
+
+pageTest('few stops of the Tab key lead through a scan before more is asked for', async (page) => {
+  const stops = await tabStops(page);
+  assert.ok(stops.length > 8 && stops.length <= MAX_TAB_STOPS, `${stops.length}: ${stops.join(' · ')}`);
+  assert.equal(await page.locator('.primary:visible').count(), 1, 'one main button');
+}, { unfolded: '', arrangement: 'space' });

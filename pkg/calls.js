@@ -168,7 +168,7 @@ export const CALLS = {
   meshRulings: aboutMesh('meshRulings', ['fitmesh']),
   unrollMesh: aboutMesh('unrollMesh', ['patterns']),
   patternMesh: aboutMesh('patternMesh', ['patterns']),
-  hasExactFaces: aboutMesh('hasExactFaces', ['patterns']),
+  recognizeMesh: aboutMesh('recognizeMesh', ['patterns']),
   dewarp: {
     parts: ['unroll'],
     send(input, photo, given) {

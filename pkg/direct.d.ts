@@ -5,7 +5,7 @@
 import type {
   Analysis, AnalyzeOptions, BookPage, Canvas, DecodedPhoto, DepthOptions, DetectedOcclusions, Dewarped, DewarpedPage, DewarpOptions,
   DewarpPageOptions, Drawing, Example, ExampleName, ExampleOptions, FittedCylinder, FlatPage, FlattenPhotoOptions, PageCorners, PageReport, FoundPage, Heightfield, HeightImage, ImageSurface, InitInput, Intrinsics, LatticeSurface, Mesh, MeshAnalysis, MeshAnalyzeOptions,
-  MeshPatternOptions, MeshRulingOptions, MeshRulings, MeshSolverOptions, MeshSurface, MeshUnrolling, MeshUnrollOptions, NpzArray,
+  MeshPatternOptions, MeshRulingOptions, MeshRulings, MeshSolverOptions, MeshSurface, MeshUnrolling, MeshUnrollOptions, NpzArray, RecognizedMesh,
   OcclusionOptions, PageEdges, PageOutlines, Painted, PaintOptions, PatchMap, PatchOptions, PatternOptions, Photo, Picture,
   PictureOptions, Progress,
   ReadMeshOptions, ReadOptions, ReadResult, RulingField, RulingOptions, SampledMesh, SampleMeshOptions, SizedPhoto,
@@ -31,7 +31,7 @@ export function init(input?: InitInput): Promise<void>;
  * - `meshes`: `readMesh`, `sampleMesh`, `backProject`, `writePly`, `writeStl` and `writeGlb`;
  * - `fitmesh`: `fitMesh`, `MeshSolver`, `analyzeMesh` and `meshRulings`;
  * - `unroll`: `analyze`, `patches`, `picture`, `draw`, `rulings`, `unroll` and `dewarp`;
- * - `patterns`: `pattern`, `patternMesh`, `hasExactFaces`, `unrollMesh`, `writeSvg`, `writePdf` and `writeDxf`.
+ * - `patterns`: `pattern`, `patternMesh`, `recognizeMesh`, `unrollMesh`, `writeSvg`, `writePdf` and `writeDxf`.
  *
  * Where nothing can be awaited, `developable/sync` has `initSync` and `loadSync`.
  */
@@ -247,10 +247,9 @@ export function unrollMesh(mesh: Mesh, options?: MeshUnrollOptions): MeshUnrolli
  */
 export function patternMesh(mesh: Mesh, options?: MeshPatternOptions): Drawing;
 /**
- * Returns whether the faces of a mesh are exact, as in CAD and low-poly models, so that a fit gains nothing.
- * `patternMesh` moves such faces into the plane as they are.
+ * Recognises what a mesh is: whether a fit gains anything, and whether it is a solid of sheet metal.
  */
-export function hasExactFaces(mesh: Mesh): boolean;
+export function recognizeMesh(mesh: Mesh): RecognizedMesh;
 /** Writes a drawing to an SVG file in millimetres, with the layers `cut`, `mountain`, `valley`, `tab` and `label`. */
 export function writeSvg(drawing: Drawing): Uint8Array<ArrayBuffer>;
 /**

@@ -355,8 +355,8 @@ export const unrollMesh = ofMesh('unrollMesh', patterns);
 /** @type {typeof import('./direct.js').patternMesh} */
 export const patternMesh = ofMesh('patternMesh', patterns);
 
-/** @type {typeof import('./direct.js').hasExactFaces} */
-export const hasExactFaces = ofMesh('hasExactFaces', patterns);
+/** @type {typeof import('./direct.js').recognizeMesh} */
+export const recognizeMesh = ofMesh('recognizeMesh', patterns);
 
 /** @type {typeof import('./direct.js').writeSvg} */
 export const writeSvg = writing('writeSvg', patterns, asDrawing);

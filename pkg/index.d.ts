@@ -5,7 +5,7 @@
 import type {
   Analysis, AnalyzeOptions, BookPage, Canvas, DecodedPhoto, DepthOptions, DetectedOcclusions, Dewarped, DewarpedPage, DewarpOptions,
   DewarpPageOptions, Drawing, Example, ExampleName, ExampleOptions, FittedCylinder, FlatPage, FlattenPhotoOptions, Drawable, PageCorners, PageReport, PhotoSource, FoundPage, Heightfield, HeightImage, ImageSurface, InitInput, Intrinsics, LatticeSurface, Mesh, MeshAnalysis, MeshAnalyzeOptions,
-  MeshPatternOptions, MeshRulingOptions, MeshRulings, MeshSolverOptions, MeshSurface, MeshUnrolling, MeshUnrollOptions, NpzArray,
+  MeshPatternOptions, MeshRulingOptions, MeshRulings, MeshSolverOptions, MeshSurface, MeshUnrolling, MeshUnrollOptions, NpzArray, RecognizedMesh,
   ExploredPatterns, OcclusionOptions, PageEdges, PageOutlines, Painted, PaintOptions, PatchMap, PatchOptions, PatternOptions, PatternPlan, Photo, Picture,
   PictureOptions, Progress,
   ReadMeshOptions, ReadOptions, ReadResult, RulingField, RulingOptions, SampledMesh, SampleMeshOptions, SizedPhoto,
@@ -302,10 +302,9 @@ export function unrollMesh(mesh: Mesh, options?: MeshUnrollOptions & Abortable):
  */
 export function patternMesh(mesh: Mesh, options?: MeshPatternOptions & Abortable): Promise<Drawing>;
 /**
- * Returns whether the faces of a mesh are exact, as in CAD and low-poly models, so that a fit gains nothing.
- * `patternMesh` moves such faces into the plane as they are.
+ * Recognises what a mesh is: whether a fit gains anything, and whether it is a solid of sheet metal.
  */
-export function hasExactFaces(mesh: Mesh): Promise<boolean>;
+export function recognizeMesh(mesh: Mesh): Promise<RecognizedMesh>;
 /**
  * Makes patterns at several λ and sizes of patches, from the surface nearest to the input to the plainest one. Each λ
  * takes one fit, which starts from the one before, and each plan one `pattern`. A surface that cannot be laid flat is a

@@ -42,7 +42,7 @@ export const OPTIONS = {
   pattern: sheets.pattern,
   unrollMesh: sheets.unrollMesh,
   patternMesh: sheets.patternMesh,
-  hasExactFaces: {},
+  recognizeMesh: {},
   writePdf: sheets.writePdf,
   explorePattern: { ...exploration, solver: { kind: optionsIn(fit.solver) }, pattern: { kind: optionsIn(sheets.pattern) } },
   explorePatternMesh: { ...exploration, solver: { kind: optionsIn(fit.meshSolver) }, pattern: { kind: optionsIn(sheets.patternMesh) } },

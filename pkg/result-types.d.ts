@@ -501,6 +501,19 @@ export interface FlatImage {
 }
 
 /**
+ * A smooth bend: a piece of a cylinder or cone, which is drawn as several fold lines beside each other, or as the one
+ * in its middle where metal is bent.
+ */
+export interface FoldBend {
+  /** Angle of the whole bend, in degrees. */
+  angle: number;
+  /** Radius of the surface in the bend, in millimetres. */
+  radius: number;
+  /** Whether the fold line is the one in the middle of the bend. */
+  isMiddle: boolean;
+}
+
+/**
  * The direction in which a sheet is folded, seen from above.
  * - `'mountain'`: A ridge: the fold points towards the viewer.
  * - `'valley'`: A groove: the fold points away from the viewer.
@@ -515,6 +528,8 @@ export interface FoldLine {
   direction: FoldDirection;
   /** Fold angle in degrees: 0 where the sheet stays flat. */
   angle: number;
+  /** The smooth bend that the fold line is a part of. */
+  bend?: FoldBend;
   /** Length of the fold line, in millimetres. */
   length: number;
   /** The fold line as a polyline in millimetres, within a fiftieth of a millimetre of `curve`. */
@@ -693,6 +708,14 @@ export interface MeshAnalysis {
   summary: AnalysisSummary;
 }
 
+/**
+ * What a mesh is, of what a fit gains.
+ * - `'faces'`: Its faces are exact, as in CAD and low-poly models, and are moved into the plane as they are.
+ * - `'surface'`: Its vertices have no noise, so that a fit gains nothing, but its bends are triangulated irregularly.
+ * - `'noisy'`: Its vertices have noise.
+ */
+export type MeshKind = 'faces' | 'surface' | 'noisy';
+
 /** Figures of one pass of a mesh's fit: a linearisation of the energy, and the solve of its convex problem. */
 export interface MeshPass {
   /** Number of ADMM iterations of the pass, on the mesh and on coarser levels together. */
@@ -841,7 +864,7 @@ export interface MeshUnrollingReport {
 export interface MissingSurface {
   /**
    * Number of vertices that were left out of the pattern because they do not lie flat together with any neighbouring
-   * part, mostly at ragged steep borders and torn tips; at most a fiftieth of all.
+   * part, mostly at ragged steep borders and torn tips, or are on sheets that are crumbs.
    */
   vertices: number;
   /** Area around the vertices that were left out, in the surface's units squared. */
@@ -1118,6 +1141,14 @@ export interface ReadResult {
   georeference?: Georeference;
   /** What the reader assumed because the file does not say it. */
   assumptions: Assumption[];
+}
+
+/** What a mesh is. */
+export interface RecognizedMesh {
+  /** Whether a fit gains anything, and how the mesh is laid flat without one. */
+  kind: MeshKind;
+  /** Thickness of a solid of sheet metal, in the mesh's unit. */
+  thickness?: number;
 }
 
 /** A traced ruling: a nearly straight line in a surface. */

@@ -2,7 +2,7 @@
 import { basename, extname } from 'node:path';
 import * as developable from '../index.js';
 import { solver } from '../schema/fit.js';
-import { patternMesh } from '../schema/pattern.js';
+import { limits, patternMesh } from '../schema/pattern.js';
 import { dewarp as flattening } from '../schema/photo.js';
 import { readCamera } from './camera.js';
 import { checkPlaces, readBytes, writeWhole } from './files.js';
@@ -54,7 +54,7 @@ export async function patternFiles(task, drawing, plan) {
   const files = [{ path: task.output, bytes: await drawn(drawing, task.extension, basename(task.output, extname(task.output))) }];
   const { assembly } = drawing;
   if (task.report !== undefined) {
-    files.push({ path: task.report, bytes: json({ ...drawing.summary, ...plan, assembly: assembly?.steps }) });
+    files.push({ path: task.report, bytes: json({ ...drawing.summary, ...plan, bends: bendTable(drawing), assembly: assembly?.steps }) });
   }
   if (task.assembly !== undefined && assembly !== undefined) {
     files.push({ path: task.assembly, bytes: task.assembly.toLowerCase().endsWith('.svg') ? assembly.picture : assembly.model });
@@ -67,9 +67,9 @@ export async function patternFiles(task, drawing, plan) {
  * @param {import('../types.js').Drawing} drawing
  * @param {Plan} [plan]
  */
-export function reportPattern({ output }, drawing, plan) {
+export function reportPattern(task, drawing, plan) {
   reportFit(drawing);
-  reportSize(output, drawing);
+  reportSize(task.output, drawing);
   if (plan !== undefined) {
     toStderr(
       `developable: ${counted(drawing.summary.sheets, 'sheet')} with --lambda ${Number(plan.lambda.toPrecision(6))} and --smallest ` +
@@ -78,8 +78,19 @@ export function reportPattern({ output }, drawing, plan) {
   }
   reportSlits(drawing.summary);
   reportMissing(drawing.summary);
-  const { untabbed } = drawing.summary;
+  const { untabbed, strain } = drawing.summary;
+  const { maxStrain = limits.maxStrain.default } = /** @type {import('../types.js').PatternOptions} */ (drawingOptions(task));
+  if (strain > maxStrain) {
+    say(`warning: a sheet is strained by ${percent(strain, 2)}, more than the limit of ${percent(maxStrain, 2)}: lengths on it are wrong by that much on average`);
+  }
   if (untabbed > 0) say(`warning: ${counted(untabbed, 'seam')} without a tab, for want of room on both sides`);
+}
+
+/** The smooth bends of all sheets, lengths in millimetres and angles in degrees. @param {import('../types.js').Drawing} drawing */
+function bendTable({ sheets }) {
+  const bends = sheets.flatMap(({ name, folds }) =>
+    folds.filter(({ bend }) => bend?.isMiddle).map(({ direction, length, bend }) => ({ sheet: name, direction, length, ...bend, isMiddle: undefined })));
+  return bends.length > 0 ? bends : undefined;
 }
 
 /**
@@ -227,7 +238,7 @@ function reportMissing({ missing, loops }) {
   const squares = (/** @type {number} */ area) => `${(area / 100).toFixed(area < 1000 ? 1 : 0)} cm²`;
   const words = [];
   if (missing !== undefined && missing.vertices > 0) {
-    words.push(`${counted(missing.vertices, 'vertex', 'vertices')} (${squares(missing.area)}) at ragged borders left out, which lie flat with nothing beside them`);
+    words.push(`${counted(missing.vertices, 'vertex', 'vertices')} (${squares(missing.area)}) left out, which lie flat with nothing beside them or are crumbs`);
   }
   if (missing !== undefined && missing.steps > 0) {
     words.push(`the walls of ${counted(missing.steps, 'step')} (about ${squares(missing.stepArea)}) on no sheet`);

@@ -18,7 +18,7 @@ import { streams } from './terminal.js';
  * @typedef {Partial<Record<'output' | 'to' | 'report' | 'array' | 'mask' | 'confidence' | 'constraints' | 'occlusions' | 'texture' |
  *   'photoCamera' | 'mtl' | 'map' | 'assembly' | 'edges', string>> &
  *   Partial<Record<'overwrite' | 'force' | 'paper' | 'noNormalize' | 'surface' | 'ray' | 'asIs' | 'explore' | 'trim' | 'deskew' | 'ink' |
- *   'plain' | 'quiet', boolean>> &
+ *   'plain' | 'quiet' | 'blank', boolean>> &
  *   Partial<Record<'jobs' | 'threads' | 'spacing' | 'resolution' | 'pixelSize' | 'heightScale' | 'free' | 'threshold' | 'sheets' | 'size' |
  *   'smallest' | 'dots' | 'quality' | 'focalLength' | 'fieldOfView', number>> & {
  *   lattice?: 'square' | 'hex', unit?: import('../types.js').ReadMeshOptions['unit'], noData?: number | 'none',
@@ -128,6 +128,7 @@ const RULES = [
   [({ command, asIs, lattice, extension }) => command === 'patches' && asIs && lattice === 'square' && MESHES.includes(extension),
     '--as-is of an image has no mesh: write .json or .npy, or leave it out'],
   [({ mode, size }) => size !== undefined && mode !== 'surface', '--size is for whole meshes: add --surface, or give --scale'],
+  ...['cut', 'join', 'blank'].map((flag) => given(flag, ({ mode }) => mode !== 'surface', `--${flag} is for whole meshes: add --surface`)),
   [({ command, mode, texture }) => command === 'dewarp' && texture === undefined && (mode === 'image' || mode === 'depths'),
     'the photo is missing: --texture PHOTO; or INPUT is a photo of a page: .jpg, .png, .webp, .gif or .bmp'],
   [({ shape, lattice }) => shape === 'cylinder' && lattice === 'square',

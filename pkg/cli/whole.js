@@ -22,12 +22,26 @@ export async function whole(task, signal) {
   await checkPlaces(...task.written);
   const mesh = await readMesh(task);
   if (task.explore || task.sheets !== undefined) return planned(task, mesh, signal);
-  const exact = task.command === 'pattern' && await developable.hasExactFaces(mesh);
-  if (exact) say(`${task.input} is taken as it is: its faces are exact`);
+  const exact = task.command === 'pattern' && await isExact(task, mesh);
   const surface = task.asIs || exact ? undefined : await fitted(task, mesh, signal);
   const files = await made[task.command](task, surface ?? mesh, mesh);
   await writeWhole(files, signal);
   if (surface !== undefined) tell(task, surface, mesh);
+}
+
+/**
+ * Whether a mesh is taken as it is, which is said.
+ * @param {Task} task
+ * @param {Mesh} mesh
+ */
+async function isExact({ input, asIs, blank }, mesh) {
+  const { kind, thickness } = await developable.recognizeMesh(mesh);
+  if (thickness !== undefined && !blank) {
+    say(`${input} looks like sheet metal, ${Number(thickness.toPrecision(4))} thick in the file's unit: --blank draws what it is bent from`);
+  }
+  if (kind === 'noisy') return false;
+  if (!asIs) say(`${input} is taken as it is: its ${kind === 'faces' ? 'faces are exact' : 'vertices have no noise'}`);
+  return true;
 }
 
 /**

@@ -124,6 +124,23 @@ export const rows = (length, row, what) => ({
   },
 });
 
+/** Pairs of patches by their numbers on a drawing, which begin with 1; after a flag as `3-7,4-9`. @type {Kind} */
+export const patchPairs = {
+  type: 'readonly (readonly [number, number])[]',
+  must: 'must be pairs of numbers of patches, from 1 on',
+  take: (value) => {
+    const isNumber = (/** @type {unknown} */ patch) => Number.isInteger(patch) && Number(patch) >= 1 && Number(patch) < 2 ** 32;
+    const pairs = Array.isArray(value) ? value.map((pair) => (Array.isArray(pair) ? [...pair] : [])) : undefined;
+    return pairs?.every((pair) => pair.length === 2 && pair.every(isNumber)) ? pairs : undefined;
+  },
+  typed: {
+    must: 'must be pairs of numbers of patches, such as 3-7,4-9',
+    take: (given) => (typeof given === 'string' && /^[1-9]\d{0,8}-[1-9]\d{0,8}(,[1-9]\d{0,8}-[1-9]\d{0,8})*$/.test(given)
+      ? given.split(',').map((pair) => pair.split('-').map(Number))
+      : undefined),
+  },
+};
+
 /** The corners of a rectangle with an area. @type {Kind} */
 export const extent = {
   type: 'readonly [number, number, number, number]',

@@ -1,5 +1,5 @@
 /** Options of patterns and their drawings. Each comment is what the types say; the default is added there. */
-import { choice, either, flag, number, numbers, positive, text } from './kinds.js';
+import { choice, either, flag, number, numbers, patchPairs, positive, text } from './kinds.js';
 import { meshPatches, meshUnrolling, unroll } from './shape.js';
 
 /** @typedef {import('./kinds.js').Options} Options */
@@ -168,9 +168,31 @@ export const model = {
   },
   /**
    * Whether the mesh's faces are moved into the plane as they are, without strain, and not laid flat as a smooth surface.
-   * Default: what `hasExactFaces` says.
+   * Default: what `recognizeMesh` says.
    */
   exact: { kind: flag },
+  /**
+   * Pairs of patches whose common edges are cut, by the numbers that are drawn without `cut` and `join`, for meshes with exact
+   * faces. Default: none.
+   */
+  cut: {
+    kind: patchPairs,
+    flag: { section: 'shape', value: 'A-B,...', help: 'pairs of faces, by their numbers on the drawing, whose common edges are cut, for --surface' },
+  },
+  /** Pairs of patches, likewise, whose common edges are folds. Default: none. */
+  join: {
+    kind: patchPairs,
+    flag: { section: 'shape', value: 'A-B,...', help: 'pairs of faces whose common edges are folds, for --surface' },
+  },
+  /**
+   * Whether a solid of sheet metal is drawn as its blank: one of its two skins laid flat with bend allowances for its
+   * thickness, each smooth bend as one line in its middle.
+   */
+  blank: {
+    kind: flag,
+    default: false,
+    flag: { section: 'shape', help: 'draw the blank of a solid of sheet metal, with bend allowances for its thickness, for --surface' },
+  },
 };
 
 /** Options of a pattern of a mesh. @satisfies {Options} */

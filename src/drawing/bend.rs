@@ -38,7 +38,11 @@ pub(super) fn apply_bend_allowance(
                 fold: k + 1,
             });
         }
-        let zone = bending.zone(fold.seam.direction, fold.seam.angle);
+        let (direction, angle) = (fold.seam.direction, fold.seam.angle);
+        let zone = match fold.bend {
+            Some(bend) => bending.smooth_zone(direction, angle, options.scale * bend.radius),
+            None => bending.zone(direction, angle),
+        };
         let zone = zone.map(|millimetres| millimetres / options.scale);
         let bend = Bend::new(&out, &fold, zone).map_err(|reason| Error::Unsupported {
             format: "pattern",
@@ -51,7 +55,38 @@ pub(super) fn apply_bend_allowance(
         out.area += polyline_length(&fold.points) * 2.0 * (zone[1] - zone[0]);
         bend.apply(&mut out, k);
     }
+    join_bends(&mut out);
     Ok(out)
+}
+
+/// Replaces the folds of each smooth bend by one in its middle.
+fn join_bends(sheet: &mut Sheet) {
+    let all = sheet.folds.clone();
+    sheet.folds.retain_mut(|fold| {
+        let Some(bend) = fold.bend else {
+            return true;
+        };
+        if !bend.is_middle {
+            return false;
+        }
+        // The middle between the outermost lines.
+        let own = || {
+            all.iter()
+                .filter(|other| other.bend.is_some_and(|b| b.patch == bend.patch))
+        };
+        let [from, to] = [fold.points[0], fold.points[fold.points.len() - 1]].map(|p| point(&p));
+        let across = (to - from) / (to - from).norm() * Point::new(0.0, 1.0);
+        let away = own().map(|other| (across.conj() * (point(&middle(&other.points)) - from)).re);
+        let [low, high] = away.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], away| {
+            [low.min(away), high.max(away)]
+        });
+        for place in &mut fold.points {
+            let moved = point(place) + across * (0.5 * (low + high));
+            *place = [moved.re, moved.im];
+        }
+        fold.seam.angle = bend.angle;
+        true
+    });
 }
 
 /// Whether all points of a fold are near the line between its ends.

@@ -58,13 +58,24 @@ impl Bending {
     /// Computes for a bend the setback, which is the distance from the crease to where the metal begins to bend, and
     /// half of the bend allowance, both in millimetres. `angle` is in radians.
     pub(super) fn zone(&self, direction: Direction, angle: f64) -> [f64; 2] {
-        let outside = match direction {
-            Direction::Mountain => self.thickness,
-            Direction::Valley => 0.0,
-        };
         [
-            (self.radius + outside) * (0.5 * angle).tan(),
+            (self.radius + self.outside(direction)) * (0.5 * angle).tan(),
             0.5 * angle * (self.radius + self.k_factor * self.thickness),
         ]
+    }
+
+    /// The same for one fold of a smooth bend, whose upper side has a given radius in millimetres: half of the chord to the next
+    /// fold becomes half of the arc between them on the neutral line.
+    pub(super) fn smooth_zone(&self, direction: Direction, angle: f64, radius: f64) -> [f64; 2] {
+        let neutral = radius - self.outside(direction) + self.k_factor * self.thickness;
+        [radius * (0.5 * angle).sin(), 0.5 * angle * neutral]
+    }
+
+    /// Distance of the upper side of a bend from its inside.
+    fn outside(&self, direction: Direction) -> f64 {
+        match direction {
+            Direction::Mountain => self.thickness,
+            Direction::Valley => 0.0,
+        }
     }
 }

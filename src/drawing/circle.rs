@@ -50,7 +50,14 @@ fn longest_arc(points: &[[f64; 2]]) -> Option<(usize, [f64; 2])> {
         angle > 0.0 && angle <= MAX_ARC_STEP && away <= ARC_TOLERANCE_SHARE * radius
     };
     let pieces = points.windows(2).take_while(|pair| is_on(pair)).count();
-    (pieces >= MIN_ARC_PIECES).then_some((pieces, centre))
+    // What bulges by no more than the tolerance is straight.
+    let turned: f64 = points
+        .windows(2)
+        .take(pieces)
+        .map(|pair| way * step(pair[0], pair[1]))
+        .sum();
+    let bulge = 1.0 - (0.5 * turned).cos();
+    (pieces >= MIN_ARC_PIECES && bulge > ARC_TOLERANCE_SHARE).then_some((pieces, centre))
 }
 
 /// Adds Bézier curves along the arc around a centre through points.

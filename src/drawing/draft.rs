@@ -79,7 +79,8 @@ impl DrawnSheet {
                 pairs
             })
             .collect();
-        let (mut labels, mut leaders): (Vec<Label>, Vec<Curve>) = Default::default();
+        let (mut labels, mut leaders): (Vec<Vec<Label>>, Vec<Curve>) = Default::default();
+        let mut outer: Vec<Label> = Vec::new();
         for spot in &sheet.spots {
             // Of a model of many small faces only the larger ones have numbers.
             if sheet.exact && Label::is_cramped(scale * spot.room) {
@@ -88,11 +89,16 @@ impl DrawnSheet {
             let (place, room) = (spot.place.map(|v| scale * v), scale * spot.room);
             let label = Label::patch(spot.patch, place, room);
             let outside = match Label::is_cramped(room) {
-                true => place_leader(&label, &walls, &labels),
+                true => place_leader(&label, &walls, &outer),
                 false => None,
             };
-            leaders.extend(outside.iter().map(|(_, line)| line.clone()));
-            labels.push(outside.map_or(label, |(label, _)| label));
+            match outside {
+                Some((label, line)) => {
+                    leaders.push(line);
+                    outer.push(label);
+                }
+                None => labels.push(label.in_sizes()),
+            }
         }
         for (run, curve) in lines.outlines.iter().flatten() {
             if let Some(letter) = run.seam.and_then(|seam| letters.get(&seam.crease)) {
@@ -104,10 +110,23 @@ impl DrawnSheet {
             let letter = letters.get(&tab.seam.crease)?;
             Some(Label::tab(letter, tab))
         }));
+        let tabs: Vec<Line> = (flaps.into_iter())
+            .map(|tab| Line::new(tab.seam, tab.base))
+            .collect();
         if options.plain {
             labels.clear();
+            outer.clear();
             leaders.clear();
         }
+        let folds = lines
+            .folds
+            .iter()
+            .chain(&tabs)
+            .flat_map(|line| line.points.windows(2));
+        let drawn: Vec<[[f64; 2]; 2]> = walls
+            .into_iter()
+            .chain(folds.map(|p| [p[0], p[1]]))
+            .collect();
         let sheet = DrawnSheet {
             name,
             patches: sheet.patches.clone(),
@@ -115,9 +134,7 @@ impl DrawnSheet {
             cuts: Vec::new(),
             curves,
             folds: lines.folds.clone(),
-            tabs: (flaps.into_iter())
-                .map(|tab| Line::new(tab.seam, tab.base))
-                .collect(),
+            tabs,
             edges: if options.allowance > 0.0 {
                 plain
             } else {
@@ -127,7 +144,7 @@ impl DrawnSheet {
                 .flat_map(|(run, curve)| seam_marks(run, curve, marks))
                 .collect(),
             leaders,
-            labels: Label::without_collisions(labels),
+            labels: Label::without_collisions(outer, labels, &drawn),
         };
         Ok(sheet.moved(&Place::IDENTITY))
     }

@@ -2,6 +2,7 @@
 
 use super::curve::Curve;
 use super::line::{FLATTENING_TOLERANCE_MM, Line, place_at};
+use super::sheet::bounds;
 use super::tabs::Tab;
 use crate::math::planar::{Point2, cross, distance, polyline_length};
 use crate::pattern::Direction;
@@ -14,6 +15,9 @@ const MAX_TEXT_SIZE_MM: f64 = 12.0;
 
 /// Minimum font size of a text in a drawing, in millimetres.
 const MIN_TEXT_SIZE_MM: f64 = 1.5;
+
+/// Places of a text along a line, in the order in which they are tried, as shares of the line.
+const LABEL_PLACES: [f64; 3] = [0.5, 0.3, 0.7];
 
 /// A text on a sheet of a drawing or beside it.
 #[derive(Debug, Clone, PartialEq)]
@@ -88,12 +92,14 @@ impl Label {
                 .any(|end| distance(*end, self.place) < 1.5 * NOTE_SIZE_MM)
     }
 
+    fn half_extent(&self) -> [f64; 2] {
+        let letters = self.text.chars().count() as f64;
+        [0.3 * self.size * letters, 0.6 * self.size]
+    }
+
     /// Computes the four corners of an approximate bounding box of the label's text, in millimetres.
     pub(super) fn corners(&self) -> Vec<[f64; 2]> {
-        let half = [
-            0.3 * self.size * self.text.chars().count() as f64,
-            0.6 * self.size,
-        ];
+        let half = self.half_extent();
         let at = |x: f64, y: f64| [self.place[0] + x * half[0], self.place[1] + y * half[1]];
         vec![at(-1.0, -1.0), at(1.0, -1.0), at(1.0, 1.0), at(-1.0, 1.0)]
     }
@@ -119,61 +125,118 @@ impl Label {
         !is_apart(&one, &two) && !is_apart(&two, &one)
     }
 
-    /// Makes texts smaller that lie on others, and leaves out those for which that is not enough: angles of folds first,
-    /// then numbers. Letters of seams stay.
-    pub(super) fn without_collisions(mut labels: Vec<Label>) -> Vec<Label> {
-        let rank = |label: &Label| match label.kind {
-            LabelKind::Seam => 0,
-            LabelKind::Fold => 2,
+    /// Returns whether a straight line crosses the text's bounding box (clipped to the slabs of the box, in its axes).
+    fn is_crossed_by(&self, line: &[[f64; 2]; 2]) -> bool {
+        let half = self.half_extent();
+        let (sin, cos) = self.turn.to_radians().sin_cos();
+        let middle = Point2::new(self.place[0], self.place[1]);
+        let [a, b] = line.map(|[x, y]| (Point2::new(x, y) - middle) * Point2::new(cos, -sin));
+        let (mut from, mut to) = (0.0f64, 1.0f64);
+        for (start, end, half) in [(a.re, b.re, half[0]), (a.im, b.im, half[1])] {
+            let step = end - start;
+            if step == 0.0 {
+                if start.abs() >= half {
+                    return false;
+                }
+                continue;
+            }
+            let [p, q] = [(-half - start) / step, (half - start) / step];
+            (from, to) = (from.max(p.min(q)), to.min(p.max(q)));
+        }
+        from < to
+    }
+
+    /// Chooses for each text the first of its candidates that lies on no line and on no other text, letters of seams first and
+    /// angles of folds last; a text without such a candidate is left out. Those `beside` the sheet, at leader lines, are kept. The
+    /// letter of a seam may lie on lines, if need be.
+    pub(super) fn without_collisions(
+        beside: Vec<Label>,
+        mut texts: Vec<Vec<Label>>,
+        lines: &[[[f64; 2]; 2]],
+    ) -> Vec<Label> {
+        let rank = |candidates: &Vec<Label>| match candidates.first().map(|label| label.kind) {
+            Some(LabelKind::Seam) => 0,
+            Some(LabelKind::Fold) => 2,
             _ => 1,
         };
-        labels.sort_by_key(rank);
-        let mut out: Vec<Label> = Vec::new();
-        for label in labels {
-            let is_free = |label: &Label| !out.iter().any(|other| label.touches(other));
-            let smallest = Label {
-                size: label.size.min(MIN_TEXT_SIZE_MM),
-                ..label.clone()
+        texts.sort_by_key(rank);
+        let mut out = beside;
+        for candidates in texts {
+            let corners: Vec<[f64; 2]> = (candidates.iter().flat_map(Label::turned_corners))
+                .map(|p| [p.re, p.im])
+                .collect();
+            let [low, high] = bounds(corners.iter());
+            let is_near = |line: &&[[f64; 2]; 2]| {
+                (0..2).all(|k| {
+                    line[0][k].min(line[1][k]) <= high[k] && line[0][k].max(line[1][k]) >= low[k]
+                })
             };
-            let smaller = Label {
-                size: 0.5 * (label.size + smallest.size),
-                ..label.clone()
+            let near: Vec<_> = lines.iter().filter(is_near).collect();
+            let is_apart = |label: &Label| !out.iter().any(|other| label.touches(other));
+            let is_free = |label: &&Label| {
+                is_apart(label) && !near.iter().any(|line| label.is_crossed_by(line))
             };
-            let must_stay = label.kind == LabelKind::Seam;
-            let mut tried = [label, smaller, smallest.clone()].into_iter();
-            let kept = tried.find(is_free);
-            out.extend(kept.or_else(|| must_stay.then_some(smallest)));
+            let smallest = candidates
+                .iter()
+                .rev()
+                .filter(|label| label.kind == LabelKind::Seam);
+            let kept = candidates.iter().find(is_free);
+            let kept = kept.or_else(|| smallest.into_iter().find(|label| is_apart(label)));
+            out.extend(kept.cloned());
         }
         out
     }
 
-    /// Creates the label with the letter of a cut crease, to the left of the middle of the crease's line.
-    pub(super) fn seam(letter: &str, points: &[[f64; 2]]) -> Self {
-        Label::beside(LabelKind::Seam, letter.into(), points, 1.0)
+    /// Creates candidates of this label in three sizes, down to the smallest.
+    pub(super) fn in_sizes(self) -> Vec<Label> {
+        let least = self.size.min(MIN_TEXT_SIZE_MM);
+        let sizes = [self.size, 0.5 * (self.size + least), least];
+        let sized = |size: f64| Label {
+            size,
+            ..self.clone()
+        };
+        sizes.map(sized).to_vec()
     }
 
-    pub(super) fn fold(line: &Line) -> Self {
+    /// Creates candidates of the label with the letter of a cut crease, along the crease's line.
+    pub(super) fn seam(letter: &str, points: &[[f64; 2]]) -> Vec<Label> {
+        Label::beside(LabelKind::Seam, letter, points, 1.0)
+    }
+
+    /// Creates candidates of the label with the direction and angle of a fold, of a smooth bend with its radius at the fold in
+    /// its middle.
+    pub(super) fn fold(line: &Line) -> Vec<Label> {
         let way = match line.direction {
             Direction::Mountain => 'M',
             Direction::Valley => 'V',
         };
-        let text = format!("{way} {:.0}°", line.angle);
-        Label::beside(LabelKind::Fold, text, &line.points, 0.8)
+        let text = match line.bend {
+            None => format!("{way} {:.0}°", line.angle),
+            Some(bend) if bend.is_middle => {
+                format!(
+                    "{way} {:.0}° R{}",
+                    bend.angle,
+                    (10.0 * bend.radius).round() / 10.0
+                )
+            }
+            Some(_) => return Vec::new(),
+        };
+        // To the left of the line first, then to its right.
+        [0.8, -0.8]
+            .iter()
+            .flat_map(|away| Label::beside(LabelKind::Fold, &text, &line.points, *away))
+            .collect()
     }
 
-    pub(super) fn tab(letter: &str, tab: &Tab) -> Self {
-        let label = Label::beside(
-            LabelKind::Seam,
-            letter.into(),
-            &tab.base.points(FLATTENING_TOLERANCE_MM),
-            0.0,
-        );
-        let size = label.size.min(0.7 * tab.depth);
-        Label {
+    pub(super) fn tab(letter: &str, tab: &Tab) -> Vec<Label> {
+        let base = tab.base.points(FLATTENING_TOLERANCE_MM);
+        let along = Label::beside(LabelKind::Seam, letter, &base, 0.0);
+        let tabbed = |label: Label| Label {
             place: tab.middle,
-            size,
+            size: label.size.min(0.7 * tab.depth),
             ..label
-        }
+        };
+        along.into_iter().map(tabbed).take(1).collect()
     }
 
     pub(super) fn sheet(name: &str, [min, max]: [[f64; 2]; 2]) -> Self {
@@ -198,22 +261,31 @@ impl Label {
         }
     }
 
-    /// Creates a text along a line, to the left of the line's middle, at a distance that is a multiple of the text's
-    /// font size.
-    fn beside(kind: LabelKind, text: String, points: &[[f64; 2]], away: f64) -> Self {
+    /// Creates candidates of a text along a line, the best first: largest in the middle of the line, to its left, at a distance
+    /// that is a multiple of the text's font size.
+    fn beside(kind: LabelKind, text: &str, points: &[[f64; 2]], away: f64) -> Vec<Label> {
         let long = polyline_length(points);
         let size = (0.2 * long).clamp(MIN_TEXT_SIZE_MM, NOTE_SIZE_MM);
-        let (place, along) = place_at(points, 0.5 * long);
-        let [x, y] = along;
-        let mut label = Label {
+        let at = |label: Label| {
+            LABEL_PLACES.map(|along| {
+                let (place, [x, y]) = place_at(points, along * long);
+                let away = away * label.size;
+                let mut label = Label {
+                    place: [place[0] - away * y, place[1] + away * x],
+                    ..label.clone()
+                };
+                label.turn_by(y.atan2(x).to_degrees());
+                label
+            })
+        };
+        let label = Label {
             kind,
-            text,
-            place: [place[0] - away * size * y, place[1] + away * size * x],
+            text: text.into(),
+            place: [0.0; 2],
             size,
             turn: 0.0,
         };
-        label.turn_by(y.atan2(x).to_degrees());
-        label
+        label.in_sizes().into_iter().flat_map(at).collect()
     }
 
     /// Estimates the width of a sheet's name, and its height with the empty space around it, in millimetres.

@@ -2,7 +2,7 @@
 
 use super::curve::Curve;
 use crate::math::planar::{distance, polyline_length};
-use crate::pattern::{Direction, Seam};
+use crate::pattern::{Direction, Fold, Seam};
 
 /// Maximum distance between a curve of a drawing and the polyline that approximates it, in millimetres.
 pub(super) const FLATTENING_TOLERANCE_MM: f64 = 0.02;
@@ -23,6 +23,12 @@ pub struct Line {
     pub direction: Direction,
     /// Fold angle in degrees: 0 where the sheet stays flat.
     pub angle: f64,
+    /// The smooth bend that the fold line is a part of.
+    #[cfg_attr(
+        feature = "serde",
+        serde(default, skip_serializing_if = "Option::is_none")
+    )]
+    pub bend: Option<LineBend>,
     /// Length of the fold line, in millimetres.
     pub length: f64,
     /// The fold line as a polyline in millimetres, within a fiftieth of a millimetre of [`Line::curve`].
@@ -31,9 +37,40 @@ pub struct Line {
     pub curve: Curve,
 }
 
+/// A smooth bend: a piece of a cylinder or cone, which is drawn as several fold lines beside each other, or as the one in
+/// its middle where metal is bent.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(rename = "FoldBend", rename_all = "camelCase")
+)]
+#[non_exhaustive]
+pub struct LineBend {
+    /// Angle of the whole bend, in degrees.
+    pub angle: f64,
+    /// Radius of the surface in the bend, in millimetres.
+    pub radius: f64,
+    /// Whether the fold line is the one in the middle of the bend.
+    pub is_middle: bool,
+}
+
 impl Line {
+    /// Creates the line of a fold; `scale` is in millimetres per unit.
+    pub(super) fn of_fold(fold: &Fold, curve: Curve, scale: f64) -> Self {
+        Line {
+            bend: fold.bend.map(|bend| LineBend {
+                angle: bend.angle.to_degrees(),
+                radius: scale * bend.radius,
+                is_middle: bend.is_middle,
+            }),
+            ..Line::new(fold.seam, curve)
+        }
+    }
+
     pub(super) fn new(seam: Seam, curve: Curve) -> Self {
         let line = Line {
+            bend: None,
             crease: seam.crease,
             direction: seam.direction,
             angle: seam.angle.to_degrees(),

@@ -41,7 +41,7 @@ impl<'a> Lines<'a> {
                 .map(runs)
                 .collect(),
             folds: folds
-                .map(|(fold, curve)| Line::new(fold.seam, scaled(curve)))
+                .map(|(fold, curve)| Line::of_fold(fold, scaled(curve), options.scale))
                 .collect(),
         }
     }

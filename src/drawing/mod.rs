@@ -50,7 +50,7 @@ pub use curve::{Curve, Piece};
 pub(crate) use draft::letters;
 pub use draw::Drawing;
 pub use label::{Label, LabelKind};
-pub use line::Line;
+pub use line::{Line, LineBend};
 pub use options::{DrawingOptions, MAX_SIZE};
 #[cfg(feature = "patterns")]
 pub(crate) use pack::beside;

@@ -1,6 +1,7 @@
 //! Joins the parts of a surface to flat sheets, and checks each sheet as it is drawn.
 
 use super::check::{Tied, are_close, strains};
+use super::crumbs::remove_crumbs;
 use super::faces::faces;
 use super::fault::{Fault, SHEET_RELAXATION, fault, folds_of};
 use super::flat_patch::Relaxation;
@@ -292,8 +293,8 @@ pub(super) fn draw_sheets(surface: &Heightfield, whole: &Assembled) -> Result<Pa
     let mut sheets = sheets.collect::<Result<Vec<Sheet>>>()?;
     // A sheet of a few vertices whose outline was cut off with a loop is no sheet.
     let least = MIN_OUTLINE_AREA * net.spacing * net.spacing;
-    let is_empty = |sheet: &mut Sheet| sheet.outlines.iter().all(|line| outline_area(line) < least);
-    let empty: Vec<Sheet> = sheets.extract_if(.., is_empty).collect();
+    let is_empty = |sheet: &Sheet| sheet.outlines.iter().all(|line| outline_area(line) < least);
+    let empty = remove_crumbs(&mut sheets, is_empty);
     sheets.sort_by_key(|sheet| sheet.patches[0]);
     Ok(Pattern {
         sheets,

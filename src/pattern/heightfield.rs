@@ -18,7 +18,7 @@ const COARSE_STRAIN_SHARES: [f64; 2] = [0.9, 0.7];
 /// lattice. With a larger value loops are cut off whose removal makes the two sides of a joint differ in length.
 pub(super) const DIRECT_OUTLINE_DETAIL: f64 = 0.4;
 
-/// Maximum number of rounds in which parts that are too small to be cut are merged or left out.
+/// Maximum number of rounds in which parts that cannot be cut are merged with neighbours; later they are left out.
 const MAX_MERGE_ROUNDS: usize = 24;
 
 /// Cuts a surface into flat sheets; the first sheet is the one with the largest patch.
@@ -27,8 +27,8 @@ const MAX_MERGE_ROUNDS: usize = 24;
 /// larger strain is cut in two where its strain is largest, repeatedly, and its parts are joined again as far as
 /// their sides fit: a cone gets one slit, a dome several. A crease whose sides fit along a part of its length is a
 /// fold there and a cut elsewhere. Then cuts are closed again, whole or in part, where strain and outlines stay
-/// valid. A part that is too small to be cut and that lies flat with none of its neighbours is left out, at most a
-/// fiftieth of all vertices ([`Pattern::missing`]).
+/// valid. A part that cannot be cut further and that lies flat with none of its neighbours is left out, and so
+/// is a sheet that is a crumb, less than a thousandth of the area ([`Pattern::missing`]).
 ///
 /// Surfaces of more than twenty thousand vertices are cut on the lattice of twice the spacing, recursively; their
 /// own lattice then costs one unrolling, and a cut of each part that is invalid there alone. The lattice on which the surface is cut costs one unrolling of each part,
@@ -36,7 +36,7 @@ const MAX_MERGE_ROUNDS: usize = 24;
 ///
 /// # Errors
 /// [`Error::Shape`] or [`Error::Mismatch`] if the patches belong to another surface, [`Error::Option`] for a seam gap or
-/// a strain that is not positive and finite, [`Error::NotFlat`] for a part that no cut makes flat, and the errors
+/// a strain that is not positive and finite, [`Error::NotFlat`] if more than a tenth of the surface would be left out, and the errors
 /// of [`unroll`](crate::unroll::unroll).
 pub fn pattern(
     surface: &Heightfield,
@@ -126,9 +126,8 @@ fn cut_and_join(
         // Go from the last part to the first, because removing a part changes the numbers of later ones.
         small.sort_unstable();
         for (part, reason) in small.into_iter().rev() {
-            let gone = rounds <= MAX_MERGE_ROUNDS
-                && (parts.merge_with_neighbour(part)? || parts.leave_out(part)?);
-            if !gone {
+            let is_merged = rounds <= MAX_MERGE_ROUNDS && parts.merge_with_neighbour(part)?;
+            if !is_merged && !parts.leave_out(part)? {
                 return Err(parts.refused(part, reason));
             }
         }

@@ -27,6 +27,7 @@
 mod assembly;
 mod check;
 mod coarse;
+mod crumbs;
 mod cut;
 mod exact;
 mod faces;
@@ -53,11 +54,13 @@ mod transfer;
 mod trim;
 mod window;
 
-pub use exact::{has_exact_faces, pattern_exact};
+pub use exact::{
+    NetOptions, SheetMetal, has_exact_faces, has_exact_vertices, pattern_exact, sheet_metal,
+};
 pub use faces::Faces;
 pub use heightfield::pattern;
 pub use meeting::Meeting;
 pub use mesh::{MeshPattern, pattern_mesh};
 pub use options::PatternOptions;
-pub use sheets::{Direction, Fold, Missing, Pattern, Refolding, Run, Seam, Sheet, Spot};
+pub use sheets::{Bend, Direction, Fold, Missing, Pattern, Refolding, Run, Seam, Sheet, Spot};
 pub(crate) use simple::remove_loops;

@@ -19,9 +19,8 @@ const MAX_PARTS: usize = 1500;
 /// Maximum number of neighbours that a small part is tried to be merged with.
 const MAX_MERGE_CANDIDATES: usize = 3;
 
-/// Maximum share of the surface's vertices that may be left out of the pattern. With this value the oloid in
-/// `benches/choices.md` is laid flat in one sheet.
-const MAX_OMITTED_SHARE: f64 = 0.02;
+/// Maximum share of the surface's vertices that may be left out of the pattern: with more it is no pattern of the surface.
+pub(super) const MAX_OMITTED_SHARE: f64 = 0.1;
 
 /// Maximum number of times that a few border vertices are removed from sheets; each removal lays these sheets flat
 /// again.
@@ -213,8 +212,12 @@ impl Parts {
         Ok(())
     }
 
-    /// Cuts a part into two or more and lays these flat. Returns whether the part was large enough to be cut.
+    /// Cuts a part into two or more and lays these flat. Returns whether the part was large enough to be cut, and the
+    /// number of parts below [`MAX_PARTS`].
     pub(super) fn cut(&mut self, part: u32) -> Result<bool> {
+        if self.labels.origins.len() >= MAX_PARTS {
+            return Ok(false);
+        }
         let Some(flat_patch) = self.flat_patches[part as usize].take() else {
             return Ok(false);
         };
@@ -223,11 +226,6 @@ impl Parts {
             self.flat_patches[part as usize] = Some(flat_patch);
             return Ok(false);
         };
-        if self.labels.origins.len() > MAX_PARTS {
-            let reason =
-                format!("the surface would have to be cut into more than {MAX_PARTS} parts");
-            return Err(self.refused(part, reason));
-        }
         let region = self.windows[part as usize];
         let count = self.labels.origins.len();
         let found = region.around(self.surface.lattice(), &self.labels.of, count);
@@ -273,7 +271,7 @@ impl Parts {
                     open.append(&mut self.pending);
                 } else {
                     let own = self.members(part);
-                    if own.len() > self.max_omitted_now() {
+                    if own.len() > self.most_left_out.saturating_sub(self.left_out) {
                         return Ok(false);
                     }
                     self.leave_out_vertices(part, own)?;
@@ -335,11 +333,10 @@ impl Parts {
         Ok(None)
     }
 
-    /// Leaves out of the pattern a part that is too small to be cut, unless the maximum number of vertices is left out
-    /// already. Returns whether the part was left out; numbers of parts may change.
+    /// Leaves a part out of the pattern, unless more than the maximum number of vertices would be left out. Returns whether the part was left out; numbers of parts may change.
     pub(super) fn leave_out(&mut self, part: u32) -> Result<bool> {
         let own = self.members(part);
-        if own.len() > self.max_omitted_now() {
+        if own.len() > self.most_left_out.saturating_sub(self.left_out) {
             return Ok(false);
         }
         let mut beside: Vec<u32> = self.borders(part, &own).into_keys().collect();
@@ -469,7 +466,9 @@ impl Parts {
         Error::NotFlat {
             place: format!("row {}, column {}", middle / cols, middle % cols),
             vertices: members.len(),
-            reason,
+            reason: format!(
+                "{reason}, and with it more than a tenth of the surface would be left out"
+            ),
         }
     }
 }

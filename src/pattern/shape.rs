@@ -126,6 +126,7 @@ pub(super) fn folds(
         }
         Fold {
             seam: seam(number),
+            bend: None,
             ends: [nodes[0], nodes[last]].map(|node| meetings.at(node)),
             points: pairs(&simplify_polyline(
                 &points,

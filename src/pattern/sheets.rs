@@ -27,7 +27,7 @@ pub struct Pattern {
 #[non_exhaustive]
 pub struct Missing {
     /// Number of vertices that were left out of the pattern because they do not lie flat together with any neighbouring
-    /// part, mostly at ragged steep borders and torn tips; at most a fiftieth of all.
+    /// part, mostly at ragged steep borders and torn tips, or are on sheets that are crumbs.
     pub vertices: usize,
     /// Area around the vertices that were left out, in the surface's units squared.
     pub area: f64,
@@ -110,11 +110,27 @@ pub struct Run {
 pub struct Fold {
     /// The crease along which the sheet is folded.
     pub seam: Seam,
+    /// The bend that the fold is a part of, where the surface turns by several folds beside each other.
+    pub bend: Option<Bend>,
     /// Points inside of the surface where cuts or folds meet and the fold begins and ends; `None` at the border.
     pub ends: [Option<Meeting>; 2],
     /// Polyline of the fold on the flat sheet: at least two points; the first one is repeated at the end where the fold
     /// is closed.
     pub points: Vec<[f64; 2]>,
+}
+
+/// A smooth bend of a model with exact faces: a piece of a cylinder or cone, which is folded along several lines.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
+pub struct Bend {
+    /// Number of the patch that bends.
+    pub patch: u32,
+    /// Angle by which all folds of the bend turn together, in radians.
+    pub angle: f64,
+    /// Radius of the surface in the bend, in the surface's units; the mean one of a cone.
+    pub radius: f64,
+    /// Whether the fold is the one in the middle of the bend.
+    pub is_middle: bool,
 }
 
 /// A crease or cut on the border of a sheet or within it: the patches on either side, the fold angle and the kind.

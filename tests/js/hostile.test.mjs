@@ -77,7 +77,7 @@ const calls = {
   meshRulings: { args: { mesh: whole }, options: 'meshRulings' },
   unrollMesh: { args: { mesh: whole }, options: 'unrollMesh' },
   patternMesh: { args: { mesh: whole }, options: 'patternMesh' },
-  hasExactFaces: { args: { mesh: whole } },
+  recognizeMesh: { args: { mesh: whole } },
   backProject: { args: { input: bent, camera } },
   parseCamera: { args: { text: JSON.stringify(camera), images: [{ width: 8, height: 8 }] } },
   paint: { args: { input: shaded, picture: photo }, options: 'paint' },

@@ -3,9 +3,11 @@
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use developable::Mesh;
-use developable::drawing::{Drawing, DrawingOptions};
+use developable::drawing::{Bending, Drawing, DrawingOptions, Label, LabelKind};
 use developable::files::drawings::write_dxf;
-use developable::pattern::{MeshPattern, Sheet, has_exact_faces, pattern_exact};
+use developable::pattern::{
+    MeshPattern, NetOptions, Sheet, has_exact_faces, has_exact_vertices, pattern_exact, sheet_metal,
+};
 
 fn seam_length(pattern: &MeshPattern) -> f64 {
     Drawing::new(&pattern.sheets, &DrawingOptions::default())
@@ -143,7 +145,7 @@ fn polyhedra_are_one_net_with_the_shortest_cut() {
     ];
     for (mesh, cut, folds, area) in all {
         assert!(has_exact_faces(&mesh));
-        let pattern = pattern_exact(&mesh, None).unwrap();
+        let pattern = pattern_exact(&mesh, &NetOptions::default()).unwrap();
         let [sheet] = &pattern.sheets[..] else {
             panic!("{} sheets", pattern.sheets.len());
         };
@@ -163,7 +165,7 @@ fn polyhedra_are_one_net_with_the_shortest_cut() {
 fn a_hole_through_a_block_has_two_circles_and_a_strip() {
     let mesh = block_with_hole();
     assert!(has_exact_faces(&mesh));
-    let pattern = pattern_exact(&mesh, None).unwrap();
+    let pattern = pattern_exact(&mesh, &NetOptions::default()).unwrap();
     let [block, wall] = &pattern.sheets[..] else {
         panic!("{} sheets", pattern.sheets.len());
     };
@@ -214,7 +216,11 @@ fn faces_meeting_at_an_edge_of_three_are_cut_there() {
         let [a, b] = [2 + 2 * page, 3 + 2 * page];
         triangles.extend([[0, a, b], [0, b, 1]]);
     }
-    let pattern = pattern_exact(&Mesh::new(points, triangles).unwrap(), None).unwrap();
+    let pattern = pattern_exact(
+        &Mesh::new(points, triangles).unwrap(),
+        &NetOptions::default(),
+    )
+    .unwrap();
     assert_eq!(pattern.sheets.len(), 3);
     assert!(
         pattern
@@ -228,8 +234,15 @@ fn faces_meeting_at_an_edge_of_three_are_cut_there() {
 fn sheets_fit_the_room_that_there_is() {
     // A cross of squares of 60 needs 180 × 240.
     let mesh = block_with_hole();
-    let whole = pattern_exact(&mesh, None).unwrap().sheets.len();
-    let pattern = pattern_exact(&mesh, Some([65.0, 65.0])).unwrap();
+    let whole = pattern_exact(&mesh, &NetOptions::default())
+        .unwrap()
+        .sheets
+        .len();
+    let room = NetOptions {
+        room: Some([65.0, 65.0]),
+        ..NetOptions::default()
+    };
+    let pattern = pattern_exact(&mesh, &room).unwrap();
     assert!(pattern.sheets.len() > whole);
     for sheet in &pattern.sheets {
         let extent = |k: usize| {
@@ -262,4 +275,175 @@ fn noise_and_smooth_surfaces_are_not_exact() {
         - (x - 30.0).powi(2)
         - (y - 30.0).powi(2))
     .sqrt())));
+    // Whole heights, as in a scan of few digits, are planes of many triangles and still noise.
+    let stairs = surface(&|_, y, i| (0.2 * y + 10.0 * noise(i)).round());
+    assert!(!has_exact_faces(&stairs) && !has_exact_vertices(&stairs));
+}
+
+/// A solid angle of sheet metal as CAD writes it: flat faces of 40 and 60 beside a bend of 90° with inner radius 3, 2 thick and
+/// 50 wide.
+fn bent_angle() -> Mesh {
+    let (inner, thickness, width, steps) = (3.0, 2.0, 50.0, 12);
+    // Both skins from end to end, about the middle of the bend.
+    let skin = |radius: f64| {
+        let mut line = vec![[-radius, -40.0]];
+        line.extend((0..=steps).map(|i| {
+            let (sin, cos) = (FRAC_PI_2 * f64::from(i) / f64::from(steps)).sin_cos();
+            [-radius * cos, radius * sin]
+        }));
+        line.push([60.0, radius]);
+        line
+    };
+    let lines = [skin(inner), skin(inner + thickness)];
+    let n = lines[0].len() as u32;
+    let mut points = Vec::new();
+    for y in [0.0, width] {
+        points.extend(lines.iter().flatten().map(|[x, z]| [*x, y, *z]));
+    }
+    let far = 2 * n;
+    let mut triangles = Vec::new();
+    let mut quad = |[a, b, c, d]: [u32; 4]| triangles.extend([[a, b, c], [a, c, d]]);
+    for i in 0..n - 1 {
+        quad([i, i + 1, far + i + 1, far + i]);
+        quad([n + i, far + n + i, far + n + i + 1, n + i + 1]);
+        quad([i, n + i, n + i + 1, i + 1]);
+        quad([far + i, far + i + 1, far + n + i + 1, far + n + i]);
+    }
+    quad([0, far, far + n, n]);
+    quad([n - 1, 2 * n - 1, far + 2 * n - 1, far + n - 1]);
+    Mesh::new(points, triangles).unwrap()
+}
+
+#[test]
+fn a_solid_of_sheet_metal_has_the_blank_that_it_is_bent_from() {
+    let solid = bent_angle();
+    let metal = sheet_metal(&solid).unwrap().expect("sheet metal");
+    assert!((metal.thickness - 2.0).abs() < 1e-9, "{}", metal.thickness);
+    let pattern = pattern_exact(&metal.skin, &NetOptions::default()).unwrap();
+    let options = DrawingOptions::default().bending(Bending::new(2.0).k_factor(0.44));
+    let drawing = Drawing::new(&pattern.sheets, &options).unwrap();
+    let [blank] = &drawing.sheets[..] else {
+        panic!("{} sheets", drawing.sheets.len());
+    };
+    // Flat faces, and the neutral line of the bend.
+    let long = 40.0 + 60.0 + FRAC_PI_2 * (3.0 + 0.44 * 2.0);
+    let [low, high] = blank.bounds;
+    let mut sides = [high[0] - low[0], high[1] - low[1]];
+    sides.sort_by(f64::total_cmp);
+    assert!(
+        (sides[0] - 50.0).abs() < 1e-6 && (sides[1] - long).abs() < 1e-3,
+        "{sides:?}"
+    );
+    let [line] = &blank.folds[..] else {
+        panic!("{} bend lines", blank.folds.len());
+    };
+    let bend = line.bend.unwrap();
+    assert!(
+        (bend.angle - 90.0).abs() < 1e-9 && (line.length - 50.0).abs() < 1e-9,
+        "{line:?}"
+    );
+    // The outer skin is the larger one.
+    assert!((bend.radius - 5.0).abs() < 1e-9, "{}", bend.radius);
+    let away = |p: &[f64; 2]| {
+        let k = usize::from(high[1] - low[1] > high[0] - low[0]);
+        (p[k] - low[k]).min(high[k] - p[k])
+    };
+    let middle = 40.0 + 0.5 * FRAC_PI_2 * (3.0 + 0.44 * 2.0);
+    assert!(line.points.iter().all(|p| (away(p) - middle).abs() < 1e-3));
+}
+
+#[test]
+fn boxes_and_open_skins_are_no_sheet_metal() {
+    assert!(sheet_metal(&block_with_hole()).unwrap().is_none());
+    let skin = sheet_metal(&bent_angle()).unwrap().unwrap().skin;
+    assert!(sheet_metal(&skin).unwrap().is_none());
+}
+
+#[test]
+fn a_person_decides_which_edges_are_cut_and_which_are_folds() {
+    let mesh = hull(vec![
+        [0.0, 0.0, 0.0],
+        [40.0, 0.0, 0.0],
+        [0.0, 50.0, 0.0],
+        [0.0, 0.0, 60.0],
+    ]);
+    let pairs = |pattern: &MeshPattern, is_fold: bool| {
+        let folds = pattern.sheets.iter().flat_map(|sheet| &sheet.folds);
+        let mut folded: Vec<[u32; 2]> = folds.map(|fold| fold.seam.patches).collect();
+        folded.sort_unstable();
+        let all = pattern.creases.iter().map(|crease| crease.patches);
+        all.filter(|pair| folded.contains(pair) == is_fold)
+            .collect::<Vec<_>>()
+    };
+    let before = pattern_exact(&mesh, &NetOptions::default()).unwrap();
+    let (cut, join) = (pairs(&before, true)[0], pairs(&before, false)[0]);
+    let options = NetOptions {
+        cut: vec![cut],
+        join: vec![[join[1], join[0]]],
+        ..NetOptions::default()
+    };
+    let after = pattern_exact(&mesh, &options).unwrap();
+    assert!(pairs(&after, false).contains(&cut) && pairs(&after, true).contains(&join));
+    assert_eq!(after.sheets.len(), 1);
+    let none = NetOptions {
+        cut: vec![[0, 9]],
+        ..NetOptions::default()
+    };
+    let error = pattern_exact(&mesh, &none).unwrap_err();
+    assert!(
+        error
+            .to_string()
+            .contains("patches 1 and 10 have no edge in common"),
+        "{error}"
+    );
+    // All six edges of a tetrahedron cannot be folds.
+    let all = (0..4)
+        .flat_map(|a| (a + 1..4).map(move |b| [a, b]))
+        .collect();
+    let folds = NetOptions {
+        join: all,
+        ..NetOptions::default()
+    };
+    assert!(pattern_exact(&mesh, &folds).is_err());
+}
+
+#[test]
+fn no_text_lies_on_a_line_or_on_another_text() {
+    let mesh = block_with_hole();
+    let sheets = pattern_exact(&mesh, &NetOptions::default()).unwrap().sheets;
+    let drawing = Drawing::new(&sheets, &DrawingOptions::default().tabs(4.0)).unwrap();
+    for sheet in &drawing.sheets {
+        // Points a tenth of a millimetre apart along all lines, and those of a grid over each text.
+        let folds = sheet
+            .folds
+            .iter()
+            .chain(&sheet.tabs)
+            .map(|line| &line.points);
+        let mut lines: Vec<[f64; 2]> = Vec::new();
+        for line in folds {
+            lines.extend(line.windows(2).flat_map(|p| {
+                (0..=1000)
+                    .map(|i| [0, 1].map(|k| p[0][k] + (p[1][k] - p[0][k]) * f64::from(i) / 1000.0))
+            }));
+        }
+        let covers = |label: &Label, p: [f64; 2]| {
+            let (sin, cos) = label.turn.to_radians().sin_cos();
+            let [x, y] = [p[0] - label.place[0], p[1] - label.place[1]];
+            let letters = label.text.chars().count() as f64;
+            (x * cos + y * sin).abs() < 0.29 * label.size * letters
+                && (y * cos - x * sin).abs() < 0.5 * label.size
+        };
+        let folds = sheet
+            .labels
+            .iter()
+            .filter(|label| label.kind == LabelKind::Fold);
+        for label in folds {
+            assert!(!lines.iter().any(|p| covers(label, *p)), "{label:?}");
+            let others = sheet.labels.iter().filter(|other| *other != label);
+            assert!(
+                !others.clone().any(|other| covers(label, other.place)),
+                "{label:?}"
+            );
+        }
+    }
 }

@@ -4,33 +4,55 @@
 //! Coplanar triangles are one facet. Facets are placed by rigid motions along the edges where they meet, so that no sheet has
 //! strain, and both sides of each cut are equally long. Where sheets would overlap they are cut apart.
 
+mod bends;
+mod metal;
 mod net;
 mod patches;
 mod polyhedron;
 mod recognition;
+mod search;
 mod sheets;
 
 use super::mesh::MeshPattern;
 use crate::error::Result;
 use crate::scene::mesh::Mesh;
-use net::Net;
+pub use metal::{SheetMetal, sheet_metal};
+use net::{EdgeChoices, Net};
 use patches::FlatPatches;
 use polyhedron::Polyhedron;
-pub use recognition::has_exact_faces;
+pub use recognition::{has_exact_faces, has_exact_vertices};
+
+/// Options of a net: the room for its sheets, and edges that a person decides about.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct NetOptions {
+    /// Width and height, in the mesh's units, within which each sheet lies, in either orientation, unless a single face is
+    /// larger.
+    pub room: Option<[f64; 2]>,
+    /// Pairs of patches whose common edges are cut, by the patches' numbers in the pattern that these options without `cut` and
+    /// `join` give.
+    pub cut: Vec<[u32; 2]>,
+    /// Pairs of patches, likewise, whose common edges are folds.
+    pub join: Vec<[u32; 2]>,
+}
 
 /// Lays a mesh flat as it is, face by face: without strain, in few sheets with short cuts. Edges of more than two triangles
 /// are cut; the mesh may have borders and several components. Each edge between two faces is a fold or a cut.
 ///
-/// With `room`, width and height in the mesh's units, sheets are cut so that each fits, in either orientation, unless a
-/// single face is larger.
-///
-/// Costs some seconds at most for the search, and `O(triangles log triangles)` beside it.
+/// Costs some seconds at most for the search, twice that with edges to cut or join, and `O(triangles log triangles)` beside it.
 ///
 /// # Errors
-/// [`Error::Unsupported`](crate::Error::Unsupported) if the triangles have no area.
-pub fn pattern_exact(mesh: &Mesh, room: Option<[f64; 2]>) -> Result<MeshPattern> {
+/// [`Error::Unsupported`](crate::Error::Unsupported) if the triangles have no area, for a pair of patches without a common
+/// edge, and for edges that cannot all be folds.
+pub fn pattern_exact(mesh: &Mesh, options: &NetOptions) -> Result<MeshPattern> {
     let solid = Polyhedron::new(mesh)?;
-    let net = Net::new(&solid, room);
+    let mut choices = EdgeChoices::default();
+    if !(options.cut.is_empty() && options.join.is_empty()) {
+        let net = Net::new(&solid, options.room, EdgeChoices::default())?;
+        let patches = FlatPatches::new(&solid, &net)?;
+        choices.cut = patches.facets_between(&solid, &options.cut)?;
+        choices.join = patches.facets_between(&solid, &options.join)?;
+    }
+    let net = Net::new(&solid, options.room, choices)?;
     let patches = FlatPatches::new(&solid, &net)?;
     sheets::draw(&solid, &net, &patches)
 }

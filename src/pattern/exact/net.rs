@@ -1,21 +1,16 @@
 //! Nets: facets placed in the plane by rigid motions along a forest of hinges, without overlaps.
 
 use nalgebra::Complex;
-use oorandom::Rand64;
-use rustc_hash::FxHashMap;
+use rustc_hash::{FxHashMap, FxHashSet};
 
 use super::polyhedron::Polyhedron;
+use crate::error::{Error, Result};
 use crate::math::index::NO_INDEX;
 use crate::math::planar::{LeastBox, Point2, cross};
 
-/// Work of the search for fewer pieces and shorter cuts, in triangles that are placed or compared.
-const SEARCH_WORK: usize = 12_000_000;
-
-/// Largest distance, in facets, from the hinge about which the search takes a net apart.
-const MAX_RUIN_RADIUS: u64 = 3;
-
-/// Minimum size of the cells of a piece's grid, in multiples of the rounding: a thousandth of the mesh's diagonal.
-const MIN_CELL_ROUNDINGS: f64 = 1000.0;
+/// Maximum number of cells of all grids: so many for each triangle, and so many in all. Slender triangles get larger cells.
+const MAX_CELLS_PER_TRIANGLE: f64 = 64.0;
+const MAX_SHARED_CELLS: f64 = 1e6;
 
 /// A rigid motion of the plane: a rotation, then a translation.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -58,8 +53,8 @@ impl Motion {
 pub(super) struct Hinge {
     pub facets: [u32; 2],
     /// A half-edge along the line, of the first facet.
-    side: u32,
-    length: f64,
+    pub side: u32,
+    pub length: f64,
 }
 
 /// The hinges of a polyhedron, the longest first. Two facets that meet along several lines have several.
@@ -91,34 +86,49 @@ fn hinges(solid: &Polyhedron) -> Vec<Hinge> {
     hinges
 }
 
+/// Pairs of facets, the lower number first, whose common edges are to be cut or not to be.
+#[derive(Default)]
+pub(super) struct EdgeChoices {
+    pub cut: FxHashSet<[u32; 2]>,
+    pub join: FxHashSet<[u32; 2]>,
+}
+
 /// A piece of a net: its facets, and which of its triangles touch each cell of a grid.
-#[derive(Clone, Default)]
-struct Piece {
-    facets: Vec<u32>,
+#[derive(Default)]
+pub(super) struct Piece {
+    pub facets: Vec<u32>,
     grid: FxHashMap<[i32; 2], Vec<u32>>,
 }
 
 /// A forest of hinges that places all facets, with the pieces that it makes of them.
 pub(super) struct Net<'a> {
-    solid: &'a Polyhedron,
-    hinges: Vec<Hinge>,
+    pub(super) solid: &'a Polyhedron,
+    pub(super) hinges: Vec<Hinge>,
     triangles: Vec<Vec<u32>>,
     /// Numbers of each facet's hinges.
-    around: Vec<Vec<u32>>,
-    is_joined: Vec<bool>,
-    motions: Vec<Motion>,
-    piece_of: Vec<u32>,
-    pieces: Vec<Piece>,
+    pub(super) around: Vec<Vec<u32>>,
+    pub(super) is_joined: Vec<bool>,
+    pub(super) motions: Vec<Motion>,
+    pub(super) piece_of: Vec<u32>,
+    pub(super) pieces: Vec<Piece>,
     cell: f64,
     /// Width and height within which each piece has to lie, if it has to.
     room: Option<[f64; 2]>,
-    work: usize,
+    pub(super) choices: EdgeChoices,
+    pub(super) work: usize,
 }
 
 impl<'a> Net<'a> {
     /// Places the facets of a polyhedron so that few pieces arise and short cuts between them; each piece lies within
     /// `room`, width and height in either order, if that is given and no single facet is larger.
-    pub(super) fn new(solid: &'a Polyhedron, room: Option<[f64; 2]>) -> Net<'a> {
+    ///
+    /// # Errors
+    /// [`Error::Unsupported`] if facets that are to be joined would lie on others.
+    pub(super) fn new(
+        solid: &'a Polyhedron,
+        room: Option<[f64; 2]>,
+        choices: EdgeChoices,
+    ) -> Result<Net<'a>> {
         let hinges = hinges(solid);
         let count = solid.normals.len();
         let mut triangles = vec![Vec::new(); count];
@@ -133,6 +143,9 @@ impl<'a> Net<'a> {
                 .for_each(|facet| around[*facet as usize].push(number));
         }
         let area: f64 = solid.areas.iter().sum();
+        // A triangle touches about as many cells as lie in it and along its sides.
+        let sides = 0..solid.twins.len() as u32;
+        let length: f64 = sides.map(|side| solid.length(side)).sum();
         let mut net = Net {
             solid,
             is_joined: vec![false; hinges.len()],
@@ -141,21 +154,33 @@ impl<'a> Net<'a> {
             around,
             motions: vec![Motion::IDENTITY; count],
             piece_of: (0..count as u32).collect(),
-            pieces: vec![Piece::default(); count],
-            cell: (area / solid.triangles.len() as f64)
-                .sqrt()
-                .max(MIN_CELL_ROUNDINGS * solid.rounding),
+            pieces: std::iter::repeat_with(Piece::default).take(count).collect(),
+            cell: (area / solid.triangles.len() as f64).sqrt().max(
+                length / (MAX_CELLS_PER_TRIANGLE * solid.triangles.len() as f64 + MAX_SHARED_CELLS),
+            ),
             room,
+            choices,
             work: 0,
         };
         for facet in 0..count as u32 {
             net.insert(facet, facet);
         }
-        for hinge in 0..net.hinges.len() {
-            net.join(hinge);
+        let (first, rest): (Vec<usize>, Vec<usize>) =
+            (0..net.hinges.len()).partition(|hinge| net.is_to_be_joined(*hinge));
+        first
+            .into_iter()
+            .chain(rest)
+            .for_each(|hinge| net.join(hinge));
+        net.improve()?;
+        let is_open = net.open_joins().next().is_some();
+        match is_open {
+            false => Ok(net),
+            true => Err(Error::Unsupported {
+                format: "pattern",
+                reason: "with all the edges of `join` as folds faces would lie on each other, or on no page; leave out some"
+                    .into(),
+            }),
         }
-        net.improve();
-        net
     }
 
     /// The facets of each piece, the largest piece first.
@@ -185,10 +210,26 @@ impl<'a> Net<'a> {
         self.solid.flat_ends(half_edge).map(|p| motion.of(p))
     }
 
+    pub(super) fn is_to_be_joined(&self, hinge: usize) -> bool {
+        self.choices.join.contains(&self.hinges[hinge].facets)
+    }
+
+    /// Hinges that are to be joined and are open.
+    pub(super) fn open_joins(&self) -> impl Iterator<Item = usize> + '_ {
+        (0..self.hinges.len()).filter(|hinge| {
+            self.is_to_be_joined(*hinge) && !self.is_closed(self.hinges[*hinge].side)
+        })
+    }
+
     /// Whether both sides of an edge lie on each other, so that it is no cut.
     pub(super) fn is_closed(&self, half_edge: u32) -> bool {
         let twin = self.solid.twins[half_edge as usize];
         if twin == NO_INDEX {
+            return false;
+        }
+        let mut facets = [half_edge, twin].map(|side| self.solid.facet(side));
+        facets.sort_unstable();
+        if self.choices.cut.contains(&facets) {
             return false;
         }
         let [one, other] =
@@ -198,19 +239,41 @@ impl<'a> Net<'a> {
         one == other && (a - c).norm() <= near && (b - d).norm() <= near
     }
 
-    /// Cells that the bounding box of a triangle touches.
+    /// Cells of the grid that a triangle touches, row by row.
     fn cells(&self, corners: &[Point2; 3]) -> impl Iterator<Item = [i32; 2]> + use<> {
-        let range = |of: fn(&Point2) -> f64| {
-            let all = corners.iter().map(of);
-            let low = all.clone().fold(f64::INFINITY, f64::min);
-            let high = all.fold(f64::NEG_INFINITY, f64::max);
-            (low / self.cell).floor() as i32..=(high / self.cell).floor() as i32
-        };
-        let (xs, ys) = (range(|p| p.re), range(|p| p.im));
-        xs.flat_map(move |x| ys.clone().map(move |y| [x, y]))
+        let (cell, corners) = (self.cell, *corners);
+        let number = move |v: f64| (v / cell).floor() as i32;
+        let heights = corners.map(|p| p.im);
+        let low = heights.iter().copied().fold(f64::INFINITY, f64::min);
+        let high = heights.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+        (number(low)..=number(high)).flat_map(move |row| {
+            let [below, above] = [0, 1].map(|k| f64::from(row + k) * cell);
+            // The ends of each side's part within the row.
+            let ends = (0..3).flat_map(|k| {
+                let (a, b) = (corners[k], corners[(k + 1) % 3]);
+                let (low, high) = if a.im < b.im { (a, b) } else { (b, a) };
+                let reach = if low.im > above || high.im < below {
+                    0..0
+                } else {
+                    0..2
+                };
+                reach.map(move |end| {
+                    let y = [below, above][end].clamp(low.im, high.im);
+                    match high.im > low.im {
+                        true => low.re + (high.re - low.re) * ((y - low.im) / (high.im - low.im)),
+                        false => [low.re, high.re][end],
+                    }
+                })
+            });
+            let [left, right] = ends
+                .fold([f64::INFINITY, f64::NEG_INFINITY], |[left, right], x| {
+                    [left.min(x), right.max(x)]
+                });
+            (number(left)..=number(right)).map(move |column| [column, row])
+        })
     }
 
-    fn insert(&mut self, piece: u32, facet: u32) {
+    pub(super) fn insert(&mut self, piece: u32, facet: u32) {
         self.piece_of[facet as usize] = piece;
         let mut own = std::mem::take(&mut self.pieces[piece as usize]);
         own.facets.push(facet);
@@ -223,9 +286,39 @@ impl<'a> Net<'a> {
         self.pieces[piece as usize] = own;
     }
 
+    /// Takes facets out of their pieces.
+    pub(super) fn remove(&mut self, facets: &[u32]) {
+        let mut touched: Vec<u32> = Vec::new();
+        for facet in facets {
+            let piece = std::mem::replace(&mut self.piece_of[*facet as usize], NO_INDEX);
+            touched.push(piece);
+            let mut own = std::mem::take(&mut self.pieces[piece as usize]);
+            for triangle in &self.triangles[*facet as usize] {
+                for cell in self.cells(&self.placed(*triangle)) {
+                    own.grid.entry(cell).or_default().retain(|t| t != triangle);
+                    self.work += 1;
+                }
+            }
+            self.pieces[piece as usize] = own;
+        }
+        touched.sort_unstable();
+        touched.dedup();
+        for piece in touched {
+            let own = &mut self.pieces[piece as usize];
+            own.facets
+                .retain(|facet| self.piece_of[*facet as usize] == piece);
+            if own.facets.is_empty() {
+                *own = Piece::default();
+            }
+        }
+    }
+
     /// Joins the pieces on both sides of a hinge if nothing comes to lie on anything else.
-    fn join(&mut self, number: usize) {
+    pub(super) fn join(&mut self, number: usize) {
         let hinge = &self.hinges[number];
+        if self.choices.cut.contains(&hinge.facets) {
+            return;
+        }
         let twin = self.solid.twins[hinge.side as usize];
         let [mut from, mut to] = [twin, hinge.side];
         let piece = |side: u32| self.piece_of[self.solid.facet(side) as usize];
@@ -285,193 +378,6 @@ impl<'a> Net<'a> {
         self.work += work;
         a <= c && b <= d
     }
-
-    /// Number of pieces, and length of all cuts.
-    fn cost(&self, pieces: usize) -> (usize, f64) {
-        let cut = self
-            .hinges
-            .iter()
-            .zip(&self.is_joined)
-            .filter(|(_, joined)| !**joined);
-        let open = cut.filter(|(hinge, _)| !self.is_closed(hinge.side));
-        (pieces, open.map(|(hinge, _)| hinge.length).sum())
-    }
-
-    /// Takes the net apart around one cut after another and joins it again in another order; keeps what is better
-    /// (ruin and recreate).
-    fn improve(&mut self) {
-        let mut random = Rand64::new(0);
-        let count = |net: &Net| {
-            net.pieces
-                .iter()
-                .filter(|piece| !piece.facets.is_empty())
-                .count()
-        };
-        let mut best = self.cost(count(self));
-        let limit = self.work + SEARCH_WORK;
-        loop {
-            let cuts: Vec<u32> = (0..self.hinges.len() as u32)
-                .filter(|hinge| {
-                    let hinge = *hinge as usize;
-                    !self.is_joined[hinge] && !self.is_closed(self.hinges[hinge].side)
-                })
-                .collect();
-            // A longest forest of one piece has no better one.
-            let longest = (self.hinges.iter().zip(&self.is_joined))
-                .take_while(|(_, joined)| **joined)
-                .count();
-            if cuts.is_empty() || self.work >= limit || longest + cuts.len() == self.hinges.len() {
-                return;
-            }
-            let between: Vec<u32> = (cuts.iter().copied())
-                .filter(|hinge| {
-                    let [a, b] = self.hinges[*hinge as usize]
-                        .facets
-                        .map(|f| self.piece_of[f as usize]);
-                    a != b
-                })
-                .collect();
-            let from = match !between.is_empty() && random.rand_range(0..4) > 0 {
-                true => &between,
-                false => &cuts,
-            };
-            let start = from[random.rand_range(0..from.len() as u64) as usize];
-            let radius = random.rand_range(0..MAX_RUIN_RADIUS + 1);
-            self.work += self.hinges.len() / 8;
-            let saved = self.ruin(start, radius);
-            let mut order: Vec<(f64, u32)> = (saved.hinges.iter())
-                .map(|hinge| {
-                    (
-                        self.hinges[*hinge as usize].length * (0.3 + random.rand_float()),
-                        *hinge,
-                    )
-                })
-                .collect();
-            // The cut about which all was taken apart comes first.
-            order
-                .iter_mut()
-                .filter(|(_, hinge)| *hinge == start)
-                .for_each(|(w, _)| *w = f64::INFINITY);
-            order.sort_by(|a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)));
-            for (_, hinge) in order {
-                self.join(hinge as usize);
-            }
-            let found = self.cost(count(self));
-            let is_better = found.0 < best.0 || (found.0 == best.0 && found.1 <= best.1);
-            match is_better {
-                true => best = found,
-                false => self.restore(saved),
-            }
-        }
-    }
-
-    /// Removes the joined hinges near a cut, and makes the pieces that it touches anew without them.
-    fn ruin(&mut self, start: u32, radius: u64) -> Saved {
-        let mut near: Vec<u32> = self.hinges[start as usize].facets.to_vec();
-        let mut first = 0;
-        for _ in 0..radius {
-            let last = near.len();
-            for k in first..last {
-                for hinge in &self.around[near[k] as usize] {
-                    for facet in self.hinges[*hinge as usize].facets {
-                        if !near.contains(&facet) {
-                            near.push(facet);
-                        }
-                    }
-                }
-            }
-            first = last;
-        }
-        let mut touched: Vec<u32> = near
-            .iter()
-            .map(|facet| self.piece_of[*facet as usize])
-            .collect();
-        touched.sort_unstable();
-        touched.dedup();
-        let mut saved = Saved::default();
-        for piece in &touched {
-            let own = std::mem::take(&mut self.pieces[*piece as usize]);
-            for facet in &own.facets {
-                saved
-                    .facets
-                    .push((*facet, *piece, self.motions[*facet as usize]));
-                self.piece_of[*facet as usize] = NO_INDEX;
-            }
-            saved.pieces.push((*piece, own));
-        }
-        for (facet, ..) in &saved.facets {
-            saved.hinges.extend(&self.around[*facet as usize]);
-        }
-        saved.hinges.sort_unstable();
-        saved.hinges.dedup();
-        let is_touched = |facet: u32| self.piece_of[facet as usize] == NO_INDEX;
-        saved.hinges.retain(|hinge| {
-            self.hinges[*hinge as usize]
-                .facets
-                .iter()
-                .all(|f| is_touched(*f))
-        });
-        saved.joined = saved
-            .hinges
-            .iter()
-            .map(|hinge| self.is_joined[*hinge as usize])
-            .collect();
-        for facet in near {
-            for hinge in &self.around[facet as usize] {
-                self.is_joined[*hinge as usize] = false;
-            }
-        }
-        // Connected parts of what is left, each a piece with the number of its first facet.
-        for k in 0..saved.facets.len() {
-            let facet = saved.facets[k].0;
-            if self.piece_of[facet as usize] != NO_INDEX {
-                continue;
-            }
-            let mut open = vec![facet];
-            self.piece_of[facet as usize] = facet;
-            while let Some(next) = open.pop() {
-                self.insert(facet, next);
-                for hinge in &self.around[next as usize] {
-                    if !self.is_joined[*hinge as usize] {
-                        continue;
-                    }
-                    for other in self.hinges[*hinge as usize].facets {
-                        if self.piece_of[other as usize] == NO_INDEX {
-                            self.piece_of[other as usize] = facet;
-                            open.push(other);
-                        }
-                    }
-                }
-            }
-        }
-        saved
-    }
-
-    fn restore(&mut self, saved: Saved) {
-        for (facet, ..) in &saved.facets {
-            let piece = self.piece_of[*facet as usize];
-            self.pieces[piece as usize] = Piece::default();
-        }
-        for (facet, piece, motion) in saved.facets {
-            self.piece_of[facet as usize] = piece;
-            self.motions[facet as usize] = motion;
-        }
-        for (piece, own) in saved.pieces {
-            self.pieces[piece as usize] = own;
-        }
-        for (hinge, joined) in saved.hinges.iter().zip(saved.joined) {
-            self.is_joined[*hinge as usize] = joined;
-        }
-    }
-}
-
-/// The part of a net that was taken apart, as it was before.
-#[derive(Default)]
-struct Saved {
-    facets: Vec<(u32, u32, Motion)>,
-    pieces: Vec<(u32, Piece)>,
-    hinges: Vec<u32>,
-    joined: Vec<bool>,
 }
 
 /// Whether two triangles overlap by more than a depth (separating axes: some line along a side has one on either side).
@@ -490,4 +396,35 @@ fn overlap(one: &[Point2; 3], other: &[Point2; 3], depth: f64) -> bool {
         })
     };
     !is_apart(one, other) && !is_apart(other, one)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::mesh::Mesh;
+
+    #[test]
+    fn slender_triangles_do_not_fill_the_grid() {
+        // A fan of slivers in all directions, each a hundred thousand times as long as wide.
+        let count = 200;
+        let mut points = Vec::new();
+        let mut triangles = Vec::new();
+        for k in 0..count {
+            let (sin, cos) = (0.03 * f64::from(k)).sin_cos();
+            let first = 3 * k as u32;
+            let high = f64::from(k);
+            points.extend([
+                [0.0, 0.0, high],
+                [1e3 * cos, 1e3 * sin, high],
+                [1e3 * cos - 1e-2 * sin, 1e3 * sin + 1e-2 * cos, high],
+            ]);
+            triangles.push([first, first + 1, first + 2]);
+        }
+        let solid = Polyhedron::new(&Mesh::new(points, triangles).unwrap()).unwrap();
+        let net = Net::new(&solid, None, EdgeChoices::default()).unwrap();
+        let cells: usize = net.pieces.iter().map(|piece| piece.grid.len()).sum();
+        assert!(cells as f64 <= 64.0 * f64::from(count) + 1e6, "{cells}");
+        // Each sliver touches the cells along it, and not those of its bounding box.
+        assert!(cells < 2_000 * count as usize, "{cells}");
+    }
 }

@@ -1,13 +1,15 @@
 //! The patches of a net: facets, and strips of narrow facets that bend as one.
 
+use rustc_hash::{FxHashMap, FxHashSet};
+
 use super::net::Net;
 use super::polyhedron::Polyhedron;
-use crate::error::Result;
+use crate::error::{Error, Result};
 use crate::math::index::NO_INDEX;
 use crate::math::union_find::UnionFind;
 
 /// Largest angle between neighbouring facets of a bend, in radians: circles of 16 sides or more.
-const MAX_BEND_STEP: f64 = 0.4;
+pub(super) const MAX_BEND_STEP: f64 = 0.4;
 
 /// Largest ratio of the angles on both sides of a facet of a bend.
 const MAX_BEND_STEP_RATIO: f64 = 3.0;
@@ -85,6 +87,38 @@ impl FlatPatches {
     }
 }
 
+impl FlatPatches {
+    /// Pairs of facets on both sides of the edges between pairs of patches.
+    pub(super) fn facets_between(
+        &self,
+        solid: &Polyhedron,
+        pairs: &[[u32; 2]],
+    ) -> Result<FxHashSet<[u32; 2]>> {
+        let mut wanted: FxHashMap<[u32; 2], bool> = FxHashMap::default();
+        for [a, b] in pairs {
+            wanted.insert([*a.min(b), *a.max(b)], false);
+        }
+        let mut found = FxHashSet::default();
+        for side in inner_sides(solid) {
+            let mut facets = [side, solid.twins[side as usize]].map(|s| solid.facet(s));
+            facets.sort_unstable();
+            let mut patches = facets.map(|facet| self.of[facet as usize]);
+            patches.sort_unstable();
+            if let Some(is_found) = wanted.get_mut(&patches) {
+                *is_found = true;
+                found.insert(facets);
+            }
+        }
+        match wanted.iter().find(|(_, is_found)| !**is_found) {
+            None => Ok(found),
+            Some(([a, b], _)) => Err(Error::Unsupported {
+                format: "pattern",
+                reason: format!("patches {} and {} have no edge in common", a + 1, b + 1),
+            }),
+        }
+    }
+}
+
 /// One half-edge of each edge with two facets.
 pub(super) fn inner_sides(solid: &Polyhedron) -> impl Iterator<Item = u32> + '_ {
     (0u32..).zip(&solid.twins).filter_map(|(side, twin)| {
@@ -93,7 +127,7 @@ pub(super) fn inner_sides(solid: &Polyhedron) -> impl Iterator<Item = u32> + '_ 
     })
 }
 
-fn is_step(solid: &Polyhedron, side: u32) -> bool {
+pub(super) fn is_step(solid: &Polyhedron, side: u32) -> bool {
     solid.angle(side).abs() <= MAX_BEND_STEP
 }
 

@@ -79,6 +79,11 @@ impl Polyhedron {
         half_edge_ends(&self.triangles, half_edge).map(|v| self.places[v as usize])
     }
 
+    pub(super) fn length(&self, half_edge: u32) -> f64 {
+        let [a, b] = self.ends(half_edge);
+        (b - a).norm()
+    }
+
     pub(super) fn facet(&self, half_edge: u32) -> u32 {
         self.facets[half_edge as usize / 3]
     }

@@ -6,12 +6,16 @@ use crate::math::index::NO_INDEX;
 use crate::scene::half_edges::half_edge_ends;
 use crate::scene::mesh::Mesh;
 
-/// Minimum share of all inner edges that are flat to rounding: noise leaves none, and faces of CAD have one for each triangle
-/// beside the first.
-const MIN_FLAT_SHARE: f64 = 0.25;
-
-/// Minimum share of the facets that are strips of bends, and maximum share of those that are neither strips nor faces.
+/// Minimum share of the facets that are strips of bends, and maximum share of those that are neither strips nor faces. Of
+/// triangles with noise, however steep, less than half have two neighbours at small angles.
 const MIN_STRIP_SHARE: f64 = 0.5;
+
+/// Minimum correlation of the bends at both ends of an edge. What noise lifts makes valleys around it: a scan with noise has
+/// 0.14 or less, one of whole heights 0.02; parts of CAD have 0.65 or more, models of 350 and 1500 triangles 0.5 and 0.35.
+const MIN_BEND_CORRELATION: f64 = 0.25;
+
+/// Minimum share of all inner edges that are flat to rounding: faces of CAD have one for each triangle beside the first.
+const MIN_FLAT_SHARE: f64 = 0.25;
 
 /// Minimum angle, in degrees, between all neighbouring facets but a tenth: a smooth surface has smaller ones everywhere.
 const MIN_FACET_ANGLE: f64 = 0.3;
@@ -19,12 +23,11 @@ const MIN_FACET_ANGLE: f64 = 0.3;
 /// Minimum median angle, in degrees, between the faces of a low-poly model; a ball of 500 triangles has 9.
 const MIN_LOW_POLY_ANGLE: f64 = 8.0;
 
-/// Minimum correlation of the bends at both ends of an edge. Noise has a negative one, as a vertex that stands out makes
-/// valleys around it; models of 350 and 1500 triangles have 0.5 and 0.35.
-const MIN_BEND_CORRELATION: f64 = 0.2;
+/// Minimum share of the area of a mesh without noise that lies in planes of several triangles.
+const MIN_PLANAR_SHARE: f64 = 0.5;
 
-/// Returns whether the faces of a mesh are exact, so that nothing is gained by a fit: they meet in planes or along the lines
-/// of bends to rounding, or they are so few that each is a face of its own, without the noise of a scan.
+/// Returns whether the faces of a mesh are exact, so that nothing is gained by a fit: it is made of strips that bend, or its
+/// vertices have no noise and its faces are planes of several triangles, or so few that each is a face of its own.
 ///
 /// [`pattern_exact`](super::pattern_exact) lays such a mesh flat as it is.
 pub fn has_exact_faces(mesh: &Mesh) -> bool {
@@ -49,11 +52,30 @@ pub fn has_exact_faces(mesh: &Mesh) -> bool {
     };
     let strips = share(&|facet| steps[facet].len() == 2);
     let irregular = share(&|facet| steps[facet].len() > 2);
-    *tenth >= MIN_FACET_ANGLE
-        && (strips >= MIN_STRIP_SHARE
-            || (flat >= MIN_FLAT_SHARE && irregular < 1.0 - MIN_STRIP_SHARE)
-            || (*median >= MIN_LOW_POLY_ANGLE
-                && bend_correlation(&solid, &hinges) >= MIN_BEND_CORRELATION))
+    let has_faces = (flat >= MIN_FLAT_SHARE && irregular < 1.0 - MIN_STRIP_SHARE)
+        || *median >= MIN_LOW_POLY_ANGLE;
+    strips >= MIN_STRIP_SHARE
+        || (*tenth >= MIN_FACET_ANGLE
+            && has_faces
+            && bend_correlation(&solid, &hinges) >= MIN_BEND_CORRELATION)
+}
+
+/// Returns whether the vertices of a mesh have no noise, so that a fit would only move them, though its faces may be those of
+/// a smooth surface: half of its area lies in planes of several triangles to rounding, and bends are alike at neighbours.
+pub fn has_exact_vertices(mesh: &Mesh) -> bool {
+    let Ok(solid) = Polyhedron::new(mesh) else {
+        return false;
+    };
+    let mut counts = vec![0; solid.areas.len()];
+    (solid.facets.iter()).for_each(|facet| counts[*facet as usize] += 1);
+    let planar = counts
+        .iter()
+        .zip(&solid.areas)
+        .filter(|(count, _)| **count > 1);
+    let planar: f64 = planar.map(|(_, area)| area).sum();
+    let hinges: Vec<u32> = inner_sides(&solid).collect();
+    planar >= MIN_PLANAR_SHARE * solid.areas.iter().sum::<f64>()
+        && (hinges.is_empty() || bend_correlation(&solid, &hinges) >= MIN_BEND_CORRELATION)
 }
 
 /// Correlation, about 0, of the bends at both ends of an edge: angles times lengths of the edges at a vertex.

@@ -2,14 +2,15 @@
 
 use rustc_hash::FxHashMap;
 
+use super::bends::{mark_bends, radii};
 use super::net::Net;
-use super::patches::{FlatPatches, inner_sides};
+use super::patches::{FlatPatches, MAX_BEND_STEP, inner_sides};
 use super::polyhedron::Polyhedron;
 use crate::error::Result;
 use crate::math::index::NO_INDEX;
 use crate::math::planar::{Point2, distance_to_segment, orientation};
 use crate::math::union_find::UnionFind;
-use crate::pattern::{Direction, Faces, Fold, MeshPattern, Run, Seam, Sheet, Spot};
+use crate::pattern::{Direction, Faces, Fold, MeshPattern, Missing, Run, Seam, Sheet, Spot};
 use crate::scene::half_edges::{half_edge_ends, next_half_edge};
 use crate::shape::patches::{Crease, Patch};
 
@@ -24,14 +25,12 @@ pub(super) fn draw(solid: &Polyhedron, net: &Net, patches: &FlatPatches) -> Resu
         crease_of: vec![NO_INDEX; solid.twins.len()],
         creases: Vec::new(),
         seams: Vec::new(),
+        radii: radii(solid, patches),
     };
     drawing.find_creases()?;
     let edges = solid.twins.len() as f64;
-    let long = |side: u32| {
-        let [a, b] = solid.ends(side);
-        (b - a).norm()
-    };
-    let spacing = (0..solid.twins.len() as u32).map(long).sum::<f64>() / edges;
+    let sides = 0..solid.twins.len() as u32;
+    let spacing = sides.map(|side| solid.length(side)).sum::<f64>() / edges;
     let mut sheets: Vec<Sheet> = net
         .pieces()
         .iter()
@@ -53,6 +52,7 @@ pub(super) fn draw(solid: &Polyhedron, net: &Net, patches: &FlatPatches) -> Resu
             })
             .collect(),
         creases: drawing.creases,
+        missing: Missing::default(),
     })
 }
 
@@ -66,6 +66,8 @@ struct Drafter<'a> {
     crease_of: Vec<u32>,
     creases: Vec<Crease>,
     seams: Vec<Seam>,
+    /// Radius of each patch that is a bend.
+    radii: Vec<Option<f64>>,
 }
 
 impl Drafter<'_> {
@@ -302,6 +304,7 @@ impl Drafter<'_> {
                 let points: Vec<Point2> = line.iter().map(|v| place[v]).collect();
                 folds.push(Fold {
                     seam: self.seams[crease as usize],
+                    bend: None,
                     ends: [None; 2],
                     points: without_straight(&points, self.solid.rounding),
                 });
@@ -311,6 +314,11 @@ impl Drafter<'_> {
         folds.sort_by(|a, b| {
             let ((a, [x, _]), (b, [u, _])) = (key(a), key(b));
             a.cmp(&b).then(x.total_cmp(&u))
+        });
+        mark_bends(&mut folds, |fold| {
+            let beside = fold.seam.patches.into_iter();
+            let mut bent = beside.filter_map(|p| Some((p, self.radii[p as usize]?)));
+            bent.next().filter(|_| fold.seam.angle <= MAX_BEND_STEP)
         });
         folds
     }

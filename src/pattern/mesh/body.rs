@@ -260,6 +260,40 @@ impl Body {
         turns.iter().map(missing).collect()
     }
 
+    /// Area of all triangles.
+    pub(super) fn area(&self) -> f64 {
+        let double = self.triangles.iter().map(|corners| {
+            let [a, b, c] = corners.map(|v| self.places[v as usize]);
+            (b - a).cross(&(c - a)).norm()
+        });
+        0.5 * double.sum::<f64>()
+    }
+
+    /// Number of vertices without a triangle.
+    pub(super) fn unused_vertices(&self) -> usize {
+        let mut is_used = vec![false; self.places.len()];
+        (self.triangles.as_flattened().iter()).for_each(|v| is_used[*v as usize] = true);
+        is_used.iter().filter(|used| !**used).count()
+    }
+
+    /// Removes the triangles of some parts. Returns the new number of each triangle.
+    pub(super) fn remove(&mut self, parts: &[u32]) -> Vec<u32> {
+        let is_kept: Vec<bool> = self.parts.iter().map(|p| !parts.contains(p)).collect();
+        let mut next = 0;
+        let moved = is_kept.iter().map(|kept| {
+            next += u32::from(*kept);
+            next.saturating_sub(1)
+        });
+        let moved = moved.collect();
+        let mut kept = is_kept.iter();
+        self.triangles.retain(|_| kept.next() == Some(&true));
+        let mut kept = is_kept.iter();
+        self.patches.retain(|_| kept.next() == Some(&true));
+        let mut kept = is_kept.iter();
+        self.parts.retain(|_| kept.next() == Some(&true));
+        moved
+    }
+
     /// Renumbers the parts of the mesh by their areas, the largest first. Returns the new number of each part.
     pub(super) fn sort(&mut self) -> Vec<u32> {
         let mut areas = vec![0.0; self.count as usize];

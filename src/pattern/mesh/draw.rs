@@ -7,8 +7,9 @@ use super::meeting::Meetings;
 use super::seams::Seams;
 use crate::error::Result;
 use crate::math::index::NO_INDEX;
+use crate::pattern::crumbs::remove_crumbs;
 use crate::pattern::shape::{MIN_OUTLINE_AREA, drop_empty_lines};
-use crate::pattern::{Direction, Faces, Fold, Run, Seam, Sheet, Spot};
+use crate::pattern::{Direction, Faces, Fold, Missing, Run, Seam, Sheet, Spot};
 use crate::scene::half_edges::half_edge_ends;
 use crate::shape::patches::{Crease, Patch};
 use crate::unroll::flat_triangle::Point;
@@ -29,9 +30,16 @@ pub struct MeshPattern {
     pub patches: Vec<Patch>,
     /// The creases between the patches, with the cuts inside of patches among them.
     pub creases: Vec<Crease>,
+    /// Vertices and area of the mesh that are on no sheet.
+    pub missing: Missing,
 }
 
-pub(super) fn draw_sheets(body: &Body, seams: &Seams, sheets: &[Joined]) -> Result<MeshPattern> {
+pub(super) fn draw_sheets(
+    body: &Body,
+    seams: &Seams,
+    sheets: &[Joined],
+    mut missing: Missing,
+) -> Result<MeshPattern> {
     let creases = seams.all.iter().map(|seam| Crease {
         patches: seam.parts,
         points: (seam.vertices.iter())
@@ -45,11 +53,18 @@ pub(super) fn draw_sheets(body: &Body, seams: &Seams, sheets: &[Joined]) -> Resu
         .iter()
         .map(|sheet| draw(body, seams, &meetings, sheet))
         .collect();
+    let patches = patches(body);
+    for crumb in remove_crumbs(&mut sheets, |_| false) {
+        missing.area += crumb.area;
+        let own = crumb.patches.iter();
+        missing.vertices += own.map(|p| patches[*p as usize].vertices).sum::<usize>();
+    }
     sheets.sort_by_key(|sheet| sheet.patches[0]);
     Ok(MeshPattern {
         sheets,
-        patches: patches(body),
+        patches,
         creases: creases.collect(),
+        missing,
     })
 }
 
@@ -148,6 +163,7 @@ fn draw(body: &Body, seams: &Seams, meetings: &Meetings, sheet: &Joined) -> Shee
         .filter(|number| !seams.all[**number].smooth);
     let mut folds: Vec<Fold> = folded
         .map(|number| Fold {
+            bend: None,
             // All cuts of a closed mesh are connected, so a fold ends on the outline.
             ends: [None; 2],
             seam: seam(*number),

@@ -16,6 +16,8 @@ use std::collections::BTreeMap;
 use rustc_hash::FxHashSet;
 
 use super::options::PatternOptions;
+use super::parts::MAX_OMITTED_SHARE;
+use super::sheets::Missing;
 use crate::error::{Error, Result, check_count, positive, rounded};
 use crate::fit::mesh::topology::Topology;
 use crate::scene::mesh::Mesh;
@@ -54,7 +56,7 @@ const MESH_RELATIVE_TOLERANCE: f64 = 1e-4;
 /// [`Error::Shape`](crate::Error::Shape) if the patches belong to another mesh,
 /// [`Error::Option`](crate::Error::Option) for a seam gap or a strain that is not positive and finite,
 /// [`Error::Topology`](crate::Error::Topology) for a mesh that is not a surface,
-/// [`Error::NotFlat`](crate::Error::NotFlat) if more than 500 parts would be needed.
+/// [`Error::NotFlat`](crate::Error::NotFlat) if a tenth of the area does not lie flat in 500 parts.
 pub fn pattern_mesh(
     mesh: &Mesh,
     patches: &MeshPatches,
@@ -85,17 +87,29 @@ pub fn pattern_mesh(
         topology.triangles.clone(),
         labels.collect(),
     )?;
-    let (body, parts) = flat_parts(body, limits)?;
+    let (body, parts, missing) = flat_parts(body, limits)?;
     let seams = Seams::new(&body, patches.bend());
     let sheets = join_parts(&body, &seams, parts, limits)?;
-    draw_sheets(&body, &seams, &sheets)
+    draw_sheets(&body, &seams, &sheets, missing)
 }
 
-/// Cuts the parts of a mesh until each lies flat within the strain limit. Returns them by area, the largest first.
-fn flat_parts(mut body: Body, limits: Limits) -> Result<(Body, Vec<FlatPart>)> {
+/// Cuts the parts of a mesh until each lies flat within the strain limit, and leaves out those that do not and cannot be cut
+/// further. Returns the parts by area, the largest first, and what is left out.
+fn flat_parts(mut body: Body, limits: Limits) -> Result<(Body, Vec<FlatPart>, Missing)> {
     // Parts that lie flat, each with its triangles at that time: later cuts of neighbours divide some of them.
     let mut flat: BTreeMap<u32, FlatPart> = BTreeMap::new();
     let mut open: Vec<u32> = (0..body.count).rev().collect();
+    let whole = body.area();
+    let mut missing = Missing::default();
+    let mut left_out: Vec<u32> = Vec::new();
+    let mut leave_out = |body: &Body, part: u32, laid: &FlatPart| {
+        missing.area += laid.area;
+        left_out.push(part);
+        match missing.area <= MAX_OMITTED_SHARE * whole {
+            true => Ok(()),
+            false => Err(too_many_parts(body, laid)),
+        }
+    };
     loop {
         let Some(part) = open.pop() else {
             let moved = |(part, laid): (&u32, &FlatPart)| {
@@ -117,11 +131,8 @@ fn flat_parts(mut body: Body, limits: Limits) -> Result<(Body, Vec<FlatPart>)> {
             true => laid.removable_triangles(),
             false => Vec::new(),
         };
-        if !removed.is_empty() {
+        if !removed.is_empty() && body.count < MAX_PARTS {
             open.extend(body.set_apart(part, &removed)?);
-            if body.count > MAX_PARTS {
-                return Err(too_many_parts(&body, &laid));
-            }
             continue;
         }
         let worst = body.middle(laid.members[laid.worst]);
@@ -147,9 +158,18 @@ fn flat_parts(mut body: Body, limits: Limits) -> Result<(Body, Vec<FlatPart>)> {
             }
         }
         let Some((_, plane)) = best else {
-            return Err(too_many_parts(&body, &laid));
+            leave_out(&body, part, &laid)?;
+            continue;
         };
         open.extend(body.cut(part, &plane)?);
+    }
+    let unused = body.unused_vertices();
+    let moved = body.remove(&left_out);
+    missing.vertices = body.unused_vertices() - unused;
+    for laid in flat.values_mut() {
+        laid.members
+            .iter_mut()
+            .for_each(|t| *t = moved[*t as usize]);
     }
     let numbers = body.sort();
     let mut parts: Vec<(u32, FlatPart)> = (flat.into_iter())
@@ -157,7 +177,7 @@ fn flat_parts(mut body: Body, limits: Limits) -> Result<(Body, Vec<FlatPart>)> {
         .collect();
     parts.sort_by_key(|(part, _)| *part);
     let parts = parts.into_iter().map(|(_, laid)| laid).collect();
-    Ok((body, parts))
+    Ok((body, parts, missing))
 }
 
 /// The error for a part that would have to be cut further than [`MAX_PARTS`] allows, with its most strained place.
@@ -169,7 +189,9 @@ fn too_many_parts(body: &Body, laid: &FlatPart) -> Error {
     Error::NotFlat {
         place: format!("({x}, {y}, {z})"),
         vertices: vertices.len(),
-        reason: format!("the mesh would have to be cut into more than {MAX_PARTS} parts"),
+        reason: format!(
+            "more than a tenth of the mesh would be left out, or it would have to be cut into more than {MAX_PARTS} parts"
+        ),
     }
 }
 
@@ -231,7 +253,7 @@ mod tests {
         let body = Body::new(places, triangles, labels).unwrap();
         let whole = FlatPart::whole(&body, body.members(0), UNTIL).unwrap();
         assert!(whole.strain < 1e-9 && whole.overlaps());
-        let (_, parts) = flat_parts(body, LIMITS).unwrap();
+        let (_, parts, _) = flat_parts(body, LIMITS).unwrap();
         let [disk, alone] = &parts[..] else {
             panic!("{} parts", parts.len());
         };
@@ -240,7 +262,7 @@ mod tests {
     }
 
     #[test]
-    fn a_tooth_is_not_set_apart_where_there_are_as_many_parts_as_can_be_assembled() {
+    fn what_cannot_be_cut_further_is_left_out_up_to_a_tenth_of_the_area() {
         let (mut places, mut triangles) = disk_with_tooth();
         for k in 1..MAX_PARTS {
             let first = places.len() as u32;
@@ -253,8 +275,20 @@ mod tests {
         let labels = vec![0; triangles.len()];
         let body = Body::new(places, triangles, labels).unwrap();
         assert_eq!(body.count, MAX_PARTS);
-        let error = flat_parts(body, LIMITS).err().unwrap();
+        let whole = body.area();
+        let disk = whole - 0.125 * f64::from(MAX_PARTS - 1);
+        let (rest, parts, missing) = flat_parts(body.clone(), LIMITS).unwrap();
+        assert_eq!((parts.len() as u32, missing.vertices), (MAX_PARTS - 1, 62));
+        assert!((missing.area - disk).abs() < 1e-9 && (rest.area() + disk - whole).abs() < 1e-9);
+        // Of a larger share there is no pattern.
+        let mut large = body;
+        large
+            .places
+            .iter_mut()
+            .skip(62)
+            .for_each(|place| *place *= 0.5);
+        let error = flat_parts(large, LIMITS).err().unwrap();
         assert_eq!(error.code(), "NOT_FLAT");
-        assert!(error.to_string().contains("more than 500 parts"), "{error}");
+        assert!(error.to_string().contains("more than a tenth"), "{error}");
     }
 }

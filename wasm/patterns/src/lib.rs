@@ -14,8 +14,8 @@ use developable::files::assembly::{write_animation, write_assembly_svg};
 use developable::files::drawings::{PdfOptions, write_dxf, write_pdf, write_svg};
 use developable::patches::{Crease, MeshPatches, Patch, PatchOptions, Patches};
 use developable::pattern::{
-    MeshPattern, Missing, PatternOptions, Sheet, has_exact_faces, pattern, pattern_exact,
-    pattern_mesh,
+    MeshPattern, Missing, NetOptions, PatternOptions, Sheet, has_exact_faces, has_exact_vertices,
+    pattern, pattern_exact, pattern_mesh, sheet_metal,
 };
 use developable::unroll::UnrollOptions;
 use developable_wasm::mesh::MeshInput;
@@ -45,6 +45,11 @@ struct PatternInput {
     exact: Option<bool>,
     /// Largest extent of the model, in millimetres.
     size: Option<f64>,
+    /// Pairs of patches whose common edges are cut, and are folds, by their numbers on drawings, which begin with 1.
+    cut: Vec<[u32; 2]>,
+    join: Vec<[u32; 2]>,
+    /// Whether the blank of a solid of sheet metal is wanted.
+    blank: bool,
 }
 
 impl Wanted {
@@ -64,7 +69,14 @@ impl Wanted {
         // 0 means no tabs, or no marks.
         drawing.tabs = drawing.tabs.filter(|depth| *depth != 0.0);
         drawing.marks = drawing.marks.filter(|distance| *distance != 0.0);
-        if let Some(bending) = bending(own.thickness, own.inner_radius, own.k_factor)? {
+        if let Some(bending) =
+            // That of a blank is known once its mesh is.
+            bending(
+                own.thickness.or(own.blank.then_some(1.0)),
+                own.inner_radius,
+                own.k_factor,
+            )?
+        {
             drawing = drawing.bending(bending);
         }
         Ok(Wanted {
@@ -95,6 +107,29 @@ impl Wanted {
         }
         self.drawing = self.drawing.scale(size / largest);
         Ok(())
+    }
+
+    /// Sets the thickness of a blank, in millimetres, unless the options give one; likewise the radius of its sharp bends.
+    fn set_thickness(&mut self, thickness: f64) {
+        if let Some(metal) = &mut self.drawing.bending {
+            metal.thickness = self.own.thickness.unwrap_or(thickness);
+            metal.radius = self.own.inner_radius.unwrap_or(metal.thickness);
+        }
+    }
+
+    fn net_options(&self) -> NetOptions {
+        // Numbers of patches begin with 1 on drawings.
+        let numbered = |pairs: &[[u32; 2]]| {
+            let pairs = pairs.iter();
+            pairs
+                .map(|pair| pair.map(|number| number.saturating_sub(1)))
+                .collect()
+        };
+        NetOptions {
+            room: self.room(),
+            cut: numbered(&self.own.cut),
+            join: numbered(&self.own.join),
+        }
     }
 
     /// Width and height, in the mesh's units, that a sheet may have to lie on one page with its tabs.
@@ -176,20 +211,63 @@ pub fn trials(given: JsValue) -> Result<JsValue> {
 #[wasm_bindgen(js_name = patternMesh)]
 pub fn draw_pattern_of_mesh(mesh: JsValue, options: JsValue) -> Result<JsValue> {
     let mut wanted = Wanted::of(&mesh, &options)?;
-    let mesh = from_value::<MeshInput>(mesh)?.into_mesh()?;
+    let mut mesh = from_value::<MeshInput>(mesh)?.into_mesh()?;
     wanted.scale_to(&mesh)?;
+    if wanted.own.blank {
+        let metal = sheet_metal(&mesh)?.ok_or_else(|| Failure {
+            code: "UNSUPPORTED",
+            message: "no sheet metal was recognised, which has two parallel skins at a constant distance: leave out `blank`".into(),
+        })?;
+        wanted.set_thickness(metal.thickness * wanted.drawing.scale);
+        mesh = metal.skin;
+    }
     let found = match wanted.own.exact.unwrap_or_else(|| has_exact_faces(&mesh)) {
-        true => pattern_exact(&mesh, wanted.room())?,
+        true => pattern_exact(&mesh, &wanted.net_options())?,
         false => sheets_of(&mesh, &wanted)?.1,
     };
-    wanted.draw(&found.sheets, &Missing::default())
+    wanted.draw(&found.sheets, &found.missing)
 }
 
-/// Returns whether the faces of a mesh are exact, so that it is laid flat as it is.
-#[wasm_bindgen(js_name = hasExactFaces)]
-pub fn has_exact_faces_of(mesh: JsValue) -> Result<bool> {
+/// What a mesh is.
+#[derive(Serialize)]
+#[serde(rename = "RecognizedMesh")]
+struct RecognizedOutput {
+    /// Whether a fit gains anything, and how the mesh is laid flat without one.
+    kind: RecognizedKind,
+    /// Thickness of a solid of sheet metal, in the mesh's unit.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    thickness: Option<f64>,
+}
+
+/// What a mesh is, of what a fit gains.
+#[derive(Serialize, Clone, Copy, PartialEq)]
+#[serde(rename = "MeshKind", rename_all = "lowercase")]
+enum RecognizedKind {
+    /// Its faces are exact, as in CAD and low-poly models, and are moved into the plane as they are.
+    Faces,
+    /// Its vertices have no noise, so that a fit gains nothing, but its bends are triangulated irregularly.
+    Surface,
+    /// Its vertices have noise.
+    Noisy,
+}
+
+/// Recognises exact and noisy meshes, and solids of sheet metal; returns JavaScript's `RecognizedMesh` object.
+#[wasm_bindgen(js_name = recognizeMesh)]
+pub fn recognize_mesh(mesh: JsValue) -> Result<JsValue> {
     let mesh = from_value::<MeshInput>(mesh)?.into_mesh()?;
-    Ok(has_exact_faces(&mesh))
+    let kind = match (has_exact_faces(&mesh), has_exact_vertices(&mesh)) {
+        (true, _) => RecognizedKind::Faces,
+        (false, true) => RecognizedKind::Surface,
+        (false, false) => RecognizedKind::Noisy,
+    };
+    let metal = match kind {
+        RecognizedKind::Faces => sheet_metal(&mesh)?,
+        _ => None,
+    };
+    Ok(to_value(&RecognizedOutput {
+        kind,
+        thickness: metal.map(|metal| metal.thickness),
+    })?)
 }
 
 /// Sheets of a mesh laid flat, one to the right of the other, seen from the side that the triangles face. They have more vertices than the mesh, since it is cut.

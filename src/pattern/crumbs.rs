@@ -1,0 +1,45 @@
+//! Sheets too small to be handled, which are left out of a pattern.
+
+use super::parts::MAX_OMITTED_SHARE;
+use super::sheets::Sheet;
+
+/// Maximum area of a crumb, as a share of the area of all sheets: a piece that is lost among the others. On a pattern as
+/// large as a page of A4 it is 8 mm wide.
+const MAX_CRUMB_SHARE: f64 = 0.001;
+
+/// Takes out the sheets that cannot be drawn, and the crumbs, the smallest first, up to the share of the area that may be
+/// left out; returns them. Along them the other sheets have a border.
+pub(super) fn remove_crumbs(
+    sheets: &mut Vec<Sheet>,
+    is_undrawable: impl Fn(&Sheet) -> bool,
+) -> Vec<Sheet> {
+    let whole: f64 = sheets.iter().map(|sheet| sheet.area).sum();
+    sheets.sort_by(|a, b| a.area.total_cmp(&b.area));
+    let mut left_out = 0.0;
+    let is_crumb = |sheet: &mut Sheet| {
+        let is_small = sheet.area < MAX_CRUMB_SHARE * whole
+            && left_out + sheet.area <= MAX_OMITTED_SHARE * whole;
+        let is_out = is_small || !is_finite(sheet) || is_undrawable(sheet);
+        left_out += f64::from(is_out) * sheet.area;
+        is_out
+    };
+    let crumbs: Vec<Sheet> = sheets.extract_if(.., is_crumb).collect();
+    let is_out = |patch: &u32| crumbs.iter().any(|crumb| crumb.patches.contains(patch));
+    let runs = sheets
+        .iter_mut()
+        .flat_map(|sheet| sheet.outlines.iter_mut().flatten());
+    for run in runs {
+        if run.seam.is_some_and(|seam| seam.patches.iter().any(is_out)) {
+            (run.seam, run.patch) = (None, None);
+        }
+    }
+    crumbs
+}
+
+/// Whether all points of a sheet are finite.
+fn is_finite(sheet: &Sheet) -> bool {
+    let outlines = sheet.outlines.iter().flatten().map(|run| &run.points);
+    let lines = outlines.chain(sheet.folds.iter().map(|fold| &fold.points));
+    let places = sheet.spots.iter().map(|spot| &spot.place);
+    (lines.flatten().chain(places).flatten()).all(|coordinate| coordinate.is_finite())
+}

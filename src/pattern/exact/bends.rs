@@ -1,0 +1,85 @@
+//! Bends of a net: neighbouring narrow facets of a cylinder or cone, with the angle and the radius of the whole.
+
+use std::f64::consts::PI;
+
+use rustc_hash::FxHashMap;
+
+use super::patches::{FlatPatches, inner_sides, is_step};
+use super::polyhedron::Polyhedron;
+use crate::math::planar::Point2;
+use crate::pattern::sheets::{Bend, Fold};
+
+/// Radius of each patch that is a bend: of the circle whose chords its facets are.
+pub(super) fn radii(solid: &Polyhedron, patches: &FlatPatches) -> Vec<Option<f64>> {
+    // Length of each facet's lines, and for each patch the lengths of its inner lines, their sum weighted by the angles, and
+    // the sums of its facets' areas and widths times areas.
+    let mut lengths = vec![0.0; solid.normals.len()];
+    let mut inner = vec![[0.0; 2]; patches.areas.len()];
+    for side in inner_sides(solid).filter(|side| is_step(solid, *side)) {
+        let facets = [side, solid.twins[side as usize]].map(|s| solid.facet(s) as usize);
+        let (long, angle) = (solid.length(side), solid.angle(side).abs());
+        facets.iter().for_each(|facet| lengths[*facet] += long);
+        let [a, b] = facets.map(|facet| patches.of[facet] as usize);
+        if a == b {
+            inner[a][0] += long;
+            inner[a][1] += long * angle;
+        }
+    }
+    let mut widths = vec![0.0; patches.areas.len()];
+    for (facet, area) in solid.areas.iter().enumerate() {
+        // A facet of a bend has a line on either side.
+        widths[patches.of[facet] as usize] += area * 2.0 * area / lengths[facet];
+    }
+    (inner.iter().zip(widths).zip(&patches.areas))
+        .map(|(([long, turned], width), area)| {
+            let chord = width / area;
+            (*long > 0.0).then(|| 0.5 * chord / (0.5 * turned / long).sin())
+        })
+        .collect()
+}
+
+/// Tells the folds of each bend of a sheet which bend that is; `bend_of` gives the patch and the radius of a fold's bend.
+/// What is rolled by more than half a turn is no bend.
+pub(super) fn mark_bends(folds: &mut [Fold], bend_of: impl Fn(&Fold) -> Option<(u32, f64)>) {
+    let mut of: FxHashMap<u32, (f64, Vec<usize>)> = FxHashMap::default();
+    for (k, fold) in folds.iter().enumerate() {
+        if let Some((patch, radius)) = bend_of(fold) {
+            of.entry(patch).or_insert((radius, Vec::new())).1.push(k);
+        }
+    }
+    for (patch, (radius, mut own)) in of {
+        let middle = |k: usize| {
+            let points = &folds[k].points;
+            let [from, to] = [points[0], points[points.len() - 1]].map(|[x, y]| Point2::new(x, y));
+            (0.5 * (from + to), to - from)
+        };
+        let (origin, along) = middle(own[0]);
+        let away = |k: &usize| (along.conj() * (middle(*k).0 - origin)).im;
+        own.sort_by(|a, b| away(a).total_cmp(&away(b)));
+        // The pieces of one line have one angle.
+        let mut lines: Vec<(usize, f64)> = own
+            .iter()
+            .map(|k| (folds[*k].seam.crease, folds[*k].seam.angle))
+            .collect();
+        lines.dedup_by_key(|(crease, _)| *crease);
+        let angle: f64 = lines.iter().map(|(_, angle)| angle).sum();
+        if angle > PI {
+            continue;
+        }
+        let mut turned = 0.0;
+        let past = lines.iter().find(|(_, own)| {
+            turned += own;
+            turned >= 0.5 * angle - 1e-9
+        });
+        let central = past.map(|(crease, _)| *crease);
+        for k in own {
+            let is_middle = Some(folds[k].seam.crease) == central;
+            folds[k].bend = Some(Bend {
+                patch,
+                angle,
+                radius,
+                is_middle,
+            });
+        }
+    }
+}

@@ -9,10 +9,11 @@ use nalgebra::{DMatrix, DVector};
 
 use super::corners::check_on_page;
 use super::cylinder::{Cylinder, DIFFERENCE_STEP};
-use super::huber::{huber_cost, huber_weight};
 use super::prior::Prior;
 use super::residual_statistics::ResidualStatistics;
+use super::robust_fit;
 use super::traced_line::{TracedLine, TracedPage};
+use super::traces::{OUTLIER_DEVIATIONS, outlier_penalty};
 use crate::error::{Error, Result};
 
 /// A line of text or a straight edge of a page, traced in the photo: a cross-section or a ruling of the page's
@@ -56,7 +57,7 @@ struct PointResidual {
     along: f64,
     /// Pixels of the photo per unit of length on the page, in the direction across the line.
     scale: f64,
-    /// Huber weight of the point: 1, or less for an outlier.
+    /// Robust weight of the point: 1, or less for an outlier.
     trust: f64,
 }
 
@@ -188,11 +189,11 @@ impl CrossSections {
                 for (point, (_, value)) in points.iter_mut().zip(&raw) {
                     point.pixels = (value - level) * point.scale;
                     let size = point.pixels.abs() / prior.accuracy;
-                    point.trust = huber_weight(size);
+                    point.trust = robust_fit::weight(size / OUTLIER_DEVIATIONS);
                 }
             }
             cost += (points.iter())
-                .map(|point| cross.weight * huber_cost(point.pixels.abs() / prior.accuracy))
+                .map(|point| cross.weight * outlier_penalty(point.pixels / prior.accuracy))
                 .sum::<f64>();
             found.push(LineResiduals { points, level });
         }

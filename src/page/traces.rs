@@ -5,9 +5,9 @@ use nalgebra::{DMatrix, DVector};
 
 use super::cross_sections::{CrossSections, LineResiduals};
 use super::cylinder::{CURVE_PIECES, Cylinder, DIFFERENCE_STEP, SampledCurve};
-use super::huber::{huber_cost, huber_weight};
 use super::prior::{Prior, prior_rows};
 use super::residual_statistics::ResidualStatistics;
+use super::robust_fit::{self, RobustProblem};
 use super::traced_line::TracedPage;
 use crate::error::Result;
 
@@ -37,7 +37,7 @@ pub(super) struct Residuals {
     /// Residual of each traced point of a bent edge.
     found: Vec<EdgeResidual>,
     crosses: Vec<LineResiduals>,
-    /// Objective of the least-squares problem: sum of the Huber penalties of all residuals and of the squares of prior
+    /// Objective of the least-squares problem: sum of the robust penalties of all residuals and of the squares of prior
     /// knowledge.
     pub cost: f64,
 }
@@ -51,9 +51,28 @@ struct EdgeResidual {
     normal: [f64; 2],
     /// Distance from the projected edge, in pixels: across the edge and, only for a corner, along it.
     distance: [f64; 2],
-    /// Huber weight of the point: 1, or less for an outlier.
+    /// Robust weight of the point: 1, or less for an outlier.
     trust: f64,
 }
+
+/// Distance of a traced point from the page's model, in standard deviations, above which it is an outlier and penalised
+/// linearly. Limits the influence of a wrongly traced point.
+pub(super) const OUTLIER_DEVIATIONS: f64 = 5.0;
+
+/// Penalty of a residual, in standard deviations: about its square up to the outlier threshold, linear above.
+pub(super) fn outlier_penalty(deviations: f64) -> f64 {
+    OUTLIER_DEVIATIONS * OUTLIER_DEVIATIONS * robust_fit::penalty(deviations / OUTLIER_DEVIATIONS)
+}
+
+/// Maximum number of steps of the fit of a page's cylinder.
+const MAX_ITERATIONS: usize = 40;
+
+/// Relative decrease of the least-squares cost by one step below which the fit of the cylinder has converged.
+const RELATIVE_COST_TOLERANCE: f64 = 1e-3;
+
+/// Number added to the cost in the test of its relative decrease, so that the fit of exact traces, whose cost tends to
+/// 0, converges, too.
+const ABSOLUTE_COST: f64 = 1e-3;
 
 /// Approximate maximum number of points of each traced edge that the fit uses.
 const MAX_POINTS_PER_EDGE: usize = 120;
@@ -109,6 +128,18 @@ impl Traces {
         self.points.iter().map(own).sum::<f64>() + self.crosses.count()
     }
 
+    /// Finds the cylinder that fits the traces best, from an initial guess; returns it with its residuals. None if a cylinder
+    /// on the way is not in front of the camera.
+    pub fn solve(&self, start: Cylinder, prior: &Prior) -> Option<(Cylinder, Residuals)> {
+        let residuals = self.residuals(&start, prior)?;
+        let problem = CylinderFit {
+            traces: self,
+            prior,
+        };
+        let tolerance = |cost: f64| RELATIVE_COST_TOLERANCE * (ABSOLUTE_COST + cost.min(1.0));
+        robust_fit::fit(&problem, (start, residuals), MAX_ITERATIONS, tolerance)
+    }
+
     /// Computes the residuals of a page's cylinder. None if part of it is not in front of the camera.
     pub fn residuals(&self, cylinder: &Cylinder, prior: &Prior) -> Option<Residuals> {
         let curve = cylinder.curve();
@@ -138,8 +169,8 @@ impl Traces {
                 None => 0.0,
             };
             let size = across.hypot(along) / prior.accuracy;
-            let trust = huber_weight(size);
-            cost += point.weight * huber_cost(size);
+            let trust = robust_fit::weight(size / OUTLIER_DEVIATIONS);
+            cost += point.weight * outlier_penalty(size);
             found.push(EdgeResidual {
                 share,
                 normal,
@@ -360,6 +391,41 @@ impl Traces {
         share: f64,
     ) -> Option<[f64; 2]> {
         of.project(curve.at(point.page, share), point.edge as f64 * of.length)
+    }
+}
+
+/// The fit of a cylinder to traces, with prior knowledge.
+struct CylinderFit<'a> {
+    traces: &'a Traces,
+    prior: &'a Prior,
+}
+
+impl RobustProblem for CylinderFit<'_> {
+    type Model = (Cylinder, Residuals);
+    type System = (DMatrix<f64>, DVector<f64>);
+
+    fn system(&self, (cylinder, residuals): &Self::Model) -> Option<Self::System> {
+        let (matrix, values) = self.traces.jacobian(cylinder, residuals, self.prior)?;
+        Some((matrix.tr_mul(&matrix), matrix.tr_mul(&values)))
+    }
+
+    fn stepped(
+        &self,
+        (cylinder, _): &Self::Model,
+        (normal, right): &Self::System,
+        damping: f64,
+    ) -> Option<Self::Model> {
+        let mut damped = normal.clone();
+        for k in 0..damped.nrows() {
+            damped[(k, k)] += damping * (normal[(k, k)] + 1e-9);
+        }
+        let moved = cylinder.moved(damped.cholesky()?.solve(right).as_slice());
+        let residuals = self.traces.residuals(&moved, self.prior)?;
+        Some((moved, residuals))
+    }
+
+    fn cost(&self, (_, residuals): &Self::Model) -> f64 {
+        residuals.cost
     }
 }
 

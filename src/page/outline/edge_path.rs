@@ -2,6 +2,7 @@
 
 use super::corners::is_outside;
 use super::planes::Planes;
+use super::smooth_curve::piecewise_smooth;
 use crate::math::planar::distance;
 
 /// Half the width of the band along a region's border in which the page's edge is searched, in pixels of the reduced
@@ -12,8 +13,11 @@ const BAND_RADIUS: usize = 10;
 /// colours of paper and background.
 const BAND_MARGIN: usize = 4;
 
-/// Half width, in pixels, of the window over which a region's border, and the colours along it, are averaged.
+/// Half width, in pixels, of the window over which the colours along a region's border are averaged.
 const SMOOTHING_LENGTH: usize = 8;
+
+/// Length, in pixels, of the bends of a region's border that are smoothed before the page's edge is searched beside it.
+const BORDER_SMOOTHING_LENGTH: f64 = 25.0;
 
 /// Cost of a sideways step by one pixel in the search for a page's edge, where full contrast earns 1 for each pixel of
 /// length.
@@ -58,19 +62,6 @@ fn resampled(points: &[[f64; 2]]) -> Vec<[f64; 2]> {
         ahead -= length;
     }
     found
-}
-
-/// Smooths a polyline: replaces each point by the mean of itself and its neighbours, up to `radius` and equally many on
-/// both sides.
-fn smoothed(points: &[[f64; 2]], radius: usize) -> Vec<[f64; 2]> {
-    let n = points.len();
-    (0..n)
-        .map(|i| {
-            let reach = radius.min(i).min(n - 1 - i);
-            let near = &points[i - reach..=i + reach];
-            [0, 1].map(|k| near.iter().map(|p| p[k]).sum::<f64>() / near.len() as f64)
-        })
-        .collect()
 }
 
 /// Unit normals of a polyline to the right of its direction, as seen in an image; along a clockwise border they point
@@ -204,7 +195,10 @@ impl EdgePath {
     /// the reduced photo, `clean` the same with print suppressed. `None` if the border is too short.
     pub fn new(raw: &Planes, clean: &Planes, border: &[[f64; 2]]) -> Option<Self> {
         let size = [raw.width, raw.height];
-        let border = resampled(&smoothed(&resampled(border), SMOOTHING_LENGTH));
+        let border = resampled(&piecewise_smooth(
+            &resampled(border),
+            BORDER_SMOOTHING_LENGTH,
+        ));
         if border.len() < MIN_BORDER_POINTS {
             return None;
         }
@@ -216,7 +210,7 @@ impl EdgePath {
             .collect();
         let path = best_path(&strengths);
         let mut contrasts = Vec::new();
-        let points = (0..border.len())
+        let points: Vec<[f64; 2]> = (0..border.len())
             .map(|i| {
                 let k = path[i];
                 let [a, b, c] = [k - 1, k, k + 1].map(|k| f64::from(strengths[i][k]));

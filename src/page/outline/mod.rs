@@ -14,9 +14,11 @@ mod morphology;
 mod orientation;
 mod outline_report;
 mod planes;
+mod print_cells;
 mod quadrilateral;
 mod region;
 mod search;
+mod smooth_curve;
 mod straight_lines;
 mod tracing;
 

@@ -11,6 +11,10 @@ const MAX_REDUCED_SIDE: usize = 800;
 /// little.
 const LOG_OFFSET: f64 = 8.0;
 
+/// Share of a pixel's largest colour component that is added to each of its components before the logarithm is taken:
+/// under coloured light a component is nearly black, and its logarithm would be noise.
+const LARGEST_COMPONENT_SHARE: f64 = 0.3;
+
 /// A reduced photo as three planes of one size: logarithms of red, green and blue, in which a change of the light adds
 /// a constant.
 #[derive(Clone)]
@@ -54,8 +58,11 @@ impl Planes {
             for (col, sum) in sums.iter().enumerate() {
                 let cols = ((col + 1) * block).min(w) - col * block;
                 let count = (rows * cols).max(1) as f64;
-                for (plane, one) in channels.iter_mut().zip(sum) {
-                    plane.push((f64::from(*one) / count + LOG_OFFSET).ln() as f32);
+                let colour = sum.map(|one| f64::from(one) / count);
+                let largest = colour.iter().copied().fold(0.0, f64::max);
+                let offset = LOG_OFFSET + LARGEST_COMPONENT_SHARE * largest;
+                for (plane, value) in channels.iter_mut().zip(colour) {
+                    plane.push((value + offset).ln() as f32);
                 }
             }
         }

@@ -5,9 +5,10 @@ use super::morphology::closed;
 use super::orientation::quarter_turns;
 use super::outline_report::{OutlineReason, OutlineReport, OutlineVerdict, PageOutline};
 use super::planes::Planes;
+use super::print_cells::PrintCells;
 use super::quadrilateral::Quadrilateral;
 use super::region::regions;
-use super::straight_lines::{MIN_PRINT_CONTRAST, best_line_quadrilateral};
+use super::straight_lines::best_line_quadrilateral;
 use super::tracing::{Views, traced};
 use crate::dewarp::Photo;
 use crate::math::planar::{distance, polygon_area, polygon_contains};
@@ -33,23 +34,15 @@ const SAME_CORNER_SHARE: f64 = 0.03;
 /// Minimum score, from 0 to 1, of an outline for the verdict `Found`.
 const MIN_FOUND_SCORE: f64 = 0.45;
 
-/// Minimum score, from 0 to 1, of an outline for the verdict `Doubtful`; below it no page was found. Where there is
-/// print, the shape does not count: a curled or folded page is no rectangle.
+/// Minimum score, from 0 to 1, of an outline for the verdict `Doubtful`; below it no page was found. Where all print is in it,
+/// its shape does not count: a curled or folded page is no rectangle.
 const MIN_DOUBTFUL_SCORE: f64 = 0.3;
 
-/// Minimum share of an outline's pixels that are print, for it to be known as a page by its print.
-const MIN_PRINT_SHARE: f64 = 0.005;
-
-/// Minimum ratio of the shares of print inside and outside of an outline, for it to be known as a page by its print:
-/// grain of wood and joints of tiles are everywhere.
-const MIN_PRINT_RATIO: f64 = 3.0;
+/// Factor that converts the share of the length along which straight sides of a page are seen to a score.
+const LINE_SCORE_FACTOR: f64 = 1.2;
 
 /// Minimum share of the photo's area that a page covers if it is found by straight lines of contrast.
 const MIN_LINE_PAGE_SHARE: f64 = 0.15;
-
-/// Factor that converts the worth of a quadrilateral of straight lines to a score: in real photos most quadrilaterals
-/// with a worth above 0.08 are pages.
-const LINE_SCORE_FACTOR: f64 = 3.75;
 
 /// Minimum score of a further page in the photo, as a share of the best one's score.
 const MIN_SECOND_SCORE_RATIO: f64 = 0.7;
@@ -137,35 +130,25 @@ pub fn find_outline(photo: &Photo<'_>) -> OutlineReport {
         .first()
         .is_none_or(|best| best.score < MIN_FOUND_SCORE)
     {
-        outlines.extend(by_lines(&views, &half));
+        let print = PrintCells::new(&views);
+        for outline in &mut outlines {
+            let corners = outline.corners.map(|point| views.raw.reduced_point(point));
+            let printed = print.likeness(&corners) * outline.clarity;
+            if printed > outline.score {
+                outline.score = printed;
+                if !outline.reasons.contains(&OutlineReason::UnlikelyShape) {
+                    outline.reasons.push(OutlineReason::UnlikelyShape);
+                }
+            }
+        }
+        outlines.extend(by_lines(&views, &print));
         move_best_first(&mut outlines, |outline| outline.score);
-    }
-    if let Some(best) = outlines.first_mut().filter(|best| is_printed(best, &views)) {
-        best.score = best.score.max(MIN_DOUBTFUL_SCORE.min(best.clarity));
     }
     let mut report = report(outlines);
     report.pages = (report.pages.into_iter())
         .map(|outline| upright(outline, &views))
         .collect();
     report
-}
-
-/// Whether print is concentrated in an outline.
-fn is_printed(outline: &PageOutline, Views { raw, clean }: &Views) -> bool {
-    let corners = outline.corners.map(|point| raw.reduced_point(point));
-    // Pixels and print outside and inside, on every third row.
-    let mut counts = [[0.0_f64; 2]; 2];
-    for y in (0..raw.height).step_by(3) {
-        for x in 0..raw.width {
-            let i = y * raw.width + x;
-            let inside = usize::from(polygon_contains(&corners, [x as f64, y as f64]));
-            let is_print = clean.channels[1][i] - raw.channels[1][i] > MIN_PRINT_CONTRAST;
-            counts[inside][0] += 1.0;
-            counts[inside][1] += f64::from(u8::from(is_print));
-        }
-    }
-    let [outside, inside] = counts.map(|[all, print]| print / all.max(1.0));
-    inside > MIN_PRINT_SHARE && inside > MIN_PRINT_RATIO * outside
 }
 
 /// Swaps the outline with the largest value of `rank` with the first one.
@@ -178,18 +161,16 @@ fn move_best_first(outlines: &mut [PageOutline], rank: impl Fn(&PageOutline) -> 
 }
 
 /// Finds a page on a background of its own colour by straight lines of contrast; such an outline is always doubtful.
-/// `half` is the photo without print at half the reduced size.
-fn by_lines(views: &Views, half: &Planes) -> Option<PageOutline> {
+fn by_lines(views: &Views, print: &PrintCells) -> Option<PageOutline> {
     let raw = views.raw.halved();
     let min_area = MIN_LINE_PAGE_SHARE * raw.len() as f64;
-    let (corners, worth) = best_line_quadrilateral(&raw, half, min_area)?;
+    let (corners, clarity) = best_line_quadrilateral(&raw, print, min_area)?;
     let arcs = [0, 1, 2, 3].map(|k| {
         let ends = [corners[k], corners[(k + 1) % 4]];
         ends.map(|p| p.map(|at| 2.0 * at + 0.5)).to_vec()
     });
     let mut outline = traced(views, arcs, 1.0)?;
-    outline.score = (LINE_SCORE_FACTOR * worth).min(1.0);
-    outline.clarity = outline.score;
+    outline.score = (LINE_SCORE_FACTOR * clarity).min(1.0);
     if !outline.reasons.contains(&OutlineReason::FaintEdge) {
         outline.reasons.push(OutlineReason::FaintEdge);
     }

@@ -1,10 +1,10 @@
 //! Quadrilaterals of straight lines of contrast (Hough transform), for pages on a background of their own colour.
 
 use super::corners::{is_convex, is_outside};
-use super::morphology::box_mean;
 use super::planes::Planes;
+use super::print_cells::PrintCells;
 use super::quadrilateral::rectangularity;
-use crate::math::planar::{cross, distance, line_intersection, polygon_area, polygon_contains};
+use crate::math::planar::{cross, distance, line_intersection, polygon_area};
 use crate::math::statistics::median;
 use crate::page::text::ranking::ranked;
 
@@ -40,13 +40,9 @@ const LINE_RADIUS: i32 = 2;
 /// Minimum cosine of the angle between an edge pixel's gradient and the normal of the line that it supports.
 const MIN_ALIGNMENT: f32 = 0.9;
 
-/// Minimum difference of logarithmic colour between a pixel and the same pixel with print suppressed for it to count as
-/// print.
-pub(super) const MIN_PRINT_CONTRAST: f32 = 0.2;
-
-/// Vote of an edge pixel near print in the Hough transform, where one of anything else is 1: there is more print than
-/// edges of pages.
-const PRINT_VOTE: f32 = 0.25;
+/// Support of a side along the photo's rim, from 0 to 1: a page may reach beyond the photo, but a side that is seen is
+/// better.
+const RIM_SUPPORT: f64 = 0.25;
 
 /// Half the side, in pixels, of the square in which the share of print pixels is measured: a few lines of text.
 const PRINT_RADIUS: usize = 10;
@@ -71,28 +67,16 @@ const MIN_SIDE_SINE: f64 = 0.75;
 /// Maximum sine of the angle between opposite sides of a page's quadrilateral.
 const MAX_OPPOSITE_SINE: f64 = 0.5;
 
-/// Minimum share of the photo's pixels that are print: without print the lines may be those of anything.
-const MIN_PRINT_SHARE: f64 = 0.002;
-
-/// Approximate maximum number of print pixels by which the share of the print in a quadrilateral is measured.
-const MAX_PRINT_SAMPLES: usize = 200;
-
-/// Exponent of the share of all print that lies in a quadrilateral, in its worth: a page contains all of it, and a
-/// tenth outside costs a third.
-const PRINT_POWER: i32 = 4;
-
-/// Gradients of an image: at each pixel the gradient of the colour channel in which it is largest. Also marks print.
+/// Gradients of an image: at each pixel the gradient of the colour channel in which it is largest; none at print.
 struct Gradients {
     width: usize,
     height: usize,
     vectors: Vec<[f32; 2]>,
     threshold: f32,
-    print: Vec<bool>,
-    near_print: Vec<bool>,
 }
 
 impl Gradients {
-    fn new(raw: &Planes, clean: &Planes) -> Self {
+    fn new(raw: &Planes, print: &PrintCells) -> Self {
         let (width, height) = (raw.width, raw.height);
         let mut vectors = vec![[0.0_f32; 2]; raw.len()];
         let square = |v: [f32; 2]| v[0] * v[0] + v[1] * v[1];
@@ -117,21 +101,16 @@ impl Gradients {
             .map(|v| f64::from(square(*v).sqrt()))
             .collect();
         let usual = median(&mut sizes).unwrap_or(0.0);
-        let print: Vec<bool> = (0..raw.len())
-            .map(|i| (0..3).any(|k| clean.channels[k][i] - raw.channels[k][i] > MIN_PRINT_CONTRAST))
-            .collect();
-        let mut near: Vec<f32> = print.iter().map(|p| f32::from(u8::from(*p))).collect();
-        box_mean(&mut near, width, height, PRINT_RADIUS);
+        for (i, vector) in vectors.iter_mut().enumerate() {
+            if print.is_at_print([2 * (i % width), 2 * (i / width)]) {
+                *vector = [0.0; 2];
+            }
+        }
         Gradients {
             width,
             height,
             vectors,
             threshold: ((MIN_GRADIENT_RATIO * usual) as f32).max(MIN_GRADIENT),
-            print,
-            near_print: near
-                .iter()
-                .map(|share| *share > MIN_PRINT_DENSITY)
-                .collect(),
         }
     }
 
@@ -146,7 +125,8 @@ impl Gradients {
             if col < 0.0 || row < 0.0 || col >= self.width as f64 || row >= self.height as f64 {
                 return false;
             }
-            let [gx, gy] = self.vectors[row as usize * self.width + col as usize];
+            let i = row as usize * self.width + col as usize;
+            let [gx, gy] = self.vectors[i];
             let along = (gx * nx + gy * ny).abs();
             along > self.threshold && along > MIN_ALIGNMENT * (gx * gx + gy * gy).sqrt()
         })
@@ -156,8 +136,9 @@ impl Gradients {
 /// A line across the image, with the number of edge pixels along it.
 struct Line {
     ends: [[f64; 2]; 2],
-    /// Prefix sums: number of edge pixels along the line before each place, for places one pixel apart.
-    sums: Vec<u32>,
+    /// Prefix sums: number of edge pixels along the line before each place, for places one pixel apart. None for a side of
+    /// the photo.
+    sums: Option<Vec<u32>>,
 }
 
 impl Line {
@@ -191,7 +172,7 @@ impl Line {
         }
         Some(Line {
             ends: [at(from), at(to)],
-            sums,
+            sums: Some(sums),
         })
     }
 
@@ -210,18 +191,22 @@ impl Line {
     /// Share of the places along the line between positions `from` and `to` that have an edge pixel; only places in the
     /// image count, and 0 is returned if there are none.
     fn support(&self, from: f64, to: f64) -> f64 {
-        let last = self.sums.len() - 1;
+        let Some(sums) = &self.sums else {
+            return 0.0;
+        };
+        let last = sums.len() - 1;
         let clamp = |t: f64| t.clamp(0.0, last as f64) as usize;
         let (i, j) = (clamp(from.min(to)), clamp(from.max(to)));
         if j > i {
-            f64::from(self.sums[j] - self.sums[i]) / (j - i) as f64
+            f64::from(sums[j] - sums[i]) / (j - i) as f64
         } else {
             0.0
         }
     }
 }
 
-/// Finds the lines with the most edge pixels along them, by the Hough transform; edge pixels near print count less.
+/// Finds the lines with the most edge pixels along them, by the Hough transform, and the four sides of the
+/// photo.
 fn find_lines(gradients: &Gradients) -> Vec<Line> {
     let diagonal = (gradients.width as f64).hypot(gradients.height as f64);
     let offsets = 2 * diagonal as usize + 3;
@@ -238,11 +223,6 @@ fn find_lines(gradients: &Gradients) -> Vec<Line> {
         if size <= gradients.threshold {
             continue;
         }
-        let vote = if gradients.near_print[i] {
-            PRINT_VOTE
-        } else {
-            1.0
-        };
         let (x, y) = ((i % gradients.width) as f32, (i / gradients.width) as f32);
         let angle = f64::from(*gy).atan2(f64::from(*gx)).to_degrees();
         let degrees = (angle + 180.5) as usize % LINE_DIRECTIONS;
@@ -250,7 +230,7 @@ fn find_lines(gradients: &Gradients) -> Vec<Line> {
             let direction = (degrees + LINE_DIRECTIONS + k - VOTED_DIRECTIONS) % LINE_DIRECTIONS;
             let [cos, sin] = turns[direction];
             let offset = (x * cos + y * sin + middle as f32 + 0.5) as usize;
-            votes[direction * offsets + offset] += vote;
+            votes[direction * offsets + offset] += 1.0;
         }
     }
     let peaks: Vec<usize> = (0..votes.len())
@@ -284,18 +264,25 @@ fn find_lines(gradients: &Gradients) -> Vec<Line> {
             break;
         }
     }
+    let [right, bottom] = [gradients.width, gradients.height].map(|n| n as f64 - 1.0);
+    let corners = [[0.0, 0.0], [right, 0.0], [right, bottom], [0.0, bottom]];
+    lines.extend((0..4).map(|k| Line {
+        ends: [corners[k], corners[(k + 1) % 4]],
+        sums: None,
+    }));
     lines
 }
 
-/// Finds the quadrilateral of four straight lines that is most like a page; returns its corners, clockwise, with its
-/// worth from 0 to 1. `raw` is the photo, `clean` the same with print suppressed. `None` if no quadrilateral has enough
-/// edge pixels along each side, or there is no print.
+/// Finds the quadrilateral of four straight lines that is most like a page; returns its corners, clockwise, and how clearly
+/// it is seen, from 0 to 1: the mean support of its sides times its likeness to a page by its print.
+/// `raw` is the photo at half the reduced size, `print` the print in the reduced photo. `None` if no
+/// quadrilateral has enough edge pixels along each side, or there is no print.
 pub(super) fn best_line_quadrilateral(
     raw: &Planes,
-    clean: &Planes,
+    print: &PrintCells,
     min_area: f64,
 ) -> Option<([[f64; 2]; 4], f64)> {
-    let gradients = Gradients::new(raw, clean);
+    let gradients = Gradients::new(raw, print);
     let lines = find_lines(&gradients);
     let size = [raw.width, raw.height];
     let sine = |i: usize, j: usize| cross(lines[i].direction(), lines[j].direction()).abs();
@@ -307,16 +294,8 @@ pub(super) fn best_line_quadrilateral(
             }
         }
     }
-    let print: Vec<[f64; 2]> = (0..raw.len())
-        .filter(|i| gradients.print[*i])
-        .map(|i| [(i % raw.width) as f64, (i / raw.width) as f64])
-        .collect();
-    if (print.len() as f64) < MIN_PRINT_SHARE * raw.len() as f64 {
-        return None;
-    }
-    let step = print.len() / MAX_PRINT_SAMPLES + 1;
     let margin = 0.03 * raw.longer_side();
-    let mut best: Option<([[f64; 2]; 4], f64)> = None;
+    let mut best: Option<([[f64; 2]; 4], f64, f64)> = None;
     for (n, [a, c]) in opposite.iter().enumerate() {
         for [b, d] in &opposite[n + 1..] {
             let sides = [*a, *b, *c, *d];
@@ -338,16 +317,22 @@ pub(super) fn best_line_quadrilateral(
                 continue;
             }
             let mut worth = (area / raw.len() as f64).sqrt();
-            let mut least: f64 = 1.0;
+            let (mut least, mut mean) = (1.0_f64, 0.0);
             for k in 0..4 {
                 let line = &lines[sides[k]];
                 let (from, to) = (line.place(corners[k]), line.place(corners[(k + 1) % 4]));
-                let own = line.support(from, to);
+                let own = match line.sums {
+                    Some(_) => line.support(from, to),
+                    None => RIM_SUPPORT,
+                };
                 let reach = BEYOND_CORNER_SHARE * (to - from);
                 let beyond = line
                     .support(from - reach, from)
                     .max(line.support(to, to + reach));
-                least = least.min(own);
+                if line.sums.is_some() {
+                    least = least.min(own);
+                }
+                mean += 0.25 * own;
                 worth *= own * (1.0 - BEYOND_CORNER_PENALTY * beyond);
             }
             if least < MIN_SIDE_SUPPORT {
@@ -357,18 +342,15 @@ pub(super) fn best_line_quadrilateral(
                 corners.reverse();
             }
             // The print, which costs most, is counted only where it can matter.
-            if is_convex(&corners) && best.is_none_or(|(_, other)| worth > other) {
-                let inside = (print.iter().step_by(step))
-                    .filter(|point| polygon_contains(&corners, **point))
-                    .count();
-                let all = print.len().div_ceil(step);
-                worth *= ((inside + 1) as f64 / (all + 1) as f64).powi(PRINT_POWER);
-                worth *= rectangularity(&corners);
-                if best.is_none_or(|(_, other)| worth > other) {
-                    best = Some((corners, worth));
+            if is_convex(&corners) && best.is_none_or(|(_, other, _)| worth > other) {
+                let in_photo = corners.map(|p| p.map(|at| 2.0 * at + 0.5));
+                let printed = print.likeness(&in_photo);
+                worth *= printed * rectangularity(&corners);
+                if worth > 0.0 && best.is_none_or(|(_, other, _)| worth > other) {
+                    best = Some((corners, worth, mean * printed));
                 }
             }
         }
     }
-    best
+    best.map(|(corners, _, clarity)| (corners, clarity))
 }

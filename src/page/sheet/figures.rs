@@ -1,7 +1,7 @@
 //! Measures of a fitted sheet: distances from outline and lines in the photo, strain and curvature.
 
 use super::fit::FittedSheet;
-use super::problem::{ResidualRow, RobustWeights, SheetProblem, SheetWeights};
+use super::problem::{ResidualRow, SheetProblem, SheetWeights};
 
 /// Misfit and shape of a fitted sheet. Lengths are in widths of the page; outliers count less.
 #[derive(Debug, Clone, Copy)]
@@ -34,23 +34,18 @@ impl SheetProblem {
             corners: 0.0,
             lines: 1.0,
         };
-        let robust = RobustWeights::default;
         let mut sums = [0.0; 4];
         let mut rows = 0.0;
-        unit.visit_outline(grid, &mut robust(), &mut |row| {
-            sums[0] += row.value * row.value
-        })?;
+        unit.visit_outline(grid, &mut |row| sums[0] += row.value * row.value)?;
         let lines = self.lines.iter().zip(&sheet.levels);
-        unit.visit_lines(grid, lines, &mut robust(), &mut |row| {
+        unit.visit_lines(grid, lines, &mut |row| {
             sums[1] += row.value * row.value;
         })?;
         unit.visit_isometry(grid, &mut |row| {
             sums[2] += row.value * row.value;
             rows += 1.0;
         });
-        unit.visit_bending(grid, &mut robust(), &mut |row| {
-            sums[3] += row.value * row.value
-        });
+        unit.visit_bending(grid, &mut |row| sums[3] += row.value * row.value);
         let [across, down] = grid.steps();
         let length: f64 = self.lines.iter().map(|line| line.length).sum();
         Some(SheetFigures {
@@ -74,12 +69,7 @@ impl SheetProblem {
                     sums[line][1] += derivative * derivative;
                 }
             };
-            self.visit_lines(
-                &sheet.grid,
-                self.lines.iter().zip(&sheet.levels),
-                &mut RobustWeights::default(),
-                &mut sink,
-            )?;
+            self.visit_lines(&sheet.grid, self.lines.iter().zip(&sheet.levels), &mut sink)?;
             for (level, [right, square]) in sheet.levels.iter_mut().zip(sums) {
                 *level = (*level - right / square.max(1e-300)).clamp(0.0, 1.0);
             }

@@ -1,25 +1,11 @@
-//! Levenberg–Marquardt method for fitting a sheet in space to a photo of a page.
+//! Robust fit of a sheet in space to a photo of a page.
 
 use nalgebra::Vector3;
 
 use super::bordered::BorderedSystem;
 use super::grid::SheetGrid;
-use super::problem::{ResidualRow, RobustWeights, SheetProblem};
-
-/// Initial damping of the Levenberg–Marquardt method, relative to the normal matrix's diagonal.
-const INITIAL_DAMPING: f64 = 1e-3;
-
-/// Minimum damping of the Levenberg–Marquardt method, relative to the normal matrix's diagonal.
-const MIN_DAMPING: f64 = 1e-9;
-
-/// Damping of the Levenberg–Marquardt method at which the search for a step that lowers the cost ends.
-const MAX_DAMPING: f64 = 1e8;
-
-/// Factor that multiplies the Levenberg–Marquardt damping after a step that lowers the cost.
-const DAMPING_DECREASE: f64 = 0.1;
-
-/// Factor that multiplies the Levenberg–Marquardt damping after a step that does not lower the cost.
-const DAMPING_INCREASE: f64 = 5.0;
+use super::problem::{ResidualRow, SheetProblem};
+use crate::page::robust_fit::{self, RobustProblem};
 
 /// Number of unknowns besides the sheet's nodes and lines: focal length, two coordinates of the principal point, ratio
 /// of the page's sides.
@@ -31,7 +17,7 @@ const CAMERA_UNKNOWNS: usize = 4;
 pub(super) struct FittedSheet {
     pub grid: SheetGrid,
     pub levels: Vec<f64>,
-    /// Sum of squares of the fit's weighted residuals.
+    /// Sum of the robust penalties of the fit's weighted residuals.
     pub cost: f64,
 }
 
@@ -47,69 +33,51 @@ impl FittedSheet {
 }
 
 impl SheetProblem {
-    /// Finds the sheet that fits the photo best in the least-squares sense, from an initial guess: by at most `steps`
-    /// steps, until one lowers the cost by less than the share `tolerance`. None if the initial sheet is not in front
-    /// of the camera.
+    /// Finds the sheet that fits the photo best, from an initial guess: by at most `steps` steps, until one lowers the cost by
+    /// less than the share `tolerance`. None if the initial sheet is not in front of the camera.
     pub fn solve(&self, start: FittedSheet, steps: usize, tolerance: f64) -> Option<FittedSheet> {
-        let mut best = start;
-        let mut damping = INITIAL_DAMPING;
-        for _ in 0..steps {
-            let mut robust = RobustWeights::default();
-            let (system, cost) = self.system(&best, &mut robust)?;
-            best.cost = cost;
-            let mut better = None;
-            while damping < MAX_DAMPING {
-                let moved = (system.solve(damping)).map(|step| moved(&best, &step.0, &step.1));
-                if let Some(mut moved) = moved {
-                    moved.cost = self.cost(&moved, &mut robust).unwrap_or(f64::INFINITY);
-                    if moved.cost < cost {
-                        better = Some(moved);
-                        damping = (damping * DAMPING_DECREASE).max(MIN_DAMPING);
-                        break;
-                    }
-                }
-                damping *= DAMPING_INCREASE;
-            }
-            let Some(moved) = better else { break };
-            let gain = cost - moved.cost;
-            best = moved;
-            if gain < tolerance * cost {
-                break;
-            }
-        }
-        Some(best)
+        let start = self.with_cost(start)?;
+        robust_fit::fit(self, start, steps, |cost| tolerance * cost)
     }
 
-    /// Sum of squares of a sheet's weighted residuals, with the robust weights held as they are. None if the sheet is
-    /// not in front of the camera.
-    fn cost(&self, sheet: &FittedSheet, robust: &mut RobustWeights) -> Option<f64> {
-        robust.hold();
+    /// Returns a sheet with its cost: the sum of the robust penalties of its weighted residuals. None if the sheet is not in
+    /// front of the camera.
+    fn with_cost(&self, sheet: FittedSheet) -> Option<FittedSheet> {
         let mut cost = 0.0;
-        self.visit(&sheet.grid, &sheet.levels, robust, &mut |row| {
-            cost += row.value * row.value;
-        })?;
-        cost.is_finite().then_some(cost)
+        self.visit(&sheet.grid, &sheet.levels, &mut |row| cost += row.penalty())?;
+        cost.is_finite().then_some(FittedSheet { cost, ..sheet })
     }
+}
 
-    /// Builds the normal equations of the least-squares problem at a sheet; returns them with the sheet's cost. None if
-    /// the sheet is not in front of the camera.
-    fn system(
-        &self,
-        sheet: &FittedSheet,
-        robust: &mut RobustWeights,
-    ) -> Option<(BorderedSystem, f64)> {
+impl RobustProblem for SheetProblem {
+    type Model = FittedSheet;
+    type System = BorderedSystem;
+
+    fn system(&self, sheet: &FittedSheet) -> Option<BorderedSystem> {
         let grid = &sheet.grid;
         let half_width = 3 * 2 * grid.cols + 2;
         let border = CAMERA_UNKNOWNS + sheet.levels.len();
         let mut system = BorderedSystem::new(3 * grid.nodes.len(), half_width, border);
-        let mut cost = 0.0;
         let (mut banded, mut bordered) = (Vec::new(), Vec::new());
-        self.visit(grid, &sheet.levels, robust, &mut |row| {
-            cost += row.value * row.value;
+        self.visit(grid, &sheet.levels, &mut |row| {
             unknowns(row, &mut banded, &mut bordered);
             system.add(&banded, &bordered, row.value);
         })?;
-        Some((system, cost))
+        Some(system)
+    }
+
+    fn stepped(
+        &self,
+        sheet: &FittedSheet,
+        system: &BorderedSystem,
+        damping: f64,
+    ) -> Option<FittedSheet> {
+        let (banded, bordered) = system.solve(damping)?;
+        self.with_cost(moved(sheet, &banded, &bordered))
+    }
+
+    fn cost(&self, sheet: &FittedSheet) -> f64 {
+        sheet.cost
     }
 }
 

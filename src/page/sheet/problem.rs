@@ -6,6 +6,7 @@ use nalgebra::Vector3;
 use super::grid::SheetGrid;
 use super::plane::CameraPrior;
 use super::polyline::Polyline;
+use crate::page::robust_fit;
 
 /// A line that runs across the flat page, parallel to its upper edge: a line of text, a rule or a fold.
 #[derive(Debug, Clone)]
@@ -63,14 +64,8 @@ pub(super) struct ResidualRow {
     /// Number of a line of print, or of a fold, which are counted after these, and the derivative of the residual by this
     /// line's level; None if it depends on no line.
     pub level: Option<(usize, f64)>,
-}
-
-/// Robust weights of residuals in the order of visiting: computed in the first pass over the residuals, then held.
-#[derive(Debug, Default)]
-pub(super) struct RobustWeights {
-    values: Vec<f64>,
-    next: usize,
-    held: bool,
+    /// Square root of the residual's robust weight, which is a factor of value and derivatives: 1, or less for an outlier.
+    pub trust: f64,
 }
 
 /// Curvature, in reciprocal widths of the page, above which bending is penalised linearly instead of quadratically, so
@@ -84,24 +79,6 @@ const OUTLINE_OUTLIER_DISTANCE: f64 = 0.01;
 /// outlier and counts less.
 const LINE_OUTLIER_DISTANCE: f64 = 0.004;
 
-impl RobustWeights {
-    /// Starts another pass over the residuals with the robust weights of the first pass.
-    pub fn hold(&mut self) {
-        self.next = 0;
-        self.held = true;
-    }
-
-    /// Returns the weight of the next residual: `(1 + relative²)^power`, where `relative` is the residual's size over
-    /// its outlier threshold; in a later pass the weight from the first one.
-    fn next(&mut self, relative: f64, power: f64) -> f64 {
-        if !self.held {
-            self.values.push((1.0 + relative * relative).powf(power));
-        }
-        self.next += 1;
-        self.values[self.next - 1]
-    }
-}
-
 impl ResidualRow {
     fn new(value: f64) -> Self {
         ResidualRow {
@@ -109,7 +86,14 @@ impl ResidualRow {
             nodes: [(0, Vector3::zeros()); 4],
             globals: [0.0; 4],
             level: None,
+            trust: 1.0,
         }
+    }
+
+    /// Penalty of the residual in the robust fit: its square, and less for an outlier.
+    pub fn penalty(&self) -> f64 {
+        // Of a residual `r` times the threshold: 2 (√(1 + r²) − 1), where `value` is r (1 + r²)^(−1/4).
+        self.value * self.value * 2.0 / (1.0 + self.trust * self.trust)
     }
 }
 
@@ -127,14 +111,13 @@ impl SheetProblem {
         &self,
         grid: &SheetGrid,
         levels: &[f64],
-        robust: &mut RobustWeights,
         sink: &mut dyn FnMut(&ResidualRow),
     ) -> Option<()> {
         self.visit_isometry(grid, sink);
-        self.visit_bending(grid, robust, sink);
-        self.visit_outline(grid, robust, sink)?;
+        self.visit_bending(grid, sink);
+        self.visit_outline(grid, sink)?;
         let lines = self.lines.iter().chain(&self.folds);
-        self.visit_lines(grid, lines.zip(levels), robust, sink)?;
+        self.visit_lines(grid, lines.zip(levels), sink)?;
         let prior = &self.prior;
         let off = [
             (grid.camera.log_scale - prior.log_scale) / prior.scale_deviation,
@@ -192,22 +175,18 @@ impl SheetProblem {
 
     /// Calls `sink` with the bending residuals: second differences of the sheet's nodes, reweighted by their sizes so
     /// that large bends count linearly. Bending across a fold is free.
-    pub fn visit_bending(
-        &self,
-        grid: &SheetGrid,
-        robust: &mut RobustWeights,
-        sink: &mut dyn FnMut(&ResidualRow),
-    ) {
+    pub fn visit_bending(&self, grid: &SheetGrid, sink: &mut dyn FnMut(&ResidualRow)) {
         let [across, down] = grid.steps();
         let weight = self.weights.bending * Self::cell(grid);
         let (cols, rows) = (grid.cols, grid.rows);
         let mut stencil = |nodes: [(usize, f64); 4], factor: f64| {
             let sum: Vector3<f64> = nodes.iter().map(|(i, c)| grid.nodes[*i] * *c).sum();
             let second = sum * factor;
-            let power = -0.25;
-            let own = weight * robust.next(second.norm() / FOLD_CURVATURE, power) * factor;
+            let trust = robust_fit::weight(second.norm() / FOLD_CURVATURE).sqrt();
+            let own = weight * trust * factor;
             for k in 0..3 {
                 let mut row = ResidualRow::new(own * sum[k]);
+                row.trust = trust;
                 for (entry, (i, c)) in row.nodes.iter_mut().zip(nodes) {
                     entry.0 = i;
                     entry.1[k] = own * c;
@@ -247,7 +226,6 @@ impl SheetProblem {
     pub fn visit_outline(
         &self,
         grid: &SheetGrid,
-        robust: &mut RobustWeights,
         sink: &mut dyn FnMut(&ResidualRow),
     ) -> Option<()> {
         let root = Self::cell(grid).sqrt() * self.depth;
@@ -265,7 +243,8 @@ impl SheetProblem {
                 let seen = grid.camera.project(grid.nodes[node])?;
                 let near = edge.nearest(seen)?;
                 let size = self.depth * near.distance / OUTLINE_OUTLIER_DISTANCE;
-                let weight = self.weights.outline * root * robust.next(size, -0.25);
+                let trust = robust_fit::weight(size).sqrt();
+                let weight = [self.weights.outline * root, trust];
                 sink(&photo_row(grid, node, near.normal, near.distance, weight));
             }
         }
@@ -280,7 +259,8 @@ impl SheetProblem {
             let seen = grid.camera.project(grid.nodes[node])?;
             let off = [seen[0] - corner[0], seen[1] - corner[1]];
             let size = self.depth * off[0].hypot(off[1]) / OUTLINE_OUTLIER_DISTANCE;
-            let weight = 2.0 * self.weights.corners * root * robust.next(size, -0.25);
+            let trust = robust_fit::weight(size).sqrt();
+            let weight = [2.0 * self.weights.corners * root, trust];
             for (k, normal) in [[1.0, 0.0], [0.0, 1.0]].into_iter().enumerate() {
                 sink(&photo_row(grid, node, normal, off[k], weight));
             }
@@ -294,11 +274,10 @@ impl SheetProblem {
         &self,
         grid: &SheetGrid,
         lines: impl Iterator<Item = (&'a LevelLine, &'a f64)>,
-        robust: &mut RobustWeights,
         sink: &mut dyn FnMut(&ResidualRow),
     ) -> Option<()> {
         for (number, (line, level)) in lines.enumerate() {
-            self.visit_line(grid, line, (number, *level), robust, sink)?;
+            self.visit_line(grid, line, (number, *level), sink)?;
         }
         Some(())
     }
@@ -310,7 +289,6 @@ impl SheetProblem {
         grid: &SheetGrid,
         line: &LevelLine,
         (number, level): (usize, f64),
-        robust: &mut RobustWeights,
         sink: &mut dyn FnMut(&ResidualRow),
     ) -> Option<()> {
         if let Some(deviation) = line.level_deviation {
@@ -335,9 +313,11 @@ impl SheetProblem {
             // The projection is at the nearest point: its distance from the traced one has the other sign.
             let distance = -near.distance;
             let size = self.depth * distance / LINE_OUTLIER_DISTANCE;
-            let own = weight * robust.next(size, -0.25);
+            let trust = robust_fit::weight(size).sqrt();
+            let own = weight * trust;
             let gradient = grid.camera.gradient(at, near.normal) * own;
             let mut row = ResidualRow::new(own * distance);
+            row.trust = trust;
             for k in 0..4 {
                 row.nodes[k] = (place.nodes[k], gradient * place.weights[k]);
             }
@@ -359,16 +339,18 @@ fn camera_derivatives(grid: &SheetGrid, seen: [f64; 2], [nx, ny]: [f64; 2]) -> [
 }
 
 /// Makes the residual of a projected node: its weighted distance along an image normal, with derivatives by node and
-/// camera.
+/// camera. `weight` and `trust` are its weight and the square root of its robust weight.
 fn photo_row(
     grid: &SheetGrid,
     node: usize,
     normal: [f64; 2],
     distance: f64,
-    weight: f64,
+    [weight, trust]: [f64; 2],
 ) -> ResidualRow {
     let point = grid.nodes[node];
+    let weight = weight * trust;
     let mut row = ResidualRow::new(weight * distance);
+    row.trust = trust;
     row.nodes[0] = (node, grid.camera.gradient(point, normal) * weight);
     if let Some(seen) = grid.camera.project(point) {
         row.globals = camera_derivatives(grid, seen, normal).map(|d| d * weight);

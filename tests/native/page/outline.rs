@@ -317,28 +317,46 @@ fn a_table_without_a_page_has_none() {
     }
 }
 
+/// Uneven light, with a thin shadow below and to the right of the page and a thin bright line at its other edges.
+fn thin_shadow([x, y]: [f64; 2]) -> f64 {
+    let [u, v] = ToPage::new(PAGE).apply([x, y]);
+    let beside = |a: f64, b: f64, range: std::ops::Range<f64>| {
+        range.contains(&a) && (-0.006..1.008).contains(&b)
+    };
+    let shadow = beside(u, v, 1.0..1.008) || beside(v, u, 1.0..1.008);
+    let lit = beside(u, v, -0.006..0.0) || beside(v, u, -0.006..0.0);
+    let uneven = 0.9 - 0.2 * x / SIZE[0] as f64;
+    uneven
+        * if shadow {
+            0.75
+        } else if lit {
+            0.9
+        } else {
+            1.0
+        }
+}
+
+#[test]
+fn white_on_white_is_found_by_its_print_in_coloured_light() {
+    // A lamp without red, whose channel is noise, and a bar across the page that is its longest straight edge.
+    let print = |[u, v]: [f64; 2]| {
+        let is_bar = (0.05..0.95).contains(&u) && (0.3..0.325).contains(&v);
+        if is_bar { [30.0; 3] } else { letter([u, v]) }
+    };
+    let page = pages(&[PAGE], print, |_| PAPER);
+    let lamp = |place| {
+        let [r, g, b] = page(place);
+        [0.01 * r, 0.8 * g, 0.9 * b]
+    };
+    let report = found(&photo(lamp, thin_shadow));
+    assert_eq!(report.verdict, OutlineVerdict::Doubtful);
+    let error = corner_error(&report.pages[0], &PAGE);
+    assert!(error < 15.0, "{error}");
+}
+
 #[test]
 fn white_on_white_is_doubtful_or_not_found_but_never_taken_wrongly() {
-    // A thin shadow below and to the right of the page, and uneven light.
-    let map = ToPage::new(PAGE);
-    let light = |[x, y]: [f64; 2]| {
-        let [u, v] = map.apply([x, y]);
-        let beside = |a: f64, b: f64, range: std::ops::Range<f64>| {
-            range.contains(&a) && (-0.006..1.008).contains(&b)
-        };
-        let shadow = beside(u, v, 1.0..1.008) || beside(v, u, 1.0..1.008);
-        let lit = beside(u, v, -0.006..0.0) || beside(v, u, -0.006..0.0);
-        let uneven = 0.9 - 0.2 * x / SIZE[0] as f64;
-        uneven
-            * if shadow {
-                0.75
-            } else if lit {
-                0.9
-            } else {
-                1.0
-            }
-    };
-    let report = found(&photo(pages(&[PAGE], letter, |_| PAPER), light));
+    let report = found(&photo(pages(&[PAGE], letter, |_| PAPER), thin_shadow));
     assert_eq!(report.verdict, OutlineVerdict::Doubtful);
     assert!(report.reasons.contains(&OutlineReason::FaintEdge));
     let error = corner_error(&report.pages[0], &PAGE);

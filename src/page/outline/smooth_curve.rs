@@ -1,0 +1,134 @@
+//! Piecewise smooth curves through ragged points: robust smoothing splines whose bends may be sharp where paper is folded.
+
+use nalgebra::Vector2;
+
+use crate::page::robust_fit;
+
+/// Number of rounds of iteratively reweighted least squares.
+const REWEIGHTING_ROUNDS: usize = 6;
+
+/// Distance of a point from the curve, in pixels, above which the point is an outlier and counts less.
+const OUTLIER_DISTANCE: f64 = 1.0;
+
+/// Change of the curve's direction from point to point, in radians for points one pixel apart, above which it counts as a
+/// fold, which is penalised by its angle and not by its square.
+const FOLD_ANGLE: f64 = 0.004;
+
+/// Fits a piecewise smooth curve to points about one pixel apart, and returns its points. Bends shorter than about `length`
+/// pixels are smoothed, and so are stretches of outliers that are not much longer than that.
+pub(super) fn piecewise_smooth(points: &[[f64; 2]], length: f64) -> Vec<[f64; 2]> {
+    let mut curve: Vec<Vector2<f64>> = points.iter().map(|p| Vector2::from(*p)).collect();
+    if points.len() < 3 {
+        return points.to_vec();
+    }
+    let stiffness = length.powi(4);
+    let mut bends = vec![stiffness; points.len() - 2];
+    for round in 0..REWEIGHTING_ROUNDS {
+        let trust: Vec<f64> = (points.iter().zip(&curve))
+            .map(|(p, on)| {
+                let off = (Vector2::from(*p) - on).norm();
+                robust_fit::weight(off / OUTLIER_DISTANCE)
+            })
+            .collect();
+        if round > 0 {
+            for (bend, p) in bends.iter_mut().zip(curve.windows(3)) {
+                let angle = (p[0] - 2.0 * p[1] + p[2]).norm();
+                *bend = stiffness * robust_fit::weight(angle / FOLD_ANGLE);
+            }
+        }
+        curve = smoothed(points, &trust, &bends);
+    }
+    curve.into_iter().map(Into::into).collect()
+}
+
+/// Minimises the sum of weighted squared distances from the points and of weighted squared second differences (Whittaker's
+/// smoother): a linear system with two diagonals beside the main one, solved by its Cholesky factors `L D Lᵀ`.
+fn smoothed(points: &[[f64; 2]], trust: &[f64], bends: &[f64]) -> Vec<Vector2<f64>> {
+    let n = points.len();
+    let mut bands = vec![[0.0; 3]; n];
+    for (i, weight) in trust.iter().enumerate() {
+        bands[i][0] += weight;
+    }
+    for (i, weight) in bends.iter().enumerate() {
+        for (row, lag, product) in [
+            (0, 0, 1.0),
+            (1, 0, 4.0),
+            (2, 0, 1.0),
+            (0, 1, -2.0),
+            (1, 1, -2.0),
+            (0, 2, 1.0),
+        ] {
+            bands[i + row][lag] += weight * product;
+        }
+    }
+    let mut right: Vec<Vector2<f64>> = (points.iter().zip(trust))
+        .map(|(p, weight)| Vector2::from(*p) * *weight)
+        .collect();
+    for i in 0..n {
+        let [diagonal, one, two] = bands[i];
+        let [a, b] = [one / diagonal, two / diagonal];
+        let here = right[i];
+        if i + 1 < n {
+            bands[i + 1][0] -= a * one;
+            bands[i + 1][1] -= a * two;
+            right[i + 1] -= here * a;
+        }
+        if i + 2 < n {
+            bands[i + 2][0] -= b * two;
+            right[i + 2] -= here * b;
+        }
+        bands[i] = [diagonal, a, b];
+    }
+    for i in (0..n).rev() {
+        let [diagonal, a, b] = bands[i];
+        let mut value = right[i] / diagonal;
+        if i + 1 < n {
+            value -= right[i + 1] * a;
+        }
+        if i + 2 < n {
+            value -= right[i + 2] * b;
+        }
+        right[i] = value;
+    }
+    right
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_jump_of_the_path_is_left_out_and_a_fold_stays() {
+        // A fold of 0.3 radians at 200, and ground taken along over 25 pixels.
+        let truth = |x: f64| {
+            if x < 200.0 {
+                50.0
+            } else {
+                50.0 + 0.3 * (x - 200.0)
+            }
+        };
+        let points: Vec<[f64; 2]> = (0..400)
+            .map(|i| {
+                let x = f64::from(i);
+                let ground = if (90..115).contains(&i) { 7.0 } else { 0.0 };
+                [x, truth(x) + ground + 0.4 * (1.7 * x).sin()]
+            })
+            .collect();
+        for [x, y] in piecewise_smooth(&points, 25.0) {
+            assert!((y - truth(x)).abs() < 1.5, "{x} {y} {}", truth(x));
+        }
+    }
+
+    #[test]
+    fn a_circle_stays_round() {
+        let points: Vec<[f64; 2]> = (0..500)
+            .map(|i| {
+                let angle = f64::from(i) / 300.0;
+                [300.0 * angle.cos(), 300.0 * angle.sin()]
+            })
+            .collect();
+        for [x, y] in piecewise_smooth(&points, 25.0) {
+            assert!((x.hypot(y) - 300.0).abs() < 0.3);
+        }
+    }
+}

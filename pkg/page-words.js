@@ -25,6 +25,7 @@ function doubtWords({ doubt, linesFound }, disagreement) {
         : `few lines of text (${linesFound}) tell how it is bent; `;
     case 'crumpled': return 'it is crumpled; ';
     case 'strongBend': return 'it is bent strongly; ';
+    case 'outline': return 'its outline may be wrong; if it is right, ';
     default: return '';
   }
 }

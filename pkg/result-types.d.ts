@@ -928,8 +928,9 @@ export type OutlineVerdict = 'found' | 'doubtful' | 'several' | 'notFound';
  *   alone.
  * - `'crumpled'`: The page is crumpled: its model is a sheet that is strained.
  * - `'strongBend'`: The page is bent so strongly that its model may be wrong between edges and lines.
+ * - `'outline'`: The outline that was found in the photo is doubtful.
  */
-export type PageDoubt = 'largeError' | 'hiddenPart' | 'disagreement' | 'fewLines' | 'crumpled' | 'strongBend';
+export type PageDoubt = 'largeError' | 'hiddenPart' | 'disagreement' | 'fewLines' | 'crumpled' | 'strongBend' | 'outline';
 
 /**
  * Model of a page's shape, from the plainest to the most general.

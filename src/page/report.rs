@@ -54,6 +54,8 @@ pub enum PageDoubt {
     Crumpled,
     /// The page is bent so strongly that its model may be wrong between edges and lines.
     StrongBend,
+    /// The outline that was found in the photo is doubtful.
+    Outline,
 }
 
 /// Model of a page's shape, from the plainest to the most general.
@@ -127,6 +129,18 @@ pub struct PageReport {
 }
 
 impl PageReport {
+    /// Returns the report on a page whose outline was found with doubt: what follows from the outline is doubtful, too.
+    pub fn with_doubtful_outline(self) -> Self {
+        match self.verdict {
+            PageVerdict::Doubtful | PageVerdict::NotThisKind => self,
+            _ => PageReport {
+                verdict: PageVerdict::Doubtful,
+                doubt: Some(PageDoubt::Outline),
+                ..self
+            },
+        }
+    }
+
     /// Converts what is in pixels of the working photo to pixels of the photo.
     pub(super) fn in_full_photo(self, scale: PhotoScale) -> Self {
         PageReport {
@@ -334,6 +348,48 @@ pub(super) fn report(
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_page_is_not_surer_than_its_outline() {
+        let report = |verdict, doubt| PageReport {
+            verdict,
+            doubt,
+            model: PageModel::Plane,
+            error: 0.1,
+            pinhole_error_bound: 0.2,
+            focal_length: 1000.0,
+            focal_deviation: 1.0,
+            tilt: 0.0,
+            bend: 0.0,
+            residual: 0.1,
+            disagreement: 0.0,
+            lines: 9,
+            lines_found: 9,
+            lines_used: 9,
+            lines_disagreement: 0.0,
+            ratio: 1.4,
+        };
+        for verdict in [
+            PageVerdict::Flat,
+            PageVerdict::Unrolled,
+            PageVerdict::Unchecked,
+        ] {
+            let found = report(verdict, None).with_doubtful_outline();
+            assert_eq!(
+                found,
+                report(PageVerdict::Doubtful, Some(PageDoubt::Outline))
+            );
+        }
+        for (verdict, doubt) in [
+            (PageVerdict::NotThisKind, None),
+            (PageVerdict::Doubtful, Some(PageDoubt::Crumpled)),
+        ] {
+            assert_eq!(
+                report(verdict, doubt).with_doubtful_outline(),
+                report(verdict, doubt)
+            );
+        }
+    }
 
     #[test]
     fn a_doubtful_page_has_a_reason_and_others_have_none() {

@@ -26,7 +26,7 @@ impl PageSurface {
     /// 3072 pixels a side are taken as they are, larger ones are halved for the search. Results are in the photo's own pixels.
     ///
     /// A cylinder is tried first, by [`CurledPage::in_photo`]. If it does not explain the page, and all four edges of one page
-    /// are given, [`SheetPage::in_photo`] finds a sheet. A bent cylinder that no line confirms gives way to a plane, if that
+    /// are given, [`SheetPage::in_photo`] finds a sheet, which is taken unless it explains the page worse. A bent cylinder that no line confirms gives way to a plane, if that
     /// search finds one.
     ///
     /// # Errors
@@ -75,11 +75,13 @@ impl PageSurface {
         });
         let sheet = match (&curled, edges) {
             (Ok(page), [edges @ Edges::All { .. }]) if is_untrusted(page.report().verdict) => {
-                SheetPage::in_photo(edges, photo, options).ok()
+                let sheet = sheet_in_photo(edges, photo, options)?;
+                sheet
+                    .filter(|sheet| explains_as_well(sheet.report().verdict, page.report().verdict))
             }
             // Errors of a flat page's outline look like a bend.
             (Ok(page), [edges @ Edges::All { .. }]) if has_unconfirmed_bend(page.report()) => {
-                let sheet = SheetPage::in_photo(edges, photo, options).ok();
+                let sheet = sheet_in_photo(edges, photo, options)?;
                 sheet.filter(|sheet| sheet.report().model == PageModel::Plane)
             }
             (Err(Error::Edges { .. } | Error::FocalLength), [edges @ Edges::All { .. }]) => {
@@ -148,6 +150,28 @@ impl PageSurface {
     }
 }
 
+/// Finds a sheet for a page that a cylinder explains in some way; None if these edges are no sheet's.
+///
+/// # Errors
+/// Those of [`SheetPage::in_photo`] that are not about the edges or the camera.
+fn sheet_in_photo(
+    edges: &Edges,
+    photo: &Photo<'_>,
+    options: &PageOptions,
+) -> Result<Option<SheetPage>> {
+    match SheetPage::in_photo(edges, photo, options) {
+        Ok(sheet) => Ok(Some(sheet)),
+        Err(Error::Edges { .. } | Error::FocalLength) => Ok(None),
+        Err(error) => Err(error),
+    }
+}
+
+/// Whether a sheet with the verdict `sheet` explains a page at least as well as an untrusted cylinder with the verdict
+/// `cylinder`: a sheet that is none does not replace a doubtful cylinder.
+fn explains_as_well(sheet: PageVerdict, cylinder: PageVerdict) -> bool {
+    sheet != PageVerdict::NotThisKind || cylinder == PageVerdict::NotThisKind
+}
+
 /// Whether a verdict says that a cylinder does not explain the page, or hardly does.
 fn is_untrusted(verdict: PageVerdict) -> bool {
     matches!(verdict, PageVerdict::NotThisKind | PageVerdict::Doubtful)
@@ -156,4 +180,18 @@ fn is_untrusted(verdict: PageVerdict) -> bool {
 /// Whether a cylinder is bent by its edges alone, without lines of print or traced ones.
 fn has_unconfirmed_bend(report: &PageReport) -> bool {
     report.bend > 0.0 && report.lines == 0
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_doubtful_cylinder_stays_where_there_is_no_sheet() {
+        use PageVerdict::{Doubtful, NotThisKind, Unrolled};
+        assert!(!explains_as_well(NotThisKind, Doubtful));
+        assert!(explains_as_well(Doubtful, Doubtful));
+        assert!(explains_as_well(Unrolled, Doubtful));
+        assert!(explains_as_well(NotThisKind, NotThisKind));
+    }
 }

@@ -103,6 +103,7 @@ function doubtWords({ doubt, linesFound }, text) {
     case 'fewLines': return linesFound === 0 ? 'The page shows no lines of text, and its outline alone leaves the bend uncertain' : `Only ${linesFound} ${linesFound === 1 ? 'line of text tells' : 'lines of text tell'} how the page is bent`;
     case 'crumpled': return 'The page is crumpled';
     case 'strongBend': return 'The page is bent strongly';
+    case 'outline': return 'The outline may be wrong. If it is right';
     default: return 'The photo leaves the bend uncertain';
   }
 }

@@ -309,6 +309,12 @@ pub fn page_surface(photo: JsValue, edges: JsValue, options: JsValue) -> Result<
     }
     .map_err(|error| renamed(error, "format", "page"))?;
     let (warp, mesh) = (page.warp()?, page.mesh()?);
+    let is_doubtful =
+        (outline.as_ref()).is_some_and(|found| found.verdict == OutlineVerdict::Doubtful);
+    let report = match is_doubtful {
+        true => page.report().with_doubtful_outline(),
+        false => *page.report(),
+    };
     let [columns, rows] = warp.nodes();
     Ok(to_value(&PageOutput {
         size: page.flat_size(),
@@ -329,8 +335,8 @@ pub fn page_surface(photo: JsValue, edges: JsValue, options: JsValue) -> Result<
         lines: (page.text().iter())
             .map(|lines| lines.iter().map(points).collect())
             .collect(),
-        verdict: page.report().verdict,
-        report: *page.report(),
+        verdict: report.verdict,
+        report,
         outline,
     })?)
 }

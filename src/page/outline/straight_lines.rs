@@ -44,13 +44,6 @@ const MIN_ALIGNMENT: f32 = 0.9;
 /// better.
 const RIM_SUPPORT: f64 = 0.25;
 
-/// Half the side, in pixels, of the square in which the share of print pixels is measured: a few lines of text.
-const PRINT_RADIUS: usize = 10;
-
-/// Minimum share of print pixels in the square around a pixel for it to be text or a picture, and not a thin shadow
-/// along an edge.
-const MIN_PRINT_DENSITY: f32 = 0.15;
-
 /// Minimum share of the length of each of a quadrilateral's sides along which there are edge pixels.
 const MIN_SIDE_SUPPORT: f64 = 0.45;
 

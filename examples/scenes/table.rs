@@ -64,7 +64,7 @@ pub fn write(
         Mutex::new(known),
     );
     thread::scope(|scope| {
-        for _ in 0..2 {
+        for _ in 0..thread::available_parallelism().map_or(1, usize::from) {
             scope.spawn(|| {
                 while let Some((name, fault, seed)) = jobs.get(next.fetch_add(1, Ordering::Relaxed))
                 {
@@ -124,12 +124,14 @@ fn measure(
         _ => sensors::spoil(fault, &pixels, seed * 31 + name.len() as u64),
     };
     let image = HeightImage::new(size, size, values)?.with_pixel_size(pixel)?;
-    let bridged = image.bridged(Bridging::default())?;
-    let input = Input::from_bridged(&bridged, None)?;
+    let on_lattice =
+        |image: &HeightImage| Input::from_bridged(&image.bridged(Bridging::default())?, None);
+    let [raw, input] = [on_lattice(&image)?, on_lattice(&image.repaired()?)?];
     let truth = Heightfield::from_fn(*input.field().lattice(), &height)?;
     let smooth = away_from_jumps(&truth, &height);
     let angle = |surface: &Heightfield| mean_angle(&truth, surface, &smooth);
-    let solve = |options: Options| fit(input.clone(), &options.threads(1));
+    let fit = |input: &Input, options: Options| fit(input.clone(), &options.threads(1));
+    let solve = |options: Options| fit(&input, options);
     let key = format!("{size} {name} {fault} {seed}");
     let cached = cache.lock().unwrap().get(&key).copied();
     let oracles = match cached {
@@ -146,7 +148,7 @@ fn measure(
                 ];
                 for (best, options) in best.iter_mut().zip(energies) {
                     let Some(options) = options else { continue };
-                    let surface = solve(options.lambda(lambda))?;
+                    let surface = fit(&raw, options.lambda(lambda))?;
                     *best = best.min(angle(surface.heightfield()));
                 }
             }

@@ -118,22 +118,23 @@ fn wiener(differences: &[f64]) -> Vec<f64> {
     least_offsets(differences, (shape / size).max(MIN_SHAPE_RATIO))
 }
 
-/// Spectral density of a sequence at wavelengths above [`SMOOTH_WINDOW`]: the mean square of its sums under a Hann window.
+/// Spectral density of a sequence at wavelengths above [`SMOOTH_WINDOW`]: the mean square of its sums under Hann windows that
+/// overlap by half. Beyond its ends the sequence is mirrored.
 fn smooth_density(values: &[f64]) -> f64 {
-    let length = SMOOTH_WINDOW.min(values.len());
-    let window = |i: usize| 1.0 - (2.0 * PI * (i as f64 + 0.5) / length as f64).cos();
-    let norm: f64 = (0..length).map(|i| window(i).powi(2)).sum();
-    let sums = values
-        .windows(length)
-        .step_by((length / 2).max(1))
-        .map(|part| {
-            let sum: f64 = part.iter().enumerate().map(|(i, v)| window(i) * v).sum();
-            sum * sum / norm
-        });
-    let (sum, count) = sums.fold((0.0, 0.0), |(sum, count), square| {
-        (sum + square, count + 1.0)
+    let window = |i: usize| 1.0 - (2.0 * PI * (i as f64 + 0.5) / SMOOTH_WINDOW as f64).cos();
+    let norm: f64 = (0..SMOOTH_WINDOW).map(|i| window(i).powi(2)).sum();
+    let mirrored = |i: usize| {
+        let i = i % (2 * values.len());
+        values[i.min(2 * values.len() - 1 - i)]
+    };
+    let half = SMOOTH_WINDOW / 2;
+    let middles = (0..values.len() + half).step_by(half);
+    let sums = middles.clone().map(|middle| {
+        let first = middle + 2 * half * values.len() - half;
+        let terms = (0..SMOOTH_WINDOW).map(|i| window(i) * mirrored(first + i));
+        terms.sum::<f64>().powi(2) / norm
     });
-    sum / f64::max(count, 1.0)
+    sums.sum::<f64>() / middles.count() as f64
 }
 
 /// Finds the offsets `o` that minimise `‖G o − differences‖² + ridge ‖o‖²`: a banded factorisation `L D Lᵀ` of the normal

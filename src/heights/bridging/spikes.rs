@@ -68,7 +68,8 @@ fn find_spikes(raster: &Raster, heights: &[f64]) -> Vec<usize> {
 }
 
 /// Returns the least height by which a cell sticks out of the lines between its opposite neighbours; 0 where it does not
-/// stick out of each of them to the same side, more than one of them is unknown, or it is the tip of a cone.
+/// stick out of each of them to the same side, more than one of them is unknown, it is the tip of a cone, or as many
+/// neighbours are off alike as along the edge of a step.
 fn spike_height(raster: &Raster, heights: &[f64], cell: usize) -> f64 {
     let pairs = raster.directions() / 2;
     // A ridge that ends at the border sticks out there.
@@ -85,6 +86,10 @@ fn spike_height(raster: &Raster, heights: &[f64], cell: usize) -> f64 {
         (least, sum, count) = (least.min(d.abs()), sum + d, count + 1);
     }
     if count + 1 < pairs || differences(1).any(|d| d * sum <= 0.0) {
+        return 0.0;
+    }
+    let is_alike = |other: &usize| (heights[cell] - heights[*other]).abs() < 0.5 * least;
+    if raster.neighbours(cell).filter(is_alike).count() + 1 >= pairs {
         return 0.0;
     }
     let (mut far, mut far_count) = (0.0, 0);
@@ -159,12 +164,16 @@ mod tests {
         };
         let ridge = |row: usize, col: usize| noise(row, col) + if row == 12 { 20.0 } else { 0.0 };
         let step = |row: usize, col: usize| noise(row, col) + if row > 14 { 20.0 } else { 0.0 };
+        let slanted = |row: usize, col: usize| {
+            noise(row, col) + 20.0 * ((row as f64 + 0.3 * col as f64) / 7.0).floor()
+        };
         let rounded = |row: usize, col: usize| (noise(row, col) * 1.2 + 0.1 * row as f64).round();
         for hexagonal in [false, true] {
             let shift = if hexagonal { 0.5 } else { 0.0 };
             assert!(spikes(hexagonal, tip(shift)).is_empty());
             assert!(spikes(hexagonal, ridge).is_empty());
             assert!(spikes(hexagonal, step).is_empty());
+            assert!(spikes(hexagonal, slanted).is_empty());
             assert!(spikes(hexagonal, rounded).is_empty());
         }
     }

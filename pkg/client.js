@@ -26,6 +26,9 @@ import { compile, locate } from './wasm-source.js';
  * @typedef {import('./connection.js').Remote} Remote
  */
 
+/** Maximum number of workers for calls that can be aborted; each has its own memory, and further calls wait. */
+const MAX_ABORTABLE_WORKERS = 2;
+
 /** Number of the last solver that was opened. */
 let opened = 0;
 
@@ -39,10 +42,10 @@ export class DevelopableWorker {
   #connection;
   /** @type {Promise<import('./connection.js').Source[]> | undefined} */
   #wasm;
-  /** The second worker, while no call runs in it. @type {Connection | undefined} */
+  /** A worker for calls that can be aborted, while none runs in it. @type {Connection | undefined} */
   #idle;
-  /** Workers of calls that can be aborted. @type {Set<Connection>} */
-  #abortables = new Set();
+  /** Workers in which such calls run, and what is fulfilled when these have ended. @type {Map<Connection, Promise<unknown>>} */
+  #abortables = new Map();
   #disposed = false;
 
   /** @param {WorkerOptions} [options] */
@@ -165,7 +168,7 @@ export class DevelopableWorker {
   dispose() {
     this.#disposed = true;
     const error = new DevelopableError('DISPOSED', 'this worker has been disposed');
-    for (const connection of [this.#connection, this.#idle, ...this.#abortables]) connection?.close(error);
+    for (const connection of [this.#connection, this.#idle, ...this.#abortables.keys()]) connection?.close(error);
   }
 
   static {
@@ -196,7 +199,7 @@ export class DevelopableWorker {
   }
 
   /**
-   * Has a second worker answer, which an abort ends: what runs in wasm cannot be stopped otherwise, and other calls go on.
+   * Has another worker answer, which an abort ends: what runs in wasm cannot be stopped otherwise, and other calls go on.
    * @template T
    * @param {(remote: Remote) => Promise<T>} run
    * @param {AbortSignal} signal
@@ -204,23 +207,26 @@ export class DevelopableWorker {
    * @returns {Promise<T>}
    */
   async #abortable(run, signal, caller) {
+    while (this.#abortables.size >= MAX_ABORTABLE_WORKERS && !signal.aborted) {
+      await orAborted(Promise.race(this.#abortables.values()), { signal, keep: false });
+    }
+    signal.throwIfAborted();
+    // These calls run on one thread each.
     const connection = this.#takeIdle() ?? this.#newConnection();
-    this.#abortables.add(connection);
     const stop = () => connection.close(new DevelopableError('DISPOSED', 'the call was aborted'));
     signal.addEventListener('abort', stop, { once: true });
-    if (signal.aborted) stop();
-    try {
-      return await connection.request(run, caller);
-    } catch (error) {
-      signal.throwIfAborted();
-      throw error;
-    } finally {
+    const answer = connection.request(run, caller).finally(() => {
       signal.removeEventListener('abort', stop);
       this.#abortables.delete(connection);
       // One is kept for the next such call.
-      this.#takeIdle()?.close(new DevelopableError('DISPOSED', 'one idle worker is enough'));
-      this.#idle = connection;
-    }
+      if (this.#idle?.open) connection.close(new DevelopableError('DISPOSED', 'one idle worker is enough'));
+      else this.#idle = connection;
+    });
+    this.#abortables.set(connection, Promise.allSettled([answer]));
+    return answer.catch((error) => {
+      signal.throwIfAborted();
+      throw error;
+    });
   }
 
   #takeIdle() {
@@ -231,13 +237,14 @@ export class DevelopableWorker {
 
   /** The worker that runs, or else a new one. */
   #connect() {
-    if (this.#disposed || !this.#connection?.open) this.#connection = this.#newConnection();
+    if (this.#disposed || !this.#connection?.open) this.#connection = this.#newConnection(this.#options.threads);
     return this.#connection;
   }
 
-  #newConnection() {
+  /** @param {number} [threads] that its solves are to run on */
+  #newConnection(threads) {
     if (this.#disposed) throw new DevelopableError('DISPOSED', 'this worker has been disposed');
-    const { threads, wasm, filesWasm, imagesWasm, meshesWasm, fitmeshWasm, unrollWasm, patternsWasm } = this.#options;
+    const { wasm, filesWasm, imagesWasm, meshesWasm, fitmeshWasm, unrollWasm, patternsWasm } = this.#options;
     const sources = [wasm, filesWasm, imagesWasm, meshesWasm, fitmeshWasm, unrollWasm, patternsWasm];
     this.#wasm ??= Promise.all(sources.map(portable));
     this.#wasm.catch(() => (this.#wasm = undefined));

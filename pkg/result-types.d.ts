@@ -858,6 +858,8 @@ export interface MeshUnrollingReport {
   strain: number;
   /** Root mean square distance between the two sides of a fold, in the mesh's unit of length, of the worst sheet. */
   seamGap: number;
+  /** What cannot be laid flat and is on no sheet. */
+  missing: MissingSurface;
 }
 
 /** Vertices, area and steps of a surface that are on no sheet, in the surface's units. */
@@ -1127,7 +1129,10 @@ export interface ReadResult {
    * where there is no data.
    */
   data: Float64Array<ArrayBuffer>;
-  /** Side length of a pixel; 1 if the file does not state it. */
+  /**
+   * Side length of a pixel; where the file does not state it 1, unless that makes a slab or a needle of the heights,
+   * which `assumptions` says.
+   */
   pixelSize: number;
   /**
    * Unit of `pixelSize`: millimetres for a resolution that a TIFF file states, metres for a map; `null` if it is not

@@ -73,16 +73,16 @@ export async function serve({
  * @param {Site} site
  */
 function answer({ method, url = '', headers: asked }, response, { folders, policy, headers }) {
+  const path = url.replace(/[?#].*$/s, '');
   response.setHeader('Content-Security-Policy', policy);
   // The names of a bundle's files change with what is in them.
-  response.setHeader('Cache-Control', /\/assets\//.test(url) ? 'public, max-age=31536000, immutable' : 'no-store');
+  response.setHeader('Cache-Control', /\/assets\//.test(path) ? 'public, max-age=31536000, immutable' : 'no-store');
   response.setHeader('X-Content-Type-Options', 'nosniff');
   for (const [name, value] of Object.entries(headers)) response.setHeader(name, value);
   if (method !== 'GET' && method !== 'HEAD') {
     response.setHeader('Allow', 'GET, HEAD');
     return refuse(response, 405);
   }
-  const path = url.replace(/[?#].*$/s, '');
   // The folder with the longest path that fits.
   const prefix = Object.keys(folders).filter((one) => path.startsWith(one)).sort((a, b) => b.length - a.length)[0];
   if (prefix === undefined) return refuse(response, 400);
@@ -115,5 +115,7 @@ function compressedEnd(file, response, accepted) {
  * @param {number} status
  */
 function refuse(response, status) {
-  response.writeHead(status, { 'Content-Type': 'text/plain' }).end(`${STATUS_CODES[status]}\n`);
+  // These headers were set for the file.
+  response.removeHeader('Content-Encoding');
+  response.writeHead(status, { 'Content-Type': 'text/plain', 'Cache-Control': 'no-store' }).end(`${STATUS_CODES[status]}\n`);
 }

@@ -6,6 +6,7 @@ import { availableParallelism } from 'node:os';
 import { dirname, extname, basename, join } from 'node:path';
 import { fileURLToPath } from 'node:url';
 import { show } from '../values.js';
+import { commands } from './commands.js';
 import { isRecorded, record } from './fingerprint.js';
 import { CAMERA_FILE, readFlag, usage, valueName } from './flags.js';
 import { Problem, status } from './problem.js';
@@ -48,11 +49,16 @@ const MAX_KEPT_OUTPUT = 1 << 24;
 export function batchOf({ command, inputs, values, texts }) {
   const { output, jobs = availableParallelism(), overwrite = false } = values;
   if (process.env[CHILD_VARIABLE] !== undefined || inputs.length === 0 || command === 'completion') return undefined;
-  if (inputs.length === 1 && !(output !== undefined && (isFolderName(output) || output.includes('*')))) return undefined;
+  /** @type {readonly string[]} */
+  const endings = commands[command].writes;
+  const folder = output !== undefined && (isFolderName(output) || (isFolder(output) && !endings.includes(extname(output).toLowerCase())));
+  const names = folder || output?.includes('*');
+  if (inputs.length === 1 && !names) return undefined;
   if (isBook(command, inputs, values)) return undefined;
   if (command !== 'info' && (output === undefined || output === '-')) {
     throw usage('the output of several inputs is missing: -o FOLDER/, or a name with * for that of the input, as in -o "FOLDER/*.json"', command);
   }
+  if (inputs.includes('-')) throw usage('- is standard input of one input with one output: name the files, or do it apart', command);
   /** @type {Map<string, string>} */
   const owners = new Map();
   const items = inputs.map((input) => {
@@ -149,7 +155,8 @@ export async function runBatch({ items, jobs, overwrite }, signal) {
         if (signal.aborted) return;
         told.set(item, stdout);
         const words = stderr.replace(/^developable: /gm, '').trim();
-        if (words !== '') say(`${item.input}: ${words}`);
+        // What is wrong with a file begins with its name.
+        if (words !== '') say(words.startsWith(`${item.input}:`) ? words : `${item.input}: ${words}`);
         else if (code !== status.success) say(`${item.input}: the process ended with ${code ?? 'a signal'}`);
         if (code === status.success) await record(item);
         counts[code === status.success ? 'done' : 'failed'] += 1;
@@ -171,7 +178,7 @@ export async function runBatch({ items, jobs, overwrite }, signal) {
     if (text !== '') await print(`==> ${item.input} <==\n${text}`);
   }
   const skipped = counts.skipped > 0 ? `, ${counts.skipped} done before (--overwrite does them again)` : '';
-  say(`${items.length} files: ${counts.done} done${skipped}, ${counts.failed} failed`);
+  say(`${items.length} file${items.length === 1 ? '' : 's'}: ${counts.done} done${skipped}, ${counts.failed} failed`);
   if (codes.length === 0) return status.success;
   return codes.every((code) => code === codes[0]) ? codes[0] : status.failure;
 }

@@ -128,6 +128,7 @@ export const sections = {
       },
       report: { value: 'FILE', help: 'JSON file for the figures of the solve' },
       jobs: {
+        short: 'j',
         value: 'N',
         reading: {
           must: 'must be a whole number from 1 on',

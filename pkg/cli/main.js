@@ -40,11 +40,11 @@ export async function runProcess() {
 /**
  * The command within a process that goes on: it keeps the package's worker, and reads and writes the streams that it is given.
  * @param {string[]} args
- * @param {import('./terminal.js').Streams & { signal?: AbortSignal }} caller `signal` interrupts it
+ * @param {import('./terminal.js').Streams} caller
  * @returns {Promise<number>} the exit status
  */
 export function main(args, { signal = new AbortController().signal, ...given }) {
-  return withStreams(given, async () => {
+  return withStreams({ ...given, signal }, async () => {
     try {
       return await perform(args, signal);
     } catch (error) {

@@ -191,7 +191,9 @@ export function taskOf(command, inputs, values) {
   const named = { 'occlusion mask': occlusions, edges, 'file of the intrinsics': camera?.file };
   const read = { mask, confidence, constraints, texture, camera: photoCamera, ...named };
   const numbered = inputs.map((path, i) => [inputs.length > 1 ? `input ${i + 1}` : 'input', path]);
-  refuseSameFiles({ written: { output, report, map, mtl, assembly }, read: { ...Object.fromEntries(numbered), ...read }, force });
+  // What no output is named for goes to standard output, as `-` does.
+  const out = commands[command].writes.length > 0 ? task.output : output;
+  refuseSameFiles({ written: { output: out, report, map, mtl, assembly }, read: { ...Object.fromEntries(numbered), ...read }, force });
   return task;
 }
 

@@ -1,13 +1,15 @@
 /** What people see: results on standard output, and on a terminal how the work goes, so that scripts get silence. */
 import { AsyncLocalStorage } from 'node:async_hooks';
+import { addAbortSignal } from 'node:stream';
 import { failed } from './system-errors.js';
 
 /**
  * Standard input, output and error of the command: the process's own, or those of a caller within the process.
  * @typedef {object} Streams
- * @property {NodeJS.ReadableStream & { isTTY?: boolean }} stdin
+ * @property {import('node:stream').Readable & { isTTY?: boolean }} stdin
  * @property {NodeJS.WritableStream & { isTTY?: boolean }} stdout
  * @property {NodeJS.WritableStream & { isTTY?: boolean }} stderr
+ * @property {AbortSignal} [signal] interrupts the command
  * @property {Buffer} [input] what standard input had, once it is read
  * @property {boolean} [quiet] whether nothing is said but why the command failed
  */
@@ -41,10 +43,12 @@ export const toStderr = (text) => void (streams().quiet || streams().stderr.writ
 /** All of standard input, which `-` stands for among names of files. */
 export async function readStandardInput() {
   const all = streams();
+  if (all.input !== undefined) return all.input;
   /** @type {Buffer[]} */
   const chunks = [];
-  if (all.input === undefined) for await (const chunk of all.stdin) chunks.push(Buffer.from(chunk));
-  return (all.input ??= Buffer.concat(chunks));
+  if (all.signal) addAbortSignal(all.signal, all.stdin);
+  for await (const chunk of all.stdin) chunks.push(Buffer.from(chunk));
+  return (all.input = Buffer.concat(chunks));
 }
 
 /**

@@ -2,9 +2,8 @@
 
 use super::curve::Curve;
 use super::line::{FLATTENING_TOLERANCE_MM, Line, place_at};
-use super::sheet::bounds;
 use super::tabs::Tab;
-use crate::math::planar::{Point2, cross, distance, polyline_length};
+use crate::math::planar::{Point2, bounds, cross, distance, polyline_length};
 use crate::pattern::Direction;
 
 /// Font size of a text beside a sheet, and maximum font size of a text along a line, in millimetres.
@@ -236,7 +235,8 @@ impl Label {
             size: label.size.min(0.7 * tab.depth),
             ..label
         };
-        along.into_iter().map(tabbed).take(1).collect()
+        let first = along.into_iter().next().map(tabbed);
+        first.map(Label::in_sizes).unwrap_or_default()
     }
 
     pub(super) fn sheet(name: &str, [min, max]: [[f64; 2]; 2]) -> Self {

@@ -5,7 +5,8 @@
 
 use super::label::Label;
 use super::pack::Place;
-use super::sheet::{DrawnSheet, bounds};
+use super::sheet::DrawnSheet;
+use crate::math::planar::bounds;
 
 /// Number of raster cells along the shorter side of a page, for nesting sheets.
 const PAGE_CELLS: f64 = 150.0;

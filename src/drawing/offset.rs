@@ -106,7 +106,7 @@ mod tests {
     use crate::math::planar::polyline_length;
 
     fn bounds(curve: &Curve) -> [[f64; 2]; 2] {
-        super::super::sheet::bounds(curve.points(0.01).iter())
+        crate::math::planar::bounds(curve.points(0.01).iter())
     }
 
     #[test]

@@ -4,6 +4,7 @@ use super::curve::Curve;
 use super::label::Label;
 use super::line::{FLATTENING_TOLERANCE_MM, Line};
 use super::pack::Place;
+use crate::math::planar::bounds;
 
 /// A sheet of a drawing, in the drawing's millimetres. It is rotated to its smallest bounding box if that saves enough
 /// area, and never mirrored.
@@ -65,15 +66,4 @@ impl DrawnSheet {
         self.labels.push(Label::sheet(&self.name, self.bounds));
         self
     }
-}
-
-/// Computes the lower left and upper right corner of the bounding box of points.
-pub(super) fn bounds<'a>(points: impl Iterator<Item = &'a [f64; 2]>) -> [[f64; 2]; 2] {
-    let empty = [[f64::INFINITY; 2], [f64::NEG_INFINITY; 2]];
-    points.fold(empty, |[low, high], p| {
-        [
-            [0, 1].map(|k| low[k].min(p[k])),
-            [0, 1].map(|k| high[k].max(p[k])),
-        ]
-    })
 }

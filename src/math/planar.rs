@@ -244,6 +244,17 @@ fn convex_hull(mut points: Vec<[f64; 2]>) -> Vec<[f64; 2]> {
     out
 }
 
+/// Computes the lower left and upper right corner of the bounding box of points.
+pub(crate) fn bounds<'a>(points: impl Iterator<Item = &'a [f64; 2]>) -> [[f64; 2]; 2] {
+    let empty = [[f64::INFINITY; 2], [f64::NEG_INFINITY; 2]];
+    points.fold(empty, |[low, high], p| {
+        [
+            [0, 1].map(|k| low[k].min(p[k])),
+            [0, 1].map(|k| high[k].max(p[k])),
+        ]
+    })
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

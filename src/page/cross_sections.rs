@@ -13,7 +13,6 @@ use super::prior::Prior;
 use super::residual_statistics::ResidualStatistics;
 use super::robust_fit;
 use super::traced_line::{TracedLine, TracedPage};
-use super::traces::{OUTLIER_DEVIATIONS, outlier_penalty};
 use crate::error::{Error, Result};
 
 /// A line of text or a straight edge of a page, traced in the photo: a cross-section or a ruling of the page's
@@ -189,11 +188,13 @@ impl CrossSections {
                 for (point, (_, value)) in points.iter_mut().zip(&raw) {
                     point.pixels = (value - level) * point.scale;
                     let size = point.pixels.abs() / prior.accuracy;
-                    point.trust = robust_fit::weight(size / OUTLIER_DEVIATIONS);
+                    point.trust = robust_fit::weight(size / robust_fit::OUTLIER_DEVIATIONS);
                 }
             }
             cost += (points.iter())
-                .map(|point| cross.weight * outlier_penalty(point.pixels / prior.accuracy))
+                .map(|point| {
+                    cross.weight * robust_fit::outlier_penalty(point.pixels / prior.accuracy)
+                })
                 .sum::<f64>();
             found.push(LineResiduals { points, level });
         }

@@ -49,8 +49,12 @@ pub(super) fn fit<P: RobustProblem>(
 ) -> Option<P::Model> {
     let mut best = start;
     let mut damping = INITIAL_DAMPING;
-    for _ in 0..steps {
-        let system = problem.system(&best)?;
+    for step in 0..steps {
+        let system = match problem.system(&best) {
+            Some(system) => system,
+            None if step == 0 => return None,
+            None => return Some(best),
+        };
         let cost = problem.cost(&best);
         let better = loop {
             if damping >= MAX_DAMPING {
@@ -84,6 +88,15 @@ pub(super) fn weight(relative: f64) -> f64 {
 
 fn root(relative: f64) -> f64 {
     (1.0 + relative * relative).sqrt()
+}
+
+/// Distance of a traced point from the page's model, in standard deviations, above which it is an outlier and penalised
+/// linearly. Limits the influence of a wrongly traced point.
+pub(super) const OUTLIER_DEVIATIONS: f64 = 5.0;
+
+/// Penalty of a residual, in standard deviations: about its square up to the outlier threshold, linear above.
+pub(super) fn outlier_penalty(deviations: f64) -> f64 {
+    OUTLIER_DEVIATIONS * OUTLIER_DEVIATIONS * penalty(deviations / OUTLIER_DEVIATIONS)
 }
 
 #[cfg(test)]

@@ -55,15 +55,6 @@ struct EdgeResidual {
     trust: f64,
 }
 
-/// Distance of a traced point from the page's model, in standard deviations, above which it is an outlier and penalised
-/// linearly. Limits the influence of a wrongly traced point.
-pub(super) const OUTLIER_DEVIATIONS: f64 = 5.0;
-
-/// Penalty of a residual, in standard deviations: about its square up to the outlier threshold, linear above.
-pub(super) fn outlier_penalty(deviations: f64) -> f64 {
-    OUTLIER_DEVIATIONS * OUTLIER_DEVIATIONS * robust_fit::penalty(deviations / OUTLIER_DEVIATIONS)
-}
-
 /// Maximum number of steps of the fit of a page's cylinder.
 const MAX_ITERATIONS: usize = 40;
 
@@ -169,8 +160,8 @@ impl Traces {
                 None => 0.0,
             };
             let size = across.hypot(along) / prior.accuracy;
-            let trust = robust_fit::weight(size / OUTLIER_DEVIATIONS);
-            cost += point.weight * outlier_penalty(size);
+            let trust = robust_fit::weight(size / robust_fit::OUTLIER_DEVIATIONS);
+            cost += point.weight * robust_fit::outlier_penalty(size);
             found.push(EdgeResidual {
                 share,
                 normal,

@@ -294,7 +294,8 @@ pub(super) fn draw_sheets(surface: &Heightfield, whole: &Assembled) -> Result<Pa
     // A sheet of a few vertices whose outline was cut off with a loop is no sheet.
     let least = MIN_OUTLINE_AREA * net.spacing * net.spacing;
     let is_empty = |sheet: &Sheet| sheet.outlines.iter().all(|line| outline_area(line) < least);
-    let empty = remove_crumbs(&mut sheets, is_empty);
+    let missing_area = missing(surface, whole, &[])?.area;
+    let empty = remove_crumbs(&mut sheets, missing_area, is_empty);
     sheets.sort_by_key(|sheet| sheet.patches[0]);
     Ok(Pattern {
         sheets,

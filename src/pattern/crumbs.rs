@@ -8,14 +8,15 @@ use super::sheets::Sheet;
 const MAX_CRUMB_SHARE: f64 = 0.001;
 
 /// Takes out the sheets that cannot be drawn, and the crumbs, the smallest first, up to the share of the area that may be
-/// left out; returns them. Along them the other sheets have a border.
+/// left out, of which `missing_area` is left out already; returns them. Along them the other sheets have a border.
 pub(super) fn remove_crumbs(
     sheets: &mut Vec<Sheet>,
+    missing_area: f64,
     is_undrawable: impl Fn(&Sheet) -> bool,
 ) -> Vec<Sheet> {
-    let whole: f64 = sheets.iter().map(|sheet| sheet.area).sum();
+    let whole = missing_area + sheets.iter().map(|sheet| sheet.area).sum::<f64>();
     sheets.sort_by(|a, b| a.area.total_cmp(&b.area));
-    let mut left_out = 0.0;
+    let mut left_out = missing_area;
     let is_crumb = |sheet: &mut Sheet| {
         let is_small = sheet.area < MAX_CRUMB_SHARE * whole
             && left_out + sheet.area <= MAX_OMITTED_SHARE * whole;

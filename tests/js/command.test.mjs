@@ -2,6 +2,7 @@
 import assert from 'node:assert/strict';
 import { mkdir, readFile, readdir, readlink, symlink, writeFile } from 'node:fs/promises';
 import { join } from 'node:path';
+import { PassThrough } from 'node:stream';
 import { test } from 'node:test';
 import { commands } from '../../pkg/cli/commands.js';
 import { writeWhole } from '../../pkg/cli/files.js';
@@ -10,6 +11,7 @@ import * as direct from '../../pkg/direct.js';
 import { OPTIONS } from '../../pkg/options.js';
 import { command, parse, run, runProcess, temporaryFolder } from './support/command.mjs';
 import { cylinder, deviation, endless, image, lattice, noisy, plane } from './support/shapes.mjs';
+import { until } from './support/waiting.mjs';
 
 await Promise.all([direct.init(), direct.load('files')]);
 const folder = await temporaryFolder();
@@ -413,11 +415,26 @@ test('- is standard input and output', async () => {
     ['fit - -o - --to jpg', /output must end in .*"-\.jpg"/],
     ['fit - -o x.npy --to npy', /--to says what is written to standard output: leave it out/],
     ['fit - -o - --to npy --report -', /output and the report are the same file/],
+    ['patches - --report -', /output and the report are the same file/],
+    ['rulings - --as-is --report -', /output and the report are the same file/],
+    ['info - ramp.npy', /- is standard input of one input with one output/],
+    ['fit - -o piped/', /- is standard input of one input with one output/],
   ];
   for (const [args, message] of wrong) {
     const { status, stdout, stderr } = await run(folder, args.split(' '), { input });
     assert.deepEqual([status, stdout], [2, ''], args);
     assert.match(stderr, message);
+  }
+});
+
+test('an interruption ends the wait for standard input', async () => {
+  for (const args of [['info', '-'], ['fit', 'ramp.npy', '--mask', '-', '-o', 'never.npy']]) {
+    const stopping = new AbortController();
+    const input = new PassThrough();
+    const waiting = run(folder, args, { input, signal: stopping.signal });
+    await until('standard input is read', () => input.listenerCount('readable') > 0);
+    stopping.abort();
+    assert.deepEqual(await waiting, { status: 130, stdout: '', stderr: '' });
   }
 });
 

@@ -485,7 +485,7 @@ test('a photo without a page is left out of a book, named, and loses none of the
 
 test('a photo without a page is refused', () => {
   assert.equal(direct.findPage(table).verdict, 'notFound');
-  assert.throws(() => direct.dewarpPage(table), error('NO_PAGE', /trace its edges, or take the photo anew/));
+  assert.throws(() => direct.dewarpPage(table), error('NO_PAGE', /trace its edges, or take the photo again/));
 });
 
 test('the command finds the page by itself', async () => {

@@ -1,6 +1,7 @@
 /** The promise API in Node, where the solver runs in a worker thread. */
 import assert from 'node:assert/strict';
 import { spawn } from 'node:child_process';
+import { subscribe, unsubscribe } from 'node:diagnostics_channel';
 import { readFile } from 'node:fs/promises';
 import { after, test } from 'node:test';
 import { pathToFileURL } from 'node:url';
@@ -68,6 +69,44 @@ test('any call can be aborted: its work ends, and calls beside it go on', async 
   const unharmed = await worker.unroll(image(40, 40, plane), { signal: new AbortController().signal });
   assert.deepEqual(unharmed.places, (await beside).places);
   await assert.rejects(worker.unroll(input, { signal: /** @type {any} */ ('now') }), { code: 'OPTION', message: /signal/ });
+});
+
+test('calls that can be aborted wait for one another, and use no further threads', async () => {
+  const { input } = await developable.example('roof', { size: 400 });
+  const worker = new DevelopableWorker({ threads: 2 });
+  let started = 0;
+  const count = () => void (started += 1);
+  subscribe('worker_threads', count);
+  after(() => {
+    worker.dispose();
+    unsubscribe('worker_threads', count);
+  });
+  const short = () => worker.unroll(image(40, 40, plane), { signal: new AbortController().signal });
+  const long = ({ signal } = new AbortController()) => worker.unroll(input, { maxIterations: 1e6, tolerance: 1e-300, signal });
+  await Promise.all(Array.from({ length: 6 }, short));
+  assert.equal(started, 2);
+
+  // An abort leaves the idle worker to the next call.
+  const stopping = new AbortController();
+  const stopped = assert.rejects(long(stopping), { name: 'AbortError' });
+  await short();
+  const before = started;
+  stopping.abort();
+  await stopped;
+  await short();
+  assert.equal(started, before);
+
+  // An abort ends the wait, and so does the end of the worker.
+  const waiting = new AbortController();
+  const running = [long(), long()];
+  const queued = [long(waiting), long()];
+  const aborted = assert.rejects(queued[0], { name: 'AbortError' });
+  const disposed = [...running, queued[1]].map((call) => assert.rejects(call, { code: 'DISPOSED' }));
+  await breathe();
+  waiting.abort();
+  await aborted;
+  worker.dispose();
+  await Promise.all(disposed);
 });
 
 test('an abort rejects at once and stops the work', async () => {

@@ -5,12 +5,16 @@ import { chmod, mkdir, readFile, writeFile } from 'node:fs/promises';
 import { connect } from 'node:net';
 import { join } from 'node:path';
 import { after, test } from 'node:test';
+import { brotliCompressSync } from 'node:zlib';
 import { temporaryFolder } from './support/command.mjs';
 import { root } from './support/paths.mjs';
 
 const outside = await temporaryFolder();
 const folder = join(outside, 'site');
 await mkdir(join(folder, 'sub.js'), { recursive: true });
+await mkdir(join(folder, 'assets'));
+await writeFile(join(folder, 'assets/a.js'), 'export {};');
+await writeFile(join(folder, 'assets/a.js.br'), brotliCompressSync('export {};'));
 await writeFile(join(outside, 'secret.txt'), 'secret');
 await writeFile(join(folder, 'index.html'), '<title>page</title>');
 await writeFile(join(folder, 'a b%.js'), 'export {};');
@@ -115,6 +119,21 @@ test('no request ends the server, and none leads out of the folder', async () =>
   for (const text of requests) await raw(text.slice(0, text.length / 2), true);
   assert.ok(!ended);
   await pageIsThere();
+});
+
+test('only what is there is cached', async () => {
+  const kept = 'public, max-age=31536000, immutable';
+  /** @type {[string, Record<string, string>, [number, string, string | null]][]} */
+  const cases = [
+    ['assets/a.js', {}, [200, kept, 'br']],
+    ['assets/a.js', { Range: 'bytes=999-' }, [416, 'no-store', null]],
+    ['assets/gone.js', {}, [404, 'no-store', null]],
+    ['empty.js?/assets/', {}, [200, 'no-store', null]],
+  ];
+  for (const [path, headers, expected] of cases) {
+    const { status, headers: told } = await fetch(url + path, { headers: { 'Accept-Encoding': 'br', ...headers } });
+    assert.deepEqual([status, told.get('cache-control'), told.get('content-encoding')], expected, path);
+  }
 });
 
 test('a range is sent, and one that is none refused', async () => {

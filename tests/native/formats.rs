@@ -234,7 +234,8 @@ proptest! {
         }),
     ) {
         let bytes = write_npy(values.len() / cols, cols, &values).unwrap();
-        let found = decode(&bytes, Some(Format::Npy)).unwrap();
+        let as_stored = DecodeOptions::default().assume_no_data(false);
+        let found = decode_with(&bytes, Some(Format::Npy), &as_stored).unwrap();
         prop_assert_eq!((found.width, found.height), (cols, values.len() / cols));
         prop_assert_eq!(found.data_type, "f64");
         for (a, b) in found.values.iter().zip(&values) {

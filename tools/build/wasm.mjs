@@ -23,7 +23,7 @@ import { run } from '../util/process.mjs';
  * have to send, gzipped.
  */
 const files = [
-  { name: 'solver', limit: 259_000 },
+  { name: 'solver', limit: 262_000 },
   { name: 'files', limit: 292_000 },
   { name: 'images', limit: 560_000 },
   { name: 'meshes', limit: 318_000 },

@@ -56,7 +56,10 @@ function isolated(response) {
 async function takeShared(request) {
   const files = (await request.formData()).getAll('files');
   const cache = await caches.open('shared with developable');
-  for (const file of files) if (file instanceof File) await cache.put(new URL(`./shared/${encodeURIComponent(file.name)}`, scope), new Response(file));
+  for (const [index, file] of files.entries()) {
+    // Files of the same name may come from several folders.
+    if (file instanceof File) await cache.put(new URL(`./shared/${index}/${encodeURIComponent(file.name)}`, scope), new Response(file));
+  }
   return Response.redirect(scope.href, 303);
 }
 

@@ -108,12 +108,8 @@ impl StoredImage {
     /// [`Error::OutOfMemory`].
     pub(super) fn finish(mut self, options: &DecodeOptions) -> Result<Decoded> {
         let mut assumptions = self.assumptions;
-        // -9999.9 is another number in 32 bits.
-        let stored = |value: f64| match self.data_type {
-            "f32" => f64::from(value as f32),
-            _ => value,
-        };
-        if let Some(missing) = options.no_data.map(stored) {
+        if let Some(missing) = options.no_data {
+            let missing = no_data::as_stored(missing, self.data_type);
             (self.values.iter_mut().filter(|value| **value == missing))
                 .for_each(|value| *value = f64::NAN);
         }

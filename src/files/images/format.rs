@@ -71,8 +71,9 @@ const MAGIC_BYTES: [(&[u8], Format); 15] = [
     (b"\xff\xd8\xff", Format::Jpeg),
     (b"RIFF????WEBP", Format::WebP),
     (b"GIF8", Format::Gif),
-    // After the size of the file four bytes are reserved.
-    (b"BM????\0\0\0\0", Format::Bmp),
+    // The size of the file, four bytes for the program that wrote it, where the pixels begin, and the size of the header
+    // that follows, which is below 256.
+    (b"BM?????????????\0\0\0", Format::Bmp),
 ];
 
 impl Format {

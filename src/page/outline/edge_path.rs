@@ -16,6 +16,10 @@ const BAND_MARGIN: usize = 4;
 /// Half width, in pixels, of the window over which the colours along a region's border are averaged.
 const SMOOTHING_LENGTH: usize = 8;
 
+/// Length, in pixels of the reduced photo, of the bends of a page's traced edge that are smoothed: those of frayed paper and of
+/// patterns of the ground. Chosen by `benches/page.md`.
+const EDGE_SMOOTHING_LENGTH: f64 = 8.0;
+
 /// Length, in pixels, of the bends of a region's border that are smoothed before the page's edge is searched beside it.
 const BORDER_SMOOTHING_LENGTH: f64 = 25.0;
 
@@ -238,7 +242,7 @@ impl EdgePath {
         let mut contrasts: Vec<f64> = contrasts.iter().map(|c| f64::from(*c)).collect();
         let contrast = crate::math::statistics::median(&mut contrasts).unwrap_or(0.0);
         Some(EdgePath {
-            points,
+            points: piecewise_smooth(&points, EDGE_SMOOTHING_LENGTH),
             support,
             visible,
             contrast,

@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use rustc_hash::FxHashMap;
+use rustc_hash::{FxHashMap, FxHashSet};
 
 use super::patches::{FlatPatches, inner_sides, is_step};
 use super::polyhedron::Polyhedron;
@@ -38,6 +38,9 @@ pub(super) fn radii(solid: &Polyhedron, patches: &FlatPatches) -> Vec<Option<f64
         .collect()
 }
 
+/// Difference of a sum of fold angles from half a turn, in radians, that is rounding.
+const ROUNDING_ANGLE: f64 = 1e-3;
+
 /// Tells the folds of each bend of a sheet which bend that is; `bend_of` gives the patch and the radius of a fold's bend.
 /// What is rolled by more than half a turn is no bend.
 pub(super) fn mark_bends(folds: &mut [Fold], bend_of: impl Fn(&Fold) -> Option<(u32, f64)>) {
@@ -61,9 +64,11 @@ pub(super) fn mark_bends(folds: &mut [Fold], bend_of: impl Fn(&Fold) -> Option<(
             .iter()
             .map(|k| (folds[*k].seam.crease, folds[*k].seam.angle))
             .collect();
-        lines.dedup_by_key(|(crease, _)| *crease);
+        let mut seen = FxHashSet::default();
+        lines.retain(|(crease, _)| seen.insert(*crease));
         let angle: f64 = lines.iter().map(|(_, angle)| angle).sum();
-        if angle > PI {
+        // A hem is a bend of half a turn.
+        if angle > PI + ROUNDING_ANGLE {
             continue;
         }
         let mut turned = 0.0;

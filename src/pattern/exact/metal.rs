@@ -22,6 +22,9 @@ const MIN_SMALLER_SKIN_SHARE: f64 = 0.4;
 /// Maximum thickness of a sheet, as a share of the side of a square with the area of a skin.
 const MAX_THICKNESS_SHARE: f64 = 0.1;
 
+/// Maximum product of the numbers of facets and triangles: some seconds of search in wasm.
+const MAX_FACET_TRIANGLE_PAIRS: usize = 100_000_000;
+
 /// A solid of sheet metal: its thickness, and the one of its skins that has the larger area.
 #[derive(Debug, Clone)]
 #[non_exhaustive]
@@ -34,7 +37,8 @@ pub struct SheetMetal {
 }
 
 /// Recognises a solid of sheet metal: a closed mesh with exact faces most of whose area has, at one depth, a parallel face
-/// below it. `None` for any other mesh. Costs `O(facets · triangles)`.
+/// below it. `None` for any other mesh, and for one of so many facets and triangles that the search would take seconds.
+/// Costs `O(facets · triangles)`.
 ///
 /// # Errors
 /// [`Error::OutOfMemory`](crate::Error::OutOfMemory).
@@ -42,7 +46,8 @@ pub fn sheet_metal(mesh: &Mesh) -> Result<Option<SheetMetal>> {
     let Ok(solid) = Polyhedron::new(mesh) else {
         return Ok(None);
     };
-    if solid.twins.contains(&NO_INDEX) {
+    let pairs = solid.areas.len().saturating_mul(solid.triangles.len());
+    if solid.twins.contains(&NO_INDEX) || pairs > MAX_FACET_TRIANGLE_PAIRS {
         return Ok(None);
     }
     let depths = depths(&solid);

@@ -14,7 +14,7 @@ mod search;
 mod sheets;
 
 use super::mesh::MeshPattern;
-use crate::error::Result;
+use crate::error::{Error, Result};
 use crate::scene::mesh::Mesh;
 pub use metal::{SheetMetal, sheet_metal};
 use net::{EdgeChoices, Net};
@@ -51,6 +51,14 @@ pub fn pattern_exact(mesh: &Mesh, options: &NetOptions) -> Result<MeshPattern> {
         let patches = FlatPatches::new(&solid, &net)?;
         choices.cut = patches.facets_between(&solid, &options.cut)?;
         choices.join = patches.facets_between(&solid, &options.join)?;
+        if choices.join.iter().any(|pair| choices.cut.contains(pair)) {
+            return Err(Error::Unsupported {
+                format: "pattern",
+                reason:
+                    "the same edge is to be cut and to be a fold: leave it out of `cut` or `join`"
+                        .into(),
+            });
+        }
     }
     let net = Net::new(&solid, options.room, choices)?;
     let patches = FlatPatches::new(&solid, &net)?;

@@ -57,7 +57,8 @@ pub(super) struct Hinge {
     pub length: f64,
 }
 
-/// The hinges of a polyhedron, the longest first. Two facets that meet along several lines have several.
+/// The hinges of a polyhedron, the longest first. Two facets that meet along several lines have one hinge, as long as
+/// all of them.
 fn hinges(solid: &Polyhedron) -> Vec<Hinge> {
     let mut between: FxHashMap<[u32; 2], (u32, f64, f64)> = FxHashMap::default();
     for (side, twin) in (0u32..).zip(&solid.twins) {

@@ -172,6 +172,8 @@ fn flat_parts(mut body: Body, limits: Limits) -> Result<(Body, Vec<FlatPart>, Mi
             .for_each(|t| *t = moved[*t as usize]);
     }
     let numbers = body.sort();
+    // Those that are left out have no area, and the last numbers.
+    body.count -= left_out.len() as u32;
     let mut parts: Vec<(u32, FlatPart)> = (flat.into_iter())
         .map(|(part, laid)| (numbers[part as usize], laid))
         .collect();

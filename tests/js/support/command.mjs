@@ -68,7 +68,7 @@ let running = Promise.resolve();
  * @param {string[]} args
  * @param {object} [options]
  * @param {AbortSignal} [options.signal] interrupts it
- * @param {Uint8Array} [options.input] what is on standard input
+ * @param {Uint8Array | PassThrough} [options.input] what is on standard input, or that itself
  * @param {boolean} [options.terminal] whether somebody reads standard error on a terminal
  * @returns {Promise<{ status: number, stdout: string, stderr: string }>}
  */
@@ -80,12 +80,12 @@ export function run(folder, args, options = {}) {
 
 /** @type {(...of: Required<Parameters<typeof run>>) => ReturnType<typeof run>} */
 async function runHere(folder, args, { signal, input, terminal = false }) {
-  const [stdin, stdout, stderr] = [new PassThrough(), new PassThrough(), Object.assign(new PassThrough(), { isTTY: terminal })];
+  const stdin = input instanceof PassThrough ? input : new PassThrough().end(input);
+  const [stdout, stderr] = [new PassThrough(), Object.assign(new PassThrough(), { isTTY: terminal })];
   const said = Promise.all([text(stdout), text(stderr)]);
   const before = process.cwd();
   process.chdir(folder);
   try {
-    stdin.end(input);
     const status = await main(args, { stdin, stdout, stderr, signal });
     stdout.end();
     stderr.end();

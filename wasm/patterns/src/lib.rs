@@ -223,6 +223,11 @@ pub fn draw_pattern_of_mesh(mesh: JsValue, options: JsValue) -> Result<JsValue> 
     }
     let found = match wanted.own.exact.unwrap_or_else(|| has_exact_faces(&mesh)) {
         true => pattern_exact(&mesh, &wanted.net_options())?,
+        false if !(wanted.own.cut.is_empty() && wanted.own.join.is_empty()) => {
+            return Err(Failure::option(
+                "options `cut` and `join` are for meshes with exact faces",
+            ));
+        }
         false => sheets_of(&mesh, &wanted)?.1,
     };
     wanted.draw(&found.sheets, &found.missing)
@@ -309,6 +314,8 @@ struct UnrollingReport {
     strain: f64,
     /// Root mean square distance between the two sides of a fold, in the mesh's unit of length, of the worst sheet.
     seam_gap: f64,
+    /// What cannot be laid flat and is on no sheet.
+    missing: Missing,
 }
 
 /// Cuts a mesh into flat sheets and lays them side by side; returns JavaScript's `MeshUnrolling` object.
@@ -348,6 +355,7 @@ pub fn unroll_mesh(mesh: JsValue, options: JsValue) -> Result<JsValue> {
             area: found.sheets.iter().map(|sheet| sheet.area).sum(),
             strain: most(|sheet| sheet.strain),
             seam_gap: most(|sheet| sheet.seam_gap),
+            missing: found.missing,
         },
     })?)
 }

@@ -67,9 +67,10 @@ fn esri_grid(text: &str) -> Result<Option<(Grid, Option<f64>)>> {
         return Ok(None);
     };
     let size = (cols as usize, rows as usize);
-    let cell = number("cellsize")?.unwrap_or(1.0);
-    let sides = [number("dx")?.unwrap_or(cell), number("dy")?.unwrap_or(cell)];
-    if !sides.iter().all(|side| side.is_finite() && *side > 0.0) {
+    let cell = number("cellsize")?;
+    let [dx, dy] = [number("dx")?.or(cell), number("dy")?.or(cell)];
+    let sides = dx.zip(dy).map(|(dx, dy)| [dx, dy]);
+    if !(sides.iter().flatten()).all(|side| side.is_finite() && *side > 0.0) {
         return Err(damaged(Format::Text, "its cells have no size"));
     }
     let count = checked_cells("ASCII grid", size.1, size.0)?;
@@ -82,7 +83,7 @@ fn esri_grid(text: &str) -> Result<Option<(Grid, Option<f64>)>> {
         Grid {
             values,
             size,
-            sides: Some(sides),
+            sides,
             assumptions: Vec::new(),
         },
         number("nodata_value")?,
@@ -233,6 +234,15 @@ mod tests {
             .and_then(|file| file.finish(&DecodeOptions::default()))
             .unwrap();
         (file.width, file.height, file.pixel_size, file.values)
+    }
+
+    #[test]
+    fn an_esri_grid_without_a_size_of_cells_has_one_that_is_assumed() {
+        let file = decode(b"ncols 3\nnrows 2\n100 900 500\n300 200 700\n").unwrap();
+        assert_eq!(file.sides, None);
+        let file = file.finish(&DecodeOptions::default()).unwrap();
+        let assumed: Vec<&str> = file.assumptions.iter().map(|one| one.code).collect();
+        assert_eq!(assumed, ["pixelSize"]);
     }
 
     #[test]

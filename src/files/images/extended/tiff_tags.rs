@@ -11,6 +11,7 @@ use super::samples::{damaged, unsupported};
 use crate::error::{Error, Result};
 use crate::files::images::format::Format;
 use crate::files::images::georeference::Georeference;
+use crate::files::images::no_data::as_stored;
 use crate::files::{Assumption, Unit};
 
 pub(crate) type File<'a> = Decoder<Cursor<&'a [u8]>>;
@@ -278,9 +279,13 @@ fn gdal_heights(file: &mut File) -> Result<HeightTags> {
             .and_then(|text| text.parse().ok())
             .filter(|value: &f64| value.is_finite()))
     };
+    let offset = number("offset")?;
     Ok(HeightTags {
-        scale: number("scale")?.filter(|scale| *scale != 0.0),
-        offset: number("offset")?.unwrap_or(0.0),
+        // GDAL's scale beside an offset is 1 where the file names none.
+        scale: number("scale")?
+            .filter(|scale| *scale != 0.0)
+            .or(offset.map(|_| 1.0)),
+        offset: offset.unwrap_or(0.0),
     })
 }
 
@@ -324,11 +329,7 @@ fn no_data(file: &mut File, data_type: &str) -> Result<Option<f64>> {
             format!("its tag GDAL_NODATA is `{text}`, no number"),
         )
     })?;
-    // Rounded as the file stores it: -9999.9 is another number in 32 bits.
-    Ok(Some(match data_type {
-        "f32" => f64::from(value as f32),
-        _ => value,
-    }))
+    Ok(Some(as_stored(value, data_type)))
 }
 
 fn unsigned(file: &mut File, tag: Tag) -> Result<Option<u16>> {

@@ -77,7 +77,7 @@ export interface HandOver {
 /** Option of the calls that take long. */
 export interface Abortable {
   /**
-   * Signal that stops the work itself: a call with a signal runs in a second worker, which an abort ends. The call rejects with the
+   * Signal that stops the work itself: a call with a signal runs in another worker, at most two at a time, which an abort ends. The call rejects with the
    * signal's reason.
    */
   signal?: AbortSignal;

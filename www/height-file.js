@@ -43,6 +43,7 @@ export async function readInput(api, file, signal, arrayName, { photo: photoFile
   return {
     ...input,
     name: file.name.replace(/\.[^.]*$/, '') || 'heights',
+    file: file.name,
     kind: `${format.toUpperCase()}, ${numberTypeInWords(dataType)}`,
     dataType,
     assumptions,

@@ -80,7 +80,7 @@ async function start() {
       mode.enter('heights');
       void source.openFiles(stored);
     },
-    openPhotos: page.openStored, beginPhoto: page.begin, meshFit, meshFitView,
+    openPhotos: page.openStored, beginPhoto: page.begin, showExamplePhoto: page.showExample, meshFit, meshFitView,
   });
   await started;
   await addressSync.begin();

@@ -89,6 +89,12 @@ export const ENERGIES = {
   huber: 'Gentle bends count by their square, creases by their size: bends stay round and creases sharp. The proof is for the last pass over the creases.',
 };
 
+/** Why a result cannot be copied as a command or as code. */
+export const REPRODUCE_WORDS = {
+  noCommand: 'The command reads heights from a file. It cannot read examples, designs, edited heights, or meshes as they are seen here.',
+  noCode: 'The code reads heights from a file, or makes an example. It cannot make designs, edited heights, or meshes as they are seen here.',
+};
+
 /** Verdicts on an unrolled surface. @type {Record<Verdict, string>} */
 export const VERDICTS = {
   flat: 'The surface was flat already.',

@@ -1,63 +1,81 @@
 /** The solve that is shown, as a line for the command and as code for the package. */
+import { settingsFor } from './design.js';
+import { spacingOf } from './session.js';
 
-/** @import {Result} from './session.js' */
+/** @import {Input, Result} from './session.js' */
 
-/** The settings of a result as options of `fit`, without those that are the package's own. @param {Result} result */
-function optionsOf({ settings, surface: { report } }) {
-  const { gap, schedule, coarsening, reweighting, occlusionThreshold } = settings;
+/** Whether the heights are those of the file or example, without edits, other images, or two values that are no data. @param {Input} input */
+function isUnchanged({ design, sampling, depthUnit, confidence, constraints, isEdited, stored }) {
+  const hasTwoNoDataValues = stored?.zeros === true && stored.noData !== undefined;
+  return !(design || sampling || depthUnit || confidence || constraints || isEdited || hasTwoNoDataValues);
+}
+
+/** The options of `fit` that solve the same, without those that are the package's own. @param {Result} result */
+function optionsOf({ input, settings }) {
+  const { coarsening, schedule, reweighting, ...options } = settingsFor(input, settings);
   return {
-    lambda: settings.lambda,
-    energy: report.energy,
-    gap,
+    ...options,
     ...(schedule === 'paper' && { schedule }),
-    ...(coarsening > 1 && { spacing: coarsening }),
     ...(reweighting > 0 && { reweighting }),
-    ...(occlusionThreshold !== undefined && { occlusionThreshold }),
+    ...(coarsening > 1 && spacingOf(input, coarsening)),
   };
 }
 
-/** How the heights of a file were read, as options. @param {Result} result */
-function readingOf({ input: { stored, array } }) {
-  return {
-    ...(array && { array: array.name }),
-    ...(stored && { pixelSize: stored.pixelSize, heightScale: stored.heightScale }),
-    ...(stored?.noData !== undefined && { noData: stored.noData }),
-    ...(stored?.hexagonal && { lattice: 'hex' }),
-  };
+/** How the heights of a file were read, as options. @param {Input} input */
+function readingOf({ stored, array }) {
+  return { array: array?.name, pixelSize: stored?.pixelSize, heightScale: stored?.heightScale, noData: stored?.zeros ? 0 : stored?.noData };
 }
 
-/** Spacing counts in units of length, and in the page in pixels. @param {Result} result */
-function allOptions(result) {
-  const { spacing, ...options } = optionsOf(result);
-  return { ...options, ...(spacing && { spacing: spacing * result.input.pixelSize }) };
-}
-
-/** The command that solves the same; of an example, its heights have to be saved before. @param {Result} result */
+/**
+ * The command that solves the same.
+ * @param {Result} result
+ * @returns {string | null} null where the command cannot read the input: an example, a design, a mesh, depths, edited heights
+ */
 export function asCommand(result) {
-  const { name, kind = 'npy' } = result.input;
-  const flags = Object.entries({ ...readingOf(result), ...allOptions(result) }).map(([key, value]) => {
-    const text = /^[\w.+-]+$/.test(String(value)) ? value : `'${String(value).replaceAll("'", "'\\''")}'`;
-    return `--${key.replace(/[A-Z]/g, (letter) => `-${letter.toLowerCase()}`)} ${text}`;
-  });
-  const stem = `'${name.replaceAll("'", "'\\''")}`;
-  return `npx developable fit ${stem}.${kind.toLowerCase()}' -o ${stem}-developable.obj' ${flags.join(' ')}`;
+  const { input } = result;
+  const { file, name, stored, assumptions = [] } = input;
+  if (file === undefined || !isUnchanged(input)) return null;
+  const { noData: value, ...reading } = readingOf(input);
+  // On the lattice, the command takes 0 for no data unless it is told otherwise.
+  const noData = value ?? (stored?.hexagonal ? 'none' : undefined);
+  // A command that is told which value is no data assumes no other, as the page has done.
+  if (noData !== undefined && assumptions.some(({ option }) => option === 'noData')) return null;
+  const options = { ...reading, noData, ...(stored?.hexagonal && { lattice: 'hex' }), ...optionsOf(result) };
+  const flags = Object.entries(options).filter(([, given]) => given !== undefined).map(([option, given]) =>
+    `--${option.replace(/[A-Z]/g, (letter) => `-${letter.toLowerCase()}`)} ${quoted(String(given))}`);
+  return ['npx developable fit', quotedPath(file), '-o', quotedPath(`${name}-developable.obj`), ...flags].join(' ');
 }
 
-/** Code for the package that solves the same. @param {Result} result @param {{ size: number, noise: number }} example */
-export function asCode(result, example) {
-  const { name, kind } = result.input;
-  const { array, ...reading } = /** @type {Record<string, unknown>} */ (readingOf(result));
-  const input = kind === undefined
-    ? [`const { input } = await example(${JSON.stringify(name)}, ${JSON.stringify(example)});`]
+/** A word of a POSIX shell. @param {string} text */
+function quoted(text) {
+  return /^[\w.+-]+$/.test(text) ? text : `'${text.replaceAll("'", "'\\''")}'`;
+}
+
+/** A file name as a word of a POSIX shell, which is not taken for a flag. @param {string} path */
+function quotedPath(path) {
+  return quoted(path.startsWith('-') ? `./${path}` : path);
+}
+
+/**
+ * Code for the package that solves the same.
+ * @param {Result} result
+ * @returns {string | null} null where code needs more than a file or an example: a design, a mesh, depths, edited or hexagonal heights
+ */
+export function asCode(result) {
+  const { input } = result;
+  const { name, file, example, stored } = input;
+  if ((file ?? example) === undefined || stored?.hexagonal || !isUnchanged(input)) return null;
+  const { array, ...reading } = readingOf(input);
+  const source = file === undefined
+    ? [
+      "import { example, fit } from 'developable';",
+      `const { input } = await example(${JSON.stringify(name)}, ${JSON.stringify(example)});`,
+    ]
     : [
-      `const image = await read(await readFile(${JSON.stringify(`${name}.${kind.toLowerCase()}`)})${array ? `, ${JSON.stringify({ array })}` : ''});`,
+      "import { readFile } from 'node:fs/promises';",
+      "import { fit, read } from 'developable';",
+      `const image = await read(await readFile(${JSON.stringify(file)})${array ? `, ${JSON.stringify({ array })}` : ''});`,
       `const input = { ...image, ...${JSON.stringify(reading)} };`,
     ];
-  return [
-    ...(kind === undefined ? [] : ["import { readFile } from 'node:fs/promises';"]),
-    `import { fit, ${kind === undefined ? 'example' : 'read'} } from 'developable';`,
-    ...input,
-    `const surface = await fit(input, ${JSON.stringify(allOptions(result))});`,
-    '',
-  ].join('\n');
+  return [...source, `const surface = await fit(input, ${JSON.stringify(optionsOf(result))});`, ''].join('\n');
 }

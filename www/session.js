@@ -32,6 +32,9 @@ import { prepareInput, prepareSmallInput, prepareResult } from './surface/derive
  * @property {MeshSampling} [sampling] for heights that were sampled from a mesh
  * @property {Float64Array} [truth] the surface without noise, if known
  * @property {string} [kind] kind of file, in words; an example has none
+ * @property {string} [file] name of the file of heights
+ * @property {{ size: number, noise: number }} [example] options of the package's example
+ * @property {boolean} [isEdited] whether heights were edited by hand
  * @property {string} [dataType] number type of the file, such as `u16`
  * @property {readonly import('../pkg/types.js').Assumption[]} [assumptions] what the reader of the file has assumed
  * @property {'mm' | 'm'} [depthUnit] probable unit of the values, if they look like depths from a camera
@@ -508,7 +511,7 @@ function isLarge({ width, height }) {
  * @param {Input} input
  * @param {number} coarsening
  */
-function spacingOf({ pixelSize, lattice }, coarsening) {
+export function spacingOf({ pixelSize, lattice }, coarsening) {
   return lattice ? {} : { spacing: coarsening * pixelSize };
 }
 

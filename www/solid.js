@@ -114,7 +114,7 @@ export async function threeMf({ positions, triangles }) {
 /**
  * Solids as formats of the save dialog, and the fields for their size.
  * @param {object} surface
- * @param {number} surface.length longer side in its unit
+ * @param {number} surface.length longest side of its bounding box, in its unit
  * @param {string | null} [surface.unit]
  * @param {boolean} surface.onBase
  * @param {(worker: Worker) => Promise<Pick<Mesh, 'positions' | 'triangles'>>} surface.mesh

@@ -105,6 +105,7 @@ impl Mesh {
     }
 
     /// Returns the longest side of the bounding box of all vertices.
+    #[cfg(feature = "meshes")]
     pub(crate) fn longest_side(&self) -> f64 {
         let [low, high] = self.bounds();
         (0..3).map(|k| high[k] - low[k]).fold(0.0, f64::max)

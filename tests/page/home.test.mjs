@@ -37,7 +37,13 @@ pageTest('behind each door is an example, one click away, and Back leads to the 
   assert.equal(await home.getByRole('article').count(), 3);
   for (const picture of await home.locator('img').all()) assert.ok(await picture.evaluate((one) => /** @type {HTMLImageElement} */ (one).decode().then(() => true)));
 
+  await page.evaluate(() => (location.hash = '#file=99'));
+  await page.locator('#notice', { hasText: 'has not kept the file' }).waitFor();
+  assert.ok(await home.isVisible(), 'a file that is gone leads to the doors');
+
   await page.locator('[data-example="scan"]').click();
+  await page.locator('#page[data-phase="running"]').waitFor();
+  assert.match(await page.evaluate(() => location.hash), /example=roof/, 'Back can be used during the solve');
   await page.locator('#certificate', { hasText: 'Proven' }).waitFor();
   await settled(page);
   await page.waitForFunction(() => location.hash.includes('example=roof'));

@@ -66,6 +66,7 @@ pageTest('settings stand in the address, Back undoes them, and a file is there a
   await page.reload();
   await page.locator('#page-caption', { hasText: 'letter' }).waitFor();
   await page.goBack();
+  await page.locator('#page-caption', { hasText: 'curled' }).waitFor();
   await page.goBack();
   await page.locator('#home').waitFor();
   await page.goBack();

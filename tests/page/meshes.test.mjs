@@ -58,7 +58,7 @@ for (const { format, bytes } of [{ format: 'OBJ', bytes: obj(wedge) }, { format:
   pageTest(`a dropped ${format} is turned, and its heights are those seen from there`, async (page) => {
     await openFromOneSide(page, `wedge.${format.toLowerCase()}`, bytes);
     assert.match(await page.locator('#mesh-name').innerText(), new RegExp(`wedge \\(${format}\\)`));
-    assert.match(await page.locator('#mesh-span').innerText(), /12 triangles; x, y and z span 3, 2, 2\.9 mm\./);
+    assert.match(await page.locator('#mesh-span').innerText(), /12 triangles; x, y and z span 3, 2, 2\.9\./);
     assert.equal(await page.locator('#mesh-missing').isVisible(), false);
     assert.equal(await page.locator('#result-empty').isVisible(), false, 'solved at once');
 

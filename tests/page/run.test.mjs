@@ -33,6 +33,7 @@ pageTest('the first visit shows a solved example with its certificate', async (p
   assert.equal(saved.name, 'roof-report.json');
   const file = JSON.parse(saved.bytes.toString());
   assert.ok(Math.abs(100 * file.gap - gap) <= 0.1 * gap + 0.01, 'the same gap');
+  assert.ok(await page.locator('#copy-command').isDisabled() && await page.locator('#copy-code').isEnabled(), 'an example is made by code alone');
   // All that the page shows.
   assert.deepEqual([file.input.name, file.input.size, file.input.noise, file.settings.gap], ['roof', 400, 0.02, target]);
   assert.match(await page.locator('#verdict').innerText(), new RegExp(`^${file.pieces} smooth pieces meet in ${file.creases} creases`));

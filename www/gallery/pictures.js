@@ -32,7 +32,7 @@ export async function cardInput(api, { example, input }, size) {
   const { name, noise } = example;
   const generated = await api.example(name, { size, noise });
   const { width, height, data, pixelSize = 1, heightScale = 1 } = generated.input;
-  return { name, width, height, data: Float64Array.from(data), pixelSize, heightScale, truth: Float64Array.from(generated.truth) };
+  return { name, width, height, data: Float64Array.from(data), pixelSize, heightScale, truth: Float64Array.from(generated.truth), example: { size, noise } };
 }
 
 /**

@@ -32,6 +32,7 @@ const COPIED_NOTE_MS = 4000;
  * @param {{ readonly now: Mode, show: (mode: Mode) => void }} page.mode
  * @param {(files: readonly File[], states: readonly (PageState | null)[]) => Promise<unknown>} page.openPhotos opens photos of pages that were stored
  * @param {() => void} page.beginPhoto shows an example if no photo of a page is open
+ * @param {() => void} page.showExamplePhoto shows an example in the place of the photo of a page that is open
  * @param {MeshFit} page.meshFit
  * @param {{ readonly view?: string, enter: (view: string) => void, leave: () => void }} page.meshFitView
  */
@@ -43,6 +44,8 @@ export function addressSyncPanel(session, page) {
   let writeTimer = 0;
   /** Whether the state of an address is being shown; the address is not written meanwhile. */
   let isRestoring = false;
+  /** Whether the present input has not been solved yet. */
+  let isNewInput = false;
   /** Whether the open file could not be stored. */
   let isUnstored = false;
   /** Id of the open photos of pages in the storage of recent files. @type {number | undefined} */
@@ -90,6 +93,12 @@ export function addressSyncPanel(session, page) {
     clearTimeout(writeTimer);
     writeTimer = window.setTimeout(writeAddress, HISTORY_DELAY_MS);
   };
+  session.on('cleared', () => (isNewInput = true));
+  // A file gets its address when it has been stored, anything else when its first run begins, so that Back can be used meanwhile.
+  session.on('start', () => {
+    if (isNewInput && session.input?.kind === undefined) writeAddress();
+    isNewInput = false;
+  });
   session.on('result', writeSoon);
   page.meshFit.on('result', writeSoon);
   page.meshFit.on('left', writeSoon);
@@ -112,6 +121,12 @@ export function addressSyncPanel(session, page) {
     return true;
   };
 
+  /** Shows the first screen, since the file of an address is no longer stored. */
+  const showLost = () => {
+    page.mode.show('home');
+    showNotice(ADDRESS_WORDS.lost);
+  };
+
   /** Shows the state of an address. @param {State} state */
   const restoreState = async (state) => {
     isRestoring = true;
@@ -120,9 +135,9 @@ export function addressSyncPanel(session, page) {
       if (isStart(location.hash)) return page.mode.show('home');
       if (state.photo) {
         page.mode.show('photo');
-        if (state.file !== undefined && state.file !== photoId && await openStoredPhotos(state.file)) return;
-        if (state.file !== undefined && state.file !== photoId) showNotice(ADDRESS_WORDS.lost);
-        else if (state.unkept) showNotice(ADDRESS_WORDS.unkept);
+        if (state.file === undefined && !state.unkept) return page.showExamplePhoto();
+        if (state.file !== undefined && state.file !== photoId && !(await openStoredPhotos(state.file))) return showLost();
+        if (state.unkept) showNotice(ADDRESS_WORDS.unkept);
         page.beginPhoto();
         return;
       }
@@ -133,12 +148,13 @@ export function addressSyncPanel(session, page) {
       if (card && page.gallery.present !== card) return await page.gallery.show(card, { ...card.settings, ...state.settings }, state.view);
       const isSameInput = session.input !== null && (card !== undefined || (state.file !== undefined ? state.file === fileId : JSON.stringify(state.example) === JSON.stringify(previous.example)));
       const wanted = card ? { ...session.defaults, ...card.settings, ...state.settings } : settings;
+      const files = isSameInput || state.file === undefined ? undefined : await storedFiles(state.file);
+      if (!isSameInput && state.file !== undefined && !files) return showLost();
       // The input is solved only if it or the settings have changed.
       if (!isSameInput || Object.entries(wanted).some(([name, value]) => session.settings[/** @type {keyof Settings} */ (name)] !== value)) page.adopt(wanted);
-      if (!isSameInput && state.file !== undefined) {
-        const files = await storedFiles(state.file);
-        if (files) await page.openFiles(files);
-        else showNotice(ADDRESS_WORDS.lost);
+      if (files) {
+        await page.openFiles(files);
+        if (session.input === null) return page.mode.show('home');
       } else if (!isSameInput && state.example) {
         await page.openExample(state.example.name, state.example);
       }
@@ -202,14 +218,13 @@ export function addressSyncPanel(session, page) {
   }
 
   return {
-    /** Shows the state of the address, or an example where that has no input, or none that could be opened. */
+    /** Shows the state of the address, or an example where that has no input. */
     async begin() {
       const state = stateOf(location.hash);
       await restoreState(state);
       if (session.input !== null || page.mode.now !== 'heights') return session.wait();
       await page.openExample('roof', { size: 400, noise: 0.02 });
-      if (state.file !== undefined) showNotice(ADDRESS_WORDS.lost);
-      else if (state.unkept) showNotice(ADDRESS_WORDS.unkept);
+      if (state.unkept) showNotice(ADDRESS_WORDS.unkept);
     },
     /** Stores files that were opened. @param {readonly File[]} files */
     async rememberFiles(files) {

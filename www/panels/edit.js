@@ -64,7 +64,7 @@ export function editPanel(session, space) {
     }
     undoSteps.push(step);
     updateControls();
-    void session.updateInput(change);
+    void session.updateInput({ ...change, isEdited: true });
   };
 
   space.addDragHandler({
@@ -90,7 +90,7 @@ export function editPanel(session, space) {
   const undoLast = () => {
     const step = undoSteps.pop();
     updateControls();
-    if (step && session.input) void session.updateInput(undoEdit(session.input, step));
+    if (step && session.input) void session.updateInput({ ...undoEdit(session.input, step), isEdited: undoSteps.length > 0 });
   };
   undo.addEventListener('click', undoLast);
   document.addEventListener('keydown', (event) => {

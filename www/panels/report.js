@@ -2,10 +2,10 @@
 import { download, element } from '../dom.js';
 import { count, number, percentAtMost, seconds } from '../format.js';
 import { accuracyOf } from '../surface/derived-data.js';
-import { ENERGIES, STOP_REASONS, lambdaChoiceInWords } from '../messages.js';
+import { ENERGIES, REPRODUCE_WORDS, STOP_REASONS, lambdaChoiceInWords } from '../messages.js';
 import { REPORT_WORDS } from '../report-words.js';
 import { asCode, asCommand } from '../reproduce.js';
-import { showNotice } from './notice.js';
+import { showError, showNotice } from './notice.js';
 
 /** @import {Analyses} from '../analyses.js' */
 /** @import {Report} from '../api.js' */
@@ -27,16 +27,23 @@ export function reportPanel(session, analyses) {
     if (session.result) act(session.result);
   });
   on('report-save', async (result) => {
-    download(`${JSON.stringify(await reportFile(analyses, result), null, 2)}\n`, 'application/json', `${result.input.name}-report.json`);
+    try {
+      download(`${JSON.stringify(await reportFile(analyses, result), null, 2)}\n`, 'application/json', `${result.input.name}-report.json`);
+    } catch (error) {
+      showError('The report could not be saved', error);
+    }
   });
   on('report-csv', (result) => {
     const rows = groupsOf(result).flatMap(({ title, rows: all }) => all.filter(({ isShown }) => isShown).map(({ name, value }) => [title, name, value]));
     download([['group', 'quantity', 'value'], ...rows].map((cells) => `${cells.map(csvCell).join(',')}\r\n`).join(''), 'text/csv', `${result.input.name}-report.csv`);
   });
-  on('copy-command', (result) => copy('copy-command', asCommand(result)));
-  on('copy-code', (result) => copy('copy-code', asCode(result, exampleOptions())));
+  const offers = [
+    copyButton('copy-command', REPRODUCE_WORDS.noCommand),
+    copyButton('copy-code', REPRODUCE_WORDS.noCode),
+  ];
   session.on('result', (result) => {
     table.replaceChildren(...groupsOf(result).map(rowGroup));
+    [asCommand, asCode].forEach((textOf, i) => offers[i](textOf(result)));
     table.hidden = acts.hidden = false;
     empty.hidden = true;
   });
@@ -46,23 +53,31 @@ export function reportPanel(session, analyses) {
   });
 }
 
-/** Size and noise that are chosen for examples. */
-function exampleOptions() {
-  const [size, noise] = ['size', 'noise'].map((id) => Number(element(id, HTMLSelectElement).value));
-  return { size, noise };
-}
-
-/** @param {string} id of the button @param {string} text */
-async function copy(id, text) {
+/**
+ * A button that copies a text.
+ * @param {string} id
+ * @param {string} words why there may be no text
+ * @returns {(text: string | null) => void} offers a text, or none
+ */
+function copyButton(id, words) {
   const button = element(id, HTMLButtonElement);
   const label = button.textContent;
-  try {
-    await navigator.clipboard.writeText(text);
-    button.textContent = 'Copied';
-    setTimeout(() => (button.textContent = label), COPIED_MS);
-  } catch {
-    showNotice(text, 'note');
-  }
+  let [offered, timer] = ['', 0];
+  button.addEventListener('click', async () => {
+    try {
+      await navigator.clipboard.writeText(offered);
+      button.textContent = 'Copied';
+      clearTimeout(timer);
+      timer = window.setTimeout(() => (button.textContent = label), COPIED_MS);
+    } catch {
+      showNotice(offered, 'note');
+    }
+  });
+  return (text) => {
+    offered = text ?? '';
+    button.disabled = text === null;
+    button.title = text === null ? words : '';
+  };
 }
 
 /** @param {string} text */
@@ -70,11 +85,11 @@ const csvCell = (text) => (/[",\r\n]/.test(text) ? `"${text.replaceAll('"', '""'
 
 /** All that the page shows about a result. @param {Analyses} analyses @param {Result} result */
 async function reportFile(analyses, result) {
-  const { input: { name, kind, width, height, pixelSize, heightScale, unit, stored, assumptions }, settings, surface } = result;
+  const { input: { name, kind, example, width, height, pixelSize, heightScale, unit, stored, assumptions }, settings, surface } = result;
   const [pieces, { before, after }] = await Promise.all([analyses.patchCount(result), analyses.curvatures(result)]);
   return {
     ...surface.report,
-    input: { name, kind: kind ?? 'example', ...(kind ? {} : exampleOptions()), width, height, pixelSize, heightScale, unit, noData: stored?.noData, assumptions },
+    input: { name, kind: kind ?? 'example', ...example, width, height, pixelSize, heightScale, unit, noData: stored?.noData, assumptions },
     settings,
     pieces: Number.isFinite(pieces.count) ? pieces.count : null,
     creases: pieces.creases,

@@ -5,6 +5,7 @@ import { FORMAT_WORDS } from '../messages.js';
 import { longerSide, cutSheets, lengthUnitOf } from '../pattern.js';
 import { solidFormats } from '../solid.js';
 import { resultImage } from '../surface/derived-data.js';
+import { longestLatticeSide } from '../surface/lattice.js';
 import { offerToSave } from './save-dialog.js';
 import { offerSheets } from './sheets.js';
 
@@ -50,7 +51,7 @@ function offerFile(api, result) {
   const { surface } = result;
   const image = () => resultImage(result);
   const solid = solidFormats({
-    length: longerSide(result), unit: result.input.unit, onBase: true,
+    length: longestLatticeSide(surface), unit: result.input.unit, onBase: true,
     mesh: async (worker) => worker.readMesh(new File([/** @type {Uint8Array<ArrayBuffer>} */ (await worker.writePly({ ...surface, frame: undefined, colors: undefined, uvs: undefined }))], 'surface.ply')),
   });
   const offer = offerToSave(api, {

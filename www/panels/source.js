@@ -60,7 +60,7 @@ export function sourcePanel(session, { choose, usePhoto }, onOpened, solveMesh, 
       const name = /** @type {ExampleName} */ (radio.value);
       const { input, truth } = await session.example(name, options);
       const { width, height, data, pixelSize: side = 1, heightScale: step = 1 } = input;
-      return { name, width, height, data, pixelSize: side, heightScale: step, truth };
+      return { name, width, height, data, pixelSize: side, heightScale: step, truth, example: options };
     });
     if (opened) await session.run();
   };

@@ -23,6 +23,23 @@
 export const ROW_SPACING_RATIO = Math.sqrt(3) / 2;
 
 /**
+ * Longest side of the bounding box of the vertices with a height.
+ * @param {Pick<Lattice, 'cols' | 'spacing'> & { heights: ArrayLike<number> }} lattice
+ */
+export function longestLatticeSide({ cols, spacing, heights }) {
+  const [low, high] = [[Infinity, Infinity, Infinity], [-Infinity, -Infinity, -Infinity]];
+  for (let i = 0; i < heights.length; i++) {
+    if (!Number.isFinite(heights[i])) continue;
+    const row = Math.floor(i / cols);
+    [(i % cols - 0.5 * (row % 2)) * spacing, row * ROW_SPACING_RATIO * spacing, heights[i]].forEach((value, k) => {
+      low[k] = Math.min(low[k], value);
+      high[k] = Math.max(high[k], value);
+    });
+  }
+  return Math.max(...high.map((value, k) => value - low[k]));
+}
+
+/**
  * The pixels of an input, or those that show its lattice.
  * @param {Pick<Input, 'width' | 'height' | 'pixelSize' | 'lattice'>} input
  * @returns {Grid}

@@ -55,6 +55,8 @@ export class MeshView {
   #isSettingDirection = false;
   /** The direction of view at the last change, as a string. */
   #lastDirection = '';
+  /** Ends the first turn of the mesh. */
+  #turning = new AbortController();
 
   /**
    * Creates a view on a canvas.
@@ -163,21 +165,24 @@ export class MeshView {
   /** Turns the mesh slowly to its present direction, once, unless the user takes hold of it or prefers less motion. */
   turnOnce() {
     if (matchMedia('(prefers-reduced-motion: reduce)').matches) return;
+    this.#turning.abort();
+    const turning = (this.#turning = new AbortController());
+    const { signal } = turning;
+    for (const event of ['pointerdown', 'keydown', 'wheel']) this.canvas.addEventListener(event, () => turning.abort(), { passive: true, signal });
     const start = performance.now();
-    let [turned, isHeld] = [0, false];
-    const hold = () => (isHeld = true);
-    for (const event of ['pointerdown', 'keydown', 'wheel']) this.canvas.addEventListener(event, hold, { once: true, passive: true });
-    this.#controls.rotateLeft(FIRST_TURN_RADIANS);
+    let remaining = 0;
     /** @param {number} now */
     const step = (now) => {
-      const share = isHeld ? 1 : Math.min(1, (now - start) / FIRST_TURN_MS);
-      const angle = FIRST_TURN_RADIANS * share * (2 - share);
+      if (signal.aborted) return;
+      const share = Math.min(1, Math.max(0, (now - start) / FIRST_TURN_MS));
+      const next = FIRST_TURN_RADIANS * (1 - share) ** 2;
       this.#isSettingDirection = true;
-      if (!isHeld) this.#controls.rotateLeft(turned - angle);
+      this.#controls.rotateLeft(next - remaining);
       this.#controls.update();
       this.#isSettingDirection = false;
-      turned = angle;
+      remaining = next;
       if (share < 1) requestAnimationFrame(step);
+      else turning.abort();
     };
     requestAnimationFrame(step);
   }
@@ -264,8 +269,9 @@ export class MeshView {
     return [-x / length, -y / length, -z / length];
   }
 
-  /** Sets the direction of view, and resets the zoom. @param {Vector} direction */
+  /** Sets the direction of view, resets the zoom, and ends the first turn. @param {Vector} direction */
   setDirection([x, y, z]) {
+    this.#turning.abort();
     this.#camera.zoom = 1;
     this.#camera.updateProjectionMatrix();
     this.#camera.position.set(-x, -y, -z).normalize().multiplyScalar(CAMERA_DISTANCE);

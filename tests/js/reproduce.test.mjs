@@ -1,0 +1,99 @@
+/** What the page copies of a result, as a command and as code: both are run here. */
+import assert from 'node:assert/strict';
+import { execFile } from 'node:child_process';
+import { writeFile } from 'node:fs/promises';
+import { join } from 'node:path';
+import { test } from 'node:test';
+import { promisify } from 'node:util';
+import * as direct from '../../pkg/direct.js';
+import { optionsOf } from '../../pkg/options.js';
+import { asCode, asCommand } from '../../www/reproduce.js';
+import { longestLatticeSide } from '../../www/surface/lattice.js';
+import { parse, run, temporaryFolder } from './support/command.mjs';
+import { image, lattice, plane } from './support/shapes.mjs';
+import { pkg } from './support/paths.mjs';
+
+/** @typedef {import('../../www/session.js').Input} Input */
+/** @typedef {import('../../www/session.js').Settings} Settings */
+
+await Promise.all([direct.init(), direct.load('files'), direct.load('images')]);
+const folder = await temporaryFolder();
+const FILE = "Tom's $HOME (1).tiff";
+const ramp = image(24, 20, plane);
+ramp.data[50] = 0;
+await writeFile(join(folder, FILE), direct.writeTiff(ramp));
+await writeFile(join(folder, '-hex.npy'), direct.writeNpy(lattice(22, 26, plane, 0.5)));
+
+/** @type {Settings} */
+const defaults = { lambda: 'auto', gap: 0.01, schedule: 'default', coarsening: 1, energy: undefined, reweighting: 0, occlusionThreshold: undefined };
+const stored = { width: 24, height: 20, data: ramp.data, pixelSize: 0.5, heightScale: -2, zeros: true, hexagonal: false, design: false, levels: false, guesses: '', coarsening: 1 };
+/** @type {Input} */
+const opened = { name: "Tom's $HOME (1)", file: FILE, kind: 'TIFF, 32-bit floats', width: 24, height: 20, data: ramp.data, pixelSize: 0.5, heightScale: -2, stored };
+const hexagonal = { ...opened, name: '-hex', file: '-hex.npy', stored: { ...stored, zeros: false, hexagonal: true }, lattice: lattice(22, 26, plane, 0.5) };
+const example = { ...opened, name: 'roof', file: undefined, kind: undefined, stored: undefined, example: { size: 24, noise: 0.02 } };
+
+/** @param {Input} input @param {Partial<Settings>} [settings] */
+const resultOf = (input, settings) => /** @type {import('../../www/session.js').Result} */ ({ input, settings: { ...defaults, ...settings } });
+
+/** The arguments that a shell passes to `npx developable`. @param {string | null} line */
+async function argumentsOf(line) {
+  const { stdout } = await promisify(execFile)('sh', ['-c', `npx() { printf '%s\\0' "$@"; }; ${line}`]);
+  const [program, ...args] = stdout.split('\0').slice(0, -1);
+  assert.equal(program, 'developable');
+  return args;
+}
+
+/** Runs code with the package, and returns the options of its fit. @param {string | null} code */
+async function runCode(code) {
+  assert.ok(code);
+  const address = new URL(`file://${join(pkg, 'index.js')}`).href;
+  await promisify(execFile)(process.execPath, ['--input-type=module', '-e', code.replace("'developable'", `'${address}'`)], { cwd: folder });
+  return optionsOf('fit', JSON.parse(/fit\(input, (.*)\);/.exec(code)?.[1] ?? ''));
+}
+
+test('the command names the file, how it was read and the options, and runs', async () => {
+  const args = await argumentsOf(asCommand(resultOf(opened, { coarsening: 2, lambda: 1e5, energy: 'nuclear', reweighting: 1, occlusionThreshold: 4e4 })));
+  const { command, input, output, pixelSize, heightScale, noData, lambda, energy, gap, spacing, reweighting, occlusionThreshold, ...others } = /** @type {any} */ (parse(args));
+  assert.deepEqual(
+    { command, input, output, pixelSize, heightScale, noData, lambda, energy, gap, spacing, reweighting, occlusionThreshold },
+    { command: 'fit', input: FILE, output: "Tom's $HOME (1)-developable.obj", pixelSize: 0.5, heightScale: -2, noData: 0, lambda: 1e5, energy: 'nuclear', gap: 0.01, spacing: 1, reweighting: 1, occlusionThreshold: 4e4 },
+  );
+  assert.equal(others.schedule, undefined);
+  const { status, stderr } = await run(folder, args);
+  assert.equal(status, 0, stderr);
+});
+
+test('the paper’s schedule has no gap, and a lattice no spacing of pixels', async () => {
+  const args = await argumentsOf(asCommand(resultOf(hexagonal, { schedule: 'paper', coarsening: 2 })));
+  assert.ok(!args.includes('--gap') && !args.includes('--spacing'), args.join(' '));
+  assert.deepEqual(args.slice(args.indexOf('--no-data'), args.indexOf('--lattice') + 2), ['--no-data', 'none', '--lattice', 'hex']);
+  const { status, stderr } = await run(folder, args);
+  assert.equal(status, 0, stderr);
+  assert.equal(asCode(resultOf(hexagonal)), null);
+});
+
+test('the code of a file and of an example runs', async () => {
+  assert.deepEqual(await runCode(asCode(resultOf(opened, { coarsening: 2 }))), { lambda: 'auto', energy: 'huber', gap: 0.01, spacing: 1 });
+  assert.deepEqual(await runCode(asCode(resultOf(example, { schedule: 'paper' }))), { lambda: 'auto', energy: 'huber', schedule: 'paper' });
+  assert.match(asCode(resultOf(opened)) ?? '', /"noData":0/);
+  assert.match(asCode(resultOf(example)) ?? '', /example\("roof", \{"size":24,"noise":0.02\}\)/);
+});
+
+test('nothing is copied of what neither can open', () => {
+  /** @type {Input[]} */
+  const inputs = [
+    { ...example, design: true }, { ...example, example: undefined }, { ...opened, confidence: ramp.data }, { ...opened, isEdited: true },
+    { ...opened, depthUnit: 'mm' }, { ...opened, stored: { ...stored, noData: 7 } },
+    { ...opened, sampling: { mesh: { positions: new Float64Array(), triangles: new Uint32Array() }, options: {} } },
+  ];
+  for (const input of inputs) assert.deepEqual([asCommand(resultOf(input)), asCode(resultOf(input))], [null, null]);
+  assert.equal(asCommand(resultOf(example)), null, 'the command makes no examples');
+  const assumed = { ...opened, assumptions: [{ code: 'noData', words: '', option: 'noData' }] };
+  assert.equal(asCommand(resultOf(assumed)), null, 'it would assume nothing beside 0');
+});
+
+test('the size of a solid is that of its vertices, without the empty part of the image', () => {
+  const field = lattice(22, 26, () => 3, 0.5);
+  for (let i = 0; i < field.heights.length; i++) if (i % 26 > 10 || i > 4 * 26) field.heights[i] = NaN;
+  assert.equal(longestLatticeSide(field), 10.5 * 0.5);
+});

@@ -77,8 +77,8 @@ export interface HandOver {
 /** Option of the calls that take long. */
 export interface Abortable {
   /**
-   * Signal that stops the work itself: a call with a signal runs in another worker, at most two at a time, which an abort ends. The call rejects with the
-   * signal's reason.
+   * Signal that stops the work itself: a call with a signal runs in another worker, at most two at a time, which an abort ends.
+   * The call rejects with the signal's reason.
    */
   signal?: AbortSignal;
 }

@@ -2,7 +2,6 @@
 import { readFile, writeFile } from 'node:fs/promises';
 import { join } from 'node:path';
 import { pathToFileURL } from 'node:url';
-import { parse } from 'rolldown/utils';
 import { root } from '../util/paths.mjs';
 import { main } from '../util/problem.mjs';
 
@@ -60,6 +59,8 @@ export async function optionTypes() {
  */
 async function exportsOf(path) {
   const source = await readFile(path, 'utf8');
+  // Before `npm install` there is none.
+  const { parse } = await import('rolldown/utils');
   const { program, comments, errors } = await parse(path, source);
   if (errors.length > 0) throw new Error(`${path}: ${errors[0].message}`);
   /** @param {{ start: number }} node */

@@ -1,6 +1,6 @@
 /**
  * `node tools/ci-start.mjs`: runs `npm start` as the README says, waits until the page answers and has solved its
- * example in a real browser, and ends it with Ctrl-C's signal.
+ * example of a scan in a real browser, and ends it with Ctrl-C's signal.
  */
 import assert from 'node:assert/strict';
 import { spawn } from 'node:child_process';
@@ -61,6 +61,7 @@ async function fitInBrowser(url) {
     const errors = [];
     page.on('pageerror', (error) => errors.push(String(error)));
     await page.goto(url);
+    await page.locator('[data-example="scan"]').click();
     await page.locator('#page[data-phase="idle"]').waitFor({ timeout: MAX_FIT_MINUTES * 60_000 });
     // The headline is written when the surface's pieces are counted.
     await page.locator('#verdict:not([aria-busy="true"])').waitFor({ timeout: MAX_FIT_MINUTES * 60_000 });

@@ -61,7 +61,7 @@ const across = ([x, y]) => COS * y - SIN * x;
 pageTest('curvatures of the cylinder: one bend as the radius says, none of the other', async (page) => {
   await example(page, 'cylinder', { noise: '0' });
   const plain = [await look(page, '#input-canvas'), await look(page, '#result-canvas')].map(({ hash }) => hash);
-  await view(page, 'Smaller curvature κ₂');
+  await view(page, 'Curvature κ₂');
   const bends = points(60).map((point) => RADIUS ** 2 / (RADIUS ** 2 - across(point) ** 2) ** 1.5);
   const [kappa1] = (await told(page, 'κ₁')).split('→').map(parsed);
   assert.ok(Math.abs(kappa1 / median(bends) - 1) < 0.03, `${kappa1} against ${median(bends)}`);
@@ -107,7 +107,7 @@ pageTest('curvatures are in the units of the file', async (page) => {
   const [gauss] = (await told(page, 'Median |K|')).split('→').map(parsed);
   // Resampling to the lattice roughens the heights: it is the unit that matters here.
   assert.ok(gauss * radius ** 2 > 0.7 && gauss * radius ** 2 < 1.5, `${gauss}`);
-  await view(page, 'Smaller curvature κ₂');
+  await view(page, 'Curvature κ₂');
   const [bend] = (await told(page, 'Median |κ₂|')).split('→').map(parsed);
   assert.ok(bend * radius > 0.7 && bend * radius < 1.5, `${bend}`);
 });

@@ -349,7 +349,7 @@ pageTest('where a whole mesh is under the pointer, how far it was moved, and wha
     const far = (-b + Math.sqrt(b * b - a * c)) / a;
     const expected = line.map((value, k) => value + far * towards[k]);
     const shown = await pointAt(x, y);
-    const [, ...xyz] = (/^x (\S+), y (\S+), z (\S+) · moved by (\S+)$/.exec(shown) ?? []).map(parsed);
+    const [, ...xyz] = (/^x (\S+), y (\S+), z (\S+) units · moved by (\S+)$/.exec(shown) ?? []).map(parsed);
     expected.forEach((value, k) => assert.ok(Math.abs(xyz[k] - value) < 0.02, `${shown}, and not ${expected}`));
     assert.ok(xyz[3] > 0 && xyz[3] < 0.02, shown);
   }

@@ -32,6 +32,7 @@ impl Assumption {
 }
 
 /// Rounds a number to a number of digits for a sentence.
+#[cfg(any(feature = "formats", feature = "meshes"))]
 pub(crate) fn rounded(number: f64, digits: usize) -> f64 {
     let places = digits.saturating_sub(1);
     format!("{number:.places$e}").parse().unwrap_or(number)

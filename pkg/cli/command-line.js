@@ -50,7 +50,7 @@ export function split(args) {
 }
 
 /**
- * What is wrong with a command line, in commander's words where it is no flag of another command.
+ * Says what is wrong with a command line, in commander's words where it is no flag of another command.
  * @param {CommanderError} error
  * @param {string} [command]
  */

@@ -26,10 +26,10 @@ const known = ['confidence', 'constraints', 'free', 'occlusions', ...flagNames(s
 const output = ['output', 'to', 'force'];
 const general = ['jobs', 'overwrite', 'quiet', 'help'];
 
-/** Of all commands that fit a surface. */
+/** Flags of all commands that fit a surface. */
 const fitted = [...output, 'unit', ...energy, ...heights, ...mesh, ...known, ...general];
 
-/** Of those that go on with it. */
+/** Flags of those commands that go on with the fitted surface. */
 const shaped = [...fitted, 'as-is'];
 
 /** Kinds of files that hold a surface. */

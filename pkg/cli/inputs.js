@@ -80,7 +80,7 @@ export async function readInput(task) {
 /** Whether depths may have this unit. @param {string | undefined} unit @returns {unit is import('../types.js').Unit} */
 const isUnit = (unit) => unit === 'mm' || unit === 'm';
 
-/** What is seen of a mesh. @param {Task & { photo?: Size }} task */
+/** Samples the heights of a mesh as seen from one side. @param {Task & { photo?: Size }} task */
 async function readSampled(task) {
   const { view, resolution, spacing } = task;
   const mesh = await during(`reading ${task.input}`, () => readMesh(task));

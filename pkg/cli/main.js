@@ -62,13 +62,13 @@ function interrupted(reason) {
 
 /** @typedef {(task: import('./task.js').Task, signal: AbortSignal) => Promise<void>} Action */
 
-/** What each command does with one input. @type {Record<import('./commands.js').CommandName, Action>} */
+/** The action of each command on one input. @type {Record<import('./commands.js').CommandName, Action>} */
 const actions = {
   fit, design: fit, occlusions, analyze, patches, rulings, unroll, pattern, dewarp, info,
   completion: ({ input }) => print(completionFor(input)),
 };
 
-/** What all commands do with inputs of some modes. @type {Partial<Record<import('./task.js').Mode, Action>>} */
+/** The action of all commands on inputs of some modes. @type {Partial<Record<import('./task.js').Mode, Action>>} */
 const modeActions = { photo: page, surface: whole };
 
 /**

@@ -1,4 +1,4 @@
-/** What goes wrong with files, in words of our own. */
+/** Messages about files that cannot be read or written, in words of our own. */
 import { messageOf } from '../errors.js';
 import { Problem, status } from './problem.js';
 
@@ -25,7 +25,7 @@ export const reasons = {
 };
 
 /**
- * What went wrong with a file, without the system's own names for it.
+ * Says what went wrong with a file, without the system's own names for it.
  * @param {string} what
  * @param {unknown} error
  */

@@ -294,13 +294,13 @@ pub(super) fn draw_sheets(surface: &Heightfield, whole: &Assembled) -> Result<Pa
     // A sheet of a few vertices whose outline was cut off with a loop is no sheet.
     let least = MIN_OUTLINE_AREA * net.spacing * net.spacing;
     let is_empty = |sheet: &Sheet| sheet.outlines.iter().all(|line| outline_area(line) < least);
-    let missing_area = missing(surface, whole, &[])?.area;
-    let empty = remove_crumbs(&mut sheets, missing_area, is_empty);
+    let mut missing = missing(surface, whole)?;
+    remove_crumbs(&mut sheets, patches.patches(), &mut missing, is_empty);
     sheets.sort_by_key(|sheet| sheet.patches[0]);
     Ok(Pattern {
         sheets,
         patches: patches.clone(),
-        missing: missing(surface, whole, &empty)?,
+        missing,
     })
 }
 
@@ -312,9 +312,9 @@ fn outline_area(line: &[Run]) -> f64 {
     polygon_area(&points.copied().collect::<Vec<_>>()).abs()
 }
 
-/// Computes how many vertices and how much area of the surface are on no sheet, and the number and area of the
-/// surface's steps (edges where it jumps in height). `empty` holds the sheets that are not drawn.
-fn missing(surface: &Heightfield, whole: &Assembled, empty: &[Sheet]) -> Result<Missing> {
+/// Computes how many vertices and how much area of the surface are in no patch, and the number and area of the surface's
+/// steps (edges where it jumps in height).
+fn missing(surface: &Heightfield, whole: &Assembled) -> Result<Missing> {
     let net = &whole.net;
     let torn = (0..net.seams.len()).filter(|seam| net.is_torn(*seam));
     let high = |seam: usize| net.seams[seam].apart * polyline_length(&net.seams[seam].sides[0]);
@@ -331,13 +331,9 @@ fn missing(surface: &Heightfield, whole: &Assembled, empty: &[Sheet]) -> Result<
                 .sum::<f64>()
         }
     };
-    let undrawn = empty.iter().flat_map(|sheet| &sheet.patches);
-    let undrawn = undrawn.map(|patch| whole.patches.patches()[*patch as usize]);
     Ok(Missing {
-        vertices: left_out + undrawn.clone().map(|patch| patch.vertices).sum::<usize>(),
-        area: undrawn
-            .map(|patch| patch.area)
-            .fold(area, |sum, area| sum + area),
+        vertices: left_out,
+        area,
         steps: torn.clone().count(),
         // Not a sum, which is -0 of nothing.
         step_area: torn.map(high).fold(0.0, |sum, area| sum + area),

@@ -1,22 +1,25 @@
 //! Sheets too small to be handled, which are left out of a pattern.
 
 use super::parts::MAX_OMITTED_SHARE;
-use super::sheets::Sheet;
+use super::sheets::{Missing, Sheet};
+use crate::shape::patches::Patch;
 
 /// Maximum area of a crumb, as a share of the area of all sheets: a piece that is lost among the others. On a pattern as
 /// large as a page of A4 it is 8 mm wide.
 const MAX_CRUMB_SHARE: f64 = 0.001;
 
 /// Takes out the sheets that cannot be drawn, and the crumbs, the smallest first, up to the share of the area that may be
-/// left out, of which `missing_area` is left out already; returns them. Along them the other sheets have a border.
+/// left out, of which `missing` has what is left out already, and gets what is taken out. Along it the other sheets have a
+/// border.
 pub(super) fn remove_crumbs(
     sheets: &mut Vec<Sheet>,
-    missing_area: f64,
+    patches: &[Patch],
+    missing: &mut Missing,
     is_undrawable: impl Fn(&Sheet) -> bool,
-) -> Vec<Sheet> {
-    let whole = missing_area + sheets.iter().map(|sheet| sheet.area).sum::<f64>();
+) {
+    let whole = missing.area + sheets.iter().map(|sheet| sheet.area).sum::<f64>();
     sheets.sort_by(|a, b| a.area.total_cmp(&b.area));
-    let mut left_out = missing_area;
+    let mut left_out = missing.area;
     let is_crumb = |sheet: &mut Sheet| {
         let is_small = sheet.area < MAX_CRUMB_SHARE * whole
             && left_out + sheet.area <= MAX_OMITTED_SHARE * whole;
@@ -34,7 +37,11 @@ pub(super) fn remove_crumbs(
             (run.seam, run.patch) = (None, None);
         }
     }
-    crumbs
+    for crumb in crumbs {
+        missing.area += crumb.area;
+        let own = crumb.patches.iter();
+        missing.vertices += own.map(|p| patches[*p as usize].vertices).sum::<usize>();
+    }
 }
 
 /// Whether all points of a sheet are finite.

@@ -54,11 +54,7 @@ pub(super) fn draw_sheets(
         .map(|sheet| draw(body, seams, &meetings, sheet))
         .collect();
     let patches = patches(body);
-    for crumb in remove_crumbs(&mut sheets, missing.area, |_| false) {
-        missing.area += crumb.area;
-        let own = crumb.patches.iter();
-        missing.vertices += own.map(|p| patches[*p as usize].vertices).sum::<usize>();
-    }
+    remove_crumbs(&mut sheets, &patches, &mut missing, |_| false);
     sheets.sort_by_key(|sheet| sheet.patches[0]);
     Ok(MeshPattern {
         sheets,

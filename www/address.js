@@ -1,16 +1,18 @@
 /** Encoding of the page's state in the fragment of its address (after the #), for links, the history and reloads. */
 import { shortLambda } from './format.js';
 import { ENERGIES, VIEW_WORDS } from './messages.js';
+import { noDataOf } from './no-data.js';
 
 /** @import {Energy} from './api.js' */
 /** @import {Settings} from './session.js' */
+/** @import {NoData} from './no-data.js' */
 
 /**
  * @typedef {object} State
  * @property {string} [card] id of a card of the gallery
  * @property {{ name: string, size: number, noise: number }} [example]
  * @property {number} [file] id of the file in the storage of recent files
- * @property {{ pixelSize?: number, heightScale?: number, noData?: number, zeros?: boolean, hexagonal?: boolean }} [stored] interpretation of the file
+ * @property {{ pixelSize?: number, heightScale?: number, noData?: NoData, hexagonal?: boolean }} [stored] interpretation of the file
  * @property {Partial<Settings>} settings settings that differ from the defaults
  * @property {boolean} [whole] whether a whole mesh is fitted
  * @property {boolean} [photo] whether a photo of a page is made flat
@@ -35,7 +37,7 @@ export function addressOf({ card, example, file, stored, settings, whole, photo,
     parameters.set('noise', String(example.noise));
   }
   if (file !== undefined) parameters.set('file', String(file));
-  for (const [name, value] of Object.entries(stored ?? {})) if (value !== undefined) parameters.set(name, String(Number(value)));
+  for (const [name, value] of Object.entries(stored ?? {})) if (value !== undefined) parameters.set(name, String(typeof value === 'boolean' ? Number(value) : value));
   for (const [name, value] of Object.entries(settings)) {
     if (value === undefined || value === defaults[/** @type {keyof Settings} */ (name)]) continue;
     parameters.set(name, typeof value === 'number' && name === 'lambda' ? shortLambda(value) : String(value));
@@ -76,15 +78,15 @@ export function stateOf(hash) {
   const view = parameters.get('view') ?? undefined;
   const name = parameters.get('example');
   const [card] = [...parameters.entries()].find(([, value]) => value === '') ?? [];
-  const flags = ['zeros', 'hexagonal'].filter((flag) => parameters.has(flag)).map((flag) => [flag, parameters.get(flag) === '1']);
+  const hexagonal = parameters.has('hexagonal') ? [['hexagonal', parameters.get('hexagonal') === '1']] : [];
   const scales = ['pixelSize', 'heightScale'].filter((scale) => Number(parameters.get(scale))).map((scale) => [scale, Number(parameters.get(scale))]);
-  const noData = parameters.has('noData') ? Number(parameters.get('noData')) : undefined;
-  const isStored = flags.length + scales.length > 0 || noData !== undefined;
+  const noData = parameters.has('noData') ? noDataOf(parameters.get('noData') ?? '') : undefined;
+  const isStored = hexagonal.length + scales.length > 0 || noData !== undefined;
   return {
     card,
     example: name ? { name, size: positive('size') ?? 400, noise: Math.max(0, Number(parameters.get('noise') ?? 0.02)) || 0 } : undefined,
     file: positive('file'),
-    stored: isStored ? { ...Object.fromEntries([...flags, ...scales]), noData: Number.isFinite(noData) ? noData : undefined } : undefined,
+    stored: isStored ? { ...Object.fromEntries([...hexagonal, ...scales]), noData } : undefined,
     settings,
     whole: parameters.get('whole') === '1' || undefined,
     photo: parameters.get('photo') === '1' || undefined,

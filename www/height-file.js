@@ -4,11 +4,13 @@ import { readPicture } from './pixels.js';
 import { storeSurfaceData } from './surface/derived-data.js';
 import { transferToWorker } from './surface/worker-client.js';
 import { toInput } from './import-interpretation.js';
+import { noDataOptions } from './no-data.js';
 
 /** @import {Api} from './api.js' */
 /** @import {Worker} from './worker-task.js' */
 /** @import {DepthCompanions, Input} from './session.js' */
 /** @import {FileRoles} from './file-routing.js' */
+/** @import {NoData} from './no-data.js' */
 
 /** Error: the file is a picture in colour, which is a photo and has no heights. */
 export class ColourPictureError extends Error {
@@ -22,14 +24,14 @@ export class ColourPictureError extends Error {
  * @param {Api} api
  * @param {File} file
  * @param {AbortSignal} signal
- * @param {string} [arrayName] name of the array to read, for an NPZ file with several
+ * @param {{ array?: string, noData?: NoData }} [reading] name of the array to read, for an NPZ file with several, and what is no data
  * @param {Pick<FileRoles, 'photo' | 'confidence' | 'mask'>} [companionFiles]
  * @returns {Promise<Input>}
  */
-export async function readInput(api, file, signal, arrayName, { photo: photoFile, ...companionFiles } = {}) {
+export async function readInput(api, file, signal, { array, noData } = {}, { photo: photoFile, ...companionFiles } = {}) {
   const { names, read, companions } = await runInWorker(api, signal, async (reader) => {
     const names = await heightArrayNames(reader, file);
-    const options = names.length > 1 ? { array: arrayName ?? names[0] } : undefined;
+    const options = { array: names.length > 1 ? array ?? names[0] : undefined, ...noDataOptions(noData) };
     const read = await reader.read(file, options).catch((error) => {
       throw error instanceof Error && /colour/.test(error.message) ? new ColourPictureError() : error;
     });
@@ -37,7 +39,7 @@ export async function readInput(api, file, signal, arrayName, { photo: photoFile
   });
   const { format, dataType, assumptions } = read;
   const photo = photoFile && { name: photoFile.name, image: await readPicture(photoFile) };
-  const { look, ...interpretation } = await transferToWorker('interpretFile', [read.data], read, file.name);
+  const { look, ...interpretation } = await transferToWorker('interpretFile', [read.data], read, file.name, noData);
   const input = toInput(interpretation);
   storeSurfaceData(input, look);
   return {
@@ -49,7 +51,7 @@ export async function readInput(api, file, signal, arrayName, { photo: photoFile
     assumptions,
     photo,
     companions,
-    array: names.length > 1 ? { file, names, name: arrayName ?? names[0] } : undefined,
+    array: names.length > 1 ? { file, names, name: array ?? names[0] } : undefined,
   };
 }
 

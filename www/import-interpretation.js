@@ -1,5 +1,5 @@
 /** Interpretation of a file of numbers as heights: guessed when it is opened, and changed by the user afterwards. */
-import { coarseningFor, depthUnitOf, isHexagonal, isNoDepth, isZeroNoData } from './metadata-guess.js';
+import { coarseningFor, depthUnitOf, isHexagonal, isNoDepth } from './metadata-guess.js';
 import { number } from './format.js';
 import { GUESS_WORDS } from './messages.js';
 import { gridOverLattice, interpolateToGrid } from './surface/lattice.js';
@@ -8,6 +8,7 @@ import { computeSurfaceDataAndPreview, reduceForPreview } from './surface/textur
 /** @import {Api} from './api.js' */
 /** @import {Input} from './session.js' */
 /** @typedef {Awaited<ReturnType<Api['read']>>} Read */
+/** @import {NoData} from './no-data.js' */
 
 /**
  * Contents of a file, and how they are interpreted.
@@ -17,8 +18,7 @@ import { computeSurfaceDataAndPreview, reduceForPreview } from './surface/textur
  * @property {Float64Array} data heights in steps of `heightScale`
  * @property {number} pixelSize
  * @property {number} heightScale
- * @property {boolean} zeros whether 0 is no data
- * @property {number} [noData] another value that is no data
+ * @property {NoData} [noData] what was given as no data when the file was read
  * @property {boolean} hexagonal whether the values are at the vertices of a hexagonal lattice
  * @property {boolean} design whether the few heights are constraints of a design
  * @property {boolean} levels whether the values are integers whose height scale is not in the file
@@ -33,18 +33,19 @@ const MIN_MEASURED_SHARE = 0.2;
  * Guesses the interpretation of a file.
  * @param {Read} read
  * @param {string} name name of the file
+ * @param {NoData} [noData] what was given as no data
  * @returns {InterpretedHeights}
  */
-function firstInterpretation(read, name) {
+function firstInterpretation(read, name, noData) {
   const { width, height, unit } = read;
   const depthUnit = depthUnitOf(name, read) ?? undefined;
   const data = depthUnit ? read.data.map((depth) => (isNoDepth(depth) ? NaN : depth)) : read.data;
   if (!data.some(Number.isFinite)) throw new Error('it has no heights, every pixel is “no data” (NaN)');
   if (data.some((value) => Math.abs(value) === Infinity)) throw new Error('it has infinite heights; mark them as NaN, “no data”');
   if (width < 3 || height < 3) throw new Error(`it is ${width} × ${height} pixels; a surface needs at least 3 × 3`);
-  const stored = guessStoredHeights({ ...read, data }, depthUnit !== undefined);
+  const stored = { ...guessStoredHeights({ ...read, data }, depthUnit !== undefined), noData };
   const { pixelSize, heightScale, design } = stored;
-  const unchanged = { ...stored, zeros: false, hexagonal: false };
+  const unchanged = { ...stored, hexagonal: false };
   return reinterpret({ width, height, data, pixelSize, heightScale, unit: unit ?? undefined, depthUnit, stored: unchanged, design }, stored);
 }
 
@@ -76,21 +77,18 @@ export function toInput({ range, ...input }) {
  */
 function guessStoredHeights(read, depths) {
   const { width, height, data, pixelSize, heightScale, dataType } = read;
-  const zeros = !depths && isZeroNoData(data);
-  const valid = { ...read, data: without(data, zeros ? [0] : []) };
   // A scan has holes, but an image without data at most pixels holds drawn points and curves.
-  const given = valid.data.reduce((sum, value) => sum + Number(Number.isFinite(value)), 0);
+  const given = data.reduce((sum, value) => sum + Number(Number.isFinite(value)), 0);
   const design = !depths && given < MIN_MEASURED_SHARE * data.length;
-  const hexagonal = !design && !depths && isHexagonal(valid);
+  const hexagonal = !design && !depths && isHexagonal(read);
   const coarsening = hexagonal ? 1 : coarseningFor(read);
   const guesses = [
     ...(design ? [GUESS_WORDS.few] : []),
-    ...(zeros ? [GUESS_WORDS.zeros] : []),
     ...(hexagonal ? [GUESS_WORDS.hexagonal] : []),
     ...(coarsening > 1 ? [GUESS_WORDS.coarse(coarsening)] : []),
   ].join(' ');
   const levels = /^u/.test(dataType);
-  return { width, height, data, pixelSize, heightScale, zeros, hexagonal, design, levels, guesses, coarsening };
+  return { width, height, data, pixelSize, heightScale, hexagonal, design, levels, guesses, coarsening };
 }
 
 /** @typedef {Omit<Input, 'name'>} InterpretedHeights */
@@ -105,21 +103,14 @@ function guessStoredHeights(read, depths) {
 export function reinterpret(input, change) {
   if (!input.stored) return input;
   const stored = { ...input.stored, ...change };
-  const assumptions = input.assumptions?.filter(({ option = '' }) => !(option in change));
-  const { width, height, pixelSize, heightScale, zeros, noData, hexagonal } = stored;
+  const assumptions = input.assumptions?.filter(({ option = '' }) => stored[/** @type {'pixelSize'} */ (option)] === input.stored?.[/** @type {'pixelSize'} */ (option)]);
+  const { width, height, pixelSize, heightScale, hexagonal } = stored;
   // A change of the scale alone keeps edits that were made by hand.
-  const keepsEdits = zeros === input.stored.zeros && noData === input.stored.noData && !hexagonal && !input.stored.hexagonal;
-  const data = keepsEdits ? input.data : without(stored.data, [...(zeros ? [0] : []), ...(noData === undefined ? [] : [noData])]);
-  if (!data.some(Number.isFinite)) throw new Error('nothing else would be left');
+  const data = hexagonal || input.stored.hexagonal ? stored.data : input.data;
   if (!hexagonal) return { ...input, stored, assumptions, width, height, data, pixelSize, heightScale, lattice: undefined };
   const lattice = { rows: height, cols: width, spacing: pixelSize, heights: data.map((step) => step * heightScale), unit: /** @type {'mm' | 'm' | undefined} */ (input.unit) };
   const grid = gridOverLattice(lattice);
   return { ...input, stored, assumptions, ...grid, heightScale: 1, data: interpolateToGrid(lattice, lattice.heights, grid), lattice };
-}
-
-/** Replaces values that are no data by NaN. @param {Float64Array} data @param {readonly number[]} values */
-function without(data, values) {
-  return values.length > 0 ? data.map((value) => (values.includes(value) ? NaN : value)) : data;
 }
 
 /** Cached ranges of heights. @type {WeakMap<Float64Array, number>} */

@@ -63,7 +63,6 @@ export function assumedInWords(assumptions = []) {
 /** Messages about guessed metadata of a file. */
 export const GUESS_WORDS = {
   few: 'Few pixels have a height. The surface passes through them and is free everywhere else.',
-  zeros: 'Assumed: 0 means “no data”.',
   hexagonal: 'Assumed: odd rows lie half a step to the left (hexagonal lattice).',
   /** @param {number} step */
   coarse: (step) => `The image is large, so one vertex stands for ${step} × ${step} pixels (“Lattice” under “More options” changes that).`,

@@ -1,4 +1,4 @@
-/** Guesses of metadata that a file of heights lacks: no-data value, lattice, and whether its values are depths. */
+/** Guesses of metadata that a file of heights lacks: its lattice, and whether its values are depths. */
 
 /** @typedef {{ width: number, height: number, data: Float64Array, dataType?: string }} HeightValues */
 
@@ -8,21 +8,6 @@ const MIN_DEPTH_JUMP_SHARE = 0.15;
 const MIN_DEPTH_JUMP_STEPS = 5;
 /** Maximum number of vertices of a solve that takes less than a few minutes. */
 const MAX_QUICK_VERTICES = 1.2e6;
-
-/**
- * Whether 0 is probably no data: it is frequent, and all other values lie on one side of it, with a distance.
- * @param {Float64Array} data
- */
-export function isZeroNoData(data) {
-  let [zeros, low, high] = [0, Infinity, -Infinity];
-  for (const value of data) {
-    if (value === 0) zeros++;
-    else if (value < low) low = value;
-    if (value !== 0 && value > high) high = value;
-  }
-  if (zeros < 0.002 * data.length || !(low <= high) || low * high < 0) return false;
-  return Math.min(Math.abs(low), Math.abs(high)) > 0.03 * (high - low);
-}
 
 /**
  * Whether the values are probably those of a hexagonal lattice, whose odd rows lie half a spacing to the left: then the

@@ -1,13 +1,13 @@
 /** The solve that is shown, as a line for the command and as code for the package. */
 import { settingsFor } from './design.js';
+import { noDataOptions } from './no-data.js';
 import { spacingOf } from './session.js';
 
 /** @import {Input, Result} from './session.js' */
 
-/** Whether the heights are those of the file or example, without edits, other images, or two values that are no data. @param {Input} input */
-function isUnchanged({ design, sampling, depthUnit, confidence, constraints, isEdited, stored }) {
-  const hasTwoNoDataValues = stored?.zeros === true && stored.noData !== undefined;
-  return !(design || sampling || depthUnit || confidence || constraints || isEdited || hasTwoNoDataValues);
+/** Whether the heights are those of the file or example, without edits or other images. @param {Input} input */
+function isUnchanged({ design, sampling, depthUnit, confidence, constraints, isEdited }) {
+  return !(design || sampling || depthUnit || confidence || constraints || isEdited);
 }
 
 /** The options of `fit` that solve the same, without those that are the package's own. @param {Result} result */
@@ -21,11 +21,6 @@ function optionsOf({ input, settings }) {
   };
 }
 
-/** How the heights of a file were read, as options. @param {Input} input */
-function readingOf({ stored, array }) {
-  return { array: array?.name, pixelSize: stored?.pixelSize, heightScale: stored?.heightScale, noData: stored?.zeros ? 0 : stored?.noData };
-}
-
 /**
  * The command that solves the same.
  * @param {Result} result
@@ -33,14 +28,10 @@ function readingOf({ stored, array }) {
  */
 export function asCommand(result) {
   const { input } = result;
-  const { file, name, stored, assumptions = [] } = input;
+  const { file, name, stored, array } = input;
   if (file === undefined || !isUnchanged(input)) return null;
-  const { noData: value, ...reading } = readingOf(input);
-  // On the lattice, the command takes 0 for no data unless it is told otherwise.
-  const noData = value ?? (stored?.hexagonal ? 'none' : undefined);
-  // A command that is told which value is no data assumes no other, as the page has done.
-  if (noData !== undefined && assumptions.some(({ option }) => option === 'noData')) return null;
-  const options = { ...reading, noData, ...(stored?.hexagonal && { lattice: 'hex' }), ...optionsOf(result) };
+  const { pixelSize, heightScale, noData } = stored ?? {};
+  const options = { array: array?.name, pixelSize, heightScale, noData, ...(stored?.hexagonal && { lattice: 'hex' }), ...optionsOf(result) };
   const flags = Object.entries(options).filter(([, given]) => given !== undefined).map(([option, given]) =>
     `--${option.replace(/[A-Z]/g, (letter) => `-${letter.toLowerCase()}`)} ${quoted(String(given))}`);
   return ['npx developable fit', quotedPath(file), '-o', quotedPath(`${name}-developable.obj`), ...flags].join(' ');
@@ -63,9 +54,11 @@ function quotedPath(path) {
  */
 export function asCode(result) {
   const { input } = result;
-  const { name, file, example, stored } = input;
+  const { name, file, example, stored, array } = input;
   if ((file ?? example) === undefined || stored?.hexagonal || !isUnchanged(input)) return null;
-  const { array, ...reading } = readingOf(input);
+  const { pixelSize, heightScale, noData } = stored ?? {};
+  const reading = { array: array?.name, ...noDataOptions(noData) };
+  const options = Object.values(reading).some((value) => value !== undefined) ? `, ${JSON.stringify(reading)}` : '';
   const source = file === undefined
     ? [
       "import { example, fit } from 'developable';",
@@ -74,8 +67,8 @@ export function asCode(result) {
     : [
       "import { readFile } from 'node:fs/promises';",
       "import { fit, read } from 'developable';",
-      `const image = await read(await readFile(${JSON.stringify(file)})${array ? `, ${JSON.stringify({ array })}` : ''});`,
-      `const input = { ...image, ...${JSON.stringify(reading)} };`,
+      `const image = await read(await readFile(${JSON.stringify(file)})${options});`,
+      `const input = { ...image, ...${JSON.stringify({ pixelSize, heightScale })} };`,
     ];
   return [...source, `const surface = await fit(input, ${JSON.stringify(optionsOf(result))});`, ''].join('\n');
 }

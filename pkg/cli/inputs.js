@@ -62,8 +62,6 @@ export async function readInput(task) {
       constraints: pins && pinned(pins, task.free),
     });
   }
-  // On the lattice 0 is no data unless something else is, and no constraint likewise.
-  const noData = asStored(task.noData, file) ?? (task.assumeNoData === false ? NaN : 0);
   /** @param {Float64Array} values */
   const scaled = (values) => values.map((value) => value * heightScale);
   return /** @type {Input} */ ({
@@ -72,8 +70,8 @@ export async function readInput(task) {
     spacing: task.spacing ?? pixelSize,
     unit: task.unit,
     ...known,
-    ...((task.command === 'design') ? {} : { heights: scaled(without(file.data, noData)) }),
-    constraints: pins && scaled(pinned(pins, task.free ?? noData)),
+    ...((task.command === 'design') ? {} : { heights: scaled(file.data) }),
+    constraints: pins && scaled(pinned(pins, task.free)),
   });
 }
 
@@ -364,25 +362,9 @@ function weights({ data, dataType }) {
  * @param {number | undefined} free
  */
 function pinned(file, free) {
-  const value = asStored(free, file);
-  const constraints = value === undefined ? file.data : without(file.data, value);
+  // The value as the file could store it: -9999.9 is another number in 32 bits.
+  const value = free !== undefined && file.dataType === 'f32' ? Math.fround(free) : free;
+  const constraints = file.data.map((pin) => (pin === value ? NaN : pin));
   if (constraints.some(Number.isNaN)) return constraints;
   throw new Problem(status.input, 'every value is a constraint: --free V says which one means free');
-}
-
-/**
- * @param {Float64Array} values
- * @param {number} nothing
- */
-function without(values, nothing) {
-  return values.map((value) => (value === nothing ? NaN : value));
-}
-
-/**
- * The value as the file could store it: -9999.9 is another number in 32 bits.
- * @param {number | undefined} value
- * @param {ReadResult} file
- */
-function asStored(value, file) {
-  return value !== undefined && file.dataType === 'f32' ? Math.fround(value) : value;
 }

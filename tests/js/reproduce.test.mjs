@@ -26,10 +26,10 @@ await writeFile(join(folder, '-hex.npy'), direct.writeNpy(lattice(22, 26, plane,
 
 /** @type {Settings} */
 const defaults = { lambda: 'auto', gap: 0.01, schedule: 'default', coarsening: 1, energy: undefined, reweighting: 0, occlusionThreshold: undefined };
-const stored = { width: 24, height: 20, data: ramp.data, pixelSize: 0.5, heightScale: -2, zeros: true, hexagonal: false, design: false, levels: false, guesses: '', coarsening: 1 };
+const stored = { width: 24, height: 20, data: ramp.data, pixelSize: 0.5, heightScale: -2, noData: 0, hexagonal: false, design: false, levels: false, guesses: '', coarsening: 1 };
 /** @type {Input} */
 const opened = { name: "Tom's $HOME (1)", file: FILE, kind: 'TIFF, 32-bit floats', width: 24, height: 20, data: ramp.data, pixelSize: 0.5, heightScale: -2, stored };
-const hexagonal = { ...opened, name: '-hex', file: '-hex.npy', stored: { ...stored, zeros: false, hexagonal: true }, lattice: lattice(22, 26, plane, 0.5) };
+const hexagonal = { ...opened, name: '-hex', file: '-hex.npy', stored: { ...stored, noData: /** @type {const} */ ('none'), hexagonal: true }, lattice: lattice(22, 26, plane, 0.5) };
 const example = { ...opened, name: 'roof', file: undefined, kind: undefined, stored: undefined, example: { size: 24, noise: 0.02 } };
 
 /** @param {Input} input @param {Partial<Settings>} [settings] */
@@ -83,13 +83,11 @@ test('nothing is copied of what neither can open', () => {
   /** @type {Input[]} */
   const inputs = [
     { ...example, design: true }, { ...example, example: undefined }, { ...opened, confidence: ramp.data }, { ...opened, isEdited: true },
-    { ...opened, depthUnit: 'mm' }, { ...opened, stored: { ...stored, noData: 7 } },
+    { ...opened, depthUnit: 'mm' }, 
     { ...opened, sampling: { mesh: { positions: new Float64Array(), triangles: new Uint32Array() }, options: {} } },
   ];
   for (const input of inputs) assert.deepEqual([asCommand(resultOf(input)), asCode(resultOf(input))], [null, null]);
   assert.equal(asCommand(resultOf(example)), null, 'the command makes no examples');
-  const assumed = { ...opened, assumptions: [{ code: 'noData', words: '', option: 'noData' }] };
-  assert.equal(asCommand(resultOf(assumed)), null, 'it would assume nothing beside 0');
 });
 
 test('the size of a solid is that of its vertices, without the empty part of the image', () => {

@@ -16,7 +16,7 @@ test('an address says what it was made of, and what it does not know is left', (
     { example: { name: 'cone', size: 200, noise: 0 }, settings: { energy: /** @type {const} */ ('huber'), lambda: /** @type {const} */ ('auto') }, view: 'patches' },
     { file: 4, settings: { lambda: 1e7 }, whole: true, view: 'rulings' },
     { file: 5, settings: {}, photo: true }, { settings: {}, unkept: true },
-    { file: 3, stored: { pixelSize: 0.25, heightScale: -1e-3, zeros: true, hexagonal: false }, settings: { occlusionThreshold: 4e4, gap: 1e-4 } },
+    { file: 3, stored: { pixelSize: 0.25, heightScale: -1e-3, noData: -7, hexagonal: true }, settings: { occlusionThreshold: 4e4, gap: 1e-4 } },
   ];
   for (const state of states) {
     const found = stateOf(addressOf(state, defaults));

@@ -10,6 +10,7 @@ import { fileRoles, isCameraFile } from '../file-routing.js';
 import { isMesh, unreadableKindInWords } from '../file-kinds.js';
 import { assumedInWords, DEPTH_WORDS, FILE_WORDS } from '../messages.js';
 import { areSurelyDepths } from '../metadata-guess.js';
+import { noDataOf } from '../no-data.js';
 import { cameraPanel } from './camera.js';
 import { meshPanel } from './mesh.js';
 import { hideNotice, showNotice } from './notice.js';
@@ -17,6 +18,7 @@ import { hideNotice, showNotice } from './notice.js';
 /** @import {ExampleName} from '../api.js' */
 /** @import {Session} from '../session.js' */
 /** @import {FileRoles} from '../file-routing.js' */
+/** @import {NoData} from '../no-data.js' */
 
 /**
  * @param {Session} session
@@ -37,7 +39,6 @@ export function sourcePanel(session, { choose, usePhoto }, onOpened, solveMesh, 
   const pixelSize = element('pixel-size', HTMLInputElement);
   const heightScale = element('height-scale', HTMLInputElement);
   const span = element('scale-span', HTMLElement);
-  const zeroCheckbox = element('zero-is-nothing', HTMLInputElement);
   const noData = element('no-data', HTMLInputElement);
   const hexagonalCheckbox = element('is-hexagonal', HTMLInputElement);
   const guesses = element('guessed', HTMLElement);
@@ -47,6 +48,8 @@ export function sourcePanel(session, { choose, usePhoto }, onOpened, solveMesh, 
   const mesh = meshPanel(session);
   const camera = cameraPanel(session, mesh.openLoaded);
   const designHint = element('design-hint', HTMLElement);
+  /** Reads the open file again, with another value that is no data. @type {(noData?: NoData) => Promise<boolean>} */
+  let openAgain = () => Promise.resolve(false);
   /** A photo that was opened before the heights it shows. @type {File | null} */
   let pendingPhoto = null;
 
@@ -68,11 +71,11 @@ export function sourcePanel(session, { choose, usePhoto }, onOpened, solveMesh, 
   /**
    * Opens a file and solves it. Depths are not solved yet if their camera's file is opened together with them.
    * @param {File} chosen
-   * @param {string} [arrayName] name of the array to open, for a file with several
+   * @param {NonNullable<Parameters<typeof readInput>[3]>} [reading] the array to open, for a file with several, and what is no data
    * @param {Pick<FileRoles, 'photo' | 'confidence' | 'mask'>} [companions] files that belong to it
    * @param {boolean} [hasCamera] whether the camera's file is opened together with it
    */
-  const openFile = async (chosen, arrayName, companions = {}, hasCamera = false) => {
+  const openFile = async (chosen, reading, companions = {}, hasCamera = false) => {
     if (isMesh(chosen.name)) return openMesh(chosen);
     // A text file can only be the camera of depths that are open.
     if (/\.txt$/i.test(chosen.name) && !session.input?.kind) {
@@ -84,9 +87,9 @@ export function sourcePanel(session, { choose, usePhoto }, onOpened, solveMesh, 
     let isColourPicture = false;
     const opened = await session.open(`“${chosen.name}” could not be read`, async (signal) => {
       try {
-        return await readInput(session.api, chosen, signal, arrayName, { ...companions, photo });
+        return await readInput(session.api, chosen, signal, reading, { ...companions, photo });
       } catch (error) {
-        if (error instanceof ColourPictureError && arrayName === undefined) isColourPicture = true;
+        if (error instanceof ColourPictureError && reading === undefined) isColourPicture = true;
         throw error;
       }
     }, fileReadTask(chosen));
@@ -96,6 +99,7 @@ export function sourcePanel(session, { choose, usePhoto }, onOpened, solveMesh, 
     }
     if (!opened || !session.input) return false;
     pendingPhoto = null;
+    openAgain = (noData) => openFile(chosen, { ...reading, noData }, { ...companions, photo }, hasCamera);
     const { depthUnit, stored, data } = session.input;
     setCoarsening(stored?.coarsening ?? 1);
     if (!depthUnit) {
@@ -167,8 +171,14 @@ export function sourcePanel(session, { choose, usePhoto }, onOpened, solveMesh, 
     return true;
   };
 
-  /** Changes the interpretation of the open file. @param {Parameters<typeof reinterpret>[1]} change */
-  const reinterpretFile = (change) => {
+  /** Changes the interpretation of the open file, which is read again where other values are no data. @param {Parameters<typeof reinterpret>[1]} change */
+  const reinterpretFile = async (change) => {
+    const { stored } = session.input ?? {};
+    if (stored && 'noData' in change && change.noData !== stored.noData) {
+      const { pixelSize: side, heightScale: step, hexagonal } = stored;
+      if (!(await openAgain(change.noData))) return;
+      return reinterpretFile({ pixelSize: side, heightScale: step, hexagonal, ...change });
+    }
     const { input } = session;
     if (!input) return;
     try {
@@ -195,15 +205,18 @@ export function sourcePanel(session, { choose, usePhoto }, onOpened, solveMesh, 
 
   for (const control of [...radios, size, noise]) control.addEventListener('change', openChosenExample);
   for (const control of [pixelSize, heightScale]) control.addEventListener('change', rescale);
-  zeroCheckbox.addEventListener('change', () => reinterpretFile({ zeros: zeroCheckbox.checked }));
-  noData.addEventListener('change', () => reinterpretFile({ noData: noData.value === '' ? undefined : noData.valueAsNumber }));
+  noData.addEventListener('change', () => {
+    const value = noDataOf(noData.value);
+    noData.setCustomValidity(noData.value.trim() === '' || value !== undefined ? '' : 'This must be a number, “none”, or empty.');
+    if (noData.reportValidity()) void reinterpretFile({ noData: value });
+  });
   hexagonalCheckbox.addEventListener('change', () => reinterpretFile({ hexagonal: hexagonalCheckbox.checked }));
   element('flatter', HTMLButtonElement).addEventListener('click', () => scaleRelief(0.5));
   element('steeper', HTMLButtonElement).addEventListener('click', () => scaleRelief(2));
   design.addEventListener('change', () => session.updateInput({ design: design.checked }));
   array.addEventListener('change', () => {
     const several = session.input?.array;
-    if (several) void openFile(several.file, array.value);
+    if (several) void openFile(several.file, { array: array.value });
   });
 
   session.on('input', (input) => {
@@ -225,10 +238,9 @@ export function sourcePanel(session, { choose, usePhoto }, onOpened, solveMesh, 
     if (!input.stored) return;
     pixelSize.value = fieldText(input.stored.pixelSize);
     heightScale.value = fieldText(input.stored.heightScale);
-    zeroCheckbox.checked = input.stored.zeros;
     design.checked = input.design === true;
     hexagonalCheckbox.checked = input.stored.hexagonal;
-    noData.value = input.stored.noData === undefined ? '' : fieldText(input.stored.noData);
+    noData.value = String(input.stored.noData ?? '');
     span.textContent = spanInWords(input);
   });
 

@@ -77,8 +77,8 @@ fn marker_of(values: &[f64]) -> Option<f64> {
         .find(|value| values.iter().filter(|other| *other == value).count() >= MIN_REPETITIONS)
 }
 
-/// Whether a number is one by which programs mark missing values: beyond what anybody measures, three or more nines with
-/// nothing else, or a limit of a number type of 16 or more bits.
+/// Whether a number is one by which programs mark missing values: zero, beyond what anybody measures, three or more nines
+/// with nothing else, or a limit of a number type of 16 or more bits.
 fn is_marker(value: f64) -> bool {
     let is_nines = || {
         let digits = format!("{}", value.abs()).replace('.', "");
@@ -89,7 +89,7 @@ fn is_marker(value: f64) -> bool {
             .iter()
             .any(|limit| (value.abs() - limit).abs() <= 1.0)
     };
-    value.abs() >= MIN_IMPOSSIBLE_MAGNITUDE || is_nines() || is_limit()
+    value == 0.0 || value.abs() >= MIN_IMPOSSIBLE_MAGNITUDE || is_nines() || is_limit()
 }
 
 #[cfg(test)]
@@ -151,7 +151,7 @@ mod tests {
 
     #[test]
     fn what_may_have_been_measured_stays() {
-        // Zero, a single outlier, round numbers, and a marker within the range of the others.
+        // Zeros that may be the sea, a single outlier, round numbers, and a marker within the range of the others.
         for more in [
             &[0.0; 9][..],
             &[-9999.0],
@@ -161,6 +161,12 @@ mod tests {
         ] {
             assert_eq!(assumed(more), [""; 0]);
         }
+        // Zero far from all heights: the frame of a map, or what a camera did not see.
+        let mut frame = [0.0, 0.0, 2000.0, 2030.0, 2060.0];
+        assert_eq!(
+            assume_no_data(&mut frame, false)[0].words,
+            "0 is no data (2 pixels)"
+        );
         // Terraces of two heights.
         let mut terraces = [0.0, 99.0, 0.0, 99.0];
         assert!(assume_no_data(&mut terraces, false).is_empty());

@@ -12,6 +12,10 @@ const MIN_MILLIMETRE_SIDE: f64 = 10.0;
 /// Maximum longest side of a mesh whose lengths are taken for millimetres: a larger model fits no workshop.
 const MAX_MILLIMETRE_SIDE: f64 = 5000.0;
 
+/// Minimum distance of a mesh from the origin of coordinates that are those of a map, in metres: eastings of UTM begin at
+/// 166 km, no model in millimetres lies so far away.
+const MIN_MAP_DISTANCE: f64 = 1e5;
+
 /// A unit in which a mesh file may state lengths, with the unit that its mesh is read in.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FileUnit {
@@ -73,12 +77,19 @@ impl MeshFile {
 /// Code of the assumption about the unit.
 const CODE: &str = "unit";
 
-/// Chooses a unit by the size of a mesh whose file does not state one: millimetres, or none for what would be too small or
-/// too large a model.
+/// Chooses a unit by the place and size of a mesh whose file does not state one: metres on a map, else millimetres, or none
+/// for what would be too small or too large a model.
 pub(super) fn assumed_unit(mesh: &Mesh) -> (Option<Unit>, Assumption) {
     let longest = mesh.longest_side();
     let side = rounded(longest, 4);
-    let (unit, words) = if longest > MAX_MILLIMETRE_SIDE {
+    let [low, high] = mesh.bounds();
+    let distance = (low.iter().zip(&high))
+        .map(|(low, high)| low.max(-high))
+        .fold(0.0, f64::max);
+    let (unit, words) = if distance > MIN_MAP_DISTANCE {
+        let words = format!("lengths are metres: coordinates of {distance:.0} are those of a map");
+        (Some(Unit::Metre), words)
+    } else if longest > MAX_MILLIMETRE_SIDE {
         (
             None,
             format!("lengths have no unit: a longest side of {side} is too long for millimetres"),

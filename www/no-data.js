@@ -1,0 +1,15 @@
+/** Which value of a file is no data, where the user says so. */
+
+/** @typedef {number | 'none'} NoData value that is no data, or that none but NaN is */
+
+/** What a text gives as no data; nothing where it is no number. @param {string} text @returns {NoData | undefined} */
+export function noDataOf(text) {
+  const word = text.trim();
+  const value = word === '' ? NaN : Number(word.replace(',', '.'));
+  return word === 'none' ? word : Number.isNaN(value) ? undefined : value;
+}
+
+/** The options of `read` that say what is no data: without them, the reader decides. @param {NoData} [noData] */
+export function noDataOptions(noData) {
+  return noData === undefined ? {} : { assumeNoData: false, ...(noData !== 'none' && { noData }) };
+}

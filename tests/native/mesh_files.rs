@@ -136,9 +136,16 @@ fn units_by_what_the_file_says_or_by_its_size() {
     }
     // A house of twelve metres in UTM, in millimetres nearby.
     let house = "v 432123.4 5412345.6 251.2\nv 432135.4 5412345.6 251.2\nv 432123.4 5412353.6 254.2\nf 1 2 3\n";
-    let (on_map, nearby) = (read(house), read(&house.replace("432", "").replace("5412", "")));
+    let (on_map, nearby) = (
+        read(house),
+        read(&house.replace("432", "").replace("5412", "")),
+    );
     assert_eq!(on_map.unit, Some(Unit::Metre));
-    assert!(on_map.assumptions[0].words.contains("5412346 are those of a map"));
+    assert!(
+        on_map.assumptions[0]
+            .words
+            .contains("5412346 are those of a map")
+    );
     assert_eq!(nearby.unit, Some(Unit::Millimetre));
     let inches = square(2.5).in_unit(FileUnit::new("inch").unwrap()).unwrap();
     assert_eq!(inches.unit, Some(Unit::Millimetre));

@@ -548,7 +548,7 @@ export interface FoldLine {
  * - `'npz'`: NumPy's archive of several arrays (NPZ).
  * - `'jpeg'`: JPEG, only grey pictures.
  * - `'webp'`: WebP, only grey pictures.
- * - `'text'`: Text: an ESRI ASCII grid, points on a grid (XYZ), or a matrix.
+ * - `'text'`: Text: a grid of ESRI or Surfer, points on a grid (XYZ), or a matrix.
  * - `'colmap'`: Depth map of COLMAP.
  * - `'gif'`: GIF, only grey pictures.
  * - `'bmp'`: Windows bitmap (BMP), only grey pictures.

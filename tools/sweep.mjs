@@ -52,7 +52,9 @@ async function row(path, name, folder) {
 }
 
 /** @param {string} text */
-const cell = (text) => text.replaceAll('|', '\\|').replaceAll('\n', ' ');
+function cell(text) {
+  return text.replaceAll('|', '\\|').replaceAll('\n', ' ');
+}
 
 /** @param {{ status: number | string, stderr: string }} ended */
 function failure({ status, stderr }) {

@@ -50,6 +50,7 @@ tiff("white-is-zero", grey8, photometric="miniswhite")
 inch, cm = 2, 3
 tiff("dpi", holes.astype("f4"), resolution=(254, 254), resolutionunit=inch)
 tiff("per-cm", holes.astype("f4"), resolution=(50, 50), resolutionunit=cm)
+tiff("imagej", holes.astype("f4"), imagej=True, resolution=(4, 4), metadata={"unit": "mm"})
 tiff("unequal", holes.astype("f4"), resolution=(100, 200), resolutionunit=inch)
 
 ascii_, double, short = 2, 12, 3

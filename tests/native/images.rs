@@ -109,6 +109,7 @@ fn tiffs_say_how_large_a_pixel_is_and_what_is_no_data() {
     };
     close("dpi.tif", 0.1, Some(Unit::Millimetre)); // 254 to the inch
     close("per-cm.tif", 0.2, Some(Unit::Millimetre)); // 50 to the centimetre
+    close("imagej.tif", 0.25, Some(Unit::Millimetre)); // 4 to the millimetre, named in its description
     close("geo-metres.tif", 0.5, Some(Unit::Metre));
     close("geo.tif", 0.5, None);
     close("no-data.tif", 1.0, None);

@@ -29,7 +29,7 @@ pub enum Format {
     Jpeg,
     /// WebP, only grey pictures.
     WebP,
-    /// Text: an ESRI ASCII grid, points on a grid (XYZ), or a matrix.
+    /// Text: a grid of ESRI or Surfer, points on a grid (XYZ), or a matrix.
     Text,
     /// Depth map of COLMAP.
     Colmap,
@@ -225,7 +225,7 @@ pub fn announced(bytes: &[u8], stated: Option<Format>) -> Result<Format> {
 
 /// Guesses from a file's first bytes which kind of file it is, such as a PDF or a GIF, for error messages only.
 fn guess(bytes: &[u8]) -> &'static str {
-    let known: [(&[u8], &str); 7] = [
+    let known: [(&[u8], &str); 9] = [
         (
             b"GWYO",
             "a Gwyddion file (`gwyddion --convert-to-gsf`, or export an image of 32-bit floats there)",
@@ -237,6 +237,14 @@ fn guess(bytes: &[u8]) -> &'static str {
         (
             b"Lerc",
             "a LERC file (`gdal_translate IN OUT.tif` converts it)",
+        ),
+        (
+            b"DSBB",
+            "a binary grid of Surfer (`gdal_translate IN OUT.tif` converts it)",
+        ),
+        (
+            b"DSRB",
+            "a binary grid of Surfer (`gdal_translate IN OUT.tif` converts it)",
         ),
         (b"\x89PNG", "a PNG file damaged in transfer"),
         (b"Pf", "a PFM file whose header is damaged"),

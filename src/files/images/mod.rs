@@ -63,7 +63,7 @@ pub use print::{PhotoOptions, PhotoRows, write_photo, write_photo_jpeg};
 ///   `Y`, else `R`, `G`, `B` where all are equal, or the only one there is.
 /// - **PFM**: grey, either byte order.
 /// - **NPZ**: the only array; [`decode_with`] chooses one by name.
-/// - **Text**: an ESRI ASCII grid, points on a grid (XYZ) in any order, or a
+/// - **Text**: a grid of ESRI or Surfer, points on a grid (XYZ) in any order, or a
 ///   matrix, with blanks, tabs, semicolons or commas between its numbers.
 /// - **COLMAP**: depth maps (`.bin`), whose zeros have no data.
 /// - **JPEG**, **WebP**, **GIF**, **BMP**: grey pictures, and RGB as long as every pixel is grey.

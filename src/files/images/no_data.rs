@@ -1,6 +1,7 @@
 //! Values that programs write where nothing was measured, and that no tag of the file names.
 
 use crate::files::Assumption;
+use crate::files::assumption::rounded;
 
 /// Rounds a value as numbers of a type, given by its name, are stored: −9999.9 is another number in 32 bits.
 pub(super) fn as_stored(value: f64, data_type: &str) -> f64 {
@@ -41,7 +42,12 @@ pub(super) fn assume_no_data(values: &mut [f64], is_named: bool) -> Vec<Assumpti
     };
     remove(values, "infinity".into(), &f64::is_infinite);
     while let Some(marker) = marker_of(values).filter(|_| !is_named) {
-        remove(values, format!("{marker}"), &|value| value == marker);
+        // Nobody reads the 39 digits of the largest number of 32 bits.
+        let name = match marker.abs() >= MIN_IMPOSSIBLE_MAGNITUDE {
+            true => format!("{:e}", rounded(marker, 3)),
+            false => format!("{marker}"),
+        };
+        remove(values, name, &|value| value == marker);
     }
     assumptions
 }
@@ -132,11 +138,15 @@ mod tests {
             1e20,
             -99999.0,
         ] {
-            assert_eq!(
-                assumed(&[marker; 3]),
-                [format!("{marker} is no data (3 pixels)")]
-            );
+            let words = assumed(&[marker; 3]).concat();
+            assert!(words.ends_with(" is no data (3 pixels)"), "{words}");
+            let named: f64 = words.split(' ').next().unwrap().parse().unwrap();
+            assert!((named / marker - 1.0).abs() < 1e-2, "{words}");
         }
+        assert_eq!(
+            assumed(&[-3.402_823_5e38; 2]),
+            ["-3.4e38 is no data (2 pixels)"]
+        );
         assert_eq!(assumed(&[f64::INFINITY]), ["infinity is no data (1 pixel)"]);
         assert_eq!(assumed(&[-9999.0, 1e20, -9999.0, 1e20]).len(), 2);
     }

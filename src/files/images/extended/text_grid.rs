@@ -1,4 +1,4 @@
-//! Reads grids of heights that are text: ESRI ASCII grids, points on a grid (XYZ) and plain matrices.
+//! Reads grids of heights that are text: grids of ESRI and Surfer, points on a grid (XYZ) and plain matrices.
 
 use super::samples::damaged;
 use crate::error::{Result, checked_cells, try_filled};
@@ -20,9 +20,10 @@ struct Grid {
 pub(super) fn decode(bytes: &[u8]) -> Result<StoredImage> {
     let text = String::from_utf8_lossy(bytes);
     let text = text.trim_start_matches('\u{feff}');
-    let (grid, no_data) = match esri_grid(text)? {
-        Some(found) => found,
-        None => (table(text)?, None),
+    let (grid, no_data) = match (text.strip_prefix("DSAA"), esri_grid(text)?) {
+        (Some(grid), _) => (surfer_grid(grid)?, None),
+        (None, Some(found)) => found,
+        (None, None) => (table(text)?, None),
     };
     let mut values = grid.values;
     for value in values.iter_mut().filter(|value| Some(**value) == no_data) {
@@ -88,6 +89,35 @@ fn esri_grid(text: &str) -> Result<Option<(Grid, Option<f64>)>> {
         },
         number("nodata_value")?,
     )))
+}
+
+/// Reads what follows the first word of a grid of Surfer: numbers of columns and rows, ranges of x, y and z, and the rows
+/// from the lowest y upwards.
+fn surfer_grid(text: &str) -> Result<Grid> {
+    let mut values = numbers(text, false)?;
+    let cut_short = || damaged(Format::Text, "its header is cut short");
+    let head = *values.first_chunk::<8>().ok_or_else(cut_short)?;
+    let [cols, rows, x0, x1, y0, y1, _, _] = head;
+    let size = (cols as usize, rows as usize);
+    let count = checked_cells("Surfer grid", size.1, size.0)?;
+    values.drain(..head.len());
+    if values.len() != count || size.0 < 2 || size.1 < 2 {
+        let reason = format!("it has {} values, but {rows} rows of {cols}", values.len());
+        return Err(damaged(Format::Text, reason));
+    }
+    let sides = [(x1 - x0) / (cols - 1.0), (y1 - y0) / (rows - 1.0)];
+    if !sides.iter().all(|side| side.is_finite() && *side > 0.0) {
+        return Err(damaged(Format::Text, "its cells have no size"));
+    }
+    Ok(Grid {
+        values: (values.chunks_exact(size.0).rev())
+            .flatten()
+            .copied()
+            .collect(),
+        size,
+        sides: Some(sides),
+        assumptions: Vec::new(),
+    })
 }
 
 /// Reads lines of equally many numbers: points on a grid if there are three and the first two are their places, else a
@@ -259,6 +289,19 @@ mod tests {
             .unwrap_err()
             .to_string();
         assert!(error.contains("5 values, but 2 rows of 3"), "{error}");
+    }
+
+    #[test]
+    fn grids_of_surfer_are_read_from_below() {
+        let head = "DSAA\r\n3 2\r\n10 11\r\n7 7.5\r\n1 6\r\n";
+        let (width, height, side, values) = read(&format!("{head}4 5\r\n6\r\n1 2 1.70141e+38\r\n"));
+        assert_eq!((width, height, side), (3, 2, 0.5));
+        assert_eq!(values[..2], [1.0, 2.0]);
+        assert_eq!(values[3..], [4.0, 5.0, 6.0]);
+        let error = decode(format!("{head}4 5 6").as_bytes()).unwrap_err();
+        assert!(error.to_string().contains("3 values, but 2 rows of 3"));
+        assert!(decode(b"DSAA 3 2 0 1").is_err());
+        assert!(decode(b"DSAA 2 2 0 0 0 1 0 1 1 2 3 4").is_err());
     }
 
     #[test]

@@ -19,7 +19,7 @@ import { Problem, main } from './util/problem.mjs';
 const IMPORTS = [
   { file: 'api.js', from: "new URL('./pkg/index.js', import.meta.url).href", to: "'../pkg/index.js'" },
   { file: 'api.js', from: "new URL('./pkg/wasm/solver_bg.wasm', import.meta.url)", to: "new URL('../pkg/wasm/solver_bg.wasm', import.meta.url)" },
-  { file: join('surface', 'mesh-view.js'), from: "new URL('../vendor/three.js', import.meta.url).href", to: "'../vendor/three.js'" },
+  { file: join('surface', 'scene.js'), from: "new URL('../vendor/three.js', import.meta.url).href", to: "'../vendor/three.js'" },
 ];
 
 /** Quality of Brotli, of at most 11, which saves a tenth more and takes twenty times as long. */

@@ -1,7 +1,6 @@
 /** Reads a file of heights as an input, with the photo, confidence and mask that belong to it. */
 import { runInWorker } from './worker-task.js';
 import { readPicture } from './pixels.js';
-import { storeSurfaceData } from './surface/derived-data.js';
 import { transferToWorker } from './surface/worker-client.js';
 import { toInput } from './import-interpretation.js';
 import { noDataOptions } from './no-data.js';
@@ -39,9 +38,7 @@ export async function readInput(api, file, signal, { array, noData } = {}, { pho
   });
   const { format, dataType, assumptions } = read;
   const photo = photoFile && { name: photoFile.name, image: await readPicture(photoFile) };
-  const { look, ...interpretation } = await transferToWorker('interpretFile', [read.data], read, file.name, noData);
-  const input = toInput(interpretation);
-  storeSurfaceData(input, look);
+  const input = toInput(await transferToWorker('interpretFile', [read.data], read, file.name, noData));
   return {
     ...input,
     name: file.name.replace(/\.[^.]*$/, '') || 'heights',

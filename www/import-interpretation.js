@@ -3,7 +3,7 @@ import { coarseningFor, depthUnitOf, isHexagonal, isNoDepth } from './metadata-g
 import { number } from './format.js';
 import { GUESS_WORDS } from './messages.js';
 import { gridOverLattice, interpolateToGrid } from './surface/lattice.js';
-import { computeSurfaceDataAndPreview, reduceForPreview } from './surface/textures.js';
+import { reduceForPreview } from './surface/downsampling.js';
 
 /** @import {Api} from './api.js' */
 /** @import {Input} from './session.js' */
@@ -50,19 +50,17 @@ function firstInterpretation(read, name, noData) {
 }
 
 /**
- * Guesses the interpretation of a file, and prepares its display. This takes long for a large file, so it runs in the
- * page's worker.
+ * Guesses the interpretation of a file. This takes long for a large file, so it runs in the page's worker.
  * @param {Parameters<typeof firstInterpretation>} file
  */
 export function interpretFile(...file) {
   const input = firstInterpretation(...file);
-  const { data, width, height, heightScale, pixelSize } = input;
-  return { ...input, range: rangeOf(data), look: computeSurfaceDataAndPreview(data, width, height, heightScale, pixelSize) };
+  return { ...input, range: rangeOf(input.data) };
 }
 
 /**
  * Converts the worker's answer to an input, and caches the range of its heights.
- * @param {Omit<ReturnType<typeof interpretFile>, 'look'>} answer
+ * @param {ReturnType<typeof interpretFile>} answer
  * @returns {InterpretedHeights}
  */
 export function toInput({ range, ...input }) {

@@ -6,9 +6,8 @@
  * a newer request.
  */
 import { settingsFor } from './design.js';
-import { downsample } from './surface/downsampling.js';
+import { downsample, PREVIEW_SIDE_PIXELS } from './surface/downsampling.js';
 import { previewHeightsOf } from './surface/derived-data.js';
-import { PREVIEW_SIDE_PIXELS } from './surface/textures.js';
 
 /** @import {Api, OpenSolver} from './api.js' */
 /** @import {Input, Settings} from './session.js' */

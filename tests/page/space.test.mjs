@@ -2,7 +2,7 @@
 import assert from 'node:assert/strict';
 import { parsed } from './support/numbers.mjs';
 import { parsePng } from './support/photos.mjs';
-import { choose, pageTest, painted, runBy, settled } from './support/page.mjs';
+import { choose, pageTest, painted, runBy } from './support/page.mjs';
 
 /** @typedef {import('playwright-core').Page} Page */
 
@@ -41,10 +41,9 @@ function correlation(a, b) {
   return product(a, ma, b, mb) / Math.sqrt(product(a, ma, a, ma) * product(b, mb, b, mb));
 }
 
-pageTest('in space the surface is turned, lit and divided, and from above it is the flat picture', async (page) => {
+pageTest('in space the surface is turned, lit and divided', async (page) => {
   await runBy(page, () => page.locator('#size').selectOption('100'));
   await runBy(page, () => page.locator('#noise').selectOption('0'));
-  assert.ok(await page.locator('#space-canvas').isVisible() && !(await page.locator('#result-canvas').isVisible()));
   const divider = page.getByRole('slider', { name: 'Divider between input and result' });
 
   await page.getByRole('button', { name: 'From above' }).click();
@@ -90,36 +89,15 @@ pageTest('in space the surface is turned, lit and divided, and from above it is 
   await divider.press('End');
   for (let i = 0; i < 10; i++) await divider.press('ArrowLeft');
   assert.match(await divider.getAttribute('aria-valuetext') ?? '', /^input on 50 %/);
+}, { drawn: true, start: '#example=roof' });
 
-  await choose(page.getByRole('radio', { name: 'Side by side' }));
-  const flat = await brightness(page, '#result-canvas');
-  assert.ok(correlation(above, flat) > 0.97, `${correlation(above, flat)}`);
-  // Looked at from closer, and what is under the pointer.
-  const result = page.locator('#result-canvas');
-  await result.hover();
-  assert.match(await page.locator('#flat-reading').innerText(), /^height 0\.\d+ units$/);
-  await result.press('+');
-  await result.press('+');
-  assert.ok(correlation(flat, await brightness(page, '#result-canvas')) < 0.95);
-  await result.press('0');
-  assert.ok(correlation(flat, await brightness(page, '#result-canvas')) > 0.999);
-  // It is what the next visit begins with.
-  await choose(page.getByRole('radio', { name: 'In space' }));
-  assert.equal(await page.evaluate(() => localStorage.getItem('developable: arrangement')), 'space');
-}, { arrangement: 'space', start: '#example=roof' });
-
-pageTest('without WebGL the flat pictures are there', async (page) => {
-  await page.addInitScript(() => {
-    const own = HTMLCanvasElement.prototype.getContext;
-    /** @type {any} */ (HTMLCanvasElement.prototype).getContext = function (/** @type {string} */ kind, /** @type {any} */ options) {
-      return kind.startsWith('webgl') ? null : own.call(this, kind, options);
-    };
-  });
-  await page.reload();
-  await page.locator('#page[data-phase="idle"]').waitFor();
-  assert.ok(await page.locator('#result-canvas').isVisible() && !(await page.locator('#space-canvas').isVisible()));
-  assert.equal(await page.getByRole('radio', { name: 'In space' }).isVisible(), false);
-}, { arrangement: 'space' });
+pageTest('without WebGL that is said, and the rest works', async (page) => {
+  assert.match(await page.locator('#space-missing').innerText(), /no WebGL/);
+  assert.equal(await page.locator('#space-canvas').isVisible(), false);
+  await choose(page.getByRole('radio', { name: 'Laid flat', exact: true }));
+  await choose(page.getByRole('radio', { name: 'To scale' }));
+  assert.ok(await page.locator('#result-picture').isVisible());
+});
 
 pageTest('an answer that takes long can be done without, and asked for again; then it unfolds', async (page) => {
   await page.emulateMedia({ reducedMotion: 'reduce' });
@@ -149,7 +127,7 @@ pageTest('an answer that takes long can be done without, and asked for again; th
   await page.locator('#space-canvas').hover();
   const bentStrain = await page.locator('#reading').innerText();
   assert.match(bentStrain, strain);
-  await choose(page.getByRole('radio', { name: 'Side by side' }));
+  await choose(page.getByRole('radio', { name: 'To scale' }));
   await page.locator('#result-picture').hover();
   const flatStrain = await page.locator('#flat-reading').innerText();
   assert.match(flatStrain, strain);
@@ -158,64 +136,4 @@ pageTest('an answer that takes long can be done without, and asked for again; th
   assert.equal((await page.locator('#flat-reading').innerText()).trim(), '', 'nothing beside it');
   await choose(page.getByRole('radio', { name: 'Shaded', exact: true }));
   assert.equal(await page.locator('#unfold-field').isVisible(), false);
-}, { arrangement: 'space', start: '#example=roof' });
-
-pageTest('what rests is drawn finely, once; while λ is dragged there are pictures', async (page) => {
-  await page.evaluate(() => {
-    const { clear } = WebGL2RenderingContext.prototype;
-    const drawn = { times: 0 };
-    Object.assign(window, { drawn });
-    WebGL2RenderingContext.prototype.clear = function (mask) {
-      if (this.canvas instanceof HTMLCanvasElement && this.canvas.id === 'space-canvas') drawn.times++;
-      clear.call(this, mask);
-    };
-    // Pictures are drawn by frames and timers: where the page waits for neither, none will come.
-    const { requestAnimationFrame, setTimeout, clearTimeout } = window;
-    /** @type {Set<string>} */
-    const waiting = new Set();
-    Object.assign(window, {
-      waiting,
-      requestAnimationFrame: (/** @type {FrameRequestCallback} */ callback) => {
-        const id = requestAnimationFrame((now) => (waiting.delete(`frame ${id}`), callback(now)));
-        waiting.add(`frame ${id}`);
-        return id;
-      },
-      setTimeout: (/** @type {(...values: unknown[]) => void} */ callback, /** @type {number} */ delay, /** @type {unknown[]} */ ...values) => {
-        const id = setTimeout(() => (waiting.delete(`timer ${id}`), callback(...values)), delay);
-        waiting.add(`timer ${id}`);
-        return id;
-      },
-      clearTimeout: (/** @type {number} */ id) => (waiting.delete(`timer ${id}`), clearTimeout(id)),
-    });
-  });
-  const canvas = page.locator('#space-canvas');
-  const resting = () => page.waitForFunction(() => /** @type {any} */ (window).waiting.size === 0, null, { polling: 50 });
-  const drawn = () => page.evaluate(() => /** @type {any} */ (window).drawn.times);
-  const fine = () => page.waitForFunction(() => {
-    const { width, clientWidth, height, clientHeight } = /** @type {HTMLCanvasElement} */ (document.querySelector('#space-canvas'));
-    return width >= clientWidth && height >= clientHeight;
-  });
-  await fine();
-  await canvas.press('ArrowLeft');
-  await page.waitForFunction(() => /** @type {any} */ (window).drawn.times > 1);
-  await fine();
-  // A graphics card may be found to be good for two finer pictures, and then nothing is drawn any more.
-  await resting();
-  const before = await drawn();
-  assert.ok(before > 1 && before <= 7, `${before} pictures after one key`);
-
-  const events = 30;
-  await page.evaluate(async (events) => {
-    const slider = /** @type {HTMLInputElement} */ (document.querySelector('#lambda'));
-    for (let i = 0; i < events; i++) {
-      slider.value = String(5 + i / 15);
-      slider.dispatchEvent(new Event('input', { bubbles: true }));
-      await new Promise((resolve) => setTimeout(resolve, 33));
-    }
-  }, events);
-  const pictures = await drawn() - before;
-  assert.ok(pictures >= events / 6, `${pictures} pictures of ${events} wishes`);
-  await page.locator('#lambda').dispatchEvent('change');
-  await settled(page);
-  await fine();
-}, { arrangement: 'space' });
+}, { drawn: true, start: '#example=roof' });

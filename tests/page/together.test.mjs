@@ -84,7 +84,7 @@ pageTest('without the camera’s file it is assumed, and may be typed', async (p
   assert.ok(await page.getByRole('radio', { name: 'Photo', exact: true }).isChecked());
   await page.locator('#analysis[data-view="photo"][aria-busy="false"]').waitFor({ state: 'attached' });
   await painted(page);
-  assert.ok((await look(page, '#result-canvas')).roughness > 1, 'dots on the surface');
+  assert.ok((await look(page, 'result')).roughness > 1, 'dots on the surface');
   assert.ok(await page.getByLabel('These are depths from a camera').isChecked());
   // A tenth of a millimetre.
   await page.getByLabel('Depth scale').fill('0.0001');
@@ -101,7 +101,7 @@ pageTest('without the camera’s file it is assumed, and may be typed', async (p
   await runBy(page, () => page.getByRole('button', { name: 'Solve', exact: true }).click());
   const error = misplaced(await flatPng(page));
   assert.ok(error < 0.006, `dots are off by ${100 * error} % of the width`);
-});
+}, { drawn: true });
 
 pageTest('a camera that cannot belong to the image is refused', async (page) => {
   await open(page, 'depth.npy', npy(256, depths(0)));

@@ -4,7 +4,7 @@ import { readFileSync } from 'node:fs';
 import { test } from 'node:test';
 import { initSync, loadSync, pattern } from '../../pkg/sync.js';
 import { readAssemblyMesh, borderLines } from '../../www/surface/assembly-mesh.js';
-import { anchorLines, morphLines, valueOnRay } from '../../www/surface/anchored-lines.js';
+import { anchorLines, morphLines } from '../../www/surface/anchored-lines.js';
 import { computeUnfolding } from '../../www/surface/unfolding.js';
 
 test('a cylinder unfolds as cylinders of ever larger radius, without stretch', () => {
@@ -27,10 +27,10 @@ test('a cylinder unfolds as cylinders of ever larger radius, without stretch', (
     }
   }
   const stretches = new Float64Array((2 * triangles.length) / 3).fill(1);
-  const { forms, colours } = computeUnfolding({
+  const { forms, colors } = computeUnfolding({
     positions: Float64Array.from(positions), places: Float64Array.from(places), triangles: Uint32Array.from(triangles), stretches,
   }, 0.01, [10, 20]);
-  assert.equal(colours.length, 4 * rows * cols);
+  assert.equal(colors.length, 3 * rows * cols);
   const length = (/** @type {Float32Array} */ form, /** @type {number} */ i, /** @type {number} */ j) =>
     Math.hypot(...[0, 1, 2].map((k) => form[3 * i + k] - form[3 * j + k]));
   forms.forEach((form, n) => {
@@ -52,7 +52,7 @@ test('a cylinder unfolds as cylinders of ever larger radius, without stretch', (
   assert.ok(forms[forms.length - 1].every((value, i) => i % 3 < 2 || Math.abs(value - forms[forms.length - 1][2]) < 1e-5), 'and ends flat');
 });
 
-test('lines go along with a mesh that moves, and values are read from it where it is seen first', () => {
+test('lines go along with a mesh that moves', () => {
   // Two squares side by side; the right one stands up in the end.
   const positions = Float64Array.from([0, 0, 0, 1, 0, 0, 2, 0, 0, 0, 1, 0, 1, 1, 0, 2, 1, 0]);
   const triangles = Uint32Array.from([0, 1, 4, 0, 4, 3, 1, 2, 5, 1, 5, 4]);
@@ -67,17 +67,6 @@ test('lines go along with a mesh that moves, and values are read from it where i
     found.forEach((value, k) => assert.ok(Math.abs(value - expected[k]) < 1e-6, `${found} for ${expected}`));
   }
   assert.ok(Math.abs(morphLines(lines, forms, 0.5, look)[0].points[1][2] - 0.375) < 1e-6, 'half way');
-
-  const mesh = { triangles, forms };
-  const values = [0, 1, 2, 0, 1, 2];
-  const above = /** @type {const} */ ({ point: [1.5, 0.5, 9], towards: [0, 0, 1] });
-  assert.ok(Math.abs(valueOnRay(mesh, 0, above, values) - 1.5) < 1e-6);
-  assert.ok(Number.isNaN(valueOnRay(mesh, 1, above, values)), 'there is nothing any more');
-  const aside = /** @type {const} */ ({ point: [-3, 0.5, 0.5], towards: [1, 0, 0] });
-  assert.ok(Math.abs(valueOnRay(mesh, 1, aside, values) - 1.5) < 1e-6, 'the wall');
-  // Seen from the right and above, the wall hides what is behind its foot.
-  const slant = /** @type {const} */ ({ point: [0.8, 0.5, 0], towards: [1, 0, 1] });
-  assert.ok(Math.abs(valueOnRay(mesh, 1, slant, values) - 1.2) < 1e-6, `${valueOnRay(mesh, 1, slant, values)}`);
 });
 
 test('sheets of a pyramid are where it is, and lie flat beside each other in their true size', () => {

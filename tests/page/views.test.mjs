@@ -60,7 +60,7 @@ const across = ([x, y]) => COS * y - SIN * x;
 
 pageTest('curvatures of the cylinder: one bend as the radius says, none of the other', async (page) => {
   await example(page, 'cylinder', { noise: '0' });
-  const plain = [await look(page, '#input-canvas'), await look(page, '#result-canvas')].map(({ hash }) => hash);
+  const plain = [await look(page, 'input'), await look(page, 'result')].map(({ hash }) => hash);
   await view(page, 'Curvature κ₂');
   const bends = points(60).map((point) => RADIUS ** 2 / (RADIUS ** 2 - across(point) ** 2) ** 1.5);
   const [kappa1] = (await told(page, 'κ₁')).split('→').map(parsed);
@@ -69,7 +69,7 @@ pageTest('curvatures of the cylinder: one bend as the radius says, none of the o
   // The input's is what resampling it to the lattice leaves.
   assert.ok(before < 0.03 / RADIUS && after < 0.01 / RADIUS, `${before} → ${after}`);
   assert.match(await page.locator('#about-view figcaption').innerText(), /κ₂.*1\/unit; figures: input → result$/);
-  const seen = [await look(page, '#input-canvas'), await look(page, '#result-canvas')].map(({ hash }) => hash);
+  const seen = [await look(page, 'input'), await look(page, 'result')].map(({ hash }) => hash);
   assert.ok(seen[0] !== plain[0] && seen[1] !== plain[1], 'both are coloured');
 
   await view(page, 'Curvature K');
@@ -79,9 +79,9 @@ pageTest('curvatures of the cylinder: one bend as the radius says, none of the o
   assert.ok(values.includes(0) && values.length >= 3);
   assert.ok(parsed((await told(page, 'Median |K|')).split('→')[1]) < 0.02 / RADIUS ** 2);
   await view(page, 'Shaded');
-  assert.equal((await look(page, '#result-canvas')).hash, plain[1]);
+  assert.equal((await look(page, 'result')).hash, plain[1]);
   assert.equal(await page.locator('#analysis').isVisible(), false);
-});
+}, { drawn: true });
 
 pageTest('noise has curvature everywhere, the result next to none, on one scale', async (page) => {
   await example(page, 'cylinder');
@@ -145,16 +145,16 @@ pageTest('the roof has the patches that it was made of, with their areas and fol
 
 pageTest('rulings are drawn over the result only', async (page) => {
   await example(page, 'cylinder', { noise: '0' });
-  const plain = [await look(page, '#input-canvas'), await look(page, '#result-canvas')].map(({ hash }) => hash);
+  const plain = [await look(page, 'input'), await look(page, 'result')].map(({ hash }) => hash);
   await view(page, 'Rulings');
-  const seen = [await look(page, '#input-canvas'), await look(page, '#result-canvas')].map(({ hash }) => hash);
+  const seen = [await look(page, 'input'), await look(page, 'result')].map(({ hash }) => hash);
   assert.ok(seen[0] === plain[0] && seen[1] !== plain[1]);
   assert.ok(parsed(await told(page, 'Lines')) > 10);
   assert.ok(parsed(await told(page, 'Median deviation from straight')) < 3);
   // Along the axis, from side to side.
   const longest = parsed(await told(page, 'Longest'));
   assert.ok(longest > 0.9 && longest < 1 / COS + 0.01, `${longest}`);
-});
+}, { drawn: true });
 
 pageTest('the cylinder laid flat is as large as it is bent', async (page) => {
   await example(page, 'cylinder', { size: '400', noise: '0' });
@@ -198,13 +198,13 @@ pageTest('the cylinder laid flat is as large as it is bent', async (page) => {
   assert.ok(parsed(await told(page, 'RMS strain')) < 0.1);
   assert.equal(await told(page, 'Flipped triangles'), '0');
   assert.equal(await told(page, 'Overlaps'), 'none');
-  assert.ok((await look(page, '#result-picture')).covered > 0.4);
-  assert.equal(await page.locator('#result-canvas').isVisible(), false);
+  await choose(page.getByRole('radio', { name: 'To scale' }));
+  assert.ok((await look(page, '#result-picture')).covered > 0.2);
+  assert.equal(await page.locator('#space').isVisible(), false);
   assert.match(await page.locator('#result-picture').getAttribute('aria-label') ?? '', /laid flat/);
   assert.equal(await page.locator('#result-title').innerText(), 'Laid flat');
   await view(page, 'Shaded');
-  assert.equal(await page.locator('#result-title').innerText(), 'Result');
-  assert.equal(await page.locator('#result-canvas').isVisible(), true);
+  assert.equal(await page.locator('#space').isVisible(), true);
 });
 
 pageTest('what cannot be laid flat whole is laid flat in pieces, which are saved as sheets to cut out', async (page) => {
@@ -212,6 +212,7 @@ pageTest('what cannot be laid flat whole is laid flat in pieces, which are saved
   await view(page, 'Laid flat');
   assert.match(await page.locator('#about-view .said').innerText(), /In one piece it would stretch.*sheets.*cuts/);
   assert.ok(parsed(await told(page, 'Largest strain')) <= 1);
+  await choose(page.getByRole('radio', { name: 'To scale' }));
   assert.equal(await page.locator('#result-title').innerText(), 'Laid flat, in pieces');
   assert.ok((await look(page, '#result-picture')).covered > 0.2);
   // Under the pointer, on some place of the drawing, is a sheet.
@@ -399,10 +400,9 @@ pageTest('a view that cannot be worked out says so, and the surface stays', asyn
   // The headline has asked for the pieces, and so has loaded the sound file.
   await page.reload();
   await settled(page);
-  const before = (await look(page, '#result-canvas')).hash;
   await view(page, 'Laid flat');
   await page.getByRole('alert').filter({ hasText: 'could not be worked out' }).waitFor();
-  assert.equal((await look(page, '#result-canvas')).hash, before);
+  assert.ok(await page.locator('#space').isVisible());
   await page.unrouteAll();
   await view(page, 'Rulings');
   assert.ok(parsed(await told(page, 'Lines')) > 10, 'it can be tried again');

@@ -194,7 +194,7 @@ pageTest('a closed mesh is solved whole, shown before and after, laid flat and s
   await choose(page.getByRole('radio', { name: 'From one side', exact: true }));
   assert.ok(await page.locator('section[aria-label="Surfaces"]').isVisible());
   await settled(page);
-});
+}, { drawn: true });
 
 pageTest('a whole solve tells how far it is and can be done without; what is no surface is said', async (page) => {
   await openFromOneSide(page, 'box.obj', obj(noisyBox(20, 0.01)));
@@ -257,7 +257,7 @@ pageTest('rulings of a whole mesh are drawn on its result only, along the axis o
   await divider.fill('0');
   await view(page, 'gaussian');
   assert.equal((await drawnRulings(page)).pixels, 0);
-});
+}, { drawn: true });
 
 /** Root mean square of how far places are off the tube. @param {readonly (readonly number[])[]} points */
 const offTube = (points) => Math.sqrt(points.reduce((sum, [, y, z]) => sum + (Math.hypot(y, z) - TUBE.radius) ** 2, 0) / points.length);
@@ -364,7 +364,7 @@ pageTest('where a whole mesh is under the pointer, how far it was moved, and wha
   await view(page, 'patches');
   assert.match(await pointAt(0.5, 0.5), /moved by \S+ · patch 1$/);
   // Where it turns first, it is not where it will be.
-}, { reducedMotion: 'reduce' });
+}, { reducedMotion: 'reduce', drawn: true });
 
 pageTest('sheets of a model without a unit are in millimetres, and the headline says their size and pages', async (page) => {
   // A house of 60 × 40 × 50, as from any CAD program.

@@ -3,7 +3,7 @@
  * them. Dragging a line makes a new point.
  */
 import { make } from '../dom.js';
-import { ARROW_DIRECTIONS } from '../surface/view-keys.js';
+import { ARROW_DIRECTIONS } from '../surface/zoom.js';
 import { Magnifier } from './magnifier.js';
 
 /** @import {Pixels} from './magnifier.js' */

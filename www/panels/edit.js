@@ -38,7 +38,7 @@ export function editPanel(session, space) {
     const { input } = session;
     return place && input ? [0.5 + place.x * (input.width - 1), 0.5 + (1 - place.y) * (input.height - 1)] : null;
   };
-  /** @param {number} x @param {number} y in the canvas' pixels */
+  /** @param {number} x @param {number} y in CSS pixels */
   const extendStroke = (x, y) => {
     const { input } = session;
     const place = space.placeAt(x, y);
@@ -81,7 +81,7 @@ export function editPanel(session, space) {
   // The keyboard edits at the middle of the canvas.
   space.canvas.addEventListener('keydown', (event) => {
     if (event.key !== 'Enter' || effect() === null || isLasso()) return;
-    extendStroke(space.canvas.width / 2, space.canvas.height / 2);
+    extendStroke(space.canvas.clientWidth / 2, space.canvas.clientHeight / 2);
     apply();
   });
 

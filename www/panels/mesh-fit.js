@@ -4,7 +4,7 @@ import { percent } from '../format.js';
 import { lengthUnitOf } from '../pattern.js';
 import { plainMessage } from '../error-messages.js';
 import { FORMAT_WORDS, MESH_FIT_WORDS } from '../messages.js';
-import { MeshView } from '../surface/mesh-view.js';
+import { SceneView } from '../surface/scene.js';
 import { PictureView } from '../surface/picture-view.js';
 import { Zoom } from '../surface/zoom.js';
 import { gaussian, patches, readingAt, rulings, shaded, sheet, meshFitSummary } from '../views/mesh-fit.js';
@@ -50,7 +50,7 @@ export function meshFitPanel(session, meshFit) {
   const [file, sheets, flat] = ['file', 'sheets', 'flat'].map((name) => element(`whole-${name}`, HTMLButtonElement));
   const report = element('whole-report', HTMLButtonElement);
   const picture = new PictureView(element('whole-picture', HTMLCanvasElement), new Zoom());
-  /** @type {Promise<MeshView | null> | null} */
+  /** @type {Promise<SceneView | null> | null} */
   let viewer = null;
   /** Number of the newest update; answers to older ones are discarded. */
   let newestUpdate = 0;
@@ -91,7 +91,7 @@ export function meshFitPanel(session, meshFit) {
     about.replaceChildren(...nodes);
     picture.show(laid ?? null);
     reading.textContent = '';
-    viewer ??= MeshView.create(canvas, () => {}, { flatShading: true }).catch(() => null);
+    viewer ??= SceneView.create(canvas, { isFaceted: true }).catch(() => null);
     const view = await viewer;
     missing.hidden = view !== null || laid !== undefined;
     canvas.hidden = view === null || laid !== undefined;
@@ -186,8 +186,7 @@ export function meshFitPanel(session, meshFit) {
       if (viewedMesh === mesh || !view) return;
       const { up, direction } = INITIAL_VIEWS[Y_UP_KINDS.includes(session.input?.kind ?? '') ? 'y' : 'z'];
       view.setUp(up);
-      view.setDirection(direction);
-      view.fit();
+      view.look(direction);
       view.turnOnce();
       viewedMesh = mesh;
     });

@@ -5,7 +5,7 @@ import { MESH_ENDING } from '../file-kinds.js';
 import { count, number } from '../format.js';
 import { boundingBoxSides } from '../mesh-fit.js';
 import { openSampledMesh, samplingTask } from '../mesh-sampling.js';
-import { MeshView } from '../surface/mesh-view.js';
+import { SceneView } from '../surface/scene.js';
 
 /** @import {Mesh, SampleMeshOptions} from '../api.js' */
 /** @import {InputOrigin} from '../mesh-sampling.js' */
@@ -24,7 +24,7 @@ export function meshPanel(session) {
   const resolution = element('mesh-resolution', HTMLInputElement);
   const turnedButton = element('mesh-turned', HTMLButtonElement);
   const buttons = elements('button[data-view]', HTMLButtonElement);
-  /** @type {Promise<MeshView | null> | null} */
+  /** @type {Promise<SceneView | null> | null} */
   let viewer = null;
   /** The mesh that is displayed. @type {Mesh | null} */
   let shownMesh = null;
@@ -43,10 +43,10 @@ export function meshPanel(session) {
     if (opened) void session.run();
   };
   let turnTimer = 0;
-  /** Samples the mesh from the new view after it was turned. @param {MeshView} view */
-  const onTurn = (view) => {
+  /** Samples the mesh from the new view after it was turned. */
+  const onTurn = () => {
     clearTimeout(turnTimer);
-    turnTimer = window.setTimeout(() => resample({ view: view.direction }), TURN_DELAY_MS);
+    turnTimer = window.setTimeout(async () => resample({ view: (await viewer)?.direction }), TURN_DELAY_MS);
   };
   for (const button of buttons) {
     button.addEventListener('click', () => resample({ view: /** @type {SampleMeshOptions['view']} */ (button.dataset.view) }));
@@ -71,7 +71,7 @@ export function meshPanel(session) {
     span.textContent = spanInWords(mesh);
     for (const button of buttons) button.setAttribute('aria-pressed', String(button.dataset.view === options.view));
     turnedButton.setAttribute('aria-pressed', String(typeof options.view !== 'string'));
-    viewer ??= MeshView.create(canvas, onTurn).catch(() => null);
+    viewer ??= SceneView.create(canvas, { onTurn }).catch(() => null);
     const view = await viewer;
     canvas.hidden = turnedButton.hidden = view === null;
     missing.hidden = view !== null;

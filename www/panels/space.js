@@ -1,28 +1,21 @@
 /** Input and result as surfaces in space, one on each side of a divider; and the animation that unfolds the result. */
-import { oncePerFrame, element, elements } from '../dom.js';
+import { oncePerFrame, element } from '../dom.js';
 import { number, heightReading, strainInWords } from '../format.js';
-import { valueOnRay } from '../surface/anchored-lines.js';
-import { Camera } from '../surface/camera.js';
-import { controlCamera } from '../surface/gestures.js';
-import { inputNormals, resultImage, resultNormals, takeTextures } from '../surface/derived-data.js';
+import { interpolateForms, morphLines } from '../surface/anchored-lines.js';
+import { resultImage } from '../surface/derived-data.js';
 import { gridOf } from '../surface/lattice.js';
-import { normalsOf } from '../surface/normals.js';
-import { expandBox, heightfieldBox, clampToUnit, heightAt, pinPosition, markPoints, reliefOf } from '../surface/relief.js';
-import { SurfaceRenderer } from '../surface/surface-renderer.js';
+import { clampToUnit, expandBox, heightAt, heightfieldBox, intersectHeights, markPoints, pinPosition, reliefMesh, reliefOf } from '../surface/relief.js';
+import { SceneView } from '../surface/scene.js';
 
 /** @import {Pin} from '../design.js' */
 /** @import {DragTarget} from '../surface/gestures.js' */
-/** @import {Input, Result, Session} from '../session.js' */
+/** @import {Result, Session} from '../session.js' */
 /** @import {Colour} from '../surface/colours.js' */
-/** @import {Layer, Line} from '../surface/layer.js' */
-/** @import {Light} from '../surface/light.js' */
-/** @import {PixelMarks} from '../surface/marks.js' */
+/** @import {Line, PixelMarks} from '../surface/layer.js' */
+/** @import {Relief} from '../surface/relief.js' */
+/** @import {Box, Vector} from '../surface/scene.js' */
 /** @import {ViewContent} from '../views/view-content.js' */
 
-/** Key of the arrangement (in space or flat) in the local storage. */
-const ARRANGEMENT_KEY = 'developable: arrangement';
-/** Delay after the last movement before the surfaces are drawn in full quality, in milliseconds. */
-const FULL_QUALITY_DELAY_MS = 250;
 /** Duration of the unfolding, in milliseconds. */
 const UNFOLDING_MS = 2200;
 /** Delay before the unfolding begins, in milliseconds. */
@@ -31,37 +24,28 @@ const UNFOLDING_DELAY_MS = 500;
 const TRAIL_COLOUR = [214, 64, 43];
 /** Distance that an arrow key moves the divider, as a share of the canvas' width. */
 const DIVIDER_KEY_STEP = 0.05;
-/** Distance that an arrow key moves the light, in radii of the disk of its directions. */
-const LIGHT_KEY_STEP = 0.08;
-/** Minimum cosine of the camera's tilt for moving pins along the ground: smaller ones would move them too far. */
-const MIN_TILT_COSINE = 0.2;
+/** Minimum share of the vertical in the direction of view for moving pins along the ground: smaller ones would move them too far. */
+const MIN_VERTICAL_SHARE = 0.2;
+/** Directions of view. @type {Record<'above' | 'oblique', Vector>} */
+const DIRECTIONS = { above: [0, 0, -1], oblique: [0.375, 0.687, -0.622] };
 
-/**
- * @param {Session} session
- * @param {Light} light
- */
-export function spacePanel(session, light) {
+/** @param {Session} session */
+export function spacePanel(session) {
   const panel = element('space', HTMLElement);
-  const flat = element('views', HTMLElement);
   const canvas = element('space-canvas', HTMLCanvasElement);
   const divider = element('divider', HTMLElement);
   const reading = element('reading', HTMLElement);
-  const left = element('space-before', HTMLElement);
-  const right = element('space-after', HTMLElement);
   const exaggeration = element('exaggeration', HTMLInputElement);
   const exaggerated = element('exaggerated', HTMLElement);
   const drag = element('drag', HTMLSelectElement);
   const unfold = element('unfold', HTMLInputElement);
-  const unfoldField = element('unfold-field', HTMLElement);
-  const [tools] = elements('.space-tools', HTMLElement);
-  const arrangement = elements('input[name="arrangement"]', HTMLInputElement);
-  const hints = { flat: element('light-hint', HTMLElement), picture: element('picture-hint', HTMLElement), space: element('space-hint', HTMLElement) };
-  const camera = new Camera();
-  const space = createSpace(canvas, () => drawSoon());
+  /** Null until the first input, and without WebGL. @type {SceneView | null} */
+  let view = null;
+  let isCreated = false;
   /** Position of the divider, as a share of the canvas' width. */
   let dividerShare = 0.5;
-  /** The handler of the present drag over the surface. @type {DragTarget | null} */
-  let dragHandler = null;
+  /** The handler of the present drag over the surface. @type {DragTarget | undefined} */
+  let dragHandler;
   /** @type {DragTarget[]} */
   const dragHandlers = [];
   /** The line that is being drawn on the surface. @type {Line | null} */
@@ -74,105 +58,98 @@ export function spacePanel(session, light) {
   let shown = {};
   /** @type {readonly PixelMarks[]} */
   let marks = [];
-  const sides = /** @type {const} */ (['before', 'after']);
+  /** Input and result. @type {[Relief | null, Relief | null]} */
+  const reliefs = [null, null];
+  /** @type {Box} */
+  let box = { low: [0, 0, 0], high: [1, 1, 0] };
 
-  const isChosen = () => arrangement.find(({ checked }) => checked)?.value === 'space';
-  const isShown = () => space !== null && isChosen() && (!shown.after || shown.unfolding !== undefined);
-  let qualityTimer = 0;
-  let isFullQuality = false;
-  const draw = () => {
-    if (!space || panel.hidden || canvas.clientWidth === 0) return;
-    const hasResult = space.relief('after') !== null;
-    // The input of a design is not a surface, and an unfolding shows the result only.
-    const hidesInput = shown.unfolding !== undefined || session.input?.design === true;
-    const inputShare = hasResult && hidesInput ? 0 : hasResult ? dividerShare : 1;
-    divider.hidden = !hasResult || hidesInput;
-    divider.style.left = `${100 * dividerShare}%`;
-    space.draw(camera, light, inputShare, unfold.valueAsNumber);
-    for (const onDraw of drawListeners) onDraw();
-    if (!isFullQuality) {
-      clearTimeout(qualityTimer);
-      qualityTimer = window.setTimeout(() => {
-        isFullQuality = true;
-        space.rest();
-        draw();
-        isFullQuality = false;
-      }, FULL_QUALITY_DELAY_MS);
-    }
-  };
-  const drawSoon = oncePerFrame(draw);
-  /** @param {number} x in pixels of the canvas @returns {'before' | 'after'} */
-  const sideAt = (x) => (x < dividerShare * canvas.width || !space?.relief('after') ? 'before' : 'after');
+  const isShown = () => !panel.hidden;
+  /** The surface that is edited: the result, or the input where there is none. */
+  const topRelief = () => reliefs[1] ?? reliefs[0];
 
-  const arrange = () => {
-    panel.hidden = !isShown();
-    tools.hidden = !isChosen();
-    flat.hidden = isShown();
-    hints.space.hidden = panel.hidden;
-    element('flat-reading', HTMLElement).hidden = !panel.hidden;
-    hints.flat.hidden = !panel.hidden || (shown.before !== undefined && shown.after !== undefined);
-    hints.picture.hidden = !panel.hidden || shown.after === undefined;
-    drawSoon();
-  };
-
-  if (space) {
-    // Drawn at once, because a resized canvas is blank.
-    new ResizeObserver(draw).observe(canvas);
-    light.onMove(drawSoon);
-    controlCamera(canvas, camera, {
-      onChange: drawSoon,
-      moveLight: (x, y) => light.moveTo(x, y),
-      shiftLight: (x, y) => light.moveTo(light.x + LIGHT_KEY_STEP * x, light.y + LIGHT_KEY_STEP * y),
-      resetLight: () => light.reset(),
+  /** Creates the scene with the first input, and shows in it what there is by then. */
+  const createView = async () => {
+    isCreated = true;
+    view = await SceneView.create(canvas, {
+      isMetal: true,
+      isSeenFromAbove: true,
+      onDraw: () => drawListeners.forEach((onDraw) => onDraw()),
       controlsLight: () => drag.value === 'light',
-      dragTarget: {
+      target: {
         begin: (x, y) => {
-          dragHandler = dragHandlers.find((one) => one.begin(x, y)) ?? null;
-          return dragHandler !== null;
+          dragHandler = dragHandlers.find((one) => one.begin(x, y));
+          return dragHandler !== undefined;
         },
         move: (x, y) => dragHandler?.move(x, y),
         end: () => dragHandler?.end(),
       },
-    });
-    try {
-      const remembered = localStorage.getItem(ARRANGEMENT_KEY);
-      for (const radio of arrangement) radio.checked = radio.value === (remembered ?? 'space');
-    } catch {
-      // Without local storage the choice is not remembered.
+    }).catch(() => null);
+    element('space-missing', HTMLElement).hidden = view !== null;
+    canvas.hidden = view === null;
+    view?.setUp([0, 0, 1]);
+    updateBox();
+    view?.look(DIRECTIONS.oblique);
+  };
+
+  /** Shows another box, with all surfaces. */
+  const updateBox = () => {
+    if (!session.input) return;
+    box = heightfieldBox(session.input);
+    if (shown.unfolding) box = expandBox(shown.unfolding, box);
+    view?.setBox(box);
+    updateSurfaces([0, 1]);
+  };
+  /** @param {readonly (0 | 1)[]} sides */
+  const updateSurfaces = (sides) => {
+    for (const side of sides) {
+      const relief = reliefs[side];
+      if (!(side === 1 && shown.unfolding)) view?.setSurface(side, relief && reliefMesh(relief));
     }
-  } else {
-    element('arrangement', HTMLElement).hidden = true;
-    for (const radio of arrangement) radio.checked = radio.value === 'flat';
-  }
-  for (const radio of arrangement) {
-    radio.addEventListener('change', () => {
-      arrange();
-      try {
-        localStorage.setItem(ARRANGEMENT_KEY, radio.value);
-      } catch {
-        // Without local storage the choice is not remembered.
-      }
+    updateUnfolding();
+    updateLayers();
+  };
+  /** Shows the unfolding at its present position. */
+  const updateUnfolding = () => {
+    const { unfolding } = shown;
+    if (!unfolding) return;
+    const { triangles, forms, colors, lines, lineStyle } = unfolding;
+    const share = unfold.valueAsNumber;
+    const at = interpolateForms(forms, share);
+    view?.setSurface(1, { positions: Float32Array.from(forms[0], (_, i) => at(i)), triangles, colors });
+    view?.setLines(1, morphLines(lines, forms, share, lineStyle));
+  };
+  const unfoldSoon = oncePerFrame(updateUnfolding);
+  /** Draws layers, marks and the trail over the surfaces, and the divider between them. */
+  const updateLayers = () => {
+    const { input } = session;
+    [shown.input, shown.result].forEach((layer, i) => {
+      const side = /** @type {0 | 1} */ (i);
+      if (side === 1 && shown.unfolding) return;
+      const points = input && (side === 0 || input.design) ? markPoints(marks, input) : [];
+      view?.setImage(side, layer?.image ?? null);
+      view?.setLines(side, [...(layer?.lines ?? []), ...points, ...(trail ? [trail] : [])]);
     });
-  }
+    // The input of a design is not a surface, and an unfolding shows the result only.
+    const hidesInput = shown.unfolding !== undefined || input?.design === true;
+    divider.hidden = !reliefs[1] || hidesInput;
+    element('space-before', HTMLElement).hidden = hidesInput;
+    element('space-after', HTMLElement).hidden = !reliefs[1] || shown.unfolding !== undefined;
+    view?.divide(hidesInput && reliefs[1] ? 0 : dividerShare);
+  };
 
   exaggeration.addEventListener('input', () => {
-    camera.exaggeration = 2 ** exaggeration.valueAsNumber;
-    exaggerated.textContent = `× ${number(camera.exaggeration, 2)}`;
-    exaggeration.setAttribute('aria-valuetext', `heights ${number(camera.exaggeration, 2)} times`);
-    drawSoon();
+    const stretch = 2 ** exaggeration.valueAsNumber;
+    exaggerated.textContent = `× ${number(stretch, 2)}`;
+    exaggeration.setAttribute('aria-valuetext', `heights ${number(stretch, 2)} times`);
+    view?.exaggerate(stretch);
+    view?.fit();
   });
-  element('from-above', HTMLButtonElement).addEventListener('click', () => {
-    camera.viewFromAbove();
-    drawSoon();
-  });
-  element('at-an-angle', HTMLButtonElement).addEventListener('click', () => {
-    camera.viewObliquely();
-    drawSoon();
-  });
+  element('from-above', HTMLButtonElement).addEventListener('click', () => view?.look(DIRECTIONS.above));
+  element('at-an-angle', HTMLButtonElement).addEventListener('click', () => view?.look(DIRECTIONS.oblique));
 
   unfold.addEventListener('input', () => {
     newestAnimation++;
-    drawSoon();
+    unfoldSoon();
   });
   /** Animates the unfolding once. Users who prefer reduced motion see the end at once; moving the slider ends the animation. */
   const animateUnfolding = () => {
@@ -185,28 +162,28 @@ export function spacePanel(session, light) {
       if (animation !== newestAnimation || !shown.unfolding) return;
       const progress = Math.min(1, Math.max(0, (now - start - UNFOLDING_DELAY_MS) / UNFOLDING_MS));
       unfold.value = String(progress * progress * (3 - 2 * progress));
-      draw();
+      updateUnfolding();
       if (progress < 1) requestAnimationFrame(step);
     };
-    if (isMotionReduced) drawSoon();
-    else requestAnimationFrame(step);
+    if (!isMotionReduced) requestAnimationFrame(step);
   };
 
   /** Moves the divider. @param {number} share of the canvas' width */
   const moveDivider = (share) => {
-    dividerShare = Math.min(1, Math.max(0, share));
+    dividerShare = clampToUnit(share);
     const percent = Math.round(100 * dividerShare);
+    divider.style.left = `${100 * dividerShare}%`;
     divider.setAttribute('aria-valuenow', String(percent));
     divider.setAttribute('aria-valuetext', `input on ${percent} % of the picture, result on the rest`);
-    drawSoon();
+    view?.divide(dividerShare);
   };
   divider.addEventListener('pointerdown', (event) => {
     if (event.button === 0) divider.setPointerCapture(event.pointerId);
   });
   divider.addEventListener('pointermove', (event) => {
     if (!divider.hasPointerCapture(event.pointerId)) return;
-    const box = canvas.getBoundingClientRect();
-    moveDivider((event.clientX - box.left) / box.width);
+    const { left, width } = canvas.getBoundingClientRect();
+    moveDivider((event.clientX - left) / width);
   });
   divider.addEventListener('keydown', (event) => {
     const to = { ArrowLeft: dividerShare - DIVIDER_KEY_STEP, ArrowDown: dividerShare - DIVIDER_KEY_STEP, ArrowRight: dividerShare + DIVIDER_KEY_STEP, ArrowUp: dividerShare + DIVIDER_KEY_STEP, Home: 0, End: 1 }[event.key];
@@ -215,75 +192,54 @@ export function spacePanel(session, light) {
     moveDivider(to);
   });
 
+  moveDivider(dividerShare);
+
+  /** The place of the surface at a place of the canvas. @param {number} x @param {number} y in CSS pixels @param {Relief | null} relief */
+  const surfaceAt = (x, y, relief) => view && intersectHeights(view.rayAt(x, y), box, (px, py) => (relief ? heightAt(relief, px, py) : 0));
   canvas.addEventListener('pointermove', (event) => {
-    if (event.buttons !== 0 || !space || panel.hidden) return;
-    const ratio = canvas.width / canvas.clientWidth;
-    const [x, y] = [event.offsetX * ratio, event.offsetY * ratio];
+    if (event.buttons !== 0 || !view) return;
     if (shown.unfolding) {
-      reading.textContent = strainInWords(valueOnRay(shown.unfolding, unfold.valueAsNumber, camera.rayAt(x, y), shown.unfolding.strains));
+      const { triangles, strains } = shown.unfolding;
+      const place = view.pick(event);
+      reading.textContent = strainInWords(place ? place.shares.reduce((sum, share, k) => sum + share * strains[triangles[3 * place.triangle + k]], 0) : NaN);
       return;
     }
-    const side = sideAt(x);
-    const relief = space.relief(side);
-    const point = relief && camera.intersectHeightfield(x, y, (px, py) => heightAt(relief, px, py));
-    const layer = side === 'before' ? shown.input : shown.result;
-    reading.textContent = point ? heightReading(point[2], session.input?.unit, layer?.read?.(point[0], point[1])) : '';
+    const side = view.sideAt(event.offsetX);
+    const point = reliefs[side] && surfaceAt(event.offsetX, event.offsetY, reliefs[side]);
+    reading.textContent = point ? heightReading(point[2], session.input?.unit, [shown.input, shown.result][side]?.read?.(point[0], point[1])) : '';
   });
   canvas.addEventListener('pointerleave', () => (reading.textContent = ''));
 
-  /** Draws layers, marks and the trail over both surfaces. */
-  const updateLayers = () => {
-    if (!space) return;
-    const layers = { before: shown.input, after: shown.result };
-    for (const side of sides) {
-      const layer = layers[side];
-      const hasMarks = side === 'before' || session.input?.design;
-      const points = hasMarks && session.input ? markPoints(marks, session.input) : [];
-      space.setOverlay(side, layer?.image ?? null, [...(layer?.lines ?? []), ...points, ...(trail ? [trail] : [])]);
-    }
-    drawSoon();
-  };
-
   session.on('input', (input) => {
-    if (!space) return;
+    const isDragged = input.designShape !== undefined && session.phase === 'running';
+    reliefs[0] = reliefOf(input, input.lattice ? { ...gridOf(input), data: input.data } : input, input.heightScale);
+    if (!isCreated) void createView();
     // While a design is dragged, the camera stays.
-    if (!input.designShape || session.phase !== 'running') camera.box = heightfieldBox(input);
-    space.setRelief('before', reliefOf(input, inputNormals(input), input.data, input.heightScale, takeTextures(input)));
-    left.textContent = input.design ? '' : 'Input';
-    updateLayers();
+    else if (isDragged) updateSurfaces([0]);
+    else updateBox();
   });
-  session.on('cleared', () => showResult(null));
-  session.on('preview', ({ input, image: { width, height, pixelSize, data } }) => {
-    if (!space || !isShown()) return;
-    space.setRelief('after', reliefOf(input, normalsOf(data, width, height, 1 / pixelSize), data, 1));
-    right.textContent = 'Result · preview';
-    if (input.design) updateLayers();
-    drawSoon();
+  session.on('preview', ({ input, image }) => {
+    reliefs[1] = reliefOf(input, image, 1);
+    updateSurfaces([1]);
   });
   /** @param {Result | null} result */
   const showResult = (result) => {
-    if (!space) return;
-    if (!result) {
-      space.setRelief('after', null);
-      right.textContent = '';
-      drawSoon();
-      return;
-    }
-    space.setRelief('after', reliefOf(result.input, resultNormals(result), resultImage(result).data, 1, takeTextures(result)));
-    right.textContent = result.surface.report.stopReason === 'cancelled' ? 'Result · cancelled' : 'Result';
-    updateLayers();
+    reliefs[1] = result && reliefOf(result.input, resultImage(result), 1);
+    updateSurfaces([1]);
   };
+  session.on('cleared', () => {
+    showResult(null);
+    view?.look(DIRECTIONS.oblique);
+  });
   session.on('result', showResult);
   // The last result replaces the previews.
   session.on('unsolved', () => showResult(session.result));
-  arrange();
 
   return {
-    /** Whether the surfaces are shown in space. */
     isShown,
-    /** Draws the canvas and returns it; its pixels are valid until the end of the frame. */
+    /** Draws the canvas and returns it. */
     drawnCanvas: () => {
-      draw();
+      view?.draw();
       return canvas;
     },
     /** Adds a handler, which may accept drags over the surface. @param {DragTarget} handler */
@@ -292,17 +248,16 @@ export function spacePanel(session, light) {
     /** Adds a listener, which is called after each draw. @param {() => void} listener */
     onDraw: (listener) => drawListeners.push(listener),
     /** Tilt of the camera in radians, from straight above. */
-    cameraTilt: () => camera.tip,
-    /** The place of the surface at a position of the canvas. @param {number} x @param {number} y @returns {Pin | null} */
+    cameraTilt: () => view?.tilt ?? 0,
+    /** The place of the surface at a place of the canvas, in CSS pixels. @param {number} x @param {number} y @returns {Pin | null} */
     placeAt: (x, y) => {
       const { input } = session;
-      if (!input) return null;
-      const relief = space?.relief(input.design ? 'after' : sideAt(x));
-      const point = camera.intersectHeightfield(x, y, (px, py) => (relief ? heightAt(relief, px, py) : 0));
+      if (!input || !view) return null;
+      const point = surfaceAt(x, y, reliefs[input.design ? 1 : view.sideAt(x)]);
       if (!point) return null;
-      const { left: start, top, pixelSize, width, height } = gridOf(input);
+      const { left, top, pixelSize, width, height } = gridOf(input);
       return {
-        x: clampToUnit(((point[0] - start) / pixelSize - 0.5) / (width - 1)),
+        x: clampToUnit(((point[0] - left) / pixelSize - 0.5) / (width - 1)),
         y: clampToUnit(1 - ((top - point[1]) / pixelSize - 0.5) / (height - 1)),
         z: point[2] / (width * pixelSize),
       };
@@ -310,14 +265,14 @@ export function spacePanel(session, light) {
     /** A function from pixels of the input to heights of the result, or of the input if there is none, in steps of `heightScale`. */
     heightSampler: () => {
       const { input } = session;
-      const relief = space?.relief('after') ?? space?.relief('before');
+      const relief = topRelief();
       if (!input || !relief) return () => NaN;
-      const { normals, heights, heightScale } = relief;
+      const { width, height, heights, heightScale } = relief;
       /** @param {number} pixel */
       return (pixel) => {
-        const col = Math.floor((((pixel % input.width) + 0.5) / input.width) * normals.width);
-        const row = Math.floor(((Math.floor(pixel / input.width) + 0.5) / input.height) * normals.height);
-        return (heights[row * normals.width + col] * heightScale) / input.heightScale;
+        const col = Math.floor((((pixel % input.width) + 0.5) / input.width) * width);
+        const row = Math.floor(((Math.floor(pixel / input.width) + 0.5) / input.height) * height);
+        return (heights[row * width + col] * heightScale) / input.heightScale;
       };
     },
     /**
@@ -327,29 +282,24 @@ export function spacePanel(session, light) {
      */
     showTrail: (places, closed) => {
       const { input } = session;
-      const relief = space?.relief('after') ?? space?.relief('before');
+      const relief = topRelief();
       const points = input && relief ? [...places, ...(closed && places[0] ? [places[0]] : [])].map(({ x, y }) => {
         const [px, py] = pinPosition(input, { x, y, z: 0 });
         const z = heightAt(relief, px, py);
-        return /** @type {const} */ ([px, py, Number.isNaN(z) ? camera.centre[2] : z]);
+        return /** @type {const} */ ([px, py, Number.isNaN(z) ? (box.low[2] + box.high[2]) / 2 : z]);
       }) : [];
       trail = points.length > 0 ? { points, colour: TRAIL_COLOUR, width: 4 } : null;
       updateLayers();
     },
     /** Height of the result, in sides of the square. @param {number} x @param {number} y */
     heightAt: (x, y) => {
-      const relief = space?.relief('after');
+      const [, relief] = reliefs;
       const [px, py] = session.input ? pinPosition(session.input, { x, y, z: 0 }) : [0, 0];
       const z = relief ? heightAt(relief, px, py) : 0;
       return Number.isNaN(z) ? 0 : z / (relief?.extent.width ?? 1);
     },
     /** Position of a pin on the canvas, in CSS pixels. @param {Pin} pin @returns {[number, number]} */
-    screenPosition: (pin) => {
-      if (!session.input) return [0, 0];
-      const [x, y] = camera.project(pinPosition(session.input, pin));
-      const ratio = canvas.clientWidth / canvas.width;
-      return [x * ratio, y * ratio];
-    },
+    screenPosition: (pin) => (session.input && view ? view.project(pinPosition(session.input, pin)) : [0, 0]),
     /**
      * A pin moved by a drag: upwards, or along the ground.
      * @param {Pin} pin
@@ -359,26 +309,24 @@ export function spacePanel(session, light) {
      * @returns {Pin}
      */
     movePin: (pin, across, up, onGround) => {
-      const pixelsPerSide = (camera.scale * canvas.clientWidth) / canvas.width * (space?.relief('after')?.extent.width ?? 1);
-      const [a, b] = [across / pixelsPerSide, up / pixelsPerSide];
-      if (!onGround) return { ...pin, z: pin.z + b / (Math.sin(camera.tip) * camera.exaggeration) };
-      const [c, s] = [Math.cos(camera.turn), Math.sin(camera.turn)];
-      const depth = b / Math.max(MIN_TILT_COSINE, Math.cos(camera.tip));
-      return { x: clampToUnit(pin.x + c * a - s * depth), y: clampToUnit(pin.y + s * a + c * depth), z: pin.z };
+      const { input } = session;
+      if (!input || !view) return pin;
+      const [side, [x, y, z]] = [reliefs[0]?.extent.width ?? 1, pinPosition(input, pin)];
+      const [column, row] = view.project([x, y, z]);
+      if (!onGround) return { ...pin, z: pin.z + up / (row - view.project([x, y, z + side])[1]) };
+      const { point, towards } = view.rayAt(column + across, row - up);
+      const along = (z - point[2]) / Math.max(MIN_VERTICAL_SHARE, towards[2]);
+      return { x: clampToUnit(pin.x + (point[0] + along * towards[0] - x) / side), y: clampToUnit(pin.y + (point[1] + along * towards[1] - y) / side), z: pin.z };
     },
     /** Shows the layers of a view, or an unfolding. @param {Partial<ViewContent>} now */
     show: (now) => {
-      const isOtherUnfolding = now.unfolding !== shown.unfolding;
+      const isOther = now.unfolding !== shown.unfolding;
       shown = now;
-      unfoldField.hidden = !now.unfolding;
-      if (isOtherUnfolding && space && session.input) {
-        space.setMorphingMesh(now.unfolding ?? null);
-        camera.box = now.unfolding ? expandBox(now.unfolding, heightfieldBox(session.input)) : heightfieldBox(session.input);
-        panel.dataset.unfolding = String(now.unfolding !== undefined);
-        if (now.unfolding) animateUnfolding();
-      }
-      arrange();
-      updateLayers();
+      element('unfold-field', HTMLElement).hidden = !now.unfolding;
+      if (!isOther) return updateLayers();
+      if (now.unfolding) animateUnfolding();
+      updateBox();
+      view?.fit();
     },
     /** Shows marks on the input. @param {readonly PixelMarks[]} now */
     setMarks: (now) => {
@@ -386,13 +334,4 @@ export function spacePanel(session, light) {
       updateLayers();
     },
   };
-}
-
-/** Null if the browser has no WebGL 2. @param {HTMLCanvasElement} canvas @param {() => void} onQualityChange */
-function createSpace(canvas, onQualityChange) {
-  try {
-    return new SurfaceRenderer(canvas, onQualityChange);
-  } catch {
-    return null;
-  }
 }

@@ -1,19 +1,16 @@
-/** Input and result side by side, under one light; or in space. */
+/** Input and result in space, or pictures in their place. */
 import { download, element, elements } from '../dom.js';
-import { number, heightReading, shortLambda } from '../format.js';
+import { number, shortLambda } from '../format.js';
 import { gridOf, nearestVertices } from '../surface/lattice.js';
-import { inputNormals, resultImage, resultNormals } from '../surface/derived-data.js';
-import { normalsOf } from '../surface/normals.js';
-import { Light } from '../surface/light.js';
 import { PictureView } from '../surface/picture-view.js';
-import { SurfaceView } from '../surface/surface-view.js';
 import { Zoom } from '../surface/zoom.js';
 import { MARK_WORDS } from '../messages.js';
+import { key } from '../views/legend.js';
 import { spacePanel } from './space.js';
 
 /** @import {Occlusions} from '../api.js' */
 /** @import {Input, Session} from '../session.js' */
-/** @import {PixelMarks} from '../surface/marks.js' */
+/** @import {PixelMarks} from '../surface/layer.js' */
 /** @import {ViewContent} from '../views/view-content.js' */
 
 /** Confidence below which heights are marked. */
@@ -21,10 +18,9 @@ const MAX_MARKED_CONFIDENCE = 0.5;
 
 /** @param {Session} session */
 export function viewsPanel(session) {
-  const light = new Light();
-  const zoom = new Zoom();
-  const before = new SurfaceView(element('input-canvas', HTMLCanvasElement), light, zoom);
-  const after = new SurfaceView(element('result-canvas', HTMLCanvasElement), light, zoom);
+  const space = spacePanel(session);
+  const stage = element('space', HTMLElement);
+  const pictures = element('views', HTMLElement);
   const over = element('photo-over', HTMLElement);
   const photoZoom = new Zoom();
   const photo = new PictureView(element('input-picture', HTMLCanvasElement), photoZoom, over);
@@ -40,57 +36,44 @@ export function viewsPanel(session) {
     if (!isVisible) photoZoom.reset();
   });
   const flat = new PictureView(element('result-picture', HTMLCanvasElement), new Zoom());
-  const space = spacePanel(session, light);
-  const views = element('views', HTMLElement);
-  const figure = element('result-view', HTMLElement);
   const inputCaption = element('input-caption', HTMLElement);
   const caption = element('result-caption', HTMLElement);
   const stamp = element('result-mark', HTMLElement);
-  const empty = element('result-empty', HTMLElement);
   const legend = element('input-legend', HTMLElement);
+  const reading = element('flat-reading', HTMLElement);
+  const arrangement = element('arrangement', HTMLElement);
+  const arrangements = elements('input[name="arrangement"]', HTMLInputElement);
   /** @type {Occlusions | null} */
   let occlusions = null;
-
   /** Content of the current view that is drawn over the surfaces, or in their place. @type {Partial<ViewContent>} */
   let present = {};
-  const reading = element('flat-reading', HTMLElement);
-  for (const [view, side] of /** @type {const} */ ([[before, 'input'], [after, 'result']])) {
-    view.canvas.addEventListener('pointermove', (event) => {
-      const { input, result } = session;
-      const place = view.positionAt(event);
-      const shown = side === 'result' ? result && resultImage(result) : input;
-      if (!input || !shown || !place) {
-        reading.textContent = '\u00a0';
-        return;
-      }
-      const { width, height, pixelSize, left, top } = gridOf(input);
-      const z = shown.data[Math.floor(place[1] * height) * width + Math.floor(place[0] * width)] * (side === 'input' ? input.heightScale : 1);
-      reading.textContent = heightReading(z, input.unit, present[side]?.read?.(left + place[0] * width * pixelSize, top - place[1] * height * pixelSize)) || '\u00a0';
-    });
-    view.canvas.addEventListener('pointerleave', () => (reading.textContent = '\u00a0'));
-  }
 
-  flat.canvas.addEventListener('pointermove', (event) => (reading.textContent = flat.read(event) || '\u00a0'));
-  flat.canvas.addEventListener('pointerleave', () => (reading.textContent = '\u00a0'));
+  flat.canvas.addEventListener('pointermove', (event) => (reading.textContent = flat.read(event)));
+  flat.canvas.addEventListener('pointerleave', () => (reading.textContent = ''));
+
+  /** Shows the surfaces, or pictures in their places. */
+  const arrange = () => {
+    const { before, after, unfolding } = present;
+    arrangement.hidden = !after || !unfolding;
+    const isInSpace = !after || (unfolding !== undefined && arrangements[0].checked);
+    stage.hidden = !isInSpace;
+    pictures.hidden = reading.hidden = element('picture-hint', HTMLElement).hidden = isInSpace;
+    for (const tools of elements('.space-tools', HTMLElement)) tools.hidden = !isInSpace;
+    element('space-hint', HTMLElement).hidden = !isInSpace;
+    element('input-view', HTMLElement).hidden = !before;
+    if (isInSpace) space.drawnCanvas();
+  };
+  for (const radio of arrangements) radio.addEventListener('change', arrange);
 
   const updateMarks = () => {
     const { input } = session;
-    const marks = input ? marksOf(input, occlusions, getComputedStyle(views)) : [];
-    before.setMarks(marks);
+    const marks = input ? marksOf(input, occlusions, getComputedStyle(document.body)) : [];
     space.setMarks(marks);
-    legend.replaceChildren(...marks.map(({ colour, words }) => {
-      const item = document.createElement('span');
-      item.className = 'key';
-      item.style.setProperty('--colour', colour);
-      item.textContent = words;
-      return item;
-    }));
+    legend.replaceChildren(...marks.map(({ colour, words }) => key(colour, words)));
   };
-
   session.on('input', (input) => {
     const { name, width, height } = input;
-    before.show(inputNormals(input), !input.design);
-    views.style.setProperty('--aspect', String(width / height));
+    pictures.style.setProperty('--aspect', String(width / height));
     inputCaption.textContent = `${name}, ${number(width, 6)} × ${number(height, 6)}`;
     occlusions = null;
     updateMarks();
@@ -99,46 +82,21 @@ export function viewsPanel(session) {
     occlusions = found;
     updateMarks();
   });
-  session.on('cleared', () => {
-    show(null);
-    caption.textContent = '';
-  });
-  session.on('preview', ({ input, lambda, image: { width, height, pixelSize, data } }) => {
-    after.show(normalsOf(data, width, height, 1 / pixelSize), true, input);
-    // The layers belong to the last result, not to the preview.
-    after.setLayer(null);
-    caption.textContent = input.design ? '' : `λ = ${shortLambda(lambda)}`;
-    figure.dataset.preview = '';
-    stamp.textContent = 'preview';
-    stamp.hidden = false;
-    empty.hidden = true;
-  });
-  /** @param {import('../session.js').Result | null} result */
-  const show = (result) => {
-    delete figure.dataset.preview;
-    if (!result) {
-      after.show(null);
-      stamp.hidden = true;
-      empty.hidden = false;
-      return;
-    }
-    after.show(resultNormals(result));
+  /** @param {Input} input @param {number} lambda @param {string} mark */
+  const describe = (input, lambda, mark) => {
     // λ has no effect on a design.
-    caption.textContent = result.input.design ? '' : `λ = ${shortLambda(result.surface.report.lambda)}`;
-    stamp.textContent = result.surface.report.stopReason === 'cancelled' ? 'cancelled' : '';
-    stamp.hidden = !stamp.textContent;
-    empty.hidden = true;
+    caption.textContent = input.design ? '' : `λ = ${shortLambda(lambda)}`;
+    stamp.textContent = mark;
+    stamp.hidden = !mark;
   };
-  session.on('result', show);
+  session.on('preview', ({ input, lambda }) => describe(input, lambda, 'preview'));
+  const describeResult = () => {
+    const { result } = session;
+    if (result) describe(result.input, result.surface.report.lambda, result.surface.report.stopReason === 'cancelled' ? 'cancelled' : '');
+  };
+  session.on('result', describeResult);
   // The last result replaces the previews.
-  session.on('unsolved', () => {
-    show(session.result);
-    after.setLayer(present.result ?? null);
-  });
-  session.on('phase', (phase) => {
-    figure.setAttribute('aria-busy', String(phase === 'running'));
-    empty.textContent = phase === 'running' ? 'Solving…' : 'Not solved yet';
-  });
+  session.on('unsolved', describeResult);
 
   const save = element('view-save', HTMLButtonElement);
   save.addEventListener('click', async () => {
@@ -146,7 +104,7 @@ export function viewsPanel(session) {
     const picture = new OffscreenCanvas(shown.reduce((sum, { width }) => sum + width, 0), Math.max(...shown.map(({ height }) => height)));
     const context = picture.getContext('2d');
     if (!context) return;
-    context.fillStyle = getComputedStyle(views).getPropertyValue('--well').trim();
+    context.fillStyle = getComputedStyle(document.body).getPropertyValue('--well').trim();
     context.fillRect(0, 0, picture.width, picture.height);
     let left = 0;
     for (const canvas of shown) {
@@ -157,6 +115,7 @@ export function viewsPanel(session) {
   });
   session.on('result', () => (save.disabled = false));
   session.on('cleared', () => (save.disabled = true));
+  arrange();
 
   return {
     space,
@@ -165,17 +124,13 @@ export function viewsPanel(session) {
      * @param {Partial<ViewContent>} shown
      */
     show: (shown) => {
-      const { input, result, before: left, after: right } = shown;
+      const { before, after } = shown;
       present = shown;
+      arrange();
       space.show(shown);
-      before.setLayer(input ?? null);
-      after.setLayer(result ?? null);
-      photo.show(left ?? null);
-      flat.show(right ?? null);
-      element('input-title', HTMLElement).textContent = left?.title ?? 'Input';
-      element('result-title', HTMLElement).textContent = right?.title ?? 'Result';
-      before.setAside(left !== undefined);
-      after.setAside(right !== undefined);
+      photo.show(before ?? null);
+      flat.show(after ?? null);
+      element('result-title', HTMLElement).textContent = after?.title ?? '';
     },
   };
 }

@@ -1,8 +1,7 @@
-/** Lines and values on a morphing mesh: lines are anchored to its triangles, and values are read by ray casting. */
+/** Lines on a morphing mesh, anchored to its triangles. */
 import { extentOf } from './triangles.js';
 
 /** @import {Line} from './layer.js' */
-/** @import {Vector} from './camera.js' */
 
 /**
  * Lines whose points have barycentric coordinates in triangles.
@@ -12,8 +11,6 @@ import { extentOf } from './triangles.js';
  * @property {Uint32Array} lengths number of points of each line
  * @property {Uint32Array} lineIndices index of the original line of which each line is a part
  */
-
-/** A mesh with several forms. @typedef {{ triangles: Uint32Array, forms: readonly Float32Array[] }} MorphForms */
 
 /**
  * Anchors lines to the triangles that lie below or above their points. Lines end where there is no triangle.
@@ -122,34 +119,4 @@ export function morphLines({ corners, shares, lengths, lineIndices }, forms, sha
       return /** @type {const} */ ([mean(0), mean(1), mean(2)]);
     }),
   }));
-}
-
-/**
- * The value at the first intersection of a ray with a mesh, NaN without one (Möller and Trumbore 1997).
- * @param {MorphForms} mesh
- * @param {number} share
- * @param {{ point: Vector, towards: Vector }} sight
- * @param {ArrayLike<number>} values of the vertices
- */
-export function valueOnRay({ triangles, forms }, share, { point: [px, py, pz], towards: [dx, dy, dz] }, values) {
-  const at = interpolateForms(forms, share);
-  let [nearest, value] = [-Infinity, NaN];
-  for (let t = 0; t < triangles.length; t += 3) {
-    const [i, j, k] = [3 * triangles[t], 3 * triangles[t + 1], 3 * triangles[t + 2]];
-    const [ax, ay, az] = [at(i), at(i + 1), at(i + 2)];
-    const [ex, ey, ez] = [at(j) - ax, at(j + 1) - ay, at(j + 2) - az];
-    const [fx, fy, fz] = [at(k) - ax, at(k + 1) - ay, at(k + 2) - az];
-    const [hx, hy, hz] = [dy * fz - dz * fy, dz * fx - dx * fz, dx * fy - dy * fx];
-    const area = ex * hx + ey * hy + ez * hz;
-    if (area === 0) continue;
-    const [sx, sy, sz] = [px - ax, py - ay, pz - az];
-    const b = (sx * hx + sy * hy + sz * hz) / area;
-    const [qx, qy, qz] = [sy * ez - sz * ey, sz * ex - sx * ez, sx * ey - sy * ex];
-    const c = (dx * qx + dy * qy + dz * qz) / area;
-    const along = (fx * qx + fy * qy + fz * qz) / area;
-    if (!(b >= 0 && c >= 0 && b + c <= 1) || along <= nearest) continue;
-    nearest = along;
-    value = (1 - b - c) * values[i / 3] + b * values[j / 3] + c * values[k / 3];
-  }
-  return value;
 }

@@ -1,7 +1,21 @@
 /** Errors of a surface against the known truth. */
-import { NO_NORMAL, NORMAL_SCALE } from './normals.js';
+import { NO_NORMAL, normalsOf, NORMAL_SCALE } from './normals.js';
 
 /** @import {Normals} from './normals.js' */
+
+/**
+ * The errors of heights: root mean square, and the mean angle between normals in degrees.
+ * @param {ArrayLike<number>} truth
+ * @param {number} truthScale unit of length per unit of `truth`
+ * @param {{ width: number, height: number, pixelSize: number }} grid
+ * @param {ArrayLike<number>} heights
+ * @param {number} scale unit of length per unit of `heights`
+ */
+export function errorsAgainst(truth, truthScale, { width, height, pixelSize }, heights, scale) {
+  const [found, right] = [[heights, scale], [truth, truthScale]].map(([values, unit]) =>
+    normalsOf(/** @type {ArrayLike<number>} */ (values), width, height, /** @type {number} */ (unit) / pixelSize));
+  return { height: rmsError(heights, scale, truth, truthScale), angle: meanAngle(found, right) };
+}
 
 /**
  * Root mean square of the height differences, over the pixels with data in both.

@@ -1,11 +1,8 @@
 /** Layers over a surface: images of coloured values, and lines. */
-import { toCss } from './colours.js';
 import { nearestVertices } from './lattice.js';
 
 /** @import {Grid, Lattice} from './lattice.js' */
 /** @import {Colour} from './colours.js' */
-
-/** @typedef {(x: number, y: number) => readonly [number, number]} PlaneToCanvas maps a place of the plane to the canvas */
 
 /**
  * @typedef {object} Line
@@ -20,6 +17,15 @@ import { nearestVertices } from './lattice.js';
  * @property {HTMLCanvasElement} [image] colours of the grid's pixels, in place of steel
  * @property {readonly Line[]} [lines]
  * @property {(x: number, y: number) => string} [read] the value at a place of the plane, with its name and unit
+ */
+
+/**
+ * Marked pixels on top of a surface.
+ * @typedef {object} PixelMarks
+ * @property {number} width
+ * @property {number} height
+ * @property {ArrayLike<number> & Iterable<number>} pixels
+ * @property {string} colour
  */
 
 /** A canvas with an image. @param {ImageData} image */
@@ -38,24 +44,6 @@ export function canvasFromImage(image) {
  */
 export function canvasFromPixels({ width, height }, pixels) {
   return canvasFromImage(new ImageData(new Uint8ClampedArray(/** @type {ArrayBuffer} */ (pixels.buffer)), width, height));
-}
-
-/**
- * Draws polylines.
- * @param {CanvasRenderingContext2D} context
- * @param {PlaneToCanvas} place
- * @param {readonly Line[]} lines
- * @param {number} ratio device pixels per CSS pixel
- */
-export function drawLines(context, place, lines, ratio) {
-  context.lineJoin = 'round';
-  for (const { points, colour, width } of lines) {
-    context.strokeStyle = toCss(colour);
-    context.lineWidth = width * ratio;
-    context.beginPath();
-    for (const [x, y] of points) context.lineTo(...place(x, y));
-    context.stroke();
-  }
 }
 
 /**

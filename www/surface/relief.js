@@ -4,19 +4,31 @@ import { extentOf } from './triangles.js';
 
 /** @import {Pin} from '../design.js' */
 /** @import {Input} from '../session.js' */
-/** @import {Box} from './camera.js' */
 /** @import {Line} from './layer.js' */
-/** @import {PixelMarks} from './marks.js' */
-/** @import {SurfaceTextures} from './textures.js' */
-/** @import {Normals} from './normals.js' */
-/** @import {Relief, MorphingMesh} from './surface-renderer.js' */
+/** @import {PixelMarks} from './layer.js' */
+/** @import {Box, Surface, Vector} from './scene.js' */
+/** @import {Unfolding} from './unfolding.js' */
 
+/**
+ * @typedef {object} Relief
+ * @property {number} width
+ * @property {number} height
+ * @property {ArrayLike<number>} heights row by row, NaN for no data
+ * @property {number} heightScale unit of length per unit of the heights
+ * @property {{ left: number, top: number, width: number, height: number }} extent in the unit of length
+ */
+
+/** Maximum number of vertices along a side of a drawn surface: about the pixels of a screen. */
+const MAX_SIDE_VERTICES = 512;
 /** Quantile of the heights at the top of the box; the bottom is at the opposite quantile. */
 const BOX_HEIGHT_SHARE = 0.998;
 /** Side of a mark on the surface, in CSS pixels. */
 const MARK_SIDE_PIXELS = 5;
 /** Number of heights from which the box is computed, about. */
 const BOX_SAMPLE_HEIGHTS = 20_000;
+/** Number of steps along a ray in the search for an intersection, and of the bisections that refine it. */
+const RAY_STEPS = 400;
+const RAY_BISECTIONS = 20;
 
 /** The position of a pin in space. @param {Input} input @param {Pin} pin @returns {[number, number, number]} */
 export function pinPosition(input, { x, y, z }) {
@@ -34,58 +46,121 @@ export function clampToUnit(value) {
 }
 
 /**
- * The surface of heights on the grid of an input.
+ * The surface of an image of heights on the grid of an input.
  * @param {Input} input
- * @param {Normals} normals
- * @param {ArrayLike<number>} heights
+ * @param {{ width: number, height: number, data: ArrayLike<number> }} image
  * @param {number} heightScale
- * @param {SurfaceTextures} [textures]
  * @returns {Relief}
  */
-export function reliefOf(input, normals, heights, heightScale, textures) {
-  const { width, height, pixelSize, left, top } = gridOf(input);
-  return { normals, heights, heightScale, textures, extent: { left, top, width: width * pixelSize, height: height * pixelSize } };
+export function reliefOf(input, { width, height, data }, heightScale) {
+  const grid = gridOf(input);
+  const extent = { left: grid.left, top: grid.top, width: grid.width * grid.pixelSize, height: grid.height * grid.pixelSize };
+  return { width, height, heights: data, heightScale, extent };
 }
 
 /** The height at a place of the plane, NaN outside. @param {Relief} relief @param {number} x @param {number} y */
-export function heightAt({ normals: { width, height }, heights, heightScale, extent }, x, y) {
+export function heightAt({ width, height, heights, heightScale, extent }, x, y) {
   const col = Math.floor(((x - extent.left) / extent.width) * width);
   const row = Math.floor(((extent.top - y) / extent.height) * height);
   if (col < 0 || row < 0 || col >= width || row >= height) return NaN;
   return heights[row * width + col] * heightScale;
 }
 
+/** The mesh of heights: every `step`-th pixel if there are too many. @param {Relief} relief @returns {Surface} */
+export function reliefMesh({ width, height, heights, heightScale, extent }) {
+  const step = Math.ceil(Math.max(width, height) / MAX_SIDE_VERTICES);
+  const [cols, rows] = [Math.ceil(width / step), Math.ceil(height / step)];
+  const positions = new Float64Array(3 * cols * rows);
+  const uvs = new Float32Array(2 * cols * rows);
+  const isHole = new Uint8Array(cols * rows);
+  const triangles = new Uint32Array(6 * (cols - 1) * (rows - 1));
+  let corners = 0;
+  for (let row = 0, i = 0; row < rows; row++) {
+    for (let col = 0; col < cols; col++, i++) {
+      const [across, down] = [(col * step + 0.5) / width, (row * step + 0.5) / height];
+      const z = heights[row * step * width + col * step] * heightScale;
+      isHole[i] = Number(Number.isNaN(z));
+      positions.set([extent.left + across * extent.width, extent.top - down * extent.height, isHole[i] ? 0 : z], 3 * i);
+      uvs.set([across, 1 - down], 2 * i);
+      if (row === 0 || col === 0) continue;
+      const [a, b, c] = [i - cols - 1, i - cols, i - 1];
+      for (const triangle of [[a, c, b], [b, c, i]]) {
+        if (triangle.some((corner) => isHole[corner])) continue;
+        triangles.set(triangle, corners);
+        corners += 3;
+      }
+    }
+  }
+  return { positions, uvs, triangles: triangles.subarray(0, corners) };
+}
+
 /**
- * The bounding box of the heights without outliers, which would make the rest small.
+ * The bounding box of an input's heights without outliers, which would make the rest small.
  * @param {Input} input
+ * @returns {Box}
  */
 export function heightfieldBox(input) {
   const { width, height, pixelSize, left, top } = gridOf(input);
-  const step = Math.max(1, Math.floor(input.data.length / BOX_SAMPLE_HEIGHTS));
+  const step = input.design ? 1 : Math.max(1, Math.floor(input.data.length / BOX_SAMPLE_HEIGHTS));
   const found = [];
-  for (let i = 0; i < input.data.length; i += input.design ? 1 : step) {
+  for (let i = 0; i < input.data.length; i += step) {
     const z = input.data[i] * input.heightScale;
     if (!Number.isNaN(z)) found.push(z);
   }
   const sorted = Float64Array.from(found).sort();
   const most = sorted.length - 1;
   const [low, high] = [sorted[Math.ceil((1 - BOX_HEIGHT_SHARE) * most)] ?? 0, sorted[Math.floor(BOX_HEIGHT_SHARE * most)] ?? 0];
-  return { left, top, width: width * pixelSize, height: height * pixelSize, low, high };
+  return { low: [left, top - height * pixelSize, low], high: [left + width * pixelSize, top, high] };
 }
 
 /**
- * The box expanded so that it contains the flat form of a morphing mesh.
- * @param {MorphingMesh} sheet
+ * The box expanded so that it contains the flat form of an unfolding.
+ * @param {Pick<Unfolding, 'forms'>} unfolding
  * @param {Box} box
  * @returns {Box}
  */
-export function expandBox({ forms }, { left, top, width, height, low, high }) {
-  const flat = extentOf(forms[forms.length - 1], 3);
-  const right = Math.max(left + width, flat.left + flat.width);
-  const bottom = Math.min(top - height, flat.top - flat.height);
-  left = Math.min(left, flat.left);
-  top = Math.max(top, flat.top);
-  return { left, top, width: right - left, height: top - bottom, low, high };
+export function expandBox({ forms }, { low, high }) {
+  const { left, top, width, height } = extentOf(forms[forms.length - 1], 3);
+  return {
+    low: [Math.min(low[0], left), Math.min(low[1], top - height), low[2]],
+    high: [Math.max(high[0], left + width), Math.max(high[1], top), high[2]],
+  };
+}
+
+/**
+ * The first intersection of a ray from above with heights.
+ * @param {{ point: Vector, towards: Vector }} ray a point and the direction towards the viewer
+ * @param {Box} box that contains the heights
+ * @param {(x: number, y: number) => number} height at a place of the plane, NaN for no data
+ * @returns {Vector | null}
+ */
+export function intersectHeights({ point, towards }, { low, high }, height) {
+  if (towards[2] < 1e-6) return null;
+  const margin = 1e-9 + 0.02 * Math.max(high[2] - low[2], 0.01 * Math.max(high[0] - low[0], high[1] - low[1]));
+  const [from, to] = [(high[2] + margin - point[2]) / towards[2], (low[2] - margin - point[2]) / towards[2]];
+  /** @param {number} t @returns {Vector} */
+  const at = (t) => [point[0] + t * towards[0], point[1] + t * towards[1], point[2] + t * towards[2]];
+  /** @param {number} t */
+  const heightAbove = (t) => {
+    const [x, y, z] = at(t);
+    return z - height(x, y);
+  };
+  let above = from;
+  for (let i = 1; i <= RAY_STEPS; i++) {
+    let below = from + ((to - from) * i) / RAY_STEPS;
+    if (!(heightAbove(below) <= 0)) {
+      above = below;
+      continue;
+    }
+    if (Number.isNaN(heightAbove(above))) return at(below);
+    for (let k = 0; k < RAY_BISECTIONS; k++) {
+      const half = (above + below) / 2;
+      if (heightAbove(half) > 0) above = half;
+      else below = half;
+    }
+    return at(below);
+  }
+  return null;
 }
 
 /**

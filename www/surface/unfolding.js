@@ -5,7 +5,19 @@
  * vertices follow by least squares over the edges (as-rigid-as-possible shape interpolation, Alexa et al. 2000).
  */
 import { anchorLines } from './anchored-lines.js';
-import { divergingPixel } from './colours.js';
+import { divergingColour } from './colours.js';
+
+/** @import {AnchoredLines} from './anchored-lines.js' */
+/** @import {Line} from './layer.js' */
+/**
+ * @typedef {object} Unfolding a mesh that changes between several forms
+ * @property {Uint32Array} triangles
+ * @property {readonly Float32Array[]} forms positions of the vertices in each form
+ * @property {Float32Array} colors of the vertices, 0 to 1
+ * @property {Float32Array} strains of the vertices
+ * @property {AnchoredLines} lines drawn on the mesh
+ * @property {(line: number) => Pick<Line, 'colour' | 'width'>} lineStyle colour and width of each line
+ */
 
 /** Number of intervals between the bent and the flat form. */
 const MORPH_STEPS = 20;
@@ -47,8 +59,8 @@ export function computeUnfolding({ positions, places, triangles, stretches }, mo
     return Float32Array.from(form);
   });
   const strains = vertexStrains(triangles, stretches, n);
-  const colours = new Uint8Array(Uint32Array.from(strains, (strain) => divergingPixel(strain / most)).buffer);
-  return { triangles, forms, strains, colours, lines: anchorLines(lines, bent, triangles) };
+  const colors = Float32Array.from([...strains].flatMap((strain) => divergingColour(strain / most).map((value) => value / 255)));
+  return { triangles, forms, strains, colors, lines: anchorLines(lines, bent, triangles) };
 }
 
 /** The mean of points. @param {Float64Array} values @param {number} size number of coordinates */

@@ -2,10 +2,9 @@
 import { confidenceOf, constraintsOf, interpretFile } from '../import-interpretation.js';
 import { photographExample } from '../views/printed-example.js';
 import { readAssemblyMesh, borderLines } from './assembly-mesh.js';
-import { meanAngle, rmsError } from './compare.js';
+import { errorsAgainst } from './compare.js';
+import { reduceForPreview } from './downsampling.js';
 import { interpolateToGrid } from './lattice.js';
-import { computeSurfaceDataAndPreview, computeSurfaceData } from './textures.js';
-import { normalsOf } from './normals.js';
 import { reducePhoto, decodePicture } from './photo-decoding.js';
 import { drawingStrainImage, meshStrainImage, labelPixels, photoPixels, sheetStrainImage, valuePixels } from './colour-images.js';
 import { curvaturesOf, totalGaussianCurvature } from './gaussian-curvature.js';
@@ -25,8 +24,8 @@ function computeUnfoldingInPieces(model, scale, most, offset) {
 
 /** The tasks by name. The buffers of arrays in an answer are transferred. */
 export const tasks = {
-  confidenceOf, constraintsOf, curvaturesOf, drawingStrainImage, computeSurfaceDataAndPreview, meshStrainImage, interpolateToGrid, labelPixels, computeSurfaceData, interpretFile, meanAngle, normalsOf,
-  reducePhoto, photoPixels, photographExample, decodePicture, rmsError, totalGaussianCurvature, sheetStrainImage, computeUnfolding, computeUnfoldingInPieces, valuePixels,
+  confidenceOf, constraintsOf, curvaturesOf, drawingStrainImage, errorsAgainst, meshStrainImage, interpolateToGrid, labelPixels, interpretFile, reduceForPreview,
+  reducePhoto, photoPixels, photographExample, decodePicture, totalGaussianCurvature, sheetStrainImage, computeUnfolding, computeUnfoldingInPieces, valuePixels,
 };
 
 globalThis.addEventListener('message', async ({ data: { id, task, args } }) => {

@@ -1,6 +1,10 @@
 /** Zooms and moves flat pictures by wheel, two fingers, keys, and dragging with Shift. */
-import { ARROW_DIRECTIONS, wheelZoomFactor } from './view-keys.js';
 
+/** Direction of each arrow key: x to the right, y up. @type {Record<string, readonly [x: number, y: number]>} */
+export const ARROW_DIRECTIONS = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] };
+/** Zoom per pixel and per line that the wheel scrolls, as a logarithm. */
+const WHEEL_ZOOM_PER_PIXEL = 0.0015;
+const WHEEL_ZOOM_PER_LINE = 0.05;
 /** Maximum enlargement. */
 const MAX_ZOOM = 40;
 /** Enlargement for a press of +. */
@@ -128,4 +132,9 @@ export function makeZoomable(canvas, zoom, { exclusive = false } = {}) {
     event.preventDefault();
   });
   return () => moving || fingers.size > 1;
+}
+
+/** The factor by which a turn of the wheel enlarges a picture. @param {WheelEvent} event */
+function wheelZoomFactor({ deltaY, deltaMode }) {
+  return Math.exp(-deltaY * (deltaMode === WheelEvent.DOM_DELTA_LINE ? WHEEL_ZOOM_PER_LINE : WHEEL_ZOOM_PER_PIXEL));
 }

@@ -15,7 +15,7 @@ import { make } from '../dom.js';
 /** @import {Picture} from '../surface/picture-view.js' */
 /** @import {MeshSurface, MeshFit} from '../mesh-fit.js' */
 
-/** @typedef {NonNullable<ReturnType<import('../surface/mesh-view.js').MeshView['pick']>>} Place */
+/** @typedef {NonNullable<ReturnType<import('../surface/scene.js').SceneView['pick']>>} Place */
 
 /**
  * @typedef {object} MeshViewContent
@@ -43,7 +43,7 @@ export async function gaussian(whole, mesh, surface) {
   const inverse = `1/${mesh.unit ?? 'unit'}²`;
   const scale = logarithmicScale(1 / area, magnitudeQuantile([before.gaussian, after.gaussian], COLOUR_SCALE_QUANTILE));
   /** @param {Float64Array} values @param {Mesh} of */
-  const coloured = (values, of) => ({ ...of, colors: linearColors(values.length, (i) => divergingColour(Number.isNaN(values[i]) ? 0 : scale.place(values[i]))) });
+  const coloured = (values, of) => ({ ...of, colors: vertexColors(values.length, (i) => divergingColour(Number.isNaN(values[i]) ? 0 : scale.place(values[i]))) });
   return {
     before: coloured(before.gaussian, mesh),
     after: coloured(after.gaussian, surface),
@@ -77,7 +77,7 @@ export async function patches(whole, mesh, surface) {
   const corners = {
     triangles: Uint32Array.from(triangles, (_, i) => i),
     positions: Float64Array.from({ length: 3 * triangles.length }, (_, i) => positions[3 * triangles[Math.floor(i / 3)] + (i % 3)]),
-    colors: linearColors(triangles.length, (i) => {
+    colors: vertexColors(triangles.length, (i) => {
       const label = labels[Math.floor(i / 3)];
       return label < 0 ? [160, 160, 160] : patchColour(label);
     }),
@@ -175,15 +175,15 @@ function meshFacts({ unit, triangles }, { report: { vertices, border, components
 }
 
 /**
- * Colours in linear light, as a renderer needs them.
+ * Colours of vertices, as a renderer needs them.
  * @param {number} length
  * @param {(i: number) => Colour} colour
  */
-function linearColors(length, colour) {
+function vertexColors(length, colour) {
   const colors = new Float32Array(3 * length);
   for (let i = 0; i < length; i++) {
     const rgb = colour(i);
-    for (let k = 0; k < 3; k++) colors[3 * i + k] = (rgb[k] / 255) ** 2.2;
+    for (let k = 0; k < 3; k++) colors[3 * i + k] = rgb[k] / 255;
   }
   return colors;
 }

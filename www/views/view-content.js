@@ -1,4 +1,4 @@
-/** @import {MorphingMesh} from '../surface/surface-renderer.js' */
+/** @import {Unfolding} from '../surface/unfolding.js' */
 /** @import {Layer} from '../surface/layer.js' */
 /** @import {Picture} from '../surface/picture-view.js' */
 
@@ -9,7 +9,7 @@
  * @property {Layer} [result] layer over the result
  * @property {Picture} [before] picture in place of the input
  * @property {Picture} [after] picture in place of the result
- * @property {MorphingMesh} [unfolding] mesh in space in place of the result
+ * @property {Unfolding} [unfolding] mesh in space in place of the result
  * @property {readonly Node[]} about elements below the view
  */
 export {};

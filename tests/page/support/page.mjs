@@ -109,23 +109,32 @@ function browserMissing() {
  * breaks its security policy (which Chromium reports as errors) or asks any other origin.
  * @param {string} name
  * @param {(page: Page) => Promise<void>} body
- * @param {import('playwright-core').BrowserContextOptions & { arrangement?: 'space' | 'flat', start?: string, sources?: boolean, unfolded?: string }} [options]
- *   side by side unless said otherwise, where what canvases show can be read; the part of the address after the #,
- *   which is a small example unless said otherwise; whether the page is served file by file; which parts are unfolded, all
- *   that are remembered unless said otherwise
+ * @param {import('playwright-core').BrowserContextOptions & { drawn?: boolean, start?: string, sources?: boolean, unfolded?: string }} [options]
+ *   whether there is WebGL, which takes long without a graphics card: not unless said otherwise; the part of the address after
+ *   the #, which is a small example unless said otherwise; whether the page is served file by file; which parts are unfolded,
+ *   all that are remembered unless said otherwise
  */
-export function pageTest(name, body, { arrangement = 'flat', start = SMALL_EXAMPLE, sources = false, unfolded = ALL_PARTS, ...options } = {}) {
+export function pageTest(name, body, { drawn = false, start = SMALL_EXAMPLE, sources = false, unfolded = ALL_PARTS, ...options } = {}) {
   inChromium(name, async (page) => {
     const incidents = watch(page);
-    await page.addInitScript(([chosen, parts]) => {
-      localStorage.setItem('developable: arrangement', chosen);
-      localStorage.setItem('developable: unfolded', parts);
-    }, [arrangement, unfolded]);
+    await page.addInitScript((parts) => localStorage.setItem('developable: unfolded', parts), unfolded);
+    if (!drawn) await page.addInitScript(withoutWebGL);
     await page.goto(server.url + (sources ? SOURCES : '') + start);
     await settled(page);
+    // An untouched canvas is 300 pixels wide.
+    if (drawn && start) await page.waitForFunction(() => document.querySelector('canvas#space-canvas:not([width="300"], :not([width]))'));
     await body(page);
     assert.deepEqual(incidents, []);
   }, options);
+}
+
+/** Takes WebGL from a page. */
+function withoutWebGL() {
+  const { getContext } = HTMLCanvasElement.prototype;
+  HTMLCanvasElement.prototype.getContext = /** @type {any} */ (function (/** @type {any[]} */ ...given) {
+    // @ts-expect-error the canvas
+    return String(given[0]).startsWith('webgl') ? null : getContext.apply(this, given);
+  });
 }
 
 /**
@@ -280,19 +289,22 @@ export async function reported(page, name) {
 }
 
 /**
- * What a canvas shows, as a hash and as the mean difference in brightness between
+ * What a canvas, or the side of the picture with the input or the result, shows, as a hash and as the mean difference in brightness between
  * horizontal neighbours that are both covered.
  * @param {Page} page
- * @param {string} selector
+ * @param {string} what a selector, `input` or `result`
  */
-export function look(page, selector) {
-  return page.locator(selector).evaluate((canvas) => {
+export async function look(page, what) {
+  await painted(page);
+  const side = ['input', 'result'].indexOf(what);
+  return page.locator(side < 0 ? what : '#space-canvas').evaluate((canvas, side) => {
     if (!(canvas instanceof HTMLCanvasElement)) throw new Error('not a canvas');
-    const { width, height } = canvas;
+    const { height } = canvas;
+    const width = side < 0 ? canvas.width : canvas.width >> 1;
     // From a copy, as reading changes how a canvas is kept.
     const copy = new OffscreenCanvas(width, height).getContext('2d', { willReadFrequently: true });
     if (!copy) throw new Error('no canvas to copy to');
-    copy.drawImage(canvas, 0, 0);
+    copy.drawImage(canvas, side === 1 ? width - canvas.width : 0, 0);
     const { data } = copy.getImageData(0, 0, width, height);
     let [hash, covered, pairs, sum] = [0, 0, 0, 0];
     for (let i = 0; i < data.length; i += 4) {
@@ -303,7 +315,7 @@ export function look(page, selector) {
       pairs++;
     }
     return { hash, covered: covered / (width * height), roughness: sum / pairs };
-  });
+  }, side);
 }
 
 /**

@@ -1,0 +1,497 @@
+/** Draws an input and its result in space, on both sides of a divider, by three.js, which is loaded with the first scene. */
+import { oncePerFrame } from '../dom.js';
+import { addGestures } from './gestures.js';
+import { light } from './light.js';
+import { fillMatcap, MATCAP_SIDE_TEXELS } from './matcap.js';
+
+/** @import {DragTarget} from './gestures.js' */
+/** @import {Line} from './layer.js' */
+/** @typedef {readonly [number, number, number]} Vector */
+/** @typedef {{ low: Vector, high: Vector }} Box */
+
+/**
+ * @typedef {object} Surface a mesh, or a cloud of points
+ * @property {Float64Array | Float32Array} positions x, y, z of each vertex
+ * @property {Uint32Array} triangles none for a cloud of points
+ * @property {Float32Array} [colors] of the vertices, 0 to 1
+ * @property {Float32Array} [uvs] places of the vertices in the image of `setImage`, from its lower left corner
+ */
+
+/**
+ * @typedef {object} SceneOptions
+ * @property {boolean} [isMetal] surfaces mirror the light, as steel; otherwise they are paper
+ * @property {boolean} [isFaceted] triangles are shaded flat
+ * @property {boolean} [isSeenFromAbove] the camera stays above the ground
+ * @property {() => void} [onTurn] called when the user has turned the surface
+ * @property {() => void} [onDraw] called after each picture
+ * @property {() => boolean} [controlsLight] whether drags and keys move the light
+ * @property {DragTarget} [target] another thing that drags may move
+ */
+
+/** Half of the shorter side of a view without zoom, in radii of the box. */
+const VIEW_HALF_WIDTH = 1.04;
+/** Share of the frame that the surface fills at first. */
+const FILLED_SHARE = 0.8;
+/** Half of the side of the ground, and the distance of the light that casts the shadow, in radii of the box. */
+const GROUND_HALF_WIDTH = 1.6;
+const SHADOW_LIGHT_DISTANCE = 3;
+/** Side of the map of the shadow, in pixels. A small one blurs its edge. */
+const SHADOW_MAP_SIDE = 256;
+/** Angle of the first turn, in radians, and its duration, in milliseconds. */
+const FIRST_TURN_RADIANS = 0.7;
+const FIRST_TURN_MS = 1800;
+/** Distance of the camera from the centre, and half of the visible depth range, in radii of the box. */
+const CAMERA_DISTANCE = 50;
+const VIEW_HALF_DEPTH = 8;
+/** Distance by which lines are drawn nearer than the surface that they lie on, in radii of the box. */
+const LINE_OFFSET = 0.012;
+/** Bounds of the enlargement. */
+const MIN_ZOOM = 0.5;
+const MAX_ZOOM = 60;
+
+export class SceneView {
+  #three;
+  #options;
+  #renderer;
+  #scene;
+  #camera;
+  #controls;
+  #raycaster;
+  #shadowLight;
+  /** The plane beneath the surface, on which its shadow lies. */
+  #ground;
+  /** The surface and the lines left and right of the divider. @type {{ surface: any, lines: any }[]} */
+  #sides = [{ surface: null, lines: null }, { surface: null, lines: null }];
+  /** Textures that hold the colour of each normal: of plain surfaces, and of those with colours of their own. @type {any[]} */
+  #matcaps;
+  #shownLight = '';
+  #divider = 1;
+  /** Centre of the box, and the factor that makes its radius 1. */
+  #frame = { middle: [0, 0, 0], scale: 1 };
+  /** @type {Box} */
+  #box = { low: [0, 0, 0], high: [0, 0, 0] };
+  /** Factor by which heights are exaggerated. */
+  #exaggeration = 1;
+  /** The direction of `look`. @type {Vector} */
+  #home = [0, 0, -1];
+  #isSettingDirection = false;
+  #lastDirection = '';
+  /** Ends the first turn. */
+  #turning = new AbortController();
+  /** Draws the picture with the next frame. */
+  drawSoon = oncePerFrame(() => this.draw());
+
+  /**
+   * Creates a scene on a canvas.
+   * @param {HTMLCanvasElement} canvas
+   * @param {SceneOptions} [options]
+   * @throws without WebGL 2
+   */
+  static async create(canvas, options = {}) {
+    // The buffer is kept, so that the picture can be saved.
+    const context = canvas.getContext('webgl2', { antialias: true, alpha: true, preserveDrawingBuffer: true });
+    if (!context) throw new Error('this browser has no WebGL 2');
+    const three = await import(new URL('../vendor/three.js', import.meta.url).href);
+    return new SceneView(canvas, context, three, options);
+  }
+
+  /**
+   * @param {HTMLCanvasElement} canvas
+   * @param {WebGL2RenderingContext} context
+   * @param {any} three the library, which has no types
+   * @param {SceneOptions} options
+   */
+  constructor(canvas, context, three, options) {
+    this.canvas = canvas;
+    this.#three = three;
+    this.#options = options;
+    // Colours are those of the screen throughout.
+    three.ColorManagement.enabled = false;
+    this.#renderer = new three.WebGLRenderer({ canvas, context });
+    this.#renderer.outputColorSpace = three.LinearSRGBColorSpace;
+    Object.assign(this.#renderer.shadowMap, { enabled: true, autoUpdate: false });
+    this.#renderer.setScissorTest(true);
+    this.#matcaps = [0, 1].map(() => {
+      const texels = new Uint8Array(4 * MATCAP_SIDE_TEXELS ** 2);
+      return Object.assign(new three.DataTexture(texels, MATCAP_SIDE_TEXELS, MATCAP_SIDE_TEXELS), { magFilter: three.LinearFilter, minFilter: three.LinearFilter });
+    });
+    this.#camera = new three.OrthographicCamera(-1, 1, 1, -1, CAMERA_DISTANCE - VIEW_HALF_DEPTH, CAMERA_DISTANCE + VIEW_HALF_DEPTH);
+    this.#raycaster = new three.Raycaster();
+    this.#shadowLight = new three.DirectionalLight();
+    this.#shadowLight.castShadow = true;
+    const { shadow } = this.#shadowLight;
+    shadow.mapSize.set(SHADOW_MAP_SIDE, SHADOW_MAP_SIDE);
+    shadow.radius = 6;
+    Object.assign(shadow.camera, { left: -GROUND_HALF_WIDTH, right: GROUND_HALF_WIDTH, top: GROUND_HALF_WIDTH, bottom: -GROUND_HALF_WIDTH, near: 0.1, far: 2 * SHADOW_LIGHT_DISTANCE });
+    this.#ground = new three.Mesh(new three.PlaneGeometry(2 * GROUND_HALF_WIDTH, 2 * GROUND_HALF_WIDTH), new three.ShadowMaterial({ opacity: 0.28 }));
+    Object.assign(this.#ground, { receiveShadow: true, visible: false });
+    this.#scene = new three.Scene();
+    this.#scene.add(this.#shadowLight, this.#ground);
+    addGestures(canvas, this, options);
+    this.#controls = this.#createControls();
+    new ResizeObserver(() => this.draw()).observe(canvas);
+    light.onMove(this.drawSoon);
+    this.setDirection([0, 0, -1]);
+  }
+
+  #createControls() {
+    const controls = new this.#three.OrbitControls(this.#camera, this.canvas);
+    Object.assign(controls, { zoomToCursor: true, minZoom: MIN_ZOOM, maxZoom: MAX_ZOOM, maxPolarAngle: this.#options.isSeenFromAbove ? Math.PI / 2 : Math.PI });
+    controls.addEventListener('change', () => {
+      this.drawSoon();
+      const now = String(this.direction);
+      // Zooming and moving do not change the direction.
+      if (!this.#isSettingDirection && now !== this.#lastDirection) this.#options.onTurn?.();
+      this.#lastDirection = now;
+    });
+    return controls;
+  }
+
+  /** Sets the box that the view shows; surfaces and lines have to follow. @param {Box} box */
+  setBox({ low, high }) {
+    const scale = 2 / (Math.hypot(...low.map((value, k) => high[k] - value)) || 1);
+    this.#frame = { middle: low.map((value, k) => (value + high[k]) / 2), scale };
+    this.#box = { low, high };
+    this.#layGround();
+  }
+
+  /** Sets the axis that points upwards; `setDirection` has to follow. @param {Vector} axis */
+  setUp([x, y, z]) {
+    this.#camera.up.set(x, y, z);
+    // The controls read the axis only when they are created.
+    this.#controls.dispose();
+    this.#controls = this.#createControls();
+    this.#ground.visible = true;
+    // A little aside, so that the shadow shows at the foot of the surface.
+    this.#shadowLight.position.set(x + 0.25 * y, y + 0.25 * z, z + 0.25 * x).multiplyScalar(SHADOW_LIGHT_DISTANCE);
+    this.#ground.lookAt(x, y, z);
+    this.#layGround();
+  }
+
+  /** Lays the ground beneath the box. */
+  #layGround() {
+    const { up } = this.#camera;
+    this.#ground.position.copy(up).multiplyScalar(up.dot(this.#place(this.#box.low).multiply(this.#stretch)));
+    this.#renderer.shadowMap.needsUpdate = true;
+    this.drawSoon();
+  }
+
+  /** The factors of the exaggeration along each axis. */
+  get #stretch() {
+    return new this.#three.Vector3(1, 1, this.#exaggeration);
+  }
+
+  /** Exaggerates heights by a factor. @param {number} factor */
+  exaggerate(factor) {
+    this.#exaggeration = factor;
+    for (const { surface, lines } of this.#sides) for (const one of [surface, lines]) one?.scale.copy(this.#stretch);
+    this.#layGround();
+  }
+
+  /** A place in the units of the drawn box, without exaggeration. @param {readonly number[]} place */
+  #place(place) {
+    const { middle, scale } = this.#frame;
+    return new this.#three.Vector3(...place.map((value, k) => (value - middle[k]) * scale));
+  }
+
+  /** Places in the units of the drawn box, for which 32-bit floats are precise enough. @param {ArrayLike<number>} places */
+  #scaled(places) {
+    const { middle, scale } = this.#frame;
+    return new this.#three.BufferAttribute(Float32Array.from(places, (value, i) => (value - middle[i % 3]) * scale), 3);
+  }
+
+  /** @param {0 | 1} side @param {'surface' | 'lines'} what @param {any} object */
+  #replace(side, what, object) {
+    const old = this.#sides[side][what];
+    old?.traverse((/** @type {any} */ { geometry, material }) => {
+      geometry?.dispose();
+      material?.map?.dispose();
+      material?.dispose();
+    });
+    if (old) this.#scene.remove(old);
+    this.#sides[side][what] = object;
+    object?.scale.copy(this.#stretch);
+    if (object) this.#scene.add(object);
+    this.drawSoon();
+  }
+
+  /** Sets the surface on a side of the divider, without an image. @param {0 | 1} side @param {Surface | null} surface */
+  setSurface(side, surface) {
+    this.#renderer.shadowMap.needsUpdate = true;
+    this.#replace(side, 'surface', surface && this.#createSurface(surface));
+  }
+
+  /** @param {Surface} surface */
+  #createSurface({ positions, triangles, colors, uvs }) {
+    const three = this.#three;
+    const geometry = new three.BufferGeometry();
+    geometry.setAttribute('position', this.#scaled(positions));
+    if (colors) geometry.setAttribute('color', new three.BufferAttribute(colors, 3));
+    if (uvs) geometry.setAttribute('uv', new three.BufferAttribute(uvs, 2));
+    const vertexColors = colors !== undefined;
+    if (triangles.length === 0) return new three.Points(geometry, new three.PointsMaterial({ vertexColors, size: 2, sizeAttenuation: false }));
+    geometry.setIndex(new three.BufferAttribute(triangles, 1));
+    if (!this.#options.isFaceted) geometry.computeVertexNormals();
+    const mesh = new three.Mesh(geometry, new three.MeshMatcapMaterial({
+      vertexColors, flatShading: this.#options.isFaceted ?? false, side: three.DoubleSide, matcap: this.#matcaps[vertexColors ? 1 : 0],
+    }));
+    mesh.castShadow = true;
+    return mesh;
+  }
+
+  /** Covers a surface with an image; null takes it away. @param {0 | 1} side @param {HTMLCanvasElement | null} image */
+  setImage(side, image) {
+    const material = this.#sides[side].surface?.material;
+    if (!material) return;
+    material.map?.dispose();
+    material.map = image && new this.#three.CanvasTexture(image);
+    material.matcap = this.#matcaps[image || material.vertexColors ? 1 : 0];
+    material.needsUpdate = true;
+    this.drawSoon();
+  }
+
+  /** Sets the lines on a surface; one of a single point is a dot. @param {0 | 1} side @param {readonly Line[]} lines */
+  setLines(side, lines) {
+    const three = this.#three;
+    const group = new three.Group();
+    for (const width of new Set(lines.map((line) => line.width))) {
+      const alike = lines.filter((line) => line.width === width);
+      const [dots, strokes] = [alike.filter(({ points }) => points.length === 1), alike.filter(({ points }) => points.length > 1)];
+      if (strokes.length > 0) {
+        const geometry = new three.LineSegmentsGeometry();
+        geometry.setPositions(this.#scaled(strokes.flatMap(({ points }) => points.slice(1).flatMap((point, i) => [...points[i], ...point]))).array);
+        geometry.setColors(strokes.flatMap(({ points, colour }) => points.slice(1).flatMap(() => [...colour, ...colour].map((value) => value / 255))));
+        group.add(new three.LineSegments2(geometry, new three.LineMaterial({ linewidth: width, vertexColors: true })));
+      }
+      if (dots.length > 0) {
+        const geometry = new three.BufferGeometry();
+        geometry.setAttribute('position', this.#scaled(dots.flatMap(({ points }) => points[0])));
+        geometry.setAttribute('color', new three.BufferAttribute(Float32Array.from(dots.flatMap(({ colour }) => colour), (value) => value / 255), 3));
+        group.add(new three.Points(geometry, new three.PointsMaterial({ vertexColors: true, size: width, sizeAttenuation: false })));
+      }
+    }
+    this.#replace(side, 'lines', lines.length > 0 ? group : null);
+  }
+
+  /**
+   * Shows a mesh, or two on both sides of the divider.
+   * @param {Surface} before
+   * @param {Surface} [after] in the same coordinates
+   * @param {readonly Line[]} [lines] on the mesh right of the divider
+   */
+  show(before, after, lines = []) {
+    this.setBox(boxOf(before.positions));
+    this.setSurface(0, before);
+    this.setSurface(1, after ?? null);
+    this.setLines(1, lines);
+  }
+
+  /** Moves the divider. @param {number} share of the canvas left of it */
+  divide(share) {
+    this.#divider = share;
+    this.drawSoon();
+  }
+
+  /** Zooms and moves the camera so that the surfaces fill the frame as they are seen now. */
+  fit() {
+    if (this.canvas.clientWidth === 0) return;
+    this.#camera.updateMatrixWorld();
+    const [point, stretch] = [new this.#three.Vector3(), this.#stretch];
+    const [low, high] = [[Infinity, Infinity], [-Infinity, -Infinity]];
+    for (const { surface } of this.#sides) {
+      const array = surface?.geometry.getAttribute('position').array ?? [];
+      for (let i = 0; i < array.length; i += 3) {
+        point.fromArray(array, i).multiply(stretch).applyMatrix4(this.#camera.matrixWorldInverse);
+        [low[0], high[0]] = [Math.min(low[0], point.x), Math.max(high[0], point.x)];
+        [low[1], high[1]] = [Math.min(low[1], point.y), Math.max(high[1], point.y)];
+      }
+    }
+    if (low[0] === Infinity) return;
+    this.#camera.zoom = Math.min(...this.#halfSides.map((side, k) => (2 * FILLED_SHARE * side) / (high[k] - low[k] || 1)));
+    const shift = new this.#three.Vector3((low[0] + high[0]) / 2, (low[1] + high[1]) / 2, 0).applyQuaternion(this.#camera.quaternion);
+    this.#camera.position.add(shift);
+    this.#controls.target.add(shift);
+    this.drawSoon();
+  }
+
+  /** Half of the sides of the view without zoom, in the units of the drawn box. */
+  get #halfSides() {
+    const { clientWidth: width, clientHeight: height } = this.canvas;
+    return [VIEW_HALF_WIDTH * Math.max(1, width / height), VIEW_HALF_WIDTH * Math.max(1, height / width)];
+  }
+
+  /** Turns the surface slowly to its present direction, once, unless the user takes hold of it or prefers less motion. */
+  turnOnce() {
+    if (matchMedia('(prefers-reduced-motion: reduce)').matches) return;
+    this.#turning.abort();
+    const turning = (this.#turning = new AbortController());
+    const { signal } = turning;
+    for (const event of ['pointerdown', 'keydown', 'wheel']) this.canvas.addEventListener(event, () => turning.abort(), { passive: true, signal });
+    const start = performance.now();
+    let remaining = 0;
+    /** @param {number} now */
+    const step = (now) => {
+      if (signal.aborted) return;
+      const share = Math.min(1, Math.max(0, (now - start) / FIRST_TURN_MS));
+      const next = FIRST_TURN_RADIANS * (1 - share) ** 2;
+      this.#withoutTurn(() => this.turn(next - remaining, 0));
+      remaining = next;
+      if (share < 1) requestAnimationFrame(step);
+      else turning.abort();
+    };
+    requestAnimationFrame(step);
+  }
+
+  /** Moves the camera without telling that the user has turned the surface. @param {() => void} move */
+  #withoutTurn(move) {
+    this.#isSettingDirection = true;
+    move();
+    this.#isSettingDirection = false;
+  }
+
+  /** Turns the camera about the vertical and upwards. @param {number} across @param {number} up in radians */
+  turn(across, up) {
+    this.#controls.rotateLeft(across);
+    this.#controls.rotateUp(up);
+    this.#controls.update();
+  }
+
+  /** Moves the picture. @param {number} x @param {number} y in CSS pixels, y down */
+  pan(x, y) {
+    this.#controls.pan(x, y);
+    this.#controls.update();
+  }
+
+  /** Zooms about the middle. @param {number} factor */
+  zoom(factor) {
+    this.#camera.zoom = Math.min(MAX_ZOOM, Math.max(MIN_ZOOM, this.#camera.zoom * factor));
+    this.drawSoon();
+  }
+
+  /** The direction of view. @returns {[number, number, number]} */
+  get direction() {
+    const { x, y, z } = this.#camera.getWorldDirection(new this.#three.Vector3());
+    return [x, y, z];
+  }
+
+  /** Sets the direction of view, resets zoom and place, and ends the first turn. @param {Vector} direction */
+  setDirection(direction) {
+    this.#turning.abort();
+    this.#camera.zoom = 1;
+    this.#controls.target.set(0, 0, 0);
+    this.#camera.position.set(...direction).normalize().multiplyScalar(-CAMERA_DISTANCE);
+    this.#withoutTurn(() => this.#controls.update());
+    this.drawSoon();
+  }
+
+  /** Sets the direction of view and fits the surfaces into the frame. @param {Vector} [direction] by default the last one */
+  look(direction = this.#home) {
+    this.#home = direction;
+    this.setDirection(direction);
+    this.fit();
+  }
+
+  /** Angle of the camera in radians, from straight above. */
+  get tilt() {
+    return this.#camera.up.angleTo(this.#camera.getWorldDirection(new this.#three.Vector3()).negate());
+  }
+
+  /** The place of a point on the canvas, in CSS pixels. @param {Vector} point @returns {[number, number]} */
+  project(point) {
+    this.#prepareCamera();
+    const { x, y } = this.#place(point).multiply(this.#stretch).project(this.#camera);
+    return [((1 + x) / 2) * this.canvas.clientWidth, ((1 - y) / 2) * this.canvas.clientHeight];
+  }
+
+  /** Directs the ray at a place of the canvas. @param {number} x @param {number} y in CSS pixels */
+  #cast(x, y) {
+    this.#prepareCamera();
+    this.#raycaster.setFromCamera({ x: (2 * x) / this.canvas.clientWidth - 1, y: 1 - (2 * y) / this.canvas.clientHeight }, this.#camera);
+    return this.#raycaster;
+  }
+
+  /**
+   * The ray through a place of the canvas: a point and the direction towards the viewer, in heights without exaggeration.
+   * @param {number} x
+   * @param {number} y in CSS pixels
+   * @returns {{ point: Vector, towards: Vector }}
+   */
+  rayAt(x, y) {
+    const { origin, direction } = this.#cast(x, y).ray;
+    const { middle, scale } = this.#frame;
+    const [point, towards] = [origin, direction.negate()].map((vector) => vector.clone().divide(this.#stretch).toArray());
+    return { point: point.map((/** @type {number} */ value, /** @type {number} */ k) => value / scale + middle[k]), towards };
+  }
+
+  /** Which side of the divider shows a place of the canvas. @param {number} x in CSS pixels @returns {0 | 1} */
+  sideAt(x) {
+    return this.#sides[1].surface && x >= this.#divider * this.canvas.clientWidth ? 1 : 0;
+  }
+
+  /**
+   * Finds the triangle at a place of the canvas.
+   * @param {{ offsetX: number, offsetY: number }} place
+   * @returns {{ after: boolean, triangle: number, shares: Vector } | null} `after`: right of the divider; `shares`: barycentric coordinates; null without a triangle
+   */
+  pick({ offsetX, offsetY }) {
+    const side = this.sideAt(offsetX);
+    const { surface } = this.#sides[side];
+    if (!surface?.isMesh || this.canvas.clientWidth === 0) return null;
+    const [first] = this.#cast(offsetX, offsetY).intersectObject(surface, false);
+    if (!first) return null;
+    const { x, y, z } = first.barycoord;
+    return { after: side === 1, triangle: first.faceIndex, shares: [x, y, z] };
+  }
+
+  /** Fits the camera to the canvas. */
+  #prepareCamera() {
+    const [across, up] = this.#halfSides;
+    Object.assign(this.#camera, { left: -across, right: across, top: up, bottom: -up });
+    this.#camera.updateProjectionMatrix();
+    this.#camera.updateMatrixWorld();
+  }
+
+  /** Colours the normals under the light. */
+  #shade() {
+    const { isMetal = false } = this.#options;
+    const tilt = isMetal ? this.tilt : 0;
+    const now = `${light.x} ${light.y} ${tilt}`;
+    if (now === this.#shownLight) return;
+    this.#shownLight = now;
+    this.#matcaps.forEach((matcap, i) => {
+      fillMatcap(matcap.image.data, light.from(tilt), { isMetal, isPale: i === 1 });
+      matcap.needsUpdate = true;
+    });
+  }
+
+  draw() {
+    const { clientWidth: width, clientHeight: height } = this.canvas;
+    if (width === 0) return;
+    this.#renderer.setPixelRatio(window.devicePixelRatio);
+    this.#renderer.setSize(width, height, false);
+    this.#prepareCamera();
+    this.#shade();
+    const offset = this.#camera.getWorldDirection(new this.#three.Vector3()).multiplyScalar(-LINE_OFFSET);
+    const line = this.#sides[1].surface ? Math.round(this.#divider * width) : width;
+    for (const [i, from, to] of [[0, 0, line], [1, line, width]]) {
+      if (to <= from) continue;
+      this.#sides.forEach(({ surface, lines }, which) => {
+        if (surface) surface.visible = which === i;
+        if (lines) Object.assign(lines, { visible: which === i }).position.copy(offset);
+      });
+      this.#renderer.setScissor(from, 0, to - from, height);
+      this.#renderer.render(this.#scene, this.#camera);
+    }
+    this.#options.onDraw?.();
+  }
+}
+
+/** The bounding box of positions. @param {ArrayLike<number>} positions @returns {Box} */
+export function boxOf(positions) {
+  const [low, high] = [[Infinity, Infinity, Infinity], [-Infinity, -Infinity, -Infinity]];
+  for (let i = 0; i < positions.length; i++) {
+    low[i % 3] = Math.min(low[i % 3], positions[i]);
+    high[i % 3] = Math.max(high[i % 3], positions[i]);
+  }
+  return { low: /** @type {any} */ (low), high: /** @type {any} */ (high) };
+}

@@ -182,7 +182,7 @@ export const SHEET_WORDS = {
   pdf: 'to print at 100 %, in true size',
   svg: 'for a cutting plotter or a drawing program',
   dxf: 'for a laser cutter or CAD',
-  png: 'a picture of the finished piece, with the numbers of sheets and joints',
+  png: 'a picture of the finished piece, with the numbers of its sheets',
   glb: 'a 3D film of how the sheets go to their places',
   curvedFold: 'Metal needs straight bends, and one fold of these sheets is curved. Choose “card or paper”, or a smaller λ for simpler pieces.',
   /** @param {string} reason */

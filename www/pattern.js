@@ -127,14 +127,14 @@ export function assemblyModel(drawing) {
 }
 
 /**
- * A picture of the assembled sheets, seen at an angle, with the numbers of sheets and the letters of joints: a PNG file.
+ * A picture of the assembled sheets, seen at an angle, with their numbers: a PNG file.
  * @param {Drawing} drawing
+ * @param {'y' | 'z'} up the axis that points upwards
  * @returns {Promise<Uint8Array<ArrayBuffer>>}
  */
-export async function assemblyPicture(drawing) {
-  const { model, picture } = assemblyOf(drawing);
+export async function assemblyPicture(drawing, up) {
   const { builtPicture } = await import('./surface/built-picture.js');
-  const png = await builtPicture(model, new TextDecoder().decode(picture)).convertToBlob({ type: 'image/png' });
+  const png = await (await builtPicture(assemblyOf(drawing).model, up)).convertToBlob({ type: 'image/png' });
   return new Uint8Array(await png.arrayBuffer());
 }
 

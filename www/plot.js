@@ -107,23 +107,19 @@ export function drawCurve(context, axes, { colour, points }) {
 }
 
 /**
- * Draws a legend of curves, right-aligned in the line of the title.
+ * Draws the legend of a curve, right-aligned in the line of the title.
  * @param {CanvasRenderingContext2D} context
  * @param {Axes} axes
- * @param {readonly Curve[]} curves
+ * @param {Curve} curve
  */
-export function drawLegend(context, { box, palette }, curves) {
-  let right = box.left + box.width;
+export function drawLegend(context, { box, palette }, { label, colour }) {
+  const right = box.left + box.width;
   context.textAlign = 'right';
   context.textBaseline = 'bottom';
-  for (const { colour, label } of [...curves].reverse()) {
-    context.fillStyle = palette.muted;
-    context.fillText(label, right, box.top - 5);
-    right -= context.measureText(label).width + 6;
-    context.fillStyle = colour;
-    context.fillRect(right - 12, box.top - 12, 12, 3);
-    right -= 24;
-  }
+  context.fillStyle = palette.muted;
+  context.fillText(label, right, box.top - 5);
+  context.fillStyle = colour;
+  context.fillRect(right - context.measureText(label).width - 18, box.top - 12, 12, 3);
 }
 
 /**

@@ -5,7 +5,7 @@ import { CARDS } from '../../www/gallery/cards.js';
 import { test } from 'node:test';
 import { grid, npy } from './support/files.mjs';
 import { parsed } from './support/numbers.mjs';
-import { choose, drop, enterPages, open, pageTest, reported, runBy, settled } from './support/page.mjs';
+import { choose, drop, enterPages, open, pageTest, reported, runBy, settled, typeLambda } from './support/page.mjs';
 import { dottedPhoto } from './support/photos.mjs';
 
 const defaults = /** @type {const} */ ({ lambda: 1e6, gap: 0.01, schedule: 'default', coarsening: 1, energy: 'nuclear', reweighting: 0, occlusionThreshold: undefined });
@@ -42,7 +42,7 @@ test('the gallery has a card for each figure of the paper that it tells, with an
 
 pageTest('settings stand in the address, Back undoes them, and a file is there after a reload', async (page) => {
   await page.waitForURL(/example=roof/);
-  await runBy(page, () => page.getByRole('button', { name: /^small/ }).click());
+  await runBy(page, () => typeLambda(page, '1e5'));
   await page.waitForURL(/lambda=1e5/);
   await runBy(page, () => page.goBack().then(() => {}));
   assert.notEqual(parsed(await reported(page, 'λ')), 1e5);

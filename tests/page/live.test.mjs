@@ -1,12 +1,12 @@
 /** While λ is dragged. */
 import assert from 'node:assert/strict';
 import { parsed } from './support/numbers.mjs';
-import { choose, pageTest, reported, runBy, settled } from './support/page.mjs';
+import { choose, pageTest, reported, runBy, settled, typeLambda } from './support/page.mjs';
 
 pageTest('while λ is dragged, pictures follow, and the last wish is certified', async (page) => {
   await runBy(page, () => page.locator('#size').selectOption('400'));
   // What makes pictures is started by the first λ that is chosen.
-  await runBy(page, () => page.getByRole('button', { name: /^medium/ }).click());
+  await runBy(page, () => typeLambda(page, '1e6'));
   const { events, pictures, wishes } = await page.evaluate(async () => {
     const slider = /** @type {HTMLInputElement} */ (document.querySelector('#lambda'));
     const caption = /** @type {HTMLElement} */ (document.querySelector('#result-caption'));
@@ -113,7 +113,7 @@ pageTest('the solver of a large input gives its memory back when it rests, and c
   await runBy(page, () => page.locator('#size').selectOption('700'));
   assert.deepEqual(await seen(), { opened: 1, ended: 0 });
   await page.waitForFunction(() => /** @type {any} */ (window).seen.ended === 1);
-  await runBy(page, () => page.getByRole('button', { name: /^small/ }).click());
+  await runBy(page, () => typeLambda(page, '1e5'));
   assert.equal((await seen()).opened, 2);
   assert.match(await page.locator('#certificate').innerText(), /^Proven/);
 });

@@ -1,7 +1,7 @@
 /** Running: to the end, with progress, and not to the end. */
 import assert from 'node:assert/strict';
 import { parsed } from './support/numbers.mjs';
-import { downloaded, look, pageTest, reported, runBy, settled } from './support/page.mjs';
+import { downloaded, look, pageTest, reported, runBy, settled, typeLambda } from './support/page.mjs';
 import { parsePng } from './support/photos.mjs';
 
 /** @typedef {import('playwright-core').Page} Page */
@@ -12,7 +12,7 @@ import { parsePng } from './support/photos.mjs';
  */
 async function startLongRun(page) {
   await runBy(page, () => page.locator('#size').selectOption('200'));
-  await runBy(page, () => page.getByRole('button', { name: /^small/ }).click());
+  await runBy(page, () => typeLambda(page, '1e5'));
   await page.getByLabel('Proven within').selectOption('0.0001');
   await page.locator('#page[data-phase="running"]').waitFor();
   await page.locator('#progress-text', { hasText: 'iterations' }).waitFor();
@@ -111,7 +111,7 @@ pageTest('a large run ends even where its worker does not listen, and what was t
   await settled(page);
   assert.match(await page.locator('#verdict').innerText(), /not solved/);
   assert.equal(await page.locator('#result-caption').innerText(), caption);
-  await runBy(page, () => page.getByRole('button', { name: /^medium/ }).click());
+  await runBy(page, () => typeLambda(page, '1e6'));
   assert.match(await page.locator('#certificate').innerText(), /^Proven/);
 });
 
@@ -131,7 +131,7 @@ pageTest('cancel is heard at once and keeps the best surface, marked', async (pa
 
 pageTest('another λ during a run replaces the run', async (page) => {
   await startLongRun(page);
-  await page.getByRole('button', { name: /^big/ }).click();
+  await typeLambda(page, '1e7');
   await page.getByLabel('Proven within').selectOption('0.1');
   await settled(page);
   assert.match(await page.locator('#certificate').innerText(), /^Proven/);

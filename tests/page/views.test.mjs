@@ -308,7 +308,7 @@ pageTest('how sheets are put together is saved as a numbered picture and as a mo
   const { animations, meshes } = JSON.parse(bytes.toString('utf8', 20, 20 + bytes.readUInt32LE(12)));
   assert.equal(animations[0].name, 'Assembly');
   assert.ok(meshes.length >= sheets, `${meshes.length} meshes of ${sheets} sheets`);
-});
+}, { drawn: true });
 
 pageTest('the printed page is made flat: an A4 sheet, with its pixels and its map', async (page) => {
   await example(page, 'page');

@@ -3,7 +3,7 @@ import assert from 'node:assert/strict';
 import { noisyBox, offBox, SIDES } from './support/box.mjs';
 import { obj } from './support/files.mjs';
 import { parsed } from './support/numbers.mjs';
-import { choose, look, open, openFromOneSide, openWhole, pageTest, reported, saveAs, settled } from './support/page.mjs';
+import { choose, look, open, openFromOneSide, openWhole, pageTest, reported, saveAs, settled, typeLambda } from './support/page.mjs';
 import { parsePng } from './support/photos.mjs';
 
 /** @typedef {import('playwright-core').Page} Page */
@@ -137,9 +137,9 @@ pageTest('a closed mesh is solved whole, shown before and after, laid flat and s
 
   // Before on one side of the divider, after on the other.
   const divider = page.getByRole('slider', { name: 'Divider between input and result' }).and(page.locator('#whole-divider'));
-  await divider.fill('1');
+  await divider.press('End');
   const rough = (await canvasPixels(page))(0.35, 0.65);
-  await divider.fill('0');
+  await divider.press('Home');
   const smooth = (await canvasPixels(page))(0.35, 0.65);
   assert.ok(smooth < rough / 2, `${smooth} against ${rough}`);
   const seen = parsePng(await page.locator('#whole-canvas').screenshot());
@@ -217,7 +217,9 @@ pageTest('a whole solve tells how far it is and can be done without; what is no 
 
   // Cancelled, the next solve leaves the surface before.
   await page.evaluate(() => {
-    /** @type {HTMLButtonElement} */ (document.querySelector('[data-exponent="7"]')).click();
+    const field = /** @type {HTMLInputElement} */ (document.querySelector('#lambda-value'));
+    field.value = '1e7';
+    field.dispatchEvent(new Event('change'));
     /** @type {HTMLButtonElement} */ (document.querySelector('#whole-waiting-cancel')).click();
   });
   await page.locator('#whole-detail', { hasText: 'You see the surface from before' }).waitFor();
@@ -236,7 +238,7 @@ pageTest('a whole solve tells how far it is and can be done without; what is no 
 pageTest('rulings of a whole mesh are drawn on its result only, along the axis of a tube', async (page) => {
   await openWhole(page, 'tube.obj', obj(noisyTube(60, 0.01)));
   const divider = page.locator('#whole-divider');
-  await divider.fill('0');
+  await divider.press('Home');
   assert.equal((await drawnRulings(page)).pixels, 0);
   await view(page, 'rulings');
   assert.ok(parsed(await told(page, 'Lines')) >= 8);
@@ -252,9 +254,9 @@ pageTest('rulings of a whole mesh are drawn on its result only, along the axis o
   const axis = [towards[2] / level, (-towards[0] * towards[1]) / level];
   const off = Math.abs(Math.sin(angle - Math.atan2(axis[1], axis[0])));
   assert.ok(off < 0.02, `${off}`);
-  await divider.fill('1');
+  await divider.press('End');
   assert.equal((await drawnRulings(page)).pixels, 0, 'none on the input');
-  await divider.fill('0');
+  await divider.press('Home');
   await view(page, 'gaussian');
   assert.equal((await drawnRulings(page)).pixels, 0);
 }, { drawn: true });
@@ -314,7 +316,7 @@ pageTest('a whole mesh is solved with the λ that is chosen, which stands in the
   assert.equal(await field.inputValue(), '1e9');
 
   // As seen, heights follow the λ that was chosen meanwhile.
-  await solvedBy(() => page.getByRole('button', { name: /^medium/ }).click(), /lambda=1e6&whole=1&view=rulings$/);
+  await solvedBy(() => typeLambda(page, '1e6'), /lambda=1e6&whole=1&view=rulings$/);
   await choose(page.getByRole('radio', { name: 'From one side', exact: true }));
   await page.waitForURL(/lambda=1e6$/);
   await settled(page);
@@ -323,7 +325,7 @@ pageTest('a whole mesh is solved with the λ that is chosen, which stands in the
 
 pageTest('where a whole mesh is under the pointer, how far it was moved, and what the view knows there', async (page) => {
   await openWhole(page, 'tube.obj', obj(noisyTube(60, 0.01)));
-  await page.locator('#whole-divider').fill('0');
+  await page.locator('#whole-divider').press('Home');
   const canvas = page.locator('#whole-canvas');
   const { width, height } = /** @type {{ width: number, height: number }} */ (await canvas.boundingBox());
   /** @param {number} x @param {number} y in shares of the canvas */
@@ -357,10 +359,10 @@ pageTest('where a whole mesh is under the pointer, how far it was moved, and wha
   await view(page, 'gaussian');
   const curved = /· K (\S+)/.exec(await pointAt(0.5, 0.5));
   assert.ok(curved && Math.abs(parsed(curved[1])) < 0.1, String(curved));
-  await page.locator('#whole-divider').fill('1');
+  await page.locator('#whole-divider').press('End');
   const rough = /· K (\S+)/.exec(await pointAt(0.5, 0.5));
   assert.ok(rough && Math.abs(parsed(rough[1])) > 10 * Math.abs(parsed(/** @type {RegExpExecArray} */ (curved)[1])), `${rough} against ${curved}`);
-  await page.locator('#whole-divider').fill('0');
+  await page.locator('#whole-divider').press('Home');
   await view(page, 'patches');
   assert.match(await pointAt(0.5, 0.5), /moved by \S+ · patch 1$/);
   // Where it turns first, it is not where it will be.

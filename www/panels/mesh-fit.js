@@ -4,12 +4,13 @@ import { percent } from '../format.js';
 import { lengthUnitOf } from '../pattern.js';
 import { plainMessage } from '../error-messages.js';
 import { FORMAT_WORDS, MESH_FIT_WORDS } from '../messages.js';
-import { SceneView } from '../surface/scene.js';
+import { OBLIQUE_VIEWS, SceneView } from '../surface/scene.js';
 import { PictureView } from '../surface/picture-view.js';
 import { Zoom } from '../surface/zoom.js';
 import { gaussian, patches, readingAt, rulings, shaded, sheet, meshFitSummary } from '../views/mesh-fit.js';
 import { longestSide } from '../mesh-fit.js';
 import { solidFormats } from '../solid.js';
+import { dividerOver } from './divider.js';
 import { offerToSave } from './save-dialog.js';
 import { offerSheets } from './sheets.js';
 import { waitingPanel } from './waiting.js';
@@ -21,11 +22,6 @@ import { waitingPanel } from './waiting.js';
 
 /** Initial guess of the time that a fit or a view takes, in milliseconds per vertex. */
 const MESH_TASK_MS_PER_VERTEX = 0.1;
-/** Initial view of a mesh, from the front right and above: the axis that points upwards, and the direction. */
-const INITIAL_VIEWS = /** @type {const} */ ({
-  y: { up: [0, 1, 0], direction: [-0.5, -0.45, -0.75] },
-  z: { up: [0, 0, 1], direction: [-0.5, 0.75, -0.45] },
-});
 /** Kinds of files whose programs take y for the axis that points upwards; those of the others take z. */
 const Y_UP_KINDS = ['OBJ', 'GLB', 'GLTF'];
 /** Functions that prepare the views, by their names. @type {Record<string, (meshFit: MeshFit, mesh: Mesh, surface: MeshSurface) => Promise<MeshViewContent>>} */
@@ -37,8 +33,6 @@ export function meshFitPanel(session, meshFit) {
   const stage = element('whole', HTMLElement);
   const canvas = element('whole-canvas', HTMLCanvasElement);
   const missing = element('whole-missing', HTMLElement);
-  const divider = element('whole-divider', HTMLInputElement);
-  const divided = element('whole-divided', HTMLElement);
   const verdict = element('whole-verdict', HTMLElement);
   const detail = element('whole-detail', HTMLElement);
   const about = element('whole-about', HTMLElement);
@@ -52,6 +46,7 @@ export function meshFitPanel(session, meshFit) {
   const picture = new PictureView(element('whole-picture', HTMLCanvasElement), new Zoom());
   /** @type {Promise<SceneView | null> | null} */
   let viewer = null;
+  const divider = dividerOver('whole-divider', async (share) => (await viewer)?.divide(share));
   /** Number of the newest update; answers to older ones are discarded. */
   let newestUpdate = 0;
   /** The mesh that the input was sampled from, if it has triangles. @type {Mesh | null} */
@@ -95,11 +90,12 @@ export function meshFitPanel(session, meshFit) {
     const view = await viewer;
     missing.hidden = view !== null || laid !== undefined;
     canvas.hidden = view === null || laid !== undefined;
-    divided.hidden = !after || canvas.hidden;
-    for (const badge of stage.querySelectorAll('.badge')) badge.toggleAttribute('hidden', divided.hidden);
+    const isDivided = after !== undefined && !canvas.hidden;
+    divider.show(isDivided);
+    for (const badge of stage.querySelectorAll('.badge')) badge.toggleAttribute('hidden', !isDivided);
     if (laid || !view) return;
     view.show(before, after, lines);
-    view.divide(after ? divider.valueAsNumber : 1);
+    view.divide(after ? divider.share : 1);
   };
 
   const update = async () => {
@@ -131,6 +127,8 @@ export function meshFitPanel(session, meshFit) {
     for (const radio of radios) radio.disabled = !ready;
   };
 
+  /** The axis of the mesh that points upwards. */
+  const upAxis = () => (Y_UP_KINDS.includes(session.input?.kind ?? '') ? 'y' : 'z');
   /** Shows the whole mesh and fits it. */
   const solve = () => {
     if (!inputMesh) return;
@@ -184,7 +182,7 @@ export function meshFitPanel(session, meshFit) {
       // A further solve of the same mesh keeps the view.
       const view = await viewer;
       if (viewedMesh === mesh || !view) return;
-      const { up, direction } = INITIAL_VIEWS[Y_UP_KINDS.includes(session.input?.kind ?? '') ? 'y' : 'z'];
+      const { up, direction } = OBLIQUE_VIEWS[upAxis()];
       view.setUp(up);
       view.look(direction);
       view.turnOnce();
@@ -214,7 +212,6 @@ export function meshFitPanel(session, meshFit) {
   report.addEventListener('click', () => {
     if (meshFit.surface) download(`${JSON.stringify(meshFit.surface.report, null, 2)}\n`, 'application/json', `${stem()}-report.json`);
   });
-  divider.addEventListener('input', async () => (await viewer)?.divide(divider.valueAsNumber));
   for (const radio of radios) radio.addEventListener('change', () => void update());
   again.addEventListener('click', () => (meshFit.surface && !again.hasAttribute('data-solves') ? void update() : solve()));
   for (const radio of ways) radio.addEventListener('change', () => (radio.value === 'whole' ? enter('shaded') : showOneSide()));
@@ -286,6 +283,7 @@ export function meshFitPanel(session, meshFit) {
       stem: stem(),
       size: surface.positions.length / 3,
       length: longest,
+      up: upAxis(),
       unit: lengthUnitOf({ ...session.input, kind: 'mesh', unit: surface.unit ?? undefined }),
       cut: ({ side: length, ...options }) => meshFit.pattern(surface, { scale: length / longest, ...options }),
       svg: (drawing) => meshFit.svg(drawing),

@@ -81,6 +81,7 @@ function sheetSource(result, analyses) {
     stem: fileStem(result),
     size: result.surface.heights.length,
     length: longerSide(result),
+    up: 'z',
     unit: lengthUnitOf(result.input),
     cut: (options) => cutSheets(analyses, result, options),
     svg: (drawing) => analyses.svg(drawing),

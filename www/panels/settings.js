@@ -1,6 +1,6 @@
-/** Settings of the solve: λ on a logarithmic slider with the paper's presets, and further options. */
+/** Settings of the solve: λ on a logarithmic slider, and further options. */
 import { energyFor } from '../design.js';
-import { element, elements } from '../dom.js';
+import { element } from '../dom.js';
 import { shortLambda } from '../format.js';
 import { AUTO_LAMBDA_HINT, ENERGIES, DESIGN_LAMBDA_HINT, LAMBDA_WORDS, lambdaChoiceInWords, lambdaHint, meshLambdaChoiceInWords } from '../messages.js';
 
@@ -18,7 +18,6 @@ export function settingsPanel(session, meshFit) {
   const hint = element('lambda-hint', HTMLElement);
   const fieldsets = ['fidelity', 'fidelity-number'].map((id) => element(id, HTMLFieldSetElement));
   const wrong = element('lambda-wrong', HTMLElement);
-  const presets = elements('button[data-exponent]', HTMLButtonElement);
 
   const auto = element('lambda-auto', HTMLButtonElement);
   /** Says at the field whether its λ is invalid. @param {boolean} isInvalid */
@@ -49,9 +48,6 @@ export function settingsPanel(session, meshFit) {
     if (Number(field.value) !== lambda) field.value = shortLambda(lambda);
     markField(false);
     hint.textContent = lambdaHint(lambda);
-    for (const preset of presets) {
-      preset.setAttribute('aria-pressed', String(10 ** Number(preset.dataset.exponent) === lambda));
-    }
   };
   /** Sets λ in the session. @param {number} lambda */
   const setLambda = (lambda) => {
@@ -77,9 +73,6 @@ export function settingsPanel(session, meshFit) {
   slider.addEventListener('change', () => {
     if (!isKeyHeld) session.updateSettings({ lambda: sliderLambda() });
   });
-  for (const preset of presets) {
-    preset.addEventListener('click', () => setLambda(10 ** Number(preset.dataset.exponent)));
-  }
   field.addEventListener('change', () => {
     if (field.value.trim() === '') return auto.click();
     const lambda = Number(field.value.trim().replace(/^(\d*),(\d+)/, '$1.$2') || NaN);
@@ -144,7 +137,6 @@ export function settingsPanel(session, meshFit) {
   auto.addEventListener('click', () => {
     showAuto(true);
     markField(false);
-    for (const preset of presets) preset.setAttribute('aria-pressed', 'false');
     session.updateSettings({ lambda: 'auto' });
     updateHint();
   });

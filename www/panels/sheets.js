@@ -36,6 +36,7 @@ const [MIN_SIDE_MM, MAX_SIDE_MM] = [10, 5000];
  * @property {string} stem file name without ending
  * @property {number} size number of vertices
  * @property {number} length longer side, in the input's unit
+ * @property {'y' | 'z'} up the axis that points upwards
  * @property {string} [note] note that says what the sheets lack
  * @property {LengthUnit | 'none' | 'unknown'} unit unit of the input; `none` for an example, which has any size
  * @property {(options: CutOptions) => Promise<Drawing>} cut computes the pattern
@@ -48,7 +49,7 @@ const [MIN_SIDE_MM, MAX_SIDE_MM] = [10, 5000];
  * @param {Api} api
  * @param {SheetSource} source
  */
-export function offerSheets(api, { stem, size, note = '', length, unit, cut, svg, stop }) {
+export function offerSheets(api, { stem, size, note = '', length, unit, up, cut, svg, stop }) {
   const last = lastSizes.get(stem) ?? { unit: unit === 'unknown' ? 'none' : unit, side: NaN };
   const side = numberField(Number.isNaN(last.side) ? suggestedSide(length, last.unit) : last.side, MIN_SIDE_MM, MAX_SIDE_MM);
   const units = make('select', '', ...Object.keys(MM_PER_UNIT).map((name) => new Option(SHEET_WORDS.unit(name), name)), new Option(SHEET_WORDS.ownSize, 'none'));
@@ -218,7 +219,7 @@ export function offerSheets(api, { stem, size, note = '', length, unit, cut, svg
         write: async (worker) => worker.writePdf(await drawing, { stock: paper.value === 'a4' || paper.value === 'letter' ? paper.value : undefined, title: stem }) },
       { value: 'svg', name: 'SVG', words: SHEET_WORDS.svg, type: 'image/svg+xml', write: async (worker) => worker.writeSvg(await drawing) },
       { value: 'dxf', name: 'DXF', words: SHEET_WORDS.dxf, type: 'image/vnd.dxf', write: async (worker) => worker.writeDxf(await drawing) },
-      { value: 'png', name: 'PNG', words: SHEET_WORDS.png, type: 'image/png', write: async () => assemblyPicture(await drawing) },
+      { value: 'png', name: 'PNG', words: SHEET_WORDS.png, type: 'image/png', write: async () => assemblyPicture(await drawing, up) },
       { value: 'glb', name: 'GLB', words: SHEET_WORDS.glb, type: 'model/gltf-binary', write: async () => assemblyModel(await drawing) },
     ],
   });

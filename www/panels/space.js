@@ -6,6 +6,7 @@ import { resultImage } from '../surface/derived-data.js';
 import { gridOf } from '../surface/lattice.js';
 import { clampToUnit, expandBox, heightAt, heightfieldBox, intersectHeights, markPoints, pinPosition, reliefMesh, reliefOf } from '../surface/relief.js';
 import { SceneView } from '../surface/scene.js';
+import { dividerOver } from './divider.js';
 
 /** @import {Pin} from '../design.js' */
 /** @import {DragTarget} from '../surface/gestures.js' */
@@ -22,8 +23,6 @@ const UNFOLDING_MS = 2200;
 const UNFOLDING_DELAY_MS = 500;
 /** Colour of a line that is being drawn. @type {Colour} */
 const TRAIL_COLOUR = [214, 64, 43];
-/** Distance that an arrow key moves the divider, as a share of the canvas' width. */
-const DIVIDER_KEY_STEP = 0.05;
 /** Minimum share of the vertical in the direction of view for moving pins along the ground: smaller ones would move them too far. */
 const MIN_VERTICAL_SHARE = 0.2;
 /** Directions of view. @type {Record<'above' | 'oblique', Vector>} */
@@ -33,7 +32,6 @@ const DIRECTIONS = { above: [0, 0, -1], oblique: [0.375, 0.687, -0.622] };
 export function spacePanel(session) {
   const panel = element('space', HTMLElement);
   const canvas = element('space-canvas', HTMLCanvasElement);
-  const divider = element('divider', HTMLElement);
   const reading = element('reading', HTMLElement);
   const exaggeration = element('exaggeration', HTMLInputElement);
   const exaggerated = element('exaggerated', HTMLElement);
@@ -42,8 +40,6 @@ export function spacePanel(session) {
   /** Null until the first input, and without WebGL. @type {SceneView | null} */
   let view = null;
   let isCreated = false;
-  /** Position of the divider, as a share of the canvas' width. */
-  let dividerShare = 0.5;
   /** The handler of the present drag over the surface. @type {DragTarget | undefined} */
   let dragHandler;
   /** @type {DragTarget[]} */
@@ -63,6 +59,7 @@ export function spacePanel(session) {
   /** @type {Box} */
   let box = { low: [0, 0, 0], high: [1, 1, 0] };
 
+  const divider = dividerOver('divider', (share) => view?.divide(share));
   const isShown = () => !panel.hidden;
   /** The surface that is edited: the result, or the input where there is none. */
   const topRelief = () => reliefs[1] ?? reliefs[0];
@@ -131,10 +128,10 @@ export function spacePanel(session) {
     });
     // The input of a design is not a surface, and an unfolding shows the result only.
     const hidesInput = shown.unfolding !== undefined || input?.design === true;
-    divider.hidden = !reliefs[1] || hidesInput;
+    divider.show(reliefs[1] !== null && !hidesInput);
     element('space-before', HTMLElement).hidden = hidesInput;
     element('space-after', HTMLElement).hidden = !reliefs[1] || shown.unfolding !== undefined;
-    view?.divide(hidesInput && reliefs[1] ? 0 : dividerShare);
+    view?.divide(hidesInput && reliefs[1] ? 0 : divider.share);
   };
 
   exaggeration.addEventListener('input', () => {
@@ -167,32 +164,6 @@ export function spacePanel(session) {
     };
     if (!isMotionReduced) requestAnimationFrame(step);
   };
-
-  /** Moves the divider. @param {number} share of the canvas' width */
-  const moveDivider = (share) => {
-    dividerShare = clampToUnit(share);
-    const percent = Math.round(100 * dividerShare);
-    divider.style.left = `${100 * dividerShare}%`;
-    divider.setAttribute('aria-valuenow', String(percent));
-    divider.setAttribute('aria-valuetext', `input on ${percent} % of the picture, result on the rest`);
-    view?.divide(dividerShare);
-  };
-  divider.addEventListener('pointerdown', (event) => {
-    if (event.button === 0) divider.setPointerCapture(event.pointerId);
-  });
-  divider.addEventListener('pointermove', (event) => {
-    if (!divider.hasPointerCapture(event.pointerId)) return;
-    const { left, width } = canvas.getBoundingClientRect();
-    moveDivider((event.clientX - left) / width);
-  });
-  divider.addEventListener('keydown', (event) => {
-    const to = { ArrowLeft: dividerShare - DIVIDER_KEY_STEP, ArrowDown: dividerShare - DIVIDER_KEY_STEP, ArrowRight: dividerShare + DIVIDER_KEY_STEP, ArrowUp: dividerShare + DIVIDER_KEY_STEP, Home: 0, End: 1 }[event.key];
-    if (to === undefined) return;
-    event.preventDefault();
-    moveDivider(to);
-  });
-
-  moveDivider(dividerShare);
 
   /** The place of the surface at a place of the canvas. @param {number} x @param {number} y in CSS pixels @param {Relief | null} relief */
   const surfaceAt = (x, y, relief) => view && intersectHeights(view.rayAt(x, y), box, (px, py) => (relief ? heightAt(relief, px, py) : 0));

@@ -26,6 +26,7 @@ import { fillMatcap, MATCAP_SIDE_TEXELS } from './matcap.js';
  * @property {() => void} [onDraw] called after each picture
  * @property {() => boolean} [controlsLight] whether drags and keys move the light
  * @property {DragTarget} [target] another thing that drags may move
+ * @property {{ width: number, height: number }} [size] of the picture in pixels, for a canvas that is not shown
  */
 
 /** Half of the shorter side of a view without zoom, in radii of the box. */
@@ -45,6 +46,11 @@ const CAMERA_DISTANCE = 50;
 const VIEW_HALF_DEPTH = 8;
 /** Distance by which lines are drawn nearer than the surface that they lie on, in radii of the box. */
 const LINE_OFFSET = 0.012;
+/** Views from the front right and above: the axis that points upwards, and the direction. @type {Record<'y' | 'z', { up: Vector, direction: Vector }>} */
+export const OBLIQUE_VIEWS = {
+  y: { up: [0, 1, 0], direction: [-0.5, -0.45, -0.75] },
+  z: { up: [0, 0, 1], direction: [-0.5, 0.75, -0.45] },
+};
 /** Bounds of the enlargement. */
 const MIN_ZOOM = 0.5;
 const MAX_ZOOM = 60;
@@ -294,7 +300,7 @@ export class SceneView {
 
   /** Zooms and moves the camera so that the surfaces fill the frame as they are seen now. */
   fit() {
-    if (this.canvas.clientWidth === 0) return;
+    if (this.#size.width === 0) return;
     this.#camera.updateMatrixWorld();
     const [point, stretch] = [new this.#three.Vector3(), this.#stretch];
     const [low, high] = [[Infinity, Infinity], [-Infinity, -Infinity]];
@@ -314,9 +320,14 @@ export class SceneView {
     this.drawSoon();
   }
 
+  /** The size of the picture in CSS pixels. */
+  get #size() {
+    return this.#options.size ?? { width: this.canvas.clientWidth, height: this.canvas.clientHeight };
+  }
+
   /** Half of the sides of the view without zoom, in the units of the drawn box. */
   get #halfSides() {
-    const { clientWidth: width, clientHeight: height } = this.canvas;
+    const { width, height } = this.#size;
     return [VIEW_HALF_WIDTH * Math.max(1, width / height), VIEW_HALF_WIDTH * Math.max(1, height / width)];
   }
 
@@ -400,13 +411,15 @@ export class SceneView {
   project(point) {
     this.#prepareCamera();
     const { x, y } = this.#place(point).multiply(this.#stretch).project(this.#camera);
-    return [((1 + x) / 2) * this.canvas.clientWidth, ((1 - y) / 2) * this.canvas.clientHeight];
+    const { width, height } = this.#size;
+    return [((1 + x) / 2) * width, ((1 - y) / 2) * height];
   }
 
   /** Directs the ray at a place of the canvas. @param {number} x @param {number} y in CSS pixels */
   #cast(x, y) {
     this.#prepareCamera();
-    this.#raycaster.setFromCamera({ x: (2 * x) / this.canvas.clientWidth - 1, y: 1 - (2 * y) / this.canvas.clientHeight }, this.#camera);
+    const { width, height } = this.#size;
+    this.#raycaster.setFromCamera({ x: (2 * x) / width - 1, y: 1 - (2 * y) / height }, this.#camera);
     return this.#raycaster;
   }
 
@@ -425,7 +438,7 @@ export class SceneView {
 
   /** Which side of the divider shows a place of the canvas. @param {number} x in CSS pixels @returns {0 | 1} */
   sideAt(x) {
-    return this.#sides[1].surface && x >= this.#divider * this.canvas.clientWidth ? 1 : 0;
+    return this.#sides[1].surface && x >= this.#divider * this.#size.width ? 1 : 0;
   }
 
   /**
@@ -436,7 +449,7 @@ export class SceneView {
   pick({ offsetX, offsetY }) {
     const side = this.sideAt(offsetX);
     const { surface } = this.#sides[side];
-    if (!surface?.isMesh || this.canvas.clientWidth === 0) return null;
+    if (!surface?.isMesh || this.#size.width === 0) return null;
     const [first] = this.#cast(offsetX, offsetY).intersectObject(surface, false);
     if (!first) return null;
     const { x, y, z } = first.barycoord;
@@ -465,9 +478,9 @@ export class SceneView {
   }
 
   draw() {
-    const { clientWidth: width, clientHeight: height } = this.canvas;
+    const { width, height } = this.#size;
     if (width === 0) return;
-    this.#renderer.setPixelRatio(window.devicePixelRatio);
+    this.#renderer.setPixelRatio(this.#options.size ? 1 : window.devicePixelRatio);
     this.#renderer.setSize(width, height, false);
     this.#prepareCamera();
     this.#shade();
@@ -483,6 +496,13 @@ export class SceneView {
       this.#renderer.render(this.#scene, this.#camera);
     }
     this.#options.onDraw?.();
+  }
+
+  /** Frees the memory of the graphics card. */
+  dispose() {
+    this.#controls.dispose();
+    this.#renderer.dispose();
+    this.#renderer.forceContextLoss();
   }
 }
 

@@ -250,6 +250,16 @@ export async function runBy(page, act) {
 }
 
 /**
+ * Types a λ.
+ * @param {Page} page
+ * @param {string} lambda
+ */
+export async function typeLambda(page, lambda) {
+  await page.getByLabel('λ as a number').fill(lambda);
+  await page.getByLabel('λ as a number').press('Tab');
+}
+
+/**
  * Chooses one of several as a user does, by its label: once it can be, and has come to rest.
  * @param {import('playwright-core').Locator} radio
  */

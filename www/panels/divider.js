@@ -1,0 +1,46 @@
+/** The divider between input and result over a picture, moved by pointer or keyboard. */
+import { element } from '../dom.js';
+import { clampToUnit } from '../surface/relief.js';
+
+/** Distance that an arrow key moves the divider, as a share of the picture's width. */
+const KEY_STEP = 0.05;
+
+/**
+ * @param {string} id
+ * @param {(share: number) => void} onMove gets the share of the picture left of the divider
+ */
+export function dividerOver(id, onMove) {
+  const divider = element(id, HTMLElement);
+  let share = 0.5;
+  /** @param {number} to */
+  const move = (to) => {
+    share = clampToUnit(to);
+    const percent = Math.round(100 * share);
+    divider.style.left = `${100 * share}%`;
+    divider.setAttribute('aria-valuenow', String(percent));
+    divider.setAttribute('aria-valuetext', `input on ${percent} % of the picture, result on the rest`);
+    onMove(share);
+  };
+  divider.addEventListener('pointerdown', (event) => {
+    if (event.button === 0) divider.setPointerCapture(event.pointerId);
+  });
+  divider.addEventListener('pointermove', (event) => {
+    if (!divider.hasPointerCapture(event.pointerId)) return;
+    const { left, width } = /** @type {HTMLElement} */ (divider.parentElement).getBoundingClientRect();
+    move((event.clientX - left) / width);
+  });
+  divider.addEventListener('keydown', (event) => {
+    const to = { ArrowLeft: share - KEY_STEP, ArrowDown: share - KEY_STEP, ArrowRight: share + KEY_STEP, ArrowUp: share + KEY_STEP, Home: 0, End: 1 }[event.key];
+    if (to === undefined) return;
+    event.preventDefault();
+    move(to);
+  });
+  move(share);
+  return {
+    get share() {
+      return share;
+    },
+    /** @param {boolean} shown */
+    show: (shown) => (divider.hidden = !shown),
+  };
+}

@@ -54,7 +54,9 @@ async function start() {
   const source = sourcePanel(session, views, (files) => void addressSync.rememberFiles(files), meshFitView.begin, (file) => void files.openColour(file));
   const page = pagePanel(session.api, ({ mesh }, name) => {
     mode.enter('heights');
-    source.openLoadedMesh({ name, kind: 'photo' }, async () => mesh, 'The page could not be taken as a surface');
+    void source.openLoadedMesh({ name, kind: 'photo' }, async () => mesh, 'The page could not be taken as a surface').then((opened) => {
+      if (opened) void session.run();
+    });
   }, (photos) => void addressSync.rememberPhotos(photos), (states) => addressSync.rememberOutlines(states));
   const mode = modePanel(session, (entered) => {
     if (entered === 'photo') page.begin();

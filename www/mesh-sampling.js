@@ -7,12 +7,9 @@ import { callWorker } from './surface/worker-client.js';
 /** @import {Input, Session, TimedTask} from './session.js' */
 /** @typedef {Pick<Input, 'name' | 'kind' | 'photo' | 'depthSource' | 'cameraAssumption'>} InputOrigin */
 
-/** Initial guess of the time that sampling takes, in milliseconds per vertex of the mesh. */
-const SAMPLING_MS_PER_VERTEX = 1e-3;
-
 /** The task of sampling a mesh from another view, for a progress bar. @param {Mesh} mesh @returns {TimedTask} */
 export function samplingTask({ positions }) {
-  return { label: 'Looking at it from there', kind: 'mesh', size: positions.length / 3, msPerUnit: SAMPLING_MS_PER_VERTEX };
+  return { label: 'Looking at it from there', kind: 'mesh', size: positions.length / 3 };
 }
 
 /**

@@ -75,12 +75,11 @@ import { prepareInput, prepareResult } from './surface/derived-data.js';
 
 /** @typedef {{ input: Input, settings: Settings, surface: Surface }} Result */
 /**
- * A task whose duration is estimated from its size, for a progress bar.
+ * A task whose duration is estimated from its size and from earlier tasks of its kind, for a progress bar.
  * @typedef {object} TimedTask
  * @property {string} label text that says what is done
  * @property {string} kind key of the measured rate: tasks of one kind take equally long per unit of size
  * @property {number} size number of vertices, pixels or bytes
- * @property {number} msPerUnit initial guess of milliseconds per unit of size, until a task of this kind was measured
  */
 /** @typedef {'starting' | 'idle' | 'running' | 'failed'} Phase */
 

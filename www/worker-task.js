@@ -4,12 +4,9 @@
 /** @import {TimedTask} from './session.js' */
 /** @typedef {InstanceType<Api['DevelopableWorker']>} Worker */
 
-/** Initial guess of the time that reading a file takes, in milliseconds per byte. */
-const FILE_READ_MS_PER_BYTE = 2e-5;
-
 /** The task of reading a file, for a progress bar. @param {File} file @returns {TimedTask} */
 export function fileReadTask({ name, size }) {
-  return { label: 'Reading the file', kind: name.slice(name.lastIndexOf('.') + 1).toLowerCase(), size, msPerUnit: FILE_READ_MS_PER_BYTE };
+  return { label: 'Reading the file', kind: name.slice(name.lastIndexOf('.') + 1).toLowerCase(), size };
 }
 
 /**

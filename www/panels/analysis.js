@@ -15,8 +15,6 @@ import { waitingPanel } from './waiting.js';
 /** @import {ViewContent} from '../views/view-content.js' */
 /** @typedef {(analyses: Analyses, result: Result) => Promise<ViewContent>} View */
 
-/** Initial guess of the time that a view takes, in milliseconds per vertex. */
-const VIEW_MS_PER_VERTEX = 0.005;
 /** Functions that prepare the views, by their names. @type {Record<string, View>} */
 const VIEWS = { gaussian, kappa2, rulings, patches, photo: coloured, sheet: laidFlat };
 
@@ -74,7 +72,7 @@ export function analysisPanel(session, analyses, show) {
     picture.setAttribute('aria-busy', 'true');
     description.textContent = '';
     if (!isSameView) about.replaceChildren();
-    const task = { label: 'Preparing this view', kind: name, size: result.surface.heights.length, msPerUnit: VIEW_MS_PER_VERTEX };
+    const task = { label: 'Preparing this view', kind: name, size: result.surface.heights.length };
     waiting.begin(task);
     try {
       const shown = await (name === 'dewarped' ? dewarpedView(result) : VIEWS[name](analyses, result));

@@ -8,8 +8,6 @@ import { DEPTH_WORDS } from '../messages.js';
 /** @import {InputOrigin} from '../mesh-sampling.js' */
 /** @import {Input, Session, TimedTask} from '../session.js' */
 
-/** Initial guess of the time that back-projection takes, in milliseconds per depth. */
-const BACK_PROJECTION_MS_PER_DEPTH = 2e-3;
 /** Maximum depth in metres; larger values are taken for millimetres. */
 const MAX_DEPTH_METRES = 100;
 /** Field of view that is assumed at first, in degrees along the longer side: about that of a phone. */
@@ -124,7 +122,7 @@ export function cameraPanel(session, openLoadedMesh) {
     const cameraAssumption = isAssumed ? DEPTH_WORDS.assumed(number(angle.valueAsNumber), depthScale) : undefined;
     return openLoadedMesh({ name, kind, photo: session.input?.photo ?? photo, depthSource: input, cameraAssumption },
       (signal) => runInWorker(session.api, signal, async (worker) => ({ ...await worker.backProject({ width, height, data }, camera, options), ...unit })),
-      DEPTH_WORDS.failed, { label: DEPTH_WORDS.building, kind: 'depths', size: width * height, msPerUnit: BACK_PROJECTION_MS_PER_DEPTH });
+      DEPTH_WORDS.failed, { label: DEPTH_WORDS.building, kind: 'depths', size: width * height });
   };
   element('back-project', HTMLButtonElement).addEventListener('click', async () => {
     if (await backProject()) void session.run();

@@ -8,10 +8,10 @@ const KEY_STEP = 0.05;
 /**
  * @param {string} id
  * @param {(share: number) => void} onMove gets the share of the picture left of the divider
+ * @param {number} [share] initial share
  */
-export function dividerOver(id, onMove) {
+export function dividerOver(id, onMove, share = 0.5) {
   const divider = element(id, HTMLElement);
-  let share = 0.5;
   /** @param {number} to */
   const move = (to) => {
     share = clampToUnit(to);

@@ -20,8 +20,6 @@ import { waitingPanel } from './waiting.js';
 /** @import {MeshSurface, MeshFit} from '../mesh-fit.js' */
 /** @import {MeshViewContent} from '../views/mesh-fit.js' */
 
-/** Initial guess of the time that a fit or a view takes, in milliseconds per vertex. */
-const MESH_TASK_MS_PER_VERTEX = 0.1;
 /** Kinds of files whose programs take y for the axis that points upwards; those of the others take z. */
 const Y_UP_KINDS = ['OBJ', 'GLB', 'GLTF'];
 /** Functions that prepare the views, by their names. @type {Record<string, (meshFit: MeshFit, mesh: Mesh, surface: MeshSurface) => Promise<MeshViewContent>>} */
@@ -73,7 +71,7 @@ export function meshFitPanel(session, meshFit) {
     again.focus();
   });
   /** A task on a mesh, for the progress bar. @param {Mesh} mesh @param {string} label @param {string} kind */
-  const taskOn = (mesh, label, kind) => ({ label, kind, size: mesh.positions.length / 3, msPerUnit: MESH_TASK_MS_PER_VERTEX });
+  const taskOn = (mesh, label, kind) => ({ label, kind, size: mesh.positions.length / 3 });
   /** @param {string} sentence @param {string} details */
   const say = (sentence, details) => {
     verdict.textContent = sentence;

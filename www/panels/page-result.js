@@ -10,6 +10,7 @@ import { canvasFromImage } from '../surface/layer.js';
 import { figures } from '../views/legend.js';
 import { FORMAT_WORDS, SAVE_WORDS } from '../messages.js';
 import { BOOK_WORDS, PAGE_WORDS, pageCautions, pageErrors, pageVerdict } from '../page/messages.js';
+import { dividerOver } from './divider.js';
 import { offerToSave } from './save-dialog.js';
 import { PROGRESS_DELAY_MS } from './waiting.js';
 
@@ -17,6 +18,7 @@ import { PROGRESS_DELAY_MS } from './waiting.js';
 /** @import {Worker} from '../worker-task.js' */
 /** @import {DewarpedPage, FlatPage} from '../page/flatten.js' */
 /** @import {PageSession} from '../page/session.js' */
+/** @import {Picture} from '../surface/picture-view.js' */
 /** @import {Book} from '../page/book.js' */
 /** @import {PaperName} from '../page/paper.js' */
 
@@ -30,6 +32,7 @@ import { PROGRESS_DELAY_MS } from './waiting.js';
 export function pageResultPanel(api, session, book, openAsSurface, onWritten) {
   const figure = element('flat-view', HTMLElement);
   const view = new PictureView(element('flat-canvas', HTMLCanvasElement), new Zoom());
+  const divider = dividerOver('flat-divider', () => view.repaint(), 0);
   const empty = element('flat-empty', HTMLElement);
   const verdict = element('flat-verdict', HTMLElement);
   const detail = element('flat-detail', HTMLElement);
@@ -60,6 +63,7 @@ export function pageResultPanel(api, session, book, openAsSurface, onWritten) {
   const clear = (message) => {
     shown = null;
     view.show(null);
+    divider.show(false);
     empty.hidden = false;
     empty.textContent = message;
     caption.textContent = '';
@@ -94,7 +98,12 @@ export function pageResultPanel(api, session, book, openAsSurface, onWritten) {
     shown = flat;
     const { report } = flat;
     const { width, height, data } = turnPicture(flat, session.quarters);
-    view.show(imagePicture(canvasFromImage(new ImageData(data, width, height)), 'Flat', 'The page made flat'));
+    const [before, after] = [session.photo?.reduced, new ImageData(data, width, height)].map((image) => image && imagePicture(canvasFromImage(image), 'Flat', 'The page made flat'));
+    if (after) view.show({ ...after, paint: (context, ratio) => {
+      after.paint(context, ratio);
+      if (before && divider.share > 0) paintBefore(context, before, divider.share, ratio);
+    } });
+    divider.show(before !== undefined);
     empty.hidden = true;
     // The result of a drag that is over already must not be saved in place of the final one.
     if (moving && isMoving) enable(true);
@@ -166,6 +175,25 @@ export function pageResultPanel(api, session, book, openAsSurface, onWritten) {
   surface.addEventListener('click', () => {
     if (shown) openAsSurface(shown, session.photo?.name ?? 'page');
   });
+}
+
+/**
+ * Paints another picture over the left part of a canvas.
+ * @param {CanvasRenderingContext2D} context
+ * @param {Picture} picture
+ * @param {number} share of the canvas
+ * @param {number} ratio device pixels per CSS pixel
+ */
+function paintBefore(context, picture, share, ratio) {
+  const zoomed = context.getTransform();
+  context.resetTransform();
+  context.beginPath();
+  context.rect(0, 0, share * context.canvas.width, context.canvas.height);
+  context.clip();
+  context.fillStyle = getComputedStyle(context.canvas).getPropertyValue('--well');
+  context.fill();
+  context.setTransform(zoomed);
+  picture.paint(context, ratio);
 }
 
 /** The photos that are not in the PDF of a book as a sentence; empty if all are. @param {Book} book */

@@ -31,9 +31,6 @@ import { PROGRESS_DELAY_MS, waitingPanel } from './waiting.js';
  * @property {() => void} [closed] called when the dialog is closed
  */
 
-/** Initial guess of the time that writing takes, in milliseconds per pixel or vertex. */
-const WRITE_MS_PER_ELEMENT = 1e-3;
-
 /** Maximum time between the clicks of a double click, in milliseconds. */
 const DOUBLE_CLICK_MS = 500;
 
@@ -97,7 +94,7 @@ export function offerToSave(api, { title, stem, size: amount, ready = async () =
       await ready();
       if (job !== present) return;
       size.textContent = SAVE_WORDS.working;
-      const task = { label: SAVE_WORDS.write, kind: `${title}, ${format.value}`, size: amount, msPerUnit: WRITE_MS_PER_ELEMENT };
+      const task = { label: SAVE_WORDS.write, kind: `${title}, ${format.value}`, size: amount };
       progress.begin(task);
       const content = await runInWorker(api, job.signal, format.write);
       if (job !== present) return;

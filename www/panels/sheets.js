@@ -14,8 +14,6 @@ import { waitingPanel } from './waiting.js';
 
 /** Initial depth of tabs, in millimetres. */
 const DEFAULT_TAB_DEPTH_MM = 6;
-/** Initial guess of the time that a pattern takes, in milliseconds per vertex. */
-const PATTERN_MS_PER_VERTEX = 0.02;
 /** Delay after an input before the pattern is computed, in milliseconds. */
 const INPUT_DELAY_MS = 300;
 
@@ -103,7 +101,7 @@ export function offerSheets(api, { stem, size, note = '', length, unit, up, cut,
   const about = make('div', '');
   const pageWarning = make('p', 'doubt small');
   pageWarning.hidden = true;
-  const task = { label: SHEET_WORDS.cutting, kind: 'sheets', size, msPerUnit: PATTERN_MS_PER_VERTEX };
+  const task = { label: SHEET_WORDS.cutting, kind: 'sheets', size };
   /** @type {Promise<Drawing>} */
   let drawing;
   /** Rejects the drawing: writers of files then report the reason. @param {string} reason */

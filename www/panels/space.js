@@ -208,9 +208,10 @@ export function spacePanel(session) {
 
   return {
     isShown,
-    /** Draws the canvas and returns it. */
-    drawnCanvas: () => {
-      view?.draw();
+    /** Draws the surfaces, with twice as many pixels for a file, and returns the canvas. @param {number} [ratio] pixels of the canvas per CSS pixel */
+    drawnCanvas: (ratio) => {
+      view?.draw(ratio);
+      view?.drawSoon();
       return canvas;
     },
     /** Adds a handler, which may accept drags over the surface. @param {DragTarget} handler */
@@ -293,7 +294,6 @@ export function spacePanel(session) {
     show: (now) => {
       const isOther = now.unfolding !== shown.unfolding;
       shown = now;
-      element('unfold-field', HTMLElement).hidden = !now.unfolding;
       if (!isOther) return updateLayers();
       if (now.unfolding) animateUnfolding();
       updateBox();

@@ -57,6 +57,7 @@ export function viewsPanel(session) {
     arrangement.hidden = !after || !unfolding;
     const isInSpace = !after || (unfolding !== undefined && arrangements[0].checked);
     stage.hidden = !isInSpace;
+    element('unfold-field', HTMLElement).hidden = !unfolding || !isInSpace;
     pictures.hidden = reading.hidden = element('picture-hint', HTMLElement).hidden = isInSpace;
     for (const tools of elements('.space-tools', HTMLElement)) tools.hidden = !isInSpace;
     element('space-hint', HTMLElement).hidden = !isInSpace;
@@ -100,7 +101,7 @@ export function viewsPanel(session) {
 
   const save = element('view-save', HTMLButtonElement);
   save.addEventListener('click', async () => {
-    const shown = space.isShown() ? [space.drawnCanvas()] : elements('#views canvas', HTMLCanvasElement).filter((canvas) => canvas.checkVisibility());
+    const shown = space.isShown() ? [space.drawnCanvas(2 * devicePixelRatio)] : elements('#views canvas', HTMLCanvasElement).filter((canvas) => canvas.checkVisibility());
     const picture = new OffscreenCanvas(shown.reduce((sum, { width }) => sum + width, 0), Math.max(...shown.map(({ height }) => height)));
     const context = picture.getContext('2d');
     if (!context) return;

@@ -31,16 +31,15 @@ export function waitingPanel(panel, cancel, delay = 0) {
   const rates = new Map();
   let [start, expected, updateTimer, showTimer] = [0, 0, 0, 0];
   let label = '';
-  /** Whether a task of this kind was measured: without that, the remaining time is not shown. */
-  let isMeasured = false;
 
   const update = () => {
     const elapsed = performance.now() - start;
-    // The bar slows down near its end, and never reaches it before the task ends.
-    bar.value = elapsed < 0.8 * expected ? elapsed / expected : 1 - 0.2 * Math.exp(-(elapsed / expected - 0.8) / 0.4);
+    // The bar slows down near its end, and never reaches it before the task ends; it says nothing of a task of an unknown kind.
+    if (Number.isNaN(expected)) bar.removeAttribute('value');
+    else bar.value = elapsed < 0.8 * expected ? elapsed / expected : 1 - 0.2 * Math.exp(-(elapsed / expected - 0.8) / 0.4);
     const left = Math.ceil((expected - elapsed) / 1000);
     if (elapsed < FIGURES_DELAY_MS) text.textContent = `${label}…`;
-    else if (!isMeasured) text.textContent = `${label}, ${count(Math.floor(elapsed / 1000))} s`;
+    else if (Number.isNaN(expected)) text.textContent = `${label}, ${count(Math.floor(elapsed / 1000))} s`;
     else text.textContent = left >= 1 ? `${label}, about ${count(left)} s left` : `${label}, soon done`;
   };
 
@@ -49,8 +48,7 @@ export function waitingPanel(panel, cancel, delay = 0) {
     begin(task) {
       start = performance.now();
       label = task.label;
-      isMeasured = rates.has(task.kind);
-      expected = Math.max(MIN_MEASURED_MS, task.size * (rates.get(task.kind) ?? task.msPerUnit));
+      expected = Math.max(MIN_MEASURED_MS, task.size * (rates.get(task.kind) ?? NaN));
       clearTimeout(showTimer);
       if (delay === 0) panel.hidden = false;
       else showTimer = window.setTimeout(() => (panel.hidden = false), delay);

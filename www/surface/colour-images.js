@@ -1,5 +1,5 @@
 /** Images of values in colour, as pixels of a canvas; a pixel without a value is 0. */
-import { COLOUR_SCALE_QUANTILE, divergingPixel, logarithmicScale, magnitudeQuantile } from './colours.js';
+import { COLOUR_SCALE_QUANTILE, divergingPixel, logarithmicScale, magnitudeQuantile, toPixel } from './colours.js';
 import { interpolateToGrid, nearestVertices } from './lattice.js';
 import { readAssemblyMesh, principalStretches } from './assembly-mesh.js';
 import { extentOf, fillTriangles } from './triangles.js';
@@ -9,6 +9,10 @@ import { triangleStrain } from './unfolding.js';
 
 /** Length of the longer side of a sheet's image, in pixels. */
 const SHEET_SIDE_PIXELS = 1600;
+/** Margin around a sheet in its image, and the colour and half width of its outline, in pixels. */
+const SHEET_MARGIN_PIXELS = 24;
+const OUTLINE_PIXEL = toPixel([90, 98, 106]);
+const OUTLINE_REACH_PIXELS = 1;
 /** Side of a square of pixels with one readable strain. */
 const READOUT_CELL_PIXELS = 4;
 /** Minimum strain at the end of the colour scale; a smaller one would show rounding errors. */
@@ -81,15 +85,27 @@ export function sheetStrainImage(triangles, places, stretches) {
   const maxStrain = Math.max(MIN_STRAIN_RANGE, magnitudeQuantile([strains], COLOUR_SCALE_QUANTILE));
   const extent = extentOf(places);
   const pixelsPerUnit = SHEET_SIDE_PIXELS / Math.max(extent.width, extent.height);
-  const [width, height] = [Math.max(1, Math.ceil(extent.width * pixelsPerUnit)), Math.max(1, Math.ceil(extent.height * pixelsPerUnit))];
-  const onImage = places.map((value, i) => (i % 2 === 0 ? value - extent.left : extent.top - value) * pixelsPerUnit);
+  const [width, height] = [extent.width, extent.height].map((side) => Math.max(1, Math.ceil(side * pixelsPerUnit)) + 2 * SHEET_MARGIN_PIXELS);
+  const onImage = places.map((value, i) => SHEET_MARGIN_PIXELS + (i % 2 === 0 ? value - extent.left : extent.top - value) * pixelsPerUnit);
   const pixels = new Uint32Array(width * height);
   const colours = Uint32Array.from(strains, (strain) => divergingPixel(strain / maxStrain));
   fillTriangles({ width, height }, triangles, onImage, (pixel, triangle) => (pixels[pixel] = colours[triangle]));
+  drawOutline(pixels, width);
   const readout = { width: Math.ceil(width / READOUT_CELL_PIXELS), height: Math.ceil(height / READOUT_CELL_PIXELS), strains: new Float32Array(0) };
   readout.strains = new Float32Array(readout.width * readout.height).fill(NaN);
   fillTriangles(readout, triangles, onImage.map((value) => value / READOUT_CELL_PIXELS), (pixel, triangle) => (readout.strains[pixel] = strains[triangle]));
-  return { extent, maxStrain, width, height, pixels, readout };
+  return { extent, maxStrain, width, height, pixelsPerUnit, pixels, readout };
+}
+
+/** Draws a line where the pixels of an image end. @param {Uint32Array} pixels with empty ones along the border @param {number} width */
+function drawOutline(pixels, width) {
+  const filled = pixels.slice();
+  for (let i = 0; i < filled.length; i++) {
+    if (filled[i] === 0) continue;
+    for (const step of [-OUTLINE_REACH_PIXELS, OUTLINE_REACH_PIXELS, -OUTLINE_REACH_PIXELS * width, OUTLINE_REACH_PIXELS * width]) {
+      if (filled[i + step] === 0) pixels[i] = pixels[i + step] = OUTLINE_PIXEL;
+    }
+  }
 }
 
 /** A flat mesh coloured by strain. @param {{ positions: Float64Array, places: Float64Array, triangles: Uint32Array }} mesh */

@@ -41,6 +41,11 @@ export class PictureView {
     this.#paintSoon();
   }
 
+  /** Paints the picture again with the next frame. */
+  repaint() {
+    this.#paintSoon();
+  }
+
   /** The value under the pointer. @param {MouseEvent} event */
   read({ offsetX, offsetY }) {
     const { canvas } = this;

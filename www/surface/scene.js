@@ -477,10 +477,11 @@ export class SceneView {
     });
   }
 
-  draw() {
+  /** Draws the picture now. @param {number} [ratio] pixels of the canvas per CSS pixel */
+  draw(ratio = this.#options.size ? 1 : window.devicePixelRatio) {
     const { width, height } = this.#size;
     if (width === 0) return;
-    this.#renderer.setPixelRatio(this.#options.size ? 1 : window.devicePixelRatio);
+    this.#renderer.setPixelRatio(ratio);
     this.#renderer.setSize(width, height, false);
     this.#prepareCamera();
     this.#shade();

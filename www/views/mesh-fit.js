@@ -56,7 +56,8 @@ export async function gaussian(whole, mesh, surface) {
       colourBar(`Gaussian curvature K in ${inverse}; figures: input → result`, scale),
       figures([
         [`Median |K| in ${inverse}`, `${numberAgainst(before.summary.medianGaussian / area, 1 / area)} → ${numberAgainst(after.summary.medianGaussian / area, 1 / area)}`],
-        [`|K| above ${number(threshold / area, 2)}`, `${percent(before.summary.gaussianAbove)} → ${percent(after.summary.gaussianAbove)}`],
+        // Flat faces bend at their corners only, where all vertices are.
+        ...(after.summary.gaussianAbove === 1 ? [] : [/** @type {const} */ ([`|K| above ${number(threshold / area, 2)}`, `${percent(before.summary.gaussianAbove)} → ${percent(after.summary.gaussianAbove)}`])]),
       ]),
     ],
   };

@@ -2,6 +2,7 @@
 import { count, number, percent, signedPercent, strainInWords } from '../format.js';
 import { CREASE_COLOUR, linearScale } from '../surface/colours.js';
 import { canvasFromPixels } from '../surface/layer.js';
+import { imagePicture } from '../surface/picture-view.js';
 import { VERDICTS } from '../messages.js';
 import { colourBar, figures, statement } from './legend.js';
 
@@ -11,8 +12,8 @@ import { colourBar, figures, statement } from './legend.js';
 /** @import {ViewContent} from './view-content.js' */
 /** @typedef {ReturnType<typeof import('../surface/colour-images.js').sheetStrainImage>} Sheet */
 
-/** Margins around the sheet, in CSS pixels. */
-const MARGIN = { side: 12, below: 34 };
+/** Distance of the scale bar from the left and from below, in CSS pixels. */
+const RULER_MARGIN = 12;
 
 /**
  * The view of the flat surface.
@@ -53,30 +54,14 @@ export async function sheet(analyses, result) {
  * @param {string} words
  * @returns {Picture}
  */
-function pictureOf({ extent, width: cols, height: rows, pixels, readout }, unit, words) {
-  const image = canvasFromPixels({ width: cols, height: rows }, pixels);
-  /** The rectangle of the sheet on a canvas. @param {{ width: number, height: number }} canvas @param {number} ratio */
-  const fittedBox = ({ width, height }, ratio) => {
-    const room = { width: width - 2 * MARGIN.side * ratio, height: height - (MARGIN.side + MARGIN.below) * ratio };
-    const dots = Math.min(room.width / extent.width, room.height / extent.height);
-    const [wide, high] = [extent.width * dots, extent.height * dots];
-    return { dots, left: (width - wide) / 2, top: MARGIN.side * ratio + (room.height - high) / 2, wide, high };
-  };
+function pictureOf({ width, height, pixelsPerUnit, pixels, readout }, unit, words) {
+  const picture = imagePicture(canvasFromPixels({ width, height }, pixels), 'Laid flat', words, (x, y) =>
+    strainInWords(readout.strains[Math.floor((y / height) * readout.height) * readout.width + Math.floor((x / width) * readout.width)]));
   return {
-    title: 'Laid flat',
-    words,
+    ...picture,
     paint: (context, ratio) => {
-      const { dots, left, top, wide, high } = fittedBox(context.canvas, ratio);
-      if (!(dots > 0)) return;
-      context.imageSmoothingQuality = 'high';
-      context.drawImage(image, left, top, wide, high);
-      drawRuler(context, dots, unit, ratio);
-    },
-    read: (canvas, ratio, x, y) => {
-      const { left, top, wide, high } = fittedBox(canvas, ratio);
-      const [col, row] = [Math.floor(((x - left) / wide) * readout.width), Math.floor(((y - top) / high) * readout.height)];
-      const inside = col >= 0 && row >= 0 && col < readout.width && row < readout.height;
-      return strainInWords(inside ? readout.strains[row * readout.width + col] : NaN);
+      picture.paint(context, ratio);
+      drawRuler(context, pixelsPerUnit * Math.min(context.canvas.width / width, context.canvas.height / height), unit, ratio);
     },
   };
 }
@@ -93,7 +78,7 @@ function drawRuler(context, pixelsPerUnit, unit, ratio) {
   const power = 10 ** Math.floor(Math.log10(rough));
   const length = ([5, 2, 1].find((m) => m * power <= rough) ?? 1) * power;
   const style = getComputedStyle(context.canvas);
-  const [x, y] = [MARGIN.side * ratio, context.canvas.height - 10 * ratio];
+  const [x, y] = [RULER_MARGIN * ratio, context.canvas.height - RULER_MARGIN * ratio];
   context.strokeStyle = context.fillStyle = style.getPropertyValue('--ink').trim();
   context.lineWidth = 1.5 * ratio;
   context.beginPath();

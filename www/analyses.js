@@ -159,9 +159,7 @@ export class Analyses {
   unfold(result, maxStrain) {
     return this.#cached(result.surface, 'unfolding', async (worker) => {
       const small = reducedImage(result, UNFOLDING_SIDE_PIXELS);
-      // The creases are only drawn on it, so an error there is ignored.
-      const [sheet, { creases }] = await Promise.all([worker.unroll(small), this.patches(result).catch(() => ({ creases: [] }))]);
-      return callWorker('computeUnfolding', sheet, maxStrain, lowerLeftCorner(result, small), creases.map(({ points }) => points));
+      return callWorker('computeUnfolding', await worker.unroll(small), maxStrain, lowerLeftCorner(result, small));
     });
   }
 

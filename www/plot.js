@@ -1,5 +1,5 @@
 /** Line plots on a canvas: a frame with ticks, linear across and logarithmic up. */
-import { number, superscript } from './format.js';
+import { number } from './format.js';
 
 /** @typedef {{ left: number, top: number, width: number, height: number }} Box */
 
@@ -50,10 +50,10 @@ export function drawAxes(context, axes) {
   context.fillStyle = palette.muted;
   context.textBaseline = 'middle';
   context.textAlign = 'right';
-  for (const tick of logTicks(yRange, box.height / MIN_Y_TICK_DISTANCE_PX)) {
+  for (const tick of powersOfTen(yRange, box.height / MIN_Y_TICK_DISTANCE_PX)) {
     const at = Math.round(y(tick)) + 0.5;
     drawLine(context, box.left, at, box.left + box.width, at);
-    context.fillText(tickLabel(tick), box.left - 6, at);
+    context.fillText(number(tick), box.left - 6, at);
   }
   context.textAlign = 'center';
   context.textBaseline = 'top';
@@ -170,30 +170,12 @@ export function linearTicks(max, maxCount) {
 }
 
 /**
- * Ticks of a logarithmic axis: powers of ten, and round multiples of them where these fit.
+ * The powers of ten on a logarithmic axis.
  * @param {readonly [number, number]} range
- * @param {number} maxCount maximum number of ticks
+ * @param {number} maxCount approximate maximum number of ticks
  */
-export function logTicks([low, high], maxCount) {
-  const ticks = (/** @type {readonly number[]} */ multiples) => {
-    const found = [];
-    for (let e = Math.floor(Math.log10(low)); e <= Math.log10(high); e++) {
-      for (const m of multiples) found.push(m * 10 ** e);
-    }
-    return found.filter((tick) => tick >= low * 0.999 && tick <= high * 1.001);
-  };
-  const choices = [[1, 1.2, 1.5, 2, 2.5, 3, 4, 5, 6, 8], [1, 2, 5], [1, 3], [1]].map(ticks);
-  const fitting = choices.find((choice) => choice.length <= maxCount);
-  if (fitting) return fitting;
-  const powers = choices[choices.length - 1];
-  const every = Math.ceil(powers.length / Math.max(1, maxCount));
-  return powers.filter((_, i) => i % every === 0);
-}
-
-/** @param {number} tick */
-function tickLabel(tick) {
-  if (tick >= 1e-3 && tick < 1e5) return number(tick);
-  const exponent = Math.floor(Math.log10(tick) + 1e-9);
-  const mantissa = Number((tick / 10 ** exponent).toPrecision(2));
-  return `${mantissa === 1 ? '' : `${mantissa}·`}10${superscript(exponent)}`;
+export function powersOfTen([low, high], maxCount) {
+  const [first, last] = [Math.ceil(Math.log10(low) - 1e-9), Math.floor(Math.log10(high) + 1e-9)];
+  const step = Math.max(1, Math.ceil((last - first + 1) / maxCount));
+  return Array.from({ length: Math.max(0, Math.floor((last - first) / step) + 1) }, (_, i) => 10 ** (first + i * step));
 }

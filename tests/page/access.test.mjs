@@ -1,7 +1,7 @@
 /** By keyboard, on a phone, and in the dark. */
 import assert from 'node:assert/strict';
 import { grid, npy } from './support/files.mjs';
-import { choose, look, open, pageTest, painted, runBy, settled } from './support/page.mjs';
+import { choose, doorTest, look, open, pageTest, painted, runBy, settled } from './support/page.mjs';
 
 /** @typedef {import('playwright-core').Page} Page */
 
@@ -122,7 +122,7 @@ pageTest('every view fits on a phone, light and dark, with the pixels of the dev
   assert.ok(Math.max(...paper) < 64 && Math.min(...ink) > 192, `${ink} on ${paper}`);
 }, { viewport: { width: 360, height: 740 }, deviceScaleFactor: 2, drawn: true });
 
-pageTest('a file with a long name can be saved on a phone', async (page) => {
+doorTest('a file with a long name can be saved on a phone', async (page) => {
   await open(page, `${'long_words_joined_by_lines_'.repeat(4)}.npy`, npy(24, grid(24, 20, (col, row) => 3 * col + row)));
   await page.locator('#end-file').click();
   await page.locator('#save-now:enabled').waitFor();

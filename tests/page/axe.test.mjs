@@ -8,7 +8,7 @@ import { serve } from '../../tools/serve.mjs';
 import { writeGuide } from '../../tools/site/guide.mjs';
 import { noisyBox } from './support/box.mjs';
 import { obj } from './support/files.mjs';
-import { choose, drop, enterPages, inChromium, openFromOneSide, pageTest, painted, runBy } from './support/page.mjs';
+import { choose, doorTest, drop, enterPages, inChromium, openFromOneSide, pageTest, painted, runBy } from './support/page.mjs';
 import { dottedPhoto } from './support/photos.mjs';
 
 /** @typedef {import('playwright-core').Page} Page */
@@ -94,7 +94,7 @@ pageTest('with more contrast, text has 7 to 1, and borders are seen', async (pag
   assert.deepEqual(drawn, ['1px', '1px']);
 });
 
-pageTest('axe finds nothing wrong with a photo of a page', async (page) => {
+doorTest('axe finds nothing wrong with a photo of a page', async (page) => {
   await enterPages(page);
   await drop(page, 'IMG_1.png', dottedPhoto());
   await page.locator('#page-caption', { hasText: 'IMG_1' }).waitFor();
@@ -104,7 +104,7 @@ pageTest('axe finds nothing wrong with a photo of a page', async (page) => {
   await soundEverywhere(page, 'a photo', { small: NARROW.filter((rule) => rule !== 'target-size') });
 });
 
-pageTest('axe finds nothing wrong with a whole mesh', async (page) => {
+doorTest('axe finds nothing wrong with a whole mesh', async (page) => {
   await openFromOneSide(page, 'box.obj', obj(noisyBox(5, 0.02)));
   await soundEverywhere(page, 'a mesh');
   await choose(page.getByRole('radio', { name: 'Whole mesh', exact: true }));

@@ -2,7 +2,7 @@
 import assert from 'node:assert/strict';
 import { grid, npy, obj, parseNpy, png16 } from './support/files.mjs';
 import { parsed } from './support/numbers.mjs';
-import { choose, drop, dropAll, enterPages, open, pageTest, reported, runBy, save, settled } from './support/page.mjs';
+import { choose, doorTest, drop, dropAll, enterPages, open, pageTest, reported, runBy, save, settled } from './support/page.mjs';
 import { dottedPhoto } from './support/photos.mjs';
 
 /** @typedef {import('playwright-core').Page} Page */
@@ -25,7 +25,7 @@ function assertClose(found, expected, tolerance) {
   assert.ok(worst <= tolerance, `off by ${worst}`);
 }
 
-pageTest('a dropped NPY is shown, solved at once, and comes back as an NPY', async (page) => {
+doorTest('a dropped NPY is shown, solved at once, and comes back as an NPY', async (page) => {
   await open(page, 'slope.npy', npy(WIDTH, plane));
   await page.locator('#input-caption', { hasText: `${WIDTH} × ${HEIGHT}` }).waitFor();
   assert.ok(await page.locator('#space-after').isVisible());
@@ -37,7 +37,7 @@ pageTest('a dropped NPY is shown, solved at once, and comes back as an NPY', asy
   assertClose(values, plane, 1e-3 * (Math.max(...plane) - Math.min(...plane)));
 });
 
-pageTest('a dropped 16-bit PNG takes the scale that is given', async (page) => {
+doorTest('a dropped 16-bit PNG takes the scale that is given', async (page) => {
   await open(page, 'slope.png', png16(WIDTH, plane));
   await page.locator('#file-name', { hasText: 'PNG' }).waitFor();
   assert.match(await page.locator('#file-name').innerText(), /16/);
@@ -55,7 +55,7 @@ pageTest('a dropped 16-bit PNG takes the scale that is given', async (page) => {
   assert.ok(Math.abs(scale * WIDTH * pixelSize - 1) < 3 / WIDTH, `scale ${scale}`);
 });
 
-pageTest('holes stay holes', async (page) => {
+doorTest('holes stay holes', async (page) => {
   const hole = (/** @type {number} */ col, /** @type {number} */ row) => Math.hypot(col - 24, row - 18) < 6;
   const pierced = plane.map((value, i) => (hole(i % WIDTH, Math.floor(i / WIDTH)) ? NaN : value));
   await open(page, 'pierced.npy', npy(WIDTH, pierced));
@@ -64,7 +64,7 @@ pageTest('holes stay holes', async (page) => {
   assert.deepEqual(values.map(Number.isNaN), pierced.map(Number.isNaN));
 });
 
-pageTest('zeros far from all heights are no data, unless none is', async (page) => {
+doorTest('zeros far from all heights are no data, unless none is', async (page) => {
   const framed = plane.map((value, i) => (i % WIDTH < 8 ? 0 : 5000 + value));
   await open(page, 'framed.npy', npy(WIDTH, framed));
   await run(page);
@@ -76,7 +76,7 @@ pageTest('zeros far from all heights are no data, unless none is', async (page) 
   await page.waitForURL(/noData=none/);
 });
 
-pageTest('a value that means no data is given by hand, and stands in the address', async (page) => {
+doorTest('a value that means no data is given by hand, and stands in the address', async (page) => {
   const marked = plane.map((value, i) => (i % WIDTH < 8 ? -7 : value));
   await open(page, 'marked.npy', npy(WIDTH, marked));
   const field = page.getByLabel('Number that means no data');
@@ -86,14 +86,14 @@ pageTest('a value that means no data is given by hand, and stands in the address
   await page.waitForURL(/noData=-7/);
 });
 
-pageTest('heights along one line are refused with the reason', async (page) => {
+doorTest('heights along one line are refused with the reason', async (page) => {
   await open(page, 'line.npy', npy(WIDTH, plane.map((value, i) => (i < WIDTH ? value : NaN))));
   await run(page);
   assert.match(await page.getByRole('alert').innerText(), /not on a line/);
   assert.match(await page.locator('#verdict').innerText(), /not solved/);
 });
 
-pageTest('a file, a mesh’s other side and a file to be saved can be done without: their workers end, and what was there stays', async (page) => {
+doorTest('a file, a mesh’s other side and a file to be saved can be done without: their workers end, and what was there stays', async (page) => {
   await open(page, 'ramp.obj', obj({ points: [[0, 0, 0], [3, 0, 0], [3, 2, 1], [0, 2, 1]], triangles: [[0, 1, 2], [0, 2, 3]] }));
   await settled(page);
   await page.evaluate(() => {
@@ -196,7 +196,7 @@ pageTest('the kind of a file chooses the part of the page, and what does not bel
   assert.match(await alert.innerText(), /^Taken for heights\./);
 });
 
-pageTest('a photo with more pixels than the package reads is reduced without a question', async (page) => {
+doorTest('a photo with more pixels than the package reads is reduced without a question', async (page) => {
   await enterPages(page);
   await page.locator('#page-caption', { hasText: 'curled' }).waitFor();
   // 5000 × 4400 pixels of one grey.
@@ -246,27 +246,7 @@ pageTest('what cannot be read gets a message each, and the previous result stays
   }
 });
 
-pageTest('PNG and OBJ are what they are called', async (page) => {
-  const [, width, height] = /(\d+) × (\d+)/.exec(await page.locator('#input-caption').innerText()) ?? [];
-  const png = await save(page, 'PNG');
-  assert.match(png.name, /\.png$/);
-  assert.equal(png.bytes.toString('latin1', 0, 8), '\x89PNG\r\n\x1a\n');
-  assert.equal(png.bytes.toString('latin1', 12, 16), 'IHDR');
-  assert.deepEqual([png.bytes.readUInt32BE(16), png.bytes.readUInt32BE(20)], [Number(width), Number(height)]);
-  assert.equal(png.bytes[24], 16, 'bits');
-
-  const vertices = parsed(await reported(page, 'Interior'))
-    + parsed(await reported(page, 'Boundary')) + parsed(await reported(page, 'Omitted'));
-  const obj = await save(page, 'OBJ');
-  assert.match(obj.name, /\.obj$/);
-  const lines = obj.bytes.toString().split('\n');
-  assert.equal(lines.filter((line) => line.startsWith('v ')).length, vertices);
-  const corners = lines.filter((line) => line.startsWith('f '))
-    .flatMap((line) => line.slice(2).trim().split(/\s+/).map((corner) => Number.parseInt(corner)));
-  assert.ok(corners.length > 3 * vertices, 'about two triangles for each vertex');
-  assert.ok(corners.every((corner) => corner >= 1 && corner <= vertices));
-
-  // Writing that takes long shows a bar, which must not move the formats away from under the pointer.
+pageTest('the bar of writing does not move the formats away from under the pointer', async (page) => {
   await page.locator('#end-file').click();
   const tops = await page.locator('#save-formats').evaluate((formats) => {
     const bar = /** @type {HTMLElement} */ (document.getElementById('writing'));

@@ -2,7 +2,7 @@
 import assert from 'node:assert/strict';
 import { grid, npy, parseNpy } from './support/files.mjs';
 import { parsed } from './support/numbers.mjs';
-import { look, open, pageTest, reported, runBy, save, typeLambda } from './support/page.mjs';
+import { doorTest, look, open, pageTest, reported, runBy, save, typeLambda } from './support/page.mjs';
 
 /** @typedef {import('playwright-core').Page} Page */
 
@@ -52,7 +52,7 @@ pageTest('a design passes through what is marked', async (page) => {
   assert.equal(await page.locator('#input-legend').innerText(), '');
 });
 
-pageTest('a file can be a design', async (page) => {
+doorTest('a file can be a design', async (page) => {
   const pins = new Map([3 * WIDTH + 4, 5 * WIDTH + 40, 30 * WIDTH + 20].map((i) => [i, plane[i]]));
   await open(page, 'pins.npy', npy(WIDTH, plane.map((_, i) => pins.get(i) ?? 0)));
   await page.getByLabel('0 means no data').check();
@@ -65,7 +65,7 @@ pageTest('a file can be a design', async (page) => {
   assert.ok(off < 0.6, `off by ${off}`);
 });
 
-pageTest('where it jumps it is torn, which can be seen before and after', async (page) => {
+doorTest('where it jumps it is torn, which can be seen before and after', async (page) => {
   const step = grid(WIDTH, HEIGHT, (col, row) => slope(col, row) + (col > 20 ? 15 : 0));
   await open(page, 'step.npy', npy(WIDTH, step));
   const plain = (await look(page, 'input')).hash;
@@ -90,7 +90,7 @@ pageTest('where it jumps it is torn, which can be seen before and after', async 
   assert.ok(torn < smoothed / 2, `${torn} against ${smoothed}`);
 }, { drawn: true });
 
-pageTest('heights without confidence do not count', async (page) => {
+doorTest('heights without confidence do not count', async (page) => {
   const spoilt = (/** @type {number} */ col, /** @type {number} */ row) => col > 20 && col < 28 && row > 12 && row < 20;
   await open(page, 'spoilt.npy', npy(WIDTH, grid(WIDTH, HEIGHT, (col, row) => slope(col, row) + (spoilt(col, row) ? 30 * Math.sin(col * row) : 0))));
   await run(page);
@@ -106,7 +106,7 @@ pageTest('heights without confidence do not count', async (page) => {
   assert.match(await page.locator('#confidence-name').innerText(), /white/);
 });
 
-pageTest('reading what is known besides can be done without', async (page) => {
+doorTest('reading what is known besides can be done without', async (page) => {
   await open(page, 'slope.npy', npy(WIDTH, plane));
   // The request to read never reaches the worker, so that reading does not end by itself.
   await page.evaluate(() => {
@@ -127,7 +127,7 @@ pageTest('reading what is known besides can be done without', async (page) => {
   }
 });
 
-pageTest('constraints hold besides heights, and wrong ones are refused', async (page) => {
+doorTest('constraints hold besides heights, and wrong ones are refused', async (page) => {
   await open(page, 'slope.npy', npy(WIDTH, plane));
   await run(page);
   const middle = 18 * WIDTH + 24;

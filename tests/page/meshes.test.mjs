@@ -1,7 +1,7 @@
 /** Meshes and point clouds, seen from a direction of one's choice; files with several arrays. */
 import assert from 'node:assert/strict';
 import { grid, npy, npz, obj, parseNpy, ply } from './support/files.mjs';
-import { drop, look, open, openFromOneSide, pageTest, painted, runBy, save, settled } from './support/page.mjs';
+import { doorTest, drop, look, open, openFromOneSide, pageTest, painted, runBy, save, settled } from './support/page.mjs';
 
 /** @typedef {import('playwright-core').Page} Page */
 /** @typedef {import('./support/files.mjs').Mesh} Mesh */
@@ -55,7 +55,7 @@ function assertHeights(points, expected, tolerance) {
 }
 
 for (const { format, bytes } of [{ format: 'OBJ', bytes: obj(wedge) }, { format: 'PLY', bytes: ply(wedge) }]) {
-  pageTest(`a dropped ${format} is turned, and its heights are those seen from there`, async (page) => {
+  doorTest(`a dropped ${format} is turned, and its heights are those seen from there`, async (page) => {
     await openFromOneSide(page, `wedge.${format.toLowerCase()}`, bytes);
     assert.match(await page.locator('#mesh-name').innerText(), new RegExp(`wedge \\(${format}\\)`));
     assert.match(await page.locator('#mesh-span').innerText(), /12 triangles; x, y and z span 3, 2, 2\.9\./);
@@ -78,7 +78,7 @@ for (const { format, bytes } of [{ format: 'OBJ', bytes: obj(wedge) }, { format:
   });
 }
 
-pageTest('a mesh is seen as it is turned, and as finely as is wished', async (page) => {
+doorTest('a mesh is seen as it is turned, and as finely as is wished', async (page) => {
   await openFromOneSide(page, 'wedge.obj', obj(wedge));
   await from(page, '+z');
   await settled(page);
@@ -99,7 +99,7 @@ pageTest('a mesh is seen as it is turned, and as finely as is wished', async (pa
   assert.equal(await page.getByRole('button', { name: '+z', exact: true }).getAttribute('aria-pressed'), 'false');
 }, { drawn: true });
 
-pageTest('a point cloud is solved as well, and its result is written as a mesh', async (page) => {
+doorTest('a point cloud is solved as well, and its result is written as a mesh', async (page) => {
   const points = grid(60, 40, (col, row) => row * 60 + col)
     .map((i) => /** @type {const} */ ([(i % 60) / 20, Math.floor(i / 60) / 20, top((i % 60) / 20, Math.floor(i / 60) / 20)]));
   await open(page, 'cloud.ply', ply({ points, triangles: [] }));
@@ -129,7 +129,7 @@ pageTest('a broken mesh gets a message, and what was there stays', async (page) 
   }
 });
 
-pageTest('of an NPZ with several arrays one is chosen', async (page) => {
+doorTest('of an NPZ with several arrays one is chosen', async (page) => {
   const low = grid(30, 20, (col) => 0.1 * col);
   const high = grid(16, 12, (_, row) => 2 * row);
   const rows = npy(5, [1, 2, 3, 4, 5]);
@@ -145,7 +145,7 @@ pageTest('of an NPZ with several arrays one is chosen', async (page) => {
   assert.equal(await arrays.isVisible(), false);
 });
 
-pageTest('depths from a camera are put where it has seen them', async (page) => {
+doorTest('depths from a camera are put where it has seen them', async (page) => {
   // A plane that recedes to the right: its depths are not linear over the image.
   const [width, height, focus, slope] = [80, 60, 70, 0.6];
   const [cx, cy] = [(width - 1) / 2, (height - 1) / 2];

@@ -5,7 +5,7 @@ import { pageCautions, pageErrors } from '../../www/page/messages.js';
 import { ASSUMED_FIELD_OF_VIEW, flattenWholePhoto, PageFlattener } from '../../www/page/flatten.js';
 import { readPdf, readPdfPicture } from '../js/support/drawings.mjs';
 import { parsed } from './support/numbers.mjs';
-import { choose, drop, dropAll, ended, enterPages, look, pageTest, painted, saveAs } from './support/page.mjs';
+import { choose, doorTest, drop, dropAll, ended, enterPages, look, pageTest, painted, saveAs } from './support/page.mjs';
 import { camera, dottedPhoto, misplaced, parsePng, png, seen } from './support/photos.mjs';
 
 /** @typedef {import('playwright-core').Page} Page */
@@ -25,8 +25,10 @@ async function flattened(page) {
 
 /** @param {Page} page @param {string} name @param {Buffer} bytes */
 async function openPhoto(page, name, bytes) {
-  await enterPages(page);
-  await drop(page, name, bytes);
+  if (await page.locator('#home').isVisible()) {
+    const [chooser] = await Promise.all([page.waitForEvent('filechooser'), page.locator('[data-open="page"]').click()]);
+    await chooser.setFiles({ name, mimeType: 'image/png', buffer: bytes });
+  } else await drop(page, name, bytes);
   await page.locator('#page-caption', { hasText: name.replace(/\.\w+$/, '') }).waitFor();
   await flattened(page);
   await page.locator('#page-side details').evaluateAll((all) => all.forEach((details) => details.setAttribute('open', '')));
@@ -78,7 +80,7 @@ async function told(page, name) {
 const CORNERS = /** @type {const} */ ([['Upper left corner', 0, 0], ['Upper right corner', 1, 0], ['Lower left corner', 0, 1], ['Lower right corner', 1, 1]]);
 const BENDS = /** @type {const} */ ([['upper', 0], ['lower', 1]]);
 
-pageTest('a page on a dark ground is found, and its dots come out evenly', async (page) => {
+doorTest('a page on a dark ground is found, and its dots come out evenly', async (page) => {
   await openPhoto(page, 'letter.png', photo);
   for (const [name, s, t] of CORNERS) {
     const [[x, y], [u, v]] = [await placeOf(page, name), seen(s, t)];
@@ -100,7 +102,7 @@ pageTest('a page on a dark ground is found, and its dots come out evenly', async
   assert.deepEqual([...jpeg.bytes.subarray(0, 3)], [0xff, 0xd8, 0xff]);
 });
 
-pageTest('corners and points are dragged where the outline is doubtful, and edges are drawn to the page', async (page) => {
+doorTest('corners and points are dragged where the outline is doubtful, and edges are drawn to the page', async (page) => {
   await openPhoto(page, 'pale.png', pale);
   assert.match(await page.locator('#flat-verdict').innerText(), /check it|Not reliable/);
   for (const [name, s, t] of CORNERS) {
@@ -125,7 +127,7 @@ pageTest('corners and points are dragged where the outline is doubtful, and edge
   assert.ok(error < 0.004, `dots are off by ${100 * error} % of the width`);
 });
 
-pageTest('a page that is not found has no flat page, no figure and no file until a corner is moved', async (page) => {
+doorTest('a page that is not found has no flat page, no figure and no file until a corner is moved', async (page) => {
   await openPhoto(page, 'letter.png', photo);
   await openPhoto(page, 'dots.png', hidden);
   const [verdict, detail] = [page.locator('#flat-verdict'), page.locator('#flat-detail')];
@@ -147,7 +149,7 @@ pageTest('a page that is not found has no flat page, no figure and no file until
   assert.ok(await save.isDisabled());
 });
 
-pageTest('photos that are opened together become one PDF, each with its own outline', async (page) => {
+doorTest('photos that are opened together become one PDF, each with its own outline', async (page) => {
   await enterPages(page);
   await dropAll(page, { 'one.png': photo, 'two.png': photo, 'none.png': hidden });
   const numbers = page.locator('#book').getByRole('button', { name: /^Photo \d/ });
@@ -207,7 +209,7 @@ pageTest('photos that are opened together become one PDF, each with its own outl
   assert.deepEqual(await placeOf(page, 'Upper left corner'), placed, 'as it was left');
 });
 
-pageTest('paper is white, or as it was photographed, or the page is black and white', async (page) => {
+doorTest('paper is white, or as it was photographed, or the page is black and white', async (page) => {
   await openPhoto(page, 'letter.png', photo);
   const paper = async () => {
     const { bytes } = await savedPage(page, 'PNG');
@@ -308,7 +310,7 @@ pageTest('of several pages one is taken, and another by a click', async (page) =
   assert.fail('the other page was never taken');
 });
 
-pageTest('a corner outside the photo is named, and stays in the frame', async (page) => {
+doorTest('a corner outside the photo is named, and stays in the frame', async (page) => {
   const { width, data } = parsePng(photo);
   // The lower edge is just outside.
   const height = 440;
@@ -322,7 +324,7 @@ pageTest('a corner outside the photo is named, and stays in the frame', async (p
   assert.ok(frame && knob && knob.y + knob.height / 2 < frame.y + frame.height, JSON.stringify({ frame, knob }));
 });
 
-pageTest('without drawing edges to the photo, all stays where it is put; starting again asks first', async (page) => {
+doorTest('without drawing edges to the photo, all stays where it is put; starting again asks first', async (page) => {
   await openPhoto(page, 'letter.png', photo);
   await page.getByLabel('Snap to edges in the photo').uncheck();
   const wanted = /** @type {Place} */ ([300, 200]);
@@ -342,7 +344,7 @@ pageTest('without drawing edges to the photo, all stays where it is put; startin
   assert.ok(Math.hypot(again[0] - u, again[1] - v) < 2.5, `${again}`);
 });
 
-pageTest('the flat page follows while a corner is dragged, and a magnifier shows what is under it', async (page) => {
+doorTest('the flat page follows while a corner is dragged, and a magnifier shows what is under it', async (page) => {
   await openPhoto(page, 'letter.png', photo);
   const before = (await look(page, '#flat-canvas')).hash;
   await page.mouse.move(...await onPage(page, await placeOf(page, 'Lower right corner')));
@@ -369,7 +371,7 @@ pageTest('the flat page follows while a corner is dragged, and a magnifier shows
   assert.equal(await page.locator('.frame:has(> #page-photo) > .magnifier').isVisible(), false);
 });
 
-pageTest('everything on the photo can be done by keyboard', async (page) => {
+doorTest('everything on the photo can be done by keyboard', async (page) => {
   await openPhoto(page, 'letter.png', photo);
   const corner = handle(page, 'Upper right corner');
   await corner.focus();
@@ -404,7 +406,7 @@ pageTest('everything on the photo can be done by keyboard', async (page) => {
   assert.deepEqual(await placeOf(page, 'Upper right corner'), [x, y]);
 });
 
-pageTest('an edge is pulled into a further point', async (page) => {
+doorTest('an edge is pulled into a further point', async (page) => {
   await openPhoto(page, 'letter.png', photo);
   const [one, other] = [await placeOf(page, 'Point 1 of the upper edge'), await placeOf(page, 'Point 2 of the upper edge')];
   const from = await onPage(page, [(one[0] + other[0]) / 2, (one[1] + other[1]) / 2]);
@@ -418,7 +420,7 @@ pageTest('an edge is pulled into a further point', async (page) => {
   assert.match(await page.locator('#flat-verdict').innerText(), /Not reliable|check it|cannot/, 'it was pulled away from the page');
 });
 
-pageTest('lines of text are found, shown and switched off; drawn by mouse and keyboard they change the verdict', async (page) => {
+doorTest('lines of text are found, shown and switched off; drawn by mouse and keyboard they change the verdict', async (page) => {
   await enterPages(page);
   await page.locator('#page-caption', { hasText: 'curled' }).waitFor();
   await flattened(page);
@@ -480,7 +482,7 @@ pageTest('lines of text are found, shown and switched off; drawn by mouse and ke
   assert.equal(await ends.count(), 0);
 });
 
-pageTest('known: format, focal length, what is bent, two pages', async (page) => {
+doorTest('known: format, focal length, what is bent, two pages', async (page) => {
   await openPhoto(page, 'letter.png', photo);
   // The photo does not tell its camera, but the page's perspective does.
   assert.match(await page.locator('#focal-hint').innerText(), /photo was cropped\. I find it from the perspective/);
@@ -520,7 +522,7 @@ pageTest('known: format, focal length, what is bent, two pages', async (page) =>
   assert.equal(await page.getByRole('button', { name: /end of the gutter/ }).count(), 2);
 });
 
-pageTest('the open book has its gutter where both pages meet', async (page) => {
+doorTest('the open book has its gutter where both pages meet', async (page) => {
   await enterPages(page);
   await choose(page.locator('input[value="book"]'));
   await page.locator('#page-caption', { hasText: 'book' }).waitFor();
@@ -535,7 +537,7 @@ pageTest('the open book has its gutter where both pages meet', async (page) => {
   assert.ok(Math.abs(size[0] / size[1] / (210 / 297) - 1) < 0.02 && size[0] < 210.1 && size[1] < 297.1, `${size} mm`);
 });
 
-pageTest('what is no photo gets a message, and what was there stays', async (page) => {
+doorTest('what is no photo gets a message, and what was there stays', async (page) => {
   await openPhoto(page, 'letter.png', photo);
   const before = [await page.locator('#page-caption').innerText(), (await look(page, '#flat-canvas')).hash];
   for (const [name, bytes] of /** @type {const} */ ([
@@ -551,7 +553,7 @@ pageTest('what is no photo gets a message, and what was there stays', async (pag
   assert.equal(await page.getByRole('alert').isVisible(), false);
 });
 
-pageTest('the flat page goes on as a surface', async (page) => {
+doorTest('the flat page goes on as a surface', async (page) => {
   await openPhoto(page, 'letter.png', photo);
   await page.getByRole('button', { name: 'Use it as a 3D surface' }).click();
   await page.locator('#mesh-name', { hasText: 'letter (photo)' }).waitFor();
@@ -559,7 +561,7 @@ pageTest('the flat page goes on as a surface', async (page) => {
 
 const phone = { viewport: { width: 390, height: 844 }, hasTouch: true, isMobile: true, deviceScaleFactor: 2 };
 
-pageTest('on a phone a finger drags, and nothing scrolls', async (page) => {
+doorTest('on a phone a finger drags, and nothing scrolls', async (page) => {
   await openPhoto(page, 'letter.png', photo);
   const excess = await page.evaluate(() => document.documentElement.scrollWidth - window.innerWidth);
   assert.ok(excess <= 0, `${excess} pixels stick out`);
@@ -618,7 +620,7 @@ pageTest('on a phone a finger drags, and nothing scrolls', async (page) => {
 }, phone);
 
 for (const width of [360, 768, 1280]) {
-  pageTest(`nothing of it sticks out at ${width} pixels, and every control has a name`, async (page) => {
+  doorTest(`nothing of it sticks out at ${width} pixels, and every control has a name`, async (page) => {
     await openPhoto(page, 'letter.png', photo);
     const excess = await page.evaluate(() => document.documentElement.scrollWidth - window.innerWidth);
     assert.ok(excess <= 0, `${excess} pixels`);
@@ -631,7 +633,7 @@ for (const width of [360, 768, 1280]) {
   }, { viewport: { width, height: 800 } });
 }
 
-pageTest('what is written of a flat page can be done without, and asked for again', async (page) => {
+doorTest('what is written of a flat page can be done without, and asked for again', async (page) => {
   await openPhoto(page, 'letter.png', photo);
   const before = new Set(page.workers());
   // In one go, for the file may be there in a moment.

@@ -2,7 +2,7 @@
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import { count, number, percentAtMost, shortLambda } from '../../www/format.js';
-import { linearTicks, logTicks } from '../../www/plot.js';
+import { linearTicks, powersOfTen } from '../../www/plot.js';
 import { meanAngle, rmsError } from '../../www/surface/compare.js';
 import { linearScale, logarithmicScale, magnitudeQuantile } from '../../www/surface/colours.js';
 import { gridOverLattice, interpolateToGrid, nearestVertices } from '../../www/surface/lattice.js';
@@ -122,10 +122,8 @@ test('numbers read well', () => {
 
 test('ticks are round, within the range and not too many', () => {
   assert.deepEqual(linearTicks(1, 5).map((tick) => tick.toFixed(2)), ['0.00', '0.20', '0.40', '0.60', '0.80', '1.00']);
-  assert.deepEqual(logTicks([0.5, 150], 10), [0.5, 1, 2, 5, 10, 20, 50, 100]);
-  assert.ok(logTicks([1.05e5, 1.7e5], 6).length >= 2, 'also within a small part of a decade');
-  assert.deepEqual(logTicks([0.5, 150], 3), [1, 10, 100]);
-  assert.ok(logTicks([1e-9, 1e9], 5).length <= 5);
+  assert.deepEqual(powersOfTen([0.5, 150], 10), [1, 10, 100]);
+  assert.ok(powersOfTen([1e-9, 1e9], 5).length <= 5);
 });
 
 test('each λ and each way to stop has words of its own', () => {

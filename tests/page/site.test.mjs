@@ -1,12 +1,13 @@
 /** The page as a folder of static files: under a path of its own, with few requests, without a network, and renewed as a whole. */
 import assert from 'node:assert/strict';
-import { subscribe, unsubscribe } from 'node:diagnostics_channel';
 import { mkdtemp, readFile, rm, writeFile } from 'node:fs/promises';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
+import { promisify } from 'node:util';
+import { brotliCompress, constants } from 'node:zlib';
 import { serve } from '../../tools/serve.mjs';
-import { bundlePage, compressFiles, writeSite } from '../../tools/site.mjs';
-import { inChromium, pageTest, settled } from './support/page.mjs';
+import { writeSite } from '../../tools/site.mjs';
+import { pageTest, settled } from './support/page.mjs';
 import { dottedPhoto } from './support/photos.mjs';
 
 /** Waits for the pictures of a guide. @param {import('playwright-core').Page} page */
@@ -111,37 +112,26 @@ pageTest('the site works under any path and without a network, and is renewed as
   // With options the browser is not the one that keeps a profile: contexts can be added to it.
 }, { serviceWorkers: 'allow' });
 
-/** What the first picture may take: requests of the server, and kilobytes as they are sent. */
-const MAX_FIRST_REQUESTS = 12;
-const MAX_FIRST_KB = 450;
+/** What may be sent until the doors are there, and until an example is solved and drawn: requests, and kilobytes in Brotli. */
+const LOADING_LIMITS = [{ start: '', seen: '.doors', requests: 8, kB: 400 }, { start: '#example=roof', seen: '#certificate', requests: 9, kB: 530 }];
 
-inChromium('the first picture takes few requests and bytes', async (page) => {
-  const folder = await mkdtemp(join(tmpdir(), 'developable-loading-'));
-  await bundlePage(folder);
-  await compressFiles(folder);
-  const server = await serve({ folders: { '/': folder } });
-  /** @type {{ path: string, bytes: number }[]} */
-  const sent = [];
-  /** @param {unknown} message */
-  const onSent = (message) => {
-    const { request, response } = /** @type {any} */ (message);
-    if (request.socket.localPort === Number(new URL(server.url).port)) sent.push({ path: request.url, bytes: Number(response.getHeader('Content-Length')) });
-  };
-  subscribe('http.server.response.finish', onSent);
-  try {
-    await page.goto(`${server.url}#example=roof`);
-    await page.locator('#certificate', { hasText: 'Proven' }).waitFor();
+for (const { start, seen, requests, kB } of LOADING_LIMITS) {
+  pageTest(`few requests and bytes come before ${seen}`, async (page) => {
+    /** @type {Set<string>} */
+    const asked = new Set();
+    page.on('request', (request) => asked.add(request.url().replace(/#.*/, '')));
+    await page.goto('about:blank');
+    asked.clear();
+    await page.goBack();
+    await page.locator(seen).waitFor();
+    await settled(page);
     // The pieces of what is shown already are counted by the unrolling's wasm.
-    const solved = sent.filter(({ path }) => !path.includes('unroll_bg'));
-    const list = solved.map(({ path, bytes }) => `${path} ${bytes}`).join('\n');
-    assert.ok(solved.length <= MAX_FIRST_REQUESTS, `${solved.length} requests:\n${list}`);
-    const kB = solved.reduce((sum, { bytes }) => sum + bytes, 0) / 1000;
-    assert.ok(kB <= MAX_FIRST_KB, `${kB} kB:\n${list}`);
-    assert.equal(solved.filter(({ path }) => path.includes('solver_bg')).length, 1, list);
-    assert.ok(!list.includes('three'), list);
-  } finally {
-    unsubscribe('http.server.response.finish', onSent);
-    await server.close();
-    await rm(folder, { recursive: true, force: true });
-  }
-});
+    const urls = [...asked].filter((url) => url.startsWith('http') && !url.includes('unroll_bg'));
+    const sizes = await Promise.all(urls.map(async (url) => promisify(brotliCompress)(await (await fetch(url)).arrayBuffer(), { params: { [constants.BROTLI_PARAM_QUALITY]: 9 } })));
+    const list = urls.map((url, i) => `${url} ${sizes[i].length}`).join('\n');
+    const sum = sizes.reduce((bytes, { length }) => bytes + length, 0) / 1000;
+    assert.ok(urls.length <= requests && sum <= kB, `${urls.length} requests, ${sum} kB:\n${list}`);
+    assert.equal(urls.filter((url) => url.includes('solver_bg')).length, 1, list);
+    assert.equal(urls.some((url) => url.includes('three')), start !== '', list);
+  }, { start, drawn: true });
+}

@@ -4,7 +4,7 @@ import { meets } from '../js/support/phone.mjs';
 import { normal, smoothNoise } from '../../tools/bench/phone/sensor.mjs';
 import { grid, npy, png16 } from './support/files.mjs';
 import { parsed } from './support/numbers.mjs';
-import { choose, drop, dropAll, look, open, pageTest, painted, runBy, saveAs } from './support/page.mjs';
+import { choose, doorTest, drop, dropAll, look, open, pageTest, painted, runBy, saveAs } from './support/page.mjs';
 import { camera, dots, dottedPhoto, misplaced, parsePng, png, seen } from './support/photos.mjs';
 
 /** @typedef {import('playwright-core').Page} Page */
@@ -43,7 +43,7 @@ async function onPage(page, [x, y]) {
   return [box.x + ((x + 0.5) / width) * box.width, box.y + ((y + 0.5) / height) * box.height];
 }
 
-pageTest('depths, photo and camera in one drop come out flat', async (page) => {
+doorTest('depths, photo and camera in one drop come out flat', async (page) => {
   // Two millimetres of a sensor's noise.
   const noise = smoothNoise(256, 192, 2, normal(3));
   const noisy = depths(0).map((depth, i) => depth && depth + 0.002 * noise[i]);
@@ -56,7 +56,7 @@ pageTest('depths, photo and camera in one drop come out flat', async (page) => {
   assert.ok(error < 0.004, `dots are off by ${100 * error} % of the width`);
 });
 
-pageTest('what is known of depths is dropped with them, and what is not is said', async (page) => {
+doorTest('what is known of depths is dropped with them, and what is not is said', async (page) => {
   // A table at the page's own depth beside it: by the mask none of it is left. The middle is not to be trusted.
   const scene = depths(0.45).map((depth, i) => (Math.hypot((i % 256) - 128, Math.floor(i / 256) - 96) < 9 ? 0.3 : depth));
   const mask = grid(256, 192, (col, row) => (meets(depthCamera, col, row) ? 65535 : 0));
@@ -77,7 +77,7 @@ pageTest('what is known of depths is dropped with them, and what is not is said'
   await page.getByRole('alert').filter({ hasText: 'confidence.png' }).filter({ hasText: 'colour' }).waitFor();
 });
 
-pageTest('without the camera’s file it is assumed, and may be typed', async (page) => {
+doorTest('without the camera’s file it is assumed, and may be typed', async (page) => {
   await dropAll(page, { 'depth.png': png16(256, depths(0).map((depth) => Math.round(10000 * depth))), 'IMG_1.png': photo });
   // Built by a guess, with the photo on it at once.
   await page.locator('#guessed', { hasText: 'Assumed: 60° field of view' }).waitFor();
@@ -103,7 +103,7 @@ pageTest('without the camera’s file it is assumed, and may be typed', async (p
   assert.ok(error < 0.006, `dots are off by ${100 * error} % of the width`);
 }, { drawn: true });
 
-pageTest('a camera that cannot belong to the image is refused', async (page) => {
+doorTest('a camera that cannot belong to the image is refused', async (page) => {
   await open(page, 'depth.npy', npy(256, depths(0)));
   // A surface is built by an assumed camera; the end of that would hide a message about another file.
   await page.locator('#verdict').filter({ hasText: 'From this side' }).waitFor();
@@ -117,7 +117,7 @@ pageTest('a camera that cannot belong to the image is refused', async (page) => 
   await page.getByRole('alert').filter({ hasText: 'images of another size' }).waitFor();
 });
 
-pageTest('the part of the photo that is clicked, or within corners, is made flat alone', async (page) => {
+doorTest('the part of the photo that is clicked, or within corners, is made flat alone', async (page) => {
   // A table behind the page, in two parts.
   const scene = depths(0).map((depth, i) => depth || (i % 256 < 60 ? 0.75 : 0));
   await runBy(page, () => dropAll(page, { 'IMG_1.png': photo, 'depth.npy': npy(256, scene), 'camera.json': numbers }));
@@ -202,7 +202,7 @@ pageTest('a scan in OBJ brings its material and texture along', async (page) => 
   assert.ok(error < 0.004, `dots are off by ${100 * error} % of the width`);
 });
 
-pageTest('heights in another unit, and levels that are guessed, are asked about', async (page) => {
+doorTest('heights in another unit, and levels that are guessed, are asked about', async (page) => {
   // A photo before what it shows.
   await drop(page, 'holiday.png', coloured);
   await page.locator('#page-caption', { hasText: 'holiday' }).waitFor();

@@ -4,7 +4,6 @@ import { readFileSync } from 'node:fs';
 import { test } from 'node:test';
 import { initSync, loadSync, pattern } from '../../pkg/sync.js';
 import { readAssemblyMesh, borderLines } from '../../www/surface/assembly-mesh.js';
-import { anchorLines, morphLines } from '../../www/surface/anchored-lines.js';
 import { computeUnfolding } from '../../www/surface/unfolding.js';
 
 test('a cylinder unfolds as cylinders of ever larger radius, without stretch', () => {
@@ -52,23 +51,6 @@ test('a cylinder unfolds as cylinders of ever larger radius, without stretch', (
   assert.ok(forms[forms.length - 1].every((value, i) => i % 3 < 2 || Math.abs(value - forms[forms.length - 1][2]) < 1e-5), 'and ends flat');
 });
 
-test('lines go along with a mesh that moves', () => {
-  // Two squares side by side; the right one stands up in the end.
-  const positions = Float64Array.from([0, 0, 0, 1, 0, 0, 2, 0, 0, 0, 1, 0, 1, 1, 0, 2, 1, 0]);
-  const triangles = Uint32Array.from([0, 1, 4, 0, 4, 3, 1, 2, 5, 1, 5, 4]);
-  const up = Float32Array.from([0, 0, 0, 1, 0, 0, 1, 0, 1, 0, 1, 0, 1, 1, 0, 1, 1, 1]);
-  const forms = [Float32Array.from(positions), up];
-  const look = () => /** @type {const} */ ({ colour: [0, 0, 0], width: 1 });
-  const lines = anchorLines([[[0.25, 0.5, 0], [1.75, 0.5, 0]], [[0.5, 0.5, 0], [1.5, 0.25, 0], [3, 0.25, 0]], [[5, 5, 0]]], positions, triangles);
-  assert.deepEqual([...lines.lengths], [2, 2], 'a line ends with the mesh');
-  assert.deepEqual([...lines.lineIndices], [0, 1]);
-  const [first, second] = morphLines(lines, forms, 1, look).map(({ points }) => points);
-  for (const [found, expected] of [[first[0], [0.25, 0.5, 0]], [first[1], [1, 0.5, 0.75]], [second[1], [1, 0.25, 0.5]]]) {
-    found.forEach((value, k) => assert.ok(Math.abs(value - expected[k]) < 1e-6, `${found} for ${expected}`));
-  }
-  assert.ok(Math.abs(morphLines(lines, forms, 0.5, look)[0].points[1][2] - 0.375) < 1e-6, 'half way');
-});
-
 test('sheets of a pyramid are where it is, and lie flat beside each other in their true size', () => {
   const wasm = (/** @type {string} */ name) => readFileSync(new URL(`../../pkg/wasm/${name}_bg.wasm`, import.meta.url));
   initSync(wasm('solver'));
@@ -95,12 +77,6 @@ test('sheets of a pyramid are where it is, and lie flat beside each other in the
   const whole = ((side - 1) * pixel) ** 2 * Math.hypot(1, slope);
   assert.ok(Math.abs(area / whole - 1) < 0.05, `${area} for ${whole}`);
   // Borders are closed, and no edge inside is one.
-  const { corners, lengths } = borderLines(triangles);
-  let at = 0;
-  for (const length of lengths) {
-    assert.equal(corners[3 * at], corners[3 * (at + length - 1)]);
-    at += length;
-  }
-  assert.equal(3 * at, corners.length);
-  assert.deepEqual([...borderLines(Uint32Array.from([0, 1, 2, 0, 2, 3])).corners].filter((_, i) => i % 3 === 0), [0, 1, 2, 3, 0]);
+  for (const line of borderLines(triangles)) assert.equal(line[0], line.at(-1));
+  assert.deepEqual(borderLines(Uint32Array.from([0, 1, 2, 0, 2, 3])).map((line) => [...line]), [[0, 1, 2, 3, 0]]);
 });

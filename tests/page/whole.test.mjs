@@ -3,7 +3,7 @@ import assert from 'node:assert/strict';
 import { noisyBox, offBox, SIDES } from './support/box.mjs';
 import { obj } from './support/files.mjs';
 import { parsed } from './support/numbers.mjs';
-import { choose, look, open, openFromOneSide, openWhole, pageTest, reported, saveAs, settled, typeLambda } from './support/page.mjs';
+import { choose, doorTest, look, open, openFromOneSide, openWhole, reported, saveAs, settled, typeLambda } from './support/page.mjs';
 import { parsePng } from './support/photos.mjs';
 
 /** @typedef {import('playwright-core').Page} Page */
@@ -115,7 +115,7 @@ async function canvasPixels(page) {
   };
 }
 
-pageTest('a closed mesh is solved whole, shown before and after, laid flat and saved', async (page) => {
+doorTest('a closed mesh is solved whole, shown before and after, laid flat and saved', async (page) => {
   await openFromOneSide(page, 'box.obj', obj(box));
   const hint = await page.locator('#whole-hint').innerText();
   const hidden = parsed(/([\d.]+)\s% of the surface is hidden/.exec(hint)?.[1] ?? '');
@@ -196,7 +196,7 @@ pageTest('a closed mesh is solved whole, shown before and after, laid flat and s
   await settled(page);
 }, { drawn: true });
 
-pageTest('a whole solve tells how far it is and can be done without; what is no surface is said', async (page) => {
+doorTest('a whole solve tells how far it is and can be done without; what is no surface is said', async (page) => {
   await openFromOneSide(page, 'box.obj', obj(noisyBox(20, 0.01)));
   const cancelled = await page.evaluate(() => {
     const radio = /** @type {HTMLInputElement} */ (document.querySelector('input[name="mesh-way"][value="whole"]'));
@@ -235,7 +235,7 @@ pageTest('a whole solve tells how far it is and can be done without; what is no 
   assert.match(await page.locator('#whole-detail').innerText(), /edge/);
 });
 
-pageTest('rulings of a whole mesh are drawn on its result only, along the axis of a tube', async (page) => {
+doorTest('rulings of a whole mesh are drawn on its result only, along the axis of a tube', async (page) => {
   await openWhole(page, 'tube.obj', obj(noisyTube(60, 0.01)));
   const divider = page.locator('#whole-divider');
   await divider.press('Home');
@@ -264,7 +264,7 @@ pageTest('rulings of a whole mesh are drawn on its result only, along the axis o
 /** Root mean square of how far places are off the tube. @param {readonly (readonly number[])[]} points */
 const offTube = (points) => Math.sqrt(points.reduce((sum, [, y, z]) => sum + (Math.hypot(y, z) - TUBE.radius) ** 2, 0) / points.length);
 
-pageTest('a whole mesh is solved with the λ that is chosen, which stands in the address, and Back undoes it', async (page) => {
+doorTest('a whole mesh is solved with the λ that is chosen, which stands in the address, and Back undoes it', async (page) => {
   const tube = noisyTube(40, 0.02);
   await openFromOneSide(page, 'tube.obj', obj(tube));
   await page.waitForURL(/file=\d+$/);
@@ -323,7 +323,7 @@ pageTest('a whole mesh is solved with the λ that is chosen, which stands in the
   assert.equal(parsed(await reported(page, 'λ')), 1e6);
 });
 
-pageTest('where a whole mesh is under the pointer, how far it was moved, and what the view knows there', async (page) => {
+doorTest('where a whole mesh is under the pointer, how far it was moved, and what the view knows there', async (page) => {
   await openWhole(page, 'tube.obj', obj(noisyTube(60, 0.01)));
   await page.locator('#whole-divider').press('Home');
   const canvas = page.locator('#whole-canvas');
@@ -368,7 +368,7 @@ pageTest('where a whole mesh is under the pointer, how far it was moved, and wha
   // Where it turns first, it is not where it will be.
 }, { reducedMotion: 'reduce', drawn: true });
 
-pageTest('sheets of a model without a unit are in millimetres, and the headline says their size and pages', async (page) => {
+doorTest('sheets of a model without a unit are in millimetres, and the headline says their size and pages', async (page) => {
   // A house of 60 × 40 × 50, as from any CAD program.
   const points = /** @type {[number, number, number][]} */ ([
     [0, 0, 0], [60, 0, 0], [60, 40, 0], [0, 40, 0], [0, 0, 30], [60, 0, 30], [60, 40, 30], [0, 40, 30], [0, 20, 50], [60, 20, 50]]);

@@ -1,11 +1,11 @@
 /** Input and result as surfaces in space, one on each side of a divider; and the animation that unfolds the result. */
 import { oncePerFrame, element } from '../dom.js';
 import { number, heightReading, strainInWords } from '../format.js';
-import { interpolateForms, morphLines } from '../surface/anchored-lines.js';
+import { CREASE_COLOUR } from '../surface/colours.js';
 import { resultImage } from '../surface/derived-data.js';
 import { gridOf } from '../surface/lattice.js';
 import { clampToUnit, expandBox, heightAt, heightfieldBox, intersectHeights, markPoints, pinPosition, reliefMesh, reliefOf } from '../surface/relief.js';
-import { SceneView } from '../surface/scene.js';
+import { SceneView, vectorAt } from '../surface/scene.js';
 import { dividerOver } from './divider.js';
 
 /** @import {Pin} from '../design.js' */
@@ -21,6 +21,8 @@ import { dividerOver } from './divider.js';
 const UNFOLDING_MS = 2200;
 /** Delay before the unfolding begins, in milliseconds. */
 const UNFOLDING_DELAY_MS = 500;
+/** Width of the border of an unfolding, in CSS pixels. */
+const BORDER_WIDTH = 1.5;
 /** Colour of a line that is being drawn. @type {Colour} */
 const TRAIL_COLOUR = [214, 64, 43];
 /** Minimum share of the vertical in the direction of view for moving pins along the ground: smaller ones would move them too far. */
@@ -109,11 +111,12 @@ export function spacePanel(session) {
   const updateUnfolding = () => {
     const { unfolding } = shown;
     if (!unfolding) return;
-    const { triangles, forms, colors, lines, lineStyle } = unfolding;
-    const share = unfold.valueAsNumber;
-    const at = interpolateForms(forms, share);
-    view?.setSurface(1, { positions: Float32Array.from(forms[0], (_, i) => at(i)), triangles, colors });
-    view?.setLines(1, morphLines(lines, forms, share, lineStyle));
+    const { triangles, forms, colors, borders } = unfolding;
+    const place = unfold.valueAsNumber * (forms.length - 1);
+    const first = Math.min(forms.length - 2, Math.floor(place));
+    const positions = forms[first].map((value, i) => value + (place - first) * (forms[first + 1][i] - value));
+    view?.setSurface(1, { positions, triangles, colors });
+    view?.setLines(1, borders.map((line) => ({ points: Array.from(line, (vertex) => vectorAt(positions, vertex)), colour: CREASE_COLOUR, width: BORDER_WIDTH })));
   };
   const unfoldSoon = oncePerFrame(updateUnfolding);
   /** Draws layers, marks and the trail over the surfaces, and the divider between them. */

@@ -1,7 +1,5 @@
 /** Reads the sheets of a pattern's assembly as one mesh, with assembled positions and places in the flat layout. */
 
-/** @import {AnchoredLines} from './anchored-lines.js' */
-
 /**
  * Reads an assembly. The rotation of its root node is ignored, so that z is up.
  * @param {Uint8Array} model a pattern's assembly, a GLB file in metres
@@ -50,9 +48,8 @@ export function readAssemblyMesh(model, scale) {
 }
 
 /**
- * The border lines of a mesh, each closed.
+ * The border lines of a mesh: the vertices along each, the first one again at the end.
  * @param {Uint32Array} triangles
- * @returns {AnchoredLines}
  */
 export function borderLines(triangles) {
   /** @type {Map<number, Set<number>>} */
@@ -66,25 +63,18 @@ export function borderLines(triangles) {
       next.get(a)?.add(b);
     }
   }
-  /** @type {[number[], number[]]} */
-  const [corners, lengths] = [[], []];
+  /** @type {Uint32Array[]} */
+  const lines = [];
   for (const first of next.keys()) {
-    let length = 0;
-    for (let at = first, on = next.get(at); on && on.size > 0; on = next.get(at)) {
-      if (length++ === 0) corners.push(at, at, at);
+    const line = [first];
+    for (let on = next.get(first); on && on.size > 0; on = next.get(line[line.length - 1])) {
       const [to] = on;
       on.delete(to);
-      corners.push(to, to, to);
-      at = to;
+      line.push(to);
     }
-    if (length > 0) lengths.push(length + 1);
+    if (line.length > 1) lines.push(Uint32Array.from(line));
   }
-  return {
-    corners: Uint32Array.from(corners),
-    shares: Float32Array.from(corners, (_, i) => (i % 3 === 0 ? 1 : 0)),
-    lengths: Uint32Array.from(lengths),
-    lineIndices: new Uint32Array(lengths.length),
-  };
+  return lines;
 }
 
 /** Rotates a point by a quaternion, then translates it. @param {number[]} place @param {ArrayLike<number>} turn @param {ArrayLike<number>} shift */

@@ -1,7 +1,7 @@
 /** Draws a picture of an assembled pattern at an angle: its sheets in their colours, with their numbers. */
 import { readAssemblyMesh, borderLines } from './assembly-mesh.js';
 import { CREASE_COLOUR, patchColour } from './colours.js';
-import { boxOf, OBLIQUE_VIEWS, SceneView } from './scene.js';
+import { boxOf, OBLIQUE_VIEWS, SceneView, vectorAt } from './scene.js';
 
 /** @import {Vector} from './scene.js' */
 
@@ -21,15 +21,7 @@ const NUMBER_PLACES = 40;
 export async function builtPicture(model, up) {
   const { positions, triangles, sheets } = readAssemblyMesh(model, 1);
   const scene = await SceneView.create(document.createElement('canvas'), { isFaceted: true, size: PICTURE_SIZE });
-  /** @param {number} vertex */
-  const at = (vertex) => /** @type {Vector} */ (/** @type {unknown} */ (positions.subarray(3 * vertex, 3 * vertex + 3)));
-  const { corners, lengths } = borderLines(triangles);
-  let first = 0;
-  const borders = Array.from(lengths, (length) => {
-    const points = Array.from({ length }, (_, i) => at(corners[3 * (first + i)]));
-    first += length;
-    return { points, colour: CREASE_COLOUR, width: LINE_WIDTH_PIXELS };
-  });
+  const borders = borderLines(triangles).map((line) => ({ points: Array.from(line, (vertex) => vectorAt(positions, vertex)), colour: CREASE_COLOUR, width: LINE_WIDTH_PIXELS }));
   scene.setBox(boxOf(positions));
   scene.setSurface(0, { positions, triangles, colors: Float32Array.from([...sheets].flatMap((sheet) => patchColour(sheet)), (value) => value / 255) });
   scene.setLines(0, borders);

@@ -507,6 +507,11 @@ export class SceneView {
   }
 }
 
+/** The position of a vertex. @param {ArrayLike<number>} positions @param {number} vertex @returns {Vector} */
+export function vectorAt(positions, vertex) {
+  return [positions[3 * vertex], positions[3 * vertex + 1], positions[3 * vertex + 2]];
+}
+
 /** The bounding box of positions. @param {ArrayLike<number>} positions @returns {Box} */
 export function boxOf(positions) {
   const [low, high] = [[Infinity, Infinity, Infinity], [-Infinity, -Infinity, -Infinity]];

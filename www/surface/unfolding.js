@@ -4,19 +4,16 @@
  * Each triangle's map from the sheet to space is a rotation times a stretch (polar decomposition); both are interpolated. The
  * vertices follow by least squares over the edges (as-rigid-as-possible shape interpolation, Alexa et al. 2000).
  */
-import { anchorLines } from './anchored-lines.js';
+import { borderLines } from './assembly-mesh.js';
 import { divergingColour } from './colours.js';
 
-/** @import {AnchoredLines} from './anchored-lines.js' */
-/** @import {Line} from './layer.js' */
 /**
  * @typedef {object} Unfolding a mesh that changes between several forms
  * @property {Uint32Array} triangles
  * @property {readonly Float32Array[]} forms positions of the vertices in each form
  * @property {Float32Array} colors of the vertices, 0 to 1
  * @property {Float32Array} strains of the vertices
- * @property {AnchoredLines} lines drawn on the mesh
- * @property {(line: number) => Pick<Line, 'colour' | 'width'>} lineStyle colour and width of each line
+ * @property {readonly Uint32Array[]} borders vertices along each of its border lines
  */
 
 /** Number of intervals between the bent and the flat form. */
@@ -35,9 +32,9 @@ const CG_TOLERANCE = 2e-4;
  * @param {Float64Array} unrolling.stretches singular values of each triangle's map to the sheet
  * @param {number} most strain at the end of the colour scale
  * @param {readonly [number, number]} offset added to x and y of the positions
- * @param {Parameters<typeof anchorLines>[0]} [lines] lines on the surface
+ * @returns {Unfolding}
  */
-export function computeUnfolding({ positions, places, triangles, stretches }, most, [left, bottom], lines = []) {
+export function computeUnfolding({ positions, places, triangles, stretches }, most, [left, bottom]) {
   const n = places.length / 2;
   const bent = positions.map((value, i) => value + [left, bottom, 0][i % 3]);
   const flat = new Float64Array(3 * n);
@@ -60,7 +57,7 @@ export function computeUnfolding({ positions, places, triangles, stretches }, mo
   });
   const strains = vertexStrains(triangles, stretches, n);
   const colors = Float32Array.from([...strains].flatMap((strain) => divergingColour(strain / most).map((value) => value / 255)));
-  return { triangles, forms, strains, colors, lines: anchorLines(lines, bent, triangles) };
+  return { triangles, forms, strains, colors, borders: borderLines(triangles) };
 }
 
 /** The mean of points. @param {Float64Array} values @param {number} size number of coordinates */

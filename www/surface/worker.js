@@ -1,7 +1,7 @@
 /** The worker in which the page computes what it shows; `worker-client.js` calls it. */
 import { confidenceOf, constraintsOf, interpretFile } from '../import-interpretation.js';
 import { photographExample } from '../views/printed-example.js';
-import { readAssemblyMesh, borderLines } from './assembly-mesh.js';
+import { readAssemblyMesh } from './assembly-mesh.js';
 import { errorsAgainst } from './compare.js';
 import { reduceForPreview } from './downsampling.js';
 import { interpolateToGrid } from './lattice.js';
@@ -11,16 +11,13 @@ import { curvaturesOf, totalGaussianCurvature } from './gaussian-curvature.js';
 import { computeUnfolding } from './unfolding.js';
 
 /**
- * The unfolding of a pattern's sheets, with the cut lines around them.
+ * The unfolding of a pattern's sheets.
  * @param {Uint8Array} model
  * @param {number} scale
  * @param {number} most
  * @param {Parameters<typeof computeUnfolding>[2]} offset
  */
-function computeUnfoldingInPieces(model, scale, most, offset) {
-  const sheets = readAssemblyMesh(model, scale);
-  return { ...computeUnfolding(sheets, most, offset), lines: borderLines(sheets.triangles) };
-}
+const computeUnfoldingInPieces = (model, scale, most, offset) => computeUnfolding(readAssemblyMesh(model, scale), most, offset);
 
 /** The tasks by name. The buffers of arrays in an answer are transferred. */
 export const tasks = {

@@ -42,19 +42,9 @@ export async function flat(analyses, result) {
   context.fillRect(0, 0, canvas.width, canvas.height);
   if (strain) context.drawImage(canvasFromPixels(strain, strain.pixels), 0, 0, canvas.width, canvas.height);
   context.drawImage(image, 0, 0, canvas.width, canvas.height);
-  // Creases have the same indices only on the same lattice and without slits in patches.
-  const known = analyses.isUnreducedInPattern(result) && drawing.summary.slits === 0;
-  const folds = new Map(known ? drawing.sheets.flatMap(({ folds }) => folds.map(({ crease, direction }) => /** @type {const} */ ([crease, direction]))) : []);
-  /** The style of a crease: cut or folded. @param {number} crease */
-  const lineStyle = (crease) => {
-    const direction = folds.get(crease);
-    return direction ? { colour: FOLD_COLOURS[direction], width: 3 } : { colour: CREASE_COLOUR, width: 1.5 };
-  };
+  const isFolded = drawing.sheets.some(({ folds }) => folds.length > 0);
   // If the coarser lattice of the unfolding cannot be cut, it unfolds in one piece.
-  const unfolding = await analyses.unfoldInSheets(result, strainLimitOf(drawing), maxStrain).then(
-    (pieces) => ({ ...pieces, lineStyle: () => ({ colour: CREASE_COLOUR, width: 1.5 }) }),
-    async () => ({ ...await analyses.unfold(result, maxStrain), lineStyle }),
-  );
+  const unfolding = await analyses.unfoldInSheets(result, strainLimitOf(drawing), maxStrain).catch(() => analyses.unfold(result, maxStrain));
   return {
     unfolding,
     after: imagePicture(canvas, 'Laid flat, in pieces', sheetsInWords(drawing), (x, y) => {
@@ -65,7 +55,7 @@ export async function flat(analyses, result) {
     }),
     about: [
       statement(`In one piece it would stretch; cut along its creases it lies flat. ${sheetsInWords(drawing)}`),
-      ...(folds.size > 0 ? [make('p', 'keys', key(toCss(CREASE_COLOUR), 'cut'), key(toCss(FOLD_COLOURS.mountain), 'folded to a ridge'), key(toCss(FOLD_COLOURS.valley), 'folded to a valley'))] : []),
+      ...(isFolded ? [make('p', 'keys', key(toCss(CREASE_COLOUR), 'cut'), key(toCss(FOLD_COLOURS.mountain), 'folded to a ridge'), key(toCss(FOLD_COLOURS.valley), 'folded to a valley'))] : []),
       ...(strain ? [colourBar('Strain: blue is compressed, red is stretched', linearScale(strain.maxStrain, signedPercent))] : []),
       figures(sheetFigures(drawing)),
     ],

@@ -1,6 +1,6 @@
 /** The view of the surface laid flat in one piece, to scale and coloured by strain. */
 import { count, number, percent, signedPercent, strainInWords } from '../format.js';
-import { CREASE_COLOUR, linearScale } from '../surface/colours.js';
+import { linearScale } from '../surface/colours.js';
 import { canvasFromPixels } from '../surface/layer.js';
 import { imagePicture } from '../surface/picture-view.js';
 import { VERDICTS } from '../messages.js';
@@ -29,7 +29,7 @@ export async function sheet(analyses, result) {
   const size = `${number(extent.width, 4)} × ${number(extent.height, 4)} ${unit}`;
   return {
     after: pictureOf(picture, unit, `The surface laid flat, ${size}`),
-    unfolding: { ...await analyses.unfold(result, maxStrain), lineStyle: () => ({ colour: CREASE_COLOUR, width: 1.5 }) },
+    unfolding: await analyses.unfold(result, maxStrain),
     about: [
       statement(VERDICTS[verdict]),
       colourBar('Strain: blue is compressed, red is stretched', scale),

@@ -128,6 +128,12 @@ export function pageTest(name, body, { drawn = false, start = SMALL_EXAMPLE, sou
   }, options);
 }
 
+/**
+ * A test that begins at the doors, with nothing open.
+ * @type {typeof pageTest}
+ */
+export const doorTest = (name, body, options) => pageTest(name, body, { start: '', ...options });
+
 /** Takes WebGL from a page. */
 function withoutWebGL() {
   const { getContext } = HTMLCanvasElement.prototype;

@@ -7,7 +7,8 @@ import { count, number, numberAgainst, percent } from './format.js';
 
 /**
  * Options of a pattern, with lengths in millimetres; `side` is the longer side of the finished surface.
- * @typedef {{ side: number } & Pick<import('../pkg/types.js').PatternOptions, 'tabs' | 'thickness' | 'innerRadius' | 'kFactor' | 'assembly'>} CutOptions
+ * @typedef {{ side: number } & Pick<import('../pkg/types.js').PatternOptions, 'tabs' | 'thickness' | 'innerRadius' | 'kFactor' | 'assembly'>
+ *   & Pick<import('../pkg/types.js').MeshPatternOptions, 'cut' | 'join'>} CutOptions
  */
 
 /** Maximum strains of the sheets, tried one after the other: the second only if no cut satisfies the first. */

@@ -5,10 +5,4 @@ export {
   OrthographicCamera, PlaneGeometry, Points, PointsMaterial, Raycaster, Scene, ShadowMaterial, Vector3, WebGLRenderer,
 } from 'three';
 // @ts-expect-error likewise
-export { OrbitControls } from 'three/addons/controls/OrbitControls.js';
-// @ts-expect-error likewise
-export { LineMaterial } from 'three/addons/lines/LineMaterial.js';
-// @ts-expect-error likewise
-export { LineSegments2 } from 'three/addons/lines/LineSegments2.js';
-// @ts-expect-error likewise
-export { LineSegmentsGeometry } from 'three/addons/lines/LineSegmentsGeometry.js';
+export { LineMaterial, LineSegments2, LineSegmentsGeometry, OrbitControls } from 'three/addons';

@@ -4,6 +4,7 @@ import { number } from '../format.js';
 import { assemblyModel, assemblyPicture, drawingImage, MM_PER_UNIT, sheetFigures, sheetsInWords, smallestPiece, suggestedSide } from '../pattern.js';
 import { plainMessage } from '../error-messages.js';
 import { SHEET_WORDS } from '../messages.js';
+import { edgeAt, parsePairs, togglePair } from '../sheet-edges.js';
 import { figures } from '../views/legend.js';
 import { offerToSave } from './save-dialog.js';
 import { waitingPanel } from './waiting.js';
@@ -69,8 +70,18 @@ export function offerSheets(api, { stem, size, note = '', length, unit, up, cut,
     make('label', 'field', SHEET_WORDS.radius, radius),
     make('label', 'field', SHEET_WORDS.kFactor, kFactor),
   ];
+  const [toCut, toJoin] = [0, 1].map(() => Object.assign(make('input', ''), { type: 'text', placeholder: SHEET_WORDS.pairs }));
+  // Only flat faces can be cut apart anywhere: nothing of them is stretched.
+  const edges = make('div', '', make('p', 'muted small', SHEET_WORDS.edges), make('label', 'field', SHEET_WORDS.toCut, toCut), make('label', 'field', SHEET_WORDS.toJoin, toJoin));
+  edges.hidden = true;
   /** @returns {CutOptions} */
-  const cutOptions = () => (metal.value
+  const cutOptions = () => ({
+    ...(toCut.value.trim() && { cut: parsePairs(toCut.value) ?? [] }),
+    ...(toJoin.value.trim() && { join: parsePairs(toJoin.value) ?? [] }),
+    ...materialOptions(),
+  });
+  /** @returns {CutOptions} */
+  const materialOptions = () => (metal.value
     ? { side: side.valueAsNumber, thickness: thickness.valueAsNumber, innerRadius: radius.value === '' ? undefined : radius.valueAsNumber, kFactor: kFactor.valueAsNumber }
     : { side: side.valueAsNumber, tabs: tabs.checked ? depth.valueAsNumber : undefined });
   const showFields = () => {
@@ -123,6 +134,9 @@ export function offerSheets(api, { stem, size, note = '', length, unit, up, cut,
   };
 
   const draw = async () => {
+    for (const field of [toCut, toJoin]) field.setCustomValidity(parsePairs(field.value) ? '' : SHEET_WORDS.wrongPairs);
+    const wrong = [toCut, toJoin].find((field) => !field.reportValidity());
+    if (wrong) return;
     const invalid = [side, ...(metal.value ? [thickness, radius, kFactor] : [depth])].find((field) => !field.checkValidity());
     if (invalid) {
       stop();
@@ -148,6 +162,10 @@ export function offerSheets(api, { stem, size, note = '', length, unit, up, cut,
       const finished = await requested;
       waiting.end(task);
       showSize(finished);
+      edges.hidden = finished.summary.strain !== 0;
+      image.addEventListener('click', ({ offsetX, offsetY }) => {
+        if (!edges.hidden) toggleEdge(finished, [(offsetX / image.clientWidth) * finished.width, (1 - offsetY / image.clientHeight) * finished.height]);
+      });
       preview.replaceChildren(image);
       status.textContent = sheetsInWords(finished);
       about.replaceChildren(figures(sheetFigures(finished)));
@@ -170,6 +188,16 @@ export function offerSheets(api, { stem, size, note = '', length, unit, up, cut,
     setMissing(SHEET_WORDS.nothingYet);
     offer.renew();
   };
+  /** Cuts the fold at a place of the drawing, or folds the cut there; again, it is as before. @param {Drawing} finished @param {[number, number]} place */
+  const toggleEdge = (finished, place) => {
+    const edge = edgeAt(finished, place);
+    if (!edge) return;
+    const [own, other] = edge.isFold ? [toCut, toJoin] : [toJoin, toCut];
+    const isUndone = (parsePairs(other.value) ?? []).some((pair) => String(pair) === String(edge.pair));
+    const field = isUndone ? other : own;
+    field.value = togglePair(field.value, edge.pair);
+    void draw();
+  };
   let inputTimer = 0;
   metal.addEventListener('change', showFields);
   showFields();
@@ -178,6 +206,7 @@ export function offerSheets(api, { stem, size, note = '', length, unit, up, cut,
     void draw();
   });
   side.addEventListener('input', () => (units.value = 'none'));
+  for (const field of [toCut, toJoin]) field.addEventListener('change', () => void draw());
   for (const field of [side, depth, tabs, metal, thickness, radius, kFactor]) {
     field.addEventListener('input', () => {
       clearTimeout(inputTimer);
@@ -211,6 +240,7 @@ export function offerSheets(api, { stem, size, note = '', length, unit, up, cut,
         make('label', 'field', SHEET_WORDS.material, metal),
         ...forCard,
         ...forMetal,
+        edges,
         make('details', 'more', make('summary', '', SHEET_WORDS.figures), about)))],
     formats: [
       { value: 'pdf', name: 'PDF', words: SHEET_WORDS.pdf, type: 'application/pdf',

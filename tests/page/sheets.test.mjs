@@ -1,0 +1,68 @@
+/** Edges of flat faces that are cut or folded by a click in the drawing. */
+import assert from 'node:assert/strict';
+import { test } from 'node:test';
+import { dispose, patternMesh } from '../../pkg/index.js';
+import { edgeAt, parsePairs, togglePair } from '../../www/sheet-edges.js';
+import { obj } from './support/files.mjs';
+import { doorTest, openWhole } from './support/page.mjs';
+
+/** A box of 60 × 40 × 20: its faces by number, the largest first, come in opposite pairs. */
+const SIDES = [60, 40, 20];
+const points = Array.from({ length: 8 }, (_, i) => /** @type {[number, number, number]} */ (SIDES.map((side, k) => side * ((i >> k) & 1))));
+const triangles = /** @type {[number, number, number][]} */ ([[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]].flatMap(([a, b, c, d]) => [[a, b, c], [a, c, d]]));
+const box = { positions: Float64Array.from(points.flat()), triangles: Uint32Array.from(triangles.flat()) };
+const opposite = ['1-2', '3-4', '5-6'];
+
+/** @param {[number, number][]} line @returns {[number, number]} */
+const middleOf = (line) => [(line[0][0] + line[line.length - 1][0]) / 2, (line[0][1] + line[line.length - 1][1]) / 2];
+
+/** The pairs of pieces at all folds and all cuts of a drawing. @param {Awaited<ReturnType<typeof patternMesh>>} drawing */
+function edgesOf(drawing) {
+  const places = drawing.sheets.flatMap(({ folds, labels }) => [...folds.map(({ points: line }) => middleOf(line)), ...labels.filter(({ kind }) => kind === 'seam').map(({ place }) => place)]);
+  const edges = places.map((place) => edgeAt(drawing, place));
+  /** @param {boolean} isFold */
+  const pairs = (isFold) => [...new Set(edges.filter((edge) => edge?.isFold === isFold).map((edge) => String(edge?.pair.join('-'))))].sort();
+  return { folds: pairs(true), cuts: pairs(false) };
+}
+
+test('each edge of a box is found in its drawing, as a fold or a cut, and changes places with another when it is cut', async () => {
+  const drawing = await patternMesh(box, { size: 60 });
+  const { folds, cuts } = edgesOf(drawing);
+  assert.deepEqual([folds.length, cuts.length], [5, 7]);
+  // A box has twelve edges, none of them between opposite faces.
+  assert.equal(new Set([...folds, ...cuts]).size, 12);
+  assert.ok([...folds, ...cuts].every((pair) => !opposite.includes(pair)), `${folds} | ${cuts}`);
+  const [pair] = parsePairs(folds[0]) ?? [];
+  const cut = edgesOf(await patternMesh(box, { size: 60, cut: [pair] }));
+  assert.ok(cut.cuts.includes(folds[0]) && cut.folds.length === 5, `${cut.folds} | ${cut.cuts}`);
+  assert.equal(edgeAt(drawing, [-500, -500]), null);
+  dispose();
+});
+
+test('pairs are read from a text, and put into it and out again', () => {
+  assert.deepEqual(parsePairs(' 7 - 1, 2–3;'), [[1, 7], [2, 3]]);
+  assert.deepEqual([parsePairs(''), parsePairs('1-7, x'), parsePairs('1')], [[], null, null]);
+  assert.equal(togglePair('1-7', [2, 3]), '1-7, 2-3');
+  assert.equal(togglePair('1-7, 2-3', [1, 7]), '2-3');
+});
+
+doorTest('a fold that is clicked in the drawing is cut', async (page) => {
+  await openWhole(page, 'box.obj', obj({ points, triangles }));
+  await page.locator('#whole-sheets').click();
+  const image = page.locator('.preview[aria-busy="false"] img');
+  await image.waitFor();
+  const [toCut, toJoin] = [page.getByLabel('Edges to cut between'), page.getByLabel('Edges to fold between')];
+  const address = await image.getAttribute('src');
+  const drawing = await patternMesh(box, { size: 60, tabs: 6 });
+  dispose();
+  const shown = await image.boundingBox();
+  assert.ok(shown);
+  const [x, y] = middleOf(drawing.sheets[0].folds[0].points);
+  await page.mouse.click(shown.x + (x / drawing.width) * shown.width, shown.y + (1 - y / drawing.height) * shown.height);
+  await page.locator(`.preview[aria-busy="false"] img:not([src="${address}"])`).waitFor();
+  const [pair] = parsePairs(await toCut.inputValue()) ?? [];
+  assert.deepEqual([pair, await toJoin.inputValue()], [edgeAt(drawing, [x, y])?.pair, '']);
+  await toCut.fill('1-');
+  await toCut.press('Tab');
+  assert.equal(await toCut.evaluate((/** @type {HTMLInputElement} */ field) => field.validity.valid), false);
+});

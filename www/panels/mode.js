@@ -24,6 +24,8 @@ export function modePanel(session, onEnter) {
   session.on('input', showJob);
   /** @param {Mode} mode */
   const show = (mode) => {
+    // From far down the doors to the top of what is behind one.
+    if (mode !== now) window.scrollTo(0, 0);
     now = mode;
     for (const [name, side] of Object.entries(sides)) side.hidden = name !== mode;
     showJob();

@@ -132,7 +132,7 @@ export function spacePanel(session) {
     // The input of a design is not a surface, and an unfolding shows the result only.
     const hidesInput = shown.unfolding !== undefined || input?.design === true;
     divider.show(reliefs[1] !== null && !hidesInput);
-    element('space-before', HTMLElement).hidden = hidesInput;
+    element('space-before', HTMLElement).hidden = shown.unfolding !== undefined;
     element('space-after', HTMLElement).hidden = !reliefs[1] || shown.unfolding !== undefined;
     view?.divide(hidesInput && reliefs[1] ? 0 : divider.share);
   };

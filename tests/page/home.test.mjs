@@ -52,6 +52,7 @@ pageTest('behind each door is an example, one click away, and Back leads to the 
 
   // A link that is followed from here, and is what the page would show next anyway.
   await page.evaluate(() => (location.hash = '#example=roof&size=100&noise=0.02'));
+  await page.locator('#input-caption', { hasText: '100 × 100' }).waitFor();
   await page.locator('#certificate', { hasText: 'Proven' }).waitFor();
   await page.getByRole('link', { name: 'developable' }).click();
 

@@ -1,26 +1,26 @@
-/** Plot of the duality gap during a run. */
-import { oncePerFrame, element, matchDevicePixels } from '../dom.js';
-import { count, percentAtMost, seconds } from '../format.js';
-import { drawAxes, drawCurve, drawLegend, drawLevel } from '../plot.js';
+/** Plot of the duality gap during a run: linear across, logarithmic up. */
+import { oncePerFrame, element } from '../dom.js';
+import { count, number, percentAtMost, seconds } from '../format.js';
 
 /** @import {Progress, Report} from '../api.js' */
 /** @import {Session} from '../session.js' */
-/** @import {Axes} from '../plot.js' */
-
 /** @typedef {Pick<Progress, 'level' | 'iteration' | 'elapsed' | 'gap'>} Moment */
 
-/** Margins around the plot, in CSS pixels. */
-const PLOT_MARGIN = { left: 54, right: 10, top: 22, bottom: 38 };
+/** The plot's frame in the picture of `index.html`, in its units. */
+const FRAME = { left: 54, top: 10, right: 592, bottom: 190 };
+/** Maximum number of labels along each axis. */
+const MAX_TICKS = 8;
+
 /** @param {Session} session */
 export function curvePanel(session) {
-  const canvas = element('curve-canvas', HTMLCanvasElement);
+  const picture = element('curve-picture', SVGSVGElement);
   const axis = element('curve-axis', HTMLSelectElement);
   /** @type {Moment[]} */
   let moments = [];
   let target = session.settings.gap;
-
-  const draw = () => drawPlot(canvas, moments, axis.value === 'iteration' ? 'iteration' : 'elapsed', target);
-  const drawSoon = oncePerFrame(draw);
+  const drawSoon = oncePerFrame(() => {
+    picture.innerHTML = plot(moments, axis.value === 'iteration' ? 'iteration' : 'elapsed', target);
+  });
   /** @param {Moment} moment */
   const add = (moment) => {
     moments.push(moment);
@@ -28,10 +28,9 @@ export function curvePanel(session) {
   };
   const clear = () => {
     moments = [];
-    canvas.setAttribute('aria-label', 'No run yet');
+    picture.setAttribute('aria-label', 'No run yet');
     drawSoon();
   };
-
   session.on('start', (settings) => {
     clear();
     target = settings.gap;
@@ -40,11 +39,9 @@ export function curvePanel(session) {
   session.on('progress', add);
   session.on('result', ({ surface: { report } }) => {
     add(finalMoment(report));
-    canvas.setAttribute('aria-label', gapsInWords(moments));
+    picture.setAttribute('aria-label', gapsInWords(moments));
   });
   axis.addEventListener('change', drawSoon);
-  matchDevicePixels(canvas, draw);
-  matchMedia('(prefers-color-scheme: dark)').addEventListener('change', drawSoon);
 }
 
 /** @param {Report} report @returns {Moment} */
@@ -61,38 +58,30 @@ function gapsInWords(moments) {
 }
 
 /**
- * @param {HTMLCanvasElement} canvas
+ * The elements of the plot.
  * @param {readonly Moment[]} moments
  * @param {'iteration' | 'elapsed'} along
  * @param {number} target
  */
-function drawPlot(canvas, moments, along, target) {
-  const context = canvas.getContext('2d');
-  if (!context) return;
-  const ratio = canvas.width / canvas.clientWidth;
-  context.setTransform(ratio, 0, 0, ratio, 0, 0);
-  const { clientWidth: width, clientHeight: height } = canvas;
-  context.clearRect(0, 0, width, height);
-  const style = getComputedStyle(canvas);
-  const colour = (/** @type {string} */ name) => style.getPropertyValue(name).trim();
-  context.font = `12px ${style.fontFamily}`;
-  const { left, top, right, bottom } = PLOT_MARGIN;
-  const minGap = Math.min(target, ...moments.filter(({ level }) => level === 0).map(({ gap }) => gap ?? 0).filter((gap) => gap > 0));
-  /** @type {Axes} */
-  const axes = {
-    xMax: Math.max(moments.at(-1)?.[along] ?? 0, along === 'iteration' ? 10 : 0.01),
-    yRange: [50 * minGap, 150],
-    title: 'Gap in %',
-    xLabel: along === 'iteration' ? 'iterations' : 'seconds',
-    palette: { ink: colour('--ink'), muted: colour('--muted'), line: colour('--line') },
-    box: { left, top, width: width - left - right, height: height - top - bottom },
-  };
-  const coarse = { label: 'on coarser lattices', colour: colour('--edge'), points: gapsByLevel(moments, along, false) };
-  drawAxes(context, axes);
-  if (coarse.points.length > 0) drawLegend(context, axes, coarse);
-  drawLevel(context, axes, 100 * target, 'wanted');
-  drawCurve(context, axes, coarse);
-  drawCurve(context, axes, { label: 'gap', colour: colour('--curve-gap'), points: gapsByLevel(moments, along, true) });
+function plot(moments, along, target) {
+  const { left, top, right, bottom } = FRAME;
+  const end = Math.max(moments.at(-1)?.[along] ?? 0, along === 'iteration' ? 10 : 0.01);
+  const lowest = Math.min(target, ...moments.map(({ gap }) => gap ?? 0).filter((gap) => gap > 0));
+  const [low, high] = [Math.floor(Math.log10(100 * lowest)), 2];
+  /** @param {number} value */
+  const x = (value) => (left + (value / end) * (right - left)).toFixed(1);
+  /** @param {number} percent */
+  const y = (percent) => (bottom - ((Math.log10(percent) - low) / (high - low)) * (bottom - top)).toFixed(1);
+  /** @param {[number, number][]} points a value of NaN interrupts the line */
+  const path = (points) => points.map(([at, percent], i) => (Number.isNaN(percent) ? '' : `${i === 0 || Number.isNaN(points[i - 1][1]) ? 'M' : 'L'}${x(at)} ${y(percent)}`)).join('');
+  const powers = Array.from({ length: high - low + 1 }, (_, i) => 10 ** (low + i)).filter((_, i) => i % Math.ceil((high - low + 1) / MAX_TICKS) === 0);
+  return [
+    ...powers.map((power) => `<path class="tick" d="M${left} ${y(power)}H${right}"/><text x="${left - 6}" y="${y(power)}" class="up">${number(power)} %</text>`),
+    ...linearTicks(end, MAX_TICKS).map((tick) => `<text x="${x(tick)}" y="${bottom + 16}" class="across">${number(tick)}</text>`),
+    `<path class="wanted" d="M${left} ${y(100 * target)}H${right}"/>`,
+    `<path class="coarse" d="${path(gapsByLevel(moments, along, false))}"/>`,
+    `<path class="finest" d="${path(gapsByLevel(moments, along, true))}"/>`,
+  ].join('');
 }
 
 /**
@@ -111,7 +100,21 @@ export function gapsByLevel(moments, along, finest) {
     level = moment.level;
     if ((level === 0) !== finest) continue;
     if (points.length > 0 && begins) points.push([moment[along], NaN]);
-    points.push([moment[along], 100 * (moment.gap ?? NaN)]);
+    points.push([moment[along], 100 * (moment.gap || NaN)]);
   }
   return points;
+}
+
+/**
+ * Ticks of a linear axis: multiples of a round step from 0 on.
+ * @param {number} max end of the axis
+ * @param {number} maxCount approximate maximum number of ticks
+ */
+export function linearTicks(max, maxCount) {
+  const minStep = max / Math.max(1, maxCount);
+  const power = 10 ** Math.floor(Math.log10(minStep));
+  const step = [1, 2, 5, 10].map((m) => m * power).find((s) => s >= minStep) ?? minStep;
+  const ticks = [];
+  for (let k = 0; k * step <= max * (1 + 1e-9); k++) ticks.push(k * step);
+  return ticks;
 }

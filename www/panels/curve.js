@@ -72,8 +72,8 @@ function plot(moments, along, target) {
   const x = (value) => (left + (value / end) * (right - left)).toFixed(1);
   /** @param {number} percent */
   const y = (percent) => (bottom - ((Math.log10(percent) - low) / (high - low)) * (bottom - top)).toFixed(1);
-  /** @param {[number, number][]} points a value of NaN interrupts the line */
-  const path = (points) => points.map(([at, percent], i) => (Number.isNaN(percent) ? '' : `${i === 0 || Number.isNaN(points[i - 1][1]) ? 'M' : 'L'}${x(at)} ${y(percent)}`)).join('');
+  /** @param {[number, number][]} points a value of NaN interrupts the line; a point alone is a dot */
+  const path = (points) => points.map(([at, percent], i) => (Number.isNaN(percent) ? '' : `${i === 0 || Number.isNaN(points[i - 1][1]) ? 'M' : 'L'}${x(at)} ${y(percent)}h0`)).join('');
   const powers = Array.from({ length: high - low + 1 }, (_, i) => 10 ** (low + i)).filter((_, i) => i % Math.ceil((high - low + 1) / MAX_TICKS) === 0);
   return [
     ...powers.map((power) => `<path class="tick" d="M${left} ${y(power)}H${right}"/><text x="${left - 6}" y="${y(power)}" class="up">${number(power)} %</text>`),

@@ -9,12 +9,10 @@ import { triangleStrain } from './unfolding.js';
 
 /** Length of the longer side of a sheet's image, in pixels. */
 const SHEET_SIDE_PIXELS = 1600;
-/** Margin around a sheet in its image, and the colour and half width of its outline, in pixels. */
+/** Margin around a sheet in its image, in pixels. */
 const SHEET_MARGIN_PIXELS = 24;
+/** Colour of a sheet's outline. */
 const OUTLINE_PIXEL = toPixel([90, 98, 106]);
-const OUTLINE_REACH_PIXELS = 1;
-/** Side of a square of pixels with one readable strain. */
-const READOUT_CELL_PIXELS = 4;
 /** Minimum strain at the end of the colour scale; a smaller one would show rounding errors. */
 const MIN_STRAIN_RANGE = 1e-3;
 
@@ -75,26 +73,39 @@ export function photoPixels(lattice, { image, uvs, colors }, grid) {
 }
 
 /**
- * A flat sheet coloured by strain, with the strains for reading.
+ * Triangles coloured by strain, with the strain of each pixel.
+ * @param {{ width: number, height: number }} size
+ * @param {Uint32Array} triangles
+ * @param {Float64Array} onImage place of each vertex in pixels, y down
+ * @param {Float64Array} stretches singular values, two for each triangle
+ */
+function strainImage({ width, height }, triangles, onImage, stretches) {
+  const strains = Float64Array.from({ length: triangles.length / 3 }, (_, t) => triangleStrain(stretches, t));
+  const maxStrain = Math.max(MIN_STRAIN_RANGE, magnitudeQuantile([strains], COLOUR_SCALE_QUANTILE));
+  const colours = Uint32Array.from(strains, (strain) => divergingPixel(strain / maxStrain));
+  const pixels = new Uint32Array(width * height);
+  const values = new Float32Array(width * height).fill(NaN);
+  fillTriangles({ width, height }, triangles, onImage, (pixel, triangle) => {
+    pixels[pixel] = colours[triangle];
+    values[pixel] = strains[triangle];
+  });
+  return { width, height, pixels, values, maxStrain };
+}
+
+/**
+ * A flat sheet coloured by strain, with an outline.
  * @param {Uint32Array} triangles
  * @param {Float64Array} places
  * @param {Float64Array} stretches
  */
 export function sheetStrainImage(triangles, places, stretches) {
-  const strains = Float64Array.from({ length: triangles.length / 3 }, (_, t) => triangleStrain(stretches, t));
-  const maxStrain = Math.max(MIN_STRAIN_RANGE, magnitudeQuantile([strains], COLOUR_SCALE_QUANTILE));
   const extent = extentOf(places);
   const pixelsPerUnit = SHEET_SIDE_PIXELS / Math.max(extent.width, extent.height);
   const [width, height] = [extent.width, extent.height].map((side) => Math.max(1, Math.ceil(side * pixelsPerUnit)) + 2 * SHEET_MARGIN_PIXELS);
   const onImage = places.map((value, i) => SHEET_MARGIN_PIXELS + (i % 2 === 0 ? value - extent.left : extent.top - value) * pixelsPerUnit);
-  const pixels = new Uint32Array(width * height);
-  const colours = Uint32Array.from(strains, (strain) => divergingPixel(strain / maxStrain));
-  fillTriangles({ width, height }, triangles, onImage, (pixel, triangle) => (pixels[pixel] = colours[triangle]));
-  drawOutline(pixels, width);
-  const readout = { width: Math.ceil(width / READOUT_CELL_PIXELS), height: Math.ceil(height / READOUT_CELL_PIXELS), strains: new Float32Array(0) };
-  readout.strains = new Float32Array(readout.width * readout.height).fill(NaN);
-  fillTriangles(readout, triangles, onImage.map((value) => value / READOUT_CELL_PIXELS), (pixel, triangle) => (readout.strains[pixel] = strains[triangle]));
-  return { extent, maxStrain, width, height, pixelsPerUnit, pixels, readout };
+  const image = strainImage({ width, height }, triangles, onImage, stretches);
+  drawOutline(image.pixels, width);
+  return { ...image, extent, pixelsPerUnit };
 }
 
 /** Draws a line where the pixels of an image end. @param {Uint32Array} pixels with empty ones along the border @param {number} width */
@@ -102,9 +113,7 @@ function drawOutline(pixels, width) {
   const filled = pixels.slice();
   for (let i = 0; i < filled.length; i++) {
     if (filled[i] === 0) continue;
-    for (const step of [-OUTLINE_REACH_PIXELS, OUTLINE_REACH_PIXELS, -OUTLINE_REACH_PIXELS * width, OUTLINE_REACH_PIXELS * width]) {
-      if (filled[i + step] === 0) pixels[i] = pixels[i + step] = OUTLINE_PIXEL;
-    }
+    for (const step of [-1, 1, -width, width]) if (filled[i + step] === 0) pixels[i] = pixels[i + step] = OUTLINE_PIXEL;
   }
 }
 
@@ -114,7 +123,7 @@ export function meshStrainImage(mesh) {
 }
 
 /**
- * The strain of a drawing's sheets at their places in the drawing, in colours and as numbers.
+ * A drawing's sheets coloured by strain, at their places in the drawing.
  * @param {Uint8Array} model the drawing's assembly, in metres
  * @param {{ width: number, height: number, bounds: readonly (readonly [readonly [number, number], readonly [number, number]])[] }} drawing
  *   in millimetres; `bounds`: lower left and upper right corner of each sheet
@@ -133,14 +142,5 @@ export function drawingStrainImage(model, { width: wide, height: high, bounds })
     const place = value + (lower[k] + upper[k] - box[k] - box[k + 2]) / 2;
     return (k === 0 ? place : high - place) * pixelsPerMillimetre;
   });
-  const strains = Float64Array.from({ length: triangles.length / 3 }, (_, t) => triangleStrain(stretches, t));
-  const maxStrain = Math.max(MIN_STRAIN_RANGE, magnitudeQuantile([strains], COLOUR_SCALE_QUANTILE));
-  const colours = Uint32Array.from(strains, (strain) => divergingPixel(strain / maxStrain));
-  const pixels = new Uint32Array(width * height);
-  const values = new Float32Array(width * height).fill(NaN);
-  fillTriangles({ width, height }, triangles, onImage, (pixel, triangle) => {
-    pixels[pixel] = colours[triangle];
-    values[pixel] = strains[triangle];
-  });
-  return { width, height, pixels, values, maxStrain };
+  return strainImage({ width, height }, triangles, onImage, stretches);
 }

@@ -1,5 +1,5 @@
 /** The views of a whole mesh and its result. */
-import { count, number, numberAgainst, percent, seconds, signedPercent } from '../format.js';
+import { count, number, numberAgainst, percent, seconds, signedPercent, strainInWords } from '../format.js';
 import { COLOUR_SCALE_QUANTILE, toCss, divergingColour, linearScale, logarithmicScale, magnitudeQuantile, patchColour } from '../surface/colours.js';
 import { canvasFromPixels } from '../surface/layer.js';
 import { imagePicture } from '../surface/picture-view.js';
@@ -98,15 +98,12 @@ export async function patches(whole, mesh, surface) {
 export async function sheet(whole, mesh, surface) {
   const { triangles, places, positions, report: { sheets, strain, seamGap } } = await whole.unrolled(surface);
   const picture = await callWorker('meshStrainImage', { triangles, places, positions });
-  const { width, height, pixels, extent, maxStrain, readout } = picture;
+  const { width, height, pixels, extent, maxStrain, values } = picture;
   const unit = mesh.unit ?? 'units';
   const words = `${sheets === 1 ? 'One sheet' : `${count(sheets)} sheets`}, ${number(extent.width, 4)} × ${number(extent.height, 4)} ${unit}`;
   return {
     before: mesh,
-    flat: imagePicture(canvasFromPixels({ width, height }, pixels), 'Laid flat', words, (x, y) => {
-      const strains = readout.strains[Math.floor((y / height) * readout.height) * readout.width + Math.floor((x / width) * readout.width)];
-      return Number.isNaN(strains) ? '' : `strain ${signedPercent(strains)}`;
-    }),
+    flat: imagePicture(canvasFromPixels({ width, height }, pixels), 'Laid flat', words, (x, y) => strainInWords(values[Math.floor(y) * width + Math.floor(x)])),
     about: [
       statement(`${words}.`),
       colourBar('Strain: blue is compressed, red is stretched', linearScale(maxStrain, signedPercent)),

@@ -54,9 +54,9 @@ export async function sheet(analyses, result) {
  * @param {string} words
  * @returns {Picture}
  */
-function pictureOf({ width, height, pixelsPerUnit, pixels, readout }, unit, words) {
+function pictureOf({ width, height, pixelsPerUnit, pixels, values }, unit, words) {
   const picture = imagePicture(canvasFromPixels({ width, height }, pixels), 'Laid flat', words, (x, y) =>
-    strainInWords(readout.strains[Math.floor((y / height) * readout.height) * readout.width + Math.floor((x / width) * readout.width)]));
+    strainInWords(values[Math.floor(y) * width + Math.floor(x)]));
   return {
     ...picture,
     paint: (context, ratio) => {

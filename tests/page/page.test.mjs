@@ -5,7 +5,7 @@ import { pageCautions, pageErrors } from '../../www/page/messages.js';
 import { ASSUMED_FIELD_OF_VIEW, flattenWholePhoto, PageFlattener } from '../../www/page/flatten.js';
 import { readPdf, readPdfPicture } from '../js/support/drawings.mjs';
 import { parsed } from './support/numbers.mjs';
-import { choose, doorTest, drop, dropAll, ended, enterPages, look, pageTest, painted, saveAs } from './support/page.mjs';
+import { choose, doorTest, drop, dropAll, ended, enterPages, look, painted, saveAs } from './support/page.mjs';
 import { camera, dottedPhoto, misplaced, parsePng, png, seen } from './support/photos.mjs';
 
 /** @typedef {import('playwright-core').Page} Page */
@@ -25,7 +25,7 @@ async function flattened(page) {
 
 /** @param {Page} page @param {string} name @param {Buffer} bytes */
 async function openPhoto(page, name, bytes) {
-  if (await page.locator('#home').isVisible()) {
+  if (!(await page.locator('#page-side').isVisible())) {
     const [chooser] = await Promise.all([page.waitForEvent('filechooser'), page.locator('[data-open="page"]').click()]);
     await chooser.setFiles({ name, mimeType: 'image/png', buffer: bytes });
   } else await drop(page, name, bytes);
@@ -276,7 +276,7 @@ test('a file is made by the page that is shown, and no page is searched for it a
   assert.deepEqual(asked, [[{ width, height, data }, shown, { light: 'keep', ink: false }]]);
 });
 
-pageTest('a file of all pixels has the proportions of the flat page that is shown', async (page) => {
+doorTest('a file of all pixels has the proportions of the flat page that is shown', async (page) => {
   const { width, height, data } = parsePng(photo);
   // Three times as fine as the photo, which is then reduced for what is shown.
   const fine = new Uint8Array(4 * 9 * width * height);
@@ -292,7 +292,7 @@ pageTest('a file of all pixels has the proportions of the flat page that is show
   assert.ok(misplaced(flat) < 0.003);
 });
 
-pageTest('of several pages one is taken, and another by a click', async (page) => {
+doorTest('of several pages one is taken, and another by a click', async (page) => {
   const { width, height, data } = parsePng(photo);
   const both = new Uint8Array(8 * width * height);
   for (let row = 0; row < height; row++) {
@@ -658,7 +658,7 @@ doorTest('what is written of a flat page can be done without, and asked for agai
   assert.ok(misplaced(parsePng(bytes)) < 0.003);
 });
 
-pageTest('a photo that is being read can be done without', async (page) => {
+doorTest('a photo that is being read can be done without', async (page) => {
   /** Opens a large photo, and gives it up as soon as that is offered. @param {boolean} cancel */
   const open = (cancel) => page.evaluate(async (cancel) => {
     const canvas = new OffscreenCanvas(4000, 3000);

@@ -1,7 +1,7 @@
 /** Solids for 3D printers: an open surface gets a base or a thickness, and all lengths become millimetres. */
 
 import { make } from './dom.js';
-import { SOLID_WORDS } from './messages.js';
+import { FORMAT_WORDS, SOLID_WORDS } from './messages.js';
 import { suggestedSide } from './pattern.js';
 import { zip } from './zip.js';
 
@@ -112,15 +112,16 @@ export async function threeMf({ positions, triangles }) {
 }
 
 /**
- * Solids as formats of the save dialog, and the fields for their size.
- * @param {object} surface
- * @param {number} surface.length longest side of its bounding box, in its unit
- * @param {string | null} [surface.unit]
- * @param {boolean} surface.onBase
- * @param {(worker: Worker) => Promise<Pick<Mesh, 'positions' | 'triangles'>>} surface.mesh
+ * A surface as formats of the save dialog, solids among them, and the fields for the size of these.
+ * @param {object} given
+ * @param {import('./api.js').Surface | Mesh} given.surface
+ * @param {number} given.length longest side of its bounding box, in its unit
+ * @param {string | null} [given.unit]
+ * @param {boolean} given.onBase
+ * @param {(worker: Worker) => Promise<Pick<Mesh, 'positions' | 'triangles'>>} given.mesh
  * @returns {{ formats: Format[], fields: HTMLElement, onChange: (act: () => void) => void }}
  */
-export function solidFormats({ length, unit, onBase, mesh }) {
+export function surfaceFormats({ surface, length, unit, onBase, mesh }) {
   /** @param {string} label @param {number} value */
   const field = (label, value) => {
     const input = make('input', '');
@@ -141,8 +142,12 @@ export function solidFormats({ length, unit, onBase, mesh }) {
   const note = () => (wasOpen && !onBase ? SOLID_WORDS.shell : '');
   return {
     formats: [
+      { value: 'obj', name: 'OBJ', words: FORMAT_WORDS.obj, type: 'model/obj', write: (worker) => worker.writeObj(surface) },
+      { value: 'stl', name: 'STL', words: FORMAT_WORDS.stl, type: 'model/stl', write: (worker) => worker.writeStl(surface) },
       { value: 'solid.stl', name: 'Solid STL', words: SOLID_WORDS.words, type: 'model/stl', note, write: async (worker) => worker.writeStl(await solid(worker)) },
       { value: 'solid.3mf', name: 'Solid 3MF', words: SOLID_WORDS.words, type: 'model/3mf', note, write: async (worker) => threeMf(await solid(worker)) },
+      { value: 'glb', name: 'GLB', words: FORMAT_WORDS.glb, type: 'model/gltf-binary', write: (worker) => worker.writeGlb(surface) },
+      { value: 'ply', name: 'PLY', words: FORMAT_WORDS.ply, type: 'model/ply', write: (worker) => worker.writePly(surface) },
     ],
     fields: make('div', 'pair for-solid', side.label, thickness.label),
     onChange: (act) => {

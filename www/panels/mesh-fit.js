@@ -9,7 +9,7 @@ import { PictureView } from '../surface/picture-view.js';
 import { Zoom } from '../surface/zoom.js';
 import { gaussian, patches, readingAt, rulings, shaded, sheet, meshFitSummary } from '../views/mesh-fit.js';
 import { longestSide } from '../mesh-fit.js';
-import { solidFormats } from '../solid.js';
+import { surfaceFormats } from '../solid.js';
 import { dividerOver } from './divider.js';
 import { offerToSave } from './save-dialog.js';
 import { offerSheets } from './sheets.js';
@@ -238,20 +238,14 @@ export function meshFitPanel(session, meshFit) {
   file.addEventListener('click', () => {
     const { surface } = meshFit;
     if (!surface) return;
-    const solid = solidFormats({ length: longestSide(surface), unit: surface.unit, onBase: false, mesh: async () => surface });
+    const solid = surfaceFormats({ surface, length: longestSide(surface), unit: surface.unit, onBase: false, mesh: async () => surface });
     const offer = offerToSave(session.api, {
       title: '3D file',
       stem: stem(),
       size: surface.positions.length / 3,
       unit: surface.unit,
       extra: [solid.fields],
-      formats: [
-        { value: 'obj', name: 'OBJ', words: FORMAT_WORDS.obj, type: 'model/obj', write: (worker) => worker.writeObj(surface) },
-        { value: 'stl', name: 'STL', words: FORMAT_WORDS.stl, type: 'model/stl', write: (worker) => worker.writeStl(surface) },
-        ...solid.formats,
-        { value: 'glb', name: 'GLB', words: FORMAT_WORDS.glb, type: 'model/gltf-binary', write: (worker) => worker.writeGlb(surface) },
-        { value: 'ply', name: 'PLY', words: FORMAT_WORDS.ply, type: 'model/ply', write: (worker) => worker.writePly(surface) },
-      ],
+      formats: solid.formats,
     });
     solid.onChange(offer.renew);
   });

@@ -88,7 +88,12 @@ export function pageResultPanel(api, session, book, openAsSurface, onWritten) {
     if (isMoving) return;
     enable(!working && shown !== null);
     // Until the new flat page is there, nothing is said of the old one.
-    if (working) workingTimer = window.setTimeout(() => [verdict.textContent, detail.textContent] = [PAGE_WORDS.working, ''], PROGRESS_DELAY_MS);
+    if (!working) return;
+    workingTimer = window.setTimeout(() => {
+      [verdict.textContent, detail.textContent, caption.textContent] = [PAGE_WORDS.working, '', ''];
+      about.replaceChildren();
+      proposal.hidden = true;
+    }, PROGRESS_DELAY_MS);
   });
   session.on('unfound', () => {
     clear(PAGE_WORDS.unfoundDetail);

@@ -3,7 +3,7 @@ import { element } from '../dom.js';
 import { shortLambda } from '../format.js';
 import { FORMAT_WORDS } from '../messages.js';
 import { longerSide, cutSheets, lengthUnitOf } from '../pattern.js';
-import { solidFormats } from '../solid.js';
+import { surfaceFormats } from '../solid.js';
 import { resultImage } from '../surface/derived-data.js';
 import { longestLatticeSide } from '../surface/lattice.js';
 import { offerToSave } from './save-dialog.js';
@@ -50,8 +50,8 @@ export function savePanel(session, analyses, chooseView, meshFitView) {
 function offerFile(api, result) {
   const { surface } = result;
   const image = () => resultImage(result);
-  const solid = solidFormats({
-    length: longestLatticeSide(surface), unit: result.input.unit, onBase: true,
+  const solid = surfaceFormats({
+    surface, length: longestLatticeSide(surface), unit: result.input.unit, onBase: true,
     mesh: async (worker) => worker.readMesh(new File([/** @type {Uint8Array<ArrayBuffer>} */ (await worker.writePly({ ...surface, frame: undefined, colors: undefined, uvs: undefined }))], 'surface.ply')),
   });
   const offer = offerToSave(api, {
@@ -61,11 +61,7 @@ function offerFile(api, result) {
     unit: result.input.unit,
     extra: [solid.fields],
     formats: [
-      { value: 'obj', name: 'OBJ', words: FORMAT_WORDS.obj, type: 'model/obj', write: (worker) => worker.writeObj(surface) },
-      { value: 'stl', name: 'STL', words: FORMAT_WORDS.stl, type: 'model/stl', write: (worker) => worker.writeStl(surface) },
       ...solid.formats,
-      { value: 'glb', name: 'GLB', words: FORMAT_WORDS.glb, type: 'model/gltf-binary', write: (worker) => worker.writeGlb(surface) },
-      { value: 'ply', name: 'PLY', words: FORMAT_WORDS.ply, type: 'model/ply', write: (worker) => worker.writePly(surface) },
       { value: 'png', name: 'PNG', words: FORMAT_WORDS.png16, type: 'image/png', write: (worker) => worker.writePng(image()) },
       { value: 'tiff', name: 'TIFF', words: FORMAT_WORDS.floats, type: 'image/tiff', write: (worker) => worker.writeTiff(image()) },
       { value: 'exr', name: 'EXR', words: FORMAT_WORDS.floats, type: 'image/x-exr', write: (worker) => worker.writeExr(image()) },

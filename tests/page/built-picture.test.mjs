@@ -1,24 +1,30 @@
 /** The picture of a pattern put together. */
 import assert from 'node:assert/strict';
-import { pageTest, saveAs } from './support/page.mjs';
+import { obj } from './support/files.mjs';
+import { doorTest, openWhole, saveAs } from './support/page.mjs';
+import { parsePng } from './support/photos.mjs';
 
-pageTest('the picture of a finished piece is shaded and at an angle', async (page) => {
-  await page.locator('#end-sheets').click();
-  const { bytes } = await saveAs(page, 'PNG');
-  const { tones, share } = await page.evaluate(async (base64) => {
-    const image = await createImageBitmap(new Blob([Uint8Array.from(atob(base64), (character) => character.charCodeAt(0))]));
-    const context = new OffscreenCanvas(image.width, image.height).getContext('2d');
-    if (!context) throw new Error('no canvas');
-    context.drawImage(image, 0, 0);
-    const { data } = context.getImageData(0, 0, image.width, image.height);
-    /** Tones of pixels in one hue. */
-    const tones = new Set();
-    for (let i = 0; i < data.length; i += 4) {
-      if (Math.max(data[i], data[i + 1], data[i + 2]) - Math.min(data[i], data[i + 1], data[i + 2]) > 40) tones.add(data[i]);
-    }
-    return { tones: tones.size, share: image.height / image.width };
-  }, bytes.toString('base64'));
-  // From above, a square with a colour for each sheet would be as high as wide, and in as many tones as sheets.
-  assert.ok(share < 0.9, `${share} as high as wide`);
-  assert.ok(tones > 30, `${tones} tones`);
+doorTest('the picture of a finished tower is upright, shaded, at an angle and numbered', async (page) => {
+  // OBJ files take y for the axis that points upwards.
+  const points = Array.from({ length: 8 }, (_, i) => /** @type {[number, number, number]} */ ([20, 60, 20].map((side, k) => side * ((i >> k) & 1))));
+  const triangles = /** @type {[number, number, number][]} */ ([[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]].flatMap(([a, b, c, d]) => [[a, b, c], [a, c, d]]));
+  await openWhole(page, 'tower.obj', obj({ points, triangles }));
+  await page.locator('#whole-sheets').click();
+  const { width, data } = parsePng((await saveAs(page, 'PNG')).bytes);
+  /** Columns and rows of what is coloured, and its tones. */
+  const [cols, rows, tones] = [[Infinity, -Infinity], [Infinity, -Infinity], new Map()];
+  let black = 0;
+  for (let i = 0; i < data.length; i += 4) {
+    const [least, most] = [Math.min(data[i], data[i + 1], data[i + 2]), Math.max(data[i], data[i + 1], data[i + 2])];
+    if (most < 30) black++;
+    if (most - least < 40) continue;
+    const [col, row] = [(i / 4) % width, Math.floor(i / 4 / width)];
+    [cols[0], cols[1], rows[0], rows[1]] = [Math.min(cols[0], col), Math.max(cols[1], col), Math.min(rows[0], row), Math.max(rows[1], row)];
+    tones.set(data[i], (tones.get(data[i]) ?? 0) + 1);
+  }
+  const [wide, high] = [cols[1] - cols[0], rows[1] - rows[0]];
+  assert.ok(high > 1.5 * wide, `${wide} × ${high}`);
+  // Three sides are seen, each in its light, and the lid is a little of it.
+  assert.ok([...tones.values()].filter((count) => count > 0.03 * wide * high).length >= 3, `${[...tones].filter(([, count]) => count > 1000)}`);
+  assert.ok(black > 100, 'a number');
 }, { drawn: true });

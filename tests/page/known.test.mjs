@@ -120,6 +120,8 @@ doorTest('reading what is known besides can be done without', async (page) => {
     await choose(page, button, 'known.npy', npy(WIDTH, plane.map(() => 1)));
     const opening = page.getByRole('group', { name: 'Opening a file' });
     await opening.getByText('Reading the file').waitFor();
+    // How long it takes is not known of the first one.
+    assert.equal(await opening.locator('progress:indeterminate').count(), 1);
     await opening.getByRole('button', { name: 'Cancel' }).click();
     assert.equal(await opening.isVisible(), false);
     assert.equal(await page.locator(`#${name}-drop`).isVisible(), false);

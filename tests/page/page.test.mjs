@@ -82,6 +82,13 @@ const BENDS = /** @type {const} */ ([['upper', 0], ['lower', 1]]);
 
 doorTest('a page on a dark ground is found, and its dots come out evenly', async (page) => {
   await openPhoto(page, 'letter.png', photo);
+  // Before and after, by a divider over the flat page.
+  const flatPicture = (await look(page, '#flat-canvas')).hash;
+  const divider = page.getByRole('slider', { name: 'Divider between photo and flat page' });
+  await divider.press('End');
+  assert.notEqual((await look(page, '#flat-canvas')).hash, flatPicture);
+  await divider.press('Home');
+  assert.equal((await look(page, '#flat-canvas')).hash, flatPicture);
   for (const [name, s, t] of CORNERS) {
     const [[x, y], [u, v]] = [await placeOf(page, name), seen(s, t)];
     assert.ok(Math.hypot(x - u, y - v) < 2.5, `${name} at ${x}, ${y}, not at ${u}, ${v}`);
@@ -557,6 +564,7 @@ doorTest('the flat page goes on as a surface', async (page) => {
   await openPhoto(page, 'letter.png', photo);
   await page.getByRole('button', { name: 'Use it as a 3D surface' }).click();
   await page.locator('#mesh-name', { hasText: 'letter (photo)' }).waitFor();
+  await page.locator('#certificate', { hasText: 'Proven' }).waitFor();
 });
 
 const phone = { viewport: { width: 390, height: 844 }, hasTouch: true, isMobile: true, deviceScaleFactor: 2 };

@@ -45,7 +45,8 @@ pageTest('the first visit shows a solved example with its certificate', async (p
   const picture = await downloaded(page, () => page.getByRole('button', { name: 'Save this view (PNG)' }).click());
   const { width, data } = parsePng(picture.bytes);
   const colours = new Set(Array.from({ length: width }, (_, i) => data[4 * (Math.floor(data.length / 8 / width) * width + i)]));
-  assert.ok(width > 300 && colours.size > 20, `${colours.size} greys`);
+  const shown = await page.locator('#space-canvas').evaluate((canvas) => canvas.clientWidth);
+  assert.ok(width === 2 * shown && colours.size > 20, `${colours.size} greys`);
 
   const print = await page.pdf({ format: 'A4', printBackground: true });
   assert.equal(print.toString('latin1').match(/\/Type\s*\/Page\b/g)?.length, 1, 'printed, it is one page');

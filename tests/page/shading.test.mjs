@@ -3,6 +3,7 @@ import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import { count, number, percentAtMost, shortLambda } from '../../www/format.js';
 import { meanAngle, rmsError } from '../../www/surface/compare.js';
+import { sheetStrainImage } from '../../www/surface/colour-images.js';
 import { linearScale, logarithmicScale, magnitudeQuantile } from '../../www/surface/colours.js';
 import { gridOverLattice, interpolateToGrid, nearestVertices } from '../../www/surface/lattice.js';
 import { light } from '../../www/surface/light.js';
@@ -92,6 +93,18 @@ test('heights are a mesh without their holes, seen where a ray meets them', () =
   assert.equal(intersectHeights({ point: [20, 15, 0], towards: [0, 0, 1] }, box, at), null, 'a hole');
   const large = reliefMesh({ ...relief, width: 1200, height: 3, heights: new Float64Array(3600) });
   assert.ok(large.positions.length / 3 <= 512);
+});
+
+test('a sheet has a margin, an outline, and the strain of each pixel', () => {
+  const places = Float64Array.of(0, 0, 2, 0, 2, 1, 0, 1);
+  const { width, height, pixels, values, maxStrain } = sheetStrainImage(Uint32Array.of(0, 1, 2, 0, 2, 3), places, Float64Array.of(1.02, 1, 1.02, 1));
+  assert.ok(Math.abs(width / height - 2) < 0.05 && maxStrain > 0.019);
+  const middle = (height >> 1) * width + (width >> 1);
+  assert.ok(Math.abs(values[middle] - 0.02) < 1e-6 && pixels[middle] !== 0);
+  const [first] = [pixels.subarray((height >> 1) * width).findIndex((pixel) => pixel !== 0)];
+  assert.ok(first > 10, `a margin of ${first}`);
+  assert.notEqual(pixels[(height >> 1) * width + first], pixels[middle], 'an outline');
+  assert.ok(Number.isNaN(values[0]));
 });
 
 test('errors are measured where both surfaces are', () => {

@@ -98,7 +98,7 @@ test('heights are a mesh without their holes, seen where a ray meets them', () =
 test('a sheet has a margin, an outline, and the strain of each pixel', () => {
   const places = Float64Array.of(0, 0, 2, 0, 2, 1, 0, 1);
   const { width, height, pixels, values, maxStrain } = sheetStrainImage(Uint32Array.of(0, 1, 2, 0, 2, 3), places, Float64Array.of(1.02, 1, 1.02, 1));
-  assert.ok(Math.abs(width / height - 2) < 0.05 && maxStrain > 0.019);
+  assert.ok(Math.abs(width / height - 2) < 0.1 && maxStrain > 0.019);
   const middle = (height >> 1) * width + (width >> 1);
   assert.ok(Math.abs(values[middle] - 0.02) < 1e-6 && pixels[middle] !== 0);
   const [first] = [pixels.subarray((height >> 1) * width).findIndex((pixel) => pixel !== 0)];

@@ -202,19 +202,6 @@ export class Analyses {
   }
 
   /**
-   * A photo of an example's true surface with a page of text printed on it, seen from above.
-   * @param {Input & { truth: Float64Array }} input
-   */
-  printedPhoto(input) {
-    return this.#cached(input.truth, 'print', async (worker) => {
-      const { width, height, pixelSize, heightScale, truth } = input;
-      const { triangles, positions, places } = await worker.unroll({ ...heightsAlone(input), data: truth });
-      const known = { width, height, pixelSize, heightScale, truth };
-      return transferToWorker('photographExample', [triangles, positions, places], known, { triangles, positions, places });
-    });
-  }
-
-  /**
    * The photo made flat by the surface, or by a cylinder if the heights are those of one.
    * @param {Result} result
    * @param {Photo} photo

@@ -94,8 +94,8 @@ pageTest('settings stand in the address, Back undoes them, and a file is there a
   assert.equal(parsed(await reported(page, 'λ')), 1e7);
   await page.getByRole('button', { name: /^Gallery/ }).click();
   assert.equal(await page.locator('.card').count(), CARDS.length);
-  // The first two show what people come for: a page before and after, and sheets to cut, beside each other on white.
-  for (const title of ['A curled page made flat', 'A canopy to cut from card']) {
+  // The first shows what people come for: a surface and sheets to cut, beside each other on white.
+  for (const title of ['A canopy to cut from card']) {
     const picture = page.locator('.card').filter({ hasText: title }).locator('canvas');
     await page.waitForFunction((canvas) => /** @type {HTMLCanvasElement} */ (canvas).width === 224, await picture.elementHandle());
     const [left, right] = await picture.evaluate((canvas) => {

@@ -16,7 +16,7 @@ import { bench, bust, canopy, cathedral, crumpledNote, fandisk, hall, occludedWa
  * @property {{ name: ExampleName, size: number, noise: number }} [example] example of the package
  * @property {(size: number) => Input} [input] generates the input, by the pixels along its side
  * @property {(size: number) => Input} [sketch] surface that the picture shows in place of an input that consists of curves only
- * @property {'photo' | 'sheets'} [shows] what the picture shows in place of the resulting surface
+ * @property {boolean} [showsSheets] whether the picture shows sheets beside the resulting surface
  * @property {number} size pixels along the side of the input
  * @property {Partial<Settings>} settings settings that differ from the defaults
  * @property {string} view
@@ -32,16 +32,10 @@ const PAPER_SETTINGS = /** @type {const} */ ({ lambda: 1e6, energy: 'nuclear' })
 /** All cards, in the order of the gallery. @type {readonly Card[]} */
 export const CARDS = [
   {
-    id: 'dewarp', title: 'A curled page made flat',
-    words: 'A phone has taken a photo of a curled page, and measured its shape. The shape makes the photo flat.',
-    look: 'Bent lines become straight, and letters get their printed width.',
-    example: { name: 'page', size: 300, noise: 0.02 }, shows: 'photo', size: 300, settings: {}, view: 'dewarped',
-  },
-  {
     id: 'canopy', title: 'A canopy to cut from card',
     words: 'You fix the edges of a canopy on four masts. The page fills in a surface that bends like paper, and cuts it into sheets.',
     look: 'Press “Make cut-out sheets” below, then print, cut and fold.',
-    input: (size) => designOf('canopy', canopy, size, (x, y) => Math.max(Math.abs(x), Math.abs(y)) > 0.5 - 1.1 / size || Math.hypot(x, y) < 0.8 / size), sketch: (size) => sampledInput('canopy', canopy, size), shows: 'sheets', size: 100, settings: PAPER_SETTINGS, view: 'sheet',
+    input: (size) => designOf('canopy', canopy, size, (x, y) => Math.max(Math.abs(x), Math.abs(y)) > 0.5 - 1.1 / size || Math.hypot(x, y) < 0.8 / size), sketch: (size) => sampledInput('canopy', canopy, size), showsSheets: true, size: 100, settings: PAPER_SETTINGS, view: 'sheet',
   },
   {
     id: 'auto', title: 'A noisy house, cleaned by itself',

@@ -4,8 +4,6 @@ import { make } from '../dom.js';
 import { drawingImage } from '../pattern.js';
 import { heightsOf } from '../session.js';
 import { drawPair, drawHalves, drawThumbnail } from '../surface/thumbnail.js';
-import { transferToWorker } from '../surface/worker-client.js';
-import { canvasFromImage } from '../surface/layer.js';
 
 /** @import {Api, Surface} from '../api.js' */
 /** @import {Card} from './cards.js' */
@@ -51,31 +49,16 @@ export async function drawPicture(api, defaults, card, canvas) {
   await enqueue(api, async (worker) => {
     const { coarsening: _coarsening, ...options } = settingsFor(input, { ...defaults, ...card.settings, gap: PICTURE_GAP });
     const surface = await worker.fit(heightsOf(input), options);
-    if (card.shows === 'photo') return drawPhotos(canvas, worker, input, surface);
     const { image } = surface;
     if (!image) return;
     const [before, after] = [make('canvas', ''), make('canvas', '')];
     drawThumbnail(after, image, 1 / image.pixelSize);
-    if (card.shows === 'sheets') return drawPair(canvas, after, await sheetsImage(worker, surface, image));
+    if (card.showsSheets) return drawPair(canvas, after, await sheetsImage(worker, surface, image));
     // The input of a design is not a surface, so the picture shows the result alone.
     if (input.design) return drawThumbnail(canvas, image, 1 / image.pixelSize);
     drawThumbnail(before, input, input.heightScale / input.pixelSize);
     drawHalves(canvas, before, after);
   }).catch(() => {});
-}
-
-/**
- * A print on the true surface, and the same made flat.
- * @param {HTMLCanvasElement} canvas
- * @param {Worker} worker
- * @param {Input} input
- * @param {Surface} surface
- */
-async function drawPhotos(canvas, worker, { width, height, pixelSize, heightScale, truth = new Float64Array() }, surface) {
-  const { triangles, positions, places } = await worker.unroll({ width, height, pixelSize, heightScale, data: truth });
-  const photo = await transferToWorker('photographExample', [triangles, positions, places], { width, height, pixelSize, heightScale, truth }, { triangles, positions, places });
-  const flat = await worker.dewarp(surface, photo, { map: false });
-  drawPair(canvas, canvasFromImage(photo), canvasFromImage(new ImageData(flat.data, flat.width)));
 }
 
 /** An image of the sheets that are cut from a surface. @param {Worker} worker @param {Surface} surface @param {{ width: number, height: number, pixelSize: number }} image of the surface */

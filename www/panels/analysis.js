@@ -109,7 +109,7 @@ export function analysisPanel(session, analyses, show) {
     display({ about: [make('p', 'muted', 'Cancelled.'), again] });
     again.focus();
   });
-  const photo = photoPanel(session, analyses, () => void update());
+  const photo = photoPanel(session, () => void update());
   /** Cancels the analyses of the last result or view, and prepares the present one. */
   const restart = () => {
     analyses.stop();

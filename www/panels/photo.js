@@ -1,4 +1,4 @@
-/** Dewarping of a photo of the surface: opens the photo, or prints one on an example, and saves the flat one. */
+/** Dewarping of a photo of the surface: opens the photo, and saves the flat one. */
 import { fileReadTask } from '../worker-task.js';
 import { onFileChosen, element } from '../dom.js';
 import { FORMAT_WORDS } from '../messages.js';
@@ -8,7 +8,6 @@ import { openSampledMesh, samplingTask } from '../mesh-sampling.js';
 import { cropPanel } from './crop.js';
 import { offerToSave } from './save-dialog.js';
 
-/** @import {Analyses} from '../analyses.js' */
 /** @import {Result, Session} from '../session.js' */
 /** @typedef {import('../../pkg/types.js').Dewarped} Dewarped */
 
@@ -17,10 +16,9 @@ import { offerToSave } from './save-dialog.js';
 
 /**
  * @param {Session} session
- * @param {Analyses} analyses
  * @param {() => void} onChange called when another photo, or other options, are to be shown
  */
-export function photoPanel(session, analyses, onChange) {
+export function photoPanel(session, onChange) {
   const panel = element('photo', HTMLElement);
   const file = element('photo-file', HTMLInputElement);
   const open = element('photo-open', HTMLButtonElement);
@@ -114,7 +112,7 @@ export function photoPanel(session, analyses, onChange) {
       if (!visible) crop.show(null);
     },
     /**
-     * The photo to dewarp, with its options: the opened one, else the texture of the scan, else a page printed on the true surface.
+     * The photo to dewarp, with its options: the opened one, else the texture of the scan.
      * @param {Result} result
      * @returns {Promise<DewarpRequest | null>}
      */
@@ -124,13 +122,6 @@ export function photoPanel(session, analyses, onChange) {
         if (session.input === input && !photo) {
           photo = new ImageData(data, width);
           name.textContent = 'the scan’s own texture';
-        }
-      }
-      if (!photo && input.truth) {
-        const printed = await analyses.printedPhoto({ ...input, truth: input.truth });
-        if (session.input === input && !photo) {
-          photo = printed;
-          name.textContent = 'a page printed on the true surface';
         }
       }
       crop.show(photo);

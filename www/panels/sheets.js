@@ -72,7 +72,7 @@ export function offerSheets(api, { stem, size, note = '', length, unit, up, cut,
   ];
   const [toCut, toJoin] = [0, 1].map(() => Object.assign(make('input', ''), { type: 'text', placeholder: SHEET_WORDS.pairs }));
   // Only flat faces can be cut apart anywhere: nothing of them is stretched.
-  const edges = make('div', '', make('p', 'muted small', SHEET_WORDS.edges), make('label', 'field', SHEET_WORDS.toCut, toCut), make('label', 'field', SHEET_WORDS.toJoin, toJoin));
+  const edges = make('div', 'sheets-options edges', make('p', 'muted small', SHEET_WORDS.edges), make('label', 'field', SHEET_WORDS.toCut, toCut), make('label', 'field', SHEET_WORDS.toJoin, toJoin));
   edges.hidden = true;
   /** @returns {CutOptions} */
   const cutOptions = () => ({

@@ -71,7 +71,7 @@ pageTest('everything can be done by keyboard', async (page) => {
   await settled(page);
   assert.equal(await page.evaluate(() => document.activeElement?.id), 'run', 'the focus goes to what solves it again');
   await runBy(page, () => page.keyboard.press('Enter'));
-}, { start: '#example=roof', unfolded: '', drawn: true });
+}, { start: '#example=roof&size=200&noise=0.02', unfolded: '', drawn: true });
 
 pageTest('what has the focus can be seen to have it', async (page) => {
   for (const selector of ['#space-canvas', '#end-file', '#size', '#open', '#lambda', 'summary']) {

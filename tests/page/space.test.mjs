@@ -2,7 +2,7 @@
 import assert from 'node:assert/strict';
 import { parsed } from './support/numbers.mjs';
 import { parsePng } from './support/photos.mjs';
-import { choose, pageTest, painted, runBy } from './support/page.mjs';
+import { choose, pageTest, painted } from './support/page.mjs';
 
 /** @typedef {import('playwright-core').Page} Page */
 
@@ -42,8 +42,6 @@ function correlation(a, b) {
 }
 
 pageTest('in space the surface is turned, lit and divided', async (page) => {
-  await runBy(page, () => page.locator('#size').selectOption('100'));
-  await runBy(page, () => page.locator('#noise').selectOption('0'));
   const divider = page.getByRole('slider', { name: 'Divider between input and result' });
 
   await page.getByRole('button', { name: 'From above' }).click();
@@ -89,7 +87,7 @@ pageTest('in space the surface is turned, lit and divided', async (page) => {
   await divider.press('End');
   for (let i = 0; i < 10; i++) await divider.press('ArrowLeft');
   assert.match(await divider.getAttribute('aria-valuetext') ?? '', /^input on 50 %/);
-}, { drawn: true, start: '#example=roof' });
+}, { drawn: true, start: '#example=roof&size=100&noise=0' });
 
 pageTest('without WebGL that is said, and the rest works', async (page) => {
   assert.match(await page.locator('#space-missing').innerText(), /no WebGL/);
@@ -101,8 +99,6 @@ pageTest('without WebGL that is said, and the rest works', async (page) => {
 
 pageTest('an answer that takes long can be done without, and asked for again; then it unfolds', async (page) => {
   await page.emulateMedia({ reducedMotion: 'reduce' });
-  await runBy(page, () => page.locator('#size').selectOption('200'));
-  await runBy(page, () => page.locator('input[name="example"][value="cylinder"]').check());
   // In one go, for the answer may be there in a moment.
   const cancelled = await page.evaluate(() => {
     const radio = /** @type {HTMLInputElement} */ (document.querySelector('input[name="view"][value="sheet"]'));
@@ -136,4 +132,4 @@ pageTest('an answer that takes long can be done without, and asked for again; th
   assert.equal((await page.locator('#flat-reading').innerText()).trim(), '', 'nothing beside it');
   await choose(page.getByRole('radio', { name: 'Shaded', exact: true }));
   assert.equal(await page.locator('#unfold-field').isVisible(), false);
-}, { drawn: true, start: '#example=roof' });
+}, { drawn: true, start: '#example=cylinder&size=200&noise=0.02' });

@@ -58,6 +58,8 @@ export function spacePanel(session) {
   let marks = [];
   /** Input and result. @type {[Relief | null, Relief | null]} */
   const reliefs = [null, null];
+  /** Whether the result is a preview: the layers belong to the last result. */
+  let isPreview = false;
   /** @type {Box} */
   let box = { low: [0, 0, 0], high: [1, 1, 0] };
 
@@ -122,7 +124,7 @@ export function spacePanel(session) {
   /** Draws layers, marks and the trail over the surfaces, and the divider between them. */
   const updateLayers = () => {
     const { input } = session;
-    [shown.input, shown.result].forEach((layer, i) => {
+    [shown.input, isPreview ? undefined : shown.result].forEach((layer, i) => {
       const side = /** @type {0 | 1} */ (i);
       if (side === 1 && shown.unfolding) return;
       const points = input && (side === 0 || input.design) ? markPoints(marks, input) : [];
@@ -186,7 +188,7 @@ export function spacePanel(session) {
 
   session.on('input', (input) => {
     const isDragged = input.designShape !== undefined && session.phase === 'running';
-    reliefs[0] = reliefOf(input, input.lattice ? { ...gridOf(input), data: input.data } : input, input.heightScale);
+    reliefs[0] = reliefOf(input, input, input.heightScale);
     if (!isCreated) void createView();
     // While a design is dragged, the camera stays.
     else if (isDragged) updateSurfaces([0]);
@@ -194,11 +196,13 @@ export function spacePanel(session) {
   });
   session.on('preview', ({ input, image }) => {
     reliefs[1] = reliefOf(input, image, 1);
+    isPreview = true;
     updateSurfaces([1]);
   });
   /** @param {Result | null} result */
   const showResult = (result) => {
     reliefs[1] = result && reliefOf(result.input, resultImage(result), 1);
+    isPreview = false;
     updateSurfaces([1]);
   };
   session.on('cleared', () => {

@@ -55,7 +55,8 @@ pageTest('a design passes through what is marked', async (page) => {
 doorTest('a file can be a design', async (page) => {
   const pins = new Map([3 * WIDTH + 4, 5 * WIDTH + 40, 30 * WIDTH + 20].map((i) => [i, plane[i]]));
   await open(page, 'pins.npy', npy(WIDTH, plane.map((_, i) => pins.get(i) ?? 0)));
-  await page.getByLabel('0 means no data').check();
+  await page.getByLabel('Number that means no data').fill('0');
+  await page.getByLabel('Number that means no data').press('Tab');
   await page.getByLabel('Pass through these').check();
   await page.locator('#input-legend', { hasText: 'held at 3 pixels' }).waitFor();
   await run(page);
@@ -117,10 +118,10 @@ doorTest('reading what is known besides can be done without', async (page) => {
     };
   });
   for (const [button, name] of [['Confidence image', 'confidence'], ['Constraint image', 'constraints']]) {
-    await choose(page, button, 'known.npy', npy(WIDTH, plane.map(() => 1)));
+    await choose(page, button, 'known.exr', npy(WIDTH, plane.map(() => 1)));
     const opening = page.getByRole('group', { name: 'Opening a file' });
     await opening.getByText('Reading the file').waitFor();
-    // How long it takes is not known of the first one.
+    // How long it takes is not known of a kind that was not read before.
     assert.equal(await opening.locator('progress:indeterminate').count(), 1);
     await opening.getByRole('button', { name: 'Cancel' }).click();
     assert.equal(await opening.isVisible(), false);

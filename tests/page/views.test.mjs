@@ -331,7 +331,7 @@ doorTest('a photo of what is flat is called that, seen from closer and saved; wh
 
   await page.locator('#flat-save').click();
   const png = await saveAs(page, 'PNG');
-  assert.equal(png.name, 'page-flat.png');
+  assert.equal(png.name, 'table-flat.png');
   assert.deepEqual([png.bytes.readUInt32BE(16), png.bytes.readUInt32BE(20)], [width, height]);
   await page.locator('#flat-save').click();
   const map = await saveAs(page, 'Warp map');

@@ -711,10 +711,12 @@ export interface MeshAnalysis {
 /**
  * What a mesh is, of what a fit gains.
  * - `'faces'`: Its faces are exact, as in CAD and low-poly models, and are moved into the plane as they are.
+ * - `'noisyFaces'`: Its vertices have noise about flat faces, as in scans of roofs and boxes; the faces are laid flat
+ *   without it.
  * - `'surface'`: Its vertices have no noise, so that a fit gains nothing, but its bends are triangulated irregularly.
  * - `'noisy'`: Its vertices have noise.
  */
-export type MeshKind = 'faces' | 'surface' | 'noisy';
+export type MeshKind = 'faces' | 'noisyFaces' | 'surface' | 'noisy';
 
 /** Figures of one pass of a mesh's fit: a linearisation of the energy, and the solve of its convex problem. */
 export interface MeshPass {
@@ -1155,6 +1157,10 @@ export interface RecognizedMesh {
   kind: MeshKind;
   /** Thickness of a solid of sheet metal, in the mesh's unit. */
   thickness?: number;
+  /** Number of the flat faces of a mesh with noise. */
+  faces?: number;
+  /** Standard deviation of the vertices from these faces, in the mesh's unit. */
+  noise?: number;
 }
 
 /** A traced ruling: a nearly straight line in a surface. */

@@ -35,12 +35,14 @@ export async function whole(task, signal) {
  * @param {Mesh} mesh
  */
 async function isExact({ input, asIs, blank }, mesh) {
-  const { kind, thickness } = await developable.recognizeMesh(mesh);
+  const { kind, thickness, faces, noise = 0 } = await developable.recognizeMesh(mesh);
   if (thickness !== undefined && !blank) {
     say(`${input} looks like sheet metal, ${Number(thickness.toPrecision(4))} thick in the file's unit: --blank draws what it is bent from`);
   }
   if (kind === 'noisy') return false;
-  if (!asIs) say(`${input} is taken as it is: its ${kind === 'faces' ? 'faces are exact' : 'vertices have no noise'}`);
+  if (kind === 'noisyFaces') {
+    say(`${input} has ${faces} flat faces, from which its vertices differ by ${Number(noise.toPrecision(2))} in the file's unit: they are laid flat without that`);
+  } else if (!asIs) say(`${input} is taken as it is: its ${kind === 'faces' ? 'faces are exact' : 'vertices have no noise'}`);
   return true;
 }
 

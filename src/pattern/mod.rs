@@ -55,7 +55,8 @@ mod trim;
 mod window;
 
 pub use exact::{
-    NetOptions, SheetMetal, has_exact_faces, has_exact_vertices, pattern_exact, sheet_metal,
+    FoundFaces, NetOptions, SheetMetal, has_exact_faces, has_exact_vertices, noisy_faces,
+    pattern_exact, sheet_metal,
 };
 pub use faces::Faces;
 pub use heightfield::pattern;

@@ -46,6 +46,7 @@ mod page;
 mod parts;
 mod patches;
 mod pattern;
+mod polyhedra;
 mod rank;
 mod recovery;
 mod registration;

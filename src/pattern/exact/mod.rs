@@ -7,7 +7,10 @@
 mod bends;
 mod metal;
 mod net;
+mod noisy;
 mod patches;
+mod planes;
+mod polygon;
 mod polyhedron;
 mod recognition;
 mod search;
@@ -18,6 +21,7 @@ use crate::error::{Error, Result};
 use crate::scene::mesh::Mesh;
 pub use metal::{SheetMetal, sheet_metal};
 use net::{EdgeChoices, Net};
+pub use noisy::noisy_faces;
 use patches::FlatPatches;
 use polyhedron::Polyhedron;
 pub use recognition::{has_exact_faces, has_exact_vertices};
@@ -44,13 +48,35 @@ pub struct NetOptions {
 /// [`Error::Unsupported`](crate::Error::Unsupported) if the triangles have no area, for a pair of patches without a common
 /// edge, and for edges that cannot all be folds.
 pub fn pattern_exact(mesh: &Mesh, options: &NetOptions) -> Result<MeshPattern> {
-    let solid = Polyhedron::new(mesh)?;
+    pattern_of(&Polyhedron::new(mesh)?, options)
+}
+
+/// Faces that were found in a mesh whose triangles are none.
+pub struct FoundFaces {
+    /// Number of faces.
+    pub count: usize,
+    /// Standard deviation of the mesh's vertices from the faces, in the mesh's unit.
+    pub noise: f64,
+    solid: Polyhedron,
+}
+
+impl FoundFaces {
+    /// Lays the faces flat, as [`pattern_exact`] does.
+    ///
+    /// # Errors
+    /// Those of `pattern_exact`.
+    pub fn pattern(&self, options: &NetOptions) -> Result<MeshPattern> {
+        pattern_of(&self.solid, options)
+    }
+}
+
+fn pattern_of(solid: &Polyhedron, options: &NetOptions) -> Result<MeshPattern> {
     let mut choices = EdgeChoices::default();
     if !(options.cut.is_empty() && options.join.is_empty()) {
-        let net = Net::new(&solid, options.room, EdgeChoices::default())?;
-        let patches = FlatPatches::new(&solid, &net)?;
-        choices.cut = patches.facets_between(&solid, &options.cut)?;
-        choices.join = patches.facets_between(&solid, &options.join)?;
+        let net = Net::new(solid, options.room, EdgeChoices::default())?;
+        let patches = FlatPatches::new(solid, &net)?;
+        choices.cut = patches.facets_between(solid, &options.cut)?;
+        choices.join = patches.facets_between(solid, &options.join)?;
         if choices.join.iter().any(|pair| choices.cut.contains(pair)) {
             return Err(Error::Unsupported {
                 format: "pattern",
@@ -60,7 +86,7 @@ pub fn pattern_exact(mesh: &Mesh, options: &NetOptions) -> Result<MeshPattern> {
             });
         }
     }
-    let net = Net::new(&solid, options.room, choices)?;
-    let patches = FlatPatches::new(&solid, &net)?;
-    sheets::draw(&solid, &net, &patches)
+    let net = Net::new(solid, options.room, choices)?;
+    let patches = FlatPatches::new(solid, &net)?;
+    sheets::draw(solid, &net, &patches)
 }

@@ -7,8 +7,8 @@ use rustc_hash::FxHashMap;
 
 use crate::error::{Error, Result};
 use crate::math::index::NO_INDEX;
-use crate::math::planar::Point2;
-use crate::scene::half_edges::half_edge_ends;
+use crate::math::planar::{Point2, polygon_area};
+use crate::scene::half_edges::{half_edge_ends, twin_half_edges};
 use crate::scene::mesh::Mesh;
 
 pub(super) type Place = Vector3<f64>;
@@ -36,6 +36,26 @@ pub(super) struct Polyhedron {
     pub flat: Vec<[Point2; 3]>,
     /// Distance below which points are one.
     pub rounding: f64,
+}
+
+/// Triangles of faces that are known, as of a mesh with noise, or rolled.
+#[derive(Default)]
+pub(super) struct KnownFaces {
+    pub triangles: Vec<[u32; 3]>,
+    /// Number of the face of each triangle.
+    pub of: Vec<u32>,
+    /// Corners of each triangle in the plane of its face, anticlockwise seen from the side that the normal points to.
+    pub flat: Vec<[Point2; 3]>,
+    /// Unit normal of each face, of a rolled one in its middle.
+    pub normals: Vec<Place>,
+}
+
+impl KnownFaces {
+    pub(super) fn push(&mut self, triangle: [u32; 3], face: u32, flat: [Point2; 3]) {
+        self.triangles.push(triangle);
+        self.of.push(face);
+        self.flat.push(flat);
+    }
 }
 
 impl Polyhedron {
@@ -69,6 +89,50 @@ impl Polyhedron {
                 reason: "the triangles of the mesh have no area".into(),
             }),
         }
+    }
+
+    /// Takes triangles whose faces are known and face one side; neighbouring triangles of one face are a facet. Points within
+    /// `rounding` are one.
+    pub(super) fn from_faces(places: Vec<Place>, faces: KnownFaces, rounding: f64) -> Polyhedron {
+        let KnownFaces {
+            triangles,
+            of,
+            flat,
+            normals,
+        } = faces;
+        let mut solid = Polyhedron {
+            twins: twin_half_edges(&triangles),
+            facets: vec![NO_INDEX; triangles.len()],
+            normals: Vec::new(),
+            areas: Vec::new(),
+            flat,
+            places,
+            triangles,
+            rounding,
+        };
+        for seed in 0..of.len() {
+            if solid.facets[seed] != NO_INDEX {
+                continue;
+            }
+            let number = solid.normals.len() as u32;
+            let (mut members, mut next) = (vec![seed], 0);
+            solid.facets[seed] = number;
+            while let Some(t) = members.get(next).copied() {
+                next += 1;
+                for twin in &solid.twins[3 * t..3 * t + 3] {
+                    let other = *twin as usize / 3;
+                    if *twin != NO_INDEX && of[other] == of[seed] && solid.facets[other] == NO_INDEX
+                    {
+                        solid.facets[other] = number;
+                        members.push(other);
+                    }
+                }
+            }
+            let areas = members.iter().map(|t| polygon_area(&solid.flat[*t]));
+            solid.areas.push(areas.sum());
+            solid.normals.push(normals[of[seed] as usize]);
+        }
+        solid
     }
 
     pub(super) fn corners(&self, triangle: usize) -> [Place; 3] {

@@ -14,8 +14,8 @@ use developable::files::assembly::{write_animation, write_assembly_svg};
 use developable::files::drawings::{PdfOptions, write_dxf, write_pdf, write_svg};
 use developable::patches::{Crease, MeshPatches, Patch, PatchOptions, Patches};
 use developable::pattern::{
-    MeshPattern, Missing, NetOptions, PatternOptions, Sheet, has_exact_faces, has_exact_vertices,
-    pattern, pattern_exact, pattern_mesh, sheet_metal,
+    FoundFaces, MeshPattern, Missing, NetOptions, PatternOptions, Sheet, has_exact_faces,
+    has_exact_vertices, noisy_faces, pattern, pattern_exact, pattern_mesh, sheet_metal,
 };
 use developable::unroll::UnrollOptions;
 use developable_wasm::mesh::MeshInput;
@@ -221,20 +221,46 @@ pub fn draw_pattern_of_mesh(mesh: JsValue, options: JsValue) -> Result<JsValue> 
         wanted.set_thickness(metal.thickness * wanted.drawing.scale);
         mesh = metal.skin;
     }
-    let found = match wanted.own.exact.unwrap_or_else(|| has_exact_faces(&mesh)) {
-        true => pattern_exact(&mesh, &wanted.net_options())?,
-        false if !(wanted.own.cut.is_empty() && wanted.own.join.is_empty()) => {
+    let kind = match wanted.own.exact {
+        Some(true) => MeshKind::Faces,
+        Some(false) => MeshKind::Noisy,
+        None => MeshKind::of(&mesh)?,
+    };
+    let found = match kind {
+        MeshKind::Faces => pattern_exact(&mesh, &wanted.net_options())?,
+        MeshKind::NoisyFaces(faces) => faces.pattern(&wanted.net_options())?,
+        _ if !(wanted.own.cut.is_empty() && wanted.own.join.is_empty()) => {
             return Err(Failure::option(
-                "options `cut` and `join` are for meshes with exact faces",
+                "options `cut` and `join` are for meshes with flat faces",
             ));
         }
-        false => sheets_of(&mesh, &wanted)?.1,
+        _ => sheets_of(&mesh, &wanted)?.1,
     };
     wanted.draw(&found.sheets, &found.missing)
 }
 
+/// What a mesh is, with what was found out about it.
+enum MeshKind {
+    Faces,
+    NoisyFaces(FoundFaces),
+    Surface,
+    Noisy,
+}
+
+impl MeshKind {
+    fn of(mesh: &Mesh) -> Result<MeshKind> {
+        Ok(if has_exact_faces(mesh) {
+            MeshKind::Faces
+        } else if has_exact_vertices(mesh) {
+            MeshKind::Surface
+        } else {
+            noisy_faces(mesh)?.map_or(MeshKind::Noisy, MeshKind::NoisyFaces)
+        })
+    }
+}
+
 /// What a mesh is.
-#[derive(Serialize)]
+#[derive(Serialize, Default)]
 #[serde(rename = "RecognizedMesh")]
 struct RecognizedOutput {
     /// Whether a fit gains anything, and how the mesh is laid flat without one.
@@ -242,17 +268,26 @@ struct RecognizedOutput {
     /// Thickness of a solid of sheet metal, in the mesh's unit.
     #[serde(skip_serializing_if = "Option::is_none")]
     thickness: Option<f64>,
+    /// Number of the flat faces of a mesh with noise.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    faces: Option<usize>,
+    /// Standard deviation of the vertices from these faces, in the mesh's unit.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    noise: Option<f64>,
 }
 
 /// What a mesh is, of what a fit gains.
-#[derive(Serialize, Clone, Copy, PartialEq)]
-#[serde(rename = "MeshKind", rename_all = "lowercase")]
+#[derive(Serialize, Clone, Copy, Default)]
+#[serde(rename = "MeshKind", rename_all = "camelCase")]
 enum RecognizedKind {
     /// Its faces are exact, as in CAD and low-poly models, and are moved into the plane as they are.
     Faces,
+    /// Its vertices have noise about flat faces, as in scans of roofs and boxes; the faces are laid flat without it.
+    NoisyFaces,
     /// Its vertices have no noise, so that a fit gains nothing, but its bends are triangulated irregularly.
     Surface,
     /// Its vertices have noise.
+    #[default]
     Noisy,
 }
 
@@ -260,19 +295,20 @@ enum RecognizedKind {
 #[wasm_bindgen(js_name = recognizeMesh)]
 pub fn recognize_mesh(mesh: JsValue) -> Result<JsValue> {
     let mesh = from_value::<MeshInput>(mesh)?.into_mesh()?;
-    let kind = match (has_exact_faces(&mesh), has_exact_vertices(&mesh)) {
-        (true, _) => RecognizedKind::Faces,
-        (false, true) => RecognizedKind::Surface,
-        (false, false) => RecognizedKind::Noisy,
-    };
-    let metal = match kind {
-        RecognizedKind::Faces => sheet_metal(&mesh)?,
-        _ => None,
-    };
-    Ok(to_value(&RecognizedOutput {
-        kind,
-        thickness: metal.map(|metal| metal.thickness),
-    })?)
+    let mut found = RecognizedOutput::default();
+    match MeshKind::of(&mesh)? {
+        MeshKind::Faces => {
+            found.kind = RecognizedKind::Faces;
+            found.thickness = sheet_metal(&mesh)?.map(|metal| metal.thickness);
+        }
+        MeshKind::NoisyFaces(faces) => {
+            found.kind = RecognizedKind::NoisyFaces;
+            (found.faces, found.noise) = (Some(faces.count), Some(faces.noise));
+        }
+        MeshKind::Surface => found.kind = RecognizedKind::Surface,
+        MeshKind::Noisy => {}
+    }
+    Ok(to_value(&found)?)
 }
 
 /// Sheets of a mesh laid flat, one to the right of the other, seen from the side that the triangles face. They have more vertices than the mesh, since it is cut.

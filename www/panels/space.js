@@ -104,7 +104,7 @@ export function spacePanel(session) {
   const updateSurfaces = (sides) => {
     for (const side of sides) {
       const relief = reliefs[side];
-      if (!(side === 1 && shown.unfolding)) view?.setSurface(side, relief && reliefMesh(relief));
+      if (!(side === 1 && shown.unfolding)) view?.setSurface(side, relief && reliefMesh(relief, view.isFast));
     }
     updateUnfolding();
     updateLayers();

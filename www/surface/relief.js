@@ -18,8 +18,9 @@ import { extentOf } from './triangles.js';
  * @property {{ left: number, top: number, width: number, height: number }} extent in the unit of length
  */
 
-/** Maximum number of vertices along a side of a drawn surface: about the pixels of a screen. */
+/** Maximum number of vertices along a side of a drawn surface: about the pixels of a screen, and fewer without a graphics card. */
 const MAX_SIDE_VERTICES = 512;
+const MAX_SLOW_SIDE_VERTICES = 200;
 /** Quantile of the heights at the top of the box; the bottom is at the opposite quantile. */
 const BOX_HEIGHT_SHARE = 0.998;
 /** Side of a mark on the surface, in CSS pixels. */
@@ -66,9 +67,9 @@ export function heightAt({ width, height, heights, heightScale, extent }, x, y) 
   return heights[row * width + col] * heightScale;
 }
 
-/** The mesh of heights: every `step`-th pixel if there are too many. @param {Relief} relief @returns {Surface} */
-export function reliefMesh({ width, height, heights, heightScale, extent }) {
-  const step = Math.ceil(Math.max(width, height) / MAX_SIDE_VERTICES);
+/** The mesh of heights: every `step`-th pixel if there are too many. @param {Relief} relief @param {boolean} [isFast] whether there is a graphics card @returns {Surface} */
+export function reliefMesh({ width, height, heights, heightScale, extent }, isFast = true) {
+  const step = Math.ceil(Math.max(width, height) / (isFast ? MAX_SIDE_VERTICES : MAX_SLOW_SIDE_VERTICES));
   const [cols, rows] = [Math.ceil(width / step), Math.ceil(height / step)];
   const positions = new Float64Array(3 * cols * rows);
   const uvs = new Float32Array(2 * cols * rows);

@@ -71,6 +71,7 @@ export class SceneView {
   /** Textures that hold the colour of each normal: of plain surfaces, and of those with colours of their own. @type {any[]} */
   #matcaps;
   #shownLight = '';
+  #shownSize = '';
   #divider = 1;
   /** Centre of the box, and the factor that makes its radius 1. */
   #frame = { middle: [0, 0, 0], scale: 1 };
@@ -94,11 +95,12 @@ export class SceneView {
    * @throws without WebGL 2
    */
   static async create(canvas, options = {}) {
+    const isFast = hasGraphicsCard();
     // The buffer is kept, so that the picture can be saved.
-    const context = canvas.getContext('webgl2', { antialias: true, alpha: true, preserveDrawingBuffer: true });
+    const context = canvas.getContext('webgl2', { antialias: isFast, preserveDrawingBuffer: true });
     if (!context) throw new Error('this browser has no WebGL 2');
     const three = await import(new URL('../vendor/three.js', import.meta.url).href);
-    return new SceneView(canvas, context, three, options);
+    return new SceneView(canvas, context, three, options, isFast);
   }
 
   /**
@@ -106,9 +108,11 @@ export class SceneView {
    * @param {WebGL2RenderingContext} context
    * @param {any} three the library, which has no types
    * @param {SceneOptions} options
+   * @param {boolean} isFast whether there is a graphics card
    */
-  constructor(canvas, context, three, options) {
+  constructor(canvas, context, three, options, isFast) {
     this.canvas = canvas;
+    this.isFast = isFast;
     this.#three = three;
     this.#options = options;
     // Colours are those of the screen throughout.
@@ -468,7 +472,7 @@ export class SceneView {
   #shade() {
     const { isMetal = false } = this.#options;
     const tilt = isMetal ? this.tilt : 0;
-    const now = `${light.x} ${light.y} ${tilt}`;
+    const now = `${light.x} ${light.y} ${tilt.toFixed(3)}`;
     if (now === this.#shownLight) return;
     this.#shownLight = now;
     this.#matcaps.forEach((matcap, i) => {
@@ -481,8 +485,13 @@ export class SceneView {
   draw(ratio = this.#options.size ? 1 : window.devicePixelRatio) {
     const { width, height } = this.#size;
     if (width === 0) return;
-    this.#renderer.setPixelRatio(ratio);
-    this.#renderer.setSize(width, height, false);
+    // A canvas that is resized, even to its own size, is made anew.
+    const size = [width, height, ratio].join();
+    if (size !== this.#shownSize) {
+      this.#shownSize = size;
+      this.#renderer.setPixelRatio(ratio);
+      this.#renderer.setSize(width, height, false);
+    }
     this.#prepareCamera();
     this.#shade();
     const offset = this.#camera.getWorldDirection(new this.#three.Vector3()).multiplyScalar(-LINE_OFFSET);
@@ -505,6 +514,14 @@ export class SceneView {
     this.#renderer.dispose();
     this.#renderer.forceContextLoss();
   }
+}
+
+/** Whether WebGL is drawn by a graphics card, and not by the processor, for which surfaces are coarser and edges not smoothed. */
+function hasGraphicsCard() {
+  const probe = document.createElement('canvas').getContext('webgl2');
+  const name = String(probe?.getParameter(probe.getExtension('WEBGL_debug_renderer_info')?.UNMASKED_RENDERER_WEBGL ?? probe.RENDERER));
+  probe?.getExtension('WEBGL_lose_context')?.loseContext();
+  return !/swiftshader|llvmpipe|software|basic render/i.test(name);
 }
 
 /** The position of a vertex. @param {ArrayLike<number>} positions @param {number} vertex @returns {Vector} */

@@ -54,15 +54,15 @@ export const meshPatches = {
 /** Options of the segmentation of a surface into patches. @satisfies {Options} */
 export const patches = { ...meshPatches, ...resampling };
 
-/** Options of traced rulings. @satisfies {Options} */
-export const rulings = {
-  /** Distance between lines as seen from above, in the surface's unit of length. Default: ten lattice spacings. */
+/** Options of traced rulings of a mesh. @satisfies {Options} */
+export const meshRulings = {
+  /** Distance between lines in space, in the surface's unit of length. Default: ten times the mean length of an edge. */
   separation: {
     kind: number,
     flag: {
       section: 'shape',
       value: 'D',
-      help: 'distance between lines, as seen from above, with --surface in space (default: ten lattice spacings, or lengths of an edge)',
+      help: 'distance between lines in space (default: ten mean lengths of an edge)',
     },
   },
   /** Minimum confidence of a direction, from 0 to 1: a line ends where it is lower. */
@@ -86,16 +86,10 @@ export const rulings = {
       help: 'a line ends where the surface bends by more from one vertex to the next, in radians (default 0.2)',
     },
   },
-  ...resampling,
 };
 
-/** Options of traced rulings of a mesh. @satisfies {Options} */
-export const meshRulings = {
-  /** Distance between lines in space, in the mesh's unit of length. Default: ten times the mean length of an edge. */
-  separation: { kind: number, flag: rulings.separation.flag },
-  confidence: rulings.confidence,
-  crease: rulings.crease,
-};
+/** Options of traced rulings. @satisfies {Options} */
+export const rulings = { ...meshRulings, ...resampling };
 
 /** Options of laying a mesh flat. @satisfies {Options} */
 export const meshUnrolling = {

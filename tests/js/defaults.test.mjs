@@ -187,8 +187,8 @@ const calls = {
   example: (options) => direct.example('cone', options),
 };
 
-/** What follows from the input: the lattice is as fine as the pixels, and the rulings are ten of their lengths apart. */
-const found = { spacing: 1, resolution: 200, separation: 10 };
+/** What follows from the input: the lattice is as fine as the pixels. */
+const found = { spacing: 1, resolution: 200 };
 
 for (const [name, call] of Object.entries(calls)) {
   /** @type {Options} */

@@ -2,7 +2,7 @@
 
 use crate::common::{noisy, unit_square};
 use developable::rulings::{Rulings, TraceOptions};
-use developable::{Heightfield, Lambda, Options, fit};
+use developable::{Frame, Heightfield, Lambda, Options, Triangulation, fit};
 
 fn tube(x: f64, y: f64) -> f64 {
     let (sin, cos) = 25f64.to_radians().sin_cos();
@@ -25,18 +25,29 @@ fn cone_ruling(x: f64, y: f64) -> [f64; 2] {
     [(x - 0.5) / r, (y + 0.2) / r]
 }
 
+fn rulings(surface: &Heightfield) -> Rulings {
+    let mesh = Triangulation::new(surface, &Frame::default()).unwrap();
+    Rulings::new(mesh.mesh()).unwrap()
+}
+
+/// Directions seen from above, and their confidence.
+fn directions(surface: &Heightfield) -> (Vec<[f64; 2]>, Vec<f64>) {
+    let mesh = Triangulation::new(surface, &Frame::default()).unwrap();
+    rulings(surface).on_lattice(&mesh).unwrap()
+}
+
 /// Largest angle to the true rulings, in degrees, at least `away` from the border.
 fn error(surface: &Heightfield, ruling: fn(f64, f64) -> [f64; 2], away: f64) -> f64 {
-    let rulings = Rulings::new(surface).unwrap();
+    let (directions, confidence) = directions(surface);
     let lattice = surface.lattice();
     let mut worst = 0.0f64;
     for i in 0..lattice.len() {
         let [x, y] = lattice.position(i / lattice.cols(), i % lattice.cols());
         let inside = |v: f64| (away..=1.0 - away).contains(&v);
         if inside(x) && inside(y) {
-            let ([a, b], [c, d]) = (rulings.directions()[i], ruling(x, y));
+            let ([a, b], [c, d]) = (directions[i], ruling(x, y));
             worst = worst.max((a * d - b * c).abs().asin().to_degrees());
-            assert!(rulings.confidence()[i] > 0.5, "{x} {y}");
+            assert!(confidence[i] > 0.5, "{x} {y}");
         }
     }
     worst
@@ -59,21 +70,6 @@ fn right_to_one_degree_on_a_cylinder_and_a_cone() {
 }
 
 #[test]
-fn lifted_rulings_lie_in_the_surface() {
-    let surface = unit_square(60, cone);
-    let rulings = Rulings::new(&surface).unwrap();
-    let lattice = surface.lattice();
-    let [x, y] = lattice.position(30, 20);
-    let [a, b, c] = rulings.lifted(30, 20).unwrap();
-    // Straight down the cone's slope.
-    let [u, v] = cone_ruling(x, y);
-    let expected = [u, v, -0.8].map(|e| e / 1.64f64.sqrt());
-    let dot = a * expected[0] + b * expected[1] + c * expected[2];
-    assert!(dot.abs() > 0.9998, "{dot}");
-    assert!(rulings.lifted(0, 0).is_none(), "no neighbours there");
-}
-
-#[test]
 fn traced_lines_are_straight_and_evenly_spaced() {
     for (height, ruling) in [
         (
@@ -82,8 +78,7 @@ fn traced_lines_are_straight_and_evenly_spaced() {
         ),
         (cone, cone_ruling),
     ] {
-        let rulings = Rulings::new(&unit_square(100, height)).unwrap();
-        let lines = rulings
+        let lines = rulings(&unit_square(100, height))
             .trace(&TraceOptions::default().separation(0.08))
             .unwrap();
         assert!(lines.len() >= 8, "{}", lines.len());
@@ -99,7 +94,8 @@ fn traced_lines_are_straight_and_evenly_spaced() {
             for b in &lines[..i] {
                 for p in &a.points {
                     for q in &b.points {
-                        assert!((p[0] - q[0]).hypot(p[1] - q[1]) > 0.035);
+                        let apart = (p[0] - q[0]).hypot(p[1] - q[1]).hypot(p[2] - q[2]);
+                        assert!(apart > 0.035);
                     }
                 }
             }
@@ -113,10 +109,7 @@ fn lines_end_at_creases_and_planes_have_none() {
         let arch = |v: f64| (0.49 - (v - 0.5).powi(2)).sqrt();
         arch(x).max(arch(y))
     });
-    let lines = Rulings::new(&ridge)
-        .unwrap()
-        .trace(&TraceOptions::default())
-        .unwrap();
+    let lines = rulings(&ridge).trace(&TraceOptions::default()).unwrap();
     assert!(!lines.is_empty());
     for line in &lines {
         // The vaults meet on the diagonals.
@@ -125,7 +118,7 @@ fn lines_end_at_creases_and_planes_have_none() {
         let first = sides.next();
         assert!(sides.all(|s| Some(s) == first));
     }
-    let plane = Rulings::new(&unit_square(40, |x, y| x + 2.0 * y)).unwrap();
+    let plane = rulings(&unit_square(40, |x, y| x + 2.0 * y));
     assert!(plane.trace(&TraceOptions::default()).unwrap().is_empty());
     for confidence in [-0.1, 1.1, f64::NAN] {
         let error = plane.trace(&TraceOptions::default().confidence(confidence));
@@ -142,11 +135,11 @@ fn most_are_right_once_noise_was_solved_away() {
     )
     .unwrap();
     let field = surface.heightfield();
-    let rulings = Rulings::new(field).unwrap();
+    let (directions, confidence) = directions(field);
     let lattice = field.lattice();
     let mut angles = Vec::new();
-    for i in (0..lattice.len()).filter(|i| rulings.confidence()[*i] > 0.5) {
-        let ([a, b], [c, d]) = (rulings.directions()[i], tube_ruling(0.0, 0.0));
+    for i in (0..lattice.len()).filter(|i| confidence[*i] > 0.5) {
+        let ([a, b], [c, d]) = (directions[i], tube_ruling(0.0, 0.0));
         angles.push((a * d - b * c).abs().asin().to_degrees());
     }
     angles.sort_by(f64::total_cmp);

@@ -9,7 +9,7 @@ use developable::drawing::{Drawing, DrawingOptions, Totals};
 use developable::files::assembly::write_assembly_svg;
 use developable::patches::{MeshPatches, PatchOptions};
 use developable::pattern::{MeshPattern, PatternOptions, Sheet, pattern_mesh};
-use developable::rulings::{MeshRulings, Ruling, TraceOptions};
+use developable::rulings::{Ruling, Rulings, TraceOptions};
 
 /// The triangles of a map from the unit square, corners at one place being one vertex, and those without an
 /// area left out.
@@ -486,8 +486,8 @@ fn frustum(end: f64) -> (Mesh, [[f64; 3]; 3]) {
     (mesh, axes)
 }
 
-fn traced(mesh: &Mesh, separation: f64) -> (MeshRulings, Vec<Ruling>) {
-    let rulings = MeshRulings::new(mesh).unwrap();
+fn traced(mesh: &Mesh, separation: f64) -> (Rulings, Vec<Ruling>) {
+    let rulings = Rulings::new(mesh).unwrap();
     let options = TraceOptions::default().separation(separation);
     let lines = rulings.trace(&options).unwrap();
     (rulings, lines)
@@ -577,13 +577,13 @@ fn what_does_not_bend_one_way_has_no_rulings() {
     assert!(traced(&ball, separation).1.is_empty());
     let plate = surface(&[&|u, v| [u, v, 0.3 * u - 0.1 * v]], 20, 20);
     assert!(traced(&plate, separation).1.is_empty());
-    let rulings = MeshRulings::new(&ball).unwrap();
+    let rulings = Rulings::new(&ball).unwrap();
     let options = TraceOptions::default();
     assert!(rulings.trace(&options.separation(0.0)).is_err());
     assert!(rulings.trace(&options.confidence(1.5)).is_err());
     assert!(rulings.trace(&options.crease(f64::NAN)).is_err());
     let cloud = Mesh::cloud(ball.positions().to_vec()).unwrap();
-    assert_eq!(MeshRulings::new(&cloud).unwrap_err().code(), "UNSUPPORTED");
+    assert_eq!(Rulings::new(&cloud).unwrap_err().code(), "UNSUPPORTED");
 }
 
 #[test]

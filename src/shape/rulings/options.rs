@@ -23,8 +23,7 @@ const DEFAULT_CREASE_BEND: f64 = 0.2;
 )]
 #[non_exhaustive]
 pub struct TraceOptions {
-    /// Distance between rulings, in the surface's units: as seen from above on a heightfield, in space on a mesh.
-    /// `None`: ten spacings of the lattice, or ten mean edge lengths of the mesh.
+    /// Distance between rulings in space, in the surface's units. `None`: ten mean edge lengths.
     pub separation: Option<f64>,
     /// Minimum confidence of the ruling's direction, from 0 to 1: a ruling ends where it is lower. Default 0.3.
     pub confidence: f64,

@@ -5,8 +5,7 @@
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[non_exhaustive]
 pub struct Ruling {
-    /// Points along the ruling on the surface: about one for each spacing of a lattice, one for each edge of a mesh
-    /// that it crosses.
+    /// Points along the ruling on the surface: one for each edge that it crosses.
     pub points: Vec<[f64; 3]>,
     /// Distance between the two ends of the ruling, in the surface's units.
     pub length: f64,

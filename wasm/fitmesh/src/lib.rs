@@ -6,7 +6,7 @@ use serde_wasm_bindgen::{from_value, preserve, to_value};
 use wasm_bindgen::prelude::*;
 
 use developable::analysis::{DEFAULT_GAUSSIAN_THRESHOLD, MeshCurvatures, Summary};
-use developable::rulings::{MeshRulings, Ruling, TraceOptions};
+use developable::rulings::{Ruling, Rulings, TraceOptions};
 use developable::{MeshKnown, MeshOptions, MeshReport, Status};
 use developable_wasm::Result;
 use developable_wasm::arrays::groups;
@@ -153,7 +153,7 @@ struct RulingsOutput<'a> {
 pub fn mesh_rulings(mesh: JsValue, options: JsValue) -> Result<JsValue> {
     let wanted: TraceOptions = read(&options)?;
     let mesh = from_value::<MeshInput>(mesh)?.into_mesh()?;
-    let found = MeshRulings::new(&mesh)?;
+    let found = Rulings::new(&mesh)?;
     Ok(to_value(&RulingsOutput {
         directions: found.directions().as_flattened().into(),
         confidence: found.confidence().into(),

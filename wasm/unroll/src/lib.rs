@@ -16,7 +16,7 @@ use developable::page::{OutlineVerdict, find_outline};
 use developable::patches::{Crease, Patch, PatchOptions, Patches};
 use developable::rulings::{Ruling, Rulings, TraceOptions};
 use developable::unroll::{UnrollOptions, UnrollReport, Unrolling, unroll};
-use developable::{Frame, Heightfield};
+use developable::{Frame, Heightfield, Triangulation};
 use developable_wasm::Result;
 use developable_wasm::arrays::groups;
 use developable_wasm::camera::photo_camera;
@@ -388,16 +388,18 @@ pub fn rulings(field: JsValue, options: JsValue) -> Result<JsValue> {
     let mut reader = OptionReader::new(&options)?;
     let wanted: TraceOptions = reader.read()?;
     let surface = surface_of(field, reader)?;
-    let found = Rulings::new(&surface)?;
+    let mesh = Triangulation::new(&surface, &Frame::default())?;
+    let found = Rulings::new(mesh.mesh())?;
     let lines = found.trace(&wanted)?;
+    let (directions, confidence) = found.on_lattice(&mesh)?;
     let lattice = surface.lattice();
     Ok(to_value(&RulingsOutput {
         rows: lattice.rows(),
         cols: lattice.cols(),
         spacing: lattice.spacing(),
         origin: lattice.origin(),
-        directions: found.directions().as_flattened().into(),
-        confidence: found.confidence().into(),
+        directions: directions.as_flattened().into(),
+        confidence: confidence.as_slice().into(),
         lines: &lines,
     })?)
 }

@@ -3,43 +3,22 @@
 use nalgebra::{Matrix3, Vector3};
 
 use super::direction::{SMOOTHING_PASSES, direction_confidence, minor_axis};
-use crate::error::{Result, try_filled};
+use crate::error::{Result, check_count, try_filled};
 use crate::fit::mesh::geometry::{Frame, normals};
 use crate::fit::mesh::linearisation::fit_quadratic;
 use crate::fit::mesh::topology::Topology;
 use crate::math::sym2::Sym2;
 use crate::scene::half_edges::twin_half_edges;
 use crate::scene::mesh::Mesh;
+use crate::scene::triangulation::Triangulation;
 
 /// Bend angle, in radians from one vertex to the next, above which a vertex is not averaged with neighbours that bend
 /// less: it lies on a crease.
 const MAX_SMOOTHED_BEND: f64 = 0.2;
 
 /// The direction of the ruling at every vertex of a mesh of any shape.
-///
-/// ```
-/// use developable::Mesh;
-/// use developable::rulings::{MeshRulings, TraceOptions};
-/// # fn main() -> developable::Result<()> {
-/// // A tube about the axis z, of 60 by 30 vertices.
-/// let corner = |i: u32, j: u32| i % 60 + 60 * j;
-/// let place = |n: u32| (f64::from(n % 60) * 6f64.to_radians()).sin_cos();
-/// let positions = (0..1800).map(|n| [place(n).1, place(n).0, 0.1 * f64::from(n / 60)]);
-/// let triangles = (0..1740).flat_map(|n| {
-///     let (i, j) = (n % 60, n / 60);
-///     let [a, b, c, d] = [corner(i, j), corner(i + 1, j), corner(i + 1, j + 1), corner(i, j + 1)];
-///     [[a, b, c], [a, c, d]]
-/// });
-/// let rulings = MeshRulings::new(&Mesh::new(positions.collect(), triangles.collect())?)?;
-/// assert!(rulings.directions()[15 * 60 + 7][2].abs() > 0.999);
-/// let lines = rulings.trace(&TraceOptions::default().separation(0.5))?;
-/// assert!(lines.len() > 5);
-/// assert!(lines.iter().all(|line| line.deviation < 0.01 && line.length > 2.0));
-/// # Ok(())
-/// # }
-/// ```
 #[derive(Debug, Clone)]
-pub struct MeshRulings {
+pub struct Rulings {
     /// Positions of the vertices, with vertices at the same position merged to one. All other fields but `directions`
     /// and `confidence` are by these merged vertices.
     pub(super) places: Vec<Vector3<f64>>,
@@ -57,7 +36,7 @@ pub struct MeshRulings {
     confidence: Vec<f64>,
 }
 
-impl MeshRulings {
+impl Rulings {
     /// Computes the ruling direction at each vertex of a mesh; costs `O(vertices)`.
     ///
     /// # Errors
@@ -110,7 +89,7 @@ impl MeshRulings {
         }
         let blank = try_filled("rulings", mesh.positions().len(), [f64::NAN; 3])?;
         let unknown = try_filled("rulings", mesh.positions().len(), f64::NAN)?;
-        let mut rulings = MeshRulings {
+        let mut rulings = Rulings {
             twins: twin_half_edges(&topology.triangles),
             trust: try_filled("rulings", count, f64::NAN)?,
             spacing: mean_edge_length(&topology, &places),
@@ -148,6 +127,27 @@ impl MeshRulings {
     /// it bends in both directions; NaN where there is no direction.
     pub fn confidence(&self) -> &[f64] {
         &self.confidence
+    }
+
+    /// Directions of the rulings of a heightfield as seen from above, and their confidence, at the vertices of its lattice
+    /// row by row: unit vectors with `x ≥ 0`. NaN where a vertex is not surrounded by triangles. `mesh` is the
+    /// triangulation from which the rulings were computed.
+    ///
+    /// # Errors
+    /// [`Error::Shape`](crate::Error::Shape) for the triangulation of another mesh,
+    /// [`Error::OutOfMemory`](crate::Error::OutOfMemory).
+    pub fn on_lattice(&self, mesh: &Triangulation) -> Result<(Vec<[f64; 2]>, Vec<f64>)> {
+        check_count("rulings", mesh.vertices().len(), 1, self.confidence.len())?;
+        let mut directions = try_filled("rulings", mesh.lattice().len(), [f64::NAN; 2])?;
+        let mut confidence = try_filled("rulings", mesh.lattice().len(), f64::NAN)?;
+        for ((vertex, [x, y, _]), trust) in
+            (mesh.vertices().iter().zip(&self.directions)).zip(&self.confidence)
+        {
+            let length = x.hypot(*y).copysign(*x);
+            directions[*vertex as usize] = [x / length, y / length];
+            confidence[*vertex as usize] = *trust;
+        }
+        Ok((directions, confidence))
     }
 }
 

@@ -2,7 +2,7 @@
 
 use nalgebra::Vector3;
 
-use super::mesh::{MeshRulings, minor_axis_in_space, restrict_to_plane};
+use super::field::{Rulings, minor_axis_in_space, restrict_to_plane};
 use super::options::TraceOptions;
 use super::point_hash::PointHash;
 use super::ruling::{MIN_LENGTH_SEPARATIONS, Ruling};
@@ -13,7 +13,7 @@ type Place = Vector3<f64>;
 
 /// Points of traced rulings, each with the surface's normal there: a point on the other side of a thin body does
 /// not count as near.
-type TracedPoints = PointHash<3, Place>;
+type TracedPoints = PointHash<Place>;
 
 /// Minimum distance from a corner, as a share of the side, at which a traced line leaves a triangle, so that the line
 /// never meets a vertex.
@@ -29,10 +29,10 @@ struct Step {
     towards: Place,
 }
 
-impl MeshRulings {
+impl Rulings {
     /// Traces evenly spaced rulings, the most certain ones first, no closer together than half the separation; each
-    /// ends at the border of the mesh, at a crease or where it would come too close to another one, as on
-    /// [heightfields](super::Rulings::trace). Beside a crease between plane faces lines may run along it. Costs
+    /// ends at the border of the mesh, at a crease or where it would come too close to another one (after Jobard and Lefer
+    /// 1997). Beside a crease between plane faces lines may run along it. Costs
     /// `O(n log n)` for `n` triangles.
     ///
     /// # Errors

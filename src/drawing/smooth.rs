@@ -4,7 +4,7 @@ use super::border_side::{axis, is_straight_side, side_ends};
 use super::curve::Curve;
 use super::line_corners::{MIN_SMOOTHED_LENGTH_SPACINGS, Sample, corners, rotated, samples};
 use super::spline::fit_spline;
-use crate::math::planar::{distance, nearest_on_segment, polyline_length};
+use crate::math::planar::{distance, line_intersection, nearest_on_segment, polyline_length};
 use crate::pattern::{Run, Sheet};
 use crate::unroll::flat_triangle::Point;
 use crate::unroll::overlap::crossings;
@@ -231,7 +231,7 @@ fn smooth_line(points: &[[f64; 2]], tolerance: f64, spacing: f64, is_border: boo
                 false => MAX_CORNER_TOLERANCES,
             };
             let near = |p: &Point| (p - corner).norm() <= reach * tolerance;
-            if let Some(place) = meeting(a, b).filter(near) {
+            if let Some(place) = line_intersection(a, b, 0.0).filter(near) {
                 ends[k + 1] = pair(place);
                 if next == 0 {
                     ends[0] = pair(place);
@@ -264,13 +264,6 @@ fn section(line: &[Sample], closed: bool, tolerance: f64, spacing: f64) -> Optio
         NEGLIGIBLE_RESIDUAL_SPACINGS * spacing,
         MIN_SPAN_SPACINGS * spacing,
     )
-}
-
-/// Computes the intersection of two straight lines; `None` where they are nearly parallel.
-fn meeting([p, q]: [Point; 2], [r, s]: [Point; 2]) -> Option<Point> {
-    let (u, v) = (q - p, s - r);
-    let cross = (u.conj() * v).im;
-    (cross.abs() > 0.2 * u.norm() * v.norm()).then(|| p + u * (((r - p).conj() * v).im / cross))
 }
 
 fn pair(place: Point) -> [f64; 2] {

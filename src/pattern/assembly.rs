@@ -12,16 +12,17 @@ use super::outline::Layout;
 use super::parts::Parts;
 use super::refold::refold_sheet;
 use super::seam_graph::SeamGraph;
-use super::sew::{STEP_BUDGET_PER_VERTEX, close_cuts};
+use super::sew::close_cuts;
 use super::shape::{MIN_OUTLINE_AREA, folds, outlines};
 use super::sheets::{Direction, Missing, Pattern, Run, Seam, Sheet};
-use super::spots::label_spots;
+use super::spots::label_spot;
 use crate::error::Result;
 use crate::heights::heightfield::Heightfield;
 use crate::math::planar::{polygon_area, polyline_length};
 use crate::math::union_find::UnionFind;
 use crate::shape::patches::Patches;
 use crate::unroll::arap_mesh::StoppingCriteria;
+use crate::unroll::flat_triangle::Point;
 
 /// Result of joining the parts of a surface: valid flat sheets, or parts that have to be cut further.
 pub(super) enum Assembly {
@@ -89,13 +90,7 @@ pub(super) fn assemble_sheets(
             }
         }
         if wrong.is_empty() {
-            close_cuts(
-                &mut net,
-                &mut arrangement,
-                limit,
-                STEP_BUDGET_PER_VERTEX,
-                |_| true,
-            )?;
+            close_cuts(&mut net, &mut arrangement, limit, |_| true)?;
             return Ok(Assembly::Whole(Box::new(Assembled {
                 parts,
                 patches,
@@ -250,7 +245,15 @@ pub(super) fn draw_sheets(surface: &Heightfield, whole: &Assembled) -> Result<Pa
         arrangement,
     } = whole;
     let layout = &arrangement.layout;
-    let places = label_spots(&parts.surface, patches.labels(), net, layout);
+    let spot = |patch: &u32| {
+        let flat_patch = net.flat_patches[*patch as usize].as_ref();
+        flat_patch.map(|flat_patch| {
+            let motion = layout.motions[*patch as usize];
+            let places: Vec<Point> = flat_patch.places().iter().map(|p| motion.of(*p)).collect();
+            let own: Vec<[u32; 3]> = flat_patch.pieces().map(|(_, corners)| corners).collect();
+            label_spot(*patch, &own, &places)
+        })
+    };
     let seam = |number: usize| {
         let seam = &net.seams[number];
         Seam {
@@ -275,7 +278,7 @@ pub(super) fn draw_sheets(surface: &Heightfield, whole: &Assembled) -> Result<Pa
         Ok(Sheet {
             folds: folds(net, layout, members, &outlines, &meetings, seam),
             outlines,
-            spots: members.iter().map(|p| places[*p as usize]).collect(),
+            spots: members.iter().filter_map(spot).collect(),
             faces: faces(&parts.surface, net, layout, members),
             spacing: net.spacing,
             area: members.iter().map(own).sum(),

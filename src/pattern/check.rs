@@ -72,7 +72,7 @@ impl Tied {
         layout: &mut Layout,
         until: StoppingCriteria,
     ) -> Result<usize> {
-        let steps = self.joint.minimise_in_plane(&mut self.places, until)?;
+        let steps = self.joint.minimise_in_plane(&mut self.places, until)?.steps;
         for (k, patch) in self.patches.iter().enumerate() {
             let end = self
                 .starts

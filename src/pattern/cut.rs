@@ -18,9 +18,6 @@ const CUT_DIRECTIONS: usize = 16;
 /// Minimum number of vertices of a connected group on one side of a cut; a smaller group stays with its neighbour.
 const MIN_GROUP_VERTICES: usize = 4;
 
-/// Minimum size of a connected group on one side of a cut, as a share of the vertices of the part that is cut.
-const MIN_GROUP_SHARE: f64 = 0.03;
-
 /// Minimum slope of a lattice edge, its rise over the lattice's spacing, at which the edge is a step (jump in height)
 /// of the surface.
 const MIN_STEP_SLOPE: f64 = 4.0;
@@ -101,12 +98,11 @@ impl Labels {
             numbers.extend(group.iter().map(|i| (*i, number)));
         }
         // Groups that are too small are merged with the largest neighbouring group.
-        let least = MIN_GROUP_VERTICES.max((MIN_GROUP_SHARE * burden.len() as f64) as usize);
         let mut order: Vec<usize> = (0..groups.len()).collect();
         order.sort_by_key(|g| Reverse(groups[*g].len()));
         let large: Vec<usize> = order
             .into_iter()
-            .filter(|g| groups[*g].len() >= least)
+            .filter(|g| groups[*g].len() >= MIN_GROUP_VERTICES)
             .collect();
         if large.len() < 2 {
             return None;

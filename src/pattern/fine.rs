@@ -19,10 +19,6 @@ use crate::error::{Error, Result};
 use crate::heights::heightfield::Heightfield;
 use crate::shape::patches::Patches;
 
-/// Maximum number of solver iterations of all trials to close cuts of parts that were cut on the fine lattice, summed over
-/// the vertices of the sheet in each trial, per vertex of the pattern.
-const RECUT_STEP_BUDGET_PER_VERTEX: usize = 100;
-
 /// Lays the sheets that were found on a coarse lattice flat on the fine one. The inner error holds the reason why a
 /// sheet is invalid on the fine lattice. Unless `is_finest`, parts that are invalid alone are kept: the finer lattices
 /// decide whether they have to be mended, and a part that is cut on several lattices falls into parts too small to cut.
@@ -104,14 +100,8 @@ pub(super) fn refine_sheets(
             Settled::Opened(wrong) if wrong.is_empty() || !is_finest => {
                 if is_recut.contains(&true) {
                     let is_wanted = |part: u32| is_recut[part as usize];
-                    let budget = RECUT_STEP_BUDGET_PER_VERTEX;
-                    close_cuts(
-                        &mut net,
-                        &mut arrangement,
-                        parts.options.max_strain,
-                        budget,
-                        is_wanted,
-                    )?;
+                    let limit = parts.options.max_strain;
+                    close_cuts(&mut net, &mut arrangement, limit, is_wanted)?;
                 }
                 return Ok(Ok(Assembled {
                     parts,

@@ -13,8 +13,9 @@ use crate::lattice::hexagonal::Lattice;
 use crate::scene::triangulation::Triangulation;
 use crate::scene::view::Frame;
 use crate::shape::patches::extrapolate::extrapolated_height;
+use crate::unroll::arap_mesh::{ArapMesh, StoppingCriteria};
 use crate::unroll::flat_triangle::{FlatTriangle, Point};
-use crate::unroll::{UnrollOptions, unroll_mesh};
+use crate::unroll::plan;
 
 /// Distance in space between the two sides of a seam, in lattice spacings, above which the surface counts as torn
 /// there.
@@ -82,22 +83,24 @@ impl Strain {
 
 impl FlatPatch {
     /// Lays a patch flat, with all triangles that have at least one of its vertices; `None` if there is no such
-    /// triangle. The relaxation stops early once the strain is sure to exceed `limit`.
+    /// triangle.
     pub(super) fn new(
         surface: &Heightfield,
         labels: &Labels,
         patch: u32,
         window: Window,
-        options: &UnrollOptions,
-        limit: f64,
+        until: StoppingCriteria,
     ) -> Result<Option<FlatPatch>> {
         let Some((mesh, own)) = FlatPatch::mesh(surface, labels, patch, window)? else {
             return Ok(None);
         };
         let triangles = flat_triangles(&mesh);
-        let flat = unroll_mesh(mesh, options, Some(limit))?;
-        let places = flat.places().iter();
-        let places: Vec<Point> = places.map(|[x, y]| Point::new(*x, *y)).collect();
+        let mut places = plan(&mesh, 1.0);
+        let pieces = triangles
+            .iter()
+            .copied()
+            .zip(mesh.triangles().iter().copied());
+        ArapMesh::new(&places, pieces.collect(), Vec::new())?.lay_flat(&mut places, until)?;
         Ok(Some(FlatPatch {
             triangles,
             relaxation: Relaxation::Alone,
@@ -105,7 +108,7 @@ impl FlatPatch {
             own,
             alone: places.clone(),
             places,
-            mesh: flat.into_mesh(),
+            mesh,
         }))
     }
 

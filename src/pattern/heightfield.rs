@@ -46,6 +46,7 @@ pub fn pattern(
     patches.check_of(surface)?;
     positive("maxSeamGap", options.max_seam_gap)?;
     positive("maxStrain", options.max_strain)?;
+    positive("tolerance", options.unrolling.tolerance)?;
     draw_sheets(
         surface,
         &find_sheets(surface, patches, options, DIRECT_OUTLINE_DETAIL)?,

@@ -69,13 +69,6 @@ pub(super) struct Corner {
     pub patch: u32,
 }
 
-/// Maximum number of corners between two segments of one outline whose crossing is ignored: at the end of a slit
-/// its two sides may cross.
-const SLIT_END_CORNERS: usize = 8;
-
-/// Number of corners from one that is probed for an overlap of two sheets to the next.
-const PROBED_CORNER_STEP: usize = 3;
-
 impl Layout {
     /// Creates the layout in which no seam is a fold and no patch is moved.
     pub(super) fn loose(net: &SeamGraph) -> Layout {
@@ -173,7 +166,7 @@ impl Layout {
     }
 
     /// Returns whether two sheets reach into each other by more than a distance: whether a corner of one outline is inside
-    /// of the other one and farther from it than that. Every few corners are probed.
+    /// of the other one and farther from it than that.
     pub(super) fn reach_into_each_other(
         &self,
         net: &SeamGraph,
@@ -186,7 +179,7 @@ impl Layout {
             closed.collect::<Vec<Vec<Point>>>()
         });
         let is_inside = |points: &[Vec<Point>], around: &[Vec<Point>]| {
-            let mut probes = points.iter().flatten().step_by(PROBED_CORNER_STEP);
+            let mut probes = points.iter().flatten();
             probes.any(|place| is_deep_inside(*place, around, distance))
         };
         is_inside(&one, &other) || is_inside(&other, &one)
@@ -194,22 +187,13 @@ impl Layout {
 
     /// Returns whether some of the given patches overlap where the layout puts them in the plane.
     pub(super) fn overlaps(&self, net: &SeamGraph, patches: &[u32]) -> bool {
-        let outlines = self.outlines(net, patches);
-        let (mut places, mut edges, mut positions) = (Vec::new(), Vec::new(), Vec::new());
-        for (number, line) in outlines.iter().enumerate() {
-            let first = places.len() as u32;
-            let count = line.len() as u32;
-            for (k, corner) in line.iter().enumerate() {
-                places.push(corner.place);
-                edges.push([first + k as u32, first + (k as u32 + 1) % count]);
-                positions.push((number, k));
-            }
+        let (mut places, mut edges) = (Vec::new(), Vec::new());
+        for line in self.outlines(net, patches) {
+            let (first, count) = (places.len() as u32, line.len() as u32);
+            places.extend(line.iter().map(|corner| corner.place));
+            edges.extend((0..count).map(|k| [first + k, first + (k + 1) % count]));
         }
-        crossings(&places, &edges).into_iter().any(|[a, b]| {
-            let ((one, i), (other, k)) = (positions[a], positions[b]);
-            let apart = i.abs_diff(k);
-            one != other || apart.min(outlines[one].len() - apart) > SLIT_END_CORNERS
-        })
+        !crossings(&places, &edges).is_empty()
     }
 }
 

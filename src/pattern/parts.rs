@@ -16,9 +16,6 @@ use crate::shape::patches::{NO_PATCH, Patches};
 /// Maximum number of parts of a surface: a pattern of more parts cannot be assembled in practice.
 const MAX_PARTS: usize = 1500;
 
-/// Maximum number of neighbours that a small part is tried to be merged with.
-const MAX_MERGE_CANDIDATES: usize = 3;
-
 /// Maximum share of the surface's vertices that may be left out of the pattern: with more it is no pattern of the surface.
 pub(super) const MAX_OMITTED_SHARE: f64 = 0.1;
 
@@ -187,8 +184,7 @@ impl Parts {
             &self.labels,
             *part,
             self.windows[*part as usize],
-            &self.options.unrolling,
-            self.options.max_strain,
+            self.options.relaxation(),
         )
     }
 
@@ -303,7 +299,6 @@ impl Parts {
         let own = self.members(part);
         let mut beside: Vec<(u32, usize)> = self.borders(part, &own).into_iter().collect();
         beside.sort_by_key(|(other, count)| Reverse((self.labels.are_one(*other, part), *count)));
-        beside.truncate(MAX_MERGE_CANDIDATES);
         for (other, _) in beside {
             if let Some((number, flat_patch)) = self.merged_with(other, part, &own)? {
                 self.flat_patches[number as usize] = flat_patch;

@@ -29,7 +29,7 @@ const MIN_HALVED_SEAM_NODES: usize = 12;
 
 /// Maximum number of solver iterations of all trials to close cuts, summed over the vertices of the sheet in each
 /// trial, per vertex of the pattern.
-pub(super) const STEP_BUDGET_PER_VERTEX: usize = 800;
+const STEP_BUDGET_PER_VERTEX: usize = 800;
 
 /// Strain energy, as a multiple of the energy at the strain limit, above which the trial to close a cut is
 /// abandoned if the energy falls slowly.
@@ -57,13 +57,11 @@ const TRIAL_RELAXATION: StoppingCriteria = StoppingCriteria {
 const TRIAL_LIMIT_FACTOR: f64 = 1.05;
 
 /// Closes cuts again where the sheets stay valid, the longest first; a cut that cannot be closed as a whole is
-/// halved, and each half is tried. Only cuts of the wanted parts are tried, by at most so many relaxation steps for each
-/// vertex of the pattern.
+/// halved, and each half is tried. Only cuts of the wanted parts are tried.
 pub(super) fn close_cuts(
     net: &mut SeamGraph,
     arrangement: &mut Arrangement,
     limit: f64,
-    steps_per_vertex: usize,
     is_wanted: impl Fn(u32) -> bool,
 ) -> Result<()> {
     let open = |seam: &usize| {
@@ -81,7 +79,7 @@ pub(super) fn close_cuts(
         .flatten()
         .map(|flat_patch| flat_patch.places().len())
         .sum();
-    let mut budget = steps_per_vertex * vertices;
+    let mut budget = STEP_BUDGET_PER_VERTEX * vertices;
     while let Some(seam) = pending.pop_front() {
         if budget == 0 {
             break;

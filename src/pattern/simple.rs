@@ -10,9 +10,6 @@ const MAX_LOOP_AREA: f64 = 6.0;
 /// Maximum length, in spacings, of a loop that is cut off a sheet's outline.
 const MAX_LOOP_LENGTH: f64 = 60.0;
 
-/// Maximum number of passes over a sheet's outline in which loops are cut off.
-const MAX_LOOP_PASSES: usize = 8;
-
 /// One side of a seam: the number of the seam, and the number of the patch on that side.
 pub(crate) type Side = (usize, u32);
 
@@ -31,10 +28,8 @@ pub(crate) fn remove_loops(runs: Runs, spacing: f64) -> (Runs, usize) {
         line.extend(own.iter().map(|place| (*place, number)));
     }
     let mut loops = 0;
-    for _ in 0..MAX_LOOP_PASSES {
-        let Some((next, count)) = pass(&line, spacing) else {
-            break;
-        };
+    // Each pass leaves fewer points.
+    while let Some((next, count)) = pass(&line, spacing) {
         line = next;
         loops += count;
     }

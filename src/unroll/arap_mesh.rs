@@ -1,14 +1,15 @@
 //! Triangle meshes laid flat, or bent in space, as rigidly as possible and tied to each other along lines.
 //!
-//! The global step's matrix is sparse, for these meshes are no lattices. The energy is the sum of `area · ‖J − R‖²` over
+//! The energy is the sum of `area · ‖J − R‖²` over
 //! the triangles and, for each tie, of the squared distance between its two points times [`TIE_WEIGHT`].
 
 use nalgebra::Vector3;
 
 use super::cholesky::Cholesky;
 use super::flat_triangle::{FlatTriangle, Point, Position};
-use super::local_global::Iteration;
+use super::local_global::{Iteration, Progress};
 use super::sparse_rows::SparseRows;
+use super::unflip::unflip_triangles;
 use crate::error::{Result, try_filled};
 
 /// Weight, in the energy of a mesh, of the squared distance between two points that are tied, that is, should coincide.
@@ -16,11 +17,11 @@ use crate::error::{Result, try_filled};
 /// strained.
 const TIE_WEIGHT: f64 = 8.0;
 
-/// Relative change of a mesh layout's energy in one iteration below which the layout counts as stalled.
-const STALLED_RELATIVE_CHANGE: f64 = 0.02;
+/// Relative change of a layout's energy in one iteration below which the layout counts as stalled.
+const STALLED_RELATIVE_CHANGE: f64 = 0.01;
 
-/// Number of iterations (a local and a global step each) that are made before the layout of a mesh may be given up.
-const MIN_STEPS_BEFORE_GIVING_UP: usize = 3;
+/// Number of iterations (a local and a global step each) that are made before a layout may be given up.
+const MIN_STEPS_BEFORE_GIVING_UP: usize = 6;
 
 /// Factor by which an earlier decrease of the energy counts less after each iteration. The next decrease is estimated
 /// by the largest recent one, because the energy does not fall at an even rate.
@@ -77,8 +78,35 @@ impl ArapMesh {
         })
     }
 
-    /// Moves the mesh's vertices in the plane to positions of least energy. Returns the number of local and global
-    /// steps.
+    /// Triangles of the mesh, each in a plane of its own, with the numbers of their corners.
+    pub(super) fn triangles(&self) -> &[(FlatTriangle, [u32; 3])] {
+        &self.triangles
+    }
+
+    pub(super) fn area(&self) -> f64 {
+        self.area
+    }
+
+    /// Moves the mesh's vertices in the plane to positions of least energy, and then those around flipped triangles so
+    /// that none is flipped.
+    ///
+    /// # Errors
+    /// [`Error::OutOfMemory`](crate::Error::OutOfMemory).
+    pub(crate) fn lay_flat(
+        &mut self,
+        positions: &mut [Point],
+        criteria: StoppingCriteria,
+    ) -> Result<Progress> {
+        let mut progress = self.minimise_in_plane(positions, criteria)?;
+        let triangles: Vec<[u32; 3]> = self.triangles.iter().map(|(_, corners)| *corners).collect();
+        if unflip_triangles(&triangles, positions)? {
+            let mut descent = try_filled("unrolling", positions.len(), Point::default())?;
+            progress.energy = self.energy(positions, &mut descent) / self.area;
+        }
+        Ok(progress)
+    }
+
+    /// Moves the mesh's vertices in the plane to positions of least energy.
     ///
     /// # Errors
     /// [`Error::OutOfMemory`](crate::Error::OutOfMemory).
@@ -86,7 +114,7 @@ impl ArapMesh {
         &mut self,
         positions: &mut [Point],
         criteria: StoppingCriteria,
-    ) -> Result<usize> {
+    ) -> Result<Progress> {
         let mut descent = try_filled("unrolling", positions.len(), Point::default())?;
         let mut corrections = descent.clone();
         let mut iteration = Iteration::new(positions)?;
@@ -112,8 +140,7 @@ impl ArapMesh {
             self.factor.solve(&descent, &mut corrections);
             iteration.advance(positions, corrections.iter().copied());
         }
-        iteration.finish(positions);
-        Ok(iteration.steps)
+        Ok(iteration.finish(positions))
     }
 
     /// Moves the mesh's vertices in space, from positions near the solution, to positions of least energy. The

@@ -1,7 +1,6 @@
 //! Strain of a flat layout.
 
-use super::flat_triangle::Point;
-use super::lattice_triangles::{LatticeTriangles, TriangleId};
+use super::flat_triangle::{FlatTriangle, Point};
 
 /// Strain above which [`Distortion::above`] counts a triangle: 1 %, which is 3 mm on the longer side of an A4 page. No
 /// table chose it.
@@ -25,27 +24,13 @@ pub struct Distortion {
     pub flipped: usize,
 }
 
-/// Computes the singular values of a triangle's map from the surface to the plane, the larger one first.
-pub(super) fn singular_values(
-    triangles: &LatticeTriangles,
-    id: TriangleId,
-    places: &[Point],
-) -> [f64; 2] {
-    let corners = triangles.corners(id).map(|cell| places[cell]);
-    triangles.get(id).singular_values(corners)
-}
-
-/// Computes the strain of some triangles of a surface at given flat positions of the vertices.
-pub(super) fn distortion(
-    triangles: &LatticeTriangles,
-    ids: impl Iterator<Item = TriangleId>,
-    places: &[Point],
-) -> Distortion {
+/// Computes the strain of triangles at given flat positions of the vertices.
+pub(super) fn distortion(triangles: &[(FlatTriangle, [u32; 3])], places: &[Point]) -> Distortion {
     let (mut area, mut flat, mut squares, mut above) = (0.0, 0.0, 0.0, 0.0);
     let (mut maximum, mut flipped) = (0.0f64, 0);
-    for id in ids {
-        let [long, short] = singular_values(triangles, id, places);
-        let share = triangles.get(id).area();
+    for (triangle, corners) in triangles {
+        let [long, short] = triangle.singular_values(corners.map(|v| places[v as usize]));
+        let share = triangle.area();
         let strain = (long - 1.0).max(1.0 - short);
         area += share;
         flat += share * long * short;

@@ -39,23 +39,6 @@ pub(crate) struct FlatTriangle {
 }
 
 impl FlatTriangle {
-    /// Creates the triangle of a heightfield above one of a lattice of spacing 1, from the differences of height
-    /// along the edges 1–2 and 1–3.
-    pub(super) fn from_rises(rise2: f64, rise3: f64) -> Self {
-        // In plan the edges are unit vectors at 60°.
-        let (square2, square3) = (1.0 + rise2 * rise2, 1.0 + rise3 * rise3);
-        let dot = 0.5 + rise2 * rise3;
-        let second = square2.sqrt();
-        // Twice the area: no cancellation, unlike `square2 · square3 − dot²`.
-        let doubled = (0.75 + rise2 * rise2 + rise3 * rise3 - rise2 * rise3).sqrt();
-        let half = 0.5 / doubled;
-        FlatTriangle {
-            second,
-            third: Point::new(dot / second, doubled / second),
-            weights: [square3 - dot, dot, square2 - dot].map(|cosine| half * cosine),
-        }
-    }
-
     /// Creates the triangle between three points in space, in their unit; all fields are 0 if it has no area.
     #[inline]
     pub(crate) fn from_points([a, b, c]: [[f64; 3]; 3]) -> Self {

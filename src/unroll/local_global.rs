@@ -8,6 +8,16 @@ use crate::error::{Result, try_filled};
 /// converged. One alone may be an extremum between two accelerated steps.
 const CONVERGED_STEPS: usize = 3;
 
+/// What an iteration has reached when it stops.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Progress {
+    /// Number of local and global steps.
+    pub steps: usize,
+    /// Energy over the area, without unit, and its decrease by the last global step.
+    pub energy: f64,
+    pub decrease: f64,
+}
+
 /// State of an iteration of local and global steps, which are extrapolated by Nesterov's momentum. It restarts whenever
 /// the energy rises. The number of steps depends on the shape, hardly on the number of vertices.
 pub(super) struct Iteration<P> {
@@ -76,7 +86,12 @@ impl<P: Position> Iteration<P> {
     }
 
     /// Moves the vertices to where the last global step put them, without extrapolation by the momentum.
-    pub(super) fn finish(&self, positions: &mut [P]) {
+    pub(super) fn finish(self, positions: &mut [P]) -> Progress {
         positions.copy_from_slice(&self.last);
+        Progress {
+            steps: self.steps,
+            energy: self.energy,
+            decrease: self.decrease,
+        }
     }
 }

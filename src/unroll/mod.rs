@@ -27,28 +27,24 @@
 //! # }
 //! ```
 
-mod arap_lattice;
 pub(crate) mod arap_mesh;
 mod cholesky;
 mod components;
 mod dense_front;
 mod distortion;
 pub(crate) mod flat_triangle;
-mod laplacian;
-mod lattice_triangles;
 mod layout;
 mod local_global;
-mod multigrid;
 mod nested_dissection;
 mod options;
 pub(crate) mod overlap;
-mod padded_lattice;
 mod sparse_rows;
 mod unflip;
 mod unrolling;
 
 pub use distortion::Distortion;
+pub(crate) use layout::plan;
 pub use layout::unroll;
-pub(crate) use layout::unroll_mesh;
 pub use options::UnrollOptions;
+pub(crate) use unflip::border;
 pub use unrolling::{UnrollReport, Unrolling};

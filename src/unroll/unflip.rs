@@ -1,8 +1,11 @@
 //! Repair of triangles that lie upside down.
 
+use std::collections::BTreeMap;
+
 use super::flat_triangle::Point;
-use super::lattice_triangles::{LatticeTriangles, TriangleId};
 use crate::error::{Result, try_filled};
+use crate::math::index::NO_INDEX;
+use crate::scene::half_edges::{half_edge_ends, twin_half_edges};
 
 /// Maximum number of rounds in which flipped triangles are repaired. Each round moves vertices one triangle further
 /// around those that are still flipped.
@@ -17,87 +20,87 @@ const SWEEPS_PER_ROUND: usize = 40;
 ///
 /// # Errors
 /// [`Error::OutOfMemory`](crate::Error::OutOfMemory).
-pub(super) fn unflip_triangles(triangles: &LatticeTriangles, places: &mut [Point]) -> Result<bool> {
-    let mut free = try_filled("unrolling", places.len(), false)?;
-    let mut border = try_filled("unrolling", places.len(), false)?;
-    for corner in triangles.border().flatten() {
-        border[corner] = true;
+pub(super) fn unflip_triangles(triangles: &[[u32; 3]], places: &mut [Point]) -> Result<bool> {
+    if !triangles.iter().any(|corners| is_flipped(corners, places)) {
+        return Ok(false);
     }
-    for round in 0..MAX_REPAIR_ROUNDS {
-        let flipped: Vec<TriangleId> = (triangles.ids())
-            .filter(|id| is_flipped(triangles, *id, places))
-            .collect();
-        if flipped.is_empty() {
-            return Ok(round > 0);
+    let mut is_border = try_filled("unrolling", places.len(), false)?;
+    for side in border(triangles).flatten() {
+        is_border[side as usize] = true;
+    }
+    let mut is_free = try_filled("unrolling", places.len(), false)?;
+    for _ in 0..MAX_REPAIR_ROUNDS {
+        let flipped = triangles
+            .iter()
+            .filter(|corners| is_flipped(corners, places));
+        let mut is_done = true;
+        for corner in flipped.flatten() {
+            is_free[*corner as usize] = true;
+            is_done = false;
         }
-        for id in flipped {
-            for corner in triangles.corners(id) {
-                free[corner] = true;
-            }
+        if is_done {
+            break;
         }
-        let mut cells: Vec<usize> = (0..free.len()).filter(|cell| free[*cell]).collect();
-        for cell in &cells {
-            for corner in triangles.around(*cell).flat_map(|id| triangles.corners(id)) {
-                free[corner] = true;
-            }
+        let inner = is_free.clone();
+        for corners in triangles
+            .iter()
+            .filter(|t| t.iter().any(|v| inner[*v as usize]))
+        {
+            corners.iter().for_each(|v| is_free[*v as usize] = true);
         }
-        cells = (0..free.len())
-            .filter(|c| free[*c] && !border[*c])
-            .collect();
-        for _ in 0..SWEEPS_PER_ROUND {
-            for cell in &cells {
-                // Each neighbour is counted twice, as it belongs to two of the triangles around the vertex.
-                let (mut sum, mut count) = (Point::default(), 0.0);
-                for corner in triangles.around(*cell).flat_map(|id| triangles.corners(id)) {
-                    if corner != *cell {
-                        sum += places[corner];
-                        count += 1.0;
-                    }
+        // The neighbours of each vertex that moves, each counted twice, as it belongs to two of the triangles around.
+        let mut rings: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
+        for corners in triangles {
+            let [a, b, c] = corners.map(|v| v as usize);
+            for (vertex, beside) in [(a, [b, c]), (b, [c, a]), (c, [a, b])] {
+                if is_free[vertex] && !is_border[vertex] {
+                    rings.entry(vertex).or_default().extend(beside);
                 }
-                places[*cell] = sum / count;
+            }
+        }
+        for _ in 0..SWEEPS_PER_ROUND {
+            for (vertex, ring) in &rings {
+                let sum: Point = ring.iter().map(|other| places[*other]).sum();
+                places[*vertex] = sum / ring.len() as f64;
             }
         }
     }
     Ok(true)
 }
 
-fn is_flipped(triangles: &LatticeTriangles, id: TriangleId, places: &[Point]) -> bool {
-    let [a, b, c] = triangles.corners(id).map(|cell| places[cell]);
+/// Lists the edges of a mesh that have a triangle on one side only, each directed as in that triangle.
+pub(crate) fn border(triangles: &[[u32; 3]]) -> impl Iterator<Item = [u32; 2]> + '_ {
+    let twins = (0..).zip(twin_half_edges(triangles));
+    let open = twins.filter(|(_, twin)| *twin == NO_INDEX);
+    open.map(|(side, _)| half_edge_ends(triangles, side))
+}
+
+fn is_flipped(corners: &[u32; 3], places: &[Point]) -> bool {
+    let [a, b, c] = corners.map(|v| places[v as usize]);
     ((b - a).conj() * (c - a)).im <= 0.0
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::unroll::padded_lattice::PaddedLattice;
+    use crate::{Frame, Heightfield, Lattice, Triangulation};
 
     #[test]
     fn a_vertex_out_of_its_ring_is_put_back() {
-        let grid = PaddedLattice::new(9, 9);
-        let mut heights = vec![f64::NAN; grid.cells()];
-        (0..9).for_each(|row| heights[grid.row(row)].fill(0.0));
-        let triangles = LatticeTriangles::new(grid, &heights, |_| true).unwrap();
-        let mut places = crate::unroll::layout::plan_positions(grid).unwrap();
-        assert!(!unflip_triangles(&triangles, &mut places).unwrap());
-        let right = places.clone();
-        places[grid.cell(4, 4)] += Point::new(1.4, 0.3);
-        assert!(
-            triangles
-                .ids()
-                .any(|id| is_flipped(&triangles, id, &places))
-        );
-        assert!(unflip_triangles(&triangles, &mut places).unwrap());
-        assert!(
-            !triangles
-                .ids()
-                .any(|id| is_flipped(&triangles, id, &places))
-        );
-        for (a, b) in triangles
-            .border()
-            .flatten()
-            .map(|cell| (places[cell], right[cell]))
-        {
-            assert_eq!(a, b, "the border stays");
+        let flat = Heightfield::from_fn(Lattice::new(9, 9, 1.0).unwrap(), |_, _| 0.0).unwrap();
+        let mesh = Triangulation::new(&flat, &Frame::default()).unwrap();
+        let all = mesh.triangles();
+        let right: Vec<Point> = (mesh.positions().iter())
+            .map(|[x, y, _]| Point::new(*x, *y))
+            .collect();
+        let mut places = right.clone();
+        assert!(!unflip_triangles(all, &mut places).unwrap());
+        places[4 * 9 + 4] += Point::new(1.4, 0.3);
+        assert!(all.iter().any(|corners| is_flipped(corners, &places)));
+        assert!(unflip_triangles(all, &mut places).unwrap());
+        assert!(!all.iter().any(|corners| is_flipped(corners, &places)));
+        for vertex in border(all).flatten().map(|v| v as usize) {
+            assert_eq!(places[vertex], right[vertex], "the border stays");
         }
     }
 }

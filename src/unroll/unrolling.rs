@@ -50,10 +50,6 @@ impl Unrolling {
         &self.mesh
     }
 
-    pub(crate) fn into_mesh(self) -> Triangulation {
-        self.mesh
-    }
-
     /// Returns the position of each vertex of the mesh in the plane, in the surface's units.
     pub fn places(&self) -> &[[f64; 2]] {
         &self.places

@@ -6,13 +6,12 @@ use super::lay::FlatPart;
 use super::meeting::Meetings;
 use super::seams::Seams;
 use crate::error::Result;
-use crate::math::index::NO_INDEX;
 use crate::pattern::crumbs::remove_crumbs;
 use crate::pattern::shape::{MIN_OUTLINE_AREA, drop_empty_lines};
-use crate::pattern::{Direction, Faces, Fold, Missing, Run, Seam, Sheet, Spot};
+use crate::pattern::spots::label_spot;
+use crate::pattern::{Direction, Faces, Fold, Missing, Run, Seam, Sheet};
 use crate::scene::half_edges::half_edge_ends;
 use crate::shape::patches::{Crease, Patch};
-use crate::unroll::flat_triangle::Point;
 
 /// Minimum area of a closed line around a sheet that follows the mesh's own border, as a share of the sheet's area; far
 /// below any triangle's.
@@ -174,7 +173,12 @@ fn draw(body: &Body, seams: &Seams, meetings: &Meetings, sheet: &Joined) -> Shee
         spots: sheet
             .parts
             .iter()
-            .map(|part| spot(body, laid, *part))
+            .map(|part| {
+                let own = laid.members.iter().zip(&laid.triangles);
+                let own = own.filter(|(t, _)| body.parts[**t as usize] == *part);
+                let own: Vec<[u32; 3]> = own.map(|(_, corners)| *corners).collect();
+                label_spot(*part, &own, &laid.places)
+            })
             .collect(),
         faces: Faces {
             built: (laid.source.iter())
@@ -251,44 +255,4 @@ fn along(seams: &Seams, laid: &FlatPart, number: usize) -> Vec<u32> {
 fn laid_source(laid: &FlatPart, side: u32, end: u32) -> u32 {
     let t = laid.members.binary_search(&(side / 3)).unwrap_or(0);
     laid.source[laid.triangles[t][((side + end) % 3) as usize] as usize]
-}
-
-/// Maximum number of triangles of a part that are compared as the place of its label.
-const MAX_LABEL_CANDIDATES: usize = 200;
-
-/// Finds a place for a part's number: the centroid of a triangle far from the part's border.
-fn spot(body: &Body, laid: &FlatPart, part: u32) -> Spot {
-    let is_own = |t: usize| body.parts[laid.members[t] as usize] == part;
-    let own: Vec<usize> = (0..laid.members.len()).filter(|t| is_own(*t)).collect();
-    let is_edge = |side: u32| {
-        let twin = laid.twins[side as usize];
-        twin == NO_INDEX || !is_own(twin as usize / 3)
-    };
-    let around = own.iter().flat_map(|t| 3 * *t as u32..3 * *t as u32 + 3);
-    let edges: Vec<[Point; 2]> = (around.filter(|side| is_edge(*side)))
-        .map(|side| half_edge_ends(&laid.triangles, side).map(|v| laid.places[v as usize]))
-        .collect();
-    let middle = |t: usize| {
-        let corners = laid.triangles[t].map(|v| laid.places[v as usize]);
-        corners.iter().sum::<Point>() / 3.0
-    };
-    let room = |place: Point| {
-        let away = edges.iter().map(|[a, b]| {
-            let (along, off) = (b - a, place - a);
-            let square = along.norm_sqr().max(f64::MIN_POSITIVE);
-            let share = ((off * along.conj()).re / square).clamp(0.0, 1.0);
-            (off - along * share).norm()
-        });
-        away.fold(f64::INFINITY, f64::min)
-    };
-    let tried = own.iter().step_by(own.len().div_ceil(MAX_LABEL_CANDIDATES));
-    let best = tried
-        .map(|t| (room(middle(*t)), middle(*t)))
-        .max_by(|a, b| a.0.total_cmp(&b.0));
-    let (room, place) = best.unwrap_or((0.0, Point::default()));
-    Spot {
-        patch: part,
-        place: [place.re, place.im],
-        room,
-    }
 }

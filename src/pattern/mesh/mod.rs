@@ -33,14 +33,6 @@ use seams::Seams;
 /// Maximum number of parts of a mesh: a pattern of more parts cannot be assembled in practice.
 const MAX_PARTS: u32 = 500;
 
-/// Ratio of the energy to the energy at the strain limit above which the solver that lays parts flat gives up where it
-/// progresses slowly.
-const HOPELESS_STRAIN_FACTOR: f64 = 2.5;
-
-/// Change of the energy in one step of the solver, as a share of it, below which a sheet of a mesh has converged. With
-/// 1e-3 fewer sheets are within the limit: the bunny of `benches/patterns.md` has 33 instead of 24.
-const MESH_RELATIVE_TOLERANCE: f64 = 1e-4;
-
 /// Cuts a mesh into flat sheets; the first is the one with the largest patch. The mesh may be closed, overhanging
 /// or of several components.
 ///
@@ -70,14 +62,8 @@ pub fn pattern_mesh(
     )?;
     let gap = positive("maxSeamGap", options.max_seam_gap)?;
     let strain = positive("maxStrain", options.max_strain)?;
-    let until = StoppingCriteria {
-        tolerance: positive("tolerance", options.unrolling.tolerance)?,
-        relative_tolerance: MESH_RELATIVE_TOLERANCE,
-        target_energy: 0.0,
-        // Of the two principal strains the energy has the sum of the squares.
-        hopeless_energy: HOPELESS_STRAIN_FACTOR * 2.0 * strain * strain,
-        max_steps: options.unrolling.max_iterations,
-    };
+    positive("tolerance", options.unrolling.tolerance)?;
+    let until = options.relaxation();
     let limits = Limits { gap, strain, until };
     let topology = Topology::new(mesh)?;
     let place = |vertex: &u32| Place::from(mesh.positions()[*vertex as usize]);

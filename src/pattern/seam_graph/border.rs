@@ -1,13 +1,11 @@
 //! The lines around patches.
 
 use super::{Node, SeamGraph, Segment, is_triangle};
-use crate::heights::heightfield::Heightfield;
-use crate::lattice::hexagonal::NEIGHBOUR_DIRECTIONS;
 use crate::pattern::line::meeting;
-use crate::scene::triangulation::Triangulation;
 use crate::shape::patches::NO_PATCH;
+use crate::unroll::border;
 use crate::unroll::flat_triangle::Point;
-use rustc_hash::FxHashMap;
+use rustc_hash::{FxHashMap, FxHashSet};
 
 /// Number of nodes at a seam's end over which the direction of the seam there is measured.
 pub(in crate::pattern) const HEADING_NODES: usize = 6;
@@ -51,7 +49,8 @@ impl SeamGraph {
         both.or(one[0])
     }
 
-    pub(super) fn add_borders(&mut self, surface: &Heightfield) {
+    pub(super) fn add_borders(&mut self) {
+        let open: FxHashSet<[u32; 2]> = border(self.mesh.triangles()).collect();
         for (number, corners) in self.mesh.triangles().iter().copied().enumerate() {
             let labels = corners.map(|v| self.labels[v as usize]);
             let junction = (number as u32, u32::MAX);
@@ -73,7 +72,7 @@ impl SeamGraph {
                         (false, true) => [*entry.insert(edge), (to, to)],
                         (false, false) => continue,
                     };
-                    if is_open(surface, &self.mesh, from, to) {
+                    if open.contains(&[from, to]) {
                         border.push(ends);
                     }
                 }
@@ -148,21 +147,4 @@ impl SeamGraph {
             false => places[1],
         }
     }
-}
-
-/// Returns whether an edge, which has a triangle on its left, has none on its right and so lies on the border.
-fn is_open(surface: &Heightfield, mesh: &Triangulation, from: u32, to: u32) -> bool {
-    let lattice = surface.lattice();
-    let [from, to] = [from, to].map(|v| {
-        let index = mesh.vertices()[v as usize] as usize;
-        (index / lattice.cols(), index % lattice.cols())
-    });
-    let place = (from.0 as isize, from.1 as isize);
-    let target = (to.0 as isize, to.1 as isize);
-    // The next direction clockwise of W, E, NW, NE, SW, SE.
-    const NEXT_CLOCKWISE: [usize; 6] = [2, 5, 3, 1, 0, 4];
-    let towards = (0..6).find(|k| NEIGHBOUR_DIRECTIONS[*k].step(place.0, place.1) == target);
-    let Some(towards) = towards else { return true };
-    let (row, col) = NEIGHBOUR_DIRECTIONS[NEXT_CLOCKWISE[towards]].step(place.0, place.1);
-    !lattice.contains(row, col) || surface.height(row as usize, col as usize).is_nan()
 }

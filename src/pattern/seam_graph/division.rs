@@ -3,12 +3,8 @@
 use super::{MIN_SEAM_PART_NODES, NEGLIGIBLE_GAP_LENGTHS, Seam, SeamGraph};
 use crate::unroll::flat_triangle::Point;
 
-/// Minimum share of a crease's length over which its two sides are joined where the whole crease cannot be.
-const MIN_JOINED_CREASE_SHARE: f64 = 0.5;
-
-/// Minimum share of the length of a cut inside of a patch over which its two sides are joined where the whole cut
-/// cannot be.
-const MIN_JOINED_CUT_SHARE: f64 = 0.2;
+/// Minimum share of a seam's length over which its two sides are joined where the whole seam cannot be.
+const MIN_JOINED_SHARE: f64 = 0.5;
 
 impl SeamGraph {
     /// Divides each seam whose sides do not fit as a whole, if the sides of a long enough part of it do. `gap` is the
@@ -19,17 +15,7 @@ impl SeamGraph {
                 continue;
             }
             let seam = &self.seams[number];
-            let least = if seam.smooth {
-                MIN_JOINED_CUT_SHARE
-            } else {
-                MIN_JOINED_CREASE_SHARE
-            };
-            let ends = divided(
-                &seam.sides,
-                gap,
-                NEGLIGIBLE_GAP_LENGTHS * self.spacing,
-                least,
-            );
+            let ends = divided(&seam.sides, gap, NEGLIGIBLE_GAP_LENGTHS * self.spacing);
             for at in ends[1..ends.len() - 1].iter().rev() {
                 self.cut_off(number, *at);
             }
@@ -157,8 +143,8 @@ impl SeamGraph {
 }
 
 /// Computes where to divide a seam, as node numbers along it, first and last included: around the longest part whose
-/// sides fit, if that has at least the share `least` of the seam's length.
-fn divided(sides: &[Vec<Point>; 2], gap: f64, fine: f64, least: f64) -> Vec<usize> {
+/// sides fit, if that has at least [`MIN_JOINED_SHARE`] of the seam's length.
+fn divided(sides: &[Vec<Point>; 2], gap: f64, fine: f64) -> Vec<usize> {
     let last = sides[0].len() - 1;
     let whole = vec![0, last];
     // Prefix sums of lengths and moments, so that the gap of any part takes constant time.
@@ -210,7 +196,7 @@ fn divided(sides: &[Vec<Point>; 2], gap: f64, fine: f64, least: f64) -> Vec<usiz
         }
     }
     let (length, mut from, mut to) = best;
-    if length < least * lengths[last] {
+    if length < MIN_JOINED_SHARE * lengths[last] {
         return whole;
     }
     if from < MIN_SEAM_PART_NODES {

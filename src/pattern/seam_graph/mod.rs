@@ -120,7 +120,7 @@ impl SeamGraph {
             net.add_seam(crease, patches, smooth, nodes);
         }
         net.index();
-        net.add_borders(surface);
+        net.add_borders();
         net.add_ends();
         Ok(net)
     }

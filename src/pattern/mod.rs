@@ -56,7 +56,7 @@ mod window;
 
 pub use exact::{
     FoundFaces, NetOptions, SheetMetal, has_exact_faces, has_exact_vertices, noisy_faces,
-    pattern_exact, sheet_metal,
+    pattern_exact, rolled_faces, sheet_metal,
 };
 pub use faces::Faces;
 pub use heightfield::pattern;

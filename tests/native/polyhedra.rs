@@ -1,7 +1,12 @@
-//! Polyhedra with noise, as scans of roofs and boxes are, and smooth surfaces with noise, which are none.
+//! Polyhedra with noise, as scans of roofs and boxes are, smooth surfaces with noise, which are none, and bends of cylinders in
+//! triangles of any kind.
+
+use std::f64::consts::{FRAC_PI_2, FRAC_PI_4};
 
 use developable::Mesh;
-use developable::pattern::{NetOptions, noisy_faces};
+use developable::pattern::{
+    NetOptions, has_exact_faces, has_exact_vertices, noisy_faces, rolled_faces,
+};
 use nalgebra::{Rotation3, Vector3};
 
 use crate::common::closed_meshes::cube;
@@ -167,5 +172,104 @@ fn smooth_surfaces_with_noise_have_no_faces() {
                 );
             }
         }
+    }
+}
+
+/// A sheet of 100 × 60 less half a triangle around, in irregular triangles without those within a circle about its middle, bent by 90°
+/// with radius 10 at places along it; with its area, length and width when flat.
+fn bent_sheet(bends: &[f64], hole: f64, seed: u64) -> (Mesh, f64, [f64; 2]) {
+    let (places, triangles) = Tessellation::RaggedRim.build(40, seed);
+    let flat: Vec<[f64; 2]> = places.iter().map(|[u, v]| [100.0 * u, 60.0 * v]).collect();
+    let middle = |t: &[u32; 3], k: usize| t.iter().map(|v| flat[*v as usize][k]).sum::<f64>() / 3.0;
+    let is_kept = |t: &[u32; 3]| (middle(t, 0) - 50.0).hypot(middle(t, 1) - 30.0) > hole;
+    let triangles: Vec<[u32; 3]> = triangles.into_iter().filter(is_kept).collect();
+    let area = triangles.iter().map(|t| {
+        let [a, b, c] = t.map(|v| flat[v as usize]);
+        0.5 * ((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]))
+    });
+    let area = area.sum();
+    let points = flat.iter().map(|[along, across]| {
+        let (mut x, mut z, mut turn, mut from) = (0.0, 0.0, 0.0f64, 0.0);
+        for bend in bends {
+            let start = (bend - 10.0 * FRAC_PI_4).min(*along);
+            x += (start - from) * turn.cos();
+            z += (start - from) * turn.sin();
+            let by = ((along - start) / 10.0).min(FRAC_PI_2);
+            x += 10.0 * ((turn + by).sin() - turn.sin());
+            z += 10.0 * (turn.cos() - (turn + by).cos());
+            (turn, from) = (turn + by, start + 10.0 * by);
+        }
+        [
+            x + (along - from) * turn.cos(),
+            *across,
+            z + (along - from) * turn.sin(),
+        ]
+    });
+    let extent = [0, 1].map(|k| {
+        let all = flat.iter().map(|p| p[k]);
+        all.clone().fold(f64::MIN, f64::max) - all.fold(f64::MAX, f64::min)
+    });
+    (
+        Mesh::new(points.collect(), triangles).unwrap(),
+        area,
+        extent,
+    )
+}
+
+#[test]
+fn bends_in_any_triangles_have_parallel_lines_and_the_blank_that_they_were_bent_from() {
+    for (bends, hole) in [(&[50.0][..], 0.0), (&[50.0], 6.0), (&[25.0, 75.0], 0.0)] {
+        let (mesh, area, [long, wide]) = bent_sheet(bends, hole, 4);
+        assert!(!has_exact_faces(&mesh), "{bends:?} {hole}");
+        assert!(has_exact_vertices(&mesh), "{bends:?} {hole}");
+        let found = rolled_faces(&mesh).expect("a bent sheet");
+        let sheets = found.pattern(&NetOptions::default()).unwrap().sheets;
+        let [sheet] = &sheets[..] else {
+            panic!("{} sheets", sheets.len());
+        };
+        assert!(
+            (sheet.area - area).abs() < 1e-6 * area,
+            "{} {area}",
+            sheet.area
+        );
+        assert_eq!(sheet.outlines.len(), if hole > 0.0 { 2 } else { 1 });
+        let along = |points: &[[f64; 2]]| {
+            let [a, b] = [points[0], points[points.len() - 1]];
+            let long = (b[0] - a[0]).hypot(b[1] - a[1]);
+            [(b[0] - a[0]) / long, (b[1] - a[1]) / long]
+        };
+        let first = along(&sheet.folds[0].points);
+        for fold in &sheet.folds {
+            let [x, y] = along(&fold.points);
+            assert!((x * first[1] - y * first[0]).abs() < 1e-5);
+            // A hole inside of a bend leaves lines of their own beside it.
+            if hole == 0.0 {
+                let bend = fold.bend.expect("a line of a bend");
+                assert!(
+                    (bend.angle.to_degrees() - 90.0).abs() < 0.01,
+                    "{}",
+                    bend.angle.to_degrees()
+                );
+                assert!((bend.radius - 10.0).abs() < 0.1, "{}", bend.radius);
+            }
+        }
+        // The sheet's extent along and across the lines.
+        let extent = |[x, y]: [f64; 2]| {
+            let all = sheet.faces.flat.iter().map(|p| p[0] * x + p[1] * y);
+            all.clone().fold(f64::MIN, f64::max) - all.fold(f64::MAX, f64::min)
+        };
+        let [x, y] = first;
+        assert!((extent([x, y]) - wide).abs() < 1e-3 && (extent([y, -x]) - long).abs() < 1e-3);
+    }
+}
+
+#[test]
+fn what_is_bent_otherwise_has_no_rolled_faces() {
+    for roof in &BENT[2..] {
+        assert!(
+            rolled_faces(&scan(*roof, Tessellation::Regular, 30, 0.0, 3)).is_none(),
+            "{}",
+            roof.0
+        );
     }
 }

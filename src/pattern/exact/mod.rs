@@ -13,6 +13,7 @@ mod planes;
 mod polygon;
 mod polyhedron;
 mod recognition;
+mod rolled;
 mod search;
 mod sheets;
 
@@ -25,6 +26,7 @@ pub use noisy::noisy_faces;
 use patches::FlatPatches;
 use polyhedron::Polyhedron;
 pub use recognition::{has_exact_faces, has_exact_vertices};
+pub use rolled::rolled_faces;
 
 /// Options of a net: the room for its sheets, and edges that a person decides about.
 #[derive(Debug, Clone, Default, PartialEq)]

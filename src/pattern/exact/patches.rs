@@ -145,16 +145,27 @@ pub(super) fn bend_steps(solid: &Polyhedron) -> Vec<Vec<(u32, f64)>> {
     steps
 }
 
-/// Whether each facet is part of a bend: it meets two others at small, similar angles of one sign, and the rest at large
-/// ones.
+/// Whether each facet is part of a bend: it meets two others at small, similar angles of one sign, one of which is about as wide, and
+/// the rest at large ones.
 fn bent_facets(solid: &Polyhedron) -> Vec<bool> {
     let steps = bend_steps(solid);
+    let mut lengths = vec![0.0; steps.len()];
+    for side in inner_sides(solid).filter(|side| is_step(solid, *side)) {
+        for side in [side, solid.twins[side as usize]] {
+            lengths[solid.facet(side) as usize] += solid.length(side);
+        }
+    }
+    let width = |facet: usize| solid.areas[facet] / lengths[facet];
     let is_even = |a: f64, b: f64| {
         let (low, high) = (a.abs().min(b.abs()), a.abs().max(b.abs()));
         a * b > 0.0 && high <= MAX_BEND_STEP_RATIO * low
     };
+    // A face between two bends is wider than both.
     let is_between = |facet: usize| match steps[facet][..] {
-        [(_, a), (_, b)] => is_even(a, b),
+        [(one, a), (other, b)] => {
+            let beside = width(one as usize).max(width(other as usize));
+            is_even(a, b) && width(facet) <= MAX_BEND_STEP_RATIO * beside
+        }
         _ => false,
     };
     let between: Vec<bool> = (0..steps.len()).map(is_between).collect();

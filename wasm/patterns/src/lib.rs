@@ -15,7 +15,8 @@ use developable::files::drawings::{PdfOptions, write_dxf, write_pdf, write_svg};
 use developable::patches::{Crease, MeshPatches, Patch, PatchOptions, Patches};
 use developable::pattern::{
     FoundFaces, MeshPattern, Missing, NetOptions, PatternOptions, Sheet, has_exact_faces,
-    has_exact_vertices, noisy_faces, pattern, pattern_exact, pattern_mesh, sheet_metal,
+    has_exact_vertices, noisy_faces, pattern, pattern_exact, pattern_mesh, rolled_faces,
+    sheet_metal,
 };
 use developable::unroll::UnrollOptions;
 use developable_wasm::mesh::MeshInput;
@@ -228,7 +229,9 @@ pub fn draw_pattern_of_mesh(mesh: JsValue, options: JsValue) -> Result<JsValue> 
     };
     let found = match kind {
         MeshKind::Faces => pattern_exact(&mesh, &wanted.net_options())?,
-        MeshKind::NoisyFaces(faces) => faces.pattern(&wanted.net_options())?,
+        MeshKind::NoisyFaces(faces) | MeshKind::Rolled(faces) => {
+            faces.pattern(&wanted.net_options())?
+        }
         _ if !(wanted.own.cut.is_empty() && wanted.own.join.is_empty()) => {
             return Err(Failure::option(
                 "options `cut` and `join` are for meshes with flat faces",
@@ -244,6 +247,8 @@ enum MeshKind {
     Faces,
     NoisyFaces(FoundFaces),
     Surface,
+    /// A surface of flat faces and bends.
+    Rolled(FoundFaces),
     Noisy,
 }
 
@@ -252,7 +257,7 @@ impl MeshKind {
         Ok(if has_exact_faces(mesh) {
             MeshKind::Faces
         } else if has_exact_vertices(mesh) {
-            MeshKind::Surface
+            rolled_faces(mesh).map_or(MeshKind::Surface, MeshKind::Rolled)
         } else {
             noisy_faces(mesh)?.map_or(MeshKind::Noisy, MeshKind::NoisyFaces)
         })
@@ -305,7 +310,7 @@ pub fn recognize_mesh(mesh: JsValue) -> Result<JsValue> {
             found.kind = RecognizedKind::NoisyFaces;
             (found.faces, found.noise) = (Some(faces.count), Some(faces.noise));
         }
-        MeshKind::Surface => found.kind = RecognizedKind::Surface,
+        MeshKind::Surface | MeshKind::Rolled(_) => found.kind = RecognizedKind::Surface,
         MeshKind::Noisy => {}
     }
     Ok(to_value(&found)?)

@@ -8,10 +8,14 @@ import { PROGRESS_DELAY_MS, waitingPanel } from './waiting.js';
 export function openingPanel(session) {
   /** @type {TimedTask | null} */
   let present = null;
-  const waiting = waitingPanel(element('opening', HTMLElement), () => session.cancelOpening(), PROGRESS_DELAY_MS);
+  const waiting = waitingPanel(element('opening', HTMLElement), () => {
+    // What is cancelled tells nothing of how long it would have taken.
+    present = null;
+    session.cancelOpening();
+  }, PROGRESS_DELAY_MS);
   session.on('opening', (task) => {
     if (task) waiting.begin(task);
-    else if (present) waiting.end(present);
+    else waiting.end(present ?? undefined);
     present = task;
   });
 }

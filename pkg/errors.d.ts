@@ -6,7 +6,6 @@
  * - `UNDERDETERMINED`: a part of the surface that its constraints and confidences do not hold in place;
  * - `EDGES`: traced edges that cannot be those of a page;
  * - `NO_PAGE`: no page was found in a photo, so that its edges have to be given;
- * - `FOCAL_LENGTH`: a photo's focal length is not known, and cannot be found from the edges;
  * - `CURVED_FOLD`: a fold along which sheet metal cannot be bent, since it is curved;
  * - `NOT_FLAT`: a part of a surface that no cut lays flat within the limits of a pattern;
  * - `OPTION`: an option is unknown, of the wrong type or out of range;
@@ -24,7 +23,7 @@
  */
 export type ErrorCode =
   | 'EMPTY' | 'SHAPE' | 'NOT_FINITE' | 'NO_INTERIOR' | 'UNDERDETERMINED' | 'TOPOLOGY' | 'OPTION' | 'OVERFLOW' | 'UNDERFLOW'
-  | 'TOO_LARGE' | 'OUT_OF_MEMORY' | 'EDGES' | 'NO_PAGE' | 'FOCAL_LENGTH' | 'CURVED_FOLD' | 'NOT_FLAT'
+  | 'TOO_LARGE' | 'OUT_OF_MEMORY' | 'EDGES' | 'NO_PAGE' | 'CURVED_FOLD' | 'NOT_FLAT'
   | 'FORMAT' | 'UNSUPPORTED'
   | 'INPUT' | 'NOT_INITIALIZED' | 'INIT' | 'DISPOSED' | 'REPLACED' | 'TRAP' | 'WORKER';
 

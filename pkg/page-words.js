@@ -16,22 +16,19 @@ const percent = (value) => `${Number(value.toPrecision(2))} %`;
  * @param {PageReport} report
  * @param {string} disagreement that its edges disagree, and by how much
  */
-function doubtWords({ doubt, linesFound }, disagreement) {
+function doubtWords({ doubt }, disagreement) {
   switch (doubt) {
     case 'hiddenPart': return 'a part of it hides another part; ';
     case 'disagreement': return `${disagreement}; `;
-    case 'fewLines':
-      return linesFound === 0 ? 'it shows no lines of text, and its outline alone does not tell how it is bent; '
-        : `few lines of text (${linesFound}) tell how it is bent; `;
     case 'crumpled': return 'it is crumpled; ';
-    case 'strongBend': return 'it is bent strongly; ';
+    case 'spread': return 'it may be both pages of an open book, which are to be given as two pages; ';
     case 'outline': return 'its outline may be wrong; if it is right, ';
     default: return '';
   }
 }
 
 /** Figures of a report that sentences state. */
-const FIGURES = /** @type {const} */ (['error', 'pinholeErrorBound', 'disagreement', 'residual', 'lines', 'linesFound']);
+const FIGURES = /** @type {const} */ (['error', 'errorBound', 'disagreement', 'residual', 'lines', 'linesFound']);
 
 /** @type {typeof import('./index.js').describePage} */
 export function describePage(given) {
@@ -40,25 +37,22 @@ export function describePage(given) {
     throw new DevelopableError('INPUT', 'the report must be that of a page, as `dewarpPage` returns it');
   }
   const report = /** @type {PageReport} */ (said);
-  const { verdict, model, error, pinholeErrorBound, disagreement, residual, lines, linesFound } = report;
-  const isSheet = model === 'sheet' || model === 'softSheet';
+  const { verdict, model, error, errorBound, disagreement, residual, lines, linesFound } = report;
   const text = lines + linesFound > 0 ? ' and lines of text' : '';
-  const likely = `expected error ${percent(error)} of its width (95 %: below ${percent(pinholeErrorBound)}, for an undistorted lens)`;
+  const likely = `expected error ${percent(error)} of its width (95 %: below ${percent(errorBound)})`;
   // Where both edges agree on the whole, single points are off.
   const off = disagreement < MIN_TOLD_DISAGREEMENT ? `by ${residual.toFixed(1)} pixels` : `by ${percent(disagreement)} of its width`;
   switch (verdict) {
     case 'flat':
-      if (model === 'plane') return 'the page lay flat: only the perspective was taken out';
-      return 'both edges are straight: only the perspective was taken out; folds that run along them do not show in them';
+      return 'the page lay flat: only the perspective was taken out';
     case 'unchecked':
-      return "nothing checks the page's bend, for too few points were traced, or one edge looks straight " +
-        `however the page is bent; if it is curled one way: ${likely}`;
+      return `${lines === 0 ? 'no line' : 'too few lines'} of text check${lines === 0 ? 's' : ''} how the page is bent; if its edges are right: ${likely}`;
     case 'doubtful':
       return `the flat page is doubtful: ${doubtWords(report, `its edges${text} disagree (${off})`)}${likely}`;
     case 'notThisKind':
-      if (isSheet) return `no sheet of paper has these edges (off ${off}): correct them`;
+      if (model !== 'cylinder') return `no sheet of paper has these edges (off ${off}): correct them`;
       return `this is no page that is curled one way: its edges${text} disagree (${off}); ` +
-        'it is folded or crumpled, for which depth is needed, or an edge is traced wrongly';
+        'it is folded or crumpled, for which all four edges are needed, or an edge is traced wrongly';
     default:
       return `the page is flat; ${likely}`;
   }

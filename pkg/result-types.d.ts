@@ -925,21 +925,21 @@ export type OutlineVerdict = 'found' | 'doubtful' | 'several' | 'notFound';
 
 /**
  * Main reason why a flat page is doubtful.
- * - `'largeError'`: The expected error is above 1 % of the page's width.
+ * - `'largeError'`: The expected error is above 1.5 % of the page's width.
  * - `'hiddenPart'`: A part of the page hides another part from the camera.
- * - `'disagreement'`: Edges and lines of text disagree by about the accuracy of the traced points.
- * - `'fewLines'`: Fewer than eight lines of text were detected, and a sheet of any shape is not determined by its edges
- *   alone.
+ * - `'disagreement'`: Edges and lines of text are far from those of the page's model.
  * - `'crumpled'`: The page is crumpled: its model is a sheet that is strained.
- * - `'strongBend'`: The page is bent so strongly that its model may be wrong between edges and lines.
+ * - `'spread'`: The page may be both pages of an open book: it is bent and wider than high, and no line of print
+ *   crosses its middle.
  * - `'outline'`: The outline that was found in the photo is doubtful.
  */
-export type PageDoubt = 'largeError' | 'hiddenPart' | 'disagreement' | 'fewLines' | 'crumpled' | 'strongBend' | 'outline';
+export type PageDoubt = 'largeError' | 'hiddenPart' | 'disagreement' | 'crumpled' | 'spread' | 'outline';
 
 /**
  * Model of a page's shape, from the plainest to the most general.
  * - `'plane'`: A plane seen in perspective: a homography maps it to the photo.
- * - `'cylinder'`: A cylinder over any curve: a page that is curled in one direction.
+ * - `'cylinder'`: A cylinder over any curve: a page that is curled in one direction, of which only the two bent edges
+ *   are known.
  * - `'sheet'`: An isometric sheet of any shape, bent without strain: a page that is folded, or bent both ways.
  * - `'softSheet'`: A sheet that is slightly strained: a crumpled page, whose wrinkles are too small to be visible in
  *   its outline.
@@ -982,68 +982,40 @@ export interface PageReport {
   doubt?: PageDoubt;
   /** Model that was fitted to the page's shape: plane, cylinder or sheet. */
   model: PageModel;
-  /**
-   * Expected displacement of points on the flat page: the root mean square after the best similarity, in % of a page's
-   * width.
-   */
+  /** Expected displacement of points on the flat page: the root mean square, in % of a page's width. */
   error: number;
-  /**
-   * Displacement that is not exceeded in 95 of 100 cases if the page is curled in one direction and the lens does not
-   * distort (phones correct it), in % of a page's width.
-   */
-  pinholeErrorBound: number;
+  /** Displacement that is not exceeded in 95 of 100 cases, in % of a page's width. */
+  errorBound: number;
   /** Focal length of the camera, in pixels of the photo. */
   focalLength: number;
-  /** Standard deviation of the focal length, in %. */
-  focalDeviation: number;
   /** Angle between the camera's axis and the normal of the page's chord plane, in degrees. */
   tilt: number;
-  /**
-   * Angle by which the page's tangent turns along its curve (largest minus smallest direction), in degrees; the larger
-   * one of a spread's two pages.
-   */
+  /** Largest angle between two of the page's normals, at most, in degrees: 0 for a plane. */
   bend: number;
-  /**
-   * Root mean square distance between the traced points and the page's model, in pixels: of the edge that fits worst,
-   * or of all lines of text together.
-   */
+  /** Root mean square distance between the traced edges and those of the page's model, in pixels. */
   residual: number;
-  /**
-   * Part of the residual that is correlated between neighbouring points of an edge, or between neighbouring lines of
-   * text, so that it is not due to inaccurate tracing; in % of a page's width in the photo.
-   */
+  /** Root mean square distance between the traced edges and those of the page's model, in % of a page's width. */
   disagreement: number;
   /** Number of lines of text that the fit of the page used besides the edges, traced and detected ones. */
   lines: number;
   /** Number of lines of text that were detected in the photo. */
   linesFound: number;
-  /**
-   * Number of detected lines of text that the fit of the page used: all or none. If they contradict the edges, the page
-   * is fitted to the edges alone, and only the verdict takes the lines into account.
-   */
-  linesUsed: number;
-  /**
-   * Part of the residual of lines of text that is correlated between neighbouring lines, in % of the page's width in
-   * the photo.
-   */
+  /** Root mean square distance between lines of text and level lines of the page's model, in % of a page's width. */
   linesDisagreement: number;
-  /** Ratio of the page's height to its width as the edges show it, without use of a given format. */
+  /** Ratio of the page's height to its width. */
   ratio: number;
 }
 
 /**
  * Verdict on a flat page: whether it can be trusted.
- * - `'flat'`: Both bent edges are straight, and so are lines of text if they are known; only the perspective is
- *   removed. The page was flat, or it is folded along these edges, which they do not show (the other two edges do, if
- *   all four are given).
- * - `'unrolled'`: The page was curled in one direction and is flat now, with lengths as on the page.
- * - `'unchecked'`: The flat page may be right, but nothing checks it: too few points were traced, or one of the edges
- *   appears straight however the page is bent.
- * - `'doubtful'`: The flat page may be wrong: the expected error is above 1 % of the page's width, or the page hides a
- *   part of itself, or its edges and lines disagree by about the accuracy of the traced points.
- * - `'notThisKind'`: The edges, or the lines of text, cannot belong to a page that is curled in one direction only: the
- *   page is folded, crumpled or bent both ways, or a line is traced wrongly. Measured depths are needed, or better
- *   traces.
+ * - `'flat'`: The page was flat: only the perspective is removed.
+ * - `'unrolled'`: The page was bent and is flat now, with lengths as on the page.
+ * - `'unchecked'`: The flat page may be right, but nothing checks how it is bent: it shows too few lines of text, or it
+ *   fills the photo, so that its edges are not seen.
+ * - `'doubtful'`: The flat page may be wrong: the expected error is above 1.5 % of the page's width, or the page hides
+ *   a part of itself.
+ * - `'notThisKind'`: The edges cannot belong to a sheet of paper: they are traced wrongly. Or only two edges are
+ *   traced, and the lines of text cannot belong to a page that is curled in one direction.
  */
 export type PageVerdict = 'flat' | 'unrolled' | 'unchecked' | 'doubtful' | 'notThisKind';
 

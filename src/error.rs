@@ -140,14 +140,6 @@ pub enum Error {
     )]
     NoPage,
 
-    /// The focal length of a photo is not known, and its page shows too little perspective to find it.
-    #[error(
-        "the camera's focal length cannot be found from these edges, for they show too little \
-         perspective; give it in pixels, as Exif's focal length in 35 mm film, or as a field of \
-         view, or trace all four edges"
-    )]
-    FocalLength,
-
     /// The triangles of a mesh make no surface that can be fitted, or one without interior vertices.
     #[error("this mesh is no surface that can be fitted: {reason}; {advice}")]
     Topology {
@@ -250,7 +242,6 @@ impl Error {
             Error::Edges { .. } => "EDGES",
             Error::CurvedFold { .. } => "CURVED_FOLD",
             Error::NoPage => "NO_PAGE",
-            Error::FocalLength => "FOCAL_LENGTH",
             Error::Topology { .. } => "TOPOLOGY",
             Error::NotFlat { .. } => "NOT_FLAT",
             Error::Overflow { .. } => "OVERFLOW",

@@ -225,8 +225,6 @@ export const dewarpPage = {
    * give the middle of the whole one.
    */
   centre: { kind: numbers(2, 'two numbers: x and y in the photo') },
-  /** Expected error of traced points, in pixels of the photo. Default: 1/2500 of the photo's diagonal. */
-  accuracy: { kind: positive },
   /**
    * Whether to search the photo for lines of text. They make the result more exact where they agree with the edges; where
    * they do not, the verdict says so. Default: true, unless the edges of a page include `lines`.

@@ -118,13 +118,13 @@ fn check_no_crossing(first: &TracedLine, second: &TracedLine) -> Result<()> {
 pub(super) fn arrange_spread(one: &mut TracedPage, other: &mut TracedPage) -> Result<()> {
     let gap = |one: &TracedPage, other: &TracedPage| -> f64 {
         (0..2)
-            .map(|e| distance(one.pair[e].ends()[1], other.pair[e].ends()[0]))
+            .map(|e| distance(one.pair()[e].ends()[1], other.pair()[e].ends()[0]))
             .sum()
     };
     if gap(other, one) < gap(one, other) {
         std::mem::swap(one, other);
     }
-    let (one, other) = (&one.pair, &other.pair);
+    let (one, other) = (one.pair(), other.pair());
     for e in 0..2 {
         let apart = distance(one[e].ends()[1], other[e].ends()[0]);
         if apart > MAX_CORNER_GAP_SHARE * one[e].chord().max(other[e].chord()) {
@@ -179,7 +179,7 @@ const MAX_OUTSIDE_SHARE: f64 = 0.03;
 /// # Errors
 /// [`Error::Edges`].
 pub(super) fn check_on_page(
-    [first, second]: &[TracedLine; 2],
+    [first, second]: [&TracedLine; 2],
     points: &[[f64; 2]],
     number: usize,
 ) -> Result<()> {

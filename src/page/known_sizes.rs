@@ -1,20 +1,11 @@
 //! Focal lengths and page formats from the options, converted to the units of the fit.
 
-use super::options::{FocalLength, Format};
+use super::options::{FocalLength, Format, PageOptions};
 use crate::error::{Error, Result, positive};
 use crate::scene::camera::focal_length_of;
 
 /// Diagonal of 35 mm film (36 by 24 mm), in millimetres.
 const FILM_DIAGONAL_MM: f64 = 43.266_615;
-
-/// Assumed relative standard deviation of a focal length that is given in pixels, as from a calibration.
-const FOCAL_PIXELS_DEVIATION: f64 = 0.003;
-
-/// Assumed relative standard deviation of a focal length that is given as a field of view.
-const FIELD_OF_VIEW_DEVIATION: f64 = 0.01;
-
-/// Assumed relative standard deviation of a focal length that is given for 35 mm film: Exif rounds it to millimetres.
-const FOCAL_FILM35_DEVIATION: f64 = 0.02;
 
 /// Minimum focal length that is accepted, as a multiple of the photo's longer side.
 const MIN_FOCAL_RATIO: f64 = 0.05;
@@ -25,29 +16,36 @@ const MAX_FOCAL_RATIO: f64 = 100.0;
 /// Maximum ratio of a page's longer to its shorter side that is accepted.
 const MAX_SIDE_RATIO: f64 = 50.0;
 
-/// Converts a given focal length to pixels, with its relative standard deviation; None if it is unknown. `longer` and
-/// `diagonal` are the photo's longer side and diagonal in pixels.
+/// Maximum absolute coordinate of a principal point, in diagonals of the photo.
+const MAX_CENTRE_DIAGONALS: f64 = 10.0;
+
+/// Returns the principal point in a photo of `size` (width and height) pixels: that of the options, or the photo's middle.
 ///
 /// # Errors
 /// [`Error::Option`].
-pub(super) fn focal_length(
-    given: FocalLength,
-    longer: f64,
-    diagonal: f64,
-) -> Result<Option<[f64; 2]>> {
-    let (name, value, found, deviation) = match given {
+pub(super) fn principal_point(options: &PageOptions, size: [f64; 2]) -> Result<[f64; 2]> {
+    let centre = options.centre.unwrap_or(size.map(|n| (n - 1.0) / 2.0));
+    let most = MAX_CENTRE_DIAGONALS * size[0].hypot(size[1]);
+    if centre.iter().all(|v| v.abs() <= most) {
+        return Ok(centre);
+    }
+    let requirement = "must be two numbers, in pixels, not far outside of the photo";
+    Err(Error::option("centre", centre, requirement))
+}
+
+/// Converts a given focal length to pixels; None if it is unknown. `size` is the photo's width and height in pixels.
+///
+/// # Errors
+/// [`Error::Option`].
+pub(super) fn focal_length(given: FocalLength, size: [f64; 2]) -> Result<Option<f64>> {
+    let (longer, diagonal) = (size[0].max(size[1]), size[0].hypot(size[1]));
+    let (name, value, found) = match given {
         FocalLength::Unknown => return Ok(None),
-        FocalLength::Pixels(pixels) => ("focal_length", pixels, pixels, FOCAL_PIXELS_DEVIATION),
+        FocalLength::Pixels(pixels) => ("focal_length", pixels, pixels),
         FocalLength::FieldOfView(degrees) => {
-            let pixels = focal_length_of(degrees, longer)?;
-            ("field_of_view", degrees, pixels, FIELD_OF_VIEW_DEVIATION)
+            ("field_of_view", degrees, focal_length_of(degrees, longer)?)
         }
-        FocalLength::Film35(length) => (
-            "film35",
-            length,
-            length * diagonal / FILM_DIAGONAL_MM,
-            FOCAL_FILM35_DEVIATION,
-        ),
+        FocalLength::Film35(length) => ("film35", length, length * diagonal / FILM_DIAGONAL_MM),
     };
     positive(name, value)?;
     if !(MIN_FOCAL_RATIO * longer..=MAX_FOCAL_RATIO * longer).contains(&found) {
@@ -55,7 +53,7 @@ pub(super) fn focal_length(
             "must give between 1/20 of the photo's longer side and 100 times that, in pixels";
         return Err(Error::option(name, value, requirement));
     }
-    Ok(Some([found, deviation]))
+    Ok(Some(found))
 }
 
 /// Ratio and lengths of the sides of a page whose format is known.
@@ -66,18 +64,27 @@ pub(super) struct Sides {
     /// Whether the page may also be turned by a quarter (portrait or landscape).
     either: bool,
     /// Width and height of the page in millimetres, if known.
-    pub millimetres: Option<[f64; 2]>,
+    millimetres: Option<[f64; 2]>,
 }
 
 impl Sides {
-    /// Returns the format's ratio of height to width: portrait or landscape, whichever is nearer to the observed ratio
-    /// `seen`.
-    pub fn ratio(&self, seen: f64) -> f64 {
-        if self.either && (seen > 1.0) != (self.ratio > 1.0) {
-            1.0 / self.ratio
-        } else {
-            self.ratio
+    /// Ratios of height to width that the page may have: both of a format that may lie across.
+    pub fn ratios(&self) -> Vec<f64> {
+        match self.either {
+            true => vec![self.ratio, 1.0 / self.ratio],
+            false => vec![self.ratio],
         }
+    }
+
+    /// Width and height of a page in millimetres, if known, where its ratio of height to width is `ratio`.
+    pub fn millimetres(&self, ratio: f64) -> Option<[f64; 2]> {
+        let [width, height] = self.millimetres?;
+        let is_across = self.either && (ratio > 1.0) != (height > width);
+        Some(if is_across {
+            [height, width]
+        } else {
+            [width, height]
+        })
     }
 }
 

@@ -1,16 +1,14 @@
-//! Flat pages from one photo of a curled page and the traces of its bent edges.
+//! Flat pages from one photo of a bent page and the traces of its edges.
 //!
-//! A page that is curled one way (a book's page, a letter that was rolled up) is a cylinder over some curve: its
-//! rulings are straight, parallel, and normal to the two edges that are bent. So one photo in which these edges are
-//! traced, with the page's corners at their ends, determines the surface: the corners are those of a plane rectangle,
-//! which gives the rulings' direction, and each traced point is the intersection of its line of sight with the plane of
-//! its edge. (Huaigu Cao, Xiaoqing Ding, Changsong Liu, *A Cylindrical Surface Model to Rectify the Bound Document
-//! Image*, ICCV 2003, have the same model; they derive the bend from lines of text.) The closed form is the initial
-//! guess of the least-squares cylinder of both edges, the corners and prior knowledge; its residuals give the verdict.
+//! A page is a sheet of paper in space that a camera sees: a grid of points that keeps lengths, bends little, and meets the
+//! edges and the lines of print of the photo. A page that is flat, curled in one direction, folded, crumpled or bent both ways
+//! differs by its stiffness only: the plainest model that explains the photo is taken. (Nail Gumerov, Ali Zandifar, Ramani
+//! Duraiswami, Larry Davis, *Structure of Applicable Surfaces from Single Views*, ECCV 2004, show that an outline nearly
+//! determines a smooth sheet.)
 //!
 //! ```
 //! use developable::dewarp::DewarpOptions;
-//! use developable::page::{CurledPage, Edges, FocalLength, PageOptions, PageVerdict, Trace};
+//! use developable::page::{Edges, FocalLength, PageOptions, PageSurface, PageVerdict, Trace};
 //! # fn main() -> developable::Result<()> {
 //! // Seen from straight above, a page that rises in its middle: both edges bow outwards.
 //! let bow = |y: f64, rise: f64| {
@@ -25,9 +23,9 @@
 //!     bottom: bow(1900.0, 60.0),
 //! };
 //! let options = PageOptions::default().focal_length(FocalLength::Pixels(2700.0));
-//! let page = CurledPage::new(&[edges], [3200, 2400], &options)?;
-//! assert_eq!(page.report().verdict, PageVerdict::Unrolled);
-//! assert!(page.report().pinhole_error_bound < 0.3); // % of the page's width
+//! let page = PageSurface::new(&[edges], &[], [3200, 2400], &options)?;
+//! // Without a line of text nothing checks the bend.
+//! assert_eq!(page.report().verdict, PageVerdict::Unchecked);
 //! // The curve is longer than its chord, so the page is lower than it looks: 1400 by 2400.
 //! let [width, height] = page.flat_size();
 //! assert!(width == 1.0 && height < 0.58);
@@ -38,53 +36,30 @@
 //! ```
 //!
 //! [`find_outline`] finds the edges in the photo, with a verdict: [`PageOutline::to_edges`] gives them in the form that
-//! [`CurledPage::in_photo`] takes.
-//!
-//! Limits of two edges: an edge whose plane passes near the camera appears straight however the
-//! page is bent, so that nothing checks the other edge ([`PageVerdict::Unchecked`]). A page with a
-//! slight fold, which both edges fit nearly as well as a curve, is recognised by its known
-//! format, by lines of text ([`CurledPage::in_photo`] finds them, [`CurledPage::with_lines`] is given them) or by its
-//! straight edges ([`Edges::All`]).
-//! Lenses are assumed to have no distortion.
-//!
-//! A page that is folded, crumpled or bent both ways is no cylinder. [`SheetPage`] finds it by its four edges and the
-//! lines of print between them as an isometric sheet that bends little; [`PageSurface`] takes the plainest model that
-//! explains them.
+//! [`PageSurface::in_photo`] takes. Lenses are assumed to have no distortion.
 
 pub mod cleaning;
-mod closed_form;
 mod corners;
-mod cross_sections;
-mod curled_page;
-mod cylinder;
 mod edges;
-mod error_estimate;
-mod in_photo;
 mod known_sizes;
 mod options;
 mod outline;
-mod output;
 mod page_warp;
 mod pixel_grid;
-mod prior;
+mod places;
 mod read_traces;
 mod report;
-mod residual_statistics;
 mod robust_fit;
-mod search;
 mod sheet;
 mod surface;
 mod text;
 mod traced_line;
-mod traces;
 mod working_photo;
 
-pub use curled_page::CurledPage;
 pub use edges::{Edges, Trace};
 pub use options::{FocalLength, Format, PageOptions, Ruler};
 pub use outline::{OutlineReason, OutlineReport, OutlineVerdict, PageOutline, find_outline};
 pub use page_warp::PageWarp;
 pub use pixel_grid::PixelGrid;
 pub use report::{PageDoubt, PageModel, PageReport, PageVerdict};
-pub use sheet::SheetPage;
 pub use surface::PageSurface;

@@ -4,7 +4,8 @@
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 #[non_exhaustive]
 pub enum FocalLength {
-    /// The focal length is not known: it is estimated from the perspective, if that is strong enough.
+    /// The focal length is not known: it is assumed to be a usual one, and corrected by the perspective as far as
+    /// that shows it.
     #[default]
     Unknown,
     /// The focal length is given in pixels of the photo.
@@ -12,7 +13,7 @@ pub enum FocalLength {
     /// Field of view along the photo's longer side, in degrees.
     FieldOfView(f64),
     /// Focal length in millimetres of a camera for 35 mm film (36 by 24 mm) with the same diagonal field of view:
-    /// Exif's `FocalLengthIn35mmFilm`. Its standard deviation is taken to be 2 %.
+    /// Exif's `FocalLengthIn35mmFilm`.
     Film35(f64),
 }
 
@@ -71,11 +72,8 @@ pub struct PageOptions {
     /// A known distance on the page, for a page whose format is not known in millimetres.
     pub ruler: Option<Ruler>,
     /// The principal point, in pixels: in a photo that was cropped, the middle of the original one.
-    /// Default: the photo's middle, with a standard deviation of 0.4 % of the diagonal.
+    /// Default: the photo's middle.
     pub centre: Option<[f64; 2]>,
-    /// Standard deviation of the traced points from the page's true edge, in pixels; if the points scatter more, the
-    /// observed scatter counts. Default: 1/2500 of the photo's diagonal, 2 pixels of a 12-megapixel photo.
-    pub accuracy: Option<f64>,
 }
 
 impl PageOptions {
@@ -104,14 +102,6 @@ impl PageOptions {
     pub fn centre(self, centre: [f64; 2]) -> Self {
         PageOptions {
             centre: Some(centre),
-            ..self
-        }
-    }
-
-    /// Returns these options with another standard deviation of the traced points, in pixels.
-    pub fn accuracy(self, accuracy: f64) -> Self {
-        PageOptions {
-            accuracy: Some(accuracy),
             ..self
         }
     }

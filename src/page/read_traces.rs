@@ -1,8 +1,8 @@
 //! Reading of traced edges and lines of text: checks them and brings them into a common order.
 
-use super::corners::{arrange, arrange_spread, check_sides};
+use super::corners::{arrange, arrange_spread, check_on_page, check_sides};
 use super::edges::{Edges, Trace};
-use super::traced_line::{TracedLine, TracedPage, distance};
+use super::traced_line::{BentEdges, TracedLine, TracedPage, distance};
 use crate::error::{Error, Result};
 
 /// Number of points at which each cubic Bézier curve of a trace is sampled.
@@ -22,17 +22,19 @@ const DISORDER_LENGTH_RATIO: f64 = 1.5;
 /// an error.
 const MAX_OUTSIDE_SHARE: f64 = 0.05;
 
-/// Checks all traces and brings them into a common order: page by page, from the start of the bent edges. Returns them,
-/// and whether the bent edges are the left and right ones. `text` are lines of text that the caller traced, `seen`
-/// those detected in the photo, both page by page; the latter from left to right.
+/// Maximum number of lines of text that the caller may trace on all pages.
+const MAX_TEXT_LINES: usize = 500;
+
+/// Checks all traces and brings them into a common order: the pages of a spread from left to right, or from top to bottom.
+/// `text` are lines of text that the caller traced, page by page.
 ///
 /// # Errors
-/// Those of [`CurledPage::with_lines`](super::CurledPage::with_lines) about edges and lines.
+/// Those of [`PageSurface::new`](super::PageSurface::new) about edges and lines.
 pub(super) fn read_traces(
     pages: &[Edges],
-    [text, seen]: [&[Vec<Trace>]; 2],
+    text: &[Vec<Trace>],
     photo: [usize; 2],
-) -> Result<(Vec<TracedPage>, bool)> {
+) -> Result<Vec<TracedPage>> {
     if !(1..=2).contains(&pages.len()) {
         return Err(Error::option(
             "edges",
@@ -47,111 +49,111 @@ pub(super) fn read_traces(
             "must be the lines of text of each page, in the order of the edges",
         ));
     }
-    let sideways = is_bent_sideways(pages)?;
-    let lines = |own: Option<&Vec<Trace>>| -> Result<Vec<TracedLine>> {
-        (own.into_iter().flatten())
-            .map(|trace| read_line((TEXT_LINE_NAME, trace), photo))
-            .collect()
-    };
-    let mut found = Vec::with_capacity(pages.len());
-    for (number, page) in pages.iter().enumerate() {
-        // Turned by 90°, the right edge is the top one, and the left one the bottom.
-        let ([first, second], sides) = page.named(sideways);
-        let mut pair = [read_line(first, photo)?, read_line(second, photo)?];
-        arrange(&mut pair)?;
-        let sides = match sides {
-            Some([start, end]) => Some([read_line(start, photo)?, read_line(end, photo)?]),
-            None => None,
-        };
-        if let Some(sides) = &sides {
-            check_sides(&pair, sides)?;
-        }
-        found.push(TracedPage {
-            pair,
-            sides,
-            text: lines(text.get(number))?,
-            found: Vec::new(),
+    let requested = text.iter().map(Vec::len).sum();
+    if requested > MAX_TEXT_LINES {
+        return Err(Error::TooLarge {
+            what: "list of lines of text",
+            requested,
+            limit: MAX_TEXT_LINES,
         });
     }
+    let mut found = Vec::with_capacity(pages.len());
+    for (number, page) in pages.iter().enumerate() {
+        let mut page = read_page(page, photo)?;
+        for (line, trace) in text.get(number).into_iter().flatten().enumerate() {
+            let traced = read_line((TEXT_LINE_NAME, trace), photo)?;
+            check_on_page(page.pair(), &traced.points, line)?;
+            page.text.push(traced);
+        }
+        found.push(page);
+    }
     if let [one, other] = &mut found[..] {
+        if (one.bent == Some(BentEdges::LeftRight)) != (other.bent == Some(BentEdges::LeftRight)) {
+            return Err(Error::edges(
+                "the two pages of a spread must both have `top` and `bottom`, or both `left` and `right`",
+            ));
+        }
         arrange_spread(one, other)?;
     }
-    // Pages on which lines were found are in their order from left to right, not as they are given.
-    for (page, own) in found.iter_mut().zip(seen) {
-        page.found = lines(Some(own))?;
-    }
-    Ok((found, sideways))
+    Ok(found)
 }
 
-type Named<'a> = (&'static str, &'a Trace);
-
-impl Edges {
-    /// Returns the two bent edges and, if all four are given, the two straight ones at the start and the end, with
-    /// their names. `sideways` says that the left and right edges are bent.
-    fn named(&self, sideways: bool) -> ([Named<'_>; 2], Option<[Named<'_>; 2]>) {
-        match self {
-            Edges::TopBottom { top, bottom } => ([("top", top), ("bottom", bottom)], None),
-            Edges::LeftRight { left, right } => ([("right", right), ("left", left)], None),
-            Edges::All {
-                top,
-                bottom,
-                left,
-                right,
-            } => {
-                let upright = [("top", top), ("bottom", bottom)];
-                if sideways {
-                    ([("right", right), ("left", left)], Some(upright))
-                } else {
-                    (upright, Some([("left", left), ("right", right)]))
-                }
-            }
-        }
+/// Makes a page that fills a photo of `photo` (width and height) pixels, of which no edge is seen, with rulings from top to
+/// bottom, as in a book.
+pub(super) fn page_that_fills(photo: [usize; 2]) -> TracedPage {
+    let [right, bottom] = photo.map(|n| n as f64 - 1.0);
+    let corners = [[0.0, 0.0], [right, 0.0], [0.0, bottom], [right, bottom]];
+    let edges = [
+        ("top", [0, 1]),
+        ("bottom", [2, 3]),
+        ("left", [0, 2]),
+        ("right", [1, 3]),
+    ];
+    TracedPage {
+        edges: edges.map(|(name, ends)| TracedLine {
+            name,
+            points: ends.map(|end| corners[end]).to_vec(),
+        }),
+        bent: Some(BentEdges::TopBottom),
+        is_seen: false,
+        text: Vec::new(),
     }
 }
 
-/// Whether the left and the right edges are the bent ones. Where all four edges are given, those that are farther from
-/// straight in the photo are bent.
-fn is_bent_sideways(pages: &[Edges]) -> Result<bool> {
-    let mut bows = [0.0; 2];
-    let mut told = Vec::new();
-    for page in pages {
-        match page {
-            Edges::TopBottom { .. } => told.push(false),
-            Edges::LeftRight { .. } => told.push(true),
-            Edges::All {
-                top,
-                bottom,
-                left,
-                right,
-            } => {
-                bows[0] += relative_bow(top) + relative_bow(bottom);
-                bows[1] += relative_bow(left) + relative_bow(right);
-            }
-        }
-    }
-    if told.iter().any(|sideways| *sideways != told[0]) {
-        return Err(Error::edges(
-            "the two pages of a spread must both have `top` and `bottom`, or both `left` and `right`",
-        ));
-    }
-    Ok(told.first().copied().unwrap_or(bows[1] > bows[0]))
-}
-
-/// Maximum distance of a trace's points from its chord, as a share of the chord's length.
-fn relative_bow(trace: &Trace) -> f64 {
-    let points = match trace {
-        Trace::Points(points) => points.clone(),
-        Trace::Beziers(control) if control.len() % 3 == 1 => sample_beziers(control),
-        Trace::Beziers(_) => return 0.0,
+/// Reads the edges of one page. Edges that are not traced are straight.
+fn read_page(page: &Edges, photo: [usize; 2]) -> Result<TracedPage> {
+    let pair = |first, second| -> Result<[TracedLine; 2]> {
+        let mut pair = [read_line(first, photo)?, read_line(second, photo)?];
+        arrange(&mut pair)?;
+        Ok(pair)
     };
-    let [Some(from), Some(to)] = [points.first(), points.last()] else {
-        return 0.0;
+    let straight = |name, one: &TracedLine, other: &TracedLine, end: usize| TracedLine {
+        name,
+        points: vec![one.ends()[end], other.ends()[end]],
     };
-    let way = [to[0] - from[0], to[1] - from[1]];
-    let squared = way[0] * way[0] + way[1] * way[1];
-    (points.iter())
-        .map(|p| (way[0] * (p[1] - from[1]) - way[1] * (p[0] - from[0])).abs() / squared)
-        .fold(0.0, f64::max)
+    let (edges, bent) = match page {
+        Edges::TopBottom { top, bottom } => {
+            let [top, bottom] = pair(("top", top), ("bottom", bottom))?;
+            let left = straight("left", &top, &bottom, 0);
+            let right = straight("right", &top, &bottom, 1);
+            ([top, bottom, left, right], Some(BentEdges::TopBottom))
+        }
+        Edges::LeftRight { left, right } => {
+            // Turned by 90°, the right edge is the top one, and the left one the bottom.
+            let [right, left] = pair(("right", right), ("left", left))?;
+            let top = straight("top", &left, &right, 0);
+            let bottom = straight("bottom", &left, &right, 1);
+            ([top, bottom, left, right], Some(BentEdges::LeftRight))
+        }
+        Edges::All {
+            top,
+            bottom,
+            left,
+            right,
+        } => {
+            let mut pair = [
+                read_line(("top", top), photo)?,
+                read_line(("bottom", bottom), photo)?,
+            ];
+            let mut sides = [
+                read_line(("left", left), photo)?,
+                read_line(("right", right), photo)?,
+            ];
+            // Each begins at the edge that it shares its first corner with.
+            pair.iter_mut().for_each(|edge| edge.begin_at(&sides[0]));
+            sides.iter_mut().for_each(|side| side.begin_at(&pair[0]));
+            arrange(&mut pair)?;
+            check_sides(&pair, &sides)?;
+            let ([top, bottom], [left, right]) = (pair, sides);
+            ([top, bottom, left, right], None)
+        }
+    };
+    Ok(TracedPage {
+        edges,
+        bent,
+        is_seen: true,
+        text: Vec::new(),
+    })
 }
 
 /// Name of a line of text among the names of edges, in error messages.
@@ -193,13 +195,12 @@ fn read_line((name, trace): (&'static str, &Trace), photo: [usize; 2]) -> Result
             advice: "rows are its points and columns x and y; leave the point out",
         });
     }
-    let (points, independent) = match trace {
+    let points = match trace {
         Trace::Points(points) => {
             let mut points = points.clone();
             points.dedup();
             sort_along_chord(&mut points);
-            let count = points.len() as f64;
-            (points, count)
+            points
         }
         Trace::Beziers(control) => {
             if control.len() < 4 || control.len() % 3 != 1 {
@@ -214,7 +215,7 @@ fn read_line((name, trace): (&'static str, &Trace), photo: [usize; 2]) -> Result
             }
             let mut points = sample_beziers(control);
             points.dedup();
-            (points, (2 * control.len() / 3 + 2) as f64)
+            points
         }
     };
     let ends = match &points[..] {
@@ -248,11 +249,7 @@ fn read_line((name, trace): (&'static str, &Trace), photo: [usize; 2]) -> Result
             ),
         });
     }
-    Ok(TracedLine {
-        name,
-        points,
-        independent,
-    })
+    Ok(TracedLine { name, points })
 }
 
 /// Sorts points by their positions along their main direction if they are in disorder.

@@ -1,5 +1,5 @@
-//! Robust least squares: the Levenberg–Marquardt method, and the pseudo-Huber penalty of outliers, by which both the
-//! cylinder and the sheet of a page are fitted.
+//! Robust least squares: the Levenberg–Marquardt method, and the pseudo-Huber penalty of outliers, by which a
+//! page and its edges are fitted.
 
 /// Initial damping of the Levenberg–Marquardt method, relative to the normal matrix's diagonal.
 const INITIAL_DAMPING: f64 = 1e-3;
@@ -74,29 +74,15 @@ pub(super) fn fit<P: RobustProblem>(
     Some(best)
 }
 
-/// Pseudo-Huber penalty of a residual, given over its outlier threshold: its square for small residuals, twice its size for
-/// large ones.
-pub(super) fn penalty(relative: f64) -> f64 {
-    2.0 * (root(relative) - 1.0)
-}
-
 /// Weight of a squared residual, given over its outlier threshold, in iteratively reweighted least squares: half the
-/// derivative of its [`penalty`] by its square, from 0 to 1.
+/// derivative by its square of its pseudo-Huber penalty, which is its square for small residuals and twice its size for large
+/// ones; from 0 to 1.
 pub(super) fn weight(relative: f64) -> f64 {
     1.0 / root(relative)
 }
 
 fn root(relative: f64) -> f64 {
     (1.0 + relative * relative).sqrt()
-}
-
-/// Distance of a traced point from the page's model, in standard deviations, above which it is an outlier and penalised
-/// linearly. Limits the influence of a wrongly traced point.
-pub(super) const OUTLIER_DEVIATIONS: f64 = 5.0;
-
-/// Penalty of a residual, in standard deviations: about its square up to the outlier threshold, linear above.
-pub(super) fn outlier_penalty(deviations: f64) -> f64 {
-    OUTLIER_DEVIATIONS * OUTLIER_DEVIATIONS * penalty(deviations / OUTLIER_DEVIATIONS)
 }
 
 #[cfg(test)]
@@ -142,6 +128,11 @@ mod tests {
             let off = |[x, y]: &[f64; 2]| penalty(y - line[0] - line[1] * x);
             self.0.iter().map(off).sum()
         }
+    }
+
+    /// Pseudo-Huber penalty of a residual over its outlier threshold.
+    fn penalty(relative: f64) -> f64 {
+        2.0 * (root(relative) - 1.0)
     }
 
     #[test]

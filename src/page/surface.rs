@@ -1,130 +1,260 @@
-//! Surface of a page in space, by the plainest model that explains its edges and lines in a photo.
+//! Flat pages: the surface in space of a page, or of the two pages of a spread, that one photo shows.
 
-use super::curled_page::CurledPage;
 use super::edges::{Edges, Trace};
-use super::options::PageOptions;
+use super::known_sizes::sides;
+use super::options::{Format, PageOptions};
 use super::page_warp::PageWarp;
-use super::report::{PageModel, PageReport, PageVerdict};
+use super::places::back_project;
+use super::read_traces::{page_that_fills, read_traces};
+use super::report::PageReport;
 use super::sheet::SheetPage;
+use super::traced_line::BentEdges;
 use super::working_photo::WorkingPhoto;
-use crate::dewarp::Photo;
-use crate::error::{Error, Result};
+use crate::dewarp::{DewarpOptions, Photo, WarpMap};
+use crate::error::{Error, Readable, Result, positive};
 use crate::scene::mesh::Mesh;
 
-/// The surface of a page in space: a cylinder or, for a page that is folded, crumpled or bent both ways, a sheet.
+/// The surface of a page in space, or of the two pages of a spread, each a nearly isometric sheet.
 #[derive(Debug, Clone)]
-#[non_exhaustive]
-pub enum PageSurface {
-    /// A page that is curled in one direction (a cylinder), or the two pages of a spread.
-    Curled(CurledPage),
-    /// A page of any shape, as a nearly isometric sheet.
-    Sheet(SheetPage),
+pub struct PageSurface {
+    /// One page, or the two of a spread from left to right, or from top to bottom.
+    pages: Vec<SheetPage>,
+    /// Shares of the flat page's side at which each page ends, from left to right, or from top to bottom.
+    ends: Vec<f64>,
+    /// Axis along which the pages lie beside each other: 0 from left to right, 1 from top to bottom.
+    axis: usize,
+    /// Width of each page, in the unit of lengths.
+    widths: Vec<f64>,
+    photo: [usize; 2],
+    size: [f64; 2],
+    millimetres: bool,
+    text: Vec<Vec<Trace>>,
+    report: PageReport,
 }
 
+/// Minimum length of a ruler (a known distance on the page), as a share of the flat page's shorter side.
+const MIN_RULER_SHARE: f64 = 0.01;
+
 impl PageSurface {
-    /// Finds the page whose edges are traced in a photo, at a resolution that does not depend on the photo's: photos of up to
-    /// 3072 pixels a side are taken as they are, larger ones are halved for the search. Results are in the photo's own pixels.
+    /// Finds the page whose edges are traced in a photo of `photo` (width and height) pixels, with lines of text that are
+    /// traced like edges but from their beginning to their end, for each page in the order of `edges`: they are level on the
+    /// flat page. Two pages' edges are those of a spread, which share the gutter: the left page's edges end where the right
+    /// page's begin.
     ///
-    /// A cylinder is tried first, by [`CurledPage::in_photo`]. If it does not explain the page, and all four edges of one page
-    /// are given, [`SheetPage::in_photo`] finds a sheet, which is taken unless it explains the page worse. A bent cylinder that no line confirms gives way to a plane, if that
-    /// search finds one.
+    /// Where only two edges are given, the others are straight, and the page is curled in one direction.
     ///
     /// # Errors
-    /// Those of [`CurledPage::in_photo`] and [`SheetPage::in_photo`].
+    /// [`Error::Edges`] for edges that cannot belong to one page: with fewer than two points, with corners that make no
+    /// convex quadrilateral, crossing, exchanged or outside of the photo; and for a line of text beside its page, by more than
+    /// 3 % of the page's edge. [`Error::NotFinite`] for a coordinate that is no number (its row is the point),
+    /// [`Error::Option`] for a number out of its range and lines of more pages than there are, [`Error::Empty`] for a photo
+    /// without pixels, [`Error::TooLarge`] for an edge of more than 100,000 points or more than 500 lines.
+    pub fn new(
+        edges: &[Edges],
+        text: &[Vec<Trace>],
+        photo: [usize; 2],
+        options: &PageOptions,
+    ) -> Result<Self> {
+        Self::solved(edges, text, photo, None, options)
+    }
+
+    /// Finds the page whose edges are traced in a photo as [`PageSurface::new`] does, and the lines of printed text on it. The
+    /// resolution at which that is done does not depend on the photo's: photos of up to 3072 pixels a side are taken as they
+    /// are, larger ones are halved. Results are in the photo's own pixels.
+    ///
+    /// # Errors
+    /// Those of [`PageSurface::new`].
     pub fn in_photo(
         edges: &[Edges],
-        given: &[Vec<Trace>],
+        text: &[Vec<Trace>],
         photo: &Photo<'_>,
         options: &PageOptions,
     ) -> Result<Self> {
         let working = WorkingPhoto::new(photo);
         let scale = working.scale;
-        let edges: Vec<Edges> = edges
-            .iter()
-            .map(|edges| scale.working_edges(edges))
-            .collect();
-        let given: Vec<Vec<Trace>> = (given.iter())
+        let edges: Vec<Edges> = edges.iter().map(|own| scale.working_edges(own)).collect();
+        let text: Vec<Vec<Trace>> = (text.iter())
             .map(|lines| lines.iter().map(|line| scale.working_trace(line)).collect())
             .collect();
         let [width, height] = working.size();
-        let photo = Photo::new(width, height, working.rgba())?;
-        let found = Self::solved(&edges, &given, &photo, &scale.working_options(options))?;
-        Ok(match found {
-            PageSurface::Curled(page) => PageSurface::Curled(page.in_full_photo(scale)),
-            PageSurface::Sheet(page) => PageSurface::Sheet(page.in_full_photo(scale)),
-        })
+        let reduced = Photo::new(width, height, working.rgba())?;
+        let known = scale.working_options(options);
+        let found = Self::solved(&edges, &text, [width, height], Some(&reduced), &known)?;
+        let pages = (found.pages.into_iter()).map(|page| page.in_full_photo(scale));
+        Self::joined(pages.collect(), found.axis, scale.photo, options)
     }
 
-    /// Finds the page in a working photo.
+    /// Finds the page that fills a photo, so that none of its edges is seen: its lines of print alone show how it is bent. The
+    /// flat page is what the photo shows of it, in widths of that.
+    ///
+    /// # Errors
+    /// [`Error::NoPage`] if there are too few lines of print; [`Error::Option`] for a number out of its range.
+    pub fn by_print(photo: &Photo<'_>, options: &PageOptions) -> Result<Self> {
+        let working = WorkingPhoto::new(photo);
+        let size = working.size();
+        let reduced = Photo::new(size[0], size[1], working.rgba())?;
+        let known = PageOptions {
+            format: Format::Unknown,
+            ..working.scale.working_options(options)
+        };
+        let page = SheetPage::new(&page_that_fills(size), size, Some(&reduced), &known)?;
+        if !page.has_print() {
+            return Err(Error::NoPage);
+        }
+        let page = page.in_full_photo(working.scale);
+        let known = PageOptions {
+            format: Format::Unknown,
+            ..*options
+        };
+        Self::joined(vec![page], 0, working.scale.photo, &known)
+    }
+
     fn solved(
         edges: &[Edges],
-        given: &[Vec<Trace>],
-        photo: &Photo<'_>,
+        text: &[Vec<Trace>],
+        size: [usize; 2],
+        photo: Option<&Photo<'_>>,
         options: &PageOptions,
     ) -> Result<Self> {
-        let size = [photo.width(), photo.height()];
-        let curled = CurledPage::with_lines(edges, given, size, options).map(|page| {
-            // Lines of text do not rescue a cylinder that does not explain the edges.
-            let is_hopeless = page.report().verdict == PageVerdict::NotThisKind
-                && matches!(edges, [Edges::All { .. }]);
-            if is_hopeless {
-                page
-            } else {
-                page.with_detected_lines(edges, given, photo, options)
+        if size.contains(&0) {
+            return Err(Error::Empty { what: "photo" });
+        }
+        let traced = read_traces(edges, text, size)?;
+        let pages: Result<Vec<SheetPage>> = (traced.iter())
+            .map(|page| SheetPage::new(page, size, photo, options))
+            .collect();
+        let axis = usize::from(traced[0].bent == Some(BentEdges::LeftRight));
+        Self::joined(pages?, axis, size, options)
+    }
+
+    /// Puts the pages of a photo of `photo` (width and height) pixels beside each other along an axis, with equal sides where
+    /// they meet, and measures them by what is known of their format, or by a ruler.
+    fn joined(
+        pages: Vec<SheetPage>,
+        axis: usize,
+        photo: [usize; 2],
+        options: &PageOptions,
+    ) -> Result<Self> {
+        // Height over width of each page, and their common side.
+        let ratios: Vec<f64> = pages.iter().map(SheetPage::ratio).collect();
+        let count = pages.len() as f64;
+        let along = |ratio: f64| if axis == 0 { 1.0 / ratio } else { ratio };
+        let total: f64 = ratios.iter().map(|ratio| along(*ratio)).sum();
+        // In units of the side where they meet; all pages together.
+        let mut size = [1.0; 2];
+        size[axis] = total;
+        let known = sides(options.format)?.and_then(|sides| sides.millimetres(ratios[0]));
+        let area = match known {
+            Some([width, height]) => count * width * height,
+            // The mean width is 1.
+            None => {
+                (size[0] * size[1])
+                    * if axis == 0 {
+                        (count / total).powi(2)
+                    } else {
+                        1.0
+                    }
             }
-        });
-        let sheet = match (&curled, edges) {
-            (Ok(page), [edges @ Edges::All { .. }]) if is_untrusted(page.report().verdict) => {
-                let sheet = sheet_in_photo(edges, photo, options)?;
-                sheet
-                    .filter(|sheet| explains_as_well(sheet.report().verdict, page.report().verdict))
-            }
-            // Errors of a flat page's outline look like a bend.
-            (Ok(page), [edges @ Edges::All { .. }]) if has_unconfirmed_bend(page.report()) => {
-                let sheet = sheet_in_photo(edges, photo, options)?;
-                sheet.filter(|sheet| sheet.report().model == PageModel::Plane)
-            }
-            (Err(Error::Edges { .. } | Error::FocalLength), [edges @ Edges::All { .. }]) => {
-                Some(SheetPage::in_photo(edges, photo, options)?)
-            }
-            _ => None,
         };
-        match sheet {
-            Some(sheet) => Ok(PageSurface::Sheet(sheet)),
-            None => curled.map(PageSurface::Curled),
+        let unit = (area / (size[0] * size[1])).sqrt();
+        let mut end = 0.0;
+        let ends = (ratios.iter())
+            .map(|ratio| {
+                end += along(*ratio) / total;
+                end
+            })
+            .collect();
+        let widths = (ratios.iter())
+            .map(|ratio| unit * if axis == 0 { 1.0 / ratio } else { 1.0 })
+            .collect();
+        let report = (pages.iter())
+            .map(|page| page.report)
+            .reduce(PageReport::worse)
+            .ok_or(Error::Empty { what: "page" })?;
+        let points =
+            |lines: &Vec<Vec<[f64; 2]>>| lines.iter().cloned().map(Trace::Points).collect();
+        let mut surface = PageSurface {
+            text: pages.iter().map(|page| points(&page.lines)).collect(),
+            pages,
+            ends,
+            axis,
+            widths,
+            photo,
+            size: size.map(|side| side * unit),
+            millimetres: known.is_some(),
+            report,
+        };
+        if known.is_none() && options.ruler.is_some() {
+            let scale = surface.ruler_scale(options)?;
+            surface.size = surface.size.map(|side| side * scale);
+            surface.widths.iter_mut().for_each(|width| *width *= scale);
+            surface.millimetres = true;
         }
+        Ok(surface)
     }
 
-    /// Verdict on the page, with the measures of its fit.
+    /// Millimetres in the unit of lengths, by the ruler in the options.
+    fn ruler_scale(&self, options: &PageOptions) -> Result<f64> {
+        let Some(ruler) = options.ruler else {
+            return Ok(1.0);
+        };
+        let length = positive("ruler.length", ruler.length)?;
+        let end = |pixel| back_project(|share| Some(self.photo_place(share)), pixel);
+        let (Some(from), Some(to)) = (end(ruler.from), end(ruler.to)) else {
+            let ends = format!("from {} to {}", ruler.from.readable(), ruler.to.readable());
+            return Err(Error::option(
+                "ruler",
+                ends,
+                "must begin and end on the page",
+            ));
+        };
+        let [width, height] = self.size;
+        let found = ((from[0] - to[0]) * width).hypot((from[1] - to[1]) * height);
+        if found.is_nan() || found <= MIN_RULER_SHARE * width.min(height) {
+            let requirement = "must be at least a hundredth of the page's side long";
+            return Err(Error::option("ruler", found, requirement));
+        }
+        Ok(length / found)
+    }
+
+    /// Verdict on the page, with the measures of its fit; of a spread that of the worse page.
     pub fn report(&self) -> &PageReport {
-        match self {
-            PageSurface::Curled(page) => page.report(),
-            PageSurface::Sheet(page) => page.report(),
-        }
+        &self.report
     }
 
-    /// Width and height of the flat page, in millimetres if the format or a ruler is known, else in widths of a page.
+    /// Number of pages side by side: 1, or 2 for a spread.
+    pub fn pages(&self) -> usize {
+        self.pages.len()
+    }
+
+    /// Width and height of the flat page, or of both pages of a spread together, in millimetres if the format or a ruler is
+    /// known, else in widths of a page.
     pub fn flat_size(&self) -> [f64; 2] {
-        match self {
-            PageSurface::Curled(page) => page.flat_size(),
-            PageSurface::Sheet(page) => page.flat_size(),
-        }
+        self.size
     }
 
     /// Whether lengths of the flat page are in millimetres; otherwise in widths of a page.
     pub fn is_millimetres(&self) -> bool {
-        match self {
-            PageSurface::Curled(page) => page.is_millimetres(),
-            PageSurface::Sheet(page) => page.is_millimetres(),
-        }
+        self.millimetres
     }
 
     /// Lines of text that were detected in the photo, a list for each page, as points in the photo's pixels.
     pub fn text(&self) -> &[Vec<Trace>] {
-        match self {
-            PageSurface::Curled(page) => page.text(),
-            PageSurface::Sheet(page) => page.text(),
-        }
+        &self.text
+    }
+
+    /// Place in the photo, in pixels, at shares of the flat page's width and height.
+    pub fn photo_place(&self, mut share: [f64; 2]) -> [f64; 2] {
+        let at = share[self.axis];
+        let last = self.pages.len() - 1;
+        let number = self.ends.iter().take(last).filter(|end| **end < at).count();
+        let start = if number > 0 {
+            self.ends[number - 1]
+        } else {
+            0.0
+        };
+        share[self.axis] = (at - start) / (self.ends[number] - start);
+        self.pages[number].place(share)
     }
 
     /// Computes the page's warp map, which holds for photos of any resolution of the picture.
@@ -132,66 +262,45 @@ impl PageSurface {
     /// # Errors
     /// [`Error::OutOfMemory`].
     pub fn warp(&self) -> Result<PageWarp> {
-        match self {
-            PageSurface::Curled(page) => page.warp(),
-            PageSurface::Sheet(page) => page.warp(),
-        }
+        PageWarp::from_projection(self.size, self.millimetres, self.photo, |share| {
+            Some(self.photo_place(share))
+        })
     }
 
-    /// Makes a mesh of the page in space, with texture coordinates for the photo.
+    /// Computes the warp map of the flat page: for each pixel of the flat image its place in the photo. `dots` are
+    /// pixels per unit of [`PageSurface::flat_size`], by default as many as give the flat image the number of pixels
+    /// that the page covers in the photo; `trim` has no effect, because the page fills its image. The flat image is
+    /// transparent where the page is outside of the photo.
     ///
     /// # Errors
-    /// Those of [`CurledPage::mesh`].
+    /// [`Error::Option`] for a resolution that is not positive and finite, [`Error::TooLarge`] for an
+    /// image of more than [`MAX_CELLS`](crate::MAX_CELLS) pixels, [`Error::OutOfMemory`].
+    pub fn warp_map(&self, options: &DewarpOptions) -> Result<WarpMap> {
+        self.warp()?.warp_map(self.photo, options)
+    }
+
+    /// Makes a mesh of the page in space, with texture coordinates for the photo, row by row from the upper left corner of
+    /// each page. The axes are those of [`Intrinsics::back_project`](crate::Intrinsics::back_project): x to the right, y up, z
+    /// towards the viewer, the camera at the origin. So [`sample`](crate::sample) with
+    /// [`View::BestFit`](crate::View::BestFit) makes it a [`Heightfield`](crate::Heightfield).
+    ///
+    /// # Errors
+    /// [`Error::OutOfMemory`].
     pub fn mesh(&self) -> Result<Mesh> {
-        match self {
-            PageSurface::Curled(page) => page.mesh(),
-            PageSurface::Sheet(page) => page.mesh(),
+        let (mut positions, mut uvs, mut triangles) = (Vec::new(), Vec::new(), Vec::new());
+        for (page, width) in self.pages.iter().zip(&self.widths) {
+            let first = positions.len();
+            let (own, places, cols) = page.vertices(*width, self.photo);
+            for row in 1..own.len() / cols {
+                for col in 1..cols {
+                    let last = (first + row * cols + col) as u32;
+                    let [above, before] = [last - cols as u32, last - 1];
+                    triangles.extend([[above - 1, before, last], [above - 1, last, above]]);
+                }
+            }
+            positions.extend(own);
+            uvs.extend(places);
         }
-    }
-}
-
-/// Finds a sheet for a page that a cylinder explains in some way; None if these edges are no sheet's.
-///
-/// # Errors
-/// Those of [`SheetPage::in_photo`] that are not about the edges or the camera.
-fn sheet_in_photo(
-    edges: &Edges,
-    photo: &Photo<'_>,
-    options: &PageOptions,
-) -> Result<Option<SheetPage>> {
-    match SheetPage::in_photo(edges, photo, options) {
-        Ok(sheet) => Ok(Some(sheet)),
-        Err(Error::Edges { .. } | Error::FocalLength) => Ok(None),
-        Err(error) => Err(error),
-    }
-}
-
-/// Whether a sheet with the verdict `sheet` explains a page at least as well as an untrusted cylinder with the verdict
-/// `cylinder`: a sheet that is none does not replace a doubtful cylinder.
-fn explains_as_well(sheet: PageVerdict, cylinder: PageVerdict) -> bool {
-    sheet != PageVerdict::NotThisKind || cylinder == PageVerdict::NotThisKind
-}
-
-/// Whether a verdict says that a cylinder does not explain the page, or hardly does.
-fn is_untrusted(verdict: PageVerdict) -> bool {
-    matches!(verdict, PageVerdict::NotThisKind | PageVerdict::Doubtful)
-}
-
-/// Whether a cylinder is bent by its edges alone, without lines of print or traced ones.
-fn has_unconfirmed_bend(report: &PageReport) -> bool {
-    report.bend > 0.0 && report.lines == 0
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_doubtful_cylinder_stays_where_there_is_no_sheet() {
-        use PageVerdict::{Doubtful, NotThisKind, Unrolled};
-        assert!(!explains_as_well(NotThisKind, Doubtful));
-        assert!(explains_as_well(Doubtful, Doubtful));
-        assert!(explains_as_well(Unrolled, Doubtful));
-        assert!(explains_as_well(NotThisKind, NotThisKind));
+        Mesh::new(positions, triangles)?.with_uvs(uvs)
     }
 }

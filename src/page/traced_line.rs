@@ -7,27 +7,60 @@ pub(super) struct TracedLine {
     pub name: &'static str,
     /// Points of the trace, in the photo's pixels, ends included.
     pub points: Vec<[f64; 2]>,
-    /// Number of points with independent errors of tracing.
-    pub independent: f64,
 }
 
 /// All traced edges and lines of text of one page.
 #[derive(Debug, Clone)]
 pub(super) struct TracedPage {
-    /// The two bent edges, both in the same direction, so that the corners lie clockwise in the photo.
-    pub pair: [TracedLine; 2],
-    /// The two straight edges, at the start and at the end of the bent ones; None if they are not given.
-    pub sides: Option<[TracedLine; 2]>,
+    /// Upper, lower, left and right edge, from left to right or from top to bottom.
+    pub edges: [TracedLine; 4],
+    /// The two edges that are bent, if only these are traced: the other two are straight then. None if all four are traced.
+    pub bent: Option<BentEdges>,
+    /// Whether the edges are seen; else they are the photo's sides, which the page fills.
+    pub is_seen: bool,
     /// Lines of text that the caller traced.
     pub text: Vec<TracedLine>,
-    /// Lines of text that were detected in the photo.
-    pub found: Vec<TracedLine>,
+}
+
+/// The two edges of a page that are bent, where its other two are straight.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum BentEdges {
+    /// The upper and the lower edge: rulings run from top to bottom.
+    TopBottom,
+    /// The left and the right edge: rulings run from left to right.
+    LeftRight,
+}
+
+impl TracedPage {
+    /// The two edges that begin at the other page of a spread, or end there: the bent ones.
+    pub fn pair(&self) -> [&TracedLine; 2] {
+        let [top, bottom, left, right] = &self.edges;
+        match self.bent {
+            Some(BentEdges::LeftRight) => [right, left],
+            _ => [top, bottom],
+        }
+    }
 }
 
 impl TracedLine {
     /// First and last point of the trace, in the photo's pixels.
     pub fn ends(&self) -> [[f64; 2]; 2] {
         [self.points[0], self.points[self.points.len() - 1]]
+    }
+
+    /// Reverses the trace if its end is nearer than its start to an end of the trace `other`.
+    pub fn begin_at(&mut self, other: &TracedLine) {
+        let gap = |p: [f64; 2]| {
+            other
+                .ends()
+                .map(|q| distance(p, q))
+                .into_iter()
+                .fold(f64::INFINITY, f64::min)
+        };
+        let [from, to] = self.ends();
+        if gap(to) < gap(from) {
+            self.points.reverse();
+        }
     }
 
     /// Distance between the trace's first and last point, in pixels.

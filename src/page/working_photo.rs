@@ -119,7 +119,6 @@ impl PhotoScale {
                 ..ruler
             }),
             centre: options.centre.map(|centre| self.to_working(centre)),
-            accuracy: options.accuracy.map(|accuracy| accuracy / self.block),
             ..*options
         }
     }

@@ -295,7 +295,7 @@ test('arrays stay the caller\'s where options or shapes are refused', async () =
   for (const call of [
     ...[{ dots: 0 }, { grid: 0 }, { tolerance: 0 }, { crop: [[0, 0], [1, 1]] }, { extent: [0, 0, 0, 1] }].map((options) =>
       () => developable.dewarp(ramp, photo, /** @type {any} */ ({ transfer: true, ...options }))),
-    ...[{ dots: -1 }, { focalLength: 0 }, { fieldOfView: -1 }, { film35: Infinity }, { accuracy: 0 }].map((options) =>
+    ...[{ dots: -1 }, { focalLength: 0 }, { fieldOfView: -1 }, { film35: Infinity }].map((options) =>
       () => developable.dewarpPage(photo, /** @type {any} */ (edges), { transfer: true, ...options })),
     ...[{ quality: 0 }, { quality: 101 }, { dotsPerMillimetre: 0 }].map((options) =>
       () => developable.writePhoto(photo, { transfer: true, format: 'jpeg', ...options })),

@@ -87,7 +87,7 @@ export class Book {
         const { quarters, traces, textLines } = state ?? { quarters: 0, traces: detectedTraces(photo), textLines: [[]] };
         const { options, findsTextLines } = session;
         const request = { photo, traces, textLines, options: { ...options, findLines: findsTextLines }, moving: false };
-        const flat = await runInWorker(api, signal, async (own) => flattenWholePhoto(own, request, (await flattenReducedPhoto(own, request)).flat));
+        const flat = await runInWorker(api, signal, async (own) => flattenWholePhoto(own, request, await flattenReducedPhoto(own, request)));
         pages.push(...await pictureFiles(worker, flat, traces[0].length, quarters, paper, options.ink));
       } catch (error) {
         entry.problem = plainMessage(error instanceof Error ? error.message : String(error));

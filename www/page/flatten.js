@@ -21,10 +21,6 @@ import { rescalePixel } from './grey.js';
  * @property {Options} options
  * @property {boolean} moving whether something is being dragged: then lines of text are not searched, which would take longer
  */
-/** @typedef {{ flat: DewarpedPage, focalAssumed: boolean }} FlattenedPage `focalAssumed`: whether the focal length is assumed */
-
-/** Assumed field of view along the photo's longer side where the focal length is unknown, in degrees: that of a phone's main camera. */
-export const ASSUMED_FIELD_OF_VIEW = 65;
 
 export class PageFlattener {
   /** @type {FlattenRequest | null} */
@@ -39,7 +35,7 @@ export class PageFlattener {
   /**
    * Flattens the reduced photo. A request that waits is replaced by a newer one.
    * @param {FlattenRequest} request
-   * @param {(done: { request: FlattenRequest } & (FlattenedPage | { error: unknown })) => void} onResult gets each result, and an error unless a newer request waits
+   * @param {(done: { request: FlattenRequest } & ({ flat: DewarpedPage } | { error: unknown })) => void} onResult gets each result, and an error unless a newer request waits
    */
   async preview(request, onResult) {
     this.#waiting = request;
@@ -47,7 +43,7 @@ export class PageFlattener {
     this.#busy = true;
     for (let current = this.#takeWaiting(); current; current = this.#takeWaiting()) {
       try {
-        onResult({ request: current, ...await flattenReducedPhoto(this.worker, current) });
+        onResult({ request: current, flat: await flattenReducedPhoto(this.worker, current) });
       } catch (error) {
         if (!this.#waiting) onResult({ request: current, error });
       }
@@ -69,7 +65,7 @@ export class PageFlattener {
  */
 export function flattenReducedPhoto(worker, { photo: { reduced, grey: { scale }, film35 }, traces, textLines, options, moving }) {
   const { width, height, data } = reduced;
-  return dewarp(worker, { width, height, data, film35 }, toPageEdges(traces, textLines, scale), { ...scaleOptions(options, scale), ...(moving && { findLines: false }) });
+  return worker.dewarpPage({ width, height, data, film35 }, toPageEdges(traces, textLines, scale), { ...scaleOptions(options, scale), ...(moving && { findLines: false }) });
 }
 
 /**
@@ -81,23 +77,6 @@ export function flattenReducedPhoto(worker, { photo: { reduced, grey: { scale },
  */
 export function flattenWholePhoto(worker, { photo: { width, height, data }, options: { light, ink } }, found) {
   return worker.flattenPhoto({ width, height, data }, found, { light, ink });
-}
-
-/**
- * Flattens a page. If the edges do not determine the focal length, the call is repeated with an assumed one.
- * @param {Worker} worker
- * @param {Parameters<Api['dewarpPage']>[0]} photo
- * @param {PageEdges[]} edges
- * @param {Options} options
- * @returns {Promise<FlattenedPage>}
- */
-async function dewarp(worker, photo, edges, options) {
-  try {
-    return { flat: await worker.dewarpPage(photo, edges, options), focalAssumed: false };
-  } catch (error) {
-    if (!(error instanceof Error && 'code' in error && error.code === 'FOCAL_LENGTH')) throw error;
-    return { flat: await worker.dewarpPage(photo, edges, { ...options, fieldOfView: ASSUMED_FIELD_OF_VIEW }), focalAssumed: true };
-  }
 }
 
 /**

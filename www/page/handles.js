@@ -9,7 +9,7 @@ import { Magnifier } from './magnifier.js';
 /** @import {Pixels} from './magnifier.js' */
 /** @typedef {readonly [x: number, y: number]} Place in pixels of the photo */
 /** @typedef {{ x: number, y: number, name: string, kind: 'corner' | 'bend' | 'text', pinned?: boolean }} Handle */
-/** @typedef {{ points: readonly Place[], kind: 'edge' | 'side' | 'text' | 'text drawn' | 'text against', pullId?: number }} Line `pullId`: passed to `pull` when the line is dragged; without it the line cannot be dragged */
+/** @typedef {{ points: readonly Place[], kind: 'edge' | 'side' | 'text' | 'text drawn', pullId?: number }} Line `pullId`: passed to `pull` when the line is dragged; without it the line cannot be dragged */
 /** @typedef {{ handles: readonly Handle[], lines: readonly Line[] }} HandleOverlay */
 /**
  * @typedef {object} HandleCallbacks
@@ -77,7 +77,7 @@ export class Handles {
     this.#svg.replaceChildren(...lines.flatMap(({ points, kind, pullId }) => {
       const d = `M${points.map(([x, y]) => `${x.toFixed(1)} ${y.toFixed(1)}`).join('L')}`;
       // Detected lines of text lie close together: without a halo, or they would cover the photo.
-      const halo = kind === 'text' || kind === 'text against' ? [] : [svgElement('path', { d, class: 'under' })];
+      const halo = kind === 'text' ? [] : [svgElement('path', { d, class: 'under' })];
       const drawn = [...halo, svgElement('path', { d, class: kind })];
       return pullId === undefined ? drawn : [...drawn, svgElement('path', { d, class: 'grip', 'data-pulls': String(pullId) })];
     }));

@@ -47,7 +47,7 @@ export const BOOK_WORDS = {
 
 /** Texts about the focal length of the camera. */
 export const FOCAL_WORDS = {
-  unknown: 'The focal length is not known: the photo’s file does not tell it, or the photo was cropped. I find it from the perspective, or assume a field of view of 65°.',
+  unknown: 'The focal length is not known: the photo’s file does not tell it, or the photo was cropped. I take that of a phone, and correct it by the perspective.',
   /** @param {string} film35 */
   told: (film35) => `The photo’s file says ${film35} mm (35 mm film).`,
   fov: 'This is the angle across the photo’s longer side: 65 to 80° on most phones.',
@@ -80,12 +80,12 @@ export function pageVerdict({ verdict, model, lines }) {
  * @param {PageReport} report
  */
 export function pageErrors(report) {
-  const { verdict, error, pinholeErrorBound, lines, linesFound } = report;
+  const { verdict, error, errorBound, lines, linesFound } = report;
   const text = lines + linesFound > 0 ? ' and lines of text' : '';
-  const likely = `points are off by about ${percent(error / 100)} of the page’s width (in 95 of 100 photos by less than ${percent(pinholeErrorBound / 100)}, unless the lens distorts)`;
+  const likely = `points are off by about ${percent(error / 100)} of the page’s width (in 95 of 100 photos by less than ${percent(errorBound / 100)})`;
   switch (verdict) {
     case 'flat': case 'unrolled': return `If the outline is right, ${likely}.`;
-    case 'unchecked': return `One edge looks straight from here, or has few points, so that nothing checks the bend. If the page is curled one way, ${likely}.`;
+    case 'unchecked': return `${lines === 0 ? 'No line' : 'Too few lines'} of text ${lines === 0 ? 'checks' : 'check'} how the page is bent. If the outline is right, ${likely}.`;
     case 'doubtful': return `${doubtWords(report, text)}: ${likely}. Correct the outline, or choose the page’s format.`;
     default: return `The edges${text} contradict each other. Correct the outline where it leaves the page.`;
   }
@@ -96,13 +96,12 @@ export function pageErrors(report) {
  * @param {PageReport} report
  * @param {string} text “ and lines of text” if the page has any
  */
-function doubtWords({ doubt, linesFound }, text) {
+function doubtWords({ doubt }, text) {
   switch (doubt) {
     case 'hiddenPart': return 'A part of the page hides another part';
     case 'disagreement': return `The edges${text} disagree`;
-    case 'fewLines': return linesFound === 0 ? 'The page shows no lines of text, and its outline alone leaves the bend uncertain' : `Only ${linesFound} ${linesFound === 1 ? 'line of text tells' : 'lines of text tell'} how the page is bent`;
     case 'crumpled': return 'The page is crumpled';
-    case 'strongBend': return 'The page is bent strongly';
+    case 'spread': return 'This may be an open book: choose two pages. If it is one page';
     case 'outline': return 'The outline may be wrong. If it is right';
     default: return 'The photo leaves the bend uncertain';
   }
@@ -113,14 +112,12 @@ function doubtWords({ doubt, linesFound }, text) {
  * @param {object} about
  * @param {readonly string[]} about.outside names of the corners outside the photo
  * @param {readonly string[]} about.weak names of the edges that are hardly visible
- * @param {boolean} about.assumed whether the focal length is assumed
  * @param {number} about.unplaced number of corners that were not dragged yet, if no page was found
  */
-export function pageCautions({ outside, weak, assumed, unplaced }) {
+export function pageCautions({ outside, weak, unplaced }) {
   return [
     ...(unplaced > 0 ? [`Drag the other ${unplaced === 1 ? 'corner' : `${count(unplaced)} corners`}, too.`] : []),
     ...(outside.length > 0 ? [outside.length === 1 ? `The ${outside[0]} corner is outside the photo.` : `The page is partly outside the photo: its ${joinWords(outside)} corners.`] : []),
     ...(weak.length > 0 ? [`The ${joinWords(weak)} ${weak.length === 1 ? 'edge is' : 'edges are'} hard to see.`] : []),
-    ...(assumed ? ['The camera is not known, so I assume a field of view of 65°.'] : []),
   ];
 }

@@ -8,7 +8,8 @@ import { EDGE_NAMES, EDGES, Outline } from './outline.js';
 import { snapOutline, traceEdge } from './edge-snapping.js';
 
 /** @import {Api} from '../api.js' */
-/** @import {FlattenedPage, Line, Options, Traces, FlattenRequest} from './flatten.js' */
+/** @typedef {import('../../pkg/types.js').DewarpedPage} DewarpedPage */
+/** @import {Line, Options, Traces, FlattenRequest} from './flatten.js' */
 /** @import {Ends} from './text-lines.js' */
 /** @import {PagePhoto} from './photo.js' */
 /** @import {Edge, Point, NodeIndex} from './outline.js' */
@@ -18,7 +19,7 @@ import { snapOutline, traceEdge } from './edge-snapping.js';
  * @property {PagePhoto} photo another photo is shown
  * @property {{ outline: Outline, traces: Traces, moving: boolean }} outline the outline has changed; `moving`: something is being dragged
  * @property {boolean} working whether a flat page is being computed, or another photo is being opened
- * @property {FlattenedPage & { moving: boolean }} flat a new flat page of the reduced photo; `moving`: something is being dragged
+ * @property {{ flat: DewarpedPage, moving: boolean }} flat a new flat page of the reduced photo; `moving`: something is being dragged
  * @property {null} unfound no page was detected: the user has to put the corners onto it first
  * @property {null} lines the drawn or the detected lines of text have changed
  * @property {unknown} problem error that prevents a flat page
@@ -54,8 +55,6 @@ export class PageSession extends Events {
   drawnLines = [];
   /** Detected lines of text. @type {Line[]} */
   foundLines = [];
-  /** Whether the flat page uses all detected lines of text. */
-  usesFoundLines = true;
   /** @type {Options} */
   options = {};
 
@@ -63,7 +62,7 @@ export class PageSession extends Events {
   quarters = 0;
 
   #flattening;
-  /** The newest flat page. @type {FlattenedPage | null} */
+  /** The newest flat page. @type {DewarpedPage | null} */
   #flat = null;
   /** @type {FlattenRequest | null} */
   #latestRequest = null;
@@ -202,7 +201,7 @@ export class PageSession extends Events {
   /** Turns the flat page clockwise by a quarter turn. */
   turn() {
     this.quarters = (this.quarters + 1) % 4;
-    if (this.#flat) this.emit('flat', { ...this.#flat, moving: false });
+    if (this.#flat) this.emit('flat', { flat: this.#flat, moving: false });
   }
 
   /** Sets whether edges snap to the gradients of the photo. @param {boolean} snapping */
@@ -258,7 +257,7 @@ export class PageSession extends Events {
     const { photo: { grey, width, height }, snapsToEdges } = this;
     const within = ends.map(([x, y]) => [Math.min(Math.max(x, 0), width - 1), Math.min(Math.max(y, 0), height - 1)]);
     const [from, to] = /** @type {Ends} */ (within);
-    this.drawnLines[line] = { ends: [from, to], points: textLineBetween(grey, [from, to], this.#flat?.flat ?? null, snapsToEdges && ended) };
+    this.drawnLines[line] = { ends: [from, to], points: textLineBetween(grey, [from, to], this.#flat, snapsToEdges && ended) };
     if (ended && Math.hypot(to[0] - from[0], to[1] - from[1]) < MIN_TEXT_LINE_WIDTHS * width) this.drawnLines.splice(line, 1);
     this.emit('lines', null);
     if (ended) this.#update();
@@ -276,7 +275,7 @@ export class PageSession extends Events {
   /** The index of the page that a line of text is on. @param {Ends} ends */
   #pageOfLine([from, to]) {
     const { pages } = this.outline;
-    const flat = this.#flat?.flat;
+    const flat = this.#flat;
     const middle = /** @type {Point} */ ([(from[0] + to[0]) / 2, (from[1] + to[1]) / 2]);
     const place = flat && this.photo && flatPixelAt(flat, middle, this.photo.grey.scale);
     if (pages === 1 || !place) return 0;
@@ -316,16 +315,15 @@ export class PageSession extends Events {
     return { photo, traces: this.#traces(photo), textLines, options: { ...options, findLines: findsTextLines }, moving };
   }
 
-  /** Shows a flat page and its detected lines of text. @param {FlattenedPage} result @param {FlattenRequest} request */
-  #showFlat({ flat, focalAssumed }, { photo, moving }) {
-    this.#flat = { flat, focalAssumed };
+  /** Shows a flat page and its detected lines of text. @param {DewarpedPage} flat @param {FlattenRequest} request */
+  #showFlat(flat, { photo, moving }) {
+    this.#flat = flat;
     // While something is dragged, no lines are detected and the earlier ones stay.
     if (!moving) {
       const toPhoto = (/** @type {number} */ at) => rescalePixel(at, 1 / photo.grey.scale);
       this.foundLines = flat.lines.flat().map((line) => line.map(([x, y]) => [toPhoto(x), toPhoto(y)]));
-      this.usesFoundLines = flat.report.linesUsed === flat.report.linesFound;
     }
-    this.emit('flat', { flat, focalAssumed, moving });
+    this.emit('flat', { flat, moving });
   }
 
   /** Snaps the outline if that is on, and updates the flat page. */
@@ -352,7 +350,7 @@ export class PageSession extends Events {
       if (done.request.photo !== this.photo || this.isPageMissing) return;
       // While nothing is dragged, only the flat page of the newest outline and options is shown.
       if (done.request !== this.#latestRequest && !done.request.moving) return;
-      if ('flat' in done) this.#showFlat(done, done.request);
+      if ('flat' in done) this.#showFlat(done.flat, done.request);
       else {
         [this.foundLines, this.#flat] = [[], null];
         this.emit('problem', done.error);

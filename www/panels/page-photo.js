@@ -145,7 +145,7 @@ export function pagePhotoPanel(session) {
   const redraw = () => {
     const { outline } = session;
     /** @type {Line[]} */
-    const found = session.foundLines.map((points) => ({ kind: session.usesFoundLines ? 'text' : 'text against', points }));
+    const found = session.foundLines.map((points) => ({ kind: 'text', points }));
     /** @type {Line[]} */
     const drawn = session.drawnLines.map(({ points }) => ({ kind: 'text drawn', points }));
     handles.draw({

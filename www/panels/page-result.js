@@ -99,7 +99,7 @@ export function pageResultPanel(api, session, book, openAsSurface, onWritten) {
     clear(PAGE_WORDS.unfoundDetail);
     say(PAGE_WORDS.unfound, PAGE_WORDS.unfoundDetail);
   });
-  session.on('flat', ({ flat, focalAssumed, moving }) => {
+  session.on('flat', ({ flat, moving }) => {
     shown = flat;
     const { report } = flat;
     const { width, height, data } = turnPicture(flat, session.quarters);
@@ -117,7 +117,7 @@ export function pageResultPanel(api, session, book, openAsSurface, onWritten) {
     caption.textContent = flat.unit === 'mm' ? sizeOf(flat, session.quarters) : '';
     const unplaced = session.photo?.outlines.verdict === 'notFound' ? 4 - session.movedCorners.size : 0;
     side.toggleAttribute('data-unplaced', unplaced > 0);
-    const cautions = pageCautions({ outside: session.outsideCorners, weak: session.weakEdges, assumed: focalAssumed, unplaced });
+    const cautions = pageCautions({ outside: session.outsideCorners, weak: session.weakEdges, unplaced });
     const lightNote = flat.light === 'keep' && session.options.light !== 'keep' ? [PAGE_WORDS.keptLight] : [];
     say(pageVerdict(report), [...cautions, pageErrors(report), ...lightNote].join(' '));
     facts.hidden = false;
@@ -221,27 +221,26 @@ function sizeOf({ size, unit }, quarters) {
  * @returns {[string, string][]}
  */
 function factsOf(flat, quarters, scale) {
-  const { verdict, error, pinholeErrorBound, focalLength, focalDeviation, tilt, bend, disagreement, residual, lines, linesFound } = flat.report;
+  const { verdict, error, errorBound, focalLength, tilt, bend, disagreement, residual, lines, linesFound } = flat.report;
   const isOtherKind = verdict === 'notThisKind';
   return [
     ['Likely error', isOtherKind ? '–' : `${percent(error / 100)} of the width`],
-    ['95 % limit', isOtherKind ? '–' : percent(pinholeErrorBound / 100)],
+    ['95 % limit', isOtherKind ? '–' : percent(errorBound / 100)],
     ['Edges disagree', `${percent(disagreement / 100)} of the width`],
     ...(lines + linesFound === 0 ? [] : [/** @type {[string, string]} */ (['Lines of text', linesInWords(flat.report)])]),
     ['Edge residual', `${numberAgainst(residual / scale, 1000)} pixels`],
     ['Bend', degrees((bend * Math.PI) / 180)],
     ['Tilt', degrees((tilt * Math.PI) / 180)],
-    ['Focal length', `${number(focalLength / scale, 4)} pixels ± ${percent(focalDeviation / 100)}`],
+    ['Focal length', `${number(focalLength / scale, 4)} pixels`],
     [flat.unit === 'mm' ? 'Size' : 'Width to height', sizeOf(flat, quarters)],
   ];
 }
 
 /** The lines of text in words. @param {DewarpedPage['report']} report */
-function linesInWords({ lines, linesFound, linesUsed, linesDisagreement }) {
-  const drawn = lines - linesUsed;
+function linesInWords({ lines, linesFound, linesDisagreement }) {
+  const drawn = lines - linesFound;
   const count = [...(linesFound > 0 ? [`${linesFound} found`] : []), ...(drawn > 0 ? [`${drawn} drawn`] : [])].join(', ');
-  if (linesDisagreement > 0) return `${count}, off by ${percent(linesDisagreement / 100)}`;
-  return `${count}, ${linesUsed < linesFound ? 'not used' : 'as the edges'}`;
+  return `${count}, off by ${percent(linesDisagreement / 100)}`;
 }
 
 /** The message of an error as a sentence. @param {unknown} error */

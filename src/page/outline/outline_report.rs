@@ -56,7 +56,7 @@ pub struct PageOutline {
 }
 
 impl PageOutline {
-    /// Returns the page's edges in the form that [`CurledPage`](crate::page::CurledPage) takes.
+    /// Returns the page's edges in the form that [`PageSurface`](crate::page::PageSurface) takes.
     pub fn to_edges(&self) -> Edges {
         let [top, right, bottom, left] = &self.edges;
         let reversed = |edge: &[[f64; 2]]| Trace::Points(edge.iter().rev().copied().collect());

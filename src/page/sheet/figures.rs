@@ -29,7 +29,7 @@ impl SheetProblem {
         let mut unit = self.clone();
         unit.weights = SheetWeights {
             isometry: 1.0,
-            bending: 1.0,
+            bending: [1.0; 2],
             outline: 1.0,
             corners: 0.0,
             lines: 1.0,

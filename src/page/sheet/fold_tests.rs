@@ -77,6 +77,7 @@ fn problem(grid: &SheetGrid, lines: Vec<LevelLine>, folds: Vec<LevelLine>) -> Sh
             edge(|t| [1.0, t]),
         ],
         lines,
+        traced: 0,
         folds,
         prior: CameraPrior {
             log_scale: 0.0,
@@ -88,7 +89,7 @@ fn problem(grid: &SheetGrid, lines: Vec<LevelLine>, folds: Vec<LevelLine>) -> Sh
         depth: 3.0,
         weights: SheetWeights {
             isometry: 300.0,
-            bending: 1.5,
+            bending: [1.5; 2],
             outline: 350.0,
             corners: 300.0,
             lines: 400.0,

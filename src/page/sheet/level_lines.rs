@@ -3,6 +3,7 @@
 use super::place_table::PlaceTable;
 use super::problem::LevelLine;
 use super::view::PhotoView;
+use crate::page::places::back_project;
 use crate::page::text::{GreyPhoto, PageView, find_on_view};
 
 /// Maximum number of points of one detected line that are used.
@@ -18,21 +19,43 @@ pub(super) fn find_level_lines(
     view: &PhotoView,
     photo: &GreyPhoto,
 ) -> Vec<LevelLine> {
-    let page = PageView::from_places(|share| Some(table.at(share)));
-    let found = find_on_view(&page, photo, false).unwrap_or_default();
+    let found = find_on_view(&PageView::new(|share| table.at(share)), photo);
     let step = found.len().div_ceil(MAX_LINES).max(1);
+    let seen = |share: &[f64; 2]| (*share, view.to_normalised(table.at(*share)));
     (found.iter().step_by(step))
-        .map(|line| {
-            let thin = line.len().div_ceil(MAX_LINE_POINTS).max(1);
-            let shares: Vec<_> = line.iter().step_by(thin).collect();
-            LevelLine {
-                level: shares.iter().map(|p| p[1]).sum::<f64>() / shares.len() as f64,
-                level_deviation: None,
-                points: (shares.iter())
-                    .map(|share| view.to_normalised(table.at(**share)))
-                    .collect(),
-                length: line[line.len() - 1][0] - line[0][0],
-            }
-        })
+        .filter_map(|line| level_line(line.iter().map(seen).collect()))
         .collect()
+}
+
+/// Makes level lines of lines of text that were traced in the photo, `traced` in normalised image coordinates, at the places
+/// where a sheet has them. Lines that are not on the sheet are left out.
+pub(super) fn traced_level_lines(
+    table: &PlaceTable,
+    view: &PhotoView,
+    traced: &[Vec<[f64; 2]>],
+) -> Vec<LevelLine> {
+    let on_page = |seen: &[f64; 2]| {
+        let share = back_project(|share| Some(table.at(share)), view.to_pixels(*seen))?;
+        Some((share, *seen))
+    };
+    (traced.iter())
+        .filter_map(|line| level_line(line.iter().filter_map(on_page).collect()))
+        .collect()
+}
+
+/// Makes the level line of a line of text, given by its places on the page (shares of width and height) with those in the
+/// photo. None for fewer than two.
+fn level_line(line: Vec<([f64; 2], [f64; 2])>) -> Option<LevelLine> {
+    let ([(first, _), ..], [.., (last, _)]) = (&line[..], &line[..]) else {
+        return None;
+    };
+    let length = (last[0] - first[0]).abs();
+    let thin = line.len().div_ceil(MAX_LINE_POINTS).max(1);
+    let (shares, points): (Vec<_>, Vec<_>) = line.into_iter().step_by(thin).unzip();
+    (points.len() > 1 && length > 0.0).then(|| LevelLine {
+        level: shares.iter().map(|share| share[1]).sum::<f64>() / shares.len() as f64,
+        level_deviation: None,
+        points,
+        length,
+    })
 }

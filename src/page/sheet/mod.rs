@@ -24,4 +24,4 @@ mod search;
 mod sheet_page;
 mod view;
 
-pub use sheet_page::SheetPage;
+pub(super) use sheet_page::SheetPage;

@@ -27,7 +27,9 @@ pub(super) struct LevelLine {
 #[derive(Debug, Clone, Copy)]
 pub(super) struct SheetWeights {
     pub isometry: f64,
-    pub bending: f64,
+    /// Stiffness against bending of lines across the page, and of lines down the page; twist has that of the stiffer ones. A
+    /// page that is curled in one direction, a cylinder, is one that is stiff along its rulings.
+    pub bending: [f64; 2],
     pub outline: f64,
     pub corners: f64,
     pub lines: f64,
@@ -39,8 +41,10 @@ pub(super) struct SheetProblem {
     /// Upper, lower, left and right edge of the page in the photo, in normalised image coordinates (pixels from the
     /// principal point, over the focal length).
     pub edges: [Polyline; 4],
-    /// Lines of print across the page.
+    /// Lines of print across the page; the first `traced` ones were traced by the caller.
     pub lines: Vec<LevelLine>,
+    /// Number of the lines that were traced by the caller.
+    pub traced: usize,
     /// Folds across the page, along which it bends freely.
     pub folds: Vec<LevelLine>,
     pub prior: CameraPrior,
@@ -177,9 +181,9 @@ impl SheetProblem {
     /// that large bends count linearly. Bending across a fold is free.
     pub fn visit_bending(&self, grid: &SheetGrid, sink: &mut dyn FnMut(&ResidualRow)) {
         let [across, down] = grid.steps();
-        let weight = self.weights.bending * Self::cell(grid);
+        let [wide, high] = self.weights.bending.map(|weight| weight * Self::cell(grid));
         let (cols, rows) = (grid.cols, grid.rows);
-        let mut stencil = |nodes: [(usize, f64); 4], factor: f64| {
+        let mut stencil = |nodes: [(usize, f64); 4], factor: f64, weight: f64| {
             let sum: Vector3<f64> = nodes.iter().map(|(i, c)| grid.nodes[*i] * *c).sum();
             let second = sum * factor;
             let trust = robust_fit::weight(second.norm() / FOLD_CURVATURE).sqrt();
@@ -203,11 +207,11 @@ impl SheetProblem {
             let (x, y) = (i % cols, i / cols);
             if x > 0 && x + 1 < cols {
                 let nodes = [(i - 1, 1.0), (i, -2.0), (i + 1, 1.0), (i, 0.0)];
-                stencil(nodes, 1.0 / (across * across));
+                stencil(nodes, 1.0 / (across * across), wide);
             }
             if y > 0 && y + 1 < rows && !is_folded(y) {
                 let nodes = [(i - cols, 1.0), (i, -2.0), (i + cols, 1.0), (i, 0.0)];
-                stencil(nodes, 1.0 / (down * down));
+                stencil(nodes, 1.0 / (down * down), high);
             }
             if x + 1 < cols && y + 1 < rows {
                 let nodes = [
@@ -216,7 +220,8 @@ impl SheetProblem {
                     (i + cols, -1.0),
                     (i + cols + 1, 1.0),
                 ];
-                stencil(nodes, std::f64::consts::SQRT_2 / (across * down));
+                let factor = std::f64::consts::SQRT_2 / (across * down);
+                stencil(nodes, factor, wide.max(high));
             }
         }
     }

@@ -4,7 +4,7 @@
 use super::figures::SheetFigures;
 use super::fit::FittedSheet;
 use super::folds::find_folds;
-use super::level_lines::find_level_lines;
+use super::level_lines::{find_level_lines, traced_level_lines};
 use super::place_table::PlaceTable;
 use super::plane::{CameraPrior, Homography, grid_rows};
 use super::polyline::Polyline;
@@ -13,6 +13,7 @@ use super::view::PhotoView;
 use crate::dewarp::Photo;
 use crate::page::report::PageModel;
 use crate::page::text::{GreyPhoto, PageView};
+use crate::page::traced_line::BentEdges;
 
 /// Result of the search for a page of any shape: the fitted sheet, its model and its measures.
 #[derive(Debug, Clone)]
@@ -20,11 +21,20 @@ pub(super) struct FoundSheet {
     pub sheet: FittedSheet,
     pub model: PageModel,
     pub figures: SheetFigures,
-    /// Lines of print in the photo to which the sheet was fitted, in normalised image coordinates (pixels from the
-    /// principal point, over the focal length).
+    /// Lines of print in the photo that were detected, in normalised image coordinates (pixels from the principal point,
+    /// over the focal length).
     pub lines: Vec<Vec<[f64; 2]>>,
+    /// Number of lines of print, traced and detected, to which the sheet was fitted.
+    pub count: usize,
     /// Mean depth of the initial plane, in widths of the page.
     pub depth: f64,
+}
+
+/// Print of a page: traced lines of text, in normalised image coordinates, and the photo in which further ones are detected.
+struct PagePrint<'a> {
+    traced: &'a [Vec<[f64; 2]>],
+    photo: Option<&'a GreyPhoto>,
+    view: &'a PhotoView,
 }
 
 /// Numbers of grid columns for the first fits, before lines of print are known; coarse grids find the large bends in
@@ -50,7 +60,7 @@ const COST_TOLERANCE: f64 = 0.01;
 /// Weights of the residuals in the fit of a sheet of smooth paper, which is firm against strain.
 const FIRM_PAPER_WEIGHTS: SheetWeights = SheetWeights {
     isometry: 300.0,
-    bending: 1.5,
+    bending: [1.5; 2],
     outline: 350.0,
     corners: 300.0,
     lines: 400.0,
@@ -60,9 +70,17 @@ const FIRM_PAPER_WEIGHTS: SheetWeights = SheetWeights {
 /// shorten.
 const CRUMPLED_PAPER_WEIGHTS: SheetWeights = SheetWeights {
     isometry: 80.0,
-    bending: 3.5,
+    bending: [3.5; 2],
     ..FIRM_PAPER_WEIGHTS
 };
+
+/// Stiffness against bending of lines across a page's rulings, and along them, in the fit of a page that is curled in one
+/// direction. Chosen by simulated pages of which two edges are traced.
+const RULED_BENDING: [f64; 2] = [0.15, 30.0];
+
+/// Factor of the weights of edges and corners of a page that fills the photo: they are its sides, from which the page's own may
+/// be as far as it is bent.
+const UNSEEN_EDGE_FACTOR: f64 = 0.02;
 
 /// Factor of the isometry weight in the first fit of a sheet: a stiffer sheet would stay in the initial plane.
 const INITIAL_ISOMETRY_FACTOR: f64 = 0.25;
@@ -99,61 +117,139 @@ const MAX_PLANE_LINE_MISFIT: f64 = 0.0012;
 /// page's model.
 const MAX_PLANE_LINE_RATIO: f64 = 1.5;
 
-/// Finds the plainest model of a page that explains its four edges (upper, lower, left, right) in normalised image
-/// coordinates and the lines of print that the photo shows between them. None if no model does.
-pub(super) fn find_sheet(
-    edges: &[Polyline; 4],
-    prior: CameraPrior,
-    view: &PhotoView,
-    photo: &Photo<'_>,
-) -> Option<FoundSheet> {
-    let apparent = apparent_ratio(edges);
-    let homography = Homography::new(corners(edges))?;
-    let start = homography.sheet(COARSE_GRID_COLS[0], &prior, apparent)?;
-    let depth = start.nodes.iter().map(|p| p.z).sum::<f64>() / start.nodes.len() as f64;
-    let ruled = [false, true].into_iter().filter_map(|sideways| {
-        homography.ruled_sheet(COARSE_GRID_COLS[0], edges, sideways, &prior, apparent)
-    });
-    let starts: Vec<FittedSheet> = std::iter::once(start)
-        .chain(ruled)
-        .map(FittedSheet::new)
-        .collect();
-    let mut problem = SheetProblem {
-        edges: edges.clone(),
-        lines: Vec::new(),
-        folds: Vec::new(),
-        prior,
-        ratio: prior.ratio(apparent),
-        depth,
-        weights: SheetWeights {
-            isometry: INITIAL_ISOMETRY_FACTOR * FIRM_PAPER_WEIGHTS.isometry,
-            bending: INITIAL_BENDING_FACTOR * FIRM_PAPER_WEIGHTS.bending,
+/// What is traced of a page in a photo, in normalised image coordinates.
+pub(super) struct PageTraces {
+    /// Upper, lower, left and right edge.
+    pub edges: [Polyline; 4],
+    /// The bent edges, if the others are straight: the page is curled in one direction.
+    pub bent: Option<BentEdges>,
+    /// Whether the edges are seen; else the page reaches to about there.
+    pub is_seen: bool,
+    /// Lines of text.
+    pub lines: Vec<Vec<[f64; 2]>>,
+}
+
+impl PageTraces {
+    /// Weights of the fit of smooth paper.
+    fn firm_weights(&self) -> SheetWeights {
+        let bending = self.bent.map_or(FIRM_PAPER_WEIGHTS.bending, ruled_bending);
+        let edges = if self.is_seen {
+            1.0
+        } else {
+            UNSEEN_EDGE_FACTOR
+        };
+        SheetWeights {
+            bending,
+            outline: edges * FIRM_PAPER_WEIGHTS.outline,
+            corners: edges * FIRM_PAPER_WEIGHTS.corners,
             ..FIRM_PAPER_WEIGHTS
-        },
-    };
-    let plane_start = starts[0].clone();
-    let limp = problem.solve(plane_start, MAX_SHEET_FIT_STEPS, COST_TOLERANCE)?;
-    problem.weights = FIRM_PAPER_WEIGHTS;
-    let coarse = problem.refined(limp, &COARSE_GRID_COLS)?;
+        }
+    }
+
+    /// Fits a coarse sheet to the edges alone, from the plane of the corners; returns it with its problem and the initial
+    /// guesses of pages that are curled in one direction. None if it is not in front of the camera.
+    fn coarse_fit(
+        &self,
+        prior: CameraPrior,
+    ) -> Option<(SheetProblem, FittedSheet, Vec<FittedSheet>)> {
+        let edges = &self.edges;
+        let apparent = apparent_ratio(edges);
+        let homography = Homography::new(corners(edges))?;
+        let start = homography.sheet(COARSE_GRID_COLS[0], &prior, apparent)?;
+        let depth = start.nodes.iter().map(|p| p.z).sum::<f64>() / start.nodes.len() as f64;
+        let ruled = [false, true].into_iter().filter_map(|sideways| {
+            homography.ruled_sheet(COARSE_GRID_COLS[0], edges, sideways, &prior, apparent)
+        });
+        let starts: Vec<FittedSheet> = std::iter::once(start)
+            .chain(ruled)
+            .map(FittedSheet::new)
+            .collect();
+        let weights = self.firm_weights();
+        let mut problem = SheetProblem {
+            edges: edges.clone(),
+            lines: Vec::new(),
+            traced: 0,
+            folds: Vec::new(),
+            prior,
+            ratio: prior.ratio(apparent),
+            depth,
+            weights: SheetWeights {
+                isometry: INITIAL_ISOMETRY_FACTOR * weights.isometry,
+                bending: weights.bending.map(|own| INITIAL_BENDING_FACTOR * own),
+                ..weights
+            },
+        };
+        let limp = problem.solve(starts[0].clone(), MAX_SHEET_FIT_STEPS, COST_TOLERANCE)?;
+        problem.weights = weights;
+        let coarse = problem.refined(limp, &COARSE_GRID_COLS)?;
+        Some((problem, coarse, starts))
+    }
+}
+
+/// Stiffness against bending of lines across and down a page whose edges `bent` are bent and whose others are straight.
+fn ruled_bending(bent: BentEdges) -> [f64; 2] {
+    let [across, along] = RULED_BENDING;
+    match bent {
+        BentEdges::TopBottom => [across, along],
+        BentEdges::LeftRight => [along, across],
+    }
+}
+
+/// Finds the plainest model of a page that explains its edges and the lines of print that the photo shows between them. Of
+/// several kinds of prior knowledge `priors`, such as of a format that may lie across, that is taken by which a sheet explains
+/// the edges best. None if no model does.
+pub(super) fn find_sheet(
+    traces: &PageTraces,
+    priors: &[CameraPrior],
+    view: &PhotoView,
+    photo: Option<&Photo<'_>>,
+) -> Option<FoundSheet> {
+    let edges = &traces.edges;
+    let apparent = apparent_ratio(edges);
+    let (mut problem, coarse, starts) = (priors.iter())
+        .filter_map(|prior| traces.coarse_fit(*prior))
+        .min_by(|(_, one, _), (_, other, _)| one.cost.total_cmp(&other.cost))?;
     let coarse = problem.with_lowest_cost(coarse, &starts[1..]);
     let table = PlaceTable::new(&coarse.grid, view).ok()?;
-    let photo = PageView::from_places(|share| Some(table.at(share))).reduce(photo);
-    let photo = photo.as_ref();
-    let (mut sheet, mut figures) = problem.with_lines(coarse.clone(), &starts, view, photo)?;
+    let photo = photo.and_then(|photo| PageView::new(|share| table.at(share)).reduce(photo));
+    let print = PagePrint {
+        traced: &traces.lines,
+        photo: photo.as_ref(),
+        view,
+    };
+    let (mut sheet, mut figures) = problem.with_lines(coarse.clone(), &starts, &print)?;
     let mut model = PageModel::Sheet;
     let max_outline = (MAX_PLANE_OUTLINE_RATIO * figures.outline)
         .clamp(SMALL_PLANE_OUTLINE_MISFIT, MAX_PLANE_OUTLINE_MISFIT);
-    if figures.curvature > MAX_FIRM_CURVATURE || figures.lines > MAX_FIRM_LINE_MISFIT {
+    let is_strained =
+        figures.curvature > MAX_FIRM_CURVATURE || figures.lines > MAX_FIRM_LINE_MISFIT;
+    if traces.bent.is_some() {
+        model = PageModel::Cylinder;
+    } else if is_strained {
         let mut crumpled = problem.clone();
         crumpled.weights = CRUMPLED_PAPER_WEIGHTS;
         crumpled.lines.clear();
         crumpled.folds.clear();
-        let refined = crumpled.refined(coarse, &COARSE_GRID_COLS);
-        if let Some(found) =
-            refined.and_then(|coarse| crumpled.with_lines(coarse, &starts, view, photo))
+        let refined = crumpled.refined(coarse.clone(), &COARSE_GRID_COLS);
+        if let Some(found) = refined.and_then(|coarse| crumpled.with_lines(coarse, &starts, &print))
         {
             (sheet, figures) = found;
             (problem, model) = (crumpled, PageModel::SoftSheet);
+        }
+    }
+    // A page that is curled in one direction explains edges and lines better than a sheet that is equally firm in both.
+    let curled =
+        (model == PageModel::Sheet).then_some([BentEdges::TopBottom, BentEdges::LeftRight]);
+    for bent in curled.into_iter().flatten() {
+        let mut ruled = problem.clone();
+        ruled.weights.bending = ruled_bending(bent);
+        ruled.lines.clear();
+        ruled.folds.clear();
+        let Some(own) = ruled.curled_fit(&coarse, &starts, &print) else {
+            continue;
+        };
+        if own.1.outline.hypot(own.1.lines) < figures.outline.hypot(figures.lines) {
+            ((sheet, figures), problem, model) = (own, ruled, PageModel::Cylinder);
         }
     }
     let plane = (straight_corners(edges)).and_then(|straight| {
@@ -172,7 +268,10 @@ pub(super) fn find_sheet(
         model,
         figures,
         depth: problem.depth,
-        lines: problem.lines.into_iter().map(|line| line.points).collect(),
+        count: problem.lines.len(),
+        lines: (problem.lines.into_iter().skip(problem.traced))
+            .map(|line| line.points)
+            .collect(),
     })
 }
 
@@ -186,6 +285,20 @@ impl SheetProblem {
             sheet = self.solve(sheet, MAX_SHEET_FIT_STEPS, COST_TOLERANCE)?;
         }
         Some(sheet)
+    }
+
+    /// Fits a page that is curled in one direction; returns it with its measures. None if it explains the edges worse than the
+    /// coarse sheet `firm`, or is not in front of the camera.
+    fn curled_fit(
+        &mut self,
+        firm: &FittedSheet,
+        starts: &[FittedSheet],
+        print: &PagePrint<'_>,
+    ) -> Option<(FittedSheet, SheetFigures)> {
+        let coarse = self.refined(firm.clone(), &COARSE_GRID_COLS)?;
+        let coarse = self.with_lowest_cost(coarse, &starts[1..]);
+        let explains = self.figures(&coarse)?.outline < self.figures(firm)?.outline;
+        explains.then(|| self.with_lines(coarse, starts, print))?
     }
 
     /// Fits coarse sheets from the initial guesses `starts`, with the lines of print where `sheet` has them; returns that
@@ -214,12 +327,15 @@ impl SheetProblem {
         &mut self,
         mut sheet: FittedSheet,
         starts: &[FittedSheet],
-        view: &PhotoView,
-        photo: Option<&GreyPhoto>,
+        print: &PagePrint<'_>,
     ) -> Option<(FittedSheet, SheetFigures)> {
+        let PagePrint { photo, view, .. } = *print;
         for round in 0..LINE_DETECTION_ROUNDS {
             let table = PlaceTable::new(&sheet.grid, view).ok()?;
-            self.lines = photo.map_or_else(Vec::new, |photo| find_level_lines(&table, view, photo));
+            self.lines = traced_level_lines(&table, view, print.traced);
+            self.traced = self.lines.len();
+            self.lines
+                .extend(photo.map_or_else(Vec::new, |photo| find_level_lines(&table, view, photo)));
             let half_deviation = HALF_FOLD_DEVIATION / sheet.cost.max(1e-9).sqrt();
             self.folds = photo.map_or_else(Vec::new, |photo| {
                 find_folds(&table, view, photo, half_deviation)

@@ -1,10 +1,8 @@
-//! Baselines of bands of ink, and the test which of them are lines of text: smooth, and parallel to their neighbours.
+//! Baselines of bands of ink, and the test which of them are lines of text: they are smooth.
 
 use nalgebra::{DMatrix, DVector};
 
 use super::bands::{Band, MIN_BAND_STRIPS, SmoothedProfiles};
-use super::ranking::ranked;
-use crate::page::cylinder::legendre_values;
 
 /// Baseline of a line of text, in pixels of the ink image.
 #[derive(Debug, Clone)]
@@ -26,26 +24,6 @@ const MAX_SCATTER_PIXELS: f64 = 0.3;
 
 /// Addition to the maximum scatter of lower edges about a baseline, as a share of half the x-height.
 const MAX_SCATTER_SCALES: f64 = 0.05;
-
-/// Minimum number of parallel lines of text on a page: fewer may be parallel by chance.
-const MIN_TEXT_LINES: usize = 4;
-
-/// Maximum distance between lines that are compared for being parallel, as a multiple of half the x-height.
-const MAX_NEIGHBOUR_DISTANCE: f64 = 25.0;
-
-/// Number of nearest lines with which a line is compared for being parallel.
-const COMPARED_NEIGHBOURS: usize = 4;
-
-/// Maximum variation (standard deviation) of the distance between two lines of text that count as parallel, in pixels
-/// of the ink image; [`MAX_NON_PARALLEL_SCALES`] adds a share of the letters' height.
-const MAX_NON_PARALLEL_PIXELS: f64 = 0.5;
-
-/// Addition to the maximum variation of the distance between parallel lines of text, as a share of half the x-height.
-const MAX_NON_PARALLEL_SCALES: f64 = 0.08;
-
-/// Minimum share of all candidate lines of text that are parallel to their neighbours: below it the page is assumed to
-/// have no print.
-const MIN_PARALLEL_SHARE: f64 = 0.65;
 
 impl Baseline {
     /// Fits the baseline of a band of ink: a polynomial through the band's lower edges in each vertical strip, `step`
@@ -86,63 +64,6 @@ impl Baseline {
             .filter(|p| (other.points.iter()).any(|q| p[0] == q[0] && (p[1] - q[1]).abs() < near))
             .count();
         both >= 3
-    }
-
-    /// Variation (standard deviation), along the lines, of the distance between two lines of text, in pixels; None if
-    /// they have too few strips in common.
-    fn distance_change(&self, other: &Baseline) -> Option<f64> {
-        let gaps: Vec<f64> = (self.points.iter())
-            .filter_map(|p| {
-                let q = other.points.iter().find(|q| q[0] == p[0])?;
-                Some(q[1] - p[1])
-            })
-            .collect();
-        if gaps.len() < MIN_BAND_STRIPS / 2 {
-            return None;
-        }
-        let mean = gaps.iter().sum::<f64>() / gaps.len() as f64;
-        let squares = gaps.iter().map(|gap| (gap - mean).powi(2)).sum::<f64>();
-        Some((squares / gaps.len() as f64).sqrt())
-    }
-
-    /// Whether the line is parallel to at least half of its nearest neighbours in `lines`; `own` is its own index
-    /// there.
-    fn is_parallel(&self, lines: &[Baseline], own: usize) -> bool {
-        let (away, apart): (Vec<f64>, Vec<f64>) = (lines.iter().enumerate())
-            .filter(|(i, other)| {
-                *i != own && (other.level - self.level).abs() < MAX_NEIGHBOUR_DISTANCE * self.sigma
-            })
-            .filter_map(|(_, other)| {
-                Some((
-                    (other.level - self.level).abs(),
-                    self.distance_change(other)?,
-                ))
-            })
-            .unzip();
-        let mut near = ranked(&away);
-        near.truncate(COMPARED_NEIGHBOURS);
-        let limit = MAX_NON_PARALLEL_PIXELS + MAX_NON_PARALLEL_SCALES * self.sigma;
-        let alike = near.iter().filter(|k| apart[**k] < limit).count();
-        2 * alike >= near.len().max(COMPARED_NEIGHBOURS)
-    }
-}
-
-/// Keeps the lines that are parallel to at least half of their neighbours, as those of print are; returns none if too
-/// few remain.
-pub(super) fn parallel_lines(mut lines: Vec<Baseline>) -> Vec<Baseline> {
-    let all = lines.len();
-    loop {
-        let kept: Vec<Baseline> = (lines.iter().enumerate())
-            .filter(|(i, line)| line.is_parallel(&lines, *i))
-            .map(|(_, line)| line.clone())
-            .collect();
-        if kept.len() < MIN_TEXT_LINES || (kept.len() as f64) < MIN_PARALLEL_SHARE * all as f64 {
-            return Vec::new();
-        }
-        if kept.len() == lines.len() {
-            return kept;
-        }
-        lines = kept;
     }
 }
 
@@ -200,4 +121,17 @@ fn fit_robust(points: &[[f64; 2]], degree: usize) -> Option<Polynomial> {
 fn median(mut values: Vec<f64>) -> f64 {
     values.sort_by(f64::total_cmp);
     values.get(values.len() / 2).copied().unwrap_or(0.0)
+}
+
+/// Evaluates the Legendre polynomials of degrees 0 to `degree`, scaled to the interval from 0 to 1, at a place `at` in
+/// it.
+fn legendre_values(degree: usize, at: f64) -> Vec<f64> {
+    let x = 2.0 * at - 1.0;
+    let mut values = vec![1.0];
+    for k in 0..degree {
+        let before = if k > 0 { values[k - 1] } else { 0.0 };
+        let order = k as f64;
+        values.push(((2.0 * order + 1.0) * x * values[k] - order * before) / (order + 1.0));
+    }
+    values
 }

@@ -3,11 +3,10 @@
 
 use super::grey_photo::GreyPhoto;
 use crate::dewarp::Photo;
-use crate::page::curled_page::CurledPage;
 
 /// A flat page with its projection to the photo; places on the page are shares of its width and height.
 pub(in crate::page) struct PageView<'a> {
-    place: Box<dyn Fn([f64; 2]) -> Option<[f64; 2]> + 'a>,
+    place: Box<dyn Fn([f64; 2]) -> [f64; 2] + 'a>,
 }
 
 /// Ink image: darkness of each pixel of the flat page relative to the paper around it, from 0 to 1.
@@ -38,32 +37,16 @@ const MARGIN_SHARE: f64 = 0.015;
 const PIXELS_PER_CELL: usize = 8;
 
 impl<'a> PageView<'a> {
-    /// Makes the view of a curled page, or of page `number` of a spread, by which places on the page are projected to
-    /// the photo.
-    pub fn new(page: &'a CurledPage, number: usize) -> Self {
-        let curve = page.cylinder.curve();
-        Self::from_places(move |share| {
-            let cylinder = &page.cylinder;
-            let (along, down) = page.curve_shares(share);
-            cylinder.project(curve.at(number, along), down * cylinder.length)
-        })
-    }
-
     /// Makes the view of a page whose places are projected to the photo's pixels by the function `place`.
-    pub fn from_places(place: impl Fn([f64; 2]) -> Option<[f64; 2]> + 'a) -> Self {
+    pub fn new(place: impl Fn([f64; 2]) -> [f64; 2] + 'a) -> Self {
         PageView {
             place: Box::new(place),
         }
     }
 
-    /// Projects a place on the page, in shares of its width and height, to the photo, in pixels.
-    pub fn project(&self, share: [f64; 2]) -> Option<[f64; 2]> {
-        (self.place)(share)
-    }
-
     /// Reduces a photo for the page's ink image; None if too little of the page is in the photo for lines of text.
     pub fn reduce(&self, photo: &Photo<'_>) -> Option<GreyPhoto> {
-        let [seen, down] = self.size()?;
+        let [seen, down] = self.size();
         let is_large = seen >= MIN_PAGE_PIXELS && down >= MIN_PAGE_PIXELS;
         (is_large && seen < 1e6 && down < 1e6).then(|| {
             let block = (seen / MAX_INK_WIDTH).round().max(1.0) as usize;
@@ -71,39 +54,36 @@ impl<'a> PageView<'a> {
         })
     }
 
-    /// Width and height of the page in the photo, in pixels, along the lines through its middle. None if a part is not
-    /// in front of the camera.
-    fn size(&self) -> Option<[f64; 2]> {
+    /// Width and height of the page in the photo, in pixels, along the lines through its middle.
+    fn size(&self) -> [f64; 2] {
         /// Number of segments by which the page's width and height in the photo are measured.
         const PAGE_SIZE_SEGMENTS: usize = 16;
-        let length = |along: fn(f64) -> [f64; 2]| -> Option<f64> {
-            let seen: Option<Vec<_>> = (0..=PAGE_SIZE_SEGMENTS)
-                .map(|i| self.project(along(i as f64 / PAGE_SIZE_SEGMENTS as f64)))
+        let length = |along: fn(f64) -> [f64; 2]| -> f64 {
+            let seen: Vec<_> = (0..=PAGE_SIZE_SEGMENTS)
+                .map(|i| (self.place)(along(i as f64 / PAGE_SIZE_SEGMENTS as f64)))
                 .collect();
-            Some(
-                (seen?.windows(2))
-                    .map(|w| (w[0][0] - w[1][0]).hypot(w[0][1] - w[1][1]))
-                    .sum(),
-            )
+            (seen.windows(2))
+                .map(|w| (w[0][0] - w[1][0]).hypot(w[0][1] - w[1][1]))
+                .sum()
         };
-        Some([length(|t| [t, 0.5])?, length(|t| [0.5, t])?])
+        [length(|t| [t, 0.5]), length(|t| [0.5, t])]
     }
 }
 
 impl InkImage {
-    /// Computes the ink image of a page; None if a part of the page is not in front of the camera.
-    pub fn new(view: &PageView<'_>, photo: &GreyPhoto) -> Option<Self> {
-        let [seen, down] = view.size()?;
+    /// Computes the ink image of a page.
+    pub fn new(view: &PageView<'_>, photo: &GreyPhoto) -> Self {
+        let [seen, down] = view.size();
         let scale = (MAX_INK_WIDTH / seen).min(1.0);
         let [width, height] =
             [seen * scale, (down * scale).min(4.0 * MAX_INK_WIDTH)].map(|n| n as usize);
         let [cols, rows] = [width, height].map(|n| n.div_ceil(PIXELS_PER_CELL) + 1);
-        let nodes = (0..cols * rows)
+        let nodes: Vec<_> = (0..cols * rows)
             .map(|i| {
                 let node = [i % cols, i / cols].map(|n| (n * PIXELS_PER_CELL) as f64);
-                view.project([node[0] / width as f64, node[1] / height as f64])
+                (view.place)([node[0] / width as f64, node[1] / height as f64])
             })
-            .collect::<Option<Vec<_>>>()?;
+            .collect();
         let mut data = vec![f32::NAN; width * height];
         let [left, top] = [width, height].map(|n| (MARGIN_SHARE * n as f64).ceil() as usize);
         let mut line = vec![[0.0; 2]; cols];
@@ -128,11 +108,11 @@ impl InkImage {
                 0.0
             };
         }
-        Some(InkImage {
+        InkImage {
             width,
             height,
             data,
-        })
+        }
     }
 }
 

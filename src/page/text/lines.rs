@@ -1,13 +1,10 @@
 //! Detection of the baselines of lines of text on flattened pages.
 
 use super::bands::StripProfiles;
-use super::baseline::{Baseline, parallel_lines};
+use super::baseline::Baseline;
 use super::grey_photo::GreyPhoto;
 use super::ink::{InkImage, PageView};
 use super::ranking::ranked;
-use crate::dewarp::Photo;
-use crate::page::curled_page::CurledPage;
-use crate::page::edges::Trace;
 
 /// Half x-heights of the letters for which lines of text are searched, in pixels of the ink image.
 const X_HEIGHT_SCALES: [f64; 6] = [1.5, 2.2, 3.2, 4.7, 6.8, 10.0];
@@ -15,30 +12,9 @@ const X_HEIGHT_SCALES: [f64; 6] = [1.5, 2.2, 3.2, 4.7, 6.8, 10.0];
 /// Approximate maximum number of lines of text of one page.
 const MAX_LINES_PER_PAGE: usize = 200;
 
-/// Finds the baselines of the lines of text on each page of a photo, in the photo's pixels.
-pub(in crate::page) fn find_lines(page: &CurledPage, photo: &Photo<'_>) -> Vec<Vec<Trace>> {
-    (0..page.pages())
-        .map(|number| {
-            let view = PageView::new(page, number);
-            let grey = view.reduce(photo);
-            let lines = grey.and_then(|grey| find_on_view(&view, &grey, true));
-            let lines = lines.unwrap_or_default();
-            (lines.iter())
-                .filter_map(|line| line.iter().map(|at| view.project(*at)).collect())
-                .map(Trace::Points)
-                .collect()
-        })
-        .collect()
-}
-
-/// Finds the baselines on one flat page, as points in shares of its width and height; `parallel` discards those that
-/// are not parallel to their neighbours. None if a part of the page is not in front of the camera.
-pub(in crate::page) fn find_on_view(
-    view: &PageView<'_>,
-    photo: &GreyPhoto,
-    parallel: bool,
-) -> Option<Vec<Vec<[f64; 2]>>> {
-    let ink = InkImage::new(view, photo)?;
+/// Finds the baselines on one flat page, as points in shares of its width and height.
+pub(in crate::page) fn find_on_view(view: &PageView<'_>, photo: &GreyPhoto) -> Vec<Vec<[f64; 2]>> {
+    let ink = InkImage::new(view, photo);
     let strips = StripProfiles::new(&ink);
     let mut by_scale: Vec<Vec<Baseline>> = X_HEIGHT_SCALES
         .iter()
@@ -58,21 +34,15 @@ pub(in crate::page) fn find_on_view(
             chosen.push(line);
         }
     }
-    let lines = if parallel {
-        parallel_lines(chosen)
-    } else {
-        chosen
-    };
-    let levels: Vec<f64> = lines.iter().map(|line| line.level).collect();
-    let step = lines.len().div_ceil(MAX_LINES_PER_PAGE).max(1);
+    let levels: Vec<f64> = chosen.iter().map(|line| line.level).collect();
+    let step = chosen.len().div_ceil(MAX_LINES_PER_PAGE).max(1);
     let [width, height] = [ink.width, ink.height].map(|n| n as f64);
-    let lines = (ranked(&levels).into_iter().step_by(step))
+    (ranked(&levels).into_iter().step_by(step))
         .map(|k| {
-            (lines[k].points.iter())
+            (chosen[k].points.iter())
                 // Rows are counted at their middles.
                 .map(|[x, y]| [x / width, (y + 0.5) / height])
                 .collect()
         })
-        .collect();
-    Some(lines)
+        .collect()
 }

@@ -2,7 +2,7 @@
 //!
 //! On the flat page that the edges show, lines of text are nearly level. There the ink is summed along the rows of
 //! narrow vertical strips. A line of text is a band of ink that continues from strip to strip; its lower edge is the
-//! baseline. Bands that scatter too much, or are not parallel to those above and below, are discarded. Thresholds were
+//! baseline. Bands that scatter too much are discarded. Thresholds were
 //! chosen on the shapes and layouts of `benches/README.md` (flat pages from a photo alone), at half their resolution.
 
 mod bands;
@@ -14,4 +14,4 @@ pub(super) mod ranking;
 
 pub(super) use grey_photo::GreyPhoto;
 pub(super) use ink::PageView;
-pub(super) use lines::{find_lines, find_on_view};
+pub(super) use lines::find_on_view;

@@ -1,12 +1,12 @@
 //! How far what is on a flat page is from where it belongs.
 
-use developable::page::CurledPage;
+use developable::page::PageSurface;
 
 use super::scene::Scene;
 use crate::common::similarity;
 
 /// Root mean square of the displacements after the best similarity, in % of a page's width.
-pub fn displacement(page: &CurledPage, scene: &Scene) -> f64 {
+pub fn displacement(page: &PageSurface, scene: &Scene) -> f64 {
     let pages = scene.pages();
     let [width, height] = page.flat_size();
     let mut pairs = Vec::new();
@@ -16,7 +16,7 @@ pub fn displacement(page: &CurledPage, scene: &Scene) -> f64 {
                 (i as f64 + 0.5) / (20 * pages) as f64,
                 (j as f64 + 0.5) / 20.0,
             ];
-            let pixel = page.photo_place(share).unwrap();
+            let pixel = page.photo_place(share);
             let number = i / 20;
             let near = [share[0] * pages as f64 - number as f64, share[1]];
             let truth = scene.on_page(number, near, pixel);

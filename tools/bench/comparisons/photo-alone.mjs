@@ -53,11 +53,11 @@ export async function photoAlone({ quick }) {
         const options = { focalLength: camera.fx, centre: /** @type {[number, number]} */ ([camera.cx, camera.cy]) };
         try {
           const flat = dewarpPage(photo, edges, { ...options, page: format, dots: 2, findLines: photo !== blank });
-          const { error, pinholeErrorBound, verdict, lines, linesFound } = flat.report;
-          return { word: verdict, error, pinholeErrorBound, lines: Math.max(lines, linesFound), rms: leaves * measure(flat, placesOf(flat, seen), page).rms };
+          const { error, errorBound, verdict, lines, linesFound } = flat.report;
+          return { word: verdict, error, errorBound, lines: Math.max(lines, linesFound), rms: leaves * measure(flat, placesOf(flat, seen), page).rms };
         } catch (problem) {
           if (!(problem instanceof DevelopableError && problem.code === 'EDGES')) throw problem;
-          return { word: 'refused', error: NaN, pinholeErrorBound: NaN, lines: NaN, rms: NaN };
+          return { word: 'refused', error: NaN, errorBound: NaN, lines: NaN, rms: NaN };
         }
       });
       const made = results.filter(({ word }) => word !== 'refused');
@@ -65,7 +65,7 @@ export async function photoAlone({ quick }) {
       const mean = (values) => Math.sqrt(values.reduce((sum, value) => sum + value * value, 0) / values.length);
       const rms = mean(made.map((one) => one.rms));
       const worst = Math.max(...made.map((one) => one.rms));
-      const within = made.filter((one) => 100 * one.rms <= one.pinholeErrorBound).length;
+      const within = made.filter((one) => 100 * one.rms <= one.errorBound).length;
       /** @type {Map<string, number>} */
       const words = new Map();
       for (const { word } of results) words.set(word, (words.get(word) ?? 0) + 1);

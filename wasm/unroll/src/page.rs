@@ -10,9 +10,8 @@ use wasm_bindgen::prelude::*;
 use developable::dewarp::DewarpOptions;
 use developable::page::cleaning::Light;
 use developable::page::{
-    CurledPage, Edges, FocalLength, Format, OutlineReason, OutlineReport, OutlineVerdict,
-    PageOptions, PageOutline, PageReport, PageSurface, PageVerdict, PageWarp, Ruler, Trace,
-    find_outline,
+    Edges, FocalLength, Format, OutlineReason, OutlineReport, OutlineVerdict, PageOptions,
+    PageOutline, PageReport, PageSurface, PageVerdict, PageWarp, Ruler, Trace, find_outline,
 };
 use developable_wasm::flat::{CleaningInput, GridOutput, MapOptions, flat_image};
 use developable_wasm::options::{OptionReader, read, renamed};
@@ -91,7 +90,6 @@ struct KnownPage {
     page: Option<Format>,
     ruler: Option<Ruler>,
     centre: Option<[f64; 2]>,
-    accuracy: Option<f64>,
     find_lines: Option<bool>,
 }
 
@@ -113,7 +111,6 @@ impl KnownPage {
         known.format = self.page.unwrap_or_default();
         known.ruler = self.ruler;
         known.centre = self.centre;
-        known.accuracy = self.accuracy;
         Ok(known)
     }
 }
@@ -287,8 +284,10 @@ pub fn page_surface(photo: JsValue, edges: JsValue, options: JsValue) -> Result<
     let (mut pages, mut lines, mut find) = (Vec::new(), Vec::new(), true);
     let outline = if edges.is_undefined() {
         let found = find_outline(&photo);
-        pages.push(found.page()?.to_edges());
-        lines.push(Vec::new());
+        if let Ok(page) = found.page() {
+            pages.push(page.to_edges());
+            lines.push(Vec::new());
+        }
         Some(OutlinesOutput::from(&found))
     } else {
         let edges: Vec<EdgesInput> = from_value(edges)?;
@@ -301,11 +300,12 @@ pub fn page_surface(photo: JsValue, edges: JsValue, options: JsValue) -> Result<
         None
     };
     let find = input.find_lines.unwrap_or(find);
-    let page = if find {
+    let page = if pages.is_empty() && outline.is_some() {
+        PageSurface::by_print(&photo, &known)
+    } else if find {
         PageSurface::in_photo(&pages, &lines, &photo, &known)
     } else {
-        CurledPage::with_lines(&pages, &lines, [photo.width(), photo.height()], &known)
-            .map(PageSurface::Curled)
+        PageSurface::new(&pages, &lines, [photo.width(), photo.height()], &known)
     }
     .map_err(|error| renamed(error, "format", "page"))?;
     let (warp, mesh) = (page.warp()?, page.mesh()?);

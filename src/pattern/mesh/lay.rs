@@ -41,6 +41,9 @@ pub(super) enum Lying<'a> {
     At(&'a dyn Fn(u32) -> Point),
 }
 
+/// Number of solver iterations that are made before the solver may give up a layout.
+const UNCONDITIONAL_STEPS: usize = 40;
+
 /// Number of solver iterations after which layouts of trial cuts of a part are compared.
 pub(super) const TRIAL_STEPS: usize = 12;
 
@@ -116,7 +119,17 @@ impl FlatPart {
         let whole = pieces.iter().copied().zip(self.triangles.iter().copied());
         let whole = whole.filter(|(piece, _)| piece.exists()).collect();
         let mut joint = ArapMesh::new(&self.places, whole, Vec::new())?;
-        joint.minimise_in_plane(&mut self.places, until)?;
+        // Slow progress in the first steps is no reason to stop: an error at one end takes several steps to reach
+        // the other.
+        let start = StoppingCriteria {
+            max_steps: until.max_steps.min(UNCONDITIONAL_STEPS),
+            hopeless_energy: f64::INFINITY,
+            ..until
+        };
+        let steps = joint.minimise_in_plane(&mut self.places, start)?.steps;
+        if steps == UNCONDITIONAL_STEPS && until.max_steps > UNCONDITIONAL_STEPS {
+            joint.minimise_in_plane(&mut self.places, until)?;
+        }
         self.measure(pieces);
         Ok(())
     }

@@ -1,6 +1,7 @@
 //! The lines between the parts of a body, along which these are joined to sheets or cut.
 
 use std::collections::BTreeMap;
+use std::ops::Range;
 
 use super::body::Body;
 use crate::math::index::NO_INDEX;
@@ -55,15 +56,16 @@ impl Seams {
             for chain in chains(&edges, |vertex| pointed[vertex as usize]) {
                 let sides: Vec<[u32; 2]> = chain.edges.iter().map(|edge| pairs[*edge]).collect();
                 let folds: Vec<(f64, f64)> = sides.iter().map(|pair| fold(body, *pair)).collect();
-                // Between different patches there is a crease however blunt it is.
-                let is_sharp = |k: usize| !is_one(body, sides[k]) || folds[k].1.abs() > bend;
-                let edges: Vec<usize> = (0..folds.len()).collect();
-                for run in edges.chunk_by(|a, b| is_sharp(*a) == is_sharp(*b)) {
-                    let run = run[0]..run[0] + run.len();
+                // Between different patches a smaller angle suffices for a crease.
+                let bend = match is_one(body, sides[0]) {
+                    true => bend,
+                    false => MIN_PATCH_BEND_SHARE * bend,
+                };
+                for (run, sharp) in stretches(&folds, bend) {
                     seams.add(Seam {
                         parts,
                         vertices: chain.vertices[run.start..=run.end].to_vec(),
-                        smooth: !is_sharp(run.start),
+                        smooth: !sharp && is_one(body, sides[run.start]),
                         sides: sides[run.clone()].to_vec(),
                         length: folds[run.clone()].iter().map(|(long, _)| long).sum(),
                         angle: mean(&folds[run]),
@@ -113,6 +115,34 @@ impl Seams {
 fn is_one(body: &Body, pair: [u32; 2]) -> bool {
     let [a, b] = pair.map(|side| body.patches[side as usize / 3]);
     a == b
+}
+
+/// Minimum fold angle of a crease between two patches, as a share of the minimum inside of one patch.
+const MIN_PATCH_BEND_SHARE: f64 = 0.25;
+
+/// Number of edges on either side over which the fold angle along a line is averaged; also the minimum number of
+/// edges of a crease.
+const CREASE_WINDOW_EDGES: usize = 2;
+
+/// Divides a line of edges, given by their lengths and fold angles, into ranges where the line is a crease and
+/// ranges where the surface is smooth.
+fn stretches(folds: &[(f64, f64)], bend: f64) -> Vec<(Range<usize>, bool)> {
+    let is_sharp = |k: usize| {
+        let near =
+            k.saturating_sub(CREASE_WINDOW_EDGES)..(k + CREASE_WINDOW_EDGES + 1).min(folds.len());
+        mean(&folds[near]).abs() > bend
+    };
+    let mut found: Vec<(Range<usize>, bool)> = Vec::new();
+    for k in 0..folds.len() {
+        let sharp = is_sharp(k);
+        match found.last_mut() {
+            Some((run, before)) if *before == sharp || run.len() <= CREASE_WINDOW_EDGES => {
+                run.end = k + 1
+            }
+            _ => found.push((k..k + 1, sharp)),
+        }
+    }
+    found
 }
 
 /// Computes the mean fold angle of edges, weighted by the edges' lengths.

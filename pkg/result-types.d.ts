@@ -1137,10 +1137,7 @@ export interface RecognizedMesh {
 
 /** A traced ruling: a nearly straight line in a surface. */
 export interface Ruling {
-  /**
-   * Points along the ruling on the surface: about one for each spacing of a lattice, one for each edge of a mesh that
-   * it crosses.
-   */
+  /** Points along the ruling on the surface: one for each edge that it crosses. */
   points: [number, number, number][];
   /** Distance between the two ends of the ruling, in the surface's units. */
   length: number;

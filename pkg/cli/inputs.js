@@ -38,7 +38,9 @@ export async function readForFit(task, signal) {
  */
 export async function readInput(task) {
   if (task.lattice === 'mesh') return readSampled(task);
-  const file = tellUndecided(task, await readImage(task.input, task));
+  // The pins of a design say by their values which pixels are free.
+  const reading = task.command === 'design' ? { ...task, assumeNoData: false } : task;
+  const file = tellUndecided(task, await readImage(task.input, reading));
   const { mask, confidence, constraints, occlusions: torn } = task;
   const known = {
     mask: mask && flags(await readBeside('mask', mask, file)),

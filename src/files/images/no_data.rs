@@ -75,12 +75,18 @@ fn marker_of(values: &[f64]) -> Option<f64> {
         (low[0], low[1] - low[0], high[1] - low[1]),
         (high[0], high[0] - high[1], high[1] - low[1]),
     ];
-    (candidates.into_iter())
-        .filter(|(value, gap, range)| {
-            is_marker(*value) && gap.is_finite() && *range > 0.0 && gap > range
+    let is_repeated_marker = |value: f64| {
+        let count = || values.iter().filter(|other| **other == value).count();
+        is_marker(value) && count() >= MIN_REPETITIONS
+    };
+    let ends = [low[0], high[0]].map(is_repeated_marker);
+    (candidates.into_iter().enumerate())
+        .filter(|(k, (_, gap, range))| {
+            let are_markers = ends[k % 2] && (*k < 2 || ends[1 - k % 2]);
+            are_markers && gap.is_finite() && *range > 0.0 && gap > range
         })
-        .map(|(value, ..)| value)
-        .find(|value| values.iter().filter(|other| *other == value).count() >= MIN_REPETITIONS)
+        .map(|(_, (value, ..))| value)
+        .next()
 }
 
 /// Whether a number is one by which programs mark missing values: zero, beyond what anybody measures, three or more nines
@@ -161,6 +167,9 @@ mod tests {
 
     #[test]
     fn what_may_have_been_measured_stays() {
+        // Levels of which the highest is no marker.
+        let mut levels = [0.0, 0.0, 5.0, 6.0, 20.0];
+        assert!(assume_no_data(&mut levels, false).is_empty());
         // Zeros that may be the sea, a single outlier, round numbers, and a marker within the range of the others.
         for more in [
             &[0.0; 9][..],

@@ -12,9 +12,9 @@ const MIN_MILLIMETRE_SIDE: f64 = 10.0;
 /// Maximum longest side of a mesh whose lengths are taken for millimetres: a larger model fits no workshop.
 const MAX_MILLIMETRE_SIDE: f64 = 5000.0;
 
-/// Minimum distance of a mesh from the origin of coordinates that are those of a map, in metres: eastings of UTM begin at
-/// 166 km, no model in millimetres lies so far away.
-const MIN_MAP_DISTANCE: f64 = 1e5;
+/// Minimum distance of a mesh from the origin of coordinates that are those of a map, in metres: northings of maps in use are
+/// some thousand kilometres, and no model in millimetres lies a kilometre away.
+const MIN_MAP_DISTANCE: f64 = 1e6;
 
 /// A unit in which a mesh file may state lengths, with the unit that its mesh is read in.
 #[derive(Debug, Clone, Copy, PartialEq)]

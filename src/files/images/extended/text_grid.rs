@@ -9,6 +9,9 @@ use crate::files::images::format::Format;
 /// Maximum distance of a point from its place on the grid, as a share of the grid's spacing.
 const MAX_OFF_GRID_SHARE: f64 = 0.02;
 
+/// Smallest value that means no data in a grid of Surfer.
+const SURFER_BLANK: f64 = 1.701_41e38;
+
 /// A grid of heights with the sides of its cells.
 struct Grid {
     values: Vec<f64>,
@@ -21,7 +24,7 @@ pub(super) fn decode(bytes: &[u8]) -> Result<StoredImage> {
     let text = String::from_utf8_lossy(bytes);
     let text = text.trim_start_matches('\u{feff}');
     let (grid, no_data) = match (text.strip_prefix("DSAA"), esri_grid(text)?) {
-        (Some(grid), _) => (surfer_grid(grid)?, None),
+        (Some(grid), _) => (surfer_grid(grid)?, Some(f64::NAN)),
         (None, Some(found)) => found,
         (None, None) => (table(text)?, None),
     };
@@ -98,6 +101,12 @@ fn surfer_grid(text: &str) -> Result<Grid> {
     let cut_short = || damaged(Format::Text, "its header is cut short");
     let head = *values.first_chunk::<8>().ok_or_else(cut_short)?;
     let [cols, rows, x0, x1, y0, y1, _, _] = head;
+    if cols.fract() != 0.0 || rows.fract() != 0.0 {
+        return Err(damaged(
+            Format::Text,
+            "its rows and columns are no whole numbers",
+        ));
+    }
     let size = (cols as usize, rows as usize);
     let count = checked_cells("Surfer grid", size.1, size.0)?;
     values.drain(..head.len());
@@ -110,9 +119,14 @@ fn surfer_grid(text: &str) -> Result<Grid> {
         return Err(damaged(Format::Text, "its cells have no size"));
     }
     Ok(Grid {
-        values: (values.chunks_exact(size.0).rev())
-            .flatten()
-            .copied()
+        values: (values.chunks_exact(size.0).rev().flatten())
+            .map(|value| {
+                if *value < SURFER_BLANK {
+                    *value
+                } else {
+                    f64::NAN
+                }
+            })
             .collect(),
         size,
         sides: Some(sides),
@@ -297,6 +311,7 @@ mod tests {
         let (width, height, side, values) = read(&format!("{head}4 5\r\n6\r\n1 2 1.70141e+38\r\n"));
         assert_eq!((width, height, side), (3, 2, 0.5));
         assert_eq!(values[..2], [1.0, 2.0]);
+        assert!(values[2].is_nan());
         assert_eq!(values[3..], [4.0, 5.0, 6.0]);
         let error = decode(format!("{head}4 5 6").as_bytes()).unwrap_err();
         assert!(error.to_string().contains("3 values, but 2 rows of 3"));

@@ -242,7 +242,7 @@ fn resolution_sides(file: &mut File) -> Result<(Option<[f64; 2]>, Option<Unit>)>
     ) else {
         return Ok((None, None));
     };
-    if let Some(unit) = imagej_unit(file)? {
+    if let Some(unit) = imagej_unit(file) {
         return Ok((Some([unit / x, unit / y]), Some(Unit::Millimetre)));
     }
     let per = match unsigned(file, Tag::ResolutionUnit)?.unwrap_or(PER_INCH) {
@@ -261,16 +261,16 @@ fn resolution_sides(file: &mut File) -> Result<(Option<[f64; 2]>, Option<Unit>)>
 }
 
 /// Length in millimetres of the unit that ImageJ names in its description of a picture: its resolutions are pixels per unit.
-fn imagej_unit(file: &mut File) -> Result<Option<f64>> {
-    let Some(description) = file.find_tag(Tag::ImageDescription).map_err(failed)? else {
-        return Ok(None);
-    };
-    let description = description.into_string().map_err(failed)?;
+fn imagej_unit(file: &mut File) -> Option<f64> {
+    // A description that is no text is nobody's error: the heights do not depend on it.
+    let description = file
+        .find_tag(Tag::ImageDescription)
+        .ok()??
+        .into_string()
+        .ok()?;
     let lines = || description.lines().map(str::trim);
-    if !lines().any(|line| line.starts_with("ImageJ=")) {
-        return Ok(None);
-    }
-    Ok(lines().find_map(|line| match line.strip_prefix("unit=")? {
+    lines().find(|line| line.starts_with("ImageJ="))?;
+    lines().find_map(|line| match line.strip_prefix("unit=")? {
         "nm" => Some(1e-6),
         "um" | "µm" | "\\u00B5m" | "micron" | "microns" => Some(1e-3),
         "mm" => Some(1.0),
@@ -278,7 +278,7 @@ fn imagej_unit(file: &mut File) -> Result<Option<f64>> {
         "m" | "meter" => Some(1e3),
         "inch" | "inches" | "\"" => Some(INCH_MM),
         _ => None,
-    }))
+    })
 }
 
 /// Length of the unit of heights in metres, by the coordinate system or GDAL's metadata.

@@ -334,7 +334,10 @@ export type Drawable = Canvas
  */
 export type PhotoSource = Uint8Array | ArrayBuffer | Blob | Response | URL | string;
 
-/** Four corners of a page in a photo's pixels: upper left, upper right, lower right, lower left, as the page is read. */
+/**
+ * Four corners of a page in a photo's pixels: upper left, upper right, lower right, lower left, as the page is read. The edges
+ * between them are traced in the photo, unless the option `traceEdges` is false.
+ */
 export type PageCorners = readonly [
   readonly [number, number], readonly [number, number], readonly [number, number], readonly [number, number],
 ];
@@ -422,7 +425,8 @@ export type EdgeTrace = readonly (readonly [number, number])[] | { beziers: read
 
 /**
  * The two edges of a page that are bent, from corner to corner: each from left to right (`top`, `bottom`) or from top to bottom
- * (`left`, `right`). Or all four edges: which two are bent is detected, and the straight ones check the page.
+ * (`left`, `right`). Or all four edges: which two are bent is detected, and the straight ones check the page. An edge of which
+ * only the two ends are given is traced in the photo.
  */
 export type PageEdges = (
   | { top: EdgeTrace; bottom: EdgeTrace; left?: undefined; right?: undefined }
@@ -464,6 +468,8 @@ export interface DewarpedPage extends FlatPage {
    * photo. Empty if none were detected.
    */
   lines: [number, number][][][];
+  /** Edges of each page by which it was found: those that were given, or traced in the photo. An edge of two points is straight. */
+  edges: PageEdges[];
   /** Whether the flat page can be trusted. */
   verdict: PageVerdict;
   /** Report on the page: its model, expected error and what supports it. */

@@ -14,11 +14,11 @@ export async function readPicture(file, maxPixels) {
 }
 
 /**
- * Reduces a photo, and converts the result to grey.
+ * Reduces a photo.
  * @param {Pixels} pixels
  * @param {number} scale factor of its sides, at most 1
  */
 export async function reducedPhoto(pixels, scale) {
-  const { width, height, data, grey } = await callWorker('reducePhoto', pixels, scale);
-  return { small: new ImageData(data, width, height), grey: { width, height, scale, data: grey } };
+  const { width, height, data } = await callWorker('reducePhoto', pixels, scale);
+  return new ImageData(data, width, height);
 }

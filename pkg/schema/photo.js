@@ -230,6 +230,11 @@ export const dewarpPage = {
    * they do not, the verdict says so. Default: true, unless the edges of a page include `lines`.
    */
   findLines: { kind: flag },
+  /**
+   * Whether an edge of which only the two ends are given, as of four corners, is traced in the photo between them. False: it is
+   * straight. Default: true.
+   */
+  traceEdges: { kind: flag },
   ...flattenPhoto,
 };
 

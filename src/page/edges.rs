@@ -13,6 +13,11 @@ pub enum Trace {
 }
 
 impl Trace {
+    /// Whether nothing but the two ends of the edge is given.
+    pub fn has_ends_alone(&self) -> bool {
+        matches!(self, Trace::Points(points) if points.len() == 2)
+    }
+
     /// Returns this trace with each of its points replaced.
     pub(super) fn map_points(&self, map: impl Fn([f64; 2]) -> [f64; 2]) -> Trace {
         let mapped = |points: &[[f64; 2]]| points.iter().map(|point| map(*point)).collect();
@@ -54,4 +59,46 @@ pub enum Edges {
         /// The right edge of the page.
         right: Trace,
     },
+}
+
+impl Edges {
+    /// The traces: the upper, lower, left and right one, as far as they are given.
+    pub fn traces(&self) -> Vec<&Trace> {
+        match self {
+            Edges::TopBottom { top, bottom } => vec![top, bottom],
+            Edges::LeftRight { left, right } => vec![left, right],
+            Edges::All {
+                top,
+                bottom,
+                left,
+                right,
+            } => vec![top, bottom, left, right],
+        }
+    }
+
+    /// Returns these edges with each trace replaced; `replace` gets the trace and the number
+    /// of its side, clockwise from the upper one; the lower and the left one run the other way.
+    pub(super) fn map_traces(&self, replace: impl Fn(&Trace, usize) -> Trace) -> Edges {
+        match self {
+            Edges::TopBottom { top, bottom } => Edges::TopBottom {
+                top: replace(top, 0),
+                bottom: replace(bottom, 2),
+            },
+            Edges::LeftRight { left, right } => Edges::LeftRight {
+                left: replace(left, 3),
+                right: replace(right, 1),
+            },
+            Edges::All {
+                top,
+                bottom,
+                left,
+                right,
+            } => Edges::All {
+                top: replace(top, 0),
+                bottom: replace(bottom, 2),
+                left: replace(left, 3),
+                right: replace(right, 1),
+            },
+        }
+    }
 }

@@ -36,7 +36,8 @@
 //! ```
 //!
 //! [`find_outline`] finds the edges in the photo, with a verdict: [`PageOutline::to_edges`] gives them in the form that
-//! [`PageSurface::in_photo`] takes. Lenses are assumed to have no distortion.
+//! [`PageSurface::in_photo`] takes. [`trace_edges`] finds them between corners that are given. Lenses are assumed to have
+//! no distortion.
 
 pub mod cleaning;
 mod corners;
@@ -58,7 +59,9 @@ mod working_photo;
 
 pub use edges::{Edges, Trace};
 pub use options::{FocalLength, Format, PageOptions, Ruler};
-pub use outline::{OutlineReason, OutlineReport, OutlineVerdict, PageOutline, find_outline};
+pub use outline::{
+    OutlineReason, OutlineReport, OutlineVerdict, PageOutline, find_outline, trace_edges,
+};
 pub use page_warp::PageWarp;
 pub use pixel_grid::PixelGrid;
 pub use report::{PageDoubt, PageModel, PageReport, PageVerdict};

@@ -77,28 +77,7 @@ impl PhotoScale {
 
     /// Converts traced edges from pixels of the photo to pixels of the working photo.
     pub fn working_edges(self, edges: &Edges) -> Edges {
-        let own = |trace: &Trace| self.working_trace(trace);
-        match edges {
-            Edges::TopBottom { top, bottom } => Edges::TopBottom {
-                top: own(top),
-                bottom: own(bottom),
-            },
-            Edges::LeftRight { left, right } => Edges::LeftRight {
-                left: own(left),
-                right: own(right),
-            },
-            Edges::All {
-                top,
-                bottom,
-                left,
-                right,
-            } => Edges::All {
-                top: own(top),
-                bottom: own(bottom),
-                left: own(left),
-                right: own(right),
-            },
-        }
+        edges.map_traces(|trace, _| self.working_trace(trace))
     }
 
     /// Converts a trace from pixels of the photo to pixels of the working photo.

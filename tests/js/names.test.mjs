@@ -26,7 +26,7 @@ test('a flag has the name of its option, in lower case with hyphens', () => {
     unroll: ['tolerance'],
     pattern: ['tolerance', 'refold'],
     dewarp: ['tolerance', 'transfer', 'grid', 'extent', 'camera'],
-    dewarpPage: ['film35', 'ruler', 'centre', 'findLines', 'grid', 'transfer'],
+    dewarpPage: ['film35', 'ruler', 'centre', 'findLines', 'traceEdges', 'grid', 'transfer'],
   };
   for (const [call, without] of Object.entries(own)) {
     const options = Object.keys(OPTIONS[/** @type {keyof typeof OPTIONS} */ (call)]);

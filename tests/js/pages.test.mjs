@@ -187,7 +187,7 @@ test('the command', async () => {
   }));
   const corners = await command('dewarp photo.png --edges corners.json --focal-length 480 -o page.png');
   assert.equal(corners.status, 0, corners.stderr);
-  assert.match(corners.stderr, /no line of text checks/);
+  assert.match(corners.stderr, /outline may be wrong/, 'the photo shows no edge between them');
 
   for (const [args, status, message] of /** @type {[string, number, RegExp][]} */ ([
     ['dewarp photo.png --edges swapped.json -o f.png', 3, /exchange/],
@@ -353,6 +353,12 @@ test('photos come as files, corners as points, and options without edges', async
   const byCorners = direct.dewarpPage(sheet, corners, known);
   assert.deepEqual(byCorners, direct.dewarpPage(sheet, { top: [a, b], bottom: [d, c], left: [a, d], right: [b, c] }, known));
   assert.deepEqual(await developable.dewarpPage(sheet, corners, known), byCorners);
+  // The edges are traced in the photo, or straight if that is asked for.
+  const straight = direct.dewarpPage(sheet, corners, { ...known, traceEdges: false });
+  const points = (/** @type {typeof flat} */ { edges: [{ top, left }] }) => [top, left].map((edge) => (Array.isArray(edge) ? edge.length : 0));
+  assert.deepEqual(points(straight), [2, 2]);
+  assert.ok(points(byCorners).every((count) => count > 50), `${points(byCorners)}`);
+  assert.deepEqual(straight.edges, [{ top: [a, b], bottom: [d, c], left: [a, d], right: [b, c] }]);
 
   const png = direct.writePhoto(sheet);
   const server = createServer((_, response) => response.end(png));

@@ -77,8 +77,16 @@ async function told(page, name) {
   return (await figure.locator('dd').textContent() ?? '').trim();
 }
 
+/** Places of a traced edge: 0 the upper one, 1 the lower one. @param {Page} page @param {number} edge @param {number[]} shares of its length */
+function edgePlaces(page, edge, shares) {
+  return page.locator('#page-photo path.edge').nth(edge).evaluate((path, shares) => shares.map((share) => {
+    const line = /** @type {SVGPathElement} */ (path);
+    const { x, y } = line.getPointAtLength(share * line.getTotalLength());
+    return [x, y];
+  }), shares);
+}
+
 const CORNERS = /** @type {const} */ ([['Upper left corner', 0, 0], ['Upper right corner', 1, 0], ['Lower left corner', 0, 1], ['Lower right corner', 1, 1]]);
-const BENDS = /** @type {const} */ ([['upper', 0], ['lower', 1]]);
 
 doorTest('a page on a dark ground is found, and its dots come out evenly', async (page) => {
   await openPhoto(page, 'letter.png', photo);
@@ -109,29 +117,22 @@ doorTest('a page on a dark ground is found, and its dots come out evenly', async
   assert.deepEqual([...jpeg.bytes.subarray(0, 3)], [0xff, 0xd8, 0xff]);
 });
 
-doorTest('corners and points are dragged where the outline is doubtful, and edges are drawn to the page', async (page) => {
+doorTest('corners are dragged where the outline is doubtful, and edges are traced between them', async (page) => {
   await openPhoto(page, 'pale.png', pale);
   assert.match(await page.locator('#flat-verdict').innerText(), /check it|Not reliable/);
   for (const [name, s, t] of CORNERS) {
     const [x, y] = seen(s, t);
     await drag(page, name, [x + 3, y - 2]);
   }
-  for (const [edge, t] of BENDS) {
-    const points = await page.getByRole('button', { name: new RegExp(`^Point \\d of the ${edge} edge`) }).count();
-    for (let k = 1; k <= points; k++) {
-      const [x, y] = seen(k / (points + 1), t);
-      await drag(page, `Point ${k} of the ${edge} edge`, [x - 2, y + 4]);
-    }
-  }
   await flattened(page);
-  // Let go, they are where the photo has them.
-  for (const [name, s, t] of CORNERS) {
-    const [[x, y], [u, v]] = [await placeOf(page, name), seen(s, t)];
-    assert.ok(Math.hypot(x - u, y - v) < 2.5, `${name} at ${x}, ${y}, not at ${u}, ${v}`);
+  // The library finds the corners nearby, where the edges between them begin and end.
+  for (const [edge, t] of [[0, 0], [1, 1]]) {
+    const ends = await edgePlaces(page, edge, [0, 1]);
+    [0, 1].forEach((s, k) => {
+      const [[x, y], [u, v]] = [ends[k], seen(s, t)];
+      assert.ok(Math.hypot(x - u, y - v) < 2.5, `${x}, ${y}, not ${u}, ${v}`);
+    });
   }
-  assert.match(await page.locator('#flat-verdict').innerText(), /^Made flat/);
-  const error = misplaced(await flatPng(page));
-  assert.ok(error < 0.004, `dots are off by ${100 * error} % of the width`);
 });
 
 doorTest('a page that is not found has no flat page, no figure and no file until a corner is moved', async (page) => {
@@ -314,7 +315,7 @@ doorTest('a corner outside the photo is named, and stays in the frame', async (p
 
 doorTest('without drawing edges to the photo, all stays where it is put; starting again asks first', async (page) => {
   await openPhoto(page, 'letter.png', photo);
-  await page.getByLabel('Snap to edges in the photo').uncheck();
+  await page.getByLabel('Follow edges in the photo').uncheck();
   const wanted = /** @type {Place} */ ([300, 200]);
   await drag(page, 'Upper left corner', wanted);
   await flattened(page);
@@ -330,6 +331,17 @@ doorTest('without drawing edges to the photo, all stays where it is put; startin
   const [u, v] = seen(0, 0);
   const again = await placeOf(page, 'Upper left corner');
   assert.ok(Math.hypot(again[0] - u, again[1] - v) < 2.5, `${again}`);
+});
+
+doorTest('edges between corners that are set by hand follow the paper', async (page) => {
+  await openPhoto(page, 'letter.png', photo);
+  // All four edges are traced anew.
+  for (const [name, u, v] of CORNERS) await drag(page, name, seen(u, v));
+  await flattened(page);
+  assert.doesNotMatch(await page.locator('#flat-detail').innerText(), /hard to see/);
+  const [middle] = await edgePlaces(page, 1, [0.5]);
+  const [[u, v], [, one], [, other]] = [seen(0.5, 1), seen(0, 1), seen(1, 1)];
+  assert.ok(Math.abs((one + other) / 2 - v) > 8 && Math.hypot(middle[0] - u, middle[1] - v) < 5, `${middle} for ${u}, ${v}`);
 });
 
 doorTest('the flat page follows while a corner is dragged, and a magnifier shows what is under it', async (page) => {
@@ -368,36 +380,38 @@ doorTest('everything on the photo can be done by keyboard', async (page) => {
   await page.keyboard.press('ArrowDown');
   const [u, v] = await placeOf(page, 'Upper right corner');
   assert.ok(u <= x - 9 && u > x - 60 && v > y && v < y + 6, `${x}, ${y} to ${u}, ${v}`);
-  assert.match(await corner.getAttribute('class') ?? '', /held/, 'it is not drawn back');
   assert.ok(await page.locator('.frame:has(> #page-photo) > .magnifier').isVisible());
   await page.keyboard.press('Escape');
   assert.equal(await page.locator('.frame:has(> #page-photo) > .magnifier').isVisible(), false);
 
   const points = page.getByRole('button', { name: /^Point \d of the lower edge/ });
-  assert.equal(await points.count(), 3, 'few are enough for a smooth edge');
+  assert.equal(await points.count(), 0, 'the edge follows the photo');
+  await handle(page, 'Lower left corner').focus();
+  await page.getByRole('button', { name: 'Add a point' }).press('Enter');
+  assert.equal(await points.count(), 4, 'the others keep its shape');
   await points.first().focus();
   await page.keyboard.press('Delete');
-  assert.equal(await points.count(), 2);
+  assert.equal(await points.count(), 3);
   assert.match(await page.evaluate(() => document.activeElement?.getAttribute('aria-label') ?? ''), /^Lower left corner/, 'the focus is not lost');
   await page.getByRole('button', { name: 'Add a point' }).press('Enter');
-  assert.equal(await points.count(), 3);
+  assert.equal(await points.count(), 4);
   assert.match(await page.evaluate(() => document.activeElement?.getAttribute('aria-label') ?? ''), /^Point 1 of the lower edge/);
   await page.getByRole('button', { name: 'Remove the point' }).press('Enter');
-  assert.equal(await points.count(), 2);
+  assert.equal(await points.count(), 3);
   await handle(page, 'Lower left corner').press('Delete');
   assert.equal(await handle(page, 'Lower left corner').count(), 1, 'corners stay');
   const undo = page.getByRole('button', { name: 'Undo' });
   await undo.press('Enter');
-  assert.equal(await points.count(), 3);
-  for (let i = 0; i < 4; i++) await page.keyboard.press('Control+z');
+  assert.equal(await points.count(), 4);
+  for (let i = 0; i < 5; i++) await page.keyboard.press('Control+z');
   assert.equal(await undo.getAttribute('aria-disabled'), 'true');
   assert.deepEqual(await placeOf(page, 'Upper right corner'), [x, y]);
 });
 
 doorTest('an edge is pulled into a further point', async (page) => {
   await openPhoto(page, 'letter.png', photo);
-  const [one, other] = [await placeOf(page, 'Point 1 of the upper edge'), await placeOf(page, 'Point 2 of the upper edge')];
-  const from = await onPage(page, [(one[0] + other[0]) / 2, (one[1] + other[1]) / 2]);
+  await page.locator('#snap').evaluate((box) => box.closest('details')?.setAttribute('open', ''));
+  const from = await onPage(page, seen(0.4, 0));
   await page.mouse.move(...from);
   await page.mouse.down();
   await page.mouse.move(from[0], from[1] + 30, { steps: 5 });
@@ -408,7 +422,7 @@ doorTest('an edge is pulled into a further point', async (page) => {
   assert.match(await page.locator('#flat-verdict').innerText(), /Not reliable|check it|cannot/, 'it was pulled away from the page');
 });
 
-doorTest('lines of text are found, shown and switched off; drawn by mouse and keyboard they change the verdict', async (page) => {
+doorTest('lines of text are found, shown and switched off', async (page) => {
   await enterPages(page);
   await page.locator('#page-caption', { hasText: 'curled' }).waitFor();
   await flattened(page);
@@ -426,48 +440,6 @@ doorTest('lines of text are found, shown and switched off; drawn by mouse and ke
 
   await openPhoto(page, 'letter.png', photo);
   assert.equal(await page.locator('#flat-about dt', { hasText: 'Lines of text' }).count(), 0, 'dots are no text');
-  const button = page.getByRole('button', { name: 'Draw a line of text' });
-  const ends = page.getByRole('button', { name: /^Line of text \d, (beginning|end)/ });
-  /** @param {Place} from @param {Place} to */
-  const draw = async (from, to) => {
-    await page.mouse.move(...await onPage(page, from));
-    await page.mouse.down();
-    await page.mouse.move(...await onPage(page, to), { steps: 5 });
-    await page.mouse.up();
-    await flattened(page);
-  };
-  await button.click();
-  await page.locator('#page-photo').scrollIntoViewIfNeeded();
-  assert.equal(await button.getAttribute('aria-pressed'), 'true');
-  for (const t of [0.25, 0.5, 0.75]) await draw(seen(0.1, t), seen(0.9, t));
-  assert.equal(await ends.count(), 6);
-  assert.match(await told(page, 'Lines of text'), /^3 drawn, off by/);
-  assert.match(await verdict.innerText(), /^Made flat/);
-  // Two ends say how the line runs between them: as the page is bent.
-  const middle = await lines.nth(1).evaluate((path) => {
-    const { x, y } = /** @type {SVGPathElement} */ (path).getPointAtLength(/** @type {SVGPathElement} */ (path).getTotalLength() / 2);
-    return [x, y];
-  });
-  const [[u, v], [, straight]] = [seen(0.5, 0.5), seen(0.1, 0.5)];
-  assert.ok(Math.abs(straight - v) > 8 && Math.hypot(middle[0] - u, middle[1] - v) < 4, `${middle} for ${u}, ${v}`);
-  // One that is none.
-  await draw(seen(0.3, 0.35), seen(0.8, 0.65));
-  assert.match(await verdict.innerText(), /Not reliable|check it|cannot be made flat/);
-  await page.keyboard.press('Delete');
-  await flattened(page);
-  assert.equal(await ends.count(), 6);
-  assert.match(await verdict.innerText(), /^Made flat/);
-
-  await button.press('Enter');
-  assert.equal(await ends.count(), 8);
-  const name = () => page.evaluate(() => document.activeElement?.getAttribute('aria-label') ?? '');
-  const before = await name();
-  assert.match(before, /^Line of text 4, beginning/);
-  await page.keyboard.press('Shift+ArrowUp');
-  await flattened(page);
-  assert.notEqual(await name(), before);
-  for (let left = 4; left > 0; left--) await page.getByRole('button', { name: 'Remove the line' }).press('Enter');
-  assert.equal(await ends.count(), 0);
 });
 
 doorTest('known: format, focal length, what is bent, two pages', async (page) => {
@@ -586,20 +558,6 @@ doorTest('on a phone a finger drags, and nothing scrolls', async (page) => {
   // Nothing moves under the finger any more.
   await page.getByRole('button', { name: `Lower left corner, at ${x}, ${y}`, exact: true }).waitFor();
   await flattened(page);
-  await page.getByRole('button', { name: 'Draw a line of text' }).tap();
-  await page.locator('#line-draw[aria-pressed="true"]').waitFor();
-  await page.locator('#page-photo').scrollIntoViewIfNeeded();
-  await painted(page);
-  const [begin, end] = [await onPage(page, seen(0.15, 0.5)), await onPage(page, seen(0.85, 0.5))];
-  const before = await page.evaluate(() => window.scrollY);
-  await touch.send('Input.dispatchTouchEvent', { type: 'touchStart', touchPoints: [{ x: begin[0], y: begin[1] }] });
-  // A quick finger, of which the page hears once.
-  await touch.send('Input.dispatchTouchEvent', { type: 'touchMove', touchPoints: [{ x: end[0], y: end[1] }] });
-  await painted(page);
-  assert.equal(await page.evaluate(() => window.scrollY), before);
-  await touch.send('Input.dispatchTouchEvent', { type: 'touchEnd', touchPoints: [] });
-  await flattened(page);
-  assert.match(await told(page, 'Lines of text'), /^1 drawn/);
   // What one came for is on the first screen.
   const save = await page.evaluate(() => {
     scrollTo(0, 0);

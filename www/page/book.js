@@ -84,11 +84,10 @@ export class Book {
       try {
         const { file, state } = entry;
         const photo = await openPhoto(api, file, signal);
-        const { quarters, traces, textLines } = state ?? { quarters: 0, traces: detectedTraces(photo), textLines: [[]] };
-        const { options, findsTextLines } = session;
-        const request = { photo, traces, textLines, options: { ...options, findLines: findsTextLines }, moving: false };
+        const { quarters, traces } = state ?? { quarters: 0, traces: detectedTraces(photo) };
+        const request = { photo, traces, options: session.searchOptions, moving: false };
         const flat = await runInWorker(api, signal, async (own) => flattenWholePhoto(own, request, await flattenReducedPhoto(own, request)));
-        pages.push(...await pictureFiles(worker, flat, traces[0].length, quarters, paper, options.ink));
+        pages.push(...await pictureFiles(worker, flat, traces[0].length, quarters, paper, session.options.ink));
       } catch (error) {
         entry.problem = plainMessage(error instanceof Error ? error.message : String(error));
       }

@@ -2,7 +2,7 @@
  * Flattens pages in a worker: the reduced photo for previews while edges are moved, where only the newest request counts, and
  * by its result the whole photo for saving.
  */
-import { rescalePixel } from './grey.js';
+import { rescalePixel } from './rescale.js';
 
 /** @import {Api} from '../api.js' */
 /** @import {PagePhoto} from './photo.js' */
@@ -17,9 +17,8 @@ import { rescalePixel } from './grey.js';
  * @typedef {object} FlattenRequest
  * @property {PagePhoto} photo
  * @property {Traces} traces
- * @property {Line[][]} textLines lines of text drawn by hand, by page
  * @property {Options} options
- * @property {boolean} moving whether something is being dragged: then lines of text are not searched, which would take longer
+ * @property {boolean} moving whether something is being dragged: then neither edges nor lines of text are searched, which would take longer
  */
 
 export class PageFlattener {
@@ -63,9 +62,9 @@ export class PageFlattener {
  * @param {Worker} worker
  * @param {FlattenRequest} request
  */
-export function flattenReducedPhoto(worker, { photo: { reduced, grey: { scale }, film35 }, traces, textLines, options, moving }) {
+export function flattenReducedPhoto(worker, { photo: { reduced, scale, film35 }, traces, options, moving }) {
   const { width, height, data } = reduced;
-  return worker.dewarpPage({ width, height, data, film35 }, toPageEdges(traces, textLines, scale), { ...scaleOptions(options, scale), ...(moving && { findLines: false }) });
+  return worker.dewarpPage({ width, height, data, film35 }, toPageEdges(traces, scale), { ...scaleOptions(options, scale), ...(moving && { findLines: false, traceEdges: false }) });
 }
 
 /**
@@ -83,17 +82,31 @@ export function flattenWholePhoto(worker, { photo: { width, height, data }, opti
  * The edges of each page. One page has four; two pages of a book have only upper and lower edges, since no edge is visible at
  * the gutter.
  * @param {Traces} traces
- * @param {Line[][]} textLines
  * @param {number} scale
  * @returns {PageEdges[]}
  */
-function toPageEdges([upper, lower, [left], [right]], textLines, scale) {
+function toPageEdges([upper, lower, [left], [right]], scale) {
   /** @param {Line} line */
   const scaled = (line) => line.map(([x, y]) => /** @type {[number, number]} */ ([rescalePixel(x, scale), rescalePixel(y, scale)]));
   return upper.map((line, i) => {
-    const bent = { top: scaled(line), bottom: scaled(lower[i]), lines: (textLines[i] ?? []).map(scaled) };
+    const bent = { top: scaled(line), bottom: scaled(lower[i]) };
     return upper.length > 1 ? bent : { ...bent, left: scaled(left), right: scaled(right) };
   });
+}
+
+/**
+ * The edges by which a flat page was found, in pixels of the photo.
+ * @param {DewarpedPage} flat
+ * @param {Traces} given the edges of the request, for those that the library was not given
+ * @param {number} scale
+ * @returns {Traces}
+ */
+export function tracedEdges({ edges }, given, scale) {
+  const names = /** @type {const} */ (['top', 'bottom', 'left', 'right']);
+  return /** @type {Traces} */ (names.map((name, edge) => given[edge].map((line, page) => {
+    const traced = edges[page]?.[name];
+    return Array.isArray(traced) ? traced.map(([x, y]) => [rescalePixel(x, 1 / scale), rescalePixel(y, 1 / scale)]) : line;
+  })));
 }
 
 /** Converts options in pixels of the photo to the reduced photo. @param {Options} options @param {number} scale */

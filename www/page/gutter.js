@@ -1,9 +1,7 @@
 /** Finds the gutter of an open book, at the kinks of its upper and lower edge. */
 import { fitPolynomial } from './polynomial.js';
-import { traceEdge } from './edge-snapping.js';
 
-/** @import {GreyImage} from './grey.js' */
-/** @import {Node, Outline, Point} from './outline.js' */
+/** @import {Point} from './outline.js' */
 
 /** Number of intervals between the sampled places of an edge. */
 const EDGE_INTERVALS = 128;
@@ -13,34 +11,25 @@ const [MIN_GUTTER_POSITION, MAX_GUTTER_POSITION] = [0.3, 0.7];
 const MIN_KINK_ANGLE_RADIANS = 0.15;
 /** Number of samples on either side of a kink to which a line is fitted. */
 const FIT_POINTS = 9;
-/** Minimum visible share of an edge whose kink is looked for. */
-const MIN_VISIBLE_SHARE = 0.8;
-
 /**
- * The ends of the gutter on the upper and the lower edge: the kink of each edge, or its midpoint if no kink is found.
- * @param {Outline} outline around both pages
- * @param {GreyImage | null} grey the photo in which kinks are looked for; null for midpoints
+ * The ends of the gutter on the upper and the lower edge: the kink of each edge, or its midpoint if it has none.
+ * @param {readonly [upper: Point[], lower: Point[]]} edges around both pages, from left to right
  * @returns {[Point, Point]}
  */
-export function findGutter(outline, grey) {
-  return /** @type {[Point, Point]} */ (outline.edges.slice(0, 2).map((nodes) => (grey && findKink(grey, nodes)) ?? midpoint(nodes)));
+export function findGutter([upper, lower]) {
+  return [findKink(upper) ?? midpoint(upper), findKink(lower) ?? midpoint(lower)];
 }
 
-/** The midpoint between the ends of an edge. @param {readonly Node[]} nodes @returns {Point} */
-function midpoint(nodes) {
-  const [from, to] = [nodes[0], nodes[nodes.length - 1]];
-  return [(from.x + to.x) / 2, (from.y + to.y) / 2];
+/** The midpoint between the ends of an edge. @param {Point[]} line @returns {Point} */
+function midpoint(line) {
+  const [[x, y], [u, v]] = [line[0], line[line.length - 1]];
+  return [(x + u) / 2, (y + v) / 2];
 }
 
-/**
- * The sharpest kink of an edge, or null if there is none.
- * @param {GreyImage} grey
- * @param {readonly Node[]} nodes
- * @returns {Point | null}
- */
-function findKink(grey, nodes) {
-  const { points, visibleShare } = traceEdge(grey, nodes, { intervals: EDGE_INTERVALS });
-  if (visibleShare < MIN_VISIBLE_SHARE) return null;
+/** The sharpest kink of an edge, or null if there is none. @param {Point[]} line @returns {Point | null} */
+function findKink(line) {
+  if (line.length < EDGE_INTERVALS / 2) return null;
+  const points = Array.from({ length: EDGE_INTERVALS + 1 }, (_, k) => line[Math.round((k / EDGE_INTERVALS) * (line.length - 1))]);
   // Coordinates along and across the chord.
   const [from, to] = [points[0], points[points.length - 1]];
   const length = Math.hypot(to[0] - from[0], to[1] - from[1]);

@@ -8,17 +8,15 @@ import { Magnifier } from './magnifier.js';
 
 /** @import {Pixels} from './magnifier.js' */
 /** @typedef {readonly [x: number, y: number]} Place in pixels of the photo */
-/** @typedef {{ x: number, y: number, name: string, kind: 'corner' | 'bend' | 'text', pinned?: boolean }} Handle */
-/** @typedef {{ points: readonly Place[], kind: 'edge' | 'side' | 'text' | 'text drawn', pullId?: number }} Line `pullId`: passed to `pull` when the line is dragged; without it the line cannot be dragged */
+/** @typedef {{ x: number, y: number, name: string, kind: 'corner' | 'bend' }} Handle */
+/** @typedef {{ points: readonly Place[], kind: 'edge' | 'side' | 'text', pullId?: number }} Line `pullId`: passed to `pull` when the line is dragged; without it the line cannot be dragged */
 /** @typedef {{ handles: readonly Handle[], lines: readonly Line[] }} HandleOverlay */
 /**
  * @typedef {object} HandleCallbacks
- * @property {(handle: number, to: [number, number], how: { key: boolean, ended: boolean }) => void} move
+ * @property {(handle: number, to: [number, number], ended: boolean) => void} move `ended`: whether the drag has ended
  * @property {(pulls: number, place: [number, number]) => number} [pull] makes a handle at a place of a line and returns its index
  * @property {(handle: number) => void} [remove]
  * @property {(handle: number) => void} [choose] the handle has got the focus
- * @property {(place: [number, number]) => number} [beginLine] starts a line where the photo itself is dragged and returns the
- *   index of the handle at its end; a negative number if it starts none
  */
 
 /** Movement for a press of an arrow key, in CSS pixels; ten times as much with Shift. */
@@ -35,8 +33,6 @@ export class Handles {
   #overlay = { handles: [], lines: [] };
   /** @type {HTMLButtonElement[]} */
   #buttons = [];
-  /** Whether dragging over the photo starts a new line. */
-  startsLines = false;
   #svg = svgElement('svg', { 'aria-hidden': 'true' });
   #magnifier;
   #callbacks;
@@ -67,9 +63,9 @@ export class Handles {
     const { handles, lines } = overlay;
     while (this.#buttons.length > handles.length) this.#buttons.pop()?.remove();
     while (this.#buttons.length < handles.length) this.#addHandle(this.#buttons.length);
-    handles.forEach(({ x, y, name, kind, pinned: held = false }, i) => {
+    handles.forEach(({ x, y, name, kind }, i) => {
       const button = this.#buttons[i];
-      button.className = `handle ${kind}${held ? ' held' : ''}`;
+      button.className = `handle ${kind}`;
       button.style.setProperty('--x', String((x + 0.5) / this.#photo.width));
       button.style.setProperty('--y', String((y + 0.5) / this.#photo.height));
       button.setAttribute('aria-label', `${name}, at ${Math.round(x)}, ${Math.round(y)}`);
@@ -150,7 +146,7 @@ export class Handles {
       if (arrow) {
         const step = Math.max(1, ARROW_STEP_PIXELS * this.#scale) * (event.shiftKey ? 10 : 1);
         const { x, y } = this.#overlay.handles[handle];
-        this.#callbacks.move(handle, [x + step * arrow[0], y - step * arrow[1]], { key: true, ended: true });
+        this.#callbacks.move(handle, [x + step * arrow[0], y - step * arrow[1]], true);
         this.#magnify(handle);
       } else if (event.key === 'Delete' || event.key === 'Backspace') {
         this.#callbacks.remove?.(handle);
@@ -184,7 +180,7 @@ export class Handles {
     const follow = (next) => {
       const moved = /** @type {PointerEvent} */ (next);
       if (moved.pointerId !== event.pointerId) return;
-      this.#callbacks.move(handle, to(moved), { key: false, ended: false });
+      this.#callbacks.move(handle, to(moved), false);
       this.#magnify(handle);
     };
     /** @param {Event} next */
@@ -195,7 +191,7 @@ export class Handles {
       this.#magnifier.hide();
       const now = this.#overlay.handles[handle];
       // A click without a move does not move the handle.
-      if (now.x !== x || now.y !== y) this.#callbacks.move(handle, [now.x, now.y], { key: false, ended: true });
+      if (now.x !== x || now.y !== y) this.#callbacks.move(handle, [now.x, now.y], true);
     };
     const { signal } = drag;
     holder.addEventListener('pointermove', follow, { signal });
@@ -205,17 +201,13 @@ export class Handles {
     event.preventDefault();
   }
 
-  /** Starts a drag when a line is pulled, or when a new line is drawn over the photo. */
+  /** Starts a drag when a line is pulled. */
   #listenForPulls() {
     const svg = this.#svg;
     svg.addEventListener('pointerdown', (event) => {
       const pulls = event.target instanceof Element ? event.target.getAttribute('data-pulls') : null;
-      const { pull, beginLine } = this.#callbacks;
-      if (event.button !== 0) return;
-      /** @param {[number, number]} place */
-      const start = (place) => beginLine?.(place) ?? -1;
-      const make = this.startsLines ? start : pulls !== null && pull ? (/** @type {[number, number]} */ place) => pull(Number(pulls), place) : null;
-      if (!make) return;
+      const { pull } = this.#callbacks;
+      if (event.button !== 0 || pulls === null || !pull) return;
       // The root element captures the pointer: the line's own element is replaced while it is dragged.
       svg.setPointerCapture(event.pointerId);
       const pending = new AbortController();
@@ -223,7 +215,7 @@ export class Handles {
       svg.addEventListener('pointermove', (moved) => {
         if (moved.pointerId !== event.pointerId || Math.hypot(moved.clientX - event.clientX, moved.clientY - event.clientY) < MIN_PULL_PIXELS) return;
         pending.abort();
-        const handle = make(this.photoPosition(event));
+        const handle = pull(Number(pulls), this.photoPosition(event));
         if (handle >= 0) this.#drag(event, svg, handle, moved);
       }, { signal });
       for (const type of /** @type {const} */ (['pointerup', 'pointercancel'])) svg.addEventListener(type, () => pending.abort(), { signal });

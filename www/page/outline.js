@@ -3,7 +3,8 @@
  * pixel.
  *
  * Four edges pass through nodes: the upper and the lower one from left to right, the left and the right one from top to
- * bottom. Two edges share each corner. The corners between two pages are the ends of the gutter.
+ * bottom. Two edges share each corner. The corners between two pages are the ends of the gutter. Other nodes are set by hand;
+ * an edge without them is the detected one, or the library traces it in the photo from corner to corner.
  */
 import { splineThrough } from './spline.js';
 
@@ -12,9 +13,7 @@ import { splineThrough } from './spline.js';
  * @typedef {object} Node
  * @property {number} x
  * @property {number} y
- * @property {Point} home where the node was put; snapping moves it only near this place
  * @property {boolean} corner
- * @property {boolean} pinned whether snapping leaves the node where it is
  */
 /** @typedef {0 | 1 | 2 | 3} Edge index of the upper, lower, left or right edge */
 /** @typedef {{ edge: Edge, node: number }} NodeIndex */
@@ -25,12 +24,10 @@ import { splineThrough } from './spline.js';
 export const EDGE_NAMES = /** @type {const} */ (['upper', 'lower', 'left', 'right']);
 /** Indices of all edges. */
 export const EDGES = /** @type {const} */ ([0, 1, 2, 3]);
-/** Number of nodes between two corners of a new outline. */
-const INNER_NODES = 3;
-/** Number of nodes between two corners of a detected edge that {@link INNER_NODES} do not follow. */
-const MAX_INNER_NODES = 7;
-/** Maximum distance of the curve through the nodes from a detected edge, in chords of the edge. */
-const MAX_NODE_CURVE_OFFSET_CHORDS = 0.012;
+/** Number of nodes that keep the shape of an edge when another one is added by hand. */
+const KEPT_NODES = 3;
+/** Number of intervals between the points of a curve through nodes. */
+const CURVE_INTERVALS = 40;
 
 export class Outline {
   /** @type {Edges} */
@@ -50,7 +47,7 @@ export class Outline {
    * @param {readonly Point[]} corners upper left, upper right, lower right, lower left
    */
   static fromCorners([ul, ur, lr, ll]) {
-    return new Outline([straightNodes(ul, ur), straightNodes(ll, lr), straightNodes(ul, ll), straightNodes(ur, lr)]);
+    return new Outline(/** @type {Edges} */ ([[ul, ur], [ll, lr], [ul, ll], [ur, lr]].map((ends) => ends.map((place) => nodeAt(place, true)))));
   }
 
   /**
@@ -65,9 +62,8 @@ export class Outline {
 
   /** The outline of a detected page. @param {DetectedEdges} page */
   static fromDetected({ edges: { top, bottom, left, right } }) {
-    const lines = [top, bottom, left, right];
-    const outline = new Outline(/** @type {Edges} */ (lines.map(nodesAlong)));
-    outline.detectedEdges = lines;
+    const outline = Outline.fromCorners([top[0], top[top.length - 1], bottom[bottom.length - 1], bottom[0]]);
+    outline.detectedEdges = [top, bottom, left, right];
     return outline;
   }
 
@@ -117,11 +113,21 @@ export class Outline {
     return upper && lower ? [upper, lower] : null;
   }
 
+  /** The line of each page along an edge: as detected, a curve through the nodes, or the two corners alone. @param {Edge} edge @returns {Point[][]} */
+  lines(edge) {
+    const detected = this.detectedEdges[edge];
+    if (detected) return [detected];
+    return this.spans(edge).map((nodes) => {
+      const places = nodes.map(({ x, y }) => /** @type {Point} */ ([x, y]));
+      return places.length === 2 ? places : splineThrough(places, CURVE_INTERVALS);
+    });
+  }
+
   /** A copy whose two pages are joined into one. */
   withoutGutter() {
-    const copy = this.copy();
-    for (const nodes of copy.edges.slice(0, 2)) nodes.forEach((node, i) => (node.corner = i === 0 || i === nodes.length - 1));
-    return copy;
+    const { edges: [upper, lower, left, right] } = this.copy();
+    const ends = (/** @type {Node[]} */ nodes) => nodes.filter(({ corner }, i) => !corner || i === 0 || i === nodes.length - 1);
+    return new Outline([ends(upper), ends(lower), left, right]);
   }
 
   /**
@@ -129,45 +135,38 @@ export class Outline {
    * @param {readonly [Point, Point]} gutter its ends on the upper and the lower edge
    */
   withGutter(gutter) {
-    const { edges, detectedEdges } = this.copy();
-    const [upper, lower] = edges.slice(0, 2).map((nodes, edge) => {
-      const [first, last] = [nodes[0], nodes[nodes.length - 1]];
-      const [from, to] = [first, last].map(({ x, y }) => /** @type {Point} */ ([x, y]));
-      // The nodes lie on the earlier curve, so that the edge keeps its shape.
-      const curve = splineThrough(nodes.map(({ x, y }) => [x, y]), 40);
-      const between = [...straightNodes(from, gutter[edge], 2), ...straightNodes(gutter[edge], to, 2).slice(1)].slice(1, -1).map((node) =>
-        (node.corner ? node : nodeAt(pointAlongChord(curve, node, from, to), false)));
-      return [first, ...between, last];
+    const copy = this.copy();
+    gutter.forEach((place, edge) => {
+      const added = copy.add(/** @type {Edge} */ (edge), place);
+      copy.nodeOf(added).corner = true;
     });
-    const outline = new Outline([upper, lower, edges[2], edges[3]]);
-    outline.detectedEdges = [null, null, detectedEdges[2], detectedEdges[3]];
-    return outline;
+    return copy;
   }
 
   /**
-   * Moves a node. The inner nodes of the edges at a corner move with it unless they are pinned.
+   * Moves a node. The lines of its edges are forgotten.
    * @param {NodeIndex} index
    * @param {Point} to
    */
   move(index, [x, y]) {
     const moved = this.nodeOf(index);
-    const before = { x: moved.x, y: moved.y };
-    Object.assign(moved, { x, y, home: [x, y] });
-    for (const edge of EDGES) {
-      if (!this.edges[edge].includes(moved)) continue;
-      this.detectedEdges[edge] = null;
-      if (moved.corner) for (const nodes of this.spans(edge)) transformInnerNodes(nodes, moved, before);
-    }
+    Object.assign(moved, { x, y });
+    for (const edge of EDGES) if (this.edges[edge].includes(moved)) this.detectedEdges[edge] = null;
   }
 
   /**
-   * Adds a node to an edge.
+   * Adds a node to an edge. An edge that had none gets further ones along its line, so that it keeps its shape.
    * @param {Edge} edge
    * @param {Point} place
+   * @param {Point[]} [line] the line of the edge in the photo, if that is known
    * @returns {NodeIndex}
    */
-  add(edge, [x, y]) {
+  add(edge, [x, y], line = []) {
     const nodes = this.edges[edge];
+    if (nodes.length === 2 && line.length > KEPT_NODES) {
+      const places = Array.from({ length: KEPT_NODES }, (_, k) => line[Math.round(((k + 1) / (KEPT_NODES + 1)) * (line.length - 1))]);
+      nodes.splice(1, 0, ...places.map((place) => nodeAt(place, false)));
+    }
     const axis = chordOf(nodes);
     const along = (/** @type {{ x: number, y: number }} */ node) => axis[0] * node.x + axis[1] * node.y;
     const found = nodes.findIndex((node) => along(node) > along({ x, y }));
@@ -204,86 +203,15 @@ export class Outline {
   }
 }
 
-/** A node that was not moved yet. @param {Point} place @param {boolean} corner @returns {Node} */
-export function nodeAt([x, y], corner) {
-  return { x, y, home: [x, y], corner, pinned: false };
-}
-
-/**
- * The nodes of a straight edge between two corners.
- * @param {Point} from
- * @param {Point} to
- * @param {number} [innerNodes] number of nodes between them
- * @returns {Node[]}
- */
-function straightNodes(from, to, innerNodes = INNER_NODES) {
-  return Array.from({ length: innerNodes + 2 }, (_, i) => {
-    const t = i / (innerNodes + 1);
-    return nodeAt([from[0] + t * (to[0] - from[0]), from[1] + t * (to[1] - from[1])], i === 0 || i === innerNodes + 1);
-  });
-}
-
-/**
- * Nodes along a detected edge: few, or more if a curve through few does not follow the edge.
- * @param {Point[]} line
- * @returns {Node[]}
- */
-function nodesAlong(line) {
-  const nodes = evenNodes(line, INNER_NODES);
-  const [from, to] = [line[0], line[line.length - 1]];
-  const curve = splineThrough(nodes.map(({ x, y }) => [x, y]), 200);
-  const tolerance = MAX_NODE_CURVE_OFFSET_CHORDS * Math.hypot(to[0] - from[0], to[1] - from[1]);
-  const follows = line.every(([x, y]) => curve.some(([u, v]) => Math.hypot(u - x, v - y) < tolerance));
-  return follows ? nodes : evenNodes(line, MAX_INNER_NODES);
-}
-
-/** Nodes at evenly spaced points of a line. @param {Point[]} line @param {number} innerNodes */
-function evenNodes(line, innerNodes) {
-  return Array.from({ length: innerNodes + 2 }, (_, k) =>
-    nodeAt(line[Math.round((k / (innerNodes + 1)) * (line.length - 1))], k === 0 || k === innerNodes + 1));
-}
-
-/**
- * Moves the inner nodes of an edge with one of its ends, by the similarity transform that fixes the other end.
- * @param {readonly Node[]} nodes
- * @param {Node} moved the end that was moved
- * @param {{ x: number, y: number }} before its place before
- */
-function transformInnerNodes(nodes, moved, before) {
-  const [first, last] = [nodes[0], nodes[nodes.length - 1]];
-  if (first !== moved && last !== moved) return;
-  const fixed = first === moved ? last : first;
-  // The similarity transform as a complex factor.
-  const [ax, ay, bx, by] = [before.x - fixed.x, before.y - fixed.y, moved.x - fixed.x, moved.y - fixed.y];
-  const square = ax * ax + ay * ay;
-  if (square === 0) return;
-  const [re, im] = [(bx * ax + by * ay) / square, (by * ax - bx * ay) / square];
-  for (const node of nodes.slice(1, -1)) {
-    if (node.pinned) continue;
-    const [dx, dy] = [node.x - fixed.x, node.y - fixed.y];
-    [node.x, node.y] = [fixed.x + re * dx - im * dy, fixed.y + im * dx + re * dy];
-    node.home = [node.x, node.y];
-  }
+/** A node at a place. @param {Point} place @param {boolean} corner @returns {Node} */
+function nodeAt([x, y], corner) {
+  return { x, y, corner };
 }
 
 /** The vector from the first node to the last. @param {readonly Node[]} nodes */
 function chordOf(nodes) {
   const [from, to] = [nodes[0], nodes[nodes.length - 1]];
   return [to.x - from.x, to.y - from.y];
-}
-
-/**
- * The point of a curve whose projection onto a chord is that of a place.
- * @param {readonly Point[]} curve
- * @param {{ x: number, y: number }} place
- * @param {Point} from
- * @param {Point} to
- */
-function pointAlongChord(curve, place, from, to) {
-  const along = (/** @type {number} */ x, /** @type {number} */ y) => (to[0] - from[0]) * x + (to[1] - from[1]) * y;
-  const wanted = along(place.x, place.y);
-  const off = (/** @type {Point} */ [x, y]) => Math.abs(along(x, y) - wanted);
-  return curve.reduce((best, point) => (off(point) < off(best) ? point : best));
 }
 
 /** The word with a capital first letter. @param {string} word */

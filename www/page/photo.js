@@ -1,10 +1,9 @@
-/** Opens a photo of a page: its pixels, a reduced copy for display and edge tracing, and the outlines of the pages in it. */
+/** Opens a photo of a page: its pixels, a reduced copy for display and previews, and the outlines of the pages in it. */
 import { runInWorker } from '../worker-task.js';
 import { readPicture, reducedPhoto } from '../pixels.js';
-import { rescalePixel } from './grey.js';
+import { rescalePixel } from './rescale.js';
 
 /** @import {Api} from '../api.js' */
-/** @import {GreyImage} from './grey.js' */
 /** @typedef {import('../../pkg/types.js').PageOutlines} PageOutlines */
 /** @typedef {import('../../pkg/types.js').PageOutline} PageOutline */
 
@@ -23,7 +22,7 @@ const MAX_REDUCED_SIDE_PIXELS = 1280;
  * @property {number} [film35] focal length for 35 mm film, if the file contains it
  * @property {readonly import('../../pkg/types.js').Assumption[]} [assumptions] what the reader of the file has assumed
  * @property {ImageData} reduced
- * @property {GreyImage} grey the reduced copy in grey
+ * @property {number} scale pixels of the reduced copy per pixel of the photo
  * @property {PageOutlines} outlines of the detected pages, in pixels of the photo
  */
 
@@ -56,9 +55,10 @@ export async function openPhoto(api, file, signal) {
  */
 export async function preparePhoto(api, { width, height, data, film35, assumptions }, name, signal) {
   if (width < 16 || height < 16) throw new Error(`it is ${width} × ${height} pixels, too few to show a page`);
-  const { small: reduced, grey } = await reducedPhoto({ width, height, data }, Math.min(1, MAX_REDUCED_SIDE_PIXELS / Math.max(width, height)));
+  const scale = Math.min(1, MAX_REDUCED_SIDE_PIXELS / Math.max(width, height));
+  const reduced = await reducedPhoto({ width, height, data }, scale);
   const outlines = await runInWorker(api, signal, (worker) => worker.findPage(reduced));
-  return { name, width, height, data, film35, assumptions, reduced, grey, outlines: rescaleOutlines(outlines, 1 / grey.scale) };
+  return { name, width, height, data, film35, assumptions, reduced, scale, outlines: rescaleOutlines(outlines, 1 / scale) };
 }
 
 /** Converts outlines to another scale of the photo. @param {PageOutlines} outlines @param {number} scale @returns {PageOutlines} */

@@ -1,8 +1,5 @@
 /** Polynomials fitted by least squares. */
 
-/** Share of the points that a robust fit keeps. */
-const INLIER_SHARE = 0.8;
-
 /**
  * The polynomial t(s) that fits points [s, t] best, by the normal equations.
  * @param {number[][]} points
@@ -23,17 +20,4 @@ export function fitPolynomial(points, degree) {
     }
   }
   return (s) => rows.reduce((sum, row, i) => sum + (row[n] / row[i]) * s ** i, 0);
-}
-
-/**
- * The least-squares polynomial after the fifth of the points with the largest residuals was discarded.
- * @param {number[][]} points
- * @param {number} degree
- * @returns {(s: number) => number}
- */
-export function fitPolynomialRobustly(points, degree) {
-  const first = fitPolynomial(points, degree);
-  const residual = (/** @type {number[]} */ [s, t]) => Math.abs(first(s) - t);
-  const inliers = points.toSorted((a, b) => residual(a) - residual(b)).slice(0, Math.max(degree + 2, Math.ceil(INLIER_SHARE * points.length)));
-  return fitPolynomial(inliers, degree);
 }

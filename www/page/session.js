@@ -1,39 +1,31 @@
 /** The state of “Flatten a photo of a page” without its elements: a photo, the outline of the page in it, and the options. */
 import { Events } from '../events.js';
-import { PageFlattener } from './flatten.js';
+import { PageFlattener, tracedEdges } from './flatten.js';
 import { findGutter } from './gutter.js';
-import { rescalePixel } from './grey.js';
-import { flatPixelAt, textLineBetween } from './text-lines.js';
+import { rescalePixel } from './rescale.js';
 import { EDGE_NAMES, EDGES, Outline } from './outline.js';
-import { snapOutline, traceEdge } from './edge-snapping.js';
 
 /** @import {Api} from '../api.js' */
 /** @typedef {import('../../pkg/types.js').DewarpedPage} DewarpedPage */
 /** @import {Line, Options, Traces, FlattenRequest} from './flatten.js' */
-/** @import {Ends} from './text-lines.js' */
 /** @import {PagePhoto} from './photo.js' */
-/** @import {Edge, Point, NodeIndex} from './outline.js' */
+/** @import {Edge, NodeIndex} from './outline.js' */
 
 /**
  * @typedef {object} PageEvents
  * @property {PagePhoto} photo another photo is shown
- * @property {{ outline: Outline, traces: Traces, moving: boolean }} outline the outline has changed; `moving`: something is being dragged
+ * @property {{ outline: Outline, moving: boolean }} outline the outline has changed; `moving`: something is being dragged
  * @property {boolean} working whether a flat page is being computed, or another photo is being opened
  * @property {{ flat: DewarpedPage, moving: boolean }} flat a new flat page of the reduced photo; `moving`: something is being dragged
  * @property {null} unfound no page was detected: the user has to put the corners onto it first
- * @property {null} lines the drawn or the detected lines of text have changed
+ * @property {null} lines the traced edges or the detected lines of text have changed
  * @property {unknown} problem error that prevents a flat page
  */
-/** @typedef {{ ends: Ends, points: Line }} DrawnLine */
-/** @typedef {{ outline: Outline, drawnLines: DrawnLine[], movedCorners: ReadonlySet<number>, pageIndex: number }} Snapshot */
-/** @typedef {Snapshot & { quarters: number, traces: Traces, textLines: Line[][] }} PageState the outline and lines of a photo, without its pixels; what a browser has kept of it is data without methods */
+/** @typedef {{ outline: Outline, movedCorners: ReadonlySet<number>, pageIndex: number }} Snapshot */
+/** @typedef {Snapshot & { quarters: number, traces: Traces }} PageState the outline of the page in a photo, without its pixels; what a browser has kept of it is data without methods */
 
-/** Minimum length of a line of text, in widths of the photo; shorter ones are discarded. */
-const MIN_TEXT_LINE_WIDTHS = 0.02;
 /** Maximum distance of a corner outside the photo, in diagonals of the photo: less than what the package accepts. */
 const MAX_CORNER_OUTSIDE_DIAGONALS = 0.045;
-/** Minimum share of an edge's length with a visible gradient; below it the edge is called weak. */
-const MIN_VISIBLE_SHARE = 0.5;
 
 /** @extends {Events<PageEvents>} */
 export class PageSession extends Events {
@@ -45,14 +37,12 @@ export class PageSession extends Events {
   pageIndex = 0;
   /** Indices of the corners that were moved by hand. @type {ReadonlySet<number>} */
   movedCorners = new Set();
-  /** Names of the edges that the photo hardly shows. @type {string[]} */
-  weakEdges = [];
-  /** Whether edges snap to the gradients of the photo. */
-  snapsToEdges = true;
+  /** The edges as they are known: traced in the photo, detected, or through the nodes that were set by hand. @type {Traces} */
+  traces = [[], [], [], []];
+  /** Whether edges are traced in the photo. */
+  tracesEdges = true;
   /** Whether lines of text are detected. */
   findsTextLines = true;
-  /** Lines of text drawn by hand. @type {DrawnLine[]} */
-  drawnLines = [];
   /** Detected lines of text. @type {Line[]} */
   foundLines = [];
   /** @type {Options} */
@@ -88,6 +78,17 @@ export class PageSession extends Events {
     return this.#history.length > 0;
   }
 
+  /** Names of the edges that the photo hardly shows: those that could not be traced. */
+  get weakEdges() {
+    if (!this.tracesEdges) return [];
+    return EDGES.filter((edge) => this.traces[edge].some((line) => line.length === 2)).map((edge) => EDGE_NAMES[edge]);
+  }
+
+  /** Options of flattening, and of what is searched for in the photo. @returns {Options} */
+  get searchOptions() {
+    return { ...this.options, findLines: this.findsTextLines, traceEdges: this.tracesEdges };
+  }
+
   /** Names of the corners outside the photo. */
   get outsideCorners() {
     const { photo, outline } = this;
@@ -107,12 +108,12 @@ export class PageSession extends Events {
    */
   show(photo, pages = 1, state = null) {
     this.photo = photo;
-    [this.drawnLines, this.foundLines, this.#flat, this.#history] = [[], [], null, []];
+    [this.foundLines, this.#flat, this.#history] = [[], null, []];
     [this.pageIndex, this.#dragging, this.quarters] = [0, false, 0];
     this.#resetOutline(photo, pages);
     if (state) {
-      const { outline, drawnLines, movedCorners, pageIndex, quarters } = state;
-      Object.assign(this, { outline: Outline.copyOf(outline), drawnLines: [...drawnLines], movedCorners, pageIndex, quarters });
+      const { outline, movedCorners, pageIndex, quarters } = state;
+      Object.assign(this, { outline: Outline.copyOf(outline), movedCorners, pageIndex, quarters });
     }
     this.emit('photo', photo);
     this.#update();
@@ -137,11 +138,10 @@ export class PageSession extends Events {
     this.#update();
   }
 
-  /** Discards all changes to outline and lines. */
+  /** Discards all changes to the outline. */
   reset() {
     if (!this.photo) return;
     this.#history = [];
-    this.drawnLines = [];
     this.#resetOutline(this.photo, this.outline.pages);
     this.#update();
   }
@@ -151,24 +151,25 @@ export class PageSession extends Events {
     const found = photo.outlines.verdict === 'notFound' ? undefined : photo.outlines.pages[this.pageIndex];
     this.outline = found ? Outline.fromDetected(found) : Outline.defaultFor(photo);
     this.movedCorners = new Set();
-    if (pages === 2) this.#splitAtGutter(photo);
+    this.traces = this.#outlineTraces();
+    if (pages === 2) this.#splitAtGutter();
   }
 
   /** Saves a snapshot for undo. */
   #saveSnapshot() {
     this.#dragging = false;
-    const { outline, drawnLines, movedCorners, pageIndex } = this;
-    this.#history.push({ outline: outline.copy(), drawnLines: [...drawnLines], movedCorners, pageIndex });
+    const { outline, movedCorners, pageIndex } = this;
+    this.#history.push({ outline: outline.copy(), movedCorners, pageIndex });
   }
 
   /** The state to restore when the photo is shown again; null without an outline. @returns {PageState | null} */
   state() {
-    const { outline, drawnLines, movedCorners, pageIndex, quarters } = this;
+    const { outline, movedCorners, pageIndex, quarters } = this;
     const request = this.isPageMissing ? null : this.request();
-    return request && { outline: outline.copy(), drawnLines: [...drawnLines], movedCorners, pageIndex, quarters, traces: request.traces, textLines: request.textLines };
+    return request && { outline: outline.copy(), movedCorners, pageIndex, quarters, traces: request.traces };
   }
 
-  /** Undoes the last change of outline or lines. */
+  /** Undoes the last change of the outline. */
   undo() {
     const before = this.#history.pop();
     if (!before) return;
@@ -181,21 +182,20 @@ export class PageSession extends Events {
   addGutter() {
     if (!this.photo) return;
     this.#saveSnapshot();
-    this.#splitAtGutter(this.photo);
+    this.#splitAtGutter();
     this.#update();
   }
 
-  /** @param {PagePhoto} photo */
-  #splitAtGutter({ grey }) {
-    this.outline = this.outline.withGutter(findGutter(this.outline, this.snapsToEdges ? grey : null));
-    if (this.snapsToEdges) snapOutline(grey, this.outline);
+  #splitAtGutter() {
+    const [[upper], [lower]] = this.traces;
+    this.outline = this.outline.withGutter(findGutter([upper, lower]));
   }
 
   /** Joins two pages into one. */
   removeGutter() {
     this.#saveSnapshot();
     this.outline = this.outline.withoutGutter();
-    this.#snapAndUpdate();
+    this.#update();
   }
 
   /** Turns the flat page clockwise by a quarter turn. */
@@ -204,10 +204,10 @@ export class PageSession extends Events {
     if (this.#flat) this.emit('flat', { flat: this.#flat, moving: false });
   }
 
-  /** Sets whether edges snap to the gradients of the photo. @param {boolean} snapping */
-  setSnapsToEdges(snapping) {
-    this.snapsToEdges = snapping;
-    this.#snapAndUpdate();
+  /** Sets whether edges are traced in the photo. @param {boolean} tracing */
+  setTracesEdges(tracing) {
+    this.tracesEdges = tracing;
+    this.#update();
   }
 
   /** Sets the options of flattening. @param {Options} options */
@@ -220,9 +220,9 @@ export class PageSession extends Events {
    * Moves a node.
    * @param {NodeIndex} index
    * @param {readonly [number, number]} to
-   * @param {{ pinned: boolean, ended: boolean }} how `pinned`: snapping leaves the node there; `ended`: the drag has ended
+   * @param {boolean} ended whether the drag has ended
    */
-  move(index, [x, y], { pinned, ended }) {
+  move(index, [x, y], ended) {
     const { photo, outline } = this;
     const node = outline.nodeOf(index);
     if (!photo || !node) return;
@@ -231,10 +231,8 @@ export class PageSession extends Events {
     const outside = MAX_CORNER_OUTSIDE_DIAGONALS * Math.hypot(photo.width, photo.height);
     const within = (/** @type {number} */ at, /** @type {number} */ side) => Math.min(Math.max(at, -outside), side + outside);
     outline.move(index, [within(x, photo.width), within(y, photo.height)]);
-    node.pinned = pinned || !this.snapsToEdges;
     const corner = outline.corners.indexOf(node);
     if (corner >= 0) this.movedCorners = new Set([...this.movedCorners, corner]);
-    if (ended && this.snapsToEdges && !node.pinned) snapOutline(photo.grey, outline);
     this.#update(!ended);
   }
 
@@ -242,44 +240,6 @@ export class PageSession extends Events {
   setFindsTextLines(finding) {
     this.findsTextLines = finding;
     this.#update();
-  }
-
-  /**
-   * Draws a line of text, or changes a drawn one.
-   * @param {Ends} ends
-   * @param {{ line?: number, ended: boolean }} how `line`: its index, a new line by default; `ended`: the drag has ended
-   * @returns the index of the line
-   */
-  drawLine(ends, { line = this.drawnLines.length, ended }) {
-    if (!this.photo) return line;
-    if (!this.#dragging) this.#saveSnapshot();
-    this.#dragging = !ended;
-    const { photo: { grey, width, height }, snapsToEdges } = this;
-    const within = ends.map(([x, y]) => [Math.min(Math.max(x, 0), width - 1), Math.min(Math.max(y, 0), height - 1)]);
-    const [from, to] = /** @type {Ends} */ (within);
-    this.drawnLines[line] = { ends: [from, to], points: textLineBetween(grey, [from, to], this.#flat, snapsToEdges && ended) };
-    if (ended && Math.hypot(to[0] - from[0], to[1] - from[1]) < MIN_TEXT_LINE_WIDTHS * width) this.drawnLines.splice(line, 1);
-    this.emit('lines', null);
-    if (ended) this.#update();
-    return line;
-  }
-
-  /** Removes a drawn line of text. @param {number} line its index */
-  removeLine(line) {
-    this.#saveSnapshot();
-    this.drawnLines.splice(line, 1);
-    this.emit('lines', null);
-    this.#update();
-  }
-
-  /** The index of the page that a line of text is on. @param {Ends} ends */
-  #pageOfLine([from, to]) {
-    const { pages } = this.outline;
-    const flat = this.#flat;
-    const middle = /** @type {Point} */ ([(from[0] + to[0]) / 2, (from[1] + to[1]) / 2]);
-    const place = flat && this.photo && flatPixelAt(flat, middle, this.photo.grey.scale);
-    if (pages === 1 || !place) return 0;
-    return Math.min(pages - 1, Math.floor((place[0] / flat.width) * pages));
   }
 
   /**
@@ -291,7 +251,8 @@ export class PageSession extends Events {
   add(edge, place, pulled = false) {
     this.#saveSnapshot();
     this.#dragging = pulled;
-    const index = this.outline.add(edge, place);
+    const [line, ...others] = this.traces[edge];
+    const index = this.outline.add(edge, place, others.length === 0 ? line : []);
     this.#update();
     return index;
   }
@@ -305,31 +266,20 @@ export class PageSession extends Events {
 
   /** The request to flatten the photo; null without a photo. @param {boolean} [moving] whether something is being dragged @returns {FlattenRequest | null} */
   request(moving = false) {
-    const { photo, options, findsTextLines, drawnLines } = this;
-    if (!photo) return null;
-    /** @type {Line[][]} */
-    const textLines = Array.from({ length: this.outline.pages }, () => []);
-    for (const { ends, points } of drawnLines) {
-      if (Math.hypot(ends[1][0] - ends[0][0], ends[1][1] - ends[0][1]) >= MIN_TEXT_LINE_WIDTHS * photo.width) textLines[this.#pageOfLine(ends)].push(points);
-    }
-    return { photo, traces: this.#traces(photo), textLines, options: { ...options, findLines: findsTextLines }, moving };
+    const { photo, searchOptions } = this;
+    return photo && { photo, traces: this.#outlineTraces(), options: searchOptions, moving };
   }
 
   /** Shows a flat page and its detected lines of text. @param {DewarpedPage} flat @param {FlattenRequest} request */
-  #showFlat(flat, { photo, moving }) {
+  #showFlat(flat, { photo, traces, moving }) {
     this.#flat = flat;
     // While something is dragged, no lines are detected and the earlier ones stay.
     if (!moving) {
-      const toPhoto = (/** @type {number} */ at) => rescalePixel(at, 1 / photo.grey.scale);
+      this.traces = tracedEdges(flat, traces, photo.scale);
+      const toPhoto = (/** @type {number} */ at) => rescalePixel(at, 1 / photo.scale);
       this.foundLines = flat.lines.flat().map((line) => line.map(([x, y]) => [toPhoto(x), toPhoto(y)]));
     }
     this.emit('flat', { flat, moving });
-  }
-
-  /** Snaps the outline if that is on, and updates the flat page. */
-  #snapAndUpdate() {
-    if (this.photo && this.snapsToEdges) snapOutline(this.photo.grey, this.outline);
-    this.#update();
   }
 
   /** Announces the changed outline and requests a new flat page. @param {boolean} [moving] whether something is being dragged */
@@ -337,7 +287,8 @@ export class PageSession extends Events {
     const request = this.request(moving);
     if (!request) return;
     this.#latestRequest = request;
-    this.emit('outline', { outline: this.outline, traces: request.traces, moving });
+    this.traces = request.traces;
+    this.emit('outline', { outline: this.outline, moving });
     if (this.isPageMissing) {
       [this.foundLines, this.#flat] = [[], null];
       this.emit('unfound', null);
@@ -360,22 +311,8 @@ export class PageSession extends Events {
     });
   }
 
-  /**
-   * The points of each edge: the detected edge, else the traced one, else the nodes themselves.
-   * @param {PagePhoto} photo
-   * @returns {Traces}
-   */
-  #traces({ grey }) {
-    const { outline } = this;
-    this.weakEdges = [];
-    // Without a detected page the edges are not traced.
-    if (this.isPageMissing) return /** @type {Traces} */ (EDGES.map((edge) => outline.spans(edge).map((nodes) => nodes.map(({ x, y }) => /** @type {Point} */ ([x, y])))));
-    return /** @type {Traces} */ (EDGES.map((edge) => {
-      const traces = outline.spans(edge).map((nodes) => ({ nodes, ...traceEdge(grey, nodes) }));
-      if (traces.some(({ visibleShare }) => visibleShare < MIN_VISIBLE_SHARE)) this.weakEdges.push(EDGE_NAMES[edge]);
-      const found = outline.detectedEdges[edge];
-      if (found) return [found];
-      return traces.map(({ nodes, points, visibleShare }) => (this.snapsToEdges && visibleShare >= MIN_VISIBLE_SHARE ? points : nodes.map(({ x, y }) => /** @type {Point} */ ([x, y]))));
-    }));
+  /** The lines of the outline, before they are traced. @returns {Traces} */
+  #outlineTraces() {
+    return /** @type {Traces} */ (EDGES.map((edge) => this.outline.lines(edge)));
   }
 }

@@ -1,4 +1,4 @@
-/** Natural cubic splines through points, and normals of polylines. */
+/** Natural cubic splines through points. */
 
 /** @typedef {import('./outline.js').Point} Point */
 
@@ -46,18 +46,4 @@ function spline(parameters, values) {
     const a = 1 - b;
     return a * values[i] + b * values[i + 1] + ((a ** 3 - a) * second[i] + (b ** 3 - b) * second[i + 1]) * (step * step) / 6;
   };
-}
-
-/**
- * The unit normals of a polyline: its direction turned clockwise by a right angle, where y points down.
- * @param {readonly Point[]} line
- * @returns {Point[]}
- */
-export function polylineNormals(line) {
-  return line.map((_, i) => {
-    const [p, q] = [line[Math.max(0, i - 1)], line[Math.min(line.length - 1, i + 1)]];
-    const [x, y] = [q[0] - p[0], q[1] - p[1]];
-    const length = Math.hypot(x, y) || 1;
-    return [-y / length, x / length];
-  });
 }

@@ -21,7 +21,7 @@ export function cropPanel({ onChange, onClick }) {
   let polygon = [];
 
   const handles = new Handles(over, {
-    move: (corner, [x, y], { ended }) => {
+    move: (corner, [x, y], ended) => {
       if (!photo) return;
       polygon[corner] = [Math.min(Math.max(x, -0.5), photo.width - 0.5), Math.min(Math.max(y, -0.5), photo.height - 0.5)];
       draw();

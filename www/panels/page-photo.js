@@ -1,4 +1,4 @@
-/** The photo of a page with its outline and lines of text, whose points are dragged. */
+/** The photo of a page with its outline, whose points are dragged, and the lines of text that were found. */
 import { element, matchDevicePixels, make } from '../dom.js';
 import { number } from '../format.js';
 import { assumedInWords } from '../messages.js';
@@ -19,8 +19,6 @@ export function pagePhotoPanel(session) {
   const more = element('point-add', HTMLButtonElement);
   const fewer = element('point-remove', HTMLButtonElement);
   const snap = element('snap', HTMLInputElement);
-  const drawLine = element('line-draw', HTMLButtonElement);
-  const removeLine = element('line-remove', HTMLButtonElement);
   const findLines = element('find-lines', HTMLInputElement);
   const undo = element('page-undo', HTMLButtonElement);
   const several = element('several', HTMLElement);
@@ -31,13 +29,7 @@ export function pagePhotoPanel(session) {
   let chosen = -1;
 
   const handles = new Handles(box, {
-    move: (handle, to, { key, ended }) => {
-      const end = endOf(handle);
-      if (!end) return session.move(nodes[handle], to, { pinned: key, ended });
-      const { ends: [from, last] } = session.drawnLines[end.line];
-      session.drawLine(end.end === 0 ? [to, last] : [from, to], { line: end.line, ended });
-    },
-    beginLine: (place) => nodes.length + 2 * session.drawLine([place, place], { ended: false }) + 1,
+    move: (handle, to, ended) => session.move(nodes[handle], to, ended),
     pull: (edge, place) => handleOf(session.add(/** @type {Edge} */ (edge), place, true)),
     remove: (handle) => remove(handle),
     choose: (handle) => {
@@ -47,28 +39,15 @@ export function pagePhotoPanel(session) {
   });
   /** @param {NodeIndex} which */
   const handleOf = ({ edge, node }) => nodes.findIndex((one) => one.edge === edge && one.node === node);
-  /** The line of text, and its end, that a handle moves; null for other handles. @param {number} handle */
-  const endOf = (handle) => {
-    const [line, end] = [(handle - nodes.length) >> 1, (handle - nodes.length) & 1];
-    return line >= 0 && line < session.drawnLines.length ? { line, end } : null;
-  };
   const isBendChosen = () => nodes[chosen] !== undefined && !session.outline.nodeOf(nodes[chosen])?.corner;
   const updateButtons = () => {
     // `aria-disabled` in the place of `disabled`, so that the button keeps the focus.
     fewer.setAttribute('aria-disabled', String(!isBendChosen()));
-    for (const button of [more, drawLine]) button.setAttribute('aria-disabled', String(session.photo === null));
+    more.setAttribute('aria-disabled', String(session.photo === null));
     undo.setAttribute('aria-disabled', String(!session.canUndo));
-    removeLine.setAttribute('aria-disabled', String(endOf(chosen) === null));
   };
   /** @param {number} handle */
   const remove = (handle) => {
-    const end = endOf(handle);
-    if (end) {
-      session.removeLine(end.line);
-      if (session.drawnLines.length > 0) handles.focus(nodes.length + 2 * Math.max(0, end.line - 1));
-      else drawLine.focus();
-      return;
-    }
     if (session.outline.nodeOf(nodes[handle])?.corner !== false) return;
     session.remove(nodes[handle]);
     handles.focus(handle - 1);
@@ -80,26 +59,8 @@ export function pagePhotoPanel(session) {
     handles.focus(handleOf(session.add(edge, longestSegmentMiddle(session, edge))));
   });
   fewer.addEventListener('click', () => isBendChosen() && remove(chosen));
-  removeLine.addEventListener('click', () => endOf(chosen) && remove(chosen));
-  /** @param {boolean} drawing */
-  const draw = (drawing) => {
-    handles.startsLines = drawing;
-    box.classList.toggle('drawing', drawing);
-    drawLine.setAttribute('aria-pressed', String(drawing));
-  };
-  drawLine.addEventListener('click', (event) => {
-    if (!session.photo) return;
-    // By keyboard a line is added at once; its ends can then be moved.
-    if (event.detail !== 0) return draw(!handles.startsLines);
-    const { corners } = session.outline;
-    const [x, y] = [Math.min(...corners.map((one) => one.x)), Math.min(...corners.map((one) => one.y))];
-    const [u, v] = [Math.max(...corners.map((one) => one.x)), Math.max(...corners.map((one) => one.y))];
-    /** @type {(s: number) => [number, number]} */
-    const at = (s) => [x + s * (u - x), (y + v) / 2];
-    handles.focus(nodes.length + 2 * session.drawLine([at(0.25), at(0.75)], { ended: true }));
-  });
   findLines.addEventListener('change', () => session.setFindsTextLines(findLines.checked));
-  snap.addEventListener('change', () => session.setSnapsToEdges(snap.checked));
+  snap.addEventListener('change', () => session.setTracesEdges(snap.checked));
   element('page-turn', HTMLButtonElement).addEventListener('click', () => session.turn());
   element('suggest', HTMLButtonElement).addEventListener('click', () => {
     if (!session.canUndo || confirm(PAGE_WORDS.startAgain)) session.reset();
@@ -122,7 +83,6 @@ export function pagePhotoPanel(session) {
 
   session.on('photo', (photo) => {
     chosen = -1;
-    draw(false);
     handles.setPhoto(photo);
     box.hidden = false;
     const { verdict, pages } = photo.outlines;
@@ -140,37 +100,28 @@ export function pagePhotoPanel(session) {
     canvas.setAttribute('aria-label', `The photo ${photo.name}`);
     paint();
   });
-  /** @type {Line[]} */
-  let outlined = [];
   const redraw = () => {
     const { outline } = session;
     /** @type {Line[]} */
     const found = session.foundLines.map((points) => ({ kind: 'text', points }));
-    /** @type {Line[]} */
-    const drawn = session.drawnLines.map(({ points }) => ({ kind: 'text drawn', points }));
-    handles.draw({
-      handles: [
-        ...nodes.map((which) => {
-          const { x, y, corner, pinned } = outline.nodeOf(which);
-          return { x, y, name: outline.name(which), kind: /** @type {'corner' | 'bend'} */ (corner ? 'corner' : 'bend'), pinned };
-        }),
-        ...session.drawnLines.flatMap(({ ends }, line) => ends.map(([x, y], end) => (
-          { x, y, name: `Line of text ${line + 1}, ${end === 0 ? 'beginning' : 'end'}`, kind: /** @type {const} */ ('text') }))),
-      ],
-      lines: [...found, ...drawn, ...outlined],
-    });
-    updateButtons();
-  };
-  session.on('lines', redraw);
-  session.on('outline', ({ outline, traces, moving }) => {
-    nodes = EDGES.flatMap((edge) => outline.edges[edge].flatMap((_, node, { length }) =>
-      (edge > 1 && (node === 0 || node === length - 1) ? [] : [{ edge, node }])));
     const gutter = outline.gutter();
     /** @type {Line[]} */
     const gutters = gutter ? [{ kind: 'side', points: gutter.map(({ x, y }) => /** @type {[number, number]} */ ([x, y])) }] : [];
     /** @type {Line[]} */
-    const edges = traces.flatMap((spans, edge) => spans.map((points) => ({ kind: /** @type {const} */ ('edge'), points, pullId: edge })));
-    outlined = [...gutters, ...edges];
+    const edges = session.traces.flatMap((spans, edge) => spans.map((points) => ({ kind: /** @type {const} */ ('edge'), points, pullId: edge })));
+    handles.draw({
+      handles: nodes.map((which) => {
+        const { x, y, corner } = outline.nodeOf(which);
+        return { x, y, name: outline.name(which), kind: /** @type {'corner' | 'bend'} */ (corner ? 'corner' : 'bend') };
+      }),
+      lines: [...found, ...gutters, ...edges],
+    });
+    updateButtons();
+  };
+  session.on('lines', redraw);
+  session.on('outline', ({ outline, moving }) => {
+    nodes = EDGES.flatMap((edge) => outline.edges[edge].flatMap((_, node, { length }) =>
+      (edge > 1 && (node === 0 || node === length - 1) ? [] : [{ edge, node }])));
     // The visible part does not change during a drag.
     if (!moving) handles.showWithin(outline.corners.map(({ x, y }) => [x, y]));
     redraw();

@@ -124,7 +124,7 @@ export function pageResultPanel(api, session, book, openAsSurface, onWritten) {
     const similar = flat.unit === 'mm' ? null : similarPaper(flat.size[0] / session.outline.pages, flat.size[1]);
     proposal.hidden = similar === null;
     if (similar) [proposal.value, proposal.textContent] = [similar, PAGE_WORDS.looksLike(SAVE_WORDS.papers[similar])];
-    about.replaceChildren(figures(factsOf(flat, session.quarters, session.photo?.grey.scale ?? 1)));
+    about.replaceChildren(figures(factsOf(flat, session.quarters, session.photo?.scale ?? 1)));
   });
   session.on('problem', (error) => {
     clear(PAGE_WORDS.noFlat);
@@ -221,13 +221,13 @@ function sizeOf({ size, unit }, quarters) {
  * @returns {[string, string][]}
  */
 function factsOf(flat, quarters, scale) {
-  const { verdict, error, errorBound, focalLength, tilt, bend, disagreement, residual, lines, linesFound } = flat.report;
+  const { verdict, error, errorBound, focalLength, tilt, bend, disagreement, residual, linesFound } = flat.report;
   const isOtherKind = verdict === 'notThisKind';
   return [
     ['Likely error', isOtherKind ? '–' : `${percent(error / 100)} of the width`],
     ['95 % limit', isOtherKind ? '–' : percent(errorBound / 100)],
     ['Edges disagree', `${percent(disagreement / 100)} of the width`],
-    ...(lines + linesFound === 0 ? [] : [/** @type {[string, string]} */ (['Lines of text', linesInWords(flat.report)])]),
+    ...(linesFound === 0 ? [] : [/** @type {[string, string]} */ (['Lines of text', linesInWords(flat.report)])]),
     ['Edge residual', `${numberAgainst(residual / scale, 1000)} pixels`],
     ['Bend', degrees((bend * Math.PI) / 180)],
     ['Tilt', degrees((tilt * Math.PI) / 180)],
@@ -237,10 +237,8 @@ function factsOf(flat, quarters, scale) {
 }
 
 /** The lines of text in words. @param {DewarpedPage['report']} report */
-function linesInWords({ lines, linesFound, linesDisagreement }) {
-  const drawn = lines - linesFound;
-  const count = [...(linesFound > 0 ? [`${linesFound} found`] : []), ...(drawn > 0 ? [`${drawn} drawn`] : [])].join(', ');
-  return `${count}, off by ${percent(linesDisagreement / 100)}`;
+function linesInWords({ linesFound, linesDisagreement }) {
+  return `${linesFound} found, off by ${percent(linesDisagreement / 100)}`;
 }
 
 /** The message of an error as a sentence. @param {unknown} error */

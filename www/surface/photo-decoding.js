@@ -1,5 +1,4 @@
 /** Decodes and reduces photos by the browser, in a worker. */
-import { toGrey } from '../page/grey.js';
 
 /** @import {Pixels} from '../pixels.js' */
 
@@ -20,7 +19,7 @@ export async function decodePicture(file, maxPixels = Infinity) {
 }
 
 /**
- * Reduces a photo, in colour and in grey.
+ * Reduces a photo.
  * @param {Pixels} pixels
  * @param {number} scale
  */
@@ -28,7 +27,7 @@ export async function reducePhoto({ width, height, data }, scale) {
   const bitmap = await createImageBitmap(new ImageData(data, width, height));
   const small = drawPixels(bitmap, width * scale, height * scale);
   bitmap.close();
-  return { ...small, grey: toGrey(small, scale).data };
+  return small;
 }
 
 /**

@@ -40,6 +40,9 @@ const MIN_SIDE_PIXELS: f64 = 1.5;
 /// Minimum number of points of a region's border along which a page's edge is searched.
 const MIN_BORDER_POINTS: usize = 24;
 
+/// Difference of logarithmic colour across an edge of a page at which the edge's contrast has a score of one half.
+const HALF_SCORE_CONTRAST: f64 = 0.25;
+
 /// An edge of a page in the reduced photo: its points, and how clearly it is visible.
 pub(super) struct EdgePath {
     /// Points of the page's edge, about one pixel apart, in the order of the region's border.
@@ -195,6 +198,16 @@ fn best_path(strengths: &[[f32; PROFILE_LENGTH]]) -> Vec<usize> {
 }
 
 impl EdgePath {
+    /// Score of the contrast across the edge, from 0 to 1.
+    pub fn contrast_score(&self) -> f64 {
+        self.contrast / (self.contrast + HALF_SCORE_CONTRAST)
+    }
+
+    /// How clearly the edge is seen along its whole length, from 0 to 1.
+    pub fn clarity(&self) -> f64 {
+        self.support * self.visible * self.contrast_score()
+    }
+
     /// Finds the edge of a page near a region's border, which is given clockwise from one corner to the next. `raw` is
     /// the reduced photo, `clean` the same with print suppressed. `None` if the border is too short.
     pub fn new(raw: &Planes, clean: &Planes, border: &[[f64; 2]]) -> Option<Self> {

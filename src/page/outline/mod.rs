@@ -8,6 +8,7 @@
 
 mod candidates;
 mod colour_model;
+mod corner_edges;
 mod corners;
 mod edge_path;
 mod morphology;
@@ -22,6 +23,7 @@ mod smooth_curve;
 mod straight_lines;
 mod tracing;
 
+pub use corner_edges::trace_edges;
 pub(super) use morphology::{box_mean, closed, vertical_extreme};
 pub use outline_report::{OutlineReason, OutlineReport, OutlineVerdict, PageOutline};
 pub(super) use planes::Planes;

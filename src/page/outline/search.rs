@@ -1,10 +1,8 @@
 //! Search for pages in a photo: candidate regions, their outlines, and the verdict on the best one.
 
 use super::candidates::candidate_masks;
-use super::morphology::closed;
 use super::orientation::quarter_turns;
 use super::outline_report::{OutlineReason, OutlineReport, OutlineVerdict, PageOutline};
-use super::planes::Planes;
 use super::print_cells::PrintCells;
 use super::quadrilateral::Quadrilateral;
 use super::region::regions;
@@ -14,12 +12,8 @@ use crate::dewarp::Photo;
 use crate::math::planar::{distance, polygon_area, polygon_contains};
 use crate::page::text::ranking::ranked;
 
-/// Maximum width of print that is suppressed before the search for a page, as a share of the photo's longer side: bars
-/// of colour across a page are as high as that.
-const PRINT_WIDTH_SHARE: f64 = 0.03;
-
 /// Minimum length of a photo's shorter side, in pixels: in a smaller one a page's edges have too few pixels.
-const MIN_PHOTO_SIDE_PIXELS: usize = 64;
+pub(super) const MIN_PHOTO_SIDE_PIXELS: usize = 64;
 
 /// Minimum share of the photo's area that a page covers.
 const MIN_PAGE_SHARE: f64 = 0.05;
@@ -84,12 +78,11 @@ fn upright(outline: PageOutline, views: &Views) -> PageOutline {
 
 /// Finds the outline of the page in a photo: its corners and edges, with a verdict.
 pub fn find_outline(photo: &Photo<'_>) -> OutlineReport {
-    let raw = Planes::from_photo(photo);
-    if raw.width.min(raw.height) < MIN_PHOTO_SIDE_PIXELS {
+    let views = Views::new(photo);
+    if views.raw.width.min(views.raw.height) < MIN_PHOTO_SIDE_PIXELS {
         return report(Vec::new());
     }
-    let clean = closed(&raw, (0.5 * PRINT_WIDTH_SHARE * raw.longer_side()) as usize);
-    let half = clean.halved();
+    let half = views.clean.halved();
     let min_area = (MIN_PAGE_SHARE * half.len() as f64) as usize;
     let tolerance = SAME_CORNER_SHARE * half.longer_side();
     let mut quadrilaterals: Vec<Quadrilateral> = Vec::new();
@@ -111,7 +104,6 @@ pub fn find_outline(photo: &Photo<'_>) -> OutlineReport {
             distinct.push(one);
         }
     }
-    let views = Views { raw, clean };
     let mut outlines: Vec<PageOutline> = distinct
         .iter()
         .filter_map(|one| {

@@ -2,20 +2,23 @@
 
 use super::corners::{corner, end_at, is_convex, is_outside, outside_corner};
 use super::edge_path::EdgePath;
+use super::morphology::closed;
 use super::outline_report::{OutlineReason, PageOutline};
 use super::planes::Planes;
 use super::quadrilateral::{is_at_rim, rectangularity};
+use crate::dewarp::Photo;
 use crate::math::planar::distance;
 
-/// Difference of logarithmic colour across an edge of a page at which the edge's contrast has a score of one half.
-const HALF_SCORE_CONTRAST: f64 = 0.25;
+/// Maximum width of print that is suppressed before the search for a page, as a share of the photo's longer side: bars
+/// of colour across a page are as high as that.
+const PRINT_WIDTH_SHARE: f64 = 0.03;
 
 /// Minimum share of an edge with visible contrast; below it the outline is reported as having a faint edge.
 const MIN_EDGE_SUPPORT: f64 = 0.85;
 
 /// Minimum share of an edge's points at which page and background are both in the photo, for the edge to count as
 /// visible.
-const MIN_VISIBLE_SHARE: f64 = 0.5;
+pub(super) const MIN_VISIBLE_SHARE: f64 = 0.5;
 
 /// Minimum number of visible edges of a page: with fewer it can hardly be told from a table.
 const MIN_VISIBLE_EDGES: usize = 3;
@@ -36,6 +39,26 @@ const POINT_DISTANCE: usize = 3;
 pub(super) struct Views {
     pub raw: Planes,
     pub clean: Planes,
+}
+
+impl Views {
+    /// Reduces a photo, and suppresses the print in it.
+    pub fn new(photo: &Photo<'_>) -> Self {
+        let raw = Planes::from_photo(photo);
+        let clean = closed(&raw, (0.5 * PRINT_WIDTH_SHARE * raw.longer_side()) as usize);
+        Views { raw, clean }
+    }
+}
+
+/// Every third point of a traced edge, and its last one, in pixels of the photo; `raw` is the reduced photo.
+pub(super) fn thinned(edge: &[[f64; 2]], raw: &Planes) -> Vec<[f64; 2]> {
+    let last = edge.len() - 1;
+    (0..last)
+        .step_by(POINT_DISTANCE)
+        .filter(|i| *i == 0 || distance(edge[*i], edge[last]) > 1.0)
+        .chain([last])
+        .map(|i| raw.to_photo(edge[i]))
+        .collect()
 }
 
 /// Number of points at the start of an arc that lie on the rim of an image of size `size`; 0 if they are only a small
@@ -136,25 +159,15 @@ pub(super) fn traced(
     let contrast = paths
         .iter()
         .filter(|path| path.visible >= MIN_VISIBLE_SHARE)
-        .map(|path| path.contrast / (path.contrast + HALF_SCORE_CONTRAST))
+        .map(EdgePath::contrast_score)
         .product::<f64>()
         .sqrt()
         .sqrt();
-    let place = |p: [f64; 2]| views.raw.to_photo(p);
-    let thinned = |edge: &Vec<[f64; 2]>| -> Vec<[f64; 2]> {
-        let last = edge.len() - 1;
-        (0..last)
-            .step_by(POINT_DISTANCE)
-            .filter(|i| *i == 0 || distance(edge[*i], edge[last]) > 1.0)
-            .chain([last])
-            .map(|i| place(edge[i]))
-            .collect()
-    };
-    let mut edges = edges.iter().map(thinned);
+    let mut edges = edges.iter().map(|edge| thinned(edge, &views.raw));
     let edges = [edges.next()?, edges.next()?, edges.next()?, edges.next()?];
     let clarity = support * visible * contrast;
     Some(PageOutline {
-        corners: corners.map(place),
+        corners: corners.map(|corner| views.raw.to_photo(corner)),
         edges,
         score: likeness * clarity,
         clarity,

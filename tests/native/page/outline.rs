@@ -1,7 +1,10 @@
 //! Outlines of pages in rendered photos, whose corners are known.
 
 use developable::dewarp::{Photo, Verdict};
-use developable::page::{OutlineReason, OutlineReport, OutlineVerdict, PageOutline, find_outline};
+use developable::page::{
+    Edges, OutlineReason, OutlineReport, OutlineVerdict, PageOutline, Trace, find_outline,
+    trace_edges,
+};
 use oorandom::Rand64;
 
 use super::scene::normal;
@@ -452,4 +455,97 @@ fn photos_of_any_size_and_content_are_answered() {
             );
         }
     }
+}
+
+/// A page that is bent, on tiles: its upper and lower edge rise by `BOW` pixels in the middle.
+fn bowed([x, y]: [f64; 2]) -> Colour {
+    let u = (x - 300.0) / 600.0;
+    let v = (y - 280.0 + bow(u)) / 600.0;
+    if (0.0..1.0).contains(&u) && (0.0..1.0).contains(&v) {
+        letter([u, v])
+    } else {
+        tiles([x, y])
+    }
+}
+
+fn bow(u: f64) -> f64 {
+    130.0 * (std::f64::consts::PI * u).sin()
+}
+
+fn given_corners([a, b, c, d]: Corners) -> Edges {
+    let edge = |from: [f64; 2], to: [f64; 2]| Trace::Points(vec![from, to]);
+    Edges::All {
+        top: edge(a, b),
+        bottom: edge(d, c),
+        left: edge(a, d),
+        right: edge(b, c),
+    }
+}
+
+#[test]
+fn edges_between_given_corners_follow_the_paper() {
+    let rgba = photo(bowed, shadows);
+    let photo = Photo::new(SIZE[0], SIZE[1], &rgba).unwrap();
+    let corners = [
+        [300.0, 280.0],
+        [900.0, 280.0],
+        [900.0, 880.0],
+        [300.0, 880.0],
+    ];
+    // Corners are set by hand, and some pixels off.
+    let mut rng = Rand64::new(43);
+    let by_hand = corners.map(|corner| corner.map(|at: f64| at + 3.0 * normal(&mut rng)));
+    let traced = trace_edges(&photo, &[given_corners(by_hand)]);
+    let [top, bottom, left, right] = traced[0].traces()[..] else {
+        panic!("four edges");
+    };
+    let off = |trace: &Trace, error: &dyn Fn([f64; 2]) -> f64| {
+        let Trace::Points(points) = trace else {
+            panic!("points");
+        };
+        assert!(points.len() > 50, "{} points", points.len());
+        // Beside the corners the edges run to where these were set.
+        let inner = points.iter().filter(|p| {
+            by_hand
+                .iter()
+                .all(|c| (p[0] - c[0]).hypot(p[1] - c[1]) > 30.0)
+        });
+        inner.map(|p| error(*p).abs()).fold(0.0, f64::max)
+    };
+    let level = |y: f64| move |p: [f64; 2]| p[1] - y + bow((p[0] - 300.0) / 600.0);
+    let upright = |x: f64| move |p: [f64; 2]| p[0] - x;
+    let errors = [
+        off(top, &level(280.0)),
+        off(bottom, &level(880.0)),
+        off(left, &upright(300.0)),
+        off(right, &upright(900.0)),
+    ];
+    // The corners are put right, too.
+    if let Trace::Points(points) = left {
+        for (point, truth) in [
+            (points[0], corners[0]),
+            (points[points.len() - 1], corners[3]),
+        ] {
+            let off = (point[0] - truth[0]).hypot(point[1] - truth[1]);
+            assert!(off < 2.0, "{point:?} for {truth:?}");
+        }
+    }
+    // The chord is 130 pixels off.
+    assert!(errors.iter().all(|off| *off < 3.5), "{errors:?}");
+}
+
+#[test]
+fn edges_that_cannot_be_seen_stay_straight_and_given_ones_as_they_are() {
+    let blank = photo(|_| PAPER, even);
+    let photo = Photo::new(SIZE[0], SIZE[1], &blank).unwrap();
+    let unseen = given_corners(PAGE);
+    assert_eq!(trace_edges(&photo, std::slice::from_ref(&unseen)), [unseen]);
+    let rgba = self::photo(bowed, even);
+    let photo = Photo::new(SIZE[0], SIZE[1], &rgba).unwrap();
+    let by_three = |y: f64| Trace::Points(vec![[300.0, y], [600.0, y - 40.0], [900.0, y]]);
+    let given = Edges::TopBottom {
+        top: by_three(280.0),
+        bottom: by_three(880.0),
+    };
+    assert_eq!(trace_edges(&photo, std::slice::from_ref(&given)), [given]);
 }

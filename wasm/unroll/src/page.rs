@@ -12,6 +12,7 @@ use developable::page::cleaning::Light;
 use developable::page::{
     Edges, FocalLength, Format, OutlineReason, OutlineReport, OutlineVerdict, PageOptions,
     PageOutline, PageReport, PageSurface, PageVerdict, PageWarp, Ruler, Trace, find_outline,
+    trace_edges,
 };
 use developable_wasm::flat::{CleaningInput, GridOutput, MapOptions, flat_image};
 use developable_wasm::options::{OptionReader, read, renamed};
@@ -91,6 +92,7 @@ struct KnownPage {
     ruler: Option<Ruler>,
     centre: Option<[f64; 2]>,
     find_lines: Option<bool>,
+    trace_edges: Option<bool>,
 }
 
 impl KnownPage {
@@ -125,11 +127,59 @@ struct PageOutput {
     mesh: MeshOutput,
     /// Lines of text that were detected in the photo, a list for each page, as points in the photo's pixels.
     lines: Vec<Vec<Vec<[f64; 2]>>>,
+    /// Edges of each page by which it was found.
+    edges: Vec<TracedEdges>,
     verdict: PageVerdict,
     report: PageReport,
     /// Outlines of pages that were found in the photo, if no edges were given.
     #[serde(skip_serializing_if = "Option::is_none")]
     outline: Option<OutlinesOutput>,
+}
+
+/// Edges of a page by which it was found: those that were given, or that were traced in the photo.
+#[derive(Default, Serialize)]
+struct TracedEdges {
+    #[serde(skip_serializing_if = "Option::is_none")]
+    top: Option<TraceOutput>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    bottom: Option<TraceOutput>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    left: Option<TraceOutput>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    right: Option<TraceOutput>,
+}
+
+#[derive(Serialize)]
+#[serde(untagged)]
+enum TraceOutput {
+    Points(Vec<[f64; 2]>),
+    Beziers { beziers: Vec<[f64; 2]> },
+}
+
+impl From<&Trace> for TraceOutput {
+    fn from(trace: &Trace) -> Self {
+        match trace {
+            Trace::Beziers(points) => TraceOutput::Beziers {
+                beziers: points.clone(),
+            },
+            trace => TraceOutput::Points(points(trace)),
+        }
+    }
+}
+
+impl From<&Edges> for TracedEdges {
+    fn from(edges: &Edges) -> Self {
+        let mut traces = edges.traces().into_iter().map(TraceOutput::from);
+        let is_sideways = matches!(edges, Edges::LeftRight { .. });
+        let mut upright = || (!is_sideways).then(|| traces.next()).flatten();
+        let (top, bottom) = (upright(), upright());
+        TracedEdges {
+            top,
+            bottom,
+            left: traces.next(),
+            right: traces.next(),
+        }
+    }
 }
 
 /// The unit of a flat page's lengths: millimetres or the width of a page.
@@ -282,12 +332,14 @@ pub fn page_surface(photo: JsValue, edges: JsValue, options: JsValue) -> Result<
     let pixels = Pixels::new(photo)?;
     let photo = pixels.photo()?;
     let (mut pages, mut lines, mut find) = (Vec::new(), Vec::new(), true);
+    let mut is_doubtful = false;
     let outline = if edges.is_undefined() {
         let found = find_outline(&photo);
         if let Ok(page) = found.page() {
             pages.push(page.to_edges());
             lines.push(Vec::new());
         }
+        is_doubtful = found.verdict == OutlineVerdict::Doubtful;
         Some(OutlinesOutput::from(&found))
     } else {
         let edges: Vec<EdgesInput> = from_value(edges)?;
@@ -296,6 +348,13 @@ pub fn page_surface(photo: JsValue, edges: JsValue, options: JsValue) -> Result<
             let (edges, own) = page.into_edges()?;
             pages.push(edges);
             lines.push(own);
+        }
+        if input.trace_edges.unwrap_or(true) {
+            pages = trace_edges(&photo, &pages);
+            is_doubtful = pages
+                .iter()
+                .flat_map(Edges::traces)
+                .any(Trace::has_ends_alone);
         }
         None
     };
@@ -309,8 +368,6 @@ pub fn page_surface(photo: JsValue, edges: JsValue, options: JsValue) -> Result<
     }
     .map_err(|error| renamed(error, "format", "page"))?;
     let (warp, mesh) = (page.warp()?, page.mesh()?);
-    let is_doubtful =
-        (outline.as_ref()).is_some_and(|found| found.verdict == OutlineVerdict::Doubtful);
     let report = match is_doubtful {
         true => page.report().with_doubtful_outline(),
         false => *page.report(),
@@ -335,6 +392,7 @@ pub fn page_surface(photo: JsValue, edges: JsValue, options: JsValue) -> Result<
         lines: (page.text().iter())
             .map(|lines| lines.iter().map(points).collect())
             .collect(),
+        edges: pages.iter().map(TracedEdges::from).collect(),
         verdict: report.verdict,
         report,
         outline,

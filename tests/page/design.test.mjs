@@ -62,6 +62,22 @@ pageTest('a pin is dragged up, the surface follows, and Undo takes it back', asy
   await runBy(page, () => page.getByRole('button', { name: 'Undo', exact: true }).click());
   assert.equal(Number(await pin.getAttribute('aria-valuenow')), start);
 
+  // Along the ground it stays under the pointer, with exaggerated heights too.
+  await page.locator('#exaggeration').fill('2');
+  await page.locator('#space-canvas').scrollIntoViewIfNeeded();
+  await pin.scrollIntoViewIfNeeded();
+  const held = await pin.boundingBox();
+  assert.ok(held);
+  await page.keyboard.down('Shift');
+  await page.mouse.move(held.x + held.width / 2, held.y + held.height / 2);
+  await page.mouse.down();
+  await page.mouse.move(held.x + held.width / 2 + 12, held.y + held.height / 2);
+  const moved = await pin.boundingBox();
+  await page.mouse.up();
+  await page.keyboard.up('Shift');
+  await settled(page);
+  assert.ok(moved && Math.hypot(moved.x - held.x - 12, moved.y - held.y) < 2, JSON.stringify({ held, moved }));
+
   await runBy(page, () => pin.press('ArrowDown'));
   assert.ok(Number(await pin.getAttribute('aria-valuenow')) < start, 'by keyboard, too');
   const pins = await page.locator('.knob').count();

@@ -78,6 +78,13 @@ for (const { format, bytes } of [{ format: 'OBJ', bytes: obj(wedge) }, { format:
   });
 }
 
+/** @param {import('playwright-core').Locator} shown @returns {Promise<[number, number]>} */
+async function middleOf(shown) {
+  const box = await shown.boundingBox();
+  assert.ok(box);
+  return [box.x + box.width / 2, box.y + box.height / 2];
+}
+
 doorTest('a mesh is seen as it is turned, and as finely as is wished', async (page) => {
   await openFromOneSide(page, 'wedge.obj', obj(wedge));
   await from(page, '+z');
@@ -85,6 +92,11 @@ doorTest('a mesh is seen as it is turned, and as finely as is wished', async (pa
   const before = (await look(page, 'input')).hash;
   assert.equal(await page.locator('#mesh-missing').isVisible(), false);
   await page.locator('#mesh-canvas').focus();
+  for (let press = 0; press < 3; press++) await page.keyboard.press('Shift+ArrowUp');
+  await page.mouse.move(...await middleOf(page.locator('#mesh-canvas')));
+  for (let turns = 0; turns < 3; turns++) await page.mouse.wheel(0, -100);
+  await painted(page);
+  assert.equal(await page.getByRole('button', { name: '+z', exact: true }).getAttribute('aria-pressed'), 'true', 'moving and zooming are no turn');
   for (let press = 0; press < 6; press++) await page.keyboard.press('ArrowDown');
   // It follows by itself.
   await page.getByRole('button', { name: 'As turned', pressed: true }).waitFor();

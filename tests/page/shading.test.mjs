@@ -76,7 +76,9 @@ test('heights are a mesh without their holes, seen where a ray meets them', () =
   const [width, height] = [40, 30];
   const heights = grid(width, height, (col, row) => (Math.hypot(col - 20, row - 15) < 4 ? NaN : 0.1 * col));
   const relief = { width, height, heights, heightScale: 2, extent: { left: 0, top: 30, width: 40, height: 30 } };
-  const { positions, triangles, uvs } = reliefMesh(relief);
+  const mesh = reliefMesh(relief);
+  assert.ok(mesh);
+  const { positions, triangles, uvs } = mesh;
   assert.equal(positions.length, 3 * width * height);
   assert.ok(triangles.length > 0 && triangles.every((vertex) => Number.isFinite(heights[vertex])), 'no corner in a hole');
   for (let t = 0; t < triangles.length; t += 3) {
@@ -85,14 +87,20 @@ test('heights are a mesh without their holes, seen where a ray meets them', () =
   }
   assert.deepEqual([...positions.subarray(0, 3)], [0.5, 29.5, 0]);
   assert.ok(Math.abs(/** @type {Float32Array} */ (uvs)[1] - 29.5 / 30) < 1e-6, 'the image has its first row above');
+  const hills = reliefMesh({ ...relief, heights: Array.from(heights, (z) => z + 2000) });
+  assert.ok(hills?.positions.every((z, i) => i % 3 !== 2 || z >= 4000), 'holes are at the height of the rest');
   const box = { low: /** @type {const} */ ([0, 0, 0]), high: /** @type {const} */ ([40, 30, 8]) };
   const at = (/** @type {number} */ x, /** @type {number} */ y) => heightAt(relief, x, y);
   const towards = /** @type {const} */ ([0.6, 0, 0.8]);
   const found = intersectHeights({ point: [10, 5, 2], towards }, box, at);
   assert.ok(found && Math.abs(found[2] - at(found[0], found[1])) < 1e-6 && found[1] === 5);
   assert.equal(intersectHeights({ point: [20, 15, 0], towards: [0, 0, 1] }, box, at), null, 'a hole');
-  const large = reliefMesh({ ...relief, width: 1200, height: 3, heights: new Float64Array(3600) });
-  assert.ok(large.positions.length / 3 <= 512);
+  const large = reliefMesh({ ...relief, width: 1200, height: 3, heights: Float64Array.from({ length: 3600 }, (_, i) => i % 2) });
+  assert.ok(large && large.positions.length / 3 <= 3 * 512);
+  const inner = [...large.positions].filter((_, i) => i % 3 === 2);
+  assert.ok(inner.some((z) => z > 0 && z < 2), 'blocks are averaged');
+  const sparse = grid(width, height, (col, row) => (col % 9 === 4 && row % 9 === 4 ? 1 : NaN));
+  assert.equal(reliefMesh({ ...relief, heights: sparse }), null, 'nothing to draw without triangles');
 });
 
 test('a sheet has a margin, an outline, and the strain of each pixel', () => {

@@ -51,7 +51,7 @@ doorTest('a fold that is clicked in the drawing is cut', async (page) => {
   await page.locator('#whole-sheets').click();
   const image = page.locator('.preview[aria-busy="false"] img');
   await image.waitFor();
-  const [toCut, toJoin] = [page.getByLabel('Edges to cut between'), page.getByLabel('Edges to fold between')];
+  const [toCut, toJoin] = [page.getByLabel('Cut between pieces'), page.getByLabel('Fold between pieces')];
   const address = await image.getAttribute('src');
   const drawing = await patternMesh(box, { size: 60, tabs: 6 });
   dispose();
@@ -62,7 +62,9 @@ doorTest('a fold that is clicked in the drawing is cut', async (page) => {
   await page.locator(`.preview[aria-busy="false"] img:not([src="${address}"])`).waitFor();
   const [pair] = parsePairs(await toCut.inputValue()) ?? [];
   assert.deepEqual([pair, await toJoin.inputValue()], [edgeAt(drawing, [x, y])?.pair, '']);
+  await page.locator('#save-now:enabled').waitFor();
   await toCut.fill('1-');
   await toCut.press('Tab');
   assert.equal(await toCut.evaluate((/** @type {HTMLInputElement} */ field) => field.validity.valid), false);
+  assert.ok(await page.locator('#save-now').isDisabled(), 'what was cut before is not saved in its place');
 });

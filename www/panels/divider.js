@@ -7,10 +7,11 @@ const KEY_STEP = 0.05;
 
 /**
  * @param {string} id
+ * @param {[string, string]} names of what is left and right of the divider
  * @param {(share: number) => void} onMove gets the share of the picture left of the divider
  * @param {number} [share] initial share
  */
-export function dividerOver(id, onMove, share = 0.5) {
+export function dividerOver(id, [left, right], onMove, share = 0.5) {
   const divider = element(id, HTMLElement);
   /** @param {number} to */
   const move = (to) => {
@@ -18,7 +19,7 @@ export function dividerOver(id, onMove, share = 0.5) {
     const percent = Math.round(100 * share);
     divider.style.left = `${100 * share}%`;
     divider.setAttribute('aria-valuenow', String(percent));
-    divider.setAttribute('aria-valuetext', `input on ${percent} % of the picture, result on the rest`);
+    divider.setAttribute('aria-valuetext', `${left} on ${percent} % of the picture, ${right} on the rest`);
     onMove(share);
   };
   divider.addEventListener('pointerdown', (event) => {
@@ -26,8 +27,8 @@ export function dividerOver(id, onMove, share = 0.5) {
   });
   divider.addEventListener('pointermove', (event) => {
     if (!divider.hasPointerCapture(event.pointerId)) return;
-    const { left, width } = /** @type {HTMLElement} */ (divider.parentElement).getBoundingClientRect();
-    move((event.clientX - left) / width);
+    const frame = /** @type {HTMLElement} */ (divider.parentElement).getBoundingClientRect();
+    move((event.clientX - frame.left) / frame.width);
   });
   divider.addEventListener('keydown', (event) => {
     const to = { ArrowLeft: share - KEY_STEP, ArrowDown: share - KEY_STEP, ArrowRight: share + KEY_STEP, ArrowUp: share + KEY_STEP, Home: 0, End: 1 }[event.key];

@@ -44,7 +44,7 @@ export function meshFitPanel(session, meshFit) {
   const picture = new PictureView(element('whole-picture', HTMLCanvasElement), new Zoom());
   /** @type {Promise<SceneView | null> | null} */
   let viewer = null;
-  const divider = dividerOver('whole-divider', async (share) => (await viewer)?.divide(share));
+  const divider = dividerOver('whole-divider', ['input', 'result'], async (share) => (await viewer)?.divide(share));
   /** Number of the newest update; answers to older ones are discarded. */
   let newestUpdate = 0;
   /** The mesh that the input was sampled from, if it has triangles. @type {Mesh | null} */
@@ -279,6 +279,7 @@ export function meshFitPanel(session, meshFit) {
       unit: lengthUnitOf({ ...session.input, kind: 'mesh', unit: surface.unit ?? undefined }),
       cut: ({ side: length, ...options }) => meshFit.pattern(surface, { scale: length / longest, ...options }),
       svg: (drawing) => meshFit.svg(drawing),
+      canFoldElsewhere: ({ summary }) => summary.strain === 0,
       stop: () => meshFit.stop(),
     });
   });

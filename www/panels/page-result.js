@@ -32,7 +32,7 @@ import { PROGRESS_DELAY_MS } from './waiting.js';
 export function pageResultPanel(api, session, book, openAsSurface, onWritten) {
   const figure = element('flat-view', HTMLElement);
   const view = new PictureView(element('flat-canvas', HTMLCanvasElement), new Zoom());
-  const divider = dividerOver('flat-divider', () => view.repaint(), 0);
+  const divider = dividerOver('flat-divider', ['photo', 'flat page'], () => view.repaint(), 0);
   const empty = element('flat-empty', HTMLElement);
   const verdict = element('flat-verdict', HTMLElement);
   const detail = element('flat-detail', HTMLElement);
@@ -49,6 +49,8 @@ export function pageResultPanel(api, session, book, openAsSurface, onWritten) {
   let said = [verdict.textContent ?? '', ''];
   let isMoving = false;
   let workingTimer = 0;
+  /** The reduced photo, once it is needed. @type {Picture | null} */
+  let before = null;
 
   /** @param {boolean} ready */
   const enable = (ready) => {
@@ -72,6 +74,7 @@ export function pageResultPanel(api, session, book, openAsSurface, onWritten) {
     enable(false);
   };
   session.on('photo', ({ file }) => {
+    before = null;
     element('page-examples', HTMLElement).hidden = file !== undefined;
     clear(PAGE_WORDS.working);
     say(PAGE_WORDS.working);
@@ -103,12 +106,14 @@ export function pageResultPanel(api, session, book, openAsSurface, onWritten) {
     shown = flat;
     const { report } = flat;
     const { width, height, data } = turnPicture(flat, session.quarters);
-    const [before, after] = [session.photo?.reduced, new ImageData(data, width, height)].map((image) => image && imagePicture(canvasFromImage(image), 'Flat', 'The page made flat'));
-    if (after) view.show({ ...after, paint: (context, ratio) => {
+    const reduced = session.photo?.reduced;
+    before ??= reduced ? imagePicture(canvasFromImage(reduced), 'Photo', 'The photo') : null;
+    const after = imagePicture(canvasFromImage(new ImageData(data, width, height)), 'Flat', 'The page made flat');
+    view.show({ ...after, paint: (context, ratio) => {
       after.paint(context, ratio);
       if (before && divider.share > 0) paintBefore(context, before, divider.share, ratio);
     } });
-    divider.show(before !== undefined);
+    divider.show(before !== null);
     empty.hidden = true;
     // The result of a drag that is over already must not be saved in place of the final one.
     if (moving && isMoving) enable(true);

@@ -81,6 +81,7 @@ function sheetSource(result, analyses) {
     unit: lengthUnitOf(result.input),
     cut: (options) => cutSheets(analyses, result, options),
     svg: (drawing) => analyses.svg(drawing),
+    canFoldElsewhere: () => false,
     stop: () => analyses.stop(),
   };
 }

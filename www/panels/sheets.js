@@ -40,6 +40,7 @@ const [MIN_SIDE_MM, MAX_SIDE_MM] = [10, 5000];
  * @property {LengthUnit | 'none' | 'unknown'} unit unit of the input; `none` for an example, which has any size
  * @property {(options: CutOptions) => Promise<Drawing>} cut computes the pattern
  * @property {(drawing: Drawing) => Promise<Uint8Array<ArrayBuffer>>} svg writes a drawing as SVG
+ * @property {(drawing: Drawing) => boolean} canFoldElsewhere whether other edges of a drawing may be cut and joined: of flat faces, of which nothing is stretched
  * @property {() => void} stop cancels the pattern that is being computed
  */
 
@@ -48,7 +49,7 @@ const [MIN_SIDE_MM, MAX_SIDE_MM] = [10, 5000];
  * @param {Api} api
  * @param {SheetSource} source
  */
-export function offerSheets(api, { stem, size, note = '', length, unit, up, cut, svg, stop }) {
+export function offerSheets(api, { stem, size, note = '', length, unit, up, cut, svg, canFoldElsewhere, stop }) {
   const last = lastSizes.get(stem) ?? { unit: unit === 'unknown' ? 'none' : unit, side: NaN };
   const side = numberField(Number.isNaN(last.side) ? suggestedSide(length, last.unit) : last.side, MIN_SIDE_MM, MAX_SIDE_MM);
   const units = make('select', '', ...Object.keys(MM_PER_UNIT).map((name) => new Option(SHEET_WORDS.unit(name), name)), new Option(SHEET_WORDS.ownSize, 'none'));
@@ -135,13 +136,12 @@ export function offerSheets(api, { stem, size, note = '', length, unit, up, cut,
 
   const draw = async () => {
     for (const field of [toCut, toJoin]) field.setCustomValidity(parsePairs(field.value) ? '' : SHEET_WORDS.wrongPairs);
-    const wrong = [toCut, toJoin].find((field) => !field.reportValidity());
-    if (wrong) return;
-    const invalid = [side, ...(metal.value ? [thickness, radius, kFactor] : [depth])].find((field) => !field.checkValidity());
+    const wrong = [toCut, toJoin].find((field) => !field.checkValidity());
+    const invalid = wrong ?? [side, ...(metal.value ? [thickness, radius, kFactor] : [depth])].find((field) => !field.checkValidity());
     if (invalid) {
       stop();
       waiting.end();
-      setMissing(SHEET_WORDS.outOfRange(invalid.labels?.[0]?.firstChild?.textContent ?? '', invalid.min, invalid.max));
+      setMissing(wrong ? SHEET_WORDS.wrongPairs : SHEET_WORDS.outOfRange(invalid.labels?.[0]?.firstChild?.textContent ?? '', invalid.min, invalid.max));
       offer.renew();
       invalid.reportValidity();
       return;
@@ -162,7 +162,7 @@ export function offerSheets(api, { stem, size, note = '', length, unit, up, cut,
       const finished = await requested;
       waiting.end(task);
       showSize(finished);
-      edges.hidden = finished.summary.strain !== 0;
+      edges.hidden = !canFoldElsewhere(finished);
       image.addEventListener('click', ({ offsetX, offsetY }) => {
         if (!edges.hidden) toggleEdge(finished, [(offsetX / image.clientWidth) * finished.width, (1 - offsetY / image.clientHeight) * finished.height]);
       });
@@ -191,7 +191,10 @@ export function offerSheets(api, { stem, size, note = '', length, unit, up, cut,
   /** Cuts the fold at a place of the drawing, or folds the cut there; again, it is as before. @param {Drawing} finished @param {[number, number]} place */
   const toggleEdge = (finished, place) => {
     const edge = edgeAt(finished, place);
-    if (!edge) return;
+    if (!edge) {
+      status.textContent = SHEET_WORDS.noEdge;
+      return;
+    }
     const [own, other] = edge.isFold ? [toCut, toJoin] : [toJoin, toCut];
     const isUndone = (parsePairs(other.value) ?? []).some((pair) => String(pair) === String(edge.pair));
     const field = isUndone ? other : own;

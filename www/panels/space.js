@@ -35,6 +35,7 @@ export function spacePanel(session) {
   const panel = element('space', HTMLElement);
   const canvas = element('space-canvas', HTMLCanvasElement);
   const reading = element('reading', HTMLElement);
+  const missing = element('space-missing', HTMLElement);
   const exaggeration = element('exaggeration', HTMLInputElement);
   const exaggerated = element('exaggerated', HTMLElement);
   const drag = element('drag', HTMLSelectElement);
@@ -63,7 +64,9 @@ export function spacePanel(session) {
   /** @type {Box} */
   let box = { low: [0, 0, 0], high: [1, 1, 0] };
 
-  const divider = dividerOver('divider', (share) => view?.divide(share));
+  const divider = dividerOver('divider', ['input', 'result'], (share) => view?.divide(share));
+  /** Factor by which heights are exaggerated. */
+  const stretch = () => 2 ** exaggeration.valueAsNumber;
   const isShown = () => !panel.hidden;
   /** The surface that is edited: the result, or the input where there is none. */
   const topRelief = () => reliefs[1] ?? reliefs[0];
@@ -85,7 +88,7 @@ export function spacePanel(session) {
         end: () => dragHandler?.end(),
       },
     }).catch(() => null);
-    element('space-missing', HTMLElement).hidden = view !== null;
+    missing.hidden = view !== null;
     canvas.hidden = view === null;
     view?.setUp([0, 0, 1]);
     updateBox();
@@ -134,16 +137,15 @@ export function spacePanel(session) {
     // The input of a design is not a surface, and an unfolding shows the result only.
     const hidesInput = shown.unfolding !== undefined || input?.design === true;
     divider.show(reliefs[1] !== null && !hidesInput);
-    element('space-before', HTMLElement).hidden = shown.unfolding !== undefined;
+    element('space-before', HTMLElement).hidden = hidesInput && (shown.unfolding !== undefined || reliefs[1] !== null);
     element('space-after', HTMLElement).hidden = !reliefs[1] || shown.unfolding !== undefined;
     view?.divide(hidesInput && reliefs[1] ? 0 : divider.share);
   };
 
   exaggeration.addEventListener('input', () => {
-    const stretch = 2 ** exaggeration.valueAsNumber;
-    exaggerated.textContent = `× ${number(stretch, 2)}`;
-    exaggeration.setAttribute('aria-valuetext', `heights ${number(stretch, 2)} times`);
-    view?.exaggerate(stretch);
+    exaggerated.textContent = `× ${number(stretch(), 2)}`;
+    exaggeration.setAttribute('aria-valuetext', `heights ${number(stretch(), 2)} times`);
+    view?.exaggerate(stretch());
     view?.fit();
   });
   element('from-above', HTMLButtonElement).addEventListener('click', () => view?.look(DIRECTIONS.above));
@@ -215,6 +217,8 @@ export function spacePanel(session) {
 
   return {
     isShown,
+    /** Whether this browser cannot draw the surfaces. */
+    isMissing: () => !missing.hidden,
     /** Draws the surfaces, with twice as many pixels for a file, and returns the canvas. @param {number} [ratio] pixels of the canvas per CSS pixel */
     drawnCanvas: (ratio) => {
       view?.draw(ratio);
@@ -293,9 +297,11 @@ export function spacePanel(session) {
       const [side, [x, y, z]] = [reliefs[0]?.extent.width ?? 1, pinPosition(input, pin)];
       const [column, row] = view.project([x, y, z]);
       if (!onGround) return { ...pin, z: pin.z + up / (row - view.project([x, y, z + side])[1]) };
-      const { point, towards } = view.rayAt(column + across, row - up);
-      const along = (z - point[2]) / Math.max(MIN_VERTICAL_SHARE, towards[2]);
-      return { x: clampToUnit(pin.x + (point[0] + along * towards[0] - x) / side), y: clampToUnit(pin.y + (point[1] + along * towards[1] - y) / side), z: pin.z };
+      const [from, to] = [view.rayAt(column, row), view.rayAt(column + across, row - up)].map(({ point, towards }) => {
+        const along = (z - point[2]) / Math.max(MIN_VERTICAL_SHARE / stretch(), towards[2]);
+        return [point[0] + along * towards[0], point[1] + along * towards[1]];
+      });
+      return { x: clampToUnit(pin.x + (to[0] - from[0]) / side), y: clampToUnit(pin.y + (to[1] - from[1]) / side), z: pin.z };
     },
     /** Shows the layers of a view, or an unfolding. @param {Partial<ViewContent>} now */
     show: (now) => {

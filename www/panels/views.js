@@ -40,6 +40,7 @@ export function viewsPanel(session) {
   const caption = element('result-caption', HTMLElement);
   const stamp = element('result-mark', HTMLElement);
   const legend = element('input-legend', HTMLElement);
+  const save = element('view-save', HTMLButtonElement);
   const reading = element('flat-reading', HTMLElement);
   const arrangement = element('arrangement', HTMLElement);
   const arrangements = elements('input[name="arrangement"]', HTMLInputElement);
@@ -63,6 +64,11 @@ export function viewsPanel(session) {
     element('space-hint', HTMLElement).hidden = !isInSpace;
     element('input-view', HTMLElement).hidden = !before;
     if (isInSpace) space.drawnCanvas();
+    updateSave();
+  };
+  /** Enables the button that saves the picture if there is one. */
+  const updateSave = () => {
+    save.disabled = !session.result || (space.isShown() && space.isMissing());
   };
   for (const radio of arrangements) radio.addEventListener('change', arrange);
 
@@ -99,7 +105,6 @@ export function viewsPanel(session) {
   // The last result replaces the previews.
   session.on('unsolved', describeResult);
 
-  const save = element('view-save', HTMLButtonElement);
   save.addEventListener('click', async () => {
     const shown = space.isShown() ? [space.drawnCanvas(2 * devicePixelRatio)] : elements('#views canvas', HTMLCanvasElement).filter((canvas) => canvas.checkVisibility());
     const picture = new OffscreenCanvas(shown.reduce((sum, { width }) => sum + width, 0), Math.max(...shown.map(({ height }) => height)));
@@ -114,8 +119,8 @@ export function viewsPanel(session) {
     }
     download(await picture.convertToBlob({ type: 'image/png' }), 'image/png', `${session.input?.name ?? 'view'}-view.png`);
   });
-  session.on('result', () => (save.disabled = false));
-  session.on('cleared', () => (save.disabled = true));
+  session.on('result', updateSave);
+  session.on('cleared', updateSave);
   arrange();
 
   return {

@@ -28,6 +28,8 @@ const KEY_LIGHT_STEP = 0.08;
 export function addGestures(canvas, view, { controlsLight = () => false, target }) {
   /** What the pointer holds. @type {'light' | 'target' | null} */
   let held = null;
+  /** The pointer that holds it; others, such as a second finger, are ignored. */
+  let holder = -1;
   /** @param {PointerEvent} event */
   const lightFrom = ({ offsetX, offsetY }) => {
     const { clientWidth: width, clientHeight: height } = canvas;
@@ -41,17 +43,24 @@ export function addGestures(canvas, view, { controlsLight = () => false, target 
     else if (controlsLight() || event.altKey) held = 'light';
     else return;
     event.stopImmediatePropagation();
+    holder = event.pointerId;
     canvas.setPointerCapture(event.pointerId);
     if (held === 'light') lightFrom(event);
   }, { capture: true });
+  // The style sheet lets a finger scroll the page up and down, but a stroke goes on.
+  canvas.addEventListener('touchstart', (event) => {
+    if (held === 'target') event.preventDefault();
+  }, { passive: false });
   canvas.addEventListener('pointermove', (event) => {
+    if (event.pointerId !== holder) return;
     if (held === 'light') lightFrom(event);
     else if (held === 'target') target?.move(event.offsetX, event.offsetY);
   });
   for (const end of ['pointerup', 'pointercancel']) {
-    canvas.addEventListener(end, () => {
+    canvas.addEventListener(end, (event) => {
+      if (/** @type {PointerEvent} */ (event).pointerId !== holder) return;
       if (held === 'target') target?.end();
-      held = null;
+      [held, holder] = [null, -1];
     });
   }
   canvas.addEventListener('wheel', (event) => {

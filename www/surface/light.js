@@ -8,12 +8,13 @@ const DEFAULT_POSITION = { x: -0.38, y: 0.42 };
 class Light {
   x = DEFAULT_POSITION.x;
   y = DEFAULT_POSITION.y;
-  /** @type {(() => void)[]} */
-  #listeners = [];
+  /** @type {Set<() => void>} */
+  #listeners = new Set();
 
-  /** @param {() => void} listener */
+  /** Adds a listener, and returns a function that removes it. @param {() => void} listener */
   onMove(listener) {
-    this.#listeners.push(listener);
+    this.#listeners.add(listener);
+    return () => this.#listeners.delete(listener);
   }
 
   /**

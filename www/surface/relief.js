@@ -1,4 +1,5 @@
 /** Heights in space: their surface, bounding box, height at a place, and marked pixels as points. */
+import { downsample } from './downsampling.js';
 import { gridOf } from './lattice.js';
 import { extentOf } from './triangles.js';
 
@@ -18,7 +19,10 @@ import { extentOf } from './triangles.js';
  * @property {{ left: number, top: number, width: number, height: number }} extent in the unit of length
  */
 
-/** Maximum number of vertices along a side of a drawn surface: about the pixels of a screen, and fewer without a graphics card. */
+/**
+ * Maximum number of vertices along a side of a drawn surface: about the pixels of a screen. Without a graphics card the processor
+ * draws six times fewer, so that a picture takes about a fifth of a second.
+ */
 const MAX_SIDE_VERTICES = 512;
 const MAX_SLOW_SIDE_VERTICES = 200;
 /** Quantile of the heights at the top of the box; the bottom is at the opposite quantile. */
@@ -67,21 +71,29 @@ export function heightAt({ width, height, heights, heightScale, extent }, x, y) 
   return heights[row * width + col] * heightScale;
 }
 
-/** The mesh of heights: every `step`-th pixel if there are too many. @param {Relief} relief @param {boolean} [isFast] whether there is a graphics card @returns {Surface} */
+/**
+ * The mesh of heights, of the means of blocks if there are too many; null if no three of them are neighbours.
+ * @param {Relief} relief
+ * @param {boolean} [isFast] whether there is a graphics card
+ * @returns {Surface | null}
+ */
 export function reliefMesh({ width, height, heights, heightScale, extent }, isFast = true) {
-  const step = Math.ceil(Math.max(width, height) / (isFast ? MAX_SIDE_VERTICES : MAX_SLOW_SIDE_VERTICES));
-  const [cols, rows] = [Math.ceil(width / step), Math.ceil(height / step)];
+  const [image, most] = [{ width, height, data: heights }, isFast ? MAX_SIDE_VERTICES : MAX_SLOW_SIDE_VERTICES];
+  const { width: cols, height: rows, data } = Math.max(width, height) > most ? downsample(image, most) : image;
   const positions = new Float64Array(3 * cols * rows);
   const uvs = new Float32Array(2 * cols * rows);
   const isHole = new Uint8Array(cols * rows);
   const triangles = new Uint32Array(6 * (cols - 1) * (rows - 1));
+  // Holes are no higher or lower than the heights, so that the view fits these.
+  let filling = 0;
+  for (let i = 0; i < data.length && Number.isNaN((filling = data[i] * heightScale)); i++);
   let corners = 0;
   for (let row = 0, i = 0; row < rows; row++) {
     for (let col = 0; col < cols; col++, i++) {
-      const [across, down] = [(col * step + 0.5) / width, (row * step + 0.5) / height];
-      const z = heights[row * step * width + col * step] * heightScale;
+      const [across, down] = [(col + 0.5) / cols, (row + 0.5) / rows];
+      const z = data[i] * heightScale;
       isHole[i] = Number(Number.isNaN(z));
-      positions.set([extent.left + across * extent.width, extent.top - down * extent.height, isHole[i] ? 0 : z], 3 * i);
+      positions.set([extent.left + across * extent.width, extent.top - down * extent.height, isHole[i] ? filling : z], 3 * i);
       uvs.set([across, 1 - down], 2 * i);
       if (row === 0 || col === 0) continue;
       const [a, b, c] = [i - cols - 1, i - cols, i - 1];
@@ -92,7 +104,7 @@ export function reliefMesh({ width, height, heights, heightScale, extent }, isFa
       }
     }
   }
-  return { positions, uvs, triangles: triangles.subarray(0, corners) };
+  return corners > 0 ? { positions, uvs, triangles: triangles.subarray(0, corners) } : null;
 }
 
 /**

@@ -41,6 +41,10 @@ const SHADOW_MAP_SIDE = 256;
 /** Angle of the first turn, in radians, and its duration, in milliseconds. */
 const FIRST_TURN_RADIANS = 0.7;
 const FIRST_TURN_MS = 1800;
+/** Angle from which a change of the direction of view is a turn, in radians. */
+const MIN_TURN_RADIANS = 1e-6;
+/** Colour of pixels without a value in an image on steel. */
+const STEEL_COLOUR = '#b6bbc1';
 /** Distance of the camera from the centre, and half of the visible depth range, in radii of the box. */
 const CAMERA_DISTANCE = 50;
 const VIEW_HALF_DEPTH = 8;
@@ -82,7 +86,13 @@ export class SceneView {
   /** The direction of `look`. @type {Vector} */
   #home = [0, 0, -1];
   #isSettingDirection = false;
-  #lastDirection = '';
+  /** The direction at the last change, as a vector of three.js. @type {any} */
+  #lastDirection = null;
+  /** Whether `fit` was asked for while the canvas had no size. */
+  #isFitDue = false;
+  /** Materials by kind, which are kept so that their shaders are compiled once. @type {Map<string, any>} */
+  #materials = new Map();
+  #listeners = new AbortController();
   /** Ends the first turn. */
   #turning = new AbortController();
   /** Draws the picture with the next frame. */
@@ -139,19 +149,23 @@ export class SceneView {
     this.#scene.add(this.#shadowLight, this.#ground);
     addGestures(canvas, this, options);
     this.#controls = this.#createControls();
-    new ResizeObserver(() => this.draw()).observe(canvas);
-    light.onMove(this.drawSoon);
+    const resizing = new ResizeObserver(() => this.draw());
+    resizing.observe(canvas);
+    this.#listeners.signal.addEventListener('abort', () => resizing.disconnect());
+    this.#listeners.signal.addEventListener('abort', light.onMove(this.drawSoon));
     this.setDirection([0, 0, -1]);
   }
 
   #createControls() {
     const controls = new this.#three.OrbitControls(this.#camera, this.canvas);
     Object.assign(controls, { zoomToCursor: true, minZoom: MIN_ZOOM, maxZoom: MAX_ZOOM, maxPolarAngle: this.#options.isSeenFromAbove ? Math.PI / 2 : Math.PI });
+    // The style sheet says which touches scroll the page.
+    this.canvas.style.touchAction = '';
     controls.addEventListener('change', () => {
       this.drawSoon();
-      const now = String(this.direction);
-      // Zooming and moving do not change the direction.
-      if (!this.#isSettingDirection && now !== this.#lastDirection) this.#options.onTurn?.();
+      const now = this.#camera.getWorldDirection(new this.#three.Vector3());
+      // Zooming and moving change the direction by rounding only.
+      if (!this.#isSettingDirection && !(this.#lastDirection?.angleTo(now) < MIN_TURN_RADIANS)) this.#options.onTurn?.();
       this.#lastDirection = now;
     });
     return controls;
@@ -213,11 +227,7 @@ export class SceneView {
   /** @param {0 | 1} side @param {'surface' | 'lines'} what @param {any} object */
   #replace(side, what, object) {
     const old = this.#sides[side][what];
-    old?.traverse((/** @type {any} */ { geometry, material }) => {
-      geometry?.dispose();
-      material?.map?.dispose();
-      material?.dispose();
-    });
+    old?.traverse((/** @type {any} */ { geometry }) => geometry?.dispose());
     if (old) this.#scene.remove(old);
     this.#sides[side][what] = object;
     object?.scale.copy(this.#stretch);
@@ -228,23 +238,30 @@ export class SceneView {
   /** Sets the surface on a side of the divider, without an image. @param {0 | 1} side @param {Surface | null} surface */
   setSurface(side, surface) {
     this.#renderer.shadowMap.needsUpdate = true;
-    this.#replace(side, 'surface', surface && this.#createSurface(surface));
+    this.#replace(side, 'surface', surface && this.#createSurface(side, surface));
+    this.setImage(side, null);
   }
 
-  /** @param {Surface} surface */
-  #createSurface({ positions, triangles, colors, uvs }) {
+  /** The material of a kind, which is created once. @param {string} kind @param {() => any} create */
+  #material(kind, create) {
+    if (!this.#materials.has(kind)) this.#materials.set(kind, create());
+    return this.#materials.get(kind);
+  }
+
+  /** @param {0 | 1} side @param {Surface} surface */
+  #createSurface(side, { positions, triangles, colors, uvs }) {
     const three = this.#three;
     const geometry = new three.BufferGeometry();
     geometry.setAttribute('position', this.#scaled(positions));
     if (colors) geometry.setAttribute('color', new three.BufferAttribute(colors, 3));
     if (uvs) geometry.setAttribute('uv', new three.BufferAttribute(uvs, 2));
     const vertexColors = colors !== undefined;
-    if (triangles.length === 0) return new three.Points(geometry, new three.PointsMaterial({ vertexColors, size: 2, sizeAttenuation: false }));
+    if (triangles.length === 0) return new three.Points(geometry, this.#material(`points ${side} ${vertexColors}`, () => new three.PointsMaterial({ vertexColors, size: 2, sizeAttenuation: false })));
     geometry.setIndex(new three.BufferAttribute(triangles, 1));
     if (!this.#options.isFaceted) geometry.computeVertexNormals();
-    const mesh = new three.Mesh(geometry, new three.MeshMatcapMaterial({
+    const mesh = new three.Mesh(geometry, this.#material(`mesh ${side} ${vertexColors}`, () => new three.MeshMatcapMaterial({
       vertexColors, flatShading: this.#options.isFaceted ?? false, side: three.DoubleSide, matcap: this.#matcaps[vertexColors ? 1 : 0],
-    }));
+    })));
     mesh.castShadow = true;
     return mesh;
   }
@@ -252,9 +269,10 @@ export class SceneView {
   /** Covers a surface with an image; null takes it away. @param {0 | 1} side @param {HTMLCanvasElement | null} image */
   setImage(side, image) {
     const material = this.#sides[side].surface?.material;
-    if (!material) return;
+    if (!material || (material.userData.image ?? null) === image) return;
+    material.userData.image = image;
     material.map?.dispose();
-    material.map = image && new this.#three.CanvasTexture(image);
+    material.map = image && new this.#three.CanvasTexture(onSteel(image));
     material.matcap = this.#matcaps[image || material.vertexColors ? 1 : 0];
     material.needsUpdate = true;
     this.drawSoon();
@@ -271,13 +289,13 @@ export class SceneView {
         const geometry = new three.LineSegmentsGeometry();
         geometry.setPositions(this.#scaled(strokes.flatMap(({ points }) => points.slice(1).flatMap((point, i) => [...points[i], ...point]))).array);
         geometry.setColors(strokes.flatMap(({ points, colour }) => points.slice(1).flatMap(() => [...colour, ...colour].map((value) => value / 255))));
-        group.add(new three.LineSegments2(geometry, new three.LineMaterial({ linewidth: width, vertexColors: true })));
+        group.add(new three.LineSegments2(geometry, this.#material(`line ${width}`, () => new three.LineMaterial({ linewidth: width, vertexColors: true }))));
       }
       if (dots.length > 0) {
         const geometry = new three.BufferGeometry();
         geometry.setAttribute('position', this.#scaled(dots.flatMap(({ points }) => points[0])));
         geometry.setAttribute('color', new three.BufferAttribute(Float32Array.from(dots.flatMap(({ colour }) => colour), (value) => value / 255), 3));
-        group.add(new three.Points(geometry, new three.PointsMaterial({ vertexColors: true, size: width, sizeAttenuation: false })));
+        group.add(new three.Points(geometry, this.#material(`dot ${width}`, () => new three.PointsMaterial({ vertexColors: true, size: width, sizeAttenuation: false }))));
       }
     }
     this.#replace(side, 'lines', lines.length > 0 ? group : null);
@@ -304,12 +322,14 @@ export class SceneView {
 
   /** Zooms and moves the camera so that the surfaces fill the frame as they are seen now. */
   fit() {
-    if (this.#size.width === 0) return;
+    this.#isFitDue = this.#size.width === 0;
+    if (this.#isFitDue) return;
     this.#camera.updateMatrixWorld();
     const [point, stretch] = [new this.#three.Vector3(), this.#stretch];
     const [low, high] = [[Infinity, Infinity], [-Infinity, -Infinity]];
-    for (const { surface } of this.#sides) {
-      const array = surface?.geometry.getAttribute('position').array ?? [];
+    // The box of heights also holds what they unfold to.
+    const corners = this.#options.isSeenFromAbove ? [this.#scaled(cornersOf(this.#box))] : [];
+    for (const { array } of [...corners, ...this.#sides.flatMap(({ surface }) => surface?.geometry.getAttribute('position') ?? [])]) {
       for (let i = 0; i < array.length; i += 3) {
         point.fromArray(array, i).multiply(stretch).applyMatrix4(this.#camera.matrixWorldInverse);
         [low[0], high[0]] = [Math.min(low[0], point.x), Math.max(high[0], point.x)];
@@ -485,6 +505,7 @@ export class SceneView {
   draw(ratio = this.#options.size ? 1 : window.devicePixelRatio) {
     const { width, height } = this.#size;
     if (width === 0) return;
+    if (this.#isFitDue) this.fit();
     // A canvas that is resized, even to its own size, is made anew.
     const size = [width, height, ratio].join();
     if (size !== this.#shownSize) {
@@ -508,8 +529,10 @@ export class SceneView {
     this.#options.onDraw?.();
   }
 
-  /** Frees the memory of the graphics card. */
+  /** Frees the memory of the graphics card, and all that listens. */
   dispose() {
+    this.#turning.abort();
+    this.#listeners.abort();
     this.#controls.dispose();
     this.#renderer.dispose();
     this.#renderer.forceContextLoss();
@@ -527,6 +550,23 @@ function hasGraphicsCard() {
 /** The position of a vertex. @param {ArrayLike<number>} positions @param {number} vertex @returns {Vector} */
 export function vectorAt(positions, vertex) {
   return [positions[3 * vertex], positions[3 * vertex + 1], positions[3 * vertex + 2]];
+}
+
+/** The corners of a box: x, y, z of each. @param {Box} box @returns {number[]} */
+function cornersOf({ low, high }) {
+  return Array.from({ length: 8 }, (_, i) => low.map((value, k) => ((i >> k) & 1 ? high[k] : value))).flat();
+}
+
+/** An image with steel where it has no colour. @param {HTMLCanvasElement} image */
+function onSteel(image) {
+  const { width, height } = image;
+  const filled = Object.assign(document.createElement('canvas'), { width, height });
+  const context = filled.getContext('2d');
+  if (!context) return image;
+  context.fillStyle = STEEL_COLOUR;
+  context.fillRect(0, 0, width, height);
+  context.drawImage(image, 0, 0);
+  return filled;
 }
 
 /** The bounding box of positions. @param {ArrayLike<number>} positions @returns {Box} */

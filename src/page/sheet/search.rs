@@ -237,12 +237,15 @@ pub(super) fn find_sheet(
             (problem, model) = (crumpled, PageModel::SoftSheet);
         }
     }
-    // A page that is curled in one direction explains edges and lines better than a sheet that is equally firm in both.
-    let curled =
-        (model == PageModel::Sheet).then_some([BentEdges::TopBottom, BentEdges::LeftRight]);
+    // A page that is curled in one direction explains edges and lines better than a sheet that is equally firm in both, and
+    // better than one that may wrinkle: a strong curl is no crumple.
+    let curled = (traces.bent.is_none()).then_some([BentEdges::TopBottom, BentEdges::LeftRight]);
     for bent in curled.into_iter().flatten() {
         let mut ruled = problem.clone();
-        ruled.weights.bending = ruled_bending(bent);
+        ruled.weights = SheetWeights {
+            bending: ruled_bending(bent),
+            ..traces.firm_weights()
+        };
         ruled.lines.clear();
         ruled.folds.clear();
         let Some(own) = ruled.curled_fit(&coarse, &starts, &print) else {

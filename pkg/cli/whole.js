@@ -24,7 +24,7 @@ export async function whole(task, signal) {
   if (task.explore || task.sheets !== undefined) return planned(task, mesh, signal);
   const exact = task.command === 'pattern' && await isExact(task, mesh);
   const surface = task.asIs || exact ? undefined : await fitted(task, mesh, signal);
-  const files = await made[task.command](task, surface ?? mesh, mesh);
+  const files = await made[task.command](task, surface ?? mesh, mesh, exact);
   await writeWhole(files, signal);
   if (surface !== undefined) tell(task, surface, mesh);
 }
@@ -41,7 +41,8 @@ async function isExact({ input, asIs, blank }, mesh) {
   }
   if (kind === 'noisy') return false;
   if (kind === 'noisyFaces') {
-    say(`${input} has ${faces} flat faces, from which its vertices differ by ${Number(noise.toPrecision(2))} in the file's unit: they are laid flat without that`);
+    if (asIs) return false;
+    say(`${input} looks like ${faces === 1 ? '1 flat face' : `${faces} flat faces`} with noise of ${Number(noise.toPrecision(2))} in the file's unit: the noise is removed (--as-is keeps it)`);
   } else if (!asIs) say(`${input} is taken as it is: its ${kind === 'faces' ? 'faces are exact' : 'vertices have no noise'}`);
   return true;
 }
@@ -59,7 +60,7 @@ function fitted(task, mesh, signal) {
     .finally(() => line.clear());
 }
 
-/** What each command writes. @type {Record<string, (task: Task, surface: Mesh, mesh: Mesh) => Promise<File[]>>} */
+/** What each command writes. @type {Record<string, (task: Task, surface: Mesh, mesh: Mesh, exact: boolean) => Promise<File[]>>} */
 const made = {
   async fit({ output, extension, report: path }, surface) {
     const { report } = /** @type {import('../types.js').MeshSurface} */ (surface);
@@ -87,8 +88,8 @@ const made = {
     return [{ path: output, bytes }, ...(path === undefined ? [] : [{ path, bytes: json({ ...report, patches, creases }) }])];
   },
 
-  async pattern(task, surface, mesh) {
-    const pattern = await developable.patternMesh(surface, { ...drawingOptions(task), exact: surface === mesh ? undefined : false });
+  async pattern(task, surface, _mesh, exact) {
+    const pattern = await developable.patternMesh(surface, { ...drawingOptions(task), exact: exact ? undefined : false });
     reportPattern(task, pattern);
     return patternFiles(task, pattern);
   },

@@ -159,6 +159,21 @@ fn a_closed_box_with_noise_has_six_faces_though_no_vertex_lies_on_its_edges() {
 }
 
 #[test]
+fn walls_that_are_partly_round_and_steps_have_no_faces() {
+    let mixed: [Roof; 3] = [
+        // A quarter is round, and so is a twelfth.
+        ("bay", 0, |x, _| (36.0 - (x - 9.0).max(0.0).powi(2)).sqrt()),
+        ("edge", 0, |x, _| (4.0 - (x - 11.0).max(0.0).powi(2)).sqrt()),
+        // Treads of which one row of triangles each is the riser.
+        ("stairs", 0, |x, _| (x / 2.95).floor()),
+    ];
+    for roof in mixed {
+        let found = noisy_faces(&scan(roof, Tessellation::Regular, 60, 0.003, 3)).unwrap();
+        assert!(found.is_none(), "{}", roof.0);
+    }
+}
+
+#[test]
 fn smooth_surfaces_with_noise_have_no_faces() {
     for roof in BENT {
         for (seed, triangles) in (0..).zip(Tessellation::ALL) {

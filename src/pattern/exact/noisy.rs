@@ -1,6 +1,8 @@
 //! Polyhedra with noise, as scans of buildings and boxes are: their planes, and the exact faces that these make.
 
-use rustc_hash::{FxHashMap, FxHashSet};
+use std::collections::{BTreeMap, BTreeSet};
+
+use rustc_hash::FxHashMap;
 
 use super::FoundFaces;
 use super::planes::{MAX_DEVIATION_SIGMAS, NoisyPlanes};
@@ -19,15 +21,18 @@ const MIN_EDGE_SIGMAS: f64 = 10.0;
 /// Cosine of the angle opposite to the border, 150°, from which a triangle is a bridge between vertices of the border.
 const MAX_BRIDGE_COSINE: f64 = -0.866;
 
-/// Maximum difference of the area of the faces from that of the mesh on their planes, as a share.
+/// Maximum difference of the area of each face from that of the mesh on its plane, as a share, and of all from all.
 const MAX_AREA_DIFFERENCE: f64 = 0.05;
+
+/// Maximum share of the area that bridges of the border have: more are faces of their own, such as the risers of steps.
+const MAX_BRIDGE_SHARE: f64 = 0.01;
 
 /// Minimum number of edges of a border whose ends do not count for its straight parts.
 const MIN_BORDER_EDGES: usize = 4;
 
 /// Recognises a polyhedron with noise, and finds its faces: planes that explain all vertices as nearly as neighbouring vertices
-/// explain each other. `None` for a mesh without noise, or with other shapes. Faces meet where their planes do; more than three at a
-/// corner only but for a part of the noise, by which they are then not flat.
+/// explain each other. `None` for a mesh without noise, or with other shapes. Faces meet where their planes do. More than three
+/// planes have no common point in general: there the faces are flat but for a part of the noise.
 ///
 /// Costs `O(vertices · log(vertices))`, and for faces with `n` corners `O(n²)`.
 ///
@@ -71,7 +76,10 @@ impl<'a> Divided<'a> {
         let mut places = solid.places.clone();
         let mut between: FxHashMap<[u32; 2], u32> = FxHashMap::default();
         let (mut triangles, mut labels) = (Vec::new(), Vec::new());
-        for corners in without_bridges(solid, found) {
+        let Some(kept) = without_bridges(solid, found) else {
+            return Ok(None);
+        };
+        for corners in kept {
             let own = corners.map(|v| found.labels[v as usize]);
             // Begins with the corner that differs from both others, if there is one.
             let first = (0..3)
@@ -188,7 +196,7 @@ impl<'a> Divided<'a> {
             }
         }
         // Planes at each vertex of a line.
-        let mut planes: FxHashMap<u32, FxHashSet<u32>> = FxHashMap::default();
+        let mut planes: BTreeMap<u32, BTreeSet<u32>> = BTreeMap::new();
         for side in loops.iter().flatten() {
             for v in half_edge_ends(&self.triangles, *side) {
                 planes.entry(v).or_default().insert(self.label(*side));
@@ -212,21 +220,22 @@ impl<'a> Divided<'a> {
                 joined.union(a, b);
             }
         }
-        let mut groups: FxHashMap<u32, Vec<u32>> = FxHashMap::default();
+        let mut groups: BTreeMap<u32, Vec<u32>> = BTreeMap::new();
         for v in planes.keys() {
             groups.entry(joined.find(*v)).or_default().push(*v);
         }
         for (root, members) in groups.iter().filter(|(_, members)| members.len() > 1) {
-            let own = members.iter().flat_map(|v| &planes[v]).copied().collect();
+            let own: BTreeSet<u32> = members.iter().flat_map(|v| &planes[v]).copied().collect();
             let mean = members
                 .iter()
                 .map(|v| self.places[*v as usize])
                 .sum::<Place>()
                 / members.len() as f64;
             self.places[*root as usize] = self.found.corner(mean, &own);
+            planes.insert(*root, own);
         }
         // Where a straight border meets a crease or another one, as all their points tell.
-        let mut meetings: FxHashMap<u32, Vec<Place>> = FxHashMap::default();
+        let mut meetings: BTreeMap<u32, Vec<Place>> = BTreeMap::new();
         let mut lines: Vec<Vec<Vec<u32>>> = vec![Vec::new(); self.found.planes.len()];
         for line in &loops {
             let mut polygon = Vec::new();
@@ -262,8 +271,8 @@ impl<'a> Divided<'a> {
     fn border(
         &self,
         vertices: &[u32],
-        planes: &FxHashMap<u32, FxHashSet<u32>>,
-        meetings: &mut FxHashMap<u32, Vec<Place>>,
+        planes: &BTreeMap<u32, BTreeSet<u32>>,
+        meetings: &mut BTreeMap<u32, Vec<Place>>,
     ) -> Vec<u32> {
         let points: Vec<Place> = vertices.iter().map(|v| self.places[*v as usize]).collect();
         let last = points.len() - 1;
@@ -328,7 +337,19 @@ impl<'a> Divided<'a> {
                 .map(|line| line.iter().map(flat).collect())
                 .collect();
             let own: f64 = flat.iter().map(|line| polygon_area(line)).sum();
-            difference += (own - area.abs()).abs();
+            // The border of a face is known but for the noise.
+            let perimeter: f64 = (flat.iter())
+                .flat_map(|line| (0..line.len()).map(|k| (line[k], line[(k + 1) % line.len()])))
+                .map(|(a, b)| (b - a).norm())
+                .sum();
+            let off = (own - area.abs()).abs();
+            if off
+                > MAX_AREA_DIFFERENCE * area.abs()
+                    + MAX_DEVIATION_SIGMAS * self.found.noise * perimeter
+            {
+                return None;
+            }
+            difference += off;
             all += area.abs();
             let (numbers, points) = (lines.concat(), flat.concat());
             for t in triangulate(flat)? {
@@ -341,8 +362,8 @@ impl<'a> Divided<'a> {
 }
 
 /// Triangles without those of several planes along the border whose corners lie nearly on a line, or whose planes do not meet there:
-/// they only bridge vertices that are the border, as the hull of scattered points does.
-fn without_bridges(solid: &Polyhedron, found: &NoisyPlanes) -> Vec<[u32; 3]> {
+/// they only bridge vertices that are the border, as the hull of scattered points does. `None` if they are more than that.
+fn without_bridges(solid: &Polyhedron, found: &NoisyPlanes) -> Option<Vec<[u32; 3]>> {
     let mut is_left = vec![true; solid.triangles.len()];
     let mut open: Vec<usize> = (0..is_left.len()).collect();
     while let Some(t) = open.pop() {
@@ -378,10 +399,18 @@ fn without_bridges(solid: &Polyhedron, found: &NoisyPlanes) -> Vec<[u32; 3]> {
             );
         }
     }
+    let area = |t: usize| {
+        let [a, b, c] = solid.corners(t);
+        (b - a).cross(&(c - a)).norm()
+    };
+    let sum = |triangles: &mut dyn Iterator<Item = usize>| triangles.map(area).sum::<f64>();
+    let bridges = sum(&mut (0..is_left.len()).filter(|t| !is_left[*t]));
+    if bridges > MAX_BRIDGE_SHARE * sum(&mut (0..is_left.len())) {
+        return None;
+    }
     let left = solid.triangles.iter().zip(is_left);
-    left.filter(|(_, is_left)| *is_left)
-        .map(|(t, _)| *t)
-        .collect()
+    let left = left.filter(|(_, is_left)| *is_left).map(|(t, _)| *t);
+    Some(left.collect())
 }
 
 /// The point of an edge between vertices of two planes that is nearest to both.

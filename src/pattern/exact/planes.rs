@@ -1,5 +1,7 @@
 //! Planes in a mesh with noise: regions of vertices that lie in one plane as nearly as the noise lets them.
 
+use std::collections::BTreeSet;
+
 use nalgebra::Matrix3;
 use rustc_hash::FxHashSet;
 
@@ -30,16 +32,21 @@ const MAX_ASSIGNMENT_ROUNDS: usize = 8;
 /// Maximum ratio of the deviations of a region from a plane for two regions and from its own.
 const MAX_MERGED_DEVIATION_RATIO: f64 = 1.2;
 
-/// Maximum share of the squared distances from the planes that quadratics explain: more is the shape of a bent surface.
+/// Maximum share of the squared distances from its plane that a quadratic explains in a face: more is the shape of a bent surface.
 const MAX_BENT_SHARE: f64 = 0.2;
 
 /// Maximum correlation of the distances of neighbouring vertices from their plane.
 const MAX_NEIGHBOUR_CORRELATION: f64 = 0.5;
 
+/// Sum of squared distances, in variances, that a quadratic explains by chance in noise: four standard deviations above the mean
+/// of a chi-squared of three degrees.
+const MAX_CHANCE_VARIANCES: f64 = 13.0;
+
 /// Minimum squared sine of the angle between planes that decide where a corner is.
 const MIN_SQUARED_SINE: f64 = 1e-4;
 
-/// Minimum extent of a face (root mean square distance from its middle) in standard deviations of the noise.
+/// Minimum extent of a face across its length (root mean square distance from its middle) in standard deviations of the noise: the
+/// plane of a single row of vertices may have any tilt.
 const MIN_FACE_SIGMAS: f64 = 15.0;
 
 /// Maximum share of the vertices that lie in no plane.
@@ -64,17 +71,54 @@ impl Plane {
     }
 }
 
-/// The plane nearest to points, and the variance of their distances from it.
-fn fit_plane(points: impl Iterator<Item = Place> + Clone) -> Option<(Plane, f64)> {
-    let count = points.clone().count();
-    if count <= 3 {
-        return None;
+/// Number of points, their sum, and the sum of the products of their coordinates.
+#[derive(Debug, Clone, Copy, Default)]
+struct Spread {
+    count: f64,
+    sum: Place,
+    products: Matrix3<f64>,
+}
+
+impl Spread {
+    fn of(points: impl Iterator<Item = Place>) -> Spread {
+        points.fold(Spread::default(), |spread, p| Spread {
+            count: spread.count + 1.0,
+            sum: spread.sum + p,
+            products: spread.products + p * p.transpose(),
+        })
     }
-    let origin = points.clone().sum::<Place>() / count as f64;
-    let spread = points.map(|p| (p - origin) * (p - origin).transpose());
-    let [_, _, (least, normal)] = symmetric_eigen3(spread.sum::<Matrix3<f64>>());
-    let variance = least.max(0.0) / (count - 3) as f64;
-    Some((Plane { origin, normal }, variance))
+
+    fn with(&self, other: &Spread) -> Spread {
+        Spread {
+            count: self.count + other.count,
+            sum: self.sum + other.sum,
+            products: self.products + other.products,
+        }
+    }
+
+    /// Sum of the products of the coordinates from the mean.
+    fn scatter(&self) -> Matrix3<f64> {
+        self.products - self.sum * self.sum.transpose() / self.count
+    }
+
+    /// Sum of the squared distances from a plane.
+    fn squares_from(&self, plane: &Plane) -> f64 {
+        let off = plane.distance(&(self.sum / self.count));
+        (plane.normal.dot(&(self.scatter() * plane.normal))).max(0.0) + self.count * off * off
+    }
+
+    /// The nearest plane, and the variance of the distances from it.
+    fn plane(&self) -> Option<(Plane, f64)> {
+        if self.count <= 3.0 {
+            return None;
+        }
+        let origin = self.sum / self.count;
+        let [_, _, (least, normal)] = symmetric_eigen3(self.scatter());
+        Some((
+            Plane { origin, normal },
+            least.max(0.0) / (self.count - 3.0),
+        ))
+    }
 }
 
 /// Planes that explain all vertices of a mesh but for noise.
@@ -88,7 +132,7 @@ pub(super) struct NoisyPlanes {
 
 impl NoisyPlanes {
     /// The place nearest to a given one at which planes meet, or come nearest to each other.
-    pub(super) fn corner(&self, from: Place, planes: &FxHashSet<u32>) -> Place {
+    pub(super) fn corner(&self, from: Place, planes: &BTreeSet<u32>) -> Place {
         let (mut matrix, mut right) = (Matrix3::zeros(), Place::zeros());
         for plane in planes.iter().map(|k| &self.planes[*k as usize]) {
             matrix += plane.normal * plane.normal.transpose();
@@ -163,7 +207,12 @@ impl Search<'_> {
     }
 
     fn fit(&self, members: &[u32]) -> Option<(Plane, f64)> {
-        fit_plane(members.iter().map(|v| self.places[*v as usize]))
+        // About the first point: squares of coordinates lose digits.
+        let first = self.places[*members.first()? as usize];
+        let spread = Spread::of(members.iter().map(|v| self.places[*v as usize] - first));
+        let (plane, variance) = spread.plane()?;
+        let origin = plane.origin + first;
+        Some((Plane { origin, ..plane }, variance))
     }
 
     fn planes(&self, seeds: &[u32], noise: f64) -> Option<NoisyPlanes> {
@@ -248,33 +297,36 @@ impl Search<'_> {
             .collect();
         pairs.sort_unstable();
         pairs.dedup();
-        let mut regions = self.regions(labels);
+        let regions = self.regions(labels);
+        let place = |v: &u32| self.places[*v as usize];
+        let mut spreads: Vec<Spread> = (regions.iter())
+            .map(|region| Spread::of(region.iter().map(place)))
+            .collect();
+        let mut joined: Vec<u32> = (0..regions.len() as u32).collect();
         for [a, b] in pairs {
-            let both: Vec<u32> = [a, b]
-                .iter()
-                .flat_map(|k| &regions[*k as usize])
-                .copied()
-                .collect();
-            let Some((plane, _)) = self.fit(&both) else {
+            let [one, other] = [a, b].map(|k| spreads[k as usize]);
+            let both = one.with(&other);
+            let Some((plane, _)) = both.plane() else {
                 continue;
             };
-            let is_explained = |region: &Vec<u32>| {
-                let Some((_, own)) = self.fit(region) else {
-                    return true;
-                };
-                let joint = region
-                    .iter()
-                    .map(|v| plane.distance(&self.places[*v as usize]).powi(2));
-                joint.sum::<f64>() <= MAX_MERGED_DEVIATION_RATIO.powi(2) * own * region.len() as f64
+            let is_explained = |own: &Spread| {
+                own.plane().is_none_or(|(_, variance)| {
+                    own.squares_from(&plane)
+                        <= MAX_MERGED_DEVIATION_RATIO.powi(2) * variance * own.count
+                })
             };
-            let has_any = [a, b].iter().all(|k| !regions[*k as usize].is_empty());
-            if has_any && [a, b].iter().all(|k| is_explained(&regions[*k as usize])) {
-                regions[a as usize].clear();
-                regions[b as usize] = both;
+            let has_any = one.count > 0.0 && other.count > 0.0;
+            if has_any && is_explained(&one) && is_explained(&other) {
+                (spreads[a as usize], spreads[b as usize]) = (Spread::default(), both);
+                joined[a as usize] = b;
             }
         }
-        for (label, region) in (0u32..).zip(&regions) {
-            region.iter().for_each(|v| labels[*v as usize] = label);
+        // A region joins a later one only, which may have joined another.
+        for k in (0..joined.len()).rev() {
+            joined[k] = joined[joined[k] as usize];
+        }
+        for (label, region) in joined.iter().zip(&regions) {
+            region.iter().for_each(|v| labels[*v as usize] = *label);
         }
     }
 
@@ -304,18 +356,11 @@ impl Search<'_> {
         Some(planes)
     }
 
-    /// Root mean square distance of vertices from their mean.
-    fn extent(&self, members: &[u32]) -> f64 {
-        let count = members.len() as f64;
-        let mean = members
-            .iter()
-            .map(|v| self.places[*v as usize])
-            .sum::<Place>()
-            / count;
-        let squares = members
-            .iter()
-            .map(|v| (self.places[*v as usize] - mean).norm_squared());
-        (squares.sum::<f64>() / count).sqrt()
+    /// Root mean square distances of vertices from their mean, along the directions in which they are longest and second longest.
+    fn extents(&self, members: &[u32]) -> [f64; 2] {
+        let spread = Spread::of(members.iter().map(|v| self.places[*v as usize]));
+        let [(long, _), (middle, _), _] = symmetric_eigen3(spread.scatter());
+        [long, middle].map(|value| (value.max(0.0) / spread.count).sqrt())
     }
 
     /// The planes with the noise that they leave, if the mesh is a polyhedron with noise: nearly all vertices lie in the planes, and
@@ -331,19 +376,25 @@ impl Search<'_> {
             }
         }
         let is_inner = |v: &u32| !distances[*v as usize].is_nan();
-        let (mut all, mut bent) = (0.0, 0.0);
+        let (mut all, mut bent) = (0.0, 0);
         for (region, plane) in regions.iter().zip(&found.planes) {
             let [x, y] = plane.axes();
-            let size = self.extent(region);
+            let [size, _] = self.extents(region);
             let mut quadratic = LeastSquares::<6>::new();
+            let mut own = 0.0;
             for v in region.iter().filter(|v| is_inner(v)) {
                 let off = self.places[*v as usize] - plane.origin;
                 let [p, q] = [x, y].map(|axis| axis.dot(&off) / size);
                 let row = [1.0, p, q, p * p, p * q, q * q].into();
                 quadratic.add(&row, [distances[*v as usize]], 1.0);
-                all += distances[*v as usize].powi(2);
+                own += distances[*v as usize].powi(2);
             }
-            bent += (quadratic.solve()?.transpose() * quadratic.right).x;
+            all += own;
+            let explained = (quadratic.solve()?.transpose() * quadratic.right).x;
+            let chance = MAX_CHANCE_VARIANCES * own / region.len() as f64;
+            if explained > MAX_BENT_SHARE * own + chance {
+                bent += region.len();
+            }
         }
         let (mut products, mut squares) = (0.0, 0.0);
         for v in (0..distances.len() as u32).filter(is_inner) {
@@ -357,12 +408,15 @@ impl Search<'_> {
         }
         let inner = (0..distances.len() as u32).filter(is_inner).count();
         let noise = (all / inner as f64).sqrt();
-        let is_large = |region: &Vec<u32>| self.extent(region) >= MIN_FACE_SIGMAS * noise;
-        let is_polyhedron = inner as f64 >= (1.0 - MAX_OUTLIER_SHARE) * distances.len() as f64
-            && bent <= MAX_BENT_SHARE * all
+        let is_large = |region: &Vec<u32>| self.extents(region)[1] >= MIN_FACE_SIGMAS * noise;
+        // Vertices without triangles are none of the surface.
+        let used = (found.labels.iter().zip(&self.around)).filter(|(_, near)| !near.is_empty());
+        let count = used.clone().count() as f64;
+        let is_polyhedron = inner as f64 >= (1.0 - MAX_OUTLIER_SHARE) * count
+            && bent as f64 <= MAX_OUTLIER_SHARE * count
             && products <= MAX_NEIGHBOUR_CORRELATION * squares
             && regions.iter().all(is_large)
-            && !found.labels.contains(&NO_INDEX);
+            && used.clone().all(|(label, _)| *label != NO_INDEX);
         is_polyhedron.then_some(NoisyPlanes { noise, ..found })
     }
 }

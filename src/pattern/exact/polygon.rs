@@ -4,6 +4,9 @@ use super::polyhedron::Place;
 use crate::math::planar::{Point2, orientation, polygon_area, segments_intersect};
 use crate::math::symmetric_eigen::symmetric_eigen3;
 
+/// Maximum number of corners of a face: cutting off ears costs the cube of it, a second for these.
+const MAX_FACE_CORNERS: usize = 600;
+
 /// Minimum sine of the angle between two lines whose corner is where they meet, and not where it was measured.
 const MIN_CORNER_SINE: f64 = 0.2;
 
@@ -96,6 +99,9 @@ pub(super) fn triangulate(lines: Vec<Vec<Point2>>) -> Option<Vec<[usize; 3]>> {
             false => holes.push(numbers),
         }
     }
+    if points.len() > MAX_FACE_CORNERS {
+        return None;
+    }
     let [mut ring] = <[Vec<usize>; 1]>::try_from(outer).ok()?;
     while !holes.is_empty() {
         // The shortest bridge to a hole that crosses no line.
@@ -152,6 +158,10 @@ pub(super) fn triangulate(lines: Vec<Vec<Point2>>) -> Option<Vec<[usize; 3]>> {
         triangles.push(corner(ear));
         ring.remove(ear);
     }
-    triangles.push([ring[0], ring[1], ring[2]]);
-    Some(triangles)
+    let last = [ring[0], ring[1], ring[2]];
+    let turn = orientation(points[last[0]], points[last[1]], points[last[2]]);
+    if turn > 0.0 {
+        triangles.push(last);
+    }
+    (turn >= 0.0).then_some(triangles)
 }

@@ -176,7 +176,9 @@ pub fn rolled_faces(mesh: &Mesh) -> Option<FoundFaces> {
         }
     }
     divided.faces.normals.clone_from(&solid.normals);
-    rolls.iter().for_each(|roll| divided.divide(roll));
+    for roll in &rolls {
+        divided.divide(roll)?;
+    }
     let Division { places, faces, .. } = divided;
     let solid = Polyhedron::from_faces(places, faces, MAX_DISTANCE_ROUNDINGS * solid.rounding);
     Some(FoundFaces {
@@ -410,8 +412,8 @@ struct Division<'a> {
 }
 
 impl Division<'_> {
-    /// Divides the triangles of a bend along its rulings, and lays them flat.
-    fn divide(&mut self, roll: &Roll) {
+    /// Divides the triangles of a bend along its rulings, and lays them flat; `None` where two faces touch one side of it, as tabs do.
+    fn divide(&mut self, roll: &Roll) -> Option<()> {
         let (solid, cylinder) = (self.solid, &roll.cylinder);
         let near = MAX_DISTANCE_ROUNDINGS * solid.rounding;
         let own = &roll.triangles;
@@ -432,7 +434,10 @@ impl Division<'_> {
         let mut beyond = [None; 2];
         for (face, touch) in &roll.faces {
             let k = usize::from(*touch > middle);
-            (ends[k], beyond[k]) = (*touch, Some(*face));
+            ends[k] = *touch;
+            if beyond[k].replace(*face).is_some() {
+                return None;
+            }
         }
         let span = ends[1] - ends[0];
         let count = (span / MAX_STRIP_ANGLE).ceil().max(1.0) as u32;
@@ -510,6 +515,7 @@ impl Division<'_> {
                 }
             }
         }
+        Some(())
     }
 
     /// Position of a place in the plane of a face.

@@ -358,7 +358,7 @@ test('a block of 2 × 1 × 0.5, as programs for inches write it, is drawn once i
   await direct.load('meshes');
   const folder = await temporaryFolder();
   await writeFile(join(folder, 'block.stl'), direct.writeStl(boxTo([2, 1, 0.5])));
-  assert.match((await run(folder, ['info', 'block.stl'])).stdout, /^unit: +not known$[^]*^assumed: +.*side of 2 is too short for millimetres; are they inches or metres\? \(--unit/m);
+  assert.match((await run(folder, ['info', 'block.stl'])).stdout, /^unit: +not known$[^]*^assumed: +.*side of 2 is too short for millimetres, and may be inches or metres \(--unit/m);
   const asked = ['pattern', 'block.stl', '--surface', '--as-is', '-o', 'block.svg', '--report', 'block.json'];
   const refused = await run(folder, asked);
   assert.equal(refused.status, 2);

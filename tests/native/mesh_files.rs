@@ -124,7 +124,7 @@ fn units_by_what_the_file_says_or_by_its_size() {
         (
             2.0,
             None,
-            "too short for millimetres; are they inches or metres?",
+            "too short for millimetres, and may be inches or metres",
         ),
         (0.06, None, "too short for millimetres"),
         (1.2e4, None, "no unit"),

@@ -96,7 +96,7 @@ pub(super) fn assumed_unit(mesh: &Mesh) -> (Option<Unit>, Assumption) {
         )
     } else if longest < MIN_MILLIMETRE_SIDE {
         let words = format!(
-            "lengths have no unit: a longest side of {side} is too short for millimetres; are they inches or metres?"
+            "lengths have no unit: a longest side of {side} is too short for millimetres, and may be inches or metres"
         );
         (None, words)
     } else {

@@ -4,6 +4,7 @@
  */
 import { AnswerCache, runInWorker } from './worker-task.js';
 import { Events } from './events.js';
+import { boxOf } from './surface/triangles.js';
 
 /** @import {Api, Mesh} from './api.js' */
 /** @import {Worker} from './worker-task.js' */
@@ -156,14 +157,8 @@ function geometryOf({ positions, triangles, unit }) {
 
 /** Sides of the bounding box of a mesh, along x, y and z. @param {Pick<Mesh, 'positions'>} mesh */
 export function boundingBoxSides({ positions }) {
-  return [0, 1, 2].map((k) => {
-    let [low, high] = [Infinity, -Infinity];
-    for (let i = k; i < positions.length; i += 3) {
-      low = Math.min(low, positions[i]);
-      high = Math.max(high, positions[i]);
-    }
-    return high - low;
-  });
+  const { low, high } = boxOf(positions);
+  return high.map((value, k) => value - low[k]);
 }
 
 /** Longest side of the bounding box of a mesh. @param {Pick<Mesh, 'positions'>} mesh */

@@ -3,6 +3,7 @@
 import { make } from './dom.js';
 import { FORMAT_WORDS, SOLID_WORDS } from './messages.js';
 import { suggestedSide } from './pattern.js';
+import { boxOf } from './surface/triangles.js';
 import { zip } from './zip.js';
 
 /** @import {Mesh} from './api.js' */
@@ -22,7 +23,7 @@ import { zip } from './zip.js';
  * @returns {{ positions: Float64Array, triangles: Uint32Array, wasOpen: boolean }}
  */
 export function solidOf({ positions, triangles }, { side, thickness, onBase }) {
-  const [low, high] = boundsOf(positions);
+  const { low, high } = boxOf(positions);
   const scale = side / Math.max(...high.map((value, k) => value - low[k]));
   const front = Float64Array.from(positions, (value, i) => (value - low[i % 3]) * scale);
   const rim = borderEdges(triangles);
@@ -35,23 +36,13 @@ export function solidOf({ positions, triangles }, { side, thickness, onBase }) {
   const all = new Float64Array(2 * front.length);
   all.set(front);
   all.set(back, front.length);
-  const [, , lowest] = boundsOf(all)[0];
+  const [, , lowest] = boxOf(all).low;
   for (let i = 2; i < all.length; i += 3) all[i] -= lowest;
   const faces = new Uint32Array(2 * triangles.length + 6 * rim.length);
   faces.set(triangles);
   for (let t = 0; t < triangles.length; t += 3) faces.set([triangles[t] + count, triangles[t + 2] + count, triangles[t + 1] + count], triangles.length + t);
   rim.forEach(([a, b], i) => faces.set([b, a, a + count, b, a + count, b + count], 2 * triangles.length + 6 * i));
   return { positions: all, triangles: faces, wasOpen: true };
-}
-
-/** The bounding box of positions. @param {Float64Array} positions */
-function boundsOf(positions) {
-  const [low, high] = [[Infinity, Infinity, Infinity], [-Infinity, -Infinity, -Infinity]];
-  positions.forEach((value, i) => {
-    low[i % 3] = Math.min(low[i % 3], value);
-    high[i % 3] = Math.max(high[i % 3], value);
-  });
-  return [low, high];
 }
 
 /** The edges with a triangle on one side only, in its direction. @param {Uint32Array} triangles @returns {[number, number][]} */

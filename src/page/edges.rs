@@ -47,8 +47,7 @@ pub enum Edges {
         /// The right edge of the page.
         right: Trace,
     },
-    /// All four edges, of which two opposite ones are bent and the others straight; which ones are bent is found out.
-    /// The straight ones check the page: they show a fold along the bent ones.
+    /// All four edges, each of which may be bent.
     All {
         /// The upper edge, as the page is read.
         top: Trace,

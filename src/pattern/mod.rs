@@ -55,7 +55,7 @@ mod trim;
 mod window;
 
 pub use exact::{
-    FoundFaces, NetOptions, SheetMetal, has_exact_faces, has_exact_vertices, noisy_faces,
+    FoundFaces, MeshKind, NetOptions, SheetMetal, has_exact_faces, has_exact_vertices, noisy_faces,
     pattern_exact, rolled_faces, sheet_metal,
 };
 pub use faces::Faces;

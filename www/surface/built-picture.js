@@ -1,7 +1,8 @@
 /** Draws a picture of an assembled pattern at an angle: its sheets in their colours, with their numbers. */
 import { readAssemblyMesh, borderLines } from './assembly-mesh.js';
 import { CREASE_COLOUR, patchColour } from './colours.js';
-import { boxOf, OBLIQUE_VIEWS, SceneView, vectorAt } from './scene.js';
+import { OBLIQUE_VIEWS, SceneView, vectorAt } from './scene.js';
+import { boxOf } from './triangles.js';
 
 /** @import {Vector} from './scene.js' */
 

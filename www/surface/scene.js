@@ -3,6 +3,7 @@ import { oncePerFrame } from '../dom.js';
 import { addGestures } from './gestures.js';
 import { light } from './light.js';
 import { fillMatcap, MATCAP_SIDE_TEXELS } from './matcap.js';
+import { boxOf } from './triangles.js';
 
 /** @import {DragTarget} from './gestures.js' */
 /** @import {Line} from './layer.js' */
@@ -567,14 +568,4 @@ function onSteel(image) {
   context.fillRect(0, 0, width, height);
   context.drawImage(image, 0, 0);
   return filled;
-}
-
-/** The bounding box of positions. @param {ArrayLike<number>} positions @returns {Box} */
-export function boxOf(positions) {
-  const [low, high] = [[Infinity, Infinity, Infinity], [-Infinity, -Infinity, -Infinity]];
-  for (let i = 0; i < positions.length; i++) {
-    low[i % 3] = Math.min(low[i % 3], positions[i]);
-    high[i % 3] = Math.max(high[i % 3], positions[i]);
-  }
-  return { low: /** @type {any} */ (low), high: /** @type {any} */ (high) };
 }

@@ -1,4 +1,6 @@
-/** Rasterises triangles, faster than a canvas draws many of them. */
+/** Rasterises triangles, faster than a canvas draws many of them, and measures them. */
+
+/** @import {Box} from './scene.js' */
 
 /**
  * Visits the pixels whose centres lie in a triangle, for each triangle. A pixel on a common edge is visited for both.
@@ -42,4 +44,14 @@ export function extentOf(places, stride = 2) {
     top = Math.max(top, places[i + 1]);
   }
   return { left, top, width: right - left, height: top - bottom };
+}
+
+/** The bounding box of positions. @param {ArrayLike<number>} positions x, y, z of each @returns {Box} */
+export function boxOf(positions) {
+  const [low, high] = [[Infinity, Infinity, Infinity], [-Infinity, -Infinity, -Infinity]];
+  for (let i = 0; i < positions.length; i++) {
+    low[i % 3] = Math.min(low[i % 3], positions[i]);
+    high[i % 3] = Math.max(high[i % 3], positions[i]);
+  }
+  return { low: /** @type {any} */ (low), high: /** @type {any} */ (high) };
 }

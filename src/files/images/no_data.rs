@@ -68,25 +68,22 @@ fn marker_of(values: &[f64]) -> Option<f64> {
             high[1] = value;
         }
     }
-    let candidates = [
-        (low[0], low[1] - low[0], high[0] - low[1]),
-        (high[0], high[0] - high[1], high[1] - low[0]),
-        // Both ends may be markers.
-        (low[0], low[1] - low[0], high[1] - low[1]),
-        (high[0], high[0] - high[1], high[1] - low[1]),
-    ];
     let is_repeated_marker = |value: f64| {
         let count = || values.iter().filter(|other| **other == value).count();
         is_marker(value) && count() >= MIN_REPETITIONS
     };
-    let ends = [low[0], high[0]].map(is_repeated_marker);
-    (candidates.into_iter().enumerate())
-        .filter(|(k, (_, gap, range))| {
-            let are_markers = ends[k % 2] && (*k < 2 || ends[1 - k % 2]);
-            are_markers && gap.is_finite() && *range > 0.0 && gap > range
-        })
-        .map(|(_, (value, ..))| value)
-        .next()
+    let [is_low, is_high] = [low[0], high[0]].map(is_repeated_marker);
+    let (below, above) = (low[1] - low[0], high[0] - high[1]);
+    // The gap beside an end, and the range of the other values; both ends may be markers.
+    let candidates = [
+        (is_low, low[0], below, high[0] - low[1]),
+        (is_high, high[0], above, high[1] - low[0]),
+        (is_low && is_high, low[0], below, high[1] - low[1]),
+        (is_low && is_high, high[0], above, high[1] - low[1]),
+    ];
+    (candidates.into_iter())
+        .find(|(may_be, _, gap, range)| *may_be && gap.is_finite() && *range > 0.0 && gap > range)
+        .map(|(_, value, ..)| value)
 }
 
 /// Whether a number is one by which programs mark missing values: zero, beyond what anybody measures, three or more nines

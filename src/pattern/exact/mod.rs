@@ -5,6 +5,7 @@
 //! strain, and both sides of each cut are equally long. Where sheets would overlap they are cut apart.
 
 mod bends;
+mod growth;
 mod metal;
 mod net;
 mod noisy;
@@ -25,7 +26,7 @@ use net::{EdgeChoices, Net};
 pub use noisy::noisy_faces;
 use patches::FlatPatches;
 use polyhedron::Polyhedron;
-pub use recognition::{has_exact_faces, has_exact_vertices};
+pub use recognition::{MeshKind, has_exact_faces, has_exact_vertices};
 pub use rolled::rolled_faces;
 
 /// Options of a net: the room for its sheets, and edges that a person decides about.
@@ -53,7 +54,7 @@ pub fn pattern_exact(mesh: &Mesh, options: &NetOptions) -> Result<MeshPattern> {
     pattern_of(&Polyhedron::new(mesh)?, options)
 }
 
-/// Faces that were found in a mesh whose triangles are none.
+/// The faces of a mesh whose triangles are too many or too noisy to be its faces themselves.
 pub struct FoundFaces {
     /// Number of faces.
     pub count: usize,
@@ -66,7 +67,7 @@ impl FoundFaces {
     /// Lays the faces flat, as [`pattern_exact`] does.
     ///
     /// # Errors
-    /// Those of `pattern_exact`.
+    /// The errors of [`pattern_exact`].
     pub fn pattern(&self, options: &NetOptions) -> Result<MeshPattern> {
         pattern_of(&self.solid, options)
     }

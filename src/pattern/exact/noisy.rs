@@ -403,9 +403,9 @@ fn without_bridges(solid: &Polyhedron, found: &NoisyPlanes) -> Option<Vec<[u32; 
         let [a, b, c] = solid.corners(t);
         (b - a).cross(&(c - a)).norm()
     };
-    let sum = |triangles: &mut dyn Iterator<Item = usize>| triangles.map(area).sum::<f64>();
-    let bridges = sum(&mut (0..is_left.len()).filter(|t| !is_left[*t]));
-    if bridges > MAX_BRIDGE_SHARE * sum(&mut (0..is_left.len())) {
+    let all = 0..is_left.len();
+    let bridges: f64 = all.clone().filter(|t| !is_left[*t]).map(area).sum();
+    if bridges > MAX_BRIDGE_SHARE * all.map(area).sum::<f64>() {
         return None;
     }
     let left = solid.triangles.iter().zip(is_left);

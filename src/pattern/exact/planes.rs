@@ -3,8 +3,8 @@
 use std::collections::BTreeSet;
 
 use nalgebra::Matrix3;
-use rustc_hash::FxHashSet;
 
+use super::growth::grow;
 use super::polyhedron::{Place, Polyhedron};
 use crate::math::index::NO_INDEX;
 use crate::math::least_squares::LeastSquares;
@@ -150,7 +150,7 @@ impl NoisyPlanes {
         let search = Search::new(solid);
         let mut order = Vec::new();
         for seed in 0..solid.places.len() as u32 {
-            let near = search.grow(seed, |near, _| near.len() < SEED_VERTICES);
+            let near = grow(&search.around, seed, |near, _| near.len() < SEED_VERTICES);
             if near.len() >= SEED_VERTICES {
                 order.push((search.fit(&near)?.1, seed));
             }
@@ -190,22 +190,6 @@ impl Search<'_> {
         }
     }
 
-    /// Connected vertices from one on, the nearest along edges first, that are admitted one after another.
-    fn grow(&self, seed: u32, admits: impl Fn(&[u32], u32) -> bool) -> Vec<u32> {
-        let mut seen = FxHashSet::from_iter([seed]);
-        let (mut members, mut next) = (vec![seed], 0);
-        while let Some(vertex) = members.get(next).copied() {
-            next += 1;
-            for other in &self.around[vertex as usize] {
-                if !seen.contains(other) && admits(&members, *other) {
-                    seen.insert(*other);
-                    members.push(*other);
-                }
-            }
-        }
-        members
-    }
-
     fn fit(&self, members: &[u32]) -> Option<(Plane, f64)> {
         // About the first point: squares of coordinates lose digits.
         let first = self.places[*members.first()? as usize];
@@ -226,13 +210,15 @@ impl Search<'_> {
             if !is_free(*seed) {
                 continue;
             }
-            let mut members = self.grow(*seed, |near, v| near.len() < SEED_VERTICES && is_free(v));
+            let mut members = grow(&self.around, *seed, |near, v| {
+                near.len() < SEED_VERTICES && is_free(v)
+            });
             for _ in 0..MAX_GROWTH_ROUNDS {
                 let before = members.len();
                 let Some((plane, _)) = self.fit(&members) else {
                     break;
                 };
-                members = self.grow(*seed, |_, v| is_free(v) && is_near(&plane, v));
+                members = grow(&self.around, *seed, |_, v| is_free(v) && is_near(&plane, v));
                 if members.len() <= before {
                     break;
                 }
@@ -339,7 +325,9 @@ impl Search<'_> {
             if is_done[first as usize] || before[first as usize] == NO_INDEX {
                 continue;
             }
-            let members = self.grow(first, |_, v| before[v as usize] == before[first as usize]);
+            let members = grow(&self.around, first, |_, v| {
+                before[v as usize] == before[first as usize]
+            });
             let is_region = members.len() >= SEED_VERTICES;
             let number = if is_region {
                 planes.len() as u32

@@ -1,7 +1,11 @@
 //! Tells meshes with exact faces from scans and from smooth surfaces.
 
+use super::FoundFaces;
+use super::noisy::noisy_faces;
 use super::patches::{bend_steps, inner_sides};
 use super::polyhedron::Polyhedron;
+use super::rolled::rolled_faces;
+use crate::error::Result;
 use crate::math::index::NO_INDEX;
 use crate::scene::half_edges::half_edge_ends;
 use crate::scene::mesh::Mesh;
@@ -25,6 +29,36 @@ const MIN_LOW_POLY_ANGLE: f64 = 8.0;
 
 /// Minimum share of the area of a mesh without noise that lies in planes of several triangles.
 const MIN_PLANAR_SHARE: f64 = 0.5;
+
+/// What a mesh is, and the faces that were found in it. Each kind is laid flat in its own way.
+pub enum MeshKind {
+    /// The faces of the mesh are exact: [`pattern_exact`](super::pattern_exact) lays them flat.
+    Faces,
+    /// The vertices of the mesh have noise about flat faces.
+    NoisyFaces(FoundFaces),
+    /// The vertices of the mesh are exact, and lie on flat faces and bends that are parts of cylinders.
+    Bends(FoundFaces),
+    /// The vertices of the mesh are exact, those of a smooth surface.
+    Surface,
+    /// The vertices of the mesh have noise: it is to be fitted first.
+    Noisy,
+}
+
+impl MeshKind {
+    /// Recognises a mesh; costs what [`noisy_faces`] and [`rolled_faces`] cost.
+    ///
+    /// # Errors
+    /// [`Error::OutOfMemory`](crate::Error::OutOfMemory).
+    pub fn of(mesh: &Mesh) -> Result<MeshKind> {
+        Ok(if has_exact_faces(mesh) {
+            MeshKind::Faces
+        } else if has_exact_vertices(mesh) {
+            rolled_faces(mesh).map_or(MeshKind::Surface, MeshKind::Bends)
+        } else {
+            noisy_faces(mesh)?.map_or(MeshKind::Noisy, MeshKind::NoisyFaces)
+        })
+    }
+}
 
 /// Returns whether the faces of a mesh are exact, so that nothing is gained by a fit: it is made of strips that bend, or its
 /// vertices have no noise and its faces are planes of several triangles, or so few that each is a face of its own.

@@ -6,6 +6,7 @@ use nalgebra::Matrix3;
 use rustc_hash::{FxHashMap, FxHashSet};
 
 use super::FoundFaces;
+use super::growth::grow;
 use super::patches::{inner_sides, is_step};
 use super::polyhedron::{KnownFaces, Place, Polyhedron};
 use crate::math::index::NO_INDEX;
@@ -201,18 +202,17 @@ impl Search<'_> {
         for (t, facet) in (0u32..).zip(&solid.facets) {
             triangles[*facet as usize].push(t);
         }
-        let is_slender = |side: u32| {
-            let sides = triangles[solid.facet(side) as usize]
-                .iter()
-                .flat_map(|t| 3 * t..3 * t + 3);
+        let is_slender = |(own, area): (&Vec<u32>, &f64)| {
+            let sides = own.iter().flat_map(|t| 3 * t..3 * t + 3);
             let longest = sides.map(|side| solid.length(side)).fold(0.0, f64::max);
-            solid.areas[solid.facet(side) as usize] < MAX_SLENDER_SHARE * longest * longest
+            *area < MAX_SLENDER_SHARE * longest * longest
         };
+        let is_slender: Vec<bool> = triangles.iter().zip(&solid.areas).map(is_slender).collect();
         let mut around = vec![Vec::new(); solid.normals.len()];
         for side in inner_sides(solid) {
             let twin = solid.twins[side as usize];
-            if is_step(solid, side) || is_slender(side) || is_slender(twin) {
-                let [a, b] = [side, twin].map(|s| solid.facet(s));
+            let [a, b] = [side, twin].map(|s| solid.facet(s));
+            if is_step(solid, side) || is_slender[a as usize] || is_slender[b as usize] {
                 around[a as usize].push(b);
                 around[b as usize].push(a);
             }
@@ -233,7 +233,7 @@ impl Search<'_> {
                 continue;
             }
             let is_free = |facet: u32| !is_tried[facet as usize];
-            let near = self.grow(seed, |near, facet| {
+            let near = grow(&self.around, seed, |near, facet| {
                 near.len() < SEED_FACETS && is_free(facet)
             });
             if let Some((cylinder, facets)) = self.cylinder(near) {
@@ -326,21 +326,6 @@ impl Search<'_> {
             .then_some(roll)
     }
 
-    fn grow(&self, seed: u32, admits: impl Fn(&[u32], u32) -> bool) -> Vec<u32> {
-        let mut seen = FxHashSet::from_iter([seed]);
-        let (mut members, mut next) = (vec![seed], 0);
-        while let Some(facet) = members.get(next).copied() {
-            next += 1;
-            for other in &self.around[facet as usize] {
-                if !seen.contains(other) && admits(&members, *other) {
-                    seen.insert(*other);
-                    members.push(*other);
-                }
-            }
-        }
-        members
-    }
-
     fn points(&self, facets: &[u32]) -> Vec<Place> {
         let triangles = facets
             .iter()
@@ -366,7 +351,9 @@ impl Search<'_> {
             if !is_on(&points) {
                 return None;
             }
-            let all = self.grow(facets[0], |_, facet| is_on(&self.points(&[facet])));
+            let all = grow(&self.around, facets[0], |_, facet| {
+                is_on(&self.points(&[facet]))
+            });
             if all.len() <= facets.len() {
                 let angles = points.iter().map(|p| cylinder.coordinates(p)[0]);
                 let [low, high] = angles.fold([f64::MAX, f64::MIN], |[low, high], a| {
@@ -435,7 +422,8 @@ impl Division<'_> {
         for (face, touch) in &roll.faces {
             let k = usize::from(*touch > middle);
             ends[k] = *touch;
-            if beyond[k].replace(*face).is_some() {
+            let frame = (*face, self.largest_triangle(*face));
+            if beyond[k].replace(frame).is_some() {
                 return None;
             }
         }
@@ -506,9 +494,9 @@ impl Division<'_> {
                                 )
                             }),
                         ),
-                        Some(face) => (
+                        Some((face, frame)) => (
                             face,
-                            corners.map(|v| self.flat_in(face, &self.places[v as usize])),
+                            corners.map(|v| self.flat_beside(frame, &self.places[v as usize])),
                         ),
                     };
                     self.faces.push(corners, number, flat);
@@ -518,15 +506,20 @@ impl Division<'_> {
         Some(())
     }
 
-    /// Position of a place in the plane of a face.
-    fn flat_in(&self, face: u32, place: &Place) -> Point2 {
+    /// The largest triangle of a face.
+    fn largest_triangle(&self, face: u32) -> usize {
         let solid = self.solid;
         let own = (0..solid.triangles.len()).filter(|t| solid.facets[*t] == face);
         let size = |t: &usize| {
             let [a, b, c] = solid.corners(*t);
             (b - a).cross(&(c - a)).norm()
         };
-        let t = own.max_by(|s, t| size(s).total_cmp(&size(t))).unwrap_or(0);
+        own.max_by(|s, t| size(s).total_cmp(&size(t))).unwrap_or(0)
+    }
+
+    /// Position of a place in the flattened plane of a triangle.
+    fn flat_beside(&self, t: usize, place: &Place) -> Point2 {
+        let solid = self.solid;
         let ([a, b, c], [p, q, r]) = (solid.corners(t), solid.flat[t]);
         let normal = (b - a).cross(&(c - a));
         let share = |edge: Place| normal.dot(&edge.cross(&(place - a))) / normal.norm_squared();

@@ -14,9 +14,8 @@ use developable::files::assembly::{write_animation, write_assembly_svg};
 use developable::files::drawings::{PdfOptions, write_dxf, write_pdf, write_svg};
 use developable::patches::{Crease, MeshPatches, Patch, PatchOptions, Patches};
 use developable::pattern::{
-    FoundFaces, MeshPattern, Missing, NetOptions, PatternOptions, Sheet, has_exact_faces,
-    has_exact_vertices, noisy_faces, pattern, pattern_exact, pattern_mesh, rolled_faces,
-    sheet_metal,
+    MeshKind, MeshPattern, Missing, NetOptions, PatternOptions, Sheet, pattern, pattern_exact,
+    pattern_mesh, sheet_metal,
 };
 use developable::unroll::UnrollOptions;
 use developable_wasm::mesh::MeshInput;
@@ -229,7 +228,7 @@ pub fn draw_pattern_of_mesh(mesh: JsValue, options: JsValue) -> Result<JsValue> 
     };
     let found = match kind {
         MeshKind::Faces => pattern_exact(&mesh, &wanted.net_options())?,
-        MeshKind::NoisyFaces(faces) | MeshKind::Rolled(faces) => {
+        MeshKind::NoisyFaces(faces) | MeshKind::Bends(faces) => {
             faces.pattern(&wanted.net_options())?
         }
         _ if !(wanted.own.cut.is_empty() && wanted.own.join.is_empty()) => {
@@ -240,28 +239,6 @@ pub fn draw_pattern_of_mesh(mesh: JsValue, options: JsValue) -> Result<JsValue> 
         _ => sheets_of(&mesh, &wanted)?.1,
     };
     wanted.draw(&found.sheets, &found.missing)
-}
-
-/// What a mesh is, with what was found out about it.
-enum MeshKind {
-    Faces,
-    NoisyFaces(FoundFaces),
-    Surface,
-    /// A surface of flat faces and bends.
-    Rolled(FoundFaces),
-    Noisy,
-}
-
-impl MeshKind {
-    fn of(mesh: &Mesh) -> Result<MeshKind> {
-        Ok(if has_exact_faces(mesh) {
-            MeshKind::Faces
-        } else if has_exact_vertices(mesh) {
-            rolled_faces(mesh).map_or(MeshKind::Surface, MeshKind::Rolled)
-        } else {
-            noisy_faces(mesh)?.map_or(MeshKind::Noisy, MeshKind::NoisyFaces)
-        })
-    }
 }
 
 /// What a mesh is.
@@ -310,7 +287,7 @@ pub fn recognize_mesh(mesh: JsValue) -> Result<JsValue> {
             found.kind = RecognizedKind::NoisyFaces;
             (found.faces, found.noise) = (Some(faces.count), Some(faces.noise));
         }
-        MeshKind::Surface | MeshKind::Rolled(_) => found.kind = RecognizedKind::Surface,
+        MeshKind::Surface | MeshKind::Bends(_) => found.kind = RecognizedKind::Surface,
         MeshKind::Noisy => {}
     }
     Ok(to_value(&found)?)

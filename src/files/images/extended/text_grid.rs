@@ -23,10 +23,12 @@ struct Grid {
 pub(super) fn decode(bytes: &[u8]) -> Result<StoredImage> {
     let text = String::from_utf8_lossy(bytes);
     let text = text.trim_start_matches('\u{feff}');
-    let (grid, no_data) = match (text.strip_prefix("DSAA"), esri_grid(text)?) {
-        (Some(grid), _) => (surfer_grid(grid)?, Some(f64::NAN)),
-        (None, Some(found)) => found,
-        (None, None) => (table(text)?, None),
+    let (grid, no_data) = if let Some(grid) = text.strip_prefix("DSAA") {
+        (surfer_grid(grid)?, Some(SURFER_BLANK))
+    } else if let Some(found) = esri_grid(text)? {
+        found
+    } else {
+        (table(text)?, None)
     };
     let mut values = grid.values;
     for value in values.iter_mut().filter(|value| Some(**value) == no_data) {

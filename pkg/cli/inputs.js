@@ -82,10 +82,8 @@ const isUnit = (unit) => unit === 'mm' || unit === 'm';
 
 /** Samples the heights of a mesh as seen from one side. @param {Task & { photo?: Size }} task */
 async function readSampled(task) {
-  const { view, resolution, spacing } = task;
   const mesh = await during(`reading ${task.input}`, () => readMesh(task));
-  const seen = await during(`looking at ${task.input}`, () =>
-    developable.sampleMesh({ ...mesh, unit: task.camera && isUnit(task.unit) ? task.unit : mesh.unit }, { view, resolution, spacing }));
+  const seen = task.seen ?? await seenFrom(task, mesh);
   const { hidden = 0 } = seen;
   if (hidden > 0 && !task.camera) {
     say(
@@ -97,10 +95,21 @@ async function readSampled(task) {
 }
 
 /**
+ * The heights of a mesh as seen from one side.
+ * @param {Task} task
+ * @param {import('../types.js').Mesh} mesh
+ */
+export function seenFrom({ input, view, resolution, spacing, camera, unit }, mesh) {
+  return during(`looking at ${input}`, () =>
+    developable.sampleMesh({ ...mesh, unit: camera && isUnit(unit) ? unit : mesh.unit }, { view, resolution, spacing }));
+}
+
+/**
  * The mesh itself, or what a depth camera has seen. The numbers of a camera may be about the photo.
  * @param {Task & { photo?: Size }} task
  */
 export async function readMesh(task) {
+  if (task.mesh !== undefined) return task.mesh;
   const { input, camera, unit, mask, confidence, written, force, photo } = task;
   if (!camera) {
     const mesh = tellAssumptions(input, await readMeshFile(input, await readBytes(input), force ? [] : written, unit));

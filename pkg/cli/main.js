@@ -12,6 +12,7 @@ import { page } from './page.js';
 import { filesOf } from './patterns.js';
 import { Problem, status } from './problem.js';
 import { dewarp, pattern, unroll } from './sheets.js';
+import { sideOrWhole } from './side.js';
 import { taskOf } from './task.js';
 import { print, readStandardInput, streams, withStreams } from './terminal.js';
 import { whole } from './whole.js';
@@ -87,7 +88,7 @@ async function perform(args, signal) {
   const inputs = line.inputs.flatMap(filesOf);
   const batch = batchOf({ ...line, inputs });
   if (batch !== undefined) return runBatch(batch, signal);
-  const task = taskOf(line.command, inputs, line.values);
+  const task = await sideOrWhole(taskOf(line.command, inputs, line.values), line.values);
   const action = modeActions[task.mode] ?? actions[task.command];
   if (task.threads === undefined) {
     await action(task, signal);

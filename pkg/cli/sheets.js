@@ -225,7 +225,7 @@ function reportFit({ summary: { mismatch, worstJoint, worstAngle } }) {
   const words = [];
   if (worstJoint !== undefined) {
     const [a, b] = worstJoint.lengths.map((long) => long.toFixed(2));
-    words.push(`the two sides of a joint differ in length by at most ${percent(mismatch, 2)} (${a} and ${b} mm)`);
+    if (a !== b) words.push(`the two sides of a joint differ in length by at most ${percent(mismatch, 2)} (${a} and ${b} mm)`);
   }
   if (worstAngle !== undefined) {
     words.push(`the angles of the pieces around a point differ from those on the surface by at most ${Math.abs(worstAngle.flat - worstAngle.surface).toFixed(1)}°`);

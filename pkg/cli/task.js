@@ -23,7 +23,7 @@ import { streams } from './terminal.js';
  *   'smallest' | 'dots' | 'quality' | 'focalLength' | 'fieldOfView', number>> & {
  *   lattice?: 'square' | 'hex', unit?: import('../types.js').ReadMeshOptions['unit'], noData?: number | 'none',
  *   view?: import('../types.js').SampleMeshOptions['view'], intrinsics?: Omit<CameraTask, 'ray'>, turn?: CameraTask['turn'],
- *   crop?: [number, number][], light?: 'even' | 'keep', shape?: Shape, lambda?: number | string,
+ *   crop?: [number, number][], cut?: [number, number][], join?: [number, number][], light?: 'even' | 'keep', shape?: Shape, lambda?: number | string,
  * }} Values
  *
  * @typedef {{ numbers?: import('../types.js').Intrinsics, file?: string, ray: boolean, turn?: 0 | 90 | 180 | 270 }} CameraTask
@@ -35,7 +35,9 @@ import { streams } from './terminal.js';
  * @typedef {Omit<Values, 'lattice' | 'noData' | 'intrinsics'> & {
  *   command: CommandName, mode: Mode, inputs: string[], input: string, output: string, extension: string, written: string[], force: boolean,
  *   lattice: 'square' | 'hex' | 'mesh', camera?: CameraTask, noData?: number, assumeNoData: boolean, normalize: boolean,
- * }} Task `inputs` are several photos of one PDF, of which `input` is the first; `written` are all files that are to be written
+ *   mesh?: import('../types.js').Mesh, recognized?: import('../types.js').RecognizedMesh, seen?: import('../types.js').SampledMesh,
+ * }} Task `inputs` are several photos of one PDF, of which `input` is the first; `written` are all files that are to be written; `mesh`,
+ *   `recognized` and `seen` are what was found of the input while it was decided how to take it
  */
 
 const MESHES = ['.obj', '.ply', '.stl', '.glb', '.gltf', '.3mf', '.off'];
@@ -73,6 +75,9 @@ export function defaultExtension(command, input, { surface }) {
   if (command !== 'fit') return commands[command].writes[0];
   return commands.fit.writes.includes(own) && (!surface || isMesh(input)) ? own : surface ? '.ply' : '.npy';
 }
+
+/** What is only said of a whole mesh. @type {(keyof Values)[]} */
+const OF_WHOLE_MESHES = ['surface', 'size', 'cut', 'join', 'blank'];
 
 const pageFlags = flagNames(dewarpPage, 'page');
 const general = ['output', 'to', 'force', 'report', 'jobs', 'overwrite', 'quiet'];
@@ -127,8 +132,8 @@ const RULES = [
     '--photo-camera is about a photo, and there is none: --texture PHOTO'],
   [({ command, asIs, lattice, extension }) => command === 'patches' && asIs && lattice === 'square' && MESHES.includes(extension),
     '--as-is of an image has no mesh: write .json or .npy, or leave it out'],
-  [({ mode, size }) => size !== undefined && mode !== 'surface', '--size is for whole meshes: add --surface, or give --scale'],
-  ...['cut', 'join', 'blank'].map((flag) => given(flag, ({ mode }) => mode !== 'surface', `--${flag} is for whole meshes: add --surface`)),
+  [({ mode, size }) => size !== undefined && mode !== 'surface', '--size is for meshes: give --scale'],
+  ...['cut', 'join', 'blank'].map((flag) => given(flag, ({ mode }) => mode !== 'surface', `--${flag} is for meshes, and the input is none`)),
   [({ command, mode, texture }) => command === 'dewarp' && texture === undefined && (mode === 'image' || mode === 'depths'),
     'the photo is missing: --texture PHOTO; or INPUT is a photo of a page: .jpg, .png, .webp, .gif or .bmp'],
   [({ shape, lattice }) => shape === 'cylinder' && lattice === 'square',
@@ -205,7 +210,7 @@ export function taskOf(command, inputs, values) {
  */
 function modeOf(command, input, values) {
   if (command === 'dewarp' && (values.edges !== undefined || isPhotoAlone(input, values))) return 'photo';
-  if (isMesh(input)) return values.surface ? 'surface' : 'mesh';
+  if (isMesh(input)) return OF_WHOLE_MESHES.some((name) => values[name] !== undefined) ? 'surface' : 'mesh';
   return values.intrinsics === undefined ? 'image' : 'depths';
 }
 

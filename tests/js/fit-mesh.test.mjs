@@ -373,6 +373,35 @@ test('a block of 2 × 1 × 0.5, as programs for inches write it, is drawn once i
   assert.ok(Math.abs(await area('--scale', '10') - 700) < 0.1);
 });
 
+test('a mesh of which one side hides much is taken whole without a flag, and so is what has no noise', async () => {
+  await direct.init();
+  await direct.load('meshes');
+  const folder = await temporaryFolder();
+  await writeFile(join(folder, 'box.stl'), direct.writeStl(boxTo([30, 20, 10])));
+  // Open, and seen entirely from above: two rectangles that meet at an edge.
+  const positions = Float64Array.of(0, 0, 0, 40, 0, 0, 0, 30, 10, 40, 30, 10, 0, 60, 0, 40, 60, 0);
+  const gable = { positions, triangles: Uint32Array.of(0, 1, 3, 0, 3, 2, 2, 3, 5, 2, 5, 4) };
+  await writeFile(join(folder, 'gable.stl'), direct.writeStl(gable));
+  const area = async (/** @type {string} */ file, /** @type {string[]} */ ...more) => {
+    const { status, stderr } = await run(folder, ['pattern', file, '-o', 'x.svg', '--report', 'x.json', '--unit', 'mm', ...more]);
+    assert.equal(status, 0, stderr);
+    return [JSON.parse(await readFile(join(folder, 'x.json'), 'utf8')).area, stderr];
+  };
+  const [whole, words] = await area('box.stl');
+  assert.ok(Math.abs(whole - 2 * (600 + 300 + 200)) < 1e-6, String(whole));
+  assert.match(words, /box\.stl is taken as it is: its faces are exact/);
+  assert.ok(Math.abs((await area('gable.stl'))[0] - 2 * 40 * Math.hypot(30, 10)) < 1e-6);
+  assert.ok(Math.abs((await area('box.stl', '--size', '60'))[0] - 4 * 2200) < 1e-6);
+  // A side is taken where it is asked for, and what else is there is said.
+  const [above, warned] = await area('box.stl', '--view', '+z');
+  assert.ok(Math.abs(above - 600) < 60, String(above));
+  assert.match(warned, /[67]\d % of the area of box\.stl is not seen/);
+  const fit = await run(folder, ['fit', 'box.stl', '-o', 'fitted.stl', '--unit', 'mm']);
+  assert.match(fit.stderr, /box\.stl is taken whole, since one side of it hides [67]\d % of its area/);
+  const { triangles } = await direct.readMesh(await readFile(join(folder, 'fitted.stl')), { unit: 'mm' });
+  assert.equal(triangles.length, 36);
+});
+
 test('a box is laid flat as it is, at the size that is asked for', async () => {
   const box = boxTo([30, 20, 10]);
   assert.deepEqual(await developable.recognizeMesh(box), { kind: 'faces' });

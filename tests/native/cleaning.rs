@@ -104,16 +104,21 @@ const LAMPS: [(&str, Lamp); 5] = [
 
 /// The page under a lamp, with noise of two steps and the edges of print blurred by the lens.
 fn photograph(shown: &[Shown], lamp: Lamp, seed: u128) -> Vec<u8> {
-    let [width, height] = SIZE;
-    let mut random = Rand64::new(seed);
     let colour = |i: usize| match shown[i] {
         Shown::Paper => PAPER,
         Shown::Ink => INK,
         Shown::Stamp => STAMP,
         Shown::Logo => LOGO,
     };
-    let mut rgba = Vec::with_capacity(4 * shown.len());
-    for i in 0..shown.len() {
+    photograph_colours(colour, lamp, seed)
+}
+
+/// A page whose pixels have the given colours under a lamp, with the same noise and blur.
+fn photograph_colours(colour: impl Fn(usize) -> [f64; 3], lamp: Lamp, seed: u128) -> Vec<u8> {
+    let [width, height] = SIZE;
+    let mut random = Rand64::new(seed);
+    let mut rgba = Vec::with_capacity(4 * width * height);
+    for i in 0..width * height {
         let (x, y) = (i % width, i / width);
         let at = [x, y].map(|v| v as f64);
         let light = lamp([at[0] / width as f64, at[1] / height as f64]);
@@ -310,6 +315,123 @@ fn a_picture_keeps_its_light_and_so_does_whoever_asks_for_it() {
         Light::Keep
     );
     assert!(kept == photo);
+}
+
+#[test]
+fn a_dark_page_with_light_print_stays_dark_and_its_print_becomes_ink() {
+    let [width, height] = SIZE;
+    let shown = page(6);
+    // The colours of paper and ink are exchanged; stamp and logo are plain.
+    let negative: Vec<Shown> = (shown.iter())
+        .map(|what| match what {
+            Shown::Ink => Shown::Paper,
+            _ => Shown::Ink,
+        })
+        .collect();
+    for (name, lamp) in LAMPS {
+        let photo = photograph(&negative, lamp, 9);
+        let mut found = photo.clone();
+        let light = clean(width, height, &mut found, &CleaningOptions::default()).unwrap();
+        assert!(light == Light::Keep && found == photo, "{name}");
+        let options = CleaningOptions::default().ink(true);
+        clean(width, height, &mut found, &options).unwrap();
+        let share_of_ink = |pixels: &[usize]| {
+            let ink = pixels.iter().filter(|i| found[4 * **i] == 0).count();
+            ink as f64 / pixels.len() as f64
+        };
+        let print = inner(&negative, Shown::Paper, 1);
+        let ground = inner(&negative, Shown::Ink, 3);
+        let shares = [share_of_ink(&print), share_of_ink(&ground)];
+        assert!(shares[0] > 0.9 && shares[1] < 0.02, "{name}: {shares:?}");
+    }
+}
+
+#[test]
+fn panels_and_tinted_cells_keep_their_shade_under_every_lamp() {
+    let [width, height] = SIZE;
+    // A panel of 90 by 60 mm, two cells of a table of 25 mm in pale grey and in yellow, and a head of 11 mm.
+    let areas: [([usize; 4], [f64; 3]); 4] = [
+        ([120, 150, 360, 240], [52.0, 96.0, 150.0]),
+        ([266, 960, 98, 110], [204.0, 204.0, 203.0]),
+        ([430, 560, 320, 100], [232.0, 226.0, 168.0]),
+        ([90, 800, 660, 44], BAR),
+    ];
+    let print = page(12);
+    let area = |i: usize, rim: usize| {
+        let (x, y) = (i % width, i / width);
+        areas.iter().position(|([left, top, w, h], _)| {
+            (left + rim..left + w - rim).contains(&x) && (top + rim..top + h - rim).contains(&y)
+        })
+    };
+    for (name, lamp) in LAMPS {
+        let colour = |i: usize| match area(i, 0) {
+            Some(number) => areas[number].1,
+            None if print[i] == Shown::Ink && i % width > 500 => INK,
+            None => PAPER,
+        };
+        let mut found = photograph_colours(colour, lamp, 10);
+        let options = CleaningOptions::default();
+        assert_eq!(
+            clean(width, height, &mut found, &options).unwrap(),
+            Light::Even
+        );
+        for (number, (_, colour)) in areas.iter().enumerate() {
+            let pixels: Vec<usize> = (0..width * height)
+                .filter(|i| area(*i, 4) == Some(number))
+                .collect();
+            let mean = |k: usize| {
+                let values = pixels.iter().map(|i| f64::from(found[4 * i + k]));
+                values.sum::<f64>() / pixels.len() as f64
+            };
+            for k in 0..3 {
+                let expected = (255.0 / 0.94 * colour[k] / PAPER[k]).min(255.0);
+                let off = mean(k) - expected;
+                assert!(
+                    off.abs() < 24.0,
+                    "{name}, area {number}: {off:.1} from {expected:.0}"
+                );
+            }
+        }
+    }
+}
+
+#[test]
+fn a_fringe_of_the_table_becomes_white_and_a_panel_at_the_rim_stays() {
+    let [width, height] = SIZE;
+    let is_panel = |i: usize| i / width < 120 && (200..600).contains(&(i % width));
+    let is_fringe = |i: usize| i % width >= width - 4 || i / width >= height - 3;
+    let colour = |i: usize| match (is_panel(i), is_fringe(i)) {
+        (true, _) => LOGO,
+        (_, true) => [60.0, 45.0, 35.0],
+        _ => PAPER,
+    };
+    for (name, lamp) in LAMPS {
+        let mut found = photograph_colours(colour, lamp, 12);
+        clean(width, height, &mut found, &CleaningOptions::default()).unwrap();
+        let mean = |is: &dyn Fn(usize) -> bool| {
+            let pixels: Vec<usize> = (0..width * height).filter(|i| is(*i)).collect();
+            luminance(&found, &pixels)[0]
+        };
+        let rim = |i: usize| i % width >= width - 2 || i / width >= height - 2;
+        let panel = |i: usize| i / width < 4 && (210..590).contains(&(i % width));
+        let [fringe, panel] = [mean(&rim), mean(&panel)];
+        assert!(
+            fringe > 180.0 && panel < 150.0,
+            "{name}: {fringe:.0} {panel:.0}"
+        );
+    }
+}
+
+#[test]
+fn a_page_with_one_bar_is_not_dark() {
+    let [width, height] = SIZE;
+    let is_bar = |i: usize| (400..444).contains(&(i / width)) && (90..750).contains(&(i % width));
+    let colour = |i: usize| if is_bar(i) { BAR } else { PAPER };
+    for (name, lamp) in LAMPS {
+        let mut found = photograph_colours(colour, lamp, 11);
+        let light = clean(width, height, &mut found, &CleaningOptions::default()).unwrap();
+        assert_eq!(light, Light::Even, "{name}");
+    }
 }
 
 #[test]

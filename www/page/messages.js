@@ -18,7 +18,7 @@ export const PAGE_WORDS = {
   tooFarOutside: (edge) => `The ${edge} edge lies too far outside the photo. Take the photo anew, with the whole page in it`,
   /** @param {string} paper */
   looksLike: (paper) => `Looks like ${paper}: use it`,
-  keptLight: 'The page is not mostly paper, so I kept its light.',
+  keptLight: 'The page is dark or not mostly paper, so I kept its light.',
 };
 
 /** Texts about several photos that become one PDF. */

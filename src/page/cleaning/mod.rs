@@ -56,7 +56,7 @@ impl CleaningOptions {
 }
 
 /// Cleans a flat page in place and returns what happened to its light. `rgba` has four bytes for each pixel, row by row
-/// from the top; transparent pixels are no part of the page. A page that is not mostly paper keeps its light. Costs
+/// from the top; transparent pixels are no part of the page. A page that is dark or not mostly paper keeps its light. Costs
 /// `O(pixels)`.
 ///
 /// # Errors
@@ -84,21 +84,12 @@ pub fn clean(
     if options.ink {
         let mut plane = try_filled("flat page", width * height, 0)?;
         for (value, pixel) in plane.iter_mut().zip(rgba.as_chunks().0) {
-            *value = luminance(pixel);
+            *value = light.luminance(pixel);
         }
-        binarise(width, height, &mut plane, light.is_even())?;
+        binarise(width, height, &mut plane)?;
         for (value, pixel) in plane.iter().zip(rgba.as_chunks_mut::<4>().0) {
             pixel[..3].fill(*value);
         }
     }
     Ok(light.kind())
-}
-
-/// Returns the luminance of an RGBA pixel, from 0 to 255 (ITU-R BT.601); paper's white where the pixel is transparent.
-pub fn luminance([red, green, blue, alpha]: &[u8; 4]) -> u8 {
-    if *alpha == 0 {
-        return u8::MAX;
-    }
-    let [red, green, blue] = [red, green, blue].map(|value| u32::from(*value));
-    ((299 * red + 587 * green + 114 * blue + 500) / 1000) as u8
 }

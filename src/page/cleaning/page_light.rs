@@ -23,8 +23,14 @@ const LOG_OFFSET: f32 = 8.0;
 /// disappears.
 const WHITE_SHARE: f32 = 0.94;
 
-/// Minimum share of a page's cells that show paper for its light to be evened: below it is a picture.
+/// Minimum share of a page's cells that show plain paper for its light to be evened: below it is a picture.
 const MIN_PAPER_SHARE: f64 = 0.25;
+
+/// Number of samples over the half width of the widest bar of print, where the ground's median is taken over twice that width.
+const MEDIAN_SAMPLES: usize = 4;
+
+/// Maximum width, in cells, of a fringe of the table at the page's rim: 1.5 mm on A4, where next to nothing is printed.
+const FRINGE_CELLS: usize = 4;
 
 /// Radius, in cells, by which the light is smoothed.
 const SMOOTHING_RADIUS: usize = 1;
@@ -78,7 +84,8 @@ impl LightEstimator {
     }
 
     /// Estimates the light on the page: the colour of the paper in each cell, where print is suppressed by a grey
-    /// closing, and pictures and coloured areas by interpolation from the paper around them.
+    /// closing, and pictures and coloured areas by interpolation from the paper around them. A page whose print is lighter
+    /// than what is between it keeps its light.
     pub fn finish(self) -> PageLight {
         let (columns, rows) = (self.columns, self.rows);
         let mut known: Vec<bool> = self.sums.iter().map(|sum| sum[3] > 0).collect();
@@ -92,16 +99,19 @@ impl LightEstimator {
         let longer = columns.max(rows) as f64;
         let radius = (0.5 * MAX_STROKE_SHARE * longer) as usize;
         let mut paper = closed(&raw, radius);
-        let shown = known.iter().filter(|known| **known).count();
-        find_paper(&raw, &paper, &mut known);
-        let found = known.iter().filter(|known| **known).count();
-        if (found as f64) < MIN_PAPER_SHARE * shown as f64 || found == 0 {
+        if is_dark(&raw, radius) {
             return PageLight {
-                gains: None,
+                is_dark: true,
                 ..self.into()
             };
         }
+        let shown = known.iter().filter(|known| **known).count();
+        let plain = find_paper(&raw, &paper, &mut known);
+        if (plain as f64) < MIN_PAPER_SHARE * shown as f64 || plain == 0 {
+            return self.into();
+        }
         fill_gaps(&mut paper.channels, &known, columns, rows);
+        darken_fringe(&mut paper, &raw, &known);
         let gains = paper.channels.each_mut().map(|plane| {
             box_mean(plane, columns, rows, SMOOTHING_RADIUS);
             let gain = |light: &f32| 255.0 / (WHITE_SHARE * (light.exp() - LOG_OFFSET).max(1.0));
@@ -112,6 +122,53 @@ impl LightEstimator {
             ..self.into()
         }
     }
+}
+
+/// Takes what is dark at the rim of the page beside paper for shaded paper, so that a fringe of the table becomes white.
+fn darken_fringe(paper: &mut Planes, raw: &Planes, known: &[bool]) {
+    let inside = |at: usize, count: usize| {
+        let reach = (2 * FRINGE_CELLS).min((count - 1) / 2);
+        at.clamp(reach, count - 1 - reach)
+    };
+    for i in 0..known.len() {
+        let (x, y) = (i % raw.width, i / raw.width);
+        let beside = inside(y, raw.height) * raw.width + inside(x, raw.width);
+        let (right, below) = (raw.width - 1 - x, raw.height - 1 - y);
+        if known[beside] && x.min(y).min(right).min(below) < FRINGE_CELLS {
+            for (paper, raw) in paper.channels.iter_mut().zip(&raw.channels) {
+                paper[i] = paper[i].min(raw[i]);
+            }
+        }
+    }
+}
+
+/// Whether print on a page is lighter than its ground: by which print differs more from the median around it, which is the ground
+/// as print covers less than half of it.
+fn is_dark(raw: &Planes, radius: usize) -> bool {
+    let stride = (radius / MEDIAN_SAMPLES).max(1);
+    let columns = raw.width.div_ceil(stride);
+    let rows = (0..raw.height).step_by(stride);
+    let samples: Vec<f32> = rows
+        .flat_map(|y| {
+            let cells = (0..raw.width).step_by(stride);
+            cells.map(move |x| raw.channels[1][y * raw.width + x])
+        })
+        .collect();
+    let reach = 2 * MEDIAN_SAMPLES;
+    let mut window = Vec::new();
+    let mut lighter = 0.0;
+    for (i, value) in samples.iter().enumerate() {
+        let (x, y) = (i % columns, i / columns);
+        window.clear();
+        let rows = samples.chunks_exact(columns).take(y + reach + 1);
+        for row in rows.skip(y.saturating_sub(reach)) {
+            window.extend(&row[x.saturating_sub(reach)..(x + reach + 1).min(columns)]);
+        }
+        let middle = window.len() / 2;
+        let difference = value - *window.select_nth_unstable_by(middle, f32::total_cmp).1;
+        lighter += f64::from(difference).powi(3);
+    }
+    lighter > 0.0
 }
 
 /// Returns the logarithm of the mean of colour component `k` over a cell.
@@ -128,6 +185,8 @@ pub struct PageLight {
     rows: usize,
     /// `None` where the page is not mostly paper.
     gains: Option<[Vec<f32>; 3]>,
+    /// Whether print is lighter than what is between it.
+    is_dark: bool,
 }
 
 impl From<LightEstimator> for PageLight {
@@ -144,22 +203,31 @@ impl From<LightEstimator> for PageLight {
             columns,
             rows,
             gains: None,
+            is_dark: false,
         }
     }
 }
 
 impl PageLight {
-    /// Whether light was found that can be evened; otherwise the page is not mostly paper, and [`apply`](Self::apply)
-    /// changes nothing.
-    pub fn is_even(&self) -> bool {
-        self.gains.is_some()
+    /// What happens to the light by [`apply`](Self::apply): a page that is dark or not mostly paper keeps it.
+    pub fn kind(&self) -> Light {
+        match self.gains {
+            Some(_) => Light::Even,
+            None => Light::Keep,
+        }
     }
 
-    /// What happens to the light by [`apply`](Self::apply).
-    pub fn kind(&self) -> Light {
-        match self.is_even() {
-            true => Light::Even,
-            false => Light::Keep,
+    /// Returns the luminance by which a pixel is told to be ink or paper, from 0 to 255 (ITU-R BT.601): paper's white where the
+    /// pixel is transparent, and the negative on a dark page, whose print becomes dark.
+    pub fn luminance(&self, [red, green, blue, alpha]: &[u8; 4]) -> u8 {
+        if *alpha == 0 {
+            return u8::MAX;
+        }
+        let [red, green, blue] = [red, green, blue].map(|value| u32::from(*value));
+        let luminance = ((299 * red + 587 * green + 114 * blue + 500) / 1000) as u8;
+        match self.is_dark {
+            true => u8::MAX - luminance,
+            false => luminance,
         }
     }
 

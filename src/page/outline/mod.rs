@@ -24,7 +24,8 @@ mod straight_lines;
 mod tracing;
 
 pub use corner_edges::trace_edges;
-pub(super) use morphology::{box_mean, closed, vertical_extreme};
+pub(super) use morphology::{box_mean, closed, closed_plane, square_extreme, vertical_extreme};
 pub use outline_report::{OutlineReason, OutlineReport, OutlineVerdict, PageOutline};
 pub(super) use planes::Planes;
+pub(super) use region::flood;
 pub use search::find_outline;

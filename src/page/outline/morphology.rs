@@ -6,9 +6,9 @@ use super::planes::Planes;
 const TRANSPOSED_ROWS: usize = 16;
 
 /// Exchanges rows and columns of a plane.
-fn transposed(plane: &[f32], width: usize) -> Vec<f32> {
+fn transposed<T: Copy + Default>(plane: &[T], width: usize) -> Vec<T> {
     let height = plane.len() / width;
-    let mut out = vec![0.0; plane.len()];
+    let mut out = vec![T::default(); plane.len()];
     for (band, rows) in plane.chunks(TRANSPOSED_ROWS * width).enumerate() {
         for (x, column) in out.chunks_exact_mut(height).enumerate() {
             let column = &mut column[band * TRANSPOSED_ROWS..];
@@ -22,18 +22,18 @@ fn transposed(plane: &[f32], width: usize) -> Vec<f32> {
 
 /// Replaces each pixel by the extreme value (as the function `extreme` chooses) among itself and `radius` neighbours above
 /// and below it, by the algorithm of van Herk, Gil and Werman.
-pub(in crate::page) fn vertical_extreme(
-    plane: &mut [f32],
+pub(in crate::page) fn vertical_extreme<T: Copy>(
+    plane: &mut [T],
     width: usize,
     radius: usize,
-    extreme: impl Fn(f32, f32) -> f32,
+    extreme: impl Fn(T, T) -> T,
 ) {
     let (height, window) = (plane.len() / width, 2 * radius + 1);
     let total = height + 2 * radius;
     let row = |i: usize| &plane[i.saturating_sub(radius).min(height - 1) * width..][..width];
-    let mut prefix: Vec<f32> = (0..total).flat_map(row).copied().collect();
+    let mut prefix: Vec<T> = (0..total).flat_map(row).copied().collect();
     let mut suffix = prefix.clone();
-    let extend = |values: &mut [f32], by: &[f32]| {
+    let extend = |values: &mut [T], by: &[T]| {
         for (value, by) in values.iter_mut().zip(by) {
             *value = extreme(*value, *by);
         }
@@ -53,37 +53,55 @@ pub(in crate::page) fn vertical_extreme(
     extend(plane, &prefix[2 * radius * width..]);
 }
 
+/// Returns a plane in which each pixel is the extreme value in a square with sides of `2 radius + 1` pixels around it.
+pub(in crate::page) fn square_extreme<T: Copy + Default>(
+    plane: &[T],
+    width: usize,
+    radius: usize,
+    extreme: impl Fn(T, T) -> T,
+) -> Vec<T> {
+    let height = plane.len() / width;
+    let mut across = transposed(plane, width);
+    vertical_extreme(&mut across, height, radius, &extreme);
+    let mut found = transposed(&across, height);
+    vertical_extreme(&mut found, width, radius, extreme);
+    found
+}
+
+/// Applies a grey closing to a plane, by a square with sides of `2 radius + 1` pixels, or an opening if `max` and `min` are
+/// exchanged. The image is continued beyond its rim, so that a narrow strip along the rim remains.
+pub(in crate::page) fn closed_plane<T: Copy + Default>(
+    plane: &[T],
+    width: usize,
+    radius: usize,
+    max: impl Fn(T, T) -> T,
+    min: impl Fn(T, T) -> T,
+) -> Vec<T> {
+    let height = plane.len() / width;
+    let padded_width = width + 2 * radius;
+    let mut padded = Vec::with_capacity(padded_width * (height + 2 * radius));
+    for y in 0..height + 2 * radius {
+        let own = &plane[y.saturating_sub(radius).min(height - 1) * width..][..width];
+        padded.extend(std::iter::repeat_n(own[0], radius));
+        padded.extend(own);
+        padded.extend(std::iter::repeat_n(own[width - 1], radius));
+    }
+    let dilated = square_extreme(&padded, padded_width, radius, max);
+    let closed = square_extreme(&dilated, padded_width, radius, min);
+    (closed.chunks_exact(padded_width).skip(radius).take(height))
+        .flat_map(|row| row[radius..radius + width].iter().copied())
+        .collect()
+}
+
 /// Applies a grey closing by a square with sides of `2 radius + 1` pixels: dark print narrower than that takes the
 /// paper's colour. The image is continued beyond its rim, so that a narrow strip of background along the rim remains. All
 /// values have to be finite.
 pub(in crate::page) fn closed(planes: &Planes, radius: usize) -> Planes {
-    let (width, height) = (planes.width + 2 * radius, planes.height + 2 * radius);
     let max = |a: f32, b: f32| if a > b { a } else { b };
     let min = |a: f32, b: f32| if a < b { a } else { b };
-    let channels = planes.channels.each_ref().map(|plane| {
-        let row = |y: usize| {
-            let y = y.saturating_sub(radius).min(planes.height - 1);
-            &plane[y * planes.width..(y + 1) * planes.width]
-        };
-        let mut padded = Vec::with_capacity(width * height);
-        for y in 0..height {
-            let own = row(y);
-            padded.extend(std::iter::repeat_n(own[0], radius));
-            padded.extend(own);
-            padded.extend(std::iter::repeat_n(own[planes.width - 1], radius));
-        }
-        vertical_extreme(&mut padded, width, radius, max);
-        let mut across = transposed(&padded, width);
-        vertical_extreme(&mut across, height, radius, max);
-        vertical_extreme(&mut across, height, radius, min);
-        let mut padded = transposed(&across, height);
-        vertical_extreme(&mut padded, width, radius, min);
-        (padded.chunks_exact(width).skip(radius).take(planes.height))
-            .flat_map(|row| row[radius..radius + planes.width].iter().copied())
-            .collect()
-    });
     Planes {
-        channels,
+        channels: (planes.channels.each_ref())
+            .map(|plane| closed_plane(plane, planes.width, radius, max, min)),
         ..*planes
     }
 }

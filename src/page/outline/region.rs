@@ -26,7 +26,7 @@ fn for_neighbours(i: usize, width: usize, len: usize, mut visit: impl FnMut(usiz
 }
 
 /// Finds the pixels that are connected to `start` and satisfy `takes` (flood fill), and marks them in `seen`.
-fn flood(
+pub(in crate::page) fn flood(
     start: usize,
     width: usize,
     seen: &mut [bool],

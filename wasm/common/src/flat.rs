@@ -10,7 +10,7 @@ use super::Result;
 use super::options::renamed;
 use developable::checks::try_filled;
 use developable::dewarp::{WarpGrid, WarpMap};
-use developable::page::cleaning::{CleaningOptions, Light, LightEstimator, binarise, luminance};
+use developable::page::cleaning::{CleaningOptions, Light, LightEstimator, binarise};
 
 /// Number of rows of the flat image that are computed at a time and copied to JavaScript.
 const BAND_ROWS: usize = 64;
@@ -67,13 +67,13 @@ pub fn flat_image(
                 .iter_mut()
                 .zip(rgba.as_chunks().0)
             {
-                *value = luminance(pixel);
+                *value = light.luminance(pixel);
             }
         }
         place(&rows).copy_from(rgba);
     }
     if cleaning.ink {
-        binarise(width, height, &mut plane, light.is_even())?;
+        binarise(width, height, &mut plane)?;
         for rows in bands() {
             let rgba = &mut band[..line * rows.len()];
             place(&rows).copy_to(rgba);

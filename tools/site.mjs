@@ -22,8 +22,8 @@ const IMPORTS = [
   { file: join('surface', 'scene.js'), from: "new URL('../vendor/three.js', import.meta.url).href", to: "'../vendor/three.js'" },
 ];
 
-/** Quality of Brotli, of at most 11, which saves a tenth more and takes twenty times as long. */
-const BROTLI_QUALITY = 9;
+/** Quality of Brotli for a server that stops with the command: the best saves a tenth more and takes twenty times as long. */
+const BROTLI_QUICK_QUALITY = 9;
 
 /** The solver for several threads where it is not built: `npm start` leaves it out, and the page does not ask for it. */
 const emptyThreads = {
@@ -56,6 +56,7 @@ export async function bundlePage(folder) {
         for (const one of known) found.add(one);
         return known.length ? { code: known.reduce((text, { from, to }) => text.replace(from, to), code), map: null } : null;
       },
+      transformIndexHtml: (html) => html.replace(/\n\s+/g, '\n'),
     }],
     build: {
       outDir: folder,
@@ -71,13 +72,14 @@ export async function bundlePage(folder) {
 /**
  * Writes beside each file of text or wasm what it is in Brotli and in gzip, for servers that send such files.
  * @param {string} folder
+ * @param {{ quality?: number }} [options] quality of Brotli, of at most 11
  */
-export async function compressFiles(folder) {
+export async function compressFiles(folder, { quality = BROTLI_QUICK_QUALITY } = {}) {
   const entries = await readdir(folder, { recursive: true, withFileTypes: true });
   await Promise.all(entries.filter((entry) => entry.isFile() && /\.(?:html|js|css|wasm|svg|webmanifest)$/.test(entry.name)).map(async (entry) => {
     const file = join(entry.parentPath, entry.name);
     const bytes = await readFile(file);
-    await writeFile(`${file}.br`, await promisify(brotliCompress)(bytes, { params: { [constants.BROTLI_PARAM_QUALITY]: BROTLI_QUALITY } }));
+    await writeFile(`${file}.br`, await promisify(brotliCompress)(bytes, { params: { [constants.BROTLI_PARAM_QUALITY]: quality } }));
     await writeFile(`${file}.gz`, await promisify(gzip)(bytes, { level: constants.Z_BEST_COMPRESSION }));
   }));
 }
@@ -85,7 +87,7 @@ export async function compressFiles(folder) {
 /**
  * Writes the site from what is built.
  * @param {string} folder is made anew
- * @param {{ references?: boolean }} [options] whether the API reference belongs to it, which takes a while; default: no
+ * @param {{ references?: boolean }} [options] whether the API reference belongs to it, and files are compressed best, which both take a while; default: no
  */
 export async function writeSite(folder, { references = false } = {}) {
   await bundlePage(folder);
@@ -98,7 +100,7 @@ export async function writeSite(folder, { references = false } = {}) {
   await writeGuide(folder, { references });
   if (references) await writeReferences(folder);
   await writeWorker(folder);
-  await compressFiles(folder);
+  await compressFiles(folder, { quality: references ? constants.BROTLI_MAX_QUALITY : BROTLI_QUICK_QUALITY });
 }
 
 /**

@@ -6,6 +6,7 @@ import { copyFile, mkdir, readFile, writeFile } from 'node:fs/promises';
 import { join } from 'node:path';
 import { fileURLToPath } from 'node:url';
 import { pkgVendor, root, wwwVendor } from '../util/paths.mjs';
+import { usedThree } from './three-parts.mjs';
 
 const from = join(root, 'node_modules/comlink');
 
@@ -62,6 +63,7 @@ async function bundleThree() {
     configFile: false,
     publicDir: false,
     logLevel: 'warn',
+    plugins: [await usedThree()],
     build: {
       outDir: wwwVendor,
       emptyOutDir: true,

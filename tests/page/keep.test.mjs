@@ -117,4 +117,4 @@ pageTest('settings stand in the address, Back undoes them, and a file is there a
   await page.locator('#file-name', { hasText: 'other' }).waitFor();
   await settled(page);
   assert.equal(await page.locator('#story').isVisible(), false);
-}, { start: '#example=roof' });
+}, { start: '#example=roof&size=100' });

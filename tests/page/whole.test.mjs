@@ -3,7 +3,7 @@ import assert from 'node:assert/strict';
 import { noisyBox, offBox, SIDES } from './support/box.mjs';
 import { obj } from './support/files.mjs';
 import { parsed } from './support/numbers.mjs';
-import { choose, doorTest, look, open, openFromOneSide, openWhole, reported, saveAs, settled, typeLambda } from './support/page.mjs';
+import { choose, doorTest, look, open, openFromOneSide, openWhole, reported, saveAs, settled, typeLambda, workBy } from './support/page.mjs';
 import { parsePng } from './support/photos.mjs';
 
 /** @typedef {import('playwright-core').Page} Page */
@@ -274,10 +274,7 @@ doorTest('a whole mesh is solved with the λ that is chosen, which stands in the
   };
   /** @param {() => Promise<unknown>} act @param {RegExp} address */
   const solvedBy = async (act, address) => {
-    const solved = page.locator('#whole[aria-busy="true"]').waitFor();
-    await act();
-    await solved;
-    await done(page);
+    await workBy(page, '#whole[aria-busy="true"]', act);
     await page.waitForURL(address);
   };
   const pressed = () => page.locator('#lambda-auto').getAttribute('aria-pressed');

@@ -1,7 +1,7 @@
 /** Tests on the page in Chromium, each on a fresh page that is watched all the time. */
 import assert from 'node:assert/strict';
 import { accessSync, constants } from 'node:fs';
-import { mkdtemp, rm } from 'node:fs/promises';
+import { mkdtemp, readdir, rm } from 'node:fs/promises';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { after, before, test } from 'node:test';
@@ -16,6 +16,8 @@ const executablePath = process.env.DEVELOPABLE_CHROME || '/usr/bin/chromium';
 const args = [
   '--headless', '--no-sandbox', '--disable-gpu', '--enable-unsafe-swiftshader', '--disable-quic', '--no-first-run',
   '--disable-background-networking', '--disable-component-update', '--disable-sync',
+  // Tabs share a process, and the wasm that it has compiled.
+  '--process-per-site',
 ];
 
 /** The page's first example, so small that it is solved at once: for tests of what is opened after it. */
@@ -79,7 +81,15 @@ async function contextWith(options) {
 
 async function sharedContext() {
   profile = await mkdtemp(join(tmpdir(), 'developable-profile-'));
-  return chromium.launchPersistentContext(profile, { executablePath, args, viewport: VIEWPORT });
+  const context = await chromium.launchPersistentContext(profile, { executablePath, args, viewport: VIEWPORT });
+  // The first tab keeps that process and its wasm for the tabs of all tests.
+  const [first] = context.pages();
+  await first.goto(server.url);
+  await first.evaluate(async (files) => {
+    const compiled = files.map(async (file) => WebAssembly.compileStreaming(fetch(file)));
+    Object.assign(globalThis, { compiled: await Promise.all(compiled) });
+  }, (await readdir(join(pkg, 'wasm'))).filter((name) => name.endsWith('.wasm')).map((name) => `${server.url}pkg/wasm/${name}`));
+  return context;
 }
 
 /**
@@ -236,23 +246,34 @@ export async function settled(page) {
  */
 export async function runBy(page, act) {
   await settled(page);
-  // The watch is set before the act, in a call of its own, or a quick run is over before it is seen.
-  const ended = await page.evaluateHandle(() => {
-    const main = /** @type {HTMLElement} */ (document.querySelector('#page'));
-    let ran = false;
+  await workBy(page, '#page[data-phase="running"]', act);
+  await settled(page);
+}
+
+/**
+ * Does something that makes an element match a selector for a while, and waits until it no longer does.
+ * @param {Page} page
+ * @param {string} working
+ * @param {() => Promise<unknown>} act
+ */
+export async function workBy(page, working, act) {
+  // The watch is set before the act, in a call of its own, or quick work is over before it is seen.
+  const ended = await page.evaluateHandle((working) => {
+    const element = /** @type {HTMLElement} */ (document.querySelector(working.replace(/\[.*/, '')));
+    let began = false;
     const promise = new Promise((resolve) => {
       new MutationObserver((_, observer) => {
-        if (main.dataset.phase === 'running') ran = true;
-        if (main.dataset.phase !== 'idle' || !ran) return;
-        observer.disconnect();
-        resolve(null);
-      }).observe(main, { attributes: true });
+        if (element.matches(working)) began = true;
+        else if (began) {
+          observer.disconnect();
+          resolve(null);
+        }
+      }).observe(element, { attributes: true });
     });
     return { promise };
-  });
+  }, working);
   await act();
   await ended.evaluate(({ promise }) => promise);
-  await settled(page);
 }
 
 /**
@@ -372,7 +393,8 @@ export async function dropAll(page, files) {
  */
 export async function open(page, name, bytes) {
   await drop(page, name, bytes);
-  await page.locator('#input-caption', { hasText: name.replace(/\.\w+$/, '') }).waitFor();
+  // Where nothing can be solved it is soon hidden again.
+  await page.locator('#input-caption', { hasText: name.replace(/\.\w+$/, '') }).waitFor({ state: 'attached' });
   await settled(page);
 }
 

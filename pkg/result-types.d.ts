@@ -1280,10 +1280,11 @@ export interface SolveSeconds {
  *   double precision can tell. This is the reason for an affine input.
  * - `'maxIterations'`: The number of iterations reached the option `maxIterations`.
  * - `'cancelled'`: The progress callback, or `cancel`, asked to stop.
+ * - `'noNoise'`: A mesh has no noise, and λ was to suit its noise: the surface is the mesh as it is.
  * - `'diverged'`: ADMM's iterates diverged, and did so again with more accurate z-steps. The surface is the best one
  *   from before, and its dual bound holds.
  */
-export type StopReason = 'gap' | 'residuals' | 'rounding' | 'maxIterations' | 'cancelled' | 'diverged';
+export type StopReason = 'gap' | 'residuals' | 'rounding' | 'maxIterations' | 'cancelled' | 'noNoise' | 'diverged';
 
 /** Heights of a surface at the pixels of an image. */
 export interface SurfaceImage {

@@ -237,6 +237,8 @@ export interface SampledMesh extends Heightfield {
   texture?: Uint8Array;
   /** Share of the mesh's area that is hidden behind the heights; absent if it is less than a tenth. */
   hidden?: number;
+  /** Whether the mesh has no noise, as a design or a model of few faces has none: `fitMesh` leaves it as it is. */
+  noNoise: boolean;
 }
 
 /** Report of a solve in the package. */

@@ -108,9 +108,16 @@ export class MeshFit extends Events {
     return this.#cached(mesh, 'unrolled', (worker) => worker.unrollMesh(geometryOf(mesh)));
   }
 
-  /** @param {Mesh} mesh @param {import('../pkg/types.js').MeshPatternOptions} options */
-  pattern(mesh, options) {
-    return this.#cached(mesh, `pattern ${JSON.stringify(options)}`, (worker) => worker.patternMesh(geometryOf(mesh), options));
+  /**
+   * The sheets of the fitted surface, or of the input where flat faces are found in its noise: these are more exact than a fit.
+   * @param {Mesh} surface
+   * @param {import('../pkg/types.js').MeshPatternOptions} options
+   */
+  async pattern(surface, options) {
+    const mesh = this.mesh ?? surface;
+    const { kind } = await this.#cached(mesh, 'kind', (worker) => worker.recognizeMesh(geometryOf(mesh)));
+    const laidFlat = kind === 'noisyFaces' ? mesh : surface;
+    return this.#cached(laidFlat, `pattern ${JSON.stringify(options)}`, (worker) => worker.patternMesh(geometryOf(laidFlat), options));
   }
 
   /** @param {import('../pkg/types.js').Drawing} drawing */

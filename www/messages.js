@@ -13,6 +13,7 @@ export const STOP_REASONS = {
   rounding: 'the optimum was reached, up to rounding',
   maxIterations: 'the maximum number of iterations was reached',
   cancelled: 'cancelled; this is the best surface so far',
+  noNoise: 'there is no noise to remove',
   diverged: 'the iterations diverged; this is the best surface before',
 };
 
@@ -136,6 +137,7 @@ export const MESH_FIT_WORDS = {
   /** @param {string} share */
   hidden: (share) => `From this side ${share} of the surface is hidden. “Whole mesh” solves all of it.`,
   vertices: (/** @type {string} */ vertices, /** @type {string} */ time) => `${vertices} vertices in ${time}.`,
+  noNoise: 'The mesh has no noise, and is left as it is.',
   maxIterations: 'The solve stopped at the maximum number of iterations.',
   diverged: 'The iterations diverged. You see the best surface before.',
   /** @param {number} n */
@@ -347,7 +349,8 @@ export function lambdaChoiceInWords({ lambda, lambdaChoice }) {
 }
 
 /** How λ of a whole mesh was chosen automatically. @param {MeshSurface['report']} report */
-export function meshLambdaChoiceInWords({ lambda, sigma }) {
+export function meshLambdaChoiceInWords({ lambda, sigma, stopReason }) {
+  if (stopReason === 'noNoise') return 'The mesh has no noise, and is left as it is. A number for λ smooths it.';
   if (sigma === undefined) return `Too few vertices to measure their noise: λ = ${shortLambda(lambda)}.`;
   return `Chosen automatically. Noise: ${number(sigma)} along the normals, in the unit of the mesh.`;
 }

@@ -11,9 +11,6 @@ import { during, percent, say } from './terminal.js';
  * @typedef {import('./task.js').Values} Values
  */
 
-/** Commands whose results are those of the mesh itself where it has no noise. @type {import('./commands.js').CommandName[]} */
-export const OF_EXACT_MESHES = ['pattern', 'unroll', 'rulings'];
-
 /**
  * The task, for the whole mesh where it has no noise or one side hides much of it. What cannot be asked for of a whole mesh asks for a
  * side.
@@ -26,11 +23,12 @@ export async function sideOrWhole(task, values) {
   if (whole === undefined) return task;
   const mesh = await readMesh(task);
   if (mesh.triangles.length === 0) return { ...task, mesh };
-  if (OF_EXACT_MESHES.includes(task.command)) {
+  if (task.command === 'pattern') {
     const recognized = await during(`looking at ${task.input}`, () => developable.recognizeMesh(mesh));
     if (recognized.kind !== 'noisy') return { ...whole, mesh, recognized };
   }
   const seen = await seenFrom(task, mesh);
+  if (seen.noNoise) return { ...whole, mesh };
   if (seen.hidden === undefined) return { ...task, mesh, seen };
   say(`${task.input} is taken whole, since one side of it hides ${percent(seen.hidden, 2)} of its area (--view takes what is seen from one side)`);
   return { ...whole, mesh };

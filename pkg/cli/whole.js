@@ -4,7 +4,6 @@ import { meshSolver } from '../schema/fit.js';
 import { meshRulings } from '../schema/shape.js';
 import { checkPlaces, writeWhole } from './files.js';
 import { readMesh } from './inputs.js';
-import { OF_EXACT_MESHES } from './side.js';
 import { chosenOf, drawingOptions, flatObj, json, linesObj, patternFiles, plainArrays, reportPattern, tellPlans, withPlans } from './sheets.js';
 import { optionsFrom } from './task.js';
 import { meshFitInWords, percent, progressLine, say, succeed, toStderr } from './terminal.js';
@@ -23,7 +22,7 @@ export async function whole(task, signal) {
   await checkPlaces(...task.written);
   const mesh = await readMesh(task);
   if (task.explore || task.sheets !== undefined) return planned(task, mesh, signal);
-  const exact = OF_EXACT_MESHES.includes(task.command) && await isExact(task, mesh);
+  const exact = task.command === 'pattern' && await isExact(task, mesh);
   const surface = task.asIs || exact ? undefined : await fitted(task, mesh, signal);
   const files = await made[task.command](task, surface ?? mesh, mesh, exact);
   await writeWhole(files, signal);
@@ -35,12 +34,12 @@ export async function whole(task, signal) {
  * @param {Task} task
  * @param {Mesh} mesh
  */
-async function isExact({ command, input, asIs, blank, recognized }, mesh) {
+async function isExact({ input, asIs, blank, recognized }, mesh) {
   const { kind, thickness, faces, noise = 0 } = recognized ?? await developable.recognizeMesh(mesh);
   if (thickness !== undefined && !blank) {
     say(`${input} looks like sheet metal, ${Number(thickness.toPrecision(4))} thick in the file's unit: --blank draws what it is bent from`);
   }
-  if (kind === 'noisy' || (kind === 'noisyFaces' && command !== 'pattern')) return false;
+  if (kind === 'noisy') return false;
   if (kind === 'noisyFaces') {
     if (asIs) return false;
     say(`${input} looks like ${faces === 1 ? '1 flat face' : `${faces} flat faces`} with noise of ${Number(noise.toPrecision(2))} in the file's unit: the noise is removed (--as-is keeps it)`);
@@ -121,7 +120,9 @@ async function planned(task, mesh, signal) {
  */
 function tell(task, { report }, mesh) {
   succeed(task.output, meshFitInWords(report));
-  if (report.stopReason === 'maxIterations') {
+  if (report.stopReason === 'noNoise') {
+    say(`${task.input} has no noise: it is left as it is (--lambda smooths it all the same)`);
+  } else if (report.stopReason === 'maxIterations') {
     toStderr('developable: warning: stopped before the wanted gap; --max-iterations allows more\n');
   } else if (report.stopReason === 'diverged') {
     toStderr('developable: warning: the iterations diverged; this is the best surface before\n');

@@ -23,6 +23,8 @@ pub enum StopReason {
     MaxIterations,
     /// The progress callback, or [`Solver::cancel`](crate::Solver::cancel), asked to stop.
     Cancelled,
+    /// A mesh has no noise, and λ was to suit its noise: the surface is the mesh as it is.
+    NoNoise,
     /// ADMM's iterates diverged, and did so again with more accurate z-steps. The surface is the best one from before,
     /// and its dual bound holds.
     Diverged,
@@ -36,7 +38,7 @@ pub(crate) fn relative_gap(objective: f64, dual_bound: f64, rounding: f64) -> Op
 }
 
 /// Progress of a running solve: the figures of its last check, in which objective and dual bound are computed.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
 #[cfg_attr(
     feature = "serde",
     derive(serde::Serialize),

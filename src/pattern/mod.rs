@@ -55,8 +55,8 @@ mod trim;
 mod window;
 
 pub use exact::{
-    FoundFaces, MeshKind, NetOptions, SheetMetal, has_exact_faces, has_exact_vertices, noisy_faces,
-    pattern_exact, rolled_faces, sheet_metal,
+    FoundFaces, MeshKind, NetOptions, SheetMetal, noisy_faces, pattern_exact, rolled_faces,
+    sheet_metal,
 };
 pub use faces::Faces;
 pub use heightfield::pattern;

@@ -2,12 +2,14 @@
 
 pub(crate) mod camera;
 mod depth;
+pub(crate) mod exactness;
 pub(crate) mod facets;
 mod footprint;
 pub(crate) mod half_edges;
 mod hidden;
 pub(crate) mod mesh;
 mod parts;
+pub(crate) mod polyhedron;
 pub(crate) mod quarter;
 pub(crate) mod region;
 pub(crate) mod sampling;

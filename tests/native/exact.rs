@@ -2,11 +2,11 @@
 
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
-use developable::Mesh;
 use developable::drawing::{Bending, Drawing, DrawingOptions, Label, LabelKind};
 use developable::files::drawings::write_dxf;
-use developable::pattern::{
-    MeshPattern, NetOptions, Sheet, has_exact_faces, has_exact_vertices, pattern_exact, sheet_metal,
+use developable::pattern::{MeshPattern, NetOptions, Sheet, pattern_exact, sheet_metal};
+use developable::{
+    Lambda, Mesh, MeshOptions, StopReason, fit_mesh, has_exact_faces, has_exact_vertices,
 };
 
 fn seam_length(pattern: &MeshPattern) -> f64 {
@@ -159,6 +159,31 @@ fn polyhedra_are_one_net_with_the_shortest_cut() {
             assert!((area - 1.0).abs() < 1e-9, "{area}");
         }
     }
+}
+
+#[test]
+fn a_fit_leaves_meshes_without_noise_as_they_are() {
+    // A cone of one row of quadrilaterals has no vertex inside.
+    let ring = |k: usize, r: f64, z: f64| {
+        let angle = TAU * k as f64 / 40.0;
+        [r * angle.cos(), r * angle.sin(), z]
+    };
+    let places = (0..40).flat_map(|k| [ring(k, 40.0, 0.0), ring(k, 20.0, 50.0)]);
+    let quads = (0..40u32).map(|k| [2 * k, 2 * ((k + 1) % 40), 2 * ((k + 1) % 40) + 1, 2 * k + 1]);
+    let triangles = quads.flat_map(|[a, b, c, d]| [[a, b, c], [a, c, d]]);
+    let cone = Mesh::new(places.collect(), triangles.collect()).unwrap();
+    for mesh in [block_with_hole(), cone] {
+        let fitted = fit_mesh(&mesh, &MeshOptions::default()).unwrap();
+        assert_eq!(fitted.mesh().positions(), mesh.positions());
+        let report = fitted.report();
+        assert_eq!(
+            (report.stop_reason, report.sigma),
+            (StopReason::NoNoise, Some(0.0))
+        );
+    }
+    let options = MeshOptions::default().lambda(Lambda::Medium);
+    let moved = fit_mesh(&block_with_hole(), &options).unwrap();
+    assert_ne!(moved.mesh().positions(), block_with_hole().positions());
 }
 
 #[test]

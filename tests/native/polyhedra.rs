@@ -3,10 +3,8 @@
 
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_4};
 
-use developable::Mesh;
-use developable::pattern::{
-    NetOptions, has_exact_faces, has_exact_vertices, noisy_faces, rolled_faces,
-};
+use developable::pattern::{NetOptions, noisy_faces, rolled_faces};
+use developable::{Mesh, has_exact_faces, has_exact_vertices};
 use nalgebra::{Rotation3, Vector3};
 
 use crate::common::closed_meshes::cube;

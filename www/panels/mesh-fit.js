@@ -304,9 +304,10 @@ export function meshFitPanel(session, meshFit) {
     },
     enter,
     leave: showOneSide,
-    /** Solves a mesh that was opened: its heights from one side, or the whole of it if much is hidden from there. */
+    /** Solves a mesh that was opened: its heights from one side, or the whole of it if much is hidden from there or it has no noise. */
     begin() {
-      if (!inputMesh || !session.input?.lattice?.hidden) return void session.run();
+      const { hidden, noNoise } = session.input?.lattice ?? {};
+      if (!inputMesh || !(hidden || noNoise)) return void session.run();
       enter('shaded');
       isFirstSolve = true;
     },

@@ -147,7 +147,7 @@ export function meshFitSummary(mesh, { report }) {
   return [
     MESH_FIT_WORDS.vertices(count(report.vertices), seconds(total)),
     gap === undefined ? '' : MESH_FIT_WORDS.proof(passes.length, percent(gap)),
-    stopReason === 'maxIterations' ? MESH_FIT_WORDS.maxIterations : stopReason === 'diverged' ? MESH_FIT_WORDS.diverged : '',
+    stopReason === 'maxIterations' || stopReason === 'diverged' || stopReason === 'noNoise' ? MESH_FIT_WORDS[stopReason] : '',
     mended > 0 ? MESH_FIT_WORDS.repaired(mended) : '',
     entangled.length > 0 ? MESH_FIT_WORDS.entangled(entangled.length, entangled[0].position.map((at) => number(at, 3)).join(', ')) : '',
     entangled.length === 0 && flipped[1] > 0 ? MESH_FIT_WORDS.flipped(flipped[1]) : '',

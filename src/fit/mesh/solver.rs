@@ -28,6 +28,7 @@ use crate::fit::component_solver::Status;
 use crate::fit::energy::spectral_penalty::HuberParameters;
 use crate::fit::options::Lambda;
 use crate::fit::report::{Progress, Seconds, StopReason};
+use crate::scene::exactness::{has_exact_faces, has_exact_vertices};
 use crate::scene::mesh::Mesh;
 
 /// Product of λ, the noise's standard deviation and the spacing of vertices, in normalised coordinates, that determines
@@ -84,8 +85,8 @@ pub struct MeshSolver {
     sigma: Option<f64>,
     /// Triangles of the surface that are folded over or cross others, when the fit is finished.
     entangled: Vec<u32>,
-    /// Solve of the current or the last linearised problem.
-    levels: MeshLevels,
+    /// Solve of the current or the last linearised problem; `None` of a mesh that is left as it is.
+    levels: Option<MeshLevels>,
     /// Positions of the vertices so far, in normalised coordinates.
     surface: Vec<Point>,
     /// Positions of the vertices before crease passes.
@@ -106,7 +107,8 @@ pub struct MeshSolver {
 /// lattice, and once more about the result, where vertices on creases also move across their rays. Unless
 /// `crease_passes` is 0, they are then moved to where the continuations of both sides meet, and borders and creases
 /// become smooth curves. Last, self-intersections and folded triangles are removed by moving their vertices towards
-/// the mean of their neighbours.
+/// the mean of their neighbours. With [`Lambda::Auto`] a mesh without noise ([`has_exact_faces`], [`has_exact_vertices`]) is
+/// left as it is.
 ///
 /// # Errors
 /// [`Error::Topology`](crate::Error::Topology) if the mesh is no surface and cannot safely be made one, and
@@ -141,9 +143,14 @@ impl MeshSolver {
             confidence,
             held,
         };
+        let is_left = matches!(options.lambda, Lambda::Auto)
+            && (has_exact_faces(&mesh) || has_exact_vertices(&mesh));
         // Without noise there is no reach, and without reach slivers spoil the base.
         let (base, frames) = first_base(&given);
-        let sigma = noise(&given.topology, &base, &frames, &given.noisy);
+        let sigma = match is_left {
+            true => Some(0.0),
+            false => noise(&given.topology, &base, &frames, &given.noisy),
+        };
         let spacing = mean_spacing(&given.topology, &base);
         let auto = sigma.map_or(Lambda::Medium.value(), |sigma| {
             LAMBDA_NOISE_PRODUCT / (sigma.max(MIN_NOISE_SPACINGS * spacing) * spacing)
@@ -163,8 +170,14 @@ impl MeshSolver {
             options.crease_passes.get_or_insert(0);
         }
         let before = ShapeMeasures::new(topology, &given.noisy, &base);
-        let linear = linearise(&given, base, frames, &options, lambda, None)?;
-        let (levels, reason) = MeshLevels::new(linear, None, &options, parameters(&options, 0))?;
+        let (levels, reason) = if is_left {
+            (None, None)
+        } else {
+            let linear = linearise(&given, base, frames, &options, lambda, None)?;
+            let first = parameters(&options, 0);
+            let (levels, reason) = MeshLevels::new(linear, None, &options, first)?;
+            (Some(levels), reason)
+        };
         let mut solver = MeshSolver {
             mesh,
             options,
@@ -178,7 +191,7 @@ impl MeshSolver {
             given,
             passes: Vec::new(),
             before,
-            reason: None,
+            reason: is_left.then_some(StopReason::NoNoise),
             seconds: Seconds::default(),
             start,
         };
@@ -195,8 +208,11 @@ impl MeshSolver {
     /// [`Error::OutOfMemory`](crate::Error::OutOfMemory).
     pub fn advance(&mut self, iterations: usize) -> Result<Status> {
         let mut left = iterations;
-        while self.reason.is_none() && left > 0 {
-            if let Some(reason) = self.levels.advance(&mut left)? {
+        while self.reason.is_none()
+            && left > 0
+            && let Some(levels) = &mut self.levels
+        {
+            if let Some(reason) = levels.advance(&mut left)? {
                 self.finish(reason)?;
                 // A further linearisation takes as much work as one call.
                 left = 0;
@@ -215,10 +231,13 @@ impl MeshSolver {
 
     /// Returns the progress at the last check of the current linearised problem.
     pub fn progress(&self) -> Progress {
-        let admm = &self.levels.solver.admm;
+        let Some(levels) = &self.levels else {
+            return Progress::default();
+        };
+        let admm = &levels.solver.admm;
         let done = |of: fn(&MeshPass) -> usize| self.passes.iter().map(of).sum::<usize>();
         let under_way = match self.reason {
-            None | Some(StopReason::Cancelled) => self.levels.iterations(),
+            None | Some(StopReason::Cancelled) => levels.iterations(),
             Some(_) => [0; 2],
         };
         Progress {
@@ -238,9 +257,12 @@ impl MeshSolver {
 
     /// Takes over the result of a linearised problem, and goes on to the next one or ends the fit.
     fn finish(&mut self, reason: StopReason) -> Result<()> {
-        let admm = &self.levels.solver.admm;
-        let linear = self.levels.finest();
-        let [iterations, cg_iterations] = self.levels.iterations();
+        let Some(levels) = self.levels.take() else {
+            return Ok(());
+        };
+        let admm = &levels.solver.admm;
+        let linear = levels.finest();
+        let [iterations, cg_iterations] = levels.iterations();
         let last = self.passes.len() >= self.options.crease_passes_or_default();
         let mut next = linear.moved(&admm.incumbent.z);
         self.given.keep_within_reach(&mut next);
@@ -262,11 +284,11 @@ impl MeshSolver {
             dual_bound: admm.incumbent.dual_bound,
             gap: Some(admm.incumbent.gap()),
             stop_reason: reason,
-            creases: self.levels.creases,
+            creases: levels.creases,
             moved: (squares / next.len() as f64).sqrt() / scale,
             moved_most: moved.fold(0.0, f64::max) / scale,
         });
-        self.seconds = self.seconds + self.levels.seconds();
+        self.seconds = self.seconds + levels.seconds();
         self.surface = next;
         let done = last || !matches!(reason, StopReason::Gap | StopReason::Residuals);
         let (given, surface) = (&self.given, &mut self.surface);
@@ -290,6 +312,7 @@ impl MeshSolver {
         }
         if done {
             self.reason = Some(reason);
+            self.levels = Some(levels);
             return Ok(());
         }
         self.smooth.get_or_insert_with(|| surface.clone());
@@ -303,14 +326,14 @@ impl MeshSolver {
         let sides = SmoothRegions::new(&self.given.topology, &base)?;
         let (options, lambda) = (&self.options, self.lambda);
         let next = linearise(&self.given, base, frames, options, lambda, Some(&sides))?;
-        let warm = self.levels.warm_start(&next, sides)?;
+        let warm = levels.warm_start(&next, sides)?;
         let (levels, reason) = MeshLevels::new(
             next,
             Some(&warm),
             options,
             parameters(options, self.passes.len()),
         )?;
-        self.levels = levels;
+        self.levels = Some(levels);
         if let Some(reason) = reason {
             self.finish(reason)?;
         }
@@ -326,7 +349,8 @@ impl MeshSolver {
         let topology = &self.given.topology;
         let mut positions = self.mesh.positions().to_vec();
         // Vertices without a triangle stay exactly where they are.
-        for corner in self.mesh.triangles().as_flattened() {
+        let moved = self.levels.iter().flat_map(|_| self.mesh.triangles());
+        for corner in moved.flatten() {
             let joined = topology.joined[*corner as usize];
             if !self.given.held[joined as usize] {
                 positions[*corner as usize] = self.bounds.outward(self.surface[joined as usize]);
@@ -334,8 +358,12 @@ impl MeshSolver {
         }
         let after = ShapeMeasures::new(topology, &self.surface, &self.surface);
         let (length, closed) = (1.0 / self.bounds.scale, topology.closed);
-        let interior = self.levels.finest().centres.len();
         let inside = topology.vertices_inside().count();
+        let finest = self.levels.as_ref().map(MeshLevels::finest);
+        let (interior, spacing) = match finest {
+            Some(finest) => (finest.centres.len(), finest.spacing),
+            None => (inside, mean_spacing(topology, &self.surface)),
+        };
         let mut seconds = self.seconds;
         seconds.total = self.start.elapsed().as_secs_f64();
         Ok(MeshSurface {
@@ -347,7 +375,7 @@ impl MeshSolver {
                 pinched: topology.pinched,
                 components: topology.components,
                 repairs: topology.repairs,
-                spacing: self.levels.finest().spacing * length,
+                spacing: spacing * length,
                 scale: self.bounds.scale,
                 sigma: self.sigma.map(|sigma| sigma * length),
                 lambda: self.lambda,
@@ -380,12 +408,15 @@ impl MeshSolver {
     }
 }
 
-/// Computes the spacing of a hexagonal lattice whose vertices have the mean area of those inside.
+/// Computes the spacing of a hexagonal lattice whose vertices have the mean area of those inside, or of all if none is.
 fn mean_spacing(topology: &Topology, x: &[Point]) -> f64 {
     let own = areas(topology, x);
-    let inside = topology.vertices_inside();
-    let count = inside.clone().count() as f64;
-    hexagonal_spacing(inside.map(|vertex| own[vertex]).sum::<f64>() / count)
+    let mut inside: Vec<usize> = topology.vertices_inside().collect();
+    if inside.is_empty() {
+        inside.extend(0..own.len());
+    }
+    let total: f64 = inside.iter().map(|vertex| own[*vertex]).sum();
+    hexagonal_spacing(total / inside.len() as f64)
 }
 
 /// Parameters of ADMM for the solve after a number of other ones.

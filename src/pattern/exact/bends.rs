@@ -4,10 +4,10 @@ use std::f64::consts::PI;
 
 use rustc_hash::{FxHashMap, FxHashSet};
 
-use super::patches::{FlatPatches, inner_sides, is_step};
-use super::polyhedron::Polyhedron;
+use super::patches::FlatPatches;
 use crate::math::planar::Point2;
 use crate::pattern::sheets::{Bend, Fold};
+use crate::scene::polyhedron::Polyhedron;
 
 /// Radius of each patch that is a bend: of the circle whose chords its facets are.
 pub(super) fn radii(solid: &Polyhedron, patches: &FlatPatches) -> Vec<Option<f64>> {
@@ -15,7 +15,7 @@ pub(super) fn radii(solid: &Polyhedron, patches: &FlatPatches) -> Vec<Option<f64
     // the sums of its facets' areas and widths times areas.
     let mut lengths = vec![0.0; solid.normals.len()];
     let mut inner = vec![[0.0; 2]; patches.areas.len()];
-    for side in inner_sides(solid).filter(|side| is_step(solid, *side)) {
+    for side in solid.inner_sides().filter(|side| solid.is_step(*side)) {
         let facets = [side, solid.twins[side as usize]].map(|s| solid.facet(s) as usize);
         let (long, angle) = (solid.length(side), solid.angle(side).abs());
         facets.iter().for_each(|facet| lengths[*facet] += long);

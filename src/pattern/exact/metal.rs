@@ -2,11 +2,11 @@
 
 use nalgebra::Matrix3;
 
-use super::polyhedron::{Place, Polyhedron};
 use crate::error::Result;
 use crate::math::index::NO_INDEX;
 use crate::math::union_find::UnionFind;
 use crate::scene::mesh::Mesh;
+use crate::scene::polyhedron::{Place, Polyhedron};
 
 /// Maximum difference of a skin's depth from the thickness, as a share of it: the depth between the chords of a bend is less
 /// than between its arcs.

@@ -6,14 +6,13 @@
 
 mod bends;
 mod growth;
+mod kind;
 mod metal;
 mod net;
 mod noisy;
 mod patches;
 mod planes;
 mod polygon;
-mod polyhedron;
-mod recognition;
 mod rolled;
 mod search;
 mod sheets;
@@ -21,12 +20,13 @@ mod sheets;
 use super::mesh::MeshPattern;
 use crate::error::{Error, Result};
 use crate::scene::mesh::Mesh;
+use crate::scene::polyhedron::Polyhedron;
 pub use metal::{SheetMetal, sheet_metal};
 use net::{EdgeChoices, Net};
 pub use noisy::noisy_faces;
 use patches::FlatPatches;
-use polyhedron::Polyhedron;
-pub use recognition::{MeshKind, has_exact_faces, has_exact_vertices};
+
+pub use kind::MeshKind;
 pub use rolled::rolled_faces;
 
 /// Options of a net: the room for its sheets, and edges that a person decides about.

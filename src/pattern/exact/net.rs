@@ -3,10 +3,10 @@
 use nalgebra::Complex;
 use rustc_hash::{FxHashMap, FxHashSet};
 
-use super::polyhedron::Polyhedron;
 use crate::error::{Error, Result};
 use crate::math::index::NO_INDEX;
 use crate::math::planar::{LeastBox, Point2, cross};
+use crate::scene::polyhedron::Polyhedron;
 
 /// Maximum number of cells of all grids: so many for each triangle, and so many in all. Slender triangles get larger cells.
 const MAX_CELLS_PER_TRIANGLE: f64 = 64.0;

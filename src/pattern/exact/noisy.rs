@@ -7,13 +7,13 @@ use rustc_hash::FxHashMap;
 use super::FoundFaces;
 use super::planes::{MAX_DEVIATION_SIGMAS, NoisyPlanes};
 use super::polygon::{Straight, straight_parts, triangulate};
-use super::polyhedron::{KnownFaces, Place, Polyhedron};
 use crate::error::Result;
 use crate::math::index::NO_INDEX;
 use crate::math::planar::{Point2, polygon_area};
 use crate::math::union_find::UnionFind;
 use crate::scene::half_edges::{half_edge_ends, next_half_edge, twin_half_edges};
 use crate::scene::mesh::Mesh;
+use crate::scene::polyhedron::{KnownFaces, Place, Polyhedron};
 
 /// Length, in standard deviations of the noise, up to which the ends of an edge are one corner.
 const MIN_EDGE_SIGMAS: f64 = 10.0;

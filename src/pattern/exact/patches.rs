@@ -3,13 +3,10 @@
 use rustc_hash::{FxHashMap, FxHashSet};
 
 use super::net::Net;
-use super::polyhedron::Polyhedron;
 use crate::error::{Error, Result};
 use crate::math::index::NO_INDEX;
 use crate::math::union_find::UnionFind;
-
-/// Largest angle between neighbouring facets of a bend, in radians: circles of 16 sides or more.
-pub(super) const MAX_BEND_STEP: f64 = 0.4;
+use crate::scene::polyhedron::Polyhedron;
 
 /// Largest ratio of the angles on both sides of a facet of a bend.
 const MAX_BEND_STEP_RATIO: f64 = 3.0;
@@ -26,9 +23,9 @@ impl FlatPatches {
         let is_bent = bent_facets(solid);
         let mut forest = UnionFind::new("facets", solid.normals.len())?;
         // The folds of bends, in an order in which a bend is known as a path.
-        let folds = inner_sides(solid).filter(|side| {
+        let folds = solid.inner_sides().filter(|side| {
             net.is_closed(*side)
-                && is_step(solid, *side)
+                && solid.is_step(*side)
                 && [*side, solid.twins[*side as usize]]
                     .iter()
                     .all(|s| is_bent[solid.facet(*s) as usize])
@@ -38,7 +35,8 @@ impl FlatPatches {
             .collect();
         folds.iter().for_each(|[a, b]| forest.union(*a, *b));
         // A bend all around is cut along one line, and both sides of a cut belong to different patches: it is halved.
-        let mut halved: Vec<u32> = inner_sides(solid)
+        let mut halved: Vec<u32> = solid
+            .inner_sides()
             .filter(|side| !net.is_closed(*side))
             .map(|side| [side, solid.twins[side as usize]].map(|s| forest.find(solid.facet(s))))
             .filter(|[a, b]| a == b)
@@ -99,7 +97,7 @@ impl FlatPatches {
             wanted.insert([*a.min(b), *a.max(b)], false);
         }
         let mut found = FxHashSet::default();
-        for side in inner_sides(solid) {
+        for side in solid.inner_sides() {
             let mut facets = [side, solid.twins[side as usize]].map(|s| solid.facet(s));
             facets.sort_unstable();
             let mut patches = facets.map(|facet| self.of[facet as usize]);
@@ -119,38 +117,12 @@ impl FlatPatches {
     }
 }
 
-/// One half-edge of each edge with two facets.
-pub(super) fn inner_sides(solid: &Polyhedron) -> impl Iterator<Item = u32> + '_ {
-    (0u32..).zip(&solid.twins).filter_map(|(side, twin)| {
-        let is_first = *twin != NO_INDEX && side < *twin;
-        (is_first && solid.facet(side) != solid.facet(*twin)).then_some(side)
-    })
-}
-
-pub(super) fn is_step(solid: &Polyhedron, side: u32) -> bool {
-    solid.angle(side).abs() <= MAX_BEND_STEP
-}
-
-/// The facets that each facet meets at a small angle, each with the angle.
-pub(super) fn bend_steps(solid: &Polyhedron) -> Vec<Vec<(u32, f64)>> {
-    let mut steps: Vec<Vec<(u32, f64)>> = vec![Vec::new(); solid.normals.len()];
-    for side in inner_sides(solid).filter(|side| is_step(solid, *side)) {
-        let [a, b] = [side, solid.twins[side as usize]].map(|s| solid.facet(s));
-        for (own, other) in [(a, b), (b, a)] {
-            if steps[own as usize].iter().all(|(facet, _)| *facet != other) {
-                steps[own as usize].push((other, solid.angle(side)));
-            }
-        }
-    }
-    steps
-}
-
 /// Whether each facet is part of a bend: it meets two others at small, similar angles of one sign, one of which is about as wide, and
 /// the rest at large ones.
 fn bent_facets(solid: &Polyhedron) -> Vec<bool> {
-    let steps = bend_steps(solid);
+    let steps = solid.bend_steps();
     let mut lengths = vec![0.0; steps.len()];
-    for side in inner_sides(solid).filter(|side| is_step(solid, *side)) {
+    for side in solid.inner_sides().filter(|side| solid.is_step(*side)) {
         for side in [side, solid.twins[side as usize]] {
             lengths[solid.facet(side) as usize] += solid.length(side);
         }
@@ -186,7 +158,7 @@ fn first_half(
     net: &Net,
     mut is_own: impl FnMut(u32) -> bool,
 ) -> Vec<u32> {
-    let cut = inner_sides(solid).find(|side| {
+    let cut = solid.inner_sides().find(|side| {
         let both = [*side, solid.twins[*side as usize]].map(|s| solid.facet(s));
         !net.is_closed(*side) && both.iter().all(|facet| is_own(*facet))
     });

@@ -5,10 +5,10 @@ use std::collections::BTreeSet;
 use nalgebra::Matrix3;
 
 use super::growth::grow;
-use super::polyhedron::{Place, Polyhedron};
 use crate::math::index::NO_INDEX;
 use crate::math::least_squares::LeastSquares;
 use crate::math::symmetric_eigen::symmetric_eigen3;
+use crate::scene::polyhedron::{Place, Polyhedron};
 
 /// Number of neighbouring vertices from which the noise is measured and a region grows, and minimum number of a region.
 const SEED_VERTICES: usize = 16;

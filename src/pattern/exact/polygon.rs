@@ -1,8 +1,8 @@
 //! Polygons with holes: simplified lines, and triangles (ear clipping).
 
-use super::polyhedron::Place;
 use crate::math::planar::{Point2, orientation, polygon_area, segments_intersect};
 use crate::math::symmetric_eigen::symmetric_eigen3;
+use crate::scene::polyhedron::Place;
 
 /// Maximum number of corners of a face: cutting off ears costs the cube of it, a second for these.
 const MAX_FACE_CORNERS: usize = 600;

@@ -7,14 +7,14 @@ use rustc_hash::{FxHashMap, FxHashSet};
 
 use super::FoundFaces;
 use super::growth::grow;
-use super::patches::{inner_sides, is_step};
-use super::polyhedron::{KnownFaces, Place, Polyhedron};
+
 use crate::math::index::NO_INDEX;
 use crate::math::least_squares::LeastSquares;
 use crate::math::planar::Point2;
 use crate::math::symmetric_eigen::symmetric_eigen3;
 use crate::scene::half_edges::half_edge_ends;
 use crate::scene::mesh::Mesh;
+use crate::scene::polyhedron::{KnownFaces, Place, Polyhedron};
 
 /// Number of neighbouring facets from which a cylinder is found.
 const SEED_FACETS: usize = 8;
@@ -139,7 +139,7 @@ pub fn rolled_faces(mesh: &Mesh) -> Option<FoundFaces> {
             }
         }
     }
-    for side in inner_sides(&solid) {
+    for side in solid.inner_sides() {
         let facets = [side, solid.twins[side as usize]].map(|s| solid.facet(s));
         // A bend ends at its faces, or at lines along it, and there are no others.
         let [a, b] = solid.ends(side);
@@ -149,7 +149,7 @@ pub fn rolled_faces(mesh: &Mesh) -> Option<FoundFaces> {
                 || rolls[k].faces.iter().any(|(face, _)| *face == facet)
         };
         let is_known = match facets.map(|facet| roll_of[facet as usize]) {
-            [None, None] => !is_step(&solid, side),
+            [None, None] => !solid.is_step(side),
             [Some(k), None] => ends_at(k, facets[1]),
             [None, Some(k)] => ends_at(k, facets[0]),
             [Some(j), Some(k)] => j == k,
@@ -209,10 +209,10 @@ impl Search<'_> {
         };
         let is_slender: Vec<bool> = triangles.iter().zip(&solid.areas).map(is_slender).collect();
         let mut around = vec![Vec::new(); solid.normals.len()];
-        for side in inner_sides(solid) {
+        for side in solid.inner_sides() {
             let twin = solid.twins[side as usize];
             let [a, b] = [side, twin].map(|s| solid.facet(s));
-            if is_step(solid, side) || is_slender[a as usize] || is_slender[b as usize] {
+            if solid.is_step(side) || is_slender[a as usize] || is_slender[b as usize] {
                 around[a as usize].push(b);
                 around[b as usize].push(a);
             }

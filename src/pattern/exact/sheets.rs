@@ -4,14 +4,14 @@ use rustc_hash::FxHashMap;
 
 use super::bends::{mark_bends, radii};
 use super::net::Net;
-use super::patches::{FlatPatches, MAX_BEND_STEP, inner_sides};
-use super::polyhedron::Polyhedron;
+use super::patches::FlatPatches;
 use crate::error::Result;
 use crate::math::index::NO_INDEX;
 use crate::math::planar::{Point2, distance_to_segment, orientation};
 use crate::math::union_find::UnionFind;
 use crate::pattern::{Direction, Faces, Fold, MeshPattern, Missing, Run, Seam, Sheet, Spot};
 use crate::scene::half_edges::{half_edge_ends, next_half_edge};
+use crate::scene::polyhedron::{MAX_BEND_STEP, Polyhedron};
 use crate::shape::patches::{Crease, Patch};
 
 pub(super) fn draw(solid: &Polyhedron, net: &Net, patches: &FlatPatches) -> Result<MeshPattern> {
@@ -93,7 +93,7 @@ impl Drafter<'_> {
     fn find_creases(&mut self) -> Result<()> {
         let solid = self.solid;
         let mut sets = UnionFind::new("edges", solid.twins.len())?;
-        let sides: Vec<u32> = inner_sides(solid).collect();
+        let sides: Vec<u32> = solid.inner_sides().collect();
         for side in 0..solid.twins.len() as u32 {
             let twin = solid.twins[side as usize];
             if twin == NO_INDEX || solid.facet(side) == solid.facet(twin) {

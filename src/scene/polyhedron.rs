@@ -5,13 +5,13 @@ use std::f64::consts::PI;
 use nalgebra::Vector3;
 use rustc_hash::FxHashMap;
 
+use super::half_edges::{half_edge_ends, twin_half_edges};
+use super::mesh::Mesh;
 use crate::error::{Error, Result};
 use crate::math::index::NO_INDEX;
 use crate::math::planar::{Point2, polygon_area};
-use crate::scene::half_edges::{half_edge_ends, twin_half_edges};
-use crate::scene::mesh::Mesh;
 
-pub(super) type Place = Vector3<f64>;
+pub(crate) type Place = Vector3<f64>;
 
 /// Distance below which points are one and a point lies in a plane, as a share of the mesh's diagonal: files have six
 /// digits or more.
@@ -20,8 +20,11 @@ const ROUNDING_SHARE: f64 = 1e-6;
 /// The same in units of the last place of the largest coordinate, where all coordinates are numbers of 32 bits.
 const ROUNDING_F32_UNITS: f64 = 4.0;
 
+/// Largest angle between neighbouring facets of a bend, in radians: circles of 16 sides or more.
+pub(crate) const MAX_BEND_STEP: f64 = 0.4;
+
 /// A mesh whose triangles belong to flat facets. Half-edges are numbered as in [`half_edge_ends`].
-pub(super) struct Polyhedron {
+pub(crate) struct Polyhedron {
     pub places: Vec<Place>,
     pub triangles: Vec<[u32; 3]>,
     /// The twin of each half-edge; [`NO_INDEX`] on the border, and where more than two triangles meet.
@@ -40,7 +43,7 @@ pub(super) struct Polyhedron {
 
 /// Triangles of faces that are known, as of a mesh with noise, or rolled.
 #[derive(Default)]
-pub(super) struct KnownFaces {
+pub(crate) struct KnownFaces {
     pub triangles: Vec<[u32; 3]>,
     /// Number of the face of each triangle.
     pub of: Vec<u32>,
@@ -51,7 +54,7 @@ pub(super) struct KnownFaces {
 }
 
 impl KnownFaces {
-    pub(super) fn push(&mut self, triangle: [u32; 3], face: u32, flat: [Point2; 3]) {
+    pub(crate) fn push(&mut self, triangle: [u32; 3], face: u32, flat: [Point2; 3]) {
         self.triangles.push(triangle);
         self.of.push(face);
         self.flat.push(flat);
@@ -63,7 +66,7 @@ impl Polyhedron {
     ///
     /// # Errors
     /// [`Error::Unsupported`] for a mesh whose triangles have no area.
-    pub(super) fn new(mesh: &Mesh) -> Result<Polyhedron> {
+    pub(crate) fn new(mesh: &Mesh) -> Result<Polyhedron> {
         let rounding = rounding(mesh.positions());
         let (places, joined) = join(mesh.positions(), rounding);
         let triangles = (mesh.triangles().iter()).map(|t| t.map(|v| joined[v as usize]));
@@ -93,7 +96,7 @@ impl Polyhedron {
 
     /// Takes triangles whose faces are known and face one side; neighbouring triangles of one face are a facet. Points within
     /// `rounding` are one.
-    pub(super) fn from_faces(places: Vec<Place>, faces: KnownFaces, rounding: f64) -> Polyhedron {
+    pub(crate) fn from_faces(places: Vec<Place>, faces: KnownFaces, rounding: f64) -> Polyhedron {
         let KnownFaces {
             triangles,
             of,
@@ -135,31 +138,31 @@ impl Polyhedron {
         solid
     }
 
-    pub(super) fn corners(&self, triangle: usize) -> [Place; 3] {
+    pub(crate) fn corners(&self, triangle: usize) -> [Place; 3] {
         self.triangles[triangle].map(|v| self.places[v as usize])
     }
 
-    pub(super) fn ends(&self, half_edge: u32) -> [Place; 2] {
+    pub(crate) fn ends(&self, half_edge: u32) -> [Place; 2] {
         half_edge_ends(&self.triangles, half_edge).map(|v| self.places[v as usize])
     }
 
-    pub(super) fn length(&self, half_edge: u32) -> f64 {
+    pub(crate) fn length(&self, half_edge: u32) -> f64 {
         let [a, b] = self.ends(half_edge);
         (b - a).norm()
     }
 
-    pub(super) fn facet(&self, half_edge: u32) -> u32 {
+    pub(crate) fn facet(&self, half_edge: u32) -> u32 {
         self.facets[half_edge as usize / 3]
     }
 
     /// Positions of a half-edge's ends in the plane of its facet.
-    pub(super) fn flat_ends(&self, half_edge: u32) -> [Point2; 2] {
+    pub(crate) fn flat_ends(&self, half_edge: u32) -> [Point2; 2] {
         let (corners, k) = (&self.flat[half_edge as usize / 3], half_edge as usize % 3);
         [corners[k], corners[(k + 1) % 3]]
     }
 
     /// Angle between the facets on both sides of a half-edge with a twin, in radians: above 0 at a ridge.
-    pub(super) fn angle(&self, half_edge: u32) -> f64 {
+    pub(crate) fn angle(&self, half_edge: u32) -> f64 {
         let [m, n] = [half_edge, self.twins[half_edge as usize]]
             .map(|side| self.normals[self.facet(side) as usize]);
         let [from, to] = self.ends(half_edge);
@@ -172,6 +175,33 @@ impl Polyhedron {
         } else {
             -angle
         }
+    }
+
+    /// One half-edge of each edge with two facets.
+    pub(crate) fn inner_sides(&self) -> impl Iterator<Item = u32> + '_ {
+        (0u32..).zip(&self.twins).filter_map(|(side, twin)| {
+            let is_first = *twin != NO_INDEX && side < *twin;
+            (is_first && self.facet(side) != self.facet(*twin)).then_some(side)
+        })
+    }
+
+    /// Whether the facets on both sides of a half-edge meet at so small an angle that they may belong to one bend.
+    pub(crate) fn is_step(&self, side: u32) -> bool {
+        self.angle(side).abs() <= MAX_BEND_STEP
+    }
+
+    /// The facets that each facet meets at a small angle, each with the angle.
+    pub(crate) fn bend_steps(&self) -> Vec<Vec<(u32, f64)>> {
+        let mut steps: Vec<Vec<(u32, f64)>> = vec![Vec::new(); self.normals.len()];
+        for side in self.inner_sides().filter(|side| self.is_step(*side)) {
+            let [a, b] = [side, self.twins[side as usize]].map(|s| self.facet(s));
+            for (own, other) in [(a, b), (b, a)] {
+                if steps[own as usize].iter().all(|(facet, _)| *facet != other) {
+                    steps[own as usize].push((other, self.angle(side)));
+                }
+            }
+        }
+        steps
     }
 
     /// Grows facets from the largest triangles on: a triangle belongs to a facet if all its corners lie in its plane.

@@ -1,14 +1,9 @@
 //! Tells meshes with exact faces from scans and from smooth surfaces.
 
-use super::FoundFaces;
-use super::noisy::noisy_faces;
-use super::patches::{bend_steps, inner_sides};
+use super::half_edges::half_edge_ends;
+use super::mesh::Mesh;
 use super::polyhedron::Polyhedron;
-use super::rolled::rolled_faces;
-use crate::error::Result;
 use crate::math::index::NO_INDEX;
-use crate::scene::half_edges::half_edge_ends;
-use crate::scene::mesh::Mesh;
 
 /// Minimum share of the facets that are strips of bends, and maximum share of those that are neither strips nor faces. Of
 /// triangles with noise, however steep, less than half have two neighbours at small angles.
@@ -30,45 +25,15 @@ const MIN_LOW_POLY_ANGLE: f64 = 8.0;
 /// Minimum share of the area of a mesh without noise that lies in planes of several triangles.
 const MIN_PLANAR_SHARE: f64 = 0.5;
 
-/// What a mesh is, and the faces that were found in it. Each kind is laid flat in its own way.
-pub enum MeshKind {
-    /// The faces of the mesh are exact: [`pattern_exact`](super::pattern_exact) lays them flat.
-    Faces,
-    /// The vertices of the mesh have noise about flat faces.
-    NoisyFaces(FoundFaces),
-    /// The vertices of the mesh are exact, and lie on flat faces and bends that are parts of cylinders.
-    Bends(FoundFaces),
-    /// The vertices of the mesh are exact, those of a smooth surface.
-    Surface,
-    /// The vertices of the mesh have noise: it is to be fitted first.
-    Noisy,
-}
-
-impl MeshKind {
-    /// Recognises a mesh; costs what [`noisy_faces`] and [`rolled_faces`] cost.
-    ///
-    /// # Errors
-    /// [`Error::OutOfMemory`](crate::Error::OutOfMemory).
-    pub fn of(mesh: &Mesh) -> Result<MeshKind> {
-        Ok(if has_exact_faces(mesh) {
-            MeshKind::Faces
-        } else if has_exact_vertices(mesh) {
-            rolled_faces(mesh).map_or(MeshKind::Surface, MeshKind::Bends)
-        } else {
-            noisy_faces(mesh)?.map_or(MeshKind::Noisy, MeshKind::NoisyFaces)
-        })
-    }
-}
-
 /// Returns whether the faces of a mesh are exact, so that nothing is gained by a fit: it is made of strips that bend, or its
 /// vertices have no noise and its faces are planes of several triangles, or so few that each is a face of its own.
 ///
-/// [`pattern_exact`](super::pattern_exact) lays such a mesh flat as it is.
+/// [`pattern_exact`](crate::pattern::pattern_exact) lays such a mesh flat as it is.
 pub fn has_exact_faces(mesh: &Mesh) -> bool {
     let Ok(solid) = Polyhedron::new(mesh) else {
         return false;
     };
-    let hinges: Vec<u32> = inner_sides(&solid).collect();
+    let hinges: Vec<u32> = solid.inner_sides().collect();
     let mut angles: Vec<f64> = hinges
         .iter()
         .map(|side| solid.angle(*side).abs().to_degrees())
@@ -80,7 +45,7 @@ pub fn has_exact_faces(mesh: &Mesh) -> bool {
     };
     let inner = solid.twins.iter().filter(|twin| **twin != NO_INDEX).count() / 2;
     let flat = 1.0 - hinges.len() as f64 / inner as f64;
-    let steps = bend_steps(&solid);
+    let steps = solid.bend_steps();
     let share = |is_wanted: &dyn Fn(usize) -> bool| {
         (0..steps.len()).filter(|facet| is_wanted(*facet)).count() as f64 / steps.len() as f64
     };
@@ -107,7 +72,7 @@ pub fn has_exact_vertices(mesh: &Mesh) -> bool {
         .zip(&solid.areas)
         .filter(|(count, _)| **count > 1);
     let planar: f64 = planar.map(|(_, area)| area).sum();
-    let hinges: Vec<u32> = inner_sides(&solid).collect();
+    let hinges: Vec<u32> = solid.inner_sides().collect();
     planar >= MIN_PLANAR_SHARE * solid.areas.iter().sum::<f64>()
         && (hinges.is_empty() || bend_correlation(&solid, &hinges) >= MIN_BEND_CORRELATION)
 }

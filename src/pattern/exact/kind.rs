@@ -1,0 +1,38 @@
+//! Tells the kinds of meshes, each of which is laid flat in its own way.
+
+use super::FoundFaces;
+use super::noisy::noisy_faces;
+use super::rolled::rolled_faces;
+use crate::error::Result;
+use crate::scene::exactness::{has_exact_faces, has_exact_vertices};
+use crate::scene::mesh::Mesh;
+
+/// What a mesh is, and the faces that were found in it. Each kind is laid flat in its own way.
+pub enum MeshKind {
+    /// The faces of the mesh are exact: [`pattern_exact`](super::pattern_exact) lays them flat.
+    Faces,
+    /// The vertices of the mesh have noise about flat faces.
+    NoisyFaces(FoundFaces),
+    /// The vertices of the mesh are exact, and lie on flat faces and bends that are parts of cylinders.
+    Bends(FoundFaces),
+    /// The vertices of the mesh are exact, those of a smooth surface.
+    Surface,
+    /// The vertices of the mesh have noise: it is to be fitted first.
+    Noisy,
+}
+
+impl MeshKind {
+    /// Recognises a mesh; costs what [`noisy_faces`] and [`rolled_faces`] cost.
+    ///
+    /// # Errors
+    /// [`Error::OutOfMemory`](crate::Error::OutOfMemory).
+    pub fn of(mesh: &Mesh) -> Result<MeshKind> {
+        Ok(if has_exact_faces(mesh) {
+            MeshKind::Faces
+        } else if has_exact_vertices(mesh) {
+            rolled_faces(mesh).map_or(MeshKind::Surface, MeshKind::Bends)
+        } else {
+            noisy_faces(mesh)?.map_or(MeshKind::Noisy, MeshKind::NoisyFaces)
+        })
+    }
+}

@@ -9,13 +9,15 @@ import { copyOfFile, isBlob } from './file-bytes.js';
 import { asInput, asLattice, checkLengths } from './input.js';
 import { asPicture, wholeOf } from './mesh-input.js';
 import { OpenSolver } from './open.js';
-import { optionsOf } from './options.js';
+import { OPTIONS, optionsOf } from './options.js';
 import { makeDisposable } from './platform.js';
+import { progressPort } from './progress.js';
 import { extentOf } from './sheet-input.js';
 import { readOptions, signal as signalKind } from './schema/kinds.js';
 import { orAborted, solve } from './solve.js';
 import { isRecord, reading } from './values.js';
 import { compile, locate } from './wasm-source.js';
+import { transfer } from './wire.js';
 
 /**
  * @typedef {import('./index.js').DevelopableWorker} DevelopableWorkerApi
@@ -176,12 +178,20 @@ export class DevelopableWorker {
       /** @this {DevelopableWorker} @param {any[]} given */
       const method = async function (...given) {
         const caller = new Error();
-        const { signal, others } = withoutSignal(given);
+        const { signal, onProgress, others } = withoutControl(/** @type {keyof typeof CALLS} */ (name), given);
         signal?.throwIfAborted();
         const sent = await /** @type {import('./calls.js').Call['send']} */ (send)(...others);
+        const progress = onProgress && progressPort(onProgress);
         /** @param {Remote} remote */
-        const ask = (remote) => remote.answer(/** @type {keyof typeof CALLS} */ (name), ...sent);
-        return signal ? this.#abortable(ask, signal, caller) : this.#request(ask, caller);
+        const ask = (remote) => remote.answer(/** @type {keyof typeof CALLS} */ (name), progress && transfer(progress.port, [progress.port]), ...sent);
+        try {
+          const result = await (signal ? this.#abortable(ask, signal, caller) : this.#request(ask, caller));
+          await progress?.end();
+          await onProgress?.({ fraction: 1 });
+          return result;
+        } finally {
+          void progress?.end().catch(() => {});
+        }
       };
       Object.defineProperty(method, 'name', { value: name });
       Object.defineProperty(this.prototype, name, { value: method, configurable: true, writable: true });
@@ -253,25 +263,31 @@ export class DevelopableWorker {
 }
 makeDisposable(DevelopableWorker);
 
-/** Whether there is a signal; what cannot be read is left to who takes it. @param {unknown} options */
-function hasSignal(options) {
+/** Whether there is an option; what cannot be read is left to who takes it. @param {unknown} options @param {string} name */
+function has(options, name) {
   try {
-    return isRecord(options) && Object.hasOwn(/** @type {object} */ (options), 'signal');
+    return isRecord(options) && Object.hasOwn(/** @type {object} */ (options), name);
   } catch {
     return false;
   }
 }
 
 /**
- * Takes the signal out of the options, which are the last argument.
+ * Takes what is for the client alone out of the options, which are the last argument.
+ * @param {keyof typeof CALLS} call
  * @param {any[]} given
- * @returns {{ signal?: AbortSignal, others: any[] }}
+ * @returns {{ signal?: AbortSignal, onProgress?: import('./progress.js').OnProgress, others: any[] }}
  */
-function withoutSignal(given) {
+function withoutControl(call, given) {
   const last = given.at(-1);
-  if (!hasSignal(last)) return { others: given };
-  const { signal, ...options } = reading('OPTION', 'the options', () => ({ .../** @type {{ signal?: unknown }} */ (last) }));
-  return { ...readOptions({ signal: { kind: signalKind } }, { signal }), others: [...given.slice(0, -1), options] };
+  const own = /** @type {Record<string, import('./schema/kinds.js').Options>} */ (OPTIONS)[call] ?? {};
+  const kinds = { signal: { kind: signalKind }, ...(own.onProgress && { onProgress: own.onProgress }) };
+  const taken = Object.keys(kinds).filter((name) => has(last, name));
+  if (taken.length === 0) return { others: given };
+  const options = reading('OPTION', 'the options', () => ({ .../** @type {Record<string, unknown>} */ (last) }));
+  const control = Object.fromEntries(taken.map((name) => [name, options[name]]));
+  for (const name of taken) delete options[name];
+  return { ...readOptions(kinds, control), others: [...given.slice(0, -1), options] };
 }
 
 /**

@@ -3,6 +3,7 @@
  * @module developable/direct
  */
 import type {
+  CallProgress,
   Analysis, AnalyzeOptions, BookPage, Canvas, DecodedPhoto, DepthOptions, DetectedOcclusions, Dewarped, DewarpedPage, DewarpOptions,
   DewarpPageOptions, Drawing, Example, ExampleName, ExampleOptions, FittedCylinder, FlatPage, FlattenPhotoOptions, PageCorners, PageReport, FoundPage, Heightfield, HeightImage, ImageSurface, InitInput, Intrinsics, LatticeSurface, Mesh, MeshAnalysis, MeshAnalyzeOptions,
   MeshPatternOptions, MeshRulingOptions, MeshRulings, MeshSolverOptions, MeshSurface, MeshUnrolling, MeshUnrollOptions, NpzArray, RecognizedMesh,
@@ -97,6 +98,12 @@ export class Solver {
   [Symbol.dispose](): void;
 }
 
+/** Option of the calls that take longest. */
+export interface Watched {
+  /** Function that is called several times a second; it must not be async. If it throws, so does the call, when its work has ended. */
+  onProgress?: (progress: CallProgress) => void;
+}
+
 /** Options of a fit that runs where it is called. */
 export interface DirectFitOptions extends SolverOptions {
   /**
@@ -107,18 +114,18 @@ export interface DirectFitOptions extends SolverOptions {
 }
 
 /**
- * Fits a piecewise developable surface to heights. `report.gap` certifies by which share the objective can be above its
- * minimum at most.
+ * Fits a piecewise developable surface to heights. `report.gap` is a proven bound: the objective is above its minimum by at
+ * most this share.
  */
 export function fit(input: HeightImage, options?: DirectFitOptions): ImageSurface;
 /**
- * Fits a piecewise developable surface to heights. `report.gap` certifies by which share the objective can be above its
- * minimum at most.
+ * Fits a piecewise developable surface to heights. `report.gap` is a proven bound: the objective is above its minimum by at
+ * most this share.
  */
 export function fit(input: Heightfield, options?: DirectFitOptions): LatticeSurface;
 /**
- * Fits a piecewise developable surface to heights. `report.gap` certifies by which share the objective can be above its
- * minimum at most.
+ * Fits a piecewise developable surface to heights. `report.gap` is a proven bound: the objective is above its minimum by at
+ * most this share.
  */
 export function fit(input: HeightImage | Heightfield, options?: DirectFitOptions): Surface;
 /**
@@ -216,7 +223,7 @@ export function picture(input: HeightImage | Heightfield, options?: PictureOptio
 /** Draws a surface, seen from above, on a canvas, which is resized to the picture. */
 export function draw(canvas: Canvas, input: HeightImage | Heightfield, options?: PictureOptions): void;
 /**
- * Computes the rulings of a surface: the direction in which it does not bend at each vertex, and straight lines along
+ * Computes the rulings of a surface: at each vertex the direction in which it does not bend, and straight lines along
  * these directions.
  */
 export function rulings(input: HeightImage | Heightfield, options?: RulingOptions): RulingField;
@@ -226,26 +233,26 @@ export function rulings(input: HeightImage | Heightfield, options?: RulingOption
  */
 export function fitCylinder(input: Heightfield): FittedCylinder;
 /** Lays a surface flat without cuts, with as little strain as possible. */
-export function unroll(input: HeightImage | Heightfield, options?: UnrollOptions): Unrolling;
+export function unroll(input: HeightImage | Heightfield, options?: UnrollOptions & Watched): Unrolling;
 /**
  * Makes a pattern of a surface: cuts it along creases into sheets that lie flat, with as few cuts as possible, and
  * draws the sheets side by side in millimetres.
  */
-export function pattern(input: HeightImage | Heightfield, options?: PatternOptions): Drawing;
+export function pattern(input: HeightImage | Heightfield, options?: PatternOptions & Watched): Drawing;
 /** Computes curvatures and rulings at the vertices of a mesh, and statistics that say how developable the mesh is. */
 export function analyzeMesh(mesh: Mesh, options?: MeshAnalyzeOptions): MeshAnalysis;
 /**
- * Computes the rulings of a mesh: the direction in which it does not bend at each vertex, and straight lines along
+ * Computes the rulings of a mesh: at each vertex the direction in which it does not bend, and straight lines along
  * these directions.
  */
 export function meshRulings(mesh: Mesh, options?: MeshRulingOptions): MeshRulings;
 /** Lays a mesh flat: cuts it into sheets along its creases, and where it does not lie flat otherwise. */
-export function unrollMesh(mesh: Mesh, options?: MeshUnrollOptions): MeshUnrolling;
+export function unrollMesh(mesh: Mesh, options?: MeshUnrollOptions & Watched): MeshUnrolling;
 /**
  * Makes a pattern of a mesh: cuts it into sheets that lie flat, and draws them side by side in millimetres, as
  * `pattern` does for heights.
  */
-export function patternMesh(mesh: Mesh, options?: MeshPatternOptions): Drawing;
+export function patternMesh(mesh: Mesh, options?: MeshPatternOptions & Watched): Drawing;
 /**
  * Recognises what a mesh is: whether a fit gains anything, and whether it is a solid of sheet metal.
  */
@@ -266,14 +273,14 @@ export function dewarp(input: HeightImage | Heightfield, photo: Photo, options?:
  * spread. It needs the page's corners or its edges, two of which are bent, or all four. Without them it takes the edges
  * of the one page that it finds in the photo.
  */
-export function dewarpPage(photo: Picture | (Photo & { film35?: number }), options?: DewarpPageOptions): DewarpedPage;
+export function dewarpPage(photo: Picture | (Photo & { film35?: number }), options?: DewarpPageOptions & Watched): DewarpedPage;
 /**
  * Makes a photo of a page flat without depths: of a page that is curled, folded or crumpled, or of the two pages of a
  * spread. It needs the page's corners or its edges, two of which are bent, or all four. Without them it takes the edges
  * of the one page that it finds in the photo.
  */
 export function dewarpPage(
-  photo: Picture | (Photo & { film35?: number }), edges?: PageEdges | readonly PageEdges[] | PageCorners | null, options?: DewarpPageOptions,
+  photo: Picture | (Photo & { film35?: number }), edges?: PageEdges | readonly PageEdges[] | PageCorners | null, options?: DewarpPageOptions & Watched,
 ): DewarpedPage;
 /**
  * Makes a photo of any resolution flat by a page that `dewarpPage` found in the same picture: the whole photo for a
@@ -291,8 +298,8 @@ export function findPage(photo: Picture): PageOutlines;
  */
 export function readPhoto(bytes: Uint8Array | ArrayBuffer): DecodedPhoto;
 /**
- * Writes a photo or a flat image to a PNG (transparent where the image is), JPEG or PDF file (white there). The file
- * states the true size if that is known.
+ * Writes a photo or a flat image to a PNG, JPEG or PDF file. Transparent pixels stay so in a PNG file and are white in the
+ * others. The file states the true size if that is known.
  */
 export function writePhoto(photo: SizedPhoto, options?: WritePhotoOptions): Uint8Array<ArrayBuffer>;
 /**

@@ -9,6 +9,7 @@ import { optionsOf } from './options.js';
 import { asEdges, asFoundPage, edgesAndOptions, pageOptions } from './page-input.js';
 import { inColour, paintOf, readPhoto } from './paint.js';
 import { makeDisposable } from './platform.js';
+import { PROGRESS_INTERVAL, answerOf } from './progress.js';
 import { Steps } from './steps.js';
 import { asBook, asPhoto, placeOf, placedOptions, printOptions } from './sheet-input.js';
 import { asText, isRecord, plainCopy, reading, record, show } from './values.js';
@@ -17,6 +18,8 @@ export { parseCamera } from './camera-file.js';
 export { DevelopableError } from './errors.js';
 export { describePage } from './page-words.js';
 export { readPhoto };
+
+/** @typedef {import('./progress.js').OnProgress} OnProgress */
 
 /** @type {typeof import('./direct.js').init} */
 export const init = (input) => solver.init(input);
@@ -37,8 +40,8 @@ export async function load(...parts) {
  */
 const ofHeights = (name, part) => (/** @type {any} */ input, /** @type {object | undefined} */ given) => {
   const field = asField(input);
-  const options = optionsOf(name, given);
-  return part.call((wasm) => wasm[name](field, options));
+  const { onProgress, ...options } = /** @type {{ onProgress?: OnProgress }} */ (optionsOf(name, given));
+  return part.watched((wasm) => wasm[name](field, options), onProgress);
 };
 
 /**
@@ -49,8 +52,8 @@ const ofHeights = (name, part) => (/** @type {any} */ input, /** @type {object |
  */
 const ofMesh = (name, part) => (/** @type {any} */ mesh, /** @type {object | undefined} */ given) => {
   const { shape } = wholeOf(mesh);
-  const options = optionsOf(name, given);
-  return part.call((wasm) => wasm[name](shape, options));
+  const { onProgress, ...options } = /** @type {{ onProgress?: OnProgress }} */ (optionsOf(name, given));
+  return part.watched((wasm) => wasm[name](shape, options), onProgress);
 };
 
 /**
@@ -68,9 +71,6 @@ const writing = (name, part, take) => (/** @type {any} */ input) => {
 const asDrawing = (drawing) => plainCopy('the drawing', drawing);
 
 /** @typedef {import('./direct.js').Solver} SolverApi */
-
-/** Milliseconds between two calls of `fit`'s `onProgress`. */
-const PROGRESS_INTERVAL = 60;
 
 /**
  * @extends {Steps<import('./wasm/solver.js').Solver>}
@@ -182,21 +182,6 @@ function run(solve, onProgress) {
   } finally {
     solve.dispose();
   }
-}
-
-/**
- * What `onProgress` returns. A promise is refused: nothing can wait for it here, and nobody would hear of its rejection.
- * @param {((progress: import('./types.js').Progress) => unknown) | undefined} onProgress
- * @param {import('./types.js').Progress} progress
- */
-function answerOf(onProgress, progress) {
-  const answer = onProgress?.(progress);
-  if (typeof Object(answer).then !== 'function') return answer;
-  Promise.resolve(answer).catch(() => {});
-  throw new DevelopableError(
-    'OPTION',
-    'option `onProgress` returned a promise, for which this call cannot wait: pass a function that is not async, or use the promise API',
-  );
 }
 
 /** @type {typeof import('./direct.js').occlusions} */
@@ -399,15 +384,19 @@ function photoPixels(photo) {
   return { ...read, data: new Uint8Array(data.buffer, data.byteOffset, data.byteLength) };
 }
 
+/** Fraction of the work on a photo that is done when its page is found. */
+const FOUND_FRACTION = 0.8;
+
 /** @param {any} photo @param {any} [second] @param {any} [third] @returns {any} */
 export function dewarpPage(photo, second, third) {
   const [edges, given] = edgesAndOptions(second, third);
   const pages = edges === undefined ? undefined : asEdges(edges);
   const { film35, ...pixels } = photoPixels(photo);
-  const { transfer, ...options } = /** @type {Handed<ReturnType<typeof pageOptions>>} */ (pageOptions({ film35 }, given));
-  const { dots, map, grid, light, ink, ...known } = options;
-  const page = surfaces.call((wasm) => wasm.pageSurface(pixels, pages, known));
-  const image = surfaces.call((wasm) => wasm.flattenPhoto(pixels, page, optionsOf('flattenPhoto', { dots, map, grid, light, ink })));
+  const { transfer, ...options } = /** @type {Handed<ReturnType<typeof pageOptions>> & { onProgress?: OnProgress }} */ (pageOptions({ film35 }, given));
+  const { onProgress, dots, map, grid, light, ink, ...known } = options;
+  const page = surfaces.watched((wasm) => wasm.pageSurface(pixels, pages, known), onProgress, [0, FOUND_FRACTION]);
+  const flatten = optionsOf('flattenPhoto', { dots, map, grid, light, ink });
+  const image = surfaces.watched((wasm) => wasm.flattenPhoto(pixels, page, flatten), onProgress, [FOUND_FRACTION, 1]);
   return { ...page, ...image };
 }
 

@@ -3,6 +3,7 @@
  * @module developable
  */
 import type {
+  CallProgress,
   Analysis, AnalyzeOptions, BookPage, Canvas, DecodedPhoto, DepthOptions, DetectedOcclusions, Dewarped, DewarpedPage, DewarpOptions,
   DewarpPageOptions, Drawing, Example, ExampleName, ExampleOptions, FittedCylinder, FlatPage, FlattenPhotoOptions, Drawable, PageCorners, PageReport, PhotoSource, FoundPage, Heightfield, HeightImage, ImageSurface, InitInput, Intrinsics, LatticeSurface, Mesh, MeshAnalysis, MeshAnalyzeOptions,
   MeshPatternOptions, MeshRulingOptions, MeshRulings, MeshSolverOptions, MeshSurface, MeshUnrolling, MeshUnrollOptions, NpzArray, RecognizedMesh,
@@ -81,6 +82,15 @@ export interface Abortable {
    * The call rejects with the signal's reason.
    */
   signal?: AbortSignal;
+}
+
+/** Options of the calls that take longest. */
+export interface Watchable extends Abortable {
+  /**
+   * Function that is called several times a second, in the caller's thread. If it returns a promise, that is awaited before the
+   * next call and before the result. If it throws or its promise rejects, so does the call, when its work has ended.
+   */
+  onProgress?: (progress: CallProgress) => void;
 }
 
 /** Options of a fit of a whole mesh. */
@@ -165,18 +175,18 @@ export interface OpenSolver<I extends HeightImage | Heightfield = HeightImage | 
  */
 export function init(options?: WorkerOptions | InitInput): Promise<void>;
 /**
- * Fits a piecewise developable surface to heights. `report.gap` certifies by which share the objective can be above its
- * minimum at most.
+ * Fits a piecewise developable surface to heights. `report.gap` is a proven bound: the objective is above its minimum by at
+ * most this share.
  */
 export function fit(input: HeightImage, options?: FitOptions): Promise<ImageSurface>;
 /**
- * Fits a piecewise developable surface to heights. `report.gap` certifies by which share the objective can be above its
- * minimum at most.
+ * Fits a piecewise developable surface to heights. `report.gap` is a proven bound: the objective is above its minimum by at
+ * most this share.
  */
 export function fit(input: Heightfield, options?: FitOptions): Promise<LatticeSurface>;
 /**
- * Fits a piecewise developable surface to heights. `report.gap` certifies by which share the objective can be above its
- * minimum at most.
+ * Fits a piecewise developable surface to heights. `report.gap` is a proven bound: the objective is above its minimum by at
+ * most this share.
  */
 export function fit(input: HeightImage | Heightfield, options?: FitOptions): Promise<Surface>;
 /** Sends an input to the shared worker, where it stays with its solver until it is disposed of. */
@@ -271,7 +281,7 @@ export function picture(input: HeightImage | Heightfield, options?: PictureOptio
 /** Draws a surface, seen from above, on a canvas, which is resized to the picture. */
 export function draw(canvas: Canvas, input: HeightImage | Heightfield, options?: PictureOptions): Promise<void>;
 /**
- * Computes the rulings of a surface: the direction in which it does not bend at each vertex, and straight lines along
+ * Computes the rulings of a surface: at each vertex the direction in which it does not bend, and straight lines along
  * these directions.
  */
 export function rulings(input: HeightImage | Heightfield, options?: RulingOptions): Promise<RulingField>;
@@ -281,26 +291,26 @@ export function rulings(input: HeightImage | Heightfield, options?: RulingOption
  */
 export function fitCylinder(input: Heightfield): Promise<FittedCylinder>;
 /** Lays a surface flat without cuts, with as little strain as possible. */
-export function unroll(input: HeightImage | Heightfield, options?: UnrollOptions & Abortable): Promise<Unrolling>;
+export function unroll(input: HeightImage | Heightfield, options?: UnrollOptions & Watchable): Promise<Unrolling>;
 /**
  * Makes a pattern of a surface: cuts it along creases into sheets that lie flat, with as few cuts as possible, and
  * draws the sheets side by side in millimetres.
  */
-export function pattern(input: HeightImage | Heightfield, options?: PatternOptions & Abortable): Promise<Drawing>;
+export function pattern(input: HeightImage | Heightfield, options?: PatternOptions & Watchable): Promise<Drawing>;
 /** Computes curvatures and rulings at the vertices of a mesh, and statistics that say how developable the mesh is. */
 export function analyzeMesh(mesh: Mesh, options?: MeshAnalyzeOptions): Promise<MeshAnalysis>;
 /**
- * Computes the rulings of a mesh: the direction in which it does not bend at each vertex, and straight lines along
+ * Computes the rulings of a mesh: at each vertex the direction in which it does not bend, and straight lines along
  * these directions.
  */
 export function meshRulings(mesh: Mesh, options?: MeshRulingOptions): Promise<MeshRulings>;
 /** Lays a mesh flat: cuts it into sheets along its creases, and where it does not lie flat otherwise. */
-export function unrollMesh(mesh: Mesh, options?: MeshUnrollOptions & Abortable): Promise<MeshUnrolling>;
+export function unrollMesh(mesh: Mesh, options?: MeshUnrollOptions & Watchable): Promise<MeshUnrolling>;
 /**
  * Makes a pattern of a mesh: cuts it into sheets that lie flat, and draws them side by side in millimetres, as
  * `pattern` does for heights.
  */
-export function patternMesh(mesh: Mesh, options?: MeshPatternOptions & Abortable): Promise<Drawing>;
+export function patternMesh(mesh: Mesh, options?: MeshPatternOptions & Watchable): Promise<Drawing>;
 /**
  * Recognises what a mesh is: whether a fit gains anything, and whether it is a solid of sheet metal.
  */
@@ -332,14 +342,14 @@ export function dewarp(input: HeightImage | Heightfield, photo: Photo, options?:
  * spread. It needs the page's corners or its edges, two of which are bent, or all four. Without them it takes the edges
  * of the one page that it finds in the photo.
  */
-export function dewarpPage(photo: (Photo & { film35?: number }) | PhotoSource | Drawable, options?: DewarpPageOptions & HandOver & Abortable): Promise<DewarpedPage>;
+export function dewarpPage(photo: (Photo & { film35?: number }) | PhotoSource | Drawable, options?: DewarpPageOptions & HandOver & Watchable): Promise<DewarpedPage>;
 /**
  * Makes a photo of a page flat without depths: of a page that is curled, folded or crumpled, or of the two pages of a
  * spread. It needs the page's corners or its edges, two of which are bent, or all four. Without them it takes the edges
  * of the one page that it finds in the photo.
  */
 export function dewarpPage(
-  photo: (Photo & { film35?: number }) | PhotoSource | Drawable, edges?: PageEdges | readonly PageEdges[] | PageCorners | null, options?: DewarpPageOptions & HandOver & Abortable,
+  photo: (Photo & { film35?: number }) | PhotoSource | Drawable, edges?: PageEdges | readonly PageEdges[] | PageCorners | null, options?: DewarpPageOptions & HandOver & Watchable,
 ): Promise<DewarpedPage>;
 /**
  * Makes a photo of any resolution flat by a page that `dewarpPage` found in the same picture: the whole photo for a
@@ -358,8 +368,8 @@ export function findPage(photo: Photo | PhotoSource | Drawable, options?: Aborta
  */
 export function readPhoto(file: PhotoSource): Promise<DecodedPhoto>;
 /**
- * Writes a photo or a flat image to a PNG (transparent where the image is), JPEG or PDF file (white there). The file
- * states the true size if that is known.
+ * Writes a photo or a flat image to a PNG, JPEG or PDF file. Transparent pixels stay so in a PNG file and are white in the
+ * others. The file states the true size if that is known.
  */
 export function writePhoto(photo: SizedPhoto, options?: WritePhotoOptions & HandOver): Promise<Uint8Array<ArrayBuffer>>;
 /**

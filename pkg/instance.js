@@ -1,7 +1,9 @@
 /** A wasm instance of this thread: loaded once, given up after a trap. */
 import { DevelopableError, messageOf } from './errors.js';
+import { PROGRESS_INTERVAL, answerOf } from './progress.js';
 import { compile, compileOwn } from './wasm-source.js';
 
+/** @typedef {import('./progress.js').OnProgress} OnProgress */
 /** @typedef {{ memory: WebAssembly.Memory }} Exports */
 
 /**
@@ -10,6 +12,7 @@ import { compile, compileOwn } from './wasm-source.js';
  *   default: (input: { module_or_path: WebAssembly.Module }) => Promise<Exports>,
  *   initSync: (input: { module: WebAssembly.Module }) => Exports,
  *   reportPanics: () => void,
+ *   watch: (listener?: (fraction: number) => void) => void,
  * }} Glue
  */
 
@@ -126,6 +129,43 @@ export class Instance {
       }
       this.#trap = crash(error, this.#memory);
       throw this.#trap;
+    }
+  }
+
+  /**
+   * Calls as `call` does, and tells several times a second how far the call is. What `onProgress` throws, the call throws once
+   * the wasm has ended.
+   * @template T
+   * @param {(wasm: G) => T} run
+   * @param {OnProgress} [onProgress]
+   * @param {readonly [number, number]} [span] where the call begins and ends, as fractions of the whole that is told
+   * @returns {T}
+   */
+  watched(run, onProgress, [begin, end] = [0, 1]) {
+    if (!onProgress) return this.call(run);
+    let [told, last] = [performance.now(), begin];
+    /** @type {{ error: unknown } | undefined} */
+    let failure;
+    /** @param {number} fraction */
+    const tell = (fraction) => {
+      const now = performance.now();
+      const whole = begin + (end - begin) * fraction;
+      if (failure || whole === last || (whole < 1 && now - told < PROGRESS_INTERVAL)) return;
+      [told, last] = [now, whole];
+      try {
+        answerOf(onProgress, { fraction: whole });
+      } catch (error) {
+        failure = { error };
+      }
+    };
+    this.call((wasm) => wasm.watch(tell));
+    try {
+      const result = this.call(run);
+      tell(1);
+      if (failure) throw failure.error;
+      return result;
+    } finally {
+      if (this.alive) this.call((wasm) => wasm.watch());
     }
   }
 

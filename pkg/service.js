@@ -172,9 +172,11 @@ export const service = {
   /**
    * Answers one of `CALLS`.
    * @param {keyof typeof CALLS} name
+   * @param {MessagePort | undefined} progress where to tell how far the call is, whose last argument is its options
    * @param {any[]} sent
    */
-  async answer(name, ...sent) {
+  async answer(name, progress, ...sent) {
+    if (progress) sent.push({ ...sent.pop(), onProgress: (/** @type {import('./types.js').CallProgress} */ { fraction }) => progress.postMessage(fraction) });
     const { parts } = /** @type {import('./calls.js').Call} */ (CALLS[name]);
     await loaded(typeof parts === 'function' ? parts(...sent) : parts);
     const result = /** @type {(...args: any[]) => any} */ (direct[name])(...sent);

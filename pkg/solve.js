@@ -1,12 +1,10 @@
 /** The client's end of a solve in the worker. */
+import { PROGRESS_INTERVAL } from './progress.js';
 
 /**
  * @typedef {import('./connection.js').Remote} Remote
  * @typedef {import('./control.js').Control} Control
  */
-
-/** Milliseconds between two calls of `onProgress`, at least. */
-const PROGRESS_INTERVAL = 60;
 
 /** Number of the last solve: numbers are chosen here, so that a solve can be stopped at any time. */
 let solves = 0;

@@ -11,6 +11,12 @@ export { DevelopableError, type ErrorCode } from './errors.js';
 export * from './option-types.js';
 export * from './result-types.js';
 
+/** How far a call is that lays something flat. */
+export interface CallProgress {
+  /** Fraction of the work that is done, from 0 to 1. It never falls; it is an estimate, so that the pace varies. */
+  fraction: number;
+}
+
 /** Any flat array of numbers; values are converted to 64-bit floats. */
 export type Numbers =
   | Float64Array | Float32Array
@@ -351,7 +357,7 @@ export type Picture = Uint8Array | ArrayBuffer | Photo;
 export interface SizedPhoto extends Photo {
   /** Number of pixels per unit of length. */
   resolution?: number;
-  /** Unit of length of `resolution`. With `'page'`, the width of a page, the true size is not known. */
+  /** Unit of length of `resolution`: `'page'` is the width of a page whose true size is not known. */
   unit?: Unit | 'page';
 }
 

@@ -92,6 +92,7 @@ mod math;
 pub mod page;
 pub mod pattern;
 pub mod picture;
+pub mod progress;
 mod scene;
 mod shape;
 pub mod unroll;

@@ -36,8 +36,10 @@ export async function page(task, signal) {
     const bytes = await readBytes(input);
     const photo = tellAssumptions(input, await about(input, () => developable.readPhoto(bytes)));
     const { width, height } = photo;
-    const dewarp = () => developable.dewarpPage(photo, edges, { ...options, ...mapOptions(task.map), transfer: true });
-    const flat = await during(`flattening ${input}`, () => (several ? about(input, dewarp) : dewarp()));
+    const flat = await during(`flattening ${input}`, (watched) => {
+      const dewarp = () => developable.dewarpPage(photo, edges, { ...options, ...mapOptions(task.map), ...watched, transfer: true });
+      return several ? about(input, dewarp) : dewarp();
+    });
     if (task.map !== undefined) files.push({ path: task.map, bytes: mapFile(flat, { width, height }) });
     const { size, unit, report, outline, light } = flat;
     figures = sizeInWords(flat);

@@ -27,7 +27,7 @@ import { during, percent, say, statusLine, succeed, toStderr } from './terminal.
 export async function unroll(task, signal) {
   await checkPlaces(...task.written);
   const { surface, options } = await flattened(task, signal);
-  const sheet = await during('laying it flat', () => developable.unroll(surface, options));
+  const sheet = await during('laying it flat', (watched) => developable.unroll(surface, { ...options, ...watched }));
   const bytes = task.extension === '.obj' ? flatObj(sheet) : json(plainArrays(sheet));
   await writeWhole([{ path: task.output, bytes }, ...reported(task, sheet)], signal);
   succeed(task.output, `${sheet.triangles.length / 3} triangles laid flat, strained by ${percent(sheet.report.distortion.rms, 2)}`);
@@ -130,7 +130,7 @@ async function drawnOnce(task, signal) {
   if (task.sheets === undefined) {
     const { surface, options } = await flattened(task, signal);
     const refold = task.report !== undefined;
-    const draw = () => developable.pattern(surface, { ...options, ...drawingOptions(task), refold });
+    const draw = (/** @type {object} */ watched) => developable.pattern(surface, { ...options, ...drawingOptions(task), refold, ...watched });
     return { drawing: await during('cutting it into sheets', draw).catch((problem) => { throw withRemedy(problem, task.input); }) };
   }
   return chosenOf(task, await explored(task, signal));

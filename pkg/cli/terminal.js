@@ -101,17 +101,17 @@ export function statusLine() {
 }
 
 /**
- * Shows on a terminal what is done while it is done.
+ * Shows on a terminal what is done while it is done, and how far that is where the work tells it.
  * @template T
  * @param {string} text
- * @param {() => Promise<T>} work
+ * @param {(watched: { onProgress?: (progress: import('../types.js').CallProgress) => void }) => Promise<T>} work
  * @returns {Promise<T>}
  */
 export async function during(text, work) {
   const line = statusLine();
   if (line.shown) line.show(`${text}...`);
   try {
-    return await work();
+    return await work(line.shown ? { onProgress: ({ fraction }) => line.show(`${text}: ${Math.floor(100 * fraction)} %`) } : {});
   } finally {
     line.clear();
   }

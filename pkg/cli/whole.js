@@ -6,7 +6,7 @@ import { checkPlaces, writeWhole } from './files.js';
 import { readMesh } from './inputs.js';
 import { chosenOf, drawingOptions, flatObj, json, linesObj, patternFiles, plainArrays, reportPattern, tellPlans, withPlans } from './sheets.js';
 import { optionsFrom } from './task.js';
-import { meshFitInWords, percent, progressLine, say, succeed, toStderr } from './terminal.js';
+import { during, meshFitInWords, percent, progressLine, say, succeed, toStderr } from './terminal.js';
 
 /**
  * @typedef {import('./task.js').Task} Task
@@ -82,14 +82,15 @@ const made = {
   },
 
   async unroll({ output, extension, report: path }, surface) {
-    const sheets = await developable.unrollMesh(surface);
+    const sheets = await during('laying it flat', (watched) => developable.unrollMesh(surface, watched));
     const { patches, creases, report } = sheets;
     const bytes = extension === '.obj' ? flatObj(sheets) : json(plainArrays(sheets));
     return [{ path: output, bytes }, ...(path === undefined ? [] : [{ path, bytes: json({ ...report, patches, creases }) }])];
   },
 
   async pattern(task, surface, _mesh, exact) {
-    const pattern = await developable.patternMesh(surface, { ...drawingOptions(task), exact: exact ? undefined : false });
+    const pattern = await during('cutting it into sheets', (watched) =>
+      developable.patternMesh(surface, { ...drawingOptions(task), exact: exact ? undefined : false, ...watched }));
     reportPattern(task, pattern);
     return patternFiles(task, pattern);
   },

@@ -12,6 +12,7 @@ use super::traced_line::BentEdges;
 use super::working_photo::WorkingPhoto;
 use crate::dewarp::{DewarpOptions, Photo, WarpMap};
 use crate::error::{Error, Readable, Result, positive};
+use crate::progress;
 use crate::scene::mesh::Mesh;
 
 /// The surface of a page in space, or of the two pages of a spread, each a nearly isometric sheet.
@@ -120,8 +121,13 @@ impl PageSurface {
             return Err(Error::Empty { what: "photo" });
         }
         let traced = read_traces(edges, text, size)?;
-        let pages: Result<Vec<SheetPage>> = (traced.iter())
-            .map(|page| SheetPage::new(page, size, photo, options))
+        let pages: Result<Vec<SheetPage>> = (1u32..)
+            .zip(&traced)
+            .map(|(number, page)| {
+                progress::part(f64::from(number) / traced.len() as f64, || {
+                    SheetPage::new(page, size, photo, options)
+                })
+            })
             .collect();
         let axis = usize::from(traced[0].bent == Some(BentEdges::LeftRight));
         Self::joined(pages?, axis, size, options)

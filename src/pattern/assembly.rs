@@ -20,6 +20,7 @@ use crate::error::Result;
 use crate::heights::heightfield::Heightfield;
 use crate::math::planar::{polygon_area, polyline_length};
 use crate::math::union_find::UnionFind;
+use crate::progress;
 use crate::shape::patches::Patches;
 use crate::unroll::arap_mesh::StoppingCriteria;
 use crate::unroll::flat_triangle::Point;
@@ -80,7 +81,8 @@ pub(super) fn assemble_sheets(
         .collect();
     if wrong.is_empty() {
         let mut arrangement = arrange_patches(&net, options.max_seam_gap);
-        match settle(&parts, &mut net, &mut arrangement)? {
+        let settled = progress::part(0.4, || settle(&parts, &mut net, &mut arrangement))?;
+        match settled {
             Settled::Opened(found) => wrong = found,
             Settled::Removable(part, removed) => {
                 parts.flat_patches = net.flat_patches;
@@ -123,6 +125,8 @@ pub(super) fn settle(
     let layout = &mut arrangement.layout;
     let mut wrong = Vec::new();
     while let Some(members) = pending.pop() {
+        let done = arrangement.sheets.len() as f64 + 1.0;
+        let end = done / (done + pending.len() as f64);
         let relaxations: Vec<Relaxation> = members
             .iter()
             .filter_map(|p| Some(net.flat_patches[*p as usize].as_ref()?.relaxation))
@@ -135,10 +139,10 @@ pub(super) fn settle(
         let folded = folds_of(net, layout, &members);
         if relaxations.contains(&Relaxation::Outstanding) || !are_close(net, layout, &folded) {
             let mut tied = Tied::new(net, layout, &members, &folded)?;
-            tied.relax(net, layout, SHEET_SETTLING)?;
+            progress::part(end, || tied.relax(net, layout, SHEET_SETTLING))?;
             // Most sheets are within the strain limit already.
             if strains(net, &members).0.rms() > limit {
-                tied.relax(net, layout, SHEET_RELAXATION)?;
+                progress::part(end, || tied.relax(net, layout, SHEET_RELAXATION))?;
             }
         } else if folded.is_empty() {
             members.iter().for_each(|patch| net.lay_alone(*patch));

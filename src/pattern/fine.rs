@@ -17,6 +17,7 @@ use super::sew::close_cuts;
 use super::transfer::{fold_alike, placed, transfer_labels};
 use crate::error::{Error, Result};
 use crate::heights::heightfield::Heightfield;
+use crate::progress;
 use crate::shape::patches::Patches;
 
 /// Lays the sheets that were found on a coarse lattice flat on the fine one. The inner error holds the reason why a
@@ -53,7 +54,7 @@ pub(super) fn refine_sheets(
     let single: Vec<u32> = (0..alone.len() as u32)
         .filter(|part| alone[*part as usize])
         .collect();
-    parts.lay_flat_trimmed(&single)?;
+    progress::part(0.3, || parts.lay_flat_trimmed(&single))?;
     // A part that shares its sheet with others starts from its position on the coarse lattice.
     for part in (0..known).filter(|part| !alone[*part]) {
         let flat_patch = match placed(&parts, part, rough)? {
@@ -96,7 +97,8 @@ pub(super) fn refine_sheets(
             Some((before, folds)) => fold_alike(&mut net, &mut layout, &order, before, folds),
         }
         let mut arrangement = Arrangement { layout, sheets };
-        match settle(&parts, &mut net, &mut arrangement)? {
+        let settled = progress::part(0.9, || settle(&parts, &mut net, &mut arrangement))?;
+        match settled {
             Settled::Opened(wrong) if wrong.is_empty() || !is_finest => {
                 if is_recut.contains(&true) {
                     let is_wanted = |part: u32| is_recut[part as usize];

@@ -8,6 +8,7 @@ use super::parts::Parts;
 use super::sheets::Pattern;
 use crate::error::{Error, Result, positive};
 use crate::heights::heightfield::Heightfield;
+use crate::progress;
 use crate::shape::patches::Patches;
 
 /// Strain limits on a coarse lattice, as shares of the limit on the fine one, tried in this order: the next one is
@@ -19,7 +20,7 @@ const COARSE_STRAIN_SHARES: [f64; 2] = [0.9, 0.7];
 pub(super) const DIRECT_OUTLINE_DETAIL: f64 = 0.4;
 
 /// Maximum number of rounds in which parts that cannot be cut are merged with neighbours; later they are left out.
-const MAX_MERGE_ROUNDS: usize = 24;
+const MAX_MERGE_ROUNDS: u32 = 24;
 
 /// Cuts a surface into flat sheets; the first sheet is the one with the largest patch.
 ///
@@ -47,10 +48,10 @@ pub fn pattern(
     positive("maxSeamGap", options.max_seam_gap)?;
     positive("maxStrain", options.max_strain)?;
     positive("tolerance", options.unrolling.tolerance)?;
-    draw_sheets(
-        surface,
-        &find_sheets(surface, patches, options, DIRECT_OUTLINE_DETAIL)?,
-    )
+    let found = progress::part(0.9, || {
+        find_sheets(surface, patches, options, DIRECT_OUTLINE_DETAIL)
+    })?;
+    draw_sheets(surface, &found)
 }
 
 /// Finds the sheets of a surface, on a coarse lattice first if it has many vertices.
@@ -75,13 +76,19 @@ fn find_sheets_at(
         finest = 1.0;
         for margin in COARSE_STRAIN_SHARES {
             let stricter = options.max_strain(margin * options.max_strain);
-            let rough =
-                match find_sheets_at(&coarse.surface, &coarse.patches, &stricter, finest, false) {
-                    Err(Error::NotFlat { .. }) => break,
-                    other => other?,
-                };
+            // The finer lattice has four times the vertices, but its sheets are found already.
+            let rough = progress::part(0.5, || {
+                find_sheets_at(&coarse.surface, &coarse.patches, &stricter, finest, false)
+            });
+            let rough = match rough {
+                Err(Error::NotFlat { .. }) => break,
+                other => other?,
+            };
             let parts = Parts::none(surface, options);
-            if let Ok(found) = refine_sheets(surface, patches, &coarse, &rough, parts, is_finest)? {
+            let refined = progress::part(0.9, || {
+                refine_sheets(surface, patches, &coarse, &rough, parts, is_finest)
+            });
+            if let Ok(found) = refined? {
                 return Ok(found);
             }
         }
@@ -101,15 +108,18 @@ fn cut_and_join(
     options: &PatternOptions,
     finest: f64,
 ) -> Result<Assembled> {
-    let mut parts = Parts::new(surface, patches, options)?;
+    let mut parts = progress::part(0.3, || Parts::new(surface, patches, options))?;
     parts.finest = finest;
-    parts.cut_strained()?;
-    parts.merge_strained_small_parts()?;
+    progress::part(0.6, || parts.cut_strained())?;
+    progress::part(0.65, || parts.merge_strained_small_parts())?;
     // Parts of invalid sheets are cut further; parts that are too small for that are merged with a neighbour or
     // left out.
-    let mut rounds = 0;
+    let mut rounds = 0u32;
     loop {
-        let faults = match assemble_sheets(parts, patches, options)? {
+        // Most surfaces take one round or two.
+        let end = 1.0 - 0.1 / f64::from(rounds + 1);
+        let assembly = progress::part(end, || assemble_sheets(parts, patches, options))?;
+        let faults = match assembly {
             Assembly::Whole(whole) => return Ok(*whole),
             Assembly::Cut(again, faults) => {
                 parts = *again;
@@ -119,15 +129,16 @@ fn cut_and_join(
         rounds += 1;
         let mut small = Vec::new();
         for (part, reason) in faults {
-            if !parts.cut(part)? {
+            if !progress::part(end, || parts.cut(part))? {
                 small.push((part, reason));
             }
         }
-        parts.cut_strained()?;
+        progress::part(end, || parts.cut_strained())?;
         // Go from the last part to the first, because removing a part changes the numbers of later ones.
         small.sort_unstable();
         for (part, reason) in small.into_iter().rev() {
-            let is_merged = rounds <= MAX_MERGE_ROUNDS && parts.merge_with_neighbour(part)?;
+            let is_merged = rounds <= MAX_MERGE_ROUNDS
+                && progress::part(end, || parts.merge_with_neighbour(part))?;
             if !is_merged && !parts.leave_out(part)? {
                 return Err(parts.refused(part, reason));
             }

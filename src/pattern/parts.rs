@@ -11,6 +11,7 @@ use super::window::Window;
 use crate::error::{Error, Result};
 use crate::heights::heightfield::Heightfield;
 use crate::lattice::hexagonal::Lattice;
+use crate::progress;
 use crate::shape::patches::{NO_PATCH, Patches};
 
 /// Maximum number of parts of a surface: a pattern of more parts cannot be assembled in practice.
@@ -156,8 +157,9 @@ impl Parts {
     fn lay_flat(&mut self, parts: &[u32]) -> Result<()> {
         self.flat_patches
             .resize_with(self.labels.origins.len(), || None);
-        for part in parts {
-            let flat_patch = self.flat_patch(part)?;
+        for (number, part) in (1..).zip(parts) {
+            let end = f64::from(number) / parts.len() as f64;
+            let flat_patch = progress::part(end, || self.flat_patch(part))?;
             self.flat_patches[*part as usize] = flat_patch;
         }
         self.pending.extend(parts);
@@ -197,13 +199,19 @@ impl Parts {
     /// Cuts each part whose strain is above the limit or that has flipped triangles, unless removing a few border
     /// vertices is enough.
     pub(super) fn cut_strained(&mut self) -> Result<()> {
+        let mut done = 0.0;
         while let Some(part) = self.pending.pop() {
             let flat_patch = self.flat_patches[part as usize].as_ref();
             let flipped = flat_patch.is_some_and(|flat_patch| flat_patch.strain().flipped > 0);
             // A part that is too small to be cut is kept: it may still be valid within a sheet.
-            if (self.is_strained(part) || flipped) && !self.trim(part)? {
-                self.cut(part)?;
-            }
+            let is_invalid = self.is_strained(part) || flipped;
+            // A part that is cut leaves at least one more to do.
+            done += 1.0;
+            let end = done / (done + 1.0 + self.pending.len() as f64);
+            progress::part(end, || match is_invalid && !self.trim(part)? {
+                true => self.cut(part).map(drop),
+                false => Ok(()),
+            })?;
         }
         Ok(())
     }

@@ -10,6 +10,7 @@ use super::outline::Layout;
 use super::seam_graph::{NEGLIGIBLE_GAP_LENGTHS, SeamGraph};
 use crate::error::Result;
 use crate::math::planar::polyline_length;
+use crate::progress;
 use crate::unroll::arap_mesh::StoppingCriteria;
 use crate::unroll::flat_triangle::Point;
 
@@ -84,8 +85,12 @@ pub(super) fn close_cuts(
         if budget == 0 {
             break;
         }
-        if arrangement.layout.folded[seam] || close_cut(net, arrangement, seam, limit, &mut budget)?
-        {
+        let end = 1.0 - budget as f64 / (STEP_BUDGET_PER_VERTEX * vertices) as f64;
+        let is_closed = arrangement.layout.folded[seam]
+            || progress::part(end, || {
+                close_cut(net, arrangement, seam, limit, &mut budget)
+            })?;
+        if is_closed {
             continue;
         }
         let nodes = net.seams[seam].nodes.len();

@@ -11,6 +11,7 @@ use super::local_global::{Iteration, Progress};
 use super::sparse_rows::SparseRows;
 use super::unflip::unflip_triangles;
 use crate::error::{Result, try_filled};
+use crate::progress;
 
 /// Weight, in the energy of a mesh, of the squared distance between two points that are tied, that is, should coincide.
 /// An edge between two equilateral triangles has the weight 0.58, so that tied points meet before triangles are
@@ -118,13 +119,18 @@ impl ArapMesh {
         let mut descent = try_filled("unrolling", positions.len(), Point::default())?;
         let mut corrections = descent.clone();
         let mut iteration = Iteration::new(positions)?;
-        let mut recent_change = 0.0;
+        let (mut recent_change, mut first_change) = (0.0, f64::NAN);
         while iteration.steps < criteria.max_steps {
             let energy = self.energy(positions, &mut descent) / self.area;
             let tolerance = criteria.tolerance.max(criteria.relative_tolerance * energy);
             let converges = iteration.converges(energy, tolerance);
             let change = iteration.decrease.abs();
             recent_change = change.max(CHANGE_DECAY * recent_change);
+            if iteration.steps > 0 {
+                // It falls by about the same factor in each step.
+                first_change = first_change.max(change);
+                progress::reach((first_change / change).ln() / (first_change / tolerance).ln());
+            }
             let change_to_come = recent_change * (criteria.max_steps - iteration.steps) as f64;
             let stalls =
                 change < STALLED_RELATIVE_CHANGE * energy && energy > criteria.hopeless_energy;

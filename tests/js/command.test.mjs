@@ -369,6 +369,14 @@ test('a terminal sees progress that never goes back, and what was made', async (
   assert.match(stderr, /warning/);
 });
 
+test('a terminal sees how far sheets are', async () => {
+  const { status, stderr } = await run(folder, ['pattern', 'ramp.npy', '--as-is', '-o', 'far.svg', '--unit', 'mm'], { terminal: true });
+  assert.equal(status, 0);
+  const shown = [...stderr.matchAll(/\r\x1b\[Kcutting it into sheets: (\d+) %/g)].map(([, percent]) => Number(percent));
+  assert.deepEqual(shown, shown.toSorted((a, b) => a - b));
+  assert.equal(shown.at(-1), 100, stderr);
+});
+
 test('a terminal is told of each command that it went well, and with --quiet nobody is told anything but errors', async () => {
   /** @type {[string, RegExp][]} */
   const cases = [

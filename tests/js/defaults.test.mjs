@@ -204,7 +204,7 @@ for (const [name, call] of Object.entries(calls)) {
 
 test('Rust knows each option of the schema', () => {
   const fits = { solver: (/** @type {any} */ options) => direct.fit(scan, options), meshSolver: (/** @type {any} */ options) => direct.fitMesh(mesh, options) };
-  const samples = [1, true, 'a4', 'png', 'even', 'auto', 'nuclear', 'default', 'shaded', 'gaussian', '-z', [1, 1, 1], [0, 0, 9, 9], [[0, 0], [9, 0], [0, 9]], [[1, 2]], [true]];
+  const samples = [1, true, 'a4', 'png', 'even', 'auto', 'nuclear', 'default', 'shaded', 'gaussian', '-z', [1, 1, 1], [0, 0, 9, 9], [[0, 0], [9, 0], [0, 9]], [[1, 2]], [true], () => {}];
   let count = 0;
   for (const [name, call] of Object.entries({ ...fits, ...calls })) {
     for (const [option, { kind }] of Object.entries(/** @type {Record<string, Options>} */ (OPTIONS)[name])) {

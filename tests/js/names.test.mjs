@@ -23,10 +23,10 @@ test('a flag has the name of its option, in lower case with hyphens', () => {
     analyze: ['reference'],
     patches: [],
     rulings: [],
-    unroll: ['tolerance'],
-    pattern: ['tolerance', 'refold'],
+    unroll: ['tolerance', 'onProgress'],
+    pattern: ['tolerance', 'refold', 'onProgress'],
     dewarp: ['tolerance', 'transfer', 'grid', 'extent', 'camera'],
-    dewarpPage: ['film35', 'ruler', 'centre', 'findLines', 'traceEdges', 'grid', 'transfer'],
+    dewarpPage: ['film35', 'ruler', 'centre', 'findLines', 'traceEdges', 'grid', 'transfer', 'onProgress'],
   };
   for (const [call, without] of Object.entries(own)) {
     const options = Object.keys(OPTIONS[/** @type {keyof typeof OPTIONS} */ (call)]);

@@ -9,7 +9,7 @@ import { root } from './support/paths.mjs';
 
 /** The rooms of the library: each imports only from those before it. */
 const ROOMS = [
-  'error', 'math', 'lattice', 'heights', 'scene', 'examples', 'fit', 'shape', 'unroll', 'dewarp', 'page', 'picture', 'pattern',
+  'error', 'progress', 'math', 'lattice', 'heights', 'scene', 'examples', 'fit', 'shape', 'unroll', 'dewarp', 'page', 'picture', 'pattern',
   'drawing', 'assembly', 'explore', 'files',
 ];
 

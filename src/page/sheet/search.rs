@@ -14,6 +14,7 @@ use crate::dewarp::Photo;
 use crate::page::report::PageModel;
 use crate::page::text::{GreyPhoto, PageView};
 use crate::page::traced_line::BentEdges;
+use crate::progress;
 
 /// Result of the search for a page of any shape: the fitted sheet, its model and its measures.
 #[derive(Debug, Clone)]
@@ -210,6 +211,7 @@ pub(super) fn find_sheet(
         .filter_map(|prior| traces.coarse_fit(*prior))
         .min_by(|(_, one, _), (_, other, _)| one.cost.total_cmp(&other.cost))?;
     let coarse = problem.with_lowest_cost(coarse, &starts[1..]);
+    progress::reach(0.1);
     let table = PlaceTable::new(&coarse.grid, view).ok()?;
     let photo = photo.and_then(|photo| PageView::new(|share| table.at(share)).reduce(photo));
     let print = PagePrint {
@@ -217,7 +219,8 @@ pub(super) fn find_sheet(
         photo: photo.as_ref(),
         view,
     };
-    let (mut sheet, mut figures) = problem.with_lines(coarse.clone(), &starts, &print)?;
+    let (mut sheet, mut figures) =
+        progress::part(0.4, || problem.with_lines(coarse.clone(), &starts, &print))?;
     let mut model = PageModel::Sheet;
     let max_outline = (MAX_PLANE_OUTLINE_RATIO * figures.outline)
         .clamp(SMALL_PLANE_OUTLINE_MISFIT, MAX_PLANE_OUTLINE_MISFIT);
@@ -231,8 +234,10 @@ pub(super) fn find_sheet(
         crumpled.lines.clear();
         crumpled.folds.clear();
         let refined = crumpled.refined(coarse.clone(), &COARSE_GRID_COLS);
-        if let Some(found) = refined.and_then(|coarse| crumpled.with_lines(coarse, &starts, &print))
-        {
+        let found = progress::part(0.6, || {
+            refined.and_then(|coarse| crumpled.with_lines(coarse, &starts, &print))
+        });
+        if let Some(found) = found {
             (sheet, figures) = found;
             (problem, model) = (crumpled, PageModel::SoftSheet);
         }
@@ -240,7 +245,7 @@ pub(super) fn find_sheet(
     // A page that is curled in one direction explains edges and lines better than a sheet that is equally firm in both, and
     // better than one that may wrinkle: a strong curl is no crumple.
     let curled = (traces.bent.is_none()).then_some([BentEdges::TopBottom, BentEdges::LeftRight]);
-    for bent in curled.into_iter().flatten() {
+    for (end, bent) in [0.8, 1.0].into_iter().zip(curled.into_iter().flatten()) {
         let mut ruled = problem.clone();
         ruled.weights = SheetWeights {
             bending: ruled_bending(bent),
@@ -248,7 +253,8 @@ pub(super) fn find_sheet(
         };
         ruled.lines.clear();
         ruled.folds.clear();
-        let Some(own) = ruled.curled_fit(&coarse, &starts, &print) else {
+        let own = progress::part(end, || ruled.curled_fit(&coarse, &starts, &print));
+        let Some(own) = own else {
             continue;
         };
         if own.1.outline.hypot(own.1.lines) < figures.outline.hypot(figures.lines) {
@@ -355,6 +361,7 @@ impl SheetProblem {
                 }
             }
             sheet = self.refined(sheet, &[FINE_GRID_COLS])?;
+            progress::reach((round + 1) as f64 / LINE_DETECTION_ROUNDS as f64);
         }
         let figures = self.figures(&sheet)?;
         Some((sheet, figures))

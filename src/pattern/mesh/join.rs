@@ -6,6 +6,7 @@ use super::seams::Seams;
 use crate::error::Result;
 use crate::pattern::outline::Motion;
 use crate::pattern::seam_graph::NEGLIGIBLE_GAP_LENGTHS;
+use crate::progress;
 use crate::scene::half_edges::next_half_edge;
 use crate::unroll::arap_mesh::StoppingCriteria;
 use crate::unroll::flat_triangle::Point;
@@ -64,13 +65,15 @@ pub(super) fn join_parts(
     let mut order: Vec<usize> = (0..seams.all.len()).collect();
     order.sort_by(|a, b| seams.all[*b].length.total_cmp(&seams.all[*a].length));
     let mut sheets = Sheets::new(body, seams, parts, limits);
-    for seam in &order {
+    let steps = (order.len() + sheets.all.len()) as f64;
+    for (done, seam) in (1u32..).zip(&order) {
         if !sheets.whole[*seam] {
-            sheets.join(*seam, &order)?;
+            progress::part(f64::from(done) / steps, || sheets.join(*seam, &order))?;
         }
     }
     for number in 0..sheets.all.len() {
-        sheets.settle(number)?;
+        let done = order.len() + number + 1;
+        progress::part(done as f64 / steps, || sheets.settle(number))?;
     }
     Ok(sheets.all.into_iter().flatten().collect())
 }

@@ -20,6 +20,7 @@ use super::parts::MAX_OMITTED_SHARE;
 use super::sheets::Missing;
 use crate::error::{Error, Result, check_count, positive, rounded};
 use crate::fit::mesh::topology::Topology;
+use crate::progress;
 use crate::scene::mesh::Mesh;
 use crate::shape::patches::MeshPatches;
 use crate::unroll::arap_mesh::StoppingCriteria;
@@ -73,9 +74,9 @@ pub fn pattern_mesh(
         topology.triangles.clone(),
         labels.collect(),
     )?;
-    let (body, parts, missing) = flat_parts(body, limits)?;
+    let (body, parts, missing) = progress::part(0.6, || flat_parts(body, limits))?;
     let seams = Seams::new(&body, patches.bend());
-    let sheets = join_parts(&body, &seams, parts, limits)?;
+    let sheets = progress::part(0.95, || join_parts(&body, &seams, parts, limits))?;
     draw_sheets(&body, &seams, &sheets, missing)
 }
 
@@ -107,7 +108,10 @@ fn flat_parts(mut body: Body, limits: Limits) -> Result<(Body, Vec<FlatPart>, Mi
             }
             continue;
         };
-        let laid = FlatPart::whole(&body, body.members(part), limits.trial())?;
+        let end = flat.len() as f64 / (flat.len() + 1 + open.len()) as f64;
+        let laid = progress::part(end, || {
+            FlatPart::whole(&body, body.members(part), limits.trial())
+        })?;
         if limits.allow(&laid) {
             flat.insert(part, laid);
             continue;
@@ -136,7 +140,8 @@ fn flat_parts(mut body: Body, limits: Limits) -> Result<(Body, Vec<FlatPart>, Mi
                     max_steps: TRIAL_STEPS,
                     ..limits.until
                 };
-                let laid = FlatPart::whole(&trial, trial.members(*part), short)?;
+                let laid =
+                    progress::part(end, || FlatPart::whole(&trial, trial.members(*part), short))?;
                 energy += laid.area * laid.strain * laid.strain;
             }
             if best.as_ref().is_none_or(|(least, ..)| energy < *least) {

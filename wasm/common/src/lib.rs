@@ -17,7 +17,7 @@ pub mod scene;
 pub mod triangulation;
 
 use developable::Error;
-use js_sys::Reflect;
+use js_sys::{Function, Reflect};
 use wasm_bindgen::prelude::*;
 
 /// Result of every function that is exported to JavaScript: a value, or an error that JavaScript throws.
@@ -29,6 +29,17 @@ pub type Result<T> = std::result::Result<T, Failure>;
 pub fn report_panics() {
     std::panic::set_hook(Box::new(|panic| {
         wasm_bindgen::throw_str(&panic.to_string())
+    }));
+}
+
+/// Sets the function that is called with the fraction of a call's work that is done, from 0 to 1; undefined for none. What it
+/// throws is left to it.
+#[wasm_bindgen]
+pub fn watch(listener: Option<Function>) {
+    developable::progress::listen(listener.map(|listener| -> developable::progress::Listener {
+        Box::new(move |fraction| {
+            let _ = listener.call1(&JsValue::NULL, &fraction.into());
+        })
     }));
 }
 

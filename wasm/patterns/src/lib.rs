@@ -17,6 +17,7 @@ use developable::pattern::{
     MeshKind, MeshPattern, Missing, NetOptions, PatternOptions, Sheet, pattern, pattern_exact,
     pattern_mesh, sheet_metal,
 };
+use developable::progress;
 use developable::unroll::UnrollOptions;
 use developable_wasm::mesh::MeshInput;
 use developable_wasm::options::{OptionReader, read};
@@ -170,8 +171,8 @@ pub fn draw_pattern(field: JsValue, options: JsValue) -> Result<JsValue> {
     let wanted = Wanted::of(&field, &options)?;
     check_spacing(wanted.own.spacing, is_image(&field)?)?;
     let surface = Scene::new(field, wanted.own.spacing)?.surface;
-    let patches = Patches::new(&surface, &wanted.patches)?;
-    let found = pattern(&surface, &patches, &wanted.sheets)?;
+    let patches = progress::part(0.1, || Patches::new(&surface, &wanted.patches))?;
+    let found = progress::part(0.95, || pattern(&surface, &patches, &wanted.sheets))?;
     wanted.draw(&found.sheets, &found.missing)
 }
 
@@ -379,8 +380,8 @@ pub fn unroll_mesh(mesh: JsValue, options: JsValue) -> Result<JsValue> {
 }
 
 fn sheets_of(mesh: &Mesh, wanted: &Wanted) -> Result<(MeshPatches, MeshPattern)> {
-    let patches = MeshPatches::new(mesh, &wanted.patches)?;
-    let found = pattern_mesh(mesh, &patches, &wanted.sheets)?;
+    let patches = progress::part(0.1, || MeshPatches::new(mesh, &wanted.patches))?;
+    let found = progress::part(0.95, || pattern_mesh(mesh, &patches, &wanted.sheets))?;
     Ok((patches, found))
 }
 

@@ -14,6 +14,7 @@ use developable::page::{
     PageOutline, PageReport, PageSurface, PageVerdict, PageWarp, Ruler, Trace, find_outline,
     trace_edges,
 };
+use developable::progress;
 use developable_wasm::flat::{CleaningInput, GridOutput, MapOptions, flat_image};
 use developable_wasm::options::{OptionReader, read, renamed};
 use developable_wasm::photo::Pixels;
@@ -334,7 +335,7 @@ pub fn page_surface(photo: JsValue, edges: JsValue, options: JsValue) -> Result<
     let (mut pages, mut lines, mut find) = (Vec::new(), Vec::new(), true);
     let mut is_doubtful = false;
     let outline = if edges.is_undefined() {
-        let found = find_outline(&photo);
+        let found = progress::part(0.3, || find_outline(&photo));
         if let Ok(page) = found.page() {
             pages.push(page.to_edges());
             lines.push(Vec::new());
@@ -350,7 +351,7 @@ pub fn page_surface(photo: JsValue, edges: JsValue, options: JsValue) -> Result<
             lines.push(own);
         }
         if input.trace_edges.unwrap_or(true) {
-            pages = trace_edges(&photo, &pages);
+            pages = progress::part(0.1, || trace_edges(&photo, &pages));
             is_doubtful = pages
                 .iter()
                 .flat_map(Edges::traces)

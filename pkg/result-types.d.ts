@@ -595,7 +595,10 @@ export interface HuberReport {
   creaseRadius: number;
   /** Number of crease passes after the first solve. */
   creasePasses: number;
-  /** Number of interior vertices on a crease, where the last crease pass weighs bends less. */
+  /**
+   * Number of interior vertices that lie on a crease: the last crease pass gives bends there a smaller weight, so that
+   * the crease stays sharp.
+   */
   creases: number;
 }
 
@@ -764,9 +767,7 @@ export interface MeshRepairs {
 export interface MeshReport {
   /** Number of vertices in the solve: vertices of the input at one position count as one. */
   vertices: number;
-  /**
-   * Number of interior vertices of the solve, which have triangles all around and a bend of their own in the energy.
-   */
+  /** Number of interior vertices of the solve: those with triangles all around, whose bends make up the energy. */
   interior: number;
   /** Number of vertices on the border, which are extrapolated from the surface inside. */
   border: number;
@@ -864,11 +865,13 @@ export interface MeshUnrollingReport {
   missing: MissingSurface;
 }
 
-/** Vertices, area and steps of a surface that are on no sheet, in the surface's units. */
+/**
+ * What of a surface is on no sheet: vertices that were left out, and steps, with their areas in the surface's units.
+ */
 export interface MissingSurface {
   /**
    * Number of vertices that were left out of the pattern because they do not lie flat together with any neighbouring
-   * part, mostly at ragged steep borders and torn tips, or are on sheets that are crumbs.
+   * part, mostly at ragged steep borders and torn tips, or are on sheets of less than a thousandth of the area.
    */
   vertices: number;
   /** Area around the vertices that were left out, in the surface's units squared. */
@@ -990,7 +993,7 @@ export interface PageReport {
   focalLength: number;
   /** Angle between the camera's axis and the normal of the page's chord plane, in degrees. */
   tilt: number;
-  /** Largest angle between two of the page's normals, at most, in degrees: 0 for a plane. */
+  /** Bound of the largest angle between the normals at two points of the page, in degrees: 0 for a plane. */
   bend: number;
   /** Root mean square distance between the traced edges and those of the page's model, in pixels. */
   residual: number;
@@ -1000,7 +1003,10 @@ export interface PageReport {
   lines: number;
   /** Number of lines of text that were detected in the photo. */
   linesFound: number;
-  /** Root mean square distance between lines of text and level lines of the page's model, in % of a page's width. */
+  /**
+   * Root mean square distance of the lines of text from level lines on the flat page, which they should follow, in % of
+   * a page's width.
+   */
   linesDisagreement: number;
   /** Ratio of the page's height to its width. */
   ratio: number;
@@ -1104,8 +1110,8 @@ export interface ReadResult {
    */
   data: Float64Array<ArrayBuffer>;
   /**
-   * Side length of a pixel; where the file does not state it 1, unless that makes a slab or a needle of the heights,
-   * which `assumptions` says.
+   * Side length of a pixel. Where the file does not state it, it is 1, or another value if the surface would be far too
+   * flat or too steep with 1, which `assumptions` says.
    */
   pixelSize: number;
   /**

@@ -100,7 +100,7 @@ export const drawing = {
       help: 'where the neutral line is within the thickness, from the inside of a bend (default 0.44)',
     },
   },
-  /** Maximum distance of smoothed lines from those found on the lattice, in lattice spacings; 0 draws these as they are. */
+  /** Maximum distance by which outlines and folds are smoothed, in spacings of the lattice or mean edges of the mesh; 0 for none. */
   smoothing: {
     kind: number,
     default: 0.5,

@@ -58,8 +58,8 @@ export const depths = {
   /** Size of the photo that `crop` is about, in pixels. */
   photo: { kind: anything, type: '{ width: number; height: number }' },
   /**
-   * The camera of the photo, which `mask` (unless it is as large as the depths) and `crop` are seen through. Default: the
-   * depths' own.
+   * The camera of the photo to which `crop` belongs, and `mask` unless it is as large as the depths. Default: the camera of the
+   * depths.
    */
   camera: { kind: otherCamera, type: 'PhotoCamera' },
   /**

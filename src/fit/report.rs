@@ -199,7 +199,8 @@ pub struct HuberReport {
     pub crease_radius: f64,
     /// Number of crease passes after the first solve.
     pub crease_passes: usize,
-    /// Number of interior vertices on a crease, where the last crease pass weighs bends less.
+    /// Number of interior vertices that lie on a crease: the last crease pass gives bends there a smaller weight, so that the crease
+    /// stays sharp.
     pub creases: usize,
 }
 

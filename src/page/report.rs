@@ -92,7 +92,7 @@ pub struct PageReport {
     pub focal_length: f64,
     /// Angle between the camera's axis and the normal of the page's chord plane, in degrees.
     pub tilt: f64,
-    /// Largest angle between two of the page's normals, at most, in degrees: 0 for a plane.
+    /// Bound of the largest angle between the normals at two points of the page, in degrees: 0 for a plane.
     pub bend: f64,
     /// Root mean square distance between the traced edges and those of the page's model, in pixels.
     pub residual: f64,
@@ -102,7 +102,8 @@ pub struct PageReport {
     pub lines: usize,
     /// Number of lines of text that were detected in the photo.
     pub lines_found: usize,
-    /// Root mean square distance between lines of text and level lines of the page's model, in % of a page's width.
+    /// Root mean square distance of the lines of text from level lines on the flat page, which they should follow, in % of a page's
+    /// width.
     pub lines_disagreement: f64,
     /// Ratio of the page's height to its width.
     pub ratio: f64,

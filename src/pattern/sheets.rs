@@ -17,7 +17,7 @@ pub struct Pattern {
     pub missing: Missing,
 }
 
-/// Vertices, area and steps of a surface that are on no sheet, in the surface's units.
+/// What of a surface is on no sheet: vertices that were left out, and steps, with their areas in the surface's units.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 #[cfg_attr(
     feature = "serde",
@@ -27,7 +27,7 @@ pub struct Pattern {
 #[non_exhaustive]
 pub struct Missing {
     /// Number of vertices that were left out of the pattern because they do not lie flat together with any neighbouring
-    /// part, mostly at ragged steep borders and torn tips, or are on sheets that are crumbs.
+    /// part, mostly at ragged steep borders and torn tips, or are on sheets of less than a thousandth of the area.
     pub vertices: usize,
     /// Area around the vertices that were left out, in the surface's units squared.
     pub area: f64,

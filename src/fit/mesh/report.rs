@@ -76,7 +76,7 @@ pub struct EntangledTriangle {
 pub struct MeshReport {
     /// Number of vertices in the solve: vertices of the input at one position count as one.
     pub vertices: usize,
-    /// Number of interior vertices of the solve, which have triangles all around and a bend of their own in the energy.
+    /// Number of interior vertices of the solve: those with triangles all around, whose bends make up the energy.
     pub interior: usize,
     /// Number of vertices on the border, which are extrapolated from the surface inside.
     pub border: usize,

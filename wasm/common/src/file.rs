@@ -47,8 +47,8 @@ struct ReadOutput {
     /// Values as stored, plus `offset / heightScale` if the file states an offset: row by row, the top row first; NaN where there is no data.
     #[serde(with = "preserve")]
     data: Float64Array,
-    /// Side length of a pixel; where the file does not state it 1, unless that makes a slab or a needle of the heights, which
-    /// `assumptions` says.
+    /// Side length of a pixel. Where the file does not state it, it is 1, or another value if the surface would be far too flat or
+    /// too steep with 1, which `assumptions` says.
     pixel_size: f64,
     /// Unit of `pixelSize`: millimetres for a resolution that a TIFF file states, metres for a map; `null` if it is not known.
     unit: Nullable<Unit>,

@@ -52,7 +52,7 @@ export function describePage(given) {
     case 'notThisKind':
       if (model !== 'cylinder') return `no sheet of paper has these edges (off ${off}): correct them`;
       return `this is no page that is curled one way: its edges${text} disagree (${off}); ` +
-        'it is folded or crumpled, for which all four edges are needed, or an edge is traced wrongly';
+        'correct an edge that leaves the page, or give all four where only two were given';
     default:
       return `the page is flat; ${likely}`;
   }

@@ -941,8 +941,7 @@ export type PageDoubt = 'largeError' | 'hiddenPart' | 'disagreement' | 'crumpled
 /**
  * Model of a page's shape, from the plainest to the most general.
  * - `'plane'`: A plane seen in perspective: a homography maps it to the photo.
- * - `'cylinder'`: A cylinder over any curve: a page that is curled in one direction, of which only the two bent edges
- *   are known.
+ * - `'cylinder'`: A cylinder over any curve: a page that is curled in one direction.
  * - `'sheet'`: An isometric sheet of any shape, bent without strain: a page that is folded, or bent both ways.
  * - `'softSheet'`: A sheet that is slightly strained: a crumpled page, whose wrinkles are too small to be visible in
  *   its outline.
@@ -1020,8 +1019,8 @@ export interface PageReport {
  *   fills the photo, so that its edges are not seen.
  * - `'doubtful'`: The flat page may be wrong: the expected error is above 1.5 % of the page's width, or the page hides
  *   a part of itself.
- * - `'notThisKind'`: The edges cannot belong to a sheet of paper: they are traced wrongly. Or only two edges are
- *   traced, and the lines of text cannot belong to a page that is curled in one direction.
+ * - `'notThisKind'`: The edges cannot belong to a sheet of paper: they are traced wrongly. Or the edges and lines of
+ *   text cannot belong to a page that is curled in one direction, the only shape that two edges determine.
  */
 export type PageVerdict = 'flat' | 'unrolled' | 'unchecked' | 'doubtful' | 'notThisKind';
 

@@ -158,11 +158,11 @@ export const SHEET_WORDS = {
   ownSize: 'no unit: choose the size',
   figures: 'Figures',
   title: 'Cut-out sheets',
-  /** @param {string} side @param {number} pages @param {number} joints @param {string} smallest */
+  /** @param {string} side @param {number} pages @param {number} joints @param {string} [smallest] of several sheets */
   headline: (side, pages, joints, smallest) =>
-    `Cut-out sheets: ${side} mm, ${pages === 1 ? '1 page' : `${count(pages)} pages`}, ${joints === 1 ? '1 joint' : `${count(joints)} joints`}, smallest piece ${smallest} mm`,
+    `Cut-out sheets: ${side} mm, ${pages === 1 ? '1 page' : `${count(pages)} pages`}, ${joints === 1 ? '1 joint' : `${count(joints)} joints`}${smallest ? `, smallest sheet ${smallest} mm` : ''}`,
   /** @param {string} smallest */
-  small: (smallest) => `Hard to build: the smallest piece is ${smallest} mm long. Make it larger, or its pieces simpler by less detail.`,
+  small: (smallest) => `Hard to build: the smallest sheet is ${smallest} mm long. Make it larger, or its pieces simpler by less detail.`,
   /** @param {number} pages */
   manyPages: (pages) => `These are ${count(pages)} pages. Is the unit of the file right? A smaller longer side needs fewer.`,
   card: 'card or paper',

@@ -21,8 +21,8 @@ pub enum PageVerdict {
     /// The flat page may be wrong: the expected error is above 1.5 % of the page's width, or the page hides a part of
     /// itself.
     Doubtful,
-    /// The edges cannot belong to a sheet of paper: they are traced wrongly. Or only two edges are traced, and the lines of
-    /// text cannot belong to a page that is curled in one direction.
+    /// The edges cannot belong to a sheet of paper: they are traced wrongly. Or the edges and lines of text cannot belong to a
+    /// page that is curled in one direction, the only shape that two edges determine.
     NotThisKind,
 }
 
@@ -60,7 +60,7 @@ pub enum PageDoubt {
 pub enum PageModel {
     /// A plane seen in perspective: a homography maps it to the photo.
     Plane,
-    /// A cylinder over any curve: a page that is curled in one direction, of which only the two bent edges are known.
+    /// A cylinder over any curve: a page that is curled in one direction.
     Cylinder,
     /// An isometric sheet of any shape, bent without strain: a page that is folded, or bent both ways.
     Sheet,

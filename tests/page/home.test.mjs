@@ -41,6 +41,11 @@ pageTest('behind each door is an example, one click away, and Back leads to the 
   await page.locator('#notice', { hasText: 'has not kept the file' }).waitFor();
   assert.ok(await home.isVisible(), 'a file that is gone leads to the doors');
 
+  await drop(page, 'broken.obj', Buffer.from('v 0 0 0\nv 1 0\nf 1 2 9\n'));
+  await page.getByRole('alert').filter({ hasText: 'broken.obj' }).waitFor();
+  await home.waitFor();
+  assert.ok(await home.isVisible(), 'so does one that cannot be read');
+
   await page.locator('[data-example="scan"]').click();
   await page.locator('#page[data-phase="running"]').waitFor();
   assert.match(await page.evaluate(() => location.hash), /example=roof/, 'Back can be used during the solve');

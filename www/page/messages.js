@@ -9,7 +9,6 @@ export const PAGE_WORDS = {
   unfound: 'I found no page in this photo. If it shows one, drag the four corners onto it.',
   unfoundDetail: 'The flat page appears as soon as you move a corner.',
   noFlat: 'No flat page from this outline.',
-  startAgain: 'Discard your changes to the outline?',
   unflattened: 'This outline cannot be made flat.',
   several: 'I found several pages. Take',
   /** @param {number} n */

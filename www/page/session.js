@@ -138,10 +138,15 @@ export class PageSession extends Events {
     this.#update();
   }
 
-  /** Discards all changes to the outline. */
+  /** Whether the outline may differ from the detected one. */
+  get isOutlineChanged() {
+    return this.canUndo || this.movedCorners.size > 0;
+  }
+
+  /** Goes back to the detected outline, which can be undone. */
   reset() {
     if (!this.photo) return;
-    this.#history = [];
+    this.#saveSnapshot();
     this.#resetOutline(this.photo, this.outline.pages);
     this.#update();
   }

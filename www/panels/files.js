@@ -55,6 +55,9 @@ export function filesPanel(session, mode, source, page) {
     return mode.now === 'heights' && input?.kind !== undefined && (input.sampling === undefined || input.depthSource !== undefined);
   };
 
+  let openCount = 0;
+  /** What was shown before the heights. @type {Mode} */
+  let earlier = 'home';
   /** @param {readonly File[]} files @param {boolean} [arePages] whether pictures were opened as pages */
   const open = async (files, arePages = mode.now === 'photo') => {
     const { to, files: taken, left } = await routeFiles(files, { inPhotoMode: arePages, takesPhoto: takesPhoto() });
@@ -62,9 +65,17 @@ export function filesPanel(session, mode, source, page) {
     const leftOut = left.length > 0 ? FILE_WORDS.leftOut(namesOfLeft(left), to === 'heights' && kindByName(taken[0]) !== 'mesh') : '';
     if (to === 'photos') return openPhotos(taken, leftOut);
     if (to === 'photoOfHeights') return usePhoto(taken[0]);
-    if (mode.now !== 'heights') mode.enter('heights');
+    const own = ++openCount;
+    if (mode.now !== 'heights') {
+      earlier = mode.now;
+      mode.enter('heights');
+    }
+    if (!(await source.openFiles(taken))) {
+      // Without heights there is nothing to see there, unless other files are being opened.
+      if (own === openCount && !session.input && mode.now === 'heights') mode.show(earlier);
+      return;
+    }
     // The start of a run hides the notice, so it is shown afterwards.
-    if (!(await source.openFiles(taken))) return;
     const openable = left.filter((file) => kindByName(file) !== 'other');
     if (openable.length > 0) note(leftOut, { label: FILE_WORDS.openInstead(openable), act: () => void open(openable) });
     else if (taken.length === 1 && kindByName(taken[0]) === 'picture') note([FILE_WORDS.takenForHeights, leftOut].filter(Boolean).join(' '), { label: FILE_WORDS.openAsPage, act: () => void openPhotos(taken) });

@@ -21,6 +21,7 @@ export function pagePhotoPanel(session) {
   const snap = element('snap', HTMLInputElement);
   const findLines = element('find-lines', HTMLInputElement);
   const undo = element('page-undo', HTMLButtonElement);
+  const suggest = element('suggest', HTMLButtonElement);
   const several = element('several', HTMLElement);
   const assumed = element('page-assumed', HTMLElement);
   /** The node of the outline that each handle moves. @type {NodeIndex[]} */
@@ -45,6 +46,7 @@ export function pagePhotoPanel(session) {
     fewer.setAttribute('aria-disabled', String(!isBendChosen()));
     more.setAttribute('aria-disabled', String(session.photo === null));
     undo.setAttribute('aria-disabled', String(!session.canUndo));
+    suggest.hidden = !session.isOutlineChanged;
   };
   /** @param {number} handle */
   const remove = (handle) => {
@@ -62,9 +64,7 @@ export function pagePhotoPanel(session) {
   findLines.addEventListener('change', () => session.setFindsTextLines(findLines.checked));
   snap.addEventListener('change', () => session.setTracesEdges(snap.checked));
   element('page-turn', HTMLButtonElement).addEventListener('click', () => session.turn());
-  element('suggest', HTMLButtonElement).addEventListener('click', () => {
-    if (!session.canUndo || confirm(PAGE_WORDS.startAgain)) session.reset();
-  });
+  suggest.addEventListener('click', () => session.reset());
   undo.addEventListener('click', () => session.undo());
   document.addEventListener('keydown', (event) => {
     const typing = event.target instanceof HTMLInputElement && event.target.type === 'number';

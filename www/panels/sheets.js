@@ -128,7 +128,7 @@ export function offerSheets(api, { stem, size, note = '', length, unit, up, cut,
     const { summary } = finished;
     const smallest = smallestPiece(finished);
     const pages = paper.value === 'a4' || paper.value === 'letter' ? summary[paper.value] : 1;
-    element('save-title', HTMLElement).textContent = SHEET_WORDS.headline(number(side.valueAsNumber, 4), pages, summary.seams, number(smallest, 2));
+    element('save-title', HTMLElement).textContent = SHEET_WORDS.headline(number(side.valueAsNumber, 4), pages, summary.seams, finished.sheets.length > 1 ? number(smallest, 2) : undefined);
     const warnings = [...(pages > MAX_EXPECTED_PAGES ? [SHEET_WORDS.manyPages(pages)] : []), ...(smallest < MIN_HANDY_PIECE_MM ? [SHEET_WORDS.small(number(smallest, 2))] : [])];
     pageWarning.hidden = warnings.length === 0;
     pageWarning.textContent = warnings.join(' ');

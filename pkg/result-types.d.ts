@@ -606,7 +606,10 @@ export interface HuberReport {
 export interface LambdaChoice {
   /** Reason for the chosen λ. */
   reason: LambdaReason;
-  /** Standard deviation σ of the heights' noise, in the input's units; `undefined` if it cannot be measured. */
+  /**
+   * Standard deviation σ of the heights' noise, in the input's units: of an image, that of its pixels. `undefined` if
+   * it cannot be measured.
+   */
   sigma?: number;
   /**
    * Quantisation step of the heights, in the input's units; `undefined` unless their noise is rounding to multiples of

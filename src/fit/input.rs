@@ -44,6 +44,8 @@ pub struct Input {
     bridging: Bridging,
     /// Number of vertices whose heights were filled in to bridge a hole.
     pub(crate) bridged: usize,
+    /// Size of the pixels from which the heights were resampled; `None` where they were not.
+    pub(crate) pixel_size: Option<f64>,
 }
 
 impl Input {
@@ -58,6 +60,7 @@ impl Input {
             outside: Vec::new(),
             bridging: Bridging::default(),
             bridged: 0,
+            pixel_size: None,
         }
     }
 
@@ -73,7 +76,10 @@ impl Input {
             confidence,
             bridges,
         } = image.on_lattice(spacing)?;
-        let input = Input::new(heights).already_bridged(bridges);
+        let input = Input {
+            pixel_size: Some(image.image().pixel_size()),
+            ..Input::new(heights).already_bridged(bridges)
+        };
         match confidence {
             Some(confidence) => input.with_confidence(confidence),
             None => Ok(input),

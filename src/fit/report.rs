@@ -152,7 +152,8 @@ pub enum LambdaReason {
 pub struct LambdaChoice {
     /// Reason for the chosen λ.
     pub reason: LambdaReason,
-    /// Standard deviation σ of the heights' noise, in the input's units; `None` if it cannot be measured.
+    /// Standard deviation σ of the heights' noise, in the input's units: of an image, that of its pixels. `None` if it
+    /// cannot be measured.
     pub sigma: Option<f64>,
     /// Quantisation step of the heights, in the input's units; `None` unless their noise is rounding to multiples of
     /// such a step.

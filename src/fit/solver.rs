@@ -13,6 +13,7 @@ use super::surface::Surface;
 use super::threads::Threads;
 use super::tuning::closed_form::{self, Known};
 use super::tuning::noise::Noise;
+use super::tuning::pixel_noise::PixelNoise;
 use super::tuning::residual::Residual;
 use super::tuning::search::Search;
 use super::warm_start::WarmStart;
@@ -41,6 +42,8 @@ pub struct Solver {
     choice: Option<LambdaChoice>,
     /// Noise of the input, where λ or the penalty is chosen by it.
     noise: Option<Noise>,
+    /// Standard deviation of the noise of vertices, beside which the residual is reported.
+    vertex_sigma: Option<f64>,
     solve: ComponentSolver,
     threads: Threads,
 }
@@ -82,8 +85,15 @@ impl Solver {
         let known = Known::of(&prepared.input, &asked)?;
         let Known { scale, noise } = known;
         let (mut options, mut choice, mut search) = (asked, None, None);
+        let mut vertex_sigma = noise.map(|noise| noise.sigma);
         if asked.chooses_lambda() {
-            let (first, found) = closed_form::initial_options(&asked, noise, scale);
+            let (first, mut found) = closed_form::initial_options(&asked, noise, scale);
+            if let Some((noise, pixel_size)) = noise.as_ref().zip(prepared.input.pixel_size) {
+                let pixels = PixelNoise::of(&prepared.input, noise, pixel_size)?;
+                found.sigma = Some(pixels.sigma);
+                found.correlation_length = pixels.correlation_length;
+                vertex_sigma = Some(pixels.vertex_sigma);
+            }
             if found.reason == LambdaReason::Noise {
                 search = Search::new(&prepared.input, &first, known)?;
             }
@@ -104,6 +114,7 @@ impl Solver {
             search,
             choice,
             noise,
+            vertex_sigma,
             solve: ComponentSolver::new(
                 prepared, &options, scale, warm_start, start_mode, started,
             )?,
@@ -184,7 +195,8 @@ impl Solver {
         let is_solved = matches!(reason, StopReason::Gap | StopReason::Rounding);
         let factor = residual.and_then(|residual| residual.lambda_factor(noise, choice.raises));
         let Some(factor) = factor.filter(|_| is_solved) else {
-            choice.residual_ratio = residual.map(|residual| residual.rms);
+            let shown = noise.sigma / self.vertex_sigma.unwrap_or(noise.sigma);
+            choice.residual_ratio = residual.map(|residual| residual.rms * shown);
             choice.residual_exceeds_noise =
                 residual.is_some_and(|residual| residual.exceeds_noise(noise));
             return Ok(false);

@@ -430,3 +430,69 @@ fn impulses_are_no_data() {
     let [clean, spoilt] = [0.0, 0.03].map(|share| rms_difference(&truth, &surface(share)));
     assert!(spoilt < 1.3 * clean, "{clean} {spoilt}");
 }
+
+/// The image of [`scene`], of `size` pixels, with normal noise of standard deviation 1 after a Gaussian blur of `blur` pixels,
+/// times `sigma`.
+fn noisy_image([width, height]: [usize; 2], sigma: f64, blur: f64, seed: u64) -> HeightImage {
+    const MARGIN: usize = 12;
+    let mut noise = Noise::new(seed);
+    let [wide, high] = [width, height].map(|side| side + 2 * MARGIN);
+    let white: Vec<f64> = (0..wide * high).map(|_| normal(&mut noise)).collect();
+    let weight = |k: usize| {
+        let d = k as f64 - MARGIN as f64;
+        match blur > 0.0 {
+            true => (-0.5 * d * d / (blur * blur)).exp(),
+            false => f64::from(d == 0.0),
+        }
+    };
+    let weights: Vec<f64> = (0..=2 * MARGIN).map(weight).collect();
+    let norm: f64 = weights.iter().map(|w| w * w).sum();
+    let along = |values: &[f64], start: usize, step: usize| -> f64 {
+        let terms = weights.iter().enumerate();
+        terms.map(|(k, w)| w * values[start + k * step]).sum()
+    };
+    let rows: Vec<f64> = (0..high * width)
+        .map(|i| along(&white, i / width * wide + i % width, 1))
+        .collect();
+    let pixel = |i: usize| {
+        let [x, y] = [i % width, i / width].map(|k| k as f64 / width as f64);
+        scene(x, y) + sigma / norm * along(&rows, i, width)
+    };
+    HeightImage::new(width, height, (0..width * height).map(pixel).collect())
+        .unwrap()
+        .with_pixel_size(1.0 / width as f64)
+        .unwrap()
+}
+
+/// What is reported of an image's noise is that of its pixels, although vertices between them have a mean of several.
+#[test]
+fn the_noise_of_an_image_is_that_of_its_pixels() {
+    let check = |size: [usize; 2], sigma: f64, blur: f64, spacing: f64, tolerance: f64| {
+        let image = noisy_image(size, sigma, blur, 3 + size[0] as u64);
+        let bridged = image.bridged(Bridging::default()).unwrap();
+        let input = Input::from_bridged(&bridged, Some(spacing * image.pixel_size())).unwrap();
+        let start = Solver::new(input, &Options::default()).unwrap();
+        let choice = start.surface().unwrap().report().lambda_choice.unwrap();
+        let [found, length] = [
+            choice.sigma.unwrap() / sigma,
+            choice.correlation_length / image.pixel_size(),
+        ];
+        let told = format!("{size:?} {sigma} {blur} {spacing}: {found} {length}");
+        assert!((found - 1.0).abs() < tolerance, "{told}");
+        assert!((length - blur).abs() < 0.3, "{told}");
+    };
+    for size in [[64, 64], [150, 100], [300, 200]] {
+        for sigma in [5e-4, 5e-3, 3e-2] {
+            check(size, sigma, 0.0, 1.0, 0.08);
+        }
+    }
+    for sigma in [5e-3, 3e-2] {
+        for spacing in [0.5, 2.0] {
+            check([150, 100], sigma, 0.0, spacing, 0.08);
+        }
+        check([150, 100], sigma, 1.0, 0.5, 0.12);
+        for blur in [1.0, 2.0] {
+            check([300, 200], sigma, blur, 1.0, 0.12);
+        }
+    }
+}

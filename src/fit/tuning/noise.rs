@@ -132,7 +132,7 @@ const RING_NOISE_PIECE_ROWS: usize = 32;
 /// Estimates the standard deviation of white noise from rings of six neighbours: the sum of a ring's heights with
 /// alternating signs is 0 for every quadratic. The median over all rings discards creases. `None` if there are fewer
 /// than [`MIN_NOISE_SAMPLES`] rings.
-fn ring_noise(input: &Input) -> Option<f64> {
+pub(super) fn ring_noise(input: &Input) -> Option<f64> {
     let lattice = input.field.lattice();
     let least = MIN_SAMPLE_CONFIDENCE * largest_trust(input);
     let pieces = lattice.rows().div_ceil(RING_NOISE_PIECE_ROWS);

@@ -74,6 +74,7 @@ export const CALLS = {
       return [await fileOf(bytes), options];
     },
   },
+  formatOf: { parts: ['files'], send: async (bytes) => [await fileOf(bytes)] },
   npzArrays: { parts: ['images'], send: async (bytes) => [await fileOf(bytes)] },
   writeNpy: writing((input) => handedOver(asField(input)), ['files']),
   writePng: writing((input) => handedOver(asPixels(input)), ['files']),

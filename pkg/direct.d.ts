@@ -133,10 +133,15 @@ export function fit(input: HeightImage | Heightfield, options?: DirectFitOptions
  */
 export function occlusions(input: HeightImage | Heightfield, options?: OcclusionOptions): DetectedOcclusions;
 /**
- * Decodes a file of heights: PNG, NPY, TIFF, EXR, PFM, NPZ, JPEG, WebP, text or a depth map of COLMAP. Meshes are read
+ * Decodes a file of heights: PNG, NPY, TIFF, EXR, PFM, PGM, NPZ, JPEG, WebP, text or a depth map of COLMAP. Meshes are read
  * by `readMesh`.
  */
 export function read(bytes: Uint8Array | ArrayBuffer, options?: ReadOptions): ReadResult;
+/**
+ * Detects the format of a file of heights, a photo or a mesh by what is in it, and returns its name, such as `'png'` or `'stl'`;
+ * `undefined` for other files.
+ */
+export function formatOf(bytes: Uint8Array | ArrayBuffer): string | undefined;
 /** Lists the arrays of an NPZ file, one of which `read` takes by its name. */
 export function npzArrays(bytes: Uint8Array | ArrayBuffer): NpzArray[];
 /** Writes heights, of an image or on a lattice, to an NPY file of 64-bit floats. */

@@ -1,7 +1,7 @@
 /** The synchronous API: runs where it is called. Documented in `direct.d.ts`. */
 import { asDepthOptions } from './depth-input.js';
 import { DevelopableError } from './errors.js';
-import { isImage, refuseMesh } from './formats.js';
+import { isImage } from './formats.js';
 import { asBytes, asField, asHeights, asImage, asInput, asLattice, asPixels, carriedOf } from './input.js';
 import { files, images, meshFits, meshes, partOf, patterns, solver, surfaces } from './instances.js';
 import { asFiles, asMesh, asMeshOrLattice, asPicture, wholeOf } from './mesh-input.js';
@@ -198,10 +198,15 @@ export function occlusions(input, given) {
 export function read(bytes, given) {
   const file = asBytes(bytes);
   const options = optionsOf('read', given);
-  refuseMesh(file, options);
   return isImage(file, options)
     ? images.call((wasm) => wasm.readImage(file, options))
     : files.call((wasm) => wasm.read(file, options));
+}
+
+/** @type {typeof import('./direct.js').formatOf} */
+export function formatOf(bytes) {
+  const file = asBytes(bytes);
+  return files.call((wasm) => wasm.formatOf(file));
 }
 
 /** @type {typeof import('./direct.js').npzArrays} */

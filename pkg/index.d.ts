@@ -200,10 +200,15 @@ export function open(input: HeightImage | Heightfield, options?: HandOver): Prom
  */
 export function occlusions(input: HeightImage | Heightfield, options?: OcclusionOptions): Promise<DetectedOcclusions>;
 /**
- * Decodes a file of heights: PNG, NPY, TIFF, EXR, PFM, NPZ, JPEG, WebP, text or a depth map of COLMAP. Meshes are read
+ * Decodes a file of heights: PNG, NPY, TIFF, EXR, PFM, PGM, NPZ, JPEG, WebP, text or a depth map of COLMAP. Meshes are read
  * by `readMesh`.
  */
 export function read(bytes: Uint8Array | ArrayBuffer | Blob, options?: ReadOptions): Promise<ReadResult>;
+/**
+ * Detects the format of a file of heights, a photo or a mesh by what is in it, and returns its name, such as `'png'` or `'stl'`;
+ * `undefined` for other files.
+ */
+export function formatOf(bytes: Uint8Array | ArrayBuffer | Blob): Promise<string | undefined>;
 /** Lists the arrays of an NPZ file, one of which `read` takes by its name. */
 export function npzArrays(bytes: Uint8Array | ArrayBuffer | Blob): Promise<NpzArray[]>;
 /** Writes heights, of an image or on a lattice, to an NPY file of 64-bit floats. */

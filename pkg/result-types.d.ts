@@ -176,6 +176,14 @@ export interface DecodedPhoto {
 }
 
 /**
+ * Whether the values of an image are depths of a camera.
+ * - `'none'`: Nothing tells them from heights.
+ * - `'likely'`: Their range and their occlusions are those of depths.
+ * - `'certain'`: Besides, the name of the file says so, or pixels have no depth.
+ */
+export type DepthEvidence = 'none' | 'likely' | 'certain';
+
+/**
  * Occlusions (jumps) that were detected in heights. As part of a heightfield, `vertices` can be given as `occlusions`
  * and `edges` as `brokenEdges`.
  */
@@ -552,8 +560,9 @@ export interface FoldLine {
  * - `'colmap'`: Depth map of COLMAP.
  * - `'gif'`: GIF, only grey pictures.
  * - `'bmp'`: Windows bitmap (BMP), only grey pictures.
+ * - `'pgm'`: Portable grey map (PGM), binary or text.
  */
-export type Format = 'png' | 'npy' | 'tiff' | 'exr' | 'pfm' | 'npz' | 'jpeg' | 'webp' | 'text' | 'colmap' | 'gif' | 'bmp';
+export type Format = 'png' | 'npy' | 'tiff' | 'exr' | 'pfm' | 'npz' | 'jpeg' | 'webp' | 'text' | 'colmap' | 'gif' | 'bmp' | 'pgm';
 
 /**
  * Where the pixels of an image lie on a map. It is read from a GeoTIFF and written to one unchanged, but for the rows
@@ -1125,6 +1134,12 @@ export interface ReadResult {
   heightScale: number;
   /** Type of number that the file stores: `'u8'`, `'u16'`, `'f32'`, `'f64'` and so on. */
   dataType: string;
+  /** Whether the values are depths of a camera. */
+  depths: DepthEvidence;
+  /**
+   * Unit that the values have if they are depths of a camera: millimetres for integers and large floats, else metres.
+   */
+  depthUnit: Unit;
   /** Where the pixels lie on a map; absent unless the file is a GeoTIFF. */
   georeference?: Georeference;
   /** What the reader assumed because the file does not say it. */

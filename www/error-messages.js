@@ -25,7 +25,6 @@ export function plainMessage(message) {
   if (row) return `vertex ${Number(row) + 1} of the mesh is at no place (“not a number” or infinite); repair the mesh, or take the vertex out`;
   return message
     .replace(/^this file: /, '')
-    .replace(/: readMesh reads it$/, '; give its name the ending of a mesh, such as .glb')
     .replace(/^EXR: too new file feature flags$/, 'this EXR file is of a kind that is not read; save it as a plain one, with one layer')
     .replace(/\.$/, '');
 }

@@ -30,7 +30,7 @@ export class ColourPictureError extends Error {
 export async function readInput(api, file, signal, { array, noData } = {}, { photo: photoFile, ...companionFiles } = {}) {
   const { names, read, companions } = await runInWorker(api, signal, async (reader) => {
     const names = await heightArrayNames(reader, file);
-    const options = { array: names.length > 1 ? array ?? names[0] : undefined, ...noDataOptions(noData) };
+    const options = { name: file.name, array: names.length > 1 ? array ?? names[0] : undefined, ...noDataOptions(noData) };
     const read = await reader.read(file, options).catch((error) => {
       throw error instanceof Error && /colour/.test(error.message) ? new ColourPictureError() : error;
     });
@@ -38,7 +38,7 @@ export async function readInput(api, file, signal, { array, noData } = {}, { pho
   });
   const { format, dataType, assumptions } = read;
   const photo = photoFile && { name: photoFile.name, image: await readPicture(photoFile) };
-  const input = toInput(await transferToWorker('interpretFile', [read.data], read, file.name, noData));
+  const input = toInput(await transferToWorker('interpretFile', [read.data], read, noData));
   return {
     ...input,
     name: file.name.replace(/\.[^.]*$/, '') || 'heights',

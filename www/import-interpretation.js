@@ -1,5 +1,5 @@
 /** Interpretation of a file of numbers as heights: guessed when it is opened, and changed by the user afterwards. */
-import { coarseningFor, depthUnitOf, isHexagonal, isNoDepth } from './metadata-guess.js';
+import { coarseningFor, isHexagonal } from './metadata-guess.js';
 import { number } from './format.js';
 import { GUESS_WORDS } from './messages.js';
 import { gridOverLattice, interpolateToGrid } from './surface/lattice.js';
@@ -32,21 +32,18 @@ const MIN_MEASURED_SHARE = 0.2;
 /**
  * Guesses the interpretation of a file.
  * @param {Read} read
- * @param {string} name name of the file
  * @param {NoData} [noData] what was given as no data
  * @returns {InterpretedHeights}
  */
-function firstInterpretation(read, name, noData) {
-  const { width, height, unit } = read;
-  const depthUnit = depthUnitOf(name, read) ?? undefined;
-  const data = depthUnit ? read.data.map((depth) => (isNoDepth(depth) ? NaN : depth)) : read.data;
+function firstInterpretation(read, noData) {
+  const { width, height, data, unit, depths, depthUnit } = read;
   if (!data.some(Number.isFinite)) throw new Error('it has no heights, every pixel is “no data” (NaN)');
   if (data.some((value) => Math.abs(value) === Infinity)) throw new Error('it has infinite heights; mark them as NaN, “no data”');
   if (width < 3 || height < 3) throw new Error(`it is ${width} × ${height} pixels; a surface needs at least 3 × 3`);
-  const stored = { ...guessStoredHeights({ ...read, data }, depthUnit !== undefined), noData };
+  const stored = { ...guessStoredHeights(read, depths !== 'none'), noData };
   const { pixelSize, heightScale, design } = stored;
   const unchanged = { ...stored, hexagonal: false };
-  return reinterpret({ width, height, data, pixelSize, heightScale, unit: unit ?? undefined, depthUnit, stored: unchanged, design }, stored);
+  return reinterpret({ width, height, data, pixelSize, heightScale, unit: unit ?? undefined, depths: depths === 'none' ? undefined : depths, depthUnit, stored: unchanged, design }, stored);
 }
 
 /**

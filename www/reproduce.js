@@ -6,8 +6,8 @@ import { spacingOf } from './session.js';
 /** @import {Input, Result} from './session.js' */
 
 /** Whether the heights are those of the file or example, without edits or other images. @param {Input} input */
-function isUnchanged({ design, sampling, depthUnit, confidence, constraints, isEdited }) {
-  return !(design || sampling || depthUnit || confidence || constraints || isEdited);
+function isUnchanged({ design, sampling, depths, confidence, constraints, isEdited }) {
+  return !(design || sampling || depths || confidence || constraints || isEdited);
 }
 
 /** The options of `fit` that solve the same, without those that are the package's own. @param {Result} result */

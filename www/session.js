@@ -37,7 +37,8 @@ import { prepareInput, prepareResult } from './surface/derived-data.js';
  * @property {boolean} [isEdited] whether heights were edited by hand
  * @property {string} [dataType] number type of the file, such as `u16`
  * @property {readonly import('../pkg/types.js').Assumption[]} [assumptions] what the reader of the file has assumed
- * @property {'mm' | 'm'} [depthUnit] probable unit of the values, if they look like depths from a camera
+ * @property {'likely' | 'certain'} [depths] whether the values are depths from a camera
+ * @property {'mm' | 'm'} [depthUnit] unit of the values, if they are depths from a camera
  * @property {import('./import-interpretation.js').StoredHeights} [stored] contents of the file, and how they are interpreted
  * @property {{ name: string, image: ImageData }} [photo] photo that was opened together with it
  * @property {Design} [designShape] pins and curves of a design

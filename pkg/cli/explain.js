@@ -37,7 +37,7 @@ export async function about(path, read) {
     return await read();
   } catch (error) {
     if (error instanceof DevelopableError && error.code !== 'TRAP') {
-      throw new Problem(status.input, `${path}: ${asFlags(error.message).replace(/^this file: |: readMesh reads it$/g, '')}`);
+      throw new Problem(status.input, `${path}: ${asFlags(error.message).replace(/^this file: /, '')}`);
     }
     throw error;
   }

@@ -1,4 +1,5 @@
 /** `developable info`: what is in a file. */
+import { basename } from 'node:path';
 import * as developable from '../index.js';
 import { about } from './explain.js';
 import { readBytes } from './files.js';
@@ -13,7 +14,7 @@ export async function info({ input, array }) {
   const bytes = await readBytes(input);
   const lines = await about(input, async () => {
     if (isArchive(bytes) && !isMesh(input) && array === undefined) return arraysInWords(await developable.npzArrays(bytes));
-    const file = isMesh(input) ? await readMeshFile(input, bytes) : await developable.read(bytes, { array });
+    const file = isMesh(input) ? await readMeshFile(input, bytes) : await developable.read(bytes, { array, name: basename(input) });
     const told = 'positions' in file ? meshInWords(file) : imageInWords(file);
     return [...told, ...assumptionsInWords(file).map((words) => ['assumed', words])];
   });

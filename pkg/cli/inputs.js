@@ -1,6 +1,6 @@
 /** What a solve is about, from files: the heights, and what else is known. */
 import { realpath, stat } from 'node:fs/promises';
-import { dirname, join, resolve, sep } from 'node:path';
+import { basename, dirname, join, resolve, sep } from 'node:path';
 import * as developable from '../index.js';
 import { patternMesh } from '../schema/pattern.js';
 import { readCamera } from './camera.js';
@@ -184,7 +184,7 @@ function turnOf(depths, photo) {
 }
 
 /**
- * Depths in whole numbers are millimetres, if nothing says otherwise, and those of floats in metres; a scale makes metres.
+ * The camera of depths, whose unit is that of the file if nothing says otherwise; a scale makes metres.
  * @param {import('./task.js').CameraTask} camera
  * @param {ReadResult} file
  * @param {Size} [photo]
@@ -192,15 +192,14 @@ function turnOf(depths, photo) {
  */
 async function depthCamera({ numbers, file: path, ray }, file, photo) {
   const depth = ray ? 'ray' : 'planar';
-  const whole = /^[ui]/.test(file.dataType);
   if (path === undefined) {
     const given = /** @type {import('../types.js').Intrinsics} */ (numbers);
-    return { ...given, depth, unit: whole && given.depthScale === undefined ? 'mm' : 'm' };
+    return { ...given, depth, unit: given.depthScale === undefined ? file.depthUnit : 'm' };
   }
   const images = [file, ...(photo ? [photo] : [])].map(({ width, height }) => ({ width, height }));
   const camera = await readCamera(path, images);
   const { rotation, translation, ...own } = camera;
-  return { depthScale: whole ? 0.001 : 1, ...own, depth, unit: 'm' };
+  return { depthScale: file.depthUnit === 'mm' ? 0.001 : 1, ...own, depth, unit: 'm' };
 }
 
 /**
@@ -298,7 +297,7 @@ async function whyMissing(folder, name) {
  */
 async function readImage(path, { array, noData, assumeNoData } = {}) {
   const bytes = await readBytes(path);
-  return about(path, () => developable.read(bytes, { array, noData, assumeNoData }));
+  return about(path, () => developable.read(bytes, { array, name: basename(path), noData, assumeNoData }));
 }
 
 /**

@@ -1,5 +1,5 @@
 /** The command: what to do, how it ends. */
-import { dispose, init } from '../index.js';
+import { dispose, formatOf, init } from '../index.js';
 import { analyze, patches, rulings } from './tell.js';
 import { asProblem } from './explain.js';
 import { batchOf, runBatch } from './batch.js';
@@ -84,7 +84,7 @@ async function perform(args, signal) {
     return status.success;
   }
   streams().quiet = line.values.quiet;
-  if (line.inputs.includes('-')) await readStandardInput();
+  if (line.inputs.includes('-')) streams().inputFormat = await formatOf(await readStandardInput());
   const inputs = line.inputs.flatMap(filesOf);
   const batch = batchOf({ ...line, inputs });
   if (batch !== undefined) return runBatch(batch, signal);

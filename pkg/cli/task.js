@@ -1,6 +1,5 @@
 /** From what a command line says to what is to be done: how the input is taken, and what cannot be asked for of it. */
 import { extname } from 'node:path';
-import { endingOf } from '../formats.js';
 import { meshSolver } from '../schema/fit.js';
 import { patternMesh } from '../schema/pattern.js';
 import { dewarpPage } from '../schema/photo.js';
@@ -44,7 +43,7 @@ const MESHES = ['.obj', '.ply', '.stl', '.glb', '.gltf', '.3mf', '.off'];
 const PHOTOS = ['.jpg', '.jpeg', '.png', '.webp', '.gif', '.bmp'];
 
 /** The ending of a file, of standard input by what it holds. @param {string} path */
-const extensionOf = (path) => (path === '-' ? endingOf(streams().input ?? new Uint8Array()) : extname(path).toLowerCase());
+const extensionOf = (path) => (path === '-' ? `.${streams().inputFormat ?? ''}` : extname(path).toLowerCase());
 
 /** @param {string} path */
 export const isMesh = (path) => MESHES.includes(extensionOf(path));

@@ -10,6 +10,8 @@ export const read = {
   format: { kind: choice(...Format), type: 'Format' },
   /** Name of the array to read from an NPZ file; needed only where the file holds several. */
   array: { kind: text },
+  /** Name of the file, which may say what is in it: `depth` in it makes depths of numbers that may be some. */
+  name: { kind: text },
   /** A value that is no data and becomes NaN, rounded as the file stores numbers. */
   noData: { kind: number },
   /**

@@ -7,12 +7,18 @@ mod assumption;
 mod buffer;
 #[cfg(feature = "patterns")]
 pub mod drawings;
+#[cfg(any(feature = "formats", feature = "meshes"))]
+mod foreign;
 #[cfg(feature = "formats")]
 pub mod images;
+#[cfg(any(feature = "formats", feature = "meshes"))]
+mod mesh_format;
 #[cfg(feature = "meshes")]
 pub mod meshes;
 #[cfg(any(feature = "formats", feature = "patterns"))]
 mod points;
+#[cfg(any(feature = "formats", feature = "meshes"))]
+mod text;
 mod unit;
 #[cfg(feature = "formats")]
 pub mod wavefront;

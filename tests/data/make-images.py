@@ -3,6 +3,7 @@
     python make-images.py
 """
 
+import subprocess
 from pathlib import Path
 
 import numpy as np
@@ -33,6 +34,19 @@ tiff("big", holes.astype("f4"), bigtiff=True)
 tiff("strips", holes.astype("f4"), rowsperstrip=1)
 tiff("tiles", holes.astype("f4"), tile=(16, 16), compression="zlib")
 tiff("deflate", holes.astype("f4"), compression="zlib", predictor=True)
+
+
+def zstd(values):
+    return subprocess.run(["zstd", "-qc", "-19"], input=values.tobytes(), stdout=subprocess.PIPE, check=True).stdout
+
+
+# Strips of two rows and of one, as zstd itself compresses them.
+signed = (ramp - 50).astype("<i2")
+steps = np.diff(signed, axis=1, prepend=np.zeros((3, 1), "<i2"))
+tiff("zstd", (zstd(rows) for rows in (steps[:2], steps[2:])), shape=(3, 4), dtype="<i2", rowsperstrip=2,
+     compression="zstd", predictor=2)
+tiff("zstd-be", (zstd(rows.astype(">f4")) for rows in (holes[:2], holes[2:])), shape=(3, 4), dtype=">f4", rowsperstrip=2,
+     compression="zstd", byteorder=">", bigtiff=True)
 tiff("lzw", (ramp * 700).astype("u2"), compression="lzw", predictor=True)
 tiff("packbits", grey8, compression="packbits")
 tiff("rgb-grey", np.stack([grey8] * 3, axis=2), photometric="rgb")

@@ -60,6 +60,7 @@ const calls = {
   fitCylinder: { args: { input: curled } },
   occlusions: { args: { input: bent }, options: 'occlusions' },
   read: { args: { bytes: npy }, options: 'read' },
+  formatOf: { args: { bytes: npy } },
   npzArrays: { args: { bytes: npy } },
   writeNpy: { args: { input: bent } },
   writePng: { args: { input: bent } },

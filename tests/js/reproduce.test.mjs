@@ -83,7 +83,7 @@ test('nothing is copied of what neither can open', () => {
   /** @type {Input[]} */
   const inputs = [
     { ...example, design: true }, { ...example, example: undefined }, { ...opened, confidence: ramp.data }, { ...opened, isEdited: true },
-    { ...opened, depthUnit: 'mm' }, 
+    { ...opened, depths: 'likely' }, 
     { ...opened, sampling: { mesh: { positions: new Float64Array(), triangles: new Uint32Array() }, options: {} } },
   ];
   for (const input of inputs) assert.deepEqual([asCommand(resultOf(input)), asCode(resultOf(input))], [null, null]);

@@ -3,8 +3,8 @@
 use developable::dewarp::Photo;
 use developable::files::Unit;
 use developable::files::images::{
-    DecodeOptions, Decoded, Format, PhotoOptions, decode, decode_photo, decode_with, npz_arrays,
-    write_exr, write_photo_jpeg, write_tiff,
+    DecodeOptions, Decoded, Format, PhotoOptions, decode, decode_photo, decode_with, format_name,
+    npz_arrays, write_exr, write_photo_jpeg, write_tiff,
 };
 use developable::{Error, HeightImage};
 use proptest::prelude::*;
@@ -76,7 +76,7 @@ fn tiffs_of_every_type() {
 
 #[test]
 fn tiffs_of_every_layout() {
-    for name in ["f4-be", "big", "strips", "tiles", "deflate"] {
+    for name in ["f4-be", "big", "strips", "tiles", "deflate", "zstd-be"] {
         check(&format!("{name}.tif"), "f32", &holes());
     }
     check("lzw.tif", "u16", &times(700.0));
@@ -160,6 +160,55 @@ fn pfms_of_either_byte_order() {
     refused("colour.pfm", "UNSUPPORTED", "row 0, column 0");
     let scaled = decode(b"Pf\n1 2\n-2.5\n\0\0\x80\x3f\0\0\0\x40", None).unwrap();
     assert_eq!((scaled.height_scale, scaled.values), (2.5, vec![2.0, 1.0]));
+}
+
+#[test]
+fn strips_of_zstandard_with_prediction() {
+    let signed: Vec<f64> = ramp().iter().map(|v| v - 50.0).collect();
+    check("zstd.tif", "i16", &signed);
+}
+
+#[test]
+fn pgms_of_bytes_and_text() {
+    let read =
+        |bytes: &[u8]| decode(bytes, None).map(|file| (file.format, file.data_type, file.values));
+    let levels = vec![1.0, 2.0, 3.0, 255.0];
+    let found = (Format::Pgm, "u8", levels.clone());
+    assert_eq!(
+        read(b"P5\n# of a camera\n2 2\n255\n\x01\x02\x03\xff").unwrap(),
+        found
+    );
+    assert_eq!(read(b"P2 2 2 255 1 2\n3 255").unwrap(), found);
+    let deep = read(b"P5 2 1 65535\n\x01\x02\x03\x04").unwrap();
+    assert_eq!(deep, (Format::Pgm, "u16", vec![258.0, 772.0]));
+    for damaged in [
+        &b"P5 2 2 255\n\x01\x02\x03"[..],
+        b"P2 2 2 255 1 2 3",
+        b"P2 2 1 255 1 256",
+        b"P5 2 1 0\n\0\0",
+        b"P5\n# ",
+    ] {
+        assert_eq!(read(damaged).unwrap_err().code(), "FORMAT", "{damaged:?}");
+    }
+}
+
+#[test]
+fn meshes_are_told_from_images() {
+    let name = |bytes: &[u8]| format_name(bytes);
+    let mut stl = [0; 134];
+    stl[80] = 1;
+    assert_eq!(name(&stl), Some("stl"));
+    assert_eq!(name(b"OFF\n3 1 0\n"), Some("off"));
+    assert_eq!(name(b"# a mesh\nv 1 2 3\n"), Some("obj"));
+    assert_eq!(name(b"1 2 3\n4 5 6\n"), Some("text"));
+    assert_eq!(name(&file("one.npz")), Some("npz"));
+    assert_eq!(name(&file("f4.tif")), Some("tiff"));
+    assert_eq!(name(b"hello"), None);
+    let error = decode(&stl, None).unwrap_err().to_string();
+    assert!(
+        error.contains("mesh (STL)") && error.contains(".stl"),
+        "{error}"
+    );
 }
 
 #[test]
@@ -351,11 +400,13 @@ fn photos_have_their_colours() {
 }
 
 /// A file of each kind, as small as it gets.
-const ALL: [&str; 21] = [
+const ALL: [&str; 23] = [
     "f4-be.tif",
     "big.tif",
     "tiles.tif",
     "lzw.tif",
+    "zstd.tif",
+    "zstd-be.tif",
     "packbits.tif",
     "geo-metres.tif",
     "rgba-grey.tif",

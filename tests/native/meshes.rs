@@ -1,5 +1,6 @@
 //! Meshes from files: those of other programs, and damage.
 
+use std::io::Write;
 use std::path::PathBuf;
 
 use developable::files::meshes::{MeshFormat, read_mesh};
@@ -221,6 +222,64 @@ fn what_is_not_read_is_said() {
     let external = String::from_utf8(file("embedded.gltf")).unwrap();
     let external = external.replace("data:application/octet-stream;base64,", "a.bin?");
     assert_eq!(error(external.as_bytes(), None).code(), "UNSUPPORTED");
+}
+
+/// A 3MF archive of the given files.
+fn archive(files: &[(&str, &str)]) -> Vec<u8> {
+    let mut zip = zip::ZipWriter::new(std::io::Cursor::new(Vec::new()));
+    for (name, text) in files {
+        zip.start_file(*name, zip::write::SimpleFileOptions::default())
+            .unwrap();
+        zip.write_all(text.as_bytes()).unwrap();
+    }
+    zip.finish().unwrap().into_inner()
+}
+
+/// A file of a slicer that keeps each object in a model of its own, and supports beside what is printed.
+#[test]
+fn objects_of_3mf_may_lie_in_further_models() {
+    let triangle = |side: f64| {
+        format!(
+            "<mesh><vertices><vertex x=\"0\" y=\"0\" z=\"0\"/><vertex x=\"{side}\" y=\"0\" z=\"0\"/><vertex x=\"0\" y=\"{side}\" \
+             z=\"0\"/></vertices><triangles><triangle v1=\"0\" v2=\"1\" v3=\"2\"/></triangles></mesh>"
+        )
+    };
+    let model = |content: String| {
+        format!(
+            "<model unit=\"millimeter\" xmlns=\"http://schemas.microsoft.com/3dmanufacturing/core/2015/02\" \
+             xmlns:p=\"http://schemas.microsoft.com/3dmanufacturing/production/2015/06\">{content}</model>"
+        )
+    };
+    let main = model(format!(
+        "<resources><object id=\"1\"><components><component p:path=\"/3D/Objects/part.model\" objectid=\"1\" \
+         transform=\"1 0 0 0 1 0 0 0 1 10 0 0\"/></components></object><object id=\"2\" type=\"support\">{}</object></resources>\
+         <build><item objectid=\"1\"/><item objectid=\"2\"/></build>",
+        triangle(99.0)
+    ));
+    let part = model(format!(
+        "<resources><object id=\"1\">{}</object></resources><build/>",
+        triangle(5.0)
+    ));
+    let bytes = archive(&[
+        ("3D/Objects/part.model", &part),
+        ("3D/3dmodel.model", &main),
+    ]);
+    let mesh = read_mesh(&bytes, None).unwrap();
+    assert_eq!(mesh.triangles().len(), 1);
+    assert_eq!(mesh.positions()[1], [15.0, 0.0, 0.0]);
+}
+
+#[test]
+fn stl_files_may_be_cut_short_or_go_on() {
+    let whole = file("binary.stl");
+    let mut longer = whole.clone();
+    longer.extend([7; 33]);
+    assert_eq!(
+        read_mesh(&longer, None).unwrap(),
+        read_mesh(&whole, None).unwrap()
+    );
+    let error = read_mesh(&whole[..whole.len() - 40], None).unwrap_err();
+    assert!(error.to_string().contains("too short"), "{error}");
 }
 
 /// A result, or a short message.

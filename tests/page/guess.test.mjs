@@ -2,7 +2,7 @@
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import { assumedInWords } from '../../www/messages.js';
-import { coarseningFor, depthUnitOf, isHexagonal } from '../../www/metadata-guess.js';
+import { coarseningFor, isHexagonal } from '../../www/metadata-guess.js';
 import { plainMessage } from '../../www/error-messages.js';
 import { routeFiles } from '../../www/file-routing.js';
 import { Book } from '../../www/page/book.js';
@@ -21,17 +21,6 @@ test('a hexagonal lattice shows in its rows, with noise, too', () => {
   assert.ok(!isHexagonal(image(150, 120, (col, row) => hills(col, row) + noise(col, row))));
   assert.ok(!isHexagonal(image(150, 120, (col, row) => hills(col + 0.5 * (row % 2), row * Math.sqrt(0.75)))), 'shifted the other way');
   assert.ok(!isHexagonal(image(20, 20, () => 1)));
-});
-
-test('depths are told from heights by their unit and their edges', () => {
-  const scene = (/** @type {number} */ unit, /** @type {number} */ beyond) => (/** @type {number} */ col, /** @type {number} */ row) =>
-    Math.hypot(col - 80, row - 60) < 40 ? unit * (0.5 + 0.001 * col) : row < 20 ? beyond : unit * (1.6 + 0.002 * row);
-  assert.equal(depthUnitOf('a.png', image(160, 120, scene(1000, 0), 'u16')), 'mm');
-  assert.equal(depthUnitOf('a.exr', image(160, 120, scene(1, 1e10))), 'm', 'a far background');
-  assert.equal(depthUnitOf('a.npy', image(160, 120, (col, row) => 0.1 * col + 0.15 * row)), null, 'a ramp from 0');
-  assert.equal(depthUnitOf('dem.tif', image(160, 120, (col, row) => 900 + 10 * hills(col, row), 'u16')), null, 'terrain');
-  assert.equal(depthUnitOf('depth.png', image(160, 120, (col) => 800 + col, 'u16')), 'mm', 'by its name');
-  assert.equal(depthUnitOf('grey.png', image(160, 120, scene(100, 0), 'u8')), null);
 });
 
 test('large images are solved on a coarser lattice', () => {

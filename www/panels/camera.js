@@ -8,8 +8,6 @@ import { DEPTH_WORDS } from '../messages.js';
 /** @import {InputOrigin} from '../mesh-sampling.js' */
 /** @import {Input, Session, TimedTask} from '../session.js' */
 
-/** Maximum depth in metres; larger values are taken for millimetres. */
-const MAX_DEPTH_METRES = 100;
 /** Field of view that is assumed at first, in degrees along the longer side: about that of a phone. */
 const ASSUMED_FIELD_OF_VIEW_DEGREES = 60;
 
@@ -45,14 +43,13 @@ export function cameraPanel(session, openLoadedMesh) {
     fx.value = fy.value = String(Number((Math.max(width, height) / 2 / Math.tan((angle.valueAsNumber * Math.PI) / 360)).toPrecision(6)));
   };
   /** Fills the fields with a typical camera, whose principal point is the middle of the image. @param {Input} input */
-  const assumeCamera = ({ width, height, data, dataType = '', depthUnit }) => {
+  const assumeCamera = ({ width, height, depthUnit }) => {
     hiddenProperties = {};
     cx.value = String((width - 1) / 2);
     cy.value = String((height - 1) / 2);
     angle.value = String(ASSUMED_FIELD_OF_VIEW_DEGREES);
     setFocalLengths(width, height);
-    // Integers are taken for millimetres, small floats for metres.
-    scale.value = depthUnit === 'm' || (dataType.startsWith('f') && depthRange(data)[1] < MAX_DEPTH_METRES) ? '1' : '0.001';
+    scale.value = depthUnit === 'm' ? '1' : '0.001';
     describe();
   };
   /** Shows the fields, filled with a typical camera. */
@@ -74,7 +71,7 @@ export function cameraPanel(session, openLoadedMesh) {
     const depthSource = session.input?.depthSource;
     if (depthCheckbox.checked) show();
     // The values are heights after all.
-    else if (depthSource) void session.open('The heights could not be taken', async () => ({ ...depthSource, depthUnit: undefined })).then((opened) => {
+    else if (depthSource) void session.open('The heights could not be taken', async () => ({ ...depthSource, depths: undefined })).then((opened) => {
         if (opened) void session.run();
       });
     else panel.hidden = true;
@@ -118,7 +115,7 @@ export function cameraPanel(session, openLoadedMesh) {
     const camera = { ...hiddenProperties, fx: x, fy: y, cx: across, cy: down, depthScale };
     const options = companions && { confidence: companions.confidence, mask: companions.mask };
     const kind = companions ? `depths, with ${companions.names.join(' and ')}` : 'depths';
-    const unit = input.depthUnit ? { unit: /** @type {const} */ ('m') } : {};
+    const unit = input.depths ? { unit: /** @type {const} */ ('m') } : {};
     const cameraAssumption = isAssumed ? DEPTH_WORDS.assumed(number(angle.valueAsNumber), depthScale) : undefined;
     return openLoadedMesh({ name, kind, photo: session.input?.photo ?? photo, depthSource: input, cameraAssumption },
       (signal) => runInWorker(session.api, signal, async (worker) => ({ ...await worker.backProject({ width, height, data }, camera, options), ...unit })),

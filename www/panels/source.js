@@ -9,7 +9,6 @@ import { readPicture } from '../pixels.js';
 import { fileRoles, isCameraFile } from '../file-routing.js';
 import { isMesh, unreadableKindInWords } from '../file-kinds.js';
 import { assumedInWords, DEPTH_WORDS, FILE_WORDS } from '../messages.js';
-import { areSurelyDepths } from '../metadata-guess.js';
 import { noDataOf } from '../no-data.js';
 import { cameraPanel } from './camera.js';
 import { meshPanel } from './mesh.js';
@@ -100,15 +99,15 @@ export function sourcePanel(session, { choose, usePhoto }, onOpened, solveMesh, 
     if (!opened || !session.input) return false;
     pendingPhoto = null;
     openAgain = (noData) => openFile(chosen, { ...reading, noData }, { ...companions, photo }, hasCamera);
-    const { depthUnit, stored, data } = session.input;
+    const { depths, stored } = session.input;
     setCoarsening(stored?.coarsening ?? 1);
-    if (!depthUnit) {
+    if (!depths) {
       void session.run();
       return true;
     }
     camera.show();
     if (hasCamera) return true;
-    if (!areSurelyDepths(chosen.name, data)) {
+    if (depths !== 'certain') {
       void session.run();
       return true;
     }
@@ -227,7 +226,7 @@ export function sourcePanel(session, { choose, usePhoto }, onOpened, solveMesh, 
     fileOptions.hidden = !isFile || (input.sampling !== undefined && !isBackProjected);
     fileOptions.toggleAttribute('data-built', isBackProjected);
     for (const radio of radios) radio.checked = !isFile && radio.value === input.name;
-    const guessed = input.depthUnit ? DEPTH_WORDS.maybe : isBackProjected ? input.cameraAssumption : input.stored?.guesses;
+    const guessed = input.depths ? DEPTH_WORDS.maybe : isBackProjected ? input.cameraAssumption : input.stored?.guesses;
     guesses.textContent = [assumedInWords(input.assumptions), guessed].filter(Boolean).join(' ');
     guesses.hidden = guesses.textContent === '';
     if (fileOptions.hidden) return;

@@ -9,6 +9,8 @@ use crate::error::{Error, Result};
 pub struct DecodeOptions {
     /// Name of the array of an NPZ file; `None`: the only one.
     pub array: Option<String>,
+    /// Name of the file, which may say what is in it; empty if it is not known.
+    pub name: String,
     /// A value that is no data, rounded as the file stores numbers; `None`: no other than those that the file names.
     pub no_data: Option<f64>,
     /// Whether values that nobody would measure are no data.
@@ -19,6 +21,7 @@ impl Default for DecodeOptions {
     fn default() -> Self {
         DecodeOptions {
             array: None,
+            name: String::new(),
             no_data: None,
             assume_no_data: true,
         }
@@ -29,6 +32,12 @@ impl DecodeOptions {
     /// Sets the name of the array of an NPZ file, and returns the options.
     pub fn array(mut self, name: impl Into<String>) -> Self {
         self.array = Some(name.into());
+        self
+    }
+
+    /// Sets the name of the file, and returns the options.
+    pub fn name(mut self, name: impl Into<String>) -> Self {
+        self.name = name.into();
         self
     }
 

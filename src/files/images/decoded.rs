@@ -1,6 +1,7 @@
 //! The result of decoding an image: the stored pixel values, and how they become heights.
 
 use super::decode_options::DecodeOptions;
+use super::depths::{self, DepthEvidence};
 use super::format::Format;
 use super::georeference::Georeference;
 use super::no_data;
@@ -38,6 +39,10 @@ pub struct Decoded {
     pub height_scale: f64,
     /// Type of number that the file stores for each pixel: `"u8"`, `"u16"`, `"f32"`, `"f64"`, …
     pub data_type: &'static str,
+    /// Whether the values are depths of a camera.
+    pub depths: DepthEvidence,
+    /// Unit that the values have if they are depths of a camera: millimetres for integers and large floats, else metres.
+    pub depth_unit: Unit,
     /// Where the pixels lie on a map, if the file says it.
     pub georeference: Option<Georeference>,
     /// What the reader assumed because the file does not say it.
@@ -69,6 +74,8 @@ pub(super) struct StoredImage {
     pub(super) names_no_data: bool,
     /// Width and height of a pixel in `unit`, if the file says them.
     pub(super) sides: Option<[f64; 2]>,
+    /// Height of a pixel divided by its width, where the file says only that.
+    pub(super) aspect: f64,
     pub(super) unit: Option<Unit>,
     /// Scale of `height = scale · value + offset`, if the file says it.
     pub(super) height_scale: Option<f64>,
@@ -93,6 +100,7 @@ impl StoredImage {
             data_type,
             names_no_data: false,
             sides: None,
+            aspect: 1.0,
             unit: None,
             height_scale: None,
             offset: 0.0,
@@ -119,7 +127,24 @@ impl StoredImage {
                 self.names_no_data,
             ));
         }
-        let [x, y] = self.sides.unwrap_or([1.0; 2]);
+        let depth_unit = depths::unit(&self.values, self.data_type);
+        // On a map, there are heights.
+        let depths = match self.georeference {
+            Some(_) => DepthEvidence::None,
+            None => depths::evidence(
+                &self.values,
+                self.size.0,
+                self.data_type,
+                depth_unit,
+                &options.name,
+            ),
+        };
+        if depths != DepthEvidence::None && options.assume_no_data {
+            assumptions.push(depths::without_missing(&mut self.values, depth_unit));
+        }
+        // Of pixels of unknown size, the longer side is 1.
+        let of_unknown_size = [1.0, self.aspect].map(|side| side / self.aspect.max(1.0));
+        let [x, y] = self.sides.unwrap_or(of_unknown_size);
         let square = square_pixels(self.values, self.size, [x, y])?;
         if (x - y).abs() > NEGLIGIBLE_SIDE_DIFFERENCE * x.max(y) {
             let how = if square.size == self.size {
@@ -165,6 +190,8 @@ impl StoredImage {
             unit: self.unit,
             height_scale,
             data_type: self.data_type,
+            depths,
+            depth_unit,
             georeference: self.georeference,
             assumptions,
         })

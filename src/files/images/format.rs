@@ -3,6 +3,8 @@
 use std::str::FromStr;
 
 use crate::error::{Error, Result};
+use crate::files::foreign::{begins, foreign};
+use crate::files::mesh_format::MeshFormat;
 
 /// An image file format that can be read.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -37,10 +39,12 @@ pub enum Format {
     Gif,
     /// Windows bitmap (BMP), only grey pictures.
     Bmp,
+    /// Portable grey map (PGM), binary or text.
+    Pgm,
 }
 
 /// Image formats with their names in options and their titles in messages.
-const FORMAT_TITLES: [(Format, &str, &str); 12] = [
+const FORMAT_TITLES: [(Format, &str, &str); 13] = [
     (Format::Png, "png", "PNG"),
     (Format::Npy, "npy", "NPY"),
     (Format::Tiff, "tiff", "TIFF"),
@@ -53,10 +57,11 @@ const FORMAT_TITLES: [(Format, &str, &str); 12] = [
     (Format::Colmap, "colmap", "COLMAP depths"),
     (Format::Gif, "gif", "GIF"),
     (Format::Bmp, "bmp", "BMP"),
+    (Format::Pgm, "pgm", "PGM"),
 ];
 
 /// Signatures of the image formats: the first bytes of a file of each format; a `?` stands for any byte.
-const MAGIC_BYTES: [(&[u8], Format); 15] = [
+const MAGIC_BYTES: [(&[u8], Format); 19] = [
     (b"\x89PNG\r\n\x1a\n", Format::Png),
     (b"\x93NUMPY", Format::Npy),
     (b"II*\0", Format::Tiff),
@@ -66,6 +71,10 @@ const MAGIC_BYTES: [(&[u8], Format); 15] = [
     (b"\x76\x2f\x31\x01", Format::Exr),
     (b"Pf\n", Format::Pfm),
     (b"PF\n", Format::Pfm),
+    (b"P2\n", Format::Pgm),
+    (b"P2 ", Format::Pgm),
+    (b"P5\n", Format::Pgm),
+    (b"P5 ", Format::Pgm),
     (b"PK\x03\x04", Format::Npz),
     (b"PK\x05\x06", Format::Npz),
     (b"\xff\xd8\xff", Format::Jpeg),
@@ -84,19 +93,16 @@ impl Format {
     }
 
     /// Returns the format's name in lower case: `"png"`, `"npy"`, `"tiff"`, `"exr"`, `"pfm"`, `"npz"`, `"jpeg"`,
-    /// `"webp"`, `"text"`, `"colmap"`, `"gif"` or `"bmp"`.
+    /// `"webp"`, `"text"`, `"colmap"`, `"gif"`, `"bmp"` or `"pgm"`.
     pub fn name(self) -> &'static str {
         self.entry().1
     }
 
     /// Detects the format of an image file from the file's first bytes.
     pub fn detect(bytes: &[u8]) -> Option<Format> {
-        let announces = |magic: &[u8]| {
-            bytes.len() >= magic.len() && magic.iter().zip(bytes).all(|(m, b)| *m == b'?' || m == b)
-        };
         MAGIC_BYTES
             .into_iter()
-            .find_map(|(magic, format)| announces(magic).then_some(format))
+            .find_map(|(magic, format)| begins(bytes, magic).then_some(format))
             .or_else(|| is_text_grid(bytes).then_some(Format::Text))
             .or_else(|| colmap_head(bytes).map(|_| Format::Colmap))
     }
@@ -138,7 +144,7 @@ impl FromStr for Format {
 }
 
 /// Permitted values of the option `format`, as they are listed in the error about a wrong value.
-pub const FORMAT_NAMES: &str = "must be `png`, `npy`, `tiff`, `exr`, `pfm`, `npz`, `jpeg`, `webp`, `text`, `colmap`, `gif` or `bmp`";
+pub const FORMAT_NAMES: &str = "must be `png`, `npy`, `tiff`, `exr`, `pfm`, `npz`, `jpeg`, `webp`, `text`, `colmap`, `gif`, `bmp` or `pgm`";
 
 /// Width, height and number of channels in the head of a depth map of COLMAP, and the length of the head in bytes.
 pub(super) fn colmap_head(bytes: &[u8]) -> Option<([usize; 3], usize)> {
@@ -190,7 +196,9 @@ fn is_text_grid(bytes: &[u8]) -> bool {
     lines.take(2).any(|line| {
         let words = || line.split(divides).filter(|word| !word.is_empty());
         words().count() > 1 && words().all(is_number)
-            || line.contains(',') && line.split(',').all(|word| is_number(word.trim()))
+            || line.contains(',')
+                && line.contains(|letter: char| letter.is_ascii_digit())
+                && (line.split(',').map(str::trim)).all(|word| word.is_empty() || is_number(word))
     })
 }
 
@@ -206,69 +214,63 @@ pub fn announced(bytes: &[u8], stated: Option<Format>) -> Result<Format> {
             reason: "the file is empty".into(),
         });
     }
-    match (stated, Format::detect(bytes)) {
-        (None, Some(found)) => Ok(found),
-        (Some(stated), Some(found)) if stated == found => Ok(found),
-        (None, None) => Err(Error::Unsupported {
+    let found = Format::detect(bytes);
+    if stated.is_none()
+        && let Some(mesh) = mesh_format(bytes, found)
+    {
+        return Err(Error::Unsupported {
             format: "this file",
             reason: format!(
-                "{} cannot be read; PNG, NPY, TIFF, EXR, PFM, NPZ, JPEG, WebP, GIF, BMP, text and depths of COLMAP can",
-                guess(bytes)
+                "it is a mesh ({}), and no image of heights; read it as a mesh, by a name that ends in .{}",
+                mesh.title(),
+                mesh.name()
             ),
-        }),
-        (Some(stated), _) => Err(Error::Format {
-            format: stated.title(),
-            reason: format!("it begins like {}", guess(bytes)),
-        }),
+        });
+    }
+    match (stated, found) {
+        (None, Some(found)) => Ok(found),
+        (Some(stated), Some(found)) if stated == found => Ok(found),
+        (None, None) => {
+            let (format, reason) = foreign(bytes).unwrap_or((
+                "this file",
+                "a file of unknown format cannot be read; PNG, NPY, TIFF, EXR, PFM, PGM, NPZ, JPEG, WebP, GIF, BMP, text and \
+                 depths of COLMAP can",
+            ));
+            Err(Error::Unsupported {
+                format,
+                reason: reason.into(),
+            })
+        }
+        (Some(stated), found) => {
+            let foreign = || foreign(bytes).map(|(name, _)| name);
+            let name = found.map(Format::title).or_else(foreign);
+            let reason = format!(
+                "it begins like {}",
+                name.unwrap_or("a file of unknown format")
+            );
+            Err(Error::Format {
+                format: stated.title(),
+                reason,
+            })
+        }
     }
 }
 
-/// Guesses from a file's first bytes which kind of file it is, such as a PDF or a GIF, for error messages only.
-fn guess(bytes: &[u8]) -> &'static str {
-    let known: [(&[u8], &str); 9] = [
-        (
-            b"GWYO",
-            "a Gwyddion file (`gwyddion --convert-to-gsf`, or export an image of 32-bit floats there)",
-        ),
-        (
-            b"GWYP",
-            "an old Gwyddion file (export an image of 32-bit floats there)",
-        ),
-        (
-            b"Lerc",
-            "a LERC file (`gdal_translate IN OUT.tif` converts it)",
-        ),
-        (
-            b"DSBB",
-            "a binary grid of Surfer (`gdal_translate IN OUT.tif` converts it)",
-        ),
-        (
-            b"DSRB",
-            "a binary grid of Surfer (`gdal_translate IN OUT.tif` converts it)",
-        ),
-        (b"\x89PNG", "a PNG file damaged in transfer"),
-        (b"Pf", "a PFM file whose header is damaged"),
-        (b"RIFF", "a RIFF file that is no WebP"),
-        (b"%PDF", "a PDF file"),
-    ];
-    match Format::detect(bytes) {
-        Some(Format::Png) => "a PNG file",
-        Some(Format::Npy) => "an NPY file",
-        Some(Format::Tiff) => "a TIFF file",
-        Some(Format::Exr) => "an OpenEXR file",
-        Some(Format::Pfm) => "a PFM file",
-        Some(Format::Npz) => "a zip archive (perhaps NPZ)",
-        Some(Format::Jpeg) => "a JPEG file",
-        Some(Format::WebP) => "a WebP file",
-        Some(Format::Text) => "text",
-        Some(Format::Colmap) => "a depth map of COLMAP",
-        Some(Format::Gif) => "a GIF file",
-        Some(Format::Bmp) => "a BMP file",
-        None => known
-            .iter()
-            .find(|(magic, _)| bytes.starts_with(magic))
-            .map_or("a file of unknown format", |(_, name)| name),
-    }
+/// Detects the format of a mesh file that has the signature of no image: text may be a matrix or a mesh.
+fn mesh_format(bytes: &[u8], found: Option<Format>) -> Option<MeshFormat> {
+    let may_be_mesh = matches!(found, None | Some(Format::Text));
+    may_be_mesh.then(|| MeshFormat::detect(bytes)).flatten()
+}
+
+/// Detects the format of a file of heights, of a photo or of a mesh, and returns its name, such as `"png"` or `"stl"`; `None`
+/// for other files. Costs `O(bytes)`.
+pub fn format_name(bytes: &[u8]) -> Option<&'static str> {
+    let found = Format::detect(bytes);
+    let mesh = match found {
+        Some(Format::Npz) => MeshFormat::detect(bytes),
+        _ => mesh_format(bytes, found),
+    };
+    mesh.map(MeshFormat::name).or(found.map(Format::name))
 }
 
 #[cfg(test)]

@@ -2,7 +2,7 @@
 //!
 //! Reads PNG and NPY ([`decode`]) and photos as PNG and JPEG ([`decode_photo`]); writes NPY,
 //! 16-bit PNG, and photos as PNG, JPEG and PDF. With the cargo feature `images` also reads TIFF,
-//! EXR, PFM, NPZ, JPEG and WebP, photos as WebP, GIF, BMP and TIFF, too, and writes TIFF and EXR. Nothing here touches a
+//! EXR, PFM, PGM, NPZ, JPEG and WebP, photos as WebP, GIF, BMP and TIFF, too, and writes TIFF and EXR. Nothing here touches a
 //! file system, so that all of it works in a browser too.
 //!
 //! Damaged files are errors, never panics, and no more memory is asked for than
@@ -11,6 +11,7 @@
 
 mod decode_options;
 mod decoded;
+mod depths;
 #[cfg(feature = "images")]
 pub mod extended;
 mod failure;
@@ -32,9 +33,10 @@ use crate::error::{Error, Result};
 
 pub use decode_options::DecodeOptions;
 pub use decoded::Decoded;
+pub use depths::DepthEvidence;
 #[cfg(feature = "images")]
 pub use extended::{NpzArray, npz_arrays, write_exr, write_tiff};
-pub use format::{FORMAT_NAMES, Format, announced};
+pub use format::{FORMAT_NAMES, Format, announced, format_name};
 pub use georeference::Georeference;
 pub use npy::write_npy;
 pub use photo::{PhotoFile, decode_photo, decode_photo_basic};
@@ -56,12 +58,12 @@ pub use print::{PhotoOptions, PhotoRows, write_photo, write_photo_jpeg};
 /// With the cargo feature `images`:
 ///
 /// - **TIFF**: one grey channel (or grey RGB) of integers of 8 to 64 bits or
-///   floats of 16 to 64, in strips or tiles, plain or compressed by Deflate,
+///   floats of 16 to 64, in strips or tiles, plain or compressed by Deflate, Zstandard,
 ///   LZW or PackBits; the first image of a file of several. The orientation is
 ///   honoured. No data is an alpha of 0 and what the tag `GDAL_NODATA` names.
 /// - **EXR**: of the first layer that has it, the channel `Z` or `depth`, else
 ///   `Y`, else `R`, `G`, `B` where all are equal, or the only one there is.
-/// - **PFM**: grey, either byte order.
+/// - **PFM**, **PGM**: grey, either byte order; PGM as bytes or text.
 /// - **NPZ**: the only array; [`decode_with`] chooses one by name.
 /// - **Text**: a grid of ESRI or Surfer, points on a grid (XYZ) in any order, or a
 ///   matrix, with blanks, tabs, semicolons or commas between its numbers.
@@ -126,7 +128,7 @@ mod tests {
         let message = |bytes: &[u8], format| decode(bytes, format).unwrap_err().to_string();
         assert!(message(b"Lerc2 ....", None).contains("gdal_translate"));
         assert!(message(b"PK\x03\x04....", Some(Format::Png)).contains("NPZ"));
-        assert!(message(b"\x93NUMPY....", Some(Format::Png)).contains("begins like an NPY"));
+        assert!(message(b"\x93NUMPY....", Some(Format::Png)).contains("begins like NPY"));
         assert!(message(b"", None).contains("empty"));
         assert_eq!(decode(b"hello", None).unwrap_err().code(), "UNSUPPORTED");
         assert_eq!(decode(b"", None).unwrap_err().code(), "FORMAT");

@@ -86,7 +86,7 @@ fn marker_of(values: &[f64]) -> Option<f64> {
         .map(|(_, value, ..)| value)
 }
 
-/// Whether a number is one by which programs mark missing values: zero, beyond what anybody measures, three or more nines
+/// Whether a number is one by which programs mark missing values: zero, minus one, beyond what anybody measures, three or more nines
 /// with nothing else, or a limit of a number type of 16 or more bits.
 fn is_marker(value: f64) -> bool {
     let is_nines = || {
@@ -98,7 +98,11 @@ fn is_marker(value: f64) -> bool {
             .iter()
             .any(|limit| (value.abs() - limit).abs() <= 1.0)
     };
-    value == 0.0 || value.abs() >= MIN_IMPOSSIBLE_MAGNITUDE || is_nines() || is_limit()
+    value == 0.0
+        || value == -1.0
+        || value.abs() >= MIN_IMPOSSIBLE_MAGNITUDE
+        || is_nines()
+        || is_limit()
 }
 
 #[cfg(test)]
@@ -182,6 +186,11 @@ mod tests {
         assert_eq!(
             assume_no_data(&mut frame, false)[0].words,
             "0 is no data (2 pixels)"
+        );
+        let mut disparities = [-1.0, -1.0, 40.0, 41.0, 60.0];
+        assert_eq!(
+            assume_no_data(&mut disparities, false)[0].words,
+            "-1 is no data (2 pixels)"
         );
         // Terraces of two heights.
         let mut terraces = [0.0, 99.0, 0.0, 99.0];

@@ -8,7 +8,6 @@
 mod beside;
 mod builder;
 mod corners;
-mod format;
 mod glb;
 mod gltf;
 mod mesh_file;
@@ -19,17 +18,18 @@ mod off;
 mod ply;
 mod precision;
 mod stl;
-mod text;
 mod threemf;
 mod unit;
 
 use crate::error::{Error, Result};
 use crate::scene::mesh::Mesh;
 
+use super::foreign::foreign;
+pub use super::mesh_format::MeshFormat;
+use super::mesh_format::may_be_stl;
 use beside::Beside;
 pub use beside::Texture;
 use builder::{MeshBuilder, damaged};
-pub use format::MeshFormat;
 pub use glb::write_glb;
 pub use mesh_file::MeshFile;
 pub use ply::write_ply;
@@ -67,11 +67,15 @@ pub fn read_mesh_beside(
 ) -> Result<MeshFile> {
     let format = match format.or_else(|| MeshFormat::detect(bytes)) {
         Some(format) => format,
+        None if foreign(bytes).is_none() && may_be_stl(bytes) => MeshFormat::Stl,
         None if bytes.is_empty() => return Err(damaged("a mesh", "the file is empty")),
         None => {
+            let known = "OBJ, PLY, STL, glTF, GLB, 3MF and OFF can be read";
+            let (format, reason) =
+                foreign(bytes).unwrap_or(("a mesh file of unknown format", known));
             return Err(Error::Unsupported {
-                format: "a mesh file of unknown format",
-                reason: unknown(bytes).into(),
+                format,
+                reason: reason.into(),
             });
         }
     };
@@ -109,25 +113,4 @@ pub fn read_mesh_beside(
     file.unit = unit;
     file.assumptions.push(assumption);
     Ok(file)
-}
-
-/// Says what to do with a file of unknown format, by its first bytes.
-fn unknown(bytes: &[u8]) -> &'static str {
-    let text = String::from_utf8_lossy(&bytes[..bytes.len().min(1000)]);
-    let begins = |start: &str| text.trim_start().starts_with(start);
-    if text.contains("<COLLADA") {
-        "it is Collada; let a 3D program such as Blender save it as GLB"
-    } else if begins("Kaydara FBX") || begins("; FBX") {
-        "it is FBX; let a 3D program such as Blender save it as GLB"
-    } else if begins("ISO-10303-21") {
-        "it is STEP; let a CAD program such as FreeCAD save it as a mesh (STL or 3MF)"
-    } else if begins("0\nSECTION") || begins("0\r\nSECTION") {
-        "it is DXF; let a CAD program save it as a mesh (STL or OBJ)"
-    } else if begins("#VRML") || text.contains("<X3D") {
-        "it is VRML or X3D; let MeshLab save it as PLY"
-    } else if begins("BLENDER") {
-        "it is Blender's own format; export it as GLB or PLY"
-    } else {
-        "OBJ, PLY, STL, glTF, GLB, 3MF and OFF can be read"
-    }
 }

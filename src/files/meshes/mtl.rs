@@ -2,7 +2,7 @@
 
 use super::beside::Beside;
 use super::builder::DEFAULT_VERTEX_COLOUR;
-use super::text::{decoded, lines};
+use crate::files::text::{decoded, lines};
 
 /// A material of an OBJ mesh.
 pub(super) struct Material {

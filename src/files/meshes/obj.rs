@@ -4,8 +4,8 @@ use super::beside::Beside;
 use super::builder::{MeshBuilder, NO_TEXTURE, damaged, unsupported};
 use super::corners::{CornerMaterial, Corners};
 use super::mtl::{self, Material};
-use super::text::{decoded, lines};
 use crate::error::Result;
+use crate::files::text::{decoded, lines};
 
 /// Statements of curves and surfaces that are no meshes.
 const FREE_FORM_STATEMENTS: [&str; 5] = ["cstype", "curv", "curv2", "surf", "bzp"];
@@ -159,12 +159,4 @@ fn numbers<'a>(row: usize, words: impl Iterator<Item = &'a str>) -> Result<Vec<f
         word.parse().map_err(|_| damaged("OBJ", reason()))
     };
     words.map(number).collect()
-}
-
-/// Returns whether a file has a line that states a vertex as an OBJ file does.
-pub(super) fn detect(bytes: &[u8]) -> bool {
-    lines(&decoded(bytes)).any(|(_, line)| {
-        let mut words = words(&line);
-        words.next() == Some("v") && words.next().is_some_and(|word| word.parse::<f64>().is_ok())
-    })
 }

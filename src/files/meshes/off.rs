@@ -1,25 +1,8 @@
 //! Reads meshes in the Object File Format (OFF), in text.
 
 use super::builder::{MeshBuilder, damaged, unsupported};
-use super::text::{decoded, lines};
 use crate::error::Result;
-
-/// Returns whether a file begins with a header of OFF.
-pub(super) fn detect(bytes: &[u8]) -> bool {
-    let text = bytes
-        .strip_prefix(b"\xef\xbb\xbf")
-        .unwrap_or(bytes)
-        .trim_ascii_start();
-    let end = text
-        .iter()
-        .position(u8::is_ascii_whitespace)
-        .unwrap_or(text.len());
-    [
-        "OFF", "COFF", "NOFF", "CNOFF", "STOFF", "STCOFF", "STNOFF", "STCNOFF",
-    ]
-    .iter()
-    .any(|header| text[..end] == *header.as_bytes())
-}
+use crate::files::text::{decoded, lines};
 
 pub(super) fn read(bytes: &[u8], parts: &mut MeshBuilder) -> Result<()> {
     let text = decoded(bytes);

@@ -7,33 +7,11 @@ use stl_io::{Normal, Triangle, Vertex, create_stl_reader};
 
 use super::builder::{MeshBuilder, damaged, unsupported};
 use super::narrow::narrowed;
-use super::text::{decoded, lines};
 use crate::error::Result;
 use crate::files::buffer::Buffer;
+use crate::files::mesh_format::{STL_HEADER_BYTES, is_binary_stl, stl_length};
+use crate::files::text::{decoded, lines};
 use crate::scene::mesh::Mesh;
-
-/// Number of bytes before the first triangle of a binary STL file.
-const HEADER_BYTES: usize = 84;
-
-/// Number of bytes of each triangle of a binary STL file.
-const TRIANGLE_BYTES: usize = 50;
-
-/// Returns whether a file has exactly the length of a binary STL file with the number of triangles in its header.
-pub(super) fn is_binary(bytes: &[u8]) -> bool {
-    triangles(bytes).is_some_and(|n| n > 0 && length(n) == Some(bytes.len()))
-}
-
-/// Reads the number of triangles that the header of a binary STL file states.
-fn triangles(bytes: &[u8]) -> Option<usize> {
-    let count = bytes.get(HEADER_BYTES - 4..HEADER_BYTES)?;
-    Some(u32::from_le_bytes(count.try_into().ok()?) as usize)
-}
-
-fn length(triangles: usize) -> Option<usize> {
-    triangles
-        .checked_mul(TRIANGLE_BYTES)?
-        .checked_add(HEADER_BYTES)
-}
 
 pub(super) fn read(bytes: &[u8], parts: &mut MeshBuilder) -> Result<()> {
     let text = bytes
@@ -43,10 +21,10 @@ pub(super) fn read(bytes: &[u8], parts: &mut MeshBuilder) -> Result<()> {
     let begins = text
         .get(..5)
         .is_some_and(|word| word.eq_ignore_ascii_case(b"solid"));
-    if begins && !is_binary(bytes) {
+    if begins && !is_binary_stl(bytes) {
         return ascii(bytes, parts);
     }
-    match triangles(bytes).and_then(length) {
+    match stl_length(bytes) {
         Some(needed) if needed <= bytes.len() => {}
         _ => {
             return Err(damaged(
@@ -63,7 +41,7 @@ pub(super) fn read(bytes: &[u8], parts: &mut MeshBuilder) -> Result<()> {
     }
     // Some programs begin binary files like ASCII ones.
     let mut file = bytes.to_vec();
-    file[..HEADER_BYTES - 4].fill(0);
+    file[..STL_HEADER_BYTES - 4].fill(0);
     collect(&file, parts)
 }
 

@@ -7,7 +7,7 @@ use nalgebra::{Matrix4, Vector4};
 use roxmltree::{Document, Node};
 use zip::ZipArchive;
 
-use super::builder::{MeshBuilder, damaged, unsupported};
+use super::builder::{MeshBuilder, damaged};
 use super::unit::FileUnit;
 use crate::error::{Error, MAX_CELLS, Result};
 
@@ -23,15 +23,25 @@ const MAX_COMPONENT_DEPTH: usize = 16;
 /// Maximum number of components of a model, each counted as often as it is used.
 const MAX_COMPONENTS: usize = 1_000_000;
 
+/// Types of objects that only hold others while these are printed, or are nothing that is printed.
+const SUPPORT_TYPES: [&str; 3] = ["support", "solidsupport", "other"];
+
 pub(super) fn read(bytes: &[u8], parts: &mut MeshBuilder) -> Result<FileUnit> {
-    let text = model(bytes)?;
-    let document = Document::parse(&text).map_err(|error| damaged(FORMAT_NAME, error))?;
-    let root = document.root_element();
+    let texts = models(bytes)?;
+    let documents = (texts.iter())
+        .map(|(name, text)| Ok((name.as_str(), Document::parse(text)?)))
+        .collect::<std::result::Result<Vec<_>, roxmltree::Error>>()
+        .map_err(|error| damaged(FORMAT_NAME, error))?;
+    let Some((path, main)) = documents.first() else {
+        return Err(damaged(FORMAT_NAME, "there is no model in the archive"));
+    };
+    let root = main.root_element();
     let unit = FileUnit::new(root.attribute("unit").unwrap_or("millimeter"))
         .map_err(|_| damaged(FORMAT_NAME, "the unit of its model is not known"))?;
-    let objects = (root.descendants())
-        .filter(|node| node.tag_name().name() == "object")
-        .filter_map(|node| Some((node.attribute("id")?, node)))
+    let objects = (documents.iter())
+        .flat_map(|(path, document)| document.descendants().map(move |node| (*path, node)))
+        .filter(|(_, node)| node.tag_name().name() == "object")
+        .filter_map(|(path, node)| Some(((path, node.attribute("id")?), node)))
         .collect();
     let mut model = Model {
         objects,
@@ -40,46 +50,54 @@ pub(super) fn read(bytes: &[u8], parts: &mut MeshBuilder) -> Result<FileUnit> {
     };
     let items = (root.descendants()).filter(|node| node.tag_name().name() == "item");
     for item in items {
-        model.add(item, &transform(item)?, 0)?;
+        model.add(path, item, &transform(item)?, 0)?;
     }
     Ok(unit)
 }
 
-/// Returns the text of the model in the archive.
-fn model(bytes: &[u8]) -> Result<String> {
+/// Returns the paths and texts of the models in the archive, first the one that is built: others, in folders below, have
+/// objects that it names.
+fn models(bytes: &[u8]) -> Result<Vec<(String, String)>> {
     let damaged = |error: &dyn std::fmt::Display| damaged(FORMAT_NAME, error);
     let mut archive = ZipArchive::new(Cursor::new(bytes)).map_err(|error| damaged(&error))?;
-    let name = (archive.file_names())
+    let mut names: Vec<String> = (archive.file_names())
         .filter(|name| name.to_ascii_lowercase().ends_with(".model"))
-        // Further models, in folders below, belong to the first one.
-        .min_by_key(|name| name.len())
         .map(String::from)
-        .ok_or_else(|| damaged(&"there is no model in the archive"))?;
-    let file = archive.by_name(&name).map_err(|error| damaged(&error))?;
-    let mut text = String::new();
-    let read = file.take(MAX_MODEL_BYTES + 1).read_to_string(&mut text);
-    read.map_err(|error| damaged(&error))?;
-    if text.len() as u64 > MAX_MODEL_BYTES {
-        return Err(Error::TooLarge {
+        .collect();
+    names.sort_by_key(String::len);
+    let mut left = MAX_MODEL_BYTES;
+    let mut read = |name: String| {
+        let file = archive.by_name(&name).map_err(|error| damaged(&error))?;
+        let mut text = String::new();
+        let read = file.take(left + 1).read_to_string(&mut text);
+        let length = read.map_err(|error| damaged(&error))? as u64;
+        left = left.checked_sub(length).ok_or(Error::TooLarge {
             what: "mesh",
-            requested: text.len(),
+            requested: MAX_MODEL_BYTES as usize + 1,
             limit: MAX_MODEL_BYTES as usize,
-        });
-    }
-    Ok(text)
+        })?;
+        Ok((name.trim_start_matches('/').to_owned(), text))
+    };
+    names.into_iter().map(&mut read).collect()
 }
 
-/// The objects of a model, by their names, and the mesh that is built of them.
+/// The objects of all models, by the paths of these and their own names, and the mesh that is built of them.
 struct Model<'a, 'b> {
-    objects: HashMap<&'a str, Node<'a, 'a>>,
+    objects: HashMap<(&'a str, &'a str), Node<'a, 'a>>,
     parts: &'b mut MeshBuilder,
     /// Number of components that were added.
     added: usize,
 }
 
 impl<'a> Model<'a, '_> {
-    /// Adds the object that a build item or a component names.
-    fn add(&mut self, item: Node<'a, 'a>, transform: &Matrix4<f64>, depth: usize) -> Result<()> {
+    /// Adds the object that a build item or a component of the model at `path` names, unless it only supports others.
+    fn add(
+        &mut self,
+        path: &'a str,
+        item: Node<'a, 'a>,
+        transform: &Matrix4<f64>,
+        depth: usize,
+    ) -> Result<()> {
         if depth > MAX_COMPONENT_DEPTH {
             return Err(damaged(FORMAT_NAME, "its components are within each other"));
         }
@@ -87,24 +105,29 @@ impl<'a> Model<'a, '_> {
         if self.added > MAX_COMPONENTS {
             return Err(damaged(FORMAT_NAME, "its components repeat too often"));
         }
-        if item
-            .attributes()
-            .any(|attribute| attribute.name() == "path")
-        {
-            let reason = "its model is in several files; export it with one, or as STL";
-            return Err(unsupported(FORMAT_NAME, reason));
-        }
+        // The attribute of the extension for objects in further models.
+        let mut attributes = item.attributes();
+        let path = attributes
+            .find(|attribute| attribute.name() == "path")
+            .map_or(path, |attribute| attribute.value().trim_start_matches('/'));
         let object = item
             .attribute("objectid")
-            .and_then(|id| self.objects.get(id))
+            .and_then(|id| self.objects.get(&(path, id)))
             .copied();
         let object = object.ok_or_else(|| damaged(FORMAT_NAME, "an object is not there"))?;
+        if object
+            .attribute("type")
+            .is_some_and(|kind| SUPPORT_TYPES.contains(&kind))
+        {
+            return Ok(());
+        }
         for child in object.children() {
             match child.tag_name().name() {
                 "mesh" => self.mesh(child, transform)?,
                 "components" => {
                     for component in child.children().filter(Node::is_element) {
                         self.add(
+                            path,
                             component,
                             &(transform * self::transform(component)?),
                             depth + 1,

@@ -6,7 +6,9 @@ use serde_wasm_bindgen::{preserve, to_value};
 use wasm_bindgen::prelude::*;
 
 use super::Result;
-use developable::files::images::{DecodeOptions, Decoded, Format, Georeference, PhotoFile};
+use developable::files::images::{
+    DecodeOptions, Decoded, DepthEvidence, Format, Georeference, PhotoFile,
+};
 use developable::files::{Assumption, Unit};
 
 /// Options of reading an image file: JavaScript's `ReadOptions` object.
@@ -15,6 +17,7 @@ use developable::files::{Assumption, Unit};
 pub struct ReadOptions {
     format: Option<String>,
     array: Option<String>,
+    name: String,
     no_data: Option<f64>,
     assume_no_data: Option<bool>,
 }
@@ -29,7 +32,7 @@ impl ReadOptions {
     pub fn decoding(self) -> DecodeOptions {
         let mut options = DecodeOptions::default();
         options.assume_no_data = self.assume_no_data.unwrap_or(options.assume_no_data);
-        (options.array, options.no_data) = (self.array, self.no_data);
+        (options.array, options.name, options.no_data) = (self.array, self.name, self.no_data);
         options
     }
 }
@@ -56,6 +59,10 @@ struct ReadOutput {
     height_scale: f64,
     /// Type of number that the file stores: `'u8'`, `'u16'`, `'f32'`, `'f64'` and so on.
     data_type: &'static str,
+    /// Whether the values are depths of a camera.
+    depths: DepthEvidence,
+    /// Unit that the values have if they are depths of a camera: millimetres for integers and large floats, else metres.
+    depth_unit: Unit,
     /// Where the pixels lie on a map; absent unless the file is a GeoTIFF.
     #[serde(skip_serializing_if = "Option::is_none")]
     georeference: Option<Georeference>,
@@ -73,6 +80,8 @@ pub fn output(file: Decoded) -> Result<JsValue> {
         unit: Nullable(file.unit),
         height_scale: file.height_scale,
         data_type: file.data_type,
+        depths: file.depths,
+        depth_unit: file.depth_unit,
         georeference: file.georeference,
         assumptions: file.assumptions,
     })?)

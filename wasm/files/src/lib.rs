@@ -9,8 +9,8 @@ use developable::Error;
 use developable::checks::{check_count, check_photo};
 use developable::dewarp::{self, Extent};
 use developable::files::images::{
-    BookPage, PhotoOptions, PhotoRows, announced, decode_basic, decode_photo_basic, write_book,
-    write_npy, write_photo, write_photo_jpeg, write_photo_pdf, write_png,
+    BookPage, PhotoOptions, PhotoRows, announced, decode_basic, decode_photo_basic, format_name,
+    write_book, write_npy, write_photo, write_photo_jpeg, write_photo_pdf, write_png,
 };
 use developable::files::wavefront::{write_mtl, write_obj_textured};
 use developable_wasm::Result;
@@ -29,6 +29,12 @@ pub fn read(bytes: &Uint8Array, options: JsValue) -> Result<JsValue> {
     let file = copied(bytes)?;
     let format = announced(&file, options.format()?)?;
     output(decode_basic(&file, format, &options.decoding())?)
+}
+
+/// Detects the format of a file by its first bytes; returns its name, or `undefined` for an unknown one.
+#[wasm_bindgen(js_name = formatOf)]
+pub fn format_of(bytes: &Uint8Array) -> Result<Option<String>> {
+    Ok(format_name(&copied(bytes)?).map(String::from))
 }
 
 /// Writes the heights of a height image to an NPY file.

@@ -8,6 +8,7 @@ mod pfm;
 pub(super) mod samples;
 mod text_grid;
 mod tiff;
+pub(super) mod tiff_file;
 pub(super) mod tiff_tags;
 pub(super) mod webp;
 
@@ -32,6 +33,7 @@ pub fn decode(bytes: &[u8], format: Format, options: &DecodeOptions) -> Result<D
         Format::Tiff => tiff::decode(bytes),
         Format::Exr => exr::decode(bytes),
         Format::Pfm => pfm::decode(bytes),
+        Format::Pgm => pfm::decode_pgm(bytes),
         Format::Npz => npz::decode(bytes, options.array.as_deref()),
         Format::Jpeg => jpeg::decode(bytes),
         Format::WebP => webp::decode(bytes),

@@ -65,13 +65,6 @@ pub(super) fn decode(bytes: &[u8], array: Option<&str>) -> Result<StoredImage> {
     let mut archive = open(bytes)?;
     let names = names(&archive)?;
     let name = match (array, names.as_slice()) {
-        (_, []) if archive.file_names().any(|name| name.ends_with("main.xml")) => {
-            return Err(unsupported(
-                Format::Npz,
-                "there are no arrays in it, but a surface (X3P): export it as text or as TIFF of 32-bit floats",
-            ));
-        }
-        (_, []) => return Err(unsupported(Format::Npz, "there are no arrays in it")),
         (Some(wanted), names) if names.iter().any(|name| name == wanted) => wanted,
         (None, [only]) => only,
         (Some(wanted), names) => {
@@ -113,6 +106,7 @@ fn open(bytes: &[u8]) -> Result<ZipArchive<Cursor<&[u8]>>> {
     ZipArchive::new(Cursor::new(bytes)).map_err(failed)
 }
 
+/// Names of the arrays in an archive, of which there is one at least.
 fn names(archive: &ZipArchive<Cursor<&[u8]>>) -> Result<Vec<String>> {
     if archive.len() > MAX_ARRAYS {
         return Err(unsupported(
@@ -120,11 +114,18 @@ fn names(archive: &ZipArchive<Cursor<&[u8]>>) -> Result<Vec<String>> {
             format!("{} files in it; {MAX_ARRAYS} are the most", archive.len()),
         ));
     }
-    Ok(archive
-        .file_names()
+    let names: Vec<String> = (archive.file_names())
         .filter_map(|name| name.strip_suffix(".npy"))
         .map(str::to_owned)
-        .collect())
+        .collect();
+    let reason = match archive.file_names().any(|name| name.ends_with("main.xml")) {
+        _ if !names.is_empty() => return Ok(names),
+        true => {
+            "there are no arrays in it, but a surface (X3P): export it as text or as TIFF of 32-bit floats"
+        }
+        false => "there are no arrays in it: it is another ZIP archive",
+    };
+    Err(unsupported(Format::Npz, reason))
 }
 
 fn member(name: &str) -> String {

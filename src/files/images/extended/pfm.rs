@@ -1,53 +1,25 @@
-//! Reads portable float maps (PFM): a line each for kind, size and scale, then 32-bit floats, the bottom row first.
+//! Reads portable float maps (PFM), the bottom row first, and portable grey maps (PGM): words for kind, size and scale, then
+//! the pixels.
 
 use super::samples::{Channels, damaged, grey};
 use crate::error::{Error, Result, checked_cells};
 use crate::files::images::decoded::StoredImage;
 use crate::files::images::format::Format;
 
-/// Maximum length of a number in the header of a PFM file, in bytes.
+/// Maximum length of a number in the header, in bytes.
 const MAX_NUMBER_BYTES: usize = 32;
 
+/// Decodes a portable float map.
 pub(super) fn decode(bytes: &[u8]) -> Result<StoredImage> {
     let colours = if bytes.starts_with(b"PF") { 3 } else { 1 };
-    let mut rest = &bytes[2..];
-    let mut number = || -> Result<&str> {
-        let start = rest.trim_ascii_start();
-        let length = start
-            .iter()
-            .take(MAX_NUMBER_BYTES + 1)
-            .position(u8::is_ascii_whitespace)
-            .ok_or_else(|| damaged(Format::Pfm, "its header is cut short"))?;
-        // One byte of white space ends the header: what follows may look like more of it.
-        rest = &start[length + 1..];
-        str::from_utf8(&start[..length]).map_err(|_| damaged(Format::Pfm, "its header is no text"))
-    };
-    let (width, height) = (size(number()?)?, size(number()?)?);
-    let scale = number()?;
-    let scale = scale
-        .parse()
-        .ok()
-        .filter(|s: &f64| s.is_finite() && *s != 0.0)
-        .ok_or_else(|| damaged(Format::Pfm, format!("its scale is `{scale}`")))?;
-
-    let len = checked_cells("PFM image", height, width)?;
-    if len == 0 {
-        return Err(Error::Empty { what: "PFM image" });
-    }
-    let needed = 4 * colours * len;
-    if rest.len() < needed {
-        return Err(damaged(
-            Format::Pfm,
-            format!(
-                "it is cut short: {width} × {height} pixels take {needed} bytes, {} are there",
-                rest.len()
-            ),
-        ));
-    }
+    let mut head = Header(Format::Pfm, &bytes[2..]);
+    let (width, height) = head.size()?;
+    let scale: f64 = head.number("scale", |scale: &f64| scale.is_finite() && *scale != 0.0)?;
+    let pixels = head.pixels((width, height), 4 * colours)?;
     let sample = |i: usize, k: usize| {
         let (row, col) = (height - 1 - i / width, i % width);
         let at = 4 * (colours * (row * width + col) + k);
-        let float = [rest[at], rest[at + 1], rest[at + 2], rest[at + 3]];
+        let float = [pixels[at], pixels[at + 1], pixels[at + 2], pixels[at + 3]];
         // A negative scale says that the bytes are little-endian.
         f64::from(if scale < 0.0 {
             f32::from_le_bytes(float)
@@ -66,11 +38,81 @@ pub(super) fn decode(bytes: &[u8]) -> Result<StoredImage> {
     })
 }
 
-fn size(word: &str) -> Result<usize> {
-    word.parse().map_err(|_| {
-        damaged(
-            Format::Pfm,
-            format!("its size is `{word}`, no whole number"),
-        )
-    })
+/// Decodes a portable grey map: levels of one or two bytes, the larger first, or in text.
+pub(super) fn decode_pgm(bytes: &[u8]) -> Result<StoredImage> {
+    let mut head = Header(Format::Pgm, &bytes[2..]);
+    let size = head.size()?;
+    let white: u16 = head.number("level of white", |white| *white > 0)?;
+    let width = if white > 255 { 2 } else { 1 };
+    let values = if bytes.starts_with(b"P2") {
+        head.pixels(size, 1)?;
+        let mut level = |_| {
+            Ok(f64::from(
+                head.number::<u16>("level", |level| *level <= white)?,
+            ))
+        };
+        (0..size.0 * size.1)
+            .map(&mut level)
+            .collect::<Result<_>>()?
+    } else {
+        let levels = head.pixels(size, width)?.chunks_exact(width);
+        let level = |bytes: &[u8]| {
+            bytes
+                .iter()
+                .fold(0.0, |sum, byte| 256.0 * sum + f64::from(*byte))
+        };
+        levels.map(level).collect()
+    };
+    let data_type = if width == 2 { "u16" } else { "u8" };
+    Ok(StoredImage::new(Format::Pgm, size, values, data_type))
+}
+
+/// What is left of a file whose header is being read, and its format.
+struct Header<'a>(Format, &'a [u8]);
+
+impl<'a> Header<'a> {
+    /// Reads the next number, which is good; one byte of white space ends it, as what follows may look like more of it.
+    fn number<T: std::str::FromStr>(
+        &mut self,
+        what: &str,
+        is_good: impl Fn(&T) -> bool,
+    ) -> Result<T> {
+        let mut start = self.1.trim_ascii_start();
+        while start.starts_with(b"#") {
+            let end = start.iter().position(|byte| *byte == b'\n');
+            start = start[end.unwrap_or(start.len())..].trim_ascii_start();
+        }
+        let length = (start.iter().take(MAX_NUMBER_BYTES + 1))
+            .position(u8::is_ascii_whitespace)
+            .or(Some(start.len()).filter(|length| (1..=MAX_NUMBER_BYTES).contains(length)))
+            .ok_or_else(|| damaged(self.0, "its header is cut short"))?;
+        self.1 = &start[(length + 1).min(start.len())..];
+        let word = String::from_utf8_lossy(&start[..length]);
+        let number = word.parse().ok().filter(is_good);
+        number.ok_or_else(|| damaged(self.0, format!("its {what} is `{word}`")))
+    }
+
+    /// Reads columns and rows.
+    fn size(&mut self) -> Result<(usize, usize)> {
+        let size = (
+            self.number("width", |_| true)?,
+            self.number("height", |_| true)?,
+        );
+        match checked_cells("image", size.1, size.0)? {
+            0 => Err(Error::Empty { what: "image" }),
+            _ => Ok(size),
+        }
+    }
+
+    /// Returns the bytes of all pixels, each of which has `bytes` or more.
+    fn pixels(&self, (width, height): (usize, usize), bytes: usize) -> Result<&'a [u8]> {
+        let needed = bytes * width * height;
+        self.1.get(..needed).ok_or_else(|| {
+            let there = self.1.len();
+            let reason = format!(
+                "it is cut short: {width} × {height} pixels take {needed} bytes, {there} are there"
+            );
+            damaged(self.0, reason)
+        })
+    }
 }

@@ -5,6 +5,7 @@ use crate::error::{Result, checked_cells, try_filled};
 use crate::files::Assumption;
 use crate::files::images::decoded::StoredImage;
 use crate::files::images::format::Format;
+use crate::files::text::decoded;
 
 /// Maximum distance of a point from its place on the grid, as a share of the grid's spacing.
 const MAX_OFF_GRID_SHARE: f64 = 0.02;
@@ -21,8 +22,8 @@ struct Grid {
 }
 
 pub(super) fn decode(bytes: &[u8]) -> Result<StoredImage> {
-    let text = String::from_utf8_lossy(bytes);
-    let text = text.trim_start_matches('\u{feff}');
+    let text = decoded(bytes);
+    let text = text.as_ref();
     let (grid, no_data) = if let Some(grid) = text.strip_prefix("DSAA") {
         (surfer_grid(grid)?, Some(SURFER_BLANK))
     } else if let Some(found) = esri_grid(text)? {
@@ -136,8 +137,8 @@ fn surfer_grid(text: &str) -> Result<Grid> {
     })
 }
 
-/// Reads lines of equally many numbers: points on a grid if there are three and the first two are their places, else a
-/// matrix. Lines before the first number are names of columns or comments.
+/// Reads lines of equally many numbers: points on a grid if the first three are their places, else a matrix. Lines before the
+/// first number are names of columns or comments.
 fn table(text: &str) -> Result<Grid> {
     // A comma is a decimal one wherever something else divides the numbers.
     let is_divided = text.lines().any(|line| {
@@ -148,20 +149,27 @@ fn table(text: &str) -> Result<Grid> {
         let is_blank_divided = line.trim().contains(' ') && !line.contains(", ");
         is_row && (line.contains([';', '\t']) || is_blank_divided)
     });
+    // A table that numbers its rows and columns has nothing in its corner.
+    let mut starts = text.lines().map(|line| line.starts_with(DIVIDERS));
+    let is_numbered = starts.next() == Some(true) && starts.next() == Some(false);
     let mut values: Vec<f64> = Vec::new();
     let (mut cols, mut rows) = (0, 0);
-    for (k, line) in text.lines().enumerate() {
-        let Ok(row) = numbers(line, is_divided) else {
-            if rows == 0 {
-                continue;
+    for (k, line) in text.lines().enumerate().skip(usize::from(is_numbered)) {
+        let line = line.trim_end_matches([' ', '\r']);
+        let mut row = match cells(line, is_divided) {
+            Ok(row) if rows > 0 || !row.iter().all(|value| value.is_nan()) => row,
+            Err(_) if rows > 0 => {
+                let reason = format!("line {} is no row of numbers", k + 1);
+                return Err(damaged(Format::Text, reason));
             }
-            return Err(damaged(
-                Format::Text,
-                format!("line {} is no row of numbers", k + 1),
-            ));
+            _ => continue,
         };
+        row.drain(..usize::from(is_numbered).min(row.len()));
         if row.is_empty() {
             continue;
+        }
+        if row.len() + 1 == cols && line.ends_with(DIVIDERS) {
+            row.push(f64::NAN);
         }
         if rows > 0 && row.len() != cols {
             let reason = format!(
@@ -179,25 +187,47 @@ fn table(text: &str) -> Result<Grid> {
     if rows == 0 {
         return Err(damaged(Format::Text, "it has no numbers"));
     }
-    let points = match cols {
-        3 => points_on_grid(&values)?,
-        _ => None,
-    };
-    let assumptions = (points.is_none() && (3..=7).contains(&cols) && rows > cols)
-        .then(|| {
-            let words = format!(
-                "lines of {cols} numbers are rows of a matrix: they are no points on a grid"
-            );
-            Assumption::new("matrix", words, None)
-        })
-        .into_iter()
-        .collect();
-    Ok(points.unwrap_or(Grid {
+    let may_be_points = (3..=7).contains(&cols) && rows > cols;
+    if let Some(points) = may_be_points
+        .then(|| points_on_grid(&values, cols))
+        .transpose()?
+        .flatten()
+    {
+        return Ok(points);
+    }
+    let points = format!(
+        "lines of {cols} numbers are rows of a matrix: they are no points on a grid (scattered points are read as PLY)"
+    );
+    let numbered = "the first row and the first column number the others".to_owned();
+    let assumptions = [(may_be_points, points), (is_numbered, numbered)];
+    let told = assumptions.into_iter().filter(|(is_told, _)| *is_told);
+    Ok(Grid {
         values,
         size: (cols, rows),
         sides: None,
-        assumptions,
-    }))
+        assumptions: told
+            .map(|(_, words)| Assumption::new("matrix", words, None))
+            .collect(),
+    })
+}
+
+/// What divides the cells of a table, any of which may be empty.
+const DIVIDERS: [char; 3] = [';', '\t', ','];
+
+/// Numbers of a row of a table, NaN for those that are missing; what divides them may also end it.
+fn cells(line: &str, decimal_commas: bool) -> Result<Vec<f64>> {
+    let divides = |letter: &char| line.contains(*letter) && !(*letter == ',' && decimal_commas);
+    let Some(divider) = DIVIDERS.into_iter().find(divides) else {
+        return numbers(line, decimal_commas);
+    };
+    let line = line.strip_suffix(divider).unwrap_or(line);
+    let cell = |cell: &str| match numbers(cell, decimal_commas)?[..] {
+        [] => Ok(f64::NAN),
+        [number] => Ok(number),
+        _ => Err(damaged(Format::Text, format!("`{cell}` is no number"))),
+    };
+    let row: Result<_> = line.split(divider).map(cell).collect();
+    row.or_else(|_| numbers(line, decimal_commas))
 }
 
 /// Numbers of a text, between blanks and semicolons and, unless commas are decimal, commas.
@@ -219,9 +249,12 @@ fn numbers(text: &str, decimal_commas: bool) -> Result<Vec<f64>> {
         .collect()
 }
 
-/// Arranges points `x, y, z` as a grid with y upwards, NaN where there is none; `None` if they do not lie on a grid.
-fn points_on_grid(values: &[f64]) -> Result<Option<Grid>> {
-    let points = values.as_chunks::<3>().0;
+/// Arranges points, whose rows of `cols` numbers begin with `x, y, z`, as a grid with y upwards, NaN where there is none; `None`
+/// if they do not lie on a grid.
+fn points_on_grid(values: &[f64], cols: usize) -> Result<Option<Grid>> {
+    let points: Vec<[f64; 3]> = (values.chunks_exact(cols))
+        .map(|row| [row[0], row[1], row[2]])
+        .collect();
     let axis = |k: usize| {
         let mut places: Vec<f64> = points.iter().map(|point| point[k]).collect();
         places.sort_by(f64::total_cmp);
@@ -260,7 +293,7 @@ fn points_on_grid(values: &[f64]) -> Result<Option<Grid>> {
         if !place.is_nan() {
             return Ok(None);
         }
-        *place = *z;
+        *place = z;
     }
     Ok(Some(Grid {
         values: grid,
@@ -329,6 +362,41 @@ mod tests {
         assert_eq!(values[..3], [1.5, 2.0, 3.0]);
         assert!(values[3].is_nan());
         assert_eq!(values[4..], [4.0, 5.0]);
+    }
+
+    #[test]
+    fn points_may_have_colours() {
+        let (width, height, side, values) = read(
+            "0 0 5 9 9 9\n2 0 6 9 9 9\n0 2 7 9 9 9\n2 2 8 9 9 9\n4 2 9 9 9 9\n4 0 1 9 9 9\n6 0 1 9 9 9\n",
+        );
+        assert_eq!((width, height, side), (4, 2, 2.0));
+        assert_eq!(values[..3], [7.0, 8.0, 9.0]);
+    }
+
+    #[test]
+    fn cells_of_tables_may_be_empty_or_number_the_others() {
+        for text in [
+            "1,,3\n4,5,\n7,8,9\n",
+            "1;;3;\n4;5;;\n7;8;9;\n",
+            "1\t\t3\n4\t5\t \n7\t8\t9\n",
+        ] {
+            let (width, height, _, values) = read(text);
+            assert_eq!((width, height), (3, 3), "{text}");
+            let missing: Vec<usize> = (0..9).filter(|i| values[*i].is_nan()).collect();
+            assert_eq!(
+                (missing, values[0], values[8]),
+                (vec![1, 5], 1.0, 9.0),
+                "{text}"
+            );
+        }
+        // As pandas writes a table, with names or numbers of its columns.
+        for head in [",a,b", ",0,1"] {
+            let text = format!("{head}\n0,5,6\n1,7,8\n");
+            assert_eq!(read(&text).3, [5.0, 6.0, 7.0, 8.0], "{head}");
+            let told = decode(text.as_bytes()).unwrap().assumptions;
+            assert_eq!(told[0].code, "matrix");
+        }
+        assert_eq!(read("1 2;\n3 4;\n").3, [1.0, 2.0, 3.0, 4.0]);
     }
 
     #[test]

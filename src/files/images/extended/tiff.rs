@@ -9,7 +9,8 @@ use ::tiff::tags::Tag;
 use ::tiff::{ColorType, TiffError};
 
 use super::samples::{Channels, check_length, damaged, grey, narrowed, room, unsupported};
-use super::tiff_tags::{self, File, failed};
+use super::tiff_file::{File, failed, open};
+use super::tiff_tags;
 use crate::error::{Error, Result, checked_cells, try_filled};
 use crate::files::Assumption;
 use crate::files::images::decoded::StoredImage;
@@ -22,7 +23,7 @@ use crate::heights::heightfield::HeightImage;
 const MAX_DECODER_BYTES: usize = 1 << 28;
 
 pub(super) fn decode(bytes: &[u8]) -> Result<StoredImage> {
-    let mut file = tiff_tags::open(bytes, MAX_DECODER_BYTES)?;
+    let mut file = open(bytes, MAX_DECODER_BYTES)?;
     let (width, height) = file.dimensions().map_err(failed)?;
     let stored = (width as usize, height as usize);
     let len = checked_cells("TIFF image", stored.1, stored.0)?;
@@ -86,6 +87,10 @@ pub(super) fn decode(bytes: &[u8]) -> Result<StoredImage> {
     Ok(StoredImage {
         names_no_data: about.no_data.is_some(),
         sides,
+        aspect: match about.orientation {
+            5.. => 1.0 / about.aspect,
+            _ => about.aspect,
+        },
         unit: about.unit,
         height_scale: about.heights.scale,
         offset: about.heights.offset,
@@ -109,10 +114,11 @@ fn channels(file: &mut File, color: ColorType) -> Result<(usize, usize, Channels
             num_samples: 2,
         } if tiff_tags::has_alpha(file)? => (2, bit_depth, plain(1, Some(1))),
         other => {
-            return Err(unsupported(
-                Format::Tiff,
-                format!("pixels of kind {other:?}; one grey channel is read, or grey RGB"),
-            ));
+            let reason = format!(
+                "{} channels; one of grey is read, or grey RGB: `gdal_translate -b 1 IN.tif OUT.tif` writes the first",
+                other.num_samples()
+            );
+            return Err(unsupported(Format::Tiff, reason));
         }
     };
     Ok((samples, usize::from(bits), channels))
@@ -239,7 +245,11 @@ fn write_map<W: Write + Seek, K: TiffKind>(
 
 #[cfg(test)]
 mod tests {
+    use ::tiff::encoder::Rational;
+    use ::tiff::tags::ResolutionUnit;
+
     use super::*;
+    use crate::files::images::DecodeOptions;
 
     /// A file of 3 × 3 grey pixels for each kind of image, as the tag `NewSubfileType` numbers it.
     fn images(kinds: &[u32]) -> Vec<u8> {
@@ -252,6 +262,27 @@ mod tests {
             image.write_data(&[1, 2, 3, 4, 5, 6, 7, 8, 9]).unwrap();
         }
         file.into_inner()
+    }
+
+    #[test]
+    fn proportions_of_pixels_are_no_size() {
+        let mut file = Cursor::new(Vec::new());
+        let mut encoder = TiffEncoder::new(&mut file).unwrap();
+        let mut image = encoder.new_image::<colortype::Gray32Float>(8, 3).unwrap();
+        image.resolution(ResolutionUnit::None, Rational { n: 72, d: 1 });
+        image.y_resolution(Rational { n: 36, d: 1 });
+        // A relief of 0.01, beside which pixels 1 wide are a slab.
+        let heights: Vec<f32> = (0..24).map(|i| 0.001 * i as f32).collect();
+        image.write_data(&heights).unwrap();
+        let stored = decode(&file.into_inner()).unwrap();
+        assert_eq!(
+            (stored.sides, stored.unit, stored.aspect),
+            (None, None, 2.0)
+        );
+        let read = stored.finish(&DecodeOptions::default()).unwrap();
+        assert_eq!((read.width, read.height), (4, 3));
+        let told: Vec<&str> = read.assumptions.iter().map(|one| one.code).collect();
+        assert_eq!(told, ["squarePixels", "pixelSize"]);
     }
 
     #[test]

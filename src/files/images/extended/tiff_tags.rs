@@ -1,32 +1,19 @@
 //! Reads what the tags of a TIFF file say about its pixels: size, unit, no data, orientation.
 
-use std::io::Cursor;
-
+use ::tiff::decoder::BufferLayoutPreference;
 use ::tiff::decoder::ifd::Value;
-use ::tiff::decoder::{BufferLayoutPreference, Decoder, Limits};
 use ::tiff::tags::Tag;
-use ::tiff::{TiffError, TiffUnsupportedError};
 
 use super::samples::{damaged, unsupported};
-use crate::error::{Error, Result};
+use super::tiff_file::{File, failed};
+use crate::error::Result;
 use crate::files::images::format::Format;
 use crate::files::images::georeference::Georeference;
 use crate::files::images::no_data::as_stored;
 use crate::files::{Assumption, Unit};
 
-pub(crate) type File<'a> = Decoder<Cursor<&'a [u8]>>;
-
 /// Maximum ratio of the size of a TIFF image in memory to that of its file, which no compression of the format reaches.
 pub(crate) const MAX_COMPRESSION_RATIO: usize = 4096;
-
-/// Opens a TIFF file with a decoder that may allocate `max_bytes` itself: for a compressed strip, and the values of a tag.
-pub(crate) fn open(bytes: &[u8], max_bytes: usize) -> Result<File<'_>> {
-    let mut limits = Limits::default();
-    limits.decoding_buffer_size = max_bytes;
-    limits.intermediate_buffer_size = max_bytes;
-    let file = Decoder::new(Cursor::new(bytes)).map_err(failed)?;
-    Ok(file.with_limits(limits))
-}
 
 /// Checks that the channels of each pixel are stored together, and returns the layout of the image in memory.
 pub(crate) fn chunky_layout(file: &mut File) -> Result<BufferLayoutPreference> {
@@ -71,6 +58,8 @@ pub(super) const GDAL_METADATA: Tag = Tag::Unknown(42112);
 pub(super) struct PixelTags {
     /// Width and height of a pixel, in `unit`, if tags say them.
     pub(super) sides: Option<[f64; 2]>,
+    /// Height of a pixel divided by its width.
+    pub(super) aspect: f64,
     pub(super) unit: Option<Unit>,
     /// Where the pixels lie on a map, as they are stored.
     pub(super) georeference: Option<Georeference>,
@@ -98,9 +87,13 @@ pub(super) fn read(file: &mut File, size: (usize, usize), data_type: &str) -> Re
             let (sides, unit) = map_sides(map, size, &mut assumptions)?;
             // Without a unit 1 is what is written of pixels of unknown size.
             let is_known = unit.is_some() || sides != [1.0; 2];
-            (is_known.then_some(sides), unit)
+            (Some(sides).filter(|_| is_known), unit)
         }
-        None => resolution_sides(file)?,
+        None => resolution_sides(file)?.unzip(),
+    };
+    let aspect = match unsigned(file, Tag::ResolutionUnit)? {
+        Some(RESOLUTION_UNIT_NONE) => resolutions(file)?.map_or(1.0, |[x, y]| x / y),
+        _ => 1.0,
     };
     let mut heights = gdal_heights(file)?;
     if let Some(map) = georeference.as_ref().filter(|map| !map.keys.is_empty()) {
@@ -134,6 +127,7 @@ pub(super) fn read(file: &mut File, size: (usize, usize), data_type: &str) -> Re
     }
     Ok(PixelTags {
         sides,
+        aspect,
         unit,
         georeference,
         heights,
@@ -235,19 +229,16 @@ fn map_sides(
 }
 
 /// Width and height of the pixels by the resolution of a picture, and their unit.
-fn resolution_sides(file: &mut File) -> Result<(Option<[f64; 2]>, Option<Unit>)> {
-    let (Some(x), Some(y)) = (
-        resolution(file, Tag::XResolution)?,
-        resolution(file, Tag::YResolution)?,
-    ) else {
-        return Ok((None, None));
+fn resolution_sides(file: &mut File) -> Result<Option<([f64; 2], Unit)>> {
+    let Some([x, y]) = resolutions(file)? else {
+        return Ok(None);
     };
     if let Some(unit) = imagej_unit(file) {
-        return Ok((Some([unit / x, unit / y]), Some(Unit::Millimetre)));
+        return Ok(Some(([unit / x, unit / y], Unit::Millimetre)));
     }
     let per = match unsigned(file, Tag::ResolutionUnit)?.unwrap_or(PER_INCH) {
         // Without a unit, resolutions state the proportions of a pixel only.
-        RESOLUTION_UNIT_NONE => return Ok((Some([1.0, x / y]).filter(|_| x != y), None)),
+        RESOLUTION_UNIT_NONE => return Ok(None),
         PER_INCH => INCH_MM,
         PER_CENTIMETRE => CENTIMETRE_MM,
         other => {
@@ -257,7 +248,13 @@ fn resolution_sides(file: &mut File) -> Result<(Option<[f64; 2]>, Option<Unit>)>
             ));
         }
     };
-    Ok((Some([per / x, per / y]), Some(Unit::Millimetre)))
+    Ok(Some(([per / x, per / y], Unit::Millimetre)))
+}
+
+/// Numbers of pixels per unit of length across and down a picture, if it states both.
+fn resolutions(file: &mut File) -> Result<Option<[f64; 2]>> {
+    let [x, y] = [Tag::XResolution, Tag::YResolution].map(|tag| resolution(file, tag));
+    Ok(x?.zip(y?).map(<[f64; 2]>::from))
 }
 
 /// Length in millimetres of the unit that ImageJ names in its description of a picture: its resolutions are pixels per unit.
@@ -358,20 +355,4 @@ fn no_data(file: &mut File, data_type: &str) -> Result<Option<f64>> {
 
 fn unsigned(file: &mut File, tag: Tag) -> Result<Option<u16>> {
     file.find_tag_unsigned(tag).map_err(failed)
-}
-
-pub(crate) fn failed(error: TiffError) -> Error {
-    match error {
-        TiffError::UnsupportedError(TiffUnsupportedError::UnsupportedCompressionMethod(method)) => {
-            unsupported(
-                Format::Tiff,
-                format!(
-                    "the compression {method:?}; `gdal_translate -co COMPRESS=DEFLATE IN.tif OUT.tif` \
-                     writes one that is read"
-                ),
-            )
-        }
-        TiffError::UnsupportedError(what) => unsupported(Format::Tiff, what),
-        other => damaged(Format::Tiff, other),
-    }
 }

@@ -7,9 +7,8 @@ use ::tiff::tags::Tag;
 use super::exif::PhotoTags;
 use super::pixels::{PhotoFile, PhotoPixels};
 use crate::error::Result;
-use crate::files::images::extended::tiff_tags::{
-    MAX_COMPRESSION_RATIO, chunky_layout, failed, open,
-};
+use crate::files::images::extended::tiff_file::{failed, open};
+use crate::files::images::extended::tiff_tags::{MAX_COMPRESSION_RATIO, chunky_layout};
 use crate::files::images::failure::{check_length, unsupported};
 use crate::files::images::format::Format;
 

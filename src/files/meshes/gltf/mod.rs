@@ -14,13 +14,14 @@ use super::beside::Beside;
 use super::builder::{DEFAULT_VERTEX_COLOUR, MeshBuilder, NO_TEXTURE, damaged, unsupported};
 use crate::error::{Error, Result};
 
-/// Extensions without which the triangles of a file that requires them cannot be read. All others are about looks, or
+/// Extensions without which the triangles of a file that requires them cannot be read, and the command of glTF Transform
+/// that takes them out. All others are about looks, or
 /// say how numbers are stored that are read as they are.
-const GEOMETRY_EXTENSIONS: [&str; 4] = [
-    "KHR_draco_mesh_compression",
-    "EXT_meshopt_compression",
-    "KHR_meshopt_compression",
-    "EXT_mesh_gpu_instancing",
+const GEOMETRY_EXTENSIONS: [(&str, &str); 4] = [
+    ("KHR_draco_mesh_compression", "copy"),
+    ("EXT_meshopt_compression", "copy"),
+    ("KHR_meshopt_compression", "copy"),
+    ("EXT_mesh_gpu_instancing", "uninstance"),
 ];
 
 pub(super) fn read(bytes: &[u8], beside: &Beside, parts: &mut MeshBuilder) -> Result<()> {
@@ -29,11 +30,12 @@ pub(super) fn read(bytes: &[u8], beside: &Beside, parts: &mut MeshBuilder) -> Re
         false => (bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes), None),
     };
     let root: Root = serde_json::from_slice(json).map_err(|error| damaged(FORMAT_NAME, error))?;
-    let mut required = root.extensions_required.iter();
-    if let Some(name) = required.find(|name| GEOMETRY_EXTENSIONS.contains(&name.as_str())) {
+    let is_required = |name: &str| root.extensions_required.iter().any(|one| one == name);
+    if let Some((name, command)) = (GEOMETRY_EXTENSIONS.iter()).find(|(name, _)| is_required(name))
+    {
         let reason = format!(
-            "its triangles are stored by the extension {name}; `gltf-transform copy IN.glb \
-             OUT.glb` writes a file without compression"
+            "its triangles are stored by the extension {name}; `gltf-transform {command} IN.glb \
+             OUT.glb` writes a file without it"
         );
         return Err(unsupported(FORMAT_NAME, reason));
     }

@@ -1,0 +1,160 @@
+//! Opens TIFF files for the `tiff` crate, and decompresses strips and tiles that Zstandard has compressed, as GDAL writes them.
+//!
+//! The crate takes the C library for that. So such a file is written anew for it in memory, with the same directory but
+//! plain strips, whose prediction it undoes.
+
+use std::borrow::Cow;
+use std::io::{Cursor, Read};
+
+use ::ruzstd::decoding::StreamingDecoder;
+use ::tiff::decoder::{ChunkType, Decoder, Limits};
+use ::tiff::tags::{ByteOrder, CompressionMethod, Tag};
+use ::tiff::{TiffError, TiffUnsupportedError};
+
+use super::samples::{damaged, unsupported};
+use crate::error::{Error, Result};
+use crate::files::images::format::Format;
+
+pub(crate) type File<'a> = Decoder<Cursor<Cow<'a, [u8]>>>;
+
+/// Opens a TIFF file with a decoder that may allocate `max_bytes` itself: for a compressed strip, and the values of a tag.
+pub(crate) fn open<'a>(bytes: &'a [u8], max_bytes: usize) -> Result<File<'a>> {
+    let mut limits = Limits::default();
+    limits.decoding_buffer_size = max_bytes;
+    limits.intermediate_buffer_size = max_bytes;
+    let open = |bytes: Cow<'a, [u8]>| -> Result<File<'a>> {
+        let file = Decoder::new(Cursor::new(bytes)).map_err(failed)?;
+        Ok(file.with_limits(limits.clone()))
+    };
+    let mut file = open(bytes.into())?;
+    match inflated(bytes, &mut file, max_bytes)? {
+        Some(inflated) => open(inflated.into()),
+        None => Ok(file),
+    }
+}
+
+/// Numbers of the TIFF types of unsigned numbers of 32 and 64 bits.
+const LONG: u64 = 4;
+const LONG8: u64 = 16;
+
+/// Returns the file with plain strips or tiles; `None` if those of its first image are not compressed by Zstandard. They have
+/// `max_bytes` together at most.
+fn inflated(bytes: &[u8], file: &mut File, max_bytes: usize) -> Result<Option<Vec<u8>>> {
+    let method = file.find_tag_unsigned(Tag::Compression).map_err(failed)?;
+    if method != Some(CompressionMethod::ZSTD.to_u16()) {
+        return Ok(None);
+    }
+    let tags = match file.get_chunk_type() {
+        ChunkType::Strip => [Tag::StripOffsets, Tag::StripByteCounts],
+        ChunkType::Tile => [Tag::TileOffsets, Tag::TileByteCounts],
+    };
+    let [offsets, counts] = tags.map(|tag| file.get_tag_u64_vec(tag).map_err(failed));
+    let mut plain = bytes.to_vec();
+    let mut places = [Vec::new(), Vec::new()];
+    let mut left = max_bytes;
+    for (offset, count) in offsets?.into_iter().zip(counts?) {
+        let end = offset.saturating_add(count).min(bytes.len() as u64) as usize;
+        let compressed = bytes.get(offset as usize..end).unwrap_or_default();
+        let start = plain.len();
+        if !compressed.is_empty() {
+            let cause = |error: &dyn std::fmt::Display| damaged(Format::Tiff, error);
+            let decoder = StreamingDecoder::new(compressed).map_err(|error| cause(&error))?;
+            let read = decoder.take(left as u64 + 1).read_to_end(&mut plain);
+            left = (left.checked_sub(read.map_err(|error| cause(&error))?)).ok_or_else(|| {
+                let reason = "more data compressed by Zstandard than are read; `gdal_translate -co COMPRESS=DEFLATE \
+                              IN.tif OUT.tif` writes one that is read";
+                unsupported(Format::Tiff, reason)
+            })?;
+        }
+        places[0].push(start as u64);
+        places[1].push((plain.len() - start) as u64);
+    }
+    let directory = Directory {
+        start: file.ifd_pointer().map_or(0, |place| place.0 as usize),
+        order: file.byte_order(),
+        is_big: [bytes[2], bytes[3]].contains(&BIG_TIFF_MARK),
+    };
+    let [offsets, counts] = places;
+    for (tag, values) in [
+        (Tag::Compression, vec![1]),
+        (tags[0], offsets),
+        (tags[1], counts),
+    ] {
+        let replaced = directory.replace(&mut plain, tag, &values);
+        replaced.ok_or_else(|| damaged(Format::Tiff, "its directory is cut short"))?;
+    }
+    Ok(Some(plain))
+}
+
+/// Byte among the first four of a BigTIFF file that tells it from another TIFF.
+const BIG_TIFF_MARK: u8 = 43;
+
+/// Where the directory of an image lies in a TIFF file, and how numbers are stored there.
+struct Directory {
+    start: usize,
+    order: ByteOrder,
+    /// Whether offsets and counts have 64 bits instead of 32.
+    is_big: bool,
+}
+
+impl Directory {
+    /// Replaces the values of a tag of the directory; `None` if it is not there or cut short.
+    fn replace(&self, file: &mut Vec<u8>, tag: Tag, values: &[u64]) -> Option<()> {
+        let (head, width, kind) = match self.is_big {
+            true => (8, 8, LONG8),
+            false => (2, 4, LONG),
+        };
+        let entries = self.number(file, self.start, head)? as usize;
+        let mut places = (0..entries).map(|k| self.start + head + k * (4 + 2 * width));
+        let entry = places.find(|at| self.number(file, *at, 2) == Some(u64::from(tag.to_u16())))?;
+        let place = file.len();
+        let value = match values {
+            [value] => *value,
+            _ => {
+                file.resize(place + width * values.len(), 0);
+                for (k, value) in values.iter().enumerate() {
+                    self.store(file, place + k * width, width, *value)?;
+                }
+                place as u64
+            }
+        };
+        self.store(file, entry + 2, 2, kind)?;
+        self.store(file, entry + 4, width, values.len() as u64)?;
+        self.store(file, entry + 4 + width, width, value)
+    }
+
+    fn number(&self, file: &[u8], at: usize, width: usize) -> Option<u64> {
+        let bytes = file.get(at..at.checked_add(width)?)?.iter();
+        let append = |number: u64, byte: &u8| number << 8 | u64::from(*byte);
+        Some(match self.order {
+            ByteOrder::BigEndian => bytes.fold(0, append),
+            ByteOrder::LittleEndian => bytes.rev().fold(0, append),
+        })
+    }
+
+    fn store(&self, file: &mut [u8], at: usize, width: usize, value: u64) -> Option<()> {
+        let bytes = file.get_mut(at..at + width)?;
+        bytes.copy_from_slice(&value.to_le_bytes()[..width]);
+        if self.order == ByteOrder::BigEndian {
+            bytes.reverse();
+        }
+        Some(())
+    }
+}
+
+pub(crate) fn failed(error: TiffError) -> Error {
+    match error {
+        TiffError::UnsupportedError(TiffUnsupportedError::UnsupportedCompressionMethod(method)) => {
+            unsupported(
+                Format::Tiff,
+                format!(
+                    "the compression {}; `gdal_translate -co COMPRESS=DEFLATE IN.tif OUT.tif` \
+                     writes one that is read",
+                    method.to_u16()
+                ),
+            )
+        }
+        TiffError::UnsupportedError(what) => unsupported(Format::Tiff, what),
+        other => damaged(Format::Tiff, other),
+    }
+}

@@ -1,0 +1,167 @@
+//! The mesh formats: their names, and how the contents of a file tell which one it has.
+
+use std::str::FromStr;
+
+use super::text::{decoded, lines};
+use crate::error::{Error, Result};
+
+/// A mesh file format that can be read.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+#[non_exhaustive]
+pub enum MeshFormat {
+    /// Wavefront OBJ: all groups together, with colours after the coordinates, and with the diffuse colours and
+    /// textures of the materials (MTL).
+    Obj,
+    /// The Stanford format PLY, ASCII or binary of either byte order; a texture is named by a comment,
+    /// `TextureFile`.
+    Ply,
+    /// Stereolithography, ASCII or binary. Each triangle has vertices of its own.
+    Stl,
+    /// glTF 2.0 as JSON, or binary (GLB): the meshes of the default scene, with
+    /// their nodes' transforms applied, and the base colours and textures of
+    /// their materials.
+    Gltf,
+    /// 3D Manufacturing Format: the objects that are to be built, with their transforms and the file's unit.
+    ThreeMf,
+    /// Object File Format in text, with or without colours and normals at the vertices.
+    Off,
+}
+
+impl MeshFormat {
+    /// Returns the name of the mesh format: `"obj"`, `"ply"`, `"stl"`, `"gltf"`, `"3mf"` or `"off"`.
+    pub fn name(self) -> &'static str {
+        match self {
+            MeshFormat::Obj => "obj",
+            MeshFormat::Ply => "ply",
+            MeshFormat::Stl => "stl",
+            MeshFormat::Gltf => "gltf",
+            MeshFormat::ThreeMf => "3mf",
+            MeshFormat::Off => "off",
+        }
+    }
+
+    /// Detects the format of a mesh file from the file's contents. OBJ has no signature: a line that begins with `v`
+    /// and a blank is taken for OBJ. Costs `O(bytes)`.
+    pub fn detect(bytes: &[u8]) -> Option<MeshFormat> {
+        let text = bytes
+            .strip_prefix(b"\xef\xbb\xbf")
+            .unwrap_or(bytes)
+            .trim_ascii_start();
+        let first = text
+            .split(u8::is_ascii_whitespace)
+            .next()
+            .unwrap_or_default();
+        if first == b"ply" {
+            return Some(MeshFormat::Ply);
+        }
+        let is_asset = || {
+            bytes
+                .windows(GLTF_ASSET.len())
+                .any(|word| word == GLTF_ASSET)
+        };
+        if bytes.starts_with(b"glTF") || text.starts_with(b"{") && is_asset() {
+            return Some(MeshFormat::Gltf);
+        }
+        if bytes.starts_with(b"PK\x03\x04") {
+            return (!is_array_archive(bytes)).then_some(MeshFormat::ThreeMf);
+        }
+        if let Some(kinds) = first.strip_suffix(b"OFF")
+            && ["", "C", "N", "CN", "ST", "STC", "STN", "STCN"]
+                .contains(&str::from_utf8(kinds).unwrap_or("?"))
+        {
+            return Some(MeshFormat::Off);
+        }
+        if is_binary_stl(bytes)
+            || first
+                .get(..5)
+                .is_some_and(|word| word.eq_ignore_ascii_case(b"solid"))
+        {
+            return Some(MeshFormat::Stl);
+        }
+        let is_vertex = |line: &str| {
+            let mut words = line.split_whitespace();
+            words.next() == Some("v")
+                && words.next().is_some_and(|word| word.parse::<f64>().is_ok())
+        };
+        (lines(&decoded(bytes)))
+            .any(|(_, line)| is_vertex(&line))
+            .then_some(MeshFormat::Obj)
+    }
+
+    pub(in crate::files) fn title(self) -> &'static str {
+        match self {
+            MeshFormat::Obj => "OBJ",
+            MeshFormat::Ply => "PLY",
+            MeshFormat::Stl => "STL",
+            MeshFormat::Gltf => "glTF",
+            MeshFormat::ThreeMf => "3MF",
+            MeshFormat::Off => "OFF",
+        }
+    }
+}
+
+/// Property that every glTF file in text has.
+const GLTF_ASSET: &[u8] = b"\"asset\"";
+
+/// Number of bytes before the first triangle of a binary STL file.
+pub(super) const STL_HEADER_BYTES: usize = 84;
+
+/// Number of bytes of each triangle of a binary STL file.
+const STL_TRIANGLE_BYTES: usize = 50;
+
+/// Returns whether a file has exactly the length of a binary STL file with the number of triangles in its header.
+pub(super) fn is_binary_stl(bytes: &[u8]) -> bool {
+    stl_length(bytes).is_some_and(|length| length > STL_HEADER_BYTES && length == bytes.len())
+}
+
+/// Largest ratio of the length of a binary STL file by its header to the bytes that are there: of other files it is far larger.
+const MAX_STL_LENGTH_RATIO: usize = 64;
+
+/// Returns whether a file may be a binary STL file that is cut short, or that other data follow.
+pub(super) fn may_be_stl(bytes: &[u8]) -> bool {
+    stl_length(bytes).is_some_and(|length| {
+        length > STL_HEADER_BYTES && length / MAX_STL_LENGTH_RATIO < bytes.len()
+    })
+}
+
+/// Length of a binary STL file by the number of triangles in its header, in bytes.
+pub(super) fn stl_length(bytes: &[u8]) -> Option<usize> {
+    let count = bytes.get(STL_HEADER_BYTES - 4..STL_HEADER_BYTES)?;
+    let triangles = u32::from_le_bytes(count.try_into().ok()?) as usize;
+    triangles
+        .checked_mul(STL_TRIANGLE_BYTES)?
+        .checked_add(STL_HEADER_BYTES)
+}
+
+/// Number of bytes before the name of the first file in a ZIP archive.
+const ZIP_NAME_OFFSET: usize = 30;
+
+/// Whether the first file in a ZIP archive is an array of NumPy (`.npy`), so that the archive is no 3MF.
+fn is_array_archive(bytes: &[u8]) -> bool {
+    let length = bytes
+        .get(26..28)
+        .map_or(0, |b| usize::from(u16::from_le_bytes([b[0], b[1]])));
+    let name = bytes.get(ZIP_NAME_OFFSET..ZIP_NAME_OFFSET + length);
+    name.is_some_and(|name| name.ends_with(b".npy"))
+}
+
+impl FromStr for MeshFormat {
+    type Err = Error;
+
+    /// Parses the name of a mesh format, as [`MeshFormat::name`] returns it; `glb` is also glTF.
+    fn from_str(name: &str) -> Result<Self> {
+        match name {
+            "obj" => Ok(MeshFormat::Obj),
+            "ply" => Ok(MeshFormat::Ply),
+            "stl" => Ok(MeshFormat::Stl),
+            "gltf" | "glb" => Ok(MeshFormat::Gltf),
+            "3mf" => Ok(MeshFormat::ThreeMf),
+            "off" => Ok(MeshFormat::Off),
+            _ => Err(Error::option(
+                "format",
+                name,
+                "must be `obj`, `ply`, `stl`, `gltf`, `glb`, `3mf` or `off`",
+            )),
+        }
+    }
+}

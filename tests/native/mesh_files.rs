@@ -216,7 +216,7 @@ fn three_mf_with_its_unit_and_components() {
     for (found, inches) in found.iter().zip(inches.as_flattened()) {
         assert!((found - 25.4 * inches).abs() < 1e-9, "{found} {inches}");
     }
-    // Without a unit lengths are millimetres, and a model of several files says so.
+    // Without a unit lengths are millimetres, and a further model that the archive lacks is missed.
     let plain = MODEL.replace(" unit=\"inch\"", "");
     let file = read_mesh_beside(&archive(&plain), None, &[]).unwrap();
     assert_eq!(
@@ -229,7 +229,7 @@ fn three_mf_with_its_unit_and_components() {
     );
     let several = several.replace("xml:lang", "xmlns:p=\"http://p\" xml:lang");
     let error = read_mesh_beside(&archive(&several), None, &[]).unwrap_err();
-    assert!(error.to_string().contains("several files"), "{error}");
+    assert!(error.to_string().contains("is not there"), "{error}");
     let missing = MODEL.replace("objectid=\"1\"", "objectid=\"7\"");
     assert!(read_mesh_beside(&archive(&missing), None, &[]).is_err());
 }

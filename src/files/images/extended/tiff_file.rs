@@ -53,8 +53,9 @@ fn inflated(bytes: &[u8], file: &mut File, max_bytes: usize) -> Result<Option<Ve
     let mut places = [Vec::new(), Vec::new()];
     let mut left = max_bytes;
     for (offset, count) in offsets?.into_iter().zip(counts?) {
-        let end = offset.saturating_add(count).min(bytes.len() as u64) as usize;
-        let compressed = bytes.get(offset as usize..end).unwrap_or_default();
+        let end = offset.saturating_add(count).min(usize::MAX as u64) as usize;
+        let compressed = (bytes.get(offset as usize..end))
+            .ok_or_else(|| damaged(Format::Tiff, "it is cut short"))?;
         let start = plain.len();
         if !compressed.is_empty() {
             let cause = |error: &dyn std::fmt::Display| damaged(Format::Tiff, error);

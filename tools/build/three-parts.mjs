@@ -42,6 +42,11 @@ const STUBS = {
 /** A shader without comments and indents. @param {string} text */
 const shorten = (text) => text.replace(/\/\*[^]*?\*\/|\/\/.*/g, '').replace(/\n\s+/g, '\n');
 
+/** The list of shaders with their uniforms, without those of materials that are not used. @param {string} text */
+const withoutOthers = (text) => text
+  .replace(/\n\t(\w+): \{\n[^]*?\n\t\},?/g, (entry, name) => (SHADERS.some((used) => used.endsWith(name)) ? entry : ''))
+  .replace(/\nShaderLib\.physical = [^]*?\n\};/, '');
+
 /**
  * Plugin of a bundler that takes three.js from its sources, without what is not needed.
  * @returns {Promise<import('vite').Plugin>}
@@ -53,6 +58,7 @@ export async function usedThree() {
     const at = join(sources, 'renderers/shaders', folder);
     for (const file of await readdir(at)) texts.set(file.replace('.glsl.js', ''), await readFile(join(at, file), 'utf8'));
   }
+  const library = await readFile(join(sources, 'renderers/shaders/ShaderLib.js'), 'utf8');
   const lines = await readFile(join(root, 'node_modules/three/examples/jsm/lines/LineMaterial.js'), 'utf8');
   const used = new Set(SHADERS);
   const waiting = [lines, ...SHADERS.map((name) => texts.get(name) ?? '')];
@@ -70,6 +76,7 @@ export async function usedThree() {
     load(id) {
       const stub = Object.keys(STUBS).find((end) => id.endsWith(end));
       if (stub) return STUBS[stub];
+      if (id.endsWith('/ShaderLib.js')) return withoutOthers(library);
       const shader = /\/(?:ShaderLib|ShaderChunk)\/(\w+)\.glsl\.js$/.exec(id)?.[1];
       if (!shader) return null;
       const text = texts.get(shader) ?? '';

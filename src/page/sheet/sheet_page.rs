@@ -250,8 +250,10 @@ fn report(
     let error = 100.0 * misfit.hypot(bending);
     let is_plane = found.model == PageModel::Plane;
     let has_lines = found.count >= MIN_CHECKING_LINES;
-    let (verdict, doubt) = if figures.outline > MAX_OUTLINE_MISFIT
-        || (is_cylinder && figures.outline.hypot(figures.lines) > MAX_CYLINDER_MISFIT)
+    // How far a page that fills the photo reaches beyond it says how little is known, not that it is no such page.
+    let contradiction = if is_seen { figures.outline } else { 0.0 };
+    let (verdict, doubt) = if contradiction > MAX_OUTLINE_MISFIT
+        || (is_cylinder && contradiction.hypot(figures.lines) > MAX_CYLINDER_MISFIT)
     {
         (PageVerdict::NotThisKind, None)
     } else if is_plane && is_seen && (has_inner_points || has_lines) {
@@ -261,7 +263,7 @@ fn report(
     } else if error > MAX_TRUSTED_ERROR {
         let doubt = match found.model {
             PageModel::SoftSheet => PageDoubt::Crumpled,
-            _ if misfit > bending => PageDoubt::Disagreement,
+            _ if is_seen && misfit > bending => PageDoubt::Disagreement,
             _ => PageDoubt::LargeError,
         };
         (PageVerdict::Doubtful, Some(doubt))

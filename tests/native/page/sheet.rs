@@ -2,10 +2,12 @@
 
 use developable::dewarp::{DewarpOptions, Photo};
 use developable::page::{
-    Edges, FocalLength, Format, PageModel, PageOptions, PageReport, PageSurface, PageVerdict,
-    Ruler, Trace,
+    Edges, FocalLength, Format, PageDoubt, PageModel, PageOptions, PageReport, PageSurface,
+    PageVerdict, Ruler, Trace,
 };
 use oorandom::Rand64;
+
+use crate::common::similarity;
 
 /// A page of width 1 in space: an isometric map of its plane.
 type Shape = fn(f64, f64) -> [f64; 3];
@@ -208,6 +210,74 @@ fn known_sheets_are_found() {
         assert!(error < most, "{error}");
         assert_ne!(report.model, PageModel::Plane);
         assert!(report.lines > 8, "{report:?}");
+    }
+}
+
+/// Root mean square displacements after the best similarity, in % of the width shown, of a photo that a page fills and of what its
+/// print alone makes of it; and the report.
+fn fitted_by_print(shape: Shape) -> ([f64; 2], PageReport) {
+    // The middle of the photo, about its principal point.
+    const MARGIN: [usize; 2] = [270, 320];
+    let size = [0, 1].map(|k| PHOTO[k] - 2 * MARGIN[k]);
+    let pixels: Vec<u8> = (photo(shape, true).chunks_exact(4 * PHOTO[0]))
+        .skip(MARGIN[1])
+        .take(size[1])
+        .flat_map(|row| row[4 * MARGIN[0]..4 * (MARGIN[0] + size[0])].to_vec())
+        .collect();
+    let cropped = Photo::new(size[0], size[1], &pixels).unwrap();
+    let options = PageOptions::default().focal_length(FocalLength::Pixels(FOCAL));
+    let page = PageSurface::by_print(&cropped, &options).unwrap();
+    let [photographed, flattened] = [true, false].map(|is_photographed| {
+        let pairs: Vec<_> = (0..400)
+            .map(|i| {
+                let share = [i % 20, i / 20].map(|k| (k as f64 + 0.5) / 20.0);
+                let place = match is_photographed {
+                    true => [0, 1].map(|k| share[k] * size[k] as f64 - 0.5),
+                    false => page.photo_place(share),
+                };
+                let whole = match is_photographed {
+                    true => place,
+                    false => [0, 1].map(|k| share[k] * page.flat_size()[k]),
+                };
+                let [x, y] = on_page(shape, [0, 1].map(|k| place[k] + MARGIN[k] as f64));
+                (whole, [x, HEIGHT * y])
+            })
+            .collect();
+        let shown = pairs.iter().map(|(_, [x, _])| *x);
+        let width = shown.clone().fold(f64::MIN, f64::max) - shown.fold(f64::MAX, f64::min);
+        100.0 * similarity(&pairs) / width
+    });
+    println!("{photographed} {flattened} {:?}", page.report());
+    ([photographed, flattened], *page.report())
+}
+
+/// Place on the page, as shares of its sides, of a pixel of the photo: Newton's method.
+fn on_page(shape: Shape, pixel: [f64; 2]) -> [f64; 2] {
+    const STEP: f64 = 1e-4;
+    let mut at = [0.5, 0.5];
+    for _ in 0..20 {
+        let here = seen(shape, at);
+        let [s, t] = [[STEP, 0.0], [0.0, STEP]].map(|step| {
+            let moved = seen(shape, [at[0] + step[0], at[1] + step[1]]);
+            [0, 1].map(|k| (moved[k] - here[k]) / STEP)
+        });
+        let off = [0, 1].map(|k| pixel[k] - here[k]);
+        let area = s[0] * t[1] - s[1] * t[0];
+        at[0] += (off[0] * t[1] - off[1] * t[0]) / area;
+        at[1] += (s[0] * off[1] - s[1] * off[0]) / area;
+    }
+    at
+}
+
+#[test]
+fn a_page_that_fills_the_photo_is_flattened_by_its_print() {
+    for (shape, most) in [(curled as Shape, 0.5), (cone, 0.8)] {
+        let ([photographed, flattened], report) = fitted_by_print(shape);
+        let share = flattened / photographed;
+        assert!(share < most && report.lines > 8, "{share} {report:?}");
+        assert!(flattened < report.error_bound, "{flattened} {report:?}");
+        let word = (report.verdict, report.doubt);
+        assert_eq!(word, (PageVerdict::Doubtful, Some(PageDoubt::LargeError)));
     }
 }
 

@@ -641,22 +641,24 @@ export interface LambdaChoice {
    */
   merged: number;
   /**
+   * Root mean square distance from the heights that the surface keeps within, in the input's units: the one that was
+   * asked for, or a default where heights have no noise or `ambiguous` noise; `undefined` otherwise.
+   */
+  tolerance?: number;
+  /**
    * Root mean square of the residual, in standard deviations σ of the noise and without outliers: about 1 where λ suits
    * the shape. Far above, the surface is farther from the heights than their noise explains. `undefined` before the end
    * of the solve, or without noise.
    */
   residualRatio?: number;
-  /**
-   * Whether the residual is larger than the noise explains although λ was raised, so that the surface has lost a part
-   * of the shape.
-   */
+  /** Whether the residual is larger than the noise explains, so that the surface has lost a part of the shape. */
   residualExceedsNoise: boolean;
   /**
    * Number of times that λ was raised above the one that follows from the noise, since the residual of the surface
    * showed that one to be too small.
    */
   raises: number;
-  /** Number of solves before the last one: for each penalty that was compared, and before each raise of λ. */
+  /** Number of solves before the last one, nearly all of them on coarse lattices. */
   solves: number;
   /**
    * Number of ADMM iterations of the compared solves, which the report's own number of iterations does not include.
@@ -671,10 +673,12 @@ export interface LambdaChoice {
  * - `'noise'`: λ follows from size and correlation length of the noise, without cross-validation: the energy has no
  *   parameters, there are too few heights to hold some out, or their noise is correlated, so that held-out noise could
  *   be predicted.
- * - `'noNoise'`: The heights have hardly any noise: λ is `'big'`.
+ * - `'noNoise'`: The heights have hardly any noise: λ is `'big'`, or larger, so that the surface keeps within
+ *   `tolerance`.
+ * - `'tolerance'`: λ is the smallest one that keeps the surface within `tolerance`.
  * - `'unknown'`: There are too few heights to estimate their noise: λ is `'medium'`.
  */
-export type LambdaReason = 'prediction' | 'noise' | 'noNoise' | 'unknown';
+export type LambdaReason = 'prediction' | 'noise' | 'noNoise' | 'tolerance' | 'unknown';
 
 /** Work of a solve on one multigrid level. */
 export interface LevelReport {

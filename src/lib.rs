@@ -106,7 +106,7 @@ pub use fit::mesh::{
     EntangledTriangle, MeshKnown, MeshOptions, MeshPass, MeshReport, MeshSolver, MeshSurface,
     Repairs, fit_mesh,
 };
-pub use fit::options::{Border, Energy, Lambda, Options, Schedule};
+pub use fit::options::{Border, Energy, Lambda, Options, Schedule, Tolerance};
 pub use fit::report::{
     HuberReport, LambdaChoice, LambdaReason, LevelReport, Progress, Report, Seconds, StopReason,
 };

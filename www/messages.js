@@ -333,17 +333,19 @@ export const AUTO_LAMBDA_HINT = 'The page chooses λ from the noise of the input
  */
 export function lambdaChoiceInWords({ lambda, lambdaChoice }) {
   if (!lambdaChoice) return '';
-  const { reason, sigma, step, solves, correlationLength, ambiguous, residualExceedsNoise, residualRatio } = lambdaChoice;
+  const { reason, sigma, step, solves, correlationLength, ambiguous, residualExceedsNoise, residualRatio, tolerance } = lambdaChoice;
   const length = correlationLength > 0 ? `, alike over distances of ${number(correlationLength)}` : '';
   const noise = step === undefined ? `Noise: ${number(sigma ?? 0)}${length}` : `Steps: ${number(step)}`;
-  const unsure = ambiguous ? ' The shape bends over such distances, too, so compare five values.' : '';
+  const within = tolerance === undefined ? '' : ` The surface keeps within ${number(tolerance)} of the heights (root mean square).`;
+  const unsure = ambiguous ? ` Shape and noise cannot be told apart.${within} Compare five values.` : '';
   const doubt = residualExceedsNoise
     ? ` The surface is ${number(residualRatio ?? 0)} times as far from the heights as their noise explains: a larger λ keeps more of the shape.`
     : unsure;
   switch (reason) {
     case 'prediction': return `Chosen automatically (${count(solves)} trial solves). ${noise}, in the unit of the heights.${doubt}`;
     case 'noise': return `Chosen automatically. ${noise}, in the unit of the heights.${doubt}`;
-    case 'noNoise': return 'The input has no noise. A simpler surface (smaller λ) has fewer, larger sheets.';
+    case 'noNoise': return `The input has no noise.${within} A simpler surface (smaller λ) has fewer, larger sheets.`;
+    case 'tolerance': return `λ follows from the tolerance.${within}`;
     default: return `Too few heights to measure their noise: λ = ${shortLambda(lambda)}.`;
   }
 }

@@ -40,7 +40,13 @@ export async function fit(task, signal) {
   }
   await writeWhole(files, signal);
   succeed(task.output, fitInWords(report));
-  const { residualExceedsNoise, residualRatio } = report.lambdaChoice ?? {};
+  const { residualExceedsNoise, residualRatio, reason, ambiguous, tolerance } = report.lambdaChoice ?? {};
+  if (tolerance !== undefined && reason !== 'tolerance') {
+    toStderr(
+      `developable: ${ambiguous ? 'shape and noise cannot be told apart in this input' : 'this input has no noise'}, so the surface keeps `
+      + `within ${Number(tolerance.toPrecision(2))} of it (root mean square); --tolerance or --lambda asks for a simpler one\n`,
+    );
+  }
   if (residualExceedsNoise) {
     toStderr(
       `developable: warning: the surface is farther from the heights than their noise explains (${residualRatio?.toFixed(1)} times): a part of ` +

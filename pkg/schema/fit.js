@@ -1,5 +1,5 @@
 /** Options of fits, and of the search for occlusions. Each comment is what the types say; the default is added there. */
-import { bridging, choice, either, flag, flags, number, threadCount, threshold, whole } from './kinds.js';
+import { bridging, choice, either, flag, flags, number, threadCount, threshold, tolerance, whole } from './kinds.js';
 import { Energy } from './names.js';
 
 /** @typedef {import('./kinds.js').Options} Options */
@@ -46,11 +46,11 @@ export const solver = {
    * `'small'` 1e5 (heavy noise, few large patches), `'medium'` 1e6, `'big'` 1e7
    * (nearly developable input), a number from 1e-12 to 1e15, or `'auto'`.
    *
-   * `'auto'` finds it from the size of the heights' noise. With the energy `'huber'` it tries four sets of parameters on a
-   * coarse lattice, and takes the one that predicts held-out heights best. Where the surface is farther from the heights than
-   * noise explains, lambda is raised. An input whose noise cannot be measured, such as a design, has 1e6.
-   * `report.lambdaChoice` tells what was found. The whole fit takes 1.3 times as long as one with a given lambda at 200 pixels,
-   * and up to twice as long on small inputs.
+   * `'auto'` finds it from the size of the heights' noise, and corrects it on a coarse lattice where the surface there is
+   * farther from the heights than noise explains. With the energy `'huber'` it tries several sets of parameters on a coarse
+   * lattice, too, and takes the one that predicts held-out heights best. Heights without noise stay within 0.2 % of
+   * their range; an input whose noise cannot be measured, such as a design, has 1e6.
+   * `report.lambdaChoice` tells what was found.
    */
   lambda: {
     kind: either(choice('small', 'medium', 'big', 'auto'), number),
@@ -60,6 +60,20 @@ export const solver = {
       value: 'L',
       help: 'how closely to follow the input: small (1e5), medium (1e6), big (1e7), a number from 1e-12 to 1e15, or auto, which ' +
         'measures the noise of the input (medium where there is none, as in a design) (default: auto)',
+    },
+  },
+  /**
+   * Root mean square distance from the input that the surface may have, outliers apart: lambda is then the smallest one that
+   * keeps within it. A number in the unit of the heights, or a share of their range such as `'0.5%'`. For heights without
+   * noise, such as terrain. Refused beside a number for `lambda`. Default: none.
+   */
+  tolerance: {
+    kind: tolerance,
+    flag: {
+      section: 'energy',
+      value: 'D',
+      help: 'the simplest surface within this distance of the input (root mean square): in its unit, or a share of the height ' +
+        'range such as 0.5%; it decides lambda',
     },
   },
   /** The penalty that is minimised besides the fidelity term. For a design the default is `'nuclear'`. */

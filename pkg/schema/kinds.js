@@ -205,6 +205,15 @@ export const threshold = {
   },
 };
 
+/** A share of the height range, as text: `0.5%`. @type {Reading} */
+const share = {
+  must: 'must be a share such as 0.5%',
+  take: (text) => (typeof text === 'string' && /^\s*[\d.]+(e-?\d+)?\s*%\s*$/i.test(text) ? text.replaceAll(/\s/g, '') : undefined),
+};
+
+/** A distance, or a share of the height range. @type {Kind} */
+export const tolerance = { type: 'number | `${number}%`', ...eitherReading(number, share), typed: eitherReading(numeral, share) };
+
 /** @type {Kind} */
 export const corners = {
   type: 'readonly (readonly [number, number])[]',

@@ -2,9 +2,12 @@
 
 use crate::error::try_filled;
 use crate::error::{Error, Readable, Result, check_shape};
-use crate::heights::bridging::{BridgedImage, Bridging, OnLattice, Surroundings};
+use crate::heights::bridging::{
+    BRIDGE_CONFIDENCE, BridgedImage, Bridging, OnLattice, Surroundings, spikes_on_lattice,
+};
 use crate::heights::heightfield::Heightfield;
 use crate::heights::occlusions::Occlusions;
+use crate::heights::pixel_noise::PixelNoise;
 use crate::lattice::domain::Domain;
 
 /// Minimum positive confidence of a height: double precision resolves it beside the maximum, but no smaller one.
@@ -44,8 +47,8 @@ pub struct Input {
     bridging: Bridging,
     /// Number of vertices whose heights were filled in to bridge a hole.
     pub(crate) bridged: usize,
-    /// Size of the pixels from which the heights were resampled; `None` where they were not.
-    pub(crate) pixel_size: Option<f64>,
+    /// Noise of the image that the heights were sampled from, if they were.
+    pub(crate) pixel_noise: Option<PixelNoise>,
 }
 
 impl Input {
@@ -60,7 +63,7 @@ impl Input {
             outside: Vec::new(),
             bridging: Bridging::default(),
             bridged: 0,
-            pixel_size: None,
+            pixel_noise: None,
         }
     }
 
@@ -75,9 +78,10 @@ impl Input {
             heights,
             confidence,
             bridges,
+            noise,
         } = image.on_lattice(spacing)?;
         let input = Input {
-            pixel_size: Some(image.image().pixel_size()),
+            pixel_noise: Some(noise),
             ..Input::new(heights).already_bridged(bridges)
         };
         match confidence {
@@ -194,6 +198,41 @@ impl Input {
         Ok(self)
     }
 
+    /// Returns the input with means of the neighbours in place of spikes, single heights far from all around them, and with the
+    /// confidence of bridged holes there. An input of an image stays as it is, as that is repaired before it is sampled; so does
+    /// one whose caller says what is to be trusted.
+    pub(crate) fn without_spikes(mut self) -> Result<Self> {
+        let is_told = !self.confidence.is_empty() || !self.constrained.is_empty();
+        if is_told || self.pixel_noise.is_some() || self.bridging == Bridging::Off {
+            return Ok(self);
+        }
+        let spikes = spikes_on_lattice(&self.field)?;
+        if spikes.is_empty() {
+            return Ok(self);
+        }
+        let lattice = *self.field.lattice();
+        self.confidence = try_filled("confidence", lattice.len(), 1.0)?;
+        let mut heights = self.field.into_heights();
+        let heights_before = spikes
+            .iter()
+            .map(|spike| heights[*spike])
+            .collect::<Vec<_>>();
+        spikes.iter().for_each(|spike| heights[*spike] = f64::NAN);
+        for (spike, before) in spikes.iter().zip(heights_before) {
+            let around = lattice.neighbours(spike / lattice.cols(), spike % lattice.cols());
+            let around = around.into_iter().flatten();
+            let around = around.map(|(row, col)| heights[lattice.index(row, col)]);
+            let (sum, count) = (around.filter(|z| z.is_finite()))
+                .fold((0.0, 0.0), |(sum, count), z| (sum + z, count + 1.0));
+            // Spikes side by side take the mean of those before.
+            heights[*spike] = if count > 0.0 { sum / count } else { before };
+            self.confidence[*spike] = BRIDGE_CONFIDENCE;
+        }
+        self.bridged += spikes.len();
+        self.field = Heightfield::new(lattice, heights)?;
+        Ok(self)
+    }
+
     /// Finds the domain of a solve: the roles of the input's vertices; occluded vertices have no Hessian.
     pub(crate) fn domain(&self) -> Result<Domain> {
         Domain::with_occlusions(&self.field, |vertex| self.is_occluded(vertex))
@@ -205,7 +244,7 @@ impl Input {
         let surroundings = Surroundings {
             heights: self.field.heights(),
             confidence: &self.confidence,
-            outside: &|v| self.outside.get(v) == Some(&true),
+            outside: &|v| self.outside.get(v) == Some(&true) || self.is_constrained(v),
             torn: &|v| self.is_occluded(v),
         };
         let bridges = surroundings.on_lattice(&self.field, width)?;

@@ -39,9 +39,10 @@ pub enum Lambda {
     Big,
     /// Any weight λ of the squared distance from the input, from 10⁻¹² to 10¹⁵, for heights normalised to the unit square.
     Value(f64),
-    /// Chosen from the input: λ follows from the size of its noise. With [`Energy::Huber`] the parameters of the penalty are
-    /// those that predict held-out heights best (cross-validation on a coarser lattice). Where the residual of the surface is
-    /// larger than the noise explains, λ is raised. An input whose noise cannot be measured, such as a [design](crate::Input::design), gets
+    /// Chosen from the input: λ follows from the size of its noise, and is corrected on a coarse lattice where the surface
+    /// there is farther from the heights than noise explains. With [`Energy::Huber`] the parameters of the penalty are those
+    /// that predict held-out heights best (cross-validation on a coarser lattice). Heights without noise stay within 0.2 % of
+    /// their range. An input whose noise cannot be measured, such as a [design](crate::Input::design), gets
     /// [`Lambda::Medium`]. [`Report::lambda_choice`](crate::Report::lambda_choice) reports the choice.
     #[default]
     Auto,
@@ -128,6 +129,97 @@ impl FromStr for Lambda {
                 "must be small, medium, big, auto or a number above zero",
             )
         })
+    }
+}
+
+/// Root mean square distance from the input that a surface may have.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
+pub enum Tolerance {
+    /// A distance in the unit of the heights.
+    Distance(f64),
+    /// A share of the height range of the input, such as 0.005 for 0.5 %.
+    Share(f64),
+}
+
+impl Tolerance {
+    /// Returns the distance that is allowed for heights of a range.
+    pub(crate) fn distance(self, range: f64) -> f64 {
+        match self {
+            Tolerance::Distance(distance) => distance,
+            Tolerance::Share(share) => share * range,
+        }
+    }
+}
+
+impl From<f64> for Tolerance {
+    fn from(distance: f64) -> Self {
+        Tolerance::Distance(distance)
+    }
+}
+
+impl FromStr for Tolerance {
+    type Err = Error;
+
+    /// Reads a tolerance from text: a distance in the unit of the heights, or a share of their range such as `0.5%`.
+    fn from_str(text: &str) -> Result<Self> {
+        let tolerance = match text.strip_suffix('%') {
+            Some(percent) => percent
+                .trim_end()
+                .parse()
+                .ok()
+                .map(|x: f64| Tolerance::Share(0.01 * x)),
+            None => text.parse().ok().map(Tolerance::Distance),
+        };
+        let is_positive = |tolerance: &Tolerance| {
+            tolerance.distance(1.0) > 0.0 && tolerance.distance(1.0).is_finite()
+        };
+        tolerance.filter(is_positive).ok_or_else(|| {
+            Error::option(
+                "tolerance",
+                text,
+                "must be a distance above zero, or a share of the height range such as 0.5%",
+            )
+        })
+    }
+}
+
+#[cfg(feature = "serde")]
+impl<'de> serde::Deserialize<'de> for Tolerance {
+    fn deserialize<D: serde::Deserializer<'de>>(
+        deserializer: D,
+    ) -> std::result::Result<Self, D::Error> {
+        deserializer.deserialize_any(ToleranceVisitor)
+    }
+}
+
+/// Deserialisation visitor that reads a tolerance as a number or a share such as `0.5%`.
+#[cfg(feature = "serde")]
+struct ToleranceVisitor;
+
+#[cfg(feature = "serde")]
+impl serde::de::Visitor<'_> for ToleranceVisitor {
+    type Value = Tolerance;
+
+    fn expecting(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        formatter.write_str("a distance above zero, or a share of the height range such as 0.5%")
+    }
+
+    fn visit_f64<E>(self, value: f64) -> std::result::Result<Tolerance, E> {
+        Ok(Tolerance::Distance(value))
+    }
+
+    fn visit_i64<E>(self, value: i64) -> std::result::Result<Tolerance, E> {
+        Ok(Tolerance::Distance(value as f64))
+    }
+
+    fn visit_u64<E>(self, value: u64) -> std::result::Result<Tolerance, E> {
+        Ok(Tolerance::Distance(value as f64))
+    }
+
+    fn visit_str<E: serde::de::Error>(self, text: &str) -> std::result::Result<Tolerance, E> {
+        text.parse()
+            .map_err(|_| E::invalid_value(serde::de::Unexpected::Str(text), &self))
     }
 }
 
@@ -303,6 +395,7 @@ impl HuberOptions {
 )]
 pub struct Options {
     pub(crate) lambda: Option<Lambda>,
+    pub(crate) tolerance: Option<Tolerance>,
     pub(crate) schedule: Schedule,
     pub(crate) gap: Option<f64>,
     pub(crate) max_iterations: usize,
@@ -328,6 +421,7 @@ impl Default for Options {
     fn default() -> Self {
         Options {
             lambda: None,
+            tolerance: None,
             schedule: Schedule::Default,
             gap: None,
             max_iterations: 20_000,
@@ -363,6 +457,13 @@ impl Options {
     /// Sets the weight λ of the fidelity term; default [`Lambda::Auto`].
     pub fn lambda(mut self, lambda: impl Into<Lambda>) -> Self {
         self.lambda = Some(lambda.into());
+        self
+    }
+
+    /// Sets the root mean square distance from the input that the surface may have, outliers apart: λ is then the smallest
+    /// one that keeps within it. Default: none.
+    pub fn tolerance(mut self, tolerance: impl Into<Tolerance>) -> Self {
+        self.tolerance = Some(tolerance.into());
         self
     }
 
@@ -516,6 +617,24 @@ impl Options {
     }
 
     fn check_ranges(&self) -> Result<()> {
+        if let Some(tolerance) = self.tolerance
+            && !(tolerance.distance(1.0) > 0.0 && tolerance.distance(1.0).is_finite())
+        {
+            let requirement =
+                "must be a distance above zero, or a share of the height range such as 0.5%";
+            return Err(Error::option(
+                "tolerance",
+                tolerance.distance(1.0),
+                requirement,
+            ));
+        }
+        if self.tolerance.is_some() && self.lambda_or_default() != Lambda::Auto {
+            return Err(Error::option(
+                "tolerance",
+                "a tolerance",
+                "has no effect beside a number for lambda, which it decides",
+            ));
+        }
         let lambda = self.lambda_or_default().value();
         if !LAMBDA_RANGE.contains(&lambda) {
             return Err(Error::option(

@@ -135,8 +135,11 @@ pub enum LambdaReason {
     /// there are too few heights to hold some out, or their noise is correlated, so that held-out noise could be
     /// predicted.
     Noise,
-    /// The heights have hardly any noise: λ is [`Lambda::Big`](crate::Lambda::Big).
+    /// The heights have hardly any noise: λ is [`Lambda::Big`](crate::Lambda::Big), or larger, so that the surface keeps
+    /// within [`LambdaChoice::tolerance`].
     NoNoise,
+    /// λ is the smallest one that keeps the surface within [`Options::tolerance`](crate::Options::tolerance).
+    Tolerance,
     /// There are too few heights to estimate their noise: λ is [`Lambda::Medium`](crate::Lambda::Medium).
     Unknown,
 }
@@ -167,17 +170,20 @@ pub struct LambdaChoice {
     /// Number of times that the lattice's spacing has to be doubled, by averages of four heights, until the noise is
     /// independent from vertex to vertex; 0 for white noise.
     pub merged: usize,
+    /// Root mean square distance from the heights that the surface keeps within, in the input's units: the one that was
+    /// asked for, or a default where heights have no noise or [`LambdaChoice::ambiguous`] noise; `None` otherwise.
+    #[cfg_attr(feature = "serde", serde(skip_serializing_if = "Option::is_none"))]
+    pub tolerance: Option<f64>,
     /// Root mean square of the residual, in standard deviations σ of the noise and without outliers: about 1 where λ
     /// suits the shape. Far above, the surface is farther from the heights than their noise explains. `None` before the
     /// end of the solve, or without noise.
     pub residual_ratio: Option<f64>,
-    /// Whether the residual is larger than the noise explains although λ was raised, so that the surface has lost a part of
-    /// the shape.
+    /// Whether the residual is larger than the noise explains, so that the surface has lost a part of the shape.
     pub residual_exceeds_noise: bool,
     /// Number of times that λ was raised above the one that follows from the noise, since the residual of the surface
     /// showed that one to be too small.
     pub raises: usize,
-    /// Number of solves before the last one: for each penalty that was compared, and before each raise of λ.
+    /// Number of solves before the last one, nearly all of them on coarse lattices.
     pub solves: usize,
     /// Number of ADMM iterations of the compared solves, which the report's own number of iterations does not include.
     pub iterations: usize,

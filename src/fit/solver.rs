@@ -13,11 +13,21 @@ use super::surface::Surface;
 use super::threads::Threads;
 use super::tuning::closed_form::{self, Known};
 use super::tuning::noise::Noise;
-use super::tuning::pixel_noise::PixelNoise;
+use super::tuning::refinement::{Aim, Next, Refinement};
 use super::tuning::residual::Residual;
 use super::tuning::search::Search;
 use super::warm_start::WarmStart;
 use crate::error::Result;
+
+/// Largest distance of a surface to the heights, in standard deviations of their noise, that noise explains. Above it a part
+/// of the shape is lost (`benches/scenes.md`).
+const MAX_NOISE_DISTANCE: f64 = 1.3;
+
+/// Maximum number of solves at full size: λ is refined again where the coarse lattice was too coarse for the shape.
+const MAX_FULL_SOLVES: usize = 3;
+
+/// Maximum number of solves at full size for a tolerance that was asked for.
+const MAX_TOLERANCE_SOLVES: usize = 5;
 
 /// A solve that runs in steps, so that its caller can look at it, draw, or stop
 /// it in between.
@@ -40,10 +50,10 @@ pub struct Solver {
     /// Search for the penalty, until it is finished.
     search: Option<Search>,
     choice: Option<LambdaChoice>,
+    /// Refinement of λ by solves at full size, until it is finished.
+    refinement: Option<Refinement>,
     /// Noise of the input, where λ or the penalty is chosen by it.
     noise: Option<Noise>,
-    /// Standard deviation of the noise of vertices, beside which the residual is reported.
-    vertex_sigma: Option<f64>,
     solve: ComponentSolver,
     threads: Threads,
 }
@@ -67,6 +77,11 @@ impl Solver {
         options.validate()?;
         let is_design = input.is_design();
         options.check_effects_on(is_design, input.has_free_vertices())?;
+        // Faults of the sensor are repaired where λ is to be found from the heights.
+        let input = match options.chooses_lambda() {
+            true => input.without_spikes()?,
+            false => input,
+        };
         let prepared = PreparedInput::new(input)?;
         let threads = Threads::new(options.threads, &prepared.domain);
         threads.run(|| Solver::start(prepared, options, threads, warm_start, started))
@@ -83,27 +98,22 @@ impl Solver {
         let is_design = prepared.input.is_design();
         let asked = options.with_energy_for(is_design);
         let known = Known::of(&prepared.input, &asked)?;
-        let Known { scale, noise } = known;
-        let (mut options, mut choice, mut search) = (asked, None, None);
-        let mut vertex_sigma = noise.map(|noise| noise.sigma);
+        let Known { scale, noise, .. } = known;
+        let (mut options, mut choice) = (asked, None);
+        let (mut search, mut refinement) = (None, None);
         if asked.chooses_lambda() {
-            let (first, mut found) = closed_form::initial_options(&asked, noise, scale);
-            if let Some((noise, pixel_size)) = noise.as_ref().zip(prepared.input.pixel_size) {
-                let pixels = PixelNoise::of(&prepared.input, noise, pixel_size)?;
-                found.sigma = Some(pixels.sigma);
-                found.correlation_length = pixels.correlation_length;
-                vertex_sigma = Some(pixels.vertex_sigma);
-            }
-            if found.reason == LambdaReason::Noise {
-                search = Search::new(&prepared.input, &first, known)?;
-            }
-            options = match search {
-                None if found.reason == LambdaReason::Noise => {
-                    closed_form::without_search(&first, noise)
-                }
-                _ => first,
-            };
+            let (first, found, aim) = closed_form::initial_options(&asked, known);
+            options = first;
             choice = Some(found);
+            if let Some(aim) = aim {
+                let max_solves = match aim {
+                    Aim::Distance { is_exact: true, .. } => MAX_TOLERANCE_SOLVES,
+                    _ => MAX_FULL_SOLVES,
+                };
+                let spacing = prepared.input.field.lattice().spacing();
+                refinement = Some(Refinement::new(aim, spacing, 1.0, max_solves));
+                search = Search::new(&prepared.input, &first, known, aim)?;
+            }
         }
         let options = closed_form::with_huber_defaults(&options, noise, scale);
         let start_mode = match search {
@@ -113,8 +123,8 @@ impl Solver {
         Ok(Solver {
             search,
             choice,
+            refinement,
             noise,
-            vertex_sigma,
             solve: ComponentSolver::new(
                 prepared, &options, scale, warm_start, start_mode, started,
             )?,
@@ -173,8 +183,8 @@ impl Solver {
         Ok(Status::Running)
     }
 
-    /// Begins again with a larger λ where λ is not given and the residual of the surface asks for it; tells whether it
-    /// does.
+    /// Begins again with a larger λ where the surface is farther from the heights than the tolerance allows; tells whether
+    /// it does.
     fn raise_lambda(&mut self) -> Result<bool> {
         let (Some(choice), Some(noise)) = (&mut self.choice, &self.noise) else {
             return Ok(false);
@@ -182,32 +192,32 @@ impl Solver {
         let Status::Stopped(reason) = self.solve.status() else {
             return Ok(false);
         };
-        let is_noise = matches!(
-            choice.reason,
-            LambdaReason::Noise | LambdaReason::Prediction
-        );
-        if choice.residual_ratio.is_some() || !is_noise {
+        if choice.residual_ratio.is_some() {
             return Ok(false);
         }
         let surface = self.solve.surface()?;
         let (input, domain) = (self.solve.input(), self.solve.domain());
-        let residual = Residual::of(input, domain, surface.heightfield(), noise.sigma)?;
-        let is_solved = matches!(reason, StopReason::Gap | StopReason::Rounding);
-        let factor = residual.and_then(|residual| residual.lambda_factor(noise, choice.raises));
-        let Some(factor) = factor.filter(|_| is_solved) else {
-            let shown = noise.sigma / self.vertex_sigma.unwrap_or(noise.sigma);
-            choice.residual_ratio = residual.map(|residual| residual.rms * shown);
-            choice.residual_exceeds_noise =
-                residual.is_some_and(|residual| residual.exceeds_noise(noise));
-            return Ok(false);
-        };
-        choice.raises += 1;
-        choice.solves += 1;
-        choice.iterations += surface.report().iterations;
+        let residual = |unit: f64| Residual::of(input, domain, surface.heightfield(), unit);
         let options = *self.solve.options();
-        let lambda = factor * options.lambda_or_default().value();
-        self.solve.begin_again(&options.lambda(lambda))?;
-        Ok(true)
+        let lambda = options.lambda_or_default().value();
+        let is_solved = matches!(reason, StopReason::Gap | StopReason::Rounding);
+        if let Some(refinement) = self.refinement.as_mut().filter(|_| is_solved)
+            && let Next::Solve(next) = refinement.next(lambda, residual(refinement.unit())?)
+        {
+            choice.raises += usize::from(next > lambda);
+            choice.solves += 1;
+            choice.iterations += surface.report().iterations;
+            self.solve.begin_again(&options.lambda(next))?;
+            return Ok(true);
+        }
+        self.refinement = None;
+        if noise.vertex_sigma > 0.0 && choice.reason != LambdaReason::NoNoise {
+            let ratio = residual(noise.vertex_sigma)?.rms;
+            choice.residual_ratio = Some(ratio);
+            choice.residual_exceeds_noise =
+                choice.tolerance.is_none() && !noise.is_anisotropic && ratio > MAX_NOISE_DISTANCE;
+        }
+        Ok(false)
     }
 
     /// Ends the search for λ and starts the solve with the options that it has chosen.

@@ -6,4 +6,5 @@ pub(crate) mod heightfield;
 mod line_offsets;
 pub(crate) mod normalization;
 pub(crate) mod occlusions;
+pub(crate) mod pixel_noise;
 pub(crate) mod resample;

@@ -81,7 +81,7 @@ test('a solver option that is given its default changes nothing', () => {
   alike(direct.fit(scan, { bridge: 4 }), plain, 'bridge');
   alike(direct.fit(scan, defaults), plain, 'all at once');
   alike(direct.fit(design, { tieBreak: 0.01, lambda: 'auto', energy: 'nuclear' }), direct.fit(design), 'tieBreak');
-  const named = [...Object.keys(defaults), 'tieBreak', 'occlusionThreshold'];
+  const named = [...Object.keys(defaults), 'tieBreak', 'occlusionThreshold', 'tolerance'];
   assert.deepEqual(Object.keys(OPTIONS.solver).sort(), named.sort(), 'an option is missing from this test');
 });
 

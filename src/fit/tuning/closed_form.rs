@@ -1,6 +1,7 @@
 //! λ and the penalty that follow from the noise of the heights, without a solve.
 
 use super::noise::Noise;
+use super::refinement::Aim;
 use crate::error::Result;
 use crate::fit::input::Input;
 use crate::fit::options::{Energy, HuberOptions, Lambda, Options};
@@ -22,6 +23,19 @@ const MAX_NOISE_LAMBDA: f64 = 1e9;
 /// λ of an input that is free of noise.
 const WITHOUT_NOISE: Lambda = Lambda::Big;
 
+/// Minimum product `σ √A` of noise, as a share of the height range; what is less, smooth bends of a shape have, too.
+const MIN_NOISE_SHARE: f64 = 3e-4;
+
+/// Maximum standard deviation of smooth noise, as a share of the height range. What looks like larger noise may be the
+/// shape of a terrain, which is alike at every scale.
+const MAX_SMOOTH_NOISE_SHARE: f64 = 0.035;
+
+/// Number of coarsenings until noise is independent from vertex to vertex from which on it is smooth.
+const MIN_SMOOTH_MERGES: usize = 2;
+
+/// Root mean square distance that a surface may have from heights without noise, as a share of their range.
+const DEFAULT_TOLERANCE: f64 = 0.002;
+
 /// Ratio of `λ σ h` to [`WHITE_LAMBDA_NOISE`] above which there are no crease passes, since these would make creases
 /// of noise.
 const LOUD_NOISE_RATIO: f64 = 2.0;
@@ -31,13 +45,20 @@ const LOUD_NOISE_RATIO: f64 = 2.0;
 pub(crate) struct Known {
     pub scale: f64,
     pub noise: Option<Noise>,
+    /// Difference between the highest and the lowest height.
+    pub range: f64,
 }
 
 impl Known {
     pub(crate) fn of(input: &Input, options: &Options) -> Result<Self> {
         let wanted = options.lambda_or_default() == Lambda::Auto
             || options.energy_or_default() == Energy::Huber;
+        let heights = input.field.heights().iter().filter(|z| z.is_finite());
+        let [low, high] = heights.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], z| {
+            [low.min(*z), high.max(*z)]
+        });
         Ok(Known {
+            range: (high - low).max(0.0),
             scale: options.normalization.factor(&input.field),
             noise: if wanted {
                 Noise::from_input(input)?
@@ -48,13 +69,16 @@ impl Known {
     }
 }
 
-/// Initial options, with the initial λ and the reason for it: a λ from the size of the noise, [`WITHOUT_NOISE`] for
-/// an input without noise, or [`Lambda::Medium`] where the noise cannot be measured.
+/// Initial options with the initial λ, the reason for it, and what coarse solves aim at: a λ from the size of the noise,
+/// [`WITHOUT_NOISE`] for an input without noise, or [`Lambda::Medium`] where the noise cannot be measured.
 pub(crate) fn initial_options(
     options: &Options,
-    noise: Option<Noise>,
-    scale: f64,
-) -> (Options, LambdaChoice) {
+    Known {
+        noise,
+        scale,
+        range,
+    }: Known,
+) -> (Options, LambdaChoice, Option<Aim>) {
     let mut choice = LambdaChoice {
         reason: LambdaReason::Unknown,
         sigma: noise.map(|noise| noise.sigma),
@@ -62,21 +86,25 @@ pub(crate) fn initial_options(
         correlation_length: noise.map_or(0.0, |noise| noise.correlation_length),
         ambiguous: noise.is_some_and(|noise| noise.ambiguous),
         merged: noise.map_or(0, |noise| noise.merged),
+        tolerance: None,
         residual_ratio: None,
         residual_exceeds_noise: false,
         raises: 0,
         solves: 0,
         iterations: 0,
     };
-    let lambda = match noise.map(|noise| {
+    let mut aim = noise.map(Aim::Noise);
+    let lambda = noise.map(|noise| {
         let product = match noise.is_correlated() {
             true => CORRELATED_LAMBDA_NOISE,
             false => WHITE_LAMBDA_NOISE,
         };
         product / (noise.product * scale * scale)
-    }) {
+    });
+    let is_noise = noise.is_some_and(|noise| noise.white_equivalent >= MIN_NOISE_SHARE * range);
+    let lambda = match lambda {
         None => Lambda::Medium,
-        Some(lambda) if lambda <= MAX_NOISE_LAMBDA => {
+        Some(lambda) if lambda <= MAX_NOISE_LAMBDA && is_noise => {
             choice.reason = LambdaReason::Noise;
             Lambda::Value(lambda.max(1.0 / MAX_NOISE_LAMBDA))
         }
@@ -85,7 +113,28 @@ pub(crate) fn initial_options(
             WITHOUT_NOISE
         }
     };
-    (options.lambda(lambda), choice)
+    let is_shape = noise.is_some_and(|noise| {
+        noise.merged >= MIN_SMOOTH_MERGES && noise.sigma > MAX_SMOOTH_NOISE_SHARE * range
+    });
+    choice.ambiguous |= is_shape;
+    let tolerance = match options.tolerance {
+        Some(tolerance) => {
+            choice.reason = LambdaReason::Tolerance;
+            Some(tolerance.distance(range))
+        }
+        None if choice.reason == LambdaReason::NoNoise || is_shape => {
+            Some(DEFAULT_TOLERANCE * range)
+        }
+        None => None,
+    };
+    if let Some(distance) = tolerance {
+        choice.tolerance = tolerance.filter(|distance| *distance > 0.0);
+        let is_exact = options.tolerance.is_some();
+        aim = choice
+            .tolerance
+            .map(|_| Aim::Distance { distance, is_exact });
+    }
+    (options.lambda(lambda), choice, aim)
 }
 
 /// Options with the default Huber parameters filled in where none are given, kept from following noise where λ is
@@ -100,31 +149,30 @@ pub(crate) fn with_huber_defaults(options: &Options, noise: Option<Noise>, scale
 /// Penalty of [`Energy::Huber`] for a surface of unknown kind. Under correlated noise it is the nuclear norm, as any other
 /// penalty would follow the noise.
 pub(super) fn default_penalty(noise: Option<Noise>) -> HuberOptions {
-    match noise.is_some_and(|noise| noise.merged > 0) {
+    match noise.is_some_and(|noise| noise.is_correlated()) {
         true => HuberOptions::NUCLEAR,
         false => HuberOptions::ANY,
     }
 }
 
-/// Options where no penalty is searched: those of [`initial_options`] with [`default_penalty`], and without crease passes
-/// under correlated noise.
-pub(crate) fn without_search(first: &Options, noise: Option<Noise>) -> Options {
-    let penalty = default_penalty(noise);
+/// Options with the penalty that was not compared with others: where that is the nuclear norm, without crease passes, which
+/// would follow the noise.
+pub(super) fn with_default_penalty(options: &Options, penalty: HuberOptions) -> Options {
     let loudness = if penalty == HuberOptions::NUCLEAR {
         f64::INFINITY
     } else {
         1.0
     };
-    at_loudness(first, penalty, loudness)
+    at_loudness(options, penalty, loudness)
 }
 
-/// Options with the parameters of `huber` where none are given, restrained so that the surface does not follow
+/// Options with the parameters of `bending` where none are given, restrained so that the surface does not follow
 /// noise. `loudness` is the ratio of λ to the λ that suits the noise: flatness grows in proportion to it, up to 1
 /// (the nuclear norm), and above [`LOUD_NOISE_RATIO`] there are no crease passes.
-fn at_loudness(options: &Options, huber: HuberOptions, loudness: f64) -> Options {
+fn at_loudness(options: &Options, bending: HuberOptions, loudness: f64) -> Options {
     let quiet = HuberOptions {
-        flatness: (HuberOptions::SMOOTH.flatness * loudness).clamp(huber.flatness, 1.0),
-        ..huber
+        flatness: (HuberOptions::SMOOTH.flatness * loudness).clamp(bending.flatness, 1.0),
+        ..bending
     };
     let mut out = quiet.within(options).of(options);
     if loudness > LOUD_NOISE_RATIO {

@@ -130,6 +130,11 @@ impl CorrelatedNoise {
             ambiguous,
         })
     }
+
+    /// Standard deviation of white noise that has the same spectral density as this noise over large areas.
+    pub(super) fn white_equivalent(&self) -> f64 {
+        self.sigma * self.shared_vertices.sqrt()
+    }
 }
 
 /// Returns whether the curvatures of the smallest scale are those of anisotropic noise.

@@ -32,13 +32,6 @@ const MIN_DISC_CONFIDENCE: f64 = 0.5;
 /// for white noise. Found by simulation; both discs have the same ratio within 1 %.
 const SMALLER_CURVATURE_RATIO: f64 = 0.411;
 
-/// Minimum height of an impulse above or below all of its neighbours, in standard deviations of the noise as rings of six
-/// neighbours show it: correlated noise, which shows there by less than its size, has hardly any such height.
-const MIN_IMPULSE_NOISE_RATIO: f64 = 6.0;
-
-/// Minimum number of neighbours with heights that an impulse is told by.
-const MIN_IMPULSE_NEIGHBOURS: usize = 3;
-
 /// Disc in which curvatures are measured: the offsets of its vertices from its centre, and the coefficients that give
 /// the Hessian of the quadratic fitted to their heights.
 #[derive(Debug, Clone)]
@@ -150,18 +143,12 @@ impl CurvatureScale {
     }
 }
 
-/// Measures the principal curvatures of an input's heights, from small discs to large ones, without impulses, which `white`,
-/// the standard deviation of white noise from rings of six neighbours, tells. Cost: linear in the number of vertices.
+/// Measures the principal curvatures of an input's heights, from small discs to large ones. Cost: linear in the number of vertices.
 ///
 /// # Errors
 /// [`Error::OutOfMemory`](crate::Error::OutOfMemory).
-pub(super) fn curvature_scales(
-    input: &Input,
-    discs: &[Disc],
-    white: f64,
-) -> Result<Vec<CurvatureScale>> {
+pub(super) fn curvature_scales(input: &Input, discs: &[Disc]) -> Result<Vec<CurvatureScale>> {
     let mut means = MeanHeights::from_input(input)?;
-    means.replace_impulses(MIN_IMPULSE_NOISE_RATIO * white);
     let mut scales = Vec::new();
     for lattice in 0..MAX_LATTICES {
         let mut measured: Vec<_> = discs.iter().map(|disc| (disc, None)).collect();
@@ -227,38 +214,6 @@ impl MeanHeights {
             confidence,
             min_confidence: MIN_DISC_CONFIDENCE * largest,
         })
-    }
-
-    /// Replaces each height that is more than `least` above all of its neighbours, or below all of them, by the mean of
-    /// these.
-    fn replace_impulses(&mut self, least: f64) {
-        let rows = self.heights.chunks(self.lattice.cols().max(1));
-        let mut impulses: Vec<_> = rows.map(|_| Vec::new()).collect();
-        fork::for_each(&mut impulses, |row, impulses| {
-            for col in 0..self.lattice.cols() {
-                impulses.extend(self.mean_around_impulse(row, col, least));
-            }
-        });
-        for (vertex, mean) in impulses.into_iter().flatten() {
-            self.heights[vertex] = mean;
-        }
-    }
-
-    /// Returns the index of a vertex and the mean of its neighbours if its height is more than `least` above all of
-    /// these, or below all of them.
-    fn mean_around_impulse(&self, row: usize, col: usize, least: f64) -> Option<(usize, f64)> {
-        let vertex = self.lattice.index(row, col);
-        let height = self.heights[vertex];
-        let around = self.lattice.neighbours(row, col).into_iter().flatten();
-        let around = around.map(|(row, col)| self.heights[self.lattice.index(row, col)]);
-        let (mut sum, mut count) = (0.0, 0);
-        let [mut low, mut high] = [f64::INFINITY, f64::NEG_INFINITY];
-        for other in around.filter(|other| other.is_finite()) {
-            (sum, count) = (sum + other, count + 1);
-            (low, high) = (low.min(other), high.max(other));
-        }
-        let stands_out = height - high > least || low - height > least;
-        (count >= MIN_IMPULSE_NEIGHBOURS && stands_out).then(|| (vertex, sum / count as f64))
     }
 
     /// Averages heights and confidence over four vertices each, onto the lattice of twice the spacing. White noise

@@ -6,6 +6,6 @@ mod curvature_scales;
 pub(crate) mod held_out;
 pub(crate) mod merge;
 pub(crate) mod noise;
-pub(crate) mod pixel_noise;
+pub(crate) mod refinement;
 pub(crate) mod residual;
 pub(crate) mod search;

@@ -4,6 +4,7 @@ use super::correlated_noise::CorrelatedNoise;
 use super::curvature_scales::{DISC_RADII, Disc, curvature_scales};
 use crate::error::Result;
 use crate::fit::input::Input;
+use crate::heights::pixel_noise::quantisation_step;
 use crate::math::fork;
 use crate::math::statistics::{MAD_TO_SIGMA, median};
 
@@ -14,44 +15,32 @@ const MIN_NOISE_SAMPLES: usize = 50;
 /// correlated. Bends of the shape beside white noise raise it to 1.8.
 const MIN_CORRELATED_RATIO: f64 = 2.5;
 
-/// Minimum correlation length of noise that counts as correlated, in spacings, unless the ratio is larger than
-/// [`MIN_SHORT_CORRELATED_RATIO`]. White noise of square pixels has 0.5 to 0.6 after resampling to the lattice, and its
-/// held-out heights are not predicted by their neighbours.
-const MIN_CORRELATION_LENGTH: f64 = 0.8;
-
-/// Minimum ratio of the noise estimated from large discs to that from rings of six neighbours at which noise counts as
-/// correlated whatever its length. White noise of square pixels has about 3.
-const MIN_SHORT_CORRELATED_RATIO: f64 = 5.0;
-
-/// Largest share of different heights among all at which steps of quantisation are looked for.
-const MAX_DISTINCT_HEIGHTS: f64 = 0.25;
-
-/// Minimum number of different heights at which their common step is one of quantisation. With fewer the steps are the
-/// shape: terraces, or a block on a table.
-const MIN_QUANTISED_HEIGHTS: usize = 6;
-
-/// Maximum relative deviation of a difference between heights from a multiple of the quantisation step.
-const EQUAL_HEIGHT_TOLERANCE: f64 = 1e-3;
+/// Share of the standard deviation of independent pixels that is left between them, where heights are bilinear: the mean of
+/// the squared weights is 4/9.
+const BILINEAR_SIGMA: f64 = 2.0 / 3.0;
 
 /// Noise of an input's heights: size, correlation and quantisation.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Noise {
-    /// Standard deviation of the noise, in the user's unit of height.
+    /// Standard deviation of the noise of the input, be it a lattice or an image, in the user's unit of height.
     pub sigma: f64,
+    /// Standard deviation of the noise at the vertices of the lattice.
+    pub vertex_sigma: f64,
+    /// Standard deviation of white noise on the lattice that is alike over large areas: `σ √A`, where `A` vertices share one
+    /// independent value of the noise.
+    pub white_equivalent: f64,
     /// Correlation length, in the user's unit of length: the standard deviation of the Gaussian blur that makes such
-    /// noise of white noise; 0 for noise that is independent from vertex to vertex.
+    /// noise of white noise; 0 for noise that is independent from one pixel or vertex to the next.
     pub correlation_length: f64,
     /// Number of coarsenings, each of four vertices to their mean, until the noise is independent from vertex to
     /// vertex; 0 for white noise.
     pub merged: usize,
-    /// Product `σ h √A` times the largest confidence, in the user's unit squared, where `h` is the spacing and `A`
-    /// vertices share one independent value of the noise. In normalised coordinates the best λ is about `8 / product`.
+    /// `σ √A h` times the largest confidence, in the user's unit squared, where `h` is the spacing. In normalised coordinates
+    /// the best λ is about `8 / product`.
     pub product: f64,
     /// Quantisation step of the heights, in the user's units; `None` if they are not quantised, or their noise
     /// exceeds the rounding error of such a step, `step/√12`.
     pub step: Option<f64>,
-    /// Whether the heights are quantised, also where their noise exceeds the rounding error.
-    pub is_quantised: bool,
     /// Whether the noise is much rougher across rows than along them or the other way round, as that of scan lines is. Its
     /// σ is then found up to three times too small.
     pub is_anisotropic: bool,
@@ -66,39 +55,54 @@ impl Noise {
     /// # Errors
     /// [`Error::OutOfMemory`](crate::Error::OutOfMemory).
     pub(crate) fn from_input(input: &Input) -> Result<Option<Self>> {
-        let Some(white) = ring_noise(input) else {
+        let Some(rings) = ring_noise(input) else {
             return Ok(None);
         };
-        let trust = largest_trust(input);
         let spacing = input.field.lattice().spacing();
-        let any_step = step(input);
-        let step = any_step.filter(|step| step / 12f64.sqrt() > white);
+        let step = match input.pixel_noise {
+            Some(pixels) => pixels.step,
+            None => quantisation_step(input.field.heights()),
+        };
+        // Independent noise of pixels is smaller between them, and shared by neighbouring vertices.
+        let [sigma, vertex_sigma, white] = match input.pixel_noise {
+            None => [rings; 3],
+            Some(pixels) => {
+                let pixels_per_vertex = 0.75f64.powf(0.25) * spacing / pixels.pixel_size;
+                let white = (1.0 / pixels_per_vertex).max(BILINEAR_SIGMA);
+                [1.0, BILINEAR_SIGMA, white].map(|share| share * pixels.sigma)
+            }
+        };
+        let rounding = step.map_or(0.0, |step| step / 12f64.sqrt());
+        let is_rounding = rounding > sigma;
+        let [sigma, vertex_sigma, white] =
+            [sigma, vertex_sigma, white].map(|sigma: f64| sigma.max(rounding));
         let mut noise = Noise {
-            sigma: step.map_or(white, |step| step / 12f64.sqrt()),
+            sigma,
+            vertex_sigma,
+            white_equivalent: white,
             correlation_length: 0.0,
             merged: 0,
             product: 0.0,
-            step,
-            is_quantised: any_step.is_some(),
+            step: step.filter(|_| is_rounding),
             is_anisotropic: false,
             ambiguous: false,
         };
-        let mut shared = 1.0;
-        if let Some(step) = step {
-            // Neighbours that are rounded to one height have correlated errors. The square root was found by
-            // experiment.
-            let width = plateau(input, step);
-            shared = width.sqrt();
-            noise.merged = width.log2().round() as usize;
-        } else if let Some(found) = correlated_noise(input, white)? {
-            shared = found.shared_vertices.sqrt();
-            noise.sigma = found.sigma;
-            noise.correlation_length = found.length * spacing;
-            noise.merged = shared.log2().round() as usize;
-            noise.is_anisotropic = found.is_anisotropic;
-            noise.ambiguous = found.ambiguous;
+        if let Some(found) = correlated_noise(input)? {
+            let root = found.white_equivalent();
+            if found.is_anisotropic || root >= MIN_CORRELATED_RATIO * white {
+                noise.sigma = found.sigma;
+                noise.vertex_sigma = found.sigma;
+                noise.white_equivalent = root;
+                noise.correlation_length = found.length * spacing;
+                noise.is_anisotropic = found.is_anisotropic;
+                noise.ambiguous = found.ambiguous;
+            }
         }
-        noise.product = trust * noise.sigma * spacing * shared;
+        if noise.vertex_sigma > 0.0 {
+            let shared_root = noise.white_equivalent / noise.vertex_sigma;
+            noise.merged = shared_root.log2().round().max(0.0) as usize;
+        }
+        noise.product = largest_trust(input) * noise.white_equivalent * spacing;
         Ok(Some(noise))
     }
 
@@ -109,21 +113,10 @@ impl Noise {
 
 /// Estimates correlated noise of an input; `None` where it is isotropic and hardly larger than `white`, the noise measured
 /// from rings of six neighbours.
-fn correlated_noise(input: &Input, white: f64) -> Result<Option<CorrelatedNoise>> {
+fn correlated_noise(input: &Input) -> Result<Option<CorrelatedNoise>> {
     let discs: Vec<Disc> = DISC_RADII.into_iter().filter_map(Disc::new).collect();
-    let scales = curvature_scales(input, &discs, white)?;
-    let found = CorrelatedNoise::from_scales(&scales, &discs);
-    let is_correlated = |noise: &CorrelatedNoise| {
-        let root = noise.sigma * noise.shared_vertices.sqrt();
-        let is_long = noise.length >= MIN_CORRELATION_LENGTH;
-        let min_ratio = if is_long {
-            MIN_CORRELATED_RATIO
-        } else {
-            MIN_SHORT_CORRELATED_RATIO
-        };
-        noise.is_anisotropic || root >= min_ratio * white
-    };
-    Ok(found.filter(is_correlated))
+    let scales = curvature_scales(input, &discs)?;
+    Ok(CorrelatedNoise::from_scales(&scales, &discs))
 }
 
 /// Number of rows whose rings of six neighbours are measured by one thread at a time.
@@ -132,7 +125,7 @@ const RING_NOISE_PIECE_ROWS: usize = 32;
 /// Estimates the standard deviation of white noise from rings of six neighbours: the sum of a ring's heights with
 /// alternating signs is 0 for every quadratic. The median over all rings discards creases. `None` if there are fewer
 /// than [`MIN_NOISE_SAMPLES`] rings.
-pub(super) fn ring_noise(input: &Input) -> Option<f64> {
+fn ring_noise(input: &Input) -> Option<f64> {
     let lattice = input.field.lattice();
     let least = MIN_SAMPLE_CONFIDENCE * largest_trust(input);
     let pieces = lattice.rows().div_ceil(RING_NOISE_PIECE_ROWS);
@@ -184,48 +177,6 @@ pub(super) fn sample(input: &Input, vertex: usize, least: f64) -> f64 {
         return f64::NAN;
     }
     input.field.heights()[vertex]
-}
-
-/// Finds the quantisation step of an input's heights: the smallest difference between two of them, if all other
-/// differences are multiples of it. `None` if too few heights are equal or there is no such step.
-fn step(input: &Input) -> Option<f64> {
-    let least = MIN_SAMPLE_CONFIDENCE * largest_trust(input);
-    let samples = (0..input.field.lattice().len()).map(|v| sample(input, v, least));
-    let mut heights: Vec<f64> = samples.filter(|z| z.is_finite()).collect();
-    let count = heights.len();
-    heights.sort_unstable_by(f64::total_cmp);
-    let size = heights.first()?.abs().max(heights.last()?.abs());
-    let rounding = 16.0 * f64::EPSILON * size;
-    heights.dedup_by(|a, b| *a - *b <= rounding);
-    if heights.len() < MIN_QUANTISED_HEIGHTS
-        || heights.len() as f64 > MAX_DISTINCT_HEIGHTS * count as f64
-    {
-        return None;
-    }
-    let gaps = heights.windows(2).map(|pair| pair[1] - pair[0]);
-    let step = gaps.clone().fold(f64::INFINITY, f64::min);
-    let multiple =
-        |gap: f64| (gap / step - (gap / step).round()).abs() <= EQUAL_HEIGHT_TOLERANCE * gap / step;
-    gaps.into_iter().all(multiple).then_some(step)
-}
-
-/// Returns the mean number of consecutive vertices along a row whose heights are rounded to one multiple of `step`; at
-/// least 1.
-fn plateau(input: &Input, step: f64) -> f64 {
-    let lattice = input.field.lattice();
-    let least = MIN_SAMPLE_CONFIDENCE * largest_trust(input);
-    let (mut sum, mut count) = (0.0, 0.0);
-    for row in 0..lattice.rows() {
-        for col in 1..lattice.cols() {
-            let [a, b] = [col - 1, col].map(|col| sample(input, lattice.index(row, col), least));
-            let rise = (a - b).abs() / step;
-            if rise.is_finite() {
-                sum += rise.min(1.0);
-                count += 1.0;
-            }
-        }
-    }
-    (count / f64::max(sum, 1.0)).max(1.0)
 }
 
 #[cfg(test)]

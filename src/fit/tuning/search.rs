@@ -1,16 +1,18 @@
-//! Penalty of [`Energy::Huber`] by cross-validation: the one under which a solve predicts held-out heights best.
+//! Choice of λ and of the penalty by solves on coarse lattices, before the one solve at full size.
 //!
-//! λ follows from the noise ([`closed_form`](super::closed_form)). Which bends are cheap and which of them are creases
-//! does not, so a few penalties are compared at that λ, each by one solve on a coarser lattice.
+//! The distance of a coarse solve's surface to the heights tells whether λ suits: it is the size of the noise, or the
+//! tolerance that was asked for. Which bends are cheap and which of them are creases follows from cross-validation, where
+//! noise is independent from vertex to vertex.
 
 use std::sync::Arc;
 
 use web_time::Instant;
 
-use super::closed_form::{Known, default_penalty, with_huber_defaults};
+use super::closed_form::{Known, default_penalty, with_default_penalty, with_huber_defaults};
 use super::held_out::{HeldOut, advantage};
 use super::merge::merge;
-use super::noise::Noise;
+use super::refinement::{Aim, Next, Refinement};
+use super::residual::Residual;
 use crate::error::Result;
 use crate::fit::component_solver::{ComponentSolver, PreparedInput, StartMode, Status};
 use crate::fit::input::Input;
@@ -26,92 +28,110 @@ const OTHER_PENALTIES: [HuberOptions; 3] = [
     HuberOptions::new(0.3, 0.3, 0.3),
 ];
 
-/// Minimum number of standard errors by which a penalty must predict held-out heights better to replace the best one.
+/// Minimum number of standard errors by which a candidate must predict held-out heights better to replace the best one.
 const MIN_ADVANTAGE: f64 = 1.0;
 
-/// Number of times that the spacing is doubled before penalties are compared, where enough vertices are left: a solve
-/// then costs a sixteenth.
-const SEARCH_MERGES: usize = 2;
+/// Minimum number of interior vertices of a coarse lattice.
+const MIN_COARSE_VERTICES: usize = 1500;
 
-/// Minimum number of interior vertices of the first lattice on which noise is white, if that is not the input's.
+/// Minimum number of interior vertices of the first lattice on which noise is independent, where that is a coarser one.
 const MIN_MERGED_VERTICES: usize = 400;
 
-/// Minimum number of interior vertices of a lattice of twice the spacing, where the finer one would do as well.
-const MIN_SPARE_VERTICES: usize = 1500;
+/// Maximum number of solves by which λ is refined on the coarse lattice.
+const MAX_COARSE_SOLVES: usize = 5;
 
-/// Relative duality gap of the solves that are compared: their surfaces differ by more than it leaves open.
-const SEARCH_GAP: f64 = 0.1;
+/// Relative duality gap of coarse solves: their surfaces differ by more than it leaves open.
+const SEARCH_GAP: f64 = 0.05;
 
-/// Maximum number of iterations of a solve that is compared.
+/// Maximum number of iterations of a coarse solve.
 const MAX_SEARCH_ITERATIONS: usize = 500;
 
-/// Minimum relative reduction of the mean squared prediction error for a penalty of smaller flatness under correlated
-/// noise. A surface that bends more easily follows such noise, and so predicts held-out heights better without being
-/// nearer to the truth.
-const CORRELATED_FLATNESS_GAIN: f64 = 0.15;
-
-/// Minimum relative reduction of the mean squared prediction error at which a penalty of larger crease radius is chosen
-/// under correlated noise.
-const CORRELATED_CREASE_GAIN: f64 = 0.045;
-
-/// Minimum relative reduction of the mean squared prediction error at which a penalty of larger crease radius is chosen
-/// where noise is correlated on the input's lattice but white on the coarse lattice of the search: on the input's
-/// lattice creases would follow the noise.
-const FINER_CREASE_GAIN: f64 = 0.021;
-
-/// Cross-validation in progress.
+/// Choice of λ and of the penalty in progress.
 #[derive(Debug, Clone)]
 pub(crate) struct Search {
-    held_out: HeldOut,
     known: Known,
-    /// Whether noise is correlated on the lattice of the search, so that held-out noise can be predicted.
-    is_correlated: bool,
-    /// Options of the caller, with λ.
+    /// Options of the caller, with the λ that is best so far.
     first: Options,
-    penalties: Vec<HuberOptions>,
-    /// Index of the penalty that is tried.
-    now: usize,
-    /// Index of the best penalty so far, and its squared prediction errors.
-    best: usize,
-    misses: Vec<f64>,
+    stage: Stage,
     solve: Box<ComponentSolver>,
+    /// Penalty that is best so far.
+    penalty: HuberOptions,
+    /// Number of times that the coarse lattice's spacing has to be doubled until noise is independent from vertex to vertex, so
+    /// that held-out heights are not predicted by it.
+    merges: usize,
+    /// Whether penalties were compared.
+    is_compared: bool,
+    solves: usize,
+    raises: usize,
     iterations: usize,
 }
 
+/// Stage of a search.
+#[derive(Debug, Clone)]
+enum Stage {
+    /// λ is refined by the surfaces of a coarse input.
+    Fidelity {
+        input: Input,
+        refinement: Refinement,
+    },
+    /// Candidates are compared by cross-validation.
+    Penalty(Comparison),
+}
+
+/// Cross-validation in progress.
+#[derive(Debug, Clone)]
+struct Comparison {
+    held_out: HeldOut,
+    penalties: Vec<HuberOptions>,
+    now: usize,
+    best: usize,
+    /// Squared prediction errors of the best candidate.
+    misses: Vec<f64>,
+}
+
 impl Search {
-    /// Starts a search at the λ of `first`; `None` where no penalty is to be chosen, too few heights can be held out,
-    /// or noise is correlated on every lattice that is large enough. Quantised heights are searched all the same.
+    /// Starts a search at the λ of `first`; `None` where neither λ nor a penalty is to be chosen by solves.
     ///
     /// # Errors
     /// Out of memory, and errors of the solver.
-    pub(crate) fn new(input: &Input, first: &Options, known: Known) -> Result<Option<Self>> {
-        let Some(noise) = known.noise else {
-            return Ok(None);
-        };
-        if first.energy_or_default() != Energy::Huber {
+    pub(crate) fn new(
+        input: &Input,
+        first: &Options,
+        known: Known,
+        aim: Aim,
+    ) -> Result<Option<Self>> {
+        let (coarse, merges) = coarse_input(input)?;
+        if interior_len(&coarse) == 0 {
             return Ok(None);
         }
-        let (input, is_correlated) = searchable(input, noise)?;
-        if is_correlated && noise.step.is_none() {
-            return Ok(None);
-        }
-        let Some(held_out) = HeldOut::from_input(&input)? else {
-            return Ok(None);
+        // Noise is no guide where a distance is aimed at.
+        let known = Known {
+            noise: known.noise.filter(|_| matches!(aim, Aim::Noise(_))),
+            ..known
         };
-        let mut penalties = vec![default_penalty(known.noise)];
-        penalties.extend(OTHER_PENALTIES);
-        let options = trial_options(first, penalties[0]);
-        let solve = trial(&held_out, &options, known, None)?;
+        let spacings = coarse.field.lattice().spacing() / input.field.lattice().spacing();
+        let spacing = coarse.field.lattice().spacing();
+        let refinement = Refinement::new(aim, spacing, spacings, MAX_COARSE_SOLVES);
+        let penalty = match aim {
+            Aim::Noise(_) => default_penalty(known.noise),
+            Aim::Distance { .. } => HuberOptions::SMOOTH,
+        };
+        let solve = trial(&coarse, &trial_options(first, penalty), known, None)?;
         Ok(Some(Search {
-            held_out,
             known,
-            is_correlated,
             first: *first,
-            penalties,
-            now: 0,
-            best: 0,
-            misses: Vec::new(),
+            stage: Stage::Fidelity {
+                input: coarse,
+                refinement,
+            },
             solve: Box::new(solve),
+            penalty,
+            merges: known
+                .noise
+                .map_or(0, |noise| noise.merged.saturating_sub(merges)),
+            is_compared: false,
+            solves: 0,
+            raises: 0,
             iterations: 0,
         }))
     }
@@ -127,37 +147,88 @@ impl Search {
             if status == Status::Running {
                 continue;
             }
-            let surface = self.solve.surface()?;
-            self.iterations += surface.report().iterations;
-            let misses = self.held_out.misses(surface.heightfield());
-            if self.now == 0 || self.is_better(&misses) {
-                (self.best, self.misses) = (self.now, misses);
-            }
-            self.now += 1;
-            let Some(penalty) = self.penalties.get(self.now) else {
+            if !self.take_solve()? {
                 return Ok(true);
-            };
-            let options = trial_options(&self.first, *penalty);
-            let warm_start = self.solve.warm_start(self.held_out.input.field.lattice());
-            *self.solve = trial(&self.held_out, &options, self.known, warm_start)?;
+            }
         }
         Ok(false)
     }
 
-    /// Whether the penalty that was tried replaces the best one so far; `misses` are its squared prediction errors.
-    fn is_better(&self, misses: &[f64]) -> bool {
-        let [new, old] = [self.now, self.best].map(|index| self.penalties[index]);
-        let sharp = old.crease_radius.max(HuberOptions::SMOOTH.crease_radius);
-        let was_correlated = self.known.noise.is_some_and(|noise| noise.merged > 0);
-        let min_gain = match (self.is_correlated, new.crease_radius > sharp) {
-            (true, _) if new.flatness < old.flatness => CORRELATED_FLATNESS_GAIN,
-            (true, true) => CORRELATED_CREASE_GAIN,
-            (false, true) if was_correlated => FINER_CREASE_GAIN,
-            _ => 0.0,
+    /// Uses the surface of a finished coarse solve, and starts the next one; returns whether there is one.
+    fn take_solve(&mut self) -> Result<bool> {
+        let surface = self.solve.surface()?;
+        self.iterations += surface.report().iterations;
+        self.solves += 1;
+        match &mut self.stage {
+            Stage::Fidelity { input, refinement } => {
+                let lambda = self.first.lambda_or_default().value();
+                let (domain, field) = (self.solve.domain(), surface.heightfield());
+                let residual = Residual::of(input, domain, field, refinement.unit())?;
+                let next = refinement.next(lambda, residual);
+                match next {
+                    Next::Solve(next) => {
+                        let warm_start = self.solve.warm_start(input.field.lattice());
+                        self.raises += usize::from(next > lambda);
+                        self.first = self.first.lambda(next);
+                        let options = trial_options(&self.first, self.penalty);
+                        *self.solve = trial(input, &options, self.known, warm_start)?;
+                        Ok(true)
+                    }
+                    Next::Keep(next) => {
+                        self.raises -= usize::from(next < lambda && self.raises > 0);
+                        self.first = self.first.lambda(next);
+                        let coarse = input.clone();
+                        self.start_comparison(coarse)
+                    }
+                }
+            }
+            Stage::Penalty(comparison) => {
+                comparison.take(comparison.held_out.misses(surface.heightfield()));
+                let Some(penalty) = comparison.penalties.get(comparison.now).copied() else {
+                    self.penalty = comparison.penalties[comparison.best];
+                    return Ok(false);
+                };
+                let warm_start = self
+                    .solve
+                    .warm_start(comparison.held_out.input.field.lattice());
+                let options = trial_options(&self.first, penalty);
+                *self.solve = trial(&comparison.held_out.input, &options, self.known, warm_start)?;
+                Ok(true)
+            }
+        }
+    }
+
+    /// Starts the comparison of penalties on the first lattice, from the coarse one on, whose noise is independent; returns
+    /// whether there is one with enough vertices.
+    fn start_comparison(&mut self, mut coarse: Input) -> Result<bool> {
+        if self.known.noise.is_none() || self.first.energy_or_default() != Energy::Huber {
+            return Ok(false);
+        }
+        for _ in 0..self.merges {
+            coarse = merge(&coarse)?;
+            if interior_len(&coarse) < MIN_MERGED_VERTICES {
+                return Ok(false);
+            }
+        }
+        let Some(held_out) = HeldOut::from_input(&coarse)? else {
+            return Ok(false);
         };
-        let sum = |misses: &[f64]| misses.iter().sum::<f64>();
-        sum(misses) <= (1.0 - min_gain) * sum(&self.misses)
-            && advantage(&self.misses, misses) > MIN_ADVANTAGE
+        let comparison = Comparison {
+            penalties: [self.penalty].into_iter().chain(OTHER_PENALTIES).collect(),
+            now: 0,
+            best: 0,
+            misses: Vec::new(),
+            held_out,
+        };
+        *self.solve = trial(
+            &comparison.held_out.input,
+            &trial_options(&self.first, self.penalty),
+            self.known,
+            None,
+        )?;
+        self.stage = Stage::Penalty(comparison);
+        self.is_compared = true;
+        Ok(true)
     }
 
     /// Number of ADMM iterations of all solves so far.
@@ -165,47 +236,54 @@ impl Search {
         self.iterations + self.solve.progress().iteration
     }
 
-    /// Options with the best penalty in all that was not given; writes the reason and the cost into `choice`.
+    /// Options with λ and the best penalty in all that was not given; writes the reason and the cost into `choice`.
     pub(crate) fn found(&self, choice: &mut LambdaChoice) -> Options {
-        choice.reason = LambdaReason::Prediction;
-        choice.solves = self.now;
-        choice.iterations = self.iterations;
-        self.penalties[self.best]
-            .within(&self.first)
-            .of(&self.first)
-    }
-}
-
-/// The input on the lattice of a search, and whether its noise is correlated there, too.
-fn searchable(input: &Input, noise: Noise) -> Result<(Input, bool)> {
-    // Rounding errors of quantised heights are correlated on every lattice.
-    let whitening = match noise.step {
-        Some(_) => 0,
-        None => noise.merged,
-    };
-    let mut searched = input.clone();
-    let mut merges = 0;
-    while merges < whitening.max(SEARCH_MERGES) {
-        let coarse = merge(&searched)?;
-        let size = coarse.domain().map_or(0, |domain| domain.interior_len());
-        let is_spare = merges >= whitening.max(1);
-        let least = if is_spare {
-            MIN_SPARE_VERTICES
-        } else {
-            MIN_MERGED_VERTICES
-        };
-        if size < least {
-            break;
+        if self.is_compared {
+            choice.reason = LambdaReason::Prediction;
         }
-        searched = coarse;
-        merges += 1;
+        choice.solves = self.solves;
+        choice.raises = self.raises;
+        choice.iterations = self.iterations;
+        match self.is_compared {
+            true => self.penalty.within(&self.first).of(&self.first),
+            false => with_default_penalty(&self.first, self.penalty),
+        }
     }
-    let is_white = noise.step.is_none() && merges >= noise.merged;
-    Ok((searched, !is_white && noise.merged > 0))
 }
 
-/// Options of the solves that are compared: the energy and normalisation that were asked for, a coarse duality gap, and
-/// the shape alone. Parameters of the penalty that the caller gave are left out, so that they change no other parameter.
+impl Comparison {
+    /// Compares a penalty's squared prediction errors with the best ones.
+    fn take(&mut self, misses: Vec<f64>) {
+        let sum = |misses: &[f64]| misses.iter().sum::<f64>();
+        let is_better = self.now == 0
+            || sum(&misses) <= sum(&self.misses)
+                && advantage(&self.misses, &misses) > MIN_ADVANTAGE;
+        if is_better {
+            (self.best, self.misses) = (self.now, misses);
+        }
+        self.now += 1;
+    }
+}
+
+fn interior_len(input: &Input) -> usize {
+    input.domain().map_or(0, |domain| domain.interior_len())
+}
+
+/// Averages an input to the coarsest lattice with [`MIN_COARSE_VERTICES`] interior vertices, or keeps it where it has fewer, and
+/// counts how often its spacing was doubled.
+fn coarse_input(input: &Input) -> Result<(Input, usize)> {
+    let (mut coarse, mut merges) = (input.clone(), 0);
+    loop {
+        let coarser = merge(&coarse)?;
+        if interior_len(&coarser) < MIN_COARSE_VERTICES {
+            return Ok((coarse, merges));
+        }
+        (coarse, merges) = (coarser, merges + 1);
+    }
+}
+
+/// Options of coarse solves: the energy and normalisation that were asked for, a coarse duality gap, and the shape alone.
+/// Parameters of the penalty that the caller gave are left out, so that they change no other parameter.
 fn trial_options(first: &Options, penalty: HuberOptions) -> Options {
     Options {
         energy: first.energy,
@@ -218,15 +296,15 @@ fn trial_options(first: &Options, penalty: HuberOptions) -> Options {
     .gap(SEARCH_GAP)
 }
 
-/// Starts a candidate's solve, of an input without the held-out heights.
+/// Starts a coarse solve.
 fn trial(
-    held_out: &HeldOut,
+    input: &Input,
     options: &Options,
-    Known { scale, noise }: Known,
+    Known { scale, noise, .. }: Known,
     warm_start: Option<Arc<WarmStart>>,
 ) -> Result<ComponentSolver> {
     let started = Instant::now();
-    let prepared = PreparedInput::new(held_out.input.clone())?;
+    let prepared = PreparedInput::new(input.clone())?;
     let options = with_huber_defaults(options, noise, scale);
     let start_mode = StartMode::Immediate;
     ComponentSolver::new(prepared, &options, scale, warm_start, start_mode, started)
@@ -264,7 +342,7 @@ mod tests {
         }
     }
 
-    /// Each penalty is tried once, at the λ that follows from the noise.
+    /// λ is checked once, then each penalty is tried once.
     #[test]
     fn every_penalty_is_tried_once() {
         let lattice = Lattice::new(90, 90, 1.0).unwrap();
@@ -274,7 +352,7 @@ mod tests {
         let field = Heightfield::new(lattice, heights.collect()).unwrap();
         let surface = fit(&field, &Options::default()).unwrap();
         let choice = surface.report().lambda_choice.unwrap();
-        assert_eq!(choice.solves, 1 + OTHER_PENALTIES.len());
+        assert_eq!(choice.solves, 1 + (1 + OTHER_PENALTIES.len()));
         assert!(choice.iterations > 0);
         let ratio = surface.report().lambda * choice.sigma.unwrap() / (90.0 * 90.0);
         assert!((0.1..100.0).contains(&ratio), "{ratio}");

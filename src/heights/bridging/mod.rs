@@ -11,6 +11,7 @@ mod sites;
 mod spikes;
 
 use super::heightfield::{HeightImage, Heightfield};
+use super::pixel_noise::PixelNoise;
 use crate::error::{Error, Result, check_shape, try_filled};
 use crossing::Crossings;
 use holes::narrow;
@@ -46,7 +47,7 @@ const MAX_BRIDGE_WIDTH_VERTICES: usize = 16;
 
 /// Confidence of a bridged vertex one step from data on all sides, relative to the data's confidence; it falls with the
 /// distance. With a hundredth of it, or none, the same surface takes more iterations.
-const BRIDGE_CONFIDENCE: f64 = 0.2;
+pub(crate) const BRIDGE_CONFIDENCE: f64 = 0.2;
 
 impl Default for Bridging {
     /// Returns the default: holes of up to 4 vertices or pixels across are bridged.
@@ -145,6 +146,18 @@ impl Surroundings<'_> {
     }
 }
 
+/// Finds the vertices of a heightfield whose heights are spikes: far from all around them.
+pub(crate) fn spikes_on_lattice(field: &Heightfield) -> Result<Vec<usize>> {
+    let lattice = field.lattice();
+    let raster = Raster::hexagonal(lattice.rows(), lattice.cols(), SPIKE_PADDING)?;
+    spikes(&raster, field.heights())
+}
+
+fn spikes(raster: &Raster, heights: &[f64]) -> Result<Vec<usize>> {
+    let found = remove_spikes(raster, &mut raster.padded(heights, f64::NAN)?);
+    Ok(found.into_iter().map(|cell| raster.index(cell)).collect())
+}
+
 /// A height image whose small holes are bridged, with a confidence for each pixel.
 ///
 /// ```
@@ -171,6 +184,7 @@ pub struct BridgedImage {
     /// Confidence of each pixel; `None` if all are equal.
     confidence: Option<HeightImage>,
     bridged: usize,
+    noise: PixelNoise,
 }
 
 /// A bridged image sampled at the vertices of a lattice.
@@ -179,6 +193,7 @@ pub(crate) struct OnLattice {
     pub confidence: Option<Vec<f64>>,
     /// Number of lattice vertices that have a height only because a hole in the image was bridged.
     pub bridges: usize,
+    pub noise: PixelNoise,
 }
 
 impl HeightImage {
@@ -203,13 +218,10 @@ impl HeightImage {
             None => self.clone(),
         };
         let raster = Raster::square(image.height(), image.width(), SPIKE_PADDING)?;
-        let mut padded = raster.padded(image.values(), f64::NAN)?;
-        let found = remove_spikes(&raster, &mut padded);
+        let found = spikes(&raster, image.values())?;
         if !found.is_empty() {
             let mut values = image.values().to_vec();
-            found
-                .iter()
-                .for_each(|cell| values[raster.index(*cell)] = f64::NAN);
+            found.iter().for_each(|pixel| values[*pixel] = f64::NAN);
             image = image.with_values(values)?;
         }
         Ok(image)
@@ -263,6 +275,7 @@ impl HeightImage {
             image: self.with_values(values)?,
             original: self.clone(),
             bridged: bridges.len(),
+            noise: self.pixel_noise(),
         })
     }
 
@@ -300,6 +313,7 @@ impl BridgedImage {
             heights,
             confidence,
             bridges,
+            noise: self.noise,
         })
     }
 

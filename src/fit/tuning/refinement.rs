@@ -1,0 +1,169 @@
+//! Refinement of λ by what the surface of a solve leaves of the heights.
+
+use super::noise::Noise;
+use super::residual::Residual;
+
+/// Minimum square of the lost shape's part of the residual at which λ is raised on a coarse lattice, in squares of the noise.
+const MIN_COARSE_LOSS: f64 = 0.3;
+
+/// Minimum square of the lost shape's part of the residual at which a solve at full size is made again with a larger λ, in
+/// squares of the noise.
+const MIN_FULL_LOSS: f64 = 1.0;
+
+/// Autocorrelation that the residual of noise shows by chance.
+const AUTOCORRELATION_ERROR: f64 = 0.06;
+
+/// Range of the factors by which λ is raised at once: at least so much that a solve more is worth its cost, at most so much
+/// that a warm start is still of use.
+const LAMBDA_RAISE_FACTORS: [f64; 2] = [3.0, 10.0];
+
+/// Least distance to the heights, as a share of the tolerance that was asked for, at which no simpler surface is looked for.
+const MIN_TOLERANCE_SHARE: f64 = 0.86;
+
+/// What the distance of the surface to the heights should be.
+#[derive(Debug, Clone, Copy)]
+pub(crate) enum Aim {
+    /// The size of the noise.
+    Noise(Noise),
+    /// A distance in the heights' unit: nearly this one, or at most this one.
+    Distance { distance: f64, is_exact: bool },
+}
+
+/// λ of the next solve, or the λ to keep.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) enum Next {
+    Solve(f64),
+    Keep(f64),
+}
+
+/// Refinement of λ on one lattice in progress.
+#[derive(Debug, Clone)]
+pub(crate) struct Refinement {
+    aim: Aim,
+    /// Spacing of the lattice, in those of the input's.
+    spacings: f64,
+    /// Correlation that noise is expected to have in residuals at the lag at which they are compared.
+    correlation: f64,
+    max_solves: usize,
+    /// Number of solves so far.
+    pub solves: usize,
+    /// Size of the noise that the first solve shows.
+    level: Option<f64>,
+    /// λ and risk of the best solve.
+    best: Option<(f64, f64)>,
+    /// λ and distance of the solve that is farthest from the heights within the tolerance, and of the nearest one beyond it.
+    within: Option<(f64, f64)>,
+    beyond: Option<(f64, f64)>,
+}
+
+impl Refinement {
+    /// Begins a refinement by at most `max_solves` on a lattice of spacing `spacing`, which is `spacings` times the input's.
+    pub(crate) fn new(aim: Aim, spacing: f64, spacings: f64, max_solves: usize) -> Self {
+        let correlation = match aim {
+            Aim::Noise(noise) if noise.is_correlated() => {
+                Residual::correlation_at_lag(spacing, noise.correlation_length)
+            }
+            _ => 0.0,
+        };
+        Refinement {
+            aim,
+            spacings,
+            correlation,
+            max_solves,
+            solves: 0,
+            level: None,
+            best: None,
+            within: None,
+            beyond: None,
+        }
+    }
+
+    /// Unit of the distances: the size of the noise on the lattice, or the distance that is aimed at.
+    pub(crate) fn unit(&self) -> f64 {
+        match self.aim {
+            Aim::Noise(noise) => (noise.white_equivalent / self.spacings).min(noise.vertex_sigma),
+            Aim::Distance { distance, .. } => distance,
+        }
+    }
+
+    /// Takes the residual of a solve, in [`Refinement::unit`], and returns λ of the next one.
+    pub(crate) fn next(&mut self, lambda: f64, residual: Residual) -> Next {
+        self.solves += 1;
+        match self.aim {
+            Aim::Noise(noise) => self.next_for_noise(noise, lambda, residual),
+            Aim::Distance { is_exact, .. } => {
+                self.next_for_distance(is_exact, lambda, residual.rms)
+            }
+        }
+    }
+
+    /// Raises λ where a part of the shape is lost, as long as that brings more of the shape than of the noise.
+    ///
+    /// The residual is noise, of which the surface has followed a part, and lost shape. Where residuals of most vertices are
+    /// smaller than the noise, it was followed; where those that hang together are larger than most, or residuals far apart
+    /// are alike, a shape was lost. The sum of both squares is the surface's error.
+    fn next_for_noise(&mut self, noise: Noise, lambda: f64, residual: Residual) -> Next {
+        let alike = match noise.is_anisotropic {
+            true => 0.0,
+            false => (residual.autocorrelation - self.correlation - AUTOCORRELATION_ERROR).max(0.0),
+        };
+        let noisy = (1.0 - alike).sqrt() * residual.bulk.min(residual.rms);
+        let level = *self.level.get_or_insert(match noise.is_anisotropic {
+            true => noisy,
+            false => noisy.min(1.0),
+        });
+        let lost = residual.rms.powi(2) - noisy.min(level).powi(2);
+        let risk = lost + level.powi(2) - noisy.min(level).powi(2);
+        if let Some((best, least)) = self.best
+            && risk >= least
+        {
+            return Next::Keep(best);
+        }
+        self.best = Some((lambda, risk));
+        let [least, most] = LAMBDA_RAISE_FACTORS;
+        let least_lost = if self.spacings == 1.0 {
+            MIN_FULL_LOSS
+        } else {
+            MIN_COARSE_LOSS
+        };
+        let is_lost = lost > least_lost * level.powi(2);
+        match is_lost && self.solves < self.max_solves {
+            true => Next::Solve(lambda * (residual.rms / level).powi(2).clamp(least, most)),
+            false => Next::Keep(lambda),
+        }
+    }
+
+    /// Looks for the λ at which the distance is nearly the one aimed at; unless it is exact, a smaller one does as well.
+    fn next_for_distance(&mut self, is_exact: bool, lambda: f64, distance: f64) -> Next {
+        let distance = distance.max(1e-6);
+        let is_within = distance <= 1.0;
+        let side = if is_within {
+            &mut self.within
+        } else {
+            &mut self.beyond
+        };
+        *side = Some((lambda, distance));
+        if is_within && (!is_exact || distance >= MIN_TOLERANCE_SHARE) {
+            return Next::Keep(lambda);
+        }
+        if self.solves + 1 >= self.max_solves {
+            let (kept, _) = self
+                .within
+                .unwrap_or((2.0 * lambda * distance.powi(2), 1.0));
+            return if kept == lambda || self.spacings > 1.0 {
+                Next::Keep(kept)
+            } else {
+                Next::Solve(kept)
+            };
+        }
+        let wanted = 0.5 * (1.0 + MIN_TOLERANCE_SHARE);
+        Next::Solve(match (self.within, self.beyond) {
+            (Some((large, near)), Some((small, far))) => {
+                let share = (far / wanted).ln() / (far / near).ln();
+                small * (large / small).powf(share.clamp(0.1, 0.9))
+            }
+            // The distance falls about with the square root of λ.
+            _ => lambda * (distance / wanted).powi(2).clamp(1e-3, 1e3),
+        })
+    }
+}

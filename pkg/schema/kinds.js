@@ -206,13 +206,19 @@ export const threshold = {
 };
 
 /** A share of the height range, as text: `0.5%`. @type {Reading} */
-const share = {
+const shareText = {
   must: 'must be a share such as 0.5%',
-  take: (text) => (typeof text === 'string' && /^\s*[\d.]+(e-?\d+)?\s*%\s*$/i.test(text) ? text.replaceAll(/\s/g, '') : undefined),
+  take: (text) => (typeof text === 'string' && /^\s*(\d+\.?\d*|\.\d+)\s*%\s*$/.test(text) ? text : undefined),
+};
+
+/** A percentage as the wasm takes it, which has no parser of numbers. @type {Reading} */
+const share = {
+  must: shareText.must,
+  take: (text) => (shareText.take(text) === undefined ? undefined : { share: parseFloat(/** @type {string} */ (text)) / 100 }),
 };
 
 /** A distance, or a share of the height range. @type {Kind} */
-export const tolerance = { type: 'number | `${number}%`', ...eitherReading(number, share), typed: eitherReading(numeral, share) };
+export const tolerance = { type: 'number | `${number}%`', ...eitherReading(number, share), typed: eitherReading(numeral, shareText) };
 
 /** @type {Kind} */
 export const corners = {

@@ -193,16 +193,16 @@ impl<'de> serde::Deserialize<'de> for Tolerance {
     }
 }
 
-/// Deserialisation visitor that reads a tolerance as a number or a share such as `0.5%`.
+/// Deserialisation visitor that reads a tolerance as a number, or as a map with a `share` of the height range.
 #[cfg(feature = "serde")]
 struct ToleranceVisitor;
 
 #[cfg(feature = "serde")]
-impl serde::de::Visitor<'_> for ToleranceVisitor {
+impl<'de> serde::de::Visitor<'de> for ToleranceVisitor {
     type Value = Tolerance;
 
     fn expecting(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        formatter.write_str("a distance above zero, or a share of the height range such as 0.5%")
+        formatter.write_str("a distance above zero, or a share of the height range")
     }
 
     fn visit_f64<E>(self, value: f64) -> std::result::Result<Tolerance, E> {
@@ -217,9 +217,17 @@ impl serde::de::Visitor<'_> for ToleranceVisitor {
         Ok(Tolerance::Distance(value as f64))
     }
 
-    fn visit_str<E: serde::de::Error>(self, text: &str) -> std::result::Result<Tolerance, E> {
-        text.parse()
-            .map_err(|_| E::invalid_value(serde::de::Unexpected::Str(text), &self))
+    fn visit_map<M: serde::de::MapAccess<'de>>(
+        self,
+        mut map: M,
+    ) -> std::result::Result<Tolerance, M::Error> {
+        match map.next_entry::<String, f64>()? {
+            Some((name, share)) if name == "share" => Ok(Tolerance::Share(share)),
+            _ => Err(serde::de::Error::invalid_type(
+                serde::de::Unexpected::Map,
+                &self,
+            )),
+        }
     }
 }
 

@@ -23,13 +23,13 @@ import { run } from '../util/process.mjs';
  * have to send, gzipped.
  */
 const files = [
-  { name: 'solver', limit: 262_000 },
+  { name: 'solver', limit: 267_000 },
   { name: 'files', limit: 301_000 },
-  { name: 'images', limit: 554_000 },
-  { name: 'meshes', limit: 340_000 },
-  { name: 'fitmesh', limit: 228_000 },
-  { name: 'unroll', limit: 348_000 },
-  { name: 'patterns', limit: 613_000 },
+  { name: 'images', limit: 591_000 },
+  { name: 'meshes', limit: 345_000 },
+  { name: 'fitmesh', limit: 230_000 },
+  { name: 'unroll', limit: 349_000 },
+  { name: 'patterns', limit: 617_000 },
 ];
 
 /**

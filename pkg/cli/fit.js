@@ -40,10 +40,10 @@ export async function fit(task, signal) {
   }
   await writeWhole(files, signal);
   succeed(task.output, fitInWords(report));
-  const { residualExceedsNoise, residualRatio, reason, ambiguous, tolerance } = report.lambdaChoice ?? {};
+  const { residualExceedsNoise, residualRatio, reason, tolerance } = report.lambdaChoice ?? {};
   if (tolerance !== undefined && reason !== 'tolerance') {
     toStderr(
-      `developable: ${ambiguous ? 'shape and noise cannot be told apart in this input' : 'this input has no noise'}, so the surface keeps `
+      `developable: ${reason === 'noNoise' ? 'this input has no noise' : 'shape and noise cannot be told apart in this input'}, so the surface keeps `
       + `within ${Number(tolerance.toPrecision(2))} of it (root mean square); --tolerance or --lambda asks for a simpler one\n`,
     );
   }

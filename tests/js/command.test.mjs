@@ -132,17 +132,17 @@ test('patches and rulings are told, and drawn', async () => {
 });
 
 test('a plane comes back in each format, with nothing said in a pipe', async () => {
-  await silently(fit('ramp.npy', '-o', 'out.npy'));
+  await silently(fit('ramp.npy', '-o', 'out.npy', '--lambda', 'big'));
   const npy = await load('out.npy');
   assert.deepEqual([npy.width, npy.height, npy.dataType], [24, 20, 'f64']);
   assert.ok(deviation(npy.data, ramp.data) < 1e-9);
 
-  await silently(fit('ramp.png', '--output', 'OUT.PNG'));
+  await silently(fit('ramp.png', '--output', 'OUT.PNG', '--lambda', 'big'));
   const png = await load('OUT.PNG');
   assert.deepEqual([png.format, png.pixelSize], ['png', 0.5]);
   assert.ok(deviation(png.data.map((v) => v * png.heightScale), ramp.data) < 1e-3);
 
-  await silently(fit('ramp.npy', '-o', 'out.obj'));
+  await silently(fit('ramp.npy', '-o', 'out.obj', '--lambda', 'big'));
   const vertices = [...(await readFile(join(folder, 'out.obj'), 'utf8')).matchAll(/^v (\S+) (\S+) (\S+)$/gm)];
   assert.ok(vertices.length > 400);
   assert.ok(vertices.map((v) => v.slice(1).map(Number)).every(([x, y, z]) => Math.abs(z - plane(x, y)) < 1e-9));
@@ -205,7 +205,7 @@ test('a mask or a value takes pixels out', async () => {
 test('an array on the lattice stays there', async () => {
   for (const name of ['hex.npy', 'hex.png']) {
     for (const output of ['out.npy', 'out.png']) {
-      await silently(fit(name, '-o', output, '--lattice', 'hex', '--spacing', '0.5', '--no-data', '0', '--bridge', 'none'));
+      assert.equal((await fit(name, '-o', output, '--lattice', 'hex', '--spacing', '0.5', '--no-data', '0', '--bridge', 'none')).status, 0);
       const { width, height, data, heightScale } = await load(output);
       assert.deepEqual([width, height], [26, 22]);
       const found = data.map((z) => z * heightScale);
@@ -217,7 +217,7 @@ test('an array on the lattice stays there', async () => {
   // Zero among the heights is one of them.
   await silently(fit('hex.npy', '-o', 'out.npy', '--lattice', 'hex', '--lambda', 'big'));
   assert.ok(!Number.isNaN((await load('out.npy')).data[3]));
-  await silently(fit('hex.npy', '-o', 'out.obj', '--lattice', 'hex'));
+  await silently(fit('hex.npy', '-o', 'out.obj', '--lattice', 'hex', '--lambda', 'big'));
 });
 
 test('wrong usage: status 2, what is wrong, and no output', async () => {

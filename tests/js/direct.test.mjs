@@ -22,7 +22,7 @@ const error = (code, message = /./) => (/** @type {unknown} */ thrown) => {
 test('before init every function says so', () => {
   assert.throws(() => direct.fit(ramp), error('NOT_INITIALIZED', /init\(\)/));
   assert.throws(() => new direct.Solver(ramp), error('NOT_INITIALIZED'));
-  assert.throws(() => direct.read(new Uint8Array(8)), error('NOT_INITIALIZED', /load\('files'\)/));
+  assert.throws(() => direct.read(new Uint8Array(8)), error('NOT_INITIALIZED', /load\('images'\)/));
 });
 
 test('an init that fails can be tried again, one that is done stays', async () => {

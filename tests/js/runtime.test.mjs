@@ -65,7 +65,7 @@ test('the command runs within a process, with streams of the caller', async () =
   await writeFile(join(folder, 'bent.npy'), await writeNpy(bent));
   try {
     for (const threads of ['1', '2']) {
-      const { status, stdout, stderr } = await run(folder, ['fit', 'bent.npy', '-o', 'flat.npy', '--threads', threads, '--report', 'r.json']);
+      const { status, stdout, stderr } = await run(folder, ['fit', 'bent.npy', '-o', 'flat.npy', '--lambda', 'big', '--threads', threads, '--report', 'r.json']);
       assert.deepEqual([status, stdout, stderr], [0, '', '']);
     }
     assert.match((await run(folder, ['info', 'flat.npy'])).stdout, /format: +npy/);

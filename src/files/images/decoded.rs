@@ -139,8 +139,8 @@ impl StoredImage {
                 &options.name,
             ),
         };
-        if depths != DepthEvidence::None && options.assume_no_data {
-            assumptions.push(depths::without_missing(&mut self.values, depth_unit));
+        if depths == DepthEvidence::Certain && options.assume_no_data {
+            assumptions.extend(depths::without_missing(&mut self.values, depth_unit));
         }
         // Of pixels of unknown size, the longer side is 1.
         let of_unknown_size = [1.0, self.aspect].map(|side| side / self.aspect.max(1.0));

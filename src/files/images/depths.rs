@@ -65,7 +65,7 @@ pub(super) fn unit(values: &[f64], data_type: &str) -> Unit {
 }
 
 /// Tells whether the values of an image, `width` in a row, are depths in a unit; `name` is that of the file. Depths lie within
-/// the range of cameras and have occlusions and holes. Costs `O(pixels)`.
+/// the range of cameras, above zero, and have occlusions and holes. Costs `O(pixels)`.
 pub(super) fn evidence(
     values: &[f64],
     width: usize,
@@ -84,6 +84,7 @@ pub(super) fn evidence(
     let in_range = values.iter().filter(|depth| range.contains(depth)).count();
     if !(is_integer || data_type.starts_with('f'))
         || count == 0
+        || values.iter().any(|value| *value < 0.0)
         || (in_range as f64) < MIN_SHARE_IN_RANGE * count as f64
     {
         return DepthEvidence::None;
@@ -113,8 +114,9 @@ fn has_occlusions(values: &[f64], width: usize) -> bool {
     jumps > MIN_JUMPS_PER_SIDE * shorter && jumps < MAX_JUMP_SHARE * count
 }
 
-/// Replaces what is no depth by NaN: cameras store 0, or a very large value for what is far away. Returns what is assumed.
-pub(super) fn without_missing(values: &mut [f64], unit: Unit) -> Assumption {
+/// Replaces what is no depth by NaN: cameras store 0, or a very large value for what is far away. Returns what is assumed, if
+/// there was any.
+pub(super) fn without_missing(values: &mut [f64], unit: Unit) -> Option<Assumption> {
     let mut missing = 0;
     for value in values
         .iter_mut()
@@ -123,15 +125,11 @@ pub(super) fn without_missing(values: &mut [f64], unit: Unit) -> Assumption {
         *value = f64::NAN;
         missing += 1;
     }
-    let none = match missing {
-        0 => String::new(),
-        _ => format!(", and those of 0 or beyond {MIN_FAR_DEPTH} are none ({missing} pixels)"),
-    };
     let words = format!(
-        "the values look like depths of a camera in {}{none}",
+        "the values look like depths of a camera in {}, and those of 0 or beyond {MIN_FAR_DEPTH} are none ({missing} pixels)",
         unit.symbol()
     );
-    Assumption::new("depths", words, "noData")
+    (missing > 0).then(|| Assumption::new("depths", words, "noData"))
 }
 
 /// Whether a value is a depth.
@@ -191,7 +189,9 @@ mod tests {
     #[test]
     fn zeros_among_depths_are_none() {
         let mut depths = [0.0, 800.0, 65_535.0, f64::NAN, 900.0];
-        let words = without_missing(&mut depths, Unit::Millimetre).words;
+        let words = without_missing(&mut depths, Unit::Millimetre)
+            .unwrap()
+            .words;
         assert!(
             words.contains("in mm") && words.contains("(2 pixels)"),
             "{words}"

@@ -96,6 +96,8 @@ doorTest('heights along one line are refused with the reason', async (page) => {
 doorTest('a file, a mesh’s other side and a file to be saved can be done without: their workers end, and what was there stays', async (page) => {
   await open(page, 'ramp.obj', obj({ points: [[0, 0, 0], [3, 0, 0], [3, 2, 1], [0, 2, 1]], triangles: [[0, 1, 2], [0, 2, 3]] }));
   await settled(page);
+  await choose(page.getByRole('radio', { name: 'From one side', exact: true }));
+  await settled(page);
   await page.evaluate(() => {
     const { postMessage, terminate } = Worker.prototype;
     const held = { on: false, ended: 0 };
@@ -181,11 +183,11 @@ pageTest('the kind of a file chooses the part of the page, and what does not bel
   await alert.filter({ hasText: '“IMG_8.heic” could not be opened' }).waitFor();
   // A mesh with another one and a photo that it does not name.
   await dropAll(page, { 'ramp.obj': ramp, 'other.obj': ramp, 'IMG_7.png': photo });
-  await page.locator('#input-caption', { hasText: 'ramp' }).waitFor();
+  await page.locator('#input-caption', { hasText: 'ramp' }).waitFor({ state: 'attached' });
   await settled(page);
   assert.match(await alert.innerText(), /^Left out: “other\.obj”, “IMG_7\.png”\./);
   await alert.getByRole('button', { name: 'Open these instead' }).click();
-  await page.locator('#input-caption', { hasText: 'other' }).waitFor();
+  await page.locator('#input-caption', { hasText: 'other' }).waitFor({ state: 'attached' });
   await settled(page);
   // What a depth camera writes is a picture, too.
   await enterPages(page);

@@ -219,8 +219,8 @@ pageTest('what cannot be laid flat whole is laid flat in pieces, which are saved
   const drawn = await page.locator('#result-picture').boundingBox();
   assert.ok(drawn);
   const read = new Set();
-  for (let i = 1; i < 12; i++) {
-    await page.mouse.move(drawn.x + (i / 12) * drawn.width, drawn.y + 0.4 * drawn.height);
+  for (let i = 0; i < 33; i++) {
+    await page.mouse.move(drawn.x + ((1 + (i % 11)) / 12) * drawn.width, drawn.y + ((1 + Math.floor(i / 11)) / 4) * drawn.height);
     read.add((await page.locator('#flat-reading').innerText()).trim());
   }
   assert.match([...read].join('|'), /Sheet \d+, [\d.]+ × [\d.]+ mm · strain [+−]?[\d.]+(\S*10\S+)?\s%/);

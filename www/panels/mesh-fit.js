@@ -304,10 +304,13 @@ export function meshFitPanel(session, meshFit) {
     },
     enter,
     leave: showOneSide,
-    /** Solves a mesh that was opened: its heights from one side, or the whole of it if much is hidden from there or it has no noise. */
+    /**
+     * Solves a mesh that was opened: its heights from one side, or the whole of it if much is hidden from there or it has no noise
+     * and no texture, which is flattened from one side.
+     */
     begin() {
       const { hidden, noNoise } = session.input?.lattice ?? {};
-      if (!inputMesh || !(hidden || noNoise)) return void session.run();
+      if (!inputMesh || !(hidden || (noNoise && !inputMesh.textures?.length))) return void session.run();
       enter('shaded');
       isFirstSolve = true;
     },

@@ -211,10 +211,14 @@ const shareText = {
   take: (text) => (typeof text === 'string' && /^\s*(\d+\.?\d*|\.\d+)\s*%\s*$/.test(text) ? text : undefined),
 };
 
-/** A percentage as the wasm takes it, which has no parser of numbers. @type {Reading} */
+/** A percentage as the wasm takes it, which has no parser of numbers; one that was read before stays. @type {Reading} */
 const share = {
   must: shareText.must,
-  take: (text) => (shareText.take(text) === undefined ? undefined : { share: parseFloat(/** @type {string} */ (text)) / 100 }),
+  take: (value) => {
+    if (shareText.take(value) !== undefined) return { share: parseFloat(/** @type {string} */ (value)) / 100 };
+    const known = number.take(/** @type {{ share?: unknown } | null | undefined} */ (value)?.share);
+    return known === undefined ? undefined : { share: known };
+  },
 };
 
 /** A distance, or a share of the height range. @type {Kind} */

@@ -4,6 +4,7 @@ import { readFile, readdir, writeFile } from 'node:fs/promises';
 import { join } from 'node:path';
 import { test } from 'node:test';
 import * as direct from '../../pkg/direct.js';
+import { fit } from '../../pkg/index.js';
 import { run, temporaryFolder } from './support/command.mjs';
 import { deviation, image, lattice, plane } from './support/shapes.mjs';
 
@@ -87,6 +88,24 @@ test('a file of confidences: whole numbers are shares of the largest', async () 
   await writeFile(join(folder, 'bytes.npy'), bytes);
   await command('fit spoilt.npy -o same.npy --lambda big --confidence bytes.npy --pixel-size 1');
   assert.deepEqual((await load('same.npy')).data, data);
+});
+
+test('a tolerance is a distance or a share of the height range, in the command and in both APIs', async () => {
+  const waves = image(60, 60, (x, y) => 10 + 3 * Math.sin(x / 7) * Math.cos(y / 9));
+  await store('waves.npy', waves);
+  const range = Math.max(...waves.data) - Math.min(...waves.data);
+  for (const [tolerance, distance] of /** @type {[number | `${number}%`, number][]} */ ([['3%', 0.03 * range], [0.1, 0.1]])) {
+    const { lambdaChoice, lambda } = await report(`fit waves.npy -o out.npy --tolerance ${tolerance}`);
+    assert.equal(lambdaChoice.reason, 'tolerance');
+    // The range is that of the vertices, which are between the pixels.
+    assert.ok(Math.abs(lambdaChoice.tolerance / distance - 1) < 0.02, JSON.stringify(lambdaChoice));
+    for (const { report: own } of [direct.fit(waves, { tolerance }), await fit(waves, { tolerance })]) {
+      assert.ok(Math.abs(own.lambda / lambda - 1) < 1e-9, `${own.lambda} ${lambda}`);
+    }
+  }
+  for (const wrong of ['-3', '0', '3 percent', '-2%']) {
+    assert.match((await run(folder, ['fit', 'waves.npy', '-o', 'out.npy', `--tolerance=${wrong}`])).stderr, /share.* such as 0\.5%/, wrong);
+  }
 });
 
 test('a design passes through its constraints', async () => {

@@ -639,7 +639,7 @@ impl Options {
         if self.tolerance.is_some() && self.lambda_or_default() != Lambda::Auto {
             return Err(Error::option(
                 "tolerance",
-                "a tolerance",
+                "given",
                 "has no effect beside a number for lambda, which it decides",
             ));
         }

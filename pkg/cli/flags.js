@@ -193,7 +193,7 @@ export const sections = {
       surface: {
         help: 'the mesh is not projected along a view, but fitted whole as it is, closed, overhanging or open. Of "fit" OUTPUT is the ' +
           'same mesh (.obj, .ply, .stl or .glb), its vertices moved; lambda is auto unless it is given, and radii are shares ' +
-          'of the diameter of a ball about it',
+          'of the diameter of a ball about it. Without it and --view a mesh is taken whole if one side hides a tenth of it, or if it has no noise',
       },
       ...flagsFor(sampleMesh, 'mesh'),
       intrinsics: {

@@ -30,9 +30,10 @@ const MIN_PLANAR_SHARE: f64 = 0.5;
 ///
 /// [`pattern_exact`](crate::pattern::pattern_exact) lays such a mesh flat as it is.
 pub fn has_exact_faces(mesh: &Mesh) -> bool {
-    let Ok(solid) = Polyhedron::new(mesh) else {
-        return false;
-    };
+    Polyhedron::new(mesh).is_ok_and(|solid| are_faces_exact(&solid))
+}
+
+fn are_faces_exact(solid: &Polyhedron) -> bool {
     let hinges: Vec<u32> = solid.inner_sides().collect();
     let mut angles: Vec<f64> = hinges
         .iter()
@@ -56,15 +57,21 @@ pub fn has_exact_faces(mesh: &Mesh) -> bool {
     strips >= MIN_STRIP_SHARE
         || (*tenth >= MIN_FACET_ANGLE
             && has_faces
-            && bend_correlation(&solid, &hinges) >= MIN_BEND_CORRELATION)
+            && bend_correlation(solid, &hinges) >= MIN_BEND_CORRELATION)
 }
 
 /// Returns whether the vertices of a mesh have no noise, so that a fit would only move them, though its faces may be those of
 /// a smooth surface: half of its area lies in planes of several triangles to rounding, and bends are alike at neighbours.
 pub fn has_exact_vertices(mesh: &Mesh) -> bool {
-    let Ok(solid) = Polyhedron::new(mesh) else {
-        return false;
-    };
+    Polyhedron::new(mesh).is_ok_and(|solid| are_vertices_exact(&solid))
+}
+
+/// Returns whether a mesh has no noise: its faces are exact, or its vertices.
+pub fn has_no_noise(mesh: &Mesh) -> bool {
+    Polyhedron::new(mesh).is_ok_and(|solid| are_faces_exact(&solid) || are_vertices_exact(&solid))
+}
+
+fn are_vertices_exact(solid: &Polyhedron) -> bool {
     let mut counts = vec![0; solid.areas.len()];
     (solid.facets.iter()).for_each(|facet| counts[*facet as usize] += 1);
     let planar = counts
@@ -74,7 +81,7 @@ pub fn has_exact_vertices(mesh: &Mesh) -> bool {
     let planar: f64 = planar.map(|(_, area)| area).sum();
     let hinges: Vec<u32> = solid.inner_sides().collect();
     planar >= MIN_PLANAR_SHARE * solid.areas.iter().sum::<f64>()
-        && (hinges.is_empty() || bend_correlation(&solid, &hinges) >= MIN_BEND_CORRELATION)
+        && (hinges.is_empty() || bend_correlation(solid, &hinges) >= MIN_BEND_CORRELATION)
 }
 
 /// Correlation, about 0, of the bends at both ends of an edge: angles times lengths of the edges at a vertex.

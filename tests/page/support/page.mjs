@@ -209,8 +209,8 @@ function watch(page) {
   });
   page.on('pageerror', (error) => incidents.push(`uncaught: ${error.message}`));
   page.on('requestfailed', (request) => {
-    // A reload gives up what was still on its way, and so does a worker that is ended.
-    if (!(/icon\.svg$|\.wasm$/.test(request.url()) && request.failure()?.errorText === 'net::ERR_ABORTED')) incidents.push(`failed: ${request.url()}`);
+    // Aborted is what the page itself gives up: by a reload, or with a worker that it ends.
+    if (request.failure()?.errorText !== 'net::ERR_ABORTED') incidents.push(`failed: ${request.url()}`);
   });
   page.on('request', (request) => {
     const { origin } = new URL(request.url());

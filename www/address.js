@@ -12,7 +12,7 @@ import { noDataOf } from './no-data.js';
  * @property {string} [card] id of a card of the gallery
  * @property {{ name: string, size: number, noise: number }} [example]
  * @property {number} [file] id of the file in the storage of recent files
- * @property {{ pixelSize?: number, heightScale?: number, noData?: NoData, hexagonal?: boolean }} [stored] interpretation of the file
+ * @property {{ pixelSize?: number, heightScale?: number, noData?: NoData }} [stored] interpretation of the file
  * @property {Partial<Settings>} settings settings that differ from the defaults
  * @property {boolean} [whole] whether a whole mesh is fitted
  * @property {boolean} [photo] whether a photo of a page is made flat
@@ -21,7 +21,7 @@ import { noDataOf } from './no-data.js';
  */
 
 /** Settings that are positive numbers. @type {readonly (keyof Settings)[]} */
-const NUMERIC_SETTINGS = ['gap', 'coarsening', 'reweighting', 'occlusionThreshold'];
+const NUMERIC_SETTINGS = ['gap', 'coarsening', 'occlusionThreshold'];
 
 /**
  * Encodes a state as a fragment.
@@ -37,7 +37,7 @@ export function addressOf({ card, example, file, stored, settings, whole, photo,
     parameters.set('noise', String(example.noise));
   }
   if (file !== undefined) parameters.set('file', String(file));
-  for (const [name, value] of Object.entries(stored ?? {})) if (value !== undefined) parameters.set(name, String(typeof value === 'boolean' ? Number(value) : value));
+  for (const [name, value] of Object.entries(stored ?? {})) if (value !== undefined) parameters.set(name, String(value));
   for (const [name, value] of Object.entries(settings)) {
     if (value === undefined || value === defaults[/** @type {keyof Settings} */ (name)]) continue;
     parameters.set(name, typeof value === 'number' && name === 'lambda' ? shortLambda(value) : String(value));
@@ -74,19 +74,16 @@ export function stateOf(hash) {
   }
   const energy = parameters.get('energy') ?? '';
   if (Object.hasOwn(ENERGIES, energy)) settings.energy = /** @type {Energy} */ (energy);
-  if (parameters.get('schedule') === 'paper') settings.schedule = 'paper';
   const view = parameters.get('view') ?? undefined;
   const name = parameters.get('example');
   const [card] = [...parameters.entries()].find(([, value]) => value === '') ?? [];
-  const hexagonal = parameters.has('hexagonal') ? [['hexagonal', parameters.get('hexagonal') === '1']] : [];
   const scales = ['pixelSize', 'heightScale'].filter((scale) => Number(parameters.get(scale))).map((scale) => [scale, Number(parameters.get(scale))]);
   const noData = parameters.has('noData') ? noDataOf(parameters.get('noData') ?? '') : undefined;
-  const isStored = hexagonal.length + scales.length > 0 || noData !== undefined;
   return {
     card,
     example: name ? { name, size: positive('size') ?? 400, noise: Math.max(0, Number(parameters.get('noise') ?? 0.02)) || 0 } : undefined,
     file: positive('file'),
-    stored: isStored ? { ...Object.fromEntries([...hexagonal, ...scales]), noData } : undefined,
+    stored: scales.length > 0 || noData !== undefined ? { ...Object.fromEntries(scales), noData } : undefined,
     settings,
     whole: parameters.get('whole') === '1' || undefined,
     photo: parameters.get('photo') === '1' || undefined,

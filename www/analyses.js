@@ -5,16 +5,19 @@
  * longer needed.
  */
 
+import { TASK_WORDS } from './messages.js';
 import { downsample } from './surface/downsampling.js';
 import { resultImage } from './surface/derived-data.js';
 import { gridOf } from './surface/lattice.js';
 import { MAX_SHEET_CURVATURE_RADIANS } from './surface/gaussian-curvature.js';
 import { transferToWorker, callWorker } from './surface/worker-client.js';
 import { AnswerCache } from './worker-task.js';
+import { heightsOf } from './session.js';
 
 /** @import {Api, Surface} from './api.js' */
-/** @import {Input, Result} from './session.js' */
+/** @import {Result} from './session.js' */
 
+/** @import {Tell} from './mesh-fit.js' */
 /** @typedef {import('../pkg/types.js').Analysis} Analysis */
 /** @typedef {ReturnType<typeof import('./surface/gaussian-curvature.js').curvaturesOf>} Curvatures */
 /** @typedef {import('../pkg/types.js').Drawing} Drawing */
@@ -23,9 +26,7 @@ import { AnswerCache } from './worker-task.js';
 /** @typedef {InstanceType<Api['DevelopableWorker']>} Worker */
 /**
  * @typedef {object} FlatOptions
- * @property {number} [dots] resolution
  * @property {boolean} trim
- * @property {[number, number][]} [crop] corners of a polygon
  */
 
 /** Longer side of the lattice of an unfolding in one piece, in pixels. */
@@ -109,7 +110,7 @@ export class Analyses {
     const { spacing } = surface;
     const [before, after] = await Promise.all([
       input.design ? null : this.#cached(input, `curvatures ${spacing}`, (worker) =>
-        worker.analyze(heightsAlone(input), input.lattice ? {} : { spacing }).then(shownCurvatures)),
+        worker.analyze(heightsOf(input), input.lattice ? {} : { spacing }).then(shownCurvatures)),
       this.curvature(surface),
     ]);
     return { before, after };
@@ -142,10 +143,11 @@ export class Analyses {
   /**
    * A picture of the unrolled sheet, and its figures. The mesh of the sheet is not kept, because it is large.
    * @param {Result} result
+   * @param {Tell} tell
    */
-  unroll({ surface }) {
+  unroll({ surface }, tell) {
     return this.#cached(surface, 'sheet', async (worker) => {
-      const { triangles, places, stretches, report, verdict } = await worker.unroll(surface);
+      const { triangles, places, stretches, report, verdict } = await worker.unroll(surface, { onProgress: ({ fraction }) => tell({ fraction, label: TASK_WORDS.unrolling }) });
       const picture = await transferToWorker('sheetStrainImage', [triangles, places, stretches], triangles, places, stretches);
       return { picture, report, verdict };
     });
@@ -183,11 +185,12 @@ export class Analyses {
    * A pattern of the surface; a large surface is reduced to a coarser lattice first.
    * @param {Result} result
    * @param {PatternOptions} options
+   * @param {Tell} tell
    */
-  pattern(result, options) {
+  pattern(result, options, tell) {
     const { surface } = result;
     const source = this.isUnreducedInPattern(result) ? surface : reducedImage(result, PATTERN_SIDE_PIXELS);
-    return this.#cached(surface, `pattern ${JSON.stringify(options)}`, (worker) => worker.pattern(source, options));
+    return this.#cached(surface, `pattern ${JSON.stringify(options)}`, (worker) => worker.pattern(source, { ...options, onProgress: ({ fraction }) => tell({ fraction, label: TASK_WORDS.cutting }) }));
   }
 
   /** Whether a pattern is made from the result's own lattice. @param {Result} result */
@@ -282,12 +285,4 @@ function photoId(photo) {
   const id = photoIds.get(photo) ?? ++lastPhotoId;
   photoIds.set(photo, id);
   return id;
-}
-
-/**
- * The heights of an input, without confidence and constraints.
- * @param {Input} input
- */
-function heightsAlone({ width, height, data, pixelSize, heightScale, lattice }) {
-  return lattice ?? { width, height, data, pixelSize, heightScale };
 }

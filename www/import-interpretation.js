@@ -1,9 +1,6 @@
 /** Interpretation of a file of numbers as heights: guessed when it is opened, and changed by the user afterwards. */
-import { coarseningFor, isHexagonal } from './metadata-guess.js';
 import { number } from './format.js';
 import { GUESS_WORDS } from './messages.js';
-import { gridOverLattice, interpolateToGrid } from './surface/lattice.js';
-import { reduceForPreview } from './surface/downsampling.js';
 
 /** @import {Api} from './api.js' */
 /** @import {Input} from './session.js' */
@@ -19,13 +16,14 @@ import { reduceForPreview } from './surface/downsampling.js';
  * @property {number} pixelSize
  * @property {number} heightScale
  * @property {NoData} [noData] what was given as no data when the file was read
- * @property {boolean} hexagonal whether the values are at the vertices of a hexagonal lattice
  * @property {boolean} design whether the few heights are constraints of a design
  * @property {boolean} levels whether the values are integers whose height scale is not in the file
  * @property {string} guesses message that says what was guessed
  * @property {number} coarsening lattice spacing in pixels that suits the size of the image
  */
 
+/** Maximum number of vertices of a solve that takes less than a few minutes. */
+const MAX_QUICK_VERTICES = 1.2e6;
 /** Minimum share of pixels with a height in measured data; where there are fewer, they are constraints of a design. */
 const MIN_MEASURED_SHARE = 0.2;
 
@@ -42,8 +40,7 @@ function firstInterpretation(read, noData) {
   if (width < 3 || height < 3) throw new Error(`it is ${width} × ${height} pixels; a surface needs at least 3 × 3`);
   const stored = { ...guessStoredHeights(read, depths !== 'none'), noData };
   const { pixelSize, heightScale, design } = stored;
-  const unchanged = { ...stored, hexagonal: false };
-  return reinterpret({ width, height, data, pixelSize, heightScale, unit: unit ?? undefined, depths: depths === 'none' ? undefined : depths, depthUnit, stored: unchanged, design }, stored);
+  return { width, height, data, pixelSize, heightScale, unit: unit ?? undefined, depths: depths === 'none' ? undefined : depths, depthUnit, stored, design };
 }
 
 /**
@@ -75,15 +72,18 @@ function guessStoredHeights(read, depths) {
   // A scan has holes, but an image without data at most pixels holds drawn points and curves.
   const given = data.reduce((sum, value) => sum + Number(Number.isFinite(value)), 0);
   const design = !depths && given < MIN_MEASURED_SHARE * data.length;
-  const hexagonal = !design && !depths && isHexagonal(read);
-  const coarsening = hexagonal ? 1 : coarseningFor(read);
+  const coarsening = coarseningFor(read);
   const guesses = [
     ...(design ? [GUESS_WORDS.few] : []),
-    ...(hexagonal ? [GUESS_WORDS.hexagonal] : []),
     ...(coarsening > 1 ? [GUESS_WORDS.coarse(coarsening)] : []),
   ].join(' ');
   const levels = /^u/.test(dataType);
-  return { width, height, data, pixelSize, heightScale, hexagonal, design, levels, guesses, coarsening };
+  return { width, height, data, pixelSize, heightScale, design, levels, guesses, coarsening };
+}
+
+/** The lattice spacing in pixels that keeps the solve of a large image short. @param {{ width: number, height: number }} size */
+export function coarseningFor({ width, height }) {
+  return [1, 2, 4].find((step) => width * height <= MAX_QUICK_VERTICES * step * step) ?? 4;
 }
 
 /** @typedef {Omit<Input, 'name'>} InterpretedHeights */
@@ -99,13 +99,8 @@ export function reinterpret(input, change) {
   if (!input.stored) return input;
   const stored = { ...input.stored, ...change };
   const assumptions = input.assumptions?.filter(({ option = '' }) => stored[/** @type {'pixelSize'} */ (option)] === input.stored?.[/** @type {'pixelSize'} */ (option)]);
-  const { width, height, pixelSize, heightScale, hexagonal } = stored;
-  // A change of the scale alone keeps edits that were made by hand.
-  const data = hexagonal || input.stored.hexagonal ? stored.data : input.data;
-  if (!hexagonal) return { ...input, stored, assumptions, width, height, data, pixelSize, heightScale, lattice: undefined };
-  const lattice = { rows: height, cols: width, spacing: pixelSize, heights: data.map((step) => step * heightScale), unit: /** @type {'mm' | 'm' | undefined} */ (input.unit) };
-  const grid = gridOverLattice(lattice);
-  return { ...input, stored, assumptions, ...grid, heightScale: 1, data: interpolateToGrid(lattice, lattice.heights, grid), lattice };
+  const { pixelSize, heightScale } = stored;
+  return { ...input, stored, assumptions, pixelSize, heightScale };
 }
 
 /** Cached ranges of heights. @type {WeakMap<Float64Array, number>} */
@@ -126,24 +121,8 @@ function rangeOf(data) {
 
 /** The width, depth and height of an input as a sentence. @param {Input} input */
 export function spanInWords({ data, width, height, pixelSize, heightScale, unit }) {
-  const range = rangeOf(data) * Math.abs(heightScale);
-  const inUnit = unit ? ` ${unit}` : '';
-  return `Spans ${number(width * pixelSize)} × ${number(height * pixelSize)}${inUnit}, and ${number(range)}${inUnit} in height.`;
-}
-
-/** Converts an image to confidence: an integer is divided by the largest value of its type, a float stays. @param {Read} image */
-export function confidenceOf({ width, height, data, dataType }) {
-  const [, bits] = /^u(\d+)$/.exec(dataType) ?? [];
-  const largest = bits ? 2 ** Number(bits) - 1 : 1;
-  // Single precision is enough for weights.
-  const confidence = Float32Array.from(data, (value) => (Number.isNaN(value) ? 0 : value / largest));
-  if (confidence.some((value) => value < 0)) throw new Error('it has values below 0');
-  return { values: confidence, small: reduceForPreview({ width, height, data: confidence }) };
-}
-
-/** Converts an image to constraints: 0 is no data. @param {Read} image */
-export function constraintsOf({ width, height, data }) {
-  const constraints = data.map((value) => (value === 0 ? NaN : value));
-  if (constraints.every(Number.isNaN)) throw new Error('it holds nothing: every pixel is 0 or “no data”');
-  return { values: constraints, small: reduceForPreview({ width, height, data: constraints }) };
+  const sides = [width * pixelSize, height * pixelSize];
+  const isMap = unit === 'm' && Math.max(...sides) >= 1e4;
+  const [wide, deep] = sides.map((side) => number(isMap ? side / 1000 : side));
+  return `${wide} × ${deep} ${isMap ? 'km' : unit ?? 'units'}, ${number(rangeOf(data) * Math.abs(heightScale))} ${unit ?? 'units'} high.`;
 }

@@ -1,14 +1,12 @@
 /** Entry point of the page: creates the session and its panels, and connects them. */
+import { isStart, stateOf } from './address.js';
 import { Analyses } from './analyses.js';
 import { connect } from './api.js';
 import { element } from './dom.js';
 import { analysisPanel } from './panels/analysis.js';
-import { inputImagesPanel } from './panels/input-images.js';
 import { curvePanel } from './panels/curve.js';
-import { designPanel } from './panels/design.js';
 import { detailsPanel } from './panels/details.js';
 import { watchDrops } from './panels/drop.js';
-import { editPanel } from './panels/edit.js';
 import { filesPanel } from './panels/files.js';
 import { galleryPanel } from './panels/gallery.js';
 import { watchIncoming } from './panels/incoming.js';
@@ -34,17 +32,16 @@ import { errorMessage } from './messages.js';
 async function start() {
   detailsPanel();
   const session = new Session(await connect());
-  const started = session.start();
+  // The doors, and what is behind the other two, need no solver.
+  const { photo, whole } = stateOf(location.hash);
+  const started = isStart(location.hash) || photo || whole ? undefined : session.start();
   const analyses = new Analyses(session.api);
   const meshFit = new MeshFit(session.api);
-  const { show, space } = viewsPanel(session);
-  designPanel(session, space);
-  editPanel(session, space);
+  const show = viewsPanel(session);
   const { adopt } = settingsPanel(session, meshFit);
   const strip = stripPanel(session, adopt);
   openingPanel(session);
   const meshFitView = meshFitPanel(session, meshFit);
-  inputImagesPanel(session);
   runPanel(session);
   curvePanel(session);
   reportPanel(session, analyses);
@@ -52,12 +49,7 @@ async function start() {
   headlinePanel(session, analyses);
   savePanel(session, analyses, views.choose, meshFitView);
   const source = sourcePanel(session, views, (files) => void addressSync.rememberFiles(files), meshFitView.begin, (file) => void files.openColour(file));
-  const page = pagePanel(session.api, ({ mesh }, name) => {
-    mode.enter('heights');
-    void source.openLoadedMesh({ name, kind: 'photo' }, async () => mesh, 'The page could not be taken as a surface').then((opened) => {
-      if (opened) void session.run();
-    });
-  }, (photos) => void addressSync.rememberPhotos(photos), (states) => addressSync.rememberOutlines(states));
+  const page = pagePanel(session.api, (photos) => void addressSync.rememberPhotos(photos), (states) => addressSync.rememberOutlines(states));
   const mode = modePanel(session, (entered) => {
     if (entered === 'photo') page.begin();
     addressSync.onModeChange();

@@ -4,12 +4,14 @@
  */
 import { AnswerCache, runInWorker } from './worker-task.js';
 import { Events } from './events.js';
+import { TASK_WORDS } from './messages.js';
 import { boxOf } from './surface/triangles.js';
 
 /** @import {Api, Mesh} from './api.js' */
 /** @import {Worker} from './worker-task.js' */
 /** @typedef {import('../pkg/types.js').MeshSurface} MeshSurface */
 /** @typedef {import('../pkg/types.js').Progress} Progress */
+/** @typedef {(progress: import('./panels/waiting.js').TaskProgress) => void} Tell gets how far a step is */
 
 /** Number of rulings along the longest side of the mesh, which sets their separation. */
 const RULINGS_PER_LONGEST_SIDE = 30;
@@ -103,21 +105,22 @@ export class MeshFit extends Events {
     return this.#cached(mesh, 'rulings', (worker) => worker.meshRulings(geometryOf(mesh), { separation: longestSide(mesh) / RULINGS_PER_LONGEST_SIDE }));
   }
 
-  /** @param {Mesh} mesh */
-  unrolled(mesh) {
-    return this.#cached(mesh, 'unrolled', (worker) => worker.unrollMesh(geometryOf(mesh)));
+  /** @param {Mesh} mesh @param {Tell} tell */
+  unrolled(mesh, tell) {
+    return this.#cached(mesh, 'unrolled', (worker) => worker.unrollMesh(geometryOf(mesh), { onProgress: ({ fraction }) => tell({ fraction, label: TASK_WORDS.unrolling }) }));
   }
 
   /**
    * The sheets of the fitted surface, or of the input where flat faces are found in its noise: these are more exact than a fit.
    * @param {Mesh} surface
    * @param {import('../pkg/types.js').MeshPatternOptions} options
+   * @param {Tell} tell
    */
-  async pattern(surface, options) {
+  async pattern(surface, options, tell) {
     const mesh = this.mesh ?? surface;
     const { kind } = await this.#cached(mesh, 'kind', (worker) => worker.recognizeMesh(geometryOf(mesh)));
     const laidFlat = kind === 'noisyFaces' ? mesh : surface;
-    return this.#cached(laidFlat, `pattern ${JSON.stringify(options)}`, (worker) => worker.patternMesh(geometryOf(laidFlat), options));
+    return this.#cached(laidFlat, `pattern ${JSON.stringify(options)}`, (worker) => worker.patternMesh(geometryOf(laidFlat), { ...options, onProgress: tell }));
   }
 
   /** @param {import('../pkg/types.js').Drawing} drawing */

@@ -4,13 +4,8 @@ import { gridOverLattice } from './surface/lattice.js';
 import { callWorker } from './surface/worker-client.js';
 
 /** @import {Mesh, SampleMeshOptions} from './api.js' */
-/** @import {Input, Session, TimedTask} from './session.js' */
+/** @import {Input, Session} from './session.js' */
 /** @typedef {Pick<Input, 'name' | 'kind' | 'photo' | 'depthSource' | 'cameraAssumption'>} InputOrigin */
-
-/** The task of sampling a mesh from another view, for a progress bar. @param {Mesh} mesh @returns {TimedTask} */
-export function samplingTask({ positions }) {
-  return { label: 'Looking at it from there', kind: 'mesh', size: positions.length / 3 };
-}
 
 /**
  * Samples a mesh from a view and opens its heights as the input.
@@ -19,15 +14,15 @@ export function samplingTask({ positions }) {
  * @param {(signal: AbortSignal) => Promise<Mesh>} load
  * @param {SampleMeshOptions} options
  * @param {string} doing what could not be done, for the message if it fails
- * @param {{ wholeMesh?: Mesh, task?: TimedTask }} [more] `wholeMesh`: the mesh of which this one is a connected part
+ * @param {string} [task] what its progress says
  */
-export function openSampledMesh(session, origin, load, options, doing, { wholeMesh, task } = {}) {
+export function openSampledMesh(session, origin, load, options, doing, task) {
   return session.open(doing, async (signal) => {
     const mesh = await load(signal);
     const lattice = await runInWorker(session.api, signal, (worker) => worker.sampleMesh(mesh, options));
     const grid = gridOverLattice(lattice);
     const data = await callWorker('interpolateToGrid', lattice, lattice.heights, grid);
     if (!lattice.heights.some(Number.isFinite)) throw new Error('nothing of it is seen from there');
-    return { ...origin, ...grid, heightScale: 1, data, lattice, unit: lattice.unit ?? undefined, assumptions: mesh.assumptions, sampling: { mesh, options, wholeMesh } };
+    return { ...origin, ...grid, heightScale: 1, data, lattice, unit: lattice.unit ?? undefined, assumptions: mesh.assumptions, sampling: { mesh, options } };
   }, task);
 }

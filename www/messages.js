@@ -29,6 +29,16 @@ export const VIEW_WORDS = {
   dewarped: 'You see a photo of the surface, and the same photo made flat.',
 };
 
+/** What a task does, as its progress says. */
+export const TASK_WORDS = {
+  reading: 'Reading the file',
+  sampling: 'Looking at it from there',
+  view: 'Preparing this view',
+  unrolling: 'Laying it flat',
+  cutting: 'Cutting the sheets',
+  solving: 'Solving',
+};
+
 /** Messages about files that were dropped on the wrong part of the page, or that cannot be read. */
 export const FILE_WORDS = {
   /** @param {string} name @param {string} what */
@@ -54,30 +64,29 @@ export const DEPTH_WORDS = {
   maybe: 'These may be depths from a camera. If so, build the 3D surface below. Now the page takes them for heights.',
   failed: 'The 3D surface could not be built',
   building: 'Building the 3D surface',
+  /** @param {import('../pkg/types.js').PhotoCamera} camera */
+  camera: ({ fx, fy, cx, cy, k1, k2, k3, p1, p2 }) => `Focal lengths ${number(fx, 5)} and ${number(fy, 5)}, centre ${number(cx, 5)}, ${number(cy, 5)}${[k1, k2, k3, p1, p2].some(Boolean) ? ', and a lens that distorts' : ''}.`,
+  /** @param {readonly string[]} names */
+  companions: (names) => `With ${names.map((name) => `“${name}”`).join(' and ')}.`,
 };
 
 /** What a reader has assumed of a file, as a sentence; empty if nothing. @param {readonly Assumption[]} [assumptions] */
 export function assumedInWords(assumptions = []) {
-  return assumptions.length > 0 ? `Assumed: ${assumptions.map(({ words }) => words).join('; ')}.` : '';
+  const words = assumptions.map((one) => one.words.replace(/(?<![.\d])\d{5,}(?![.\d])/g, (digits) => count(Number(digits))));
+  return words.length > 0 ? `Assumed: ${words.join('; ')}.` : '';
 }
 
 /** Messages about guessed metadata of a file. */
 export const GUESS_WORDS = {
   few: 'Few pixels have a height. The surface passes through them and is free everywhere else.',
-  hexagonal: 'Assumed: odd rows lie half a step to the left (hexagonal lattice).',
   /** @param {number} step */
   coarse: (step) => `The image is large, so one vertex stands for ${step} × ${step} pixels (“Lattice” under “More options” changes that).`,
 };
 
-/** Legends of the marks on the input, with their number. */
-export const MARK_WORDS = {
-  /** @param {number} n */
-  torn: (n) => (n > 0 ? `torn at ${count(n)} ${n === 1 ? 'vertex' : 'vertices'}` : 'no jumps found'),
-  /** @param {number} n */
-  doubted: (n) => `little or no confidence at ${count(n)} pixels`,
-  /** @param {number} n */
-  held: (n) => `held at ${count(n)} ${n === 1 ? 'pixel' : 'pixels'}`,
-};
+/** The legend of the heights that a design passes through. @param {number} n */
+export function heldInWords(n) {
+  return `held at ${count(n)} ${n === 1 ? 'pixel' : 'pixels'}`;
+}
 
 /** Explanations of the energies. @type {Record<Energy, string>} */
 export const ENERGIES = {
@@ -91,8 +100,8 @@ export const ENERGIES = {
 
 /** Why a result cannot be copied as a command or as code. */
 export const REPRODUCE_WORDS = {
-  noCommand: 'The command reads heights from a file. It cannot read examples, designs, edited heights, or meshes as they are seen here.',
-  noCode: 'The code reads heights from a file, or makes an example. It cannot make designs, edited heights, or meshes as they are seen here.',
+  noCommand: 'The command reads heights from a file. It cannot read examples, designs, or meshes as they are seen here.',
+  noCode: 'The code reads heights from a file, or makes an example. It cannot make designs, or meshes as they are seen here.',
 };
 
 /** Verdicts on an unrolled surface. @type {Record<Verdict, string>} */
@@ -108,7 +117,7 @@ export const DEWARP_VERDICTS = {
   flat: 'The page was flat already: the photo can be used as it is.',
   unrolled: 'Made flat: lengths are those on the page.',
   stretched: 'Made flat with stretch, because the surface cannot be laid flat as a whole: see the figures.',
-  doubtful: 'The corners do not seem to be those of the page: a part of it is missing, or something beside it is shown. Move them onto the page.',
+  doubtful: 'The flat photo may be wrong: see the figures.',
 };
 
 /** Note on a photo that was dewarped by a cylinder. */
@@ -136,7 +145,6 @@ export const MESH_FIT_WORDS = {
   unsolved: 'The mesh cannot be solved as a whole.',
   /** @param {string} share */
   hidden: (share) => `From this side ${share} of the surface is hidden. “Whole mesh” solves all of it.`,
-  vertices: (/** @type {string} */ vertices, /** @type {string} */ time) => `${vertices} vertices in ${time}.`,
   noNoise: 'The mesh has no noise, and is left as it is.',
   maxIterations: 'The solve stopped at the maximum number of iterations.',
   diverged: 'The iterations diverged. You see the best surface before.',
@@ -185,8 +193,6 @@ export const SHEET_WORDS = {
   edges: 'Click a fold to cut it, or the letter of a cut to fold it.',
   cancelled: 'Cancelled.',
   cut: 'Cut the sheets',
-  cutting: 'Cutting the sheets',
-  nothingYet: 'there are no sheets yet',
   pdf: 'to print at 100 %, in true size',
   svg: 'for a cutting plotter or a drawing program',
   dxf: 'for a laser cutter or CAD',
@@ -212,7 +218,6 @@ export const FORMAT_WORDS = {
   jpg: 'a smaller file',
   pdf: 'to print at 100 %, in true size',
   map: 'where in the photo each pixel comes from, as JSON',
-  flatMesh: 'all sheets as one flat mesh',
 };
 
 /** Labels and messages about solids for 3D printers. */

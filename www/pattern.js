@@ -56,15 +56,16 @@ export function lengthUnitOf({ unit, kind }) {
  * @param {Analyses} analyses
  * @param {Result} result
  * @param {CutOptions} options
+ * @param {import('./mesh-fit.js').Tell} tell
  * @returns {Promise<Drawing>}
  */
-export async function cutSheets(analyses, result, { side, ...options }) {
+export async function cutSheets(analyses, result, { side, ...options }, tell) {
   const scale = side / longerSide(result);
   const { count: patches } = await analyses.patchCount(result);
   // A surface that is creased all over cannot meet the first limit, and trying takes a minute.
   for (const maxStrain of Number.isFinite(patches) ? STRAIN_LIMITS : STRAIN_LIMITS.slice(-1)) {
     try {
-      return await analyses.pattern(result, { scale, ...options, maxStrain });
+      return await analyses.pattern(result, { scale, ...options, maxStrain }, tell);
     } catch (error) {
       const hasNextLimit = maxStrain !== STRAIN_LIMITS.at(-1) && error instanceof Error && 'code' in error && error.code === 'NOT_FLAT';
       if (!hasNextLimit) throw error;

@@ -5,7 +5,7 @@
  * The coarsest solve always finishes, so that each of many requests in a row yields a preview; a finer one is aborted by
  * a newer request.
  */
-import { settingsFor } from './design.js';
+import { settingsFor } from './fit-settings.js';
 import { downsample, PREVIEW_SIDE_PIXELS } from './surface/downsampling.js';
 import { previewHeightsOf } from './surface/derived-data.js';
 
@@ -17,10 +17,6 @@ import { previewHeightsOf } from './surface/derived-data.js';
 
 /** Longer sides of the lattices from coarse to fine, in pixels: the first takes about 30 ms, each further one four times as long. */
 const PREVIEW_SIDES_PIXELS = [96, 192, PREVIEW_SIDE_PIXELS];
-/** Longer sides for a design, in pixels. They are smaller because its few constraints need more iterations. */
-const DESIGN_PREVIEW_SIDES_PIXELS = [48, 100];
-/** Maximum number of iterations of a design's finer preview, which starts warm from the last one. */
-const MAX_DESIGN_PREVIEW_ITERATIONS = 8;
 /** Idle time after which the worker is disposed of, in milliseconds. */
 const WORKER_IDLE_MS = 10_000;
 /** Duality gap at which a preview stops. */
@@ -58,7 +54,7 @@ export class PreviewSolver {
   }
 
   #connectedWorker() {
-    return this.#worker?.connected ? this.#worker : (this.#worker = new this.#api.DevelopableWorker());
+    return this.#worker?.connected ? this.#worker : (this.#worker = new this.#api.SolverWorker());
   }
 
   /**
@@ -94,9 +90,7 @@ export class PreviewSolver {
       const wanted = settingsFor(input, settings);
       /** The coarsest lattice chooses λ for the finer ones. @type {Settings['lambda']} */
       let lambda = wanted.lambda === 'auto' ? request.lambda ?? 'auto' : wanted.lambda;
-      const sides = input.design
-        ? DESIGN_PREVIEW_SIDES_PIXELS
-        : PREVIEW_SIDES_PIXELS.filter((side, i) => i === 0 || 1.5 * side < Math.max(input.width, input.height));
+      const sides = PREVIEW_SIDES_PIXELS.filter((side, i) => i === 0 || 1.5 * side < Math.max(input.width, input.height));
       for (let i = 0; i < sides.length && (i === 0 || !abort.signal.aborted); i++) {
         try {
           const preview = await this.#solve(input, { ...wanted, lambda }, sides[i], i === 0 ? undefined : abort.signal);
@@ -136,48 +130,33 @@ export class PreviewSolver {
     const { pixelSize, solver } = this.#levelFor(input, side);
     // Crease passes are left to the certified run.
     const passes = energy === 'huber' ? { creasePasses: 0 } : {};
-    const limit = input.design && side > DESIGN_PREVIEW_SIDES_PIXELS[0] ? { maxIterations: MAX_DESIGN_PREVIEW_ITERATIONS } : {};
-    const surface = await (await solver).fit({ lambda, energy, ...passes, ...limit, gap: PREVIEW_GAP, signal });
+    const surface = await (await solver).fit({ lambda, energy, ...passes, gap: PREVIEW_GAP, signal });
     const { image, report } = surface;
     if (!image) throw new Error('it has no image');
     return { input, lambda: report.lambda, image: { ...image, pixelSize } };
   }
 
-  /** The level for an input; if only its heights have changed, its solver starts warm from the last preview. @param {Input} input @param {number} side */
+  /** The level for an input. @param {Input} input @param {number} side */
   #levelFor(input, side) {
-    const worker = this.#connectedWorker();
     const found = this.#levels.get(side);
     if (found?.input === input) return found;
-    const { pixelSize, heights } = reducedTo(input, side);
-    const reusable = found && hasSameFrame(found.input, input) && worker.connected;
-    const solver = reusable
-      ? found.solver.then((open) => open.replace(heights).then(() => open))
-      : worker.open(heights);
-    if (found && !reusable) found.solver.then((open) => open.dispose(), () => {});
+    found?.solver.then((open) => open.dispose(), () => {});
+    const heights = reducedTo(input, side);
+    const solver = this.#connectedWorker().open(heights);
     // Whoever awaits the solver handles its error.
     solver.catch(() => this.#levels.delete(side));
-    const level = { input, pixelSize, solver };
+    const level = { input, pixelSize: heights.pixelSize, solver };
     this.#levels.set(side, level);
     return level;
   }
 }
 
-/** Whether two inputs differ in their heights at most. @param {Input} a @param {Input} b */
-function hasSameFrame(a, b) {
-  return ['width', 'height', 'pixelSize', 'heightScale', 'design'].every((name) => a[/** @type {keyof Input} */ (name)] === b[/** @type {keyof Input} */ (name)]);
-}
-
 /**
- * Reduces an input to fewer pixels.
+ * Reduces the heights of an input to fewer pixels.
  * @param {Input} input
  * @param {number} side longer side in pixels
  */
-function reducedTo({ width, height, data, pixelSize: inputPixelSize, heightScale, design, confidence, constraints }, side) {
-  /** @param {ArrayLike<number>} values */
-  const reduced = (values) => downsample(previewHeightsOf({ width, height, data: values }), side);
-  const heights = reduced(data);
-  const pixelSize = (inputPixelSize * width) / heights.width;
-  const frame = { width: heights.width, height: heights.height, pixelSize, heightScale };
-  const known = { confidence: confidence && reduced(confidence).data, constraints: constraints && reduced(constraints).data };
-  return { pixelSize, heights: design ? { ...frame, constraints: heights.data } : { ...frame, data: heights.data, ...known } };
+function reducedTo({ width, height, data, pixelSize, heightScale }, side) {
+  const heights = downsample(previewHeightsOf({ width, height, data }), side);
+  return { ...heights, pixelSize: (pixelSize * width) / heights.width, heightScale };
 }

@@ -17,7 +17,6 @@ export const REPORT_WORDS = {
   free: 'These heights follow from the surface around them.',
   parts: 'The surface has unconnected parts. Each was solved by itself.',
   lambda: 'The detail that is kept: a larger λ stays closer to the input.',
-  reweighted: 'Solves after the first one, each of which restores curvature. The proof is about the last one.',
   /** @param {number} passes */
   creases: (passes) => `These vertices lie on creases, which were sharpened ${passes === 1 ? 'once' : `${count(passes)} times`}. The proof is about the last time.`,
   /** @param {readonly number[]} sizes */

@@ -1,22 +1,20 @@
 /** The solve that is shown, as a line for the command and as code for the package. */
-import { settingsFor } from './design.js';
+import { settingsFor } from './fit-settings.js';
 import { noDataOptions } from './no-data.js';
 import { spacingOf } from './session.js';
 
 /** @import {Input, Result} from './session.js' */
 
-/** Whether the heights are those of the file or example, without edits or other images. @param {Input} input */
-function isUnchanged({ design, sampling, depths, confidence, constraints, isEdited }) {
-  return !(design || sampling || depths || confidence || constraints || isEdited);
+/** Whether the heights are those of a file or an example. @param {Input} input */
+function isUnchanged({ design, sampling, depths }) {
+  return !(design || sampling || depths);
 }
 
 /** The options of `fit` that solve the same, without those that are the package's own. @param {Result} result */
 function optionsOf({ input, settings }) {
-  const { coarsening, schedule, reweighting, ...options } = settingsFor(input, settings);
+  const { coarsening, ...options } = settingsFor(input, settings);
   return {
     ...options,
-    ...(schedule === 'paper' && { schedule }),
-    ...(reweighting > 0 && { reweighting }),
     ...(coarsening > 1 && spacingOf(input, coarsening)),
   };
 }
@@ -24,14 +22,14 @@ function optionsOf({ input, settings }) {
 /**
  * The command that solves the same.
  * @param {Result} result
- * @returns {string | null} null where the command cannot read the input: an example, a design, a mesh, depths, edited heights
+ * @returns {string | null} null where the command cannot read the input: an example, a design, a mesh, depths
  */
 export function asCommand(result) {
   const { input } = result;
   const { file, name, stored, array } = input;
   if (file === undefined || !isUnchanged(input)) return null;
   const { pixelSize, heightScale, noData } = stored ?? {};
-  const options = { array: array?.name, pixelSize, heightScale, noData, ...(stored?.hexagonal && { lattice: 'hex' }), ...optionsOf(result) };
+  const options = { array: array?.name, pixelSize, heightScale, noData, ...optionsOf(result) };
   const flags = Object.entries(options).filter(([, given]) => given !== undefined).map(([option, given]) =>
     `--${option.replace(/[A-Z]/g, (letter) => `-${letter.toLowerCase()}`)} ${quoted(String(given))}`);
   return ['npx developable fit', quotedPath(file), '-o', quotedPath(`${name}-developable.obj`), ...flags].join(' ');
@@ -50,12 +48,12 @@ function quotedPath(path) {
 /**
  * Code for the package that solves the same.
  * @param {Result} result
- * @returns {string | null} null where code needs more than a file or an example: a design, a mesh, depths, edited or hexagonal heights
+ * @returns {string | null} null where code needs more than a file or an example: a design, a mesh or depths
  */
 export function asCode(result) {
   const { input } = result;
   const { name, file, example, stored, array } = input;
-  if ((file ?? example) === undefined || stored?.hexagonal || !isUnchanged(input)) return null;
+  if ((file ?? example) === undefined || !isUnchanged(input)) return null;
   const { pixelSize, heightScale, noData } = stored ?? {};
   const reading = { array: array?.name, ...noDataOptions(noData) };
   const options = Object.values(reading).some((value) => value !== undefined) ? `, ${JSON.stringify(reading)}` : '';

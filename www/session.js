@@ -5,15 +5,14 @@
  * been solved, every change of a setting solves it again, so that the result always belongs to the settings shown.
  * Until a result is ready, and while a slider is dragged, `preview.js` shows approximate results.
  */
-import { settingsFor } from './design.js';
+import { settingsFor } from './fit-settings.js';
 import { nextTask } from './dom.js';
 import { Events } from './events.js';
 import { PreviewSolver } from './preview.js';
 import { prepareInput, prepareResult } from './surface/derived-data.js';
 
-/** @import {Design} from './design.js' */
 /** @import {Preview} from './preview.js' */
-/** @import {Api, DepthOptions, Energy, ExampleName, ExampleOptions, Heightfield, Mesh, OpenSolver, Occlusions, Progress, SampledMesh, SampleMeshOptions, Surface} from './api.js' */
+/** @import {Api, DepthOptions, Energy, ExampleName, ExampleOptions, Heightfield, Mesh, OpenSolver, Progress, SampledMesh, SampleMeshOptions, Surface} from './api.js' */
 
 /**
  * @typedef {object} Input
@@ -22,8 +21,6 @@ import { prepareInput, prepareResult } from './surface/derived-data.js';
  * @property {number} height pixels
  * @property {Float64Array} data heights in steps of `heightScale`, row by row; NaN is no data
  * @property {boolean} [design] whether `data` are constraints, without measured heights
- * @property {Float64Array | Float32Array} [confidence] weight of each height
- * @property {Float64Array} [constraints] heights that are met exactly, in steps of `heightScale`; NaN is none
  * @property {number} pixelSize
  * @property {number} heightScale
  * @property {string} [unit] unit of lengths, if known
@@ -34,14 +31,12 @@ import { prepareInput, prepareResult } from './surface/derived-data.js';
  * @property {string} [kind] kind of file, in words; an example has none
  * @property {string} [file] name of the file of heights
  * @property {{ size: number, noise: number }} [example] options of the package's example
- * @property {boolean} [isEdited] whether heights were edited by hand
  * @property {string} [dataType] number type of the file, such as `u16`
  * @property {readonly import('../pkg/types.js').Assumption[]} [assumptions] what the reader of the file has assumed
  * @property {'likely' | 'certain'} [depths] whether the values are depths from a camera
  * @property {'mm' | 'm'} [depthUnit] unit of the values, if they are depths from a camera
  * @property {import('./import-interpretation.js').StoredHeights} [stored] contents of the file, and how they are interpreted
  * @property {{ name: string, image: ImageData }} [photo] photo that was opened together with it
- * @property {Design} [designShape] pins and curves of a design
  * @property {DepthCompanions} [companions] images that were opened together with depths
  * @property {Input} [depthSource] depths from which the mesh was built
  * @property {string} [cameraAssumption] message that says what was assumed about the camera of the depths
@@ -52,7 +47,6 @@ import { prepareInput, prepareResult } from './surface/derived-data.js';
  * @typedef {object} MeshSampling
  * @property {Mesh} mesh
  * @property {SampleMeshOptions} options
- * @property {Mesh} [wholeMesh] the mesh of which `mesh` is a connected part
  */
 
 /**
@@ -66,22 +60,13 @@ import { prepareInput, prepareResult } from './surface/derived-data.js';
 /**
  * @typedef {object} Settings
  * @property {number | 'auto'} lambda
- * @property {number} gap duality gap at which the default schedule stops
- * @property {'default' | 'paper'} schedule
+ * @property {number} gap duality gap at which the solve stops
  * @property {number} coarsening lattice spacing in pixels
  * @property {Energy} [energy] default: the input decides
- * @property {number} reweighting number of reweighting passes
- * @property {number} [occlusionThreshold] without it, no occlusions are detected
+ * @property {number} [occlusionThreshold] without it, the surface is torn nowhere
  */
 
 /** @typedef {{ input: Input, settings: Settings, surface: Surface }} Result */
-/**
- * A task whose duration is estimated from its size and from earlier tasks of its kind, for a progress bar.
- * @typedef {object} TimedTask
- * @property {string} label text that says what is done
- * @property {string} kind key of the measured rate: tasks of one kind take equally long per unit of size
- * @property {number} size number of vertices, pixels or bytes
- */
 /** @typedef {'starting' | 'idle' | 'running' | 'failed'} Phase */
 
 /**
@@ -93,9 +78,8 @@ import { prepareInput, prepareResult } from './surface/derived-data.js';
  * @property {Preview} preview approximate result on a coarser lattice
  * @property {Result} result
  * @property {null} cleared the last result was discarded because another input was opened
- * @property {Occlusions | null} occlusions occlusions of the present input; null without a threshold
  * @property {Phase} phase
- * @property {TimedTask | null} opening a file is being opened; null when that has ended
+ * @property {string | null} opening a file is being opened, with what its progress says; null when that has ended
  * @property {null} unsolved a run has ended without a result
  * @property {{ doing: string, error: unknown }} failure
  */
@@ -113,7 +97,7 @@ const CANCEL_TIMEOUT_MS = 150;
 /** @extends {Events<SessionEvents>} */
 export class Session extends Events {
   /** @type {Readonly<Settings>} */
-  defaults = { lambda: 'auto', gap: 0.01, schedule: 'default', coarsening: 1, energy: undefined, reweighting: 0, occlusionThreshold: undefined };
+  defaults = { lambda: 'auto', gap: 0.01, coarsening: 1, energy: undefined, occlusionThreshold: undefined };
   /** @type {Settings} */
   settings = { ...this.defaults };
   /** @type {Input | null} */
@@ -136,8 +120,6 @@ export class Session extends Events {
   #idleTimer = 0;
   /** Cancels the file that is being opened. @type {AbortController | null} */
   #opening = null;
-  /** Number of the newest request for occlusions; answers to older requests are discarded. */
-  #occlusionRequest = 0;
   /** Whether the present input has been solved, or is being solved: changes of settings then start a run. */
   #runRequested = false;
   /** Whether changes of settings start a run now. */
@@ -202,7 +184,7 @@ export class Session extends Events {
    * Loads another input and makes it the present one. If loading fails, the present input and its run stay.
    * @param {string} doing what could not be done, for the message if loading fails
    * @param {(signal: AbortSignal) => Promise<Input>} load `signal` aborts when another file is opened instead
-   * @param {TimedTask} [task] for the progress bar
+   * @param {string} [task] what its progress says
    * @returns {Promise<boolean>} whether the input was opened
    */
   async open(doing, load, task) {
@@ -217,7 +199,6 @@ export class Session extends Events {
       this.#runRequested = false;
       this.emit('input', input);
       this.emit('cleared', null);
-      void this.#detectOcclusions();
       return true;
     }, task);
     if (this.phase === 'starting') this.#setPhase('idle');
@@ -229,7 +210,7 @@ export class Session extends Events {
    * @template T
    * @param {string} doing what could not be done, for the message if loading fails
    * @param {(signal: AbortSignal) => Promise<T>} load `signal` aborts when another file is opened instead
-   * @param {TimedTask} [task] for the progress bar
+   * @param {string} [task] what its progress says
    * @returns {Promise<T | undefined>} undefined if it failed or was cancelled
    */
   async load(doing, load, task) {
@@ -266,7 +247,6 @@ export class Session extends Events {
     // Another input may have been opened meanwhile, or this one changed again.
     if (this.input !== input) return;
     this.emit('input', input);
-    void this.#detectOcclusions();
     if (this.#runRequested) void this.run();
   }
 
@@ -277,7 +257,6 @@ export class Session extends Events {
   updateSettings(change) {
     this.settings = { ...this.settings, ...change };
     this.emit('settings', this.settings);
-    if ('occlusionThreshold' in change || 'coarsening' in change) void this.#detectOcclusions();
     if (!this.#runRequested || !this.#autoRun) return;
     // The present run may have these settings already, from a preview of them.
     if (this.#job?.input === this.input && isSame(this.#job.settings, this.settings)) this.#runPending = false;
@@ -294,7 +273,10 @@ export class Session extends Events {
     this.settings = { ...this.settings, lambda };
     if (!input || !this.#runRequested || !this.#autoRun) return;
     if (this.#job && !isSimilar(this.#job.settings.lambda, lambda)) this.#abortRun();
-    this.#previewThenRun(input);
+    this.#runPending = true;
+    if (this.phase !== 'running') this.emit('start', this.settings);
+    this.#setPhase('running');
+    this.#requestPreview(input);
   }
 
   /** Lets changes of settings start runs, or defers these while a whole mesh is shown. @param {boolean} enabled */
@@ -303,32 +285,6 @@ export class Session extends Events {
     this.#autoRun = enabled;
     const last = this.#job?.settings ?? this.result?.settings;
     if (enabled && this.#runRequested && last && !isSame(last, this.settings)) void this.run();
-  }
-
-  /**
-   * Previews heights while pins of a design are dragged; the run follows once the finest preview is ready.
-   * @param {Partial<Pick<Input, 'data' | 'designShape'>>} change
-   */
-  previewInput(change) {
-    if (!this.input) return;
-    const input = (this.input = { ...this.input, ...change });
-    this.emit('input', input);
-    if (!this.#runRequested) return;
-    this.#abortRun();
-    this.#previewThenRun(input);
-  }
-
-  /** Starts the run of a previewed change now, without waiting for its finest preview. */
-  runPending() {
-    if (this.#runPending && !this.#job) void this.run();
-  }
-
-  /** @param {Input} input */
-  #previewThenRun(input) {
-    this.#runPending = true;
-    if (this.phase !== 'running') this.emit('start', this.settings);
-    this.#setPhase('running');
-    this.#requestPreview(input);
   }
 
   /** @param {Input} input */
@@ -347,7 +303,7 @@ export class Session extends Events {
     clearTimeout(this.#idleTimer);
     this.emit('start', settings);
     this.#setPhase('running');
-    if (input.width * input.height > MIN_PREVIEWED_PIXELS) this.#requestPreview(input);
+    if (!input.design && input.width * input.height > MIN_PREVIEWED_PIXELS) this.#requestPreview(input);
     const { coarsening, ...options } = settingsFor(input, settings);
     try {
       // Copying a large input to the worker takes time: let the browser draw first.
@@ -407,7 +363,7 @@ export class Session extends Events {
   }
 
   #connectedWorker() {
-    return this.#worker?.connected ? this.#worker : (this.#worker = new this.api.DevelopableWorker());
+    return this.#worker?.connected ? this.#worker : (this.#worker = new this.api.SolverWorker());
   }
 
   /** Frees the memory of a large input's solver after it has been idle for a while. @param {Input} input */
@@ -428,24 +384,6 @@ export class Session extends Events {
     this.#openSolver = null;
     this.#worker?.dispose();
     this.#worker = null;
-  }
-
-  /** Detects the occlusions of the present input, if the settings have a threshold. */
-  async #detectOcclusions() {
-    const request = ++this.#occlusionRequest;
-    const { input, settings: { occlusionThreshold: threshold, coarsening } } = this;
-    if (!input || input.design || threshold === undefined) {
-      this.emit('occlusions', null);
-      return;
-    }
-    try {
-      const found = await this.api.occlusions(heightsOf(input), { threshold, ...spacingOf(input, coarsening) });
-      if (request === this.#occlusionRequest) this.emit('occlusions', found);
-    } catch (error) {
-      if (request !== this.#occlusionRequest) return;
-      this.emit('occlusions', null);
-      this.fail('Occlusions could not be looked for', error);
-    }
   }
 
   /** Cancels the run; its best surface so far becomes the result, if the solver returns it soon. */
@@ -518,8 +456,8 @@ export function spacingOf({ pixelSize, lattice }, coarsening) {
  * Converts an input to a height image or heightfield of the package.
  * @param {Input} input
  */
-export function heightsOf({ width, height, data, pixelSize, heightScale, lattice, design, confidence, constraints }) {
+export function heightsOf({ width, height, data, pixelSize, heightScale, lattice, design }) {
   if (lattice) return lattice;
   const frame = { width, height, pixelSize, heightScale };
-  return design ? { ...frame, constraints: data } : { ...frame, data, confidence, constraints };
+  return design ? { ...frame, constraints: data } : { ...frame, data };
 }

@@ -1,13 +1,7 @@
 /** Tasks that can be cancelled, each in a worker of its own, which ends with it; and a cache of their answers. */
 
 /** @import {Api} from './api.js' */
-/** @import {TimedTask} from './session.js' */
 /** @typedef {InstanceType<Api['DevelopableWorker']>} Worker */
-
-/** The task of reading a file, for a progress bar. @param {File} file @returns {TimedTask} */
-export function fileReadTask({ name, size }) {
-  return { label: 'Reading the file', kind: name.slice(name.lastIndexOf('.') + 1).toLowerCase(), size };
-}
 
 /**
  * Runs a task in a new worker, which is disposed of when the task ends or is aborted.

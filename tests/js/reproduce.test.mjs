@@ -22,14 +22,14 @@ const FILE = "Tom's $HOME (1).tiff";
 const ramp = image(24, 20, plane);
 ramp.data[50] = 0;
 await writeFile(join(folder, FILE), direct.writeTiff(ramp));
-await writeFile(join(folder, '-hex.npy'), direct.writeNpy(lattice(22, 26, plane, 0.5)));
+await writeFile(join(folder, '-ramp.npy'), direct.writeNpy(ramp));
 
 /** @type {Settings} */
-const defaults = { lambda: 'auto', gap: 0.01, schedule: 'default', coarsening: 1, energy: undefined, reweighting: 0, occlusionThreshold: undefined };
-const stored = { width: 24, height: 20, data: ramp.data, pixelSize: 0.5, heightScale: -2, noData: 0, hexagonal: false, design: false, levels: false, guesses: '', coarsening: 1 };
+const defaults = { lambda: 'auto', gap: 0.01, coarsening: 1, energy: undefined, occlusionThreshold: undefined };
+const stored = { width: 24, height: 20, data: ramp.data, pixelSize: 0.5, heightScale: -2, noData: 0, design: false, levels: false, guesses: '', coarsening: 1 };
 /** @type {Input} */
 const opened = { name: "Tom's $HOME (1)", file: FILE, kind: 'TIFF, 32-bit floats', width: 24, height: 20, data: ramp.data, pixelSize: 0.5, heightScale: -2, stored };
-const hexagonal = { ...opened, name: '-hex', file: '-hex.npy', stored: { ...stored, noData: /** @type {const} */ ('none'), hexagonal: true }, lattice: lattice(22, 26, plane, 0.5) };
+const dashed = { ...opened, name: '-ramp', file: '-ramp.npy', stored: { ...stored, noData: /** @type {const} */ ('none') } };
 const example = { ...opened, name: 'roof', file: undefined, kind: undefined, stored: undefined, example: { size: 24, noise: 0.02 } };
 
 /** @param {Input} input @param {Partial<Settings>} [settings] */
@@ -52,29 +52,26 @@ async function runCode(code) {
 }
 
 test('the command names the file, how it was read and the options, and runs', async () => {
-  const args = await argumentsOf(asCommand(resultOf(opened, { coarsening: 2, lambda: 1e5, energy: 'nuclear', reweighting: 1, occlusionThreshold: 4e4 })));
-  const { command, input, output, pixelSize, heightScale, noData, lambda, energy, gap, spacing, reweighting, occlusionThreshold, ...others } = /** @type {any} */ (parse(args));
+  const args = await argumentsOf(asCommand(resultOf(opened, { coarsening: 2, lambda: 1e5, energy: 'nuclear', occlusionThreshold: 4e4 })));
+  const { command, input, output, pixelSize, heightScale, noData, lambda, energy, gap, spacing, occlusionThreshold } = /** @type {any} */ (parse(args));
   assert.deepEqual(
-    { command, input, output, pixelSize, heightScale, noData, lambda, energy, gap, spacing, reweighting, occlusionThreshold },
-    { command: 'fit', input: FILE, output: "Tom's $HOME (1)-developable.obj", pixelSize: 0.5, heightScale: -2, noData: 0, lambda: 1e5, energy: 'nuclear', gap: 0.01, spacing: 1, reweighting: 1, occlusionThreshold: 4e4 },
+    { command, input, output, pixelSize, heightScale, noData, lambda, energy, gap, spacing, occlusionThreshold },
+    { command: 'fit', input: FILE, output: "Tom's $HOME (1)-developable.obj", pixelSize: 0.5, heightScale: -2, noData: 0, lambda: 1e5, energy: 'nuclear', gap: 0.01, spacing: 1, occlusionThreshold: 4e4 },
   );
-  assert.equal(others.schedule, undefined);
   const { status, stderr } = await run(folder, args);
   assert.equal(status, 0, stderr);
 });
 
-test('the paper’s schedule has no gap, and a lattice no spacing of pixels', async () => {
-  const args = await argumentsOf(asCommand(resultOf(hexagonal, { schedule: 'paper', coarsening: 2 })));
-  assert.ok(!args.includes('--gap') && !args.includes('--spacing'), args.join(' '));
-  assert.deepEqual(args.slice(args.indexOf('--no-data'), args.indexOf('--lattice') + 2), ['--no-data', 'none', '--lattice', 'hex']);
+test('a file whose name begins with a dash is no flag', async () => {
+  const args = await argumentsOf(asCommand(resultOf(dashed)));
+  assert.deepEqual(args.slice(args.indexOf('--no-data'), args.indexOf('--no-data') + 2), ['--no-data', 'none']);
   const { status, stderr } = await run(folder, args);
   assert.equal(status, 0, stderr);
-  assert.equal(asCode(resultOf(hexagonal)), null);
 });
 
 test('the code of a file and of an example runs', async () => {
   assert.deepEqual(await runCode(asCode(resultOf(opened, { coarsening: 2 }))), { lambda: 'auto', energy: 'huber', gap: 0.01, spacing: 1 });
-  assert.deepEqual(await runCode(asCode(resultOf(example, { schedule: 'paper' }))), { lambda: 'auto', energy: 'huber', schedule: 'paper' });
+  assert.deepEqual(await runCode(asCode(resultOf(example))), { lambda: 'auto', energy: 'huber', gap: 0.01 });
   assert.match(asCode(resultOf(opened)) ?? '', /"noData":0/);
   assert.match(asCode(resultOf(example)) ?? '', /example\("roof", \{"size":24,"noise":0.02\}\)/);
 });
@@ -82,8 +79,8 @@ test('the code of a file and of an example runs', async () => {
 test('nothing is copied of what neither can open', () => {
   /** @type {Input[]} */
   const inputs = [
-    { ...example, design: true }, { ...example, example: undefined }, { ...opened, confidence: ramp.data }, { ...opened, isEdited: true },
-    { ...opened, depths: 'likely' }, 
+    { ...example, design: true }, { ...example, example: undefined },
+    { ...opened, depths: 'likely' },
     { ...opened, sampling: { mesh: { positions: new Float64Array(), triangles: new Uint32Array() }, options: {} } },
   ];
   for (const input of inputs) assert.deepEqual([asCommand(resultOf(input)), asCode(resultOf(input))], [null, null]);

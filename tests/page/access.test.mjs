@@ -44,8 +44,8 @@ pageTest('everything can be done by keyboard', async (page) => {
   await page.keyboard.press('Escape');
   assert.equal(await page.evaluate(() => document.activeElement?.id), 'end-file', 'the focus is back');
 
-  await tabTo(page, 'input[name="example"]');
-  await runBy(page, () => page.keyboard.press('ArrowRight'));
+  await tabTo(page, '#example');
+  await runBy(page, () => page.keyboard.press('ArrowDown'));
   await tabTo(page, '#lambda');
   await runBy(page, () => page.keyboard.press('PageUp'));
   await tabTo(page, '#settings-more > summary');

@@ -2,26 +2,10 @@
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import { assumedInWords } from '../../www/messages.js';
-import { coarseningFor, isHexagonal } from '../../www/metadata-guess.js';
+import { coarseningFor } from '../../www/import-interpretation.js';
 import { plainMessage } from '../../www/error-messages.js';
 import { routeFiles } from '../../www/file-routing.js';
 import { Book } from '../../www/page/book.js';
-import { grid } from './support/files.mjs';
-
-/** @param {number} width @param {number} height @param {(col: number, row: number) => number} value @param {string} [dataType] */
-const image = (width, height, value, dataType = 'f32') =>
-  ({ width, height, data: Float64Array.from(grid(width, height, value)), dataType });
-/** Hills, as a function of places. @param {number} x @param {number} y */
-const hills = (x, y) => 30 * Math.sin(x / 17) + 20 * Math.cos(y / 13 + x / 31);
-
-test('a hexagonal lattice shows in its rows, with noise, too', () => {
-  const noise = (/** @type {number} */ col, /** @type {number} */ row) => 0.2 * Math.sin(91.7 * col + 47.3 * row * row);
-  const lattice = image(150, 120, (col, row) => hills(col - 0.5 * (row % 2), row * Math.sqrt(0.75)) + noise(col, row));
-  assert.ok(isHexagonal(lattice));
-  assert.ok(!isHexagonal(image(150, 120, (col, row) => hills(col, row) + noise(col, row))));
-  assert.ok(!isHexagonal(image(150, 120, (col, row) => hills(col + 0.5 * (row % 2), row * Math.sqrt(0.75)))), 'shifted the other way');
-  assert.ok(!isHexagonal(image(20, 20, () => 1)));
-});
 
 test('large images are solved on a coarser lattice', () => {
   assert.deepEqual([[1000, 1000], [2000, 2000], [6000, 6000]].map(([width, height]) => coarseningFor({ width, height })), [1, 2, 4]);
@@ -47,6 +31,7 @@ test('what a reader has assumed is one sentence', () => {
   assert.equal(assumedInWords([]), '');
   const assumptions = [{ code: 'noData', words: '-9999 is no data (412 pixels)', option: 'noData' }, { code: 'unit', words: 'lengths are in millimetres' }];
   assert.equal(assumedInWords(assumptions), 'Assumed: -9999 is no data (412 pixels); lengths are in millimetres.');
+  assert.equal(assumedInWords([{ code: 'noData', words: '0.123456 is no data (127493 pixels)' }]), 'Assumed: 0.123456 is no data (127\u202f493 pixels).');
 });
 
 /** A PNG file's beginning, of the given colour type. @param {string} name @param {number} colour */

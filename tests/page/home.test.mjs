@@ -8,7 +8,7 @@ import { dottedPhoto } from './support/photos.mjs';
 /** @typedef {import('playwright-core').Page} Page */
 
 /** The most presses of Tab that lead through a job before anything is unfolded. */
-const MAX_TAB_STOPS = 16;
+const MAX_TAB_STOPS = 15;
 
 /** How many places the Tab key stops at before it leaves the page. @param {Page} page */
 async function tabStops(page) {

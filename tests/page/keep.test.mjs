@@ -8,7 +8,7 @@ import { parsed } from './support/numbers.mjs';
 import { choose, drop, enterPages, open, pageTest, reported, runBy, settled, typeLambda } from './support/page.mjs';
 import { dottedPhoto } from './support/photos.mjs';
 
-const defaults = /** @type {const} */ ({ lambda: 1e6, gap: 0.01, schedule: 'default', coarsening: 1, energy: 'nuclear', reweighting: 0, occlusionThreshold: undefined });
+const defaults = /** @type {const} */ ({ lambda: 1e6, gap: 0.01, coarsening: 1, energy: 'nuclear', occlusionThreshold: undefined });
 
 test('an address says what it was made of, and what it does not know is left', () => {
   const states = [
@@ -16,7 +16,7 @@ test('an address says what it was made of, and what it does not know is left', (
     { example: { name: 'cone', size: 200, noise: 0 }, settings: { energy: /** @type {const} */ ('huber'), lambda: /** @type {const} */ ('auto') }, view: 'patches' },
     { file: 4, settings: { lambda: 1e7 }, whole: true, view: 'rulings' },
     { file: 5, settings: {}, photo: true }, { settings: {}, unkept: true },
-    { file: 3, stored: { pixelSize: 0.25, heightScale: -1e-3, noData: -7, hexagonal: true }, settings: { occlusionThreshold: 4e4, gap: 1e-4 } },
+    { file: 3, stored: { pixelSize: 0.25, heightScale: -1e-3, noData: -7 }, settings: { occlusionThreshold: 4e4, gap: 1e-4 } },
   ];
   for (const state of states) {
     const found = stateOf(addressOf(state, defaults));
@@ -28,7 +28,7 @@ test('an address says what it was made of, and what it does not know is left', (
 
 test('the gallery has a card for each figure of the paper that it tells, with an address of its own', () => {
   const figures = CARDS.flatMap(({ figure }) => figure?.match(/\d+/g) ?? []).map(Number);
-  for (const figure of [4, 5, 6, 7, 8, 9, 10, 11, 16, 18, 19, 20, 21, 22, 23, 24, 25, 26]) assert.ok(figures.includes(figure), `Fig. ${figure}`);
+  for (const figure of [4, 5, 6, 8, 9, 10, 11, 18, 19, 20, 21, 22, 23, 24, 25, 26]) assert.ok(figures.includes(figure), `Fig. ${figure}`);
   assert.equal(new Set(CARDS.map(({ id }) => id)).size, CARDS.length);
   for (const { id, input, sketch, words, look } of CARDS) {
     assert.ok(words.split('. ').length >= 2 && look.length > 10, id);
@@ -74,8 +74,7 @@ pageTest('settings stand in the address, Back undoes them, and a file is there a
   await settled(page);
 
   // A view that is chosen at once does not take the place of the input before.
-  const cone = page.locator('input[name="example"][value="cone"]');
-  await cone.evaluate((/** @type {HTMLInputElement} */ radio) => radio.click());
+  await page.evaluate(() => void (location.hash = '#example=cone&size=64&noise=0.02'));
   await page.locator('#input-caption', { hasText: 'cone' }).waitFor();
   await page.locator('#recent', { hasText: 'slope.npy' }).waitFor();
   await page.locator('input[name="view"][value="patches"]').evaluate((/** @type {HTMLInputElement} */ radio) => radio.click());
@@ -94,20 +93,6 @@ pageTest('settings stand in the address, Back undoes them, and a file is there a
   assert.equal(parsed(await reported(page, 'λ')), 1e7);
   await page.getByRole('button', { name: /^Gallery/ }).click();
   assert.equal(await page.locator('.card').count(), CARDS.length);
-  // The first shows what people come for: a surface and sheets to cut, beside each other on white.
-  for (const title of ['A canopy to cut from card']) {
-    const picture = page.locator('.card').filter({ hasText: title }).locator('canvas');
-    await page.waitForFunction((canvas) => /** @type {HTMLCanvasElement} */ (canvas).width === 224, await picture.elementHandle());
-    const [left, right] = await picture.evaluate((canvas) => {
-      const { data } = /** @type {CanvasRenderingContext2D} */ (/** @type {HTMLCanvasElement} */ (canvas).getContext('2d')).getImageData(0, 0, 224, 224);
-      return [4, 116].map((from) => {
-        const levels = Array.from({ length: 104 * 224 }, (_, i) => 4 * (224 * Math.floor(i / 104) + from + (i % 104)))
-          .map((at) => (data[at + 3] > 0 ? data[at + 1] : 255));
-        return Math.max(...levels) - Math.min(...levels);
-      });
-    });
-    assert.ok(left > 60 && right > 60, `${title}: ${left}, ${right}`);
-  }
   await runBy(page, () => page.getByRole('button', { name: /Fig\. 11/ }).click());
   await page.waitForURL(/#fig-11$/);
   assert.match(await page.locator('#verdict').innerText(), /^\d+ smooth pieces meet in \d+ creases\.$/);

@@ -244,13 +244,14 @@ test('cautions and doubts about a flat page are said in sentences', () => {
     'The upper left corner is outside the photo.', 'The lower and right edges are hard to see.',
   ]);
   const doubts = /** @type {const} */ ([
-    ['largeError', 13, /^The photo leaves the bend uncertain:/], ['hiddenPart', 13, /^A part of the page hides another part:/],
-    ['disagreement', 13, /^The edges and lines of text disagree:/], ['crumpled', 13, /^The page is crumpled:/], ['spread', 13, /^This may be an open book/],
+    ['largeError', 13, /^The photo leaves the bend uncertain\. /], ['hiddenPart', 13, /^A part of the page hides another part\. /],
+    ['disagreement', 13, /^The edges and lines of text disagree\. /], ['crumpled', 13, /^The page is crumpled\. /], ['spread', 13, /^This may be an open book/],
   ]);
   for (const [doubt, linesFound, words] of doubts) {
     const report = /** @type {import('../../www/api.js').PageReport} */ ({ verdict: 'doubtful', doubt, error: 1.8, errorBound: 4.4, lines: 0, linesFound });
     assert.match(pageErrors(report), words);
-    assert.match(pageErrors(report), /about 1\.8\s%.*less than 4\.4\s%/);
+    assert.doesNotMatch(pageErrors(report), /off by/);
+    assert.match(pageErrors(report, 210), /off by about 4 mm\. Correct the outline/);
   }
 });
 
@@ -422,7 +423,7 @@ doorTest('an edge is pulled into a further point', async (page) => {
   assert.match(await page.locator('#flat-verdict').innerText(), /Not reliable|check it|cannot/, 'it was pulled away from the page');
 });
 
-doorTest('lines of text are found, shown and switched off', async (page) => {
+doorTest('lines of text are found and shown', async (page) => {
   await enterPages(page);
   await page.locator('#page-caption', { hasText: 'curled' }).waitFor();
   await flattened(page);
@@ -433,20 +434,13 @@ doorTest('lines of text are found, shown and switched off', async (page) => {
   assert.ok(count >= 8, `${count} lines`);
   assert.match(await told(page, 'Lines of text'), new RegExp(`^${count} found, off by`));
   assert.match(await verdict.innerText(), /^Made flat: its edges and lines of text agree/);
-  await page.getByLabel('Find lines of text').uncheck();
-  await flattened(page);
-  assert.equal(await lines.count(), 0);
-  assert.doesNotMatch(await verdict.innerText(), /lines of text/);
-
-  await openPhoto(page, 'letter.png', photo);
-  assert.equal(await page.locator('#flat-about dt', { hasText: 'Lines of text' }).count(), 0, 'dots are no text');
 });
 
-doorTest('known: format, focal length, what is bent, two pages', async (page) => {
+doorTest('known: format, what is bent, two pages', async (page) => {
   await openPhoto(page, 'letter.png', photo);
   // The photo does not tell its camera, but the page's perspective does.
-  assert.match(await page.locator('#focal-hint').innerText(), /photo was cropped\. I take that of a phone/);
-  const found = parsed(await told(page, 'Focal length'));
+  assert.match(await told(page, 'Focal length'), /by the perspective/);
+  const found = parsed((await told(page, 'Focal length')).replace(/,.*/, ''));
   assert.ok(Math.abs(found / camera.fx - 1) < 0.05, `${found}`);
 
   // Its size is not known, but it looks like that of a known paper.
@@ -459,19 +453,13 @@ doorTest('known: format, focal length, what is bent, two pages', async (page) =>
   assert.ok(Math.abs(size[0] - 210) < 1.5 && Math.abs(size[1] - 297) < 2, `a PDF of ${size} mm`);
   const [wide, high] = (await told(page, 'Size')).split('×').map(parsed);
   assert.ok(Math.abs(wide - 210) < 1.5 && Math.abs(high - 297) < 2, `${wide} × ${high}`);
-  await page.locator('#focal').selectOption('pixels');
-  await page.getByLabel('Value').fill(String(camera.fx));
-  await page.getByLabel('Value').press('Tab');
-  await flattened(page);
-  assert.ok(Math.abs(parsed(await told(page, 'Focal length')) / camera.fx - 1) < 0.05);
   await page.getByLabel('Page format').selectOption('own');
   for (const [label, value] of [['Width in mm', '100'], ['Height in mm', '400']]) {
     await page.getByLabel(label).fill(value);
     await page.getByLabel(label).press('Tab');
   }
   await flattened(page);
-  assert.match(await page.locator('#flat-verdict').innerText(), /check it|Not reliable|cannot be made flat/);
-  assert.match(await page.locator('#flat-detail').innerText(), /format/);
+  assert.deepEqual((await told(page, 'Size')).split('×').map(parsed), [100, 400]);
   await page.getByLabel('Page format').selectOption('');
   await flattened(page);
   const before = parsed(await told(page, 'Width to height'));
@@ -489,9 +477,9 @@ doorTest('the open book has its gutter where both pages meet', async (page) => {
   await flattened(page);
   assert.ok(await page.getByRole('radio', { name: 'Two pages' }).isChecked());
   assert.match(await page.locator('#flat-verdict').innerText(), /^Made flat: its edges and lines of text agree/);
-  // Two upright A4 pages.
+  // Two upright A4 pages; the ratio is told with three digits.
   const ratio = parsed(await told(page, 'Width to height'));
-  assert.ok(Math.abs(ratio / (420 / 297) - 1) < 0.015, `${ratio}`);
+  assert.ok(Math.abs(ratio / (420 / 297) - 1) < 0.02, `${ratio}`);
   const { pages, size } = await readPdfPicture((await savedPage(page, 'PDF')).bytes);
   assert.equal(pages, 2, 'each page by itself');
   assert.ok(Math.abs(size[0] / size[1] / (210 / 297) - 1) < 0.02 && size[0] < 210.1 && size[1] < 297.1, `${size} mm`);
@@ -511,13 +499,6 @@ doorTest('what is no photo gets a message, and what was there stays', async (pag
   }
   await page.getByRole('button', { name: 'Dismiss' }).click();
   assert.equal(await page.getByRole('alert').isVisible(), false);
-});
-
-doorTest('the flat page goes on as a surface', async (page) => {
-  await openPhoto(page, 'letter.png', photo);
-  await page.getByRole('button', { name: 'Use it as a 3D surface' }).click();
-  await page.locator('#mesh-name', { hasText: 'letter (photo)' }).waitFor();
-  await page.locator('#certificate', { hasText: 'Proven' }).waitFor();
 });
 
 const phone = { viewport: { width: 390, height: 844 }, hasTouch: true, isMobile: true, deviceScaleFactor: 2 };

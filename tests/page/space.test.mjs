@@ -68,14 +68,10 @@ pageTest('in space the surface is turned, lit and divided', async (page) => {
   assert.ok(correlation(above, await brightness(page, '#space-canvas')) < 0.9, 'the mouse turns it');
   await page.getByRole('button', { name: 'From above' }).click();
 
-  await page.locator('#drag').selectOption('light');
-  await canvas.press('ArrowRight');
-  await canvas.press('ArrowRight');
-  await canvas.press('ArrowRight');
+  for (let i = 0; i < 3; i++) await canvas.press('Alt+ArrowRight');
   const lit = await brightness(page, '#space-canvas');
   assert.ok(correlation(above, lit) < 0.99, 'the light moves');
-  await canvas.press('Home');
-  await page.locator('#drag').selectOption('turn');
+  await canvas.press('Alt+Home');
 
   await choose(page.getByRole('radio', { name: 'Patches', exact: true }));
   await page.locator('#analysis[aria-busy="false"]').waitFor({ state: 'attached' });
@@ -110,8 +106,16 @@ pageTest('an answer that takes long can be done without, and asked for again; th
     return seen && waiting.hidden && document.querySelector('#about-view')?.textContent;
   });
   assert.match(String(cancelled), /^Cancelled/);
+  const told = await page.evaluateHandle(() => {
+    /** @type {string[]} */
+    const texts = [];
+    const waiting = /** @type {HTMLElement} */ (document.querySelector('#waiting'));
+    new MutationObserver(() => texts.push(waiting.querySelector('span')?.textContent ?? '')).observe(waiting, { childList: true, subtree: true, characterData: true });
+    return texts;
+  });
   await page.getByRole('button', { name: 'Try again' }).click();
   await page.locator('#unfold-field').waitFor();
+  assert.match((await told.jsonValue()).join(), /Laying it flat, [1-9]\d?\s%/, 'how far it is');
   assert.equal(await page.locator('#unfold').inputValue(), '1', 'flat at once, where motion is unwelcome');
   assert.equal(await page.locator('#divider').isVisible(), false);
   const flat = await brightness(page, '#space-canvas');

@@ -29,7 +29,7 @@ pageTest('five λ side by side are smoother the smaller λ is, and a click takes
   assert.equal(await page.locator('#lambda-value').inputValue(), '1e5');
   assert.deepEqual(await choices.evaluateAll((all) => all.map((one) => one.getAttribute('aria-pressed'))), ['false', 'true', 'false', 'false', 'false']);
   // Another input has other pictures.
-  await runBy(page, () => page.locator('input[name="example"][value="cone"]').check());
+  await runBy(page, () => page.locator('#example').selectOption('cone'));
   await page.locator('#strip[aria-busy="false"]').waitFor();
   assert.notEqual((await look(page, '.strip-one:nth-child(3) canvas')).hash, pictures[2].hash);
   await open.click();

@@ -77,11 +77,12 @@ doorTest('what is known of depths is dropped with them, and what is not is said'
   await page.getByRole('alert').filter({ hasText: 'confidence.png' }).filter({ hasText: 'colour' }).waitFor();
 });
 
-doorTest('without the camera’s file it is assumed, and may be typed', async (page) => {
+doorTest('the camera is assumed until its file is opened', async (page) => {
   await dropAll(page, { 'depth.png': png16(256, depths(0).map((depth) => Math.round(10000 * depth))), 'IMG_1.png': photo });
   // Built by a guess, with the photo on it at once.
   await page.locator('#guessed', { hasText: 'Assumed: 60° field of view' }).waitFor();
   assert.ok(await page.getByRole('radio', { name: 'Photo', exact: true }).isChecked());
+  await page.locator('#certificate').waitFor();
   await page.locator('#analysis[data-view="photo"][aria-busy="false"]').waitFor({ state: 'attached' });
   await painted(page);
   assert.ok((await look(page, 'result')).roughness > 1, 'dots on the surface');
@@ -90,12 +91,9 @@ doorTest('without the camera’s file it is assumed, and may be typed', async (p
   await page.getByLabel('Depth scale').fill('0.0001');
   await page.getByLabel('Depth scale').press('Tab');
   assert.match(await page.locator('#camera-span').innerText(), /0\.3\d* to 0\.\d+ away/);
-  const angle = (360 / Math.PI) * Math.atan(128 / depthCamera.fx);
-  await page.getByLabel('Field of view, °').fill(String(angle));
-  await page.getByLabel('Field of view, °').press('Tab');
-  assert.ok(Math.abs(Number(await page.getByLabel('Focal length fx').inputValue()) / depthCamera.fx - 1) < 1e-4);
-  await page.getByLabel('Centre cx').fill(String(depthCamera.cx));
-  await page.getByLabel('Centre cy').fill(String(depthCamera.cy));
+  const { fx, fy, cx, cy } = depthCamera;
+  await page.locator('#camera-file').setInputFiles({ name: 'camera.json', mimeType: 'application/json', buffer: Buffer.from(JSON.stringify({ fx, fy, cx, cy })) });
+  await page.locator('#camera-about', { hasText: `centre ${cx}, ${cy}` }).waitFor();
   await runBy(page, () => page.getByRole('button', { name: 'Build the 3D surface' }).click());
   await choose(page.getByRole('radio', { name: 'Flat photo', exact: true }));
   await runBy(page, () => page.getByRole('button', { name: 'Solve', exact: true }).click());
@@ -112,64 +110,6 @@ doorTest('a camera that cannot belong to the image is refused', async (page) => 
   await page.getByRole('alert').filter({ hasText: 'other.json' }).filter({ hasText: 'no camera in it' }).waitFor();
   await drop(page, 'far.csv', Buffer.from('900,0,2000\n0,900,1500\n0,0,1\n'));
   await page.getByRole('alert').filter({ hasText: 'far from the middle' }).waitFor();
-  await page.getByLabel('Centre cx').fill('2000');
-  await page.getByRole('button', { name: 'Build the 3D surface' }).click();
-  await page.getByRole('alert').filter({ hasText: 'images of another size' }).waitFor();
-});
-
-doorTest('the part of the photo that is clicked, or within corners, is made flat alone', async (page) => {
-  // A table behind the page, in two parts.
-  const scene = depths(0).map((depth, i) => depth || (i % 256 < 60 ? 0.75 : 0));
-  await runBy(page, () => dropAll(page, { 'IMG_1.png': photo, 'depth.npy': npy(256, scene), 'camera.json': numbers }));
-  await flattened(page);
-  const told = async (/** @type {string} */ name) => {
-    const figure = page.locator('#about-view .figures div').filter({ has: page.locator('dt', { hasText: name }) });
-    return (await figure.count()) > 0 ? (await figure.locator('dd').innerText()).trim() : '';
-  };
-  assert.match(await told('Parts'), /^2/);
-  const middle = await onPage(page, seen(0.5, 0.5));
-  await runBy(page, () => page.mouse.click(...middle));
-  await flattened(page);
-  assert.equal(await told('Parts'), '');
-  const [wide, high] = (await told('Size')).split('×').map(parsed);
-  // Of the scene's 0.7 m the page is left, less its rim, where depths are mixed.
-  assert.ok(Math.abs(wide / 0.21 - 1) < 0.12 && Math.abs(high / 0.297 - 1) < 0.12, `${wide} × ${high}`);
-  const error = misplaced(await flatPng(page));
-  assert.ok(error < 0.004, `dots are off by ${100 * error} % of the width`);
-
-  // By corners, the first of them by mouse, the others by keys.
-  await page.getByRole('button', { name: 'Crop', exact: true }).click();
-  await flattened(page);
-  const corners = /** @type {const} */ ([[0.1, 0.1], [0.9, 0.1], [0.9, 0.9], [0.1, 0.9]]);
-  for (const [i, [s, t]] of corners.entries()) {
-    const corner = page.getByRole('button', { name: new RegExp(`^Corner ${i + 1} of the crop`) });
-    // The mouse does not scroll to it.
-    await corner.scrollIntoViewIfNeeded();
-    const box = await corner.boundingBox();
-    assert.ok(box);
-    await page.mouse.move(box.x + box.width / 2, box.y + box.height / 2);
-    await page.mouse.down();
-    await page.mouse.move(...await onPage(page, seen(s, t)), { steps: 3 });
-    await page.mouse.up();
-    await flattened(page);
-  }
-  const [cropWide, cropHigh] = (await told('Size')).split('×').map(parsed);
-  // Straight lines in the photo cut off some of what is between bent ones.
-  assert.ok(Math.abs(cropWide / (0.8 * 0.21) - 1) < 0.06 && Math.abs(cropHigh / (0.8 * 0.297) - 1) < 0.12, `${cropWide} × ${cropHigh}`);
-  const first = page.getByRole('button', { name: /^Corner 1 of the crop/ });
-  await first.focus();
-  await page.keyboard.press('Shift+ArrowRight');
-  await flattened(page);
-  assert.ok(await first.evaluate((button) => button === document.activeElement), 'the focus is not lost');
-  await first.press('Delete');
-  await flattened(page);
-  assert.equal(await page.getByRole('button', { name: /of the crop/ }).count(), 3);
-  await page.getByRole('button', { name: 'Crop', exact: true }).click();
-  await flattened(page);
-  assert.equal(await page.getByRole('button', { name: /of the crop/ }).count(), 0);
-  await runBy(page, () => page.getByRole('button', { name: 'All parts' }).click());
-  await flattened(page);
-  assert.match(await told('Parts'), /^2/);
 });
 
 pageTest('a scan in OBJ brings its material and texture along', async (page) => {

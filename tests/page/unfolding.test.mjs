@@ -4,9 +4,9 @@ import { readFileSync } from 'node:fs';
 import { test } from 'node:test';
 import { initSync, loadSync, pattern } from '../../pkg/sync.js';
 import { readAssemblyMesh, borderLines } from '../../www/surface/assembly-mesh.js';
-import { computeUnfolding } from '../../www/surface/unfolding.js';
+import { computeUnfolding, unfoldedPositions } from '../../www/surface/unfolding.js';
 
-test('a cylinder unfolds as cylinders of ever larger radius, without stretch', () => {
+test('a cylinder unfolds along straight ways of its vertices', () => {
   const [cols, rows, radius, step] = [25, 6, 3, 0.2];
   /** @type {number[]} */
   const positions = [];
@@ -26,29 +26,40 @@ test('a cylinder unfolds as cylinders of ever larger radius, without stretch', (
     }
   }
   const stretches = new Float64Array((2 * triangles.length) / 3).fill(1);
-  const { forms, colors } = computeUnfolding({
+  const unfolding = computeUnfolding({
     positions: Float64Array.from(positions), places: Float64Array.from(places), triangles: Uint32Array.from(triangles), stretches,
   }, 0.01, [10, 20]);
-  assert.equal(colors.length, 3 * rows * cols);
-  const length = (/** @type {Float32Array} */ form, /** @type {number} */ i, /** @type {number} */ j) =>
-    Math.hypot(...[0, 1, 2].map((k) => form[3 * i + k] - form[3 * j + k]));
-  forms.forEach((form, n) => {
-    // Edges along the axis and across it; chords are a little shorter than arcs.
-    for (let t = 0; t < triangles.length; t += 3) {
-      for (const [a, b] of [[0, 1], [0, 2]]) {
-        const [i, j] = [triangles[t + a], triangles[t + b]];
-        const own = Math.hypot(places[2 * i] - places[2 * j], places[2 * i + 1] - places[2 * j + 1]);
-        assert.ok(Math.abs(length(form, i, j) / own - 1) < 2e-3, `form ${n}: ${length(form, i, j)} for ${own}`);
-      }
+  assert.equal(unfolding.colors.length, 3 * rows * cols);
+  for (const share of [0, 0.3, 0.5, 1]) {
+    const form = unfoldedPositions(unfolding, share);
+    const length = (/** @type {number} */ i, /** @type {number} */ j) => Math.hypot(...[0, 1, 2].map((k) => form[3 * i + k] - form[3 * j + k]));
+    for (let col = 0; col + 1 < cols; col++) {
+      // An edge that slopes by an angle goes straight from its bent to its flat direction.
+      const angle = ((col + 0.5 - (cols - 1) / 2) * step) / radius;
+      const chord = 2 * radius * Math.sin(step / radius / 2);
+      const wanted = Math.hypot((1 - share) * chord * Math.cos(angle) + share * step, (1 - share) * chord * Math.sin(angle));
+      assert.ok(Math.abs(length(col, col + 1) / wanted - 1) < 1e-5, `${share}: ${length(col, col + 1)} for ${wanted}`);
+      assert.ok(Math.abs(length(col, col + cols) / step - 1) < 1e-5, 'along the axis nothing changes');
     }
-    // Ends come apart as the arc of the radius in between has its chord.
-    const share = 1 - n / (forms.length - 1);
-    const angle = (share * (cols - 1) * step) / radius;
-    const chord = share === 0 ? (cols - 1) * step : (2 * (radius / share)) * Math.sin(angle / 2);
-    assert.ok(Math.abs(length(form, 0, cols - 1) / chord - 1) < 0.01, `form ${n}: ${length(form, 0, cols - 1)} for ${chord}`);
-  });
-  assert.ok(Math.abs(forms[0][0] - (positions[0] + 10)) < 1e-5 && Math.abs(forms[0][1] - 20) < 1e-5, 'it begins where the surface is');
-  assert.ok(forms[forms.length - 1].every((value, i) => i % 3 < 2 || Math.abs(value - forms[forms.length - 1][2]) < 1e-5), 'and ends flat');
+  }
+  const [bent, flat] = [0, 1].map((share) => unfoldedPositions(unfolding, share));
+  positions.forEach((value, i) => assert.ok(Math.abs(bent[i] - value - [10, 20, 0][i % 3]) < 1e-5, 'it begins where the surface is'));
+  assert.ok(flat.every((value, i) => i % 3 < 2 || Math.abs(value - flat[2]) < 1e-5), 'and ends flat');
+});
+
+test('a sheet that lies elsewhere and turned keeps its size on the way', () => {
+  // Two sheets of one triangle each, flat already: the second one is turned by 120° and beside the first.
+  const positions = Float64Array.from([0, 0, 0, 2, 0, 0, 0, 1, 0, 0, 0, 1, 2, 0, 1, 0, 1, 1]);
+  const [c, s] = [Math.cos((2 * Math.PI) / 3), Math.sin((2 * Math.PI) / 3)];
+  const places = Float64Array.from([0, 0, 2, 0, 0, 1, ...[[0, 0], [2, 0], [0, 1]].flatMap(([x, y]) => [9 + c * x - s * y, s * x + c * y])]);
+  const unfolding = computeUnfolding({ positions, places, triangles: Uint32Array.from([0, 1, 2, 3, 4, 5]), stretches: new Float64Array(4).fill(1), sheets: Uint32Array.from([0, 0, 0, 1, 1, 1]) }, 0.01, [0, 0]);
+  for (const share of [0, 0.4, 1]) {
+    const form = unfoldedPositions(unfolding, share);
+    for (const [i, j, own] of [[0, 1, 2], [0, 2, 1], [3, 4, 2], [3, 5, 1], [4, 5, Math.sqrt(5)]]) {
+      const length = Math.hypot(...[0, 1, 2].map((k) => form[3 * i + k] - form[3 * j + k]));
+      assert.ok(Math.abs(length - own) < 1e-5, `${share}: ${length} for ${own}`);
+    }
+  }
 });
 
 test('sheets of a pyramid are where it is, and lie flat beside each other in their true size', () => {

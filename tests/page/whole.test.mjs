@@ -164,14 +164,6 @@ doorTest('a closed mesh is solved whole, shown before and after, laid flat and s
   assert.ok((await look(page, '#whole-picture')).covered > 0.1);
   await page.locator('#whole-picture').hover();
   assert.match(await page.locator('#whole-reading').innerText(), /^strain [+−]?[\d.]+\s%$/);
-  await page.locator('#whole-flat').click();
-  const sheet = parseObj((await saveAs(page, 'OBJ')).bytes);
-  const sheetArea = sheet.triangles.reduce((sum, corners) => {
-    const [[x, y], [u, v], [s, t]] = corners.map((corner) => sheet.points[corner]);
-    return sum + ((u - x) * (t - y) - (s - x) * (v - y)) / 2;
-  }, 0);
-  assert.ok(sheet.points.every(([, , z]) => z === 0) && Math.abs(sheetArea / area - 1) < 0.03, `${sheetArea} of ${area}`);
-
   await page.locator('#whole-sheets').click();
   await page.locator('.preview[aria-busy="false"] img').waitFor();
   assert.match(await page.locator('.sheets .said').innerText(), /sheet.*fold/);

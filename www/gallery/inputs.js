@@ -14,15 +14,14 @@ const NOISE_SEED = 17;
  * @param {object} [defects]
  * @param {number} [defects.noise] standard deviation, as a share of the range of heights
  * @param {number} [defects.voxels] voxels along a side, to which heights are rounded
- * @param {number} [defects.facets] facets along a side, on which heights are linear as on a coarse mesh
  * @param {(x: number, y: number) => boolean} [defects.hole] where there is no data
  * @param {number} [defects.dropouts] share of pixels without data
  * @param {boolean} [defects.known] whether the true surface is the one without defects
  * @returns {Input}
  */
-export function sampledInput(name, heights, size, { noise = 0, voxels, facets, hole, dropouts = 0, known = noise > 0 || voxels !== undefined } = {}) {
+export function sampledInput(name, heights, size, { noise = 0, voxels, hole, dropouts = 0, known = noise > 0 || voxels !== undefined } = {}) {
   const truth = image(heights, size);
-  const given = voxels ? image(voxelHeights(heights, voxels), size) : facets ? image(facetedHeights(heights, facets), size) : truth;
+  const given = voxels ? image(voxelHeights(heights, voxels), size) : truth;
   const random = randomGenerator(NOISE_SEED);
   const range = rangeOf(truth);
   const data = given.map((z, i) => {
@@ -60,19 +59,6 @@ function pixelCentre(i, size) {
 function voxelHeights(heights, count) {
   const middle = (/** @type {number} */ at) => (Math.floor(at * count) + 0.5) / count;
   return (x, y) => Math.round(heights(middle(x), middle(y)) * count) / count;
-}
-
-/** Heights interpolated on a coarse mesh. @param {Heights} heights @param {number} count facets along a side @returns {Heights} */
-function facetedHeights(heights, count) {
-  return (x, y) => {
-    const [u, v] = [(x + 0.5) * count, (y + 0.5) * count];
-    const [i, j] = [Math.floor(u), Math.floor(v)];
-    const [s, t] = [u - i, v - j];
-    const at = (/** @type {number} */ a, /** @type {number} */ b) => heights(a / count - 0.5, b / count - 0.5);
-    return s + t < 1
-      ? at(i, j) + s * (at(i + 1, j) - at(i, j)) + t * (at(i, j + 1) - at(i, j))
-      : at(i + 1, j + 1) + (1 - s) * (at(i, j + 1) - at(i + 1, j + 1)) + (1 - t) * (at(i + 1, j) - at(i + 1, j + 1));
-  };
 }
 
 /** @param {Float64Array} values */

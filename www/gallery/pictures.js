@@ -1,11 +1,10 @@
 /** Pictures of the gallery's cards: input and result side by side, solved on few pixels. */
-import { settingsFor } from '../design.js';
+import { settingsFor } from '../fit-settings.js';
 import { make } from '../dom.js';
-import { drawingImage } from '../pattern.js';
 import { heightsOf } from '../session.js';
-import { drawPair, drawHalves, drawThumbnail } from '../surface/thumbnail.js';
+import { drawHalves, drawThumbnail } from '../surface/thumbnail.js';
 
-/** @import {Api, Surface} from '../api.js' */
+/** @import {Api} from '../api.js' */
 /** @import {Card} from './cards.js' */
 /** @import {Input, Settings} from '../session.js' */
 /** @typedef {InstanceType<Api['DevelopableWorker']>} Worker */
@@ -14,8 +13,6 @@ import { drawPair, drawHalves, drawThumbnail } from '../surface/thumbnail.js';
 const PICTURE_SIDE_PIXELS = 112;
 /** Duality gap at which the solve for a picture stops. */
 const PICTURE_GAP = 0.05;
-/** Longer side of a design whose sheets a picture shows, in millimetres: so small that lines of a fixed width are visible. */
-const SHEETS_SIDE_MM = 50;
 
 /**
  * The input of a card.
@@ -53,18 +50,11 @@ export async function drawPicture(api, defaults, card, canvas) {
     if (!image) return;
     const [before, after] = [make('canvas', ''), make('canvas', '')];
     drawThumbnail(after, image, 1 / image.pixelSize);
-    if (card.showsSheets) return drawPair(canvas, after, await sheetsImage(worker, surface, image));
     // The input of a design is not a surface, so the picture shows the result alone.
     if (input.design) return drawThumbnail(canvas, image, 1 / image.pixelSize);
     drawThumbnail(before, input, input.heightScale / input.pixelSize);
     drawHalves(canvas, before, after);
   }).catch(() => {});
-}
-
-/** An image of the sheets that are cut from a surface. @param {Worker} worker @param {Surface} surface @param {{ width: number, height: number, pixelSize: number }} image of the surface */
-async function sheetsImage(worker, surface, { width, height, pixelSize }) {
-  const drawing = await worker.pattern(surface, { scale: SHEETS_SIDE_MM / (Math.max(width, height) * pixelSize) });
-  return drawingImage((own) => worker.writeSvg(own), drawing);
 }
 
 /** Queue of the pictures: their worker, the number of waiting pictures, and the last of them. */
@@ -77,7 +67,7 @@ const queue = { worker: /** @type {Worker | null} */ (null), waiting: 0, last: P
  */
 function enqueue(api, draw) {
   queue.waiting++;
-  const job = queue.last.then(() => draw(queue.worker ??= new api.DevelopableWorker())).finally(() => {
+  const job = queue.last.then(() => draw(queue.worker ??= new api.SolverWorker())).finally(() => {
     if (--queue.waiting > 0) return;
     queue.worker?.dispose();
     queue.worker = null;

@@ -32,13 +32,6 @@ export function pleats(x, y) {
   return 0.09 * (1 - 2 * Math.abs(u - Math.round(u))) + 0.12 * y;
 }
 
-/** A curved bench: a sheet that bends up on one side and down on the other, with a fold between. @type {Heights} */
-export function bench(x, y) {
-  const seat = 0.16 * Math.cos(2.4 * (x + 0.15));
-  const back = 0.1 + 1.1 * (y - 0.05) + 0.05 * Math.cos(3 * x);
-  return Math.max(seat, back * 0.55);
-}
-
 /** The front of a bust, modelled by signed distances: the height where a ray from the front meets it. @type {Heights} */
 export function bust(x, y) {
   for (let z = 0.62; z > 0.02; ) {
@@ -102,15 +95,6 @@ export function crumpledNote(x, y) {
 const NOTE_FOLDS = /** @type {const} */ ([
   [0.3, 0.05, 0.16], [1.2, -0.12, -0.14], [2.1, 0.1, 0.12], [2.7, -0.2, -0.1], [0.9, 0.22, 0.11], [1.7, 0.2, -0.13], [0.05, -0.18, 0.09], [1.5, -0.3, 0.1],
 ]);
-
-/** A machine part: flanks that bend one way, a flat, and a rim with sharp edges. @type {Heights} */
-export function fandisk(x, y) {
-  const r = Math.hypot(x + 0.5, y + 0.5);
-  const fan = r < 0.98 && r > 0.3 ? 0.3 - 0.55 * (r - 0.64) ** 2 * 3 : 0.05;
-  const rim = Math.abs(r - 0.98) < 0.12 ? 0.16 + 0.6 * Math.abs(r - 0.98) : 0;
-  const step = x > 0.22 && y < 0.05 ? 0.24 - 0.25 * (x - 0.22) : 0;
-  return Math.max(0.05, Math.min(fan, 0.05 + 0.8 * (r - 0.3)), rim, step);
-}
 
 /** Mountains: ridges at every scale, each half as high as the last. @type {Heights} */
 export function terrain(x, y) {

@@ -34,15 +34,16 @@ export class PageFlattener {
   /**
    * Flattens the reduced photo. A request that waits is replaced by a newer one.
    * @param {FlattenRequest} request
+   * @param {(fraction: number) => void} onProgress gets the share of the present flattening that is done
    * @param {(done: { request: FlattenRequest } & ({ flat: DewarpedPage } | { error: unknown })) => void} onResult gets each result, and an error unless a newer request waits
    */
-  async preview(request, onResult) {
+  async preview(request, onProgress, onResult) {
     this.#waiting = request;
     if (this.#busy) return;
     this.#busy = true;
     for (let current = this.#takeWaiting(); current; current = this.#takeWaiting()) {
       try {
-        onResult({ request: current, flat: await flattenReducedPhoto(this.worker, current) });
+        onResult({ request: current, flat: await flattenReducedPhoto(this.worker, current, onProgress) });
       } catch (error) {
         if (!this.#waiting) onResult({ request: current, error });
       }
@@ -61,10 +62,11 @@ export class PageFlattener {
  * Finds the page of a request in the reduced photo, and flattens it.
  * @param {Worker} worker
  * @param {FlattenRequest} request
+ * @param {(fraction: number) => void} [onProgress]
  */
-export function flattenReducedPhoto(worker, { photo: { reduced, scale, film35 }, traces, options, moving }) {
+export function flattenReducedPhoto(worker, { photo: { reduced, scale, film35 }, traces, options, moving }, onProgress = () => {}) {
   const { width, height, data } = reduced;
-  return worker.dewarpPage({ width, height, data, film35 }, toPageEdges(traces, scale), { ...scaleOptions(options, scale), ...(moving && { findLines: false, traceEdges: false }) });
+  return worker.dewarpPage({ width, height, data, film35 }, toPageEdges(traces, scale), { ...scaleOptions(options, scale), ...(moving && { findLines: false, traceEdges: false }), onProgress: ({ fraction }) => onProgress(fraction) });
 }
 
 /**

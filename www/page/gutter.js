@@ -1,5 +1,4 @@
 /** Finds the gutter of an open book, at the kinks of its upper and lower edge. */
-import { fitPolynomial } from './polynomial.js';
 
 /** @import {Point} from './outline.js' */
 
@@ -50,6 +49,7 @@ function findKink(line) {
 
 /** The least-squares line through points. @param {number[][]} points */
 function fitLine(points) {
-  const fitted = fitPolynomial(points, 1);
-  return { slope: fitted(1) - fitted(0), level: fitted(0) };
+  const [s, t] = [0, 1].map((k) => points.reduce((sum, point) => sum + point[k], 0) / points.length);
+  const slope = points.reduce((sum, point) => sum + (point[0] - s) * (point[1] - t), 0) / points.reduce((sum, point) => sum + (point[0] - s) ** 2, 0);
+  return { slope, level: t - slope * s };
 }

@@ -1,11 +1,11 @@
 /** Texts about photos of pages and their flat pages. */
-import { count, percent } from '../format.js';
+import { count, number } from '../format.js';
 
 /** @import {PageReport} from '../api.js' */
 
 /** Texts about a photo of a page. */
 export const PAGE_WORDS = {
-  working: 'Flattening the page…',
+  working: 'Flattening the page',
   unfound: 'I found no page in this photo. If it shows one, drag the four corners onto it.',
   unfoundDetail: 'The flat page appears as soon as you move a corner.',
   noFlat: 'No flat page from this outline.',
@@ -44,16 +44,6 @@ export const BOOK_WORDS = {
   writing: (n, all) => `Flattening photo ${n} of ${all}…`,
 };
 
-/** Texts about the focal length of the camera. */
-export const FOCAL_WORDS = {
-  unknown: 'The focal length is not known: the photo’s file does not tell it, or the photo was cropped. I take that of a phone, and correct it by the perspective.',
-  /** @param {string} film35 */
-  told: (film35) => `The photo’s file says ${film35} mm (35 mm film).`,
-  fov: 'This is the angle across the photo’s longer side: 65 to 80° on most phones.',
-  film35: 'This is the focal length for 35 mm film: 23 to 28 mm on most phones.',
-  pixels: 'This is the focal length in pixels of the photo.',
-};
-
 /** Joins words by commas and “and”. @param {readonly string[]} words one or more */
 function joinWords(words) {
   return words.length < 2 ? words.join('') : `${words.slice(0, -1).join(', ')} and ${words[words.length - 1]}`;
@@ -75,17 +65,18 @@ export function pageVerdict({ verdict, model, lines }) {
 }
 
 /**
- * The expected errors of a flat page, and what to do if they are large.
+ * What may be wrong with a flat page, and what to do about it; the figures tell more.
  * @param {PageReport} report
+ * @param {number} [width] of the page in millimetres, if it is known
  */
-export function pageErrors(report) {
-  const { verdict, error, errorBound, lines, linesFound } = report;
+export function pageErrors(report, width) {
+  const { verdict, error, lines, linesFound } = report;
   const text = lines + linesFound > 0 ? ' and lines of text' : '';
-  const likely = `points are off by about ${percent(error / 100)} of the page’s width (in 95 of 100 photos by less than ${percent(errorBound / 100)})`;
+  const likely = width === undefined ? '' : ` Points are off by about ${number((error / 100) * width, 1)} mm.`;
   switch (verdict) {
-    case 'flat': case 'unrolled': return `If the outline is right, ${likely}.`;
-    case 'unchecked': return `${lines === 0 ? 'No line' : 'Too few lines'} of text ${lines === 0 ? 'checks' : 'check'} how the page is bent. If the outline is right, ${likely}.`;
-    case 'doubtful': return `${doubtWords(report, text)}: ${likely}. Correct the outline, or choose the page’s format.`;
+    case 'flat': case 'unrolled': return likely.trim();
+    case 'unchecked': return `${lines === 0 ? 'No line' : 'Too few lines'} of text ${lines === 0 ? 'checks' : 'check'} how the page is bent.${likely}`;
+    case 'doubtful': return `${doubtWords(report, text)}.${likely} Correct the outline, or choose the page’s format.`;
     default: return `The edges${text} contradict each other. Correct the outline where it leaves the page.`;
   }
 }
@@ -100,8 +91,8 @@ function doubtWords({ doubt }, text) {
     case 'hiddenPart': return 'A part of the page hides another part';
     case 'disagreement': return `The edges${text} disagree`;
     case 'crumpled': return 'The page is crumpled';
-    case 'spread': return 'This may be an open book: choose two pages. If it is one page';
-    case 'outline': return 'The outline may be wrong. If it is right';
+    case 'spread': return 'This may be an open book: choose two pages';
+    case 'outline': return 'The outline may be wrong';
     default: return 'The photo leaves the bend uncertain';
   }
 }

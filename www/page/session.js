@@ -15,6 +15,7 @@ import { EDGE_NAMES, EDGES, Outline } from './outline.js';
  * @typedef {object} PageEvents
  * @property {PagePhoto} photo another photo is shown
  * @property {{ outline: Outline, moving: boolean }} outline the outline has changed; `moving`: something is being dragged
+ * @property {number} progress share of the present flattening that is done; 0 when one begins
  * @property {boolean} working whether a flat page is being computed, or another photo is being opened
  * @property {{ flat: DewarpedPage, moving: boolean }} flat a new flat page of the reduced photo; `moving`: something is being dragged
  * @property {null} unfound no page was detected: the user has to put the corners onto it first
@@ -41,8 +42,6 @@ export class PageSession extends Events {
   traces = [[], [], [], []];
   /** Whether edges are traced in the photo. */
   tracesEdges = true;
-  /** Whether lines of text are detected. */
-  findsTextLines = true;
   /** Detected lines of text. @type {Line[]} */
   foundLines = [];
   /** @type {Options} */
@@ -84,9 +83,9 @@ export class PageSession extends Events {
     return EDGES.filter((edge) => this.traces[edge].some((line) => line.length === 2)).map((edge) => EDGE_NAMES[edge]);
   }
 
-  /** Options of flattening, and of what is searched for in the photo. @returns {Options} */
+  /** Options of flattening, and whether edges are traced in the photo. @returns {Options} */
   get searchOptions() {
-    return { ...this.options, findLines: this.findsTextLines, traceEdges: this.tracesEdges };
+    return { ...this.options, traceEdges: this.tracesEdges };
   }
 
   /** Names of the corners outside the photo. */
@@ -241,12 +240,6 @@ export class PageSession extends Events {
     this.#update(!ended);
   }
 
-  /** Sets whether lines of text are detected. @param {boolean} finding */
-  setFindsTextLines(finding) {
-    this.findsTextLines = finding;
-    this.#update();
-  }
-
   /**
    * Adds a node to an edge.
    * @param {Edge} edge
@@ -302,7 +295,9 @@ export class PageSession extends Events {
       return;
     }
     this.emit('working', true);
-    void this.#flattening.preview(request, (done) => {
+    // While something is dragged, each flattening is short.
+    if (!moving) this.emit('progress', 0);
+    void this.#flattening.preview(request, (fraction) => this.emit('progress', fraction), (done) => {
       if (done.request.photo !== this.photo || this.isPageMissing) return;
       // While nothing is dragged, only the flat page of the newest outline and options is shown.
       if (done.request !== this.#latestRequest && !done.request.moving) return;

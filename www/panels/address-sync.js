@@ -67,10 +67,10 @@ export function addressSyncPanel(session, page) {
       return { card: card.id, settings: Object.fromEntries(changed), view: view() === card.view ? undefined : view() };
     }
     if (input?.kind !== undefined) {
-      const { pixelSize, heightScale, noData, hexagonal } = input.stored ?? {};
+      const { pixelSize, heightScale, noData } = input.stored ?? {};
       const { view: meshView } = page.meshFitView;
       const whole = meshView === undefined ? undefined : true;
-      return { file: fileId, unkept: (fileId === undefined && isUnstored) || undefined, stored: input.stored && { pixelSize, heightScale, noData, hexagonal }, settings, whole, view: meshView ?? view() };
+      return { file: fileId, unkept: (fileId === undefined && isUnstored) || undefined, stored: input.stored && { pixelSize, heightScale, noData }, settings, whole, view: meshView ?? view() };
     }
     const [size, noise] = ['size', 'noise'].map((name) => Number(element(name, HTMLSelectElement).value));
     return { example: { name: input?.name ?? 'roof', size, noise }, settings, view: view() };
@@ -160,7 +160,7 @@ export function addressSyncPanel(session, page) {
       }
       if (state.stored && session.input?.stored) {
         const { stored } = session.input;
-        const isReinterpreted = Object.entries(state.stored).some(([name, value]) => stored[/** @type {'hexagonal'} */ (name)] !== value);
+        const isReinterpreted = Object.entries(state.stored).some(([name, value]) => stored[/** @type {'noData'} */ (name)] !== value);
         if (isReinterpreted) await page.reinterpretFile(state.stored);
       }
       if (state.whole) return page.meshFitView.enter(state.view ?? 'shaded');

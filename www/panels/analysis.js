@@ -1,19 +1,19 @@
 /** Choice of a view of the result, and the text below it. */
 import { element, elements, make } from '../dom.js';
 import { gaussian, kappa2 } from '../views/curvature.js';
-import { dewarped, photoPicture } from '../views/dewarped.js';
+import { dewarped } from '../views/dewarped.js';
 import { patches } from '../views/patches.js';
 import { hasColours, photo as coloured } from '../views/photo.js';
 import { flat as laidFlat } from '../views/pieces.js';
 import { rulings } from '../views/rulings.js';
-import { VIEW_WORDS } from '../messages.js';
+import { TASK_WORDS, VIEW_WORDS } from '../messages.js';
 import { photoPanel } from './photo.js';
 import { waitingPanel } from './waiting.js';
 
 /** @import {Analyses} from '../analyses.js' */
 /** @import {Result, Session} from '../session.js' */
 /** @import {ViewContent} from '../views/view-content.js' */
-/** @typedef {(analyses: Analyses, result: Result) => Promise<ViewContent>} View */
+/** @typedef {(analyses: Analyses, result: Result, tell: import('../mesh-fit.js').Tell) => Promise<ViewContent>} View */
 
 /** Functions that prepare the views, by their names. @type {Record<string, View>} */
 const VIEWS = { gaussian, kappa2, rulings, patches, photo: coloured, sheet: laidFlat };
@@ -25,6 +25,8 @@ const VIEWS = { gaussian, kappa2, rulings, patches, photo: coloured, sheet: laid
  */
 export function analysisPanel(session, analyses, show) {
   const radios = elements('input[name="view"]', HTMLInputElement);
+  /** The choice of a flat photo, which is offered where there is one to flatten. */
+  const flatPhoto = element('view-dewarped', HTMLElement);
   const panel = element('analysis', HTMLElement);
   const about = element('about-view', HTMLElement);
   const description = element('view-says', HTMLElement);
@@ -72,19 +74,16 @@ export function analysisPanel(session, analyses, show) {
     picture.setAttribute('aria-busy', 'true');
     description.textContent = '';
     if (!isSameView) about.replaceChildren();
-    const task = { label: 'Preparing this view', kind: name, size: result.surface.heights.length };
-    waiting.begin(task);
+    waiting.begin(TASK_WORDS.view);
     try {
-      const shown = await (name === 'dewarped' ? dewarpedView(result) : VIEWS[name](analyses, result));
+      const shown = await (name === 'dewarped' ? dewarpedView(result) : VIEWS[name](analyses, result, waiting.tell));
       if (turn !== newestUpdate) return;
-      waiting.end(task);
+      waiting.end();
       display(shown);
     } catch (error) {
       if (turn !== newestUpdate) return;
       waiting.end();
-      // The photo stays visible, so that the user can correct its crop.
-      const request = name === 'dewarped' ? await photo.dewarpRequest(result).catch(() => null) : null;
-      display(request ? { before: photoPicture(request.photo) } : {});
+      display({});
       session.fail('This view could not be worked out', error);
     }
   };
@@ -117,14 +116,15 @@ export function analysisPanel(session, analyses, show) {
   };
   for (const radio of radios) radio.addEventListener('change', restart);
   session.on('input', (input) => {
-    const photoView = element('view-photo', HTMLElement);
-    photoView.hidden = !hasColours(input);
-    if (photoView.hidden && chosen() === 'photo') radios[0].click();
+    element('view-photo', HTMLElement).hidden = !hasColours(input);
+    flatPhoto.hidden = !(input.photo || input.lattice?.uvs || chosen() === 'dewarped');
+    if (chosen() === 'photo' && !hasColours(input)) radios[0].click();
   });
   session.on('result', restart);
   session.on('cleared', restart);
   /** Shows a view. @param {string} view */
   const choose = (view) => {
+    if (view === 'dewarped') flatPhoto.hidden = false;
     for (const radio of radios) radio.checked = radio.value === view;
     restart();
   };

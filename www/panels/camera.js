@@ -6,64 +6,41 @@ import { DEPTH_WORDS } from '../messages.js';
 
 /** @import {Mesh, PhotoCamera} from '../api.js' */
 /** @import {InputOrigin} from '../mesh-sampling.js' */
-/** @import {Input, Session, TimedTask} from '../session.js' */
+/** @import {Input, Session} from '../session.js' */
 
 /** Field of view that is assumed at first, in degrees along the longer side: about that of a phone. */
 const ASSUMED_FIELD_OF_VIEW_DEGREES = 60;
 
 /**
  * @param {Session} session
- * @param {(origin: InputOrigin, load: (signal: AbortSignal) => Promise<Mesh>, doing: string, task: TimedTask) => Promise<boolean>} openLoadedMesh
+ * @param {(origin: InputOrigin, load: (signal: AbortSignal) => Promise<Mesh>, doing: string, task: string) => Promise<boolean>} openLoadedMesh
  */
 export function cameraPanel(session, openLoadedMesh) {
   const depthCheckbox = element('is-depth', HTMLInputElement);
   const panel = element('camera', HTMLElement);
-  const [fx, fy, cx, cy, scale] = ['fx', 'fy', 'cx', 'cy', 'scale'].map((name) => element(`camera-${name}`, HTMLInputElement));
-  const fields = [fx, fy, cx, cy, scale];
+  const scale = element('camera-scale', HTMLInputElement);
   const angle = element('camera-angle', HTMLInputElement);
   const about = element('camera-about', HTMLElement);
   const span = element('camera-span', HTMLElement);
   /** The input whose values are the depths. */
   const depthInput = () => session.input?.depthSource ?? session.input;
-  /** Properties of the camera that have no field: the size of its images, and lens distortion. @type {Partial<PhotoCamera>} */
-  let hiddenProperties = {};
+  /** The camera of a file; null where the field of view says what it is. @type {PhotoCamera | null} */
+  let fileCamera = null;
 
   const describe = () => {
     const input = depthInput();
     if (!input) return;
-    const { width = input.width, height = input.height, k1, k2, k3, p1, p2 } = hiddenProperties;
-    const lens = [k1, k2, k3, p1, p2].some((value) => value) ? ', and a lens that distorts' : '';
-    const companionWords = input.companions ? ` With ${input.companions.names.map((name) => `“${name}”`).join(' and ')}.` : '';
-    about.textContent = `For images of ${width} × ${height} pixels${lens}.${companionWords}`;
+    about.textContent = [fileCamera && DEPTH_WORDS.camera(fileCamera), input.companions && DEPTH_WORDS.companions(input.companions.names)].filter(Boolean).join(' ');
     const [near, far] = depthRange(input.data).map((depth) => depth * scale.valueAsNumber);
     span.textContent = Number.isFinite(near) ? `With this scale, what is seen is ${number(near)} to ${number(far)} away.` : '';
   };
-  /** Sets the focal lengths that belong to the field of view. @param {number} width @param {number} height */
-  const setFocalLengths = (width, height) => {
-    fx.value = fy.value = String(Number((Math.max(width, height) / 2 / Math.tan((angle.valueAsNumber * Math.PI) / 360)).toPrecision(6)));
-  };
-  /** Fills the fields with a typical camera, whose principal point is the middle of the image. @param {Input} input */
-  const assumeCamera = ({ width, height, depthUnit }) => {
-    hiddenProperties = {};
-    cx.value = String((width - 1) / 2);
-    cy.value = String((height - 1) / 2);
-    angle.value = String(ASSUMED_FIELD_OF_VIEW_DEGREES);
-    setFocalLengths(width, height);
-    scale.value = depthUnit === 'm' ? '1' : '0.001';
-    describe();
-  };
-  /** Shows the fields, filled with a typical camera. */
+  /** Shows the fields, filled with a typical camera, whose principal point is the middle of the image. */
   const show = () => {
     depthCheckbox.checked = true;
     panel.hidden = false;
-    const input = depthInput();
-    if (input) assumeCamera(input);
-  };
-  /** Fills the fields with a camera. @param {PhotoCamera} camera */
-  const fill = ({ fx: x, fy: y, cx: across, cy: down, depthScale, rotation, translation, ...rest }) => {
-    hiddenProperties = rest;
-    angle.value = '';
-    [x, y, across, down, depthScale ?? scale.valueAsNumber].forEach((value, i) => (fields[i].value = String(value)));
+    fileCamera = null;
+    angle.value = String(ASSUMED_FIELD_OF_VIEW_DEGREES);
+    scale.value = depthInput()?.depthUnit === 'm' ? '1' : '0.001';
     describe();
   };
 
@@ -78,11 +55,8 @@ export function cameraPanel(session, openLoadedMesh) {
   });
   scale.addEventListener('change', describe);
   angle.addEventListener('change', () => {
-    const input = depthInput();
-    const isValid = angle.valueAsNumber > 0 && angle.valueAsNumber < 180;
-    angle.setCustomValidity(isValid || angle.value === '' ? '' : 'It must be an angle above 0° and below 180°.');
-    if (!angle.reportValidity() || !isValid || !input) return;
-    setFocalLengths(hiddenProperties.width ?? input.width, hiddenProperties.height ?? input.height);
+    fileCamera = null;
+    describe();
   });
   /** Reads the camera from a file. @param {File} file */
   const readCamera = async (file) => {
@@ -92,7 +66,10 @@ export function cameraPanel(session, openLoadedMesh) {
       const camera = session.api.parseCamera(await file.text(), [input, ...(input.photo ? [input.photo.image] : [])].map(({ width, height }) => ({ width, height })));
       if (depthInput() !== input) return false;
       show();
-      fill(camera);
+      fileCamera = camera;
+      angle.value = '';
+      if (camera.depthScale) scale.value = String(camera.depthScale);
+      describe();
       return true;
     } catch (error) {
       session.fail(`“${file.name}” could not be used`, error);
@@ -101,25 +78,32 @@ export function cameraPanel(session, openLoadedMesh) {
   };
   onFileChosen(element('camera-open', HTMLButtonElement), element('camera-file', HTMLInputElement), readCamera);
 
+  /** The camera of the fields. @param {Input} input @returns {PhotoCamera} */
+  const presentCamera = ({ width, height }) => {
+    const depthScale = scale.valueAsNumber;
+    if (fileCamera) {
+      const { rotation, translation, ...camera } = fileCamera;
+      return { ...camera, depthScale };
+    }
+    const focalLength = Math.max(width, height) / 2 / Math.tan((angle.valueAsNumber * Math.PI) / 360);
+    return { fx: focalLength, fy: focalLength, cx: (width - 1) / 2, cy: (height - 1) / 2, depthScale };
+  };
   /** Builds the mesh from the depths. @param {boolean} [isAssumed] whether the camera was assumed, not given */
   const backProject = async (isAssumed = false) => {
     const input = depthInput();
     if (!input) return false;
-    for (const field of fields) {
-      const isValid = Number.isFinite(field.valueAsNumber) && (field === cx || field === cy || field.valueAsNumber > 0);
-      field.setCustomValidity(isValid ? '' : `It must be a number${field === cx || field === cy ? '' : ' above 0'}.`);
-      if (!field.reportValidity()) return false;
-    }
-    const [x, y, across, down, depthScale] = fields.map((field) => field.valueAsNumber);
+    scale.setCustomValidity(scale.valueAsNumber > 0 ? '' : 'It must be a number above 0.');
+    angle.setCustomValidity(fileCamera || (angle.valueAsNumber > 0 && angle.valueAsNumber < 180) ? '' : 'It must be an angle above 0° and below 180°.');
+    if (!scale.reportValidity() || !angle.reportValidity()) return false;
     const { name, width, height, data, photo, companions } = input;
-    const camera = { ...hiddenProperties, fx: x, fy: y, cx: across, cy: down, depthScale };
+    const camera = presentCamera(input);
     const options = companions && { confidence: companions.confidence, mask: companions.mask };
     const kind = companions ? `depths, with ${companions.names.join(' and ')}` : 'depths';
     const unit = input.depths ? { unit: /** @type {const} */ ('m') } : {};
-    const cameraAssumption = isAssumed ? DEPTH_WORDS.assumed(number(angle.valueAsNumber), depthScale) : undefined;
+    const cameraAssumption = isAssumed ? DEPTH_WORDS.assumed(number(angle.valueAsNumber), scale.valueAsNumber) : undefined;
     return openLoadedMesh({ name, kind, photo: session.input?.photo ?? photo, depthSource: input, cameraAssumption },
       (signal) => runInWorker(session.api, signal, async (worker) => ({ ...await worker.backProject({ width, height, data }, camera, options), ...unit })),
-      DEPTH_WORDS.failed, { label: DEPTH_WORDS.building, kind: 'depths', size: width * height });
+      DEPTH_WORDS.failed, DEPTH_WORDS.building);
   };
   element('back-project', HTMLButtonElement).addEventListener('click', async () => {
     if (await backProject()) void session.run();

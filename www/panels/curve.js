@@ -14,12 +14,11 @@ const MAX_TICKS = 8;
 /** @param {Session} session */
 export function curvePanel(session) {
   const picture = element('curve-picture', SVGSVGElement);
-  const axis = element('curve-axis', HTMLSelectElement);
   /** @type {Moment[]} */
   let moments = [];
   let target = session.settings.gap;
   const drawSoon = oncePerFrame(() => {
-    picture.innerHTML = plot(moments, axis.value === 'iteration' ? 'iteration' : 'elapsed', target);
+    picture.innerHTML = plot(moments, target);
   });
   /** @param {Moment} moment */
   const add = (moment) => {
@@ -41,7 +40,6 @@ export function curvePanel(session) {
     add(finalMoment(report));
     picture.setAttribute('aria-label', gapsInWords(moments));
   });
-  axis.addEventListener('change', drawSoon);
 }
 
 /** @param {Report} report @returns {Moment} */
@@ -60,12 +58,11 @@ function gapsInWords(moments) {
 /**
  * The elements of the plot.
  * @param {readonly Moment[]} moments
- * @param {'iteration' | 'elapsed'} along
  * @param {number} target
  */
-function plot(moments, along, target) {
+function plot(moments, target) {
   const { left, top, right, bottom } = FRAME;
-  const end = Math.max(moments.at(-1)?.[along] ?? 0, along === 'iteration' ? 10 : 0.01);
+  const end = Math.max(moments.at(-1)?.elapsed ?? 0, 0.01);
   const lowest = Math.min(target, ...moments.map(({ gap }) => gap ?? 0).filter((gap) => gap > 0));
   const [low, high] = [Math.floor(Math.log10(100 * lowest)), 2];
   /** @param {number} value */
@@ -79,19 +76,18 @@ function plot(moments, along, target) {
     ...powers.map((power) => `<path class="tick" d="M${left} ${y(power)}H${right}"/><text x="${left - 6}" y="${y(power)}" class="up">${number(power)} %</text>`),
     ...linearTicks(end, MAX_TICKS).map((tick) => `<text x="${x(tick)}" y="${bottom + 16}" class="across">${number(tick)}</text>`),
     `<path class="wanted" d="M${left} ${y(100 * target)}H${right}"/>`,
-    `<path class="coarse" d="${path(gapsByLevel(moments, along, false))}"/>`,
-    `<path class="finest" d="${path(gapsByLevel(moments, along, true))}"/>`,
+    `<path class="coarse" d="${path(gapsByLevel(moments, false))}"/>`,
+    `<path class="finest" d="${path(gapsByLevel(moments, true))}"/>`,
   ].join('');
 }
 
 /**
  * Gaps in percent on the finest lattice, or on the others, with a break wherever the solve comes from another lattice.
  * @param {readonly Moment[]} moments
- * @param {'iteration' | 'elapsed'} along
  * @param {boolean} finest
  * @returns {[number, number][]}
  */
-export function gapsByLevel(moments, along, finest) {
+export function gapsByLevel(moments, finest) {
   /** @type {[number, number][]} */
   const points = [];
   let level = NaN;
@@ -99,8 +95,8 @@ export function gapsByLevel(moments, along, finest) {
     const begins = moment.level !== level;
     level = moment.level;
     if ((level === 0) !== finest) continue;
-    if (points.length > 0 && begins) points.push([moment[along], NaN]);
-    points.push([moment[along], 100 * (moment.gap || NaN)]);
+    if (points.length > 0 && begins) points.push([moment.elapsed, NaN]);
+    points.push([moment.elapsed, 100 * (moment.gap || NaN)]);
   }
   return points;
 }

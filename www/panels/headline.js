@@ -86,8 +86,7 @@ export function headlinePanel(session, analyses) {
 function detailsOf({ input, result }) {
   if (!input) return '';
   const report = result?.input === input ? result.surface.report : null;
-  const size = report ? `${count(report.interior + report.boundary)} vertices.` : `${count(input.width * input.height)} pixels.`;
-  return [report ? noiseReductionInWords(noiseReduction(/** @type {Result} */ (result))) : '', size, input.cameraAssumption].filter(Boolean).join(' ');
+  return [report ? noiseReductionInWords(noiseReduction(/** @type {Result} */ (result))) : `${count(input.width * input.height)} pixels.`, input.cameraAssumption].filter(Boolean).join(' ');
 }
 
 /** Error of the input divided by the error of the result; undefined if the truth is unknown. @param {Result} result */

@@ -3,10 +3,9 @@ import { download, element, elements, make } from '../dom.js';
 import { percent } from '../format.js';
 import { lengthUnitOf } from '../pattern.js';
 import { plainMessage } from '../error-messages.js';
-import { FORMAT_WORDS, MESH_FIT_WORDS } from '../messages.js';
+import { MESH_FIT_WORDS, TASK_WORDS } from '../messages.js';
 import { OBLIQUE_VIEWS, SceneView } from '../surface/scene.js';
 import { PictureView } from '../surface/picture-view.js';
-import { Zoom } from '../surface/zoom.js';
 import { gaussian, patches, readingAt, rulings, shaded, sheet, meshFitSummary } from '../views/mesh-fit.js';
 import { longestSide } from '../mesh-fit.js';
 import { surfaceFormats } from '../solid.js';
@@ -19,10 +18,11 @@ import { waitingPanel } from './waiting.js';
 /** @import {Session} from '../session.js' */
 /** @import {MeshSurface, MeshFit} from '../mesh-fit.js' */
 /** @import {MeshViewContent} from '../views/mesh-fit.js' */
+/** @import {TaskProgress} from './waiting.js' */
 
 /** Kinds of files whose programs take y for the axis that points upwards; those of the others take z. */
 const Y_UP_KINDS = ['OBJ', 'GLB', 'GLTF'];
-/** Functions that prepare the views, by their names. @type {Record<string, (meshFit: MeshFit, mesh: Mesh, surface: MeshSurface) => Promise<MeshViewContent>>} */
+/** Functions that prepare the views, by their names. @type {Record<string, (meshFit: MeshFit, mesh: Mesh, surface: MeshSurface, tell: (progress: TaskProgress) => void) => Promise<MeshViewContent>>} */
 const VIEWS = { shaded, gaussian, rulings, patches, sheet };
 
 /** @param {Session} session @param {MeshFit} meshFit */
@@ -39,9 +39,9 @@ export function meshFitPanel(session, meshFit) {
   const reading = element('whole-reading', HTMLElement);
   const ways = elements('input[name="mesh-way"]', HTMLInputElement);
   const radios = elements('input[name="whole-view"]', HTMLInputElement);
-  const [file, sheets, flat] = ['file', 'sheets', 'flat'].map((name) => element(`whole-${name}`, HTMLButtonElement));
+  const [file, sheets] = ['file', 'sheets'].map((name) => element(`whole-${name}`, HTMLButtonElement));
   const report = element('whole-report', HTMLButtonElement);
-  const picture = new PictureView(element('whole-picture', HTMLCanvasElement), new Zoom());
+  const picture = new PictureView(element('whole-picture', HTMLCanvasElement));
   /** @type {Promise<SceneView | null> | null} */
   let viewer = null;
   const divider = dividerOver('whole-divider', ['input', 'result'], async (share) => (await viewer)?.divide(share));
@@ -70,8 +70,6 @@ export function meshFitPanel(session, meshFit) {
     stage.setAttribute('aria-busy', 'false');
     again.focus();
   });
-  /** A task on a mesh, for the progress bar. @param {Mesh} mesh @param {string} label @param {string} kind */
-  const taskOn = (mesh, label, kind) => ({ label, kind, size: mesh.positions.length / 3 });
   /** @param {string} sentence @param {string} details */
   const say = (sentence, details) => {
     verdict.textContent = sentence;
@@ -101,14 +99,13 @@ export function meshFitPanel(session, meshFit) {
     const { mesh, surface } = meshFit;
     if (!mesh || !surface) return;
     const name = radios.find(({ checked }) => checked)?.value ?? 'shaded';
-    const task = taskOn(mesh, 'Preparing this view', `whole ${name}`);
     stage.setAttribute('aria-busy', 'true');
     again.hidden = true;
-    if (name !== 'shaded') waiting.begin(task);
+    if (name !== 'shaded') waiting.begin(TASK_WORDS.view);
     try {
-      const shown = await VIEWS[name](meshFit, mesh, surface);
+      const shown = await VIEWS[name](meshFit, mesh, surface, waiting.tell);
       if (turn !== newestUpdate) return;
-      waiting.end(name === 'shaded' ? undefined : task);
+      waiting.end();
       await display(shown);
     } catch (error) {
       if (turn !== newestUpdate) return;
@@ -121,7 +118,7 @@ export function meshFitPanel(session, meshFit) {
 
   /** @param {boolean} ready */
   const enable = (ready) => {
-    for (const button of [file, sheets, flat, report]) button.disabled = !ready;
+    for (const button of [file, sheets, report]) button.disabled = !ready;
     for (const radio of radios) radio.disabled = !ready;
   };
 
@@ -175,7 +172,7 @@ export function meshFitPanel(session, meshFit) {
     enable(false);
     again.hidden = true;
     stage.setAttribute('aria-busy', 'true');
-    waiting.begin(taskOn(mesh, 'Solving', 'whole'));
+    waiting.begin(TASK_WORDS.solving);
     void display({ before: mesh, about: [] }).then(async () => {
       // A further solve of the same mesh keeps the view.
       const view = await viewer;
@@ -192,7 +189,7 @@ export function meshFitPanel(session, meshFit) {
   });
   meshFit.on('result', (surface) => {
     if (!meshFit.mesh) return;
-    waiting.end(taskOn(meshFit.mesh, '', 'whole'));
+    waiting.end();
     say(MESH_FIT_WORDS.solved, meshFitSummary(meshFit.mesh, surface));
     enable(true);
     void update();
@@ -242,30 +239,11 @@ export function meshFitPanel(session, meshFit) {
     const offer = offerToSave(session.api, {
       title: '3D file',
       stem: stem(),
-      size: surface.positions.length / 3,
       unit: surface.unit,
       extra: [solid.fields],
       formats: solid.formats,
     });
     solid.onChange(offer.renew);
-  });
-  flat.addEventListener('click', () => {
-    const { surface } = meshFit;
-    if (!surface) return;
-    offerToSave(session.api, {
-      title: 'Laid flat',
-      stem: `${stem()}-flat`,
-      size: surface.positions.length / 3,
-      formats: [{
-        value: 'obj', name: 'OBJ', words: FORMAT_WORDS.flatMesh, type: 'model/obj',
-        write: async (worker) => {
-          const { places, triangles } = await meshFit.unrolled(surface);
-          const positions = Float64Array.from({ length: (places.length / 2) * 3 }, (_, i) => (i % 3 === 2 ? 0 : places[2 * Math.floor(i / 3) + (i % 3)]));
-          return worker.writeObj({ positions, triangles });
-        },
-      }],
-      closed: () => meshFit.stop(),
-    });
   });
   sheets.addEventListener('click', () => {
     const { surface } = meshFit;
@@ -273,11 +251,10 @@ export function meshFitPanel(session, meshFit) {
     const longest = longestSide(surface);
     offerSheets(session.api, {
       stem: stem(),
-      size: surface.positions.length / 3,
       length: longest,
       up: upAxis(),
       unit: lengthUnitOf({ ...session.input, kind: 'mesh', unit: surface.unit ?? undefined }),
-      cut: ({ side: length, ...options }) => meshFit.pattern(surface, { scale: length / longest, ...options }),
+      cut: ({ side: length, ...options }, tell) => meshFit.pattern(surface, { scale: length / longest, ...options }, tell),
       svg: (drawing) => meshFit.svg(drawing),
       canFoldElsewhere: ({ summary }) => summary.strain === 0,
       stop: () => meshFit.stop(),

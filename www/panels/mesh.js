@@ -1,15 +1,16 @@
 /** Meshes and point clouds: turned by hand, and sampled as heights from a view. */
-import { fileReadTask, runInWorker } from '../worker-task.js';
+import { runInWorker } from '../worker-task.js';
 import { element, elements } from '../dom.js';
 import { MESH_ENDING } from '../file-kinds.js';
 import { count, number } from '../format.js';
 import { boundingBoxSides } from '../mesh-fit.js';
-import { openSampledMesh, samplingTask } from '../mesh-sampling.js';
+import { TASK_WORDS } from '../messages.js';
+import { openSampledMesh } from '../mesh-sampling.js';
 import { SceneView } from '../surface/scene.js';
 
 /** @import {Mesh, SampleMeshOptions} from '../api.js' */
 /** @import {InputOrigin} from '../mesh-sampling.js' */
-/** @import {Input, Session, TimedTask} from '../session.js' */
+/** @import {Input, Session} from '../session.js' */
 
 /** Delay after the mesh was turned before it is sampled, in milliseconds. */
 const TURN_DELAY_MS = 180;
@@ -21,24 +22,19 @@ export function meshPanel(session) {
   const missing = element('mesh-missing', HTMLElement);
   const name = element('mesh-name', HTMLElement);
   const span = element('mesh-span', HTMLElement);
-  const resolution = element('mesh-resolution', HTMLInputElement);
-  const turnedButton = element('mesh-turned', HTMLButtonElement);
   const buttons = elements('button[data-view]', HTMLButtonElement);
   /** @type {Promise<SceneView | null> | null} */
   let viewer = null;
   /** The mesh that is displayed. @type {Mesh | null} */
   let shownMesh = null;
 
-  /** The resolution that was typed; undefined lets the package choose. */
-  const resolutionOption = () => (resolution.value === '' ? undefined : resolution.valueAsNumber);
-
   /** Samples the mesh with changed options. @param {SampleMeshOptions} change */
   const resample = async (change) => {
     const { input } = session;
     if (!input?.sampling) return;
-    const { mesh, options, wholeMesh } = input.sampling;
+    const { mesh, options } = input.sampling;
     const opened = await openSampledMesh(
-      session, originOf(input), async () => mesh, { ...options, ...change }, 'The mesh could not be seen so', { wholeMesh, task: samplingTask(mesh) },
+      session, originOf(input), async () => mesh, { ...options, ...change }, 'The mesh could not be seen so', TASK_WORDS.sampling,
     );
     if (opened) void session.run();
   };
@@ -51,17 +47,6 @@ export function meshPanel(session) {
   for (const button of buttons) {
     button.addEventListener('click', () => resample({ view: /** @type {SampleMeshOptions['view']} */ (button.dataset.view) }));
   }
-  turnedButton.addEventListener('click', async () => {
-    const view = await viewer;
-    if (view) resample({ view: view.direction });
-  });
-  resolution.addEventListener('change', () => {
-    const number = resolutionOption();
-    const isValid = number === undefined || (Number.isInteger(number) && number >= 3);
-    resolution.setCustomValidity(isValid ? '' : 'It must be a whole number, at least 3, or empty.');
-    if (resolution.reportValidity()) resample({ resolution: number });
-  });
-
   session.on('input', async ({ sampling, lattice, name: title, kind }) => {
     panel.hidden = sampling === undefined;
     if (!sampling || !lattice?.frame) return;
@@ -70,10 +55,9 @@ export function meshPanel(session) {
     name.textContent = `${title} (${kind})`;
     span.textContent = spanInWords(mesh);
     for (const button of buttons) button.setAttribute('aria-pressed', String(button.dataset.view === options.view));
-    turnedButton.setAttribute('aria-pressed', String(typeof options.view !== 'string'));
     viewer ??= SceneView.create(canvas, { onTurn }).catch(() => null);
     const view = await viewer;
-    canvas.hidden = turnedButton.hidden = view === null;
+    canvas.hidden = view === null;
     missing.hidden = view !== null;
     if (session.input?.sampling !== sampling || !view) return;
     try {
@@ -91,9 +75,9 @@ export function meshPanel(session) {
      * @param {InputOrigin} origin
      * @param {(signal: AbortSignal) => Promise<Mesh>} load
      * @param {string} doing what could not be done, for the message if it fails
-     * @param {TimedTask} [task]
+     * @param {string} [task] what its progress says
      */
-    openLoaded: (origin, load, doing, task) => openSampledMesh(session, origin, load, { view: 'best-fit', resolution: resolutionOption() }, doing, { task }),
+    openLoaded: (origin, load, doing, task) => openSampledMesh(session, origin, load, { view: 'best-fit' }, doing, task),
     /**
      * Opens the mesh of a file.
      * @param {File} file
@@ -105,7 +89,7 @@ export function meshPanel(session) {
       return this.openLoaded({ name, kind }, async (signal) => {
         const files = new Map(await Promise.all(referencedFiles.map(async (one) => /** @type {const} */ ([one.name, await one.arrayBuffer()]))));
         return runInWorker(session.api, signal, (reader) => reader.readMesh(file, { files }));
-      }, `“${file.name}” could not be read`, fileReadTask(file));
+      }, `“${file.name}” could not be read`, TASK_WORDS.reading);
     },
   };
 }

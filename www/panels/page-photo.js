@@ -19,7 +19,6 @@ export function pagePhotoPanel(session) {
   const more = element('point-add', HTMLButtonElement);
   const fewer = element('point-remove', HTMLButtonElement);
   const snap = element('snap', HTMLInputElement);
-  const findLines = element('find-lines', HTMLInputElement);
   const undo = element('page-undo', HTMLButtonElement);
   const suggest = element('suggest', HTMLButtonElement);
   const several = element('several', HTMLElement);
@@ -61,7 +60,6 @@ export function pagePhotoPanel(session) {
     handles.focus(handleOf(session.add(edge, longestSegmentMiddle(session, edge))));
   });
   fewer.addEventListener('click', () => isBendChosen() && remove(chosen));
-  findLines.addEventListener('change', () => session.setFindsTextLines(findLines.checked));
   snap.addEventListener('change', () => session.setTracesEdges(snap.checked));
   element('page-turn', HTMLButtonElement).addEventListener('click', () => session.turn());
   suggest.addEventListener('click', () => session.reset());

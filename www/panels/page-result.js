@@ -5,14 +5,13 @@ import { flattenWholePhoto } from '../page/flatten.js';
 import { PAPERS, pictureFiles, similarPaper } from '../page/paper.js';
 import { turnPicture } from '../page/quarter-turn.js';
 import { imagePicture, PictureView } from '../surface/picture-view.js';
-import { Zoom } from '../surface/zoom.js';
 import { canvasFromImage } from '../surface/layer.js';
 import { figures } from '../views/legend.js';
 import { FORMAT_WORDS, SAVE_WORDS } from '../messages.js';
 import { BOOK_WORDS, PAGE_WORDS, pageCautions, pageErrors, pageVerdict } from '../page/messages.js';
 import { dividerOver } from './divider.js';
 import { offerToSave } from './save-dialog.js';
-import { PROGRESS_DELAY_MS } from './waiting.js';
+import { PROGRESS_DELAY_MS, waitingPanel } from './waiting.js';
 
 /** @import {Api} from '../api.js' */
 /** @import {Worker} from '../worker-task.js' */
@@ -26,12 +25,11 @@ import { PROGRESS_DELAY_MS } from './waiting.js';
  * @param {Api} api
  * @param {PageSession} session
  * @param {Book} book the photos that are open
- * @param {(flat: DewarpedPage, name: string) => void} openAsSurface opens the page as a surface
  * @param {() => void} onWritten called when a PDF was written, which may lack some photos
  */
-export function pageResultPanel(api, session, book, openAsSurface, onWritten) {
+export function pageResultPanel(api, session, book, onWritten) {
   const figure = element('flat-view', HTMLElement);
-  const view = new PictureView(element('flat-canvas', HTMLCanvasElement), new Zoom());
+  const view = new PictureView(element('flat-canvas', HTMLCanvasElement));
   const divider = dividerOver('flat-divider', ['photo', 'flat page'], () => view.repaint(), 0);
   const empty = element('flat-empty', HTMLElement);
   const verdict = element('flat-verdict', HTMLElement);
@@ -42,7 +40,6 @@ export function pageResultPanel(api, session, book, openAsSurface, onWritten) {
   const proposal = element('format-proposal', HTMLButtonElement);
   const caption = element('flat-caption', HTMLElement);
   const save = element('page-save', HTMLButtonElement);
-  const surface = element('flat-surface', HTMLButtonElement);
   /** @type {DewarpedPage | null} */
   let shown = null;
   /** The last verdict, and the details below it. */
@@ -52,9 +49,14 @@ export function pageResultPanel(api, session, book, openAsSurface, onWritten) {
   /** The reduced photo, once it is needed. @type {Picture | null} */
   let before = null;
 
+  const flattening = waitingPanel(element('flattening', HTMLElement), undefined, PROGRESS_DELAY_MS);
+  session.on('progress', (fraction) => {
+    if (fraction === 0) flattening.begin(PAGE_WORDS.working);
+    else flattening.tell({ fraction });
+  });
   /** @param {boolean} ready */
   const enable = (ready) => {
-    save.disabled = surface.disabled = !ready;
+    save.disabled = !ready;
   };
   /** @param {string} sentence @param {string} [details] */
   const say = (sentence, details = '') => {
@@ -76,8 +78,8 @@ export function pageResultPanel(api, session, book, openAsSurface, onWritten) {
   session.on('photo', ({ file }) => {
     before = null;
     element('page-examples', HTMLElement).hidden = file !== undefined;
-    clear(PAGE_WORDS.working);
-    say(PAGE_WORDS.working);
+    clear('');
+    say(`${PAGE_WORDS.working}…`);
   });
   session.on('outline', ({ moving }) => {
     isMoving = moving;
@@ -87,13 +89,14 @@ export function pageResultPanel(api, session, book, openAsSurface, onWritten) {
   session.on('working', (working) => {
     figure.setAttribute('aria-busy', String(working));
     clearTimeout(workingTimer);
+    flattening.end();
     if (!working) [verdict.textContent, detail.textContent] = said;
     if (isMoving) return;
     enable(!working && shown !== null);
     // Until the new flat page is there, nothing is said of the old one.
     if (!working) return;
     workingTimer = window.setTimeout(() => {
-      [verdict.textContent, detail.textContent, caption.textContent] = [PAGE_WORDS.working, '', ''];
+      [verdict.textContent, detail.textContent, caption.textContent] = [`${PAGE_WORDS.working}…`, '', ''];
       about.replaceChildren();
       proposal.hidden = true;
     }, PROGRESS_DELAY_MS);
@@ -124,12 +127,12 @@ export function pageResultPanel(api, session, book, openAsSurface, onWritten) {
     side.toggleAttribute('data-unplaced', unplaced > 0);
     const cautions = pageCautions({ outside: session.outsideCorners, weak: session.weakEdges, unplaced });
     const lightNote = flat.light === 'keep' && session.options.light !== 'keep' ? [PAGE_WORDS.keptLight] : [];
-    say(pageVerdict(report), [...cautions, pageErrors(report), ...lightNote].join(' '));
+    say(pageVerdict(report), [...cautions, pageErrors(report, flat.unit === 'mm' ? flat.size[0] / session.outline.pages : undefined), ...lightNote].filter(Boolean).join(' '));
     facts.hidden = false;
     const similar = flat.unit === 'mm' ? null : similarPaper(flat.size[0] / session.outline.pages, flat.size[1]);
     proposal.hidden = similar === null;
     if (similar) [proposal.value, proposal.textContent] = [similar, PAGE_WORDS.looksLike(SAVE_WORDS.papers[similar])];
-    about.replaceChildren(figures(factsOf(flat, session.quarters, session.photo?.scale ?? 1)));
+    about.replaceChildren(figures(factsOf(flat, session.quarters, session.photo)));
   });
   session.on('problem', (error) => {
     clear(PAGE_WORDS.noFlat);
@@ -161,7 +164,6 @@ export function pageResultPanel(api, session, book, openAsSurface, onWritten) {
     const offer = offerToSave(api, {
       title: 'Flat page',
       stem: `${wish.photo.name}-flat`,
-      size: wish.photo.width * wish.photo.height * Math.max(1, book.photos.length),
       formats: [
         { value: 'pdf', name: 'PDF', ...(several && { stem: `${book.photos[0].file.name.replace(/\.[^.]*$/, '')}-pages`, note: () => withoutInWords(book) }), words: several ? BOOK_WORDS.pdf(book.photos.length) : pages > 1 ? SAVE_WORDS.pdfOfTwo : SAVE_WORDS.pdf, type: 'application/pdf', write: async (worker) => {
           const size = paper.value === '' ? null : PAPERS[/** @type {PaperName} */ (paper.value)];
@@ -181,9 +183,6 @@ export function pageResultPanel(api, session, book, openAsSurface, onWritten) {
     format.value = proposal.value;
     format.dispatchEvent(new Event('change'));
     format.focus();
-  });
-  surface.addEventListener('click', () => {
-    if (shown) openAsSurface(shown, session.photo?.name ?? 'page');
   });
 }
 
@@ -222,11 +221,12 @@ function sizeOf({ size, unit }, quarters) {
  * Figures of the flat page: names and values.
  * @param {DewarpedPage} flat
  * @param {number} quarters number of quarter turns
- * @param {number} scale side of the reduced photo divided by that of the full one
+ * @param {import('../page/photo.js').PagePhoto | null} photo
  * @returns {[string, string][]}
  */
-function factsOf(flat, quarters, scale) {
+function factsOf(flat, quarters, photo) {
   const { verdict, error, errorBound, focalLength, tilt, bend, disagreement, residual, linesFound } = flat.report;
+  const { scale = 1, film35 } = photo ?? {};
   const isOtherKind = verdict === 'notThisKind';
   return [
     ['Likely error', isOtherKind ? '–' : `${percent(error / 100)} of the width`],
@@ -236,7 +236,7 @@ function factsOf(flat, quarters, scale) {
     ['Edge residual', `${numberAgainst(residual / scale, 1000)} pixels`],
     ['Bend', degrees((bend * Math.PI) / 180)],
     ['Tilt', degrees((tilt * Math.PI) / 180)],
-    ['Focal length', `${number(focalLength / scale, 4)} pixels`],
+    ['Focal length', `${number(focalLength / scale, 4)} pixels, ${film35 === undefined ? 'by the perspective' : 'as the photo’s file says'}`],
     [flat.unit === 'mm' ? 'Size' : 'Width to height', sizeOf(flat, quarters)],
   ];
 }

@@ -1,12 +1,11 @@
 /** The part of the page that makes photos of pages flat: opens photos and examples, and holds the panels of a photo. */
-import { fileReadTask } from '../worker-task.js';
 import { element, elements } from '../dom.js';
 import { Book } from '../page/book.js';
-import { examplePhoto } from '../page/example.js';
 import { BOOK_WORDS } from '../page/messages.js';
 import { openPhoto, preparePhoto } from '../page/photo.js';
 import { PageSession } from '../page/session.js';
-import { errorMessage } from '../messages.js';
+import { readPicture } from '../pixels.js';
+import { errorMessage, TASK_WORDS } from '../messages.js';
 import { hideNotice, showError, showNotice } from './notice.js';
 import { pageBookPanel } from './page-book.js';
 import { pageKnownPanel } from './page-known.js';
@@ -16,22 +15,24 @@ import { PROGRESS_DELAY_MS, waitingPanel } from './waiting.js';
 
 /** @import {Api} from '../api.js' */
 /** @import {BookPhoto} from '../page/book.js' */
-/** @import {ExampleName} from '../page/example.js' */
 /** @import {PagePhoto} from '../page/photo.js' */
-/** @import {DewarpedPage} from '../page/flatten.js' */
 /** @import {PageState} from '../page/session.js' */
-/** @import {TimedTask} from '../session.js' */
 
+/** Example photos, whose focal length for 35 mm film is that of their camera. @type {Record<string, { address: URL, pages: number }>} */
+const EXAMPLES = {
+  curled: { address: new URL('../doors/curled-page.webp', import.meta.url), pages: 1 },
+  book: { address: new URL('../doors/open-book.webp', import.meta.url), pages: 2 },
+};
+const EXAMPLE_FILM35 = 31.1;
 /** Delay after a change of an outline before the outlines are stored, in milliseconds. */
 const STORE_DELAY_MS = 500;
 
 /**
  * @param {Api} api
- * @param {(flat: DewarpedPage, name: string) => void} openAsSurface opens the page as a surface
  * @param {(photos: readonly BookPhoto[]) => void} onOpened called when photos were opened, added, moved or removed; none for an example
  * @param {(states: (PageState | null)[]) => void} onChanged called when outlines of the photos have changed
  */
-export function pagePanel(api, openAsSurface, onOpened, onChanged) {
+export function pagePanel(api, onOpened, onChanged) {
   /** Created with the first photo. @type {PageSession | null} */
   let session = null;
   const examples = elements('input[name="page-example"]', HTMLInputElement);
@@ -50,7 +51,7 @@ export function pagePanel(api, openAsSurface, onOpened, onChanged) {
     const created = (session = new PageSession(api));
     pagePhotoPanel(created);
     pageKnownPanel(created);
-    pageResultPanel(api, created, book, openAsSurface, list.renew);
+    pageResultPanel(api, created, book, list.renew);
     created.on('flat', ({ moving }) => {
       if (moving || !created.photo?.file) return;
       clearTimeout(storeTimer);
@@ -65,7 +66,7 @@ export function pagePanel(api, openAsSurface, onOpened, onChanged) {
   /**
    * Opens a photo in the place of the last one.
    * @param {(signal: AbortSignal) => Promise<PagePhoto>} load
-   * @param {{ pages?: number, task?: TimedTask, state?: PageState | null }} [more] `task`: for the progress bar; `state`: edits of the photo, when it was open before
+   * @param {{ pages?: number, task?: string, state?: PageState | null }} [more] `task`: what its progress says; `state`: edits of the photo, when it was open before
    * @returns {Promise<boolean>} false if it was cancelled, or another photo was opened meanwhile
    * @throws if the photo cannot be opened
    */
@@ -87,7 +88,7 @@ export function pagePanel(api, openAsSurface, onOpened, onChanged) {
       pageSession.endOpening();
       throw error;
     } finally {
-      if (!signal.aborted) waiting.end(task);
+      if (!signal.aborted) waiting.end();
     }
   };
 
@@ -95,7 +96,7 @@ export function pagePanel(api, openAsSurface, onOpened, onChanged) {
   const openAt = async (at) => {
     if (session) book.saveState(session);
     const { file, state } = book.photos[at];
-    if (!(await show((signal) => openPhoto(api, file, signal), { task: fileReadTask(file), state }))) return false;
+    if (!(await show((signal) => openPhoto(api, file, signal), { task: TASK_WORDS.reading, state }))) return false;
     for (const radio of examples) radio.checked = false;
     book.index = at;
     list.renew();
@@ -166,11 +167,14 @@ export function pagePanel(api, openAsSurface, onOpened, onChanged) {
   const openExample = async () => {
     book.setFiles([]);
     list.renew();
-    const name = /** @type {ExampleName} */ (examples.find((radio) => radio.checked)?.value ?? 'curled');
-    const { image, film35, pages } = examplePhoto(name);
-    const pixels = { width: image.width, height: image.height, data: image.data, film35 };
+    const name = examples.find((radio) => radio.checked)?.value ?? 'curled';
+    const { address, pages } = EXAMPLES[name];
     try {
-      if (await show((signal) => preparePhoto(api, pixels, name, signal), { pages })) onOpened([]);
+      const isShown = await show(async (signal) => {
+        const { width, height, data } = await readPicture(new File([await (await fetch(address, { signal })).blob()], name));
+        return preparePhoto(api, { width, height, data, film35: EXAMPLE_FILM35 }, name, signal);
+      }, { pages });
+      if (isShown) onOpened([]);
     } catch (error) {
       showError('The example could not be made', error);
     }

@@ -1,11 +1,7 @@
 /** Dewarping of a photo of the surface: opens the photo, and saves the flat one. */
-import { fileReadTask } from '../worker-task.js';
 import { onFileChosen, element } from '../dom.js';
-import { FORMAT_WORDS } from '../messages.js';
-import { partAt } from '../mesh-part.js';
+import { FORMAT_WORDS, TASK_WORDS } from '../messages.js';
 import { readPicture } from '../pixels.js';
-import { openSampledMesh, samplingTask } from '../mesh-sampling.js';
-import { cropPanel } from './crop.js';
 import { offerToSave } from './save-dialog.js';
 
 /** @import {Result, Session} from '../session.js' */
@@ -23,7 +19,6 @@ export function photoPanel(session, onChange) {
   const file = element('photo-file', HTMLInputElement);
   const open = element('photo-open', HTMLButtonElement);
   const name = element('photo-name', HTMLElement);
-  const dots = element('dots', HTMLInputElement);
   const trim = element('trim', HTMLInputElement);
   const save = element('flat-save', HTMLButtonElement);
   const hint = name.textContent ?? '';
@@ -32,35 +27,10 @@ export function photoPanel(session, onChange) {
   /** @type {Dewarped | null} */
   let flat = null;
 
-  const allParts = element('all-parts', HTMLButtonElement);
-  const crop = cropPanel({ onChange, onClick: (place) => void selectPart(place) });
-
-  /**
-   * Opens the connected part of the mesh that the photo shows at a place, or the whole mesh.
-   * @param {readonly [number, number] | null} place
-   */
-  const selectPart = async (place) => {
-    const { input } = session;
-    if (!input?.sampling || !photo) return;
-    const { mesh, options, wholeMesh = mesh } = input.sampling;
-    const part = place && partAt(wholeMesh, [(place[0] + 0.5) / photo.width, 1 - (place[1] + 0.5) / photo.height]);
-    if (place && !part) return;
-    const own = { name: name.textContent ?? '', image: photo };
-    const { name: title, kind, depthSource, cameraAssumption } = input;
-    const opened = await openSampledMesh(
-      session, { name: title, kind, photo: own, depthSource, cameraAssumption }, async () => part ?? wholeMesh, options,
-      'This part could not be taken', { wholeMesh: part ? wholeMesh : undefined, task: samplingTask(wholeMesh) },
-    );
-    if (opened) await session.run();
-  };
-  allParts.addEventListener('click', () => void selectPart(null));
-
   session.on('cleared', () => {
     const own = session.input?.photo;
     photo = own?.image ?? null;
     name.textContent = own?.name ?? hint;
-    allParts.hidden = session.input?.sampling?.wholeMesh === undefined;
-    crop.clear();
   });
 
   /** Sets the photo. @param {string} title @param {ImageData} image */
@@ -71,15 +41,10 @@ export function photoPanel(session, onChange) {
   onFileChosen(open, file, async (chosen) => {
     const { result } = session;
     if (!result) return;
-    const read = await session.load(`“${chosen.name}” could not be used`, () => readPicture(chosen), fileReadTask(chosen));
+    const read = await session.load(`“${chosen.name}” could not be used`, () => readPicture(chosen), TASK_WORDS.reading);
     if (!read || session.input !== result.input) return;
     setPhoto(chosen.name, read);
     onChange();
-  });
-  dots.addEventListener('change', () => {
-    const isValid = dots.value === '' || dots.valueAsNumber > 0;
-    dots.setCustomValidity(isValid ? '' : 'It must be a number above 0, or empty.');
-    if (dots.reportValidity()) onChange();
   });
   trim.addEventListener('change', onChange);
 
@@ -90,7 +55,6 @@ export function photoPanel(session, onChange) {
     offerToSave(session.api, {
       title: 'Flat photo',
       stem: `${session.input?.name}-flat`,
-      size: image.width * image.height,
       formats: [
         { value: 'png', name: 'PNG', words: FORMAT_WORDS.png, type: 'image/png', write: (worker) => worker.writePhoto(image) },
         { value: 'jpg', name: 'JPEG', words: FORMAT_WORDS.jpg, type: 'image/jpeg', write: (worker) => worker.writePhoto(image, { format: 'jpeg' }) },
@@ -107,10 +71,7 @@ export function photoPanel(session, onChange) {
   return {
     setPhoto,
     /** Shows or hides the panel. @param {boolean} visible */
-    show: (visible) => {
-      panel.hidden = !visible;
-      if (!visible) crop.show(null);
-    },
+    show: (visible) => (panel.hidden = !visible),
     /**
      * The photo to dewarp, with its options: the opened one, else the texture of the scan.
      * @param {Result} result
@@ -124,8 +85,7 @@ export function photoPanel(session, onChange) {
           name.textContent = 'the scan’s own texture';
         }
       }
-      crop.show(photo);
-      return photo && { photo, options: { dots: dots.value === '' ? undefined : dots.valueAsNumber, trim: trim.checked, crop: crop.polygon } };
+      return photo && { photo, options: { trim: trim.checked } };
     },
     /** Sets the flat photo that can be saved. @param {Dewarped | null} dewarped */
     setFlat: (dewarped) => {

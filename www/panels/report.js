@@ -144,7 +144,6 @@ function work(report) {
     rows: [
       row('λ', number(report.lambda), REPORT_WORDS.lambda),
       row('Noise, σ', number(report.lambdaChoice?.sigma ?? 0), lambdaChoiceInWords(report), report.lambdaChoice?.sigma !== undefined),
-      row('Reweighted', count(report.reweighting), REPORT_WORDS.reweighted, report.reweighting > 0),
       row('Creases', count(report.huber?.creases ?? 0), REPORT_WORDS.creases(report.huber?.creasePasses ?? 0), report.huber !== undefined),
       row('Lattices', count(report.levels.length), REPORT_WORDS.lattices(report.levels.map(({ interior }) => interior))),
       row('Iterations', count(report.iterations), REPORT_WORDS.iterations(report.levels.at(-1)?.iterations ?? 0)),

@@ -23,7 +23,6 @@ import { PROGRESS_DELAY_MS, waitingPanel } from './waiting.js';
  * @typedef {object} SaveOffer
  * @property {string} title
  * @property {string} stem file name without its ending
- * @property {number} size number of pixels or vertices
  * @property {() => Promise<unknown>} [ready] resolves when the file can be written
  * @property {readonly Format[]} formats
  * @property {string | null} [unit] unit of the lengths in the file, if it is known
@@ -47,7 +46,7 @@ const lastFormats = new Map();
  * @param {SaveOffer} offer
  * @returns {{ renew: () => void }} `renew` writes the file again, after its contents have changed
  */
-export function offerToSave(api, { title, stem, size: amount, ready = async () => {}, formats, unit, extra = [], closed = () => {} }) {
+export function offerToSave(api, { title, stem, ready = async () => {}, formats, unit, extra = [], closed = () => {} }) {
   const dialog = element('save-dialog', HTMLDialogElement);
   const list = element('save-formats', HTMLElement);
   const size = element('save-size', HTMLElement);
@@ -94,11 +93,10 @@ export function offerToSave(api, { title, stem, size: amount, ready = async () =
       await ready();
       if (job !== present) return;
       size.textContent = SAVE_WORDS.working;
-      const task = { label: SAVE_WORDS.write, kind: `${title}, ${format.value}`, size: amount };
-      progress.begin(task);
+      progress.begin(SAVE_WORDS.write);
       const content = await runInWorker(api, job.signal, format.write);
       if (job !== present) return;
-      progress.end(task);
+      progress.end();
       const name = `${format.stem ?? stem}.${format.value}`;
       const note = format.note?.() ?? '';
       size.textContent = [`${name}, ${fileSize(new Blob([content]).size)}${note && '.'}`, note].filter(Boolean).join(' ');
@@ -116,7 +114,7 @@ export function offerToSave(api, { title, stem, size: amount, ready = async () =
       if (job !== present) return;
       progress.end();
       const reason = plainMessage(error instanceof Error ? error.message : String(error));
-      size.textContent = SAVE_WORDS.unwritten(reason);
+      size.textContent = reason && SAVE_WORDS.unwritten(reason);
     }
   };
   dialog.onclose = () => {

@@ -57,7 +57,6 @@ function offerFile(api, result) {
   const offer = offerToSave(api, {
     title: '3D file',
     stem: fileStem(result),
-    size: surface.heights.length,
     unit: result.input.unit,
     extra: [solid.fields],
     formats: [
@@ -75,11 +74,10 @@ function offerFile(api, result) {
 function sheetSource(result, analyses) {
   return {
     stem: fileStem(result),
-    size: result.surface.heights.length,
     length: longerSide(result),
     up: 'z',
     unit: lengthUnitOf(result.input),
-    cut: (options) => cutSheets(analyses, result, options),
+    cut: (options, tell) => cutSheets(analyses, result, options, tell),
     svg: (drawing) => analyses.svg(drawing),
     canFoldElsewhere: () => false,
     stop: () => analyses.stop(),

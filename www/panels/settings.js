@@ -1,5 +1,5 @@
 /** Settings of the solve: λ on a logarithmic slider, and further options. */
-import { energyFor } from '../design.js';
+import { energyFor } from '../fit-settings.js';
 import { element } from '../dom.js';
 import { shortLambda } from '../format.js';
 import { AUTO_LAMBDA_HINT, ENERGIES, DESIGN_LAMBDA_HINT, LAMBDA_WORDS, lambdaChoiceInWords, lambdaHint, meshLambdaChoiceInWords } from '../messages.js';
@@ -104,33 +104,20 @@ export function settingsPanel(session, meshFit) {
 
   const gap = element('gap', HTMLSelectElement);
   gap.addEventListener('change', () => session.updateSettings({ gap: Number(gap.value) }));
-  const schedule = element('schedule', HTMLSelectElement);
-  // The paper's schedule stops on residuals, so the gap has no effect.
-  const updateGapField = () => {
-    gap.disabled = schedule.value === 'paper';
-  };
-  schedule.addEventListener('change', () => {
-    updateGapField();
-    session.updateSettings({ schedule: schedule.value === 'paper' ? 'paper' : 'default' });
-  });
   const coarsening = element('coarsening', HTMLSelectElement);
   coarsening.addEventListener('change', () => session.updateSettings({ coarsening: Number(coarsening.value) }));
 
-  const reweighting = element('reweighting', HTMLSelectElement);
   const energy = element('energy', HTMLSelectElement);
   const energyHint = element('energy-hint', HTMLElement);
   const chosenEnergy = () => /** @type {Energy} */ (energy.value);
   energy.addEventListener('change', () => {
     energyHint.textContent = ENERGIES[chosenEnergy()];
-    // The Huber penalty has crease passes, which take the place of reweighting passes.
-    reweighting.disabled = chosenEnergy() === 'huber';
-    session.updateSettings({ energy: chosenEnergy(), reweighting: reweighting.disabled ? 0 : Number(reweighting.value) });
+    session.updateSettings({ energy: chosenEnergy() });
   });
   /** @param {Settings['energy']} wanted */
   const showEnergy = (wanted) => {
     energy.value = energyFor(session.input, wanted);
     energyHint.textContent = ENERGIES[chosenEnergy()];
-    reweighting.disabled = chosenEnergy() === 'huber';
   };
   showEnergy(session.settings.energy);
   session.on('input', () => showEnergy(session.settings.energy));
@@ -140,7 +127,6 @@ export function settingsPanel(session, meshFit) {
     session.updateSettings({ lambda: 'auto' });
     updateHint();
   });
-  reweighting.addEventListener('change', () => session.updateSettings({ reweighting: Number(reweighting.value) }));
 
   const findOcclusions = element('find-occlusions', HTMLInputElement);
   const threshold = element('threshold', HTMLInputElement);
@@ -161,10 +147,7 @@ export function settingsPanel(session, meshFit) {
       if (lambda !== 'auto') showLambda(lambda);
       showAuto(lambda === 'auto');
       gap.value = String(settings.gap);
-      schedule.value = settings.schedule;
-      updateGapField();
       coarsening.value = String(settings.coarsening);
-      reweighting.value = String(settings.reweighting);
       showEnergy(wanted);
       findOcclusions.checked = occlusionThreshold !== undefined;
       element('threshold-field', HTMLElement).hidden = !findOcclusions.checked;

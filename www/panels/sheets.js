@@ -3,7 +3,7 @@ import { element, make } from '../dom.js';
 import { number } from '../format.js';
 import { assemblyModel, assemblyPicture, drawingImage, MM_PER_UNIT, sheetFigures, sheetsInWords, smallestPiece, suggestedSide } from '../pattern.js';
 import { plainMessage } from '../error-messages.js';
-import { SHEET_WORDS } from '../messages.js';
+import { SHEET_WORDS, TASK_WORDS } from '../messages.js';
 import { edgeAt, parsePairs, togglePair } from '../sheet-edges.js';
 import { figures } from '../views/legend.js';
 import { offerToSave } from './save-dialog.js';
@@ -11,6 +11,7 @@ import { waitingPanel } from './waiting.js';
 
 /** @import {Api} from '../api.js' */
 /** @import {CutOptions, LengthUnit} from '../pattern.js' */
+/** @import {TaskProgress} from './waiting.js' */
 /** @typedef {import('../../pkg/types.js').Drawing} Drawing */
 
 /** Initial depth of tabs, in millimetres. */
@@ -33,12 +34,11 @@ const [MIN_SIDE_MM, MAX_SIDE_MM] = [10, 5000];
  * A surface that can be cut into sheets.
  * @typedef {object} SheetSource
  * @property {string} stem file name without ending
- * @property {number} size number of vertices
  * @property {number} length longer side, in the input's unit
  * @property {'y' | 'z'} up the axis that points upwards
  * @property {string} [note] note that says what the sheets lack
  * @property {LengthUnit | 'none' | 'unknown'} unit unit of the input; `none` for an example, which has any size
- * @property {(options: CutOptions) => Promise<Drawing>} cut computes the pattern
+ * @property {(options: CutOptions, onProgress: (progress: TaskProgress) => void) => Promise<Drawing>} cut computes the pattern
  * @property {(drawing: Drawing) => Promise<Uint8Array<ArrayBuffer>>} svg writes a drawing as SVG
  * @property {(drawing: Drawing) => boolean} canFoldElsewhere whether other edges of a drawing may be cut and joined: of flat faces, of which nothing is stretched
  * @property {() => void} stop cancels the pattern that is being computed
@@ -49,7 +49,7 @@ const [MIN_SIDE_MM, MAX_SIDE_MM] = [10, 5000];
  * @param {Api} api
  * @param {SheetSource} source
  */
-export function offerSheets(api, { stem, size, note = '', length, unit, up, cut, svg, canFoldElsewhere, stop }) {
+export function offerSheets(api, { stem, note = '', length, unit, up, cut, svg, canFoldElsewhere, stop }) {
   const last = lastSizes.get(stem) ?? { unit: unit === 'unknown' ? 'none' : unit, side: NaN };
   const side = numberField(Number.isNaN(last.side) ? suggestedSide(length, last.unit) : last.side, MIN_SIDE_MM, MAX_SIDE_MM);
   const units = make('select', '', ...Object.keys(MM_PER_UNIT).map((name) => new Option(SHEET_WORDS.unit(name), name)), new Option(SHEET_WORDS.ownSize, 'none'));
@@ -113,7 +113,6 @@ export function offerSheets(api, { stem, size, note = '', length, unit, up, cut,
   const about = make('div', '');
   const pageWarning = make('p', 'doubt small');
   pageWarning.hidden = true;
-  const task = { label: SHEET_WORDS.cutting, kind: 'sheets', size };
   /** @type {Promise<Drawing>} */
   let drawing;
   /** Rejects the drawing: writers of files then report the reason. @param {string} reason */
@@ -121,7 +120,7 @@ export function offerSheets(api, { stem, size, note = '', length, unit, up, cut,
     drawing = Promise.reject(new Error(reason));
     drawing.catch(() => {});
   };
-  setMissing(SHEET_WORDS.nothingYet);
+  setMissing('');
 
   /** Shows the size of the finished surface and the number of pages. @param {Drawing} finished */
   const showSize = (finished) => {
@@ -152,15 +151,15 @@ export function offerSheets(api, { stem, size, note = '', length, unit, up, cut,
     status.textContent = '';
     again.hidden = true;
     preview.setAttribute('aria-busy', 'true');
-    waiting.begin(task);
-    const requested = (drawing = cut({ ...cutOptions(), assembly: true }));
+    waiting.begin(TASK_WORDS.cutting);
+    const requested = (drawing = cut({ ...cutOptions(), assembly: true }, waiting.tell));
     let failed = false;
     offer.renew();
     try {
       const image = await drawingImage(svg, await requested);
       if (requested !== drawing) return;
       const finished = await requested;
-      waiting.end(task);
+      waiting.end();
       showSize(finished);
       edges.hidden = !canFoldElsewhere(finished);
       image.addEventListener('click', ({ offsetX, offsetY }) => {
@@ -184,8 +183,8 @@ export function offerSheets(api, { stem, size, note = '', length, unit, up, cut,
       }
     }
     if (!failed) return;
-    // The reason stands beside the preview, so the save button only says that there are no sheets.
-    setMissing(SHEET_WORDS.nothingYet);
+    // The reason stands beside the preview.
+    setMissing('');
     offer.renew();
   };
   /** Cuts the fold at a place of the drawing, or folds the cut there; again, it is as before. @param {Drawing} finished @param {[number, number]} place */
@@ -225,7 +224,6 @@ export function offerSheets(api, { stem, size, note = '', length, unit, up, cut,
   const offer = offerToSave(api, {
     title: SHEET_WORDS.title,
     stem: `${stem}-sheets`,
-    size,
     ready: () => drawing,
     // A pattern that is still being computed would delay the next analysis.
     closed: stop,

@@ -1,14 +1,12 @@
 /** Source of the heights: an example, or files with their scale and interpretation. */
-import { fileReadTask } from '../worker-task.js';
-import { designInput } from '../design.js';
-import { element, elements } from '../dom.js';
+import { element } from '../dom.js';
 import { ColourPictureError, readInput } from '../height-file.js';
 import { hasColours } from '../views/photo.js';
 import { reinterpret, spanInWords } from '../import-interpretation.js';
 import { readPicture } from '../pixels.js';
 import { fileRoles, isCameraFile } from '../file-routing.js';
 import { isMesh, unreadableKindInWords } from '../file-kinds.js';
-import { assumedInWords, DEPTH_WORDS, FILE_WORDS } from '../messages.js';
+import { assumedInWords, DEPTH_WORDS, FILE_WORDS, TASK_WORDS } from '../messages.js';
 import { noDataOf } from '../no-data.js';
 import { cameraPanel } from './camera.js';
 import { meshPanel } from './mesh.js';
@@ -29,7 +27,7 @@ import { hideNotice, showNotice } from './notice.js';
  * @param {(file: File) => unknown} openColour opens a file that is no heights, but a picture in colour
  */
 export function sourcePanel(session, { choose, usePhoto }, onOpened, solveMesh, openColour) {
-  const radios = elements('input[name="example"]', HTMLInputElement);
+  const example = element('example', HTMLSelectElement);
   const size = element('size', HTMLSelectElement);
   const noise = element('noise', HTMLSelectElement);
   const exampleOptions = element('example-options', HTMLElement);
@@ -39,14 +37,12 @@ export function sourcePanel(session, { choose, usePhoto }, onOpened, solveMesh, 
   const heightScale = element('height-scale', HTMLInputElement);
   const span = element('scale-span', HTMLElement);
   const noData = element('no-data', HTMLInputElement);
-  const hexagonalCheckbox = element('is-hexagonal', HTMLInputElement);
   const guesses = element('guessed', HTMLElement);
   const design = element('is-design', HTMLInputElement);
   const arrayField = element('array-field', HTMLElement);
   const array = element('array', HTMLSelectElement);
   const mesh = meshPanel(session);
   const camera = cameraPanel(session, mesh.openLoaded);
-  const designHint = element('design-hint', HTMLElement);
   /** Reads the open file again, with another value that is no data. @type {(noData?: NoData) => Promise<boolean>} */
   let openAgain = () => Promise.resolve(false);
   /** A photo that was opened before the heights it shows. @type {File | null} */
@@ -54,12 +50,9 @@ export function sourcePanel(session, { choose, usePhoto }, onOpened, solveMesh, 
 
   /** Opens the chosen example and solves it. */
   const openChosenExample = async () => {
-    const radio = radios.find((button) => button.checked);
-    if (!radio) return;
     const options = { size: Number(size.value), noise: Number(noise.value) };
     const opened = await session.open('The example could not be made', async () => {
-      if (radio.value === 'design') return designInput();
-      const name = /** @type {ExampleName} */ (radio.value);
+      const name = /** @type {ExampleName} */ (example.value);
       const { input, truth } = await session.example(name, options);
       const { width, height, data, pixelSize: side = 1, heightScale: step = 1 } = input;
       return { name, width, height, data, pixelSize: side, heightScale: step, truth, example: options };
@@ -91,7 +84,7 @@ export function sourcePanel(session, { choose, usePhoto }, onOpened, solveMesh, 
         if (error instanceof ColourPictureError && reading === undefined) isColourPicture = true;
         throw error;
       }
-    }, fileReadTask(chosen));
+    }, TASK_WORDS.reading);
     if (isColourPicture) {
       void openColour(chosen);
       return false;
@@ -128,7 +121,7 @@ export function sourcePanel(session, { choose, usePhoto }, onOpened, solveMesh, 
   const openPhoto = async (file) => {
     const { input, result } = session;
     hideNotice();
-    const image = await session.load(`“${file.name}” could not be used`, () => readPicture(file), fileReadTask(file));
+    const image = await session.load(`“${file.name}” could not be used`, () => readPicture(file), TASK_WORDS.reading);
     if (!image || session.input !== input) return false;
     if (result) usePhoto(file.name, image);
     else session.updateInput({ photo: { name: file.name, image } });
@@ -174,9 +167,9 @@ export function sourcePanel(session, { choose, usePhoto }, onOpened, solveMesh, 
   const reinterpretFile = async (change) => {
     const { stored } = session.input ?? {};
     if (stored && 'noData' in change && change.noData !== stored.noData) {
-      const { pixelSize: side, heightScale: step, hexagonal } = stored;
+      const { pixelSize: side, heightScale: step } = stored;
       if (!(await openAgain(change.noData))) return;
-      return reinterpretFile({ pixelSize: side, heightScale: step, hexagonal, ...change });
+      return reinterpretFile({ pixelSize: side, heightScale: step, ...change });
     }
     const { input } = session;
     if (!input) return;
@@ -202,14 +195,13 @@ export function sourcePanel(session, { choose, usePhoto }, onOpened, solveMesh, 
     reinterpretFile(levels ? { heightScale: step * factor } : { pixelSize: side / factor });
   };
 
-  for (const control of [...radios, size, noise]) control.addEventListener('change', openChosenExample);
+  for (const control of [example, size, noise]) control.addEventListener('change', openChosenExample);
   for (const control of [pixelSize, heightScale]) control.addEventListener('change', rescale);
   noData.addEventListener('change', () => {
     const value = noDataOf(noData.value);
     noData.setCustomValidity(noData.value.trim() === '' || value !== undefined ? '' : 'This must be a number, “none”, or empty.');
     if (noData.reportValidity()) void reinterpretFile({ noData: value });
   });
-  hexagonalCheckbox.addEventListener('change', () => reinterpretFile({ hexagonal: hexagonalCheckbox.checked }));
   element('flatter', HTMLButtonElement).addEventListener('click', () => scaleRelief(0.5));
   element('steeper', HTMLButtonElement).addEventListener('click', () => scaleRelief(2));
   design.addEventListener('change', () => session.updateInput({ design: design.checked }));
@@ -220,12 +212,11 @@ export function sourcePanel(session, { choose, usePhoto }, onOpened, solveMesh, 
 
   session.on('input', (input) => {
     const isFile = input.kind !== undefined;
-    exampleOptions.hidden = isFile || input.design === true || !radios.some(({ value }) => value === input.name);
-    designHint.hidden = isFile || !input.design;
+    element('example-field', HTMLElement).hidden = exampleOptions.hidden = input.example === undefined;
     const isBackProjected = input.depthSource !== undefined;
     fileOptions.hidden = !isFile || (input.sampling !== undefined && !isBackProjected);
     fileOptions.toggleAttribute('data-built', isBackProjected);
-    for (const radio of radios) radio.checked = !isFile && radio.value === input.name;
+    if (input.example) example.value = input.name;
     const guessed = input.depths ? DEPTH_WORDS.maybe : isBackProjected ? input.cameraAssumption : input.stored?.guesses;
     guesses.textContent = [assumedInWords(input.assumptions), guessed].filter(Boolean).join(' ');
     guesses.hidden = guesses.textContent === '';
@@ -238,7 +229,6 @@ export function sourcePanel(session, { choose, usePhoto }, onOpened, solveMesh, 
     pixelSize.value = fieldText(input.stored.pixelSize);
     heightScale.value = fieldText(input.stored.heightScale);
     design.checked = input.design === true;
-    hexagonalCheckbox.checked = input.stored.hexagonal;
     noData.value = String(input.stored.noData ?? '');
     span.textContent = spanInWords(input);
   });
@@ -250,8 +240,8 @@ export function sourcePanel(session, { choose, usePhoto }, onOpened, solveMesh, 
      * @param {{ size: number, noise: number }} options replaced by the nearest ones of the menus
      */
     async openExample(name, options) {
-      for (const radio of radios) radio.checked = radio.value === name;
-      if (!radios.some(({ checked }) => checked)) radios[0].checked = true;
+      example.value = name;
+      if (example.selectedIndex < 0) example.selectedIndex = 0;
       chooseNearest(size, options.size);
       chooseNearest(noise, options.noise);
       await openChosenExample();
@@ -261,7 +251,6 @@ export function sourcePanel(session, { choose, usePhoto }, onOpened, solveMesh, 
     /** Shows a photo on the heights that are opened next. @param {File} file */
     awaitHeights: (file) => void (pendingPhoto = file),
     reinterpretFile,
-    openLoadedMesh: mesh.openLoaded,
   };
 }
 

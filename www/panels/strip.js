@@ -54,7 +54,7 @@ export function stripPanel(session, adopt) {
       figures.textContent = '\u00a0';
     }
     strip.setAttribute('aria-busy', 'true');
-    const worker = new session.api.DevelopableWorker();
+    const worker = new session.api.SolverWorker();
     try {
       // All settings except λ, spacing and gap are those of the session.
       const { lambda: _lambda, coarsening: _coarsening, ...options } = session.settings;

@@ -1,41 +1,21 @@
 /** Input and result in space, or pictures in their place. */
 import { download, element, elements } from '../dom.js';
 import { number, shortLambda } from '../format.js';
-import { gridOf, nearestVertices } from '../surface/lattice.js';
 import { PictureView } from '../surface/picture-view.js';
-import { Zoom } from '../surface/zoom.js';
-import { MARK_WORDS } from '../messages.js';
+import { heldInWords } from '../messages.js';
 import { key } from '../views/legend.js';
 import { spacePanel } from './space.js';
 
-/** @import {Occlusions} from '../api.js' */
 /** @import {Input, Session} from '../session.js' */
 /** @import {PixelMarks} from '../surface/layer.js' */
 /** @import {ViewContent} from '../views/view-content.js' */
-
-/** Confidence below which heights are marked. */
-const MAX_MARKED_CONFIDENCE = 0.5;
 
 /** @param {Session} session */
 export function viewsPanel(session) {
   const space = spacePanel(session);
   const stage = element('space', HTMLElement);
   const pictures = element('views', HTMLElement);
-  const over = element('photo-over', HTMLElement);
-  const photoZoom = new Zoom();
-  const photo = new PictureView(element('input-picture', HTMLCanvasElement), photoZoom, over);
-  photoZoom.onChange(() => {
-    const { scale, shift } = photoZoom;
-    for (const [name, value] of Object.entries({ zoom: scale, across: shift.x, down: shift.y })) over.style.setProperty(`--${name}`, String(value));
-  });
-  session.on('cleared', () => photoZoom.reset());
-  // A handle that gets the keyboard focus outside of the visible part resets the zoom.
-  over.addEventListener('focusin', ({ target }) => {
-    const [knob, frame] = [target, over.parentElement].map((one) => (one instanceof Element ? one.getBoundingClientRect() : new DOMRect()));
-    const isVisible = knob.right > frame.left && knob.left < frame.right && knob.bottom > frame.top && knob.top < frame.bottom;
-    if (!isVisible) photoZoom.reset();
-  });
-  const flat = new PictureView(element('result-picture', HTMLCanvasElement), new Zoom());
+  const [photo, flat] = ['input-picture', 'result-picture'].map((id) => new PictureView(element(id, HTMLCanvasElement)));
   const inputCaption = element('input-caption', HTMLElement);
   const caption = element('result-caption', HTMLElement);
   const stamp = element('result-mark', HTMLElement);
@@ -44,8 +24,6 @@ export function viewsPanel(session) {
   const reading = element('flat-reading', HTMLElement);
   const arrangement = element('arrangement', HTMLElement);
   const arrangements = elements('input[name="arrangement"]', HTMLInputElement);
-  /** @type {Occlusions | null} */
-  let occlusions = null;
   /** Content of the current view that is drawn over the surfaces, or in their place. @type {Partial<ViewContent>} */
   let present = {};
 
@@ -72,22 +50,13 @@ export function viewsPanel(session) {
   };
   for (const radio of arrangements) radio.addEventListener('change', arrange);
 
-  const updateMarks = () => {
-    const { input } = session;
-    const marks = input ? marksOf(input, occlusions, getComputedStyle(document.body)) : [];
-    space.setMarks(marks);
-    legend.replaceChildren(...marks.map(({ colour, words }) => key(colour, words)));
-  };
   session.on('input', (input) => {
     const { name, width, height } = input;
     pictures.style.setProperty('--aspect', String(width / height));
     inputCaption.textContent = `${name}, ${number(width, 6)} × ${number(height, 6)}`;
-    occlusions = null;
-    updateMarks();
-  });
-  session.on('occlusions', (found) => {
-    occlusions = found;
-    updateMarks();
+    const marks = marksOf(input);
+    space.setMarks(marks);
+    legend.replaceChildren(...(marks ? [key(marks.colour, heldInWords(marks.pixels.length))] : []));
   });
   /** @param {Input} input @param {number} lambda @param {string} mark */
   const describe = (input, lambda, mark) => {
@@ -123,46 +92,28 @@ export function viewsPanel(session) {
   session.on('cleared', updateSave);
   arrange();
 
-  return {
-    space,
-    /**
-     * Shows layers over the surfaces, or pictures in their places.
-     * @param {Partial<ViewContent>} shown
-     */
-    show: (shown) => {
-      const { before, after } = shown;
-      present = shown;
-      arrange();
-      space.show(shown);
-      photo.show(before ?? null);
-      flat.show(after ?? null);
-      element('result-title', HTMLElement).textContent = after?.title ?? '';
-    },
+  /**
+   * Shows layers over the surfaces, or pictures in their places.
+   * @param {Partial<ViewContent>} shown
+   */
+  return (shown) => {
+    const { before, after } = shown;
+    present = shown;
+    arrange();
+    space.show(shown);
+    photo.show(before ?? null);
+    flat.show(after ?? null);
+    element('result-title', HTMLElement).textContent = after?.title ?? '';
   };
 }
 
 /**
- * Marks on the input: low confidence, occlusions and constraints.
+ * The pixels whose heights a design passes through; none of other inputs.
  * @param {Input} input
- * @param {Occlusions | null} occlusions
- * @param {CSSStyleDeclaration} style
- * @returns {(PixelMarks & { words: string })[]}
+ * @returns {PixelMarks | null}
  */
-function marksOf(input, occlusions, style) {
-  const { width, height, data, design, confidence, constraints } = input;
-  const constrained = design ? data : constraints;
-  /** @param {string} name @param {(pixel: number) => boolean} has @param {(number: number) => string} words */
-  const marks = (name, has, words) => {
-    /** @type {number[]} */
-    const pixels = [];
-    const count = width * height;
-    for (let i = 0; i < count; i++) if (has(i)) pixels.push(i);
-    return { width, height, pixels, colour: style.getPropertyValue(name).trim(), words: words(pixels.length) };
-  };
-  const found = [];
-  if (confidence) found.push(marks('--mark-doubt', (i) => confidence[i] < MAX_MARKED_CONFIDENCE && !Number.isNaN(data[i]), MARK_WORDS.doubted));
-  const flags = occlusions && (occlusions.image ?? nearestVertices(occlusions, gridOf(input)).map((vertex) => occlusions.vertices[vertex] ?? 0));
-  if (occlusions && flags) found.push({ ...marks('--mark-torn', (i) => flags[i] !== 0, String), words: MARK_WORDS.torn(occlusions.count) });
-  if (constrained) found.push(marks('--mark-held', (i) => !Number.isNaN(constrained[i]), MARK_WORDS.held));
-  return found;
+function marksOf({ width, height, data, design }) {
+  if (!design) return null;
+  const pixels = [...data.keys()].filter((i) => !Number.isNaN(data[i]));
+  return { width, height, pixels, colour: getComputedStyle(document.body).getPropertyValue('--mark-held').trim() };
 }

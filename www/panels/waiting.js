@@ -1,54 +1,48 @@
-/** Progress bar of a task, whose duration is estimated from earlier tasks of its kind, with a button that cancels it. */
+/** Progress of a task over what it is about, with a button that cancels it. */
 import { make } from '../dom.js';
-import { count } from '../format.js';
+import { count, percent } from '../format.js';
 
-/** Interval between two updates of the progress bar, in milliseconds. */
+/** Interval between two updates of the time, in milliseconds. */
 const UPDATE_INTERVAL_MS = 200;
 /** Delay before the progress of a task is shown, in milliseconds: shorter tasks end before anybody could read it. */
 export const PROGRESS_DELAY_MS = 150;
-/** Minimum duration of a task that is measured, in milliseconds; it is also the minimum of the estimated duration. */
-const MIN_MEASURED_MS = 100;
-/** Time before the text shows figures, in milliseconds. */
-const FIGURES_DELAY_MS = 400;
 
-/** @import {TimedTask} from '../session.js' */
+/** @typedef {{ fraction: number, label?: string }} TaskProgress share of a step that is done, and what the step does */
 
 /**
  * @param {HTMLElement} panel empty element
- * @param {() => void} cancel
+ * @param {() => void} [cancel] without it, the task cannot be cancelled
  * @param {number} [delay] time before it is shown, in milliseconds
  */
 export function waitingPanel(panel, cancel, delay = 0) {
   const bar = make('progress', '');
   bar.max = 1;
-  bar.setAttribute('aria-label', 'How far this is, by what others took');
+  bar.setAttribute('aria-label', 'How far this is');
   const text = make('span', 'muted small');
-  const button = make('button', '', 'Cancel');
-  Object.assign(button, { type: 'button', id: `${panel.id}-cancel` });
-  button.addEventListener('click', cancel);
-  panel.append(bar, text, button);
-  /** Measured milliseconds per unit of size, by the kind of task. @type {Map<string, number>} */
-  const rates = new Map();
-  let [start, expected, updateTimer, showTimer] = [0, 0, 0, 0];
-  let label = '';
+  panel.append(bar, text);
+  if (cancel) {
+    const button = make('button', '', 'Cancel');
+    Object.assign(button, { type: 'button', id: `${panel.id}-cancel` });
+    button.addEventListener('click', cancel);
+    panel.append(button);
+  }
+  let [start, updateTimer, showTimer] = [0, 0, 0];
+  let words = '';
+  /** Share of the present step that is done; undefined where that is not told. @type {number | undefined} */
+  let done;
 
   const update = () => {
-    const elapsed = performance.now() - start;
-    // The bar slows down near its end, and never reaches it before the task ends; it says nothing of a task of an unknown kind.
-    if (Number.isNaN(expected)) bar.removeAttribute('value');
-    else bar.value = elapsed < 0.8 * expected ? elapsed / expected : 1 - 0.2 * Math.exp(-(elapsed / expected - 0.8) / 0.4);
-    const left = Math.ceil((expected - elapsed) / 1000);
-    if (elapsed < FIGURES_DELAY_MS) text.textContent = `${label}…`;
-    else if (Number.isNaN(expected)) text.textContent = `${label}, ${count(Math.floor(elapsed / 1000))} s`;
-    else text.textContent = left >= 1 ? `${label}, about ${count(left)} s left` : `${label}, soon done`;
+    const elapsed = Math.floor((performance.now() - start) / 1000);
+    if (done === undefined) bar.removeAttribute('value');
+    else bar.value = done;
+    text.textContent = done !== undefined ? `${words}, ${percent(Math.floor(100 * done) / 100)}` : elapsed > 0 ? `${words}, ${count(elapsed)} s` : `${words}…`;
   };
 
   return {
-    /** Shows the progress of a task. @param {TimedTask} task */
-    begin(task) {
+    /** Shows that a task is under way. @param {string} label what is done */
+    begin(label) {
       start = performance.now();
-      label = task.label;
-      expected = Math.max(MIN_MEASURED_MS, task.size * (rates.get(task.kind) ?? NaN));
+      [words, done] = [label, undefined];
       clearTimeout(showTimer);
       if (delay === 0) panel.hidden = false;
       else showTimer = window.setTimeout(() => (panel.hidden = false), delay);
@@ -56,10 +50,14 @@ export function waitingPanel(panel, cancel, delay = 0) {
       updateTimer = window.setInterval(update, UPDATE_INTERVAL_MS);
       update();
     },
-    /** Hides the progress. @param {Pick<TimedTask, 'kind' | 'size'>} [finished] the task, if it was finished: its duration is then measured */
-    end(finished) {
-      const elapsed = performance.now() - start;
-      if (finished && elapsed > MIN_MEASURED_MS) rates.set(finished.kind, elapsed / Math.max(1, finished.size));
+    /** Tells how far the task is. What follows a step that is done is not told. @param {TaskProgress} progress */
+    tell({ fraction, label }) {
+      if (label) words = label;
+      done = fraction < 1 ? fraction : undefined;
+      update();
+    },
+    /** Hides the progress. */
+    end() {
       clearInterval(updateTimer);
       clearTimeout(showTimer);
       panel.hidden = true;

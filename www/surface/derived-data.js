@@ -15,12 +15,7 @@ const resultData = new WeakMap();
 
 /** Reduces the heights of an input for previews, in the worker. @param {Input} input */
 export async function prepareInput({ data, width, height }) {
-  if (!previewHeights.has(data)) storePreviewHeights(data, await callWorker('reduceForPreview', { width, height, data }));
-}
-
-/** Stores reduced heights for previews. @param {ArrayLike<number>} values of all pixels @param {Heights} reduced */
-export function storePreviewHeights(values, reduced) {
-  previewHeights.set(values, reduced);
+  if (!previewHeights.has(data)) previewHeights.set(data, await callWorker('reduceForPreview', { width, height, data }));
 }
 
 /** Heights reduced for previews. @param {Heights} image */

@@ -2,8 +2,6 @@
 import { oncePerFrame, matchDevicePixels } from '../dom.js';
 import { makeZoomable } from './zoom.js';
 
-/** @import {Zoom} from './zoom.js' */
-
 /**
  * @typedef {object} Picture
  * @property {string} title shown in place of “Input” or “Result”
@@ -16,18 +14,13 @@ import { makeZoomable } from './zoom.js';
 export class PictureView {
   /** @type {Picture | null} */
   #picture = null;
+  #zoomedBox;
   #paintSoon = oncePerFrame(() => this.#paint());
 
-  /**
-   * @param {HTMLCanvasElement} canvas
-   * @param {Zoom} [zoom]
-   * @param {HTMLElement} [over] element over the picture that gets the pointer events
-   */
-  constructor(canvas, zoom, over = canvas) {
+  /** @param {HTMLCanvasElement} canvas */
+  constructor(canvas) {
     this.canvas = canvas;
-    this.zoom = zoom;
-    zoom?.onChange(this.#paintSoon);
-    if (zoom) makeZoomable(over, zoom, { exclusive: true });
+    this.#zoomedBox = makeZoomable(canvas, this.#paintSoon);
     // Without delay, since resizing clears the canvas.
     matchDevicePixels(canvas, () => this.#paint());
     matchMedia('(prefers-color-scheme: dark)').addEventListener('change', this.#paintSoon);
@@ -50,16 +43,9 @@ export class PictureView {
   read({ offsetX, offsetY }) {
     const { canvas } = this;
     const ratio = canvas.width / canvas.clientWidth;
-    const { left, top, width, height } = this.#zoomedFrame();
+    const { left, top, width, height } = this.#zoomedBox();
     const [x, y] = [((offsetX * ratio - left) / width) * canvas.width, ((offsetY * ratio - top) / height) * canvas.height];
     return this.#picture?.read?.(canvas, ratio, x, y) ?? '';
-  }
-
-  /** The rectangle of the whole canvas after zooming. */
-  #zoomedFrame() {
-    const { canvas: { width, height } } = this;
-    const frame = { left: 0, top: 0, width, height };
-    return this.zoom?.transformBox(frame, frame) ?? frame;
   }
 
   #paint() {
@@ -68,10 +54,8 @@ export class PictureView {
     if (!context || !this.#picture || canvas.clientWidth === 0) return;
     context.clearRect(0, 0, canvas.width, canvas.height);
     context.save();
-    if (this.zoom) {
-      const { left, top, width, height } = this.#zoomedFrame();
-      context.setTransform(width / canvas.width, 0, 0, height / canvas.height, left, top);
-    }
+    const { left, top, width, height } = this.#zoomedBox();
+    context.setTransform(width / canvas.width, 0, 0, height / canvas.height, left, top);
     this.#picture.paint(context, canvas.width / canvas.clientWidth);
     context.restore();
   }

@@ -3,7 +3,6 @@ import { downsample } from './downsampling.js';
 import { gridOf } from './lattice.js';
 import { extentOf } from './triangles.js';
 
-/** @import {Pin} from '../design.js' */
 /** @import {Input} from '../session.js' */
 /** @import {Line} from './layer.js' */
 /** @import {PixelMarks} from './layer.js' */
@@ -34,16 +33,6 @@ const BOX_SAMPLE_HEIGHTS = 20_000;
 /** Number of steps along a ray in the search for an intersection, and of the bisections that refine it. */
 const RAY_STEPS = 400;
 const RAY_BISECTIONS = 20;
-
-/** The position of a pin in space. @param {Input} input @param {Pin} pin @returns {[number, number, number]} */
-export function pinPosition(input, { x, y, z }) {
-  const { left, top, pixelSize, width, height } = gridOf(input);
-  return [
-    left + (0.5 + x * (width - 1)) * pixelSize,
-    top - (0.5 + (1 - y) * (height - 1)) * pixelSize,
-    z * width * pixelSize,
-  ];
-}
 
 /** The value clamped to 0 to 1. @param {number} value */
 export function clampToUnit(value) {
@@ -128,12 +117,12 @@ export function heightfieldBox(input) {
 
 /**
  * The box expanded so that it contains the flat form of an unfolding.
- * @param {Pick<Unfolding, 'forms'>} unfolding
+ * @param {Pick<Unfolding, 'flat'>} unfolding
  * @param {Box} box
  * @returns {Box}
  */
-export function expandBox({ forms }, { low, high }) {
-  const { left, top, width, height } = extentOf(forms[forms.length - 1], 3);
+export function expandBox({ flat }, { low, high }) {
+  const { left, top, width, height } = extentOf(flat, 3);
   return {
     low: [Math.min(low[0], left), Math.min(low[1], top - height), low[2]],
     high: [Math.max(high[0], left + width), Math.max(high[1], top), high[2]],
@@ -178,24 +167,15 @@ export function intersectHeights({ point, towards }, { low, high }, height) {
 
 /**
  * Marked pixels as points on the surface.
- * @param {readonly PixelMarks[]} marks
+ * @param {PixelMarks} marks
  * @param {Input} input
  * @returns {Line[]}
  */
-export function markPoints(marks, input) {
+export function markPoints({ width, pixels, colour }, input) {
   const { left, top, pixelSize } = gridOf(input);
-  /** @type {Line[]} */
-  const points = [];
-  for (const { width, pixels, colour } of marks) {
-    /** @param {number} at */
-    const byte = (at) => Number.parseInt(colour.slice(at, at + 2), 16);
-    const rgb = /** @type {const} */ ([byte(1), byte(3), byte(5)]);
-    for (const i of pixels) {
-      const z = input.data[i] * input.heightScale;
-      if (Number.isNaN(z)) continue;
-      const place = /** @type {const} */ ([left + (i % width + 0.5) * pixelSize, top - (Math.floor(i / width) + 0.5) * pixelSize, z]);
-      points.push({ points: [place], colour: rgb, width: MARK_SIDE_PIXELS });
-    }
-  }
-  return points;
+  const [r, g, b] = [1, 3, 5].map((at) => Number.parseInt(colour.slice(at, at + 2), 16));
+  return Array.from(pixels, (i) => {
+    const place = /** @type {const} */ ([left + (i % width + 0.5) * pixelSize, top - (Math.floor(i / width) + 0.5) * pixelSize, input.data[i] * input.heightScale]);
+    return { points: [place], colour: [r, g, b], width: MARK_SIDE_PIXELS };
+  });
 }

@@ -5,7 +5,6 @@ import { light } from './light.js';
 import { fillMatcap, MATCAP_SIDE_TEXELS } from './matcap.js';
 import { boxOf } from './triangles.js';
 
-/** @import {DragTarget} from './gestures.js' */
 /** @import {Line} from './layer.js' */
 /** @typedef {readonly [number, number, number]} Vector */
 /** @typedef {{ low: Vector, high: Vector }} Box */
@@ -24,9 +23,6 @@ import { boxOf } from './triangles.js';
  * @property {boolean} [isFaceted] triangles are shaded flat
  * @property {boolean} [isSeenFromAbove] the camera stays above the ground
  * @property {() => void} [onTurn] called when the user has turned the surface
- * @property {() => void} [onDraw] called after each picture
- * @property {() => boolean} [controlsLight] whether drags and keys move the light
- * @property {DragTarget} [target] another thing that drags may move
  * @property {{ width: number, height: number }} [size] of the picture in pixels, for a canvas that is not shown
  */
 
@@ -82,8 +78,6 @@ export class SceneView {
   #frame = { middle: [0, 0, 0], scale: 1 };
   /** @type {Box} */
   #box = { low: [0, 0, 0], high: [0, 0, 0] };
-  /** Factor by which heights are exaggerated. */
-  #exaggeration = 1;
   /** The direction of `look`. @type {Vector} */
   #home = [0, 0, -1];
   #isSettingDirection = false;
@@ -148,7 +142,7 @@ export class SceneView {
     Object.assign(this.#ground, { receiveShadow: true, visible: false });
     this.#scene = new three.Scene();
     this.#scene.add(this.#shadowLight, this.#ground);
-    addGestures(canvas, this, options);
+    addGestures(canvas, this);
     this.#controls = this.#createControls();
     const resizing = new ResizeObserver(() => this.draw());
     resizing.observe(canvas);
@@ -196,24 +190,12 @@ export class SceneView {
   /** Lays the ground beneath the box. */
   #layGround() {
     const { up } = this.#camera;
-    this.#ground.position.copy(up).multiplyScalar(up.dot(this.#place(this.#box.low).multiply(this.#stretch)));
+    this.#ground.position.copy(up).multiplyScalar(up.dot(this.#place(this.#box.low)));
     this.#renderer.shadowMap.needsUpdate = true;
     this.drawSoon();
   }
 
-  /** The factors of the exaggeration along each axis. */
-  get #stretch() {
-    return new this.#three.Vector3(1, 1, this.#exaggeration);
-  }
-
-  /** Exaggerates heights by a factor. @param {number} factor */
-  exaggerate(factor) {
-    this.#exaggeration = factor;
-    for (const { surface, lines } of this.#sides) for (const one of [surface, lines]) one?.scale.copy(this.#stretch);
-    this.#layGround();
-  }
-
-  /** A place in the units of the drawn box, without exaggeration. @param {readonly number[]} place */
+  /** A place in the units of the drawn box. @param {readonly number[]} place */
   #place(place) {
     const { middle, scale } = this.#frame;
     return new this.#three.Vector3(...place.map((value, k) => (value - middle[k]) * scale));
@@ -231,7 +213,6 @@ export class SceneView {
     old?.traverse((/** @type {any} */ { geometry }) => geometry?.dispose());
     if (old) this.#scene.remove(old);
     this.#sides[side][what] = object;
-    object?.scale.copy(this.#stretch);
     if (object) this.#scene.add(object);
     this.drawSoon();
   }
@@ -326,13 +307,13 @@ export class SceneView {
     this.#isFitDue = this.#size.width === 0;
     if (this.#isFitDue) return;
     this.#camera.updateMatrixWorld();
-    const [point, stretch] = [new this.#three.Vector3(), this.#stretch];
+    const point = new this.#three.Vector3();
     const [low, high] = [[Infinity, Infinity], [-Infinity, -Infinity]];
     // The box of heights also holds what they unfold to.
     const corners = this.#options.isSeenFromAbove ? [this.#scaled(cornersOf(this.#box))] : [];
     for (const { array } of [...corners, ...this.#sides.flatMap(({ surface }) => surface?.geometry.getAttribute('position') ?? [])]) {
       for (let i = 0; i < array.length; i += 3) {
-        point.fromArray(array, i).multiply(stretch).applyMatrix4(this.#camera.matrixWorldInverse);
+        point.fromArray(array, i).applyMatrix4(this.#camera.matrixWorldInverse);
         [low[0], high[0]] = [Math.min(low[0], point.x), Math.max(high[0], point.x)];
         [low[1], high[1]] = [Math.min(low[1], point.y), Math.max(high[1], point.y)];
       }
@@ -428,14 +409,14 @@ export class SceneView {
   }
 
   /** Angle of the camera in radians, from straight above. */
-  get tilt() {
+  get #tilt() {
     return this.#camera.up.angleTo(this.#camera.getWorldDirection(new this.#three.Vector3()).negate());
   }
 
   /** The place of a point on the canvas, in CSS pixels. @param {Vector} point @returns {[number, number]} */
   project(point) {
     this.#prepareCamera();
-    const { x, y } = this.#place(point).multiply(this.#stretch).project(this.#camera);
+    const { x, y } = this.#place(point).project(this.#camera);
     const { width, height } = this.#size;
     return [((1 + x) / 2) * width, ((1 - y) / 2) * height];
   }
@@ -449,7 +430,7 @@ export class SceneView {
   }
 
   /**
-   * The ray through a place of the canvas: a point and the direction towards the viewer, in heights without exaggeration.
+   * The ray through a place of the canvas: a point and the direction towards the viewer.
    * @param {number} x
    * @param {number} y in CSS pixels
    * @returns {{ point: Vector, towards: Vector }}
@@ -457,8 +438,7 @@ export class SceneView {
   rayAt(x, y) {
     const { origin, direction } = this.#cast(x, y).ray;
     const { middle, scale } = this.#frame;
-    const [point, towards] = [origin, direction.negate()].map((vector) => vector.clone().divide(this.#stretch).toArray());
-    return { point: point.map((/** @type {number} */ value, /** @type {number} */ k) => value / scale + middle[k]), towards };
+    return { point: origin.toArray().map((/** @type {number} */ value, /** @type {number} */ k) => value / scale + middle[k]), towards: direction.clone().negate().toArray() };
   }
 
   /** Which side of the divider shows a place of the canvas. @param {number} x in CSS pixels @returns {0 | 1} */
@@ -492,7 +472,7 @@ export class SceneView {
   /** Colours the normals under the light. */
   #shade() {
     const { isMetal = false } = this.#options;
-    const tilt = isMetal ? this.tilt : 0;
+    const tilt = isMetal ? this.#tilt : 0;
     const now = `${light.x} ${light.y} ${tilt.toFixed(3)}`;
     if (now === this.#shownLight) return;
     this.#shownLight = now;
@@ -527,7 +507,6 @@ export class SceneView {
       this.#renderer.setScissor(from, 0, to - from, height);
       this.#renderer.render(this.#scene, this.#camera);
     }
-    this.#options.onDraw?.();
   }
 
   /** Frees the memory of the graphics card, and all that listens. */

@@ -3,8 +3,6 @@ import { NO_NORMAL, normalsOf, NORMAL_SCALE } from './normals.js';
 
 /** Unit vector to the light, y up. */
 const LIGHT_DIRECTION = [-0.5, 0.55, 0.67];
-/** Side of a picture of a pair: twice its displayed size, so that lines of text stay visible. */
-const PAIR_SIDE_PIXELS = 224;
 
 /**
  * Draws the left half of one picture and the right half of another.
@@ -22,28 +20,6 @@ export function drawHalves(canvas, before, after) {
   context.drawImage(after, half, 0, width - half, height, half, 0, width - half, height);
   context.fillStyle = '#4a90c2';
   context.fillRect(half, 0, 1, height);
-}
-
-/**
- * Draws two whole pictures side by side.
- * @param {HTMLCanvasElement} canvas
- * @param {HTMLCanvasElement | HTMLImageElement} before
- * @param {HTMLCanvasElement | HTMLImageElement} after
- */
-export function drawPair(canvas, before, after) {
-  Object.assign(canvas, { width: PAIR_SIDE_PIXELS, height: PAIR_SIDE_PIXELS });
-  const context = canvas.getContext('2d');
-  if (!context) return;
-  const half = PAIR_SIDE_PIXELS / 2;
-  context.fillStyle = '#fff';
-  context.fillRect(half, 0, half, PAIR_SIDE_PIXELS);
-  [before, after].forEach((picture, side) => {
-    const scale = Math.min(half / picture.width, PAIR_SIDE_PIXELS / picture.height);
-    const [width, height] = [scale * picture.width, scale * picture.height];
-    context.drawImage(picture, side * half + (half - width) / 2, (PAIR_SIDE_PIXELS - height) / 2, width, height);
-  });
-  context.fillStyle = '#4a90c2';
-  context.fillRect(half - 1, 0, 2, PAIR_SIDE_PIXELS);
 }
 
 /**

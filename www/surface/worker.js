@@ -1,5 +1,5 @@
 /** The worker in which the page computes what it shows; `worker-client.js` calls it. */
-import { confidenceOf, constraintsOf, interpretFile } from '../import-interpretation.js';
+import { interpretFile } from '../import-interpretation.js';
 import { readAssemblyMesh } from './assembly-mesh.js';
 import { errorsAgainst } from './compare.js';
 import { reduceForPreview } from './downsampling.js';
@@ -20,7 +20,7 @@ const computeUnfoldingInPieces = (model, scale, most, offset) => computeUnfoldin
 
 /** The tasks by name. The buffers of arrays in an answer are transferred. */
 export const tasks = {
-  confidenceOf, constraintsOf, curvaturesOf, drawingStrainImage, errorsAgainst, meshStrainImage, interpolateToGrid, labelPixels, interpretFile, reduceForPreview,
+  curvaturesOf, drawingStrainImage, errorsAgainst, meshStrainImage, interpolateToGrid, labelPixels, interpretFile, reduceForPreview,
   reducePhoto, photoPixels, decodePicture, totalGaussianCurvature, sheetStrainImage, computeUnfolding, computeUnfoldingInPieces, valuePixels,
 };
 

@@ -28,7 +28,7 @@ export async function dewarped(analyses, result, photo, options) {
   const unit = result.input.unit ?? 'unit';
   return {
     flat,
-    before: photoPicture(photo),
+    before: imagePicture(canvasFromImage(photo), 'Photo', `The photo, ${photo.width} × ${photo.height} pixels`),
     after: imagePicture(canvasFromImage(new ImageData(data, width)), 'Made flat', `The photo made flat, ${width} × ${height} pixels`,
       (x, y) => `${number(x / resolution)}, ${number(y / resolution)} ${result.input.unit ?? 'units'} from the upper left corner`),
     about: [
@@ -40,13 +40,8 @@ export async function dewarped(analyses, result, photo, options) {
         ['RMS strain', percent(distortion.rms)],
         ['Strain above 1 %', `${percent(distortion.above)} of the area`],
         ['Overlaps', crossings === 0 ? 'none' : `borders cross ${count(crossings)} times`],
-        ...(parts > 1 ? [/** @type {const} */ (['Parts', `${count(parts)}: click one in the photo to have it alone`])] : []),
+        ...(parts > 1 ? [/** @type {const} */ (['Parts', count(parts)])] : []),
       ]),
     ],
   };
-}
-
-/** A picture of the photo. @param {ImageData} photo */
-export function photoPicture(photo) {
-  return imagePicture(canvasFromImage(photo), 'Photo', `The photo, ${photo.width} × ${photo.height} pixels`);
 }

@@ -13,7 +13,7 @@ import { make } from '../dom.js';
 /** @import {Colour} from '../surface/colours.js' */
 /** @import {Line} from '../surface/layer.js' */
 /** @import {Picture} from '../surface/picture-view.js' */
-/** @import {MeshSurface, MeshFit} from '../mesh-fit.js' */
+/** @import {MeshSurface, MeshFit, Tell} from '../mesh-fit.js' */
 
 /** @typedef {NonNullable<ReturnType<import('../surface/scene.js').SceneView['pick']>>} Place */
 
@@ -69,9 +69,9 @@ export async function rulings(whole, mesh, surface) {
   return { before: mesh, after: surface, ...rulingContent(lines, mesh.unit) };
 }
 
-/** @param {MeshFit} whole @param {Mesh} mesh @param {MeshSurface} surface @returns {Promise<MeshViewContent>} */
-export async function patches(whole, mesh, surface) {
-  const { labels, patches: found, creases } = await whole.unrolled(surface);
+/** @param {MeshFit} whole @param {Mesh} mesh @param {MeshSurface} surface @param {Tell} tell @returns {Promise<MeshViewContent>} */
+export async function patches(whole, mesh, surface, tell) {
+  const { labels, patches: found, creases } = await whole.unrolled(surface, tell);
   const { triangles, positions } = surface;
   const total = found.reduce((sum, { area }) => sum + area, 0);
   // Triangles share no corners here, since patches end between triangles.
@@ -94,9 +94,9 @@ export async function patches(whole, mesh, surface) {
   };
 }
 
-/** @param {MeshFit} whole @param {Mesh} mesh @param {MeshSurface} surface @returns {Promise<MeshViewContent>} */
-export async function sheet(whole, mesh, surface) {
-  const { triangles, places, positions, report: { sheets, strain, seamGap } } = await whole.unrolled(surface);
+/** @param {MeshFit} whole @param {Mesh} mesh @param {MeshSurface} surface @param {Tell} tell @returns {Promise<MeshViewContent>} */
+export async function sheet(whole, mesh, surface, tell) {
+  const { triangles, places, positions, report: { sheets, strain, seamGap } } = await whole.unrolled(surface, tell);
   const picture = await callWorker('meshStrainImage', { triangles, places, positions });
   const { width, height, pixels, extent, maxStrain, values } = picture;
   const unit = mesh.unit ?? 'units';
@@ -141,11 +141,10 @@ function interpolateAt({ triangles }, { triangle, shares }, value) {
 
 /** The summary of a solve in sentences. @param {Mesh} mesh @param {MeshSurface} surface */
 export function meshFitSummary(mesh, { report }) {
-  const { passes, seconds: { total }, stopReason, flipped, entangled, repairs: { turned, degenerate, repeated } } = report;
+  const { passes, stopReason, flipped, entangled, repairs: { turned, degenerate, repeated } } = report;
   const gap = passes.at(-1)?.gap;
   const mended = turned + degenerate + repeated;
   return [
-    MESH_FIT_WORDS.vertices(count(report.vertices), seconds(total)),
     gap === undefined ? '' : MESH_FIT_WORDS.proof(passes.length, percent(gap)),
     stopReason === 'maxIterations' || stopReason === 'diverged' || stopReason === 'noNoise' ? MESH_FIT_WORDS[stopReason] : '',
     mended > 0 ? MESH_FIT_WORDS.repaired(mended) : '',
@@ -155,10 +154,11 @@ export function meshFitSummary(mesh, { report }) {
 }
 
 /** @param {Mesh} mesh @param {MeshSurface} surface @returns {[string, string][]} */
-function meshFacts({ unit, triangles }, { report: { vertices, border, components, sigma, lambda, passes, volume, area, flipped } }) {
+function meshFacts({ unit, triangles }, { report: { vertices, border, components, sigma, lambda, passes, volume, area, flipped, seconds: { total } } }) {
   const lengths = unit ?? 'units';
   const last = passes.at(-1);
   return [
+    ['Solved in', seconds(total)],
     ['Vertices', count(vertices)],
     ['Triangles', count(triangles.length / 3)],
     ['Border vertices', border === 0 ? 'none: it is closed' : count(border)],

@@ -21,14 +21,15 @@ const DRAWING_SIDE_PIXELS = 2400;
  * The surface laid flat: in one piece if that does not stretch it, else cut into sheets.
  * @param {Analyses} analyses
  * @param {Result} result
+ * @param {import('../mesh-fit.js').Tell} tell
  * @returns {Promise<ViewContent>}
  */
-export async function flat(analyses, result) {
-  const { verdict, picture: { maxStrain } } = await analyses.unroll(result);
-  const whole = () => sheet(analyses, result);
+export async function flat(analyses, result, tell) {
+  const { verdict, picture: { maxStrain } } = await analyses.unroll(result, tell);
+  const whole = () => sheet(analyses, result, tell);
   if (verdict !== 'stretched' || !Number.isFinite((await analyses.patchCount(result)).count)) return whole();
   // If cutting fails, the surface is shown in one piece with its strain.
-  const drawing = await cutSheets(analyses, result, { side: suggestedSideOf(result), assembly: true }).catch(() => null);
+  const drawing = await cutSheets(analyses, result, { side: suggestedSideOf(result), assembly: true }, tell).catch(() => null);
   if (!drawing) return whole();
   const { width, height } = drawing;
   const strain = drawing.assembly && await callWorker('drawingStrainImage', drawing.assembly.model, { width, height, bounds: drawing.sheets.map(({ bounds }) => bounds) });

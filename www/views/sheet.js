@@ -19,10 +19,11 @@ const RULER_MARGIN = 12;
  * The view of the flat surface.
  * @param {Analyses} analyses
  * @param {Result} result
+ * @param {import('../mesh-fit.js').Tell} tell
  * @returns {Promise<ViewContent>}
  */
-export async function sheet(analyses, result) {
-  const { picture, report: { distortion, crossings, parts, plan }, verdict } = await analyses.unroll(result);
+export async function sheet(analyses, result, tell) {
+  const { picture, report: { distortion, crossings, parts, plan }, verdict } = await analyses.unroll(result, tell);
   const { extent, maxStrain } = picture;
   const unit = result.input.unit ?? 'units';
   const scale = linearScale(maxStrain, signedPercent);

@@ -165,7 +165,7 @@ export function brokenStartTest(name, spoil, body) {
     const uncaught = [];
     page.on('pageerror', (error) => uncaught.push(error.message));
     await spoil(page);
-    await page.goto(server.url + SOURCES);
+    await page.goto(`${server.url}${SOURCES}#example=roof`);
     await page.locator('#page[data-phase="failed"]').waitFor();
     await body(page);
     assert.deepEqual(uncaught, []);

@@ -125,7 +125,7 @@ pub use lattice::stencil::Quadratic;
 pub use math::fork::{ThreadTeam, set_thread_team};
 pub use math::sym2::Sym2;
 pub use scene::camera::{Camera, Depth, Distortion, Intrinsics, Pose};
-pub use scene::exactness::{has_exact_faces, has_exact_vertices, has_no_noise};
+pub use scene::exactness::Exactness;
 pub use scene::mesh::Mesh;
 pub use scene::quarter::Turn;
 pub use scene::region::{Region, resampled};

@@ -5,9 +5,7 @@ use std::f64::consts::{FRAC_PI_2, PI, TAU};
 use developable::drawing::{Bending, Drawing, DrawingOptions, Label, LabelKind};
 use developable::files::drawings::write_dxf;
 use developable::pattern::{MeshPattern, NetOptions, Sheet, pattern_exact, sheet_metal};
-use developable::{
-    Lambda, Mesh, MeshOptions, StopReason, fit_mesh, has_exact_faces, has_exact_vertices,
-};
+use developable::{Exactness, Lambda, Mesh, MeshOptions, StopReason, fit_mesh};
 
 fn seam_length(pattern: &MeshPattern) -> f64 {
     Drawing::new(&pattern.sheets, &DrawingOptions::default())
@@ -144,7 +142,7 @@ fn polyhedra_are_one_net_with_the_shortest_cut() {
         ),
     ];
     for (mesh, cut, folds, area) in all {
-        assert!(has_exact_faces(&mesh));
+        assert_eq!(Exactness::of(&mesh), Exactness::Faces);
         let pattern = pattern_exact(&mesh, &NetOptions::default()).unwrap();
         let [sheet] = &pattern.sheets[..] else {
             panic!("{} sheets", pattern.sheets.len());
@@ -189,7 +187,7 @@ fn a_fit_leaves_meshes_without_noise_as_they_are() {
 #[test]
 fn a_hole_through_a_block_has_two_circles_and_a_strip() {
     let mesh = block_with_hole();
-    assert!(has_exact_faces(&mesh));
+    assert_eq!(Exactness::of(&mesh), Exactness::Faces);
     let pattern = pattern_exact(&mesh, &NetOptions::default()).unwrap();
     let [block, wall] = &pattern.sheets[..] else {
         panic!("{} sheets", pattern.sheets.len());
@@ -282,7 +280,7 @@ fn sheets_fit_the_room_that_there_is() {
 #[test]
 fn noise_and_smooth_surfaces_are_not_exact() {
     // A gable roof of 60 × 60 squares; noise of a tenth of a spacing, and none but a smooth bend.
-    let surface = |height: &dyn Fn(f64, f64, usize) -> f64| {
+    let exactness = |height: &dyn Fn(f64, f64, usize) -> f64| {
         let n = 60usize;
         let point = |i: usize| {
             let (x, y) = ((i % n) as f64, (i / n) as f64);
@@ -290,19 +288,18 @@ fn noise_and_smooth_surfaces_are_not_exact() {
         };
         let squares = (0..n - 1).flat_map(|j| (0..n - 1).map(move |i| (j * n + i) as u32));
         let triangles = squares.flat_map(|a| [[a, a + 1, a + 61], [a, a + 61, a + 60]]);
-        Mesh::new((0..n * n).map(point).collect(), triangles.collect()).unwrap()
+        Exactness::of(&Mesh::new((0..n * n).map(point).collect(), triangles.collect()).unwrap())
     };
     let noise = |i: usize| ((i as f64 * 12.9898).sin() * 43758.5453).fract() * 0.1;
     let roof = |x: f64| 0.8 * (30.0 - (x - 29.5).abs());
-    assert!(has_exact_faces(&surface(&|x, _, _| roof(x))));
-    assert!(!has_exact_faces(&surface(&|x, _, i| roof(x) + noise(i))));
-    assert!(!has_exact_faces(&surface(&|x, y, _| (2500.0
-        - (x - 30.0).powi(2)
-        - (y - 30.0).powi(2))
-    .sqrt())));
+    assert_eq!(exactness(&|x, _, _| roof(x)), Exactness::Faces);
+    let noisy = exactness(&|x, _, i| roof(x) + noise(i));
+    assert_ne!(noisy, Exactness::Faces);
+    let ball = |x: f64, y: f64| (2500.0 - (x - 30.0).powi(2) - (y - 30.0).powi(2)).sqrt();
+    assert_ne!(exactness(&|x, y, _| ball(x, y)), Exactness::Faces);
     // Whole heights, as in a scan of few digits, are planes of many triangles and still noise.
-    let stairs = surface(&|_, y, i| (0.2 * y + 10.0 * noise(i)).round());
-    assert!(!has_exact_faces(&stairs) && !has_exact_vertices(&stairs));
+    let stairs = exactness(&|_, y, i| (0.2 * y + 10.0 * noise(i)).round());
+    assert_eq!(stairs, Exactness::None);
 }
 
 /// A solid angle of sheet metal as CAD writes it: flat faces of 40 and 60 beside a bend of 90° with inner radius 3, 2 thick and

@@ -4,7 +4,7 @@ use super::FoundFaces;
 use super::noisy::noisy_faces;
 use super::rolled::rolled_faces;
 use crate::error::Result;
-use crate::scene::exactness::{has_exact_faces, has_exact_vertices};
+use crate::scene::exactness::Exactness;
 use crate::scene::mesh::Mesh;
 
 /// What a mesh is, and the faces that were found in it. Each kind is laid flat in its own way.
@@ -27,12 +27,10 @@ impl MeshKind {
     /// # Errors
     /// [`Error::OutOfMemory`](crate::Error::OutOfMemory).
     pub fn of(mesh: &Mesh) -> Result<MeshKind> {
-        Ok(if has_exact_faces(mesh) {
-            MeshKind::Faces
-        } else if has_exact_vertices(mesh) {
-            rolled_faces(mesh).map_or(MeshKind::Surface, MeshKind::Bends)
-        } else {
-            noisy_faces(mesh)?.map_or(MeshKind::Noisy, MeshKind::NoisyFaces)
+        Ok(match Exactness::of(mesh) {
+            Exactness::Faces => MeshKind::Faces,
+            Exactness::Vertices => rolled_faces(mesh).map_or(MeshKind::Surface, MeshKind::Bends),
+            Exactness::None => noisy_faces(mesh)?.map_or(MeshKind::Noisy, MeshKind::NoisyFaces),
         })
     }
 }

@@ -4,7 +4,7 @@ use std::fs;
 use std::path::Path;
 
 use developable::files::wavefront::write_obj;
-use developable::{Heightfield, Lattice, Options, fit};
+use developable::{Frame, Heightfield, Lattice, Options, Triangulation, fit};
 
 use super::noise::Noise;
 use super::shapes;
@@ -33,7 +33,10 @@ pub fn write(folder: &Path) -> Result<(), Box<dyn std::error::Error>> {
                 ("ours", surface.heightfield()),
             ];
             for (part, surface) in parts {
-                fs::write(folder.join(name(part)), write_obj(surface)?)?;
+                fs::write(
+                    folder.join(name(part)),
+                    write_obj(Triangulation::new(surface, &Frame::default())?.mesh(), None)?,
+                )?;
             }
             list.push(serde_json::json!({
                 "name": scene.name, "noise": noise.to_string(), "vertices": lattice.len(), "seconds": seconds,

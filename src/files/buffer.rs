@@ -35,3 +35,8 @@ impl Buffer {
         }
     }
 }
+
+/// Reserves memory for so many bytes more, with room for growth; an error if there is not enough memory.
+pub(super) fn reserve(bytes: &mut Vec<u8>, what: &'static str, more: usize) -> Result<()> {
+    (bytes.try_reserve(more)).map_err(|_| Error::OutOfMemory { what, bytes: more })
+}

@@ -2,6 +2,7 @@
 
 use std::str::FromStr;
 
+use super::signature::contains;
 use super::text::{decoded, lines};
 use crate::error::{Error, Result};
 
@@ -30,14 +31,7 @@ pub enum MeshFormat {
 impl MeshFormat {
     /// Returns the name of the mesh format: `"obj"`, `"ply"`, `"stl"`, `"gltf"`, `"3mf"` or `"off"`.
     pub fn name(self) -> &'static str {
-        match self {
-            MeshFormat::Obj => "obj",
-            MeshFormat::Ply => "ply",
-            MeshFormat::Stl => "stl",
-            MeshFormat::Gltf => "gltf",
-            MeshFormat::ThreeMf => "3mf",
-            MeshFormat::Off => "off",
-        }
+        MESH_FORMATS[self as usize].1
     }
 
     /// Detects the format of a mesh file from the file's contents. OBJ has no signature: a line that begins with `v`
@@ -54,16 +48,11 @@ impl MeshFormat {
         if first == b"ply" {
             return Some(MeshFormat::Ply);
         }
-        let is_asset = || {
-            bytes
-                .windows(GLTF_ASSET.len())
-                .any(|word| word == GLTF_ASSET)
-        };
-        if bytes.starts_with(b"glTF") || text.starts_with(b"{") && is_asset() {
+        if bytes.starts_with(b"glTF") || text.starts_with(b"{") && contains(bytes, GLTF_ASSET) {
             return Some(MeshFormat::Gltf);
         }
         if bytes.starts_with(b"PK\x03\x04") {
-            return (!is_array_archive(bytes)).then_some(MeshFormat::ThreeMf);
+            return contains(bytes, b".model").then_some(MeshFormat::ThreeMf);
         }
         if let Some(kinds) = first.strip_suffix(b"OFF")
             && ["", "C", "N", "CN", "ST", "STC", "STN", "STCN"]
@@ -89,16 +78,19 @@ impl MeshFormat {
     }
 
     pub(in crate::files) fn title(self) -> &'static str {
-        match self {
-            MeshFormat::Obj => "OBJ",
-            MeshFormat::Ply => "PLY",
-            MeshFormat::Stl => "STL",
-            MeshFormat::Gltf => "glTF",
-            MeshFormat::ThreeMf => "3MF",
-            MeshFormat::Off => "OFF",
-        }
+        MESH_FORMATS[self as usize].2
     }
 }
+
+/// Mesh formats with their names in options and their titles in messages.
+const MESH_FORMATS: [(MeshFormat, &str, &str); 6] = [
+    (MeshFormat::Obj, "obj", "OBJ"),
+    (MeshFormat::Ply, "ply", "PLY"),
+    (MeshFormat::Stl, "stl", "STL"),
+    (MeshFormat::Gltf, "gltf", "glTF"),
+    (MeshFormat::ThreeMf, "3mf", "3MF"),
+    (MeshFormat::Off, "off", "OFF"),
+];
 
 /// Property that every glTF file in text has.
 const GLTF_ASSET: &[u8] = b"\"asset\"";
@@ -114,16 +106,6 @@ pub(super) fn is_binary_stl(bytes: &[u8]) -> bool {
     stl_length(bytes).is_some_and(|length| length > STL_HEADER_BYTES && length == bytes.len())
 }
 
-/// Largest ratio of the length of a binary STL file by its header to the bytes that are there: of other files it is far larger.
-const MAX_STL_LENGTH_RATIO: usize = 64;
-
-/// Returns whether a file may be a binary STL file that is cut short, or that other data follow.
-pub(super) fn may_be_stl(bytes: &[u8]) -> bool {
-    stl_length(bytes).is_some_and(|length| {
-        length > STL_HEADER_BYTES && length / MAX_STL_LENGTH_RATIO < bytes.len()
-    })
-}
-
 /// Length of a binary STL file by the number of triangles in its header, in bytes.
 pub(super) fn stl_length(bytes: &[u8]) -> Option<usize> {
     let count = bytes.get(STL_HEADER_BYTES - 4..STL_HEADER_BYTES)?;
@@ -133,35 +115,15 @@ pub(super) fn stl_length(bytes: &[u8]) -> Option<usize> {
         .checked_add(STL_HEADER_BYTES)
 }
 
-/// Number of bytes before the name of the first file in a ZIP archive.
-const ZIP_NAME_OFFSET: usize = 30;
-
-/// Whether the first file in a ZIP archive is an array of NumPy (`.npy`), so that the archive is no 3MF.
-fn is_array_archive(bytes: &[u8]) -> bool {
-    let length = bytes
-        .get(26..28)
-        .map_or(0, |b| usize::from(u16::from_le_bytes([b[0], b[1]])));
-    let name = bytes.get(ZIP_NAME_OFFSET..ZIP_NAME_OFFSET + length);
-    name.is_some_and(|name| name.ends_with(b".npy"))
-}
-
 impl FromStr for MeshFormat {
     type Err = Error;
 
     /// Parses the name of a mesh format, as [`MeshFormat::name`] returns it; `glb` is also glTF.
     fn from_str(name: &str) -> Result<Self> {
-        match name {
-            "obj" => Ok(MeshFormat::Obj),
-            "ply" => Ok(MeshFormat::Ply),
-            "stl" => Ok(MeshFormat::Stl),
-            "gltf" | "glb" => Ok(MeshFormat::Gltf),
-            "3mf" => Ok(MeshFormat::ThreeMf),
-            "off" => Ok(MeshFormat::Off),
-            _ => Err(Error::option(
-                "format",
-                name,
-                "must be `obj`, `ply`, `stl`, `gltf`, `glb`, `3mf` or `off`",
-            )),
-        }
+        let name = if name == "glb" { "gltf" } else { name };
+        let mut formats = MESH_FORMATS.into_iter();
+        let requirement = "must be `obj`, `ply`, `stl`, `gltf`, `glb`, `3mf` or `off`";
+        (formats.find_map(|(format, known, _)| (name == known).then_some(format)))
+            .ok_or_else(|| Error::option("format", name, requirement))
     }
 }

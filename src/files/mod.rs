@@ -7,16 +7,26 @@ mod assumption;
 mod buffer;
 #[cfg(feature = "patterns")]
 pub mod drawings;
+#[cfg(any(feature = "formats", feature = "meshes", feature = "patterns"))]
+mod failure;
+#[cfg(any(feature = "meshes", feature = "patterns"))]
+mod glb;
 #[cfg(any(feature = "formats", feature = "meshes"))]
-mod foreign;
+mod image_format;
 #[cfg(feature = "formats")]
 pub mod images;
+#[cfg(any(feature = "formats", feature = "meshes"))]
+mod kind;
 #[cfg(any(feature = "formats", feature = "meshes"))]
 mod mesh_format;
 #[cfg(feature = "meshes")]
 pub mod meshes;
+#[cfg(any(feature = "formats", feature = "meshes"))]
+mod number_type;
 #[cfg(any(feature = "formats", feature = "patterns"))]
 mod points;
+#[cfg(any(feature = "formats", feature = "meshes"))]
+mod signature;
 #[cfg(any(feature = "formats", feature = "meshes"))]
 mod text;
 mod unit;

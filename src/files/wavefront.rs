@@ -4,57 +4,28 @@ use std::io::{self, Write};
 
 use super::buffer::Buffer;
 use crate::error::{Error, Result};
-use crate::heights::heightfield::Heightfield;
+use crate::files::failure::unsupported;
 use crate::scene::mesh::Mesh;
-use crate::scene::triangulation::Triangulation;
-use crate::scene::view::Frame;
-
-/// Writes a surface as an OBJ file, as [`write_obj_mesh`] writes the surface's [`Triangulation`]: positions are `x y z`
-/// as in the lattice, `x` to the right, `y` up the image, `z` the height, all in the same unit.
-///
-/// # Errors
-/// As [`Triangulation::new`].
-pub fn write_obj(surface: &Heightfield) -> Result<Vec<u8>> {
-    write_obj_in(surface, &Frame::default())
-}
-
-/// Writes a surface as an OBJ file in the axes of the mesh that it was sampled from: as [`write_obj`], with `x`, `y`
-/// and `z` along the axes of the frame.
-///
-/// # Errors
-/// As [`write_obj`].
-pub fn write_obj_in(surface: &Heightfield, frame: &Frame) -> Result<Vec<u8>> {
-    write_obj_mesh(Triangulation::new(surface, frame)?.mesh())
-}
 
 /// Writes a mesh as an OBJ file: positions with as many digits as it takes to read back the same 64-bit floats, then
 /// what the mesh has of colours (three more numbers for each vertex, which not all readers know), texture coordinates
-/// and normals.
+/// and normals. `materials` is the name of its material file ([`write_mtl`]), if there is one: the material's picture takes the
+/// place of colours, because readers would multiply the two.
 ///
-/// Costs `O(vertices + triangles)`.
-///
-/// # Errors
-/// [`Error::OutOfMemory`].
-pub fn write_obj_mesh(mesh: &Mesh) -> Result<Vec<u8>> {
-    write_obj_textured(mesh, None)
-}
-
-/// Writes a mesh as an OBJ file, as [`write_obj_mesh`] does, with the name of its material file ([`write_mtl`]), if
-/// there is one. The material's picture takes the place of colours, because readers would multiply the two.
+/// A surface is written as its [`Triangulation`](crate::Triangulation). Costs `O(vertices + triangles)`.
 ///
 /// # Errors
 /// [`Error::Option`] for a name that is empty or of several lines,
-/// [`Error::Unsupported`] for a mesh without texture coordinates,
+/// [`Error::Unsupported`] for materials of a mesh without texture coordinates,
 /// [`Error::OutOfMemory`].
-pub fn write_obj_textured(mesh: &Mesh, materials: Option<&str>) -> Result<Vec<u8>> {
+pub fn write_obj(mesh: &Mesh, materials: Option<&str>) -> Result<Vec<u8>> {
     let mut head = String::new();
     if let Some(name) = materials {
         if mesh.uvs().is_none() {
-            return Err(Error::Unsupported {
-                format: "OBJ",
-                reason: "a material's picture needs texture coordinates, and the mesh has none"
-                    .into(),
-            });
+            return Err(unsupported(
+                "OBJ",
+                "a material's picture needs texture coordinates, and the mesh has none",
+            ));
         }
         head = format!(
             "mtllib {}\nusemtl {MATERIAL_NAME}\n",
@@ -70,7 +41,7 @@ pub fn write_obj_textured(mesh: &Mesh, materials: Option<&str>) -> Result<Vec<u8
 /// Name of the only material in the MTL file (Wavefront's material file).
 const MATERIAL_NAME: &str = "surface";
 
-/// Writes a Wavefront material file (MTL) for [`write_obj_textured`]: one material, with the name of its picture's
+/// Writes a Wavefront material file (MTL) for [`write_obj`]: one material, with the name of its picture's
 /// file.
 ///
 /// # Errors

@@ -6,7 +6,9 @@ use developable::files::images::{
     write_npy, write_photo, write_photo_jpeg, write_photo_pdf, write_png,
 };
 use developable::files::wavefront::write_obj;
-use developable::{Error, HeightImage, Heightfield, Lattice, MAX_CELLS, Result};
+use developable::{
+    Error, Frame, HeightImage, Heightfield, Lattice, MAX_CELLS, Result, Triangulation,
+};
 use proptest::prelude::*;
 
 use crate::common::files;
@@ -328,10 +330,14 @@ fn load_obj(bytes: &[u8]) -> tobj::Mesh {
     models.into_iter().next().unwrap().mesh
 }
 
+fn write_surface(surface: &Heightfield) -> Result<Vec<u8>> {
+    write_obj(Triangulation::new(surface, &Frame::default())?.mesh(), None)
+}
+
 #[test]
 fn another_reader_sees_the_surface_in_our_obj() {
     let surface = surface();
-    let mesh = load_obj(&write_obj(&surface).unwrap());
+    let mesh = load_obj(&write_surface(&surface).unwrap());
     // 4 strips of 2 · 5 triangles; the missing corner takes the one that touches it.
     assert_eq!(mesh.indices.len() / 3, 40 - 1);
     assert_eq!(mesh.positions.len() / 3, 30 - 1);
@@ -361,7 +367,7 @@ fn another_reader_sees_the_surface_in_our_obj() {
 #[test]
 fn obj_positions_read_back_exactly() {
     let surface = surface();
-    let text = String::from_utf8(write_obj(&surface).unwrap()).unwrap();
+    let text = String::from_utf8(write_surface(&surface).unwrap()).unwrap();
     let written: Vec<[f64; 3]> = text
         .lines()
         .filter_map(|line| line.strip_prefix("v "))
@@ -389,7 +395,7 @@ fn writers_refuse_what_they_cannot_write() {
     assert_eq!(code(write_npy(1 << 20, 1 << 20, &[])), "TOO_LARGE");
     let lattice = Lattice::new(4, 1, 1.0).unwrap();
     let column = Heightfield::new(lattice, vec![0.0; 4]).unwrap();
-    assert_eq!(code(write_obj(&column)), "UNSUPPORTED");
+    assert_eq!(code(write_surface(&column)), "UNSUPPORTED");
 }
 
 /// A smooth photo with an edge, half of it half transparent.

@@ -1,7 +1,7 @@
 //! Surfaces as files of meshes, taken apart by hand: every number against the lattice's definition.
 
 use developable::files::meshes::{read_mesh, write_glb, write_ply, write_stl};
-use developable::files::wavefront::write_obj_mesh;
+use developable::files::wavefront::write_obj;
 use developable::{Frame, Heightfield, Lattice, Mesh, Result, Triangulation};
 use serde_json::Value;
 
@@ -350,7 +350,7 @@ fn glb_keeps_the_heights_of_coordinates_on_a_map() {
 
 #[test]
 fn obj_has_colours_and_texture_coordinates() {
-    let text = String::from_utf8(write_obj_mesh(&mesh()).unwrap()).unwrap();
+    let text = String::from_utf8(write_obj(&mesh(), None).unwrap()).unwrap();
     let numbers = |key: &str| -> Vec<Vec<f64>> {
         let lines = text.lines().filter_map(|line| line.strip_prefix(key));
         lines
@@ -418,7 +418,7 @@ fn what_cannot_be_written_is_said() {
     for file in [
         write_glb(&cloud, None),
         write_ply(&cloud),
-        write_obj_mesh(&cloud),
+        write_obj(&cloud, None),
     ] {
         let back = read_mesh(&file.unwrap(), None).unwrap();
         assert!(back.is_cloud() && back.positions().len() == 19);

@@ -1,15 +1,12 @@
 //! The animation of an assembly as glTF 2.0 in one binary file (GLB): a node for each sheet, which moves to its
-//! place while a morph target bends it.
-//!
-//! The file uses so little of the format that its text is written directly. (Khronos Group, glTF 2.0
-//! Specification, "Animations", "Morph Targets", "GLB File Format".)
-
-use std::fmt::Write as _;
+//! place while a morph target bends it. (Khronos Group, glTF 2.0 Specification, "Animations", "Morph Targets".)
 
 use super::colour;
 use crate::assembly::{Assembly, Pose};
 use crate::drawing::beside;
 use crate::error::{Error, Result, positive};
+use crate::files::failure::unsupported;
+use crate::files::glb::{GlbFile, list};
 use crate::pattern::Sheet;
 
 /// Duration of one step of the assembly animation, in seconds.
@@ -37,10 +34,10 @@ pub fn write_animation(sheets: &[Sheet], assembly: &Assembly, scale: f64) -> Res
         (built.chain(sheet.faces.flat.iter().flatten())).all(|v| (scale * v).abs() < 1e30)
     };
     if let Some(number) = sheets.iter().position(|sheet| !finite(sheet)) {
-        return Err(Error::Unsupported {
-            format: "pattern",
-            reason: format!("a vertex of sheet {} is not finite", number + 1),
-        });
+        return Err(unsupported(
+            "pattern",
+            format!("a vertex of sheet {} is not finite", number + 1),
+        ));
     }
     let mut file = File::default();
     let places = beside(&in_millimetres(sheets, scale));
@@ -58,7 +55,7 @@ pub fn write_animation(sheets: &[Sheet], assembly: &Assembly, scale: f64) -> Res
             &moved,
             step as f64 * (STEP_SECONDS + STEP_PAUSE_SECONDS),
             sizes,
-        );
+        )?;
     }
     file.finish()
 }
@@ -126,13 +123,10 @@ impl SheetMotion {
     }
 }
 
-/// A GLB file of an animation that is being written: the bytes of its binary part, and the lists of its text part
-/// (JSON).
+/// A GLB file of an animation that is being written, and the lists of its text.
 #[derive(Default)]
 struct File {
-    bin: Vec<u8>,
-    views: Vec<String>,
-    accessors: Vec<String>,
+    glb: GlbFile,
     meshes: Vec<String>,
     nodes: Vec<String>,
     materials: Vec<String>,
@@ -140,14 +134,15 @@ struct File {
     channels: Vec<String>,
 }
 
-/// OpenGL's number for 32-bit floats, by which glTF names component types.
-const GL_FLOAT: u32 = 5126;
-
-/// OpenGL's number for unsigned 32-bit integers.
-const GL_UNSIGNED_INT: u32 = 5125;
-
 impl File {
-    fn sheet(&mut self, number: usize, sheet: &Sheet, moved: &SheetMotion, time: f64, scale: f64) {
+    fn sheet(
+        &mut self,
+        number: usize,
+        sheet: &Sheet,
+        moved: &SheetMotion,
+        time: f64,
+        scale: f64,
+    ) -> Result<()> {
         let index = self.meshes.len();
         let faces = &sheet.faces;
         let place = |p: [f64; 3]| p.map(|v| (scale * v) as f32);
@@ -158,14 +153,9 @@ impl File {
         let bends: Vec<[f32; 3]> = (bent.zip(&flat))
             .map(|(p, q)| std::array::from_fn(|k| p[k] - q[k]))
             .collect();
-        let position = self.floats(&flat, "VEC3", true);
-        let target = self.floats(&bends, "VEC3", true);
-        let corners: Vec<u8> = (faces.triangles.iter().flatten())
-            .flat_map(|corner| corner.to_le_bytes())
-            .collect();
-        let view = self.view(&corners);
-        let count = 3 * faces.triangles.len();
-        let indices = self.accessor(view, GL_UNSIGNED_INT, count, "SCALAR", "");
+        let position = self.glb.floats(&flat, true)?;
+        let target = self.glb.floats(&bends, true)?;
+        let indices = self.glb.indices(&faces.triangles)?;
         let [r, g, b] = colour(number).map(|v| linear(f64::from(v) / 255.0));
         self.materials.push(format!(
             r#"{{"doubleSided":true,"pbrMetallicRoughness":{{"baseColorFactor":[{r:.4},{g:.4},{b:.4},1],"metallicFactor":0,"roughnessFactor":0.8}}}}"#
@@ -183,11 +173,11 @@ impl File {
             list(&turns[0])
         ));
         let times = [[time as f32], [(time + STEP_SECONDS) as f32]];
-        let input = self.floats(&times, "SCALAR", true);
+        let input = self.glb.floats(&times, true)?;
         for (path, output) in [
-            ("translation", self.floats(&[start, end], "VEC3", false)),
-            ("rotation", self.floats(&turns, "VEC4", false)),
-            ("weights", self.floats(&[[0.0], [1.0]], "SCALAR", false)),
+            ("translation", self.glb.floats(&[start, end], false)?),
+            ("rotation", self.glb.floats(&turns, false)?),
+            ("weights", self.glb.floats(&[[0.0], [1.0]], false)?),
         ] {
             // The root is the first node.
             let (sampler, node) = (self.samplers.len(), index + 1);
@@ -197,97 +187,23 @@ impl File {
                 r#"{{"sampler":{sampler},"target":{{"node":{node},"path":"{path}"}}}}"#
             ));
         }
-    }
-
-    fn view(&mut self, bytes: &[u8]) -> usize {
-        let (from, long) = (self.bin.len(), bytes.len());
-        self.bin.extend_from_slice(bytes);
-        self.views.push(format!(
-            r#"{{"buffer":0,"byteOffset":{from},"byteLength":{long}}}"#
-        ));
-        self.views.len() - 1
-    }
-
-    fn accessor(&mut self, view: usize, kind: u32, count: usize, shape: &str, more: &str) -> usize {
-        self.accessors.push(format!(
-            r#"{{"bufferView":{view},"componentType":{kind},"count":{count},"type":"{shape}"{more}}}"#
-        ));
-        self.accessors.len() - 1
-    }
-
-    fn floats<const N: usize>(&mut self, rows: &[[f32; N]], shape: &str, bounded: bool) -> usize {
-        let bytes: Vec<u8> = rows
-            .iter()
-            .flatten()
-            .flat_map(|v| v.to_le_bytes())
-            .collect();
-        let view = self.view(&bytes);
-        let mut more = String::new();
-        if bounded {
-            let limit = |start: f32, f: fn(f32, f32) -> f32| -> [f32; N] {
-                std::array::from_fn(|k| rows.iter().map(|row| row[k]).fold(start, f))
-            };
-            let (low, high) = (
-                limit(f32::INFINITY, f32::min),
-                limit(f32::NEG_INFINITY, f32::max),
-            );
-            // Writing into a string cannot fail.
-            let _ = write!(more, r#","min":{},"max":{}"#, list(&low), list(&high));
-        }
-        self.accessor(view, GL_FLOAT, rows.len(), shape, &more)
+        Ok(())
     }
 
     fn finish(self) -> Result<Vec<u8>> {
         let join = |parts: &[String]| parts.join(",");
         let sheets: Vec<String> = (1..=self.meshes.len()).map(|n| n.to_string()).collect();
         // Heights point along +z here.
-        let mut text = format!(
-            r#"{{"asset":{{"version":"2.0","generator":"developable"}},"scene":0,"scenes":[{{"nodes":[0]}}],"nodes":[{{"name":"Pattern","rotation":[-0.70710677,0,0,0.70710677],"children":[{}]}},{}],"meshes":[{}],"materials":[{}],"accessors":[{}],"bufferViews":[{}],"buffers":[{{"byteLength":{}}}],"animations":[{{"name":"Assembly","samplers":[{}],"channels":[{}]}}]}}"#,
+        self.glb.finish(&format!(
+            r#""scenes":[{{"nodes":[0]}}],"nodes":[{{"name":"Pattern","rotation":[-0.70710677,0,0,0.70710677],"children":[{}]}},{}],"meshes":[{}],"materials":[{}],"animations":[{{"name":"Assembly","samplers":[{}],"channels":[{}]}}]"#,
             join(&sheets),
             join(&self.nodes),
             join(&self.meshes),
             join(&self.materials),
-            join(&self.accessors),
-            join(&self.views),
-            self.bin.len(),
             join(&self.samplers),
             join(&self.channels),
-        )
-        .into_bytes();
-        // Every part begins at a multiple of four bytes; all that is binary here has one.
-        while text.len() % 4 > 0 {
-            text.push(b' ');
-        }
-        let total = 28 + text.len() + self.bin.len();
-        let Ok(length) = u32::try_from(total) else {
-            return Err(Error::Unsupported {
-                format: "GLB",
-                reason: "a file has less than 4 GiB".into(),
-            });
-        };
-        let mut out = Vec::new();
-        if out.try_reserve_exact(total).is_err() {
-            return Err(Error::OutOfMemory {
-                what: "GLB file",
-                bytes: total,
-            });
-        }
-        out.extend_from_slice(b"glTF");
-        for word in [2, length, text.len() as u32] {
-            out.extend_from_slice(&word.to_le_bytes());
-        }
-        out.extend_from_slice(b"JSON");
-        out.extend_from_slice(&text);
-        out.extend_from_slice(&(self.bin.len() as u32).to_le_bytes());
-        out.extend_from_slice(b"BIN\0");
-        out.extend_from_slice(&self.bin);
-        Ok(out)
+        ))
     }
-}
-
-fn list(values: &[f32]) -> String {
-    let values: Vec<String> = values.iter().map(f32::to_string).collect();
-    format!("[{}]", values.join(","))
 }
 
 /// Converts an sRGB colour value from 0 to 1 to linear light.

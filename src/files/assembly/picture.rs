@@ -11,6 +11,7 @@ use super::colour;
 use crate::assembly::{Built, faces_up};
 use crate::drawing::{letters, smooth};
 use crate::error::{Error, Result};
+use crate::files::failure::unsupported;
 use crate::pattern::{Faces, Sheet};
 
 /// Length of the longer side of the assembly picture, in units of the SVG file.
@@ -44,10 +45,10 @@ pub fn write_assembly_svg(sheets: &[Sheet]) -> Result<Vec<u8>> {
     let high = [0, 1].map(|k| limit(k, f64::NEG_INFINITY, f64::max));
     let wide = (high[0] - low[0]).max(high[1] - low[1]);
     if !(wide > 0.0 && wide.is_finite()) {
-        return Err(Error::Unsupported {
-            format: "pattern",
-            reason: "its vertices must be finite, and not all at one place".into(),
-        });
+        return Err(unsupported(
+            "pattern",
+            "its vertices must be finite, and not all at one place",
+        ));
     }
     let scale = PICTURE_SIZE / wide;
     let place = |p: [f64; 2]| [scale * (p[0] - low[0]), scale * (high[1] - p[1])];

@@ -5,8 +5,8 @@ use pdf_writer::{Content, Finish, Name, Pdf, Rect, Ref, Str, TextStr};
 
 use super::{BASELINE_DROP, LINE_WIDTH_MM, TEXT_GREY_LEVEL, layers};
 use crate::drawing::{Drawing, Label, Pages, Piece, Stock};
-use crate::error::{Error, Result};
-use crate::files::points::{MAX_PAGE_SIDE_POINTS, POINTS_PER_MM, points};
+use crate::error::Result;
+use crate::files::points::{check_page, points};
 
 /// Length of each arm of a registration mark (a cross by which pages are aligned), in millimetres.
 const REGISTRATION_ARM_MM: f64 = 4.0;
@@ -67,7 +67,7 @@ impl<'a> PdfOptions<'a> {
 /// a line of 100 mm. Print it at 100 %.
 ///
 /// # Errors
-/// [`Error::Unsupported`] for a drawing that is not finite, for a page of more than 5.08 m, the format's
+/// [`Error::Unsupported`](crate::Error::Unsupported) for a drawing that is not finite, for a page of more than 5.08 m, the format's
 /// limit, and what [`Drawing::onto`] has to say.
 pub fn write_pdf(drawing: &Drawing, options: &PdfOptions<'_>) -> Result<Vec<u8>> {
     drawing.check()?;
@@ -132,19 +132,6 @@ fn whole(drawing: &Drawing, title: &str) -> Result<Sheet> {
     }
     page.x_object(DRAWING_RESOURCE);
     Ok((size, page.finish().into_vec()))
-}
-
-fn check_page(size: [f64; 2]) -> Result<()> {
-    match size
-        .iter()
-        .any(|side| side * POINTS_PER_MM > MAX_PAGE_SIDE_POINTS)
-    {
-        true => Err(Error::Unsupported {
-            format: "PDF",
-            reason: "a page has at most 5.08 metres; choose a smaller scale, or a paper".into(),
-        }),
-        false => Ok(()),
-    }
 }
 
 /// Draws the scale line at the lower edge of a page, from `left` in millimetres, and says beside it what it is for.
@@ -219,7 +206,7 @@ fn figure(drawing: &Drawing) -> Vec<u8> {
     for (kind, lines) in layers(drawing) {
         let [r, g, b] = kind.color().map(|v| f32::from(v) / 255.0);
         out.set_stroke_rgb(r, g, b);
-        let dashes = kind.dashes().iter().map(|d| d * POINTS_PER_MM as f32);
+        let dashes = kind.dashes().iter().map(|d| points(f64::from(*d)));
         out.set_dash_pattern(dashes, 0.0);
         for (line, closed) in lines {
             if let Some([x, y]) = line.controls().first() {

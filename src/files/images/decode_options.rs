@@ -1,7 +1,7 @@
 //! Options of decoding an image file of heights.
 
-use super::format::Format;
 use crate::error::{Error, Result};
+use crate::files::image_format::Format;
 
 /// Options of decoding an image file of heights.
 #[derive(Debug, Clone, PartialEq)]

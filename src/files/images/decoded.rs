@@ -2,12 +2,14 @@
 
 use super::decode_options::DecodeOptions;
 use super::depths::{self, DepthEvidence};
-use super::format::Format;
 use super::georeference::Georeference;
 use super::no_data;
 use super::scale::{SUGGESTED_RELIEF_SHARE, assumed_levels, assumed_pixel_size};
 use super::square_pixels::{NEGLIGIBLE_SIDE_DIFFERENCE, square_pixels};
 use crate::error::{Error, Result};
+use crate::files::failure::unsupported;
+use crate::files::image_format::Format;
+use crate::files::number_type::NumberType;
 use crate::files::{Assumption, Unit};
 use crate::heights::heightfield::HeightImage;
 
@@ -69,7 +71,7 @@ pub(super) struct StoredImage {
     pub(super) size: (usize, usize),
     /// The pixel values, row by row, top row first; NaN where the file says that there is no data.
     pub(super) values: Vec<f64>,
-    pub(super) data_type: &'static str,
+    pub(super) number_type: NumberType,
     /// Whether the file names its value of no data.
     pub(super) names_no_data: bool,
     /// Width and height of a pixel in `unit`, if the file says them.
@@ -91,13 +93,13 @@ impl StoredImage {
         format: Format,
         size: (usize, usize),
         values: Vec<f64>,
-        data_type: &'static str,
+        number_type: NumberType,
     ) -> Self {
         StoredImage {
             format,
             size,
             values,
-            data_type,
+            number_type,
             names_no_data: false,
             sides: None,
             aspect: 1.0,
@@ -117,7 +119,7 @@ impl StoredImage {
     pub(super) fn finish(mut self, options: &DecodeOptions) -> Result<Decoded> {
         let mut assumptions = self.assumptions;
         if let Some(missing) = options.no_data {
-            let missing = no_data::as_stored(missing, self.data_type);
+            let missing = no_data::as_stored(missing, self.number_type);
             (self.values.iter_mut().filter(|value| **value == missing))
                 .for_each(|value| *value = f64::NAN);
         }
@@ -127,14 +129,14 @@ impl StoredImage {
                 self.names_no_data,
             ));
         }
-        let depth_unit = depths::unit(&self.values, self.data_type);
+        let depth_unit = depths::unit(&self.values, self.number_type);
         // On a map, there are heights.
         let depths = match self.georeference {
             Some(_) => DepthEvidence::None,
             None => depths::evidence(
                 &self.values,
                 self.size.0,
-                self.data_type,
+                self.number_type,
                 depth_unit,
                 &options.name,
             ),
@@ -161,7 +163,7 @@ impl StoredImage {
         let ((width, height), mut pixel_size) = (square.size, square.side);
         let mut values = square.values;
         let side = width.max(height) as f64;
-        let height_scale = match (self.height_scale, levels(self.data_type)) {
+        let height_scale = match (self.height_scale, self.number_type.range()) {
             (Some(scale), _) => scale,
             (None, None) => 1.0,
             (None, Some(range)) => {
@@ -169,7 +171,7 @@ impl StoredImage {
                 pixel_size * SUGGESTED_RELIEF_SHARE * side / range
             }
         };
-        let are_heights = self.height_scale.is_some() || levels(self.data_type).is_none();
+        let are_heights = self.height_scale.is_some() || self.number_type.range().is_none();
         if self.sides.is_none() && are_heights {
             let found = assumed_pixel_size(&values, height_scale, side);
             if let Some((size, assumption)) = found {
@@ -189,7 +191,7 @@ impl StoredImage {
             pixel_size,
             unit: self.unit,
             height_scale,
-            data_type: self.data_type,
+            data_type: self.number_type.name(),
             depths,
             depth_unit,
             georeference: self.georeference,
@@ -203,22 +205,14 @@ pub(super) fn recorded_sides(size: f64) -> Option<[f64; 2]> {
     (size != 1.0).then_some([size; 2])
 }
 
-/// Difference between the largest and the smallest value of an integer type, given by its name; `None` for floats.
-fn levels(data_type: &str) -> Option<f64> {
-    let bits = data_type.strip_prefix(['u', 'i'])?;
-    Some(bits.parse::<i32>().ok()?).map(|bits| 2f64.powi(bits) - 1.0)
-}
-
 /// Creates the error for a picture with colours, which cannot be read as heights; it names the first coloured
 /// pixel.
-pub(super) fn coloured(format: &'static str, pixel: usize, width: usize) -> Error {
-    Error::Unsupported {
-        format,
-        reason: format!(
-            "the pixel at row {}, column {} has a colour, from which no height follows; \
-             grey images are read (grey, or RGB and palettes with grey pixels only)",
-            pixel / width,
-            pixel % width
-        ),
-    }
+pub(super) fn coloured(format: Format, pixel: usize, width: usize) -> Error {
+    let reason = format!(
+        "the pixel at row {}, column {} has a colour, from which no height follows; \
+         grey images are read (grey, or RGB and palettes with grey pixels only)",
+        pixel / width,
+        pixel % width
+    );
+    unsupported(format, reason)
 }

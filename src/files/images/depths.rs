@@ -1,5 +1,6 @@
 //! Depths of a camera among images of numbers: how they are told from heights, and their unit.
 
+use crate::files::number_type::NumberType;
 use crate::files::{Assumption, Unit};
 
 /// Whether the values of an image are depths of a camera.
@@ -54,11 +55,11 @@ const DEPTH_WORDS: [&str; 5] = ["depth", "tiefe", "kinect", "lidar", "tof"];
 
 /// Unit that values of the given type have if they are depths: integers are millimetres, floats metres unless they are as
 /// large as only millimetres are. Costs `O(pixels)`.
-pub(super) fn unit(values: &[f64], data_type: &str) -> Unit {
+pub(super) fn unit(values: &[f64], number_type: NumberType) -> Unit {
     let depths = || values.iter().filter(|depth| is_depth(**depth));
     let is_large =
         || 2 * depths().filter(|depth| **depth >= MIN_MILLIMETRES).count() > depths().count();
-    match !data_type.starts_with('f') || is_large() {
+    match !number_type.is_float() || is_large() {
         true => Unit::Millimetre,
         false => Unit::Metre,
     }
@@ -69,11 +70,14 @@ pub(super) fn unit(values: &[f64], data_type: &str) -> Unit {
 pub(super) fn evidence(
     values: &[f64],
     width: usize,
-    data_type: &str,
+    number_type: NumberType,
     unit: Unit,
     name: &str,
 ) -> DepthEvidence {
-    let is_integer = matches!(data_type, "u16" | "i32" | "u32");
+    let is_integer = matches!(
+        number_type,
+        NumberType::U16 | NumberType::I32 | NumberType::U32
+    );
     let name = name.to_lowercase();
     let is_named = DEPTH_WORDS.iter().any(|word| name.contains(word));
     let count = values.iter().filter(|depth| is_depth(**depth)).count();
@@ -82,7 +86,7 @@ pub(super) fn evidence(
         Unit::Millimetre => MILLIMETRES,
     };
     let in_range = values.iter().filter(|depth| range.contains(depth)).count();
-    if !(is_integer || data_type.starts_with('f'))
+    if !(is_integer || number_type.is_float())
         || count == 0
         || values.iter().any(|value| *value < 0.0)
         || (in_range as f64) < MIN_SHARE_IN_RANGE * count as f64
@@ -143,11 +147,11 @@ mod tests {
 
     const WIDTH: usize = 160;
 
-    fn told(data_type: &str, name: &str, value: impl Fn(f64, f64) -> f64) -> Option<Unit> {
+    fn told(number_type: NumberType, name: &str, value: impl Fn(f64, f64) -> f64) -> Option<Unit> {
         let at = |i: usize| value((i % WIDTH) as f64, (i / WIDTH) as f64);
         let values: Vec<f64> = (0..120 * WIDTH).map(at).collect();
-        let unit = unit(&values, data_type);
-        let evidence = evidence(&values, WIDTH, data_type, unit, name);
+        let unit = unit(&values, number_type);
+        let evidence = evidence(&values, WIDTH, number_type, unit, name);
         (evidence != DepthEvidence::None).then_some(unit)
     }
 
@@ -162,28 +166,31 @@ mod tests {
             }
         };
         assert_eq!(
-            told("u16", "a.png", scene(1000.0, 0.0)),
+            told(NumberType::U16, "a.png", scene(1000.0, 0.0)),
             Some(Unit::Millimetre)
         );
-        assert_eq!(told("f32", "a.exr", scene(1.0, 1e10)), Some(Unit::Metre));
         assert_eq!(
-            told("f32", "a_depth.exr", scene(1000.0, 0.0)),
+            told(NumberType::F32, "a.exr", scene(1.0, 1e10)),
+            Some(Unit::Metre)
+        );
+        assert_eq!(
+            told(NumberType::F32, "a_depth.exr", scene(1000.0, 0.0)),
             Some(Unit::Millimetre)
         );
-        assert_eq!(told("u8", "grey.png", scene(100.0, 0.0)), None);
+        assert_eq!(told(NumberType::U8, "grey.png", scene(100.0, 0.0)), None);
         // A ramp from 0, terrain, and depths that only their name tells.
         assert_eq!(
-            told("f32", "a.npy", |col, row| 0.1 * col + 0.15 * row),
+            told(NumberType::F32, "a.npy", |col, row| 0.1 * col + 0.15 * row),
             None
         );
         let hills =
             |x: f64, y: f64| 900.0 + 300.0 * (x / 17.0).sin() + 200.0 * (y / 13.0 + x / 31.0).cos();
-        assert_eq!(told("u16", "dem.tif", hills), None);
+        assert_eq!(told(NumberType::U16, "dem.tif", hills), None);
         assert_eq!(
-            told("u16", "Depth.png", |col, _| 800.0 + col),
+            told(NumberType::U16, "Depth.png", |col, _| 800.0 + col),
             Some(Unit::Millimetre)
         );
-        assert_eq!(told("u16", "a.png", |col, _| 800.0 + col), None);
+        assert_eq!(told(NumberType::U16, "a.png", |col, _| 800.0 + col), None);
     }
 
     #[test]

@@ -6,18 +6,10 @@ use zune_core::options::DecoderOptions;
 use zune_jpeg::JpegDecoder;
 use zune_jpeg::errors::DecodeErrors;
 
-#[cfg(feature = "images")]
-use super::decoded::StoredImage;
-#[cfg(feature = "images")]
-use super::extended::samples::picture;
-use super::failure::{check_length, damaged, unsupported};
-use super::format::Format;
-#[cfg(feature = "images")]
-use super::orientation::oriented;
 use super::photo::{PhotoFile, PhotoPixels, PhotoTags};
-#[cfg(feature = "images")]
-use crate::error::checked_cells;
 use crate::error::{Error, Result, try_filled};
+use crate::files::failure::{check_length, damaged, unsupported};
+use crate::files::image_format::Format;
 
 /// Maximum number of pixel samples that one byte of a JPEG file can stand for: an even block of 64 takes a few
 /// bits, and in a progressive file a run of such blocks does.
@@ -29,21 +21,6 @@ const JPEG_END_MARKER: [u8; 2] = [0xff, 0xd9];
 /// Second byte of the JPEG marker that image data follow.
 const JPEG_SCAN_MARKER: u8 = 0xda;
 
-/// Decodes the heights in a grey JPEG file.
-#[cfg(feature = "images")]
-pub(super) fn decode(bytes: &[u8]) -> Result<StoredImage> {
-    let mut file = OpenedJpeg::new(bytes)?;
-    checked_cells("JPEG image", file.size.1, file.size.0)?;
-    let samples = file.decode()?;
-    let stored = picture(Format::Jpeg, file.size, &samples, file.stored.1)?;
-    let (values, size) = oriented(stored.values, file.size, file.tags().orientation)?;
-    Ok(StoredImage {
-        values,
-        size,
-        ..stored
-    })
-}
-
 /// Decodes a photo in a JPEG file. It is decoded as a whole, three bytes for each pixel, before it is reduced.
 pub(super) fn decode_photo(bytes: &[u8]) -> Result<PhotoFile> {
     let mut file = OpenedJpeg::new(bytes)?;
@@ -53,16 +30,18 @@ pub(super) fn decode_photo(bytes: &[u8]) -> Result<PhotoFile> {
 }
 
 /// A JPEG file whose headers have been read.
-struct OpenedJpeg<'a> {
+pub(super) struct OpenedJpeg<'a> {
     decoder: JpegDecoder<ZCursor<&'a [u8]>>,
     options: DecoderOptions,
-    size: (usize, usize),
+    pub(super) size: (usize, usize),
+    /// Number of components of each pixel as it is stored.
+    pub(super) components: u8,
     /// Colour space of the samples stored in the JPEG file, and number of samples per pixel.
     stored: (ColorSpace, usize),
 }
 
 impl<'a> OpenedJpeg<'a> {
-    fn new(bytes: &'a [u8]) -> Result<Self> {
+    pub(super) fn new(bytes: &'a [u8]) -> Result<Self> {
         // The decoder fills in missing data at the end.
         if !ends(bytes) {
             return Err(damaged(Format::Jpeg, "it is cut short"));
@@ -97,6 +76,7 @@ impl<'a> OpenedJpeg<'a> {
             decoder,
             options,
             size,
+            components: info.components,
             stored,
         })
     }

@@ -14,8 +14,6 @@ mod decoded;
 mod depths;
 #[cfg(feature = "images")]
 pub mod extended;
-mod failure;
-mod format;
 mod georeference;
 mod jpeg;
 mod no_data;
@@ -29,14 +27,16 @@ mod print;
 mod scale;
 mod square_pixels;
 
-use crate::error::{Error, Result};
+use crate::error::Result;
+use crate::files::failure::unsupported;
 
+pub use super::image_format::{FORMAT_NAMES, Format};
+pub use super::kind::{announced, format_name};
 pub use decode_options::DecodeOptions;
 pub use decoded::Decoded;
 pub use depths::DepthEvidence;
 #[cfg(feature = "images")]
 pub use extended::{NpzArray, npz_arrays, write_exr, write_tiff};
-pub use format::{FORMAT_NAMES, Format, announced, format_name};
 pub use georeference::Georeference;
 pub use npy::write_npy;
 pub use photo::{PhotoFile, decode_photo, decode_photo_basic};
@@ -109,10 +109,8 @@ pub fn decode_basic(bytes: &[u8], format: Format, options: &DecodeOptions) -> Re
         Format::Png => png::decode(bytes)?,
         Format::Npy => npy::decode(bytes)?,
         other => {
-            return Err(Error::Unsupported {
-                format: other.title(),
-                reason: "only PNG and NPY are read here; the cargo feature `images` adds it".into(),
-            });
+            let reason = "only PNG and NPY are read here; the cargo feature `images` adds it";
+            return Err(unsupported(other, reason));
         }
     };
     options.check(format)?;
@@ -127,7 +125,7 @@ mod tests {
     fn other_files_are_named_in_the_error() {
         let message = |bytes: &[u8], format| decode(bytes, format).unwrap_err().to_string();
         assert!(message(b"Lerc2 ....", None).contains("gdal_translate"));
-        assert!(message(b"PK\x03\x04....", Some(Format::Png)).contains("NPZ"));
+        assert!(message(b"PK\x03\x04....", Some(Format::Png)).contains("begins like archive"));
         assert!(message(b"\x93NUMPY....", Some(Format::Png)).contains("begins like NPY"));
         assert!(message(b"", None).contains("empty"));
         assert_eq!(decode(b"hello", None).unwrap_err().code(), "UNSUPPORTED");

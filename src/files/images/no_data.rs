@@ -2,12 +2,13 @@
 
 use crate::files::Assumption;
 use crate::files::assumption::rounded;
+use crate::files::number_type::NumberType;
 
-/// Rounds a value as numbers of a type, given by its name, are stored: −9999.9 is another number in 32 bits.
-pub(super) fn as_stored(value: f64, data_type: &str) -> f64 {
-    match data_type {
-        "f32" => f64::from(value as f32),
-        "f16" if value != 0.0 && value.is_finite() => {
+/// Rounds a value as numbers of a type are stored: −9999.9 is another number in 32 bits.
+pub(super) fn as_stored(value: f64, number_type: NumberType) -> f64 {
+    match number_type {
+        NumberType::F32 => f64::from(value as f32),
+        NumberType::F16 if value != 0.0 && value.is_finite() => {
             let last_bit = (value.abs().log2().floor() - 10.0).exp2();
             (value / last_bit).round_ties_even() * last_bit
         }
@@ -112,11 +113,11 @@ mod tests {
     #[test]
     fn a_value_of_no_data_is_rounded_as_it_is_stored() {
         // 16-bit floats between 8192 and 16384 are multiples of 8, as numpy.float16 has them.
-        assert_eq!(as_stored(-9999.0, "f16"), -10000.0);
-        assert_eq!(as_stored(65504.0, "f16"), 65504.0);
-        assert_eq!(as_stored(0.1, "f16"), 0.0999755859375);
-        assert_eq!(as_stored(-9999.9, "f32"), -9999.900390625);
-        assert_eq!(as_stored(-9999.9, "f64"), -9999.9);
+        assert_eq!(as_stored(-9999.0, NumberType::F16), -10000.0);
+        assert_eq!(as_stored(65504.0, NumberType::F16), 65504.0);
+        assert_eq!(as_stored(0.1, NumberType::F16), 0.0999755859375);
+        assert_eq!(as_stored(-9999.9, NumberType::F32), -9999.900390625);
+        assert_eq!(as_stored(-9999.9, NumberType::F64), -9999.9);
     }
 
     /// Heights between 200 and 4800, and what is to be no data or not.

@@ -3,32 +3,17 @@
 use std::io::{self, Write};
 
 use super::decoded::StoredImage;
-use super::failure::{damaged, unsupported};
-use super::format::Format;
 use crate::error::{Error, Result, check_shape, checked_cells, try_filled};
 use crate::files::buffer::Buffer;
+use crate::files::failure::{damaged, unsupported};
+use crate::files::image_format::Format;
+use crate::files::number_type::NumberType;
 
 /// Maximum length of the header of an NPY file, in bytes; NumPy has the same limit.
 const MAX_HEADER_BYTES: usize = 10_000;
 
 /// Number of bytes at a multiple of which the numbers begin, so that NumPy can map the file into memory.
 const ALIGNMENT: usize = 64;
-
-/// Types of numbers that are read: NumPy's kind and number of bytes, and the name of the type.
-const TYPES: [(&str, &str); 12] = [
-    ("b1", "bool"),
-    ("i1", "i8"),
-    ("i2", "i16"),
-    ("i4", "i32"),
-    ("i8", "i64"),
-    ("u1", "u8"),
-    ("u2", "u16"),
-    ("u4", "u32"),
-    ("u8", "u64"),
-    ("f2", "f16"),
-    ("f4", "f32"),
-    ("f8", "f64"),
-];
 
 pub(super) fn decode(bytes: &[u8]) -> Result<StoredImage> {
     let (header, stored) = Header::read(bytes)?;
@@ -52,11 +37,12 @@ pub(super) fn decode(bytes: &[u8]) -> Result<StoredImage> {
             "an array of records; only arrays of plain numbers are read",
         ));
     }
-    let (kind, size, data_type) = header.number_type().ok_or_else(|| {
+    let number_type = header.number_type().ok_or_else(|| {
         unsupported(Format::Npy, format!(
             "values of type {descr}; booleans, integers and floats of 16, 32 or 64 bits are read"
         ))
     })?;
+    let size = number_type.bytes();
     let needed = len * size;
     if stored.len() < needed {
         return Err(damaged(
@@ -71,21 +57,16 @@ pub(super) fn decode(bytes: &[u8]) -> Result<StoredImage> {
     let big_endian = descr.starts_with('>');
     let mut values = try_filled("NPY array", len, 0.0)?;
     for (i, number) in stored[..needed].chunks_exact(size).enumerate() {
-        let mut bytes = [0; 8];
-        bytes[..size].copy_from_slice(number);
-        if big_endian {
-            bytes[..size].reverse();
-        }
         let place = if header.by_columns {
             i % height * width + i / height
         } else {
             i
         };
-        values[place] = to_float(u64::from_le_bytes(bytes), kind, size);
+        values[place] = number_type.value(number, big_endian);
     }
     Ok(StoredImage {
         height_scale: Some(1.0),
-        ..StoredImage::new(Format::Npy, (width, height), values, data_type)
+        ..StoredImage::new(Format::Npy, (width, height), values, number_type)
     })
 }
 
@@ -98,7 +79,7 @@ pub(super) fn describe(bytes: &[u8]) -> Result<(Vec<u64>, String)> {
     let (header, _) = Header::read(bytes)?;
     let data_type = header
         .number_type()
-        .map_or(header.descr, |(_, _, name)| name);
+        .map_or(header.descr, |known| known.name());
     Ok((header.shape.clone(), data_type.into()))
 }
 
@@ -182,14 +163,13 @@ impl<'a> Header<'a> {
         Some((bounded(rows), bounded(cols)))
     }
 
-    /// Kind, number of bytes and name of the numbers, if they are read.
-    fn number_type(&self) -> Option<(u8, usize, &'static str)> {
+    /// Type of the numbers, if they are read.
+    fn number_type(&self) -> Option<NumberType> {
         let plain = self.descr.trim_start_matches(['<', '>', '=', '|']);
-        let (known, name) = TYPES.into_iter().find(|(known, _)| *known == plain)?;
-        let [kind, digit] = *known.as_bytes() else {
+        let [kind, digit] = *plain.as_bytes() else {
             return None;
         };
-        Some((kind, usize::from(digit - b'0'), name))
+        NumberType::from_numpy(kind, usize::from(digit.wrapping_sub(b'0')))
     }
 }
 
@@ -207,37 +187,6 @@ fn extent(number: &str) -> Result<u64> {
         requested: usize::MAX,
         limit: crate::MAX_CELLS,
     })
-}
-
-/// Converts the bits of a number of a given kind and number of bytes to a 64-bit float.
-fn to_float(bits: u64, kind: u8, size: usize) -> f64 {
-    match (kind, size) {
-        (b'f', 8) => f64::from_bits(bits),
-        (b'f', 4) => f32::from_bits(bits as u32).into(),
-        (b'f', _) => half_to_float(bits as u16),
-        (b'i', _) => {
-            let unused = 64 - 8 * size as u32;
-            ((bits << unused) as i64 >> unused) as f64
-        }
-        (b'b', _) => f64::from(u8::from(bits != 0)),
-        _ => bits as f64,
-    }
-}
-
-/// Converts the bits of a 16-bit float: a sign, five bits of exponent, ten of fraction.
-fn half_to_float(bits: u16) -> f64 {
-    let (exponent, fraction) = (i32::from(bits >> 10 & 31), f64::from(bits & 1023) / 1024.0);
-    let magnitude = match exponent {
-        31 if fraction > 0.0 => f64::NAN,
-        31 => f64::INFINITY,
-        0 => fraction * 2f64.powi(-14),
-        _ => (1.0 + fraction) * 2f64.powi(exponent - 15),
-    };
-    if bits >> 15 == 1 {
-        -magnitude
-    } else {
-        magnitude
-    }
 }
 
 /// Writes `rows` rows of `cols` values as an NPY file of 64-bit floats in C order: heights of an image or of a lattice,
@@ -309,21 +258,6 @@ mod tests {
             decode(&file(header, &[0; 12])).unwrap_err().code(),
             "UNSUPPORTED"
         );
-    }
-
-    #[cfg(feature = "images")]
-    #[test]
-    fn every_16_bit_float_is_what_the_crate_half_makes_of_it() {
-        for bits in 0..=u16::MAX {
-            let (own, theirs) = (
-                half_to_float(bits),
-                ::exr::prelude::f16::from_bits(bits).to_f64(),
-            );
-            assert!(
-                own.to_bits() == theirs.to_bits() || own.is_nan() && theirs.is_nan(),
-                "{bits:04x}"
-            );
-        }
     }
 
     #[test]

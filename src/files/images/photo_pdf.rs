@@ -5,10 +5,7 @@ use pdf_writer::{Content, Filter, Finish, Name, Pdf, Rect, Ref};
 use super::picture_data::{Compression, PictureData};
 use super::print::{PhotoOptions, PhotoRows, is_bilevel, write_photo, write_photo_jpeg};
 use crate::error::{Error, Result};
-use crate::files::points::{MAX_PAGE_SIDE_POINTS, POINTS_PER_MM, points};
-
-/// Minimum length of a PDF page's side, in millimetres: below it programs that show PDF may fail.
-const MIN_PAGE_SIDE_MM: f64 = 2.0;
+use crate::files::points::{check_page, points};
 
 /// Number of objects of a PDF file for each of its pages: the page, its content and its picture.
 const OBJECTS_PER_PAGE: i32 = 3;
@@ -39,7 +36,7 @@ pub fn write_photo_pdf(photo: &impl PhotoRows, options: &PhotoOptions) -> Result
         ));
     };
     let size = photo.size().map(|pixels| pixels as f64 / dots);
-    check_size(size)?;
+    check_page(size)?;
     let picture = match is_bilevel(photo)? {
         true => write_photo(photo, options)?,
         false => write_photo_jpeg(photo, options)?,
@@ -68,7 +65,7 @@ pub fn write_book(pages: &[BookPage<'_>]) -> Result<Vec<u8>> {
         .kids((0..pages.len()).map(|number| Ref::new(first(number))))
         .count(pages.len() as i32);
     for (number, page) in pages.iter().enumerate() {
-        check_size(page.size)?;
+        check_page(page.size)?;
         let picture = PictureData::new(page.picture)?;
         let [object, content, image] = [0, 1, 2].map(|k| Ref::new(first(number) + k));
         let name = Name(b"I");
@@ -118,22 +115,4 @@ fn write_picture(pdf: &mut Pdf, place: Ref, picture: &PictureData<'_>) {
         }
     }
     object.finish();
-}
-
-/// Checks that a page's sides, in millimetres, are within the limits of PDF.
-fn check_size(sides: [f64; 2]) -> Result<()> {
-    if sides
-        .iter()
-        .all(|side| (MIN_PAGE_SIDE_MM..=MAX_PAGE_SIDE_POINTS / POINTS_PER_MM).contains(side))
-    {
-        return Ok(());
-    }
-    Err(Error::Unsupported {
-        format: "PDF",
-        reason: format!(
-            "a page of {:.3} × {:.3} mm cannot be; pages have sides from 2 mm to 5.08 m. Is the \
-             unit of the lengths right?",
-            sides[0], sides[1]
-        ),
-    })
 }

@@ -1,6 +1,6 @@
 //! Reads and writes heights as grey PNG files by the `png` crate.
 
-use std::io::Cursor;
+use std::io::{Cursor, ErrorKind};
 
 use ::png::{
     BitDepth, ColorType, Decoder, DecodingError, Encoder, EncodingError, Limits, Reader,
@@ -8,9 +8,11 @@ use ::png::{
 };
 
 use super::decoded::{StoredImage, coloured, recorded_sides};
-use super::format::Format;
 use crate::error::{Error, MAX_CELLS, Result, try_filled};
 use crate::files::buffer::Buffer;
+use crate::files::failure::damaged;
+use crate::files::image_format::Format;
+use crate::files::number_type::NumberType;
 use crate::heights::heightfield::HeightImage;
 
 /// Maximum memory that the PNG decoder itself may allocate, in bytes: two rows of the widest image and metadata.
@@ -50,11 +52,11 @@ impl<'a> Pixels<'a> {
         let (mut reader, [width, height]) = open(bytes, transformations, max_pixels)?;
         let size = reader
             .output_buffer_size()
-            .ok_or_else(|| damaged(DecodingError::LimitsExceeded))?;
+            .ok_or_else(|| failed(DecodingError::LimitsExceeded))?;
         let mut samples = try_filled("PNG image", size, 0u8)?;
-        reader.next_frame(&mut samples).map_err(damaged)?;
+        reader.next_frame(&mut samples).map_err(failed)?;
         // Reads to the end of the file: text may follow the pixels, and a truncated file must be an error.
-        reader.finish().map_err(damaged)?;
+        reader.finish().map_err(failed)?;
         Ok(Pixels {
             reader,
             samples,
@@ -79,7 +81,7 @@ pub(super) fn open(
     let mut decoder = Decoder::new_with_limits(Cursor::new(bytes), limits);
     decoder.set_transformations(transformations);
     decoder.set_ignore_iccp_chunk(true);
-    let info = decoder.read_header_info().map_err(damaged)?;
+    let info = decoder.read_header_info().map_err(failed)?;
     let (width, height) = (info.width as usize, info.height as usize);
     let requested = width.saturating_mul(height);
     if requested > max_pixels {
@@ -90,15 +92,15 @@ pub(super) fn open(
         });
     }
     if info.raw_bytes() / DEFLATE_RATIO > bytes.len() {
-        return Err(Error::Format {
-            format: "PNG",
-            reason: format!(
+        return Err(damaged(
+            Format::Png,
+            format!(
                 "{} bytes cannot hold {width} × {height} pixels",
                 bytes.len()
             ),
-        });
+        ));
     }
-    Ok((decoder.read_info().map_err(damaged)?, [width, height]))
+    Ok((decoder.read_info().map_err(failed)?, [width, height]))
 }
 
 pub(super) fn decode(bytes: &[u8]) -> Result<StoredImage> {
@@ -109,35 +111,33 @@ pub(super) fn decode(bytes: &[u8]) -> Result<StoredImage> {
         height,
     } = Pixels::decode(bytes, Transformations::EXPAND, MAX_CELLS)?;
     let (color, depth) = reader.output_color_type();
-    let (data_type, sample_bytes) = match depth {
-        BitDepth::Sixteen => ("u16", 2),
-        _ => ("u8", 1),
+    let number_type = match depth {
+        BitDepth::Sixteen => NumberType::U16,
+        _ => NumberType::U8,
     };
-    let stride = color.samples() * sample_bytes;
+    let size = number_type.bytes();
+    let stride = color.samples() * size;
     let mut values = try_filled("PNG image", width * height, f64::NAN)?;
     for (i, (z, pixel)) in values
         .iter_mut()
         .zip(samples.chunks_exact(stride))
         .enumerate()
     {
-        let sample = |k: usize| match sample_bytes {
-            2 => u16::from_be_bytes([pixel[2 * k], pixel[2 * k + 1]]),
-            _ => u16::from(pixel[k]),
-        };
+        let sample = |k: usize| number_type.value(&pixel[size * k..], true);
         let alpha = match color {
             ColorType::GrayscaleAlpha => sample(1),
             ColorType::Rgba => sample(3),
-            _ => 1,
+            _ => 1.0,
         };
-        if alpha == 0 {
+        if alpha == 0.0 {
             continue;
         }
         if matches!(color, ColorType::Rgb | ColorType::Rgba)
             && (sample(0) != sample(1) || sample(0) != sample(2))
         {
-            return Err(coloured("PNG", i, width));
+            return Err(coloured(Format::Png, i, width));
         }
-        *z = f64::from(sample(0));
+        *z = sample(0);
     }
 
     let recorded = RecordedMetadata::read(&reader.info().uncompressed_latin1_text)?;
@@ -152,7 +152,7 @@ pub(super) fn decode(bytes: &[u8]) -> Result<StoredImage> {
         names_no_data: recorded.no_data.is_some(),
         height_scale: recorded.scale,
         offset: recorded.offset.unwrap_or(0.0),
-        ..StoredImage::new(Format::Png, (width, height), values, data_type)
+        ..StoredImage::new(Format::Png, (width, height), values, number_type)
     })
 }
 
@@ -180,23 +180,25 @@ impl RecordedMetadata {
             let number = chunk.text.trim().parse().ok();
             *place = number.filter(|v: &f64| v.is_finite() && (*v > 0.0 || !positive));
             if place.is_none() {
-                return Err(Error::Format {
-                    format: "PNG",
-                    reason: format!(
+                return Err(damaged(
+                    Format::Png,
+                    format!(
                         "its text `{}` is `{}`, no sound number",
                         chunk.keyword, chunk.text
                     ),
-                });
+                ));
             }
         }
         Ok(recorded)
     }
 }
 
-pub(super) fn damaged(error: DecodingError) -> Error {
-    Error::Format {
-        format: "PNG",
-        reason: error.to_string(),
+pub(super) fn failed(error: DecodingError) -> Error {
+    match error {
+        DecodingError::IoError(cause) if cause.kind() == ErrorKind::UnexpectedEof => {
+            damaged(Format::Png, "it is cut short")
+        }
+        other => damaged(Format::Png, format!("its data were damaged ({other})")),
     }
 }
 

@@ -13,6 +13,7 @@ use jpeg_encoder::{
 use crate::dewarp::Photo;
 use crate::error::{Error, Result, positive, try_filled};
 use crate::files::buffer::Buffer;
+use crate::files::failure::unsupported;
 
 /// Options of writing a photo to a file: resolution and quality.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -173,14 +174,14 @@ pub fn write_photo_jpeg(photo: &impl PhotoRows, options: &PhotoOptions) -> Resul
     }
     let size = photo.size();
     let [Ok(width), Ok(height)] = size.map(u16::try_from) else {
-        return Err(Error::Unsupported {
-            format: "JPEG",
-            reason: format!(
+        return Err(unsupported(
+            "JPEG",
+            format!(
                 "{} × {} pixels are more than the 65535 along a side that it can have; choose a \
                  lower resolution, or PNG",
                 size[0], size[1]
             ),
-        });
+        ));
     };
     let density = options.dots()?.and_then(density);
     let mut file = Buffer::default();

@@ -1,9 +1,8 @@
 //! Builds a mesh from the vertices and triangles that a file's decoder adds, and reports what is wrong with them.
 
-use std::fmt::Display;
-
 use super::beside::Texture;
 use crate::error::{Error, MAX_CELLS, Result};
+use crate::files::failure::{damaged, unsupported};
 use crate::scene::mesh::Mesh;
 
 /// Colour of a vertex for which the mesh file states no colour.
@@ -101,10 +100,8 @@ impl MeshBuilder {
             other => other,
         };
         if vertices == 0 && triangles == 0 {
-            return Err(unsupported(
-                title,
-                "there are neither faces nor points in it",
-            ));
+            let reason = "there are neither faces nor points in it";
+            return Err(unsupported(title, reason));
         }
         let cloud = self.triangles.is_empty() && vertices > 0 && can_be_cloud;
         let mut mesh = if cloud {
@@ -153,26 +150,4 @@ fn push<T>(list: &mut Vec<T>, value: T, limit: usize) -> Result<()> {
     }
     list.push(value);
     Ok(())
-}
-
-/// Maximum number of characters that are kept of a decoder's error message: some messages quote the line, which may be
-/// the whole file.
-const MAX_MESSAGE_CHARACTERS: usize = 160;
-
-pub(super) fn damaged(format: &'static str, reason: impl Display) -> Error {
-    let said = reason.to_string();
-    let words = said.split_whitespace();
-    let mut reason = words.collect::<Vec<_>>().join(" ");
-    if let Some((end, _)) = reason.char_indices().nth(MAX_MESSAGE_CHARACTERS) {
-        reason.truncate(end);
-        reason.push('…');
-    }
-    Error::Format { format, reason }
-}
-
-pub(super) fn unsupported(format: &'static str, reason: impl Into<String>) -> Error {
-    Error::Unsupported {
-        format,
-        reason: reason.into(),
-    }
 }

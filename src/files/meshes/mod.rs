@@ -17,19 +17,20 @@ mod obj;
 mod off;
 mod ply;
 mod precision;
+mod rows;
 mod stl;
 mod threemf;
 mod unit;
 
-use crate::error::{Error, Result};
+use crate::error::Result;
 use crate::scene::mesh::Mesh;
 
-use super::foreign::foreign;
+use super::image_format::Format;
+use super::kind::{Purpose, foreign, refused};
 pub use super::mesh_format::MeshFormat;
-use super::mesh_format::may_be_stl;
 use beside::Beside;
 pub use beside::Texture;
-use builder::{MeshBuilder, damaged};
+use builder::MeshBuilder;
 pub use glb::write_glb;
 pub use mesh_file::MeshFile;
 pub use ply::write_ply;
@@ -67,17 +68,13 @@ pub fn read_mesh_beside(
 ) -> Result<MeshFile> {
     let format = match format.or_else(|| MeshFormat::detect(bytes)) {
         Some(format) => format,
-        None if foreign(bytes).is_none() && may_be_stl(bytes) => MeshFormat::Stl,
-        None if bytes.is_empty() => return Err(damaged("a mesh", "the file is empty")),
-        None => {
-            let known = "OBJ, PLY, STL, glTF, GLB, 3MF and OFF can be read";
-            let (format, reason) =
-                foreign(bytes).unwrap_or(("a mesh file of unknown format", known));
-            return Err(Error::Unsupported {
-                format,
-                reason: reason.into(),
-            });
+        None if Format::detect(bytes).is_none()
+            && foreign(bytes).is_none()
+            && stl::may_be_stl(bytes) =>
+        {
+            MeshFormat::Stl
         }
+        None => return Err(refused(bytes, Purpose::Mesh)),
     };
     let mut parts = MeshBuilder {
         room: bytes.len() + files.iter().map(|(_, bytes)| bytes.len()).sum::<usize>(),

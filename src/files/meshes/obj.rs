@@ -1,10 +1,12 @@
 //! Reads Wavefront OBJ meshes.
 
 use super::beside::Beside;
-use super::builder::{MeshBuilder, NO_TEXTURE, damaged, unsupported};
+use super::builder::{MeshBuilder, NO_TEXTURE};
 use super::corners::{CornerMaterial, Corners};
 use super::mtl::{self, Material};
+use super::rows::{numbers, point};
 use crate::error::Result;
+use crate::files::failure::{damaged, unsupported};
 use crate::files::text::{decoded, lines};
 
 /// Statements of curves and surfaces that are no meshes.
@@ -19,7 +21,7 @@ pub(super) fn read(bytes: &[u8], beside: &Beside, parts: &mut MeshBuilder) -> Re
         match words.next() {
             Some("v") => reader.vertex(row, words)?,
             Some("vt") => {
-                let numbers = numbers(row, words.take(2))?;
+                let numbers = numbers("OBJ", row, words.take(2))?;
                 uvs.push([0, 1].map(|k| numbers.get(k).copied().unwrap_or_default() as f32));
             }
             Some("f" | "fo") => has_faces = true,
@@ -56,16 +58,10 @@ struct Reader {
 impl Reader {
     /// Reads a vertex: a position, perhaps its weight, and perhaps a colour.
     fn vertex<'a>(&mut self, row: usize, words: impl Iterator<Item = &'a str>) -> Result<()> {
-        let numbers = numbers(row, words)?;
-        let [x, y, z, rest @ ..] = numbers.as_slice() else {
-            return Err(damaged(
-                "OBJ",
-                format!("line {row} has too few coordinates"),
-            ));
-        };
-        self.corners.positions.push([*x, *y, *z]);
-        let color = match rest {
-            [r, g, b] | [_, r, g, b] => Some([*r, *g, *b].map(|v| v as f32)),
+        let (position, rest) = point("OBJ", row, words)?;
+        self.corners.positions.push(position);
+        let color = match rest[..] {
+            [r, g, b] | [_, r, g, b] => Some([r, g, b].map(|v| v as f32)),
             _ => None,
         };
         self.corners.colors.push(color);
@@ -151,12 +147,4 @@ fn rest_of(line: &str) -> &str {
     let line = line.trim();
     line.split_once(char::is_whitespace)
         .map_or("", |(_, rest)| rest.trim())
-}
-
-fn numbers<'a>(row: usize, words: impl Iterator<Item = &'a str>) -> Result<Vec<f64>> {
-    let number = |word: &'a str| {
-        let reason = || format!("line {row} has {word:?} where a number should stand");
-        word.parse().map_err(|_| damaged("OBJ", reason()))
-    };
-    words.map(number).collect()
 }

@@ -1,7 +1,9 @@
 //! Reads meshes in the Object File Format (OFF), in text.
 
-use super::builder::{MeshBuilder, damaged, unsupported};
+use super::builder::MeshBuilder;
+use super::rows::{numbers, point};
 use crate::error::Result;
+use crate::files::failure::{damaged, unsupported};
 use crate::files::text::{decoded, lines};
 
 pub(super) fn read(bytes: &[u8], parts: &mut MeshBuilder) -> Result<()> {
@@ -40,14 +42,8 @@ pub(super) fn read(bytes: &[u8], parts: &mut MeshBuilder) -> Result<()> {
     let before = if header.contains('N') { 3 } else { 0 };
     for _ in 0..vertices {
         let (row, line) = next()?;
-        let numbers = numbers(row, &line, usize::MAX)?;
-        let [x, y, z, rest @ ..] = numbers.as_slice() else {
-            return Err(damaged(
-                "OFF",
-                format!("line {row} has too few coordinates"),
-            ));
-        };
-        parts.position([*x, *y, *z])?;
+        let (position, rest) = point("OFF", row, line.split_whitespace())?;
+        parts.position(position)?;
         if header.contains('C')
             && let [r, g, b, ..] = rest.get(before..).unwrap_or_default()
         {
@@ -62,32 +58,23 @@ pub(super) fn read(bytes: &[u8], parts: &mut MeshBuilder) -> Result<()> {
     }
     for _ in 0..faces {
         let (row, line) = next()?;
-        let count = numbers(row, &line, 1)?
-            .first()
-            .map_or(0, |count| *count as usize);
-        let corners = numbers(row, &line, count.saturating_add(1))?;
-        if corners.len() <= count {
+        let mut words = line.split_whitespace();
+        let count = numbers("OFF", row, words.by_ref().take(1))?;
+        let count = count.first().map_or(0, |count| *count as usize);
+        let corners = numbers("OFF", row, words.take(count))?;
+        if corners.len() < count {
             return Err(damaged("OFF", format!("line {row} has too few vertices")));
         }
         let is_number =
             |corner: &f64| corner.fract() == 0.0 && (0.0..=f64::from(u32::MAX)).contains(corner);
-        if !corners[1..].iter().all(is_number) {
+        if !corners.iter().all(is_number) {
             return Err(damaged(
                 "OFF",
                 format!("line {row} has a vertex that is no whole number"),
             ));
         }
-        let corners: Vec<u32> = corners[1..].iter().map(|corner| *corner as u32).collect();
+        let corners: Vec<u32> = corners.iter().map(|corner| *corner as u32).collect();
         parts.fan(&corners)?;
     }
     Ok(())
-}
-
-/// Parses the first numbers of a line.
-fn numbers(row: usize, line: &str, most: usize) -> Result<Vec<f64>> {
-    let number = |word: &str| {
-        let reason = || format!("line {row} has {word:?} where a number should stand");
-        word.parse().map_err(|_| damaged("OFF", reason()))
-    };
-    line.split_whitespace().take(most).map(number).collect()
 }

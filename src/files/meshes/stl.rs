@@ -5,13 +5,25 @@ use std::io::Cursor;
 use nalgebra::Vector3;
 use stl_io::{Normal, Triangle, Vertex, create_stl_reader};
 
-use super::builder::{MeshBuilder, damaged, unsupported};
+use super::builder::MeshBuilder;
 use super::narrow::narrowed;
+use super::rows::point;
 use crate::error::Result;
 use crate::files::buffer::Buffer;
+use crate::files::failure::{damaged, unsupported};
 use crate::files::mesh_format::{STL_HEADER_BYTES, is_binary_stl, stl_length};
 use crate::files::text::{decoded, lines};
 use crate::scene::mesh::Mesh;
+
+/// Largest ratio of the length of a binary STL file by its header to the bytes that are there: of other files it is far larger.
+const MAX_STL_LENGTH_RATIO: usize = 64;
+
+/// Returns whether a file may be a binary STL file that is cut short, or that other data follow.
+pub(super) fn may_be_stl(bytes: &[u8]) -> bool {
+    stl_length(bytes).is_some_and(|length| {
+        length > STL_HEADER_BYTES && length / MAX_STL_LENGTH_RATIO < bytes.len()
+    })
+}
 
 pub(super) fn read(bytes: &[u8], parts: &mut MeshBuilder) -> Result<()> {
     let text = bytes
@@ -56,12 +68,7 @@ fn ascii(bytes: &[u8], parts: &mut MeshBuilder) -> Result<()> {
         if !first.eq_ignore_ascii_case("vertex") {
             continue;
         }
-        let mut number = || words.next().and_then(|word| word.parse().ok());
-        let (Some(x), Some(y), Some(z)) = (number(), number(), number()) else {
-            let reason = format!("line {row} has not the three numbers of a vertex");
-            return Err(damaged("STL", reason));
-        };
-        parts.position([x, y, z])?;
+        parts.position(point("STL", row, words.take(3))?.0)?;
         let end = parts.positions.len() as u32;
         if end.is_multiple_of(3) {
             parts.triangle([end - 3, end - 2, end - 1])?;

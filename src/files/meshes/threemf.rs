@@ -7,9 +7,10 @@ use nalgebra::{Matrix4, Vector4};
 use roxmltree::{Document, Node};
 use zip::ZipArchive;
 
-use super::builder::{MeshBuilder, damaged};
+use super::builder::MeshBuilder;
 use super::unit::FileUnit;
 use crate::error::{Error, MAX_CELLS, Result};
+use crate::files::failure::damaged;
 
 /// Name of the format in error messages.
 const FORMAT_NAME: &str = "3MF";

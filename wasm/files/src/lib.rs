@@ -12,7 +12,7 @@ use developable::files::images::{
     BookPage, PhotoOptions, PhotoRows, announced, decode_basic, decode_photo_basic, format_name,
     write_book, write_npy, write_photo, write_photo_jpeg, write_photo_pdf, write_png,
 };
-use developable::files::wavefront::{write_mtl, write_obj_textured};
+use developable::files::wavefront::{write_mtl, write_obj};
 use developable_wasm::Result;
 use developable_wasm::arrays::filled;
 use developable_wasm::bytes::copied;
@@ -73,7 +73,7 @@ struct ObjInput {
 #[wasm_bindgen(js_name = writeObj)]
 pub fn write_obj_file(field: JsValue, options: JsValue) -> Result<Uint8Array> {
     let ObjInput { materials } = read_options(&options)?;
-    let file = write_obj_textured(&mesh_of(field)?, materials.as_deref())?;
+    let file = write_obj(&mesh_of(field)?, materials.as_deref())?;
     Ok(file.as_slice().into())
 }
 

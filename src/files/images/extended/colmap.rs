@@ -1,10 +1,11 @@
 //! Reads depth maps of COLMAP: `width&height&channels&`, then 32-bit floats, row by row.
 
-use super::samples::{damaged, unsupported};
 use crate::error::{Result, checked_cells, try_filled};
 use crate::files::Assumption;
+use crate::files::failure::{damaged, unsupported};
+use crate::files::image_format::{Format, colmap_head};
 use crate::files::images::decoded::StoredImage;
-use crate::files::images::format::{Format, colmap_head};
+use crate::files::number_type::NumberType;
 
 pub(super) fn decode(bytes: &[u8]) -> Result<StoredImage> {
     let Some(([width, height, channels], head)) = colmap_head(bytes) else {
@@ -37,7 +38,7 @@ pub(super) fn decode(bytes: &[u8]) -> Result<StoredImage> {
             missing += 1;
         }
     }
-    let mut image = StoredImage::new(Format::Colmap, (width, height), values, "f32");
+    let mut image = StoredImage::new(Format::Colmap, (width, height), values, NumberType::F32);
     if missing > 0 {
         let words = format!("0 is no data ({missing} pixels), as COLMAP writes it");
         image

@@ -11,10 +11,13 @@ use ::exr::prelude::{
     AnyChannel, AnyChannels, Encoding, FlatSamples, Image, Layer, Vec2, WritableImage, f16,
 };
 
-use super::samples::{Channels, check_length, damaged, grey, narrowed, room, unsupported};
+use super::samples::{Channels, grey, narrowed};
 use crate::error::{Error, Result, checked_cells, try_filled};
+use crate::files::buffer::reserve;
+use crate::files::failure::{check_length, damaged, unsupported};
+use crate::files::image_format::Format;
 use crate::files::images::decoded::{StoredImage, recorded_sides};
-use crate::files::images::format::Format;
+use crate::files::number_type::NumberType;
 use crate::heights::heightfield::HeightImage;
 
 /// Maximum ratio of the size of an OpenEXR image in memory to that of its file: more than any of the format's
@@ -39,7 +42,11 @@ pub(super) fn decode(bytes: &[u8]) -> Result<StoredImage> {
         len.saturating_mul(pixel_bytes),
         MAX_COMPRESSION_RATIO,
     )?;
-    let data_type = type_name(header.channels.list[chosen.heights[0]].sample_type);
+    let number_type = match header.channels.list[chosen.heights[0]].sample_type {
+        SampleType::U32 => NumberType::U32,
+        SampleType::F16 => NumberType::F16,
+        SampleType::F32 => NumberType::F32,
+    };
     let pixel_size = match header.own_attributes.other.get(&Text::from(PIXEL_SIZE)) {
         Some(AttributeValue::F64(size)) if size.is_finite() && *size > 0.0 => Some(*size),
         _ => None,
@@ -57,8 +64,8 @@ pub(super) fn decode(bytes: &[u8]) -> Result<StoredImage> {
         planes.push(try_filled("EXR image", len, f32::NAN)?);
     }
     // Large unsigned integers would lose digits in the planes of floats.
-    let mut whole = match data_type {
-        "u32" => try_filled("EXR image", len, 0u32)?,
+    let mut whole = match number_type {
+        NumberType::U32 => try_filled("EXR image", len, 0u32)?,
         _ => Vec::new(),
     };
     let mut missing = wanted.len() * len;
@@ -117,7 +124,7 @@ pub(super) fn decode(bytes: &[u8]) -> Result<StoredImage> {
     })?;
     Ok(StoredImage {
         sides: pixel_size.and_then(recorded_sides),
-        ..StoredImage::new(Format::Exr, size, values, data_type)
+        ..StoredImage::new(Format::Exr, size, values, number_type)
     })
 }
 
@@ -207,14 +214,6 @@ fn heights_among(channels: &[ChannelDescription]) -> Option<ChosenChannels> {
     Some(ChosenChannels { heights, alpha })
 }
 
-fn type_name(kind: SampleType) -> &'static str {
-    match kind {
-        SampleType::U32 => "u32",
-        SampleType::F16 => "f16",
-        SampleType::F32 => "f32",
-    }
-}
-
 fn failed(error: ExrError) -> Error {
     match error {
         ExrError::NotSupported(what) => unsupported(Format::Exr, what),
@@ -233,7 +232,9 @@ pub fn write_exr(image: &HeightImage) -> Result<Vec<u8>> {
     let heights = narrowed("EXR image", image)?;
     // Blocks that do not shrink are stored as they are, each with a few bytes of its own.
     let enough = 4 * heights.len() + 32 * image.height() + 4096;
-    let mut file = Cursor::new(room("EXR file", enough)?);
+    let mut file = Vec::new();
+    reserve(&mut file, "EXR file", enough)?;
+    let mut file = Cursor::new(file);
     let mut attributes = LayerAttributes::default();
     attributes.other.insert(
         Text::from(PIXEL_SIZE),

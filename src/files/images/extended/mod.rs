@@ -14,10 +14,10 @@ pub(super) mod webp;
 
 use super::decode_options::DecodeOptions;
 use super::decoded::Decoded;
-use super::format::Format;
-use super::jpeg;
 use super::photo::decode_photo;
-use crate::error::{Error, Result};
+use crate::error::Result;
+use crate::files::failure::unsupported;
+use crate::files::image_format::Format;
 
 pub use exr::write_exr;
 pub use npz::{NpzArray, npz_arrays};
@@ -26,7 +26,7 @@ pub use tiff::write_tiff;
 /// Decodes the heights of a file that begins like one of the given image format.
 ///
 /// # Errors
-/// As [`decode_with`](super::decode_with); [`Error::Unsupported`] for PNG and NPY.
+/// As [`decode_with`](super::decode_with); [`Error::Unsupported`](crate::Error::Unsupported) for PNG and NPY.
 pub fn decode(bytes: &[u8], format: Format, options: &DecodeOptions) -> Result<Decoded> {
     options.check(format)?;
     let stored = match format {
@@ -35,15 +35,12 @@ pub fn decode(bytes: &[u8], format: Format, options: &DecodeOptions) -> Result<D
         Format::Pfm => pfm::decode(bytes),
         Format::Pgm => pfm::decode_pgm(bytes),
         Format::Npz => npz::decode(bytes, options.array.as_deref()),
-        Format::Jpeg => jpeg::decode(bytes),
-        Format::WebP => webp::decode(bytes),
         Format::Text => text_grid::decode(bytes),
         Format::Colmap => colmap::decode(bytes),
-        Format::Gif | Format::Bmp => samples::from_photo(format, &decode_photo(bytes)?),
-        Format::Png | Format::Npy => Err(Error::Unsupported {
-            format: format.title(),
-            reason: "it is decoded elsewhere".into(),
-        }),
+        Format::Jpeg | Format::WebP | Format::Gif | Format::Bmp => {
+            samples::from_photo(format, &decode_photo(bytes)?)
+        }
+        Format::Png | Format::Npy => Err(unsupported(format, "it is decoded elsewhere")),
     };
     stored?.finish(options)
 }

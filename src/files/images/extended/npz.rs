@@ -5,11 +5,12 @@ use std::io::{Cursor, Read};
 use ::zip::ZipArchive;
 use ::zip::result::ZipError;
 
-use super::samples::{check_length, damaged, room, unsupported};
 use crate::MAX_CELLS;
 use crate::error::{Error, Result};
+use crate::files::buffer::reserve;
+use crate::files::failure::{check_length, damaged, unsupported};
+use crate::files::image_format::Format;
 use crate::files::images::decoded::StoredImage;
-use crate::files::images::format::Format;
 use crate::files::images::npy;
 
 /// Maximum ratio by which the compression DEFLATE can shrink data.
@@ -89,11 +90,12 @@ pub(super) fn decode(bytes: &[u8], array: Option<&str>) -> Result<StoredImage> {
         });
     }
     check_length(Format::Npz, bytes, size, DEFLATE_RATIO)?;
-    let mut file = room("NPZ array", size)?;
+    let mut file = Vec::new();
+    reserve(&mut file, "NPZ array", size)?;
     // The decoder never returns more than the header states, and the archive's checksum verifies it.
     let read = entry.take(size as u64 + 1).read_to_end(&mut file);
     read.map_err(|e| damaged(Format::Npz, e))?;
-    let decoded = crate::files::images::format::announced(&file, Some(Format::Npy))
+    let decoded = crate::files::kind::announced(&file, Some(Format::Npy))
         .and_then(|_| npy::decode(&file))
         .map_err(|e| within(name, e))?;
     Ok(StoredImage {
@@ -118,14 +120,10 @@ fn names(archive: &ZipArchive<Cursor<&[u8]>>) -> Result<Vec<String>> {
         .filter_map(|name| name.strip_suffix(".npy"))
         .map(str::to_owned)
         .collect();
-    let reason = match archive.file_names().any(|name| name.ends_with("main.xml")) {
-        _ if !names.is_empty() => return Ok(names),
-        true => {
-            "there are no arrays in it, but a surface (X3P): export it as text or as TIFF of 32-bit floats"
-        }
-        false => "there are no arrays in it: it is another ZIP archive",
-    };
-    Err(unsupported(Format::Npz, reason))
+    match names.is_empty() {
+        true => Err(unsupported(Format::Npz, "there are no arrays in it")),
+        false => Ok(names),
+    }
 }
 
 fn member(name: &str) -> String {

@@ -1,10 +1,12 @@
 //! Reads portable float maps (PFM), the bottom row first, and portable grey maps (PGM): words for kind, size and scale, then
 //! the pixels.
 
-use super::samples::{Channels, damaged, grey};
+use super::samples::{Channels, grey};
 use crate::error::{Error, Result, checked_cells};
+use crate::files::failure::damaged;
+use crate::files::image_format::Format;
 use crate::files::images::decoded::StoredImage;
-use crate::files::images::format::Format;
+use crate::files::number_type::NumberType;
 
 /// Maximum length of a number in the header, in bytes.
 const MAX_NUMBER_BYTES: usize = 32;
@@ -19,13 +21,8 @@ pub(super) fn decode(bytes: &[u8]) -> Result<StoredImage> {
     let sample = |i: usize, k: usize| {
         let (row, col) = (height - 1 - i / width, i % width);
         let at = 4 * (colours * (row * width + col) + k);
-        let float = [pixels[at], pixels[at + 1], pixels[at + 2], pixels[at + 3]];
         // A negative scale says that the bytes are little-endian.
-        f64::from(if scale < 0.0 {
-            f32::from_le_bytes(float)
-        } else {
-            f32::from_be_bytes(float)
-        })
+        NumberType::F32.value(&pixels[at..at + 4], scale > 0.0)
     };
     let channels = Channels {
         colours,
@@ -34,7 +31,7 @@ pub(super) fn decode(bytes: &[u8]) -> Result<StoredImage> {
     let values = grey(Format::Pfm, (width, height), &channels, sample)?;
     Ok(StoredImage {
         height_scale: Some(scale.abs()),
-        ..StoredImage::new(Format::Pfm, (width, height), values, "f32")
+        ..StoredImage::new(Format::Pfm, (width, height), values, NumberType::F32)
     })
 }
 
@@ -43,7 +40,11 @@ pub(super) fn decode_pgm(bytes: &[u8]) -> Result<StoredImage> {
     let mut head = Header(Format::Pgm, &bytes[2..]);
     let size = head.size()?;
     let white: u16 = head.number("level of white", |white| *white > 0)?;
-    let width = if white > 255 { 2 } else { 1 };
+    let number_type = if white > 255 {
+        NumberType::U16
+    } else {
+        NumberType::U8
+    };
     let values = if bytes.starts_with(b"P2") {
         head.pixels(size, 1)?;
         let mut level = |_| {
@@ -55,16 +56,12 @@ pub(super) fn decode_pgm(bytes: &[u8]) -> Result<StoredImage> {
             .map(&mut level)
             .collect::<Result<_>>()?
     } else {
-        let levels = head.pixels(size, width)?.chunks_exact(width);
-        let level = |bytes: &[u8]| {
-            bytes
-                .iter()
-                .fold(0.0, |sum, byte| 256.0 * sum + f64::from(*byte))
-        };
-        levels.map(level).collect()
+        let levels = head
+            .pixels(size, number_type.bytes())?
+            .chunks_exact(number_type.bytes());
+        levels.map(|level| number_type.value(level, true)).collect()
     };
-    let data_type = if width == 2 { "u16" } else { "u8" };
-    Ok(StoredImage::new(Format::Pgm, size, values, data_type))
+    Ok(StoredImage::new(Format::Pgm, size, values, number_type))
 }
 
 /// What is left of a file whose header is being read, and its format.

@@ -1,10 +1,10 @@
 //! Converts the samples of a decoded picture to heights and colours, and reports errors, for several decoders.
 
 use crate::error::{Error, Result, checked_cells, try_filled};
+use crate::files::image_format::Format;
 use crate::files::images::decoded::{StoredImage, coloured};
-pub(super) use crate::files::images::failure::{check_length, damaged, unsupported};
-use crate::files::images::format::Format;
 use crate::files::images::photo::PhotoFile;
+use crate::files::number_type::NumberType;
 use crate::heights::heightfield::HeightImage;
 use crate::math::lanes;
 
@@ -31,37 +31,25 @@ pub(super) fn grey(
         let first = sample(i, 0);
         let same = |other: f64| other == first || other.is_nan() && first.is_nan();
         if !(1..channels.colours).all(|k| same(sample(i, k))) {
-            return Err(coloured(format.title(), i, width));
+            return Err(coloured(format, i, width));
         }
         *z = first;
     }
     Ok(values)
 }
 
-/// Converts 8-bit samples, with `colours` colour samples and perhaps one of alpha per pixel, to a decoded grey image.
-pub(crate) fn picture(
-    format: Format,
-    size: (usize, usize),
-    samples: &[u8],
-    stride: usize,
-) -> Result<StoredImage> {
-    let (colours, alpha) = match stride {
-        2 | 4 => (stride - 1, Some(stride - 1)),
-        _ => (stride, None),
-    };
-    let values = grey(format, size, &Channels { colours, alpha }, |i, k| {
-        samples[stride * i + k].into()
-    })?;
-    Ok(StoredImage::new(format, size, values, "u8"))
-}
-
 /// Converts a decoded photo to a grey image.
 pub(super) fn from_photo(format: Format, photo: &PhotoFile) -> Result<StoredImage> {
     let size = (photo.width, photo.height);
     checked_cells(format.title(), size.1, size.0)?;
+    let channels = Channels {
+        colours: 3,
+        alpha: Some(3),
+    };
+    let values = grey(format, size, &channels, |i, k| photo.rgba[4 * i + k].into())?;
     Ok(StoredImage {
         assumptions: photo.assumptions.clone(),
-        ..picture(format, size, &photo.rgba, 4)?
+        ..StoredImage::new(format, size, values, NumberType::U8)
     })
 }
 
@@ -82,12 +70,4 @@ pub(super) fn narrowed(what: &'static str, image: &HeightImage) -> Result<Vec<f3
         }
     }
     Ok(heights)
-}
-
-/// Reserves memory for a file of a given number of bytes; an error if there is not enough memory.
-pub(super) fn room(what: &'static str, bytes: usize) -> Result<Vec<u8>> {
-    let mut file = Vec::new();
-    file.try_reserve_exact(bytes)
-        .map_err(|_| Error::OutOfMemory { what, bytes })?;
-    Ok(file)
 }

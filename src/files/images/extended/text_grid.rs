@@ -1,10 +1,11 @@
 //! Reads grids of heights that are text: grids of ESRI and Surfer, points on a grid (XYZ) and plain matrices.
 
-use super::samples::damaged;
 use crate::error::{Result, checked_cells, try_filled};
 use crate::files::Assumption;
+use crate::files::failure::damaged;
+use crate::files::image_format::Format;
 use crate::files::images::decoded::StoredImage;
-use crate::files::images::format::Format;
+use crate::files::number_type::NumberType;
 use crate::files::text::decoded;
 
 /// Maximum distance of a point from its place on the grid, as a share of the grid's spacing.
@@ -39,7 +40,7 @@ pub(super) fn decode(bytes: &[u8]) -> Result<StoredImage> {
         names_no_data: no_data.is_some(),
         sides: grid.sides,
         assumptions: grid.assumptions,
-        ..StoredImage::new(Format::Text, grid.size, values, "f64")
+        ..StoredImage::new(Format::Text, grid.size, values, NumberType::F64)
     })
 }
 

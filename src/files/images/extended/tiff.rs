@@ -2,21 +2,23 @@
 
 use std::io::{Cursor, Seek, Write};
 
-use ::exr::prelude::f16;
 use ::tiff::decoder::DecodingSampleType;
 use ::tiff::encoder::{DirectoryEncoder, TiffEncoder, TiffKind, colortype};
 use ::tiff::tags::Tag;
 use ::tiff::{ColorType, TiffError};
 
-use super::samples::{Channels, check_length, damaged, grey, narrowed, room, unsupported};
+use super::samples::{Channels, grey, narrowed};
 use super::tiff_file::{File, failed, open};
 use super::tiff_tags;
 use crate::error::{Error, Result, checked_cells, try_filled};
 use crate::files::Assumption;
+use crate::files::buffer::reserve;
+use crate::files::failure::{check_length, damaged, unsupported};
+use crate::files::image_format::Format;
 use crate::files::images::decoded::StoredImage;
-use crate::files::images::format::Format;
 use crate::files::images::georeference::Georeference;
 use crate::files::images::orientation::oriented;
+use crate::files::number_type::NumberType;
 use crate::heights::heightfield::HeightImage;
 
 /// Maximum memory that the TIFF decoder itself may allocate, in bytes: a compressed strip, and the values of a tag.
@@ -34,7 +36,7 @@ pub(super) fn decode(bytes: &[u8]) -> Result<StoredImage> {
     let color = file.colortype().map_err(failed)?;
     let (samples, bits, channels) = channels(&mut file, color)?;
     let layout = tiff_tags::chunky_layout(&mut file)?;
-    let kind = layout.sample_type.filter(|kind| size_of(*kind) * 8 == bits);
+    let kind = (layout.sample_type.map(number_type)).filter(|kind| kind.bytes() * 8 == bits);
     let Some(kind) = kind else {
         return Err(unsupported(
             Format::Tiff,
@@ -43,7 +45,7 @@ pub(super) fn decode(bytes: &[u8]) -> Result<StoredImage> {
             ),
         ));
     };
-    let size = size_of(kind);
+    let size = kind.bytes();
     let needed = len.saturating_mul(samples * size);
     if layout.len != needed {
         return Err(damaged(Format::Tiff, "its sizes contradict each other"));
@@ -54,12 +56,15 @@ pub(super) fn decode(bytes: &[u8]) -> Result<StoredImage> {
         needed,
         tiff_tags::MAX_COMPRESSION_RATIO,
     )?;
-    let about = tiff_tags::read(&mut file, stored, type_name(kind))?;
+    let about = tiff_tags::read(&mut file, stored, kind)?;
 
     let mut raw = try_filled("TIFF image", needed, 0u8)?;
     file.read_image_bytes(&mut raw).map_err(failed)?;
     let values = grey(Format::Tiff, stored, &channels, |i, k| {
-        number(kind, &raw[size * (samples * i + k)..][..size])
+        kind.value(
+            &raw[size * (samples * i + k)..][..size],
+            cfg!(target_endian = "big"),
+        )
     })?;
     let mut assumptions = about.assumptions;
     if tiff_tags::has_more_images(&mut file) {
@@ -96,7 +101,7 @@ pub(super) fn decode(bytes: &[u8]) -> Result<StoredImage> {
         offset: about.heights.offset,
         georeference: georeference.filter(|map| !map.keys.is_empty()),
         assumptions,
-        ..StoredImage::new(Format::Tiff, size, values, type_name(kind))
+        ..StoredImage::new(Format::Tiff, size, values, kind)
     })
 }
 
@@ -124,52 +129,19 @@ fn channels(file: &mut File, color: ColorType) -> Result<(usize, usize, Channels
     Ok((samples, usize::from(bits), channels))
 }
 
-fn number(kind: DecodingSampleType, bytes: &[u8]) -> f64 {
-    /// Number from bytes in the machine's byte order.
-    macro_rules! ne {
-        ($type:ty) => {{
-            let mut own = [0; std::mem::size_of::<$type>()];
-            own.copy_from_slice(bytes);
-            <$type>::from_ne_bytes(own)
-        }};
-    }
+fn number_type(kind: DecodingSampleType) -> NumberType {
     match kind {
-        DecodingSampleType::U8 => ne!(u8).into(),
-        DecodingSampleType::U16 => ne!(u16).into(),
-        DecodingSampleType::U32 => ne!(u32).into(),
-        DecodingSampleType::U64 => ne!(u64) as f64,
-        DecodingSampleType::I8 => ne!(i8).into(),
-        DecodingSampleType::I16 => ne!(i16).into(),
-        DecodingSampleType::I32 => ne!(i32).into(),
-        DecodingSampleType::I64 => ne!(i64) as f64,
-        DecodingSampleType::F16 => ne!(f16).into(),
-        DecodingSampleType::F32 => ne!(f32).into(),
-        DecodingSampleType::F64 => ne!(f64),
-    }
-}
-
-fn type_name(kind: DecodingSampleType) -> &'static str {
-    match kind {
-        DecodingSampleType::U8 => "u8",
-        DecodingSampleType::U16 => "u16",
-        DecodingSampleType::U32 => "u32",
-        DecodingSampleType::U64 => "u64",
-        DecodingSampleType::I8 => "i8",
-        DecodingSampleType::I16 => "i16",
-        DecodingSampleType::I32 => "i32",
-        DecodingSampleType::I64 => "i64",
-        DecodingSampleType::F16 => "f16",
-        DecodingSampleType::F32 => "f32",
-        DecodingSampleType::F64 => "f64",
-    }
-}
-
-fn size_of(kind: DecodingSampleType) -> usize {
-    match kind {
-        DecodingSampleType::U8 | DecodingSampleType::I8 => 1,
-        DecodingSampleType::U16 | DecodingSampleType::I16 | DecodingSampleType::F16 => 2,
-        DecodingSampleType::U32 | DecodingSampleType::I32 | DecodingSampleType::F32 => 4,
-        DecodingSampleType::U64 | DecodingSampleType::I64 | DecodingSampleType::F64 => 8,
+        DecodingSampleType::U8 => NumberType::U8,
+        DecodingSampleType::U16 => NumberType::U16,
+        DecodingSampleType::U32 => NumberType::U32,
+        DecodingSampleType::U64 => NumberType::U64,
+        DecodingSampleType::I8 => NumberType::I8,
+        DecodingSampleType::I16 => NumberType::I16,
+        DecodingSampleType::I32 => NumberType::I32,
+        DecodingSampleType::I64 => NumberType::I64,
+        DecodingSampleType::F16 => NumberType::F16,
+        DecodingSampleType::F32 => NumberType::F32,
+        DecodingSampleType::F64 => NumberType::F64,
     }
 }
 
@@ -185,7 +157,9 @@ pub fn write_tiff(image: &HeightImage, map: Option<&Georeference>) -> Result<Vec
     let heights = narrowed("TIFF image", image)?;
     // A strip has at least one row, and takes two numbers.
     let enough = 4 * heights.len() + 16 * image.height() + 4096;
-    let mut file = Cursor::new(room("TIFF file", enough)?);
+    let mut file = Vec::new();
+    reserve(&mut file, "TIFF file", enough)?;
+    let mut file = Cursor::new(file);
     write(&mut file, image, &heights, map).map_err(failed)?;
     Ok(file.into_inner())
 }

@@ -4,16 +4,16 @@
 //! plain strips, whose prediction it undoes.
 
 use std::borrow::Cow;
-use std::io::{Cursor, Read};
+use std::io::{Cursor, ErrorKind, Read};
 
 use ::ruzstd::decoding::StreamingDecoder;
 use ::tiff::decoder::{ChunkType, Decoder, Limits};
 use ::tiff::tags::{ByteOrder, CompressionMethod, Tag};
 use ::tiff::{TiffError, TiffUnsupportedError};
 
-use super::samples::{damaged, unsupported};
 use crate::error::{Error, Result};
-use crate::files::images::format::Format;
+use crate::files::failure::{damaged, unsupported};
+use crate::files::image_format::Format;
 
 pub(crate) type File<'a> = Decoder<Cursor<Cow<'a, [u8]>>>;
 
@@ -156,6 +156,9 @@ pub(crate) fn failed(error: TiffError) -> Error {
             )
         }
         TiffError::UnsupportedError(what) => unsupported(Format::Tiff, what),
+        TiffError::IoError(cause) if cause.kind() == ErrorKind::UnexpectedEof => {
+            damaged(Format::Tiff, "it is cut short")
+        }
         other => damaged(Format::Tiff, other),
     }
 }

@@ -4,12 +4,13 @@ use ::tiff::decoder::BufferLayoutPreference;
 use ::tiff::decoder::ifd::Value;
 use ::tiff::tags::Tag;
 
-use super::samples::{damaged, unsupported};
 use super::tiff_file::{File, failed};
 use crate::error::Result;
-use crate::files::images::format::Format;
+use crate::files::failure::{damaged, unsupported};
+use crate::files::image_format::Format;
 use crate::files::images::georeference::Georeference;
 use crate::files::images::no_data::as_stored;
+use crate::files::number_type::NumberType;
 use crate::files::{Assumption, Unit};
 
 /// Maximum ratio of the size of a TIFF image in memory to that of its file, which no compression of the format reaches.
@@ -79,7 +80,11 @@ pub(super) struct HeightTags {
     pub(super) offset: f64,
 }
 
-pub(super) fn read(file: &mut File, size: (usize, usize), data_type: &str) -> Result<PixelTags> {
+pub(super) fn read(
+    file: &mut File,
+    size: (usize, usize),
+    number_type: NumberType,
+) -> Result<PixelTags> {
     let georeference = georeference(file)?;
     let mut assumptions = Vec::new();
     let (sides, unit) = match &georeference {
@@ -110,9 +115,10 @@ pub(super) fn read(file: &mut File, size: (usize, usize), data_type: &str) -> Re
         heights.scale = Some(unit * heights.scale.unwrap_or(1.0));
         heights.offset *= unit;
     }
-    let no_data = no_data(file, data_type)?;
+    let no_data = no_data(file, number_type)?;
     let inverted = unsigned(file, Tag::PhotometricInterpretation)? == Some(0);
-    if inverted && (no_data.is_some() || !data_type.starts_with('u')) {
+    let is_unsigned = number_type.name().starts_with('u');
+    if inverted && (no_data.is_some() || !is_unsigned) {
         return Err(unsupported(
             Format::Tiff,
             "heights that count from white (WhiteIsZero); write them as BlackIsZero",
@@ -338,7 +344,7 @@ fn resolution(file: &mut File, tag: Tag) -> Result<Option<f64>> {
     Ok(Some(ratio).filter(|ratio| ratio.is_finite() && *ratio > 0.0))
 }
 
-fn no_data(file: &mut File, data_type: &str) -> Result<Option<f64>> {
+fn no_data(file: &mut File, number_type: NumberType) -> Result<Option<f64>> {
     let Some(text) = file.find_tag(Tag::GdalNodata).map_err(failed)? else {
         return Ok(None);
     };
@@ -350,7 +356,7 @@ fn no_data(file: &mut File, data_type: &str) -> Result<Option<f64>> {
             format!("its tag GDAL_NODATA is `{text}`, no number"),
         )
     })?;
-    Ok(Some(as_stored(value, data_type)))
+    Ok(Some(as_stored(value, number_type)))
 }
 
 fn unsigned(file: &mut File, tag: Tag) -> Result<Option<u16>> {

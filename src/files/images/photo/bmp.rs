@@ -7,8 +7,8 @@ use zune_core::options::DecoderOptions;
 use super::exif::PhotoTags;
 use super::pixels::{PhotoFile, PhotoPixels};
 use crate::error::{Error, Result, try_filled};
-use crate::files::images::failure::{check_length, damaged};
-use crate::files::images::format::Format;
+use crate::files::failure::{check_length, damaged};
+use crate::files::image_format::Format;
 
 /// Maximum ratio of the size of a BMP image in memory to that of its file: more than run lengths reach.
 const MAX_COMPRESSION_RATIO: usize = 4096;

@@ -7,8 +7,8 @@ use ::gif::{ColorOutput, DecodeOptions, DecodingError, MemoryLimit};
 use super::exif::PhotoTags;
 use super::pixels::{MAX_FILE_PIXELS, PhotoFile, PhotoPixels};
 use crate::error::{Error, Result, try_filled};
-use crate::files::images::failure::damaged;
-use crate::files::images::format::Format;
+use crate::files::failure::damaged;
+use crate::files::image_format::Format;
 
 pub(super) fn decode(bytes: &[u8]) -> Result<PhotoFile> {
     let mut options = DecodeOptions::new();

@@ -5,19 +5,19 @@ mod bmp;
 mod exif;
 #[cfg(feature = "images")]
 mod gif;
-mod kind;
 mod pixels;
 mod png;
 #[cfg(feature = "images")]
 mod tiff;
 
 pub(super) use self::exif::PhotoTags;
-use self::kind::photo_format;
 pub use self::pixels::PhotoFile;
 pub(super) use self::pixels::PhotoPixels;
-use super::format::Format;
 use super::jpeg;
-use crate::error::{Error, Result};
+use crate::error::Result;
+use crate::files::failure::unsupported;
+use crate::files::image_format::Format;
+use crate::files::kind::{Purpose, refused};
 
 /// Decodes a photo in a JPEG or PNG file to RGBA bytes, 16 bits cut to 8, the way up that its Exif data state; with the cargo
 /// feature `images` also in a WebP, GIF (its first picture), BMP or TIFF file.
@@ -28,21 +28,16 @@ use crate::error::{Error, Result};
 /// [`Error::Unsupported`] for other files, with what to do about them, and for photos of more than a quarter of a gigapixel,
 /// [`Error::Format`] for a damaged file, [`Error::Empty`] for a photo without pixels, [`Error::OutOfMemory`].
 pub fn decode_photo(bytes: &[u8]) -> Result<PhotoFile> {
-    match photo_format(bytes)? {
+    match Format::detect(bytes) {
         #[cfg(feature = "images")]
-        Format::WebP => super::extended::webp::decode_photo(bytes),
+        Some(Format::WebP) => super::extended::webp::decode_photo(bytes),
         #[cfg(feature = "images")]
-        Format::Gif => gif::decode(bytes),
+        Some(Format::Gif) => gif::decode(bytes),
         #[cfg(feature = "images")]
-        Format::Bmp => bmp::decode(bytes),
+        Some(Format::Bmp) => bmp::decode(bytes),
         #[cfg(feature = "images")]
-        Format::Tiff => tiff::decode(bytes),
-        Format::Png => png::decode(bytes),
-        Format::Jpeg => jpeg::decode_photo(bytes),
-        other => Err(Error::Unsupported {
-            format: other.title(),
-            reason: "the cargo feature `images` adds it".into(),
-        }),
+        Some(Format::Tiff) => tiff::decode(bytes),
+        _ => decode_photo_basic(bytes),
     }
 }
 
@@ -51,12 +46,12 @@ pub fn decode_photo(bytes: &[u8]) -> Result<PhotoFile> {
 /// # Errors
 /// As [`decode_photo`].
 pub fn decode_photo_basic(bytes: &[u8]) -> Result<PhotoFile> {
-    match photo_format(bytes)? {
-        Format::Png => png::decode(bytes),
-        Format::Jpeg => jpeg::decode_photo(bytes),
-        other => Err(Error::Unsupported {
-            format: other.title(),
-            reason: "only PNG and JPEG photos are read here".into(),
-        }),
+    match Format::detect(bytes) {
+        Some(Format::Png) => png::decode(bytes),
+        Some(Format::Jpeg) => jpeg::decode_photo(bytes),
+        Some(other @ (Format::WebP | Format::Gif | Format::Bmp | Format::Tiff)) => {
+            Err(unsupported(other, "the cargo feature `images` adds it"))
+        }
+        _ => Err(refused(bytes, Purpose::Photo)),
     }
 }

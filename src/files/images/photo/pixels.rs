@@ -4,6 +4,8 @@ use super::exif::PhotoTags;
 use crate::dewarp::BoxReduction;
 use crate::error::{Error, MAX_PHOTO_PIXELS, Result};
 use crate::files::Assumption;
+use crate::files::buffer::reserve;
+use crate::files::failure::unsupported;
 use crate::files::images::orientation::oriented;
 
 /// Maximum number of pixels of a photo's file: a quarter of a gigapixel, of which the decoder holds three bytes each.
@@ -49,8 +51,7 @@ impl PhotoPixels {
             let reason = format!(
                 "it has {width} × {height} pixels, and photos of up to 268 megapixels are read; save it at a lower resolution"
             );
-            let format = "photo";
-            return Err(Error::Unsupported { format, reason });
+            return Err(unsupported("photo", reason));
         }
         let mut block = 1;
         while (width / block).max(1) * (height / block).max(1) > MAX_PHOTO_PIXELS {
@@ -59,8 +60,7 @@ impl PhotoPixels {
         let reduction = BoxReduction::new([width, height], block);
         let bytes = 4 * reduction.size()[0] * reduction.size()[1];
         let mut rgba = Vec::new();
-        let what = "photo";
-        (rgba.try_reserve_exact(bytes)).map_err(|_| Error::OutOfMemory { what, bytes })?;
+        reserve(&mut rgba, "photo", bytes)?;
         Ok(PhotoPixels {
             stored: [width, height],
             reduction,

@@ -4,8 +4,10 @@ use ::png::{ColorType, Transformations};
 
 use super::exif::PhotoTags;
 use super::pixels::{MAX_FILE_PIXELS, PhotoFile, PhotoPixels};
-use crate::error::{Error, Result};
-use crate::files::images::png::{Pixels, damaged, open};
+use crate::error::Result;
+use crate::files::failure::unsupported;
+use crate::files::image_format::Format;
+use crate::files::images::png::{Pixels, failed, open};
 
 /// Transformations by which all PNG files become 8-bit grey or colours with alpha.
 fn transformations() -> Transformations {
@@ -24,19 +26,20 @@ pub(super) fn decode(bytes: &[u8]) -> Result<PhotoFile> {
         tags(reader.info())
     } else {
         let mut line = Vec::new();
-        while let Some(row) = reader.next_row().map_err(damaged)? {
+        while let Some(row) = reader.next_row().map_err(failed)? {
             pixels.push_row(row.data(), &mut line);
         }
         // Reads to the end of the file: a truncated file must be an error, and metadata may follow the pixels.
-        reader.finish().map_err(damaged)?;
+        reader.finish().map_err(failed)?;
         tags(reader.info())
     };
     // After the transformations only these two colour types remain.
     let known = [ColorType::GrayscaleAlpha, ColorType::Rgba];
     if !known.contains(&reader.output_color_type().0) {
-        let reason = "its colours could not be converted".into();
-        let format = "PNG";
-        return Err(Error::Unsupported { format, reason });
+        return Err(unsupported(
+            Format::Png,
+            "its colours could not be converted",
+        ));
     }
     pixels.finish(&tags)
 }

@@ -7,10 +7,10 @@ use ::tiff::tags::Tag;
 use super::exif::PhotoTags;
 use super::pixels::{PhotoFile, PhotoPixels};
 use crate::error::Result;
+use crate::files::failure::{check_length, unsupported};
+use crate::files::image_format::Format;
 use crate::files::images::extended::tiff_file::{failed, open};
 use crate::files::images::extended::tiff_tags::{MAX_COMPRESSION_RATIO, chunky_layout};
-use crate::files::images::failure::{check_length, unsupported};
-use crate::files::images::format::Format;
 
 /// Maximum memory that the TIFF decoder may allocate, in bytes.
 const MAX_DECODER_BYTES: usize = 1 << 30;

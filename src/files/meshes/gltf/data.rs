@@ -4,10 +4,11 @@ use std::borrow::Cow;
 
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
+use serde_json::Value;
 
-use super::json::{Accessor, Root};
 use crate::error::{MAX_CELLS, Result, try_filled};
-use crate::files::meshes::builder::{damaged, unsupported};
+use crate::files::failure::{damaged, unsupported};
+use crate::files::number_type::NumberType;
 
 /// Name of the glTF format in error messages.
 pub(super) const FORMAT_NAME: &str = "glTF";
@@ -26,73 +27,82 @@ pub(super) fn embedded(uri: &str) -> Result<Option<Vec<u8>>> {
     Ok(Some(bytes))
 }
 
-/// Decodes percent-encoded characters, such as blanks, in the name of a file that a glTF file refers to.
-pub(super) fn plain(uri: &str) -> String {
-    let mut bytes = Vec::with_capacity(uri.len());
-    let mut rest = uri.as_bytes();
-    while let [first, tail @ ..] = rest {
-        let code = tail.get(..2).filter(|_| *first == b'%');
-        let code = code.and_then(|digits| std::str::from_utf8(digits).ok());
-        match code.and_then(|digits| u8::from_str_radix(digits, 16).ok()) {
-            Some(byte) => {
-                bytes.push(byte);
-                rest = &tail[2..];
-            }
-            None => {
-                bytes.push(*first);
-                rest = tail;
-            }
-        }
+/// Returns a whole number of an object; `None` where it has none of this name.
+pub(super) fn whole(object: &Value, name: &str) -> Option<usize> {
+    usize::try_from(object[name].as_u64()?).ok()
+}
+
+/// Returns the elements of a list; none of what is no list.
+pub(super) fn list(value: &Value) -> &[Value] {
+    value.as_array().map_or(&[], Vec::as_slice)
+}
+
+/// Returns the first `N` numbers of a list; `None` where there are fewer.
+pub(super) fn numbers<const N: usize>(value: &Value) -> Option<[f64; N]> {
+    let mut found = [0.0; N];
+    for (k, number) in found.iter_mut().enumerate() {
+        *number = value.get(k)?.as_f64()?;
     }
-    String::from_utf8_lossy(&bytes).into_owned()
+    Some(found)
 }
 
 /// The numbers and bytes that a glTF file refers to: its text part, and the bytes of its buffers.
 pub(super) struct Data<'a> {
-    pub(super) root: &'a Root,
+    pub(super) root: &'a Value,
     pub(super) buffers: &'a [Cow<'a, [u8]>],
 }
 
-/// Bytes of an array's elements, and from each one to the next.
-struct Elements<'a> {
-    bytes: &'a [u8],
-    stride: usize,
-}
-
 impl Data<'_> {
+    /// Returns an element of a list of the text part.
+    ///
+    /// # Errors
+    /// [`Error::Format`](crate::Error::Format) if it is not there.
+    pub(super) fn element(&self, kind: &str, number: usize) -> Result<&Value> {
+        let missing = || {
+            damaged(
+                FORMAT_NAME,
+                format!("number {number} of its {kind} is not there"),
+            )
+        };
+        self.root[kind].get(number).ok_or_else(missing)
+    }
+
     /// Reads the first `N` components of each element of an accessor (a typed array) as floats; normalised integers
     /// become shares of their type's maximum. What the accessor states apart (sparse) is put in its place.
     pub(super) fn floats<const N: usize>(&self, number: usize) -> Result<Vec<[f64; N]>> {
-        let accessor = self.accessor(number)?;
-        let kind = accessor.component_type;
-        let components = components(&accessor.dimensions).unwrap_or(0);
+        let accessor = self.element("accessors", number)?;
+        let kind = number_type(accessor)?;
+        let components = components(accessor).unwrap_or(0);
         if components < N {
             return Err(damaged(FORMAT_NAME, "an attribute has too few components"));
         }
-        let width = width(kind)?;
+        let is_normalized = accessor["normalized"] == true;
+        let width = kind.bytes();
         let element = |bytes: &[u8]| -> [f64; N] {
-            std::array::from_fn(|k| component(kind, accessor.normalized, &bytes[k * width..]))
+            std::array::from_fn(|k| match kind.value(&bytes[k * width..], false) {
+                // The lowest integer lies below the range.
+                value if is_normalized => (value / kind.one()).max(-1.0),
+                value => value,
+            })
         };
         let size = width * components;
-        let mut values = match accessor.buffer_view {
-            Some(view) => {
-                let found =
-                    self.elements(view, accessor.byte_offset, accessor.count, size, true)?;
-                found.bytes.chunks(found.stride).map(element).collect()
+        let count = whole(accessor, "count").unwrap_or(0);
+        let mut values = match whole(accessor, "bufferView") {
+            Some(_) => {
+                let (bytes, stride) = self.elements(accessor, count, size, true)?;
+                bytes.chunks(stride).map(element).collect()
             }
-            None if accessor.count <= MAX_CELLS => try_filled("mesh", accessor.count, [0.0; N])?,
+            None if count <= MAX_CELLS => try_filled("mesh", count, [0.0; N])?,
             None => return Err(damaged(FORMAT_NAME, "an accessor has too many elements")),
         };
-        if let Some(sparse) = &accessor.sparse {
-            let (at, new) = (&sparse.indices, &sparse.values);
-            let wide = self::width(at.component_type)?;
-            let places =
-                self.elements(at.buffer_view, at.byte_offset, sparse.count, wide, false)?;
-            let news =
-                self.elements(new.buffer_view, new.byte_offset, sparse.count, size, false)?;
-            let places = places.bytes.chunks(wide);
-            for (place, bytes) in places.zip(news.bytes.chunks(size)) {
-                let place = component(at.component_type, false, place) as usize;
+        if let Some(sparse) = accessor.get("sparse") {
+            let count = whole(sparse, "count").unwrap_or(0);
+            let place_type = number_type(&sparse["indices"])?;
+            let (places, wide) =
+                self.elements(&sparse["indices"], count, place_type.bytes(), false)?;
+            let (news, _) = self.elements(&sparse["values"], count, size, false)?;
+            for (place, bytes) in places.chunks(wide).zip(news.chunks(size)) {
+                let place = place_type.value(place, false) as usize;
                 *(values.get_mut(place))
                     .ok_or_else(|| damaged(FORMAT_NAME, "a sparse accessor has a wrong index"))? =
                     element(bytes);
@@ -102,100 +112,69 @@ impl Data<'_> {
     }
 
     /// Reads the indices that an accessor has.
-    pub(super) fn whole(&self, number: usize) -> Result<Vec<u32>> {
-        let accessor = self.accessor(number)?;
-        let whole = matches!(
-            accessor.component_type,
-            UNSIGNED_BYTE | UNSIGNED_SHORT | UNSIGNED_INT
+    pub(super) fn indices(&self, number: usize) -> Result<Vec<u32>> {
+        let accessor = self.element("accessors", number)?;
+        let is_whole = matches!(
+            number_type(accessor)?,
+            NumberType::U8 | NumberType::U16 | NumberType::U32
         );
-        if !whole || components(&accessor.dimensions) != Some(1) {
+        if !is_whole || components(accessor) != Some(1) {
             return Err(damaged(FORMAT_NAME, "indices are not single whole numbers"));
         }
         let values = self.floats::<1>(number)?;
         Ok(values.iter().map(|[value]| *value as u32).collect())
     }
 
-    fn accessor(&self, number: usize) -> Result<&Accessor> {
-        let missing = || damaged(FORMAT_NAME, "an accessor that it names is not there");
-        self.root.accessors.get(number).ok_or_else(missing)
-    }
-
     /// Returns the bytes of a buffer view.
     pub(super) fn view(&self, number: usize) -> Option<&[u8]> {
-        let view = self.root.buffer_views.get(number)?;
-        let end = view.byte_offset.checked_add(view.byte_length)?;
-        self.buffers.get(view.buffer)?.get(view.byte_offset..end)
+        let view = self.root["bufferViews"].get(number)?;
+        let start = whole(view, "byteOffset").unwrap_or(0);
+        let end = start.checked_add(whole(view, "byteLength")?)?;
+        self.buffers.get(whole(view, "buffer")?)?.get(start..end)
     }
 
-    /// Finds so many elements of a size in bytes in a buffer view; the view states how far they are from each other
-    /// where `strided`.
+    /// Finds so many elements of a size in bytes in the buffer view that an array names; the view states how far they are from
+    /// each other where `strided`. Returns their bytes, and the distance from each one to the next.
     fn elements(
         &self,
-        number: usize,
-        offset: usize,
+        array: &Value,
         count: usize,
         size: usize,
         strided: bool,
-    ) -> Result<Elements<'_>> {
-        let stride = || self.root.buffer_views.get(number)?.byte_stride;
-        let stride = stride().filter(|_| strided).unwrap_or(size);
-        let whole = || {
+    ) -> Result<(&[u8], usize)> {
+        let found = || {
+            let number = whole(array, "bufferView")?;
+            let stride = whole(self.root["bufferViews"].get(number)?, "byteStride");
+            let stride = stride.filter(|_| strided).unwrap_or(size);
+            let offset = whole(array, "byteOffset").unwrap_or(0);
             let bytes = self.view(number)?.get(offset..)?;
-            let last = count.checked_sub(1)?;
-            let needed = last.checked_mul(stride)?.checked_add(size)?;
-            (stride >= size).then_some(bytes.get(..needed)?)
+            let needed = count
+                .checked_sub(1)?
+                .checked_mul(stride)?
+                .checked_add(size)?;
+            (stride >= size).then_some((bytes.get(..needed)?, stride))
         };
-        let bytes = whole().ok_or_else(|| {
-            damaged(
-                FORMAT_NAME,
-                "an accessor reaches beyond its buffer, which may have been cut short",
-            )
-        })?;
-        Ok(Elements { bytes, stride })
+        let reason = "an accessor reaches beyond its buffer, which may have been cut short";
+        found().ok_or_else(|| damaged(FORMAT_NAME, reason))
     }
 }
 
-/// Codes of the types of components, as glTF has them.
-const BYTE: u32 = 5120;
-const UNSIGNED_BYTE: u32 = 5121;
-const SHORT: u32 = 5122;
-const UNSIGNED_SHORT: u32 = 5123;
-const UNSIGNED_INT: u32 = 5125;
-const FLOAT: u32 = 5126;
-
-/// Returns the number of bytes of a component of a given type.
-fn width(kind: u32) -> Result<usize> {
-    match kind {
-        BYTE | UNSIGNED_BYTE => Ok(1),
-        SHORT | UNSIGNED_SHORT => Ok(2),
-        UNSIGNED_INT | FLOAT => Ok(4),
-        _ => Err(unsupported(FORMAT_NAME, "an attribute has an unusual type")),
-    }
-}
-
-/// Reads a component from the beginning of some bytes, which must be long enough for its type; 0 where they are not.
-fn component(kind: u32, normalized: bool, bytes: &[u8]) -> f64 {
-    let (value, most) = match (kind, bytes) {
-        (BYTE, [a, ..]) => (f64::from(i8::from_le_bytes([*a])), i8::MAX.into()),
-        (UNSIGNED_BYTE, [a, ..]) => (f64::from(*a), u8::MAX.into()),
-        (SHORT, [a, b, ..]) => (f64::from(i16::from_le_bytes([*a, *b])), i16::MAX.into()),
-        (UNSIGNED_SHORT, [a, b, ..]) => (f64::from(u16::from_le_bytes([*a, *b])), u16::MAX.into()),
-        (UNSIGNED_INT, [a, b, c, d, ..]) => (
-            f64::from(u32::from_le_bytes([*a, *b, *c, *d])),
-            u32::MAX.into(),
-        ),
-        (FLOAT, [a, b, c, d, ..]) => (f64::from(f32::from_le_bytes([*a, *b, *c, *d])), 1.0),
-        _ => (0.0, 1.0),
-    };
-    match normalized {
-        true => (value / most).max(-1.0), // the lowest integer lies below the range
-        false => value,
-    }
+/// Returns the type of an array's components, which glTF gives as OpenGL's number.
+fn number_type(array: &Value) -> Result<NumberType> {
+    Ok(match whole(array, "componentType").unwrap_or(0) {
+        5120 => NumberType::I8,
+        5121 => NumberType::U8,
+        5122 => NumberType::I16,
+        5123 => NumberType::U16,
+        5125 => NumberType::U32,
+        5126 => NumberType::F32,
+        _ => return Err(unsupported(FORMAT_NAME, "an attribute has an unusual type")),
+    })
 }
 
 /// Returns the number of components of each element of a typed array.
-fn components(dimensions: &str) -> Option<usize> {
-    Some(match dimensions {
+fn components(accessor: &Value) -> Option<usize> {
+    Some(match accessor["type"].as_str()? {
         "SCALAR" => 1,
         "VEC2" => 2,
         "VEC3" => 3,

@@ -1,18 +1,19 @@
 //! Reads glTF 2.0 and GLB.
 
 mod data;
-mod json;
 
 use std::borrow::Cow;
 use std::collections::BTreeSet;
 
 use nalgebra::{Matrix4, Quaternion, UnitQuaternion, Vector4};
+use percent_encoding::percent_decode_str;
+use serde_json::Value;
 
-use self::data::{Data, FORMAT_NAME, embedded, plain};
-use self::json::{Image, Node, Primitive, Root, TextureTransform};
+use self::data::{Data, FORMAT_NAME, embedded, list, numbers, whole};
 use super::beside::Beside;
-use super::builder::{DEFAULT_VERTEX_COLOUR, MeshBuilder, NO_TEXTURE, damaged, unsupported};
+use super::builder::{DEFAULT_VERTEX_COLOUR, MeshBuilder, NO_TEXTURE};
 use crate::error::{Error, Result};
+use crate::files::failure::{damaged, unsupported};
 
 /// Extensions without which the triangles of a file that requires them cannot be read, and the command of glTF Transform
 /// that takes them out. All others are about looks, or
@@ -29,9 +30,13 @@ pub(super) fn read(bytes: &[u8], beside: &Beside, parts: &mut MeshBuilder) -> Re
         true => chunks(bytes)?,
         false => (bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes), None),
     };
-    let root: Root = serde_json::from_slice(json).map_err(|error| damaged(FORMAT_NAME, error))?;
-    let is_required = |name: &str| root.extensions_required.iter().any(|one| one == name);
-    if let Some((name, command)) = (GEOMETRY_EXTENSIONS.iter()).find(|(name, _)| is_required(name))
+    let root: Value = serde_json::from_slice(json).map_err(|error| damaged(FORMAT_NAME, error))?;
+    if (root["asset"]["version"].as_str()).is_some_and(|version| !version.starts_with("2.")) {
+        return Err(unsupported(FORMAT_NAME, "only version 2 is read"));
+    }
+    let required = list(&root["extensionsRequired"]);
+    if let Some((name, command)) =
+        (GEOMETRY_EXTENSIONS.iter()).find(|(name, _)| required.iter().any(|one| one == name))
     {
         let reason = format!(
             "its triangles are stored by the extension {name}; `gltf-transform {command} IN.glb \
@@ -39,8 +44,8 @@ pub(super) fn read(bytes: &[u8], beside: &Beside, parts: &mut MeshBuilder) -> Re
         );
         return Err(unsupported(FORMAT_NAME, reason));
     }
-    let buffers = (root.buffers.iter())
-        .map(|buffer| match &buffer.uri {
+    let buffers = (list(&root["buffers"]).iter())
+        .map(|buffer| match buffer["uri"].as_str() {
             None => bin
                 .map(Cow::Borrowed)
                 .ok_or_else(|| damaged(FORMAT_NAME, "there is no binary chunk")),
@@ -82,11 +87,19 @@ fn chunks(bytes: &[u8]) -> Result<(&[u8], Option<&[u8]>)> {
     Ok((json.ok_or_else(damaged)?, bin))
 }
 
+/// Decodes percent-encoded characters, such as blanks, in the name of a file that a glTF file refers to.
+fn plain(uri: &str) -> Cow<'_, str> {
+    percent_decode_str(uri).decode_utf8_lossy()
+}
+
 fn elsewhere(uri: &str) -> Error {
     let name = uri.chars().take(60).collect::<String>();
-    let reason = format!(
-        "its buffer {name} is another file, which is missing; save it as GLB, or give that file too"
-    );
+    let place = match uri.contains("://") {
+        true => "on another machine, and is not fetched",
+        false => "another file, which is missing",
+    };
+    let reason =
+        format!("its buffer {name} is {place}; save it as GLB, or give that file beside it");
     unsupported(FORMAT_NAME, reason)
 }
 
@@ -104,7 +117,7 @@ type NamedPicture<'a> = (&'a str, Cow<'a, [u8]>);
 struct Appearance {
     color: [f32; 3],
     texture: i32,
-    set: u32,
+    set: usize,
     transform: TextureTransform,
 }
 
@@ -112,32 +125,25 @@ impl Scene<'_> {
     /// Visits every node of the glTF scene, with the product of the transforms of all nodes above it.
     fn visit(&self, parts: &mut MeshBuilder) -> Result<()> {
         let root = self.data.root;
-        let mut pictures = vec![None; root.images.len()];
-        let mut seen = vec![false; root.nodes.len()];
-        let mut open: Vec<_> = self
-            .top()?
-            .into_iter()
+        let mut pictures = vec![None; list(&root["images"]).len()];
+        let mut seen = vec![false; list(&root["nodes"]).len()];
+        let mut open: Vec<_> = (self.top()?.into_iter())
             .map(|n| (n, Matrix4::identity()))
             .collect();
         while let Some((number, above)) = open.pop() {
-            let missing = || damaged(FORMAT_NAME, format!("node {number} is not there"));
-            let node = root.nodes.get(number).ok_or_else(missing)?;
+            let node = self.data.element("nodes", number)?;
             if std::mem::replace(&mut seen[number], true) {
-                return Err(damaged(
-                    FORMAT_NAME,
-                    "a node has two parents, or is its own ancestor",
-                ));
+                let reason = "a node has two parents, or is its own ancestor";
+                return Err(damaged(FORMAT_NAME, reason));
             }
             let transform = above * matrix(node);
-            if let Some(number) = node.mesh {
-                let missing = || damaged(FORMAT_NAME, format!("mesh {number} is not there"));
-                let mesh = root.meshes.get(number).ok_or_else(missing)?;
-                for primitive in &mesh.primitives {
+            if let Some(number) = whole(node, "mesh") {
+                for primitive in list(&self.data.element("meshes", number)?["primitives"]) {
                     let look = self.look(primitive, &mut pictures, parts)?;
                     self.add(primitive, &transform, &look, parts)?;
                 }
             }
-            open.extend(node.children.iter().map(|child| (*child, transform)));
+            open.extend(children(node).map(|child| (child, transform)));
         }
         Ok(())
     }
@@ -145,16 +151,16 @@ impl Scene<'_> {
     /// Returns the nodes of the default scene or else of the first one; without scenes those that are below no other.
     fn top(&self) -> Result<Vec<usize>> {
         let root = self.data.root;
-        if let Some(scene) = root.scenes.get(root.scene.unwrap_or(0)) {
-            return Ok(scene.nodes.clone());
+        let default = whole(root, "scene");
+        if let Some(scene) = root["scenes"].get(default.unwrap_or(0)) {
+            return Ok(numbered(&scene["nodes"]).collect());
         }
-        if root.scene.is_some() {
+        if default.is_some() {
             return Err(damaged(FORMAT_NAME, "its default scene is not there"));
         }
-        let below: BTreeSet<usize> = (root.nodes.iter())
-            .flat_map(|n| n.children.iter().copied())
-            .collect();
-        Ok((0..root.nodes.len())
+        let nodes = list(&root["nodes"]);
+        let below: BTreeSet<usize> = nodes.iter().flat_map(children).collect();
+        Ok((0..nodes.len())
             .filter(|number| !below.contains(number))
             .collect())
     }
@@ -162,37 +168,33 @@ impl Scene<'_> {
     /// Reads the base colour and the texture of a primitive's material; each texture is read once.
     fn look(
         &self,
-        primitive: &Primitive,
+        primitive: &Value,
         pictures: &mut [Option<i32>],
         parts: &mut MeshBuilder,
     ) -> Result<Appearance> {
+        let root = self.data.root;
+        let element = |kind: &str, number: Option<usize>| root[kind].get(number?);
+        let material = element("materials", whole(primitive, "material")).unwrap_or(&Value::Null);
+        let base = &material["pbrMetallicRoughness"];
         let mut look = Appearance {
-            color: DEFAULT_VERTEX_COLOUR,
+            color: numbers(&base["baseColorFactor"])
+                .map_or(DEFAULT_VERTEX_COLOUR, |color| color.map(|v| v as f32)),
             texture: NO_TEXTURE,
             set: 0,
-            transform: TextureTransform::default(),
+            transform: TextureTransform::new(&Value::Null),
         };
-        let root = self.data.root;
-        let Some(material) = primitive
-            .material
-            .and_then(|number| root.materials.get(number))
-        else {
+        let info = &base["baseColorTexture"];
+        let texture = element("textures", whole(info, "index")).unwrap_or(&Value::Null);
+        let source = whole(texture, "source")
+            .or_else(|| whole(&texture["extensions"]["EXT_texture_webp"], "source"));
+        let (Some(number), Some(image)) = (source, element("images", source)) else {
             return Ok(look);
         };
-        let base = &material.pbr_metallic_roughness;
-        if let Some([r, g, b, _]) = base.base_color_factor {
-            look.color = [r, g, b];
-        }
-        let Some(info) = &base.base_color_texture else {
-            return Ok(look);
-        };
-        let texture = root.textures.get(info.index);
-        let source = texture.and_then(|texture| texture.source.or(texture.extensions.webp.source));
-        let Some((number, image)) = source.and_then(|n| Some((n, root.images.get(n)?))) else {
-            return Ok(look);
-        };
-        look.transform = info.extensions.transform.unwrap_or_default();
-        look.set = look.transform.tex_coord.unwrap_or(info.tex_coord);
+        let transform = &info["extensions"]["KHR_texture_transform"];
+        look.transform = TextureTransform::new(transform);
+        look.set = whole(transform, "texCoord")
+            .or_else(|| whole(info, "texCoord"))
+            .unwrap_or(0);
         look.texture = match pictures[number] {
             Some(known) => known,
             None => match self.picture(image)? {
@@ -205,17 +207,14 @@ impl Scene<'_> {
     }
 
     /// Returns the bytes of a glTF image and the name of the image's file; `None` if the file was not given.
-    fn picture(&self, image: &Image) -> Result<Option<NamedPicture<'_>>> {
-        if let Some(uri) = &image.uri {
+    fn picture(&self, image: &Value) -> Result<Option<NamedPicture<'_>>> {
+        if let Some(uri) = image["uri"].as_str() {
             return match embedded(uri)? {
                 Some(bytes) => Ok(Some(("", bytes.into()))),
-                None => Ok(self
-                    .beside
-                    .find(&plain(uri))
-                    .map(|(name, b)| (name, b.into()))),
+                None => Ok((self.beside.find(&plain(uri))).map(|(name, b)| (name, b.into()))),
             };
         }
-        let bytes = image.buffer_view.and_then(|number| self.data.view(number));
+        let bytes = whole(image, "bufferView").and_then(|number| self.data.view(number));
         let bytes =
             bytes.ok_or_else(|| damaged(FORMAT_NAME, "an image reaches beyond its buffer"))?;
         Ok(Some(("", bytes.into())))
@@ -223,16 +222,16 @@ impl Scene<'_> {
 
     fn add(
         &self,
-        primitive: &Primitive,
+        primitive: &Value,
         transform: &Matrix4<f64>,
         look: &Appearance,
         parts: &mut MeshBuilder,
     ) -> Result<()> {
-        let mode = primitive.mode.unwrap_or(TRIANGLES);
+        let mode = whole(primitive, "mode").unwrap_or(TRIANGLES);
         if !matches!(mode, POINTS | TRIANGLES | TRIANGLE_STRIP | TRIANGLE_FAN) {
             return Ok(()); // lines
         }
-        let attribute = |name: &str| primitive.attributes.get(name).copied();
+        let attribute = |name: &str| whole(&primitive["attributes"], name);
         let Some(positions) = attribute("POSITION") else {
             return Ok(());
         };
@@ -266,8 +265,8 @@ impl Scene<'_> {
         if mode == POINTS {
             return Ok(());
         }
-        let indices = match primitive.indices {
-            Some(number) => self.data.whole(number)?,
+        let indices = match whole(primitive, "indices") {
+            Some(number) => self.data.indices(number)?,
             None => (0..vertices as u32).collect(),
         };
         if let Some(outside) = indices.iter().find(|i| **i as usize >= vertices) {
@@ -290,30 +289,54 @@ impl Scene<'_> {
 }
 
 /// Modes of primitives, as glTF numbers them.
-const POINTS: u32 = 0;
-const TRIANGLES: u32 = 4;
-const TRIANGLE_STRIP: u32 = 5;
-const TRIANGLE_FAN: u32 = 6;
+const POINTS: usize = 0;
+const TRIANGLES: usize = 4;
+const TRIANGLE_STRIP: usize = 5;
+const TRIANGLE_FAN: usize = 6;
 
-/// Returns the transform of a node: its matrix, or its scale, rotation and translation in this order.
-fn matrix(node: &Node) -> Matrix4<f64> {
-    if let Some(matrix) = &node.matrix {
-        return Matrix4::from_column_slice(matrix);
+/// Returns the numbers of a list of whole numbers.
+fn numbered(value: &Value) -> impl Iterator<Item = usize> {
+    (list(value).iter()).filter_map(|number| usize::try_from(number.as_u64()?).ok())
+}
+
+/// Returns the numbers of the nodes below a node.
+fn children(node: &Value) -> impl Iterator<Item = usize> {
+    numbered(&node["children"])
+}
+
+/// Returns the transform of a node: its matrix, column by column, or its scale, rotation (a unit quaternion x, y, z, w) and
+/// translation in this order.
+fn matrix(node: &Value) -> Matrix4<f64> {
+    if let Some(matrix) = numbers::<16>(&node["matrix"]) {
+        return Matrix4::from_column_slice(&matrix);
     }
-    let rotation = node.rotation.map_or(Matrix4::identity(), |[x, y, z, w]| {
-        UnitQuaternion::from_quaternion(Quaternion::new(w, x, y, z)).to_homogeneous()
-    });
-    let scale = node.scale.unwrap_or([1.0; 3]);
-    Matrix4::new_translation(&node.translation.into())
-        * rotation
-        * Matrix4::new_nonuniform_scaling(&scale.into())
+    let [x, y, z, w] = numbers(&node["rotation"]).unwrap_or([0.0, 0.0, 0.0, 1.0]);
+    let rotation = UnitQuaternion::from_quaternion(Quaternion::new(w, x, y, z));
+    Matrix4::new_translation(&numbers(&node["translation"]).unwrap_or([0.0; 3]).into())
+        * rotation.to_homogeneous()
+        * Matrix4::new_nonuniform_scaling(&numbers(&node["scale"]).unwrap_or([1.0; 3]).into())
+}
+
+/// What the extension `KHR_texture_transform` says: an offset, an angle in radians, counter-clockwise around the picture's upper
+/// left corner, and a scale.
+struct TextureTransform {
+    offset: [f64; 2],
+    rotation: f64,
+    scale: [f64; 2],
 }
 
 impl TextureTransform {
+    fn new(transform: &Value) -> Self {
+        TextureTransform {
+            offset: numbers(&transform["offset"]).unwrap_or([0.0; 2]),
+            rotation: transform["rotation"].as_f64().unwrap_or(0.0),
+            scale: numbers(&transform["scale"]).unwrap_or([1.0; 2]),
+        }
+    }
+
     /// Transforms texture coordinates, of which the second counts from the top of the picture.
     fn apply(&self, uv: [f64; 2]) -> [f64; 2] {
-        let scale = self.scale.unwrap_or([1.0; 2]);
-        let [u, v] = [uv[0] * scale[0], uv[1] * scale[1]];
+        let [u, v] = [uv[0] * self.scale[0], uv[1] * self.scale[1]];
         let (sin, cos) = self.rotation.sin_cos();
         [
             cos * u + sin * v + self.offset[0],

@@ -2,16 +2,17 @@
 
 use std::collections::VecDeque;
 
-use super::values::{Encoding, Scalar};
+use super::values::{Encoding, number_type};
 use crate::error::Result;
-use crate::files::meshes::builder::damaged;
+use crate::files::failure::damaged;
+use crate::files::number_type::NumberType;
 
 /// A property of an element: one value, or a list whose length comes first.
 pub(super) struct Property {
     pub(super) name: String,
     /// Type of a list's length; `None` for a property of one value.
-    pub(super) length: Option<Scalar>,
-    pub(super) kind: Scalar,
+    pub(super) length: Option<NumberType>,
+    pub(super) kind: NumberType,
 }
 
 /// A kind of element, such as `vertex`, and how many of it follow.
@@ -88,7 +89,7 @@ impl Header {
                 });
             }
             Some("property") => {
-                let mut scalar = || words.pop_front().and_then(Scalar::named);
+                let mut scalar = || words.pop_front().and_then(number_type);
                 let (length, kind) = match scalar() {
                     Some(kind) => (None, Some(kind)),
                     // The word taken was `list`, or is none that is known.

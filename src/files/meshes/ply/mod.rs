@@ -8,11 +8,12 @@ use std::io::{self, Write};
 use self::header::{Element, Header};
 use self::values::Values;
 use super::beside::Beside;
-use super::builder::{MeshBuilder, NO_TEXTURE, damaged, unsupported};
+use super::builder::{MeshBuilder, NO_TEXTURE};
 use super::corners::{CornerMaterial, Corners};
 use super::narrow::byte;
 use crate::error::Result;
 use crate::files::buffer::Buffer;
+use crate::files::failure::{damaged, unsupported};
 use crate::scene::mesh::Mesh;
 
 pub(super) fn read(bytes: &[u8], beside: &Beside, parts: &mut MeshBuilder) -> Result<()> {
@@ -66,7 +67,7 @@ fn each_value(
             take(
                 &property.name,
                 values.next(property.kind)?,
-                property.kind.white(),
+                property.kind.one(),
             )?;
         }
     }

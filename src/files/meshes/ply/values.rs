@@ -1,7 +1,8 @@
 //! The values of a PLY file after its header.
 
 use crate::error::Result;
-use crate::files::meshes::builder::damaged;
+use crate::files::failure::damaged;
+use crate::files::number_type::NumberType;
 
 /// Encoding of the values after the header.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -11,47 +12,19 @@ pub(super) enum Encoding {
     BigEndian,
 }
 
-/// Type of a value.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Scalar {
-    I8,
-    U8,
-    I16,
-    U16,
-    I32,
-    U32,
-    F32,
-    F64,
-}
-
-impl Scalar {
-    /// Returns the type of a given name, in either of the two spellings.
-    pub(super) fn named(name: &str) -> Option<Self> {
-        Some(match name {
-            "char" | "int8" => Scalar::I8,
-            "uchar" | "uint8" => Scalar::U8,
-            "short" | "int16" => Scalar::I16,
-            "ushort" | "uint16" => Scalar::U16,
-            "int" | "int32" => Scalar::I32,
-            "uint" | "uint32" => Scalar::U32,
-            "float" | "float32" => Scalar::F32,
-            "double" | "float64" => Scalar::F64,
-            _ => return None,
-        })
-    }
-
-    /// Returns the value that stands for white in a colour of this type.
-    pub(super) fn white(self) -> f64 {
-        match self {
-            Scalar::I8 => i8::MAX.into(),
-            Scalar::U8 => u8::MAX.into(),
-            Scalar::I16 => i16::MAX.into(),
-            Scalar::U16 => u16::MAX.into(),
-            Scalar::I32 => i32::MAX.into(),
-            Scalar::U32 => u32::MAX.into(),
-            Scalar::F32 | Scalar::F64 => 1.0,
-        }
-    }
+/// Returns the type of numbers of a given name, in either of the two spellings.
+pub(super) fn number_type(name: &str) -> Option<NumberType> {
+    Some(match name {
+        "char" | "int8" => NumberType::I8,
+        "uchar" | "uint8" => NumberType::U8,
+        "short" | "int16" => NumberType::I16,
+        "ushort" | "uint16" => NumberType::U16,
+        "int" | "int32" => NumberType::I32,
+        "uint" | "uint32" => NumberType::U32,
+        "float" | "float32" => NumberType::F32,
+        "double" | "float64" => NumberType::F64,
+        _ => return None,
+    })
 }
 
 /// The values that are left in a PLY file, in their order.
@@ -66,31 +39,13 @@ impl<'a> Values<'a> {
     }
 
     /// Reads the next value of a given type.
-    pub(super) fn next(&mut self, kind: Scalar) -> Result<f64> {
+    pub(super) fn next(&mut self, kind: NumberType) -> Result<f64> {
         if self.encoding == Encoding::Ascii {
             return self.word();
         }
-        Ok(match kind {
-            Scalar::I8 => i8::from_le_bytes(self.bytes()?).into(),
-            Scalar::U8 => u8::from_le_bytes(self.bytes()?).into(),
-            Scalar::I16 => i16::from_le_bytes(self.bytes()?).into(),
-            Scalar::U16 => u16::from_le_bytes(self.bytes()?).into(),
-            Scalar::I32 => i32::from_le_bytes(self.bytes()?).into(),
-            Scalar::U32 => u32::from_le_bytes(self.bytes()?).into(),
-            Scalar::F32 => f32::from_le_bytes(self.bytes()?).into(),
-            Scalar::F64 => f64::from_le_bytes(self.bytes()?),
-        })
-    }
-
-    /// Reads the bytes of a binary value, the lowest first.
-    fn bytes<const N: usize>(&mut self) -> Result<[u8; N]> {
-        let (first, rest) = self.rest.split_first_chunk::<N>().ok_or_else(too_short)?;
+        let (bytes, rest) = (self.rest.split_at_checked(kind.bytes())).ok_or_else(too_short)?;
         self.rest = rest;
-        let mut bytes = *first;
-        if self.encoding == Encoding::BigEndian {
-            bytes.reverse();
-        }
-        Ok(bytes)
+        Ok(kind.value(bytes, self.encoding == Encoding::BigEndian))
     }
 
     fn word(&mut self) -> Result<f64> {

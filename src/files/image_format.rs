@@ -2,9 +2,8 @@
 
 use std::str::FromStr;
 
+use super::signature::begins;
 use crate::error::{Error, Result};
-use crate::files::foreign::{begins, foreign};
-use crate::files::mesh_format::MeshFormat;
 
 /// An image file format that can be read.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -61,7 +60,7 @@ const FORMAT_TITLES: [(Format, &str, &str); 13] = [
 ];
 
 /// Signatures of the image formats: the first bytes of a file of each format; a `?` stands for any byte.
-const MAGIC_BYTES: [(&[u8], Format); 19] = [
+const MAGIC_BYTES: [(&[u8], Format); 17] = [
     (b"\x89PNG\r\n\x1a\n", Format::Png),
     (b"\x93NUMPY", Format::Npy),
     (b"II*\0", Format::Tiff),
@@ -75,8 +74,6 @@ const MAGIC_BYTES: [(&[u8], Format); 19] = [
     (b"P2 ", Format::Pgm),
     (b"P5\n", Format::Pgm),
     (b"P5 ", Format::Pgm),
-    (b"PK\x03\x04", Format::Npz),
-    (b"PK\x05\x06", Format::Npz),
     (b"\xff\xd8\xff", Format::Jpeg),
     (b"RIFF????WEBP", Format::WebP),
     (b"GIF8", Format::Gif),
@@ -103,23 +100,9 @@ impl Format {
         MAGIC_BYTES
             .into_iter()
             .find_map(|(magic, format)| begins(bytes, magic).then_some(format))
+            .or_else(|| is_array_archive(bytes).then_some(Format::Npz))
             .or_else(|| is_text_grid(bytes).then_some(Format::Text))
             .or_else(|| colmap_head(bytes).map(|_| Format::Colmap))
-    }
-
-    /// Returns the format of a photo's file, by its first bytes; `None` for other files.
-    pub(super) fn of_photo(bytes: &[u8]) -> Option<Format> {
-        Format::detect(bytes).filter(|format| {
-            matches!(
-                format,
-                Format::Png
-                    | Format::Jpeg
-                    | Format::WebP
-                    | Format::Gif
-                    | Format::Bmp
-                    | Format::Tiff
-            )
-        })
     }
 
     pub(super) fn title(self) -> &'static str {
@@ -128,6 +111,13 @@ impl Format {
 
     fn entry(self) -> (Format, &'static str, &'static str) {
         FORMAT_TITLES[self as usize]
+    }
+}
+
+impl From<Format> for &'static str {
+    /// Returns the title of the format in messages.
+    fn from(format: Format) -> Self {
+        format.title()
     }
 }
 
@@ -145,6 +135,19 @@ impl FromStr for Format {
 
 /// Permitted values of the option `format`, as they are listed in the error about a wrong value.
 pub const FORMAT_NAMES: &str = "must be `png`, `npy`, `tiff`, `exr`, `pfm`, `npz`, `jpeg`, `webp`, `text`, `colmap`, `gif`, `bmp` or `pgm`";
+
+/// Number of bytes before the name of the first file in a ZIP archive.
+const ZIP_NAME_OFFSET: usize = 30;
+
+/// Whether a file is a ZIP archive whose first file is an array of NumPy (`.npy`), or that has none.
+fn is_array_archive(bytes: &[u8]) -> bool {
+    let length = bytes
+        .get(26..28)
+        .map_or(0, |b| usize::from(u16::from_le_bytes([b[0], b[1]])));
+    let name = bytes.get(ZIP_NAME_OFFSET..ZIP_NAME_OFFSET + length);
+    bytes.starts_with(b"PK\x03\x04") && name.is_some_and(|name| name.ends_with(b".npy"))
+        || bytes.starts_with(b"PK\x05\x06")
+}
 
 /// Width, height and number of channels in the head of a depth map of COLMAP, and the length of the head in bytes.
 pub(super) fn colmap_head(bytes: &[u8]) -> Option<([usize; 3], usize)> {
@@ -200,77 +203,6 @@ fn is_text_grid(bytes: &[u8]) -> bool {
                 && line.contains(|letter: char| letter.is_ascii_digit())
                 && (line.split(',').map(str::trim)).all(|word| word.is_empty() || is_number(word))
     })
-}
-
-/// Detects the format of an image file from its first bytes, and checks that it is the stated format, if one is stated.
-///
-/// # Errors
-/// [`Error::Format`] for an empty file and one of another format than stated,
-/// [`Error::Unsupported`] for a file of no known format.
-pub fn announced(bytes: &[u8], stated: Option<Format>) -> Result<Format> {
-    if bytes.is_empty() {
-        return Err(Error::Format {
-            format: stated.map_or("an image", Format::title),
-            reason: "the file is empty".into(),
-        });
-    }
-    let found = Format::detect(bytes);
-    if stated.is_none()
-        && let Some(mesh) = mesh_format(bytes, found)
-    {
-        return Err(Error::Unsupported {
-            format: "this file",
-            reason: format!(
-                "it is a mesh ({}), and no image of heights; read it as a mesh, by a name that ends in .{}",
-                mesh.title(),
-                mesh.name()
-            ),
-        });
-    }
-    match (stated, found) {
-        (None, Some(found)) => Ok(found),
-        (Some(stated), Some(found)) if stated == found => Ok(found),
-        (None, None) => {
-            let (format, reason) = foreign(bytes).unwrap_or((
-                "this file",
-                "a file of unknown format cannot be read; PNG, NPY, TIFF, EXR, PFM, PGM, NPZ, JPEG, WebP, GIF, BMP, text and \
-                 depths of COLMAP can",
-            ));
-            Err(Error::Unsupported {
-                format,
-                reason: reason.into(),
-            })
-        }
-        (Some(stated), found) => {
-            let foreign = || foreign(bytes).map(|(name, _)| name);
-            let name = found.map(Format::title).or_else(foreign);
-            let reason = format!(
-                "it begins like {}",
-                name.unwrap_or("a file of unknown format")
-            );
-            Err(Error::Format {
-                format: stated.title(),
-                reason,
-            })
-        }
-    }
-}
-
-/// Detects the format of a mesh file that has the signature of no image: text may be a matrix or a mesh.
-fn mesh_format(bytes: &[u8], found: Option<Format>) -> Option<MeshFormat> {
-    let may_be_mesh = matches!(found, None | Some(Format::Text));
-    may_be_mesh.then(|| MeshFormat::detect(bytes)).flatten()
-}
-
-/// Detects the format of a file of heights, of a photo or of a mesh, and returns its name, such as `"png"` or `"stl"`; `None`
-/// for other files. Costs `O(bytes)`.
-pub fn format_name(bytes: &[u8]) -> Option<&'static str> {
-    let found = Format::detect(bytes);
-    let mesh = match found {
-        Some(Format::Npz) => MeshFormat::detect(bytes),
-        _ => mesh_format(bytes, found),
-    };
-    mesh.map(MeshFormat::name).or(found.map(Format::name))
 }
 
 #[cfg(test)]

@@ -1,0 +1,44 @@
+//! Errors of readers and writers of files.
+
+use crate::error::Error;
+
+/// Makes the error for a file that is damaged or not of the format that it was read as.
+#[cfg(any(feature = "formats", feature = "meshes"))]
+pub(super) fn damaged(format: impl Into<&'static str>, reason: impl ToString) -> Error {
+    /// Maximum number of characters that are kept of a decoder's error message: some messages quote the line, which may be
+    /// the whole file.
+    const MAX_MESSAGE_CHARACTERS: usize = 160;
+    let said = reason.to_string();
+    let words = said.split_whitespace();
+    let mut reason = words.collect::<Vec<_>>().join(" ");
+    if let Some((end, _)) = reason.char_indices().nth(MAX_MESSAGE_CHARACTERS) {
+        reason.truncate(end);
+        reason.push('…');
+    }
+    let format = format.into();
+    Error::Format { format, reason }
+}
+
+/// Makes the error for a file with contents that are not read or written.
+pub(super) fn unsupported(format: impl Into<&'static str>, reason: impl ToString) -> Error {
+    Error::Unsupported {
+        format: format.into(),
+        reason: reason.to_string(),
+    }
+}
+
+/// Checks that decoded data of a given number of bytes can come from a file of a given length, if the compression
+/// shrinks data by a factor of at most `ratio`.
+#[cfg(feature = "formats")]
+pub(super) fn check_length(
+    format: impl Into<&'static str>,
+    file: &[u8],
+    needed: usize,
+    ratio: usize,
+) -> crate::Result<()> {
+    if needed / ratio <= file.len() {
+        return Ok(());
+    }
+    let reason = format!("{} bytes cannot hold that many pixels", file.len());
+    Err(damaged(format, reason))
+}

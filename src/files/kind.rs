@@ -1,0 +1,285 @@
+//! What a file is that is not read, by its contents, and what to do about it.
+
+use super::image_format::Format;
+use super::mesh_format::MeshFormat;
+use super::signature::{begins, contains};
+use crate::error::Error;
+use crate::files::failure::{damaged, unsupported};
+
+/// What a file is read for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Purpose {
+    #[cfg(feature = "formats")]
+    Heights,
+    #[cfg(feature = "formats")]
+    Photo,
+    #[cfg(feature = "meshes")]
+    Mesh,
+}
+
+impl Purpose {
+    /// Returns what is wanted, with its article, and the formats of which it is read.
+    fn words(self) -> (&'static str, &'static str) {
+        match self {
+            #[cfg(feature = "formats")]
+            Purpose::Heights => (
+                "heights",
+                "heights are read from PNG, NPY, TIFF, EXR, PFM, PGM, NPZ, JPEG, WebP, GIF, BMP, text and depths of COLMAP",
+            ),
+            #[cfg(feature = "formats")]
+            Purpose::Photo => (
+                "a photo",
+                "photos are read from JPEG, PNG, WebP, GIF, BMP and TIFF files",
+            ),
+            #[cfg(feature = "meshes")]
+            Purpose::Mesh => (
+                "a mesh",
+                "meshes are read from OBJ, PLY, STL, glTF, GLB, 3MF and OFF",
+            ),
+        }
+    }
+}
+
+const SAVE_AS_JPEG: &str = "save it as JPEG or PNG";
+const TRANSLATE: &str = "`gdal_translate IN OUT.tif` converts it";
+const SAVE_AS_PLY: &str = "let CloudCompare save it as PLY";
+const EXPORT_FLOATS: &str =
+    "let Gwyddion or the program that wrote it save a TIFF or OpenEXR image of floats, or text";
+const SAVE_AS_GLB: &str = "let a 3D program such as Blender save it as GLB";
+const SAVE_PAGES: &str =
+    "save its page as a picture, for example by `pdftoppm -r 300 -jpeg file.pdf page`";
+const OPEN_DOCUMENT: &str = "save it as PDF, and the PDF's pages as pictures";
+const UNPACK: &str = "unpack it first";
+
+/// Formats that are not read: their names, what to do about them, and bytes of which one is in each file. A file begins with
+/// them, and a `?` among them stands for any; a tag of XML or HTML may stand further behind.
+#[rustfmt::skip]
+const FOREIGN_FORMATS: [(&str, &str, &[&[u8]]); 46] = [
+    ("AVIF", SAVE_AS_JPEG, &[b"????ftypavi"]),
+    ("HEIC", "save it as JPEG (an iPhone shares photos as JPEG with Settings > Camera > Formats > Most Compatible)",
+        &[b"????ftyphei", b"????ftyphev", b"????ftypmif1", b"????ftypmsf1"]),
+    ("raw photo of a camera", SAVE_AS_JPEG, &[b"????ftypcrx", b"FUJIFILM", b"IIRO", b"IIU\0"]),
+    ("film", "save one of its pictures as JPEG or PNG", &[b"????ftyp", b"\x1a\x45\xdf\xa3", b"RIFF????AVI "]),
+    ("JPEG XL", SAVE_AS_JPEG, &[b"\xff\x0a", b"\0\0\0\x0cJXL "]),
+    ("Photoshop", SAVE_AS_JPEG, &[b"8BPS"]),
+    ("PPM", SAVE_AS_JPEG, &[b"P3", b"P6"]),
+    ("PDF", SAVE_PAGES, &[b"%PDF"]),
+    ("PostScript", SAVE_PAGES, &[b"%!PS"]),
+    ("document of an office program", OPEN_DOCUMENT, &[b"\xd0\xcf\x11\xe0", b"{\\rtf"]),
+    ("PNG", "it was damaged in transfer; copy it anew", &[b"\x89PNG"]),
+    ("Radiance HDR", "save it as OpenEXR", &[b"#?RADIANCE", b"#?RGBE"]),
+    ("Gwyddion", EXPORT_FLOATS, &[b"GWYP", b"GWYO"]),
+    ("Gwyddion Simple Field", EXPORT_FLOATS, &[b"Gwyddion"]),
+    ("SDF", EXPORT_FLOATS, &[b"aISO-1.0", b"bISO-1.0"]),
+    ("SUR", EXPORT_FLOATS, &[b"DIGITAL SURF", b"DSCOMPRESSED"]),
+    ("Nanoscope", EXPORT_FLOATS, &[b"\\*File list"]),
+    ("LERC", TRANSLATE, &[b"Lerc", b"CntZImage"]),
+    ("binary grid of Surfer", TRANSLATE, &[b"DSBB", b"DSRB"]),
+    ("NetCDF", TRANSLATE, &[b"CDF"]),
+    ("HDF5 or NetCDF", TRANSLATE, &[b"\x89HDF"]),
+    ("FITS", TRANSLATE, &[b"SIMPLE  ="]),
+    ("JPEG 2000", TRANSLATE, &[b"????jP  ", b"\xff\x4f\xff\x51"]),
+    ("MATLAB", "let MATLAB write its matrix by `writematrix`", &[b"MATLAB 5.0"]),
+    ("pickle of Python", "save its array by `numpy.save`", &[b"\x80\x02", b"\x80\x03", b"\x80\x04", b"\x80\x05"]),
+    ("LAS", SAVE_AS_PLY, &[b"LASF"]),
+    ("E57", SAVE_AS_PLY, &[b"ASTM-E57"]),
+    ("PCD", SAVE_AS_PLY, &[b"# .PCD", b"VERSION .7", b"VERSION 0.7"]),
+    ("VTK", "let ParaView save it as PLY", &[b"# vtk", b"<VTKFile"]),
+    ("Gmsh", "let Gmsh save it as STL", &[b"$MeshFormat"]),
+    ("Collada", SAVE_AS_GLB, &[b"<COLLADA"]),
+    ("FBX", SAVE_AS_GLB, &[b"Kaydara FBX", b"; FBX"]),
+    ("Blender's own format", SAVE_AS_GLB, &[b"BLENDER"]),
+    ("VRML", SAVE_AS_GLB, &[b"#VRML"]),
+    ("X3D", SAVE_AS_GLB, &[b"<X3D"]),
+    ("USD", SAVE_AS_GLB, &[b"#usda", b"PXR-USDC"]),
+    ("SketchUp", "let SketchUp save it as STL or GLB", &[b"\xff\xfe\xff\x0eS\0k\0"]),
+    ("Rhino", "let Rhino save it as STL or 3MF", &[b"3D Geometry File"]),
+    ("AMF", "let the slicer save it as 3MF", &[b"<amf"]),
+    ("MTL", "it has the materials of an OBJ file: open that one", &[b"newmtl"]),
+    ("drawing or solid of CAD", "let a CAD program such as FreeCAD save it as a mesh (STL or 3MF)",
+        &[b"ISO-10303-21", b"DBRep_Draw", b"0\nSECTION", b"0\r\nSECTION", b"  0\nSECTION", b"  0\r\nSECTION"]),
+    ("SVG", "it is a drawing, and has no heights", &[b"<svg"]),
+    ("web page", "the download has failed or asks to log in: download the file itself", &[b"<html", b"<!DOCTYPE html", b"<!doctype html"]),
+    ("pointer of Git LFS", "`git lfs pull` fetches the file itself", &[b"version https://git-lfs"]),
+    ("JSON", "a camera's file goes with depths, as `--intrinsics`", &[b"{"]),
+    ("archive", UNPACK, &[b"\x1f\x8b", b"7z\xbc\xaf", b"Rar!", b"BZh", b"\xfd7zXZ", b"\x28\xb5\x2f\xfd"]),
+];
+
+/// ZIP archives of formats that are not read: their names, what to do about them, and a part of a name in each; the last one
+/// is any other.
+const FOREIGN_ARCHIVES: [(&str, &str, &[&[u8]]); 4] = [
+    ("X3P", EXPORT_FLOATS, &[b"bindata/"]),
+    ("USD", SAVE_AS_GLB, &[b".usd"]),
+    (
+        "document of an office program",
+        OPEN_DOCUMENT,
+        &[b"word/", b"xl/", b"ppt/", b"content.xml"],
+    ),
+    ("archive", UNPACK, &[b"PK"]),
+];
+
+/// Number of bytes at the start of a file within which a tag of XML tells its format.
+const HEAD_BYTES: usize = 1000;
+
+/// Returns the name of a format that is not read, and what to do; `None` for files of other or unknown formats.
+pub(super) fn foreign(bytes: &[u8]) -> Option<(&'static str, &'static str)> {
+    let head = &bytes[..bytes.len().min(HEAD_BYTES)];
+    let is_in = |magic: &[u8]| match magic {
+        [b'<', ..] => (0..head.len()).any(|at| begins(&head[at..], magic)),
+        _ => begins(head, magic),
+    };
+    let archive = head.starts_with(b"PK\x03\x04");
+    let known = if archive {
+        &FOREIGN_ARCHIVES[..]
+    } else {
+        &FOREIGN_FORMATS[..]
+    };
+    let is_told = |part: &&[u8]| {
+        if archive {
+            contains(bytes, part)
+        } else {
+            is_in(part)
+        }
+    };
+    let found = known.iter().find(|(.., parts)| parts.iter().any(is_told))?;
+    Some((found.0, found.1))
+}
+
+/// Makes the error for a file that is not read for a purpose: what it is, what is read, and what to do.
+pub(super) fn refused(bytes: &[u8], purpose: Purpose) -> Error {
+    let (wanted, formats) = purpose.words();
+    if bytes.is_empty() {
+        return damaged(wanted, "the file is empty");
+    }
+    let image = Format::detect(bytes);
+    let (name, advice) = if let Some(mesh) = mesh_format(bytes, image) {
+        let advice = format!(
+            "it is a mesh: read it as one, by a name that ends in .{}",
+            mesh.name()
+        );
+        (mesh.title(), advice)
+    } else if let Some(image) = image {
+        let advice = match purpose {
+            #[cfg(feature = "formats")]
+            Purpose::Photo => "it has heights: read it as such",
+            _ => "it is an image: read it as heights or as a photo",
+        };
+        (image.title(), advice.into())
+    } else if let Some((name, advice)) = foreign(bytes) {
+        (name, advice.into())
+    } else {
+        let mut head = bytes.iter().take(HEAD_BYTES);
+        let is_text = head.all(|byte| *byte >= b' ' || byte.is_ascii_whitespace());
+        let name = if is_text {
+            "text"
+        } else {
+            "a file of unknown format"
+        };
+        (name, "save what is in it as one that is read".into())
+    };
+    unsupported(name, format!("{advice}; {formats}"))
+}
+
+/// Detects the format of a mesh file that has the signature of no image, whose format is `image`: text may be a matrix or a mesh.
+fn mesh_format(bytes: &[u8], image: Option<Format>) -> Option<MeshFormat> {
+    let may_be_mesh = matches!(image, None | Some(Format::Text));
+    may_be_mesh.then(|| MeshFormat::detect(bytes)).flatten()
+}
+
+/// Detects the format of a file of heights, of a photo or of a mesh, and returns its name, such as `"png"` or `"stl"`; `None`
+/// for other files. Costs `O(bytes)`.
+#[cfg(feature = "formats")]
+pub fn format_name(bytes: &[u8]) -> Option<&'static str> {
+    let image = Format::detect(bytes);
+    mesh_format(bytes, image)
+        .map(MeshFormat::name)
+        .or(image.map(Format::name))
+}
+
+/// Detects the format of an image file of heights from its first bytes, and checks that it is the stated format, if one is
+/// stated.
+///
+/// # Errors
+/// [`Error::Format`] for an empty file and one of another format than stated,
+/// [`Error::Unsupported`] for a file of no known format.
+#[cfg(feature = "formats")]
+pub fn announced(bytes: &[u8], stated: Option<Format>) -> crate::Result<Format> {
+    let found = Format::detect(bytes);
+    match stated {
+        None => found
+            .filter(|_| mesh_format(bytes, found).is_none())
+            .ok_or_else(|| refused(bytes, Purpose::Heights)),
+        Some(stated) if found == Some(stated) => Ok(stated),
+        Some(stated) if bytes.is_empty() => Err(damaged(stated, "the file is empty")),
+        Some(stated) => {
+            let name = found.map(Format::title).or_else(|| Some(foreign(bytes)?.0));
+            let name = name.unwrap_or("a file of unknown format");
+            Err(damaged(stated, format!("it begins like {name}")))
+        }
+    }
+}
+
+#[cfg(all(test, feature = "formats", feature = "meshes"))]
+mod tests {
+    use super::*;
+
+    /// Name and message of what a file is refused with.
+    fn told(bytes: &[u8], purpose: Purpose) -> String {
+        refused(bytes, purpose).to_string()
+    }
+
+    #[test]
+    fn files_are_told_by_their_contents() {
+        let mut names: Vec<&str> = Vec::new();
+        for bytes in [
+            &b"\0\0\0\x18ftypheic\0\0\0\0"[..],
+            b"\0\0\0\x20ftypisom\0\0\x02\0isomiso2mp41",
+            b"<?xml version=\"1.0\"?>\n<COLLADA>",
+            b"GWYPGwyContainer",
+            b"PK\x03\x04\x14\0\x06\0\x08\0 [Content_Types].xml word/document.xml",
+            b"PK\x03\x04\x14\0\x06\0\x08\0 main.xml bindata/data.bin",
+            b"PK\x03\x04\x14\0\x06\0\x08\0 letter.txt",
+            b"version https://git-lfs.github.com/spec/v1\noid sha256:4d7a\n",
+            b"<!DOCTYPE html><html><head><title>404 Not Found</title>",
+            b"\x80\x04\x95numpy",
+            b"hello",
+        ] {
+            names.push(foreign(bytes).map_or("", |(name, _)| name));
+        }
+        let office = "document of an office program";
+        assert_eq!(
+            names,
+            [
+                "HEIC",
+                "film",
+                "Collada",
+                "Gwyddion",
+                office,
+                "X3P",
+                "archive",
+                "pointer of Git LFS",
+                "web page",
+                "pickle of Python",
+                ""
+            ]
+        );
+    }
+
+    #[test]
+    fn what_is_read_for_another_purpose_is_named_with_it() {
+        let stl = b"solid a\nfacet normal 0 0 1\n";
+        assert!(
+            told(stl, Purpose::Heights)
+                .contains("it is a mesh: read it as one, by a name that ends in .stl")
+        );
+        assert!(told(stl, Purpose::Photo).starts_with("STL: it is a mesh"));
+        assert!(told(b"\xff\xd8\xff\xe0", Purpose::Mesh).starts_with("JPEG: it is an image"));
+        assert!(told(b"\x93NUMPY\x01\0", Purpose::Photo).contains("it has heights"));
+        assert!(
+            told(b"Dear Sir or Madam,", Purpose::Mesh)
+                .ends_with("meshes are read from OBJ, PLY, STL, glTF, GLB, 3MF and OFF")
+        );
+        assert!(told(&[7; 100], Purpose::Photo).contains("of unknown format"));
+        assert_eq!(refused(b"", Purpose::Mesh).code(), "FORMAT");
+    }
+}

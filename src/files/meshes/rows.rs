@@ -1,0 +1,30 @@
+//! Rows of numbers in text.
+
+use crate::error::Result;
+use crate::files::failure::damaged;
+
+/// Parses the words of a row as numbers; errors name the format and the row.
+pub(super) fn numbers<'a>(
+    format: &'static str,
+    row: usize,
+    words: impl Iterator<Item = &'a str>,
+) -> Result<Vec<f64>> {
+    let number = |word: &'a str| {
+        let reason = || format!("line {row} has {word:?} where a number should stand");
+        word.parse().map_err(|_| damaged(format, reason()))
+    };
+    words.map(number).collect()
+}
+
+/// Parses a point and the numbers after it in its row.
+pub(super) fn point<'a>(
+    format: &'static str,
+    row: usize,
+    words: impl Iterator<Item = &'a str>,
+) -> Result<([f64; 3], Vec<f64>)> {
+    let mut numbers = numbers(format, row, words)?;
+    let point = (numbers.first_chunk().copied())
+        .ok_or_else(|| damaged(format, format!("line {row} has too few coordinates")))?;
+    numbers.drain(..point.len());
+    Ok((point, numbers))
+}

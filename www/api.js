@@ -17,7 +17,6 @@
 /** @typedef {import('../pkg/types.js').Surface} Surface */
 /** @typedef {import('../pkg/types.js').Verdict} Verdict */
 /** @typedef {import('../pkg/types.js').Mesh} Mesh */
-/** @typedef {import('../pkg/types.js').NpzArray} NpzArray */
 /** @typedef {import('../pkg/types.js').SampledMesh} SampledMesh */
 /** @typedef {import('../pkg/types.js').SampleMeshOptions} SampleMeshOptions */
 

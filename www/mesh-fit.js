@@ -110,6 +110,11 @@ export class MeshFit extends Events {
     return this.#cached(mesh, 'unrolled', (worker) => worker.unrollMesh(geometryOf(mesh), { onProgress: ({ fraction }) => tell({ fraction, label: TASK_WORDS.unrolling }) }));
   }
 
+  /** What a mesh is. @param {Mesh} mesh */
+  recognized(mesh) {
+    return this.#cached(mesh, 'kind', (worker) => worker.recognizeMesh(geometryOf(mesh)));
+  }
+
   /**
    * The sheets of the fitted surface, or of the input where flat faces are found in its noise: these are more exact than a fit.
    * @param {Mesh} surface
@@ -118,9 +123,12 @@ export class MeshFit extends Events {
    */
   async pattern(surface, options, tell) {
     const mesh = this.mesh ?? surface;
-    const { kind } = await this.#cached(mesh, 'kind', (worker) => worker.recognizeMesh(geometryOf(mesh)));
+    const { kind, thickness } = await this.recognized(mesh);
     const laidFlat = kind === 'noisyFaces' ? mesh : surface;
-    return this.#cached(laidFlat, `pattern ${JSON.stringify(options)}`, (worker) => worker.patternMesh(geometryOf(laidFlat), { ...options, onProgress: tell }));
+    // A solid of sheet metal has a thickness of its own.
+    const { thickness: _thickness, innerRadius: _innerRadius, ...others } = options;
+    const own = thickness !== undefined && options.thickness !== undefined ? { ...others, blank: true } : options;
+    return this.#cached(laidFlat, `pattern ${JSON.stringify(options)}`, (worker) => worker.patternMesh(geometryOf(laidFlat), { ...own, onProgress: tell }));
   }
 
   /** @param {import('../pkg/types.js').Drawing} drawing */

@@ -177,6 +177,9 @@ export const SHEET_WORDS = {
   metal: 'sheet metal',
   tabs: 'Tabs to glue',
   tabDepth: 'Tab depth, mm',
+  upperSide: 'The surface is the upper side of the metal.',
+  /** @param {string} thickness */
+  blank: (thickness) => `A solid of sheet metal, ${thickness} mm thick: this is the blank that it is bent from.`,
   thickness: 'Thickness, mm',
   radius: 'Inner radius, mm',
   likeThickness: 'as the thickness',

@@ -119,7 +119,7 @@ doorTest('axe finds nothing wrong with a whole mesh', async (page) => {
 pageTest('axe finds nothing wrong with surfaces in space, the gallery, and dialogs', async (page) => {
   await soundEverywhere(page, 'the stage');
   await page.locator('#gallery-open').click();
-  assert.ok(await page.locator('.card').count() > 20);
+  assert.ok(await page.locator('.card').count() > 15);
   await soundEverywhere(page, 'the gallery', { within: '#gallery' });
   await page.keyboard.press('Escape');
   await page.locator('#end-file').click();

@@ -4,6 +4,7 @@ import { test } from 'node:test';
 import { dispose, patternMesh } from '../../pkg/index.js';
 import { edgeAt, parsePairs, togglePair } from '../../www/sheet-edges.js';
 import { obj } from './support/files.mjs';
+import { parsed } from './support/numbers.mjs';
 import { doorTest, openWhole } from './support/page.mjs';
 
 /** A box of 60 × 40 × 20: its faces by number, the largest first, come in opposite pairs. */
@@ -67,4 +68,32 @@ doorTest('a fold that is clicked in the drawing is cut', async (page) => {
   await toCut.press('Tab');
   assert.equal(await toCut.evaluate((/** @type {HTMLInputElement} */ field) => field.validity.valid), false);
   assert.ok(await page.locator('#save-now').isDisabled(), 'what was cut before is not saved in its place');
+});
+
+doorTest('a solid of sheet metal is cut as the blank that it is bent from', async (page) => {
+  // An angle of two legs, 2 mm thick, with an inner radius of 3 mm: its section from the outside in, and 50 mm of it.
+  const [thickness, inner, width, legs, steps] = [2, 3, 50, [40, 30], 12];
+  const arc = (/** @type {number} */ radius) => Array.from({ length: steps + 1 }, (_, i) => -Math.PI / 2 * (1 + i / steps)).map((angle) => [thickness + inner + radius * Math.cos(angle), thickness + inner + radius * Math.sin(angle)]);
+  const outside = [[legs[0], 0], ...arc(inner + thickness), [0, legs[1]]];
+  const section = [...outside, ...[[legs[0], thickness], ...arc(inner), [thickness, legs[1]]].reverse()];
+  const [count, half] = [section.length, outside.length];
+  const triangles = section.flatMap((_, i) => {
+    const j = (i + 1) % count;
+    return /** @type {[number, number, number][]} */ ([[i, j, count + j], [i, count + j, count + i]]);
+  });
+  for (let i = 0; i + 1 < half; i++) {
+    const [a, b, c, d] = [i, i + 1, count - 2 - i, count - 1 - i];
+    triangles.push([a, d, c], [a, c, b], [count + a, count + c, count + d], [count + a, count + b, count + c]);
+  }
+  const points = [0, width].flatMap((y) => section.map(([x, z]) => /** @type {[number, number, number]} */ ([x, y, z])));
+  await openWhole(page, 'angle.obj', obj({ points, triangles }));
+  await page.locator('#whole-sheets').click();
+  await page.locator('.preview[aria-busy="false"] img').waitFor();
+  await page.getByLabel('Material').selectOption('metal');
+  await page.getByText('2 mm thick: this is the blank').waitFor();
+  await page.locator('.sheets .said', { hasText: /^One sheet, with one fold\.$/ }).waitFor();
+  assert.equal(await page.getByLabel('Thickness, mm').isVisible(), false);
+  const area = width * (legs[0] + legs[1] - 2 * (thickness + inner) + (Math.PI / 2) * (inner + 0.44 * thickness));
+  const told = await page.locator('.sheets .figures div').filter({ has: page.locator('dt', { hasText: 'Area' }) }).locator('dd').textContent();
+  assert.ok(Math.abs(100 * parsed(String(told)) / area - 1) < 0.005, `${told} for ${area} mm²`);
 });

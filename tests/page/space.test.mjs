@@ -114,6 +114,7 @@ pageTest('an answer that takes long can be done without, and asked for again; th
     return texts;
   });
   await page.getByRole('button', { name: 'Try again' }).click();
+  await choose(page.getByRole('radio', { name: 'In space', exact: true }));
   await page.locator('#unfold-field').waitFor();
   assert.match((await told.jsonValue()).join(), /Laying it flat, [1-9]\d?\s%/, 'how far it is');
   assert.equal(await page.locator('#unfold').inputValue(), '1', 'flat at once, where motion is unwelcome');

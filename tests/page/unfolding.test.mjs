@@ -2,7 +2,7 @@
 import assert from 'node:assert/strict';
 import { readFileSync } from 'node:fs';
 import { test } from 'node:test';
-import { initSync, loadSync, pattern } from '../../pkg/sync.js';
+import { example, initSync, loadSync, pattern } from '../../pkg/sync.js';
 import { readAssemblyMesh, borderLines } from '../../www/surface/assembly-mesh.js';
 import { computeUnfolding, unfoldedPositions } from '../../www/surface/unfolding.js';
 
@@ -90,4 +90,20 @@ test('sheets of a pyramid are where it is, and lie flat beside each other in the
   // Borders are closed, and no edge inside is one.
   for (const line of borderLines(triangles)) assert.equal(line[0], line.at(-1));
   assert.deepEqual(borderLines(Uint32Array.from([0, 1, 2, 0, 2, 3])).map((line) => [...line]), [[0, 1, 2, 3, 0]]);
+});
+
+test('parts of an assembly are told by the numbers of their sheets, in whatever order they come', () => {
+  const { input } = example('roof', { size: 80, noise: 0 });
+  const { assembly, sheets: drawn } = pattern(input, { scale: 180, assembly: true });
+  assert.ok(assembly && drawn.length > 2);
+  const { places, sheets } = readAssemblyMesh(assembly.model, 1 / 1000);
+  drawn.forEach(({ bounds: [low, high] }, sheet) => {
+    const own = [...sheets.keys()].filter((vertex) => sheets[vertex] === sheet);
+    for (const k of [0, 1]) {
+      const along = own.map((vertex) => places[2 * vertex + k]);
+      const side = Math.max(...along) - Math.min(...along);
+      // The drawing's outlines are smoothed.
+      assert.ok(Math.abs(side - (high[k] - low[k])) < 5, `sheet ${sheet + 1}: ${side} for ${high[k] - low[k]} mm`);
+    }
+  });
 });

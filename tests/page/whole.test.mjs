@@ -369,7 +369,7 @@ doorTest('sheets of a model without a unit are in millimetres, and the headline 
   await page.locator('#whole-sheets').dblclick();
   const title = page.locator('#save-title');
   await title.filter({ hasText: /: 60 mm, 1 page, \d+ joints$/ }).waitFor();
-  const warning = page.locator('.sheets .doubt');
+  const warning = page.locator('.sheets .guess');
   assert.equal(await warning.isVisible(), false);
   await page.getByLabel('Longer side when finished, mm').fill('600');
   await title.filter({ hasText: /: 600 mm, \d\d pages, / }).waitFor();

@@ -79,7 +79,6 @@ export function galleryPanel(session, { adopt, choose, strip, enter }) {
     /** The card with an id. @param {string} id */
     find: (id) => CARDS.find((card) => card.id === id || (id === 'fig-20' && card.id === 'fig-22')),
     show,
-    open,
     get present() {
       return present;
     },

@@ -256,6 +256,7 @@ export function meshFitPanel(session, meshFit) {
       unit: lengthUnitOf({ ...session.input, kind: 'mesh', unit: surface.unit ?? undefined }),
       cut: ({ side: length, ...options }, tell) => meshFit.pattern(surface, { scale: length / longest, ...options }, tell),
       svg: (drawing) => meshFit.svg(drawing),
+      metalThickness: async () => (await meshFit.recognized(meshFit.mesh ?? surface)).thickness,
       canFoldElsewhere: ({ summary }) => summary.strain === 0,
       stop: () => meshFit.stop(),
     });

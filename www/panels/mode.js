@@ -26,8 +26,10 @@ export function modePanel(session, onEnter) {
   const show = (mode) => {
     // From far down the doors to the top of what is behind one.
     if (mode !== now) window.scrollTo(0, 0);
+    const hadFocus = sides[now].contains(document.activeElement);
     now = mode;
     for (const [name, side] of Object.entries(sides)) side.hidden = name !== mode;
+    if (hadFocus) sides[now].focus({ preventScroll: true });
     showJob();
   };
   return {

@@ -79,6 +79,7 @@ function sheetSource(result, analyses) {
     unit: lengthUnitOf(result.input),
     cut: (options, tell) => cutSheets(analyses, result, options, tell),
     svg: (drawing) => analyses.svg(drawing),
+    metalThickness: async () => undefined,
     canFoldElsewhere: () => false,
     stop: () => analyses.stop(),
   };

@@ -40,6 +40,7 @@ const [MIN_SIDE_MM, MAX_SIDE_MM] = [10, 5000];
  * @property {LengthUnit | 'none' | 'unknown'} unit unit of the input; `none` for an example, which has any size
  * @property {(options: CutOptions, onProgress: (progress: TaskProgress) => void) => Promise<Drawing>} cut computes the pattern
  * @property {(drawing: Drawing) => Promise<Uint8Array<ArrayBuffer>>} svg writes a drawing as SVG
+ * @property {() => Promise<number | undefined>} metalThickness thickness of a solid of sheet metal, in the input's unit
  * @property {(drawing: Drawing) => boolean} canFoldElsewhere whether other edges of a drawing may be cut and joined: of flat faces, of which nothing is stretched
  * @property {() => void} stop cancels the pattern that is being computed
  */
@@ -49,7 +50,7 @@ const [MIN_SIDE_MM, MAX_SIDE_MM] = [10, 5000];
  * @param {Api} api
  * @param {SheetSource} source
  */
-export function offerSheets(api, { stem, note = '', length, unit, up, cut, svg, canFoldElsewhere, stop }) {
+export function offerSheets(api, { stem, note = '', length, unit, up, cut, svg, metalThickness, canFoldElsewhere, stop }) {
   const last = lastSizes.get(stem) ?? { unit: unit === 'unknown' ? 'none' : unit, side: NaN };
   const side = numberField(Number.isNaN(last.side) ? suggestedSide(length, last.unit) : last.side, MIN_SIDE_MM, MAX_SIDE_MM);
   const units = make('select', '', ...Object.keys(MM_PER_UNIT).map((name) => new Option(SHEET_WORDS.unit(name), name)), new Option(SHEET_WORDS.ownSize, 'none'));
@@ -66,7 +67,9 @@ export function offerSheets(api, { stem, note = '', length, unit, up, cut, svg, 
   Object.assign(radius, { required: false, placeholder: SHEET_WORDS.likeThickness });
   const kFactor = numberField(lastOptions.kFactor, 0.1, 0.9);
   const forCard = [make('label', 'check', tabs, SHEET_WORDS.tabs), make('label', 'field', SHEET_WORDS.tabDepth, depth)];
+  const metalNote = make('p', 'muted small');
   const forMetal = [
+    metalNote,
     make('label', 'field', SHEET_WORDS.thickness, thickness),
     make('label', 'field', SHEET_WORDS.radius, radius),
     make('label', 'field', SHEET_WORDS.kFactor, kFactor),
@@ -111,7 +114,7 @@ export function offerSheets(api, { stem, note = '', length, unit, up, cut, svg, 
   Object.assign(again, { type: 'button', hidden: true });
   again.addEventListener('click', () => void draw());
   const about = make('div', '');
-  const pageWarning = make('p', 'doubt small');
+  const pageWarning = make('p', 'guess small');
   pageWarning.hidden = true;
   /** @type {Promise<Drawing>} */
   let drawing;
@@ -162,6 +165,9 @@ export function offerSheets(api, { stem, note = '', length, unit, up, cut, svg, 
       waiting.end();
       showSize(finished);
       edges.hidden = !canFoldElsewhere(finished);
+      const solid = await metalThickness();
+      for (const { parentElement: field } of [thickness, radius]) field?.toggleAttribute('hidden', metal.value === '' || solid !== undefined);
+      metalNote.textContent = solid === undefined ? SHEET_WORDS.upperSide : SHEET_WORDS.blank(number((solid * side.valueAsNumber) / length));
       image.addEventListener('click', ({ offsetX, offsetY }) => {
         if (!edges.hidden) toggleEdge(finished, [(offsetX / image.clientWidth) * finished.width, (1 - offsetY / image.clientHeight) * finished.height]);
       });

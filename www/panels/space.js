@@ -1,5 +1,5 @@
 /** Input and result as surfaces in space, one on each side of a divider; and the animation that unfolds the result. */
-import { oncePerFrame, element } from '../dom.js';
+import { element } from '../dom.js';
 import { heightReading, strainInWords } from '../format.js';
 import { CREASE_COLOUR } from '../surface/colours.js';
 import { resultImage } from '../surface/derived-data.js';
@@ -85,7 +85,6 @@ export function spacePanel(session) {
     view?.setSurface(1, { positions, triangles, colors });
     view?.setLines(1, borders.map((line) => ({ points: Array.from(line, (vertex) => vectorAt(positions, vertex)), colour: CREASE_COLOUR, width: BORDER_WIDTH })));
   };
-  const unfoldSoon = oncePerFrame(updateUnfolding);
   /** Draws layers and marks over the surfaces, and the divider between them. */
   const updateLayers = () => {
     const { input } = session;
@@ -109,7 +108,7 @@ export function spacePanel(session) {
 
   unfold.addEventListener('input', () => {
     newestAnimation++;
-    unfoldSoon();
+    updateUnfolding();
   });
   /** Animates the unfolding once. Users who prefer reduced motion see the end at once; moving the slider ends the animation. */
   const animateUnfolding = () => {
@@ -117,6 +116,7 @@ export function spacePanel(session) {
     const start = performance.now();
     const isMotionReduced = matchMedia('(prefers-reduced-motion: reduce)').matches;
     unfold.value = isMotionReduced ? '1' : '0';
+    updateUnfolding();
     /** @param {number} now */
     const step = (now) => {
       if (animation !== newestAnimation || !shown.unfolding) return;
@@ -168,6 +168,7 @@ export function spacePanel(session) {
   session.on('unsolved', () => showResult(session.result));
 
   return {
+    animateUnfolding,
     isShown: () => !panel.hidden,
     /** Whether this browser cannot draw the surfaces. */
     isMissing: () => !missing.hidden,
@@ -182,7 +183,6 @@ export function spacePanel(session) {
       const isOther = now.unfolding !== shown.unfolding;
       shown = now;
       if (!isOther) return updateLayers();
-      if (now.unfolding) animateUnfolding();
       updateBox();
       view?.fit();
     },

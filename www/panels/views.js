@@ -34,7 +34,7 @@ export function viewsPanel(session) {
   const arrange = () => {
     const { before, after, unfolding } = present;
     arrangement.hidden = !after || !unfolding;
-    const isInSpace = !after || (unfolding !== undefined && arrangements[0].checked);
+    const isInSpace = !after || (unfolding !== undefined && arrangements[1].checked);
     stage.hidden = !isInSpace;
     element('unfold-field', HTMLElement).hidden = !unfolding || !isInSpace;
     pictures.hidden = reading.hidden = element('picture-hint', HTMLElement).hidden = isInSpace;
@@ -42,6 +42,7 @@ export function viewsPanel(session) {
     element('space-hint', HTMLElement).hidden = !isInSpace;
     element('input-view', HTMLElement).hidden = !before;
     if (isInSpace) space.drawnCanvas();
+    if (isInSpace && unfolding) space.animateUnfolding();
     updateSave();
   };
   /** Enables the button that saves the picture if there is one. */

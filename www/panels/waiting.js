@@ -27,7 +27,7 @@ export function waitingPanel(panel, cancel, delay = 0) {
     panel.append(button);
   }
   let [start, updateTimer, showTimer] = [0, 0, 0];
-  let words = '';
+  let [task, words] = ['', ''];
   /** Share of the present step that is done; undefined where that is not told. @type {number | undefined} */
   let done;
 
@@ -42,7 +42,7 @@ export function waitingPanel(panel, cancel, delay = 0) {
     /** Shows that a task is under way. @param {string} label what is done */
     begin(label) {
       start = performance.now();
-      [words, done] = [label, undefined];
+      [task, words, done] = [label, label, undefined];
       clearTimeout(showTimer);
       if (delay === 0) panel.hidden = false;
       else showTimer = window.setTimeout(() => (panel.hidden = false), delay);
@@ -52,8 +52,8 @@ export function waitingPanel(panel, cancel, delay = 0) {
     },
     /** Tells how far the task is. What follows a step that is done is not told. @param {TaskProgress} progress */
     tell({ fraction, label }) {
-      if (label) words = label;
       done = fraction < 1 ? fraction : undefined;
+      words = done === undefined || !label ? task : label;
       update();
     },
     /** Hides the progress. */

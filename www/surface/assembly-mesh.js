@@ -25,10 +25,9 @@ export function readAssemblyMesh(model, scale) {
   };
   /** @type {[number[], number[], number[]]} */
   const [positions, places, triangles] = [[], [], []];
-  /** Index of the sheet of each vertex. @type {number[]} */
+  /** Index of the drawing's sheet of each vertex: parts come in another order, and are named as the sheets. @type {number[]} */
   const sheets = [];
-  let sheet = 0;
-  for (const [number, { translation, rotation, mesh }] of nodes.entries()) {
+  for (const [number, { name, translation, rotation, mesh }] of nodes.entries()) {
     if (mesh === undefined) continue;
     const { attributes, indices, targets } = meshes[mesh].primitives[0];
     const [flat, bends] = [numbers(attributes.POSITION), numbers(targets[0].POSITION)];
@@ -37,11 +36,10 @@ export function readAssemblyMesh(model, scale) {
     for (let i = 0; i < flat.length; i += 3) {
       const [x, y] = applyPose([flat[i], flat[i + 1], flat[i + 2]], rotation, translation);
       places.push(x / scale, y / scale);
-      sheets.push(sheet);
+      sheets.push(Number(name.replace(/\D/g, '')) - 1);
       positions.push(...applyPose([0, 1, 2].map((k) => flat[i + k] + bends[i + k]), turn, shift).map((value) => value / scale));
     }
     for (const corner of numbers(indices)) triangles.push(first + corner);
-    sheet++;
   }
   const mesh = { positions: Float64Array.from(positions), places: Float64Array.from(places), triangles: Uint32Array.from(triangles) };
   return { ...mesh, sheets: Uint32Array.from(sheets), stretches: principalStretches(mesh) };

@@ -36,7 +36,7 @@ export async function builtPicture(model, up) {
   context.fillRect(0, 0, picture.width, picture.height);
   context.drawImage(scene.canvas, 0, 0);
   Object.assign(context, { font: `600 ${NUMBER_HEIGHT_PIXELS}px Helvetica, Arial, sans-serif`, textAlign: 'center', textBaseline: 'middle', lineWidth: NUMBER_HEIGHT_PIXELS / 5, strokeStyle: 'white', fillStyle: 'black' });
-  for (let sheet = 0; sheet <= sheets[sheets.length - 1]; sheet++) {
+  for (const sheet of new Set(sheets)) {
     const place = placesOf(triangles.filter((vertex) => sheets[vertex] === sheet), positions).map((middle) => scene.project(middle)).find(([x, y]) => {
       const seen = scene.pick({ offsetX: x, offsetY: y });
       return seen && sheets[triangles[3 * seen.triangle]] === sheet;

@@ -32,8 +32,6 @@ export function fillTriangles({ width, height }, triangles, places, visit) {
   }
 }
 
-/** @typedef {{ left: number, top: number, width: number, height: number }} Extent y up */
-
 /** The bounding rectangle of places in the plane. @param {ArrayLike<number>} places x, y and further coordinates @param {number} [stride] coordinates per place */
 export function extentOf(places, stride = 2) {
   let [left, right, bottom, top] = [Infinity, -Infinity, Infinity, -Infinity];

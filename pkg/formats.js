@@ -1,7 +1,7 @@
 /** Which of the two wasm files for images reads a file: the smaller one knows few formats, and the other one all others. */
 
 /** First bytes of a PNG, NPY and JPEG file, as Latin-1. */
-const [PNG, NPY, JPEG] = ['\x89PNG', '\x93NUMPY', '\xff\xd8\xff'];
+const [PNG, NPY, JPEG] = ['\x89PNG\r\n\x1a\n', '\x93NUMPY', '\xff\xd8\xff'];
 
 /**
  * Whether the wasm of the images is to read these heights.

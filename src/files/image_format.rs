@@ -2,6 +2,8 @@
 
 use std::str::FromStr;
 
+#[cfg(feature = "formats")]
+use super::failure::damaged;
 use super::signature::begins;
 use crate::error::{Error, Result};
 
@@ -103,6 +105,16 @@ impl Format {
             .or_else(|| is_array_archive(bytes).then_some(Format::Npz))
             .or_else(|| is_text_grid(bytes).then_some(Format::Text))
             .or_else(|| colmap_head(bytes).map(|_| Format::Colmap))
+    }
+
+    /// Returns the format that is stated for a file, if it was found there.
+    #[cfg(feature = "formats")]
+    pub(super) fn checked(self, found: Option<Format>) -> Result<Format> {
+        if found == Some(self) {
+            return Ok(self);
+        }
+        let name = found.map_or("a file of another format", Format::title);
+        Err(damaged(self, format!("it begins like {name}")))
     }
 
     pub(super) fn title(self) -> &'static str {

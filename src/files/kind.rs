@@ -11,7 +11,7 @@ use crate::files::failure::{damaged, unsupported};
 pub(super) enum Purpose {
     #[cfg(feature = "formats")]
     Heights,
-    #[cfg(feature = "formats")]
+    #[cfg(feature = "images")]
     Photo,
     #[cfg(feature = "meshes")]
     Mesh,
@@ -26,7 +26,7 @@ impl Purpose {
                 "heights",
                 "heights are read from PNG, NPY, TIFF, EXR, PFM, PGM, NPZ, JPEG, WebP, GIF, BMP, text and depths of COLMAP",
             ),
-            #[cfg(feature = "formats")]
+            #[cfg(feature = "images")]
             Purpose::Photo => (
                 "a photo",
                 "photos are read from JPEG, PNG, WebP, GIF, BMP and TIFF files",
@@ -160,7 +160,7 @@ pub(super) fn refused(bytes: &[u8], purpose: Purpose) -> Error {
         (mesh.title(), advice)
     } else if let Some(image) = image {
         let advice = match purpose {
-            #[cfg(feature = "formats")]
+            #[cfg(feature = "images")]
             Purpose::Photo => "it has heights: read it as such",
             _ => "it is an image: read it as heights or as a photo",
         };
@@ -206,20 +206,14 @@ pub fn format_name(bytes: &[u8]) -> Option<&'static str> {
 pub fn announced(bytes: &[u8], stated: Option<Format>) -> crate::Result<Format> {
     let found = Format::detect(bytes);
     match stated {
+        Some(stated) => stated.checked(found),
         None => found
             .filter(|_| mesh_format(bytes, found).is_none())
             .ok_or_else(|| refused(bytes, Purpose::Heights)),
-        Some(stated) if found == Some(stated) => Ok(stated),
-        Some(stated) if bytes.is_empty() => Err(damaged(stated, "the file is empty")),
-        Some(stated) => {
-            let name = found.map(Format::title).or_else(|| Some(foreign(bytes)?.0));
-            let name = name.unwrap_or("a file of unknown format");
-            Err(damaged(stated, format!("it begins like {name}")))
-        }
     }
 }
 
-#[cfg(all(test, feature = "formats", feature = "meshes"))]
+#[cfg(all(test, feature = "images", feature = "meshes"))]
 mod tests {
     use super::*;
 

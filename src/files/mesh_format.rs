@@ -99,7 +99,7 @@ const GLTF_ASSET: &[u8] = b"\"asset\"";
 pub(super) const STL_HEADER_BYTES: usize = 84;
 
 /// Number of bytes of each triangle of a binary STL file.
-const STL_TRIANGLE_BYTES: usize = 50;
+pub(super) const STL_TRIANGLE_BYTES: usize = 50;
 
 /// Returns whether a file has exactly the length of a binary STL file with the number of triangles in its header.
 pub(super) fn is_binary_stl(bytes: &[u8]) -> bool {

@@ -104,6 +104,12 @@ impl Mesh {
         })
     }
 
+    /// Returns whether all coordinates are numbers of 32 bits.
+    pub(crate) fn has_single_precision(&self) -> bool {
+        let mut all = self.positions.as_flattened().iter();
+        all.all(|value| f64::from(*value as f32) == *value)
+    }
+
     /// Returns the longest side of the bounding box of all vertices.
     #[cfg(feature = "meshes")]
     pub(crate) fn longest_side(&self) -> f64 {

@@ -67,7 +67,7 @@ impl Polyhedron {
     /// # Errors
     /// [`Error::Unsupported`] for a mesh whose triangles have no area.
     pub(crate) fn new(mesh: &Mesh) -> Result<Polyhedron> {
-        let rounding = rounding(mesh.positions());
+        let rounding = rounding(mesh);
         let (places, joined) = join(mesh.positions(), rounding);
         let triangles = (mesh.triangles().iter()).map(|t| t.map(|v| joined[v as usize]));
         let mut triangles: Vec<[u32; 3]> = triangles
@@ -287,27 +287,13 @@ fn longest_side([a, b, c]: [Place; 3]) -> f64 {
 }
 
 /// Distance below which points of a mesh are one.
-fn rounding(positions: &[[f64; 3]]) -> f64 {
-    let ends = |k: usize| {
-        let all = positions.iter().map(|p| p[k]);
-        all.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], v| {
-            [low.min(v), high.max(v)]
-        })
+fn rounding(mesh: &Mesh) -> f64 {
+    let [low, high] = mesh.bounds().map(Place::from);
+    let unit = match mesh.has_single_precision() {
+        true => low.amax().max(high.amax()) * f64::from(f32::EPSILON),
+        false => 0.0,
     };
-    let boxed = [0, 1, 2].map(ends);
-    let diagonal = (boxed
-        .iter()
-        .map(|[low, high]| (high - low).powi(2))
-        .sum::<f64>())
-    .sqrt();
-    let largest = (boxed.as_flattened().iter()).fold(0.0f64, |most, v| most.max(v.abs()));
-    let is_f32 = (positions.as_flattened().iter()).all(|v| f64::from(*v as f32) == *v);
-    let unit = if is_f32 {
-        largest * f64::from(f32::EPSILON)
-    } else {
-        0.0
-    };
-    (ROUNDING_SHARE * diagonal).max(ROUNDING_F32_UNITS * unit)
+    (ROUNDING_SHARE * (high - low).norm()).max(ROUNDING_F32_UNITS * unit)
 }
 
 /// Joins points nearer to each other than the rounding; returns them and the number of each given point among them.

@@ -39,6 +39,8 @@ pub use depths::DepthEvidence;
 pub use extended::{NpzArray, npz_arrays, write_exr, write_tiff};
 pub use georeference::Georeference;
 pub use npy::write_npy;
+#[cfg(feature = "images")]
+pub use photo::decode_other_photo;
 pub use photo::{PhotoFile, decode_photo, decode_photo_basic};
 pub use photo_pdf::{BookPage, write_book, write_photo_pdf};
 pub use png::write_png;
@@ -96,7 +98,7 @@ pub fn decode_with(
     match announced(bytes, format)? {
         #[cfg(feature = "images")]
         other if !other.is_basic() => extended::decode(bytes, other, options),
-        basic => decode_basic(bytes, basic, options),
+        basic => decode_basic(bytes, Some(basic), options),
     }
 }
 
@@ -104,16 +106,23 @@ pub fn decode_with(
 ///
 /// # Errors
 /// As [`decode_with`].
-pub fn decode_basic(bytes: &[u8], format: Format, options: &DecodeOptions) -> Result<Decoded> {
-    let stored = match format {
+pub fn decode_basic(
+    bytes: &[u8],
+    format: Option<Format>,
+    options: &DecodeOptions,
+) -> Result<Decoded> {
+    let reason = "only PNG and NPY are read here";
+    let found = Format::detect(bytes);
+    let found = match format {
+        Some(stated) => stated.checked(found)?,
+        None => found.ok_or_else(|| unsupported("this file", reason))?,
+    };
+    let stored = match found {
         Format::Png => png::decode(bytes)?,
         Format::Npy => npy::decode(bytes)?,
-        other => {
-            let reason = "only PNG and NPY are read here; the cargo feature `images` adds it";
-            return Err(unsupported(other, reason));
-        }
+        other => return Err(unsupported(other, reason)),
     };
-    options.check(format)?;
+    options.check(found)?;
     stored.finish(options)
 }
 
@@ -125,7 +134,7 @@ mod tests {
     fn other_files_are_named_in_the_error() {
         let message = |bytes: &[u8], format| decode(bytes, format).unwrap_err().to_string();
         assert!(message(b"Lerc2 ....", None).contains("gdal_translate"));
-        assert!(message(b"PK\x03\x04....", Some(Format::Png)).contains("begins like archive"));
+        assert!(message(b"PK\x03\x04....", Some(Format::Png)).contains("another format"));
         assert!(message(b"\x93NUMPY....", Some(Format::Png)).contains("begins like NPY"));
         assert!(message(b"", None).contains("empty"));
         assert_eq!(decode(b"hello", None).unwrap_err().code(), "UNSUPPORTED");

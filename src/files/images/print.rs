@@ -101,11 +101,12 @@ pub fn write_photo(photo: &impl PhotoRows, options: &PhotoOptions) -> Result<Vec
     let [width, height] = photo.size();
     let dots = options.dots()?;
     let mut line = try_filled("PNG file", 4 * width, 0)?;
-    let opaque = (0..height).all(|row| {
-        photo.read(row, &mut line);
-        line.chunks_exact(4).all(|pixel| pixel[3] == u8::MAX)
-    });
-    let bilevel = opaque && is_bilevel(photo)?;
+    let bilevel = is_bilevel(photo)?;
+    let opaque = bilevel
+        || (0..height).all(|row| {
+            photo.read(row, &mut line);
+            line.chunks_exact(4).all(|pixel| pixel[3] == u8::MAX)
+        });
     let mut file = Buffer::default();
     let mut encoder = Encoder::new(&mut file, width as u32, height as u32);
     if bilevel {

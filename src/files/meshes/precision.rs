@@ -12,8 +12,7 @@ pub(super) fn coarse_coordinates(mesh: &Mesh) -> Option<Assumption> {
     let largest = all().map(f64::abs).fold(0.0, f64::max);
     let longest = mesh.longest_side();
     let rounding = largest * f64::from(f32::EPSILON);
-    let is_narrow = || all().all(|value| f64::from(value as f32) == value);
-    (longest > 0.0 && rounding > MIN_TOLD_ROUNDING * longest && is_narrow()).then(|| {
+    (longest > 0.0 && rounding > MIN_TOLD_ROUNDING * longest && mesh.has_single_precision()).then(|| {
         let words = format!(
             "coordinates are 32-bit numbers up to {largest:.0}, rounded to {rounding:.1e}: write them from a nearer origin"
         );

@@ -1,9 +1,8 @@
-//! Reads and writes stereolithography meshes (STL) by the `stl_io` crate.
+//! Reads and writes stereolithography meshes (STL).
 
-use std::io::Cursor;
+use std::io::{self, Write};
 
 use nalgebra::Vector3;
-use stl_io::{Normal, Triangle, Vertex, create_stl_reader};
 
 use super::builder::MeshBuilder;
 use super::narrow::narrowed;
@@ -11,7 +10,8 @@ use super::rows::point;
 use crate::error::Result;
 use crate::files::buffer::Buffer;
 use crate::files::failure::{damaged, unsupported};
-use crate::files::mesh_format::{STL_HEADER_BYTES, is_binary_stl, stl_length};
+use crate::files::mesh_format::{STL_HEADER_BYTES, STL_TRIANGLE_BYTES, is_binary_stl, stl_length};
+use crate::files::number_type::NumberType;
 use crate::files::text::{decoded, lines};
 use crate::scene::mesh::Mesh;
 
@@ -36,25 +36,23 @@ pub(super) fn read(bytes: &[u8], parts: &mut MeshBuilder) -> Result<()> {
     if begins && !is_binary_stl(bytes) {
         return ascii(bytes, parts);
     }
-    match stl_length(bytes) {
-        Some(needed) if needed <= bytes.len() => {}
-        _ => {
-            return Err(damaged(
-                "STL",
-                format!(
-                    "the file of {} bytes is too short for the triangles that it states",
-                    bytes.len()
-                ),
-            ));
+    let triangles = stl_length(bytes)
+        .and_then(|length| bytes.get(STL_HEADER_BYTES..length))
+        .ok_or_else(|| {
+            let length = bytes.len();
+            let reason =
+                format!("the file of {length} bytes is too short for the triangles that it states");
+            damaged("STL", reason)
+        })?;
+    for triangle in triangles.as_chunks::<STL_TRIANGLE_BYTES>().0 {
+        let start = parts.positions.len() as u32;
+        // Three numbers each: a normal, and the corners.
+        for corner in triangle.as_chunks::<12>().0.iter().skip(1) {
+            parts.position([0, 4, 8].map(|at| NumberType::F32.value(&corner[at..], false)))?;
         }
+        parts.triangle([start, start + 1, start + 2])?;
     }
-    if !bytes.starts_with(b"solid") {
-        return collect(bytes, parts);
-    }
-    // Some programs begin binary files like ASCII ones.
-    let mut file = bytes.to_vec();
-    file[..STL_HEADER_BYTES - 4].fill(0);
-    collect(&file, parts)
+    Ok(())
 }
 
 /// Reads the vertices of all solids of an ASCII STL file, three for each triangle.
@@ -80,20 +78,6 @@ fn ascii(bytes: &[u8], parts: &mut MeshBuilder) -> Result<()> {
     Ok(())
 }
 
-fn collect(bytes: &[u8], parts: &mut MeshBuilder) -> Result<()> {
-    let mut cursor = Cursor::new(bytes);
-    let reader = create_stl_reader(&mut cursor).map_err(|error| damaged("STL", error))?;
-    for triangle in reader {
-        let triangle = triangle.map_err(|error| damaged("STL", error))?;
-        let start = parts.positions.len() as u32;
-        for vertex in triangle.vertices {
-            parts.position(<[f32; 3]>::from(vertex).map(f64::from))?;
-        }
-        parts.triangle([start, start + 1, start + 2])?;
-    }
-    Ok(())
-}
-
 /// Writes a mesh's triangles as a binary STL file, each with its own normal; positions are rounded to 32-bit floats.
 /// Far from the origin detail is lost: coordinates of 10⁶ are rounded to multiples of 0.06. (STL knows no origin of its
 /// own, as GLB does, and not more bits, as PLY and OBJ do.)
@@ -112,13 +96,23 @@ pub fn write_stl(mesh: &Mesh) -> Result<Vec<u8>> {
         ));
     }
     let positions = narrowed("STL file", mesh, [0.0; 3])?;
-    let triangles = mesh.triangles().iter().map(|triangle| Triangle {
-        normal: Normal::new(normal(mesh.corners(*triangle))),
-        vertices: triangle.map(|i| Vertex::new(positions[i as usize])),
-    });
     let mut file = Buffer::default();
-    let written = stl_io::write_stl(&mut file, triangles);
+    let written = write(&mut file, mesh, &positions);
     file.finish("STL file", written)
+}
+
+fn write(file: &mut Buffer, mesh: &Mesh, positions: &[[f32; 3]]) -> io::Result<()> {
+    file.write_all(&[0; STL_HEADER_BYTES - 4])?;
+    file.write_all(&(mesh.triangles().len() as u32).to_le_bytes())?;
+    for triangle in mesh.triangles() {
+        let [a, b, c] = triangle.map(|i| positions[i as usize]);
+        for numbers in [normal(mesh.corners(*triangle)), a, b, c] {
+            file.write_all(numbers.map(f32::to_le_bytes).as_flattened())?;
+        }
+        // Attributes, of which there are none.
+        file.write_all(&[0; 2])?;
+    }
+    Ok(())
 }
 
 /// Computes the unit normal of a triangle; 0 for a triangle without area.

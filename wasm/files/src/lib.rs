@@ -9,8 +9,8 @@ use developable::Error;
 use developable::checks::{check_count, check_photo};
 use developable::dewarp::{self, Extent};
 use developable::files::images::{
-    BookPage, PhotoOptions, PhotoRows, announced, decode_basic, decode_photo_basic, format_name,
-    write_book, write_npy, write_photo, write_photo_jpeg, write_photo_pdf, write_png,
+    BookPage, PhotoOptions, PhotoRows, decode_basic, decode_photo_basic, format_name, write_book,
+    write_npy, write_photo, write_photo_jpeg, write_photo_pdf, write_png,
 };
 use developable::files::wavefront::{write_mtl, write_obj};
 use developable_wasm::Result;
@@ -27,8 +27,7 @@ use developable_wasm::triangulation::mesh_of;
 pub fn read(bytes: &Uint8Array, options: JsValue) -> Result<JsValue> {
     let options: ReadOptions = read_options(&options)?;
     let file = copied(bytes)?;
-    let format = announced(&file, options.format()?)?;
-    output(decode_basic(&file, format, &options.decoding())?)
+    output(decode_basic(&file, options.format()?, &options.decoding())?)
 }
 
 /// Detects the format of a file by its first bytes; returns its name, or `undefined` for an unknown one.

@@ -6,7 +6,7 @@ use serde_wasm_bindgen::{from_value, to_value};
 use wasm_bindgen::prelude::*;
 
 use developable::files::images::{
-    Format, announced, decode_photo, extended, npz_arrays, write_exr, write_tiff,
+    Format, announced, decode_other_photo, extended, npz_arrays, write_exr, write_tiff,
 };
 use developable_wasm::Result;
 use developable_wasm::bytes::copied;
@@ -27,7 +27,7 @@ pub fn read_image(bytes: &Uint8Array, options: JsValue) -> Result<JsValue> {
 #[wasm_bindgen(js_name = readImagePhoto)]
 pub fn read_image_photo(bytes: &Uint8Array) -> Result<JsValue> {
     let file = copied(bytes)?;
-    photo_output(&decode_photo(&file)?)
+    photo_output(&decode_other_photo(&file)?)
 }
 
 /// An array of an NPZ file.

@@ -14,7 +14,7 @@ pub(super) mod webp;
 
 use super::decode_options::DecodeOptions;
 use super::decoded::Decoded;
-use super::photo::decode_photo;
+use super::photo::decode_other_photo;
 use crate::error::Result;
 use crate::files::failure::unsupported;
 use crate::files::image_format::Format;
@@ -38,7 +38,7 @@ pub fn decode(bytes: &[u8], format: Format, options: &DecodeOptions) -> Result<D
         Format::Text => text_grid::decode(bytes),
         Format::Colmap => colmap::decode(bytes),
         Format::Jpeg | Format::WebP | Format::Gif | Format::Bmp => {
-            samples::from_photo(format, &decode_photo(bytes)?)
+            samples::from_photo(format, &decode_other_photo(bytes)?)
         }
         Format::Png | Format::Npy => Err(unsupported(format, "it is decoded elsewhere")),
     };

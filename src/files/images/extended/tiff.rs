@@ -66,43 +66,28 @@ pub(super) fn decode(bytes: &[u8]) -> Result<StoredImage> {
             cfg!(target_endian = "big"),
         )
     })?;
-    let mut assumptions = about.assumptions;
+    let mut image = about.image;
     if tiff_tags::has_more_images(&mut file) {
         let words = "the first of several images is meant";
-        assumptions.push(Assumption::new("firstImage", words, None));
+        (image.assumptions).push(Assumption::new("firstImage", words, None));
     }
-    let (mut values, size) = oriented(values, stored, about.orientation)?;
+    (image.values, image.size) = oriented(values, stored, about.orientation)?;
     if let Some(level) = about.no_data {
-        values
-            .iter_mut()
-            .filter(|z| **z == level)
-            .for_each(|z| *z = f64::NAN);
+        (image.values.iter_mut().filter(|z| **z == level)).for_each(|z| *z = f64::NAN);
     }
     // What is turned after all lies elsewhere on the map.
-    let mut georeference = about.georeference.filter(|_| about.orientation == 1);
-    if let Some(map) = georeference.as_mut().filter(|map| map.is_mirrored()) {
-        map.reverse_rows(size.1);
-        let rows: Vec<&[f64]> = values.chunks_exact(size.0).rev().collect();
-        values = rows.concat();
+    image.georeference = image.georeference.filter(|_| about.orientation == 1);
+    if let Some(map) = image.georeference.as_mut().filter(|map| map.is_mirrored()) {
+        map.reverse_rows(image.size.1);
+        let rows: Vec<&[f64]> = image.values.chunks_exact(image.size.0).rev().collect();
+        image.values = rows.concat();
     }
-    let sides = about.sides.map(|[x, y]| match about.orientation {
-        5.. => [y, x],
-        _ => [x, y],
-    });
-    Ok(StoredImage {
-        names_no_data: about.no_data.is_some(),
-        sides,
-        aspect: match about.orientation {
-            5.. => 1.0 / about.aspect,
-            _ => about.aspect,
-        },
-        unit: about.unit,
-        height_scale: about.heights.scale,
-        offset: about.heights.offset,
-        georeference: georeference.filter(|map| !map.keys.is_empty()),
-        assumptions,
-        ..StoredImage::new(Format::Tiff, size, values, kind)
-    })
+    image.georeference = image.georeference.filter(|map| !map.keys.is_empty());
+    if about.orientation >= 5 {
+        image.sides = image.sides.map(|[x, y]| [y, x]);
+        image.aspect = 1.0 / image.aspect;
+    }
+    Ok(image)
 }
 
 /// Reads the layout of a TIFF file's pixels: the number of samples per pixel, the bits per sample, and what each sample
@@ -257,6 +242,14 @@ mod tests {
         assert_eq!((read.width, read.height), (4, 3));
         let told: Vec<&str> = read.assumptions.iter().map(|one| one.code).collect();
         assert_eq!(told, ["squarePixels", "pixelSize"]);
+    }
+
+    #[test]
+    fn a_reduced_first_image_is_that_of_a_raw_photo() {
+        // As in DNG and NEF, whose full image lies in a directory below.
+        let error = decode(&images(&[1])).unwrap_err();
+        assert_eq!(error.code(), "UNSUPPORTED");
+        assert!(error.to_string().contains("raw photo"), "{error}");
     }
 
     #[test]

@@ -27,11 +27,21 @@ pub(crate) fn open<'a>(bytes: &'a [u8], max_bytes: usize) -> Result<File<'a>> {
         Ok(file.with_limits(limits.clone()))
     };
     let mut file = open(bytes.into())?;
+    let kind = file
+        .find_tag_unsigned(Tag::NewSubfileType)
+        .map_err(failed)?;
+    if kind.unwrap_or(0) & REDUCED_IMAGE_BIT != 0 {
+        let reason = "its first image is a reduced one, as in a raw photo of a camera; save the photo as JPEG";
+        return Err(unsupported(Format::Tiff, reason));
+    }
     match inflated(bytes, &mut file, max_bytes)? {
         Some(inflated) => open(inflated.into()),
         None => Ok(file),
     }
 }
+
+/// Bit of the TIFF tag `NewSubfileType` of an image that is another one at a lower resolution.
+const REDUCED_IMAGE_BIT: u16 = 1;
 
 /// Numbers of the TIFF types of unsigned numbers of 32 and 64 bits.
 const LONG: u64 = 4;

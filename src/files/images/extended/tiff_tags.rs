@@ -8,6 +8,7 @@ use super::tiff_file::{File, failed};
 use crate::error::Result;
 use crate::files::failure::{damaged, unsupported};
 use crate::files::image_format::Format;
+use crate::files::images::decoded::StoredImage;
 use crate::files::images::georeference::Georeference;
 use crate::files::images::no_data::as_stored;
 use crate::files::number_type::NumberType;
@@ -55,29 +56,13 @@ const PER_CENTIMETRE: u16 = 3;
 /// Number of the TIFF tag `GDAL_METADATA`, an XML text with the scale, the offset and the unit of heights.
 pub(super) const GDAL_METADATA: Tag = Tag::Unknown(42112);
 
-/// What the tags of a TIFF file say about its pixels: their size and its unit, the value of no data, the orientation.
+/// What the tags of a TIFF file say about its pixels.
 pub(super) struct PixelTags {
-    /// Width and height of a pixel, in `unit`, if tags say them.
-    pub(super) sides: Option<[f64; 2]>,
-    /// Height of a pixel divided by its width.
-    pub(super) aspect: f64,
-    pub(super) unit: Option<Unit>,
-    /// Where the pixels lie on a map, as they are stored.
-    pub(super) georeference: Option<Georeference>,
-    /// How stored values become heights, if tags say it.
-    pub(super) heights: HeightTags,
-    /// What is assumed about the units.
-    pub(super) assumptions: Vec<Assumption>,
+    /// The image as it is stored, still without its values.
+    pub(super) image: StoredImage,
     pub(super) no_data: Option<f64>,
     /// Orientation of the image, from 1 to 8, as the TIFF tag `Orientation` numbers it.
     pub(super) orientation: u16,
-}
-
-/// How stored values become heights: `height = scale · stored + offset`, in the unit of the pixel size.
-#[derive(Default)]
-pub(super) struct HeightTags {
-    pub(super) scale: Option<f64>,
-    pub(super) offset: f64,
 }
 
 pub(super) fn read(
@@ -100,7 +85,7 @@ pub(super) fn read(
         Some(RESOLUTION_UNIT_NONE) => resolutions(file)?.map_or(1.0, |[x, y]| x / y),
         _ => 1.0,
     };
-    let mut heights = gdal_heights(file)?;
+    let (mut height_scale, mut offset) = gdal_heights(file)?;
     if let Some(map) = georeference.as_ref().filter(|map| !map.keys.is_empty()) {
         let unit = height_unit(file, map)?;
         let of_map = map.linear_unit().filter(|unit| *unit != 1.0);
@@ -112,8 +97,8 @@ pub(super) fn read(
             assumptions.push(Assumption::new("heightUnit", words, "heightScale"));
         }
         let unit = unit.or(of_map).unwrap_or(1.0);
-        heights.scale = Some(unit * heights.scale.unwrap_or(1.0));
-        heights.offset *= unit;
+        height_scale = Some(unit * height_scale.unwrap_or(1.0));
+        offset *= unit;
     }
     let no_data = no_data(file, number_type)?;
     let inverted = unsigned(file, Tag::PhotometricInterpretation)? == Some(0);
@@ -132,12 +117,17 @@ pub(super) fn read(
         ));
     }
     Ok(PixelTags {
-        sides,
-        aspect,
-        unit,
-        georeference,
-        heights,
-        assumptions,
+        image: StoredImage {
+            names_no_data: no_data.is_some(),
+            sides,
+            aspect,
+            unit,
+            height_scale,
+            offset,
+            georeference,
+            assumptions,
+            ..StoredImage::new(Format::Tiff, size, Vec::new(), number_type)
+        },
         no_data,
         orientation,
     })
@@ -298,8 +288,8 @@ fn height_unit(file: &mut File, map: &Georeference) -> Result<Option<f64>> {
     Ok(named.or(map.vertical_unit()))
 }
 
-/// Scale and offset of heights by GDAL's metadata.
-fn gdal_heights(file: &mut File) -> Result<HeightTags> {
+/// Scale and offset of heights by GDAL's metadata: `height = scale · stored + offset`, in the unit of the pixel size.
+fn gdal_heights(file: &mut File) -> Result<(Option<f64>, f64)> {
     let mut number = |role| -> Result<Option<f64>> {
         let text = gdal_item(file, role)?;
         Ok(text
@@ -307,13 +297,9 @@ fn gdal_heights(file: &mut File) -> Result<HeightTags> {
             .filter(|value: &f64| value.is_finite()))
     };
     let offset = number("offset")?;
-    Ok(HeightTags {
-        // GDAL's scale beside an offset is 1 where the file names none.
-        scale: number("scale")?
-            .filter(|scale| *scale != 0.0)
-            .or(offset.map(|_| 1.0)),
-        offset: offset.unwrap_or(0.0),
-    })
+    let scale = number("scale")?.filter(|scale| *scale != 0.0);
+    // GDAL's scale beside an offset is 1 where the file names none.
+    Ok((scale.or(offset.map(|_| 1.0)), offset.unwrap_or(0.0)))
 }
 
 /// Text of an item of GDAL's metadata with the given role, of the first channel or of all.

@@ -17,6 +17,7 @@ use super::jpeg;
 use crate::error::Result;
 use crate::files::failure::unsupported;
 use crate::files::image_format::Format;
+#[cfg(feature = "images")]
 use crate::files::kind::{Purpose, refused};
 
 /// Decodes a photo in a JPEG or PNG file to RGBA bytes, 16 bits cut to 8, the way up that its Exif data state; with the cargo
@@ -30,14 +31,27 @@ use crate::files::kind::{Purpose, refused};
 pub fn decode_photo(bytes: &[u8]) -> Result<PhotoFile> {
     match Format::detect(bytes) {
         #[cfg(feature = "images")]
-        Some(Format::WebP) => super::extended::webp::decode_photo(bytes),
+        Some(Format::Png) => png::decode(bytes),
         #[cfg(feature = "images")]
-        Some(Format::Gif) => gif::decode(bytes),
-        #[cfg(feature = "images")]
-        Some(Format::Bmp) => bmp::decode(bytes),
-        #[cfg(feature = "images")]
-        Some(Format::Tiff) => tiff::decode(bytes),
+        _ => decode_other_photo(bytes),
+        #[cfg(not(feature = "images"))]
         _ => decode_photo_basic(bytes),
+    }
+}
+
+/// Decodes a photo in a file of any format but PNG, whose decoder is not linked.
+///
+/// # Errors
+/// As [`decode_photo`].
+#[cfg(feature = "images")]
+pub fn decode_other_photo(bytes: &[u8]) -> Result<PhotoFile> {
+    match Format::detect(bytes) {
+        Some(Format::Jpeg) => jpeg::decode_photo(bytes),
+        Some(Format::WebP) => super::extended::webp::decode_photo(bytes),
+        Some(Format::Gif) => gif::decode(bytes),
+        Some(Format::Bmp) => bmp::decode(bytes),
+        Some(Format::Tiff) => tiff::decode(bytes),
+        _ => Err(refused(bytes, Purpose::Photo)),
     }
 }
 
@@ -49,9 +63,9 @@ pub fn decode_photo_basic(bytes: &[u8]) -> Result<PhotoFile> {
     match Format::detect(bytes) {
         Some(Format::Png) => png::decode(bytes),
         Some(Format::Jpeg) => jpeg::decode_photo(bytes),
-        Some(other @ (Format::WebP | Format::Gif | Format::Bmp | Format::Tiff)) => {
-            Err(unsupported(other, "the cargo feature `images` adds it"))
-        }
-        _ => Err(refused(bytes, Purpose::Photo)),
+        _ => Err(unsupported(
+            "this file",
+            "only PNG and JPEG photos are read here",
+        )),
     }
 }

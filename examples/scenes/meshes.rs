@@ -25,7 +25,6 @@ pub fn write(folder: &Path) -> Result<(), Box<dyn std::error::Error>> {
         for (i, noise) in NOISES.into_iter().enumerate() {
             let noisy = noise.add_to(&truth)?;
             let surface = fit(&noisy, &options)?;
-            let seconds = surface.report().seconds.total;
             let name = |part: &str| format!("{}-{i}-{part}.obj", scene.name);
             let parts = [
                 ("noisy", &noisy),
@@ -33,13 +32,11 @@ pub fn write(folder: &Path) -> Result<(), Box<dyn std::error::Error>> {
                 ("ours", surface.heightfield()),
             ];
             for (part, surface) in parts {
-                fs::write(
-                    folder.join(name(part)),
-                    write_obj(Triangulation::new(surface, &Frame::default())?.mesh(), None)?,
-                )?;
+                let surface = Triangulation::new(surface, &Frame::default())?;
+                fs::write(folder.join(name(part)), write_obj(surface.mesh(), None)?)?;
             }
             list.push(serde_json::json!({
-                "name": scene.name, "noise": noise.to_string(), "vertices": lattice.len(), "seconds": seconds,
+                "name": scene.name, "noise": noise.to_string(), "vertices": lattice.len(), "seconds": surface.report().seconds.total,
                 "noisy": name("noisy"), "truth": name("truth"), "ours": name("ours"),
             }));
             eprintln!("{}, {noise}", scene.name);

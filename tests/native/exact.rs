@@ -160,6 +160,30 @@ fn polyhedra_are_one_net_with_the_shortest_cut() {
 }
 
 #[test]
+fn of_equally_long_edges_a_sharp_one_is_cut_and_no_smooth_bend() {
+    // A half-round bar, turned so that no two of its long edges are equally long in floating point.
+    let (steps, radius, length) = (20u32, 20.0, 100.0);
+    let places = (0..=steps).flat_map(|k| {
+        let (sin, cos) = (PI * f64::from(k) / f64::from(steps)).sin_cos();
+        [0.0, length].map(|along| {
+            let [x, y] = [radius * cos, radius * sin];
+            [0.6 * x - 0.8 * along, 0.8 * x + 0.6 * along, y]
+        })
+    });
+    let mut triangles = Vec::new();
+    for k in 0..=steps {
+        let [a, b] = [2 * k, 2 * ((k + 1) % (steps + 1))];
+        triangles.extend([[a, b + 1, b], [a, a + 1, b + 1]]);
+    }
+    triangles.extend((1..steps).flat_map(|k| [[0, 2 * k, 2 * k + 2], [1, 2 * k + 3, 2 * k + 1]]));
+    let bar = Mesh::new(places.collect(), triangles).unwrap();
+    let pattern = pattern_exact(&bar, &NetOptions::default()).unwrap();
+    let folds = pattern.sheets.iter().flat_map(|sheet| &sheet.folds);
+    let smooth = folds.filter(|fold| fold.seam.angle < 0.5).count();
+    assert_eq!(smooth, steps as usize - 1);
+}
+
+#[test]
 fn a_fit_leaves_meshes_without_noise_as_they_are() {
     // A cone of one row of quadrilaterals has no vertex inside.
     let ring = |k: usize, r: f64, z: f64| {

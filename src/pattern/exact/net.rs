@@ -1,5 +1,7 @@
 //! Nets: facets placed in the plane by rigid motions along a forest of hinges, without overlaps.
 
+use std::f64::consts::PI;
+
 use nalgebra::Complex;
 use rustc_hash::{FxHashMap, FxHashSet};
 
@@ -11,6 +13,10 @@ use crate::scene::polyhedron::Polyhedron;
 /// Maximum number of cells of all grids: so many for each triangle, and so many in all. Slender triangles get larger cells.
 const MAX_CELLS_PER_TRIANGLE: f64 = 64.0;
 const MAX_SHARED_CELLS: f64 = 1e6;
+
+/// What a cut between facets that meet flat costs more than one of the same length between facets that fold onto each other, as a
+/// share: of cuts that are equally long a sharp edge is taken, and no smooth bend.
+const MAX_FLAT_SURCHARGE: f64 = 1e-3;
 
 /// A rigid motion of the plane: a rotation, then a translation.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -54,10 +60,11 @@ pub(super) struct Hinge {
     pub facets: [u32; 2],
     /// A half-edge along the line, of the first facet.
     pub side: u32,
-    pub length: f64,
+    /// What a cut along the line costs: its length, and up to [`MAX_FLAT_SURCHARGE`] more the flatter the facets meet.
+    pub cost: f64,
 }
 
-/// The hinges of a polyhedron, the longest first. Two facets that meet along several lines have one hinge, as long as
+/// The hinges of a polyhedron, the costliest to cut first. Two facets that meet along several lines have one hinge, as long as
 /// all of them.
 fn hinges(solid: &Polyhedron) -> Vec<Hinge> {
     let mut between: FxHashMap<[u32; 2], (u32, f64, f64)> = FxHashMap::default();
@@ -75,15 +82,15 @@ fn hinges(solid: &Polyhedron) -> Vec<Hinge> {
             (found.0, found.1) = (side, long);
         }
     }
-    let all = between.into_iter();
-    let mut hinges: Vec<Hinge> = all
+    let surcharge = |side| MAX_FLAT_SURCHARGE * (1.0 - solid.angle(side).abs() / PI);
+    let mut hinges: Vec<Hinge> = (between.into_iter())
         .map(|(facets, (side, _, length))| Hinge {
             facets,
             side,
-            length,
+            cost: length * (1.0 + surcharge(side)),
         })
         .collect();
-    hinges.sort_by(|a, b| b.length.total_cmp(&a.length).then(a.facets.cmp(&b.facets)));
+    hinges.sort_by(|a, b| b.cost.total_cmp(&a.cost).then(a.facets.cmp(&b.facets)));
     hinges
 }
 

@@ -14,7 +14,7 @@ const SEARCH_WORK: usize = 6_000_000;
 const MAX_RUIN_RADIUS: u32 = 3;
 
 impl Net<'_> {
-    /// Number of pieces, and length of all cuts; edges that are to be joined and are not cost more than any pieces.
+    /// Number of pieces, and cost of all cuts; edges that are to be joined and are not cost more than any pieces.
     fn cost(&self, pieces: usize) -> (usize, f64) {
         let cut = self
             .hinges
@@ -23,18 +23,18 @@ impl Net<'_> {
             .filter(|(_, joined)| !**joined);
         let open = cut.filter(|(hinge, _)| !self.is_closed(hinge.side));
         let wrong = self.hinges.len() * self.open_joins().count();
-        (pieces + wrong, open.map(|(hinge, _)| hinge.length).sum())
+        (pieces + wrong, open.map(|(hinge, _)| hinge.cost).sum())
     }
 
-    /// Cost of a longest forest of hinges, if nothing overlaps: no forest has a lower one.
+    /// Cost of the forest of the costliest hinges, if nothing overlaps: no forest has a lower one.
     fn least_cost(&self) -> Result<(usize, f64)> {
         let mut forest = UnionFind::new("facets", self.pieces.len())?;
         let mut least = (self.pieces.len(), 0.0);
-        // The longest hinges come first.
+        // The costliest hinges come first.
         for hinge in &self.hinges {
             let [a, b] = hinge.facets;
             if self.choices.cut.contains(&hinge.facets) || forest.find(a) == forest.find(b) {
-                least.1 += hinge.length;
+                least.1 += hinge.cost;
             } else {
                 least.0 -= 1;
                 forest.union(a, b);
@@ -100,7 +100,7 @@ impl Net<'_> {
             let mut order: Vec<(f64, u32)> = (saved.hinges.iter())
                 .map(|hinge| {
                     (
-                        self.hinges[*hinge as usize].length * (0.3 + random.rand_float()),
+                        self.hinges[*hinge as usize].cost * (0.3 + random.rand_float()),
                         *hinge,
                     )
                 })

@@ -1,6 +1,7 @@
 //! Adds tabs (glued flaps) along cut creases: trapezoids outside of the sheet, a comb of short ones along a curve.
 
 use std::collections::{BTreeMap, BTreeSet};
+use std::f64::consts::{FRAC_PI_2, TAU};
 
 use super::curve::{Curve, POLYLINE_CORNER_ANGLE};
 use super::line::FLATTENING_TOLERANCE_MM;
@@ -22,8 +23,14 @@ const MAX_TAB_BEND: f64 = 0.3;
 /// Minimum length of a tab's fold line, in millimetres.
 const MIN_TAB_LENGTH_MM: f64 = 2.0;
 
-/// Maximum inset of a tab's ends, as a share of the length of the tab's fold line.
-const MAX_TAB_INSET_SHARE: f64 = 0.3;
+/// Inset of a tab's end, as a share of the length of its fold line, from which on the end is steeper than 45° if it has the room.
+const STEEP_TAB_INSET_SHARE: f64 = 0.3;
+
+/// Minimum length of a tab's outer edge, as a share of the length of its fold line.
+const MIN_TAB_TOP_SHARE: f64 = 0.1;
+
+/// Angle, in radians, that a tab keeps from what is beside it in a notch.
+const TAB_CLEARANCE_ANGLE: f64 = 0.02;
 
 /// Maximum depth of a tab, as a multiple of the length of its fold line.
 const MAX_TAB_DEPTH_SHARE: f64 = 1.5;
@@ -38,20 +45,6 @@ const MIN_TABBED_SHARE: f64 = 0.9;
 
 /// Maximum number of times that the depth of a tab that does not fit is halved.
 const MAX_TAB_HALVINGS: usize = 3;
-
-/// Slopes of a tab's two ends where the tabs of its run end, in insets for each depth, in the order in which they are tried:
-/// 45°, then flatter ones for narrow notches.
-const TAB_END_SLOPES: [[f64; 2]; 9] = [
-    [1.0, 1.0],
-    [1.0, 2.0],
-    [2.0, 1.0],
-    [2.0, 2.0],
-    [1.0, 5.0],
-    [5.0, 1.0],
-    [2.0, 5.0],
-    [5.0, 2.0],
-    [5.0, 5.0],
-];
 
 /// The closed outline of a sheet as a list of runs (pieces along one side of a crease or along the border), each with
 /// its curve in millimetres.
@@ -145,12 +138,8 @@ pub(super) fn add_tabs(
                 let points = &runs[number];
                 let turns = end_turns(&runs, number);
                 let near = walls_near(&runs[number..=number], depth, &walls);
-                let tab = (0..=MAX_TAB_HALVINGS).find_map(|k| {
-                    let flap = |slopes: &[f64; 2]| {
-                        flap(points, turns, own / f64::from(1 << k), *slopes, &near)
-                    };
-                    TAB_END_SLOPES.iter().find_map(flap)
-                });
+                let tab = (0..=MAX_TAB_HALVINGS)
+                    .find_map(|k| flap(points, turns, own / f64::from(1 << k), &near));
                 let Some((depth, flap)) = tab else {
                     cut.append(&base);
                     continue;
@@ -220,16 +209,7 @@ fn common_depth(runs: &[Vec<[f64; 2]>], depth: f64, walls: &[[[f64; 2]; 2]]) -> 
         .collect();
     let tabbed = |depth: &f64| -> f64 {
         (0..runs.len())
-            .filter(|i| {
-                flap(
-                    &runs[*i],
-                    end_turns(runs, *i),
-                    *depth,
-                    TAB_END_SLOPES[0],
-                    walls,
-                )
-                .is_some()
-            })
+            .filter(|i| flap(&runs[*i], end_turns(runs, *i), *depth, walls).is_some())
             .map(|i| polyline_length(&runs[i]))
             .sum()
     };
@@ -255,14 +235,14 @@ fn end_turns(runs: &[Vec<[f64; 2]>], number: usize) -> [Option<f64>; 2] {
     [turn(before, own), turn(own, after)]
 }
 
-/// Computes the outer corners of a tab to the right of its fold line; `None` if the fold line is too short or something
-/// is in the way. At an end of a run the tab is cut by the given slope; where the next tab follows it is cut along the bisector if
-/// the two would overlap, and otherwise at a right angle.
+/// Computes the depth and the outer corners of a tab to the right of its fold line; `None` if the fold line is too short or
+/// something is in the way. At an end of a run the tab is cut at 45°, or as far as what is beside it there leaves room; where the
+/// next tab follows it is cut along the bisector if the two would overlap, and otherwise at a right angle. It is less deep where
+/// its ends would meet.
 fn flap(
     base: &[[f64; 2]],
     turns: [Option<f64>; 2],
     depth: f64,
-    slopes: [f64; 2],
     walls: &[[[f64; 2]; 2]],
 ) -> Option<(f64, [[f64; 2]; 2])> {
     let (from, to) = (base[0], base[base.len() - 1]);
@@ -270,14 +250,30 @@ fn flap(
     if long * MAX_TAB_DEPTH_SHARE < depth || long == 0.0 {
         return None;
     }
-    let insets = [0, 1].map(|end| match turns[end] {
-        None => (slopes[end] * depth).min(slopes[end].sqrt().min(1.5) * MAX_TAB_INSET_SHARE * long),
-        Some(turn) if turn < 0.0 => {
-            let bisector = depth * (-0.5 * turn).tan() + TAB_CLEARANCE_MM;
-            bisector.min(MAX_TAB_INSET_SHARE * long)
+    let steepest = STEEP_TAB_INSET_SHARE * long;
+    let notches = notches(base, walls);
+    // Each end's inset for each depth, and what it is more.
+    let ends = [0, 1].map(|end| match turns[end] {
+        None => {
+            let room = (notches[end] - TAB_CLEARANCE_ANGLE).clamp(1e-9, FRAC_PI_2);
+            [room.tan().recip().max((steepest / depth).min(1.0)), 0.0]
         }
-        Some(_) => 0.0,
+        Some(turn) if turn < 0.0 => {
+            let bisector = (-0.5 * turn).tan();
+            match bisector * depth + TAB_CLEARANCE_MM < steepest {
+                true => [bisector, TAB_CLEARANCE_MM],
+                false => [0.0, steepest],
+            }
+        }
+        Some(_) => [0.0, 0.0],
     });
+    let [sloped, fixed] = [0, 1].map(|k| ends[0][k] + ends[1][k]);
+    let meeting = ((1.0 - MIN_TAB_TOP_SHARE) * long - fixed) / sloped;
+    if meeting < depth * 0.5f64.powi(MAX_TAB_HALVINGS as i32) {
+        return None;
+    }
+    let depth = depth.min(meeting);
+    let insets = ends.map(|[slope, fixed]| slope * depth + fixed);
     let along = [0, 1].map(|k| (to[k] - from[k]) / long);
     let beside = |s: f64| {
         [
@@ -294,9 +290,33 @@ fn flap(
     free.then_some((depth, corners))
 }
 
+/// The angles, in radians, at both ends of a tab's fold line, on its outer side, within which nothing else begins.
+fn notches(base: &[[f64; 2]], walls: &[[[f64; 2]; 2]]) -> [f64; 2] {
+    let last = base.len() - 1;
+    [
+        (base[0], base[1], base[last], -1.0),
+        (base[last], base[last - 1], base[0], 1.0),
+    ]
+    .map(|(end, own, other, side)| {
+        let angle = |p: [f64; 2]| (p[1] - end[1]).atan2(p[0] - end[0]);
+        let beside = (walls.iter()).filter_map(|[a, b]| match (same(*a, end), same(*b, end)) {
+            (true, false) => Some(*b),
+            (false, true) => Some(*a),
+            _ => None,
+        });
+        (beside.filter(|p| !same(*p, own)))
+            .map(|p| (side * (angle(p) - angle(other))).rem_euclid(TAU))
+            .fold(TAU, f64::min)
+    })
+}
+
+/// Whether two points are one but for rounding.
+fn same(p: [f64; 2], q: [f64; 2]) -> bool {
+    distance(p, q) < 1e-6
+}
+
 /// Returns whether two line segments cross, or touch elsewhere than at common ends.
 fn crosses([a, b]: [[f64; 2]; 2], [c, d]: [[f64; 2]; 2]) -> bool {
-    let same = |p: [f64; 2], q: [f64; 2]| distance(p, q) < 1e-6;
     if [a, b].iter().any(|p| same(*p, c) || same(*p, d)) {
         return false;
     }
@@ -326,8 +346,7 @@ mod tests {
         let own = common_depth(&runs, depth, &[]);
         (0..runs.len())
             .map(|i| {
-                let (depth, corners) =
-                    flap(&runs[i], end_turns(&runs, i), own, TAB_END_SLOPES[0], &[]).unwrap();
+                let (depth, corners) = flap(&runs[i], end_turns(&runs, i), own, &[]).unwrap();
                 (runs[i].clone(), depth, corners)
             })
             .collect()

@@ -78,9 +78,9 @@ pub use print::{PhotoOptions, PhotoRows, write_photo, write_photo_jpeg};
 /// that makes a slab or a needle of them. Costs `O(pixels)`.
 ///
 /// # Errors
-/// [`Error::Unsupported`] for other formats and contents, [`Error::Format`] for
-/// a damaged file, [`Error::TooLarge`] above [`MAX_CELLS`](crate::MAX_CELLS)
-/// pixels (before anything of that size is allocated), [`Error::Empty`] for an
+/// [`Error::Unsupported`](crate::Error::Unsupported) for other formats and contents, [`Error::Format`](crate::Error::Format) for
+/// a damaged file, [`Error::TooLarge`](crate::Error::TooLarge) above [`MAX_CELLS`](crate::MAX_CELLS)
+/// pixels (before anything of that size is allocated), [`Error::Empty`](crate::Error::Empty) for an
 /// array without elements.
 pub fn decode(bytes: &[u8], format: Option<Format>) -> Result<Decoded> {
     decode_with(bytes, format, &DecodeOptions::default())
@@ -89,7 +89,7 @@ pub fn decode(bytes: &[u8], format: Option<Format>) -> Result<Decoded> {
 /// Decodes the heights in an image file as [`decode`] does, with options.
 ///
 /// # Errors
-/// As [`decode`], and [`Error::Unsupported`] for an array that is not there; the message lists those that are.
+/// As [`decode`], and [`Error::Unsupported`](crate::Error::Unsupported) for an array that is not there; the message lists those that are.
 pub fn decode_with(
     bytes: &[u8],
     format: Option<Format>,

@@ -57,10 +57,10 @@ pub fn read_mesh(bytes: &[u8], format: Option<MeshFormat>) -> Result<Mesh> {
 /// specification, and are so here. Costs `O(bytes)`.
 ///
 /// # Errors
-/// [`Error::Format`] for damage, [`Error::Unsupported`] for an unknown format,
+/// [`Error::Format`](crate::Error::Format) for damage, [`Error::Unsupported`](crate::Error::Unsupported) for an unknown format,
 /// a file with nothing in it, compression or buffers in other files that are not
-/// given, [`Error::NotFinite`] for a coordinate that is not, [`Error::TooLarge`]
-/// above [`MAX_CELLS`](crate::MAX_CELLS) triangles, [`Error::OutOfMemory`].
+/// given, [`Error::NotFinite`](crate::Error::NotFinite) for a coordinate that is not, [`Error::TooLarge`](crate::Error::TooLarge)
+/// above [`MAX_CELLS`](crate::MAX_CELLS) triangles, [`Error::OutOfMemory`](crate::Error::OutOfMemory).
 pub fn read_mesh_beside(
     bytes: &[u8],
     format: Option<MeshFormat>,

@@ -26,8 +26,8 @@ use crate::files::kind::{Purpose, refused};
 /// A photo of more than 26 megapixels is halved until it has fewer, which [`PhotoFile::assumptions`] says.
 ///
 /// # Errors
-/// [`Error::Unsupported`] for other files, with what to do about them, and for photos of more than a quarter of a gigapixel,
-/// [`Error::Format`] for a damaged file, [`Error::Empty`] for a photo without pixels, [`Error::OutOfMemory`].
+/// [`Error::Unsupported`](crate::Error::Unsupported) for other files, with what to do about them, and for photos of more than a quarter of a gigapixel,
+/// [`Error::Format`](crate::Error::Format) for a damaged file, [`Error::Empty`](crate::Error::Empty) for a photo without pixels, [`Error::OutOfMemory`](crate::Error::OutOfMemory).
 pub fn decode_photo(bytes: &[u8]) -> Result<PhotoFile> {
     match Format::detect(bytes) {
         #[cfg(feature = "images")]

@@ -7,11 +7,11 @@ import { parsePng } from './support/photos.mjs';
 /** @typedef {import('playwright-core').Page} Page */
 
 /**
- * Starts a run that is long enough to be interrupted: a small λ, and a gap far below the usual one.
+ * Starts a run that is long enough to be interrupted: many vertices, a small λ, and a gap far below the usual one.
  * @param {Page} page
  */
 async function startLongRun(page) {
-  await runBy(page, () => page.locator('#size').selectOption('200'));
+  await runBy(page, () => page.locator('#size').selectOption('400'));
   await runBy(page, () => typeLambda(page, '1e5'));
   await page.getByLabel('Proven within').selectOption('0.0001');
   await page.locator('#page[data-phase="running"]').waitFor();

@@ -110,7 +110,7 @@ export class MeshFit extends Events {
     return this.#cached(mesh, 'unrolled', (worker) => worker.unrollMesh(geometryOf(mesh), { onProgress: ({ fraction }) => tell({ fraction, label: TASK_WORDS.unrolling }) }));
   }
 
-  /** What a mesh is. @param {Mesh} mesh */
+  /** Tells what kind of mesh it is, and how thick a solid of sheet metal. @param {Mesh} mesh */
   recognized(mesh) {
     return this.#cached(mesh, 'kind', (worker) => worker.recognizeMesh(geometryOf(mesh)));
   }

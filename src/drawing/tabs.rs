@@ -252,7 +252,7 @@ fn flap(
     }
     let steepest = STEEP_TAB_INSET_SHARE * long;
     let notches = notches(base, walls);
-    // Each end's inset for each depth, and what it is more.
+    // The inset of each end: a multiple of the depth, and a length.
     let ends = [0, 1].map(|end| match turns[end] {
         None => {
             let room = (notches[end] - TAB_CLEARANCE_ANGLE).clamp(1e-9, FRAC_PI_2);
@@ -269,7 +269,7 @@ fn flap(
     });
     let [sloped, fixed] = [0, 1].map(|k| ends[0][k] + ends[1][k]);
     let meeting = ((1.0 - MIN_TAB_TOP_SHARE) * long - fixed) / sloped;
-    if meeting < depth * 0.5f64.powi(MAX_TAB_HALVINGS as i32) {
+    if meeting < depth / f64::from(1 << MAX_TAB_HALVINGS) {
         return None;
     }
     let depth = depth.min(meeting);
@@ -367,6 +367,25 @@ mod tests {
         let (base, _, corners) = &tabs[0];
         let chord = distance(base[0], base[base.len() - 1]);
         assert!(distance(corners[0], corners[1]) < chord - 1.0);
+    }
+
+    #[test]
+    fn a_tab_in_a_slit_keeps_within_it() {
+        // The other side of the slit begins where the fold line does, and turns from it by 8°.
+        let notch = 8f64.to_radians();
+        let base = [[0.0, 0.0], [40.0, 0.0]];
+        let side = [base[0], [40.0 * notch.cos(), -40.0 * notch.sin()]];
+        let (depth, corners) = flap(&base, [None; 2], 6.0, &[base, side]).unwrap();
+        assert!(depth > 3.0 && depth < 6.0, "{depth}");
+        for [x, y] in corners {
+            assert!(
+                (y + depth).abs() < 1e-12 && depth.atan2(x) < notch,
+                "{x} {y}"
+            );
+        }
+        // Where nothing is beside it, both ends are cut at 45°.
+        let (depth, corners) = flap(&base, [None; 2], 6.0, &[base]).unwrap();
+        assert_eq!((depth, corners), (6.0, [[6.0, -6.0], [34.0, -6.0]]));
     }
 
     #[test]

@@ -1,4 +1,4 @@
-//! What a file is that is not read, by its contents, and what to do about it.
+//! Files that are not read: their contents tell what they are, and errors say what to do about them.
 
 use super::image_format::Format;
 use super::mesh_format::MeshFormat;
@@ -6,7 +6,7 @@ use super::signature::{begins, contains};
 use crate::error::Error;
 use crate::files::failure::{damaged, unsupported};
 
-/// What a file is read for.
+/// The purpose for which a file is read.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Purpose {
     #[cfg(feature = "formats")]
@@ -41,7 +41,7 @@ impl Purpose {
 }
 
 const SAVE_AS_JPEG: &str = "save it as JPEG or PNG";
-const TRANSLATE: &str = "`gdal_translate IN OUT.tif` converts it";
+const CONVERT_BY_GDAL: &str = "`gdal_translate IN OUT.tif` converts it";
 const SAVE_AS_PLY: &str = "let CloudCompare save it as PLY";
 const EXPORT_FLOATS: &str =
     "let Gwyddion or the program that wrote it save a TIFF or OpenEXR image of floats, or text";
@@ -49,7 +49,7 @@ const SAVE_AS_GLB: &str = "let a 3D program such as Blender save it as GLB";
 const SAVE_PAGES: &str =
     "save its page as a picture, for example by `pdftoppm -r 300 -jpeg file.pdf page`";
 const OPEN_DOCUMENT: &str = "save it as PDF, and the PDF's pages as pictures";
-const UNPACK: &str = "unpack it first";
+const UNPACK_FIRST: &str = "unpack it first";
 
 /// Formats that are not read: their names, what to do about them, and bytes of which one is in each file. A file begins with
 /// them, and a `?` among them stands for any; a tag of XML or HTML may stand further behind.
@@ -73,12 +73,12 @@ const FOREIGN_FORMATS: [(&str, &str, &[&[u8]]); 46] = [
     ("SDF", EXPORT_FLOATS, &[b"aISO-1.0", b"bISO-1.0"]),
     ("SUR", EXPORT_FLOATS, &[b"DIGITAL SURF", b"DSCOMPRESSED"]),
     ("Nanoscope", EXPORT_FLOATS, &[b"\\*File list"]),
-    ("LERC", TRANSLATE, &[b"Lerc", b"CntZImage"]),
-    ("binary grid of Surfer", TRANSLATE, &[b"DSBB", b"DSRB"]),
-    ("NetCDF", TRANSLATE, &[b"CDF"]),
-    ("HDF5 or NetCDF", TRANSLATE, &[b"\x89HDF"]),
-    ("FITS", TRANSLATE, &[b"SIMPLE  ="]),
-    ("JPEG 2000", TRANSLATE, &[b"????jP  ", b"\xff\x4f\xff\x51"]),
+    ("LERC", CONVERT_BY_GDAL, &[b"Lerc", b"CntZImage"]),
+    ("binary grid of Surfer", CONVERT_BY_GDAL, &[b"DSBB", b"DSRB"]),
+    ("NetCDF", CONVERT_BY_GDAL, &[b"CDF"]),
+    ("HDF5 or NetCDF", CONVERT_BY_GDAL, &[b"\x89HDF"]),
+    ("FITS", CONVERT_BY_GDAL, &[b"SIMPLE  ="]),
+    ("JPEG 2000", CONVERT_BY_GDAL, &[b"????jP  ", b"\xff\x4f\xff\x51"]),
     ("MATLAB", "let MATLAB write its matrix by `writematrix`", &[b"MATLAB 5.0"]),
     ("pickle of Python", "save its array by `numpy.save`", &[b"\x80\x02", b"\x80\x03", b"\x80\x04", b"\x80\x05"]),
     ("LAS", SAVE_AS_PLY, &[b"LASF"]),
@@ -102,7 +102,7 @@ const FOREIGN_FORMATS: [(&str, &str, &[&[u8]]); 46] = [
     ("web page", "the download has failed or asks to log in: download the file itself", &[b"<html", b"<!DOCTYPE html", b"<!doctype html"]),
     ("pointer of Git LFS", "`git lfs pull` fetches the file itself", &[b"version https://git-lfs"]),
     ("JSON", "a camera's file goes with depths, as `--intrinsics`", &[b"{"]),
-    ("archive", UNPACK, &[b"\x1f\x8b", b"7z\xbc\xaf", b"Rar!", b"BZh", b"\xfd7zXZ", b"\x28\xb5\x2f\xfd"]),
+    ("archive", UNPACK_FIRST, &[b"\x1f\x8b", b"7z\xbc\xaf", b"Rar!", b"BZh", b"\xfd7zXZ", b"\x28\xb5\x2f\xfd"]),
 ];
 
 /// ZIP archives of formats that are not read: their names, what to do about them, and a part of a name in each; the last one
@@ -115,7 +115,7 @@ const FOREIGN_ARCHIVES: [(&str, &str, &[&[u8]]); 4] = [
         OPEN_DOCUMENT,
         &[b"word/", b"xl/", b"ppt/", b"content.xml"],
     ),
-    ("archive", UNPACK, &[b"PK"]),
+    ("archive", UNPACK_FIRST, &[b"PK"]),
 ];
 
 /// Number of bytes at the start of a file within which a tag of XML tells its format.

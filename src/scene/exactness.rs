@@ -25,7 +25,7 @@ const MIN_LOW_POLY_ANGLE: f64 = 8.0;
 /// Minimum share of the area of a mesh without noise that lies in planes of several triangles.
 const MIN_PLANAR_SHARE: f64 = 0.5;
 
-/// What of a mesh is exact, so that nothing is gained by a fit.
+/// The part of a mesh that is exact, so that nothing is gained by a fit.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Exactness {
@@ -41,7 +41,7 @@ pub enum Exactness {
 }
 
 impl Exactness {
-    /// Tells what of a mesh is exact. Costs `O(triangles · log(triangles))`.
+    /// Tells which part of a mesh is exact. Costs `O(triangles · log(triangles))`.
     pub fn of(mesh: &Mesh) -> Exactness {
         match Polyhedron::new(mesh) {
             Ok(solid) if are_faces_exact(&solid) => Exactness::Faces,

@@ -14,8 +14,8 @@ use crate::scene::polyhedron::Polyhedron;
 const MAX_CELLS_PER_TRIANGLE: f64 = 64.0;
 const MAX_SHARED_CELLS: f64 = 1e6;
 
-/// What a cut between facets that meet flat costs more than one of the same length between facets that fold onto each other, as a
-/// share: of cuts that are equally long a sharp edge is taken, and no smooth bend.
+/// Surcharge for a cut between facets that meet flat over one of the same length between facets that fold onto each other, as a
+/// share: of edges that are equally long a sharp one is cut, and no smooth bend.
 const MAX_FLAT_SURCHARGE: f64 = 1e-3;
 
 /// A rigid motion of the plane: a rotation, then a translation.
@@ -60,7 +60,7 @@ pub(super) struct Hinge {
     pub facets: [u32; 2],
     /// A half-edge along the line, of the first facet.
     pub side: u32,
-    /// What a cut along the line costs: its length, and up to [`MAX_FLAT_SURCHARGE`] more the flatter the facets meet.
+    /// Cost of a cut along the line: its length, and up to [`MAX_FLAT_SURCHARGE`] more the flatter the facets meet.
     pub cost: f64,
 }
 

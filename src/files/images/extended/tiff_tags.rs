@@ -56,7 +56,7 @@ const PER_CENTIMETRE: u16 = 3;
 /// Number of the TIFF tag `GDAL_METADATA`, an XML text with the scale, the offset and the unit of heights.
 pub(super) const GDAL_METADATA: Tag = Tag::Unknown(42112);
 
-/// What the tags of a TIFF file say about its pixels.
+/// The tags of a TIFF file that are about its pixels.
 pub(super) struct PixelTags {
     /// The image as it is stored, still without its values.
     pub(super) image: StoredImage,

@@ -227,8 +227,11 @@ impl Scene<'_> {
         look: &Appearance,
         parts: &mut MeshBuilder,
     ) -> Result<()> {
-        let mode = whole(primitive, "mode").unwrap_or(TRIANGLES);
-        if !matches!(mode, POINTS | TRIANGLES | TRIANGLE_STRIP | TRIANGLE_FAN) {
+        let mode = whole(primitive, "mode").unwrap_or(TRIANGLES_MODE);
+        if !matches!(
+            mode,
+            POINTS_MODE | TRIANGLES_MODE | TRIANGLE_STRIP_MODE | TRIANGLE_FAN_MODE
+        ) {
             return Ok(()); // lines
         }
         let attribute = |name: &str| whole(&primitive["attributes"], name);
@@ -262,7 +265,7 @@ impl Scene<'_> {
             }
             None => parts.no_uvs(),
         }
-        if mode == POINTS {
+        if mode == POINTS_MODE {
             return Ok(());
         }
         let indices = match whole(primitive, "indices") {
@@ -277,8 +280,8 @@ impl Scene<'_> {
         }
         let indices: Vec<u32> = indices.iter().map(|i| i + start as u32).collect();
         match mode {
-            TRIANGLE_FAN => parts.fan(&indices),
-            TRIANGLE_STRIP => parts.strip(&indices),
+            TRIANGLE_FAN_MODE => parts.fan(&indices),
+            TRIANGLE_STRIP_MODE => parts.strip(&indices),
             _ => indices
                 .chunks_exact(3)
                 .try_for_each(|t| parts.triangle([t[0], t[1], t[2]])),
@@ -289,10 +292,10 @@ impl Scene<'_> {
 }
 
 /// Modes of primitives, as glTF numbers them.
-const POINTS: usize = 0;
-const TRIANGLES: usize = 4;
-const TRIANGLE_STRIP: usize = 5;
-const TRIANGLE_FAN: usize = 6;
+const POINTS_MODE: usize = 0;
+const TRIANGLES_MODE: usize = 4;
+const TRIANGLE_STRIP_MODE: usize = 5;
+const TRIANGLE_FAN_MODE: usize = 6;
 
 /// Returns the numbers of a list of whole numbers.
 fn numbered(value: &Value) -> impl Iterator<Item = usize> {
@@ -317,8 +320,8 @@ fn matrix(node: &Value) -> Matrix4<f64> {
         * Matrix4::new_nonuniform_scaling(&numbers(&node["scale"]).unwrap_or([1.0; 3]).into())
 }
 
-/// What the extension `KHR_texture_transform` says: an offset, an angle in radians, counter-clockwise around the picture's upper
-/// left corner, and a scale.
+/// The transform of the extension `KHR_texture_transform`: an offset, an angle in radians, counter-clockwise around the picture's
+/// upper left corner, and a scale.
 struct TextureTransform {
     offset: [f64; 2],
     rotation: f64,

@@ -3,8 +3,9 @@
 //! The photo is reduced to 800 pixels and its print suppressed by a grey closing. Thresholds of lightness and colour,
 //! and histograms of page and ground, give masks; each of their regions has four corners, the largest quadrilateral of
 //! its convex hull. The regions most like a page get exact edges, each the path of most contrast in a band along the
-//! border (Viterbi), and corners where these edges meet. Where no region is like a page, straight lines of contrast
-//! (Hough transform) that enclose the print are tried; what they give is never more than doubtful.
+//! border (Viterbi), and corners where these edges meet. Where no region has a clear outline,
+//! the page is searched around its print: in a frame that is turned like the lines of print each edge is a path that stands
+//! out from the texture around it (Viterbi again). What that gives is never more than doubtful.
 
 mod candidates;
 mod colour_model;
@@ -15,12 +16,12 @@ mod morphology;
 mod orientation;
 mod outline_report;
 mod planes;
-mod print_cells;
+mod print;
+mod print_frame;
 mod quadrilateral;
 mod region;
 mod search;
 mod smooth_curve;
-mod straight_lines;
 mod tracing;
 
 pub use corner_edges::trace_edges;

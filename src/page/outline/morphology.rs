@@ -115,7 +115,7 @@ pub(in crate::page) fn box_mean(plane: &mut [f32], width: usize, height: usize, 
 }
 
 /// Replaces each pixel by the mean of itself and `radius` neighbours above and below it, clipped to the image.
-fn vertical_mean(plane: &mut [f32], width: usize, radius: usize) {
+pub(super) fn vertical_mean(plane: &mut [f32], width: usize, radius: usize) {
     let height = plane.len() / width;
     let source = plane.to_vec();
     let row = |y: usize| &source[y * width..][..width];

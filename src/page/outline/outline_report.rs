@@ -49,8 +49,6 @@ pub struct PageOutline {
     pub edges: [Vec<[f64; 2]>; 4],
     /// Confidence that this is the outline of a page, from 0 to 1.
     pub score: f64,
-    /// How clearly the edges are seen, from 0 to 1: the part of the score that does not depend on the outline's shape.
-    pub(super) clarity: f64,
     /// Reasons for which the outline is uncertain.
     pub reasons: Vec<OutlineReason>,
 }

@@ -3,10 +3,10 @@
 use super::candidates::candidate_masks;
 use super::orientation::quarter_turns;
 use super::outline_report::{OutlineReason, OutlineReport, OutlineVerdict, PageOutline};
-use super::print_cells::PrintCells;
+use super::print::Print;
+use super::print_frame::PrintFrame;
 use super::quadrilateral::Quadrilateral;
 use super::region::regions;
-use super::straight_lines::best_line_quadrilateral;
 use super::tracing::{Views, traced};
 use crate::dewarp::Photo;
 use crate::math::planar::{distance, polygon_area, polygon_contains};
@@ -28,15 +28,8 @@ const SAME_CORNER_SHARE: f64 = 0.03;
 /// Minimum score, from 0 to 1, of an outline for the verdict `Found`.
 const MIN_FOUND_SCORE: f64 = 0.45;
 
-/// Minimum score, from 0 to 1, of an outline for the verdict `Doubtful`; below it no page was found. Where all print is in it,
-/// its shape does not count: a curled or folded page is no rectangle.
+/// Minimum score, from 0 to 1, of an outline for the verdict `Doubtful`; below it no page was found.
 const MIN_DOUBTFUL_SCORE: f64 = 0.3;
-
-/// Factor that converts the share of the length along which straight sides of a page are seen to a score.
-const LINE_SCORE_FACTOR: f64 = 1.2;
-
-/// Minimum share of the photo's area that a page covers if it is found by straight lines of contrast.
-const MIN_LINE_PAGE_SHARE: f64 = 0.15;
 
 /// Minimum score of a further page in the photo, as a share of the best one's score.
 const MIN_SECOND_SCORE_RATIO: f64 = 0.7;
@@ -116,25 +109,18 @@ pub fn find_outline(photo: &Photo<'_>) -> OutlineReport {
         .collect();
     // Of a page and a part of it that light or a fold sets off, the page.
     let rank =
-        |outline: &PageOutline| outline.score * polygon_area(&outline.corners).abs().sqrt().sqrt();
-    move_best_first(&mut outlines, rank);
-    if outlines
-        .first()
-        .is_none_or(|best| best.score < MIN_FOUND_SCORE)
-    {
-        let print = PrintCells::new(&views);
-        for outline in &mut outlines {
-            let corners = outline.corners.map(|point| views.raw.reduced_point(point));
-            let printed = print.likeness(&corners) * outline.clarity;
-            if printed > outline.score {
-                outline.score = printed;
-                if !outline.reasons.contains(&OutlineReason::UnlikelyShape) {
-                    outline.reasons.push(OutlineReason::UnlikelyShape);
-                }
-            }
-        }
-        outlines.extend(by_lines(&views, &print));
-        move_best_first(&mut outlines, |outline| outline.score);
+        |outline: &PageOutline| outline.score * polygon_area(&outline.corners).abs().powf(0.25);
+    outlines.sort_by(|one, other| rank(other).total_cmp(&rank(one)));
+    let is_clear = |best: &PageOutline| {
+        best.score >= MIN_DOUBTFUL_SCORE && !best.reasons.contains(&OutlineReason::FaintEdge)
+    };
+    if !outlines.first().is_some_and(is_clear) {
+        // What is seen around the print tells more than a region without a clear edge.
+        let around = around_print(&views);
+        outlines.splice(
+            ..0,
+            around.filter(|outline| outline.score >= MIN_DOUBTFUL_SCORE),
+        );
     }
     let mut report = report(outlines);
     report.pages = (report.pages.into_iter())
@@ -143,26 +129,12 @@ pub fn find_outline(photo: &Photo<'_>) -> OutlineReport {
     report
 }
 
-/// Swaps the outline with the largest value of `rank` with the first one.
-fn move_best_first(outlines: &mut [PageOutline], rank: impl Fn(&PageOutline) -> f64) {
-    for k in 1..outlines.len() {
-        if rank(&outlines[k]) > rank(&outlines[0]) {
-            outlines.swap(0, k);
-        }
-    }
-}
-
-/// Finds a page on a background of its own colour by straight lines of contrast; such an outline is always doubtful.
-fn by_lines(views: &Views, print: &PrintCells) -> Option<PageOutline> {
-    let raw = views.raw.halved();
-    let min_area = MIN_LINE_PAGE_SHARE * raw.len() as f64;
-    let (corners, clarity) = best_line_quadrilateral(&raw, print, min_area)?;
-    let arcs = [0, 1, 2, 3].map(|k| {
-        let ends = [corners[k], corners[(k + 1) % 4]];
-        ends.map(|p| p.map(|at| 2.0 * at + 0.5)).to_vec()
-    });
+/// Finds a page on a ground of its own colour by its print and the edges around that; such an outline is always doubtful.
+fn around_print(views: &Views) -> Option<PageOutline> {
+    let print = Print::new(views);
+    let (score, arcs) = PrintFrame::new(&views.raw, &print)?.best_outline(&print)?;
     let mut outline = traced(views, arcs, 1.0)?;
-    outline.score = (LINE_SCORE_FACTOR * clarity).min(1.0);
+    outline.score = score;
     if !outline.reasons.contains(&OutlineReason::FaintEdge) {
         outline.reasons.push(OutlineReason::FaintEdge);
     }

@@ -165,12 +165,10 @@ pub(super) fn traced(
         .sqrt();
     let mut edges = edges.iter().map(|edge| thinned(edge, &views.raw));
     let edges = [edges.next()?, edges.next()?, edges.next()?, edges.next()?];
-    let clarity = support * visible * contrast;
     Some(PageOutline {
         corners: corners.map(|corner| views.raw.to_photo(corner)),
         edges,
-        score: likeness * clarity,
-        clarity,
+        score: likeness * support * visible * contrast,
         reasons,
     })
 }

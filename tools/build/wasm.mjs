@@ -28,7 +28,7 @@ const files = [
   { name: 'images', limit: 591_000 },
   { name: 'meshes', limit: 345_000 },
   { name: 'fitmesh', limit: 230_000 },
-  { name: 'unroll', limit: 349_000 },
+  { name: 'unroll', limit: 357_000 },
   { name: 'patterns', limit: 617_000 },
 ];
 

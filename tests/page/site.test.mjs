@@ -98,6 +98,10 @@ pageTest('the site works under any path and without a network, and is renewed as
       await visit.evaluate(async () => { await (await navigator.serviceWorker.ready).update(); });
       await visit.getByRole('button', { name: /new version/ }).waitFor();
       assert.equal(await visit.locator('h1').innerText(), 'developable');
+      // A request that the old worker never answers keeps the new worker waiting.
+      await visit.evaluate(() => {
+        void fetch('./share', /** @type {RequestInit} */ ({ method: 'POST', body: new ReadableStream(), duplex: 'half' })).catch(() => {});
+      });
       await visit.getByRole('button', { name: /new version/ }).click();
       await visit.getByRole('heading', { name: 'developable 2' }).waitFor();
       assert.match(new URL(visit.url()).hash, /cone/, 'what was shown stands in the address');

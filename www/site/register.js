@@ -4,13 +4,12 @@ const { serviceWorker } = navigator;
 /** Offers a new version when it is installed. @param {ServiceWorkerRegistration} registration */
 function watch(registration) {
   const offer = () => {
-    const { waiting } = registration;
     // The first installation is not an update.
-    if (!waiting || !serviceWorker.controller) return;
+    if (!registration.waiting || !serviceWorker.controller || document.querySelector('.renew')) return;
     const button = document.createElement('button');
     button.className = 'primary renew';
     button.textContent = 'A new version is here: reload';
-    button.addEventListener('click', () => waiting.postMessage('take over'));
+    button.addEventListener('click', () => registration.waiting?.postMessage('take over'));
     document.body.append(button);
   };
   offer();
@@ -18,9 +17,8 @@ function watch(registration) {
 }
 
 if (serviceWorker) {
-  const controlled = serviceWorker.controller !== null;
-  // All tabs reload, because the files of the old version are deleted; the address keeps their state.
-  serviceWorker.addEventListener('controllerchange', () => controlled && location.reload());
+  // The address keeps what is shown.
+  serviceWorker.addEventListener('message', ({ data }) => data === 'renewed' && location.reload());
   // Registration waits until the page is loaded.
   addEventListener('load', () => serviceWorker.register('./sw.js').then(watch, () => {}));
 }

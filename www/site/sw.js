@@ -3,29 +3,44 @@
  * pictures of guides and pages of the reference are cached when they are opened.
  */
 /**
- * @typedef {Event & { waitUntil: (done: Promise<unknown>) => void, request: Request, respondWith: (response: Promise<Response>) => void }} WorkerEvent
- * @typedef {typeof globalThis & { SITE: { version: string, files: string[] }, skipWaiting: () => Promise<void> }} Globals
+ * @typedef {Event & { waitUntil: (done: Promise<unknown>) => void, data: unknown, request: Request, respondWith: (response: Promise<Response>) => void }} WorkerEvent
+ * @typedef {typeof globalThis & { SITE: { version: string, files: string[] }, skipWaiting: () => Promise<void>,
+ *   clients: { matchAll: (which: object) => Promise<Array<{ postMessage: (message: string) => void }>> } }} Globals
  */
 const worker = /** @type {Globals} */ (globalThis);
 const { version, files } = worker.SITE;
-const CACHE_PREFIX = 'developable ';
-const CACHE_NAME = CACHE_PREFIX + version;
+const scope = new URL('./', location.href);
+/** Other folders of the same host may hold other copies of the site. */
+const CACHE_PREFIX = `developable ${scope.pathname} `;
+const OWN_CACHE = CACHE_PREFIX + version;
+
+/**
+ * The names of the site's caches, the oldest first. Whichever worker is active serves from the oldest: a new version is
+ * served as soon as the older ones are deleted, though browsers keep its worker waiting until all requests to the old
+ * worker are answered.
+ */
+const cacheNames = async () => (await caches.keys()).filter((name) => name.startsWith(CACHE_PREFIX));
+const deleteOtherCaches = async () => Promise.all((await cacheNames()).filter((name) => name !== OWN_CACHE).map((name) => caches.delete(name)));
+const servedCache = async () => caches.open((await cacheNames())[0] ?? OWN_CACHE);
 
 /** @param {string} name @param {(event: WorkerEvent) => void} act */
 const listen = (name, act) => worker.addEventListener(name, (event) => act(/** @type {WorkerEvent} */ (event)));
 
 listen('install', (event) => {
   // The browser's own cache may hold files of an older version, so it is bypassed.
-  event.waitUntil(caches.open(CACHE_NAME).then((cache) => cache.addAll(files.map((file) => new Request(file, { cache: 'reload' })))));
+  event.waitUntil(caches.open(OWN_CACHE).then((cache) => cache.addAll(files.map((file) => new Request(file, { cache: 'reload' })))));
 });
-listen('activate', (event) => {
-  event.waitUntil(caches.keys().then((names) =>
-    Promise.all(names.filter((name) => name.startsWith(CACHE_PREFIX) && name !== CACHE_NAME).map((name) => caches.delete(name)))));
+listen('activate', (event) => event.waitUntil(deleteOtherCaches()));
+listen('message', (event) => {
+  if (event.data === 'take over') event.waitUntil(takeOver());
 });
-worker.addEventListener('message', ({ data }) => {
-  if (data === 'take over') void worker.skipWaiting();
-});
-const scope = new URL('./', location.href);
+
+/** Serves this version from now on, and lets all tabs reload, because the files of the old version are deleted. */
+async function takeOver() {
+  void worker.skipWaiting();
+  await deleteOtherCaches();
+  for (const tab of await worker.clients.matchAll({ includeUncontrolled: true })) tab.postMessage('renewed');
+}
 
 /** Whether an address belongs to a guide or to the reference. @param {URL} url */
 const isDocument = ({ href }) => ['guide/', 'reference/'].some((folder) => href.startsWith(new URL(folder, scope).href));
@@ -75,7 +90,7 @@ async function documentFor(request) {
   if (kept) return kept;
   try {
     const response = await fetch(request);
-    if (response.ok) await (await caches.open(CACHE_NAME)).put(request, response.clone());
+    if (response.ok) await (await servedCache()).put(request, response.clone());
     return response;
   } catch (error) {
     const instead = request.mode === 'navigate' && await cachedResponse('./guide/offline.html');
@@ -86,5 +101,5 @@ async function documentFor(request) {
 
 /** The cached response for a request. @param {Request | string} wanted */
 async function cachedResponse(wanted) {
-  return (await caches.open(CACHE_NAME)).match(wanted, { ignoreSearch: true, ignoreVary: true });
+  return (await servedCache()).match(wanted, { ignoreSearch: true, ignoreVary: true });
 }

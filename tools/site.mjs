@@ -19,6 +19,7 @@ import { Problem, main } from './util/problem.mjs';
 const IMPORTS = [
   { file: 'api.js', from: "new URL('./pkg/index.js', import.meta.url).href", to: "'../pkg/index.js'" },
   { file: 'api.js', from: "new URL('./pkg/wasm/solver_bg.wasm', import.meta.url)", to: "new URL('../pkg/wasm/solver_bg.wasm', import.meta.url)" },
+  { file: join('panels', 'report.js'), from: "new URL('../pkg/package.json', import.meta.url).href, { with: { type: 'json' } }", to: "'../../pkg/package.json'" },
   { file: join('surface', 'scene.js'), from: "new URL('../vendor/three.js', import.meta.url).href", to: "'../vendor/three.js'" },
 ];
 

@@ -1,5 +1,5 @@
 /**
- * Analyses of a result: curvatures, patches, rulings, unrolling, patterns and dewarping. Each is computed once.
+ * Analyses of a result: curvatures, patches, rulings, unrolling and patterns. Each is computed once.
  *
  * They run in a worker of their own, in parallel to the next run. Disposing of the worker cancels those that are no
  * longer needed.
@@ -8,7 +8,6 @@
 import { TASK_WORDS } from './messages.js';
 import { downsample } from './surface/downsampling.js';
 import { resultImage } from './surface/derived-data.js';
-import { gridOf } from './surface/lattice.js';
 import { MAX_SHEET_CURVATURE_RADIANS } from './surface/gaussian-curvature.js';
 import { transferToWorker, callWorker } from './surface/worker-client.js';
 import { AnswerCache } from './worker-task.js';
@@ -22,19 +21,8 @@ import { heightsOf } from './session.js';
 /** @typedef {ReturnType<typeof import('./surface/gaussian-curvature.js').curvaturesOf>} Curvatures */
 /** @typedef {import('../pkg/types.js').Drawing} Drawing */
 /** @typedef {import('../pkg/types.js').PatternOptions} PatternOptions */
-/** @typedef {import('../pkg/types.js').Photo} Photo */
 /** @typedef {InstanceType<Api['DevelopableWorker']>} Worker */
-/**
- * @typedef {object} FlatOptions
- * @property {boolean} trim
- */
 
-/** Longer side of the lattice of an unfolding in one piece, in pixels. */
-const UNFOLDING_SIDE_PIXELS = 90;
-/** Longer side of the lattice of an unfolding in sheets, in pixels. */
-const SHEETS_UNFOLDING_SIDE_PIXELS = 120;
-/** Longer side of the surface that is unfolded in sheets, in millimetres. The pattern's gap between sheets is small only for a large surface. */
-const SHEETS_UNFOLDING_SIDE_MM = 300;
 /** Longer side of the lattice that is cut into sheets, in pixels: a pixel is half a millimetre for a piece of 20 cm. */
 const PATTERN_SIDE_PIXELS = 450;
 /** Largest ratio of a lattice's longer side to `PATTERN_SIDE_PIXELS` for which the lattice is not reduced. */
@@ -102,14 +90,14 @@ export class Analyses {
   }
 
   /**
-   * Curvatures of the input and of the result, on the same lattice; those of a design's input are null.
+   * Curvatures of the input and of the result, on the same lattice.
    * @param {Result} result
-   * @returns {Promise<{ before: Curvatures | null, after: Curvatures }>}
+   * @returns {Promise<{ before: Curvatures, after: Curvatures }>}
    */
   async curvatures({ input, surface }) {
     const { spacing } = surface;
     const [before, after] = await Promise.all([
-      input.design ? null : this.#cached(input, `curvatures ${spacing}`, (worker) =>
+      this.#cached(input, `curvatures ${spacing}`, (worker) =>
         worker.analyze(heightsOf(input), input.lattice ? {} : { spacing }).then(shownCurvatures)),
       this.curvature(surface),
     ]);
@@ -154,34 +142,6 @@ export class Analyses {
   }
 
   /**
-   * An animation of the surface that is unrolled, on a coarser lattice.
-   * @param {Result} result
-   * @param {number} maxStrain strain at the end of the colour scale
-   */
-  unfold(result, maxStrain) {
-    return this.#cached(result.surface, 'unfolding', async (worker) => {
-      const small = reducedImage(result, UNFOLDING_SIDE_PIXELS);
-      return callWorker('computeUnfolding', await worker.unroll(small), maxStrain, lowerLeftCorner(result, small));
-    });
-  }
-
-  /**
-   * An animation of the surface that is cut into sheets and laid flat, on a coarser lattice.
-   * @param {Result} result
-   * @param {number} maxStrain strain limit of the sheets
-   * @param {number} maxShownStrain strain at the end of the colour scale
-   */
-  unfoldInSheets(result, maxStrain, maxShownStrain) {
-    return this.#cached(result.surface, `unfolding in sheets ${maxStrain}`, async (worker) => {
-      const small = reducedImage(result, SHEETS_UNFOLDING_SIDE_PIXELS);
-      const scale = SHEETS_UNFOLDING_SIDE_MM / (Math.max(small.width, small.height) * small.pixelSize);
-      const { assembly } = await worker.pattern(small, { scale, maxStrain, assembly: true });
-      if (!assembly) throw new Error('nothing is said of how it is put together');
-      return callWorker('computeUnfoldingInPieces', assembly.model, scale / 1000, maxShownStrain, lowerLeftCorner(result, small));
-    });
-  }
-
-  /**
    * A pattern of the surface; a large surface is reduced to a coarser lattice first.
    * @param {Result} result
    * @param {PatternOptions} options
@@ -204,38 +164,6 @@ export class Analyses {
     return this.#cached(drawing, 'svg', (worker) => worker.writeSvg(drawing));
   }
 
-  /**
-   * The photo made flat by the surface, or by a cylinder if the heights are those of one.
-   * @param {Result} result
-   * @param {Photo} photo
-   * @param {FlatOptions} options
-   */
-  dewarp(result, photo, options) {
-    const { surface } = result;
-    return this.#cached(surface, `dewarp ${photoId(photo)} ${JSON.stringify(options)}`, async (worker) => {
-      const cylinder = await this.#cylinder(result);
-      return { ...await worker.dewarp(cylinder ?? surface, photo, { ...options, map: false, grid: true }), parallel: cylinder !== undefined };
-    });
-  }
-
-  /**
-   * The cylinder that fits the heights of a lattice, or undefined if they are not those of a cylinder, or if the
-   * settings ask for another surface.
-   * @param {Result} result
-   */
-  #cylinder({ input: { lattice }, settings: { lambda, energy, occlusionThreshold }, surface }) {
-    const hasDefaultSettings = lattice && lambda === 'auto' && (energy ?? 'huber') === 'huber' && occlusionThreshold === undefined;
-    if (!hasDefaultSettings || lattice.constraints || lattice.occlusions || lattice.brokenEdges) return undefined;
-    return this.#cached(surface, 'cylinder', async (worker) => {
-      try {
-        const found = await worker.fitCylinder(lattice);
-        return found.report.verdict === 'cylinder' ? found : undefined;
-      } catch (error) {
-        if (error instanceof this.#api.DevelopableError && error.code === 'UNSUPPORTED') return undefined; // too small
-        throw error;
-      }
-    });
-  }
 }
 
 /**
@@ -263,26 +191,4 @@ function reducedImage(result, side) {
   const { width, pixelSize, ...image } = resultImage(result);
   const small = downsample({ width, ...image }, side);
   return { ...small, pixelSize: (pixelSize * width) / small.width };
-}
-
-/**
- * The lower left corner of an image in the coordinates of the surface.
- * @param {Result} result
- * @param {{ height: number, pixelSize: number }} small
- * @returns {[number, number]}
- */
-function lowerLeftCorner({ input }, { height, pixelSize }) {
-  const { left, top } = gridOf(input);
-  return [left, top - height * pixelSize];
-}
-
-let lastPhotoId = 0;
-/** @type {WeakMap<Photo, number>} */
-const photoIds = new WeakMap();
-
-/** An id of a photo, which makes it a part of a question in the cache. @param {Photo} photo */
-function photoId(photo) {
-  const id = photoIds.get(photo) ?? ++lastPhotoId;
-  photoIds.set(photo, id);
-  return id;
 }

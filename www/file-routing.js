@@ -1,4 +1,4 @@
-/** What files that were opened together are: photos of pages, a mesh with its textures, or heights and depths with their photo, camera and masks. */
+/** What files that were opened together are: photos of pages, a mesh with its textures, or heights and depths with their photo and camera. */
 import { isMesh, kindByName, unreadableKindInWords } from './file-kinds.js';
 
 /**
@@ -7,14 +7,12 @@ import { isMesh, kindByName, unreadableKindInWords } from './file-kinds.js';
  * @property {File} [depths]
  * @property {File} [photo]
  * @property {File} [camera]
- * @property {File} [confidence] confidence of the depths
- * @property {File} [mask] mask of the depths, or one that was drawn on the photo
  * @property {File[]} others files without a role
  */
 
 /**
  * @typedef {object} FileRoute
- * @property {'photos' | 'heights' | 'photoOfHeights' | 'none'} to photos of pages; heights, depths or a mesh; the photo of the heights that are open; or nothing that can be opened
+ * @property {'photos' | 'heights' | 'none'} to photos of pages; heights, depths or a mesh; or nothing that can be opened
  * @property {File[]} files the files that are opened
  * @property {File[]} left the files that do not belong to them
  */
@@ -34,12 +32,10 @@ export function isCameraFile(file) {
 /**
  * Decides what files are, and which of them belong together.
  * @param {readonly File[]} files
- * @param {object} state
- * @param {boolean} state.inPhotoMode whether photos of pages are shown now, where a grey picture is a photo, too
- * @param {boolean} state.takesPhoto whether heights are open that a single photo in colour can belong to
+ * @param {boolean} inPhotoMode whether photos of pages are shown now, where a grey picture is a photo, too
  * @returns {Promise<FileRoute>}
  */
-export async function routeFiles(files, { inPhotoMode, takesPhoto }) {
+export async function routeFiles(files, inPhotoMode) {
   const without = (/** @type {readonly File[]} */ taken) => files.filter((file) => !taken.includes(file));
   const mesh = files.find(({ name }) => isMesh(name));
   if (mesh) {
@@ -50,9 +46,8 @@ export async function routeFiles(files, { inPhotoMode, takesPhoto }) {
   if (roles.depths) return { to: 'heights', files: without(roles.others), left: roles.others };
   const pictures = files.filter((file) => kindByName(file) === 'picture');
   if (pictures.length > 0) {
-    const areAlways = inPhotoMode || pictures.length > 1;
-    const to = !areAlways && !(await isPhoto(pictures[0])) ? 'heights' : !areAlways && takesPhoto ? 'photoOfHeights' : 'photos';
-    return { to, files: pictures, left: without(pictures) };
+    const arePhotos = inPhotoMode || pictures.length > 1 || await isPhoto(pictures[0]);
+    return { to: arePhotos ? 'photos' : 'heights', files: pictures, left: without(pictures) };
   }
   const readable = files.filter((file) => kindByName(file) !== 'other').slice(0, 1);
   return { to: readable.length > 0 ? 'heights' : 'none', files: readable, left: without(readable) };
@@ -98,10 +93,6 @@ async function roleOf(file) {
   if (isMesh(name)) return 'mesh';
   const kind = kindByName(file);
   if (kind === 'camera') return 'camera';
-  if (kind === 'heights' || kind === 'picture') {
-    if (/conf/i.test(name)) return 'confidence';
-    if (/mask|matte|segment/i.test(name)) return 'mask';
-  }
   if (kind === 'heights') return 'depths';
   if ((/\.png$/i.test(name) && /depth/i.test(name)) || await isGrey16Png(file)) return 'depths';
   return kind === 'picture' ? 'photo' : null;

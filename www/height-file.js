@@ -1,4 +1,4 @@
-/** Reads a file of heights as an input, with the photo, confidence and mask that belong to it. */
+/** Reads a file of heights as an input, with the photo that belongs to it. */
 import { runInWorker } from './worker-task.js';
 import { readPicture } from './pixels.js';
 import { transferToWorker } from './surface/worker-client.js';
@@ -7,8 +7,7 @@ import { noDataOptions } from './no-data.js';
 
 /** @import {Api} from './api.js' */
 /** @import {Worker} from './worker-task.js' */
-/** @import {DepthCompanions, Input} from './session.js' */
-/** @import {FileRoles} from './file-routing.js' */
+/** @import {Input} from './session.js' */
 /** @import {NoData} from './no-data.js' */
 
 /** Error: the file is a picture in colour, which is a photo and has no heights. */
@@ -24,17 +23,17 @@ export class ColourPictureError extends Error {
  * @param {File} file
  * @param {AbortSignal} signal
  * @param {{ array?: string, noData?: NoData }} [reading] name of the array to read, for an NPZ file with several, and what is no data
- * @param {Pick<FileRoles, 'photo' | 'confidence' | 'mask'>} [companionFiles]
+ * @param {File} [photoFile]
  * @returns {Promise<Input>}
  */
-export async function readInput(api, file, signal, { array, noData } = {}, { photo: photoFile, ...companionFiles } = {}) {
-  const { names, read, companions } = await runInWorker(api, signal, async (reader) => {
+export async function readInput(api, file, signal, { array, noData } = {}, photoFile = undefined) {
+  const { names, read } = await runInWorker(api, signal, async (reader) => {
     const names = await heightArrayNames(reader, file);
     const options = { name: file.name, array: names.length > 1 ? array ?? names[0] : undefined, ...noDataOptions(noData) };
     const read = await reader.read(file, options).catch((error) => {
       throw error instanceof Error && /colour/.test(error.message) ? new ColourPictureError() : error;
     });
-    return { names, read, companions: await readCompanions(reader, companionFiles) };
+    return { names, read };
   });
   const { format, dataType, assumptions } = read;
   const photo = photoFile && { name: photoFile.name, image: await readPicture(photoFile) };
@@ -47,7 +46,6 @@ export async function readInput(api, file, signal, { array, noData } = {}, { pho
     dataType,
     assumptions,
     photo,
-    companions,
     array: names.length > 1 ? { file, names, name: array ?? names[0] } : undefined,
   };
 }
@@ -61,26 +59,6 @@ async function heightArrayNames(reader, file) {
   if (!/\.npz$/i.test(file.name)) return [];
   const arrays = await reader.npzArrays(file);
   return arrays.filter(({ shape, dataType }) => shape.length === 2 && /^[uif]\d+$/.test(dataType)).map(({ name }) => name);
-}
-
-/**
- * Reads the images that belong to depths, without converting their values.
- * @param {Worker} reader
- * @param {Pick<FileRoles, 'confidence' | 'mask'>} files
- * @returns {Promise<DepthCompanions | undefined>}
- */
-async function readCompanions(reader, { confidence, mask }) {
-  /** @param {File} [file] */
-  const read = async (file) => {
-    if (!file) return undefined;
-    try {
-      return await reader.read(file, { assumeNoData: false });
-    } catch (error) {
-      throw new Error(`its “${file.name}” could not be read: ${error instanceof Error ? error.message : error}`);
-    }
-  };
-  const names = [confidence, mask].flatMap((file) => (file ? [file.name] : []));
-  return names.length === 0 ? undefined : { confidence: await read(confidence), mask: await read(mask), names };
 }
 
 /** @param {string} type such as `u16` */

@@ -16,7 +16,6 @@ import { GUESS_WORDS } from './messages.js';
  * @property {number} pixelSize
  * @property {number} heightScale
  * @property {NoData} [noData] what was given as no data when the file was read
- * @property {boolean} design whether the few heights are constraints of a design
  * @property {boolean} levels whether the values are integers whose height scale is not in the file
  * @property {string} guesses message that says what was guessed
  * @property {number} coarsening lattice spacing in pixels that suits the size of the image
@@ -24,7 +23,7 @@ import { GUESS_WORDS } from './messages.js';
 
 /** Maximum number of vertices of a solve that takes less than a few minutes. */
 const MAX_QUICK_VERTICES = 1.2e6;
-/** Minimum share of pixels with a height in measured data; where there are fewer, they are constraints of a design. */
+/** Minimum share of pixels with a height in measured data; fewer are told of. */
 const MIN_MEASURED_SHARE = 0.2;
 
 /**
@@ -39,8 +38,8 @@ function firstInterpretation(read, noData) {
   if (data.some((value) => Math.abs(value) === Infinity)) throw new Error('it has infinite heights; mark them as NaN, “no data”');
   if (width < 3 || height < 3) throw new Error(`it is ${width} × ${height} pixels; a surface needs at least 3 × 3`);
   const stored = { ...guessStoredHeights(read, depths !== 'none'), noData };
-  const { pixelSize, heightScale, design } = stored;
-  return { width, height, data, pixelSize, heightScale, unit: unit ?? undefined, depths: depths === 'none' ? undefined : depths, depthUnit, stored, design };
+  const { pixelSize, heightScale } = stored;
+  return { width, height, data, pixelSize, heightScale, unit: unit ?? undefined, depths: depths === 'none' ? undefined : depths, depthUnit, stored };
 }
 
 /**
@@ -69,16 +68,15 @@ export function toInput({ range, ...input }) {
  */
 function guessStoredHeights(read, depths) {
   const { width, height, data, pixelSize, heightScale, dataType } = read;
-  // A scan has holes, but an image without data at most pixels holds drawn points and curves.
   const given = data.reduce((sum, value) => sum + Number(Number.isFinite(value)), 0);
-  const design = !depths && given < MIN_MEASURED_SHARE * data.length;
+  const areFew = !depths && given < MIN_MEASURED_SHARE * data.length;
   const coarsening = coarseningFor(read);
   const guesses = [
-    ...(design ? [GUESS_WORDS.few] : []),
+    ...(areFew ? [GUESS_WORDS.few] : []),
     ...(coarsening > 1 ? [GUESS_WORDS.coarse(coarsening)] : []),
   ].join(' ');
   const levels = /^u/.test(dataType);
-  return { width, height, data, pixelSize, heightScale, design, levels, guesses, coarsening };
+  return { width, height, data, pixelSize, heightScale, levels, guesses, coarsening };
 }
 
 /** The lattice spacing in pixels that keeps the solve of a large image short. @param {{ width: number, height: number }} size */

@@ -23,6 +23,8 @@ export function openSampledMesh(session, origin, load, options, doing, task) {
     const grid = gridOverLattice(lattice);
     const data = await callWorker('interpolateToGrid', lattice, lattice.heights, grid);
     if (!lattice.heights.some(Number.isFinite)) throw new Error('nothing of it is seen from there');
-    return { ...origin, ...grid, heightScale: 1, data, lattice, unit: lattice.unit ?? undefined, assumptions: mesh.assumptions, sampling: { mesh, options } };
+    const texture = lattice.texture && await session.api.readPhoto(lattice.texture);
+    const photo = texture ? { name: origin.name, image: new ImageData(texture.data, texture.width) } : origin.photo;
+    return { ...origin, photo, ...grid, heightScale: 1, data, lattice, unit: lattice.unit ?? undefined, assumptions: mesh.assumptions, sampling: { mesh, options } };
   }, task);
 }

@@ -26,7 +26,6 @@ export const VIEW_WORDS = {
   patches: 'Each smooth piece has its own colour; black lines are the creases between them.',
   sheet: 'This is the surface laid flat, to scale. Colour shows where it had to be stretched or compressed.',
   photo: 'Both surfaces show the photo, or the scan’s own colours.',
-  dewarped: 'You see a photo of the surface, and the same photo made flat.',
 };
 
 /** What a task does, as its progress says. */
@@ -47,12 +46,11 @@ export const FILE_WORDS = {
   takenForPages: (n) => (n === 1 ? 'Taken for a photo of a page.' : 'Taken for photos of pages.'),
   heightsInstead: 'Heights instead?',
   takenForHeights: 'Taken for heights.',
-  takenForTheirPhoto: 'Taken for the photo of these heights.',
   openAsPage: 'Flatten it as a page',
   /** @param {string} name */
-  awaitsHeights: (name) => `“${name}” is in colour and has no heights. Open the depths that belong to it, and it is shown on them.`,
+  inColour: (name) => `“${name}” is in colour and has no heights. With its depths, open both together.`,
   /** @param {string} names @param {boolean} areDepths */
-  leftOut: (names, areDepths) => `Left out: ${names}.${areDepths ? ' With depths go one photo, the camera’s file, and images whose names tell that they are their confidence or a mask.' : ''}`,
+  leftOut: (names, areDepths) => `Left out: ${names}.${areDepths ? ' With depths go one photo and the camera’s file.' : ''}`,
   /** @param {readonly { name: string }[]} files */
   openInstead: (files) => (files.length === 1 ? `Open “${files[0].name}” instead` : 'Open these instead'),
 };
@@ -66,8 +64,6 @@ export const DEPTH_WORDS = {
   building: 'Building the 3D surface',
   /** @param {import('../pkg/types.js').PhotoCamera} camera */
   camera: ({ fx, fy, cx, cy, k1, k2, k3, p1, p2 }) => `Focal lengths ${number(fx, 5)} and ${number(fy, 5)}, centre ${number(cx, 5)}, ${number(cy, 5)}${[k1, k2, k3, p1, p2].some(Boolean) ? ', and a lens that distorts' : ''}.`,
-  /** @param {readonly string[]} names */
-  companions: (names) => `With ${names.map((name) => `“${name}”`).join(' and ')}.`,
 };
 
 /** What a reader has assumed of a file, as a sentence; empty if nothing. @param {readonly Assumption[]} [assumptions] */
@@ -78,15 +74,10 @@ export function assumedInWords(assumptions = []) {
 
 /** Messages about guessed metadata of a file. */
 export const GUESS_WORDS = {
-  few: 'Few pixels have a height. The surface passes through them and is free everywhere else.',
+  few: 'Few pixels have a height, and the surface exists only there. The command “design” makes a surface through single heights.',
   /** @param {number} step */
   coarse: (step) => `The image is large, so one vertex stands for ${step} × ${step} pixels (“Lattice” under “More options” changes that).`,
 };
-
-/** The legend of the heights that a design passes through. @param {number} n */
-export function heldInWords(n) {
-  return `held at ${count(n)} ${n === 1 ? 'pixel' : 'pixels'}`;
-}
 
 /** Explanations of the energies. @type {Record<Energy, string>} */
 export const ENERGIES = {
@@ -100,8 +91,8 @@ export const ENERGIES = {
 
 /** Why a result cannot be copied as a command or as code. */
 export const REPRODUCE_WORDS = {
-  noCommand: 'The command reads heights from a file. It cannot read examples, designs, or meshes as they are seen here.',
-  noCode: 'The code reads heights from a file, or makes an example. It cannot make designs, or meshes as they are seen here.',
+  noCommand: 'The command reads heights from a file. It cannot read examples, or meshes as they are seen here.',
+  noCode: 'The code reads heights from a file, or makes an example. It cannot make meshes as they are seen here.',
 };
 
 /** Verdicts on an unrolled surface. @type {Record<Verdict, string>} */
@@ -111,17 +102,6 @@ export const VERDICTS = {
   stretched: 'The surface cannot be laid flat without stretch or overlap: see the figures.',
   doubtful: 'The flat sheet may be wrong: see the figures.',
 };
-
-/** Verdicts on a dewarped photo. @type {Record<Verdict, string>} */
-export const DEWARP_VERDICTS = {
-  flat: 'The page was flat already: the photo can be used as it is.',
-  unrolled: 'Made flat: lengths are those on the page.',
-  stretched: 'Made flat with stretch, because the surface cannot be laid flat as a whole: see the figures.',
-  doubtful: 'The flat photo may be wrong: see the figures.',
-};
-
-/** Note on a photo that was dewarped by a cylinder. */
-export const CYLINDER_NOTE = 'The surface bends in one direction only, so one profile was used for all of it.';
 
 /** Messages about the file of an address. */
 export const ADDRESS_WORDS = {
@@ -220,7 +200,6 @@ export const FORMAT_WORDS = {
   png: 'without loss',
   jpg: 'a smaller file',
   pdf: 'to print at 100 %, in true size',
-  map: 'where in the photo each pixel comes from, as JSON',
 };
 
 /** Labels and messages about solids for 3D printers. */
@@ -369,9 +348,6 @@ export function meshLambdaChoiceInWords({ lambda, sigma, stopReason }) {
 export const LAMBDA_WORDS = {
   invalid: 'λ must be a number from 10⁻¹² to 10¹⁵. Showing the last result.',
 };
-
-/** Hint for λ of a design. */
-export const DESIGN_LAMBDA_HINT = 'A design has no input to stay close to, so λ has no effect.';
 
 /**
  * The message about an error.

@@ -74,11 +74,6 @@ export async function cutSheets(analyses, result, { side, ...options }, tell) {
   throw new Error('no cut lays it flat');
 }
 
-/** The strain limit that a drawing meets. @param {Drawing} drawing */
-export function strainLimitOf({ summary: { strain } }) {
-  return STRAIN_LIMITS.find((limit) => strain <= limit) ?? STRAIN_LIMITS[STRAIN_LIMITS.length - 1];
-}
-
 /** The number of sheets, folds, seams and slits as a sentence. @param {Drawing} drawing */
 export function sheetsInWords({ summary: { sheets, seams, folds, slits, strain } }) {
   const cut = seams === 0 ? '' : `, to be joined along ${seams === 1 ? 'one cut' : `${count(seams)} cuts`}`;

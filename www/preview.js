@@ -5,7 +5,6 @@
  * The coarsest solve always finishes, so that each of many requests in a row yields a preview; a finer one is aborted by
  * a newer request.
  */
-import { settingsFor } from './fit-settings.js';
 import { downsample, PREVIEW_SIDE_PIXELS } from './surface/downsampling.js';
 import { previewHeightsOf } from './surface/derived-data.js';
 
@@ -87,13 +86,12 @@ export class PreviewSolver {
     clearTimeout(this.#idleTimer);
     for (let request = this.#request; request; request = this.#request) {
       const { input, settings, abort } = request;
-      const wanted = settingsFor(input, settings);
       /** The coarsest lattice chooses λ for the finer ones. @type {Settings['lambda']} */
-      let lambda = wanted.lambda === 'auto' ? request.lambda ?? 'auto' : wanted.lambda;
+      let lambda = settings.lambda === 'auto' ? request.lambda ?? 'auto' : settings.lambda;
       const sides = PREVIEW_SIDES_PIXELS.filter((side, i) => i === 0 || 1.5 * side < Math.max(input.width, input.height));
       for (let i = 0; i < sides.length && (i === 0 || !abort.signal.aborted); i++) {
         try {
-          const preview = await this.#solve(input, { ...wanted, lambda }, sides[i], i === 0 ? undefined : abort.signal);
+          const preview = await this.#solve(input, { ...settings, lambda }, sides[i], i === 0 ? undefined : abort.signal);
           lambda = preview.lambda;
           if (this.#request?.input === input) this.#callbacks.onPreview(preview);
         } catch {
@@ -121,7 +119,7 @@ export class PreviewSolver {
 
   /**
    * @param {Input} input
-   * @param {Pick<ReturnType<typeof settingsFor>, 'lambda' | 'energy'>} settings
+   * @param {Pick<Settings, 'lambda' | 'energy'>} settings
    * @param {number} side longer side of the lattice in pixels
    * @param {AbortSignal} [signal]
    * @returns {Promise<Preview>}

@@ -1,18 +1,17 @@
 /** The solve that is shown, as a line for the command and as code for the package. */
-import { settingsFor } from './fit-settings.js';
 import { noDataOptions } from './no-data.js';
 import { spacingOf } from './session.js';
 
 /** @import {Input, Result} from './session.js' */
 
 /** Whether the heights are those of a file or an example. @param {Input} input */
-function isUnchanged({ design, sampling, depths }) {
-  return !(design || sampling || depths);
+function isUnchanged({ sampling, depths }) {
+  return !(sampling || depths);
 }
 
 /** The options of `fit` that solve the same, without those that are the package's own. @param {Result} result */
 function optionsOf({ input, settings }) {
-  const { coarsening, ...options } = settingsFor(input, settings);
+  const { coarsening, ...options } = settings;
   return {
     ...options,
     ...(coarsening > 1 && spacingOf(input, coarsening)),
@@ -22,7 +21,7 @@ function optionsOf({ input, settings }) {
 /**
  * The command that solves the same.
  * @param {Result} result
- * @returns {string | null} null where the command cannot read the input: an example, a design, a mesh, depths
+ * @returns {string | null} null where the command cannot read the input: an example, a mesh, depths
  */
 export function asCommand(result) {
   const { input } = result;
@@ -48,7 +47,7 @@ function quotedPath(path) {
 /**
  * Code for the package that solves the same.
  * @param {Result} result
- * @returns {string | null} null where code needs more than a file or an example: a design, a mesh or depths
+ * @returns {string | null} null where code needs more than a file or an example: a mesh or depths
  */
 export function asCode(result) {
   const { input } = result;

@@ -5,14 +5,13 @@
  * been solved, every change of a setting solves it again, so that the result always belongs to the settings shown.
  * Until a result is ready, and while a slider is dragged, `preview.js` shows approximate results.
  */
-import { settingsFor } from './fit-settings.js';
 import { nextTask } from './dom.js';
 import { Events } from './events.js';
 import { PreviewSolver } from './preview.js';
 import { prepareInput, prepareResult } from './surface/derived-data.js';
 
 /** @import {Preview} from './preview.js' */
-/** @import {Api, DepthOptions, Energy, ExampleName, ExampleOptions, Heightfield, Mesh, OpenSolver, Progress, SampledMesh, SampleMeshOptions, Surface} from './api.js' */
+/** @import {Api, Energy, ExampleName, ExampleOptions, Heightfield, Mesh, OpenSolver, Progress, SampledMesh, SampleMeshOptions, Surface} from './api.js' */
 
 /**
  * @typedef {object} Input
@@ -20,7 +19,6 @@ import { prepareInput, prepareResult } from './surface/derived-data.js';
  * @property {number} width pixels
  * @property {number} height pixels
  * @property {Float64Array} data heights in steps of `heightScale`, row by row; NaN is no data
- * @property {boolean} [design] whether `data` are constraints, without measured heights
  * @property {number} pixelSize
  * @property {number} heightScale
  * @property {string} [unit] unit of lengths, if known
@@ -37,7 +35,6 @@ import { prepareInput, prepareResult } from './surface/derived-data.js';
  * @property {'mm' | 'm'} [depthUnit] unit of the values, if they are depths from a camera
  * @property {import('./import-interpretation.js').StoredHeights} [stored] contents of the file, and how they are interpreted
  * @property {{ name: string, image: ImageData }} [photo] photo that was opened together with it
- * @property {DepthCompanions} [companions] images that were opened together with depths
  * @property {Input} [depthSource] depths from which the mesh was built
  * @property {string} [cameraAssumption] message that says what was assumed about the camera of the depths
  */
@@ -50,19 +47,11 @@ import { prepareInput, prepareResult } from './surface/derived-data.js';
  */
 
 /**
- * Images that belong to depths.
- * @typedef {object} DepthCompanions
- * @property {DepthOptions['confidence']} [confidence]
- * @property {DepthOptions['mask']} [mask]
- * @property {string[]} names names of their files
- */
-
-/**
  * @typedef {object} Settings
  * @property {number | 'auto'} lambda
  * @property {number} gap duality gap at which the solve stops
  * @property {number} coarsening lattice spacing in pixels
- * @property {Energy} [energy] default: the input decides
+ * @property {Energy} energy
  * @property {number} [occlusionThreshold] without it, the surface is torn nowhere
  */
 
@@ -97,7 +86,7 @@ const CANCEL_TIMEOUT_MS = 150;
 /** @extends {Events<SessionEvents>} */
 export class Session extends Events {
   /** @type {Readonly<Settings>} */
-  defaults = { lambda: 'auto', gap: 0.01, coarsening: 1, energy: undefined, occlusionThreshold: undefined };
+  defaults = { lambda: 'auto', gap: 0.01, coarsening: 1, energy: 'huber', occlusionThreshold: undefined };
   /** @type {Settings} */
   settings = { ...this.defaults };
   /** @type {Input | null} */
@@ -303,8 +292,8 @@ export class Session extends Events {
     clearTimeout(this.#idleTimer);
     this.emit('start', settings);
     this.#setPhase('running');
-    if (!input.design && input.width * input.height > MIN_PREVIEWED_PIXELS) this.#requestPreview(input);
-    const { coarsening, ...options } = settingsFor(input, settings);
+    if (input.width * input.height > MIN_PREVIEWED_PIXELS) this.#requestPreview(input);
+    const { coarsening, ...options } = settings;
     try {
       // Copying a large input to the worker takes time: let the browser draw first.
       if (this.#openSolver?.input !== input) await nextTask();
@@ -456,8 +445,6 @@ export function spacingOf({ pixelSize, lattice }, coarsening) {
  * Converts an input to a height image or heightfield of the package.
  * @param {Input} input
  */
-export function heightsOf({ width, height, data, pixelSize, heightScale, lattice, design }) {
-  if (lattice) return lattice;
-  const frame = { width, height, pixelSize, heightScale };
-  return design ? { ...frame, constraints: data } : { ...frame, data };
+export function heightsOf({ width, height, data, pixelSize, heightScale, lattice }) {
+  return lattice ?? { width, height, pixelSize, heightScale, data };
 }

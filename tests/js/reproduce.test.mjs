@@ -25,8 +25,8 @@ await writeFile(join(folder, FILE), direct.writeTiff(ramp));
 await writeFile(join(folder, '-ramp.npy'), direct.writeNpy(ramp));
 
 /** @type {Settings} */
-const defaults = { lambda: 'auto', gap: 0.01, coarsening: 1, energy: undefined, occlusionThreshold: undefined };
-const stored = { width: 24, height: 20, data: ramp.data, pixelSize: 0.5, heightScale: -2, noData: 0, design: false, levels: false, guesses: '', coarsening: 1 };
+const defaults = { lambda: 'auto', gap: 0.01, coarsening: 1, energy: 'huber', occlusionThreshold: undefined };
+const stored = { width: 24, height: 20, data: ramp.data, pixelSize: 0.5, heightScale: -2, noData: 0, levels: false, guesses: '', coarsening: 1 };
 /** @type {Input} */
 const opened = { name: "Tom's $HOME (1)", file: FILE, kind: 'TIFF, 32-bit floats', width: 24, height: 20, data: ramp.data, pixelSize: 0.5, heightScale: -2, stored };
 const dashed = { ...opened, name: '-ramp', file: '-ramp.npy', stored: { ...stored, noData: /** @type {const} */ ('none') } };
@@ -79,7 +79,7 @@ test('the code of a file and of an example runs', async () => {
 test('nothing is copied of what neither can open', () => {
   /** @type {Input[]} */
   const inputs = [
-    { ...example, design: true }, { ...example, example: undefined },
+    { ...example, example: undefined },
     { ...opened, depths: 'likely' },
     { ...opened, sampling: { mesh: { positions: new Float64Array(), triangles: new Uint32Array() }, options: {} } },
   ];

@@ -39,7 +39,7 @@ const pngFile = (name, colour) => new File([Uint8Array.of(0x89, 0x50, 0x4e, 0x47
 
 test('a grey PNG beside one in colour holds its depths, but is a page among photos of pages', async () => {
   const files = [pngFile('scan.png', 0), pngFile('photo.png', 2)];
-  const route = (/** @type {boolean} */ inPhotoMode) => routeFiles(files, { inPhotoMode, takesPhoto: false });
+  const route = (/** @type {boolean} */ inPhotoMode) => routeFiles(files, inPhotoMode);
   assert.deepEqual([(await route(false)).to, (await route(true)).to], ['heights', 'photos']);
   assert.deepEqual((await route(true)).files, files);
 });

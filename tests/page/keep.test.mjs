@@ -28,15 +28,14 @@ test('an address says what it was made of, and what it does not know is left', (
 
 test('the gallery has a card for each figure of the paper that it tells, with an address of its own', () => {
   const figures = CARDS.flatMap(({ figure }) => figure?.match(/\d+/g) ?? []).map(Number);
-  for (const figure of [4, 5, 6, 8, 9, 10, 11, 18, 19, 20, 21, 22, 23, 24, 25, 26]) assert.ok(figures.includes(figure), `Fig. ${figure}`);
+  for (const figure of [4, 5, 6, 8, 9, 10, 11, 20, 21, 22, 23, 24, 25, 26]) assert.ok(figures.includes(figure), `Fig. ${figure}`);
   assert.equal(new Set(CARDS.map(({ id }) => id)).size, CARDS.length);
-  for (const { id, input, sketch, words, look } of CARDS) {
+  for (const { id, input, words, look } of CARDS) {
     assert.ok(words.split('. ').length >= 2 && look.length > 10, id);
-    for (const made of [input?.(60), sketch?.(60)]) {
-      if (!made) continue;
-      assert.equal(made.data.length, made.width * made.height, id);
-      assert.ok(made.data.some(Number.isFinite) && !made.data.some((z) => Math.abs(z) === Infinity), id);
-    }
+    const made = input?.(60);
+    if (!made) continue;
+    assert.equal(made.data.length, made.width * made.height, id);
+    assert.ok(made.data.some(Number.isFinite) && !made.data.some((z) => Math.abs(z) === Infinity), id);
   }
 });
 

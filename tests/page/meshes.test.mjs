@@ -59,8 +59,6 @@ for (const { format, bytes } of [{ format: 'OBJ', bytes: obj(wedge) }, { format:
     await openFromOneSide(page, `wedge.${format.toLowerCase()}`, bytes);
     assert.match(await page.locator('#mesh-name').innerText(), new RegExp(`wedge \\(${format}\\)`));
     assert.match(await page.locator('#mesh-span').innerText(), /12 triangles; x, y and z span 3, 2, 2\.9\./);
-    // Also without WebGL to show it with.
-    assert.ok(await page.locator('#mesh-missing').isVisible());
     assert.ok(await page.locator('#space-after').isVisible(), 'solved at once');
 
     await from(page, '+z');
@@ -77,33 +75,6 @@ for (const { format, bytes } of [{ format: 'OBJ', bytes: obj(wedge) }, { format:
     assert.ok(Math.max(...seen.map(({ z }) => z)) - Math.min(...seen.map(({ z }) => z)) < 0.01, 'upright');
   });
 }
-
-/** @param {import('playwright-core').Locator} shown @returns {Promise<[number, number]>} */
-async function middleOf(shown) {
-  const box = await shown.boundingBox();
-  assert.ok(box);
-  return [box.x + box.width / 2, box.y + box.height / 2];
-}
-
-doorTest('a mesh is seen as it is turned', async (page) => {
-  await openFromOneSide(page, 'wedge.obj', obj(wedge));
-  await from(page, '+z');
-  await settled(page);
-  const before = (await look(page, 'input')).hash;
-  assert.equal(await page.locator('#mesh-missing').isVisible(), false);
-  await page.locator('#mesh-canvas').focus();
-  for (let press = 0; press < 3; press++) await page.keyboard.press('Shift+ArrowUp');
-  await page.mouse.move(...await middleOf(page.locator('#mesh-canvas')));
-  for (let turns = 0; turns < 3; turns++) await page.mouse.wheel(0, -100);
-  await painted(page);
-  assert.equal(await page.getByRole('button', { name: '+z', exact: true }).getAttribute('aria-pressed'), 'true', 'moving and zooming are no turn');
-  for (let press = 0; press < 6; press++) await page.keyboard.press('ArrowDown');
-  // It follows by itself.
-  await page.getByRole('button', { name: '+z', exact: true, pressed: false }).waitFor();
-  await settled(page);
-  assert.ok(await page.locator('#space-after').isVisible(), 'solved from there');
-  assert.notEqual((await look(page, 'input')).hash, before);
-}, { drawn: true });
 
 doorTest('a point cloud is solved as well, and its result is written as a mesh', async (page) => {
   const points = grid(60, 40, (col, row) => row * 60 + col)

@@ -1,14 +1,11 @@
-/** Files that belong together: depths with their photo and camera, scans with their textures; and a part of the photo. */
+/** Files that belong together: depths with their photo and camera, scans with their textures. */
 import assert from 'node:assert/strict';
 import { meets } from '../js/support/phone.mjs';
-import { normal, smoothNoise } from '../../tools/bench/phone/sensor.mjs';
 import { grid, npy, png16 } from './support/files.mjs';
-import { parsed } from './support/numbers.mjs';
-import { choose, doorTest, drop, dropAll, look, open, pageTest, painted, runBy, saveAs } from './support/page.mjs';
-import { camera, dots, dottedPhoto, misplaced, parsePng, png, seen } from './support/photos.mjs';
+import { choose, doorTest, drop, dropAll, look, open, pageTest, painted, runBy, settled } from './support/page.mjs';
+import { camera, dots, dottedPhoto, png } from './support/photos.mjs';
 
 /** @typedef {import('playwright-core').Page} Page */
-/** @typedef {[number, number]} Place */
 
 /** The depth camera sees what the photo does, more coarsely. */
 const coarse = camera.width / 256;
@@ -23,69 +20,27 @@ const coloured = png({ width: 16, height: 16, data: Uint8Array.from({ length: 10
 const { width, height, fx, fy, cx, cy } = camera;
 const numbers = Buffer.from(JSON.stringify({ w: width, h: height, K: [fx, 0, 0, 0, fy, 0, cx, cy, 1] }));
 
-/** @param {Page} page */
-async function flattened(page) {
-  await page.locator('#analysis[aria-busy="false"]').waitFor();
+/** Whether the dots of the photo are seen on the surface. @param {Page} page */
+async function dotsOnSurface(page) {
+  assert.ok(await page.getByRole('radio', { name: 'Photo', exact: true }).isChecked());
+  await page.locator('#analysis[data-view="photo"][aria-busy="false"]').waitFor({ state: 'attached' });
   await painted(page);
+  return (await look(page, 'result')).roughness > 1;
 }
 
-/** @param {Page} page */
-async function flatPng(page) {
-  await flattened(page);
-  await page.locator('#flat-save').click();
-  return parsePng((await saveAs(page, 'PNG')).bytes);
-}
-
-/** From pixels of the photo to those of the page. @param {Page} page @param {Place} place @returns {Promise<Place>} */
-async function onPage(page, [x, y]) {
-  const box = await page.locator('#photo-over').boundingBox();
-  assert.ok(box);
-  return [box.x + ((x + 0.5) / width) * box.width, box.y + ((y + 0.5) / height) * box.height];
-}
-
-doorTest('depths, photo and camera in one drop come out flat', async (page) => {
-  // Two millimetres of a sensor's noise.
-  const noise = smoothNoise(256, 192, 2, normal(3));
-  const noisy = depths(0).map((depth, i) => depth && depth + 0.002 * noise[i]);
-  await runBy(page, () => dropAll(page, { 'IMG_1.png': photo, 'depth.npy': npy(256, noisy), 'camera.json': numbers }));
-  await page.locator('#about-view .said', { hasText: 'Made flat' }).waitFor();
-  assert.equal(await page.locator('#photo-name').innerText(), 'IMG_1.png');
-  assert.equal(await page.locator('#mesh-name').innerText(), 'depth (depths)');
-  assert.match(await page.locator('#about-view .said').innerText(), /one profile/);
-  const error = misplaced(await flatPng(page));
-  assert.ok(error < 0.004, `dots are off by ${100 * error} % of the width`);
-});
-
-doorTest('what is known of depths is dropped with them, and what is not is said', async (page) => {
-  // A table at the page's own depth beside it: by the mask none of it is left. The middle is not to be trusted.
-  const scene = depths(0.45).map((depth, i) => (Math.hypot((i % 256) - 128, Math.floor(i / 256) - 96) < 9 ? 0.3 : depth));
-  const mask = grid(256, 192, (col, row) => (meets(depthCamera, col, row) ? 65535 : 0));
-  const trust = grid(256, 192, (col, row) => (Math.hypot(col - 128, row - 96) < 10 ? 0 : 2));
-  await runBy(page, () => dropAll(page, {
-    'IMG_1.png': photo, 'depth.npy': npy(256, scene), 'camera.json': numbers,
-    'confidence.png': png16(256, trust), 'IMG_1_mask.png': png16(256, mask), 'notes.md': Buffer.from('a page'),
-  }));
+doorTest('depths, photo and camera in one drop are a surface with the photo on it', async (page) => {
+  await runBy(page, () => dropAll(page, { 'IMG_1.png': photo, 'depth.npy': npy(256, depths(0)), 'camera.json': numbers, 'notes.md': Buffer.from('a page') }));
   await page.getByRole('alert').filter({ hasText: 'Left out: “notes.md”' }).waitFor();
-  assert.equal(await page.locator('#mesh-name').innerText(), 'depth (depths, with confidence.png and IMG_1_mask.png)');
-  const flat = await flatPng(page);
-  const error = misplaced(flat);
-  assert.ok(error < 0.005, `dots are off by ${100 * error} % of the width`);
-  assert.ok(Math.abs(flat.width / flat.height / (0.21 / 0.297) - 1) < 0.1, `${flat.width} × ${flat.height}: the page alone`);
-
-  // What cannot be used is said with its name.
-  await dropAll(page, { 'depth.npy': npy(256, scene), 'confidence.png': coloured });
-  await page.getByRole('alert').filter({ hasText: 'confidence.png' }).filter({ hasText: 'colour' }).waitFor();
-});
+  assert.equal(await page.locator('#mesh-name').innerText(), 'depth (depths)');
+  assert.ok(await dotsOnSurface(page));
+}, { drawn: true });
 
 doorTest('the camera is assumed until its file is opened', async (page) => {
   await dropAll(page, { 'depth.png': png16(256, depths(0).map((depth) => Math.round(10000 * depth))), 'IMG_1.png': photo });
   // Built by a guess, with the photo on it at once.
   await page.locator('#guessed', { hasText: 'Assumed: 60° field of view' }).waitFor();
-  assert.ok(await page.getByRole('radio', { name: 'Photo', exact: true }).isChecked());
   await page.locator('#certificate').waitFor();
-  await page.locator('#analysis[data-view="photo"][aria-busy="false"]').waitFor({ state: 'attached' });
-  await painted(page);
-  assert.ok((await look(page, 'result')).roughness > 1, 'dots on the surface');
+  assert.ok(await dotsOnSurface(page));
   assert.ok(await page.getByLabel('These are depths from a camera').isChecked());
   // A tenth of a millimetre.
   await page.getByLabel('Depth scale').fill('0.0001');
@@ -95,10 +50,7 @@ doorTest('the camera is assumed until its file is opened', async (page) => {
   await page.locator('#camera-file').setInputFiles({ name: 'camera.json', mimeType: 'application/json', buffer: Buffer.from(JSON.stringify({ fx, fy, cx, cy })) });
   await page.locator('#camera-about', { hasText: `centre ${cx}, ${cy}` }).waitFor();
   await runBy(page, () => page.getByRole('button', { name: 'Build the 3D surface' }).click());
-  await choose(page.getByRole('radio', { name: 'Flat photo', exact: true }));
-  await runBy(page, () => page.getByRole('button', { name: 'Solve', exact: true }).click());
-  const error = misplaced(await flatPng(page));
-  assert.ok(error < 0.006, `dots are off by ${100 * error} % of the width`);
+  assert.equal(await page.locator('#guessed').isVisible(), false, 'nothing is guessed any more');
 }, { drawn: true });
 
 doorTest('a camera that cannot belong to the image is refused', async (page) => {
@@ -135,19 +87,16 @@ pageTest('a scan in OBJ brings its material and texture along', async (page) => 
   });
   await page.locator('#mesh-name', { hasText: 'page (OBJ)' }).waitFor();
   assert.doesNotMatch(await page.locator('#mesh-span').innerText(), /Without/);
-  await choose(page.getByRole('radio', { name: 'Flat photo', exact: true }));
-  await runBy(page, () => page.getByRole('button', { name: 'Solve', exact: true }).click());
-  const error = misplaced(await flatPng(page));
-  assert.match(await page.locator('#photo-name').innerText(), /texture/);
-  assert.ok(error < 0.004, `dots are off by ${100 * error} % of the width`);
-});
+  await settled(page);
+  await choose(page.getByRole('radio', { name: 'Photo', exact: true }));
+  assert.ok(await dotsOnSurface(page));
+}, { drawn: true });
 
 doorTest('heights in another unit, and levels that are guessed, are asked about', async (page) => {
-  // A photo before what it shows.
   await drop(page, 'holiday.png', coloured);
   await page.locator('#page-caption', { hasText: 'holiday' }).waitFor();
   await page.getByRole('alert').getByRole('button', { name: 'Heights instead?' }).click();
-  await page.getByRole('alert').filter({ hasText: 'holiday.png' }).filter({ hasText: 'Open the depths' }).waitFor();
+  await page.getByRole('alert').filter({ hasText: 'holiday.png' }).filter({ hasText: 'has no heights' }).waitFor();
   const assumed = page.locator('#guessed');
   await open(page, 'metres.npy', npy(60, grid(60, 40, (col) => 0.08 * Math.sin(col / 20))));
   assert.match(await assumed.innerText(), /pixels are 0\.00\d wide: .*relief of 0\.0\d.*too flat.*depths/s);
@@ -155,17 +104,8 @@ doorTest('heights in another unit, and levels that are guessed, are asked about'
   await runBy(page, () => page.getByRole('button', { name: 'Steeper' }).click());
   assert.ok(Math.abs(Number(await page.getByLabel('Pixel size').inputValue()) / side - 0.5) < 1e-9);
   assert.doesNotMatch(await assumed.innerText(), /pixels are/, 'what is decided is not assumed');
-  await choose(page.getByRole('radio', { name: 'Flat photo', exact: true }));
-  await flattened(page);
-  assert.equal(await page.locator('#photo-name').innerText(), 'holiday.png');
-
   await open(page, 'levels.png', png16(60, grid(60, 40, (col) => 20000 + 100 * col)));
   assert.match(await assumed.innerText(), /from black to white is a quarter of the longer side/);
-  // And after it, from another file.
-  await choose(page.getByRole('radio', { name: 'Shaded', exact: true }));
-  await drop(page, 'later.png', coloured);
-  await page.locator('#photo-name', { hasText: 'later.png' }).waitFor();
-  await flattened(page);
 });
 
 /** The flat page itself. @param {number} wide @param {number} high */

@@ -1,6 +1,6 @@
 /** Cards of the gallery: common uses first, then the paper's figures. Their inputs are generated. */
-import { designOf, sampledInput } from './inputs.js';
-import { bust, canopy, cathedral, crumpledNote, hall, occludedWall, pleats, rotated, tent, terrain, tower } from './shapes.js';
+import { sampledInput } from './inputs.js';
+import { bust, crumpledNote, hall, occludedWall, pleats, rotated, terrain, tower } from './shapes.js';
 
 /** @import {ExampleName} from '../api.js' */
 /** @import {Input, Settings} from '../session.js' */
@@ -14,27 +14,17 @@ import { bust, canopy, cathedral, crumpledNote, hall, occludedWall, pleats, rota
  * @property {string} look what the result shows
  * @property {{ name: ExampleName, size: number, noise: number }} [example] example of the package
  * @property {(size: number) => Input} [input] generates the input, by the pixels along its side
- * @property {(size: number) => Input} [sketch] surface that the picture shows in place of an input that consists of curves only
  * @property {number} size pixels along the side of the input
  * @property {Partial<Settings>} settings settings that differ from the defaults
  * @property {string} view
  * @property {'strip' | 'drawer'} [opens] part of the page that is opened with it
  */
 
-/** Half the width of the ridges of the cathedral's roof, where heights are constrained, in sides of the square. */
-const RIDGE_HALF_WIDTH = 0.006;
-
 /** Settings of the paper: the nuclear norm and a medium λ. */
 const PAPER_SETTINGS = /** @type {const} */ ({ lambda: 1e6, energy: 'nuclear' });
 
 /** All cards, in the order of the gallery. @type {readonly Card[]} */
 export const CARDS = [
-  {
-    id: 'canopy', title: 'A canopy to cut from card',
-    words: 'You fix the edges of a canopy on four masts. The page fills in a surface that bends like paper, and cuts it into sheets.',
-    look: 'Press “Make cut-out sheets” below, then print, cut and fold.',
-    input: (size) => designOf('canopy', canopy, size, (x, y) => Math.max(Math.abs(x), Math.abs(y)) > 0.5 - 1.1 / size || Math.hypot(x, y) < 0.8 / size), sketch: (size) => sampledInput('canopy', canopy, size), size: 100, settings: PAPER_SETTINGS, view: 'sheet',
-  },
   {
     id: 'auto', title: 'A noisy house, cleaned by itself',
     words: 'The page measures the noise of the heights and chooses the detail (λ) by itself. You need not know what λ is.',
@@ -100,19 +90,6 @@ export const CARDS = [
     words: 'The scan of a page has noise of a tenth of its height. The result has the lengths of the paper again.',
     look: 'The page lies flat: a rectangle with the proportions of A4, with hardly any stretch.',
     example: { name: 'page', size: 200, noise: 0.1 }, size: 200, settings: { ...PAPER_SETTINGS, lambda: 1e5 }, view: 'sheet',
-  },
-  {
-    id: 'fig-18', figure: 'Fig. 18', title: 'A surface through points and curves',
-    words: 'You fix two edges and three points, and nothing else. The surface through them finds its folds by itself.',
-    look: 'Straight lines lead from the edges to the pins, and across.',
-    input: (size) => designOf('design', tent, size, (x, y) => Math.abs(y) > 0.5 - 1.1 / size || [-0.5, 0, 0.5].some((pin) => Math.hypot(x - pin, y) < 0.8 / size)), sketch: (size) => sampledInput('design', tent, size), size: 120, settings: PAPER_SETTINGS, view: 'rulings',
-  },
-  {
-    id: 'fig-19', figure: 'Fig. 19', title: 'A cathedral’s roof from its ridges',
-    words: 'You fix two ridges and the pointed arches at their ends. The surface between them finds its pieces by itself.',
-    look: 'Curved creases that nobody has drawn.',
-    input: (size) => designOf('cathedral', cathedral, size, (x, y) => Math.min(Math.abs(x), Math.abs(y)) < RIDGE_HALF_WIDTH || Math.max(Math.abs(x), Math.abs(y)) > 0.5 - 1.1 / size),
-    sketch: (size) => sampledInput('cathedral', cathedral, size), size: 120, settings: PAPER_SETTINGS, view: 'shaded',
   },
   {
     id: 'fig-22', figure: 'Figs. 20, 22', title: 'A tilted cylinder without facets',

@@ -1,4 +1,4 @@
-/** Inputs of the gallery: height images with noise, steps or holes, and designs. */
+/** Inputs of the gallery: height images with noise, steps or holes. */
 
 /** @import {Input} from '../session.js' */
 /** @import {Heights} from './shapes.js' */
@@ -30,19 +30,6 @@ export function sampledInput(name, heights, size, { noise = 0, voxels, hole, dro
     return hole?.(x, y) || random() < dropouts ? NaN : noisy;
   });
   return { name, width: size, height: size, data, pixelSize: 1 / size, heightScale: 1, ...(known && { truth }) };
-}
-
-/**
- * A design: heights are constraints at some pixels, and free elsewhere.
- * @param {string} name
- * @param {Heights} heights
- * @param {number} size pixels along a side
- * @param {(x: number, y: number) => boolean} isConstrained
- * @returns {Input}
- */
-export function designOf(name, heights, size, isConstrained) {
-  const data = image(heights, size).map((z, i) => (isConstrained(...pixelCentre(i, size)) ? z : NaN));
-  return { name, width: size, height: size, data, pixelSize: 1 / size, heightScale: 1, design: true };
 }
 
 /** Heights at the centres of all pixels. @param {Heights} heights @param {number} size */

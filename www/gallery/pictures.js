@@ -1,5 +1,4 @@
 /** Pictures of the gallery's cards: input and result side by side, solved on few pixels. */
-import { settingsFor } from '../fit-settings.js';
 import { make } from '../dom.js';
 import { heightsOf } from '../session.js';
 import { drawHalves, drawThumbnail } from '../surface/thumbnail.js';
@@ -40,18 +39,15 @@ export async function cardInput(api, { example, input }, size) {
 export async function drawPicture(api, defaults, card, canvas) {
   const input = await cardInput(api, card, PICTURE_SIDE_PIXELS).catch(() => null);
   if (!input) return;
-  const sketch = card.sketch?.(PICTURE_SIDE_PIXELS) ?? input;
-  drawThumbnail(canvas, sketch, sketch.heightScale / sketch.pixelSize);
+  drawThumbnail(canvas, input, input.heightScale / input.pixelSize);
   // If the solve fails, the picture shows the input alone.
   await enqueue(api, async (worker) => {
-    const { coarsening: _coarsening, ...options } = settingsFor(input, { ...defaults, ...card.settings, gap: PICTURE_GAP });
+    const { coarsening: _coarsening, ...options } = { ...defaults, ...card.settings, gap: PICTURE_GAP };
     const surface = await worker.fit(heightsOf(input), options);
     const { image } = surface;
     if (!image) return;
     const [before, after] = [make('canvas', ''), make('canvas', '')];
     drawThumbnail(after, image, 1 / image.pixelSize);
-    // The input of a design is not a surface, so the picture shows the result alone.
-    if (input.design) return drawThumbnail(canvas, image, 1 / image.pixelSize);
     drawThumbnail(before, input, input.heightScale / input.pixelSize);
     drawHalves(canvas, before, after);
   }).catch(() => {});

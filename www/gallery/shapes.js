@@ -131,21 +131,3 @@ export function tower(x, y) {
   const deck = Math.abs(up - 0.42) < 0.025 || Math.abs(up - 0.66) < 0.018;
   return deck || leg ? 0.12 : brace && side < half ? 0.09 : 0;
 }
-
-/** A cathedral's crossing: pointed vaults, for constraints along their edges and ridges. @type {Heights} */
-export function cathedral(x, y) {
-  const pointed = (/** @type {number} */ off) => 0.34 - 0.55 * Math.abs(off) - 0.35 * off ** 2;
-  return Math.max(pointed(x), pointed(y));
-}
-
-/** A canopy on four masts, its edges between them sagging. @type {Heights} */
-export function canopy(x, y) {
-  return 0.3 * (Math.abs(x) + Math.abs(y)) - 0.25 * (x ** 2 + y ** 2);
-}
-
-/** Two edges that are curled differently and a point between them, joined by straight lines. @type {Heights} */
-export function tent(x, y) {
-  const front = 0.24 * Math.sin(Math.PI * (x + 0.5)) - 0.05;
-  const back = 0.1 * Math.sin(2 * Math.PI * (x + 0.5));
-  return Math.max(front + (back - front) * (y + 0.5), 0.3 - 0.6 * Math.hypot(x, 1.4 * y));
-}

@@ -1,13 +1,12 @@
 /** Choice of a view of the result, and the text below it. */
 import { element, elements, make } from '../dom.js';
 import { gaussian, kappa2 } from '../views/curvature.js';
-import { dewarped } from '../views/dewarped.js';
+import { aboutView } from '../views/legend.js';
 import { patches } from '../views/patches.js';
-import { hasColours, photo as coloured } from '../views/photo.js';
-import { flat as laidFlat } from '../views/pieces.js';
+import { hasColours, photo } from '../views/photo.js';
+import { flat } from '../views/pieces.js';
 import { rulings } from '../views/rulings.js';
 import { TASK_WORDS, VIEW_WORDS } from '../messages.js';
-import { photoPanel } from './photo.js';
 import { waitingPanel } from './waiting.js';
 
 /** @import {Analyses} from '../analyses.js' */
@@ -16,7 +15,7 @@ import { waitingPanel } from './waiting.js';
 /** @typedef {(analyses: Analyses, result: Result, tell: import('../mesh-fit.js').Tell) => Promise<ViewContent>} View */
 
 /** Functions that prepare the views, by their names. @type {Record<string, View>} */
-const VIEWS = { gaussian, kappa2, rulings, patches, photo: coloured, sheet: laidFlat };
+const VIEWS = { gaussian, kappa2, rulings, patches, photo, sheet: flat };
 
 /**
  * @param {Session} session
@@ -25,8 +24,6 @@ const VIEWS = { gaussian, kappa2, rulings, patches, photo: coloured, sheet: laid
  */
 export function analysisPanel(session, analyses, show) {
   const radios = elements('input[name="view"]', HTMLInputElement);
-  /** The choice of a flat photo, which is offered where there is one to flatten. */
-  const flatPhoto = element('view-dewarped', HTMLElement);
   const panel = element('analysis', HTMLElement);
   const about = element('about-view', HTMLElement);
   const description = element('view-says', HTMLElement);
@@ -39,30 +36,18 @@ export function analysisPanel(session, analyses, show) {
   /** @param {Partial<ViewContent>} shown */
   const display = (shown) => {
     show(shown);
-    about.replaceChildren(...(shown.about ?? []));
-    const isReady = chosen() === 'shaded' || presentResult !== null;
-    description.textContent = isReady ? VIEW_WORDS[chosen()] ?? '' : '';
+    about.replaceChildren(...aboutView(shown));
+    description.textContent = chosen() === 'shaded' || session.result ? VIEW_WORDS[chosen()] : '';
     picture.removeAttribute('aria-busy');
     panel.dataset.view = chosen();
     panel.setAttribute('aria-busy', 'false');
   };
 
-  /** Name of the present view: it stays, with its handles, while it is only computed again. */
-  let presentView = '';
-  /** Result of the present view. @type {Result | null} */
-  let presentResult = null;
-
   const update = async () => {
     const turn = ++newestUpdate;
     const { result } = session;
     const name = chosen();
-    const isSameView = presentView === name && presentResult === result;
-    [presentView, presentResult] = [name, result];
-    photo.setFlat(null);
-    if (!isSameView) {
-      photo.show(name === 'dewarped');
-      display({});
-    }
+    display({});
     panel.hidden = name === 'shaded';
     waiting.end();
     if (name === 'shaded') return;
@@ -73,10 +58,9 @@ export function analysisPanel(session, analyses, show) {
     panel.setAttribute('aria-busy', 'true');
     picture.setAttribute('aria-busy', 'true');
     description.textContent = '';
-    if (!isSameView) about.replaceChildren();
     waiting.begin(TASK_WORDS.view);
     try {
-      const shown = await (name === 'dewarped' ? dewarpedView(result) : VIEWS[name](analyses, result, waiting.tell));
+      const shown = await VIEWS[name](analyses, result, waiting.tell);
       if (turn !== newestUpdate) return;
       waiting.end();
       display(shown);
@@ -86,16 +70,6 @@ export function analysisPanel(session, analyses, show) {
       display({});
       session.fail('This view could not be worked out', error);
     }
-  };
-
-  /** @param {Result} result @returns {Promise<Partial<ViewContent>>} */
-  const dewarpedView = async (result) => {
-    const turn = newestUpdate;
-    const request = await photo.dewarpRequest(result);
-    if (!request) return { about: [make('p', 'muted', 'Open a photo that shows what the heights show: from above, or for depths from the same place. It may have more pixels.')] };
-    const shown = await dewarped(analyses, result, request.photo, request.options);
-    if (turn === newestUpdate) photo.setFlat(shown.flat);
-    return shown;
   };
 
   const waiting = waitingPanel(element('waiting', HTMLElement), () => {
@@ -108,7 +82,6 @@ export function analysisPanel(session, analyses, show) {
     display({ about: [make('p', 'muted', 'Cancelled.'), again] });
     again.focus();
   });
-  const photo = photoPanel(session, () => void update());
   /** Cancels the analyses of the last result or view, and prepares the present one. */
   const restart = () => {
     analyses.stop();
@@ -117,23 +90,14 @@ export function analysisPanel(session, analyses, show) {
   for (const radio of radios) radio.addEventListener('change', restart);
   session.on('input', (input) => {
     element('view-photo', HTMLElement).hidden = !hasColours(input);
-    flatPhoto.hidden = !(input.photo || input.lattice?.uvs || chosen() === 'dewarped');
     if (chosen() === 'photo' && !hasColours(input)) radios[0].click();
   });
   session.on('result', restart);
   session.on('cleared', restart);
   /** Shows a view. @param {string} view */
   const choose = (view) => {
-    if (view === 'dewarped') flatPhoto.hidden = false;
     for (const radio of radios) radio.checked = radio.value === view;
     restart();
   };
-  return {
-    choose,
-    /** Dewarps a photo of the result. @param {string} name @param {ImageData} image */
-    usePhoto(name, image) {
-      photo.setPhoto(name, image);
-      choose('dewarped');
-    },
-  };
+  return { choose };
 }

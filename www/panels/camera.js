@@ -30,7 +30,7 @@ export function cameraPanel(session, openLoadedMesh) {
   const describe = () => {
     const input = depthInput();
     if (!input) return;
-    about.textContent = [fileCamera && DEPTH_WORDS.camera(fileCamera), input.companions && DEPTH_WORDS.companions(input.companions.names)].filter(Boolean).join(' ');
+    about.textContent = fileCamera ? DEPTH_WORDS.camera(fileCamera) : '';
     const [near, far] = depthRange(input.data).map((depth) => depth * scale.valueAsNumber);
     span.textContent = Number.isFinite(near) ? `With this scale, what is seen is ${number(near)} to ${number(far)} away.` : '';
   };
@@ -95,14 +95,12 @@ export function cameraPanel(session, openLoadedMesh) {
     scale.setCustomValidity(scale.valueAsNumber > 0 ? '' : 'It must be a number above 0.');
     angle.setCustomValidity(fileCamera || (angle.valueAsNumber > 0 && angle.valueAsNumber < 180) ? '' : 'It must be an angle above 0° and below 180°.');
     if (!scale.reportValidity() || !angle.reportValidity()) return false;
-    const { name, width, height, data, photo, companions } = input;
+    const { name, width, height, data, photo } = input;
     const camera = presentCamera(input);
-    const options = companions && { confidence: companions.confidence, mask: companions.mask };
-    const kind = companions ? `depths, with ${companions.names.join(' and ')}` : 'depths';
     const unit = input.depths ? { unit: /** @type {const} */ ('m') } : {};
     const cameraAssumption = isAssumed ? DEPTH_WORDS.assumed(number(angle.valueAsNumber), scale.valueAsNumber) : undefined;
-    return openLoadedMesh({ name, kind, photo: session.input?.photo ?? photo, depthSource: input, cameraAssumption },
-      (signal) => runInWorker(session.api, signal, async (worker) => ({ ...await worker.backProject({ width, height, data }, camera, options), ...unit })),
+    return openLoadedMesh({ name, kind: 'depths', photo, depthSource: input, cameraAssumption },
+      (signal) => runInWorker(session.api, signal, async (worker) => ({ ...await worker.backProject({ width, height, data }, camera), ...unit })),
       DEPTH_WORDS.failed, DEPTH_WORDS.building);
   };
   element('back-project', HTMLButtonElement).addEventListener('click', async () => {

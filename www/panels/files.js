@@ -13,8 +13,6 @@ import { showNotice } from './notice.js';
  * @param {{ readonly now: Mode, show: (mode: Mode) => void, enter: (mode: Mode) => void }} mode
  * @param {object} source
  * @param {(files: readonly File[]) => Promise<unknown>} source.openFiles opens heights or a mesh
- * @param {(file: File) => Promise<unknown>} source.usePhoto shows a photo on the heights that are open
- * @param {(file: File) => void} source.awaitHeights shows a photo on the heights that are opened next
  * @param {{ openAll: (files: readonly File[]) => Promise<string | null> }} page opens photos of pages; the answer is a note, or null if none could be opened
  */
 export function filesPanel(session, mode, source, page) {
@@ -37,22 +35,11 @@ export function filesPanel(session, mode, source, page) {
     note([taken, pageNote, leftOut].filter(Boolean).join(' '), isOtherMode && files.length === 1 ? {
       label: FILE_WORDS.heightsInstead,
       act: async () => {
+        if (await isInColour(files[0])) return note(FILE_WORDS.inColour(files[0].name));
         mode.enter('heights');
-        if (!(await isInColour(files[0]))) return source.openFiles(files);
-        source.awaitHeights(files[0]);
-        note(FILE_WORDS.awaitsHeights(files[0].name), { label: FILE_WORDS.openAsPage, act: () => void openPhotos(files) });
+        void source.openFiles(files);
       },
     } : undefined);
-  };
-
-  /** @param {File} file */
-  const usePhoto = async (file) => {
-    if (await source.usePhoto(file)) note(FILE_WORDS.takenForTheirPhoto, { label: FILE_WORDS.openAsPage, act: () => void openPhotos([file]) });
-  };
-  /** Whether a single photo in colour belongs to the heights that are open. */
-  const takesPhoto = () => {
-    const { input } = session;
-    return mode.now === 'heights' && input?.kind !== undefined && (input.sampling === undefined || input.depthSource !== undefined);
   };
 
   let openCount = 0;
@@ -60,11 +47,10 @@ export function filesPanel(session, mode, source, page) {
   let earlier = 'home';
   /** @param {readonly File[]} files @param {boolean} [arePages] whether pictures were opened as pages */
   const open = async (files, arePages = mode.now === 'photo') => {
-    const { to, files: taken, left } = await routeFiles(files, { inPhotoMode: arePages, takesPhoto: takesPhoto() });
+    const { to, files: taken, left } = await routeFiles(files, arePages);
     if (to === 'none') return showNotice(FILE_WORDS.unread(files[0].name, unreadableKindInWords(files[0])));
     const leftOut = left.length > 0 ? FILE_WORDS.leftOut(namesOfLeft(left), to === 'heights' && kindByName(taken[0]) !== 'mesh') : '';
     if (to === 'photos') return openPhotos(taken, leftOut);
-    if (to === 'photoOfHeights') return usePhoto(taken[0]);
     const own = ++openCount;
     if (mode.now !== 'heights') {
       earlier = mode.now;
@@ -84,6 +70,6 @@ export function filesPanel(session, mode, source, page) {
   return {
     open,
     /** Opens a file of heights that turned out to be a picture in colour. @param {File} file */
-    openColour: (file) => (takesPhoto() ? usePhoto(file) : openPhotos([file])),
+    openColour: (file) => openPhotos([file]),
   };
 }

@@ -9,6 +9,7 @@ import { PictureView } from '../surface/picture-view.js';
 import { gaussian, patches, readingAt, rulings, shaded, sheet, meshFitSummary } from '../views/mesh-fit.js';
 import { longestSide } from '../mesh-fit.js';
 import { surfaceFormats } from '../solid.js';
+import { aboutView } from '../views/legend.js';
 import { dividerOver } from './divider.js';
 import { offerToSave } from './save-dialog.js';
 import { offerSheets } from './sheets.js';
@@ -77,9 +78,10 @@ export function meshFitPanel(session, meshFit) {
   };
 
   /** @param {MeshViewContent} shown */
-  const display = async ({ before, after, lines, flat: laid, read, about: nodes }) => {
+  const display = async (shown) => {
+    const { before, after, lines, flat: laid, read } = shown;
     readValue = read;
-    about.replaceChildren(...nodes);
+    about.replaceChildren(...aboutView(shown));
     picture.show(laid ?? null);
     reading.textContent = '';
     viewer ??= SceneView.create(canvas, { isFaceted: true }).catch(() => null);
@@ -173,7 +175,7 @@ export function meshFitPanel(session, meshFit) {
     again.hidden = true;
     stage.setAttribute('aria-busy', 'true');
     waiting.begin(TASK_WORDS.solving);
-    void display({ before: mesh, about: [] }).then(async () => {
+    void display({ before: mesh }).then(async () => {
       // A further solve of the same mesh keeps the view.
       const view = await viewer;
       if (viewedMesh === mesh || !view) return;

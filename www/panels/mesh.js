@@ -1,4 +1,4 @@
-/** Meshes and point clouds: turned by hand, and sampled as heights from a view. */
+/** Meshes and point clouds, sampled as heights from a view. */
 import { runInWorker } from '../worker-task.js';
 import { element, elements } from '../dom.js';
 import { MESH_ENDING } from '../file-kinds.js';
@@ -6,27 +6,17 @@ import { count, number } from '../format.js';
 import { boundingBoxSides } from '../mesh-fit.js';
 import { TASK_WORDS } from '../messages.js';
 import { openSampledMesh } from '../mesh-sampling.js';
-import { SceneView } from '../surface/scene.js';
 
 /** @import {Mesh, SampleMeshOptions} from '../api.js' */
 /** @import {InputOrigin} from '../mesh-sampling.js' */
 /** @import {Input, Session} from '../session.js' */
 
-/** Delay after the mesh was turned before it is sampled, in milliseconds. */
-const TURN_DELAY_MS = 180;
-
 /** @param {Session} session */
 export function meshPanel(session) {
   const panel = element('mesh-options', HTMLElement);
-  const canvas = element('mesh-canvas', HTMLCanvasElement);
-  const missing = element('mesh-missing', HTMLElement);
   const name = element('mesh-name', HTMLElement);
   const span = element('mesh-span', HTMLElement);
   const buttons = elements('button[data-view]', HTMLButtonElement);
-  /** @type {Promise<SceneView | null> | null} */
-  let viewer = null;
-  /** The mesh that is displayed. @type {Mesh | null} */
-  let shownMesh = null;
 
   /** Samples the mesh with changed options. @param {SampleMeshOptions} change */
   const resample = async (change) => {
@@ -38,35 +28,16 @@ export function meshPanel(session) {
     );
     if (opened) void session.run();
   };
-  let turnTimer = 0;
-  /** Samples the mesh from the new view after it was turned. */
-  const onTurn = () => {
-    clearTimeout(turnTimer);
-    turnTimer = window.setTimeout(async () => resample({ view: (await viewer)?.direction }), TURN_DELAY_MS);
-  };
   for (const button of buttons) {
     button.addEventListener('click', () => resample({ view: /** @type {SampleMeshOptions['view']} */ (button.dataset.view) }));
   }
-  session.on('input', async ({ sampling, lattice, name: title, kind }) => {
+  session.on('input', ({ sampling, name: title, kind }) => {
     panel.hidden = sampling === undefined;
-    if (!sampling || !lattice?.frame) return;
-    const { towards } = lattice.frame;
+    if (!sampling) return;
     const { mesh, options } = sampling;
     name.textContent = `${title} (${kind})`;
     span.textContent = spanInWords(mesh);
     for (const button of buttons) button.setAttribute('aria-pressed', String(button.dataset.view === options.view));
-    viewer ??= SceneView.create(canvas, { onTurn }).catch(() => null);
-    const view = await viewer;
-    canvas.hidden = view === null;
-    missing.hidden = view !== null;
-    if (session.input?.sampling !== sampling || !view) return;
-    try {
-      if (shownMesh !== mesh) view.show(mesh);
-      shownMesh = mesh;
-      if (typeof options.view === 'string') view.setDirection([-towards[0], -towards[1], -towards[2]]);
-    } catch (error) {
-      session.fail('The mesh could not be shown', error);
-    }
   });
 
   return {

@@ -14,6 +14,8 @@ import { showError, showNotice } from './notice.js';
 /** @typedef {{ name: string, value: string, meaning: string, isShown: boolean }} Row */
 /** @typedef {{ title: string, rows: Row[] }} Group */
 
+/** @typedef {Pick<import('../api.js').Progress, 'level' | 'iteration' | 'elapsed' | 'gap'>} Moment of a run, as its progress tells */
+
 /** Time for which a button says that it has copied, in milliseconds. */
 const COPIED_MS = 3000;
 
@@ -22,13 +24,17 @@ export function reportPanel(session, analyses) {
   const acts = element('report-acts', HTMLElement);
   const table = element('report-table', HTMLTableElement);
   const empty = element('report-empty', HTMLElement);
+  /** The moments of the present run. @type {Moment[]} */
+  let moments = [];
+  session.on('start', () => (moments = []));
+  session.on('progress', ({ level, iteration, elapsed, gap }) => void moments.push({ level, iteration, elapsed, gap }));
   /** @param {string} id @param {(result: Result) => unknown} act */
   const on = (id, act) => element(id, HTMLButtonElement).addEventListener('click', () => {
     if (session.result) act(session.result);
   });
   on('report-save', async (result) => {
     try {
-      download(`${JSON.stringify(await reportFile(analyses, result), null, 2)}\n`, 'application/json', `${result.input.name}-report.json`);
+      download(`${JSON.stringify(await reportFile(analyses, result, moments), null, 2)}\n`, 'application/json', `${result.input.name}-report.json`);
     } catch (error) {
       showError('The report could not be saved', error);
     }
@@ -83,18 +89,22 @@ function copyButton(id, words) {
 /** @param {string} text */
 const csvCell = (text) => (/[",\r\n]/.test(text) ? `"${text.replaceAll('"', '""')}"` : text);
 
-/** All that the page shows about a result. @param {Analyses} analyses @param {Result} result */
-async function reportFile(analyses, result) {
+/** All that the page shows about a result. @param {Analyses} analyses @param {Result} result @param {readonly Moment[]} convergence */
+async function reportFile(analyses, result, convergence) {
   const { input: { name, kind, example, width, height, pixelSize, heightScale, unit, stored, assumptions }, settings, surface } = result;
-  const [pieces, { before, after }] = await Promise.all([analyses.patchCount(result), analyses.curvatures(result)]);
+  const [{ default: { version } }, pieces, { before, after }] = await Promise.all([
+    import(new URL('../pkg/package.json', import.meta.url).href, { with: { type: 'json' } }), analyses.patchCount(result), analyses.curvatures(result),
+  ]);
   return {
+    version,
     ...surface.report,
     input: { name, kind: kind ?? 'example', ...example, width, height, pixelSize, heightScale, unit, noData: stored?.noData, assumptions },
     settings,
     pieces: Number.isFinite(pieces.count) ? pieces.count : null,
     creases: pieces.creases,
-    curvature: { input: before?.summary, result: after.summary },
+    curvature: { input: before.summary, result: after.summary },
     errors: accuracyOf(result) ?? undefined,
+    convergence,
   };
 }
 

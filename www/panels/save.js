@@ -1,4 +1,4 @@
-/** Buttons that save the result: a 3D file, sheets to cut out, a flat photo. */
+/** Buttons that save the result: a 3D file, sheets to cut out. */
 import { element } from '../dom.js';
 import { shortLambda } from '../format.js';
 import { FORMAT_WORDS } from '../messages.js';
@@ -17,22 +17,17 @@ import { offerSheets } from './sheets.js';
 /**
  * @param {Session} session
  * @param {Analyses} analyses
- * @param {(view: string) => void} chooseView shows a view of the result
  * @param {{ hiddenInWords: string }} meshFitView
  */
-export function savePanel(session, analyses, chooseView, meshFitView) {
-  const buttons = ['file', 'sheets', 'photo'].map((name) => element(`end-${name}`, HTMLButtonElement));
-  const [file, sheets, photo] = buttons;
+export function savePanel(session, analyses, meshFitView) {
+  const buttons = ['file', 'sheets'].map((name) => element(`end-${name}`, HTMLButtonElement));
+  const [file, sheets] = buttons;
   file.addEventListener('click', () => {
     if (session.result) offerFile(session.api, session.result);
   });
   sheets.addEventListener('click', () => {
     const { result } = session;
     if (result) offerSheets(session.api, { ...sheetSource(result, analyses), note: meshFitView.hiddenInWords });
-  });
-  photo.addEventListener('click', () => {
-    chooseView('dewarped');
-    element('views', HTMLElement).scrollIntoView({ block: 'nearest' });
   });
   /** @param {boolean} ready */
   const enable = (ready) => {
@@ -87,7 +82,6 @@ function sheetSource(result, analyses) {
 
 /** Name of the saved file without its ending. @param {Result} result */
 function fileStem({ input, surface }) {
-  const lambda = input.design ? '' : `-${shortLambda(surface.report.lambda)}`;
   const cancelled = surface.report.stopReason === 'cancelled' ? '-cancelled' : '';
-  return `${input.name}-developable${lambda}${cancelled}`;
+  return `${input.name}-developable-${shortLambda(surface.report.lambda)}${cancelled}`;
 }

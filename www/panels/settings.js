@@ -1,8 +1,7 @@
 /** Settings of the solve: λ on a logarithmic slider, and further options. */
-import { energyFor } from '../fit-settings.js';
 import { element } from '../dom.js';
 import { shortLambda } from '../format.js';
-import { AUTO_LAMBDA_HINT, ENERGIES, DESIGN_LAMBDA_HINT, LAMBDA_WORDS, lambdaChoiceInWords, lambdaHint, meshLambdaChoiceInWords } from '../messages.js';
+import { AUTO_LAMBDA_HINT, ENERGIES, LAMBDA_WORDS, lambdaChoiceInWords, lambdaHint, meshLambdaChoiceInWords } from '../messages.js';
 
 /** @import {Energy} from '../api.js' */
 /** @import {Session, Settings} from '../session.js' */
@@ -16,7 +15,6 @@ export function settingsPanel(session, meshFit) {
   const slider = element('lambda', HTMLInputElement);
   const field = element('lambda-value', HTMLInputElement);
   const hint = element('lambda-hint', HTMLElement);
-  const fieldsets = ['fidelity', 'fidelity-number'].map((id) => element(id, HTMLFieldSetElement));
   const wrong = element('lambda-wrong', HTMLElement);
 
   const auto = element('lambda-auto', HTMLButtonElement);
@@ -35,9 +33,8 @@ export function settingsPanel(session, meshFit) {
 
   /** Shows what λ means, or how it was chosen. */
   const updateHint = () => {
-    const { input, result, settings: { lambda } } = session;
-    if (input?.design) hint.textContent = DESIGN_LAMBDA_HINT;
-    else if (lambda !== 'auto') hint.textContent = lambdaHint(lambda);
+    const { result, settings: { lambda } } = session;
+    if (lambda !== 'auto') hint.textContent = lambdaHint(lambda);
     else if (meshFit.mesh) hint.textContent = (meshFit.surface && meshLambdaChoiceInWords(meshFit.surface.report)) || AUTO_LAMBDA_HINT;
     else hint.textContent = (result?.settings.lambda === 'auto' && lambdaChoiceInWords(result.surface.report)) || AUTO_LAMBDA_HINT;
   };
@@ -81,8 +78,7 @@ export function settingsPanel(session, meshFit) {
     else markField(true);
   });
   if (session.settings.lambda !== 'auto') showLambda(session.settings.lambda);
-  session.on('input', ({ design, lattice }) => {
-    for (const fieldset of fieldsets) fieldset.disabled = design === true;
+  session.on('input', ({ lattice }) => {
     coarsening.disabled = lattice !== undefined;
     updateHint();
   });
@@ -109,18 +105,17 @@ export function settingsPanel(session, meshFit) {
 
   const energy = element('energy', HTMLSelectElement);
   const energyHint = element('energy-hint', HTMLElement);
-  const chosenEnergy = () => /** @type {Energy} */ (energy.value);
-  energy.addEventListener('change', () => {
-    energyHint.textContent = ENERGIES[chosenEnergy()];
-    session.updateSettings({ energy: chosenEnergy() });
-  });
-  /** @param {Settings['energy']} wanted */
-  const showEnergy = (wanted) => {
-    energy.value = energyFor(session.input, wanted);
-    energyHint.textContent = ENERGIES[chosenEnergy()];
+  /** @param {Energy} chosen */
+  const showEnergy = (chosen) => {
+    energy.value = chosen;
+    energyHint.textContent = ENERGIES[chosen];
   };
   showEnergy(session.settings.energy);
-  session.on('input', () => showEnergy(session.settings.energy));
+  energy.addEventListener('change', () => {
+    const chosen = /** @type {Energy} */ (energy.value);
+    showEnergy(chosen);
+    session.updateSettings({ energy: chosen });
+  });
   auto.addEventListener('click', () => {
     showAuto(true);
     markField(false);

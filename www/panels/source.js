@@ -3,30 +3,26 @@ import { element } from '../dom.js';
 import { ColourPictureError, readInput } from '../height-file.js';
 import { hasColours } from '../views/photo.js';
 import { reinterpret, spanInWords } from '../import-interpretation.js';
-import { readPicture } from '../pixels.js';
 import { fileRoles, isCameraFile } from '../file-routing.js';
 import { isMesh, unreadableKindInWords } from '../file-kinds.js';
 import { assumedInWords, DEPTH_WORDS, FILE_WORDS, TASK_WORDS } from '../messages.js';
 import { noDataOf } from '../no-data.js';
 import { cameraPanel } from './camera.js';
 import { meshPanel } from './mesh.js';
-import { hideNotice, showNotice } from './notice.js';
+import { showNotice } from './notice.js';
 
 /** @import {ExampleName} from '../api.js' */
 /** @import {Session} from '../session.js' */
-/** @import {FileRoles} from '../file-routing.js' */
 /** @import {NoData} from '../no-data.js' */
 
 /**
  * @param {Session} session
- * @param {object} views
- * @param {(view: string) => void} views.choose shows a view of the result
- * @param {(name: string, image: ImageData) => void} views.usePhoto dewarps a photo of the result
+ * @param {(view: string) => void} choose shows a view of the result
  * @param {(files: readonly File[]) => void} onOpened called when files have become the input
  * @param {() => void} solveMesh solves the mesh that was opened
  * @param {(file: File) => unknown} openColour opens a file that is no heights, but a picture in colour
  */
-export function sourcePanel(session, { choose, usePhoto }, onOpened, solveMesh, openColour) {
+export function sourcePanel(session, choose, onOpened, solveMesh, openColour) {
   const example = element('example', HTMLSelectElement);
   const size = element('size', HTMLSelectElement);
   const noise = element('noise', HTMLSelectElement);
@@ -38,15 +34,12 @@ export function sourcePanel(session, { choose, usePhoto }, onOpened, solveMesh, 
   const span = element('scale-span', HTMLElement);
   const noData = element('no-data', HTMLInputElement);
   const guesses = element('guessed', HTMLElement);
-  const design = element('is-design', HTMLInputElement);
   const arrayField = element('array-field', HTMLElement);
   const array = element('array', HTMLSelectElement);
   const mesh = meshPanel(session);
   const camera = cameraPanel(session, mesh.openLoaded);
   /** Reads the open file again, with another value that is no data. @type {(noData?: NoData) => Promise<boolean>} */
   let openAgain = () => Promise.resolve(false);
-  /** A photo that was opened before the heights it shows. @type {File | null} */
-  let pendingPhoto = null;
 
   /** Opens the chosen example and solves it. */
   const openChosenExample = async () => {
@@ -64,10 +57,10 @@ export function sourcePanel(session, { choose, usePhoto }, onOpened, solveMesh, 
    * Opens a file and solves it. Depths are not solved yet if their camera's file is opened together with them.
    * @param {File} chosen
    * @param {NonNullable<Parameters<typeof readInput>[3]>} [reading] the array to open, for a file with several, and what is no data
-   * @param {Pick<FileRoles, 'photo' | 'confidence' | 'mask'>} [companions] files that belong to it
+   * @param {File} [photo] that belongs to it
    * @param {boolean} [hasCamera] whether the camera's file is opened together with it
    */
-  const openFile = async (chosen, reading, companions = {}, hasCamera = false) => {
+  const openFile = async (chosen, reading, photo, hasCamera = false) => {
     if (isMesh(chosen.name)) return openMesh(chosen);
     // A text file can only be the camera of depths that are open.
     if (/\.txt$/i.test(chosen.name) && !session.input?.kind) {
@@ -75,11 +68,10 @@ export function sourcePanel(session, { choose, usePhoto }, onOpened, solveMesh, 
       return false;
     }
     if (isCameraFile(chosen)) return camera.readCamera(chosen);
-    const photo = companions.photo ?? pendingPhoto ?? undefined;
     let isColourPicture = false;
     const opened = await session.open(`“${chosen.name}” could not be read`, async (signal) => {
       try {
-        return await readInput(session.api, chosen, signal, reading, { ...companions, photo });
+        return await readInput(session.api, chosen, signal, reading, photo);
       } catch (error) {
         if (error instanceof ColourPictureError && reading === undefined) isColourPicture = true;
         throw error;
@@ -90,8 +82,7 @@ export function sourcePanel(session, { choose, usePhoto }, onOpened, solveMesh, 
       return false;
     }
     if (!opened || !session.input) return false;
-    pendingPhoto = null;
-    openAgain = (noData) => openFile(chosen, { ...reading, noData }, { ...companions, photo }, hasCamera);
+    openAgain = (noData) => openFile(chosen, { ...reading, noData }, photo, hasCamera);
     const { depths, stored } = session.input;
     setCoarsening(stored?.coarsening ?? 1);
     if (!depths) {
@@ -117,17 +108,6 @@ export function sourcePanel(session, { choose, usePhoto }, onOpened, solveMesh, 
     return opened;
   };
 
-  /** Shows a photo on the present heights. @param {File} file */
-  const openPhoto = async (file) => {
-    const { input, result } = session;
-    hideNotice();
-    const image = await session.load(`“${file.name}” could not be used`, () => readPicture(file), TASK_WORDS.reading);
-    if (!image || session.input !== input) return false;
-    if (result) usePhoto(file.name, image);
-    else session.updateInput({ photo: { name: file.name, image } });
-    return true;
-  };
-
   /** @param {number} step lattice spacing in pixels */
   const setCoarsening = (step) => {
     if (step === session.settings.coarsening) return;
@@ -148,18 +128,15 @@ export function sourcePanel(session, { choose, usePhoto }, onOpened, solveMesh, 
   /** @param {readonly File[]} files @returns {Promise<boolean>} */
   const openTogether = async (files) => {
     if (files.length === 1) return openFile(files[0]);
-    const { mesh: meshFile, depths, camera: cameraFile, ...companions } = await fileRoles(files);
+    const { mesh: meshFile, depths, camera: cameraFile, photo } = await fileRoles(files);
     if (meshFile) return openMesh(meshFile, files.filter((file) => file !== meshFile));
     if (!depths) return false;
-    if (!(await openFile(depths, undefined, companions, cameraFile !== undefined))) return false;
-    if (!session.input?.depthSource && (cameraFile || companions.confidence || companions.mask)) camera.show();
-    if (cameraFile && !(await camera.readCamera(cameraFile))) return true;
-    if (cameraFile && !(await camera.backProject())) return true;
-    // With a camera and a photo, the photo can be dewarped.
-    if (cameraFile && companions.photo) {
-      void session.run();
-      choose('dewarped');
-    }
+    if (!(await openFile(depths, undefined, photo, cameraFile !== undefined))) return false;
+    if (!cameraFile) return true;
+    camera.show();
+    if (!(await camera.readCamera(cameraFile)) || !(await camera.backProject())) return true;
+    void session.run();
+    choose(photo ? 'photo' : 'shaded');
     return true;
   };
 
@@ -204,7 +181,6 @@ export function sourcePanel(session, { choose, usePhoto }, onOpened, solveMesh, 
   });
   element('flatter', HTMLButtonElement).addEventListener('click', () => scaleRelief(0.5));
   element('steeper', HTMLButtonElement).addEventListener('click', () => scaleRelief(2));
-  design.addEventListener('change', () => session.updateInput({ design: design.checked }));
   array.addEventListener('change', () => {
     const several = session.input?.array;
     if (several) void openFile(several.file, { array: array.value });
@@ -228,7 +204,6 @@ export function sourcePanel(session, { choose, usePhoto }, onOpened, solveMesh, 
     if (!input.stored) return;
     pixelSize.value = fieldText(input.stored.pixelSize);
     heightScale.value = fieldText(input.stored.heightScale);
-    design.checked = input.design === true;
     noData.value = String(input.stored.noData ?? '');
     span.textContent = spanInWords(input);
   });
@@ -247,9 +222,6 @@ export function sourcePanel(session, { choose, usePhoto }, onOpened, solveMesh, 
       await openChosenExample();
     },
     openFiles,
-    usePhoto: openPhoto,
-    /** Shows a photo on the heights that are opened next. @param {File} file */
-    awaitHeights: (file) => void (pendingPhoto = file),
     reinterpretFile,
   };
 }

@@ -1,44 +1,39 @@
-/** Input and result as surfaces in space, one on each side of a divider; and the animation that unfolds the result. */
-import { element } from '../dom.js';
-import { heightReading, strainInWords } from '../format.js';
-import { CREASE_COLOUR } from '../surface/colours.js';
+/** Input and result as surfaces in space, one on each side of a divider; or the surface laid flat, as a picture in their place. */
+import { download, element, elements } from '../dom.js';
+import { heightReading, number, shortLambda } from '../format.js';
 import { resultImage } from '../surface/derived-data.js';
-import { expandBox, heightAt, heightfieldBox, intersectHeights, markPoints, reliefMesh, reliefOf } from '../surface/relief.js';
-import { SceneView, vectorAt } from '../surface/scene.js';
-import { unfoldedPositions } from '../surface/unfolding.js';
+import { PictureView } from '../surface/picture-view.js';
+import { heightAt, heightfieldBox, intersectHeights, reliefMesh, reliefOf } from '../surface/relief.js';
+import { SceneView } from '../surface/scene.js';
+import { pictureWithColours } from '../views/legend.js';
 import { dividerOver } from './divider.js';
 
-/** @import {Result, Session} from '../session.js' */
-/** @import {PixelMarks} from '../surface/layer.js' */
+/** @import {Input, Result, Session} from '../session.js' */
 /** @import {Relief} from '../surface/relief.js' */
 /** @import {Box, Vector} from '../surface/scene.js' */
 /** @import {ViewContent} from '../views/view-content.js' */
 
-/** Duration of the unfolding, in milliseconds. */
-const UNFOLDING_MS = 2200;
-/** Delay before the unfolding begins, in milliseconds. */
-const UNFOLDING_DELAY_MS = 500;
-/** Width of the border of an unfolding, in CSS pixels. */
-const BORDER_WIDTH = 1.5;
 /** Directions of view. @type {Record<'above' | 'oblique', Vector>} */
 const DIRECTIONS = { above: [0, 0, -1], oblique: [0.375, 0.687, -0.622] };
+/** Pixels of a saved picture per pixel of the screen. */
+const SAVED_RATIO = 2;
 
-/** @param {Session} session */
+/**
+ * @param {Session} session
+ * @returns {(shown: Partial<ViewContent>) => void} shows layers over the surfaces, or a picture in their place
+ */
 export function spacePanel(session) {
-  const panel = element('space', HTMLElement);
   const canvas = element('space-canvas', HTMLCanvasElement);
+  const flat = new PictureView(element('result-picture', HTMLCanvasElement));
   const reading = element('reading', HTMLElement);
   const missing = element('space-missing', HTMLElement);
-  const unfold = element('unfold', HTMLInputElement);
+  const save = element('view-save', HTMLButtonElement);
+  const stamp = element('result-mark', HTMLElement);
   /** Null until the first input, and without WebGL. @type {SceneView | null} */
   let view = null;
   let isCreated = false;
-  /** Number of the newest animation; older ones end. */
-  let newestAnimation = 0;
   /** @type {Partial<ViewContent>} */
   let shown = {};
-  /** @type {PixelMarks | null} */
-  let marks = null;
   /** Input and result. @type {[Relief | null, Relief | null]} */
   const reliefs = [null, null];
   /** Whether the result is a preview: the layers belong to the last result. */
@@ -52,18 +47,29 @@ export function spacePanel(session) {
   const createView = async () => {
     isCreated = true;
     view = await SceneView.create(canvas, { isMetal: true, isSeenFromAbove: true }).catch(() => null);
-    missing.hidden = view !== null;
-    canvas.hidden = view === null;
     view?.setUp([0, 0, 1]);
+    arrange();
     updateBox();
     view?.look(DIRECTIONS.oblique);
   };
+  /** Shows the surfaces, or the picture in their place. */
+  const arrange = () => {
+    const isFlat = shown.after !== undefined;
+    const isMissing = isCreated && view === null;
+    missing.hidden = !isMissing || isFlat;
+    canvas.hidden = isMissing || isFlat;
+    element('picture-hint', HTMLElement).hidden = !isFlat;
+    for (const tools of elements('#space-hint, .space-tools', HTMLElement)) tools.hidden = isFlat;
+    save.disabled = !session.result || (isMissing && !isFlat);
+    const isDivided = reliefs[1] !== null && !isFlat;
+    divider.show(isDivided);
+    element('space-before', HTMLElement).hidden = isFlat;
+    element('space-after', HTMLElement).hidden = !isDivided;
+  };
 
-  /** Shows another box, with all surfaces. */
   const updateBox = () => {
     if (!session.input) return;
     box = heightfieldBox(session.input);
-    if (shown.unfolding) box = expandBox(shown.unfolding, box);
     view?.setBox(box);
     updateSurfaces([0, 1]);
   };
@@ -71,92 +77,65 @@ export function spacePanel(session) {
   const updateSurfaces = (sides) => {
     for (const side of sides) {
       const relief = reliefs[side];
-      if (!(side === 1 && shown.unfolding)) view?.setSurface(side, relief && reliefMesh(relief, view.isFast));
+      view?.setSurface(side, relief && reliefMesh(relief, view.isFast));
     }
-    updateUnfolding();
     updateLayers();
   };
-  /** Shows the unfolding at its present position. */
-  const updateUnfolding = () => {
-    const { unfolding } = shown;
-    if (!unfolding) return;
-    const { triangles, colors, borders } = unfolding;
-    const positions = unfoldedPositions(unfolding, unfold.valueAsNumber);
-    view?.setSurface(1, { positions, triangles, colors });
-    view?.setLines(1, borders.map((line) => ({ points: Array.from(line, (vertex) => vectorAt(positions, vertex)), colour: CREASE_COLOUR, width: BORDER_WIDTH })));
-  };
-  /** Draws layers and marks over the surfaces, and the divider between them. */
+  /** Draws layers over the surfaces, and the divider between them. */
   const updateLayers = () => {
-    const { input } = session;
     [shown.input, isPreview ? undefined : shown.result].forEach((layer, i) => {
       const side = /** @type {0 | 1} */ (i);
-      if (side === 1 && shown.unfolding) return;
-      const points = input && marks ? markPoints(marks, input) : [];
       view?.setImage(side, layer?.image ?? null);
-      view?.setLines(side, [...(layer?.lines ?? []), ...points]);
+      view?.setLines(side, layer?.lines ?? []);
     });
-    // The input of a design is not a surface, and an unfolding shows the result only.
-    const hidesInput = shown.unfolding !== undefined || input?.design === true;
-    divider.show(reliefs[1] !== null && !hidesInput);
-    element('space-before', HTMLElement).hidden = hidesInput && (shown.unfolding !== undefined || reliefs[1] !== null);
-    element('space-after', HTMLElement).hidden = !reliefs[1] || shown.unfolding !== undefined;
-    view?.divide(hidesInput && reliefs[1] ? 0 : divider.share);
+    view?.divide(divider.share);
+    arrange();
   };
 
   element('from-above', HTMLButtonElement).addEventListener('click', () => view?.look(DIRECTIONS.above));
   element('at-an-angle', HTMLButtonElement).addEventListener('click', () => view?.look(DIRECTIONS.oblique));
-
-  unfold.addEventListener('input', () => {
-    newestAnimation++;
-    updateUnfolding();
-  });
-  /** Animates the unfolding once. Users who prefer reduced motion see the end at once; moving the slider ends the animation. */
-  const animateUnfolding = () => {
-    const animation = ++newestAnimation;
-    const start = performance.now();
-    const isMotionReduced = matchMedia('(prefers-reduced-motion: reduce)').matches;
-    unfold.value = isMotionReduced ? '1' : '0';
-    updateUnfolding();
-    /** @param {number} now */
-    const step = (now) => {
-      if (animation !== newestAnimation || !shown.unfolding) return;
-      const progress = Math.min(1, Math.max(0, (now - start - UNFOLDING_DELAY_MS) / UNFOLDING_MS));
-      unfold.value = String(progress * progress * (3 - 2 * progress));
-      updateUnfolding();
-      if (progress < 1) requestAnimationFrame(step);
-    };
-    if (!isMotionReduced) requestAnimationFrame(step);
-  };
-
   canvas.addEventListener('pointermove', (event) => {
     if (event.buttons !== 0 || !view) return;
-    if (shown.unfolding) {
-      const { triangles, strains } = shown.unfolding;
-      const place = view.pick(event);
-      reading.textContent = strainInWords(place ? place.shares.reduce((sum, share, k) => sum + share * strains[triangles[3 * place.triangle + k]], 0) : NaN);
-      return;
-    }
     const side = view.sideAt(event.offsetX);
     const relief = reliefs[side];
     const point = relief && intersectHeights(view.rayAt(event.offsetX, event.offsetY), box, (x, y) => heightAt(relief, x, y));
     reading.textContent = point ? heightReading(point[2], session.input?.unit, [shown.input, shown.result][side]?.read?.(point[0], point[1])) : '';
   });
-  canvas.addEventListener('pointerleave', () => (reading.textContent = ''));
+  flat.canvas.addEventListener('pointermove', (event) => (reading.textContent = flat.read(event)));
+  for (const one of [canvas, flat.canvas]) one.addEventListener('pointerleave', () => (reading.textContent = ''));
+
+  save.addEventListener('click', async () => {
+    const isFlat = shown.after !== undefined;
+    if (!isFlat) view?.draw(SAVED_RATIO * devicePixelRatio);
+    const picture = pictureWithColours(isFlat ? flat.canvas : canvas, shown.colours);
+    view?.drawSoon();
+    download(await picture.convertToBlob({ type: 'image/png' }), 'image/png', `${session.input?.name ?? 'view'}-view.png`);
+  });
 
   session.on('input', (input) => {
-    reliefs[0] = reliefOf(input, input, input.heightScale);
+    const { name, width, height, heightScale } = input;
+    element('input-caption', HTMLElement).textContent = `${name}, ${number(width, 6)} × ${number(height, 6)}`;
+    reliefs[0] = reliefOf(input, input, heightScale);
     if (!isCreated) void createView();
     else updateBox();
   });
-  session.on('preview', ({ input, image }) => {
+  /** @param {Input} input @param {{ width: number, height: number, data: ArrayLike<number> }} image @param {number} lambda @param {string} mark */
+  const showSurface = (input, image, lambda, mark) => {
+    element('result-caption', HTMLElement).textContent = `λ = ${shortLambda(lambda)}`;
+    stamp.textContent = mark;
+    stamp.hidden = !mark;
     reliefs[1] = reliefOf(input, image, 1);
-    isPreview = true;
     updateSurfaces([1]);
+  };
+  session.on('preview', ({ input, image, lambda }) => {
+    isPreview = true;
+    showSurface(input, image, lambda, 'preview');
   });
   /** @param {Result | null} result */
   const showResult = (result) => {
-    reliefs[1] = result && reliefOf(result.input, resultImage(result), 1);
     isPreview = false;
+    if (result) return showSurface(result.input, resultImage(result), result.surface.report.lambda, result.surface.report.stopReason === 'cancelled' ? 'cancelled' : '');
+    reliefs[1] = null;
     updateSurfaces([1]);
   };
   session.on('cleared', () => {
@@ -166,30 +145,12 @@ export function spacePanel(session) {
   session.on('result', showResult);
   // The last result replaces the previews.
   session.on('unsolved', () => showResult(session.result));
+  arrange();
 
-  return {
-    animateUnfolding,
-    isShown: () => !panel.hidden,
-    /** Whether this browser cannot draw the surfaces. */
-    isMissing: () => !missing.hidden,
-    /** Draws the surfaces, with twice as many pixels for a file, and returns the canvas. @param {number} [ratio] pixels of the canvas per CSS pixel */
-    drawnCanvas: (ratio) => {
-      view?.draw(ratio);
-      view?.drawSoon();
-      return canvas;
-    },
-    /** Shows the layers of a view, or an unfolding. @param {Partial<ViewContent>} now */
-    show: (now) => {
-      const isOther = now.unfolding !== shown.unfolding;
-      shown = now;
-      if (!isOther) return updateLayers();
-      updateBox();
-      view?.fit();
-    },
-    /** Shows marks on the input. @param {PixelMarks | null} now */
-    setMarks: (now) => {
-      marks = now;
-      updateLayers();
-    },
+  return (now) => {
+    shown = now;
+    flat.show(now.after ?? null);
+    reading.textContent = '';
+    updateLayers();
   };
 }

@@ -85,11 +85,6 @@ export function stripPanel(session, adopt) {
     void draw();
   };
   button.addEventListener('click', () => show(strip.hidden === true));
-  session.on('input', (input) => {
-    // λ has no effect on a design.
-    button.disabled = input.design === true;
-    if (input.design) show(false);
-  });
   session.on('result', () => {
     markChosen();
     void draw();

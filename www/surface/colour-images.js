@@ -3,7 +3,6 @@ import { COLOUR_SCALE_QUANTILE, divergingPixel, logarithmicScale, magnitudeQuant
 import { interpolateToGrid, nearestVertices } from './lattice.js';
 import { readAssemblyMesh, principalStretches } from './assembly-mesh.js';
 import { extentOf, fillTriangles } from './triangles.js';
-import { triangleStrain } from './unfolding.js';
 
 /** @import {Grid, Lattice} from './lattice.js' */
 
@@ -70,6 +69,16 @@ export function photoPixels(lattice, { image, uvs, colors }, grid) {
     } else for (let k = 0; k < 3; k++) out[4 * i + k] = 255 * place[k];
   }
   return new Uint32Array(out.buffer);
+}
+
+/**
+ * The principal strain of larger magnitude of a triangle; positive where it is stretched.
+ * @param {Float64Array} stretches singular values, two for each triangle
+ * @param {number} t index of the triangle
+ */
+function triangleStrain(stretches, t) {
+  const [large, small] = [stretches[2 * t] - 1, stretches[2 * t + 1] - 1];
+  return Math.abs(large) >= Math.abs(small) ? large : small;
 }
 
 /**

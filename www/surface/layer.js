@@ -19,15 +19,6 @@ import { nearestVertices } from './lattice.js';
  * @property {(x: number, y: number) => string} [read] the value at a place of the plane, with its name and unit
  */
 
-/**
- * Marked pixels on top of a surface.
- * @typedef {object} PixelMarks
- * @property {number} width
- * @property {number} height
- * @property {ArrayLike<number> & Iterable<number>} pixels
- * @property {string} colour
- */
-
 /** A canvas with an image. @param {ImageData} image */
 export function canvasFromImage(image) {
   const canvas = document.createElement('canvas');

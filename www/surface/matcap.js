@@ -10,6 +10,8 @@
 export const MATCAP_SIDE_TEXELS = 256;
 /** Radius of the disk on which a renderer looks up a normal, in half sides of the texture. */
 const DISK_RADIUS = 0.99;
+/** Place of the light above the unit disk that stands for the directions towards the viewer, y up. */
+const LIGHT = { x: -0.38, y: 0.42 };
 /** Colour of paper in full light. */
 const PAPER_COLOUR = [244, 246, 248];
 
@@ -22,6 +24,18 @@ function studioBrightness(cosine) {
   const window = Math.exp((cosine - 1) / 0.13);
   const panel = Math.exp(-(((cosine + 0.5) / 0.22) ** 2));
   return 0.22 + 0.4 * room + 0.38 * window + 0.16 * panel;
+}
+
+/**
+ * The unit vector towards the light along the axes of the view. It turns twice as far as the camera is tilted, so that a level
+ * surface mirrors the same from every side.
+ * @param {number} tilt in radians, from straight above
+ * @returns {[number, number, number]}
+ */
+export function lightFrom(tilt) {
+  const z = Math.sqrt(1 - LIGHT.x ** 2 - LIGHT.y ** 2);
+  const [c, s] = [Math.cos(2 * tilt), Math.sin(2 * tilt)];
+  return [LIGHT.x, c * LIGHT.y + s * z, c * z - s * LIGHT.y];
 }
 
 /**

@@ -1,13 +1,9 @@
-/** Heights in space: their surface, bounding box, height at a place, and marked pixels as points. */
+/** Heights in space: their surface, bounding box, and the height at a place. */
 import { downsample } from './downsampling.js';
 import { gridOf } from './lattice.js';
-import { extentOf } from './triangles.js';
 
 /** @import {Input} from '../session.js' */
-/** @import {Line} from './layer.js' */
-/** @import {PixelMarks} from './layer.js' */
 /** @import {Box, Surface, Vector} from './scene.js' */
-/** @import {Unfolding} from './unfolding.js' */
 
 /**
  * @typedef {object} Relief
@@ -26,8 +22,6 @@ const MAX_SIDE_VERTICES = 512;
 const MAX_SLOW_SIDE_VERTICES = 200;
 /** Quantile of the heights at the top of the box; the bottom is at the opposite quantile. */
 const BOX_HEIGHT_SHARE = 0.998;
-/** Side of a mark on the surface, in CSS pixels. */
-const MARK_SIDE_PIXELS = 5;
 /** Number of heights from which the box is computed, about. */
 const BOX_SAMPLE_HEIGHTS = 20_000;
 /** Number of steps along a ray in the search for an intersection, and of the bisections that refine it. */
@@ -103,7 +97,7 @@ export function reliefMesh({ width, height, heights, heightScale, extent }, isFa
  */
 export function heightfieldBox(input) {
   const { width, height, pixelSize, left, top } = gridOf(input);
-  const step = input.design ? 1 : Math.max(1, Math.floor(input.data.length / BOX_SAMPLE_HEIGHTS));
+  const step = Math.max(1, Math.floor(input.data.length / BOX_SAMPLE_HEIGHTS));
   const found = [];
   for (let i = 0; i < input.data.length; i += step) {
     const z = input.data[i] * input.heightScale;
@@ -113,20 +107,6 @@ export function heightfieldBox(input) {
   const most = sorted.length - 1;
   const [low, high] = [sorted[Math.ceil((1 - BOX_HEIGHT_SHARE) * most)] ?? 0, sorted[Math.floor(BOX_HEIGHT_SHARE * most)] ?? 0];
   return { low: [left, top - height * pixelSize, low], high: [left + width * pixelSize, top, high] };
-}
-
-/**
- * The box expanded so that it contains the flat form of an unfolding.
- * @param {Pick<Unfolding, 'flat'>} unfolding
- * @param {Box} box
- * @returns {Box}
- */
-export function expandBox({ flat }, { low, high }) {
-  const { left, top, width, height } = extentOf(flat, 3);
-  return {
-    low: [Math.min(low[0], left), Math.min(low[1], top - height), low[2]],
-    high: [Math.max(high[0], left + width), Math.max(high[1], top), high[2]],
-  };
 }
 
 /**
@@ -163,19 +143,4 @@ export function intersectHeights({ point, towards }, { low, high }, height) {
     return at(below);
   }
   return null;
-}
-
-/**
- * Marked pixels as points on the surface.
- * @param {PixelMarks} marks
- * @param {Input} input
- * @returns {Line[]}
- */
-export function markPoints({ width, pixels, colour }, input) {
-  const { left, top, pixelSize } = gridOf(input);
-  const [r, g, b] = [1, 3, 5].map((at) => Number.parseInt(colour.slice(at, at + 2), 16));
-  return Array.from(pixels, (i) => {
-    const place = /** @type {const} */ ([left + (i % width + 0.5) * pixelSize, top - (Math.floor(i / width) + 0.5) * pixelSize, input.data[i] * input.heightScale]);
-    return { points: [place], colour: [r, g, b], width: MARK_SIDE_PIXELS };
-  });
 }

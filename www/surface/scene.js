@@ -1,8 +1,7 @@
 /** Draws an input and its result in space, on both sides of a divider, by three.js, which is loaded with the first scene. */
 import { oncePerFrame } from '../dom.js';
 import { addGestures } from './gestures.js';
-import { light } from './light.js';
-import { fillMatcap, MATCAP_SIDE_TEXELS } from './matcap.js';
+import { fillMatcap, lightFrom, MATCAP_SIDE_TEXELS } from './matcap.js';
 import { boxOf } from './triangles.js';
 
 /** @import {Line} from './layer.js' */
@@ -22,7 +21,6 @@ import { boxOf } from './triangles.js';
  * @property {boolean} [isMetal] surfaces mirror the light, as steel; otherwise they are paper
  * @property {boolean} [isFaceted] triangles are shaded flat
  * @property {boolean} [isSeenFromAbove] the camera stays above the ground
- * @property {() => void} [onTurn] called when the user has turned the surface
  * @property {{ width: number, height: number }} [size] of the picture in pixels, for a canvas that is not shown
  */
 
@@ -38,8 +36,6 @@ const SHADOW_MAP_SIDE = 256;
 /** Angle of the first turn, in radians, and its duration, in milliseconds. */
 const FIRST_TURN_RADIANS = 0.7;
 const FIRST_TURN_MS = 1800;
-/** Angle from which a change of the direction of view is a turn, in radians. */
-const MIN_TURN_RADIANS = 1e-6;
 /** Colour of pixels without a value in an image on steel. */
 const STEEL_COLOUR = '#b6bbc1';
 /** Distance of the camera from the centre, and half of the visible depth range, in radii of the box. */
@@ -71,7 +67,7 @@ export class SceneView {
   #sides = [{ surface: null, lines: null }, { surface: null, lines: null }];
   /** Textures that hold the colour of each normal: of plain surfaces, and of those with colours of their own. @type {any[]} */
   #matcaps;
-  #shownLight = '';
+  #shownTilt = '';
   #shownSize = '';
   #divider = 1;
   /** Centre of the box, and the factor that makes its radius 1. */
@@ -80,14 +76,11 @@ export class SceneView {
   #box = { low: [0, 0, 0], high: [0, 0, 0] };
   /** The direction of `look`. @type {Vector} */
   #home = [0, 0, -1];
-  #isSettingDirection = false;
-  /** The direction at the last change, as a vector of three.js. @type {any} */
-  #lastDirection = null;
   /** Whether `fit` was asked for while the canvas had no size. */
   #isFitDue = false;
   /** Materials by kind, which are kept so that their shaders are compiled once. @type {Map<string, any>} */
   #materials = new Map();
-  #listeners = new AbortController();
+  #resizing = new ResizeObserver(() => this.draw());
   /** Ends the first turn. */
   #turning = new AbortController();
   /** Draws the picture with the next frame. */
@@ -144,10 +137,7 @@ export class SceneView {
     this.#scene.add(this.#shadowLight, this.#ground);
     addGestures(canvas, this);
     this.#controls = this.#createControls();
-    const resizing = new ResizeObserver(() => this.draw());
-    resizing.observe(canvas);
-    this.#listeners.signal.addEventListener('abort', () => resizing.disconnect());
-    this.#listeners.signal.addEventListener('abort', light.onMove(this.drawSoon));
+    this.#resizing.observe(canvas);
     this.setDirection([0, 0, -1]);
   }
 
@@ -156,13 +146,7 @@ export class SceneView {
     Object.assign(controls, { zoomToCursor: true, minZoom: MIN_ZOOM, maxZoom: MAX_ZOOM, maxPolarAngle: this.#options.isSeenFromAbove ? Math.PI / 2 : Math.PI });
     // The style sheet says which touches scroll the page.
     this.canvas.style.touchAction = '';
-    controls.addEventListener('change', () => {
-      this.drawSoon();
-      const now = this.#camera.getWorldDirection(new this.#three.Vector3());
-      // Zooming and moving change the direction by rounding only.
-      if (!this.#isSettingDirection && !(this.#lastDirection?.angleTo(now) < MIN_TURN_RADIANS)) this.#options.onTurn?.();
-      this.#lastDirection = now;
-    });
+    controls.addEventListener('change', this.drawSoon);
     return controls;
   }
 
@@ -260,25 +244,16 @@ export class SceneView {
     this.drawSoon();
   }
 
-  /** Sets the lines on a surface; one of a single point is a dot. @param {0 | 1} side @param {readonly Line[]} lines */
+  /** Sets the lines on a surface. @param {0 | 1} side @param {readonly Line[]} lines */
   setLines(side, lines) {
     const three = this.#three;
     const group = new three.Group();
     for (const width of new Set(lines.map((line) => line.width))) {
       const alike = lines.filter((line) => line.width === width);
-      const [dots, strokes] = [alike.filter(({ points }) => points.length === 1), alike.filter(({ points }) => points.length > 1)];
-      if (strokes.length > 0) {
-        const geometry = new three.LineSegmentsGeometry();
-        geometry.setPositions(this.#scaled(strokes.flatMap(({ points }) => points.slice(1).flatMap((point, i) => [...points[i], ...point]))).array);
-        geometry.setColors(strokes.flatMap(({ points, colour }) => points.slice(1).flatMap(() => [...colour, ...colour].map((value) => value / 255))));
-        group.add(new three.LineSegments2(geometry, this.#material(`line ${width}`, () => new three.LineMaterial({ linewidth: width, vertexColors: true }))));
-      }
-      if (dots.length > 0) {
-        const geometry = new three.BufferGeometry();
-        geometry.setAttribute('position', this.#scaled(dots.flatMap(({ points }) => points[0])));
-        geometry.setAttribute('color', new three.BufferAttribute(Float32Array.from(dots.flatMap(({ colour }) => colour), (value) => value / 255), 3));
-        group.add(new three.Points(geometry, this.#material(`dot ${width}`, () => new three.PointsMaterial({ vertexColors: true, size: width, sizeAttenuation: false }))));
-      }
+      const geometry = new three.LineSegmentsGeometry();
+      geometry.setPositions(this.#scaled(alike.flatMap(({ points }) => points.slice(1).flatMap((point, i) => [...points[i], ...point]))).array);
+      geometry.setColors(alike.flatMap(({ points, colour }) => points.slice(1).flatMap(() => [...colour, ...colour].map((value) => value / 255))));
+      group.add(new three.LineSegments2(geometry, this.#material(`line ${width}`, () => new three.LineMaterial({ linewidth: width, vertexColors: true }))));
     }
     this.#replace(side, 'lines', lines.length > 0 ? group : null);
   }
@@ -309,9 +284,7 @@ export class SceneView {
     this.#camera.updateMatrixWorld();
     const point = new this.#three.Vector3();
     const [low, high] = [[Infinity, Infinity], [-Infinity, -Infinity]];
-    // The box of heights also holds what they unfold to.
-    const corners = this.#options.isSeenFromAbove ? [this.#scaled(cornersOf(this.#box))] : [];
-    for (const { array } of [...corners, ...this.#sides.flatMap(({ surface }) => surface?.geometry.getAttribute('position') ?? [])]) {
+    for (const { array } of this.#sides.flatMap(({ surface }) => surface?.geometry.getAttribute('position') ?? [])) {
       for (let i = 0; i < array.length; i += 3) {
         point.fromArray(array, i).applyMatrix4(this.#camera.matrixWorldInverse);
         [low[0], high[0]] = [Math.min(low[0], point.x), Math.max(high[0], point.x)];
@@ -351,19 +324,12 @@ export class SceneView {
       if (signal.aborted) return;
       const share = Math.min(1, Math.max(0, (now - start) / FIRST_TURN_MS));
       const next = FIRST_TURN_RADIANS * (1 - share) ** 2;
-      this.#withoutTurn(() => this.turn(next - remaining, 0));
+      this.turn(next - remaining, 0);
       remaining = next;
       if (share < 1) requestAnimationFrame(step);
       else turning.abort();
     };
     requestAnimationFrame(step);
-  }
-
-  /** Moves the camera without telling that the user has turned the surface. @param {() => void} move */
-  #withoutTurn(move) {
-    this.#isSettingDirection = true;
-    move();
-    this.#isSettingDirection = false;
   }
 
   /** Turns the camera about the vertical and upwards. @param {number} across @param {number} up in radians */
@@ -385,19 +351,13 @@ export class SceneView {
     this.drawSoon();
   }
 
-  /** The direction of view. @returns {[number, number, number]} */
-  get direction() {
-    const { x, y, z } = this.#camera.getWorldDirection(new this.#three.Vector3());
-    return [x, y, z];
-  }
-
   /** Sets the direction of view, resets zoom and place, and ends the first turn. @param {Vector} direction */
   setDirection(direction) {
     this.#turning.abort();
     this.#camera.zoom = 1;
     this.#controls.target.set(0, 0, 0);
     this.#camera.position.set(...direction).normalize().multiplyScalar(-CAMERA_DISTANCE);
-    this.#withoutTurn(() => this.#controls.update());
+    this.#controls.update();
     this.drawSoon();
   }
 
@@ -473,11 +433,10 @@ export class SceneView {
   #shade() {
     const { isMetal = false } = this.#options;
     const tilt = isMetal ? this.#tilt : 0;
-    const now = `${light.x} ${light.y} ${tilt.toFixed(3)}`;
-    if (now === this.#shownLight) return;
-    this.#shownLight = now;
+    if (tilt.toFixed(3) === this.#shownTilt) return;
+    this.#shownTilt = tilt.toFixed(3);
     this.#matcaps.forEach((matcap, i) => {
-      fillMatcap(matcap.image.data, light.from(tilt), { isMetal, isPale: i === 1 });
+      fillMatcap(matcap.image.data, lightFrom(tilt), { isMetal, isPale: i === 1 });
       matcap.needsUpdate = true;
     });
   }
@@ -512,7 +471,7 @@ export class SceneView {
   /** Frees the memory of the graphics card, and all that listens. */
   dispose() {
     this.#turning.abort();
-    this.#listeners.abort();
+    this.#resizing.disconnect();
     this.#controls.dispose();
     this.#renderer.dispose();
     this.#renderer.forceContextLoss();
@@ -530,11 +489,6 @@ function hasGraphicsCard() {
 /** The position of a vertex. @param {ArrayLike<number>} positions @param {number} vertex @returns {Vector} */
 export function vectorAt(positions, vertex) {
   return [positions[3 * vertex], positions[3 * vertex + 1], positions[3 * vertex + 2]];
-}
-
-/** The corners of a box: x, y, z of each. @param {Box} box @returns {number[]} */
-function cornersOf({ low, high }) {
-  return Array.from({ length: 8 }, (_, i) => low.map((value, k) => ((i >> k) & 1 ? high[k] : value))).flat();
 }
 
 /** An image with steel where it has no colour. @param {HTMLCanvasElement} image */

@@ -32,10 +32,10 @@ export function fillTriangles({ width, height }, triangles, places, visit) {
   }
 }
 
-/** The bounding rectangle of places in the plane. @param {ArrayLike<number>} places x, y and further coordinates @param {number} [stride] coordinates per place */
-export function extentOf(places, stride = 2) {
+/** The bounding rectangle of places in the plane. @param {ArrayLike<number>} places x, y of each */
+export function extentOf(places) {
   let [left, right, bottom, top] = [Infinity, -Infinity, Infinity, -Infinity];
-  for (let i = 0; i < places.length; i += stride) {
+  for (let i = 0; i < places.length; i += 2) {
     left = Math.min(left, places[i]);
     right = Math.max(right, places[i]);
     bottom = Math.min(bottom, places[i + 1]);

@@ -1,27 +1,16 @@
 /** The worker in which the page computes what it shows; `worker-client.js` calls it. */
 import { interpretFile } from '../import-interpretation.js';
-import { readAssemblyMesh } from './assembly-mesh.js';
 import { errorsAgainst } from './compare.js';
 import { reduceForPreview } from './downsampling.js';
 import { interpolateToGrid } from './lattice.js';
 import { reducePhoto, decodePicture } from './photo-decoding.js';
 import { drawingStrainImage, meshStrainImage, labelPixels, photoPixels, sheetStrainImage, valuePixels } from './colour-images.js';
 import { curvaturesOf, totalGaussianCurvature } from './gaussian-curvature.js';
-import { computeUnfolding } from './unfolding.js';
-
-/**
- * The unfolding of a pattern's sheets.
- * @param {Uint8Array} model
- * @param {number} scale
- * @param {number} most
- * @param {Parameters<typeof computeUnfolding>[2]} offset
- */
-const computeUnfoldingInPieces = (model, scale, most, offset) => computeUnfolding(readAssemblyMesh(model, scale), most, offset);
 
 /** The tasks by name. The buffers of arrays in an answer are transferred. */
 export const tasks = {
   curvaturesOf, drawingStrainImage, errorsAgainst, meshStrainImage, interpolateToGrid, labelPixels, interpretFile, reduceForPreview,
-  reducePhoto, photoPixels, decodePicture, totalGaussianCurvature, sheetStrainImage, computeUnfolding, computeUnfoldingInPieces, valuePixels,
+  reducePhoto, photoPixels, decodePicture, totalGaussianCurvature, sheetStrainImage, valuePixels,
 };
 
 globalThis.addEventListener('message', async ({ data: { id, task, args } }) => {

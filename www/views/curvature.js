@@ -4,7 +4,7 @@ import { COLOUR_SCALE_QUANTILE, logarithmicScale, magnitudeQuantile } from '../s
 import { gridOf } from '../surface/lattice.js';
 import { canvasFromPixels, valueAt } from '../surface/layer.js';
 import { callWorker } from '../surface/worker-client.js';
-import { colourBar, figures } from './legend.js';
+import { figures } from './legend.js';
 
 /** @import {Analyses, Curvatures} from '../analyses.js' */
 /** @import {Result} from '../session.js' */
@@ -13,10 +13,7 @@ import { colourBar, figures } from './legend.js';
 /** Symbols of the curvatures. */
 const NAMES = { gaussian: 'K', kappa2: 'κ₂' };
 
-/** @typedef {{ before: Curvatures | null, after: Curvatures }} InputAndResult */
-
-/** Part of a title that explains the arrow between two figures. */
-const ARROW_EXPLANATION = '; figures: input → result';
+/** @typedef {{ before: Curvatures, after: Curvatures }} InputAndResult */
 
 /**
  * The view of Gaussian curvature.
@@ -29,7 +26,7 @@ export async function gaussian(analyses, result) {
   const { size, threshold } = both.after.summary;
   const area = size ** 2;
   const inverse = `1/${result.input.unit ?? 'unit'}²`;
-  return curvatureContent(result, both, 'gaussian', inverse, 1 / area, `Gaussian curvature K in ${inverse}${both.before ? ARROW_EXPLANATION : ''}`, [
+  return curvatureContent(result, both, 'gaussian', inverse, 1 / area, `Gaussian curvature K in ${inverse}; figures: input → result`, [
     [`Median |K| in ${inverse}`, fromInputToResult(both, ({ summary }) => numberAgainst(summary.medianGaussian / area, 1 / area))],
     [`|K| above ${number(threshold / area, 2)}`, fromInputToResult(both, ({ summary }) => percent(summary.gaussianAbove))],
   ]);
@@ -45,7 +42,7 @@ export async function kappa2(analyses, result) {
   const both = await analyses.curvatures(result);
   const { size } = both.after.summary;
   const inverse = `1/${result.input.unit ?? 'unit'}`;
-  return curvatureContent(result, both, 'kappa2', inverse, 1 / size, `κ₂, the smaller principal curvature, in ${inverse}${both.before ? ARROW_EXPLANATION : ''}`, [
+  return curvatureContent(result, both, 'kappa2', inverse, 1 / size, `κ₂, the smaller principal curvature, in ${inverse}; figures: input → result`, [
     [`Median |κ₂| in ${inverse}`, fromInputToResult(both, ({ summary }) => numberAgainst(summary.medianKappa2 / size, 1 / size))],
     [`Median |κ₁|, the larger one`, fromInputToResult(both, ({ medianKappa1 }) => numberAgainst(medianKappa1, 1 / size))],
   ]);
@@ -64,7 +61,7 @@ export async function kappa2(analyses, result) {
  */
 async function curvatureContent({ input }, { before, after }, what, inverse, linearLimit, title, facts) {
   const grid = gridOf(input);
-  const maximum = magnitudeQuantile([after, ...(before ? [before] : [])].map((analysis) => analysis[what]), COLOUR_SCALE_QUANTILE);
+  const maximum = magnitudeQuantile([after, before].map((analysis) => analysis[what]), COLOUR_SCALE_QUANTILE);
   /** @param {Curvatures} analysis */
   const layer = async ({ rows, cols, spacing, origin, [what]: values }) => {
     const lattice = { rows, cols, spacing, origin };
@@ -76,17 +73,18 @@ async function curvatureContent({ input }, { before, after }, what, inverse, lin
     };
   };
   return {
-    input: before ? await layer(before) : undefined,
+    input: await layer(before),
     result: await layer(after),
-    about: [colourBar(title, logarithmicScale(linearLimit, maximum)), figures(facts)],
+    colours: { title, scale: logarithmicScale(linearLimit, maximum) },
+    about: [figures(facts)],
   };
 }
 
 /**
- * A figure of the input, if it was analysed, and of the result.
+ * A figure of the input and of the result.
  * @param {InputAndResult} both
  * @param {(analysis: Curvatures) => string} figure
  */
 function fromInputToResult({ before, after }, figure) {
-  return before ? `${figure(before)} → ${figure(after)}` : figure(after);
+  return `${figure(before)} → ${figure(after)}`;
 }

@@ -3,16 +3,23 @@ import { make } from '../dom.js';
 import { toCss, divergingColour } from '../surface/colours.js';
 
 /** @import {Scale} from '../surface/colours.js' */
+/** @typedef {{ title: string, scale: Scale }} Colours what colours mean: a title with the unit, and the scale */
+
+/** Colours of a colour bar, evenly spaced. */
+const STOPS = Array.from({ length: 21 }, (_, i) => toCss(divergingColour(i / 10 - 1)));
 
 /**
- * A colour bar with its ticks.
- * @param {string} title with the unit
- * @param {Scale} scale
+ * The elements below a view.
+ * @param {{ said?: string, colours?: Colours, about?: readonly Node[] }} shown a sentence, the meaning of the colours, and further elements
  */
-export function colourBar(title, scale) {
+export function aboutView({ said, colours, about = [] }) {
+  return [...(said ? [make('p', 'said', said)] : []), ...(colours ? [colourBar(colours)] : []), ...about];
+}
+
+/** A colour bar with its ticks. @param {Colours} colours */
+function colourBar({ title, scale }) {
   const bar = make('div', 'bar');
-  const stops = Array.from({ length: 21 }, (_, i) => toCss(divergingColour(i / 10 - 1)));
-  bar.style.background = `linear-gradient(to right, ${stops.join(', ')})`;
+  bar.style.background = `linear-gradient(to right, ${STOPS.join(', ')})`;
   const ticks = make('div', 'ticks');
   for (const { value, label } of scale.ticks) {
     const tick = make('span', '', label);
@@ -64,7 +71,29 @@ export function key(colour, words) {
   return made;
 }
 
-/** A sentence above the figures. @param {string} words */
-export function statement(words) {
-  return make('p', 'said', words);
+/**
+ * A picture as it is saved: on the ground of the page, with a colour bar below.
+ * @param {HTMLCanvasElement} drawn
+ * @param {Colours} [colours]
+ */
+export function pictureWithColours(drawn, colours) {
+  const line = Math.round(drawn.width / 60);
+  const picture = new OffscreenCanvas(drawn.width, drawn.height + (colours ? 6 * line : 0));
+  const context = picture.getContext('2d');
+  if (!context) throw new Error('this browser draws no pictures');
+  const style = getComputedStyle(document.body);
+  context.fillStyle = style.getPropertyValue('--well').trim();
+  context.fillRect(0, 0, picture.width, picture.height);
+  context.drawImage(drawn, 0, 0);
+  if (!colours) return picture;
+  const [left, top, width] = [0.1 * drawn.width, drawn.height + 2 * line, 0.8 * drawn.width];
+  const gradient = context.createLinearGradient(left, 0, left + width, 0);
+  STOPS.forEach((colour, i) => gradient.addColorStop(i / (STOPS.length - 1), colour));
+  context.fillStyle = gradient;
+  context.fillRect(left, top, width, line);
+  Object.assign(context, { fillStyle: style.color, font: `${line}px ${style.fontFamily}` });
+  context.fillText(colours.title, left, top - line / 2);
+  context.textAlign = 'center';
+  for (const { value, label } of colours.scale.ticks) context.fillText(label, left + (width * (1 + colours.scale.place(value))) / 2, top + 2.5 * line);
+  return picture;
 }

@@ -1,12 +1,13 @@
 /** The views of a whole mesh and its result. */
-import { count, number, numberAgainst, percent, seconds, signedPercent, strainInWords } from '../format.js';
-import { COLOUR_SCALE_QUANTILE, toCss, divergingColour, linearScale, logarithmicScale, magnitudeQuantile, patchColour } from '../surface/colours.js';
+import { count, number, numberAgainst, percent, seconds, strainInWords } from '../format.js';
+import { COLOUR_SCALE_QUANTILE, toCss, divergingColour, logarithmicScale, magnitudeQuantile, patchColour } from '../surface/colours.js';
 import { canvasFromPixels } from '../surface/layer.js';
 import { imagePicture } from '../surface/picture-view.js';
 import { callWorker } from '../surface/worker-client.js';
 import { MESH_FIT_WORDS } from '../messages.js';
-import { colourBar, figures, key, statement } from './legend.js';
+import { figures, key } from './legend.js';
 import { rulingContent } from './rulings.js';
+import { strainColours } from './sheet.js';
 import { make } from '../dom.js';
 
 /** @import {Mesh} from '../api.js' */
@@ -24,7 +25,9 @@ import { make } from '../dom.js';
  * @property {readonly Line[]} [lines] lines on `after`
  * @property {Picture} [flat] picture in place of both meshes
  * @property {(place: Place) => string} [read] the value at a place, with its name and unit
- * @property {readonly Node[]} about elements below the view
+ * @property {string} [said] sentence below the view
+ * @property {import('./legend.js').Colours} [colours]
+ * @property {readonly Node[]} [about] further elements below the view
  */
 
 /** Maximum number of patches in the legend. */
@@ -52,8 +55,8 @@ export async function gaussian(whole, mesh, surface) {
       const value = interpolateAt(mesh, place, (vertex) => (place.after ? after : before).gaussian[vertex]);
       return Number.isNaN(value) ? '' : `K ${numberAgainst(value, 1 / area)} ${inverse}`;
     },
+    colours: { title: `Gaussian curvature K in ${inverse}; figures: input → result`, scale },
     about: [
-      colourBar(`Gaussian curvature K in ${inverse}; figures: input → result`, scale),
       figures([
         [`Median |K| in ${inverse}`, `${numberAgainst(before.summary.medianGaussian / area, 1 / area)} → ${numberAgainst(after.summary.medianGaussian / area, 1 / area)}`],
         // Flat faces bend at their corners only, where all vertices are.
@@ -104,9 +107,9 @@ export async function sheet(whole, mesh, surface, tell) {
   return {
     before: mesh,
     flat: imagePicture(canvasFromPixels({ width, height }, pixels), 'Laid flat', words, (x, y) => strainInWords(values[Math.floor(y) * width + Math.floor(x)])),
+    said: `${words}.`,
+    colours: strainColours(maxStrain),
     about: [
-      statement(`${words}.`),
-      colourBar('Strain: blue is compressed, red is stretched', linearScale(maxStrain, signedPercent)),
       figures([['Largest strain', percent(strain)], ['Seam gap of folds', `${numberAgainst(seamGap, extent.width)} ${unit}`]]),
     ],
   };

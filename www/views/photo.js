@@ -23,7 +23,7 @@ export function hasColours({ photo, lattice }) {
  */
 export async function photo(_, { input }) {
   const { lattice } = input;
-  if (!lattice) return { about: [] };
+  if (!lattice) return {};
   const coarse = gridOf(input);
   const finer = Math.max(1, Math.ceil(MIN_LAYER_PIXELS / Math.max(coarse.width, coarse.height)));
   const grid = { ...coarse, width: coarse.width * finer, height: coarse.height * finer, pixelSize: coarse.pixelSize / finer };
@@ -31,5 +31,5 @@ export async function photo(_, { input }) {
   const image = input.photo?.image;
   const seen = image && uvs ? { image: { width: image.width, height: image.height, data: image.data }, uvs } : { colors };
   const layer = { grid, image: canvasFromPixels(grid, await callWorker('photoPixels', { rows, cols, spacing, origin }, seen, grid)) };
-  return { input: layer, result: layer, about: [] };
+  return { input: layer, result: layer };
 }

@@ -1,13 +1,13 @@
 /** The view of the flat surface, cut into sheets if it would stretch in one piece. */
 import { make } from '../dom.js';
-import { number, signedPercent, strainInWords } from '../format.js';
-import { CREASE_COLOUR, toCss, FOLD_COLOURS, linearScale } from '../surface/colours.js';
+import { number, strainInWords } from '../format.js';
+import { CREASE_COLOUR, toCss, FOLD_COLOURS } from '../surface/colours.js';
 import { canvasFromPixels } from '../surface/layer.js';
 import { imagePicture } from '../surface/picture-view.js';
 import { callWorker } from '../surface/worker-client.js';
-import { suggestedSideOf, sheetFigures, sheetsInWords, cutSheets, drawingImage, strainLimitOf } from '../pattern.js';
-import { colourBar, figures, key, statement } from './legend.js';
-import { sheet } from './sheet.js';
+import { suggestedSideOf, sheetFigures, sheetsInWords, cutSheets, drawingImage } from '../pattern.js';
+import { figures, key } from './legend.js';
+import { sheet, strainColours } from './sheet.js';
 
 /** @import {Analyses} from '../analyses.js' */
 /** @import {Result} from '../session.js' */
@@ -25,7 +25,7 @@ const DRAWING_SIDE_PIXELS = 2400;
  * @returns {Promise<ViewContent>}
  */
 export async function flat(analyses, result, tell) {
-  const { verdict, picture: { maxStrain } } = await analyses.unroll(result, tell);
+  const { verdict } = await analyses.unroll(result, tell);
   const whole = () => sheet(analyses, result, tell);
   if (verdict !== 'stretched' || !Number.isFinite((await analyses.patchCount(result)).count)) return whole();
   // If cutting fails, the surface is shown in one piece with its strain.
@@ -44,20 +44,17 @@ export async function flat(analyses, result, tell) {
   if (strain) context.drawImage(canvasFromPixels(strain, strain.pixels), 0, 0, canvas.width, canvas.height);
   context.drawImage(image, 0, 0, canvas.width, canvas.height);
   const isFolded = drawing.sheets.some(({ folds }) => folds.length > 0);
-  // If the coarser lattice of the unfolding cannot be cut, it unfolds in one piece.
-  const unfolding = await analyses.unfoldInSheets(result, strainLimitOf(drawing), maxStrain).catch(() => analyses.unfold(result, maxStrain));
   return {
-    unfolding,
     after: imagePicture(canvas, 'Laid flat, in pieces', sheetsInWords(drawing), (x, y) => {
       const [across, down] = [x / canvas.width, y / canvas.height];
       const value = strain?.values[Math.floor(down * strain.height) * strain.width + Math.floor(across * strain.width)] ?? NaN;
       const sheet = sheetAt(drawing, across * width, (1 - down) * height);
       return sheet && [sheet, strainInWords(value)].filter(Boolean).join(' · ');
     }),
+    said: `In one piece it would stretch; cut along its creases it lies flat. ${sheetsInWords(drawing)}`,
+    colours: strain ? strainColours(strain.maxStrain) : undefined,
     about: [
-      statement(`In one piece it would stretch; cut along its creases it lies flat. ${sheetsInWords(drawing)}`),
       ...(isFolded ? [make('p', 'keys', key(toCss(CREASE_COLOUR), 'cut'), key(toCss(FOLD_COLOURS.mountain), 'folded to a ridge'), key(toCss(FOLD_COLOURS.valley), 'folded to a valley'))] : []),
-      ...(strain ? [colourBar('Strain: blue is compressed, red is stretched', linearScale(strain.maxStrain, signedPercent))] : []),
       figures(sheetFigures(drawing)),
     ],
   };

@@ -4,11 +4,12 @@ import { linearScale } from '../surface/colours.js';
 import { canvasFromPixels } from '../surface/layer.js';
 import { imagePicture } from '../surface/picture-view.js';
 import { VERDICTS } from '../messages.js';
-import { colourBar, figures, statement } from './legend.js';
+import { figures } from './legend.js';
 
 /** @import {Analyses} from '../analyses.js' */
 /** @import {Result} from '../session.js' */
 /** @import {Picture} from '../surface/picture-view.js' */
+/** @import {Colours} from './legend.js' */
 /** @import {ViewContent} from './view-content.js' */
 /** @typedef {ReturnType<typeof import('../surface/colour-images.js').sheetStrainImage>} Sheet */
 
@@ -26,14 +27,12 @@ export async function sheet(analyses, result, tell) {
   const { picture, report: { distortion, crossings, parts, plan }, verdict } = await analyses.unroll(result, tell);
   const { extent, maxStrain } = picture;
   const unit = result.input.unit ?? 'units';
-  const scale = linearScale(maxStrain, signedPercent);
   const size = `${number(extent.width, 4)} × ${number(extent.height, 4)} ${unit}`;
   return {
     after: pictureOf(picture, unit, `The surface laid flat, ${size}`),
-    unfolding: await analyses.unfold(result, maxStrain),
+    said: VERDICTS[verdict],
+    colours: strainColours(maxStrain),
     about: [
-      statement(VERDICTS[verdict]),
-      colourBar('Strain: blue is compressed, red is stretched', scale),
       figures([
         ['Sheet size', size],
         ['RMS strain', percent(distortion.rms)],
@@ -46,6 +45,11 @@ export async function sheet(analyses, result, tell) {
       ]),
     ],
   };
+}
+
+/** The meaning of the colours of strain. @param {number} maxStrain strain at the end of the colour scale @returns {Colours} */
+export function strainColours(maxStrain) {
+  return { title: 'Strain: blue is compressed, red is stretched', scale: linearScale(maxStrain, signedPercent) };
 }
 
 /**

@@ -1,4 +1,4 @@
-/** @import {Unfolding} from '../surface/unfolding.js' */
+/** @import {Colours} from './legend.js' */
 /** @import {Layer} from '../surface/layer.js' */
 /** @import {Picture} from '../surface/picture-view.js' */
 
@@ -7,9 +7,9 @@
  * @typedef {object} ViewContent
  * @property {Layer} [input] layer over the input
  * @property {Layer} [result] layer over the result
- * @property {Picture} [before] picture in place of the input
- * @property {Picture} [after] picture in place of the result
- * @property {Unfolding} [unfolding] mesh in space in place of the result
- * @property {readonly Node[]} about elements below the view
+ * @property {Picture} [after] picture in place of both surfaces
+ * @property {string} [said] sentence below the view
+ * @property {Colours} [colours]
+ * @property {readonly Node[]} [about] further elements below the view
  */
 export {};

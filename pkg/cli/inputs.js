@@ -43,21 +43,20 @@ export async function readInput(task) {
   const file = tellUndecided(task, await readImage(task.input, reading));
   const { mask, confidence, constraints, occlusions: torn } = task;
   const known = {
-    mask: mask && flags(await readBeside('mask', mask, file)),
-    confidence: confidence && weights(await readBeside('confidence', confidence, file)),
-    occlusions: torn && flags(await readBeside('occlusion mask', torn, file)),
+    mask: mask && flags(await readBeside('mask', mask, file, task)),
+    confidence: confidence && weights(await readBeside('confidence', confidence, file, task)),
+    occlusions: torn && flags(await readBeside('occlusion mask', torn, file, task)),
   };
-  const pins = (task.command === 'design') ? file : constraints && (await readBeside('constraints', constraints, file));
+  const pins = (task.command === 'design') ? file : constraints && (await readBeside('constraints', constraints, file, task));
   const heightScale = task.heightScale ?? file.heightScale;
-  const pixelSize = task.pixelSize ?? file.pixelSize;
+  const { pixelSize } = file;
   if (task.lattice === 'square') {
     return /** @type {Input} */ ({
       width: file.width,
       height: file.height,
       pixelSize,
       heightScale,
-      // Pixels of another size may be in another unit.
-      unit: task.unit ?? (task.pixelSize === undefined ? file.unit : undefined),
+      unit: task.unit ?? file.unit ?? undefined,
       georeference: file.georeference,
       ...known,
       ...(task.command === 'design' ? {} : { data: file.data }),
@@ -292,12 +291,12 @@ async function whyMissing(folder, name) {
 
 /**
  * @param {string} path
- * @param {Partial<Pick<Task, 'array' | 'noData' | 'assumeNoData'>>} [task]
+ * @param {Partial<Pick<Task, 'array' | 'noData' | 'assumeNoData' | 'pixelSize'>>} [task]
  * @returns {Promise<ReadResult>}
  */
-async function readImage(path, { array, noData, assumeNoData } = {}) {
+async function readImage(path, { array, noData, assumeNoData, pixelSize } = {}) {
   const bytes = await readBytes(path);
-  return about(path, () => developable.read(bytes, { array, name: basename(path), noData, assumeNoData }));
+  return about(path, () => developable.read(bytes, { array, name: basename(path), noData, assumeNoData, pixelSize }));
 }
 
 /**
@@ -339,10 +338,11 @@ export function assumptionsInWords({ assumptions = [] }) {
  * @param {string} what
  * @param {string} path
  * @param {ReadResult} input
+ * @param {Task} task
  */
-async function readBeside(what, path, input) {
+async function readBeside(what, path, input, { pixelSize }) {
   // What is beside the heights says by its values which pixels it means.
-  const file = await readImage(path, { assumeNoData: false });
+  const file = await readImage(path, { assumeNoData: false, pixelSize });
   if (file.width === input.width && file.height === input.height) return file;
   const [verb, its] = [what.endsWith('s') ? 'have' : 'has', `${file.width} × ${file.height}`];
   throw new Problem(

@@ -12,6 +12,11 @@ export const read = {
   array: { kind: text },
   /** Name of the file, which may say what is in it: `depth` in it makes depths of numbers that may be some. */
   name: { kind: text },
+  /**
+   * Side length of a pixel, in the unit of the heights, whatever the file says of it; where that is something else, it is listed in
+   * `assumptions`. Default: what the file says, else 1, or another size if the surface would be far too flat or too steep with 1.
+   */
+  pixelSize: { kind: number },
   /** A value that is no data and becomes NaN, rounded as the file stores numbers. */
   noData: { kind: number },
   /**
@@ -24,7 +29,7 @@ export const read = {
 /** Options of reading a mesh file. @satisfies {Options} */
 export const readMesh = {
   /** Format of the file. Default: detected from its first bytes. */
-  format: { kind: choice('obj', 'ply', 'stl', 'gltf', 'glb', '3mf', 'off') },
+  format: { kind: choice('obj', 'ply', 'stl', 'gltf', 'glb', '3mf', 'off', 'xyz') },
   /**
    * The unit of the file's lengths; the mesh is in metres for `'m'`, else in millimetres. Default: what the file says,
    * else millimetres if its longest side is 10 to 5000 long, and none for others, which is among the mesh's `assumptions`.

@@ -87,7 +87,7 @@ test('what is wrong with a file is an error', async () => {
   assert.throws(() => direct.read(exr, { format: 'tiff' }), error('FORMAT', /begins like EXR/));
   await assert.rejects(developable.read(await data('rgb-colour.tif')), error('UNSUPPORTED', /row 2, column 1/));
   const unknown = /** @type {any} */ ({ format: 'heic' });
-  assert.throws(() => direct.read(exr, unknown), error('OPTION', /or pgm$/));
+  assert.throws(() => direct.read(exr, unknown), error('OPTION', /or hgt$/));
 });
 
 test('TIFF and EXR come back as they were written', async () => {
@@ -145,4 +145,23 @@ test('the command tells what is in a file', async () => {
   const several = await developableCommand('fit several.npz -o out.npy');
   assert.match(several.stderr, /several\.npz: .*choose one by --array/);
   assert.equal((await developableCommand('info geo-metres.tif --lambda 3')).status, 2);
+});
+
+test('a size of pixels that is given is the one that is solved with and written', async () => {
+  // Pixels of 0.5 × 0.6 m on a map, whose upper left corner is at (400000, 5400000).
+  /** @type {import('../../pkg/types.js').Georeference} */
+  const georeference = { transformation: [0.5, 0, 4e5, 0, -0.6, 5.4e6], keys: [1, 1, 0, 2, 1024, 0, 1, 1, 3076, 0, 1, 9001], doubles: [], text: '' };
+  const field = image(24, 20, (x, y) => Math.fround(plane(x, y)));
+  // Without a size of its own the image has that of the map.
+  await writeFile(join(folder, 'map.tif'), direct.writeTiff({ ...field, pixelSize: undefined, georeference }));
+  const told = direct.read(await readFile(join(folder, 'map.tif')), { pixelSize: 2 });
+  assert.deepEqual([told.width, told.height, told.pixelSize, told.unit], [24, 20, 2, 'm']);
+  const fit = await developableCommand('fit map.tif -o two.tif --pixel-size 2');
+  assert.equal(fit.status, 0);
+  assert.match(fit.stderr, /pixels are 2 wide, which was given, and not 0\.5 × 0\.6, which the file says/);
+  const back = direct.read(await readFile(join(folder, 'two.tif')));
+  assert.deepEqual([back.width, back.pixelSize, back.georeference?.transformation], [24, 2, [2, 0, 4e5, 0, -2, 5.4e6]]);
+  await developableCommand('fit map.tif -o own.tif');
+  const own = direct.read(await readFile(join(folder, 'own.tif')));
+  assert.deepEqual([own.width, own.pixelSize, own.georeference?.transformation], [20, 0.6, [0.6, 0, 4e5, 0, -0.6, 5.4e6]]);
 });

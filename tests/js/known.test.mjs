@@ -261,6 +261,11 @@ test('lambda by itself follows the noise, and tells how it came about', () => {
   assert.equal(quiet.lambdaChoice?.reason, 'prediction');
   const sigmas = [quiet, loud].map(({ lambdaChoice }) => lambdaChoice?.sigma ?? 0);
   assert.ok(Math.abs(sigmas[1] / sigmas[0] - 10) < 0.5, `${sigmas}`);
+  // The noise of pixels is that of the heights, whose levels are a fiftieth of the unit.
+  const rough = noisy(faces, 1);
+  const levels = image(80, 60, (x, y) => Math.round(50 * rough(x, y)));
+  const { lambdaChoice } = direct.fit({ ...levels, heightScale: 1 / 50 }, { lambda: 'auto' }).report;
+  assert.ok(Math.abs((lambdaChoice?.sigma ?? 0) / sigmas[1] - 1) < 0.1, `${lambdaChoice?.sigma} ${sigmas}`);
   assert.ok(quiet.lambda > 3 * loud.lambda && loud.lambda > 1);
   assert.equal(quiet.lambdaChoice?.step, undefined);
   assert.ok((quiet.gap ?? 1) <= 0.01);

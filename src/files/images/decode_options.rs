@@ -11,6 +11,8 @@ pub struct DecodeOptions {
     pub array: Option<String>,
     /// Name of the file, which may say what is in it; empty if it is not known.
     pub name: String,
+    /// Side length of a pixel, in the unit of the heights, whatever the file says of it.
+    pub pixel_size: Option<f64>,
     /// A value that is no data, rounded as the file stores numbers; `None`: no other than those that the file names.
     pub no_data: Option<f64>,
     /// Whether values that nobody would measure are no data.
@@ -22,6 +24,7 @@ impl Default for DecodeOptions {
         DecodeOptions {
             array: None,
             name: String::new(),
+            pixel_size: None,
             no_data: None,
             assume_no_data: true,
         }
@@ -38,6 +41,12 @@ impl DecodeOptions {
     /// Sets the name of the file, and returns the options.
     pub fn name(mut self, name: impl Into<String>) -> Self {
         self.name = name.into();
+        self
+    }
+
+    /// Sets the side length of a pixel, and returns the options.
+    pub fn pixel_size(mut self, side: f64) -> Self {
+        self.pixel_size = Some(side);
         self
     }
 

@@ -6,7 +6,7 @@ use super::georeference::Georeference;
 use super::no_data;
 use super::scale::{SUGGESTED_RELIEF_SHARE, assumed_levels, assumed_pixel_size};
 use super::square_pixels::{NEGLIGIBLE_SIDE_DIFFERENCE, square_pixels};
-use crate::error::{Error, Result};
+use crate::error::{Error, Result, positive};
 use crate::files::failure::unsupported;
 use crate::files::image_format::Format;
 use crate::files::number_type::NumberType;
@@ -115,7 +115,7 @@ impl StoredImage {
     /// pixels, the height of levels and the size of pixels. Each is one of the assumptions. Costs `O(pixels)`.
     ///
     /// # Errors
-    /// [`Error::OutOfMemory`].
+    /// [`Error::Option`] for a size of pixels that is not positive and finite, [`Error::OutOfMemory`].
     pub(super) fn finish(mut self, options: &DecodeOptions) -> Result<Decoded> {
         let mut assumptions = self.assumptions;
         if let Some(missing) = options.no_data {
@@ -144,11 +144,29 @@ impl StoredImage {
         if depths == DepthEvidence::Certain && options.assume_no_data {
             assumptions.extend(depths::without_missing(&mut self.values, depth_unit));
         }
+        if let Some(side) = options
+            .pixel_size
+            .map(|side| positive("pixel_size", side))
+            .transpose()?
+        {
+            if let Some([x, y]) = self
+                .sides
+                .filter(|sides| differ([sides[0], side]) || differ([sides[1], side]))
+            {
+                let words = format!(
+                    "pixels are {side} wide, which was given, and not {x} × {y}, which the file says"
+                );
+                assumptions.push(Assumption::new("givenPixelSize", words, None));
+            }
+            assumptions.retain(|one| one.option != Some("pixelSize"));
+            self.sides = Some([side; 2]);
+            self.unit = self.unit.filter(|_| self.georeference.is_some());
+        }
         // Of pixels of unknown size, the longer side is 1.
         let of_unknown_size = [1.0, self.aspect].map(|side| side / self.aspect.max(1.0));
         let [x, y] = self.sides.unwrap_or(of_unknown_size);
         let square = square_pixels(self.values, self.size, [x, y])?;
-        if (x - y).abs() > NEGLIGIBLE_SIDE_DIFFERENCE * x.max(y) {
+        if differ([x, y]) {
             let how = if square.size == self.size {
                 "taken for"
             } else {
@@ -198,6 +216,11 @@ impl StoredImage {
             assumptions,
         })
     }
+}
+
+/// Whether two sides of pixels differ by more than nobody needs to be told.
+pub(super) fn differ([x, y]: [f64; 2]) -> bool {
+    (x - y).abs() > NEGLIGIBLE_SIDE_DIFFERENCE * x.max(y)
 }
 
 /// The sides of pixels of which a writer of this library recorded the size; it records 1 where it knows none.

@@ -44,6 +44,11 @@ impl Georeference {
             let [i, j] = [0.5 * (across - 1.0), 0.5 * (down - 1.0)];
             self.transformation = [a, b, c + a * i + b * j, d, e, f + d * i + e * j];
         }
+        self.scale_pixels([across, down]);
+    }
+
+    /// Makes pixels wider and higher by these factors, and leaves the first one where it is.
+    pub(super) fn scale_pixels(&mut self, [across, down]: [f64; 2]) {
         let [a, b, _, d, e, _] = &mut self.transformation;
         (*a, *d) = (*a * across, *d * across);
         (*b, *e) = (*b * down, *e * down);

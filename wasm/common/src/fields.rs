@@ -24,7 +24,7 @@ pub struct ImageInput {
     #[serde(default, with = "preserve")]
     pub mask: JsValue,
     pub no_data: Option<f64>,
-    pixel_size: Option<f64>,
+    pub pixel_size: Option<f64>,
     height_scale: Option<f64>,
     pub georeference: Option<Georeference>,
 }

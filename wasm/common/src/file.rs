@@ -18,6 +18,7 @@ pub struct ReadOptions {
     format: Option<String>,
     array: Option<String>,
     name: String,
+    pixel_size: Option<f64>,
     no_data: Option<f64>,
     assume_no_data: Option<bool>,
 }
@@ -32,7 +33,8 @@ impl ReadOptions {
     pub fn decoding(self) -> DecodeOptions {
         let mut options = DecodeOptions::default();
         options.assume_no_data = self.assume_no_data.unwrap_or(options.assume_no_data);
-        (options.array, options.name, options.no_data) = (self.array, self.name, self.no_data);
+        (options.array, options.name) = (self.array, self.name);
+        (options.pixel_size, options.no_data) = (self.pixel_size, self.no_data);
         options
     }
 }

@@ -58,11 +58,15 @@ pub fn arrays(bytes: &Uint8Array) -> Result<JsValue> {
     Ok(to_value(&arrays)?)
 }
 
-/// Writes the heights of a height image to a TIFF file, with its georeference if it has one.
+/// Writes the heights of a height image to a TIFF file, with its georeference if it has one, which says the size of pixels where
+/// the image does not.
 #[wasm_bindgen(js_name = writeTiff)]
 pub fn write_tiff_file(image: JsValue) -> Result<Uint8Array> {
     let mut input = from_value::<ImageInput>(image)?;
     let map = input.georeference.take();
+    if let (Some(map), None) = (&map, input.pixel_size) {
+        input.pixel_size = Some(map.pixel_size((input.width, input.height)));
+    }
     Ok(write_tiff(&input.into_image()?, map.as_ref())?
         .as_slice()
         .into())

@@ -1,5 +1,6 @@
 //! How large the pixels of an image are on a map, in metres, and how they lie there.
 
+use crate::files::images::decoded::differ;
 use crate::files::images::georeference::Georeference;
 
 /// Number of the GeoTIFF key `GTModelTypeGeoKey`, which tells whether coordinates are lengths or degrees.
@@ -54,6 +55,24 @@ impl Georeference {
             [1.0, 1.0]
         };
         [(a * x).hypot(d * y), (b * x).hypot(e * y)]
+    }
+
+    /// Returns the mean of the width and height of a pixel of an image of `size` columns and rows, in metres where the file says
+    /// the unit.
+    pub fn pixel_size(&self, size: (usize, usize)) -> f64 {
+        let [x, y] = self.pixel_sides(size);
+        0.5 * (x + y) * self.linear_unit().unwrap_or(1.0)
+    }
+
+    /// Returns the georeference with pixels of the given side length, where they have another one. The first pixel stays where
+    /// it is.
+    pub(super) fn with_pixel_size(&self, size: (usize, usize), side: f64) -> Georeference {
+        let mut map = self.clone();
+        if differ([self.pixel_size(size), side]) {
+            let unit = self.linear_unit().unwrap_or(1.0);
+            map.scale_pixels(self.pixel_sides(size).map(|own| side / (own * unit)));
+        }
+        map
     }
 
     /// Whether the image is a mirror image of the map, as with rows from south to north.

@@ -133,8 +133,9 @@ fn number_type(kind: DecodingSampleType) -> NumberType {
 /// Writes a height image as a TIFF file of 32-bit floats, uncompressed, which are NaN where there is no data (which
 /// `GDAL_NODATA` says too). Exact for heights that are 32-bit floats; others are rounded to the nearest one.
 ///
-/// Tags record the pixel size, so that [`decode`](crate::files::images::decode) gives it back: with a georeference those of
-/// the map, as they were read of an image with as many pixels.
+/// Tags record the pixel size, so that [`decode`](crate::files::images::decode) gives it back. A georeference is that of an image
+/// with as many pixels in metres; where its pixels have another size than those of the image, they get this size, and the first
+/// pixel stays in its place.
 ///
 /// # Errors
 /// [`Error::NotFinite`] for heights beyond 3.4·10³⁸, [`Error::OutOfMemory`].
@@ -161,7 +162,10 @@ fn write(
     let side = image.pixel_size();
     let tags = picture.encoder();
     match map {
-        Some(map) => write_map(tags, map)?,
+        Some(map) => write_map(
+            tags,
+            &map.with_pixel_size((image.width(), image.height()), side),
+        )?,
         None => tags.write_tag(Tag::ModelPixelScaleTag, &[side, side, 0.0][..])?,
     }
     tags.write_tag(Tag::GdalNodata, "nan")?;

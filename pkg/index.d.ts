@@ -200,7 +200,7 @@ export function open(input: HeightImage | Heightfield, options?: HandOver): Prom
  */
 export function occlusions(input: HeightImage | Heightfield, options?: OcclusionOptions): Promise<DetectedOcclusions>;
 /**
- * Decodes a file of heights: PNG, NPY, TIFF, EXR, PFM, PGM, NPZ, JPEG, WebP, text or a depth map of COLMAP. Meshes are read
+ * Decodes a file of heights: PNG, NPY, TIFF, EXR, PFM, PGM, NPZ, JPEG, WebP, text, SRTM heights or a depth map of COLMAP. Meshes are read
  * by `readMesh`.
  */
 export function read(bytes: Uint8Array | ArrayBuffer | Blob, options?: ReadOptions): Promise<ReadResult>;
@@ -247,7 +247,7 @@ export function writeStl(input: Heightfield | Mesh): Promise<Uint8Array<ArrayBuf
  */
 export function writeGlb(input: Heightfield | Mesh, options?: WriteGlbOptions): Promise<Uint8Array<ArrayBuffer>>;
 /**
- * Decodes a mesh file: OBJ, PLY, STL, glTF, GLB, 3MF or OFF. Polygons become triangles; a file of points alone becomes
+ * Decodes a mesh file: OBJ, PLY, STL, glTF, GLB, 3MF, OFF or points in text (XYZ). Polygons become triangles; a file of points alone becomes
  * a point cloud.
  */
 export function readMesh(bytes: Uint8Array | ArrayBuffer | Blob, options?: ReadMeshOptions): Promise<Mesh>;

@@ -561,8 +561,9 @@ export interface FoldLine {
  * - `'gif'`: GIF, only grey pictures.
  * - `'bmp'`: Windows bitmap (BMP), only grey pictures.
  * - `'pgm'`: Portable grey map (PGM), binary or text.
+ * - `'hgt'`: Heights of the Shuttle Radar Topography Mission (SRTM): a square of one degree, without a header.
  */
-export type Format = 'png' | 'npy' | 'tiff' | 'exr' | 'pfm' | 'npz' | 'jpeg' | 'webp' | 'text' | 'colmap' | 'gif' | 'bmp' | 'pgm';
+export type Format = 'png' | 'npy' | 'tiff' | 'exr' | 'pfm' | 'npz' | 'jpeg' | 'webp' | 'text' | 'colmap' | 'gif' | 'bmp' | 'pgm' | 'hgt';
 
 /**
  * Where the pixels of an image lie on a map. It is read from a GeoTIFF and written to one unchanged, but for the rows

@@ -5,6 +5,7 @@ import { asProblem } from './explain.js';
 import { batchOf, runBatch } from './batch.js';
 import { split } from './command-line.js';
 import { completionFor } from './completion.js';
+import { readBytes } from './files.js';
 import { fit } from './fit.js';
 import { info } from './info.js';
 import { occlusions } from './occlusions.js';
@@ -13,8 +14,8 @@ import { filesOf } from './patterns.js';
 import { Problem, status } from './problem.js';
 import { dewarp, pattern, unroll } from './sheets.js';
 import { sideOrWhole } from './side.js';
-import { taskOf } from './task.js';
-import { print, readStandardInput, streams, withStreams } from './terminal.js';
+import { isUntold, taskOf } from './task.js';
+import { print, streams, withStreams } from './terminal.js';
 import { whole } from './whole.js';
 
 /** Signals that end the work in good order, without drafts left beside the output, and the exit status of each. */
@@ -73,6 +74,16 @@ const actions = {
 const modeActions = { photo: page, surface: whole };
 
 /**
+ * An input and the name of its format. Of a file that cannot be read, the command that needs it says so.
+ * @param {string} path
+ * @returns {Promise<[string, string | undefined]>}
+ */
+async function formatEntry(path) {
+  if (path === '-') return [path, await formatOf(await readBytes(path))];
+  return [path, await readBytes(path).then(formatOf, () => undefined)];
+}
+
+/**
  * @param {string[]} args
  * @param {AbortSignal} signal
  * @returns {Promise<number>} the exit status
@@ -84,8 +95,8 @@ async function perform(args, signal) {
     return status.success;
   }
   streams().quiet = line.values.quiet;
-  if (line.inputs.includes('-')) streams().inputFormat = await formatOf(await readStandardInput());
   const inputs = line.inputs.flatMap(filesOf);
+  streams().formats = new Map(await Promise.all(inputs.filter(isUntold).map(formatEntry)));
   const batch = batchOf({ ...line, inputs });
   if (batch !== undefined) return runBatch(batch, signal);
   const task = await sideOrWhole(taskOf(line.command, inputs, line.values), line.values);

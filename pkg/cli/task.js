@@ -39,11 +39,14 @@ import { streams } from './terminal.js';
  *   `recognized` and `seen` are what was found of the input while it was decided how to take it
  */
 
-const MESHES = ['.obj', '.ply', '.stl', '.glb', '.gltf', '.3mf', '.off'];
+const MESHES = ['.obj', '.ply', '.stl', '.glb', '.gltf', '.3mf', '.off', '.xyz'];
 const PHOTOS = ['.jpg', '.jpeg', '.png', '.webp', '.gif', '.bmp'];
 
-/** The ending of a file, of standard input by what it holds. @param {string} path */
-const extensionOf = (path) => (path === '-' ? `.${streams().inputFormat ?? ''}` : extname(path).toLowerCase());
+/** Whether a file's name does not tell its format: that of standard input, and of points, which may lie on a grid. @param {string} path */
+export const isUntold = (path) => path === '-' || extname(path).toLowerCase() === '.xyz';
+
+/** The ending of a file's name, or that of its format where the name does not tell it. @param {string} path */
+const extensionOf = (path) => (isUntold(path) ? `.${streams().formats?.get(path) ?? ''}` : extname(path).toLowerCase());
 
 /** @param {string} path */
 export const isMesh = (path) => MESHES.includes(extensionOf(path));

@@ -11,7 +11,7 @@ import { failed } from './system-errors.js';
  * @property {NodeJS.WritableStream & { isTTY?: boolean }} stderr
  * @property {AbortSignal} [signal] interrupts the command
  * @property {Buffer} [input] what standard input had, once it is read
- * @property {string} [inputFormat] name of its format, if it is known
+ * @property {Map<string, string | undefined>} [formats] names of the formats of inputs whose names do not tell them
  * @property {boolean} [quiet] whether nothing is said but why the command failed
  */
 

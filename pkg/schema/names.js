@@ -2,7 +2,7 @@
 
 export const Energy = ['nuclear', 'frobenius', 'squaredNuclear', 'secondFormOfInput', 'secondForm', 'huber'];
 
-export const Format = ['png', 'npy', 'tiff', 'exr', 'pfm', 'npz', 'jpeg', 'webp', 'text', 'colmap', 'gif', 'bmp', 'pgm'];
+export const Format = ['png', 'npy', 'tiff', 'exr', 'pfm', 'npz', 'jpeg', 'webp', 'text', 'colmap', 'gif', 'bmp', 'pgm', 'hgt'];
 
 export const LightTreatment = ['even', 'keep'];
 

@@ -42,10 +42,12 @@ pub enum Format {
     Bmp,
     /// Portable grey map (PGM), binary or text.
     Pgm,
+    /// Heights of the Shuttle Radar Topography Mission (SRTM): a square of one degree, without a header.
+    Hgt,
 }
 
 /// Image formats with their names in options and their titles in messages.
-const FORMAT_TITLES: [(Format, &str, &str); 13] = [
+const FORMAT_TITLES: [(Format, &str, &str); 14] = [
     (Format::Png, "png", "PNG"),
     (Format::Npy, "npy", "NPY"),
     (Format::Tiff, "tiff", "TIFF"),
@@ -59,6 +61,7 @@ const FORMAT_TITLES: [(Format, &str, &str); 13] = [
     (Format::Gif, "gif", "GIF"),
     (Format::Bmp, "bmp", "BMP"),
     (Format::Pgm, "pgm", "PGM"),
+    (Format::Hgt, "hgt", "SRTM heights"),
 ];
 
 /// Signatures of the image formats: the first bytes of a file of each format; a `?` stands for any byte.
@@ -92,7 +95,7 @@ impl Format {
     }
 
     /// Returns the format's name in lower case: `"png"`, `"npy"`, `"tiff"`, `"exr"`, `"pfm"`, `"npz"`, `"jpeg"`,
-    /// `"webp"`, `"text"`, `"colmap"`, `"gif"`, `"bmp"` or `"pgm"`.
+    /// `"webp"`, `"text"`, `"colmap"`, `"gif"`, `"bmp"`, `"pgm"` or `"hgt"`.
     pub fn name(self) -> &'static str {
         self.entry().1
     }
@@ -105,6 +108,7 @@ impl Format {
             .or_else(|| is_array_archive(bytes).then_some(Format::Npz))
             .or_else(|| is_text_grid(bytes).then_some(Format::Text))
             .or_else(|| colmap_head(bytes).map(|_| Format::Colmap))
+            .or_else(|| hgt_side(bytes).map(|_| Format::Hgt))
     }
 
     /// Returns the format that is stated for a file, if it was found there.
@@ -146,7 +150,7 @@ impl FromStr for Format {
 }
 
 /// Permitted values of the option `format`, as they are listed in the error about a wrong value.
-pub const FORMAT_NAMES: &str = "must be `png`, `npy`, `tiff`, `exr`, `pfm`, `npz`, `jpeg`, `webp`, `text`, `colmap`, `gif`, `bmp` or `pgm`";
+pub const FORMAT_NAMES: &str = "must be `png`, `npy`, `tiff`, `exr`, `pfm`, `npz`, `jpeg`, `webp`, `text`, `colmap`, `gif`, `bmp`, `pgm` or `hgt`";
 
 /// Number of bytes before the name of the first file in a ZIP archive.
 const ZIP_NAME_OFFSET: usize = 30;
@@ -177,12 +181,22 @@ pub(super) fn colmap_head(bytes: &[u8]) -> Option<([usize; 3], usize)> {
     Some((numbers, start))
 }
 
+/// Numbers of pixels along a degree of SRTM heights: every third second of arc, or every second.
+const HGT_SIDES: [usize; 2] = [1201, 3601];
+
+/// Number of pixels along the sides of SRTM heights, whose file has no header: by its length.
+pub(super) fn hgt_side(bytes: &[u8]) -> Option<usize> {
+    HGT_SIDES
+        .into_iter()
+        .find(|side| bytes.len() == 2 * side * side)
+}
+
 /// Number of bytes at the start of a file by which it is recognised as a grid of numbers in text.
 const TEXT_GRID_HEAD_BYTES: usize = 1024;
 
 /// Whether a file begins like a grid of numbers: with the head of an ESRI ASCII grid, or a line of two or more numbers
 /// within its first lines, and no letters but those of a first line of names.
-fn is_text_grid(bytes: &[u8]) -> bool {
+pub(super) fn is_text_grid(bytes: &[u8]) -> bool {
     // Up to the last number that is whole.
     let divides = |byte: &u8| byte.is_ascii_whitespace() || matches!(byte, b',' | b';');
     let head = match bytes.get(..TEXT_GRID_HEAD_BYTES) {

@@ -24,7 +24,7 @@ impl Purpose {
             #[cfg(feature = "formats")]
             Purpose::Heights => (
                 "heights",
-                "heights are read from PNG, NPY, TIFF, EXR, PFM, PGM, NPZ, JPEG, WebP, GIF, BMP, text and depths of COLMAP",
+                "heights are read from PNG, NPY, TIFF, EXR, PFM, PGM, NPZ, JPEG, WebP, GIF, BMP, text, SRTM heights and depths of COLMAP",
             ),
             #[cfg(feature = "images")]
             Purpose::Photo => (
@@ -34,7 +34,7 @@ impl Purpose {
             #[cfg(feature = "meshes")]
             Purpose::Mesh => (
                 "a mesh",
-                "meshes are read from OBJ, PLY, STL, glTF, GLB, 3MF and OFF",
+                "meshes are read from OBJ, PLY, STL, glTF, GLB, 3MF, OFF and XYZ",
             ),
         }
     }
@@ -42,6 +42,8 @@ impl Purpose {
 
 const SAVE_AS_JPEG: &str = "save it as JPEG or PNG";
 const CONVERT_BY_GDAL: &str = "`gdal_translate IN OUT.tif` converts it";
+pub(super) const CONVERT_RAW: &str =
+    "`gdal_translate IN OUT.tif` converts raw numbers that have a header beside them (.bil, .flt)";
 const SAVE_AS_PLY: &str = "let CloudCompare save it as PLY";
 const EXPORT_FLOATS: &str =
     "let Gwyddion or the program that wrote it save a TIFF or OpenEXR image of floats, or text";
@@ -51,10 +53,17 @@ const SAVE_PAGES: &str =
 const OPEN_DOCUMENT: &str = "save it as PDF, and the PDF's pages as pictures";
 const UNPACK_FIRST: &str = "unpack it first";
 
+/// First bytes of a DICOM file: 128 of any kind, then its name.
+const DICOM_START: [u8; 132] = {
+    let mut start = [b'?'; 132];
+    [start[128], start[129], start[130], start[131]] = *b"DICM";
+    start
+};
+
 /// Formats that are not read: their names, what to do about them, and bytes of which one is in each file. A file begins with
 /// them, and a `?` among them stands for any; a tag of XML or HTML may stand further behind.
 #[rustfmt::skip]
-const FOREIGN_FORMATS: [(&str, &str, &[&[u8]]); 46] = [
+const FOREIGN_FORMATS: [(&str, &str, &[&[u8]]); 51] = [
     ("AVIF", SAVE_AS_JPEG, &[b"????ftypavi"]),
     ("HEIC", "save it as JPEG (an iPhone shares photos as JPEG with Settings > Camera > Formats > Most Compatible)",
         &[b"????ftyphei", b"????ftyphev", b"????ftypmif1", b"????ftypmsf1"]),
@@ -63,6 +72,10 @@ const FOREIGN_FORMATS: [(&str, &str, &[&[u8]]); 46] = [
     ("JPEG XL", SAVE_AS_JPEG, &[b"\xff\x0a", b"\0\0\0\x0cJXL "]),
     ("Photoshop", SAVE_AS_JPEG, &[b"8BPS"]),
     ("PPM", SAVE_AS_JPEG, &[b"P3", b"P6"]),
+    ("QOI", SAVE_AS_JPEG, &[b"qoif"]),
+    ("DDS", SAVE_AS_JPEG, &[b"DDS "]),
+    ("KTX", SAVE_AS_JPEG, &[b"\xabKTX"]),
+    ("DICOM", "let ImageJ save it as TIFF", &[&DICOM_START]),
     ("PDF", SAVE_PAGES, &[b"%PDF"]),
     ("PostScript", SAVE_PAGES, &[b"%!PS"]),
     ("document of an office program", OPEN_DOCUMENT, &[b"\xd0\xcf\x11\xe0", b"{\\rtf"]),
@@ -77,6 +90,7 @@ const FOREIGN_FORMATS: [(&str, &str, &[&[u8]]); 46] = [
     ("binary grid of Surfer", CONVERT_BY_GDAL, &[b"DSBB", b"DSRB"]),
     ("NetCDF", CONVERT_BY_GDAL, &[b"CDF"]),
     ("HDF5 or NetCDF", CONVERT_BY_GDAL, &[b"\x89HDF"]),
+    ("header of a raw grid", CONVERT_RAW, &[b"BYTEORDER", b"ENVI"]),
     ("FITS", CONVERT_BY_GDAL, &[b"SIMPLE  ="]),
     ("JPEG 2000", CONVERT_BY_GDAL, &[b"????jP  ", b"\xff\x4f\xff\x51"]),
     ("MATLAB", "let MATLAB write its matrix by `writematrix`", &[b"MATLAB 5.0"]),
@@ -154,7 +168,12 @@ pub(super) fn refused(bytes: &[u8], purpose: Purpose) -> Error {
     let image = Format::detect(bytes);
     let (name, advice) = if let Some(mesh) = mesh_format(bytes, image) {
         let advice = format!(
-            "it is a mesh: read it as one, by a name that ends in .{}",
+            "it is a {}: read it as one, by a name that ends in .{}",
+            if mesh == MeshFormat::Xyz {
+                "point cloud"
+            } else {
+                "mesh"
+            },
             mesh.name()
         );
         (mesh.title(), advice)
@@ -175,7 +194,12 @@ pub(super) fn refused(bytes: &[u8], purpose: Purpose) -> Error {
         } else {
             "a file of unknown format"
         };
-        (name, "save what is in it as one that is read".into())
+        let advice = match purpose {
+            #[cfg(feature = "formats")]
+            Purpose::Heights if !is_text => CONVERT_RAW,
+            _ => "save what is in it as one that is read",
+        };
+        (name, advice.into())
     };
     unsupported(name, format!("{advice}; {formats}"))
 }
@@ -236,6 +260,11 @@ mod tests {
             b"version https://git-lfs.github.com/spec/v1\noid sha256:4d7a\n",
             b"<!DOCTYPE html><html><head><title>404 Not Found</title>",
             b"\x80\x04\x95numpy",
+            b"qoif\0\0\x01\0\0\0\x01\0\x04\0",
+            b"DDS \x7c\0\0\0",
+            b"\xabKTX 20\xbb\r\n\x1a\n",
+            &[&[0; 128][..], b"DICM\x02\0"].concat(),
+            b"BYTEORDER      I\nLAYOUT         BIL\n",
             b"hello",
         ] {
             names.push(foreign(bytes).map_or("", |(name, _)| name));
@@ -254,6 +283,11 @@ mod tests {
                 "pointer of Git LFS",
                 "web page",
                 "pickle of Python",
+                "QOI",
+                "DDS",
+                "KTX",
+                "DICOM",
+                "header of a raw grid",
                 ""
             ]
         );
@@ -271,9 +305,10 @@ mod tests {
         assert!(told(b"\x93NUMPY\x01\0", Purpose::Photo).contains("it has heights"));
         assert!(
             told(b"Dear Sir or Madam,", Purpose::Mesh)
-                .ends_with("meshes are read from OBJ, PLY, STL, glTF, GLB, 3MF and OFF")
+                .ends_with("meshes are read from OBJ, PLY, STL, glTF, GLB, 3MF, OFF and XYZ")
         );
         assert!(told(&[7; 100], Purpose::Photo).contains("of unknown format"));
+        assert!(told(&[7; 100], Purpose::Heights).contains("gdal_translate"));
         assert_eq!(refused(b"", Purpose::Mesh).code(), "FORMAT");
     }
 }

@@ -2,7 +2,9 @@
 
 use std::str::FromStr;
 
+use super::image_format::is_text_grid;
 use super::signature::contains;
+use super::table::Table;
 use super::text::{decoded, lines};
 use crate::error::{Error, Result};
 
@@ -26,16 +28,18 @@ pub enum MeshFormat {
     ThreeMf,
     /// Object File Format in text, with or without colours and normals at the vertices.
     Off,
+    /// Points in text (XYZ): x, y, z in each line, with or without red, green and blue from 0 to 255 at its end.
+    Xyz,
 }
 
 impl MeshFormat {
-    /// Returns the name of the mesh format: `"obj"`, `"ply"`, `"stl"`, `"gltf"`, `"3mf"` or `"off"`.
+    /// Returns the name of the mesh format: `"obj"`, `"ply"`, `"stl"`, `"gltf"`, `"3mf"`, `"off"` or `"xyz"`.
     pub fn name(self) -> &'static str {
         MESH_FORMATS[self as usize].1
     }
 
     /// Detects the format of a mesh file from the file's contents. OBJ has no signature: a line that begins with `v`
-    /// and a blank is taken for OBJ. Costs `O(bytes)`.
+    /// and a blank is taken for OBJ; lines of numbers are points unless these lie on a grid or are few. Costs `O(bytes)`.
     pub fn detect(bytes: &[u8]) -> Option<MeshFormat> {
         let text = bytes
             .strip_prefix(b"\xef\xbb\xbf")
@@ -72,9 +76,10 @@ impl MeshFormat {
             words.next() == Some("v")
                 && words.next().is_some_and(|word| word.parse::<f64>().is_ok())
         };
-        (lines(&decoded(bytes)))
-            .any(|(_, line)| is_vertex(&line))
-            .then_some(MeshFormat::Obj)
+        if (lines(&decoded(bytes))).any(|(_, line)| is_vertex(&line)) {
+            return Some(MeshFormat::Obj);
+        }
+        (is_text_grid(bytes) && Table::is_cloud(bytes)).then_some(MeshFormat::Xyz)
     }
 
     pub(in crate::files) fn title(self) -> &'static str {
@@ -83,13 +88,14 @@ impl MeshFormat {
 }
 
 /// Mesh formats with their names in options and their titles in messages.
-const MESH_FORMATS: [(MeshFormat, &str, &str); 6] = [
+const MESH_FORMATS: [(MeshFormat, &str, &str); 7] = [
     (MeshFormat::Obj, "obj", "OBJ"),
     (MeshFormat::Ply, "ply", "PLY"),
     (MeshFormat::Stl, "stl", "STL"),
     (MeshFormat::Gltf, "gltf", "glTF"),
     (MeshFormat::ThreeMf, "3mf", "3MF"),
     (MeshFormat::Off, "off", "OFF"),
+    (MeshFormat::Xyz, "xyz", "XYZ"),
 ];
 
 /// Property that every glTF file in text has.
@@ -122,7 +128,7 @@ impl FromStr for MeshFormat {
     fn from_str(name: &str) -> Result<Self> {
         let name = if name == "glb" { "gltf" } else { name };
         let mut formats = MESH_FORMATS.into_iter();
-        let requirement = "must be `obj`, `ply`, `stl`, `gltf`, `glb`, `3mf` or `off`";
+        let requirement = "must be `obj`, `ply`, `stl`, `gltf`, `glb`, `3mf`, `off` or `xyz`";
         (formats.find_map(|(format, known, _)| (name == known).then_some(format)))
             .ok_or_else(|| Error::option("format", name, requirement))
     }

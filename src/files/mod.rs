@@ -28,6 +28,8 @@ mod points;
 #[cfg(any(feature = "formats", feature = "meshes"))]
 mod signature;
 #[cfg(any(feature = "formats", feature = "meshes"))]
+mod table;
+#[cfg(any(feature = "formats", feature = "meshes"))]
 mod text;
 mod unit;
 #[cfg(feature = "formats")]

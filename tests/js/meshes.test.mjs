@@ -226,3 +226,17 @@ test('the command fits a mesh in its own axes', async () => {
   assert.equal((await run(folder, ['design', 'plane.obj', '-o', 'out.obj'])).status, 2);
   assert.equal((await run(folder, ['occlusions', 'plane.obj', '-o', 'out.npy', '--resolution', '20'])).status, 0);
 });
+
+test('the command takes points in text for a cloud, unless they lie on a grid', async () => {
+  const folder = await temporaryFolder();
+  const scattered = Array.from({ length: 400 }, (_, i) => [(37 * i) % 101 + 0.3 * Math.sin(i), (i * i) % 97 + 0.2 * Math.cos(i), 0.1 * ((37 * i) % 101)]);
+  const grid = Array.from({ length: 400 }, (_, i) => [i % 20, Math.floor(i / 20), 0.1 * i]);
+  for (const [name, points] of /** @type {const} */ ([['cloud', scattered], ['grid', grid]])) {
+    await writeFile(join(folder, `${name}.xyz`), points.map((point) => `${point.join(' ')}\n`).join(''));
+  }
+  const cloud = await run(folder, ['info', 'cloud.xyz']);
+  assert.match(cloud.stdout, /vertices: +400\ntriangles: +none: a point cloud/);
+  assert.match((await run(folder, ['info', 'grid.xyz'])).stdout, /size: +20 × 20 pixels/);
+  assert.equal((await run(folder, ['fit', 'cloud.xyz', '-o', 'cloud.npy'])).status, 0);
+  assert.match((await run(folder, ['info', 'none.xyz'])).stderr, /cannot read none\.xyz/);
+});

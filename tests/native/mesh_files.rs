@@ -3,6 +3,7 @@
 use std::io::{Cursor, Write};
 
 use developable::files::Unit;
+use developable::files::images::{Format, decode, format_name};
 use developable::files::meshes::{FileUnit, MeshFile, read_mesh, read_mesh_beside};
 use developable::{Resolution, View, sample};
 
@@ -256,4 +257,56 @@ fn gltf_turns_texture_coordinates_as_the_specification_says() {
     for (found, expected) in found.iter().zip(expected.as_flattened()) {
         assert!((found - expected).abs() < 1e-6, "{found} {expected}");
     }
+}
+
+#[test]
+fn what_a_mesh_file_lacks_is_said() {
+    let flat = "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\nend_header\n0 0\n";
+    let error = read_mesh(flat.as_bytes(), None).unwrap_err();
+    assert_eq!(error.code(), "UNSUPPORTED");
+    assert!(error.to_string().contains("no property `z`"), "{error}");
+    let edges = format!(
+        "ply\nformat ascii 1.0\n{SQUARE}element edge 1\nproperty int vertex1\nproperty int vertex2\nend_header\n{CORNERS}0 1\n"
+    );
+    for (text, is_said) in [
+        ("v 0 0 0\nv 90 0 0\nl 1 2\n", true),
+        (&edges, true),
+        ("v 0 0 0\nv 90 0 0\n", false),
+        ("v 0 0 0\nv 90 0 0\nv 0 90 0\nl 1 2\nf 1 2 3\n", false),
+    ] {
+        let file = read(text);
+        let told = file.assumptions.iter().any(|one| one.code == "points");
+        assert_eq!(told, is_said, "{text}");
+    }
+}
+
+#[test]
+fn points_in_text_are_a_cloud_unless_they_lie_on_a_grid() {
+    // As CloudCompare writes them, with colours or with intensities.
+    let scattered = |more: &str| -> String {
+        let line = |i: u32| {
+            let [x, y] =
+                [f64::from(i * 37 % 101), f64::from(i * i % 97)].map(|v| 1.003 * v + 0.1 * v.sin());
+            format!("{x:.4} {y:.4} {:.4}{more}\n", 40.0 + 0.1 * x)
+        };
+        (0..80).map(line).collect()
+    };
+    let coloured = read(&format!("//X Y Z R G B\n{}", scattered(" 255 128 0"))).mesh;
+    assert!(coloured.is_cloud() && coloured.positions().len() == 80);
+    assert_eq!(coloured.colors().unwrap()[7], [1.0, 128.0 / 255.0, 0.0]);
+    let plain = scattered(" 0.5");
+    assert!(read(&plain).mesh.colors().is_none());
+    let error = decode(plain.as_bytes(), None).unwrap_err().to_string();
+    assert!(
+        error.contains("point cloud") && error.contains(".xyz"),
+        "{error}"
+    );
+    assert_eq!(
+        decode(plain.as_bytes(), Some(Format::Text)).unwrap().width,
+        4
+    );
+    let grid: String = (0..80)
+        .map(|i| format!("{} {} {}\n", i % 8, i / 8, i * i % 7))
+        .collect();
+    assert_eq!(format_name(grid.as_bytes()), Some("text"));
 }

@@ -53,6 +53,9 @@ export function sourcePanel(session, choose, onOpened, solveMesh, openColour) {
     if (opened) await session.run();
   };
 
+  /** Whether a file of points is a cloud: points on a grid are heights. @param {File} file */
+  const isPointCloud = async (file) => /\.xyz$/i.test(file.name) && await session.api.formatOf(file) === 'xyz';
+
   /**
    * Opens a file and solves it. Depths are not solved yet if their camera's file is opened together with them.
    * @param {File} chosen
@@ -61,7 +64,7 @@ export function sourcePanel(session, choose, onOpened, solveMesh, openColour) {
    * @param {boolean} [hasCamera] whether the camera's file is opened together with it
    */
   const openFile = async (chosen, reading, photo, hasCamera = false) => {
-    if (isMesh(chosen.name)) return openMesh(chosen);
+    if (isMesh(chosen.name) || await isPointCloud(chosen)) return openMesh(chosen);
     // A text file can only be the camera of depths that are open.
     if (/\.txt$/i.test(chosen.name) && !session.input?.kind) {
       showNotice(FILE_WORDS.unread(chosen.name, unreadableKindInWords(chosen)));

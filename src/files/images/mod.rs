@@ -24,6 +24,7 @@ mod photo_pdf;
 mod picture_data;
 mod png;
 mod print;
+mod raw_pixels;
 mod scale;
 mod square_pixels;
 
@@ -69,6 +70,7 @@ pub use print::{PhotoOptions, PhotoRows, write_photo, write_photo_jpeg};
 /// - **NPZ**: the only array; [`decode_with`] chooses one by name.
 /// - **Text**: a grid of ESRI or Surfer, points on a grid (XYZ) in any order, or a
 ///   matrix, with blanks, tabs, semicolons or commas between its numbers.
+/// - **SRTM** (`.hgt`): a square of one degree, at the latitude that the file's name says.
 /// - **COLMAP**: depth maps (`.bin`), whose zeros have no data.
 /// - **JPEG**, **WebP**, **GIF**, **BMP**: grey pictures, and RGB as long as every pixel is grey.
 ///   The orientation that a JPEG's Exif data state is honoured.

@@ -3,7 +3,9 @@
 use std::io::{self, Write};
 
 use super::decoded::StoredImage;
-use crate::error::{Error, Result, check_shape, checked_cells, try_filled};
+use super::orientation::{TRANSPOSED, oriented};
+use super::raw_pixels::raw_pixels;
+use crate::error::{Error, Result, check_shape};
 use crate::files::buffer::Buffer;
 use crate::files::failure::{damaged, unsupported};
 use crate::files::image_format::Format;
@@ -26,10 +28,6 @@ pub(super) fn decode(bytes: &[u8]) -> Result<StoredImage> {
             ),
         )
     })?;
-    let len = checked_cells("NPY array", height, width)?;
-    if len == 0 {
-        return Err(Error::Empty { what: "NPY array" });
-    }
     let descr = header.descr;
     if descr.starts_with('[') {
         return Err(unsupported(
@@ -42,27 +40,21 @@ pub(super) fn decode(bytes: &[u8]) -> Result<StoredImage> {
             "values of type {descr}; booleans, integers and floats of 16, 32 or 64 bits are read"
         ))
     })?;
-    let size = number_type.bytes();
-    let needed = len * size;
-    if stored.len() < needed {
-        return Err(damaged(
-            Format::Npy,
-            format!(
-                "it is cut short: {height} × {width} values of type {descr} take {needed} bytes, \
-             {} are there",
-                stored.len()
-            ),
-        ));
-    }
-    let big_endian = descr.starts_with('>');
-    let mut values = try_filled("NPY array", len, 0.0)?;
-    for (i, number) in stored[..needed].chunks_exact(size).enumerate() {
-        let place = if header.by_columns {
-            i % height * width + i / height
-        } else {
-            i
-        };
-        values[place] = number_type.value(number, big_endian);
+    // Of an array that is stored column by column, these are the rows.
+    let size = if header.by_columns {
+        (height, width)
+    } else {
+        (width, height)
+    };
+    let mut values = raw_pixels(
+        Format::Npy,
+        size,
+        stored,
+        number_type,
+        descr.starts_with('>'),
+    )?;
+    if header.by_columns {
+        (values, _) = oriented(values, size, TRANSPOSED)?;
     }
     Ok(StoredImage {
         height_scale: Some(1.0),

@@ -2,6 +2,9 @@
 
 use crate::error::{Result, try_filled};
 
+/// Orientation of a picture whose rows are displayed as columns, and its columns as rows.
+pub(super) const TRANSPOSED: u16 = 5;
+
 /// Rotates or mirrors an image's values by its orientation number, so that the image is upright, and returns them with
 /// the new width and height.
 pub(super) fn oriented<T: Copy + Default>(
@@ -13,7 +16,7 @@ pub(super) fn oriented<T: Copy + Default>(
         return Ok((values, (width, height)));
     }
     // In orientations from 5 on, stored rows are displayed as columns.
-    let turned = orientation >= 5;
+    let turned = orientation >= TRANSPOSED;
     let (cols, rows) = if turned {
         (height, width)
     } else {
@@ -28,7 +31,7 @@ pub(super) fn oriented<T: Copy + Default>(
             2 => (y, across),
             3 => (down, across),
             4 => (down, x),
-            5 => (x, y),
+            TRANSPOSED => (x, y),
             6 => (across, y),
             7 => (across, down),
             _ => (x, down),

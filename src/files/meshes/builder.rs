@@ -24,6 +24,8 @@ pub(super) struct MeshBuilder {
     /// Texture number of each triangle; shorter than the list of triangles where the last ones have no texture.
     pub(super) textures: Vec<i32>,
     pub(super) pictures: Vec<Texture>,
+    /// Whether the file has lines between vertices, which are left out.
+    pub(super) has_lines: bool,
     /// Number of bytes left for further texture pictures; all pictures together may not exceed the size of the given
     /// files.
     pub(super) room: usize,

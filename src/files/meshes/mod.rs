@@ -1,4 +1,4 @@
-//! Meshes from and to files held in memory: reads OBJ, PLY, STL, glTF, GLB, 3MF and OFF, writes PLY, STL
+//! Meshes from and to files held in memory: reads OBJ, PLY, STL, glTF, GLB, 3MF, OFF and points in text (XYZ), writes PLY, STL
 //! and GLB. (OBJ is written by [`formats`](super::images).)
 //!
 //! Damaged files are errors, never panics, and no more memory is asked for than
@@ -21,10 +21,12 @@ mod rows;
 mod stl;
 mod threemf;
 mod unit;
+mod xyz;
 
 use crate::error::Result;
 use crate::scene::mesh::Mesh;
 
+use super::Assumption;
 use super::image_format::Format;
 use super::kind::{Purpose, foreign, refused};
 pub use super::mesh_format::MeshFormat;
@@ -92,11 +94,21 @@ pub fn read_mesh_beside(
         }
         MeshFormat::ThreeMf => stated = Some(threemf::read(bytes, &mut parts)?),
         MeshFormat::Off => off::read(bytes, &mut parts)?,
+        MeshFormat::Xyz => xyz::read(bytes, &mut parts)?,
     }
+    let has_lines = parts.has_lines;
     let textures = std::mem::take(&mut parts.pictures);
     let mesh = parts.into_mesh(format.title(), format != MeshFormat::Stl)?;
+    let points = (has_lines && mesh.is_cloud()).then(|| {
+        let words =
+            "the lines in it are left out, and their ends are a point cloud: it has no faces";
+        Assumption::new("points", words, None)
+    });
     let mut file = MeshFile {
-        assumptions: precision::coarse_coordinates(&mesh).into_iter().collect(),
+        assumptions: precision::coarse_coordinates(&mesh)
+            .into_iter()
+            .chain(points)
+            .collect(),
         mesh,
         textures,
         missing: beside.missing(),

@@ -25,6 +25,7 @@ pub(super) fn read(bytes: &[u8], beside: &Beside, parts: &mut MeshBuilder) -> Re
                 uvs.push([0, 1].map(|k| numbers.get(k).copied().unwrap_or_default() as f32));
             }
             Some("f" | "fo") => has_faces = true,
+            Some("l") => parts.has_lines = true,
             Some(name) if FREE_FORM_STATEMENTS.contains(&name) => free_form = Some(row),
             _ => {}
         }

@@ -1,10 +1,11 @@
 //! Reads depth maps of COLMAP: `width&height&channels&`, then 32-bit floats, row by row.
 
-use crate::error::{Result, checked_cells, try_filled};
+use crate::error::Result;
 use crate::files::Assumption;
 use crate::files::failure::{damaged, unsupported};
 use crate::files::image_format::{Format, colmap_head};
 use crate::files::images::decoded::StoredImage;
+use crate::files::images::raw_pixels::raw_pixels;
 use crate::files::number_type::NumberType;
 
 pub(super) fn decode(bytes: &[u8]) -> Result<StoredImage> {
@@ -18,25 +19,21 @@ pub(super) fn decode(bytes: &[u8]) -> Result<StoredImage> {
         let reason = format!("it has {channels} channels, and depths have one");
         return Err(unsupported(Format::Colmap, reason));
     }
-    let count = checked_cells("COLMAP depth map", height, width)?;
-    let (samples, rest) = bytes[head..].as_chunks::<4>();
-    if samples.len() != count || !rest.is_empty() || count == 0 {
-        let found = bytes.len() - head;
-        let reason = format!(
-            "it has {found} bytes of depths, where {width} × {height} pixels take {}",
-            4 * count
-        );
-        return Err(damaged(Format::Colmap, reason));
-    }
-    let mut values = try_filled("COLMAP depth map", count, f64::NAN)?;
+    let bytes = &bytes[head..];
+    let mut values = raw_pixels(
+        Format::Colmap,
+        (width, height),
+        bytes,
+        NumberType::F32,
+        false,
+    )?;
     let mut missing = 0;
-    for (value, sample) in values.iter_mut().zip(samples) {
-        let depth = f32::from_le_bytes(*sample);
-        if depth > 0.0 {
-            *value = f64::from(depth);
-        } else {
-            missing += 1;
-        }
+    for value in values
+        .iter_mut()
+        .filter(|depth| **depth <= 0.0 || depth.is_nan())
+    {
+        *value = f64::NAN;
+        missing += 1;
     }
     let mut image = StoredImage::new(Format::Colmap, (width, height), values, NumberType::F32);
     if missing > 0 {
@@ -66,7 +63,7 @@ mod tests {
         assert_eq!(found.values[2..], [2.5, 3.0, 4.0, 5.0]);
         assert_eq!(found.assumptions[0].code, "noData");
         let error = decode(&file[..file.len() - 1]).unwrap_err();
-        assert!(error.to_string().contains("23 bytes of depths"), "{error}");
+        assert!(error.to_string().contains("it is cut short"), "{error}");
         assert_eq!(decode(b"3&2&3&").unwrap_err().code(), "UNSUPPORTED");
     }
 }

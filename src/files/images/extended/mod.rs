@@ -2,6 +2,7 @@
 
 mod colmap;
 mod exr;
+mod hgt;
 mod map_pixels;
 mod npz;
 mod pfm;
@@ -37,6 +38,7 @@ pub fn decode(bytes: &[u8], format: Format, options: &DecodeOptions) -> Result<D
         Format::Npz => npz::decode(bytes, options.array.as_deref()),
         Format::Text => text_grid::decode(bytes),
         Format::Colmap => colmap::decode(bytes),
+        Format::Hgt => hgt::decode(bytes, &options.name),
         Format::Jpeg | Format::WebP | Format::Gif | Format::Bmp => {
             samples::from_photo(format, &decode_other_photo(bytes)?)
         }

@@ -2,10 +2,11 @@
 //! the pixels.
 
 use super::samples::{Channels, grey};
-use crate::error::{Error, Result, checked_cells};
+use crate::error::Result;
 use crate::files::failure::damaged;
 use crate::files::image_format::Format;
 use crate::files::images::decoded::StoredImage;
+use crate::files::images::raw_pixels::raw_pixels;
 use crate::files::number_type::NumberType;
 
 /// Maximum length of a number in the header, in bytes.
@@ -17,18 +18,22 @@ pub(super) fn decode(bytes: &[u8]) -> Result<StoredImage> {
     let mut head = Header(Format::Pfm, &bytes[2..]);
     let (width, height) = head.size()?;
     let scale: f64 = head.number("scale", |scale: &f64| scale.is_finite() && *scale != 0.0)?;
-    let pixels = head.pixels((width, height), 4 * colours)?;
-    let sample = |i: usize, k: usize| {
-        let (row, col) = (height - 1 - i / width, i % width);
-        let at = 4 * (colours * (row * width + col) + k);
-        // A negative scale says that the bytes are little-endian.
-        NumberType::F32.value(&pixels[at..at + 4], scale > 0.0)
-    };
+    // A negative scale says that the bytes are little-endian.
+    let numbers = raw_pixels(
+        Format::Pfm,
+        (colours * width, height),
+        head.1,
+        NumberType::F32,
+        scale > 0.0,
+    )?;
     let channels = Channels {
         colours,
         alpha: None,
     };
-    let values = grey(Format::Pfm, (width, height), &channels, sample)?;
+    let values = grey(Format::Pfm, (width, height), &channels, |i, k| {
+        let (row, col) = (height - 1 - i / width, i % width);
+        numbers[colours * (row * width + col) + k]
+    })?;
     Ok(StoredImage {
         height_scale: Some(scale.abs()),
         ..StoredImage::new(Format::Pfm, (width, height), values, NumberType::F32)
@@ -46,20 +51,14 @@ pub(super) fn decode_pgm(bytes: &[u8]) -> Result<StoredImage> {
         NumberType::U8
     };
     let values = if bytes.starts_with(b"P2") {
-        head.pixels(size, 1)?;
-        let mut level = |_| {
-            Ok(f64::from(
-                head.number::<u16>("level", |level| *level <= white)?,
-            ))
-        };
-        (0..size.0 * size.1)
-            .map(&mut level)
-            .collect::<Result<_>>()?
+        // A level takes a byte at least, which limits the memory for them.
+        let mut levels = raw_pixels(Format::Pgm, size, head.1, NumberType::U8, true)?;
+        for level in &mut levels {
+            *level = head.number::<u16>("level", |level| *level <= white)?.into();
+        }
+        levels
     } else {
-        let levels = head
-            .pixels(size, number_type.bytes())?
-            .chunks_exact(number_type.bytes());
-        levels.map(|level| number_type.value(level, true)).collect()
+        raw_pixels(Format::Pgm, size, head.1, number_type, true)?
     };
     Ok(StoredImage::new(Format::Pgm, size, values, number_type))
 }
@@ -67,7 +66,7 @@ pub(super) fn decode_pgm(bytes: &[u8]) -> Result<StoredImage> {
 /// What is left of a file whose header is being read, and its format.
 struct Header<'a>(Format, &'a [u8]);
 
-impl<'a> Header<'a> {
+impl Header<'_> {
     /// Reads the next number, which is good; one byte of white space ends it, as what follows may look like more of it.
     fn number<T: std::str::FromStr>(
         &mut self,
@@ -91,25 +90,9 @@ impl<'a> Header<'a> {
 
     /// Reads columns and rows.
     fn size(&mut self) -> Result<(usize, usize)> {
-        let size = (
+        Ok((
             self.number("width", |_| true)?,
             self.number("height", |_| true)?,
-        );
-        match checked_cells("image", size.1, size.0)? {
-            0 => Err(Error::Empty { what: "image" }),
-            _ => Ok(size),
-        }
-    }
-
-    /// Returns the bytes of all pixels, each of which has `bytes` or more.
-    fn pixels(&self, (width, height): (usize, usize), bytes: usize) -> Result<&'a [u8]> {
-        let needed = bytes * width * height;
-        self.1.get(..needed).ok_or_else(|| {
-            let there = self.1.len();
-            let reason = format!(
-                "it is cut short: {width} × {height} pixels take {needed} bytes, {there} are there"
-            );
-            damaged(self.0, reason)
-        })
+        ))
     }
 }

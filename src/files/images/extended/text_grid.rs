@@ -1,15 +1,14 @@
 //! Reads grids of heights that are text: grids of ESRI and Surfer, points on a grid (XYZ) and plain matrices.
 
-use crate::error::{Result, checked_cells, try_filled};
+use crate::error::{Result, checked_cells};
 use crate::files::Assumption;
-use crate::files::failure::damaged;
+use crate::files::failure::{damaged, unsupported};
 use crate::files::image_format::Format;
 use crate::files::images::decoded::StoredImage;
+use crate::files::kind::CONVERT_RAW;
 use crate::files::number_type::NumberType;
+use crate::files::table::{PointGrid, Table, numbers};
 use crate::files::text::decoded;
-
-/// Maximum distance of a point from its place on the grid, as a share of the grid's spacing.
-const MAX_OFF_GRID_SHARE: f64 = 0.02;
 
 /// Smallest value that means no data in a grid of Surfer.
 const SURFER_BLANK: f64 = 1.701_41e38;
@@ -83,6 +82,9 @@ fn esri_grid(text: &str) -> Result<Option<(Grid, Option<f64>)>> {
     }
     let count = checked_cells("ASCII grid", size.1, size.0)?;
     let values = numbers(rest, true)?;
+    if values.is_empty() {
+        return Err(unsupported("header of a raw grid", CONVERT_RAW));
+    }
     if values.len() != count || count == 0 {
         let reason = format!("it has {} values, but {rows} rows of {cols}", values.len());
         return Err(damaged(Format::Text, reason));
@@ -138,170 +140,40 @@ fn surfer_grid(text: &str) -> Result<Grid> {
     })
 }
 
-/// Reads lines of equally many numbers: points on a grid if the first three are their places, else a matrix. Lines before the
-/// first number are names of columns or comments.
+/// Reads a table: points on a grid if the first three numbers of its lines are their places, else a matrix.
 fn table(text: &str) -> Result<Grid> {
-    // A comma is a decimal one wherever something else divides the numbers.
-    let is_divided = text.lines().any(|line| {
-        // Names of columns and comments are no rows; a number may have an exponent.
-        let is_row = !line.contains(|letter: char| {
-            letter == '#' || letter.is_alphabetic() && !"eEnNaA".contains(letter)
-        });
-        let is_blank_divided = line.trim().contains(' ') && !line.contains(", ");
-        is_row && (line.contains([';', '\t']) || is_blank_divided)
-    });
-    // A table that numbers its rows and columns has nothing in its corner.
-    let mut starts = text.lines().map(|line| line.starts_with(DIVIDERS));
-    let is_numbered = starts.next() == Some(true) && starts.next() == Some(false);
-    let mut values: Vec<f64> = Vec::new();
-    let (mut cols, mut rows) = (0, 0);
-    for (k, line) in text.lines().enumerate().skip(usize::from(is_numbered)) {
-        let line = line.trim_end_matches([' ', '\r']);
-        let mut row = match cells(line, is_divided) {
-            Ok(row) if rows > 0 || !row.iter().all(|value| value.is_nan()) => row,
-            Err(_) if rows > 0 => {
-                let reason = format!("line {} is no row of numbers", k + 1);
-                return Err(damaged(Format::Text, reason));
-            }
-            _ => continue,
-        };
-        row.drain(..usize::from(is_numbered).min(row.len()));
-        if row.is_empty() {
-            continue;
-        }
-        if row.len() + 1 == cols && line.ends_with(DIVIDERS) {
-            row.push(f64::NAN);
-        }
-        if rows > 0 && row.len() != cols {
-            let reason = format!(
-                "line {} has {} numbers, where the lines before have {cols}",
-                k + 1,
-                row.len()
-            );
-            return Err(damaged(Format::Text, reason));
-        }
-        cols = row.len();
-        rows += 1;
-        values.extend(row);
-    }
-    checked_cells("matrix", rows, cols)?;
-    if rows == 0 {
-        return Err(damaged(Format::Text, "it has no numbers"));
-    }
-    let may_be_points = (3..=7).contains(&cols) && rows > cols;
-    if let Some(points) = may_be_points
-        .then(|| points_on_grid(&values, cols))
-        .transpose()?
-        .flatten()
+    let table = Table::read(text)?;
+    if let Some(PointGrid {
+        values,
+        size,
+        sides,
+    }) = table.points_on_grid()?
     {
-        return Ok(points);
+        return Ok(Grid {
+            values,
+            size,
+            sides: Some(sides),
+            assumptions: Vec::new(),
+        });
     }
     let points = format!(
-        "lines of {cols} numbers are rows of a matrix: they are no points on a grid (scattered points are read as PLY)"
+        "lines of {} numbers are rows of a matrix: they are no points on a grid",
+        table.cols
     );
     let numbered = "the first row and the first column number the others".to_owned();
-    let assumptions = [(may_be_points, points), (is_numbered, numbered)];
+    let assumptions = [
+        (table.may_be_points(), points),
+        (table.is_numbered, numbered),
+    ];
     let told = assumptions.into_iter().filter(|(is_told, _)| *is_told);
     Ok(Grid {
-        values,
-        size: (cols, rows),
+        values: table.values,
+        size: (table.cols, table.rows),
         sides: None,
         assumptions: told
             .map(|(_, words)| Assumption::new("matrix", words, None))
             .collect(),
     })
-}
-
-/// What divides the cells of a table, any of which may be empty.
-const DIVIDERS: [char; 3] = [';', '\t', ','];
-
-/// Numbers of a row of a table, NaN for those that are missing; what divides them may also end it.
-fn cells(line: &str, decimal_commas: bool) -> Result<Vec<f64>> {
-    let divides = |letter: &char| line.contains(*letter) && !(*letter == ',' && decimal_commas);
-    let Some(divider) = DIVIDERS.into_iter().find(divides) else {
-        return numbers(line, decimal_commas);
-    };
-    let line = line.strip_suffix(divider).unwrap_or(line);
-    let cell = |cell: &str| match numbers(cell, decimal_commas)?[..] {
-        [] => Ok(f64::NAN),
-        [number] => Ok(number),
-        _ => Err(damaged(Format::Text, format!("`{cell}` is no number"))),
-    };
-    let row: Result<_> = line.split(divider).map(cell).collect();
-    row.or_else(|_| numbers(line, decimal_commas))
-}
-
-/// Numbers of a text, between blanks and semicolons and, unless commas are decimal, commas.
-fn numbers(text: &str, decimal_commas: bool) -> Result<Vec<f64>> {
-    let divides =
-        |letter: char| letter.is_whitespace() || letter == ';' || letter == ',' && !decimal_commas;
-    text.split(divides)
-        .filter(|word| !word.is_empty())
-        .map(|word| {
-            let plain = if decimal_commas {
-                word.replace(',', ".")
-            } else {
-                word.to_owned()
-            };
-            plain
-                .parse()
-                .map_err(|_| damaged(Format::Text, format!("`{word}` is no number")))
-        })
-        .collect()
-}
-
-/// Arranges points, whose rows of `cols` numbers begin with `x, y, z`, as a grid with y upwards, NaN where there is none; `None`
-/// if they do not lie on a grid.
-fn points_on_grid(values: &[f64], cols: usize) -> Result<Option<Grid>> {
-    let points: Vec<[f64; 3]> = (values.chunks_exact(cols))
-        .map(|row| [row[0], row[1], row[2]])
-        .collect();
-    let axis = |k: usize| {
-        let mut places: Vec<f64> = points.iter().map(|point| point[k]).collect();
-        places.sort_by(f64::total_cmp);
-        let (first, last) = (places[0], places[places.len() - 1]);
-        let tolerance = 1e-9 * (last - first);
-        let step = (places.windows(2))
-            .map(|pair| pair[1] - pair[0])
-            .filter(|step| *step > tolerance)
-            .fold(f64::INFINITY, f64::min);
-        let count = ((last - first) / step).round() + 1.0;
-        (step.is_finite() && first.is_finite() && last.is_finite() && count <= 1e6).then_some((
-            first,
-            step,
-            count as usize,
-        ))
-    };
-    let (Some((left, dx, width)), Some((bottom, dy, height))) = (axis(0), axis(1)) else {
-        return Ok(None);
-    };
-    // Scattered points would fill a small part of a fine grid.
-    if width < 2 || height < 2 || width.saturating_mul(height) / 16 > points.len() {
-        return Ok(None);
-    }
-    let mut grid = try_filled(
-        "grid of points",
-        checked_cells("grid of points", height, width)?,
-        f64::NAN,
-    )?;
-    for [x, y, z] in points {
-        let [col, row] = [(x - left) / dx, (y - bottom) / dy];
-        if (col - col.round()).abs().max((row - row.round()).abs()) > MAX_OFF_GRID_SHARE {
-            return Ok(None);
-        }
-        let place = &mut grid[(height - 1 - row.round() as usize) * width + col.round() as usize];
-        // Two heights at one place are no grid: a matrix of three columns, perhaps.
-        if !place.is_nan() {
-            return Ok(None);
-        }
-        *place = z;
-    }
-    Ok(Some(Grid {
-        values: grid,
-        size: (width, height),
-        sides: Some([dx, dy]),
-        assumptions: Vec::new(),
-    }))
 }
 
 #[cfg(test)]
@@ -339,6 +211,8 @@ mod tests {
             .unwrap_err()
             .to_string();
         assert!(error.contains("5 values, but 2 rows of 3"), "{error}");
+        let header = decode(b"ncols 3\nnrows 2\ncellsize 1\nbyteorder LSBFIRST\n").unwrap_err();
+        assert!(header.to_string().contains("gdal_translate"), "{header}");
     }
 
     #[test]

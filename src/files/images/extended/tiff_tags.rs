@@ -189,7 +189,7 @@ fn georeference(file: &mut File) -> Result<Option<Georeference>> {
 }
 
 /// Width and height of the pixels of an image on a map, and their unit.
-fn map_sides(
+pub(super) fn map_sides(
     map: &Georeference,
     size: (usize, usize),
     assumptions: &mut Vec<Assumption>,

@@ -41,6 +41,16 @@ pub(super) fn read(bytes: &[u8], beside: &Beside, parts: &mut MeshBuilder) -> Re
             );
             return Err(damaged("PLY", reason));
         }
+        parts.has_lines |= element.name == "edge" && element.count > 0;
+        if let ("vertex", Some(missing)) = (
+            element.name.as_str(),
+            ["x", "y", "z"].into_iter().find(|name| !has(name)),
+        ) {
+            let reason = format!(
+                "its vertices have no property `{missing}`; save it with x, y and z for each vertex"
+            );
+            return Err(unsupported("PLY", reason));
+        }
         for _ in 0..element.count {
             match element.name.as_str() {
                 "vertex" => vertex(element, &mut values, parts)?,

@@ -1,0 +1,100 @@
+//! Reads heights of the Shuttle Radar Topography Mission (SRTM, `.hgt`): a square of one degree, in metres, as integers of 16 bits,
+//! the larger byte first, from the north downwards. The file's name says where its south-west corner is.
+
+use super::tiff_tags::map_sides;
+use crate::error::Result;
+use crate::files::Assumption;
+use crate::files::image_format::{Format, hgt_side};
+use crate::files::images::decoded::StoredImage;
+use crate::files::images::georeference::Georeference;
+use crate::files::images::raw_pixels::raw_pixels;
+use crate::files::number_type::NumberType;
+
+/// Height that means no data in the format.
+const VOID_METRES: f64 = -32_768.0;
+
+/// GeoTIFF's keys for degrees on WGS 84 (EPSG 4326) at the middles of pixels.
+const WGS84_KEYS: [u16; 16] = [1, 1, 0, 3, 1024, 0, 1, 2, 1025, 0, 1, 2, 2048, 0, 1, 4326];
+
+/// Decodes the file of a given name.
+pub(super) fn decode(bytes: &[u8], name: &str) -> Result<StoredImage> {
+    let side = hgt_side(bytes).unwrap_or_default();
+    let mut values = raw_pixels(Format::Hgt, (side, side), bytes, NumberType::I16, true)?;
+    (values.iter_mut().filter(|height| **height == VOID_METRES))
+        .for_each(|height| *height = f64::NAN);
+    let place = south_west(name);
+    let [latitude, longitude] = place.unwrap_or_default();
+    let step = 1.0 / (side - 1) as f64;
+    let map = Georeference {
+        transformation: [step, 0.0, longitude, 0.0, -step, latitude + 1.0],
+        keys: WGS84_KEYS.into(),
+        doubles: Vec::new(),
+        text: String::new(),
+    };
+    let mut assumptions = Vec::new();
+    let (sides, unit) = map_sides(&map, (side, side), &mut assumptions)?;
+    if place.is_none() {
+        let words = "the file's name is not of the form N46E008.hgt, so that its latitude is not known: that of the equator is meant";
+        assumptions = vec![Assumption::new("degrees", words, "pixelSize")];
+    }
+    Ok(StoredImage {
+        names_no_data: true,
+        sides: Some(sides),
+        unit,
+        height_scale: Some(1.0),
+        georeference: place.map(|_| map),
+        assumptions,
+        ..StoredImage::new(Format::Hgt, (side, side), values, NumberType::I16)
+    })
+}
+
+/// Latitude and longitude of the south-west corner in degrees, by a file's name such as `N46E008.hgt`.
+fn south_west(name: &str) -> Option<[f64; 2]> {
+    let degrees = |digits: &str| digits.parse::<u8>().ok().map(f64::from);
+    let (latitude, longitude) = (degrees(name.get(1..3)?)?, degrees(name.get(4..7)?)?);
+    Some([
+        match name.get(..1)? {
+            "N" | "n" => latitude,
+            "S" | "s" => -latitude,
+            _ => return None,
+        },
+        match name.get(3..4)? {
+            "E" | "e" => longitude,
+            "W" | "w" => -longitude,
+            _ => return None,
+        },
+    ])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_square_of_one_degree_lies_where_its_name_says() {
+        let side = 1201;
+        let mut file = vec![0; 2 * side * side];
+        // 258 m in the north-west, below the sea beside it, and a void in the south-east.
+        file[..4].copy_from_slice(&[1, 2, 0xff, 0xfe]);
+        file[2 * side * side - 2..].copy_from_slice(&[0x80, 0]);
+        assert_eq!(Format::detect(&file), Some(Format::Hgt));
+        let found = decode(&file, "S34W071.SRTMGL3.hgt").unwrap();
+        assert_eq!(
+            (found.size, &found.values[..2]),
+            ((side, side), &[258.0, -2.0][..])
+        );
+        assert!(found.values[side * side - 1].is_nan());
+        // A degree at 33.5 degrees of latitude, by the usual series in kilometres: of longitude 111.412 cos φ − 0.0935 cos 3φ, of
+        // latitude 111.133 − 0.5598 cos 2φ + 0.0012 cos 4φ.
+        let [x, y] = found.sides.unwrap().map(|length| 1200.0 * length);
+        assert!(
+            (x - 92_922.0).abs() < 20.0 && (y - 110_913.0).abs() < 5.0,
+            "{x} {y}"
+        );
+        let transformation = found.georeference.unwrap().transformation;
+        assert_eq!((transformation[2], transformation[5]), (-71.0, -33.0));
+        let unknown = decode(&file, "tile.hgt").unwrap();
+        assert!(unknown.georeference.is_none());
+        assert!(unknown.assumptions[0].words.contains("equator"));
+    }
+}

@@ -1,7 +1,7 @@
 /** The package's types, and how it is loaded. No other module knows that it lies in `pkg/`. */
 
 /** @typedef {typeof import('../pkg/index.js')} Package */
-/** @typedef {Package & { SolverWorker: new () => InstanceType<Package['DevelopableWorker']> }} Api `SolverWorker`: a worker for solves */
+/** @typedef {Package & { SolverWorker: new (options?: { threads?: number }) => InstanceType<Package['DevelopableWorker']> }} Api `SolverWorker`: a worker for solves */
 /** @typedef {import('../pkg/types.js').DepthOptions} DepthOptions */
 /** @typedef {import('../pkg/types.js').Energy} Energy */
 /** @typedef {import('../pkg/types.js').ExampleName} ExampleName */
@@ -40,5 +40,5 @@ export async function connect() {
     wasm.catch(() => (wasm = null));
     return wasm;
   };
-  return { ...api, SolverWorker: class extends api.DevelopableWorker { constructor() { super({ wasm: compiledSolver() }); } } };
+  return { ...api, SolverWorker: class extends api.DevelopableWorker { constructor(options = {}) { super({ ...options, wasm: compiledSolver() }); } } };
 }

@@ -346,9 +346,16 @@ export class Session extends Events {
           await open.replace(heightsOf(input));
           return open;
         })
-      : this.#connectedWorker().open(heightsOf(input));
+      : this.#workerFor(input).open(heightsOf(input));
     this.#openSolver = { input, solver };
     return solver;
+  }
+
+  /** The worker for solves of an input. A large one is solved on all cores but the page's own where workers may share memory. @param {Input} input */
+  #workerFor(input) {
+    if (!isLarge(input) || !crossOriginIsolated) return this.#connectedWorker();
+    this.#worker?.dispose();
+    return (this.#worker = new this.api.SolverWorker({ threads: navigator.hardwareConcurrency - 1 }));
   }
 
   #connectedWorker() {

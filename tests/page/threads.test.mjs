@@ -1,6 +1,6 @@
 /** Fits on several threads in the browser. */
 import assert from 'node:assert/strict';
-import { pageTest } from './support/page.mjs';
+import { downloaded, pageTest, runBy, settled } from './support/page.mjs';
 
 pageTest('in an isolated page a fit runs on two threads, with the bits of one', async (page) => {
   const [one, two] = await page.evaluate(async () => {
@@ -17,4 +17,17 @@ pageTest('in an isolated page a fit runs on two threads, with the bits of one', 
   });
   assert.deepEqual([one.threads, one.limit, two.threads, two.limit], [1, 'options', 2, 'options']);
   assert.deepEqual(two.heights, one.heights);
+});
+
+pageTest('a large input is solved on all cores but the page’s own', async (page) => {
+  await page.addInitScript(() => Object.defineProperty(navigator, 'hardwareConcurrency', { value: 3 }));
+  await page.reload();
+  await settled(page);
+  const report = async () => {
+    const { bytes } = await downloaded(page, () => page.locator('#report-save').evaluate((button) => /** @type {HTMLButtonElement} */ (button).click()));
+    return JSON.parse(bytes.toString());
+  };
+  assert.equal((await report()).threads, 1, 'a small one needs no more');
+  await runBy(page, () => page.locator('#size').selectOption('700'));
+  assert.deepEqual([(await report()).threads, (await report()).stopReason], [2, 'gap']);
 });

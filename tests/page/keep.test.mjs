@@ -32,7 +32,7 @@ test('the gallery has a card for each figure of the paper that it tells, with an
   assert.equal(new Set(CARDS.map(({ id }) => id)).size, CARDS.length);
   for (const { id, input, words, look } of CARDS) {
     assert.ok(words.split('. ').length >= 2 && look.length > 10, id);
-    const made = input?.(60);
+    const made = input?.(60, 0);
     if (!made) continue;
     assert.equal(made.data.length, made.width * made.height, id);
     assert.ok(made.data.some(Number.isFinite) && !made.data.some((z) => Math.abs(z) === Infinity), id);
@@ -96,6 +96,13 @@ pageTest('settings stand in the address, Back undoes them, and a file is there a
   await page.waitForURL(/#fig-11$/);
   assert.match(await page.locator('#verdict').innerText(), /^\d+ smooth pieces meet in \d+ creases\.$/);
   assert.match(await page.locator('#verdict-detail').innerText(), /^[\d.]+× less noise \(against the noise-free example\)/);
+  assert.equal(await page.locator('#story-turn').isVisible(), false);
+  // A rotation as the paper's, of which the result is the same.
+  await runBy(page, () => page.evaluate(() => void (location.hash = '#fig-22')));
+  for (const angle of ['0', '30', '45']) {
+    if (angle !== '0') await runBy(page, () => page.getByLabel('Turned by').selectOption(angle));
+    assert.equal(await page.locator('#verdict').innerText(), 'One smooth piece without a crease.', `${angle}°`);
+  }
   // Whatever else is opened ends its story.
   await drop(page, 'other.npy', npy(48, grid(48, 36, (col) => 3 * col)));
   await page.locator('#file-name', { hasText: 'other' }).waitFor();

@@ -1,6 +1,6 @@
 /** Cards of the gallery: common uses first, then the paper's figures. Their inputs are generated. */
 import { sampledInput } from './inputs.js';
-import { bust, crumpledNote, hall, occludedWall, pleats, rotated, terrain, tower } from './shapes.js';
+import { bust, crumpledNote, hall, occludedWall, pleats, rotated, terrain, tiltedCylinder, tower } from './shapes.js';
 
 /** @import {ExampleName} from '../api.js' */
 /** @import {Input, Settings} from '../session.js' */
@@ -13,7 +13,8 @@ import { bust, crumpledNote, hall, occludedWall, pleats, rotated, terrain, tower
  * @property {string} words description in two sentences
  * @property {string} look what the result shows
  * @property {{ name: ExampleName, size: number, noise: number }} [example] example of the package
- * @property {(size: number) => Input} [input] generates the input, by the pixels along its side
+ * @property {(size: number, turn: number) => Input} [input] generates the input, by the pixels along its side and the angle by which it is turned
+ * @property {readonly number[]} [turns] angles by which the input may be turned, in degrees
  * @property {number} size pixels along the side of the input
  * @property {Partial<Settings>} settings settings that differ from the defaults
  * @property {string} view
@@ -94,8 +95,8 @@ export const CARDS = [
   {
     id: 'fig-22', figure: 'Figs. 20, 22', title: 'A tilted cylinder without facets',
     words: 'The axis of a noisy cylinder lies askew to the pixels. Methods that bend along the edges of a mesh crease it; this one does not.',
-    look: 'The result is one piece without a crease.',
-    example: { name: 'cylinder', size: 200, noise: 0.02 }, size: 200, settings: PAPER_SETTINGS, view: 'rulings',
+    look: 'The result is one piece without a crease, however far it is turned.',
+    input: (size, turn) => sampledInput('cylinder', rotated(tiltedCylinder, turn), size, { noise: 0.02 }), turns: [0, 10, 20, 30, 45], size: 200, settings: PAPER_SETTINGS, view: 'rulings',
   },
   {
     id: 'fig-21', figure: 'Fig. 21', title: 'A house with smeared ridges',

@@ -18,10 +18,11 @@ const PICTURE_GAP = 0.05;
  * @param {Api} api
  * @param {Card} card
  * @param {number} size pixels along its side
+ * @param {number} [turn] angle by which it is turned, in degrees
  * @returns {Promise<Input>}
  */
-export async function cardInput(api, { example, input }, size) {
-  if (input) return input(size);
+export async function cardInput(api, { example, input }, size, turn = 0) {
+  if (input) return input(size, turn);
   if (!example) throw new Error('it has neither');
   const { name, noise } = example;
   const generated = await api.example(name, { size, noise });

@@ -26,6 +26,11 @@ export function hall(x, y) {
   );
 }
 
+/** The upper half of a cylinder whose axis leans against the ground. @type {Heights} */
+export function tiltedCylinder(x, y) {
+  return Math.sqrt(0.6 ** 2 - x ** 2) + 0.3 * y;
+}
+
 /** Pleats like those of a folded fan, whose ridges run one way. @type {Heights} */
 export function pleats(x, y) {
   const u = 5 * x + 0.6 * y;

@@ -18,6 +18,7 @@ export function galleryPanel(session, { adopt, choose, strip, enter }) {
   const dialog = element('gallery', HTMLDialogElement);
   const list = element('gallery-cards', HTMLElement);
   const story = element('story', HTMLElement);
+  const turns = element('story-turn', HTMLSelectElement);
   /** The card that is open. @type {Card | null} */
   let present = null;
   /** Name of the card's input; another input closes the card. */
@@ -39,12 +40,14 @@ export function galleryPanel(session, { adopt, choose, strip, enter }) {
   element('story-before', HTMLButtonElement).addEventListener('click', () => go(-1));
   element('story-next', HTMLButtonElement).addEventListener('click', () => go(1));
 
+  turns.addEventListener('change', () => present && void show(present, session.settings));
   const showStory = () => {
     story.hidden = present === null;
     if (!present) return;
     element('story-title', HTMLElement).textContent = `${present.title}${present.figure ? ` (${present.figure} of the paper)` : ''}.`;
     element('story-words', HTMLElement).textContent = present.words;
     element('story-look', HTMLElement).textContent = present.look;
+    element('story-turns', HTMLElement).hidden = !present.turns;
   };
 
   /**
@@ -55,7 +58,8 @@ export function galleryPanel(session, { adopt, choose, strip, enter }) {
   const show = async (card, settings = card.settings, view = card.view) => {
     dialog.close();
     enter();
-    const opened = await session.open('The gallery’s input could not be made', () => cardInput(session.api, card, card.size));
+    if (card !== present) turns.replaceChildren(...(card.turns ?? []).map((angle) => new Option(`${angle}°`, String(angle))));
+    const opened = await session.open('The gallery’s input could not be made', () => cardInput(session.api, card, card.size, Number(turns.value)));
     if (!opened) return;
     present = card;
     inputName = session.input?.name ?? '';

@@ -19,15 +19,8 @@ export const REPORT_WORDS = {
   lambda: 'The detail that is kept: a larger λ stays closer to the input.',
   /** @param {number} passes */
   creases: (passes) => `These vertices lie on creases, which were sharpened ${passes === 1 ? 'once' : `${count(passes)} times`}. The proof is about the last time.`,
-  /** @param {readonly number[]} sizes */
-  lattices: (sizes) => `The solve went from coarse to fine: ${sizes.map((size) => count(size)).join(', ')} interior vertices.`,
   /** @param {number} finest */
   iterations: (finest) => `Steps of the solver (ADMM), ${count(finest)} of them on the finest lattice.`,
-  cgIterations: 'Conjugate-gradient steps for the linear systems within these iterations.',
-  rho: 'The solver’s own parameter at the end. It adapts by itself.',
-  scale: 'One unit of the input is this long while the page solves.',
-  /** @param {string} setup @param {string} zStep @param {string} hStep @param {string} check */
-  time: (setup, zStep, hStep, check) => `Preparation ${setup}, linear systems ${zStep}, bending ${hStep}, proof ${check}.`,
   heights: 'Root mean square distance from the true surface, in the example’s unit.',
   normals: 'Mean angle between the surface and the true one.',
 };

@@ -18,6 +18,7 @@ import { bust, crumpledNote, hall, occludedWall, pleats, rotated, terrain, tilte
  * @property {number} size pixels along the side of the input
  * @property {Partial<Settings>} settings settings that differ from the defaults
  * @property {string} view
+ * @property {boolean} [fromAbove] whether it is seen from above at first
  * @property {'strip' | 'drawer'} [opens] part of the page that is opened with it
  */
 
@@ -78,7 +79,7 @@ export const CARDS = [
     id: 'fig-8', figure: 'Fig. 8', title: 'A bust, from one sheet to every hair',
     words: 'A small λ makes a bust from a few large sheets. A large one keeps every detail.',
     look: 'Click one of the five pictures below to take its λ.',
-    input: (size) => sampledInput('bust', bust, size), size: 240, settings: { ...PAPER_SETTINGS, lambda: 3e5 }, view: 'shaded', opens: 'strip',
+    input: (size) => sampledInput('bust', bust, size), size: 240, settings: { ...PAPER_SETTINGS, lambda: 3e5 }, view: 'shaded', opens: 'strip', fromAbove: true,
   },
   {
     id: 'fig-9', figure: 'Fig. 9', title: 'A column in front of a wall',

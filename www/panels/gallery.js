@@ -66,6 +66,7 @@ export function galleryPanel(session, { adopt, choose, strip, enter }) {
     showStory();
     adopt({ ...session.defaults, ...settings });
     choose(view);
+    if (card.fromAbove) element('from-above', HTMLButtonElement).click();
     strip(card.opens === 'strip');
     element('drawer', HTMLElement).hidden = card.opens !== 'drawer';
     element('certificate', HTMLButtonElement).setAttribute('aria-expanded', String(card.opens === 'drawer'));

@@ -110,8 +110,8 @@ export function pageResultPanel(api, session, book, onWritten) {
     const { report } = flat;
     const { width, height, data } = turnPicture(flat, session.quarters);
     const reduced = session.photo?.reduced;
-    before ??= reduced ? imagePicture(canvasFromImage(reduced), 'Photo', 'The photo') : null;
-    const after = imagePicture(canvasFromImage(new ImageData(data, width, height)), 'Flat', 'The page made flat');
+    before ??= reduced ? imagePicture(canvasFromImage(reduced), 'The photo') : null;
+    const after = imagePicture(canvasFromImage(new ImageData(data, width, height)), 'The page made flat');
     view.show({ ...after, paint: (context, ratio) => {
       after.paint(context, ratio);
       if (before && divider.share > 0) paintBefore(context, before, divider.share, ratio);

@@ -148,19 +148,14 @@ function domain(report) {
 
 /** @param {Report} report @returns {Group} */
 function work(report) {
-  const { setup, zStep, hStep, certificate: check, total } = report.seconds;
   return {
     title: 'Work',
     rows: [
       row('λ', number(report.lambda), REPORT_WORDS.lambda),
       row('Noise, σ', number(report.lambdaChoice?.sigma ?? 0), lambdaChoiceInWords(report), report.lambdaChoice?.sigma !== undefined),
       row('Creases', count(report.huber?.creases ?? 0), REPORT_WORDS.creases(report.huber?.creasePasses ?? 0), report.huber !== undefined),
-      row('Lattices', count(report.levels.length), REPORT_WORDS.lattices(report.levels.map(({ interior }) => interior))),
       row('Iterations', count(report.iterations), REPORT_WORDS.iterations(report.levels.at(-1)?.iterations ?? 0)),
-      row('CG iterations', count(report.cgIterations), REPORT_WORDS.cgIterations),
-      row('ρ', number(report.rho), REPORT_WORDS.rho),
-      row('Scale', number(report.scale, 4), REPORT_WORDS.scale),
-      row('Time', seconds(total), REPORT_WORDS.time(seconds(setup), seconds(zStep), seconds(hStep), seconds(check))),
+      row('Time', seconds(report.seconds.total), ''),
     ],
   };
 }

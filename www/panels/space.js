@@ -1,16 +1,16 @@
 /** Input and result as surfaces in space, one on each side of a divider; or the surface laid flat, as a picture in their place. */
-import { download, element, elements } from '../dom.js';
+import { download, element, elements, oncePerFrame } from '../dom.js';
 import { heightReading, number, shortLambda } from '../format.js';
 import { resultImage } from '../surface/derived-data.js';
 import { PictureView } from '../surface/picture-view.js';
-import { heightAt, heightfieldBox, intersectHeights, reliefMesh, reliefOf } from '../surface/relief.js';
+import { heightAt, heightfieldBox, reliefMesh, reliefOf } from '../surface/relief.js';
 import { SceneView } from '../surface/scene.js';
 import { pictureWithColours } from '../views/legend.js';
 import { dividerOver } from './divider.js';
 
 /** @import {Input, Result, Session} from '../session.js' */
 /** @import {Relief} from '../surface/relief.js' */
-/** @import {Box, Vector} from '../surface/scene.js' */
+/** @import {Vector} from '../surface/scene.js' */
 /** @import {ViewContent} from '../views/view-content.js' */
 
 /** Directions of view. @type {Record<'above' | 'oblique', Vector>} */
@@ -38,8 +38,6 @@ export function spacePanel(session) {
   const reliefs = [null, null];
   /** Whether the result is a preview: the layers belong to the last result. */
   let isPreview = false;
-  /** @type {Box} */
-  let box = { low: [0, 0, 0], high: [1, 1, 0] };
 
   const divider = dividerOver('divider', ['input', 'result'], (share) => view?.divide(share));
 
@@ -69,8 +67,7 @@ export function spacePanel(session) {
 
   const updateBox = () => {
     if (!session.input) return;
-    box = heightfieldBox(session.input);
-    view?.setBox(box);
+    view?.setBox(heightfieldBox(session.input));
     updateSurfaces([0, 1]);
   };
   /** @param {readonly (0 | 1)[]} sides */
@@ -94,12 +91,19 @@ export function spacePanel(session) {
 
   element('from-above', HTMLButtonElement).addEventListener('click', () => view?.look(DIRECTIONS.above));
   element('at-an-angle', HTMLButtonElement).addEventListener('click', () => view?.look(DIRECTIONS.oblique));
-  canvas.addEventListener('pointermove', (event) => {
-    if (event.buttons !== 0 || !view) return;
-    const side = view.sideAt(event.offsetX);
+  /** Newest place of the pointer. */
+  let pointer = { offsetX: 0, offsetY: 0 };
+  const readSoon = oncePerFrame(() => {
+    const place = view?.pick(pointer);
+    const side = place?.after ? 1 : 0;
     const relief = reliefs[side];
-    const point = relief && intersectHeights(view.rayAt(event.offsetX, event.offsetY), box, (x, y) => heightAt(relief, x, y));
-    reading.textContent = point ? heightReading(point[2], session.input?.unit, [shown.input, shown.result][side]?.read?.(point[0], point[1])) : '';
+    if (!place || !relief) return (reading.textContent = '');
+    const [x, y] = place.point;
+    reading.textContent = heightReading(heightAt(relief, x, y), session.input?.unit, [shown.input, shown.result][side]?.read?.(x, y));
+  });
+  canvas.addEventListener('pointermove', ({ offsetX, offsetY, buttons }) => {
+    pointer = { offsetX, offsetY };
+    if (buttons === 0) readSoon();
   });
   flat.canvas.addEventListener('pointermove', (event) => (reading.textContent = flat.read(event)));
   for (const one of [canvas, flat.canvas]) one.addEventListener('pointerleave', () => (reading.textContent = ''));

@@ -4,7 +4,6 @@ import { makeZoomable } from './zoom.js';
 
 /**
  * @typedef {object} Picture
- * @property {string} title shown in place of “Input” or “Result”
  * @property {string} words description for screen readers
  * @property {(context: CanvasRenderingContext2D, ratio: number) => void} paint `ratio`: device pixels per CSS pixel
  * @property {(canvas: { width: number, height: number }, ratio: number, x: number, y: number) => string} [read] the value at
@@ -64,12 +63,11 @@ export class PictureView {
 /**
  * A picture of an image, scaled to fit the canvas.
  * @param {HTMLCanvasElement} image
- * @param {string} title
  * @param {string} words
  * @param {(x: number, y: number) => string} [value] at a place of the image, in its pixels
  * @returns {Picture}
  */
-export function imagePicture(image, title, words, value) {
+export function imagePicture(image, words, value) {
   /** The rectangle of the image on a canvas. @param {{ width: number, height: number }} canvas */
   const fittedBox = ({ width, height }) => {
     const scale = Math.min(width / image.width, height / image.height);
@@ -77,7 +75,6 @@ export function imagePicture(image, title, words, value) {
     return { scale, left: (width - w) / 2, top: (height - h) / 2, w, h };
   };
   return {
-    title,
     words,
     paint: (context) => {
       const { scale, left, top, w, h } = fittedBox(context.canvas);

@@ -3,7 +3,7 @@ import { downsample } from './downsampling.js';
 import { gridOf } from './lattice.js';
 
 /** @import {Input} from '../session.js' */
-/** @import {Box, Surface, Vector} from './scene.js' */
+/** @import {Box, Surface} from './scene.js' */
 
 /**
  * @typedef {object} Relief
@@ -24,9 +24,6 @@ const MAX_SLOW_SIDE_VERTICES = 200;
 const BOX_HEIGHT_SHARE = 0.998;
 /** Number of heights from which the box is computed, about. */
 const BOX_SAMPLE_HEIGHTS = 20_000;
-/** Number of steps along a ray in the search for an intersection, and of the bisections that refine it. */
-const RAY_STEPS = 400;
-const RAY_BISECTIONS = 20;
 
 /** The value clamped to 0 to 1. @param {number} value */
 export function clampToUnit(value) {
@@ -107,40 +104,4 @@ export function heightfieldBox(input) {
   const most = sorted.length - 1;
   const [low, high] = [sorted[Math.ceil((1 - BOX_HEIGHT_SHARE) * most)] ?? 0, sorted[Math.floor(BOX_HEIGHT_SHARE * most)] ?? 0];
   return { low: [left, top - height * pixelSize, low], high: [left + width * pixelSize, top, high] };
-}
-
-/**
- * The first intersection of a ray from above with heights.
- * @param {{ point: Vector, towards: Vector }} ray a point and the direction towards the viewer
- * @param {Box} box that contains the heights
- * @param {(x: number, y: number) => number} height at a place of the plane, NaN for no data
- * @returns {Vector | null}
- */
-export function intersectHeights({ point, towards }, { low, high }, height) {
-  if (towards[2] < 1e-6) return null;
-  const margin = 1e-9 + 0.02 * Math.max(high[2] - low[2], 0.01 * Math.max(high[0] - low[0], high[1] - low[1]));
-  const [from, to] = [(high[2] + margin - point[2]) / towards[2], (low[2] - margin - point[2]) / towards[2]];
-  /** @param {number} t @returns {Vector} */
-  const at = (t) => [point[0] + t * towards[0], point[1] + t * towards[1], point[2] + t * towards[2]];
-  /** @param {number} t */
-  const heightAbove = (t) => {
-    const [x, y, z] = at(t);
-    return z - height(x, y);
-  };
-  let above = from;
-  for (let i = 1; i <= RAY_STEPS; i++) {
-    let below = from + ((to - from) * i) / RAY_STEPS;
-    if (!(heightAbove(below) <= 0)) {
-      above = below;
-      continue;
-    }
-    if (Number.isNaN(heightAbove(above))) return at(below);
-    for (let k = 0; k < RAY_BISECTIONS; k++) {
-      const half = (above + below) / 2;
-      if (heightAbove(half) > 0) above = half;
-      else below = half;
-    }
-    return at(below);
-  }
-  return null;
 }

@@ -389,36 +389,25 @@ export class SceneView {
     return this.#raycaster;
   }
 
-  /**
-   * The ray through a place of the canvas: a point and the direction towards the viewer.
-   * @param {number} x
-   * @param {number} y in CSS pixels
-   * @returns {{ point: Vector, towards: Vector }}
-   */
-  rayAt(x, y) {
-    const { origin, direction } = this.#cast(x, y).ray;
-    const { middle, scale } = this.#frame;
-    return { point: origin.toArray().map((/** @type {number} */ value, /** @type {number} */ k) => value / scale + middle[k]), towards: direction.clone().negate().toArray() };
-  }
-
   /** Which side of the divider shows a place of the canvas. @param {number} x in CSS pixels @returns {0 | 1} */
-  sideAt(x) {
+  #sideAt(x) {
     return this.#sides[1].surface && x >= this.#divider * this.#size.width ? 1 : 0;
   }
 
   /**
    * Finds the triangle at a place of the canvas.
    * @param {{ offsetX: number, offsetY: number }} place
-   * @returns {{ after: boolean, triangle: number, shares: Vector } | null} `after`: right of the divider; `shares`: barycentric coordinates; null without a triangle
+   * @returns {{ after: boolean, triangle: number, shares: Vector, point: Vector } | null} `after`: right of the divider; `shares`: barycentric coordinates; null without a triangle
    */
   pick({ offsetX, offsetY }) {
-    const side = this.sideAt(offsetX);
+    const side = this.#sideAt(offsetX);
     const { surface } = this.#sides[side];
     if (!surface?.isMesh || this.#size.width === 0) return null;
     const [first] = this.#cast(offsetX, offsetY).intersectObject(surface, false);
     if (!first) return null;
     const { x, y, z } = first.barycoord;
-    return { after: side === 1, triangle: first.faceIndex, shares: [x, y, z] };
+    const { middle, scale } = this.#frame;
+    return { after: side === 1, triangle: first.faceIndex, shares: [x, y, z], point: first.point.toArray().map((/** @type {number} */ value, /** @type {number} */ k) => value / scale + middle[k]) };
   }
 
   /** Fits the camera to the canvas. */

@@ -1,4 +1,4 @@
-/** Elements below the views: colour bars, figures, tables and sentences. */
+/** Elements below the views: colour bars, figures and sentences. */
 import { make } from '../dom.js';
 import { toCss, divergingColour } from '../surface/colours.js';
 
@@ -36,32 +36,6 @@ function colourBar({ title, scale }) {
 export function figures(figures) {
   return make('dl', 'figures', ...figures.map(([name, value]) =>
     make('div', '', make('dt', '', name), make('dd', '', value))));
-}
-
-/**
- * A table.
- * @param {string} caption
- * @param {readonly string[]} head
- * @param {readonly (readonly (string | Node)[])[]} rows the first cell is the row's name
- */
-export function table(caption, head, rows) {
-  const made = make('table', 'small');
-  made.createCaption().textContent = caption;
-  const top = made.createTHead().insertRow();
-  for (const text of head) {
-    const cell = make('th', '', text);
-    cell.scope = 'col';
-    top.append(cell);
-  }
-  const body = made.createTBody();
-  for (const [name, ...cells] of rows) {
-    const row = body.insertRow();
-    const header = make('th', '', name);
-    header.scope = 'row';
-    row.append(header);
-    for (const cell of cells) row.insertCell().append(cell);
-  }
-  return made;
 }
 
 /** An entry of a legend: a colour and its meaning. @param {string} colour @param {string} words */

@@ -1,14 +1,14 @@
 /** The views of a whole mesh and its result. */
-import { count, number, numberAgainst, percent, seconds, strainInWords } from '../format.js';
-import { COLOUR_SCALE_QUANTILE, toCss, divergingColour, logarithmicScale, magnitudeQuantile, patchColour } from '../surface/colours.js';
+import { count, number, numberAgainst, percent, strainInWords } from '../format.js';
+import { COLOUR_SCALE_QUANTILE, divergingColour, logarithmicScale, magnitudeQuantile, patchColour } from '../surface/colours.js';
 import { canvasFromPixels } from '../surface/layer.js';
 import { imagePicture } from '../surface/picture-view.js';
 import { callWorker } from '../surface/worker-client.js';
 import { MESH_FIT_WORDS } from '../messages.js';
-import { figures, key } from './legend.js';
+import { figures } from './legend.js';
+import { aboutPatches } from './patches.js';
 import { rulingContent } from './rulings.js';
 import { strainColours } from './sheet.js';
-import { make } from '../dom.js';
 
 /** @import {Mesh} from '../api.js' */
 /** @import {Colour} from '../surface/colours.js' */
@@ -30,12 +30,10 @@ import { make } from '../dom.js';
  * @property {readonly Node[]} [about] further elements below the view
  */
 
-/** Maximum number of patches in the legend. */
-const MAX_NAMED_PATCHES = 12;
-
 /** @param {MeshFit} whole @param {Mesh} mesh @param {MeshSurface} surface @returns {Promise<MeshViewContent>} */
 export async function shaded(whole, mesh, surface) {
-  return { before: mesh, after: surface, about: [figures(meshFacts(mesh, surface))] };
+  // Without noise the result is the input.
+  return { before: mesh, after: surface.report.stopReason === 'noNoise' ? undefined : surface, about: [figures(meshFacts(surface))] };
 }
 
 /** @param {MeshFit} whole @param {Mesh} mesh @param {MeshSurface} surface @returns {Promise<MeshViewContent>} */
@@ -76,7 +74,6 @@ export async function rulings(whole, mesh, surface) {
 export async function patches(whole, mesh, surface, tell) {
   const { labels, patches: found, creases } = await whole.unrolled(surface, tell);
   const { triangles, positions } = surface;
-  const total = found.reduce((sum, { area }) => sum + area, 0);
   // Triangles share no corners here, since patches end between triangles.
   const corners = {
     triangles: Uint32Array.from(triangles, (_, i) => i),
@@ -90,10 +87,7 @@ export async function patches(whole, mesh, surface, tell) {
     before: mesh,
     after: corners,
     read: ({ after, triangle }) => (after && labels[triangle] >= 0 ? `patch ${count(labels[triangle] + 1)}` : ''),
-    about: [
-      figures([['Patches', count(found.length)], ['Creases', count(creases.length)], ['Area', `${number(total)} ${mesh.unit ? `${mesh.unit}²` : 'square units'}`]]),
-      make('p', 'keys', ...found.slice(0, MAX_NAMED_PATCHES).map(({ area }, i) => key(toCss(patchColour(i)), `${i + 1}: ${percent(area / total)}`))),
-    ],
+    about: aboutPatches(found, creases.length, mesh.unit),
   };
 }
 
@@ -106,7 +100,7 @@ export async function sheet(whole, mesh, surface, tell) {
   const words = `${sheets === 1 ? 'One sheet' : `${count(sheets)} sheets`}, ${number(extent.width, 4)} × ${number(extent.height, 4)} ${unit}`;
   return {
     before: mesh,
-    flat: imagePicture(canvasFromPixels({ width, height }, pixels), 'Laid flat', words, (x, y) => strainInWords(values[Math.floor(y) * width + Math.floor(x)])),
+    flat: imagePicture(canvasFromPixels({ width, height }, pixels), words, (x, y) => strainInWords(values[Math.floor(y) * width + Math.floor(x)])),
     said: `${words}.`,
     colours: strainColours(maxStrain),
     about: [
@@ -156,23 +150,18 @@ export function meshFitSummary(mesh, { report }) {
   ].filter(Boolean).join(' ');
 }
 
-/** @param {Mesh} mesh @param {MeshSurface} surface @returns {[string, string][]} */
-function meshFacts({ unit, triangles }, { report: { vertices, border, components, sigma, lambda, passes, volume, area, flipped, seconds: { total } } }) {
-  const lengths = unit ?? 'units';
-  const last = passes.at(-1);
-  return [
-    ['Solved in', seconds(total)],
-    ['Vertices', count(vertices)],
-    ['Triangles', count(triangles.length / 3)],
+/** @param {MeshSurface} surface @returns {[string, string][]} */
+function meshFacts({ unit, report: { border, components, sigma, lambda, stopReason, volume, area, flipped } }) {
+  const facts = [
     ['Border vertices', border === 0 ? 'none: it is closed' : count(border)],
-    ...(components > 1 ? [/** @type {[string, string]} */ (['Parts', count(components)])] : []),
-    ['Noise, σ', sigma === undefined ? '–' : `${numberAgainst(sigma, Math.sqrt(area[0]))} ${lengths}`],
-    ['λ', number(lambda, 2)],
+    components > 1 && ['Parts', count(components)],
+    sigma !== undefined && ['Noise, σ', `${numberAgainst(sigma, Math.sqrt(area[0]))} ${unit ?? 'units'}`],
+    stopReason !== 'noNoise' && ['λ', number(lambda, 2)],
     ['Area', `${number(area[0])} → ${number(area[1])}`],
-    ...(volume ? [/** @type {[string, string]} */ (['Volume', `${number(volume[0])} → ${number(volume[1])}`])] : []),
-    ...(last ? [/** @type {[string, string]} */ (['Movement in the last step', `${numberAgainst(last.moved, Math.sqrt(area[0]))} ${lengths}`])] : []),
-    ['Triangles folded over', `${count(flipped[0])} → ${count(flipped[1])}`],
+    volume && ['Volume', `${number(volume[0])} → ${number(volume[1])}`],
+    flipped[0] + flipped[1] > 0 && ['Triangles folded over', `${count(flipped[0])} → ${count(flipped[1])}`],
   ];
+  return /** @type {[string, string][]} */ (facts.filter(Boolean));
 }
 
 /**

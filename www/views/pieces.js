@@ -1,6 +1,6 @@
 /** The view of the flat surface, cut into sheets if it would stretch in one piece. */
 import { make } from '../dom.js';
-import { number, strainInWords } from '../format.js';
+import { strainInWords } from '../format.js';
 import { CREASE_COLOUR, toCss, FOLD_COLOURS } from '../surface/colours.js';
 import { canvasFromPixels } from '../surface/layer.js';
 import { imagePicture } from '../surface/picture-view.js';
@@ -12,7 +12,6 @@ import { sheet, strainColours } from './sheet.js';
 /** @import {Analyses} from '../analyses.js' */
 /** @import {Result} from '../session.js' */
 /** @import {ViewContent} from './view-content.js' */
-/** @typedef {import('../../pkg/types.js').Drawing} Drawing */
 
 /** Length of the drawing's longer side, in pixels: enough for thin lines. */
 const DRAWING_SIDE_PIXELS = 2400;
@@ -45,12 +44,8 @@ export async function flat(analyses, result, tell) {
   context.drawImage(image, 0, 0, canvas.width, canvas.height);
   const isFolded = drawing.sheets.some(({ folds }) => folds.length > 0);
   return {
-    after: imagePicture(canvas, 'Laid flat, in pieces', sheetsInWords(drawing), (x, y) => {
-      const [across, down] = [x / canvas.width, y / canvas.height];
-      const value = strain?.values[Math.floor(down * strain.height) * strain.width + Math.floor(across * strain.width)] ?? NaN;
-      const sheet = sheetAt(drawing, across * width, (1 - down) * height);
-      return sheet && [sheet, strainInWords(value)].filter(Boolean).join(' · ');
-    }),
+    after: imagePicture(canvas, sheetsInWords(drawing), strain ? ((x, y) =>
+      strainInWords(strain.values[Math.floor((y / canvas.height) * strain.height) * strain.width + Math.floor((x / canvas.width) * strain.width)])) : undefined),
     said: `In one piece it would stretch; cut along its creases it lies flat. ${sheetsInWords(drawing)}`,
     colours: strain ? strainColours(strain.maxStrain) : undefined,
     about: [
@@ -58,26 +53,4 @@ export async function flat(analyses, result, tell) {
       figures(sheetFigures(drawing)),
     ],
   };
-}
-
-/**
- * The name and size of the sheet at a place of the drawing; empty beside the sheets.
- * @param {Drawing} drawing
- * @param {number} x
- * @param {number} y
- */
-function sheetAt({ sheets }, x, y) {
-  // Even-odd rule: outlines and holes are closed lines.
-  const found = sheets.find(({ cuts }) => cuts.reduce((sum, line) => sum + crossings(line, x, y), 0) % 2 === 1);
-  if (!found) return '';
-  const { name, bounds: [low, high] } = found;
-  return `${name}, ${number(high[0] - low[0], 3)} × ${number(high[1] - low[1], 3)} mm`;
-}
-
-/** Number of crossings of a closed line with the ray to the right of a place. @param {[number, number][]} line @param {number} x @param {number} y */
-function crossings(line, x, y) {
-  return line.filter(([ax, ay], i) => {
-    const [bx, by] = line[(i + 1) % line.length];
-    return ay > y !== by > y && ax + ((y - ay) / (by - ay)) * (bx - ax) > x;
-  }).length;
 }

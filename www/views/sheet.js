@@ -60,7 +60,7 @@ export function strainColours(maxStrain) {
  * @returns {Picture}
  */
 function pictureOf({ width, height, pixelsPerUnit, pixels, values }, unit, words) {
-  const picture = imagePicture(canvasFromPixels({ width, height }, pixels), 'Laid flat', words, (x, y) =>
+  const picture = imagePicture(canvasFromPixels({ width, height }, pixels), words, (x, y) =>
     strainInWords(values[Math.floor(y) * width + Math.floor(x)]));
   return {
     ...picture,

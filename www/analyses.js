@@ -1,16 +1,10 @@
-/**
- * Analyses of a result: curvatures, patches, rulings, unrolling and patterns. Each is computed once.
- *
- * They run in a worker of their own, in parallel to the next run. Disposing of the worker cancels those that are no
- * longer needed.
- */
-
+/** Analyses of a result: curvatures, patches, rulings, unrolling and patterns, in parallel to the next run. */
 import { TASK_WORDS } from './messages.js';
 import { downsample } from './surface/downsampling.js';
 import { resultImage } from './surface/derived-data.js';
 import { MAX_SHEET_CURVATURE_RADIANS } from './surface/gaussian-curvature.js';
 import { transferToWorker, callWorker } from './surface/worker-client.js';
-import { AnswerCache } from './worker-task.js';
+import { Tasks } from './worker-task.js';
 import { heightsOf } from './session.js';
 
 /** @import {Api, Surface} from './api.js' */
@@ -21,72 +15,23 @@ import { heightsOf } from './session.js';
 /** @typedef {ReturnType<typeof import('./surface/gaussian-curvature.js').curvaturesOf>} Curvatures */
 /** @typedef {import('../pkg/types.js').Drawing} Drawing */
 /** @typedef {import('../pkg/types.js').PatternOptions} PatternOptions */
-/** @typedef {InstanceType<Api['DevelopableWorker']>} Worker */
 
 /** Longer side of the lattice that is cut into sheets, in pixels: a pixel is half a millimetre for a piece of 20 cm. */
 const PATTERN_SIDE_PIXELS = 450;
 /** Largest ratio of a lattice's longer side to `PATTERN_SIDE_PIXELS` for which the lattice is not reduced. */
 const MAX_UNREDUCED_RATIO = 1.2;
 
-/** Idle time after which the worker is disposed of, in milliseconds. */
-const WORKER_IDLE_MS = 2000;
-
 export class Analyses {
-  #api;
-  /** @type {Worker | null} */
-  #worker = null;
-  /** Number of running tasks. */
-  #runningTasks = 0;
-  /** Timer that disposes of the idle worker. */
-  #idleTimer = 0;
-  #cache = new AnswerCache();
+  #tasks;
 
   /** @param {Api} api */
   constructor(api) {
-    this.#api = api;
-  }
-
-  /**
-   * @template T
-   * @param {(worker: Worker) => Promise<T>} task
-   */
-  async #runTask(task) {
-    clearTimeout(this.#idleTimer);
-    const worker = (this.#worker ??= new this.#api.DevelopableWorker());
-    this.#runningTasks++;
-    try {
-      return await task(worker);
-    } finally {
-      if (worker === this.#worker && --this.#runningTasks === 0) this.#disposeWhenIdle();
-    }
-  }
-
-  /**
-   * The cached answer to a question, or the answer of a new task.
-   * @template T
-   * @param {object} subject
-   * @param {string} question
-   * @param {(worker: Worker) => Promise<T>} task
-   * @returns {Promise<T>}
-   */
-  #cached(subject, question, task) {
-    return this.#cache.answer(subject, question, () => this.#runTask(task));
-  }
-
-  /** Disposes of the worker, and frees its memory, after it has been idle for a while. */
-  #disposeWhenIdle() {
-    this.#idleTimer = window.setTimeout(() => {
-      this.#worker?.dispose();
-      this.#worker = null;
-    }, WORKER_IDLE_MS);
+    this.#tasks = new Tasks(api);
   }
 
   /** Cancels all running tasks; their promises reject. */
   stop() {
-    if (this.#runningTasks === 0) return;
-    this.#worker?.dispose();
-    this.#worker = null;
-    this.#runningTasks = 0;
+    this.#tasks.stop();
   }
 
   /**
@@ -97,7 +42,7 @@ export class Analyses {
   async curvatures({ input, surface }) {
     const { spacing } = surface;
     const [before, after] = await Promise.all([
-      this.#cached(input, `curvatures ${spacing}`, (worker) =>
+      this.#tasks.answer(input, `curvatures ${spacing}`, (worker) =>
         worker.analyze(heightsOf(input), input.lattice ? {} : { spacing }).then(shownCurvatures)),
       this.curvature(surface),
     ]);
@@ -106,12 +51,12 @@ export class Analyses {
 
   /** @param {Surface} surface */
   curvature(surface) {
-    return this.#cached(surface, 'curvatures', (worker) => worker.analyze(surface).then(shownCurvatures));
+    return this.#tasks.answer(surface, 'curvatures', (worker) => worker.analyze(surface).then(shownCurvatures));
   }
 
   /** @param {Result} result */
   patches({ surface }) {
-    return this.#cached(surface, 'patches', (worker) => worker.patches(surface));
+    return this.#tasks.answer(surface, 'patches', (worker) => worker.patches(surface));
   }
 
   /**
@@ -125,7 +70,7 @@ export class Analyses {
 
   /** @param {Result} result */
   rulings({ surface }) {
-    return this.#cached(surface, 'rulings', (worker) => worker.rulings(surface));
+    return this.#tasks.answer(surface, 'rulings', (worker) => worker.rulings(surface));
   }
 
   /**
@@ -134,7 +79,7 @@ export class Analyses {
    * @param {Tell} tell
    */
   unroll({ surface }, tell) {
-    return this.#cached(surface, 'sheet', async (worker) => {
+    return this.#tasks.answer(surface, 'sheet', async (worker) => {
       const { triangles, places, stretches, report, verdict } = await worker.unroll(surface, { onProgress: ({ fraction }) => tell({ fraction, label: TASK_WORDS.unrolling }) });
       const picture = await transferToWorker('sheetStrainImage', [triangles, places, stretches], triangles, places, stretches);
       return { picture, report, verdict };
@@ -149,19 +94,14 @@ export class Analyses {
    */
   pattern(result, options, tell) {
     const { surface } = result;
-    const source = this.isUnreducedInPattern(result) ? surface : reducedImage(result, PATTERN_SIDE_PIXELS);
-    return this.#cached(surface, `pattern ${JSON.stringify(options)}`, (worker) => worker.pattern(source, { ...options, onProgress: ({ fraction }) => tell({ fraction, label: TASK_WORDS.cutting }) }));
-  }
-
-  /** Whether a pattern is made from the result's own lattice. @param {Result} result */
-  isUnreducedInPattern(result) {
     const { width, height } = resultImage(result);
-    return Math.max(width, height) < MAX_UNREDUCED_RATIO * PATTERN_SIDE_PIXELS;
+    const source = Math.max(width, height) < MAX_UNREDUCED_RATIO * PATTERN_SIDE_PIXELS ? surface : reducedImage(result, PATTERN_SIDE_PIXELS);
+    return this.#tasks.answer(surface, `pattern ${JSON.stringify(options)}`, (worker) => worker.pattern(source, { ...options, onProgress: ({ fraction }) => tell({ fraction, label: TASK_WORDS.cutting }) }));
   }
 
   /** @param {Drawing} drawing */
   svg(drawing) {
-    return this.#cached(drawing, 'svg', (worker) => worker.writeSvg(drawing));
+    return this.#tasks.answer(drawing, 'svg', (worker) => worker.writeSvg(drawing));
   }
 
 }

@@ -28,17 +28,7 @@ export function elements(selector, type) {
 }
 
 /**
- * Makes a button open the file dialog for one file.
- * @param {HTMLButtonElement} button
- * @param {HTMLInputElement} input
- * @param {(file: File) => unknown} onFile
- */
-export function onFileChosen(button, input, onFile) {
-  onFilesChosen(button, input, ([file]) => onFile(file));
-}
-
-/**
- * Makes a button open the file dialog for several files.
+ * Makes a button open a file dialog.
  * @param {HTMLButtonElement} button
  * @param {HTMLInputElement} input
  * @param {(files: File[]) => unknown} onFiles called with at least one file
@@ -108,6 +98,19 @@ export function make(tag, className, ...children) {
   if (className) made.className = className;
   made.append(...children);
   return made;
+}
+
+/**
+ * A labelled field for a number.
+ * @param {string} words
+ * @param {number} value initial value; NaN leaves the field empty
+ * @param {number} min
+ * @param {number} [max]
+ */
+export function numberField(words, value, min, max = Infinity) {
+  const input = make('input', '');
+  Object.assign(input, { type: 'number', value: Number.isNaN(value) ? '' : String(value), min: String(min), max: Number.isFinite(max) ? String(max) : '', step: 'any', required: true });
+  return { input, label: make('label', 'field', words, input) };
 }
 
 /**

@@ -1,14 +1,10 @@
-/**
- * The fit of a whole mesh, and analyses of the result. Each runs in a worker of its own, which is disposed of when it is
- * cancelled.
- */
-import { AnswerCache, runInWorker } from './worker-task.js';
+/** The fit of a whole mesh, and analyses of the result. */
+import { Tasks } from './worker-task.js';
 import { Events } from './events.js';
 import { TASK_WORDS } from './messages.js';
 import { boxOf } from './surface/triangles.js';
 
 /** @import {Api, Mesh} from './api.js' */
-/** @import {Worker} from './worker-task.js' */
 /** @typedef {import('../pkg/types.js').MeshSurface} MeshSurface */
 /** @typedef {import('../pkg/types.js').Progress} Progress */
 /** @typedef {(progress: import('./panels/waiting.js').TaskProgress) => void} Tell gets how far a step is */
@@ -37,14 +33,12 @@ export class MeshFit extends Events {
   #previousSurface = null;
   /** Identity of the newest solve; results of older solves are discarded. @type {object | null} */
   #newestSolve = null;
-  /** Tasks that are running. @type {Set<AbortController>} */
-  #runningTasks = new Set();
-  #cache = new AnswerCache();
+  #tasks;
 
   /** @param {Api} api */
   constructor(api) {
     super();
-    this.api = api;
+    this.#tasks = new Tasks(api);
   }
 
   /** Fits a mesh, and cancels the solve before. @param {Mesh} mesh @param {number | 'auto'} lambda */
@@ -57,13 +51,13 @@ export class MeshFit extends Events {
     this.surface = null;
     this.emit('start', mesh);
     try {
-      const surface = await this.#runTask((worker, signal) => worker.fitMesh(mesh, {
+      const surface = await this.#tasks.run((worker) => worker.fitMesh(mesh, {
         lambda,
         onProgress: (progress) => {
-          if (!signal.aborted) this.emit('progress', progress);
+          if (this.#newestSolve === solve) this.emit('progress', progress);
         },
       }));
-      if (!surface || this.#newestSolve !== solve) return;
+      if (this.#newestSolve !== solve) return;
       this.surface = surface;
       this.emit('result', surface);
     } catch (error) {
@@ -82,37 +76,36 @@ export class MeshFit extends Events {
 
   /** Cancels all running tasks; their promises reject. */
   stop() {
-    for (const abort of this.#runningTasks) abort.abort();
-    this.#runningTasks.clear();
+    this.#newestSolve = null;
+    this.#tasks.stop();
   }
 
   /** Closes the mesh and discards its result. */
   leave() {
     this.stop();
     if (!this.mesh) return;
-    this.#newestSolve = null;
     this.mesh = this.surface = null;
     this.emit('left', null);
   }
 
   /** @param {Mesh} mesh */
   curvatures(mesh) {
-    return this.#cached(mesh, 'curvatures', (worker) => worker.analyzeMesh(geometryOf(mesh)));
+    return this.#tasks.answer(mesh, 'curvatures', (worker) => worker.analyzeMesh(geometryOf(mesh)));
   }
 
   /** @param {Mesh} mesh */
   rulings(mesh) {
-    return this.#cached(mesh, 'rulings', (worker) => worker.meshRulings(geometryOf(mesh), { separation: longestSide(mesh) / RULINGS_PER_LONGEST_SIDE }));
+    return this.#tasks.answer(mesh, 'rulings', (worker) => worker.meshRulings(geometryOf(mesh), { separation: longestSide(mesh) / RULINGS_PER_LONGEST_SIDE }));
   }
 
   /** @param {Mesh} mesh @param {Tell} tell */
   unrolled(mesh, tell) {
-    return this.#cached(mesh, 'unrolled', (worker) => worker.unrollMesh(geometryOf(mesh), { onProgress: ({ fraction }) => tell({ fraction, label: TASK_WORDS.unrolling }) }));
+    return this.#tasks.answer(mesh, 'unrolled', (worker) => worker.unrollMesh(geometryOf(mesh), { onProgress: ({ fraction }) => tell({ fraction, label: TASK_WORDS.unrolling }) }));
   }
 
   /** Tells what kind of mesh it is, and how thick a solid of sheet metal. @param {Mesh} mesh */
   recognized(mesh) {
-    return this.#cached(mesh, 'kind', (worker) => worker.recognizeMesh(geometryOf(mesh)));
+    return this.#tasks.answer(mesh, 'kind', (worker) => worker.recognizeMesh(geometryOf(mesh)));
   }
 
   /**
@@ -128,43 +121,12 @@ export class MeshFit extends Events {
     // A solid of sheet metal has a thickness of its own.
     const { thickness: _thickness, innerRadius: _innerRadius, ...others } = options;
     const own = thickness !== undefined && options.thickness !== undefined ? { ...others, blank: true } : options;
-    return this.#cached(laidFlat, `pattern ${JSON.stringify(options)}`, (worker) => worker.patternMesh(geometryOf(laidFlat), { ...own, onProgress: tell }));
+    return this.#tasks.answer(laidFlat, `pattern ${JSON.stringify(options)}`, (worker) => worker.patternMesh(geometryOf(laidFlat), { ...own, onProgress: tell }));
   }
 
   /** @param {import('../pkg/types.js').Drawing} drawing */
   svg(drawing) {
-    return this.#cached(drawing, 'svg', (worker) => worker.writeSvg(drawing));
-  }
-
-  /**
-   * The cached answer to a question, or the answer of a new task.
-   * @template T
-   * @param {object} subject
-   * @param {string} question
-   * @param {(worker: Worker) => Promise<T>} task
-   * @returns {Promise<T>}
-   */
-  #cached(subject, question, task) {
-    return this.#cache.answer(subject, question, () =>
-      this.#runTask(task).then((found) => found ?? Promise.reject(new Error('it was cancelled'))));
-  }
-
-  /**
-   * @template T
-   * @param {(worker: Worker, signal: AbortSignal) => Promise<T>} task
-   * @returns {Promise<T | undefined>} undefined if it was cancelled
-   */
-  async #runTask(task) {
-    const abort = new AbortController();
-    this.#runningTasks.add(abort);
-    try {
-      return await runInWorker(this.api, abort.signal, (worker) => task(worker, abort.signal));
-    } catch (error) {
-      if (abort.signal.aborted) return undefined;
-      throw error;
-    } finally {
-      this.#runningTasks.delete(abort);
-    }
+    return this.#tasks.answer(drawing, 'svg', (worker) => worker.writeSvg(drawing));
   }
 }
 

@@ -1,6 +1,6 @@
 /** Solids for 3D printers: an open surface gets a base or a thickness, and all lengths become millimetres. */
 
-import { make } from './dom.js';
+import { make, numberField } from './dom.js';
 import { FORMAT_WORDS, SOLID_WORDS } from './messages.js';
 import { suggestedSide } from './pattern.js';
 import { boxOf } from './surface/triangles.js';
@@ -113,14 +113,8 @@ export async function threeMf({ positions, triangles }) {
  * @returns {{ formats: Format[], fields: HTMLElement, onChange: (act: () => void) => void }}
  */
 export function surfaceFormats({ surface, length, unit, onBase, mesh }) {
-  /** @param {string} label @param {number} value */
-  const field = (label, value) => {
-    const input = make('input', '');
-    Object.assign(input, { type: 'number', min: '0.1', step: 'any', value: String(value), required: true });
-    return { input, label: make('label', 'field', label, input) };
-  };
-  const side = field(SOLID_WORDS.side, suggestedSide(length, unit));
-  const thickness = field(onBase ? SOLID_WORDS.base : SOLID_WORDS.thickness, 2);
+  const side = numberField(SOLID_WORDS.side, suggestedSide(length, unit), 0.1);
+  const thickness = numberField(onBase ? SOLID_WORDS.base : SOLID_WORDS.thickness, 2, 0.1);
   let wasOpen = true;
   /** @param {Worker} worker */
   const solid = async (worker) => {

@@ -1,4 +1,4 @@
-/** Tasks that can be cancelled, each in a worker of its own, which ends with it; and a cache of their answers. */
+/** Tasks in workers, which can be cancelled. */
 
 /** @import {Api} from './api.js' */
 /** @typedef {InstanceType<Api['DevelopableWorker']>} Worker */
@@ -24,27 +24,67 @@ export async function runInWorker(api, signal, task) {
   }
 }
 
-/** Cache of answers to questions about objects. The answers about an object are freed together with it. */
-export class AnswerCache {
-  /** @type {WeakMap<object, Map<string, Promise<any>>>} */
+/** Idle time after which the worker of tasks is disposed of, in milliseconds. */
+const WORKER_IDLE_MS = 2000;
+
+/** Tasks that share a worker, which is disposed of when they are cancelled and when it is idle; and their answers, each found once. */
+export class Tasks {
+  #api;
+  /** @type {Worker | null} */
+  #worker = null;
+  /** Number of running tasks. */
+  #runningTasks = 0;
+  #idleTimer = 0;
+  /** Answers by their questions about an object, which are freed together with it. @type {WeakMap<object, Map<string, Promise<any>>>} */
   #answers = new WeakMap();
 
+  /** @param {Api} api */
+  constructor(api) {
+    this.#api = api;
+  }
+
   /**
-   * The answer to a question: the cached one, or a new one. A failed answer is not kept, so that the question may be asked again.
+   * @template T
+   * @param {(worker: Worker) => Promise<T>} task
+   */
+  async run(task) {
+    clearTimeout(this.#idleTimer);
+    const worker = (this.#worker ??= new this.#api.DevelopableWorker());
+    this.#runningTasks++;
+    try {
+      return await task(worker);
+    } finally {
+      if (worker === this.#worker && --this.#runningTasks === 0) this.#idleTimer = window.setTimeout(() => this.#dispose(), WORKER_IDLE_MS);
+    }
+  }
+
+  /**
+   * The answer to a question: the cached one, or that of a new task. A failed answer is not kept, so that the question may be asked again.
    * @template T
    * @param {object} subject
    * @param {string} question key of the question
-   * @param {() => Promise<T>} compute
+   * @param {(worker: Worker) => Promise<T>} task
    * @returns {Promise<T>}
    */
-  answer(subject, question, compute) {
+  answer(subject, question, task) {
     const answers = this.#answers.get(subject) ?? new Map();
     this.#answers.set(subject, answers);
     const cached = answers.get(question);
     if (cached) return cached;
-    const answer = compute();
+    const answer = this.run(task);
     answers.set(question, answer);
     answer.catch(() => answers.delete(question));
     return answer;
+  }
+
+  /** Cancels all running tasks; their promises reject. */
+  stop() {
+    if (this.#runningTasks > 0) this.#dispose();
+  }
+
+  #dispose() {
+    this.#worker?.dispose();
+    this.#worker = null;
+    this.#runningTasks = 0;
   }
 }

@@ -1,6 +1,6 @@
 /** Camera of depths: back-projects them to a mesh in space, which is then sampled from a view. */
 import { runInWorker } from '../worker-task.js';
-import { onFileChosen, element } from '../dom.js';
+import { element, onFilesChosen } from '../dom.js';
 import { number } from '../format.js';
 import { DEPTH_WORDS } from '../messages.js';
 
@@ -76,7 +76,7 @@ export function cameraPanel(session, openLoadedMesh) {
       return false;
     }
   };
-  onFileChosen(element('camera-open', HTMLButtonElement), element('camera-file', HTMLInputElement), readCamera);
+  onFilesChosen(element('camera-open', HTMLButtonElement), element('camera-file', HTMLInputElement), ([file]) => readCamera(file));
 
   /** The camera of the fields. @param {Input} input @returns {PhotoCamera} */
   const presentCamera = ({ width, height }) => {

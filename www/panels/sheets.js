@@ -1,5 +1,5 @@
 /** Dialog of sheets to cut out: size, paper, material and tabs, with a preview of the drawing that is saved. */
-import { element, make } from '../dom.js';
+import { element, make, numberField } from '../dom.js';
 import { number } from '../format.js';
 import { assemblyModel, assemblyPicture, drawingImage, MM_PER_UNIT, sheetFigures, sheetsInWords, smallestPiece, suggestedSide } from '../pattern.js';
 import { plainMessage } from '../error-messages.js';
@@ -52,28 +52,23 @@ const [MIN_SIDE_MM, MAX_SIDE_MM] = [10, 5000];
  */
 export function offerSheets(api, { stem, note = '', length, unit, up, cut, svg, metalThickness, canFoldElsewhere, stop }) {
   const last = lastSizes.get(stem) ?? { unit: unit === 'unknown' ? 'none' : unit, side: NaN };
-  const side = numberField(Number.isNaN(last.side) ? suggestedSide(length, last.unit) : last.side, MIN_SIDE_MM, MAX_SIDE_MM);
+  const { input: side, label: sideField } = numberField(SHEET_WORDS.side, Number.isNaN(last.side) ? suggestedSide(length, last.unit) : last.side, MIN_SIDE_MM, MAX_SIDE_MM);
   const units = make('select', '', ...Object.keys(MM_PER_UNIT).map((name) => new Option(SHEET_WORDS.unit(name), name)), new Option(SHEET_WORDS.ownSize, 'none'));
   units.value = last.unit;
   const unitField = make('label', 'field', SHEET_WORDS.units, units);
   unitField.hidden = unit === 'none';
-  const depth = numberField(lastOptions.depth, 1, 50);
+  const { input: depth, label: depthField } = numberField(SHEET_WORDS.tabDepth, lastOptions.depth, 1, 50);
   const tabs = make('input', '');
   Object.assign(tabs, { type: 'checkbox', checked: lastOptions.tabs });
   const metal = make('select', '', new Option(SHEET_WORDS.card, ''), new Option(SHEET_WORDS.metal, 'metal'));
   metal.value = lastOptions.metal ? 'metal' : '';
-  const thickness = numberField(lastOptions.thickness, 0.05, 20);
-  const radius = numberField(lastOptions.radius, 0, 100);
+  const { input: thickness, label: thicknessField } = numberField(SHEET_WORDS.thickness, lastOptions.thickness, 0.05, 20);
+  const { input: radius, label: radiusField } = numberField(SHEET_WORDS.radius, lastOptions.radius, 0, 100);
   Object.assign(radius, { required: false, placeholder: SHEET_WORDS.likeThickness });
-  const kFactor = numberField(lastOptions.kFactor, 0.1, 0.9);
-  const forCard = [make('label', 'check', tabs, SHEET_WORDS.tabs), make('label', 'field', SHEET_WORDS.tabDepth, depth)];
+  const { input: kFactor, label: kFactorField } = numberField(SHEET_WORDS.kFactor, lastOptions.kFactor, 0.1, 0.9);
+  const forCard = [make('label', 'check', tabs, SHEET_WORDS.tabs), depthField];
   const metalNote = make('p', 'muted small');
-  const forMetal = [
-    metalNote,
-    make('label', 'field', SHEET_WORDS.thickness, thickness),
-    make('label', 'field', SHEET_WORDS.radius, radius),
-    make('label', 'field', SHEET_WORDS.kFactor, kFactor),
-  ];
+  const forMetal = [metalNote, thicknessField, radiusField, kFactorField];
   const [toCut, toJoin] = [0, 1].map(() => Object.assign(make('input', ''), { type: 'text', placeholder: SHEET_WORDS.pairs }));
   // Only flat faces can be cut apart anywhere: nothing of them is stretched.
   const edges = make('div', 'sheets-options edges', make('p', 'muted small', SHEET_WORDS.edges), make('label', 'field', SHEET_WORDS.toCut, toCut), make('label', 'field', SHEET_WORDS.toJoin, toJoin));
@@ -94,7 +89,6 @@ export function offerSheets(api, { stem, note = '', length, unit, up, cut, svg, 
   };
   const paper = make('select', '', new Option('A4', 'a4'), new Option('Letter', 'letter'), new Option(SHEET_WORDS.onePage, ''));
   paper.value = lastOptions.paper;
-  const sideField = make('label', 'field', SHEET_WORDS.side, side);
   const preview = make('div', 'preview');
   const status = make('p', 'said');
   status.setAttribute('role', 'status');
@@ -166,7 +160,7 @@ export function offerSheets(api, { stem, note = '', length, unit, up, cut, svg, 
       showSize(finished);
       edges.hidden = !canFoldElsewhere(finished);
       const solid = await metalThickness();
-      for (const { parentElement: field } of [thickness, radius]) field?.toggleAttribute('hidden', metal.value === '' || solid !== undefined);
+      for (const field of [thicknessField, radiusField]) field.hidden = metal.value === '' || solid !== undefined;
       metalNote.textContent = solid === undefined ? SHEET_WORDS.upperSide : SHEET_WORDS.blank(number((solid * side.valueAsNumber) / length));
       image.addEventListener('click', ({ offsetX, offsetY }) => {
         if (!edges.hidden) toggleEdge(finished, [(offsetX / image.clientWidth) * finished.width, (1 - offsetY / image.clientHeight) * finished.height]);
@@ -259,11 +253,4 @@ export function offerSheets(api, { stem, note = '', length, unit, up, cut, svg, 
     ],
   });
   void draw();
-}
-
-/** A field for a number. @param {number} value initial value; NaN leaves the field empty @param {number} min @param {number} max */
-function numberField(value, min, max) {
-  const field = make('input', '');
-  Object.assign(field, { type: 'number', value: Number.isNaN(value) ? '' : String(value), min: String(min), max: String(max), step: 'any', required: true });
-  return field;
 }

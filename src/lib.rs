@@ -74,7 +74,7 @@
 #![forbid(unsafe_code)]
 #![warn(missing_docs)]
 
-// Unit tests share modules with the integration tests, which know the library by its name.
+// The tests of `tests/native/` know the library by its name.
 #[cfg(test)]
 extern crate self as developable;
 
@@ -89,6 +89,11 @@ mod fit;
 mod heights;
 mod lattice;
 mod math;
+/// Tests of the library as its users see it. They are part of this crate so that one optimised build serves them and the tests
+/// beside the code, and compiling takes most of the time of both.
+#[cfg(all(test, not(target_arch = "wasm32")))]
+#[path = "../tests/native/main.rs"]
+mod native;
 pub mod page;
 pub mod pattern;
 pub mod picture;

@@ -1,7 +1,7 @@
 //! How far heights are trusted.
 
-use crate::common::conic::Instance;
-use crate::common::{Noise, cut, max_difference, noisy, unit_square};
+use crate::native::common::conic::Instance;
+use crate::native::common::{Noise, cut, max_difference, noisy, unit_square};
 use developable::{Error, Heightfield, Input, Lattice, Options, fit};
 
 fn bumps(x: f64, y: f64) -> f64 {

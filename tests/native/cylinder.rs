@@ -1,6 +1,6 @@
 //! Heights of a cylinder: of known profiles, and of other shapes.
 
-use crate::common::{Noise, rms_difference};
+use crate::native::common::{Noise, rms_difference};
 use developable::{
     Cylinder, CylinderVerdict, Error, Heightfield, Lambda, Lattice, Options, fit, fit_cylinder,
 };

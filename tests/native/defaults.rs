@@ -1,6 +1,6 @@
 //! One meaning for each option: what is given changes itself alone.
 
-use crate::common::{noisy, unit_square};
+use crate::native::common::{noisy, unit_square};
 use developable::{
     Energy, Heightfield, Input, Lambda, Lattice, MeshOptions, Options, Report, Schedule, fit,
 };

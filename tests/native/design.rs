@@ -1,7 +1,7 @@
 //! Surfaces through heights that must be met exactly.
 
-use crate::common::conic::Instance;
-use crate::common::{Noise, cut, max_difference, noisy, unit_square};
+use crate::native::common::conic::Instance;
+use crate::native::common::{Noise, cut, max_difference, noisy, unit_square};
 use developable::{Energy, Error, Heightfield, Input, Lattice, Options, StopReason, fit};
 use proptest::prelude::*;
 

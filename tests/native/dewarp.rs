@@ -1,6 +1,6 @@
 //! Photos of synthetic pages made flat, against where things are on the page.
 
-use crate::common::{noisy, unit_square};
+use crate::native::common::{noisy, unit_square};
 use developable::dewarp::{DewarpOptions, Extent, Photo, Registration, Verdict, WarpMap};
 use developable::unroll::{UnrollOptions, unroll};
 use developable::{Heightfield, Options, fit};

@@ -1,7 +1,7 @@
 //! Patterns drawn in millimetres, and written to files. (What other programs measure in these is in
 //! `tests/js/patterns.test.mjs`.)
 
-use crate::common::{noisy, unit_square};
+use crate::native::common::{noisy, unit_square};
 use developable::drawing::{Bending, Drawing, DrawingOptions, DrawnSheet, LabelKind, Piece, Stock};
 use developable::files::assembly::write_assembly_svg;
 use developable::files::drawings::{PdfOptions, write_dxf, write_pdf, write_svg};

@@ -2,7 +2,7 @@
 
 use std::num::Wrapping;
 
-use crate::common::Noise;
+use crate::native::common::Noise;
 use developable::{
     Bridging, Error, HeightImage, Heightfield, Input, Lattice, Options, Report, StopReason,
     Surface, fit,
@@ -244,7 +244,7 @@ fn dead_pixels_cost_little_time_and_little_accuracy() {
         let [truth, field] = scene(SIZE, SIGMA, |row, col| mask.keeps(SIZE, row, col));
         let surface = fit(&field, &Options::paper()).unwrap();
         let on_lattice = (
-            SIGMA / crate::common::rms_difference(surface.heightfield(), &truth),
+            SIGMA / crate::native::common::rms_difference(surface.heightfield(), &truth),
             work(surface.report(), field.heights().len()),
         );
         let [truth, image] = picture(SIZE, SIGMA, |row, col| mask.keeps(SIZE, row, col));
@@ -418,7 +418,7 @@ fn a_plane_comes_back_in_its_holes_too() {
     let missing = keep.iter().filter(|keep| **keep == 0).count();
     let surface = fit(&holed, &Options::paper()).unwrap();
     assert!(surface.report().bridged > missing * 9 / 10);
-    assert!(crate::common::max_difference(surface.heightfield(), &truth) < 1e-9);
+    assert!(crate::native::common::max_difference(surface.heightfield(), &truth) < 1e-9);
 }
 
 #[test]

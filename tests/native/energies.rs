@@ -1,7 +1,7 @@
 //! The energies against an independent conic solver, and what makes each what it is.
 
-use crate::common::conic::Instance;
-use crate::common::{cut, max_difference, noisy, unit_square};
+use crate::native::common::conic::Instance;
+use crate::native::common::{cut, max_difference, noisy, unit_square};
 use developable::{Energy, Heightfield, Options, StopReason, fit};
 
 fn bumps(x: f64, y: f64) -> f64 {

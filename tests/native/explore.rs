@@ -1,6 +1,6 @@
 //! Patterns at several λ and sizes of patches.
 
-use crate::common::unit_square;
+use crate::native::common::unit_square;
 use developable::Heightfield;
 use developable::analysis::Deviation;
 use developable::drawing::{Drawing, DrawingOptions};

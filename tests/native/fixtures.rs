@@ -1,8 +1,10 @@
 //! The committed fixtures are what the library gives now. If a change is meant
 //! to change them: `cargo run --release --example fixtures`.
 
+use crate::native::check;
+
 // Tighter than for wasm: it is the same compiler's arithmetic.
-crate::check::fixture_tests!(test, 1e-12);
+check::fixture_tests!(test, 1e-12);
 
 #[test]
 fn every_file_is_checked() {

@@ -11,7 +11,7 @@ use developable::{
 };
 use proptest::prelude::*;
 
-use crate::common::files;
+use crate::native::common::files;
 
 use files::{file, holes, of_every_type, ramp, read};
 
@@ -224,7 +224,7 @@ proptest! {
             let length = bytes.len();
             bytes[place.index(length)] = byte;
         }
-        crate::common::files::check_decoded(&bytes)?;
+        crate::native::common::files::check_decoded(&bytes)?;
     }
 
     #[test]

@@ -1,7 +1,7 @@
 //! What a report says is true, on whatever input: every certificate is checked against energies that
 //! are computed here, by plain loops, and against surfaces that might be better.
 
-use crate::common::{Noise, noisy, unit_square};
+use crate::native::common::{Noise, noisy, unit_square};
 use developable::{
     Bridging, Energy, Error, HeightImage, Heightfield, Input, Lattice, Normalization, Options,
     Report, Solver, Status, StopReason, Surface, fit,

@@ -1,8 +1,8 @@
 //! The energy that costs small bends by their square: against an independent conic solver, its limits,
 //! and its passes at creases.
 
-use crate::common::conic::Instance;
-use crate::common::{cut, max_difference, noisy, rms_difference, unit_square};
+use crate::native::common::conic::Instance;
+use crate::native::common::{cut, max_difference, noisy, rms_difference, unit_square};
 use developable::{
     Border, Energy, Heightfield, Lambda, Lattice, Normalization, Options, Report, StopReason, fit,
 };

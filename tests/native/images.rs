@@ -9,7 +9,7 @@ use developable::files::images::{
 use developable::{Error, HeightImage};
 use proptest::prelude::*;
 
-use crate::common::files;
+use crate::native::common::files;
 
 use files::{file, holes, of_every_type, ramp, read};
 
@@ -541,7 +541,7 @@ proptest! {
             let length = bytes.len();
             bytes[place.index(length)] = byte;
         }
-        crate::common::files::check_decoded(&bytes)?;
+        crate::native::common::files::check_decoded(&bytes)?;
         if let Err(error) = npz_arrays(&bytes) {
             prop_assert!(["FORMAT", "UNSUPPORTED"].contains(&error.code()), "{}", error);
         }

@@ -1,7 +1,7 @@
 //! Whole meshes of any triangulation: no vertex moves farther than the noise may have moved it, no triangle turns over,
 //! and a bend over several edges is no crease.
 
-use crate::common::irregular::{NoisyMesh, Sheet, Tessellation};
+use crate::native::common::irregular::{NoisyMesh, Sheet, Tessellation};
 use developable::{MeshOptions, fit_mesh};
 
 const SHEETS: [Sheet; 3] = [Sheet::Curled, Sheet::Folded, Sheet::Bracket { radius: 0.1 }];

@@ -1,8 +1,6 @@
-//! The library as its users see it: one program for all of these tests, for linking each alone
-//! takes longer than compiling it.
-#![cfg(not(target_arch = "wasm32"))]
+//! The library as its users see it: by what is public.
 
-mod common;
+pub(crate) mod common;
 
 #[path = "../fixtures/case.rs"]
 mod case;

@@ -1,6 +1,6 @@
 //! λ from the data.
 
-use crate::common::{Noise, cut, noisy, rms_difference, unit_square};
+use crate::native::common::{Noise, cut, noisy, rms_difference, unit_square};
 use developable::{
     Bridging, Energy, HeightImage, Heightfield, Input, Lambda, LambdaReason, Lattice, Options,
     Report, Solver, Status, Tolerance, fit,

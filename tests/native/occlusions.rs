@@ -1,7 +1,7 @@
 //! Surfaces that are torn.
 
-use crate::common::conic::Instance;
-use crate::common::{max_difference, noisy, unit_square};
+use crate::native::common::conic::Instance;
+use crate::native::common::{max_difference, noisy, unit_square};
 use developable::{
     Error, Heightfield, Input, Normalization, Occlusions, Options, StopReason, Surface, fit,
 };

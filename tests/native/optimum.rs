@@ -1,7 +1,7 @@
 //! The optimum against an independent conic solver.
 
-use crate::common::conic::Instance;
-use crate::common::{cut, noisy, unit_square};
+use crate::native::common::conic::Instance;
+use crate::native::common::{cut, noisy, unit_square};
 use developable::{Heightfield, Lambda, Normalization, Options, Report, Schedule, StopReason, fit};
 
 fn check(field: &Heightfield, lambda: Lambda) -> Report {

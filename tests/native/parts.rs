@@ -1,7 +1,7 @@
 //! Surfaces of several parts, each of which is solved for itself.
 
-use crate::common::conic::Instance;
-use crate::common::{cut, max_difference, noisy, unit_square};
+use crate::native::common::conic::Instance;
+use crate::native::common::{cut, max_difference, noisy, unit_square};
 use developable::{
     Bridging, Heightfield, Input, Lattice, Normalization, Options, Solver, Status, StopReason, fit,
 };

@@ -1,6 +1,6 @@
 //! Patches and creases of shapes that are known.
 
-use crate::common::unit_square;
+use crate::native::common::unit_square;
 use developable::patches::{PatchOptions, Patches};
 use developable::{Example, ExampleOptions, Heightfield, Options, fit};
 

@@ -1,6 +1,6 @@
 //! Surfaces cut into sheets that lie flat.
 
-use crate::common::unit_square;
+use crate::native::common::unit_square;
 use developable::drawing::{Drawing, DrawingOptions};
 use developable::patches::{PatchOptions, Patches};
 use developable::pattern::{Direction, Pattern, PatternOptions, Run, Sheet, pattern};
@@ -221,7 +221,7 @@ fn a_vertex_with_a_full_turn_around_it_is_folded_flat() {
 #[test]
 fn holes_and_tears_are_cut() {
     // A flat sheet with a hole, and a step that no fold bridges.
-    let holed = crate::common::cut(&unit_square(80, |_, _| 0.0), |x, y| {
+    let holed = crate::native::common::cut(&unit_square(80, |_, _| 0.0), |x, y| {
         (x - 0.5).hypot(y - 0.5) > 0.2
     });
     let (_, found) = sheets(&holed);
@@ -397,7 +397,7 @@ fn check(name: &str, surface: &Heightfield, limit: f64) -> Vec<Sheet> {
 #[test]
 fn a_cone_is_slit_and_becomes_a_sector() {
     // Of slope 1, cut off at radius 0.45.
-    let cone = crate::common::cut(
+    let cone = crate::native::common::cut(
         &unit_square(100, |x, y| -(x - 0.503).hypot(y - 0.502)),
         |x, y| (x - 0.503).hypot(y - 0.502) < 0.45,
     );
@@ -441,7 +441,7 @@ fn domes_saddles_and_waves_are_cut_until_they_lie_flat() {
 #[test]
 fn what_no_cut_makes_flat_is_refused_with_its_place() {
     // Rough from vertex to vertex.
-    let mut noise = crate::common::Noise::new(5);
+    let mut noise = crate::native::common::Noise::new(5);
     let rough = unit_square(16, |_, _| 0.0);
     let heights = rough
         .heights()
@@ -471,7 +471,7 @@ fn sides(sheets: &[Sheet]) -> std::collections::BTreeMap<usize, (bool, [f64; 2])
 /// rags.
 #[test]
 fn a_steep_ragged_border_gives_way_and_that_is_told() {
-    let mut noise = crate::common::Noise::new(3);
+    let mut noise = crate::native::common::Noise::new(3);
     let ball = unit_square(70, |x, y| {
         let r = (x - 0.5).hypot(y - 0.5);
         (0.25 - r * r).max(0.0).sqrt()
@@ -566,7 +566,7 @@ fn walls_of_steps_are_told() {
 fn sheets_fold_back_to_the_surface() {
     let cylinder = unit_square(60, |x, _| (0.5 - (x - 0.5f64).powi(2)).sqrt());
     let card = unit_square(60, |x, _| -0.7 * (x - 0.503).abs());
-    let cone = crate::common::cut(
+    let cone = crate::native::common::cut(
         &unit_square(60, |x, y| -0.8 * (x - 0.503).hypot(y - 0.502)),
         |x, y| (x - 0.503).hypot(y - 0.502) < 0.45,
     );
@@ -604,7 +604,7 @@ fn sheets_fold_back_to_the_surface() {
 fn both_sides_of_a_cut_are_drawn_equally_long() {
     let waves = unit_square(100, |x, y| 0.08 * (7.0 * x).sin() * (6.0 * y).cos());
     let bumps = unit_square(100, |x, y| 0.02 * (21.0 * x).sin() * (19.0 * y).cos());
-    let cone = crate::common::cut(
+    let cone = crate::native::common::cut(
         &unit_square(120, |x, y| -(x - 0.503).hypot(y - 0.502)),
         |x, y| (x - 0.503).hypot(y - 0.502) < 0.45,
     );
@@ -748,7 +748,7 @@ fn known_developments_have_their_outlines_once_they_were_solved_from_noise() {
         let truth = unit_square(100, height);
         let heights = || truth.heights().iter().copied();
         let range = heights().fold(f64::MIN, f64::max) - heights().fold(f64::MAX, f64::min);
-        let input = crate::common::noisy(&truth, 0.01 * range * 3f64.sqrt(), 5);
+        let input = crate::native::common::noisy(&truth, 0.01 * range * 3f64.sqrt(), 5);
         let options = Options::default();
         let solved = fit(&input, &options).unwrap();
         let (_, sheets) = sheets(solved.heightfield());
@@ -918,7 +918,7 @@ fn angles_at_points_close_up() {
         assert_eq!(worst.crease.is_none(), name == "folded", "{name}");
     }
     // A cone is slit as far as its point.
-    let cone = crate::common::cut(
+    let cone = crate::native::common::cut(
         &unit_square(120, |x, y| -(x - 0.503).hypot(y - 0.502)),
         |x, y| (x - 0.503).hypot(y - 0.502) < 0.45,
     );

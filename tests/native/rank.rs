@@ -1,6 +1,6 @@
 //! Surfaces whose Hessians have rank one where the energy asks for it, at the default gap.
 
-use crate::common::{noisy, unit_square};
+use crate::native::common::{noisy, unit_square};
 use developable::analysis::Curvatures;
 use developable::{
     Domain, Energy, Heightfield, HessianOperator, Normalization, Options, Role, Surface, fit,

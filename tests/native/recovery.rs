@@ -1,6 +1,6 @@
 //! Noise goes, the shape stays: output against ground truth.
 
-use crate::common::{noisy, rms_difference, unit_square};
+use crate::native::common::{noisy, rms_difference, unit_square};
 use developable::{Heightfield, Lambda, Options, fit};
 
 /// RMS angle between the unit normals of two fields, in radians, over the

@@ -2,7 +2,7 @@
 
 use std::collections::HashSet;
 
-use crate::common::similarity;
+use crate::native::common::similarity;
 use developable::dewarp::{DewarpOptions, Registration, Verdict, WarpMap};
 use developable::unroll::{UnrollOptions, unroll};
 use developable::{

@@ -1,6 +1,6 @@
 //! Reweighted passes take back what the energy does to creases.
 
-use crate::common::{noisy, rms_difference, unit_square};
+use crate::native::common::{noisy, rms_difference, unit_square};
 use developable::{
     Domain, Heightfield, HessianOperator, Lambda, Normalization, Options, StopReason, fit,
 };

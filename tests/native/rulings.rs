@@ -1,6 +1,6 @@
 //! Rulings of surfaces whose rulings are known.
 
-use crate::common::{noisy, unit_square};
+use crate::native::common::{noisy, unit_square};
 use developable::rulings::{Rulings, TraceOptions};
 use developable::{Frame, Heightfield, Lambda, Options, Triangulation, fit};
 

@@ -1,6 +1,6 @@
 //! Solves on several threads: the same surface to the last bit, and what the report says of the threads.
 
-use crate::common::{cut, noisy, unit_square};
+use crate::native::common::{cut, noisy, unit_square};
 use developable::{
     Energy, Heightfield, Input, Options, Report, Schedule, Surface, ThreadLimit, fit,
 };

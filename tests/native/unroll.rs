@@ -1,7 +1,7 @@
 //! Surfaces whose flat shape is known, laid flat; from exact heights, and from noisy ones that were
 //! solved first.
 
-use crate::common::{cut, noisy, unit_square};
+use crate::native::common::{cut, noisy, unit_square};
 use developable::dewarp::{DewarpOptions, Extent, Verdict, WarpMap};
 use developable::unroll::{UnrollOptions, Unrolling, unroll};
 use developable::{Heightfield, Lattice, Options, fit};

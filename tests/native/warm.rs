@@ -1,7 +1,7 @@
 //! Solving again from where a solver stands.
 
-use crate::common::conic::Instance;
-use crate::common::{cut, noisy, unit_square};
+use crate::native::common::conic::Instance;
+use crate::native::common::{cut, noisy, unit_square};
 use developable::{
     Energy, Error, Heightfield, Input, Lattice, Occlusions, Options, Solver, Status, StopReason,
     Surface, fit,
@@ -86,7 +86,9 @@ fn the_same_again_is_done_at_once() {
         let again = run(&mut solver);
         assert_eq!(again.report().iterations, 0, "{:?}", again.report());
         assert!(again.report().is_certified(1e-5));
-        assert!(crate::common::max_difference(first.heightfield(), again.heightfield()) < 1e-12);
+        assert!(
+            crate::native::common::max_difference(first.heightfield(), again.heightfield()) < 1e-12
+        );
     }
 }
 

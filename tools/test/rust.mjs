@@ -19,13 +19,12 @@ export async function lint() {
   await check('cargo', ['clippy', ...all, '--', '-D', 'warnings'], native);
 }
 
-/** The tests beside the code, and those of the whole library: compiled side by side. */
+/** The tests beside the code, and those of the whole library, which are compiled with it. */
 export async function rustTests() {
-  const which = ['--lib', '--test', 'native'];
   const { ok } = await run('cargo', ['nextest', '--version'], { env: native });
   // It names the tests that are slow.
-  if (ok) await check('cargo', ['nextest', 'run', '--config-file', 'tools/test/nextest.toml', ...which], native);
-  else await check('cargo', ['test', ...which], native);
+  if (ok) await check('cargo', ['nextest', 'run', '--config-file', 'tools/test/nextest.toml', '--lib'], native);
+  else await check('cargo', ['test', '--lib'], native);
 }
 
 export async function docTests() {

@@ -3,7 +3,7 @@
 use developable::page::PageSurface;
 
 use super::scene::Scene;
-use crate::common::similarity;
+use crate::native::common::similarity;
 
 /// Root mean square of the displacements after the best similarity, in % of a page's width.
 pub fn displacement(page: &PageSurface, scene: &Scene) -> f64 {

@@ -7,7 +7,7 @@ use developable::page::{
 };
 use oorandom::Rand64;
 
-use crate::common::similarity;
+use crate::native::common::similarity;
 
 /// A page of width 1 in space: an isometric map of its plane.
 type Shape = fn(f64, f64) -> [f64; 3];

@@ -388,14 +388,44 @@ fn a_solid_of_sheet_metal_has_the_blank_that_it_is_bent_from() {
         (bend.angle - 90.0).abs() < 1e-9 && (line.length - 50.0).abs() < 1e-9,
         "{line:?}"
     );
-    // The outer skin is the larger one.
-    assert!((bend.radius - 5.0).abs() < 1e-9, "{}", bend.radius);
+    // Of the inside, though the blank is made of the outer skin, which is the larger one.
+    assert!((bend.radius - 3.0).abs() < 1e-9, "{}", bend.radius);
     let away = |p: &[f64; 2]| {
         let k = usize::from(high[1] - low[1] > high[0] - low[0]);
         (p[k] - low[k]).min(high[k] - p[k])
     };
     let middle = 40.0 + 0.5 * FRAC_PI_2 * (3.0 + 0.44 * 2.0);
     assert!(line.points.iter().all(|p| (away(p) - middle).abs() < 1e-3));
+}
+
+#[test]
+fn a_bend_of_uneven_facets_is_one_bend() {
+    // Two faces beside an arc of radius 10 whose chords are as uneven as where a reader has joined some of them.
+    let mut turned = 0.0_f64;
+    let mut line = vec![[0.0, -30.0]];
+    for degrees in [0.0, 4.0, 13.0, 13.0, 13.0, 13.0, 13.0, 13.0, 8.0_f64] {
+        turned += degrees.to_radians();
+        line.push([10.0 - 10.0 * turned.cos(), 10.0 * turned.sin()]);
+    }
+    line.push([40.0, 10.0]);
+    let n = line.len() as u32;
+    let points = [0.0, 50.0]
+        .iter()
+        .flat_map(|y| line.iter().map(|[x, z]| [*x, *y, *z]));
+    let triangles = (0..n - 1).flat_map(|i| [[i, i + 1, n + i + 1], [i, n + i + 1, n + i]]);
+    let skin = Mesh::new(points.collect(), triangles.collect()).unwrap();
+    let pattern = pattern_exact(&skin, &NetOptions::default()).unwrap();
+    let [sheet] = &pattern.sheets[..] else {
+        panic!("{} sheets", pattern.sheets.len());
+    };
+    let angles: Vec<f64> = (sheet.folds.iter())
+        .map(|fold| fold.bend.map_or(0.0, |bend| bend.angle.to_degrees()))
+        .collect();
+    assert_eq!(angles.len(), 9);
+    assert!(
+        angles.iter().all(|angle| (angle - 90.0).abs() < 1e-6),
+        "{angles:?}"
+    );
 }
 
 #[test]

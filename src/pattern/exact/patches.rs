@@ -8,8 +8,8 @@ use crate::math::index::NO_INDEX;
 use crate::math::union_find::UnionFind;
 use crate::scene::polyhedron::Polyhedron;
 
-/// Largest ratio of the angles on both sides of a facet of a bend.
-const MAX_BEND_STEP_RATIO: f64 = 3.0;
+/// Largest ratio of the curvatures of neighbouring facets of a bend.
+const MAX_BEND_CURVATURE_RATIO: f64 = 3.0;
 
 /// The patch of each facet: a facet alone, or neighbouring facets of one bend.
 pub(super) struct FlatPatches {
@@ -117,8 +117,8 @@ impl FlatPatches {
     }
 }
 
-/// Whether each facet is part of a bend: it meets two others at small, similar angles of one sign, one of which is about as wide, and
-/// the rest at large ones.
+/// Whether each facet is part of a bend: it meets two others at small angles of one sign and the rest at large ones, and is curved
+/// about as one of the two. Lone facets may be any polyhedron's, and a face between two bends is far less curved than both.
 fn bent_facets(solid: &Polyhedron) -> Vec<bool> {
     let steps = solid.bend_steps();
     let mut lengths = vec![0.0; steps.len()];
@@ -127,28 +127,21 @@ fn bent_facets(solid: &Polyhedron) -> Vec<bool> {
             lengths[solid.facet(side) as usize] += solid.length(side);
         }
     }
-    let width = |facet: usize| solid.areas[facet] / lengths[facet];
-    let is_even = |a: f64, b: f64| {
-        let (low, high) = (a.abs().min(b.abs()), a.abs().max(b.abs()));
-        a * b > 0.0 && high <= MAX_BEND_STEP_RATIO * low
+    // A chord of a circle turns by half of the angles at its two ends, along its width.
+    let curvature = |facet: usize| match steps[facet][..] {
+        [(_, a), (_, b)] if a * b > 0.0 => (a + b) * lengths[facet] / solid.areas[facet],
+        _ => 0.0,
     };
-    // A face between two bends is wider than both.
-    let is_between = |facet: usize| match steps[facet][..] {
-        [(one, a), (other, b)] => {
-            let beside = width(one as usize).max(width(other as usize));
-            is_even(a, b) && width(facet) <= MAX_BEND_STEP_RATIO * beside
-        }
-        _ => false,
+    let curvatures: Vec<f64> = (0..steps.len()).map(curvature).collect();
+    let is_alike = |a: f64, b: f64| {
+        a * b > 0.0 && a.abs().max(b.abs()) <= MAX_BEND_CURVATURE_RATIO * a.abs().min(b.abs())
     };
-    let between: Vec<bool> = (0..steps.len()).map(is_between).collect();
-    // Two facets between others make a bend; a single one may be any polyhedron's.
-    let is_bent = |facet: usize| {
-        between[facet]
-            && steps[facet]
-                .iter()
-                .any(|(other, _)| between[*other as usize])
-    };
-    (0..steps.len()).map(is_bent).collect()
+    (steps.iter().zip(&curvatures))
+        .map(|(own, a)| {
+            own.iter()
+                .any(|(other, _)| is_alike(*a, curvatures[*other as usize]))
+        })
+        .collect()
 }
 
 /// The facets of a bend up to its middle, from one side of its cut on.

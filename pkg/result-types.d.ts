@@ -515,7 +515,7 @@ export interface FlatImage {
 export interface FoldBend {
   /** Angle of the whole bend, in degrees. */
   angle: number;
-  /** Radius of the surface in the bend, in millimetres. */
+  /** Radius in millimetres: of the surface in the bend, or of its inside where metal is bent. */
   radius: number;
   /** Whether the fold line is the one in the middle of the bend. */
   isMiddle: boolean;

@@ -67,8 +67,13 @@ impl Bending {
     /// The same for one fold of a smooth bend, whose upper side has a given radius in millimetres: half of the chord to the next
     /// fold becomes half of the arc between them on the neutral line.
     pub(super) fn smooth_zone(&self, direction: Direction, angle: f64, radius: f64) -> [f64; 2] {
-        let neutral = radius - self.outside(direction) + self.k_factor * self.thickness;
+        let neutral = self.inner_radius(direction, radius) + self.k_factor * self.thickness;
         [radius * (0.5 * angle).sin(), 0.5 * angle * neutral]
+    }
+
+    /// Computes the inner radius of a smooth bend whose upper side has a given radius, in millimetres.
+    pub(super) fn inner_radius(&self, direction: Direction, radius: f64) -> f64 {
+        radius - self.outside(direction)
     }
 
     /// Distance of the upper side of a bend from its inside.

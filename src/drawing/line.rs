@@ -1,6 +1,7 @@
 //! Fold lines of a drawn sheet, and positions along polylines.
 
 use super::curve::Curve;
+use super::options::DrawingOptions;
 use crate::math::planar::{distance, polyline_length};
 use crate::pattern::{Direction, Fold, Seam};
 
@@ -49,19 +50,23 @@ pub struct Line {
 pub struct LineBend {
     /// Angle of the whole bend, in degrees.
     pub angle: f64,
-    /// Radius of the surface in the bend, in millimetres.
+    /// Radius in millimetres: of the surface in the bend, or of its inside where metal is bent.
     pub radius: f64,
     /// Whether the fold line is the one in the middle of the bend.
     pub is_middle: bool,
 }
 
 impl Line {
-    /// Creates the line of a fold; `scale` is in millimetres per unit.
-    pub(super) fn of_fold(fold: &Fold, curve: Curve, scale: f64) -> Self {
+    /// Creates the line of a fold.
+    pub(super) fn of_fold(fold: &Fold, curve: Curve, options: &DrawingOptions) -> Self {
+        let radius = |on_surface: f64| match &options.bending {
+            Some(bending) => bending.inner_radius(fold.seam.direction, on_surface),
+            None => on_surface,
+        };
         Line {
             bend: fold.bend.map(|bend| LineBend {
                 angle: bend.angle.to_degrees(),
-                radius: scale * bend.radius,
+                radius: radius(options.scale * bend.radius),
                 is_middle: bend.is_middle,
             }),
             ..Line::new(fold.seam, curve)

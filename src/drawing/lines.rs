@@ -41,7 +41,7 @@ impl<'a> Lines<'a> {
                 .map(runs)
                 .collect(),
             folds: folds
-                .map(|(fold, curve)| Line::of_fold(fold, scaled(curve), options.scale))
+                .map(|(fold, curve)| Line::of_fold(fold, scaled(curve), options))
                 .collect(),
         }
     }

@@ -199,7 +199,6 @@ export const FORMAT_WORDS = {
   npy: 'heights as 64-bit floats, for NumPy',
   png: 'without loss',
   jpg: 'a smaller file',
-  pdf: 'to print at 100 %, in true size',
 };
 
 /** Labels and messages about solids for 3D printers. */

@@ -22,7 +22,7 @@ import { zip } from './zip.js';
  * @param {SolidOptions} options
  * @returns {{ positions: Float64Array, triangles: Uint32Array, wasOpen: boolean }}
  */
-export function solidOf({ positions, triangles }, { side, thickness, onBase }) {
+function solidOf({ positions, triangles }, { side, thickness, onBase }) {
   const { low, high } = boxOf(positions);
   const scale = side / Math.max(...high.map((value, k) => value - low[k]));
   const front = Float64Array.from(positions, (value, i) => (value - low[i % 3]) * scale);
@@ -90,7 +90,7 @@ function mitreDirections(positions, triangles) {
  * A mesh as a 3MF file, in millimetres.
  * @param {{ positions: Float64Array, triangles: Uint32Array }} mesh
  */
-export async function threeMf({ positions, triangles }) {
+async function threeMf({ positions, triangles }) {
   /** @param {ArrayLike<number>} values @param {string} tag @param {readonly string[]} names */
   const elements = (values, tag, names) => Array.from({ length: values.length / 3 }, (_, i) =>
     `<${tag} ${names.map((name, k) => `${name}="${Number(values[3 * i + k].toPrecision(8))}"`).join(' ')}/>`).join('\n');

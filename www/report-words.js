@@ -22,5 +22,4 @@ export const REPORT_WORDS = {
   /** @param {number} finest */
   iterations: (finest) => `Steps of the solver (ADMM), ${count(finest)} of them on the finest lattice.`,
   heights: 'Root mean square distance from the true surface, in the example’s unit.',
-  normals: 'Mean angle between the surface and the true one.',
 };

@@ -2,43 +2,16 @@
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import { count, number, percentAtMost, shortLambda } from '../../www/format.js';
-import { meanAngle, rmsError } from '../../www/surface/compare.js';
+import { rmsError } from '../../www/surface/compare.js';
 import { sheetStrainImage } from '../../www/surface/colour-images.js';
 import { linearScale, logarithmicScale, magnitudeQuantile } from '../../www/surface/colours.js';
 import { gridOverLattice, interpolateToGrid, nearestVertices } from '../../www/surface/lattice.js';
 import { fillMatcap, lightFrom, MATCAP_SIDE_TEXELS } from '../../www/surface/matcap.js';
-import { NO_NORMAL, NORMAL_SCALE, normalsOf } from '../../www/surface/normals.js';
 import { heightAt, reliefMesh } from '../../www/surface/relief.js';
 import { fillTriangles } from '../../www/surface/triangles.js';
 import { lambdaHint, certificateInWords } from '../../www/messages.js';
 import { grid } from './support/files.mjs';
 import { parsed } from './support/numbers.mjs';
-
-/** @param {import('../../www/surface/normals.js').Normals} normals @param {number} i */
-const normal = ({ xy }, i) => [xy[2 * i] / NORMAL_SCALE, xy[2 * i + 1] / NORMAL_SCALE];
-
-test('a plane has its normal everywhere, and it leans downhill with y up', () => {
-  // Rises to the right by 1 and downwards on the screen by 0.5 per unit of length; pixels of side 2.
-  const [right, down, side] = [1, 0.5, 2];
-  const heights = grid(5, 4, (col, row) => side * (right * col + down * row));
-  const normals = normalsOf(heights, 5, 4, 1 / side);
-  const length = Math.hypot(right, down, 1);
-  for (let i = 0; i < heights.length; i++) {
-    const [x, y] = normal(normals, i);
-    assert.ok(Math.abs(x - -right / length) < 1e-4 && Math.abs(y - down / length) < 1e-4, `${x}, ${y}`);
-  }
-});
-
-test('normals beside a hole come from the other side, and a lone pixel is level', () => {
-  const heights = grid(7, 3, (col) => 3 * col);
-  for (let row = 0; row < 3; row++) heights[7 * row + 3] = NaN;
-  const normals = normalsOf(heights, 7, 3, 1);
-  for (const i of [0, 2, 4, 6]) assert.ok(Math.abs(normal(normals, i)[0] - -3 / Math.hypot(3, 1)) < 1e-4);
-  assert.equal(normals.xy[2 * 3], NO_NORMAL);
-
-  const lone = normalsOf([NaN, NaN, NaN, NaN, 5, NaN, NaN, NaN, NaN], 3, 3, 1);
-  assert.deepEqual(normal(lone, 4), [0, 0]);
-});
 
 test('steel is brightest where it mirrors the light, paper where it faces it', () => {
   const [tilt, texels] = [0.6, new Uint8Array(4 * MATCAP_SIDE_TEXELS ** 2)];
@@ -99,9 +72,6 @@ test('a sheet has a margin, an outline, and the strain of each pixel', () => {
 
 test('errors are measured where both surfaces are', () => {
   assert.ok(Math.abs(rmsError([1, 2, NaN, 5], 2, [1, 2, 3, NaN], 1) - Math.sqrt((1 + 4) / 2)) < 1e-12);
-  const flat = normalsOf(grid(9, 9, () => 0), 9, 9, 1);
-  const slope = normalsOf(grid(9, 9, (col) => Math.tan(Math.PI / 6) * col), 9, 9, 1);
-  assert.ok(Math.abs(meanAngle(flat, slope) - 30) < 0.01);
 });
 
 test('a bound in percent is never understated', () => {

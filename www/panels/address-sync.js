@@ -42,6 +42,8 @@ export function addressSyncPanel(session, page) {
   /** Id of the open file in the storage of recent files. @type {number | undefined} */
   let fileId;
   let writeTimer = 0;
+  /** Number of the newest address that is shown; what older ones still wait for is given up. */
+  let newestRestore = 0;
   /** Whether the state of an address is being shown; the address is not written meanwhile. */
   let isRestoring = false;
   /** Whether the present input has not been solved yet. */
@@ -129,6 +131,7 @@ export function addressSyncPanel(session, page) {
 
   /** Shows the state of an address. @param {State} state */
   const restoreState = async (state) => {
+    const own = ++newestRestore;
     isRestoring = true;
     clearTimeout(writeTimer);
     try {
@@ -149,6 +152,7 @@ export function addressSyncPanel(session, page) {
       const isSameInput = session.input !== null && (card !== undefined || (state.file !== undefined ? state.file === fileId : JSON.stringify(state.example) === JSON.stringify(previous.example)));
       const wanted = card ? { ...session.defaults, ...card.settings, ...state.settings } : settings;
       const files = isSameInput || state.file === undefined ? undefined : await storedFiles(state.file);
+      if (own !== newestRestore) return;
       if (!isSameInput && state.file !== undefined && !files) return showLost();
       // The input is solved only if it or the settings have changed.
       if (!isSameInput || Object.entries(wanted).some(([name, value]) => session.settings[/** @type {keyof Settings} */ (name)] !== value)) page.adopt(wanted);
@@ -158,6 +162,7 @@ export function addressSyncPanel(session, page) {
       } else if (!isSameInput && state.example) {
         await page.openExample(state.example.name, state.example);
       }
+      if (own !== newestRestore) return;
       if (state.stored && session.input?.stored) {
         const { stored } = session.input;
         const isReinterpreted = Object.entries(state.stored).some(([name, value]) => stored[/** @type {'noData'} */ (name)] !== value);
@@ -167,8 +172,8 @@ export function addressSyncPanel(session, page) {
       page.meshFitView.leave();
       page.choose(state.view ?? 'shaded');
     } finally {
-      isRestoring = false;
-      if (session.input) addressWithoutView = addressOf({ ...presentState(), view: undefined }, session.defaults);
+      if (own === newestRestore) isRestoring = false;
+      if (session.input && !isRestoring) addressWithoutView = addressOf({ ...presentState(), view: undefined }, session.defaults);
     }
   };
   addEventListener('popstate', () => void restoreState(stateOf(location.hash)));

@@ -91,6 +91,6 @@ function detailsOf({ input, result }) {
 
 /** Error of the input divided by the error of the result; undefined if the truth is unknown. @param {Result} result */
 function noiseReduction(result) {
-  const heights = accuracyOf(result)?.heights;
+  const heights = accuracyOf(result);
   return heights && heights.after > 0 && heights.before > 0 ? heights.before / heights.after : undefined;
 }

@@ -3,6 +3,8 @@ import { element, make } from '../dom.js';
 import { shortLambda } from '../format.js';
 import { smoothPatchCount } from '../analyses.js';
 import { STRIP_WORDS } from '../messages.js';
+import { rmsError } from '../surface/compare.js';
+import { downsample } from '../surface/downsampling.js';
 import { drawThumbnail } from '../surface/thumbnail.js';
 
 /** @import {Input, Session, Settings} from '../session.js' */
@@ -48,7 +50,7 @@ export function stripPanel(session, adopt) {
     job?.abort();
     const mine = (job = new AbortController());
     shownInput = input;
-    const small = subsampled(input);
+    const small = reduced(input);
     for (const { canvas, figures } of pictures) {
       drawThumbnail(canvas, small, small.heightScale / small.pixelSize);
       figures.textContent = '\u00a0';
@@ -63,7 +65,7 @@ export function stripPanel(session, adopt) {
         const { image } = surface;
         drawThumbnail(canvas, image, 1 / image.pixelSize);
         const [map, curvatures] = await Promise.all([worker.patches(surface), worker.analyze(surface)]);
-        figures.textContent = STRIP_WORDS.figures(await smoothPatchCount(map, curvatures), rmsDistance(small, image));
+        figures.textContent = STRIP_WORDS.figures(await smoothPatchCount(map, curvatures), rmsError(image.data, 1, small.data, small.heightScale) / (small.width * small.pixelSize));
       }
     } catch (error) {
       if (job === mine && !mine.signal.aborted) session.fail('The five pictures could not be made', error);
@@ -92,29 +94,8 @@ export function stripPanel(session, adopt) {
   return { show };
 }
 
-/**
- * Distance of a surface from its input, root mean square, as a share of the input's width.
- * @param {ReturnType<typeof subsampled>} input
- * @param {{ data: Float64Array }} image of the surface
- */
-function rmsDistance({ width, data, pixelSize, heightScale }, image) {
-  let [sum, count] = [0, 0];
-  data.forEach((step, i) => {
-    const difference = step * heightScale - image.data[i];
-    if (!Number.isFinite(difference)) return;
-    sum += difference * difference;
-    count++;
-  });
-  return Math.sqrt(sum / Math.max(1, count)) / (width * pixelSize);
-}
-
-/**
- * An input reduced to every n-th pixel.
- * @param {Input} input
- */
-function subsampled({ width, height, data, pixelSize, heightScale }) {
-  const step = Math.max(1, Math.ceil(Math.max(width, height) / STRIP_SIDE_PIXELS));
-  const [cols, rows] = [Math.floor(width / step), Math.floor(height / step)];
-  const sampled = Float64Array.from({ length: cols * rows }, (_, i) => data[Math.floor(i / cols) * step * width + (i % cols) * step]);
-  return { width: cols, height: rows, data: sampled, pixelSize: pixelSize * step, heightScale };
+/** An input reduced to few pixels. @param {Input} input */
+function reduced({ width, height, data, pixelSize, heightScale }) {
+  const small = downsample({ width, height, data }, STRIP_SIDE_PIXELS);
+  return { ...small, pixelSize: (pixelSize * width) / small.width, heightScale };
 }

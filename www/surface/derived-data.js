@@ -5,7 +5,7 @@ import { callWorker } from './worker-client.js';
 
 /** @import {Input, Result} from '../session.js' */
 /** @import {Heights} from './downsampling.js' */
-/** @typedef {{ heights: { before: number, after: number }, normals: { before: number, after: number } }} Accuracy */
+/** @typedef {{ before: number, after: number }} Accuracy errors of the heights of input and result, root mean square */
 /** @typedef {{ width: number, height: number, pixelSize: number, data: Float64Array }} Image */
 
 /** Reduced heights for previews, by the values of the pixels. @type {WeakMap<ArrayLike<number>, Heights>} */
@@ -43,8 +43,8 @@ async function measureAccuracy({ input }, image) {
   const { truth, heightScale, data } = input;
   if (!truth) return null;
   const [before, after] = await Promise.all([[data, heightScale], [image.data, 1]].map(([heights, scale]) =>
-    callWorker('errorsAgainst', truth, heightScale, image, /** @type {Float64Array} */ (heights), /** @type {number} */ (scale))));
-  return { heights: { before: before.height, after: after.height }, normals: { before: before.angle, after: after.angle } };
+    callWorker('rmsError', /** @type {Float64Array} */ (heights), /** @type {number} */ (scale), truth, heightScale)));
+  return { before, after };
 }
 
 /** The heights of a result at the input's pixels, or at the pixels that show the input's lattice. @param {Result} result */
@@ -53,8 +53,7 @@ export function resultImage(result) {
 }
 
 /**
- * Errors of input and result against the truth: root mean square of the heights, mean angle between normals in degrees. Null
- * if the truth is not known.
+ * Errors of input and result against the truth; null if that is not known.
  * @param {Result} result
  */
 export function accuracyOf(result) {

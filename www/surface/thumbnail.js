@@ -1,5 +1,4 @@
 /** Small pictures of heights, lit from the upper left. */
-import { NO_NORMAL, normalsOf, NORMAL_SCALE } from './normals.js';
 
 /** Unit vector to the light, y up. */
 const LIGHT_DIRECTION = [-0.5, 0.55, 0.67];
@@ -32,14 +31,21 @@ export function drawThumbnail(canvas, { width, height, data }, slope) {
   Object.assign(canvas, { width, height });
   const context = canvas.getContext('2d');
   if (!context) return;
-  const { xy } = normalsOf(Float64Array.from(data), width, height, slope);
   const image = context.createImageData(width, height);
   for (let i = 0; i < width * height; i++) {
-    if (xy[2 * i] === NO_NORMAL) continue;
-    const [x, y] = [xy[2 * i] / NORMAL_SCALE, xy[2 * i + 1] / NORMAL_SCALE];
-    const light = x * LIGHT_DIRECTION[0] + y * LIGHT_DIRECTION[1] + Math.sqrt(Math.max(0, 1 - x * x - y * y)) * LIGHT_DIRECTION[2];
+    const [z, col] = [data[i], i % width];
+    if (Number.isNaN(z)) continue;
+    const x = -slope * difference(col > 0 ? data[i - 1] : NaN, z, col + 1 < width ? data[i + 1] : NaN);
+    const y = -slope * difference(data[i + width] ?? NaN, z, data[i - width] ?? NaN);
+    const light = (x * LIGHT_DIRECTION[0] + y * LIGHT_DIRECTION[1] + LIGHT_DIRECTION[2]) / Math.hypot(x, y, 1);
     const grey = 40 + 205 * Math.max(0, light) ** 1.3;
     image.data.set([grey * 0.94, grey * 0.97, grey, 255], 4 * i);
   }
   context.putImageData(image, 0, 0);
+}
+
+/** The difference between neighbours, one-sided beside NaN. @param {number} before @param {number} here @param {number} after */
+function difference(before, here, after) {
+  if (Number.isNaN(before)) return Number.isNaN(after) ? 0 : after - here;
+  return Number.isNaN(after) ? here - before : (after - before) / 2;
 }

@@ -1,6 +1,6 @@
 /** The worker in which the page computes what it shows; `worker-client.js` calls it. */
 import { interpretFile } from '../import-interpretation.js';
-import { errorsAgainst } from './compare.js';
+import { rmsError } from './compare.js';
 import { reduceForPreview } from './downsampling.js';
 import { interpolateToGrid } from './lattice.js';
 import { reducePhoto, decodePicture } from './photo-decoding.js';
@@ -9,8 +9,8 @@ import { curvaturesOf, totalGaussianCurvature } from './gaussian-curvature.js';
 
 /** The tasks by name. The buffers of arrays in an answer are transferred. */
 export const tasks = {
-  curvaturesOf, drawingStrainImage, errorsAgainst, meshStrainImage, interpolateToGrid, labelPixels, interpretFile, reduceForPreview,
-  reducePhoto, photoPixels, decodePicture, totalGaussianCurvature, sheetStrainImage, valuePixels,
+  curvaturesOf, drawingStrainImage, meshStrainImage, interpolateToGrid, labelPixels, interpretFile, reduceForPreview,
+  reducePhoto, photoPixels, decodePicture, rmsError, totalGaussianCurvature, sheetStrainImage, valuePixels,
 };
 
 globalThis.addEventListener('message', async ({ data: { id, task, args } }) => {

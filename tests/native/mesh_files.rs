@@ -294,6 +294,9 @@ fn points_in_text_are_a_cloud_unless_they_lie_on_a_grid() {
     let coloured = read(&format!("//X Y Z R G B\n{}", scattered(" 255 128 0"))).mesh;
     assert!(coloured.is_cloud() && coloured.positions().len() == 80);
     assert_eq!(coloured.colors().unwrap()[7], [1.0, 128.0 / 255.0, 0.0]);
+    // As scanners write them, after a line with their number.
+    let counted = read(&format!("80\n{}", scattered(" -1042 255 128 0"))).mesh;
+    assert_eq!(counted.colors(), coloured.colors());
     let plain = scattered(" 0.5");
     assert!(read(&plain).mesh.colors().is_none());
     let error = decode(plain.as_bytes(), None).unwrap_err().to_string();
@@ -309,4 +312,63 @@ fn points_in_text_are_a_cloud_unless_they_lie_on_a_grid() {
         .map(|i| format!("{} {} {}\n", i % 8, i / 8, i * i % 7))
         .collect();
     assert_eq!(format_name(grid.as_bytes()), Some("text"));
+}
+
+/// A triangle of 16-bit integers that are shares of 1, with colours of 8 bits and texture coordinates of 16.
+const NORMALIZED: &str = r#"{"asset":{"version":"2.0"},"nodes":[{"mesh":0}],"buffers":[{"byteLength":48,"uri":"a.bin"}],
+"extensionsRequired":["KHR_mesh_quantization"],
+"meshes":[{"primitives":[{"attributes":{"POSITION":0,"COLOR_0":1,"TEXCOORD_0":2}}]}],
+"bufferViews":[{"buffer":0,"byteLength":24,"byteStride":8},{"buffer":0,"byteOffset":24,"byteLength":12},{"buffer":0,"byteOffset":36,"byteLength":12}],
+"accessors":[{"bufferView":0,"componentType":5122,"normalized":true,"count":3,"type":"VEC3"},
+{"bufferView":1,"componentType":5121,"normalized":true,"count":3,"type":"VEC4"},
+{"bufferView":2,"componentType":5123,"normalized":true,"count":3,"type":"VEC2"}]}"#;
+
+#[test]
+fn integers_of_gltf_are_shares_where_it_says_so() {
+    let places: [i16; 12] = [32_767, 0, 0, 0, -32_768, 32_767, 0, 0, 0, -16_384, 0, 0];
+    let colors = [255_u8, 51, 0, 255, 0, 102, 255, 255, 153, 0, 0, 255];
+    let uvs: [u16; 6] = [0, 65_535, 13_107, 65_535, 65_535, 52_428];
+    let mut bytes: Vec<u8> = places.iter().flat_map(|v| v.to_le_bytes()).collect();
+    bytes.extend(colors);
+    bytes.extend(uvs.iter().flat_map(|v| v.to_le_bytes()));
+    let read = |text: &str| {
+        read_mesh_beside(text.as_bytes(), None, &[("a.bin", &bytes)])
+            .unwrap()
+            .mesh
+    };
+    // By the specification, "Animations": a signed integer c of 16 bits is max(c / 32767, -1), an unsigned one c / 65535.
+    let mesh = read(NORMALIZED);
+    assert_eq!(
+        mesh.positions(),
+        [
+            [1.0, 0.0, 0.0],
+            [-1.0, 1.0, 0.0],
+            [0.0, -16_384.0 / 32_767.0, 0.0]
+        ]
+    );
+    assert_eq!(
+        mesh.colors().unwrap(),
+        [[1.0, 0.2, 0.0], [0.0, 0.4, 1.0], [0.6, 0.0, 0.0]]
+    );
+    for (found, expected) in mesh
+        .uvs()
+        .unwrap()
+        .as_flattened()
+        .iter()
+        .zip([0.0, 0.0, 0.2, 0.0, 1.0, 0.2])
+    {
+        assert!((found - expected).abs() < 1e-6, "{found} {expected}");
+    }
+    let plain = read(&NORMALIZED.replacen(r#""normalized":true,"#, "", 1));
+    assert_eq!(plain.positions()[1], [-32_768.0, 32_767.0, 0.0]);
+    // Of 8 bits: the bytes ff 7f 00, 00 80 and so on.
+    let small = read(&NORMALIZED.replacen("5122", "5120", 1));
+    assert_eq!(
+        small.positions(),
+        [
+            [-1.0 / 127.0, 1.0, 0.0],
+            [0.0, -1.0, -1.0 / 127.0],
+            [0.0, 0.0, 0.0]
+        ]
+    );
 }

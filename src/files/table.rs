@@ -21,18 +21,14 @@ pub(super) struct Table {
     pub(super) is_numbered: bool,
 }
 
-/// Points on a grid: heights from the highest y downwards, NaN where there is none.
-pub(super) struct PointGrid {
-    pub(super) values: Vec<f64>,
-    /// Columns and rows.
-    pub(super) size: (usize, usize),
-    /// Distances of columns and of rows.
-    pub(super) sides: [f64; 2],
-}
+/// Heights of points on a grid from the highest y downwards, NaN where there is none; columns and rows; distances of both.
+type PointGrid = (Vec<f64>, (usize, usize), [f64; 2]);
 
 impl Table {
     /// Reads a table. Lines before the first number are names of columns or comments.
     pub(super) fn read(text: &str) -> Result<Table> {
+        // Some programs quote their cells.
+        let text = &text.replace('"', "");
         // A comma is a decimal one wherever something else divides the numbers.
         let is_divided = text.lines().any(|line| {
             // Names of columns and comments are no rows; a number may have an exponent.
@@ -57,6 +53,10 @@ impl Table {
                 }
                 _ => continue,
             };
+            // Scanners begin with a line that counts the points.
+            if cols == 1 && rows == 1 && row.len() > 1 {
+                (rows, values) = (0, Vec::new());
+            }
             row.drain(..usize::from(is_numbered).min(row.len()));
             if row.is_empty() {
                 continue;
@@ -149,11 +149,7 @@ impl Table {
             }
             *place = z;
         }
-        Ok(Some(PointGrid {
-            values: grid,
-            size: (width, height),
-            sides: [dx, dy],
-        }))
+        Ok(Some((grid, (width, height), [dx, dy])))
     }
 }
 

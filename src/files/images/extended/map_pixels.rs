@@ -15,6 +15,19 @@ const LINEAR_UNIT_KEY: u16 = 3076;
 /// Number of the GeoTIFF key `VerticalUnitsGeoKey`, the unit of heights.
 const VERTICAL_UNIT_KEY: u16 = 4099;
 
+/// Number of the GeoTIFF key `VerticalGeoKey`, the coordinate system of heights.
+const VERTICAL_SYSTEM_KEY: u16 = 4096;
+
+/// Coordinate systems of heights in feet, by their numbers in EPSG, and the numbers of their units: NAVD 88, NGVD 29 and mean sea
+/// level. GDAL names the system alone.
+const HEIGHTS_IN_FEET: [(u16, u16); 5] = [
+    (6360, 9003),
+    (8228, 9002),
+    (5702, 9003),
+    (8050, 9002),
+    (8052, 9003),
+];
+
 /// Lengths of units in metres, by their numbers in GeoTIFF keys: metre, international foot, US survey foot.
 const UNIT_METRES: [(u16, f64); 3] = [(9001, 1.0), (9002, 0.3048), (9003, 1200.0 / 3937.0)];
 
@@ -37,7 +50,12 @@ impl Georeference {
 
     /// Length of the unit of heights in metres, if the file says it.
     pub(super) fn vertical_unit(&self) -> Option<f64> {
-        metres(self.key(VERTICAL_UNIT_KEY)?)
+        let system = || {
+            let system = self.key(VERTICAL_SYSTEM_KEY)?;
+            let mut known = HEIGHTS_IN_FEET.into_iter();
+            known.find_map(|(number, unit)| (number == system).then_some(unit))
+        };
+        metres(self.key(VERTICAL_UNIT_KEY).or_else(system)?)
     }
 
     /// Latitude of the middle of an image of the given size, in degrees, if coordinates are degrees.
@@ -120,6 +138,21 @@ mod tests {
             (x - 78_847.0).abs() < 1.0 && (y - 111_132.0).abs() < 1.0,
             "{x} {y}"
         );
+    }
+
+    #[test]
+    fn heights_are_in_the_unit_of_their_coordinate_system() {
+        // As GDAL writes NAD83(2011) / UTM zone 18N + NAVD88 height (ftUS), without a unit.
+        let map = |vertical: u16| Georeference {
+            transformation: [1.0, 0.0, 0.0, 0.0, -1.0, 0.0],
+            keys: vec![
+                1, 1, 1, 3, 1024, 0, 1, 1, 3072, 0, 1, 6347, 4096, 0, 1, vertical,
+            ],
+            doubles: Vec::new(),
+            text: String::new(),
+        };
+        assert_eq!(map(6360).vertical_unit(), Some(1200.0 / 3937.0));
+        assert_eq!(map(5703).vertical_unit(), None);
     }
 
     #[test]

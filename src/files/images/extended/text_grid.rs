@@ -7,44 +7,30 @@ use crate::files::image_format::Format;
 use crate::files::images::decoded::StoredImage;
 use crate::files::kind::CONVERT_RAW;
 use crate::files::number_type::NumberType;
-use crate::files::table::{PointGrid, Table, numbers};
+use crate::files::table::{Table, numbers};
 use crate::files::text::decoded;
 
 /// Smallest value that means no data in a grid of Surfer.
 const SURFER_BLANK: f64 = 1.701_41e38;
 
-/// A grid of heights with the sides of its cells.
-struct Grid {
-    values: Vec<f64>,
-    size: (usize, usize),
-    sides: Option<[f64; 2]>,
-    assumptions: Vec<Assumption>,
-}
-
 pub(super) fn decode(bytes: &[u8]) -> Result<StoredImage> {
     let text = decoded(bytes);
-    let text = text.as_ref();
-    let (grid, no_data) = if let Some(grid) = text.strip_prefix("DSAA") {
-        (surfer_grid(grid)?, Some(SURFER_BLANK))
-    } else if let Some(found) = esri_grid(text)? {
-        found
-    } else {
-        (table(text)?, None)
-    };
-    let mut values = grid.values;
-    for value in values.iter_mut().filter(|value| Some(**value) == no_data) {
-        *value = f64::NAN;
+    match text.strip_prefix("DSAA") {
+        Some(grid) => surfer_grid(grid),
+        None => esri_grid(&text)?.map_or_else(|| table(&text), Ok),
     }
-    Ok(StoredImage {
-        names_no_data: no_data.is_some(),
-        sides: grid.sides,
-        assumptions: grid.assumptions,
-        ..StoredImage::new(Format::Text, grid.size, values, NumberType::F64)
-    })
 }
 
-/// Reads an ESRI ASCII grid and its value of no data; `None` if the text does not begin like one.
-fn esri_grid(text: &str) -> Result<Option<(Grid, Option<f64>)>> {
+/// Makes an image of the values of a grid, whose cells have the given sides if these are known.
+fn image(values: Vec<f64>, size: (usize, usize), sides: Option<[f64; 2]>) -> StoredImage {
+    StoredImage {
+        sides,
+        ..StoredImage::new(Format::Text, size, values, NumberType::F64)
+    }
+}
+
+/// Reads an ESRI ASCII grid; `None` if the text does not begin like one.
+fn esri_grid(text: &str) -> Result<Option<StoredImage>> {
     let mut head = std::collections::HashMap::new();
     let mut rest = text;
     while let Some((line, after)) = rest.split_once('\n') {
@@ -81,7 +67,7 @@ fn esri_grid(text: &str) -> Result<Option<(Grid, Option<f64>)>> {
         return Err(damaged(Format::Text, "its cells have no size"));
     }
     let count = checked_cells("ASCII grid", size.1, size.0)?;
-    let values = numbers(rest, true)?;
+    let mut values = numbers(rest, true)?;
     if values.is_empty() {
         return Err(unsupported("header of a raw grid", CONVERT_RAW));
     }
@@ -89,20 +75,19 @@ fn esri_grid(text: &str) -> Result<Option<(Grid, Option<f64>)>> {
         let reason = format!("it has {} values, but {rows} rows of {cols}", values.len());
         return Err(damaged(Format::Text, reason));
     }
-    Ok(Some((
-        Grid {
-            values,
-            size,
-            sides,
-            assumptions: Vec::new(),
-        },
-        number("nodata_value")?,
-    )))
+    let no_data = number("nodata_value")?;
+    for value in values.iter_mut().filter(|value| Some(**value) == no_data) {
+        *value = f64::NAN;
+    }
+    Ok(Some(StoredImage {
+        names_no_data: no_data.is_some(),
+        ..image(values, size, sides)
+    }))
 }
 
 /// Reads what follows the first word of a grid of Surfer: numbers of columns and rows, ranges of x, y and z, and the rows
 /// from the lowest y upwards.
-fn surfer_grid(text: &str) -> Result<Grid> {
+fn surfer_grid(text: &str) -> Result<StoredImage> {
     let mut values = numbers(text, false)?;
     let cut_short = || damaged(Format::Text, "its header is cut short");
     let head = *values.first_chunk::<8>().ok_or_else(cut_short)?;
@@ -124,55 +109,39 @@ fn surfer_grid(text: &str) -> Result<Grid> {
     if !sides.iter().all(|side| side.is_finite() && *side > 0.0) {
         return Err(damaged(Format::Text, "its cells have no size"));
     }
-    Ok(Grid {
-        values: (values.chunks_exact(size.0).rev().flatten())
-            .map(|value| {
-                if *value < SURFER_BLANK {
-                    *value
-                } else {
-                    f64::NAN
-                }
-            })
-            .collect(),
-        size,
-        sides: Some(sides),
-        assumptions: Vec::new(),
+    let is_blank = |value: f64| value >= SURFER_BLANK;
+    let rows = values.chunks_exact(size.0).rev().flatten().copied();
+    let values = rows
+        .map(|value| if is_blank(value) { f64::NAN } else { value })
+        .collect();
+    Ok(StoredImage {
+        names_no_data: true,
+        ..image(values, size, Some(sides))
     })
 }
 
 /// Reads a table: points on a grid if the first three numbers of its lines are their places, else a matrix.
-fn table(text: &str) -> Result<Grid> {
+fn table(text: &str) -> Result<StoredImage> {
     let table = Table::read(text)?;
-    if let Some(PointGrid {
-        values,
-        size,
-        sides,
-    }) = table.points_on_grid()?
-    {
-        return Ok(Grid {
-            values,
-            size,
-            sides: Some(sides),
-            assumptions: Vec::new(),
-        });
+    if let Some((values, size, sides)) = table.points_on_grid()? {
+        return Ok(image(values, size, Some(sides)));
     }
     let points = format!(
         "lines of {} numbers are rows of a matrix: they are no points on a grid",
         table.cols
     );
     let numbered = "the first row and the first column number the others".to_owned();
-    let assumptions = [
+    let told = [
         (table.may_be_points(), points),
         (table.is_numbered, numbered),
-    ];
-    let told = assumptions.into_iter().filter(|(is_told, _)| *is_told);
-    Ok(Grid {
-        values: table.values,
-        size: (table.cols, table.rows),
-        sides: None,
+    ]
+    .into_iter()
+    .filter(|(is_told, _)| *is_told);
+    Ok(StoredImage {
         assumptions: told
             .map(|(_, words)| Assumption::new("matrix", words, None))
             .collect(),
+        ..image(table.values, (table.cols, table.rows), None)
     })
 }
 
@@ -265,8 +234,9 @@ mod tests {
             );
         }
         // As pandas writes a table, with names or numbers of its columns.
-        for head in [",a,b", ",0,1"] {
-            let text = format!("{head}\n0,5,6\n1,7,8\n");
+        // As R does, which quotes them.
+        for head in [",a,b", ",0,1", "\"\",\"V1\",\"V2\""] {
+            let text = format!("{head}\n\"0\",5,6\n1,7,8\n");
             assert_eq!(read(&text).3, [5.0, 6.0, 7.0, 8.0], "{head}");
             let told = decode(text.as_bytes()).unwrap().assumptions;
             assert_eq!(told[0].code, "matrix");

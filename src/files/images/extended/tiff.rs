@@ -249,6 +249,27 @@ mod tests {
     }
 
     #[test]
+    fn pixels_have_the_size_that_a_microscope_describes() {
+        let mut file = Cursor::new(Vec::new());
+        let mut encoder = TiffEncoder::new(&mut file).unwrap();
+        let mut image = encoder.new_image::<colortype::Gray8>(2, 1).unwrap();
+        // As tifffile writes it, with an attribute whose name is the beginning of another's.
+        let described = r#"<?xml version="1.0"?><OME><Image ID="Image:0"><Pixels SizeX="2" SizeY="1" PhysicalSizeXUnit="nm" PhysicalSizeX="250" PhysicalSizeY="0.25"/></Image></OME>"#;
+        image
+            .encoder()
+            .write_tag(Tag::ImageDescription, described)
+            .unwrap();
+        image.write_data(&[1, 2]).unwrap();
+        let stored = decode(&file.into_inner()).unwrap();
+        let [x, y] = stored.sides.unwrap();
+        assert!(
+            (x - 2.5e-4).abs() < 1e-12 && (y - 2.5e-4).abs() < 1e-12,
+            "{x} {y}"
+        );
+        assert_eq!(stored.unit, Some(crate::files::Unit::Millimetre));
+    }
+
+    #[test]
     fn a_reduced_first_image_is_that_of_a_raw_photo() {
         // As in DNG and NEF, whose full image lies in a directory below.
         let error = decode(&images(&[1])).unwrap_err();

@@ -226,10 +226,13 @@ pub(super) fn map_sides(
 
 /// Width and height of the pixels by the resolution of a picture, and their unit.
 fn resolution_sides(file: &mut File) -> Result<Option<([f64; 2], Unit)>> {
+    if let Some(sides) = described(file).as_deref().and_then(ome_sides) {
+        return Ok(Some((sides, Unit::Millimetre)));
+    }
     let Some([x, y]) = resolutions(file)? else {
         return Ok(None);
     };
-    if let Some(unit) = imagej_unit(file) {
+    if let Some(unit) = described(file).as_deref().and_then(imagej_unit) {
         return Ok(Some(([unit / x, unit / y], Unit::Millimetre)));
     }
     let per = match unsigned(file, Tag::ResolutionUnit)?.unwrap_or(PER_INCH) {
@@ -253,24 +256,46 @@ fn resolutions(file: &mut File) -> Result<Option<[f64; 2]>> {
     Ok(x?.zip(y?).map(<[f64; 2]>::from))
 }
 
-/// Length in millimetres of the unit that ImageJ names in its description of a picture: its resolutions are pixels per unit.
-fn imagej_unit(file: &mut File) -> Option<f64> {
-    // A description that is no text is nobody's error: the heights do not depend on it.
-    let description = file
-        .find_tag(Tag::ImageDescription)
+/// The description of a picture. One that is no text is nobody's error: the heights do not depend on it.
+fn described(file: &mut File) -> Option<String> {
+    file.find_tag(Tag::ImageDescription)
         .ok()??
         .into_string()
-        .ok()?;
+        .ok()
+}
+
+/// Length in millimetres of the unit that ImageJ names in its description of a picture: its resolutions are pixels per unit.
+fn imagej_unit(description: &str) -> Option<f64> {
     let lines = || description.lines().map(str::trim);
     lines().find(|line| line.starts_with("ImageJ="))?;
-    lines().find_map(|line| match line.strip_prefix("unit=")? {
-        "nm" => Some(1e-6),
-        "um" | "µm" | "\\u00B5m" | "micron" | "microns" => Some(1e-3),
-        "mm" => Some(1.0),
-        "cm" => Some(CENTIMETRE_MM),
-        "m" | "meter" => Some(1e3),
-        "inch" | "inches" | "\"" => Some(INCH_MM),
-        _ => None,
+    lines().find_map(|line| millimetres(line.strip_prefix("unit=")?))
+}
+
+/// Width and height of a pixel in millimetres by a microscope's description of a picture (OME-XML), where micrometres are the unit
+/// that goes without saying.
+fn ome_sides(description: &str) -> Option<[f64; 2]> {
+    let attribute = |name: &str| {
+        let (_, value) = description.split_once(&format!(" {name}=\""))?;
+        value.split('"').next()
+    };
+    let side = |name: &str| {
+        let unit = attribute(&format!("{name}Unit")).map_or(Some(1e-3), millimetres)?;
+        let side = unit * attribute(name)?.parse::<f64>().ok()?;
+        (side.is_finite() && side > 0.0).then_some(side)
+    };
+    (description.contains("<OME")).then_some([side("PhysicalSizeX")?, side("PhysicalSizeY")?])
+}
+
+/// Length in millimetres of a unit that a program names in a description.
+fn millimetres(name: &str) -> Option<f64> {
+    Some(match name {
+        "nm" => 1e-6,
+        "um" | "µm" | "\\u00B5m" | "micron" | "microns" => 1e-3,
+        "mm" => 1.0,
+        "cm" => CENTIMETRE_MM,
+        "m" | "meter" => 1e3,
+        "inch" | "inches" | "\"" => INCH_MM,
+        _ => return None,
     })
 }
 

@@ -1,7 +1,7 @@
 /** Kinds of files, by the ending of their names. */
 
 /** Endings of mesh files. */
-export const MESH_ENDING = /\.(obj|ply|stl|glb|gltf|3mf|off)$/i;
+const MESH_ENDING = /\.(obj|ply|stl|glb|gltf|3mf|off)$/i;
 const MATERIAL_ENDING = /\.mtl$/i;
 const HEIGHTS_ENDING = /\.(tiff?|exr|pfm|npy|npz)$/i;
 const PICTURE_ENDING = /\.(png|jpe?g|webp|avif|heic|gif|bmp)$/i;

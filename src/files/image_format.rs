@@ -46,45 +46,26 @@ pub enum Format {
     Hgt,
 }
 
-/// Image formats with their names in options and their titles in messages.
-const FORMAT_TITLES: [(Format, &str, &str); 14] = [
-    (Format::Png, "png", "PNG"),
-    (Format::Npy, "npy", "NPY"),
-    (Format::Tiff, "tiff", "TIFF"),
-    (Format::Exr, "exr", "EXR"),
-    (Format::Pfm, "pfm", "PFM"),
-    (Format::Npz, "npz", "NPZ"),
-    (Format::Jpeg, "jpeg", "JPEG"),
-    (Format::WebP, "webp", "WebP"),
-    (Format::Text, "text", "text"),
-    (Format::Colmap, "colmap", "COLMAP depths"),
-    (Format::Gif, "gif", "GIF"),
-    (Format::Bmp, "bmp", "BMP"),
-    (Format::Pgm, "pgm", "PGM"),
-    (Format::Hgt, "hgt", "SRTM heights"),
-];
-
-/// Signatures of the image formats: the first bytes of a file of each format; a `?` stands for any byte.
-const MAGIC_BYTES: [(&[u8], Format); 17] = [
-    (b"\x89PNG\r\n\x1a\n", Format::Png),
-    (b"\x93NUMPY", Format::Npy),
-    (b"II*\0", Format::Tiff),
-    (b"MM\0*", Format::Tiff),
-    (b"II+\0", Format::Tiff),
-    (b"MM\0+", Format::Tiff),
-    (b"\x76\x2f\x31\x01", Format::Exr),
-    (b"Pf\n", Format::Pfm),
-    (b"PF\n", Format::Pfm),
-    (b"P2\n", Format::Pgm),
-    (b"P2 ", Format::Pgm),
-    (b"P5\n", Format::Pgm),
-    (b"P5 ", Format::Pgm),
-    (b"\xff\xd8\xff", Format::Jpeg),
-    (b"RIFF????WEBP", Format::WebP),
-    (b"GIF8", Format::Gif),
+/// Image formats with their names in options, their titles in messages, and the first bytes of their files, of which a `?` stands
+/// for any; none where these do not tell the format.
+#[rustfmt::skip]
+const FORMATS: [(Format, &str, &str, &[&[u8]]); 14] = [
+    (Format::Png, "png", "PNG", &[b"\x89PNG\r\n\x1a\n"]),
+    (Format::Npy, "npy", "NPY", &[b"\x93NUMPY"]),
+    (Format::Tiff, "tiff", "TIFF", &[b"II*\0", b"MM\0*", b"II+\0", b"MM\0+"]),
+    (Format::Exr, "exr", "EXR", &[b"\x76\x2f\x31\x01"]),
+    (Format::Pfm, "pfm", "PFM", &[b"Pf\n", b"PF\n"]),
+    (Format::Npz, "npz", "NPZ", &[]),
+    (Format::Jpeg, "jpeg", "JPEG", &[b"\xff\xd8\xff"]),
+    (Format::WebP, "webp", "WebP", &[b"RIFF????WEBP"]),
+    (Format::Text, "text", "text", &[]),
+    (Format::Colmap, "colmap", "COLMAP depths", &[]),
+    (Format::Gif, "gif", "GIF", &[b"GIF8"]),
     // The size of the file, four bytes for the program that wrote it, where the pixels begin, and the size of the header
     // that follows, which is below 256.
-    (b"BM?????????????\0\0\0", Format::Bmp),
+    (Format::Bmp, "bmp", "BMP", &[b"BM?????????????\0\0\0"]),
+    (Format::Pgm, "pgm", "PGM", &[b"P2\n", b"P2 ", b"P5\n", b"P5 "]),
+    (Format::Hgt, "hgt", "SRTM heights", &[]),
 ];
 
 impl Format {
@@ -97,14 +78,14 @@ impl Format {
     /// Returns the format's name in lower case: `"png"`, `"npy"`, `"tiff"`, `"exr"`, `"pfm"`, `"npz"`, `"jpeg"`,
     /// `"webp"`, `"text"`, `"colmap"`, `"gif"`, `"bmp"`, `"pgm"` or `"hgt"`.
     pub fn name(self) -> &'static str {
-        self.entry().1
+        FORMATS[self as usize].1
     }
 
     /// Detects the format of an image file from the file's first bytes.
     pub fn detect(bytes: &[u8]) -> Option<Format> {
-        MAGIC_BYTES
-            .into_iter()
-            .find_map(|(magic, format)| begins(bytes, magic).then_some(format))
+        (FORMATS.into_iter())
+            .find(|(.., signatures)| signatures.iter().any(|magic| begins(bytes, magic)))
+            .map(|(format, ..)| format)
             .or_else(|| is_array_archive(bytes).then_some(Format::Npz))
             .or_else(|| is_text_grid(bytes).then_some(Format::Text))
             .or_else(|| colmap_head(bytes).map(|_| Format::Colmap))
@@ -122,11 +103,7 @@ impl Format {
     }
 
     pub(super) fn title(self) -> &'static str {
-        self.entry().2
-    }
-
-    fn entry(self) -> (Format, &'static str, &'static str) {
-        FORMAT_TITLES[self as usize]
+        FORMATS[self as usize].2
     }
 }
 
@@ -142,9 +119,9 @@ impl FromStr for Format {
 
     /// Parses the name of an image format, as [`Format::name`] returns it.
     fn from_str(name: &str) -> Result<Self> {
-        FORMAT_TITLES
+        FORMATS
             .into_iter()
-            .find_map(|(format, known, _)| (name == known).then_some(format))
+            .find_map(|(format, known, ..)| (name == known).then_some(format))
             .ok_or_else(|| Error::option("format", name, FORMAT_NAMES))
     }
 }
@@ -210,7 +187,7 @@ pub(super) fn is_text_grid(bytes: &[u8]) -> bool {
     else {
         return false;
     };
-    let head = head.trim_start_matches('\u{feff}');
+    let head = head.trim_start_matches('\u{feff}').replace('"', "");
     if head.get(..5).is_some_and(|word| {
         word.eq_ignore_ascii_case("ncols") || word.eq_ignore_ascii_case("nrows")
     }) {
@@ -237,7 +214,7 @@ mod tests {
 
     #[test]
     fn names_and_first_bytes_name_the_format() {
-        for (i, (format, name, _)) in FORMAT_TITLES.into_iter().enumerate() {
+        for (i, (format, name, ..)) in FORMATS.into_iter().enumerate() {
             assert_eq!((format as usize, format.name()), (i, name));
             assert_eq!(format.name().parse(), Ok(format));
             assert!(FORMAT_NAMES.contains(&format!("`{name}`")));

@@ -63,7 +63,7 @@ const DICOM_START: [u8; 132] = {
 /// Formats that are not read: their names, what to do about them, and bytes of which one is in each file. A file begins with
 /// them, and a `?` among them stands for any; a tag of XML or HTML may stand further behind.
 #[rustfmt::skip]
-const FOREIGN_FORMATS: [(&str, &str, &[&[u8]]); 51] = [
+const FOREIGN_FORMATS: [(&str, &str, &[&[u8]]); 53] = [
     ("AVIF", SAVE_AS_JPEG, &[b"????ftypavi"]),
     ("HEIC", "save it as JPEG (an iPhone shares photos as JPEG with Settings > Camera > Formats > Most Compatible)",
         &[b"????ftyphei", b"????ftyphev", b"????ftypmif1", b"????ftypmsf1"]),
@@ -91,6 +91,8 @@ const FOREIGN_FORMATS: [(&str, &str, &[&[u8]]); 51] = [
     ("NetCDF", CONVERT_BY_GDAL, &[b"CDF"]),
     ("HDF5 or NetCDF", CONVERT_BY_GDAL, &[b"\x89HDF"]),
     ("header of a raw grid", CONVERT_RAW, &[b"BYTEORDER", b"ENVI"]),
+    ("Erdas Imagine", CONVERT_BY_GDAL, &[b"EHFA_HEADER_TAG"]),
+    ("NITF", CONVERT_BY_GDAL, &[b"NITF"]),
     ("FITS", CONVERT_BY_GDAL, &[b"SIMPLE  ="]),
     ("JPEG 2000", CONVERT_BY_GDAL, &[b"????jP  ", b"\xff\x4f\xff\x51"]),
     ("MATLAB", "let MATLAB write its matrix by `writematrix`", &[b"MATLAB 5.0"]),
@@ -248,49 +250,43 @@ mod tests {
 
     #[test]
     fn files_are_told_by_their_contents() {
-        let mut names: Vec<&str> = Vec::new();
-        for bytes in [
-            &b"\0\0\0\x18ftypheic\0\0\0\0"[..],
-            b"\0\0\0\x20ftypisom\0\0\x02\0isomiso2mp41",
-            b"<?xml version=\"1.0\"?>\n<COLLADA>",
-            b"GWYPGwyContainer",
-            b"PK\x03\x04\x14\0\x06\0\x08\0 [Content_Types].xml word/document.xml",
-            b"PK\x03\x04\x14\0\x06\0\x08\0 main.xml bindata/data.bin",
-            b"PK\x03\x04\x14\0\x06\0\x08\0 letter.txt",
-            b"version https://git-lfs.github.com/spec/v1\noid sha256:4d7a\n",
-            b"<!DOCTYPE html><html><head><title>404 Not Found</title>",
-            b"\x80\x04\x95numpy",
-            b"qoif\0\0\x01\0\0\0\x01\0\x04\0",
-            b"DDS \x7c\0\0\0",
-            b"\xabKTX 20\xbb\r\n\x1a\n",
-            &[&[0; 128][..], b"DICM\x02\0"].concat(),
-            b"BYTEORDER      I\nLAYOUT         BIL\n",
-            b"hello",
-        ] {
-            names.push(foreign(bytes).map_or("", |(name, _)| name));
-        }
         let office = "document of an office program";
-        assert_eq!(
-            names,
-            [
-                "HEIC",
-                "film",
-                "Collada",
-                "Gwyddion",
+        let dicom = [&[0; 128][..], b"DICM\x02\0"].concat();
+        for (bytes, name) in [
+            (&b"\0\0\0\x18ftypheic\0\0\0\0"[..], "HEIC"),
+            (&b"\0\0\0\x20ftypisom\0\0\x02\0isomiso2mp41"[..], "film"),
+            (&b"<?xml version=\"1.0\"?>\n<COLLADA>"[..], "Collada"),
+            (&b"GWYPGwyContainer"[..], "Gwyddion"),
+            (
+                &b"PK\x03\x04\x14\0\x06\0\x08\0 [Content_Types].xml word/document.xml"[..],
                 office,
+            ),
+            (
+                &b"PK\x03\x04\x14\0\x06\0\x08\0 main.xml bindata/data.bin"[..],
                 "X3P",
-                "archive",
+            ),
+            (&b"PK\x03\x04\x14\0\x06\0\x08\0 letter.txt"[..], "archive"),
+            (
+                &b"version https://git-lfs.github.com/spec/v1\noid sha256:4d7a\n"[..],
                 "pointer of Git LFS",
+            ),
+            (
+                &b"<!DOCTYPE html><html><head><title>404 Not Found</title>"[..],
                 "web page",
-                "pickle of Python",
-                "QOI",
-                "DDS",
-                "KTX",
-                "DICOM",
+            ),
+            (&b"\x80\x04\x95numpy"[..], "pickle of Python"),
+            (&b"qoif\0\0\x01\0\0\0\x01\0\x04\0"[..], "QOI"),
+            (&b"DDS \x7c\0\0\0"[..], "DDS"),
+            (&b"\xabKTX 20\xbb\r\n\x1a\n"[..], "KTX"),
+            (&dicom, "DICOM"),
+            (
+                &b"BYTEORDER      I\nLAYOUT         BIL\n"[..],
                 "header of a raw grid",
-                ""
-            ]
-        );
+            ),
+            (&b"hello"[..], ""),
+        ] {
+            assert_eq!(foreign(bytes).map_or("", |(name, _)| name), name);
+        }
     }
 
     #[test]

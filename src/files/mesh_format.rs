@@ -64,11 +64,7 @@ impl MeshFormat {
         {
             return Some(MeshFormat::Off);
         }
-        if is_binary_stl(bytes)
-            || first
-                .get(..5)
-                .is_some_and(|word| word.eq_ignore_ascii_case(b"solid"))
-        {
+        if is_binary_stl(bytes) || begins_as_solid(text) {
             return Some(MeshFormat::Stl);
         }
         let is_vertex = |line: &str| {
@@ -110,6 +106,11 @@ pub(super) const STL_TRIANGLE_BYTES: usize = 50;
 /// Returns whether a file has exactly the length of a binary STL file with the number of triangles in its header.
 pub(super) fn is_binary_stl(bytes: &[u8]) -> bool {
     stl_length(bytes).is_some_and(|length| length > STL_HEADER_BYTES && length == bytes.len())
+}
+
+/// Returns whether a text begins as an ASCII STL file does.
+pub(super) fn begins_as_solid(text: &[u8]) -> bool {
+    (text.get(..5)).is_some_and(|word| word.eq_ignore_ascii_case(b"solid"))
 }
 
 /// Length of a binary STL file by the number of triangles in its header, in bytes.

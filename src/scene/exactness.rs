@@ -51,6 +51,14 @@ impl Exactness {
     }
 }
 
+impl Mesh {
+    /// Whether the vertices of the mesh have no noise, so that nothing is gained by a fit: see [`Exactness`]. Costs
+    /// `O(triangles · log(triangles))`.
+    pub fn is_exact(&self) -> bool {
+        Exactness::of(self) != Exactness::None
+    }
+}
+
 fn are_faces_exact(solid: &Polyhedron) -> bool {
     let hinges: Vec<u32> = solid.inner_sides().collect();
     let mut angles: Vec<f64> = hinges

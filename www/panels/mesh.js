@@ -1,7 +1,6 @@
 /** Meshes and point clouds, sampled as heights from a view. */
 import { runInWorker } from '../worker-task.js';
 import { element, elements } from '../dom.js';
-import { MESH_ENDING } from '../file-kinds.js';
 import { count, number } from '../format.js';
 import { boundingBoxSides } from '../mesh-fit.js';
 import { TASK_WORDS } from '../messages.js';
@@ -55,8 +54,9 @@ export function meshPanel(session) {
      * @param {readonly File[]} [referencedFiles] files that it may refer to: materials, textures, buffers
      */
     openFile(file, referencedFiles = []) {
-      const kind = MESH_ENDING.exec(file.name)?.[1].toUpperCase();
-      const name = file.name.replace(MESH_ENDING, '') || 'mesh';
+      const [, title, ending] = /^(.*)\.(\w+)$/.exec(file.name) ?? [];
+      const kind = ending?.toUpperCase();
+      const name = title || 'mesh';
       return this.openLoaded({ name, kind }, async (signal) => {
         const files = new Map(await Promise.all(referencedFiles.map(async (one) => /** @type {const} */ ([one.name, await one.arrayBuffer()]))));
         return runInWorker(session.api, signal, (reader) => reader.readMesh(file, { files }));

@@ -62,27 +62,24 @@ fn halved(piece: &Piece, [from, to]: [f64; 2], left: u32, out: &mut Vec<Corner>)
     }
 }
 
+/// Unit tangent of a curve; that beside a point where it stands still.
 fn tangent(piece: &Piece, t: f64) -> [f64; 2] {
-    /// Half the difference of the curve parameter over which a curve's tangent is taken.
-    const TANGENT_STEP: f64 = 1e-4;
-    let (a, b) = ((t - TANGENT_STEP).max(0.0), (t + TANGENT_STEP).min(1.0));
-    // At an end of the curve the difference is the tangent at a point half a step inside, so that it is extrapolated.
-    let slope = |a: f64, b: f64| {
-        let (p, q) = (piece.at(a), piece.at(b));
-        [0, 1].map(|k| (q[k] - p[k]) / (b - a))
+    let beside = || less(piece.at((t + 1e-4).min(1.0)), piece.at((t - 1e-4).max(0.0)));
+    let velocity = match piece {
+        Piece::Line([from, to]) => less(*to, *from),
+        Piece::Bezier([a, b, c, d]) => {
+            let s = 1.0 - t;
+            let [u, v, w] = [less(*b, *a), less(*c, *b), less(*d, *c)];
+            [0, 1].map(|k| s * s * u[k] + 2.0 * s * t * v[k] + t * t * w[k])
+        }
     };
-    let near = slope(a, b);
-    let out = match (t - TANGENT_STEP < 0.0, t + TANGENT_STEP > 1.0) {
-        (true, _) => extrapolated(near, slope(b, b + TANGENT_STEP)),
-        (_, true) => extrapolated(near, slope(a - TANGENT_STEP, a)),
-        _ => near,
+    let along = if velocity == [0.0; 2] {
+        beside()
+    } else {
+        velocity
     };
-    let long = out[0].hypot(out[1]).max(f64::MIN_POSITIVE);
-    out.map(|v| v / long)
-}
-
-fn extrapolated(near: [f64; 2], far: [f64; 2]) -> [f64; 2] {
-    [0, 1].map(|k| 1.5 * near[k] - 0.5 * far[k])
+    let long = along[0].hypot(along[1]).max(f64::MIN_POSITIVE);
+    along.map(|v| v / long)
 }
 
 fn dot(u: [f64; 2], v: [f64; 2]) -> f64 {

@@ -1,7 +1,7 @@
 //! Reads meshes in the Object File Format (OFF), in text.
 
 use super::builder::MeshBuilder;
-use super::rows::{numbers, point};
+use super::rows::{numbers, point, whole};
 use crate::error::Result;
 use crate::files::failure::{damaged, unsupported};
 use crate::files::text::{decoded, lines};
@@ -65,16 +65,8 @@ pub(super) fn read(bytes: &[u8], parts: &mut MeshBuilder) -> Result<()> {
         if corners.len() < count {
             return Err(damaged("OFF", format!("line {row} has too few vertices")));
         }
-        let is_number =
-            |corner: &f64| corner.fract() == 0.0 && (0.0..=f64::from(u32::MAX)).contains(corner);
-        if !corners.iter().all(is_number) {
-            return Err(damaged(
-                "OFF",
-                format!("line {row} has a vertex that is no whole number"),
-            ));
-        }
-        let corners: Vec<u32> = corners.iter().map(|corner| *corner as u32).collect();
-        parts.fan(&corners)?;
+        let corners: Result<Vec<u32>> = corners.iter().map(|v| whole("OFF", *v)).collect();
+        parts.fan(&corners?)?;
     }
     Ok(())
 }

@@ -28,3 +28,14 @@ pub(super) fn point<'a>(
     numbers.drain(..point.len());
     Ok((point, numbers))
 }
+
+/// Converts a number to the whole number that it must be.
+pub(super) fn whole(format: &'static str, value: f64) -> Result<u32> {
+    if value.fract() == 0.0 && (0.0..=f64::from(u32::MAX)).contains(&value) {
+        return Ok(value as u32);
+    }
+    Err(damaged(
+        format,
+        format!("{value} is no number of a vertex and no length of a list"),
+    ))
+}

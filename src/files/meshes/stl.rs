@@ -10,7 +10,9 @@ use super::rows::point;
 use crate::error::Result;
 use crate::files::buffer::Buffer;
 use crate::files::failure::{damaged, unsupported};
-use crate::files::mesh_format::{STL_HEADER_BYTES, STL_TRIANGLE_BYTES, is_binary_stl, stl_length};
+use crate::files::mesh_format::{
+    STL_HEADER_BYTES, STL_TRIANGLE_BYTES, begins_as_solid, is_binary_stl, stl_length,
+};
 use crate::files::number_type::NumberType;
 use crate::files::text::{decoded, lines};
 use crate::scene::mesh::Mesh;
@@ -30,10 +32,7 @@ pub(super) fn read(bytes: &[u8], parts: &mut MeshBuilder) -> Result<()> {
         .strip_prefix(b"\xef\xbb\xbf")
         .unwrap_or(bytes)
         .trim_ascii_start();
-    let begins = text
-        .get(..5)
-        .is_some_and(|word| word.eq_ignore_ascii_case(b"solid"));
-    if begins && !is_binary_stl(bytes) {
+    if begins_as_solid(text) && !is_binary_stl(bytes) {
         return ascii(bytes, parts);
     }
     let triangles = stl_length(bytes)

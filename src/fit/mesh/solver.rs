@@ -28,7 +28,6 @@ use crate::fit::component_solver::Status;
 use crate::fit::energy::spectral_penalty::HuberParameters;
 use crate::fit::options::Lambda;
 use crate::fit::report::{Progress, Seconds, StopReason};
-use crate::scene::exactness::Exactness;
 use crate::scene::mesh::Mesh;
 
 /// Product of λ, the noise's standard deviation and the spacing of vertices, in normalised coordinates, that determines
@@ -107,7 +106,7 @@ pub struct MeshSolver {
 /// lattice, and once more about the result, where vertices on creases also move across their rays. Unless
 /// `crease_passes` is 0, they are then moved to where the continuations of both sides meet, and borders and creases
 /// become smooth curves. Last, self-intersections and folded triangles are removed by moving their vertices towards
-/// the mean of their neighbours. With [`Lambda::Auto`] a mesh without noise ([`Exactness`]) is
+/// the mean of their neighbours. With [`Lambda::Auto`] a mesh without noise ([`Mesh::is_exact`]) is
 /// left as it is.
 ///
 /// # Errors
@@ -143,8 +142,7 @@ impl MeshSolver {
             confidence,
             held,
         };
-        let is_left =
-            matches!(options.lambda, Lambda::Auto) && Exactness::of(&mesh) != Exactness::None;
+        let is_left = matches!(options.lambda, Lambda::Auto) && mesh.is_exact();
         // Without noise there is no reach, and without reach slivers spoil the base.
         let (base, frames) = first_base(&given);
         let sigma = match is_left {

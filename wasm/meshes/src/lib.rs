@@ -14,7 +14,7 @@ use developable::View;
 use developable::checks::check_count;
 use developable::files::meshes::{FileUnit, read_mesh_beside};
 use developable::files::{Assumption, Unit};
-use developable::{Exactness, Resolution, sample};
+use developable::{Resolution, sample};
 use developable_wasm::Result;
 use developable_wasm::arrays::groups;
 use developable_wasm::bytes::copied;
@@ -214,7 +214,7 @@ pub fn sample_mesh(mesh: JsValue, options: JsValue) -> Result<JsValue> {
         frame: (*samples.frame()).into(),
         hidden: Some(samples.hidden_share(&mesh))
             .filter(|share| *share >= MIN_REPORTED_HIDDEN_SHARE),
-        no_noise: Exactness::of(&mesh) != Exactness::None,
+        no_noise: mesh.is_exact(),
         colors: floats(colors.as_deref()),
         uvs: floats(uvs.as_deref()),
         confidence: floats(confidence.as_deref()),

@@ -61,13 +61,8 @@ pub(super) fn decode(bytes: &[u8]) -> Result<StoredImage> {
         .collect();
     let mut planes = Vec::new();
     for _ in &wanted {
-        planes.push(try_filled("EXR image", len, f32::NAN)?);
+        planes.push(try_filled("EXR image", len, f64::NAN)?);
     }
-    // Large unsigned integers would lose digits in the planes of floats.
-    let mut whole = match number_type {
-        NumberType::U32 => try_filled("EXR image", len, 0u32)?,
-        _ => Vec::new(),
-    };
     let mut missing = wanted.len() * len;
     let mut blocks = reader
         .filter_chunks(false, |_, tile, block| {
@@ -85,29 +80,16 @@ pub(super) fn decode(bytes: &[u8]) -> Result<StoredImage> {
                 continue;
             };
             let Vec2(x, y) = line.location.position;
-            let start = y * width + x;
-            let row = start..start + line.location.sample_count;
+            let row = y * width + x..y * width + x + line.location.sample_count;
             let outside = || damaged(Format::Exr, "a block lies outside of the image");
-            let out = planes[plane].get_mut(row.clone()).ok_or_else(outside)?;
+            let out = planes[plane].get_mut(row).ok_or_else(outside)?;
             missing = missing.saturating_sub(out.len());
-            let kind = channels.list[wanted[plane]].sample_type;
-            match kind {
-                SampleType::F32 => line.read_samples_into_slice(out).map_err(failed)?,
-                SampleType::F16 => {
-                    for (z, sample) in out.iter_mut().zip(line.read_samples::<f16>()) {
-                        *z = sample.map_err(failed)?.to_f32();
-                    }
-                }
-                SampleType::U32 if plane == 0 => {
-                    line.read_samples_into_slice(&mut whole[row])
-                        .map_err(failed)?;
-                }
-                SampleType::U32 => {
-                    for (z, sample) in out.iter_mut().zip(line.read_samples::<u32>()) {
-                        *z = sample.map_err(failed)? as f32;
-                    }
-                }
+            match channels.list[wanted[plane]].sample_type {
+                SampleType::F32 => fill(out, line.read_samples::<f32>()),
+                SampleType::F16 => fill(out, line.read_samples::<f16>()),
+                SampleType::U32 => fill(out, line.read_samples::<u32>()),
             }
+            .map_err(failed)?;
         }
     }
     if missing > 0 {
@@ -118,14 +100,19 @@ pub(super) fn decode(bytes: &[u8]) -> Result<StoredImage> {
         colours: chosen.heights.len(),
         alpha: chosen.alpha.map(|_| chosen.heights.len()),
     };
-    let values = grey(Format::Exr, size, &layout, |i, k| match k {
-        0 if !whole.is_empty() => whole[i].into(),
-        _ => planes[k][i].into(),
-    })?;
+    let values = grey(Format::Exr, size, &layout, |i, k| planes[k][i])?;
     Ok(StoredImage {
         sides: pixel_size.and_then(recorded_sides),
         ..StoredImage::new(Format::Exr, size, values, number_type)
     })
+}
+
+/// Puts the samples of a line in their places.
+fn fill<T: Into<f64>>(
+    out: &mut [f64],
+    samples: impl Iterator<Item = std::result::Result<T, ExrError>>,
+) -> std::result::Result<(), ExrError> {
+    (out.iter_mut().zip(samples)).try_for_each(|(z, sample)| Ok(*z = sample?.into()))
 }
 
 /// Channels of an OpenEXR layer from which heights and alpha are read, by their indices in the layer's list of

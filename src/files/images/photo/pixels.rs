@@ -71,26 +71,21 @@ impl PhotoPixels {
     /// Appends a row of 8-bit samples: of grey, grey and alpha, colours, or colours and alpha.
     pub fn push_row(&mut self, samples: &[u8], line: &mut Vec<u8>) {
         line.clear();
+        let white = u8::MAX;
         match samples.len() / self.stored[0] {
-            1 => line.extend(
-                samples
-                    .iter()
-                    .flat_map(|grey| [*grey, *grey, *grey, u8::MAX]),
-            ),
-            2 => line.extend(
-                samples
-                    .as_chunks()
-                    .0
-                    .iter()
-                    .flat_map(|[grey, a]| [*grey, *grey, *grey, *a]),
-            ),
-            3 => line.extend(
-                samples
-                    .as_chunks()
-                    .0
-                    .iter()
-                    .flat_map(|[r, g, b]| [*r, *g, *b, u8::MAX]),
-            ),
+            1 => line.extend(samples.iter().flat_map(|grey| [*grey, *grey, *grey, white])),
+            2 => {
+                let pixels = samples.as_chunks::<2>().0;
+                line.extend(
+                    pixels
+                        .iter()
+                        .flat_map(|[grey, a]| [*grey, *grey, *grey, *a]),
+                );
+            }
+            3 => {
+                let pixels = samples.as_chunks::<3>().0;
+                line.extend(pixels.iter().flat_map(|[r, g, b]| [*r, *g, *b, white]));
+            }
             _ => line.extend(samples),
         }
         if self.reduction.size() == self.stored {

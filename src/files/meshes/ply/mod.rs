@@ -11,6 +11,7 @@ use super::beside::Beside;
 use super::builder::{MeshBuilder, NO_TEXTURE};
 use super::corners::{CornerMaterial, Corners};
 use super::narrow::byte;
+use super::rows::whole;
 use crate::error::Result;
 use crate::files::buffer::Buffer;
 use crate::files::failure::{damaged, unsupported};
@@ -70,7 +71,7 @@ fn each_value(
 ) -> Result<()> {
     for property in &element.properties {
         let count = match property.length {
-            Some(kind) => whole(values.next(kind)?)?,
+            Some(kind) => whole("PLY", values.next(kind)?)?,
             None => 1,
         };
         for _ in 0..count {
@@ -82,17 +83,6 @@ fn each_value(
         }
     }
     Ok(())
-}
-
-/// Converts a number to the whole number that it must be.
-fn whole(value: f64) -> Result<u32> {
-    if value.fract() == 0.0 && (0.0..=f64::from(u32::MAX)).contains(&value) {
-        return Ok(value as u32);
-    }
-    Err(damaged(
-        "PLY",
-        format!("{value} is no number of a vertex and no length of a list"),
-    ))
 }
 
 /// Reads a vertex, and adds it to the mesh with what it has of colours and texture coordinates.
@@ -153,14 +143,14 @@ impl Faces {
             for strip in indices.split(|index| *index == -1.0) {
                 let strip = strip
                     .iter()
-                    .map(|i| whole(*i))
+                    .map(|i| whole("PLY", *i))
                     .collect::<Result<Vec<_>>>()?;
                 parts.strip(&strip)?;
             }
         } else {
             let mut face = indices
                 .iter()
-                .map(|i| whole(*i))
+                .map(|i| whole("PLY", *i))
                 .collect::<Result<Vec<_>>>()?;
             if element.properties.iter().any(|p| p.name == "texcoord") {
                 self.split(&mut face, &uvs, parts)?;

@@ -1,0 +1,3 @@
+#![no_main]
+
+developable_fuzz::image!(Text);

@@ -31,6 +31,7 @@ test('what a reader has assumed is one sentence', () => {
   assert.equal(assumedInWords([]), '');
   const assumptions = [{ code: 'noData', words: '-9999 is no data (412 pixels)', option: 'noData' }, { code: 'unit', words: 'lengths are in millimetres' }];
   assert.equal(assumedInWords(assumptions), 'Assumed: -9999 is no data (412 pixels); lengths are in millimetres.');
+  assert.equal(assumedInWords([{ code: 'square', words: 'pixels are 30.880698999242973 wide' }]), 'Assumed: pixels are 30.88 wide.');
   assert.equal(assumedInWords([{ code: 'noData', words: '0.123456 is no data (127493 pixels)' }]), 'Assumed: 0.123456 is no data (127\u202f493 pixels).');
 });
 

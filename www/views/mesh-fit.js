@@ -155,7 +155,7 @@ function meshFacts({ unit, report: { border, components, sigma, lambda, stopReas
   const facts = [
     ['Border vertices', border === 0 ? 'none: it is closed' : count(border)],
     components > 1 && ['Parts', count(components)],
-    sigma !== undefined && ['Noise, σ', `${numberAgainst(sigma, Math.sqrt(area[0]))} ${unit ?? 'units'}`],
+    sigma !== undefined && stopReason !== 'noNoise' && ['Noise, σ', `${numberAgainst(sigma, Math.sqrt(area[0]))} ${unit ?? 'units'}`],
     stopReason !== 'noNoise' && ['λ', number(lambda, 2)],
     ['Area', `${number(area[0])} → ${number(area[1])}`],
     volume && ['Volume', `${number(volume[0])} → ${number(volume[1])}`],

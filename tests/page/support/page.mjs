@@ -24,7 +24,7 @@ const args = [
 const SMALL_EXAMPLE = '#example=cylinder&size=64&noise=0.02';
 
 /** What of the page is folded at first. */
-const ALL_PARTS = 'view-more settings-more mesh-more file-more edges-more camera-more';
+const ALL_PARTS = 'view-more settings-more mesh-more file-more edges-more whole-more';
 
 /** Where the page is served as `npm start` serves it, file by file; elsewhere it is bundled, as on the site. */
 const SOURCES = 'sources/';

@@ -164,8 +164,6 @@ doorTest('photos that are opened together become one PDF, each with its own outl
   await page.locator('#page-caption', { hasText: 'one' }).waitFor();
   await flattened(page);
   assert.equal(await numbers.count(), 3);
-  await page.locator('#snap').evaluate((box) => box.closest('details')?.setAttribute('open', ''));
-  await page.locator('#snap').uncheck();
   const moved = /** @type {Place} */ (seen(0.03, 0.02).map(Math.round));
   await drag(page, 'Upper left corner', moved);
   await flattened(page);
@@ -314,10 +312,9 @@ doorTest('a corner outside the photo is named, and stays in the frame', async (p
   assert.ok(frame && knob && knob.y + knob.height / 2 < frame.y + frame.height, JSON.stringify({ frame, knob }));
 });
 
-doorTest('without drawing edges to the photo, all stays where it is put; starting again can be undone', async (page) => {
+doorTest('a corner stays where it is put; starting again can be undone', async (page) => {
   await openPhoto(page, 'letter.png', photo);
   assert.ok(await page.getByRole('button', { name: 'Find the page again' }).isHidden(), 'nothing was changed');
-  await page.getByLabel('Follow edges in the photo').uncheck();
   const wanted = /** @type {Place} */ ([300, 200]);
   await drag(page, 'Upper left corner', wanted);
   await flattened(page);
@@ -411,7 +408,7 @@ doorTest('everything on the photo can be done by keyboard', async (page) => {
 
 doorTest('an edge is pulled into a further point', async (page) => {
   await openPhoto(page, 'letter.png', photo);
-  await page.locator('#snap').evaluate((box) => box.closest('details')?.setAttribute('open', ''));
+  await page.locator('#point-add').evaluate((box) => box.closest('details')?.setAttribute('open', ''));
   const from = await onPage(page, seen(0.4, 0));
   await page.mouse.move(...from);
   await page.mouse.down();

@@ -1,6 +1,6 @@
 /** Cards of the gallery: common uses first, then the paper's figures. Their inputs are generated. */
 import { sampledInput } from './inputs.js';
-import { bust, crumpledNote, hall, occludedWall, pleats, rotated, terrain, tiltedCylinder, tower } from './shapes.js';
+import { bust, crumpledNote, hall, occludedWall, pleats, rotated, terrain, tiltedCylinder } from './shapes.js';
 
 /** @import {ExampleName} from '../api.js' */
 /** @import {Input, Settings} from '../session.js' */
@@ -38,18 +38,6 @@ export const CARDS = [
     words: 'A phone has scanned a note that was in somebody’s pocket. The facets between its folds become flat, and the folds sharp.',
     look: 'Each facet between the sharper folds has one colour.',
     input: (size) => sampledInput('note', crumpledNote, size, { noise: 0.02 }), size: 200, settings: PAPER_SETTINGS, view: 'patches',
-  },
-  {
-    id: 'dropouts', title: 'Pleats with dead pixels, mended',
-    words: 'The sensor has lost a tenth of the pixels. The surface goes on across narrow holes.',
-    look: 'No hole is left, and the creases stay in place.',
-    input: (size) => sampledInput('pleats', rotated(pleats, 25), size, { noise: 0.02, dropouts: 0.1 }), size: 200, settings: PAPER_SETTINGS, view: 'shaded',
-  },
-  {
-    id: 'smooth-bends', title: 'A noisy cone without facets',
-    words: 'The paper’s energy turns noisy bends into facets. The page’s default energy keeps them round, and keeps creases sharp.',
-    look: 'The cone has no facets. Choose the nuclear norm under “More options” to see them.',
-    example: { name: 'cone', size: 200, noise: 0.05 }, size: 200, settings: { energy: 'huber', lambda: 1e5 }, view: 'shaded',
   },
   {
     id: 'certificate', title: 'An oloid, proven to a thousandth',
@@ -112,22 +100,9 @@ export const CARDS = [
     input: (size) => sampledInput('mountains', terrain, size), size: 260, settings: PAPER_SETTINGS, view: 'shaded',
   },
   {
-    id: 'fig-24', figure: 'Fig. 24', title: 'A hall with holes',
-    words: 'The noisy scan of the hall has holes. The page makes nothing up there, and little changes beside them.',
-    look: 'The pieces are the same as without holes.',
-    input: (size) => sampledInput('hall', hall, size, { noise: 0.02, hole: (x, y) => Math.hypot(x - 0.1, y - 0.15) < 0.09 || Math.hypot(x + 0.2, y + 0.18) < 0.07 || (Math.abs(x - 0.28) < 0.03 && y < 0) }),
-    size: 200, settings: PAPER_SETTINGS, view: 'shaded',
-  },
-  {
     id: 'fig-25', figure: 'Fig. 25', title: 'Where a bust bends both ways',
     words: 'A bust bends both ways at once. The result gathers this in narrow bands, and what is between them can be laid flat.',
     look: 'Colours are all over before, and in few bands after.',
     input: (size) => sampledInput('bust', bust, size), size: 200, settings: { ...PAPER_SETTINGS, lambda: 3e4 }, view: 'gaussian',
-  },
-  {
-    id: 'fig-26', figure: 'Fig. 26', title: 'A lattice tower, where it fails',
-    words: 'The bars of a lattice tower are hardly wider than the grain of the noise. The page cannot tell them apart there.',
-    look: 'Noise stays on the legs.',
-    input: (size) => sampledInput('tower', tower, size, { noise: 0.04 }), size: 200, settings: PAPER_SETTINGS, view: 'shaded',
   },
 ];

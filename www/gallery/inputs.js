@@ -1,9 +1,9 @@
-/** Inputs of the gallery: height images with noise, steps or holes. */
+/** Inputs of the gallery: height images with noise or steps. */
 
 /** @import {Input} from '../session.js' */
 /** @import {Heights} from './shapes.js' */
 
-/** Seed of the noise and the dropouts. */
+/** Seed of the noise. */
 const NOISE_SEED = 17;
 
 /**
@@ -14,21 +14,15 @@ const NOISE_SEED = 17;
  * @param {object} [defects]
  * @param {number} [defects.noise] standard deviation, as a share of the range of heights
  * @param {number} [defects.voxels] voxels along a side, to which heights are rounded
- * @param {(x: number, y: number) => boolean} [defects.hole] where there is no data
- * @param {number} [defects.dropouts] share of pixels without data
  * @param {boolean} [defects.known] whether the true surface is the one without defects
  * @returns {Input}
  */
-export function sampledInput(name, heights, size, { noise = 0, voxels, hole, dropouts = 0, known = noise > 0 || voxels !== undefined } = {}) {
+export function sampledInput(name, heights, size, { noise = 0, voxels, known = noise > 0 || voxels !== undefined } = {}) {
   const truth = image(heights, size);
   const given = voxels ? image(voxelHeights(heights, voxels), size) : truth;
   const random = randomGenerator(NOISE_SEED);
   const range = rangeOf(truth);
-  const data = given.map((z, i) => {
-    const noisy = z + noise * range * normalSample(random);
-    const [x, y] = pixelCentre(i, size);
-    return hole?.(x, y) || random() < dropouts ? NaN : noisy;
-  });
+  const data = given.map((z) => z + noise * range * normalSample(random));
   return { name, width: size, height: size, data, pixelSize: 1 / size, heightScale: 1, ...(known && { truth }) };
 }
 

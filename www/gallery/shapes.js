@@ -124,15 +124,3 @@ function valueNoise(x, y) {
   };
   return (at(i, j) * (1 - u) + at(i + 1, j) * u) * (1 - v) + (at(i, j + 1) * (1 - u) + at(i + 1, j + 1) * u) * v;
 }
-
-/** A lattice tower seen from the front: legs that are only a few pixels wide. @type {Heights} */
-export function tower(x, y) {
-  const up = y + 0.5;
-  const half = 0.34 * (1 - up) ** 1.6 + 0.02;
-  const side = Math.abs(x);
-  if (side > half + 0.02) return 0;
-  const leg = Math.abs(side - half) < 0.018 + 0.02 * (1 - up);
-  const brace = Math.abs(((up * 9) % 1) - 0.5) < 0.09 || Math.abs((side / (half + 1e-3) + up * 9) % 1 - 0.5) < 0.08;
-  const deck = Math.abs(up - 0.42) < 0.025 || Math.abs(up - 0.66) < 0.018;
-  return deck || leg ? 0.12 : brace && side < half ? 0.09 : 0;
-}

@@ -85,7 +85,7 @@ export class Book {
         const { file, state } = entry;
         const photo = await openPhoto(api, file, signal);
         const { quarters, traces } = state ?? { quarters: 0, traces: detectedTraces(photo) };
-        const request = { photo, traces, options: session.searchOptions, moving: false };
+        const request = { photo, traces, options: session.options, moving: false };
         const flat = await runInWorker(api, signal, async (own) => flattenWholePhoto(own, request, await flattenReducedPhoto(own, request)));
         pages.push(...await pictureFiles(worker, flat, traces[0].length, quarters, paper, session.options.ink));
       } catch (error) {

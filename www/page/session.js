@@ -40,8 +40,6 @@ export class PageSession extends Events {
   movedCorners = new Set();
   /** The edges as they are known: traced in the photo, detected, or through the nodes that were set by hand. @type {Traces} */
   traces = [[], [], [], []];
-  /** Whether edges are traced in the photo. */
-  tracesEdges = true;
   /** Detected lines of text. @type {Line[]} */
   foundLines = [];
   /** @type {Options} */
@@ -79,13 +77,7 @@ export class PageSession extends Events {
 
   /** Names of the edges that the photo hardly shows: those that could not be traced. */
   get weakEdges() {
-    if (!this.tracesEdges) return [];
     return EDGES.filter((edge) => this.traces[edge].some((line) => line.length === 2)).map((edge) => EDGE_NAMES[edge]);
-  }
-
-  /** Options of flattening, and whether edges are traced in the photo. @returns {Options} */
-  get searchOptions() {
-    return { ...this.options, traceEdges: this.tracesEdges };
   }
 
   /** Names of the corners outside the photo. */
@@ -208,12 +200,6 @@ export class PageSession extends Events {
     if (this.#flat) this.emit('flat', { flat: this.#flat, moving: false });
   }
 
-  /** Sets whether edges are traced in the photo. @param {boolean} tracing */
-  setTracesEdges(tracing) {
-    this.tracesEdges = tracing;
-    this.#update();
-  }
-
   /** Sets the options of flattening. @param {Options} options */
   setOptions(options) {
     this.options = options;
@@ -264,8 +250,8 @@ export class PageSession extends Events {
 
   /** The request to flatten the photo; null without a photo. @param {boolean} [moving] whether something is being dragged @returns {FlattenRequest | null} */
   request(moving = false) {
-    const { photo, searchOptions } = this;
-    return photo && { photo, traces: this.#outlineTraces(), options: searchOptions, moving };
+    const { photo, options } = this;
+    return photo && { photo, traces: this.#outlineTraces(), options, moving };
   }
 
   /** Shows a flat page and its detected lines of text. @param {DewarpedPage} flat @param {FlattenRequest} request */

@@ -78,17 +78,16 @@ export function addressSyncPanel(session, page) {
     return { example: { name: input?.name ?? 'roof', size, noise }, settings, view: view() };
   };
 
-  /** Writes the state to the address. @param {boolean} [push] whether it is a new entry of the history */
-  const writeAddress = (push = true) => {
+  /** Writes the state to the address: as a new entry of the history if more than the view differs. */
+  const writeAddress = () => {
     if (isRestoring || page.mode.now === 'home' || (page.mode.now === 'heights' && !session.input)) return;
     const state = presentState();
     const address = addressOf(state, session.defaults);
     const withoutView = addressOf({ ...state, view: undefined }, session.defaults);
-    // If more than the view differs, the entry of the last input must stay in the history.
     const isOther = withoutView !== addressWithoutView;
     addressWithoutView = withoutView;
     if (address === location.hash) return;
-    if (push || isOther) history.pushState(null, '', address);
+    if (isOther) history.pushState(null, '', address);
     else history.replaceState(null, '', address);
   };
   const writeSoon = () => {
@@ -111,7 +110,7 @@ export function addressSyncPanel(session, page) {
   });
   // A change of the view gets no entry of its own in the history.
   for (const radio of [...views, ...elements('input[name="whole-view"]', HTMLInputElement)]) {
-    radio.addEventListener('change', () => writeAddress(false));
+    radio.addEventListener('change', () => writeAddress());
   }
 
   /** Opens stored photos of pages. @param {number} id @returns {Promise<boolean>} whether they were stored */
@@ -202,7 +201,7 @@ export function addressSyncPanel(session, page) {
 
   /** @param {HTMLButtonElement} button */
   const share = async (button) => {
-    writeAddress(false);
+    writeAddress();
     const state = presentState();
     // The id of a file has no meaning on another machine.
     const address = new URL(addressOf({ ...state, file: undefined, stored: undefined }, session.defaults), location.href).href;

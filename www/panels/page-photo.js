@@ -18,7 +18,6 @@ export function pagePhotoPanel(session) {
   const caption = element('page-caption', HTMLElement);
   const more = element('point-add', HTMLButtonElement);
   const fewer = element('point-remove', HTMLButtonElement);
-  const snap = element('snap', HTMLInputElement);
   const undo = element('page-undo', HTMLButtonElement);
   const suggest = element('suggest', HTMLButtonElement);
   const several = element('several', HTMLElement);
@@ -60,7 +59,6 @@ export function pagePhotoPanel(session) {
     handles.focus(handleOf(session.add(edge, longestSegmentMiddle(session, edge))));
   });
   fewer.addEventListener('click', () => isBendChosen() && remove(chosen));
-  snap.addEventListener('change', () => session.setTracesEdges(snap.checked));
   element('page-turn', HTMLButtonElement).addEventListener('click', () => session.turn());
   suggest.addEventListener('click', () => session.reset());
   undo.addEventListener('click', () => session.undo());

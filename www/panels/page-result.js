@@ -1,6 +1,6 @@
 /** The flat page: its verdict, figures and files. */
 import { element, make } from '../dom.js';
-import { degrees, number, numberAgainst, percent } from '../format.js';
+import { number, percent } from '../format.js';
 import { flattenWholePhoto } from '../page/flatten.js';
 import { PAPERS, pictureFiles, similarPaper } from '../page/paper.js';
 import { turnPicture } from '../page/quarter-turn.js';
@@ -225,17 +225,13 @@ function sizeOf({ size, unit }, quarters) {
  * @returns {[string, string][]}
  */
 function factsOf(flat, quarters, photo) {
-  const { verdict, error, errorBound, focalLength, tilt, bend, disagreement, residual, linesFound } = flat.report;
+  const { verdict, error, errorBound, focalLength, linesFound } = flat.report;
   const { scale = 1, film35 } = photo ?? {};
   const isOtherKind = verdict === 'notThisKind';
   return [
     ['Likely error', isOtherKind ? '–' : `${percent(error / 100)} of the width`],
     ['95 % limit', isOtherKind ? '–' : percent(errorBound / 100)],
-    ['Edges disagree', `${percent(disagreement / 100)} of the width`],
     ...(linesFound === 0 ? [] : [/** @type {[string, string]} */ (['Lines of text', linesInWords(flat.report)])]),
-    ['Edge residual', `${numberAgainst(residual / scale, 1000)} pixels`],
-    ['Bend', degrees((bend * Math.PI) / 180)],
-    ['Tilt', degrees((tilt * Math.PI) / 180)],
     ['Focal length', `${number(focalLength / scale, 4)} pixels, ${film35 === undefined ? 'by the perspective' : 'as the photo’s file says'}`],
     [flat.unit === 'mm' ? 'Size' : 'Width to height', sizeOf(flat, quarters)],
   ];

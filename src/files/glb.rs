@@ -7,8 +7,10 @@ use super::buffer::reserve;
 use super::failure::unsupported;
 use crate::error::Result;
 
-/// OpenGL's numbers for types of numbers, by which glTF names component types.
+/// OpenGL's number for whole numbers of 32 bits, by which glTF names component types.
 const GL_UNSIGNED_INT: u32 = 5125;
+
+/// OpenGL's number for floats of 32 bits, by which glTF names component types.
 const GL_FLOAT: u32 = 5126;
 
 /// Number of bytes of a GLB file besides those of its two parts.

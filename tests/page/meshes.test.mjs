@@ -91,6 +91,16 @@ doorTest('a point cloud is solved as well, and its result is written as a mesh',
   }
 });
 
+doorTest('points in text are a point cloud where they lie on no grid', async (page) => {
+  const line = (/** @type {number} */ i) => {
+    const [x, y] = [((37 * i) % 101) / 35 + 0.005 * Math.sin(i), ((i * i) % 97) / 50 + 0.005 * Math.cos(i)];
+    return `${x} ${y} ${top(x, y)}\n`;
+  };
+  await open(page, 'cloud.xyz', Buffer.from(Array.from({ length: 2400 }, (_, i) => line(i)).join('')));
+  assert.match(await page.locator('#mesh-name').innerText(), /^cloud \(XYZ\)$/);
+  assert.match(await page.locator('#mesh-span').innerText(), /2.400 points/);
+});
+
 pageTest('a broken mesh gets a message, and what was there stays', async (page) => {
   const shown = () => Promise.all(['#verdict', '#input-caption', '#result-caption'].map((one) => page.locator(one).innerText()));
   const before = await shown();

@@ -26,7 +26,7 @@ const LAYER_COLOURS: [(&str, u8); 8] = [
     ("LABEL", 9),
 ];
 
-/// Value of the DXF header variable `$INSUNITS` for millimetres.
+/// Value of the header variable `$INSUNITS` of the DXF format for millimetres.
 const INSUNITS_MILLIMETRES: u8 = 4;
 
 /// Height of a capital letter, in font sizes: DXF gives text heights as the height of capitals.
@@ -156,10 +156,10 @@ impl GroupCodes {
 
     /// Writes a label's text to the DXF file, centred on the label's position.
     fn text(&mut self, label: &Label) -> io::Result<()> {
-        /// Value of DXF's group 72 for text that is centred horizontally.
+        /// Value of group 72 of the DXF format for text that is centred horizontally.
         const ALIGN_CENTRE: u8 = 1;
 
-        /// Value of DXF's group 73 for text that is centred vertically.
+        /// Value of group 73 of the DXF format for text that is centred vertically.
         const ALIGN_MIDDLE: u8 = 2;
         self.pair(0, "TEXT")?;
         self.pair(8, "LABEL")?;

@@ -1,9 +1,9 @@
 //! Georeferences of GeoTIFF files: where the pixels of an image lie on a map.
 
-/// Number of the GeoTIFF key `GTRasterTypeGeoKey`, which tells what of a pixel has the coordinates.
+/// Number of the key `GTRasterTypeGeoKey` of the GeoTIFF format, which tells what of a pixel has the coordinates.
 const RASTER_TYPE_KEY: u16 = 1025;
 
-/// Value of the GeoTIFF key `GTRasterTypeGeoKey` for the middles of pixels.
+/// Value of the key `GTRasterTypeGeoKey` of the GeoTIFF format for the middles of pixels.
 const RASTER_TYPE_POINT: u16 = 2;
 
 /// Where the pixels of an image lie on a map. It is read from a GeoTIFF and written to one unchanged, but for the rows

@@ -2,7 +2,7 @@
 
 use crate::error::{Result, try_filled};
 
-/// Orientation of a picture whose rows are displayed as columns, and its columns as rows.
+/// Orientation, by the TIFF format, of a picture whose rows are displayed as columns, and its columns as rows.
 pub(super) const TRANSPOSED: u16 = 5;
 
 /// Rotates or mirrors an image's values by its orientation number, so that the image is upright, and returns them with

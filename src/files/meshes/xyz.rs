@@ -6,7 +6,7 @@ use crate::files::failure::damaged;
 use crate::files::table::Table;
 use crate::files::text::decoded;
 
-/// Largest value of a colour.
+/// Largest value of a colour of 8 bits.
 const WHITE_LEVEL: f64 = 255.0;
 
 pub(super) fn read(bytes: &[u8], parts: &mut MeshBuilder) -> Result<()> {

@@ -13,7 +13,7 @@ use crate::files::number_type::NumberType;
 /// Height that means no data in the format.
 const VOID_METRES: f64 = -32_768.0;
 
-/// GeoTIFF's keys for degrees on WGS 84 (EPSG 4326) at the middles of pixels.
+/// Keys of the GeoTIFF format for degrees on WGS 84 (EPSG 4326) at the middles of pixels.
 const WGS84_KEYS: [u16; 16] = [1, 1, 0, 3, 1024, 0, 1, 2, 1025, 0, 1, 2, 2048, 0, 1, 4326];
 
 /// Decodes the file of a given name.

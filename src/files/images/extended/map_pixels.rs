@@ -3,22 +3,22 @@
 use crate::files::images::decoded::differ;
 use crate::files::images::georeference::Georeference;
 
-/// Number of the GeoTIFF key `GTModelTypeGeoKey`, which tells whether coordinates are lengths or degrees.
+/// Number of the key `GTModelTypeGeoKey` of the GeoTIFF format, which tells whether coordinates are lengths or degrees.
 const MODEL_TYPE_KEY: u16 = 1024;
 
-/// Value of the GeoTIFF key `GTModelTypeGeoKey` for degrees of longitude and latitude.
+/// Value of the key `GTModelTypeGeoKey` of the GeoTIFF format for degrees of longitude and latitude.
 const MODEL_TYPE_GEOGRAPHIC: u16 = 2;
 
-/// Number of the GeoTIFF key `ProjLinearUnitsGeoKey`, the unit of map coordinates.
+/// Number of the key `ProjLinearUnitsGeoKey` of the GeoTIFF format, the unit of map coordinates.
 const LINEAR_UNIT_KEY: u16 = 3076;
 
-/// Number of the GeoTIFF key `VerticalUnitsGeoKey`, the unit of heights.
+/// Number of the key `VerticalUnitsGeoKey` of the GeoTIFF format, the unit of heights.
 const VERTICAL_UNIT_KEY: u16 = 4099;
 
-/// Number of the GeoTIFF key `VerticalGeoKey`, the coordinate system of heights.
+/// Number of the key `VerticalGeoKey` of the GeoTIFF format, the coordinate system of heights.
 const VERTICAL_SYSTEM_KEY: u16 = 4096;
 
-/// Coordinate systems of heights in feet, by their numbers in EPSG, and the numbers of their units: NAVD 88, NGVD 29 and mean sea
+/// Coordinate systems of heights in feet, by their numbers in EPSG, which the GeoTIFF format takes, and the numbers of their units: NAVD 88, NGVD 29 and mean sea
 /// level. GDAL names the system alone.
 const HEIGHTS_IN_FEET: [(u16, u16); 5] = [
     (6360, 9003),
@@ -28,13 +28,13 @@ const HEIGHTS_IN_FEET: [(u16, u16); 5] = [
     (8052, 9003),
 ];
 
-/// Lengths of units in metres, by their numbers in GeoTIFF keys: metre, international foot, US survey foot.
+/// Lengths of units in metres, by their numbers in the GeoTIFF format: metre, international foot, US survey foot.
 const UNIT_METRES: [(u16, f64); 3] = [(9001, 1.0), (9002, 0.3048), (9003, 1200.0 / 3937.0)];
 
-/// Semi-major axis of the ellipsoid WGS 84, in metres.
+/// Semi-major axis of the ellipsoid of the specification WGS 84, in metres.
 const ELLIPSOID_AXIS_METRES: f64 = 6_378_137.0;
 
-/// Square of the first eccentricity of the ellipsoid WGS 84.
+/// Square of the first eccentricity of the ellipsoid of the specification WGS 84.
 const ELLIPSOID_ECCENTRICITY_SQUARED: f64 = 0.006_694_379_990_14;
 
 impl Georeference {

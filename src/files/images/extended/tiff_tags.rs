@@ -48,9 +48,11 @@ const INCH_MM: f64 = 25.4;
 /// Length of a centimetre, in millimetres.
 const CENTIMETRE_MM: f64 = 10.0;
 
-/// Value of the TIFF tag `ResolutionUnit` for no unit.
+/// Value of the tag `ResolutionUnit` of the TIFF format for no unit.
 const RESOLUTION_UNIT_NONE: u16 = 1;
+/// Value of the tag `ResolutionUnit` of the TIFF format for inches.
 const PER_INCH: u16 = 2;
+/// Value of the tag `ResolutionUnit` of the TIFF format for centimetres.
 const PER_CENTIMETRE: u16 = 3;
 
 /// Number of the TIFF tag `GDAL_METADATA`, an XML text with the scale, the offset and the unit of heights.

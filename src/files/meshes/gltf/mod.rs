@@ -291,10 +291,13 @@ impl Scene<'_> {
     }
 }
 
-/// Modes of primitives, as glTF numbers them.
+/// Mode of a primitive of points in the glTF format.
 const POINTS_MODE: usize = 0;
+/// Mode of a primitive of triangles in the glTF format, which goes without saying.
 const TRIANGLES_MODE: usize = 4;
+/// Mode of a primitive of triangles in a strip in the glTF format.
 const TRIANGLE_STRIP_MODE: usize = 5;
+/// Mode of a primitive of triangles around a corner in the glTF format.
 const TRIANGLE_FAN_MODE: usize = 6;
 
 /// Returns the numbers of a list of whole numbers.

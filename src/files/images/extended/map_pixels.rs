@@ -85,10 +85,13 @@ impl Georeference {
     /// Returns the georeference with pixels of the given side length, where they have another one. The first pixel stays where
     /// it is.
     pub(super) fn with_pixel_size(&self, size: (usize, usize), side: f64) -> Georeference {
+        let unit = self.linear_unit().unwrap_or(1.0);
         let mut map = self.clone();
-        if differ([self.pixel_size(size), side]) {
-            let unit = self.linear_unit().unwrap_or(1.0);
-            map.scale_pixels(self.pixel_sides(size).map(|own| side / (own * unit)));
+        // Degrees have other lengths at the latitude of the new middle.
+        for _ in 0..3 {
+            if differ([map.pixel_size(size), side]) {
+                map.scale_pixels(map.pixel_sides(size).map(|own| side / (own * unit)));
+            }
         }
         map
     }
@@ -137,6 +140,23 @@ mod tests {
         assert!(
             (x - 78_847.0).abs() < 1.0 && (y - 111_132.0).abs() < 1.0,
             "{x} {y}"
+        );
+    }
+
+    #[test]
+    fn degrees_get_the_size_that_is_given() {
+        let map = Georeference {
+            transformation: [1e-3, 0.0, 11.0, 0.0, -2e-3, 47.5],
+            keys: vec![1, 1, 0, 1, 1024, 0, 1, 2],
+            doubles: Vec::new(),
+            text: String::new(),
+        };
+        let scaled = map.with_pixel_size((90, 70), 4.0);
+        let [x, y] = scaled.pixel_sides((90, 70));
+        assert!((x - 4.0).abs() < 1e-6 && (y - 4.0).abs() < 1e-6, "{x} {y}");
+        assert_eq!(
+            (scaled.transformation[2], scaled.transformation[5]),
+            (11.0, 47.5)
         );
     }
 

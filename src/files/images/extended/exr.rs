@@ -112,7 +112,10 @@ fn fill<T: Into<f64>>(
     out: &mut [f64],
     samples: impl Iterator<Item = std::result::Result<T, ExrError>>,
 ) -> std::result::Result<(), ExrError> {
-    (out.iter_mut().zip(samples)).try_for_each(|(z, sample)| Ok(*z = sample?.into()))
+    for (z, sample) in out.iter_mut().zip(samples) {
+        *z = sample?.into();
+    }
+    Ok(())
 }
 
 /// Channels of an OpenEXR layer from which heights and alpha are read, by their indices in the layer's list of

@@ -11,15 +11,10 @@ const MIN_TOLD_DISAGREEMENT = 0.005;
 /** A percentage with two digits. @param {number} value in % */
 const percent = (value) => `${Number(value.toPrecision(2))} %`;
 
-/**
- * Why a flat page is doubtful, with the words before what it means.
- * @param {PageReport} report
- * @param {string} disagreement that its edges disagree, and by how much
- */
-function doubtWords({ doubt }, disagreement) {
+/** Why a flat page is doubtful, with the words before what it means. @param {PageReport} report */
+function doubtWords({ doubt }) {
   switch (doubt) {
     case 'hiddenPart': return 'a part of it hides another part; ';
-    case 'disagreement': return `${disagreement}; `;
     case 'crumpled': return 'it is crumpled; ';
     case 'spread': return 'it may be both pages of an open book, which are to be given as two pages; ';
     case 'outline': return 'its outline may be wrong; if it is right, ';
@@ -48,7 +43,7 @@ export function describePage(given) {
     case 'unchecked':
       return `${lines === 0 ? 'no line' : 'too few lines'} of text check${lines === 0 ? 's' : ''} how the page is bent; if its edges are right: ${likely}`;
     case 'doubtful':
-      return `the flat page is doubtful: ${doubtWords(report, `its edges${text} disagree (${off})`)}${likely}`;
+      return `the flat page is doubtful: ${doubtWords(report)}${likely}`;
     case 'notThisKind':
       if (model !== 'cylinder') return `no sheet of paper has these edges (off ${off}): correct them`;
       return `this is no page that is curled one way: its edges${text} disagree (${off}); ` +

@@ -504,7 +504,7 @@ export interface FlatImage {
   map: Float32Array<ArrayBuffer>;
   /** The warp map on a grid, if the option `grid` asks for it. */
   grid?: WarpGrid;
-  /** What happened to the light: `'keep'` also where it was to be evened but the page is not mostly paper. */
+  /** What happened to the light: `'keep'` also where it was to be evened but the page is dark or not mostly paper. */
   light: LightTreatment;
 }
 
@@ -947,13 +947,12 @@ export type OutlineVerdict = 'found' | 'doubtful' | 'several' | 'notFound';
  * Main reason why a flat page is doubtful.
  * - `'largeError'`: The expected error is above 1.5 % of the page's width.
  * - `'hiddenPart'`: A part of the page hides another part from the camera.
- * - `'disagreement'`: Edges and lines of text are far from those of the page's model.
  * - `'crumpled'`: The page is crumpled: its model is a sheet that is strained.
  * - `'spread'`: The page may be both pages of an open book: it is bent and wider than high, and no line of print
  *   crosses its middle.
  * - `'outline'`: The outline that was found in the photo is doubtful.
  */
-export type PageDoubt = 'largeError' | 'hiddenPart' | 'disagreement' | 'crumpled' | 'spread' | 'outline';
+export type PageDoubt = 'largeError' | 'hiddenPart' | 'crumpled' | 'spread' | 'outline';
 
 /**
  * Model of a page's shape, from the plainest to the most general.

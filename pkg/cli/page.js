@@ -86,7 +86,7 @@ export async function page(task, signal) {
  */
 function lightWords(task, light) {
   if (light === 'even' || task.light === 'keep') return undefined;
-  return 'the light was kept, since the page is not mostly paper';
+  return 'the light was kept, since the page is dark or not mostly paper';
 }
 
 /** The verdict, unless nothing is to be said about it. @param {import('../types.js').PageReport} report */

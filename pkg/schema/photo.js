@@ -178,7 +178,7 @@ export const dewarp = {
 export const flattenPhoto = {
   /**
    * `'even'` makes paper white, without shadows and the lamp's colour, and keeps the colours of print; `'keep'` leaves the light as it
-   * was photographed, as does a page that is not mostly paper.
+   * was photographed, as does a page that is dark or not mostly paper.
    */
   light: { kind: LIGHT_KIND, default: 'even' },
   /** Whether the flat image becomes black and white, for print: the light is evened, and each pixel becomes ink or paper. */

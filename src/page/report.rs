@@ -39,8 +39,6 @@ pub enum PageDoubt {
     LargeError,
     /// A part of the page hides another part from the camera.
     HiddenPart,
-    /// Edges and lines of text are far from those of the page's model.
-    Disagreement,
     /// The page is crumpled: its model is a sheet that is strained.
     Crumpled,
     /// The page may be both pages of an open book: it is bent and wider than high, and no line of print crosses its middle.

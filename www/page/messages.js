@@ -76,20 +76,15 @@ export function pageErrors(report, width) {
   switch (verdict) {
     case 'flat': case 'unrolled': return likely.trim();
     case 'unchecked': return `${lines === 0 ? 'No line' : 'Too few lines'} of text ${lines === 0 ? 'checks' : 'check'} how the page is bent.${likely}`;
-    case 'doubtful': return `${doubtWords(report, text)}.${likely} Correct the outline, or choose the page’s format.`;
+    case 'doubtful': return `${doubtWords(report)}.${likely} Correct the outline, or choose the page’s format.`;
     default: return `The edges${text} contradict each other. Correct the outline where it leaves the page.`;
   }
 }
 
-/**
- * Why a flat page is doubtful.
- * @param {PageReport} report
- * @param {string} text “ and lines of text” if the page has any
- */
-function doubtWords({ doubt }, text) {
+/** Why a flat page is doubtful. @param {PageReport} report */
+function doubtWords({ doubt }) {
   switch (doubt) {
     case 'hiddenPart': return 'A part of the page hides another part';
-    case 'disagreement': return `The edges${text} disagree`;
     case 'crumpled': return 'The page is crumpled';
     case 'spread': return 'This may be an open book: choose two pages';
     case 'outline': return 'The outline may be wrong';

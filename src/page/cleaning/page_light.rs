@@ -4,7 +4,7 @@ use super::Light;
 use super::fill::fill_gaps;
 use super::paper::find_paper;
 use crate::error::{Result, try_filled};
-use crate::page::outline::{Planes, box_mean, closed};
+use crate::page::outline::{LOG_OFFSET, Planes, box_mean, closed};
 
 /// Number of cells along a page's longer side in which the light is estimated: 0.4 mm on A4, so that the edge of a hard
 /// shadow is followed.
@@ -14,10 +14,6 @@ const CELLS_ALONG_SIDE: usize = 800;
 /// colour: 12 mm on A4, since heads of tables have 10 mm, with edges that are blurred and tilted. A narrower shadow is taken
 /// for print, too.
 const MAX_STROKE_SHARE: f64 = 0.042;
-
-/// Number added to a colour component (0 to 255) before its logarithm is taken, so that noise of dark pixels counts
-/// little.
-const LOG_OFFSET: f32 = 8.0;
 
 /// Share of the estimated paper's brightness from which a pixel becomes white, so that the grain of paper and camera
 /// disappears.

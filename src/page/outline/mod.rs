@@ -27,6 +27,6 @@ mod tracing;
 pub use corner_edges::trace_edges;
 pub(super) use morphology::{box_mean, closed, closed_plane, square_extreme, vertical_extreme};
 pub use outline_report::{OutlineReason, OutlineReport, OutlineVerdict, PageOutline};
-pub(super) use planes::Planes;
+pub(super) use planes::{LOG_OFFSET, Planes};
 pub(super) use region::flood;
 pub use search::find_outline;

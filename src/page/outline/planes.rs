@@ -9,7 +9,7 @@ const MAX_REDUCED_SIDE: usize = 800;
 
 /// Number added to a colour component (0 to 255) before its logarithm is taken, so that noise of dark pixels counts
 /// little.
-const LOG_OFFSET: f64 = 8.0;
+pub(in crate::page) const LOG_OFFSET: f32 = 8.0;
 
 /// Share of a pixel's largest colour component that is added to each of its components before the logarithm is taken:
 /// under coloured light a component is nearly black, and its logarithm would be noise.
@@ -60,7 +60,7 @@ impl Planes {
                 let count = (rows * cols).max(1) as f64;
                 let colour = sum.map(|one| f64::from(one) / count);
                 let largest = colour.iter().copied().fold(0.0, f64::max);
-                let offset = LOG_OFFSET + LARGEST_COMPONENT_SHARE * largest;
+                let offset = f64::from(LOG_OFFSET) + LARGEST_COMPONENT_SHARE * largest;
                 for (plane, value) in channels.iter_mut().zip(colour) {
                     plane.push((value + offset).ln() as f32);
                 }

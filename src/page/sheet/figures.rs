@@ -1,9 +1,9 @@
-//! Measures of a fitted sheet: distances from outline and lines in the photo, strain and curvature.
+//! Measures of a fitted sheet: distances from outline and lines in the photo.
 
 use super::fit::FittedSheet;
 use super::problem::{ResidualRow, SheetProblem, SheetWeights};
 
-/// Misfit and shape of a fitted sheet. Lengths are in widths of the page; outliers count less.
+/// Misfit of a fitted sheet. Lengths are in widths of the page; outliers count less.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct SheetFigures {
     /// Root mean square distance between the sheet's projected border and the page's outline in the photo, in widths of
@@ -12,10 +12,6 @@ pub(super) struct SheetFigures {
     /// Root mean square distance between lines of print in the photo and the lines on the sheet that they belong to, in
     /// widths of the page; 0 without lines.
     pub lines: f64,
-    /// Root mean square strain (relative change of length) of the sheet.
-    pub strain: f64,
-    /// Root mean square curvature of the sheet without bends across its folds, in reciprocal widths of the page.
-    pub curvature: f64,
 }
 
 /// Number of Gauss-Newton steps by which the positions of lines of print on the page are fitted to a sheet that is
@@ -23,36 +19,26 @@ pub(super) struct SheetFigures {
 const LEVEL_ROUNDS: usize = 3;
 
 impl SheetProblem {
-    /// Computes the misfits, strain and curvature of a sheet; None if it is not in front of the camera.
+    /// Computes the misfits of a sheet; None if it is not in front of the camera.
     pub fn figures(&self, sheet: &FittedSheet) -> Option<SheetFigures> {
         let grid = &sheet.grid;
         let mut unit = self.clone();
         unit.weights = SheetWeights {
-            isometry: 1.0,
-            bending: [1.0; 2],
             outline: 1.0,
             corners: 0.0,
             lines: 1.0,
+            ..self.weights
         };
-        let mut sums = [0.0; 4];
-        let mut rows = 0.0;
+        let mut sums = [0.0; 2];
         unit.visit_outline(grid, &mut |row| sums[0] += row.value * row.value)?;
         let lines = self.lines.iter().zip(&sheet.levels);
         unit.visit_lines(grid, lines, &mut |row| {
             sums[1] += row.value * row.value;
         })?;
-        unit.visit_isometry(grid, &mut |row| {
-            sums[2] += row.value * row.value;
-            rows += 1.0;
-        });
-        unit.visit_bending(grid, &mut |row| sums[3] += row.value * row.value);
-        let [across, down] = grid.steps();
         let length: f64 = self.lines.iter().map(|line| line.length).sum();
         Some(SheetFigures {
             outline: (sums[0] / (2.0 + 2.0 * grid.ratio())).sqrt(),
             lines: (sums[1] / length.max(1e-9)).sqrt(),
-            strain: (sums[2] / (rows * across * down)).sqrt(),
-            curvature: (sums[3] / grid.ratio()).sqrt(),
         })
     }
 

@@ -42,7 +42,7 @@ impl SheetProblem {
 
     /// Returns a sheet with its cost: the sum of the robust penalties of its weighted residuals. None if the sheet is not in
     /// front of the camera.
-    fn with_cost(&self, sheet: FittedSheet) -> Option<FittedSheet> {
+    pub fn with_cost(&self, sheet: FittedSheet) -> Option<FittedSheet> {
         let mut cost = 0.0;
         self.visit(&sheet.grid, &sheet.levels, &mut |row| cost += row.penalty())?;
         cost.is_finite().then_some(FittedSheet { cost, ..sheet })

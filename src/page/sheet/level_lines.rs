@@ -9,9 +9,6 @@ use crate::page::text::{GreyPhoto, PageView, find_on_view};
 /// Maximum number of points of one detected line that are used.
 const MAX_LINE_POINTS: usize = 16;
 
-/// Maximum number of detected lines that are used: more cost time and add nothing.
-const MAX_LINES: usize = 40;
-
 /// Detects the lines across the page in the photo as flattened by a sheet. `table` gives the photo's places of the flat
 /// page. Columns down the page are not searched: gaps between words look like them and are not straight.
 pub(super) fn find_level_lines(
@@ -20,9 +17,8 @@ pub(super) fn find_level_lines(
     photo: &GreyPhoto,
 ) -> Vec<LevelLine> {
     let found = find_on_view(&PageView::new(|share| table.at(share)), photo);
-    let step = found.len().div_ceil(MAX_LINES).max(1);
     let seen = |share: &[f64; 2]| (*share, view.to_normalised(table.at(*share)));
-    (found.iter().step_by(step))
+    (found.iter())
         .filter_map(|line| level_line(line.iter().map(seen).collect()))
         .collect()
 }

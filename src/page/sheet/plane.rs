@@ -31,7 +31,7 @@ const RECTANGLE_DEVIATION: f64 = 0.02;
 
 /// Standard deviation of the logarithm of a page's height over its width where the format is unknown, about the
 /// geometric mean of common formats.
-const UNKNOWN_RATIO_DEVIATION: f64 = 0.5;
+pub(super) const UNKNOWN_RATIO_DEVIATION: f64 = 0.5;
 
 /// Logarithm of √2, which is the ratio of longer to shorter side of most paper formats.
 const COMMON_LOG_RATIO: f64 = 0.346_573_590_279_972_64;

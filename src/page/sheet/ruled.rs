@@ -3,12 +3,8 @@
 use nalgebra::Vector3;
 
 use super::grid::SheetGrid;
-use super::plane::{CameraPrior, Homography, grid_rows};
+use super::plane::{CameraPrior, Homography, UNKNOWN_RATIO_DEVIATION, grid_rows};
 use super::polyline::Polyline;
-
-/// Standard deviation of the logarithm of height over width of the rectangle of a curled page's corners. The chord of a
-/// bent edge is shorter than the edge, so that the page's own ratio does not apply.
-const CHORD_RATIO_DEVIATION: f64 = 0.5;
 
 impl Homography {
     /// Makes the sheet of a page that is curled in one direction: the ruled surface between its upper and lower edge, or
@@ -23,8 +19,9 @@ impl Homography {
         prior: &CameraPrior,
         apparent: f64,
     ) -> Option<SheetGrid> {
+        // The chord of a bent edge is shorter than the edge, so that the page's own ratio does not apply.
         let chords = CameraPrior {
-            log_ratio: Some([apparent.ln(), CHORD_RATIO_DEVIATION]),
+            log_ratio: Some([apparent.ln(), UNKNOWN_RATIO_DEVIATION]),
             ..*prior
         };
         let plane = self.sheet(2, &chords, apparent)?;

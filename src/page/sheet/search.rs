@@ -22,6 +22,8 @@ pub(super) struct FoundSheet {
     pub sheet: FittedSheet,
     pub model: PageModel,
     pub figures: SheetFigures,
+    /// Cost of the sheet that explains the photo best: the sum of the robust penalties of its weighted residuals.
+    pub cost: f64,
     /// Lines of print in the photo that were detected, in normalised image coordinates (pixels from the principal point,
     /// over the focal length).
     pub lines: Vec<Vec<[f64; 2]>>,
@@ -89,34 +91,14 @@ const INITIAL_ISOMETRY_FACTOR: f64 = 0.25;
 /// Factor of the bending weight in the first fit of a sheet: a limper sheet would end in ripples.
 const INITIAL_BENDING_FACTOR: f64 = 4.0;
 
-/// Root mean square curvature, in reciprocal widths of the page, above which a sheet is fitted again with the weights
-/// for crumpled paper.
-const MAX_FIRM_CURVATURE: f64 = 1.3;
-
 /// Distance between lines of print and the lines on a firm sheet that they belong to, in widths of the page, above which
 /// the sheet is fitted again with the weights for crumpled paper: a sheet that wrinkles shorten does not meet them.
 /// Chosen with the weights for crumpled paper by the table of pages in `benches/page.md`.
 const MAX_FIRM_LINE_MISFIT: f64 = 0.0006;
 
-/// Maximum distance between a plane's border and the outline, in widths of the page, for the plane to be accepted: a
-/// flat page lifts off its support by a millimetre on A4.
-const MAX_PLANE_OUTLINE_MISFIT: f64 = 0.004;
-
-/// Distance between a plane's border and the outline, in widths of the page, up to which a plane needs no comparison with
-/// the sheet.
-const SMALL_PLANE_OUTLINE_MISFIT: f64 = 0.002;
-
-/// Ratio of the distances from the outline of a plane's border and of a firm sheet's, up to which the plane is accepted
-/// as the page's model: a sheet that explains the outline hardly better bends by errors of the outline.
-const MAX_PLANE_OUTLINE_RATIO: f64 = 2.25;
-
-/// Distance between lines of print and the lines on a plane that they belong to, in widths of the page, up to which a
-/// plane is always accepted as the page's model.
-const MAX_PLANE_LINE_MISFIT: f64 = 0.0012;
-
-/// Ratio of the misfit of lines of print on a plane to that on a bent sheet, up to which the plane is accepted as the
-/// page's model.
-const MAX_PLANE_LINE_RATIO: f64 = 1.5;
+/// Excess of a plane's cost over that of the sheet up to which the plane is accepted as the page's model: a page lying flat lifts
+/// off its support by a millimetre on A4. Chosen by `benches/page.md`, Models.
+const MAX_PLANE_EXCESS_COST: f64 = 6.0;
 
 /// What is traced of a page in a photo, in normalised image coordinates.
 pub(super) struct PageTraces {
@@ -222,13 +204,9 @@ pub(super) fn find_sheet(
     let (mut sheet, mut figures) =
         progress::part(0.4, || problem.with_lines(coarse.clone(), &starts, &print))?;
     let mut model = PageModel::Sheet;
-    let max_outline = (MAX_PLANE_OUTLINE_RATIO * figures.outline)
-        .clamp(SMALL_PLANE_OUTLINE_MISFIT, MAX_PLANE_OUTLINE_MISFIT);
-    let is_strained =
-        figures.curvature > MAX_FIRM_CURVATURE || figures.lines > MAX_FIRM_LINE_MISFIT;
     if traces.bent.is_some() {
         model = PageModel::Cylinder;
-    } else if is_strained {
+    } else if figures.lines > MAX_FIRM_LINE_MISFIT {
         let mut crumpled = problem.clone();
         crumpled.weights = CRUMPLED_PAPER_WEIGHTS;
         crumpled.lines.clear();
@@ -261,21 +239,26 @@ pub(super) fn find_sheet(
             ((sheet, figures), problem, model) = (own, ruled, PageModel::Cylinder);
         }
     }
+    // What unseen edges leave open counts in full for the error.
+    let mut as_seen = problem.clone();
+    as_seen.weights.outline = FIRM_PAPER_WEIGHTS.outline;
+    as_seen.weights.corners = FIRM_PAPER_WEIGHTS.corners;
+    let cost = as_seen.with_cost(sheet.clone())?.cost;
     let plane = (straight_corners(edges)).and_then(|straight| {
         let traced = corners(edges);
         let both = [0, 1, 2, 3].map(|k| [0, 1].map(|j| 0.5 * (traced[k][j] + straight[k][j])));
         plane(&problem, Homography::new(both)?, apparent)
     });
-    if let Some((flat, own)) = plane {
-        let max_lines = MAX_PLANE_LINE_MISFIT.max(MAX_PLANE_LINE_RATIO * figures.lines);
-        if own.outline < max_outline && own.lines < max_lines {
-            (sheet, figures, model) = (flat, own, PageModel::Plane);
-        }
+    if let Some((flat, own)) = plane
+        && flat.cost < sheet.cost + MAX_PLANE_EXCESS_COST
+    {
+        (sheet, figures, model) = (flat, own, PageModel::Plane);
     }
     Some(FoundSheet {
         sheet,
         model,
         figures,
+        cost,
         depth: problem.depth,
         count: problem.lines.len(),
         lines: (problem.lines.into_iter().skip(problem.traced))
@@ -368,15 +351,14 @@ impl SheetProblem {
     }
 }
 
-/// Makes a sheet in the plane of a homography, with the positions of the lines of print on it, and its misfits and
-/// curvature. None if it is not in front of the camera.
+/// Makes a sheet in the plane of a homography, with the positions of the lines of print on it, and its misfits. None if it is not in front of the camera.
 fn plane(
     problem: &SheetProblem,
     homography: Homography,
     apparent: f64,
 ) -> Option<(FittedSheet, SheetFigures)> {
     let grid = homography.sheet(FINE_GRID_COLS, &problem.prior, apparent)?;
-    let sheet = problem.with_levels(&FittedSheet::new(grid))?;
+    let sheet = problem.with_cost(problem.with_levels(&FittedSheet::new(grid))?)?;
     let figures = problem.figures(&sheet)?;
     Some((sheet, figures))
 }

@@ -36,24 +36,18 @@ const EDGE_SEGMENTS: usize = 160;
 /// that is cropped slightly.
 const USUAL_FOCAL_RATIO: f64 = 0.9;
 
-/// Standard deviation of the logarithm of an unknown focal length.
+/// Standard deviation of the logarithm of an unknown focal length. Chosen by `benches/page.md`, Models.
 const UNKNOWN_FOCAL_DEVIATION: f64 = 0.2;
 
 /// Assumed focal length of a photo whose proportions are no camera's, as a multiple of its longer side: that of a phone,
 /// whose photo was cropped to about three fifths of its sides. Chosen by the table of pages in `benches/page.md`.
 const CROPPED_FOCAL_RATIO: f64 = 1.3;
 
-/// Standard deviation of the logarithm of the unknown focal length of a cropped photo.
-const CROPPED_FOCAL_DEVIATION: f64 = 0.15;
-
-/// Standard deviation of the coordinates of a cropped photo's principal point, divided by the focal length: about half
-/// of what was cut off on one side.
-const CROPPED_CENTRE_DEVIATION: f64 = 0.2;
-
 /// Standard deviation of the logarithm of a known focal length, because photos are edited.
 const KNOWN_FOCAL_DEVIATION: f64 = 0.06;
 
 /// Standard deviation of the principal point's coordinates, divided by the focal length: photos are cropped by hand.
+/// Chosen by `benches/page.md`, Models.
 const CENTRE_DEVIATION: f64 = 0.12;
 
 /// Relative standard deviation of a page's height over width where the format is known.
@@ -74,16 +68,17 @@ const MAX_TRUSTED_ERROR: f64 = 1.5;
 /// Minimum number of lines of print that check how a page is bent: outlines alone leave much open.
 const MIN_CHECKING_LINES: usize = 8;
 
-/// Ratio of the expected displacement of the flat page to the misfit of outline and lines, both in widths of the page, and to
-/// the strain.
-const ERROR_PER_MISFIT: f64 = 3.0;
+/// Expected displacement of the flat page, in % of its width, if the fit of the sheet has a cost of 1. Chosen by
+/// `benches/page.md`, Expected error.
+const ERROR_AT_UNIT_COST: f64 = 0.65;
 
-/// Ratio of the expected displacement of the flat page, in widths of the page, to the root mean square curvature without
-/// bends across folds.
-const ERROR_PER_CURVATURE: f64 = 0.02;
+/// Power of the cost of the sheet's fit with which the expected displacement grows. Chosen by `benches/page.md`, Expected
+/// error.
+const ERROR_COST_POWER: f64 = 0.38;
 
-/// Ratio of the displacement that is not exceeded in 95 of 100 cases to the expected one.
-const ERROR_BOUND_RATIO: f64 = 2.5;
+/// Ratio of the displacement that is not exceeded in 95 of 100 cases to the expected one. Chosen by `benches/page.md`, Expected
+/// error.
+const ERROR_BOUND_RATIO: f64 = 2.0;
 
 impl SheetPage {
     /// Finds a page by its traced edges and lines of text in a photo of `size` (width and height) pixels, and by lines of
@@ -106,14 +101,10 @@ impl SheetPage {
         let longer = width.max(height);
         let focal = focal_length(options.focal_length, [width, height])?;
         let is_cropped = focal.is_none() && !has_camera_proportions(size);
-        let [usual_ratio, usual_deviation, centre_deviation] = if is_cropped {
-            [
-                CROPPED_FOCAL_RATIO,
-                CROPPED_FOCAL_DEVIATION,
-                CROPPED_CENTRE_DEVIATION,
-            ]
+        let usual_ratio = if is_cropped {
+            CROPPED_FOCAL_RATIO
         } else {
-            [USUAL_FOCAL_RATIO, UNKNOWN_FOCAL_DEVIATION, CENTRE_DEVIATION]
+            USUAL_FOCAL_RATIO
         };
         let view = PhotoView {
             focal: focal.unwrap_or(usual_ratio * longer),
@@ -133,8 +124,8 @@ impl SheetPage {
         let has_inner_points = page.pair().iter().any(|edge| edge.points.len() > 2);
         let prior = CameraPrior {
             log_scale: 0.0,
-            scale_deviation: focal.map_or(usual_deviation, |_| KNOWN_FOCAL_DEVIATION),
-            centre_deviation,
+            scale_deviation: focal.map_or(UNKNOWN_FOCAL_DEVIATION, |_| KNOWN_FOCAL_DEVIATION),
+            centre_deviation: CENTRE_DEVIATION,
             log_ratio: None,
         };
         let priors = sides(options.format)?.map_or(vec![prior], |sides| {
@@ -240,14 +231,9 @@ fn report(
         .iter()
         .zip(&grid.nodes)
         .any(|(normal, node)| normal.dot(node) <= 0.0);
-    let misfit = ERROR_PER_MISFIT * figures.outline.hypot(figures.lines).hypot(figures.strain);
+    // Its own limit tells whether two edges and lines that are traced by hand are those of a cylinder.
     let is_cylinder = found.model == PageModel::Cylinder;
-    // Two edges determine the curve of a page that is curled in one direction.
-    let bending = match is_cylinder {
-        true => 0.0,
-        false => ERROR_PER_CURVATURE * figures.curvature,
-    };
-    let error = 100.0 * misfit.hypot(bending);
+    let error = ERROR_AT_UNIT_COST * found.cost.powf(ERROR_COST_POWER);
     let is_plane = found.model == PageModel::Plane;
     let has_lines = found.count >= MIN_CHECKING_LINES;
     // How far a page that fills the photo reaches beyond it says how little is known, not that it is no such page.
@@ -260,10 +246,9 @@ fn report(
         (PageVerdict::Flat, None)
     } else if hidden {
         (PageVerdict::Doubtful, Some(PageDoubt::HiddenPart))
-    } else if error > MAX_TRUSTED_ERROR {
+    } else if error > MAX_TRUSTED_ERROR && !(is_cylinder && is_seen) {
         let doubt = match found.model {
             PageModel::SoftSheet => PageDoubt::Crumpled,
-            _ if is_seen && misfit > bending => PageDoubt::Disagreement,
             _ => PageDoubt::LargeError,
         };
         (PageVerdict::Doubtful, Some(doubt))

@@ -9,8 +9,8 @@ use super::ranking::ranked;
 /// Half x-heights of the letters for which lines of text are searched, in pixels of the ink image.
 const X_HEIGHT_SCALES: [f64; 6] = [1.5, 2.2, 3.2, 4.7, 6.8, 10.0];
 
-/// Approximate maximum number of lines of text of one page.
-const MAX_LINES_PER_PAGE: usize = 200;
+/// Approximate maximum number of lines of text of one page that are used: more cost time and add nothing.
+const MAX_LINES_PER_PAGE: usize = 40;
 
 /// Finds the baselines on one flat page, as points in shares of its width and height.
 pub(in crate::page) fn find_on_view(view: &PageView<'_>, photo: &GreyPhoto) -> Vec<Vec<[f64; 2]>> {

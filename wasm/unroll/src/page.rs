@@ -234,7 +234,7 @@ struct FlatOutput {
     /// The warp map on a grid, if the option `grid` asks for it.
     #[serde(skip_serializing_if = "Option::is_none")]
     grid: Option<GridOutput>,
-    /// What happened to the light: `'keep'` also where it was to be evened but the page is not mostly paper.
+    /// What happened to the light: `'keep'` also where it was to be evened but the page is dark or not mostly paper.
     light: Light,
 }
 

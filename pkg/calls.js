@@ -168,7 +168,14 @@ export const CALLS = {
   analyzeMesh: aboutMesh('analyzeMesh', ['fitmesh']),
   meshRulings: aboutMesh('meshRulings', ['fitmesh']),
   unrollMesh: aboutMesh('unrollMesh', ['patterns']),
-  patternMesh: aboutMesh('patternMesh', ['patterns']),
+  patternMesh: {
+    parts: ({ textures }) => ['patterns', ...(textures ? forPictures(textures) : [])],
+    send(mesh, given) {
+      const options = /** @type {import('./types.js').MeshPatternOptions} */ (optionsOf('patternMesh', given));
+      const { shape, own: { uvs, textureOf, textures } } = wholeOf(mesh);
+      return [options.printed ? { ...shape, uvs, textureOf, textures } : shape, options];
+    },
+  },
   recognizeMesh: aboutMesh('recognizeMesh', ['patterns']),
   dewarp: {
     parts: ['unroll'],

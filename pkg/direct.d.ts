@@ -262,7 +262,7 @@ export function patternMesh(mesh: Mesh, options?: MeshPatternOptions & Watched):
  * Recognises what a mesh is: whether a fit gains anything, and whether it is a solid of sheet metal.
  */
 export function recognizeMesh(mesh: Mesh): RecognizedMesh;
-/** Writes a drawing to an SVG file in millimetres, with the layers `cut`, `mountain`, `valley`, `tab` and `label`. */
+/** Writes a drawing to an SVG file in millimetres, with the layers `picture`, `cut`, `mountain`, `valley`, `tab` and `label`. */
 export function writeSvg(drawing: Drawing): Uint8Array<ArrayBuffer>;
 /**
  * Writes a drawing to a PDF file in true size, to be printed at 100 %: one page as large as the drawing, or pages of

@@ -7,7 +7,7 @@ import { files, images, meshFits, meshes, partOf, patterns, solver, surfaces } f
 import { asFiles, asMesh, asMeshOrLattice, asPicture, wholeOf } from './mesh-input.js';
 import { optionsOf } from './options.js';
 import { asEdges, asFoundPage, edgesAndOptions, pageOptions } from './page-input.js';
-import { inColour, paintOf, readPhoto } from './paint.js';
+import { inColour, jpegsOf, paintOf, readPhoto } from './paint.js';
 import { makeDisposable } from './platform.js';
 import { PROGRESS_INTERVAL, answerOf } from './progress.js';
 import { Steps } from './steps.js';
@@ -68,7 +68,10 @@ const writing = (name, part, take) => (/** @type {any} */ input) => {
 };
 
 /** @param {unknown} drawing */
-const asDrawing = (drawing) => plainCopy('the drawing', drawing);
+const asDrawing = (drawing) => /** @type {Partial<import('./types.js').Drawing> | undefined} */ (plainCopy('the drawing', drawing));
+
+/** The textures of a drawing, which the wasm checks. @param {ReturnType<typeof asDrawing>} drawing */
+const texturesOf = (drawing) => drawing?.textures ?? [];
 
 /** @typedef {import('./direct.js').Solver} SolverApi */
 
@@ -343,19 +346,28 @@ export const meshRulings = ofMesh('meshRulings', meshFits);
 export const unrollMesh = ofMesh('unrollMesh', patterns);
 
 /** @type {typeof import('./direct.js').patternMesh} */
-export const patternMesh = ofMesh('patternMesh', patterns);
+export function patternMesh(mesh, given) {
+  const { shape, own: { uvs, textureOf, textures } } = wholeOf(mesh);
+  const { onProgress, ...options } = /** @type {NonNullable<typeof given>} */ (optionsOf('patternMesh', given));
+  const files = options.printed ? jpegsOf(textures) : undefined;
+  const drawing = patterns.watched((wasm) => wasm.patternMesh(files ? { ...shape, uvs, textureOf } : shape, options), onProgress);
+  return { ...drawing, ...(files && { textures: files }) };
+}
 
 /** @type {typeof import('./direct.js').recognizeMesh} */
 export const recognizeMesh = ofMesh('recognizeMesh', patterns);
 
 /** @type {typeof import('./direct.js').writeSvg} */
-export const writeSvg = writing('writeSvg', patterns, asDrawing);
+export function writeSvg(drawing) {
+  const own = asDrawing(drawing);
+  return unshared(patterns.call((wasm) => wasm.writeSvg(own, texturesOf(own))));
+}
 
 /** @type {typeof import('./direct.js').writePdf} */
 export function writePdf(drawing, given) {
   const own = asDrawing(drawing);
   const options = optionsOf('writePdf', given);
-  return unshared(patterns.call((wasm) => wasm.writePdf(own, options)));
+  return unshared(patterns.call((wasm) => wasm.writePdf(own, options, texturesOf(own))));
 }
 
 /** @type {typeof import('./direct.js').writeDxf} */

@@ -331,7 +331,7 @@ export function explorePattern(input: HeightImage | Heightfield, options?: Explo
  * `patternMesh`; `distance` says how far vertices were moved.
  */
 export function explorePatternMesh(mesh: Mesh, options?: ExplorePatternMeshOptions): Promise<ExploredPatterns>;
-/** Writes a drawing to an SVG file in millimetres, with the layers `cut`, `mountain`, `valley`, `tab` and `label`. */
+/** Writes a drawing to an SVG file in millimetres, with the layers `picture`, `cut`, `mountain`, `valley`, `tab` and `label`. */
 export function writeSvg(drawing: Drawing): Promise<Uint8Array<ArrayBuffer>>;
 /**
  * Writes a drawing to a PDF file in true size, to be printed at 100 %: one page as large as the drawing, or pages of

@@ -89,7 +89,7 @@ export function inColour(seen, textureOf, textures = []) {
  * @param {number} [number]
  */
 function painted(colors, uvs, picture, textureOf, number = 0) {
-  const { width, height, data } = picture instanceof Uint8Array ? readPhoto(picture) : picture;
+  const { width, height, data } = pixelsOf(picture);
   const photo = { width, height, data: new Uint8Array(data.buffer, data.byteOffset, data.byteLength) };
   return files.call((wasm) => wasm.paint(colors, uvs, photo, textureOf, number));
 }
@@ -99,16 +99,41 @@ function blank(heights) {
   return Float32Array.from({ length: 3 * heights.length }, (_, i) => (Number.isNaN(heights[Math.floor(i / 3)]) ? NaN : 1));
 }
 
+/** Quality of a texture's JPEG file, from 1 to 100. */
+const TEXTURE_JPEG_QUALITY = 92;
+
+/**
+ * Textures as JPEG files of three channels, to be printed.
+ * @param {Given[]} [textures]
+ * @returns {import('./types.js').TextureFile[]}
+ */
+export function jpegsOf(textures = []) {
+  if (textures.length === 0) {
+    throw new DevelopableError('INPUT', 'the mesh has no textures that could be printed: give `textures` and `uvs`, or leave out `printed`');
+  }
+  return textures.map((picture) => {
+    const pixels = pixelsOf(picture);
+    return { jpeg: jpegOf(pixels), width: pixels.width, height: pixels.height };
+  });
+}
+
+/** @param {Given | Decoded} picture */
+const pixelsOf = (picture) => (picture instanceof Uint8Array ? readPhoto(picture) : picture);
+
+/** @param {Pick<Decoded, 'width' | 'height' | 'data'>} pixels */
+function jpegOf({ width, height, data }) {
+  const bytes = new Uint8Array(data.buffer, data.byteOffset, data.byteLength);
+  return files.call((wasm) => wasm.writePhoto(width, height, bytes, { format: 'jpeg', quality: TEXTURE_JPEG_QUALITY }));
+}
+
 /**
  * The file for a mesh's texture. glTF has no regard for the Exif note which way up a photo is, so that one which lies on
  * its side is written anew.
  * @param {Given} picture
  * @param {Decoded} pixels
  */
-function uprightFile(picture, { width, height, data, orientation }) {
-  if (orientation === undefined) return fileOf(picture);
-  const bytes = new Uint8Array(data.buffer, data.byteOffset, data.byteLength);
-  return files.call((wasm) => wasm.writePhoto(width, height, bytes, { format: 'jpeg', quality: 92 }));
+function uprightFile(picture, pixels) {
+  return pixels.orientation === undefined ? fileOf(picture) : jpegOf(pixels);
 }
 
 /** The file, if it is one that meshes can have as their texture. @param {Given} picture */

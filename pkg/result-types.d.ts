@@ -419,6 +419,8 @@ export interface DrawnSheet {
   cuts: [number, number][][];
   /** The sheet's cut lines as smooth curves. */
   curves: BezierChain[];
+  /** Triangles of the sheet on which a texture is printed. */
+  printed: PrintedTriangle[];
   /** Lines along which the sheet is folded, without those of tabs. */
   folds: FoldLine[];
   /** Lines along which the sheet's tabs (glued flaps) are folded. */
@@ -1087,6 +1089,16 @@ export interface PatchMap {
   creases: Crease[];
   /** Angle, in radians, above which the bend from one vertex to the next counted as a crease. */
   bend: number;
+}
+
+/** A triangle of a sheet on which a part of a texture is printed. */
+export interface PrintedTriangle {
+  /** Corners of the triangle, in the drawing's millimetres. */
+  corners: [[number, number], [number, number], [number, number]];
+  /** Texture coordinates of the corners: shares from the texture's left and bottom. */
+  uvs: [[number, number], [number, number], [number, number]];
+  /** Number of the texture. */
+  texture: number;
 }
 
 /** Progress of a running solve: the figures of its last check, in which objective and dual bound are computed. */

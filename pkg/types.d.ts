@@ -385,6 +385,18 @@ export type Stock = 'a4' | 'letter' | readonly [width: number, height: number] |
 export interface Drawing extends SheetDrawing {
   /** How the sheets are put together, if the option `assembly` asks for it. */
   assembly?: Assembly;
+  /** The textures that are printed on the sheets, by their numbers, if the option `printed` asks for it. */
+  textures?: TextureFile[];
+}
+
+/** A texture to be printed. */
+export interface TextureFile {
+  /** JPEG file of three channels. */
+  jpeg: Uint8Array;
+  /** Width in pixels. */
+  width: number;
+  /** Height in pixels. */
+  height: number;
 }
 
 /** How sheets are put together: the order of steps, and two files that show it. */

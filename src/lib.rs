@@ -131,7 +131,7 @@ pub use math::fork::{ThreadTeam, set_thread_team};
 pub use math::sym2::Sym2;
 pub use scene::camera::{Camera, Depth, Distortion, Intrinsics, Pose};
 pub use scene::exactness::Exactness;
-pub use scene::mesh::Mesh;
+pub use scene::mesh::{Mesh, TexturedTriangle};
 pub use scene::quarter::Turn;
 pub use scene::region::{Region, resampled};
 pub use scene::sampling::{Hit, Resolution, Samples, sample};

@@ -121,7 +121,10 @@ export class MeshFit extends Events {
     // A solid of sheet metal has a thickness of its own.
     const { thickness: _thickness, innerRadius: _innerRadius, ...others } = options;
     const own = thickness !== undefined && options.thickness !== undefined ? { ...others, blank: true } : options;
-    return this.#tasks.answer(laidFlat, `pattern ${JSON.stringify(options)}`, (worker) => worker.patternMesh(geometryOf(laidFlat), { ...own, onProgress: tell }));
+    // Card shows what the model looks like.
+    const printed = kind === 'faces' && laidFlat.textures !== undefined && options.thickness === undefined;
+    return this.#tasks.answer(laidFlat, `pattern ${JSON.stringify(options)}`, (worker) =>
+      worker.patternMesh(printed ? laidFlat : geometryOf(laidFlat), { ...own, printed, onProgress: tell }));
   }
 
   /** @param {import('../pkg/types.js').Drawing} drawing */

@@ -144,7 +144,7 @@ export const commands = {
     about: 'Fits a surface and cuts it along its creases into sheets to be made of paper or metal.',
     input: INPUT,
     writes: ['.svg', '.pdf', '.dxf', '.json'],
-    flags: [...shaped, 'surface', 'report', ...flagNames(meshPatches), ...flagNames(drawing), 'size', 'cut', 'join', 'blank', 'explore', 'sheets'],
+    flags: [...shaped, 'surface', 'report', ...flagNames(meshPatches), ...flagNames(drawing), 'size', 'cut', 'join', 'blank', 'printed', 'explore', 'sheets'],
     words: { output: '.svg, .pdf or .dxf in true size, or .json', report: 'JSON file for the figures of the pattern' },
     examples: ['pattern roof.png -o roof.pdf --scale 2 --tabs 8 --stock a4', 'pattern scan.png --explore', 'pattern scan.png -o scan.svg --sheets 8', 'pattern scan.ply -o sheets.pdf --surface'],
   },

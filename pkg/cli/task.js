@@ -17,7 +17,7 @@ import { streams } from './terminal.js';
  * @typedef {Partial<Record<'output' | 'to' | 'report' | 'array' | 'mask' | 'confidence' | 'constraints' | 'occlusions' | 'texture' |
  *   'photoCamera' | 'mtl' | 'map' | 'assembly' | 'edges', string>> &
  *   Partial<Record<'overwrite' | 'force' | 'paper' | 'noNormalize' | 'surface' | 'ray' | 'asIs' | 'explore' | 'trim' | 'deskew' | 'ink' |
- *   'plain' | 'quiet' | 'blank', boolean>> &
+ *   'plain' | 'quiet' | 'blank' | 'printed', boolean>> &
  *   Partial<Record<'jobs' | 'threads' | 'spacing' | 'resolution' | 'pixelSize' | 'heightScale' | 'free' | 'threshold' | 'sheets' | 'size' |
  *   'smallest' | 'dots' | 'quality' | 'focalLength' | 'fieldOfView', number>> & {
  *   lattice?: 'square' | 'hex', unit?: import('../types.js').ReadMeshOptions['unit'], noData?: number | 'none',
@@ -79,7 +79,7 @@ export function defaultExtension(command, input, { surface }) {
 }
 
 /** What is only said of a whole mesh. @type {(keyof Values)[]} */
-const OF_WHOLE_MESHES = ['surface', 'size', 'cut', 'join', 'blank'];
+const OF_WHOLE_MESHES = ['surface', 'size', 'cut', 'join', 'blank', 'printed'];
 
 const pageFlags = flagNames(dewarpPage, 'page');
 const general = ['output', 'to', 'force', 'report', 'jobs', 'overwrite', 'quiet'];
@@ -135,7 +135,7 @@ const RULES = [
   [({ command, asIs, lattice, extension }) => command === 'patches' && asIs && lattice === 'square' && MESHES.includes(extension),
     '--as-is of an image has no mesh: write .json or .npy, or leave it out'],
   [({ mode, size }) => size !== undefined && mode !== 'surface', '--size is for meshes: give --scale'],
-  ...['cut', 'join', 'blank'].map((flag) => given(flag, ({ mode }) => mode !== 'surface', `--${flag} is for meshes, and the input is none`)),
+  ...['cut', 'join', 'blank', 'printed'].map((flag) => given(flag, ({ mode }) => mode !== 'surface', `--${flag} is for meshes, and the input is none`)),
   [({ command, mode, texture }) => command === 'dewarp' && texture === undefined && (mode === 'image' || mode === 'depths'),
     'the photo is missing: --texture PHOTO; or INPUT is a photo of a page: .jpg, .png, .webp, .gif or .bmp'],
   [({ shape, lattice }) => shape === 'cylinder' && lattice === 'square',

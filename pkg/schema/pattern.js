@@ -193,6 +193,12 @@ export const model = {
     default: false,
     flag: { section: 'shape', help: 'draw the blank of a solid of sheet metal, with bend allowances for its thickness, for --surface' },
   },
+  /** Whether the textures of a mesh with exact faces are printed on its sheets, in SVG and PDF files. */
+  printed: {
+    kind: flag,
+    default: false,
+    flag: { section: 'shape', help: 'print the textures of a mesh on its sheets, in .svg and .pdf, for --surface' },
+  },
 };
 
 /** Options of a pattern of a mesh. @satisfies {Options} */

@@ -102,6 +102,7 @@ mod tests {
                 [0.5, 0.5, 0.5f64.sqrt()],
             ],
             triangles: vec![[0, 1, 2], [0, 2, 3]],
+            ..Faces::default()
         };
         let built = Built::new(&faces);
         let spot = |at, up| Some(Spot { at, up });

@@ -96,7 +96,7 @@ mod tests {
         let faces = Faces {
             built,
             flat,
-            triangles: Vec::new(),
+            ..Faces::default()
         };
         let pose = Pose::of(&faces, [2.0, 1.0]);
         for (p, q) in faces.flat.iter().zip(&faces.built) {

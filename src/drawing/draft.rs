@@ -11,7 +11,7 @@ use super::marks::seam_marks;
 use super::offset::offset_outwards;
 use super::options::DrawingOptions;
 use super::pack::Place;
-use super::sheet::DrawnSheet;
+use super::sheet::{DrawnSheet, PrintedTriangle};
 use super::tabs::{Tab, add_tabs};
 use crate::error::{Error, Result, rounded};
 use crate::pattern::Sheet;
@@ -133,6 +133,10 @@ impl DrawnSheet {
             bounds: [[0.0; 2]; 2],
             cuts: Vec::new(),
             curves,
+            printed: match options.printed {
+                true => PrintedTriangle::all_of(sheet, scale),
+                false => Vec::new(),
+            },
             folds: lines.folds.clone(),
             tabs,
             edges: if options.allowance > 0.0 {

@@ -73,6 +73,14 @@ impl Drawing {
             return Err(Error::Empty { what: "pattern" });
         }
         options.check()?;
+        if options.printed && sheets.iter().all(|sheet| sheet.faces.textured.is_empty()) {
+            return Err(Error::Unsupported {
+                format: "pattern",
+                reason: "there is no texture to be printed: a mesh needs texture coordinates, and flat faces that are laid \
+                         flat as they are; leave out `printed`"
+                    .into(),
+            });
+        }
         let letters = letters(sheets);
         let options = DrawingOptions { tabs, ..*options };
         let sheets: &[Sheet] = &(sheets.iter().enumerate())
@@ -185,6 +193,10 @@ impl Drawing {
                 .chain(&sheet.tabs)
                 .map(|line| &line.curve);
             points.flatten().chain(&sheet.bounds).all(near)
+                && (sheet.printed.iter()).all(|printed| {
+                    printed.corners.iter().all(near)
+                        && printed.uvs.as_flattened().iter().all(|uv| uv.is_finite())
+                })
                 && (sheet
                     .curves
                     .iter()

@@ -55,7 +55,7 @@ pub use options::{DrawingOptions, MAX_SIZE};
 #[cfg(feature = "patterns")]
 pub(crate) use pack::beside;
 pub use pages::{MAX_PAGES, Page, Pages, Stock};
-pub use sheet::DrawnSheet;
+pub use sheet::{DrawnSheet, PrintedTriangle};
 #[cfg(feature = "patterns")]
 pub(crate) use smooth::smooth;
 pub use totals::{Totals, WorstJoint};

@@ -36,6 +36,8 @@ pub struct DrawingOptions {
     pub smoothing: f64,
     /// Whether all texts are left out except the sheets' names. Default `false`.
     pub plain: bool,
+    /// Whether the texture of a mesh is printed on its sheets. Default `false`.
+    pub printed: bool,
 }
 
 impl Default for DrawingOptions {
@@ -49,6 +51,7 @@ impl Default for DrawingOptions {
             bending: None,
             smoothing: 0.5,
             plain: false,
+            printed: false,
         }
     }
 }
@@ -81,6 +84,13 @@ impl DrawingOptions {
             }
         }
         self.bending.map_or(Ok(()), |bending| bending.check())?;
+        if self.printed && self.bending.is_some() {
+            return Err(Error::option(
+                "printed",
+                "true",
+                "must be left out where metal is bent, which stretches what is printed on it",
+            ));
+        }
         match self.smoothing >= 0.0 && self.smoothing.is_finite() {
             true => Ok(()),
             false => Err(Error::option(
@@ -139,5 +149,10 @@ impl DrawingOptions {
     /// Sets whether all texts are left out except the sheets' names, and returns the options.
     pub fn plain(self, plain: bool) -> Self {
         DrawingOptions { plain, ..self }
+    }
+
+    /// Sets whether the texture of a mesh is printed on its sheets, and returns the options.
+    pub fn printed(self, printed: bool) -> Self {
+        DrawingOptions { printed, ..self }
     }
 }

@@ -5,6 +5,8 @@ use super::label::Label;
 use super::line::{FLATTENING_TOLERANCE_MM, Line};
 use super::pack::Place;
 use crate::math::planar::bounds;
+use crate::pattern::Sheet;
+use crate::scene::mesh::TexturedTriangle;
 
 /// A sheet of a drawing, in the drawing's millimetres. It is rotated to its smallest bounding box if that saves enough
 /// area, and never mirrored.
@@ -23,6 +25,8 @@ pub struct DrawnSheet {
     pub cuts: Vec<Vec<[f64; 2]>>,
     /// The sheet's cut lines as smooth curves.
     pub curves: Vec<Curve>,
+    /// Triangles of the sheet on which a texture is printed.
+    pub printed: Vec<PrintedTriangle>,
     /// Lines along which the sheet is folded, without those of tabs.
     pub folds: Vec<Line>,
     /// Lines along which the sheet's tabs (glued flaps) are folded.
@@ -38,9 +42,43 @@ pub struct DrawnSheet {
     pub labels: Vec<Label>,
 }
 
+/// A triangle of a sheet on which a part of a texture is printed.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[non_exhaustive]
+pub struct PrintedTriangle {
+    /// Corners of the triangle, in the drawing's millimetres.
+    pub corners: [[f64; 2]; 3],
+    /// Texture coordinates of the corners: shares from the texture's left and bottom.
+    pub uvs: [[f64; 2]; 3],
+    /// Number of the texture.
+    pub texture: u32,
+}
+
+impl PrintedTriangle {
+    /// Collects the printed triangles of a sheet; `scale` is in millimetres per unit.
+    pub(super) fn all_of(sheet: &Sheet, scale: f64) -> Vec<PrintedTriangle> {
+        let faces = &sheet.faces;
+        (faces.triangles.iter().zip(&faces.textured))
+            .filter_map(|(corners, textured)| {
+                let TexturedTriangle { texture, uvs } = (*textured)?;
+                let corners = corners.map(|v| faces.flat[v as usize].map(|along| scale * along));
+                Some(PrintedTriangle {
+                    corners,
+                    uvs,
+                    texture,
+                })
+            })
+            .collect()
+    }
+}
+
 impl DrawnSheet {
     /// Computes this sheet rotated and translated to a place in the drawing.
     pub(super) fn moved(mut self, place: &Place) -> Self {
+        for triangle in &mut self.printed {
+            triangle.corners = triangle.corners.map(|p| place.of(p));
+        }
         for line in self.folds.iter_mut().chain(&mut self.tabs) {
             line.curve = line.curve.mapped(|p| place.of(p));
             line.points = line.curve.points(FLATTENING_TOLERANCE_MM);

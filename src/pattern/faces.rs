@@ -3,6 +3,7 @@
 use super::outline::Layout;
 use super::seam_graph::SeamGraph;
 use crate::heights::heightfield::Heightfield;
+use crate::scene::mesh::TexturedTriangle;
 
 /// The triangles of a sheet, with their positions on the surface and on the flat sheet. Each triangle of the
 /// lattice belongs to the patch that most of its corners belong to, so that adjacent sheets have no space between
@@ -16,6 +17,9 @@ pub struct Faces {
     pub flat: Vec<[f64; 2]>,
     /// Numbers of the three vertices of each of the sheet's triangles, counter-clockwise.
     pub triangles: Vec<[u32; 3]>,
+    /// What each of the sheet's triangles shows of its texture; empty unless a mesh with texture coordinates was laid flat as it
+    /// is.
+    pub textured: Vec<Option<TexturedTriangle>>,
 }
 
 pub(super) fn faces(

@@ -15,6 +15,16 @@ pub struct Mesh {
     textures: Option<Vec<i32>>,
 }
 
+/// What a triangle shows of a texture.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
+pub struct TexturedTriangle {
+    /// Number of the texture.
+    pub texture: u32,
+    /// Texture coordinates of the triangle's corners: shares from the texture's left and bottom.
+    pub uvs: [[f64; 2]; 3],
+}
+
 impl Mesh {
     /// Makes a triangle mesh of vertex positions and of triangles, each of which lists three vertices by index.
     ///
@@ -184,6 +194,16 @@ impl Mesh {
     /// Number of each triangle's texture, -1 for none; None if no textures are set.
     pub fn textures(&self) -> Option<&[i32]> {
         self.textures.as_deref()
+    }
+
+    /// Returns what a triangle shows of its texture, if it has one.
+    pub(crate) fn textured(&self, triangle: usize) -> Option<TexturedTriangle> {
+        let uvs = self.uvs.as_ref()?;
+        let texture = self.textures.as_ref().map_or(0, |own| own[triangle]);
+        Some(TexturedTriangle {
+            texture: u32::try_from(texture).ok()?,
+            uvs: self.triangles[triangle].map(|v| uvs[v as usize].map(f64::from)),
+        })
     }
 
     /// Returns the mesh with other positions of its vertices, and without normals.

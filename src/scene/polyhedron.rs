@@ -6,7 +6,7 @@ use nalgebra::Vector3;
 use rustc_hash::FxHashMap;
 
 use super::half_edges::{half_edge_ends, twin_half_edges};
-use super::mesh::Mesh;
+use super::mesh::{Mesh, TexturedTriangle};
 use crate::error::{Error, Result};
 use crate::math::index::NO_INDEX;
 use crate::math::planar::{Point2, polygon_area};
@@ -37,6 +37,8 @@ pub(crate) struct Polyhedron {
     pub areas: Vec<f64>,
     /// Position of each triangle's corners in the plane of its facet, seen from the side that the normal points to.
     pub flat: Vec<[Point2; 3]>,
+    /// What each triangle shows of its texture; empty without texture coordinates, and where faces were found.
+    pub textured: Vec<Option<TexturedTriangle>>,
     /// Distance below which points are one.
     pub rounding: f64,
 }
@@ -70,10 +72,27 @@ impl Polyhedron {
         let rounding = rounding(mesh);
         let (places, joined) = join(mesh.positions(), rounding);
         let triangles = (mesh.triangles().iter()).map(|t| t.map(|v| joined[v as usize]));
-        let mut triangles: Vec<[u32; 3]> = triangles
-            .filter(|[a, b, c]| a != b && b != c && c != a)
+        let given: Vec<(usize, [u32; 3])> = triangles
+            .enumerate()
+            .filter(|(_, [a, b, c])| a != b && b != c && c != a)
             .collect();
+        let mut triangles: Vec<[u32; 3]> = given.iter().map(|(_, corners)| *corners).collect();
         let twins = oriented_twins(&places, &mut triangles, rounding);
+        let textured = match mesh.uvs() {
+            Some(_) => (given.iter().zip(&triangles))
+                .map(|((number, given), turned)| {
+                    let textured = mesh.textured(*number)?;
+                    let uv = |v: u32| {
+                        textured.uvs[usize::from(v != given[0]) + usize::from(v == given[2])]
+                    };
+                    Some(TexturedTriangle {
+                        uvs: turned.map(uv),
+                        ..textured
+                    })
+                })
+                .collect(),
+            None => Vec::new(),
+        };
         let mut solid = Polyhedron {
             facets: vec![NO_INDEX; triangles.len()],
             normals: Vec::new(),
@@ -82,6 +101,7 @@ impl Polyhedron {
             places,
             triangles,
             twins,
+            textured,
             rounding,
         };
         solid.find_facets();
@@ -111,6 +131,7 @@ impl Polyhedron {
             flat,
             places,
             triangles,
+            textured: Vec::new(),
             rounding,
         };
         for seed in 0..of.len() {

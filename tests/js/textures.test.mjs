@@ -9,7 +9,7 @@ import { run, temporaryFolder } from './support/command.mjs';
 import { withExif } from './support/exif.mjs';
 
 after(() => developable.dispose());
-await Promise.all([direct.init(), direct.load('files', 'images', 'meshes')]);
+await Promise.all([direct.init(), direct.load('files', 'images', 'meshes', 'patterns')]);
 
 /** @param {string} name */
 const place = (name) => new URL(`../data/meshes/${name}`, import.meta.url);
@@ -275,4 +275,48 @@ test('the command paints with a photo', async () => {
   for (const args of ['--texture lying.jpg -o lying.ply', '--texture colour-tum.jpg -o lying.obj --mtl lying.mtl']) {
     assert.deepEqual(await fit(`scan.npy ${args}`), silent);
   }
+});
+
+test('the textures of a mesh are printed on its sheets', async () => {
+  // The mesh of make-textured.py: as there, texture coordinates say where a corner is.
+  const corners = [[0, 0.5, 0.25], [3, 0, 0.5], [3.5, 2, 1], [-0.5, 2.25, 1.5], [1, 3, 0.125]];
+  const mesh = direct.readMesh(glb);
+  const options = { exact: true, scale: 10, printed: true };
+  const drawing = direct.patternMesh(mesh, options);
+  const printed = drawing.sheets.flatMap((sheet) => sheet.printed ?? []);
+  assert.equal(printed.length, 3);
+  for (const triangle of printed) {
+    assert.equal(triangle.texture, 0);
+    const places = triangle.uvs.map(([u, v]) => /** @type {number[]} */ (corners.find(([x, y]) => Math.hypot(x / 5 + 0.2 - u, y / 5 + 0.2 - v) < 1e-6)));
+    for (const [a, b] of [[0, 1], [1, 2], [2, 0]]) {
+      const [[x, y], [p, q]] = [triangle.corners[a], triangle.corners[b]];
+      const length = Math.hypot(...places[a].map((value, k) => value - places[b][k]));
+      assert.ok(Math.abs(Math.hypot(x - p, y - q) - 10 * length) < 1e-5);
+    }
+  }
+  const [texture] = drawing.textures ?? [];
+  const { width, height, data } = direct.readPhoto(texture.jpeg);
+  assert.deepEqual([width, height, texture.width, texture.height], [8, 8, 8, 8]);
+  for (const [row, col] of [[0, 0], [2, 5], [7, 7]]) {
+    const pixel = [...data.subarray(4 * (8 * row + col), 4 * (8 * row + col) + 3)];
+    [32 * col, 32 * row, 128].forEach((level, k) => assert.ok(Math.abs(pixel[k] - level) < 20, `${pixel} at ${row}, ${col}`));
+  }
+  assert.deepEqual(await developable.patternMesh(mesh, options), drawing);
+
+  const [svg, pdf] = [direct.writeSvg(drawing), direct.writePdf(drawing)].map((bytes) => Buffer.from(bytes).toString('latin1'));
+  assert.ok(svg.includes(`data:image/jpeg;base64,${Buffer.from(texture.jpeg).toString('base64')}`));
+  assert.match(svg, /<g [^>]*id="picture"/);
+  assert.ok(pdf.includes(Buffer.from(texture.jpeg).toString('latin1')));
+  assert.deepEqual(await developable.writeSvg(drawing), direct.writeSvg(drawing));
+
+  const { textures, ...bare } = mesh;
+  assert.throws(() => direct.patternMesh(bare, options), { code: 'INPUT', message: /no textures.*leave out `printed`/ });
+  await assert.rejects(developable.patternMesh(bare, options), { code: 'INPUT' });
+  assert.throws(() => direct.patternMesh(mesh, { ...options, thickness: 1 }), { code: 'OPTION', message: /printed/ });
+
+  const folder = await temporaryFolder();
+  await Promise.all(['textured.obj', 'textured.mtl', 'sheet.png'].map((name) => copyFile(place(name), join(folder, name))));
+  const made = await run(folder, 'pattern textured.obj --surface --as-is --scale 10 --printed -o sheets.pdf'.split(' '));
+  assert.equal(made.status, 0, made.stderr);
+  assert.ok((await readFile(join(folder, 'sheets.pdf'))).includes('/DCTDecode'));
 });

@@ -3,7 +3,7 @@
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use developable::drawing::{Bending, Drawing, DrawingOptions, Label, LabelKind};
-use developable::files::drawings::write_dxf;
+use developable::files::drawings::{PdfOptions, TextureFile, write_dxf, write_pdf, write_svg};
 use developable::pattern::{MeshPattern, NetOptions, Sheet, pattern_exact, sheet_metal};
 use developable::{Exactness, Lambda, Mesh, MeshOptions, StopReason, fit_mesh};
 
@@ -425,6 +425,96 @@ fn a_bend_of_uneven_facets_is_one_bend() {
     assert!(
         angles.iter().all(|angle| (angle - 90.0).abs() < 1e-6),
         "{angles:?}"
+    );
+}
+
+/// A cube of side 10 whose six faces are squares of a quarter of a texture's width, one and a half textures away from its
+/// corner, those of the upper three from a second texture.
+fn textured_cube() -> Mesh {
+    let (mut places, mut uvs, mut triangles, mut textures) = (vec![], vec![], vec![], vec![]);
+    for (face, axis) in [(0u8, 0usize), (1, 1), (2, 2), (3, 0), (4, 1), (5, 2)] {
+        let up = face >= 3;
+        let first = places.len() as u32;
+        for [a, b] in [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]] {
+            // Anticlockwise as seen from outside, so that the texture is not mirrored.
+            let (s, t) = if up { (a, b) } else { (b, a) };
+            let mut place = [0.0; 3];
+            place[axis] = if up { 10.0 } else { 0.0 };
+            place[(axis + 1) % 3] = 10.0 * s;
+            place[(axis + 2) % 3] = 10.0 * t;
+            places.push(place);
+            uvs.push([1.5 + 0.25 * a as f32, 1.5 + 0.25 * b as f32]);
+        }
+        triangles.extend([[0, 1, 2], [0, 2, 3]].map(|t: [u32; 3]| t.map(|v| first + v)));
+        textures.extend([i32::from(up); 2]);
+    }
+    let mesh = Mesh::new(places, triangles).unwrap();
+    mesh.with_uvs(uvs).unwrap().with_textures(textures).unwrap()
+}
+
+#[test]
+fn textures_are_printed_on_sheets_in_their_true_place() {
+    let mesh = textured_cube();
+    let sheets = pattern_exact(&mesh, &NetOptions::default()).unwrap().sheets;
+    let options = DrawingOptions::default().printed(true);
+    let drawing = Drawing::new(&sheets, &options).unwrap();
+    let printed: Vec<_> = drawing
+        .sheets
+        .iter()
+        .flat_map(|sheet| &sheet.printed)
+        .collect();
+    assert_eq!(printed.len(), 12);
+    for triangle in &printed {
+        // 40 millimetres for each share of the texture, turned in any way and not mirrored.
+        let sides = |p: [[f64; 2]; 3]| {
+            let [[a, b], [c, d]] = [1, 2].map(|k| [p[k][0] - p[0][0], p[k][1] - p[0][1]]);
+            [a * a + b * b, c * c + d * d, a * d - b * c]
+        };
+        let (drawn, of_texture) = (sides(triangle.corners), sides(triangle.uvs));
+        for k in 0..3 {
+            assert!(
+                (drawn[k] - 1600.0 * of_texture[k]).abs() < 1e-6,
+                "{triangle:?}"
+            );
+        }
+        assert!(of_texture[2] > 0.0);
+    }
+    let of_second = printed.iter().filter(|triangle| triangle.texture == 1);
+    assert_eq!(of_second.count(), 6);
+
+    let files = [
+        TextureFile {
+            jpeg: b"first",
+            size: [8, 8],
+        },
+        TextureFile {
+            jpeg: b"second",
+            size: [16, 8],
+        },
+    ];
+    let svg = String::from_utf8(write_svg(&drawing, &files).unwrap()).unwrap();
+    // Each square is one part, so that no line shows in it.
+    assert_eq!(svg.matches("<clipPath").count(), 6, "{svg}");
+    assert!(svg.contains("data:image/jpeg;base64,Zmlyc3Q=") && svg.contains("base64,c2Vjb25k"));
+    assert_eq!(svg.matches("href=\"#texture-1\"").count(), 3);
+    let pdf = write_pdf(&drawing, &PdfOptions::default().textures(&files)).unwrap();
+    let shown = |name: &[u8]| {
+        pdf.windows(name.len())
+            .filter(|bytes| *bytes == name)
+            .count()
+    };
+    assert_eq!(
+        [shown(b"/T0 Do"), shown(b"/T1 Do"), shown(b"/DCTDecode")],
+        [3, 3, 2]
+    );
+    assert!(shown(b"second") == 1);
+
+    let plain = Drawing::new(&sheets, &DrawingOptions::default()).unwrap();
+    assert!(plain.sheets.iter().all(|sheet| sheet.printed.is_empty()));
+    let bare = pattern_exact(&block_with_hole(), &NetOptions::default()).unwrap();
+    assert_eq!(
+        Drawing::new(&bare.sheets, &options).unwrap_err().code(),
+        "UNSUPPORTED"
     );
 }
 

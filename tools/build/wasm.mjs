@@ -29,7 +29,7 @@ const files = [
   { name: 'meshes', limit: 345_000 },
   { name: 'fitmesh', limit: 230_000 },
   { name: 'unroll', limit: 357_000 },
-  { name: 'patterns', limit: 617_000 },
+  { name: 'patterns', limit: 632_000 },
 ];
 
 /**

@@ -7,6 +7,8 @@
 //! | layers of SVG | `cut` | `mountain` | `valley` | `tab` | `edge` | `mark` | `leader`, `label` |
 //! | layers of DXF, their colours | `CUT`, 7 | `MOUNTAIN`, 1 | `VALLEY`, 5 | `TAB`, 8 | `EDGE`, 30 | `MARK`, 3 | `LEADER`, `LABEL`, 9 |
 //!
+//! What is printed of a mesh's textures lies below all lines, in SVG in the layer `picture`.
+//!
 //! ```
 //! use developable::drawing::{Drawing, DrawingOptions};
 //! use developable::files::drawings::write_svg;
@@ -18,7 +20,7 @@
 //! # let patches = Patches::new(&card, &PatchOptions::default())?;
 //! # let pattern = pattern(&card, &patches, &PatternOptions::default())?;
 //! let drawing = Drawing::new(&pattern.sheets, &DrawingOptions::default())?;
-//! let file = write_svg(&drawing)?;
+//! let file = write_svg(&drawing, &[])?;
 //! assert!(String::from_utf8_lossy(&file).contains("id=\"mountain\""));
 //! # Ok(())
 //! # }
@@ -27,12 +29,14 @@
 mod arcs;
 mod dxf;
 mod pdf;
+mod printed;
 mod svg;
 
 use crate::drawing::{Curve, Drawing, DrawnSheet, Line};
 use crate::pattern::Direction;
 pub use dxf::write_dxf;
 pub use pdf::{PdfOptions, write_pdf};
+pub use printed::TextureFile;
 pub use svg::write_svg;
 
 /// The purpose of a line in a drawing (to cut, to fold, a mark …), in the order in which lines are drawn.

@@ -1,8 +1,9 @@
 //! Writes drawings as PDF: on one page of the drawing's size, or on pages of paper to be put together.
 
 use pdf_writer::types::LineJoinStyle;
-use pdf_writer::{Content, Finish, Name, Pdf, Rect, Ref, Str, TextStr};
+use pdf_writer::{Content, Filter, Finish, Name, Pdf, Rect, Ref, Str, TextStr};
 
+use super::printed::{PrintedPart, TextureFile};
 use super::{BASELINE_DROP, LINE_WIDTH_MM, TEXT_GREY_LEVEL, layers};
 use crate::drawing::{Drawing, Label, Pages, Piece, Stock};
 use crate::error::Result;
@@ -48,6 +49,8 @@ pub struct PdfOptions<'a> {
     pub stock: Option<Stock>,
     /// Title of the document, which is also written on each page. Default: "Pattern", and none on the pages.
     pub title: Option<&'a str>,
+    /// Textures of the mesh, by their numbers, of which the drawing's sheets show parts. Default: none.
+    pub textures: &'a [TextureFile<'a>],
 }
 
 impl<'a> PdfOptions<'a> {
@@ -59,6 +62,11 @@ impl<'a> PdfOptions<'a> {
     /// Sets the title, and returns the options.
     pub fn title(self, title: Option<&'a str>) -> Self {
         PdfOptions { title, ..self }
+    }
+
+    /// Sets the textures of the mesh, by their numbers, and returns the options.
+    pub fn textures(self, textures: &'a [TextureFile<'a>]) -> Self {
+        PdfOptions { textures, ..self }
     }
 }
 
@@ -81,6 +89,7 @@ pub fn write_pdf(drawing: &Drawing, options: &PdfOptions<'_>) -> Result<Vec<u8>>
     let [catalog, tree, font, form, info] = [1, 2, 3, 4, 5].map(Ref::new);
     let page = |i: usize| Ref::new(6 + 2 * i as i32);
     let content = |i: usize| Ref::new(7 + 2 * i as i32);
+    let texture = |sheets: usize, i: usize| Ref::new(6 + (2 * sheets + i) as i32);
     let sheets = match &drawing.pages {
         Some(pages) => spread(pages, title)?,
         None => vec![whole(drawing, title)?],
@@ -94,11 +103,26 @@ pub fn write_pdf(drawing: &Drawing, options: &PdfOptions<'_>) -> Result<Vec<u8>>
     pdf.type1_font(font)
         .base_font(Name(b"Helvetica"))
         .encoding_predefined(Name(b"WinAnsiEncoding"));
-    let figure = figure(drawing);
+    let figure = figure(drawing, options.textures.len());
     let mut object = pdf.form_xobject(form, &figure);
     object.bbox(rect([drawing.width, drawing.height]));
-    object.resources().fonts().pair(FONT_RESOURCE, font);
+    let mut resources = object.resources();
+    resources.fonts().pair(FONT_RESOURCE, font);
+    let mut pictures = resources.x_objects();
+    for i in 0..options.textures.len() {
+        pictures.pair(Name(&texture_name(i)), texture(sheets.len(), i));
+    }
+    pictures.finish();
+    resources.finish();
     object.finish();
+    for (i, TextureFile { jpeg, size }) in options.textures.iter().enumerate() {
+        let mut picture = pdf.image_xobject(texture(sheets.len(), i), jpeg);
+        let [width, height] = size.map(|side| side as i32);
+        picture.width(width).height(height).bits_per_component(8);
+        picture.color_space().device_rgb();
+        picture.filter(Filter::DctDecode);
+        picture.finish();
+    }
     for (i, (size, marks)) in sheets.into_iter().enumerate() {
         let mut entry = pdf.page(page(i));
         entry
@@ -198,9 +222,36 @@ fn spread(pages: &Pages, title: &str) -> Result<Vec<Sheet>> {
     Ok(pages.pages.iter().map(sheet).collect())
 }
 
+/// Name of a texture in the list of the drawing's resources.
+fn texture_name(number: usize) -> Vec<u8> {
+    format!("T{number}").into_bytes()
+}
+
+/// Prints the parts of textures that the drawing's sheets show.
+fn print(out: &mut Content, drawing: &Drawing, textures: usize) {
+    let parts = drawing.sheets.iter().flat_map(PrintedPart::all_of);
+    for part in parts.filter(|part| part.texture < textures) {
+        out.save_state();
+        for corners in &part.triangles {
+            let [a, b, c] = corners.map(|p| p.map(points));
+            out.move_to(a[0], a[1]).line_to(b[0], b[1]);
+            out.line_to(c[0], c[1]).close_path();
+        }
+        out.clip_nonzero().end_path();
+        for map in part.copies() {
+            let [[a, b], [c, d], [x, y]] = map.map(|column| column.map(points));
+            out.save_state().transform([a, b, c, d, x, y]);
+            out.x_object(Name(&texture_name(part.texture)))
+                .restore_state();
+        }
+        out.restore_state();
+    }
+}
+
 /// Creates the PDF content stream of the whole drawing, of which each page shows a part.
-fn figure(drawing: &Drawing) -> Vec<u8> {
+fn figure(drawing: &Drawing, textures: usize) -> Vec<u8> {
     let mut out = Content::new();
+    print(&mut out, drawing, textures);
     out.set_line_width(points(LINE_WIDTH_MM))
         .set_line_join(LineJoinStyle::RoundJoin);
     for (kind, lines) in layers(drawing) {

@@ -2,21 +2,25 @@
 
 use std::fmt::Write as _;
 
-use ::svg::node::element::{Element, Group, Path, Text, Title};
+use ::svg::node::element::{ClipPath, Definitions, Element, Group, Image, Path, Text, Title, Use};
 use ::svg::{Document, Node};
+use base64::Engine;
+use base64::engine::general_purpose::STANDARD;
 
+use super::printed::{PrintedPart, TextureFile};
 use super::{BASELINE_DROP, Kind, LINE_WIDTH_MM, TEXT_GREY_LEVEL};
 use crate::drawing::{Curve, Drawing, LabelKind, Pages, Piece};
 use crate::error::Result;
 
 /// Writes a drawing as an SVG file: its unit is the millimetre, its layers are groups with the ids `cut`, `mountain`,
 /// `valley`, `tab`, `edge`, `mark`, `leader` and `label`, and each element has the number of its sheet as `data-sheet`
-/// and of its crease, if any, as `data-crease`.
+/// and of its crease, if any, as `data-crease`. `textures` are those of the mesh, by their numbers; what is printed of them lies
+/// below all lines, in a layer with the id `picture`.
 ///
 /// # Errors
 /// [`Error::Unsupported`](crate::Error::Unsupported) for a drawing that is not finite or larger
 /// than [`MAX_SIZE`](crate::drawing::MAX_SIZE).
-pub fn write_svg(drawing: &Drawing) -> Result<Vec<u8>> {
+pub fn write_svg(drawing: &Drawing, textures: &[TextureFile<'_>]) -> Result<Vec<u8>> {
     drawing.check()?;
     let (width, height) = (number(drawing.width), number(drawing.height));
     let mut document = Document::new()
@@ -38,6 +42,9 @@ pub fn write_svg(drawing: &Drawing) -> Result<Vec<u8>> {
     }
     // Rows count down in SVG.
     let place = |[x, y]: [f64; 2]| [number(x), number(drawing.height - y)];
+    if let Some((definitions, picture)) = printed(drawing, textures) {
+        document = document.add(definitions).add(picture);
+    }
     for kind in Kind::ALL {
         let mut layer = layer(kind.name())
             .set("fill", "none")
@@ -106,6 +113,52 @@ pub fn write_svg(drawing: &Drawing) -> Result<Vec<u8>> {
         }
     }
     Ok(document.add(texts).to_string().into_bytes())
+}
+
+/// Creates the layer of what is printed on the sheets, and the textures and clipping paths that it uses.
+fn printed(drawing: &Drawing, textures: &[TextureFile<'_>]) -> Option<(Definitions, Group)> {
+    let mut definitions = Definitions::new();
+    for (texture, file) in textures.iter().enumerate() {
+        let address = format!("data:image/jpeg;base64,{}", STANDARD.encode(file.jpeg));
+        definitions = definitions.add(
+            Image::new()
+                .set("id", format!("texture-{texture}"))
+                .set("width", 1)
+                .set("height", 1)
+                .set("preserveAspectRatio", "none")
+                .set("href", address),
+        );
+    }
+    let (mut layer, mut count) = (layer("picture"), 0);
+    let parts = drawing.sheets.iter().flat_map(PrintedPart::all_of);
+    for part in parts.filter(|part| part.texture < textures.len()) {
+        let outline = |[a, b, c]: &[[f64; 2]; 3]| {
+            let [a, b, c] =
+                [a, b, c].map(|[x, y]| format!("{} {}", number(*x), number(drawing.height - y)));
+            format!("M{a}L{b}L{c}Z")
+        };
+        let outlines: String = part.triangles.iter().map(outline).collect();
+        let clip = format!("printed-{count}");
+        count += 1;
+        definitions = definitions.add(
+            ClipPath::new()
+                .set("id", clip.as_str())
+                .add(Path::new().set("d", outlines)),
+        );
+        let mut clipped = Group::new().set("clip-path", format!("url(#{clip})"));
+        for [[a, b], [c, d], [x, y]] in part.copies() {
+            // The rows of a picture count down, and so do those of the file.
+            let map = [a, -b, -c, d, x + c, drawing.height - y - d];
+            let map: Vec<String> = map.iter().map(|v| format!("{v:.6}")).collect();
+            clipped = clipped.add(
+                Use::new()
+                    .set("href", format!("#texture-{}", part.texture))
+                    .set("transform", format!("matrix({})", map.join(" "))),
+            );
+        }
+        layer = layer.add(clipped);
+    }
+    (count > 0).then_some((definitions, layer))
 }
 
 /// Creates the element that tells the program Inkscape where the drawing's pages are; it has no lines, which a cutter

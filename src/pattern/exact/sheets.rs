@@ -328,6 +328,10 @@ impl Drafter<'_> {
         let mut faces = Faces::default();
         let mut found: FxHashMap<u32, Vec<u32>> = FxHashMap::default();
         let near = self.solid.rounding;
+        if !self.solid.textured.is_empty() {
+            let textured = triangles.iter().map(|t| self.solid.textured[*t as usize]);
+            faces.textured = textured.collect();
+        }
         for t in triangles {
             let placed = self.net.placed(*t);
             let corners = self.solid.triangles[*t as usize];

@@ -186,6 +186,7 @@ fn draw(body: &Body, seams: &Seams, meetings: &Meetings, sheet: &Joined) -> Shee
                 .collect(),
             flat: (0..laid.places.len() as u32).map(place).collect(),
             triangles: laid.triangles.clone(),
+            textured: Vec::new(),
         },
         spacing: body.spacing,
         area: laid.area,

@@ -11,7 +11,7 @@ use developable::drawing::{Bending, Drawing, DrawingOptions, Stock};
 use developable::explore::Trials;
 use developable::files::Unit;
 use developable::files::assembly::{write_animation, write_assembly_svg};
-use developable::files::drawings::{PdfOptions, write_dxf, write_pdf, write_svg};
+use developable::files::drawings::{PdfOptions, TextureFile, write_dxf, write_pdf, write_svg};
 use developable::patches::{Crease, MeshPatches, Patch, PatchOptions, Patches};
 use developable::pattern::{
     MeshKind, MeshPattern, Missing, NetOptions, PatternOptions, Sheet, pattern, pattern_exact,
@@ -416,8 +416,42 @@ fn set(object: &JsValue, name: &str, value: &JsValue) -> Result<()> {
 
 /// Writes a drawing to an SVG file.
 #[wasm_bindgen(js_name = writeSvg)]
-pub fn write_svg_file(drawing: JsValue) -> Result<Uint8Array> {
-    Ok(write_svg(&drawn(drawing)?)?.as_slice().into())
+pub fn write_svg_file(drawing: JsValue, textures: JsValue) -> Result<Uint8Array> {
+    let textures = Textures::read(textures)?;
+    let svg = write_svg(&drawn(drawing)?, &textures.files())?;
+    Ok(svg.as_slice().into())
+}
+
+/// A texture from JavaScript: a JPEG file of three channels.
+#[derive(Deserialize)]
+struct TextureInput {
+    #[serde(with = "preserve")]
+    jpeg: Uint8Array,
+    width: u32,
+    height: u32,
+}
+
+/// The textures of a mesh: files, with width and height in pixels.
+struct Textures(Vec<(Vec<u8>, [u32; 2])>);
+
+impl Textures {
+    fn read(given: JsValue) -> Result<Textures> {
+        let given: Vec<TextureInput> = from_value(given).map_err(|error| Failure {
+            code: "INPUT",
+            message: format!(
+                "the drawing's textures must be JPEG files with width and height: {error}"
+            ),
+        })?;
+        let copied = |own: TextureInput| (own.jpeg.to_vec(), [own.width, own.height]);
+        Ok(Textures(given.into_iter().map(copied).collect()))
+    }
+
+    fn files(&self) -> Vec<TextureFile<'_>> {
+        let files = self.0.iter();
+        files
+            .map(|(jpeg, size)| TextureFile { jpeg, size: *size })
+            .collect()
+    }
 }
 
 /// Options of writing a PDF file: JavaScript's `WritePdfOptions` object.
@@ -430,9 +464,14 @@ struct PdfInput {
 
 /// Writes a drawing to a PDF file, on one page, or on pages of the option `stock`.
 #[wasm_bindgen(js_name = writePdf)]
-pub fn write_pdf_file(drawing: JsValue, options: JsValue) -> Result<Uint8Array> {
+pub fn write_pdf_file(drawing: JsValue, options: JsValue, textures: JsValue) -> Result<Uint8Array> {
     let PdfInput { stock, title } = read(&options)?;
-    let options = PdfOptions::default().stock(stock).title(title.as_deref());
+    let textures = Textures::read(textures)?;
+    let files = textures.files();
+    let options = PdfOptions::default()
+        .stock(stock)
+        .title(title.as_deref())
+        .textures(&files);
     Ok(write_pdf(&drawn(drawing)?, &options)?.as_slice().into())
 }
 

@@ -422,6 +422,9 @@ fn a_bend_of_uneven_facets_is_one_bend() {
         .map(|fold| fold.bend.map_or(0.0, |bend| bend.angle.to_degrees()))
         .collect();
     assert_eq!(angles.len(), 9);
+    for bend in sheet.folds.iter().filter_map(|fold| fold.bend) {
+        assert!((bend.radius - 10.0).abs() < 0.05, "{}", bend.radius);
+    }
     assert!(
         angles.iter().all(|angle| (angle - 90.0).abs() < 1e-6),
         "{angles:?}"

@@ -1,9 +1,10 @@
 /** Meshes solved whole, without a view. */
 import assert from 'node:assert/strict';
+import { readFile } from 'node:fs/promises';
 import { noisyBox, offBox, SIDES } from './support/box.mjs';
 import { obj } from './support/files.mjs';
 import { parsed } from './support/numbers.mjs';
-import { choose, doorTest, look, open, openFromOneSide, openWhole, reported, saveAs, settled, typeLambda, workBy } from './support/page.mjs';
+import { choose, doorTest, dropAll, look, open, openFromOneSide, openWhole, reported, saveAs, settled, typeLambda, workBy } from './support/page.mjs';
 import { parsePng } from './support/photos.mjs';
 
 /** @typedef {import('playwright-core').Page} Page */
@@ -374,4 +375,27 @@ doorTest('sheets of a model without a unit are in millimetres, and the headline 
   await page.getByLabel('Longer side when finished, mm').fill('600');
   await title.filter({ hasText: /: 600 mm, \d\d pages, / }).waitFor();
   assert.match(await warning.innerText(), /\d\d pages\. Is the unit of the file right\?/);
+});
+
+doorTest('a model of card has its textures printed on its sheets, and one of metal has none', async (page) => {
+  // A pyramid whose sides all show the middle of the picture.
+  const text = `mtllib pyramid.mtl
+usemtl card
+v 0 0 0\nv 60 0 0\nv 60 60 0\nv 0 60 0\nv 30 30 50
+vt 0.2 0.2\nvt 0.8 0.2\nvt 0.5 0.8
+f 1/1 2/2 5/3\nf 2/1 3/2 5/3\nf 3/1 4/2 5/3\nf 4/1 1/2 5/3\nf 1/1 3/2 2/3\nf 1/1 4/2 3/3
+`;
+  const picture = await readFile(new URL('../data/meshes/sheet.png', import.meta.url));
+  await dropAll(page, { 'pyramid.obj': Buffer.from(text), 'pyramid.mtl': Buffer.from('newmtl card\nmap_Kd sheet.png\n'), 'sheet.png': picture });
+  const preview = page.locator('.sheets .preview[aria-busy="false"] img');
+  const isPrinted = async () => (await saveAs(page, 'PDF')).bytes.includes('/DCTDecode');
+  await page.locator('#whole-sheets').click();
+  await preview.waitFor();
+  assert.ok(await isPrinted());
+  await page.locator('#whole-sheets').click();
+  await preview.waitFor();
+  const before = await preview.getAttribute('src');
+  await page.getByLabel('Material').selectOption({ label: 'sheet metal' });
+  await preview.and(page.locator(`:not([src="${before}"])`)).waitFor();
+  assert.ok(!await isPrinted());
 });

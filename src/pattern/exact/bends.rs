@@ -11,29 +11,30 @@ use crate::scene::polyhedron::Polyhedron;
 
 /// Radius of each patch that is a bend: of the circle whose chords its facets are.
 pub(super) fn radii(solid: &Polyhedron, patches: &FlatPatches) -> Vec<Option<f64>> {
-    // Length of each facet's lines, and for each patch the lengths of its inner lines, their sum weighted by the angles, and
-    // the sums of its facets' areas and widths times areas.
+    let facets = |side: u32| [side, solid.twins[side as usize]].map(|s| solid.facet(s) as usize);
+    let steps = || solid.inner_sides().filter(|side| solid.is_step(*side));
     let mut lengths = vec![0.0; solid.normals.len()];
-    let mut inner = vec![[0.0; 2]; patches.areas.len()];
-    for side in solid.inner_sides().filter(|side| solid.is_step(*side)) {
-        let facets = [side, solid.twins[side as usize]].map(|s| solid.facet(s) as usize);
-        let (long, angle) = (solid.length(side), solid.angle(side).abs());
-        facets.iter().for_each(|facet| lengths[*facet] += long);
-        let [a, b] = facets.map(|facet| patches.of[facet] as usize);
-        if a == b {
-            inner[a][0] += long;
-            inner[a][1] += long * angle;
+    for side in steps() {
+        for facet in facets(side) {
+            lengths[facet] += solid.length(side);
         }
     }
-    let mut widths = vec![0.0; patches.areas.len()];
-    for (facet, area) in solid.areas.iter().enumerate() {
-        // A facet of a bend has a line on either side.
-        widths[patches.of[facet] as usize] += area * 2.0 * area / lengths[facet];
+    // A facet of a bend has a line on either side.
+    let width = |facet: usize| 2.0 * solid.areas[facet] / lengths[facet];
+    // Of each patch's inner lines the lengths, and the sums of these times the angles and times the mean widths of both sides.
+    let mut inner = vec![[0.0; 3]; patches.areas.len()];
+    for side in steps() {
+        let [a, b] = facets(side);
+        if patches.of[a] == patches.of[b] {
+            let (long, angle) = (solid.length(side), solid.angle(side).abs());
+            let of_line = [1.0, angle, 0.5 * (width(a) + width(b))];
+            let sums = &mut inner[patches.of[a] as usize];
+            *sums = std::array::from_fn(|k| sums[k] + long * of_line[k]);
+        }
     }
-    (inner.iter().zip(widths).zip(&patches.areas))
-        .map(|(([long, turned], width), area)| {
-            let chord = width / area;
-            (*long > 0.0).then(|| 0.5 * chord / (0.5 * turned / long).sin())
+    (inner.iter())
+        .map(|[long, turned, wide]| {
+            (*long > 0.0).then(|| 0.5 * (wide / long) / (0.5 * turned / long).sin())
         })
         .collect()
 }

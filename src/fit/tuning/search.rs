@@ -31,20 +31,14 @@ const OTHER_PENALTIES: [HuberOptions; 3] = [
 /// Minimum number of standard errors by which a candidate must predict held-out heights better to replace the best one.
 const MIN_ADVANTAGE: f64 = 1.0;
 
-/// Minimum number of interior vertices of a coarse lattice.
-const MIN_COARSE_VERTICES: usize = 1500;
-
-/// Minimum number of interior vertices of the first lattice on which noise is independent, where that is a coarser one.
-const MIN_MERGED_VERTICES: usize = 400;
+/// Minimum number of interior vertices of a coarse lattice (`benches/scenes.md`).
+const MIN_COARSE_VERTICES: usize = 400;
 
 /// Maximum number of solves by which λ is refined on the coarse lattice.
 const MAX_COARSE_SOLVES: usize = 5;
 
 /// Relative duality gap of coarse solves: their surfaces differ by more than it leaves open.
 const SEARCH_GAP: f64 = 0.05;
-
-/// Maximum number of iterations of a coarse solve.
-const MAX_SEARCH_ITERATIONS: usize = 500;
 
 /// Choice of λ and of the penalty in progress.
 #[derive(Debug, Clone)]
@@ -206,7 +200,7 @@ impl Search {
         }
         for _ in 0..self.merges {
             coarse = merge(&coarse)?;
-            if interior_len(&coarse) < MIN_MERGED_VERTICES {
+            if interior_len(&coarse) < MIN_COARSE_VERTICES {
                 return Ok(false);
             }
         }
@@ -292,7 +286,6 @@ fn trial_options(first: &Options, penalty: HuberOptions) -> Options {
         is_trial: true,
         ..penalty.of(&Options::default())
     }
-    .max_iterations(MAX_SEARCH_ITERATIONS)
     .gap(SEARCH_GAP)
 }
 

@@ -36,10 +36,6 @@ const MIN_SMOOTH_MERGES: usize = 2;
 /// Root mean square distance that a surface may have from heights without noise, as a share of their range.
 const DEFAULT_TOLERANCE: f64 = 0.002;
 
-/// Ratio of `λ σ h` to [`WHITE_LAMBDA_NOISE`] above which there are no crease passes, since these would make creases
-/// of noise.
-const LOUD_NOISE_RATIO: f64 = 2.0;
-
 /// Noise and scale of an input, known before its solve.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Known {
@@ -137,13 +133,22 @@ pub(crate) fn initial_options(
     (options.lambda(lambda), choice, aim)
 }
 
-/// Options with the default Huber parameters filled in where none are given, kept from following noise where λ is
-/// large for it.
+/// Options with the default Huber parameters filled in where none are given, kept from following noise: flatness grows in
+/// proportion to the ratio of λ to the λ that suits the noise, up to the nuclear norm, which has no crease passes.
 pub(crate) fn with_huber_defaults(options: &Options, noise: Option<Noise>, scale: f64) -> Options {
     let loudness = noise.map_or(0.0, |noise| {
         options.lambda_or_default().value() * noise.product * scale * scale / WHITE_LAMBDA_NOISE
     });
-    at_loudness(options, HuberOptions::SMOOTH, loudness)
+    let flatness = HuberOptions::SMOOTH.flatness * loudness.max(1.0);
+    let quiet = HuberOptions {
+        flatness: flatness.min(1.0),
+        ..HuberOptions::SMOOTH
+    };
+    let mut out = quiet.within(options).of(options);
+    if flatness >= 1.0 {
+        out.crease_passes.get_or_insert(0);
+    }
+    out
 }
 
 /// Penalty of [`Energy::Huber`] for a surface of unknown kind. Under correlated noise it is the nuclear norm, as any other
@@ -158,24 +163,8 @@ pub(super) fn default_penalty(noise: Option<Noise>) -> HuberOptions {
 /// Options with the penalty that was not compared with others: where that is the nuclear norm, without crease passes, which
 /// would follow the noise.
 pub(super) fn with_default_penalty(options: &Options, penalty: HuberOptions) -> Options {
-    let loudness = if penalty == HuberOptions::NUCLEAR {
-        f64::INFINITY
-    } else {
-        1.0
-    };
-    at_loudness(options, penalty, loudness)
-}
-
-/// Options with the parameters of `bending` where none are given, restrained so that the surface does not follow
-/// noise. `loudness` is the ratio of λ to the λ that suits the noise: flatness grows in proportion to it, up to 1
-/// (the nuclear norm), and above [`LOUD_NOISE_RATIO`] there are no crease passes.
-fn at_loudness(options: &Options, bending: HuberOptions, loudness: f64) -> Options {
-    let quiet = HuberOptions {
-        flatness: (HuberOptions::SMOOTH.flatness * loudness).clamp(bending.flatness, 1.0),
-        ..bending
-    };
-    let mut out = quiet.within(options).of(options);
-    if loudness > LOUD_NOISE_RATIO {
+    let mut out = penalty.within(options).of(options);
+    if penalty == HuberOptions::NUCLEAR {
         out.crease_passes.get_or_insert(0);
     }
     out

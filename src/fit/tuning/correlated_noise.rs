@@ -36,10 +36,6 @@ const MIN_ANISOTROPY: f64 = 3.0;
 /// Largest coherence of neighbouring Hessians of anisotropic noise, whose ratio of principal curvatures tells little.
 const MAX_ANISOTROPIC_COHERENCE: f64 = 0.3;
 
-/// Maximum radius, in spacings, of discs in which incoherent Hessians are a sign of noise: in larger ones bends and
-/// creases of a shape are incoherent, too.
-const MAX_INCOHERENCE_RADIUS: f64 = 12.0;
-
 /// Maximum radius, in spacings, of the smallest discs that show noise. What shows in larger discs only is a shape.
 const MAX_FIRST_RADIUS: f64 = 4.0;
 
@@ -150,9 +146,7 @@ fn is_noise(scale: &CurvatureScale, discs: &[Disc], is_anisotropic: bool) -> boo
         true => MAX_ANISOTROPIC_COHERENCE,
         false => MAX_NOISE_COHERENCE,
     };
-    let incoherent = scale.coherence < max_coherence
-        && scale.ratio > MIN_ANISOTROPIC_RATIO
-        && scale.radius() < MAX_INCOHERENCE_RADIUS;
+    let incoherent = scale.coherence < max_coherence && scale.ratio > MIN_ANISOTROPIC_RATIO;
     scale.independent_discs(discs) >= MIN_INDEPENDENT_DISCS && (bends_both_ways || incoherent)
 }
 

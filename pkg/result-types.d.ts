@@ -506,7 +506,9 @@ export interface FlatImage {
   map: Float32Array<ArrayBuffer>;
   /** The warp map on a grid, if the option `grid` asks for it. */
   grid?: WarpGrid;
-  /** What happened to the light: `'keep'` also where it was to be evened but the page is dark or not mostly paper. */
+  /**
+   * What happened to the light: `'keep'` also where it was to be evened but the page is dark or not mostly paper.
+   */
   light: LightTreatment;
 }
 

@@ -27,8 +27,9 @@ export async function rustTests() {
   else await check('cargo', ['test', '--lib'], native);
 }
 
+/** Without optimisation: they are small, and no other step needs the library by itself. */
 export async function docTests() {
-  await check('cargo', ['test', '--doc'], native);
+  await check('cargo', ['test', '--doc', '--profile', 'dev'], native);
 }
 
 export async function docs() {

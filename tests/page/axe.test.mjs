@@ -6,6 +6,7 @@ import { join } from 'node:path';
 import axe from 'axe-core';
 import { serve } from '../../tools/serve.mjs';
 import { writeGuide } from '../../tools/site/guide.mjs';
+import { CARDS } from '../../www/gallery/cards.js';
 import { noisyBox } from './support/box.mjs';
 import { obj } from './support/files.mjs';
 import { choose, doorTest, drop, enterPages, inChromium, openFromOneSide, pageTest, painted, runBy } from './support/page.mjs';
@@ -119,7 +120,7 @@ doorTest('axe finds nothing wrong with a whole mesh', async (page) => {
 pageTest('axe finds nothing wrong with surfaces in space, the gallery, and dialogs', async (page) => {
   await soundEverywhere(page, 'the stage');
   await page.locator('#gallery-open').click();
-  assert.ok(await page.locator('.card').count() > 15);
+  assert.equal(await page.locator('.card').count(), CARDS.length);
   await soundEverywhere(page, 'the gallery', { within: '#gallery' });
   await page.keyboard.press('Escape');
   await page.locator('#end-file').click();

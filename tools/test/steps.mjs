@@ -17,7 +17,7 @@ export const steps = [
   { name: 'types', seconds: 8, quick: true, what: 'TypeScript over all JavaScript, with the types that Rust gives', run: types },
   { name: 'lint', seconds: 67, quick: true, what: 'clippy', run: lint },
   { name: 'rust', seconds: 180, what: 'the tests beside the code, and those of the whole library', run: rustTests },
-  { name: 'rust-doc', seconds: 5, what: 'the examples in the documentation', run: docTests },
+  { name: 'rust-doc', seconds: 20, what: 'the examples in the documentation', run: docTests },
   { name: 'docs', seconds: 20, what: "the documentation's links and examples", run: docs },
   {
     name: 'build',
@@ -35,5 +35,5 @@ export const steps = [
   { name: 'wasm-browser', seconds: 5, what: "the wasm in Chromium's main thread", run: inBrowser('wasm_browser') },
   { name: 'wasm-worker', seconds: 5, what: 'the wasm in a dedicated worker in Chromium', run: inBrowser('wasm_worker') },
   { name: 'js', seconds: 85, what: 'the package and its command in Node', run: nodeTests },
-  { name: 'page', seconds: 290, what: 'the page in Chromium', run: pageTests },
+  { name: 'page', seconds: 190, what: 'the page in Chromium', run: pageTests },
 ];

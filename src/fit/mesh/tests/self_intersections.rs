@@ -1,7 +1,7 @@
+use super::closed_meshes::crossings;
 use super::*;
 use crate::fit::mesh::self_intersections::separate_self_intersections;
 use crate::fit::mesh::vertex_fans::VertexFans;
-use crate::native::common::closed_meshes::crossings;
 
 /// Two vertices next to each other on an edge of a cube change places.
 #[test]

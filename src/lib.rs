@@ -79,6 +79,10 @@
 extern crate self as developable;
 
 pub mod assembly;
+/// Meshes for the tests beside the code, on every platform, and for the native ones.
+#[cfg(test)]
+#[path = "../tests/native/common/closed_meshes.rs"]
+mod closed_meshes;
 pub mod dewarp;
 pub mod drawing;
 mod error;

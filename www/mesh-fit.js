@@ -1,5 +1,5 @@
 /** The fit of a whole mesh, and analyses of the result. */
-import { Tasks } from './worker-task.js';
+import { Tasks, tellStep } from './worker-task.js';
 import { Events } from './events.js';
 import { TASK_WORDS } from './messages.js';
 import { boxOf } from './surface/triangles.js';
@@ -100,7 +100,7 @@ export class MeshFit extends Events {
 
   /** @param {Mesh} mesh @param {Tell} tell */
   unrolled(mesh, tell) {
-    return this.#tasks.answer(mesh, 'unrolled', (worker) => worker.unrollMesh(geometryOf(mesh), { onProgress: ({ fraction }) => tell({ fraction, label: TASK_WORDS.unrolling }) }));
+    return this.#tasks.answer(mesh, 'unrolled', (worker) => worker.unrollMesh(geometryOf(mesh), { onProgress: tellStep(tell, TASK_WORDS.unrolling) }));
   }
 
   /** Tells what kind of mesh it is, and how thick a solid of sheet metal. @param {Mesh} mesh */

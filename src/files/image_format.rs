@@ -49,7 +49,7 @@ pub enum Format {
 /// Image formats with their names in options, their titles in messages, and the first bytes of their files, of which a `?` stands
 /// for any; none where these do not tell the format.
 #[rustfmt::skip]
-const FORMATS: [(Format, &str, &str, &[&[u8]]); 14] = [
+const IMAGE_FORMATS: [(Format, &str, &str, &[&[u8]]); 14] = [
     (Format::Png, "png", "PNG", &[b"\x89PNG\r\n\x1a\n"]),
     (Format::Npy, "npy", "NPY", &[b"\x93NUMPY"]),
     (Format::Tiff, "tiff", "TIFF", &[b"II*\0", b"MM\0*", b"II+\0", b"MM\0+"]),
@@ -78,12 +78,12 @@ impl Format {
     /// Returns the format's name in lower case: `"png"`, `"npy"`, `"tiff"`, `"exr"`, `"pfm"`, `"npz"`, `"jpeg"`,
     /// `"webp"`, `"text"`, `"colmap"`, `"gif"`, `"bmp"`, `"pgm"` or `"hgt"`.
     pub fn name(self) -> &'static str {
-        FORMATS[self as usize].1
+        IMAGE_FORMATS[self as usize].1
     }
 
     /// Detects the format of an image file from the file's first bytes.
     pub fn detect(bytes: &[u8]) -> Option<Format> {
-        (FORMATS.into_iter())
+        (IMAGE_FORMATS.into_iter())
             .find(|(.., signatures)| signatures.iter().any(|magic| begins(bytes, magic)))
             .map(|(format, ..)| format)
             .or_else(|| is_array_archive(bytes).then_some(Format::Npz))
@@ -103,7 +103,7 @@ impl Format {
     }
 
     pub(super) fn title(self) -> &'static str {
-        FORMATS[self as usize].2
+        IMAGE_FORMATS[self as usize].2
     }
 }
 
@@ -119,7 +119,7 @@ impl FromStr for Format {
 
     /// Parses the name of an image format, as [`Format::name`] returns it.
     fn from_str(name: &str) -> Result<Self> {
-        FORMATS
+        IMAGE_FORMATS
             .into_iter()
             .find_map(|(format, known, ..)| (name == known).then_some(format))
             .ok_or_else(|| Error::option("format", name, FORMAT_NAMES))
@@ -214,7 +214,7 @@ mod tests {
 
     #[test]
     fn names_and_first_bytes_name_the_format() {
-        for (i, (format, name, ..)) in FORMATS.into_iter().enumerate() {
+        for (i, (format, name, ..)) in IMAGE_FORMATS.into_iter().enumerate() {
             assert_eq!((format as usize, format.name()), (i, name));
             assert_eq!(format.name().parse(), Ok(format));
             assert!(FORMAT_NAMES.contains(&format!("`{name}`")));

@@ -39,7 +39,7 @@ impl Table {
             is_row && (line.contains([';', '\t']) || is_blank_divided)
         });
         // A table that numbers its rows and columns has nothing in its corner.
-        let mut starts = text.lines().map(|line| line.starts_with(DIVIDERS));
+        let mut starts = text.lines().map(|line| line.starts_with(CELL_DIVIDERS));
         let is_numbered = starts.next() == Some(true) && starts.next() == Some(false);
         let mut values: Vec<f64> = Vec::new();
         let (mut cols, mut rows) = (0, 0);
@@ -61,7 +61,7 @@ impl Table {
             if row.is_empty() {
                 continue;
             }
-            if row.len() + 1 == cols && line.ends_with(DIVIDERS) {
+            if row.len() + 1 == cols && line.ends_with(CELL_DIVIDERS) {
                 row.push(f64::NAN);
             }
             if rows > 0 && row.len() != cols {
@@ -153,13 +153,13 @@ impl Table {
     }
 }
 
-/// What divides the cells of a table, any of which may be empty.
-const DIVIDERS: [char; 3] = [';', '\t', ','];
+/// Letters that divide the cells of a table, any of which may be empty.
+const CELL_DIVIDERS: [char; 3] = [';', '\t', ','];
 
 /// Numbers of a row of a table, NaN for those that are missing; what divides them may also end it.
 fn cells(line: &str, decimal_commas: bool) -> Result<Vec<f64>> {
     let divides = |letter: &char| line.contains(*letter) && !(*letter == ',' && decimal_commas);
-    let Some(divider) = DIVIDERS.into_iter().find(divides) else {
+    let Some(divider) = CELL_DIVIDERS.into_iter().find(divides) else {
         return numbers(line, decimal_commas);
     };
     let line = line.strip_suffix(divider).unwrap_or(line);

@@ -17,7 +17,7 @@ pub struct Faces {
     pub flat: Vec<[f64; 2]>,
     /// Numbers of the three vertices of each of the sheet's triangles, counter-clockwise.
     pub triangles: Vec<[u32; 3]>,
-    /// What each of the sheet's triangles shows of its texture; empty unless a mesh with texture coordinates was laid flat as it
+    /// Part of its texture that each of the sheet's triangles shows; empty unless a mesh with texture coordinates was laid flat as it
     /// is.
     pub textured: Vec<Option<TexturedTriangle>>,
 }

@@ -15,7 +15,7 @@ pub struct Mesh {
     textures: Option<Vec<i32>>,
 }
 
-/// What a triangle shows of a texture.
+/// The part of a texture that a triangle shows.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub struct TexturedTriangle {
@@ -196,7 +196,7 @@ impl Mesh {
         self.textures.as_deref()
     }
 
-    /// Returns what a triangle shows of its texture, if it has one.
+    /// Returns the part of its texture that a triangle shows, if it has one.
     pub(crate) fn textured(&self, triangle: usize) -> Option<TexturedTriangle> {
         let uvs = self.uvs.as_ref()?;
         let texture = self.textures.as_ref().map_or(0, |own| own[triangle]);

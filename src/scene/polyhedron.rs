@@ -37,7 +37,7 @@ pub(crate) struct Polyhedron {
     pub areas: Vec<f64>,
     /// Position of each triangle's corners in the plane of its facet, seen from the side that the normal points to.
     pub flat: Vec<[Point2; 3]>,
-    /// What each triangle shows of its texture; empty without texture coordinates, and where faces were found.
+    /// Part of its texture that each triangle shows; empty without texture coordinates, and where faces were found.
     pub textured: Vec<Option<TexturedTriangle>>,
     /// Distance below which points are one.
     pub rounding: f64,

@@ -3,9 +3,7 @@
 use developable::{Mesh, MeshOptions, fit_mesh};
 use nalgebra::Vector3;
 
-use crate::native::common::closed_meshes::{
-    crossings, cube, normal, points, random, with_positions,
-};
+use crate::closed_meshes::{crossings, cube, normal, points, random, with_positions};
 
 type Point = Vector3<f64>;
 

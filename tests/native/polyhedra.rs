@@ -7,7 +7,7 @@ use developable::pattern::{NetOptions, noisy_faces, rolled_faces};
 use developable::{Exactness, Mesh};
 use nalgebra::{Rotation3, Vector3};
 
-use crate::native::common::closed_meshes::cube;
+use crate::closed_meshes::cube;
 use crate::native::common::irregular::{Random, Tessellation};
 
 /// A roof over 12 × 8: its name, the number of its faces, and its height at a place.

@@ -64,7 +64,10 @@ fn halved(piece: &Piece, [from, to]: [f64; 2], left: u32, out: &mut Vec<Corner>)
 
 /// Unit tangent of a curve; that beside a point where it stands still.
 fn tangent(piece: &Piece, t: f64) -> [f64; 2] {
-    let beside = || less(piece.at((t + 1e-4).min(1.0)), piece.at((t - 1e-4).max(0.0)));
+    /// Difference of the curve's parameter between such a point and those on both sides of it.
+    const BESIDE_STEP: f64 = 1e-4;
+    let at = |t: f64| piece.at(t.clamp(0.0, 1.0));
+    let beside = || less(at(t + BESIDE_STEP), at(t - BESIDE_STEP));
     let velocity = match piece {
         Piece::Line([from, to]) => less(*to, *from),
         Piece::Bezier([a, b, c, d]) => {
@@ -86,7 +89,7 @@ fn dot(u: [f64; 2], v: [f64; 2]) -> f64 {
     u[0] * v[0] + u[1] * v[1]
 }
 
-fn less(p: [f64; 2], q: [f64; 2]) -> [f64; 2] {
+pub(super) fn less(p: [f64; 2], q: [f64; 2]) -> [f64; 2] {
     [p[0] - q[0], p[1] - q[1]]
 }
 

@@ -7,7 +7,7 @@
 //! | layers of SVG | `cut` | `mountain` | `valley` | `tab` | `edge` | `mark` | `leader`, `label` |
 //! | layers of DXF, their colours | `CUT`, 7 | `MOUNTAIN`, 1 | `VALLEY`, 5 | `TAB`, 8 | `EDGE`, 30 | `MARK`, 3 | `LEADER`, `LABEL`, 9 |
 //!
-//! What is printed of a mesh's textures lies below all lines, in SVG in the layer `picture`.
+//! Parts of a mesh's textures are printed below all lines, in SVG in the layer `picture`.
 //!
 //! ```
 //! use developable::drawing::{Drawing, DrawingOptions};

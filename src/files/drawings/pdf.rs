@@ -89,17 +89,19 @@ pub fn write_pdf(drawing: &Drawing, options: &PdfOptions<'_>) -> Result<Vec<u8>>
     let [catalog, tree, font, form, info] = [1, 2, 3, 4, 5].map(Ref::new);
     let page = |i: usize| Ref::new(6 + 2 * i as i32);
     let content = |i: usize| Ref::new(7 + 2 * i as i32);
-    let texture = |sheets: usize, i: usize| Ref::new(6 + (2 * sheets + i) as i32);
     let sheets = match &drawing.pages {
         Some(pages) => spread(pages, title)?,
         None => vec![whole(drawing, title)?],
     };
+    let count = sheets.len();
+    // Textures come after all pages.
+    let texture = |i: usize| Ref::new(6 + (2 * count + i) as i32);
     let mut pdf = Pdf::new();
     pdf.catalog(catalog).pages(tree);
     pdf.document_info(info)
         .title(TextStr(options.title.unwrap_or("Pattern")));
-    let ids = (0..sheets.len()).map(page);
-    pdf.pages(tree).kids(ids).count(sheets.len() as i32);
+    let ids = (0..count).map(page);
+    pdf.pages(tree).kids(ids).count(count as i32);
     pdf.type1_font(font)
         .base_font(Name(b"Helvetica"))
         .encoding_predefined(Name(b"WinAnsiEncoding"));
@@ -110,13 +112,13 @@ pub fn write_pdf(drawing: &Drawing, options: &PdfOptions<'_>) -> Result<Vec<u8>>
     resources.fonts().pair(FONT_RESOURCE, font);
     let mut pictures = resources.x_objects();
     for i in 0..options.textures.len() {
-        pictures.pair(Name(&texture_name(i)), texture(sheets.len(), i));
+        pictures.pair(Name(&texture_name(i)), texture(i));
     }
     pictures.finish();
     resources.finish();
     object.finish();
     for (i, TextureFile { jpeg, size }) in options.textures.iter().enumerate() {
-        let mut picture = pdf.image_xobject(texture(sheets.len(), i), jpeg);
+        let mut picture = pdf.image_xobject(texture(i), jpeg);
         let [width, height] = size.map(|side| side as i32);
         picture.width(width).height(height).bits_per_component(8);
         picture.color_space().device_rgb();

@@ -1,5 +1,6 @@
-//! What is printed on sheets: parts of textures, each by one affine map.
+//! Parts of textures that are printed on the sheets of a drawing, each by one affine map.
 
+use super::arcs::less;
 use crate::drawing::{DrawnSheet, PrintedTriangle};
 
 /// A texture as a file, to be printed on the sheets of a drawing.
@@ -36,9 +37,17 @@ impl PrintedPart {
                 continue;
             };
             let number = triangle.texture as usize;
+            let largest = map
+                .as_flattened()
+                .iter()
+                .fold(0.0, |most: f64, v| most.max(v.abs()));
+            let is_same = |other: &[[f64; 2]; 3]| {
+                let mut pairs = map.as_flattened().iter().zip(other.as_flattened());
+                pairs.all(|(a, b)| (a - b).abs() <= MAP_TOLERANCE * largest)
+            };
             let found = (parts
                 .iter()
-                .rposition(|part| part.texture == number && is_same(&part.map, &map)))
+                .rposition(|part| part.texture == number && is_same(&part.map)))
             .unwrap_or_else(|| {
                 parts.push(PrintedPart {
                     texture: number,
@@ -78,7 +87,6 @@ impl PrintedPart {
 
 /// Computes the affine map from a triangle's texture coordinates to its corners.
 fn affine_map(triangle: &PrintedTriangle) -> Option<[[f64; 2]; 3]> {
-    let less = |a: [f64; 2], b: [f64; 2]| [a[0] - b[0], a[1] - b[1]];
     let ([p, q, r], [a, b, c]) = (triangle.uvs, triangle.corners);
     let ([s, t], [d, e]) = ([less(q, p), less(r, p)], [less(b, a), less(c, a)]);
     let determinant = s[0] * t[1] - s[1] * t[0];
@@ -90,15 +98,4 @@ fn affine_map(triangle: &PrintedTriangle) -> Option<[[f64; 2]; 3]> {
         .iter()
         .all(|v| v.is_finite())
         .then_some(map)
-}
-
-fn is_same(one: &[[f64; 2]; 3], other: &[[f64; 2]; 3]) -> bool {
-    let pairs = one.as_flattened().iter().zip(other.as_flattened());
-    let largest = one
-        .as_flattened()
-        .iter()
-        .fold(0.0, |most: f64, v| most.max(v.abs()));
-    pairs
-        .into_iter()
-        .all(|(a, b)| (a - b).abs() <= MAP_TOLERANCE * largest)
 }

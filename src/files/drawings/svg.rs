@@ -14,7 +14,7 @@ use crate::error::Result;
 
 /// Writes a drawing as an SVG file: its unit is the millimetre, its layers are groups with the ids `cut`, `mountain`,
 /// `valley`, `tab`, `edge`, `mark`, `leader` and `label`, and each element has the number of its sheet as `data-sheet`
-/// and of its crease, if any, as `data-crease`. `textures` are those of the mesh, by their numbers; what is printed of them lies
+/// and of its crease, if any, as `data-crease`. `textures` are those of the mesh, by their numbers; parts of them are printed
 /// below all lines, in a layer with the id `picture`.
 ///
 /// # Errors
@@ -115,7 +115,7 @@ pub fn write_svg(drawing: &Drawing, textures: &[TextureFile<'_>]) -> Result<Vec<
     Ok(document.add(texts).to_string().into_bytes())
 }
 
-/// Creates the layer of what is printed on the sheets, and the textures and clipping paths that it uses.
+/// Creates the layer of the textures that are printed on the sheets, and the textures and clipping paths that it uses.
 fn printed(drawing: &Drawing, textures: &[TextureFile<'_>]) -> Option<(Definitions, Group)> {
     let mut definitions = Definitions::new();
     for (texture, file) in textures.iter().enumerate() {

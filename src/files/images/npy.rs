@@ -3,7 +3,7 @@
 use std::io::{self, Write};
 
 use super::decoded::StoredImage;
-use super::orientation::{TRANSPOSED, oriented};
+use super::orientation::{TRANSPOSED_ORIENTATION, oriented};
 use super::raw_pixels::raw_pixels;
 use crate::error::{Error, Result, check_shape};
 use crate::files::buffer::Buffer;
@@ -54,7 +54,7 @@ pub(super) fn decode(bytes: &[u8]) -> Result<StoredImage> {
         descr.starts_with('>'),
     )?;
     if header.by_columns {
-        (values, _) = oriented(values, size, TRANSPOSED)?;
+        (values, _) = oriented(values, size, TRANSPOSED_ORIENTATION)?;
     }
     Ok(StoredImage {
         height_scale: Some(1.0),

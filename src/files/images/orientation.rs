@@ -3,7 +3,7 @@
 use crate::error::{Result, try_filled};
 
 /// Orientation, by the TIFF format, of a picture whose rows are displayed as columns, and its columns as rows.
-pub(super) const TRANSPOSED: u16 = 5;
+pub(super) const TRANSPOSED_ORIENTATION: u16 = 5;
 
 /// Rotates or mirrors an image's values by its orientation number, so that the image is upright, and returns them with
 /// the new width and height.
@@ -16,7 +16,7 @@ pub(super) fn oriented<T: Copy + Default>(
         return Ok((values, (width, height)));
     }
     // In orientations from 5 on, stored rows are displayed as columns.
-    let turned = orientation >= TRANSPOSED;
+    let turned = orientation >= TRANSPOSED_ORIENTATION;
     let (cols, rows) = if turned {
         (height, width)
     } else {
@@ -31,7 +31,7 @@ pub(super) fn oriented<T: Copy + Default>(
             2 => (y, across),
             3 => (down, across),
             4 => (down, x),
-            TRANSPOSED => (x, y),
+            TRANSPOSED_ORIENTATION => (x, y),
             6 => (across, y),
             7 => (across, down),
             _ => (x, down),

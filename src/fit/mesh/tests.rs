@@ -25,17 +25,13 @@ use crate::math::sym2::Sym2;
 use crate::scene::view::Frame as Frame3;
 use crate::{Error, Heightfield, Input, Lattice, Mesh, Options, Triangulation};
 
-/// Meshes that the native tests use as well, which wasm32 has not.
-#[allow(clippy::duplicate_mod)]
-#[path = "../../../tests/native/common/closed_meshes.rs"]
-mod closed_meshes;
 mod creases;
 mod levels;
 mod orientation;
 mod self_intersections;
 mod v_cycle;
 
-use closed_meshes::{cube, grid, indexed, normal, points, random, with_positions};
+use crate::closed_meshes::{cube, grid, indexed, normal, points, random, with_positions};
 
 /// A pipe around the x axis, with uneven triangles.
 fn pipe(cols: usize, radius: f64, length: f64) -> Mesh {

@@ -1,7 +1,6 @@
 //! What several integration tests share.
 #![allow(dead_code)] // each test uses a part of it
 
-pub mod closed_meshes;
 pub mod conic;
 #[cfg(feature = "formats")]
 pub mod files;

@@ -1,5 +1,5 @@
-use super::closed_meshes::crossings;
 use super::*;
+use crate::closed_meshes::crossings;
 use crate::fit::mesh::self_intersections::separate_self_intersections;
 use crate::fit::mesh::vertex_fans::VertexFans;
 

@@ -222,6 +222,8 @@ doorTest('a whole solve tells how far it is and can be done without; what is no 
   // Three triangles at one edge.
   const fan = { points: [[0, 0, 0], [1, 0, 0], [0, 1, 0.2], [0, -1, 0.1], [0, 0.2, 1]], triangles: [[0, 1, 2], [1, 0, 3], [0, 1, 4]] };
   await open(page, 'fan.obj', obj(/** @type {any} */ (fan)));
+  // It is tried whole first.
+  await page.locator('#whole').waitFor({ state: 'hidden' });
   assert.equal(await page.locator('#whole').isVisible(), false, 'what cannot be solved whole is shown from one side');
   await solve(page);
   assert.match(await page.locator('#whole-verdict').innerText(), /cannot be solved as a whole/);

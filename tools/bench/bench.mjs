@@ -2,6 +2,7 @@
 import { join } from 'node:path';
 import { fileURLToPath } from 'node:url';
 import { native } from '../util/env.mjs';
+import { print } from '../util/output.mjs';
 import { root } from '../util/paths.mjs';
 import { Problem } from '../util/problem.mjs';
 import { run } from '../util/process.mjs';
@@ -31,7 +32,7 @@ const limit = 15 * 60;
 export async function buildNative() {
   const manifest = join(root, 'benches/Cargo.toml');
   const args = ['build', '--release', '--manifest-path', manifest, '--target-dir', target];
-  const { ok, failure } = await run('cargo', args, { env: native, cwd: root, show: true });
+  const { ok, failure } = await run('cargo', args, { env: native, cwd: root, show: print });
   if (!ok) throw new Problem(`The native benchmark was not built (${failure}): see what cargo says above.`);
 }
 

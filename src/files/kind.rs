@@ -47,6 +47,7 @@ pub(super) const CONVERT_RAW: &str =
 const SAVE_AS_PLY: &str = "let CloudCompare save it as PLY";
 const EXPORT_FLOATS: &str =
     "let Gwyddion or the program that wrote it save a TIFF or OpenEXR image of floats, or text";
+const SAVE_AS_STL: &str = "let Gmsh save it as STL";
 const SAVE_AS_GLB: &str = "let a 3D program such as Blender save it as GLB";
 const SAVE_PAGES: &str =
     "save its page as a picture, for example by `pdftoppm -r 300 -jpeg file.pdf page`";
@@ -63,7 +64,7 @@ const DICOM_START: [u8; 132] = {
 /// Formats that are not read: their names, what to do about them, and bytes of which one is in each file. A file begins with
 /// them, and a `?` among them stands for any; a tag of XML or HTML may stand further behind.
 #[rustfmt::skip]
-const FOREIGN_FORMATS: [(&str, &str, &[&[u8]]); 53] = [
+const FOREIGN_FORMATS: [(&str, &str, &[&[u8]]); 56] = [
     ("AVIF", SAVE_AS_JPEG, &[b"????ftypavi"]),
     ("HEIC", "save it as JPEG (an iPhone shares photos as JPEG with Settings > Camera > Formats > Most Compatible)",
         &[b"????ftyphei", b"????ftyphev", b"????ftypmif1", b"????ftypmsf1"]),
@@ -100,8 +101,11 @@ const FOREIGN_FORMATS: [(&str, &str, &[&[u8]]); 53] = [
     ("LAS", SAVE_AS_PLY, &[b"LASF"]),
     ("E57", SAVE_AS_PLY, &[b"ASTM-E57"]),
     ("PCD", SAVE_AS_PLY, &[b"# .PCD", b"VERSION .7", b"VERSION 0.7"]),
-    ("VTK", "let ParaView save it as PLY", &[b"# vtk", b"<VTKFile"]),
-    ("Gmsh", "let Gmsh save it as STL", &[b"$MeshFormat"]),
+    ("VTK or XDMF", "let ParaView save it as PLY", &[b"# vtk", b"<VTKFile", b"<Xdmf"]),
+    ("Gmsh", SAVE_AS_STL, &[b"$MeshFormat"]),
+    ("Medit", SAVE_AS_STL, &[b"MeshVersionFormatted"]),
+    ("Nastran", SAVE_AS_STL, &[b"BEGIN BULK", b"SOL ", b"CEND", b"NASTRAN ", b"$ Nastran", b"GRID "]),
+    ("Abaqus", SAVE_AS_STL, &[b"*HEADING", b"*Heading", b"*heading", b"*NODE", b"*Node", b"*node", b"** "]),
     ("Collada", SAVE_AS_GLB, &[b"<COLLADA"]),
     ("FBX", SAVE_AS_GLB, &[b"Kaydara FBX", b"; FBX"]),
     ("Blender's own format", SAVE_AS_GLB, &[b"BLENDER"]),
@@ -275,6 +279,13 @@ mod tests {
                 "web page",
             ),
             (&b"\x80\x04\x95numpy"[..], "pickle of Python"),
+            (&b"MeshVersionFormatted 1\nDimension 3\n"[..], "Medit"),
+            (&b"*Heading\n** by a solver\n*Node\n"[..], "Abaqus"),
+            (&b"SOL 101\nCEND\nBEGIN BULK\n"[..], "Nastran"),
+            (
+                &b"<?xml version=\"1.0\"?>\n<Xdmf Version=\"3.0\">"[..],
+                "VTK or XDMF",
+            ),
             (&b"qoif\0\0\x01\0\0\0\x01\0\x04\0"[..], "QOI"),
             (&b"DDS \x7c\0\0\0"[..], "DDS"),
             (&b"\xabKTX 20\xbb\r\n\x1a\n"[..], "KTX"),
@@ -303,6 +314,7 @@ mod tests {
             told(b"Dear Sir or Madam,", Purpose::Mesh)
                 .ends_with("meshes are read from OBJ, PLY, STL, glTF, GLB, 3MF, OFF and XYZ")
         );
+        assert!(told(b"*NODE\n1, 0, 0, 0\n", Purpose::Mesh).contains("let Gmsh save it as STL"));
         assert!(told(&[7; 100], Purpose::Photo).contains("of unknown format"));
         assert!(told(&[7; 100], Purpose::Heights).contains("gdal_translate"));
         assert_eq!(refused(b"", Purpose::Mesh).code(), "FORMAT");

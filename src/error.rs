@@ -351,13 +351,16 @@ pub fn check_count(what: &'static str, rows: usize, cols: usize, found: usize) -
 /// Makes a vector of `len` copies of `value`, or returns [`Error::OutOfMemory`] if it cannot be allocated. `what` names
 /// the array.
 pub fn try_filled<T: Clone>(what: &'static str, len: usize, value: T) -> Result<Vec<T>> {
-    let mut out = Vec::new();
-    out.try_reserve_exact(len).map_err(|_| Error::OutOfMemory {
-        what,
-        bytes: len.saturating_mul(size_of::<T>()),
-    })?;
-    out.resize(len, value);
-    Ok(out)
+    // Whether there is room is asked first, so that `vec!` may take memory that the system has cleared: threads touch
+    // its pages when they first write there, side by side, instead of one thread here.
+    let mut room: Vec<T> = Vec::new();
+    room.try_reserve_exact(len)
+        .map_err(|_| Error::OutOfMemory {
+            what,
+            bytes: len.saturating_mul(size_of::<T>()),
+        })?;
+    drop(room);
+    Ok(vec![value; len])
 }
 
 /// Returns an option's value if it is finite and above zero, or [`Error::Option`]. `name` is the option's.

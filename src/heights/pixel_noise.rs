@@ -1,6 +1,8 @@
 //! Noise of an image's pixels, measured before they are sampled on a lattice, which smooths it; and heights that are rounded
 //! to multiples of a step.
 
+use rustc_hash::FxHashSet;
+
 use super::heightfield::HeightImage;
 use crate::math::statistics::{MAD_TO_SIGMA, median};
 
@@ -17,18 +19,24 @@ const EQUAL_HEIGHT_TOLERANCE: f64 = 1e-3;
 /// Finds the quantisation step of heights, of which NaN are missing: the smallest difference between two of them, if all
 /// other differences are multiples of it. `None` if too few heights are equal or there is no such step.
 pub(crate) fn quantisation_step(heights: &[f64]) -> Option<f64> {
-    let mut heights: Vec<f64> = heights.iter().copied().filter(|z| z.is_finite()).collect();
-    let count = heights.len();
-    heights.sort_unstable_by(f64::total_cmp);
-    let size = heights.first()?.abs().max(heights.last()?.abs());
+    let finite = || heights.iter().copied().filter(|z| z.is_finite());
+    let size = finite().fold(0.0f64, |size, z| size.max(z.abs()));
     let rounding = 16.0 * f64::EPSILON * size;
-    heights.dedup_by(|a, b| *a - *b <= rounding);
-    if heights.len() < MIN_QUANTISED_HEIGHTS
-        || heights.len() as f64 > MAX_DISTINCT_HEIGHTS * count as f64
-    {
+    let most = MAX_DISTINCT_HEIGHTS * finite().count() as f64;
+    let mut distinct = FxHashSet::default();
+    for z in finite() {
+        if distinct.insert((z / rounding).round() as i64) && distinct.len() as f64 > most {
+            return None;
+        }
+    }
+    let mut distinct: Vec<i64> = distinct.into_iter().collect();
+    distinct.sort_unstable();
+    // Heights that are equal but for rounding can be in two neighbouring classes.
+    distinct.dedup_by(|a, b| *a - *b <= 1);
+    if distinct.len() < MIN_QUANTISED_HEIGHTS {
         return None;
     }
-    let gaps = heights.windows(2).map(|pair| pair[1] - pair[0]);
+    let gaps = (distinct.windows(2)).map(|pair| (pair[1] - pair[0]) as f64 * rounding);
     let step = gaps.clone().fold(f64::INFINITY, f64::min);
     let multiple =
         |gap: f64| (gap / step - (gap / step).round()).abs() <= EQUAL_HEIGHT_TOLERANCE * gap / step;

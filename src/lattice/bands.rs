@@ -8,7 +8,7 @@ use crate::math::fork::HAS_POOLS;
 
 /// Number of active vertices in a band: large enough that handing a band to another thread costs little beside the work
 /// on it, and few enough that the arrays of a band stay in a core's cache.
-const BAND_VERTICES: usize = 8192;
+const BAND_VERTICES: usize = 4096;
 
 /// Maximum number of bands of a domain.
 const MAX_BANDS: usize = 32;
@@ -176,9 +176,9 @@ mod tests {
         is_active[501 * stride..].fill(false);
         let active = RowRuns::new(&is_active, stride, |is_active| is_active);
         let bands = Bands::new(&active, 500, stride);
-        assert_eq!(bands.len(), 30);
+        assert_eq!(bands.len(), 32);
         for band in 0..bands.len() {
-            assert!((16..=18).contains(&bands.rows(band, 500).len()), "{band}");
+            assert!((15..=17).contains(&bands.rows(band, 500).len()), "{band}");
         }
     }
 }

@@ -94,7 +94,7 @@ fn the_report_says_why_there_are_not_more_threads() {
     assert_eq!(threads(200, auto.threads(1)), (1, ThreadLimit::Options));
     let (most, limit) = threads(200, auto.threads(256));
     assert!(
-        (2..=5).contains(&most) && limit == ThreadLimit::Vertices,
+        (2..=11).contains(&most) && limit == ThreadLimit::Vertices,
         "{most}"
     );
     let expected = if cores <= most {

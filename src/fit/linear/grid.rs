@@ -77,7 +77,7 @@ impl Grid {
     }
 
     /// Sets ρ, a typical fidelity weight `2λw`, by which the matrix is scaled, and the weight of `each` vertex.
-    pub(crate) fn set(&mut self, rho: f64, typical: f64, each: impl Fn(usize) -> f64) {
+    pub(crate) fn set(&mut self, rho: f64, typical: f64, each: impl Fn(usize) -> f64 + Sync) {
         let [own, other, _] = self.map.normal([1.0, 0.0, 0.0]).map(|q| rho * q);
         let as_centre = 4.0 * (3.0 * own + 6.0 * other);
         self.diagonal = typical + self.stiffness(rho);
@@ -98,10 +98,15 @@ impl Grid {
             PerCell::Same(values) => Some(lanes::double(values[0])),
             PerCell::Each(_) => None,
         };
-        for row in 1..=self.domain.rows() {
-            let offsets = self.domain.neighbour_offsets(row);
-            for &run in self.domain.active().row(row) {
-                let inverse = part_mut(&mut self.inverse_diagonal, run);
+        let (domain, stencils, diagonal) = (&*self.domain, &self.stencils, self.diagonal);
+        let bands = domain.bands();
+        let mut inverses: Vec<_> = bands.split(&mut self.inverse_diagonal).collect();
+        fork::for_each(&mut inverses, |band, inverses| {
+            let runs = (bands.rows(band, domain.rows()))
+                .flat_map(|row| domain.active().row(row).iter().map(move |run| (row, *run)));
+            for (row, run) in runs {
+                let offsets = domain.neighbour_offsets(row);
+                let inverse = inverses.run_mut(run);
                 let Run { start, end } = run;
                 if let Some(count) = same {
                     let n = end - start;
@@ -112,13 +117,13 @@ impl Grid {
                         let others: u8 = around.iter().map(|roles| one(roles[i])).sum();
                         let centre = f64::from(one(here[i])) * count * as_centre;
                         let entry = each(start + i) + centre + f64::from(others) * count * own;
-                        inverse[i] = lanes::single(self.diagonal / entry);
+                        inverse[i] = lanes::single(diagonal / entry);
                     }
                     continue;
                 }
                 for (cell, inverse) in (start..end).zip(inverse) {
                     let around = offsets.iter().map(|o| cell.wrapping_add_signed(*o));
-                    let count = |cell: usize| lanes::double(self.stencils.at(cell));
+                    let count = |cell: usize| lanes::double(stencils.at(cell));
                     let others: f64 = around.filter(|n| interior(*n)).map(count).sum();
                     let centre = if interior(cell) {
                         count(cell) * as_centre
@@ -126,10 +131,10 @@ impl Grid {
                         0.0
                     };
                     let entry = each(cell) + centre + others * own;
-                    *inverse = lanes::single(self.diagonal / entry);
+                    *inverse = lanes::single(diagonal / entry);
                 }
             }
-        }
+        });
         // With 0 in its place, smoothing leaves a constrained cell alone.
         for cell in &self.constrained {
             self.inverse_diagonal[*cell as usize] = 0.0;

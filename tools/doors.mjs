@@ -18,11 +18,11 @@ const DOORS = {
     return [await page.locator('#page-canvas').screenshot(), await page.locator('#flat-canvas').screenshot()];
   },
   model: async (page) => {
-    await page.locator('#whole[aria-busy="false"]').waitFor();
+    await page.locator('[data-whole] #stage[aria-busy="false"]').waitFor();
     // The first turn has to end.
     await page.waitForTimeout(3000);
-    const model = await page.locator('#whole-canvas').screenshot();
-    await page.locator('#whole-sheets').click();
+    const model = await page.locator('#space-canvas').screenshot();
+    await page.locator('#end-sheets').click();
     return [model, await page.locator('.preview[aria-busy="false"] img').screenshot()];
   },
   scan: async (page) => {

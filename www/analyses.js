@@ -1,10 +1,9 @@
 /** Analyses of a result: curvatures, patches, rulings, unrolling and patterns, in parallel to the next run. */
-import { TASK_WORDS } from './messages.js';
 import { downsample } from './surface/downsampling.js';
 import { resultImage } from './surface/derived-data.js';
 import { MAX_SHEET_CURVATURE_RADIANS } from './surface/gaussian-curvature.js';
 import { transferToWorker, callWorker } from './surface/worker-client.js';
-import { Tasks, tellStep } from './worker-task.js';
+import { Tasks } from './worker-task.js';
 import { heightsOf } from './session.js';
 
 /** @import {Api, Surface} from './api.js' */
@@ -80,7 +79,7 @@ export class Analyses {
    */
   unroll({ surface }, tell) {
     return this.#tasks.answer(surface, 'sheet', async (worker) => {
-      const { triangles, places, stretches, report, verdict } = await worker.unroll(surface, { onProgress: tellStep(tell, TASK_WORDS.unrolling) });
+      const { triangles, places, stretches, report, verdict } = await worker.unroll(surface, { onProgress: ({ fraction }) => tell({ fraction, task: 'unrolling' }) });
       const picture = await transferToWorker('sheetStrainImage', [triangles, places, stretches], triangles, places, stretches);
       return { picture, report, verdict };
     });
@@ -96,7 +95,7 @@ export class Analyses {
     const { surface } = result;
     const { width, height } = resultImage(result);
     const source = Math.max(width, height) < MAX_UNREDUCED_RATIO * PATTERN_SIDE_PIXELS ? surface : reducedImage(result, PATTERN_SIDE_PIXELS);
-    return this.#tasks.answer(surface, `pattern ${JSON.stringify(options)}`, (worker) => worker.pattern(source, { ...options, onProgress: tellStep(tell, TASK_WORDS.cutting) }));
+    return this.#tasks.answer(surface, `pattern ${JSON.stringify(options)}`, (worker) => worker.pattern(source, { ...options, onProgress: ({ fraction }) => tell({ fraction, task: 'cutting' }) }));
   }
 
   /** @param {Drawing} drawing */

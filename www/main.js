@@ -3,7 +3,6 @@ import { isStart, stateOf } from './address.js';
 import { Analyses } from './analyses.js';
 import { connect } from './api.js';
 import { element } from './dom.js';
-import { analysisPanel } from './panels/analysis.js';
 import { detailsPanel } from './panels/details.js';
 import { watchDrops } from './panels/drop.js';
 import { filesPanel } from './panels/files.js';
@@ -18,11 +17,10 @@ import { openingPanel } from './panels/opening.js';
 import { pagePanel } from './panels/page.js';
 import { reportPanel } from './panels/report.js';
 import { runPanel } from './panels/run.js';
-import { savePanel } from './panels/save.js';
 import { settingsPanel } from './panels/settings.js';
 import { sourcePanel } from './panels/source.js';
 import { stripPanel } from './panels/strip.js';
-import { spacePanel } from './panels/space.js';
+import { heightsPanel } from './panels/heights.js';
 import { meshFitPanel } from './panels/mesh-fit.js';
 import { Session } from './session.js';
 import { MeshFit } from './mesh-fit.js';
@@ -36,24 +34,22 @@ async function start() {
   const started = isStart(location.hash) || photo || whole ? undefined : session.start();
   const analyses = new Analyses(session.api);
   const meshFit = new MeshFit(session.api);
-  const show = spacePanel(session);
+  const { stage, heights } = heightsPanel(session, analyses);
   const { adopt } = settingsPanel(session, meshFit);
   const strip = stripPanel(session, adopt);
   openingPanel(session);
-  const meshFitView = meshFitPanel(session, meshFit);
-  runPanel(session);
+  const meshFitView = meshFitPanel(session, meshFit, stage, heights);
+  runPanel(session, meshFit, stage);
   reportPanel(session, analyses);
-  const views = analysisPanel(session, analyses, show);
-  headlinePanel(session, analyses);
-  savePanel(session, analyses, meshFitView);
-  const source = sourcePanel(session, views.choose, (files) => void addressSync.rememberFiles(files), meshFitView.begin, (file) => void files.openColour(file));
+  headlinePanel(session, analyses, stage, heights);
+  const source = sourcePanel(session, stage.choose, (files) => void addressSync.rememberFiles(files), meshFitView.begin, (file) => void files.openColour(file));
   const page = pagePanel(session.api, (photos) => void addressSync.rememberPhotos(photos), (states) => addressSync.rememberOutlines(states));
   const mode = modePanel(session, (entered) => {
     if (entered === 'photo') page.begin();
     addressSync.onModeChange();
   });
   const files = filesPanel(session, mode, source, page);
-  const gallery = galleryPanel(session, { adopt, choose: views.choose, strip: strip.show, enter: () => mode.enter('heights') });
+  const gallery = galleryPanel(session, { adopt, choose: stage.choose, strip: strip.show, enter: () => mode.enter('heights') });
   element('notice-close', HTMLButtonElement).addEventListener('click', hideNotice);
   watchDrops((dropped) => void files.open(dropped));
   homePanel((chosen, door) => void files.open(chosen, door === 'page' || undefined), {
@@ -67,7 +63,7 @@ async function start() {
     },
   });
   const addressSync = addressSyncPanel(session, {
-    adopt, choose: views.choose, openExample: source.openExample, openFiles: source.openFiles, reinterpretFile: source.reinterpretFile, gallery, mode,
+    adopt, choose: stage.choose, openExample: source.openExample, openFiles: source.openFiles, reinterpretFile: source.reinterpretFile, gallery, mode,
     openHeights: (stored) => {
       mode.enter('heights');
       void source.openFiles(stored);

@@ -1,7 +1,6 @@
 /** The fit of a whole mesh, and analyses of the result. */
-import { Tasks, tellStep } from './worker-task.js';
+import { Tasks } from './worker-task.js';
 import { Events } from './events.js';
-import { TASK_WORDS } from './messages.js';
 import { boxOf } from './surface/triangles.js';
 
 /** @import {Api, Mesh} from './api.js' */
@@ -17,6 +16,7 @@ const RULINGS_PER_LONGEST_SIDE = 30;
  * @property {Mesh} start a solve has begun
  * @property {Progress} progress
  * @property {MeshSurface} result
+ * @property {boolean} cancelled a solve was cancelled; whether there is a result from before
  * @property {unknown} failure error of a solve
  * @property {null} left the mesh was closed
  */
@@ -65,13 +65,14 @@ export class MeshFit extends Events {
     }
   }
 
-  /** Restores the result before the solve that was stopped. @returns {boolean} whether there is a result now */
-  restore() {
+  /** Cancels the solve, and restores the result before it. */
+  cancel() {
+    this.stop();
     if (!this.surface && this.#previousSurface) {
       this.surface = this.#previousSurface;
       this.emit('result', this.surface);
     }
-    return this.surface !== null;
+    this.emit('cancelled', this.surface !== null);
   }
 
   /** Cancels all running tasks; their promises reject. */
@@ -100,7 +101,7 @@ export class MeshFit extends Events {
 
   /** @param {Mesh} mesh @param {Tell} tell */
   unrolled(mesh, tell) {
-    return this.#tasks.answer(mesh, 'unrolled', (worker) => worker.unrollMesh(geometryOf(mesh), { onProgress: tellStep(tell, TASK_WORDS.unrolling) }));
+    return this.#tasks.answer(mesh, 'unrolled', (worker) => worker.unrollMesh(geometryOf(mesh), { onProgress: ({ fraction }) => tell({ fraction, task: 'unrolling' }) }));
   }
 
   /** Tells what kind of mesh it is, and how thick a solid of sheet metal. @param {Mesh} mesh */

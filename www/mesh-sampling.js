@@ -14,7 +14,7 @@ import { callWorker } from './surface/worker-client.js';
  * @param {(signal: AbortSignal) => Promise<Mesh>} load
  * @param {SampleMeshOptions} options
  * @param {string} doing what could not be done, for the message if it fails
- * @param {string} [task] what its progress says
+ * @param {import('./messages.js').Task} [task]
  */
 export function openSampledMesh(session, origin, load, options, doing, task) {
   return session.open(doing, async (signal) => {

@@ -32,11 +32,15 @@ export const VIEW_WORDS = {
 export const TASK_WORDS = {
   reading: 'Reading the file',
   sampling: 'Looking at it from there',
+  building: 'Building the 3D surface',
   view: 'Preparing this view',
   unrolling: 'Laying it flat',
   cutting: 'Cutting the sheets',
   solving: 'Solving',
+  flattening: 'Flattening the page',
+  writing: 'Writing the file',
 };
+/** @typedef {keyof typeof TASK_WORDS} Task */
 
 /** Messages about files that were dropped on the wrong part of the page, or that cannot be read. */
 export const FILE_WORDS = {
@@ -61,7 +65,6 @@ export const DEPTH_WORDS = {
   assumed: (angle, scale) => `Assumed: ${angle}° field of view, depths in ${scale === 1 ? 'metres' : scale === 0.001 ? 'millimetres' : `steps of ${number(scale)} m`}. Correct it under “Input” if lengths are off.`,
   maybe: 'These may be depths from a camera. If so, build the 3D surface below. Now the page takes them for heights.',
   failed: 'The 3D surface could not be built',
-  building: 'Building the 3D surface',
   /** @param {import('../pkg/types.js').PhotoCamera} camera */
   camera: ({ fx, fy, cx, cy, k1, k2, k3, p1, p2 }) => `Focal lengths ${number(fx, 5)} and ${number(fy, 5)}, centre ${number(cx, 5)}, ${number(cy, 5)}${[k1, k2, k3, p1, p2].some(Boolean) ? ', and a lens that distorts' : ''}.`,
 };
@@ -120,8 +123,6 @@ export const STRIP_WORDS = {
 export const MESH_FIT_WORDS = {
   kept: 'Cancelled. You see the surface from before.',
   solving: 'Solving the whole mesh…',
-  /** @param {number} n */
-  iterations: (n) => `${count(n)} ${n === 1 ? 'iteration' : 'iterations'}.`,
   solved: 'Done: the whole mesh.',
   unsolved: 'The mesh cannot be solved as a whole.',
   /** @param {string} share */
@@ -216,7 +217,6 @@ export const SOLID_WORDS = {
 /** Messages and labels of the save dialog. */
 export const SAVE_WORDS = {
   pdf: 'to print or to send',
-  write: 'Writing the file',
   cancelled: 'Cancelled.',
   pdfOfTwo: 'to print or to send, one page for each',
   working: 'Writing the file…',
@@ -246,15 +246,14 @@ export const HEADLINE_WORDS = {
   opened: (name) => `Opened ${name}.`,
 };
 
-/** Messages about the progress of a run. */
+/** What the progress of a solve says. */
 export const RUN_WORDS = {
-  begun: 'Solving…',
-  stopping: 'Stopping…',
-  /** @param {number} level @param {string} time */
-  coarse: (level, time) => `Coarse solve, ${count(level)} finer ${level === 1 ? 'one' : 'ones'} to come, ${time}`,
-  /** @param {number | undefined} gap @param {number} iterations @param {string} time */
-  fine: (gap, iterations, time) =>
-    `${gap !== undefined && gap < MAX_MENTIONED_GAP ? `Within ${percentAtMost(gap)} of the best possible, ` : ''}${count(iterations)} iterations, ${time}`,
+  stopping: 'Stopping',
+  /** @param {number} level */
+  coarse: (level) => `Coarse solve, ${count(level)} finer ${level === 1 ? 'one' : 'ones'} to come`,
+  /** @param {number | undefined} gap @param {number} iterations */
+  fine: (gap, iterations) =>
+    `${gap !== undefined && gap < MAX_MENTIONED_GAP ? `Within ${percentAtMost(gap)} of the best possible` : TASK_WORDS.solving}, ${count(iterations)} ${iterations === 1 ? 'iteration' : 'iterations'}`,
 };
 
 /**

@@ -68,7 +68,7 @@ import { prepareInput, prepareResult } from './surface/derived-data.js';
  * @property {Result} result
  * @property {null} cleared the last result was discarded because another input was opened
  * @property {Phase} phase
- * @property {string | null} opening a file is being opened, with what its progress says; null when that has ended
+ * @property {import('./messages.js').Task | null} opening a file is being opened, by this task; null when that has ended
  * @property {null} unsolved a run has ended without a result
  * @property {{ doing: string, error: unknown }} failure
  */
@@ -173,7 +173,7 @@ export class Session extends Events {
    * Loads another input and makes it the present one. If loading fails, the present input and its run stay.
    * @param {string} doing what could not be done, for the message if loading fails
    * @param {(signal: AbortSignal) => Promise<Input>} load `signal` aborts when another file is opened instead
-   * @param {string} [task] what its progress says
+   * @param {import('./messages.js').Task} [task]
    * @returns {Promise<boolean>} whether the input was opened
    */
   async open(doing, load, task) {
@@ -199,7 +199,7 @@ export class Session extends Events {
    * @template T
    * @param {string} doing what could not be done, for the message if loading fails
    * @param {(signal: AbortSignal) => Promise<T>} load `signal` aborts when another file is opened instead
-   * @param {string} [task] what its progress says
+   * @param {import('./messages.js').Task} [task]
    * @returns {Promise<T | undefined>} undefined if it failed or was cancelled
    */
   async load(doing, load, task) {

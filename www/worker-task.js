@@ -88,10 +88,3 @@ export class Tasks {
     this.#runningTasks = 0;
   }
 }
-
-/**
- * Tells how far a step of a worker is, in the step's words.
- * @param {(progress: import('./panels/waiting.js').TaskProgress) => void} tell
- * @param {string} label
- */
-export const tellStep = (tell, label) => (/** @type {{ fraction: number }} */ { fraction }) => tell({ fraction, label });

@@ -54,7 +54,7 @@ pageTest('everything can be done by keyboard', async (page) => {
   await tabTo(page, '#gap');
   // The last option is the smallest gap: a run long enough to be cancelled.
   await page.keyboard.press('End');
-  await tabTo(page, '#cancel');
+  await tabTo(page, '#running-cancel');
   await page.keyboard.press('Space');
   await settled(page);
   assert.equal(await page.evaluate(() => document.activeElement?.id), 'run', 'the focus goes to what solves it again');
@@ -108,7 +108,7 @@ pageTest('every view fits on a phone, light and dark, with the pixels of the dev
     await page.emulateMedia({ colorScheme });
     for (const radio of await page.locator('label:not([hidden]) > input[name="view"]').all()) {
       await choose(radio);
-      await page.locator('#analysis[aria-busy="false"]').waitFor({ state: 'attached' });
+      await page.locator('#stage[aria-busy="false"]:has(#analysis)').waitFor({ state: 'attached' });
       await painted(page);
       assert.ok(await excess(page) <= 0, `${await radio.inputValue()}: ${await excess(page)} pixels, ${colorScheme}`);
     }

@@ -68,7 +68,7 @@ pageTest('axe finds nothing wrong with any view', async (page) => {
   if (!(await page.locator('#drawer').isVisible())) await page.locator('#certificate').click();
   for (const radio of await page.locator('label:not([hidden]) > input[name="view"]').all()) {
     await choose(radio);
-    await page.locator('#analysis[aria-busy="false"]').waitFor({ state: 'attached' });
+    await page.locator('#stage[aria-busy="false"]:has(#analysis)').waitFor({ state: 'attached' });
     await soundEverywhere(page, await radio.inputValue(), { within: 'section[aria-label="Surfaces"]' });
   }
   // It does see what is wrong.
@@ -91,7 +91,7 @@ pageTest('with more contrast, text has 7 to 1, and borders are seen', async (pag
   // With the system's colours, what has no border otherwise is told from its ground.
   await page.emulateMedia({ contrast: 'no-preference', forcedColors: 'active' });
   await painted(page);
-  const drawn = await page.evaluate(() => ['.frame', '#progress'].map((one) => getComputedStyle(/** @type {Element} */ (document.querySelector(one))).borderTopWidth));
+  const drawn = await page.evaluate(() => ['.frame', '#running progress'].map((one) => getComputedStyle(/** @type {Element} */ (document.querySelector(one))).borderTopWidth));
   assert.deepEqual(drawn, ['1px', '1px']);
 });
 
@@ -110,9 +110,9 @@ doorTest('axe finds nothing wrong with a whole mesh', async (page) => {
   await soundEverywhere(page, 'a mesh');
   await choose(page.getByRole('radio', { name: 'Whole mesh', exact: true }));
   for (const view of ['shaded', 'gaussian', 'patches', 'sheet']) {
-    await page.locator('#whole[aria-busy="false"]').waitFor();
-    await choose(page.locator(`input[name="whole-view"][value="${view}"]`));
-    await page.locator('#whole[aria-busy="false"]').waitFor();
+    await page.locator('[data-whole] #stage[aria-busy="false"]').waitFor();
+    await choose(page.locator(`input[name="view"][value="${view}"]`));
+    await page.locator('[data-whole] #stage[aria-busy="false"]').waitFor();
     await soundEverywhere(page, `whole, ${view}`);
   }
 });

@@ -62,10 +62,10 @@ pageTest('behind each door is an example, one click away, and Back leads to the 
   await page.getByRole('link', { name: 'developable' }).click();
 
   await page.locator('[data-example="model"]').click();
-  await page.locator('#whole[aria-busy="false"]').waitFor();
+  await page.locator('[data-whole] #stage[aria-busy="false"]').waitFor();
   assert.match(await page.locator('#mesh-name').innerText(), /house \(OBJ\)/);
   assert.equal(await page.locator('.primary:visible').count(), 1, 'one main button');
-  await page.locator('#whole-sheets').click();
+  await page.locator('#end-sheets').click();
   await page.locator('#save-title', { hasText: /80 mm/ }).waitFor();
   await page.keyboard.press('Escape');
   await page.getByRole('link', { name: 'developable' }).click();

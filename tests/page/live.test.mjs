@@ -45,7 +45,7 @@ pageTest('while λ is dragged, pictures follow, and the last wish is certified',
     slider.value = '4';
     slider.dispatchEvent(new Event('input', { bubbles: true }));
     await seen;
-    /** @type {HTMLButtonElement} */ (document.querySelector('#cancel')).click();
+    /** @type {HTMLButtonElement} */ (document.querySelector('#running-cancel')).click();
   });
   await settled(page);
   assert.equal(await page.locator('#result-mark').isVisible(), false);
@@ -70,7 +70,7 @@ pageTest('what grows with the size of a result is done in workers, and a picture
   assert.ok(previews > 0, 'there was a picture before the result');
   for (const view of ['gaussian', 'rulings', 'patches', 'sheet']) {
     await choose(page.locator(`input[name="view"][value="${view}"]`));
-    await page.locator('#analysis[aria-busy="false"]').waitFor({ state: 'attached' });
+    await page.locator('#stage[aria-busy="false"]:has(#analysis)').waitFor({ state: 'attached' });
   }
   const { result } = await debug.send('Profiler.takePreciseCoverage');
   /** @param {string} file @param {string} [name] */

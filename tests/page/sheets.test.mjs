@@ -49,7 +49,7 @@ test('pairs are read from a text, and put into it and out again', () => {
 
 doorTest('a fold that is clicked in the drawing is cut', async (page) => {
   await openWhole(page, 'box.obj', obj({ points, triangles }));
-  await page.locator('#whole-sheets').click();
+  await page.locator('#end-sheets').click();
   const image = page.locator('.preview[aria-busy="false"] img');
   await image.waitFor();
   const [toCut, toJoin] = [page.getByLabel('Cut between pieces'), page.getByLabel('Fold between pieces')];
@@ -87,7 +87,7 @@ doorTest('a solid of sheet metal is cut as the blank that it is bent from', asyn
   }
   const points = [0, width].flatMap((y) => section.map(([x, z]) => /** @type {[number, number, number]} */ ([x, y, z])));
   await openWhole(page, 'angle.obj', obj({ points, triangles }));
-  await page.locator('#whole-sheets').click();
+  await page.locator('#end-sheets').click();
   await page.locator('.preview[aria-busy="false"] img').waitFor();
   await page.getByLabel('Material').selectOption('metal');
   await page.getByText('2 mm thick: this is the blank').waitFor();

@@ -58,7 +58,7 @@ pageTest('an open mesh becomes a shell, and a caution is said', async (page) => 
   await page.locator('#mesh-name', { hasText: 'tent' }).waitFor();
   const whole = page.getByRole('radio', { name: 'Whole mesh', exact: true });
   if (!(await whole.isChecked())) await whole.locator('..').click();
-  await page.locator('#whole-file:enabled').click();
+  await page.locator('#end-file:enabled').click();
   const { bytes } = await saveAs(page, 'Solid STL');
   const { open, volume } = measure(bytes);
   assert.equal(open, 0, 'closed');

@@ -69,7 +69,7 @@ pageTest('in space the surface is turned and divided', async (page) => {
   await page.getByRole('button', { name: 'From above' }).click();
 
   await choose(page.getByRole('radio', { name: 'Patches', exact: true }));
-  await page.locator('#analysis[aria-busy="false"]').waitFor({ state: 'attached' });
+  await page.locator('#stage[aria-busy="false"]:has(#analysis)').waitFor({ state: 'attached' });
   await page.mouse.move(x + 40, y + 12);
   assert.match(await page.locator('#reading').innerText(), /patch \d/);
   assert.ok(correlation(above, await brightness(page, '#space-canvas')) < 0.9, 'in colours');
@@ -107,7 +107,7 @@ pageTest('an answer that takes long can be done without, and asked for again; th
     return texts;
   });
   await page.getByRole('button', { name: 'Try again' }).click();
-  await page.locator('#analysis[aria-busy="false"]').waitFor();
+  await page.locator('#stage[aria-busy="false"]:has(#analysis)').waitFor();
   assert.match((await told.jsonValue()).join(), /Laying it flat, [1-9]\d?\s%/, 'how far it is');
   assert.equal(await page.locator('#divider').isVisible(), false);
   // What is read of the flat sheet: of a cylinder, hardly any strain.

@@ -20,16 +20,16 @@ async function solve(page, way = 'Whole mesh') {
 }
 
 /** @param {Page} page */
-const done = (page) => page.locator('#whole[aria-busy="false"]').waitFor();
+const done = (page) => page.locator('[data-whole] #stage[aria-busy="false"]').waitFor();
 
 /** @param {Page} page @param {string} view */
 async function view(page, view) {
-  await choose(page.locator(`input[name="whole-view"][value="${view}"]`));
+  await choose(page.locator(`input[name="view"][value="${view}"]`));
   await done(page);
 }
 
 /** @param {Page} page @param {string} name */
-const told = (page, name) => page.locator('#whole-about .figures div').filter({ has: page.locator('dt', { hasText: name }) }).locator('dd').innerText();
+const told = (page, name) => page.locator('#about-view .figures div').filter({ has: page.locator('dt', { hasText: name }) }).locator('dd').innerText();
 
 /** The lengths of the tube, and its radius. */
 const TUBE = { length: 3, radius: 1 };
@@ -63,7 +63,7 @@ function noisyTube(around, noise) {
  * @param {Page} page
  */
 async function drawnRulings(page) {
-  const { width, height, data } = parsePng(await page.locator('#whole-canvas').screenshot());
+  const { width, height, data } = parsePng(await page.locator('#space-canvas').screenshot());
   /** @param {number} row @param {number} col */
   const orange = (row, col) => {
     const [r, g, b] = data.subarray(4 * (row * width + col));
@@ -101,7 +101,7 @@ const rms = (points) => Math.sqrt(points.reduce((sum, point) => sum + offBox(poi
 
 /** @param {Page} page */
 async function canvasPixels(page) {
-  const shot = parsePng(await page.locator('#whole .frame').screenshot());
+  const shot = parsePng(await page.locator('#space').screenshot());
   /** Mean difference of neighbours within a part of the picture. @param {number} from @param {number} to */
   return (from, to) => {
     let [sum, pairs] = [0, 0];
@@ -127,9 +127,9 @@ doorTest('a closed mesh is solved whole, shown before and after, laid flat and s
   await page.locator('#save-dialog').getByText(hint).waitFor();
   await page.keyboard.press('Escape');
   await solve(page);
-  assert.match(await page.locator('#whole-verdict').innerText(), /^Done: the whole mesh/);
-  assert.match(await page.locator('#whole-detail').innerText(), /of \d+ steps is proven within/);
-  assert.equal(await page.locator('section[aria-label="Surfaces"]').isVisible(), false, 'no heights');
+  assert.match(await page.locator('#verdict').innerText(), /^Done: the whole mesh/);
+  assert.match(await page.locator('#verdict-detail').innerText(), /of \d+ steps is proven within/);
+  assert.equal(await page.locator('#certificate').isVisible(), false, 'no heights');
   assert.equal(await page.locator('#gap').isVisible(), false, 'nor their settings');
   assert.ok(await page.locator('#lambda').isVisible(), 'but for λ');
   assert.equal(await told(page, 'Border vertices'), 'none: it is closed');
@@ -137,22 +137,22 @@ doorTest('a closed mesh is solved whole, shown before and after, laid flat and s
   assert.ok(Math.abs(before / (a * b * c) - 1) < 0.02 && Math.abs(after / (a * b * c) - 1) < 0.03, `${before} → ${after}`);
 
   // Before on one side of the divider, after on the other.
-  const divider = page.getByRole('slider', { name: 'Divider between input and result' }).and(page.locator('#whole-divider'));
+  const divider = page.getByRole('slider', { name: 'Divider between input and result' }).and(page.locator('#divider'));
   await divider.press('End');
   const rough = (await canvasPixels(page))(0.35, 0.65);
   await divider.press('Home');
   const smooth = (await canvasPixels(page))(0.35, 0.65);
   assert.ok(smooth < rough / 2, `${smooth} against ${rough}`);
-  const seen = parsePng(await page.locator('#whole-canvas').screenshot());
-  await page.locator('#whole-canvas').press('ArrowLeft');
-  assert.notDeepEqual(parsePng(await page.locator('#whole-canvas').screenshot()).data, seen.data, 'keys turn it');
+  const seen = parsePng(await page.locator('#space-canvas').screenshot());
+  await page.locator('#space-canvas').press('ArrowLeft');
+  assert.notDeepEqual(parsePng(await page.locator('#space-canvas').screenshot()).data, seen.data, 'keys turn it');
 
-  await page.locator('#whole-file').click();
+  await page.locator('#end-file').click();
   const { points, triangles } = parseObj((await saveAs(page, 'OBJ')).bytes);
   assert.equal(triangles.length, box.triangles.length);
   assert.ok(rms(points) < 0.5 * rms(box.points), `off by ${rms(points)}, before by ${rms(box.points)}`);
   for (const [format, begin] of [['PLY', 'ply'], ['GLB', 'glTF']]) {
-    await page.locator('#whole-file').click();
+    await page.locator('#end-file').click();
     assert.equal((await saveAs(page, format)).bytes.toString('latin1', 0, begin.length), begin);
   }
 
@@ -162,10 +162,10 @@ doorTest('a closed mesh is solved whole, shown before and after, laid flat and s
   await view(page, 'patches');
   assert.deepEqual([await told(page, 'Patches'), await told(page, 'Creases')], ['6', '12']);
   await view(page, 'sheet');
-  assert.ok((await look(page, '#whole-picture')).covered > 0.1);
-  await page.locator('#whole-picture').hover();
-  assert.match(await page.locator('#whole-reading').innerText(), /^strain [+−]?[\d.]+\s%$/);
-  await page.locator('#whole-sheets').click();
+  assert.ok((await look(page, '#result-picture')).covered > 0.1);
+  await page.locator('#result-picture').hover();
+  assert.match(await page.locator('#reading').innerText(), /^strain [+−]?[\d.]+\s%$/);
+  await page.locator('#end-sheets').click();
   await page.locator('.preview[aria-busy="false"] img').waitFor();
   assert.match(await page.locator('.sheets .said').innerText(), /sheet.*fold/);
   /** @param {string} name */
@@ -185,7 +185,7 @@ doorTest('a closed mesh is solved whole, shown before and after, laid flat and s
 
   // And back.
   await choose(page.getByRole('radio', { name: 'From one side', exact: true }));
-  assert.ok(await page.locator('section[aria-label="Surfaces"]').isVisible());
+  await page.locator('[data-whole]').waitFor({ state: 'detached' });
   await settled(page);
 }, { drawn: true });
 
@@ -195,44 +195,44 @@ doorTest('a whole solve tells how far it is and can be done without; what is no 
     const radio = /** @type {HTMLInputElement} */ (document.querySelector('input[name="mesh-way"][value="whole"]'));
     radio.checked = true;
     radio.dispatchEvent(new Event('change', { bubbles: true }));
-    const waiting = /** @type {HTMLElement} */ (document.querySelector('#whole-waiting'));
+    const waiting = /** @type {HTMLElement} */ (document.querySelector('#running'));
     const seen = !waiting.hidden && /Solving/.test(waiting.innerText) && waiting.querySelector('progress') !== null;
-    /** @type {HTMLButtonElement} */ (document.querySelector('#whole-waiting-cancel')).click();
-    return seen && waiting.hidden && document.querySelector('#whole-verdict')?.textContent;
+    /** @type {HTMLButtonElement} */ (document.querySelector('#running-cancel')).click();
+    return seen && waiting.hidden && document.querySelector('#verdict')?.textContent;
   });
   assert.equal(cancelled, 'Cancelled.');
-  assert.ok(await page.locator('#whole-file').isDisabled());
-  const progress = page.waitForFunction(() => /\d iterations/.test(document.querySelector('#whole-detail')?.textContent ?? ''));
+  assert.ok(await page.locator('#end-file').isDisabled());
+  const progress = page.waitForFunction(() => /Solving, \d+ iterations/.test(document.querySelector('#running:not([hidden]) span')?.textContent ?? ''));
   await page.getByRole('button', { name: 'Solve', exact: true }).click();
   await progress;
   await done(page);
-  assert.match(await page.locator('#whole-verdict').innerText(), /^Done: the whole mesh/);
+  assert.match(await page.locator('#verdict').innerText(), /^Done: the whole mesh/);
 
   // Cancelled, the next solve leaves the surface before.
   await page.evaluate(() => {
     const field = /** @type {HTMLInputElement} */ (document.querySelector('#lambda-value'));
     field.value = '1e7';
     field.dispatchEvent(new Event('change'));
-    /** @type {HTMLButtonElement} */ (document.querySelector('#whole-waiting-cancel')).click();
+    /** @type {HTMLButtonElement} */ (document.querySelector('#running-cancel')).click();
   });
-  await page.locator('#whole-detail', { hasText: 'You see the surface from before' }).waitFor();
-  assert.ok(await page.locator('#whole-file').isEnabled());
+  await page.locator('#verdict-detail', { hasText: 'You see the surface from before' }).waitFor();
+  assert.ok(await page.locator('#end-file').isEnabled());
   await done(page);
 
   // Three triangles at one edge.
   const fan = { points: [[0, 0, 0], [1, 0, 0], [0, 1, 0.2], [0, -1, 0.1], [0, 0.2, 1]], triangles: [[0, 1, 2], [1, 0, 3], [0, 1, 4]] };
   await open(page, 'fan.obj', obj(/** @type {any} */ (fan)));
   // It is tried whole first.
-  await page.locator('#whole').waitFor({ state: 'hidden' });
-  assert.equal(await page.locator('#whole').isVisible(), false, 'what cannot be solved whole is shown from one side');
+  await page.locator('[data-whole]').waitFor({ state: 'hidden' });
+  assert.equal(await page.locator('[data-whole]').isVisible(), false, 'what cannot be solved whole is shown from one side');
   await solve(page);
-  assert.match(await page.locator('#whole-verdict').innerText(), /cannot be solved as a whole/);
-  assert.match(await page.locator('#whole-detail').innerText(), /edge/);
+  assert.match(await page.locator('#verdict').innerText(), /cannot be solved as a whole/);
+  assert.match(await page.locator('#verdict-detail').innerText(), /edge/);
 });
 
 doorTest('rulings of a whole mesh are drawn on its result only, along the axis of a tube', async (page) => {
   await openWhole(page, 'tube.obj', obj(noisyTube(60, 0.01)));
-  const divider = page.locator('#whole-divider');
+  const divider = page.locator('#divider');
   await divider.press('Home');
   assert.equal((await drawnRulings(page)).pixels, 0);
   await view(page, 'rulings');
@@ -264,12 +264,12 @@ doorTest('a whole mesh is solved with the λ that is chosen, which stands in the
   await openFromOneSide(page, 'tube.obj', obj(tube));
   await page.waitForURL(/file=\d+$/);
   const saved = async () => {
-    await page.locator('#whole-file').click();
+    await page.locator('#end-file').click();
     return offTube(parseObj((await saveAs(page, 'OBJ')).bytes).points);
   };
   /** @param {() => Promise<unknown>} act @param {RegExp} address */
   const solvedBy = async (act, address) => {
-    await workBy(page, '#whole[aria-busy="true"]', act);
+    await workBy(page, '#stage[aria-busy="true"]', act);
     await page.waitForURL(address);
   };
   const pressed = () => page.locator('#lambda-auto').getAttribute('aria-pressed');
@@ -298,35 +298,35 @@ doorTest('a whole mesh is solved with the λ that is chosen, which stands in the
   await solvedBy(() => page.goBack(), /whole=1$/);
   assert.deepEqual([await pressed(), parsed(await told(page, 'λ'))], ['true', auto]);
   await page.goBack();
-  await page.locator('section[aria-label="Surfaces"]').waitFor();
+  await page.locator('[data-whole]').waitFor({ state: 'detached' });
   assert.ok(await page.getByRole('radio', { name: 'From one side', exact: true }).isChecked());
   await solvedBy(() => page.goForward(), /whole=1$/);
   await solvedBy(() => page.goForward(), /view=rulings$/);
   await page.reload();
   await done(page);
-  await page.locator('#whole-about .figures dt', { hasText: 'Longest' }).waitFor();
+  await page.locator('#about-view .figures dt', { hasText: 'Longest' }).waitFor();
   assert.equal(await field.inputValue(), '1e9');
 
   // As seen, heights follow the λ that was chosen meanwhile.
   await solvedBy(() => typeLambda(page, '1e6'), /lambda=1e6&whole=1&view=rulings$/);
   await choose(page.getByRole('radio', { name: 'From one side', exact: true }));
-  await page.waitForURL(/lambda=1e6$/);
+  await page.waitForURL(/lambda=1e6&view=rulings$/);
   await settled(page);
   assert.equal(parsed(await reported(page, 'λ')), 1e6);
 });
 
 doorTest('where a whole mesh is under the pointer, how far it was moved, and what the view knows there', async (page) => {
   await openWhole(page, 'tube.obj', obj(noisyTube(60, 0.01)));
-  await page.locator('#whole-divider').press('Home');
-  const canvas = page.locator('#whole-canvas');
+  await page.locator('#divider').press('Home');
+  const canvas = page.locator('#space-canvas');
   const { width, height } = /** @type {{ width: number, height: number }} */ (await canvas.boundingBox());
   /** @param {number} x @param {number} y in shares of the canvas */
   const pointAt = async (x, y) => {
     await page.mouse.move(0, 0);
-    await page.locator('#whole-reading', { hasNotText: /./ }).waitFor({ state: 'attached' });
+    await page.locator('#reading', { hasNotText: /./ }).waitFor({ state: 'attached' });
     await canvas.hover({ position: { x: x * width, y: y * height } });
     await page.evaluate(() => new Promise((resolve) => requestAnimationFrame(() => requestAnimationFrame(resolve))));
-    return page.locator('#whole-reading').innerText();
+    return page.locator('#reading').innerText();
   };
   const towards = OBLIQUE.map((x) => -x / Math.hypot(...OBLIQUE));
   const level = Math.hypot(towards[0], towards[2]);
@@ -351,10 +351,10 @@ doorTest('where a whole mesh is under the pointer, how far it was moved, and wha
   await view(page, 'gaussian');
   const curved = /· K (\S+)/.exec(await pointAt(0.5, 0.5));
   assert.ok(curved && Math.abs(parsed(curved[1])) < 0.1, String(curved));
-  await page.locator('#whole-divider').press('End');
+  await page.locator('#divider').press('End');
   const rough = /· K (\S+)/.exec(await pointAt(0.5, 0.5));
   assert.ok(rough && Math.abs(parsed(rough[1])) > 10 * Math.abs(parsed(/** @type {RegExpExecArray} */ (curved)[1])), `${rough} against ${curved}`);
-  await page.locator('#whole-divider').press('Home');
+  await page.locator('#divider').press('Home');
   await view(page, 'patches');
   assert.match(await pointAt(0.5, 0.5), /moved by \S+ · patch 1$/);
   // Where it turns first, it is not where it will be.
@@ -369,7 +369,7 @@ doorTest('sheets of a model without a unit are in millimetres, and the headline 
     [4, 5, 9], [4, 9, 8], [6, 7, 8], [6, 8, 9]]);
   await openWhole(page, 'house.obj', obj({ points, triangles }));
   // The second click of a double click does not close the dialog.
-  await page.locator('#whole-sheets').dblclick();
+  await page.locator('#end-sheets').dblclick();
   const title = page.locator('#save-title');
   await title.filter({ hasText: /: 60 mm, 1 page, \d+ joints$/ }).waitFor();
   const warning = page.locator('.sheets .guess');
@@ -391,10 +391,10 @@ f 1/1 2/2 5/3\nf 2/1 3/2 5/3\nf 3/1 4/2 5/3\nf 4/1 1/2 5/3\nf 1/1 3/2 2/3\nf 1/1
   await dropAll(page, { 'pyramid.obj': Buffer.from(text), 'pyramid.mtl': Buffer.from('newmtl card\nmap_Kd sheet.png\n'), 'sheet.png': picture });
   const preview = page.locator('.sheets .preview[aria-busy="false"] img');
   const isPrinted = async () => (await saveAs(page, 'PDF')).bytes.includes('/DCTDecode');
-  await page.locator('#whole-sheets').click();
+  await page.locator('#end-sheets').click();
   await preview.waitFor();
   assert.ok(await isPrinted());
-  await page.locator('#whole-sheets').click();
+  await page.locator('#end-sheets').click();
   await preview.waitFor();
   const before = await preview.getAttribute('src');
   await page.getByLabel('Material').selectOption({ label: 'sheet metal' });

@@ -5,7 +5,6 @@ import { count, number } from '../format.js';
 
 /** Texts about a photo of a page. */
 export const PAGE_WORDS = {
-  working: 'Flattening the page',
   unfound: 'I found no page in this photo. If it shows one, drag the four corners onto it.',
   unfoundDetail: 'The flat page appears as soon as you move a corner.',
   noFlat: 'No flat page from this outline.',

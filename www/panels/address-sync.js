@@ -34,7 +34,7 @@ const COPIED_NOTE_MS = 4000;
  * @param {() => void} page.beginPhoto shows an example if no photo of a page is open
  * @param {() => void} page.showExamplePhoto shows an example in the place of the photo of a page that is open
  * @param {MeshFit} page.meshFit
- * @param {{ readonly view?: string, enter: (view: string) => void, leave: () => void }} page.meshFitView
+ * @param {{ readonly isShown: boolean, enter: (view: string) => void, leave: () => void }} page.meshFitView
  */
 export function addressSyncPanel(session, page) {
   const views = elements('input[name="view"]', HTMLInputElement);
@@ -70,9 +70,7 @@ export function addressSyncPanel(session, page) {
     }
     if (input?.kind !== undefined) {
       const { pixelSize, heightScale, noData } = input.stored ?? {};
-      const { view: meshView } = page.meshFitView;
-      const whole = meshView === undefined ? undefined : true;
-      return { file: fileId, unkept: (fileId === undefined && isUnstored) || undefined, stored: input.stored && { pixelSize, heightScale, noData }, settings, whole, view: meshView ?? view() };
+      return { file: fileId, unkept: (fileId === undefined && isUnstored) || undefined, stored: input.stored && { pixelSize, heightScale, noData }, settings, whole: page.meshFitView.isShown || undefined, view: view() };
     }
     const [size, noise] = ['size', 'noise'].map((name) => Number(element(name, HTMLSelectElement).value));
     return { example: { name: input?.name ?? 'roof', size, noise }, settings, view: view() };
@@ -109,9 +107,7 @@ export function addressSyncPanel(session, page) {
     void updateRecentFiles();
   });
   // A change of the view gets no entry of its own in the history.
-  for (const radio of [...views, ...elements('input[name="whole-view"]', HTMLInputElement)]) {
-    radio.addEventListener('change', () => writeAddress());
-  }
+  for (const radio of views) radio.addEventListener('change', () => writeAddress());
 
   /** Opens stored photos of pages. @param {number} id @returns {Promise<boolean>} whether they were stored */
   const openStoredPhotos = async (id) => {
@@ -199,8 +195,8 @@ export function addressSyncPanel(session, page) {
   };
   void updateRecentFiles();
 
-  /** @param {HTMLButtonElement} button */
-  const share = async (button) => {
+  const button = element('share', HTMLButtonElement);
+  button.addEventListener('click', async () => {
     writeAddress();
     const state = presentState();
     // The id of a file has no meaning on another machine.
@@ -215,11 +211,7 @@ export function addressSyncPanel(session, page) {
     } catch {
       showNotice(`${address} – copy this link.${fileNote}`, 'note');
     }
-  };
-  for (const id of ['share', 'whole-share']) {
-    const button = element(id, HTMLButtonElement);
-    button.addEventListener('click', () => void share(button));
-  }
+  });
 
   return {
     /** Shows the state of the address, or an example where that has no input. */

@@ -13,7 +13,7 @@ const ASSUMED_FIELD_OF_VIEW_DEGREES = 60;
 
 /**
  * @param {Session} session
- * @param {(origin: InputOrigin, load: (signal: AbortSignal) => Promise<Mesh>, doing: string, task: string) => Promise<boolean>} openLoadedMesh
+ * @param {(origin: InputOrigin, load: (signal: AbortSignal) => Promise<Mesh>, doing: string, task: import('../messages.js').Task) => Promise<boolean>} openLoadedMesh
  */
 export function cameraPanel(session, openLoadedMesh) {
   const depthCheckbox = element('is-depth', HTMLInputElement);
@@ -101,7 +101,7 @@ export function cameraPanel(session, openLoadedMesh) {
     const cameraAssumption = isAssumed ? DEPTH_WORDS.assumed(number(angle.valueAsNumber), scale.valueAsNumber) : undefined;
     return openLoadedMesh({ name, kind: 'depths', photo, depthSource: input, cameraAssumption },
       (signal) => runInWorker(session.api, signal, async (worker) => ({ ...await worker.backProject({ width, height, data }, camera), ...unit })),
-      DEPTH_WORDS.failed, DEPTH_WORDS.building);
+      DEPTH_WORDS.failed, 'building');
   };
   element('back-project', HTMLButtonElement).addEventListener('click', async () => {
     if (await backProject()) void session.run();

@@ -1,4 +1,4 @@
-/** The headline: the result in one sentence, its certificate, and error messages. */
+/** The headline of heights: the result in one sentence, its certificate, and error messages. */
 import { element } from '../dom.js';
 import { count } from '../format.js';
 import { accuracyOf } from '../surface/derived-data.js';
@@ -7,6 +7,7 @@ import { hideNotice, showError } from './notice.js';
 
 /** @import {Analyses} from '../analyses.js' */
 /** @import {Result, Session} from '../session.js' */
+/** @import {Stage, Subject} from './stage.js' */
 
 /** Delay before the pieces of a result are counted, in milliseconds: while λ is dragged, results follow each other quickly. */
 const PIECE_COUNT_DELAY_MS = 150;
@@ -16,19 +17,17 @@ const MAX_PIECE_COUNT_ATTEMPTS = 3;
 /**
  * @param {Session} session
  * @param {Analyses} analyses
+ * @param {Stage} stage
+ * @param {Subject} heights
  */
-export function headlinePanel(session, analyses) {
+export function headlinePanel(session, analyses, stage, heights) {
   const main = element('verdict', HTMLElement);
-  const detail = element('verdict-detail', HTMLElement);
   const page = element('page', HTMLElement);
   const chip = element('certificate', HTMLButtonElement);
   const drawer = element('drawer', HTMLElement);
   let pieceCountTimer = 0;
   /** @param {string} sentence @param {string} details */
-  const say = (sentence, details) => {
-    main.textContent = sentence;
-    detail.textContent = details;
-  };
+  const say = (sentence, details) => stage.say(heights, sentence, details);
 
   chip.addEventListener('click', () => {
     drawer.hidden = !drawer.hidden;
@@ -42,7 +41,7 @@ export function headlinePanel(session, analyses) {
       const pieces = await analyses.patchCount(result).catch(() => null);
       if (session.result !== result) return;
       if (!pieces) continue;
-      main.textContent = piecesInWords(pieces.count, pieces.creases, result.input.sampling !== undefined);
+      say(piecesInWords(pieces.count, pieces.creases, result.input.sampling !== undefined), detailsOf(session));
       break;
     }
     if (session.result === result) main.setAttribute('aria-busy', 'false');

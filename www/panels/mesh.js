@@ -3,7 +3,6 @@ import { runInWorker } from '../worker-task.js';
 import { element, elements } from '../dom.js';
 import { count, number } from '../format.js';
 import { boundingBoxSides } from '../mesh-fit.js';
-import { TASK_WORDS } from '../messages.js';
 import { openSampledMesh } from '../mesh-sampling.js';
 
 /** @import {Mesh, SampleMeshOptions} from '../api.js' */
@@ -23,7 +22,7 @@ export function meshPanel(session) {
     if (!input?.sampling) return;
     const { mesh, options } = input.sampling;
     const opened = await openSampledMesh(
-      session, originOf(input), async () => mesh, { ...options, ...change }, 'The mesh could not be seen so', TASK_WORDS.sampling,
+      session, originOf(input), async () => mesh, { ...options, ...change }, 'The mesh could not be seen so', 'sampling',
     );
     if (opened) void session.run();
   };
@@ -45,7 +44,7 @@ export function meshPanel(session) {
      * @param {InputOrigin} origin
      * @param {(signal: AbortSignal) => Promise<Mesh>} load
      * @param {string} doing what could not be done, for the message if it fails
-     * @param {string} [task] what its progress says
+     * @param {import('../messages.js').Task} [task]
      */
     openLoaded: (origin, load, doing, task) => openSampledMesh(session, origin, load, { view: 'best-fit' }, doing, task),
     /**
@@ -60,7 +59,7 @@ export function meshPanel(session) {
       return this.openLoaded({ name, kind }, async (signal) => {
         const files = new Map(await Promise.all(referencedFiles.map(async (one) => /** @type {const} */ ([one.name, await one.arrayBuffer()]))));
         return runInWorker(session.api, signal, (reader) => reader.readMesh(file, { files }));
-      }, `“${file.name}” could not be read`, TASK_WORDS.reading);
+      }, `“${file.name}” could not be read`, 'reading');
     },
   };
 }

@@ -7,7 +7,7 @@ import { turnPicture } from '../page/quarter-turn.js';
 import { imagePicture, PictureView } from '../surface/picture-view.js';
 import { canvasFromImage } from '../surface/layer.js';
 import { figures } from '../views/legend.js';
-import { FORMAT_WORDS, SAVE_WORDS } from '../messages.js';
+import { FORMAT_WORDS, SAVE_WORDS, TASK_WORDS } from '../messages.js';
 import { BOOK_WORDS, PAGE_WORDS, pageCautions, pageErrors, pageVerdict } from '../page/messages.js';
 import { dividerOver } from './divider.js';
 import { offerToSave } from './save-dialog.js';
@@ -51,7 +51,7 @@ export function pageResultPanel(api, session, book, onWritten) {
 
   const flattening = waitingPanel(element('flattening', HTMLElement), undefined, PROGRESS_DELAY_MS);
   session.on('progress', (fraction) => {
-    if (fraction === 0) flattening.begin(PAGE_WORDS.working);
+    if (fraction === 0) flattening.begin('flattening');
     else flattening.tell({ fraction });
   });
   /** @param {boolean} ready */
@@ -79,7 +79,7 @@ export function pageResultPanel(api, session, book, onWritten) {
     before = null;
     element('page-examples', HTMLElement).hidden = file !== undefined;
     clear('');
-    say(`${PAGE_WORDS.working}…`);
+    say(`${TASK_WORDS.flattening}…`);
   });
   session.on('outline', ({ moving }) => {
     isMoving = moving;
@@ -96,7 +96,7 @@ export function pageResultPanel(api, session, book, onWritten) {
     // Until the new flat page is there, nothing is said of the old one.
     if (!working) return;
     workingTimer = window.setTimeout(() => {
-      [verdict.textContent, detail.textContent, caption.textContent] = [`${PAGE_WORDS.working}…`, '', ''];
+      [verdict.textContent, detail.textContent, caption.textContent] = [`${TASK_WORDS.flattening}…`, '', ''];
       about.replaceChildren();
       proposal.hidden = true;
     }, PROGRESS_DELAY_MS);

@@ -5,7 +5,7 @@ import { BOOK_WORDS } from '../page/messages.js';
 import { openPhoto, preparePhoto } from '../page/photo.js';
 import { PageSession } from '../page/session.js';
 import { readPicture } from '../pixels.js';
-import { errorMessage, TASK_WORDS } from '../messages.js';
+import { errorMessage } from '../messages.js';
 import { hideNotice, showError, showNotice } from './notice.js';
 import { pageBookPanel } from './page-book.js';
 import { pageKnownPanel } from './page-known.js';
@@ -66,7 +66,7 @@ export function pagePanel(api, onOpened, onChanged) {
   /**
    * Opens a photo in the place of the last one.
    * @param {(signal: AbortSignal) => Promise<PagePhoto>} load
-   * @param {{ pages?: number, task?: string, state?: PageState | null }} [more] `task`: what its progress says; `state`: edits of the photo, when it was open before
+   * @param {{ pages?: number, task?: import('../messages.js').Task, state?: PageState | null }} [more] `state`: edits of the photo, when it was open before
    * @returns {Promise<boolean>} false if it was cancelled, or another photo was opened meanwhile
    * @throws if the photo cannot be opened
    */
@@ -96,7 +96,7 @@ export function pagePanel(api, onOpened, onChanged) {
   const openAt = async (at) => {
     if (session) book.saveState(session);
     const { file, state } = book.photos[at];
-    if (!(await show((signal) => openPhoto(api, file, signal), { task: TASK_WORDS.reading, state }))) return false;
+    if (!(await show((signal) => openPhoto(api, file, signal), { task: 'reading', state }))) return false;
     for (const radio of examples) radio.checked = false;
     book.index = at;
     list.renew();

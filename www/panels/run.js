@@ -1,78 +1,73 @@
-/** Buttons that start and cancel a run, and its progress. */
+/** The button that solves, and the progress of solves of heights and meshes, which can be cancelled. */
 import { element } from '../dom.js';
-import { seconds } from '../format.js';
 import { RUN_WORDS } from '../messages.js';
+import { waitingPanel } from './waiting.js';
 
 /** @import {Session} from '../session.js' */
+/** @import {MeshFit} from '../mesh-fit.js' */
+/** @import {Stage} from './stage.js' */
 
-/** Share of the progress bar for the coarser lattices. */
+/** Share of the progress for the coarser lattices. */
 const COARSE_LATTICES_SHARE = 0.25;
 
-/** @param {Session} session */
-export function runPanel(session) {
+/** @param {Session} session @param {MeshFit} meshFit @param {Stage} stage */
+export function runPanel(session, meshFit, stage) {
   const form = element('controls', HTMLFormElement);
-  const cancel = element('cancel', HTMLButtonElement);
-  const bar = element('progress', HTMLProgressElement);
-  const text = element('progress-text', HTMLElement);
-  const running = element('running', HTMLElement);
   const solve = element('run', HTMLButtonElement);
+  const running = element('running', HTMLElement);
   /** First gap below 1 on the finest lattice. */
   let firstGap = NaN;
-  /** Value of the progress bar at the first gap. */
+  /** Share of the progress that was told, which must not go back: λ may be chosen on finer lattices than the solve begins with. */
+  let told = 0;
+  /** Share at the first gap. */
   let firstShare = 0;
   /** Number of coarser lattices so far. */
   let levels = 0;
 
   form.addEventListener('submit', (event) => {
     event.preventDefault();
-    if (form.reportValidity()) void session.run();
+    if (form.reportValidity()) stage.subject.run();
   });
-  // `aria-disabled` in the place of `disabled`, so that the button keeps the focus while a run ends.
-  cancel.addEventListener('click', () => {
-    if (session.phase !== 'running') return;
-    text.textContent = RUN_WORDS.stopping;
-    cancel.setAttribute('aria-disabled', 'true');
-    session.cancel();
+  const waiting = waitingPanel(running, () => {
+    waiting.tell({ fraction: told || undefined, label: RUN_WORDS.stopping });
+    stage.subject.cancel();
   });
-
-  // Solving is the main thing where there is no result, or none that is as good as was asked for.
-  session.on('phase', (phase) => {
-    const isStale = phase === 'idle' && (session.result === null || session.result.surface.report.stopReason === 'cancelled');
+  /** Ends the progress. Solving is the main thing where there is no result, or none that is as good as was asked for. @param {boolean} isStale */
+  const end = (isStale) => {
     form.toggleAttribute('data-stale', isStale);
     solve.classList.toggle('primary', isStale);
-    const hadFocus = document.activeElement === cancel;
-    running.hidden = phase !== 'running';
-    if (hadFocus && running.hidden) (isStale ? solve : element('lambda', HTMLInputElement)).focus();
+    const hadFocus = running.contains(document.activeElement);
+    waiting.end();
+    if (hadFocus) (isStale ? solve : element('lambda', HTMLInputElement)).focus();
+  };
+  const begin = () => {
+    [firstGap, firstShare, levels, told] = [NaN, 0, 0, 0];
+    form.removeAttribute('data-stale');
+    waiting.begin('solving');
+  };
+
+  session.on('start', begin);
+  session.on('phase', (phase) => {
+    if (phase !== 'running') end(phase === 'idle' && (session.result === null || session.result.surface.report.stopReason === 'cancelled'));
   });
-  session.on('start', () => {
-    cancel.setAttribute('aria-disabled', 'false');
-    firstGap = NaN;
-    levels = 0;
-    bar.value = 0;
-    text.textContent = RUN_WORDS.begun;
-  });
-  session.on('progress', ({ level, iteration, gap, elapsed }) => {
+  session.on('progress', ({ level, iteration, gap }) => {
     if (level > 0) {
       levels = Math.max(levels, level);
-      // The bar must not move back: λ may be chosen on finer lattices than the solve then begins with.
-      bar.value = Math.max(bar.value, COARSE_LATTICES_SHARE * (1 - level / (levels + 1)));
-      text.textContent = RUN_WORDS.coarse(level, seconds(elapsed));
-      return;
+      told = Math.max(told, COARSE_LATTICES_SHARE * (1 - level / (levels + 1)));
+      return waiting.tell({ fraction: told, label: RUN_WORDS.coarse(level) });
     }
-    const isCertified = gap !== undefined && gap < 1;
-    if (isCertified && Number.isNaN(firstGap)) {
-      firstGap = gap;
-      firstShare = levels > 0 ? COARSE_LATTICES_SHARE : 0;
+    if (gap !== undefined && gap < 1) {
+      if (Number.isNaN(firstGap)) [firstGap, firstShare] = [gap, levels > 0 ? COARSE_LATTICES_SHARE : 0];
+      if (firstGap > 0) told = Math.max(told, firstShare + (1 - firstShare) * gapProgress(gap, firstGap, session.settings.gap));
     }
-    if (isCertified && firstGap > 0) {
-      const share = firstShare + (1 - firstShare) * gapProgress(gap, firstGap, session.settings.gap);
-      bar.value = Math.max(bar.value, share);
-    }
-    text.textContent = RUN_WORDS.fine(gap, iteration, seconds(elapsed));
+    waiting.tell({ fraction: told, label: RUN_WORDS.fine(gap, iteration) });
   });
-  session.on('result', ({ surface: { report } }) => {
-    if (report.stopReason !== 'cancelled') bar.value = 1;
-  });
+  meshFit.on('start', begin);
+  meshFit.on('progress', ({ iteration }) => waiting.tell({ label: RUN_WORDS.fine(undefined, iteration) }));
+  meshFit.on('result', () => end(false));
+  meshFit.on('failure', () => end(true));
+  meshFit.on('cancelled', () => end(true));
+  meshFit.on('left', () => end(session.result === null));
 }
 
 /**

@@ -93,7 +93,7 @@ export function offerToSave(api, { title, stem, ready = async () => {}, formats,
       await ready();
       if (job !== present) return;
       size.textContent = SAVE_WORDS.working;
-      progress.begin(SAVE_WORDS.write);
+      progress.begin('writing');
       const content = await runInWorker(api, job.signal, format.write);
       if (job !== present) return;
       progress.end();

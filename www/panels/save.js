@@ -1,7 +1,6 @@
-/** Buttons that save the result: a 3D file, sheets to cut out. */
-import { element } from '../dom.js';
-import { shortLambda } from '../format.js';
-import { FORMAT_WORDS } from '../messages.js';
+/** What a result of heights is saved as: a 3D file, sheets to cut out. */
+import { percent, shortLambda } from '../format.js';
+import { FORMAT_WORDS, MESH_FIT_WORDS } from '../messages.js';
 import { longerSide, cutSheets, lengthUnitOf } from '../pattern.js';
 import { surfaceFormats } from '../solid.js';
 import { resultImage } from '../surface/derived-data.js';
@@ -11,38 +10,14 @@ import { offerSheets } from './sheets.js';
 
 /** @import {Analyses} from '../analyses.js' */
 /** @import {Api} from '../api.js' */
-/** @import {Result, Session} from '../session.js' */
-/** @import {SheetSource} from './sheets.js' */
-
-/**
- * @param {Session} session
- * @param {Analyses} analyses
- * @param {{ hiddenInWords: string }} meshFitView
- */
-export function savePanel(session, analyses, meshFitView) {
-  const buttons = ['file', 'sheets'].map((name) => element(`end-${name}`, HTMLButtonElement));
-  const [file, sheets] = buttons;
-  file.addEventListener('click', () => {
-    if (session.result) offerFile(session.api, session.result);
-  });
-  sheets.addEventListener('click', () => {
-    const { result } = session;
-    if (result) offerSheets(session.api, { ...sheetSource(result, analyses), note: meshFitView.hiddenInWords });
-  });
-  /** @param {boolean} ready */
-  const enable = (ready) => {
-    for (const button of buttons) button.disabled = !ready;
-  };
-  session.on('result', () => enable(true));
-  session.on('cleared', () => enable(false));
-}
+/** @import {Result} from '../session.js' */
 
 /**
  * Offers the result as a file: images have the pixels of the input, meshes the vertices of the lattice.
  * @param {Api} api
  * @param {Result} result
  */
-function offerFile(api, result) {
+export function offerFile(api, result) {
   const { surface } = result;
   const image = () => resultImage(result);
   const solid = surfaceFormats({
@@ -65,10 +40,12 @@ function offerFile(api, result) {
   solid.onChange(offer.renew);
 }
 
-/** @param {Result} result @param {Analyses} analyses @returns {SheetSource} */
-function sheetSource(result, analyses) {
-  return {
+/** Offers the result as sheets. @param {Api} api @param {Result} result @param {Analyses} analyses */
+export function offerResultSheets(api, result, analyses) {
+  const hidden = result.input.lattice?.hidden;
+  offerSheets(api, {
     stem: fileStem(result),
+    note: hidden ? MESH_FIT_WORDS.hidden(percent(hidden)) : '',
     length: longerSide(result),
     up: 'z',
     unit: lengthUnitOf(result.input),
@@ -77,7 +54,7 @@ function sheetSource(result, analyses) {
     metalThickness: async () => undefined,
     canFoldElsewhere: () => false,
     stop: () => analyses.stop(),
-  };
+  });
 }
 
 /** Name of the saved file without its ending. @param {Result} result */

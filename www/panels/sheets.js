@@ -3,7 +3,7 @@ import { element, make, numberField } from '../dom.js';
 import { number } from '../format.js';
 import { assemblyModel, assemblyPicture, drawingImage, MM_PER_UNIT, sheetFigures, sheetsInWords, smallestPiece, suggestedSide } from '../pattern.js';
 import { plainMessage } from '../error-messages.js';
-import { SHEET_WORDS, TASK_WORDS } from '../messages.js';
+import { SHEET_WORDS } from '../messages.js';
 import { edgeAt, parsePairs, togglePair } from '../sheet-edges.js';
 import { figures } from '../views/legend.js';
 import { offerToSave } from './save-dialog.js';
@@ -148,7 +148,7 @@ export function offerSheets(api, { stem, note = '', length, unit, up, cut, svg, 
     status.textContent = '';
     again.hidden = true;
     preview.setAttribute('aria-busy', 'true');
-    waiting.begin(TASK_WORDS.cutting);
+    waiting.begin('cutting');
     const requested = (drawing = cut({ ...cutOptions(), assembly: true }, waiting.tell));
     let failed = false;
     offer.renew();

@@ -5,7 +5,7 @@ import { hasColours } from '../views/photo.js';
 import { reinterpret, spanInWords } from '../import-interpretation.js';
 import { fileRoles, isCameraFile } from '../file-routing.js';
 import { isMesh, unreadableKindInWords } from '../file-kinds.js';
-import { assumedInWords, DEPTH_WORDS, FILE_WORDS, TASK_WORDS } from '../messages.js';
+import { assumedInWords, DEPTH_WORDS, FILE_WORDS } from '../messages.js';
 import { noDataOf } from '../no-data.js';
 import { cameraPanel } from './camera.js';
 import { meshPanel } from './mesh.js';
@@ -79,7 +79,7 @@ export function sourcePanel(session, choose, onOpened, solveMesh, openColour) {
         if (error instanceof ColourPictureError && reading === undefined) isColourPicture = true;
         throw error;
       }
-    }, TASK_WORDS.reading);
+    }, 'reading');
     if (isColourPicture) {
       void openColour(chosen);
       return false;

@@ -1,13 +1,15 @@
 /** Progress of a task over what it is about, with a button that cancels it. */
 import { make } from '../dom.js';
 import { count, percent } from '../format.js';
+import { TASK_WORDS } from '../messages.js';
 
 /** Interval between two updates of the time, in milliseconds. */
 const UPDATE_INTERVAL_MS = 200;
 /** Delay before the progress of a task is shown, in milliseconds: shorter tasks end before anybody could read it. */
 export const PROGRESS_DELAY_MS = 150;
 
-/** @typedef {{ fraction: number, label?: string }} TaskProgress share of a step that is done, and what the step does */
+/** @import {Task} from '../messages.js' */
+/** @typedef {{ fraction?: number, label?: string, task?: Task }} TaskProgress share of a step that is done, if that is known; what the step does, in words or as a task */
 
 /**
  * @param {HTMLElement} panel empty element
@@ -39,10 +41,11 @@ export function waitingPanel(panel, cancel, delay = 0) {
   };
 
   return {
-    /** Shows that a task is under way. @param {string} label what is done */
-    begin(label) {
+    /** Shows that a task is under way. @param {Task} name */
+    begin(name) {
       start = performance.now();
-      [task, words, done] = [label, label, undefined];
+      task = words = TASK_WORDS[name];
+      done = undefined;
       clearTimeout(showTimer);
       if (delay === 0) panel.hidden = false;
       else showTimer = window.setTimeout(() => (panel.hidden = false), delay);
@@ -51,9 +54,9 @@ export function waitingPanel(panel, cancel, delay = 0) {
       update();
     },
     /** Tells how far the task is. What follows a step that is done is not told. @param {TaskProgress} progress */
-    tell({ fraction, label }) {
-      done = fraction < 1 ? fraction : undefined;
-      words = done === undefined || !label ? task : label;
+    tell({ fraction, task: step, label = step && TASK_WORDS[step] }) {
+      done = fraction !== undefined && fraction < 1 ? fraction : undefined;
+      words = fraction !== undefined && fraction >= 1 ? task : label ?? task;
       update();
     },
     /** Hides the progress. */

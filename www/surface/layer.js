@@ -3,6 +3,9 @@ import { nearestVertices } from './lattice.js';
 
 /** @import {Grid, Lattice} from './lattice.js' */
 /** @import {Colour} from './colours.js' */
+/** @import {Picture} from './picture-view.js' */
+/** @import {Place, Surface} from './scene.js' */
+/** @import {Colours} from '../views/legend.js' */
 
 /**
  * @typedef {object} Line
@@ -12,11 +15,22 @@ import { nearestVertices } from './lattice.js';
  */
 
 /**
+ * What a view shows on the input or on the result.
  * @typedef {object} Layer
- * @property {Grid} grid
- * @property {HTMLCanvasElement} [image] colours of the grid's pixels, in place of steel
+ * @property {Surface} [surface] in place of the plain one
+ * @property {HTMLCanvasElement} [image] colours of the heights' pixels, in place of steel
  * @property {readonly Line[]} [lines]
- * @property {(x: number, y: number) => string} [read] the value at a place of the plane, with its name and unit
+ * @property {(place: Place) => string} [read] the value at a place, with its name and unit
+ */
+
+/**
+ * The content of a view.
+ * @typedef {object} ViewContent
+ * @property {readonly [Layer | undefined, Layer | undefined]} [layers] on the input and on the result
+ * @property {Picture} [flat] picture in place of both surfaces
+ * @property {string} [said] sentence below the view
+ * @property {Colours} [colours]
+ * @property {readonly Node[]} [about] further elements below the view
  */
 
 /** A canvas with an image. @param {ImageData} image */

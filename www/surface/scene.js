@@ -17,12 +17,15 @@ import { boxOf } from './triangles.js';
  */
 
 /**
- * @typedef {object} SceneOptions
+ * How surfaces look, and from where.
+ * @typedef {object} Look
+ * @property {Vector} up the axis that points upwards
+ * @property {Vector} direction of the first view
  * @property {boolean} [isMetal] surfaces mirror the light, as steel; otherwise they are paper
  * @property {boolean} [isFaceted] triangles are shaded flat
  * @property {boolean} [isSeenFromAbove] the camera stays above the ground
- * @property {{ width: number, height: number }} [size] of the picture in pixels, for a canvas that is not shown
  */
+/** @typedef {{ after: boolean, triangle: number, shares: Vector, point: Vector }} Place a place of a surface; `after`: right of the divider; `shares`: barycentric coordinates */
 
 /** Half of the shorter side of a view without zoom, in radii of the box. */
 const VIEW_HALF_WIDTH = 1.04;
@@ -43,10 +46,10 @@ const CAMERA_DISTANCE = 50;
 const VIEW_HALF_DEPTH = 8;
 /** Distance by which lines are drawn nearer than the surface that they lie on, in radii of the box. */
 const LINE_OFFSET = 0.012;
-/** Views from the front right and above: the axis that points upwards, and the direction. @type {Record<'y' | 'z', { up: Vector, direction: Vector }>} */
-export const OBLIQUE_VIEWS = {
-  y: { up: [0, 1, 0], direction: [-0.5, -0.45, -0.75] },
-  z: { up: [0, 0, 1], direction: [-0.5, 0.75, -0.45] },
+/** Looks of paper from the front right and above, by the axis that points upwards. @type {Record<'y' | 'z', Look>} */
+export const PAPER_LOOKS = {
+  y: { up: [0, 1, 0], direction: [-0.5, -0.45, -0.75], isFaceted: true },
+  z: { up: [0, 0, 1], direction: [-0.5, 0.75, -0.45], isFaceted: true },
 };
 /** Bounds of the enlargement. */
 const MIN_ZOOM = 0.5;
@@ -54,7 +57,9 @@ const MAX_ZOOM = 60;
 
 export class SceneView {
   #three;
-  #options;
+  #ownSize;
+  /** @type {Look} */
+  #look = { up: [0, 0, 1], direction: [0, 0, -1] };
   #renderer;
   #scene;
   #camera;
@@ -74,8 +79,6 @@ export class SceneView {
   #frame = { middle: [0, 0, 0], scale: 1 };
   /** @type {Box} */
   #box = { low: [0, 0, 0], high: [0, 0, 0] };
-  /** The direction of `look`. @type {Vector} */
-  #home = [0, 0, -1];
   /** Whether `fit` was asked for while the canvas had no size. */
   #isFitDue = false;
   /** Materials by kind, which are kept so that their shaders are compiled once. @type {Map<string, any>} */
@@ -89,30 +92,30 @@ export class SceneView {
   /**
    * Creates a scene on a canvas.
    * @param {HTMLCanvasElement} canvas
-   * @param {SceneOptions} [options]
+   * @param {{ width: number, height: number }} [size] of the picture in pixels, for a canvas that is not shown
    * @throws without WebGL 2
    */
-  static async create(canvas, options = {}) {
+  static async create(canvas, size) {
     const isFast = hasGraphicsCard();
     // The buffer is kept, so that the picture can be saved.
     const context = canvas.getContext('webgl2', { antialias: isFast, preserveDrawingBuffer: true });
     if (!context) throw new Error('this browser has no WebGL 2');
     const three = await import(new URL('../vendor/three.js', import.meta.url).href);
-    return new SceneView(canvas, context, three, options, isFast);
+    return new SceneView(canvas, context, three, isFast, size);
   }
 
   /**
    * @param {HTMLCanvasElement} canvas
    * @param {WebGL2RenderingContext} context
    * @param {any} three the library, which has no types
-   * @param {SceneOptions} options
    * @param {boolean} isFast whether there is a graphics card
+   * @param {{ width: number, height: number }} [size]
    */
-  constructor(canvas, context, three, options, isFast) {
+  constructor(canvas, context, three, isFast, size) {
     this.canvas = canvas;
     this.isFast = isFast;
     this.#three = three;
-    this.#options = options;
+    this.#ownSize = size;
     // Colours are those of the screen throughout.
     three.ColorManagement.enabled = false;
     this.#renderer = new three.WebGLRenderer({ canvas, context });
@@ -138,12 +141,12 @@ export class SceneView {
     addGestures(canvas, this);
     this.#controls = this.#createControls();
     this.#resizing.observe(canvas);
-    this.setDirection([0, 0, -1]);
+    this.setDirection(this.#look.direction);
   }
 
   #createControls() {
     const controls = new this.#three.OrbitControls(this.#camera, this.canvas);
-    Object.assign(controls, { zoomToCursor: true, minZoom: MIN_ZOOM, maxZoom: MAX_ZOOM, maxPolarAngle: this.#options.isSeenFromAbove ? Math.PI / 2 : Math.PI });
+    Object.assign(controls, { zoomToCursor: true, minZoom: MIN_ZOOM, maxZoom: MAX_ZOOM, maxPolarAngle: this.#look.isSeenFromAbove ? Math.PI / 2 : Math.PI });
     // The style sheet says which touches scroll the page.
     this.canvas.style.touchAction = '';
     controls.addEventListener('change', this.drawSoon);
@@ -158,8 +161,11 @@ export class SceneView {
     this.#layGround();
   }
 
-  /** Sets the axis that points upwards; `setDirection` has to follow. @param {Vector} axis */
-  setUp([x, y, z]) {
+  /** Sets how surfaces look; surfaces and `look` have to follow. @param {Look} look */
+  setLook(look) {
+    const [x, y, z] = look.up;
+    this.#look = look;
+    this.#shownTilt = '';
     this.#camera.up.set(x, y, z);
     // The controls read the axis only when they are created.
     this.#controls.dispose();
@@ -224,9 +230,10 @@ export class SceneView {
     const vertexColors = colors !== undefined;
     if (triangles.length === 0) return new three.Points(geometry, this.#material(`points ${side} ${vertexColors}`, () => new three.PointsMaterial({ vertexColors, size: 2, sizeAttenuation: false })));
     geometry.setIndex(new three.BufferAttribute(triangles, 1));
-    if (!this.#options.isFaceted) geometry.computeVertexNormals();
-    const mesh = new three.Mesh(geometry, this.#material(`mesh ${side} ${vertexColors}`, () => new three.MeshMatcapMaterial({
-      vertexColors, flatShading: this.#options.isFaceted ?? false, side: three.DoubleSide, matcap: this.#matcaps[vertexColors ? 1 : 0],
+    const flatShading = this.#look.isFaceted ?? false;
+    if (!flatShading) geometry.computeVertexNormals();
+    const mesh = new three.Mesh(geometry, this.#material(`mesh ${side} ${vertexColors} ${flatShading}`, () => new three.MeshMatcapMaterial({
+      vertexColors, flatShading, side: three.DoubleSide, matcap: this.#matcaps[vertexColors ? 1 : 0],
     })));
     mesh.castShadow = true;
     return mesh;
@@ -256,19 +263,6 @@ export class SceneView {
       group.add(new three.LineSegments2(geometry, this.#material(`line ${width}`, () => new three.LineMaterial({ linewidth: width, vertexColors: true }))));
     }
     this.#replace(side, 'lines', lines.length > 0 ? group : null);
-  }
-
-  /**
-   * Shows a mesh, or two on both sides of the divider.
-   * @param {Surface} before
-   * @param {Surface} [after] in the same coordinates
-   * @param {readonly Line[]} [lines] on the mesh right of the divider
-   */
-  show(before, after, lines = []) {
-    this.setBox(boxOf(before.positions));
-    this.setSurface(0, before);
-    this.setSurface(1, after ?? null);
-    this.setLines(1, lines);
   }
 
   /** Moves the divider. @param {number} share of the canvas left of it */
@@ -301,7 +295,7 @@ export class SceneView {
 
   /** The size of the picture in CSS pixels. */
   get #size() {
-    return this.#options.size ?? { width: this.canvas.clientWidth, height: this.canvas.clientHeight };
+    return this.#ownSize ?? { width: this.canvas.clientWidth, height: this.canvas.clientHeight };
   }
 
   /** Half of the sides of the view without zoom, in the units of the drawn box. */
@@ -361,11 +355,16 @@ export class SceneView {
     this.drawSoon();
   }
 
-  /** Sets the direction of view and fits the surfaces into the frame. @param {Vector} [direction] by default the last one */
-  look(direction = this.#home) {
-    this.#home = direction;
+  /** Sets the direction of view and fits the surfaces into the frame. @param {Vector} [direction] by default that of the first view */
+  look(direction = this.#look.direction) {
     this.setDirection(direction);
     this.fit();
+  }
+
+  /** Looks straight down. */
+  lookDown() {
+    const [x, y, z] = this.#look.up;
+    this.look([-x, -y, -z]);
   }
 
   /** Angle of the camera in radians, from straight above. */
@@ -397,7 +396,7 @@ export class SceneView {
   /**
    * Finds the triangle at a place of the canvas.
    * @param {{ offsetX: number, offsetY: number }} place
-   * @returns {{ after: boolean, triangle: number, shares: Vector, point: Vector } | null} `after`: right of the divider; `shares`: barycentric coordinates; null without a triangle
+   * @returns {Place | null} null without a triangle
    */
   pick({ offsetX, offsetY }) {
     const side = this.#sideAt(offsetX);
@@ -420,7 +419,7 @@ export class SceneView {
 
   /** Colours the normals under the light. */
   #shade() {
-    const { isMetal = false } = this.#options;
+    const { isMetal = false } = this.#look;
     const tilt = isMetal ? this.#tilt : 0;
     if (tilt.toFixed(3) === this.#shownTilt) return;
     this.#shownTilt = tilt.toFixed(3);
@@ -431,7 +430,7 @@ export class SceneView {
   }
 
   /** Draws the picture now. @param {number} [ratio] pixels of the canvas per CSS pixel */
-  draw(ratio = this.#options.size ? 1 : window.devicePixelRatio) {
+  draw(ratio = this.#ownSize ? 1 : window.devicePixelRatio) {
     const { width, height } = this.#size;
     if (width === 0) return;
     if (this.#isFitDue) this.fit();

@@ -1,6 +1,7 @@
 /** Rasterises triangles, faster than a canvas draws many of them, and measures them. */
 
-/** @import {Box} from './scene.js' */
+/** @import {Colour} from './colours.js' */
+/** @import {Box, Place} from './scene.js' */
 
 /**
  * Visits the pixels whose centres lie in a triangle, for each triangle. A pixel on a common edge is visited for both.
@@ -52,4 +53,21 @@ export function boxOf(positions) {
     high[i % 3] = Math.max(high[i % 3], positions[i]);
   }
   return { low: /** @type {any} */ (low), high: /** @type {any} */ (high) };
+}
+
+/**
+ * A value of vertices at a place between them.
+ * @param {{ triangles: Uint32Array }} mesh
+ * @param {Pick<Place, 'triangle' | 'shares'>} place
+ * @param {(vertex: number) => number} value
+ */
+export function interpolateAt({ triangles }, { triangle, shares }, value) {
+  return shares.reduce((sum, share, corner) => sum + share * value(triangles[3 * triangle + corner]), 0);
+}
+
+/** Colours of vertices, as a renderer needs them. @param {number} length @param {(i: number) => Colour} colour */
+export function vertexColors(length, colour) {
+  const colors = new Float32Array(3 * length);
+  for (let i = 0; i < length; i++) colors.set(colour(i).map((value) => value / 255), 3 * i);
+  return colors;
 }

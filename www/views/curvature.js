@@ -1,90 +1,76 @@
 /** The views of Gaussian curvature and of κ₂, with input and result on one colour scale. */
 import { number, numberAgainst, percent } from '../format.js';
-import { COLOUR_SCALE_QUANTILE, logarithmicScale, magnitudeQuantile } from '../surface/colours.js';
+import { COLOUR_SCALE_QUANTILE, divergingColour, logarithmicScale, magnitudeQuantile } from '../surface/colours.js';
 import { gridOf } from '../surface/lattice.js';
 import { canvasFromPixels, valueAt } from '../surface/layer.js';
+import { interpolateAt, vertexColors } from '../surface/triangles.js';
 import { callWorker } from '../surface/worker-client.js';
 import { figures } from './legend.js';
 
-/** @import {Analyses, Curvatures} from '../analyses.js' */
-/** @import {Result} from '../session.js' */
-/** @import {ViewContent} from './view-content.js' */
+/** @import {Curvatures} from '../analyses.js' */
+/** @import {Mesh} from '../api.js' */
+/** @import {Input} from '../session.js' */
+/** @import {Layer, ViewContent} from '../surface/layer.js' */
 
-/** Symbols of the curvatures. */
-const NAMES = { gaussian: 'K', kappa2: 'κ₂' };
+/** @typedef {{ gaussian: ArrayLike<number>, kappa2?: ArrayLike<number>, medianKappa1?: number, summary: { size: number, threshold: number, gaussianAbove: number, medianGaussian: number, medianKappa2?: number } }} Analysis */
+/** @typedef {'gaussian' | 'kappa2'} Curvature */
+/** @typedef {{ limit: number, maximum: number, place: (value: number) => number, read: (value: number) => string }} Scale `limit`: end of the linear part, the curvature of a surface that bends once over its own size */
 
-/** @typedef {{ before: Curvatures, after: Curvatures }} InputAndResult */
-
-/**
- * The view of Gaussian curvature.
- * @param {Analyses} analyses
- * @param {Result} result
- * @returns {Promise<ViewContent>}
- */
-export async function gaussian(analyses, result) {
-  const both = await analyses.curvatures(result);
-  const { size, threshold } = both.after.summary;
-  const area = size ** 2;
-  const inverse = `1/${result.input.unit ?? 'unit'}²`;
-  return curvatureContent(result, both, 'gaussian', inverse, 1 / area, `Gaussian curvature K in ${inverse}; figures: input → result`, [
-    [`Median |K| in ${inverse}`, fromInputToResult(both, ({ summary }) => numberAgainst(summary.medianGaussian / area, 1 / area))],
-    [`|K| above ${number(threshold / area, 2)}`, fromInputToResult(both, ({ summary }) => percent(summary.gaussianAbove))],
-  ]);
-}
-
-/**
- * The view of the smaller principal curvature.
- * @param {Analyses} analyses
- * @param {Result} result
- * @returns {Promise<ViewContent>}
- */
-export async function kappa2(analyses, result) {
-  const both = await analyses.curvatures(result);
-  const { size } = both.after.summary;
-  const inverse = `1/${result.input.unit ?? 'unit'}`;
-  return curvatureContent(result, both, 'kappa2', inverse, 1 / size, `κ₂, the smaller principal curvature, in ${inverse}; figures: input → result`, [
-    [`Median |κ₂| in ${inverse}`, fromInputToResult(both, ({ summary }) => numberAgainst(summary.medianKappa2 / size, 1 / size))],
-    [`Median |κ₁|, the larger one`, fromInputToResult(both, ({ medianKappa1 }) => numberAgainst(medianKappa1, 1 / size))],
-  ]);
-}
+/** @type {Record<Curvature, { symbol: string, title: string, power: number, facts: (analysis: Analysis, result: Analysis, limit: number, unit: string) => [string, string][] }>} */
+const CURVATURES = {
+  gaussian: {
+    symbol: 'K', title: 'Gaussian curvature K', power: 2,
+    facts: ({ summary: { medianGaussian, gaussianAbove } }, { summary: result }, limit, unit) => [
+      [`Median |K| in ${unit}`, numberAgainst(medianGaussian * limit, limit)],
+      // Flat faces bend at their corners only, where all vertices of a model are.
+      ...(result.gaussianAbove === 1 ? [] : [/** @type {[string, string]} */ ([`|K| above ${number(result.threshold * limit, 2)}`, percent(gaussianAbove)])]),
+    ],
+  },
+  kappa2: {
+    symbol: 'κ₂', title: 'κ₂, the smaller principal curvature,', power: 1,
+    facts: ({ summary: { medianKappa2 = NaN }, medianKappa1 = NaN }, _, limit, unit) => [
+      [`Median |κ₂| in ${unit}`, numberAgainst(medianKappa2 * limit, limit)],
+      ['Median |κ₁|, the larger one', numberAgainst(medianKappa1, limit)],
+    ],
+  },
+};
 
 /**
  * The view of a curvature.
- * @param {Result} result
- * @param {InputAndResult} both
- * @param {'gaussian' | 'kappa2'} what
- * @param {string} inverse unit of the curvature
- * @param {number} linearLimit end of the linear part of the scale: the curvature of a surface that bends once over its own size
- * @param {string} title
- * @param {readonly (readonly [string, string])[]} facts
+ * @template {Analysis} A
+ * @param {Curvature} what
+ * @param {string | null | undefined} unit of lengths
+ * @param {{ before: A, after: A }} analyses of the input and of the result
+ * @param {(analysis: A, scale: Scale, side: 0 | 1) => Promise<Layer>} layerOf lays the values over a surface
  * @returns {Promise<ViewContent>}
  */
-async function curvatureContent({ input }, { before, after }, what, inverse, linearLimit, title, facts) {
-  const grid = gridOf(input);
-  const maximum = magnitudeQuantile([after, before].map((analysis) => analysis[what]), COLOUR_SCALE_QUANTILE);
-  /** @param {Curvatures} analysis */
-  const layer = async ({ rows, cols, spacing, origin, [what]: values }) => {
-    const lattice = { rows, cols, spacing, origin };
-    const field = { ...lattice, values };
-    return {
-      grid,
-      image: canvasFromPixels(grid, await callWorker('valuePixels', lattice, values, grid, linearLimit, maximum)),
-      read: (/** @type {number} */ x, /** @type {number} */ y) => `${NAMES[what]} ${numberAgainst(valueAt(field, x, y), linearLimit)} ${inverse}`,
-    };
-  };
+export async function curvature(what, unit, { before, after }, layerOf) {
+  const { symbol, title, power, facts } = CURVATURES[what];
+  const limit = after.summary.size ** -power;
+  const inverse = `1/${unit ?? 'unit'}${power === 2 ? '²' : ''}`;
+  const maximum = magnitudeQuantile([after[what] ?? [], before[what] ?? []], COLOUR_SCALE_QUANTILE);
+  const scale = logarithmicScale(limit, maximum);
+  const read = (/** @type {number} */ value) => (Number.isNaN(value) ? '' : `${symbol} ${numberAgainst(value, limit)} ${inverse}`);
+  const [inputs, results] = [before, after].map((analysis) => facts(analysis, after, limit, inverse));
   return {
-    input: await layer(before),
-    result: await layer(after),
-    colours: { title, scale: logarithmicScale(linearLimit, maximum) },
-    about: [figures(facts)],
+    layers: [await layerOf(before, { limit, maximum, place: scale.place, read }, 0), await layerOf(after, { limit, maximum, place: scale.place, read }, 1)],
+    colours: { title: `${title} in ${inverse}; figures: input → result`, scale },
+    about: [figures(inputs.map(([name, value], i) => [name, `${value} → ${results[i][1]}`]))],
   };
 }
 
-/**
- * A figure of the input and of the result.
- * @param {InputAndResult} both
- * @param {(analysis: Curvatures) => string} figure
- */
-function fromInputToResult({ before, after }, figure) {
-  return `${figure(before)} → ${figure(after)}`;
-}
+/** Lays the values of a lattice over the heights. @param {Input} input @param {Curvature} what */
+export const overHeights = (input, what) => async (/** @type {Curvatures} */ { rows, cols, spacing, origin, [what]: values }, /** @type {Scale} */ { limit, maximum, read }) => {
+  const [grid, lattice] = [gridOf(input), { rows, cols, spacing, origin }];
+  return {
+    image: canvasFromPixels(grid, await callWorker('valuePixels', lattice, values, grid, limit, maximum)),
+    read: (/** @type {import('../surface/scene.js').Place} */ { point: [x, y] }) => read(valueAt({ ...lattice, values }, x, y)),
+  };
+};
+
+/** Colours the vertices of meshes. @param {readonly [Mesh, Mesh]} meshes input and result */
+export const overMeshes = (meshes) => async (/** @type {Analysis} */ { gaussian }, /** @type {Scale} */ { place, read }, /** @type {0 | 1} */ side) => ({
+  surface: { ...meshes[side], colors: vertexColors(gaussian.length, (i) => divergingColour(Number.isNaN(gaussian[i]) ? 0 : place(gaussian[i]))) },
+  // At a border only some corners have a value.
+  read: (/** @type {import('../surface/scene.js').Place} */ at) => read(interpolateAt(meshes[side], at, (vertex) => gaussian[vertex])),
+});

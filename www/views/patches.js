@@ -1,18 +1,22 @@
-/** The view of the patches, each in a colour, and of the creases between them. */
+/** The view of the patches, each in a colour, and of the creases between them, of heights and meshes. */
 import { make } from '../dom.js';
 import { count, number, percent } from '../format.js';
 import { toPixel, CREASE_COLOUR, toCss, patchColour } from '../surface/colours.js';
 import { gridOf } from '../surface/lattice.js';
 import { canvasFromPixels, valueAt } from '../surface/layer.js';
+import { vertexColors } from '../surface/triangles.js';
 import { callWorker } from '../surface/worker-client.js';
 import { figures, key } from './legend.js';
 
-/** @import {Analyses} from '../analyses.js' */
-/** @import {Result} from '../session.js' */
-/** @import {ViewContent} from './view-content.js' */
+/** @import {Mesh} from '../api.js' */
+/** @import {Input} from '../session.js' */
+/** @import {Colour} from '../surface/colours.js' */
+/** @import {ViewContent} from '../surface/layer.js' */
 
 /** Maximum number of patches in the legend. */
 const MAX_NAMED_PATCHES = 12;
+/** Colour of triangles without a patch. @type {Colour} */
+const UNLABELLED_COLOUR = [160, 160, 160];
 
 /**
  * Figures and legend of patches.
@@ -20,7 +24,7 @@ const MAX_NAMED_PATCHES = 12;
  * @param {number} creases
  * @param {string | null} [unit]
  */
-export function aboutPatches(patches, creases, unit) {
+function aboutPatches(patches, creases, unit) {
   const total = patches.reduce((sum, { area }) => sum + area, 0);
   return [
     figures([['Patches', count(patches.length)], ['Creases', count(creases)], ['Area', `${number(total)} ${unit ? `${unit}²` : 'square units'}`]]),
@@ -29,28 +33,47 @@ export function aboutPatches(patches, creases, unit) {
 }
 
 /**
- * The view of patches and creases.
- * @param {Analyses} analyses
- * @param {Result} result
+ * The patches and creases of heights.
+ * @param {Input} input
+ * @param {import('../../pkg/types.js').PatchMap} map
  * @returns {Promise<ViewContent>}
  */
-export async function patches(analyses, result) {
-  const map = await analyses.patches(result);
+export async function patchesOfHeights(input, map) {
   const { creases, rows, cols, spacing, origin } = map;
-  const { input } = result;
   const grid = gridOf(input);
   const colours = map.patches.map((_, i) => toPixel(patchColour(i)));
   return {
-    result: {
-      grid,
+    layers: [undefined, {
       image: canvasFromPixels(grid, await callWorker('labelPixels', { rows, cols, spacing, origin }, map.labels, grid, colours)),
       // The line is wider where the fold angle is larger.
       lines: creases.map(({ points, fold }) => ({ points, colour: CREASE_COLOUR, width: 1 + 2 * Math.min(1, fold) })),
-      read: (x, y) => {
-        const patch = valueAt({ ...map, values: map.labels }, x, y);
-        return patch >= 0 ? `patch ${patch + 1}` : '';
-      },
-    },
+      read: ({ point: [x, y] }) => patchInWords(valueAt({ ...map, values: map.labels }, x, y)),
+    }],
     about: aboutPatches(map.patches, creases.length, input.unit),
   };
 }
+
+/**
+ * The patches of a mesh.
+ * @param {Mesh} mesh
+ * @param {Pick<import('../../pkg/types.js').MeshUnrolling, 'labels' | 'patches' | 'creases'>} found
+ * @returns {ViewContent}
+ */
+export function patchesOfMesh({ triangles, positions, unit }, { labels, patches, creases }) {
+  // Triangles share no corners here, since patches end between triangles.
+  const corners = {
+    triangles: Uint32Array.from(triangles, (_, i) => i),
+    positions: Float64Array.from({ length: 3 * triangles.length }, (_, i) => positions[3 * triangles[Math.floor(i / 3)] + (i % 3)]),
+    colors: vertexColors(triangles.length, (i) => {
+      const label = labels[Math.floor(i / 3)];
+      return label < 0 ? UNLABELLED_COLOUR : patchColour(label);
+    }),
+  };
+  return {
+    layers: [undefined, { surface: corners, read: ({ triangle }) => patchInWords(labels[triangle]) }],
+    about: aboutPatches(patches, creases.length, unit),
+  };
+}
+
+/** @param {number} label negative or NaN for none */
+const patchInWords = (label) => (label >= 0 ? `patch ${count(label + 1)}` : '');

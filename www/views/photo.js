@@ -3,9 +3,8 @@ import { gridOf } from '../surface/lattice.js';
 import { canvasFromPixels } from '../surface/layer.js';
 import { callWorker } from '../surface/worker-client.js';
 
-/** @import {Analyses} from '../analyses.js' */
-/** @import {Input, Result} from '../session.js' */
-/** @import {ViewContent} from './view-content.js' */
+/** @import {Input} from '../session.js' */
+/** @import {ViewContent} from '../surface/layer.js' */
 
 /** Minimum length of a layer's longer side, in pixels. */
 const MIN_LAYER_PIXELS = 900;
@@ -16,20 +15,18 @@ export function hasColours({ photo, lattice }) {
 }
 
 /**
- * The view of photo or colours.
- * @param {Analyses} _
- * @param {Result} result
+ * The view of the photo of heights, or of their colours.
+ * @param {Input} input
  * @returns {Promise<ViewContent>}
  */
-export async function photo(_, { input }) {
-  const { lattice } = input;
+export async function photo({ lattice, ...input }) {
   if (!lattice) return {};
-  const coarse = gridOf(input);
+  const coarse = gridOf({ ...input, lattice });
   const finer = Math.max(1, Math.ceil(MIN_LAYER_PIXELS / Math.max(coarse.width, coarse.height)));
   const grid = { ...coarse, width: coarse.width * finer, height: coarse.height * finer, pixelSize: coarse.pixelSize / finer };
   const { rows, cols, spacing, origin, uvs, colors } = lattice;
   const image = input.photo?.image;
   const seen = image && uvs ? { image: { width: image.width, height: image.height, data: image.data }, uvs } : { colors };
-  const layer = { grid, image: canvasFromPixels(grid, await callWorker('photoPixels', { rows, cols, spacing, origin }, seen, grid)) };
-  return { input: layer, result: layer };
+  const layer = { image: canvasFromPixels(grid, await callWorker('photoPixels', { rows, cols, spacing, origin }, seen, grid)) };
+  return { layers: [layer, layer] };
 }

@@ -7,11 +7,11 @@ import { imagePicture } from '../surface/picture-view.js';
 import { callWorker } from '../surface/worker-client.js';
 import { suggestedSideOf, sheetFigures, sheetsInWords, cutSheets, drawingImage } from '../pattern.js';
 import { figures, key } from './legend.js';
-import { sheet, strainColours } from './sheet.js';
+import { sheetOfHeights, strainColours } from './sheet.js';
 
 /** @import {Analyses} from '../analyses.js' */
 /** @import {Result} from '../session.js' */
-/** @import {ViewContent} from './view-content.js' */
+/** @import {ViewContent} from '../surface/layer.js' */
 
 /** Length of the drawing's longer side, in pixels: enough for thin lines. */
 const DRAWING_SIDE_PIXELS = 2400;
@@ -24,9 +24,9 @@ const DRAWING_SIDE_PIXELS = 2400;
  * @returns {Promise<ViewContent>}
  */
 export async function flat(analyses, result, tell) {
-  const { verdict } = await analyses.unroll(result, tell);
-  const whole = () => sheet(analyses, result, tell);
-  if (verdict !== 'stretched' || !Number.isFinite((await analyses.patchCount(result)).count)) return whole();
+  const unrolled = await analyses.unroll(result, tell);
+  const whole = () => sheetOfHeights(result.input.unit ?? 'units', unrolled);
+  if (unrolled.verdict !== 'stretched' || !Number.isFinite((await analyses.patchCount(result)).count)) return whole();
   // If cutting fails, the surface is shown in one piece with its strain.
   const drawing = await cutSheets(analyses, result, { side: suggestedSideOf(result), assembly: true }, tell).catch(() => null);
   if (!drawing) return whole();
@@ -44,7 +44,7 @@ export async function flat(analyses, result, tell) {
   context.drawImage(image, 0, 0, canvas.width, canvas.height);
   const isFolded = drawing.sheets.some(({ folds }) => folds.length > 0);
   return {
-    after: imagePicture(canvas, sheetsInWords(drawing), strain ? ((x, y) =>
+    flat: imagePicture(canvas, sheetsInWords(drawing), strain ? ((x, y) =>
       strainInWords(strain.values[Math.floor((y / canvas.height) * strain.height) * strain.width + Math.floor((x / canvas.width) * strain.width)])) : undefined),
     said: `In one piece it would stretch; cut along its creases it lies flat. ${sheetsInWords(drawing)}`,
     colours: strain ? strainColours(strain.maxStrain) : undefined,

@@ -1,44 +1,24 @@
-/** The view of the rulings over the shaded surface. */
-import { nextTask } from '../dom.js';
+/** The view of the rulings over the shaded surface, of heights and meshes. */
 import { count, number, percent } from '../format.js';
 import { toCss } from '../surface/colours.js';
-import { gridOf } from '../surface/lattice.js';
 import { figures, key } from './legend.js';
 
-/** @import {Analyses} from '../analyses.js' */
-/** @import {Result} from '../session.js' */
 /** @import {Ruling} from '../api.js' */
 /** @import {Colour} from '../surface/colours.js' */
-/** @import {Line} from '../surface/layer.js' */
-/** @import {ViewContent} from './view-content.js' */
+/** @import {ViewContent} from '../surface/layer.js' */
 
 /** Colour of rulings, visible on bright and dark steel. @type {Colour} */
 const RULING_COLOUR = [232, 89, 12];
 
 /**
- * The view of the rulings.
- * @param {Analyses} analyses
- * @param {Result} result
- * @returns {Promise<ViewContent>}
- */
-export async function rulings(analyses, result) {
-  const { lines } = await analyses.rulings(result);
-  await nextTask();
-  const { input } = result;
-  const ruled = rulingContent(lines, input.unit);
-  return { result: { grid: gridOf(input), lines: ruled.lines }, about: ruled.about };
-}
-
-/**
- * The lines and figures of the rulings of a heightfield or mesh.
  * @param {readonly Ruling[]} lines
  * @param {string | null} [unit]
- * @returns {{ lines: Line[], about: Node[] }}
+ * @returns {ViewContent}
  */
-export function rulingContent(lines, unit) {
+export function rulings(lines, unit) {
   const deviations = lines.map(({ deviation }) => deviation).sort((a, b) => a - b);
   return {
-    lines: lines.map(({ points }) => ({ points, colour: RULING_COLOUR, width: 1.25 })),
+    layers: [undefined, { lines: lines.map(({ points }) => ({ points, colour: RULING_COLOUR, width: 1.25 })) }],
     about: [
       key(toCss(RULING_COLOUR), 'Rulings'),
       figures([

@@ -1,50 +1,61 @@
-/** The view of the surface laid flat in one piece, to scale and coloured by strain. */
-import { count, number, percent, signedPercent, strainInWords } from '../format.js';
+/** The view of a surface laid flat as it is, to scale and coloured by strain, of heights and meshes. */
+import { count, number, numberAgainst, percent, signedPercent, strainInWords } from '../format.js';
 import { linearScale } from '../surface/colours.js';
 import { canvasFromPixels } from '../surface/layer.js';
 import { imagePicture } from '../surface/picture-view.js';
+import { callWorker } from '../surface/worker-client.js';
 import { VERDICTS } from '../messages.js';
 import { figures } from './legend.js';
 
 /** @import {Analyses} from '../analyses.js' */
-/** @import {Result} from '../session.js' */
+/** @import {Mesh} from '../api.js' */
+/** @typedef {import('../../pkg/types.js').MeshUnrolling} MeshUnrolling */
 /** @import {Picture} from '../surface/picture-view.js' */
 /** @import {Colours} from './legend.js' */
-/** @import {ViewContent} from './view-content.js' */
+/** @import {ViewContent} from '../surface/layer.js' */
 /** @typedef {ReturnType<typeof import('../surface/colour-images.js').sheetStrainImage>} Sheet */
 
 /** Distance of the scale bar from the left and from below, in CSS pixels. */
 const RULER_MARGIN = 12;
 
 /**
- * The view of the flat surface.
- * @param {Analyses} analyses
- * @param {Result} result
- * @param {import('../mesh-fit.js').Tell} tell
+ * The view of heights laid flat.
+ * @param {string} unit
+ * @param {Awaited<ReturnType<Analyses['unroll']>>} unrolled
+ * @returns {ViewContent}
+ */
+export function sheetOfHeights(unit, { picture, report: { distortion, crossings, parts, plan }, verdict }) {
+  return sheet(picture, unit, VERDICTS[verdict], [
+    ['RMS strain', percent(distortion.rms)],
+    ['Largest strain', percent(distortion.maximum)],
+    ['Strain above 1 %', `${percent(distortion.above)} of the area`],
+    ['Flipped triangles', count(distortion.flipped)],
+    ['Overlaps', crossings === 0 ? 'none' : `borders cross ${count(crossings)} times`],
+    ['Strain seen from above, RMS', percent(plan.rms)],
+    ...(parts > 1 ? [/** @type {const} */ (['Parts', count(parts)])] : []),
+  ]);
+}
+
+/**
+ * The view of a mesh laid flat.
+ * @param {string} unit
+ * @param {MeshUnrolling} unrolled
+ * @param {Mesh} mesh
  * @returns {Promise<ViewContent>}
  */
-export async function sheet(analyses, result, tell) {
-  const { picture, report: { distortion, crossings, parts, plan }, verdict } = await analyses.unroll(result, tell);
+export async function sheetOfMesh(unit, { triangles, places, report: { sheets, strain, seamGap } }, { positions }) {
+  const picture = await callWorker('meshStrainImage', { triangles, places, positions });
+  return sheet(picture, unit, sheets === 1 ? 'One sheet.' : `${count(sheets)} sheets.`, [
+    ['Largest strain', percent(strain)],
+    ['Seam gap of folds', `${numberAgainst(seamGap, picture.extent.width)} ${unit}`],
+  ]);
+}
+
+/** @param {Sheet} picture @param {string} unit @param {string} said @param {readonly (readonly [string, string])[]} facts @returns {ViewContent} */
+function sheet(picture, unit, said, facts) {
   const { extent, maxStrain } = picture;
-  const unit = result.input.unit ?? 'units';
   const size = `${number(extent.width, 4)} × ${number(extent.height, 4)} ${unit}`;
-  return {
-    after: pictureOf(picture, unit, `The surface laid flat, ${size}`),
-    said: VERDICTS[verdict],
-    colours: strainColours(maxStrain),
-    about: [
-      figures([
-        ['Sheet size', size],
-        ['RMS strain', percent(distortion.rms)],
-        ['Largest strain', percent(distortion.maximum)],
-        ['Strain above 1 %', `${percent(distortion.above)} of the area`],
-        ['Flipped triangles', count(distortion.flipped)],
-        ['Overlaps', crossings === 0 ? 'none' : `borders cross ${count(crossings)} times`],
-        ['Strain seen from above, RMS', percent(plan.rms)],
-        ...(parts > 1 ? [/** @type {const} */ (['Parts', count(parts)])] : []),
-      ]),
-    ],
-  };
+  return { flat: pictureOf(picture, unit, `The surface laid flat, ${size}`), said, colours: strainColours(maxStrain), about: [figures([['Sheet size', size], ...facts])] };
 }
 
 /** The meaning of the colours of strain. @param {number} maxStrain strain at the end of the colour scale @returns {Colours} */

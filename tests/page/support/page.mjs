@@ -24,7 +24,7 @@ const args = [
 const SMALL_EXAMPLE = '#example=cylinder&size=64&noise=0.02';
 
 /** What of the page is folded at first. */
-const ALL_PARTS = 'view-more settings-more mesh-more file-more edges-more whole-more';
+const ALL_PARTS = 'view-more settings-more mesh-more file-more edges-more';
 
 /** Where the page is served as `npm start` serves it, file by file; elsewhere it is bundled, as on the site. */
 const SOURCES = 'sources/';
@@ -407,8 +407,8 @@ export async function open(page, name, bytes) {
 export async function openWhole(page, name, bytes) {
   await drop(page, name, bytes);
   await page.locator('#mesh-name', { hasText: name.replace(/\.\w+$/, '') }).waitFor();
-  await page.locator('#whole').waitFor();
-  await page.locator('#whole[aria-busy="false"]').waitFor();
+  await page.locator('[data-whole]').waitFor();
+  await page.locator('[data-whole] #stage[aria-busy="false"]').waitFor();
 }
 
 /**

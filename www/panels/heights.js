@@ -1,0 +1,105 @@
+/** Heights and their result on the stage: the surfaces in space, previews of the result, and the views of it. */
+import { element } from '../dom.js';
+import { heightReading, number, shortLambda } from '../format.js';
+import { resultImage } from '../surface/derived-data.js';
+import { heightAt, heightfieldBox, reliefMesh, reliefOf } from '../surface/relief.js';
+import { curvature, overHeights } from '../views/curvature.js';
+import { patchesOfHeights } from '../views/patches.js';
+import { hasColours, photo } from '../views/photo.js';
+import { flat } from '../views/pieces.js';
+import { rulings } from '../views/rulings.js';
+import { offerFile, offerResultSheets } from './save.js';
+import { stagePanel } from './stage.js';
+
+/** @import {Analyses} from '../analyses.js' */
+/** @import {Input, Result, Session} from '../session.js' */
+/** @import {Relief} from '../surface/relief.js' */
+/** @import {Look} from '../surface/scene.js' */
+/** @import {Subject, View} from './stage.js' */
+
+/** Steel, seen at an angle. @type {Look} */
+const STEEL_LOOK = { up: [0, 0, 1], direction: [0.375, 0.687, -0.622], isMetal: true, isSeenFromAbove: true };
+
+/** Creates the stage, which shows heights at first. @param {Session} session @param {Analyses} analyses */
+export function heightsPanel(session, analyses) {
+  const stamp = element('result-mark', HTMLElement);
+  /** Input and result. @type {[Relief | null, Relief | null]} */
+  const reliefs = [null, null];
+  let isPreview = false;
+
+  /** @param {(result: Result, tell: import('../mesh-fit.js').Tell) => ReturnType<View>} prepare @returns {View} */
+  const ofResult = (prepare) => (tell) => prepare(/** @type {Result} */ (session.result), tell);
+  /** @param {'gaussian' | 'kappa2'} what */
+  const curvatureView = (what) => ofResult(async (result) => curvature(what, result.input.unit, await analyses.curvatures(result), overHeights(result.input, what)));
+  /** @type {Subject} */
+  const heights = {
+    isWhole: false,
+    name: () => session.input?.name ?? 'view',
+    look: () => STEEL_LOOK,
+    box: () => session.input && heightfieldBox(session.input),
+    surface: (side, isFast) => {
+      const relief = reliefs[side];
+      return relief && reliefMesh(relief, isFast);
+    },
+    isSolved: () => session.result !== null,
+    isDivided: () => reliefs[1] !== null,
+    isPreview: () => isPreview,
+    views: {
+      gaussian: curvatureView('gaussian'),
+      kappa2: curvatureView('kappa2'),
+      rulings: ofResult(async (result) => rulings((await analyses.rulings(result)).lines, result.input.unit)),
+      patches: ofResult(async (result) => patchesOfHeights(result.input, await analyses.patches(result))),
+      photo: ofResult(({ input }) => photo(input)),
+      sheet: ofResult((result, tell) => flat(analyses, result, tell)),
+    },
+    offers: (view) => view !== 'photo' || (session.input !== null && hasColours(session.input)),
+    read: ({ after, point: [x, y] }, value) => {
+      const relief = reliefs[after ? 1 : 0];
+      return relief ? heightReading(heightAt(relief, x, y), session.input?.unit, value) : '';
+    },
+    stop: () => analyses.stop(),
+    run: () => void session.run(),
+    cancel: () => session.cancel(),
+    saveFile: () => session.result && offerFile(session.api, session.result),
+    cutSheets: () => session.result && offerResultSheets(session.api, session.result, analyses),
+  };
+  const stage = stagePanel(heights);
+
+  /** @param {Input} input @param {{ width: number, height: number, data: ArrayLike<number> }} image @param {number} lambda @param {string} mark */
+  const showSurface = (input, image, lambda, mark) => {
+    element('result-caption', HTMLElement).textContent = `λ = ${shortLambda(lambda)}`;
+    stamp.textContent = mark;
+    stamp.hidden = !mark;
+    reliefs[1] = reliefOf(input, image, 1);
+    stage.renew(heights, [1]);
+  };
+  /** @param {Result | null} result */
+  const showResult = (result) => {
+    isPreview = false;
+    if (result) return showSurface(result.input, resultImage(result), result.surface.report.lambda, result.surface.report.stopReason === 'cancelled' ? 'cancelled' : '');
+    reliefs[1] = null;
+    stage.renew(heights, [1]);
+  };
+  session.on('input', (input) => {
+    const { name, width, height, heightScale } = input;
+    element('input-caption', HTMLElement).textContent = `${name}, ${number(width, 6)} × ${number(height, 6)}`;
+    reliefs[0] = reliefOf(input, input, heightScale);
+    stage.renew(heights);
+  });
+  session.on('cleared', () => {
+    showResult(null);
+    stage.begin(heights);
+    stage.update(heights);
+  });
+  session.on('preview', ({ input, image, lambda }) => {
+    isPreview = true;
+    showSurface(input, image, lambda, 'preview');
+  });
+  session.on('result', (result) => {
+    showResult(result);
+    stage.update(heights);
+  });
+  // The last result replaces the previews.
+  session.on('unsolved', () => showResult(session.result));
+  return { stage, heights };
+}

@@ -1,0 +1,271 @@
+/**
+ * The stage: input and result in space on both sides of a divider, or a flat picture in their place; the choice of a view, what is
+ * said of it, and what to do with the result. Heights and whole meshes are subjects that it shows in the same way.
+ */
+import { download, element, elements, make, oncePerFrame } from '../dom.js';
+import { VIEW_WORDS } from '../messages.js';
+import { PictureView } from '../surface/picture-view.js';
+import { SceneView } from '../surface/scene.js';
+import { aboutView, pictureWithColours } from '../views/legend.js';
+import { dividerOver } from './divider.js';
+import { showError } from './notice.js';
+import { waitingPanel } from './waiting.js';
+
+/** @import {Box, Look, Place, Surface} from '../surface/scene.js' */
+/** @import {ViewContent} from '../surface/layer.js' */
+/** @import {Tell} from '../mesh-fit.js' */
+
+/**
+ * @typedef {object} Subject what the stage shows
+ * @property {boolean} isWhole whether it is a whole mesh
+ * @property {() => string} name of the input
+ * @property {() => Look} look how its surfaces look, and from where
+ * @property {() => Box | null} box that its surfaces fill; null without an input
+ * @property {(side: 0 | 1, isFast: boolean) => Surface | null} surface of the input or the result
+ * @property {() => boolean} isSolved whether there is a result
+ * @property {() => boolean} isDivided whether there is anything to show beside the input
+ * @property {() => boolean} [isPreview] whether the result's place is taken by a preview, which views say nothing about
+ * @property {Record<string, View | undefined>} views prepare the views
+ * @property {(view: string) => boolean} offers whether a view can be chosen
+ * @property {(place: Place, value?: string) => string} read what is under the pointer, with the view's value there
+ * @property {() => void} stop cancels the view that is being prepared
+ * @property {() => void} run solves the input
+ * @property {() => void} cancel cancels the solve
+ * @property {() => void} saveFile offers the result as a 3D file
+ * @property {() => void} cutSheets offers the result as sheets
+ */
+/** @typedef {(tell: Tell) => Promise<ViewContent>} View */
+/** @typedef {ReturnType<typeof stagePanel>} Stage */
+
+/** Pixels of a saved picture per pixel of the screen. */
+const SAVED_RATIO = 2;
+
+/** @param {Subject} first */
+export function stagePanel(first) {
+  const side = element('heights-side', HTMLElement);
+  const stage = element('stage', HTMLElement);
+  const canvas = element('space-canvas', HTMLCanvasElement);
+  const flat = new PictureView(element('result-picture', HTMLCanvasElement));
+  const reading = element('reading', HTMLElement);
+  const panel = element('analysis', HTMLElement);
+  const about = element('about-view', HTMLElement);
+  const description = element('view-says', HTMLElement);
+  const radios = elements('input[name="view"]', HTMLInputElement);
+  const save = element('view-save', HTMLButtonElement);
+  const ends = ['file', 'sheets'].map((name) => element(`end-${name}`, HTMLButtonElement));
+  let subject = first;
+  /** Null until the first input, and without WebGL. @type {SceneView | null} */
+  let view = null;
+  let isCreated = false;
+  /** @type {Partial<ViewContent>} */
+  let shown = {};
+  /** The surfaces of the subject, and those that are drawn: views may put others in their place. @type {(Surface | null)[]} */
+  const plain = [null, null];
+  /** @type {(Surface | null)[]} */
+  let drawn = [null, null];
+  /** Number of the newest update; answers to older ones are discarded. */
+  let newestUpdate = 0;
+  /** The verdict and its details, by the subject that they are about. @type {Map<Subject, [string, string]>} */
+  const said = new Map();
+
+  const divider = dividerOver('divider', ['input', 'result'], (share) => view?.divide(share));
+  const chosen = () => radios.find((radio) => radio.checked)?.value ?? 'shaded';
+
+  /** Creates the scene with the first input, and shows in it what there is by then. */
+  const createView = async () => {
+    isCreated = true;
+    view = await SceneView.create(canvas).catch(() => null);
+    view?.setLook(subject.look());
+    renew();
+    view?.look();
+  };
+  /** Shows the surfaces, or the picture in their place, and what can be done with them. */
+  const arrange = () => {
+    const isFlat = shown.flat !== undefined;
+    const isMissing = isCreated && view === null;
+    element('space-missing', HTMLElement).hidden = !isMissing || isFlat;
+    canvas.hidden = isMissing || isFlat;
+    element('picture-hint', HTMLElement).hidden = !isFlat;
+    for (const tools of elements('#space-hint, .space-tools', HTMLElement)) tools.hidden = isFlat;
+    const isDivided = subject.isDivided() && !isFlat;
+    divider.show(isDivided);
+    element('space-before', HTMLElement).hidden = isFlat;
+    element('space-after', HTMLElement).hidden = !isDivided;
+    save.disabled = !subject.isSolved() || (isMissing && !isFlat);
+    for (const button of ends) button.disabled = !subject.isSolved();
+    for (const radio of radios) /** @type {HTMLElement} */ (radio.parentElement).hidden = !subject.offers(radio.value);
+  };
+  /** Draws what the view lays over the surfaces, or shows in their place. */
+  const updateLayers = () => {
+    for (const at of /** @type {const} */ ([0, 1])) {
+      const layer = at === 1 && subject.isPreview?.() ? undefined : shown.layers?.[at];
+      const surface = layer?.surface ?? plain[at];
+      if (surface !== drawn[at]) view?.setSurface(at, (drawn[at] = surface));
+      view?.setImage(at, layer?.image ?? null);
+      view?.setLines(at, layer?.lines ?? []);
+    }
+    view?.divide(divider.share);
+    arrange();
+  };
+  /** Draws surfaces of the subject anew; the view's direction stays. @param {readonly (0 | 1)[]} [sides] both, and their box, unless said otherwise */
+  const renew = (sides) => {
+    const box = subject.box();
+    if (!isCreated && box) void createView();
+    if (view && box) {
+      if (!sides) {
+        view.setBox(box);
+        drawn = [null, null];
+      }
+      for (const at of sides ?? /** @type {const} */ ([0, 1])) plain[at] = subject.surface(at, view.isFast);
+    }
+    updateLayers();
+    if (!subject.offers(chosen())) choose('shaded');
+  };
+
+  let isSolving = false;
+  /** @param {boolean} isPreparing whether a view is being prepared */
+  const setBusy = (isPreparing) => stage.setAttribute('aria-busy', String(isPreparing || isSolving));
+  /** @param {Partial<ViewContent>} content */
+  const display = (content) => {
+    shown = content;
+    flat.show(content.flat ?? null);
+    reading.textContent = '';
+    about.replaceChildren(...aboutView(content));
+    panel.dataset.view = chosen();
+    panel.hidden = about.childElementCount === 0;
+    updateLayers();
+  };
+  const update = async () => {
+    const turn = ++newestUpdate;
+    const name = chosen();
+    const prepare = subject.views[name];
+    waiting.end();
+    display(prepare && !subject.isSolved() && name !== 'shaded' ? { about: [make('p', 'muted', 'Appears when a run has ended.')] } : {});
+    description.textContent = subject.isSolved() && (name !== 'shaded' || subject.isDivided()) ? VIEW_WORDS[name] : '';
+    setBusy(false);
+    if (!prepare || !subject.isSolved()) return;
+    setBusy(true);
+    description.textContent = '';
+    waiting.begin('view');
+    try {
+      const content = await prepare(waiting.tell);
+      if (turn !== newestUpdate) return;
+      display(content);
+      description.textContent = name !== 'shaded' || subject.isDivided() ? VIEW_WORDS[name] : '';
+    } catch (error) {
+      if (turn !== newestUpdate) return;
+      showError('This view could not be worked out', error);
+    }
+    waiting.end();
+    setBusy(false);
+  };
+  const waiting = waitingPanel(element('waiting', HTMLElement), () => {
+    newestUpdate++;
+    subject.stop();
+    waiting.end();
+    setBusy(false);
+    const again = make('button', '', 'Try again');
+    again.type = 'button';
+    again.addEventListener('click', () => void update());
+    display({ about: [make('p', 'muted', 'Cancelled.'), again] });
+    again.focus();
+  });
+  /** Cancels the view of the last result, and prepares the present one. */
+  const restart = () => {
+    subject.stop();
+    void update();
+  };
+  /** Shows a view. @param {string} name */
+  const choose = (name) => {
+    for (const radio of radios) radio.checked = radio.value === (subject.offers(name) ? name : 'shaded');
+    restart();
+  };
+  for (const radio of radios) radio.addEventListener('change', restart);
+
+  /** Newest place of the pointer. */
+  let pointer = { offsetX: 0, offsetY: 0 };
+  const readSoon = oncePerFrame(() => {
+    const place = view?.pick(pointer);
+    reading.textContent = place ? subject.read(place, shown.layers?.[place.after ? 1 : 0]?.read?.(place)) : '';
+  });
+  canvas.addEventListener('pointermove', ({ offsetX, offsetY, buttons }) => {
+    pointer = { offsetX, offsetY };
+    // No value is shown while the surface is turned.
+    if (buttons === 0) readSoon();
+  });
+  flat.canvas.addEventListener('pointermove', (event) => (reading.textContent = flat.read(event)));
+  for (const one of [canvas, flat.canvas]) one.addEventListener('pointerleave', () => (reading.textContent = ''));
+
+  element('from-above', HTMLButtonElement).addEventListener('click', () => view?.lookDown());
+  element('at-an-angle', HTMLButtonElement).addEventListener('click', () => view?.look());
+  save.addEventListener('click', async () => {
+    const isFlat = shown.flat !== undefined;
+    if (!isFlat) view?.draw(SAVED_RATIO * devicePixelRatio);
+    const picture = pictureWithColours(isFlat ? flat.canvas : canvas, shown.colours);
+    view?.drawSoon();
+    download(await picture.convertToBlob({ type: 'image/png' }), 'image/png', `${subject.name()}-view.png`);
+  });
+  ends[0].addEventListener('click', () => subject.saveFile());
+  ends[1].addEventListener('click', () => subject.cutSheets());
+
+  const showSaid = () => {
+    const [verdict, detail] = said.get(subject) ?? ['', ''];
+    element('verdict', HTMLElement).textContent = verdict;
+    element('verdict-detail', HTMLElement).textContent = detail;
+  };
+  arrange();
+
+  return {
+    get subject() {
+      return subject;
+    },
+    /** Name of the view. */
+    get view() {
+      return chosen();
+    },
+    /** Shows a subject in the place of another one. @param {Subject} next */
+    enter(next) {
+      if (next === subject) return;
+      subject.stop();
+      subject = next;
+      side.toggleAttribute('data-whole', next.isWhole);
+      view?.setLook(next.look());
+      shown = {};
+      // A model is cut out, a scan is saved.
+      const [main, other] = next.isWhole ? ends.toReversed() : ends;
+      for (const button of ends) button.classList.toggle('primary', button === main);
+      main.after(other);
+      renew();
+      view?.look();
+      showSaid();
+      void update();
+    },
+    /** Draws surfaces of a subject anew, if it is the one that is shown. @param {Subject} of @param {readonly (0 | 1)[]} [sides] */
+    renew: (of, sides) => {
+      if (of === subject) renew(sides);
+    },
+    /** Shows a new input of a subject from its first direction. @param {Subject} of @param {boolean} [turns] whether it turns there slowly */
+    begin: (of, turns = false) => {
+      if (of !== subject) return;
+      view?.setLook(of.look());
+      renew();
+      view?.look();
+      if (turns) view?.turnOnce();
+    },
+    /** Prepares the view of a subject's result, or of none. @param {Subject} of */
+    update: (of) => {
+      if (of === subject) restart();
+    },
+    /** Says what has become of a subject. @param {Subject} of @param {string} verdict @param {string} [detail] */
+    say: (of, verdict, detail = '') => {
+      said.set(of, [verdict, detail]);
+      if (of === subject) showSaid();
+    },
+    choose,
+    /** Tells whether a whole mesh is being solved. @param {boolean} solves */
+    setSolving: (solves) => {
+      isSolving = solves;
+      setBusy(false);
+    },
+  };
+}

@@ -101,19 +101,6 @@ export function make(tag, className, ...children) {
 }
 
 /**
- * A labelled field for a number.
- * @param {string} words
- * @param {number} value initial value; NaN leaves the field empty
- * @param {number} min
- * @param {number} [max]
- */
-export function numberField(words, value, min, max = Infinity) {
-  const input = make('input', '');
-  Object.assign(input, { type: 'number', value: Number.isNaN(value) ? '' : String(value), min: String(min), max: Number.isFinite(max) ? String(max) : '', step: 'any', required: true });
-  return { input, label: make('label', 'field', words, input) };
-}
-
-/**
  * Downloads a file.
  * @param {Uint8Array<ArrayBuffer> | Blob | string} content
  * @param {string} type

@@ -42,7 +42,7 @@ async function start() {
   runPanel(session, meshFit, stage);
   reportPanel(session, analyses);
   headlinePanel(session, analyses, stage, heights);
-  const source = sourcePanel(session, stage.choose, (files) => void addressSync.rememberFiles(files), meshFitView.begin, (file) => void files.openColour(file));
+  const source = sourcePanel(session, adopt, stage.choose, (files) => void addressSync.rememberFiles(files), meshFitView.begin, (file) => void files.openColour(file));
   const page = pagePanel(session.api, (photos) => void addressSync.rememberPhotos(photos), (states) => addressSync.rememberOutlines(states));
   const mode = modePanel(session, (entered) => {
     if (entered === 'photo') page.begin();

@@ -142,10 +142,8 @@ export const MESH_FIT_WORDS = {
 
 /** Labels and messages about sheets to cut out. */
 export const SHEET_WORDS = {
-  units: 'The file is in',
   /** @param {string} unit */
   unit: (unit) => (({ mm: 'millimetres', cm: 'centimetres', m: 'metres', inch: 'inches' })[unit] ?? unit),
-  ownSize: 'no unit: choose the size',
   figures: 'Figures',
   title: 'Cut-out sheets',
   /** @param {string} side @param {number} pages @param {number} joints @param {string} [smallest] of several sheets */
@@ -155,23 +153,9 @@ export const SHEET_WORDS = {
   small: (smallest) => `Hard to build: the smallest sheet is ${smallest} mm long. Make it larger, or its pieces simpler by less detail.`,
   /** @param {number} pages */
   manyPages: (pages) => `These are ${count(pages)} pages. Is the unit of the file right? A smaller longer side needs fewer.`,
-  card: 'card or paper',
-  metal: 'sheet metal',
-  tabs: 'Tabs to glue',
-  tabDepth: 'Tab depth, mm',
   upperSide: 'The surface is the upper side of the metal.',
   /** @param {string} thickness */
   blank: (thickness) => `A solid of sheet metal, ${thickness} mm thick: this is the blank that it is bent from.`,
-  thickness: 'Thickness, mm',
-  radius: 'Inner radius, mm',
-  likeThickness: 'as the thickness',
-  kFactor: 'K-factor (neutral line)',
-  side: 'Longer side when finished, mm',
-  paper: 'Paper',
-  onePage: 'one large page',
-  material: 'Material',
-  toCut: 'Cut between pieces',
-  toJoin: 'Fold between pieces',
   pairs: 'such as 1-7, 2-3',
   wrongPairs: 'These are numbers of two pieces each, such as 1-7, 2-3.',
   noEdge: 'There is no fold or cut here. Click a fold, or the letter of a cut.',
@@ -186,8 +170,6 @@ export const SHEET_WORDS = {
   curvedFold: 'Metal needs straight bends, and one fold of these sheets is curved. Choose “card or paper”, or a smaller λ for simpler pieces.',
   /** @param {string} reason */
   uncut: (reason) => `The surface cannot be cut into sheets: ${reason}.`,
-  /** @param {string} field @param {string} min @param {string} max */
-  outOfRange: (field, min, max) => `“${field}” has to be from ${min} to ${max}`,
 };
 
 /** Purposes of file formats, as the save dialogs show them beside each format. */
@@ -206,12 +188,7 @@ export const FORMAT_WORDS = {
 /** Labels and messages about solids for 3D printers. */
 export const SOLID_WORDS = {
   words: 'closed and in millimetres, for a 3D printer',
-  side: 'Longest side when printed, mm',
-  base: 'Base at its thinnest, mm',
-  thickness: 'Thickness, mm',
   shell: 'Where it bends more tightly than its thickness, the shell may cross itself.',
-  /** @param {string} field */
-  outOfRange: (field) => `“${field}” has to be at least 0.1`,
 };
 
 /** Messages and labels of the save dialog. */
@@ -342,11 +319,6 @@ export function meshLambdaChoiceInWords({ lambda, sigma, stopReason }) {
   if (sigma === undefined) return `Too few vertices to measure their noise: λ = ${shortLambda(lambda)}.`;
   return `Chosen automatically. Noise: ${number(sigma)} along the normals, in the unit of the mesh.`;
 }
-
-/** Messages about the field for λ. */
-export const LAMBDA_WORDS = {
-  invalid: 'λ must be a number from 10⁻¹² to 10¹⁵. Showing the last result.',
-};
 
 /**
  * The message about an error.

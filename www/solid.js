@@ -1,6 +1,7 @@
 /** Solids for 3D printers: an open surface gets a base or a thickness, and all lengths become millimetres. */
 
-import { make, numberField } from './dom.js';
+import { make } from './dom.js';
+import { between, fieldsOf } from './fields.js';
 import { FORMAT_WORDS, SOLID_WORDS } from './messages.js';
 import { suggestedSide } from './pattern.js';
 import { boxOf } from './surface/triangles.js';
@@ -113,14 +114,17 @@ async function threeMf({ positions, triangles }) {
  * @returns {{ formats: Format[], fields: HTMLElement, onChange: (act: () => void) => void }}
  */
 export function surfaceFormats({ surface, length, unit, onBase, mesh }) {
-  const side = numberField(SOLID_WORDS.side, suggestedSide(length, unit), 0.1);
-  const thickness = numberField(onBase ? SOLID_WORDS.base : SOLID_WORDS.thickness, 2, 0.1);
+  const fields = fieldsOf({
+    'solid-side': { label: 'Longest side when printed, mm', value: String(suggestedSide(length, unit)), range: between(0.1, Infinity, 'of at least 0.1') },
+    'solid-thickness': { label: onBase ? 'Base at its thinnest, mm' : 'Thickness, mm', value: '2', range: between(0.1, Infinity, 'of at least 0.1') },
+  });
+  const box = make('div', 'pair for-solid', ...fields.nodes());
   let wasOpen = true;
   /** @param {Worker} worker */
   const solid = async (worker) => {
-    const invalid = [side, thickness].find(({ input }) => !input.checkValidity());
-    if (invalid) throw new Error(SOLID_WORDS.outOfRange(invalid.label.firstChild?.textContent ?? ''));
-    const made = solidOf(await mesh(worker), { side: side.input.valueAsNumber, thickness: thickness.input.valueAsNumber, onBase });
+    const fault = fields.check();
+    if (fault) throw new Error(fault);
+    const made = solidOf(await mesh(worker), { side: fields.number('solid-side'), thickness: fields.number('solid-thickness'), onBase });
     ({ wasOpen } = made);
     return made;
   };
@@ -134,9 +138,7 @@ export function surfaceFormats({ surface, length, unit, onBase, mesh }) {
       { value: 'glb', name: 'GLB', words: FORMAT_WORDS.glb, type: 'model/gltf-binary', write: (worker) => worker.writeGlb(surface) },
       { value: 'ply', name: 'PLY', words: FORMAT_WORDS.ply, type: 'model/ply', write: (worker) => worker.writePly(surface) },
     ],
-    fields: make('div', 'pair for-solid', side.label, thickness.label),
-    onChange: (act) => {
-      for (const { input } of [side, thickness]) input.addEventListener('change', act);
-    },
+    fields: box,
+    onChange: (act) => box.addEventListener('change', act),
   };
 }

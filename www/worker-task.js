@@ -37,6 +37,8 @@ export class Tasks {
   #idleTimer = 0;
   /** Answers by their questions about an object, which are freed together with it. @type {WeakMap<object, Map<string, Promise<any>>>} */
   #answers = new WeakMap();
+  /** Forgets the answers that are not there yet. @type {Set<() => void>} */
+  #pending = new Set();
 
   /** @param {Api} api */
   constructor(api) {
@@ -73,12 +75,16 @@ export class Tasks {
     if (cached) return cached;
     const answer = this.run(task);
     answers.set(question, answer);
-    answer.catch(() => answers.delete(question));
+    const forget = () => void answers.delete(question);
+    this.#pending.add(forget);
+    answer.catch(forget).finally(() => this.#pending.delete(forget));
     return answer;
   }
 
   /** Cancels all running tasks; their promises reject. */
   stop() {
+    // Their questions may be asked again before they have rejected.
+    for (const forget of this.#pending) forget();
     if (this.#runningTasks > 0) this.#dispose();
   }
 

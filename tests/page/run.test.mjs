@@ -152,11 +152,11 @@ pageTest('λ can be typed, and a wrong one is refused in place', async (page) =>
 });
 
 pageTest('a λ that is no number is said at its field, a decimal comma is one, and nothing typed is the automatic one', async (page) => {
-  const [field, wrong] = [page.getByLabel('λ as a number'), page.locator('#lambda-wrong')];
+  const [field, wrong] = [page.getByLabel('λ as a number'), page.locator('#lambda-value-wrong')];
   for (const typed of ['abc', '0', '1e30']) {
     await field.fill(typed);
     await field.press('Tab');
-    assert.match(await wrong.innerText(), /^λ must be a number from 10⁻¹² to 10¹⁵/);
+    assert.match(await wrong.innerText(), /^This must be a number from 10⁻¹² to 10¹⁵/);
     assert.equal(await field.getAttribute('aria-invalid'), 'true');
     assert.equal(await page.getByRole('alert').isVisible(), false);
   }

@@ -234,13 +234,13 @@ pageTest('what cannot be laid flat whole is laid flat in pieces, which are saved
   // What cannot be is refused in its place, and nothing of another size can be saved.
   for (const wrong of ['0', '-5']) {
     await side.fill(wrong);
-    await page.locator('#save-size', { hasText: /Longer side when finished.* has to be from 10 to 5000/ }).waitFor();
+    await page.locator('#save-size', { hasText: /Longer side when finished.* This must be a number from 10 to 5000/ }).waitFor();
     assert.ok(await page.locator('#save-now').isDisabled());
   }
   await side.fill(String(doubled));
   await figure('Drawing').filter({ hasNotText: String(Math.round(wide)) }).waitFor({ state: 'attached' });
   assert.ok(await pages() > 2 * before, `${await pages()} pages instead of ${before}`);
-  await page.locator('.sheets label', { hasText: /^Paper/ }).locator('select').selectOption('a4');
+  await page.getByLabel('Paper', { exact: true }).selectOption('a4');
   await page.locator('#save-formats').getByRole('radio', { name: /^PDF / }).check();
   await page.locator('#save-size', { hasText: /pdf, / }).waitFor();
   const saveBox = await page.locator('#save-now').boundingBox();
@@ -309,6 +309,14 @@ pageTest('another result takes the place of an answer that is still being worked
   assert.match(await page.locator('#about-view .said').innerText(), /^Laid flat/);
   assert.equal(await page.locator('#notice').isVisible(), false);
 }, { start: '#example=roof' });
+
+pageTest('a view that is left and chosen again at once is worked out anew', async (page) => {
+  await page.evaluate(() => {
+    for (const view of ['patches', 'shaded', 'patches']) /** @type {HTMLInputElement} */ (document.querySelector(`input[name="view"][value="${view}"]`)).click();
+  });
+  await page.locator('#about-view .figures dt', { hasText: 'Patches' }).waitFor();
+  assert.equal(await page.getByRole('alert').isVisible(), false);
+});
 
 pageTest('a view that cannot be worked out says so, and the surface stays', async (page) => {
   // Where the file is damaged, the copy in a module would do.

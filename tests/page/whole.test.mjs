@@ -4,8 +4,8 @@ import { readFile } from 'node:fs/promises';
 import { noisyBox, offBox, SIDES } from './support/box.mjs';
 import { obj } from './support/files.mjs';
 import { parsed } from './support/numbers.mjs';
-import { choose, doorTest, dropAll, look, open, openFromOneSide, openWhole, reported, saveAs, settled, typeLambda, workBy } from './support/page.mjs';
-import { parsePng } from './support/photos.mjs';
+import { choose, doorTest, dropAll, look, open, openFromOneSide, openWhole, painted, reported, saveAs, settled, typeLambda, workBy } from './support/page.mjs';
+import { parsePng, png } from './support/photos.mjs';
 
 /** @typedef {import('playwright-core').Page} Page */
 
@@ -401,3 +401,33 @@ f 1/1 2/2 5/3\nf 2/1 3/2 5/3\nf 3/1 4/2 5/3\nf 4/1 1/2 5/3\nf 1/1 3/2 2/3\nf 1/1
   await preview.and(page.locator(`:not([src="${before}"])`)).waitFor();
   assert.ok(!await isPrinted());
 });
+
+doorTest('a model is shown with its textures, each on its own faces', async (page) => {
+  // Two sides of a pyramid face the viewer, who looks along (-0.5, -0.45, -0.75); one is red, all others are blue.
+  const text = `mtllib pyramid.mtl
+v 0 0 0\nv 60 0 0\nv 60 0 60\nv 0 0 60\nv 30 50 30
+vt 0.2 0.2\nvt 0.8 0.2\nvt 0.5 0.8
+usemtl red\nf 4/1 3/2 5/3
+usemtl blue\nf 3/1 2/2 5/3\nf 2/1 1/2 5/3\nf 1/1 4/2 5/3\nf 1/1 2/2 3/3\nf 1/1 3/2 4/3
+`;
+  /** @param {number[]} colour */
+  const filled = (colour) => png({ width: 8, height: 8, data: Uint8ClampedArray.from({ length: 256 }, (_, i) => [...colour, 255][i % 4]) });
+  await dropAll(page, {
+    'pyramid.obj': Buffer.from(text), 'pyramid.mtl': Buffer.from('newmtl red\nmap_Kd red.png\nnewmtl blue\nmap_Kd blue.png\n'),
+    'red.png': filled([255, 0, 0]), 'blue.png': filled([0, 0, 255]),
+  });
+  await done(page);
+  /** Places of the middle of the pixels in a colour, as shares of the picture's width. @param {0 | 2} channel */
+  const middleOf = async (channel) => {
+    await painted(page);
+    const { width, data } = parsePng(await page.locator('#space-canvas').screenshot());
+    const found = [];
+    for (let i = 0; i < data.length; i += 4) if (data[i + channel] > 2 * data[i + 2 - channel] + 20 && data[i + channel] > 2 * data[i + 1] + 20) found.push(((i / 4) % width) / width);
+    return found.length > 0.01 * width * width ? found.reduce((sum, x) => sum + x, 0) / found.length : NaN;
+  };
+  assert.ok(await page.getByRole('radio', { name: 'Photo' }).isChecked(), 'it comes first');
+  const [red, blue] = [await middleOf(0), await middleOf(2)];
+  assert.ok(red < 0.5 && blue > 0.5, `red at ${red}, blue at ${blue}`);
+  await view(page, 'shaded');
+  assert.ok(Number.isNaN(await middleOf(0)) && Number.isNaN(await middleOf(2)));
+}, { reducedMotion: 'reduce', drawn: true });

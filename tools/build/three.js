@@ -2,7 +2,7 @@
 // @ts-expect-error three.js has no types of its own
 export {
   BufferAttribute, BufferGeometry, CanvasTexture, ColorManagement, DataTexture, DirectionalLight, DoubleSide, Group, LinearFilter, LinearSRGBColorSpace, Mesh, MeshMatcapMaterial,
-  OrthographicCamera, PlaneGeometry, Points, PointsMaterial, Raycaster, Scene, ShadowMaterial, Vector3, WebGLRenderer,
+  OrthographicCamera, PlaneGeometry, Points, PointsMaterial, Raycaster, RepeatWrapping, Scene, ShadowMaterial, Vector3, WebGLRenderer,
 } from 'three';
 // @ts-expect-error likewise
 export { LineMaterial, LineSegments2, LineSegmentsGeometry, OrbitControls } from 'three/addons';

@@ -1,6 +1,7 @@
 /** Camera of depths: back-projects them to a mesh in space, which is then sampled from a view. */
 import { runInWorker } from '../worker-task.js';
 import { element, onFilesChosen } from '../dom.js';
+import { above, between, fieldsOf } from '../fields.js';
 import { number } from '../format.js';
 import { DEPTH_WORDS } from '../messages.js';
 
@@ -10,6 +11,10 @@ import { DEPTH_WORDS } from '../messages.js';
 
 /** Field of view that is assumed at first, in degrees along the longer side: about that of a phone. */
 const ASSUMED_FIELD_OF_VIEW_DEGREES = 60;
+const FIELDS = {
+  'camera-angle': { label: 'Field of view, °', range: between(1, 179), optional: true },
+  'camera-scale': { label: 'Depth scale', value: '0.001', range: above(0) },
+};
 
 /**
  * @param {Session} session
@@ -18,8 +23,11 @@ const ASSUMED_FIELD_OF_VIEW_DEGREES = 60;
 export function cameraPanel(session, openLoadedMesh) {
   const depthCheckbox = element('is-depth', HTMLInputElement);
   const panel = element('camera', HTMLElement);
-  const scale = element('camera-scale', HTMLInputElement);
-  const angle = element('camera-angle', HTMLInputElement);
+  const fields = fieldsOf(FIELDS, (name) => {
+    if (name === 'camera-angle') fileCamera = null;
+    describe();
+  });
+  element('camera-fields', HTMLElement).append(...fields.nodes());
   const about = element('camera-about', HTMLElement);
   const span = element('camera-span', HTMLElement);
   /** The input whose values are the depths. */
@@ -31,7 +39,7 @@ export function cameraPanel(session, openLoadedMesh) {
     const input = depthInput();
     if (!input) return;
     about.textContent = fileCamera ? DEPTH_WORDS.camera(fileCamera) : '';
-    const [near, far] = depthRange(input.data).map((depth) => depth * scale.valueAsNumber);
+    const [near, far] = depthRange(input.data).map((depth) => depth * fields.number('camera-scale'));
     span.textContent = Number.isFinite(near) ? `With this scale, what is seen is ${number(near)} to ${number(far)} away.` : '';
   };
   /** Shows the fields, filled with a typical camera, whose principal point is the middle of the image. */
@@ -39,8 +47,8 @@ export function cameraPanel(session, openLoadedMesh) {
     depthCheckbox.checked = true;
     panel.hidden = false;
     fileCamera = null;
-    angle.value = String(ASSUMED_FIELD_OF_VIEW_DEGREES);
-    scale.value = depthInput()?.depthUnit === 'm' ? '1' : '0.001';
+    fields.set('camera-angle', ASSUMED_FIELD_OF_VIEW_DEGREES);
+    fields.set('camera-scale', depthInput()?.depthUnit === 'm' ? 1 : 0.001);
     describe();
   };
 
@@ -53,11 +61,6 @@ export function cameraPanel(session, openLoadedMesh) {
       });
     else panel.hidden = true;
   });
-  scale.addEventListener('change', describe);
-  angle.addEventListener('change', () => {
-    fileCamera = null;
-    describe();
-  });
   /** Reads the camera from a file. @param {File} file */
   const readCamera = async (file) => {
     const input = depthInput();
@@ -67,8 +70,8 @@ export function cameraPanel(session, openLoadedMesh) {
       if (depthInput() !== input) return false;
       show();
       fileCamera = camera;
-      angle.value = '';
-      if (camera.depthScale) scale.value = String(camera.depthScale);
+      fields.set('camera-angle', '');
+      if (camera.depthScale) fields.set('camera-scale', camera.depthScale);
       describe();
       return true;
     } catch (error) {
@@ -80,25 +83,23 @@ export function cameraPanel(session, openLoadedMesh) {
 
   /** The camera of the fields. @param {Input} input @returns {PhotoCamera} */
   const presentCamera = ({ width, height }) => {
-    const depthScale = scale.valueAsNumber;
+    const depthScale = fields.number('camera-scale');
     if (fileCamera) {
       const { rotation, translation, ...camera } = fileCamera;
       return { ...camera, depthScale };
     }
-    const focalLength = Math.max(width, height) / 2 / Math.tan((angle.valueAsNumber * Math.PI) / 360);
+    const focalLength = Math.max(width, height) / 2 / Math.tan((fields.number('camera-angle') * Math.PI) / 360);
     return { fx: focalLength, fy: focalLength, cx: (width - 1) / 2, cy: (height - 1) / 2, depthScale };
   };
   /** Builds the mesh from the depths. @param {boolean} [isAssumed] whether the camera was assumed, not given */
   const backProject = async (isAssumed = false) => {
     const input = depthInput();
-    if (!input) return false;
-    scale.setCustomValidity(scale.valueAsNumber > 0 ? '' : 'It must be a number above 0.');
-    angle.setCustomValidity(fileCamera || (angle.valueAsNumber > 0 && angle.valueAsNumber < 180) ? '' : 'It must be an angle above 0° and below 180°.');
-    if (!scale.reportValidity() || !angle.reportValidity()) return false;
+    if (!fileCamera && fields.text('camera-angle') === '') fields.set('camera-angle', ASSUMED_FIELD_OF_VIEW_DEGREES);
+    if (!input || fields.check()) return false;
     const { name, width, height, data, photo } = input;
     const camera = presentCamera(input);
     const unit = input.depths ? { unit: /** @type {const} */ ('m') } : {};
-    const cameraAssumption = isAssumed ? DEPTH_WORDS.assumed(number(angle.valueAsNumber), scale.valueAsNumber) : undefined;
+    const cameraAssumption = isAssumed ? DEPTH_WORDS.assumed(number(fields.number('camera-angle')), fields.number('camera-scale')) : undefined;
     return openLoadedMesh({ name, kind: 'depths', photo, depthSource: input, cameraAssumption },
       (signal) => runInWorker(session.api, signal, async (worker) => ({ ...await worker.backProject({ width, height, data }, camera), ...unit })),
       DEPTH_WORDS.failed, 'building');

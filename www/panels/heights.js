@@ -35,6 +35,7 @@ export function heightsPanel(session, analyses) {
   const heights = {
     isWhole: false,
     name: () => session.input?.name ?? 'view',
+    caption: () => (session.input ? `${session.input.name}, ${number(session.input.width, 6)} × ${number(session.input.height, 6)}` : ''),
     look: () => STEEL_LOOK,
     box: () => session.input && heightfieldBox(session.input),
     surface: (side, isFast) => {
@@ -81,9 +82,7 @@ export function heightsPanel(session, analyses) {
     stage.renew(heights, [1]);
   };
   session.on('input', (input) => {
-    const { name, width, height, heightScale } = input;
-    element('input-caption', HTMLElement).textContent = `${name}, ${number(width, 6)} × ${number(height, 6)}`;
-    reliefs[0] = reliefOf(input, input, heightScale);
+    reliefs[0] = reliefOf(input, input, input.heightScale);
     stage.renew(heights);
   });
   session.on('cleared', () => {

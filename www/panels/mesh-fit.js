@@ -10,6 +10,7 @@ import { curvature, overMeshes } from '../views/curvature.js';
 import { figures } from '../views/legend.js';
 import { readingAt, meshFacts, meshFitSummary } from '../views/mesh-fit.js';
 import { patchesOfMesh } from '../views/patches.js';
+import { photoOfMesh } from '../views/photo.js';
 import { rulings } from '../views/rulings.js';
 import { sheetOfMesh } from '../views/sheet.js';
 import { longestSide } from '../mesh-fit.js';
@@ -44,6 +45,8 @@ export function meshFitPanel(session, meshFit, stage, heights) {
   const ofSurface = (prepare) => (tell) => prepare(/** @type {MeshSurface} */ (meshFit.surface), /** @type {Mesh} */ (meshFit.mesh), tell);
   /** The result, unless it is the input, which has no noise. */
   const fitted = () => (meshFit.surface?.report.stopReason === 'noNoise' ? null : meshFit.surface);
+  /** Whether the mesh has textures or colours. */
+  const isColoured = () => inputMesh?.colors !== undefined || (inputMesh?.uvs !== undefined && (inputMesh.textures ?? []).length > 0);
   /** @type {Subject['views']} */
   const views = {
     shaded: ofSurface(async (surface) => ({ about: [figures(meshFacts(surface))] })),
@@ -53,19 +56,24 @@ export function meshFitPanel(session, meshFit, stage, heights) {
     }),
     rulings: ofSurface(async (surface, { unit }) => rulings((await meshFit.rulings(surface)).lines, unit)),
     patches: ofSurface(async (surface, _, tell) => patchesOfMesh(surface, await meshFit.unrolled(surface, tell))),
+    photo: ofSurface((surface, mesh) => photoOfMesh(mesh, surface)),
     sheet: ofSurface(async (surface, { unit }, tell) => sheetOfMesh(unit ?? 'units', await meshFit.unrolled(surface, tell), surface)),
   };
   /** @type {Subject} */
   const whole = {
     isWhole: true,
     name: () => session.input?.name ?? 'mesh',
+    caption: () => session.input?.name ?? '',
     look: () => PAPER_LOOKS[upAxis()],
     box: () => meshFit.mesh && boxOf(meshFit.mesh.positions),
-    surface: (side) => (side === 0 ? meshFit.mesh : fitted()),
+    surface: (side) => {
+      const shown = side === 0 ? meshFit.mesh : fitted();
+      return shown && { positions: shown.positions, triangles: shown.triangles, colors: shown.colors };
+    },
     isSolved: () => meshFit.surface !== null,
     isDivided: () => fitted() !== null,
     views,
-    offers: (view) => view in views,
+    offers: (view) => view in views && (view !== 'photo' || isColoured()),
     read: (place, value) => (meshFit.mesh && meshFit.surface ? readingAt(meshFit.mesh, meshFit.surface, place, value) : ''),
     stop: () => {
       if (meshFit.surface) meshFit.stop();
@@ -187,7 +195,7 @@ export function meshFitPanel(session, meshFit, stage, heights) {
     begin() {
       const { hidden, noNoise } = session.input?.lattice ?? {};
       if (!inputMesh || !(hidden || (noNoise && !inputMesh.textures?.length))) return void session.run();
-      enter('shaded');
+      enter(isColoured() ? 'photo' : 'shaded');
       isFirstSolve = true;
     },
   };

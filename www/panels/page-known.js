@@ -1,41 +1,48 @@
 /** Options of a photo of a page: paper size, light, and number of pages. */
 import { element, elements } from '../dom.js';
+import { above, fieldsOf } from '../fields.js';
+import { SAVE_WORDS } from '../messages.js';
 import { PAPERS } from '../page/paper.js';
 
 /** @import {PageSession} from '../page/session.js' */
 /** @typedef {import('../../pkg/types.js').DewarpPageOptions} Options */
 
+const { a4, letter } = SAVE_WORDS.papers;
+const FIELDS = {
+  'page-format': {
+    label: 'Page format',
+    options: { '': 'Not known', a4: `${a4} portrait`, 'a4-wide': `${a4} landscape`, letter: `${letter} portrait`, 'letter-wide': `${letter} landscape`, own: 'another one…' },
+  },
+  'page-wide': { label: 'Width in mm', range: above(0), optional: true },
+  'page-high': { label: 'Height in mm', range: above(0), optional: true },
+  'page-light': {
+    label: 'Light on the paper', options: { even: 'White paper', keep: 'Original', ink: 'Black and white' }, value: 'even',
+    hint: 'Removes shadows and colour casts. Very pale print may vanish.',
+  },
+};
+
 /** @param {PageSession} session */
 export function pageKnownPanel(session) {
-  const format = element('page-format', HTMLSelectElement);
-  const sides = element('page-sides', HTMLElement);
-  const [wide, high] = ['page-wide', 'page-high'].map((id) => element(id, HTMLInputElement));
-  const light = element('page-light', HTMLSelectElement);
   const pages = elements('input[name="pages"]', HTMLInputElement);
+  const fields = fieldsOf(FIELDS, () => session.setOptions(readOptions()));
+  element('format-field', HTMLElement).replaceChildren(...fields.nodes('page-format'));
+  element('page-sides', HTMLElement).replaceChildren(...fields.nodes('page-wide', 'page-high'));
+  element('light-field', HTMLElement).replaceChildren(...fields.nodes('page-light'));
 
-  /** @param {HTMLInputElement} input */
-  const isValid = (input) => {
-    input.setCustomValidity(input.value === '' || input.valueAsNumber > 0 ? '' : 'It must be a number above 0.');
-    return input.value !== '' && input.reportValidity();
-  };
   /** The options that are chosen. @returns {Options} */
   const readOptions = () => {
-    sides.hidden = format.value !== 'own';
-    /** @type {Options} */
-    const options = {};
-    if (light.value === 'ink') options.ink = true;
-    else if (light.value === 'keep') options.light = 'keep';
-    if (format.value === 'a4' || format.value === 'letter') options.page = format.value;
-    else if (format.value === 'own' && isValid(wide) && isValid(high)) options.page = [wide.valueAsNumber, high.valueAsNumber];
-    else if (format.value === 'a4-wide' || format.value === 'letter-wide') options.page = [...PAPERS[format.value]];
-    return options;
+    const [format, light] = [fields.text('page-format'), fields.text('page-light')];
+    const sides = /** @type {[number, number]} */ ([fields.number('page-wide'), fields.number('page-high')]);
+    fields.show(format === 'own', 'page-wide', 'page-high');
+    return {
+      ...(light === 'ink' ? { ink: true } : light === 'keep' && { light }),
+      ...(format === 'a4' || format === 'letter' ? { page: format } : format === 'a4-wide' || format === 'letter-wide' ? { page: [...PAPERS[format]] } : format === 'own' && sides.every((side) => side > 0) && { page: sides }),
+    };
   };
-  const update = () => session.setOptions(readOptions());
-  for (const control of [format, light, wide, high]) control.addEventListener('change', update);
   for (const radio of pages) {
     radio.addEventListener('change', () => (radio.value === '2' ? session.addGutter() : session.removeGutter()));
   }
-
+  readOptions();
   session.on('photo', () => (session.options = readOptions()));
   session.on('outline', ({ outline }) => {
     for (const radio of pages) radio.checked = radio.value === String(outline.pages);

@@ -199,7 +199,7 @@ function paintBefore(context, picture, share, ratio) {
   context.beginPath();
   context.rect(0, 0, share * context.canvas.width, context.canvas.height);
   context.clip();
-  context.fillStyle = getComputedStyle(context.canvas).getPropertyValue('--well');
+  context.fillStyle = getComputedStyle(context.canvas.parentElement ?? context.canvas).backgroundColor;
   context.fill();
   context.setTransform(zoomed);
   picture.paint(context, ratio);

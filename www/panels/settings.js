@@ -1,28 +1,59 @@
 /** Settings of the solve: λ on a logarithmic slider, and further options. */
 import { element } from '../dom.js';
+import { above, between, fieldsOf } from '../fields.js';
 import { shortLambda } from '../format.js';
-import { AUTO_LAMBDA_HINT, ENERGIES, LAMBDA_WORDS, lambdaChoiceInWords, lambdaHint, meshLambdaChoiceInWords } from '../messages.js';
+import { AUTO_LAMBDA_HINT, ENERGIES, lambdaChoiceInWords, lambdaHint, meshLambdaChoiceInWords } from '../messages.js';
 
 /** @import {Energy} from '../api.js' */
 /** @import {Session, Settings} from '../session.js' */
 /** @import {MeshFit} from '../mesh-fit.js' */
 
-/** Bounds of λ, as the package checks them. */
-const [MIN_LAMBDA, MAX_LAMBDA] = [1e-12, 1e15];
+/** The field for λ; its bounds are those that the package checks. */
+const LAMBDA_FIELD = { 'lambda-value': { label: 'λ as a number', range: between(1e-12, 1e15, 'from 10⁻¹² to 10¹⁵'), optional: true, placeholder: 'auto' } };
+/** Further options of the solver. */
+const SOLVER_FIELDS = {
+  gap: { label: 'Proven within', options: { 0.1: '10 %', 0.03: '3 %', 0.01: '1 %', 0.003: '0.3 %', 0.001: '0.1 %', 0.0001: '0.01 %' }, value: '0.01' },
+  coarsening: { label: 'Lattice', options: { 1: 'one vertex per pixel', 2: 'spacing of 2 pixels', 4: 'spacing of 4 pixels' }, value: '1' },
+  energy: {
+    label: 'Energy',
+    options: {
+      nuclear: 'nuclear norm of the Hessian', huber: 'smooth bends, sharp creases', frobenius: 'Frobenius norm', squaredNuclear: 'squared nuclear norm',
+      secondFormOfInput: 'second form, slopes of the input', secondForm: 'second form, its own slopes',
+    },
+  },
+  'find-occlusions': { label: 'Tear where it jumps (occlusions)', value: false },
+  threshold: { label: 'Smallest jump', value: '4e4', range: above(0) },
+};
 
 /** @param {Session} session @param {MeshFit} meshFit */
 export function settingsPanel(session, meshFit) {
   const slider = element('lambda', HTMLInputElement);
-  const field = element('lambda-value', HTMLInputElement);
   const hint = element('lambda-hint', HTMLElement);
-  const wrong = element('lambda-wrong', HTMLElement);
-
   const auto = element('lambda-auto', HTMLButtonElement);
-  /** Says at the field whether its λ is invalid. @param {boolean} isInvalid */
-  const markField = (isInvalid) => {
-    if (isInvalid) field.setAttribute('aria-invalid', 'true');
-    else field.removeAttribute('aria-invalid');
-    wrong.textContent = isInvalid ? LAMBDA_WORDS.invalid : '';
+  const typed = fieldsOf(LAMBDA_FIELD, () => {
+    if (typed.text('lambda-value').trim() === '') auto.click();
+    else setLambda(typed.number('lambda-value'));
+  });
+  element('fidelity-number', HTMLElement).prepend(...typed.nodes());
+  const options = fieldsOf(SOLVER_FIELDS, () => {
+    const now = chosen();
+    if (!options.check()) session.updateSettings(now);
+  });
+  element('solver-fields', HTMLElement).append(...options.nodes());
+
+  /** The further options that are chosen. */
+  const chosen = () => {
+    options.show(options.isChecked('find-occlusions'), 'threshold');
+    const energy = /** @type {Energy} */ (options.text('energy'));
+    options.hint('energy', ENERGIES[energy]);
+    return { gap: options.number('gap'), coarsening: options.number('coarsening'), energy, occlusionThreshold: options.isChecked('find-occlusions') ? options.number('threshold') : undefined };
+  };
+  /** @param {Settings} settings */
+  const showOptions = ({ gap, coarsening, energy, occlusionThreshold }) => {
+    for (const [name, value] of Object.entries({ gap, coarsening, energy })) options.set(/** @type {'gap'} */ (name), value);
+    options.set('find-occlusions', occlusionThreshold !== undefined);
+    if (occlusionThreshold !== undefined) options.set('threshold', shortLambda(occlusionThreshold));
+    chosen();
   };
   /** Whether λ is chosen automatically; the button offers that where it is not. @param {boolean} isAuto */
   const showAuto = (isAuto) => {
@@ -30,7 +61,6 @@ export function settingsPanel(session, meshFit) {
     auto.setAttribute('aria-pressed', String(isAuto));
     auto.hidden = isAuto;
   };
-
   /** Shows what λ means, or how it was chosen. */
   const updateHint = () => {
     const { result, settings: { lambda } } = session;
@@ -42,8 +72,7 @@ export function settingsPanel(session, meshFit) {
   const showLambda = (lambda) => {
     slider.value = String(Math.log10(lambda));
     slider.setAttribute('aria-valuetext', `λ = ${shortLambda(lambda)}`);
-    if (Number(field.value) !== lambda) field.value = shortLambda(lambda);
-    markField(false);
+    typed.set('lambda-value', typed.number('lambda-value') === lambda ? typed.text('lambda-value') : shortLambda(lambda));
     hint.textContent = lambdaHint(lambda);
   };
   /** Sets λ in the session. @param {number} lambda */
@@ -70,83 +99,35 @@ export function settingsPanel(session, meshFit) {
   slider.addEventListener('change', () => {
     if (!isKeyHeld) session.updateSettings({ lambda: sliderLambda() });
   });
-  field.addEventListener('change', () => {
-    if (field.value.trim() === '') return auto.click();
-    const lambda = Number(field.value.trim().replace(/^(\d*),(\d+)/, '$1.$2') || NaN);
-    const isValid = lambda >= MIN_LAMBDA && lambda <= MAX_LAMBDA;
-    if (isValid) setLambda(lambda);
-    else markField(true);
-  });
-  if (session.settings.lambda !== 'auto') showLambda(session.settings.lambda);
-  session.on('input', ({ lattice }) => {
-    coarsening.disabled = lattice !== undefined;
-    updateHint();
-  });
-  session.on('cleared', updateHint);
-  session.on('result', ({ settings, surface }) => {
-    // The slider moves to the λ that was chosen automatically.
-    if (settings.lambda === 'auto' && session.settings.lambda === 'auto' && !meshFit.mesh) showLambda(surface.report.lambda);
-    updateHint();
-  });
-  meshFit.on('start', updateHint);
-  meshFit.on('result', ({ report }) => {
-    if (meshFit.lambda === 'auto' && session.settings.lambda === 'auto') showLambda(report.lambda);
-    updateHint();
-  });
-  meshFit.on('left', () => {
-    if (session.result && session.settings.lambda === 'auto') showLambda(session.result.surface.report.lambda);
-    updateHint();
-  });
-
-  const gap = element('gap', HTMLSelectElement);
-  gap.addEventListener('change', () => session.updateSettings({ gap: Number(gap.value) }));
-  const coarsening = element('coarsening', HTMLSelectElement);
-  coarsening.addEventListener('change', () => session.updateSettings({ coarsening: Number(coarsening.value) }));
-
-  const energy = element('energy', HTMLSelectElement);
-  const energyHint = element('energy-hint', HTMLElement);
-  /** @param {Energy} chosen */
-  const showEnergy = (chosen) => {
-    energy.value = chosen;
-    energyHint.textContent = ENERGIES[chosen];
-  };
-  showEnergy(session.settings.energy);
-  energy.addEventListener('change', () => {
-    const chosen = /** @type {Energy} */ (energy.value);
-    showEnergy(chosen);
-    session.updateSettings({ energy: chosen });
-  });
   auto.addEventListener('click', () => {
     showAuto(true);
-    markField(false);
     session.updateSettings({ lambda: 'auto' });
     updateHint();
   });
+  if (session.settings.lambda !== 'auto') showLambda(session.settings.lambda);
+  showOptions(session.settings);
 
-  const findOcclusions = element('find-occlusions', HTMLInputElement);
-  const threshold = element('threshold', HTMLInputElement);
-  const updateThreshold = () => {
-    element('threshold-field', HTMLElement).hidden = !findOcclusions.checked;
-    const value = Number(threshold.value.trim() || NaN);
-    const isValid = value > 0 && Number.isFinite(value);
-    threshold.setCustomValidity(isValid || !findOcclusions.checked ? '' : 'It must be a number above 0, such as 4e4.');
-    if (threshold.reportValidity()) session.updateSettings({ occlusionThreshold: findOcclusions.checked ? value : undefined });
+  /** Moves the slider to a λ that was chosen automatically. @param {number | undefined} lambda */
+  const followAuto = (lambda) => {
+    if (lambda !== undefined && session.settings.lambda === 'auto') showLambda(lambda);
+    updateHint();
   };
-  findOcclusions.addEventListener('change', updateThreshold);
-  threshold.addEventListener('change', updateThreshold);
+  session.on('input', ({ lattice }) => {
+    options.control('coarsening').disabled = lattice !== undefined;
+    updateHint();
+  });
+  session.on('cleared', updateHint);
+  session.on('result', ({ settings, surface }) => followAuto(settings.lambda === 'auto' && !meshFit.mesh ? surface.report.lambda : undefined));
+  meshFit.on('start', updateHint);
+  meshFit.on('result', ({ report }) => followAuto(meshFit.lambda === 'auto' ? report.lambda : undefined));
+  meshFit.on('left', () => followAuto(session.result?.surface.report.lambda));
 
   return {
     /** Sets all settings, in the session and in the controls. @param {Settings} settings */
     adopt(settings) {
-      const { lambda, energy: wanted, occlusionThreshold } = settings;
-      if (lambda !== 'auto') showLambda(lambda);
-      showAuto(lambda === 'auto');
-      gap.value = String(settings.gap);
-      coarsening.value = String(settings.coarsening);
-      showEnergy(wanted);
-      findOcclusions.checked = occlusionThreshold !== undefined;
-      element('threshold-field', HTMLElement).hidden = !findOcclusions.checked;
-      if (occlusionThreshold !== undefined) threshold.value = shortLambda(occlusionThreshold);
+      if (settings.lambda !== 'auto') showLambda(settings.lambda);
+      showAuto(settings.lambda === 'auto');
+      showOptions(settings);
       session.updateSettings(settings);
       updateHint();
     },

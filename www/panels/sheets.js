@@ -1,5 +1,6 @@
 /** Dialog of sheets to cut out: size, paper, material and tabs, with a preview of the drawing that is saved. */
-import { element, make, numberField } from '../dom.js';
+import { element, make } from '../dom.js';
+import { between, fieldsOf } from '../fields.js';
 import { number } from '../format.js';
 import { assemblyModel, assemblyPicture, drawingImage, MM_PER_UNIT, sheetFigures, sheetsInWords, smallestPiece, suggestedSide } from '../pattern.js';
 import { plainMessage } from '../error-messages.js';
@@ -14,21 +15,38 @@ import { waitingPanel } from './waiting.js';
 /** @import {TaskProgress} from './waiting.js' */
 /** @typedef {import('../../pkg/types.js').Drawing} Drawing */
 
-/** Initial depth of tabs, in millimetres. */
-const DEFAULT_TAB_DEPTH_MM = 6;
 /** Delay after an input before the pattern is computed, in milliseconds. */
 const INPUT_DELAY_MS = 300;
 
-/** Options that were chosen last; they are the initial ones of the next dialog. */
-const lastOptions = { paper: /^en-(US|CA)/.test(navigator.language) ? 'letter' : 'a4', tabs: true, depth: DEFAULT_TAB_DEPTH_MM, metal: false, thickness: 1, radius: NaN, kFactor: 0.44 };
+/** Bounds of the longer side, in millimetres. */
+const [MIN_SIDE_MM, MAX_SIDE_MM] = [10, 5000];
+/** Pairs of pieces. @param {string} text */
+const faultOfPairs = (text) => (parsePairs(text) ? '' : SHEET_WORDS.wrongPairs);
+/** Fields of the dialog. Values that were chosen last are the initial ones of the next dialog. @satisfies {Record<string, import('../fields.js').Field>} */
+const FIELDS = {
+  'sheet-unit': { label: 'The file is in', options: { ...Object.fromEntries(Object.keys(MM_PER_UNIT).map((name) => [name, SHEET_WORDS.unit(name)])), none: 'no unit: choose the size' } },
+  'sheet-side': { label: 'Longer side when finished, mm', range: between(MIN_SIDE_MM, MAX_SIDE_MM) },
+  'sheet-paper': { label: 'Paper', options: { a4: 'A4', letter: 'Letter', '': 'one large page' } },
+  'sheet-material': { label: 'Material', options: { '': 'card or paper', metal: 'sheet metal' } },
+  'sheet-tabs': { label: 'Tabs to glue', value: true },
+  'sheet-tab-depth': { label: 'Tab depth, mm', range: between(1, 50) },
+  'sheet-thickness': { label: 'Thickness, mm', range: between(0.05, 20) },
+  'sheet-radius': { label: 'Inner radius, mm', range: between(0, 100), optional: true, placeholder: 'as the thickness' },
+  'sheet-k': { label: 'K-factor (neutral line)', range: between(0.1, 0.9) },
+  'sheet-cut': { label: 'Cut between pieces', placeholder: SHEET_WORDS.pairs, wrong: faultOfPairs },
+  'sheet-join': { label: 'Fold between pieces', placeholder: SHEET_WORDS.pairs, wrong: faultOfPairs },
+};
+/** @typedef {keyof typeof FIELDS} FieldName */
+/** @type {readonly FieldName[]} */
+const REMEMBERED = ['sheet-paper', 'sheet-material', 'sheet-tabs', 'sheet-tab-depth', 'sheet-thickness', 'sheet-radius', 'sheet-k'];
+/** What was chosen last. @type {Partial<Record<FieldName, string | boolean>>} */
+const lastOptions = { 'sheet-paper': /^en-(US|CA)/.test(navigator.language) ? 'letter' : 'a4', 'sheet-tabs': true, 'sheet-tab-depth': '6', 'sheet-thickness': '1', 'sheet-k': '0.44' };
 /** Sizes and units that were chosen last, by the stem of the file's name. @type {Map<string, { side: number, unit: string }>} */
 const lastSizes = new Map();
 /** Length of a piece below which it can hardly be held, folded and glued, in millimetres. */
 const MIN_HANDY_PIECE_MM = 10;
 /** Maximum number of pages that are printed without a question. */
 const MAX_EXPECTED_PAGES = 12;
-/** Bounds of the longer side, in millimetres. */
-const [MIN_SIDE_MM, MAX_SIDE_MM] = [10, 5000];
 
 /**
  * A surface that can be cut into sheets.
@@ -52,43 +70,36 @@ const [MIN_SIDE_MM, MAX_SIDE_MM] = [10, 5000];
  */
 export function offerSheets(api, { stem, note = '', length, unit, up, cut, svg, metalThickness, canFoldElsewhere, stop }) {
   const last = lastSizes.get(stem) ?? { unit: unit === 'unknown' ? 'none' : unit, side: NaN };
-  const { input: side, label: sideField } = numberField(SHEET_WORDS.side, Number.isNaN(last.side) ? suggestedSide(length, last.unit) : last.side, MIN_SIDE_MM, MAX_SIDE_MM);
-  const units = make('select', '', ...Object.keys(MM_PER_UNIT).map((name) => new Option(SHEET_WORDS.unit(name), name)), new Option(SHEET_WORDS.ownSize, 'none'));
-  units.value = last.unit;
-  const unitField = make('label', 'field', SHEET_WORDS.units, units);
-  unitField.hidden = unit === 'none';
-  const { input: depth, label: depthField } = numberField(SHEET_WORDS.tabDepth, lastOptions.depth, 1, 50);
-  const tabs = make('input', '');
-  Object.assign(tabs, { type: 'checkbox', checked: lastOptions.tabs });
-  const metal = make('select', '', new Option(SHEET_WORDS.card, ''), new Option(SHEET_WORDS.metal, 'metal'));
-  metal.value = lastOptions.metal ? 'metal' : '';
-  const { input: thickness, label: thicknessField } = numberField(SHEET_WORDS.thickness, lastOptions.thickness, 0.05, 20);
-  const { input: radius, label: radiusField } = numberField(SHEET_WORDS.radius, lastOptions.radius, 0, 100);
-  Object.assign(radius, { required: false, placeholder: SHEET_WORDS.likeThickness });
-  const { input: kFactor, label: kFactorField } = numberField(SHEET_WORDS.kFactor, lastOptions.kFactor, 0.1, 0.9);
-  const forCard = [make('label', 'check', tabs, SHEET_WORDS.tabs), depthField];
+  const fields = fieldsOf(FIELDS);
+  for (const [name, value] of Object.entries(lastOptions)) fields.set(/** @type {FieldName} */ (name), value);
+  fields.set('sheet-unit', last.unit);
+  fields.set('sheet-side', Number.isNaN(last.side) ? suggestedSide(length, last.unit) : last.side);
+  fields.show(unit !== 'none', 'sheet-unit');
+  const side = () => fields.number('sheet-side');
+  const paper = () => /** @type {'a4' | 'letter' | ''} */ (fields.text('sheet-paper'));
+  const isMetal = () => fields.text('sheet-material') !== '';
   const metalNote = make('p', 'muted small');
-  const forMetal = [metalNote, thicknessField, radiusField, kFactorField];
-  const [toCut, toJoin] = [0, 1].map(() => Object.assign(make('input', ''), { type: 'text', placeholder: SHEET_WORDS.pairs }));
   // Only flat faces can be cut apart anywhere: nothing of them is stretched.
-  const edges = make('div', 'sheets-options edges', make('p', 'muted small', SHEET_WORDS.edges), make('label', 'field', SHEET_WORDS.toCut, toCut), make('label', 'field', SHEET_WORDS.toJoin, toJoin));
+  const edges = make('div', 'sheets-options edges', make('p', 'muted small', SHEET_WORDS.edges), ...fields.nodes('sheet-cut', 'sheet-join'));
   edges.hidden = true;
   /** @returns {CutOptions} */
   const cutOptions = () => ({
-    ...(toCut.value.trim() && { cut: parsePairs(toCut.value) ?? [] }),
-    ...(toJoin.value.trim() && { join: parsePairs(toJoin.value) ?? [] }),
-    ...materialOptions(),
+    ...(fields.text('sheet-cut').trim() && { cut: parsePairs(fields.text('sheet-cut')) ?? [] }),
+    ...(fields.text('sheet-join').trim() && { join: parsePairs(fields.text('sheet-join')) ?? [] }),
+    side: side(),
+    ...(isMetal()
+      ? { thickness: fields.number('sheet-thickness'), innerRadius: fields.text('sheet-radius') === '' ? undefined : fields.number('sheet-radius'), kFactor: fields.number('sheet-k') }
+      : { tabs: fields.isChecked('sheet-tabs') ? fields.number('sheet-tab-depth') : undefined }),
   });
-  /** @returns {CutOptions} */
-  const materialOptions = () => (metal.value
-    ? { side: side.valueAsNumber, thickness: thickness.valueAsNumber, innerRadius: radius.value === '' ? undefined : radius.valueAsNumber, kFactor: kFactor.valueAsNumber }
-    : { side: side.valueAsNumber, tabs: tabs.checked ? depth.valueAsNumber : undefined });
-  const showFields = () => {
-    for (const field of forCard) field.hidden = metal.value !== '';
-    for (const field of forMetal) field.hidden = metal.value === '';
+  /** @param {number} [thickness] of a solid of sheet metal, which has its own */
+  const showFields = (thickness) => {
+    fields.show(!isMetal(), 'sheet-tabs');
+    fields.show(!isMetal() && fields.isChecked('sheet-tabs'), 'sheet-tab-depth');
+    fields.show(isMetal() && thickness === undefined, 'sheet-thickness', 'sheet-radius');
+    fields.show(isMetal(), 'sheet-k');
+    metalNote.hidden = !isMetal();
+    metalNote.textContent = thickness === undefined ? SHEET_WORDS.upperSide : SHEET_WORDS.blank(number((thickness * side()) / length));
   };
-  const paper = make('select', '', new Option('A4', 'a4'), new Option('Letter', 'letter'), new Option(SHEET_WORDS.onePage, ''));
-  paper.value = lastOptions.paper;
   const preview = make('div', 'preview');
   const status = make('p', 'said');
   status.setAttribute('role', 'status');
@@ -123,28 +134,25 @@ export function offerSheets(api, { stem, note = '', length, unit, up, cut, svg, 
   const showSize = (finished) => {
     const { summary } = finished;
     const smallest = smallestPiece(finished);
-    const pages = paper.value === 'a4' || paper.value === 'letter' ? summary[paper.value] : 1;
-    element('save-title', HTMLElement).textContent = SHEET_WORDS.headline(number(side.valueAsNumber, 4), pages, summary.seams, finished.sheets.length > 1 ? number(smallest, 2) : undefined);
+    const stock = paper();
+    const pages = stock === '' ? 1 : summary[stock];
+    element('save-title', HTMLElement).textContent = SHEET_WORDS.headline(number(side(), 4), pages, summary.seams, finished.sheets.length > 1 ? number(smallest, 2) : undefined);
     const warnings = [...(pages > MAX_EXPECTED_PAGES ? [SHEET_WORDS.manyPages(pages)] : []), ...(smallest < MIN_HANDY_PIECE_MM ? [SHEET_WORDS.small(number(smallest, 2))] : [])];
     pageWarning.hidden = warnings.length === 0;
     pageWarning.textContent = warnings.join(' ');
   };
 
   const draw = async () => {
-    for (const field of [toCut, toJoin]) field.setCustomValidity(parsePairs(field.value) ? '' : SHEET_WORDS.wrongPairs);
-    const wrong = [toCut, toJoin].find((field) => !field.checkValidity());
-    const invalid = wrong ?? [side, ...(metal.value ? [thickness, radius, kFactor] : [depth])].find((field) => !field.checkValidity());
-    if (invalid) {
+    showFields();
+    const fault = fields.check();
+    if (fault) {
       stop();
       waiting.end();
-      setMissing(wrong ? SHEET_WORDS.wrongPairs : SHEET_WORDS.outOfRange(invalid.labels?.[0]?.firstChild?.textContent ?? '', invalid.min, invalid.max));
-      offer.renew();
-      invalid.reportValidity();
-      return;
+      setMissing(fault.replace(/\.$/, ''));
+      return offer.renew();
     }
-    lastSizes.set(stem, { side: side.valueAsNumber, unit: units.value });
-    Object.assign(lastOptions, { paper: paper.value, tabs: tabs.checked, depth: depth.valueAsNumber, metal: metal.value !== '', thickness: thickness.valueAsNumber, radius: radius.valueAsNumber, kFactor: kFactor.valueAsNumber });
-    depth.disabled = !tabs.checked;
+    lastSizes.set(stem, { side: side(), unit: fields.text('sheet-unit') });
+    for (const name of REMEMBERED) lastOptions[name] = name === 'sheet-tabs' ? fields.isChecked(name) : fields.text(name);
     status.textContent = '';
     again.hidden = true;
     preview.setAttribute('aria-busy', 'true');
@@ -159,9 +167,7 @@ export function offerSheets(api, { stem, note = '', length, unit, up, cut, svg, 
       waiting.end();
       showSize(finished);
       edges.hidden = !canFoldElsewhere(finished);
-      const solid = await metalThickness();
-      for (const field of [thicknessField, radiusField]) field.hidden = metal.value === '' || solid !== undefined;
-      metalNote.textContent = solid === undefined ? SHEET_WORDS.upperSide : SHEET_WORDS.blank(number((solid * side.valueAsNumber) / length));
+      showFields(await metalThickness());
       image.addEventListener('click', ({ offsetX, offsetY }) => {
         if (!edges.hidden) toggleEdge(finished, [(offsetX / image.clientWidth) * finished.width, (1 - offsetY / image.clientHeight) * finished.height]);
       });
@@ -194,31 +200,34 @@ export function offerSheets(api, { stem, note = '', length, unit, up, cut, svg, 
       status.textContent = SHEET_WORDS.noEdge;
       return;
     }
-    const [own, other] = edge.isFold ? [toCut, toJoin] : [toJoin, toCut];
-    const isUndone = (parsePairs(other.value) ?? []).some((pair) => String(pair) === String(edge.pair));
-    const field = isUndone ? other : own;
-    field.value = togglePair(field.value, edge.pair);
+    const [own, other] = edge.isFold ? /** @type {const} */ (['sheet-cut', 'sheet-join']) : /** @type {const} */ (['sheet-join', 'sheet-cut']);
+    const isUndone = (parsePairs(fields.text(other)) ?? []).some((pair) => String(pair) === String(edge.pair));
+    const name = isUndone ? other : own;
+    fields.set(name, togglePair(fields.text(name), edge.pair));
     void draw();
   };
   let inputTimer = 0;
-  metal.addEventListener('change', showFields);
-  showFields();
-  units.addEventListener('change', () => {
-    side.value = String(suggestedSide(length, units.value));
-    void draw();
-  });
-  side.addEventListener('input', () => (units.value = 'none'));
-  for (const field of [toCut, toJoin]) field.addEventListener('change', () => void draw());
-  for (const field of [side, depth, tabs, metal, thickness, radius, kFactor]) {
-    field.addEventListener('input', () => {
-      clearTimeout(inputTimer);
-      inputTimer = window.setTimeout(() => void draw(), INPUT_DELAY_MS);
-    });
-  }
-  paper.addEventListener('change', () => {
-    lastOptions.paper = paper.value;
-    void drawing.then(showSize, () => {});
-    offer.renew();
+  const options = make('div', 'sheets-options',
+    status,
+    pageWarning,
+    ...(note ? [make('p', 'small', note)] : []),
+    waitingElement,
+    again,
+    ...fields.nodes('sheet-unit', 'sheet-side', 'sheet-paper', 'sheet-material', 'sheet-tabs', 'sheet-tab-depth'),
+    metalNote,
+    ...fields.nodes('sheet-thickness', 'sheet-radius', 'sheet-k'),
+    edges,
+    make('details', 'more', make('summary', '', SHEET_WORDS.figures), about));
+  options.addEventListener('input', ({ target }) => {
+    clearTimeout(inputTimer);
+    if (target === fields.control('sheet-paper')) {
+      lastOptions['sheet-paper'] = paper();
+      void drawing.then(showSize, () => {});
+      return offer.renew();
+    }
+    if (target === fields.control('sheet-unit')) fields.set('sheet-side', suggestedSide(length, fields.text('sheet-unit')));
+    if (target === fields.control('sheet-side')) fields.set('sheet-unit', 'none');
+    inputTimer = window.setTimeout(() => void draw(), INPUT_DELAY_MS);
   });
 
   const offer = offerToSave(api, {
@@ -227,25 +236,10 @@ export function offerSheets(api, { stem, note = '', length, unit, up, cut, svg, 
     ready: () => drawing,
     // A pattern that is still being computed would delay the next analysis.
     closed: stop,
-    extra: [make('div', 'sheets',
-      preview,
-      make('div', 'sheets-options',
-        status,
-        pageWarning,
-        ...(note ? [make('p', 'small', note)] : []),
-        waitingElement,
-        again,
-        unitField,
-        sideField,
-        make('label', 'field', SHEET_WORDS.paper, paper),
-        make('label', 'field', SHEET_WORDS.material, metal),
-        ...forCard,
-        ...forMetal,
-        edges,
-        make('details', 'more', make('summary', '', SHEET_WORDS.figures), about)))],
+    extra: [make('div', 'sheets', preview, options)],
     formats: [
       { value: 'pdf', name: 'PDF', words: SHEET_WORDS.pdf, type: 'application/pdf',
-        write: async (worker) => worker.writePdf(await drawing, { stock: paper.value === 'a4' || paper.value === 'letter' ? paper.value : undefined, title: stem }) },
+        write: async (worker) => worker.writePdf(await drawing, { stock: paper() || undefined, title: stem }) },
       { value: 'svg', name: 'SVG', words: SHEET_WORDS.svg, type: 'image/svg+xml', write: async (worker) => worker.writeSvg(await drawing) },
       { value: 'dxf', name: 'DXF', words: SHEET_WORDS.dxf, type: 'image/vnd.dxf', write: async (worker) => worker.writeDxf(await drawing) },
       { value: 'png', name: 'PNG', words: SHEET_WORDS.png, type: 'image/png', write: async () => assemblyPicture(await drawing, up) },

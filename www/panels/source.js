@@ -1,5 +1,6 @@
 /** Source of the heights: an example, or files with their scale and interpretation. */
-import { element } from '../dom.js';
+import { element, make } from '../dom.js';
+import { above, fieldsOf } from '../fields.js';
 import { ColourPictureError, readInput } from '../height-file.js';
 import { hasColours } from '../views/photo.js';
 import { reinterpret, spanInWords } from '../import-interpretation.js';
@@ -12,30 +13,48 @@ import { meshPanel } from './mesh.js';
 import { showNotice } from './notice.js';
 
 /** @import {ExampleName} from '../api.js' */
-/** @import {Session} from '../session.js' */
+/** @import {Session, Settings} from '../session.js' */
 /** @import {NoData} from '../no-data.js' */
+
+const EXAMPLE_FIELDS = {
+  example: { label: 'Example', options: { roof: 'Roof', page: 'Page', house: 'House', oloid: 'Oloid', cone: 'Cone', cylinder: 'Cylinder' } },
+  size: { label: 'Size', options: { 100: '100 pixels', 200: '200 pixels', 400: '400 pixels', 700: '700 pixels', 1000: '1000 pixels' }, value: '400' },
+  noise: { label: 'Noise', options: { 0: 'none', 0.005: '0.5 %', 0.01: '1 %', 0.02: '2 %', 0.05: '5 %', 0.1: '10 %' }, value: '0.02' },
+};
+const FILE_FIELDS = {
+  'pixel-size': { label: 'Pixel size', range: above(0) },
+  'height-scale': { label: 'Height scale', range: { takes: (/** @type {number} */ scale) => Math.abs(scale) > 0, must: 'a number other than 0' } },
+  'no-data': {
+    label: 'Number that means no data, or “none”', placeholder: 'automatic',
+    wrong: (/** @type {string} */ text) => (text.trim() === '' || noDataOf(text) !== undefined ? '' : 'This must be a number, “none”, or empty.'),
+  },
+};
 
 /**
  * @param {Session} session
+ * @param {(settings: Settings) => void} adopt
  * @param {(view: string) => void} choose shows a view of the result
  * @param {(files: readonly File[]) => void} onOpened called when files have become the input
  * @param {() => void} solveMesh solves the mesh that was opened
  * @param {(file: File) => unknown} openColour opens a file that is no heights, but a picture in colour
  */
-export function sourcePanel(session, choose, onOpened, solveMesh, openColour) {
-  const example = element('example', HTMLSelectElement);
-  const size = element('size', HTMLSelectElement);
-  const noise = element('noise', HTMLSelectElement);
+export function sourcePanel(session, adopt, choose, onOpened, solveMesh, openColour) {
+  const examples = fieldsOf(EXAMPLE_FIELDS, () => void openChosenExample());
+  element('example-field', HTMLElement).append(...examples.nodes('example'));
   const exampleOptions = element('example-options', HTMLElement);
+  exampleOptions.append(...examples.nodes('size', 'noise'));
   const fileOptions = element('file-options', HTMLElement);
   const fileName = element('file-name', HTMLElement);
-  const pixelSize = element('pixel-size', HTMLInputElement);
-  const heightScale = element('height-scale', HTMLInputElement);
+  const fields = fieldsOf(FILE_FIELDS, (name) => {
+    if (name === 'no-data') void reinterpretFile({ noData: noDataOf(fields.text('no-data')) });
+    else if (!fields.check()) void reinterpretFile({ pixelSize: fields.number('pixel-size'), heightScale: fields.number('height-scale'), guesses: '' });
+  });
   const span = element('scale-span', HTMLElement);
-  const noData = element('no-data', HTMLInputElement);
   const guesses = element('guessed', HTMLElement);
-  const arrayField = element('array-field', HTMLElement);
-  const array = element('array', HTMLSelectElement);
+  const array = make('select', '');
+  const arrayField = make('label', 'field', 'Array', array);
+  element('scale-fields', HTMLElement).append(arrayField, make('div', 'pair', ...fields.nodes('pixel-size', 'height-scale')));
+  element('no-data-field', HTMLElement).append(...fields.nodes('no-data'));
   const mesh = meshPanel(session);
   const camera = cameraPanel(session, mesh.openLoaded);
   /** Reads the open file again, with another value that is no data. @type {(noData?: NoData) => Promise<boolean>} */
@@ -43,9 +62,9 @@ export function sourcePanel(session, choose, onOpened, solveMesh, openColour) {
 
   /** Opens the chosen example and solves it. */
   const openChosenExample = async () => {
-    const options = { size: Number(size.value), noise: Number(noise.value) };
+    const options = { size: examples.number('size'), noise: examples.number('noise') };
     const opened = await session.open('The example could not be made', async () => {
-      const name = /** @type {ExampleName} */ (example.value);
+      const name = /** @type {ExampleName} */ (examples.text('example'));
       const { input, truth } = await session.example(name, options);
       const { width, height, data, pixelSize: side = 1, heightScale: step = 1 } = input;
       return { name, width, height, data, pixelSize: side, heightScale: step, truth, example: options };
@@ -114,8 +133,7 @@ export function sourcePanel(session, choose, onOpened, solveMesh, openColour) {
   /** @param {number} step lattice spacing in pixels */
   const setCoarsening = (step) => {
     if (step === session.settings.coarsening) return;
-    element('coarsening', HTMLSelectElement).value = String(step);
-    session.updateSettings({ coarsening: step });
+    adopt({ ...session.settings, coarsening: step });
   };
 
   /** Opens files that belong together, or one file. @param {readonly File[]} files */
@@ -160,12 +178,6 @@ export function sourcePanel(session, choose, onOpened, solveMesh, openColour) {
     }
   };
 
-  const rescale = () => {
-    pixelSize.setCustomValidity(pixelSize.valueAsNumber > 0 ? '' : 'The pixel size must be above 0.');
-    heightScale.setCustomValidity(Math.abs(heightScale.valueAsNumber) > 0 ? '' : 'The height scale must not be 0.');
-    if (!pixelSize.reportValidity() || !heightScale.reportValidity()) return;
-    reinterpretFile({ pixelSize: pixelSize.valueAsNumber, heightScale: heightScale.valueAsNumber, guesses: '' });
-  };
   /** Scales the relief of the heights. @param {number} factor of height per width */
   const scaleRelief = (factor) => {
     const stored = session.input?.stored;
@@ -175,13 +187,6 @@ export function sourcePanel(session, choose, onOpened, solveMesh, openColour) {
     reinterpretFile(levels ? { heightScale: step * factor } : { pixelSize: side / factor });
   };
 
-  for (const control of [example, size, noise]) control.addEventListener('change', openChosenExample);
-  for (const control of [pixelSize, heightScale]) control.addEventListener('change', rescale);
-  noData.addEventListener('change', () => {
-    const value = noDataOf(noData.value);
-    noData.setCustomValidity(noData.value.trim() === '' || value !== undefined ? '' : 'This must be a number, “none”, or empty.');
-    if (noData.reportValidity()) void reinterpretFile({ noData: value });
-  });
   element('flatter', HTMLButtonElement).addEventListener('click', () => scaleRelief(0.5));
   element('steeper', HTMLButtonElement).addEventListener('click', () => scaleRelief(2));
   array.addEventListener('change', () => {
@@ -195,7 +200,7 @@ export function sourcePanel(session, choose, onOpened, solveMesh, openColour) {
     const isBackProjected = input.depthSource !== undefined;
     fileOptions.hidden = !isFile || (input.sampling !== undefined && !isBackProjected);
     fileOptions.toggleAttribute('data-built', isBackProjected);
-    if (input.example) example.value = input.name;
+    if (input.example) examples.set('example', input.name);
     const guessed = input.depths ? DEPTH_WORDS.maybe : isBackProjected ? input.cameraAssumption : input.stored?.guesses;
     guesses.textContent = [assumedInWords(input.assumptions), guessed].filter(Boolean).join(' ');
     guesses.hidden = guesses.textContent === '';
@@ -205,9 +210,9 @@ export function sourcePanel(session, choose, onOpened, solveMesh, openColour) {
     array.replaceChildren(...(several?.names ?? []).map((name) => new Option(name, name, false, name === several?.name)));
     fileName.textContent = `${input.name} (${input.kind})`;
     if (!input.stored) return;
-    pixelSize.value = fieldText(input.stored.pixelSize);
-    heightScale.value = fieldText(input.stored.heightScale);
-    noData.value = String(input.stored.noData ?? '');
+    fields.set('pixel-size', fieldText(input.stored.pixelSize));
+    fields.set('height-scale', fieldText(input.stored.heightScale));
+    fields.set('no-data', input.stored.noData ?? '');
     span.textContent = spanInWords(input);
   });
 
@@ -218,10 +223,8 @@ export function sourcePanel(session, choose, onOpened, solveMesh, openColour) {
      * @param {{ size: number, noise: number }} options replaced by the nearest ones of the menus
      */
     async openExample(name, options) {
-      example.value = name;
-      if (example.selectedIndex < 0) example.selectedIndex = 0;
-      chooseNearest(size, options.size);
-      chooseNearest(noise, options.noise);
+      examples.set('example', name in EXAMPLE_FIELDS.example.options ? name : 'roof');
+      for (const option of /** @type {const} */ (['size', 'noise'])) examples.set(option, nearestOption(EXAMPLE_FIELDS[option].options, options[option]));
       await openChosenExample();
     },
     openFiles,
@@ -229,11 +232,9 @@ export function sourcePanel(session, choose, onOpened, solveMesh, openColour) {
   };
 }
 
-/** @param {HTMLSelectElement} select @param {number} value */
-function chooseNearest(select, value) {
-  const values = [...select.options].map((option) => Number(option.value));
-  const nearest = values.toSorted((a, b) => Math.abs(a - value) - Math.abs(b - value))[0];
-  select.value = String(nearest);
+/** The option of a menu that is nearest to a number. @param {Record<string, string>} options @param {number} value */
+function nearestOption(options, value) {
+  return Object.keys(options).map(Number).sort((a, b) => Math.abs(a - value) - Math.abs(b - value))[0];
 }
 
 /** A number for an input field, rounded to 12 digits so that binary rounding is not shown. @param {number} value */

@@ -19,6 +19,7 @@ import { waitingPanel } from './waiting.js';
  * @typedef {object} Subject what the stage shows
  * @property {boolean} isWhole whether it is a whole mesh
  * @property {() => string} name of the input
+ * @property {() => string} caption of the input
  * @property {() => Look} look how its surfaces look, and from where
  * @property {() => Box | null} box that its surfaces fill; null without an input
  * @property {(side: 0 | 1, isFast: boolean) => Surface | null} surface of the input or the result
@@ -81,6 +82,7 @@ export function stagePanel(first) {
   };
   /** Shows the surfaces, or the picture in their place, and what can be done with them. */
   const arrange = () => {
+    element('input-caption', HTMLElement).textContent = subject.caption();
     const isFlat = shown.flat !== undefined;
     const isMissing = isCreated && view === null;
     element('space-missing', HTMLElement).hidden = !isMissing || isFlat;

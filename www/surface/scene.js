@@ -13,7 +13,9 @@ import { boxOf } from './triangles.js';
  * @property {Float64Array | Float32Array} positions x, y, z of each vertex
  * @property {Uint32Array} triangles none for a cloud of points
  * @property {Float32Array} [colors] of the vertices, 0 to 1
- * @property {Float32Array} [uvs] places of the vertices in the image of `setImage`, from its lower left corner
+ * @property {Float32Array} [uvs] places of the vertices in the image of `setImage` or in their texture, from its lower left corner
+ * @property {readonly HTMLCanvasElement[]} [textures]
+ * @property {Int32Array} [textureOf] index in `textures` for each triangle, −1 for none; by default 0
  */
 
 /**
@@ -200,7 +202,13 @@ export class SceneView {
   /** @param {0 | 1} side @param {'surface' | 'lines'} what @param {any} object */
   #replace(side, what, object) {
     const old = this.#sides[side][what];
-    old?.traverse((/** @type {any} */ { geometry }) => geometry?.dispose());
+    old?.traverse((/** @type {any} */ { geometry, material }) => {
+      geometry?.dispose();
+      for (const textured of Array.isArray(material) ? material.slice(1) : []) {
+        textured.map.dispose();
+        textured.dispose();
+      }
+    });
     if (old) this.#scene.remove(old);
     this.#sides[side][what] = object;
     if (object) this.#scene.add(object);
@@ -221,7 +229,7 @@ export class SceneView {
   }
 
   /** @param {0 | 1} side @param {Surface} surface */
-  #createSurface(side, { positions, triangles, colors, uvs }) {
+  #createSurface(side, { positions, triangles, colors, uvs, textures, textureOf }) {
     const three = this.#three;
     const geometry = new three.BufferGeometry();
     geometry.setAttribute('position', this.#scaled(positions));
@@ -232,9 +240,20 @@ export class SceneView {
     geometry.setIndex(new three.BufferAttribute(triangles, 1));
     const flatShading = this.#look.isFaceted ?? false;
     if (!flatShading) geometry.computeVertexNormals();
-    const mesh = new three.Mesh(geometry, this.#material(`mesh ${side} ${vertexColors} ${flatShading}`, () => new three.MeshMatcapMaterial({
+    const plain = this.#material(`mesh ${side} ${vertexColors} ${flatShading}`, () => new three.MeshMatcapMaterial({
       vertexColors, flatShading, side: three.DoubleSide, matcap: this.#matcaps[vertexColors ? 1 : 0],
-    })));
+    }));
+    const textured = textures?.map((image) => new three.MeshMatcapMaterial({
+      map: Object.assign(new three.CanvasTexture(image), { wrapS: three.RepeatWrapping, wrapT: three.RepeatWrapping }), flatShading, side: three.DoubleSide, matcap: this.#matcaps[1],
+    }));
+    // Each run of triangles with the same texture is drawn by itself.
+    const [count, texture] = [triangles.length / 3, (/** @type {number} */ triangle) => textureOf?.[triangle] ?? 0];
+    for (let from = 0, to = 1; textured && from < count; to++) {
+      if (to < count && texture(to) === texture(from)) continue;
+      geometry.addGroup(3 * from, 3 * (to - from), texture(from) + 1);
+      from = to;
+    }
+    const mesh = new three.Mesh(geometry, textured ? [plain, ...textured] : plain);
     mesh.castShadow = true;
     return mesh;
   }
@@ -242,7 +261,7 @@ export class SceneView {
   /** Covers a surface with an image; null takes it away. @param {0 | 1} side @param {HTMLCanvasElement | null} image */
   setImage(side, image) {
     const material = this.#sides[side].surface?.material;
-    if (!material || (material.userData.image ?? null) === image) return;
+    if (!material || Array.isArray(material) || (material.userData.image ?? null) === image) return;
     material.userData.image = image;
     material.map?.dispose();
     material.map = image && new this.#three.CanvasTexture(onSteel(image));

@@ -70,7 +70,7 @@ export const overHeights = (input, what) => async (/** @type {Curvatures} */ { r
 
 /** Colours the vertices of meshes. @param {readonly [Mesh, Mesh]} meshes input and result */
 export const overMeshes = (meshes) => async (/** @type {Analysis} */ { gaussian }, /** @type {Scale} */ { place, read }, /** @type {0 | 1} */ side) => ({
-  surface: { ...meshes[side], colors: vertexColors(gaussian.length, (i) => divergingColour(Number.isNaN(gaussian[i]) ? 0 : place(gaussian[i]))) },
+  surface: { positions: meshes[side].positions, triangles: meshes[side].triangles, colors: vertexColors(gaussian.length, (i) => divergingColour(Number.isNaN(gaussian[i]) ? 0 : place(gaussian[i]))) },
   // At a border only some corners have a value.
   read: (/** @type {import('../surface/scene.js').Place} */ at) => read(interpolateAt(meshes[side], at, (vertex) => gaussian[vertex])),
 });

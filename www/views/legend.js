@@ -55,8 +55,8 @@ export function pictureWithColours(drawn, colours) {
   const picture = new OffscreenCanvas(drawn.width, drawn.height + (colours ? 6 * line : 0));
   const context = picture.getContext('2d');
   if (!context) throw new Error('this browser draws no pictures');
-  const style = getComputedStyle(document.body);
-  context.fillStyle = style.getPropertyValue('--well').trim();
+  const style = getComputedStyle(drawn.parentElement ?? document.body);
+  context.fillStyle = style.backgroundColor;
   context.fillRect(0, 0, picture.width, picture.height);
   context.drawImage(drawn, 0, 0);
   if (!colours) return picture;

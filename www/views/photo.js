@@ -1,8 +1,9 @@
-/** The view of the surface's photo or the colours of its scan. */
+/** The view of the photo of heights, the textures of a mesh, or their colours. */
 import { gridOf } from '../surface/lattice.js';
-import { canvasFromPixels } from '../surface/layer.js';
+import { canvasFromImage, canvasFromPixels } from '../surface/layer.js';
 import { callWorker } from '../surface/worker-client.js';
 
+/** @import {Mesh} from '../api.js' */
 /** @import {Input} from '../session.js' */
 /** @import {ViewContent} from '../surface/layer.js' */
 
@@ -29,4 +30,24 @@ export async function photo({ lattice, ...input }) {
   const seen = image && uvs ? { image: { width: image.width, height: image.height, data: image.data }, uvs } : { colors };
   const layer = { image: canvasFromPixels(grid, await callWorker('photoPixels', { rows, cols, spacing, origin }, seen, grid)) };
   return { layers: [layer, layer] };
+}
+
+/**
+ * The view of the textures or colours of a mesh.
+ * @param {Mesh} mesh
+ * @param {Mesh} surface its result
+ * @returns {Promise<ViewContent>}
+ */
+export async function photoOfMesh({ positions, triangles, uvs, colors, textures, textureOf }, surface) {
+  const look = uvs && textures ? { uvs, textureOf, textures: await Promise.all(textures.map(canvasOf)) } : { colors };
+  return { layers: [{ surface: { positions, triangles, ...look } }, { surface: { positions: surface.positions, triangles, ...look } }] };
+}
+
+/** A canvas with a picture. @param {NonNullable<Mesh['textures']>[number]} picture */
+async function canvasOf(picture) {
+  if ('data' in picture) return canvasFromImage(new ImageData(Uint8ClampedArray.from(picture.data), picture.width));
+  const bitmap = await createImageBitmap(new Blob([new Uint8Array(picture)]));
+  const canvas = Object.assign(document.createElement('canvas'), { width: bitmap.width, height: bitmap.height });
+  canvas.getContext('2d')?.drawImage(bitmap, 0, 0);
+  return canvas;
 }

@@ -95,7 +95,7 @@ function drawRuler(context, pixelsPerUnit, unit, ratio) {
   const length = ([5, 2, 1].find((m) => m * power <= rough) ?? 1) * power;
   const style = getComputedStyle(context.canvas);
   const [x, y] = [RULER_MARGIN * ratio, context.canvas.height - RULER_MARGIN * ratio];
-  context.strokeStyle = context.fillStyle = style.getPropertyValue('--ink').trim();
+  context.strokeStyle = context.fillStyle = style.color;
   context.lineWidth = 1.5 * ratio;
   context.beginPath();
   context.moveTo(x, y - 4 * ratio);

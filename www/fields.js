@@ -1,0 +1,100 @@
+/** Forms that are built from tables of their fields: labels, units, ranges and hints. What is wrong in a field is said beneath it. */
+import { make } from './dom.js';
+
+/**
+ * @typedef {object} Range numbers that a field takes
+ * @property {(value: number) => boolean} takes
+ * @property {string} must what a number has to be, for messages
+ *
+ * @typedef {object} Field
+ * @property {string} label with the unit
+ * @property {string | boolean} [value] the initial one
+ * @property {Record<string, string>} [options] of a menu: words by value
+ * @property {Range} [range] of a number
+ * @property {boolean} [optional] whether it may be empty
+ * @property {(text: string) => string} [wrong] what is wrong with another text; empty if nothing is
+ * @property {string} [placeholder]
+ * @property {string} [hint]
+ */
+
+/** @param {number} least @param {number} most @param {string} [words] @returns {Range} */
+export const between = (least, most, words = `from ${least} to ${most}`) => ({ takes: (value) => value >= least && value <= most, must: `a number ${words}` });
+/** @param {number} limit @param {string} [words] @returns {Range} */
+export const above = (limit, words = `above ${limit}`) => ({ takes: (value) => value > limit && value < Infinity, must: `a number ${words}` });
+
+/** The number of a text, which may have a decimal comma; NaN for another text. @param {string} text */
+export function numberOf(text) {
+  const word = text.trim();
+  return word === '' ? NaN : Number(word.replace(/^([-−]?\d*),(\d+)/, '$1.$2').replace('−', '-'));
+}
+
+/** What is wrong with the text of a field; empty if nothing is. @param {Field} field @param {string} text */
+function faultOf({ range, optional, wrong }, text) {
+  if (wrong) return wrong(text);
+  if (!range || (optional && text.trim() === '')) return '';
+  return range.takes(numberOf(text)) ? '' : `This must be ${range.must}.`;
+}
+
+/**
+ * Builds the fields of a table.
+ * @template {string} N
+ * @param {Readonly<Record<N, Field>>} table by the ids of their controls
+ * @param {(name: N) => void} [onChange] called when a field was changed to something that it takes
+ */
+export function fieldsOf(table, onChange = () => {}) {
+  /** @param {N} name */
+  const create = (name) => {
+    const field = /** @type {Field} */ (table[name]);
+    const { label, value = '', options, placeholder = '', hint } = field;
+    const isCheck = typeof value === 'boolean';
+    const control = options ? make('select', '', ...Object.entries(options).map(([option, words]) => new Option(words, option))) : make('input', '');
+    Object.assign(control, { id: name, ...(isCheck ? { type: 'checkbox', checked: value } : { value }), ...(!options && !isCheck && { type: 'text', inputMode: field.range ? 'decimal' : 'text', placeholder, spellcheck: false, autocomplete: 'off' }) });
+    const fault = make('span', 'wrong small');
+    Object.assign(fault, { id: `${name}-wrong`, ariaLive: 'polite' });
+    const about = make('span', 'hint small', hint ?? '');
+    about.id = `${name}-hint`;
+    control.setAttribute('aria-describedby', `${fault.id} ${about.id}`);
+    const node = isCheck ? make('label', 'check', control, ` ${label}`) : make('div', 'field', Object.assign(make('label', '', label), { htmlFor: name }), control, fault, about);
+    /** Says what is wrong. @returns {string} empty if nothing is */
+    const check = () => {
+      const words = node.hidden || !(control instanceof HTMLInputElement) || isCheck ? '' : faultOf(field, control.value);
+      fault.textContent = words;
+      if (words) control.setAttribute('aria-invalid', 'true');
+      else control.removeAttribute('aria-invalid');
+      return words;
+    };
+    control.addEventListener('change', () => {
+      if (!check()) onChange(name);
+    });
+    return { node, control, check, about, fault };
+  };
+  const names = /** @type {N[]} */ (Object.keys(table));
+  const fields = /** @type {Record<N, ReturnType<typeof create>>} */ (Object.fromEntries(names.map((name) => [name, create(name)])));
+  return {
+    /** The elements of fields. @param {...N} wanted all unless said otherwise */
+    nodes: (...wanted) => (wanted.length > 0 ? wanted : names).map((name) => fields[name].node),
+    /** @param {N} name */
+    control: (name) => fields[name].control,
+    /** @param {N} name */
+    text: (name) => fields[name].control.value,
+    /** @param {N} name */
+    number: (name) => numberOf(fields[name].control.value),
+    /** @param {N} name */
+    isChecked: (name) => /** @type {HTMLInputElement} */ (fields[name].control).checked,
+    /** @param {N} name @param {string | number | boolean} value */
+    set: (name, value) => {
+      const { control, check } = fields[name];
+      if (typeof value === 'boolean') /** @type {HTMLInputElement} */ (control).checked = value;
+      else control.value = String(value);
+      check();
+    },
+    /** @param {N} name @param {string} words */
+    hint: (name, words) => void (fields[name].about.textContent = words),
+    /** Shows or hides fields. @param {boolean} isShown @param {...N} wanted */
+    show: (isShown, ...wanted) => {
+      for (const name of wanted) fields[name].node.hidden = !isShown;
+    },
+    /** Says at each field what is wrong in it. @returns {string} the first fault with the label of its field; empty if there is none */
+    check: () => names.map((name) => [fields[name].check(), table[name].label]).filter(([fault]) => fault).map(([fault, label]) => `“${label}”: ${fault}`)[0] ?? '',
+  };
+}

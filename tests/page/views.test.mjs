@@ -312,9 +312,9 @@ pageTest('another result takes the place of an answer that is still being worked
 
 pageTest('a view that is left and chosen again at once is worked out anew', async (page) => {
   await page.evaluate(() => {
-    for (const view of ['patches', 'shaded', 'patches']) /** @type {HTMLInputElement} */ (document.querySelector(`input[name="view"][value="${view}"]`)).click();
+    for (const view of ['rulings', 'shaded', 'rulings']) /** @type {HTMLInputElement} */ (document.querySelector(`input[name="view"][value="${view}"]`)).click();
   });
-  await page.locator('#about-view .figures dt', { hasText: 'Patches' }).waitFor();
+  await page.locator('#about-view .figures dt', { hasText: 'Longest' }).waitFor();
   assert.equal(await page.getByRole('alert').isVisible(), false);
 });
 

@@ -4,7 +4,6 @@
  */
 import { rescalePixel } from './rescale.js';
 
-/** @import {Api} from '../api.js' */
 /** @import {PagePhoto} from './photo.js' */
 /** @import {Worker} from '../worker-task.js' */
 /** @typedef {import('../../pkg/types.js').DewarpedPage} DewarpedPage */

@@ -1,6 +1,6 @@
 /** Whole meshes on the stage: the mesh and its fit in space, the views of it, and what it is saved as. */
 import { download, element, elements } from '../dom.js';
-import { count, percent, shortLambda } from '../format.js';
+import { percent, shortLambda } from '../format.js';
 import { lengthUnitOf } from '../pattern.js';
 import { plainMessage } from '../error-messages.js';
 import { MESH_FIT_WORDS } from '../messages.js';

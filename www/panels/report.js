@@ -1,19 +1,15 @@
 /** The report as a table, with an explanation of each row. */
-import { download, element } from '../dom.js';
+import { download, element, make } from '../dom.js';
 import { count, number, percentAtMost, seconds } from '../format.js';
 import { accuracyOf } from '../surface/derived-data.js';
 import { ENERGIES, REPRODUCE_WORDS, STOP_REASONS, lambdaChoiceInWords } from '../messages.js';
-import { REPORT_WORDS } from '../report-words.js';
 import { asCode, asCommand } from '../reproduce.js';
 import { showError, showNotice } from './notice.js';
 
 /** @import {Analyses} from '../analyses.js' */
-/** @import {Report} from '../api.js' */
 /** @import {Result, Session} from '../session.js' */
 
-/** @typedef {{ name: string, value: string, meaning: string, isShown: boolean }} Row */
-/** @typedef {{ title: string, rows: Row[] }} Group */
-
+/** @typedef {[name: string, value: string, meaning: string]} Row */
 /** @typedef {Pick<import('../api.js').Progress, 'level' | 'iteration' | 'elapsed' | 'gap'>} Moment of a run, as its progress tells */
 
 /** Time for which a button says that it has copied, in milliseconds. */
@@ -40,7 +36,7 @@ export function reportPanel(session, analyses) {
     }
   });
   on('report-csv', (result) => {
-    const rows = groupsOf(result).flatMap(({ title, rows: all }) => all.filter(({ isShown }) => isShown).map(({ name, value }) => [title, name, value]));
+    const rows = groupsOf(result).flatMap(([title, all]) => all.map(([name, value]) => [title, name, value]));
     download([['group', 'quantity', 'value'], ...rows].map((cells) => `${cells.map(csvCell).join(',')}\r\n`).join(''), 'text/csv', `${result.input.name}-report.csv`);
   });
   const offers = [
@@ -108,98 +104,51 @@ async function reportFile(analyses, result, convergence) {
   };
 }
 
-/** The groups of the report that have rows. @param {Result} result */
+/** The groups of the report by their titles, without those that have no rows. @param {Result} result @returns {[string, Row[]][]} */
 function groupsOf(result) {
   const { report } = result.surface;
-  return [certificate(report), domain(report), work(report), accuracy(result)].filter((group) => group.rows.length > 0);
-}
-
-/** @param {Report} report @returns {Group} */
-function certificate(report) {
-  return {
-    title: 'Certificate',
-    rows: [
-      row('Gap', percentAtMost(report.gap), report.gap === undefined ? REPORT_WORDS.noGap : REPORT_WORDS.gap),
-      row('Objective', number(report.objective, 5), REPORT_WORDS.objective),
-      row('Fidelity', number(report.fidelity, 4), REPORT_WORDS.fidelity),
-      row('Nuclear norms', number(report.nuclearNorm, 4), REPORT_WORDS.nuclearNorm, report.energy === 'nuclear'),
-      row('Bending', number(report.nuclearNorm, 4), ENERGIES[report.energy], report.energy !== 'nuclear'),
-      row('Dual bound', number(report.dualBound, 5), REPORT_WORDS.dualBound),
-      row('Stopped by', STOP_REASONS[report.stopReason], ''),
-    ],
-  };
-}
-
-/** @param {Report} report @returns {Group} */
-function domain(report) {
-  return {
-    title: 'Vertices',
-    rows: [
-      row('Interior', count(report.interior), REPORT_WORDS.interior),
-      row('Boundary', count(report.boundary), REPORT_WORDS.boundary),
-      row('Omitted', count(report.omitted), REPORT_WORDS.omitted),
-      row('Torn', count(report.occluded), REPORT_WORDS.torn, report.occluded > 0),
-      row('Held', count(report.constrained), REPORT_WORDS.held, report.constrained > 0),
-      row('Free', count(report.free), REPORT_WORDS.free, report.free > 0),
-      row('Parts', count(report.components), REPORT_WORDS.parts, report.components > 1),
-    ],
-  };
-}
-
-/** @param {Report} report @returns {Group} */
-function work(report) {
-  return {
-    title: 'Work',
-    rows: [
-      row('λ', number(report.lambda), REPORT_WORDS.lambda),
-      row('Noise, σ', number(report.lambdaChoice?.sigma ?? 0), lambdaChoiceInWords(report), report.lambdaChoice?.sigma !== undefined),
-      row('Creases', count(report.huber?.creases ?? 0), REPORT_WORDS.creases(report.huber?.creasePasses ?? 0), report.huber !== undefined),
-      row('Iterations', count(report.iterations), REPORT_WORDS.iterations(report.levels.at(-1)?.iterations ?? 0)),
-      row('Time', seconds(report.seconds.total), ''),
-    ],
-  };
-}
-
-/**
- * Errors against the true surface, which is known for examples.
- * @param {Result} result
- * @returns {Group}
- */
-function accuracy(result) {
   const errors = accuracyOf(result);
-  if (!errors) return { title: '', rows: [] };
-  return {
-    title: 'Error against the true surface, input → result',
-    rows: [row('Heights', `${number(errors.before)} → ${number(errors.after)}`, REPORT_WORDS.heights)],
+  const isNuclear = report.energy === 'nuclear';
+  const passes = report.huber?.creasePasses ?? 0;
+  /** @type {Record<string, (Row | false | undefined)[]>} */
+  const groups = {
+    Certificate: [
+      ['Gap', percentAtMost(report.gap), report.gap === undefined ? 'The energy is almost zero, so a share of it would say nothing.' : 'No surface has an energy that is lower by more than this share.'],
+      ['Objective', number(report.objective, 5), 'The energy of the result: fidelity and bending together.'],
+      ['Fidelity', number(report.fidelity, 4), 'How far the result is from the input: λ times the squared distances.'],
+      [isNuclear ? 'Nuclear norms' : 'Bending', number(report.nuclearNorm, 4), isNuclear ? 'How much the result bends and creases.' : ENERGIES[report.energy]],
+      ['Dual bound', number(report.dualBound, 5), 'The proof: no surface at all has a lower energy.'],
+      ['Stopped by', STOP_REASONS[report.stopReason], ''],
+    ],
+    Vertices: [
+      ['Interior', count(report.interior), 'These vertices have all six neighbours. Curvature is measured there.'],
+      ['Boundary', count(report.boundary), 'These vertices lie at the border.'],
+      ['Omitted', count(report.omitted), 'These vertices have too few neighbours. Their heights follow from the nearest ones.'],
+      report.occluded > 0 && ['Torn', count(report.occluded), 'The surface is torn here, so its curvature is not measured.'],
+      report.components > 1 && ['Parts', count(report.components), 'The surface has unconnected parts. Each was solved by itself.'],
+    ],
+    Work: [
+      ['λ', number(report.lambda), 'The detail that is kept: a larger λ stays closer to the input.'],
+      report.lambdaChoice?.sigma !== undefined && ['Noise, σ', number(report.lambdaChoice.sigma), lambdaChoiceInWords(report)],
+      report.huber && ['Creases', count(report.huber.creases), `These vertices lie on creases, which were sharpened ${passes === 1 ? 'once' : `${count(passes)} times`}. The proof is about the last time.`],
+      ['Iterations', count(report.iterations), `Steps of the solver (ADMM), ${count(report.levels.at(-1)?.iterations ?? 0)} of them on the finest lattice.`],
+      ['Time', seconds(report.seconds.total), ''],
+    ],
+    // The true surface is known for examples.
+    'Error against the true surface, input → result': [
+      errors !== null && ['Heights', `${number(errors.before)} → ${number(errors.after)}`, 'Root mean square distance from the true surface, in the example’s unit.'],
+    ],
   };
+  return Object.entries(groups).map(([title, rows]) => /** @type {[string, Row[]]} */ ([title, rows.filter(Boolean)])).filter(([, rows]) => rows.length > 0);
 }
 
-/** @param {string} name @param {string} value @param {string} meaning @param {boolean} [isShown] @returns {Row} */
-function row(name, value, meaning, isShown = true) {
-  return { name, value, meaning, isShown };
-}
-
-/** @param {Group} group */
-function rowGroup({ title, rows }) {
-  const body = document.createElement('tbody');
-  const head = body.insertRow();
-  head.className = 'group';
-  const heading = document.createElement('th');
-  heading.colSpan = 3;
-  heading.scope = 'rowgroup';
-  heading.textContent = title;
-  head.append(heading);
-  for (const { name, value, meaning } of rows.filter(({ isShown }) => isShown)) {
-    const line = body.insertRow();
-    const header = document.createElement('th');
-    header.scope = 'row';
-    header.textContent = name;
-    line.append(header);
-    const figure = line.insertCell();
-    figure.textContent = value;
-    if (meaning) line.insertCell().textContent = meaning;
+/** @param {[string, Row[]]} group */
+function rowGroup([title, rows]) {
+  const head = make('th', '', title);
+  Object.assign(head, { colSpan: 3, scope: 'rowgroup' });
+  return make('tbody', '', make('tr', 'group', head), ...rows.map(([name, value, meaning]) => {
+    const header = Object.assign(make('th', '', name), { scope: 'row' });
     // A value without an explanation takes its cell, too.
-    else figure.colSpan = 2;
-  }
-  return body;
+    return make('tr', '', header, Object.assign(make('td', '', value), { colSpan: meaning ? 1 : 2 }), ...(meaning ? [make('td', '', meaning)] : []));
+  }));
 }

@@ -1,7 +1,7 @@
 /** Layers over a surface: images of coloured values, and lines. */
 import { nearestVertices } from './lattice.js';
 
-/** @import {Grid, Lattice} from './lattice.js' */
+/** @import {Lattice} from './lattice.js' */
 /** @import {Colour} from './colours.js' */
 /** @import {Picture} from './picture-view.js' */
 /** @import {Place, Surface} from './scene.js' */

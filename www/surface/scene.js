@@ -1,8 +1,7 @@
 /** Draws an input and its result in space, on both sides of a divider, by three.js, which is loaded with the first scene. */
 import { oncePerFrame } from '../dom.js';
-import { addGestures } from './gestures.js';
 import { fillMatcap, lightFrom, MATCAP_SIDE_TEXELS } from './matcap.js';
-import { boxOf } from './triangles.js';
+import { addPictureKeys, MAX_ZOOM } from './zoom.js';
 
 /** @import {Line} from './layer.js' */
 /** @typedef {readonly [number, number, number]} Vector */
@@ -53,9 +52,11 @@ export const PAPER_LOOKS = {
   y: { up: [0, 1, 0], direction: [-0.5, -0.45, -0.75], isFaceted: true },
   z: { up: [0, 0, 1], direction: [-0.5, 0.75, -0.45], isFaceted: true },
 };
-/** Bounds of the enlargement. */
+/** Minimum enlargement. */
 const MIN_ZOOM = 0.5;
-const MAX_ZOOM = 60;
+/** Rotation for a press of an arrow key, and movement for one with Shift, as a share of the canvas. */
+const KEY_TURN_RADIANS = Math.PI / 24;
+const KEY_PAN_SHARE = 0.05;
 
 export class SceneView {
   #three;
@@ -140,7 +141,11 @@ export class SceneView {
     Object.assign(this.#ground, { receiveShadow: true, visible: false });
     this.#scene = new three.Scene();
     this.#scene.add(this.#shadowLight, this.#ground);
-    addGestures(canvas, this);
+    addPictureKeys(canvas, {
+      move: (across, up, isShift) => (isShift ? this.#pan(KEY_PAN_SHARE * canvas.clientWidth * across, -KEY_PAN_SHARE * canvas.clientHeight * up) : this.turn(KEY_TURN_RADIANS * across, -KEY_TURN_RADIANS * up)),
+      zoom: (factor) => this.#zoom(factor),
+      reset: () => this.look(),
+    });
     this.#controls = this.#createControls();
     this.#resizing.observe(canvas);
     this.setDirection(this.#look.direction);
@@ -353,13 +358,13 @@ export class SceneView {
   }
 
   /** Moves the picture. @param {number} x @param {number} y in CSS pixels, y down */
-  pan(x, y) {
+  #pan(x, y) {
     this.#controls.pan(x, y);
     this.#controls.update();
   }
 
   /** Zooms about the middle. @param {number} factor */
-  zoom(factor) {
+  #zoom(factor) {
     this.#camera.zoom = Math.min(MAX_ZOOM, Math.max(MIN_ZOOM, this.#camera.zoom * factor));
     this.drawSoon();
   }

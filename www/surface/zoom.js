@@ -1,4 +1,4 @@
-/** Zooms and moves flat pictures by wheel, two fingers, keys, and dragging once they are enlarged. */
+/** Keys of pictures, and how flat ones are zoomed and moved by wheel, two fingers, keys, and dragging once they are enlarged. */
 
 /** Direction of each arrow key: x to the right, y up. @type {Record<string, readonly [x: number, y: number]>} */
 export const ARROW_DIRECTIONS = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] };
@@ -6,11 +6,33 @@ export const ARROW_DIRECTIONS = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowU
 const WHEEL_ZOOM_PER_PIXEL = 0.0015;
 const WHEEL_ZOOM_PER_LINE = 0.05;
 /** Maximum enlargement. */
-const MAX_ZOOM = 40;
+export const MAX_ZOOM = 60;
 /** Enlargement for a press of +. */
 const KEY_ZOOM_FACTOR = 1.25;
 /** Movement for a press of an arrow key, as a share of the picture. */
 const KEY_MOVE_SHARE = 0.1;
+
+/**
+ * Keys of a picture, flat or in space: arrows, + and −, 0 or Home for all of it. Without focus the wheel scrolls the page.
+ * @param {HTMLCanvasElement} canvas
+ * @param {object} view
+ * @param {(across: number, up: number, isShift: boolean) => boolean | void} view.move false if it cannot be moved
+ * @param {(factor: number) => void} view.zoom
+ * @param {() => void} view.reset
+ */
+export function addPictureKeys(canvas, { move, zoom, reset }) {
+  canvas.addEventListener('wheel', (event) => {
+    if (!event.ctrlKey && document.activeElement !== canvas) event.stopImmediatePropagation();
+  }, { capture: true, passive: true });
+  canvas.addEventListener('keydown', (event) => {
+    const arrow = ARROW_DIRECTIONS[event.key];
+    if (event.key === '+' || event.key === '=') zoom(KEY_ZOOM_FACTOR);
+    else if (event.key === '-') zoom(1 / KEY_ZOOM_FACTOR);
+    else if (event.key === '0' || event.key === 'Home') reset();
+    else if (!arrow || move(...arrow, event.shiftKey) === false) return;
+    event.preventDefault();
+  });
+}
 
 /**
  * Lets the user zoom and move a picture.
@@ -61,22 +83,15 @@ export function makeZoomable(canvas, onChange) {
     if (fingers.size > 1 && before.apart > 0) zoomAt(after.apart / before.apart, after);
   });
   for (const end of /** @type {const} */ (['pointerup', 'pointercancel'])) canvas.addEventListener(end, ({ pointerId }) => fingers.delete(pointerId));
+  addPictureKeys(canvas, {
+    move: (across, up) => scale > 1 && move(-KEY_MOVE_SHARE * across, KEY_MOVE_SHARE * up),
+    zoom: (factor) => zoomAt(factor, { x: 0.5, y: 0.5 }),
+    reset: () => zoomAt(0, { x: 0.5, y: 0.5 }),
+  });
   canvas.addEventListener('wheel', (event) => {
-    // Without focus the wheel scrolls the page.
-    if (!event.ctrlKey && document.activeElement !== canvas) return;
     event.preventDefault();
     zoomAt(Math.exp(-event.deltaY * (event.deltaMode === WheelEvent.DOM_DELTA_LINE ? WHEEL_ZOOM_PER_LINE : WHEEL_ZOOM_PER_PIXEL)), placeOf(event));
   }, { passive: false });
-  canvas.addEventListener('keydown', (event) => {
-    const middle = { x: 0.5, y: 0.5 };
-    const arrow = ARROW_DIRECTIONS[event.key];
-    if (event.key === '+' || event.key === '=') zoomAt(KEY_ZOOM_FACTOR, middle);
-    else if (event.key === '-') zoomAt(1 / KEY_ZOOM_FACTOR, middle);
-    else if (event.key === '0') zoomAt(0, middle);
-    else if (arrow && scale > 1) move(-KEY_MOVE_SHARE * arrow[0], KEY_MOVE_SHARE * arrow[1]);
-    else return;
-    event.preventDefault();
-  });
   return () => {
     const [width, height] = [canvas.width * scale, canvas.height * scale];
     return { left: (canvas.width - width) / 2 + shift.x * canvas.width, top: (canvas.height - height) / 2 + shift.y * canvas.height, width, height };

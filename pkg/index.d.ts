@@ -175,18 +175,18 @@ export interface OpenSolver<I extends HeightImage | Heightfield = HeightImage | 
  */
 export function init(options?: WorkerOptions | InitInput): Promise<void>;
 /**
- * Fits a piecewise developable surface to heights. `report.gap` is a proven bound: the objective is above its minimum by at
- * most this share.
+ * Fits a piecewise developable surface to heights: smooth pieces that could be laid flat as paper can, without stretching, which meet at
+ * creases. `report.gap` is a proven bound: the objective is above its minimum by at most this share of itself.
  */
 export function fit(input: HeightImage, options?: FitOptions): Promise<ImageSurface>;
 /**
- * Fits a piecewise developable surface to heights. `report.gap` is a proven bound: the objective is above its minimum by at
- * most this share.
+ * Fits a piecewise developable surface to heights: smooth pieces that could be laid flat as paper can, without stretching, which meet at
+ * creases. `report.gap` is a proven bound: the objective is above its minimum by at most this share of itself.
  */
 export function fit(input: Heightfield, options?: FitOptions): Promise<LatticeSurface>;
 /**
- * Fits a piecewise developable surface to heights. `report.gap` is a proven bound: the objective is above its minimum by at
- * most this share.
+ * Fits a piecewise developable surface to heights: smooth pieces that could be laid flat as paper can, without stretching, which meet at
+ * creases. `report.gap` is a proven bound: the objective is above its minimum by at most this share of itself.
  */
 export function fit(input: HeightImage | Heightfield, options?: FitOptions): Promise<Surface>;
 /** Sends an input to the shared worker, where it stays with its solver until it is disposed of. */
@@ -274,9 +274,12 @@ export function backProject(image: HeightImage, camera: Intrinsics, options?: De
  * where the picture is transparent or the camera does not see the surface.
  */
 export function paint<F extends Heightfield>(input: F, picture: Picture | Blob, options?: PaintOptions): Promise<Painted<F>>;
-/** Computes curvatures at a surface's vertices, and statistics that say how developable the surface is. */
+/**
+ * Computes curvatures at a surface's vertices, and statistics that say how developable the surface is. The surface is taken as it is,
+ * without a fit: give it what `fit` returned.
+ */
 export function analyze(input: HeightImage | Heightfield, options?: AnalyzeOptions): Promise<Analysis>;
-/** Segments a surface into smooth patches, and finds the creases between them. */
+/** Segments a surface into smooth patches, and finds the creases between them. The surface is taken as it is, without a fit. */
 export function patches(input: HeightImage | Heightfield, options?: PatchOptions): Promise<PatchMap>;
 /**
  * Draws a surface, seen from above, to an image of RGBA bytes. Where pixels are larger than the lattice's spacing, the
@@ -287,7 +290,7 @@ export function picture(input: HeightImage | Heightfield, options?: PictureOptio
 export function draw(canvas: Canvas, input: HeightImage | Heightfield, options?: PictureOptions): Promise<void>;
 /**
  * Computes the rulings of a surface: at each vertex the direction in which it does not bend, and straight lines along
- * these directions.
+ * these directions. The surface is taken as it is, without a fit.
  */
 export function rulings(input: HeightImage | Heightfield, options?: RulingOptions): Promise<RulingField>;
 /**
@@ -364,7 +367,11 @@ export function dewarpPage(
 export function flattenPhoto(photo: Photo | PhotoSource | Drawable, page: FoundPage, options?: FlattenPhotoOptions & HandOver & Abortable): Promise<FlatPage>;
 /** Returns the verdict on a flat page as a sentence: whether it can be trusted, why not, and how large its error is. */
 export function describePage(report: PageReport): string;
-/** Finds the page in a photo: its corners and edges, which can be corrected and given to `dewarpPage`. */
+/**
+ * Finds the page in a photo: its corners and edges, which can be corrected and given to `dewarpPage`. Coordinates are in pixels of
+ * the photo as `readPhoto` decodes it (upright, and halved if it is large), from the centre of the upper left pixel. Without a page it
+ * resolves with the verdict `'notFound'` and no pages.
+ */
 export function findPage(photo: Photo | PhotoSource | Drawable, options?: Abortable): Promise<PageOutlines>;
 /**
  * Decodes a photo: JPEG, PNG, WebP, GIF, BMP or TIFF. It is turned upright by its Exif data, which also give its focal
@@ -388,9 +395,9 @@ export function example(name: ExampleName, options?: ExampleOptions): Promise<Ex
 export function dispose(): void;
 
 /**
- * A separate worker, with the functions of this module as methods.
+ * A separate worker, with the functions of this module as methods, but for `parseCamera` and `describePage`, which need none.
  *
- * Fits on one worker take turns of about 25 ms on its one thread; to run them at the same time, give each a worker of its own.
+ * Fits on one worker take turns of about 25 ms, on all of its threads; to run them at the same time, give each a worker of its own.
  */
 export class DevelopableWorker {
   /** Prepares a worker, which starts with the first call. */

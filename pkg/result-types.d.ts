@@ -1,23 +1,32 @@
-/** Results of all calls. Made of the structures in `src/` and `wasm/` by `tools/types`. */
+/**
+ * Results of all calls. Made of the structures in `src/` and `wasm/` by `tools/types`. *The paper* is that in `option-types.d.ts`.
+ */
 
 /**
- * Curvatures of a surface at the lattice's vertices, row by row and NaN where there are none, with their statistics.
+ * Curvatures of a surface at the vertices of its hexagonal lattice (as in `Heightfield`), row by row and NaN where
+ * there are none, with their statistics.
  */
 export interface Analysis {
   /** Number of rows of the lattice. */
   rows: number;
   /** Number of columns of the lattice. */
   cols: number;
-  /** Distance between neighbouring vertices of the lattice, in the surface's unit of length. */
+  /** Distance between neighbouring vertices of a row, in the surface's unit of length; rows are √3/2 of it apart. */
   spacing: number;
-  /** Position `[x, y]` of the vertex in row 0, column 0, the upper left one; `y` points up. */
+  /**
+   * Position `[x, y]` of the vertex in row 0, column 0, the upper left one; `y` points up. Odd rows are shifted to the
+   * left by half a `spacing`.
+   */
   origin: [number, number];
   /**
    * Gaussian curvature at each vertex: angle deficit divided by the vertex's share of the area, in the surface's unit
    * of length to the power −2.
    */
   gaussian: Float64Array<ArrayBuffer>;
-  /** Principal curvature of larger magnitude at each vertex, in the inverse of the surface's unit of length. */
+  /**
+   * Principal curvature of larger magnitude at each vertex, in the inverse of the surface's unit of length; positive in
+   * a hollow seen from above, negative on a hill (of a mesh it is the other way round).
+   */
   kappa1: Float64Array<ArrayBuffer>;
   /** Principal curvature of smaller magnitude at each vertex; 0 on a developable surface. */
   kappa2: Float64Array<ArrayBuffer>;
@@ -113,7 +122,7 @@ export type BezierChain = [number, number][];
 
 /** A crease: a curve along which two patches meet. */
 export interface Crease {
-  /** Numbers of the patches on either side of the crease, the lower one first. */
+  /** Numbers of the patches on either side of the crease, from 0 as in the labels, the lower one first. */
   patches: [number, number];
   /**
    * Points along the crease, in the surface's units, smoothed. The crease is closed if the last point is the first.
@@ -184,17 +193,20 @@ export interface DecodedPhoto {
 export type DepthEvidence = 'none' | 'likely' | 'certain';
 
 /**
- * Occlusions (jumps) that were detected in heights. As part of a heightfield, `vertices` can be given as `occlusions`
- * and `edges` as `brokenEdges`.
+ * Occlusions (jumps) that were detected in heights, at the vertices of a hexagonal lattice. As part of a heightfield,
+ * `vertices` can be given as `occlusions` and `edges` as `brokenEdges`.
  */
 export interface DetectedOcclusions {
   /** Number of rows of the lattice. */
   rows: number;
   /** Number of columns of the lattice. */
   cols: number;
-  /** Distance between neighbouring vertices of the lattice, in the surface's unit of length. */
+  /** Distance between neighbouring vertices of a row, in the surface's unit of length; rows are √3/2 of it apart. */
   spacing: number;
-  /** Position `[x, y]` of the vertex in row 0, column 0, the upper left one; `y` points up. */
+  /**
+   * Position `[x, y]` of the vertex in row 0, column 0, the upper left one; `y` points up. Odd rows are shifted to the
+   * left by half a `spacing`.
+   */
   origin: [number, number];
   /** For each vertex, row by row, 1 if a solve would evaluate no Hessian there, else 0. */
   vertices: Uint8Array<ArrayBuffer>;
@@ -466,17 +478,23 @@ export interface EntangledTriangle {
   position: [number, number, number];
 }
 
-/** Heights of a fitted surface on its lattice, and the report on the fit. */
+/** Heights of a fitted surface on its hexagonal lattice, as in `Heightfield`, and the report on the fit. */
 export interface FittedHeights {
   /** Number of rows of the lattice. */
   rows: number;
   /** Number of columns of the lattice. */
   cols: number;
-  /** Distance between neighbouring vertices of the lattice, in the surface's unit of length. */
+  /** Distance between neighbouring vertices of a row, in the surface's unit of length; rows are √3/2 of it apart. */
   spacing: number;
-  /** Position `[x, y]` of the vertex in row 0, column 0, the upper left one; `y` points up. */
+  /**
+   * Position `[x, y]` of the vertex in row 0, column 0, the upper left one; `y` points up. Odd rows are shifted to the
+   * left by half a `spacing`.
+   */
   origin: [number, number];
-  /** `rows * cols` heights at the vertices, row by row, the top row first; NaN where the surface has no vertex. */
+  /**
+   * `rows * cols` heights at the vertices, in the surface's unit of length, row by row, the top row first; NaN where
+   * the surface has no vertex.
+   */
   heights: Float64Array<ArrayBuffer>;
   /** The surface at the pixels of the input, if that is an image. */
   image?: SurfaceImage;
@@ -492,7 +510,10 @@ export interface FlatImage {
   height: number;
   /** Number of pixels of the flat image per unit of length. */
   resolution: number;
-  /** Position `[x, y]` of the upper left corner on the flat page, in the unit of lengths. */
+  /**
+   * Position `[x, y]` of the image's upper left corner on the page laid flat, x to the right and y up, in the unit of
+   * lengths.
+   */
   corner: [number, number];
   /**
    * RGBA bytes of the flat image, row by row, transparent where there is no sheet; `new ImageData(data, width)` shows
@@ -500,8 +521,8 @@ export interface FlatImage {
    */
   data: Uint8ClampedArray<ArrayBuffer>;
   /**
-   * Warp map: for each pixel of the flat image its place x, y in the photo, in pixels from the centre of the upper left
-   * one; NaN where there is no sheet. Empty if the option `map` is false.
+   * Warp map of `2 * width * height` numbers: for each pixel of the flat image its place x, y in the photo, in pixels
+   * from the centre of the upper left one; NaN where there is no sheet. Empty if the option `map` is false.
    */
   map: Float32Array<ArrayBuffer>;
   /** The warp map on a grid, if the option `grid` asks for it. */
@@ -534,7 +555,7 @@ export type FoldDirection = 'mountain' | 'valley';
 
 /** A fold line of a drawn sheet: a line along which the sheet is folded. */
 export interface FoldLine {
-  /** Number of the crease that the fold line follows, its index in `creases`. */
+  /** Number of the crease that the fold line follows, from 0, its index in `creases`. */
   crease: number;
   /** Whether the fold is a mountain or a valley fold, seen from above. */
   direction: FoldDirection;
@@ -1079,9 +1100,12 @@ export interface PatchMap {
   rows: number;
   /** Number of columns of the lattice. */
   cols: number;
-  /** Distance between neighbouring vertices of the lattice, in the surface's unit of length. */
+  /** Distance between neighbouring vertices of a row, in the surface's unit of length; rows are √3/2 of it apart. */
   spacing: number;
-  /** Position `[x, y]` of the vertex in row 0, column 0, the upper left one; `y` points up. */
+  /**
+   * Position `[x, y]` of the vertex in row 0, column 0, the upper left one; `y` points up. Odd rows are shifted to the
+   * left by half a `spacing`.
+   */
   origin: [number, number];
   /** Number of the patch of each vertex, row by row; −1 where there is none. */
   labels: Int32Array<ArrayBuffer>;
@@ -1099,7 +1123,7 @@ export interface PrintedTriangle {
   corners: [[number, number], [number, number], [number, number]];
   /** Texture coordinates of the corners: shares from the texture's left and bottom. */
   uvs: [[number, number], [number, number], [number, number]];
-  /** Number of the texture. */
+  /** Index of the texture, from 0, in the `textures` of the mesh. */
   texture: number;
 }
 
@@ -1195,9 +1219,12 @@ export interface RulingField {
   rows: number;
   /** Number of columns of the lattice. */
   cols: number;
-  /** Distance between neighbouring vertices of the lattice, in the surface's unit of length. */
+  /** Distance between neighbouring vertices of a row, in the surface's unit of length; rows are √3/2 of it apart. */
   spacing: number;
-  /** Position `[x, y]` of the vertex in row 0, column 0, the upper left one; `y` points up. */
+  /**
+   * Position `[x, y]` of the vertex in row 0, column 0, the upper left one; `y` points up. Odd rows are shifted to the
+   * left by half a `spacing`.
+   */
   origin: [number, number];
   /**
    * Unit vector x, y along the ruling at each vertex, seen from above and up to its sign; NaN where there is none.
@@ -1333,9 +1360,12 @@ export interface SurfaceImage {
   width: number;
   /** Number of rows of pixels. */
   height: number;
-  /** Side length of a pixel, in the unit of the heights. */
+  /** Side length of a pixel, in the surface's unit of length. */
   pixelSize: number;
-  /** `width * height` heights at the pixels, row by row, the top row first; NaN where there is no surface. */
+  /**
+   * `width * height` heights at the pixels, row by row, the top row first: in the surface's unit of length, that is the
+   * input's steps times its `heightScale`; NaN where there is no surface.
+   */
   data: Float64Array<ArrayBuffer>;
 }
 
@@ -1382,9 +1412,12 @@ export interface Unrolling {
   rows: number;
   /** Number of columns of the lattice. */
   cols: number;
-  /** Distance between neighbouring vertices of the lattice, in the surface's unit of length. */
+  /** Distance between neighbouring vertices of a row, in the surface's unit of length; rows are √3/2 of it apart. */
   spacing: number;
-  /** Position `[x, y]` of the vertex in row 0, column 0, the upper left one; `y` points up. */
+  /**
+   * Position `[x, y]` of the vertex in row 0, column 0, the upper left one; `y` points up. Odd rows are shifted to the
+   * left by half a `spacing`.
+   */
   origin: [number, number];
   /** Row-major index in the lattice of each vertex of the triangles, ascending. */
   vertices: Uint32Array<ArrayBuffer>;
@@ -1455,7 +1488,10 @@ export interface WarpGrid {
 export interface WorstAngle {
   /** Position of the point on the surface in space, in the surface's units. */
   place: [number, number, number];
-  /** Lowest number of the creases that are cut at the point, if any; its letter is on the drawing. */
+  /**
+   * Number, from 0, of the crease that is cut at the point, the lowest of several, if any; its letter is on the
+   * drawing.
+   */
   crease?: number;
   /** Sum of the angles of the flat pieces that meet at the point, in degrees. */
   flat: number;

@@ -53,7 +53,10 @@ export interface FitConditions {
   occlusions?: Flags;
 }
 
-/** Heights at the centres of square pixels, row by row, the top row first. */
+/**
+ * Heights at the centres of square pixels, row by row, the top row first. In the plane x runs to the right and y up from the image's
+ * lower left corner, in `unit`: the centre of the upper left pixel is at `[0.5, height - 0.5] * pixelSize`.
+ */
 export interface HeightImage extends FitConditions {
   /** Number of pixels in a row. */
   width: number;
@@ -84,7 +87,7 @@ export interface Heightfield extends FitConditions {
   rows: number;
   /** Number of columns of the lattice. */
   cols: number;
-  /** Distance between neighbouring vertices of the lattice, in the unit of the heights. */
+  /** Distance between neighbouring vertices of a row, in the unit of the heights; rows are √3/2 of it apart. */
   spacing: number;
   /** `rows * cols` heights; NaN is no data. Optional if there are `constraints`. */
   heights?: Numbers;

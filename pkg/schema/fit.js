@@ -182,7 +182,10 @@ export const solver = {
     default: 0.01,
     flag: { section: 'stop', value: 'G', help: "certified relative gap to stop at (default 0.01); not for the paper's schedule" },
   },
-  /** `'default'` stops on the certified gap; `'paper'` follows Sec. 4.1 and stops on residuals. */
+  /**
+   * `'default'` stops on the certified gap; `'paper'` changes ρ as Sec. 4.1 of the paper does, and stops where ADMM's primal and dual
+   * residuals are small.
+   */
   schedule: {
     kind: choice('default', 'paper'),
     default: 'default',
@@ -239,7 +242,8 @@ export const solver = {
 export const meshSolver = {
   /**
    * Weight of the fidelity term: how closely the surface follows the input, in coordinates in which the mesh's bounding sphere has
-   * diameter 1. `'auto'` finds it from the noise of the mesh.
+   * diameter 1: `'small'` 1e5, `'medium'` 1e6, `'big'` 1e7, a number from 1e-12 to 1e15 (a larger one stays nearer to the input), or
+   * `'auto'`, which finds it from the noise of the mesh.
    */
   lambda: { kind: solver.lambda.kind, default: 'auto', flag: solver.lambda.flag },
   /** Certified relative duality gap of each linearised problem at which its solve stops. */

@@ -113,8 +113,9 @@ export const drawing = {
   /** Whether all texts are left out, except the names of sheets. */
   plain: { kind: flag, default: false, flag: { section: 'shape', help: 'without texts, except the names of sheets' } },
   /**
-   * Paper size. Each sheet is put on one page if it fits, turned where that helps. On A4 and letter a larger sheet covers
-   * several pages, which are joined at the printed crosses. Default: no pages, the sheets beside each other.
+   * Paper, plates or roll that the sheets are laid on, turned where that helps. On A4 and letter a sheet that is larger than a page covers
+   * several, which are joined at the printed crosses; one that is too large for the plate or roll rejects with code `UNSUPPORTED`,
+   * unless its mesh has exact faces and can be cut to fit. Default: no pages, the sheets beside each other.
    */
   stock: {
     kind: paper,
@@ -161,7 +162,7 @@ export const unrollMesh = {
 
 /** Options of models with faces. @satisfies {Options} */
 export const model = {
-  /** Largest extent of the model, in millimetres, instead of `scale`. Default: the scale's. */
+  /** Largest extent of the finished model, in millimetres, instead of `scale`. Default: what `scale` makes of it. */
   size: {
     kind: positive,
     flag: { section: 'shape', value: 'MM', help: 'largest extent of the model in millimetres, instead of --scale, for --surface' },
@@ -172,8 +173,8 @@ export const model = {
    */
   exact: { kind: flag },
   /**
-   * Pairs of patches whose common edges are cut, by the numbers that are drawn without `cut` and `join`, for meshes with exact
-   * faces. Default: none.
+   * Pairs of patches whose common edges are cut, for meshes with exact faces: by the numbers, from 1 on, that are drawn on the sheets
+   * without `cut` and `join` (those in `sheets[].patches` are from 0 on). A pair without a common edge is refused. Default: none.
    */
   cut: {
     kind: patchPairs,
@@ -210,7 +211,10 @@ export const patternMesh = {
 
 /** Options of writing a drawing to a PDF file. @satisfies {Options} */
 export const writePdf = {
-  /** Material on whose pages the drawing is laid first. Default: the drawing's own pages, or one page as large as the drawing. */
+  /**
+   * Paper, plates or roll that the sheets are arranged on for the file, as `stock` of a pattern does; the drawing itself stays as it is.
+   * Default: the drawing's own pages, or one page as large as the drawing.
+   */
   stock: { kind: paper, type: 'Stock' },
   /** Title of the document, which is also written on each page. Default: "Pattern", and none on the pages. */
   title: { kind: text },

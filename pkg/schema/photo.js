@@ -149,7 +149,8 @@ export const dewarp = {
   },
   /**
    * Corners [x, y] of the part of the photo that is wanted, in its pixels, (0, 0) the centre of the upper left one.
-   * The sheet is continued up to there, by 6 % at most, and the flat image ends there. Four are the corners of a page:
+   * There are three or more, in order around the part. The sheet is continued up to there, by at most 6 % of the flat image's
+   * longer side, and the flat image ends there. Four are the corners of a page, the upper left one as it is read first:
    * its edges are straight on the sheet, however bent they are in the photo. Default: all of it.
    */
   crop: {
@@ -162,7 +163,7 @@ export const dewarp = {
     },
   },
   /**
-   * The part of the plane that the photo shows: left, bottom, right, top. Default: that of the
+   * The part of the plane that the photo shows: left, bottom, right, top, in the surface's x and y and its unit of length. Default: that of the
    * height image, also of the one that a surface was made from; of heights on a lattice, what their
    * vertices cover.
    */

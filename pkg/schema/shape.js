@@ -95,7 +95,7 @@ export const rulings = { ...meshRulings, ...resampling };
 export const meshUnrolling = {
   /** Change of the mean squared strain in one iteration below which the iterations stop. */
   tolerance: { kind: positive, default: 1e-10 },
-  /** Maximum number of iterations. */
+  /** Maximum number of iterations of laying each sheet flat. */
   maxIterations: { kind: whole, default: 500 },
 };
 

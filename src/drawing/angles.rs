@@ -18,7 +18,7 @@ use crate::unroll::flat_triangle::Point;
 pub struct WorstAngle {
     /// Position of the point on the surface in space, in the surface's units.
     pub place: [f64; 3],
-    /// Lowest number of the creases that are cut at the point, if any; its letter is on the drawing
+    /// Number, from 0, of the crease that is cut at the point, the lowest of several, if any; its letter is on the drawing
     /// ([`Label`](super::Label)).
     #[cfg_attr(feature = "serde", serde(skip_serializing_if = "Option::is_none"))]
     pub crease: Option<usize>,

@@ -17,7 +17,7 @@ pub(super) const FLATTENING_TOLERANCE_MM: f64 = 0.02;
 )]
 #[non_exhaustive]
 pub struct Line {
-    /// Number of the crease that the fold line follows, its index in
+    /// Number of the crease that the fold line follows, from 0, its index in
     /// [`Patches::creases`](crate::shape::patches::Patches::creases).
     pub crease: usize,
     /// Whether the fold is a mountain or a valley fold, seen from above.

@@ -51,7 +51,7 @@ pub struct PrintedTriangle {
     pub corners: [[f64; 2]; 3],
     /// Texture coordinates of the corners: shares from the texture's left and bottom.
     pub uvs: [[f64; 2]; 3],
-    /// Number of the texture.
+    /// Index of the texture, from 0, in the `textures` of the mesh.
     pub texture: u32,
 }
 

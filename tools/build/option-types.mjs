@@ -49,7 +49,8 @@ export async function optionTypes() {
   });
   const used = new Set(types.join('').match(/(?<=\?: [^\n]*)\b[A-Z]\w+\b/g));
   const known = [...(await declaredIn('types')), ...(await declaredIn('result-types'))].filter((name) => used.has(name)).sort();
-  const head = '/** Options of all calls. Made of `schema/` by `tools/build/option-types.mjs`. */\n';
+  const head = '/**\n * Options of all calls. Made of `schema/` by `tools/build/option-types.mjs`. *The paper* is Sellán, Aigerman and Jacobson:\n' +
+    ' * Developability of Heightfields via Rank Minimization, ACM Transactions on Graphics 39 (4), 2020, doi:10.1145/3386569.3392419.\n */\n';
   return `${head}import type { ${known.join(', ')} } from './types.js';\n${types.join('')}`;
 }
 

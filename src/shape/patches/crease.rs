@@ -13,7 +13,7 @@ use crate::scene::triangulation::Triangulation;
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[non_exhaustive]
 pub struct Crease {
-    /// Numbers of the patches on either side of the crease, the lower one first.
+    /// Numbers of the patches on either side of the crease, from 0 as in the labels, the lower one first.
     pub patches: [u32; 2],
     /// Points along the crease, in the surface's units, smoothed. The crease is closed if the last point is the first.
     pub points: Vec<[f64; 3]>,

@@ -7,7 +7,7 @@ use serde_wasm_bindgen::preserve;
 use developable::HeightImage;
 use developable::Report;
 
-/// Heights of a fitted surface on its lattice, and the report on the fit.
+/// Heights of a fitted surface on its hexagonal lattice, as in `Heightfield`, and the report on the fit.
 #[derive(Serialize)]
 #[serde(rename = "FittedHeights")]
 pub struct SurfaceOutput<'a> {
@@ -15,11 +15,11 @@ pub struct SurfaceOutput<'a> {
     pub rows: usize,
     /// Number of columns of the lattice.
     pub cols: usize,
-    /// Distance between neighbouring vertices of the lattice, in the surface's unit of length.
+    /// Distance between neighbouring vertices of a row, in the surface's unit of length; rows are √3/2 of it apart.
     pub spacing: f64,
-    /// Position `[x, y]` of the vertex in row 0, column 0, the upper left one; `y` points up.
+    /// Position `[x, y]` of the vertex in row 0, column 0, the upper left one; `y` points up. Odd rows are shifted to the left by half a `spacing`.
     pub origin: [f64; 2],
-    /// `rows * cols` heights at the vertices, row by row, the top row first; NaN where the surface has no vertex.
+    /// `rows * cols` heights at the vertices, in the surface's unit of length, row by row, the top row first; NaN where the surface has no vertex.
     #[serde(with = "preserve")]
     pub heights: Float64Array,
     /// The surface at the pixels of the input, if that is an image.
@@ -37,9 +37,9 @@ pub struct ImageOutput {
     width: usize,
     /// Number of rows of pixels.
     height: usize,
-    /// Side length of a pixel, in the unit of the heights.
+    /// Side length of a pixel, in the surface's unit of length.
     pixel_size: f64,
-    /// `width * height` heights at the pixels, row by row, the top row first; NaN where there is no surface.
+    /// `width * height` heights at the pixels, row by row, the top row first: in the surface's unit of length, that is the input's steps times its `heightScale`; NaN where there is no surface.
     #[serde(with = "preserve")]
     data: Float64Array,
 }
@@ -55,7 +55,7 @@ impl From<&HeightImage> for ImageOutput {
     }
 }
 
-/// Occlusions (jumps) that were detected in heights. As part of a heightfield, `vertices` can be given as `occlusions` and `edges` as `brokenEdges`.
+/// Occlusions (jumps) that were detected in heights, at the vertices of a hexagonal lattice. As part of a heightfield, `vertices` can be given as `occlusions` and `edges` as `brokenEdges`.
 #[derive(Serialize)]
 #[serde(rename = "DetectedOcclusions")]
 pub struct OcclusionsOutput {
@@ -63,9 +63,9 @@ pub struct OcclusionsOutput {
     pub rows: usize,
     /// Number of columns of the lattice.
     pub cols: usize,
-    /// Distance between neighbouring vertices of the lattice, in the surface's unit of length.
+    /// Distance between neighbouring vertices of a row, in the surface's unit of length; rows are √3/2 of it apart.
     pub spacing: f64,
-    /// Position `[x, y]` of the vertex in row 0, column 0, the upper left one; `y` points up.
+    /// Position `[x, y]` of the vertex in row 0, column 0, the upper left one; `y` points up. Odd rows are shifted to the left by half a `spacing`.
     pub origin: [f64; 2],
     /// For each vertex, row by row, 1 if a solve would evaluate no Hessian there, else 0.
     #[serde(with = "preserve")]

@@ -26,7 +26,7 @@ use developable_wasm::options::OptionReader;
 use developable_wasm::photo::{Pixels, extent_from};
 use developable_wasm::scene::{Scene, SpacingInput, check_spacing, is_image};
 
-/// Curvatures of a surface at the lattice's vertices, row by row and NaN where there are none, with their statistics.
+/// Curvatures of a surface at the vertices of its hexagonal lattice (as in `Heightfield`), row by row and NaN where there are none, with their statistics.
 #[derive(Serialize)]
 #[serde(rename = "Analysis", rename_all = "camelCase")]
 struct AnalysisOutput {
@@ -34,14 +34,14 @@ struct AnalysisOutput {
     rows: usize,
     /// Number of columns of the lattice.
     cols: usize,
-    /// Distance between neighbouring vertices of the lattice, in the surface's unit of length.
+    /// Distance between neighbouring vertices of a row, in the surface's unit of length; rows are √3/2 of it apart.
     spacing: f64,
-    /// Position `[x, y]` of the vertex in row 0, column 0, the upper left one; `y` points up.
+    /// Position `[x, y]` of the vertex in row 0, column 0, the upper left one; `y` points up. Odd rows are shifted to the left by half a `spacing`.
     origin: [f64; 2],
     /// Gaussian curvature at each vertex: angle deficit divided by the vertex's share of the area, in the surface's unit of length to the power −2.
     #[serde(with = "preserve")]
     gaussian: Float64Array,
-    /// Principal curvature of larger magnitude at each vertex, in the inverse of the surface's unit of length.
+    /// Principal curvature of larger magnitude at each vertex, in the inverse of the surface's unit of length; positive in a hollow seen from above, negative on a hill (of a mesh it is the other way round).
     #[serde(with = "preserve")]
     kappa1: Float64Array,
     /// Principal curvature of smaller magnitude at each vertex; 0 on a developable surface.
@@ -121,9 +121,9 @@ struct UnrollingOutput {
     rows: usize,
     /// Number of columns of the lattice.
     cols: usize,
-    /// Distance between neighbouring vertices of the lattice, in the surface's unit of length.
+    /// Distance between neighbouring vertices of a row, in the surface's unit of length; rows are √3/2 of it apart.
     spacing: f64,
-    /// Position `[x, y]` of the vertex in row 0, column 0, the upper left one; `y` points up.
+    /// Position `[x, y]` of the vertex in row 0, column 0, the upper left one; `y` points up. Odd rows are shifted to the left by half a `spacing`.
     origin: [f64; 2],
     /// Row-major index in the lattice of each vertex of the triangles, ascending.
     #[serde(with = "preserve")]
@@ -319,9 +319,9 @@ struct PatchesOutput<'a> {
     rows: usize,
     /// Number of columns of the lattice.
     cols: usize,
-    /// Distance between neighbouring vertices of the lattice, in the surface's unit of length.
+    /// Distance between neighbouring vertices of a row, in the surface's unit of length; rows are √3/2 of it apart.
     spacing: f64,
-    /// Position `[x, y]` of the vertex in row 0, column 0, the upper left one; `y` points up.
+    /// Position `[x, y]` of the vertex in row 0, column 0, the upper left one; `y` points up. Odd rows are shifted to the left by half a `spacing`.
     origin: [f64; 2],
     /// Number of the patch of each vertex, row by row; −1 where there is none.
     #[serde(with = "preserve")]
@@ -367,9 +367,9 @@ struct RulingsOutput<'a> {
     rows: usize,
     /// Number of columns of the lattice.
     cols: usize,
-    /// Distance between neighbouring vertices of the lattice, in the surface's unit of length.
+    /// Distance between neighbouring vertices of a row, in the surface's unit of length; rows are √3/2 of it apart.
     spacing: f64,
-    /// Position `[x, y]` of the vertex in row 0, column 0, the upper left one; `y` points up.
+    /// Position `[x, y]` of the vertex in row 0, column 0, the upper left one; `y` points up. Odd rows are shifted to the left by half a `spacing`.
     origin: [f64; 2],
     /// Unit vector x, y along the ruling at each vertex, seen from above and up to its sign; NaN where there is none.
     #[serde(with = "preserve")]

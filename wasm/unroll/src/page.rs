@@ -223,12 +223,12 @@ struct FlatOutput {
     height: usize,
     /// Number of pixels of the flat image per unit of length.
     resolution: f64,
-    /// Position `[x, y]` of the upper left corner on the flat page, in the unit of lengths.
+    /// Position `[x, y]` of the image's upper left corner on the page laid flat, x to the right and y up, in the unit of lengths.
     corner: [f64; 2],
     /// RGBA bytes of the flat image, row by row, transparent where there is no sheet; `new ImageData(data, width)` shows it.
     #[serde(with = "preserve")]
     data: Uint8ClampedArray,
-    /// Warp map: for each pixel of the flat image its place x, y in the photo, in pixels from the centre of the upper left one; NaN where there is no sheet. Empty if the option `map` is false.
+    /// Warp map of `2 * width * height` numbers: for each pixel of the flat image its place x, y in the photo, in pixels from the centre of the upper left one; NaN where there is no sheet. Empty if the option `map` is false.
     #[serde(with = "preserve")]
     map: Float32Array,
     /// The warp map on a grid, if the option `grid` asks for it.

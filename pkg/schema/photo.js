@@ -84,7 +84,7 @@ export const paint = {
 };
 
 /** The warp map of a flat image. @satisfies {Options} */
-const mapping = {
+export const mapping = {
   /** Number of pixels of the flat image per unit of length. Default: as many as the photo has of the sheet or page. */
   dots: { kind: positive, flag: { section: 'shape', value: 'D', help: 'pixels of the flat image per unit of length (default: as many as the photo has)' } },
   /** Whether the result has the full warp map, with eight bytes for each pixel. */

@@ -42,7 +42,7 @@ export async function optionTypes() {
     for (const [name, type] of Object.entries(interfaces)) found.push({ type, options: sets[name] });
   }
   const types = found.map(({ type, options }) => {
-        const doc = docs.get(options);
+    const doc = docs.get(options);
     if (!doc) throw new Error(`${type} has no comment in the schema`);
     const members = Object.entries(options).map(([name, option]) => member(`${type}.${name}`, option, docs.get(option)));
     return `\n${comment(doc)}export interface ${type} {\n${members.join('')}}\n`;

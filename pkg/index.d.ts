@@ -114,9 +114,9 @@ export interface FitOptions extends OpenFitOptions, HandOver {}
 
 /** Options of an exploration of patterns. */
 export interface ExplorePatternOptions {
-  /** Values of λ to try. Default: 1e7, 3e6, 1e6, 3e5, 1e5 and 3e4. */
+  /** Values of λ (the option `lambda` of `fit`) to try, the largest first. Default: 1e7, 3e6, 1e6, 3e5, 1e5 and 3e4. */
   lambdas?: readonly number[];
-  /** Minimum sizes of a patch to try, as shares of all vertices. Default: 0.005, 0.02 and 0.08. */
+  /** Minimum sizes of a patch to try, the smallest first, as shares of all vertices. Default: 0.005, 0.02 and 0.08. */
   smallest?: readonly number[];
   /**
    * Number of sheets that is few enough: the exploration ends with the first plan of at most as many. Default: all plans are
@@ -135,7 +135,7 @@ export interface ExplorePatternOptions {
 
 /** Options of an exploration of patterns of a mesh. */
 export interface ExplorePatternMeshOptions extends Omit<ExplorePatternOptions, 'lambdas' | 'solver' | 'pattern'> {
-  /** Values of λ to try. Default: the one that suits the mesh's noise, and 0.3, 0.1 and 0.03 times as much. */
+  /** Values of λ (the option `lambda` of `fitMesh`) to try, the largest first. Default: the one that suits the mesh's noise, and 0.3, 0.1 and 0.03 times as much. */
   lambdas?: readonly number[];
   /** Options of each fit, except `lambda`. */
   solver?: Omit<MeshSolverOptions, 'lambda'>;
@@ -209,7 +209,7 @@ export function read(bytes: Uint8Array | ArrayBuffer | Blob, options?: ReadOptio
  * `undefined` for other files.
  */
 export function formatOf(bytes: Uint8Array | ArrayBuffer | Blob): Promise<string | undefined>;
-/** Lists the arrays of an NPZ file, one of which `read` takes by its name. */
+/** Lists the arrays of an NPZ file, one of which `read` takes by its name. It rejects with code `FORMAT` for another file. */
 export function npzArrays(bytes: Uint8Array | ArrayBuffer | Blob): Promise<NpzArray[]>;
 /** Writes heights, of an image or on a lattice, to an NPY file of 64-bit floats. */
 export function writeNpy(input: HeightImage | Heightfield): Promise<Uint8Array<ArrayBuffer>>;
@@ -295,7 +295,8 @@ export function draw(canvas: Canvas, input: HeightImage | Heightfield, options?:
 export function rulings(input: HeightImage | Heightfield, options?: RulingOptions): Promise<RulingField>;
 /**
  * Fits a cylinder with any profile to heights on a lattice: for curled sheets, pages of books and parallel folds, whose
- * rulings are all parallel. `report.verdict` says whether the surface is a cylinder.
+ * rulings are all parallel. `report.verdict` says whether the surface is a cylinder. Heights count by their `confidence` and `mask`;
+ * `constraints` and `occlusions` do not count.
  */
 export function fitCylinder(input: Heightfield): Promise<FittedCylinder>;
 /** Lays a surface flat without cuts, with as little strain as possible. */

@@ -1347,7 +1347,8 @@ export interface SolveSeconds {
  * - `'rounding'`: Objective and dual bound differ by no more than rounding errors: the surface is optimal as far as
  *   double precision can tell. This is the reason for an affine input.
  * - `'maxIterations'`: The number of iterations reached the option `maxIterations`.
- * - `'cancelled'`: The progress callback, or `cancel`, asked to stop.
+ * - `'cancelled'`: The progress callback, or `cancel`, asked to stop; in JavaScript the option `signal` with `onAbort:
+ *   'keep'`.
  * - `'noNoise'`: A mesh has no noise, and λ was to suit its noise: the surface is the mesh as it is.
  * - `'diverged'`: ADMM's iterates diverged, and did so again with more accurate z-steps. The surface is the best one
  *   from before, and its dual bound holds.

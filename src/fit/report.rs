@@ -21,7 +21,8 @@ pub enum StopReason {
     Rounding,
     /// The number of iterations reached the option [`Options::max_iterations`](crate::Options::max_iterations).
     MaxIterations,
-    /// The progress callback, or [`Solver::cancel`](crate::Solver::cancel), asked to stop.
+    /// The progress callback, or [`Solver::cancel`](crate::Solver::cancel), asked to stop; in JavaScript the option `signal`
+    /// with `onAbort: 'keep'`.
     Cancelled,
     /// A mesh has no noise, and λ was to suit its noise: the surface is the mesh as it is.
     NoNoise,

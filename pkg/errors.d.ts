@@ -1,7 +1,11 @@
 /**
  * Error codes. Those of the Rust crate (`Error::code`):
- * - `EMPTY`, `SHAPE`, `NOT_FINITE`, `NO_INTERIOR`, `OVERFLOW`, `UNDERFLOW`, `TOO_LARGE`: something about the
- *   heights;
+ * - `EMPTY`: there is no height;
+ * - `SHAPE`: an array is not as long as rows and columns say;
+ * - `NOT_FINITE`: a number is infinite or NaN where none may be;
+ * - `NO_INTERIOR`: no vertex has heights all around it;
+ * - `OVERFLOW`, `UNDERFLOW`: heights or lengths are too large or too small for double precision;
+ * - `TOO_LARGE`: there are more heights or pixels than can be held;
  * - `TOPOLOGY`: a mesh that is no surface, as one with three triangles at an edge;
  * - `UNDERDETERMINED`: a part of the surface that its constraints and confidences do not hold in place;
  * - `EDGES`: traced edges that cannot be those of a page;
@@ -9,7 +13,8 @@
  * - `CURVED_FOLD`: a fold along which sheet metal cannot be bent, since it is curved;
  * - `NOT_FLAT`: a part of a surface that no cut lays flat within the limits of a pattern;
  * - `OPTION`: an option is unknown, of the wrong type or out of range;
- * - `FORMAT`, `UNSUPPORTED`: something about a file;
+ * - `FORMAT`: a file is damaged, or of another format;
+ * - `UNSUPPORTED`: a file or a wish is valid, and cannot be read or done;
  * - `OUT_OF_MEMORY`.
  *
  * Those of the JS side:
@@ -27,7 +32,7 @@ export type ErrorCode =
   | 'FORMAT' | 'UNSUPPORTED'
   | 'INPUT' | 'NOT_INITIALIZED' | 'INIT' | 'DISPOSED' | 'REPLACED' | 'TRAP' | 'WORKER';
 
-/** Error that every function of the package throws or rejects with, besides the reason of an abort signal. */
+/** Error that every function of the package throws or rejects with, besides the reason of an abort signal and what a callback throws. */
 export class DevelopableError extends Error {
   /** Name of the class of errors. */
   readonly name: 'DevelopableError';

@@ -170,7 +170,7 @@ export interface OpenSolver<I extends HeightImage | Heightfield = HeightImage | 
 }
 
 /**
- * Starts the shared worker and loads the wasm. It is optional and may be repeated: the functions below call it. Options
+ * Starts the shared worker and loads the wasm of the solver for heights, for which an `InitInput` alone stands. It is optional and may be repeated: the functions below call it. Options
  * count if no shared worker runs yet; after a failure they can be given anew.
  */
 export function init(options?: WorkerOptions | InitInput): Promise<void>;
@@ -211,19 +211,23 @@ export function read(bytes: Uint8Array | ArrayBuffer | Blob, options?: ReadOptio
 export function formatOf(bytes: Uint8Array | ArrayBuffer | Blob): Promise<string | undefined>;
 /** Lists the arrays of an NPZ file, one of which `read` takes by its name. It rejects with code `FORMAT` for another file. */
 export function npzArrays(bytes: Uint8Array | ArrayBuffer | Blob): Promise<NpzArray[]>;
-/** Writes heights, of an image or on a lattice, to an NPY file of 64-bit floats. */
+/**
+ * Writes heights, of an image or on a lattice, to an NPY file of 64-bit floats with as many rows and columns, the top row first: in the
+ * unit of lengths (of an image steps times `heightScale`), and NaN for no data. Of a surface it writes the lattice; `surface.image` are
+ * its pixels.
+ */
 export function writeNpy(input: HeightImage | Heightfield): Promise<Uint8Array<ArrayBuffer>>;
 /**
  * Writes an image, or the image of a surface, to a 16-bit grey PNG file. Its text chunks state pixel size, height scale
- * and offset; level 0 is no data.
+ * and offset, which `read` takes; level 0 is no data. A surface without an image rejects with code `INPUT`.
  */
 export function writePng(input: HeightImage | Surface): Promise<Uint8Array<ArrayBuffer>>;
 /**
- * Writes an image, or the image of a surface, to a TIFF file of 32-bit floats, with the pixel size and the georeference
- * if there is one; NaN is no data.
+ * Writes an image, or the image of a surface, to a TIFF file of 32-bit floats in the unit of lengths (steps times `heightScale`), with the
+ * pixel size and the georeference if there is one; NaN is no data. A surface without an image rejects with code `INPUT`.
  */
 export function writeTiff(input: HeightImage | Surface): Promise<Uint8Array<ArrayBuffer>>;
-/** Writes an image, or the image of a surface, to an EXR file of 32-bit floats in the channel Z; NaN is no data. */
+/** Writes an image, or the image of a surface, likewise to an EXR file of 32-bit floats in the channel Z. */
 export function writeExr(input: HeightImage | Surface): Promise<Uint8Array<ArrayBuffer>>;
 /**
  * Writes a mesh, or the triangles of a heightfield, to an OBJ file with normals, colours and texture coordinates: in
@@ -348,14 +352,18 @@ export function writeDxf(drawing: Drawing): Promise<Uint8Array<ArrayBuffer>>;
 export function dewarp(input: HeightImage | Heightfield, photo: Photo, options?: DewarpOptions & HandOver & Abortable): Promise<Dewarped>;
 /**
  * Makes a photo of a page flat without depths: of a page that is curled, folded or crumpled, or of the two pages of a
- * spread. It needs the page's corners or its edges, two of which are bent, or all four. Without them it takes the edges
- * of the one page that it finds in the photo.
+ * spread. It needs the page's corners or its edges, two of which are bent, or all four; a list has those of the left and of the right
+ * page. Without them it takes the edges of the one page that it finds in the photo, and rejects with code `NO_PAGE` if there is not one.
+ * Places are in pixels of the photo as `readPhoto` decodes it, from the centre of the upper left one. Edges that do not outline a page,
+ * as when they cross, reject with code `EDGES`; edges that only do not fit paper have the verdict `'notThisKind'`.
  */
 export function dewarpPage(photo: (Photo & { film35?: number }) | PhotoSource | Drawable, options?: DewarpPageOptions & HandOver & Watchable): Promise<DewarpedPage>;
 /**
  * Makes a photo of a page flat without depths: of a page that is curled, folded or crumpled, or of the two pages of a
- * spread. It needs the page's corners or its edges, two of which are bent, or all four. Without them it takes the edges
- * of the one page that it finds in the photo.
+ * spread. It needs the page's corners or its edges, two of which are bent, or all four; a list has those of the left and of the right
+ * page. Without them it takes the edges of the one page that it finds in the photo, and rejects with code `NO_PAGE` if there is not one.
+ * Places are in pixels of the photo as `readPhoto` decodes it, from the centre of the upper left one. Edges that do not outline a page,
+ * as when they cross, reject with code `EDGES`; edges that only do not fit paper have the verdict `'notThisKind'`.
  */
 export function dewarpPage(
   photo: (Photo & { film35?: number }) | PhotoSource | Drawable, edges?: PageEdges | readonly PageEdges[] | PageCorners | null, options?: DewarpPageOptions & HandOver & Watchable,

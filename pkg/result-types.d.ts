@@ -240,8 +240,8 @@ export interface DewarpedImage {
   /** Number of pixels of the flat image per unit of length. */
   resolution: number;
   /**
-   * Position `[x, y]` of the upper left corner on the sheet, in the surface's unit of length; with the option `deskew`
-   * in axes that are turned with the image about the origin.
+   * Position `[x, y]` of the image's upper left corner in the plane of `Unrolling.places`, x to the right and y up, in
+   * the surface's unit of length; with the option `deskew` in axes that are turned with the image about the origin.
    */
   corner: [number, number];
   /**
@@ -877,11 +877,11 @@ export interface MeshRulings {
 export interface MeshUnrolling {
   /** Number of the patch of each triangle of the mesh, −1 for none. */
   labels: Int32Array<ArrayBuffer>;
-  /** Coordinates x, y, z of each vertex of the sheets on the mesh. */
+  /** Coordinates x, y, z of each vertex of the sheets on the mesh, in the mesh's unit of length. */
   positions: Float64Array<ArrayBuffer>;
-  /** Coordinates x, y of each vertex of the sheets in the plane. */
+  /** Coordinates x, y of each vertex of the sheets in the plane, in the same unit, y up. */
   places: Float64Array<ArrayBuffer>;
-  /** Three vertices of each triangle, counter-clockwise. */
+  /** Three vertices of the sheets for each of their triangles, counted from 0, counter-clockwise. */
   triangles: Uint32Array<ArrayBuffer>;
   /** Number of the sheet of each vertex, from 0. */
   sheets: Uint32Array<ArrayBuffer>;

@@ -282,7 +282,7 @@ export interface Surface extends Omit<FittedHeights, 'report'> {
 
 /** The fitted surface of a height image. */
 export interface ImageSurface extends Surface {
-  /** The surface at the pixels of the input; NaN where the input had no data, for a design outside of its outline. */
+  /** The surface at the pixels of the input; NaN outside of a mask, where data is missing and was not bridged, and outside of a design's outline. */
   image: SurfaceImage;
 }
 

@@ -268,8 +268,8 @@ export const meshSolver = {
 /** Options of the detection of occlusions. @satisfies {Options} */
 export const occlusions = {
   /**
-   * Least magnitude of curvature, in normalised coordinates, that counts as a jump: larger than
-   * any fold has, and growing as the lattice gets finer. Above 0. The default is the authors' value.
+   * Least second derivative of the heights, in magnitude and in coordinates scaled to the unit square, that counts as a jump. A jump's
+   * grows with the square of the number of vertices across, so that it is larger than any fold's. Above 0. The default is the authors' value.
    */
   threshold: {
     kind: number,

@@ -219,10 +219,10 @@ export const dewarpPage = {
         "are then (default: in the page's width)",
     },
   },
-  /** A known distance on the page, in millimetres, between two places in the photo. */
+  /** A known distance on the page, in millimetres, between two places [x, y] in the photo, in pixels from the centre of the upper left one. */
   ruler: { kind: anything, type: '{ from: readonly [number, number]; to: readonly [number, number]; length: number }' },
   /**
-   * Principal point, where the camera's axis meets the photo, in pixels. Default: the middle of the photo; for a cropped photo
+   * Principal point, where the camera's axis meets the photo, in pixels from the centre of the upper left one. Default: the middle of the photo; for a cropped photo
    * give the middle of the whole one.
    */
   centre: { kind: numbers(2, 'two numbers: x and y in the photo') },

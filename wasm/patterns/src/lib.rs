@@ -301,13 +301,13 @@ struct UnrollingOutput<'a> {
     /// Number of the patch of each triangle of the mesh, −1 for none.
     #[serde(with = "preserve")]
     labels: Int32Array,
-    /// Coordinates x, y, z of each vertex of the sheets on the mesh.
+    /// Coordinates x, y, z of each vertex of the sheets on the mesh, in the mesh's unit of length.
     #[serde(with = "preserve")]
     positions: Float64Array,
-    /// Coordinates x, y of each vertex of the sheets in the plane.
+    /// Coordinates x, y of each vertex of the sheets in the plane, in the same unit, y up.
     #[serde(with = "preserve")]
     places: Float64Array,
-    /// Three vertices of each triangle, counter-clockwise.
+    /// Three vertices of the sheets for each of their triangles, counted from 0, counter-clockwise.
     #[serde(with = "preserve")]
     triangles: Uint32Array,
     /// Number of the sheet of each vertex, from 0.

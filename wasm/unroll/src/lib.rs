@@ -187,7 +187,7 @@ struct DewarpedOutput {
     height: usize,
     /// Number of pixels of the flat image per unit of length.
     resolution: f64,
-    /// Position `[x, y]` of the upper left corner on the sheet, in the surface's unit of length; with the option `deskew` in axes that are turned with the image about the origin.
+    /// Position `[x, y]` of the image's upper left corner in the plane of `Unrolling.places`, x to the right and y up, in the surface's unit of length; with the option `deskew` in axes that are turned with the image about the origin.
     corner: [f64; 2],
     /// RGBA bytes of the flat image, row by row, transparent where there is no sheet; `new ImageData(data, width)` shows it.
     #[serde(with = "preserve")]

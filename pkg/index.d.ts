@@ -353,7 +353,7 @@ export function dewarp(input: HeightImage | Heightfield, photo: Photo, options?:
 /**
  * Makes a photo of a page flat without depths: of a page that is curled, folded or crumpled, or of the two pages of a
  * spread. It needs the page's corners or its edges, two of which are bent, or all four; a list has those of the left and of the right
- * page. Without them it takes the edges of the one page that it finds in the photo, and rejects with code `NO_PAGE` if there is not one.
+ * page. Without them it takes the edges of the clearest page that it finds in the photo, and rejects with code `NO_PAGE` if it finds none.
  * Places are in pixels of the photo as `readPhoto` decodes it, from the centre of the upper left one. Edges that do not outline a page,
  * as when they cross, reject with code `EDGES`; edges that only do not fit paper have the verdict `'notThisKind'`.
  */
@@ -361,7 +361,7 @@ export function dewarpPage(photo: (Photo & { film35?: number }) | PhotoSource | 
 /**
  * Makes a photo of a page flat without depths: of a page that is curled, folded or crumpled, or of the two pages of a
  * spread. It needs the page's corners or its edges, two of which are bent, or all four; a list has those of the left and of the right
- * page. Without them it takes the edges of the one page that it finds in the photo, and rejects with code `NO_PAGE` if there is not one.
+ * page. Without them it takes the edges of the clearest page that it finds in the photo, and rejects with code `NO_PAGE` if it finds none.
  * Places are in pixels of the photo as `readPhoto` decodes it, from the centre of the upper left one. Edges that do not outline a page,
  * as when they cross, reject with code `EDGES`; edges that only do not fit paper have the verdict `'notThisKind'`.
  */

@@ -114,18 +114,18 @@ export interface DirectFitOptions extends SolverOptions {
 }
 
 /**
- * Fits a piecewise developable surface to heights. `report.gap` is a proven bound: the objective is above its minimum by at
- * most this share.
+ * Fits a piecewise developable surface to heights: smooth pieces that could be laid flat as paper can, without stretching, which meet at
+ * creases. `report.gap` is a proven bound: the objective is above its minimum by at most this share of itself.
  */
 export function fit(input: HeightImage, options?: DirectFitOptions): ImageSurface;
 /**
- * Fits a piecewise developable surface to heights. `report.gap` is a proven bound: the objective is above its minimum by at
- * most this share.
+ * Fits a piecewise developable surface to heights: smooth pieces that could be laid flat as paper can, without stretching, which meet at
+ * creases. `report.gap` is a proven bound: the objective is above its minimum by at most this share of itself.
  */
 export function fit(input: Heightfield, options?: DirectFitOptions): LatticeSurface;
 /**
- * Fits a piecewise developable surface to heights. `report.gap` is a proven bound: the objective is above its minimum by at
- * most this share.
+ * Fits a piecewise developable surface to heights: smooth pieces that could be laid flat as paper can, without stretching, which meet at
+ * creases. `report.gap` is a proven bound: the objective is above its minimum by at most this share of itself.
  */
 export function fit(input: HeightImage | Heightfield, options?: DirectFitOptions): Surface;
 /**
@@ -142,21 +142,25 @@ export function read(bytes: Uint8Array | ArrayBuffer, options?: ReadOptions): Re
  * `undefined` for other files.
  */
 export function formatOf(bytes: Uint8Array | ArrayBuffer): string | undefined;
-/** Lists the arrays of an NPZ file, one of which `read` takes by its name. */
+/** Lists the arrays of an NPZ file, one of which `read` takes by its name. It throws with code `FORMAT` for another file. */
 export function npzArrays(bytes: Uint8Array | ArrayBuffer): NpzArray[];
-/** Writes heights, of an image or on a lattice, to an NPY file of 64-bit floats. */
+/**
+ * Writes heights, of an image or on a lattice, to an NPY file of 64-bit floats with as many rows and columns, the top row first: in the
+ * unit of lengths (of an image steps times `heightScale`), and NaN for no data. Of a surface it writes the lattice; `surface.image` are
+ * its pixels.
+ */
 export function writeNpy(input: HeightImage | Heightfield): Uint8Array<ArrayBuffer>;
 /**
  * Writes an image, or the image of a surface, to a 16-bit grey PNG file. Its text chunks state pixel size, height scale
- * and offset; level 0 is no data.
+ * and offset, which `read` takes; level 0 is no data. A surface without an image throws with code `INPUT`.
  */
 export function writePng(input: HeightImage | Surface): Uint8Array<ArrayBuffer>;
 /**
- * Writes an image, or the image of a surface, to a TIFF file of 32-bit floats, with the pixel size and the georeference
- * if there is one; NaN is no data.
+ * Writes an image, or the image of a surface, to a TIFF file of 32-bit floats in the unit of lengths (steps times `heightScale`), with the
+ * pixel size and the georeference if there is one; NaN is no data. A surface without an image throws with code `INPUT`.
  */
 export function writeTiff(input: HeightImage | Surface): Uint8Array<ArrayBuffer>;
-/** Writes an image, or the image of a surface, to an EXR file of 32-bit floats in the channel Z; NaN is no data. */
+/** Writes an image, or the image of a surface, likewise to an EXR file of 32-bit floats in the channel Z. */
 export function writeExr(input: HeightImage | Surface): Uint8Array<ArrayBuffer>;
 /**
  * Writes a mesh, or the triangles of a heightfield, to an OBJ file with normals, colours and texture coordinates: in
@@ -216,9 +220,12 @@ export function backProject(image: HeightImage, camera: Intrinsics, options?: De
  * `load('images')`, and with a camera `load('meshes')`.
  */
 export function paint<F extends Heightfield>(input: F, picture: Picture, options?: PaintOptions): Painted<F>;
-/** Computes curvatures at a surface's vertices, and statistics that say how developable the surface is. */
+/**
+ * Computes curvatures at a surface's vertices, and statistics that say how developable the surface is. The surface is taken as it is,
+ * without a fit: give it what `fit` returned.
+ */
 export function analyze(input: HeightImage | Heightfield, options?: AnalyzeOptions): Analysis;
-/** Segments a surface into smooth patches, and finds the creases between them. */
+/** Segments a surface into smooth patches, and finds the creases between them. The surface is taken as it is, without a fit. */
 export function patches(input: HeightImage | Heightfield, options?: PatchOptions): PatchMap;
 /**
  * Draws a surface, seen from above, to an image of RGBA bytes. Where pixels are larger than the lattice's spacing, the
@@ -229,12 +236,13 @@ export function picture(input: HeightImage | Heightfield, options?: PictureOptio
 export function draw(canvas: Canvas, input: HeightImage | Heightfield, options?: PictureOptions): void;
 /**
  * Computes the rulings of a surface: at each vertex the direction in which it does not bend, and straight lines along
- * these directions.
+ * these directions. The surface is taken as it is, without a fit.
  */
 export function rulings(input: HeightImage | Heightfield, options?: RulingOptions): RulingField;
 /**
  * Fits a cylinder with any profile to heights on a lattice: for curled sheets, pages of books and parallel folds, whose
- * rulings are all parallel. `report.verdict` says whether the surface is a cylinder.
+ * rulings are all parallel. `report.verdict` says whether the surface is a cylinder. Heights count by their `confidence` and `mask`;
+ * `constraints` and `occlusions` do not count.
  */
 export function fitCylinder(input: Heightfield): FittedCylinder;
 /** Lays a surface flat without cuts, with as little strain as possible. */
@@ -275,14 +283,18 @@ export function writeDxf(drawing: Drawing): Uint8Array<ArrayBuffer>;
 export function dewarp(input: HeightImage | Heightfield, photo: Photo, options?: DewarpOptions): Dewarped;
 /**
  * Makes a photo of a page flat without depths: of a page that is curled, folded or crumpled, or of the two pages of a
- * spread. It needs the page's corners or its edges, two of which are bent, or all four. Without them it takes the edges
- * of the one page that it finds in the photo.
+ * spread. It needs the page's corners or its edges, two of which are bent, or all four; a list has those of the left and of the right
+ * page. Without them it takes the edges of the clearest page that it finds in the photo, and throws with code `NO_PAGE` if it finds none.
+ * Places are in pixels of the photo as `readPhoto` decodes it, from the centre of the upper left one. Edges that do not outline a page,
+ * as when they cross, throw with code `EDGES`; edges that only do not fit paper have the verdict `'notThisKind'`.
  */
 export function dewarpPage(photo: Picture | (Photo & { film35?: number }), options?: DewarpPageOptions & Watched): DewarpedPage;
 /**
  * Makes a photo of a page flat without depths: of a page that is curled, folded or crumpled, or of the two pages of a
- * spread. It needs the page's corners or its edges, two of which are bent, or all four. Without them it takes the edges
- * of the one page that it finds in the photo.
+ * spread. It needs the page's corners or its edges, two of which are bent, or all four; a list has those of the left and of the right
+ * page. Without them it takes the edges of the clearest page that it finds in the photo, and throws with code `NO_PAGE` if it finds none.
+ * Places are in pixels of the photo as `readPhoto` decodes it, from the centre of the upper left one. Edges that do not outline a page,
+ * as when they cross, throw with code `EDGES`; edges that only do not fit paper have the verdict `'notThisKind'`.
  */
 export function dewarpPage(
   photo: Picture | (Photo & { film35?: number }), edges?: PageEdges | readonly PageEdges[] | PageCorners | null, options?: DewarpPageOptions & Watched,
@@ -295,7 +307,11 @@ export function dewarpPage(
 export function flattenPhoto(photo: Picture, page: FoundPage, options?: FlattenPhotoOptions): FlatPage;
 /** Returns the verdict on a flat page as a sentence: whether it can be trusted, why not, and how large its error is. */
 export function describePage(report: PageReport): string;
-/** Finds the page in a photo: its corners and edges, which can be corrected and given to `dewarpPage`. */
+/**
+ * Finds the page in a photo: its corners and edges, which can be corrected and given to `dewarpPage`. Coordinates are in pixels of
+ * the photo as `readPhoto` decodes it (upright, and halved if it is large), from the centre of the upper left pixel. Without a page it
+ * returns the verdict `'notFound'` and no pages.
+ */
 export function findPage(photo: Picture): PageOutlines;
 /**
  * Decodes a photo: JPEG, PNG, WebP, GIF, BMP or TIFF. It is turned upright by its Exif data, which also give its focal

@@ -170,8 +170,8 @@ export interface OpenSolver<I extends HeightImage | Heightfield = HeightImage | 
 }
 
 /**
- * Starts the shared worker and loads the wasm of the solver for heights, for which an `InitInput` alone stands. It is optional and may be repeated: the functions below call it. Options
- * count if no shared worker runs yet; after a failure they can be given anew.
+ * Starts the shared worker and loads the wasm of the solver for heights, for which an `InitInput` alone stands. It is optional and may
+ * be repeated: the functions below call it. Options count if no shared worker runs yet; after a failure they can be given anew.
  */
 export function init(options?: WorkerOptions | InitInput): Promise<void>;
 /**

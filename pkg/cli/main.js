@@ -1,21 +1,23 @@
 /** The command: what to do, how it ends. */
 import { dispose, formatOf, init } from '../index.js';
-import { analyze, patches, rulings } from './tell.js';
-import { asProblem } from './explain.js';
 import { batchOf, runBatch } from './batch.js';
 import { split } from './command-line.js';
 import { completionFor } from './completion.js';
+import { dewarp } from './dewarp.js';
+import { asProblem } from './explain.js';
 import { readBytes } from './files.js';
 import { fit } from './fit.js';
+import { filesOf } from './globs.js';
 import { info } from './info.js';
 import { occlusions } from './occlusions.js';
 import { page } from './page.js';
-import { filesOf } from './patterns.js';
+import { pattern } from './pattern.js';
 import { Problem, status } from './problem.js';
-import { dewarp, pattern, unroll } from './sheets.js';
 import { sideOrWhole } from './side.js';
 import { isUntold, taskOf } from './task.js';
+import { analyze, patches, rulings } from './tell.js';
 import { print, streams, withStreams } from './terminal.js';
+import { unroll } from './unroll.js';
 import { whole } from './whole.js';
 
 /** Signals that end the work in good order, without drafts left beside the output, and the exit status of each. */

@@ -4,11 +4,12 @@ import { messageOf } from '../errors.js';
 import { dewarp as flattening, dewarpPage } from '../schema/photo.js';
 import { about, asProblem } from './explain.js';
 import { checkPlaces, readBytes, writeWhole } from './files.js';
+import { mapFile, mapOptions, printed, sizeInWords } from './flat-image.js';
 import { tellAssumptions } from './inputs.js';
 import { Problem, status } from './problem.js';
-import { json, mapFile, mapOptions, printed, sizeInWords } from './sheets.js';
 import { optionsFrom } from './task.js';
 import { during, say, succeed } from './terminal.js';
+import { json } from './texts.js';
 
 /** Width and height of a PDF's pages where no size is given, in millimetres: A4. */
 const DEFAULT_PAPER = /** @type {const} */ ([210, 297]);

@@ -3,10 +3,11 @@ import * as developable from '../index.js';
 import { meshPatches, rulings as tracing } from '../schema/shape.js';
 import { checkPlaces, writeWhole } from './files.js';
 import { solve } from './fit.js';
+import { flattened, spacing } from './flattened.js';
 import { readForFit, readInput } from './inputs.js';
-import { flattened, json, linesObj, spacing } from './sheets.js';
 import { optionsFrom } from './task.js';
 import { during, succeed } from './terminal.js';
+import { json, linesObj } from './texts.js';
 
 /**
  * @typedef {import('./task.js').Task} Task

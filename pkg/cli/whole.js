@@ -2,11 +2,13 @@
 import * as developable from '../index.js';
 import { meshSolver } from '../schema/fit.js';
 import { meshRulings } from '../schema/shape.js';
+import { drawingOptions, patternFiles, reportPattern } from './drawing.js';
 import { checkPlaces, writeWhole } from './files.js';
 import { readMesh } from './inputs.js';
-import { chosenOf, drawingOptions, flatObj, json, linesObj, patternFiles, plainArrays, reportPattern, tellPlans, withPlans } from './sheets.js';
+import { chosenOf, tellPlans, withPlans } from './pattern.js';
 import { optionsFrom } from './task.js';
 import { during, meshFitInWords, percent, progressLine, say, succeed, toStderr } from './terminal.js';
+import { flatObj, json, linesObj, plainArrays } from './texts.js';
 
 /**
  * @typedef {import('./task.js').Task} Task

@@ -9,7 +9,7 @@ import { after } from 'node:test';
 import { batchOf } from '../../../pkg/cli/batch.js';
 import { split } from '../../../pkg/cli/command-line.js';
 import { main } from '../../../pkg/cli/main.js';
-import { filesOf } from '../../../pkg/cli/patterns.js';
+import { filesOf } from '../../../pkg/cli/globs.js';
 import { taskOf } from '../../../pkg/cli/task.js';
 import { pkg } from './paths.mjs';
 

@@ -112,6 +112,11 @@ export function heightReading(height, unit = 'units', value = '') {
   return Number.isNaN(height) ? '' : [`height ${number(height)} ${unit}`, value].filter(Boolean).join(' · ');
 }
 
+/** The unit of areas, or of volumes. @param {string | null} [unit] of lengths @param {'²' | '³'} [power] */
+export function areaUnit(unit, power = '²') {
+  return unit && unit !== 'units' ? `${unit}${power}` : `${power === '²' ? 'square' : 'cubic'} units`;
+}
+
 /** The size of a file. @param {number} bytes */
 export function fileSize(bytes) {
   if (bytes < 1e3) return `${count(bytes)}${NO_BREAK_SPACE}bytes`;

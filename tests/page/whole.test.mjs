@@ -431,3 +431,19 @@ usemtl blue\nf 3/1 2/2 5/3\nf 2/1 1/2 5/3\nf 1/1 4/2 5/3\nf 1/1 2/2 3/3\nf 1/1 3
   await view(page, 'shaded');
   assert.ok(Number.isNaN(await middleOf(0)) && Number.isNaN(await middleOf(2)));
 }, { reducedMotion: 'reduce', drawn: true });
+
+doorTest('what is found in a model without noise is shown on all of it, with its creases', async (page) => {
+  await openWhole(page, 'box.obj', obj(noisyBox(3, 0)));
+  await view(page, 'patches');
+  assert.equal(await page.locator('#divider').isVisible(), false);
+  await painted(page);
+  const { width, height, data } = parsePng(await page.locator('#space-canvas').screenshot());
+  const [coloured, dark] = [[0, 0], [0, 0]];
+  for (let i = 0; i < width * height; i++) {
+    const channels = [...data.subarray(4 * i, 4 * i + 3)];
+    const half = i % width < width / 2 ? 0 : 1;
+    if (Math.max(...channels) - Math.min(...channels) > 40) coloured[half]++;
+    if (Math.max(...channels) < 70) dark[half]++;
+  }
+  assert.ok(Math.min(...coloured) > 0.02 * width * height && Math.min(...dark) > 100, `${coloured}, ${dark}`);
+}, { reducedMotion: 'reduce', drawn: true });

@@ -97,10 +97,15 @@ export function stagePanel(first) {
     for (const button of ends) button.disabled = !subject.isSolved();
     for (const radio of radios) /** @type {HTMLElement} */ (radio.parentElement).hidden = !subject.offers(radio.value);
   };
+  /** The view's layer on a side; where the result is the input, what is found in it is shown there. @param {0 | 1} at */
+  const layerOn = (at) => {
+    if (at === 1 && subject.isPreview?.()) return undefined;
+    return subject.isDivided() ? shown.layers?.[at] : at === 0 ? shown.layers?.[1] ?? shown.layers?.[0] : undefined;
+  };
   /** Draws what the view lays over the surfaces, or shows in their place. */
   const updateLayers = () => {
     for (const at of /** @type {const} */ ([0, 1])) {
-      const layer = at === 1 && subject.isPreview?.() ? undefined : shown.layers?.[at];
+      const layer = layerOn(at);
       const surface = layer?.surface ?? plain[at];
       if (surface !== drawn[at]) view?.setSurface(at, (drawn[at] = surface));
       view?.setImage(at, layer?.image ?? null);
@@ -188,7 +193,7 @@ export function stagePanel(first) {
   let pointer = { offsetX: 0, offsetY: 0 };
   const readSoon = oncePerFrame(() => {
     const place = view?.pick(pointer);
-    reading.textContent = place ? subject.read(place, shown.layers?.[place.after ? 1 : 0]?.read?.(place)) : '';
+    reading.textContent = place ? subject.read(place, layerOn(place.after ? 1 : 0)?.read?.(place)) : '';
   });
   canvas.addEventListener('pointermove', ({ offsetX, offsetY, buttons }) => {
     pointer = { offsetX, offsetY };

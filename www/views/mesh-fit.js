@@ -1,5 +1,5 @@
 /** What is said of a whole mesh and its result. */
-import { count, number, numberAgainst, percent } from '../format.js';
+import { areaUnit, count, number, numberAgainst, percent } from '../format.js';
 import { MESH_FIT_WORDS } from '../messages.js';
 import { interpolateAt } from '../surface/triangles.js';
 
@@ -41,7 +41,7 @@ export function meshFitSummary({ report }) {
 /** The figures of a solve. @param {MeshSurface} surface @returns {[string, string][]} */
 export function meshFacts({ unit, report: { border, components, sigma, lambda, stopReason, volume, area, flipped } }) {
   /** @param {readonly [number, number]} values @param {'²' | '³'} power */
-  const change = ([before, after], power) => `${stopReason === 'noNoise' ? '' : `${number(before)} → `}${number(after)} ${unit ? `${unit}${power}` : `${power === '²' ? 'square' : 'cubic'} units`}`;
+  const change = ([before, after], power) => `${stopReason === 'noNoise' ? '' : `${number(before)} → `}${number(after)} ${areaUnit(unit, power)}`;
   const facts = [
     ['Border vertices', border === 0 ? 'none: it is closed' : count(border)],
     components > 1 && ['Parts', count(components)],

@@ -1,6 +1,6 @@
 /** The view of the patches, each in a colour, and of the creases between them, of heights and meshes. */
 import { make } from '../dom.js';
-import { count, number, percent } from '../format.js';
+import { areaUnit, count, number, percent } from '../format.js';
 import { toPixel, CREASE_COLOUR, toCss, patchColour } from '../surface/colours.js';
 import { gridOf } from '../surface/lattice.js';
 import { canvasFromPixels, valueAt } from '../surface/layer.js';
@@ -27,7 +27,7 @@ const UNLABELLED_COLOUR = [160, 160, 160];
 function aboutPatches(patches, creases, unit) {
   const total = patches.reduce((sum, { area }) => sum + area, 0);
   return [
-    figures([['Patches', count(patches.length)], ['Creases', count(creases)], ['Area', `${number(total)} ${unit ? `${unit}²` : 'square units'}`]]),
+    figures([['Patches', count(patches.length)], ['Creases', count(creases)], ['Area', `${number(total)} ${areaUnit(unit)}`]]),
     make('p', 'keys', ...patches.slice(0, MAX_NAMED_PATCHES).map(({ area }, i) => key(toCss(patchColour(i)), `${i + 1}: ${percent(area / total)}`))),
   ];
 }
@@ -45,8 +45,7 @@ export async function patchesOfHeights(input, map) {
   return {
     layers: [undefined, {
       image: canvasFromPixels(grid, await callWorker('labelPixels', { rows, cols, spacing, origin }, map.labels, grid, colours)),
-      // The line is wider where the fold angle is larger.
-      lines: creases.map(({ points, fold }) => ({ points, colour: CREASE_COLOUR, width: 1 + 2 * Math.min(1, fold) })),
+      lines: creaseLines(creases),
       read: ({ point: [x, y] }) => patchInWords(valueAt({ ...map, values: map.labels }, x, y)),
     }],
     about: aboutPatches(map.patches, creases.length, input.unit),
@@ -70,10 +69,13 @@ export function patchesOfMesh({ triangles, positions, unit }, { labels, patches,
     }),
   };
   return {
-    layers: [undefined, { surface: corners, read: ({ triangle }) => patchInWords(labels[triangle]) }],
+    layers: [undefined, { surface: corners, lines: creaseLines(creases), read: ({ triangle }) => patchInWords(labels[triangle]) }],
     about: aboutPatches(patches, creases.length, unit),
   };
 }
+
+/** Lines along creases, wider where the fold angle is larger. @param {readonly Pick<import('../../pkg/types.js').Crease, 'points' | 'fold'>[]} creases */
+const creaseLines = (creases) => creases.map(({ points, fold }) => ({ points, colour: CREASE_COLOUR, width: 1 + 2 * Math.min(1, fold) }));
 
 /** @param {number} label negative or NaN for none */
 const patchInWords = (label) => (label >= 0 ? `patch ${count(label + 1)}` : '');

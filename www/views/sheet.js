@@ -1,5 +1,5 @@
 /** The view of a surface laid flat as it is, to scale and coloured by strain, of heights and meshes. */
-import { count, number, numberAgainst, percent, signedPercent, strainInWords } from '../format.js';
+import { areaUnit, count, number, numberAgainst, percent, signedPercent, strainInWords } from '../format.js';
 import { linearScale } from '../surface/colours.js';
 import { canvasFromPixels } from '../surface/layer.js';
 import { imagePicture } from '../surface/picture-view.js';
@@ -43,11 +43,12 @@ export function sheetOfHeights(unit, { picture, report: { distortion, crossings,
  * @param {Mesh} mesh
  * @returns {Promise<ViewContent>}
  */
-export async function sheetOfMesh(unit, { triangles, places, report: { sheets, strain, seamGap } }, { positions }) {
+export async function sheetOfMesh(unit, { triangles, places, report: { sheets, strain, seamGap, missing } }, { positions }) {
   const picture = await callWorker('meshStrainImage', { triangles, places, positions });
   return sheet(picture, unit, sheets === 1 ? 'One sheet.' : `${count(sheets)} sheets.`, [
     ['Largest strain', percent(strain)],
     ['Seam gap of folds', `${numberAgainst(seamGap, picture.extent.width)} ${unit}`],
+    ...(missing.area > 0 ? [/** @type {const} */ (['Left out', `${number(missing.area)} ${areaUnit(unit)}`])] : []),
   ]);
 }
 

@@ -1,6 +1,5 @@
 /** Analyses of a result: curvatures, patches, rulings, unrolling and patterns, in parallel to the next run. */
 import { downsample } from './surface/downsampling.js';
-import { resultImage } from './surface/derived-data.js';
 import { MAX_SHEET_CURVATURE_RADIANS } from './surface/gaussian-curvature.js';
 import { transferToWorker, callWorker } from './surface/worker-client.js';
 import { Tasks } from './worker-task.js';
@@ -93,7 +92,7 @@ export class Analyses {
    */
   pattern(result, options, tell) {
     const { surface } = result;
-    const { width, height } = resultImage(result);
+    const { width, height } = result.image;
     const source = Math.max(width, height) < MAX_UNREDUCED_RATIO * PATTERN_SIDE_PIXELS ? surface : reducedImage(result, PATTERN_SIDE_PIXELS);
     return this.#tasks.answer(surface, `pattern ${JSON.stringify(options)}`, (worker) => worker.pattern(source, { ...options, onProgress: ({ fraction }) => tell({ fraction, task: 'cutting' }) }));
   }
@@ -127,7 +126,7 @@ function shownCurvatures(analysis) {
  * @param {number} side maximum number of pixels along the longer side
  */
 function reducedImage(result, side) {
-  const { width, pixelSize, ...image } = resultImage(result);
+  const { width, pixelSize, ...image } = result.image;
   const small = downsample({ width, ...image }, side);
   return { ...small, pixelSize: (pixelSize * width) / small.width };
 }

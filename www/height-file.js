@@ -2,7 +2,6 @@
 import { runInWorker } from './worker-task.js';
 import { readPicture } from './pixels.js';
 import { transferToWorker } from './surface/worker-client.js';
-import { toInput } from './import-interpretation.js';
 import { noDataOptions } from './no-data.js';
 
 /** @import {Api} from './api.js' */
@@ -37,7 +36,7 @@ export async function readInput(api, file, signal, { array, noData } = {}, photo
   });
   const { format, dataType, assumptions } = read;
   const photo = photoFile && { name: photoFile.name, image: await readPicture(photoFile) };
-  const input = toInput(await transferToWorker('interpretFile', [read.data], read, noData));
+  const input = await transferToWorker('interpretFile', [read.data], read, noData);
   return {
     ...input,
     name: file.name.replace(/\.[^.]*$/, '') || 'heights',

@@ -1,6 +1,7 @@
 /** Interpretation of a file of numbers as heights: guessed when it is opened, and changed by the user afterwards. */
 import { number } from './format.js';
 import { GUESS_WORDS } from './messages.js';
+import { rangeOf } from './surface/compare.js';
 
 /** @import {Api} from './api.js' */
 /** @import {Input} from './session.js' */
@@ -13,6 +14,7 @@ import { GUESS_WORDS } from './messages.js';
  * @property {number} width pixels
  * @property {number} height pixels
  * @property {Float64Array} data heights in steps of `heightScale`
+ * @property {number} range difference between the highest and the lowest value
  * @property {number} pixelSize
  * @property {number} heightScale
  * @property {NoData} [noData] what was given as no data when the file was read
@@ -27,12 +29,12 @@ const MAX_QUICK_VERTICES = 1.2e6;
 const MIN_MEASURED_SHARE = 0.2;
 
 /**
- * Guesses the interpretation of a file.
+ * Guesses the interpretation of a file. This takes long for a large file, so it runs in the page's worker.
  * @param {Read} read
  * @param {NoData} [noData] what was given as no data
  * @returns {InterpretedHeights}
  */
-function firstInterpretation(read, noData) {
+export function interpretFile(read, noData) {
   const { width, height, data, unit, depths, depthUnit } = read;
   if (!data.some(Number.isFinite)) throw new Error('it has no heights, every pixel is “no data” (NaN)');
   if (data.some((value) => Math.abs(value) === Infinity)) throw new Error('it has infinite heights; mark them as NaN, “no data”');
@@ -40,25 +42,6 @@ function firstInterpretation(read, noData) {
   const stored = { ...guessStoredHeights(read, depths !== 'none'), noData };
   const { pixelSize, heightScale } = stored;
   return { width, height, data, pixelSize, heightScale, unit: unit ?? undefined, depths: depths === 'none' ? undefined : depths, depthUnit, stored };
-}
-
-/**
- * Guesses the interpretation of a file. This takes long for a large file, so it runs in the page's worker.
- * @param {Parameters<typeof firstInterpretation>} file
- */
-export function interpretFile(...file) {
-  const input = firstInterpretation(...file);
-  return { ...input, range: rangeOf(input.data) };
-}
-
-/**
- * Converts the worker's answer to an input, and caches the range of its heights.
- * @param {ReturnType<typeof interpretFile>} answer
- * @returns {InterpretedHeights}
- */
-export function toInput({ range, ...input }) {
-  ranges.set(input.data, range);
-  return input;
 }
 
 /**
@@ -76,7 +59,7 @@ function guessStoredHeights(read, depths) {
     ...(coarsening > 1 ? [GUESS_WORDS.coarse(coarsening)] : []),
   ].join(' ');
   const levels = /^u/.test(dataType);
-  return { width, height, data, pixelSize, heightScale, levels, guesses, coarsening };
+  return { width, height, data, range: rangeOf(data), pixelSize, heightScale, levels, guesses, coarsening };
 }
 
 /** The lattice spacing in pixels that keeps the solve of a large image short. @param {{ width: number, height: number }} size */
@@ -101,26 +84,10 @@ export function reinterpret(input, change) {
   return { ...input, stored, assumptions, pixelSize, heightScale };
 }
 
-/** Cached ranges of heights. @type {WeakMap<Float64Array, number>} */
-const ranges = new WeakMap();
-
-/** Difference between the highest and the lowest height. @param {Float64Array} data */
-function rangeOf(data) {
-  const cached = ranges.get(data);
-  if (cached !== undefined) return cached;
-  let [low, high] = [Infinity, -Infinity];
-  for (let i = 0; i < data.length; i++) {
-    if (data[i] < low) low = data[i];
-    if (data[i] > high) high = data[i];
-  }
-  ranges.set(data, high - low);
-  return high - low;
-}
-
 /** The width, depth and height of an input as a sentence. @param {Input} input */
-export function spanInWords({ data, width, height, pixelSize, heightScale, unit }) {
+export function spanInWords({ stored, width, height, pixelSize, heightScale, unit }) {
   const sides = [width * pixelSize, height * pixelSize];
   const isMap = unit === 'm' && Math.max(...sides) >= 1e4;
   const [wide, deep] = sides.map((side) => number(isMap ? side / 1000 : side));
-  return `${wide} × ${deep} ${isMap ? 'km' : unit ?? 'units'}, ${number(rangeOf(data) * Math.abs(heightScale))} ${unit ?? 'units'} high.`;
+  return `${wide} × ${deep} ${isMap ? 'km' : unit ?? 'units'}, ${number((stored?.range ?? NaN) * Math.abs(heightScale))} ${unit ?? 'units'} high.`;
 }

@@ -8,9 +8,10 @@
 import { nextTask } from './dom.js';
 import { Events } from './events.js';
 import { PreviewSolver } from './preview.js';
-import { prepareInput, prepareResult } from './surface/derived-data.js';
+import { derivedOf, prepareInput } from './surface/derived-data.js';
 
 /** @import {Preview} from './preview.js' */
+/** @import {Accuracy, Image} from './surface/derived-data.js' */
 /** @import {Api, Energy, ExampleName, ExampleOptions, Heightfield, Mesh, OpenSolver, Progress, SampledMesh, SampleMeshOptions, Surface} from './api.js' */
 
 /**
@@ -55,7 +56,7 @@ import { prepareInput, prepareResult } from './surface/derived-data.js';
  * @property {number} [occlusionThreshold] without it, the surface is torn nowhere
  */
 
-/** @typedef {{ input: Input, settings: Settings, surface: Surface }} Result */
+/** @typedef {{ input: Input, settings: Settings, surface: Surface, image: Image, accuracy: Accuracy | null }} Result `image`: heights at the input's pixels; `accuracy`: errors, where the truth is known */
 /** @typedef {'starting' | 'idle' | 'running' | 'failed'} Phase */
 
 /**
@@ -310,12 +311,11 @@ export class Session extends Events {
           if (this.#job === job && !abort.signal.aborted) this.emit('progress', progress);
         },
       });
-      const result = { input, settings, surface };
-      await prepareResult(result);
+      const result = { input, settings, surface, ...await derivedOf({ input, surface }) };
       if (this.#job !== job) return;
       if (!this.#runPending) this.#previews.cancel();
       this.result = result;
-      this.emit('result', this.result);
+      this.emit('result', result);
     } catch (error) {
       if (this.#job !== job) return;
       this.#stop();

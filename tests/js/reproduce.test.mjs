@@ -26,7 +26,7 @@ await writeFile(join(folder, '-ramp.npy'), direct.writeNpy(ramp));
 
 /** @type {Settings} */
 const defaults = { lambda: 'auto', gap: 0.01, coarsening: 1, energy: 'huber', occlusionThreshold: undefined };
-const stored = { width: 24, height: 20, data: ramp.data, pixelSize: 0.5, heightScale: -2, noData: 0, levels: false, guesses: '', coarsening: 1 };
+const stored = { width: 24, height: 20, data: ramp.data, pixelSize: 0.5, heightScale: -2, noData: 0, levels: false, guesses: '', coarsening: 1, range: 1 };
 /** @type {Input} */
 const opened = { name: "Tom's $HOME (1)", file: FILE, kind: 'TIFF, 32-bit floats', width: 24, height: 20, data: ramp.data, pixelSize: 0.5, heightScale: -2, stored };
 const dashed = { ...opened, name: '-ramp', file: '-ramp.npy', stored: { ...stored, noData: /** @type {const} */ ('none') } };

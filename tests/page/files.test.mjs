@@ -165,6 +165,11 @@ pageTest('the kind of a file chooses the part of the page, and what does not bel
   const alert = page.getByRole('alert');
   const photo = dottedPhoto({ page: 240, ground: 60 }, [1, 0.9, 0.8]);
   const ramp = obj({ points: [[0, 0, 0], [3, 0, 0], [3, 2, 1], [0, 2, 1]], triangles: [[0, 1, 2], [0, 2, 3]] });
+  // What cannot be opened leaves the first screen as it is, and is named with the way out.
+  await page.getByRole('link', { name: 'developable' }).click();
+  await dropAll(page, { 'IMG_6.heic': Buffer.from('\0\0\0\x18ftypheic\0\0\0\0heicmif1', 'latin1') });
+  await alert.filter({ hasText: /“IMG_6\.heic” could not be opened: HEIC: save it as JPEG/ }).waitFor();
+  assert.ok(await page.locator('#home').isVisible());
   // A photo on the first screen, beside something that cannot be read.
   await dropAll(page, { 'IMG_7.png': photo, 'letter.docx': Buffer.from('PK\x03\x04') });
   await page.locator('#page-caption', { hasText: 'IMG_7' }).waitFor();

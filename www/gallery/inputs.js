@@ -1,5 +1,7 @@
 /** Inputs of the gallery: height images with noise or steps. */
 
+import { rangeOf } from '../surface/compare.js';
+
 /** @import {Input} from '../session.js' */
 /** @import {Heights} from './shapes.js' */
 
@@ -40,16 +42,6 @@ function pixelCentre(i, size) {
 function voxelHeights(heights, count) {
   const middle = (/** @type {number} */ at) => (Math.floor(at * count) + 0.5) / count;
   return (x, y) => Math.round(heights(middle(x), middle(y)) * count) / count;
-}
-
-/** @param {Float64Array} values */
-function rangeOf(values) {
-  let [low, high] = [Infinity, -Infinity];
-  for (const value of values) {
-    if (value < low) low = value;
-    if (value > high) high = value;
-  }
-  return high - low;
 }
 
 /** A pseudo-random generator of numbers between 0 and 1. @param {number} seed */

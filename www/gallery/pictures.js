@@ -2,12 +2,14 @@
 import { make } from '../dom.js';
 import { heightsOf } from '../session.js';
 import { drawHalves, drawThumbnail } from '../surface/thumbnail.js';
+import { Tasks } from '../worker-task.js';
 
 /** @import {Api} from '../api.js' */
 /** @import {Card} from './cards.js' */
 /** @import {Input, Settings} from '../session.js' */
-/** @typedef {InstanceType<Api['DevelopableWorker']>} Worker */
 
+/** Created with the first picture. @type {Tasks | null} */
+let tasks = null;
 /** Pixels along a side of the heights that a card's picture shows. */
 const PICTURE_SIDE_PIXELS = 112;
 /** Duality gap at which the solve for a picture stops. */
@@ -42,7 +44,7 @@ export async function drawPicture(api, defaults, card, canvas) {
   if (!input) return;
   drawThumbnail(canvas, input, input.heightScale / input.pixelSize);
   // If the solve fails, the picture shows the input alone.
-  await enqueue(api, async (worker) => {
+  await (tasks ??= new Tasks(api)).run(async (worker) => {
     const { coarsening: _coarsening, ...options } = { ...defaults, ...card.settings, gap: PICTURE_GAP };
     const surface = await worker.fit(heightsOf(input), options);
     const { image } = surface;
@@ -52,23 +54,4 @@ export async function drawPicture(api, defaults, card, canvas) {
     drawThumbnail(before, input, input.heightScale / input.pixelSize);
     drawHalves(canvas, before, after);
   }).catch(() => {});
-}
-
-/** Queue of the pictures: their worker, the number of waiting pictures, and the last of them. */
-const queue = { worker: /** @type {Worker | null} */ (null), waiting: 0, last: Promise.resolve() };
-
-/**
- * Draws a picture after those that were requested before, in the same worker.
- * @param {Api} api
- * @param {(worker: Worker) => Promise<void>} draw
- */
-function enqueue(api, draw) {
-  queue.waiting++;
-  const job = queue.last.then(() => draw(queue.worker ??= new api.SolverWorker())).finally(() => {
-    if (--queue.waiting > 0) return;
-    queue.worker?.dispose();
-    queue.worker = null;
-  });
-  queue.last = job.catch(() => {});
-  return job;
 }

@@ -13,7 +13,7 @@ import { showNotice } from './notice.js';
  * @param {{ readonly now: Mode, show: (mode: Mode) => void, enter: (mode: Mode) => void }} mode
  * @param {object} source
  * @param {(files: readonly File[]) => Promise<unknown>} source.openFiles opens heights or a mesh
- * @param {{ openAll: (files: readonly File[]) => Promise<string | null> }} page opens photos of pages; the answer is a note, or null if none could be opened
+ * @param {{ readonly hasPhoto: boolean, openAll: (files: readonly File[], alone: boolean) => Promise<string | null> }} page opens photos of pages; the answer is a note, or null if none could be opened
  */
 export function filesPanel(session, mode, source, page) {
   /** @param {string} words @param {NoticeAction} [action] */
@@ -27,9 +27,12 @@ export function filesPanel(session, mode, source, page) {
    * @param {string} [leftOut] words about files that were left out
    */
   const openPhotos = async (files, leftOut = '') => {
-    const isOtherMode = mode.now !== 'photo';
+    const before = mode.now;
+    const isOtherMode = before !== 'photo';
     mode.show('photo');
-    const pageNote = await page.openAll(files);
+    // Photos are added to those that are shown; from another part of the page a new job begins.
+    const pageNote = await page.openAll(files, isOtherMode);
+    if (pageNote === null && !page.hasPhoto && mode.now === 'photo') mode.show(before);
     if (pageNote === null) return;
     const taken = isOtherMode ? FILE_WORDS.takenForPages(files.length) : '';
     note([taken, pageNote, leftOut].filter(Boolean).join(' '), isOtherMode && files.length === 1 ? {

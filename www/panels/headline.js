@@ -1,7 +1,6 @@
 /** The headline of heights: the result in one sentence, its certificate, and error messages. */
 import { element } from '../dom.js';
 import { count } from '../format.js';
-import { accuracyOf } from '../surface/derived-data.js';
 import { certificateInWords, HEADLINE_WORDS, noiseReductionInWords, piecesInWords } from '../messages.js';
 import { hideNotice, showError } from './notice.js';
 
@@ -89,7 +88,7 @@ function detailsOf({ input, result }) {
 }
 
 /** Error of the input divided by the error of the result; undefined if the truth is unknown. @param {Result} result */
-function noiseReduction(result) {
-  const heights = accuracyOf(result);
-  return heights && heights.after > 0 && heights.before > 0 ? heights.before / heights.after : undefined;
+function noiseReduction({ accuracy }) {
+  const { before, after } = accuracy ?? { before: 0, after: 0 };
+  return before > 0 && after > 0 ? before / after : undefined;
 }

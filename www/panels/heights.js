@@ -1,7 +1,6 @@
 /** Heights and their result on the stage: the surfaces in space, previews of the result, and the views of it. */
 import { element } from '../dom.js';
 import { heightReading, number, shortLambda } from '../format.js';
-import { resultImage } from '../surface/derived-data.js';
 import { heightAt, heightfieldBox, reliefMesh, reliefOf } from '../surface/relief.js';
 import { curvature, overHeights } from '../views/curvature.js';
 import { patchesOfHeights } from '../views/patches.js';
@@ -77,7 +76,7 @@ export function heightsPanel(session, analyses) {
   /** @param {Result | null} result */
   const showResult = (result) => {
     isPreview = false;
-    if (result) return showSurface(result.input, resultImage(result), result.surface.report.lambda, result.surface.report.stopReason === 'cancelled' ? 'cancelled' : '');
+    if (result) return showSurface(result.input, result.image, result.surface.report.lambda, result.surface.report.stopReason === 'cancelled' ? 'cancelled' : '');
     reliefs[1] = null;
     stage.renew(heights, [1]);
   };

@@ -126,7 +126,14 @@ export function pagePanel(api, onOpened, onChanged) {
    * @returns {Promise<string | null>} a note about them; null if none was opened
    */
   const openAll = async (files, alone = false) => {
+    const { photos: kept, index } = book;
     if (alone) book.setFiles([]);
+    /** Puts back the photos from before, since none has taken their place. */
+    const giveUp = () => {
+      if (alone) Object.assign(book, { photos: kept, index });
+      list.renew();
+      return null;
+    };
     const before = book.photos.length;
     const indices = book.addFiles(files);
     const added = book.photos.length - before;
@@ -145,8 +152,9 @@ export function pagePanel(api, onOpened, onChanged) {
         isShown = await openAt(book.photos.indexOf(photo));
         if (isShown) break;
         // Another photo was chosen meanwhile, or the user has cancelled.
-        if (opening?.signal.aborted) opened.filter((_, k) => indices[k] >= before).forEach(leaveOut);
-        return null;
+        if (!opening?.signal.aborted) return null;
+        opened.filter((_, k) => indices[k] >= before).forEach(leaveOut);
+        return giveUp();
       } catch (error) {
         problems.push(errorMessage(`“${photo.file.name}” could not be opened`, error));
         leaveOut(photo);
@@ -155,7 +163,7 @@ export function pagePanel(api, onOpened, onChanged) {
     const words = problems.join(' ');
     if (!isShown) {
       showNotice(words, 'note');
-      return null;
+      return giveUp();
     }
     const isAdded = before > 0 && added > problems.length;
     if (isAdded && added === 1) {
@@ -182,6 +190,10 @@ export function pagePanel(api, onOpened, onChanged) {
   for (const radio of examples) radio.addEventListener('change', openExample);
   return {
     openAll,
+    /** Whether a photo or an example is shown. */
+    get hasPhoto() {
+      return session !== null && session.photo !== null;
+    },
     /** Opens photos that this browser has kept, with their outlines. @param {readonly File[]} files @param {readonly (PageState | null)[]} states */
     async openStored(files, states) {
       book.setFiles(files, states);

@@ -1,7 +1,6 @@
 /** The report as a table, with an explanation of each row. */
 import { download, element, make } from '../dom.js';
 import { count, number, percentAtMost, seconds } from '../format.js';
-import { accuracyOf } from '../surface/derived-data.js';
 import { ENERGIES, REPRODUCE_WORDS, STOP_REASONS, lambdaChoiceInWords } from '../messages.js';
 import { asCode, asCommand } from '../reproduce.js';
 import { showError, showNotice } from './notice.js';
@@ -99,7 +98,7 @@ async function reportFile(analyses, result, convergence) {
     pieces: Number.isFinite(pieces.count) ? pieces.count : null,
     creases: pieces.creases,
     curvature: { input: before.summary, result: after.summary },
-    errors: { heights: accuracyOf(result) ?? undefined },
+    errors: { heights: result.accuracy ?? undefined },
     convergence,
   };
 }
@@ -107,7 +106,7 @@ async function reportFile(analyses, result, convergence) {
 /** The groups of the report by their titles, without those that have no rows. @param {Result} result @returns {[string, Row[]][]} */
 function groupsOf(result) {
   const { report } = result.surface;
-  const errors = accuracyOf(result);
+  const errors = result.accuracy;
   const isNuclear = report.energy === 'nuclear';
   const passes = report.huber?.creasePasses ?? 0;
   /** @type {Record<string, (Row | false | undefined)[]>} */

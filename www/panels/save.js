@@ -3,7 +3,6 @@ import { percent, shortLambda } from '../format.js';
 import { FORMAT_WORDS, MESH_FIT_WORDS } from '../messages.js';
 import { longerSide, cutSheets, lengthUnitOf } from '../pattern.js';
 import { surfaceFormats } from '../solid.js';
-import { resultImage } from '../surface/derived-data.js';
 import { longestLatticeSide } from '../surface/lattice.js';
 import { offerToSave } from './save-dialog.js';
 import { offerSheets } from './sheets.js';
@@ -18,8 +17,7 @@ import { offerSheets } from './sheets.js';
  * @param {Result} result
  */
 export function offerFile(api, result) {
-  const { surface } = result;
-  const image = () => resultImage(result);
+  const { surface, image } = result;
   const solid = surfaceFormats({
     surface, length: longestLatticeSide(surface), unit: result.input.unit, onBase: true,
     mesh: async (worker) => worker.readMesh(new File([/** @type {Uint8Array<ArrayBuffer>} */ (await worker.writePly({ ...surface, frame: undefined, colors: undefined, uvs: undefined }))], 'surface.ply')),
@@ -31,10 +29,10 @@ export function offerFile(api, result) {
     extra: [solid.fields],
     formats: [
       ...solid.formats,
-      { value: 'png', name: 'PNG', words: FORMAT_WORDS.png16, type: 'image/png', write: (worker) => worker.writePng(image()) },
-      { value: 'tiff', name: 'TIFF', words: FORMAT_WORDS.floats, type: 'image/tiff', write: (worker) => worker.writeTiff(image()) },
-      { value: 'exr', name: 'EXR', words: FORMAT_WORDS.floats, type: 'image/x-exr', write: (worker) => worker.writeExr(image()) },
-      { value: 'npy', name: 'NPY', words: FORMAT_WORDS.npy, type: 'application/octet-stream', write: (worker) => worker.writeNpy(image()) },
+      { value: 'png', name: 'PNG', words: FORMAT_WORDS.png16, type: 'image/png', write: (worker) => worker.writePng(image) },
+      { value: 'tiff', name: 'TIFF', words: FORMAT_WORDS.floats, type: 'image/tiff', write: (worker) => worker.writeTiff(image) },
+      { value: 'exr', name: 'EXR', words: FORMAT_WORDS.floats, type: 'image/x-exr', write: (worker) => worker.writeExr(image) },
+      { value: 'npy', name: 'NPY', words: FORMAT_WORDS.npy, type: 'application/octet-stream', write: (worker) => worker.writeNpy(image) },
     ],
   });
   solid.onChange(offer.renew);

@@ -1,5 +1,15 @@
 /** Differences of heights. */
 
+/** Difference between the highest and the lowest of the values. @param {Float64Array} values */
+export function rangeOf(values) {
+  let [low, high] = [Infinity, -Infinity];
+  for (const value of values) {
+    if (value < low) low = value;
+    if (value > high) high = value;
+  }
+  return high - low;
+}
+
 /**
  * Root mean square of the height differences, over the pixels with data in both.
  * @param {ArrayLike<number>} heights

@@ -3,15 +3,15 @@ import { gridOf } from './lattice.js';
 import { reduceForPreview } from './downsampling.js';
 import { callWorker } from './worker-client.js';
 
-/** @import {Input, Result} from '../session.js' */
+/** @import {Surface} from '../api.js' */
+/** @import {Input} from '../session.js' */
 /** @import {Heights} from './downsampling.js' */
 /** @typedef {{ before: number, after: number }} Accuracy errors of the heights of input and result, root mean square */
 /** @typedef {{ width: number, height: number, pixelSize: number, data: Float64Array }} Image */
+/** @typedef {{ input: Input, surface: Surface }} Solved */
 
 /** Reduced heights for previews, by the values of the pixels. @type {WeakMap<ArrayLike<number>, Heights>} */
 const previewHeights = new WeakMap();
-/** @type {WeakMap<Result, { image: Image, accuracy: Accuracy | null }>} */
-const resultData = new WeakMap();
 
 /** Reduces the heights of an input for previews, in the worker. @param {Input} input */
 export async function prepareInput({ data, width, height }) {
@@ -25,50 +25,23 @@ export function previewHeightsOf(image) {
   return found;
 }
 
-/** Computes the image and errors of a result. @param {Result} result */
-export async function prepareResult(result) {
-  const image = result.surface.image ?? await rasteriseResult(result);
-  resultData.set(result, { image, accuracy: await measureAccuracy(result, image) });
+/** The image of a surface at the input's pixels, or at those that show the input's lattice, and its errors. @param {Solved} solved */
+export async function derivedOf(solved) {
+  const image = solved.surface.image ?? await rasterise(solved);
+  return { image, accuracy: await measureAccuracy(solved.input, image) };
 }
 
-/** Interpolates a surface to the pixels that show the input's lattice. @param {Result} result @returns {Promise<Image>} */
-async function rasteriseResult({ input, surface: { rows, cols, spacing, origin, heights } }) {
+/** Interpolates a surface to the pixels that show the input's lattice. @param {Solved} solved @returns {Promise<Image>} */
+async function rasterise({ input, surface: { rows, cols, spacing, origin, heights } }) {
   const grid = gridOf(input);
   const data = await callWorker('interpolateToGrid', { rows, cols, spacing, origin }, heights, grid);
   return { width: grid.width, height: grid.height, pixelSize: grid.pixelSize, data };
 }
 
-/** Errors of input and result against the truth; null if the truth is not known. @param {Result} result @param {Image} image @returns {Promise<Accuracy | null>} */
-async function measureAccuracy({ input }, image) {
-  const { truth, heightScale, data } = input;
+/** Errors of input and result against the truth; null if the truth is not known. @param {Input} input @param {Image} image @returns {Promise<Accuracy | null>} */
+async function measureAccuracy({ truth, heightScale, data }, image) {
   if (!truth) return null;
   const [before, after] = await Promise.all([[data, heightScale], [image.data, 1]].map(([heights, scale]) =>
     callWorker('rmsError', /** @type {Float64Array} */ (heights), /** @type {number} */ (scale), truth, heightScale)));
   return { before, after };
-}
-
-/** The heights of a result at the input's pixels, or at the pixels that show the input's lattice. @param {Result} result */
-export function resultImage(result) {
-  return cachedValue(resultData, result).image;
-}
-
-/**
- * Errors of input and result against the truth; null if that is not known.
- * @param {Result} result
- */
-export function accuracyOf(result) {
-  return cachedValue(resultData, result).accuracy;
-}
-
-/**
- * The value of a key in a cache.
- * @template {object} K
- * @template V
- * @param {WeakMap<K, V>} known
- * @param {K} key
- */
-function cachedValue(known, key) {
-  const found = known.get(key);
-  if (!found) throw new Error('it has not been looked at yet');
-  return found;
 }

@@ -84,11 +84,6 @@ export function strainInWords(strain) {
   return Number.isNaN(strain) ? '' : `strain ${signedPercent(strain)}`;
 }
 
-/** An angle in degrees. @param {number} angle in radians */
-export function degrees(angle) {
-  return `${number((angle * 180) / Math.PI, 2)}°`;
-}
-
 /** A duration in seconds or milliseconds. @param {number} s in seconds */
 export function seconds(s) {
   return s < 0.1 ? `${number(1000 * s, 2)}${NO_BREAK_SPACE}ms` : `${number(s, s < 100 ? 2 : 3)}${NO_BREAK_SPACE}s`;

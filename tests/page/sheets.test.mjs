@@ -2,6 +2,7 @@
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import { dispose, patternMesh } from '../../pkg/index.js';
+import { sheetsInWords } from '../../www/pattern.js';
 import { edgeAt, parsePairs, togglePair } from '../../www/sheet-edges.js';
 import { obj } from './support/files.mjs';
 import { parsed } from './support/numbers.mjs';
@@ -45,6 +46,13 @@ test('pairs are read from a text, and put into it and out again', () => {
   assert.deepEqual([parsePairs(''), parsePairs('1-7, x'), parsePairs('1')], [[], null, null]);
   assert.equal(togglePair('1-7', [2, 3]), '1-7, 2-3');
   assert.equal(togglePair('1-7, 2-3', [1, 7]), '2-3');
+});
+
+test('what of a surface is on no sheet is said, and which cuts have no tab', () => {
+  const summary = { sheets: 2, seams: 3, folds: 0, slits: 0, strain: 0, untabbed: 0 };
+  const said = (/** @type {object} */ more) => sheetsInWords(/** @type {any} */ ({ summary: { ...summary, ...more } }));
+  assert.equal(said({}), '2 sheets, to be joined along 3 cuts.');
+  assert.match(said({ missing: { vertices: 4, area: 1200, steps: 1, stepArea: 300 }, untabbed: 1 }), /15 cm² of the surface.* are on no sheet\. One cut has no room for a tab\.$/);
 });
 
 doorTest('a fold that is clicked in the drawing is cut', async (page) => {

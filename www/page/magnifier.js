@@ -45,7 +45,8 @@ export class Magnifier {
     const context = canvas.getContext('2d');
     if (!context) return;
     this.#source.width = this.#source.height = side;
-    this.#source.getContext('2d')?.putImageData(cropSquare(photo, left, top, side), 0, 0);
+    // Outside of the photo it stays transparent.
+    this.#source.getContext('2d')?.putImageData(new ImageData(photo.data, photo.width), -left, -top);
     context.imageSmoothingEnabled = canvas.width / side < 6;
     context.drawImage(this.#source, 0, 0, canvas.width, canvas.height);
     const scale = canvas.width / side;
@@ -71,22 +72,4 @@ export class Magnifier {
     stroke('--line-under', 3);
     stroke('--line-cross', 1.5);
   }
-}
-
-/**
- * A square part of a photo, transparent where it exceeds the photo.
- * @param {Pixels} photo
- * @param {number} left
- * @param {number} top
- * @param {number} side
- */
-function cropSquare({ width, height, data }, left, top, side) {
-  const image = new ImageData(side, side);
-  for (let row = 0; row < side; row++) {
-    const y = top + row;
-    const [from, to] = [Math.max(0, left), Math.min(width, left + side)];
-    if (y < 0 || y >= height || from >= to) continue;
-    image.data.set(data.subarray(4 * (y * width + from), 4 * (y * width + to)), 4 * (row * side + from - left));
-  }
-  return image;
 }

@@ -66,6 +66,8 @@ export function fieldsOf(table, onChange = () => {}) {
     control.addEventListener('change', () => {
       if (!check()) onChange(name);
     });
+    // What was wrong goes while it is mended: later, a button beneath would move away from under the pointer.
+    control.addEventListener('input', () => void (fault.textContent && check()));
     return { node, control, check, about, fault };
   };
   const names = /** @type {N[]} */ (Object.keys(table));

@@ -159,6 +159,7 @@ export const SHEET_WORDS = {
   pairs: 'such as 1-7, 2-3',
   wrongPairs: 'These are numbers of two pieces each, such as 1-7, 2-3.',
   noEdge: 'There is no fold or cut here. Click a fold, or the letter of a cut.',
+  legend: 'Numbers are those of the smooth pieces. Sides with the same letter belong together. M is a fold to a ridge, V to a valley.',
   edges: 'Click a fold to cut it, or the letter of a cut to fold it.',
   cancelled: 'Cancelled.',
   cut: 'Cut the sheets',

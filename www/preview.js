@@ -69,11 +69,6 @@ export class PreviewSolver {
     if (!this.#isSolving) void this.#solveRequests();
   }
 
-  /** Whether the newest request is not finished yet. */
-  get busy() {
-    return this.#request !== null;
-  }
-
   /** Cancels the newest request. */
   cancel() {
     this.#request?.abort.abort();

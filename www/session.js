@@ -74,8 +74,6 @@ import { derivedOf, prepareInput } from './surface/derived-data.js';
  * @property {{ doing: string, error: unknown }} failure
  */
 
-/** Maximum ratio of two λ whose results look alike: a run is not aborted for such a change while a slider is dragged. */
-const MAX_SIMILAR_LAMBDA_RATIO = 1.3;
 /** Minimum number of pixels of an input whose run is accompanied by previews; a smaller one is solved almost at once. */
 const MIN_PREVIEWED_PIXELS = 150 ** 2;
 /** Minimum number of pixels of a large input, whose solver holds so much memory that it is disposed of when idle. */
@@ -124,7 +122,7 @@ export class Session extends Events {
         if (this.phase === 'running') this.emit('preview', preview);
       },
       onFinished: () => {
-        if (this.#runPending && !this.#job) void this.run();
+        if (this.#runPending) void this.run();
       },
     });
   }
@@ -254,15 +252,14 @@ export class Session extends Events {
   }
 
   /**
-   * Previews a λ while a slider is dragged; the run follows once the finest preview is ready. The present run
-   * continues if its λ is similar.
+   * Previews a λ while a slider is dragged, in place of the present run; the run follows once the finest preview is ready.
    * @param {number} lambda
    */
   previewLambda(lambda) {
     const { input } = this;
     this.settings = { ...this.settings, lambda };
     if (!input || !this.#runRequested || !this.#autoRun) return;
-    if (this.#job && !isSimilar(this.#job.settings.lambda, lambda)) this.#abortRun();
+    this.#abortRun();
     this.#runPending = true;
     if (this.phase !== 'running') this.emit('start', this.settings);
     this.#setPhase('running');
@@ -313,7 +310,7 @@ export class Session extends Events {
       });
       const result = { input, settings, surface, ...await derivedOf({ input, surface }) };
       if (this.#job !== job) return;
-      if (!this.#runPending) this.#previews.cancel();
+      this.#previews.cancel();
       this.result = result;
       this.emit('result', result);
     } catch (error) {
@@ -326,9 +323,7 @@ export class Session extends Events {
       if (this.#job === job) {
         this.#job = null;
         this.#disposeWhenIdle(input);
-        if (!this.#runPending) this.#setPhase('idle');
-        // A change was previewed during this run, and its finest preview is ready.
-        else if (!this.#previews.busy) void this.run();
+        this.#setPhase('idle');
       }
     }
   }
@@ -424,14 +419,6 @@ export class Session extends Events {
 /** @param {Settings} a @param {Settings} b */
 function isSame(a, b) {
   return Object.entries({ ...a, ...b }).every(([name, value]) => a[/** @type {keyof Settings} */ (name)] === value);
-}
-
-/**
- * @param {number | 'auto'} a
- * @param {number} b
- */
-function isSimilar(a, b) {
-  return a !== 'auto' && Math.abs(Math.log(a / b)) <= Math.log(MAX_SIMILAR_LAMBDA_RATIO);
 }
 
 /** @param {Input} input */

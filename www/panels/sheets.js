@@ -209,6 +209,7 @@ export function offerSheets(api, { stem, note = '', length, unit, up, cut, svg, 
   let inputTimer = 0;
   const options = make('div', 'sheets-options',
     status,
+    make('p', 'muted small', SHEET_WORDS.legend),
     pageWarning,
     ...(note ? [make('p', 'small', note)] : []),
     waitingElement,

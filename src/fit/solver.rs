@@ -215,7 +215,7 @@ impl Solver {
             let ratio = residual(noise.vertex_sigma)?.rms;
             choice.residual_ratio = Some(ratio);
             choice.residual_exceeds_noise =
-                choice.tolerance.is_none() && !noise.is_anisotropic && ratio > MAX_NOISE_DISTANCE;
+                choice.tolerance.is_none() && ratio > MAX_NOISE_DISTANCE;
         }
         Ok(false)
     }

@@ -30,9 +30,6 @@ const MIN_NOISE_SHARE: f64 = 3e-4;
 /// shape of a terrain, which is alike at every scale.
 const MAX_SMOOTH_NOISE_SHARE: f64 = 0.035;
 
-/// Number of coarsenings until noise is independent from vertex to vertex from which on it is smooth.
-const MIN_SMOOTH_MERGES: usize = 2;
-
 /// Root mean square distance that a surface may have from heights without noise, as a share of their range.
 const DEFAULT_TOLERANCE: f64 = 0.002;
 
@@ -80,7 +77,7 @@ pub(crate) fn initial_options(
         sigma: noise.map(|noise| noise.sigma),
         step: noise.and_then(|noise| noise.step),
         correlation_length: noise.map_or(0.0, |noise| noise.correlation_length),
-        ambiguous: noise.is_some_and(|noise| noise.ambiguous),
+        ambiguous: false,
         merged: noise.map_or(0, |noise| noise.merged),
         tolerance: None,
         residual_ratio: None,
@@ -109,10 +106,9 @@ pub(crate) fn initial_options(
             WITHOUT_NOISE
         }
     };
-    let is_shape = noise.is_some_and(|noise| {
-        noise.merged >= MIN_SMOOTH_MERGES && noise.sigma > MAX_SMOOTH_NOISE_SHARE * range
-    });
-    choice.ambiguous |= is_shape;
+    let is_shape = noise
+        .is_some_and(|noise| noise.is_correlated() && noise.sigma > MAX_SMOOTH_NOISE_SHARE * range);
+    choice.ambiguous = is_shape;
     let tolerance = match options.tolerance {
         Some(tolerance) => {
             choice.reason = LambdaReason::Tolerance;

@@ -7,55 +7,23 @@
 
 use super::curvature_scales::{CurvatureScale, Disc};
 
-/// Minimum ratio of the medians of the smaller and the larger principal curvature, in discs of one size, at which they
-/// count as curvatures of noise. Isotropic noise has 0.30 to 0.34 at every scale; a developable shape beside the noise
-/// lowers the ratio.
-const MIN_NOISE_RATIO: f64 = 0.22;
+/// Largest coherence of neighbouring discs' curvatures along the rulings of noise. Bends of a shape that is not developable have a
+/// coherence near 1.
+const MAX_COHERENCE: f64 = 0.8;
 
-/// Minimum ratio of the medians of the smaller and the larger principal curvature, in discs of one size, at which they
-/// count as curvatures of isotropic noise without a visible shape beside it.
-const MIN_ISOTROPIC_RATIO: f64 = 0.28;
-
-/// Minimum ratio of the medians of the smaller and the larger principal curvature, in discs of one size, of noise that
-/// is rougher in one direction, such as that of scan lines. It counts as noise only where its Hessians are incoherent.
-const MIN_ANISOTROPIC_RATIO: f64 = 0.1;
-
-/// Largest coherence of neighbouring Hessians of noise. Bends of a shape that is not developable have a coherence near 1.
-const MAX_COHERENCE: f64 = 0.7;
-
-/// Largest coherence of neighbouring Hessians at which they are incoherent.
-const MAX_NOISE_COHERENCE: f64 = 0.15;
-
-/// Minimum coherence (mean cosine) of neighbouring discs' Hessians that shows a shape beside noise.
-const MIN_SHAPE_COHERENCE: f64 = 0.05;
-
-/// Minimum ratio, or its inverse, of the second derivatives across rows and along them of incoherent Hessians at which the
-/// noise is anisotropic.
-const MIN_ANISOTROPY: f64 = 3.0;
-
-/// Largest coherence of neighbouring Hessians of anisotropic noise, whose ratio of principal curvatures tells little.
-const MAX_ANISOTROPIC_COHERENCE: f64 = 0.3;
-
-/// Maximum radius, in spacings, of the smallest discs that show noise. What shows in larger discs only is a shape.
-const MAX_FIRST_RADIUS: f64 = 4.0;
+/// Largest root mean square of the logarithms of the ratios of measured noise to that of a fitted covariance that explains it
+/// (`benches/scenes.md`).
+const MAX_MISFIT: f64 = 0.065;
 
 /// Minimum number of discs of a scale, of those without a common vertex, whose median curvatures are used.
 const MIN_INDEPENDENT_DISCS: f64 = 5.5;
 
-/// Number of scales, up to the largest one that is used, to which a covariance of noise is fitted.
-const FITTED_SCALES: usize = 3;
+/// Minimum ratio, or its inverse, of the second derivatives across rows and along them in the smallest discs at which noise is
+/// anisotropic, as that of scan lines is.
+const MIN_ANISOTROPY: f64 = 3.0;
 
-/// Maximum ratio of the noise's standard deviation over large areas to the part of it that the largest disc shows.
-/// Above it the fitted covariance is too uncertain to be used.
-const MAX_HIDDEN_RATIO: f64 = 6.0;
-
-/// Maximum ratio of the noise measured in larger discs to what the fitted covariance predicts there. Creases in the
-/// discs raise it, smooth noise behind rough noise raises it more.
-const MAX_PREDICTION_RATIO: f64 = 2.2;
-
-/// Maximum ratio of a covariance's noise over large areas to the least one among the candidates. Of those below it the
-/// one fitted to the smallest discs is taken, as these determine the correlation length best.
-const MAX_LEAST_NOISE_RATIO: f64 = 1.25;
+/// Largest mean cosine between Hessians of discs side by side of noise, where no bend of a shape is seen.
+const MAX_NOISE_LIKENESS: f64 = 0.15;
 
 /// Number of positive correlation lengths that are tried when a covariance is fitted.
 const LENGTH_TRIALS: u32 = 40;
@@ -78,52 +46,41 @@ pub(super) struct CorrelatedNoise {
     /// Correlation length, in spacings: the standard deviation of the Gaussian blur that makes such noise of white
     /// noise.
     pub length: f64,
-    /// Number of vertices that share one independent value of the noise: the sum of its correlations over the lattice.
+    /// Number of vertices that share one independent value of the noise: the sum of its correlations over the lattice, or
+    /// less where the largest discs show less.
     pub shared_vertices: f64,
-    /// Whether the noise is much rougher in one direction than in the other, so that no covariance that depends on the
-    /// distance alone describes it.
+    /// Whether the noise is much rougher in one direction than in the other.
     pub is_anisotropic: bool,
-    /// Whether no fitted covariance explains the curvatures at all scales, so that most of the noise may be shape.
-    pub ambiguous: bool,
 }
 
 impl CorrelatedNoise {
     /// Estimates the noise of heights from their curvatures at scales from small discs to large ones; `None` if a shape
     /// hides it.
     ///
-    /// A shape beside the noise adds to the curvatures. So of the covariances that explain all larger scales, the one
-    /// of the least noise counts, or one of smaller discs with hardly more.
+    /// A shape beside the noise adds to the curvatures of large discs. So the covariance counts that is fitted to the smallest
+    /// ones and explains most of them. Noise of scan lines bends across them at every scale, as a shape does, but not alike in
+    /// discs side by side: there it is measured in the direction in which it bends most.
     pub(super) fn from_scales(scales: &[CurvatureScale], discs: &[Disc]) -> Option<Self> {
+        let mut scales = scales.to_vec();
         let is_anisotropic = scales.first().is_some_and(is_anisotropic);
-        let is_noise = |scale: &CurvatureScale| is_noise(scale, discs, is_anisotropic);
-        let first = scales.iter().position(is_noise)?;
-        if scales[first].radius() > MAX_FIRST_RADIUS {
-            return None;
+        if is_anisotropic {
+            (scales.iter_mut())
+                .for_each(|scale| scale.white_equivalent = scale.white_equivalent_across);
         }
-        let noisy = scales[first..].iter().take_while(|scale| is_noise(scale));
-        let scales = &scales[first..first + noisy.count()];
-        let (explaining, others): (Vec<_>, Vec<_>) = (1..scales.len())
-            .map(|last| {
-                let fitted = (last + 1).saturating_sub(FITTED_SCALES)..=last;
-                let covariance = Covariance::fit(&scales[fitted], discs);
-                (covariance.explains(&scales[last..], discs), covariance)
-            })
-            .partition(|(explains, _)| *explains);
-        let ambiguous = explaining.is_empty();
-        let candidates = if ambiguous { others } else { explaining };
-        let roots = candidates
-            .iter()
-            .map(|(_, covariance)| covariance.spectral_root());
-        let most = MAX_LEAST_NOISE_RATIO * roots.fold(f64::INFINITY, f64::min);
-        let (_, found) = candidates
-            .into_iter()
-            .find(|(_, covariance)| covariance.spectral_root() <= most)?;
+        let is_noise = |scale: &&CurvatureScale| {
+            scale.independent_discs(discs) >= MIN_INDEPENDENT_DISCS
+                && scale.coherence < MAX_COHERENCE
+                && scale.white_equivalent > 0.0
+        };
+        let noisy = scales.iter().take_while(is_noise).count();
+        let found = (2..=noisy)
+            .map(|count| Covariance::fit(&scales[..count], discs))
+            .rfind(|covariance| covariance.misfit < MAX_MISFIT)?;
         Some(CorrelatedNoise {
             sigma: found.sigma,
             length: found.length,
             shared_vertices: found.shared_vertices,
             is_anisotropic,
-            ambiguous,
         })
     }
 
@@ -133,26 +90,10 @@ impl CorrelatedNoise {
     }
 }
 
-/// Returns whether the curvatures of the smallest scale are those of anisotropic noise.
+/// Returns whether the curvatures of the smallest discs are those of anisotropic noise, which has no rulings.
 fn is_anisotropic(scale: &CurvatureScale) -> bool {
     let ratio = scale.anisotropy.max(1.0 / scale.anisotropy);
-    ratio > MIN_ANISOTROPY && scale.coherence < MAX_NOISE_COHERENCE
-}
-
-/// Returns whether the curvatures of a scale are mostly noise.
-fn is_noise(scale: &CurvatureScale, discs: &[Disc], is_anisotropic: bool) -> bool {
-    let bends_both_ways = scale.ratio > MIN_NOISE_RATIO && scale.coherence < MAX_COHERENCE;
-    let max_coherence = match is_anisotropic {
-        true => MAX_ANISOTROPIC_COHERENCE,
-        false => MAX_NOISE_COHERENCE,
-    };
-    let incoherent = scale.coherence < max_coherence && scale.ratio > MIN_ANISOTROPIC_RATIO;
-    scale.independent_discs(discs) >= MIN_INDEPENDENT_DISCS && (bends_both_ways || incoherent)
-}
-
-/// Returns whether the curvatures of a scale are isotropic noise alone, with no shape beside it.
-fn is_plain_noise(scale: &CurvatureScale) -> bool {
-    scale.ratio > MIN_ISOTROPIC_RATIO && scale.coherence < MAX_NOISE_COHERENCE
+    ratio > MIN_ANISOTROPY && scale.likeness < MAX_NOISE_LIKENESS
 }
 
 /// Gaussian covariance of noise, fitted to the curvatures of some scales.
@@ -160,8 +101,8 @@ struct Covariance {
     sigma: f64,
     length: f64,
     shared_vertices: f64,
-    /// Ratio of the noise's standard deviation over large areas to the part of it that the largest disc shows.
-    hidden_ratio: f64,
+    /// Root mean square of the logarithms of the ratios of the measured noise to this one's.
+    misfit: f64,
 }
 
 impl Covariance {
@@ -183,45 +124,17 @@ impl Covariance {
                 best = (misfit, length, mean.exp());
             }
         }
-        let (_, length, sigma) = best;
-        let shared_vertices = shared_vertices(length);
+        let (misfit, length, sigma) = best;
+        // No more of the noise is taken for granted than the largest discs show.
         let shown = scales
             .last()
             .map_or(1.0, |scale| response(scale, discs, length));
         Covariance {
             sigma,
             length,
-            shared_vertices,
-            hidden_ratio: shared_vertices.sqrt() / shown,
+            shared_vertices: shared_vertices(length).min(shown * shown),
+            misfit: (misfit / scales.len() as f64).sqrt(),
         }
-    }
-
-    /// Returns whether the covariance explains the first of `scales`, the largest it was fitted to, and predicts all
-    /// larger ones that show noise alone.
-    fn explains(&self, scales: &[CurvatureScale], discs: &[Disc]) -> bool {
-        let Some((last, larger)) = scales.split_first() else {
-            return false;
-        };
-        let is_whole = last.ratio >= MIN_ISOTROPIC_RATIO || last.coherence > MIN_SHAPE_COHERENCE;
-        let is_predicted = |scale: &CurvatureScale| {
-            scale.white_equivalent <= MAX_PREDICTION_RATIO * self.predict(scale, discs)
-        };
-        is_whole
-            && self.hidden_ratio <= MAX_HIDDEN_RATIO
-            && larger
-                .iter()
-                .filter(|scale| is_plain_noise(scale))
-                .all(is_predicted)
-    }
-
-    /// Returns the standard deviation of white noise that has the same spectral density as this noise over large areas.
-    fn spectral_root(&self) -> f64 {
-        self.sigma * self.shared_vertices.sqrt()
-    }
-
-    /// Predicts the standard deviation of white noise that has the same curvatures at a scale as this noise.
-    fn predict(&self, scale: &CurvatureScale, discs: &[Disc]) -> f64 {
-        self.sigma * response(scale, discs, self.length)
     }
 }
 
@@ -285,10 +198,11 @@ mod tests {
             lattice,
             disc,
             count: 1000,
-            ratio: 0.32,
             white_equivalent: 0.0,
             coherence: 0.0,
+            white_equivalent_across: 0.0,
             anisotropy: 1.0,
+            likeness: 0.0,
         };
         for length in [1.0, 2.5] {
             let whole = shared_vertices(length).sqrt();

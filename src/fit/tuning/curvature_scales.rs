@@ -1,8 +1,7 @@
-//! Principal curvatures of heights at several scales, by which noise is told from shape.
+//! Curvatures of heights along the rulings at several scales, by which noise is told from shape.
 //!
-//! A quadratic is fitted by least squares to all heights in a disc. A developable surface bends one way at each
-//! point, while noise bends both ways at every scale, whatever its correlation: the medians of the smaller and the
-//! larger absolute principal curvature have a ratio of about 0.32 for isotropic noise.
+//! A quadratic is fitted by least squares to all heights in a disc. A developable surface is straight along its rulings, which
+//! the discs beside it show, while noise bends in every direction at every scale, whatever its correlation.
 
 use crate::error::{Result, try_filled};
 use crate::fit::input::Input;
@@ -10,7 +9,7 @@ use crate::lattice::coarsening::coarse_lattice;
 use crate::lattice::hexagonal::{Lattice, ROW_SPACING};
 use crate::math::fork;
 use crate::math::least_squares::LeastSquares;
-use crate::math::statistics::median;
+use crate::math::statistics::{MAD_TO_SIGMA, median};
 use crate::math::sym2::Sym2;
 use nalgebra::SVector;
 
@@ -24,13 +23,12 @@ const MAX_LATTICES: usize = 5;
 /// of them cost time and make the medians hardly more exact.
 const MAX_CENTRE_ROWS: usize = 80;
 
+/// Minimum number of discs beside a disc that show the direction of its rulings.
+const MIN_DISCS_BESIDE: usize = 2;
+
 /// Minimum mean confidence of the heights in a disc, as a share of the largest confidence of the input, at which its
 /// curvature is measured.
 const MIN_DISC_CONFIDENCE: f64 = 0.5;
-
-/// Ratio of the median of the smaller absolute eigenvalue of a Hessian to the standard deviation of its entry `xx`,
-/// for white noise. Found by simulation; both discs have the same ratio within 1 %.
-const SMALLER_CURVATURE_RATIO: f64 = 0.411;
 
 /// Disc in which curvatures are measured: the offsets of its vertices from its centre, and the coefficients that give
 /// the Hessian of the quadratic fitted to their heights.
@@ -110,7 +108,7 @@ fn position((row, half): (isize, isize)) -> [f64; 2] {
     [0.5 * half as f64, -ROW_SPACING * row as f64]
 }
 
-/// Principal curvatures of an input's heights in discs of one size, as medians over all discs.
+/// Curvatures of an input's heights in discs of one size, along the rulings and across them, as medians over all discs.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct CurvatureScale {
     /// Number of times the spacing of the input's lattice was doubled.
@@ -119,16 +117,18 @@ pub(super) struct CurvatureScale {
     pub disc: usize,
     /// Number of discs that were measured.
     pub count: usize,
-    /// Ratio of the median of the smaller absolute principal curvature to the median of the larger one.
-    pub ratio: f64,
-    /// Standard deviation of white noise on the input's lattice for which the smaller principal curvature has the same
-    /// median.
+    /// Standard deviation of white noise on the input's lattice for which the curvature along the rulings has the same median.
     pub white_equivalent: f64,
-    /// Mean cosine between the Hessians (as vectors of their entries) of discs side by side, along the direction in
-    /// which it is least. It is about 0 for noise and 1 for a shape.
+    /// The same for the curvature across the rulings.
+    pub white_equivalent_across: f64,
+    /// Mean product of the signs of a disc's curvature along the rulings and of that of the discs beside it. It is about 0
+    /// for noise and 1 for a shape that bends in all directions.
     pub coherence: f64,
     /// Ratio of the median second derivative across rows to the one along rows: 1 for isotropic noise.
     pub anisotropy: f64,
+    /// Mean cosine between the Hessians (as vectors of their entries) of discs side by side, along the direction in which it
+    /// is least. It is about 0 for noise and 1 for a bend.
+    pub likeness: f64,
 }
 
 impl CurvatureScale {
@@ -143,7 +143,8 @@ impl CurvatureScale {
     }
 }
 
-/// Measures the principal curvatures of an input's heights, from small discs to large ones. Cost: linear in the number of vertices.
+/// Measures the curvatures of an input's heights along the rulings and across them, from small discs to large ones. Cost: linear in
+/// the number of vertices.
 ///
 /// # Errors
 /// [`Error::OutOfMemory`](crate::Error::OutOfMemory).
@@ -154,15 +155,16 @@ pub(super) fn curvature_scales(input: &Input, discs: &[Disc]) -> Result<Vec<Curv
         let mut measured: Vec<_> = discs.iter().map(|disc| (disc, None)).collect();
         fork::for_each(&mut measured, |_, (disc, to)| *to = means.measure(disc));
         for (index, (disc, measured)) in measured.into_iter().enumerate() {
+            let unit = MAD_TO_SIGMA / disc.deviation * f64::from(1u32 << lattice);
             scales.extend(measured.map(|measured| CurvatureScale {
                 lattice,
                 disc: index,
                 count: measured.count,
-                ratio: measured.smaller / measured.larger,
-                white_equivalent: measured.smaller / (SMALLER_CURVATURE_RATIO * disc.deviation)
-                    * (1u32 << lattice) as f64,
+                white_equivalent: unit * measured.along,
+                white_equivalent_across: unit * measured.across,
                 coherence: measured.coherence,
                 anisotropy: measured.anisotropy,
+                likeness: measured.likeness,
             }));
         }
         if means.lattice.rows() < 8 || means.lattice.cols() < 8 {
@@ -173,13 +175,15 @@ pub(super) fn curvature_scales(input: &Input, discs: &[Disc]) -> Result<Vec<Curv
     Ok(scales)
 }
 
-/// Medians of the absolute principal curvatures over the discs of one size, and the coherence of their Hessians.
+/// Medians of the absolute curvatures along the rulings and across them over the discs of one size, and how much they are
+/// alike from disc to disc, as in [`CurvatureScale`].
 struct Measured {
     count: usize,
-    larger: f64,
-    smaller: f64,
+    along: f64,
+    across: f64,
     coherence: f64,
     anisotropy: f64,
+    likeness: f64,
 }
 
 /// Heights, or their means over rhombi of 4, 16, 64 … vertices, with the means of their confidence. A height is NaN
@@ -244,42 +248,54 @@ impl MeanHeights {
         let step = |size: usize| size.div_ceil(MAX_CENTRE_ROWS).max(1);
         let [rows, cols] = [self.lattice.rows(), self.lattice.cols()];
         let beside = 2 * disc.radius as isize + 1;
+        let directions = [(0, 2 * beside), (beside, beside), (beside, -beside)];
         let mut curvatures: [Vec<f64>; 2] = Default::default();
         let mut derivatives: [Vec<f64>; 2] = Default::default();
-        let mut cosines = [(0.0, 0.0); 3];
+        let (mut signs, mut cosines) = (0.0, [(0.0, 0.0); 3]);
         for row in (0..rows as isize).step_by(step(rows)) {
             for col in (0..cols as isize).step_by(step(cols)) {
                 let Some(hessian) = self.hessian(disc, row, col) else {
                     continue;
                 };
-                let [along, _, across] = hessian.entries().map(f64::abs);
-                derivatives[0].push(along);
-                derivatives[1].push(across);
-                let [a, b] = hessian.eigenvalues().map(f64::abs);
-                curvatures[0].push(a.min(b));
-                curvatures[1].push(a.max(b));
-                let directions = [(0, 2 * beside), (beside, beside), (beside, -beside)];
-                for (cosine, offset) in cosines.iter_mut().zip(directions) {
-                    let (row, col) = stepped(row, col, offset);
-                    if let Some(other) = self.hessian(disc, row, col) {
-                        let norms = (hessian.dot(hessian) * other.dot(other)).sqrt();
-                        if norms > 0.0 {
-                            cosine.0 += hessian.dot(other) / norms;
-                            cosine.1 += 1.0;
+                let mut ring = Vec::with_capacity(6);
+                for ((rows, half), cosine) in directions.into_iter().zip(&mut cosines) {
+                    for offset in [(rows, half), (-rows, -half)] {
+                        let (row, col) = stepped(row, col, offset);
+                        if let Some(other) = self.hessian(disc, row, col) {
+                            let norms = (hessian.dot(hessian) * other.dot(other)).sqrt();
+                            if norms > 0.0 {
+                                cosine.0 += hessian.dot(other) / norms;
+                                cosine.1 += 1.0;
+                            }
+                            ring.push(other);
                         }
                     }
                 }
+                if ring.len() < MIN_DISCS_BESIDE {
+                    continue;
+                }
+                let ruling = ruling(&ring);
+                let own = curvature(hessian, ruling);
+                let beside: f64 = ring.iter().map(|hessian| curvature(*hessian, ruling)).sum();
+                signs += own.signum() * beside.signum();
+                curvatures[0].push(own.abs());
+                curvatures[1].push((2.0 * hessian.mean - own).abs());
+                let [along, _, across] = hessian.entries();
+                derivatives[0].push(along.abs());
+                derivatives[1].push(across.abs());
             }
         }
-        let means = cosines.iter().filter(|(_, count)| *count > 0.0);
-        let [smaller, larger] = &mut curvatures;
-        let [along, across] = &mut derivatives;
+        let [along, across] = &mut curvatures;
+        let [along_rows, across_rows] = &mut derivatives;
         Some(Measured {
-            anisotropy: median(across)? / median(along)?,
-            count: smaller.len(),
-            smaller: median(smaller)?,
-            larger: median(larger)?,
-            coherence: means.map(|(sum, count)| sum / count).fold(1.0, f64::min),
+            count: along.len(),
+            coherence: signs / along.len() as f64,
+            along: median(along)?,
+            across: median(across)?,
+            anisotropy: median(across_rows)? / median(along_rows)?,
+            likeness: (cosines.iter().filter(|(_, count)| *count > 0.0))
+                .map(|(sum, count)| sum / count)
+                .fold(1.0, f64::min),
         })
     }
 
@@ -307,6 +323,22 @@ impl MeanHeights {
         let enough = confidence >= self.min_confidence * disc.offsets.len() as f64;
         enough.then(|| Sym2::new(xx, xy, yy))
     }
+}
+
+/// Returns the direction in which Hessians bend least, as the cosine and the sine of its angle: the eigenvector of the sum of
+/// their squares with the smaller eigenvalue.
+fn ruling(hessians: &[Sym2]) -> [f64; 2] {
+    let (diff, off) = hessians.iter().fold((0.0, 0.0), |(diff, off), h| {
+        (diff + h.mean * h.diff, off + h.mean * h.off)
+    });
+    let (sin, cos) = (0.5 * f64::atan2(-off, -diff)).sin_cos();
+    [cos, sin]
+}
+
+/// Returns the second derivative of a Hessian in a direction.
+fn curvature(hessian: Sym2, [cos, sin]: [f64; 2]) -> f64 {
+    let [xx, xy, yy] = hessian.entries();
+    cos * cos * xx + 2.0 * cos * sin * xy + sin * sin * yy
 }
 
 /// Returns row and column of the vertex at an offset, in rows and half columns, from the vertex at `row` and `col`.

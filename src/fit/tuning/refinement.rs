@@ -90,7 +90,7 @@ impl Refinement {
     pub(crate) fn next(&mut self, lambda: f64, residual: Residual) -> Next {
         self.solves += 1;
         match self.aim {
-            Aim::Noise(noise) => self.next_for_noise(noise, lambda, residual),
+            Aim::Noise(_) => self.next_for_noise(lambda, residual),
             Aim::Distance { is_exact, .. } => {
                 self.next_for_distance(is_exact, lambda, residual.rms)
             }
@@ -102,16 +102,10 @@ impl Refinement {
     /// The residual is noise, of which the surface has followed a part, and lost shape. Where residuals of most vertices are
     /// smaller than the noise, it was followed; where those that hang together are larger than most, or residuals far apart
     /// are alike, a shape was lost. The sum of both squares is the surface's error.
-    fn next_for_noise(&mut self, noise: Noise, lambda: f64, residual: Residual) -> Next {
-        let alike = match noise.is_anisotropic {
-            true => 0.0,
-            false => (residual.autocorrelation - self.correlation - AUTOCORRELATION_ERROR).max(0.0),
-        };
+    fn next_for_noise(&mut self, lambda: f64, residual: Residual) -> Next {
+        let alike = (residual.autocorrelation - self.correlation - AUTOCORRELATION_ERROR).max(0.0);
         let noisy = (1.0 - alike).sqrt() * residual.bulk.min(residual.rms);
-        let level = *self.level.get_or_insert(match noise.is_anisotropic {
-            true => noisy,
-            false => noisy.min(1.0),
-        });
+        let level = *self.level.get_or_insert(noisy.min(1.0));
         let lost = residual.rms.powi(2) - noisy.min(level).powi(2);
         let risk = lost + level.powi(2) - noisy.min(level).powi(2);
         if let Some((best, least)) = self.best

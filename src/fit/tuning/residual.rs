@@ -32,8 +32,8 @@ pub(crate) struct Residual {
     /// Standard deviation of most heights nearby, from the medians of the absolute values in tiles, since noise may be larger
     /// in one place than in another: the root of the mean of its square.
     pub bulk: f64,
-    /// Largest autocorrelation of either sign, in the lattice's three directions, at [`AUTOCORRELATION_LAG`]; 0 where too few
-    /// vertices are that far apart.
+    /// Middle one of the sizes of the autocorrelations in the lattice's three directions, at [`AUTOCORRELATION_LAG`], as that
+    /// along scan lines is their noise; 0 where too few vertices are that far apart.
     pub autocorrelation: f64,
 }
 
@@ -120,8 +120,7 @@ fn bulk(lattice: &Lattice, residuals: &[f64]) -> f64 {
 
 /// Computes [`Residual::autocorrelation`] of residuals, which are NaN where there is none.
 fn autocorrelation(lattice: &Lattice, residuals: &[f64]) -> f64 {
-    let mut largest = 0.0f64;
-    for (rows, half_cols) in [(0, 2), (1, 1), (1, -1)] {
+    let mut sizes = [(0, 2), (1, 1), (1, -1)].map(|(rows, half_cols)| {
         let (mut products, mut squares, mut pairs) = (0.0, 0.0, 0);
         for (vertex, a) in residuals.iter().enumerate() {
             let (row, col) = (vertex / lattice.cols(), vertex % lattice.cols());
@@ -136,11 +135,14 @@ fn autocorrelation(lattice: &Lattice, residuals: &[f64]) -> f64 {
                 }
             }
         }
-        if pairs >= MIN_AUTOCORRELATION_PAIRS && squares > 0.0 {
-            largest = largest.max(f64::abs(products / squares));
+        let is_measured = pairs >= MIN_AUTOCORRELATION_PAIRS && squares > 0.0;
+        match is_measured {
+            true => f64::abs(products / squares),
+            false => 0.0,
         }
-    }
-    largest
+    });
+    sizes.sort_by(f64::total_cmp);
+    sizes[1]
 }
 
 #[cfg(test)]

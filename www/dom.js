@@ -60,6 +60,11 @@ export function oncePerFrame(draw) {
   };
 }
 
+/** Time after the last of several changes before what follows from them is done, in milliseconds. */
+export const SETTLING_MS = 400;
+/** Time for which a note stands that something was copied, in milliseconds. */
+export const COPIED_NOTE_MS = 4000;
+
 /** Waits for the next task of the event loop, so that the browser can draw and handle input before. */
 export function nextTask() {
   return new Promise((resolve) => setTimeout(resolve));

@@ -1,7 +1,7 @@
 /** Pictures of the gallery's cards: input and result side by side, solved on few pixels. */
 import { make } from '../dom.js';
 import { heightsOf } from '../session.js';
-import { drawHalves, drawThumbnail } from '../surface/thumbnail.js';
+import { drawHalves, drawThumbnail, THUMBNAIL_GAP, THUMBNAIL_SIDE_PIXELS } from '../surface/thumbnail.js';
 import { Tasks } from '../worker-task.js';
 
 /** @import {Api} from '../api.js' */
@@ -10,10 +10,6 @@ import { Tasks } from '../worker-task.js';
 
 /** Created with the first picture. @type {Tasks | null} */
 let tasks = null;
-/** Pixels along a side of the heights that a card's picture shows. */
-const PICTURE_SIDE_PIXELS = 112;
-/** Duality gap at which the solve for a picture stops. */
-const PICTURE_GAP = 0.05;
 
 /**
  * The input of a card.
@@ -40,12 +36,12 @@ export async function cardInput(api, { example, input }, size, turn = 0) {
  * @param {HTMLCanvasElement} canvas
  */
 export async function drawPicture(api, defaults, card, canvas) {
-  const input = await cardInput(api, card, PICTURE_SIDE_PIXELS).catch(() => null);
+  const input = await cardInput(api, card, THUMBNAIL_SIDE_PIXELS).catch(() => null);
   if (!input) return;
   drawThumbnail(canvas, input, input.heightScale / input.pixelSize);
   // If the solve fails, the picture shows the input alone.
   await (tasks ??= new Tasks(api)).run(async (worker) => {
-    const { coarsening: _coarsening, ...options } = { ...defaults, ...card.settings, gap: PICTURE_GAP };
+    const { coarsening: _coarsening, ...options } = { ...defaults, ...card.settings, gap: THUMBNAIL_GAP };
     const surface = await worker.fit(heightsOf(input), options);
     const { image } = surface;
     if (!image) return;

@@ -1,6 +1,6 @@
 /** Keeps the page's address up to date with its state, for links, the history and reloads; and lists recent files. */
 import { addressOf, isStart, stateOf } from '../address.js';
-import { element, elements, make } from '../dom.js';
+import { COPIED_NOTE_MS, element, elements, make, SETTLING_MS } from '../dom.js';
 import { ADDRESS_WORDS } from '../messages.js';
 import { namesOf, recentFiles, storedFiles, storedOutlines, storeFiles, storeOutlines } from '../recent-files.js';
 import { showNotice } from './notice.js';
@@ -13,11 +13,6 @@ import { showNotice } from './notice.js';
 /** @import {PageState} from '../page/session.js' */
 /** @import {StoredHeights} from '../import-interpretation.js' */
 /** @import {MeshFit} from '../mesh-fit.js' */
-
-/** Delay after a result before it gets an entry in the history, in milliseconds. */
-const HISTORY_DELAY_MS = 400;
-/** Time for which the note about a copied link is shown, in milliseconds. */
-const COPIED_NOTE_MS = 4000;
 
 /**
  * @param {Session} session
@@ -90,7 +85,7 @@ export function addressSyncPanel(session, page) {
   };
   const writeSoon = () => {
     clearTimeout(writeTimer);
-    writeTimer = window.setTimeout(writeAddress, HISTORY_DELAY_MS);
+    writeTimer = window.setTimeout(writeAddress, SETTLING_MS);
   };
   session.on('cleared', () => (isNewInput = true));
   // A file gets its address when it has been stored, anything else when its first run begins, so that Back can be used meanwhile.

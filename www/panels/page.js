@@ -1,5 +1,5 @@
 /** The part of the page that makes photos of pages flat: opens photos and examples, and holds the panels of a photo. */
-import { element, elements } from '../dom.js';
+import { element, elements, SETTLING_MS } from '../dom.js';
 import { Book } from '../page/book.js';
 import { BOOK_WORDS } from '../page/messages.js';
 import { openPhoto, preparePhoto } from '../page/photo.js';
@@ -24,8 +24,6 @@ const EXAMPLES = {
   book: { address: new URL('../doors/open-book.webp', import.meta.url), pages: 2 },
 };
 const EXAMPLE_FILM35 = 31.1;
-/** Delay after a change of an outline before the outlines are stored, in milliseconds. */
-const STORE_DELAY_MS = 500;
 
 /**
  * @param {Api} api
@@ -58,7 +56,7 @@ export function pagePanel(api, onOpened, onChanged) {
       storeTimer = window.setTimeout(() => {
         book.saveState(created);
         onChanged(book.photos.map(({ state }) => state));
-      }, STORE_DELAY_MS);
+      }, SETTLING_MS);
     });
     return created;
   };

@@ -1,5 +1,5 @@
 /** The report as a table, with an explanation of each row. */
-import { download, element, make } from '../dom.js';
+import { COPIED_NOTE_MS, download, element, make } from '../dom.js';
 import { count, number, percentAtMost, seconds } from '../format.js';
 import { ENERGIES, REPRODUCE_WORDS, STOP_REASONS, lambdaChoiceInWords } from '../messages.js';
 import { asCode, asCommand } from '../reproduce.js';
@@ -10,9 +10,6 @@ import { showError, showNotice } from './notice.js';
 
 /** @typedef {[name: string, value: string, meaning: string]} Row */
 /** @typedef {Pick<import('../api.js').Progress, 'level' | 'iteration' | 'elapsed' | 'gap'>} Moment of a run, as its progress tells */
-
-/** Time for which a button says that it has copied, in milliseconds. */
-const COPIED_MS = 3000;
 
 /** @param {Session} session @param {Analyses} analyses */
 export function reportPanel(session, analyses) {
@@ -69,7 +66,7 @@ function copyButton(id, words) {
       await navigator.clipboard.writeText(offered);
       button.textContent = 'Copied';
       clearTimeout(timer);
-      timer = window.setTimeout(() => (button.textContent = label), COPIED_MS);
+      timer = window.setTimeout(() => (button.textContent = label), COPIED_NOTE_MS);
     } catch {
       showNotice(offered, 'note');
     }

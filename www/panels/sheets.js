@@ -1,5 +1,5 @@
 /** Dialog of sheets to cut out: size, paper, material and tabs, with a preview of the drawing that is saved. */
-import { element, make } from '../dom.js';
+import { element, make, SETTLING_MS } from '../dom.js';
 import { between, fieldsOf } from '../fields.js';
 import { number } from '../format.js';
 import { assemblyModel, assemblyPicture, drawingImage, MM_PER_UNIT, sheetFigures, sheetsInWords, smallestPiece, suggestedSide } from '../pattern.js';
@@ -14,9 +14,6 @@ import { waitingPanel } from './waiting.js';
 /** @import {CutOptions, LengthUnit} from '../pattern.js' */
 /** @import {TaskProgress} from './waiting.js' */
 /** @typedef {import('../../pkg/types.js').Drawing} Drawing */
-
-/** Delay after an input before the pattern is computed, in milliseconds. */
-const INPUT_DELAY_MS = 300;
 
 /** Bounds of the longer side, in millimetres. */
 const [MIN_SIDE_MM, MAX_SIDE_MM] = [10, 5000];
@@ -228,7 +225,7 @@ export function offerSheets(api, { stem, note = '', length, unit, up, cut, svg, 
     }
     if (target === fields.control('sheet-unit')) fields.set('sheet-side', suggestedSide(length, fields.text('sheet-unit')));
     if (target === fields.control('sheet-side')) fields.set('sheet-unit', 'none');
-    inputTimer = window.setTimeout(() => void draw(), INPUT_DELAY_MS);
+    inputTimer = window.setTimeout(() => void draw(), SETTLING_MS);
   });
 
   const offer = offerToSave(api, {

@@ -5,16 +5,12 @@ import { smoothPatchCount } from '../analyses.js';
 import { STRIP_WORDS } from '../messages.js';
 import { rmsError } from '../surface/compare.js';
 import { downsample } from '../surface/downsampling.js';
-import { drawThumbnail } from '../surface/thumbnail.js';
+import { drawThumbnail, THUMBNAIL_GAP, THUMBNAIL_SIDE_PIXELS } from '../surface/thumbnail.js';
 
 /** @import {Input, Session, Settings} from '../session.js' */
 
 /** λ of the five pictures. */
 const STRIP_LAMBDAS = [1e4, 1e5, 1e6, 1e7, 1e8];
-/** Longer side of the reduced input, in pixels: small enough for five quick solves. */
-const STRIP_SIDE_PIXELS = 120;
-/** Duality gap at which the five solves stop. */
-const STRIP_GAP = 0.03;
 
 /**
  * @param {Session} session
@@ -61,7 +57,7 @@ export function stripPanel(session, adopt) {
       // All settings except λ, spacing and gap are those of the session.
       const { lambda: _lambda, coarsening: _coarsening, ...options } = session.settings;
       for (const { lambda, canvas, figures } of pictures) {
-        const surface = await worker.fit(small, { ...options, gap: STRIP_GAP, spacing: small.pixelSize, lambda, signal: mine.signal });
+        const surface = await worker.fit(small, { ...options, gap: THUMBNAIL_GAP, spacing: small.pixelSize, lambda, signal: mine.signal });
         const { image } = surface;
         drawThumbnail(canvas, image, 1 / image.pixelSize);
         const [map, curvatures] = await Promise.all([worker.patches(surface), worker.analyze(surface)]);
@@ -96,6 +92,6 @@ export function stripPanel(session, adopt) {
 
 /** An input reduced to few pixels. @param {Input} input */
 function reduced({ width, height, data, pixelSize, heightScale }) {
-  const small = downsample({ width, height, data }, STRIP_SIDE_PIXELS);
+  const small = downsample({ width, height, data }, THUMBNAIL_SIDE_PIXELS);
   return { ...small, pixelSize: (pixelSize * width) / small.width, heightScale };
 }

@@ -1,5 +1,8 @@
 /** Small pictures of heights, lit from the upper left. */
 
+/** Pixels along the longer side of heights that a small picture shows, and the duality gap at which their solve stops. */
+export const THUMBNAIL_SIDE_PIXELS = 120;
+export const THUMBNAIL_GAP = 0.05;
 /** Unit vector to the light, y up. */
 const LIGHT_DIRECTION = [-0.5, 0.55, 0.67];
 

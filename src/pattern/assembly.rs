@@ -86,7 +86,6 @@ pub(super) fn assemble_sheets(
             Settled::Opened(found) => wrong = found,
             Settled::Removable(part, removed) => {
                 parts.flat_patches = net.flat_patches;
-                parts.trims += 1;
                 parts.leave_out_vertices(part, removed)?;
                 return Ok(Assembly::Cut(Box::new(parts), Vec::new()));
             }
@@ -263,10 +262,7 @@ pub(super) fn draw_sheets(surface: &Heightfield, whole: &Assembled) -> Result<Pa
         Seam {
             crease: seam.crease,
             patches: seam.patches,
-            direction: match seam.rise > 0.0 {
-                true => Direction::Mountain,
-                false => Direction::Valley,
-            },
+            direction: Direction::of(seam.rise > 0.0),
             angle: patches.creases()[seam.crease].fold,
             slit: seam.smooth,
             torn: net.is_torn(number),

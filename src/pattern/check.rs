@@ -2,7 +2,8 @@
 
 use super::flat_patch::Strain;
 use super::layout::seam_gap;
-use super::outline::{Layout, Motion};
+use super::motion::Motion;
+use super::outline::Layout;
 use super::seam_graph::{SeamGraph, is_triangle};
 use crate::error::Result;
 use crate::unroll::arap_mesh::{ArapMesh, BarycentricPoint, StoppingCriteria};

@@ -8,7 +8,7 @@ use super::flat_patch::FlatPatch;
 use super::labels::{Labels, connected_groups};
 use crate::error::Result;
 use crate::heights::heightfield::Heightfield;
-use crate::lattice::hexagonal::{Lattice, NEIGHBOUR_DIRECTIONS, Towards};
+use crate::lattice::hexagonal::Lattice;
 use crate::math::statistics::weighted_median;
 use rustc_hash::FxHashMap;
 
@@ -18,21 +18,13 @@ const CUT_DIRECTIONS: usize = 16;
 /// Minimum number of vertices of a connected group on one side of a cut; a smaller group stays with its neighbour.
 const MIN_GROUP_VERTICES: usize = 4;
 
-/// Minimum slope of a lattice edge, its rise over the lattice's spacing, at which the edge is a step (jump in height)
-/// of the surface.
-const MIN_STEP_SLOPE: f64 = 4.0;
-
-/// Maximum number of edges across a step: a fitted surface rises over two or three.
-const MAX_STEP_EDGES: usize = 3;
-
 /// Weight of a cut's length in its score, relative to the variance of the normals that is left on both sides.
 const CUT_LENGTH_WEIGHT: f64 = 0.002;
 
 impl Labels {
     /// Cuts a part into two or more along a line that is straight seen from above. Candidate lines pass through the
-    /// median of the vertices, weighted by their strain or not; the one with the best [`score`] is used. A part with
-    /// steps (jumps in height) is cut along these instead. Returns the numbers of the pieces, the first being the
-    /// part's own, or `None` if the part is too small.
+    /// median of the vertices, weighted by their strain or not; the one with the best [`score`] is used. Returns the
+    /// numbers of the pieces, the first being the part's own, or `None` if the part is too small.
     pub(super) fn cut(
         &mut self,
         surface: &Heightfield,
@@ -43,11 +35,6 @@ impl Labels {
         let burden = flat_patch.burden(&lattice);
         if flat_patch.is_too_small_to_cut() {
             return Ok(None);
-        }
-        // First try to cut along steps of the surface.
-        let level = |i: usize, k: usize| !is_step(surface, i, k);
-        if let Some(parts) = self.try_cut(&lattice, part, &burden, |_| false, level) {
-            return Ok(Some(parts));
         }
         let samples: Vec<Sample> = (burden.iter())
             .map(|(i, square)| Sample::new(surface, *i, *square))
@@ -70,7 +57,7 @@ impl Labels {
                 let [x, y] = lattice.position(i / lattice.cols(), i % lattice.cols());
                 a * x + b * y + c > 0.0
             };
-            let cut = self.try_cut(&lattice, part, &burden, beyond, |_, _| true);
+            let cut = self.try_cut(&lattice, part, &burden, beyond);
             if cut.is_some() {
                 return Ok(cut);
             }
@@ -78,20 +65,18 @@ impl Labels {
         Ok(None)
     }
 
-    /// Cuts a part into its connected components by the edges for which `joined` is true; `None` if fewer than two
-    /// are large enough.
+    /// Cuts a part into the connected components on both sides of a line; `None` if fewer than two are large enough.
     fn try_cut(
         &mut self,
         lattice: &Lattice,
         part: u32,
         burden: &[(usize, f64)],
         beyond: impl Fn(usize) -> bool,
-        joined: impl Fn(usize, usize) -> bool,
     ) -> Option<Vec<u32>> {
         let first = self.origins.len() as u32;
         let members = || burden.iter().map(|(i, _)| *i);
         let side: FxHashMap<usize, bool> = members().map(|i| (i, beyond(i))).collect();
-        let same = |i: usize, k: usize| side[&i] == side[&k] && joined(i, k);
+        let same = |i: usize, k: usize| side[&i] == side[&k];
         let groups = connected_groups(lattice, members(), same);
         let mut numbers = FxHashMap::with_capacity_and_hasher(burden.len(), Default::default());
         for (number, group) in groups.iter().enumerate() {
@@ -145,50 +130,6 @@ impl Labels {
                 .chain(first..first + count - 1)
                 .collect(),
         )
-    }
-}
-
-/// Returns whether the edge between two neighbouring vertices crosses a step: the surface rises by at least
-/// [`MIN_STEP_SLOPE`] there, and within [`MAX_STEP_EDGES`] edges of the same line it is less than half as steep on both
-/// sides. Along an upright border it is steep up to the border, which is no step.
-fn is_step(surface: &Heightfield, i: usize, k: usize) -> bool {
-    let (lattice, heights) = (surface.lattice(), surface.heights());
-    let slope = |i: usize, k: usize| (heights[i] - heights[k]).abs() / lattice.spacing();
-    if slope(i, k) < MIN_STEP_SLOPE {
-        return false;
-    }
-    let [from, to] = [i, k].map(|i| ((i / lattice.cols()) as isize, (i % lattice.cols()) as isize));
-    let steep_edges = |(row, col): (isize, isize), along: &Towards| {
-        let mut here = (row, col);
-        let mut count = 0;
-        while count < MAX_STEP_EDGES {
-            let next = along.step(here.0, here.1);
-            if !lattice.contains(next.0, next.1) {
-                return None;
-            }
-            let [a, b] = [here, next].map(|(row, col)| lattice.index(row as usize, col as usize));
-            let slope = slope(a, b);
-            if slope.is_nan() {
-                return None;
-            }
-            if slope < 0.5 * MIN_STEP_SLOPE {
-                return Some(count);
-            }
-            count += 1;
-            here = next;
-        }
-        None
-    };
-    let along = |from: (isize, isize), to: (isize, isize)| {
-        let mut all = NEIGHBOUR_DIRECTIONS.iter();
-        all.find(|direction| direction.step(from.0, from.1) == to)
-    };
-    let (Some(on), Some(back)) = (along(from, to), along(to, from)) else {
-        return false;
-    };
-    match (steep_edges(to, on), steep_edges(from, back)) {
-        (Some(a), Some(b)) => a + b < MAX_STEP_EDGES,
-        _ => false,
     }
 }
 
@@ -264,28 +205,4 @@ fn score(samples: &[Sample], [a, b, c]: [f64; 3], spacing: f64) -> f64 {
     let total = samples.len() as f64;
     let balance = (sums[0].0 - sums[1].0).abs() / total;
     (left[0] + left[1]) / total + CUT_LENGTH_WEIGHT * length / total.sqrt() * (1.0 + balance)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// Number of lattice edges of a surface along which it has a step.
-    fn steps(height: impl Fn(f64, f64) -> f64) -> usize {
-        let lattice = Lattice::new(30, 40, 1.0).unwrap();
-        let surface = Heightfield::from_fn(lattice, height).unwrap();
-        let edges = (0..lattice.len()).flat_map(|i| lattice.around(i).map(move |k| (i, k)));
-        let edges = edges.filter(|(i, k)| i < k);
-        edges.filter(|(i, k)| is_step(&surface, *i, *k)).count()
-    }
-
-    #[test]
-    fn a_jump_is_a_step_and_an_upright_border_is_none() {
-        assert!(steps(|x, _| if x < 17.3 { 0.0 } else { 9.0 }) > 40);
-        // A fitted surface rises over two edges, of which one in each row is steep.
-        assert!(steps(|x, _| 9.0 * (0.5 * (x - 16.3)).clamp(0.0, 1.0)) >= 25);
-        assert_eq!(steps(|x, _| -(x - 33.0).max(0.0).powi(3)), 0);
-        assert_eq!(steps(|x, _| 5.0 * x), 0, "steep everywhere");
-        assert_eq!(steps(|x, _| 3.0 * (x - 20.0).abs()), 0, "a steep fold");
-    }
 }

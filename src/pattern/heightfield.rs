@@ -19,9 +19,6 @@ const COARSE_STRAIN_SHARES: [f64; 2] = [0.9, 0.7];
 /// lattice. With a larger value loops are cut off whose removal makes the two sides of a joint differ in length.
 pub(super) const DIRECT_OUTLINE_DETAIL: f64 = 0.4;
 
-/// Maximum number of rounds in which parts that cannot be cut are merged with neighbours; later they are left out.
-const MAX_MERGE_ROUNDS: u32 = 24;
-
 /// Cuts a surface into flat sheets; the first sheet is the one with the largest patch.
 ///
 /// Every sheet has a simple outline and has a strain of at most [`PatternOptions::max_strain`]. A patch with a
@@ -112,8 +109,7 @@ fn cut_and_join(
     parts.finest = finest;
     progress::part(0.6, || parts.cut_strained())?;
     progress::part(0.65, || parts.merge_strained_small_parts())?;
-    // Parts of invalid sheets are cut further; parts that are too small for that are merged with a neighbour or
-    // left out.
+    // Parts of invalid sheets are cut further; parts that are too small for that are left out.
     let mut rounds = 0u32;
     loop {
         // Most surfaces take one round or two.
@@ -137,9 +133,7 @@ fn cut_and_join(
         // Go from the last part to the first, because removing a part changes the numbers of later ones.
         small.sort_unstable();
         for (part, reason) in small.into_iter().rev() {
-            let is_merged = rounds <= MAX_MERGE_ROUNDS
-                && progress::part(end, || parts.merge_with_neighbour(part))?;
-            if !is_merged && !parts.leave_out(part)? {
+            if !parts.leave_out(part)? {
                 return Err(parts.refused(part, reason));
             }
         }

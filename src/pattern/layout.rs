@@ -1,6 +1,7 @@
 //! Arranges flat patches beside each other on sheets, joining as many seams as fit.
 
-use super::outline::{Layout, Motion};
+use super::motion::Motion;
+use super::outline::Layout;
 use super::seam_graph::{NEGLIGIBLE_GAP_LENGTHS, SeamGraph};
 use crate::math::planar::polyline_length;
 

@@ -1,55 +1,11 @@
-//! Rigid motions of the patches on a sheet, and the closed lines around them.
+//! Places of the patches on a sheet, and the closed lines around them.
 
+use super::motion::Motion;
 use super::seam_graph::{Node, SeamGraph, is_triangle};
 use crate::math::planar::{distance_to_segment, polygon_contains};
 use crate::unroll::flat_triangle::Point;
 use crate::unroll::overlap::crossings;
 use rustc_hash::FxHashMap;
-
-/// A rigid motion in the plane: a rotation about the origin, then a translation.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Motion {
-    pub turn: Point,
-    pub shift: Point,
-}
-
-impl Motion {
-    /// The identity, which leaves every point of the plane where it is.
-    pub(super) const IDENTITY: Motion = Motion {
-        turn: Point::new(1.0, 0.0),
-        shift: Point::new(0.0, 0.0),
-    };
-
-    pub(super) fn of(&self, place: Point) -> Point {
-        self.turn * place + self.shift
-    }
-
-    /// Composes two motions: this motion followed by another.
-    pub(super) fn then(&self, next: &Motion) -> Motion {
-        Motion {
-            turn: next.turn * self.turn,
-            shift: next.of(self.shift),
-        }
-    }
-
-    /// Computes the rigid motion that minimises the sum of squared distances from the moved points `from` to the points
-    /// `to`.
-    pub(super) fn between(from: &[Point], to: &[Point]) -> Motion {
-        let count = from.len() as f64;
-        let middle = |places: &[Point]| places.iter().sum::<Point>() / count;
-        let (here, there) = (middle(from), middle(to));
-        let pairs = from.iter().zip(to);
-        let turn: Point = pairs.map(|(p, q)| (p - here).conj() * (q - there)).sum();
-        let turn = match turn.norm() > 0.0 {
-            true => turn / turn.norm(),
-            false => Motion::IDENTITY.turn,
-        };
-        Motion {
-            turn,
-            shift: there - turn * here,
-        }
-    }
-}
 
 /// Layout of all patches in the plane: the rigid motion of each patch, and for each seam whether it is a fold.
 #[derive(Debug, Clone)]

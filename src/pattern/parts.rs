@@ -20,10 +20,6 @@ const MAX_PARTS: usize = 1500;
 /// Maximum share of the surface's vertices that may be left out of the pattern: with more it is no pattern of the surface.
 pub(super) const MAX_OMITTED_SHARE: f64 = 0.1;
 
-/// Maximum number of times that a few border vertices are removed from sheets; each removal lays these sheets flat
-/// again.
-const MAX_TRIM_ROUNDS: usize = 8;
-
 /// Maximum number of border vertices that are removed from a part that is invalid on the fine lattice alone, as a share
 /// of its vertices. Most such parts are small and ragged: cut further, they would become sheets of a few vertices.
 const MAX_RECUT_REMOVED_SHARE: f64 = 0.15;
@@ -50,8 +46,6 @@ pub(super) struct Parts {
     /// Number of vertices of the surface that were left out of the pattern so far; `most_left_out` is its maximum.
     left_out: usize,
     most_left_out: usize,
-    /// Number of times that border vertices were removed from sheets so far, at most [`MAX_TRIM_ROUNDS`].
-    pub trims: usize,
 }
 
 fn most_left_out(surface: &Heightfield) -> usize {
@@ -78,7 +72,6 @@ impl Parts {
             pending: Vec::new(),
             left_out: 0,
             most_left_out: most_left_out(surface),
-            trims: 0,
         };
         parts.lay_flat(&(0..count as u32).collect::<Vec<_>>())?;
         Ok(parts)
@@ -96,7 +89,6 @@ impl Parts {
             pending: Vec::new(),
             left_out: 0,
             most_left_out: most_left_out(surface),
-            trims: 0,
         }
     }
 
@@ -387,9 +379,7 @@ impl Parts {
     ) -> Option<Vec<usize>> {
         let lattice = self.surface.lattice();
         let most = |count| self.max_removed(count, MAX_REMOVED_SHARE);
-        let found =
-            || removable_vertices(lattice, &self.labels, part, flat_patch, part_fault, most);
-        (self.trims < MAX_TRIM_ROUNDS).then(found).flatten()
+        removable_vertices(lattice, &self.labels, part, flat_patch, part_fault, most)
     }
 
     /// Leaves out of the pattern some vertices of a part; the other vertices of the part and of its neighbours keep

@@ -18,10 +18,6 @@ use crate::unroll::flat_triangle::Point;
 /// of the crease had more strain before.
 const CREASE_STRAIN_SHARE: f64 = 0.1;
 
-/// Maximum growth of a sheet's mean squared strain by closing a cut inside of a patch, in squares of the strain
-/// limit, for a cut as long as the side of a square with the sheet's area.
-const STRAIN_PER_CLOSED_LENGTH: f64 = 0.5;
-
 /// Maximum strain of the triangles along a closed seam, as a multiple of the limit for the sheet.
 const MAX_SEAM_STRAIN_FACTOR: f64 = 2.0;
 
@@ -31,10 +27,6 @@ const MIN_HALVED_SEAM_NODES: usize = 12;
 /// Maximum number of solver iterations of all trials to close cuts, summed over the vertices of the sheet in each
 /// trial, per vertex of the pattern.
 const STEP_BUDGET_PER_VERTEX: usize = 800;
-
-/// Strain energy, as a multiple of the energy at the strain limit, above which the trial to close a cut is
-/// abandoned if the energy falls slowly.
-const HOPELESS_STRAIN_FACTOR: f64 = 1.6;
 
 /// Maximum squared gap of a cut, as a multiple of the area times the squared strain that its sheet may have, at which it
 /// is tried to close the cut: where two sides are pulled together by a distance, a strip about as wide is strained. Of the
@@ -197,16 +189,10 @@ fn close_cut(
             ))
         })
         .collect();
-    // A cut inside of a patch is closed if the strain that this adds is small for its length. A crease is closed
-    // only if that adds hardly any strain: a crease whose two sides fit only with strain cannot be folded.
+    // A crease is closed only if that adds hardly any strain: a crease whose two sides fit only with strain cannot be
+    // folded.
     let most = match net.seams[seam].smooth {
-        true => {
-            let now = strains(net, &members).0;
-            let share = polyline_length(&net.seams[seam].sides[0]) / now.area.sqrt();
-            (now.rms().powi(2) + STRAIN_PER_CLOSED_LENGTH * share * limit * limit)
-                .sqrt()
-                .min(limit)
-        }
+        true => limit,
         false => {
             let sheets = [a, b].map(|sheet| strains(net, &arrangement.sheets[sheet]).0.rms());
             (CREASE_STRAIN_SHARE * limit)
@@ -214,10 +200,6 @@ fn close_cut(
                 .max(sheets[1])
                 .min(limit)
         }
-    };
-    let trial = StoppingCriteria {
-        hopeless_energy: HOPELESS_STRAIN_FACTOR * 2.0 * most * most,
-        ..TRIAL_RELAXATION
     };
     let joined = !are_close(net, &layout, &ties);
     let closing_energy = seam_gap(net, &layout, seam).powi(2);
@@ -239,7 +221,7 @@ fn close_cut(
     if joined {
         let mut sheet = Tied::new(net, &layout, &members, &ties)?;
         // Most trials fail, and a few steps show that.
-        for until in [trial, SHEET_RELAXATION] {
+        for until in [TRIAL_RELAXATION, SHEET_RELAXATION] {
             let work = sheet.relax(net, &mut layout, until)?;
             *budget = budget.saturating_sub(work);
             is_closed = is_valid(net, &layout, 1.0);

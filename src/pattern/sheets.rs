@@ -168,6 +168,16 @@ pub enum Direction {
     Valley,
 }
 
+impl Direction {
+    /// Returns the direction of a fold that is a ridge or a groove.
+    pub(super) fn of(is_ridge: bool) -> Direction {
+        match is_ridge {
+            true => Direction::Mountain,
+            false => Direction::Valley,
+        }
+    }
+}
+
 /// A position on a flat sheet for the number of a patch.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]

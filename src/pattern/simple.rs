@@ -7,9 +7,6 @@ use crate::unroll::overlap::crossings;
 /// Maximum area, in squared spacings, of a loop that is cut off a sheet's outline.
 const MAX_LOOP_AREA: f64 = 6.0;
 
-/// Maximum length, in spacings, of a loop that is cut off a sheet's outline.
-const MAX_LOOP_LENGTH: f64 = 60.0;
-
 /// One side of a seam: the number of the seam, and the number of the patch on that side.
 pub(crate) type Side = (usize, u32);
 
@@ -70,22 +67,21 @@ fn pass(line: &[(Point, usize)], spacing: f64) -> Option<(Vec<(Point, usize)>, u
     for [i, j] in crossings(&places, &edges) {
         let [a, b, c, d] = [i, i + 1, j, j + 1].map(|k| places[k % n]);
         let at = line_intersection([a, b], [c, d], 0.0).unwrap_or(0.5 * (b + c));
-        // The loop from piece `a` to piece `b` or from `b` to `a`, whichever encloses the smaller area.
+        // The loop from piece `a` to piece `b` or from `b` to `a`, whichever is shorter.
         let loops = [(i, j), (j, i)].map(|(a, b)| {
             let inner: Vec<usize> = (1..=(b + n - a) % n).map(|k| (a + k) % n).collect();
             let mut ring = vec![at];
             ring.extend(inner.iter().map(|k| places[*k]));
             (
-                polygon_area(&ring).abs(),
                 polygon_perimeter(&ring),
+                polygon_area(&ring).abs(),
                 b,
                 inner,
             )
         });
         let [one, other] = loops;
-        let (area, length, end, inner) = if one.1 < other.1 { one } else { other };
-        let small =
-            area <= MAX_LOOP_AREA * spacing * spacing && length <= MAX_LOOP_LENGTH * spacing;
+        let (_, area, end, inner) = if one.0 < other.0 { one } else { other };
+        let small = area <= MAX_LOOP_AREA * spacing * spacing;
         if small && inner.iter().all(|k| !gone[*k]) && instead[end].is_none() {
             inner.iter().for_each(|k| gone[*k] = true);
             instead[end] = Some(at);

@@ -14,14 +14,8 @@ use crate::heights::heightfield::Heightfield;
 use crate::lattice::coarsening::parents;
 use crate::shape::patches::{NO_PATCH, Patches};
 
-/// Maximum share of a coarse lattice's vertices that, once left out of the pattern there, are left out on the fine lattice
-/// without another try. What is tried again is strained: of the scans in `benches/patterns.md` the face (0.19 % left out)
-/// gets a point 22° off, the bunny (0.5 %) none.
-const MAX_FINAL_OMITTED_SHARE: f64 = 0.003;
-
 /// Transfers labels from the coarse lattice to the fine one: returns the part of each fine vertex, and the patch of
-/// each part. Vertices left out on the coarse lattice stay so, unless they are more than [`MAX_FINAL_OMITTED_SHARE`] of
-/// the surface: then they join the part beside them and are tried again. Regions that
+/// each part. Vertices left out on the coarse lattice join the part beside them and are tried again. Regions that
 /// no coarse part reaches become parts of their own, unless they are too small to be cut, which are left out: such a
 /// part would have no outline.
 pub(super) fn transfer_labels(
@@ -38,13 +32,6 @@ pub(super) fn transfer_labels(
     let mut origins: Vec<u32> = (0..rough.parts.labels.origins.len() as u32)
         .map(origin)
         .collect();
-    let valid = coarse
-        .surface
-        .heights()
-        .iter()
-        .filter(|z| !z.is_nan())
-        .count();
-    let is_retried = rough.parts.left_out() as f64 > MAX_FINAL_OMITTED_SHARE * valid as f64;
     let mut labels = try_filled("pattern", fine.len(), NO_PATCH)?;
     let mut open = try_filled("pattern", fine.len(), false)?;
     for i in 0..fine.len() {
@@ -53,11 +40,10 @@ pub(super) fn transfer_labels(
             continue;
         }
         let around: Vec<usize> = on_coarse(&lattice, i / fine.cols(), i % fine.cols()).collect();
-        let left_out = |k: &usize| of[*k] == NO_PATCH && !coarse.surface.heights()[*k].is_nan();
         let own = |k: &&usize| origins.get(of[**k] as usize) == Some(&patch);
         match around.iter().find(own) {
             Some(k) => labels[i] = of[*k],
-            None => open[i] = is_retried || !around.iter().any(left_out),
+            None => open[i] = true,
         }
     }
     let mut queue: VecDeque<usize> = (0..fine.len())

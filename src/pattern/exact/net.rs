@@ -2,12 +2,12 @@
 
 use std::f64::consts::PI;
 
-use nalgebra::Complex;
 use rustc_hash::{FxHashMap, FxHashSet};
 
 use crate::error::{Error, Result};
 use crate::math::index::NO_INDEX;
 use crate::math::planar::{LeastBox, Point2, cross};
+use crate::pattern::motion::Motion;
 use crate::scene::polyhedron::Polyhedron;
 
 /// Maximum number of cells of all grids: so many for each triangle, and so many in all. Slender triangles get larger cells.
@@ -17,43 +17,6 @@ const MAX_SHARED_CELLS: f64 = 1e6;
 /// Surcharge for a cut between facets that meet flat over one of the same length between facets that fold onto each other, as a
 /// share: of edges that are equally long a sharp one is cut, and no smooth bend.
 const MAX_FLAT_SURCHARGE: f64 = 1e-3;
-
-/// A rigid motion of the plane: a rotation, then a translation.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Motion {
-    turn: Point2,
-    shift: Point2,
-}
-
-impl Motion {
-    const IDENTITY: Motion = Motion {
-        turn: Complex::new(1.0, 0.0),
-        shift: Complex::new(0.0, 0.0),
-    };
-
-    pub(super) fn of(&self, p: Point2) -> Point2 {
-        self.turn * p + self.shift
-    }
-
-    /// The motion that takes a segment to another one of the same length.
-    fn between([a, b]: [Point2; 2], [c, d]: [Point2; 2]) -> Motion {
-        let turn = (d - c) * (b - a).conj();
-        let turn = turn / turn.norm();
-        // Midpoints meet, so that rounding is shared by both ends.
-        Motion {
-            turn,
-            shift: 0.5 * (c + d) - turn * (0.5 * (a + b)),
-        }
-    }
-
-    fn after(&self, first: &Motion) -> Motion {
-        let turn = self.turn * first.turn;
-        Motion {
-            turn: turn / turn.norm(),
-            shift: self.of(first.shift),
-        }
-    }
-}
 
 /// A line along which two facets meet.
 pub(super) struct Hinge {
@@ -338,14 +301,14 @@ impl<'a> Net<'a> {
             std::mem::swap(&mut from, &mut to);
         }
         let ([a, b], [d, c]) = (self.placed_ends(from), self.placed_ends(to));
-        let motion = Motion::between([a, b], [c, d]);
+        let motion = Motion::between(&[a, b], &[c, d]);
         let (small, large) = (piece(from), piece(to));
         if self.overlaps(small, large, &motion) || !self.fits(small, large, &motion) {
             return;
         }
         for facet in std::mem::take(&mut self.pieces[small as usize]).facets {
             let own = &mut self.motions[facet as usize];
-            *own = motion.after(own);
+            *own = own.then(&motion);
             self.insert(large, facet);
         }
         self.is_joined[number] = true;

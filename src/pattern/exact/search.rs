@@ -3,9 +3,10 @@
 use oorandom::Rand64;
 use rustc_hash::FxHashSet;
 
-use super::net::{Motion, Net};
+use super::net::Net;
 use crate::error::Result;
 use crate::math::union_find::UnionFind;
+use crate::pattern::motion::Motion;
 
 /// Work of the search for fewer pieces and shorter cuts, in triangles that are placed or compared.
 const SEARCH_WORK: usize = 6_000_000;

@@ -245,28 +245,33 @@ impl Body {
 const MAX_ANGLE_DEFECT: f64 = 0.3;
 
 impl Body {
-    /// Returns for each vertex whether its angle defect (a full turn less the angles around it) is above
-    /// [`MAX_ANGLE_DEFECT`] in magnitude, as at a tip or a saddle. Seams end there, because two sides that meet there
+    /// Returns for each vertex whether its angle defect is above [`MAX_ANGLE_DEFECT`] in magnitude, as at a tip or a saddle. Seams end there, because two sides that meet there
     /// do not both fit.
     pub(super) fn pointed(&self) -> Vec<bool> {
-        let mut turns = vec![0.0; self.places.len()];
+        let defects = self.angle_defects().into_iter();
+        defects.map(|d| d.abs() > MAX_ANGLE_DEFECT).collect()
+    }
+
+    /// Angle defect of each vertex: a full turn less the angles of the triangles around it, in radians.
+    pub(super) fn angle_defects(&self) -> Vec<f64> {
+        let mut defects = vec![TAU; self.places.len()];
         for corners in &self.triangles {
             for k in 0..3 {
                 let [a, b, c] = [0, 1, 2].map(|i| self.places[corners[(k + i) % 3] as usize]);
-                turns[corners[k] as usize] += (b - a).angle(&(c - a));
+                defects[corners[k] as usize] -= (b - a).angle(&(c - a));
             }
         }
-        let missing = |turn: &f64| (TAU - turn).abs() > MAX_ANGLE_DEFECT;
-        turns.iter().map(missing).collect()
+        defects
     }
 
-    /// Area of all triangles.
-    pub(super) fn area(&self) -> f64 {
-        let double = self.triangles.iter().map(|corners| {
+    /// Area of each part.
+    pub(super) fn areas(&self) -> Vec<f64> {
+        let mut areas = vec![0.0; self.count as usize];
+        for (part, corners) in self.parts.iter().zip(&self.triangles) {
             let [a, b, c] = corners.map(|v| self.places[v as usize]);
-            (b - a).cross(&(c - a)).norm()
-        });
-        0.5 * double.sum::<f64>()
+            areas[*part as usize] += 0.5 * (b - a).cross(&(c - a)).norm();
+        }
+        areas
     }
 
     /// Number of vertices without a triangle.
@@ -296,11 +301,7 @@ impl Body {
 
     /// Renumbers the parts of the mesh by their areas, the largest first. Returns the new number of each part.
     pub(super) fn sort(&mut self) -> Vec<u32> {
-        let mut areas = vec![0.0; self.count as usize];
-        for (part, corners) in self.parts.iter().zip(&self.triangles) {
-            let [a, b, c] = corners.map(|v| self.places[v as usize]);
-            areas[*part as usize] += (b - a).cross(&(c - a)).norm();
-        }
+        let areas = self.areas();
         let mut order: Vec<usize> = (0..areas.len()).collect();
         order.sort_by(|a, b| areas[*b].total_cmp(&areas[*a]));
         let mut numbers = vec![0; areas.len()];

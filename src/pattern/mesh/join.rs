@@ -4,7 +4,7 @@ use super::body::Body;
 use super::lay::{FlatPart, Lying};
 use super::seams::Seams;
 use crate::error::Result;
-use crate::pattern::outline::Motion;
+use crate::pattern::motion::Motion;
 use crate::pattern::seam_graph::NEGLIGIBLE_GAP_LENGTHS;
 use crate::progress;
 use crate::scene::half_edges::next_half_edge;

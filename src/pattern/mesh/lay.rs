@@ -311,27 +311,6 @@ impl FlatPart {
             turns > 1.5 * std::f64::consts::TAU
         })
     }
-
-    /// Finds the outlines of the flat part: closed lines of half-edges, with the triangles to their left.
-    pub(super) fn outlines(&self) -> Vec<Vec<u32>> {
-        let mut done = vec![false; self.twins.len()];
-        let mut lines = Vec::new();
-        for start in self.border() {
-            let mut line = Vec::new();
-            let mut side = start;
-            while !std::mem::replace(&mut done[side as usize], true) {
-                line.push(side);
-                side = next_half_edge(side);
-                while self.twins[side as usize] != NO_INDEX {
-                    side = next_half_edge(self.twins[side as usize]);
-                }
-            }
-            if !line.is_empty() {
-                lines.push(line);
-            }
-        }
-        lines
-    }
 }
 
 fn piece(body: &Body, corners: [u32; 3]) -> FlatTriangle {

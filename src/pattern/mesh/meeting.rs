@@ -133,16 +133,11 @@ struct AngleDefects<'a> {
 impl AngleDefects<'_> {
     fn new(body: &Body) -> AngleDefects<'_> {
         let count = body.places.len();
-        let mut missing = vec![TAU; count];
+        let mut missing = body.angle_defects();
         // An interior edge occurs in both directions.
         let mut edges = Vec::with_capacity(3 * body.triangles.len());
         for corners in &body.triangles {
-            for k in 0..3 {
-                let [i, j, l] = [0, 1, 2].map(|step| corners[(k + step) % 3]);
-                let [a, b, c] = [i, j, l].map(|v| body.places[v as usize]);
-                missing[i as usize] -= (b - a).angle(&(c - a));
-                edges.push((i, j));
-            }
+            edges.extend((0..3).map(|k| (corners[k], corners[(k + 1) % 3])));
         }
         edges.sort_unstable();
         let mut starts = vec![0; count + 1];

@@ -26,7 +26,8 @@ pub(super) struct Seam {
 pub(super) struct Seams {
     pub all: Vec<Seam>,
     of: Vec<u32>,
-    twins: Vec<u32>,
+    /// Opposite of each half-edge of the mesh, or [`NO_INDEX`] at its border.
+    pub twins: Vec<u32>,
 }
 
 impl Seams {

@@ -3,11 +3,8 @@
 use super::{MIN_SEAM_PART_NODES, NEGLIGIBLE_GAP_LENGTHS, Seam, SeamGraph};
 use crate::unroll::flat_triangle::Point;
 
-/// Minimum share of a seam's length over which its two sides are joined where the whole seam cannot be.
-const MIN_JOINED_SHARE: f64 = 0.5;
-
 impl SeamGraph {
-    /// Divides each seam whose sides do not fit as a whole, if the sides of a long enough part of it do. `gap` is the
+    /// Divides each seam whose sides do not fit as a whole, around the longest part of it whose sides do. `gap` is the
     /// maximum seam gap, as a share of the length, as in [`PatternOptions`](crate::pattern::PatternOptions).
     pub(in crate::pattern) fn divide_by_fit(&mut self, gap: f64) {
         for number in 0..self.seams.len() {
@@ -143,7 +140,7 @@ impl SeamGraph {
 }
 
 /// Computes where to divide a seam, as node numbers along it, first and last included: around the longest part whose
-/// sides fit, if that has at least [`MIN_JOINED_SHARE`] of the seam's length.
+/// sides fit.
 fn divided(sides: &[Vec<Point>; 2], gap: f64, fine: f64) -> Vec<usize> {
     let last = sides[0].len() - 1;
     let whole = vec![0, last];
@@ -195,8 +192,8 @@ fn divided(sides: &[Vec<Point>; 2], gap: f64, fine: f64) -> Vec<usize> {
             best = (lengths[to] - lengths[from], from, to);
         }
     }
-    let (length, mut from, mut to) = best;
-    if length < MIN_JOINED_SHARE * lengths[last] {
+    let (_, mut from, mut to) = best;
+    if to == 0 {
         return whole;
     }
     if from < MIN_SEAM_PART_NODES {

@@ -34,7 +34,7 @@ const MAX_SIDE_BOW_SPACINGS: f64 = 0.15;
 const MAX_SIDE_BOW_SHARE: f64 = 0.004;
 
 /// Maximum bow of a straight side as a share of its samples' root mean square distance from the line, if that is more:
-/// for an arc this share is 1.5, for a staircase it approaches 0.
+/// for an arc this share is 1.5, for a staircase it approaches 0. `benches/patterns.md` has what others give.
 const MAX_STAIRCASE_BOW_SHARE: f64 = 0.6;
 
 /// Selects those corners of a line at which two of its sides meet: the directions before and after differ over a long

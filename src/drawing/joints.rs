@@ -28,12 +28,14 @@ const MAX_SHIFT_SHARE: f64 = 0.01;
 const MAX_KACZMARZ_SWEEPS: usize = 400;
 
 /// Maximum number of times that the lengths of the joints' sides are linearised again (Gauss-Newton steps).
+/// `benches/patterns.md` has what others give.
 const MAX_LENGTH_ROUNDS: usize = 4;
 
 /// Maximum number of trials in which sides of joints that would cross other sides are moved less far.
 const MAX_BACKTRACKING_TRIALS: usize = 16;
 
 /// Factor by which the limit of a side's shift is reduced after a trial in which the side crosses another.
+/// `benches/patterns.md` has what others give.
 const BACKTRACKING_FACTOR: f64 = 0.6;
 
 /// Number of parts of each curve piece of an outline among which the point nearest to a fold's end is searched.

@@ -3,9 +3,11 @@
 use crate::unroll::flat_triangle::Point;
 
 /// Minimum angle of a corner of an outline, in radians: between the line's directions before and after it.
+/// `benches/patterns.md` has what others give.
 pub(super) const CORNER_ANGLE: f64 = 0.44;
 
 /// Length of an outline before and after a corner, in lattice spacings, over which the corner's angle is measured.
+/// `benches/patterns.md` has what others give.
 const CORNER_ARM_SPACINGS: f64 = 4.0;
 
 /// Minimum share of a corner's angle that remains when it is measured over half the length before and after it; at a
@@ -13,6 +15,7 @@ const CORNER_ARM_SPACINGS: f64 = 4.0;
 const CORNER_CONCENTRATION: f64 = 0.62;
 
 /// Minimum length of an outline's piece that is smoothed, in lattice spacings.
+/// `benches/patterns.md` has what others give.
 pub(super) const MIN_SMOOTHED_LENGTH_SPACINGS: f64 = 3.0;
 
 /// A sample point of a line that is smoothed: its position, its distance along the line, and whether it is one of the

@@ -12,11 +12,11 @@ use crate::unroll::overlap::crossings;
 /// Distance between the sample points of an outline to which curves are fitted, in lattice spacings.
 const SAMPLE_DISTANCE_SPACINGS: f64 = 0.25;
 
-/// Minimum length of a span of the fitted spline, in lattice spacings.
+/// Minimum length of a span of the fitted spline, in lattice spacings. `benches/patterns.md` has what others give.
 const MIN_SPAN_SPACINGS: f64 = 1.5;
 
 /// Root mean square distance of a fitted curve from the sample points, in lattice spacings, below which the fit counts
-/// as exact.
+/// as exact. `benches/patterns.md` has what others give.
 const NEGLIGIBLE_RESIDUAL_SPACINGS: f64 = 0.03;
 
 /// Maximum distance of the intersection of two straight lines from the corner that it replaces, as a multiple of the

@@ -17,33 +17,36 @@ pub(super) struct Tab {
     pub middle: [f64; 2],
 }
 
-/// Maximum angle, in radians, by which a tab's fold line turns in all.
+/// Maximum angle, in radians, by which a tab's fold line turns in all. `benches/patterns.md` has what others give.
 const MAX_TAB_BEND: f64 = 0.3;
 
-/// Minimum length of a tab's fold line, in millimetres.
+/// Minimum length of a tab's fold line, in millimetres. `benches/patterns.md` has what others give.
 const MIN_TAB_LENGTH_MM: f64 = 2.0;
 
 /// Inset of a tab's end, as a share of the length of its fold line, from which on the end is steeper than 45° if it has the room.
+/// `benches/patterns.md` has what others give.
 const STEEP_TAB_INSET_SHARE: f64 = 0.3;
 
 /// Minimum length of a tab's outer edge, as a share of the length of its fold line.
+/// `benches/patterns.md` has what others give.
 const MIN_TAB_TOP_SHARE: f64 = 0.1;
 
-/// Angle, in radians, that a tab keeps from what is beside it in a notch.
+/// Angle, in radians, that a tab keeps from what is beside it in a notch. `benches/patterns.md` has what others give.
 const TAB_CLEARANCE_ANGLE: f64 = 0.02;
 
-/// Maximum depth of a tab, as a multiple of the length of its fold line.
+/// Maximum depth of a tab, as a multiple of the length of its fold line. `benches/patterns.md` has what others give.
 const MAX_TAB_DEPTH_SHARE: f64 = 1.5;
 
 /// Distance, in millimetres, that a tab's end keeps from the bisector between it and the next tab, so that they do not
-/// touch.
+/// touch. `benches/patterns.md` has what others give.
 const TAB_CLEARANCE_MM: f64 = 0.1;
 
 /// Minimum length of tabs along a run, as a share of the greatest length that any depth allows, for a depth to be taken
-/// for the whole run.
+/// for the whole run. `benches/patterns.md` has what others give.
 const MIN_TABBED_SHARE: f64 = 0.9;
 
 /// Maximum number of times that the depth of a tab that does not fit is halved.
+/// `benches/patterns.md` has what others give.
 const MAX_TAB_HALVINGS: usize = 3;
 
 /// The closed outline of a sheet as a list of runs (pieces along one side of a crease or along the border), each with

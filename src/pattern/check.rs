@@ -11,11 +11,11 @@ use crate::unroll::flat_triangle::Point;
 use crate::unroll::overlap::crossings;
 
 /// Maximum seam gap, in lattice spacings, at which the two sides of a fold count as coincident, so that the sheet
-/// is not laid flat again. No table chose it.
+/// is not laid flat again. `benches/patterns.md` has what others give.
 const MAX_JOINED_GAP_SPACINGS: f64 = 0.05;
 
 /// Number of nodes at an end of a seam that are not joined to the seam's other side where three patches meet: if more
-/// than three meet, the position of the meeting point is inexact.
+/// than three meet, the position of the meeting point is inexact. `benches/patterns.md` has what others give.
 const UNTIED_END_NODES: usize = 1;
 
 /// Returns whether the two sides of every fold of a sheet coincide already, so that the sheet need not be laid flat

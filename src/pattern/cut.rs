@@ -13,12 +13,15 @@ use crate::math::statistics::weighted_median;
 use rustc_hash::FxHashMap;
 
 /// Number of directions in which a straight cut through a part of the surface is tried, evenly spaced over half a turn.
+/// `benches/patterns.md` has what others give.
 const CUT_DIRECTIONS: usize = 16;
 
 /// Minimum number of vertices of a connected group on one side of a cut; a smaller group stays with its neighbour.
+/// `benches/patterns.md` has what others give.
 const MIN_GROUP_VERTICES: usize = 4;
 
 /// Weight of a cut's length in its score, relative to the variance of the normals that is left on both sides.
+/// `benches/patterns.md` has what others give.
 const CUT_LENGTH_WEIGHT: f64 = 0.002;
 
 impl Labels {

@@ -11,7 +11,7 @@ const DEFAULT_MAX_SEAM_GAP_SHARE: f64 = 0.005;
 const DEFAULT_MAX_STRAIN: f64 = 0.01;
 
 /// Ratio of the energy to the energy at the strain limit above which the solver that lays parts flat gives up where it
-/// progresses slowly.
+/// progresses slowly. `benches/patterns.md` has what others give.
 const HOPELESS_STRAIN_FACTOR: f64 = 2.5;
 
 /// Change of the energy in one step of the solver, as a share of it, below which a part has converged. With

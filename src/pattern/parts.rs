@@ -22,6 +22,7 @@ pub(super) const MAX_OMITTED_SHARE: f64 = 0.1;
 
 /// Maximum number of border vertices that are removed from a part that is invalid on the fine lattice alone, as a share
 /// of its vertices. Most such parts are small and ragged: cut further, they would become sheets of a few vertices.
+/// `benches/patterns.md` has what others give.
 const MAX_RECUT_REMOVED_SHARE: f64 = 0.15;
 
 /// Maximum number of vertices of the surface that are left out of the pattern in one step.

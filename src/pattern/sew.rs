@@ -15,13 +15,15 @@ use crate::unroll::arap_mesh::StoppingCriteria;
 use crate::unroll::flat_triangle::Point;
 
 /// Maximum strain of a sheet after a crease was closed, as a share of the limit, unless the sheets on either side
-/// of the crease had more strain before.
+/// of the crease had more strain before. `benches/patterns.md` has what others give.
 const CREASE_STRAIN_SHARE: f64 = 0.1;
 
 /// Maximum strain of the triangles along a closed seam, as a multiple of the limit for the sheet.
+/// `benches/patterns.md` has what others give.
 const MAX_SEAM_STRAIN_FACTOR: f64 = 2.0;
 
 /// Minimum number of nodes of each half of a seam that is divided because it cannot be closed as a whole.
+/// `benches/patterns.md` has what others give.
 const MIN_HALVED_SEAM_NODES: usize = 12;
 
 /// Maximum number of solver iterations of all trials to close cuts, summed over the vertices of the sheet in each

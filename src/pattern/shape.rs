@@ -17,7 +17,7 @@ const SIMPLIFICATION_TOLERANCE_SPACINGS: f64 = 0.02;
 const MAX_CHAMFER_LENGTH_FACTOR: f64 = 1.1;
 
 /// Minimum area of a closed line around a sheet, in squared spacings of a lattice or edge lengths of a mesh; a cut within a
-/// sheet that opens less is not drawn.
+/// sheet that opens less is not drawn. `benches/patterns.md` has what others give.
 pub(super) const MIN_OUTLINE_AREA: f64 = 1.0;
 
 /// Removes the closed lines around less than a least area, except the one around the largest; `least` may differ from

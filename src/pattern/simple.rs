@@ -5,6 +5,7 @@ use crate::unroll::flat_triangle::Point;
 use crate::unroll::overlap::crossings;
 
 /// Maximum area, in squared spacings, of a loop that is cut off a sheet's outline.
+/// `benches/patterns.md` has what others give.
 const MAX_LOOP_AREA: f64 = 6.0;
 
 /// One side of a seam: the number of the seam, and the number of the patch on that side.

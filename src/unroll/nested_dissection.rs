@@ -6,6 +6,7 @@ use super::sparse_rows::SparseRows;
 use crate::error::{Result, try_filled};
 
 /// Maximum number of vertices of a set that is not cut in two further: a small dense front costs less than its indices.
+/// `benches/patterns.md` has what others give.
 const MAX_UNDIVIDED_VERTICES: usize = 32;
 
 /// Order of elimination of a matrix's rows, in fronts of vertices that are eliminated together.

@@ -8,7 +8,7 @@ use crate::math::index::NO_INDEX;
 use crate::math::union_find::UnionFind;
 use crate::scene::polyhedron::Polyhedron;
 
-/// Largest ratio of the curvatures of neighbouring facets of a bend.
+/// Largest ratio of the curvatures of neighbouring facets of a bend. `benches/patterns.md` has what others give.
 const MAX_BEND_CURVATURE_RATIO: f64 = 3.0;
 
 /// The patch of each facet: a facet alone, or neighbouring facets of one bend.

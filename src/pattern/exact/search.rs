@@ -9,9 +9,11 @@ use crate::math::union_find::UnionFind;
 use crate::pattern::motion::Motion;
 
 /// Work of the search for fewer pieces and shorter cuts, in triangles that are placed or compared.
+/// `benches/patterns.md` has what others give.
 const SEARCH_WORK: usize = 6_000_000;
 
 /// Largest distance, in facets, from the hinge about which the search takes a net apart.
+/// `benches/patterns.md` has what others give.
 const MAX_RUIN_RADIUS: u32 = 3;
 
 impl Net<'_> {

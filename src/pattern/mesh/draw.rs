@@ -13,10 +13,6 @@ use crate::pattern::{Direction, Missing, Seam, Sheet};
 use crate::shape::patches::{Crease, Patch};
 use crate::unroll::flat_triangle::Point;
 
-/// Minimum area of a closed line around a sheet that follows the mesh's own border, as a share of the sheet's area; far
-/// below any triangle's.
-const MIN_OUTLINE_SHARE: f64 = 1e-6;
-
 /// A mesh cut into flat sheets.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
@@ -45,7 +41,7 @@ pub(super) fn draw_sheets(
         // A cut that is within the sheet and hardly opens is no outline, but a hole of the mesh is, however small.
         let least = |line: &[u32]| match line.iter().all(|side| seams.of(*side).is_some()) {
             true => MIN_OUTLINE_AREA * body.spacing * body.spacing,
-            false => MIN_OUTLINE_SHARE * own.laid.area,
+            false => 0.0,
         };
         Sheet {
             spacing: body.spacing,

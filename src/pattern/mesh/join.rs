@@ -21,10 +21,11 @@ pub(super) struct Limits {
 }
 
 /// Strain, as a share of the limit, at which laying a part flat stops as long as the part may still be cut or joined.
+/// `benches/patterns.md` has what others give.
 const TRIAL_STRAIN_SHARE: f64 = 0.8;
 
 /// Maximum strain of a joined sheet, as a multiple of the strain that its sheets had, at which it is not laid flat again
-/// before the next one is joined to it.
+/// before the next one is joined to it. `benches/patterns.md` has what others give.
 const MAX_UNRELAXED_GROWTH: f64 = 1.01;
 
 impl Limits {

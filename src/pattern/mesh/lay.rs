@@ -44,9 +44,6 @@ pub(super) enum Lying<'a> {
 /// Number of solver iterations that are made before the solver may give up a layout.
 const UNCONDITIONAL_STEPS: usize = 40;
 
-/// Number of solver iterations after which layouts of trial cuts of a part are compared.
-pub(super) const TRIAL_STEPS: usize = 12;
-
 impl FlatPart {
     /// Places triangles in the plane, by unfolding them or at given positions. `twins` holds the opposite of each
     /// half-edge, or [`NO_INDEX`] where the triangles are cut apart.
@@ -318,6 +315,7 @@ fn piece(body: &Body, corners: [u32; 3]) -> FlatTriangle {
 }
 
 /// Maximum number of a flat part's triangles whose centroids are tested for lying on another triangle.
+/// `benches/patterns.md` has what others give.
 const MAX_OVERLAP_PROBES: usize = 60;
 
 /// Computes the position of a triangle's third corner, as a complex number, where the edge opposite of it goes from 0

@@ -23,12 +23,11 @@ use crate::fit::mesh::topology::Topology;
 use crate::progress;
 use crate::scene::mesh::Mesh;
 use crate::shape::patches::MeshPatches;
-use crate::unroll::arap_mesh::StoppingCriteria;
 use body::{Body, Place, Plane};
 pub use draw::MeshPattern;
 use draw::draw_sheets;
 use join::{Limits, join_parts};
-use lay::{FlatPart, TRIAL_STEPS};
+use lay::FlatPart;
 use seams::Seams;
 
 /// Maximum number of parts of a mesh: a pattern of more parts cannot be assembled in practice.
@@ -136,12 +135,9 @@ fn flat_parts(mut body: Body, limits: Limits) -> Result<(Body, Vec<FlatPart>, Mi
             }
             let mut energy = 0.0;
             for part in &parts {
-                let short = StoppingCriteria {
-                    max_steps: TRIAL_STEPS,
-                    ..limits.until
-                };
-                let laid =
-                    progress::part(end, || FlatPart::whole(&trial, trial.members(*part), short))?;
+                let laid = progress::part(end, || {
+                    FlatPart::whole(&trial, trial.members(*part), limits.until)
+                })?;
                 energy += laid.area * laid.strain * laid.strain;
             }
             if best.as_ref().is_none_or(|(least, ..)| energy < *least) {
@@ -191,6 +187,7 @@ fn too_many_parts(body: &Body, laid: &FlatPart) -> Error {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::unroll::arap_mesh::StoppingCriteria;
 
     const UNTIL: StoppingCriteria = StoppingCriteria {
         tolerance: 1e-12,

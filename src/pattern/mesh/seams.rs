@@ -119,10 +119,11 @@ fn is_one(body: &Body, pair: [u32; 2]) -> bool {
 }
 
 /// Minimum fold angle of a crease between two patches, as a share of the minimum inside of one patch.
+/// `benches/patterns.md` has what others give.
 const MIN_PATCH_BEND_SHARE: f64 = 0.25;
 
 /// Number of edges on either side over which the fold angle along a line is averaged; also the minimum number of
-/// edges of a crease.
+/// edges of a crease. `benches/patterns.md` has what others give.
 const CREASE_WINDOW_EDGES: usize = 2;
 
 /// Divides a line of edges, given by their lengths and fold angles, into ranges where the line is a crease and

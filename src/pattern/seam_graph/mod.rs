@@ -34,6 +34,7 @@ pub(super) const FOUR_WAY_JUNCTION_RADIUS: f64 = 3.0;
 pub(in crate::pattern) const NEGLIGIBLE_GAP_LENGTHS: f64 = 0.25;
 
 /// Minimum number of nodes (points where a crease crosses lattice edges) of each part of a seam that is divided.
+/// `benches/patterns.md` has what others give.
 const MIN_SEAM_PART_NODES: usize = 4;
 
 /// A crease or a part of it, with its line on the flat patches on both sides.

@@ -11,6 +11,7 @@ const MIN_NODE_SHARE: f64 = 0.01;
 
 /// Number of smoothing passes over a cut inside of a patch, which zigzags between the vertices on either side. A cut
 /// that was decided on a lattice of twice the spacing takes four times as many passes.
+/// `benches/patterns.md` has what others give.
 const CUT_SMOOTHING_PASSES: f64 = 4.0;
 
 impl SeamGraph {

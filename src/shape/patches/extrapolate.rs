@@ -9,7 +9,7 @@ use crate::lattice::hexagonal::{ROW_SPACING, shift};
 use crate::math::least_squares::LeastSquares;
 
 /// Radius around a vertex, in lattice spacings, within which the other vertices of a patch determine the patch's
-/// extrapolated height there.
+/// extrapolated height there. `benches/patterns.md` has what others give.
 const EXTRAPOLATION_RADIUS: usize = 3;
 
 /// Maximum distance of a vertex from the extrapolation of its own patch, in lattice spacings, at which it stays in that

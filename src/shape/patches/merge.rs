@@ -12,7 +12,7 @@ use crate::lattice::hexagonal::{Lattice, Towards};
 
 /// Minimum ratio of a crease's fold angle to the angle by which the flatter of the two patches bends over the same
 /// distance. Limits what is taken for a crease on surfaces that bend. Not tuned by measurements; `tests/native/patches.rs` has
-/// the surfaces whose patches it must find.
+/// the surfaces whose patches it must find. `benches/patterns.md` has what others give.
 const MIN_FOLD_PER_BEND: f64 = 2.0;
 
 /// Merges patches whose common border folds by less than `fold` radians on average, or hardly more than the patches

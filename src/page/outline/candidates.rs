@@ -1,7 +1,7 @@
 //! Candidate masks of a page in a photo, by thresholds of lightness and colour and by colour histograms of page and
 //! background.
 
-use super::colour_model::{ColourModel, opponent_axes};
+use super::colour_model::{COLOUR_NOISE, ColourModel, opponent_axes, range};
 use super::planes::Planes;
 
 /// Width of the strip along the photo's rim that is initially taken for background, as a share of the photo's sides.
@@ -10,9 +10,6 @@ const FRAME_SHARE: f64 = 0.04;
 /// Distance from the photo's rim of the central rectangle that is initially taken for the page, as a share of the
 /// photo's sides.
 const MIDDLE_SHARE: f64 = 0.25;
-
-/// Variance of noise that is added to the variance of each colour component of a reduced photo.
-const COLOUR_NOISE_VARIANCE: f64 = 1e-4;
 
 /// Number of levels to which pixel values are rounded when Otsu's thresholds are computed.
 const THRESHOLD_LEVELS: usize = 128;
@@ -36,9 +33,7 @@ fn frame_and_middle(width: usize, height: usize) -> [Vec<bool>; 2] {
 /// Computes Otsu's thresholds of the values: the one that divides them into two classes of least variance, and the two
 /// that divide them into three. Empty if all values are equal.
 fn otsu_thresholds(values: &[f32]) -> Vec<f32> {
-    let (low, high) = values.iter().fold((f32::MAX, f32::MIN), |(low, high), v| {
-        (low.min(*v), high.max(*v))
-    });
+    let [low, high] = range(values.iter().copied());
     let step = (high - low) / THRESHOLD_LEVELS as f32;
     if step.is_nan() || step <= 0.0 {
         return Vec::new();
@@ -96,7 +91,7 @@ fn discriminant(axes: &[[f32; 3]], frame: &[bool], middle: &[bool]) -> Vec<f32> 
     };
     let (ground, page) = (moments(frame), moments(middle));
     let weights = [0, 1, 2].map(|k| {
-        ((page[k].0 - ground[k].0) / (page[k].1 + ground[k].1 + COLOUR_NOISE_VARIANCE)) as f32
+        ((page[k].0 - ground[k].0) / (page[k].1 + ground[k].1 + COLOUR_NOISE.powi(2))) as f32
     });
     (axes.iter())
         .map(|colour| (0..3).map(|k| weights[k] * colour[k]).sum())
@@ -118,7 +113,7 @@ pub(super) fn candidate_masks(planes: &Planes) -> Vec<Vec<bool>> {
         let found: Vec<usize> = (0..mask.len()).filter(|i| mask[*i]).collect();
         found.into_iter()
     };
-    let mut masks = vec![model.refine(model.classify(pixels(&middle), pixels(&frame)))];
+    let mut masks = vec![model.refine(&model.classify(pixels(&middle), pixels(&frame)))];
     let axis = |k: usize| axes.iter().map(|colour| colour[k]).collect();
     let saturation: Vec<f32> = colours
         .iter()
@@ -133,7 +128,7 @@ pub(super) fn candidate_masks(planes: &Planes) -> Vec<Vec<bool>> {
     for feature in features {
         for threshold in otsu_thresholds(&feature) {
             let mask: Vec<bool> = feature.iter().map(|value| *value > threshold).collect();
-            masks.push(model.refine(mask.clone()));
+            masks.push(model.refine(&mask));
             masks.push(mask);
         }
     }

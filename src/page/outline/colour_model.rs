@@ -2,32 +2,16 @@
 
 use super::morphology::box_mean;
 use super::planes::Planes;
-use crate::page::text::ranking::ranked;
 
 /// Number of histogram bins for lightness, and for each of the two colour differences.
 const BINS_PER_COMPONENT: [usize; 3] = [24, 16, 16];
 
-/// Minimum width of a colour histogram's bin, in units of logarithmic colour: about twice the noise of a reduced photo.
-const MIN_BIN_WIDTH: f32 = 0.02;
-
-/// Share of the pixels at either end of a colour component's range that is left out when the range is divided into
-/// bins.
-const BIN_RANGE_TRIM: f64 = 0.01;
-
-/// Distance, in the list of pixels, between those from which the range of a colour component is measured.
-const COLOUR_SAMPLE_STEP: usize = 7;
-
-/// Maximum number of times that the histograms of page and background are counted anew with the latest mask of the
-/// page.
-const HISTOGRAM_ROUNDS: usize = 4;
+/// Standard deviation of the noise of a reduced photo, in units of logarithmic colour.
+pub(super) const COLOUR_NOISE: f64 = 0.01;
 
 /// Radius, in pixels of the reduced photo at half resolution, of the square over which the probability of being page is
 /// averaged.
 const SMOOTHING_RADIUS: usize = 2;
-
-/// Count added to each histogram bin, as a share of a uniform histogram, so that colours that were not observed decide
-/// nothing.
-const UNIFORM_SHARE: f32 = 0.02;
 
 /// Colours of a photo's pixels as numbers of histogram bins, by which page and background are told apart.
 pub(super) struct ColourModel {
@@ -42,6 +26,13 @@ pub(super) fn opponent_axes([r, g, b]: [f32; 3]) -> [f32; 3] {
     [(r + g + b) / 3.0, r - g, b - g]
 }
 
+/// Least and largest of some values.
+pub(super) fn range(values: impl Iterator<Item = f32>) -> [f32; 2] {
+    values.fold([f32::MAX, f32::MIN], |[low, high], value| {
+        [low.min(value), high.max(value)]
+    })
+}
+
 impl ColourModel {
     /// Assigns each pixel's colour to a histogram bin.
     pub fn new(planes: &Planes) -> Self {
@@ -51,13 +42,8 @@ impl ColourModel {
             .collect();
         let mut bins = vec![0_u16; axes.len()];
         for (axis, &count) in BINS_PER_COMPONENT.iter().enumerate() {
-            let sample: Vec<f64> = (axes.iter().step_by(COLOUR_SAMPLE_STEP))
-                .map(|colour| f64::from(colour[axis]))
-                .collect();
-            let order = ranked(&sample);
-            let cut = ((order.len() - 1) as f64 * BIN_RANGE_TRIM) as usize;
-            let [low, high] = [cut, order.len() - 1 - cut].map(|k| sample[order[k]] as f32);
-            let step = ((high - low) / count as f32).max(MIN_BIN_WIDTH);
+            let [low, high] = range(axes.iter().map(|colour| colour[axis]));
+            let step = ((high - low) / count as f32).max(2.0 * COLOUR_NOISE as f32);
             for (bin, colour) in bins.iter_mut().zip(&axes) {
                 let place = ((colour[axis] - low) / step).clamp(0.0, (count - 1) as f32);
                 *bin = *bin * count as u16 + place as u16;
@@ -70,10 +56,11 @@ impl ColourModel {
         }
     }
 
-    /// Counts the relative frequency of each colour bin among some pixels, smoothed over neighbouring bins.
+    /// Counts the relative frequency of each colour bin among some pixels, smoothed over neighbouring bins. Each bin has one
+    /// pixel more, so that colours that were not observed decide nothing.
     fn histogram(&self, pixels: impl Iterator<Item = usize>) -> Vec<f32> {
         let [n, m, k] = BINS_PER_COMPONENT;
-        let mut counts = vec![0.0_f32; n * m * k];
+        let mut counts = vec![1.0_f32; n * m * k];
         pixels.for_each(|i| counts[usize::from(self.bins[i])] += 1.0);
         for (stride, length) in [(m * k, n), (k, m), (1, k)] {
             let before = counts.clone();
@@ -88,9 +75,8 @@ impl ColourModel {
                 *count = 0.25 * (lower + 2.0 * before[i] + upper);
             }
         }
-        let floor = UNIFORM_SHARE / counts.len() as f32;
-        let norm = 1.0 / counts.iter().sum::<f32>().max(1.0);
-        counts.iter().map(|count| count * norm + floor).collect()
+        let norm = 1.0 / counts.iter().sum::<f32>();
+        counts.iter().map(|count| count * norm).collect()
     }
 
     /// Returns the mask of the pixels whose colour is more frequent among the `page` pixels than among the `ground`
@@ -111,21 +97,9 @@ impl ColourModel {
         plane.iter().map(|share| *share > 0.5).collect()
     }
 
-    /// Refines a mask of the page: counts the colours inside and outside of it, classifies all pixels by these
-    /// histograms, and repeats that until the mask stays as it is.
-    pub fn refine(&self, mut mask: Vec<bool>) -> Vec<bool> {
-        for _ in 0..HISTOGRAM_ROUNDS {
-            let pixels = |inside: bool| {
-                let mask = &mask;
-                (0..mask.len()).filter(move |i| mask[*i] == inside)
-            };
-            let next = self.classify(pixels(true), pixels(false));
-            let unchanged = next == mask;
-            mask = next;
-            if unchanged {
-                break;
-            }
-        }
-        mask
+    /// Refines a mask of the page: counts the colours inside and outside of it, and classifies all pixels by these histograms.
+    pub fn refine(&self, mask: &[bool]) -> Vec<bool> {
+        let pixels = |inside: bool| (0..mask.len()).filter(move |i| mask[*i] == inside);
+        self.classify(pixels(true), pixels(false))
     }
 }

@@ -5,14 +5,11 @@ use super::corners::{corner, end_at};
 use super::edge_path::EdgePath;
 use super::planes::Planes;
 use super::region::regions;
-use super::search::MIN_PHOTO_SIDE_PIXELS;
+use super::search::{MIN_PHOTO_SIDE_PIXELS, SAME_CORNER_SHARE};
 use super::tracing::{MIN_VISIBLE_SHARE, Views, thinned};
 use crate::dewarp::Photo;
 use crate::math::planar::{distance, polygon_contains, polyline_length};
 use crate::page::edges::{Edges, Trace};
-
-/// Maximum distance of a page's border from the given end of its edge, as a share of the photo's longer side.
-const MAX_END_DISTANCE_SHARE: f64 = 0.03;
 
 /// Maximum length of an edge, as a multiple of the distance between its ends: a half circle has 1.57.
 const MAX_EDGE_LENGTH_RATIO: f64 = 1.57;
@@ -94,7 +91,7 @@ fn page_borders(
         (0..half.len()).filter(move |i| is_inside[*i] == inside)
     };
     let first = model.classify(pixels(true), pixels(false));
-    let refined = model.refine(first.clone());
+    let refined = model.refine(&first);
     [first, refined].into_iter().filter_map(move |mask| {
         let largest = (regions(&mask, width, 1).into_iter()).max_by_key(|region| region.area)?;
         let border = largest.border(width).into_iter();
@@ -138,7 +135,7 @@ fn quadrilateral(page: &Edges) -> [[f64; 2]; 4] {
 
 /// Maximum distance of a page's border from a given end of its edge, in pixels of the reduced photo.
 fn end_tolerance(views: &Views) -> f64 {
-    MAX_END_DISTANCE_SHARE * views.raw.longer_side()
+    SAME_CORNER_SHARE * views.raw.longer_side()
 }
 
 /// Finds the clearest edge between two ends, clockwise around the page: beside the straight line, or beside a border that

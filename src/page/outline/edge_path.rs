@@ -1,7 +1,7 @@
 //! Edges of a page with subpixel accuracy: the path of strongest contrast in a band along a region's border.
 
 use super::corners::is_outside;
-use super::planes::Planes;
+use super::planes::{Planes, RIM_PIXELS};
 use super::smooth_curve::piecewise_smooth;
 use crate::math::planar::distance;
 
@@ -33,12 +33,6 @@ const WEAK_CONTRAST: f32 = 0.15;
 
 /// Minimum difference of logarithmic colour across an edge of a page that counts as visible: 4 % of the light.
 const MIN_EDGE_CONTRAST: f32 = 0.04;
-
-/// Minimum distance of a page's edge from the photo's rim, in pixels, at which the background beside it is visible.
-const MIN_SIDE_PIXELS: f64 = 1.5;
-
-/// Minimum number of points of a region's border along which a page's edge is searched.
-const MIN_BORDER_POINTS: usize = 24;
 
 /// Difference of logarithmic colour across an edge of a page at which the edge's contrast has a score of one half.
 const HALF_SCORE_CONTRAST: f64 = 0.25;
@@ -216,7 +210,7 @@ impl EdgePath {
             &resampled(border),
             BORDER_SMOOTHING_LENGTH,
         ));
-        if border.len() < MIN_BORDER_POINTS {
+        if border.len() <= 2 * SMOOTHING_LENGTH {
             return None;
         }
         let normals = inward_normals(&border);
@@ -239,7 +233,7 @@ impl EdgePath {
                 };
                 let offset = k as f64 + shift - PROFILE_MIDDLE as f64;
                 let at = |offset: f64| [0, 1].map(|j| border[i][j] + offset * normals[i][j]);
-                if !is_outside(at(offset - MIN_SIDE_PIXELS), size, 0.0) {
+                if !is_outside(at(offset - RIM_PIXELS), size, 0.0) {
                     let profile = &clean.profiles[i];
                     contrasts.push(difference(
                         mean_colour(profile[k - BAND_MARGIN..k].iter()),

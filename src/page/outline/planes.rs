@@ -15,6 +15,10 @@ pub(in crate::page) const LOG_OFFSET: f32 = 8.0;
 /// under coloured light a component is nearly black, and its logarithm would be noise.
 const LARGEST_COMPONENT_SHARE: f64 = 0.3;
 
+/// Distance from the photo's rim, in pixels of a reduced photo, within which what is beside an edge is not seen, and a region's
+/// border may be the rim itself.
+pub(super) const RIM_PIXELS: f64 = 1.5;
+
 /// A reduced photo as three planes of one size: logarithms of red, green and blue, in which a change of the light adds
 /// a constant.
 #[derive(Clone)]

@@ -1,5 +1,6 @@
 //! Quadrilaterals of regions in a mask: four corners on a region's border, and a score of how much it is like a page.
 
+use super::planes::RIM_PIXELS;
 use super::region::Region;
 use crate::math::planar::{cross, distance, orientation, polygon_area, polyline_length};
 use crate::page::text::ranking::ranked;
@@ -7,10 +8,6 @@ use crate::page::text::ranking::ranked;
 /// Maximum number of convex hull vertices among which a page's four corners are searched; the cost is the third power
 /// of this.
 const MAX_HULL_VERTICES: usize = 64;
-
-/// Distance from the photo's rim, in pixels, within which a border pixel may be the rim itself and not an edge of the
-/// page.
-const RIM_PIXELS: f64 = 1.0;
 
 /// The border of a region in a mask, divided by four corners, clockwise.
 pub(super) struct Quadrilateral {
@@ -90,7 +87,7 @@ fn largest_quadrilateral(polygon: &[[f64; 2]]) -> Option<[usize; 4]> {
     best.1
 }
 
-/// Whether a point lies on the rim of an image of size `[width, height]`, to within one pixel.
+/// Whether a point lies on the rim of an image of size `[width, height]`.
 pub(super) fn is_at_rim([x, y]: [f64; 2], [width, height]: [usize; 2]) -> bool {
     x.min(y) <= RIM_PIXELS
         || x >= width as f64 - 1.0 - RIM_PIXELS

@@ -21,18 +21,15 @@ const MIN_PAGE_SHARE: f64 = 0.05;
 /// Maximum number of candidate regions whose edges are traced.
 const MAX_TRACED_CANDIDATES: usize = 6;
 
-/// Distance, as a share of the photo's longer side, up to which the corners of two candidates count as equal, so that
-/// only the better candidate is kept.
-const SAME_CORNER_SHARE: f64 = 0.03;
+/// Distance, as a share of the photo's longer side, up to which two corners count as equal: of two candidates with the same
+/// corners only the better one is kept.
+pub(super) const SAME_CORNER_SHARE: f64 = 0.03;
 
-/// Minimum score, from 0 to 1, of an outline for the verdict `Found`.
+/// Minimum score, from 0 to 1, of an outline for the verdict `Found`, and of a further page in the photo.
 const MIN_FOUND_SCORE: f64 = 0.45;
 
 /// Minimum score, from 0 to 1, of an outline for the verdict `Doubtful`; below it no page was found.
 const MIN_DOUBTFUL_SCORE: f64 = 0.3;
-
-/// Minimum score of a further page in the photo, as a share of the best one's score.
-const MIN_SECOND_SCORE_RATIO: f64 = 0.7;
 
 /// Whether two quadrilaterals have equal corners up to a distance `tolerance`; both are clockwise, from any corner on.
 fn are_same(one: &[[f64; 2]; 4], other: &[[f64; 2]; 4], tolerance: f64) -> bool {
@@ -168,7 +165,7 @@ fn report(mut outlines: Vec<PageOutline>) -> OutlineReport {
     outlines.retain(|other| {
         std::mem::take(&mut first)
             || (verdict != OutlineVerdict::NotFound
-                && other.score >= MIN_SECOND_SCORE_RATIO * score
+                && other.score >= MIN_FOUND_SCORE
                 && are_apart(&corners, &other.corners))
     });
     OutlineReport {

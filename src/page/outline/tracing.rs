@@ -5,7 +5,7 @@ use super::edge_path::EdgePath;
 use super::morphology::closed;
 use super::outline_report::{OutlineReason, PageOutline};
 use super::planes::Planes;
-use super::quadrilateral::{is_at_rim, rectangularity};
+use super::quadrilateral::is_at_rim;
 use crate::dewarp::Photo;
 use crate::math::planar::distance;
 
@@ -28,9 +28,6 @@ const MAX_OUTSIDE_SHARE: f64 = 0.01;
 
 /// Minimum share of an edge's points that lie on the photo's rim, next to a corner, for the corner to count as cut off.
 const CUT_LENGTH_SHARE: f64 = 0.02;
-
-/// Minimum rectangularity of a page's corners, from 0 to 1; below it the shape is reported as unlikely.
-const MIN_RECTANGULARITY: f64 = 0.45;
 
 /// Spacing of the points of a traced edge, in pixels of the reduced photo.
 const POINT_DISTANCE: usize = 3;
@@ -144,8 +141,7 @@ pub(super) fn traced(
     if visible_edges < 4 {
         reasons.push(OutlineReason::EdgeOutside);
     }
-    let shape = rectangularity(&corners);
-    if shape < MIN_RECTANGULARITY || !is_convex(&corners) {
+    if !is_convex(&corners) {
         reasons.push(OutlineReason::UnlikelyShape);
     }
     let support = (paths.iter())

@@ -2,8 +2,8 @@
 
 use developable::dewarp::{Photo, Verdict};
 use developable::page::{
-    Edges, OutlineReason, OutlineReport, OutlineVerdict, PageOutline, Trace, find_outline,
-    trace_edges,
+    Edges, Format, OutlineReason, OutlineReport, OutlineVerdict, PageOptions, PageOutline,
+    PageSurface, Trace, find_outline, trace_edges,
 };
 use oorandom::Rand64;
 
@@ -402,6 +402,39 @@ fn a_wide_page_is_not_turned_by_its_print() {
         if is_text { [50.0; 3] } else { PAPER }
     };
     check("card", &photo(pages(&[card], words, wood), even), &card);
+}
+
+/// Corners in the photo of a sheet of A4 on a table that a camera looks at from 30° above it: seen from its lower edge, and seen
+/// from its left one.
+fn foreshortened() -> [Corners; 2] {
+    [[210.0, 297.0], [297.0, 210.0]].map(|[width, height]| {
+        let (sin, cos) = 60.0_f64.to_radians().sin_cos();
+        let seen = |x: f64, y: f64| {
+            let depth = 380.0 - sin * y;
+            [600.0 + 1080.0 * x / depth, 500.0 + 1080.0 * cos * y / depth]
+        };
+        let (x, y) = (0.5 * width, 0.5 * height);
+        [seen(-x, -y), seen(x, -y), seen(x, y), seen(-x, y)]
+    })
+}
+
+#[test]
+fn perspective_neither_turns_a_page_nor_stretches_it() {
+    let [upright, mut sideways] = foreshortened();
+    sideways.rotate_left(1);
+    for corners in [upright, sideways] {
+        let rgba = photo(pages(&[corners], letter, wood), even);
+        let report = found(&rgba);
+        let error = corner_error(&report.pages[0], &corners);
+        assert!(error < 4.0, "{error} {corners:?}");
+        let edges = [report.pages[0].to_edges()];
+        let photo = Photo::new(SIZE[0], SIZE[1], &rgba).unwrap();
+        let options = PageOptions::default().format(Format::A4);
+        let [width, height] = PageSurface::in_photo(&edges, &[], &photo, &options)
+            .unwrap()
+            .flat_size();
+        assert!((width - 210.0).abs() < 1.0 && (height - 297.0).abs() < 1.0);
+    }
 }
 
 /// A page that is folded in thirds, so that its outline is far from a rectangle.

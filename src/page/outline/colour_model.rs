@@ -11,6 +11,7 @@ pub(super) const COLOUR_NOISE: f64 = 0.01;
 
 /// Radius, in pixels of the reduced photo at half resolution, of the square over which the probability of being page is
 /// averaged.
+/// Its row: `benches/page.md`, Constants of the outline.
 const SMOOTHING_RADIUS: usize = 2;
 
 /// Colours of a photo's pixels as numbers of histogram bins, by which page and background are told apart.

@@ -3,30 +3,39 @@
 use crate::math::planar::{cross, distance, line_intersection, polyline_length};
 
 /// Share of an edge's points next to a corner that is left out, because paper is worn and bent there.
+/// Its row: `benches/page.md`, Constants of the outline.
 const WORN_END_SHARE: f64 = 0.015;
 
 /// Share of an edge's points from which its direction near a corner is fitted.
+/// Its row: `benches/page.md`, Constants of the outline.
 const END_LENGTH_SHARE: f64 = 0.08;
 
 /// Share of an edge's points from which its direction is fitted where the photo's rim cuts the edge off.
 const CUT_END_LENGTH_SHARE: f64 = 0.2;
 
+/// Minimum number of points at an edge's end to which a line is fitted.
+const MIN_END_POINTS: usize = 6;
+
 /// Maximum distance between the end of an edge and the corner that is found for it within the photo, as a share of the
 /// edge's length.
+/// Its row: `benches/page.md`, Constants of the outline.
 const MAX_CORNER_SHIFT: f64 = 0.06;
 
 /// Maximum distance between the end of an edge and an extrapolated corner outside of the photo, as a share of the
 /// edge's length.
 const MAX_EXTRAPOLATION: f64 = 0.6;
 
+/// Minimum sine of the angle at which two edges are intersected in a corner.
+const MIN_CORNER_SINE: f64 = 0.3;
+
 /// Fits a straight line to the first points of an edge, which are the share `share` of all of them, without the worn
 /// ones at the end; returns two points on it. None if the points are too few.
 fn end_line(edge: &[[f64; 2]], share: f64) -> Option<[[f64; 2]; 2]> {
     let n = edge.len();
     let skip = (n as f64 * WORN_END_SHARE) as usize;
-    let take = (n as f64 * share) as usize;
+    let take = ((n as f64 * share) as usize).max(MIN_END_POINTS);
     let end = edge.get(skip..(skip + take).min(n))?;
-    if end.len() < 2 {
+    if end.len() < MIN_END_POINTS {
         return None;
     }
     let mean = [0, 1].map(|k| end.iter().map(|p| p[k]).sum::<f64>() / end.len() as f64);
@@ -65,7 +74,7 @@ pub(super) fn is_outside(point: [f64; 2], size: [usize; 2], distance: f64) -> bo
 /// Intersects two edges' extensions: straight lines fitted to the first share `end` of their points. None if the
 /// intersection is further from either edge's start than the share `shift` of its length.
 fn meeting(one: &[[f64; 2]], other: &[[f64; 2]], end: f64, shift: f64) -> Option<[f64; 2]> {
-    let point = line_intersection(end_line(one, end)?, end_line(other, end)?, 0.0)?;
+    let point = line_intersection(end_line(one, end)?, end_line(other, end)?, MIN_CORNER_SINE)?;
     let near = |edge: &[[f64; 2]]| distance(edge[0], point) <= shift * polyline_length(edge);
     (near(one) && near(other)).then_some(point)
 }

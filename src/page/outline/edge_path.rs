@@ -21,14 +21,17 @@ const SMOOTHING_LENGTH: usize = 8;
 const EDGE_SMOOTHING_LENGTH: f64 = 8.0;
 
 /// Length, in pixels, of the bends of a region's border that are smoothed before the page's edge is searched beside it.
+/// Its row: `benches/page.md`, Constants of the outline.
 const BORDER_SMOOTHING_LENGTH: f64 = 25.0;
 
 /// Cost of a sideways step by one pixel in the search for a page's edge, where full contrast earns 1 for each pixel of
 /// length.
+/// Its row: `benches/page.md`, Constants of the outline.
 const STEP_COST: f32 = 0.15;
 
 /// Difference of logarithmic colour between paper and background at which contrast in their direction and contrast of
 /// any colour have equal weight; below it the latter weighs more.
+/// Its row: `benches/page.md`, Constants of the outline.
 const WEAK_CONTRAST: f32 = 0.15;
 
 /// Minimum difference of logarithmic colour across an edge of a page that counts as visible: 4 % of the light.

@@ -9,13 +9,15 @@ const MAX_REDUCED_SIDE: usize = 800;
 
 /// Number added to a colour component (0 to 255) before its logarithm is taken, so that noise of dark pixels counts
 /// little.
+/// Its row: `benches/page.md`, Constants of the outline.
 pub(in crate::page) const LOG_OFFSET: f32 = 8.0;
 
 /// Share of a pixel's largest colour component that is added to each of its components before the logarithm is taken:
 /// under coloured light a component is nearly black, and its logarithm would be noise.
+/// Its row: `benches/page.md`, Constants of the outline.
 const LARGEST_COMPONENT_SHARE: f64 = 0.3;
 
-/// Distance from the photo's rim, in pixels of a reduced photo, within which what is beside an edge is not seen, and a region's
+/// Distance from the rim, in pixels of a reduced photo, within which what is beside an edge is not seen, and a region's
 /// border may be the rim itself.
 pub(super) const RIM_PIXELS: f64 = 1.5;
 

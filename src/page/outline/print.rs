@@ -6,6 +6,7 @@ use crate::math::planar::polygon_contains;
 
 /// Minimum difference of logarithmic colour between a pixel and the same pixel with print suppressed for it to count as
 /// print.
+/// Its row: `benches/page.md`, Constants of the outline.
 const MIN_PRINT_CONTRAST: f32 = 0.1;
 
 /// Half the side, in pixels of the reduced photo, of the square over which the structure tensor is averaged: a few letters.

@@ -5,7 +5,7 @@
 use std::f64::consts::{FRAC_PI_2, PI};
 
 use super::morphology::{box_mean, vertical_mean};
-use super::planes::{Planes, RIM_PIXELS};
+use super::planes::Planes;
 use super::print::Print;
 use super::quadrilateral::rectangularity;
 use crate::math::planar::polygon_area;
@@ -58,6 +58,9 @@ const BEYOND_CORNER_SHARE: f64 = 0.12;
 /// Penalty of an edge that continues with full strength beyond a corner, as do joints of tiles and folds of a page; from 0 to
 /// 1.
 const BEYOND_CORNER_PENALTY: f64 = 0.8;
+
+/// Distance from the photo's rim, in pixels, within which no contrast is measured.
+const RIM_PIXELS: f64 = 2.0;
 
 /// An outline: four arcs, clockwise, in pixels of the reduced photo.
 pub(super) type Arcs = [Vec<[f64; 2]>; 4];

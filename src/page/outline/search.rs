@@ -23,6 +23,7 @@ const MAX_TRACED_CANDIDATES: usize = 6;
 
 /// Distance, as a share of the photo's longer side, up to which two corners count as equal: of two candidates with the same
 /// corners only the better one is kept.
+/// Its row: `benches/page.md`, Constants of the outline.
 pub(super) const SAME_CORNER_SHARE: f64 = 0.03;
 
 /// Minimum score, from 0 to 1, of an outline for the verdict `Found`, and of a further page in the photo.

@@ -3,15 +3,8 @@
 use super::noise::Noise;
 use super::residual::Residual;
 
-/// Minimum square of the lost shape's part of the residual at which λ is raised on a coarse lattice, in squares of the noise.
-const MIN_COARSE_LOSS: f64 = 0.3;
-
-/// Minimum square of the lost shape's part of the residual at which a solve at full size is made again with a larger λ, in
-/// squares of the noise.
-const MIN_FULL_LOSS: f64 = 1.0;
-
-/// Autocorrelation that the residual of noise shows by chance.
-const AUTOCORRELATION_ERROR: f64 = 0.06;
+/// Minimum square of the lost shape's part of the residual at which λ is raised, in squares of the noise.
+const MIN_LOSS: f64 = 1.0;
 
 /// Range of the factors by which λ is raised at once: at least so much that a solve more is worth its cost, at most so much
 /// that a warm start is still of use.
@@ -103,7 +96,7 @@ impl Refinement {
     /// smaller than the noise, it was followed; where those that hang together are larger than most, or residuals far apart
     /// are alike, a shape was lost. The sum of both squares is the surface's error.
     fn next_for_noise(&mut self, lambda: f64, residual: Residual) -> Next {
-        let alike = (residual.autocorrelation - self.correlation - AUTOCORRELATION_ERROR).max(0.0);
+        let alike = (residual.autocorrelation - self.correlation).max(0.0);
         let noisy = (1.0 - alike).sqrt() * residual.bulk.min(residual.rms);
         let level = *self.level.get_or_insert(noisy.min(1.0));
         let lost = residual.rms.powi(2) - noisy.min(level).powi(2);
@@ -115,12 +108,7 @@ impl Refinement {
         }
         self.best = Some((lambda, risk));
         let [least, most] = LAMBDA_RAISE_FACTORS;
-        let least_lost = if self.spacings == 1.0 {
-            MIN_FULL_LOSS
-        } else {
-            MIN_COARSE_LOSS
-        };
-        let is_lost = lost > least_lost * level.powi(2);
+        let is_lost = lost > MIN_LOSS * level.powi(2);
         match is_lost && self.solves < self.max_solves {
             true => Next::Solve(lambda * (residual.rms / level).powi(2).clamp(least, most)),
             false => Next::Keep(lambda),

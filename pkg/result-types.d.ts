@@ -1,6 +1,4 @@
-/**
- * Results of all calls. Made of the structures in `src/` and `wasm/` by `tools/types`. *The paper* is that in `option-types.d.ts`.
- */
+/** Results of all calls. Made of the structures in `src/` and `wasm/` by `tools/types`. *The paper* is that in `option-types.d.ts`. */
 
 /**
  * Curvatures of a surface at the vertices of its hexagonal lattice (as in `Heightfield`), row by row and NaN where

@@ -14,7 +14,7 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 /// First line of the file of types.
-const TYPES_HEAD: &str = "/**\n * Results of all calls. Made of the structures in `src/` and `wasm/` by `tools/types`. *The paper* is that in `option-types.d.ts`.\n */\n";
+const TYPES_HEAD: &str = "/** Results of all calls. Made of the structures in `src/` and `wasm/` by `tools/types`. *The paper* is that in `option-types.d.ts`. */\n";
 
 /// First line of the file of names.
 const NAMES_HEAD: &str = "/** Names that options may have as their values. Made of the enumerations in `src/` by `tools/types`. */\n";

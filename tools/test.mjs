@@ -4,7 +4,6 @@
  */
 import { compileWasm } from './build/wasm.mjs';
 import { setupTests } from './setup.mjs';
-import { keepingOutput } from './util/output.mjs';
 import { main, Problem, describe } from './util/problem.mjs';
 import { steps } from './test/steps.mjs';
 import { Skip } from './test/step.mjs';
@@ -18,37 +17,25 @@ await main(async () => {
   if (chosen.length === 0) {
     throw new Problem(`No test has such a name: there are ${among.map(({ name }) => name).join(', ')}.`);
   }
+  console.log(`${chosen.length} steps: about ${duration(total(chosen))} on two idle cores after \`npm start\`, longer where more is to be compiled.`);
   // The tools and the wasm are compiled side by side.
   const compile = chosen.some(({ name }) => name === 'build') ? compileWasm : undefined;
   const context = await timed('Set-up', () => setupTests(compile));
 
-  // Compilers and browsers leave a core idle by turns.
-  const lanes = ['cargo', 'node'].map((name) => chosen.filter(({ lane }) => lane === name)).filter(({ length }) => length > 0);
-  const outcomes = await Promise.all(lanes.map((lane) => done(lane, context, lanes.length > 1)));
-  summary(outcomes.flat());
-});
-
-/**
- * Does steps one after the other, and shows what each prints: at its end if there are steps beside it.
- * @param {readonly import('./test/step.mjs').Step[]} lane
- * @param {import('./test/step.mjs').Context} context
- * @param {boolean} isOneOfSeveral
- */
-async function done(lane, context, isOneOfSeveral) {
+  /** @type {Map<import('./test/step.mjs').Step, ReturnType<typeof attempt>>} */
+  const begun = new Map(chosen.filter(({ early }) => early).map((step) => [step, attempt(() => step.run(context))]));
   /** @type {Outcome[]} */
   const outcomes = [];
-  for (const step of lane) {
+  for (const step of chosen) {
     const start = performance.now();
-    heading(`${step.name}: ${step.what} (about ${step.seconds} s if nothing runs beside it)`);
-    const work = () => attempt(() => step.run(context));
-    const [outcome, printed] = isOneOfSeveral ? await keepingOutput(work) : [await work(), ''];
+    heading(`${step.name}: ${step.what} (about ${duration(step.seconds)})`);
+    const outcome = await (begun.get(step) ?? attempt(() => step.run(context)));
     const seconds = (performance.now() - start) / 1000;
-    if (printed) console.log(`\n=== What ${step.name} printed\n${printed}`);
-    console.log(`${step.name} ${outcome.state} in ${seconds.toFixed(1)} s${outcome.remark && `: ${outcome.remark}`}`);
+    console.log(`${outcome.state} in ${seconds.toFixed(1)} s${outcome.remark && `: ${outcome.remark}`}`);
     outcomes.push({ name: step.name, seconds, ...outcome });
   }
-  return outcomes;
-}
+  summary(outcomes);
+});
 
 /**
  * @param {() => Promise<void>} test
@@ -76,6 +63,16 @@ async function timed(what, work) {
   const result = await work();
   console.log(`done in ${((performance.now() - start) / 1000).toFixed(1)} s`);
   return result;
+}
+
+/** @param {readonly import('./test/step.mjs').Step[]} chosen */
+function total(chosen) {
+  return chosen.reduce((sum, { seconds }) => sum + seconds, 0);
+}
+
+/** @param {number} seconds */
+function duration(seconds) {
+  return seconds < 100 ? `${seconds} s` : `${Math.ceil(seconds / 60)} minutes`;
 }
 
 /** @param {string} text */

@@ -2,7 +2,6 @@
 import { join } from 'node:path';
 import { fileURLToPath } from 'node:url';
 import { native } from '../util/env.mjs';
-import { print } from '../util/output.mjs';
 import { root } from '../util/paths.mjs';
 import { Problem } from '../util/problem.mjs';
 import { run } from '../util/process.mjs';
@@ -32,7 +31,7 @@ const limit = 15 * 60;
 export async function buildNative() {
   const manifest = join(root, 'benches/Cargo.toml');
   const args = ['build', '--release', '--manifest-path', manifest, '--target-dir', target];
-  const { ok, failure } = await run('cargo', args, { env: native, cwd: root, show: print });
+  const { ok, failure } = await run('cargo', args, { env: native, cwd: root, show: true });
   if (!ok) throw new Problem(`The native benchmark was not built (${failure}): see what cargo says above.`);
 }
 

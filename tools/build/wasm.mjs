@@ -6,7 +6,6 @@ import { availableParallelism } from 'node:os';
 import { join } from 'node:path';
 import { gzipSync } from 'node:zlib';
 import { target } from '../setup/wasm-target.mjs';
-import { print } from '../util/output.mjs';
 import { pkg, pkgWasm, root } from '../util/paths.mjs';
 import { Problem } from '../util/problem.mjs';
 import { run } from '../util/process.mjs';
@@ -200,6 +199,6 @@ export async function checkSize(folder, name, limit) {
  * @param {Env} env
  */
 export async function must(command, args, env) {
-  const { ok, failure } = await run(command, args, { env, cwd: root, show: print });
+  const { ok, failure } = await run(command, args, { env, cwd: root, show: true });
   if (!ok) throw new Problem(`The build stopped (${failure}): see what ${command} says above.`);
 }

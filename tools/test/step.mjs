@@ -1,5 +1,4 @@
 /** What a test step is, and running programs in one. */
-import { print } from '../util/output.mjs';
 import { root } from '../util/paths.mjs';
 import { Problem } from '../util/problem.mjs';
 import { run } from '../util/process.mjs';
@@ -19,7 +18,7 @@ import { run } from '../util/process.mjs';
  * @property {string} what
  * @property {number} seconds that it takes on two idle cores, about
  * @property {boolean} [quick] it is among the few of `npm test -- --quick`
- * @property {'cargo' | 'node'} lane steps of one lane are done one after the other, as cargo would have it, beside those of the other
+ * @property {boolean} [early] it begins with the first step, for it leaves a core idle most of the time
  * @property {(context: Context) => Promise<void>} run throws where something is wrong
  */
 
@@ -38,7 +37,7 @@ const limit = 45 * 60;
 export async function check(command, args, env) {
   const colours = process.stdout.isTTY ? { CARGO_TERM_COLOR: 'always', FORCE_COLOR: '1' } : {};
   const { ok, output, failure } = await run(command, args, {
-    env: { ...env, ...colours }, cwd: root, show: print, limit,
+    env: { ...env, ...colours }, cwd: root, show: true, limit,
   });
   if (!ok) throw new Problem(`${[command, ...args].join(' ').slice(0, 70)}: ${failure}`);
   return output;

@@ -8,7 +8,7 @@ import { spawn } from 'node:child_process';
  * @property {Env} [env] default: this process's own
  * @property {string} [cwd]
  * @property {number} [limit] seconds after which the program is ended
- * @property {(text: string) => void} [show] gets the output while it is captured
+ * @property {boolean} [show] passes the output on while it is captured
  */
 
 /**
@@ -52,7 +52,7 @@ for (const [signal, status] of signals) {
  * @param {Options} [options]
  * @returns {Promise<Result>}
  */
-export function run(command, args, { env = process.env, cwd, limit, show } = {}) {
+export function run(command, args, { env = process.env, cwd, limit, show = false } = {}) {
   return new Promise((resolve) => {
     const child = spawn(command, args, {
       env, cwd, detached: groups, windowsHide: true, stdio: ['ignore', 'pipe', 'pipe'],
@@ -66,11 +66,13 @@ export function run(command, args, { env = process.env, cwd, limit, show } = {})
       setTimeout(() => end(child, 'SIGKILL'), 5000).unref();
     }, limit * 1000);
 
-    for (const from of [child.stdout, child.stderr]) {
+    /** @type {[import('node:stream').Readable, NodeJS.WriteStream][]} */
+    const streams = [[child.stdout, process.stdout], [child.stderr, process.stderr]];
+    for (const [from, to] of streams) {
       from.setEncoding('utf8');
       from.on('data', (text) => {
         output += text;
-        show?.(text);
+        if (show) to.write(text);
       });
     }
 

@@ -1,6 +1,6 @@
 /**
  * Error codes. Those of the Rust crate (`Error::code`):
- * - `EMPTY`: there is no height;
+ * - `EMPTY`: heights or a picture have no values;
  * - `SHAPE`: an array is not as long as rows and columns say;
  * - `NOT_FINITE`: a number is infinite or NaN where none may be;
  * - `NO_INTERIOR`: no vertex has heights all around it;
@@ -14,7 +14,7 @@
  * - `NOT_FLAT`: a part of a surface that no cut lays flat within the limits of a pattern;
  * - `OPTION`: an option is unknown, of the wrong type or out of range;
  * - `FORMAT`: a file is damaged, or of another format;
- * - `UNSUPPORTED`: a file or a wish is valid, and cannot be read or done;
+ * - `UNSUPPORTED`: a file or a request is valid, but not supported;
  * - `OUT_OF_MEMORY`.
  *
  * Those of the JS side:

@@ -655,8 +655,8 @@ export interface LambdaChoice {
    */
   correlationLength: number;
   /**
-   * Whether the noise is correlated over distances at which the shape bends, too, so that noise and shape could not be
-   * told apart: σ and λ are uncertain.
+   * Whether the noise is correlated and larger than 3.5 % of the height range, as the shape of a terrain looks too, so
+   * that noise and shape cannot be told apart: σ and λ are uncertain.
    */
   ambiguous: boolean;
   /**
@@ -910,8 +910,8 @@ export interface MeshUnrollingReport {
  */
 export interface MissingSurface {
   /**
-   * Number of vertices that were left out of the pattern because they do not lie flat together with any neighbouring
-   * part, mostly at ragged steep borders and torn tips, or are on sheets of less than a thousandth of the area.
+   * Number of vertices that were left out of the pattern because they do not lie flat and are too few to be cut
+   * further, mostly at ragged steep borders and torn tips, or are on sheets of less than a thousandth of the area.
    */
   vertices: number;
   /** Area around the vertices that were left out, in the surface's units squared. */

@@ -348,8 +348,8 @@ pub fn check_count(what: &'static str, rows: usize, cols: usize, found: usize) -
     })
 }
 
-/// Makes a vector of `len` copies of `value`, or returns [`Error::OutOfMemory`] if it cannot be allocated. `what` names
-/// the array.
+/// Makes a vector of `len` copies of `value`, or returns [`Error::OutOfMemory`] if there is no room for it. `what` names
+/// the array. Where another thread takes the room meanwhile, the process aborts.
 pub fn try_filled<T: Clone>(what: &'static str, len: usize, value: T) -> Result<Vec<T>> {
     // Whether there is room is asked first, so that `vec!` may take memory that the system has cleared: threads touch
     // its pages when they first write there, side by side, instead of one thread here.

@@ -105,7 +105,7 @@ const FOREIGN_FORMATS: [(&str, &str, &[&[u8]]); 56] = [
     ("Gmsh", SAVE_AS_STL, &[b"$MeshFormat"]),
     ("Medit", SAVE_AS_STL, &[b"MeshVersionFormatted"]),
     ("Nastran", SAVE_AS_STL, &[b"BEGIN BULK", b"SOL ", b"CEND", b"NASTRAN ", b"$ Nastran", b"GRID "]),
-    ("Abaqus", SAVE_AS_STL, &[b"*HEADING", b"*Heading", b"*heading", b"*NODE", b"*Node", b"*node", b"** "]),
+    ("Abaqus", "let FreeCAD save its mesh as STL", &[b"*HEADING", b"*Heading", b"*heading", b"*NODE", b"*Node", b"*node", b"** "]),
     ("Collada", SAVE_AS_GLB, &[b"<COLLADA"]),
     ("FBX", SAVE_AS_GLB, &[b"Kaydara FBX", b"; FBX"]),
     ("Blender's own format", SAVE_AS_GLB, &[b"BLENDER"]),
@@ -171,7 +171,7 @@ pub(super) fn refused(bytes: &[u8], purpose: Purpose) -> Error {
     if bytes.is_empty() {
         return damaged(wanted, "the file is empty");
     }
-    let image = Format::detect(bytes);
+    let image = image_format(bytes);
     let (name, advice) = if let Some(mesh) = mesh_format(bytes, image) {
         let advice = format!(
             "it is a {}: read it as one, by a name that ends in .{}",
@@ -210,6 +210,11 @@ pub(super) fn refused(bytes: &[u8], purpose: Purpose) -> Error {
     unsupported(name, format!("{advice}; {formats}"))
 }
 
+/// Detects the format of an image of heights or of a photo. Text of a format that is not read is no matrix, whatever numbers it has.
+fn image_format(bytes: &[u8]) -> Option<Format> {
+    Format::detect(bytes).filter(|found| *found != Format::Text || foreign(bytes).is_none())
+}
+
 /// Detects the format of a mesh file that has the signature of no image, whose format is `image`: text may be a matrix or a mesh.
 fn mesh_format(bytes: &[u8], image: Option<Format>) -> Option<MeshFormat> {
     let may_be_mesh = matches!(image, None | Some(Format::Text));
@@ -220,7 +225,7 @@ fn mesh_format(bytes: &[u8], image: Option<Format>) -> Option<MeshFormat> {
 /// for other files. Costs `O(bytes)`.
 #[cfg(feature = "formats")]
 pub fn format_name(bytes: &[u8]) -> Option<&'static str> {
-    let image = Format::detect(bytes);
+    let image = image_format(bytes);
     mesh_format(bytes, image)
         .map(MeshFormat::name)
         .or(image.map(Format::name))
@@ -234,7 +239,7 @@ pub fn format_name(bytes: &[u8]) -> Option<&'static str> {
 /// [`Error::Unsupported`] for a file of no known format.
 #[cfg(feature = "formats")]
 pub fn announced(bytes: &[u8], stated: Option<Format>) -> crate::Result<Format> {
-    let found = Format::detect(bytes);
+    let found = image_format(bytes);
     match stated {
         Some(stated) => stated.checked(found),
         None => found
@@ -314,7 +319,10 @@ mod tests {
             told(b"Dear Sir or Madam,", Purpose::Mesh)
                 .ends_with("meshes are read from OBJ, PLY, STL, glTF, GLB, 3MF, OFF and XYZ")
         );
-        assert!(told(b"*NODE\n1, 0, 0, 0\n", Purpose::Mesh).contains("let Gmsh save it as STL"));
+        assert!(
+            told(b"*NODE\n1, 0, 0, 0\n", Purpose::Mesh)
+                .contains("let FreeCAD save its mesh as STL")
+        );
         assert!(told(&[7; 100], Purpose::Photo).contains("of unknown format"));
         assert!(told(&[7; 100], Purpose::Heights).contains("gdal_translate"));
         assert_eq!(refused(b"", Purpose::Mesh).code(), "FORMAT");

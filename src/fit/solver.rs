@@ -20,7 +20,7 @@ use super::warm_start::WarmStart;
 use crate::error::Result;
 
 /// Largest distance of a surface to the heights, in standard deviations of their noise, that noise explains. Above it a part
-/// of the shape is lost (`benches/scenes.md`).
+/// of the shape is lost.
 const MAX_NOISE_DISTANCE: f64 = 1.3;
 
 /// Maximum number of solves at full size: λ is refined again where the coarse lattice was too coarse for the shape.

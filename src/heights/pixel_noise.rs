@@ -23,20 +23,25 @@ pub(crate) fn quantisation_step(heights: &[f64]) -> Option<f64> {
     let size = finite().fold(0.0f64, |size, z| size.max(z.abs()));
     let rounding = 16.0 * f64::EPSILON * size;
     let most = MAX_DISTINCT_HEIGHTS * finite().count() as f64;
-    let mut distinct = FxHashSet::default();
-    for z in finite() {
-        if distinct.insert((z / rounding).round() as i64) && distinct.len() as f64 > most {
-            return None;
-        }
-    }
-    let mut distinct: Vec<i64> = distinct.into_iter().collect();
-    distinct.sort_unstable();
-    // Heights that are equal but for rounding can be in two neighbouring classes.
-    distinct.dedup_by(|a, b| *a - *b <= 1);
-    if distinct.len() < MIN_QUANTISED_HEIGHTS {
+    if rounding == 0.0 {
         return None;
     }
-    let gaps = (distinct.windows(2)).map(|pair| (pair[1] - pair[0]) as f64 * rounding);
+    // Heights that are equal but for rounding can be in two neighbouring classes.
+    let (mut classes, mut distinct) = (FxHashSet::default(), Vec::new());
+    for z in finite() {
+        if classes.insert((z / rounding).round() as i64) {
+            distinct.push(z);
+            if distinct.len() as f64 > 2.0 * most {
+                return None;
+            }
+        }
+    }
+    distinct.sort_unstable_by(f64::total_cmp);
+    distinct.dedup_by(|a, b| *a - *b <= rounding);
+    if distinct.len() < MIN_QUANTISED_HEIGHTS || distinct.len() as f64 > most {
+        return None;
+    }
+    let gaps = distinct.windows(2).map(|pair| pair[1] - pair[0]);
     let step = gaps.clone().fold(f64::INFINITY, f64::min);
     let multiple =
         |gap: f64| (gap / step - (gap / step).round()).abs() <= EQUAL_HEIGHT_TOLERANCE * gap / step;
@@ -72,5 +77,39 @@ impl HeightImage {
             pixel_size: self.pixel_size(),
             step: quantisation_step(values),
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// As many heights as are needed for steps to be looked for, each several times.
+    fn repeated(values: impl Iterator<Item = f64> + Clone) -> Vec<f64> {
+        (0..6).flat_map(|_| values.clone()).collect()
+    }
+
+    #[test]
+    fn steps_are_found_as_they_are() {
+        for step in [1.0, 16.0, 0.25] {
+            let heights = repeated((500..900).map(|k| step * f64::from(k)));
+            assert_eq!(quantisation_step(&heights), Some(step));
+        }
+        let tenths = repeated((0..40).map(|k| 0.1 * f64::from(k) - 2.0));
+        let step = quantisation_step(&tenths).unwrap();
+        assert!((step - 0.1).abs() < 1e-12, "{step}");
+    }
+
+    #[test]
+    fn heights_without_steps_have_none() {
+        assert_eq!(quantisation_step(&[]), None);
+        assert_eq!(quantisation_step(&[f64::NAN; 40]), None);
+        assert_eq!(quantisation_step(&[3.0; 40]), None);
+        let tiny = repeated([-1e-310, 0.0, 1e-310, 2e-310].into_iter());
+        assert_eq!(quantisation_step(&tiny), None);
+        let uneven = repeated((0..40).map(|k| f64::from(k).sqrt()));
+        assert_eq!(quantisation_step(&uneven), None);
+        let different: Vec<f64> = (0..400).map(f64::from).collect();
+        assert_eq!(quantisation_step(&different), None);
     }
 }

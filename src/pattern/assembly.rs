@@ -86,6 +86,7 @@ pub(super) fn assemble_sheets(
             Settled::Opened(found) => wrong = found,
             Settled::Removable(part, removed) => {
                 parts.flat_patches = net.flat_patches;
+                parts.trims += 1;
                 parts.leave_out_vertices(part, removed)?;
                 return Ok(Assembly::Cut(Box::new(parts), Vec::new()));
             }
@@ -252,7 +253,11 @@ pub(super) fn draw_sheets(surface: &Heightfield, whole: &Assembled) -> Result<Pa
         let flat_patch = net.flat_patches[*patch as usize].as_ref();
         flat_patch.map(|flat_patch| {
             let motion = layout.motions[*patch as usize];
-            let places: Vec<Point> = flat_patch.places().iter().map(|p| motion.of(*p)).collect();
+            let places: Vec<Point> = flat_patch
+                .places()
+                .iter()
+                .map(|p| motion.apply(*p))
+                .collect();
             let own: Vec<[u32; 3]> = flat_patch.pieces().map(|(_, corners)| corners).collect();
             label_spot(*patch, &own, &places)
         })
@@ -262,7 +267,7 @@ pub(super) fn draw_sheets(surface: &Heightfield, whole: &Assembled) -> Result<Pa
         Seam {
             crease: seam.crease,
             patches: seam.patches,
-            direction: Direction::of(seam.rise > 0.0),
+            direction: Direction::from_ridge(seam.rise > 0.0),
             angle: patches.creases()[seam.crease].fold,
             slit: seam.smooth,
             torn: net.is_torn(number),

@@ -52,7 +52,7 @@ impl Tied {
                 continue;
             };
             let motion = layout.motions[*patch as usize];
-            places.extend(flat_patch.places().iter().map(|place| motion.of(*place)));
+            places.extend(flat_patch.places().iter().map(|place| motion.apply(*place)));
             let own = flat_patch.all_pieces().filter(|(piece, _)| piece.exists());
             pieces.extend(own.map(|(piece, corners)| (piece, corners.map(|v| first + v))));
         }

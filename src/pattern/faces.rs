@@ -49,7 +49,7 @@ pub(super) fn faces(
                         z
                     };
                     let place =
-                        layout.motions[*patch as usize].of(flat_patch.places()[corner as usize]);
+                        layout.motions[*patch as usize].apply(flat_patch.places()[corner as usize]);
                     faces.built.push([x, y, z]);
                     faces.flat.push([place.re, place.im]);
                 }

@@ -149,7 +149,13 @@ impl FlatMesh<'_> {
 
     fn runs(&self, line: &[u32], meeting: impl Fn(u32) -> Option<Meeting>) -> Vec<Run> {
         let n = line.len();
-        let key = |i: usize| (self.seam_of[line[i % n] as usize], self.patch(line[i % n]));
+        // A border past a fold is one run, so that it is smoothed as one line; of exact faces each side is a run.
+        let key = |i: usize| {
+            let side = line[i % n];
+            let seam = self.seam_of[side as usize];
+            let is_divided = seam != NO_INDEX || self.rounding > 0.0;
+            (seam, is_divided.then(|| self.patch(side)))
+        };
         let start = (0..n).find(|i| key(*i) != key(i + n - 1)).unwrap_or(0);
         let mut order: Vec<usize> = (start..start + n).collect();
         if start == 0 && key(0) == key(n - 1) && self.rounding > 0.0 {

@@ -16,7 +16,8 @@ impl Motion {
         shift: Point2::new(0.0, 0.0),
     };
 
-    pub(super) fn of(&self, place: Point2) -> Point2 {
+    /// Returns where the motion takes a point.
+    pub(super) fn apply(&self, place: Point2) -> Point2 {
         self.turn * place + self.shift
     }
 
@@ -25,7 +26,7 @@ impl Motion {
         let turn = next.turn * self.turn;
         Motion {
             turn: turn / turn.norm(),
-            shift: next.of(self.shift),
+            shift: next.apply(self.shift),
         }
     }
 

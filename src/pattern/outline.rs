@@ -46,7 +46,7 @@ impl Layout {
     pub(super) fn side(&self, net: &SeamGraph, seam: usize, side: usize) -> Vec<Point> {
         let motion = &self.motions[net.seams[seam].patches[side] as usize];
         let places = net.seams[seam].sides[side].iter();
-        places.map(|place| motion.of(*place)).collect()
+        places.map(|place| motion.apply(*place)).collect()
     }
 
     /// Finds the patches at a node that are connected to a given patch by folds at that node, including that patch;
@@ -89,7 +89,7 @@ impl Layout {
                 let [from, to] = [start, end].map(|node| self.family(net, node, *patch));
                 let place = from
                     .iter()
-                    .map(|p| self.motions[*p as usize].of(net.place(start, *p)));
+                    .map(|p| self.motions[*p as usize].apply(net.place(start, *p)));
                 let corner = Corner {
                     node: start,
                     place: place.sum::<Point>() / from.len() as f64,

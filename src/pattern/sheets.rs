@@ -26,8 +26,8 @@ pub struct Pattern {
 )]
 #[non_exhaustive]
 pub struct Missing {
-    /// Number of vertices that were left out of the pattern because they do not lie flat together with any neighbouring
-    /// part, mostly at ragged steep borders and torn tips, or are on sheets of less than a thousandth of the area.
+    /// Number of vertices that were left out of the pattern because they do not lie flat and are too few to be cut further,
+    /// mostly at ragged steep borders and torn tips, or are on sheets of less than a thousandth of the area.
     pub vertices: usize,
     /// Area around the vertices that were left out, in the surface's units squared.
     pub area: f64,
@@ -170,7 +170,7 @@ pub enum Direction {
 
 impl Direction {
     /// Returns the direction of a fold that is a ridge or a groove.
-    pub(super) fn of(is_ridge: bool) -> Direction {
+    pub(super) fn from_ridge(is_ridge: bool) -> Direction {
         match is_ridge {
             true => Direction::Mountain,
             false => Direction::Valley,

@@ -85,7 +85,7 @@ pub(super) fn placed(parts: &Parts, part: usize, rough: &Assembled) -> Result<Op
             let place = flat_patch.place(vertex);
             (!place.re.is_nan()).then_some(place)
         });
-        Some(motion.of(0.5 * (one? + other?)))
+        Some(motion.apply(0.5 * (one? + other?)))
     };
     FlatPatch::at(
         &parts.surface,

@@ -30,8 +30,8 @@ const MIN_COARSENED_VERTICES: usize = 4000;
 /// Minimum ratio of the vertices of a level to those of the next coarser one at which that saves time.
 const MIN_COARSENING_RATIO: f64 = 2.0;
 
-/// Minimum number of vertices of a level whose z-steps are V-cycles. On smaller levels it saves hardly
-/// any time, because making its matrices takes as long as the iterations that it saves (`benches/whole.md`).
+/// Minimum number of vertices of a level whose z-steps are V-cycles. On smaller levels they save up to a third of the time, but
+/// surfaces can be up to 1.5 times as far off (`benches/whole.md`).
 const MIN_V_CYCLE_VERTICES: usize = 100_000;
 
 /// Number of ADMM iterations of a level before dual ascent is tried: the start of a level is farther from its optimum than

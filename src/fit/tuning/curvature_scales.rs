@@ -119,7 +119,7 @@ pub(super) struct CurvatureScale {
     pub count: usize,
     /// Standard deviation of white noise on the input's lattice for which the curvature along the rulings has the same median.
     pub white_equivalent: f64,
-    /// The same for the curvature across the rulings.
+    /// Standard deviation of white noise for which the curvature across the rulings has the same median.
     pub white_equivalent_across: f64,
     /// Mean product of the signs of a disc's curvature along the rulings and of that of the discs beside it. It is about 0
     /// for noise and 1 for a shape that bends in all directions.

@@ -101,8 +101,7 @@ impl Noise {
     }
 }
 
-/// Estimates correlated noise of an input; `None` where it is isotropic and hardly larger than `white`, the noise measured
-/// from rings of six neighbours.
+/// Estimates correlated noise of an input; `None` if a shape hides it.
 fn correlated_noise(input: &Input) -> Result<Option<CorrelatedNoise>> {
     let discs: Vec<Disc> = DISC_RADII.into_iter().filter_map(Disc::new).collect();
     let scales = curvature_scales(input, &discs)?;

@@ -4,7 +4,7 @@ use super::noise::Noise;
 use super::residual::Residual;
 
 /// Minimum square of the lost shape's part of the residual at which λ is raised, in squares of the noise.
-const MIN_LOSS: f64 = 1.0;
+const MIN_SQUARED_LOSS: f64 = 1.0;
 
 /// Range of the factors by which λ is raised at once: at least so much that a solve more is worth its cost, at most so much
 /// that a warm start is still of use.
@@ -108,7 +108,7 @@ impl Refinement {
         }
         self.best = Some((lambda, risk));
         let [least, most] = LAMBDA_RAISE_FACTORS;
-        let is_lost = lost > MIN_LOSS * level.powi(2);
+        let is_lost = lost > MIN_SQUARED_LOSS * level.powi(2);
         match is_lost && self.solves < self.max_solves {
             true => Next::Solve(lambda * (residual.rms / level).powi(2).clamp(least, most)),
             false => Next::Keep(lambda),

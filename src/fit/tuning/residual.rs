@@ -32,7 +32,7 @@ pub(crate) struct Residual {
     /// Standard deviation of most heights nearby, from the medians of the absolute values in tiles, since noise may be larger
     /// in one place than in another: the root of the mean of its square.
     pub bulk: f64,
-    /// Middle one of the sizes of the autocorrelations in the lattice's three directions, at [`AUTOCORRELATION_LAG`], as that
+    /// Median magnitude of the autocorrelations in the lattice's three directions, at [`AUTOCORRELATION_LAG`], as that
     /// along scan lines is their noise; 0 where too few vertices are that far apart.
     pub autocorrelation: f64,
 }

@@ -8,8 +8,7 @@
 use super::raster::Raster;
 use crate::math::statistics::{MAD_TO_SIGMA, median};
 
-/// Minimum height of a spike, in standard deviations of the heights' differences to the means of opposite neighbours
-/// (`benches/scenes.md`).
+/// Minimum height of a spike, in standard deviations of the heights' differences to the means of opposite neighbours.
 const MIN_SPIKE_DEVIATIONS: f64 = 5.0;
 
 /// Maximum ratio of a spike's height over neighbours two steps away to that over neighbours one step away; the tip of a

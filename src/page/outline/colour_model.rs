@@ -27,7 +27,7 @@ pub(super) fn opponent_axes([r, g, b]: [f32; 3]) -> [f32; 3] {
     [(r + g + b) / 3.0, r - g, b - g]
 }
 
-/// Least and largest of some values.
+/// Computes the minimum and the maximum of values.
 pub(super) fn range(values: impl Iterator<Item = f32>) -> [f32; 2] {
     values.fold([f32::MAX, f32::MIN], |[low, high], value| {
         [low.min(value), high.max(value)]
@@ -58,7 +58,7 @@ impl ColourModel {
     }
 
     /// Counts the relative frequency of each colour bin among some pixels, smoothed over neighbouring bins. Each bin has one
-    /// pixel more, so that colours that were not observed decide nothing.
+    /// pixel more, so that no frequency is 0.
     fn histogram(&self, pixels: impl Iterator<Item = usize>) -> Vec<f32> {
         let [n, m, k] = BINS_PER_COMPONENT;
         let mut counts = vec![1.0_f32; n * m * k];

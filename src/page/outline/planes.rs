@@ -17,7 +17,7 @@ pub(in crate::page) const LOG_OFFSET: f32 = 8.0;
 /// Its row: `benches/page.md`, Constants of the outline.
 const LARGEST_COMPONENT_SHARE: f64 = 0.3;
 
-/// Distance from the rim, in pixels of a reduced photo, within which what is beside an edge is not seen, and a region's
+/// Distance from the rim, in pixels of a reduced photo or of one at half its resolution, within which what is beside an edge is not seen, and a region's
 /// border may be the rim itself.
 pub(super) const RIM_PIXELS: f64 = 1.5;
 

@@ -60,7 +60,7 @@ const BEYOND_CORNER_SHARE: f64 = 0.12;
 const BEYOND_CORNER_PENALTY: f64 = 0.8;
 
 /// Distance from the photo's rim, in pixels, within which no contrast is measured.
-const RIM_PIXELS: f64 = 2.0;
+const PRINT_FRAME_RIM_PIXELS: f64 = 2.0;
 
 /// An outline: four arcs, clockwise, in pixels of the reduced photo.
 pub(super) type Arcs = [Vec<[f64; 2]>; 4];
@@ -208,7 +208,9 @@ impl PrintFrame {
         let is_seen: Vec<bool> = (0..len)
             .map(|i| {
                 let [x, y] = place(i);
-                x.min(y) > RIM_PIXELS && right - x > RIM_PIXELS && bottom - y > RIM_PIXELS
+                x.min(y) > PRINT_FRAME_RIM_PIXELS
+                    && right - x > PRINT_FRAME_RIM_PIXELS
+                    && bottom - y > PRINT_FRAME_RIM_PIXELS
             })
             .collect();
         let is_print: Vec<bool> = (0..len)
@@ -265,8 +267,8 @@ impl PrintFrame {
         let at = frame_place(self.middle, side, row, place);
         let [u, v] = [0, 1].map(|k| self.start[k] + at[k] as f64);
         [0, 1].map(|k| {
-            let inner = self.photo[k] as f64 - 1.0 - RIM_PIXELS;
-            (u * self.axes[0][k] + v * self.axes[1][k]).clamp(RIM_PIXELS, inner)
+            let inner = self.photo[k] as f64 - 1.0 - PRINT_FRAME_RIM_PIXELS;
+            (u * self.axes[0][k] + v * self.axes[1][k]).clamp(PRINT_FRAME_RIM_PIXELS, inner)
         })
     }
 

@@ -174,12 +174,12 @@ impl<'a> Net<'a> {
     /// Positions of a triangle's corners in its piece.
     pub(super) fn placed(&self, triangle: u32) -> [Point2; 3] {
         let motion = self.motions[self.solid.facets[triangle as usize] as usize];
-        self.solid.flat[triangle as usize].map(|p| motion.of(p))
+        self.solid.flat[triangle as usize].map(|p| motion.apply(p))
     }
 
     pub(super) fn placed_ends(&self, half_edge: u32) -> [Point2; 2] {
         let motion = self.motions[self.solid.facet(half_edge) as usize];
-        self.solid.flat_ends(half_edge).map(|p| motion.of(p))
+        self.solid.flat_ends(half_edge).map(|p| motion.apply(p))
     }
 
     pub(super) fn is_to_be_joined(&self, hinge: usize) -> bool {
@@ -321,7 +321,7 @@ impl<'a> Net<'a> {
         let facets = self.pieces[small as usize].facets.iter();
         let mut triangles = facets.flat_map(|facet| &self.triangles[*facet as usize]);
         let found = triangles.any(|triangle| {
-            let corners = self.placed(*triangle).map(|p| motion.of(p));
+            let corners = self.placed(*triangle).map(|p| motion.apply(p));
             let near = self.cells(&corners).filter_map(|cell| grid.get(&cell));
             near.flatten().any(|other| {
                 work += 1;
@@ -340,7 +340,7 @@ impl<'a> Net<'a> {
         for (piece, motion) in [(small, motion), (large, &Motion::IDENTITY)] {
             let facets = self.pieces[piece as usize].facets.iter();
             for triangle in facets.flat_map(|facet| &self.triangles[*facet as usize]) {
-                let corners = self.placed(*triangle).map(|p| motion.of(p));
+                let corners = self.placed(*triangle).map(|p| motion.apply(p));
                 all.extend(corners.map(|p| [p.re, p.im]));
             }
         }

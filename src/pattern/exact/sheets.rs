@@ -139,7 +139,7 @@ fn find_creases(solid: &Polyhedron, flat: &mut FlatMesh) -> Result<Vec<Crease>> 
         flat.seams.push(Seam {
             crease: number,
             patches,
-            direction: Direction::of(signed >= 0.0),
+            direction: Direction::from_ridge(signed >= 0.0),
             angle: fold,
             slit: false,
             torn: false,

@@ -88,7 +88,7 @@ fn flat_mesh<'a>(body: &'a Body, seams: &'a Seams, joined: &[Joined]) -> FlatMes
     let seam = |(number, seam): (usize, &super::seams::Seam)| Seam {
         crease: number,
         patches: seam.parts,
-        direction: Direction::of(seam.angle >= 0.0),
+        direction: Direction::from_ridge(seam.angle >= 0.0),
         angle: seam.angle.abs(),
         slit: seam.smooth,
         torn: false,

@@ -246,7 +246,7 @@ impl<'a> SheetPair<'a> {
         let part = self.sheets.body.parts[corner as usize / 3];
         let place = self.sheets.at[corner as usize];
         match &self.motion {
-            Some(motion) if self.sheets.of[part as usize] == self.numbers[1] => motion.of(place),
+            Some(motion) if self.sheets.of[part as usize] == self.numbers[1] => motion.apply(place),
             _ => place,
         }
     }

@@ -188,7 +188,8 @@ fn divided(sides: &[Vec<Point>; 2], gap: f64, fine: f64) -> Vec<usize> {
             }
             step /= 2;
         }
-        if to <= last && lengths[to] - lengths[from] > best.0 {
+        let is_long = to <= last && to - from >= MIN_SEAM_PART_NODES;
+        if is_long && fits(from, to) && lengths[to] - lengths[from] > best.0 {
             best = (lengths[to] - lengths[from], from, to);
         }
     }

@@ -693,15 +693,16 @@ fn off(outline: &[[f64; 2]], exact: &[[f64; 2]]) -> f64 {
     let mut most = f64::INFINITY;
     // Nearest points, and the motion that brings them nearest, in turn.
     for _ in 0..150 {
-        let away = |p: &[f64; 2], q: &[f64; 2]| (p[0] - q[0]).hypot(p[1] - q[1]);
+        let squared = |p: &[f64; 2], q: &[f64; 2]| (p[0] - q[0]).powi(2) + (p[1] - q[1]).powi(2);
         let nearest = |p: &[f64; 2]| {
             let by = exact
                 .iter()
-                .min_by(|a, b| away(a, p).total_cmp(&away(b, p)));
+                .min_by(|a, b| squared(a, p).total_cmp(&squared(b, p)));
             *by.unwrap()
         };
         let there: Vec<[f64; 2]> = here.iter().map(nearest).collect();
-        most = (here.iter().zip(&there)).fold(0.0, |most, (p, q)| away(p, q).max(most));
+        let farthest = (here.iter().zip(&there)).fold(0.0, |most, (p, q)| squared(p, q).max(most));
+        most = farthest.sqrt();
         let (from, to) = (mean(&here), mean(&there));
         let (mut cos, mut sin) = (0.0, 0.0);
         for (p, q) in here.iter().zip(&there) {

@@ -24,7 +24,7 @@ export class Analyses {
 
   /** @param {Api} api */
   constructor(api) {
-    this.#tasks = new Tasks(api);
+    this.#tasks = new Tasks(api.DevelopableWorker);
   }
 
   /** Cancels all running tasks; their promises reject. */

@@ -38,7 +38,7 @@ export class MeshFit extends Events {
   /** @param {Api} api */
   constructor(api) {
     super();
-    this.#tasks = new Tasks(api);
+    this.#tasks = new Tasks(api.DevelopableWorker);
   }
 
   /** Fits a mesh, and cancels the solve before. @param {Mesh} mesh @param {number | 'auto'} lambda */

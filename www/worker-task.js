@@ -29,7 +29,7 @@ const WORKER_IDLE_MS = 2000;
 
 /** Tasks that share a worker, which is disposed of when they are cancelled and when it is idle; and their answers, each found once. */
 export class Tasks {
-  #api;
+  #Worker;
   /** @type {Worker | null} */
   #worker = null;
   /** Number of running tasks. */
@@ -40,9 +40,9 @@ export class Tasks {
   /** Forgets the answers that are not there yet. @type {Set<() => void>} */
   #pending = new Set();
 
-  /** @param {Api} api */
-  constructor(api) {
-    this.#api = api;
+  /** @param {Api['DevelopableWorker']} Worker class of their worker */
+  constructor(Worker) {
+    this.#Worker = Worker;
   }
 
   /**
@@ -51,7 +51,7 @@ export class Tasks {
    */
   async run(task) {
     clearTimeout(this.#idleTimer);
-    const worker = (this.#worker ??= new this.#api.DevelopableWorker());
+    const worker = (this.#worker ??= new this.#Worker());
     this.#runningTasks++;
     try {
       return await task(worker);

@@ -10,6 +10,8 @@ import { Tasks } from '../worker-task.js';
 
 /** Created with the first picture. @type {Tasks | null} */
 let tasks = null;
+/** Ends with the picture that was requested last: they are solved one after the other. */
+let last = Promise.resolve();
 
 /**
  * The input of a card.
@@ -40,7 +42,7 @@ export async function drawPicture(api, defaults, card, canvas) {
   if (!input) return;
   drawThumbnail(canvas, input, input.heightScale / input.pixelSize);
   // If the solve fails, the picture shows the input alone.
-  await (tasks ??= new Tasks(api)).run(async (worker) => {
+  await (last = last.then(() => (tasks ??= new Tasks(api.SolverWorker)).run(async (worker) => {
     const { coarsening: _coarsening, ...options } = { ...defaults, ...card.settings, gap: THUMBNAIL_GAP };
     const surface = await worker.fit(heightsOf(input), options);
     const { image } = surface;
@@ -49,5 +51,5 @@ export async function drawPicture(api, defaults, card, canvas) {
     drawThumbnail(after, image, 1 / image.pixelSize);
     drawThumbnail(before, input, input.heightScale / input.pixelSize);
     drawHalves(canvas, before, after);
-  }).catch(() => {});
+  })).catch(() => {}));
 }

@@ -6,7 +6,7 @@ import { sheetsInWords } from '../../www/pattern.js';
 import { edgeAt, parsePairs, togglePair } from '../../www/sheet-edges.js';
 import { obj } from './support/files.mjs';
 import { parsed } from './support/numbers.mjs';
-import { doorTest, openWhole } from './support/page.mjs';
+import { doorTest, openWhole, workBy } from './support/page.mjs';
 
 /** A box of 60 × 40 × 20: its faces by number, the largest first, come in opposite pairs. */
 const SIDES = [60, 40, 20];
@@ -105,4 +105,14 @@ doorTest('a solid of sheet metal is cut as the blank that it is bent from', asyn
   const area = width * (legs[0] + legs[1] - 2 * (thickness + inner) + (Math.PI / 2) * (inner + 0.44 * thickness));
   const told = await page.locator('.sheets .figures div').filter({ has: page.locator('dt', { hasText: 'Area' }) }).locator('dd').textContent();
   assert.ok(Math.abs(100 * parsed(String(told)) / area - 1) < 0.005, `${told} for ${area} mm²`);
+
+  // While it is cut again, too, its thickness is its own.
+  const field = page.locator('.field', { has: page.locator('#sheet-thickness') });
+  const shown = await field.evaluateHandle((node) => {
+    const shown = { times: 0 };
+    new MutationObserver(() => (shown.times += Number(!(/** @type {HTMLElement} */ (node).hidden)))).observe(node, { attributes: true });
+    return shown;
+  });
+  await workBy(page, '.preview[aria-busy="true"]', () => page.getByLabel('K-factor').fill('0.4'));
+  assert.equal((await shown.jsonValue()).times, 0);
 });

@@ -17,7 +17,7 @@ import { waitingPanel } from './waiting.js';
 
 /** Bounds of the longer side, in millimetres. */
 const [MIN_SIDE_MM, MAX_SIDE_MM] = [10, 5000];
-/** Pairs of pieces. @param {string} text */
+/** Returns the error message for a text of pairs of pieces; empty if it is valid. @param {string} text */
 const faultOfPairs = (text) => (parsePairs(text) ? '' : SHEET_WORDS.wrongPairs);
 /** Fields of the dialog. Values that were chosen last are the initial ones of the next dialog. @satisfies {Record<string, import('../fields.js').Field>} */
 const FIELDS = {
@@ -76,6 +76,8 @@ export function offerSheets(api, { stem, note = '', length, unit, up, cut, svg, 
   const paper = () => /** @type {'a4' | 'letter' | ''} */ (fields.text('sheet-paper'));
   const isMetal = () => fields.text('sheet-material') !== '';
   const metalNote = make('p', 'muted small');
+  /** Thickness of a solid of sheet metal. @type {number | undefined} */
+  let thickness;
   // Only flat faces can be cut apart anywhere: nothing of them is stretched.
   const edges = make('div', 'sheets-options edges', make('p', 'muted small', SHEET_WORDS.edges), ...fields.nodes('sheet-cut', 'sheet-join'));
   edges.hidden = true;
@@ -88,8 +90,7 @@ export function offerSheets(api, { stem, note = '', length, unit, up, cut, svg, 
       ? { thickness: fields.number('sheet-thickness'), innerRadius: fields.text('sheet-radius') === '' ? undefined : fields.number('sheet-radius'), kFactor: fields.number('sheet-k') }
       : { tabs: fields.isChecked('sheet-tabs') ? fields.number('sheet-tab-depth') : undefined }),
   });
-  /** @param {number} [thickness] of a solid of sheet metal, which has its own */
-  const showFields = (thickness) => {
+  const showFields = () => {
     fields.show(!isMetal(), 'sheet-tabs');
     fields.show(!isMetal() && fields.isChecked('sheet-tabs'), 'sheet-tab-depth');
     fields.show(isMetal() && thickness === undefined, 'sheet-thickness', 'sheet-radius');
@@ -158,13 +159,16 @@ export function offerSheets(api, { stem, note = '', length, unit, up, cut, svg, 
     let failed = false;
     offer.renew();
     try {
+      // Its failure is reported below.
+      requested.catch(() => {});
+      thickness = await metalThickness();
+      showFields();
       const image = await drawingImage(svg, await requested);
       if (requested !== drawing) return;
       const finished = await requested;
       waiting.end();
       showSize(finished);
       edges.hidden = !canFoldElsewhere(finished);
-      showFields(await metalThickness());
       image.addEventListener('click', ({ offsetX, offsetY }) => {
         if (!edges.hidden) toggleEdge(finished, [(offsetX / image.clientWidth) * finished.width, (1 - offsetY / image.clientHeight) * finished.height]);
       });

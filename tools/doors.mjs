@@ -18,7 +18,7 @@ const DOORS = {
     return [await page.locator('#page-canvas').screenshot(), await page.locator('#flat-canvas').screenshot()];
   },
   model: async (page) => {
-    await page.locator('[data-whole] #stage[aria-busy="false"]').waitFor();
+    await page.locator('[data-whole] #stage[data-busy="false"]').waitFor();
     // The first turn has to end.
     await page.waitForTimeout(3000);
     const model = await page.locator('#space-canvas').screenshot();

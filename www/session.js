@@ -266,10 +266,11 @@ export class Session extends Events {
     this.#requestPreview(input);
   }
 
-  /** Lets changes of settings start runs, or defers these while a whole mesh is shown. @param {boolean} enabled */
+  /** Lets changes of settings start runs, or ends the run and defers others while a whole mesh is shown. @param {boolean} enabled */
   setAutoRun(enabled) {
     if (this.#autoRun === enabled) return;
     this.#autoRun = enabled;
+    if (!enabled && this.phase === 'running') this.#endRun();
     const last = this.#job?.settings ?? this.result?.settings;
     if (enabled && this.#runRequested && last && !isSame(last, this.settings)) void this.run();
   }
@@ -315,9 +316,8 @@ export class Session extends Events {
       this.emit('result', result);
     } catch (error) {
       if (this.#job !== job) return;
-      this.#stop();
       this.#disposeSolver();
-      this.emit('unsolved', null);
+      this.#endRun();
       this.fail('This could not be solved', error);
     } finally {
       if (this.#job === job) {
@@ -388,8 +388,7 @@ export class Session extends Events {
       if (isLarge(job.input) && !job.finest) setTimeout(() => this.#job === job && this.#terminateRun(), CANCEL_TIMEOUT_MS);
     } else if (this.phase === 'running') {
       // The phase is `running` because of previews; the run itself has not begun.
-      this.#stop();
-      this.emit('unsolved', null);
+      this.#endRun();
     }
   }
 
@@ -403,6 +402,11 @@ export class Session extends Events {
   /** Ends the run together with its worker. */
   #terminateRun() {
     this.#disposeWorker();
+    this.#endRun();
+  }
+
+  /** Ends the run without a result. */
+  #endRun() {
     this.#stop();
     this.emit('unsolved', null);
   }

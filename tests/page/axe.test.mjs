@@ -68,7 +68,7 @@ pageTest('axe finds nothing wrong with any view', async (page) => {
   if (!(await page.locator('#drawer').isVisible())) await page.locator('#certificate').click();
   for (const radio of await page.locator('label:not([hidden]) > input[name="view"]').all()) {
     await choose(radio);
-    await page.locator('#stage[aria-busy="false"]:has(#analysis)').waitFor({ state: 'attached' });
+    await page.locator('#stage[data-busy="false"]:has(#analysis)').waitFor({ state: 'attached' });
     await soundEverywhere(page, await radio.inputValue(), { within: 'section[aria-label="Surfaces"]' });
   }
   // It does see what is wrong.
@@ -110,9 +110,9 @@ doorTest('axe finds nothing wrong with a whole mesh', async (page) => {
   await soundEverywhere(page, 'a mesh');
   await choose(page.getByRole('radio', { name: 'Whole mesh', exact: true }));
   for (const view of ['shaded', 'gaussian', 'patches', 'sheet']) {
-    await page.locator('[data-whole] #stage[aria-busy="false"]').waitFor();
+    await page.locator('[data-whole] #stage[data-busy="false"]').waitFor();
     await choose(page.locator(`input[name="view"][value="${view}"]`));
-    await page.locator('[data-whole] #stage[aria-busy="false"]').waitFor();
+    await page.locator('[data-whole] #stage[data-busy="false"]').waitFor();
     await soundEverywhere(page, `whole, ${view}`);
   }
 });

@@ -62,7 +62,7 @@ pageTest('behind each door is an example, one click away, and Back leads to the 
   await page.getByRole('link', { name: 'developable' }).click();
 
   await page.locator('[data-example="model"]').click();
-  await page.locator('[data-whole] #stage[aria-busy="false"]').waitFor();
+  await page.locator('[data-whole] #stage[data-busy="false"]').waitFor();
   assert.match(await page.locator('#mesh-name').innerText(), /house \(OBJ\)/);
   assert.equal(await page.locator('.primary:visible').count(), 1, 'one main button');
   await page.locator('#end-sheets').click();

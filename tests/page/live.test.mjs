@@ -70,7 +70,7 @@ pageTest('what grows with the size of a result is done in workers, and a picture
   assert.ok(previews > 0, 'there was a picture before the result');
   for (const view of ['gaussian', 'rulings', 'patches', 'sheet']) {
     await choose(page.locator(`input[name="view"][value="${view}"]`));
-    await page.locator('#stage[aria-busy="false"]:has(#analysis)').waitFor({ state: 'attached' });
+    await page.locator('#stage[data-busy="false"]:has(#analysis)').waitFor({ state: 'attached' });
   }
   const { result } = await debug.send('Profiler.takePreciseCoverage');
   /** @param {string} file @param {string} [name] */

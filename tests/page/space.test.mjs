@@ -1,8 +1,10 @@
 /** Input and result in space. */
 import assert from 'node:assert/strict';
+import { noisyBox } from './support/box.mjs';
+import { obj } from './support/files.mjs';
 import { parsed } from './support/numbers.mjs';
 import { parsePng } from './support/photos.mjs';
-import { choose, pageTest, painted } from './support/page.mjs';
+import { choose, doorTest, look, openWhole, pageTest, painted } from './support/page.mjs';
 
 /** @typedef {import('playwright-core').Page} Page */
 
@@ -69,7 +71,7 @@ pageTest('in space the surface is turned and divided', async (page) => {
   await page.getByRole('button', { name: 'From above' }).click();
 
   await choose(page.getByRole('radio', { name: 'Patches', exact: true }));
-  await page.locator('#stage[aria-busy="false"]:has(#analysis)').waitFor({ state: 'attached' });
+  await page.locator('#stage[data-busy="false"]:has(#analysis)').waitFor({ state: 'attached' });
   await page.mouse.move(x + 40, y + 12);
   assert.match(await page.locator('#reading').innerText(), /patch \d/);
   assert.ok(correlation(above, await brightness(page, '#space-canvas')) < 0.9, 'in colours');
@@ -79,6 +81,21 @@ pageTest('in space the surface is turned and divided', async (page) => {
   for (let i = 0; i < 10; i++) await divider.press('ArrowLeft');
   assert.match(await divider.getAttribute('aria-valuetext') ?? '', /^input on 50 %/);
 }, { drawn: true, start: '#example=roof&size=100&noise=0' });
+
+doorTest('a model that is opened first turns, too, once it can be drawn, and meanwhile WebGL is not missed', async (page) => {
+  /** @type {(route: import('playwright-core').Route) => void} */
+  let hold = () => {};
+  /** @type {Promise<import('playwright-core').Route>} */
+  const held = new Promise((resolve) => (hold = resolve));
+  await page.route(/three[^/]*\.js$/, (route) => hold(route));
+  await openWhole(page, 'box.obj', obj(noisyBox(8, 0.02)));
+  assert.equal(await page.locator('#space-missing').isVisible(), false);
+  await (await held).continue();
+  await page.waitForFunction(() => document.querySelector('canvas#space-canvas:not([width="300"], :not([width]))'));
+  const first = (await look(page, '#space-canvas')).hash;
+  await page.waitForFunction((since) => performance.now() - since > 2000, await page.evaluate(() => performance.now()));
+  assert.notEqual((await look(page, '#space-canvas')).hash, first);
+}, { drawn: true });
 
 pageTest('without WebGL that is said, and the rest works', async (page) => {
   assert.match(await page.locator('#space-missing').innerText(), /no WebGL/);
@@ -107,7 +124,7 @@ pageTest('an answer that takes long can be done without, and asked for again; th
     return texts;
   });
   await page.getByRole('button', { name: 'Try again' }).click();
-  await page.locator('#stage[aria-busy="false"]:has(#analysis)').waitFor();
+  await page.locator('#stage[data-busy="false"]:has(#analysis)').waitFor();
   assert.match((await told.jsonValue()).join(), /Laying it flat, [1-9]\d?\s%/, 'how far it is');
   assert.equal(await page.locator('#divider').isVisible(), false);
   // What is read of the flat sheet: of a cylinder, hardly any strain.

@@ -23,7 +23,7 @@ const numbers = Buffer.from(JSON.stringify({ w: width, h: height, K: [fx, 0, 0, 
 /** Whether the dots of the photo are seen on the surface. @param {Page} page */
 async function dotsOnSurface(page) {
   assert.ok(await page.getByRole('radio', { name: 'Photo', exact: true }).isChecked());
-  await page.locator('#stage[aria-busy="false"]:has(#analysis[data-view="photo"])').waitFor({ state: 'attached' });
+  await page.locator('#stage[data-busy="false"]:has(#analysis[data-view="photo"])').waitFor({ state: 'attached' });
   await painted(page);
   return (await look(page, 'result')).roughness > 1;
 }

@@ -16,7 +16,7 @@ async function view(page, name) {
   // What is for specialists is in the drawer.
   if (!(await radio.isVisible())) await page.locator('#certificate').click();
   await choose(radio);
-  await page.locator('#stage[aria-busy="false"]:has(#analysis)').waitFor({ state: 'attached' });
+  await page.locator('#stage[data-busy="false"]:has(#analysis)').waitFor({ state: 'attached' });
   await painted(page);
 }
 
@@ -305,7 +305,7 @@ pageTest('another result takes the place of an answer that is still being worked
   await choose(page.getByRole('radio', { name: 'Laid flat', exact: true }));
   // Not waited for: the answer is about something that is gone.
   await runBy(page, () => page.locator('#example').selectOption('cylinder'));
-  await page.locator('#stage[aria-busy="false"]:has(#analysis)').waitFor();
+  await page.locator('#stage[data-busy="false"]:has(#analysis)').waitFor();
   assert.match(await page.locator('#about-view .said').innerText(), /^Laid flat/);
   assert.equal(await page.locator('#notice').isVisible(), false);
 }, { start: '#example=roof' });
@@ -336,6 +336,6 @@ pageTest('a view that cannot be worked out says so, and the surface stays', asyn
 pageTest('the views can be switched by keyboard', async (page) => {
   await page.getByRole('radio', { name: 'Shaded', exact: true }).focus();
   await page.keyboard.press('ArrowRight');
-  await page.locator('#stage[aria-busy="false"]:has(#analysis) .bar').waitFor();
+  await page.locator('#stage[data-busy="false"]:has(#analysis) .bar').waitFor();
   assert.ok(await page.getByRole('radio', { name: 'Curvature K' }).isChecked());
 });

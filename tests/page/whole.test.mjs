@@ -20,7 +20,7 @@ async function solve(page, way = 'Whole mesh') {
 }
 
 /** @param {Page} page */
-const done = (page) => page.locator('[data-whole] #stage[aria-busy="false"]').waitFor();
+const done = (page) => page.locator('[data-whole] #stage[data-busy="false"]').waitFor();
 
 /** @param {Page} page @param {string} view */
 async function view(page, view) {
@@ -230,6 +230,57 @@ doorTest('a whole solve tells how far it is and can be done without; what is no 
   assert.match(await page.locator('#verdict-detail').innerText(), /edge/);
 });
 
+/** Acts at once one after the other, before anything can be solved in between. @param {Page} page @param {...[selector: string, value?: string]} acts */
+async function actAtOnce(page, ...acts) {
+  await page.evaluate((acts) => {
+    for (const [selector, value] of acts) {
+      const control = /** @type {HTMLInputElement} */ (document.querySelector(selector));
+      if (value === undefined) control.click();
+      else {
+        control.value = value;
+        control.dispatchEvent(new Event('change'));
+      }
+    }
+  }, acts);
+}
+const WHOLE = '[name="mesh-way"][value="whole"]';
+
+doorTest('one side and the whole mesh show nothing of each other', async (page) => {
+  await openFromOneSide(page, 'box.obj', obj(box));
+  const caption = await page.locator('#result-caption').innerText();
+  await page.locator('#divider').press('Home');
+  await actAtOnce(page, [WHOLE], ['#running-cancel']);
+  await page.locator('#verdict', { hasText: 'Cancelled.' }).waitFor();
+  const unsolved = await look(page, '#space-canvas');
+  await page.getByRole('button', { name: 'Solve', exact: true }).click();
+  await done(page);
+  assert.notEqual(await page.locator('#result-caption').innerText(), caption);
+  await page.locator('#divider').press('End');
+  const input = await look(page, '#space-canvas');
+  assert.ok(Math.abs(unsolved.roughness / input.roughness - 1) < 0.02 && Math.abs(unsolved.covered - input.covered) < 0.01, `${JSON.stringify(unsolved)}, not ${JSON.stringify(input)}`);
+  await choose(page.getByRole('radio', { name: 'From one side', exact: true }));
+  assert.equal(await page.locator('#result-caption').innerText(), caption);
+}, { reducedMotion: 'reduce', drawn: true });
+
+doorTest('another λ ends a view that is being prepared, and a whole solve that of one side', async (page) => {
+  await openWhole(page, 'box.obj', obj(box));
+  await actAtOnce(page, ['[name="view"][value="patches"]'], ['#lambda-value', '1e6']);
+  assert.match(await page.locator('#about-view').innerText(), /^Appears when/);
+  await done(page);
+  assert.equal(await page.getByRole('alert').isVisible(), false);
+  assert.ok(parsed(await told(page, 'Patches')) > 0);
+  assert.equal(await page.locator('#result-caption').innerText(), 'λ = 1e6');
+
+  await choose(page.getByRole('radio', { name: 'From one side', exact: true }));
+  await settled(page);
+  await actAtOnce(page, ['#lambda-value', '1e5'], [WHOLE]);
+  assert.equal(await page.locator('#page').getAttribute('data-phase'), 'idle');
+  assert.ok(await page.locator('#running').isVisible() || await page.locator('#stage').getAttribute('data-busy') === 'false', 'the progress of the whole solve');
+  await choose(page.getByRole('radio', { name: 'From one side', exact: true }));
+  await settled(page);
+  assert.equal(parsed(await reported(page, 'λ')), 1e5);
+});
+
 doorTest('rulings of a whole mesh are drawn on its result only, along the axis of a tube', async (page) => {
   await openWhole(page, 'tube.obj', obj(noisyTube(60, 0.01)));
   const divider = page.locator('#divider');
@@ -269,7 +320,7 @@ doorTest('a whole mesh is solved with the λ that is chosen, which stands in the
   };
   /** @param {() => Promise<unknown>} act @param {RegExp} address */
   const solvedBy = async (act, address) => {
-    await workBy(page, '#stage[aria-busy="true"]', act);
+    await workBy(page, '#stage[data-busy="true"]', act);
     await page.waitForURL(address);
   };
   const pressed = () => page.locator('#lambda-auto').getAttribute('aria-pressed');

@@ -1,5 +1,4 @@
 /** Heights and their result on the stage: the surfaces in space, previews of the result, and the views of it. */
-import { element } from '../dom.js';
 import { heightReading, number, shortLambda } from '../format.js';
 import { heightAt, heightfieldBox, reliefMesh, reliefOf } from '../surface/relief.js';
 import { curvature, overHeights } from '../views/curvature.js';
@@ -21,10 +20,11 @@ const STEEL_LOOK = { up: [0, 0, 1], direction: [0.375, 0.687, -0.622], isMetal: 
 
 /** Creates the stage, which shows heights at first. @param {Session} session @param {Analyses} analyses */
 export function heightsPanel(session, analyses) {
-  const stamp = element('result-mark', HTMLElement);
   /** Input and result. @type {[Relief | null, Relief | null]} */
   const reliefs = [null, null];
-  let isPreview = false;
+  let caption = '';
+  /** @type {ReturnType<Subject['mark']>} */
+  let mark = '';
 
   /** @param {(result: Result, tell: import('../mesh-fit.js').Tell) => ReturnType<View>} prepare @returns {View} */
   const ofResult = (prepare) => (tell) => prepare(/** @type {Result} */ (session.result), tell);
@@ -43,7 +43,8 @@ export function heightsPanel(session, analyses) {
     },
     isSolved: () => session.result !== null,
     isDivided: () => reliefs[1] !== null,
-    isPreview: () => isPreview,
+    resultCaption: () => caption,
+    mark: () => mark,
     views: {
       gaussian: curvatureView('gaussian'),
       kappa2: curvatureView('kappa2'),
@@ -65,18 +66,17 @@ export function heightsPanel(session, analyses) {
   };
   const stage = stagePanel(heights);
 
-  /** @param {Input} input @param {{ width: number, height: number, data: ArrayLike<number> }} image @param {number} lambda @param {string} mark */
-  const showSurface = (input, image, lambda, mark) => {
-    element('result-caption', HTMLElement).textContent = `λ = ${shortLambda(lambda)}`;
-    stamp.textContent = mark;
-    stamp.hidden = !mark;
+  /** @param {Input} input @param {{ width: number, height: number, data: ArrayLike<number> }} image @param {number} lambda @param {typeof mark} newMark */
+  const showSurface = (input, image, lambda, newMark) => {
+    caption = `λ = ${shortLambda(lambda)}`;
+    mark = newMark;
     reliefs[1] = reliefOf(input, image, 1);
     stage.renew(heights, [1]);
   };
   /** @param {Result | null} result */
   const showResult = (result) => {
-    isPreview = false;
     if (result) return showSurface(result.input, result.image, result.surface.report.lambda, result.surface.report.stopReason === 'cancelled' ? 'cancelled' : '');
+    mark = '';
     reliefs[1] = null;
     stage.renew(heights, [1]);
   };
@@ -89,10 +89,7 @@ export function heightsPanel(session, analyses) {
     stage.begin(heights);
     stage.update(heights);
   });
-  session.on('preview', ({ input, image, lambda }) => {
-    isPreview = true;
-    showSurface(input, image, lambda, 'preview');
-  });
+  session.on('preview', ({ input, image, lambda }) => showSurface(input, image, lambda, 'preview'));
   session.on('result', (result) => {
     showResult(result);
     stage.update(heights);

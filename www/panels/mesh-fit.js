@@ -70,6 +70,8 @@ export function meshFitPanel(session, meshFit, stage, heights) {
       const shown = side === 0 ? meshFit.mesh : fitted();
       return shown && { positions: shown.positions, triangles: shown.triangles, colors: shown.colors };
     },
+    resultCaption: () => (meshFit.surface ? `λ = ${shortLambda(meshFit.surface.report.lambda)}` : ''),
+    mark: () => '',
     isSolved: () => meshFit.surface !== null,
     isDivided: () => fitted() !== null,
     views,
@@ -119,14 +121,13 @@ export function meshFitPanel(session, meshFit, stage, heights) {
     stage.setSolving(false);
     session.setAutoRun(true);
     stage.enter(heights);
-    report.hidden = true;
     for (const radio of ways) radio.checked = radio.value === 'seen';
   };
   /** Returns to one side of the mesh, and solves it if that has not been done. */
   const showOneSide = () => {
     if (stage.subject !== whole) return;
     leave();
-    if (!session.result) void session.run();
+    if (session.result?.input !== session.input) void session.run();
   };
   /** Shows a view of the whole mesh, and fits it if that has not been done. @param {string} view */
   const enter = (view) => {
@@ -145,13 +146,11 @@ export function meshFitPanel(session, meshFit, stage, heights) {
     if (viewedMesh === mesh) stage.renew(whole);
     else stage.begin(whole, true);
     viewedMesh = mesh;
+    stage.update(whole);
   });
   meshFit.on('result', (surface) => {
     stage.setSolving(false);
     stage.say(whole, MESH_FIT_WORDS.solved, meshFitSummary(surface));
-    element('result-caption', HTMLElement).textContent = `λ = ${shortLambda(surface.report.lambda)}`;
-    element('result-mark', HTMLElement).hidden = true;
-    report.hidden = false;
     stage.renew(whole, [1]);
     stage.update(whole);
   });

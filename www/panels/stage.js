@@ -25,7 +25,8 @@ import { waitingPanel } from './waiting.js';
  * @property {(side: 0 | 1, isFast: boolean) => Surface | null} surface of the input or the result
  * @property {() => boolean} isSolved whether there is a result
  * @property {() => boolean} isDivided whether there is anything to show beside the input
- * @property {() => boolean} [isPreview] whether the result's place is taken by a preview, which views say nothing about
+ * @property {() => string} resultCaption caption of the result
+ * @property {() => '' | 'preview' | 'cancelled'} mark how the result falls short: views say nothing about a preview
  * @property {Record<string, View | undefined>} views prepare the views
  * @property {(view: string) => boolean} offers whether a view can be chosen
  * @property {(place: Place, value?: string) => string} read what is under the pointer, with the view's value there
@@ -53,17 +54,24 @@ export function stagePanel(first) {
   const description = element('view-says', HTMLElement);
   const radios = elements('input[name="view"]', HTMLInputElement);
   const save = element('view-save', HTMLButtonElement);
+  const report = element('whole-report', HTMLElement);
+  const mark = element('result-mark', HTMLElement);
+  const picture = element('picture', HTMLElement);
   const ends = ['file', 'sheets'].map((name) => element(`end-${name}`, HTMLButtonElement));
   let subject = first;
-  /** Null until the first input, and without WebGL. @type {SceneView | null} */
+  /** Null until it is created with the first input, and without WebGL. @type {SceneView | null} */
   let view = null;
   let isCreated = false;
+  /** Whether the scene could not be created. */
+  let isMissing = false;
+  /** Whether the input turns slowly at first. */
+  let turnsAtFirst = false;
   /** @type {Partial<ViewContent>} */
   let shown = {};
   /** The surfaces of the subject, and those that are drawn: views may put others in their place. @type {(Surface | null)[]} */
   const plain = [null, null];
-  /** @type {(Surface | null)[]} */
-  let drawn = [null, null];
+  /** @type {(Surface | null | undefined)[]} */
+  let drawn = [];
   /** Number of the newest update; answers to older ones are discarded. */
   let newestUpdate = 0;
   /** The verdict and its details, by the subject that they are about. @type {Map<Subject, [string, string]>} */
@@ -76,15 +84,24 @@ export function stagePanel(first) {
   const createView = async () => {
     isCreated = true;
     view = await SceneView.create(canvas).catch(() => null);
+    isMissing = view === null;
+    showFirst();
+  };
+  /** Shows the subject from its first direction. */
+  const showFirst = () => {
     view?.setLook(subject.look());
     renew();
     view?.look();
+    if (turnsAtFirst) view?.turnOnce();
   };
   /** Shows the surfaces, or the picture in their place, and what can be done with them. */
   const arrange = () => {
     element('input-caption', HTMLElement).textContent = subject.caption();
+    element('result-caption', HTMLElement).textContent = subject.resultCaption();
+    mark.textContent = subject.mark();
+    mark.hidden = !mark.textContent;
+    report.hidden = !subject.isWhole || !subject.isSolved();
     const isFlat = shown.flat !== undefined;
-    const isMissing = isCreated && view === null;
     element('space-missing', HTMLElement).hidden = !isMissing || isFlat;
     canvas.hidden = isMissing || isFlat;
     element('picture-hint', HTMLElement).hidden = !isFlat;
@@ -93,13 +110,13 @@ export function stagePanel(first) {
     divider.show(isDivided);
     element('space-before', HTMLElement).hidden = isFlat;
     element('space-after', HTMLElement).hidden = !isDivided;
-    save.disabled = !subject.isSolved() || (isMissing && !isFlat);
+    save.disabled = !subject.isSolved() || (view === null && !isFlat);
     for (const button of ends) button.disabled = !subject.isSolved();
     for (const radio of radios) /** @type {HTMLElement} */ (radio.parentElement).hidden = !subject.offers(radio.value);
   };
   /** The view's layer on a side; where the result is the input, what is found in it is shown there. @param {0 | 1} at */
   const layerOn = (at) => {
-    if (at === 1 && subject.isPreview?.()) return undefined;
+    if (at === 1 && subject.mark() === 'preview') return undefined;
     return subject.isDivided() ? shown.layers?.[at] : at === 0 ? shown.layers?.[1] ?? shown.layers?.[0] : undefined;
   };
   /** Draws what the view lays over the surfaces, or shows in their place. */
@@ -121,7 +138,7 @@ export function stagePanel(first) {
     if (view && box) {
       if (!sides) {
         view.setBox(box);
-        drawn = [null, null];
+        drawn = [];
       }
       for (const at of sides ?? /** @type {const} */ ([0, 1])) plain[at] = subject.surface(at, view.isFast);
     }
@@ -129,9 +146,15 @@ export function stagePanel(first) {
     if (!subject.offers(chosen())) choose('shaded');
   };
 
-  let isSolving = false;
-  /** @param {boolean} isPreparing whether a view is being prepared */
-  const setBusy = (isPreparing) => stage.setAttribute('aria-busy', String(isPreparing || isSolving));
+  /** Whether a whole mesh is being solved, and a view prepared. */
+  const busy = { isSolving: false, isPreparing: false };
+  /** @param {Partial<typeof busy>} change */
+  const setBusy = (change) => {
+    Object.assign(busy, change);
+    stage.dataset.busy = String(busy.isSolving || busy.isPreparing);
+    // Not on the stage: what is said in its live regions would wait.
+    for (const one of [picture, panel]) one.ariaBusy = stage.dataset.busy;
+  };
   /** @param {Partial<ViewContent>} content */
   const display = (content) => {
     shown = content;
@@ -149,9 +172,9 @@ export function stagePanel(first) {
     waiting.end();
     display(prepare && !subject.isSolved() && name !== 'shaded' ? { about: [make('p', 'muted', 'Appears when a run has ended.')] } : {});
     description.textContent = subject.isSolved() && (name !== 'shaded' || subject.isDivided()) ? VIEW_WORDS[name] : '';
-    setBusy(false);
-    if (!prepare || !subject.isSolved()) return;
-    setBusy(true);
+    const isPreparing = prepare !== undefined && subject.isSolved();
+    setBusy({ isPreparing });
+    if (!isPreparing) return;
     description.textContent = '';
     waiting.begin('view');
     try {
@@ -164,13 +187,13 @@ export function stagePanel(first) {
       showError('This view could not be worked out', error);
     }
     waiting.end();
-    setBusy(false);
+    setBusy({ isPreparing: false });
   };
   const waiting = waitingPanel(element('waiting', HTMLElement), () => {
     newestUpdate++;
     subject.stop();
     waiting.end();
-    setBusy(false);
+    setBusy({ isPreparing: false });
     const again = make('button', '', 'Try again');
     again.type = 'button';
     again.addEventListener('click', () => void update());
@@ -208,9 +231,9 @@ export function stagePanel(first) {
   save.addEventListener('click', async () => {
     const isFlat = shown.flat !== undefined;
     if (!isFlat) view?.draw(SAVED_RATIO * devicePixelRatio);
-    const picture = pictureWithColours(isFlat ? flat.canvas : canvas, shown.colours);
+    const coloured = pictureWithColours(isFlat ? flat.canvas : canvas, shown.colours);
     view?.drawSoon();
-    download(await picture.convertToBlob({ type: 'image/png' }), 'image/png', `${subject.name()}-view.png`);
+    download(await coloured.convertToBlob({ type: 'image/png' }), 'image/png', `${subject.name()}-view.png`);
   });
   ends[0].addEventListener('click', () => subject.saveFile());
   ends[1].addEventListener('click', () => subject.cutSheets());
@@ -236,14 +259,13 @@ export function stagePanel(first) {
       subject.stop();
       subject = next;
       side.toggleAttribute('data-whole', next.isWhole);
-      view?.setLook(next.look());
+      turnsAtFirst = false;
       shown = {};
       // A model is cut out, a scan is saved.
       const [main, other] = next.isWhole ? ends.toReversed() : ends;
       for (const button of ends) button.classList.toggle('primary', button === main);
       main.after(other);
-      renew();
-      view?.look();
+      showFirst();
       showSaid();
       void update();
     },
@@ -254,10 +276,8 @@ export function stagePanel(first) {
     /** Shows a new input of a subject from its first direction. @param {Subject} of @param {boolean} [turns] whether it turns there slowly */
     begin: (of, turns = false) => {
       if (of !== subject) return;
-      view?.setLook(of.look());
-      renew();
-      view?.look();
-      if (turns) view?.turnOnce();
+      turnsAtFirst = turns;
+      showFirst();
     },
     /** Prepares the view of a subject's result, or of none. @param {Subject} of */
     update: (of) => {
@@ -270,9 +290,6 @@ export function stagePanel(first) {
     },
     choose,
     /** Tells whether a whole mesh is being solved. @param {boolean} solves */
-    setSolving: (solves) => {
-      isSolving = solves;
-      setBusy(false);
-    },
+    setSolving: (solves) => setBusy({ isSolving: solves }),
   };
 }

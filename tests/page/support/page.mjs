@@ -408,7 +408,7 @@ export async function openWhole(page, name, bytes) {
   await drop(page, name, bytes);
   await page.locator('#mesh-name', { hasText: name.replace(/\.\w+$/, '') }).waitFor();
   await page.locator('[data-whole]').waitFor();
-  await page.locator('[data-whole] #stage[aria-busy="false"]').waitFor();
+  await page.locator('[data-whole] #stage[data-busy="false"]').waitFor();
 }
 
 /**

@@ -15,6 +15,8 @@ import { make } from './dom.js';
  * @property {(text: string) => string} [wrong] what is wrong with another text; empty if nothing is
  * @property {string} [placeholder]
  * @property {string} [hint]
+ * @property {string} [describedBy] ids of other elements that describe it
+ * @property {string} [controls] id of the control that a check box shows
  */
 
 /** @param {number} least @param {number} most @param {string} [words] @returns {Range} */
@@ -23,12 +25,12 @@ export const between = (least, most, words = `from ${least} to ${most}`) => ({ t
 export const above = (limit, words = `above ${limit}`) => ({ takes: (value) => value > limit && value < Infinity, must: `a number ${words}` });
 
 /** The number of a text, which may have a decimal comma; NaN for another text. @param {string} text */
-export function numberOf(text) {
+function numberOf(text) {
   const word = text.trim();
   return word === '' ? NaN : Number(word.replace(/^([-−]?\d*),(\d+)/, '$1.$2').replace('−', '-'));
 }
 
-/** What is wrong with the text of a field; empty if nothing is. @param {Field} field @param {string} text */
+/** Returns the error message for the text of a field; empty if it is valid. @param {Field} field @param {string} text */
 function faultOf({ range, optional, wrong }, text) {
   if (wrong) return wrong(text);
   if (!range || (optional && text.trim() === '')) return '';
@@ -45,15 +47,17 @@ export function fieldsOf(table, onChange = () => {}) {
   /** @param {N} name */
   const create = (name) => {
     const field = /** @type {Field} */ (table[name]);
-    const { label, value = '', options, placeholder = '', hint } = field;
+    const { label, value = '', options, placeholder = '', hint, describedBy = '', controls } = field;
     const isCheck = typeof value === 'boolean';
     const control = options ? make('select', '', ...Object.entries(options).map(([option, words]) => new Option(words, option))) : make('input', '');
-    Object.assign(control, { id: name, ...(isCheck ? { type: 'checkbox', checked: value } : { value }), ...(!options && !isCheck && { type: 'text', inputMode: field.range ? 'decimal' : 'text', placeholder, spellcheck: false, autocomplete: 'off' }) });
+    // Keypads of phones for decimals have no minus.
+    Object.assign(control, { id: name, ...(isCheck ? { type: 'checkbox', checked: value } : { value }), ...(!options && !isCheck && { type: 'text', inputMode: field.range && !field.range.takes(-1) ? 'decimal' : 'text', placeholder, spellcheck: false, autocomplete: 'off' }) });
     const fault = make('span', 'wrong small');
     Object.assign(fault, { id: `${name}-wrong`, ariaLive: 'polite' });
     const about = make('span', 'hint small', hint ?? '');
     about.id = `${name}-hint`;
-    control.setAttribute('aria-describedby', `${fault.id} ${about.id}`);
+    if (!isCheck) control.setAttribute('aria-describedby', `${fault.id} ${about.id} ${describedBy}`.trim());
+    if (controls) control.setAttribute('aria-controls', controls);
     const node = isCheck ? make('label', 'check', control, ` ${label}`) : make('div', 'field', Object.assign(make('label', '', label), { htmlFor: name }), control, fault, about);
     /** Says what is wrong. @returns {string} empty if nothing is */
     const check = () => {

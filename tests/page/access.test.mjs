@@ -1,7 +1,7 @@
 /** By keyboard, on a phone, and in the dark. */
 import assert from 'node:assert/strict';
 import { grid, npy } from './support/files.mjs';
-import { choose, doorTest, look, open, pageTest, painted, runBy, settled } from './support/page.mjs';
+import { choose, doorTest, enterPages, look, open, pageTest, painted, runBy, settled } from './support/page.mjs';
 
 /** @typedef {import('playwright-core').Page} Page */
 
@@ -31,6 +31,22 @@ async function tabTo(page, selector) {
   }
   assert.fail(`Tab never reaches ${selector}`);
 }
+
+pageTest('attributes name elements that there are, and nothing that is said waits for a picture', async (page) => {
+  await choose(page.getByRole('radio', { name: 'Patches', exact: true }));
+  await page.locator('#stage[data-busy="false"]:has(#analysis)').waitFor({ state: 'attached' });
+  await enterPages(page);
+  await page.locator('#page-format').waitFor();
+  const { missing, silent } = await page.evaluate(() => {
+    const names = ['aria-describedby', 'aria-controls', 'aria-labelledby'].flatMap((name) => [...document.querySelectorAll(`[${name}]`)].flatMap((one) => String(one.getAttribute(name)).split(' ')));
+    return { missing: names.filter((name) => !document.getElementById(name)), silent: document.querySelectorAll('[aria-busy] :is([role="status"], [role="alert"])').length };
+  });
+  assert.deepEqual([missing, silent], [[], 0]);
+  for (const [name, attribute, wanted] of [['pixel-size', 'aria-describedby', /scale-hint scale-span/], ['height-scale', 'aria-describedby', /scale-hint scale-span/], ['page-format', 'aria-describedby', /format-hint/], ['find-occlusions', 'aria-controls', /^threshold$/]]) {
+    assert.match(await page.locator(`#${name}`).getAttribute(String(attribute)) ?? '', /** @type {RegExp} */ (wanted));
+  }
+  assert.deepEqual(await Promise.all(['pixel-size', 'height-scale'].map((name) => page.locator(`#${name}`).getAttribute('inputmode'))), ['decimal', 'text']);
+});
 
 pageTest('everything can be done by keyboard', async (page) => {
   await tabTo(page, '#end-file');
@@ -108,7 +124,7 @@ pageTest('every view fits on a phone, light and dark, with the pixels of the dev
     await page.emulateMedia({ colorScheme });
     for (const radio of await page.locator('label:not([hidden]) > input[name="view"]').all()) {
       await choose(radio);
-      await page.locator('#stage[aria-busy="false"]:has(#analysis)').waitFor({ state: 'attached' });
+      await page.locator('#stage[data-busy="false"]:has(#analysis)').waitFor({ state: 'attached' });
       await painted(page);
       assert.ok(await excess(page) <= 0, `${await radio.inputValue()}: ${await excess(page)} pixels, ${colorScheme}`);
     }

@@ -10,7 +10,7 @@ import { PAPERS } from '../page/paper.js';
 const { a4, letter } = SAVE_WORDS.papers;
 const FIELDS = {
   'page-format': {
-    label: 'Page format',
+    label: 'Page format', describedBy: 'format-hint',
     options: { '': 'Not known', a4: `${a4} portrait`, 'a4-wide': `${a4} landscape`, letter: `${letter} portrait`, 'letter-wide': `${letter} landscape`, own: 'another one…' },
   },
   'page-wide': { label: 'Width in mm', range: above(0), optional: true },

@@ -1,5 +1,5 @@
 /** The button that solves, and the progress of solves of heights and meshes, which can be cancelled. */
-import { element } from '../dom.js';
+import { element, elements } from '../dom.js';
 import { RUN_WORDS } from '../messages.js';
 import { waitingPanel } from './waiting.js';
 
@@ -26,7 +26,9 @@ export function runPanel(session, meshFit, stage) {
 
   form.addEventListener('submit', (event) => {
     event.preventDefault();
-    if (form.reportValidity()) stage.subject.run();
+    const wrong = elements('#controls [aria-invalid="true"]', HTMLElement).find((field) => field.checkVisibility());
+    if (wrong) wrong.focus();
+    else stage.subject.run();
   });
   const waiting = waitingPanel(running, () => {
     waiting.tell({ fraction: told || undefined, label: RUN_WORDS.stopping });

@@ -21,7 +21,7 @@ const SOLVER_FIELDS = {
       secondFormOfInput: 'second form, slopes of the input', secondForm: 'second form, its own slopes',
     },
   },
-  'find-occlusions': { label: 'Tear where it jumps (occlusions)', value: false },
+  'find-occlusions': { label: 'Tear where it jumps (occlusions)', value: false, controls: 'threshold' },
   threshold: { label: 'Smallest jump', value: '4e4', range: above(0) },
 };
 

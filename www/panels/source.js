@@ -22,8 +22,8 @@ const EXAMPLE_FIELDS = {
   noise: { label: 'Noise', options: { 0: 'none', 0.005: '0.5 %', 0.01: '1 %', 0.02: '2 %', 0.05: '5 %', 0.1: '10 %' }, value: '0.02' },
 };
 const FILE_FIELDS = {
-  'pixel-size': { label: 'Pixel size', range: above(0) },
-  'height-scale': { label: 'Height scale', range: { takes: (/** @type {number} */ scale) => Math.abs(scale) > 0, must: 'a number other than 0' } },
+  'pixel-size': { label: 'Pixel size', range: above(0), describedBy: 'scale-hint scale-span' },
+  'height-scale': { label: 'Height scale', range: { takes: (/** @type {number} */ scale) => Math.abs(scale) > 0, must: 'a number other than 0' }, describedBy: 'scale-hint scale-span' },
   'no-data': {
     label: 'Number that means no data, or “none”', placeholder: 'automatic',
     wrong: (/** @type {string} */ text) => (text.trim() === '' || noDataOf(text) !== undefined ? '' : 'This must be a number, “none”, or empty.'),

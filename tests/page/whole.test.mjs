@@ -230,9 +230,9 @@ doorTest('a whole solve tells how far it is and can be done without; what is no 
   assert.match(await page.locator('#verdict-detail').innerText(), /edge/);
 });
 
-/** Acts at once one after the other, before anything can be solved in between. @param {Page} page @param {...[selector: string, value?: string]} acts */
+/** Acts before anything can be solved in between, and tells what is shown right then. @param {Page} page @param {...[selector: string, value?: string]} acts */
 async function actAtOnce(page, ...acts) {
-  await page.evaluate((acts) => {
+  return page.evaluate((acts) => {
     for (const [selector, value] of acts) {
       const control = /** @type {HTMLInputElement} */ (document.querySelector(selector));
       if (value === undefined) control.click();
@@ -241,6 +241,8 @@ async function actAtOnce(page, ...acts) {
         control.dispatchEvent(new Event('change'));
       }
     }
+    const [about, report, running, part] = ['#about-view', '#whole-report', '#running', '#page'].map((one) => /** @type {HTMLElement} */ (document.querySelector(one)));
+    return { about: about.textContent, isReported: !report.hidden, isRunning: !running.hidden, phase: part.dataset.phase };
   }, acts);
 }
 const WHOLE = '[name="mesh-way"][value="whole"]';
@@ -264,8 +266,8 @@ doorTest('one side and the whole mesh show nothing of each other', async (page) 
 
 doorTest('another λ ends a view that is being prepared, and a whole solve that of one side', async (page) => {
   await openWhole(page, 'box.obj', obj(box));
-  await actAtOnce(page, ['[name="view"][value="patches"]'], ['#lambda-value', '1e6']);
-  assert.match(await page.locator('#about-view').innerText(), /^Appears when/);
+  const { about, isReported } = await actAtOnce(page, ['[name="view"][value="patches"]'], ['#lambda-value', '1e6']);
+  assert.deepEqual([about, isReported], ['Appears when a run has ended.', false]);
   await done(page);
   assert.equal(await page.getByRole('alert').isVisible(), false);
   assert.ok(parsed(await told(page, 'Patches')) > 0);
@@ -273,9 +275,8 @@ doorTest('another λ ends a view that is being prepared, and a whole solve that 
 
   await choose(page.getByRole('radio', { name: 'From one side', exact: true }));
   await settled(page);
-  await actAtOnce(page, ['#lambda-value', '1e5'], [WHOLE]);
-  assert.equal(await page.locator('#page').getAttribute('data-phase'), 'idle');
-  assert.ok(await page.locator('#running').isVisible() || await page.locator('#stage').getAttribute('data-busy') === 'false', 'the progress of the whole solve');
+  const { phase, isRunning } = await actAtOnce(page, ['#lambda-value', '1e5'], [WHOLE]);
+  assert.deepEqual([phase, isRunning], ['idle', true], 'the progress of the whole solve');
   await choose(page.getByRole('radio', { name: 'From one side', exact: true }));
   await settled(page);
   assert.equal(parsed(await reported(page, 'λ')), 1e5);

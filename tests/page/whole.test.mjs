@@ -241,8 +241,8 @@ async function actAtOnce(page, ...acts) {
         control.dispatchEvent(new Event('change'));
       }
     }
-    const [about, report, running, part] = ['#about-view', '#whole-report', '#running', '#page'].map((one) => /** @type {HTMLElement} */ (document.querySelector(one)));
-    return { about: about.textContent, isReported: !report.hidden, isRunning: !running.hidden, phase: part.dataset.phase };
+    const [about, report, running, stage, part] = ['#about-view', '#whole-report', '#running', '#stage', '#page'].map((one) => /** @type {HTMLElement} */ (document.querySelector(one)));
+    return { about: about.textContent, isReported: !report.hidden, isRunning: !running.hidden, busy: stage.dataset.busy, phase: part.dataset.phase };
   }, acts);
 }
 const WHOLE = '[name="mesh-way"][value="whole"]';
@@ -272,6 +272,9 @@ doorTest('another λ ends a view that is being prepared, and a whole solve that 
   assert.equal(await page.getByRole('alert').isVisible(), false);
   assert.ok(parsed(await told(page, 'Patches')) > 0);
   assert.equal(await page.locator('#result-caption').innerText(), 'λ = 1e6');
+  const { busy } = await actAtOnce(page, ['#lambda-value', '1e7'], ['#running-cancel']);
+  assert.equal(busy, 'true', 'with the view of the result from before');
+  await done(page);
 
   await choose(page.getByRole('radio', { name: 'From one side', exact: true }));
   await settled(page);

@@ -6,7 +6,7 @@
  * - `NO_INTERIOR`: no vertex has heights all around it;
  * - `OVERFLOW`, `UNDERFLOW`: heights or lengths are too large or too small for double precision;
  * - `TOO_LARGE`: there are more heights or pixels than can be held;
- * - `TOPOLOGY`: a mesh that is no surface, as one with three triangles at an edge;
+ * - `TOPOLOGY`: a mesh that is no surface with two sides, as a Möbius strip;
  * - `UNDERDETERMINED`: a part of the surface that its constraints and confidences do not hold in place;
  * - `EDGES`: traced edges that cannot be those of a page;
  * - `NO_PAGE`: no page was found in a photo, so that its edges have to be given;

@@ -801,6 +801,11 @@ export interface MeshRepairs {
   turned: number;
   /** Number of vertices of no triangle, which stay where they are. */
   unused: number;
+  /**
+   * Number of edges of three triangles or more. None of these continues another across it: it is a border of each, and
+   * they move together there.
+   */
+  branched: number;
 }
 
 /** Report of a mesh's fit: what was solved, how well, and at what cost. */

@@ -132,6 +132,8 @@ export const MESH_FIT_WORDS = {
   diverged: 'The iterations diverged. You see the best surface before.',
   /** @param {number} n */
   repaired: (n) => `${count(n)} ${n === 1 ? 'triangle was' : 'triangles were'} repaired first: wrong side, no area, or double.`,
+  /** @param {number} n */
+  branched: (n) => `${count(n)} ${n === 1 ? 'edge has' : 'edges have'} three triangles or more, and ${n === 1 ? 'is a border' : 'are borders'} of each.`,
   /** @param {number} n @param {string} place */
   entangled: (n, place) => `${count(n)} ${n === 1 ? 'triangle is' : 'triangles are'} folded over or cross others, the first near (${place}). Repair the mesh there.`,
   /** @param {number} n */

@@ -18,7 +18,7 @@ pub(crate) fn next_half_edge(half_edge: u32) -> u32 {
 }
 
 /// Finds the twin of each half-edge: the half-edge of the neighbouring triangle with the same ends; [`NO_INDEX`] on the
-/// border. At most two triangles may share an edge. Costs `O(half-edges + highest
+/// border, and where more than two triangles share an edge. Costs `O(half-edges + highest
 /// number of a vertex)` on meshes whose vertices have few triangles.
 pub(crate) fn twin_half_edges(triangles: &[[u32; 3]]) -> Vec<u32> {
     let half_edges = 0..3 * triangles.len() as u32;

@@ -26,13 +26,14 @@ export function readingAt(mesh, surface, place, value = '') {
 
 /** The summary of a solve in sentences. @param {MeshSurface} surface */
 export function meshFitSummary({ report }) {
-  const { passes, stopReason, flipped, entangled, repairs: { turned, degenerate, repeated } } = report;
+  const { passes, stopReason, flipped, entangled, repairs: { turned, degenerate, repeated, branched } } = report;
   const gap = passes.at(-1)?.gap;
   const mended = turned + degenerate + repeated;
   return [
     gap === undefined ? '' : MESH_FIT_WORDS.proof(passes.length, percent(gap)),
     stopReason === 'maxIterations' || stopReason === 'diverged' || stopReason === 'noNoise' ? MESH_FIT_WORDS[stopReason] : '',
     mended > 0 ? MESH_FIT_WORDS.repaired(mended) : '',
+    branched > 0 ? MESH_FIT_WORDS.branched(branched) : '',
     entangled.length > 0 ? MESH_FIT_WORDS.entangled(entangled.length, entangled[0].position.map((at) => number(at, 3)).join(', ')) : '',
     entangled.length === 0 && flipped[1] > 0 ? MESH_FIT_WORDS.flipped(flipped[1]) : '',
   ].filter(Boolean).join(' ');

@@ -21,6 +21,9 @@ pub struct Repairs {
     pub turned: usize,
     /// Number of vertices of no triangle, which stay where they are.
     pub unused: usize,
+    /// Number of edges of three triangles or more. None of these continues another across it: it is a border of each, and they
+    /// move together there.
+    pub branched: usize,
 }
 
 /// Figures of one pass of a mesh's fit: a linearisation of the energy, and the solve of its convex problem.

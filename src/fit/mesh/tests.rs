@@ -475,14 +475,6 @@ fn refused(positions: Vec<[f64; 3]>, triangles: Vec<[u32; 3]>) -> String {
 
 #[test]
 fn what_is_no_surface_is_refused_with_its_place() {
-    // Three leaves along one edge.
-    let mut leaves = vec![[0.0, 0.0, 0.0], [0.0, 0.0, 1.0]];
-    leaves.extend([[1.0, 0.0, 0.5], [-1.0, 1.0, 0.5], [-1.0, -1.0, 0.5]]);
-    let text = refused(leaves, vec![[0, 1, 2], [1, 0, 3], [0, 1, 4]]);
-    assert!(
-        text.contains("3 triangles") && text.contains("vertex 1 (0, 0, 1)"),
-        "{text}"
-    );
     // A strip that is turned half round.
     let mut places = Vec::new();
     for i in 0..12 {
@@ -506,6 +498,51 @@ fn what_is_no_surface_is_refused_with_its_place() {
     refused(vec![[2.0; 3]; 3], vec![[0, 1, 2]]);
     let cloud = fit_mesh(&Mesh::cloud(alone).unwrap(), &MeshOptions::default());
     assert!(matches!(cloud, Err(Error::Unsupported { .. })));
+}
+
+/// Three walls that meet along one edge, as those of a plan of a house: they stay together there, and noise goes.
+#[test]
+fn walls_that_meet_along_an_edge_are_borders_of_each_other() {
+    let side = 16;
+    let directions = [[1.0, 0.0], [-0.5, 0.8], [-0.5, -0.8]];
+    let (mut positions, mut triangles) = (Vec::new(), Vec::new());
+    let mut random = random(3);
+    for [x, y] in directions {
+        let first = positions.len() as u32;
+        let step = |i: usize| i as f64 / (side - 1) as f64;
+        for (out, up) in (0..side).flat_map(|out| (0..side).map(move |up| (step(out), step(up)))) {
+            // Across the wall, but not where the walls meet.
+            let noise = if out > 0.0 {
+                0.01 * normal(&mut random)
+            } else {
+                0.0
+            };
+            positions.push([x * out - y * noise, y * out + x * noise, up]);
+        }
+        let corner = |out: usize, up: usize| first + (out * side + up) as u32;
+        for (out, up) in (0..side - 1).flat_map(|out| (0..side - 1).map(move |up| (out, up))) {
+            let [a, b] = [corner(out, up), corner(out, up + 1)];
+            let [c, d] = [corner(out + 1, up), corner(out + 1, up + 1)];
+            triangles.extend([[a, c, b], [b, c, d]]);
+        }
+    }
+    let walls = Mesh::new(positions, triangles).unwrap();
+    let off = |mesh: &Mesh| {
+        let squares = (mesh.positions().iter().enumerate()).map(|(i, [x, y, _])| {
+            let [u, v] = directions[i / (side * side)];
+            ((u * y - v * x) / f64::hypot(u, v)).powi(2)
+        });
+        (squares.sum::<f64>() / mesh.positions().len() as f64).sqrt()
+    };
+    let surface = fit_mesh(&walls, &MeshOptions::default()).unwrap();
+    let report = surface.report();
+    assert_eq!(report.repairs.branched, side - 1);
+    let after = off(surface.mesh());
+    assert!(after < 0.6 * off(&walls), "{after} {}", off(&walls));
+    for up in 0..side {
+        let [a, b, c] = [0, 1, 2].map(|k| surface.mesh().positions()[k * side * side + up]);
+        assert_eq!([a, a], [b, c]);
+    }
 }
 
 #[test]

@@ -39,8 +39,7 @@ impl Topology {
     /// Finds the topology of a mesh, with vertices and triangles in the mesh's order.
     ///
     /// # Errors
-    /// [`Error::Topology`] where an edge has more than two triangles, or where triangles cannot all face one side;
-    /// [`Error::Unsupported`] for a cloud of points.
+    /// [`Error::Topology`] where triangles cannot all face one side; [`Error::Unsupported`] for a cloud of points.
     pub(crate) fn new(mesh: &Mesh) -> Result<Self> {
         let vertices = join_vertices(mesh)?;
         let mut repairs = Repairs::default();
@@ -168,36 +167,16 @@ impl Topology {
         sides.sort_unstable();
         let edges: Vec<&[(u32, u32, u32, bool)]> =
             sides.chunk_by(|a, b| (a.0, a.1) == (b.0, b.1)).collect();
-        self.check_edges(mesh, &edges)?;
+        self.repairs.branched = edges.iter().filter(|edge| edge.len() > 2).count();
         self.orient(mesh, &edges)?;
         let ends = |edge: &&[(u32, u32, u32, bool)]| [edge[0].0, edge[0].1];
         self.adjacency = Adjacency::from_edges(self.len(), edges.iter().map(ends))?;
-        let rim = || edges.iter().filter(|edge| edge.len() == 1);
+        // Where three triangles or more meet, none continues another: the edge is a border of each.
+        let rim = || edges.iter().filter(|edge| edge.len() != 2);
         self.rim = Adjacency::from_edges(self.len(), rim().map(ends))?;
         self.closed = rim().next().is_none();
         self.find_inside();
         Ok(())
-    }
-
-    /// Checks that no edge of the mesh has more than two triangles.
-    fn check_edges(&self, mesh: &Mesh, edges: &[&[(u32, u32, u32, bool)]]) -> Result<()> {
-        let mut bad = edges.iter().filter(|edge| edge.len() > 2);
-        let Some(edge) = bad.next() else {
-            return Ok(());
-        };
-        let at = |vertex: u32| place(mesh, self.source[vertex as usize]);
-        Err(Error::Topology {
-            reason: format!(
-                "the edge from {} to {} has {} triangles, where a surface has one or two ({} such \
-                 edges in all)",
-                at(edge[0].0),
-                at(edge[0].1),
-                edge.len(),
-                1 + bad.count()
-            ),
-            advice: "take the triangles away that are too many there, or cut the mesh along those \
-                     edges (mesh editors do so as \"repair non-manifold edges\")",
-        })
     }
 
     /// Turns triangles over until neighbours face one side, and counts the connected components.

@@ -219,7 +219,7 @@ doorTest('a whole solve tells how far it is and can be done without; what is no 
   assert.ok(await page.locator('#end-file').isEnabled());
   await done(page);
 
-  // Three triangles at one edge.
+  // Three triangles at one edge, of which no vertex is inside.
   const fan = { points: [[0, 0, 0], [1, 0, 0], [0, 1, 0.2], [0, -1, 0.1], [0, 0.2, 1]], triangles: [[0, 1, 2], [1, 0, 3], [0, 1, 4]] };
   await open(page, 'fan.obj', obj(/** @type {any} */ (fan)));
   // It is tried whole first.
@@ -227,7 +227,7 @@ doorTest('a whole solve tells how far it is and can be done without; what is no 
   assert.equal(await page.locator('[data-whole]').isVisible(), false, 'what cannot be solved whole is shown from one side');
   await solve(page);
   assert.match(await page.locator('#verdict').innerText(), /cannot be solved as a whole/);
-  assert.match(await page.locator('#verdict-detail').innerText(), /edge/);
+  assert.match(await page.locator('#verdict-detail').innerText(), /inside/);
 });
 
 /** Acts before anything can be solved in between, and tells what is shown right then. @param {Page} page @param {...[selector: string, value?: string]} acts */

@@ -131,7 +131,7 @@ function tell(task, { report }, mesh) {
     toStderr('developable: warning: the iterations diverged; this is the best surface before\n');
   }
   const { turned, degenerate, repeated, branched } = report.repairs;
-  if (branched > 0) say(`${branched} edges of ${task.input} have three triangles or more: they are borders of each`);
+  if (branched > 0) say(`edges of ${task.input} with three triangles or more are borders of each: ${branched}`);
   if (turned + degenerate + repeated > 0) {
     toStderr(
       `developable: warning: ${task.input} was mended for the fit: ${turned} triangles faced the wrong side, ${degenerate} had ` +

@@ -104,7 +104,7 @@ function reportSize(output, { width, height, pages, summary: { sheets } }) {
   succeed(output, `${counted(sheets, 'sheet')}, together ${Math.ceil(width)} × ${Math.ceil(height)} mm${paper}`);
 }
 
-/** What it takes besides the creases. @param {import('../types.js').Drawing['summary']} summary */
+/** Says how many slits the sheets have besides the creases, and how long these are. @param {import('../types.js').Drawing['summary']} summary */
 function reportSlits({ slits, slitLength, sheets, strain }) {
   if (slits === 0) return;
   toStderr(
@@ -113,7 +113,7 @@ function reportSlits({ slits, slitLength, sheets, strain }) {
   );
 }
 
-/** What is on no sheet, and what was cut off. @param {import('../types.js').Drawing['summary']} summary */
+/** Warns of parts of the surface that are on no sheet, and of loops that were cut off. @param {import('../types.js').Drawing['summary']} summary */
 function reportMissing({ missing, loops }) {
   const squares = (/** @type {number} */ area) => `${(area / 100).toFixed(area < 1000 ? 1 : 0)} cm²`;
   const words = [];

@@ -23,7 +23,7 @@ export function sizeInWords({ width, height, resolution = 1, unit }) {
   return `${width} × ${height} pixels${lengths}`;
 }
 
-/** What of the warp map a file of it takes. @param {string} [path] */
+/** Returns which form of the warp map its file takes: an NPY file the whole map, a JSON file a grid. @param {string} [path] */
 export function mapOptions(path) {
   const full = path?.toLowerCase().endsWith('.npy') === true;
   return { map: full, grid: path !== undefined && !full };

@@ -1,4 +1,4 @@
-/** What is to be laid flat: a surface that is fitted, a cylinder, or the input as it is. */
+/** The surface that a command lays flat: one that is fitted, a cylinder, or the input as it is. */
 import * as developable from '../index.js';
 import { solver } from '../schema/fit.js';
 import { solve } from './fit.js';
@@ -13,7 +13,7 @@ import { json } from './texts.js';
  */
 
 /**
- * What is to be laid flat, and how it is resampled if it is no lattice yet.
+ * Returns the surface to be laid flat, and how it is resampled if it is no lattice yet.
  * @param {Task & { photo?: import('./inputs.js').Size }} task
  * @param {AbortSignal} signal
  * @param {(input: Input) => void} [check] whether it will do, before the work

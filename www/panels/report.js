@@ -81,8 +81,8 @@ function copyButton(id, words) {
 /** @param {string} text */
 const csvCell = (text) => (/[",\r\n]/.test(text) ? `"${text.replaceAll('"', '""')}"` : text);
 
-/** All that the page shows about a result. @param {Analyses} analyses @param {Result} result @param {readonly Moment[]} convergence */
-async function reportFile(analyses, result, convergence) {
+/** All that the page shows about a result. @param {Analyses} analyses @param {Result} result @param {readonly Moment[]} moments */
+async function reportFile(analyses, result, moments) {
   const { input: { name, kind, example, width, height, pixelSize, heightScale, unit, stored, assumptions }, settings, surface } = result;
   const [{ default: { version } }, pieces, { before, after }] = await Promise.all([
     import(new URL('../pkg/package.json', import.meta.url).href, { with: { type: 'json' } }), analyses.patchCount(result), analyses.curvatures(result),
@@ -96,7 +96,8 @@ async function reportFile(analyses, result, convergence) {
     creases: pieces.creases,
     curvature: { input: before.summary, result: after.summary },
     errors: { heights: result.accuracy ?? undefined },
-    convergence,
+    // The worker tells its progress now and then only, so that the end is not among the moments.
+    convergence: [...moments, { level: 0, iteration: surface.report.iterations, elapsed: surface.report.seconds.total, gap: surface.report.gap }],
   };
 }
 

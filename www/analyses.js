@@ -11,13 +11,10 @@ import { heightsOf } from './session.js';
 /** @import {Tell} from './mesh-fit.js' */
 /** @typedef {import('../pkg/types.js').Analysis} Analysis */
 /** @typedef {ReturnType<typeof import('./surface/gaussian-curvature.js').curvaturesOf>} Curvatures */
-/** @typedef {import('../pkg/types.js').Drawing} Drawing */
 /** @typedef {import('../pkg/types.js').PatternOptions} PatternOptions */
 
 /** Longer side of the lattice that is cut into sheets, in pixels: a pixel is half a millimetre for a piece of 20 cm. */
 const PATTERN_SIDE_PIXELS = 450;
-/** Largest ratio of a lattice's longer side to `PATTERN_SIDE_PIXELS` for which the lattice is not reduced. */
-const MAX_UNREDUCED_RATIO = 1.2;
 
 export class Analyses {
   #tasks;
@@ -93,13 +90,8 @@ export class Analyses {
   pattern(result, options, tell) {
     const { surface } = result;
     const { width, height } = result.image;
-    const source = Math.max(width, height) < MAX_UNREDUCED_RATIO * PATTERN_SIDE_PIXELS ? surface : reducedImage(result, PATTERN_SIDE_PIXELS);
+    const source = Math.max(width, height) <= PATTERN_SIDE_PIXELS ? surface : reducedImage(result, PATTERN_SIDE_PIXELS);
     return this.#tasks.answer(surface, `pattern ${JSON.stringify(options)}`, (worker) => worker.pattern(source, { ...options, onProgress: ({ fraction }) => tell({ fraction, task: 'cutting' }) }));
-  }
-
-  /** @param {Drawing} drawing */
-  svg(drawing) {
-    return this.#tasks.answer(drawing, 'svg', (worker) => worker.writeSvg(drawing));
   }
 
 }

@@ -5,6 +5,7 @@ import { make } from './dom.js';
  * @typedef {object} Range numbers that a field takes
  * @property {(value: number) => boolean} takes
  * @property {string} must what a number has to be, for messages
+ * @property {boolean} [isWide] whether its numbers are written with an exponent
  *
  * @typedef {object} Field
  * @property {string} label with the unit
@@ -50,8 +51,8 @@ export function fieldsOf(table, onChange = () => {}) {
     const { label, value = '', options, placeholder = '', hint, describedBy = '', controls } = field;
     const isCheck = typeof value === 'boolean';
     const control = options ? make('select', '', ...Object.entries(options).map(([option, words]) => new Option(words, option))) : make('input', '');
-    // Keypads of phones for decimals have no minus.
-    Object.assign(control, { id: name, ...(isCheck ? { type: 'checkbox', checked: value } : { value }), ...(!options && !isCheck && { type: 'text', inputMode: field.range && !field.range.takes(-1) ? 'decimal' : 'text', placeholder, spellcheck: false, autocomplete: 'off' }) });
+    // Keypads of phones for decimals have neither a minus nor an exponent.
+    Object.assign(control, { id: name, ...(isCheck ? { type: 'checkbox', checked: value } : { value }), ...(!options && !isCheck && { type: 'text', inputMode: field.range && !field.range.isWide && !field.range.takes(-1) ? 'decimal' : 'text', placeholder, spellcheck: false, autocomplete: 'off' }) });
     const fault = make('span', 'wrong small');
     Object.assign(fault, { id: `${name}-wrong`, ariaLive: 'polite' });
     const about = make('span', 'hint small', hint ?? '');

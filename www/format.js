@@ -79,11 +79,6 @@ export function signedPercent(share) {
   return `${share >= MIN_SHARE ? '+' : ''}${percent(share)}`;
 }
 
-/** The strain at the pointer, in words. @param {number} strain NaN outside of the sheet */
-export function strainInWords(strain) {
-  return Number.isNaN(strain) ? '' : `strain ${signedPercent(strain)}`;
-}
-
 /** A duration in seconds or milliseconds. @param {number} s in seconds */
 export function seconds(s) {
   return s < 0.1 ? `${number(1000 * s, 2)}${NO_BREAK_SPACE}ms` : `${number(s, s < 100 ? 2 : 3)}${NO_BREAK_SPACE}s`;

@@ -13,13 +13,13 @@ import { homePanel } from './panels/home.js';
 import { addressSyncPanel } from './panels/address-sync.js';
 import { modePanel } from './panels/mode.js';
 import { hideNotice, showNotice } from './panels/notice.js';
-import { openingPanel } from './panels/opening.js';
 import { pagePanel } from './panels/page.js';
 import { reportPanel } from './panels/report.js';
 import { runPanel } from './panels/run.js';
 import { settingsPanel } from './panels/settings.js';
 import { sourcePanel } from './panels/source.js';
 import { stripPanel } from './panels/strip.js';
+import { PROGRESS_DELAY_MS, waitingPanel } from './panels/waiting.js';
 import { heightsPanel } from './panels/heights.js';
 import { meshFitPanel } from './panels/mesh-fit.js';
 import { Session } from './session.js';
@@ -37,7 +37,8 @@ async function start() {
   const { stage, heights } = heightsPanel(session, analyses);
   const { adopt } = settingsPanel(session, meshFit);
   const strip = stripPanel(session, adopt);
-  openingPanel(session);
+  const opening = waitingPanel(element('opening', HTMLElement), () => session.cancelOpening(), PROGRESS_DELAY_MS);
+  session.on('opening', (task) => (task ? opening.begin(task) : opening.end()));
   const meshFitView = meshFitPanel(session, meshFit, stage, heights);
   runPanel(session, meshFit, stage);
   reportPanel(session, analyses);
@@ -49,7 +50,7 @@ async function start() {
     addressSync.onModeChange();
   });
   const files = filesPanel(session, mode, source, page);
-  const gallery = galleryPanel(session, { adopt, choose: stage.choose, strip: strip.show, enter: () => mode.enter('heights') });
+  const gallery = galleryPanel(session, { adopt, choose: stage.choose, strip: strip.show, enter: () => mode.enter('heights'), isRestoring: () => addressSync.isRestoring });
   element('notice-close', HTMLButtonElement).addEventListener('click', hideNotice);
   watchDrops((dropped) => void files.open(dropped));
   homePanel((chosen, door) => void files.open(chosen, door === 'page' || undefined), {

@@ -127,11 +127,6 @@ export class MeshFit extends Events {
     return this.#tasks.answer(laidFlat, `pattern ${JSON.stringify(options)}`, (worker) =>
       worker.patternMesh(printed ? laidFlat : geometryOf(laidFlat), { ...own, printed, onProgress: tell }));
   }
-
-  /** @param {import('../pkg/types.js').Drawing} drawing */
-  svg(drawing) {
-    return this.#tasks.answer(drawing, 'svg', (worker) => worker.writeSvg(drawing));
-  }
 }
 
 /** The geometry of a mesh, without its texture. @param {Mesh} mesh */

@@ -128,6 +128,7 @@ export const MESH_FIT_WORDS = {
   /** @param {string} share */
   hidden: (share) => `From this side ${share} of the surface is hidden. “Whole mesh” solves all of it.`,
   noNoise: 'The mesh has no noise, and is left as it is.',
+  flatFaces: 'No colour: all faces are flat, so that the surface bends at edges and corners only.',
   maxIterations: 'The solve stopped at the maximum number of iterations.',
   diverged: 'The iterations diverged. You see the best surface before.',
   /** @param {number} n */
@@ -318,7 +319,7 @@ export function lambdaChoiceInWords({ lambda, lambdaChoice }) {
 
 /** How λ of a whole mesh was chosen automatically. @param {MeshSurface['report']} report */
 export function meshLambdaChoiceInWords({ lambda, sigma, stopReason }) {
-  if (stopReason === 'noNoise') return 'The mesh has no noise, and is left as it is. A number for λ smooths it.';
+  if (stopReason === 'noNoise') return 'The mesh has no noise, and is left as it is. The slider smooths it.';
   if (sigma === undefined) return `Too few vertices to measure their noise: λ = ${shortLambda(lambda)}.`;
   return `Chosen automatically. Noise: ${number(sigma)} along the normals, in the unit of the mesh.`;
 }

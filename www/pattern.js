@@ -112,11 +112,18 @@ export function sheetFigures({ width, height, summary: { cutLength, mountainLeng
 
 /**
  * Displays a drawing as an image element, made from the SVG file.
- * @param {(drawing: Drawing) => Promise<Uint8Array<ArrayBuffer>>} svg
+ * @param {import('./api.js').Api} api
  * @param {Drawing} drawing
  */
-export async function drawingImage(svg, drawing) {
-  const image = await imageOf(await svg(drawing));
+export async function drawingImage(api, drawing) {
+  const image = new Image();
+  const address = URL.createObjectURL(new Blob([await api.writeSvg(drawing)], { type: 'image/svg+xml' }));
+  try {
+    image.src = address;
+    await image.decode();
+  } finally {
+    URL.revokeObjectURL(address);
+  }
   image.alt = sheetsInWords(drawing);
   return image;
 }
@@ -142,17 +149,4 @@ export async function assemblyPicture(drawing, up) {
 function assemblyOf({ assembly }) {
   if (!assembly) throw new Error('nothing is said of how it is put together');
   return assembly;
-}
-
-/** @param {Uint8Array<ArrayBuffer>} svg */
-async function imageOf(svg) {
-  const image = new Image();
-  const address = URL.createObjectURL(new Blob([svg], { type: 'image/svg+xml' }));
-  try {
-    image.src = address;
-    await image.decode();
-  } finally {
-    URL.revokeObjectURL(address);
-  }
-  return image;
 }

@@ -45,7 +45,7 @@ pageTest('attributes name elements that there are, and nothing that is said wait
   for (const [name, attribute, wanted] of [['pixel-size', 'aria-describedby', /scale-hint scale-span/], ['height-scale', 'aria-describedby', /scale-hint scale-span/], ['page-format', 'aria-describedby', /format-hint/], ['find-occlusions', 'aria-controls', /^threshold$/]]) {
     assert.match(await page.locator(`#${name}`).getAttribute(String(attribute)) ?? '', /** @type {RegExp} */ (wanted));
   }
-  assert.deepEqual(await Promise.all(['pixel-size', 'height-scale'].map((name) => page.locator(`#${name}`).getAttribute('inputmode'))), ['decimal', 'text']);
+  assert.deepEqual(await Promise.all(['pixel-size', 'height-scale', 'lambda-value'].map((name) => page.locator(`#${name}`).getAttribute('inputmode'))), ['decimal', 'text', 'text']);
 });
 
 pageTest('everything can be done by keyboard', async (page) => {

@@ -2,7 +2,7 @@
 import assert from 'node:assert/strict';
 import { deflateSync } from 'node:zlib';
 import { chunk, grid, npy } from './support/files.mjs';
-import { drop, pageTest, settled } from './support/page.mjs';
+import { choose, drop, pageTest, settled } from './support/page.mjs';
 import { dottedPhoto } from './support/photos.mjs';
 
 /** @typedef {import('playwright-core').Page} Page */
@@ -35,6 +35,8 @@ async function tabStops(page) {
 pageTest('behind each door is an example, one click away, and Back leads to the doors', async (page) => {
   const home = page.locator('#home');
   assert.equal(await home.getByRole('article').count(), 3);
+  const lefts = await Promise.all(['h1 a', '.lead', '.doors', '.colophon p'].map(async (one) => (await page.locator(one).first().boundingBox())?.x));
+  assert.equal(new Set(lefts).size, 1, `one left edge, not ${lefts.join(', ')}`);
   for (const picture of await home.locator('img').all()) assert.ok(await picture.evaluate((one) => /** @type {HTMLImageElement} */ (one).decode().then(() => true)));
 
   await page.evaluate(() => (location.hash = '#file=99'));
@@ -64,6 +66,10 @@ pageTest('behind each door is an example, one click away, and Back leads to the 
   await page.locator('[data-example="model"]').click();
   await page.locator('[data-whole] #stage[data-busy="false"]').waitFor();
   assert.match(await page.locator('#mesh-name').innerText(), /house \(OBJ\)/);
+  // Its faces are flat: colours between its corners would be none of theirs.
+  await choose(page.getByRole('radio', { name: 'Curvature K' }));
+  await page.locator('#stage[data-busy="false"] #about-view', { hasText: 'all faces are flat' }).waitFor();
+  assert.equal(await page.locator('.bar').count(), 0);
   assert.equal(await page.locator('.primary:visible').count(), 1, 'one main button');
   await page.locator('#end-sheets').click();
   await page.locator('#save-title', { hasText: /80 mm/ }).waitFor();
@@ -74,7 +80,7 @@ pageTest('behind each door is an example, one click away, and Back leads to the 
   await page.locator('#flat-view[aria-busy="false"]').waitFor();
   await page.goBack();
   await home.waitFor();
-  assert.match(await home.innerText(), /Opened before: house\.obj/);
+  assert.equal(await home.getByText('Opened before').isVisible(), false, 'nothing of one’s own');
 }, { start: '', unfolded: '' });
 
 pageTest('what is dropped or pasted on the first screen opens its door', async (page) => {
@@ -82,6 +88,7 @@ pageTest('what is dropped or pasted on the first screen opens its door', async (
   await page.locator('#input-caption', { hasText: 'ramp' }).waitFor({ state: 'attached' });
   assert.ok(await page.locator('#heights-side').isVisible());
   await page.getByRole('link', { name: 'developable' }).click();
+  await page.locator('#home').getByText('Opened before: ramp.npy').waitFor();
   // As a screenshot is pasted.
   await page.evaluate((content) => {
     const clipboardData = new DataTransfer();

@@ -51,6 +51,7 @@ test('pictures of the gallery are solved one after the other, also after one tha
       if (isFirst) throw new Error('it fails');
       return {};
     }
+    async draw() {}
     dispose() {}
   }
   const card = /** @type {any} */ ({ ...CARDS[0], input: () => ({ width: 1, height: 1, data: [0], pixelSize: 1, heightScale: 1 }) });
@@ -132,4 +133,12 @@ pageTest('settings stand in the address, Back undoes them, and a file is there a
   await page.locator('#file-name', { hasText: 'other' }).waitFor();
   await settled(page);
   assert.equal(await page.locator('#story').isVisible(), false);
+  // So do the settings that made its point.
+  assert.equal(await page.getByLabel('Energy').inputValue(), 'huber');
+  assert.equal(await page.locator('#lambda-auto').getAttribute('aria-pressed'), 'true');
+  // Those of an address hold, even where they follow a card's.
+  await runBy(page, () => page.evaluate(() => void (location.hash = '#fig-11')));
+  await runBy(page, () => page.evaluate(() => void (location.hash = '#example=cone&size=100&noise=0.02&lambda=200000&energy=nuclear')));
+  assert.equal(parsed(await reported(page, 'λ')), 2e5);
+  assert.equal(await page.getByLabel('Energy').inputValue(), 'nuclear');
 }, { start: '#example=roof&size=100' });

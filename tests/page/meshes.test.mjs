@@ -58,7 +58,7 @@ for (const { format, bytes } of [{ format: 'OBJ', bytes: obj(wedge) }, { format:
   doorTest(`a dropped ${format} is turned, and its heights are those seen from there`, async (page) => {
     await openFromOneSide(page, `wedge.${format.toLowerCase()}`, bytes);
     assert.match(await page.locator('#mesh-name').innerText(), new RegExp(`wedge \\(${format}\\)`));
-    assert.match(await page.locator('#mesh-span').innerText(), /12 triangles; x, y and z span 3, 2, 2\.9\./);
+    assert.match(await page.locator('#mesh-span').innerText(), /^3 × 2 × 2\.9, 12 triangles\.$/);
     assert.ok(await page.locator('#space-after').isVisible(), 'solved at once');
 
     await from(page, '+z');
@@ -150,7 +150,7 @@ doorTest('depths from a camera are put where it has seen them', async (page) => 
   assert.equal(await page.locator('#guessed').isVisible(), false, 'nothing is guessed any more');
   // In metres, the depths' range among them.
   const range = (Math.max(...depths) - Math.min(...depths)) / 1000;
-  const spans = (await page.locator('#mesh-span').innerText()).match(/[\d.]+(?=(?: m)?[,.](?: |$))/g)?.map(Number) ?? [];
+  const spans = /^([\d.]+) × ([\d.]+) × ([\d.]+) m, /.exec(await page.locator('#mesh-span').innerText())?.slice(1).map(Number) ?? [];
   assert.ok(Math.abs(spans[2] / range - 1) < 0.01, `${spans} against ${range}`);
   const { points } = await solved(page);
   const seen = points.map(({ z }) => z).filter(Number.isFinite);

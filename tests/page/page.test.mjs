@@ -93,6 +93,9 @@ doorTest('a page on a dark ground is found, and its dots come out evenly', async
   // Before and after, by a divider over the flat page.
   const flatPicture = (await look(page, '#flat-canvas')).hash;
   const divider = page.getByRole('slider', { name: 'Divider between photo and flat page' });
+  // At the edge of the picture, which cuts off what lies outside, its handle is whole.
+  const handle = await divider.evaluate((one) => one.getBoundingClientRect().left + parseFloat(getComputedStyle(one, '::after').left) - (one.parentElement?.getBoundingClientRect().left ?? NaN));
+  assert.ok(handle >= 0, `${handle} pixels`);
   await divider.press('End');
   assert.notEqual((await look(page, '#flat-canvas')).hash, flatPicture);
   await divider.press('Home');

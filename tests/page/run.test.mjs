@@ -151,6 +151,8 @@ pageTest('λ can be typed, and a wrong one is refused in place', async (page) =>
   await field.fill('-3');
   await field.press('Tab');
   assert.equal(await field.getAttribute('aria-invalid'), 'true');
+  // Its fold is opened again.
+  await page.locator('#settings-more').evaluate((fold) => /** @type {HTMLDetailsElement} */ (fold).open = false);
   await page.evaluate(() => /** @type {HTMLButtonElement} */ (document.querySelector('#run')).click());
   assert.equal(await page.locator('#page').getAttribute('data-phase'), 'idle', 'nor solved with another one');
   assert.ok(await field.evaluate((input) => input === document.activeElement));

@@ -72,6 +72,7 @@ doorTest('a fold that is clicked in the drawing is cut', async (page) => {
   const [pair] = parsePairs(await toCut.inputValue()) ?? [];
   assert.deepEqual([pair, await toJoin.inputValue()], [edgeAt(drawing, [x, y])?.pair, '']);
   await page.locator('#save-now:enabled').waitFor();
+  await page.locator('.edges summary').click();
   await toCut.fill('1-');
   await toCut.press('Tab');
   assert.equal(await toCut.getAttribute('aria-invalid'), 'true');

@@ -206,15 +206,6 @@ pageTest('what cannot be laid flat whole is laid flat in pieces, which are saved
   assert.match(await page.locator('#about-view .said').innerText(), /In one piece it would stretch.*sheets.*cuts/);
   assert.ok(parsed(await told(page, 'Largest strain')) <= 1);
   assert.ok((await look(page, '#result-picture')).covered > 0.2);
-  // Under the pointer, on some place of the drawing, is a sheet.
-  const drawn = await page.locator('#result-picture').boundingBox();
-  assert.ok(drawn);
-  const read = new Set();
-  for (let i = 0; i < 33; i++) {
-    await page.mouse.move(drawn.x + ((1 + (i % 11)) / 12) * drawn.width, drawn.y + ((1 + Math.floor(i / 11)) / 4) * drawn.height);
-    read.add((await page.locator('#reading').innerText()).trim());
-  }
-  assert.match([...read].join('|'), /strain [+−]?[\d.]+(\S*10\S+)?\s%/);
 
   await page.locator('#end-sheets').click();
   await page.locator('.preview[aria-busy="false"] img').waitFor();

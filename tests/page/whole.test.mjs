@@ -132,7 +132,7 @@ doorTest('a closed mesh is solved whole, shown before and after, laid flat and s
   assert.equal(await page.locator('#certificate').isVisible(), false, 'no heights');
   assert.equal(await page.locator('#gap').isVisible(), false, 'nor their settings');
   assert.ok(await page.locator('#lambda').isVisible(), 'but for λ');
-  assert.equal(await told(page, 'Border vertices'), 'none: it is closed');
+  assert.equal(await told(page, 'Border'), 'none: it is closed');
   const [before, after] = (await told(page, 'Volume')).split('→').map(parsed);
   assert.ok(Math.abs(before / (a * b * c) - 1) < 0.02 && Math.abs(after / (a * b * c) - 1) < 0.03, `${before} → ${after}`);
 

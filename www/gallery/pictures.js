@@ -1,12 +1,15 @@
 /** Pictures of the gallery's cards: input and result side by side, solved on few pixels. */
 import { make } from '../dom.js';
 import { heightsOf } from '../session.js';
-import { drawHalves, drawThumbnail, THUMBNAIL_GAP, THUMBNAIL_SIDE_PIXELS } from '../surface/thumbnail.js';
 import { Tasks } from '../worker-task.js';
 
 /** @import {Api} from '../api.js' */
 /** @import {Card} from './cards.js' */
 /** @import {Input, Settings} from '../session.js' */
+
+/** Pixels along the longer side of heights that a small picture shows, and the duality gap at which their solve stops. */
+export const THUMBNAIL_SIDE_PIXELS = 120;
+export const THUMBNAIL_GAP = 0.05;
 
 /** Created with the first picture. @type {Tasks | null} */
 let tasks = null;
@@ -40,16 +43,16 @@ export async function cardInput(api, { example, input }, size, turn = 0) {
 export async function drawPicture(api, defaults, card, canvas) {
   const input = await cardInput(api, card, THUMBNAIL_SIDE_PIXELS).catch(() => null);
   if (!input) return;
-  drawThumbnail(canvas, input, input.heightScale / input.pixelSize);
-  // If the solve fails, the picture shows the input alone.
+  const heights = heightsOf(input);
   await (last = last.then(() => (tasks ??= new Tasks(api.SolverWorker)).run(async (worker) => {
     const { coarsening: _coarsening, ...options } = { ...defaults, ...card.settings, gap: THUMBNAIL_GAP };
-    const surface = await worker.fit(heightsOf(input), options);
-    const { image } = surface;
+    // If the solve fails, the picture shows the input alone.
+    await worker.draw(canvas, heights);
+    const { image } = await worker.fit(heights, options);
+    const after = make('canvas', '');
     if (!image) return;
-    const [before, after] = [make('canvas', ''), make('canvas', '')];
-    drawThumbnail(after, image, 1 / image.pixelSize);
-    drawThumbnail(before, input, input.heightScale / input.pixelSize);
-    drawHalves(canvas, before, after);
+    await worker.draw(after, image);
+    const half = canvas.width >> 1;
+    canvas.getContext('2d')?.drawImage(after, half, 0, half, canvas.height, half, 0, half, canvas.height);
   })).catch(() => {}));
 }

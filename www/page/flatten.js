@@ -2,8 +2,6 @@
  * Flattens pages in a worker: the reduced photo for previews while edges are moved, where only the newest request counts, and
  * by its result the whole photo for saving.
  */
-import { rescalePixel } from './rescale.js';
-
 /** @import {PagePhoto} from './photo.js' */
 /** @import {Worker} from '../worker-task.js' */
 /** @typedef {import('../../pkg/types.js').DewarpedPage} DewarpedPage */
@@ -113,4 +111,13 @@ export function tracedEdges({ edges }, given, scale) {
 /** Converts options in pixels of the photo to the reduced photo. @param {Options} options @param {number} scale */
 function scaleOptions({ focalLength, dots, ...options }, scale) {
   return focalLength === undefined ? options : { ...options, focalLength: focalLength * scale };
+}
+
+/**
+ * Converts a pixel coordinate to that of the same image at another scale. Coordinate 0 is the centre of the first pixel.
+ * @param {number} coordinate
+ * @param {number} scale new pixels per old pixel
+ */
+export function rescalePixel(coordinate, scale) {
+  return (coordinate + 0.5) * scale - 0.5;
 }

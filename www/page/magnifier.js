@@ -1,7 +1,5 @@
 /** A magnifier: enlarges the part of the photo under the finger, and shows it beside the finger. */
 
-/** Side of the magnifier, in CSS pixels. */
-const MAGNIFIER_SIZE_PIXELS = 128;
 /** Enlargement of the photo as it is displayed. */
 const MAGNIFICATION = 4;
 
@@ -34,11 +32,11 @@ export class Magnifier {
     const { canvas, box } = this;
     const perPixel = photo.width / box.clientWidth;
     // The shown square in pixels of the photo, at least 12.
-    const side = Math.max(12, Math.round((MAGNIFIER_SIZE_PIXELS / MAGNIFICATION) * perPixel));
+    canvas.hidden = false;
+    const side = Math.max(12, Math.round((canvas.clientWidth / MAGNIFICATION) * perPixel));
     const [left, top] = [Math.round(x - side / 2), Math.round(y - side / 2)];
     const ratio = window.devicePixelRatio;
-    canvas.width = canvas.height = Math.round(MAGNIFIER_SIZE_PIXELS * ratio);
-    canvas.hidden = false;
+    canvas.width = canvas.height = Math.round(canvas.clientWidth * ratio);
     // The magnifier is on the side of the frame opposite to the finger.
     const [whole, shown] = [box, box.parentElement ?? box].map((one) => one.getBoundingClientRect());
     canvas.classList.toggle('right', whole.left + (x / photo.width) * whole.width < shown.left + shown.width / 2);

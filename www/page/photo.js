@@ -1,7 +1,7 @@
 /** Opens a photo of a page: its pixels, a reduced copy for display and previews, and the outlines of the pages in it. */
 import { runInWorker } from '../worker-task.js';
 import { readPicture, reducedPhoto } from '../pixels.js';
-import { rescalePixel } from './rescale.js';
+import { rescalePixel } from './flatten.js';
 
 /** @import {Api} from '../api.js' */
 /** @typedef {import('../../pkg/types.js').PageOutlines} PageOutlines */

@@ -1,8 +1,7 @@
 /** The state of “Flatten a photo of a page” without its elements: a photo, the outline of the page in it, and the options. */
 import { Events } from '../events.js';
-import { PageFlattener, tracedEdges } from './flatten.js';
+import { PageFlattener, rescalePixel, tracedEdges } from './flatten.js';
 import { findGutter } from './gutter.js';
-import { rescalePixel } from './rescale.js';
 import { EDGE_NAMES, EDGES, Outline } from './outline.js';
 
 /** @import {Api} from '../api.js' */

@@ -1,5 +1,6 @@
 /** Keeps the page's address up to date with its state, for links, the history and reloads; and lists recent files. */
 import { addressOf, isStart, stateOf } from '../address.js';
+import { isExampleModel } from '../doors/example-model.js';
 import { COPIED_NOTE_MS, element, elements, make, SETTLING_MS } from '../dom.js';
 import { ADDRESS_WORDS } from '../messages.js';
 import { namesOf, recentFiles, storedFiles, storedOutlines, storeFiles, storeOutlines } from '../recent-files.js';
@@ -125,7 +126,10 @@ export function addressSyncPanel(session, page) {
     isRestoring = true;
     clearTimeout(writeTimer);
     try {
-      if (isStart(location.hash)) return page.mode.show('home');
+      if (isStart(location.hash)) {
+        page.mode.show('home');
+        return void updateRecentFiles();
+      }
       if (state.photo) {
         page.mode.show('photo');
         if (state.file === undefined && !state.unkept) return page.showExamplePhoto();
@@ -171,9 +175,9 @@ export function addressSyncPanel(session, page) {
   const lists = elements('.recent', HTMLElement);
   const updateRecentFiles = async () => {
     const all = await recentFiles();
-    // The open file is not listed.
-    const openId = page.mode.now === 'photo' ? photoId : fileId;
-    const closed = all.filter(({ id }) => id !== openId);
+    // Neither the open file nor an example is listed.
+    const openId = { home: undefined, photo: photoId, heights: fileId }[page.mode.now];
+    const closed = all.filter(({ id, files }) => id !== openId && !files.some(isExampleModel));
     for (const list of lists) {
       list.hidden = closed.length === 0;
       list.replaceChildren('Opened before: ', ...closed.map(({ id, files, arePhotos }) => {
@@ -209,6 +213,10 @@ export function addressSyncPanel(session, page) {
   });
 
   return {
+    /** Whether the state of an address is being shown. */
+    get isRestoring() {
+      return isRestoring;
+    },
     /** Shows the state of the address, or an example where that has no input. */
     async begin() {
       const state = stateOf(location.hash);

@@ -1,9 +1,7 @@
 /** The divider between input and result over a picture, moved by pointer or keyboard. */
 import { element } from '../dom.js';
 import { clampToUnit } from '../surface/relief.js';
-
-/** Distance that an arrow key moves the divider, as a share of the picture's width. */
-const KEY_STEP = 0.05;
+import { KEY_MOVE_SHARE } from '../surface/zoom.js';
 
 /**
  * @param {string} id
@@ -18,6 +16,7 @@ export function dividerOver(id, [left, right], onMove, share = 0.5) {
     share = clampToUnit(to);
     const percent = Math.round(100 * share);
     divider.style.left = `${100 * share}%`;
+    divider.style.setProperty('--share', String(share));
     divider.setAttribute('aria-valuenow', String(percent));
     divider.setAttribute('aria-valuetext', `${left} on ${percent} % of the picture, ${right} on the rest`);
     onMove(share);
@@ -31,7 +30,7 @@ export function dividerOver(id, [left, right], onMove, share = 0.5) {
     move((event.clientX - frame.left) / frame.width);
   });
   divider.addEventListener('keydown', (event) => {
-    const to = { ArrowLeft: share - KEY_STEP, ArrowDown: share - KEY_STEP, ArrowRight: share + KEY_STEP, ArrowUp: share + KEY_STEP, Home: 0, End: 1 }[event.key];
+    const to = { ArrowLeft: share - KEY_MOVE_SHARE, ArrowDown: share - KEY_MOVE_SHARE, ArrowRight: share + KEY_MOVE_SHARE, ArrowUp: share + KEY_MOVE_SHARE, Home: 0, End: 1 }[event.key];
     if (to === undefined) return;
     event.preventDefault();
     move(to);

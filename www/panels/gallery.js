@@ -13,8 +13,9 @@ import { drawPicture, cardInput } from '../gallery/pictures.js';
  * @param {(view: string) => void} page.choose shows a view
  * @param {(wanted: boolean) => void} page.strip shows or hides the results with five λ
  * @param {() => void} page.enter shows the part of the page for heights
+ * @param {() => boolean} page.isRestoring whether an address brings an input and its settings
  */
-export function galleryPanel(session, { adopt, choose, strip, enter }) {
+export function galleryPanel(session, { adopt, choose, strip, enter, isRestoring }) {
   const dialog = element('gallery', HTMLDialogElement);
   const list = element('gallery-cards', HTMLElement);
   const story = element('story', HTMLElement);
@@ -75,7 +76,11 @@ export function galleryPanel(session, { adopt, choose, strip, enter }) {
 
   session.on('input', (input) => {
     if (present && input.name === inputName && input.kind === undefined) return;
-    if (present) strip(false);
+    if (present) {
+      strip(false);
+      // Settings that make the card's point are not meant for another input.
+      if (!isRestoring()) adopt(session.defaults);
+    }
     present = null;
     showStory();
   });

@@ -51,7 +51,7 @@ export function heightsPanel(session, analyses) {
       rulings: ofResult(async (result) => rulings((await analyses.rulings(result)).lines, result.input.unit)),
       patches: ofResult(async (result) => patchesOfHeights(result.input, await analyses.patches(result))),
       photo: ofResult(({ input }) => photo(input)),
-      sheet: ofResult((result, tell) => flat(analyses, result, tell)),
+      sheet: ofResult((result, tell) => flat(session.api, analyses, result, tell)),
     },
     offers: (view) => view !== 'photo' || (session.input !== null && hasColours(session.input)),
     read: ({ after, point: [x, y] }, value) => {

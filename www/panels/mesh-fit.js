@@ -51,6 +51,8 @@ export function meshFitPanel(session, meshFit, stage, heights) {
   const views = {
     shaded: ofSurface(async (surface) => ({ about: [figures(meshFacts(surface))] })),
     gaussian: ofSurface(async (surface, mesh) => {
+      // Curvature of flat faces is at their corners, and colours between these would be none of the faces'.
+      if (!fitted() && (await meshFit.recognized(mesh)).kind === 'faces') return { said: MESH_FIT_WORDS.flatFaces };
       const [before, after] = await Promise.all([meshFit.curvatures(mesh), meshFit.curvatures(surface)]);
       return curvature('gaussian', mesh.unit, { before, after }, overMeshes([mesh, surface]));
     }),
@@ -99,7 +101,6 @@ export function meshFitPanel(session, meshFit, stage, heights) {
         up: upAxis(),
         unit: lengthUnitOf({ ...session.input, kind: 'mesh', unit: surface.unit ?? undefined }),
         cut: ({ side: length, ...options }, tell) => meshFit.pattern(surface, { scale: length / longest, ...options }, tell),
-        svg: (drawing) => meshFit.svg(drawing),
         metalThickness: async () => (await meshFit.recognized(meshFit.mesh ?? surface)).thickness,
         canFoldElsewhere: ({ summary }) => summary.strain === 0,
         stop: () => meshFit.stop(),

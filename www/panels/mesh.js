@@ -71,8 +71,8 @@ function originOf({ name, kind, photo, depthSource, cameraAssumption }) {
 
 /** The number of triangles or points and the bounding box as a sentence. @param {Mesh} mesh */
 function spanInWords({ positions, triangles, unit, missing = [] }) {
-  const sides = boundingBoxSides({ positions }).map((side) => number(side));
+  const sides = boundingBoxSides({ positions }).map((side) => number(side)).join(' × ');
   const size = triangles.length > 0 ? `${count(triangles.length / 3)} triangles` : `${count(positions.length / 3)} points`;
   const without = missing.length > 0 ? ` Without ${missing.join(', ')}, which were not opened with it.` : '';
-  return `${size}; x, y and z span ${sides.join(', ')}${unit ? ` ${unit}` : ''}.${without}`;
+  return `${sides}${unit ? ` ${unit}` : ''}, ${size}.${without}`;
 }

@@ -26,7 +26,7 @@ export function runPanel(session, meshFit, stage) {
 
   form.addEventListener('submit', (event) => {
     event.preventDefault();
-    const wrong = elements('#controls [aria-invalid="true"]', HTMLElement).find((field) => field.checkVisibility());
+    const wrong = elements('#controls [aria-invalid="true"]', HTMLElement).find(canBeShown);
     if (wrong) wrong.focus();
     else stage.subject.run();
   });
@@ -45,6 +45,7 @@ export function runPanel(session, meshFit, stage) {
   const begin = () => {
     [firstGap, firstShare, levels, told] = [NaN, 0, 0, 0];
     form.removeAttribute('data-stale');
+    solve.classList.remove('primary');
     waiting.begin('solving');
   };
 
@@ -70,6 +71,16 @@ export function runPanel(session, meshFit, stage) {
   meshFit.on('failure', () => end(true));
   meshFit.on('cancelled', () => end(true));
   meshFit.on('left', () => end(session.result === null));
+}
+
+/** Whether a field belongs to what is shown; a fold that it is in is opened for it. @param {HTMLElement} field */
+function canBeShown(field) {
+  const fold = field.closest('details');
+  const wasOpen = fold?.open ?? true;
+  if (fold) fold.open = true;
+  const isShown = field.checkVisibility();
+  if (fold && !isShown) fold.open = wasOpen;
+  return isShown;
 }
 
 /**

@@ -48,7 +48,6 @@ export function offerResultSheets(api, result, analyses) {
     up: 'z',
     unit: lengthUnitOf(result.input),
     cut: (options, tell) => cutSheets(analyses, result, options, tell),
-    svg: (drawing) => analyses.svg(drawing),
     metalThickness: async () => undefined,
     canFoldElsewhere: () => false,
     stop: () => analyses.stop(),

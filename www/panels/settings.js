@@ -9,7 +9,7 @@ import { AUTO_LAMBDA_HINT, ENERGIES, lambdaChoiceInWords, lambdaHint, meshLambda
 /** @import {MeshFit} from '../mesh-fit.js' */
 
 /** The field for λ; its bounds are those that the package checks. */
-const LAMBDA_FIELD = { 'lambda-value': { label: 'λ as a number', range: between(1e-12, 1e15, 'from 10⁻¹² to 10¹⁵'), optional: true, placeholder: 'auto' } };
+const LAMBDA_FIELD = { 'lambda-value': { label: 'λ as a number', range: { ...between(1e-12, 1e15, 'from 10⁻¹² to 10¹⁵'), isWide: true }, optional: true, placeholder: 'auto' } };
 /** Further options of the solver. */
 const SOLVER_FIELDS = {
   gap: { label: 'Proven within', options: { 0.1: '10 %', 0.03: '3 %', 0.01: '1 %', 0.003: '0.3 %', 0.001: '0.1 %', 0.0001: '0.01 %' }, value: '0.01' },
@@ -22,7 +22,7 @@ const SOLVER_FIELDS = {
     },
   },
   'find-occlusions': { label: 'Tear where it jumps (occlusions)', value: false, controls: 'threshold' },
-  threshold: { label: 'Smallest jump', value: '4e4', range: above(0) },
+  threshold: { label: 'Smallest jump', value: '4e4', range: { ...above(0), isWide: true } },
 };
 
 /** @param {Session} session @param {MeshFit} meshFit */

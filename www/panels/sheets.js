@@ -54,7 +54,6 @@ const MAX_EXPECTED_PAGES = 12;
  * @property {string} [note] note that says what the sheets lack
  * @property {LengthUnit | 'none' | 'unknown'} unit unit of the input; `none` for an example, which has any size
  * @property {(options: CutOptions, onProgress: (progress: TaskProgress) => void) => Promise<Drawing>} cut computes the pattern
- * @property {(drawing: Drawing) => Promise<Uint8Array<ArrayBuffer>>} svg writes a drawing as SVG
  * @property {() => Promise<number | undefined>} metalThickness thickness of a solid of sheet metal, in the input's unit
  * @property {(drawing: Drawing) => boolean} canFoldElsewhere whether other edges of a drawing may be cut and joined: of flat faces, of which nothing is stretched
  * @property {() => void} stop cancels the pattern that is being computed
@@ -65,7 +64,7 @@ const MAX_EXPECTED_PAGES = 12;
  * @param {Api} api
  * @param {SheetSource} source
  */
-export function offerSheets(api, { stem, note = '', length, unit, up, cut, svg, metalThickness, canFoldElsewhere, stop }) {
+export function offerSheets(api, { stem, note = '', length, unit, up, cut, metalThickness, canFoldElsewhere, stop }) {
   const last = lastSizes.get(stem) ?? { unit: unit === 'unknown' ? 'none' : unit, side: NaN };
   const fields = fieldsOf(FIELDS);
   for (const [name, value] of Object.entries(lastOptions)) fields.set(/** @type {FieldName} */ (name), value);
@@ -79,7 +78,7 @@ export function offerSheets(api, { stem, note = '', length, unit, up, cut, svg, 
   /** Thickness of a solid of sheet metal. @type {number | undefined} */
   let thickness;
   // Only flat faces can be cut apart anywhere: nothing of them is stretched.
-  const edges = make('div', 'sheets-options edges', make('p', 'muted small', SHEET_WORDS.edges), ...fields.nodes('sheet-cut', 'sheet-join'));
+  const edges = make('details', 'more edges', make('summary', 'small', SHEET_WORDS.edges), ...fields.nodes('sheet-cut', 'sheet-join'));
   edges.hidden = true;
   /** @returns {CutOptions} */
   const cutOptions = () => ({
@@ -163,7 +162,7 @@ export function offerSheets(api, { stem, note = '', length, unit, up, cut, svg, 
       requested.catch(() => {});
       thickness = await metalThickness();
       showFields();
-      const image = await drawingImage(svg, await requested);
+      const image = await drawingImage(api, await requested);
       if (requested !== drawing) return;
       const finished = await requested;
       waiting.end();

@@ -1,11 +1,11 @@
 /** Results with five λ, as small pictures side by side; a click takes the λ of one. */
 import { element, make } from '../dom.js';
+import { THUMBNAIL_GAP, THUMBNAIL_SIDE_PIXELS } from '../gallery/pictures.js';
 import { shortLambda } from '../format.js';
 import { smoothPatchCount } from '../analyses.js';
 import { STRIP_WORDS } from '../messages.js';
 import { rmsError } from '../surface/compare.js';
 import { downsample } from '../surface/downsampling.js';
-import { drawThumbnail, THUMBNAIL_GAP, THUMBNAIL_SIDE_PIXELS } from '../surface/thumbnail.js';
 
 /** @import {Input, Session, Settings} from '../session.js' */
 
@@ -47,19 +47,17 @@ export function stripPanel(session, adopt) {
     const mine = (job = new AbortController());
     shownInput = input;
     const small = reduced(input);
-    for (const { canvas, figures } of pictures) {
-      drawThumbnail(canvas, small, small.heightScale / small.pixelSize);
-      figures.textContent = '\u00a0';
-    }
+    for (const { figures } of pictures) figures.textContent = '\u00a0';
     strip.setAttribute('aria-busy', 'true');
     const worker = new session.api.SolverWorker();
     try {
+      for (const { canvas } of pictures) await worker.draw(canvas, small);
       // All settings except λ, spacing and gap are those of the session.
       const { lambda: _lambda, coarsening: _coarsening, ...options } = session.settings;
       for (const { lambda, canvas, figures } of pictures) {
         const surface = await worker.fit(small, { ...options, gap: THUMBNAIL_GAP, spacing: small.pixelSize, lambda, signal: mine.signal });
         const { image } = surface;
-        drawThumbnail(canvas, image, 1 / image.pixelSize);
+        await worker.draw(canvas, image);
         const [map, curvatures] = await Promise.all([worker.patches(surface), worker.analyze(surface)]);
         figures.textContent = STRIP_WORDS.figures(await smoothPatchCount(map, curvatures), rmsError(image.data, 1, small.data, small.heightScale) / (small.width * small.pixelSize));
       }

@@ -1,11 +1,10 @@
-/** Reads the sheets of a pattern's assembly as one mesh, with assembled positions and places in the flat layout. */
+/** Reads the sheets of a pattern's assembly as one mesh. */
 
 /**
  * Reads an assembly. The rotation of its root node is ignored, so that z is up.
  * @param {Uint8Array} model a pattern's assembly, a GLB file in metres
- * @param {number} scale metres per unit of length
  */
-export function readAssemblyMesh(model, scale) {
+export function readAssemblyMesh(model) {
   const file = new DataView(model.buffer, model.byteOffset, model.byteLength);
   const length = file.getUint32(12, true);
   const { meshes, accessors, bufferViews, nodes, animations } = JSON.parse(new TextDecoder().decode(model.subarray(20, 20 + length)));
@@ -23,26 +22,23 @@ export function readAssemblyMesh(model, scale) {
     const values = numbers(samplers[sampler].output);
     return values.subarray(values.length / 2);
   };
-  /** @type {[number[], number[], number[]]} */
-  const [positions, places, triangles] = [[], [], []];
+  /** @type {[number[], number[]]} */
+  const [positions, triangles] = [[], []];
   /** Index of the drawing's sheet of each vertex: parts come in another order, and are named as the sheets. @type {number[]} */
   const sheets = [];
-  for (const [number, { name, translation, rotation, mesh }] of nodes.entries()) {
+  for (const [number, { name, mesh }] of nodes.entries()) {
     if (mesh === undefined) continue;
     const { attributes, indices, targets } = meshes[mesh].primitives[0];
     const [flat, bends] = [numbers(attributes.POSITION), numbers(targets[0].POSITION)];
     const [turn, shift] = [finalValue(number, 'rotation'), finalValue(number, 'translation')];
-    const first = places.length / 2;
+    const first = sheets.length;
     for (let i = 0; i < flat.length; i += 3) {
-      const [x, y] = applyPose([flat[i], flat[i + 1], flat[i + 2]], rotation, translation);
-      places.push(x / scale, y / scale);
       sheets.push(Number(name.replace(/\D/g, '')) - 1);
-      positions.push(...applyPose([0, 1, 2].map((k) => flat[i + k] + bends[i + k]), turn, shift).map((value) => value / scale));
+      positions.push(...applyPose([0, 1, 2].map((k) => flat[i + k] + bends[i + k]), turn, shift));
     }
     for (const corner of numbers(indices)) triangles.push(first + corner);
   }
-  const mesh = { positions: Float64Array.from(positions), places: Float64Array.from(places), triangles: Uint32Array.from(triangles) };
-  return { ...mesh, sheets: Uint32Array.from(sheets), stretches: principalStretches(mesh) };
+  return { positions: Float64Array.from(positions), triangles: Uint32Array.from(triangles), sheets: Uint32Array.from(sheets) };
 }
 
 /**

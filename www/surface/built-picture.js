@@ -20,7 +20,7 @@ const NUMBER_PLACES = 40;
  * @returns {Promise<OffscreenCanvas>}
  */
 export async function builtPicture(model, up) {
-  const { positions, triangles, sheets } = readAssemblyMesh(model, 1);
+  const { positions, triangles, sheets } = readAssemblyMesh(model);
   const scene = await SceneView.create(document.createElement('canvas'), PICTURE_SIZE);
   scene.setLook(PAPER_LOOKS[up]);
   const borders = borderLines(triangles).map((line) => ({ points: Array.from(line, (vertex) => vectorAt(positions, vertex)), colour: CREASE_COLOUR, width: LINE_WIDTH_PIXELS }));

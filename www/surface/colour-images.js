@@ -1,7 +1,7 @@
 /** Images of values in colour, as pixels of a canvas; a pixel without a value is 0. */
 import { COLOUR_SCALE_QUANTILE, divergingPixel, logarithmicScale, magnitudeQuantile, toPixel } from './colours.js';
 import { interpolateToGrid, nearestVertices } from './lattice.js';
-import { readAssemblyMesh, principalStretches } from './assembly-mesh.js';
+import { principalStretches } from './assembly-mesh.js';
 import { extentOf, fillTriangles } from './triangles.js';
 
 /** @import {Grid, Lattice} from './lattice.js' */
@@ -82,13 +82,16 @@ function triangleStrain(stretches, t) {
 }
 
 /**
- * Triangles coloured by strain, with the strain of each pixel.
- * @param {{ width: number, height: number }} size
+ * A flat sheet coloured by strain, with an outline, and the strain of each pixel.
  * @param {Uint32Array} triangles
- * @param {Float64Array} onImage place of each vertex in pixels, y down
+ * @param {Float64Array} places
  * @param {Float64Array} stretches singular values, two for each triangle
  */
-function strainImage({ width, height }, triangles, onImage, stretches) {
+export function sheetStrainImage(triangles, places, stretches) {
+  const extent = extentOf(places);
+  const pixelsPerUnit = SHEET_SIDE_PIXELS / Math.max(extent.width, extent.height);
+  const [width, height] = [extent.width, extent.height].map((side) => Math.max(1, Math.ceil(side * pixelsPerUnit)) + 2 * SHEET_MARGIN_PIXELS);
+  const onImage = places.map((value, i) => SHEET_MARGIN_PIXELS + (i % 2 === 0 ? value - extent.left : extent.top - value) * pixelsPerUnit);
   const strains = Float64Array.from({ length: triangles.length / 3 }, (_, t) => triangleStrain(stretches, t));
   const maxStrain = Math.max(MIN_STRAIN_RANGE, magnitudeQuantile([strains], COLOUR_SCALE_QUANTILE));
   const colours = Uint32Array.from(strains, (strain) => divergingPixel(strain / maxStrain));
@@ -98,23 +101,8 @@ function strainImage({ width, height }, triangles, onImage, stretches) {
     pixels[pixel] = colours[triangle];
     values[pixel] = strains[triangle];
   });
-  return { width, height, pixels, values, maxStrain };
-}
-
-/**
- * A flat sheet coloured by strain, with an outline.
- * @param {Uint32Array} triangles
- * @param {Float64Array} places
- * @param {Float64Array} stretches
- */
-export function sheetStrainImage(triangles, places, stretches) {
-  const extent = extentOf(places);
-  const pixelsPerUnit = SHEET_SIDE_PIXELS / Math.max(extent.width, extent.height);
-  const [width, height] = [extent.width, extent.height].map((side) => Math.max(1, Math.ceil(side * pixelsPerUnit)) + 2 * SHEET_MARGIN_PIXELS);
-  const onImage = places.map((value, i) => SHEET_MARGIN_PIXELS + (i % 2 === 0 ? value - extent.left : extent.top - value) * pixelsPerUnit);
-  const image = strainImage({ width, height }, triangles, onImage, stretches);
-  drawOutline(image.pixels, width);
-  return { ...image, extent, pixelsPerUnit };
+  drawOutline(pixels, width);
+  return { width, height, pixels, values, maxStrain, extent, pixelsPerUnit };
 }
 
 /** Draws a line where the pixels of an image end. @param {Uint32Array} pixels with empty ones along the border @param {number} width */
@@ -129,27 +117,4 @@ function drawOutline(pixels, width) {
 /** A flat mesh coloured by strain. @param {{ positions: Float64Array, places: Float64Array, triangles: Uint32Array }} mesh */
 export function meshStrainImage(mesh) {
   return sheetStrainImage(mesh.triangles, mesh.places, principalStretches(mesh));
-}
-
-/**
- * A drawing's sheets coloured by strain, at their places in the drawing.
- * @param {Uint8Array} model the drawing's assembly, in metres
- * @param {{ width: number, height: number, bounds: readonly (readonly [readonly [number, number], readonly [number, number]])[] }} drawing
- *   in millimetres; `bounds`: lower left and upper right corner of each sheet
- */
-export function drawingStrainImage(model, { width: wide, height: high, bounds }) {
-  const { places, triangles, sheets, stretches } = readAssemblyMesh(model, 1 / 1000);
-  const middles = bounds.map(() => [Infinity, Infinity, -Infinity, -Infinity]);
-  sheets.forEach((sheet, i) => {
-    const [x, y, box] = [places[2 * i], places[2 * i + 1], middles[sheet]];
-    middles[sheet] = [Math.min(box[0], x), Math.min(box[1], y), Math.max(box[2], x), Math.max(box[3], y)];
-  });
-  const pixelsPerMillimetre = SHEET_SIDE_PIXELS / Math.max(wide, high);
-  const [width, height] = [Math.ceil(wide * pixelsPerMillimetre), Math.ceil(high * pixelsPerMillimetre)];
-  const onImage = places.map((value, i) => {
-    const [k, box, [lower, upper]] = [i % 2, middles[sheets[i >> 1]], bounds[sheets[i >> 1]]];
-    const place = value + (lower[k] + upper[k] - box[k] - box[k + 2]) / 2;
-    return (k === 0 ? place : high - place) * pixelsPerMillimetre;
-  });
-  return strainImage({ width, height }, triangles, onImage, stretches);
 }

@@ -42,7 +42,7 @@ export function divergingPixel(t) {
 }
 
 /** Colours of patches, distinct in hue and lightness; further patches repeat them. @type {readonly Colour[]} */
-const PATCH_COLOURS = [
+export const PATCH_COLOURS = [
   [86, 148, 206], [240, 160, 75], [107, 178, 106], [214, 108, 120], [160, 134, 204], [222, 200, 88],
   [92, 184, 184], [198, 122, 176], [164, 140, 110], [140, 196, 240], [246, 190, 170], [172, 210, 130],
 ];

@@ -62,7 +62,7 @@ export class PictureView {
 
 /**
  * A picture of an image, scaled to fit the canvas.
- * @param {HTMLCanvasElement} image
+ * @param {HTMLCanvasElement | HTMLImageElement} image
  * @param {string} words
  * @param {(x: number, y: number) => string} [value] at a place of the image, in its pixels
  * @returns {Picture}

@@ -1,7 +1,7 @@
 /** Draws an input and its result in space, on both sides of a divider, by three.js, which is loaded with the first scene. */
 import { oncePerFrame } from '../dom.js';
 import { fillMatcap, lightFrom, MATCAP_SIDE_TEXELS } from './matcap.js';
-import { addPictureKeys, MAX_ZOOM } from './zoom.js';
+import { addPictureKeys, KEY_MOVE_SHARE, MAX_ZOOM } from './zoom.js';
 
 /** @import {Line} from './layer.js' */
 /** @typedef {readonly [number, number, number]} Vector */
@@ -54,9 +54,8 @@ export const PAPER_LOOKS = {
 };
 /** Minimum enlargement. */
 const MIN_ZOOM = 0.5;
-/** Rotation for a press of an arrow key, and movement for one with Shift, as a share of the canvas. */
+/** Rotation for a press of an arrow key. */
 const KEY_TURN_RADIANS = Math.PI / 24;
-const KEY_PAN_SHARE = 0.05;
 
 export class SceneView {
   #three;
@@ -142,7 +141,7 @@ export class SceneView {
     this.#scene = new three.Scene();
     this.#scene.add(this.#shadowLight, this.#ground);
     addPictureKeys(canvas, {
-      move: (across, up, isShift) => (isShift ? this.#pan(KEY_PAN_SHARE * canvas.clientWidth * across, -KEY_PAN_SHARE * canvas.clientHeight * up) : this.turn(KEY_TURN_RADIANS * across, -KEY_TURN_RADIANS * up)),
+      move: (across, up, isShift) => (isShift ? this.#pan(KEY_MOVE_SHARE * canvas.clientWidth * across, -KEY_MOVE_SHARE * canvas.clientHeight * up) : this.turn(KEY_TURN_RADIANS * across, -KEY_TURN_RADIANS * up)),
       zoom: (factor) => this.#zoom(factor),
       reset: () => this.look(),
     });

@@ -4,12 +4,12 @@ import { rmsError } from './compare.js';
 import { reduceForPreview } from './downsampling.js';
 import { interpolateToGrid } from './lattice.js';
 import { reducePhoto, decodePicture } from './photo-decoding.js';
-import { drawingStrainImage, meshStrainImage, labelPixels, photoPixels, sheetStrainImage, valuePixels } from './colour-images.js';
+import { meshStrainImage, labelPixels, photoPixels, sheetStrainImage, valuePixels } from './colour-images.js';
 import { curvaturesOf, totalGaussianCurvature } from './gaussian-curvature.js';
 
 /** The tasks by name. The buffers of arrays in an answer are transferred. */
 export const tasks = {
-  curvaturesOf, drawingStrainImage, meshStrainImage, interpolateToGrid, labelPixels, interpretFile, reduceForPreview,
+  curvaturesOf, meshStrainImage, interpolateToGrid, labelPixels, interpretFile, reduceForPreview,
   reducePhoto, photoPixels, decodePicture, rmsError, totalGaussianCurvature, sheetStrainImage, valuePixels,
 };
 

@@ -10,7 +10,7 @@ export const MAX_ZOOM = 60;
 /** Enlargement for a press of +. */
 const KEY_ZOOM_FACTOR = 1.25;
 /** Movement for a press of an arrow key, as a share of the picture. */
-const KEY_MOVE_SHARE = 0.1;
+export const KEY_MOVE_SHARE = 0.05;
 
 /**
  * Keys of a picture, flat or in space: arrows, + and −, 0 or Home for all of it. Without focus the wheel scrolls the page.

@@ -20,10 +20,9 @@ import { figures } from './legend.js';
 const CURVATURES = {
   gaussian: {
     symbol: 'K', title: 'Gaussian curvature K', power: 2,
-    facts: ({ summary: { medianGaussian, gaussianAbove } }, { summary: result }, limit, unit) => [
+    facts: ({ summary: { medianGaussian, gaussianAbove } }, { summary: { threshold } }, limit, unit) => [
       [`Median |K| in ${unit}`, numberAgainst(medianGaussian * limit, limit)],
-      // Flat faces bend at their corners only, where all vertices of a model are.
-      ...(result.gaussianAbove === 1 ? [] : [/** @type {[string, string]} */ ([`|K| above ${number(result.threshold * limit, 2)}`, percent(gaussianAbove)])]),
+      [`|K| above ${number(threshold * limit, 2)}`, percent(gaussianAbove)],
     ],
   },
   kappa2: {

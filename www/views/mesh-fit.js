@@ -44,7 +44,7 @@ export function meshFacts({ unit, report: { border, components, sigma, lambda, s
   /** @param {readonly [number, number]} values @param {'²' | '³'} power */
   const change = ([before, after], power) => `${stopReason === 'noNoise' ? '' : `${number(before)} → `}${number(after)} ${areaUnit(unit, power)}`;
   const facts = [
-    ['Border vertices', border === 0 ? 'none: it is closed' : count(border)],
+    ['Border', border === 0 ? 'none: it is closed' : `${count(border)} vertices`],
     components > 1 && ['Parts', count(components)],
     sigma !== undefined && stopReason !== 'noNoise' && ['Noise, σ', `${numberAgainst(sigma, Math.sqrt(area[0]))} ${unit ?? 'units'}`],
     stopReason !== 'noNoise' && ['λ', number(lambda, 2)],

@@ -1,7 +1,7 @@
 /** The view of the patches, each in a colour, and of the creases between them, of heights and meshes. */
 import { make } from '../dom.js';
 import { areaUnit, count, number, percent } from '../format.js';
-import { toPixel, CREASE_COLOUR, toCss, patchColour } from '../surface/colours.js';
+import { toPixel, CREASE_COLOUR, toCss, patchColour, PATCH_COLOURS } from '../surface/colours.js';
 import { gridOf } from '../surface/lattice.js';
 import { canvasFromPixels, valueAt } from '../surface/layer.js';
 import { vertexColors } from '../surface/triangles.js';
@@ -13,13 +13,11 @@ import { figures, key } from './legend.js';
 /** @import {Colour} from '../surface/colours.js' */
 /** @import {ViewContent} from '../surface/layer.js' */
 
-/** Maximum number of patches in the legend. */
-const MAX_NAMED_PATCHES = 12;
 /** Colour of triangles without a patch. @type {Colour} */
 const UNLABELLED_COLOUR = [160, 160, 160];
 
 /**
- * Figures and legend of patches.
+ * Figures of patches, and a legend of those with a colour of their own.
  * @param {readonly { area: number }[]} patches the largest first
  * @param {number} creases
  * @param {string | null} [unit]
@@ -28,7 +26,7 @@ function aboutPatches(patches, creases, unit) {
   const total = patches.reduce((sum, { area }) => sum + area, 0);
   return [
     figures([['Patches', count(patches.length)], ['Creases', count(creases)], ['Area', `${number(total)} ${areaUnit(unit)}`]]),
-    make('p', 'keys', ...patches.slice(0, MAX_NAMED_PATCHES).map(({ area }, i) => key(toCss(patchColour(i)), `${i + 1}: ${percent(area / total)}`))),
+    make('p', 'keys', ...patches.slice(0, PATCH_COLOURS.length).map(({ area }, i) => key(toCss(patchColour(i)), `${i + 1}: ${percent(area / total)}`))),
   ];
 }
 

@@ -1,5 +1,5 @@
 /** The view of a surface laid flat as it is, to scale and coloured by strain, of heights and meshes. */
-import { areaUnit, count, number, numberAgainst, percent, signedPercent, strainInWords } from '../format.js';
+import { areaUnit, count, number, numberAgainst, percent, signedPercent } from '../format.js';
 import { linearScale } from '../surface/colours.js';
 import { canvasFromPixels } from '../surface/layer.js';
 import { imagePicture } from '../surface/picture-view.js';
@@ -60,7 +60,7 @@ function sheet(picture, unit, said, facts) {
 }
 
 /** The meaning of the colours of strain. @param {number} maxStrain strain at the end of the colour scale @returns {Colours} */
-export function strainColours(maxStrain) {
+function strainColours(maxStrain) {
   return { title: 'Strain: blue is compressed, red is stretched', scale: linearScale(maxStrain, signedPercent) };
 }
 
@@ -72,8 +72,10 @@ export function strainColours(maxStrain) {
  * @returns {Picture}
  */
 function pictureOf({ width, height, pixelsPerUnit, pixels, values }, unit, words) {
-  const picture = imagePicture(canvasFromPixels({ width, height }, pixels), words, (x, y) =>
-    strainInWords(values[Math.floor(y) * width + Math.floor(x)]));
+  const picture = imagePicture(canvasFromPixels({ width, height }, pixels), words, (x, y) => {
+    const strain = values[Math.floor(y) * width + Math.floor(x)];
+    return Number.isNaN(strain) ? '' : `strain ${signedPercent(strain)}`;
+  });
   return {
     ...picture,
     paint: (context, ratio) => {

@@ -557,7 +557,7 @@ for (const width of [360, 768, 1280]) {
         return !control.getAttribute('aria-label') && !labels?.length && !control.textContent?.trim();
       }).map((control) => control.outerHTML));
     assert.deepEqual(nameless, []);
-  }, { viewport: { width, height: 800 } });
+  }, { size: { width, height: 800 } });
 }
 
 doorTest('what is written of a flat page can be done without, and asked for again', async (page) => {

@@ -95,7 +95,7 @@ doorTest('a model that is opened first turns, too, once it can be drawn, and mea
   const first = (await look(page, '#space-canvas')).hash;
   await page.waitForFunction((since) => performance.now() - since > 2000, await page.evaluate(() => performance.now()));
   assert.notEqual((await look(page, '#space-canvas')).hash, first);
-}, { drawn: true });
+}, { drawn: true, moving: true });
 
 pageTest('without WebGL that is said, and the rest works', async (page) => {
   assert.match(await page.locator('#space-missing').innerText(), /no WebGL/);

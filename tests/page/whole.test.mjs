@@ -1,7 +1,7 @@
 /** Meshes solved whole, without a view. */
 import assert from 'node:assert/strict';
 import { readFile } from 'node:fs/promises';
-import { noisyBox, offBox, SIDES } from './support/box.mjs';
+import { noisyBox, offBox, randomNumbers, SIDES } from './support/box.mjs';
 import { obj } from './support/files.mjs';
 import { parsed } from './support/numbers.mjs';
 import { choose, doorTest, dropAll, look, open, openFromOneSide, openWhole, painted, reported, saveAs, settled, typeLambda, workBy } from './support/page.mjs';
@@ -38,8 +38,7 @@ const OBLIQUE = [-0.5, -0.45, -0.75];
 
 /** An open tube about the axis x, whose vertices are off by noise. @param {number} around @param {number} noise */
 function noisyTube(around, noise) {
-  let seed = 1;
-  const random = () => (seed = (seed * 16807) % 2147483647) / 1073741823.5 - 1;
+  const random = randomNumbers();
   const rings = Math.round((around * TUBE.length) / (2 * Math.PI * TUBE.radius));
   /** @type {[number, number, number][]} */
   const points = [];
@@ -262,7 +261,7 @@ doorTest('one side and the whole mesh show nothing of each other', async (page) 
   assert.ok(Math.abs(unsolved.roughness / input.roughness - 1) < 0.02 && Math.abs(unsolved.covered - input.covered) < 0.01, `${JSON.stringify(unsolved)}, not ${JSON.stringify(input)}`);
   await choose(page.getByRole('radio', { name: 'From one side', exact: true }));
   assert.equal(await page.locator('#result-caption').innerText(), caption);
-}, { reducedMotion: 'reduce', drawn: true });
+}, { drawn: true });
 
 doorTest('another λ ends a view that is being prepared, and a whole solve that of one side', async (page) => {
   await openWhole(page, 'box.obj', obj(box));
@@ -413,7 +412,7 @@ doorTest('where a whole mesh is under the pointer, how far it was moved, and wha
   await view(page, 'patches');
   assert.match(await pointAt(0.5, 0.5), /moved by \S+ · patch 1$/);
   // Where it turns first, it is not where it will be.
-}, { reducedMotion: 'reduce', drawn: true });
+}, { drawn: true });
 
 doorTest('sheets of a model without a unit are in millimetres, and the headline says their size and pages', async (page) => {
   // A house of 60 × 40 × 50, as from any CAD program.
@@ -485,7 +484,7 @@ usemtl blue\nf 3/1 2/2 5/3\nf 2/1 1/2 5/3\nf 1/1 4/2 5/3\nf 1/1 2/2 3/3\nf 1/1 3
   assert.ok(red < 0.5 && blue > 0.5, `red at ${red}, blue at ${blue}`);
   await view(page, 'shaded');
   assert.ok(Number.isNaN(await middleOf(0)) && Number.isNaN(await middleOf(2)));
-}, { reducedMotion: 'reduce', drawn: true });
+}, { drawn: true });
 
 doorTest('what is found in a model without noise is shown on all of it, with its creases', async (page) => {
   await openWhole(page, 'box.obj', obj(noisyBox(3, 0)));
@@ -501,4 +500,4 @@ doorTest('what is found in a model without noise is shown on all of it, with its
     if (Math.max(...channels) < 70) dark[half]++;
   }
   assert.ok(Math.min(...coloured) > 0.02 * width * height && Math.min(...dark) > 100, `${coloured}, ${dark}`);
-}, { reducedMotion: 'reduce', drawn: true });
+}, { drawn: true });

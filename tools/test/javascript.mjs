@@ -19,7 +19,7 @@ export async function size() {
 }
 
 export async function types() {
-  await check('cargo', ['test', '--quiet', '-p', 'developable-types'], native);
+  await check('cargo', ['test', '--quiet', '--profile', 'dev', '-p', 'developable-types'], native);
   await buildOptionTypes();
   await check(process.execPath, [join(root, 'node_modules/typescript/bin/tsc')], process.env);
 }

@@ -6,14 +6,19 @@
 /** Its lengths along x, y and z. */
 export const SIDES = /** @type {const} */ ([3, 2, 1.2]);
 
+/** Random numbers from −1 to 1, the same each time. */
+export function randomNumbers() {
+  let seed = 1;
+  return () => (seed = (seed * 16807) % 2147483647) / 1073741823.5 - 1;
+}
+
 /**
  * @param {number} fine edges for each unit of length
  * @param {number} noise largest in each direction
  * @returns {Mesh}
  */
 export function noisyBox(fine, noise) {
-  let seed = 1;
-  const random = () => (seed = (seed * 16807) % 2147483647) / 1073741823.5 - 1;
+  const random = randomNumbers();
   /** @type {Map<string, number>} */
   const numbers = new Map();
   /** @type {Place[]} */

@@ -34,6 +34,9 @@ const PATIENCE = 60_000;
 
 const VIEWPORT = { width: 1280, height: 900 };
 
+/** Without a graphics card each frame of a movement costs as much as a test. @type {{ reducedMotion: 'reduce' }} */
+const STILL = { reducedMotion: 'reduce' };
+
 /** All that the page may keep in the browser, by its names in Chromium's protocol. */
 const STORAGE_TYPES = 'cookies,local_storage,indexeddb,cache_storage,service_workers,file_systems';
 
@@ -76,12 +79,12 @@ if (!missing) {
 async function contextWith(options) {
   if (Object.keys(options).length === 0) return (shared ??= sharedContext());
   browser ??= chromium.launch({ executablePath, args });
-  return (await browser).newContext({ viewport: VIEWPORT, ...options });
+  return (await browser).newContext({ viewport: VIEWPORT, ...STILL, ...options });
 }
 
 async function sharedContext() {
   profile = await mkdtemp(join(tmpdir(), 'developable-profile-'));
-  const context = await chromium.launchPersistentContext(profile, { executablePath, args, viewport: VIEWPORT });
+  const context = await chromium.launchPersistentContext(profile, { executablePath, args, viewport: VIEWPORT, ...STILL });
   // The first tab keeps that process and its wasm for the tabs of all tests.
   const [first] = context.pages();
   await first.goto(server.url);
@@ -119,14 +122,16 @@ function browserMissing() {
  * breaks its security policy (which Chromium reports as errors) or asks any other origin.
  * @param {string} name
  * @param {(page: Page) => Promise<void>} body
- * @param {import('playwright-core').BrowserContextOptions & { drawn?: boolean, start?: string, sources?: boolean, unfolded?: string }} [options]
- *   whether there is WebGL, which takes long without a graphics card: not unless said otherwise; the part of the address after
- *   the #, which is a small example unless said otherwise; whether the page is served file by file; which parts are unfolded,
- *   all that are remembered unless said otherwise
+ * @param {import('playwright-core').BrowserContextOptions & { drawn?: boolean, moving?: boolean, size?: import('playwright-core').ViewportSize, start?: string, sources?: boolean, unfolded?: string }} [options]
+ *   whether there is WebGL, which takes long without a graphics card: not unless said otherwise; whether anything moves by itself:
+ *   not unless said otherwise; the size of the page; the part of the address after the #, which is a small example unless said
+ *   otherwise; whether the page is served file by file; which parts are unfolded, all that are remembered unless said otherwise
  */
-export function pageTest(name, body, { drawn = false, start = SMALL_EXAMPLE, sources = false, unfolded = ALL_PARTS, ...options } = {}) {
+export function pageTest(name, body, { drawn = false, moving = false, size, start = SMALL_EXAMPLE, sources = false, unfolded = ALL_PARTS, ...options } = {}) {
   inChromium(name, async (page) => {
     const incidents = watch(page);
+    if (moving) await page.emulateMedia({ reducedMotion: 'no-preference' });
+    if (size) await page.setViewportSize(size);
     await page.addInitScript((parts) => localStorage.setItem('developable: unfolded', parts), unfolded);
     if (!drawn) await page.addInitScript(withoutWebGL);
     await page.goto(server.url + (sources ? SOURCES : '') + start);

@@ -134,7 +134,7 @@ pageTest('every view fits on a phone, light and dark, with the pixels of the dev
     return [backgroundColor, color].map((text) => (text.match(/\d+/g) ?? []).slice(0, 3).map(Number));
   });
   assert.ok(Math.max(...paper) < 64 && Math.min(...ink) > 192, `${ink} on ${paper}`);
-}, { viewport: { width: 360, height: 740 }, deviceScaleFactor: 2, drawn: true });
+}, { size: { width: 360, height: 740 }, pixels: 2, drawn: true });
 
 doorTest('a file with a long name can be saved on a phone', async (page) => {
   await open(page, `${'long_words_joined_by_lines_'.repeat(4)}.npy`, npy(24, grid(24, 20, (col, row) => 3 * col + row)));

@@ -122,16 +122,17 @@ function browserMissing() {
  * breaks its security policy (which Chromium reports as errors) or asks any other origin.
  * @param {string} name
  * @param {(page: Page) => Promise<void>} body
- * @param {import('playwright-core').BrowserContextOptions & { drawn?: boolean, moving?: boolean, size?: import('playwright-core').ViewportSize, start?: string, sources?: boolean, unfolded?: string }} [options]
+ * @param {import('playwright-core').BrowserContextOptions & { drawn?: boolean, moving?: boolean, size?: import('playwright-core').ViewportSize, pixels?: number, phone?: boolean, start?: string, sources?: boolean, unfolded?: string }} [options]
  *   whether there is WebGL, which takes long without a graphics card: not unless said otherwise; whether anything moves by itself:
- *   not unless said otherwise; the size of the page; the part of the address after the #, which is a small example unless said
+ *   not unless said otherwise; the size of the page; how many pixels of the device each of its pixels is wide; whether it is on a phone, under a finger; the part of the address after the #, which is a small example unless said
  *   otherwise; whether the page is served file by file; which parts are unfolded, all that are remembered unless said otherwise
  */
-export function pageTest(name, body, { drawn = false, moving = false, size, start = SMALL_EXAMPLE, sources = false, unfolded = ALL_PARTS, ...options } = {}) {
+export function pageTest(name, body, { drawn = false, moving = false, size, pixels = 1, phone = false, start = SMALL_EXAMPLE, sources = false, unfolded = ALL_PARTS, ...options } = {}) {
   inChromium(name, async (page) => {
     const incidents = watch(page);
     if (moving) await page.emulateMedia({ reducedMotion: 'no-preference' });
     if (size) await page.setViewportSize(size);
+    if (pixels > 1 || phone) await showOnDevice(page, pixels, phone);
     await page.addInitScript((parts) => localStorage.setItem('developable: unfolded', parts), unfolded);
     if (!drawn) await page.addInitScript(withoutWebGL);
     await page.goto(server.url + (sources ? SOURCES : '') + start);
@@ -148,6 +149,19 @@ export function pageTest(name, body, { drawn = false, moving = false, size, star
  * @type {typeof pageTest}
  */
 export const doorTest = (name, body, options) => pageTest(name, body, { start: '', ...options });
+
+/**
+ * Shows a tab as another device does, by the browser's protocol: Playwright has this for whole contexts only.
+ * @param {Page} page
+ * @param {number} deviceScaleFactor
+ * @param {boolean} mobile
+ */
+async function showOnDevice(page, deviceScaleFactor, mobile) {
+  const protocol = await page.context().newCDPSession(page);
+  const { width, height } = page.viewportSize() ?? VIEWPORT;
+  await protocol.send('Emulation.setDeviceMetricsOverride', { width, height, deviceScaleFactor, mobile });
+  await protocol.send('Emulation.setTouchEmulationEnabled', { enabled: mobile });
+}
 
 /** Takes WebGL from a page. */
 function withoutWebGL() {

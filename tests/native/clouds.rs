@@ -2,15 +2,12 @@
 
 use developable::{Frame, Mesh, Resolution, Samples, View, sample};
 
+use crate::native::common::Random;
+
 /// Points over a square from 0 to `side`, about so many for each unit of area, the same each time.
 fn scattered(side: f64, density: f64, height: impl Fn(f64, f64) -> f64) -> Vec<[f64; 3]> {
-    let mut state = 1u64;
-    let mut share = || {
-        state = state
-            .wrapping_mul(6364136223846793005)
-            .wrapping_add(1442695040888963407);
-        (state >> 11) as f64 / (1u64 << 53) as f64
-    };
+    let mut random = Random::new(1);
+    let mut share = || random.uniform();
     (0..(side * side * density) as usize)
         .map(|_| {
             let (x, y) = (side * share(), side * share());

@@ -1,7 +1,7 @@
 //! How far heights are trusted.
 
 use crate::native::common::conic::Instance;
-use crate::native::common::{Noise, cut, max_difference, noisy, unit_square};
+use crate::native::common::{Random, cut, max_difference, noisy, unit_square};
 use developable::{Error, Heightfield, Input, Lattice, Options, fit};
 
 fn bumps(x: f64, y: f64) -> f64 {
@@ -27,7 +27,7 @@ fn each(lattice: &Lattice, f: impl Fn(f64, f64) -> f64) -> Vec<f64> {
 fn random_weights() {
     for (seed, lambda) in [(1, 1e4), (2, 1e5), (3, 1e6)] {
         let mut instance = Instance::new(&field(seed), lambda);
-        let mut noise = Noise::new(100 + seed);
+        let mut noise = Random::new(100 + seed);
         for weight in &mut instance.confidence {
             *weight = (3.0 * noise.sample()).exp();
         }
@@ -39,7 +39,7 @@ fn random_weights() {
 fn random_weights_some_of_them_zero() {
     for (seed, lambda) in [(4, 1e4), (5, 1e6)] {
         let mut instance = Instance::new(&field(seed), lambda);
-        let mut noise = Noise::new(100 + seed);
+        let mut noise = Random::new(100 + seed);
         for weight in &mut instance.confidence {
             *weight = noise.sample().max(0.0);
         }

@@ -1,6 +1,6 @@
 //! Heights of a cylinder: of known profiles, and of other shapes.
 
-use crate::native::common::{Noise, rms_difference};
+use crate::native::common::{Random, rms_difference};
 use developable::{
     Cylinder, CylinderVerdict, Error, Heightfield, Lambda, Lattice, Options, fit, fit_cylinder,
 };
@@ -16,7 +16,7 @@ fn field(f: impl Fn(f64, f64) -> f64) -> Heightfield {
 
 /// Noise that is alike over about `reach` vertices, as a depth camera's is: means over a square of them, three times.
 fn with_noise(truth: &Heightfield, sigma: f64, reach: usize, seed: u64) -> Heightfield {
-    let mut noise = Noise::new(seed);
+    let mut noise = Random::new(seed);
     let mut values: Vec<f64> = (0..SIDE * SIDE).map(|_| noise.sample()).collect();
     let mean = |values: &[f64], step: usize, count: usize| -> Vec<f64> {
         (0..values.len())

@@ -1,7 +1,7 @@
 //! Surfaces through heights that must be met exactly.
 
 use crate::native::common::conic::Instance;
-use crate::native::common::{Noise, cut, max_difference, noisy, unit_square};
+use crate::native::common::{Random, cut, max_difference, noisy, unit_square};
 use developable::{Energy, Error, Heightfield, Input, Lattice, Options, StopReason, fit};
 use proptest::prelude::*;
 
@@ -233,7 +233,7 @@ proptest! {
         holes in prop::collection::vec(0usize..80, 0..6), kind in 0usize..3,
     ) {
         let lattice = Lattice::new(8, 10, 0.1).unwrap();
-        let mut noise = Noise::new(seed);
+        let mut noise = Random::new(seed);
         let mut heights: Vec<f64> = (0..80).map(|_| noise.sample()).collect();
         for hole in holes {
             heights[hole] = f64::NAN;

@@ -2,7 +2,7 @@
 
 use std::num::Wrapping;
 
-use crate::native::common::Noise;
+use crate::native::common::Random;
 use developable::{
     Bridging, Error, HeightImage, Heightfield, Input, Lattice, Options, Report, StopReason,
     Surface, fit,
@@ -50,7 +50,7 @@ impl Mask {
             Mask::Speckle { share, seed } => {
                 let mixed =
                     Wrapping((row * size + col) as u64 + 1) * Wrapping(0x9E37_79B9_7F4A_7C15);
-                let mixed = Noise::new(mixed.0 ^ seed.rotate_left(17)).sample();
+                let mixed = Random::new(mixed.0 ^ seed.rotate_left(17)).sample();
                 0.5 * (mixed + 1.0) >= share
             }
             Mask::Comb {
@@ -104,17 +104,12 @@ fn square(size: usize) -> Lattice {
     Lattice::new(size, size, 1.0 / size as f64).unwrap()
 }
 
-/// Normally distributed, from twelve even ones.
-fn normal(noise: &mut Noise) -> f64 {
-    (0..12).map(|_| 0.5 * noise.sample()).sum()
-}
-
 /// A cylinder and what is left of it under noise.
 fn scene(size: usize, sigma: f64, keeps: impl Fn(usize, usize) -> bool) -> [Heightfield; 2] {
     let truth = Heightfield::from_fn(square(size), cylinder).unwrap();
-    let mut noise = Noise::new(7);
+    let mut noise = Random::new(7);
     let noisy = truth.heights().iter().enumerate().map(|(i, z)| {
-        let z = z + sigma * normal(&mut noise);
+        let z = z + sigma * noise.sum_of_twelve();
         if keeps(i / size, i % size) {
             z
         } else {
@@ -128,12 +123,12 @@ fn scene(size: usize, sigma: f64, keeps: impl Fn(usize, usize) -> bool) -> [Heig
 /// The same at pixels.
 fn picture(size: usize, sigma: f64, keeps: impl Fn(usize, usize) -> bool) -> [HeightImage; 2] {
     let pixel = 1.0 / size as f64;
-    let mut noise = Noise::new(7);
+    let mut noise = Random::new(7);
     let (mut truth, mut noisy) = (Vec::new(), Vec::new());
     for (row, col) in (0..size * size).map(|i| (i / size, i % size)) {
         let z = cylinder(col as f64 * pixel, -(row as f64) * pixel);
         truth.push(z);
-        let z = z + sigma * normal(&mut noise);
+        let z = z + sigma * noise.sum_of_twelve();
         noisy.push(if keeps(row, col) { z } else { f64::NAN });
     }
     let image = |values| {
@@ -372,11 +367,11 @@ fn noise_does_not_join_two_levels() {
     const SIGMA: f64 = 0.3;
     let lattice = Lattice::new(80, 80, 1.0).unwrap();
     for missing in 1..=4 {
-        let mut noise = Noise::new(3);
-        let level = |height: f64, noise: &mut Noise| {
+        let mut noise = Random::new(3);
+        let level = |height: f64, noise: &mut Random| {
             let heights = (0..6400).map(|i| match i % 80 {
                 col if (40..40 + missing).contains(&col) => f64::NAN,
-                col => SIGMA * normal(noise) + if col < 40 { 0.0 } else { height },
+                col => SIGMA * noise.sum_of_twelve() + if col < 40 { 0.0 } else { height },
             });
             let field = Heightfield::new(lattice, heights.collect()).unwrap();
             fit(&field, &Options::paper()).unwrap().report().bridged

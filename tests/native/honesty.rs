@@ -1,7 +1,7 @@
 //! What a report says is true, on whatever input: every certificate is checked against energies that
 //! are computed here, by plain loops, and against surfaces that might be better.
 
-use crate::native::common::{Noise, noisy, unit_square};
+use crate::native::common::{Random, noisy, unit_square};
 use developable::{
     Bridging, Energy, Error, HeightImage, Heightfield, Input, Lattice, Normalization, Options,
     Report, Solver, Status, StopReason, Surface, fit,
@@ -240,7 +240,7 @@ fn case() -> impl Strategy<Value = Case> {
     (shape, kind, scales, options).prop_map(
         |((rows, cols, seed), (kind, weights, holes), (size, aspect, usual, power), options)| {
             let (lambda, gap, energy, normalize) = options;
-            let mut noise = Noise::new(seed);
+            let mut noise = Random::new(seed);
             // Half of all cases are of ordinary size.
             let spacing = if usual { 0.1 } else { 10f64.powf(size) };
             let height = if power == 0 {
@@ -344,7 +344,7 @@ fn plain(field: Heightfield, lambda: f64) -> Case {
 /// On a lattice with slits, inexact steps once diverged, and NaN was certified.
 #[test]
 fn a_surface_in_strips_is_certified_or_not() {
-    let mut noise = Noise::new(3);
+    let mut noise = Random::new(3);
     let heights = (0..120 * 120).map(|i| {
         let (x, y) = (i % 120, i / 120);
         let height = (x as f64 / 10.0).sin() + 0.05 * noise.sample();
@@ -411,7 +411,7 @@ fn affine_inputs_have_no_gap_to_speak_of() {
 fn every_range_of_confidences_ends_soon() {
     let field = bumps(50);
     let (n, cols) = (field.lattice().len(), field.lattice().cols());
-    let mut noise = Noise::new(5);
+    let mut noise = Random::new(5);
     let random: Vec<f64> = (0..n).map(|_| 10f64.powf(6.0 * noise.sample())).collect();
     let mut patterns = vec![random];
     for [a, b] in [

@@ -122,7 +122,7 @@ fn turning_the_input_by_sixty_degrees_turns_the_output() {
         assert!((sin * (x - cx) + cos * (y - cy) - (v - cy)).abs() < 1e-12);
     }
 
-    let mut noise = crate::native::common::Noise::new(3);
+    let mut noise = crate::native::common::Random::new(3);
     let mut heights = vec![f64::NAN; lattice.len()];
     let mut turned = heights.clone();
     for (from, to) in &turn {

@@ -1,6 +1,6 @@
 //! λ from the data.
 
-use crate::native::common::{Noise, cut, noisy, rms_difference, unit_square};
+use crate::native::common::{Random, cut, noisy, rms_difference, unit_square};
 use developable::{
     Bridging, Energy, HeightImage, Heightfield, Input, Lambda, LambdaReason, Lattice, Options,
     Report, Solver, Status, Tolerance, fit,
@@ -15,17 +15,12 @@ fn auto() -> Options {
     Options::paper().lambda(Lambda::Auto)
 }
 
-/// Samples a normal distribution, by the central limit theorem.
-fn normal(noise: &mut Noise) -> f64 {
-    (0..12).map(|_| noise.sample()).sum::<f64>() / 2.0
-}
-
 fn with_noise(truth: &Heightfield, sigma: f64, seed: u64) -> Heightfield {
-    let mut noise = Noise::new(seed);
+    let mut noise = Random::new(seed);
     let heights = truth
         .heights()
         .iter()
-        .map(|z| z + sigma * normal(&mut noise));
+        .map(|z| z + sigma * noise.sum_of_twelve());
     Heightfield::new(*truth.lattice(), heights.collect()).unwrap()
 }
 
@@ -121,7 +116,7 @@ fn holes_dead_pixels_parts_and_confidence() {
     let sigma = 0.005;
     let full = unit_square(90, scene);
     let whole = with_noise(&full, sigma, 7);
-    let random = std::cell::RefCell::new(Noise::new(3));
+    let random = std::cell::RefCell::new(Random::new(3));
     // Two parts, a hole in one of them, and every tenth height missing.
     let torn = cut(&whole, |x, y| {
         (x - 0.55).abs() > 0.06
@@ -217,8 +212,8 @@ fn lambda_is_raised_where_the_noise_does_not_explain_the_residual() {
 /// Noise as depth cameras smooth it: white noise after means over the six neighbours, four times.
 fn with_smooth_noise(truth: &Heightfield, sigma: f64, seed: u64) -> Heightfield {
     let lattice = *truth.lattice();
-    let mut noise = Noise::new(seed);
-    let mut values: Vec<f64> = (0..lattice.len()).map(|_| normal(&mut noise)).collect();
+    let mut noise = Random::new(seed);
+    let mut values: Vec<f64> = (0..lattice.len()).map(|_| noise.sum_of_twelve()).collect();
     for _ in 0..4 {
         let old = values.clone();
         for (i, value) in values.iter_mut().enumerate() {
@@ -287,11 +282,11 @@ fn the_noise_of_scan_lines_is_not_returned_as_the_surface() {
     for (scene, seed) in [(cone as fn(f64, f64) -> f64, 12), (roof, 13)] {
         let truth = unit_square(80, scene);
         let lattice = *truth.lattice();
-        let mut noise = Noise::new(seed);
+        let mut noise = Random::new(seed);
         let mut run = 0.0;
         // An autoregressive process along each row: neighbours' correlation is 0.9.
         let values = truth.heights().iter().enumerate().map(|(vertex, z)| {
-            let fresh = normal(&mut noise);
+            let fresh = noise.sum_of_twelve();
             run = match vertex % lattice.cols() {
                 0 => fresh,
                 _ => 0.9 * run + 0.19f64.sqrt() * fresh,
@@ -309,7 +304,7 @@ fn the_noise_of_scan_lines_is_not_returned_as_the_surface() {
 #[test]
 fn long_tails_and_growing_noise_do_not_raise_lambda() {
     let truth = unit_square(80, scene);
-    let mut noise = Noise::new(14);
+    let mut noise = Random::new(14);
     // The difference of two exponentially distributed numbers has Laplace's distribution.
     let mut laplace = || {
         let [a, b] = [(); 2].map(|()| (noise.sample() + 1.0).max(1e-9) / 2.0);
@@ -317,10 +312,10 @@ fn long_tails_and_growing_noise_do_not_raise_lambda() {
     };
     let tails = truth.heights().iter().map(|z| z + laplace());
     let tails = Heightfield::new(*truth.lattice(), tails.collect()).unwrap();
-    let mut noise = Noise::new(15);
+    let mut noise = Random::new(15);
     let growing = truth.heights().iter().map(|z| {
         let farness = 1.0 + 3.0 * (0.5 - z).clamp(0.0, 0.5) / 0.5;
-        z + 0.002 * farness * normal(&mut noise)
+        z + 0.002 * farness * noise.sum_of_twelve()
     });
     let growing = Heightfield::new(*truth.lattice(), growing.collect()).unwrap();
     for input in [tails, growing] {
@@ -354,7 +349,7 @@ fn a_sphere_with_little_noise_is_no_noise() {
 fn the_noise_of_pixels_is_not_returned_as_the_surface() {
     let side = 90;
     let sigma = 5e-3;
-    let mut noise = Noise::new(11);
+    let mut noise = Random::new(11);
     let at = |i: usize| {
         let [x, y] = [i % side, i / side].map(|k| k as f64 / side as f64);
         scene(x, y)
@@ -368,7 +363,7 @@ fn the_noise_of_pixels_is_not_returned_as_the_surface() {
             .unwrap()
     };
     let truth = on_lattice((0..side * side).map(at).collect());
-    let noisy = (0..side * side).map(|i| at(i) + sigma * normal(&mut noise));
+    let noisy = (0..side * side).map(|i| at(i) + sigma * noise.sum_of_twelve());
     let input = on_lattice(noisy.collect());
     let (surface, _) = solve(&input, &Options::default());
     let [own, raw] = [&surface, &input].map(|field| rms_difference(&truth, field));
@@ -394,7 +389,7 @@ fn impulses_do_not_raise_lambda() {
 /// A fractal terrain is alike at every scale, as smooth noise is up to one. It keeps within the tolerance, which is reported.
 #[test]
 fn terrain_without_noise_is_not_flattened() {
-    let mut random = Noise::new(21);
+    let mut random = Random::new(21);
     let waves: Vec<[f64; 4]> = (0..150)
         .map(|_| {
             let frequency = 40f64.powf(0.5 * (random.sample() + 1.0));
@@ -459,10 +454,10 @@ fn a_tolerance_is_used_up_and_kept() {
 fn impulses_are_no_data() {
     const SIZE: usize = 64;
     let image = |share: f64| {
-        let mut noise = Noise::new(23);
+        let mut noise = Random::new(23);
         let pixel = |i: usize| {
             let [x, y] = [i % SIZE, i / SIZE].map(|k| k as f64 / SIZE as f64);
-            let height = scene(x, y) + 0.002 * normal(&mut noise);
+            let height = scene(x, y) + 0.002 * noise.sum_of_twelve();
             let [kind, value] = [noise.sample(), noise.sample()];
             let is_inside = [x, y].iter().all(|place| (0.04..0.95).contains(place));
             match is_inside && kind < 2.0 * share - 1.0 {
@@ -496,9 +491,9 @@ fn impulses_are_no_data() {
 /// times `sigma`.
 fn noisy_image([width, height]: [usize; 2], sigma: f64, blur: f64, seed: u64) -> HeightImage {
     const MARGIN: usize = 12;
-    let mut noise = Noise::new(seed);
+    let mut noise = Random::new(seed);
     let [wide, high] = [width, height].map(|side| side + 2 * MARGIN);
-    let white: Vec<f64> = (0..wide * high).map(|_| normal(&mut noise)).collect();
+    let white: Vec<f64> = (0..wide * high).map(|_| noise.sum_of_twelve()).collect();
     let weight = |k: usize| {
         let d = k as f64 - MARGIN as f64;
         match blur > 0.0 {

@@ -441,7 +441,7 @@ fn domes_saddles_and_waves_are_cut_until_they_lie_flat() {
 #[test]
 fn what_no_cut_makes_flat_is_refused_with_its_place() {
     // Rough from vertex to vertex.
-    let mut noise = crate::native::common::Noise::new(5);
+    let mut noise = crate::native::common::Random::new(5);
     let rough = unit_square(16, |_, _| 0.0);
     let heights = rough
         .heights()
@@ -471,7 +471,7 @@ fn sides(sheets: &[Sheet]) -> std::collections::BTreeMap<usize, (bool, [f64; 2])
 /// rags.
 #[test]
 fn a_steep_ragged_border_gives_way_and_that_is_told() {
-    let mut noise = crate::native::common::Noise::new(3);
+    let mut noise = crate::native::common::Random::new(3);
     let ball = unit_square(70, |x, y| {
         let r = (x - 0.5).hypot(y - 0.5);
         (0.25 - r * r).max(0.0).sqrt()

@@ -8,7 +8,8 @@ use developable::{Exactness, Mesh};
 use nalgebra::{Rotation3, Vector3};
 
 use crate::closed_meshes::cube;
-use crate::native::common::irregular::{Random, Tessellation};
+use crate::native::common::Random;
+use crate::native::common::irregular::Tessellation;
 
 /// A roof over 12 × 8: its name, the number of its faces, and its height at a place.
 type Roof = (&'static str, usize, fn(f64, f64) -> f64);
@@ -46,7 +47,7 @@ const BENT: [Roof; 6] = [
 /// A scan of a roof: heights have normally distributed noise, and places a third of that.
 fn scan(roof: Roof, triangles: Tessellation, side: usize, noise: f64, seed: u64) -> Mesh {
     let (places, triangles) = triangles.build(side, seed);
-    let mut random = Random::new(seed + 1000);
+    let mut random = Random::spread(seed + 1000);
     let points = places.iter().map(|[u, v]| {
         let (x, y) = (12.0 * u, 8.0 * v);
         let [a, b, c] = [0, 1, 2].map(|_| noise * random.normal());
@@ -128,7 +129,7 @@ fn a_closed_box_with_noise_has_six_faces_though_no_vertex_lies_on_its_edges() {
     let turn = Rotation3::from_euler_angles(0.4, 0.5, 0.6);
     let half = Vector3::new(60.0, 40.0, 25.0);
     let ball = cube(24);
-    let mut random = Random::new(5);
+    let mut random = Random::spread(5);
     let points = ball.positions().iter().map(|p| {
         let along = turn * Vector3::from(*p);
         // The ray from the middle to the box.

@@ -4,30 +4,9 @@
 use developable::Mesh;
 use nalgebra::Vector3;
 
+use super::Random;
+
 pub type Point = Vector3<f64>;
-
-/// Reproducible random numbers, by a 64-bit linear congruential generator.
-pub struct Random(u64);
-
-impl Random {
-    pub fn new(seed: u64) -> Self {
-        Random(seed.wrapping_mul(0x9E37_79B9_7F4A_7C15).wrapping_add(1))
-    }
-
-    /// From 0 to 1, exclusive.
-    pub fn uniform(&mut self) -> f64 {
-        self.0 = self
-            .0
-            .wrapping_mul(6364136223846793005)
-            .wrapping_add(1442695040888963407);
-        (self.0 >> 11) as f64 / (1u64 << 53) as f64
-    }
-
-    /// Normally distributed, of variance 1.
-    pub fn normal(&mut self) -> f64 {
-        (-2.0 * (1.0 - self.uniform()).ln()).sqrt() * (std::f64::consts::TAU * self.uniform()).cos()
-    }
-}
 
 /// A triangulation of the unit square, or of a part of it.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -65,7 +44,7 @@ impl Tessellation {
 
     /// Places and triangles, counterclockwise; about `side²` places.
     pub fn build(self, side: usize, seed: u64) -> (Vec<[f64; 2]>, Vec<[u32; 3]>) {
-        let mut random = Random::new(seed);
+        let mut random = Random::spread(seed);
         let step = 1.0 / side as f64;
         let jittered = |share: f64, random: &mut Random| -> Vec<[f64; 2]> {
             let cells = (0..side * side).map(|i| [i % side, i / side]);
@@ -279,7 +258,7 @@ impl NoisyMesh {
                 .fold(truth[0], |a, b| a.zip_map(b, pick))
         });
         let diameter = (high - low).norm();
-        let mut random = Random::new(seed + 1000);
+        let mut random = Random::spread(seed + 1000);
         let noisy = truth.iter().zip(&normals).map(|(x, normal)| {
             let off = match all_directions {
                 true => Point::from_fn(|_, _| random.normal()),

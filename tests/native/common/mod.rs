@@ -8,21 +8,46 @@ pub mod irregular;
 
 use developable::{Heightfield, Lattice};
 
-/// Reproducible noise, uniform in −1..1.
-pub struct Noise(u64);
+/// Reproducible random numbers, by a 64-bit linear congruential generator, whose upper bits are good enough.
+pub struct Random(u64);
 
-impl Noise {
+impl Random {
     pub fn new(seed: u64) -> Self {
-        Noise(seed)
+        Random(seed)
     }
 
-    pub fn sample(&mut self) -> f64 {
-        // A 64-bit linear congruential generator; its upper bits are good enough for noise.
+    /// For seeds that are next to each other, whose first numbers would be alike.
+    pub fn spread(seed: u64) -> Self {
+        Random(seed.wrapping_mul(0x9E37_79B9_7F4A_7C15).wrapping_add(1))
+    }
+
+    /// A random number of at most as many bits.
+    pub fn bits(&mut self, count: u32) -> u64 {
         self.0 = self
             .0
             .wrapping_mul(6364136223846793005)
             .wrapping_add(1442695040888963407);
-        (self.0 >> 11) as f64 / (1u64 << 52) as f64 - 1.0
+        self.0 >> (u64::BITS - count)
+    }
+
+    /// Uniform from 0 to 1, exclusive.
+    pub fn uniform(&mut self) -> f64 {
+        self.bits(53) as f64 / (1u64 << 53) as f64
+    }
+
+    /// Uniform from −1 to 1.
+    pub fn sample(&mut self) -> f64 {
+        2.0 * self.uniform() - 1.0
+    }
+
+    /// Nearly normally distributed, of variance 1, by the central limit theorem.
+    pub fn sum_of_twelve(&mut self) -> f64 {
+        (0..12).map(|_| self.sample()).sum::<f64>() / 2.0
+    }
+
+    /// Normally distributed, of variance 1.
+    pub fn normal(&mut self) -> f64 {
+        (-2.0 * (1.0 - self.uniform()).ln()).sqrt() * (std::f64::consts::TAU * self.uniform()).cos()
     }
 }
 
@@ -34,7 +59,7 @@ pub fn unit_square(cols: usize, f: impl Fn(f64, f64) -> f64) -> Heightfield {
 
 /// The field with noise of the given amplitude.
 pub fn noisy(field: &Heightfield, amplitude: f64, seed: u64) -> Heightfield {
-    let mut noise = Noise::new(seed);
+    let mut noise = Random::new(seed);
     let heights = field.heights().iter();
     let heights = heights.map(|z| z + amplitude * noise.sample()).collect();
     Heightfield::new(*field.lattice(), heights).unwrap()

@@ -125,7 +125,11 @@ function tell(task, { report }, mesh) {
   succeed(task.output, meshFitInWords(report));
   if (report.stopReason === 'noNoise') {
     say(`${task.input} has no noise: it is left as it is (--lambda smooths it all the same)`);
-  } else if (report.stopReason === 'maxIterations') {
+  } else if (task.command !== 'fit') {
+    const noise = report.sigma === undefined ? '' : ` with noise of ${Number(report.sigma.toPrecision(2))} in the file's unit`;
+    say(`${task.input} is taken for a scan${noise}, and fitted first (--as-is leaves its vertices where they are)`);
+  }
+  if (report.stopReason === 'maxIterations') {
     toStderr('developable: warning: stopped before the wanted gap; --max-iterations allows more\n');
   } else if (report.stopReason === 'diverged') {
     toStderr('developable: warning: the iterations diverged; this is the best surface before\n');

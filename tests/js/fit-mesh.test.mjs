@@ -407,6 +407,18 @@ test('a mesh of which one side hides much is taken whole without a flag, and so 
   assert.equal(triangles.length, 36);
 });
 
+test('what is fitted before it is laid flat is said, with the noise that was found', async () => {
+  await direct.init();
+  await direct.load('meshes');
+  const folder = await temporaryFolder();
+  await writeFile(join(folder, 'bottle.stl'), direct.writeStl(noisy));
+  const words = async (/** @type {string[]} */ ...more) =>
+    (await run(folder, ['rulings', 'bottle.stl', '-o', 'x.json', '--surface', '--unit', 'mm', ...more])).stderr;
+  const [, found] = /bottle\.stl is taken for a scan with noise of ([\d.]+) in the file's unit/.exec(await words()) ?? [];
+  assert.ok(Math.abs(Number(found) / sigma - 1) < 0.2, found);
+  assert.doesNotMatch(await words('--as-is'), /scan/);
+});
+
 test('a box is laid flat as it is, at the size that is asked for', async () => {
   const box = boxTo([30, 20, 10]);
   assert.deepEqual(await developable.recognizeMesh(box), { kind: 'faces' });

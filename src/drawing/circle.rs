@@ -2,9 +2,7 @@
 
 use super::curve::Curve;
 use crate::math::planar::{circle_through, distance};
-
-/// Maximum angle, in radians, between pieces of an arc: circles of 16 pieces or more.
-const MAX_ARC_STEP: f64 = 0.4;
+use crate::scene::polyhedron::MAX_BEND_STEP;
 
 /// Maximum distance of an arc's points from its circle, as a share of the radius.
 const ARC_TOLERANCE_SHARE: f64 = 2e-4;
@@ -47,7 +45,7 @@ fn longest_arc(points: &[[f64; 2]]) -> Option<(usize, [f64; 2])> {
     let is_on = |pair: &[[f64; 2]]| {
         let angle = way * step(pair[0], pair[1]);
         let away = (distance(pair[1], centre) - radius).abs();
-        angle > 0.0 && angle <= MAX_ARC_STEP && away <= ARC_TOLERANCE_SHARE * radius
+        angle > 0.0 && angle <= MAX_BEND_STEP && away <= ARC_TOLERANCE_SHARE * radius
     };
     let pieces = points.windows(2).take_while(|pair| is_on(pair)).count();
     // What bulges by no more than the tolerance is straight.

@@ -164,8 +164,8 @@ impl Curve {
     }
 }
 
-/// Maximum distance of a curve from a circle that it counts as, in millimetres.
-const CIRCLE_TOLERANCE_MM: f64 = 0.002;
+/// Maximum distance of a curve from a circle that it counts as, and from the line that is offset in its place, in millimetres.
+pub(super) const CIRCLE_TOLERANCE_MM: f64 = 0.002;
 
 /// Minimum turning angle, in radians, at a point of a polyline that counts as a corner; a polyline that turns by less
 /// approximates a curve there.

@@ -6,14 +6,9 @@ use super::tabs::Tab;
 use crate::math::planar::{Point2, bounds, cross, distance, polyline_length};
 use crate::pattern::Direction;
 
-/// Font size of a text beside a sheet, and maximum font size of a text along a line, in millimetres.
-const NOTE_SIZE_MM: f64 = 3.0;
-
-/// Maximum font size of a text in a drawing, in millimetres.
-const MAX_TEXT_SIZE_MM: f64 = 12.0;
-
-/// Minimum font size of a text in a drawing, in millimetres.
-const MIN_TEXT_SIZE_MM: f64 = 1.5;
+/// Font size of a text beside a sheet, in millimetres. Texts on a sheet have half of it at least, along a line it at most, and
+/// four times it elsewhere; marks, leader lines and the gaps between nested sheets are as long.
+pub(super) const TEXT_SIZE_MM: f64 = 3.0;
 
 /// Places of a text along a line, in the order in which they are tried, as shares of the line.
 const LABEL_PLACES: [f64; 3] = [0.5, 0.3, 0.7];
@@ -64,7 +59,7 @@ impl Label {
             kind: LabelKind::Patch,
             text: (patch + 1).to_string(),
             place,
-            size: (0.8 * room).clamp(MIN_TEXT_SIZE_MM, MAX_TEXT_SIZE_MM),
+            size: (0.8 * room).clamp(0.5 * TEXT_SIZE_MM, 4.0 * TEXT_SIZE_MM),
             turn: 0.0,
         }
     }
@@ -72,14 +67,14 @@ impl Label {
     /// Returns whether a patch is too small for its number; `room` is the distance from the label's place to the
     /// patch's border, in millimetres.
     pub(super) fn is_cramped(room: f64) -> bool {
-        0.8 * room < MIN_TEXT_SIZE_MM
+        0.8 * room < 0.5 * TEXT_SIZE_MM
     }
 
     /// Moves this label to a place beside its sheet, where a leader line connects it to its patch.
     pub(super) fn outside(self, place: [f64; 2]) -> Self {
         Label {
             place,
-            size: NOTE_SIZE_MM,
+            size: TEXT_SIZE_MM,
             ..self
         }
     }
@@ -88,7 +83,7 @@ impl Label {
     pub(super) fn is_beside(&self, leaders: &[Curve]) -> bool {
         self.kind == LabelKind::Patch
             && (leaders.iter().flat_map(|line| line.controls().last()))
-                .any(|end| distance(*end, self.place) < 1.5 * NOTE_SIZE_MM)
+                .any(|end| distance(*end, self.place) < 1.5 * TEXT_SIZE_MM)
     }
 
     fn half_extent(&self) -> [f64; 2] {
@@ -188,7 +183,7 @@ impl Label {
 
     /// Creates candidates of this label in three sizes, down to the smallest.
     pub(super) fn in_sizes(self) -> Vec<Label> {
-        let least = self.size.min(MIN_TEXT_SIZE_MM);
+        let least = self.size.min(0.5 * TEXT_SIZE_MM);
         let sizes = [self.size, 0.5 * (self.size + least), least];
         let sized = |size: f64| Label {
             size,
@@ -243,8 +238,8 @@ impl Label {
         Label {
             kind: LabelKind::Sheet,
             text: name.into(),
-            place: [0.5 * (min[0] + max[0]), max[1] + NOTE_SIZE_MM],
-            size: NOTE_SIZE_MM,
+            place: [0.5 * (min[0] + max[0]), max[1] + TEXT_SIZE_MM],
+            size: TEXT_SIZE_MM,
             turn: 0.0,
         }
     }
@@ -256,7 +251,7 @@ impl Label {
             kind: LabelKind::Sheet,
             text: text.into(),
             place,
-            size: NOTE_SIZE_MM,
+            size: TEXT_SIZE_MM,
             turn: 0.0,
         }
     }
@@ -265,7 +260,7 @@ impl Label {
     /// that is a multiple of the text's font size.
     fn beside(kind: LabelKind, text: &str, points: &[[f64; 2]], away: f64) -> Vec<Label> {
         let long = polyline_length(points);
-        let size = (0.2 * long).clamp(MIN_TEXT_SIZE_MM, NOTE_SIZE_MM);
+        let size = (0.2 * long).clamp(0.5 * TEXT_SIZE_MM, TEXT_SIZE_MM);
         let at = |label: Label| {
             LABEL_PLACES.map(|along| {
                 let (place, [x, y]) = place_at(points, along * long);

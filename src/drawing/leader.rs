@@ -1,18 +1,12 @@
 //! Places the number of a small patch beside its sheet, with a leader line to the patch.
 
 use super::curve::Curve;
-use super::label::Label;
+use super::label::{Label, TEXT_SIZE_MM};
 use crate::math::planar::{distance, nearest_on_segment};
 
 /// Number of directions in which a leader line from a small patch to its number is tried, evenly spaced over a full
 /// turn.
 const LEADER_DIRECTIONS: u32 = 24;
-
-/// Distance of a leader line's outer end from the sheet's edge, in millimetres.
-const LEADER_END_DISTANCE_MM: f64 = 3.0;
-
-/// Distance between the sheet's edge and the middle of the number at the end of a leader line, in millimetres.
-const LEADER_TEXT_DISTANCE_MM: f64 = 6.0;
 
 /// Moves the label of a small patch beside the sheet, in the direction in which the leader line (from patch to label)
 /// leaves the sheet after the shortest distance and crosses nothing else. Returns the label and the leader line; `None`
@@ -36,17 +30,17 @@ pub(super) fn place_leader(
         // The ray leaves the sheet at its first intersection; the next one must be far away.
         let next = hits
             .get(1)
-            .is_none_or(|next| *next > edge + 2.0 * LEADER_TEXT_DISTANCE_MM);
-        let place = at(edge + LEADER_TEXT_DISTANCE_MM);
+            .is_none_or(|next| *next > edge + 4.0 * TEXT_SIZE_MM);
+        let place = at(edge + 2.0 * TEXT_SIZE_MM);
         let free = walls.iter().all(|[p, q]| {
             let middle = [0, 1].map(|k| 0.5 * (p[k] + q[k]));
-            distance(middle, place) > LEADER_TEXT_DISTANCE_MM.min(4.0) + 0.5 * distance(*p, *q)
-                || from_wall(place, [*p, *q]) > 3.0
+            distance(middle, place) > 1.5 * TEXT_SIZE_MM + 0.5 * distance(*p, *q)
+                || from_wall(place, [*p, *q]) > TEXT_SIZE_MM
         });
         let apart = others
             .iter()
             .all(|other| distance(other.place, place) > 5.0);
-        (next && free && apart).then(|| (edge, place, at(edge + LEADER_END_DISTANCE_MM)))
+        (next && free && apart).then(|| (edge, place, at(edge + TEXT_SIZE_MM)))
     });
     let (_, place, end) = ways.min_by(|a, b| a.0.total_cmp(&b.0))?;
     Some((label.clone().outside(place), Curve::through(&[from, end])))

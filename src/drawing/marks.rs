@@ -4,12 +4,10 @@ use crate::math::planar::polyline_length;
 use std::collections::BTreeMap;
 
 use super::curve::Curve;
+use super::label::TEXT_SIZE_MM;
 use super::line::{FLATTENING_TOLERANCE_MM, place_at};
 use super::lines::Lines;
 use crate::pattern::Run;
-
-/// Length of a mark across a seam, in millimetres.
-const MARK_LENGTH_MM: f64 = 3.0;
 
 /// Computes the number of marks (short lines by which the two sides of a seam are aligned) on each seam, by the number
 /// of its crease; 0 if one of its sides is in several pieces.
@@ -52,7 +50,7 @@ pub(super) fn seam_marks(run: &Run, curve: &Curve, counts: &BTreeMap<usize, usiz
             // The sheet is to the left.
             Curve::through(&[
                 place,
-                [place[0] - MARK_LENGTH_MM * y, place[1] + MARK_LENGTH_MM * x],
+                [place[0] - TEXT_SIZE_MM * y, place[1] + TEXT_SIZE_MM * x],
             ])
         })
         .collect()

@@ -3,7 +3,7 @@
 //! Sheets and pages are bitmaps on a grid, so that testing whether a sheet fits takes a few machine words for each
 //! of its rows. A sheet occupies every cell that it touches, so sheets never overlap.
 
-use super::label::Label;
+use super::label::{Label, TEXT_SIZE_MM};
 use super::pack::Place;
 use super::sheet::DrawnSheet;
 use crate::math::planar::bounds;
@@ -13,9 +13,6 @@ const PAGE_CELLS: f64 = 150.0;
 
 /// Maximum number of raster cells along the longer side of a page, for nesting sheets.
 const MAX_PAGE_CELLS: f64 = 5000.0;
-
-/// Minimum distance between sheets nested on a page, in millimetres.
-const NESTING_GAP_MM: f64 = 3.0;
 
 /// Shape of a sheet for nesting: the closed lines of the sheet and of texts beside it, and width and height of the
 /// box for the sheet's name above it.
@@ -87,7 +84,7 @@ pub(super) fn nest_shapes(shapes: &[Shape], page: [f64; 2]) -> Vec<Option<Nested
         if fitting.is_empty() {
             continue;
         }
-        let reach = (NESTING_GAP_MM / cell).ceil() as usize;
+        let reach = (TEXT_SIZE_MM / cell).ceil() as usize;
         let grown: Vec<Mask> = fitting.iter().map(|(_, mask)| mask.grown(reach)).collect();
         // The lowest place on the first page that has one.
         let spot = |page: &Mask| {
@@ -331,7 +328,7 @@ mod tests {
             );
             for q in &placed[1] {
                 assert!(
-                    (p[0] - q[0]).hypot(p[1] - q[1]) >= 0.9 * NESTING_GAP_MM,
+                    (p[0] - q[0]).hypot(p[1] - q[1]) >= 0.9 * TEXT_SIZE_MM,
                     "{p:?} {q:?}"
                 );
             }

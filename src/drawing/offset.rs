@@ -1,20 +1,15 @@
 //! Offsets the outlines of sheets outwards, by half the kerf and the allowance.
 
-use super::curve::{Curve, POLYLINE_CORNER_ANGLE};
+use super::curve::{CIRCLE_TOLERANCE_MM, Curve, POLYLINE_CORNER_ANGLE};
+use super::line::FLATTENING_TOLERANCE_MM;
 use super::smooth::smooth;
 use crate::math::planar::polygon_area;
 use crate::pattern::remove_loops;
 use crate::unroll::flat_triangle::Point;
 use crate::unroll::overlap::crossings;
 
-/// Maximum distance between an offset line and the curves fitted to it, in millimetres.
-const OFFSET_TOLERANCE_MM: f64 = 0.02;
-
 /// Smallest detail of an offset line that the curves fitted to it follow, in millimetres.
 const OFFSET_DETAIL_MM: f64 = 1.0;
-
-/// Maximum distance between a curve and the polyline that is offset in its place, in millimetres.
-const OFFSET_FLATTENING_TOLERANCE_MM: f64 = 0.005;
 
 /// Maximum distance of an offset corner from the corner itself, as a multiple of the offset.
 const MAX_MITRE_FACTOR: f64 = 2.0;
@@ -28,7 +23,7 @@ const MAX_LOOP_FACTOR: f64 = 8.0;
 pub(super) fn offset_outwards(curves: &[Curve], distance: f64) -> Option<Vec<Curve>> {
     let mut moved = Vec::new();
     for curve in curves {
-        let mut ring: Vec<Point> = (curve.points(OFFSET_FLATTENING_TOLERANCE_MM).into_iter())
+        let mut ring: Vec<Point> = (curve.points(CIRCLE_TOLERANCE_MM).into_iter())
             .map(|[x, y]| Point::new(x, y))
             .collect();
         // Remove coinciding points, and the last point, which equals the first.
@@ -63,7 +58,7 @@ pub(super) fn offset_outwards(curves: &[Curve], distance: f64) -> Option<Vec<Cur
         let closed = ring.iter().chain(ring.first());
         smooth(
             &closed.map(|p| [p.re, p.im]).collect::<Vec<_>>(),
-            OFFSET_TOLERANCE_MM,
+            FLATTENING_TOLERANCE_MM,
             OFFSET_DETAIL_MM,
         )
     };

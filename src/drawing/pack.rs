@@ -3,8 +3,9 @@
 
 use crate::math::planar::LeastBox;
 
-/// Width of the empty margin around each sheet in a drawing, in millimetres.
-const SHEET_MARGIN_MM: f64 = 10.0;
+/// Width of the empty margin around each sheet in a drawing, of the margin that a printer may leave blank, and by which pages of one
+/// sheet overlap, in millimetres. That of a plate is half as wide, and pages are twice as far apart.
+pub(super) const MARGIN_MM: f64 = 10.0;
 
 /// Placement of a sheet in a drawing: a rotation followed by a translation, and the size of the resulting bounding box,
 /// in millimetres.
@@ -88,7 +89,7 @@ pub(crate) fn beside(sheets: &[Vec<Vec<[f64; 2]>>]) -> Vec<([f64; 2], [f64; 2])>
 pub(super) fn pack_rows(boxes: &[Place]) -> (Vec<Place>, [f64; 2]) {
     let mut order: Vec<usize> = (0..boxes.len()).collect();
     order.sort_by(|a, b| boxes[*b].size[1].total_cmp(&boxes[*a].size[1]));
-    let padded = |place: &Place| place.size.map(|side| side + SHEET_MARGIN_MM);
+    let padded = |place: &Place| place.size.map(|side| side + MARGIN_MM);
     let area: f64 = boxes.iter().map(|b| padded(b)[0] * padded(b)[1]).sum();
     let widest = boxes.iter().map(|b| padded(b)[0]).fold(0.0, f64::max);
     let limit = widest.max(1.1 * area.sqrt());
@@ -100,17 +101,17 @@ pub(super) fn pack_rows(boxes: &[Place]) -> (Vec<Place>, [f64; 2]) {
         if x > 0.0 && x + w > limit {
             (x, y, row) = (0.0, y + row, 0.0);
         }
-        out[i].shift[0] += x + SHEET_MARGIN_MM;
+        out[i].shift[0] += x + MARGIN_MM;
         out[i].shift[1] -= y + h;
         row = row.max(h);
         x += w;
         width = width.max(x);
     }
-    let height = y + row + SHEET_MARGIN_MM;
+    let height = y + row + MARGIN_MM;
     for place in &mut out {
         place.shift[1] += height;
     }
-    (out, [width + SHEET_MARGIN_MM, height])
+    (out, [width + MARGIN_MM, height])
 }
 
 #[cfg(test)]
@@ -147,19 +148,16 @@ mod tests {
         let (places, [width, height]) = pack_rows(&boxes);
         for (i, a) in places.iter().enumerate() {
             let [x, y] = a.shift;
-            assert!(x >= SHEET_MARGIN_MM && y >= SHEET_MARGIN_MM - 1e-9);
+            assert!(x >= MARGIN_MM && y >= MARGIN_MM - 1e-9);
             assert!(
-                x + a.size[0] <= width - SHEET_MARGIN_MM + 1e-9
-                    && y + a.size[1] <= height - SHEET_MARGIN_MM + 1e-9
+                x + a.size[0] <= width - MARGIN_MM + 1e-9
+                    && y + a.size[1] <= height - MARGIN_MM + 1e-9
             );
             for b in &places[..i] {
                 let apart = |k: usize| {
                     (a.shift[k] - b.shift[k] - b.size[k]).max(b.shift[k] - a.shift[k] - a.size[k])
                 };
-                assert!(
-                    apart(0).max(apart(1)) >= SHEET_MARGIN_MM - 1e-9,
-                    "{a:?} {b:?}"
-                );
+                assert!(apart(0).max(apart(1)) >= MARGIN_MM - 1e-9, "{a:?} {b:?}");
             }
         }
     }

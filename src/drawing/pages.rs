@@ -2,24 +2,12 @@
 
 use super::nest::{Shape, nest_shapes};
 use super::options::MAX_SIZE;
-use super::pack::{Place, pack_rows};
+use super::pack::{MARGIN_MM, Place, pack_rows};
 use super::sheet::DrawnSheet;
 use crate::error::{Error, Result, positive};
 
 /// Maximum number of pages that a drawing may be divided over.
 pub const MAX_PAGES: usize = 400;
-
-/// Width of the margin of paper that a printer may leave blank, in millimetres.
-const PAPER_MARGIN_MM: f64 = 10.0;
-
-/// Width by which neighbouring pages overlap where one sheet is printed over several pages, in millimetres.
-const PAGE_OVERLAP_MM: f64 = 10.0;
-
-/// Width of the empty margin of a plate or a roll, in millimetres.
-const STOCK_MARGIN_MM: f64 = 5.0;
-
-/// Distance between neighbouring pages in the drawing, in millimetres.
-const PAGE_GAP_MM: f64 = 20.0;
 
 /// Material on which a pattern is printed or from which it is cut, with its size in millimetres.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -76,12 +64,9 @@ impl Stock {
                 side("stock", width)?;
                 let long = |sheet: &DrawnSheet| {
                     let [low, high] = sheet.bounds;
-                    (high[0] - low[0]).hypot(high[1] - low[1]) + 2.0 * STOCK_MARGIN_MM
+                    (high[0] - low[0]).hypot(high[1] - low[1]) + MARGIN_MM
                 };
-                Ok([
-                    width,
-                    sheets.iter().map(long).sum::<f64>() + 2.0 * STOCK_MARGIN_MM,
-                ])
+                Ok([width, sheets.iter().map(long).sum::<f64>() + MARGIN_MM])
             }
         }
     }
@@ -93,9 +78,9 @@ impl Stock {
 
     fn blank(self) -> f64 {
         if self.is_paper() {
-            PAPER_MARGIN_MM
+            MARGIN_MM
         } else {
-            STOCK_MARGIN_MM
+            0.5 * MARGIN_MM
         }
     }
 }
@@ -207,17 +192,17 @@ pub(super) fn arrange_on_pages(sheets: &[DrawnSheet], stock: Stock) -> Result<Ar
         pages.paper[1] = part[1] + 2.0 * blank;
     }
     let columns = (count as f64).sqrt().ceil().max(1.0) as usize;
-    let step = pages.paper.map(|side| side + PAGE_GAP_MM);
+    let step = pages.paper.map(|side| side + 2.0 * MARGIN_MM);
     let left = if size[0] > 0.0 {
-        size[0] + PAGE_GAP_MM
+        size[0] + 2.0 * MARGIN_MM
     } else {
         0.0
     };
     if count > 0 {
         let rows = count.div_ceil(columns);
         size = [
-            left + columns as f64 * step[0] - PAGE_GAP_MM,
-            size[1].max(rows as f64 * step[1] - PAGE_GAP_MM),
+            left + columns as f64 * step[0] - 2.0 * MARGIN_MM,
+            size[1].max(rows as f64 * step[1] - 2.0 * MARGIN_MM),
         ];
     }
     let corner = |page: usize| {
@@ -302,7 +287,7 @@ fn no_room(sheet: &DrawnSheet, shape: &Shape, part: [f64; 2]) -> Error {
 
 /// Computes the total length that a row of overlapping pages covers, in millimetres.
 fn covered(count: usize, side: f64) -> f64 {
-    count as f64 * (side - PAGE_OVERLAP_MM) + PAGE_OVERLAP_MM
+    count as f64 * (side - MARGIN_MM) + MARGIN_MM
 }
 
 /// A grid of overlapping pages, centred over a rectangle: the number of its columns and rows.
@@ -316,7 +301,7 @@ struct Grid {
 impl Grid {
     fn new(sides: [f64; 2], part: [f64; 2]) -> Self {
         let [columns, rows] = [0, 1].map(|k| {
-            let steps = (sides[k] - PAGE_OVERLAP_MM) / (part[k] - PAGE_OVERLAP_MM);
+            let steps = (sides[k] - MARGIN_MM) / (part[k] - MARGIN_MM);
             (steps - 1e-9).ceil().max(1.0) as usize
         });
         let corner =
@@ -348,7 +333,7 @@ impl Grid {
 
     fn page_corner(&self, column: usize, row: usize) -> [f64; 2] {
         let place = [column, self.rows - 1 - row];
-        [0, 1].map(|k| self.corner[k] + place[k] as f64 * (self.part[k] - PAGE_OVERLAP_MM))
+        [0, 1].map(|k| self.corner[k] + place[k] as f64 * (self.part[k] - MARGIN_MM))
     }
 
     fn page(&self, column: usize, row: usize) -> Page {
@@ -370,7 +355,7 @@ impl Grid {
     fn marks(&self) -> Vec<[f64; 2]> {
         let along = |k: usize, count: usize| {
             (0..=count).map(move |i| {
-                self.corner[k] + 0.5 * PAGE_OVERLAP_MM + i as f64 * (self.part[k] - PAGE_OVERLAP_MM)
+                self.corner[k] + 0.5 * MARGIN_MM + i as f64 * (self.part[k] - MARGIN_MM)
             })
         };
         along(1, self.rows)

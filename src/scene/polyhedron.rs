@@ -344,8 +344,45 @@ fn join(positions: &[[f64; 3]], rounding: f64) -> (Vec<Place>, Vec<u32>) {
     (places, joined)
 }
 
+/// Whether two arms of triangles at an edge lie in one plane through it, to rounding.
+fn are_parallel(p: &Place, q: &Place, rounding: f64) -> bool {
+    p.cross(q).norm() <= rounding * p.norm().max(q.norm())
+}
+
+/// Pairs of half-edges at an edge along which solids touch each other: the two sides of each solid. `arms` go from the edge to the
+/// third corners, `axis` along the first half-edge. `None` unless triangles that face one way around the edge and those that face
+/// the other way take turns, as they do not where sheets cross each other.
+fn solids_at_edge(
+    triangles: &[[u32; 3]],
+    sides: &[u32],
+    arms: &[Place],
+    axis: Place,
+    rounding: f64,
+) -> Option<Vec<[u32; 2]>> {
+    let first = half_edge_ends(triangles, *sides.first()?);
+    let (x, y) = (arms[0], axis.cross(&arms[0]));
+    let angle = |arm: &Place| y.dot(arm).atan2(x.dot(arm));
+    // A solid ends, in the order of the angles, at a half-edge that runs as the first one does.
+    let ends_solid = |side: u32| half_edge_ends(triangles, side) == first;
+    let mut order: Vec<(&Place, u32)> = arms.iter().zip(sides.iter().copied()).collect();
+    order.sort_by(|a, b| angle(a.0).total_cmp(&angle(b.0)));
+    let n = order.len();
+    // Where the faces of two solids lie on each other one ends before the other begins.
+    for i in 0..n {
+        let [(p, a), (q, b)] = [order[i], order[(i + 1) % n]];
+        let lie_on_each_other = are_parallel(p, q, rounding) && p.dot(q) > 0.0;
+        if lie_on_each_other && !ends_solid(a) && ends_solid(b) {
+            order.swap(i, (i + 1) % n);
+        }
+    }
+    let sides = (0..n).map(|i| [order[i].1, order[(i + 1) % n].1]);
+    let take_turns = sides.clone().all(|[a, b]| ends_solid(a) != ends_solid(b));
+    take_turns.then(|| sides.filter(|[_, b]| ends_solid(*b)).collect())
+}
+
 /// Turns triangles so that neighbours face one side, and finds the twins of their half-edges. Where more than two
-/// triangles meet at an edge only those in one plane stay together; where a surface has one side only it is cut.
+/// triangles meet at an edge the sides of each solid stay together, of sheets only those in one plane; where a surface has one
+/// side only it is cut.
 fn oriented_twins(places: &[Place], triangles: &mut [[u32; 3]], rounding: f64) -> Vec<u32> {
     let mut edges: FxHashMap<[u32; 2], Vec<u32>> = FxHashMap::default();
     for side in 0..3 * triangles.len() as u32 {
@@ -365,22 +402,34 @@ fn oriented_twins(places: &[Place], triangles: &mut [[u32; 3]], rounding: f64) -
     for key in keys {
         let mut sides = edges[&key].clone();
         if sides.len() > 2 {
+            // Triangles without a width are on no side of the edge.
+            sides.retain(|side| away(triangles, *side).norm() > rounding);
+        }
+        let mut pair = |a: u32, b: u32| (pairs[a as usize], pairs[b as usize]) = (b, a);
+        if let [a, b] = sides[..] {
+            pair(a, b);
+            continue;
+        }
+        let arms: Vec<Place> = sides.iter().map(|side| away(triangles, *side)).collect();
+        let axis = sides.first().map_or(Place::zeros(), |side| {
+            let [a, b] = half_edge_ends(triangles, *side).map(|v| places[v as usize]);
+            (b - a).normalize()
+        });
+        if let Some(solids) = solids_at_edge(triangles, &sides, &arms, axis, rounding) {
+            solids.into_iter().for_each(|[a, b]| pair(a, b));
+        } else {
             // Pairs of opposite triangles in one plane; of doubled faces none, which has no single opposite.
             let opposite = |a: u32, b: u32| {
                 let (p, q) = (away(triangles, a), away(triangles, b));
-                p.cross(&q).norm() <= rounding * p.norm().max(q.norm()) && p.dot(&q) < 0.0
+                are_parallel(&p, &q, rounding) && p.dot(&q) < 0.0
             };
             let all = sides.clone();
             sides.retain(|a| all.iter().filter(|b| opposite(*a, **b)).count() == 1);
             while let Some(a) = sides.pop() {
-                let Some(at) = sides.iter().position(|b| opposite(a, *b)) else {
-                    continue;
-                };
-                let b = sides.swap_remove(at);
-                (pairs[a as usize], pairs[b as usize]) = (b, a);
+                if let Some(at) = sides.iter().position(|b| opposite(a, *b)) {
+                    pair(a, sides.swap_remove(at));
+                }
             }
-        } else if let [a, b] = sides[..] {
-            (pairs[a as usize], pairs[b as usize]) = (b, a);
         }
     }
     // Which triangles are turned.

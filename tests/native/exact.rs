@@ -2,6 +2,7 @@
 
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
+use crate::closed_meshes::cube;
 use developable::drawing::{Bending, Drawing, DrawingOptions, Label, LabelKind};
 use developable::files::drawings::{PdfOptions, TextureFile, write_dxf, write_pdf, write_svg};
 use developable::pattern::{MeshPattern, NetOptions, Sheet, pattern_exact, sheet_metal};
@@ -275,6 +276,56 @@ fn faces_meeting_at_an_edge_of_three_are_cut_there() {
             .iter()
             .all(|sheet| (sheet.area - 100.0).abs() < 1e-9)
     );
+}
+
+#[test]
+fn solids_that_touch_are_laid_flat_each_by_itself() {
+    // Cubes at an edge of two, at a whole face, and eight around a point.
+    let around = (0..8).map(|k| [k % 2, k / 2 % 2, k / 4]);
+    for cells in [
+        vec![[0, 0, 0], [1, 1, 0]],
+        vec![[0, 0, 0], [0, 0, 1]],
+        around.collect(),
+    ] {
+        let one = cube(1);
+        let [low, high] = one.bounds();
+        let (mut points, mut triangles) = (Vec::new(), Vec::new());
+        for cell in &cells {
+            let first = points.len() as u32;
+            let moved =
+                |p: &[f64; 3]| [0, 1, 2].map(|k| p[k] + f64::from(cell[k]) * (high[k] - low[k]));
+            points.extend(one.positions().iter().map(moved));
+            triangles.extend(one.triangles().iter().map(|t| t.map(|v| first + v)));
+        }
+        let both = Mesh::new(points, triangles).unwrap();
+        let pattern = pattern_exact(&both, &NetOptions::default()).unwrap();
+        assert_eq!(pattern.sheets.len(), cells.len());
+        let whole = 6.0 * (high[0] - low[0]).powi(2);
+        let areas = pattern.sheets.iter().map(flat_area);
+        assert!(
+            areas
+                .into_iter()
+                .all(|area| (area / whole - 1.0).abs() < 1e-9)
+        );
+    }
+}
+
+#[test]
+fn triangles_without_a_width_cut_nothing_and_are_no_sheet() {
+    // Two, back to back, on an edge of a cube.
+    let cube = cube(1);
+    let (mut points, mut triangles) = (cube.positions().to_vec(), cube.triangles().to_vec());
+    let [a, b, _] = triangles[0];
+    let [p, q] = [a, b].map(|v| points[v as usize]);
+    let middle = points.len() as u32;
+    points.push([0, 1, 2].map(|k| 0.5 * (p[k] + q[k])));
+    triangles.extend([[a, b, middle], [b, a, middle]]);
+    let mesh = Mesh::new(points, triangles).unwrap();
+    let pattern = pattern_exact(&mesh, &NetOptions::default()).unwrap();
+    assert_eq!(pattern.sheets.len(), 1);
+    assert!((flat_area(&pattern.sheets[0]) - 24.0).abs() < 1e-9);
+    // Seven edges of length 2 are cut, as of a cube by itself.
+    assert!((seam_length(&pattern) - 14.0).abs() < 1e-9);
 }
 
 #[test]

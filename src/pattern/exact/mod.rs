@@ -42,8 +42,9 @@ pub struct NetOptions {
     pub join: Vec<[u32; 2]>,
 }
 
-/// Lays a mesh flat as it is, face by face: without strain, in few sheets with short cuts. Edges of more than two triangles
-/// are cut; the mesh may have borders and several components. Each edge between two faces is a fold or a cut.
+/// Lays a mesh flat as it is, face by face: without strain, in few sheets with short cuts. Solids that touch each other are laid
+/// flat each by itself; other edges of more than two triangles are cut. The mesh may have borders and several components. Each edge
+/// between two faces is a fold or a cut.
 ///
 /// Costs some seconds at most for the search, twice that with edges to cut or join, and `O(triangles log triangles)` beside it.
 ///

@@ -39,6 +39,7 @@ pub(super) fn draw(solid: &Polyhedron, net: &Net, patches: &FlatPatches) -> Resu
     let sides = 0..solid.twins.len() as u32;
     let spacing = sides.map(|side| solid.length(side)).sum::<f64>() / edges;
     let radii = radii(solid, patches);
+    let area = |facets: &[u32]| facets.iter().map(|f| solid.areas[*f as usize]).sum::<f64>();
     let sheet = |facets: &Vec<u32>| {
         let mut is_own = vec![false; solid.normals.len()];
         facets
@@ -55,12 +56,15 @@ pub(super) fn draw(solid: &Polyhedron, net: &Net, patches: &FlatPatches) -> Resu
         });
         Sheet {
             spacing,
-            area: facets.iter().map(|f| solid.areas[*f as usize]).sum(),
+            area: area(facets),
             exact: true,
             ..sheet
         }
     };
-    let mut sheets: Vec<Sheet> = net.pieces().iter().map(sheet).collect();
+    // Triangles without a width that nothing else joins are no sheet.
+    let mut pieces = net.pieces();
+    pieces.retain(|facets| area(facets) > solid.rounding * spacing);
+    let mut sheets: Vec<Sheet> = pieces.iter().map(sheet).collect();
     sheets.sort_by_key(|sheet| sheet.patches[0]);
     let counted = flat.vertices_of_patches(patches.areas.len());
     let patch = |(vertices, area): (usize, &f64)| Patch {

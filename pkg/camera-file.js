@@ -203,5 +203,7 @@ function matrix(values = []) {
   const [below, beside, one] = values.slice(2 * columns, 2 * columns + 3);
   if (one !== 1 || !(fx > 0 && fy > 0)) return undefined;
   const byColumns = right === 0 && down === 0;
+  // A pose has no axis in the image: the one that Open3D writes before the camera.
+  if (byColumns && below === 0 && beside === 0) return undefined;
   return { fx, fy, cx: byColumns ? below : right, cy: byColumns ? beside : down };
 }

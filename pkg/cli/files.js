@@ -4,7 +4,7 @@ import { constants } from 'node:fs';
 import { access, copyFile, link, open, readFile, readlink, realpath, rename, rm, stat } from 'node:fs/promises';
 import { dirname, join, resolve } from 'node:path';
 import { codeOf, failed, reasons } from './system-errors.js';
-import { print, readStandardInput } from './terminal.js';
+import { print, readStandardInput, streams } from './terminal.js';
 
 /**
  * @typedef {import('node:fs').Stats} Stats
@@ -21,6 +21,8 @@ import { print, readStandardInput } from './terminal.js';
  */
 export async function readBytes(path) {
   if (path === '-') return readStandardInput();
+  const { kept } = streams();
+  if (kept?.path === path) return kept.bytes;
   try {
     return await readFile(path);
   } catch (error) {

@@ -76,13 +76,18 @@ const actions = {
 const modeActions = { photo: page, surface: whole };
 
 /**
- * An input and the name of its format. Of a file that cannot be read, the command that needs it says so.
- * @param {string} path
- * @returns {Promise<[string, string | undefined]>}
+ * Finds out the formats of inputs whose names do not tell them. Of a file that cannot be read, the command that needs it says so;
+ * the only input is read once.
+ * @param {string[]} inputs
  */
-async function formatEntry(path) {
-  if (path === '-') return [path, await formatOf(await readBytes(path))];
-  return [path, await readBytes(path).then(formatOf, () => undefined)];
+async function tellFormats(inputs) {
+  const all = streams();
+  all.formats = new Map();
+  for (const path of inputs.filter(isUntold)) {
+    const bytes = await (path === '-' ? readBytes(path) : readBytes(path).catch(() => undefined));
+    all.formats.set(path, bytes && await formatOf(bytes));
+    if (bytes && inputs.length === 1) all.kept = { path, bytes };
+  }
 }
 
 /**
@@ -98,7 +103,7 @@ async function perform(args, signal) {
   }
   streams().quiet = line.values.quiet;
   const inputs = line.inputs.flatMap(filesOf);
-  streams().formats = new Map(await Promise.all(inputs.filter(isUntold).map(formatEntry)));
+  await tellFormats(inputs);
   const batch = batchOf({ ...line, inputs });
   if (batch !== undefined) return runBatch(batch, signal);
   const task = await sideOrWhole(taskOf(line.command, inputs, line.values), line.values);

@@ -40,7 +40,8 @@ import { streams } from './terminal.js';
  */
 
 const MESHES = ['.obj', '.ply', '.stl', '.glb', '.gltf', '.3mf', '.off', '.xyz'];
-const PHOTOS = ['.jpg', '.jpeg', '.png', '.webp', '.gif', '.bmp'];
+/** Endings of photos, also of those that their reader names with what to do. */
+const PHOTOS = ['.jpg', '.jpeg', '.png', '.webp', '.gif', '.bmp', '.heic', '.heif', '.avif', '.jxl', '.pdf'];
 
 /** Whether a file's name does not tell its format: that of standard input, and of points, which may lie on a grid. @param {string} path */
 export const isUntold = (path) => path === '-' || extname(path).toLowerCase() === '.xyz';

@@ -11,6 +11,7 @@ import { failed } from './system-errors.js';
  * @property {NodeJS.WritableStream & { isTTY?: boolean }} stderr
  * @property {AbortSignal} [signal] interrupts the command
  * @property {Buffer} [input] what standard input had, once it is read
+ * @property {{ path: string, bytes: Uint8Array }} [kept] the only input, where its format had to be read from it
  * @property {Map<string, string | undefined>} [formats] names of the formats of inputs whose names do not tell them
  * @property {boolean} [quiet] whether nothing is said but why the command failed
  */

@@ -5,6 +5,7 @@ use std::str::FromStr;
 #[cfg(feature = "formats")]
 use super::failure::damaged;
 use super::signature::begins;
+use super::text::decoded;
 use crate::error::{Error, Result};
 
 /// An image file format that can be read.
@@ -158,7 +159,7 @@ pub(super) fn colmap_head(bytes: &[u8]) -> Option<([usize; 3], usize)> {
     Some((numbers, start))
 }
 
-/// Numbers of pixels along a degree of SRTM heights: every third second of arc, or every second.
+/// Numbers of pixels along a degree in the format of SRTM heights: every third second of arc, or every second.
 const HGT_SIDES: [usize; 2] = [1201, 3601];
 
 /// Number of pixels along the sides of SRTM heights, whose file has no header: by its length.
@@ -180,14 +181,11 @@ pub(super) fn is_text_grid(bytes: &[u8]) -> bool {
         Some(head) => &head[..head.iter().rposition(divides).unwrap_or(head.len())],
         None => bytes,
     };
-    let is_text = |byte: &u8| matches!(byte, b'\t' | b'\r' | b'\n' | b' '..=b'~' | 0x80..);
-    let Some(head) = std::str::from_utf8(head)
-        .ok()
-        .filter(|_| head.iter().all(is_text))
-    else {
+    let head = decoded(head).replace('"', "");
+    if head.contains(|letter: char| letter.is_control() && !"\t\r\n".contains(letter)) {
         return false;
-    };
-    let head = head.trim_start_matches('\u{feff}').replace('"', "");
+    }
+    let head = head.trim_start();
     if head.get(..5).is_some_and(|word| {
         word.eq_ignore_ascii_case("ncols") || word.eq_ignore_ascii_case("nrows")
     }) {

@@ -64,7 +64,7 @@ const DICOM_START: [u8; 132] = {
 /// Formats that are not read: their names, what to do about them, and bytes of which one is in each file. A file begins with
 /// them, and a `?` among them stands for any; a tag of XML or HTML may stand further behind.
 #[rustfmt::skip]
-const FOREIGN_FORMATS: [(&str, &str, &[&[u8]]); 56] = [
+const FOREIGN_FORMATS: [(&str, &str, &[&[u8]]); 57] = [
     ("AVIF", SAVE_AS_JPEG, &[b"????ftypavi"]),
     ("HEIC", "save it as JPEG (an iPhone shares photos as JPEG with Settings > Camera > Formats > Most Compatible)",
         &[b"????ftyphei", b"????ftyphev", b"????ftypmif1", b"????ftypmsf1"]),
@@ -92,6 +92,7 @@ const FOREIGN_FORMATS: [(&str, &str, &[&[u8]]); 56] = [
     ("NetCDF", CONVERT_BY_GDAL, &[b"CDF"]),
     ("HDF5 or NetCDF", CONVERT_BY_GDAL, &[b"\x89HDF"]),
     ("header of a raw grid", CONVERT_RAW, &[b"BYTEORDER", b"ENVI"]),
+    ("text grid of GRASS", CONVERT_BY_GDAL, &[b"north:"]),
     ("Erdas Imagine", CONVERT_BY_GDAL, &[b"EHFA_HEADER_TAG"]),
     ("NITF", CONVERT_BY_GDAL, &[b"NITF"]),
     ("FITS", CONVERT_BY_GDAL, &[b"SIMPLE  ="]),
@@ -259,48 +260,32 @@ mod tests {
 
     #[test]
     fn files_are_told_by_their_contents() {
-        let office = "document of an office program";
         let dicom = [&[0; 128][..], b"DICM\x02\0"].concat();
-        for (bytes, name) in [
-            (&b"\0\0\0\x18ftypheic\0\0\0\0"[..], "HEIC"),
-            (&b"\0\0\0\x20ftypisom\0\0\x02\0isomiso2mp41"[..], "film"),
-            (&b"<?xml version=\"1.0\"?>\n<COLLADA>"[..], "Collada"),
-            (&b"GWYPGwyContainer"[..], "Gwyddion"),
-            (
-                &b"PK\x03\x04\x14\0\x06\0\x08\0 [Content_Types].xml word/document.xml"[..],
-                office,
-            ),
-            (
-                &b"PK\x03\x04\x14\0\x06\0\x08\0 main.xml bindata/data.bin"[..],
-                "X3P",
-            ),
-            (&b"PK\x03\x04\x14\0\x06\0\x08\0 letter.txt"[..], "archive"),
-            (
-                &b"version https://git-lfs.github.com/spec/v1\noid sha256:4d7a\n"[..],
-                "pointer of Git LFS",
-            ),
-            (
-                &b"<!DOCTYPE html><html><head><title>404 Not Found</title>"[..],
-                "web page",
-            ),
-            (&b"\x80\x04\x95numpy"[..], "pickle of Python"),
-            (&b"MeshVersionFormatted 1\nDimension 3\n"[..], "Medit"),
-            (&b"*Heading\n** by a solver\n*Node\n"[..], "Abaqus"),
-            (&b"SOL 101\nCEND\nBEGIN BULK\n"[..], "Nastran"),
-            (
-                &b"<?xml version=\"1.0\"?>\n<Xdmf Version=\"3.0\">"[..],
-                "VTK or XDMF",
-            ),
-            (&b"qoif\0\0\x01\0\0\0\x01\0\x04\0"[..], "QOI"),
-            (&b"DDS \x7c\0\0\0"[..], "DDS"),
-            (&b"\xabKTX 20\xbb\r\n\x1a\n"[..], "KTX"),
+        let zip = |names: &str| format!("PK\x03\x04\x14\0\x06\0\x08\0 {names}").into_bytes();
+        #[rustfmt::skip]
+        let files: [(&[u8], &str); 20] = [
+            (b"\0\0\0\x18ftypheic\0\0\0\0", "HEIC"),
+            (b"\0\0\0\x20ftypisom\0\0\x02\0isomiso2mp41", "film"),
+            (b"<?xml version=\"1.0\"?>\n<COLLADA>", "Collada"),
+            (b"GWYPGwyContainer", "Gwyddion"),
+            (&zip("[Content_Types].xml word/document.xml"), "document of an office program"),
+            (&zip("main.xml bindata/data.bin"), "X3P"),
+            (&zip("letter.txt"), "archive"),
+            (b"version https://git-lfs.github.com/spec/v1\noid sha256:4d7a\n", "pointer of Git LFS"),
+            (b"<!DOCTYPE html><html><head><title>404 Not Found</title>", "web page"),
+            (b"\x80\x04\x95numpy", "pickle of Python"),
+            (b"MeshVersionFormatted 1\nDimension 3\n", "Medit"),
+            (b"*Heading\n** by a solver\n*Node\n", "Abaqus"),
+            (b"SOL 101\nCEND\nBEGIN BULK\n", "Nastran"),
+            (b"<?xml version=\"1.0\"?>\n<Xdmf Version=\"3.0\">", "VTK or XDMF"),
+            (b"qoif\0\0\x01\0\0\0\x01\0\x04\0", "QOI"),
+            (b"DDS \x7c\0\0\0", "DDS"),
             (&dicom, "DICOM"),
-            (
-                &b"BYTEORDER      I\nLAYOUT         BIL\n"[..],
-                "header of a raw grid",
-            ),
-            (&b"hello"[..], ""),
-        ] {
+            (b"BYTEORDER      I\nLAYOUT         BIL\n", "header of a raw grid"),
+            (b"north: 4480\nsouth: 4180\n", "text grid of GRASS"),
+            (b"hello", ""),
+        ];
+        for (bytes, name) in files {
             assert_eq!(foreign(bytes).map_or("", |(name, _)| name), name);
         }
     }

@@ -41,10 +41,14 @@ impl MeshFormat {
     /// Detects the format of a mesh file from the file's contents. OBJ has no signature: a line that begins with `v`
     /// and a blank is taken for OBJ; lines of numbers are points unless these lie on a grid or are few. Costs `O(bytes)`.
     pub fn detect(bytes: &[u8]) -> Option<MeshFormat> {
-        let text = bytes
+        let mut text = bytes
             .strip_prefix(b"\xef\xbb\xbf")
             .unwrap_or(bytes)
             .trim_ascii_start();
+        while text.starts_with(b"#") {
+            let end = text.iter().position(|byte| b"\r\n".contains(byte));
+            text = text[end.unwrap_or(text.len())..].trim_ascii_start();
+        }
         let first = text
             .split(u8::is_ascii_whitespace)
             .next()
@@ -64,7 +68,7 @@ impl MeshFormat {
         {
             return Some(MeshFormat::Off);
         }
-        if is_binary_stl(bytes) || begins_as_solid(text) {
+        if is_binary_stl(bytes) || begins_as_solid(bytes) {
             return Some(MeshFormat::Stl);
         }
         let is_vertex = |line: &str| {
@@ -104,13 +108,20 @@ pub(super) const STL_HEADER_BYTES: usize = 84;
 pub(super) const STL_TRIANGLE_BYTES: usize = 50;
 
 /// Returns whether a file has exactly the length of a binary STL file with the number of triangles in its header.
-pub(super) fn is_binary_stl(bytes: &[u8]) -> bool {
+fn is_binary_stl(bytes: &[u8]) -> bool {
     stl_length(bytes).is_some_and(|length| length > STL_HEADER_BYTES && length == bytes.len())
 }
 
-/// Returns whether a text begins as an ASCII STL file does.
-pub(super) fn begins_as_solid(text: &[u8]) -> bool {
-    (text.get(..5)).is_some_and(|word| word.eq_ignore_ascii_case(b"solid"))
+/// Returns whether a file begins as an ASCII STL file does. Binary files may do so, too.
+fn begins_as_solid(bytes: &[u8]) -> bool {
+    let text = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
+    (text.trim_ascii_start().get(..5)).is_some_and(|word| word.eq_ignore_ascii_case(b"solid"))
+}
+
+/// Returns whether an STL file is a text: it has no zero where the highest byte of a binary file's number of triangles is.
+pub(super) fn is_ascii_stl(bytes: &[u8]) -> bool {
+    let highest = bytes.get(STL_HEADER_BYTES - 1);
+    begins_as_solid(bytes) && !is_binary_stl(bytes) && highest != Some(&0)
 }
 
 /// Length of a binary STL file by the number of triangles in its header, in bytes.

@@ -3,7 +3,7 @@
 use super::failure::unsupported;
 use crate::error::Result;
 
-/// Number of points, PDF's unit of length, in a millimetre.
+/// Number of points, of which 72 are in an inch, in a millimetre.
 const POINTS_PER_MM: f64 = 72.0 / 25.4;
 
 /// Maximum length of a PDF page's side, in points (72 to an inch), which is the format's limit.

@@ -11,6 +11,9 @@ const MAX_OFF_GRID_SHARE: f64 = 0.02;
 /// Minimum number of lines of a cloud of points, in numbers of a line: fewer are a small matrix.
 const MIN_CLOUD_LINES_PER_COLUMN: usize = 10;
 
+/// Maximum number of numbers of a point in the formats of scanners: a place, a colour with its opacity, and a normal.
+const MAX_POINT_NUMBERS: usize = 10;
+
 /// Lines of equally many numbers; NaN where a cell is empty.
 pub(super) struct Table {
     /// The numbers, line by line.
@@ -21,8 +24,16 @@ pub(super) struct Table {
     pub(super) is_numbered: bool,
 }
 
-/// Heights of points on a grid from the highest y downwards, NaN where there is none; columns and rows; distances of both.
-type PointGrid = (Vec<f64>, (usize, usize), [f64; 2]);
+/// Heights of points on a grid from the highest y downwards, NaN where there is none.
+pub(super) struct PointGrid {
+    pub(super) values: Vec<f64>,
+    /// Columns and rows.
+    pub(super) size: (usize, usize),
+    /// Distances of columns and of rows.
+    pub(super) sides: [f64; 2],
+    /// Smallest x and y.
+    pub(super) corner: [f64; 2],
+}
 
 impl Table {
     /// Reads a table. Lines before the first number are names of columns or comments.
@@ -90,7 +101,7 @@ impl Table {
 
     /// Whether lines may be points: x, y, z and perhaps more.
     pub(super) fn may_be_points(&self) -> bool {
-        (3..=7).contains(&self.cols) && self.rows > self.cols
+        (3..=MAX_POINT_NUMBERS).contains(&self.cols) && self.rows > self.cols
     }
 
     /// Whether a file is a cloud of points, which lie on no grid. Costs `O(bytes)`.
@@ -116,10 +127,13 @@ impl Table {
                 places.sort_by(f64::total_cmp);
                 let (first, last) = (places[0], places[places.len() - 1]);
                 let tolerance = 1e-9 * (last - first);
-                let step = (places.windows(2))
-                    .map(|pair| pair[1] - pair[0])
-                    .filter(|step| *step > tolerance)
-                    .fold(f64::INFINITY, f64::min);
+                let steps = places.windows(2).map(|pair| pair[1] - pair[0]);
+                let steps: Vec<f64> = steps.filter(|step| *step > tolerance).collect();
+                let least = steps.iter().copied().fold(f64::INFINITY, f64::min);
+                // Rounded coordinates have steps that differ, of which the mean is right; longer ones lead over gaps.
+                let (count, sum) = (steps.iter().filter(|step| **step < 1.5 * least))
+                    .fold((0.0, 0.0), |(count, sum), step| (count + 1.0, sum + step));
+                let step = sum / count;
                 let count = ((last - first) / step).round() + 1.0;
                 (step.is_finite() && first.is_finite() && last.is_finite() && count <= 1e6)
                     .then_some((first, step, count as usize))
@@ -149,7 +163,12 @@ impl Table {
             }
             *place = z;
         }
-        Ok(Some((grid, (width, height), [dx, dy])))
+        Ok(Some(PointGrid {
+            values: grid,
+            size: (width, height),
+            sides: [dx, dy],
+            corner: [left, bottom],
+        }))
     }
 }
 

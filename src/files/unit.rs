@@ -37,3 +37,26 @@ impl Unit {
         }
     }
 }
+
+/// Lengths of units in millimetres, with the names that programs give them.
+#[cfg(any(feature = "formats", feature = "meshes"))]
+#[rustfmt::skip]
+const UNIT_LENGTHS: [(f64, &[&str]); 9] = [
+    (1e-6, &["nm"]),
+    (1e-3, &["um", "µm", "μm", "\\u00b5m", "micron", "microns"]),
+    (1.0, &["mm", "millimeter"]),
+    (10.0, &["cm", "centimeter"]),
+    (25.4, &["inch", "inches", "\""]),
+    (100.0, &["dm"]),
+    (304.8, &["ft", "foot", "feet"]),
+    (1_200_000.0 / 3937.0, &["us survey foot", "ussurveyfoot", "us-ft", "ftus"]),
+    (1000.0, &["m", "metre", "meter", "metres", "meters"]),
+];
+
+/// Returns the length in millimetres of a unit of a given name, in letters of any case.
+#[cfg(any(feature = "formats", feature = "meshes"))]
+pub(super) fn millimetres_in(name: &str) -> Option<f64> {
+    let name = name.to_lowercase();
+    let mut units = UNIT_LENGTHS.into_iter();
+    units.find_map(|(length, names)| names.contains(&name.as_str()).then_some(length))
+}

@@ -6,6 +6,7 @@ pub(crate) mod index;
 pub(crate) mod lanes;
 pub(crate) mod least_squares;
 pub(crate) mod planar;
+pub(crate) mod polygon;
 pub(crate) mod real;
 pub(crate) mod statistics;
 pub(crate) mod sym2;

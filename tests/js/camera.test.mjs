@@ -276,4 +276,8 @@ test('cameras as ROS, OpenCV, COLMAP, nerfstudio, Metashape, ZED and others writ
     ['1 FULL_OPENCV 640 480 500 500 320 240 0.1 0 0 0 0 0.2 0 0', /lens.*undistort/],
   ])) assert.throws(() => developable.parseCamera(text, images), message);
   assert.throws(() => developable.parseCamera('{"fov_x": 60}'), /size of the images/);
+  // Open3D writes a pose before the camera.
+  const posed = { extrinsic: [0.6, 0.8, 0, 0, -0.8, 0.6, 0, 0, 0, 0, 1, 0, 0.1, 0.2, 2, 1],
+    intrinsic: { height: 480, intrinsic_matrix: [525, 0, 0, 0, 520, 0, 319.5, 239.5, 1], width: 640 } };
+  assert.deepEqual(developable.parseCamera(JSON.stringify(posed)), plain);
 });

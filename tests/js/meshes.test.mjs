@@ -1,5 +1,6 @@
 /** Meshes: read, sampled, fitted and turned back; directly, in a worker and by the command. */
 import assert from 'node:assert/strict';
+import { execFileSync } from 'node:child_process';
 import { readFile, writeFile } from 'node:fs/promises';
 import { join } from 'node:path';
 import { after, test } from 'node:test';
@@ -239,4 +240,10 @@ test('the command takes points in text for a cloud, unless they lie on a grid', 
   assert.match((await run(folder, ['info', 'grid.xyz'])).stdout, /size: +20 × 20 pixels/);
   assert.equal((await run(folder, ['fit', 'cloud.xyz', '-o', 'cloud.npy'])).status, 0);
   assert.match((await run(folder, ['info', 'none.xyz'])).stderr, /cannot read none\.xyz/);
+  if (process.platform === 'win32') return;
+  // A pipe can be read only once.
+  execFileSync('mkfifo', [join(folder, 'pipe.xyz')]);
+  const written = writeFile(join(folder, 'pipe.xyz'), await readFile(join(folder, 'cloud.xyz')));
+  assert.equal((await run(folder, ['info', 'pipe.xyz'])).stdout, cloud.stdout);
+  await written;
 });

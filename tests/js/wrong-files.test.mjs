@@ -1,9 +1,10 @@
 /** Files of the wrong kind, given to each call that reads one: a typed error says what the file is and what to do. */
 import assert from 'node:assert/strict';
-import { readFile } from 'node:fs/promises';
+import { readFile, writeFile } from 'node:fs/promises';
 import { join } from 'node:path';
 import { after, test } from 'node:test';
 import * as developable from '../../pkg/index.js';
+import { run, temporaryFolder } from './support/command.mjs';
 import { root } from './support/paths.mjs';
 
 after(() => developable.dispose());
@@ -72,13 +73,24 @@ test('what another call reads is named with it', async () => {
   for (const file of [jpeg, npy]) await refused('readMesh', file, 'UNSUPPORTED', /^(JPEG|NPY): it is an image/);
 });
 
+test('the command names a photo that is not read with what to do', async () => {
+  const folder = await temporaryFolder();
+  await writeFile(join(folder, 'IMG_1.HEIC'), '\0\0\0\x18ftypheic\0\0\0\0mif1heic');
+  await writeFile(join(folder, 'scan.pdf'), '%PDF-1.7\n');
+  for (const [name, words] of /** @type {[string, RegExp][]} */ ([['IMG_1.HEIC', /HEIC: save it as JPEG/], ['scan.pdf', /PDF: .*pdftoppm/]])) {
+    const { status, stderr } = await run(folder, ['dewarp', name, '-o', 'flat.png']);
+    assert.equal(status, 3, stderr);
+    assert.match(stderr, words);
+  }
+});
+
 test('a file that is cut short is said to be, and nothing else', async () => {
   for (const name of ['grey.jpg', 'grey16.png', 'f4.tif', 'grey.webp', 'f4-le.npy']) {
     const file = await readFile(join(root, 'tests/data', name));
     await refused('read', file.subarray(0, file.length - 20), 'FORMAT', /cut short/);
   }
   const old = bytes('{"asset":{"version":"1.0"},"meshes":{}}');
-  await refused('readMesh', old, 'UNSUPPORTED', /^glTF: only version 2 is read/);
+  await refused('readMesh', old, 'UNSUPPORTED', /^glTF: only version 2 is read; `gltf-pipeline /);
   const far = bytes('{"asset":{"version":"2.0"},"buffers":[{"uri":"https://example.com/b.bin","byteLength":4}]}');
   await refused('readMesh', far, 'UNSUPPORTED', /on another machine, and is not fetched/);
 });

@@ -84,12 +84,60 @@ fn obj_is_not_refused_for_its_looks() {
 #[test]
 fn off_with_colours_and_normals() {
     let faces = "4 0 1 2 3\n";
-    let plain = format!("OFF\n# comment\n4 1 0\n\n{CORNERS}{faces}");
+    let plain = format!("# by hand\n\nOFF\n# comment\n4 1 0\n\n{CORNERS}{faces}");
     assert_eq!(read(&plain).mesh.triangles(), [[0, 1, 2], [0, 2, 3]]);
     let rows = "0 0 0  0 0 1  255 0 0 255\n9 0 0  0 0 1  0 255 0 255\n9 9 0  0 0 1  0 0 0 255\n";
     let colored = format!("CNOFF 3 1 0\n{rows}3 0 1 2 9 9 9\n");
     let colors = read(&colored).mesh.colors().unwrap()[0];
     assert_eq!(colors, [1.0, 0.0, 0.0]);
+}
+
+/// Area of each triangle of a mesh, below 0 where it faces downwards.
+fn areas(file: &MeshFile) -> Vec<f64> {
+    let area = |t: &[u32; 3]| {
+        let [a, b, c] = file.mesh.corners(*t);
+        0.5 * ((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]))
+    };
+    file.mesh.triangles().iter().map(area).collect()
+}
+
+#[test]
+fn concave_polygons_have_triangles_that_do_not_overlap() {
+    // The letter L from one of its tips, on a slope; and a plate with a hole, to which a slit leads.
+    let letter = "0 5 5\n0 0 0\n4 0 4\n4 2 6\n2 2 4\n2 5 7\n";
+    let plate = "0 0 0\n10 0 0\n10 10 0\n0 10 0\n4 4 0\n4 6 0\n6 6 0\n6 4 0\n";
+    for (points, face, area) in [
+        (letter, "2 3 4 5 0 1", 14.0),
+        (plate, "0 1 2 3 0 4 5 6 7 4", 96.0),
+    ] {
+        let (count, corners) = (points.lines().count(), face.split(' ').count());
+        let off = read(&format!("OFF {count} 1 0\n{points}{corners} {face}\n"));
+        let header = SQUARE.replace('4', &count.to_string());
+        let ply = read(&format!(
+            "ply\nformat ascii 1.0\n{header}element face 1\nproperty list uchar int vertex_indices\nend_header\n\
+             {points}{corners} {face}\n"
+        ));
+        let from_one: Vec<String> = (face.split(' '))
+            .map(|v| (v.parse::<u32>().unwrap() + 1).to_string())
+            .collect();
+        let vertices: String = points.lines().map(|line| format!("v {line}\n")).collect();
+        let obj = read(&format!("{vertices}f {}\n", from_one.join(" ")));
+        for file in [off, ply, obj] {
+            let areas = areas(&file);
+            assert!(areas.iter().all(|area| *area > 0.0), "{areas:?}");
+            assert!(
+                (areas.iter().sum::<f64>() - area).abs() < 1e-12,
+                "{areas:?}"
+            );
+            assert!(file.assumptions.iter().all(|one| one.code != "polygons"));
+        }
+    }
+    // Convex polygons stay fans, bent ones too; sides that cross are told.
+    let bent = read("OFF 4 1 0\n0 0 0\n4 0 1\n4 4 0\n0 4 1\n4 0 1 2 3\n");
+    assert_eq!(bent.mesh.triangles(), [[0, 1, 2], [0, 2, 3]]);
+    let crossed = read("OFF 4 1 0\n0 0 0\n4 0 0\n1 4 0\n4 4 0\n4 0 1 2 3\n");
+    assert_eq!(crossed.mesh.triangles().len(), 2);
+    assert_eq!(crossed.assumptions[0].code, "polygons");
 }
 
 /// A glTF file of one triangle with 8-bit positions, whose second corner stands apart (sparse).

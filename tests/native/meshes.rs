@@ -253,7 +253,7 @@ fn objects_of_3mf_may_lie_in_further_models() {
         )
     };
     let main = model(format!(
-        "<resources><object id=\"1\"><components><component p:path=\"/3D/Objects/part.model\" objectid=\"1\" \
+        "<resources><object id=\"1\"><components><component p:path=\"/3D/a.model\" objectid=\"1\" \
          transform=\"1 0 0 0 1 0 0 0 1 10 0 0\"/></components></object><object id=\"2\" type=\"support\">{}</object></resources>\
          <build><item objectid=\"1\"/><item objectid=\"2\"/></build>",
         triangle(99.0)
@@ -262,8 +262,11 @@ fn objects_of_3mf_may_lie_in_further_models() {
         "<resources><object id=\"1\">{}</object></resources><build/>",
         triangle(5.0)
     ));
+    let relations = "<Relationships><Relationship Type=\"http://schemas.microsoft.com/3dmanufacturing/2013/01/3dmodel\" \
+                     Target=\"/3D/3dmodel.model\"/></Relationships>";
     let bytes = archive(&[
-        ("3D/Objects/part.model", &part),
+        ("3D/a.model", &part),
+        ("_rels/.rels", relations),
         ("3D/3dmodel.model", &main),
     ]);
     let mesh = read_mesh(&bytes, None).unwrap();
@@ -276,6 +279,12 @@ fn stl_files_may_be_cut_short_or_go_on() {
     let whole = file("binary.stl");
     let mut longer = whole.clone();
     longer.extend([7; 33]);
+    assert_eq!(
+        read_mesh(&longer, None).unwrap(),
+        read_mesh(&whole, None).unwrap()
+    );
+    // Programs begin the header of binary files as those of text begin.
+    longer[..11].copy_from_slice(b"solid a.stl");
     assert_eq!(
         read_mesh(&longer, None).unwrap(),
         read_mesh(&whole, None).unwrap()

@@ -149,6 +149,7 @@ fn from_arc(place: [f64; 2], Corner { place: from, bulge }: Corner, to: [f64; 2]
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::math::planar::distance_to_segment;
 
     /// Points of a polyline with arcs, as its format defines them.
     fn traced(corners: &[Corner]) -> Vec<[f64; 2]> {
@@ -183,13 +184,8 @@ mod tests {
         let corners = arcs(&curve);
         assert!(corners.len() < 60, "{}", corners.len());
         assert_eq!(corners[corners.len() - 1].place, [90.0, 20.0]);
-        let away = |place: [f64; 2], p: &[[f64; 2]]| {
-            let (along, from) = (less(p[1], p[0]), less(place, p[0]));
-            let t = (dot(from, along) / dot(along, along)).clamp(0.0, 1.0);
-            (from[0] - t * along[0]).hypot(from[1] - t * along[1])
-        };
         for place in traced(&corners) {
-            let nearest = fine.windows(2).map(|p| away(place, p));
+            let nearest = (fine.windows(2)).map(|p| distance_to_segment(place, [p[0], p[1]]));
             let nearest = nearest.fold(f64::INFINITY, f64::min);
             assert!(nearest < 0.02, "{place:?}: {nearest}");
         }

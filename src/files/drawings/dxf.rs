@@ -9,7 +9,7 @@ use std::fmt::Display;
 use std::io::{self, Write};
 
 use super::arcs::{Corner, arcs};
-use super::{Kind, layers};
+use super::layers;
 use crate::drawing::{Drawing, Label};
 use crate::error::Result;
 use crate::files::buffer::Buffer;
@@ -72,10 +72,11 @@ fn write(file: &mut GroupCodes, drawing: &Drawing) -> io::Result<()> {
     })?;
     file.section("ENTITIES", |file| {
         for (kind, lines) in layers(drawing) {
+            let layer = kind.name().to_uppercase();
             for (curve, closed) in lines {
                 match curve.circle().filter(|_| closed) {
-                    Some((centre, radius)) => file.circle(layer(kind), centre, radius)?,
-                    None => file.polyline(layer(kind), &arcs(curve), closed)?,
+                    Some((centre, radius)) => file.circle(&layer, centre, radius)?,
+                    None => file.polyline(&layer, &arcs(curve), closed)?,
                 }
             }
         }
@@ -83,18 +84,6 @@ fn write(file: &mut GroupCodes, drawing: &Drawing) -> io::Result<()> {
         labels.into_iter().try_for_each(|label| file.text(label))
     })?;
     file.pair(0, "EOF")
-}
-
-fn layer(kind: Kind) -> &'static str {
-    match kind {
-        Kind::Mountain => "MOUNTAIN",
-        Kind::Valley => "VALLEY",
-        Kind::Tab => "TAB",
-        Kind::Edge => "EDGE",
-        Kind::Mark => "MARK",
-        Kind::Leader => "LEADER",
-        Kind::Cut => "CUT",
-    }
 }
 
 /// A DXF file that is being written: pairs of a group code, which states the meaning, and a value.

@@ -51,57 +51,40 @@ enum Kind {
     Cut,
 }
 
+/// Kinds of lines with their names, their colours (red, green and blue, from 0 to 255), and the lengths of their dashes and gaps in
+/// millimetres; none for solid lines.
+#[rustfmt::skip]
+const KINDS: [(Kind, &str, [u8; 3], &[f32]); 7] = [
+    (Kind::Mountain, "mountain", [200, 0, 0], &[4.0, 1.2, 0.6, 1.2]),
+    (Kind::Valley, "valley", [0, 60, 200], &[2.5, 1.5]),
+    (Kind::Tab, "tab", [160, 0, 160], &[1.0, 1.0]),
+    (Kind::Edge, "edge", [200, 120, 0], &[2.0, 2.0]),
+    (Kind::Mark, "mark", [0, 140, 0], &[]),
+    (Kind::Leader, "leader", [TEXT_GREY_LEVEL; 3], &[]),
+    (Kind::Cut, "cut", [0, 0, 0], &[]),
+];
+
 impl Kind {
-    const ALL: [Kind; 7] = [
-        Kind::Mountain,
-        Kind::Valley,
-        Kind::Tab,
-        Kind::Edge,
-        Kind::Mark,
-        Kind::Leader,
-        Kind::Cut,
-    ];
+    fn all() -> impl Iterator<Item = Kind> {
+        KINDS.into_iter().map(|(kind, ..)| kind)
+    }
 
     fn name(self) -> &'static str {
-        match self {
-            Kind::Mountain => "mountain",
-            Kind::Valley => "valley",
-            Kind::Tab => "tab",
-            Kind::Edge => "edge",
-            Kind::Mark => "mark",
-            Kind::Leader => "leader",
-            Kind::Cut => "cut",
-        }
+        KINDS[self as usize].1
+    }
+
+    fn color(self) -> [u8; 3] {
+        KINDS[self as usize].2
+    }
+
+    fn dashes(self) -> &'static [f32] {
+        KINDS[self as usize].3
     }
 
     fn of(direction: Direction) -> Kind {
         match direction {
             Direction::Mountain => Kind::Mountain,
             Direction::Valley => Kind::Valley,
-        }
-    }
-
-    /// Returns the colour of lines of this kind as red, green and blue, from 0 to 255.
-    fn color(self) -> [u8; 3] {
-        match self {
-            Kind::Mountain => [200, 0, 0],
-            Kind::Valley => [0, 60, 200],
-            Kind::Tab => [160, 0, 160],
-            Kind::Cut => [0, 0, 0],
-            Kind::Edge => [200, 120, 0],
-            Kind::Mark => [0, 140, 0],
-            Kind::Leader => [TEXT_GREY_LEVEL; 3],
-        }
-    }
-
-    /// Returns the lengths of dashes and gaps of lines of this kind, in millimetres; empty for solid lines.
-    fn dashes(self) -> &'static [f32] {
-        match self {
-            Kind::Mountain => &[4.0, 1.2, 0.6, 1.2],
-            Kind::Valley => &[2.5, 1.5],
-            Kind::Tab => &[1.0, 1.0],
-            Kind::Edge => &[2.0, 2.0],
-            Kind::Mark | Kind::Leader | Kind::Cut => &[],
         }
     }
 
@@ -136,7 +119,7 @@ type Drawn<'a> = (&'a Curve, bool);
 
 /// Iterates over the kinds of lines: yields each kind with the lines of this kind on all sheets of a drawing.
 fn layers(drawing: &Drawing) -> impl Iterator<Item = (Kind, Vec<Drawn<'_>>)> {
-    Kind::ALL.into_iter().map(|kind| {
+    Kind::all().map(|kind| {
         let lines = drawing.sheets.iter().flat_map(move |sheet| {
             let (lines, closed) = kind.lines(sheet);
             lines.into_iter().map(move |curve| (curve, closed))

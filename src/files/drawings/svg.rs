@@ -45,7 +45,7 @@ pub fn write_svg(drawing: &Drawing, textures: &[TextureFile<'_>]) -> Result<Vec<
     if let Some((definitions, picture)) = printed(drawing, textures) {
         document = document.add(definitions).add(picture);
     }
-    for kind in Kind::ALL {
+    for kind in Kind::all() {
         let mut layer = layer(kind.name())
             .set("fill", "none")
             .set("stroke", rgb(kind.color()))

@@ -4,10 +4,9 @@ use super::decode_options::DecodeOptions;
 use super::depths::{self, DepthEvidence};
 use super::georeference::Georeference;
 use super::no_data;
-use super::scale::{SUGGESTED_RELIEF_SHARE, assumed_levels, assumed_pixel_size};
+use super::scale::{SUGGESTED_RELIEF_SHARE, are_measured, assumed_levels, assumed_pixel_size};
 use super::square_pixels::{NEGLIGIBLE_SIDE_DIFFERENCE, square_pixels};
-use crate::error::{Error, Result, positive};
-use crate::files::failure::unsupported;
+use crate::error::{Result, positive};
 use crate::files::image_format::Format;
 use crate::files::number_type::NumberType;
 use crate::files::{Assumption, Unit};
@@ -72,8 +71,8 @@ pub(super) struct StoredImage {
     /// The pixel values, row by row, top row first; NaN where the file says that there is no data.
     pub(super) values: Vec<f64>,
     pub(super) number_type: NumberType,
-    /// Whether the file names its value of no data.
-    pub(super) names_no_data: bool,
+    /// Value of no data, if the file names one.
+    pub(super) no_data: Option<f64>,
     /// Width and height of a pixel in `unit`, if the file says them.
     pub(super) sides: Option<[f64; 2]>,
     /// Height of a pixel divided by its width, where the file says only that.
@@ -100,7 +99,7 @@ impl StoredImage {
             size,
             values,
             number_type,
-            names_no_data: false,
+            no_data: None,
             sides: None,
             aspect: 1.0,
             unit: None,
@@ -118,15 +117,15 @@ impl StoredImage {
     /// [`Error::Option`] for a size of pixels that is not positive and finite, [`Error::OutOfMemory`].
     pub(super) fn finish(mut self, options: &DecodeOptions) -> Result<Decoded> {
         let mut assumptions = self.assumptions;
-        if let Some(missing) = options.no_data {
-            let missing = no_data::as_stored(missing, self.number_type);
-            (self.values.iter_mut().filter(|value| **value == missing))
-                .for_each(|value| *value = f64::NAN);
+        // What is no data was measured, too.
+        let are_measured = are_measured(&self.values);
+        for missing in self.no_data.into_iter().chain(options.no_data) {
+            no_data::remove(&mut self.values, missing, self.number_type);
         }
         if options.assume_no_data {
             assumptions.extend(no_data::assume_no_data(
                 &mut self.values,
-                self.names_no_data,
+                self.no_data.is_some(),
             ));
         }
         let depth_unit = depths::unit(&self.values, self.number_type);
@@ -190,7 +189,7 @@ impl StoredImage {
             }
         };
         let are_heights = self.height_scale.is_some() || self.number_type.range().is_none();
-        if self.sides.is_none() && are_heights {
+        if self.sides.is_none() && are_heights && are_measured {
             let found = assumed_pixel_size(&values, height_scale, side);
             if let Some((size, assumption)) = found {
                 pixel_size = size;
@@ -226,16 +225,4 @@ pub(super) fn differ([x, y]: [f64; 2]) -> bool {
 /// The sides of pixels of which a writer of this library recorded the size; it records 1 where it knows none.
 pub(super) fn recorded_sides(size: f64) -> Option<[f64; 2]> {
     (size != 1.0).then_some([size; 2])
-}
-
-/// Creates the error for a picture with colours, which cannot be read as heights; it names the first coloured
-/// pixel.
-pub(super) fn coloured(format: Format, pixel: usize, width: usize) -> Error {
-    let reason = format!(
-        "the pixel at row {}, column {} has a colour, from which no height follows; \
-         grey images are read (grey, or RGB and palettes with grey pixels only)",
-        pixel / width,
-        pixel % width
-    );
-    unsupported(format, reason)
 }

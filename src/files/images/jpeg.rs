@@ -11,14 +11,10 @@ use crate::error::{Error, Result, try_filled};
 use crate::files::failure::{check_length, damaged, unsupported};
 use crate::files::image_format::Format;
 
-/// Maximum number of pixel samples that one byte of a JPEG file can stand for: an even block of 64 takes a few
-/// bits, and in a progressive file a run of such blocks does.
-const MAX_SAMPLES_PER_BYTE: usize = 4096;
-
 /// Bytes of the marker that ends a JPEG file.
 const JPEG_END_MARKER: [u8; 2] = [0xff, 0xd9];
 
-/// Second byte of the JPEG marker that image data follow.
+/// Second of the two bytes of the JPEG marker that image data follow.
 const JPEG_SCAN_MARKER: u8 = 0xda;
 
 /// Decodes a photo in a JPEG file. It is decoded as a whole, three bytes for each pixel, before it is reduced.
@@ -71,7 +67,7 @@ impl<'a> OpenedJpeg<'a> {
                 ));
             }
         };
-        check_length(Format::Jpeg, bytes, stored.1 * len, MAX_SAMPLES_PER_BYTE)?;
+        check_length(Format::Jpeg, bytes, stored.1 * len)?;
         Ok(OpenedJpeg {
             decoder,
             options,

@@ -15,6 +15,7 @@ mod depths;
 #[cfg(feature = "images")]
 pub mod extended;
 mod georeference;
+mod grey;
 mod jpeg;
 mod no_data;
 mod npy;

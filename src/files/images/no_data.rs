@@ -4,15 +4,20 @@ use crate::files::Assumption;
 use crate::files::assumption::rounded;
 use crate::files::number_type::NumberType;
 
-/// Rounds a value as numbers of a type are stored: −9999.9 is another number in 32 bits.
-pub(super) fn as_stored(value: f64, number_type: NumberType) -> f64 {
-    match number_type {
-        NumberType::F32 => f64::from(value as f32),
-        NumberType::F16 if value != 0.0 && value.is_finite() => {
-            let last_bit = (value.abs().log2().floor() - 10.0).exp2();
-            (value / last_bit).round_ties_even() * last_bit
+/// Replaces a value of no data by NaN wherever it stands among numbers of a type, in which it may be rounded: −9999.9 is
+/// another number in 32 bits, and programs write those of 32 bits with more or fewer digits.
+pub(super) fn remove(values: &mut [f64], missing: f64, number_type: NumberType) {
+    let stored = match number_type {
+        NumberType::F16 if missing != 0.0 && missing.is_finite() => {
+            let last_bit = (missing.abs().log2().floor() - 10.0).exp2();
+            (missing / last_bit).round_ties_even() * last_bit
         }
-        _ => value,
+        _ => missing,
+    };
+    let is_wide = matches!(number_type, NumberType::F32 | NumberType::F64);
+    let is_missing = |value: f64| value == stored || is_wide && value as f32 == stored as f32;
+    for value in values.iter_mut().filter(|value| is_missing(**value)) {
+        *value = f64::NAN;
     }
 }
 
@@ -113,11 +118,23 @@ mod tests {
     #[test]
     fn a_value_of_no_data_is_rounded_as_it_is_stored() {
         // 16-bit floats between 8192 and 16384 are multiples of 8, as numpy.float16 has them.
-        assert_eq!(as_stored(-9999.0, NumberType::F16), -10000.0);
-        assert_eq!(as_stored(65504.0, NumberType::F16), 65504.0);
-        assert_eq!(as_stored(0.1, NumberType::F16), 0.0999755859375);
-        assert_eq!(as_stored(-9999.9, NumberType::F32), -9999.900390625);
-        assert_eq!(as_stored(-9999.9, NumberType::F64), -9999.9);
+        for (missing, number_type, stored) in [
+            (-9999.0, NumberType::F16, -10000.0),
+            (65504.0, NumberType::F16, 65504.0),
+            (0.1, NumberType::F16, 0.0999755859375),
+            (-9999.9, NumberType::F32, -9999.900390625),
+            (-9999.9, NumberType::F64, -9999.9),
+            (-3.402_823_5e38, NumberType::F64, f64::from(f32::MIN)),
+            (-2_147_483_647.0, NumberType::I32, -2_147_483_647.0),
+        ] {
+            let mut values = [stored, -2_147_483_648.0];
+            remove(&mut values, missing, number_type);
+            assert_eq!(
+                values.map(f64::is_nan),
+                [true, false],
+                "{missing} {number_type:?}"
+            );
+        }
     }
 
     /// Heights between 200 and 4800, and what is to be no data or not.

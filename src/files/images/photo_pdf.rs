@@ -7,7 +7,7 @@ use super::print::{PhotoOptions, PhotoRows, is_bilevel, write_photo, write_photo
 use crate::error::{Error, Result};
 use crate::files::points::{check_page, points};
 
-/// Number of objects of a PDF file for each of its pages: the page, its content and its picture.
+/// Number of objects of the PDF format for each page: the page, its content and its picture.
 const OBJECTS_PER_PAGE: i32 = 3;
 
 /// One page of a PDF file, with a picture that is as large as fits, in the middle.

@@ -7,19 +7,17 @@ use ::png::{
     Transformations, text_metadata::TEXtChunk,
 };
 
-use super::decoded::{StoredImage, coloured, recorded_sides};
+use super::decoded::{StoredImage, recorded_sides};
+use super::grey::{Channels, grey};
 use crate::error::{Error, MAX_CELLS, Result, try_filled};
 use crate::files::buffer::Buffer;
-use crate::files::failure::damaged;
+use crate::files::failure::{check_length, damaged};
 use crate::files::image_format::Format;
 use crate::files::number_type::NumberType;
 use crate::heights::heightfield::HeightImage;
 
 /// Maximum memory that the PNG decoder itself may allocate, in bytes: two rows of the widest image and metadata.
 const MAX_DECODER_BYTES: usize = 1 << 28;
-
-/// Maximum ratio by which the compression DEFLATE can shrink data.
-const DEFLATE_RATIO: usize = 1032;
 
 /// Keyword of the PNG text chunk in which this library writes the height of one grey level: `height = scale · level +
 /// offset`.
@@ -28,10 +26,10 @@ const HEIGHT_OFFSET_KEYWORD: &str = "developable:heightOffset";
 const PIXEL_SIZE: &str = "developable:pixelSize";
 const NO_DATA: &str = "developable:noData";
 
-/// Lowest grey level that [`write_png`] uses for heights; level 0 is no data.
+/// Lowest level of 16 bits that [`write_png`] uses for heights; level 0 is no data.
 const MIN_HEIGHT_LEVEL: f64 = 1.0;
 
-/// Highest grey level that [`write_png`] uses for heights.
+/// Highest level of 16 bits.
 const MAX_HEIGHT_LEVEL: f64 = 65535.0;
 
 /// The decoded samples of a PNG file, its width and height in pixels, and the reader that holds its metadata.
@@ -91,15 +89,7 @@ pub(super) fn open(
             limit: max_pixels,
         });
     }
-    if info.raw_bytes() / DEFLATE_RATIO > bytes.len() {
-        return Err(damaged(
-            Format::Png,
-            format!(
-                "{} bytes cannot hold {width} × {height} pixels",
-                bytes.len()
-            ),
-        ));
-    }
+    check_length(Format::Png, bytes, info.raw_bytes())?;
     Ok((decoder.read_info().map_err(failed)?, [width, height]))
 }
 
@@ -117,39 +107,22 @@ pub(super) fn decode(bytes: &[u8]) -> Result<StoredImage> {
     };
     let size = number_type.bytes();
     let stride = color.samples() * size;
-    let mut values = try_filled("PNG image", width * height, f64::NAN)?;
-    for (i, (z, pixel)) in values
-        .iter_mut()
-        .zip(samples.chunks_exact(stride))
-        .enumerate()
-    {
-        let sample = |k: usize| number_type.value(&pixel[size * k..], true);
-        let alpha = match color {
-            ColorType::GrayscaleAlpha => sample(1),
-            ColorType::Rgba => sample(3),
-            _ => 1.0,
-        };
-        if alpha == 0.0 {
-            continue;
-        }
-        if matches!(color, ColorType::Rgb | ColorType::Rgba)
-            && (sample(0) != sample(1) || sample(0) != sample(2))
-        {
-            return Err(coloured(Format::Png, i, width));
-        }
-        *z = sample(0);
-    }
-
+    let (colours, alpha) = match color {
+        ColorType::GrayscaleAlpha => (1, Some(1)),
+        ColorType::Rgb => (3, None),
+        ColorType::Rgba => (3, Some(3)),
+        _ => (1, None),
+    };
+    let values = grey(
+        Format::Png,
+        (width, height),
+        &Channels { colours, alpha },
+        |i, k| number_type.value(&samples[stride * i + size * k..], true),
+    )?;
     let recorded = RecordedMetadata::read(&reader.info().uncompressed_latin1_text)?;
-    if let Some(level) = recorded.no_data {
-        values
-            .iter_mut()
-            .filter(|z| **z == level)
-            .for_each(|z| *z = f64::NAN);
-    }
     Ok(StoredImage {
         sides: recorded.pixel_size.and_then(recorded_sides),
-        names_no_data: recorded.no_data.is_some(),
+        no_data: recorded.no_data,
         height_scale: recorded.scale,
         offset: recorded.offset.unwrap_or(0.0),
         ..StoredImage::new(Format::Png, (width, height), values, number_type)

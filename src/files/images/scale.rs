@@ -16,7 +16,7 @@ const MAX_LIKELY_RELIEF_SHARE: f64 = 4.0;
 /// Maximum relief that needs no word, as a share of the longer side: a slope of 45° all the way across.
 const MAX_USUAL_RELIEF_SHARE: f64 = 1.0;
 
-/// Minimum share of pixels with a height in measured data; fewer heights are those of a design.
+/// Minimum share of the pixels with a number in measured data; fewer are the pins of a design.
 const MIN_MEASURED_SHARE: f64 = 0.2;
 
 /// Share of the heights that are left out at each end of their range, where outliers are.
@@ -33,7 +33,7 @@ pub(super) fn assumed_levels() -> Assumption {
 
 /// Chooses the size of pixels in the unit of the heights, where the file does not say it and 1 needs a word: `heights` times
 /// `scale` are the heights, `side` is the number of pixels along the longer side. `None` for heights that pixels 1 wide suit,
-/// for planes, and for the few heights of a design.
+/// and for planes.
 pub(super) fn assumed_pixel_size(
     heights: &[f64],
     scale: f64,
@@ -63,14 +63,23 @@ pub(super) fn assumed_pixel_size(
     )
 }
 
-/// Difference between the highest and the lowest of the heights without outliers; `None` if it is 0 or there are few heights.
+/// Whether the values that a file stores, NaN included, were measured, and are no pins of a design.
+pub(super) fn are_measured(stored: &[f64]) -> bool {
+    let known = stored.iter().filter(|value| !value.is_nan()).count();
+    known as f64 >= MIN_MEASURED_SHARE * stored.len() as f64
+}
+
+/// Whether heights are a needle over an image of a given longer side.
+#[cfg(feature = "images")]
+pub(super) fn is_needle(heights: &[f64], side: f64) -> bool {
+    relief(heights).is_some_and(|relief| relief > MAX_LIKELY_RELIEF_SHARE * side)
+}
+
+/// Difference between the highest and the lowest of the heights without outliers; `None` if it is 0 or there are none.
 fn relief(heights: &[f64]) -> Option<f64> {
     let step = heights.len().div_ceil(MAX_RELIEF_SAMPLES).max(1);
     let sampled = heights.iter().step_by(step).copied();
     let mut known: Vec<f64> = sampled.filter(|height| height.is_finite()).collect();
-    if (known.len() as f64) < MIN_MEASURED_SHARE * heights.len().div_ceil(step) as f64 {
-        return None;
-    }
     known.sort_by(f64::total_cmp);
     let last = known.len().checked_sub(1)? as f64;
     let low = known[(OUTLIER_SHARE * last).ceil() as usize];
@@ -124,6 +133,6 @@ mod tests {
         assert!(assumed_pixel_size(&spiky, 1.0, 60.0).is_none());
         let mut few = vec![f64::NAN; 2400];
         (few[3], few[900]) = (0.0, 1e5);
-        assert!(assumed_pixel_size(&few, 1.0, 60.0).is_none());
+        assert!(!are_measured(&few) && are_measured(&spiky));
     }
 }

@@ -1,11 +1,15 @@
 //! Builds a mesh from the vertices and triangles that a file's decoder adds, and reports what is wrong with them.
 
+use nalgebra::Vector3;
+
 use super::beside::Texture;
 use crate::error::{Error, MAX_CELLS, Result};
 use crate::files::failure::{damaged, unsupported};
+use crate::math::planar::Point2;
+use crate::math::polygon::triangulate;
 use crate::scene::mesh::Mesh;
 
-/// Colour of a vertex for which the mesh file states no colour.
+/// Colour of a vertex for which the mesh file states no colour: white, as in the glTF format.
 pub(super) const DEFAULT_VERTEX_COLOUR: [f32; 3] = [1.0; 3];
 
 /// Texture coordinates, far outside of any picture, that mark a vertex without texture coordinates.
@@ -24,6 +28,8 @@ pub(super) struct MeshBuilder {
     /// Texture number of each triangle; shorter than the list of triangles where the last ones have no texture.
     pub(super) textures: Vec<i32>,
     pub(super) pictures: Vec<Texture>,
+    /// Number of polygons that could not be divided into triangles that do not overlap.
+    pub(super) crossed_polygons: usize,
     /// Whether the file has lines between vertices, which are left out.
     pub(super) has_lines: bool,
     /// Number of bytes left for further texture pictures; all pictures together may not exceed the size of the given
@@ -40,7 +46,42 @@ impl MeshBuilder {
         push(&mut self.triangles, triangle, MAX_CELLS)
     }
 
-    /// Adds a polygon as triangles that all share the polygon's first corner.
+    /// Adds a polygon as triangles that do not overlap, unless its sides cross or it has too many corners.
+    pub(super) fn polygon(&mut self, corners: &[u32]) -> Result<()> {
+        let Some(points) = self.concave(corners) else {
+            return self.fan(corners);
+        };
+        let Some(triangles) = triangulate(vec![points]) else {
+            self.crossed_polygons += 1;
+            return self.fan(corners);
+        };
+        let mut triangles = triangles.into_iter();
+        triangles.try_for_each(|triangle| self.triangle(triangle.map(|k| corners[k])))
+    }
+
+    /// Returns the corners of a polygon in the coordinate plane to which it is nearest, anticlockwise; `None` if the triangles
+    /// of a fan do not overlap, or a corner is not there.
+    fn concave(&self, corners: &[u32]) -> Option<Vec<Point2>> {
+        let place = |vertex: &u32| self.positions.get(*vertex as usize).copied();
+        let points: Vec<[f64; 3]> = corners.iter().map(place).collect::<Option<_>>()?;
+        let first = Vector3::from(*points.first().filter(|_| points.len() > 3)?);
+        let off: Vec<Vector3<f64>> = points.iter().map(|p| Vector3::from(*p) - first).collect();
+        let areas = || off.windows(2).map(|edge| edge[0].cross(&edge[1]));
+        // The areas of triangles that overlap come to more than the polygon's, but for rounding to 32 bits.
+        let normal: Vector3<f64> = areas().sum();
+        let sum: f64 = areas().map(|area| area.dot(&normal).abs()).sum();
+        if sum <= (1.0 + f64::from(f32::EPSILON)) * normal.norm_squared() {
+            return None;
+        }
+        let axis = normal.iamax();
+        let [x, y] = match normal[axis] > 0.0 {
+            true => [(axis + 1) % 3, (axis + 2) % 3],
+            false => [(axis + 2) % 3, (axis + 1) % 3],
+        };
+        Some(off.iter().map(|p| Point2::new(p[x], p[y])).collect())
+    }
+
+    /// Adds triangles that all share the first of the corners.
     pub(super) fn fan(&mut self, corners: &[u32]) -> Result<()> {
         let [first, rest @ ..] = corners else {
             return Ok(());

@@ -24,6 +24,7 @@ mod unit;
 mod xyz;
 
 use crate::error::Result;
+use crate::math::polygon::MAX_POLYGON_CORNERS;
 use crate::scene::mesh::Mesh;
 
 use super::Assumption;
@@ -52,7 +53,7 @@ pub fn read_mesh(bytes: &[u8], format: Option<MeshFormat>) -> Result<Mesh> {
 /// name. Each name is looked up as it is and then without its folders.
 ///
 /// Where there are points but no faces, they are a point cloud
-/// ([`Mesh::is_cloud`]). Polygons are cut into fans. Colours and texture coordinates are kept where
+/// ([`Mesh::is_cloud`]). Polygons are cut into triangles. Colours and texture coordinates are kept where
 /// every vertex has them; vertices without a colour of their own have that of their material, which
 /// is white where nothing says otherwise, and where there are textures, those without any need no
 /// coordinates. Colours are not changed: those of glTF are linear by its
@@ -90,13 +91,14 @@ pub fn read_mesh_beside(
         MeshFormat::Stl => stl::read(bytes, &mut parts)?,
         MeshFormat::Gltf => {
             gltf::read(bytes, &beside, &mut parts)?;
-            stated = Some(FileUnit::METRES);
+            stated = Some(FileUnit::new("m")?);
         }
         MeshFormat::ThreeMf => stated = Some(threemf::read(bytes, &mut parts)?),
         MeshFormat::Off => off::read(bytes, &mut parts)?,
         MeshFormat::Xyz => xyz::read(bytes, &mut parts)?,
     }
     let has_lines = parts.has_lines;
+    let crossed = parts.crossed_polygons;
     let textures = std::mem::take(&mut parts.pictures);
     let mesh = parts.into_mesh(format.title(), format != MeshFormat::Stl)?;
     let points = (has_lines && mesh.is_cloud()).then(|| {
@@ -104,10 +106,17 @@ pub fn read_mesh_beside(
             "the lines in it are left out, and their ends are a point cloud: it has no faces";
         Assumption::new("points", words, None)
     });
+    let polygons = (crossed > 0).then(|| {
+        let words = format!(
+            "sides cross in {crossed} of its polygons, or are more than {MAX_POLYGON_CORNERS}: their triangles overlap"
+        );
+        Assumption::new("polygons", words, None)
+    });
     let mut file = MeshFile {
         assumptions: precision::coarse_coordinates(&mesh)
             .into_iter()
             .chain(points)
+            .chain(polygons)
             .collect(),
         mesh,
         textures,

@@ -118,7 +118,7 @@ impl Reader {
                         let uv = uv.and_then(|i| uvs.get(i)).copied();
                         face.push(self.corners.vertex(position, uv, material, parts)?);
                     }
-                    parts.fan(&face)?;
+                    parts.polygon(&face)?;
                 }
                 _ => {}
             }

@@ -66,7 +66,7 @@ pub(super) fn read(bytes: &[u8], parts: &mut MeshBuilder) -> Result<()> {
             return Err(damaged("OFF", format!("line {row} has too few vertices")));
         }
         let corners: Result<Vec<u32>> = corners.iter().map(|v| whole("OFF", *v)).collect();
-        parts.fan(&corners?)?;
+        parts.polygon(&corners?)?;
     }
     Ok(())
 }

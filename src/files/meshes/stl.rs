@@ -10,9 +10,7 @@ use super::rows::point;
 use crate::error::Result;
 use crate::files::buffer::Buffer;
 use crate::files::failure::{damaged, unsupported};
-use crate::files::mesh_format::{
-    STL_HEADER_BYTES, STL_TRIANGLE_BYTES, begins_as_solid, is_binary_stl, stl_length,
-};
+use crate::files::mesh_format::{STL_HEADER_BYTES, STL_TRIANGLE_BYTES, is_ascii_stl, stl_length};
 use crate::files::number_type::NumberType;
 use crate::files::text::{decoded, lines};
 use crate::scene::mesh::Mesh;
@@ -28,11 +26,7 @@ pub(super) fn may_be_stl(bytes: &[u8]) -> bool {
 }
 
 pub(super) fn read(bytes: &[u8], parts: &mut MeshBuilder) -> Result<()> {
-    let text = bytes
-        .strip_prefix(b"\xef\xbb\xbf")
-        .unwrap_or(bytes)
-        .trim_ascii_start();
-    if begins_as_solid(text) && !is_binary_stl(bytes) {
+    if is_ascii_stl(bytes) {
         return ascii(bytes, parts);
     }
     let triangles = stl_length(bytes)

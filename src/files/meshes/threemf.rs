@@ -65,7 +65,6 @@ fn models(bytes: &[u8]) -> Result<Vec<(String, String)>> {
         .filter(|name| name.to_ascii_lowercase().ends_with(".model"))
         .map(String::from)
         .collect();
-    names.sort_by_key(String::len);
     let mut left = MAX_MODEL_BYTES;
     let mut read = |name: String| {
         let file = archive.by_name(&name).map_err(|error| damaged(&error))?;
@@ -79,7 +78,24 @@ fn models(bytes: &[u8]) -> Result<Vec<(String, String)>> {
         })?;
         Ok((name.trim_start_matches('/').to_owned(), text))
     };
+    let relations = read("_rels/.rels".into()).ok();
+    let main = relations.and_then(|(_, text)| main_model(&text));
+    names.sort_by_key(|name| {
+        (
+            Some(name.trim_start_matches('/')) != main.as_deref(),
+            name.len(),
+        )
+    });
     names.into_iter().map(&mut read).collect()
+}
+
+/// Path of the model that is built, by the relations of the archive.
+fn main_model(relations: &str) -> Option<String> {
+    let document = Document::parse(relations).ok()?;
+    let is_model =
+        |node: &Node| (node.attribute("Type")).is_some_and(|kind| kind.ends_with("/3dmodel"));
+    let path = document.descendants().find(is_model)?.attribute("Target")?;
+    Some(path.trim_start_matches('/').to_owned())
 }
 
 /// The objects of all models, by the paths of these and their own names, and the mesh that is built of them.

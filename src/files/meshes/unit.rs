@@ -3,6 +3,7 @@
 use super::mesh_file::MeshFile;
 use crate::error::{Error, Result};
 use crate::files::assumption::rounded;
+use crate::files::unit::millimetres_in;
 use crate::files::{Assumption, Unit};
 use crate::scene::mesh::Mesh;
 
@@ -25,31 +26,24 @@ pub struct FileUnit {
 }
 
 impl FileUnit {
-    /// Metres, as in every glTF file.
-    pub(super) const METRES: FileUnit = FileUnit {
-        factor: 1.0,
-        unit: Unit::Metre,
-    };
-
     /// Returns the unit of a given name: `mm`, `cm`, `m` or `inch`, or as 3MF spells units. Lengths in metres stay
     /// metres, all others become millimetres.
     ///
     /// # Errors
     /// [`Error::Option`] for another name.
     pub fn new(name: &str) -> Result<Self> {
-        let (factor, unit) = match name {
-            "mm" | "millimeter" => (1.0, Unit::Millimetre),
-            "cm" | "centimeter" => (10.0, Unit::Millimetre),
-            "m" | "meter" => (1.0, Unit::Metre),
-            "inch" => (25.4, Unit::Millimetre),
-            "foot" => (304.8, Unit::Millimetre),
-            "micron" => (1e-3, Unit::Millimetre),
-            _ => {
-                let requirement = "must be `mm`, `cm`, `m` or `inch`";
-                return Err(Error::option("unit", name, requirement));
-            }
-        };
-        Ok(FileUnit { factor, unit })
+        let length = millimetres_in(name)
+            .ok_or_else(|| Error::option("unit", name, "must be `mm`, `cm`, `m` or `inch`"))?;
+        Ok(match length == Unit::Metre.millimetres() {
+            true => FileUnit {
+                factor: 1.0,
+                unit: Unit::Metre,
+            },
+            false => FileUnit {
+                factor: length,
+                unit: Unit::Millimetre,
+            },
+        })
     }
 }
 

@@ -22,14 +22,18 @@ pub(super) fn read(bytes: &[u8], parts: &mut MeshBuilder) -> Result<()> {
     }
     let lines = || table.values.chunks_exact(table.cols);
     let is_level = |value: &f64| value.fract() == 0.0 && (0.0..=WHITE_LEVEL).contains(value);
-    let has_colours =
-        table.cols >= 6 && lines().all(|line| line[table.cols - 3..].iter().all(is_level));
+    let are_colours = |start: &usize| {
+        (3..=table.cols.saturating_sub(3)).contains(start)
+            && lines().all(|line| line[*start..start + 3].iter().all(is_level))
+            && lines().any(|line| line[*start..start + 3].iter().any(|level| *level > 1.0))
+    };
+    // An intensity may stand before the colour, or a normal, and a normal behind it.
+    let colours = [table.cols - 3, 3].into_iter().find(are_colours);
     for line in lines() {
         parts.position([line[0], line[1], line[2]])?;
-        if has_colours && let Some(levels) = line.last_chunk::<3>() {
-            parts
-                .colors
-                .push(levels.map(|level| (level / WHITE_LEVEL) as f32));
+        if let Some(start) = colours {
+            let level = |k: usize| (line[start + k] / WHITE_LEVEL) as f32;
+            parts.colors.push([0, 1, 2].map(level));
         }
     }
     Ok(())

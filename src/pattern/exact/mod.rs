@@ -12,10 +12,10 @@ mod net;
 mod noisy;
 mod patches;
 mod planes;
-mod polygon;
 mod rolled;
 mod search;
 mod sheets;
+mod straight;
 
 use super::mesh::MeshPattern;
 use crate::error::{Error, Result};

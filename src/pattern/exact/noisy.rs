@@ -6,10 +6,11 @@ use rustc_hash::FxHashMap;
 
 use super::FoundFaces;
 use super::planes::{MAX_DEVIATION_SIGMAS, NoisyPlanes};
-use super::polygon::{Straight, straight_parts, triangulate};
+use super::straight::{Straight, straight_parts};
 use crate::error::Result;
 use crate::math::index::NO_INDEX;
 use crate::math::planar::{Point2, polygon_area};
+use crate::math::polygon::triangulate;
 use crate::math::union_find::UnionFind;
 use crate::scene::half_edges::{half_edge_ends, next_half_edge, twin_half_edges};
 use crate::scene::mesh::Mesh;

@@ -1,7 +1,6 @@
-//! Reads depth maps of COLMAP: `width&height&channels&`, then 32-bit floats, row by row.
+//! Reads depth maps of COLMAP: `width&height&channels&`, then 32-bit floats, row by row, 0 where there is no depth.
 
 use crate::error::Result;
-use crate::files::Assumption;
 use crate::files::failure::{damaged, unsupported};
 use crate::files::image_format::{Format, colmap_head};
 use crate::files::images::decoded::StoredImage;
@@ -19,30 +18,12 @@ pub(super) fn decode(bytes: &[u8]) -> Result<StoredImage> {
         let reason = format!("it has {channels} channels, and depths have one");
         return Err(unsupported(Format::Colmap, reason));
     }
-    let bytes = &bytes[head..];
-    let mut values = raw_pixels(
-        Format::Colmap,
-        (width, height),
-        bytes,
-        NumberType::F32,
-        false,
-    )?;
-    let mut missing = 0;
-    for value in values
-        .iter_mut()
-        .filter(|depth| **depth <= 0.0 || depth.is_nan())
-    {
-        *value = f64::NAN;
-        missing += 1;
-    }
-    let mut image = StoredImage::new(Format::Colmap, (width, height), values, NumberType::F32);
-    if missing > 0 {
-        let words = format!("0 is no data ({missing} pixels), as COLMAP writes it");
-        image
-            .assumptions
-            .push(Assumption::new("noData", words, None));
-    }
-    Ok(image)
+    let size = (width, height);
+    let values = raw_pixels(Format::Colmap, size, &bytes[head..], NumberType::F32, false)?;
+    Ok(StoredImage {
+        no_data: Some(0.0),
+        ..StoredImage::new(Format::Colmap, size, values, NumberType::F32)
+    })
 }
 
 #[cfg(test)]
@@ -59,9 +40,10 @@ mod tests {
         assert_eq!(Format::detect(&file), Some(Format::Colmap));
         let found = decode(&file).unwrap();
         assert_eq!(found.size, (3, 2));
-        assert!(found.values[1].is_nan());
-        assert_eq!(found.values[2..], [2.5, 3.0, 4.0, 5.0]);
-        assert_eq!(found.assumptions[0].code, "noData");
+        assert_eq!(
+            (found.values, found.no_data),
+            (depths.map(f64::from).to_vec(), Some(0.0))
+        );
         let error = decode(&file[..file.len() - 1]).unwrap_err();
         assert!(error.to_string().contains("it is cut short"), "{error}");
         assert_eq!(decode(b"3&2&3&").unwrap_err().code(), "UNSUPPORTED");

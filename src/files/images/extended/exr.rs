@@ -11,18 +11,15 @@ use ::exr::prelude::{
     AnyChannel, AnyChannels, Encoding, FlatSamples, Image, Layer, Vec2, WritableImage, f16,
 };
 
-use super::samples::{Channels, grey, narrowed};
+use super::samples::narrowed;
 use crate::error::{Error, Result, checked_cells, try_filled};
 use crate::files::buffer::reserve;
 use crate::files::failure::{check_length, damaged, unsupported};
 use crate::files::image_format::Format;
 use crate::files::images::decoded::{StoredImage, recorded_sides};
+use crate::files::images::grey::{Channels, grey};
 use crate::files::number_type::NumberType;
 use crate::heights::heightfield::HeightImage;
-
-/// Maximum ratio of the size of an OpenEXR image in memory to that of its file: more than any of the format's
-/// compressions reaches.
-const MAX_COMPRESSION_RATIO: usize = 4096;
 
 /// Name of the OpenEXR attribute that holds the pixel size; only files written by this library have it.
 const PIXEL_SIZE: &str = "developable:pixelSize";
@@ -36,12 +33,7 @@ pub(super) fn decode(bytes: &[u8]) -> Result<StoredImage> {
         return Err(Error::Empty { what: "EXR image" });
     }
     let pixel_bytes = header.channels.bytes_per_pixel;
-    check_length(
-        Format::Exr,
-        bytes,
-        len.saturating_mul(pixel_bytes),
-        MAX_COMPRESSION_RATIO,
-    )?;
+    check_length(Format::Exr, bytes, len.saturating_mul(pixel_bytes))?;
     let number_type = match header.channels.list[chosen.heights[0]].sample_type {
         SampleType::U32 => NumberType::U32,
         SampleType::F16 => NumberType::F16,

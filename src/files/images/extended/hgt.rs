@@ -13,24 +13,14 @@ use crate::files::number_type::NumberType;
 /// Height that means no data in the format.
 const VOID_METRES: f64 = -32_768.0;
 
-/// Keys of the GeoTIFF format for degrees on WGS 84 (EPSG 4326) at the middles of pixels.
-const WGS84_KEYS: [u16; 16] = [1, 1, 0, 3, 1024, 0, 1, 2, 1025, 0, 1, 2, 2048, 0, 1, 4326];
-
 /// Decodes the file of a given name.
 pub(super) fn decode(bytes: &[u8], name: &str) -> Result<StoredImage> {
     let side = hgt_side(bytes).unwrap_or_default();
-    let mut values = raw_pixels(Format::Hgt, (side, side), bytes, NumberType::I16, true)?;
-    (values.iter_mut().filter(|height| **height == VOID_METRES))
-        .for_each(|height| *height = f64::NAN);
+    let values = raw_pixels(Format::Hgt, (side, side), bytes, NumberType::I16, true)?;
     let place = south_west(name);
     let [latitude, longitude] = place.unwrap_or_default();
     let step = 1.0 / (side - 1) as f64;
-    let map = Georeference {
-        transformation: [step, 0.0, longitude, 0.0, -step, latitude + 1.0],
-        keys: WGS84_KEYS.into(),
-        doubles: Vec::new(),
-        text: String::new(),
-    };
+    let map = Georeference::of_degrees([longitude, latitude + 1.0], [step; 2]);
     let mut assumptions = Vec::new();
     let (sides, unit) = map_sides(&map, (side, side), &mut assumptions)?;
     if place.is_none() {
@@ -38,7 +28,7 @@ pub(super) fn decode(bytes: &[u8], name: &str) -> Result<StoredImage> {
         assumptions = vec![Assumption::new("degrees", words, "pixelSize")];
     }
     Ok(StoredImage {
-        names_no_data: true,
+        no_data: Some(VOID_METRES),
         sides: Some(sides),
         unit,
         height_scale: Some(1.0),
@@ -83,7 +73,7 @@ mod tests {
             (found.size, &found.values[..2]),
             ((side, side), &[258.0, -2.0][..])
         );
-        assert!(found.values[side * side - 1].is_nan());
+        assert_eq!(found.no_data, found.values.last().copied());
         // A degree at 33.5 degrees of latitude, by the usual series in kilometres: of longitude 111.412 cos φ − 0.0935 cos 3φ, of
         // latitude 111.133 − 0.5598 cos 2φ + 0.0012 cos 4φ.
         let [x, y] = found.sides.unwrap().map(|length| 1200.0 * length);

@@ -37,7 +37,20 @@ const ELLIPSOID_AXIS_METRES: f64 = 6_378_137.0;
 /// Square of the first eccentricity of the ellipsoid of the specification WGS 84.
 const ELLIPSOID_ECCENTRICITY_SQUARED: f64 = 0.006_694_379_990_14;
 
+/// Keys of the GeoTIFF format for degrees on WGS 84 (EPSG 4326) at the middles of pixels.
+const WGS84_KEYS: [u16; 16] = [1, 1, 0, 3, 1024, 0, 1, 2, 1025, 0, 1, 2, 2048, 0, 1, 4326];
+
 impl Georeference {
+    /// Creates the georeference of pixels of degrees of longitude and latitude, of which the first is in the north-west.
+    pub(super) fn of_degrees([west, north]: [f64; 2], [across, down]: [f64; 2]) -> Self {
+        Georeference {
+            transformation: [across, 0.0, west, 0.0, -down, north],
+            keys: WGS84_KEYS.into(),
+            doubles: Vec::new(),
+            text: String::new(),
+        }
+    }
+
     /// Whether map coordinates are degrees of longitude and latitude.
     pub(super) fn is_geographic(&self) -> bool {
         self.key(MODEL_TYPE_KEY) == Some(MODEL_TYPE_GEOGRAPHIC)

@@ -13,9 +13,6 @@ use crate::files::image_format::Format;
 use crate::files::images::decoded::StoredImage;
 use crate::files::images::npy;
 
-/// Maximum ratio by which the compression DEFLATE can shrink data.
-const DEFLATE_RATIO: usize = 1032;
-
 /// Maximum size of an NPY file that is read from an archive, in bytes: 64-bit numbers, and a header.
 const MAX_NPY_BYTES: usize = 8 * MAX_CELLS + 16_384;
 
@@ -89,7 +86,7 @@ pub(super) fn decode(bytes: &[u8], array: Option<&str>) -> Result<StoredImage> {
             limit: MAX_CELLS,
         });
     }
-    check_length(Format::Npz, bytes, size, DEFLATE_RATIO)?;
+    check_length(Format::Npz, bytes, size)?;
     let mut file = Vec::new();
     reserve(&mut file, "NPZ array", size)?;
     // The decoder never returns more than the header states, and the archive's checksum verifies it.

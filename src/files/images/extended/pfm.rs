@@ -1,11 +1,11 @@
 //! Reads portable float maps (PFM), the bottom row first, and portable grey maps (PGM): words for kind, size and scale, then
 //! the pixels.
 
-use super::samples::{Channels, grey};
 use crate::error::Result;
 use crate::files::failure::damaged;
 use crate::files::image_format::Format;
 use crate::files::images::decoded::StoredImage;
+use crate::files::images::grey::{Channels, grey};
 use crate::files::images::raw_pixels::raw_pixels;
 use crate::files::number_type::NumberType;
 

@@ -1,16 +1,19 @@
 //! Reads grids of heights that are text: grids of ESRI and Surfer, points on a grid (XYZ) and plain matrices.
 
+use super::tiff_tags::map_sides;
 use crate::error::{Result, checked_cells};
 use crate::files::Assumption;
 use crate::files::failure::{damaged, unsupported};
 use crate::files::image_format::Format;
 use crate::files::images::decoded::StoredImage;
+use crate::files::images::georeference::Georeference;
+use crate::files::images::scale::is_needle;
 use crate::files::kind::CONVERT_RAW;
 use crate::files::number_type::NumberType;
 use crate::files::table::{Table, numbers};
 use crate::files::text::decoded;
 
-/// Smallest value that means no data in a grid of Surfer.
+/// Value that means no data in Surfer's format.
 const SURFER_BLANK: f64 = 1.701_41e38;
 
 pub(super) fn decode(bytes: &[u8]) -> Result<StoredImage> {
@@ -21,18 +24,49 @@ pub(super) fn decode(bytes: &[u8]) -> Result<StoredImage> {
     }
 }
 
-/// Makes an image of the values of a grid, whose cells have the given sides if these are known.
-fn image(values: Vec<f64>, size: (usize, usize), sides: Option<[f64; 2]>) -> StoredImage {
-    StoredImage {
+/// Makes an image of the values of a grid, whose cells have the given sides and whose south-west corner has the given place if
+/// these are known.
+fn image(
+    values: Vec<f64>,
+    size: (usize, usize),
+    sides: Option<[f64; 2]>,
+    corner: Option<[f64; 2]>,
+) -> Result<StoredImage> {
+    let mut image = StoredImage {
         sides,
         ..StoredImage::new(Format::Text, size, values, NumberType::F64)
+    };
+    let map = (sides.zip(corner)).and_then(|(sides, corner)| degrees(&image, sides, corner));
+    if let Some(map) = map {
+        let words = "coordinates are degrees of longitude and latitude, and heights are metres";
+        image
+            .assumptions
+            .push(Assumption::new("mapUnit", words, "pixelSize"));
+        let (sides, unit) = map_sides(&map, size, &mut image.assumptions)?;
+        (image.sides, image.unit) = (Some(sides), unit);
     }
+    Ok(image)
+}
+
+/// Where a grid lies on the globe if its coordinates may be longitudes and latitudes, and would make a needle of it as lengths.
+fn degrees(
+    image: &StoredImage,
+    [dx, dy]: [f64; 2],
+    [west, south]: [f64; 2],
+) -> Option<Georeference> {
+    let [width, height] = [dx * image.size.0 as f64, dy * image.size.1 as f64];
+    let north = south + height;
+    let is_on_globe = west >= -180.0 && west + width <= 360.0 && south >= -90.0 && north <= 90.0;
+    // A place of its own, and not the origin of a model.
+    let is_map = is_on_globe && [west, south] != [0.0; 2];
+    (is_map && is_needle(&image.values, width.max(height)))
+        .then(|| Georeference::of_degrees([west, north], [dx, dy]))
 }
 
 /// Reads an ESRI ASCII grid; `None` if the text does not begin like one.
 fn esri_grid(text: &str) -> Result<Option<StoredImage>> {
     let mut head = std::collections::HashMap::new();
-    let mut rest = text;
+    let mut rest = text.trim_start();
     while let Some((line, after)) = rest.split_once('\n') {
         let mut words = line.split_whitespace();
         let (Some(name), Some(value), None) = (words.next(), words.next(), words.next()) else {
@@ -67,7 +101,7 @@ fn esri_grid(text: &str) -> Result<Option<StoredImage>> {
         return Err(damaged(Format::Text, "its cells have no size"));
     }
     let count = checked_cells("ASCII grid", size.1, size.0)?;
-    let mut values = numbers(rest, true)?;
+    let values = numbers(rest, true)?;
     if values.is_empty() {
         return Err(unsupported("header of a raw grid", CONVERT_RAW));
     }
@@ -76,12 +110,14 @@ fn esri_grid(text: &str) -> Result<Option<StoredImage>> {
         return Err(damaged(Format::Text, reason));
     }
     let no_data = number("nodata_value")?;
-    for value in values.iter_mut().filter(|value| Some(**value) == no_data) {
-        *value = f64::NAN;
-    }
+    let [x, y] = ["x", "y"].map(|axis| -> Result<Option<f64>> {
+        let place = number(&format!("{axis}llcorner"))?;
+        Ok(place.or(number(&format!("{axis}llcenter"))?))
+    });
+    let corner = x?.zip(y?).map(<[f64; 2]>::from);
     Ok(Some(StoredImage {
-        names_no_data: no_data.is_some(),
-        ..image(values, size, sides)
+        no_data,
+        ..image(values, size, sides, corner)?
     }))
 }
 
@@ -109,22 +145,19 @@ fn surfer_grid(text: &str) -> Result<StoredImage> {
     if !sides.iter().all(|side| side.is_finite() && *side > 0.0) {
         return Err(damaged(Format::Text, "its cells have no size"));
     }
-    let is_blank = |value: f64| value >= SURFER_BLANK;
     let rows = values.chunks_exact(size.0).rev().flatten().copied();
-    let values = rows
-        .map(|value| if is_blank(value) { f64::NAN } else { value })
-        .collect();
+    let values = rows.collect();
     Ok(StoredImage {
-        names_no_data: true,
-        ..image(values, size, Some(sides))
+        no_data: Some(SURFER_BLANK),
+        ..image(values, size, Some(sides), Some([x0, y0]))?
     })
 }
 
 /// Reads a table: points on a grid if the first three numbers of its lines are their places, else a matrix.
 fn table(text: &str) -> Result<StoredImage> {
     let table = Table::read(text)?;
-    if let Some((values, size, sides)) = table.points_on_grid()? {
-        return Ok(image(values, size, Some(sides)));
+    if let Some(grid) = table.points_on_grid()? {
+        return image(grid.values, grid.size, Some(grid.sides), Some(grid.corner));
     }
     let points = format!(
         "lines of {} numbers are rows of a matrix: they are no points on a grid",
@@ -141,7 +174,7 @@ fn table(text: &str) -> Result<StoredImage> {
         assumptions: told
             .map(|(_, words)| Assumption::new("matrix", words, None))
             .collect(),
-        ..image(table.values, (table.cols, table.rows), None)
+        ..image(table.values, (table.cols, table.rows), None, None)?
     })
 }
 
@@ -176,12 +209,54 @@ mod tests {
         // Windows' line ends, capitals, decimal commas, values in lines of any length.
         let odd = "NCOLS 2\r\nNROWS 2\r\nXLLCENTER 0,5\r\nYLLCENTER 0,5\r\nCELLSIZE 0,5\r\n1,5\r\n2 3 4\r\n";
         assert_eq!(read(odd), (2, 2, 0.5, vec![1.5, 2.0, 3.0, 4.0]));
+        // Indented, with lines that end as on old Macs, and the largest number of 32 bits with more digits than its name.
+        let old = format!("\n {head}1 2 3\n4 -3.4028234663852886e+38 6.5\n")
+            .replace("-9999", "-3.4028235e+38");
+        assert_eq!(Format::detect(old.as_bytes()), Some(Format::Text));
+        let values = read(&old.replace('\n', "\r")).3;
+        assert!(values[4].is_nan() && values[5] == 6.5, "{values:?}");
         let error = decode(b"ncols 3\nnrows 2\n1 2 3\n4 5\n")
             .unwrap_err()
             .to_string();
         assert!(error.contains("5 values, but 2 rows of 3"), "{error}");
         let header = decode(b"ncols 3\nnrows 2\ncellsize 1\nbyteorder LSBFIRST\n").unwrap_err();
         assert!(header.to_string().contains("gdal_translate"), "{header}");
+    }
+
+    #[test]
+    fn degrees_are_told_by_the_needle_that_they_would_make_as_lengths() {
+        // Two minutes of arc at 46.5° of latitude, by the usual series: 76.76 km and 111.16 km for a degree.
+        let step = 1.0 / 60.0;
+        let heights = "400 900 1500\n700 300 200\n800 650 720\n";
+        let esri = |place: &str, heights: &str| {
+            decode(format!("ncols 3\nnrows 3\n{place}\ncellsize {step}\n{heights}").as_bytes())
+                .unwrap()
+        };
+        let place = "xllcorner 8.5\nyllcorner 46.475";
+        let points: String = (0..9)
+            .map(|i| {
+                format!(
+                    "{} {} {}\n",
+                    8.5 + f64::from(i % 3) * step,
+                    46.475 + f64::from(i / 3) * step,
+                    99 * i
+                )
+            })
+            .collect();
+        for grid in [esri(place, heights), decode(points.as_bytes()).unwrap()] {
+            let [x, y] = grid.sides.unwrap().map(|side| side / step);
+            assert!(
+                (x - 76_760.0).abs() < 20.0 && (y - 111_160.0).abs() < 20.0,
+                "{x} {y}"
+            );
+            assert_eq!(grid.unit, Some(crate::files::Unit::Metre));
+            let codes: Vec<&str> = grid.assumptions.iter().map(|one| one.code).collect();
+            assert_eq!(codes, ["mapUnit", "degrees"]);
+        }
+        // Heights that are no needle, and a model at the origin.
+        let flat = esri(place, "0.01 0.02 0.01\n0 0 0\n0 0 0\n");
+        let model = esri("xllcorner 0\nyllcorner 0", heights);
+        assert_eq!([flat.sides, model.sides], [Some([step; 2]); 2]);
     }
 
     #[test]
@@ -215,6 +290,52 @@ mod tests {
         );
         assert_eq!((width, height, side), (4, 2, 2.0));
         assert_eq!(values[..3], [7.0, 8.0, 9.0]);
+    }
+
+    #[test]
+    fn a_small_thing_before_a_background_has_a_size_of_pixels_that_is_told() {
+        // A ridge 0.13 high in a corner of a render, whose background is far away.
+        let row = |y: i32| {
+            (0..60).map(move |x| {
+                if x < 12 && y < 12 {
+                    0.55 + 0.02 * f64::from((x - 6_i32).abs())
+                } else {
+                    1e11
+                }
+            })
+        };
+        let text: String = (0..60)
+            .map(|y| row(y).map(|value| format!("{value} ")).collect::<String>() + "\n")
+            .collect();
+        let read = decode(text.as_bytes())
+            .and_then(|file| file.finish(&DecodeOptions::default()))
+            .unwrap();
+        let told: Vec<&str> = read.assumptions.iter().map(|one| one.code).collect();
+        assert_eq!(told, ["noData", "pixelSize"]);
+    }
+
+    #[test]
+    fn rounded_coordinates_are_a_grid() {
+        // Thirds of a degree with six digits, whose steps are of two lengths.
+        let places = |rows: i32| (0..rows).flat_map(|row| (0..2000).map(move |col| (col, row)));
+        let text: String = places(2)
+            .map(|(col, row)| format!("{:.6} {row} {}\n", f64::from(col) / 3000.0, col % 9))
+            .collect();
+        let found = decode(text.as_bytes()).unwrap();
+        assert_eq!(found.size, (2000, 2));
+        assert!((found.sides.unwrap()[0] - 1.0 / 3000.0).abs() < 1e-8);
+    }
+
+    #[test]
+    fn tables_of_other_programs_are_told() {
+        let wide: Vec<u8> = ("\u{feff}1,5\t2\r\n3\t4\r\n".encode_utf16())
+            .flat_map(u16::to_le_bytes)
+            .collect();
+        // Excel's text, and a name in an old encoding.
+        assert_eq!(Format::detect(&wide), Some(Format::Text));
+        assert_eq!(decode(&wide).unwrap().values, [1.5, 2.0, 3.0, 4.0]);
+        assert_eq!(Format::detect(b"H\xf6he;b\n1;2\n3;4\n"), Some(Format::Text));
+        assert_eq!(Format::detect(b"\0\x01 2 3\n4 5\n"), None);
     }
 
     #[test]

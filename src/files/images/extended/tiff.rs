@@ -7,7 +7,7 @@ use ::tiff::encoder::{DirectoryEncoder, TiffEncoder, TiffKind, colortype};
 use ::tiff::tags::Tag;
 use ::tiff::{ColorType, TiffError};
 
-use super::samples::{Channels, grey, narrowed};
+use super::samples::narrowed;
 use super::tiff_file::{File, failed, open};
 use super::tiff_tags;
 use crate::error::{Error, Result, checked_cells, try_filled};
@@ -17,6 +17,7 @@ use crate::files::failure::{check_length, damaged, unsupported};
 use crate::files::image_format::Format;
 use crate::files::images::decoded::StoredImage;
 use crate::files::images::georeference::Georeference;
+use crate::files::images::grey::{Channels, grey};
 use crate::files::images::orientation::oriented;
 use crate::files::number_type::NumberType;
 use crate::heights::heightfield::HeightImage;
@@ -50,12 +51,7 @@ pub(super) fn decode(bytes: &[u8]) -> Result<StoredImage> {
     if layout.len != needed {
         return Err(damaged(Format::Tiff, "its sizes contradict each other"));
     }
-    check_length(
-        Format::Tiff,
-        bytes,
-        needed,
-        tiff_tags::MAX_COMPRESSION_RATIO,
-    )?;
+    check_length(Format::Tiff, bytes, needed)?;
     let about = tiff_tags::read(&mut file, stored, kind)?;
 
     let mut raw = try_filled("TIFF image", needed, 0u8)?;
@@ -72,9 +68,6 @@ pub(super) fn decode(bytes: &[u8]) -> Result<StoredImage> {
         (image.assumptions).push(Assumption::new("firstImage", words, None));
     }
     (image.values, image.size) = oriented(values, stored, about.orientation)?;
-    if let Some(level) = about.no_data {
-        (image.values.iter_mut().filter(|z| **z == level)).for_each(|z| *z = f64::NAN);
-    }
     // What is turned after all lies elsewhere on the map.
     image.georeference = image.georeference.filter(|_| about.orientation == 1);
     if let Some(map) = image.georeference.as_mut().filter(|map| map.is_mirrored()) {

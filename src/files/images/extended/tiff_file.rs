@@ -43,8 +43,9 @@ pub(crate) fn open<'a>(bytes: &'a [u8], max_bytes: usize) -> Result<File<'a>> {
 /// Bit of the TIFF tag `NewSubfileType` of an image that is another one at a lower resolution.
 const REDUCED_IMAGE_BIT: u16 = 1;
 
-/// Numbers of the TIFF types of unsigned numbers of 32 and 64 bits.
+/// Number of the TIFF type of unsigned numbers of 32 bits.
 const LONG: u64 = 4;
+/// Number of the TIFF type of unsigned numbers of 64 bits.
 const LONG8: u64 = 16;
 
 /// Returns the file with plain strips or tiles; `None` if those of its first image are not compressed by Zstandard. They have
@@ -97,7 +98,7 @@ fn inflated(bytes: &[u8], file: &mut File, max_bytes: usize) -> Result<Option<Ve
     Ok(Some(plain))
 }
 
-/// Byte among the first four of a BigTIFF file that tells it from another TIFF.
+/// One of the first four bytes of a BigTIFF file, which tells it from another TIFF.
 const BIG_TIFF_MARK: u8 = 43;
 
 /// Where the directory of an image lies in a TIFF file, and how numbers are stored there.

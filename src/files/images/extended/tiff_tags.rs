@@ -10,12 +10,9 @@ use crate::files::failure::{damaged, unsupported};
 use crate::files::image_format::Format;
 use crate::files::images::decoded::StoredImage;
 use crate::files::images::georeference::Georeference;
-use crate::files::images::no_data::as_stored;
 use crate::files::number_type::NumberType;
+use crate::files::unit::millimetres_in;
 use crate::files::{Assumption, Unit};
-
-/// Maximum ratio of the size of a TIFF image in memory to that of its file, which no compression of the format reaches.
-pub(crate) const MAX_COMPRESSION_RATIO: usize = 4096;
 
 /// Checks that the channels of each pixel are stored together, and returns the layout of the image in memory.
 pub(crate) fn chunky_layout(file: &mut File) -> Result<BufferLayoutPreference> {
@@ -42,12 +39,6 @@ pub(super) fn has_more_images(file: &mut File) -> bool {
     false
 }
 
-/// Length of an inch, in millimetres.
-const INCH_MM: f64 = 25.4;
-
-/// Length of a centimetre, in millimetres.
-const CENTIMETRE_MM: f64 = 10.0;
-
 /// Value of the tag `ResolutionUnit` of the TIFF format for no unit.
 const RESOLUTION_UNIT_NONE: u16 = 1;
 /// Value of the tag `ResolutionUnit` of the TIFF format for inches.
@@ -62,7 +53,6 @@ pub(super) const GDAL_METADATA: Tag = Tag::Unknown(42112);
 pub(super) struct PixelTags {
     /// The image as it is stored, still without its values.
     pub(super) image: StoredImage,
-    pub(super) no_data: Option<f64>,
     /// Orientation of the image, from 1 to 8, as the TIFF tag `Orientation` numbers it.
     pub(super) orientation: u16,
 }
@@ -102,7 +92,7 @@ pub(super) fn read(
         height_scale = Some(unit * height_scale.unwrap_or(1.0));
         offset *= unit;
     }
-    let no_data = no_data(file, number_type)?;
+    let no_data = no_data(file)?;
     let inverted = unsigned(file, Tag::PhotometricInterpretation)? == Some(0);
     let is_unsigned = number_type.name().starts_with('u');
     if inverted && (no_data.is_some() || !is_unsigned) {
@@ -120,7 +110,7 @@ pub(super) fn read(
     }
     Ok(PixelTags {
         image: StoredImage {
-            names_no_data: no_data.is_some(),
+            no_data,
             sides,
             aspect,
             unit,
@@ -130,7 +120,6 @@ pub(super) fn read(
             assumptions,
             ..StoredImage::new(Format::Tiff, size, Vec::new(), number_type)
         },
-        no_data,
         orientation,
     })
 }
@@ -240,8 +229,8 @@ fn resolution_sides(file: &mut File) -> Result<Option<([f64; 2], Unit)>> {
     let per = match unsigned(file, Tag::ResolutionUnit)?.unwrap_or(PER_INCH) {
         // Without a unit, resolutions state the proportions of a pixel only.
         RESOLUTION_UNIT_NONE => return Ok(None),
-        PER_INCH => INCH_MM,
-        PER_CENTIMETRE => CENTIMETRE_MM,
+        PER_INCH => 25.4,
+        PER_CENTIMETRE => 10.0,
         other => {
             return Err(damaged(
                 Format::Tiff,
@@ -270,7 +259,7 @@ fn described(file: &mut File) -> Option<String> {
 fn imagej_unit(description: &str) -> Option<f64> {
     let lines = || description.lines().map(str::trim);
     lines().find(|line| line.starts_with("ImageJ="))?;
-    lines().find_map(|line| millimetres(line.strip_prefix("unit=")?))
+    lines().find_map(|line| millimetres_in(line.strip_prefix("unit=")?))
 }
 
 /// Width and height of a pixel in millimetres by a microscope's description of a picture (OME-XML), where micrometres are the unit
@@ -281,37 +270,17 @@ fn ome_sides(description: &str) -> Option<[f64; 2]> {
         value.split('"').next()
     };
     let side = |name: &str| {
-        let unit = attribute(&format!("{name}Unit")).map_or(Some(1e-3), millimetres)?;
+        let unit = attribute(&format!("{name}Unit")).map_or(Some(1e-3), millimetres_in)?;
         let side = unit * attribute(name)?.parse::<f64>().ok()?;
         (side.is_finite() && side > 0.0).then_some(side)
     };
     (description.contains("<OME")).then_some([side("PhysicalSizeX")?, side("PhysicalSizeY")?])
 }
 
-/// Length in millimetres of a unit that a program names in a description.
-fn millimetres(name: &str) -> Option<f64> {
-    Some(match name {
-        "nm" => 1e-6,
-        "um" | "µm" | "\\u00B5m" | "micron" | "microns" => 1e-3,
-        "mm" => 1.0,
-        "cm" => CENTIMETRE_MM,
-        "m" | "meter" => 1e3,
-        "inch" | "inches" | "\"" => INCH_MM,
-        _ => return None,
-    })
-}
-
 /// Length of the unit of heights in metres, by the coordinate system or GDAL's metadata.
 fn height_unit(file: &mut File, map: &Georeference) -> Result<Option<f64>> {
-    let named = gdal_item(file, "unittype")?.and_then(|name| match name.to_lowercase().as_str() {
-        "m" | "metre" | "meter" | "metres" | "meters" => Some(1.0),
-        "ft" | "foot" | "feet" => Some(0.3048),
-        "us survey foot" | "ussurveyfoot" | "us-ft" | "ftus" => Some(1200.0 / 3937.0),
-        "cm" => Some(0.01),
-        "dm" => Some(0.1),
-        "mm" => Some(0.001),
-        _ => None,
-    });
+    let named = gdal_item(file, "unittype")?.and_then(|name| millimetres_in(&name));
+    let named = named.map(|length| length / Unit::Metre.millimetres());
     Ok(named.or(map.vertical_unit()))
 }
 
@@ -357,7 +326,7 @@ fn resolution(file: &mut File, tag: Tag) -> Result<Option<f64>> {
     Ok(Some(ratio).filter(|ratio| ratio.is_finite() && *ratio > 0.0))
 }
 
-fn no_data(file: &mut File, number_type: NumberType) -> Result<Option<f64>> {
+fn no_data(file: &mut File) -> Result<Option<f64>> {
     let Some(text) = file.find_tag(Tag::GdalNodata).map_err(failed)? else {
         return Ok(None);
     };
@@ -369,7 +338,7 @@ fn no_data(file: &mut File, number_type: NumberType) -> Result<Option<f64>> {
             format!("its tag GDAL_NODATA is `{text}`, no number"),
         )
     })?;
-    Ok(Some(as_stored(value, number_type)))
+    Ok(Some(value))
 }
 
 fn unsigned(file: &mut File, tag: Tag) -> Result<Option<u16>> {

@@ -10,9 +10,6 @@ use crate::error::{Error, Result, try_filled};
 use crate::files::failure::{check_length, damaged};
 use crate::files::image_format::Format;
 
-/// Maximum ratio of the size of a BMP image in memory to that of its file: more than run lengths reach.
-const MAX_COMPRESSION_RATIO: usize = 4096;
-
 pub(super) fn decode(bytes: &[u8]) -> Result<PhotoFile> {
     let options = DecoderOptions::default()
         .set_strict_mode(true)
@@ -25,7 +22,7 @@ pub(super) fn decode(bytes: &[u8]) -> Result<PhotoFile> {
     let mut pixels = PhotoPixels::new([width, height])?;
     let size =
         (decoder.output_buf_size()).ok_or_else(|| damaged(Format::Bmp, "it has no pixels"))?;
-    check_length(Format::Bmp, bytes, size, MAX_COMPRESSION_RATIO)?;
+    check_length(Format::Bmp, bytes, size)?;
     let mut samples = try_filled("BMP image", size, 0)?;
     decoder.decode_into(&mut samples).map_err(failed)?;
     pixels.push_rows(&samples);

@@ -10,7 +10,7 @@ use crate::error::Result;
 use crate::files::failure::{check_length, unsupported};
 use crate::files::image_format::Format;
 use crate::files::images::extended::tiff_file::{failed, open};
-use crate::files::images::extended::tiff_tags::{MAX_COMPRESSION_RATIO, chunky_layout};
+use crate::files::images::extended::tiff_tags::chunky_layout;
 
 /// Maximum memory that the TIFF decoder may allocate, in bytes.
 const MAX_DECODER_BYTES: usize = 1 << 30;
@@ -25,7 +25,7 @@ pub(super) fn decode(bytes: &[u8]) -> Result<PhotoFile> {
         .find_tag_unsigned::<u16>(Tag::Orientation)
         .map_err(failed)?;
     let layout = chunky_layout(&mut file)?;
-    check_length(Format::Tiff, bytes, layout.len, MAX_COMPRESSION_RATIO)?;
+    check_length(Format::Tiff, bytes, layout.len)?;
     let samples = match file.read_image().map_err(failed)? {
         DecodingResult::U8(samples) => samples,
         DecodingResult::U16(samples) => samples.iter().map(|v| (v >> 8) as u8).collect(),

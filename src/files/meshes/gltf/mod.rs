@@ -15,6 +15,10 @@ use super::builder::{DEFAULT_VERTEX_COLOUR, MeshBuilder, NO_TEXTURE};
 use crate::error::{Error, Result};
 use crate::files::failure::{damaged, unsupported};
 
+/// What is said of files of version 1.
+const OTHER_VERSION: &str =
+    "only version 2 is read; `gltf-pipeline -i IN -o OUT.glb` converts version 1";
+
 /// Extensions without which the triangles of a file that requires them cannot be read, and the command of glTF Transform
 /// that takes them out. All others are about looks, or
 /// say how numbers are stored that are read as they are.
@@ -32,7 +36,7 @@ pub(super) fn read(bytes: &[u8], beside: &Beside, parts: &mut MeshBuilder) -> Re
     };
     let root: Value = serde_json::from_slice(json).map_err(|error| damaged(FORMAT_NAME, error))?;
     if (root["asset"]["version"].as_str()).is_some_and(|version| !version.starts_with("2.")) {
-        return Err(unsupported(FORMAT_NAME, "only version 2 is read"));
+        return Err(unsupported(FORMAT_NAME, OTHER_VERSION));
     }
     let required = list(&root["extensionsRequired"]);
     if let Some((name, command)) =
@@ -70,7 +74,7 @@ pub(super) fn read(bytes: &[u8], beside: &Beside, parts: &mut MeshBuilder) -> Re
 fn chunks(bytes: &[u8]) -> Result<(&[u8], Option<&[u8]>)> {
     let damaged = || damaged(FORMAT_NAME, "its chunks are not as its header states");
     if bytes.get(4..8) != Some(&[2, 0, 0, 0]) {
-        return Err(unsupported(FORMAT_NAME, "only version 2 is read"));
+        return Err(unsupported(FORMAT_NAME, OTHER_VERSION));
     }
     let mut rest = bytes.get(12..).ok_or_else(damaged)?;
     let (mut json, mut bin) = (None, None);

@@ -155,7 +155,7 @@ impl Faces {
             if element.properties.iter().any(|p| p.name == "texcoord") {
                 self.split(&mut face, &uvs, parts)?;
             }
-            parts.fan(&face)?;
+            parts.polygon(&face)?;
         }
         // Numbers below 0 stand for none.
         let picture = (texture >= 0.0)

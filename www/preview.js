@@ -6,13 +6,13 @@
  * a newer request.
  */
 import { downsample, PREVIEW_SIDE_PIXELS } from './surface/downsampling.js';
-import { previewHeightsOf } from './surface/derived-data.js';
+import { callWorker } from './surface/worker-client.js';
 
 /** @import {Api, OpenSolver} from './api.js' */
 /** @import {Input, Settings} from './session.js' */
 /** @typedef {{ width: number, height: number, pixelSize: number, data: ArrayLike<number> }} Image */
 /** @typedef {{ input: Input, lambda: number, image: Image }} Preview */
-/** @typedef {{ input: Input, pixelSize: number, solver: Promise<OpenSolver> }} PreviewLevel */
+/** @typedef {{ input: Input, solver: Promise<OpenSolver> }} PreviewLevel */
 
 /** Longer sides of the lattices from coarse to fine, in pixels: the first takes about 30 ms, each further one four times as long. */
 const PREVIEW_SIDES_PIXELS = [96, 192, PREVIEW_SIDE_PIXELS];
@@ -28,6 +28,8 @@ export class PreviewSolver {
   #worker = null;
   /** Open solvers by the longer side of their lattice. @type {Map<number, PreviewLevel>} */
   #levels = new Map();
+  /** Heights of the last input, reduced for the finest preview. @type {{ data: ArrayLike<number>, heights: Promise<import('./surface/downsampling.js').Heights> } | null} */
+  #reduced = null;
   /** The newest request, until its finest preview is ready. @type {{ input: Input, settings: Settings, lambda?: number, abort: AbortController } | null} */
   #request = null;
   #isSolving = false;
@@ -109,6 +111,7 @@ export class PreviewSolver {
       this.#worker?.dispose();
       this.#worker = null;
       this.#levels.clear();
+      this.#reduced = null;
     }, WORKER_IDLE_MS);
   }
 
@@ -120,13 +123,11 @@ export class PreviewSolver {
    * @returns {Promise<Preview>}
    */
   async #solve(input, { lambda, energy }, side, signal) {
-    const { pixelSize, solver } = this.#levelFor(input, side);
     // Crease passes are left to the certified run.
     const passes = energy === 'huber' ? { creasePasses: 0 } : {};
-    const surface = await (await solver).fit({ lambda, energy, ...passes, gap: PREVIEW_GAP, signal });
-    const { image, report } = surface;
+    const { image, report } = await (await this.#levelFor(input, side).solver).fit({ lambda, energy, ...passes, gap: PREVIEW_GAP, signal });
     if (!image) throw new Error('it has no image');
-    return { input, lambda: report.lambda, image: { ...image, pixelSize } };
+    return { input, lambda: report.lambda, image };
   }
 
   /** The level for an input. @param {Input} input @param {number} side */
@@ -134,22 +135,18 @@ export class PreviewSolver {
     const found = this.#levels.get(side);
     if (found?.input === input) return found;
     found?.solver.then((open) => open.dispose(), () => {});
-    const heights = reducedTo(input, side);
-    const solver = this.#connectedWorker().open(heights);
+    const solver = this.#reducedTo(input, side).then((heights) => this.#connectedWorker().open(heights));
     // Whoever awaits the solver handles its error.
     solver.catch(() => this.#levels.delete(side));
-    const level = { input, pixelSize: heights.pixelSize, solver };
+    const level = { input, solver };
     this.#levels.set(side, level);
     return level;
   }
-}
 
-/**
- * Reduces the heights of an input to fewer pixels.
- * @param {Input} input
- * @param {number} side longer side in pixels
- */
-function reducedTo({ width, height, data, pixelSize, heightScale }, side) {
-  const heights = downsample(previewHeightsOf({ width, height, data }), side);
-  return { ...heights, pixelSize: (pixelSize * width) / heights.width, heightScale };
+  /** Reduces the heights of an input to fewer pixels. @param {Input} input @param {number} side longer side in pixels */
+  async #reducedTo({ width, height, data, pixelSize, heightScale }, side) {
+    if (this.#reduced?.data !== data) this.#reduced = { data, heights: callWorker('downsample', { width, height, data }, PREVIEW_SIDE_PIXELS) };
+    const heights = downsample(await this.#reduced.heights, side);
+    return { ...heights, pixelSize: (pixelSize * width) / heights.width, heightScale };
+  }
 }

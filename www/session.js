@@ -8,7 +8,7 @@
 import { nextTask } from './dom.js';
 import { Events } from './events.js';
 import { PreviewSolver } from './preview.js';
-import { derivedOf, prepareInput } from './surface/derived-data.js';
+import { derivedOf } from './surface/derived-data.js';
 
 /** @import {Preview} from './preview.js' */
 /** @import {Accuracy, Image} from './surface/derived-data.js' */
@@ -178,7 +178,6 @@ export class Session extends Events {
   async open(doing, load, task) {
     const opened = await this.load(doing, async (signal) => {
       const input = await load(signal);
-      await prepareInput(input);
       if (signal.aborted) return false;
       this.#stop();
       this.#disposeSolver();
@@ -228,12 +227,9 @@ export class Session extends Events {
    * Changes properties of the present input, and solves it again if it has been solved.
    * @param {Partial<Omit<Input, 'name'>>} change
    */
-  async updateInput(change) {
+  updateInput(change) {
     if (!this.input) return;
     const input = (this.input = { ...this.input, ...change });
-    await prepareInput(input);
-    // Another input may have been opened meanwhile, or this one changed again.
-    if (this.input !== input) return;
     this.emit('input', input);
     if (this.#runRequested) void this.run();
   }

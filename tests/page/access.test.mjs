@@ -142,4 +142,6 @@ doorTest('a file with a long name can be saved on a phone', async (page) => {
   await page.locator('#save-now:enabled').waitFor();
   const [dialog, save] = await Promise.all(['#save-dialog', '#save-now'].map((one) => page.locator(one).boundingBox()));
   assert.ok(dialog && save && save.x + save.width <= dialog.x + dialog.width, `${save?.x} + ${save?.width}`);
+  const [name, links] = await Promise.all(['.masthead h1', '.masthead nav'].map((one) => page.locator(one).boundingBox()));
+  assert.ok(name && links && links.y < name.y, 'one line above the picture');
 }, { size: { width: 390, height: 844 } });

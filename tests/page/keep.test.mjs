@@ -141,4 +141,8 @@ pageTest('settings stand in the address, Back undoes them, and a file is there a
   await runBy(page, () => page.evaluate(() => void (location.hash = '#example=cone&size=100&noise=0.02&lambda=200000&energy=nuclear')));
   assert.equal(parsed(await reported(page, 'λ')), 2e5);
   assert.equal(await page.getByLabel('Energy').inputValue(), 'nuclear');
+  // λ is of its input; the energy is a wish for all.
+  await open(page, 'third.npy', npy(48, grid(48, 36, (col) => 2 * col)));
+  assert.equal(await page.locator('#lambda-auto').getAttribute('aria-pressed'), 'true');
+  assert.equal(await page.getByLabel('Energy').inputValue(), 'nuclear');
 }, { start: '#example=roof&size=100' });

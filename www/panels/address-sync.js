@@ -50,6 +50,8 @@ export function addressSyncPanel(session, page) {
   let photoId;
   /** The open photos of pages, in their order. @type {readonly File[]} */
   let photos = [];
+  /** Name of the last input. */
+  let lastName = '';
   /** The present address without its view. */
   let addressWithoutView = '';
 
@@ -97,7 +99,10 @@ export function addressSyncPanel(session, page) {
   session.on('result', writeSoon);
   page.meshFit.on('result', writeSoon);
   page.meshFit.on('left', writeSoon);
-  session.on('input', ({ kind }) => {
+  session.on('input', ({ name, kind }) => {
+    // Each file has a λ of its own, unless an address brings it.
+    if (kind !== undefined && name !== lastName && !isRestoring && session.settings.lambda !== 'auto') page.adopt({ ...session.settings, lambda: 'auto' });
+    lastName = name;
     if (kind !== undefined || fileId === undefined) return;
     fileId = undefined;
     void updateRecentFiles();

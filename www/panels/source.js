@@ -237,7 +237,7 @@ function nearestOption(options, value) {
   return Object.keys(options).map(Number).sort((a, b) => Math.abs(a - value) - Math.abs(b - value))[0];
 }
 
-/** A number for an input field, rounded to 12 digits so that binary rounding is not shown. @param {number} value */
+/** A number for an input field, rounded to the digits for which it has room. @param {number} value */
 function fieldText(value) {
-  return String(Number(value.toPrecision(12)));
+  return String(Number(value.toPrecision(8)));
 }

@@ -1,29 +1,12 @@
-/** Data derived from inputs and results: previews, images and errors. They are computed once, before panels show the input or result. */
+/** Data derived from results: images and errors. They are computed once, before panels show the result. */
 import { gridOf } from './lattice.js';
-import { reduceForPreview } from './downsampling.js';
 import { callWorker } from './worker-client.js';
 
 /** @import {Surface} from '../api.js' */
 /** @import {Input} from '../session.js' */
-/** @import {Heights} from './downsampling.js' */
 /** @typedef {{ before: number, after: number }} Accuracy errors of the heights of input and result, root mean square */
 /** @typedef {{ width: number, height: number, pixelSize: number, data: Float64Array }} Image */
 /** @typedef {{ input: Input, surface: Surface }} Solved */
-
-/** Reduced heights for previews, by the values of the pixels. @type {WeakMap<ArrayLike<number>, Heights>} */
-const previewHeights = new WeakMap();
-
-/** Reduces the heights of an input for previews, in the worker. @param {Input} input */
-export async function prepareInput({ data, width, height }) {
-  if (!previewHeights.has(data)) previewHeights.set(data, await callWorker('reduceForPreview', { width, height, data }));
-}
-
-/** Heights reduced for previews. @param {Heights} image */
-export function previewHeightsOf(image) {
-  const found = previewHeights.get(image.data) ?? reduceForPreview(image);
-  previewHeights.set(image.data, found);
-  return found;
-}
 
 /** The image of a surface at the input's pixels, or at those that show the input's lattice, and its errors. @param {Solved} solved */
 export async function derivedOf(solved) {

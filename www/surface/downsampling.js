@@ -10,11 +10,6 @@
 /** Length of the longer side of the finest preview. */
 export const PREVIEW_SIDE_PIXELS = 384;
 
-/** Reduces heights for previews. @param {Heights} heights */
-export function reduceForPreview(heights) {
-  return downsample(heights, PREVIEW_SIDE_PIXELS);
-}
-
 /**
  * The mean of the values in each block of pixels; NaN for a block without data.
  * @param {Heights} image

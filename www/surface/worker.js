@@ -1,7 +1,7 @@
 /** The worker in which the page computes what it shows; `worker-client.js` calls it. */
 import { interpretFile } from '../import-interpretation.js';
 import { rmsError } from './compare.js';
-import { reduceForPreview } from './downsampling.js';
+import { downsample } from './downsampling.js';
 import { interpolateToGrid } from './lattice.js';
 import { reducePhoto, decodePicture } from './photo-decoding.js';
 import { meshStrainImage, labelPixels, photoPixels, sheetStrainImage, valuePixels } from './colour-images.js';
@@ -9,7 +9,7 @@ import { curvaturesOf, totalGaussianCurvature } from './gaussian-curvature.js';
 
 /** The tasks by name. The buffers of arrays in an answer are transferred. */
 export const tasks = {
-  curvaturesOf, meshStrainImage, interpolateToGrid, labelPixels, interpretFile, reduceForPreview,
+  curvaturesOf, meshStrainImage, interpolateToGrid, labelPixels, interpretFile, downsample,
   reducePhoto, photoPixels, decodePicture, rmsError, totalGaussianCurvature, sheetStrainImage, valuePixels,
 };
 

@@ -9,15 +9,9 @@ use crate::lattice::domain::Domain;
 use crate::lattice::hexagonal::Lattice;
 use crate::math::statistics::{MAD_TO_SIGMA, median};
 
-/// Residual, in units of the noise, from which on a height counts as an outlier unless its neighbours have such residuals,
-/// too.
-const MIN_OUTLIER_RESIDUAL: f64 = 3.0;
-
-/// Residual of a neighbour, in units of the noise, that counts as alike if it has the same sign.
-const MIN_ALIKE_RESIDUAL: f64 = 2.0;
-
-/// Minimum number of neighbours with residuals alike at which a large residual is the surface's error, as beside a step.
-const MIN_ALIKE_NEIGHBOURS: usize = 2;
+/// Largest residual, in units of the noise, that counts as such: an outlier, or the side of a step, says no more than that its vertex
+/// is lost (`benches/scenes.md`, Residuals).
+const MAX_RESIDUAL: f64 = 2.0;
 
 /// Side, in spacings, of the tiles in which the size of most residuals is measured: far larger than the strips in which a
 /// surface loses steps.
@@ -26,8 +20,7 @@ const TILE: usize = 16;
 /// Distances of a surface to the heights of its input.
 #[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct Residual {
-    /// Root mean square without outliers: large distances that stand alone are of the data, those that hang together are shape
-    /// that was lost.
+    /// Root mean square, in which a distance of more than [`MAX_RESIDUAL`] counts as that.
     pub rms: f64,
     /// Standard deviation of most heights nearby, from the medians of the absolute values in tiles, since noise may be larger
     /// in one place than in another: the root of the mean of its square.
@@ -73,24 +66,13 @@ impl Residual {
     ) -> Result<Self> {
         let lattice = *input.field.lattice();
         let residuals = residuals(input, domain, surface, unit)?;
-        let (mut squares, mut count) = (0.0, 0.0);
-        for row in 0..lattice.rows() {
-            for col in 0..lattice.cols() {
-                let residual = residuals[lattice.index(row, col)];
-                let is_alike = |(row, col): &(usize, usize)| {
-                    residuals[lattice.index(*row, *col)] * residual.signum() > MIN_ALIKE_RESIDUAL
-                };
-                let alike = || {
-                    let neighbours = lattice.neighbours(row, col).into_iter().flatten();
-                    neighbours.filter(is_alike).count()
-                };
-                let is_small = residual.abs() < MIN_OUTLIER_RESIDUAL;
-                if residual.is_finite() && (is_small || alike() >= MIN_ALIKE_NEIGHBOURS) {
-                    squares += residual * residual;
-                    count += 1.0;
-                }
-            }
-        }
+        let known = residuals.iter().filter(|residual| residual.is_finite());
+        let (squares, count) = known.fold((0.0, 0.0), |(squares, count), residual| {
+            (
+                squares + residual.abs().min(MAX_RESIDUAL).powi(2),
+                count + 1.0,
+            )
+        });
         let autocorrelation = autocorrelation(&lattice, &residuals);
         Ok(Residual {
             rms: f64::sqrt(squares / f64::max(count, 1.0)),
@@ -160,14 +142,18 @@ mod tests {
         Residual::of(&input, &domain, &flat, 0.5).unwrap().rms
     }
 
-    /// Heights of ±1 are two units off; single impulses do not count, a strip of large residuals does.
+    /// Heights of ±0.5 are one unit off. Impulses at one of 80 heights, and a strip of a tenth, count as two units each.
     #[test]
-    fn strips_count_and_impulses_do_not() {
-        let sign = |vertex: usize| if vertex.is_multiple_of(2) { 1.0 } else { -1.0 };
-        assert!((distance(sign) - 2.0).abs() < 1e-12);
-        let impulses = distance(|v| if v.is_multiple_of(83) { 50.0 } else { sign(v) });
-        assert!((impulses - 2.0).abs() < 1e-12, "{impulses}");
+    fn outliers_and_strips_count_as_lost_vertices() {
+        let sign = |vertex: usize| if vertex.is_multiple_of(2) { 0.5 } else { -0.5 };
+        let expected = |share: f64| (1.0 + share * (MAX_RESIDUAL.powi(2) - 1.0)).sqrt();
+        assert!((distance(sign) - 1.0).abs() < 1e-12);
+        let impulses = distance(|v| if v.is_multiple_of(80) { 50.0 } else { sign(v) });
+        assert!(
+            (impulses - expected(1.0 / 80.0)).abs() < 1e-12,
+            "{impulses}"
+        );
         let strip = distance(|v| if v % 40 < 4 { 5.0 } else { sign(v) });
-        assert!(strip > 3.0, "{strip}");
+        assert!((strip - expected(0.1)).abs() < 1e-12, "{strip}");
     }
 }

@@ -5,6 +5,8 @@
 //! twice as far of neighbours at twice the distance. The spread of such differences around is the scale, so that smooth
 //! noise, steps of rounding and rough ground are no spikes.
 
+use std::iter;
+
 use super::raster::Raster;
 use crate::math::statistics::{MAD_TO_SIGMA, median};
 
@@ -18,13 +20,17 @@ const MAX_SPIKE_GROWTH: f64 = 1.5;
 /// Number of passes: spikes side by side hide each other until one of them is known.
 const SPIKE_PASSES: usize = 3;
 
-/// Number of steps to each side from a spike within which the spread of differences is measured.
+/// Number of steps to each side from a spike within which the spread of differences is measured, and neighbours are looked for where
+/// the nearest heights are missing, as between dead pixels.
 const SPREAD_REACH: usize = 3;
 
 /// Differences smaller than this share of the height range are rounding errors.
 const MIN_DIFFERENCE_SHARE: f64 = 1e-9;
 
-/// Finds the cells of a padded raster whose heights are spikes, and makes these heights NaN.
+/// Height of a spike that was found. What was beside it may be alike, as along a step.
+const REMOVED: f64 = f64::INFINITY;
+
+/// Finds the cells of a padded raster whose heights are spikes, and makes these heights infinite.
 pub(super) fn remove_spikes(raster: &Raster, heights: &mut [f64]) -> Vec<usize> {
     let mut all = Vec::new();
     for _ in 0..SPIKE_PASSES {
@@ -32,7 +38,7 @@ pub(super) fn remove_spikes(raster: &Raster, heights: &mut [f64]) -> Vec<usize> 
         if found.is_empty() {
             break;
         }
-        found.iter().for_each(|cell| heights[*cell] = f64::NAN);
+        found.iter().for_each(|cell| heights[*cell] = REMOVED);
         all.extend(found);
     }
     all
@@ -46,7 +52,11 @@ fn find_spikes(raster: &Raster, heights: &[f64]) -> Vec<usize> {
     let rounding = MIN_DIFFERENCE_SHARE * (high - low);
     let usual = |cells: &mut dyn Iterator<Item = usize>, least: f64| {
         let differences = cells.map(|cell| difference(raster, heights, cell, 0, 1).abs());
-        median(&mut differences.filter(|d| *d > least).collect::<Vec<_>>())
+        median(
+            &mut differences
+                .filter(|d| d.is_finite() && *d > least)
+                .collect::<Vec<_>>(),
+        )
     };
     let Some(floor) = usual(&mut cells(), rounding) else {
         return Vec::new();
@@ -87,7 +97,9 @@ fn spike_height(raster: &Raster, heights: &[f64], cell: usize) -> f64 {
     if count + 1 < pairs || differences(1).any(|d| d * sum <= 0.0) {
         return 0.0;
     }
-    let is_alike = |other: &usize| (heights[cell] - heights[*other]).abs() < 0.5 * least;
+    let is_alike = |other: &usize| {
+        heights[*other] == REMOVED || (heights[cell] - heights[*other]).abs() < 0.5 * least
+    };
     if raster.neighbours(cell).filter(is_alike).count() + 1 >= pairs {
         return 0.0;
     }
@@ -105,13 +117,23 @@ fn spike_height(raster: &Raster, heights: &[f64], cell: usize) -> f64 {
     }
 }
 
-/// Returns the difference of a cell's height to the mean of two opposite cells, so many steps away; NaN if one is
-/// missing.
+/// Returns the difference of a cell's height to the line between two opposite cells, so many steps away or, where heights are
+/// missing, up to [`SPREAD_REACH`]; NaN if there is none.
 fn difference(raster: &Raster, heights: &[f64], cell: usize, pair: usize, steps: usize) -> f64 {
     let opposite = pair + raster.directions() / 2;
-    let [a, b] = [pair, opposite]
-        .map(|direction| (0..steps).fold(cell, |cell, _| raster.neighbour(cell, direction)));
-    heights[cell] - 0.5 * (heights[a] + heights[b])
+    let known = |direction| {
+        let step = |cell: &usize| Some(raster.neighbour(*cell, direction));
+        let ray = iter::successors(Some(cell), step).map(|cell| heights[cell]);
+        let mut near = ray.zip(0..=SPREAD_REACH).skip(steps);
+        near.find(|(height, _)| height.is_finite())
+    };
+    match (known(pair), known(opposite)) {
+        (Some((a, to_a)), Some((b, to_b))) => {
+            let [to_a, to_b] = [to_a, to_b].map(|steps| steps as f64);
+            heights[cell] - (a * to_b + b * to_a) / (to_a + to_b)
+        }
+        _ => f64::NAN,
+    }
 }
 
 #[cfg(test)]
@@ -148,6 +170,24 @@ mod tests {
                     } else {
                         0.0
                     }
+            };
+            assert_eq!(spikes(hexagonal, height), at, "{hexagonal}");
+        }
+    }
+
+    /// With every seventh height missing, most cells have a missing neighbour.
+    #[test]
+    fn spikes_beside_missing_heights_are_found_and_ridges_are_none() {
+        let at = [4 * 30 + 8, 5 * 30 + 20, 16 * 30 + 13, 20 * 30 + 21];
+        for hexagonal in [false, true] {
+            let height = |row: usize, col: usize| {
+                let cell = row * 30 + col;
+                let ridge = if row == 12 { 20.0 } else { 0.0 };
+                match cell % 7 {
+                    0 => f64::NAN,
+                    _ if at.contains(&cell) => 20.0,
+                    _ => noise(row, col) + ridge,
+                }
             };
             assert_eq!(spikes(hexagonal, height), at, "{hexagonal}");
         }

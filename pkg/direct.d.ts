@@ -59,11 +59,14 @@ export class MeshSolver {
   constructor(mesh: Mesh, options?: MeshSolverOptions);
   /** Runs for about `milliseconds`, at least one step; returns whether there is more to do. */
   advance(milliseconds: number): boolean;
-  /** Returns the progress of the current linearised problem, one of several that the fit solves in turn. */
+  /**
+   * Returns the progress of the fit, which solves several problems in turn: `objective`, `dualBound`, `gap` and `rho` are those of the
+   * current one, iterations count over all of them, and `level` is the number of problems still to come at most.
+   */
   progress(): Progress;
   /** Stops the fit; `surface()` then returns the best surface so far, with the stop reason `'cancelled'`. */
   cancel(): void;
-  /** Returns the best mesh so far, as a copy. */
+  /** Returns the best mesh so far, as a copy; before the first `advance` it is about the input. */
   surface(): MeshSurface;
   /** Whether the solver was disposed of, after which its methods throw. */
   readonly disposed: boolean;
@@ -213,9 +216,10 @@ export function sampleMesh(mesh: Mesh, options?: SampleMeshOptions): SampledMesh
  */
 export function backProject(image: HeightImage, camera: Intrinsics, options?: DepthOptions): Mesh;
 /**
- * Colours a surface by a picture of it, and gives it texture coordinates. Where in the picture a point is follows from
- * the camera, or else from the surface's texture coordinates; without both the picture shows the same rectangle as the
- * heights. The picture may have any resolution; if it is a file, `texture` is set as well. Colours stay as they are
+ * Returns a copy of a surface with the colours of a picture of it, and with texture coordinates. The place of a point in the picture
+ * follows from the option `extent`, else from the option `camera` or the surface's own camera, else from the surface's texture
+ * coordinates; without any of these the picture shows the same rectangle as the heights. The picture may have any resolution; if it
+ * is a file, `texture` is set as well. Colours stay as they are
  * where the picture is transparent or the camera does not see the surface. It needs `load('files')`, for WebP pictures
  * `load('images')`, and with a camera `load('meshes')`.
  */
@@ -267,7 +271,8 @@ export function unrollMesh(mesh: Mesh, options?: MeshUnrollOptions & Watched): M
  */
 export function patternMesh(mesh: Mesh, options?: MeshPatternOptions & Watched): Drawing;
 /**
- * Recognises what a mesh is: whether a fit gains anything, and whether it is a solid of sheet metal.
+ * Says what `kind` a mesh is: of exact flat faces, of noisy flat faces, without noise (which a fit would not improve), or noisy. If
+ * it is closed, exact and bent of sheet metal, the metal's `thickness` is returned as well.
  */
 export function recognizeMesh(mesh: Mesh): RecognizedMesh;
 /** Writes a drawing to an SVG file in millimetres, with the layers `picture`, `cut`, `mountain`, `valley`, `tab` and `label`. */
@@ -282,19 +287,16 @@ export function writeDxf(drawing: Drawing): Uint8Array<ArrayBuffer>;
 /** Makes a photo of a surface flat, by laying the surface flat. */
 export function dewarp(input: HeightImage | Heightfield, photo: Photo, options?: DewarpOptions): Dewarped;
 /**
- * Makes a photo of a page flat without depths: of a page that is curled, folded or crumpled, or of the two pages of a
- * spread. It needs the page's corners or its edges, two of which are bent, or all four; a list has those of the left and of the right
- * page. Without them it takes the edges of the clearest page that it finds in the photo, and throws with code `NO_PAGE` if it finds none.
- * Places are in pixels of the photo as `readPhoto` decodes it, from the centre of the upper left one. Edges that do not outline a page,
- * as when they cross, throw with code `EDGES`; edges that only do not fit paper have the verdict `'notThisKind'`.
+ * Makes a photo of a curled, folded or crumpled page flat, or of both pages of a spread, without depths. It detects the edges of the
+ * clearest page in the photo, and throws with code `NO_PAGE` if there is none. Edges that are known are given by the other overload.
  */
 export function dewarpPage(photo: Picture | (Photo & { film35?: number }), options?: DewarpPageOptions & Watched): DewarpedPage;
 /**
- * Makes a photo of a page flat without depths: of a page that is curled, folded or crumpled, or of the two pages of a
- * spread. It needs the page's corners or its edges, two of which are bent, or all four; a list has those of the left and of the right
- * page. Without them it takes the edges of the clearest page that it finds in the photo, and throws with code `NO_PAGE` if it finds none.
- * Places are in pixels of the photo as `readPhoto` decodes it, from the centre of the upper left one. Edges that do not outline a page,
- * as when they cross, throw with code `EDGES`; edges that only do not fit paper have the verdict `'notThisKind'`.
+ * Makes a photo of a curled, folded or crumpled page flat, or of both pages of a spread, without depths. `edges` are the four corners
+ * of the page, its two bent edges (`top` and `bottom`, or `left` and `right`), or all four edges; for a spread they are a list, the
+ * left page first. Without `edges` they are detected, as in the other overload. Coordinates are in pixels of the photo as `readPhoto`
+ * decodes it, from the centre of the upper left pixel. Edges that do not outline a page, as when they cross, throw with code `EDGES`;
+ * edges that no sheet of paper can have give the verdict `'notThisKind'`.
  */
 export function dewarpPage(
   photo: Picture | (Photo & { film35?: number }), edges?: PageEdges | readonly PageEdges[] | PageCorners | null, options?: DewarpPageOptions & Watched,
@@ -309,8 +311,8 @@ export function flattenPhoto(photo: Picture, page: FoundPage, options?: FlattenP
 export function describePage(report: PageReport): string;
 /**
  * Finds the page in a photo: its corners and edges, which can be corrected and given to `dewarpPage`. Coordinates are in pixels of
- * the photo as `readPhoto` decodes it (upright, and halved if it is large), from the centre of the upper left pixel. Without a page
- * the verdict is `'notFound'`, and `pages` has the best guess, if there is one.
+ * the photo as `readPhoto` decodes it (upright), from the centre of the upper left
+ * pixel. Without a page the verdict is `'notFound'`, and `pages` has the best guess, if there is one.
  */
 export function findPage(photo: Picture): PageOutlines;
 /**
@@ -324,8 +326,8 @@ export function readPhoto(bytes: Uint8Array | ArrayBuffer): DecodedPhoto;
  */
 export function writePhoto(photo: SizedPhoto, options?: WritePhotoOptions): Uint8Array<ArrayBuffer>;
 /**
- * Writes a PDF file with one page for each picture, which is centred and as large as fits. Pictures are JPEG files, or
- * PNG files without transparency, and are taken over without loss.
+ * Writes a PDF file with one page for each entry, of the entry's `size`, on which its picture is centred and as large as fits. Pictures
+ * are JPEG files, or PNG files without transparency, and are taken over without loss; others throw with code `UNSUPPORTED`.
  */
 export function writeBook(pages: readonly BookPage[]): Uint8Array<ArrayBuffer>;
 /** Generates a procedural example: a height image with noise, and the true heights. */

@@ -116,7 +116,7 @@ export interface FitOptions extends OpenFitOptions, HandOver {}
 export interface ExplorePatternOptions {
   /** Values of λ (the option `lambda` of `fit`) to try, the largest first. Default: 1e7, 3e6, 1e6, 3e5, 1e5 and 3e4. */
   lambdas?: readonly number[];
-  /** Minimum sizes of a patch to try, the smallest first, as shares of all vertices. Default: 0.005, 0.02 and 0.08. */
+  /** Minimum sizes of a patch to try, the smallest first, as shares of all vertices, of a mesh as shares of its area. Default: 0.005, 0.02 and 0.08. */
   smallest?: readonly number[];
   /**
    * Number of sheets that is few enough: the exploration ends with the first plan of at most as many. Default: all plans are
@@ -129,8 +129,8 @@ export interface ExplorePatternOptions {
   pattern?: Omit<PatternOptions, 'smallest'>;
   /** Signal that stops the exploration; the call rejects with its reason. */
   signal?: AbortSignal;
-  /** Function that is called with each plan when it is made, and awaited if it returns a promise. */
-  onPlan?: (plan: PatternPlan) => void;
+  /** Function that is called with each plan as soon as it is made. The next plan waits for a promise that it returns. What it throws ends the exploration. */
+  onPlan?: (plan: PatternPlan) => void | Promise<void>;
 }
 
 /** Options of an exploration of patterns of a mesh. */
@@ -189,11 +189,20 @@ export function fit(input: Heightfield, options?: FitOptions): Promise<LatticeSu
  * creases. `report.gap` is a proven bound: the objective is above its minimum by at most this share of itself.
  */
 export function fit(input: HeightImage | Heightfield, options?: FitOptions): Promise<Surface>;
-/** Sends an input to the shared worker, where it stays with its solver until it is disposed of. */
+/**
+ * Sends an input to the module's worker, once, and returns a solver whose `fit` can be called again and again. Nothing is fitted
+ * yet. It rejects a malformed input. The solver's `dispose` frees its memory.
+ */
 export function open(input: HeightImage, options?: HandOver): Promise<OpenSolver<HeightImage>>;
-/** Sends an input to the shared worker, where it stays with its solver until it is disposed of. */
+/**
+ * Sends an input to the module's worker, once, and returns a solver whose `fit` can be called again and again. Nothing is fitted
+ * yet. It rejects a malformed input. The solver's `dispose` frees its memory.
+ */
 export function open(input: Heightfield, options?: HandOver): Promise<OpenSolver<Heightfield>>;
-/** Sends an input to the shared worker, where it stays with its solver until it is disposed of. */
+/**
+ * Sends an input to the module's worker, once, and returns a solver whose `fit` can be called again and again. Nothing is fitted
+ * yet. It rejects a malformed input. The solver's `dispose` frees its memory.
+ */
 export function open(input: HeightImage | Heightfield, options?: HandOver): Promise<OpenSolver>;
 /**
  * Detects occlusions in heights: places where the surface is torn. `fit` takes them as `occlusions` and `brokenEdges`.
@@ -272,9 +281,10 @@ export function sampleMesh(mesh: Mesh, options?: SampleMeshOptions): Promise<Sam
  */
 export function backProject(image: HeightImage, camera: Intrinsics, options?: DepthOptions): Promise<Mesh>;
 /**
- * Colours a surface by a picture of it, and gives it texture coordinates. Where in the picture a point is follows from
- * the camera, or else from the surface's texture coordinates; without both the picture shows the same rectangle as the
- * heights. The picture may have any resolution; if it is a file, `texture` is set as well. Colours stay as they are
+ * Returns a copy of a surface with the colours of a picture of it, and with texture coordinates. The place of a point in the picture
+ * follows from the option `extent`, else from the option `camera` or the surface's own camera, else from the surface's texture
+ * coordinates; without any of these the picture shows the same rectangle as the heights. The picture may have any resolution; if it
+ * is a file, `texture` is set as well. Colours stay as they are
  * where the picture is transparent or the camera does not see the surface.
  */
 export function paint<F extends Heightfield>(input: F, picture: Picture | Blob, options?: PaintOptions): Promise<Painted<F>>;
@@ -325,13 +335,14 @@ export function unrollMesh(mesh: Mesh, options?: MeshUnrollOptions & Watchable):
  */
 export function patternMesh(mesh: Mesh, options?: MeshPatternOptions & Watchable): Promise<Drawing>;
 /**
- * Recognises what a mesh is: whether a fit gains anything, and whether it is a solid of sheet metal.
+ * Says what `kind` a mesh is: of exact flat faces, of noisy flat faces, without noise (which a fit would not improve), or noisy. If
+ * it is closed, exact and bent of sheet metal, the metal's `thickness` is returned as well.
  */
 export function recognizeMesh(mesh: Mesh): Promise<RecognizedMesh>;
 /**
- * Makes patterns at several λ and sizes of patches, from the surface nearest to the input to the plainest one. Each λ
- * takes one fit, which starts from the one before, and each plan one `pattern`. A surface that cannot be laid flat is a
- * plan with a `problem`; any other error rejects.
+ * Fits heights at each of `lambdas`, and makes a cutting pattern of each fit at each of `smallest`: 6 fits and 18 patterns at most
+ * by default. λ falls from plan to plan, so that the surface follows the input less and has fewer sheets as a rule. Each fit starts
+ * from the one before. The plan of a surface that cannot be laid flat has a `problem` instead of a drawing; any other error rejects.
  */
 export function explorePattern(input: HeightImage | Heightfield, options?: ExplorePatternOptions): Promise<ExploredPatterns>;
 /**
@@ -351,19 +362,16 @@ export function writeDxf(drawing: Drawing): Promise<Uint8Array<ArrayBuffer>>;
 /** Makes a photo of a surface flat, by laying the surface flat. */
 export function dewarp(input: HeightImage | Heightfield, photo: Photo, options?: DewarpOptions & HandOver & Abortable): Promise<Dewarped>;
 /**
- * Makes a photo of a page flat without depths: of a page that is curled, folded or crumpled, or of the two pages of a
- * spread. It needs the page's corners or its edges, two of which are bent, or all four; a list has those of the left and of the right
- * page. Without them it takes the edges of the clearest page that it finds in the photo, and rejects with code `NO_PAGE` if it finds none.
- * Places are in pixels of the photo as `readPhoto` decodes it, from the centre of the upper left one. Edges that do not outline a page,
- * as when they cross, reject with code `EDGES`; edges that only do not fit paper have the verdict `'notThisKind'`.
+ * Makes a photo of a curled, folded or crumpled page flat, or of both pages of a spread, without depths. It detects the edges of the
+ * clearest page in the photo, and rejects with code `NO_PAGE` if there is none. Edges that are known are given by the other overload.
  */
 export function dewarpPage(photo: (Photo & { film35?: number }) | PhotoSource | Drawable, options?: DewarpPageOptions & HandOver & Watchable): Promise<DewarpedPage>;
 /**
- * Makes a photo of a page flat without depths: of a page that is curled, folded or crumpled, or of the two pages of a
- * spread. It needs the page's corners or its edges, two of which are bent, or all four; a list has those of the left and of the right
- * page. Without them it takes the edges of the clearest page that it finds in the photo, and rejects with code `NO_PAGE` if it finds none.
- * Places are in pixels of the photo as `readPhoto` decodes it, from the centre of the upper left one. Edges that do not outline a page,
- * as when they cross, reject with code `EDGES`; edges that only do not fit paper have the verdict `'notThisKind'`.
+ * Makes a photo of a curled, folded or crumpled page flat, or of both pages of a spread, without depths. `edges` are the four corners
+ * of the page, its two bent edges (`top` and `bottom`, or `left` and `right`), or all four edges; for a spread they are a list, the
+ * left page first. Without `edges` they are detected, as in the other overload. Coordinates are in pixels of the photo as `readPhoto`
+ * decodes it, from the centre of the upper left pixel. Edges that do not outline a page, as when they cross, reject with code `EDGES`;
+ * edges that no sheet of paper can have give the verdict `'notThisKind'`.
  */
 export function dewarpPage(
   photo: (Photo & { film35?: number }) | PhotoSource | Drawable, edges?: PageEdges | readonly PageEdges[] | PageCorners | null, options?: DewarpPageOptions & HandOver & Watchable,
@@ -378,8 +386,8 @@ export function flattenPhoto(photo: Photo | PhotoSource | Drawable, page: FoundP
 export function describePage(report: PageReport): string;
 /**
  * Finds the page in a photo: its corners and edges, which can be corrected and given to `dewarpPage`. Coordinates are in pixels of
- * the photo as `readPhoto` decodes it (upright, and halved if it is large), from the centre of the upper left pixel. Without a page
- * the verdict is `'notFound'`, and `pages` has the best guess, if there is one.
+ * the photo as `readPhoto` decodes it (upright; a file of more than 26 megapixels is halved until it has fewer), from the centre of the upper left
+ * pixel. Without a page the verdict is `'notFound'`, and `pages` has the best guess, if there is one.
  */
 export function findPage(photo: Photo | PhotoSource | Drawable, options?: Abortable): Promise<PageOutlines>;
 /**
@@ -394,8 +402,8 @@ export function readPhoto(file: PhotoSource): Promise<DecodedPhoto>;
  */
 export function writePhoto(photo: SizedPhoto, options?: WritePhotoOptions & HandOver): Promise<Uint8Array<ArrayBuffer>>;
 /**
- * Writes a PDF file with one page for each picture, which is centred and as large as fits. Pictures are JPEG files, or
- * PNG files without transparency, and are taken over without loss.
+ * Writes a PDF file with one page for each entry, of the entry's `size`, on which its picture is centred and as large as fits. Pictures
+ * are JPEG files, or PNG files without transparency, and are taken over without loss; others reject with code `UNSUPPORTED`.
  */
 export function writeBook(pages: readonly BookPage[]): Promise<Uint8Array<ArrayBuffer>>;
 /** Generates a procedural example: a height image with noise, and the true heights. */

@@ -121,11 +121,11 @@ export interface Heightfield extends FitConditions {
  * coordinates [p·right, p·up, p·towards] in the view.
  */
 export interface Frame {
-  /** Axis to the right in the view. */
+  /** Unit vector, in the mesh's coordinates, to the right in the view. */
   right: readonly [number, number, number];
-  /** Axis upwards in the view. */
+  /** Unit vector, in the mesh's coordinates, upwards in the view. */
   up: readonly [number, number, number];
-  /** Axis towards the viewer, along which heights are measured. */
+  /** Unit vector, in the mesh's coordinates, towards the viewer; heights are measured along it. */
   towards: readonly [number, number, number];
 }
 
@@ -233,8 +233,11 @@ export type ViewName = '-x' | '+x' | '-y' | '+y' | '-z' | '+z' | 'best-fit';
  * A vertex with points on one side only is a hole.
  */
 export interface SampledMesh extends Heightfield {
+  /** Position `[x, y]` of the vertex in row 0, column 0, in the axes of the view and in the mesh's unit of length; `y` points up. */
   origin: [number, number];
+  /** Heights along `frame.towards`, row by row, in the mesh's unit of length; NaN at holes. */
   heights: Float64Array;
+  /** Axes of the view. */
   frame: Frame;
   /** Red, green and blue of each vertex, from the texture of the triangle that was hit or else from the mesh; NaN at holes. */
   colors?: Float32Array;
@@ -414,7 +417,7 @@ export interface Assembly extends AssemblyOrder {
 export interface PatternPlan {
   /** Weight λ of the fitted surface. */
   lambda: number;
-  /** Minimum size of a patch, as a share of all vertices. */
+  /** Minimum size of a patch, as a share of all vertices, of a mesh as a share of its area. */
   smallest: number;
   /** Root mean square distance of the surface from the input, in the input's unit of length. */
   distance: number;

@@ -17,8 +17,8 @@ pub type Result<T> = std::result::Result<T, Error>;
 #[derive(Debug, Clone, PartialEq, Error)]
 #[non_exhaustive]
 pub enum Error {
-    /// An input array has no values at all.
-    #[error("{what} is empty: it needs at least one row and one column")]
+    /// An input has nothing in it.
+    #[error("{what} is empty: there is nothing in it to work with")]
     Empty {
         /// Name of the array that was being read, for example `"height image"`.
         what: &'static str,

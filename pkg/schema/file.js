@@ -56,10 +56,9 @@ export const sampleMesh = {
     },
   },
   /**
-   * A direction to look in, by name or as a vector; or `'best-fit'`, straight at the plane that
-   * fits the triangles best, from the side that more of their area faces (of a point cloud: that
-   * fits the points, its largest component towards the viewer). Up is as close to +y as
-   * it can be; along `-y` it is -z, along `+y` +z.
+   * Direction to look in: a name, or a vector of any length. `'best-fit'` looks at right angles at the plane that fits the mesh
+   * best, from the side that more of the triangles' area faces; of a point cloud from the side to which the plane's normal points
+   * when its largest coordinate is positive. Up in the view is as close to +y as it can be; along `-y` it is -z, along `+y` +z.
    */
   view: {
     kind: either(choice('-x', '+x', '-y', '+y', '-z', '+z', 'best-fit'), numbers(3, 'a vector of three numbers')),

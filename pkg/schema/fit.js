@@ -142,9 +142,9 @@ export const solver = {
     },
   },
   /**
-   * For the energy `'huber'`, and refused with others: maximum number of crease passes after the first solve, a whole number
-   * up to 20. They end where they change next to nothing. Default: 2, or 0 where lambda is large for the noise of the input,
-   * of which passes would make creases.
+   * Maximum number of crease passes, a whole number up to 20: further solves in which sharp bends of the solve before cost less, so
+   * that creases keep their angle. The last one is the first that hardly changes the surface. For the energy `'huber'`, and refused
+   * with others. Default: 2, or 0 if lambda is so large for the noise of the input that passes would turn noise into creases.
    */
   creasePasses: {
     kind: whole,

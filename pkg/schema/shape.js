@@ -43,11 +43,11 @@ export const meshPatches = {
     default: 0.15,
     flag: { section: 'shape', value: 'A', help: 'patches that fold by less, in radians, are one (default 0.15)' },
   },
-  /** Minimum size of a patch, as a share of all vertices. */
+  /** Minimum size of a patch, as a share of all vertices, of a mesh as a share of its area; a smaller patch is merged with a neighbour. */
   smallest: {
     kind: number,
     default: 0.005,
-    flag: { section: 'shape', value: 'S', help: 'share of all vertices that a patch has at least (default 0.005)' },
+    flag: { section: 'shape', value: 'S', help: 'share of all vertices, of a mesh of its area, that a patch has at least (default 0.005)' },
   },
 };
 
@@ -56,7 +56,10 @@ export const patches = { ...meshPatches, ...resampling };
 
 /** Options of traced rulings of a mesh. @satisfies {Options} */
 export const meshRulings = {
-  /** Distance between lines in space, in the surface's unit of length. Default: ten times the mean length of an edge. */
+  /**
+   * Distance from other lines at which a line begins, in three dimensions and in the surface's unit of length; along their courses two
+   * lines may come as near as half of it. Default: ten times the mean length of an edge.
+   */
   separation: {
     kind: number,
     flag: {
@@ -65,7 +68,10 @@ export const meshRulings = {
       help: 'distance between lines in space (default: ten mean lengths of an edge)',
     },
   },
-  /** Minimum confidence of a direction, from 0 to 1: a line ends where it is lower. */
+  /**
+   * Minimum confidence of a ruling's direction, from 0 to 1: a line ends where it is lower. It is near 1 where the surface clearly bends
+   * in one direction only, and near 0 where it is almost plane or bends in all directions.
+   */
   confidence: {
     kind: number,
     default: 0.3,

@@ -87,7 +87,8 @@ pub struct Totals {
 pub struct WorstJoint {
     /// Number of the joint's crease, whose letter is on both sides of it ([`Label`](super::Label)).
     pub crease: usize,
-    /// Numbers of the patches on either side of the joint.
+    /// Numbers, from 0, of the patches on the two sides of the cut crease, in the order of `lengths`; on the drawing they are
+    /// counted from 1.
     pub patches: [u32; 2],
     /// Lengths of the joint's two sides, in millimetres.
     pub lengths: [f64; 2],

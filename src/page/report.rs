@@ -92,9 +92,10 @@ pub struct PageReport {
     pub tilt: f64,
     /// Bound of the largest angle between the normals at two points of the page, in degrees: 0 for a plane.
     pub bend: f64,
-    /// Root mean square distance between the traced edges and those of the page's model, in pixels.
+    /// Root mean square distance in the photo between the page's edges, given or detected, and those of the fitted page, in pixels.
     pub residual: f64,
-    /// Root mean square distance between the traced edges and those of the page's model, in % of a page's width.
+    /// Root mean square distance in the photo between the page's edges, given or detected, and those of the fitted page, in % of the
+    /// width of one page.
     pub disagreement: f64,
     /// Number of lines of text that the fit of the page used besides the edges, traced and detected ones.
     pub lines: usize,

@@ -45,8 +45,9 @@ pub struct CylinderReport {
     pub rulings: [f64; 3],
     /// Root mean square residual of the heights from the cylinder, in the heights' unit.
     pub residual: f64,
-    /// Correlation of the residuals along the rulings, relative to that of noise: about 1 for a cylinder with noise,
-    /// and at most 1.95 if the verdict is a cylinder; NaN if there are too few heights.
+    /// Correlation of the residuals along the rulings, divided by that of the noise of depth images: about 1 if the residuals are
+    /// noise alone. Up to 1.95 the verdict is a cylinder. NaN if there are too few heights to tell, with the verdict
+    /// that it is none.
     pub excess: f64,
     /// Number of heights that the cylinder was fitted to.
     pub vertices: usize,

@@ -211,6 +211,17 @@ impl MeshLevels {
         Ok(None)
     }
 
+    /// Interpolates the unknowns so far to the finest level.
+    ///
+    /// # Errors
+    /// [`Error::OutOfMemory`](crate::Error::OutOfMemory).
+    pub(super) fn prolong_to_finest(&mut self) -> Result<()> {
+        while self.levels.len() > 1 {
+            self.finish_level(StopReason::Cancelled)?;
+        }
+        Ok(())
+    }
+
     /// Goes on to the next finer level after one has been solved; returns `reason` if that was the finest.
     fn finish_level(&mut self, mut reason: StopReason) -> Result<Option<StopReason>> {
         while self.levels.len() > 1 {

@@ -222,12 +222,14 @@ impl MeshSolver {
         })
     }
 
-    /// Stops a running fit as cancelled; its surface is the best one so far.
+    /// Stops a running fit as cancelled: its surface is that of the pass under way so far.
     pub fn cancel(&mut self) {
         self.reason.get_or_insert(StopReason::Cancelled);
     }
 
-    /// Returns the progress at the last check of the current linearised problem.
+    /// Returns the progress of the fit, which solves several linearised problems in turn: `objective`, `dual_bound`, `gap` and
+    /// `rho` are those of the current one at its last check, iterations count over all of them, and `level` is the number of
+    /// problems still to come at most.
     pub fn progress(&self) -> Progress {
         let Some(levels) = &self.levels else {
             return Progress::default();
@@ -339,11 +341,27 @@ impl MeshSolver {
         Ok(())
     }
 
-    /// Returns the surface so far.
+    /// Returns the surface so far. A fit that is still running is reported as cancelled: the best surface of the pass under way
+    /// is prolonged to all vertices and finished as at the end of the fit. Before the first iteration it is the input,
+    /// smoothed as the fit starts.
     ///
     /// # Errors
     /// [`Error::OutOfMemory`](crate::Error::OutOfMemory).
     pub fn surface(&self) -> Result<MeshSurface> {
+        let is_under_way = matches!(self.reason, None | Some(StopReason::Cancelled));
+        if !is_under_way || self.levels.is_none() {
+            return self.finished_surface();
+        }
+        let mut stopped = self.clone();
+        if let Some(levels) = &mut stopped.levels {
+            levels.prolong_to_finest()?;
+        }
+        stopped.finish(StopReason::Cancelled)?;
+        stopped.finished_surface()
+    }
+
+    /// Returns the surface of the passes that are finished.
+    fn finished_surface(&self) -> Result<MeshSurface> {
         let topology = &self.given.topology;
         let mut positions = self.mesh.positions().to_vec();
         // Vertices without a triangle stay exactly where they are.

@@ -642,3 +642,41 @@ fn a_bent_side_stays_bent_up_to_its_crease() {
     let mean = off.iter().sum::<f64>() / off.len() as f64;
     assert!(mean < 1e-3, "{mean}");
 }
+
+/// Root mean square distance of vertices from a pipe's radius.
+fn off_pipe(mesh: &Mesh, radius: f64) -> f64 {
+    let squares = points(mesh)
+        .into_iter()
+        .map(|p| (p.y.hypot(p.z) - radius).powi(2));
+    (squares.sum::<f64>() / mesh.positions().len() as f64).sqrt()
+}
+
+/// A fit that is stopped in its first pass, on a coarse level or on the mesh itself, is already nearer to the truth than the input.
+#[test]
+fn a_stopped_fit_keeps_what_it_has_found() {
+    let input = noisy(&pipe(60, 0.5, 2.0), 0.01);
+    let before = off_pipe(&input, 0.5);
+    for until in [0, 1, 8] {
+        let known = crate::MeshKnown::default();
+        let options = MeshOptions::default();
+        let mut solver = crate::MeshSolver::new(input.clone(), known, &options).unwrap();
+        while solver.progress().iteration < until {
+            solver.advance(1).unwrap();
+        }
+        solver.cancel();
+        let surface = solver.surface().unwrap();
+        let report = surface.report();
+        assert_eq!(
+            (report.passes.len(), report.stop_reason),
+            (1, crate::StopReason::Cancelled)
+        );
+        let after = off_pipe(surface.mesh(), 0.5);
+        println!("{until} {before} {after}");
+        assert!(
+            after < 0.8 * before || until < 8,
+            "{until}: {before} {after}"
+        );
+        let again = solver.surface().unwrap();
+        assert_eq!(again.mesh().positions(), surface.mesh().positions());
+    }
+}

@@ -24,8 +24,8 @@ pub struct PatchOptions {
     /// Minimum fold angle of a crease, in radians, on average along it: patches that meet at a smaller angle are
     /// merged. Default 0.15, about nine degrees.
     pub fold: f64,
-    /// Minimum size of a patch, as a share of all vertices; smaller patches are merged with a neighbouring patch.
-    /// Default 0.005.
+    /// Minimum size of a patch, as a share of all vertices, of a mesh as a share of its area; smaller patches are merged
+    /// with a neighbouring patch. Default 0.005.
     pub smallest: f64,
 }
 

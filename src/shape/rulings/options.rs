@@ -23,7 +23,8 @@ const DEFAULT_CREASE_BEND: f64 = 0.2;
 )]
 #[non_exhaustive]
 pub struct TraceOptions {
-    /// Distance between rulings in space, in the surface's units. `None`: ten mean edge lengths.
+    /// Distance from other rulings at which one begins, in three dimensions and in the surface's unit of length; along their
+    /// courses two may come as near as half of it. `None`: ten mean edge lengths.
     pub separation: Option<f64>,
     /// Minimum confidence of the ruling's direction, from 0 to 1: a ruling ends where it is lower. Default 0.3.
     pub confidence: f64,

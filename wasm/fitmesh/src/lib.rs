@@ -67,8 +67,7 @@ impl MeshSolver {
         Ok(self.solver.advance(work)? == Status::Running)
     }
 
-    /// Returns the progress of the current linearised problem, one of several that the fit of a mesh solves in turn, as
-    /// a JavaScript object.
+    /// Returns the progress of the fit as a JavaScript object.
     pub fn progress(&self) -> Result<JsValue> {
         Ok(to_value(&self.solver.progress())?)
     }

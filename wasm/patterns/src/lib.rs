@@ -304,7 +304,7 @@ struct UnrollingOutput<'a> {
     /// Coordinates x, y, z of each vertex of the sheets on the mesh, in the mesh's unit of length.
     #[serde(with = "preserve")]
     positions: Float64Array,
-    /// Coordinates x, y of each vertex of the sheets in the plane, in the same unit, y up.
+    /// Coordinates x, y of each vertex of the sheets in one plane, where the sheets lie side by side, in the mesh's unit of length; y points up.
     #[serde(with = "preserve")]
     places: Float64Array,
     /// Three vertices of the sheets for each of their triangles, counted from 0, counter-clockwise.
@@ -317,11 +317,11 @@ struct UnrollingOutput<'a> {
     patches: &'a [Patch],
     /// The creases between the patches.
     creases: &'a [Crease],
-    /// Figures of the sheets.
+    /// Measures of the sheets: number, area, strain and gaps at folds, and what is on no sheet.
     report: UnrollingReport,
 }
 
-/// Figures of a mesh laid flat.
+/// Measures of a mesh laid flat.
 #[derive(Serialize)]
 #[serde(rename = "MeshUnrollingReport", rename_all = "camelCase")]
 struct UnrollingReport {
@@ -333,7 +333,7 @@ struct UnrollingReport {
     strain: f64,
     /// Root mean square distance between the two sides of a fold, in the mesh's unit of length, of the worst sheet.
     seam_gap: f64,
-    /// What cannot be laid flat and is on no sheet.
+    /// Parts of the mesh that cannot be laid flat and are on no sheet; all 0 if there are none.
     missing: Missing,
 }
 

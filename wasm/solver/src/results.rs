@@ -70,12 +70,12 @@ pub struct OcclusionsOutput {
     /// For each vertex, row by row, 1 if a solve would evaluate no Hessian there, else 0.
     #[serde(with = "preserve")]
     pub vertices: Uint8Array,
-    /// Broken edges, six bits for each vertex as in the field `brokenEdges` of a heightfield.
+    /// Edges of the lattice across which the surface is torn, one byte for each vertex, row by row: bit 0 is the edge to the west, then east, north-west, north-east, south-west and south-east. `fit` takes it as `brokenEdges`.
     #[serde(with = "preserve")]
     pub edges: Uint8Array,
     /// Number of vertices whose flag is 1.
     pub count: usize,
-    /// For an input that is an image: 1 at the pixels with data whose nearest vertex is occluded, else 0.
+    /// For an input that is an image: for each pixel, row by row, 1 if it has data and its nearest vertex has the flag 1 in `vertices`, else 0.
     #[serde(
         skip_serializing_if = "Option::is_none",
         serialize_with = "preserve_some"

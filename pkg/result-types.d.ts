@@ -144,8 +144,9 @@ export interface CylinderReport {
   /** Root mean square residual of the heights from the cylinder, in the heights' unit. */
   residual: number;
   /**
-   * Correlation of the residuals along the rulings, relative to that of noise: about 1 for a cylinder with noise, and
-   * at most 1.95 if the verdict is a cylinder; NaN if there are too few heights.
+   * Correlation of the residuals along the rulings, divided by that of the noise of depth images: about 1 if the
+   * residuals are noise alone. Up to 1.95 the verdict is a cylinder. NaN if there are too few heights to tell, with the
+   * verdict that it is none.
    */
   excess: number;
   /** Number of heights that the cylinder was fitted to. */
@@ -208,11 +209,17 @@ export interface DetectedOcclusions {
   origin: [number, number];
   /** For each vertex, row by row, 1 if a solve would evaluate no Hessian there, else 0. */
   vertices: Uint8Array<ArrayBuffer>;
-  /** Broken edges, six bits for each vertex as in the field `brokenEdges` of a heightfield. */
+  /**
+   * Edges of the lattice across which the surface is torn, one byte for each vertex, row by row: bit 0 is the edge to
+   * the west, then east, north-west, north-east, south-west and south-east. `fit` takes it as `brokenEdges`.
+   */
   edges: Uint8Array<ArrayBuffer>;
   /** Number of vertices whose flag is 1. */
   count: number;
-  /** For an input that is an image: 1 at the pixels with data whose nearest vertex is occluded, else 0. */
+  /**
+   * For an input that is an image: for each pixel, row by row, 1 if it has data and its nearest vertex has the flag 1
+   * in `vertices`, else 0.
+   */
   image?: Uint8Array<ArrayBuffer>;
 }
 
@@ -670,9 +677,9 @@ export interface LambdaChoice {
    */
   tolerance?: number;
   /**
-   * Root mean square of the residual, in standard deviations σ of the noise and without outliers: about 1 where λ suits
-   * the shape. Far above, the surface is farther from the heights than their noise explains. `undefined` before the end
-   * of the solve, or without noise.
+   * Root mean square of the residual, in standard deviations σ of the noise; more than 2 σ at a vertex counts as that.
+   * It is about 1 where λ suits the shape. Far above, the surface is farther from the heights than their noise
+   * explains. `undefined` before the end of the solve, or without noise.
    */
   residualRatio?: number;
   /** Whether the residual is larger than the noise explains, so that the surface has lost a part of the shape. */
@@ -882,7 +889,10 @@ export interface MeshUnrolling {
   labels: Int32Array<ArrayBuffer>;
   /** Coordinates x, y, z of each vertex of the sheets on the mesh, in the mesh's unit of length. */
   positions: Float64Array<ArrayBuffer>;
-  /** Coordinates x, y of each vertex of the sheets in the plane, in the same unit, y up. */
+  /**
+   * Coordinates x, y of each vertex of the sheets in one plane, where the sheets lie side by side, in the mesh's unit
+   * of length; y points up.
+   */
   places: Float64Array<ArrayBuffer>;
   /** Three vertices of the sheets for each of their triangles, counted from 0, counter-clockwise. */
   triangles: Uint32Array<ArrayBuffer>;
@@ -892,11 +902,11 @@ export interface MeshUnrolling {
   patches: Patch[];
   /** The creases between the patches. */
   creases: Crease[];
-  /** Figures of the sheets. */
+  /** Measures of the sheets: number, area, strain and gaps at folds, and what is on no sheet. */
   report: MeshUnrollingReport;
 }
 
-/** Figures of a mesh laid flat. */
+/** Measures of a mesh laid flat. */
 export interface MeshUnrollingReport {
   /** Number of sheets. */
   sheets: number;
@@ -906,7 +916,7 @@ export interface MeshUnrollingReport {
   strain: number;
   /** Root mean square distance between the two sides of a fold, in the mesh's unit of length, of the worst sheet. */
   seamGap: number;
-  /** What cannot be laid flat and is on no sheet. */
+  /** Parts of the mesh that cannot be laid flat and are on no sheet; all 0 if there are none. */
   missing: MissingSurface;
 }
 
@@ -1038,9 +1048,15 @@ export interface PageReport {
   tilt: number;
   /** Bound of the largest angle between the normals at two points of the page, in degrees: 0 for a plane. */
   bend: number;
-  /** Root mean square distance between the traced edges and those of the page's model, in pixels. */
+  /**
+   * Root mean square distance in the photo between the page's edges, given or detected, and those of the fitted page,
+   * in pixels.
+   */
   residual: number;
-  /** Root mean square distance between the traced edges and those of the page's model, in % of a page's width. */
+  /**
+   * Root mean square distance in the photo between the page's edges, given or detected, and those of the fitted page,
+   * in % of the width of one page.
+   */
   disagreement: number;
   /** Number of lines of text that the fit of the page used besides the edges, traced and detected ones. */
   lines: number;
@@ -1507,7 +1523,10 @@ export interface WorstAngle {
 export interface WorstJoint {
   /** Number of the joint's crease, whose letter is on both sides of it. */
   crease: number;
-  /** Numbers of the patches on either side of the joint. */
+  /**
+   * Numbers, from 0, of the patches on the two sides of the cut crease, in the order of `lengths`; on the drawing they
+   * are counted from 1.
+   */
   patches: [number, number];
   /** Lengths of the joint's two sides, in millimetres. */
   lengths: [number, number];

@@ -175,8 +175,8 @@ pub struct LambdaChoice {
     /// asked for, or a default where heights have no noise or [`LambdaChoice::ambiguous`] noise; `None` otherwise.
     #[cfg_attr(feature = "serde", serde(skip_serializing_if = "Option::is_none"))]
     pub tolerance: Option<f64>,
-    /// Root mean square of the residual, in standard deviations σ of the noise and without outliers: about 1 where λ
-    /// suits the shape. Far above, the surface is farther from the heights than their noise explains. `None` before the
+    /// Root mean square of the residual, in standard deviations σ of the noise; more than 2 σ at a vertex counts as that. It is about
+    /// 1 where λ suits the shape. Far above, the surface is farther from the heights than their noise explains. `None` before the
     /// end of the solve, or without noise.
     pub residual_ratio: Option<f64>,
     /// Whether the residual is larger than the noise explains, so that the surface has lost a part of the shape.

@@ -13,7 +13,7 @@ use super::surface::Surface;
 use super::threads::Threads;
 use super::tuning::closed_form::{self, Known};
 use super::tuning::noise::Noise;
-use super::tuning::refinement::{Aim, Next, Refinement};
+use super::tuning::refinement::{Aim, MAX_RESIDUAL, Next, Refinement};
 use super::tuning::residual::Residual;
 use super::tuning::search::Search;
 use super::warm_start::WarmStart;
@@ -197,7 +197,7 @@ impl Solver {
         }
         let surface = self.solve.surface()?;
         let (input, domain) = (self.solve.input(), self.solve.domain());
-        let residual = |unit: f64| Residual::of(input, domain, surface.heightfield(), unit);
+        let residual = |unit| Residual::of(input, domain, surface.heightfield(), unit);
         let options = *self.solve.options();
         let lambda = options.lambda_or_default().value();
         let is_solved = matches!(reason, StopReason::Gap | StopReason::Rounding);
@@ -212,7 +212,7 @@ impl Solver {
         }
         self.refinement = None;
         if noise.vertex_sigma > 0.0 && choice.reason != LambdaReason::NoNoise {
-            let ratio = residual(noise.vertex_sigma)?.rms;
+            let ratio = residual([noise.vertex_sigma, MAX_RESIDUAL])?.rms;
             choice.residual_ratio = Some(ratio);
             choice.residual_exceeds_noise =
                 choice.tolerance.is_none() && ratio > MAX_NOISE_DISTANCE;

@@ -6,6 +6,10 @@ use super::residual::Residual;
 /// Minimum square of the lost shape's part of the residual at which λ is raised, in squares of the noise.
 const MIN_SQUARED_LOSS: f64 = 1.0;
 
+/// Largest residual, in units of the noise, that counts as such: an outlier, or the side of a step, says no more than that its vertex
+/// is lost (`benches/scenes.md`, Residuals).
+pub(crate) const MAX_RESIDUAL: f64 = 2.0;
+
 /// Range of the factors by which λ is raised at once: at least so much that a solve more is worth its cost, at most so much
 /// that a warm start is still of use.
 const LAMBDA_RAISE_FACTORS: [f64; 2] = [3.0, 10.0];
@@ -71,11 +75,15 @@ impl Refinement {
         }
     }
 
-    /// Unit of the distances: the size of the noise on the lattice, or the distance that is aimed at.
-    pub(crate) fn unit(&self) -> f64 {
+    /// Unit of the distances, the size of the noise on the lattice or the distance that is aimed at, and the largest distance that
+    /// counts, in this unit.
+    pub(crate) fn unit(&self) -> [f64; 2] {
         match self.aim {
-            Aim::Noise(noise) => (noise.white_equivalent / self.spacings).min(noise.vertex_sigma),
-            Aim::Distance { distance, .. } => distance,
+            Aim::Noise(noise) => {
+                let unit = (noise.white_equivalent / self.spacings).min(noise.vertex_sigma);
+                [unit, MAX_RESIDUAL]
+            }
+            Aim::Distance { distance, .. } => [distance, f64::INFINITY],
         }
     }
 

@@ -130,7 +130,7 @@ export interface ExplorePatternOptions {
   /** Signal that stops the exploration; the call rejects with its reason. */
   signal?: AbortSignal;
   /** Function that is called with each plan as soon as it is made. The next plan waits for a promise that it returns. What it throws ends the exploration. */
-  onPlan?: (plan: PatternPlan) => void | Promise<void>;
+  onPlan?: (plan: PatternPlan) => unknown;
 }
 
 /** Options of an exploration of patterns of a mesh. */

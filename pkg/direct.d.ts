@@ -64,9 +64,12 @@ export class MeshSolver {
    * current one, iterations count over all of them, and `level` is the number of problems still to come at most.
    */
   progress(): Progress;
-  /** Stops the fit; `surface()` then returns the best surface so far, with the stop reason `'cancelled'`. */
+  /** Stops the fit; `surface()` then returns the best surface of the pass under way, with the stop reason `'cancelled'`. */
   cancel(): void;
-  /** Returns the best mesh so far, as a copy; before the first `advance` it is about the input. */
+  /**
+   * Returns the mesh after the last finished pass, or as it was when the fit was cancelled, as a copy. Before the first pass has ended it
+   * is the input.
+   */
   surface(): MeshSurface;
   /** Whether the solver was disposed of, after which its methods throw. */
   readonly disposed: boolean;
@@ -90,7 +93,7 @@ export class Solver {
   advance(milliseconds: number): boolean;
   /** Returns the figures of the last check. */
   progress(): Progress;
-  /** Stops the fit; `surface()` then returns the best surface so far, with the stop reason `'cancelled'`. */
+  /** Stops the fit; `surface()` then returns the best surface of the pass under way, with the stop reason `'cancelled'`. */
   cancel(): void;
   /** Returns the best surface so far, as a copy. It may be called at any time. */
   surface(): Surface;
@@ -311,8 +314,8 @@ export function flattenPhoto(photo: Picture, page: FoundPage, options?: FlattenP
 export function describePage(report: PageReport): string;
 /**
  * Finds the page in a photo: its corners and edges, which can be corrected and given to `dewarpPage`. Coordinates are in pixels of
- * the photo as `readPhoto` decodes it (upright), from the centre of the upper left
- * pixel. Without a page the verdict is `'notFound'`, and `pages` has the best guess, if there is one.
+ * the photo as `readPhoto` decodes it (upright; a file of more than 26 megapixels is halved until it has fewer), from the centre of the
+ * upper left pixel. Without a page the verdict is `'notFound'`, and `pages` has the best guess, if there is one.
  */
 export function findPage(photo: Picture): PageOutlines;
 /**

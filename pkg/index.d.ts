@@ -386,8 +386,8 @@ export function flattenPhoto(photo: Photo | PhotoSource | Drawable, page: FoundP
 export function describePage(report: PageReport): string;
 /**
  * Finds the page in a photo: its corners and edges, which can be corrected and given to `dewarpPage`. Coordinates are in pixels of
- * the photo as `readPhoto` decodes it (upright; a file of more than 26 megapixels is halved until it has fewer), from the centre of the upper left
- * pixel. Without a page the verdict is `'notFound'`, and `pages` has the best guess, if there is one.
+ * the photo as `readPhoto` decodes it (upright; a file of more than 26 megapixels is halved until it has fewer), from the centre of the
+ * upper left pixel. Without a page the verdict is `'notFound'`, and `pages` has the best guess, if there is one.
  */
 export function findPage(photo: Photo | PhotoSource | Drawable, options?: Abortable): Promise<PageOutlines>;
 /**

@@ -15,6 +15,8 @@ import { heightsOf } from './session.js';
 
 /** Longer side of the lattice that is cut into sheets, in pixels: a pixel is half a millimetre for a piece of 20 cm. */
 const PATTERN_SIDE_PIXELS = 450;
+/** Largest ratio of a lattice's longer side to `PATTERN_SIDE_PIXELS` for which the lattice is not reduced. */
+const MAX_UNREDUCED_RATIO = 1.2;
 
 export class Analyses {
   #tasks;
@@ -90,7 +92,7 @@ export class Analyses {
   pattern(result, options, tell) {
     const { surface } = result;
     const { width, height } = result.image;
-    const source = Math.max(width, height) <= PATTERN_SIDE_PIXELS ? surface : reducedImage(result, PATTERN_SIDE_PIXELS);
+    const source = Math.max(width, height) < MAX_UNREDUCED_RATIO * PATTERN_SIDE_PIXELS ? surface : reducedImage(result, PATTERN_SIDE_PIXELS);
     return this.#tasks.answer(surface, `pattern ${JSON.stringify(options)}`, (worker) => worker.pattern(source, { ...options, onProgress: ({ fraction }) => tell({ fraction, task: 'cutting' }) }));
   }
 

@@ -50,7 +50,7 @@ async function start() {
     addressSync.onModeChange();
   });
   const files = filesPanel(session, mode, source, page);
-  const gallery = galleryPanel(session, { adopt, choose: stage.choose, strip: strip.show, enter: () => mode.enter('heights'), isRestoring: () => addressSync.isRestoring });
+  const gallery = galleryPanel(session, { adopt, choose: stage.choose, strip: strip.show, enter: () => mode.enter('heights'), expectsInput: () => addressSync.expectsInput });
   element('notice-close', HTMLButtonElement).addEventListener('click', hideNotice);
   watchDrops((dropped) => void files.open(dropped));
   homePanel((chosen, door) => void files.open(chosen, door === 'page' || undefined), {

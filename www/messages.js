@@ -24,7 +24,7 @@ export const VIEW_WORDS = {
   kappa2: 'Colour shows the smaller principal curvature. It is 0 where the surface bends one way only.',
   rulings: 'Rulings are straight lines in the surface. Paper bends across them, never along them.',
   patches: 'Each smooth piece has its own colour; black lines are the creases between them.',
-  sheet: 'This is the surface laid flat, to scale. Colour shows where it had to be stretched or compressed.',
+  sheet: 'This is the surface laid flat, to scale.',
   photo: 'Both surfaces show the photo, or the scan’s own colours.',
 };
 
@@ -306,7 +306,7 @@ export function lambdaChoiceInWords({ lambda, lambdaChoice }) {
   const within = tolerance === undefined ? '' : ` The surface keeps within ${number(tolerance)} of the heights (root mean square).`;
   const unsure = ambiguous ? ` Shape and noise cannot be told apart.${within} Compare five values.` : '';
   const doubt = residualExceedsNoise
-    ? ` The surface is ${number(residualRatio ?? 0)} times as far from the heights as their noise explains: a larger λ keeps more of the shape.`
+    ? ` The surface is at least ${number(residualRatio ?? 0)} times as far from the heights as their noise explains: a larger λ keeps more of the shape.`
     : unsure;
   switch (reason) {
     case 'prediction': return `Chosen automatically (${count(solves)} trial solves). ${noise}, in the unit of the heights.${doubt}`;

@@ -111,7 +111,6 @@ export class PreviewSolver {
       this.#worker?.dispose();
       this.#worker = null;
       this.#levels.clear();
-      this.#reduced = null;
     }, WORKER_IDLE_MS);
   }
 
@@ -146,7 +145,10 @@ export class PreviewSolver {
   /** Reduces the heights of an input to fewer pixels. @param {Input} input @param {number} side longer side in pixels */
   async #reducedTo({ width, height, data, pixelSize, heightScale }, side) {
     if (this.#reduced?.data !== data) this.#reduced = { data, heights: callWorker('downsample', { width, height, data }, PREVIEW_SIDE_PIXELS) };
-    const heights = downsample(await this.#reduced.heights, side);
+    const { heights: reduced } = this.#reduced;
+    // It is tried again after a failure.
+    reduced.catch(() => (this.#reduced = null));
+    const heights = downsample(await reduced, side);
     return { ...heights, pixelSize: (pixelSize * width) / heights.width, heightScale };
   }
 }

@@ -49,7 +49,7 @@ export async function fit(task, signal) {
   }
   if (residualExceedsNoise) {
     toStderr(
-      `developable: warning: the surface is farther from the heights than their noise explains (${residualRatio?.toFixed(1)} times): a part of ` +
+      `developable: warning: the surface is farther from the heights than their noise explains (at least ${residualRatio?.toFixed(1)} times): a part of ` +
       `the shape is lost; a larger --lambda than ${Number(report.lambda.toPrecision(2))} keeps more of it\n`,
     );
   }

@@ -3,7 +3,7 @@
 use std::borrow::Cow;
 
 /// Decodes text: UTF-8, or UTF-16 of either byte order that begins with its mark. What is not valid becomes `�`, because
-/// names may be in any encoding. Lines that end with CR alone end with LF.
+/// names may be in any encoding. Every line ends with LF.
 pub(super) fn decoded(bytes: &[u8]) -> Cow<'_, str> {
     let wide = |from: fn([u8; 2]) -> u16| {
         let units = bytes[2..].chunks_exact(2).map(move |b| from([b[0], b[1]]));
@@ -16,8 +16,8 @@ pub(super) fn decoded(bytes: &[u8]) -> Cow<'_, str> {
         [0xfe, 0xff, ..] => wide(u16::from_be_bytes).collect(),
         _ => String::from_utf8_lossy(bytes),
     };
-    match text.contains('\r') && !text.contains('\n') {
-        true => Cow::Owned(text.replace('\r', "\n")),
+    match text.contains('\r') {
+        true => Cow::Owned(text.replace("\r\n", "\n").replace('\r', "\n")),
         false => text,
     }
 }

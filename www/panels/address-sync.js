@@ -50,8 +50,10 @@ export function addressSyncPanel(session, page) {
   let photoId;
   /** The open photos of pages, in their order. @type {readonly File[]} */
   let photos = [];
-  /** Name of the last input. */
-  let lastName = '';
+  /** Kind and name of the last input. */
+  let last = '';
+  /** Which input has the settings of the address that was shown last, until that input is there. @type {'any' | 'file' | null} */
+  let expected = null;
   /** The present address without its view. */
   let addressWithoutView = '';
 
@@ -101,8 +103,10 @@ export function addressSyncPanel(session, page) {
   page.meshFit.on('left', writeSoon);
   session.on('input', ({ name, kind }) => {
     // Each file has a λ of its own, unless an address brings it.
-    if (kind !== undefined && name !== lastName && !isRestoring && session.settings.lambda !== 'auto') page.adopt({ ...session.settings, lambda: 'auto' });
-    lastName = name;
+    const isExpected = expected === 'any' || (expected === 'file' && kind !== undefined);
+    if (kind !== undefined && `${kind} ${name}` !== last && !isExpected && session.settings.lambda !== 'auto') page.adopt({ ...session.settings, lambda: 'auto' });
+    if (isExpected) expected = null;
+    last = `${kind} ${name}`;
     if (kind !== undefined || fileId === undefined) return;
     fileId = undefined;
     void updateRecentFiles();
@@ -129,6 +133,7 @@ export function addressSyncPanel(session, page) {
   const restoreState = async (state) => {
     const own = ++newestRestore;
     isRestoring = true;
+    expected = null;
     clearTimeout(writeTimer);
     try {
       if (isStart(location.hash)) {
@@ -147,11 +152,14 @@ export function addressSyncPanel(session, page) {
       const previous = presentState();
       const settings = { ...session.defaults, ...state.settings };
       const card = state.card ? page.gallery.find(state.card) : undefined;
+      // An address without an input is that of a file of the user's, which is opened by hand.
+      expected = state.file !== undefined || state.example || card ? 'any' : 'file';
       if (card && page.gallery.present !== card) return await page.gallery.show(card, { ...card.settings, ...state.settings }, state.view);
       const isSameInput = session.input !== null && (card !== undefined || (state.file !== undefined ? state.file === fileId : JSON.stringify(state.example) === JSON.stringify(previous.example)));
       const wanted = card ? { ...session.defaults, ...card.settings, ...state.settings } : settings;
       const files = isSameInput || state.file === undefined ? undefined : await storedFiles(state.file);
       if (own !== newestRestore) return;
+      if (isSameInput) expected = null;
       if (!isSameInput && state.file !== undefined && !files) return showLost();
       // The input is solved only if it or the settings have changed.
       if (!isSameInput || Object.entries(wanted).some(([name, value]) => session.settings[/** @type {keyof Settings} */ (name)] !== value)) page.adopt(wanted);
@@ -218,9 +226,9 @@ export function addressSyncPanel(session, page) {
   });
 
   return {
-    /** Whether the state of an address is being shown. */
-    get isRestoring() {
-      return isRestoring;
+    /** Whether the next input has the settings of an address. */
+    get expectsInput() {
+      return expected !== null;
     },
     /** Shows the state of the address, or an example where that has no input. */
     async begin() {

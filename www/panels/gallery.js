@@ -13,9 +13,9 @@ import { drawPicture, cardInput } from '../gallery/pictures.js';
  * @param {(view: string) => void} page.choose shows a view
  * @param {(wanted: boolean) => void} page.strip shows or hides the results with five λ
  * @param {() => void} page.enter shows the part of the page for heights
- * @param {() => boolean} page.isRestoring whether an address brings an input and its settings
+ * @param {() => boolean} page.expectsInput whether the next input has the settings of an address
  */
-export function galleryPanel(session, { adopt, choose, strip, enter, isRestoring }) {
+export function galleryPanel(session, { adopt, choose, strip, enter, expectsInput }) {
   const dialog = element('gallery', HTMLDialogElement);
   const list = element('gallery-cards', HTMLElement);
   const story = element('story', HTMLElement);
@@ -79,7 +79,7 @@ export function galleryPanel(session, { adopt, choose, strip, enter, isRestoring
     if (present) {
       strip(false);
       // Settings that make the card's point are not meant for another input.
-      if (!isRestoring()) adopt(session.defaults);
+      if (!expectsInput()) adopt(session.defaults);
     }
     present = null;
     showStory();

@@ -56,7 +56,7 @@ export async function sheetOfMesh(unit, { triangles, places, report: { sheets, s
 function sheet(picture, unit, said, facts) {
   const { extent, maxStrain } = picture;
   const size = `${number(extent.width, 4)} × ${number(extent.height, 4)} ${unit}`;
-  return { flat: pictureOf(picture, unit, `The surface laid flat, ${size}`), said, colours: strainColours(maxStrain), about: [figures([['Sheet size', size], ...facts])] };
+  return { flat: pictureOf(picture, unit, `The surface laid flat, ${size}`), said: `${said} Colour shows where it had to be stretched or compressed.`, colours: strainColours(maxStrain), about: [figures([['Sheet size', size], ...facts])] };
 }
 
 /** The meaning of the colours of strain. @param {number} maxStrain strain at the end of the colour scale @returns {Colours} */

@@ -48,6 +48,9 @@ impl MeshBuilder {
 
     /// Adds a polygon as triangles that do not overlap, unless its sides cross or it has too many corners.
     pub(super) fn polygon(&mut self, corners: &[u32]) -> Result<()> {
+        if corners.len() < 4 {
+            return self.fan(corners);
+        }
         let Some(points) = self.concave(corners) else {
             return self.fan(corners);
         };
@@ -64,7 +67,7 @@ impl MeshBuilder {
     fn concave(&self, corners: &[u32]) -> Option<Vec<Point2>> {
         let place = |vertex: &u32| self.positions.get(*vertex as usize).copied();
         let points: Vec<[f64; 3]> = corners.iter().map(place).collect::<Option<_>>()?;
-        let first = Vector3::from(*points.first().filter(|_| points.len() > 3)?);
+        let first = Vector3::from(*points.first()?);
         let off: Vec<Vector3<f64>> = points.iter().map(|p| Vector3::from(*p) - first).collect();
         let areas = || off.windows(2).map(|edge| edge[0].cross(&edge[1]));
         // The areas of triangles that overlap come to more than the polygon's, but for rounding to 32 bits.

@@ -222,9 +222,19 @@ impl MeshSolver {
         })
     }
 
-    /// Stops a running fit as cancelled: its surface is that of the pass under way so far.
-    pub fn cancel(&mut self) {
-        self.reason.get_or_insert(StopReason::Cancelled);
+    /// Stops a running fit as cancelled: the best surface of the pass under way is prolonged to all vertices, and finished as at
+    /// the end of the fit.
+    ///
+    /// # Errors
+    /// [`Error::OutOfMemory`](crate::Error::OutOfMemory).
+    pub fn cancel(&mut self) -> Result<()> {
+        if self.reason.is_none()
+            && let Some(levels) = &mut self.levels
+        {
+            levels.prolong_to_finest()?;
+            self.finish(StopReason::Cancelled)?;
+        }
+        Ok(())
     }
 
     /// Returns the progress of the fit, which solves several linearised problems in turn: `objective`, `dual_bound`, `gap` and
@@ -341,27 +351,12 @@ impl MeshSolver {
         Ok(())
     }
 
-    /// Returns the surface so far. A fit that is still running is reported as cancelled: the best surface of the pass under way
-    /// is prolonged to all vertices and finished as at the end of the fit. Before the first iteration it is the input,
-    /// smoothed as the fit starts.
+    /// Returns the surface after the last finished pass, or as it was when the fit was [cancelled](MeshSolver::cancel). Before the first
+    /// pass has ended it is the input.
     ///
     /// # Errors
     /// [`Error::OutOfMemory`](crate::Error::OutOfMemory).
     pub fn surface(&self) -> Result<MeshSurface> {
-        let is_under_way = matches!(self.reason, None | Some(StopReason::Cancelled));
-        if !is_under_way || self.levels.is_none() {
-            return self.finished_surface();
-        }
-        let mut stopped = self.clone();
-        if let Some(levels) = &mut stopped.levels {
-            levels.prolong_to_finest()?;
-        }
-        stopped.finish(StopReason::Cancelled)?;
-        stopped.finished_surface()
-    }
-
-    /// Returns the surface of the passes that are finished.
-    fn finished_surface(&self) -> Result<MeshSurface> {
         let topology = &self.given.topology;
         let mut positions = self.mesh.positions().to_vec();
         // Vertices without a triangle stay exactly where they are.

@@ -651,7 +651,7 @@ fn off_pipe(mesh: &Mesh, radius: f64) -> f64 {
     (squares.sum::<f64>() / mesh.positions().len() as f64).sqrt()
 }
 
-/// A fit that is stopped in its first pass, on a coarse level or on the mesh itself, is already nearer to the truth than the input.
+/// A fit that is stopped at once, or in its first pass on a coarse level or on the mesh itself, is nearer to the truth than the input.
 #[test]
 fn a_stopped_fit_keeps_what_it_has_found() {
     let input = noisy(&pipe(60, 0.5, 2.0), 0.01);
@@ -663,7 +663,7 @@ fn a_stopped_fit_keeps_what_it_has_found() {
         while solver.progress().iteration < until {
             solver.advance(1).unwrap();
         }
-        solver.cancel();
+        solver.cancel().unwrap();
         let surface = solver.surface().unwrap();
         let report = surface.report();
         assert_eq!(
@@ -671,12 +671,7 @@ fn a_stopped_fit_keeps_what_it_has_found() {
             (1, crate::StopReason::Cancelled)
         );
         let after = off_pipe(surface.mesh(), 0.5);
-        println!("{until} {before} {after}");
-        assert!(
-            after < 0.8 * before || until < 8,
-            "{until}: {before} {after}"
-        );
-        let again = solver.surface().unwrap();
-        assert_eq!(again.mesh().positions(), surface.mesh().positions());
+        let most = if until < 8 { 1.0 } else { 0.8 };
+        assert!(after < most * before, "{until}: {before} {after}");
     }
 }

@@ -138,17 +138,15 @@ mod tests {
             .rms
     }
 
-    /// Heights of ±0.5 are one unit off. Impulses at one of 80 heights, and a strip of a tenth, count as two units each.
+    /// Heights of ±0.5 are one unit off. Impulses at one of 80 heights, and a strip of a tenth, count as two units each; vertices at
+    /// corners are left out.
     #[test]
     fn outliers_and_strips_count_as_lost_vertices() {
         let sign = |vertex: usize| if vertex.is_multiple_of(2) { 0.5 } else { -0.5 };
         let expected = |share: f64| (1.0 + share * (4.0 - 1.0)).sqrt();
         assert!((distance(sign) - 1.0).abs() < 1e-12);
         let impulses = distance(|v| if v.is_multiple_of(80) { 50.0 } else { sign(v) });
-        assert!(
-            (impulses - expected(1.0 / 80.0)).abs() < 1e-12,
-            "{impulses}"
-        );
+        assert!((impulses - expected(1.0 / 80.0)).abs() < 0.01, "{impulses}");
         let strip = distance(|v| if v % 40 < 4 { 5.0 } else { sign(v) });
         assert!((strip - expected(0.1)).abs() < 0.01, "{strip}");
     }

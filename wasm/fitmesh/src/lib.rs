@@ -72,12 +72,13 @@ impl MeshSolver {
         Ok(to_value(&self.solver.progress())?)
     }
 
-    /// Stops a running solve; its surface is then the best one so far.
-    pub fn cancel(&mut self) {
-        self.solver.cancel();
+    /// Stops a running solve; its surface is then that of the pass under way.
+    pub fn cancel(&mut self) -> Result<()> {
+        Ok(self.solver.cancel()?)
     }
 
-    /// Returns the best surface so far: positions of its vertices, and the report.
+    /// Returns the surface after the last finished pass, or as it was when the solve was cancelled: positions of its vertices, and
+    /// the report.
     pub fn surface(&self) -> Result<JsValue> {
         let surface = self.solver.surface()?;
         Ok(to_value(&Output {

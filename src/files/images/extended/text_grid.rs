@@ -7,6 +7,7 @@ use crate::files::failure::{damaged, unsupported};
 use crate::files::image_format::Format;
 use crate::files::images::decoded::StoredImage;
 use crate::files::images::georeference::Georeference;
+use crate::files::images::no_data;
 use crate::files::images::scale::is_needle;
 use crate::files::kind::CONVERT_RAW;
 use crate::files::number_type::NumberType;
@@ -25,15 +26,17 @@ pub(super) fn decode(bytes: &[u8]) -> Result<StoredImage> {
 }
 
 /// Makes an image of the values of a grid, whose cells have the given sides and whose south-west corner has the given place if
-/// these are known.
+/// these are known, as is the value that means no data.
 fn image(
     values: Vec<f64>,
     size: (usize, usize),
     sides: Option<[f64; 2]>,
     corner: Option<[f64; 2]>,
+    no_data: Option<f64>,
 ) -> Result<StoredImage> {
     let mut image = StoredImage {
         sides,
+        no_data,
         ..StoredImage::new(Format::Text, size, values, NumberType::F64)
     };
     let map = (sides.zip(corner)).and_then(|(sides, corner)| degrees(&image, sides, corner));
@@ -59,7 +62,12 @@ fn degrees(
     let is_on_globe = west >= -180.0 && west + width <= 360.0 && south >= -90.0 && north <= 90.0;
     // A place of its own, and not the origin of a model.
     let is_map = is_on_globe && [west, south] != [0.0; 2];
-    (is_map && is_needle(&image.values, width.max(height)))
+    let mut heights = is_map.then(|| image.values.clone())?;
+    if let Some(missing) = image.no_data {
+        no_data::remove(&mut heights, missing, image.number_type);
+    }
+    no_data::assume_no_data(&mut heights, image.no_data.is_some());
+    is_needle(&heights, width.max(height))
         .then(|| Georeference::of_degrees([west, north], [dx, dy]))
 }
 
@@ -115,10 +123,7 @@ fn esri_grid(text: &str) -> Result<Option<StoredImage>> {
         Ok(place.or(number(&format!("{axis}llcenter"))?))
     });
     let corner = x?.zip(y?).map(<[f64; 2]>::from);
-    Ok(Some(StoredImage {
-        no_data,
-        ..image(values, size, sides, corner)?
-    }))
+    image(values, size, sides, corner, no_data).map(Some)
 }
 
 /// Reads what follows the first word of a grid of Surfer: numbers of columns and rows, ranges of x, y and z, and the rows
@@ -145,19 +150,35 @@ fn surfer_grid(text: &str) -> Result<StoredImage> {
     if !sides.iter().all(|side| side.is_finite() && *side > 0.0) {
         return Err(damaged(Format::Text, "its cells have no size"));
     }
-    let rows = values.chunks_exact(size.0).rev().flatten().copied();
-    let values = rows.collect();
-    Ok(StoredImage {
-        no_data: Some(SURFER_BLANK),
-        ..image(values, size, Some(sides), Some([x0, y0]))?
-    })
+    let rows = values.chunks_exact(size.0).rev().flatten();
+    // Some programs write more digits of the blank than others.
+    let values = rows.map(|value| {
+        if *value >= SURFER_BLANK {
+            f64::NAN
+        } else {
+            *value
+        }
+    });
+    image(
+        values.collect(),
+        size,
+        Some(sides),
+        Some([x0, y0]),
+        Some(SURFER_BLANK),
+    )
 }
 
 /// Reads a table: points on a grid if the first three numbers of its lines are their places, else a matrix.
 fn table(text: &str) -> Result<StoredImage> {
     let table = Table::read(text)?;
     if let Some(grid) = table.points_on_grid()? {
-        return image(grid.values, grid.size, Some(grid.sides), Some(grid.corner));
+        return image(
+            grid.values,
+            grid.size,
+            Some(grid.sides),
+            Some(grid.corner),
+            None,
+        );
     }
     let points = format!(
         "lines of {} numbers are rows of a matrix: they are no points on a grid",
@@ -174,7 +195,7 @@ fn table(text: &str) -> Result<StoredImage> {
         assumptions: told
             .map(|(_, words)| Assumption::new("matrix", words, None))
             .collect(),
-        ..image(table.values, (table.cols, table.rows), None, None)?
+        ..image(table.values, (table.cols, table.rows), None, None, None)?
     })
 }
 
@@ -221,6 +242,27 @@ mod tests {
         assert!(error.contains("5 values, but 2 rows of 3"), "{error}");
         let header = decode(b"ncols 3\nnrows 2\ncellsize 1\nbyteorder LSBFIRST\n").unwrap_err();
         assert!(header.to_string().contains("gdal_translate"), "{header}");
+    }
+
+    /// Heights of 1 to 5 beside a third without data are no needle, whichever number stands for these.
+    #[test]
+    fn what_means_no_data_makes_no_needle_of_a_grid() {
+        let esri = |head: &str, missing: &str| {
+            let place = "ncols 3\nnrows 3\nxllcorner 10\nyllcorner 20\ncellsize 0.5\n";
+            format!("{place}{head}1 {missing} 3\n{missing} 5 {missing}\n2 4 1\n")
+        };
+        let surfer =
+            "DSAA\n3 3\n10 11\n20 21\n1 5\n1 1.7014118e38 3\n1.71e38 5 1.70141e38\n2 4 1\n";
+        for text in [
+            esri("NODATA_value -9999\n", "-9999"),
+            esri("", "-9999"),
+            surfer.to_owned(),
+        ] {
+            let (width, height, side, _) = read(&text);
+            assert_eq!((width, height, side), (3, 3, 0.5), "{text}");
+        }
+        let values = read(surfer).3;
+        assert_eq!(values.iter().filter(|value| value.is_nan()).count(), 3);
     }
 
     #[test]

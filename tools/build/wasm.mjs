@@ -27,7 +27,7 @@ const files = [
   { name: 'files', limit: 310_000 },
   { name: 'images', limit: 591_000 },
   { name: 'meshes', limit: 345_000 },
-  { name: 'fitmesh', limit: 230_000 },
+  { name: 'fitmesh', limit: 234_000 },
   { name: 'unroll', limit: 357_000 },
   { name: 'patterns', limit: 642_000 },
 ];

@@ -350,7 +350,7 @@ fn are_parallel(p: &Place, q: &Place, rounding: f64) -> bool {
 }
 
 /// Pairs of half-edges at an edge along which solids touch each other: the two sides of each solid. `arms` go from the edge to the
-/// third corners, `axis` along the first half-edge. `None` unless triangles that face one way around the edge and those that face
+/// third corners, `axis` along the first half-edge, or against it if triangles face inwards. `None` unless triangles that face one way around the edge and those that face
 /// the other way take turns, as they do not where sheets cross each other.
 fn solids_at_edge(
     triangles: &[[u32; 3]],
@@ -396,6 +396,16 @@ fn oriented_twins(places: &[Place], triangles: &mut [[u32; 3]], rounding: f64) -
         let (along, off) = ((b - a).normalize(), places[c as usize] - a);
         off - along * along.dot(&off)
     };
+    let origin = places.first().copied().unwrap_or_default();
+    let volumes = triangles.iter().map(|t| {
+        let [a, b, c] = t.map(|v| places[v as usize] - origin);
+        a.dot(&b.cross(&c))
+    });
+    let outwards = if volumes.sum::<f64>() < 0.0 {
+        -1.0
+    } else {
+        1.0
+    };
     let mut keys: Vec<_> = edges.keys().copied().collect();
     keys.sort_unstable();
     let mut pairs = vec![NO_INDEX; 3 * triangles.len()];
@@ -413,7 +423,7 @@ fn oriented_twins(places: &[Place], triangles: &mut [[u32; 3]], rounding: f64) -
         let arms: Vec<Place> = sides.iter().map(|side| away(triangles, *side)).collect();
         let axis = sides.first().map_or(Place::zeros(), |side| {
             let [a, b] = half_edge_ends(triangles, *side).map(|v| places[v as usize]);
-            (b - a).normalize()
+            outwards * (b - a).normalize()
         });
         if let Some(solids) = solids_at_edge(triangles, &sides, &arms, axis, rounding) {
             solids.into_iter().for_each(|[a, b]| pair(a, b));

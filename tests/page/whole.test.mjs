@@ -429,6 +429,19 @@ doorTest('sheets of a model without a unit are in millimetres, and the headline 
   await page.getByLabel('Longer side when finished, mm').fill('600');
   await title.filter({ hasText: /: 600 mm, \d\d pages, / }).waitFor();
   assert.match(await warning.innerText(), /\d\d pages\. Is the unit of the file right\?/);
+  // A small one keeps its size, a large one has none that paper can have, and no unit is said to lead to what is chosen for it.
+  const unit = page.locator('#sheet-unit');
+  for (const [name, factor, size, value] of /** @type {const} */ ([['small', 1 / 3, 20, 'mm'], ['large', 100, 180, 'none']])) {
+    await page.keyboard.press('Escape');
+    const scaled = points.map((point) => /** @type {[number, number, number]} */ (point.map((x) => factor * x)));
+    await openWhole(page, `${name}.obj`, obj({ points: scaled, triangles }));
+    await page.locator('#end-sheets').click();
+    await title.filter({ hasText: new RegExp(`: ${size} mm, `) }).waitFor();
+    assert.equal(await unit.inputValue(), value);
+  }
+  await unit.selectOption('inch');
+  assert.equal(await page.getByLabel('Longer side when finished, mm').inputValue(), '152400');
+  await page.locator('#save-size', { hasText: /This must be a number from 10 to 5000/ }).waitFor();
 });
 
 doorTest('a model of card has its textures printed on its sheets, and one of metal has none', async (page) => {

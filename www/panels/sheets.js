@@ -2,7 +2,7 @@
 import { element, make, SETTLING_MS } from '../dom.js';
 import { between, fieldsOf } from '../fields.js';
 import { number } from '../format.js';
-import { assemblyModel, assemblyPicture, drawingImage, MM_PER_UNIT, sheetFigures, sheetsInWords, smallestPiece, suggestedSide } from '../pattern.js';
+import { assemblyModel, assemblyPicture, drawingImage, MAX_SIDE_MM, MIN_SIDE_MM, MM_PER_UNIT, sheetFigures, sheetsInWords, smallestPiece, suggestedSide, trueSide } from '../pattern.js';
 import { plainMessage } from '../error-messages.js';
 import { SHEET_WORDS } from '../messages.js';
 import { edgeAt, parsePairs, togglePair } from '../sheet-edges.js';
@@ -15,13 +15,11 @@ import { waitingPanel } from './waiting.js';
 /** @import {TaskProgress} from './waiting.js' */
 /** @typedef {import('../../pkg/types.js').Drawing} Drawing */
 
-/** Bounds of the longer side, in millimetres. */
-const [MIN_SIDE_MM, MAX_SIDE_MM] = [10, 5000];
 /** Returns the error message for a text of pairs of pieces; empty if it is valid. @param {string} text */
 const faultOfPairs = (text) => (parsePairs(text) ? '' : SHEET_WORDS.wrongPairs);
 /** Fields of the dialog. Values that were chosen last are the initial ones of the next dialog. @satisfies {Record<string, import('../fields.js').Field>} */
 const FIELDS = {
-  'sheet-unit': { label: 'The file is in', options: { ...Object.fromEntries(Object.keys(MM_PER_UNIT).map((name) => [name, SHEET_WORDS.unit(name)])), none: 'no unit: choose the size' } },
+  'sheet-unit': { label: 'Unit of its lengths', options: { ...Object.fromEntries(Object.keys(MM_PER_UNIT).map((name) => [name, SHEET_WORDS.unit(name)])), none: 'none: choose the size' } },
   'sheet-side': { label: 'Longer side when finished, mm', range: between(MIN_SIDE_MM, MAX_SIDE_MM) },
   'sheet-paper': { label: 'Paper', options: { a4: 'A4', letter: 'Letter', '': 'one large page' } },
   'sheet-material': { label: 'Material', options: { '': 'card or paper', metal: 'sheet metal' } },
@@ -65,11 +63,13 @@ const MAX_EXPECTED_PAGES = 12;
  * @param {SheetSource} source
  */
 export function offerSheets(api, { stem, note = '', length, unit, up, cut, metalThickness, canFoldElsewhere, stop }) {
-  const last = lastSizes.get(stem) ?? { unit: unit === 'unknown' ? 'none' : unit, side: NaN };
+  const suggested = suggestedSide(length, unit);
+  // A size that is not the true one goes by no unit.
+  const last = lastSizes.get(stem) ?? { unit: suggested === trueSide(length, unit) ? unit : 'none', side: suggested };
   const fields = fieldsOf(FIELDS);
   for (const [name, value] of Object.entries(lastOptions)) fields.set(/** @type {FieldName} */ (name), value);
   fields.set('sheet-unit', last.unit);
-  fields.set('sheet-side', Number.isNaN(last.side) ? suggestedSide(length, last.unit) : last.side);
+  fields.set('sheet-side', last.side);
   fields.show(unit !== 'none', 'sheet-unit');
   const side = () => fields.number('sheet-side');
   const paper = () => /** @type {'a4' | 'letter' | ''} */ (fields.text('sheet-paper'));
@@ -226,7 +226,10 @@ export function offerSheets(api, { stem, note = '', length, unit, up, cut, metal
       void drawing.then(showSize, () => {});
       return offer.renew();
     }
-    if (target === fields.control('sheet-unit')) fields.set('sheet-side', suggestedSide(length, fields.text('sheet-unit')));
+    if (target === fields.control('sheet-unit')) {
+      const side = trueSide(length, fields.text('sheet-unit'));
+      fields.set('sheet-side', Number.isNaN(side) ? suggested : side);
+    }
     if (target === fields.control('sheet-side')) fields.set('sheet-unit', 'none');
     inputTimer = window.setTimeout(() => void draw(), SETTLING_MS);
   });

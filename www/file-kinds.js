@@ -5,7 +5,9 @@ const MESH_ENDING = /\.(obj|ply|stl|glb|gltf|3mf|off)$/i;
 const MATERIAL_ENDING = /\.mtl$/i;
 const HEIGHTS_ENDING = /\.(tiff?|exr|pfm|npy|npz)$/i;
 const PICTURE_ENDING = /\.(png|jpe?g|webp|avif|heic|gif|bmp)$/i;
-const CAMERA_ENDING = /\.(json|csv|txt)$/i;
+const CAMERA_ENDING = /\.(json|csv|txt|ya?ml)$/i;
+/** Names of the formats of meshes, which contents tell. */
+const MESH_FORMATS = ['obj', 'ply', 'stl', 'gltf', '3mf', 'off', 'xyz'];
 
 /** Endings of files that the page cannot read, with a description for the message. @type {readonly (readonly [RegExp, string])[]} */
 const UNREADABLE_KINDS = [
@@ -13,7 +15,8 @@ const UNREADABLE_KINDS = [
   [/\.(xlsx?|ods|numbers)$/i, 'a spreadsheet'],
   [/\.(pptx?|odp|key)$/i, 'a presentation'],
   [/\.pdf$/i, 'a PDF; take a photo of its page, or save the page as a PNG'],
-  [/\.(txt|md|html?|xml|ya?ml|log)$/i, 'a text'],
+  [/\.(json|ya?ml|csv)$/i, 'a text without heights; if it is a camera, open it together with its depths'],
+  [/\.(txt|md|html?|xml|log)$/i, 'a text'],
   [/\.(zip|rar|7z|gz|tar)$/i, 'an archive; unpack it first'],
   [/\.(mp4|mov|avi|mkv|webm)$/i, 'a video'],
   [/\.(mp3|wav|m4a|flac)$/i, 'a sound'],
@@ -21,9 +24,19 @@ const UNREADABLE_KINDS = [
   [/\.(step|stp|iges|igs|fbx|dae|blend|skp|usdz?)$/i, 'a 3D file of a kind that is not read; export it as OBJ, STL, PLY or GLB'],
 ];
 
+/** A file's name without its ending. @param {{ name: string }} file */
+export function stemOf({ name }) {
+  return name.replace(/\.[^.]*$/, '');
+}
+
 /** Whether a file is a mesh. @param {string} name */
 export function isMesh(name) {
   return MESH_ENDING.test(name);
+}
+
+/** Whether the name of a format is that of a mesh. @param {string} [format] */
+export function isMeshFormat(format) {
+  return format !== undefined && MESH_FORMATS.includes(format);
 }
 
 /** @typedef {'mesh' | 'heights' | 'picture' | 'camera' | 'other'} FileKind */

@@ -24,11 +24,6 @@ const SAMPLE_SIDE_PIXELS = 64;
 /** Minimum difference between the channels of a pixel in colour, of 255. */
 const MIN_CHANNEL_DIFFERENCE = 12;
 
-/** Whether a file's name is that of a text with camera intrinsics. @param {File} file */
-export function isCameraFile(file) {
-  return kindByName(file) === 'camera';
-}
-
 /**
  * Decides what files are, and which of them belong together.
  * @param {readonly File[]} files

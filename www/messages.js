@@ -45,7 +45,7 @@ export const TASK_WORDS = {
 /** Messages about files that were dropped on the wrong part of the page, or that cannot be read. */
 export const FILE_WORDS = {
   /** @param {string} name @param {string} what */
-  unread: (name, what) => `“${name}” is ${what}. This page opens photos of pages (JPEG, PNG, WebP), heights and depths (TIFF, EXR, PFM, NPY, NPZ, grey PNG), and meshes and point clouds (OBJ, PLY, STL, 3MF, OFF, GLB).`,
+  unread: (name, what) => `“${name}” is ${what}. This page opens photos of pages (JPEG, PNG, WebP, GIF, BMP, TIFF), heights and depths (TIFF, EXR, PFM, NPY, NPZ, PGM, SRTM, grids in text, grey PNG), and meshes and point clouds (OBJ, PLY, STL, 3MF, OFF, GLB, XYZ).`,
   /** @param {number} n */
   takenForPages: (n) => (n === 1 ? 'Taken for a photo of a page.' : 'Taken for photos of pages.'),
   heightsInstead: 'Heights instead?',

@@ -155,7 +155,7 @@ export const commands = {
       'Fits a surface and makes a photo of it flat. What the photo shows where is known for heights seen straight from ' +
       'above, for depths by their camera, and for scans by their texture coordinates. Or makes a photo alone of a curled ' +
       'page flat, by the edges of the page, which are found in it or given.',
-    input: `${INPUT}. Without --texture a photo of a page: .jpg, .png, .webp, .gif or .bmp`,
+    input: `${INPUT}. Without --texture a photo of a page: .jpg, .png, .webp, .gif, .bmp or .tif`,
     writes: ['.png', '.jpg', '.jpeg', '.pdf'],
     words: {
       texture: 'PHOTO: a PNG, JPEG or WebP of what the heights show, with as many pixels as it likes; a textured mesh has its own',

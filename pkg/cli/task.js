@@ -3,6 +3,7 @@ import { extname } from 'node:path';
 import { meshSolver } from '../schema/fit.js';
 import { patternMesh } from '../schema/pattern.js';
 import { dewarpPage } from '../schema/photo.js';
+import { Format } from '../schema/names.js';
 import { rulings } from '../schema/shape.js';
 import { show } from '../values.js';
 import { commands } from './commands.js';
@@ -41,10 +42,12 @@ import { streams } from './terminal.js';
 
 const MESHES = ['.obj', '.ply', '.stl', '.glb', '.gltf', '.3mf', '.off', '.xyz'];
 /** Endings of photos, also of those that their reader names with what to do. */
-const PHOTOS = ['.jpg', '.jpeg', '.png', '.webp', '.gif', '.bmp', '.heic', '.heif', '.avif', '.jxl', '.pdf'];
-
-/** Whether a file's name does not tell its format: that of standard input, and of points, which may lie on a grid. @param {string} path */
-export const isUntold = (path) => path === '-' || extname(path).toLowerCase() === '.xyz';
+const PHOTOS = ['.jpg', '.jpeg', '.png', '.webp', '.gif', '.bmp', '.tif', '.tiff', '.heic', '.heif', '.avif', '.jxl', '.pdf'];
+/** Whether a file's name does not tell its format: that of standard input, of texts, of points, which may lie on a grid. @param {string} path */
+export const isUntold = (path) => {
+  const ending = extname(path).toLowerCase();
+  return ending === '.xyz' || ![...MESHES, ...PHOTOS, ...Format.map((name) => `.${name}`)].includes(ending);
+};
 
 /** The ending of a file's name, or that of its format where the name does not tell it. @param {string} path */
 const extensionOf = (path) => (isUntold(path) ? `.${streams().formats?.get(path) ?? ''}` : extname(path).toLowerCase());
@@ -138,7 +141,7 @@ const RULES = [
   [({ mode, size }) => size !== undefined && mode !== 'surface', '--size is for meshes: give --scale'],
   ...['cut', 'join', 'blank', 'printed'].map((flag) => given(flag, ({ mode }) => mode !== 'surface', `--${flag} is for meshes, and the input is none`)),
   [({ command, mode, texture }) => command === 'dewarp' && texture === undefined && (mode === 'image' || mode === 'depths'),
-    'the photo is missing: --texture PHOTO; or INPUT is a photo of a page: .jpg, .png, .webp, .gif or .bmp'],
+    'the photo is missing: --texture PHOTO; or INPUT is a photo of a page: .jpg, .png, .webp, .gif, .bmp or .tif'],
   [({ shape, lattice }) => shape === 'cylinder' && lattice === 'square',
     '--shape cylinder is for depths, meshes and heights on the lattice, and the input is an image'],
   [({ shape, asIs }) => shape === 'cylinder' && asIs,

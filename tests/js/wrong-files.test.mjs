@@ -84,6 +84,23 @@ test('the command names a photo that is not read with what to do', async () => {
   }
 });
 
+test('the command takes a file by what is in it where its name does not tell', async () => {
+  const folder = await temporaryFolder();
+  const triangle = 'solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 60 0 0\nvertex 0 60 0\nendloop\nendfacet\nendsolid a\n';
+  // A scanner's cloud of points that are on no grid.
+  const cloud = Array.from({ length: 90 }, (_, i) => [i, (i * i) % 91, (i * 7) % 13].map((x, k) => (x + 0.013 * i * (k + 1)).toFixed(3)).join(' ')).join('\n');
+  const matrix = Array.from({ length: 9 }, (_, row) => Array.from({ length: 12 }, (_, col) => row + 2 * col).join(' ')).join('\n');
+  for (const [name, text, told] of /** @type {[string, string, RegExp][]} */ ([
+    ['part', triangle, /triangles: +1/], ['part.STL.txt', triangle, /triangles: +1/], ['scan.txt', cloud, /none: a point cloud/],
+    ['scan.asc', cloud, /none: a point cloud/], ['matrix.txt', matrix, /12 × 9 pixels/],
+  ])) {
+    await writeFile(join(folder, name), text);
+    const { status, stdout, stderr } = await run(folder, ['info', name]);
+    assert.equal(status, 0, stderr);
+    assert.match(stdout, told);
+  }
+});
+
 test('a file that is cut short is said to be, and nothing else', async () => {
   for (const name of ['grey.jpg', 'grey16.png', 'f4.tif', 'grey.webp', 'f4-le.npy']) {
     const file = await readFile(join(root, 'tests/data', name));

@@ -157,8 +157,23 @@ pageTest('a file of the wrong kind is named, and the part of the page that takes
     ['letter.docx', /“letter.docx” is a text document\. This page opens/], ['notes.txt', /“notes.txt” is a text/], ['part.step', /export it as OBJ/],
   ])) {
     await drop(page, name, Buffer.from('PK\x03\x04'));
-    assert.match(await alert.innerText(), says);
+    await alert.filter({ hasText: says }).waitFor();
   }
+});
+
+doorTest('what the name of a file does not tell, its contents do', async (page) => {
+  const rows = Array.from({ length: HEIGHT }, (_, row) => Array.from({ length: WIDTH }, (_, col) => plane[row * WIDTH + col]));
+  /** Words on the page, after a file is dropped. @param {string} name @param {string} text @param {string} place @param {string | RegExp} says */
+  const said = async (name, text, place, says) => {
+    await drop(page, name, Buffer.from(text));
+    await page.locator(place, { hasText: says }).waitFor({ state: 'attached' });
+  };
+  // Nothing is passed over without a word.
+  await said('camera.json', '{"fx":5,"fy":5,"cx":2,"cy":2}', '#notice-text', /“camera\.json” is a text without heights; if it is a camera, open it together with its depths/);
+  await said('table.csv', rows.map((row) => row.join(',')).join('\n'), '#input-caption', `table, ${WIDTH} × ${HEIGHT}`);
+  await said('matrix.txt', rows.map((row) => row.join(' ')).join('\n'), '#input-caption', `matrix, ${WIDTH} × ${HEIGHT}`);
+  await said('part.STL.txt', 'solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 60 0 0\nvertex 0 60 0\nendloop\nendfacet\nendsolid a\n', '#mesh-name', 'part.STL (STL)');
+  await settled(page);
 });
 
 pageTest('the kind of a file chooses the part of the page, and what does not belong to it is named', async (page) => {

@@ -61,6 +61,15 @@ export function cameraPanel(session, openLoadedMesh) {
       });
     else panel.hidden = true;
   });
+  /** Whether a file has a camera, of whatever image. @param {File} file */
+  const isIn = async (file) => {
+    try {
+      session.api.parseCamera(await file.text());
+      return true;
+    } catch {
+      return false;
+    }
+  };
   /** Reads the camera from a file. @param {File} file */
   const readCamera = async (file) => {
     const input = depthInput();
@@ -111,7 +120,7 @@ export function cameraPanel(session, openLoadedMesh) {
     depthCheckbox.checked = session.input?.depthSource !== undefined;
     panel.hidden = !depthCheckbox.checked;
   });
-  return { show, readCamera, backProject };
+  return { show, isIn, readCamera, backProject };
 }
 
 /** The smallest and the largest depth. @param {Float64Array} data */

@@ -4,12 +4,8 @@ import { element, elements, onFilesChosen } from '../dom.js';
 
 /** @typedef {'page' | 'model' | 'scan'} Door */
 
-/** What the file dialog of a door offers. @type {Record<Door, string>} */
-const ACCEPTED = {
-  page: 'image/*',
-  model: '.obj,.ply,.stl,.glb,.gltf,.3mf,.off,.mtl,image/*',
-  scan: 'image/*,.npy,.tif,.tiff,.exr,.pfm,.npz,.json,.csv,.asc,.xyz,.ply',
-};
+/** What the file dialog of a door offers; heights have any ending. @type {Partial<Record<Door, string>>} */
+const ACCEPTED = { page: 'image/*', model: '.obj,.ply,.stl,.glb,.gltf,.3mf,.off,.xyz,.mtl,image/*' };
 
 /**
  * @param {(files: File[], door?: Door) => unknown} open opens files; of a door, if they were chosen there
@@ -17,13 +13,12 @@ const ACCEPTED = {
  */
 export function homePanel(open, examples) {
   const input = element('file', HTMLInputElement);
-  const everything = input.accept;
   /** The door whose dialog is open. @type {Door | undefined} */
   let asked;
   /** @param {Door} [door] */
   const ask = (door) => {
     asked = door;
-    input.accept = door ? ACCEPTED[door] : everything;
+    input.accept = (door && ACCEPTED[door]) ?? '';
   };
   element('open', HTMLButtonElement).addEventListener('click', () => ask());
   onFilesChosen(element('open', HTMLButtonElement), input, (files) => open(files, asked));

@@ -51,10 +51,11 @@ export function meshPanel(session) {
      * Opens the mesh of a file.
      * @param {File} file
      * @param {readonly File[]} [referencedFiles] files that it may refer to: materials, textures, buffers
+     * @param {string} [format] name of its format, where the file's name does not tell it
      */
-    openFile(file, referencedFiles = []) {
-      const [, title, ending] = /^(.*)\.(\w+)$/.exec(file.name) ?? [];
-      const kind = ending?.toUpperCase();
+    openFile(file, referencedFiles = [], format = undefined) {
+      const [, title = file.name, ending = ''] = /^(.*)\.(\w+)$/.exec(file.name) ?? [];
+      const kind = (format ?? ending).toUpperCase();
       const name = title || 'mesh';
       return this.openLoaded({ name, kind }, async (signal) => {
         const files = new Map(await Promise.all(referencedFiles.map(async (one) => /** @type {const} */ ([one.name, await one.arrayBuffer()]))));

@@ -4,8 +4,8 @@ import { above, fieldsOf } from '../fields.js';
 import { ColourPictureError, readInput } from '../height-file.js';
 import { hasColours } from '../views/photo.js';
 import { reinterpret, spanInWords } from '../import-interpretation.js';
-import { fileRoles, isCameraFile } from '../file-routing.js';
-import { isMesh, unreadableKindInWords } from '../file-kinds.js';
+import { fileRoles } from '../file-routing.js';
+import { isMesh, isMeshFormat, kindByName, unreadableKindInWords } from '../file-kinds.js';
 import { assumedInWords, DEPTH_WORDS, FILE_WORDS } from '../messages.js';
 import { noDataOf } from '../no-data.js';
 import { cameraPanel } from './camera.js';
@@ -72,9 +72,6 @@ export function sourcePanel(session, adopt, choose, onOpened, solveMesh, openCol
     if (opened) await session.run();
   };
 
-  /** Whether a file of points is a cloud: points on a grid are heights. @param {File} file */
-  const isPointCloud = async (file) => /\.xyz$/i.test(file.name) && await session.api.formatOf(file) === 'xyz';
-
   /**
    * Opens a file and solves it. Depths are not solved yet if their camera's file is opened together with them.
    * @param {File} chosen
@@ -83,13 +80,18 @@ export function sourcePanel(session, adopt, choose, onOpened, solveMesh, openCol
    * @param {boolean} [hasCamera] whether the camera's file is opened together with it
    */
   const openFile = async (chosen, reading, photo, hasCamera = false) => {
-    if (isMesh(chosen.name) || await isPointCloud(chosen)) return openMesh(chosen);
-    // A text file can only be the camera of depths that are open.
-    if (/\.txt$/i.test(chosen.name) && !session.input?.kind) {
-      showNotice(FILE_WORDS.unread(chosen.name, unreadableKindInWords(chosen)));
-      return false;
+    const kind = kindByName(chosen);
+    // Where a name does not tell what a file is, the contents do.
+    const format = kind === 'camera' || kind === null ? await session.api.formatOf(chosen) : undefined;
+    if (isMesh(chosen.name) || isMeshFormat(format)) return openMesh(chosen, [], format);
+    if (kind === 'camera') {
+      // Numbers may be a camera of the depths that are open, or heights.
+      if (session.input?.kind && (format !== 'text' || await camera.isIn(chosen))) return camera.readCamera(chosen);
+      if (format === undefined) {
+        showNotice(FILE_WORDS.unread(chosen.name, unreadableKindInWords(chosen)));
+        return false;
+      }
     }
-    if (isCameraFile(chosen)) return camera.readCamera(chosen);
     let isColourPicture = false;
     const opened = await session.open(`“${chosen.name}” could not be read`, async (signal) => {
       try {
@@ -123,9 +125,9 @@ export function sourcePanel(session, adopt, choose, onOpened, solveMesh, openCol
     return true;
   };
 
-  /** @param {File} file @param {readonly File[]} [referencedFiles] */
-  const openMesh = async (file, referencedFiles) => {
-    const opened = await mesh.openFile(file, referencedFiles);
+  /** @param {File} file @param {readonly File[]} [referencedFiles] @param {string} [format] where the name does not tell it */
+  const openMesh = async (file, referencedFiles, format) => {
+    const opened = await mesh.openFile(file, referencedFiles, format);
     if (opened) solveMesh();
     return opened;
   };
@@ -138,11 +140,10 @@ export function sourcePanel(session, adopt, choose, onOpened, solveMesh, openCol
 
   /** Opens files that belong together, or one file. @param {readonly File[]} files */
   const openFiles = async (files) => {
-    // The camera's file alone changes the present input, and is not an input itself.
-    const isCameraAlone = files.length === 1 && session.input?.kind !== undefined && isCameraFile(files[0]);
     const before = session.input;
     const isOpened = await openTogether(files);
-    if (isOpened && !isCameraAlone && session.input !== before && session.input?.kind) onOpened(files);
+    // The camera's file alone is not an input itself.
+    if (isOpened && session.input !== before && session.input?.kind) onOpened(files);
     return isOpened;
   };
 

@@ -63,7 +63,9 @@ pub(super) fn decode(bytes: &[u8]) -> Result<PhotoFile> {
 
 /// Reason why pixels of a kind are not read.
 fn refused(colour: ColorType) -> String {
-    format!("pixels of kind {colour:?}; grey, RGB and CMYK of 8 and 16 bits are read as photos")
+    format!(
+        "pixels of kind {colour:?}; if they are heights, read them as such; photos have unsigned pixels of 8 or 16 bits, grey, RGB or CMYK"
+    )
 }
 
 /// Light of one colour that is left by an ink and by black.

@@ -107,7 +107,7 @@ export const CALLS = {
   },
   writeBook: {
     parts: ['files'],
-    send: (pages) => [asBook(pages).map(({ picture, size }) => ({ picture: new Uint8Array(picture), size }))],
+    send: (pages, given) => [asBook(pages).map(({ picture, size }) => ({ picture: new Uint8Array(picture), size })), optionsOf('writeBook', given)],
   },
   writeSvg: writing(drawing, ['patterns']),
   writePdf: {

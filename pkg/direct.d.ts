@@ -10,7 +10,7 @@ import type {
   OcclusionOptions, PageEdges, PageOutlines, Painted, PaintOptions, PatchMap, PatchOptions, PatternOptions, Photo, Picture,
   PictureOptions, Progress,
   ReadMeshOptions, ReadOptions, ReadResult, RulingField, RulingOptions, SampledMesh, SampleMeshOptions, SizedPhoto,
-  SolverOptions, Surface, SurfacePicture, Unrolling, UnrollOptions, WritePdfOptions, WritePhotoOptions,
+  SolverOptions, Surface, SurfacePicture, Unrolling, UnrollOptions, WriteBookOptions, WritePdfOptions, WritePhotoOptions,
 } from './types.js';
 export { parseCamera } from './camera-file.js';
 export * from './types.js';
@@ -314,7 +314,7 @@ export function flattenPhoto(photo: Picture, page: FoundPage, options?: FlattenP
 export function describePage(report: PageReport): string;
 /**
  * Finds the page in a photo: its corners and edges, which can be corrected and given to `dewarpPage`. Coordinates are in pixels of
- * the photo as `readPhoto` decodes it (upright; a file of more than 26 megapixels is halved until it has fewer), from the centre of the
+ * the photo as `readPhoto` decodes it (upright; a file of more than 26 megapixels is reduced, its sides divided by a whole number), from the centre of the
  * upper left pixel. Without a page the verdict is `'notFound'`, and `pages` has the best guess, if there is one.
  */
 export function findPage(photo: Picture): PageOutlines;
@@ -332,6 +332,6 @@ export function writePhoto(photo: SizedPhoto, options?: WritePhotoOptions): Uint
  * Writes a PDF file with one page for each entry, of the entry's `size`, on which its picture is centred and as large as fits. Pictures
  * are JPEG files, or PNG files without transparency, and are taken over without loss; others throw with code `UNSUPPORTED`.
  */
-export function writeBook(pages: readonly BookPage[]): Uint8Array<ArrayBuffer>;
+export function writeBook(pages: readonly BookPage[], options?: WriteBookOptions): Uint8Array<ArrayBuffer>;
 /** Generates a procedural example: a height image with noise, and the true heights. */
 export function example(name: ExampleName, options?: ExampleOptions): Example;

@@ -440,9 +440,10 @@ export function writePhoto(photo, given) {
 }
 
 /** @type {typeof import('./direct.js').writeBook} */
-export function writeBook(pages) {
+export function writeBook(pages, given) {
   const book = asBook(pages);
-  return bytesOf((wasm) => wasm.writeBook(book));
+  const options = optionsOf('writeBook', given);
+  return bytesOf((wasm) => wasm.writeBook(book, options));
 }
 
 /** @type {typeof import('./direct.js').example} */

@@ -10,7 +10,7 @@ import type {
   ExploredPatterns, OcclusionOptions, PageEdges, PageOutlines, Painted, PaintOptions, PatchMap, PatchOptions, PatternOptions, PatternPlan, Photo, Picture,
   PictureOptions, Progress,
   ReadMeshOptions, ReadOptions, ReadResult, RulingField, RulingOptions, SampledMesh, SampleMeshOptions, SizedPhoto,
-  SolverOptions, Surface, SurfaceOf, SurfacePicture, ThreadOptions, Unrolling, UnrollOptions, WritePdfOptions, WritePhotoOptions,
+  SolverOptions, Surface, SurfaceOf, SurfacePicture, ThreadOptions, Unrolling, UnrollOptions, WriteBookOptions, WritePdfOptions, WritePhotoOptions,
 } from './types.js';
 export { parseCamera } from './camera-file.js';
 export * from './types.js';
@@ -386,13 +386,13 @@ export function flattenPhoto(photo: Photo | PhotoSource | Drawable, page: FoundP
 export function describePage(report: PageReport): string;
 /**
  * Finds the page in a photo: its corners and edges, which can be corrected and given to `dewarpPage`. Coordinates are in pixels of
- * the photo as `readPhoto` decodes it (upright; a file of more than 26 megapixels is halved until it has fewer), from the centre of the
+ * the photo as `readPhoto` decodes it (upright; a file of more than 26 megapixels is reduced, its sides divided by a whole number), from the centre of the
  * upper left pixel. Without a page the verdict is `'notFound'`, and `pages` has the best guess, if there is one.
  */
 export function findPage(photo: Photo | PhotoSource | Drawable, options?: Abortable): Promise<PageOutlines>;
 /**
  * Decodes a photo: JPEG, PNG, WebP, GIF, BMP or TIFF. It is turned upright by its Exif data, which also give its focal
- * length. A photo of more than 26 megapixels is halved until it has fewer, which `assumptions` says (code
+ * length. A photo of more than 26 megapixels is reduced, its sides divided by a whole number, which `assumptions` says (code
  * `reducedPhoto`).
  */
 export function readPhoto(file: PhotoSource): Promise<DecodedPhoto>;
@@ -405,7 +405,7 @@ export function writePhoto(photo: SizedPhoto, options?: WritePhotoOptions & Hand
  * Writes a PDF file with one page for each entry, of the entry's `size`, on which its picture is centred and as large as fits. Pictures
  * are JPEG files, or PNG files without transparency, and are taken over without loss; others reject with code `UNSUPPORTED`.
  */
-export function writeBook(pages: readonly BookPage[]): Promise<Uint8Array<ArrayBuffer>>;
+export function writeBook(pages: readonly BookPage[], options?: WriteBookOptions): Promise<Uint8Array<ArrayBuffer>>;
 /** Generates a procedural example: a height image with noise, and the true heights. */
 export function example(name: ExampleName, options?: ExampleOptions): Promise<Example>;
 /** Stops the shared worker. Calls under way reject with code `DISPOSED`; a later call starts a new worker. */

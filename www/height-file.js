@@ -1,5 +1,6 @@
 /** Reads a file of heights as an input, with the photo that belongs to it. */
 import { runInWorker } from './worker-task.js';
+import { stemOf } from './file-kinds.js';
 import { readPicture } from './pixels.js';
 import { transferToWorker } from './surface/worker-client.js';
 import { noDataOptions } from './no-data.js';
@@ -39,7 +40,7 @@ export async function readInput(api, file, signal, { array, noData } = {}, photo
   const input = await transferToWorker('interpretFile', [read.data], read, noData);
   return {
     ...input,
-    name: file.name.replace(/\.[^.]*$/, '') || 'heights',
+    name: stemOf(file) || 'heights',
     file: file.name,
     kind: `${format.toUpperCase()}, ${numberTypeInWords(dataType)}`,
     dataType,

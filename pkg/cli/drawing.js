@@ -1,7 +1,7 @@
 /** Drawings of patterns in files, and what is said of them. */
-import { basename, extname } from 'node:path';
 import * as developable from '../index.js';
 import { limits, patternMesh } from '../schema/pattern.js';
+import { titleOf } from './flat-image.js';
 import { optionsFrom } from './task.js';
 import { percent, say, succeed, toStderr } from './terminal.js';
 import { json } from './texts.js';
@@ -25,7 +25,7 @@ export function drawingOptions(task) {
  * @param {Plan} [plan]
  */
 export async function patternFiles(task, drawing, plan) {
-  const files = [{ path: task.output, bytes: await drawn(drawing, task.extension, basename(task.output, extname(task.output))) }];
+  const files = [{ path: task.output, bytes: await drawn(drawing, task.extension, titleOf(task.output)) }];
   const { assembly } = drawing;
   if (task.report !== undefined) {
     files.push({ path: task.report, bytes: json({ ...drawing.summary, ...plan, bends: bendTable(drawing), assembly: assembly?.steps }) });
@@ -39,7 +39,7 @@ export async function patternFiles(task, drawing, plan) {
 /**
  * @param {import('../types.js').Drawing} drawing
  * @param {string} extension
- * @param {string} title
+ * @param {string} [title]
  */
 export async function drawn(drawing, extension, title) {
   switch (extension) {

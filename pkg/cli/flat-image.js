@@ -1,4 +1,5 @@
 /** Flat images and their warp maps in files. */
+import { basename, extname } from 'node:path';
 import * as developable from '../index.js';
 
 /**
@@ -8,12 +9,17 @@ import * as developable from '../index.js';
 
 /**
  * A flat image in a file of the kind that its name says.
- * @param {{ extension: string, quality?: number }} task
+ * @param {{ extension: string, quality?: number, output?: string }} task
  * @param {import('../types.js').SizedPhoto} flat
  */
-export function printed({ extension, quality }, flat) {
+export function printed({ extension, quality, output }, flat) {
   const formats = /** @type {const} */ ({ '.png': 'png', '.pdf': 'pdf', '.jpg': 'jpeg', '.jpeg': 'jpeg' });
-  return developable.writePhoto(flat, { format: formats[/** @type {keyof typeof formats} */ (extension)], quality, transfer: true });
+  return developable.writePhoto(flat, { format: formats[/** @type {keyof typeof formats} */ (extension)], quality, title: titleOf(output), transfer: true });
+}
+
+/** The title of a document: the name of its file; none on standard output. @param {string} [path] */
+export function titleOf(path = '-') {
+  return path === '-' ? undefined : basename(path, extname(path));
 }
 
 /** The size of a flat image. @param {import('../types.js').SizedPhoto} flat */

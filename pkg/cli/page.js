@@ -4,7 +4,7 @@ import { messageOf } from '../errors.js';
 import { dewarp as flattening, dewarpPage } from '../schema/photo.js';
 import { about, asProblem } from './explain.js';
 import { checkPlaces, readBytes, writeWhole } from './files.js';
-import { mapFile, mapOptions, printed, sizeInWords } from './flat-image.js';
+import { mapFile, mapOptions, printed, sizeInWords, titleOf } from './flat-image.js';
 import { tellAssumptions } from './inputs.js';
 import { Problem, status } from './problem.js';
 import { optionsFrom } from './task.js';
@@ -71,7 +71,7 @@ export async function page(task, signal) {
     }
   }
   if (several && book.length === 0) throw new Problem(status.input, 'none of the photos was flattened');
-  if (book.length > 0) files.push({ path: task.output, bytes: await developable.writeBook(book) });
+  if (book.length > 0) files.push({ path: task.output, bytes: await developable.writeBook(book, { title: titleOf(task.output) }) });
   if (task.report !== undefined) files.push({ path: task.report, bytes: json(several ? reports : reports[0]) });
   await writeWhole(files, signal);
   if (several) say(`${task.output}: ${book.length} of ${task.inputs.length} photos`);

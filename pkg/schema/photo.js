@@ -1,5 +1,5 @@
 /** Options of photos, and of cameras that have taken them. Each comment is what the types say; the default is added there. */
-import { anything, choice, corners, either, extent, flag, number, numbers, optionsIn, percentage, positive, rows, whole } from './kinds.js';
+import { anything, choice, corners, either, extent, flag, number, numbers, optionsIn, percentage, positive, rows, text, whole } from './kinds.js';
 import { LightTreatment, Unit } from './names.js';
 import { unroll } from './shape.js';
 
@@ -253,4 +253,11 @@ export const writePhoto = {
    * page of a PDF, and is stated in PNG (in whole pixels per metre) and JPEG (in whole pixels per inch or centimetre).
    */
   dotsPerMillimetre: { kind: positive },
+  /** Title of a PDF. Default: none. */
+  title: { kind: text },
+};
+
+/** Options of writing pictures to the pages of a PDF file. @satisfies {Options} */
+export const writeBook = {
+  title: writePhoto.title,
 };

@@ -445,6 +445,7 @@ test('the command makes one PDF of several photos, in black and white if that is
     assert.equal(status, 0, stderr);
     const book = await readPdf(await readFile(join(folder, 'book.pdf')));
     const paper = more.includes('letter') ? [215.9, 279.4] : [210, 297];
+    assert.match((await readFile(join(folder, 'book.pdf'))).toString('latin1'), /\/Title \(book\)/);
     assert.equal(book.length, 2);
     for (const { size } of book) assert.ok(size.every((side, k) => Math.abs(side - paper[k]) < 1), String(size));
     const reports = JSON.parse(await readFile(join(folder, 'report.json'), 'utf8'));

@@ -91,6 +91,12 @@ test('a book has a page for each picture, which is as large as fits and in the m
   ])) {
     assert.throws(() => direct.writeBook(/** @type {any} */ (given)), error('INPUT', message));
   }
+  assert.doesNotMatch(Buffer.from(book).toString('latin1'), /\/Title/);
+  for (const titled of [direct.writeBook(pages, { title: 'A letter' }), await developable.writeBook(pages, { title: 'A letter' }), direct.writePhoto(picture, { format: 'pdf', dotsPerMillimetre: 2, title: 'A letter' })]) {
+    const text = Buffer.from(titled).toString('latin1');
+    const [, info] = /\/Info (\d+) 0 R/.exec(text) ?? [];
+    assert.match(text, new RegExp(`\\n${info} 0 obj\\n<<\\s*/Title \\(A letter\\)`));
+  }
   assert.throws(() => direct.writeBook([]), error('EMPTY', /book/));
   assert.throws(() => direct.writeBook([{ picture: new Uint8Array([1, 2]), size: [9, 9] }]), error('UNSUPPORTED', /JPEG or PNG/));
 });

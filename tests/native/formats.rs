@@ -474,13 +474,17 @@ fn photos_that_cannot_be_written_are_refused() {
         let options = options.quality(quality);
         assert_eq!(refusal(write_photo_jpeg(&photo, &options)).0, "OPTION");
     }
-    let (code, message) = refusal(write_photo_pdf(&photo, &options));
+    let (code, message) = refusal(write_photo_pdf(&photo, &options, None));
     assert!(
         code == "OPTION" && message.contains("true size"),
         "{message}"
     );
     for dots in [0.1, 50.0] {
-        let (code, message) = refusal(write_photo_pdf(&photo, &options.dots_per_millimetre(dots)));
+        let (code, message) = refusal(write_photo_pdf(
+            &photo,
+            &options.dots_per_millimetre(dots),
+            None,
+        ));
         assert!(
             code == "UNSUPPORTED" && message.contains("unit"),
             "{message}"
@@ -562,11 +566,11 @@ fn books_take_pictures_as_they_are_and_refuse_others() {
         .iter()
         .map(|picture| BookPage { picture, size })
         .collect();
-    let book = write_book(&pages).unwrap();
+    let book = write_book(&pages, None).unwrap();
     let has = |part: &[u8]| book.windows(part.len()).any(|window| window == part);
     assert!(has(&pictures[0]) && has(b"/Count 2") && has(b"/FlateDecode") && has(b"/DCTDecode"));
     let refused = |picture: &[u8], size| {
-        write_book(&[BookPage { picture, size }])
+        write_book(&[BookPage { picture, size }], None)
             .unwrap_err()
             .code()
     };
@@ -576,14 +580,15 @@ fn books_take_pictures_as_they_are_and_refuse_others() {
     let see_through: Vec<u8> = rgba.iter().map(|v| v / 2).collect();
     let see_through = write_photo(&Photo::new(40, 30, &see_through).unwrap(), &options).unwrap();
     assert_eq!(refused(&see_through, size), "UNSUPPORTED");
-    assert_eq!(write_book(&[]).unwrap_err().code(), "EMPTY");
+    assert_eq!(write_book(&[], None).unwrap_err().code(), "EMPTY");
     // Cut off anywhere, a file is refused or goes in as it is, without a panic.
     for picture in &pictures {
         for length in 0..picture.len().min(700) {
-            let _ = write_book(&[BookPage {
+            let page = BookPage {
                 picture: &picture[..length],
                 size,
-            }]);
+            };
+            let _ = write_book(&[page], None);
         }
         assert_eq!(refused(&picture[..20], size), "FORMAT");
     }

@@ -200,6 +200,7 @@ doorTest('photos that are opened together become one PDF, each with its own outl
   assert.deepEqual(await placeOf(page, 'Upper left corner'), placed, 'as it was left');
   const { name, bytes } = await savedPage(page, 'PDF');
   assert.equal(name, 'one-pages.pdf');
+  assert.match(bytes.toString('latin1'), /\/Title \(one\)/);
   await page.locator('#save-dialog').evaluate((dialog) => /** @type {HTMLDialogElement} */ (dialog).close());
   const pages = await readPdf(bytes);
   assert.deepEqual(pages.map(({ size }) => size.map(Math.round)), [[210, 297], [210, 297]]);

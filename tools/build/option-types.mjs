@@ -20,7 +20,7 @@ const MODULES = {
   pattern: { pattern: 'PatternOptions', unrollMesh: 'MeshUnrollOptions', patternMesh: 'MeshPatternOptions', writePdf: 'WritePdfOptions' },
   photo: {
     depths: 'DepthOptions', paint: 'PaintOptions', dewarp: 'DewarpOptions', dewarpPage: 'DewarpPageOptions', flattenPhoto: 'FlattenPhotoOptions',
-    writePhoto: 'WritePhotoOptions',
+    writePhoto: 'WritePhotoOptions', writeBook: 'WriteBookOptions',
   },
   file: { read: 'ReadOptions', readMesh: 'ReadMeshOptions', sampleMesh: 'SampleMeshOptions', example: 'ExampleOptions' },
 };

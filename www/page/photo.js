@@ -1,4 +1,5 @@
 /** Opens a photo of a page: its pixels, a reduced copy for display and previews, and the outlines of the pages in it. */
+import { stemOf } from '../file-kinds.js';
 import { runInWorker } from '../worker-task.js';
 import { readPicture, reducedPhoto } from '../pixels.js';
 import { rescalePixel } from './flatten.js';
@@ -42,7 +43,7 @@ export async function openPhoto(api, file, signal) {
     });
   });
   signal.throwIfAborted();
-  return { ...await preparePhoto(api, photo, file.name.replace(/\.[^.]*$/, '') || 'photo', signal), file };
+  return { ...await preparePhoto(api, photo, stemOf(file) || 'photo', signal), file };
 }
 
 /**

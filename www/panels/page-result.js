@@ -1,4 +1,5 @@
 /** The flat page: its verdict, figures and files. */
+import { stemOf } from '../file-kinds.js';
 import { element, make } from '../dom.js';
 import { number, percent } from '../format.js';
 import { flattenWholePhoto } from '../page/flatten.js';
@@ -150,6 +151,7 @@ export function pageResultPanel(api, session, book, onWritten) {
       ...Object.entries(SAVE_WORDS.papers).map(([name, words]) => new Option(words, name)));
     paper.value = measured ? '' : similar ?? 'a4';
     const several = book.photos.length > 1;
+    const title = several ? stemOf(book.photos[0].file) : wish.photo.name;
     const status = element('save-size', HTMLElement);
     const showProgress = (/** @type {number} */ done) => {
       status.textContent = BOOK_WORDS.writing(done + 1, book.photos.length);
@@ -165,11 +167,11 @@ export function pageResultPanel(api, session, book, onWritten) {
       title: 'Flat page',
       stem: `${wish.photo.name}-flat`,
       formats: [
-        { value: 'pdf', name: 'PDF', ...(several && { stem: `${book.photos[0].file.name.replace(/\.[^.]*$/, '')}-pages`, note: () => withoutInWords(book) }), words: several ? BOOK_WORDS.pdf(book.photos.length) : pages > 1 ? SAVE_WORDS.pdfOfTwo : SAVE_WORDS.pdf, type: 'application/pdf', write: async (worker) => {
+        { value: 'pdf', name: 'PDF', ...(several && { stem: `${title}-pages`, note: () => withoutInWords(book) }), words: several ? BOOK_WORDS.pdf(book.photos.length) : pages > 1 ? SAVE_WORDS.pdfOfTwo : SAVE_WORDS.pdf, type: 'application/pdf', write: async (worker) => {
           const size = paper.value === '' ? null : PAPERS[/** @type {PaperName} */ (paper.value)];
-          if (several) return worker.writeBook(await book.flatPages(api, session, worker, size, showProgress).finally(onWritten));
+          if (several) return worker.writeBook(await book.flatPages(api, session, worker, size, showProgress).finally(onWritten), { title });
           flat ??= await flattenWholePhoto(worker, wish, found);
-          return worker.writeBook(await pictureFiles(worker, flat, pages, quarters, size, wish.options.ink));
+          return worker.writeBook(await pictureFiles(worker, flat, pages, quarters, size, wish.options.ink), { title });
         } },
         { value: 'jpg', name: 'JPEG', words: FORMAT_WORDS.jpg, type: 'image/jpeg', write: writeImage('jpeg') },
         { value: 'png', name: 'PNG', words: FORMAT_WORDS.png, type: 'image/png', write: writeImage('png') },

@@ -1,6 +1,6 @@
 //! Writes photos as PDF: one page for each picture.
 
-use pdf_writer::{Content, Filter, Finish, Name, Pdf, Rect, Ref};
+use pdf_writer::{Content, Filter, Finish, Name, Pdf, Rect, Ref, TextStr};
 
 use super::picture_data::{Compression, PictureData};
 use super::print::{PhotoOptions, PhotoRows, is_bilevel, write_photo, write_photo_jpeg};
@@ -21,12 +21,16 @@ pub struct BookPage<'a> {
 }
 
 /// Writes a photo as a PDF file of one page, which the photo fills as a JPEG, or without loss if all its pixels are
-/// black or white; the page has the size of the surface in the photo. Print it at 100 %.
+/// black or white; the page has the size of the surface in the photo, and the document the title that is given. Print it at 100 %.
 ///
 /// # Errors
 /// The errors of [`write_photo_jpeg`]; [`Error::Option`] without a resolution, [`Error::Unsupported`] if a
 /// side is below 2 mm or above 5.08 m, the format's limit.
-pub fn write_photo_pdf(photo: &impl PhotoRows, options: &PhotoOptions) -> Result<Vec<u8>> {
+pub fn write_photo_pdf(
+    photo: &impl PhotoRows,
+    options: &PhotoOptions,
+    title: Option<&str>,
+) -> Result<Vec<u8>> {
     let Some(dots) = options.dots()? else {
         let requirement = "must be known for a PDF, whose pages are in true size";
         return Err(Error::option(
@@ -41,19 +45,20 @@ pub fn write_photo_pdf(photo: &impl PhotoRows, options: &PhotoOptions) -> Result
         true => write_photo(photo, options)?,
         false => write_photo_jpeg(photo, options)?,
     };
-    write_book(&[BookPage {
+    let page = BookPage {
         picture: &picture,
         size,
-    }])
+    };
+    write_book(&[page], title)
 }
 
-/// Writes a PDF file with one page for each picture, in their order.
+/// Writes a PDF file with one page for each picture, in their order, and with the title that is given.
 ///
 /// # Errors
 /// [`Error::Empty`] without pages; [`Error::Unsupported`] if a side of a page is below 2 mm or above 5.08 m, the
 /// format's limit, and for pictures that are neither JPEG nor PNG without transparency; [`Error::Format`] for a damaged
 /// picture.
-pub fn write_book(pages: &[BookPage<'_>]) -> Result<Vec<u8>> {
+pub fn write_book(pages: &[BookPage<'_>], title: Option<&str>) -> Result<Vec<u8>> {
     if pages.is_empty() {
         return Err(Error::Empty { what: "book" });
     }
@@ -61,6 +66,10 @@ pub fn write_book(pages: &[BookPage<'_>]) -> Result<Vec<u8>> {
     let first = |number: usize| 3 + OBJECTS_PER_PAGE * number as i32;
     let mut pdf = Pdf::new();
     pdf.catalog(catalog).pages(tree);
+    if let Some(title) = title {
+        let info = Ref::new(first(pages.len()));
+        pdf.document_info(info).title(TextStr(title));
+    }
     pdf.pages(tree)
         .kids((0..pages.len()).map(|number| Ref::new(first(number))))
         .count(pages.len() as i32);

@@ -151,6 +151,7 @@ struct WritePhotoInput {
     format: PhotoFormat,
     quality: Option<u8>,
     dots_per_millimetre: Option<f64>,
+    title: Option<String>,
 }
 
 /// Kind of a file that a photo is written to.
@@ -185,7 +186,7 @@ pub fn write_photo_file(
     let file = match input.format {
         PhotoFormat::Png => write_photo(&photo, &wanted)?,
         PhotoFormat::Jpeg => write_photo_jpeg(&photo, &wanted)?,
-        PhotoFormat::Pdf => write_photo_pdf(&photo, &wanted)?,
+        PhotoFormat::Pdf => write_photo_pdf(&photo, &wanted, input.title.as_deref())?,
     };
     Ok(file.as_slice().into())
 }
@@ -198,9 +199,16 @@ struct BookPageInput {
     size: [f64; 2],
 }
 
+/// Options of `writeBook`.
+#[derive(Deserialize)]
+struct WriteBookInput {
+    title: Option<String>,
+}
+
 /// Writes a PDF file with one page for each JPEG or PNG file.
 #[wasm_bindgen(js_name = writeBook)]
-pub fn write_book_file(pages: JsValue) -> Result<Uint8Array> {
+pub fn write_book_file(pages: JsValue, options: JsValue) -> Result<Uint8Array> {
+    let WriteBookInput { title } = read_options(&options)?;
     let given: Vec<BookPageInput> = from_value(pages)?;
     let mut pictures = Vec::new();
     for page in &given {
@@ -212,5 +220,5 @@ pub fn write_book_file(pages: JsValue) -> Result<Uint8Array> {
             size: *size,
         })
         .collect();
-    Ok(write_book(&pages)?.as_slice().into())
+    Ok(write_book(&pages, title.as_deref())?.as_slice().into())
 }

@@ -38,7 +38,8 @@ pub(crate) struct PhotoPixels {
 }
 
 impl PhotoPixels {
-    /// Prepares for a photo of `width` and `height` pixels, which is halved until it has at most 26 megapixels.
+    /// Prepares for a photo of `width` and `height` pixels, whose sides are divided by the smallest whole number that leaves at most
+    /// 26 megapixels.
     ///
     /// # Errors
     /// [`Error::Empty`] for a photo without pixels, [`Error::Unsupported`] for one of more than a quarter of a gigapixel,
@@ -55,7 +56,7 @@ impl PhotoPixels {
         }
         let mut block = 1;
         while (width / block).max(1) * (height / block).max(1) > MAX_PHOTO_PIXELS {
-            block *= 2;
+            block += 1;
         }
         let reduction = BoxReduction::new([width, height], block);
         let bytes = 4 * reduction.size()[0] * reduction.size()[1];

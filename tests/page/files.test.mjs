@@ -2,7 +2,7 @@
 import assert from 'node:assert/strict';
 import { grid, npy, obj, parseNpy, png16 } from './support/files.mjs';
 import { parsed } from './support/numbers.mjs';
-import { choose, doorTest, drop, dropAll, enterPages, open, pageTest, reported, runBy, save, settled } from './support/page.mjs';
+import { choose, doorTest, drop, dropAll, enterPages, open, reported, runBy, save, settled, sharedDoorTest, sharedTest } from './support/page.mjs';
 import { dottedPhoto } from './support/photos.mjs';
 
 /** @typedef {import('playwright-core').Page} Page */
@@ -25,7 +25,7 @@ function assertClose(found, expected, tolerance) {
   assert.ok(worst <= tolerance, `off by ${worst}`);
 }
 
-doorTest('a dropped NPY is shown, solved at once, and comes back as an NPY', async (page) => {
+sharedDoorTest('a dropped NPY is shown, solved at once, and comes back as an NPY', async (page) => {
   await open(page, 'slope.npy', npy(WIDTH, plane));
   await page.locator('#input-caption', { hasText: `${WIDTH} × ${HEIGHT}` }).waitFor();
   assert.ok(await page.locator('#space-after').isVisible());
@@ -37,7 +37,7 @@ doorTest('a dropped NPY is shown, solved at once, and comes back as an NPY', asy
   assertClose(values, plane, 1e-3 * (Math.max(...plane) - Math.min(...plane)));
 });
 
-doorTest('a dropped 16-bit PNG takes the scale that is given', async (page) => {
+sharedDoorTest('a dropped 16-bit PNG takes the scale that is given', async (page) => {
   await open(page, 'slope.png', png16(WIDTH, plane));
   await page.locator('#file-name', { hasText: 'PNG' }).waitFor();
   assert.match(await page.locator('#file-name').innerText(), /16/);
@@ -52,7 +52,7 @@ doorTest('a dropped 16-bit PNG takes the scale that is given', async (page) => {
   assertClose(values, expected, 1e-3 * (Math.max(...expected) - Math.min(...expected)));
 });
 
-doorTest('holes stay holes', async (page) => {
+sharedDoorTest('holes stay holes', async (page) => {
   const hole = (/** @type {number} */ col, /** @type {number} */ row) => Math.hypot(col - 24, row - 18) < 6;
   const pierced = plane.map((value, i) => (hole(i % WIDTH, Math.floor(i / WIDTH)) ? NaN : value));
   await open(page, 'pierced.npy', npy(WIDTH, pierced));
@@ -61,7 +61,7 @@ doorTest('holes stay holes', async (page) => {
   assert.deepEqual(values.map(Number.isNaN), pierced.map(Number.isNaN));
 });
 
-doorTest('zeros far from all heights are no data, unless none is', async (page) => {
+sharedDoorTest('zeros far from all heights are no data, unless none is', async (page) => {
   const framed = plane.map((value, i) => (i % WIDTH < 8 ? 0 : 5000 + value));
   await open(page, 'framed.npy', npy(WIDTH, framed));
   await run(page);
@@ -73,7 +73,7 @@ doorTest('zeros far from all heights are no data, unless none is', async (page) 
   await page.waitForURL(/noData=none/);
 });
 
-doorTest('a value that means no data is given by hand, and stands in the address', async (page) => {
+sharedDoorTest('a value that means no data is given by hand, and stands in the address', async (page) => {
   const marked = plane.map((value, i) => (i % WIDTH < 8 ? -7 : value));
   await open(page, 'marked.npy', npy(WIDTH, marked));
   const field = page.getByLabel('Number that means no data');
@@ -83,7 +83,7 @@ doorTest('a value that means no data is given by hand, and stands in the address
   await page.waitForURL(/noData=-7/);
 });
 
-doorTest('heights along one line are refused with the reason', async (page) => {
+sharedDoorTest('heights along one line are refused with the reason', async (page) => {
   await open(page, 'line.npy', npy(WIDTH, plane.map((value, i) => (i < WIDTH ? value : NaN))));
   await run(page);
   assert.match(await page.getByRole('alert').innerText(), /no interior vertex/);
@@ -143,7 +143,7 @@ doorTest('a file, a mesh’s other side and a file to be saved can be done witho
   assert.equal(await page.locator('#opening').isVisible(), false);
 });
 
-pageTest('the file button opens a file', async (page) => {
+sharedTest('the file button opens a file', async (page) => {
   const [chooser] = await Promise.all([
     page.waitForEvent('filechooser'),
     page.getByRole('button', { name: /^Open/ }).click(),
@@ -151,7 +151,7 @@ pageTest('the file button opens a file', async (page) => {
   await chooser.setFiles({ name: 'slope.npy', mimeType: '', buffer: npy(WIDTH, plane) });
 });
 
-pageTest('a file of the wrong kind is named, and the part of the page that takes it is one click away', async (page) => {
+sharedTest('a file of the wrong kind is named, and the part of the page that takes it is one click away', async (page) => {
   const alert = page.getByRole('alert');
   for (const [name, says] of /** @type {const} */ ([
     ['letter.docx', /“letter.docx” is a text document\. This page opens/], ['notes.txt', /“notes.txt” is a text/], ['part.step', /export it as OBJ/],
@@ -161,7 +161,7 @@ pageTest('a file of the wrong kind is named, and the part of the page that takes
   }
 });
 
-doorTest('what the name of a file does not tell, its contents do', async (page) => {
+sharedDoorTest('what the name of a file does not tell, its contents do', async (page) => {
   const rows = Array.from({ length: HEIGHT }, (_, row) => Array.from({ length: WIDTH }, (_, col) => plane[row * WIDTH + col]));
   /** Words on the page, after a file is dropped. @param {string} name @param {string} text @param {string} place @param {string | RegExp} says */
   const said = async (name, text, place, says) => {
@@ -176,7 +176,7 @@ doorTest('what the name of a file does not tell, its contents do', async (page) 
   await settled(page);
 });
 
-pageTest('the kind of a file chooses the part of the page, and what does not belong to it is named', async (page) => {
+sharedTest('the kind of a file chooses the part of the page, and what does not belong to it is named', async (page) => {
   const alert = page.getByRole('alert');
   const photo = dottedPhoto({ page: 240, ground: 60 }, [1, 0.9, 0.8]);
   const ramp = obj({ points: [[0, 0, 0], [3, 0, 0], [3, 2, 1], [0, 2, 1]], triangles: [[0, 1, 2], [0, 2, 3]] });
@@ -214,7 +214,7 @@ pageTest('the kind of a file chooses the part of the page, and what does not bel
   assert.match(await alert.innerText(), /^Taken for heights\./);
 });
 
-doorTest('a photo with more pixels than the package reads is reduced without a question', async (page) => {
+sharedDoorTest('a photo with more pixels than the package reads is reduced without a question', async (page) => {
   await enterPages(page);
   await page.locator('#page-caption', { hasText: 'curled' }).waitFor();
   // 5000 × 4400 pixels of one grey.
@@ -242,7 +242,7 @@ const broken = [
   { what: 'an empty file', name: 'nothing.png', bytes: Buffer.alloc(0), says: /empty|PNG|NPY|no bytes/i },
 ];
 
-pageTest('what cannot be read gets a message each, and the previous result stays', async (page) => {
+sharedTest('what cannot be read gets a message each, and the previous result stays', async (page) => {
   const shown = async () => ({
     verdict: await page.locator('#verdict').innerText(),
     gap: await reported(page, 'Gap'),
@@ -264,7 +264,7 @@ pageTest('what cannot be read gets a message each, and the previous result stays
   }
 });
 
-pageTest('the bar of writing does not move the formats away from under the pointer', async (page) => {
+sharedTest('the bar of writing does not move the formats away from under the pointer', async (page) => {
   await page.locator('#end-file').click();
   const tops = await page.locator('#save-formats').evaluate((formats) => {
     const bar = /** @type {HTMLElement} */ (document.getElementById('writing'));

@@ -2,7 +2,7 @@
 import assert from 'node:assert/strict';
 import { grid, npy, png16 } from './support/files.mjs';
 import { parsed } from './support/numbers.mjs';
-import { choose, doorTest, downloaded, look, open, pageTest, painted, runBy, save, saveAs, settled } from './support/page.mjs';
+import { choose, downloaded, look, open, pageTest, painted, runBy, save, saveAs, settled, sharedDoorTest, sharedTest } from './support/page.mjs';
 import { parsePng } from './support/photos.mjs';
 
 /** @typedef {import('playwright-core').Page} Page */
@@ -57,7 +57,7 @@ const [SIN, COS] = [Math.sin((25 * Math.PI) / 180), Math.cos((25 * Math.PI) / 18
 /** @param {number[]} point */
 const across = ([x, y]) => COS * y - SIN * x;
 
-pageTest('curvatures of the cylinder: one bend as the radius says, none of the other', async (page) => {
+sharedTest('curvatures of the cylinder: one bend as the radius says, none of the other', async (page) => {
   await example(page, 'cylinder', { noise: '0' });
   const plain = [await look(page, 'input'), await look(page, 'result')].map(({ hash }) => hash);
   await view(page, 'Curvature κ₂');
@@ -82,7 +82,7 @@ pageTest('curvatures of the cylinder: one bend as the radius says, none of the o
   assert.equal(await page.locator('#analysis').isVisible(), false);
 }, { drawn: true });
 
-pageTest('noise has curvature everywhere, the result next to none, on one scale', async (page) => {
+sharedTest('noise has curvature everywhere, the result next to none, on one scale', async (page) => {
   await example(page, 'cylinder');
   await view(page, 'Curvature K');
   const [before, after] = (await told(page, 'Median |K|')).split('→').map(parsed);
@@ -91,7 +91,7 @@ pageTest('noise has curvature everywhere, the result next to none, on one scale'
   assert.ok(all > 95 && few < 20, `${all} % → ${few} %`);
 });
 
-doorTest('curvatures are in the units of the file', async (page) => {
+sharedDoorTest('curvatures are in the units of the file', async (page) => {
   // A cap of a sphere, whose curvatures are the same everywhere, in pixels that are not of side 1.
   const [radius, side, pixels] = [40, 0.5, 61];
   const cap = grid(pixels, pixels, (col, row) => Math.sqrt(radius ** 2 - (side * (col - 30)) ** 2 - (side * (row - 30)) ** 2));
@@ -117,7 +117,7 @@ const arc = (/** @type {number} */ offset, /** @type {number} */ radius) =>
 /** @type {((x: number, y: number) => number)[]} */
 const parts = [(_, y) => arc(y, 0.7), (x) => arc(x, 0.65), (x, y) => 0.45 - 1.3 * Math.hypot(x, y)];
 
-pageTest('the roof has the patches that it was made of, with their areas', async (page) => {
+sharedTest('the roof has the patches that it was made of, with their areas', async (page) => {
   await example(page, 'roof', { noise: '0' });
   await view(page, 'Patches');
   assert.equal(await told(page, 'Patches'), '5', 'a tower, and two vaults in two pieces each');
@@ -139,7 +139,7 @@ pageTest('the roof has the patches that it was made of, with their areas', async
   found.forEach((share, i) => assert.ok(Math.abs((share * total) / expected[i] - 1) < 0.08, `${found} against ${expected}`));
 });
 
-pageTest('rulings are drawn over the result only', async (page) => {
+sharedTest('rulings are drawn over the result only', async (page) => {
   await example(page, 'cylinder', { noise: '0' });
   const plain = [await look(page, 'input'), await look(page, 'result')].map(({ hash }) => hash);
   await view(page, 'Rulings');
@@ -152,7 +152,7 @@ pageTest('rulings are drawn over the result only', async (page) => {
   assert.ok(longest > 0.9 && longest < 1 / COS + 0.01, `${longest}`);
 }, { drawn: true });
 
-pageTest('the cylinder laid flat is as large as it is bent', async (page) => {
+sharedTest('the cylinder laid flat is as large as it is bent', async (page) => {
   await example(page, 'cylinder', { size: '400', noise: '0' });
   // Without the shrinking of curvature that comes with a smaller λ.
   await runBy(page, async () => {
@@ -200,7 +200,7 @@ pageTest('the cylinder laid flat is as large as it is bent', async (page) => {
   assert.equal(await page.locator('#result-picture').isVisible(), false);
 });
 
-pageTest('what cannot be laid flat whole is laid flat in pieces, which are saved as sheets to cut out', async (page) => {
+sharedTest('what cannot be laid flat whole is laid flat in pieces, which are saved as sheets to cut out', async (page) => {
   await example(page, 'roof', { size: '100' });
   await view(page, 'Laid flat');
   assert.match(await page.locator('#about-view .said').innerText(), /In one piece it would stretch.*sheets.*cuts/);
@@ -263,7 +263,7 @@ pageTest('what cannot be laid flat whole is laid flat in pieces, which are saved
   assert.match((await saveAs(page, 'DXF')).bytes.toString(), /SECTION/);
 });
 
-pageTest('how sheets are put together is saved as a numbered picture and as a model that moves', async (page) => {
+sharedTest('how sheets are put together is saved as a numbered picture and as a model that moves', async (page) => {
   await example(page, 'roof', { size: '100' });
   const offered = async () => {
     await page.locator('#end-sheets').click();
@@ -292,7 +292,7 @@ pageTest('how sheets are put together is saved as a numbered picture and as a mo
   assert.ok(meshes.length >= sheets, `${meshes.length} meshes of ${sheets} sheets`);
 }, { drawn: true });
 
-pageTest('another result takes the place of an answer that is still being worked out', async (page) => {
+sharedTest('another result takes the place of an answer that is still being worked out', async (page) => {
   await choose(page.getByRole('radio', { name: 'Laid flat', exact: true }));
   // Not waited for: the answer is about something that is gone.
   await runBy(page, () => page.locator('#example').selectOption('cylinder'));
@@ -301,7 +301,7 @@ pageTest('another result takes the place of an answer that is still being worked
   assert.equal(await page.locator('#notice').isVisible(), false);
 }, { start: '#example=roof' });
 
-pageTest('a view that is left and chosen again at once is worked out anew', async (page) => {
+sharedTest('a view that is left and chosen again at once is worked out anew', async (page) => {
   await page.evaluate(() => {
     for (const view of ['rulings', 'shaded', 'rulings']) /** @type {HTMLInputElement} */ (document.querySelector(`input[name="view"][value="${view}"]`)).click();
   });
@@ -324,7 +324,7 @@ pageTest('a view that cannot be worked out says so, and the surface stays', asyn
   assert.ok(parsed(await told(page, 'Lines')) > 10, 'it can be tried again');
 }, { sources: true });
 
-pageTest('the views can be switched by keyboard', async (page) => {
+sharedTest('the views can be switched by keyboard', async (page) => {
   await page.getByRole('radio', { name: 'Shaded', exact: true }).focus();
   await page.keyboard.press('ArrowRight');
   await page.locator('#stage[data-busy="false"]:has(#analysis) .bar').waitFor();

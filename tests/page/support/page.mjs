@@ -150,6 +150,57 @@ export function pageTest(name, body, { drawn = false, moving = false, size, pixe
  */
 export const doorTest = (name, body, options) => pageTest(name, body, { start: '', ...options });
 
+/** The tabs that tests share, with WebGL and without, each with what went wrong in it. @type {Map<boolean, { page: Page, incidents: string[] }>} */
+const sharedTabs = new Map();
+
+/**
+ * A test in a tab that other tests have used before: it goes to an address, as a user does, and the page shows what that says. For tests that
+ * change neither the page's own code nor the browser.
+ * @param {string} name
+ * @param {(page: Page) => Promise<void>} body
+ * @param {{ drawn?: boolean, start?: string }} [options]
+ */
+export function sharedTest(name, body, { drawn = false, start = SMALL_EXAMPLE } = {}) {
+  test(name, { skip: missing, timeout: 4 * PATIENCE }, async () => {
+    const tab = sharedTabs.get(drawn) ?? await newTab(drawn);
+    const { page, incidents } = tab;
+    // Where a test fails, the next one has a new tab.
+    sharedTabs.delete(drawn);
+    try {
+      await page.evaluate(() => document.querySelectorAll('dialog').forEach((dialog) => dialog.close()));
+      await page.goto(`${server.url}#`);
+      await page.locator('#home').waitFor();
+      if (start) await page.goto(server.url + start);
+      await settled(page);
+      await body(page);
+      assert.deepEqual(incidents, []);
+    } catch (error) {
+      await page.close();
+      throw error;
+    }
+    sharedTabs.set(drawn, tab);
+  });
+}
+
+/**
+ * Such a test that begins at the doors.
+ * @type {typeof sharedTest}
+ */
+export const sharedDoorTest = (name, body, options) => sharedTest(name, body, { start: '', ...options });
+
+/** A tab for several tests. @param {boolean} drawn whether there is WebGL */
+async function newTab(drawn) {
+  const context = await contextWith({});
+  context.setDefaultTimeout(PATIENCE);
+  const page = await context.newPage();
+  await forget(page);
+  const incidents = watch(page);
+  await page.addInitScript((parts) => localStorage.setItem('developable: unfolded', parts), ALL_PARTS);
+  if (!drawn) await page.addInitScript(withoutWebGL);
+  await page.goto(`${server.url}#`);
+  return { page, incidents };
+}
+
 /**
  * Shows a tab as another device does, by the browser's protocol: Playwright has this for whole contexts only.
  * @param {Page} page
@@ -207,8 +258,11 @@ export function inChromium(name, body, options = {}) {
       await body(page);
     } finally {
       if (context !== await shared) await context.close();
-      // With its last tab the browser would end.
-      else await Promise.all(context.pages().slice(1).map((one) => one.close()));
+      else {
+        // With its last tab the browser would end.
+        const kept = [context.pages()[0], ...[...sharedTabs.values()].map((tab) => tab.page)];
+        await Promise.all(context.pages().filter((one) => !kept.includes(one)).map((one) => one.close()));
+      }
     }
   });
 }

@@ -68,7 +68,7 @@ export function batchOf({ command, inputs, values, texts }) {
     const line = [command, ...flags.map(([flag, text]) => (text === null ? `--${flag}` : `--${flag}=${text}`))];
     // A name that begins with a hyphen is no flag.
     line.push(input.startsWith('-') ? `./${input}` : input);
-    const read = Object.entries(named).map(([flag, text]) => [valueName(flag), readFlag(flag, text)]);
+    const read = Object.entries(named).map(([flag, text]) => [valueName(flag), readFlag(flag, text, command)]);
     const { written } = taskOf(command, [input], { ...values, ...Object.fromEntries(read) });
     for (const path of written) {
       const other = owners.get(path);

@@ -119,7 +119,7 @@ function describe(command, name, take) {
   }
   command.addHelpText('after', `\nExamples:\n${examples.map((example) => `  developable ${example}\n`).join('')}${exits}`);
   command.action((/** @type {string[]} */ inputs) => {
-    const values = Object.fromEntries(Object.entries(texts).map(([flag, text]) => [valueName(flag), readFlag(flag, text)]));
+    const values = Object.fromEntries(Object.entries(texts).map(([flag, text]) => [valueName(flag), readFlag(flag, text, name)]));
     take({ command: name, inputs, values, texts });
   });
 }

@@ -332,14 +332,15 @@ export const flagInfo = (name = '') => (Object.hasOwn(flags, name) ? flags[name]
  * The value of a flag.
  * @param {string} name
  * @param {string | null} written nothing where no text follows the flag
+ * @param {string} command
  */
-export function readFlag(name, written) {
+export function readFlag(name, written, command) {
   const { value, reading = text } = flags[name];
   if (value === undefined || written === null) return true;
-  if (written === '') throw usage(`--${name} is empty: it needs a value, as in --${name} ${value}`);
-  if (written.startsWith('--')) throw usage(`--${name} needs a value, as in --${name} ${value}, and ${written} follows it`);
+  if (written === '') throw usage(`--${name} is empty: it needs a value, as in --${name} ${value}`, command);
+  if (written.startsWith('--')) throw usage(`--${name} needs a value, as in --${name} ${value}, and ${written} follows it`, command);
   const read = reading.take(written);
-  if (read === undefined) throw usage(`--${name} ${reading.must}, but is ${show(written)}`);
+  if (read === undefined) throw usage(`--${name} ${reading.must}, but is ${show(written)}`, command);
   return read;
 }
 

@@ -177,9 +177,9 @@ export function taskOf(command, inputs, values) {
   refuseStrangers(command, mode, values);
   const camera = intrinsics && { ...intrinsics, ray, turn };
   const { output, report, map, mtl, assembly } = values;
-  if (map !== undefined) extension('map', map, ['.npy', '.json']);
-  if (mtl !== undefined) extension('mtl', mtl, ['.mtl']);
-  if (assembly !== undefined) extension('assembly', assembly, ['.glb', '.svg']);
+  if (map !== undefined) extension(command, 'map', map, ['.npy', '.json']);
+  if (mtl !== undefined) extension(command, 'mtl', mtl, ['.mtl']);
+  if (assembly !== undefined) extension(command, 'assembly', assembly, ['.glb', '.svg']);
   /** @type {Task} */
   const task = {
     ...others,
@@ -245,24 +245,25 @@ function outputExtension(command, { output, to, explore }) {
   if (writes.length === 0) return '';
   if (output !== undefined && output !== '-') {
     if (to !== undefined) throw usage('--to says what is written to standard output: leave it out, or give -o -', command);
-    return extension('output', output, writes);
+    return extension(command, 'output', output, writes);
   }
-  if (to !== undefined) return extension('output', `-${to}`, writes);
+  if (to !== undefined) return extension(command, 'output', `-${to}`, writes);
   if (explore && output === undefined) return TABLE;
   if (tells || explore) return '.json';
   throw usage(output === undefined ? 'the output is missing: -o FILE' : `--to says what is written to standard output: ${writes.join(', ')}`, command);
 }
 
 /**
+ * @param {CommandName} command
  * @param {string} what
  * @param {string} path
  * @param {readonly string[]} known
  */
-function extension(what, path, known) {
+function extension(command, what, path, known) {
   const found = extname(path).toLowerCase();
   if (known.includes(found)) return found;
   const choices = known.length > 1 ? `${known.slice(0, -1).join(', ')} or ${known.at(-1)}` : known[0];
-  throw usage(`the ${what} must end in ${choices}, but is ${show(path)}`);
+  throw usage(`the ${what} must end in ${choices}, but is ${show(path)}`, command);
 }
 
 /**

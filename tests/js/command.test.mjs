@@ -74,6 +74,10 @@ test('each command has a help of its own, with its flags, an example and how it 
       assert.throws(() => parse([name, ...args]), { status: 2, message });
     }
     assert.match(help.stdout, /Exit status: 0 .*\n.*2 for wrong usage/);
+    // What is wrong with a value leads to the same help.
+    for (const flag of flags.filter((one) => infos[one].value !== undefined)) {
+      assert.throws(() => parse([name, `--${flag}=`]), { status: 2, message: new RegExp(`--${flag} is empty.*\\nTry "developable ${name} --help"`) });
+    }
     for (const example of examples) {
       assert.ok(help.stdout.includes(`  developable ${example}\n`));
       parse(example.split(' ')); // which throws where it would be refused

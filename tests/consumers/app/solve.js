@@ -1,12 +1,11 @@
-/** The promise API: a solve in a worker, and work that takes others of the package's wasm files. */
-import { dispose, fit, read, unroll, writePng } from 'developable';
+/** The promise API: a solve in a worker, and work that takes other wasm files. The worker is left: a process has to end all the same. */
+import { fit, read, unroll, writePng } from 'developable';
 import { scan } from './scan.js';
 
 export async function solve() {
   const surface = await fit(scan(), { lambda: 'medium' });
   const { data } = await read(await writePng(surface.image));
   const { report } = await unroll(surface);
-  dispose();
   return {
     gap: surface.report.gap,
     finite: surface.image.data.every(Number.isFinite),

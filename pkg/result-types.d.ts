@@ -685,6 +685,12 @@ export interface LambdaChoice {
   /** Whether the residual is larger than the noise explains, so that the surface has lost a part of the shape. */
   residualExceedsNoise: boolean;
   /**
+   * Whether rows of the image had offsets of their own, as line sensors give them, which were taken out of the heights.
+   */
+  offsetRows: boolean;
+  /** Whether columns of the image had offsets of their own, which were taken out of the heights. */
+  offsetColumns: boolean;
+  /**
    * Number of times that λ was raised above the one that follows from the noise, since the residual of the surface
    * showed that one to be too small.
    */

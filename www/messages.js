@@ -301,7 +301,9 @@ export const AUTO_LAMBDA_HINT = 'The page chooses λ from the noise of the input
  */
 export function lambdaChoiceInWords({ lambda, lambdaChoice }) {
   if (!lambdaChoice) return '';
-  const { reason, sigma, step, solves, correlationLength, ambiguous, residualExceedsNoise, residualRatio, tolerance } = lambdaChoice;
+  const { reason, sigma, step, solves, correlationLength, ambiguous, residualExceedsNoise, residualRatio, tolerance, offsetRows, offsetColumns } = lambdaChoice;
+  const lines = [offsetRows && 'rows', offsetColumns && 'columns'].filter(Boolean).join(' and ');
+  const levelled = lines && ` Offsets of ${lines} were taken out.`;
   const length = correlationLength > 0 ? `, alike over distances of ${number(correlationLength)}` : '';
   const noise = step === undefined ? `Noise: ${number(sigma ?? 0)}${length}` : `Steps: ${number(step)}`;
   const within = tolerance === undefined ? '' : ` The surface keeps within ${number(tolerance)} of the heights (root mean square).`;
@@ -310,8 +312,8 @@ export function lambdaChoiceInWords({ lambda, lambdaChoice }) {
     ? ` The surface is at least ${number(residualRatio ?? 0)} times as far from the heights as their noise explains: a larger λ keeps more of the shape.`
     : unsure;
   switch (reason) {
-    case 'prediction': return `Chosen automatically (${count(solves)} trial solves). ${noise}, in the unit of the heights.${doubt}`;
-    case 'noise': return `Chosen automatically. ${noise}, in the unit of the heights.${doubt}`;
+    case 'prediction': return `Chosen automatically (${count(solves)} trial solves). ${noise}, in the unit of the heights.${levelled}${doubt}`;
+    case 'noise': return `Chosen automatically. ${noise}, in the unit of the heights.${levelled}${doubt}`;
     case 'noNoise': return `The input has no noise.${within} A simpler surface (smaller λ) has fewer, larger sheets.`;
     case 'tolerance': return `λ follows from the tolerance.${within}`;
     default: return `Too few heights to measure their noise: λ = ${shortLambda(lambda)}.`;

@@ -40,7 +40,9 @@ export async function fit(task, signal) {
   }
   await writeWhole(files, signal);
   succeed(task.output, fitInWords(report));
-  const { residualExceedsNoise, residualRatio, reason, tolerance } = report.lambdaChoice ?? {};
+  const { residualExceedsNoise, residualRatio, reason, tolerance, offsetRows, offsetColumns } = report.lambdaChoice ?? {};
+  const lines = [offsetRows && 'rows', offsetColumns && 'columns'].filter(Boolean).join(' and ');
+  if (lines) toStderr(`developable: ${lines} of this input have offsets of their own, which were taken out; --bridge none leaves them\n`);
   if (tolerance !== undefined && reason !== 'tolerance') {
     toStderr(
       `developable: ${reason === 'noNoise' ? 'this input has no noise' : 'shape and noise cannot be told apart in this input'}, so the surface keeps `

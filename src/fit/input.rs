@@ -276,6 +276,12 @@ impl Input {
         check_shape(what, lattice.rows(), lattice.cols(), found)
     }
 
+    /// Tells whether the rows, and the columns, of the image that the heights were sampled from had offsets.
+    pub(crate) fn offset_lines(&self) -> [bool; 2] {
+        self.pixel_noise
+            .map_or([false; 2], |noise| noise.offset_lines)
+    }
+
     /// Returns whether the height of a vertex is a constraint, which the surface meets exactly.
     pub(crate) fn is_constrained(&self, vertex: usize) -> bool {
         self.constrained.get(vertex) == Some(&true)

@@ -181,6 +181,10 @@ pub struct LambdaChoice {
     pub residual_ratio: Option<f64>,
     /// Whether the residual is larger than the noise explains, so that the surface has lost a part of the shape.
     pub residual_exceeds_noise: bool,
+    /// Whether rows of the image had offsets of their own, as line sensors give them, which were taken out of the heights.
+    pub offset_rows: bool,
+    /// Whether columns of the image had offsets of their own, which were taken out of the heights.
+    pub offset_columns: bool,
     /// Number of times that λ was raised above the one that follows from the noise, since the residual of the surface
     /// showed that one to be too small.
     pub raises: usize,

@@ -7,15 +7,16 @@ use web_time::Instant;
 
 use super::component_solver::{ComponentSolver, PreparedInput, StartMode, Status};
 use super::input::Input;
-use super::options::Options;
+use super::options::{HuberOptions, Options};
 use super::report::{LambdaChoice, LambdaReason, Progress, StopReason};
 use super::surface::Surface;
 use super::threads::Threads;
 use super::tuning::closed_form::{self, Known};
+use super::tuning::line_residuals::without_line_residuals;
 use super::tuning::noise::Noise;
 use super::tuning::refinement::{Aim, MAX_RESIDUAL, Next, Refinement};
 use super::tuning::residual::Residual;
-use super::tuning::search::Search;
+use super::tuning::search::{Search, trial_options};
 use super::warm_start::WarmStart;
 use crate::error::Result;
 
@@ -28,6 +29,9 @@ const MAX_FULL_SOLVES: usize = 3;
 
 /// Maximum number of solves at full size for a tolerance that was asked for.
 const MAX_TOLERANCE_SOLVES: usize = 5;
+
+/// Number of solves whose residuals level rows and columns, one after the other (`benches/scenes.md`, Offsets of rows).
+const LEVELLING_SOLVES: usize = 3;
 
 /// A solve that runs in steps, so that its caller can look at it, draw, or stop
 /// it in between.
@@ -47,6 +51,8 @@ const MAX_TOLERANCE_SOLVES: usize = 5;
 /// ```
 #[derive(Debug, Clone)]
 pub struct Solver {
+    /// Levelling of the input's rows and columns, until it is finished.
+    levelling: Option<Levelling>,
     /// Search for the penalty, until it is finished.
     search: Option<Search>,
     choice: Option<LambdaChoice>,
@@ -56,6 +62,18 @@ pub struct Solver {
     noise: Option<Noise>,
     solve: ComponentSolver,
     threads: Threads,
+}
+
+/// Levelling of an input's rows and columns, which have offsets, in progress.
+#[derive(Debug, Clone, Copy)]
+struct Levelling {
+    /// Options that were asked for.
+    asked: Options,
+    /// Number of solves so far, with the present one.
+    solves: usize,
+    /// ADMM iterations of the solves before.
+    iterations: usize,
+    started: Instant,
 }
 
 impl Solver {
@@ -84,19 +102,28 @@ impl Solver {
         };
         let prepared = PreparedInput::new(input)?;
         let threads = Threads::new(options.threads, &prepared.domain);
-        threads.run(|| Solver::start(prepared, options, threads, warm_start, started))
+        let levelling = Levelling {
+            asked: *options,
+            solves: 0,
+            iterations: 0,
+            started,
+        };
+        threads.run(|| Solver::start(prepared, levelling, threads, warm_start))
     }
 
     /// Chooses the options that are not given, and sets up the solve.
     fn start(
         prepared: PreparedInput,
-        options: &Options,
+        mut levelling: Levelling,
         threads: Threads,
         warm_start: Option<Arc<WarmStart>>,
-        started: Instant,
     ) -> Result<Self> {
+        let started = levelling.started;
         let is_design = prepared.input.is_design();
-        let asked = options.with_energy_for(is_design);
+        let asked = levelling.asked.with_energy_for(is_design);
+        levelling.solves += 1;
+        let mut is_levelling =
+            levelling.solves <= LEVELLING_SOLVES && prepared.input.offset_lines().contains(&true);
         let known = Known::of(&prepared.input, &asked)?;
         let Known { scale, noise, .. } = known;
         let (mut options, mut choice) = (asked, None);
@@ -104,8 +131,15 @@ impl Solver {
         if asked.chooses_lambda() {
             let (first, found, aim) = closed_form::initial_options(&asked, known);
             options = first;
-            choice = Some(found);
-            if let Some(aim) = aim {
+            is_levelling &= found.reason == LambdaReason::Noise;
+            choice = Some(LambdaChoice {
+                offset_rows: prepared.input.offset_lines()[0],
+                offset_columns: prepared.input.offset_lines()[1],
+                solves: levelling.solves - 1,
+                iterations: levelling.iterations,
+                ..found
+            });
+            if let Some(aim) = aim.filter(|_| !is_levelling) {
                 let max_solves = match aim {
                     Aim::Distance { is_exact: true, .. } => MAX_TOLERANCE_SOLVES,
                     _ => MAX_FULL_SOLVES,
@@ -115,12 +149,16 @@ impl Solver {
                 search = Search::new(&prepared.input, &first, known, aim)?;
             }
         }
+        if is_levelling {
+            options = trial_options(&options, HuberOptions::ANY);
+        }
         let options = closed_form::with_huber_defaults(&options, noise, scale);
         let start_mode = match search {
             Some(_) => StartMode::Deferred,
             None => StartMode::Immediate,
         };
         Ok(Solver {
+            levelling: is_levelling.then_some(levelling),
             search,
             choice,
             refinement,
@@ -166,6 +204,14 @@ impl Solver {
     /// Continues the solve on the threads that this is called on.
     fn continue_solve(&mut self, work: usize) -> Result<Status> {
         let mut left = work.max(1);
+        while let Some(levelling) = self.levelling
+            && self.solve.status() == Status::Running
+        {
+            if self.solve.advance(&mut left)? == Status::Running {
+                return Ok(Status::Running);
+            }
+            self.level_lines(levelling)?;
+        }
         while let Some(search) = &mut self.search
             && self.solve.status() == Status::Running
         {
@@ -181,6 +227,20 @@ impl Solver {
             }
         }
         Ok(Status::Running)
+    }
+
+    /// Takes out of the heights what the surface leaves along rows and columns, and starts anew from these.
+    fn level_lines(&mut self, mut levelling: Levelling) -> Result<()> {
+        let surface = self.solve.surface()?;
+        levelling.iterations += surface.report().iterations;
+        let (input, domain) = (self.solve.input(), self.solve.domain());
+        let prepared = PreparedInput {
+            input: without_line_residuals(input, domain, surface.heightfield())?,
+            domain: Arc::new(domain.clone()),
+        };
+        let warm_start = self.solve.warm_start(input.field.lattice());
+        *self = Solver::start(prepared, levelling, self.threads, warm_start)?;
+        Ok(())
     }
 
     /// Begins again with a larger λ where the surface is farther from the heights than the tolerance allows; tells whether

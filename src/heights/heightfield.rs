@@ -93,6 +93,8 @@ pub struct HeightImage {
     height: usize,
     pixel_size: f64,
     values: Vec<f64>,
+    /// Whether its rows, and its columns, had offsets, of which a part was taken out.
+    offset_lines: [bool; 2],
 }
 
 impl HeightImage {
@@ -113,6 +115,7 @@ impl HeightImage {
             height,
             pixel_size: 1.0,
             values,
+            offset_lines: [false; 2],
         })
     }
 
@@ -193,6 +196,19 @@ impl HeightImage {
     /// Number of rows of the image.
     pub fn height(&self) -> usize {
         self.height
+    }
+
+    /// Tells whether its rows, and its columns, had offsets, of which a part was taken out.
+    pub(crate) fn offset_lines(&self) -> [bool; 2] {
+        self.offset_lines
+    }
+
+    /// Returns the image marked as one whose rows, and whose columns, had offsets, of which a part was taken out.
+    pub(crate) fn with_offset_lines(self, offset_lines: [bool; 2]) -> Self {
+        HeightImage {
+            offset_lines,
+            ..self
+        }
     }
 
     /// Side length of a pixel, in units of height.

@@ -18,7 +18,7 @@ const MIN_LOG_LIKELIHOOD_RATIO: f64 = 8.0;
 const MAX_ROW_AUTOCORRELATION: f64 = -0.3;
 
 /// Minimum number of differences in each half of a row.
-const MIN_HALF_ROW_PIXELS: usize = 8;
+pub(crate) const MIN_HALF_ROW_PIXELS: usize = 8;
 
 /// Length, in rows, of the windows over which the shape's part of the rows' differences is measured.
 const SMOOTH_WINDOW: usize = 32;
@@ -46,7 +46,10 @@ impl HeightImage {
             self.values()[pixel] - offset(&rows, row) - offset(&columns, col)
         });
         let image = HeightImage::new(width, height, values.collect())?;
-        Ok(Some(image.with_pixel_size(self.pixel_size())?))
+        let image = image.with_pixel_size(self.pixel_size())?;
+        Ok(Some(
+            image.with_offset_lines([rows.is_some(), columns.is_some()]),
+        ))
     }
 }
 

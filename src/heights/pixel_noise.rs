@@ -57,6 +57,8 @@ pub(crate) struct PixelNoise {
     pub pixel_size: f64,
     /// Step that the heights are rounded to, if they are.
     pub step: Option<f64>,
+    /// Whether the rows, and the columns, of the image had offsets, of which a part was taken out.
+    pub offset_lines: [bool; 2],
 }
 
 impl HeightImage {
@@ -76,6 +78,7 @@ impl HeightImage {
             sigma: MAD_TO_SIGMA * median(&mut differences).unwrap_or(0.0) / 6.0,
             pixel_size: self.pixel_size(),
             step: quantisation_step(values),
+            offset_lines: self.offset_lines(),
         }
     }
 }

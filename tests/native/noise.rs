@@ -495,6 +495,37 @@ fn impulses_are_no_data() {
     assert!(spoilt < 1.3 * clean, "{clean} {spoilt}");
 }
 
+/// Of offsets of rows or columns, the pixels by themselves show only what changes from line to line; surfaces leave the rest of
+/// them behind. Heights on a lattice have no lines of pixels.
+#[test]
+fn surfaces_tell_offsets_of_lines_from_the_shape() {
+    const SIZE: usize = 64;
+    let shape = |x: f64, y: f64| scene(0.7 * x + 0.4 * y, y);
+    for is_rows in [true, false] {
+        let mut noise = Random::new(29);
+        let offsets: Vec<f64> = (0..SIZE).map(|_| 0.02 * noise.sum_of_twelve()).collect();
+        let pixel = |i: usize| {
+            let [col, row] = [i % SIZE, i / SIZE];
+            let [x, y] = [col, SIZE - 1 - row].map(|k| (k as f64 + 0.5) / SIZE as f64);
+            shape(x, y) + 0.003 * noise.sum_of_twelve() + offsets[if is_rows { row } else { col }]
+        };
+        let image = HeightImage::new(SIZE, SIZE, (0..SIZE * SIZE).map(pixel).collect()).unwrap();
+        let image = image.with_pixel_size(1.0 / SIZE as f64).unwrap();
+        let bridged = image.repaired().unwrap().bridged(Bridging::default());
+        let input = Input::from_bridged(&bridged.unwrap(), None).unwrap();
+        let truth = Heightfield::from_fn(*input.field().lattice(), shape).unwrap();
+        let plain = Input::new(input.field().clone());
+        let [(plain, told), (levelled, report)] =
+            [plain, input].map(|input| solve(input, &Options::default()));
+        let told = told.lambda_choice.unwrap();
+        assert!(!told.offset_rows && !told.offset_columns);
+        let told = report.lambda_choice.unwrap();
+        assert_eq!([told.offset_rows, told.offset_columns], [is_rows, !is_rows]);
+        let [plain, levelled] = [plain, levelled].map(|surface| rms_difference(&truth, &surface));
+        assert!(levelled < 0.8 * plain, "{is_rows} {plain} {levelled}");
+    }
+}
+
 /// The image of [`scene`], of `size` pixels, with normal noise of standard deviation 1 after a Gaussian blur of `blur` pixels,
 /// times `sigma`.
 fn noisy_image([width, height]: [usize; 2], sigma: f64, blur: f64, seed: u64) -> HeightImage {

@@ -1,7 +1,6 @@
 //! Parameters of the Huber penalty.
 
 use super::Options;
-use super::ranges::RADIUS_RANGE;
 
 /// Parameters of the Huber penalty ([`Energy::Huber`]): bend radius, flatness and crease radius.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -25,14 +24,6 @@ impl HuberOptions {
         bend_radius: 0.2,
         flatness: 0.5,
         crease_radius: 0.1,
-    };
-
-    /// Huber parameters that make the penalty the nuclear norm: no bend has a quadratic cost, and none counts as a
-    /// crease.
-    pub(crate) const NUCLEAR: HuberOptions = HuberOptions {
-        bend_radius: 0.1,
-        flatness: 1.0,
-        crease_radius: *RADIUS_RANGE.start(),
     };
 
     pub(crate) const fn new(bend_radius: f64, flatness: f64, crease_radius: f64) -> Self {

@@ -82,6 +82,8 @@ pub(crate) fn initial_options(
         tolerance: None,
         residual_ratio: None,
         residual_exceeds_noise: false,
+        offset_rows: false,
+        offset_columns: false,
         raises: 0,
         solves: 0,
         iterations: 0,
@@ -142,25 +144,6 @@ pub(crate) fn with_huber_defaults(options: &Options, noise: Option<Noise>, scale
     };
     let mut out = quiet.within(options).of(options);
     if flatness >= 1.0 {
-        out.crease_passes.get_or_insert(0);
-    }
-    out
-}
-
-/// Penalty of [`Energy::Huber`] for a surface of unknown kind. Under correlated noise it is the nuclear norm, as any other
-/// penalty would follow the noise.
-pub(super) fn default_penalty(noise: Option<Noise>) -> HuberOptions {
-    match noise.is_some_and(|noise| noise.is_correlated()) {
-        true => HuberOptions::NUCLEAR,
-        false => HuberOptions::ANY,
-    }
-}
-
-/// Options with the penalty that was not compared with others: where that is the nuclear norm, without crease passes, which
-/// would follow the noise.
-pub(super) fn with_default_penalty(options: &Options, penalty: HuberOptions) -> Options {
-    let mut out = penalty.within(options).of(options);
-    if penalty == HuberOptions::NUCLEAR {
         out.crease_passes.get_or_insert(0);
     }
     out

@@ -4,6 +4,7 @@ pub(crate) mod closed_form;
 mod correlated_noise;
 mod curvature_scales;
 pub(crate) mod held_out;
+pub(crate) mod line_residuals;
 pub(crate) mod merge;
 pub(crate) mod noise;
 pub(crate) mod refinement;

@@ -34,7 +34,12 @@ const AUTOCORRELATION_LAG: isize = 4;
 const MIN_AUTOCORRELATION_PAIRS: usize = 400;
 
 /// Computes the distances of a surface to the heights of the domain, in a unit; NaN where no height is measured.
-fn residuals(input: &Input, domain: &Domain, surface: &Heightfield, unit: f64) -> Result<Vec<f64>> {
+pub(super) fn residuals(
+    input: &Input,
+    domain: &Domain,
+    surface: &Heightfield,
+    unit: f64,
+) -> Result<Vec<f64>> {
     let least = MIN_SAMPLE_CONFIDENCE * largest_trust(input);
     let mut residuals = try_filled("residuals", input.field.lattice().len(), f64::NAN)?;
     for cell in domain.active().cells() {

@@ -8,7 +8,7 @@ use std::sync::Arc;
 
 use web_time::Instant;
 
-use super::closed_form::{Known, default_penalty, with_default_penalty, with_huber_defaults};
+use super::closed_form::{Known, with_huber_defaults};
 use super::held_out::{HeldOut, advantage};
 use super::merge::merge;
 use super::refinement::{Aim, Next, Refinement};
@@ -20,7 +20,7 @@ use crate::fit::options::{Energy, HuberOptions, Options};
 use crate::fit::report::{LambdaChoice, LambdaReason};
 use crate::fit::warm_start::WarmStart;
 
-/// Penalties that are compared to [`default_penalty`], in this order: flat facets with creases, smooth bends, smooth
+/// Penalties that are compared to [`HuberOptions::ANY`], in this order: flat facets with creases, smooth bends, smooth
 /// bends with creases (`benches/choices.md`).
 const OTHER_PENALTIES: [HuberOptions; 3] = [
     HuberOptions::new(0.1, 1.0, 0.2),
@@ -107,7 +107,7 @@ impl Search {
         let spacing = coarse.field.lattice().spacing();
         let refinement = Refinement::new(aim, spacing, spacings, MAX_COARSE_SOLVES);
         let penalty = match aim {
-            Aim::Noise(_) => default_penalty(known.noise),
+            Aim::Noise(_) => HuberOptions::ANY,
             Aim::Distance { .. } => HuberOptions::SMOOTH,
         };
         let solve = trial(&coarse, &trial_options(first, penalty), known, None)?;
@@ -235,13 +235,10 @@ impl Search {
         if self.is_compared {
             choice.reason = LambdaReason::Prediction;
         }
-        choice.solves = self.solves;
+        choice.solves += self.solves;
         choice.raises = self.raises;
-        choice.iterations = self.iterations;
-        match self.is_compared {
-            true => self.penalty.within(&self.first).of(&self.first),
-            false => with_default_penalty(&self.first, self.penalty),
-        }
+        choice.iterations += self.iterations;
+        self.penalty.within(&self.first).of(&self.first)
     }
 }
 
@@ -278,7 +275,7 @@ fn coarse_input(input: &Input) -> Result<(Input, usize)> {
 
 /// Options of coarse solves: the energy and normalisation that were asked for, a coarse duality gap, and the shape alone.
 /// Parameters of the penalty that the caller gave are left out, so that they change no other parameter.
-fn trial_options(first: &Options, penalty: HuberOptions) -> Options {
+pub(crate) fn trial_options(first: &Options, penalty: HuberOptions) -> Options {
     Options {
         energy: first.energy,
         normalization: first.normalization,

@@ -280,7 +280,9 @@ impl HeightImage {
     }
 
     fn with_values(&self, values: Vec<f64>) -> Result<HeightImage> {
-        HeightImage::new(self.width(), self.height(), values)?.with_pixel_size(self.pixel_size())
+        let image = HeightImage::new(self.width(), self.height(), values)?;
+        let image = image.with_pixel_size(self.pixel_size())?;
+        Ok(image.with_offset_lines(self.offset_lines()))
     }
 }
 

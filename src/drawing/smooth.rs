@@ -182,13 +182,9 @@ fn smooth_line(points: &[[f64; 2]], tolerance: f64, spacing: f64, is_border: boo
         ends.insert(0, 0);
     }
     ends.push(last);
-    let mut sides: Vec<[usize; 2]> = (ends.windows(2).map(|pair| [pair[0], pair[1]]))
+    let sides: Vec<[usize; 2]> = (ends.windows(2).map(|pair| [pair[0], pair[1]]))
         .filter(|[from, to]| is_border && is_straight_side(&line[*from..=*to], tolerance, spacing))
         .collect();
-    // Two straight sides alone would enclose no area.
-    if closed && sides.len() + 1 == ends.len() && sides.len() < 3 {
-        sides.clear();
-    }
     corners.retain(|i| !sides.iter().any(|[from, to]| from < i && i < to));
     let sections = || corners.windows(2).map(|ends| &line[ends[0]..=ends[1]]);
     let mut curves: Vec<Option<Curve>> = sections()
@@ -216,6 +212,10 @@ fn smooth_line(points: &[[f64; 2]], tolerance: f64, spacing: f64, is_border: boo
             plain.then(|| axis(own))
         })
         .collect();
+    // Fewer than three straight pieces enclose no area.
+    if closed && count < 3 && straight.iter().all(Option::is_some) {
+        return Curve::through(points);
+    }
     let mut ends: Vec<[f64; 2]> = corners.iter().map(|i| pair(line[*i].place)).collect();
     for k in 0..count {
         let next = match k + 1 < count {
@@ -318,6 +318,29 @@ mod tests {
             }
             // Within the sheet the same line is a crease, and stays as it is.
             assert!(smooth(&border, 0.5, 1.0).pieces().count() > 4);
+        }
+    }
+
+    #[test]
+    fn a_rectangle_of_few_long_edges_encloses_an_area() {
+        // A roof of four strips, whose edges are about as long as the roof.
+        let points = [0.0, 56.5, 135.8, 215.1, 271.6];
+        let mut border: Vec<[f64; 2]> = points.iter().map(|x| [*x, 0.0]).collect();
+        border.extend(points.iter().rev().map(|x| [*x, 220.4]));
+        border.push([0.0, 0.0]);
+        for spacing in 20..300 {
+            let spacing = f64::from(spacing);
+            for first in 0..10 {
+                let mut turned = border[..10].to_vec();
+                turned.rotate_left(first);
+                turned.push(turned[0]);
+                let points = smooth_line(&turned, 0.5 * spacing, spacing, true).points(1e-3);
+                let twice: f64 = (points.windows(2))
+                    .map(|p| p[0][0] * p[1][1] - p[1][0] * p[0][1])
+                    .sum();
+                let share = 0.5 * twice / (271.6 * 220.4);
+                assert!(share > 0.9, "{spacing} {first}: {share}");
+            }
         }
     }
 

@@ -17,8 +17,8 @@ pub(crate) type Place = Vector3<f64>;
 /// digits or more.
 const ROUNDING_SHARE: f64 = 1e-6;
 
-/// The same in units of the last place of the largest coordinate, where all coordinates are numbers of 32 bits.
-const ROUNDING_F32_UNITS: f64 = 4.0;
+/// The same in units of the last place of the largest coordinate, where all coordinates are numbers of 32 bits or of six digits.
+const ROUNDING_UNITS: f64 = 4.0;
 
 /// Largest angle between neighbouring facets of a bend, in radians: circles of 16 sides or more.
 pub(crate) const MAX_BEND_STEP: f64 = 0.4;
@@ -310,11 +310,26 @@ fn longest_side([a, b, c]: [Place; 3]) -> f64 {
 /// Distance below which points of a mesh are one.
 fn rounding(mesh: &Mesh) -> f64 {
     let [low, high] = mesh.bounds().map(Place::from);
-    let unit = match mesh.has_single_precision() {
-        true => low.amax().max(high.amax()) * f64::from(f32::EPSILON),
-        false => 0.0,
+    let largest = low.amax().max(high.amax());
+    // Of the coordinates, and of what a decimal number is after a division.
+    let (precision, tolerance) = match mesh.has_single_precision() {
+        true => (f64::from(f32::EPSILON), f64::from(f32::EPSILON)),
+        false => (f64::EPSILON, f64::EPSILON.sqrt()),
     };
-    (ROUNDING_SHARE * (high - low).norm()).max(ROUNDING_F32_UNITS * unit)
+    // Smaller coordinates may have more decimals.
+    let last_place = ROUNDING_SHARE * 10f64.powf((largest.log10() + 1.0).floor());
+    let is_rounded = |x: &f64| {
+        let units = x / last_place;
+        x.abs() < 0.1 * largest || (units - units.round()).abs() <= tolerance * units.abs()
+    };
+    let share = ROUNDING_SHARE * (high - low).norm();
+    // Far from the origin six digits are too few for a mesh.
+    let is_small = last_place <= 10.0 * share;
+    let unit = match is_small && mesh.positions().as_flattened().iter().all(is_rounded) {
+        true => last_place,
+        false => largest * precision,
+    };
+    share.max(ROUNDING_UNITS * unit)
 }
 
 /// Joins points nearer to each other than the rounding; returns them and the number of each given point among them.
@@ -508,4 +523,47 @@ fn oriented_twins(places: &[Place], triangles: &mut [[u32; 3]], rounding: f64) -
         }
     }
     twins
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn faces_in_a_file_of_six_digits_are_flat() {
+        // A roof of four rectangles, turned, with four decimals.
+        let roof = [
+            [-56.2674, 25.0082, 35.0789],
+            [-48.5798, 19.2578, 27.4171],
+            [-53.8315, 26.5091, 36.3965],
+            [-46.1439, 20.7587, 28.7347],
+            [-50.7254, 26.4737, 39.5397],
+            [-43.0378, 20.7233, 31.8778],
+            [-49.6815, 23.6082, 42.7377],
+            [-41.9939, 17.8578, 35.0759],
+            [-50.3388, 20.8640, 44.1377],
+            [-42.6513, 15.1136, 36.4759],
+        ];
+        let triangles = vec![
+            [0, 2, 3],
+            [0, 3, 1],
+            [2, 4, 5],
+            [2, 5, 3],
+            [4, 6, 5],
+            [6, 7, 5],
+            [6, 8, 7],
+            [8, 9, 7],
+        ];
+        let faces = |points: Vec<[f64; 3]>, triangles| {
+            let solid = Polyhedron::new(&Mesh::new(points, triangles).unwrap()).unwrap();
+            solid.normals.len()
+        };
+        assert_eq!(faces(roof.to_vec(), triangles), 4);
+        // Whole numbers far away are not rounded to six digits: a fold by a thousandth stays.
+        let strips = [5995.0, 6000.0, 6005.0]
+            .iter()
+            .flat_map(|x: &f64| [0.0, 8.0].map(|y| [*x, y, 0.005 * (x - 6000.0).abs()]));
+        let triangles = vec![[0, 2, 3], [0, 3, 1], [2, 4, 5], [2, 5, 3]];
+        assert_eq!(faces(strips.collect(), triangles), 2);
+    }
 }

@@ -57,8 +57,8 @@ const MIN_FOLD_DISTANCE_ROWS: usize = 20;
 const MAX_HALF_FOLD_OFFSET: f64 = 0.06;
 
 /// Length, in widths of the page, by which a fold at an unknown position counts as a line across the page: folds by hand are
-/// neither quite straight nor quite parallel to the edge.
-const UNKNOWN_FOLD_LENGTH: f64 = 0.5;
+/// neither quite straight nor quite parallel to the edge. Chosen by `benches/page.md`, Folds.
+const UNKNOWN_FOLD_LENGTH: f64 = 0.2;
 
 /// Path of a fold across the page: its row in each strip.
 type FoldPath = Vec<usize>;

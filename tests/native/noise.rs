@@ -521,8 +521,21 @@ fn surfaces_tell_offsets_of_lines_from_the_shape() {
         assert!(!told.offset_rows && !told.offset_columns);
         let told = report.lambda_choice.unwrap();
         assert_eq!([told.offset_rows, told.offset_columns], [is_rows, !is_rows]);
-        let [plain, levelled] = [plain, levelled].map(|surface| rms_difference(&truth, &surface));
-        assert!(levelled < 0.8 * plain, "{is_rows} {plain} {levelled}");
+        // Heights and slopes of the whole are not known from offset lines.
+        let step_error = |surface: Heightfield| {
+            let lattice = *truth.lattice();
+            let [down, right] = if is_rows { [2, 0] } else { [0, 1] };
+            let error = |row, col| surface.height(row, col) - truth.height(row, col);
+            let rows = 0..lattice.rows() - down;
+            let steps = rows.flat_map(|row| (0..lattice.cols() - right).map(move |col| [row, col]));
+            let step = |[row, col]: [usize; 2]| error(row + down, col + right) - error(row, col);
+            let squares: Vec<f64> = (steps.map(|at| step(at).powi(2)))
+                .filter(|square| square.is_finite())
+                .collect();
+            (squares.iter().sum::<f64>() / squares.len() as f64).sqrt()
+        };
+        let [plain, levelled] = [plain, levelled].map(step_error);
+        assert!(levelled < 0.75 * plain, "{is_rows} {plain} {levelled}");
     }
 }
 

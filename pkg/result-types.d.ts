@@ -695,11 +695,12 @@ export interface LambdaChoice {
    * showed that one to be too small.
    */
   raises: number;
-  /** Number of solves before the last one, nearly all of them on coarse lattices. */
-  solves: number;
   /**
-   * Number of ADMM iterations of the compared solves, which the report's own number of iterations does not include.
+   * Number of solves before the last one: those by which offset rows and columns are levelled, and those that look for
+   * λ, nearly all of them on coarse lattices.
    */
+  solves: number;
+  /** Number of ADMM iterations of these solves, which the report's own number of iterations does not include. */
   iterations: number;
 }
 

@@ -335,10 +335,10 @@ mod tests {
                 turned.rotate_left(first);
                 turned.push(turned[0]);
                 let points = smooth_line(&turned, 0.5 * spacing, spacing, true).points(1e-3);
-                let twice: f64 = (points.windows(2))
+                let doubled_area: f64 = (points.windows(2))
                     .map(|p| p[0][0] * p[1][1] - p[1][0] * p[0][1])
                     .sum();
-                let share = 0.5 * twice / (271.6 * 220.4);
+                let share = 0.5 * doubled_area / (271.6 * 220.4);
                 assert!(share > 0.9, "{spacing} {first}: {share}");
             }
         }

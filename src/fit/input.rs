@@ -49,6 +49,8 @@ pub struct Input {
     pub(crate) bridged: usize,
     /// Noise of the image that the heights were sampled from, if they were.
     pub(crate) pixel_noise: Option<PixelNoise>,
+    /// Whether offsets of its rows and columns have been taken out as far as surfaces tell them from the shape.
+    pub(crate) is_levelled: bool,
 }
 
 impl Input {
@@ -64,6 +66,7 @@ impl Input {
             bridging: Bridging::default(),
             bridged: 0,
             pixel_noise: None,
+            is_levelled: false,
         }
     }
 

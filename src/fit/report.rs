@@ -188,9 +188,10 @@ pub struct LambdaChoice {
     /// Number of times that λ was raised above the one that follows from the noise, since the residual of the surface
     /// showed that one to be too small.
     pub raises: usize,
-    /// Number of solves before the last one, nearly all of them on coarse lattices.
+    /// Number of solves before the last one: those by which offset rows and columns are levelled, and those that look for λ, nearly
+    /// all of them on coarse lattices.
     pub solves: usize,
-    /// Number of ADMM iterations of the compared solves, which the report's own number of iterations does not include.
+    /// Number of ADMM iterations of these solves, which the report's own number of iterations does not include.
     pub iterations: usize,
 }
 

@@ -12,7 +12,7 @@ use super::report::{LambdaChoice, LambdaReason, Progress, StopReason};
 use super::surface::Surface;
 use super::threads::Threads;
 use super::tuning::closed_form::{self, Known};
-use super::tuning::line_residuals::without_line_residuals;
+use super::tuning::line_residuals::level_lines;
 use super::tuning::noise::Noise;
 use super::tuning::refinement::{Aim, MAX_RESIDUAL, Next, Refinement};
 use super::tuning::residual::Residual;
@@ -30,7 +30,8 @@ const MAX_FULL_SOLVES: usize = 3;
 /// Maximum number of solves at full size for a tolerance that was asked for.
 const MAX_TOLERANCE_SOLVES: usize = 5;
 
-/// Number of solves whose residuals level rows and columns, one after the other (`benches/scenes.md`, Offsets of rows).
+/// Number of solves by whose residuals rows and columns are levelled, one after the other: each leaves less of the offsets
+/// (`benches/scenes.md`, Offsets of rows).
 const LEVELLING_SOLVES: usize = 3;
 
 /// A solve that runs in steps, so that its caller can look at it, draw, or stop
@@ -122,8 +123,7 @@ impl Solver {
         let is_design = prepared.input.is_design();
         let asked = levelling.asked.with_energy_for(is_design);
         levelling.solves += 1;
-        let mut is_levelling =
-            levelling.solves <= LEVELLING_SOLVES && prepared.input.offset_lines().contains(&true);
+        let mut is_levelling = false;
         let known = Known::of(&prepared.input, &asked)?;
         let Known { scale, noise, .. } = known;
         let (mut options, mut choice) = (asked, None);
@@ -131,7 +131,9 @@ impl Solver {
         if asked.chooses_lambda() {
             let (first, found, aim) = closed_form::initial_options(&asked, known);
             options = first;
-            is_levelling &= found.reason == LambdaReason::Noise;
+            is_levelling = found.reason == LambdaReason::Noise
+                && prepared.input.offset_lines().contains(&true)
+                && !prepared.input.is_levelled;
             choice = Some(LambdaChoice {
                 offset_rows: prepared.input.offset_lines()[0],
                 offset_columns: prepared.input.offset_lines()[1],
@@ -150,7 +152,10 @@ impl Solver {
             }
         }
         if is_levelling {
-            options = trial_options(&options, HuberOptions::ANY);
+            options = Options {
+                max_iterations: options.max_iterations,
+                ..trial_options(&options, HuberOptions::ANY)
+            };
         }
         let options = closed_form::with_huber_defaults(&options, noise, scale);
         let start_mode = match search {
@@ -210,7 +215,7 @@ impl Solver {
             if self.solve.advance(&mut left)? == Status::Running {
                 return Ok(Status::Running);
             }
-            self.level_lines(levelling)?;
+            self.begin_levelled(levelling)?;
         }
         while let Some(search) = &mut self.search
             && self.solve.status() == Status::Running
@@ -230,12 +235,14 @@ impl Solver {
     }
 
     /// Takes out of the heights what the surface leaves along rows and columns, and starts anew from these.
-    fn level_lines(&mut self, mut levelling: Levelling) -> Result<()> {
+    fn begin_levelled(&mut self, mut levelling: Levelling) -> Result<()> {
         let surface = self.solve.surface()?;
         levelling.iterations += surface.report().iterations;
         let (input, domain) = (self.solve.input(), self.solve.domain());
+        let mut levelled = level_lines(input, domain, surface.heightfield())?;
+        levelled.is_levelled = levelling.solves == LEVELLING_SOLVES;
         let prepared = PreparedInput {
-            input: without_line_residuals(input, domain, surface.heightfield())?,
+            input: levelled,
             domain: Arc::new(domain.clone()),
         };
         let warm_start = self.solve.warm_start(input.field.lattice());
@@ -294,12 +301,10 @@ impl Solver {
     /// certifies. Components not yet solved count with the input's objective and the bound 0.
     pub fn progress(&self) -> Progress {
         let mut progress = self.solve.progress();
-        match &self.search {
-            Some(search) => {
-                progress.level = 1;
-                progress.iteration += search.iterations();
-            }
-            None => progress.iteration += self.choice.map_or(0, |choice| choice.iterations),
+        progress.iteration += self.choice.map_or(0, |choice| choice.iterations);
+        progress.iteration += self.search.as_ref().map_or(0, Search::iterations);
+        if self.search.is_some() || self.levelling.is_some() {
+            progress.level = 1;
         }
         progress
     }

@@ -18,7 +18,7 @@ const MIN_LOG_LIKELIHOOD_RATIO: f64 = 8.0;
 const MAX_ROW_AUTOCORRELATION: f64 = -0.3;
 
 /// Minimum number of differences in each half of a row.
-pub(crate) const MIN_HALF_ROW_PIXELS: usize = 8;
+const MIN_HALF_ROW_PIXELS: usize = 8;
 
 /// Length, in rows, of the windows over which the shape's part of the rows' differences is measured.
 const SMOOTH_WINDOW: usize = 32;

@@ -3,7 +3,7 @@
 
 pub(crate) mod bridging;
 pub(crate) mod heightfield;
-pub(crate) mod line_offsets;
+mod line_offsets;
 pub(crate) mod normalization;
 pub(crate) mod occlusions;
 pub(crate) mod pixel_noise;

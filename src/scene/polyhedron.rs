@@ -17,7 +17,8 @@ pub(crate) type Place = Vector3<f64>;
 /// digits or more.
 const ROUNDING_SHARE: f64 = 1e-6;
 
-/// The same in units of the last place of the largest coordinate, where all coordinates are numbers of 32 bits or of six digits.
+/// Distance below which points of a mesh are one, in units of the last place of the largest coordinate, where all coordinates are
+/// numbers of 32 bits or of six digits.
 const ROUNDING_UNITS: f64 = 4.0;
 
 /// Largest angle between neighbouring facets of a bend, in radians: circles of 16 sides or more.
@@ -316,17 +317,23 @@ fn rounding(mesh: &Mesh) -> f64 {
         true => (f64::from(f32::EPSILON), f64::from(f32::EPSILON)),
         false => (f64::EPSILON, f64::EPSILON.sqrt()),
     };
-    // Smaller coordinates may have more decimals.
-    let last_place = ROUNDING_SHARE * 10f64.powf((largest.log10() + 1.0).floor());
-    let is_rounded = |x: &f64| {
-        let units = x / last_place;
-        x.abs() < 0.1 * largest || (units - units.round()).abs() <= tolerance * units.abs()
+    let last_place = |x: f64| ROUNDING_SHARE * 10f64.powf((x.abs().log10() + 1.0).floor());
+    let is_multiple = |x: f64, of: f64| {
+        let units = x / of;
+        (units - units.round()).abs() <= tolerance * units.abs()
     };
+    let coordinates = mesh.positions().as_flattened();
+    let have_six_digits = coordinates
+        .iter()
+        .all(|x| *x == 0.0 || is_multiple(*x, last_place(*x)));
+    // Whole numbers were not rounded.
+    let digit = last_place(largest);
+    let is_last_used = |x: &f64| x.abs() >= 0.1 * largest && !is_multiple(*x, 10.0 * digit);
     let share = ROUNDING_SHARE * (high - low).norm();
     // Far from the origin six digits are too few for a mesh.
-    let is_small = last_place <= 10.0 * share;
-    let unit = match is_small && mesh.positions().as_flattened().iter().all(is_rounded) {
-        true => last_place,
+    let is_small = digit <= 10.0 * share;
+    let unit = match is_small && have_six_digits && coordinates.iter().any(is_last_used) {
+        true => digit,
         false => largest * precision,
     };
     share.max(ROUNDING_UNITS * unit)
@@ -565,5 +572,18 @@ mod tests {
             .flat_map(|x: &f64| [0.0, 8.0].map(|y| [*x, y, 0.005 * (x - 6000.0).abs()]));
         let triangles = vec![[0, 2, 3], [0, 3, 1], [2, 4, 5], [2, 5, 3]];
         assert_eq!(faces(strips.collect(), triangles), 2);
+    }
+
+    /// Of heights at whole numbers, those with three decimals and those with all digits say how far they were rounded.
+    #[test]
+    fn squares_of_a_saddle_over_whole_numbers_are_not_flat() {
+        for height in [1e-3, 1e-3 / 3.0] {
+            let points = (0..101 * 101).map(|i| [i % 101, i / 101].map(f64::from));
+            let points = points.map(|[x, y]| [x, y, height * (x - 50.0) * (y - 50.0)]);
+            let squares = (0..100).flat_map(|j| (0..100).map(move |i| j * 101 + i));
+            let triangles = squares.flat_map(|a| [[a, a + 1, a + 102], [a, a + 102, a + 101]]);
+            let mesh = Mesh::new(points.collect(), triangles.collect()).unwrap();
+            assert_eq!(Polyhedron::new(&mesh).unwrap().normals.len(), 20_000);
+        }
     }
 }

@@ -142,7 +142,7 @@ export function sourcePanel(session, adopt, choose, onOpened, solveMesh, openCol
   const openFiles = async (files) => {
     const before = session.input;
     const isOpened = await openTogether(files);
-    // The camera's file alone is not an input itself.
+    // The file of a camera alone leaves the input as it was.
     if (isOpened && session.input !== before && session.input?.kind) onOpened(files);
     return isOpened;
   };

@@ -1,4 +1,4 @@
-//! What a surface leaves of the heights along whole rows and columns.
+//! Levelling of rows and columns by what a surface leaves of the heights along them.
 //!
 //! The pixels of an image show by themselves that its lines are offset, but of these offsets only the part that changes from line
 //! to line ([`HeightImage::repaired`](crate::HeightImage::repaired)). The rest looks like a shape that is alike all along a line. A surface
@@ -8,20 +8,18 @@ use super::residual::residuals;
 use crate::error::Result;
 use crate::fit::input::Input;
 use crate::heights::heightfield::Heightfield;
-use crate::heights::line_offsets::MIN_HALF_ROW_PIXELS;
 use crate::lattice::domain::Domain;
 use crate::math::statistics::median;
+
+/// Minimum number of vertices of a row or column that is levelled.
+const MIN_LINE_VERTICES: usize = 16;
 
 /// Returns an input without the medians of what a surface leaves along each row, and along each column, where the lines of its image
 /// are offset.
 ///
 /// # Errors
 /// Out of memory.
-pub(crate) fn without_line_residuals(
-    input: &Input,
-    domain: &Domain,
-    surface: &Heightfield,
-) -> Result<Input> {
+pub(crate) fn level_lines(input: &Input, domain: &Domain, surface: &Heightfield) -> Result<Input> {
     let lattice = *input.field.lattice();
     let [rows, cols] = [lattice.rows(), lattice.cols()];
     let mut residuals = residuals(input, domain, surface, 1.0)?;
@@ -36,11 +34,11 @@ pub(crate) fn without_line_residuals(
         }
         let mut lines = vec![Vec::new(); count];
         for (vertex, residual) in residuals.iter().enumerate() {
-            if residual.is_finite() {
+            if residual.is_finite() && !input.is_constrained(vertex) {
                 lines[line(vertex)].push(*residual);
             }
         }
-        let offset = |line: &mut Vec<f64>| match line.len() >= 2 * MIN_HALF_ROW_PIXELS {
+        let offset = |line: &mut Vec<f64>| match line.len() >= MIN_LINE_VERTICES {
             true => median(line).unwrap_or(0.0),
             false => 0.0,
         };

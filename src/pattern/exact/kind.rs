@@ -6,7 +6,6 @@ use super::rolled::rolled_faces;
 use crate::error::Result;
 use crate::scene::exactness::{Exactness, are_few};
 use crate::scene::mesh::Mesh;
-use crate::scene::polyhedron::Polyhedron;
 
 /// What a mesh is, and the faces that were found in it. Each kind is laid flat in its own way.
 pub enum MeshKind {
@@ -32,7 +31,7 @@ impl MeshKind {
             Exactness::Faces => MeshKind::Faces,
             Exactness::Vertices => match rolled_faces(mesh) {
                 Some(bends) => MeshKind::Bends(bends),
-                None if are_few(&Polyhedron::new(mesh)?) => MeshKind::Faces,
+                None if are_few(mesh.triangles()) => MeshKind::Faces,
                 None => MeshKind::Surface,
             },
             Exactness::None => noisy_faces(mesh)?.map_or(MeshKind::Noisy, MeshKind::NoisyFaces),

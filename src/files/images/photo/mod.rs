@@ -23,7 +23,7 @@ use crate::files::kind::{Purpose, refused};
 /// Decodes a photo in a JPEG or PNG file to RGBA bytes, 16 bits cut to 8, the way up that its Exif data state; with the cargo
 /// feature `images` also in a WebP, GIF (its first picture), BMP or TIFF file.
 ///
-/// A photo of more than 26 megapixels is halved until it has fewer, which [`PhotoFile::assumptions`] says.
+/// A photo of more than 26 megapixels is read at half, a third or a quarter of its resolution, which [`PhotoFile::assumptions`] says.
 ///
 /// # Errors
 /// [`Error::Unsupported`](crate::Error::Unsupported) for other files, with what to do about them, and for photos of more than a quarter of a gigapixel,

@@ -54,7 +54,7 @@ impl Decoded {
     /// Converts the stored values to heights by `height_scale`, and returns them as a height image.
     ///
     /// # Errors
-    /// As [`HeightImage::new`], so [`Error::NotFinite`] if a value is infinite.
+    /// As [`HeightImage::new`], so [`Error::NotFinite`](crate::Error::NotFinite) if a value is infinite.
     pub fn into_image(self) -> Result<HeightImage> {
         HeightImage::new(self.width, self.height, self.values)?
             .with_pixel_size(self.pixel_size)?

@@ -182,7 +182,7 @@ impl ComponentSolver {
     }
 
     /// The vertices that take part in the solve.
-    pub(super) fn domain(&self) -> &Domain {
+    pub(super) fn domain(&self) -> &Arc<Domain> {
         &self.domain
     }
 

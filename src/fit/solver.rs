@@ -131,12 +131,13 @@ impl Solver {
         if asked.chooses_lambda() {
             let (first, found, aim) = closed_form::initial_options(&asked, known);
             options = first;
+            let [offset_rows, offset_columns] = prepared.input.offset_lines();
             is_levelling = found.reason == LambdaReason::Noise
-                && prepared.input.offset_lines().contains(&true)
+                && (offset_rows || offset_columns)
                 && !prepared.input.is_levelled;
             choice = Some(LambdaChoice {
-                offset_rows: prepared.input.offset_lines()[0],
-                offset_columns: prepared.input.offset_lines()[1],
+                offset_rows,
+                offset_columns,
                 solves: levelling.solves - 1,
                 iterations: levelling.iterations,
                 ..found
@@ -243,7 +244,7 @@ impl Solver {
         levelled.is_levelled = levelling.solves == LEVELLING_SOLVES;
         let prepared = PreparedInput {
             input: levelled,
-            domain: Arc::new(domain.clone()),
+            domain: domain.clone(),
         };
         let warm_start = self.solve.warm_start(input.field.lattice());
         *self = Solver::start(prepared, levelling, self.threads, warm_start)?;

@@ -198,13 +198,25 @@ impl HeightImage {
         self.height
     }
 
+    /// Returns an image of the same pixels with other values, of which NaN are missing.
+    ///
+    /// # Errors
+    /// As [`HeightImage::new`].
+    pub(super) fn with_values(&self, values: Vec<f64>) -> Result<Self> {
+        let image = HeightImage::new(self.width, self.height, values)?;
+        Ok(HeightImage {
+            values: image.values,
+            ..*self
+        })
+    }
+
     /// Tells whether its rows, and its columns, had offsets, of which a part was taken out.
-    pub(crate) fn offset_lines(&self) -> [bool; 2] {
+    pub(super) fn offset_lines(&self) -> [bool; 2] {
         self.offset_lines
     }
 
     /// Returns the image marked as one whose rows, and whose columns, had offsets, of which a part was taken out.
-    pub(crate) fn with_offset_lines(self, offset_lines: [bool; 2]) -> Self {
+    pub(super) fn with_offset_lines(self, offset_lines: [bool; 2]) -> Self {
         HeightImage {
             offset_lines,
             ..self

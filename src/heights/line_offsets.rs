@@ -45,8 +45,7 @@ impl HeightImage {
             let [row, col] = [pixel / width, pixel % width];
             self.values()[pixel] - offset(&rows, row) - offset(&columns, col)
         });
-        let image = HeightImage::new(width, height, values.collect())?;
-        let image = image.with_pixel_size(self.pixel_size())?;
+        let image = self.with_values(values.collect())?;
         Ok(Some(
             image.with_offset_lines([rows.is_some(), columns.is_some()]),
         ))

@@ -317,26 +317,34 @@ fn rounding(mesh: &Mesh) -> f64 {
         true => (f64::from(f32::EPSILON), f64::from(f32::EPSILON)),
         false => (f64::EPSILON, f64::EPSILON.sqrt()),
     };
-    let last_place = |x: f64| ROUNDING_SHARE * 10f64.powf((x.abs().log10() + 1.0).floor());
-    let is_multiple = |x: f64, of: f64| {
-        let units = x / of;
-        (units - units.round()).abs() <= tolerance * units.abs()
-    };
-    let coordinates = mesh.positions().as_flattened();
-    let have_six_digits = coordinates
-        .iter()
-        .all(|x| *x == 0.0 || is_multiple(*x, last_place(*x)));
-    // Whole numbers were not rounded.
-    let digit = last_place(largest);
-    let is_last_used = |x: &f64| x.abs() >= 0.1 * largest && !is_multiple(*x, 10.0 * digit);
     let share = ROUNDING_SHARE * (high - low).norm();
+    let digit = sixth_digit(largest);
     // Far from the origin six digits are too few for a mesh.
     let is_small = digit <= 10.0 * share;
-    let unit = match is_small && have_six_digits && coordinates.iter().any(is_last_used) {
+    let coordinates = mesh.positions().as_flattened();
+    let unit = match is_small && have_six_digits(coordinates, largest, tolerance) {
         true => digit,
         false => largest * precision,
     };
     share.max(ROUNDING_UNITS * unit)
+}
+
+/// Unit of the sixth digit of a number.
+fn sixth_digit(x: f64) -> f64 {
+    ROUNDING_SHARE * 10f64.powf((x.abs().log10() + 1.0).floor())
+}
+
+/// Whether numbers, of which `largest` is the largest magnitude, were rounded to six digits, to a relative tolerance: none has
+/// more, and a large one has all of them, as whole numbers have not.
+fn have_six_digits(numbers: &[f64], largest: f64, tolerance: f64) -> bool {
+    let is_multiple = |x: f64, unit: f64| {
+        let units = x / unit;
+        (units - units.round()).abs() <= tolerance * units.abs()
+    };
+    let coarser = 10.0 * sixth_digit(largest);
+    let mut large = numbers.iter().filter(|x| x.abs() >= 0.1 * largest);
+    let mut others = numbers.iter().filter(|x| **x != 0.0);
+    large.any(|x| !is_multiple(*x, coarser)) && others.all(|x| is_multiple(*x, sixth_digit(*x)))
 }
 
 /// Joins points nearer to each other than the rounding; returns them and the number of each given point among them.
@@ -372,8 +380,8 @@ fn are_parallel(p: &Place, q: &Place, rounding: f64) -> bool {
 }
 
 /// Pairs of half-edges at an edge along which solids touch each other: the two sides of each solid. `arms` go from the edge to the
-/// third corners, `axis` along the first half-edge, or against it if triangles face inwards. `None` unless triangles that face one way around the edge and those that face
-/// the other way take turns, as they do not where sheets cross each other.
+/// third corners, `axis` along the first half-edge, or against it if triangles face inwards. `None` unless triangles that face one way
+/// around the edge and those that face the other way take turns, as they do not where sheets cross each other.
 fn solids_at_edge(
     triangles: &[[u32; 3]],
     sides: &[u32],
@@ -574,7 +582,7 @@ mod tests {
         assert_eq!(faces(strips.collect(), triangles), 2);
     }
 
-    /// Of heights at whole numbers, those with three decimals and those with all digits say how far they were rounded.
+    /// Heights over whole numbers, be they of three decimals or of all digits, are not taken for rounded to six digits.
     #[test]
     fn squares_of_a_saddle_over_whole_numbers_are_not_flat() {
         for height in [1e-3, 4e-3 / 3.0] {

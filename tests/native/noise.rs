@@ -495,8 +495,8 @@ fn impulses_are_no_data() {
     assert!(spoilt < 1.3 * clean, "{clean} {spoilt}");
 }
 
-/// Of offsets of rows or columns, the pixels by themselves show only what changes from line to line; surfaces leave the rest of
-/// them behind. Without [`HeightImage::repaired`] it is not known that lines are offset.
+/// Pixels by themselves show of the offsets of rows or columns only what changes from line to line; surfaces leave the rest of them
+/// behind. Without [`HeightImage::repaired`] it is not known that lines are offset.
 #[test]
 fn surfaces_tell_offsets_of_lines_from_the_shape() {
     const SIZE: usize = 64;

@@ -4,7 +4,7 @@ import { element, elements, onFilesChosen } from '../dom.js';
 
 /** @typedef {'page' | 'model' | 'scan'} Door */
 
-/** What the file dialog of a door offers; heights have any ending. @type {Partial<Record<Door, string>>} */
+/** Endings that the file dialog of a door offers: any for heights. @type {Partial<Record<Door, string>>} */
 const ACCEPTED = { page: 'image/*', model: '.obj,.ply,.stl,.glb,.gltf,.3mf,.off,.xyz,.mtl,image/*' };
 
 /**

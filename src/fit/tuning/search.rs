@@ -273,7 +273,8 @@ fn coarse_input(input: &Input) -> Result<(Input, usize)> {
     }
 }
 
-/// Options of solves that look for λ or level lines: the energy and normalisation that were asked for, a coarse duality gap, and the shape alone.
+/// Options of solves that look for λ or level lines: the energy and normalisation that were asked for, a coarse duality gap, and the
+/// shape alone.
 /// Parameters of the penalty that the caller gave are left out, so that they change no other parameter.
 pub(crate) fn trial_options(first: &Options, penalty: HuberOptions) -> Options {
     Options {

@@ -278,12 +278,6 @@ impl HeightImage {
             noise: self.pixel_noise(),
         })
     }
-
-    fn with_values(&self, values: Vec<f64>) -> Result<HeightImage> {
-        let image = HeightImage::new(self.width(), self.height(), values)?;
-        let image = image.with_pixel_size(self.pixel_size())?;
-        Ok(image.with_offset_lines(self.offset_lines()))
-    }
 }
 
 impl BridgedImage {

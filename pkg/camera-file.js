@@ -2,15 +2,16 @@
 import { cameraTree } from './camera-text.js';
 import { DevelopableError } from './errors.js';
 import { count } from './input.js';
-import { asText, reading, record } from './values.js';
+import { isRecord, reading, record } from './values.js';
 
 /** @typedef {import('./types.js').PhotoCamera} PhotoCamera */
 /** @typedef {{ width: number, height: number }} Size */
 /** @typedef {Record<string, unknown>} Fields */
+/** @typedef {{ camera: PhotoCamera, lens?: string }} Found a camera, and the name of its lens if the camera's numbers do not describe it */
 
 const FORMS =
   'focal lengths and the axis (fx, fy, cx, cy, or fl_x, fl_y as in transforms.json), a matrix of three rows, four numbers, ' +
-  'or a field of view, as JSON, CSV, YAML, XML, INI or cameras.txt';
+  'or a field of view, as JSON, CSV, YAML, XML, INI or as COLMAP writes it';
 
 /** How far from the middle of an image the axis of its camera may be, as a share of the image's sides. */
 const FARTHEST_AXIS = 0.25;
@@ -21,17 +22,21 @@ const SURELY_NEARER = 0.1;
 /** @type {typeof import('./camera-file.js').parseCamera} */
 export function parseCamera(given, images = []) {
   const sizes = sizesOf(images);
-  const cameras = camerasOf(cameraTree(asText('INPUT', 'the camera file', given)), sizes);
+  const cameras = camerasOf(cameraTree(given), sizes);
   if (cameras.length === 0) throw problem(`there is no camera in it: it should have ${FORMS}`);
-  const fits = cameras.map((camera) => {
+  const fits = cameras.map(({ camera, lens }) => {
     const stated = camera.width !== undefined && camera.height !== undefined;
     const ranked = sizes.map((size) => ({ size, off: stated ? misfit(camera, size) : axisOff(camera, size) }));
     const [nearest] = ranked.sort((a, b) => a.off - b.off);
-    return { camera, stated, size: nearest?.size, off: nearest?.off ?? 0 };
+    return { camera, lens, stated, size: nearest?.size, off: nearest?.off ?? 0 };
   });
   // Of several cameras the first one that is about as good as the best: left of a pair, the first of many frames.
   const least = Math.min(...fits.map(({ off }) => off));
-  const best = /** @type {typeof fits[number]} */ (fits.find(({ off }) => off <= least + SURELY_NEARER));
+  const near = fits.filter(({ off }) => off <= least + SURELY_NEARER);
+  const best = near.find(({ lens }) => lens === undefined) ?? near[0];
+  if (best.lens !== undefined) {
+    throw problem(`its lens (${best.lens}) bends the picture in a way that is not known here: undistort the images by the program that made it`);
+  }
   if (best.stated || best.size === undefined) return best.camera;
   const { camera, size: { width, height } } = best;
   if (best.off <= FARTHEST_AXIS) return { ...camera, width, height };
@@ -78,7 +83,7 @@ function sizesOf(images) {
  * @param {unknown} part
  * @param {Size[]} images
  * @param {Fields} [around] fields of what the part is in
- * @returns {PhotoCamera[]}
+ * @returns {Found[]}
  */
 function camerasOf(part, images, around = {}) {
   if (typeof part !== 'object' || part === null) return [];
@@ -86,50 +91,64 @@ function camerasOf(part, images, around = {}) {
     const own = cameraOf({ ...around, k: part }, images);
     return own ? [own] : part.flatMap((inner) => (Array.isArray(inner) ? [] : camerasOf(inner, images, around)));
   }
-  const fields = { ...around, ...Object.fromEntries(Object.entries(part).map(([name, value]) => [plainName(name), value])) };
+  const named = plainFields(part);
+  // What some programs say of lens and image in groups beside the camera.
+  const beside = Object.entries(named).filter(([name, value]) => /^(dist|image|resolution|size)/.test(name) && isRecord(value));
+  const fields = Object.assign({}, around, ...beside.map(([, group]) => plainFields(Object(group))), named);
   const own = cameraOf(fields, images);
   if (own) return [own];
-  const inherited = Object.fromEntries(Object.entries(fields).filter(([, value]) => typeof value !== 'object'));
+  const inherited = Object.fromEntries(Object.entries(fields).filter(([name, value]) => typeof value !== 'object' || LENS.includes(name)));
   return Object.values(part).flatMap((inner) => camerasOf(inner, images, inherited));
 }
 
 /**
- * A name without what programs write differently: `Camera.fx`, `Camera_Matrix` and `cameraMatrix` are `fx` and `cameramatrix`.
- * @param {string} name
+ * Fields by names without what programs write differently: `Camera.fx`, `Camera_Matrix` and `cameraMatrix1` are `fx` and
+ * `cameramatrix`.
+ * @param {object} part
+ * @returns {Fields}
  */
-function plainName(name) {
-  return name.replace(/^.*\./, '').replace(/[_\s-]/g, '').toLowerCase();
+function plainFields(part) {
+  return Object.fromEntries(Object.entries(part).map(([name, value]) => [
+    name.replace(/^.*\./, '').replace(/[_\s-]/g, '').toLowerCase()
+      .replace(/^left(camera|distort|distcoeff|intrinsic)/, '$1').replace(/(matrix|coeffs?|coefficients|intrinsics?)(1|l|left)$/, '$1').replace(/fovdeg(rees)?$/, 'fov'),
+    value,
+  ]));
 }
 
 /** Plain names of the matrix of a camera; the last ones are those of rectified images. */
 const MATRIX = ['k', 'intrinsicmatrix', 'cameramatrix', 'intrinsics', 'intrinsic', 'mtx', 'm1', 'projectionmatrix', 'p', 'p0'];
 
 /** Plain names of the list of a lens' distortion, in OpenCV's order. */
-const LENS = ['distortioncoefficients', 'distortioncoeffs', 'distortion', 'distcoeffs', 'distcoeff', 'coeffs', 'dist', 'd', 'd1'];
+const LENS = [
+  'distortioncoefficients', 'distortioncoeffs', 'distortion', 'distcoeffs', 'distcoeff', 'distcoefs', 'coefficients', 'coeffs', 'dist', 'd', 'd1',
+];
+
+/** Names of lenses that `k1` to `k3`, `p1` and `p2` do not describe. */
+const OTHER_LENSES = /fish.?eye|equi|kannala|fov|prism|spherical|cylindrical|omni|^(mei|eucm|ds)$/i;
 
 /**
  * @param {Fields} file fields with plain names
  * @param {Size[]} images
- * @returns {PhotoCamera | undefined}
+ * @returns {Found | undefined}
  */
 function cameraOf(file, images) {
-  /** @param {...string} names @returns {number | undefined} */
-  const number = (...names) => {
-    const value = names.map((name) => file[name]).find((each) => typeof each === 'number');
-    return typeof value === 'number' ? value : undefined;
-  };
+  /** @param {...string} names */
+  const number = (...names) => names.map((name) => numberOf(file[name])).find((each) => each !== undefined);
   const own = MATRIX.map((name) => matrix(listOf(file[name]))).find((found) => found !== undefined);
   const [wide, high] = listOf(file.resolution) ?? [];
   const width = number('width', 'w', 'imagewidth') ?? wide;
   const height = number('height', 'h', 'imageheight') ?? high;
   const size = width > 0 && height > 0 ? { width, height } : images[0];
-  /** @type {(number | undefined)[]} */
-  const angles = [number('fovx', 'hfov', 'horizontalfov', 'cameraanglex'), number('fovy', 'vfov', 'verticalfov', 'cameraangley')];
+  const angles = [
+    number('fovx', 'xfov', 'hfov', 'fovh', 'horizontalfov', 'cameraanglex'),
+    number('fovy', 'yfov', 'vfov', 'fovv', 'verticalfov', 'cameraangley'),
+  ];
   if (!angles.some((angle) => angle !== undefined) && size) angles[size.width < size.height ? 1 : 0] = number('fov', 'fieldofview');
   const byWidth = size && focal(size.width, angles[0]);
   const byHeight = size && focal(size.height, angles[1]);
-  let fx = own?.fx ?? number('fx', 'flx', 'f') ?? byWidth ?? byHeight;
-  let fy = own?.fy ?? number('fy', 'fly', 'fx', 'flx', 'f') ?? byHeight ?? byWidth;
+  const both = number('f', 'focal', 'focallengthpx');
+  let fx = own?.fx ?? number('fx', 'flx') ?? both ?? byWidth ?? byHeight;
+  let fy = own?.fy ?? number('fy', 'fly', 'fx', 'flx') ?? both ?? byHeight ?? byWidth;
   let cx = own?.cx ?? number('cx', 'ppx');
   let cy = own?.cy ?? number('cy', 'ppy');
   if (fx === undefined || fy === undefined) {
@@ -137,26 +156,28 @@ function cameraOf(file, images) {
     return undefined;
   }
   let [k1, k2, p1, p2, k3, ...more] = lens(file, number);
-  const metashape = (file.projection ?? file.type) === 'frame';
+  const projection = file.projection ?? file.type;
+  // PhotoScan, which Metashape was, wrote fx and fy, and the axis from the corner.
+  const metashape = projection === 'frame' && both !== undefined;
   if (size && (metashape || cx === undefined || cy === undefined)) {
     [cx, cy] = [size.width / 2 + (cx ?? 0), size.height / 2 + (cy ?? 0)];
   }
-  if (metashape) [fx, p1, p2] = [fx + (number('b1') ?? 0), p2, p1];
+  if (projection === 'frame') [p1, p2] = [p2, p1];
+  if (metashape) fx += number('b1') ?? 0;
   if (cx === undefined || cy === undefined) return undefined;
-  if (size && Math.max(cx, cy) < 1) [fx, fy, cx, cy] = [fx * size.width, fy * size.height, cx * size.width, cy * size.height];
-  const model = String(file.distortionmodel ?? file.cameramodel ?? file.cameratype ?? file.model ?? '');
-  if (/fish.?eye|equidistant|kannala|fov|thin.?prism/i.test(model) || more.some((k) => k !== 0 && k !== undefined)) {
-    throw problem(
-      `its lens (${model || 'with more than five coefficients'}) bends the picture in a way that is not known here: ` +
-        'undistort the images by the program that made it',
-    );
-  }
+  if (size && Math.min(cx, cy) > 0 && Math.max(cx, cy) < 1) [fx, fy, cx, cy] = [fx * size.width, fy * size.height, cx * size.width, cy * size.height];
   const stated = width > 0 && height > 0 || byWidth !== undefined || byHeight !== undefined ? size : undefined;
-  const { rotation, translation } = file;
+  const [rotation, translation] = Array.isArray(file.translation) ? [file.rotation ?? undefined, file.translation] : [];
   const camera = {
     fx, fy, cx, cy, k1, k2, p1, p2, k3, rotation, translation, ...stated, depthScale: number('depthscale'),
   };
-  return /** @type {PhotoCamera} */ (/** @type {unknown} */ (Object.fromEntries(Object.entries(camera).filter(([, value]) => value !== undefined))));
+  const isFisheye = [file.isfisheye, file.fisheyemodel].some((flag) => flag === true || flag === 1);
+  const models = [file.distortionmodel, file.cameramodel, file.cameratype, file.modeltype, file.model, isFisheye ? 'fisheye' : '', projection];
+  const others = more.some((k) => k !== 0 && k !== undefined) ? [...models.slice(0, 5), 'with more than five coefficients'] : [];
+  return {
+    camera: /** @type {PhotoCamera} */ (/** @type {unknown} */ (Object.fromEntries(Object.entries(camera).filter(([, value]) => value !== undefined)))),
+    lens: [...models.filter((model) => OTHER_LENSES.test(String(model))), ...others].map((model) => String(model ?? '')).find((model) => model !== ''),
+  };
 }
 
 /**
@@ -166,7 +187,13 @@ function cameraOf(file, images) {
  */
 function lens(file, number) {
   const listed = LENS.map((name) => listOf(file[name])).find((list) => list !== undefined);
-  return listed ?? ['k1', 'k2', 'p1', 'p2', 'k3', 'k4', 'k5', 'k6'].map((name) => number(name));
+  return listed ?? ['k1', 'k2', 'p1', 'p2', 'k3', 'k4', 'k5', 'k6', 'p3', 'p4'].map((name) => number(name));
+}
+
+/** A number, which may be written as a text or as a list of one. @param {unknown} given */
+function numberOf(given) {
+  const [number, ...others] = typeof given === 'object' ? listOf(given) ?? [] : [Number.parseFloat(String(given)) === Number(given) ? Number(given) : NaN];
+  return others.length === 0 && Number.isFinite(number) ? number : undefined;
 }
 
 /**

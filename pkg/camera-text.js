@@ -1,23 +1,40 @@
-/** Texts in which programs write cameras, as trees of names and values. */
+/** Files in which programs write cameras, as trees of names and values. */
+import { asBytes } from './input.js';
 
 /** @typedef {Record<string, unknown>} Fields */
 
-/** Names of the numbers of COLMAP's models, in their order. */
+/** Names of the numbers of COLMAP's models, in their order; the models in that of their numbers in binary files. */
 const COLMAP = /** @type {Record<string, string>} */ ({
   SIMPLE_PINHOLE: 'f cx cy',
   PINHOLE: 'fx fy cx cy',
   SIMPLE_RADIAL: 'f cx cy k1',
   RADIAL: 'f cx cy k1 k2',
   OPENCV: 'fx fy cx cy k1 k2 p1 p2',
+  OPENCV_FISHEYE: 'fx fy cx cy k1 k2 k3 k4',
   FULL_OPENCV: 'fx fy cx cy k1 k2 p1 p2 k3 k4 k5 k6',
+  FOV: 'fx fy cx cy omega',
+  SIMPLE_RADIAL_FISHEYE: 'f cx cy k',
+  RADIAL_FISHEYE: 'f cx cy k1 k2',
+  THIN_PRISM_FISHEYE: 'fx fy cx cy k1 k2 p1 p2 k3 k4 sx1 sy1',
 });
 
 /**
- * What a text says: JSON, XML, COLMAP's `cameras.txt`, numbers alone, or lines of names and values (YAML, INI).
- * @param {string} given
+ * What a file says: JSON, XML, COLMAP's cameras as text or binary, numbers alone, a table, or lines of names and values (YAML, INI).
+ * @param {unknown} given
  * @returns {unknown}
  */
 export function cameraTree(given) {
+  if (typeof given === 'string') return treeOf(given);
+  const bytes = asBytes(given);
+  const wide = bytes[0] === 0xff && bytes[1] === 0xfe;
+  return colmapCameras(bytes) ?? treeOf(new TextDecoder(wide ? 'utf-16le' : 'utf-8').decode(bytes));
+}
+
+/**
+ * @param {string} given
+ * @returns {unknown}
+ */
+function treeOf(given) {
   // A byte order mark, with which some programs begin their files, is no JSON.
   const text = given.replace(/^\uFEFF/, '').trim();
   try {
@@ -26,24 +43,51 @@ export function cameraTree(given) {
     if (text.startsWith('<')) return xml(text);
   }
   const lines = text.split(/\r?\n/).map((line) => line.replace(/(^|\s)#.*$/, '')).filter((line) => line.trim() !== '');
-  const colmap = lines.flatMap(colmapCamera);
+  const colmap = lines.flatMap(colmapLine);
   if (colmap.length > 0) return colmap;
   const numbers = valueOf(lines.join(' '));
-  return Array.isArray(numbers) ? numbers : named(lines);
+  // Four numbers, and those of the lens.
+  if (Array.isArray(numbers) && [8, 9].includes(numbers.length) && numbers[1] > 0 && numbers[3] > 0) return { k: numbers.slice(0, 4), d: numbers.slice(4) };
+  if (Array.isArray(numbers)) return numbers;
+  const [names, values] = lines.map((line) => line.split(/[,;\t]/));
+  if (names?.length > 3 && names.length === values?.length && !/[:=[{]/.test(lines[0])) {
+    return Object.fromEntries(names.map((name, i) => [String(valueOf(name)), valueOf(values[i])]));
+  }
+  return named(lines);
 }
 
-/**
- * @param {string} line
- * @returns {Fields[]}
- */
-function colmapCamera(line) {
+/** The cameras of COLMAP's `cameras.bin`; `undefined` for another file. @param {Uint8Array} bytes */
+function colmapCameras(bytes) {
+  const view = new DataView(bytes.buffer, bytes.byteOffset, bytes.byteLength);
+  const cameras = [];
+  try {
+    let at = 8;
+    for (let left = view.getBigUint64(0, true); left > 0n; left -= 1n) {
+      const model = Object.keys(COLMAP)[view.getInt32(at + 4, true)];
+      const [width, height] = [8, 16].map((offset) => Number(view.getBigUint64(at + offset, true)));
+      const begin = at + 24;
+      at = begin + 8 * COLMAP[model].split(' ').length;
+      cameras.push(colmapCamera(model, width, height, (i) => view.getFloat64(begin + 8 * i, true)));
+    }
+    return at === bytes.length && cameras.length > 0 ? cameras : undefined;
+  } catch {
+    return undefined; // there is no such model, or the file ends too early
+  }
+}
+
+/** @param {string} line */
+function colmapLine(line) {
   const [, model, width, height, numbers] = /^\s*\d+\s+([A-Z_]+)\s+(\d+)\s+(\d+)\s+(.*)$/.exec(line) ?? [];
   if (numbers === undefined) return [];
   const values = numbers.trim().split(/\s+/).map(Number);
+  return [colmapCamera(model, Number(width), Number(height), (i) => values[i])];
+}
+
+/** @param {string} model @param {number} width @param {number} height @param {(i: number) => number} number @returns {Fields} */
+function colmapCamera(model, width, height, number) {
   // Of other models only that they are other ones is of use: more coefficients than a lens with five has.
-  if (!Object.hasOwn(COLMAP, model)) return [{ model, width: Number(width), height: Number(height), fx: 1, cx: 1, cy: 1, k4: 1 }];
-  const names = COLMAP[model].split(' ');
-  return [{ model, width: Number(width), height: Number(height), ...Object.fromEntries(names.map((name, i) => [name, values[i]])) }];
+  if (!Object.hasOwn(COLMAP, model)) return { model, width, height, fx: 1, cx: 1, cy: 1, k4: 1 };
+  return { model, width, height, ...Object.fromEntries(COLMAP[model].split(' ').map((name, i) => [name, number(i)])) };
 }
 
 /**
@@ -83,6 +127,16 @@ function xml(text) {
 }
 
 /**
+ * A line for each pair of a name and a value that a line has, as in `camera: { fx: 525, fy: 520 }` and `fx=525 fy=520`.
+ * @param {string} line
+ */
+function pairs(line) {
+  const [first, ...others] = line.split(/\s*[{,]\s*(?=["']?[A-Za-z]\w*["']?\s*[:=])|\s+(?=[A-Za-z]\w*\s*=\s*[-\d.[])/);
+  const indent = /^\s*/.exec(line)?.[0] + (line.includes('{') ? ' ' : '');
+  return [first, ...others.map((other) => indent + other.replace(/\s*}\s*$/, ''))];
+}
+
+/**
  * Lines `name: value` or `name = value`; those that are farther in belong to the name before them, and those after `[NAME]`
  * to that.
  * @param {string[]} lines
@@ -96,7 +150,7 @@ function named(lines) {
   let list = [];
   // Lists over several lines.
   const joined = lines.join('\n').replace(/\[(?:[^[\]]|\[[^[\]]*\])*\]/g, (found) => found.replace(/\s+/g, ' '));
-  for (const line of joined.split('\n')) {
+  for (const line of joined.split('\n').flatMap(pairs)) {
     const [, section] = /^\s*\[([^\],]+)\]\s*$/.exec(line) ?? [];
     if (section !== undefined) {
       /** @type {Fields} */
@@ -108,17 +162,21 @@ function named(lines) {
     // Lists within lists are rows of a matrix.
     const [, item] = /^\s*(?:-\s+)+([^:]*)$/.exec(line) ?? [];
     if (item !== undefined) list.push(valueOf(item));
+    // In ROS' INI files what a name stands for follows on lines of its own.
+    else if (/^[\s\d.,;eE+-]+$/.test(line)) list.push(valueOf(line));
+    const [, title] = /^\s*([A-Za-z][\w ]*)$/.exec(line) ?? [];
+    if (title !== undefined) open[open.length - 1].fields[title.trim()] = { data: list = [] };
     const [, before, name, rest] = /^(\s*(?:-\s+)?)["']?([A-Za-z][\w. -]*?)["']?\s*(?:=|:(?=\s|$))\s*(.*)$/.exec(line) ?? [];
     if (name === undefined) continue;
     while (open[open.length - 1].indent >= before.length) open.pop();
     const parent = open[open.length - 1].fields;
+    list = [];
     if (rest === '' || rest.startsWith('!')) {
-      list = [];
       const fields = { data: list };
       parent[name] = fields;
       open.push({ indent: before.length, fields });
     } else {
-      parent[name] = valueOf(/^\{.*\bdata:\s*(\[[^\]]*\])/.exec(rest)?.[1] ?? rest);
+      parent[name] = valueOf(rest);
     }
   }
   return root;

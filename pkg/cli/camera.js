@@ -11,6 +11,6 @@ import { readBytes } from './files.js';
  * @returns {Promise<import('../types.js').PhotoCamera>}
  */
 export async function readCamera(path, images) {
-  const text = new TextDecoder().decode(await readBytes(path));
-  return about(path, async () => parseCamera(text, images));
+  const bytes = await readBytes(path);
+  return about(path, async () => parseCamera(bytes, images));
 }

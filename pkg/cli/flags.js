@@ -96,12 +96,12 @@ const readings = {
 /** @type {Reading} */
 const numeral = /** @type {Reading} */ (number.typed);
 
-/** Endings of the files that `parseCamera` reads. */
-export const CAMERA_FILE = /\.(json|ya?ml|xml|csv|conf|ini|txt)$/i;
+/** Names of files with an ending, which lists of numbers have not. */
+export const CAMERA_FILE = /\.[a-z]\w*$/i;
 
 /** Numbers of a camera, or the name of a file of them. @type {Reading} */
 const intrinsics = {
-  must: 'must be fx,fy,cx,cy or fx,fy,cx,cy,scale or a file .json, .yaml, .xml, .csv, .conf or .txt',
+  must: 'must be fx,fy,cx,cy or fx,fy,cx,cy,scale or a file such as camera.json',
   take(value) {
     const name = String(value);
     if (CAMERA_FILE.test(name)) return { file: name };

@@ -263,6 +263,25 @@ test('cameras as ROS, OpenCV, COLMAP, nerfstudio, Metashape, ZED and others writ
     ['four numbers', '525.0 520.0 319.5 239.5\n', plain],
     ['3 × 4', '525 0 319.5 0\n0 520 239.5 0\n0 0 1 0\n', plain],
     ['KITTI', 'P0: 5.25e+02 0 3.195e+02 0 0 5.2e+02 2.395e+02 0 0 0 1 0\n', plain],
+    ['ROS, INI: names and values on lines of their own', `# oST version 5.0 parameters\n\n\n[image]\n\nwidth\n640\n\nheight\n480\n\n[narrow_stereo]\n\ncamera matrix\n` +
+      '525.000000 0.000000 319.500000\n0.000000 520.000000 239.500000\n0.000000 0.000000 1.000000\n\ndistortion\n0.1 -0.2 0.001 0.002 0.000000\n\nrectification\n' +
+      '1.0 0.0 0.0\n0.0 1.0 0.0\n0.0 0.0 1.0\n\nprojection\n500.0 0.0 320.0 0.0\n0.0 500.0 240.0 0.0\n0.0 0.0 1.0 0.0\n', { ...plain, ...lens }],
+    ['OpenCV, the left one of a pair', `%YAML:1.0\n---\ncameraMatrix1: !!opencv-matrix\n   rows: 3\n   cols: 3\n   dt: d\n   data: [ ${list} ]\n` +
+      'distCoeffs1: !!opencv-matrix\n   rows: 1\n   cols: 5\n   dt: d\n   data: [ 0.1, -0.2, 0.001, 0.002, 0. ]\ncameraMatrix2: !!opencv-matrix\n   rows: 3\n   cols: 3\n' +
+      '   dt: d\n   data: [ 1., 0., 2., 0., 1., 3., 0., 0., 1. ]\n', { ...plain, ...lens }],
+    ['VINS, whose lens is a group of its own', '%YAML:1.0\n---\nmodel_type: PINHOLE\nimage_width: 640\nimage_height: 480\ndistortion_parameters:\n   k1: 0.1\n   k2: -0.2\n' +
+      '   p1: 0.001\n   p2: 0.002\nprojection_parameters:\n   fx: 525\n   fy: 520\n   cx: 319.5\n   cy: 239.5\n', { ...plain, ...lens, k3: undefined }],
+    ['the lens in a group of its own, JSON', JSON.stringify({ intrinsics: { fx: 525, fy: 520, cx: 319.5, cy: 239.5 }, distortion: { model: 'radtan', coefficients: [0.1, -0.2, 0.001, 0.002] } }),
+      { ...plain, ...lens, k3: undefined }],
+    ['PhotoScan: fx, and the axis from the corner', '<calibration type="frame" class="adjusted"><resolution width="640" height="480"/><fx>525</fx><fy>520</fy><cx>319.5</cx><cy>239.5</cy>' +
+      '<p1>0.002</p1><p2>0.001</p2></calibration>', { ...plain, p1: 0.001, p2: 0.002 }],
+    ['3D Gaussian splatting, whose rotation is no pose', JSON.stringify([{ id: 0, width: 640, height: 480, position: [0, 0, 1], rotation: [[0, 1, 0], [-1, 0, 0], [0, 0, 1]], fx: 700, fy: 700 }]), wide],
+    ['a table with names', 'timestamp, fx, fy, cx, cy\n0.1, 525, 520, 319.5, 239.5\n0.2, 526, 520, 319.5, 239.5\n', plain],
+    ['names and values in one line', 'fx=525 fy=520 cx=319.5 cy=239.5', plain],
+    ['a map of YAML in one line', 'camera: {fx: 525, fy: 520, cx: 319.5, cy: 239.5, width: 640, height: 480}\n', plain],
+    ['as Python prints it', "{'fx': 525.0, 'fy': 520.0, 'cx': 319.5, 'cy': 239.5}", plain],
+    ['four numbers and the lens', '525 520 319.5 239.5 0.1 -0.2 0.001 0.002\n', { ...plain, ...lens, k3: undefined }],
+    ['a number as text', JSON.stringify({ hfov_deg: String(angle(640) * 180 / Math.PI) }), wide],
     ['NumPy, printed', '[[525.   0.  319.5]\n [  0.  520.  239.5]\n [  0.    0.    1. ]]', plain],
   ];
   for (const [name, text, expected] of known) {
@@ -274,7 +293,27 @@ test('cameras as ROS, OpenCV, COLMAP, nerfstudio, Metashape, ZED and others writ
   for (const [text, message] of /** @type {[string, RegExp][]} */ ([
     ['1 OPENCV_FISHEYE 640 480 500 500 320 240 0.1 0 0 0', /lens.*OPENCV_FISHEYE.*undistort/],
     ['1 FULL_OPENCV 640 480 500 500 320 240 0.1 0 0 0 0 0.2 0 0', /lens.*undistort/],
+    ['<calibration><projection>fisheye</projection><width>640</width><height>480</height><f>300</f><cx>-4</cx><cy>0.5</cy></calibration>', /lens \(fisheye\)/],
+    [JSON.stringify({ fl_x: 500, fl_y: 500, cx: 320, cy: 240, w: 640, h: 480, is_fisheye: true }), /lens \(fisheye\)/],
+    ['Camera.type: "KannalaBrandt8"\nCamera1.fx: 190\nCamera1.fy: 190\nCamera1.cx: 320\nCamera1.cy: 240\n', /lens \(KannalaBrandt8\)/],
   ])) assert.throws(() => developable.parseCamera(text, images), message);
+  // The lens of another camera in the file says nothing of this one.
+  assert.equal(developable.parseCamera('1 RADIAL_FISHEYE 3072 1728 2500 1536 864 0.1 0.1\n2 PINHOLE 640 480 525 520 319.5 239.5\n', images).fx, 525);
+  // COLMAP's cameras.bin: a camera of three numbers, and one with a lens.
+  const binary = new DataView(new ArrayBuffer(8 + 24 + 3 * 8 + 24 + 8 * 8));
+  const write = (/** @type {number} */ at, /** @type {number} */ model, /** @type {number[]} */ [w, h, ...numbers]) => {
+    binary.setInt32(at + 4, model, true);
+    binary.setBigUint64(at + 8, BigInt(w), true);
+    binary.setBigUint64(at + 16, BigInt(h), true);
+    numbers.forEach((number, i) => binary.setFloat64(at + 24 + 8 * i, number, true));
+  };
+  binary.setBigUint64(0, 2n, true);
+  write(8, 0, [3072, 1728, 2500, 1536, 864]);
+  write(56, 4, [640, 480, 525, 520, 319.5, 239.5, 0.1, -0.2, 0.001, 0.002]);
+  const { k3: _, ...four } = lens;
+  assert.deepEqual(developable.parseCamera(binary.buffer, images), { ...plain, ...four });
+  assert.equal(developable.parseCamera(new Uint8Array(binary.buffer), [{ width: 1536, height: 864 }]).fx, 2500);
+  assert.throws(() => developable.parseCamera(new Uint8Array(binary.buffer, 0, 100), images), /no camera/);
   assert.throws(() => developable.parseCamera('{"fov_x": 60}'), /size of the images/);
   // Open3D writes a pose before the camera.
   const posed = { extrinsic: [0.6, 0.8, 0, 0, -0.8, 0.6, 0, 0, 0, 0, 1, 0, 0.1, 0.2, 2, 1],

@@ -64,7 +64,7 @@ export function cameraPanel(session, openLoadedMesh) {
   /** Whether a file has a camera, of whatever image. @param {File} file */
   const isIn = async (file) => {
     try {
-      session.api.parseCamera(await file.text());
+      session.api.parseCamera(await file.arrayBuffer());
       return true;
     } catch {
       return false;
@@ -75,7 +75,7 @@ export function cameraPanel(session, openLoadedMesh) {
     const input = depthInput();
     if (!input) return false;
     try {
-      const camera = session.api.parseCamera(await file.text(), [input, ...(input.photo ? [input.photo.image] : [])].map(({ width, height }) => ({ width, height })));
+      const camera = session.api.parseCamera(await file.arrayBuffer(), [input, ...(input.photo ? [input.photo.image] : [])].map(({ width, height }) => ({ width, height })));
       if (depthInput() !== input) return false;
       show();
       fileCamera = camera;

@@ -6,7 +6,7 @@ import { test } from 'node:test';
 import * as direct from '../../pkg/direct.js';
 import { fit } from '../../pkg/index.js';
 import { run, temporaryFolder } from './support/command.mjs';
-import { deviation, image, lattice, plane } from './support/shapes.mjs';
+import { cylinder, deviation, image, lattice, noisy, plane } from './support/shapes.mjs';
 
 await Promise.all([direct.init(), direct.load('files')]);
 const folder = await temporaryFolder();
@@ -88,6 +88,23 @@ test('a file of confidences: whole numbers are shares of the largest', async () 
   await writeFile(join(folder, 'bytes.npy'), bytes);
   await command('fit spoilt.npy -o same.npy --lambda big --confidence bytes.npy --pixel-size 1');
   assert.deepEqual((await load('same.npy')).data, data);
+});
+
+test('offsets of whole rows and columns are said to be taken out, unless they are to be left', async () => {
+  const shape = cylinder(64);
+  /** The offset of each line of a size, from noise that is the same each time. @param {number} amplitude */
+  const offsets = (amplitude) => Float64Array.from({ length: 64 }, noisy(() => 0, amplitude));
+  const sent = '; --bridge none leaves them';
+  for (const [rows, columns, words] of /** @type {[number, number, string][]} */ ([[3, 0, 'rows'], [0, 3, 'columns'], [3, 3, 'rows and columns'], [0, 0, '']])) {
+    const [byRow, byColumn] = [offsets(rows), offsets(columns).toReversed()];
+    await store('lines.npy', image(64, 64, noisy((x, y) => shape(x, y) + byRow[Math.floor(y)] + byColumn[Math.floor(x)], 0.5)));
+    const { status, stderr } = await run(folder, ['fit', 'lines.npy', '-o', 'out.npy', '--pixel-size', '1', '--report', 'r.json']);
+    assert.equal(status, 0);
+    assert.equal(stderr, words && `developable: ${words} of this input have offsets of their own, which were taken out${sent}\n`);
+    const { offsetRows, offsetColumns } = JSON.parse(await readFile(join(folder, 'r.json'), 'utf8')).lambdaChoice;
+    assert.deepEqual([offsetRows, offsetColumns], [rows > 0, columns > 0]);
+    assert.doesNotMatch((await run(folder, ['fit', 'lines.npy', '-o', 'out.npy', '--pixel-size', '1', '--bridge', 'none'])).stderr, /offsets/);
+  }
 });
 
 test('a tolerance is a distance or a share of the height range, in the command and in both APIs', async () => {
